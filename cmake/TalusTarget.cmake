@@ -1,0 +1,24 @@
+# How every target of the project is compiled.
+
+include(CheckCCompilerFlag)
+
+function(talus_compile_options target)
+    set_target_properties(${target} PROPERTIES C_STANDARD 17 C_STANDARD_REQUIRED ON C_EXTENSIONS OFF)
+    if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang")
+        # Fused multiply-adds would make results depend on the compiler, and break the antisymmetry of edge functions.
+        target_compile_options(${target} PRIVATE
+            -ffp-contract=off
+            $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra -Wshadow -Wconversion -Wmissing-prototypes -Wstrict-prototypes
+            -Wdouble-promotion -Wvla -pedantic>)
+        if(TALUS_WERROR)
+            target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:C>:-Werror>)
+        endif()
+        if(TALUS_SANITIZE)
+            target_compile_options(${target} PRIVATE -fsanitize=${TALUS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+            target_link_options(${target} PRIVATE -fsanitize=${TALUS_SANITIZE})
+        endif()
+    endif()
+    if(TALUS_VALIDATE)
+        target_compile_definitions(${target} PRIVATE TALUS_VALIDATE)
+    endif()
+endfunction()

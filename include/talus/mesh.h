@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+//
+// Triangle meshes: a view of the caller's arrays, and the welded, cleaned mesh that all bakes start from.
+//
+//   tl_mesh_view --tl_mesh_build (weld, clean)--> tl_mesh --tl_adjacency_build--> tl_adjacency
+
+#ifndef TALUS_MESH_H
+#define TALUS_MESH_H
+
+#include <talus/base.h>
+#include <talus/vec.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define TL_NO_TRIANGLE UINT32_MAX
+
+/// Limits of one mesh: 2^31 - 1 vertices, and triangles such that 3 * triangle_count fits 32 bits.
+#define TL_MAX_MESH_VERTICES  0x7fffffffu
+#define TL_MAX_MESH_TRIANGLES 0x55555555u
+
+/// A triangle list as the caller has it. Nothing is copied or owned.
+typedef struct tl_mesh_view {
+    const tl_vec3 *vertices;
+    uint32_t vertex_count;
+    const uint32_t *indices; ///< 3 a triangle, counter-clockwise seen from its front
+    uint32_t triangle_count;
+    const uint16_t *materials; ///< one a triangle, or NULL: all 0
+} tl_mesh_view;
+
+/// How a mesh is welded and cleaned.
+typedef struct tl_mesh_def {
+    /// Metres, >= 0. Vertices no farther apart than this become one (transitively within a grid cell's
+    /// neighbourhood, lowest index kept). 0: only bitwise equal positions (with -0 equal to 0) are welded.
+    float weld_tolerance;
+    bool keep_duplicates; ///< keep triangles that repeat another one's three vertices in the same winding
+    tl_host host;
+} tl_mesh_def;
+
+/// A mesh whose vertices are unique, whose triangles have area, and which remembers where each came from.
+/// One block of memory; free it with tl_mesh_free.
+typedef struct tl_mesh {
+    tl_vec3 *vertices;
+    uint32_t vertex_count;
+    uint32_t *indices;
+    uint32_t triangle_count;
+    uint16_t *materials;        ///< one a triangle, never NULL
+    uint32_t *source_triangles; ///< triangle in the view that each came from, ascending
+    tl_aabb bounds;             ///< of the vertices that triangles use
+    void *block;
+    size_t block_size;
+} tl_mesh;
+
+/// What tl_mesh_build did.
+typedef struct tl_mesh_report {
+    tl_report base;
+    uint32_t welded_vertices;      ///< input vertices that became another one
+    uint32_t unused_vertices;      ///< input vertices that no kept triangle uses
+    uint32_t degenerate_triangles; ///< dropped: two equal corners, or no area in exact arithmetic
+    uint32_t duplicate_triangles;  ///< dropped: same corners, same winding as an earlier one
+} tl_mesh_report;
+
+TL_API tl_mesh_def tl_default_mesh_def(void);
+
+/// Welds and cleans a triangle list.
+///
+/// Triangles keep their order; vertices are ordered by first use. The result depends on nothing but the view and def.
+/// Errors, each with the element's index in `report_out->base`: TL_ERR_EMPTY (no triangle left), TL_ERR_NOT_FINITE
+/// (vertex), TL_ERR_RANGE (vertex beyond TL_MAX_COORDINATE), TL_ERR_INDEX (triangle), TL_ERR_LIMIT, TL_ERR_ARGUMENT.
+/// An unused vertex may hold anything. On failure `*mesh_out` is zeroed. `report_out` may be NULL.
+TL_API tl_result tl_mesh_build(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out,
+                               tl_mesh_report *report_out);
+
+/// Frees a mesh with the allocator of its def. A zeroed mesh is allowed.
+TL_API void tl_mesh_free(tl_mesh *mesh, const tl_allocator *allocator);
+
+/// A built mesh as a view. Valid while the mesh lives.
+TL_API tl_mesh_view tl_mesh_as_view(const tl_mesh *mesh);
+
+/// Largest absolute coordinate that any build accepts, metres: squares and cubes of differences stay far from overflow.
+#define TL_MAX_COORDINATE 1e12f
+
+/// Which triangle lies across each edge. Edge k of triangle i runs from its corner k to corner (k + 1) % 3.
+typedef struct tl_adjacency {
+    /// [3 * triangle_count]: 3 * neighbour + its edge, TL_EDGE_BORDER or TL_EDGE_NON_MANIFOLD.
+    uint32_t *across;
+    uint32_t triangle_count;
+    uint32_t border_edges;       ///< edges with one triangle
+    uint32_t paired_edges;       ///< edges with two triangles of opposite direction
+    uint32_t non_manifold_edges; ///< edges with more than two triangles, or two that run the same way
+    size_t block_size;
+} tl_adjacency;
+
+#define TL_EDGE_BORDER       UINT32_MAX
+#define TL_EDGE_NON_MANIFOLD (UINT32_MAX - 1u)
+
+/// Finds each triangle's neighbours. Two triangles are neighbours across an edge when exactly those two have it,
+/// in opposite directions. O(triangles). Indices are trusted: give a tl_mesh, or a checked view.
+TL_API tl_result tl_adjacency_build(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out);
+
+TL_API void tl_adjacency_free(tl_adjacency *adjacency, const tl_allocator *allocator);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: MIT
+//
+// Building a navigation mesh: every stage of the classic voxel pipeline, callable alone, its data readable.
+//
+//   tl_nav_def --tl_nav_config_make--> tl_nav_config            metres become voxels, here and nowhere else
+//   triangles --rasterize, filters--> tl_nav_heightfield        solid spans of each column
+//             --compact--> tl_nav_compact                       open floors and their neighbours
+//             --erode, mark areas, distance field, regions-->   the same, with areas and regions
+//             --contours--> tl_contour_set (polygon.h) --polygons--> tl_polygon_mesh --detail--> tl_nav_detail
+//             --bake--> tl_nav_tile (nav_tile.h)
+//
+// Source of the pipeline: Mikko Mononen, Recast; Stephen Pratt, Critterai. Parameters carry Recast's names.
+// Lattice: x is a column's index along x, z its index along z (row), y a height in cell_height units above
+// bounds.min.y.
+
+#ifndef TALUS_NAV_BUILD_H
+#define TALUS_NAV_BUILD_H
+
+#include <talus/mesh.h>
+#include <talus/nav_tile.h>
+#include <talus/polygon.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// How floors are divided into regions.
+typedef enum tl_nav_partition {
+    TL_NAV_WATERSHED, ///< best shapes, slowest; the usual choice for levels that are baked ahead
+    TL_NAV_MONOTONE,  ///< fastest, no holes ever; long thin polygons
+    TL_NAV_LAYERS     ///< fast, no overlaps; good for tiles of middle size
+} tl_nav_partition;
+
+/// What to build, in metres. Fields have the names and defaults that users of Recast know.
+typedef struct tl_nav_def {
+    float cell_size;       ///< metres, > 0: edge of a voxel on x and z. Default 0.3
+    float cell_height;     ///< metres, > 0: height of a voxel. Default 0.2
+    float agent_height;    ///< metres, > 0: free height that an agent needs, rounded up to whole voxels. Default 2
+    float agent_radius;    ///< metres, >= 0: the walkable area is eroded by it, rounded up to whole cells. Default 0.6
+    float agent_max_climb; ///< metres, >= 0: highest step, rounded down to whole voxels. Default 0.9
+    float agent_max_slope; ///< degrees, [0, 90): steepest walkable triangle. Default 45
+    float region_min_size; ///< cells: islands of less than its square are dropped. Default 8
+    float region_merge_size;       ///< cells: regions of less than its square are merged into a neighbour. Default 20
+    float edge_max_len;            ///< metres, >= 0: longest contour edge along a wall, 0: any. Default 12
+    float edge_max_error;          ///< cells, >= 0: how far a simplified contour may leave the traced one. Default 1.3
+    uint32_t max_verts_per_poly;   ///< [3, 64]. Default 6
+    float detail_sample_dist;      ///< cells: spacing of the detail mesh's height samples; < 0.9: no samples. Default 6
+    float detail_sample_max_error; ///< voxel heights: how far the detail mesh may leave the floor. Default 1
+    tl_nav_partition partition;    ///< Default TL_NAV_WATERSHED
+    bool filter_low_hanging_obstacles;     ///< Default true
+    bool filter_ledge_spans;               ///< Default true
+    bool filter_walkable_low_height_spans; ///< Default true
+    uint32_t tile_size;                    ///< cells, 0: the whole level is one tile. Default 0
+    tl_aabb bounds;                        ///< metres; what to build. Empty (the default): the bounds of the mesh
+    tl_host host;
+} tl_nav_def;
+
+TL_API tl_nav_def tl_default_nav_def(void);
+
+/// The def in lattice units, for one tile.
+typedef struct tl_nav_config {
+    tl_aabb bounds;                 ///< metres; bounds.min is the lattice's origin, border included
+    float cell_size;                ///< metres
+    float cell_height;              ///< metres
+    uint32_t width;                 ///< columns along x, border included
+    uint32_t height;                ///< columns along z, border included
+    uint32_t border_size;           ///< columns on each side that belong to the neighbour tiles
+    uint32_t walkable_height;       ///< voxels, >= 1
+    uint32_t walkable_climb;        ///< voxels
+    uint32_t walkable_radius;       ///< columns
+    float walkable_slope_cos;       ///< smallest y of the unit normal of a walkable triangle
+    uint32_t min_region_area;       ///< columns
+    uint32_t merge_region_area;     ///< columns
+    uint32_t max_edge_len;          ///< columns, 0: any
+    float max_simplification_error; ///< columns
+    uint32_t max_verts_per_poly;
+    float detail_sample_dist;      ///< metres, 0: no samples
+    float detail_sample_max_error; ///< metres
+    tl_nav_partition partition;
+    bool filter_low_hanging_obstacles, filter_ledge_spans, filter_walkable_low_height_spans;
+    uint32_t tile_x, tile_z;                           ///< this tile's place in the grid of tiles
+    float agent_height, agent_radius, agent_max_climb; ///< metres, as given; kept in the tile for queries
+} tl_nav_config;
+
+/// Area 0 is not walkable. Areas 1 to 63 are free for the user; TL_NAV_WALKABLE_AREA is what slope gives.
+#define TL_NAV_NULL_AREA     0
+#define TL_NAV_WALKABLE_AREA 63
+
+// Limits, checked before any work is done:
+#define TL_NAV_MAX_HEIGHT  0xfffeu    ///< voxels from the lowest to the highest span of a tile
+#define TL_NAV_MAX_COLUMNS (1u << 30) ///< width * height of one tile
+
+/// The number of tiles along x and z that a def makes of a level. Both 1 when def->tile_size is 0.
+TL_API tl_result tl_nav_tile_grid(const tl_nav_def *def, tl_aabb level_bounds, uint32_t *tiles_x_out,
+                                  uint32_t *tiles_z_out, tl_report *report_out);
+
+/// Metres to voxels, for the tile (tile_x, tile_z). TL_ERR_ARGUMENT names the field in report_out->element and says
+/// in ->advice what to use instead; TL_ERR_LIMIT when the lattice would be too large.
+TL_API tl_result tl_nav_config_make(const tl_nav_def *def, tl_aabb level_bounds, uint32_t tile_x, uint32_t tile_z,
+                                    tl_nav_config *config_out, tl_report *report_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Heightfield: the solid space of each column.
+
+/// A solid stretch of one column. min < max, in voxels above the lattice's origin: it fills [min, max).
+typedef struct tl_nav_span {
+    uint16_t min;
+    uint16_t max;
+    uint16_t area; ///< of its top; TL_NAV_NULL_AREA: not walkable
+    uint16_t reserved;
+} tl_nav_span;
+
+/// Spans column by column, row-major (x fastest), bottom to top within a column; spans of a column neither touch nor
+/// overlap.
+typedef struct tl_nav_heightfield {
+    uint32_t width, height;
+    tl_aabb bounds;
+    float cell_size, cell_height;
+    uint32_t *first_span; ///< [width * height + 1]
+    tl_nav_span *spans;   ///< [span_count]
+    uint32_t span_count;
+    const tl_allocator *allocator;
+} tl_nav_heightfield;
+
+/// Voxelizes triangles conservatively and merges their spans. Triangles whose slope is at most the agent's are given
+/// `areas[i]` (NULL: TL_NAV_WALKABLE_AREA), steeper ones TL_NAV_NULL_AREA. Triangles outside the bounds are clipped.
+/// The result does not depend on the order of the triangles. Errors: TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
+TL_API tl_result tl_nav_rasterize(const tl_nav_config *config, const tl_mesh_view *mesh, const uint8_t *areas,
+                                  const tl_host *host, tl_nav_heightfield *heightfield_out, tl_report *report_out);
+TL_API void tl_nav_heightfield_free(tl_nav_heightfield *heightfield);
+
+/// A span that is not walkable but at most walkable_climb above a walkable one below it becomes walkable (kerbs,
+/// stairs).
+TL_API void tl_nav_filter_low_hanging_obstacles(const tl_nav_config *config, tl_nav_heightfield *heightfield);
+/// A span beside a drop of more than walkable_climb, or on too steep a staircase of neighbours, is not walkable.
+TL_API void tl_nav_filter_ledge_spans(const tl_nav_config *config, tl_nav_heightfield *heightfield);
+/// A span with less than walkable_height of free space above is not walkable.
+TL_API void tl_nav_filter_walkable_low_height_spans(const tl_nav_config *config, tl_nav_heightfield *heightfield);
+
+// ---------------------------------------------------------------------------------------------------------
+// Compact heightfield: the open space above walkable spans, and which floor lies beside which.
+
+#define TL_NAV_NO_SPAN       UINT32_MAX
+#define TL_NAV_BORDER_REGION 0x80000000u ///< flag of a region that paints a tile's border
+
+/// Direction d steps (dx, dz): 0 (-1, 0), 1 (0, +1), 2 (+1, 0), 3 (0, -1).
+typedef struct tl_nav_compact {
+    uint32_t width, height;
+    uint32_t border_size;
+    uint32_t walkable_height, walkable_climb; ///< voxels, as the neighbours were made
+    tl_aabb bounds;
+    float cell_size, cell_height;
+    uint32_t span_count;
+    uint32_t *first_span; ///< [width * height + 1]: column c holds spans [first_span[c], first_span[c + 1])
+    uint16_t *floor;      ///< [span_count] voxels: where an agent stands
+    uint16_t *clearance;  ///< [span_count] voxels of free height above the floor, clamped to 0xffff
+    uint8_t *area;        ///< [span_count]
+    uint32_t *neighbour;  ///< [4 * span_count]: span beside, by direction, or TL_NAV_NO_SPAN
+    uint16_t
+        *distance; ///< [span_count] twice the distance to the border in columns; after tl_nav_distance_field, else NULL
+    uint16_t max_distance;
+    uint32_t *region;      ///< [span_count] 0: none; after a region build, else NULL
+    uint32_t region_count; ///< largest region id + 1
+    const tl_allocator *allocator;
+} tl_nav_compact;
+
+TL_API tl_result tl_nav_compact_build(const tl_nav_config *config, const tl_nav_heightfield *heightfield,
+                                      const tl_host *host, tl_nav_compact *compact_out, tl_report *report_out);
+TL_API void tl_nav_compact_free(tl_nav_compact *compact);
+
+/// Takes the walkable area back from walls and ledges by walkable_radius columns.
+TL_API tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact);
+
+/// A volume whose floors get an area: TL_NAV_NULL_AREA cuts a hole. Only walkable floors are marked.
+/// Floors are tested at the centre of their column, and by floor height within [min_y, max_y].
+TL_API void tl_nav_mark_box(tl_nav_compact *compact, tl_aabb box, uint8_t area);
+/// `points`: a simple polygon on xz (y ignored), either winding, convex or not; count >= 3.
+TL_API void tl_nav_mark_polygon(tl_nav_compact *compact, const tl_vec3 *points, uint32_t count, float min_y,
+                                float max_y, uint8_t area);
+/// An upright cylinder that stands on `base`.
+TL_API void tl_nav_mark_cylinder(tl_nav_compact *compact, tl_vec3 base, float radius, float height, uint8_t area);
+
+/// Distance of each floor to the nearest border of its area, blurred as the watershed wants it. Fills
+/// compact->distance.
+TL_API tl_result tl_nav_distance_field(const tl_host *host, tl_nav_compact *compact, tl_report *report_out);
+
+/// Divides the floors into regions as config->partition says (watershed needs the distance field). Fills
+/// compact->region.
+TL_API tl_result tl_nav_build_regions(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact,
+                                      tl_report *report_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Contours and detail.
+
+/// Contours that own their arrays; `set` is the view that polygon.h takes. `raw` holds each contour before
+/// simplification.
+typedef struct tl_nav_contours {
+    tl_contour_set set;
+    tl_contour_set raw; ///< the traced outlines, same count and order as set, holes not bridged; for drawing and checks
+    const tl_allocator *allocator;
+    void *block;
+    size_t block_size;
+} tl_nav_contours;
+
+/// Traces each region's outline, simplifies it within max_simplification_error and max_edge_len, and bridges holes.
+/// The origin of the set is the tile without its border.
+TL_API tl_result tl_nav_build_contours(const tl_nav_config *config, const tl_nav_compact *compact, const tl_host *host,
+                                       tl_nav_contours *contours_out, tl_report *report_out);
+TL_API void tl_nav_contours_free(tl_nav_contours *contours);
+
+/// The detail mesh: heights inside the polygons, sampled from the floors (tl_nav_detail is in nav_tile.h).
+/// Vertices that lie on an edge between two polygons are the same in both.
+TL_API tl_result tl_nav_build_detail(const tl_nav_config *config, const tl_nav_compact *compact,
+                                     const tl_polygon_mesh *polygons, const tl_host *host, tl_nav_detail *detail_out,
+                                     tl_report *report_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// The whole pipeline.
+
+/// A volume that gives floors an area before regions are made.
+typedef enum tl_nav_volume_kind { TL_NAV_VOLUME_BOX, TL_NAV_VOLUME_POLYGON, TL_NAV_VOLUME_CYLINDER } tl_nav_volume_kind;
+
+typedef struct tl_nav_volume {
+    tl_nav_volume_kind kind;
+    uint8_t area;
+    tl_aabb box;           ///< BOX; for POLYGON its y range
+    const tl_vec3 *points; ///< POLYGON
+    uint32_t point_count;  ///< POLYGON
+    tl_vec3 base;          ///< CYLINDER
+    float radius, height;  ///< CYLINDER
+} tl_nav_volume;
+
+/// What the pipeline works on.
+typedef struct tl_nav_input {
+    tl_mesh_view mesh;
+    const uint8_t *areas; ///< one a triangle, or NULL: all TL_NAV_WALKABLE_AREA
+    const tl_nav_volume *volumes;
+    uint32_t volume_count;
+} tl_nav_input;
+
+/// The intermediate data of one tile, kept for drawing and debugging. Zero before the call; free with
+/// tl_nav_stages_free.
+typedef struct tl_nav_stages {
+    tl_nav_heightfield heightfield; ///< after the filters
+    tl_nav_compact compact;         ///< after erosion, areas, distance, regions
+    tl_nav_contours contours;
+    tl_polygon_mesh polygons;
+    tl_nav_detail detail;
+} tl_nav_stages;
+
+TL_API void tl_nav_stages_free(tl_nav_stages *stages, const tl_allocator *allocator);
+
+/// Counts of a bake, summed over its tiles.
+typedef struct tl_nav_build_report {
+    tl_report base;
+    uint64_t span_count;         ///< solid spans after rasterization
+    uint64_t compact_span_count; ///< open floors
+    uint32_t region_count;
+    uint32_t contour_count;
+    uint32_t repaired_contours; ///< outlines that could not be simplified or triangulated as they were, and were mended
+    uint32_t polygon_count;
+    uint32_t vertex_count;
+    uint32_t detail_triangle_count;
+    uint32_t tile_count; ///< tiles with at least one polygon
+} tl_nav_build_report;
+
+/// All stages for one tile. `*tile_out` is NULL with TL_OK when nothing in it is walkable.
+/// `stages_out` NULL: intermediate data is freed as soon as its last reader is done.
+TL_API tl_result tl_nav_tile_build(const tl_nav_config *config, const tl_nav_input *input, const tl_host *host,
+                                   tl_nav_stages *stages_out, tl_nav_tile **tile_out, tl_nav_build_report *report_out);
+
+/// All tiles of a level, in parallel where def->host has tasks; the same bytes for any number of workers.
+typedef struct tl_nav_tiles {
+    tl_nav_tile **tiles; ///< only those that hold polygons, row-major by (tile_z, tile_x)
+    uint32_t tile_count;
+    uint32_t tiles_x, tiles_z;
+} tl_nav_tiles;
+
+TL_API tl_result tl_nav_build(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tiles *tiles_out,
+                              tl_nav_build_report *report_out);
+TL_API void tl_nav_tiles_free(tl_nav_tiles *tiles, const tl_allocator *allocator);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+//
+// All of talus.
+
+#ifndef TALUS_TALUS_H
+#define TALUS_TALUS_H
+
+#include <talus/base.h>
+#include <talus/mesh.h>
+#include <talus/nav_build.h>
+#include <talus/nav_tile.h>
+#include <talus/polygon.h>
+#include <talus/vec.h>
+
+#endif

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+//
+// Allocator defaults and the build arena.
+//
+// The arena is a chain of blocks that grow geometrically: a build's memory is few large allocations, freed by one call.
+// A request larger than the next block gets a block of its own size, so that nothing is cut and little is wasted.
+
+#include "base/arena.h"
+
+#include "base/assert.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FIRST_BLOCK_BYTES = 64 * 1024, LARGEST_GROWTH_BYTES = 16 * 1024 * 1024, ARENA_ALIGNMENT = 64 };
+
+struct tl_arena_block {
+    tl_arena_block *older;
+    size_t size; // bytes in all, this head included
+    size_t used; // bytes, this head included
+};
+
+static size_t round_up(size_t value, size_t alignment)
+{
+    return (value + alignment - 1) & ~(alignment - 1);
+}
+
+static void *default_allocate(size_t size, size_t alignment, void *user)
+{
+    (void)user;
+    if (size > SIZE_MAX - alignment) {
+        return NULL;
+    }
+    // aligned_alloc wants a size that is a multiple of the alignment.
+    return aligned_alloc(alignment, round_up(size, alignment));
+}
+
+static void default_release(void *block, size_t size, void *user)
+{
+    (void)size;
+    (void)user;
+    free(block);
+}
+
+tl_allocator tl_allocator_or_default(const tl_allocator *allocator)
+{
+    if (allocator != NULL) {
+        return *allocator;
+    }
+    tl_allocator standard = { default_allocate, default_release, NULL };
+    return standard;
+}
+
+void *tl_allocate(const tl_allocator *allocator, size_t size, size_t alignment)
+{
+    tl_allocator used = tl_allocator_or_default(allocator);
+    return used.allocate(size, alignment, used.user);
+}
+
+void tl_release(const tl_allocator *allocator, void *block, size_t size)
+{
+    if (block != NULL) {
+        tl_allocator used = tl_allocator_or_default(allocator);
+        used.release(block, size, used.user);
+    }
+}
+
+// Bytes of an array, at least one, or 0 when they do not fit a size_t.
+static size_t array_bytes(uint64_t count, size_t size)
+{
+    if (size != 0 && count > (SIZE_MAX - ARENA_ALIGNMENT) / size) {
+        return 0;
+    }
+    size_t bytes = (size_t)count * size;
+    return bytes > 0 ? bytes : 1;
+}
+
+void *tl_allocate_array(const tl_allocator *allocator, uint64_t count, size_t size)
+{
+    size_t bytes = array_bytes(count, size);
+    return bytes > 0 ? tl_allocate(allocator, bytes, ARENA_ALIGNMENT) : NULL;
+}
+
+void tl_release_array(const tl_allocator *allocator, void *array, uint64_t count, size_t size)
+{
+    tl_release(allocator, array, array_bytes(count, size));
+}
+
+void *tl_blob_allocate(const tl_allocator *allocator, uint32_t magic, uint32_t version, uint64_t size)
+{
+    if (size > SIZE_MAX - TL_BLOB_ALIGNMENT) {
+        return NULL;
+    }
+    size_t rounded = round_up((size_t)size, TL_BLOB_ALIGNMENT);
+    tl_blob *blob = tl_allocate(allocator, rounded, TL_BLOB_ALIGNMENT);
+    if (blob != NULL) {
+        memset(blob, 0, rounded);
+        blob->magic = magic;
+        blob->version = version;
+        blob->size = rounded;
+    }
+    return blob;
+}
+
+void tl_blob_free(void *blob, const tl_allocator *allocator)
+{
+    if (blob != NULL) {
+        tl_release(allocator, blob, (size_t)((const tl_blob *)blob)->size);
+    }
+}
+
+void tl_arena_init(tl_arena *arena, const tl_allocator *allocator)
+{
+    memset(arena, 0, sizeof *arena);
+    arena->allocator = tl_allocator_or_default(allocator);
+}
+
+static void free_newest(tl_arena *arena)
+{
+    tl_arena_block *block = arena->newest;
+    arena->newest = block->older;
+    arena->live_bytes -= block->size;
+    arena->allocator.release(block, block->size, arena->allocator.user);
+}
+
+void tl_arena_free(tl_arena *arena)
+{
+    while (arena->newest != NULL) {
+        free_newest(arena);
+    }
+}
+
+static bool add_block(tl_arena *arena, size_t bytes)
+{
+    size_t head = round_up(sizeof(tl_arena_block), ARENA_ALIGNMENT);
+    if (bytes > SIZE_MAX - head - ARENA_ALIGNMENT) {
+        return false;
+    }
+    size_t size = FIRST_BLOCK_BYTES;
+    if (arena->newest != NULL) {
+        size = arena->newest->size < LARGEST_GROWTH_BYTES / 2 ? arena->newest->size * 2 : LARGEST_GROWTH_BYTES;
+    }
+    if (size < head + bytes) {
+        size = round_up(head + bytes, ARENA_ALIGNMENT);
+    }
+    tl_arena_block *block = arena->allocator.allocate(size, ARENA_ALIGNMENT, arena->allocator.user);
+    if (block == NULL) {
+        return false;
+    }
+    block->older = arena->newest;
+    block->size = size;
+    block->used = head;
+    arena->newest = block;
+    arena->live_bytes += size;
+    if (arena->live_bytes > arena->peak_bytes) {
+        arena->peak_bytes = arena->live_bytes;
+    }
+    return true;
+}
+
+void *tl_arena_push(tl_arena *arena, uint64_t count, size_t size)
+{
+    size_t bytes = array_bytes(count, size);
+    if (bytes == 0) {
+        return NULL;
+    }
+    size_t alignment = bytes >= ARENA_ALIGNMENT ? ARENA_ALIGNMENT : 16;
+    tl_arena_block *block = arena->newest;
+    size_t start = block != NULL ? round_up(block->used, alignment) : 0;
+    if (block == NULL || start > block->size || bytes > block->size - start) {
+        if (!add_block(arena, bytes)) {
+            return NULL;
+        }
+        block = arena->newest;
+        start = block->used;
+    }
+    block->used = start + bytes;
+    return (char *)block + start;
+}
+
+void *tl_arena_push_zero(tl_arena *arena, uint64_t count, size_t size)
+{
+    void *memory = tl_arena_push(arena, count, size);
+    if (memory != NULL) {
+        memset(memory, 0, array_bytes(count, size));
+    }
+    return memory;
+}
+
+tl_arena_mark tl_arena_get_mark(const tl_arena *arena)
+{
+    tl_arena_mark mark = { arena->newest, arena->newest != NULL ? arena->newest->used : 0 };
+    return mark;
+}
+
+void tl_arena_rollback(tl_arena *arena, tl_arena_mark mark)
+{
+    while (arena->newest != mark.block) {
+        TL_ASSERT(arena->newest != NULL);
+        free_newest(arena);
+    }
+    if (mark.block != NULL) {
+        mark.block->used = mark.used;
+    }
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+//
+// Calling the host: parallel loops and progress, with the defaults that NULL stands for.
+
+#ifndef TALUS_SRC_BASE_HOST_H
+#define TALUS_SRC_BASE_HOST_H
+
+#include <talus/base.h>
+
+/// Runs task(i, worker, task_user) for each i below count, on the host's tasks or here in order.
+void tl_run_tasks(const tl_host *host, tl_task_fn *task, uint32_t count, void *task_user);
+
+/// How many workers tl_run_tasks may use at once: >= 1.
+uint32_t tl_worker_count(const tl_host *host);
+
+/// Tells the host; TL_ERR_CANCELLED when it asks to stop. `host` may be NULL.
+tl_result tl_progress_update(const tl_host *host, const char *stage, uint64_t done, uint64_t total);
+
+/// Writes a failure's place into a report that may be NULL, and returns `result`, so that it reads
+/// `return tl_report_fail(report, TL_ERR_INDEX, "triangle", i, "check the index buffer");`
+tl_result tl_report_fail(tl_report *report, tl_result result, const char *element, uint64_t index, const char *advice);
+
+/// Clears a report that may be NULL: no element, stage as given.
+void tl_report_begin(tl_report *report, const char *stage);
+
+#endif

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+//
+// Stable least-significant-digit radix sort of 64-bit keys with 32-bit values: the one sort of the builds, so that
+// equal keys keep their order everywhere. Passes over digits that all keys share are skipped.
+
+#ifndef TALUS_SRC_BASE_RADIX_SORT_H
+#define TALUS_SRC_BASE_RADIX_SORT_H
+
+#include <stdint.h>
+
+typedef struct tl_sort_item {
+    uint64_t key;
+    uint32_t value;
+    uint32_t extra; ///< carried along
+} tl_sort_item;
+
+/// Sorts `items` ascending by key, stably. `scratch` has room for `count` items too. O(count) for a fixed key width.
+void tl_radix_sort(tl_sort_item *items, tl_sort_item *scratch, uint32_t count);
+
+/// A float's bits as an unsigned integer of the same order (-0 before +0, NaN at the ends).
+uint32_t tl_float_sort_key(float value);
+
+#endif

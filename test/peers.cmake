@@ -1,0 +1,9 @@
+# Peers and oracles that tests use where they are installed, as imported targets, and which test needs which.
+
+# GMP: the exact oracle of the robust predicates.
+find_library(GMP_LIBRARY gmp)
+find_path(GMP_INCLUDE_DIR gmp.h)
+if(GMP_LIBRARY AND GMP_INCLUDE_DIR)
+    add_library(talus_peer_gmp INTERFACE IMPORTED)
+    target_link_libraries(talus_peer_gmp INTERFACE ${GMP_LIBRARY})
+endif()
