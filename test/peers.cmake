@@ -7,3 +7,12 @@ if(GMP_LIBRARY AND GMP_INCLUDE_DIR)
     add_library(talus_peer_gmp INTERFACE IMPORTED)
     target_link_libraries(talus_peer_gmp INTERFACE ${GMP_LIBRARY})
 endif()
+set(talus_test_predicates_needs talus_peer_gmp)
+
+# Qhull: convex hulls to compare with.
+find_library(QHULL_LIBRARY qhull_r)
+find_path(QHULL_INCLUDE_DIR libqhull_r/qhull_ra.h)
+if(QHULL_LIBRARY AND QHULL_INCLUDE_DIR)
+    add_library(talus_peer_qhull INTERFACE IMPORTED)
+    target_link_libraries(talus_peer_qhull INTERFACE ${QHULL_LIBRARY})
+endif()

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+//
+// Robust predicates. Each determinant is first computed in double with a bound on its rounding error; where the bound
+// does not decide, the determinant is summed exactly as an expansion, a list of doubles that do not overlap, and the
+// sign is that of its largest component.
+// Source: Jonathan Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates,
+// Discrete & Computational Geometry 18, 1997: theorems 7 (two-sum), 10 (grow-expansion), 17 and 18 (split and
+// two-product), and the error analysis of section 4.
+//
+// Why no overflow or underflow can spoil it: a finite float is a multiple of 2^-149 below 2^128. A difference of two is
+// a multiple of 2^-149 and at most 2^129, and is held exactly as head + tail (the error of one addition is a double).
+// Every product of three such numbers, every partial sum and every rounding error of these is a multiple of 2^-447 and
+// below 2^390 * 2; the splitter adds 28 bits. Doubles reach from 2^-1074 to 2^1024.
+//
+// Why one accumulator and not Shewchuk's ladder of four adaptive stages: with float input the tails of the differences
+// are nearly always zero, so most terms vanish and the exact sum has two to four components; the middle stages decide
+// few cases and are most of his code. Grow-expansion needs no more of its input than that it does not overlap, so the
+// proof is one theorem.
+//
+// The compiler must neither fuse multiply-adds nor keep excess precision: the build sets -ffp-contract=off, and the
+// assertion below refuses x87 arithmetic.
+
+#include "math/predicates.h"
+
+#include <assert.h>
+#include <float.h>
+
+static_assert(FLT_EVAL_METHOD == 0 && DBL_MANT_DIG == 53, "predicates need plain IEEE doubles");
+
+// Half an ulp of 1: the relative rounding error of one double operation.
+#define ROUNDING 1.1102230246251565e-16
+
+// Shewchuk's bounds of the determinant's error, as a share of its permanent (the same sum over absolute values), for
+// the exact orders of operation below: section 4.3, ccwerrboundA and o3derrboundA.
+#define ORIENT2D_BOUND ((3.0 + 16.0 * ROUNDING) * ROUNDING)
+#define ORIENT3D_BOUND ((7.0 + 56.0 * ROUNDING) * ROUNDING)
+// Three exact products each rounded once by their difference, then two sums: each term meets three roundings.
+#define ALONG_BOUND ((3.0 + 16.0 * ROUNDING) * ROUNDING)
+
+// A determinant of three rows has 6 products of three differences; each difference has 2 parts, which makes 8
+// products, and each of these has at most 4 parts: 192. Each part adds at most one component to the sum.
+#define MAX_COMPONENTS 192
+
+typedef struct exact_sum {
+    int count;
+    double components[MAX_COMPONENTS]; // increasing magnitude, non-overlapping, none zero
+} exact_sum;
+
+// A number as an unevaluated sum: head + tail, where |tail| is at most half an ulp of head.
+typedef struct exact_pair {
+    double head, tail;
+} exact_pair;
+
+static inline exact_pair two_sum(double a, double b)
+{
+    exact_pair r;
+    r.head = a + b;
+    double b_virtual = r.head - a;
+    double a_virtual = r.head - b_virtual;
+    r.tail = (a - a_virtual) + (b - b_virtual);
+    return r;
+}
+
+static inline exact_pair split(double a)
+{
+    double c = 134217729.0 * a; // 2^27 + 1
+    exact_pair r;
+    r.head = c - (c - a);
+    r.tail = a - r.head;
+    return r;
+}
+
+static inline exact_pair two_product(double a, double b)
+{
+    exact_pair r;
+    r.head = a * b;
+    exact_pair x = split(a);
+    exact_pair y = split(b);
+    r.tail = x.tail * y.tail - (((r.head - x.head * y.head) - x.tail * y.head) - x.head * y.tail);
+    return r;
+}
+
+// Grow-expansion with zero elimination.
+static void add_term(exact_sum *sum, double term)
+{
+    if (term == 0.0) {
+        return;
+    }
+    double carry = term;
+    int kept = 0;
+    for (int i = 0; i < sum->count; i++) {
+        exact_pair r = two_sum(carry, sum->components[i]);
+        carry = r.head;
+        if (r.tail != 0.0) {
+            sum->components[kept++] = r.tail;
+        }
+    }
+    if (carry != 0.0) {
+        sum->components[kept++] = carry;
+    }
+    sum->count = kept;
+}
+
+static int exact_sign(const exact_sum *sum)
+{
+    if (sum->count == 0) {
+        return 0;
+    }
+    return sum->components[sum->count - 1] > 0.0 ? 1 : -1;
+}
+
+static void add_product2(exact_sum *sum, double a, double b)
+{
+    exact_pair ab = two_product(a, b);
+    add_term(sum, ab.tail);
+    add_term(sum, ab.head);
+}
+
+static void add_product3(exact_sum *sum, double a, double b, double c)
+{
+    if (a == 0.0 || b == 0.0 || c == 0.0) {
+        return;
+    }
+    exact_pair ab = two_product(a, b);
+    if (ab.tail != 0.0) {
+        add_product2(sum, ab.tail, c);
+    }
+    add_product2(sum, ab.head, c);
+}
+
+static void add_pair_product2(exact_sum *sum, exact_pair a, exact_pair b)
+{
+    if (a.tail != 0.0 || b.tail != 0.0) {
+        add_product2(sum, a.tail, b.tail);
+        add_product2(sum, a.tail, b.head);
+        add_product2(sum, a.head, b.tail);
+    }
+    add_product2(sum, a.head, b.head);
+}
+
+static void add_pair_product3(exact_sum *sum, exact_pair a, exact_pair b, exact_pair c)
+{
+    if (a.tail != 0.0 || b.tail != 0.0 || c.tail != 0.0) {
+        add_product3(sum, a.tail, b.tail, c.tail);
+        add_product3(sum, a.tail, b.tail, c.head);
+        add_product3(sum, a.tail, b.head, c.tail);
+        add_product3(sum, a.tail, b.head, c.head);
+        add_product3(sum, a.head, b.tail, c.tail);
+        add_product3(sum, a.head, b.tail, c.head);
+        add_product3(sum, a.head, b.head, c.tail);
+    }
+    add_product3(sum, a.head, b.head, c.head);
+}
+
+static inline exact_pair negated(exact_pair a)
+{
+    exact_pair r = { -a.head, -a.tail };
+    return r;
+}
+
+static inline int sign_of(double value)
+{
+    return (value > 0.0) - (value < 0.0);
+}
+
+static inline double absolute(double value)
+{
+    return value < 0.0 ? -value : value;
+}
+
+static inline exact_pair difference(float a, float b)
+{
+    return two_sum((double)a, -(double)b);
+}
+
+static int orient2d_exact(float ax, float ay, float bx, float by, float cx, float cy)
+{
+    exact_sum sum;
+    sum.count = 0;
+    add_pair_product2(&sum, difference(bx, ax), difference(cy, ay));
+    add_pair_product2(&sum, negated(difference(by, ay)), difference(cx, ax));
+    return exact_sign(&sum);
+}
+
+int tl_orient2d(float ax, float ay, float bx, float by, float cx, float cy)
+{
+    double left = ((double)bx - (double)ax) * ((double)cy - (double)ay);
+    double right = ((double)by - (double)ay) * ((double)cx - (double)ax);
+    double determinant = left - right;
+    double permanent = absolute(left) + absolute(right);
+    if (absolute(determinant) > ORIENT2D_BOUND * permanent) {
+        return sign_of(determinant);
+    }
+    return permanent == 0.0 ? 0 : orient2d_exact(ax, ay, bx, by, cx, cy);
+}
+
+// Rows of a 3 x 3 determinant.
+typedef struct exact_row {
+    exact_pair x, y, z;
+} exact_row;
+
+static exact_row row_difference(tl_vec3 a, tl_vec3 b)
+{
+    exact_row r = { difference(a.x, b.x), difference(a.y, b.y), difference(a.z, b.z) };
+    return r;
+}
+
+static int determinant_exact(const exact_row *u, const exact_row *v, const exact_row *w)
+{
+    exact_sum sum;
+    sum.count = 0;
+    add_pair_product3(&sum, u->y, v->z, w->x);
+    add_pair_product3(&sum, negated(u->z), v->y, w->x);
+    add_pair_product3(&sum, u->z, v->x, w->y);
+    add_pair_product3(&sum, negated(u->x), v->z, w->y);
+    add_pair_product3(&sum, u->x, v->y, w->z);
+    add_pair_product3(&sum, negated(u->y), v->x, w->z);
+    return exact_sign(&sum);
+}
+
+// The filter: 0 when it cannot decide, 2 when the determinant is surely zero.
+static inline int determinant_filter(double ux, double uy, double uz, double vx, double vy, double vz, double wx,
+                                     double wy, double wz)
+{
+    double uyvz = uy * vz, uzvy = uz * vy;
+    double uzvx = uz * vx, uxvz = ux * vz;
+    double uxvy = ux * vy, uyvx = uy * vx;
+    double determinant = wx * (uyvz - uzvy) + wy * (uzvx - uxvz) + wz * (uxvy - uyvx);
+    double permanent = (absolute(uyvz) + absolute(uzvy)) * absolute(wx) +
+                       (absolute(uzvx) + absolute(uxvz)) * absolute(wy) +
+                       (absolute(uxvy) + absolute(uyvx)) * absolute(wz);
+    if (absolute(determinant) > ORIENT3D_BOUND * permanent) {
+        return sign_of(determinant);
+    }
+    return permanent == 0.0 ? 2 : 0;
+}
+
+int tl_orient3d(tl_vec3 a, tl_vec3 b, tl_vec3 c, tl_vec3 d)
+{
+    double ax = (double)a.x, ay = (double)a.y, az = (double)a.z;
+    int sign =
+        determinant_filter((double)b.x - ax, (double)b.y - ay, (double)b.z - az, (double)c.x - ax, (double)c.y - ay,
+                           (double)c.z - az, (double)d.x - ax, (double)d.y - ay, (double)d.z - az);
+    if (sign != 0) {
+        return sign == 2 ? 0 : sign;
+    }
+    exact_row u = row_difference(b, a);
+    exact_row v = row_difference(c, a);
+    exact_row w = row_difference(d, a);
+    return determinant_exact(&u, &v, &w);
+}
+
+int tl_line_side(tl_vec3 origin, tl_vec3 direction, tl_vec3 a, tl_vec3 b)
+{
+    double ox = (double)origin.x, oy = (double)origin.y, oz = (double)origin.z;
+    int sign =
+        determinant_filter((double)direction.x, (double)direction.y, (double)direction.z, (double)a.x - ox,
+                           (double)a.y - oy, (double)a.z - oz, (double)b.x - ox, (double)b.y - oy, (double)b.z - oz);
+    if (sign != 0) {
+        return sign == 2 ? 0 : sign;
+    }
+    exact_row u = row_difference(direction, tl_vec3_make(0.0f, 0.0f, 0.0f));
+    exact_row v = row_difference(a, origin);
+    exact_row w = row_difference(b, origin);
+    return determinant_exact(&u, &v, &w);
+}
+
+int tl_compare_along(tl_vec3 direction, tl_vec3 p, tl_vec3 q)
+{
+    // A product of two floats has 48 bits: exact in double.
+    double px = (double)direction.x * (double)p.x, qx = (double)direction.x * (double)q.x;
+    double py = (double)direction.y * (double)p.y, qy = (double)direction.y * (double)q.y;
+    double pz = (double)direction.z * (double)p.z, qz = (double)direction.z * (double)q.z;
+    double x = px - qx, y = py - qy, z = pz - qz;
+    double sum = (x + y) + z;
+    double magnitude = (absolute(x) + absolute(y)) + absolute(z);
+    if (absolute(sum) > ALONG_BOUND * magnitude) {
+        return sign_of(sum);
+    }
+    if (magnitude == 0.0) {
+        return 0;
+    }
+    exact_sum exact;
+    exact.count = 0;
+    add_term(&exact, px);
+    add_term(&exact, -qx);
+    add_term(&exact, py);
+    add_term(&exact, -qy);
+    add_term(&exact, pz);
+    add_term(&exact, -qz);
+    return exact_sign(&exact);
+}
+
+bool tl_is_collinear(tl_vec3 a, tl_vec3 b, tl_vec3 c)
+{
+    return tl_orient2d(a.x, a.y, b.x, b.y, c.x, c.y) == 0 && tl_orient2d(a.y, a.z, b.y, b.z, c.y, c.z) == 0 &&
+           tl_orient2d(a.z, a.x, b.z, b.x, c.z, c.x) == 0;
+}
