@@ -31,8 +31,8 @@ typedef struct tl_mesh_view {
 
 /// How a mesh is welded and cleaned.
 typedef struct tl_mesh_def {
-    /// Metres, >= 0. Vertices no farther apart than this become one (transitively within a grid cell's
-    /// neighbourhood, lowest index kept). 0: only bitwise equal positions (with -0 equal to 0) are welded.
+    /// Metres, >= 0. Each vertex in turn joins the earliest kept vertex that is no farther away than this, or is kept
+    /// itself: none moves by more than the tolerance. 0: only equal positions are welded (-0 equals 0).
     float weld_tolerance;
     bool keep_duplicates; ///< keep triangles that repeat another one's three vertices in the same winding
     tl_host host;
@@ -89,14 +89,15 @@ typedef struct tl_adjacency {
     uint32_t border_edges;       ///< edges with one triangle
     uint32_t paired_edges;       ///< edges with two triangles of opposite direction
     uint32_t non_manifold_edges; ///< edges with more than two triangles, or two that run the same way
-    size_t block_size;
 } tl_adjacency;
 
 #define TL_EDGE_BORDER       UINT32_MAX
 #define TL_EDGE_NON_MANIFOLD (UINT32_MAX - 1u)
 
 /// Finds each triangle's neighbours. Two triangles are neighbours across an edge when exactly those two have it,
-/// in opposite directions. O(triangles). Indices are trusted: give a tl_mesh, or a checked view.
+/// in opposite directions. O(triangles). Indices are trusted: give a tl_mesh, or a checked view. Errors: TL_ERR_LIMIT
+/// (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*adjacency_out` is zeroed then. `host` may be NULL.
+/// A collapsed edge (both ends the same vertex) counts as non-manifold unless it stands alone.
 TL_API tl_result tl_adjacency_build(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out);
 
 TL_API void tl_adjacency_free(tl_adjacency *adjacency, const tl_allocator *allocator);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef TALUS_SRC_MESH_CLEAN_H
+#define TALUS_SRC_MESH_CLEAN_H
+
+#include "base/arena.h"
+
+#include <talus/mesh.h>
+
+/// Indices in range, used vertices finite and below TL_MAX_COORDINATE. Names the first offending element in `report`.
+/// Writes TL_WELD_PENDING into used[v] for each vertex that a triangle uses, TL_WELD_UNUSED for the others.
+tl_result tl_check_triangles(const tl_mesh_view *view, uint32_t *used, tl_report *report);
+
+/// Writes the indices of the triangles to keep, ascending, into `kept` (room for all): those whose three representative
+/// corners differ and span an area, and which repeat no earlier triangle unless `keep_duplicates`.
+/// Counts the others in `report`. Errors: TL_ERR_MEMORY. O(triangles).
+tl_result tl_clean_triangles(const tl_mesh_view *view, const uint32_t *representative, bool keep_duplicates,
+                             tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out, tl_mesh_report *report);
+
+#endif

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+//
+// From a loose triangle list to a mesh: check, weld, clean, then number the vertices by first use.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+#include "mesh/clean.h"
+#include "mesh/weld.h"
+
+#include <string.h>
+
+tl_mesh_def tl_default_mesh_def(void)
+{
+    tl_mesh_def def = { 0.0f, false, { NULL, NULL, NULL } };
+    return def;
+}
+
+static tl_result check_def(const tl_mesh_view *view, const tl_mesh_def *def, tl_report *report)
+{
+    if (!(def->weld_tolerance >= 0.0f) || def->weld_tolerance > TL_MAX_COORDINATE) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "weld_tolerance", 0, "give metres, 0 or more");
+    }
+    if (view->triangle_count == 0 || view->vertex_count == 0) {
+        return tl_report_fail(report, TL_ERR_EMPTY, NULL, TL_NO_ELEMENT, "give at least one triangle");
+    }
+    if (view->vertex_count > TL_MAX_MESH_VERTICES || view->triangle_count > TL_MAX_MESH_TRIANGLES) {
+        return tl_report_fail(report, TL_ERR_LIMIT, "mesh", 0, "split the mesh: its indices would not fit 32 bits");
+    }
+    return TL_OK;
+}
+
+// One block for all arrays of the mesh; each part's bytes are a multiple of 16.
+static tl_result allocate_mesh(uint32_t vertex_count, uint32_t triangle_count, const tl_allocator *allocator,
+                               tl_mesh *mesh)
+{
+    const uint64_t align = 15;
+    uint64_t vertex_bytes = ((uint64_t)vertex_count * sizeof(tl_vec3) + align) & ~align;
+    uint64_t index_bytes = ((uint64_t)triangle_count * 3 * sizeof(uint32_t) + align) & ~align;
+    uint64_t source_bytes = ((uint64_t)triangle_count * sizeof(uint32_t) + align) & ~align;
+    uint64_t material_bytes = ((uint64_t)triangle_count * sizeof(uint16_t) + align) & ~align;
+    uint64_t size = vertex_bytes + index_bytes + source_bytes + material_bytes;
+    if (size > SIZE_MAX) {
+        return TL_ERR_MEMORY;
+    }
+    char *block = tl_allocate(allocator, (size_t)size, 64);
+    if (block == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    mesh->block = block;
+    mesh->block_size = (size_t)size;
+    mesh->vertices = (tl_vec3 *)(void *)block;
+    mesh->indices = (uint32_t *)(void *)(block + vertex_bytes);
+    mesh->source_triangles = (uint32_t *)(void *)(block + vertex_bytes + index_bytes);
+    mesh->materials = (uint16_t *)(void *)(block + vertex_bytes + index_bytes + source_bytes);
+    mesh->vertex_count = vertex_count;
+    mesh->triangle_count = triangle_count;
+    return TL_OK;
+}
+
+// Gives each kept vertex its new number, in order of first use.
+static uint32_t number_vertices(const tl_mesh_view *view, const uint32_t *representative, const uint32_t *kept,
+                                uint32_t kept_count, uint32_t *number)
+{
+    memset(number, 0xff, (size_t)view->vertex_count * sizeof *number);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < kept_count; i++) {
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t vertex = representative[view->indices[3 * (size_t)kept[i] + k]];
+            if (number[vertex] == UINT32_MAX) {
+                number[vertex] = count++;
+            }
+        }
+    }
+    return count;
+}
+
+static void fill_mesh(const tl_mesh_view *view, const uint32_t *representative, const uint32_t *kept,
+                      const uint32_t *number, tl_mesh *mesh)
+{
+    mesh->bounds = tl_aabb_empty();
+    for (uint32_t vertex = 0; vertex < view->vertex_count; vertex++) {
+        if (number[vertex] != UINT32_MAX) {
+            mesh->vertices[number[vertex]] = view->vertices[vertex];
+            mesh->bounds = tl_aabb_add_point(mesh->bounds, view->vertices[vertex]);
+        }
+    }
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        uint32_t triangle = kept[i];
+        for (uint32_t k = 0; k < 3; k++) {
+            mesh->indices[3 * (size_t)i + k] = number[representative[view->indices[3 * (size_t)triangle + k]]];
+        }
+        mesh->source_triangles[i] = triangle;
+        mesh->materials[i] = view->materials != NULL ? view->materials[triangle] : 0;
+    }
+}
+
+static void count_vertices(const tl_mesh_view *view, const uint32_t *representative, const uint32_t *number,
+                           tl_mesh_report *report)
+{
+    for (uint32_t vertex = 0; vertex < view->vertex_count; vertex++) {
+        if (representative[vertex] != TL_WELD_UNUSED && representative[vertex] != vertex) {
+            report->welded_vertices++;
+        } else if (number[vertex] == UINT32_MAX) {
+            report->unused_vertices++;
+        }
+    }
+}
+
+static tl_result build(const tl_mesh_view *view, const tl_mesh_def *def, tl_arena *arena, tl_mesh *mesh,
+                       tl_mesh_report *report)
+{
+    const tl_host *host = &def->host;
+    uint32_t *representative = TL_PUSH(arena, uint32_t, view->vertex_count);
+    uint32_t *number = TL_PUSH(arena, uint32_t, view->vertex_count);
+    uint32_t *kept = TL_PUSH(arena, uint32_t, view->triangle_count);
+    if (representative == NULL || number == NULL || kept == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    TL_TRY(tl_check_triangles(view, representative, &report->base));
+
+    report->base.stage = "weld";
+    TL_TRY(tl_progress_update(host, "weld", 0, view->vertex_count));
+    TL_TRY(tl_weld(view, def->weld_tolerance, arena, representative));
+    TL_TRY(tl_progress_update(host, "weld", view->vertex_count, view->vertex_count));
+
+    report->base.stage = "clean";
+    TL_TRY(tl_progress_update(host, "clean", 0, view->triangle_count));
+    uint32_t kept_count = 0;
+    TL_TRY(tl_clean_triangles(view, representative, def->keep_duplicates, arena, kept, &kept_count, report));
+    if (kept_count == 0) {
+        return tl_report_fail(&report->base, TL_ERR_EMPTY, NULL, TL_NO_ELEMENT,
+                              "all triangles are degenerate: check the unit and the weld tolerance");
+    }
+    uint32_t vertex_count = number_vertices(view, representative, kept, kept_count, number);
+    TL_TRY(allocate_mesh(vertex_count, kept_count, def->host.allocator, mesh));
+    fill_mesh(view, representative, kept, number, mesh);
+    count_vertices(view, representative, number, report);
+    return tl_progress_update(host, "clean", view->triangle_count, view->triangle_count);
+}
+
+tl_result tl_mesh_build(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out, tl_mesh_report *report_out)
+{
+    TL_ASSERT(view != NULL && def != NULL && mesh_out != NULL);
+    tl_mesh_report unread;
+    tl_mesh_report *report = report_out != NULL ? report_out : &unread;
+    memset(report, 0, sizeof *report);
+    tl_report_begin(&report->base, "check");
+    memset(mesh_out, 0, sizeof *mesh_out);
+    TL_TRY(check_def(view, def, &report->base));
+
+    tl_arena arena;
+    tl_arena_init(&arena, def->host.allocator);
+    tl_result result = build(view, def, &arena, mesh_out, report);
+    report->base.peak_bytes = arena.peak_bytes + mesh_out->block_size;
+    tl_arena_free(&arena);
+    if (result != TL_OK) {
+        tl_mesh_free(mesh_out, def->host.allocator);
+    }
+    return result;
+}
+
+void tl_mesh_free(tl_mesh *mesh, const tl_allocator *allocator)
+{
+    tl_release(allocator, mesh->block, mesh->block_size);
+    memset(mesh, 0, sizeof *mesh);
+}
+
+tl_mesh_view tl_mesh_as_view(const tl_mesh *mesh)
+{
+    tl_mesh_view view = { mesh->vertices, mesh->vertex_count, mesh->indices, mesh->triangle_count, mesh->materials };
+    return view;
+}
