@@ -16,3 +16,12 @@ if(QHULL_LIBRARY AND QHULL_INCLUDE_DIR)
     add_library(talus_peer_qhull INTERFACE IMPORTED)
     target_link_libraries(talus_peer_qhull INTERFACE ${QHULL_LIBRARY})
 endif()
+
+# xxHash: the oracle of the content hash.
+find_library(XXHASH_LIBRARY xxhash)
+find_path(XXHASH_INCLUDE_DIR xxhash.h)
+if(XXHASH_LIBRARY AND XXHASH_INCLUDE_DIR)
+    add_library(talus_peer_xxhash INTERFACE IMPORTED)
+    target_link_libraries(talus_peer_xxhash INTERFACE ${XXHASH_LIBRARY})
+endif()
+set(talus_test_hash_needs talus_peer_xxhash)

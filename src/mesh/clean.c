@@ -8,6 +8,7 @@
 
 #include "mesh/clean.h"
 
+#include "base/assert.h"
 #include "base/hash.h"
 #include "base/host.h"
 #include "math/predicates.h"
