@@ -57,9 +57,24 @@ typedef struct tl_nav_def {
 
 TL_API tl_nav_def tl_default_nav_def(void);
 
+/// Where a field lies in the level's lattice. All tiles of a level share one lattice: a tile's first column is an
+/// integer, so the same triangle falls into the same voxels, bit for bit, whichever tile looks at it.
+typedef struct tl_nav_lattice {
+    tl_vec3 origin;           ///< metres; the corner of column (0, 0) of the level, height 0
+    int32_t first_x, first_z; ///< the field's first column in the level's lattice, border included; may be negative
+} tl_nav_lattice;
+
+/// World coordinate of a lattice line: the one formula, so that two tiles that share a line agree on it bit for bit.
+/// `origin` is the lattice origin's coordinate on the axis, `line` counts from it, `size` is the cell's edge or height.
+static inline float tl_nav_lattice_to_world(float origin, int64_t line, float size)
+{
+    return (float)((double)origin + (double)line * (double)size);
+}
+
 /// The def in lattice units, for one tile.
 typedef struct tl_nav_config {
-    tl_aabb bounds;                 ///< metres; bounds.min is the lattice's origin, border included
+    tl_nav_lattice lattice;         ///< where this tile's columns lie in the level's lattice
+    tl_aabb bounds;                 ///< metres; of this tile's columns, border included, rounded from the lattice
     float cell_size;                ///< metres
     float cell_height;              ///< metres
     uint32_t width;                 ///< columns along x, border included
@@ -87,8 +102,12 @@ typedef struct tl_nav_config {
 #define TL_NAV_WALKABLE_AREA 63
 
 // Limits, checked before any work is done:
-#define TL_NAV_MAX_HEIGHT  0xfffeu    ///< voxels from the lowest to the highest span of a tile
-#define TL_NAV_MAX_COLUMNS (1u << 30) ///< width * height of one tile
+#define TL_NAV_MAX_HEIGHT  0xfffeu    ///< voxels from the bottom to the top of a level's bounds
+#define TL_NAV_MAX_COLUMNS (1u << 30) ///< width * height of one tile, border included
+#define TL_NAV_MAX_SIDE    (1u << 24) ///< columns along one side of a tile, border included
+#define TL_NAV_MAX_LATTICE (1u << 29) ///< columns along one side of the whole level
+#define TL_NAV_MAX_TILES   (1u << 28) ///< tiles of one level
+#define TL_NAV_MAX_VOXELS  0x7fffu    ///< walkable_height, walkable_climb, walkable_radius
 
 /// The number of tiles along x and z that a def makes of a level. Both 1 when def->tile_size is 0.
 TL_API tl_result tl_nav_tile_grid(const tl_nav_def *def, tl_aabb level_bounds, uint32_t *tiles_x_out,
@@ -114,6 +133,7 @@ typedef struct tl_nav_span {
 /// overlap.
 typedef struct tl_nav_heightfield {
     uint32_t width, height;
+    tl_nav_lattice lattice;
     tl_aabb bounds;
     float cell_size, cell_height;
     uint32_t *first_span; ///< [width * height + 1]
@@ -148,6 +168,7 @@ typedef struct tl_nav_compact {
     uint32_t width, height;
     uint32_t border_size;
     uint32_t walkable_height, walkable_climb; ///< voxels, as the neighbours were made
+    tl_nav_lattice lattice;
     tl_aabb bounds;
     float cell_size, cell_height;
     uint32_t span_count;
