@@ -59,6 +59,26 @@ typedef struct tl_contour_set {
     float max_error; ///< the simplification's bound, lattice units; information only
 } tl_contour_set;
 
+/// What was found in a contour that could not be divided as it came. Bits; several may be set.
+#define TL_CONTOUR_FAULT_EMPTY     0x01u ///< no area: nothing to divide
+#define TL_CONTOUR_FAULT_DUPLICATE 0x02u ///< consecutive vertices of equal x and z; one was dropped
+#define TL_CONTOUR_FAULT_SPIKE     0x04u ///< runs there and back to enclose nothing; that run was dropped
+#define TL_CONTOUR_FAULT_TOUCH     0x08u ///< a vertex lies inside another edge; the edge was split there
+#define TL_CONTOUR_FAULT_CROSSING  0x10u ///< two edges cross; both were split at the nearest lattice point
+#define TL_CONTOUR_FAULT_WINDING   0x20u ///< winds around some floor more than once, or backwards; covered once, or not
+#define TL_CONTOUR_FAULT_PINCH     0x40u ///< meets itself in a vertex so that its floor falls apart; divided part by part
+#define TL_CONTOUR_FAULT_REFUSED   0x80u ///< too many crossings to repair; nothing of it is in the mesh
+
+/// A contour that was not taken as it came. Bridges to holes are no fault.
+typedef struct tl_contour_note {
+    uint32_t contour;      ///< index in the set
+    uint32_t faults;       ///< TL_CONTOUR_FAULT_ bits
+    uint32_t vertex;       ///< in the contour: where the first fault was found
+    uint32_t reserved;     ///< 0
+    int64_t contour_area2; ///< doubled area that it encloses, signed: > 0 for an outer contour
+    int64_t covered_area2; ///< doubled area of its polygons
+} tl_contour_note;
+
 /// A mesh of convex polygons on the contours' lattice. Vertices are shared; an edge is shared by at most two polygons.
 /// Polygon p has the corners indices[first[p]] .. indices[first[p + 1] - 1], in the contours' winding;
 /// neighbours[k] lies across the edge from corner k to the polygon's next corner.
@@ -76,9 +96,116 @@ typedef struct tl_polygon_mesh {
     tl_aabb bounds;       ///< as in the contour set
     float cell_size, cell_height;
     uint32_t max_verts_per_poly;
-    void *block; ///< one block holds all arrays
+    uint32_t note_count;
+    tl_contour_note *notes; ///< [note_count] contours that were not taken as they came, by rising contour index
+    void *block;            ///< one block holds all arrays
     size_t block_size;
 } tl_polygon_mesh;
+
+/// regions[p] and contours[p] of a polygon that holds floor of several contours. It arises only where a border vertex
+/// between two contours was removed.
+#define TL_SEVERAL_REGIONS  0u
+#define TL_SEVERAL_CONTOURS UINT32_MAX
+
+/// How a contour is divided.
+typedef enum tl_partition_method {
+    TL_PARTITION_CLASSIC, ///< shortest partition edge first, then merging across the longest shared edge first
+} tl_partition_method;
+
+/// What to build. Start from tl_default_polygon_def().
+typedef struct tl_polygon_def {
+    uint32_t max_verts_per_poly; ///< [3, 64], or 0: as many as it takes. Default 6
+    tl_partition_method method;  ///< Default TL_PARTITION_CLASSIC
+    uint32_t merge_height; ///< lattice units: vertices of equal x and z at most this far apart on y become one, the
+                           ///< nearest one. Two regions take a corner's height each from its own floor, so on slopes
+                           ///< and stairs exact heights lose links between them. Default 2, as Recast
+    bool keep_border_vertices; ///< true: vertices flagged TL_CONTOUR_BORDER_VERTEX stay. Default false
+    tl_host host;
+} tl_polygon_def;
+
+/// The counts of one build.
+typedef struct tl_polygon_report {
+    tl_report base;
+    uint32_t contour_count;        ///< contours given
+    uint32_t empty_contours;       ///< without area: fewer than three vertices, or all on one line
+    uint32_t repaired_contours;    ///< divided after a repair; named in the mesh's notes
+    uint32_t refused_contours;     ///< left out; named in the mesh's notes
+    uint32_t triangle_count;       ///< before merging
+    uint32_t polygon_count;        ///< in the end
+    uint32_t vertex_count;         ///< in the end
+    uint32_t border_vertices_gone; ///< border vertices removed
+    uint32_t border_vertices_kept; ///< border vertices whose removal would have changed the floor's outline
+    uint32_t link_count;           ///< edges between two polygons
+    uint32_t portal_count;         ///< edges on a tile's border
+    uint32_t crowded_edges; ///< edges claimed by more than two polygons; the first two of opposite direction are linked
+    int64_t uncovered_area2; ///< doubled area of all contours, less that of the polygons; 0 without repairs
+} tl_polygon_report;
+
+TL_API tl_polygon_def tl_default_polygon_def(void);
+
+/// Divides contours into convex polygons and links them.
+///
+/// Each contour is triangulated on its xz projection by repeatedly cutting off the valid corner whose new edge is
+/// shortest (ties: the lowest vertex before the corner), then triangles and polygons of one contour are merged across
+/// the longest shared edge while they stay strictly convex and within max_verts_per_poly. Ties in merging: the
+/// lowest pair of places, where triangles take places in the order they were cut, a merged polygon keeps the lower
+/// place of its two parts and the last polygon moves into the free one. Border vertices are removed after that.
+///
+/// Guaranteed for every result: polygons strictly convex, wound as the contours, without doubled corners, disjoint
+/// within their contour and without T-junctions there, together exactly the contour's floor; neighbours symmetric.
+/// A contour that touches or crosses itself is cut into the parts that it winds around at least once; where it crosses
+/// itself between lattice points the crossing is rounded to the lattice. Each such contour has a note in the mesh.
+///
+/// `contours` has valid ranges and coordinates within +-TL_MAX_CONTOUR_COORDINATE; else TL_ERR_INDEX or TL_ERR_RANGE,
+/// with the contour named. Contours without area are legal and counted. `mesh_out` is written only with TL_OK;
+/// free it with tl_polygon_mesh_free. `report_out` may be NULL. Thread safe. Near-linear for outlines that
+/// do not cross themselves: O(n log n) with n vertices, for all but contrived ones.
+/// Errors: TL_ERR_ARGUMENT, TL_ERR_INDEX, TL_ERR_RANGE, TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
+TL_API tl_result tl_polygon_mesh_build(const tl_contour_set *contours, const tl_polygon_def *def,
+                                       tl_polygon_mesh *mesh_out, tl_polygon_report *report_out);
+
+/// Gives the mesh back to the allocator it was built with (NULL: free) and clears it. A cleared mesh is allowed.
+TL_API void tl_polygon_mesh_free(tl_polygon_mesh *mesh, const tl_allocator *allocator);
+
+/// A vertex in the world, metres.
+static inline tl_vec3 tl_polygon_mesh_vertex(const tl_polygon_mesh *mesh, uint32_t vertex)
+{
+    const int32_t *v = mesh->vertices + 3 * (size_t)vertex;
+    return tl_vec3_make(mesh->bounds.min.x + (float)v[0] * mesh->cell_size,
+                        mesh->bounds.min.y + (float)v[1] * mesh->cell_height,
+                        mesh->bounds.min.z + (float)v[2] * mesh->cell_size);
+}
+
+/// What can be wrong with a polygon mesh.
+typedef enum tl_polygon_fault {
+    TL_POLYGON_FAULT_RANGE,      ///< first[], an index or a neighbour points outside its array
+    TL_POLYGON_FAULT_CORNERS,    ///< fewer than three corners, or more than max_verts_per_poly
+    TL_POLYGON_FAULT_REPEATED,   ///< a corner twice in one polygon
+    TL_POLYGON_FAULT_INVERTED,   ///< wound against the contours, or without area
+    TL_POLYGON_FAULT_NOT_CONVEX, ///< a corner of 180 degrees or more, or winding around more than once
+    TL_POLYGON_FAULT_OVERLAP,    ///< two polygons of one contour share floor
+    TL_POLYGON_FAULT_T_JUNCTION, ///< a vertex of the contour inside an edge of one of its polygons
+    TL_POLYGON_FAULT_LINK,       ///< a neighbour that does not hold the edge or does not link back, or a link left out
+    TL_POLYGON_FAULT_PORTAL,     ///< a portal whose edge is not on that side of the tile (needs the contours)
+    TL_POLYGON_FAULT_AREA,       ///< area differs from the contour's and from what its note says (needs the contours)
+    TL_POLYGON_FAULT_OUTLINE,    ///< the polygons' common outline is not the contour's (needs the contours)
+    TL_POLYGON_FAULT_COUNT
+} tl_polygon_fault;
+
+/// A phrase for a fault, lower case. Never NULL.
+TL_API const char *tl_polygon_fault_text(tl_polygon_fault fault);
+
+typedef struct tl_polygon_check_report {
+    tl_report base;                          ///< element "polygon" or "contour" of the first fault
+    tl_polygon_fault first_fault;            ///< meaningful when the result is not TL_OK
+    uint64_t counts[TL_POLYGON_FAULT_COUNT]; ///< how many of each kind
+} tl_polygon_check_report;
+
+/// Proves a mesh right, or names what is wrong: TL_OK, TL_ERR_CORRUPT for any fault, or TL_ERR_MEMORY.
+/// With the contours it was built from (may be NULL) it also proves that they are covered exactly. Safe on any content
+/// of the arrays; the arrays must be as long as the counts say. All in exact integers, by other ways than the build's.
+TL_API tl_result tl_polygon_mesh_check(const tl_polygon_mesh *mesh, const tl_contour_set *contours,
+                                       const tl_allocator *allocator, tl_polygon_check_report *report_out);
 
 #ifdef __cplusplus
 }
