@@ -10,6 +10,7 @@
 #include <talus/nav_build.h>
 #include <talus/nav_tile.h>
 #include <talus/polygon.h>
+#include <talus/soup.h>
 #include <talus/vec.h>
 
 #endif

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+//
+// The chunky triangle soup: any triangle list, baked into pairs of triangles that share an edge under a wide tree of
+// boxes, and asked by rays.
+//
+//   tl_mesh_view --tl_soup_build (weld, pair, tree)--> tl_soup --tl_soup_cast_ray, tl_soup_occluded ...--> tl_ray_hit
+//
+// What a ray hits is defined by geometry alone, not by the tree, the pairing or the instruction set:
+//
+// - A triangle is closed: its edges and corners belong to it. Whether the ray's line meets it is decided exactly, so a
+//   line through a shared edge meets both triangles, and no line slips between two of them.
+// - A ray in the plane of a triangle does not hit that triangle (on a closed surface it then hits a neighbour).
+// - Points of the ray are origin + t * direction; the direction need not have length 1. t is within [0, tmax], both
+// ends
+//   included; whether t >= 0 is decided exactly, and the upper end by the rounded t.
+// - t is computed in double from the triangle's own three corners and rounded to float once. Of equal t the lowest
+//   triangle index wins. So the answer does not depend on how the triangles are stored or searched.
+// - A direction of zero, a coordinate that is NaN or infinite, and a tmax that is NaN or negative hit nothing.
+//   tmax may be INFINITY. A t beyond FLT_MAX (denormal directions) is reported as FLT_MAX.
+//
+// Queries take a const soup, allocate nothing, and may run on any number of threads. A soup that comes from untrusted
+// bytes must pass tl_soup_check first; then every query on it is safe, whatever its floats are.
+//
+// Sources: Christer Ericson, "Chunky triangle soup", 2009, and Real-Time Collision Detection, 2005, section 5.3.5;
+// Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2013.
+
+#ifndef TALUS_SOUP_H
+#define TALUS_SOUP_H
+
+#include <talus/base.h>
+#include <talus/mesh.h>
+#include <talus/vec.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A baked soup. Begins with a tl_blob, so `tl_blob_free` frees it and `((const tl_blob *)soup)->size` is its size.
+typedef struct tl_soup tl_soup;
+
+/// "tlsp" in memory.
+#define TL_SOUP_MAGIC   0x70736c74u
+#define TL_SOUP_VERSION 1u
+
+/// Most triangles of one view: their index shares a 32-bit word with four bits of the pair.
+#define TL_MAX_SOUP_TRIANGLES 0x0fffffffu
+
+/// How a soup is built.
+typedef struct tl_soup_def {
+    bool pair_triangles; ///< false keeps every triangle single, to measure what pairs are worth
+    /// [0, 1]: share of extra references that spatial splits may add. A pair that straddles a split plane is then
+    /// stored on both sides, which costs memory and saves the time that fat boxes cost. 0: none.
+    float split_budget;
+    tl_host host;
+} tl_soup_def;
+
+/// What tl_soup_build did.
+typedef struct tl_soup_report {
+    tl_report base;
+    uint32_t triangle_count;       ///< stored
+    uint32_t degenerate_triangles; ///< dropped: no area in exact arithmetic, so no ray can hit them
+    uint32_t pair_count;           ///< distinct, split references not counted
+    uint32_t single_count;
+} tl_soup_report;
+
+/// Pairs, and split_budget 0.2.
+TL_API tl_soup_def tl_default_soup_def(void);
+
+/// Bakes a triangle list. Triangles keep the index they have in the view: that is what queries report.
+///
+/// Nothing is required of the triangles: they may intersect, repeat, be loose, or share an edge by the dozen. Corners
+/// at equal positions count as shared, so the view need not be welded. The bytes depend on nothing but the view and the
+/// def's first two fields. `def` may be NULL: defaults. On failure `*soup_out` is NULL. `report_out` may be NULL.
+/// Free the soup with `tl_blob_free(soup, allocator)`.
+/// Errors, each with its element in `report_out->base`: TL_ERR_EMPTY (no triangles), TL_ERR_INDEX (triangle),
+/// TL_ERR_NOT_FINITE (vertex), TL_ERR_RANGE (vertex beyond TL_MAX_COORDINATE), TL_ERR_DEGENERATE (no triangle has
+/// area), TL_ERR_LIMIT (more than TL_MAX_SOUP_TRIANGLES), TL_ERR_ARGUMENT, TL_ERR_MEMORY, TL_ERR_CANCELLED. An unused
+/// vertex may hold anything. O(n log n).
+TL_API tl_result tl_soup_build(const tl_mesh_view *view, const tl_soup_def *def, tl_soup **soup_out,
+                               tl_soup_report *report_out);
+
+/// Whether `size` bytes at `bytes` are a sound soup: TL_OK, or TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION,
+/// TL_ERR_ARGUMENT (not aligned to TL_BLOB_ALIGNMENT), TL_ERR_CORRUPT. Safe on any bytes. O(size).
+/// On success the bytes may be used as a tl_soup in place. It proves that queries are safe and end, not that the tree's
+/// boxes hold their triangles; a content hash is the container's affair.
+TL_API tl_result tl_soup_check(const void *bytes, uint64_t size);
+
+/// Bytes of the blob.
+TL_API uint64_t tl_soup_size(const tl_soup *soup);
+
+/// The box of all stored triangles.
+TL_API tl_aabb tl_soup_bounds(const tl_soup *soup);
+
+/// What a soup holds. Bytes a triangle: size / triangle_count.
+typedef struct tl_soup_stats {
+    uint64_t size;                  ///< bytes in all, vertices, ids, materials and nodes counted
+    uint32_t source_triangle_count; ///< triangles of the view it was built from
+    uint32_t triangle_count;        ///< distinct triangles stored
+    uint32_t pair_count;            ///< distinct pairs
+    uint32_t single_count;          ///< distinct triangles that found no partner
+    uint32_t reference_count;       ///< pairs and singles in leaves; more than distinct ones where splits repeat them
+    uint32_t leaf_count;
+    uint32_t node_count;
+    uint32_t depth;          ///< nodes on the longest way from the root to a leaf
+    uint64_t node_bytes;     ///< of size: the tree
+    uint64_t leaf_bytes;     ///< of size: corners and triangle indices
+    uint64_t material_bytes; ///< of size: 0 when all materials are the same
+} tl_soup_stats;
+
+TL_API tl_soup_stats tl_soup_get_stats(const tl_soup *soup);
+
+/// A ray: origin + t * direction for t in [0, tmax].
+typedef struct tl_ray {
+    tl_vec3 origin;
+    tl_vec3 direction;
+    float tmax;
+} tl_ray;
+
+/// Which side of a triangle stops a ray. The front is the side from which its corners run counter-clockwise.
+typedef enum tl_ray_cull {
+    TL_RAY_CULL_NONE = 0, ///< both
+    TL_RAY_CULL_BACK,     ///< only fronts stop it
+    TL_RAY_CULL_FRONT     ///< only backs stop it
+} tl_ray_cull;
+
+/// Whether a triangle counts. Must answer the same for the same triangle during one query; it can be asked about
+/// triangles that are not the closest, in any order and more than once.
+typedef bool tl_triangle_filter_fn(uint32_t triangle, uint16_t material, void *user);
+
+/// What a ray passes by. All zero with material_mask UINT64_MAX passes by nothing, as a NULL filter does.
+typedef struct tl_ray_filter {
+    tl_ray_cull cull;
+    uint64_t material_mask;        ///< bit m: triangles of material m count; bit 63 stands for all materials >= 63
+    tl_triangle_filter_fn *accept; ///< asked last; NULL: all count
+    void *accept_user;
+} tl_ray_filter;
+
+TL_API tl_ray_filter tl_default_ray_filter(void);
+
+/// Where a ray met the soup. The point is origin + t * direction, and nearly corner 0 * (1 - u - v) + corner 1 * u +
+/// corner 2 * v of the triangle as the view has it.
+typedef struct tl_ray_hit {
+    float t;
+    uint32_t triangle; ///< its index in the view
+    float u, v;        ///< >= 0, u + v <= 1 but for rounding
+    tl_vec3 normal;    ///< unit length, of the triangle's front; zero for a needle too thin for doubles to tell
+    uint16_t material;
+    bool back; ///< the ray came from behind
+} tl_ray_hit;
+
+/// The closest hit of a ray; false and an untouched `hit_out` when there is none. `filter` may be NULL.
+///
+/// The error of t: at most half an ulp of t, plus 2^-46 of the distance (in t) between the triangle's nearest and
+/// farthest corner times M * L / A, where M is the largest distance from the origin to a corner, L the triangle's
+/// largest extent and A its area seen along the ray. t never leaves the corners' own range.
+TL_API bool tl_soup_cast_ray(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter, tl_ray_hit *hit_out);
+
+/// Whether a ray hits anything. Agrees with tl_soup_cast_ray, and is faster. `filter` may be NULL.
+TL_API bool tl_soup_occluded(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter);
+
+/// The hit of the segment from a to b that is closest to a; t in [0, 1]. Both ends are exact: b is not rounded by way
+/// of a direction, and a triangle that touches it is hit. Equal ends hit nothing. `filter` may be NULL.
+TL_API bool tl_soup_cast_segment(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter,
+                                 tl_ray_hit *hit_out);
+
+/// Whether no triangle meets the closed segment from a to b. The same as from b to a, always (but for culling).
+/// `filter` may be NULL.
+TL_API bool tl_soup_line_of_sight(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter);
+
+/// One stored triangle.
+typedef struct tl_soup_triangle {
+    tl_vec3 corners[3]; ///< as in the view, order and winding kept
+    uint32_t triangle;  ///< its index in the view
+    uint16_t material;
+} tl_soup_triangle;
+
+/// Goes through all triangles, each once, in the soup's own order. Start with `*cursor` 0; false at the end.
+TL_API bool tl_soup_next_triangle(const tl_soup *soup, uint64_t *cursor, tl_soup_triangle *triangle_out);
+
+/// One pair, or one triangle without a partner.
+typedef struct tl_soup_pair {
+    tl_vec3 corners[4];    ///< a, b, c, d: triangles a, b, c and a, c, d share the edge a, c; a single has d == a
+    uint32_t triangles[2]; ///< indices in the view; the second is TL_NO_TRIANGLE for a single
+} tl_soup_pair;
+
+/// Goes through all pairs and singles, each once. Start with `*cursor` 0; false at the end.
+TL_API bool tl_soup_next_pair(const tl_soup *soup, uint64_t *cursor, tl_soup_pair *pair_out);
+
+/// Called for each triangle found; false ends the search.
+typedef bool tl_soup_triangle_fn(const tl_soup_triangle *triangle, void *user);
+
+/// Calls `found` for every triangle whose own box overlaps `box` (closed), in the soup's order. A triangle that spatial
+/// splits stored twice may be reported twice. Returns false when `found` ended the search.
+TL_API bool tl_soup_triangles_in_box(const tl_soup *soup, tl_aabb box, tl_soup_triangle_fn *found, void *user);
+
+/// Called for each box of the tree; `depth` 0 is the root's box, `leaf` tells a box that holds pairs. False ends it.
+typedef bool tl_soup_tree_box_fn(tl_aabb box, uint32_t depth, bool leaf, void *user);
+
+/// Calls `visit` for every box of the tree down to `max_depth`, parents before children. Returns false when ended.
+TL_API bool tl_soup_tree_boxes(const tl_soup *soup, uint32_t max_depth, tl_soup_tree_box_fn *visit, void *user);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
