@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// Queries on pairs of convex shapes: how far, and whether they touch.
+//
+// A shape is a proxy: what answers "which of your points is farthest along this direction", and a radius by which it
+// is rounded. All queries compute in double in shape A's frame, so the answer does not depend on where in the world
+// the pair is.
+
+#ifndef TALUS_CONVEX_H
+#define TALUS_CONVEX_H
+
+#include <talus/base.h>
+#include <talus/hull.h>
+#include <talus/vec.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The point of a convex shape that is farthest along a direction (any length; never zero). Must be deterministic.
+typedef tl_vec3 tl_convex_support_fn(tl_vec3 direction, void *user);
+
+typedef enum tl_convex_kind {
+    TL_CONVEX_HULL,   ///< a baked hull
+    TL_CONVEX_POINTS, ///< the hull of 1 .. n points in the caller's memory; flat and coincident ones are fine
+    TL_CONVEX_INLINE, ///< the hull of 1 .. 3 points held here: point, segment, triangle
+    TL_CONVEX_BOX,    ///< centre in corners[0], half extents in corners[1]
+    TL_CONVEX_CUSTOM  ///< a function of the caller's
+} tl_convex_kind;
+
+/// A convex shape in its own frame. Build it with the functions below; nothing is copied or owned.
+typedef struct tl_convex {
+    tl_convex_kind kind;
+    float radius; ///< metres, >= 0; the shape is grown by a ball of it
+    const tl_hull *hull;
+    const tl_vec3 *points;
+    uint32_t point_count;
+    tl_vec3 corners[3];
+    tl_convex_support_fn *support;
+    void *user;
+} tl_convex;
+
+TL_API tl_convex tl_convex_from_hull(const tl_hull *hull, float radius);
+/// count >= 1 points. The support is a scan: O(count) an iteration.
+TL_API tl_convex tl_convex_from_points(const tl_vec3 *points, uint32_t count, float radius);
+TL_API tl_convex tl_convex_box(tl_vec3 center, tl_vec3 half_extents, float radius);
+TL_API tl_convex tl_convex_sphere(tl_vec3 center, float radius);
+TL_API tl_convex tl_convex_capsule(tl_vec3 a, tl_vec3 b, float radius);
+TL_API tl_convex tl_convex_triangle(tl_vec3 a, tl_vec3 b, tl_vec3 c, float radius);
+TL_API tl_convex tl_convex_custom(tl_convex_support_fn *support, void *user, float radius);
+
+/// How far a query's answer can be trusted.
+typedef enum tl_convex_status {
+    TL_CONVEX_CONVERGED,  ///< the bounds met, or overlap was proven
+    TL_CONVEX_ITERATIONS, ///< the iteration limit was reached; the bounds still hold
+    TL_CONVEX_DEGENERATE  ///< rounding stopped the progress; the bounds still hold
+} tl_convex_status;
+
+/// GJK takes as many iterations as the simplex must change; more than this means that rounding prevents convergence.
+#define TL_MAX_GJK_ITERATIONS 128u
+
+/// The simplex that a query ended with, to start the next one of the same pair from. All zero starts cold.
+/// It changes the time only. Keep one for each pair and thread.
+typedef struct tl_simplex_cache {
+    uint32_t count;       ///< 0 .. 4
+    uint32_t vertex_a[4]; ///< vertices of A; of a custom shape nothing is cached
+    uint32_t vertex_b[4];
+} tl_simplex_cache;
+
+/// How two shapes lie to each other.
+typedef struct tl_separation {
+    /// Metres between the witness points, so never less than the true distance but for rounding; 0 on overlap.
+    float distance;
+    float lower_bound; ///< metres; the true distance is not less
+    bool overlap;      ///< the rounded shapes share a point, or are closer than can be told in double
+    tl_vec3 point_a;   ///< witness on A's surface, world
+    tl_vec3 point_b;   ///< witness on B's surface, world
+    tl_vec3 normal;    ///< unit, from A to B, world; zero on overlap
+    tl_convex_status status;
+    uint32_t iterations;
+} tl_separation;
+
+/// Distance and nearest points of two convex shapes.
+///
+/// Poses are rigid; a rotation is normalized before use. `cache` may be NULL. Thread safe, no allocation. When the
+/// cores (the shapes without their radii) are apart but the rounded shapes overlap, the witness points are those of the
+/// rounded surfaces and `overlap` is set; when the cores overlap, the witness points are one common point.
+/// Source: Gilbert, Johnson, Keerthi, A Fast Procedure for Computing the Distance Between Complex Objects, 1988.
+TL_API void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
+                               tl_simplex_cache *cache, tl_separation *separation_out);
+
+/// Whether two convex shapes share a point. Stops at the first separating direction, so it is cheaper than the
+/// distance.
+TL_API bool tl_convex_overlap(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
+                              tl_simplex_cache *cache);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+//
+// Convex hulls: built from points, baked into one block, then asked for support points, rays, mass and topology.
+//
+// The build decides every side of every plane exactly, so the hull is the true convex hull of the float points at any
+// scale and at any distance from the origin. Faces are polygons: triangles that lie in exactly one plane are merged,
+// and only strict corners stay vertices.
+// Source: Barber, Dobkin, Huhdanpaa, The Quickhull Algorithm for Convex Hulls, ACM TOMS 22, 1996.
+
+#ifndef TALUS_HULL_H
+#define TALUS_HULL_H
+
+#include <talus/base.h>
+#include <talus/vec.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define TL_HULL_MAGIC   0x4c554854u ///< "THUL"
+#define TL_HULL_VERSION 1u
+
+/// Largest absolute coordinate of a hull's points: edges and their dot products stay finite floats.
+#define TL_MAX_HULL_COORDINATE 1e30f
+
+/// A build takes fewer points than this.
+#define TL_MAX_HULL_POINTS 0x40000000u
+
+#define TL_NO_VERTEX       UINT32_MAX
+
+/// How a hull is built.
+typedef struct tl_hull_def {
+    /// 0: no limit; else >= 4. The points are added farthest first, so a hull that reaches the limit is the hull of
+    /// the most telling ones; the report says how far the others stick out.
+    uint32_t max_vertices;
+    /// Metres, >= 0. 0: flat, straight and single-point input is refused by name. Else it is made this thick, half to
+    /// each side, in every direction that it lacks.
+    float thickness;
+    /// >= 0. Input counts as flat when its thickness is at most this many roundings (half ulps) of its largest
+    /// coordinate: 8 covers a plane whose points were rounded to floats. 0: only what is exactly flat.
+    float flatness;
+    tl_host host;
+} tl_hull_def;
+
+/// What tl_hull_build did.
+typedef struct tl_hull_report {
+    tl_report base;
+    uint32_t triangle_count; ///< of the hull before coplanar ones were merged
+    bool thickened;
+    uint32_t points_left_out; ///< outside, because max_vertices was reached
+    double max_outside;       ///< metres; how far the farthest of these lies outside at most, 0 when there is none
+} tl_hull_report;
+
+/// One directed edge of a face. The face lies to its left, seen from outside; the half-edges of a face are consecutive.
+typedef struct tl_hull_half_edge {
+    uint32_t origin; ///< vertex it starts at
+    uint32_t twin;   ///< the same edge in the other direction
+    uint32_t next;   ///< in the face's loop, counter-clockwise
+    uint32_t face;
+} tl_hull_half_edge;
+
+typedef struct tl_hull_face {
+    uint32_t first; ///< its first half-edge; the one of its lowest vertex
+    uint32_t count; ///< >= 3
+} tl_hull_face;
+
+/// Points p with normal . p <= offset are inside. The normal has unit length, to double rounding.
+typedef struct tl_hull_plane {
+    double normal[3];
+    double offset;
+} tl_hull_plane;
+
+/// For density 1. Computed in double about a point inside, so it is as good far from the origin.
+typedef struct tl_hull_mass {
+    double volume;
+    double area;
+    double center[3];  ///< centre of mass
+    double inertia[6]; ///< about the centre of mass: xx, yy, zz, xy, xz, yz of the tensor (products carry their minus)
+} tl_hull_mass;
+
+/// The baked hull: a blob. Read it through the functions below; offsets are bytes from its beginning.
+/// Vertices are in the order of their points in the input, so "lowest vertex" is "earliest point".
+typedef struct tl_hull {
+    tl_blob blob;
+    uint32_t vertex_count;    ///< V >= 4
+    uint32_t face_count;      ///< F
+    uint32_t half_edge_count; ///< 2 E; V - E + F = 2
+    uint32_t scan_count;      ///< V rounded up to a multiple of 8; the scan's rows are that long
+    uint32_t block_count;     ///< blocks of the climb
+    uint32_t table_cells;     ///< cells along a side of the direction table, 0: no table, the scan is used
+    tl_aabb bounds;
+    tl_vec3 scan_center; ///< what the scan's rows are relative to
+    float scan_error;    ///< error of the scan's dot products, a metre of direction
+    tl_hull_mass mass;
+    uint64_t vertices;     ///< tl_vec3 [V]
+    uint64_t sources;      ///< uint32_t [V] index of the input point
+    uint64_t vertex_edges; ///< uint32_t [V] a half-edge that starts there
+    uint64_t half_edges;   ///< tl_hull_half_edge [2 E]
+    uint64_t faces;        ///< tl_hull_face [F]
+    uint64_t planes;       ///< tl_hull_plane [F]
+    uint64_t scan;         ///< float [3][scan_count]: x, y, z
+    uint64_t climb;        ///< the climb's vertices and blocks (private layout)
+    uint64_t table;        ///< uint32_t [6 * table_cells^2] a vertex to start from
+    uint64_t end;
+} tl_hull;
+
+TL_API tl_hull_def tl_default_hull_def(void);
+
+/// Builds the convex hull of `count` points. Duplicates and inner points are allowed and cost little.
+///
+/// The result depends on the points and the def only. O(n log n) for points in general position.
+/// Errors: TL_ERR_EMPTY (no point), TL_ERR_NOT_FINITE and TL_ERR_RANGE (with the point's index), TL_ERR_COINCIDENT,
+/// TL_ERR_COLLINEAR, TL_ERR_COPLANAR (input without volume, see tl_hull_def; also when `thickness` is lost in
+/// rounding), TL_ERR_ARGUMENT, TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED. On failure `*hull_out` is NULL.
+/// `report_out` may be NULL, and so may `points` when count is 0. Free with tl_blob_free.
+TL_API tl_result tl_hull_build(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
+                               tl_hull_report *report_out);
+
+/// Whether bytes of unknown origin are a hull that every query can be trusted with: head, offsets, indices, loops,
+/// twins, Euler's formula, finite values. Safe on any bytes; `bytes` must be 16-byte aligned. O(size).
+/// Convexity is not proven here: tl_hull_validate does that.
+TL_API tl_result tl_hull_check(const void *bytes, uint64_t size);
+
+/// What tl_hull_validate found.
+typedef struct tl_hull_validation {
+    bool euler;         ///< V - E + F = 2
+    bool flat_faces;    ///< each face's vertices lie exactly in one plane
+    bool convex;        ///< every edge is strictly convex, exactly decided; so the whole surface is
+    bool contains;      ///< no point lies outside any face, exactly decided
+    double max_outside; ///< metres; largest distance of a point in front of a face's plane, 0 when contained
+} tl_hull_validation;
+
+/// Proves a checked hull's geometry exactly, and that it contains `count` points (which may be 0).
+/// TL_OK when all holds, else TL_ERR_CORRUPT (topology, convexity) or TL_ERR_RANGE (a point outside).
+/// O(E + count * F): meant for tests and tools. `validation_out` may be NULL.
+TL_API tl_result tl_hull_validate(const tl_hull *hull, const tl_vec3 *points, uint32_t count,
+                                  tl_hull_validation *validation_out);
+
+/// The vertex farthest along a direction: no vertex of the hull has a larger dot product with it, in exact arithmetic;
+/// of several farthest, the lowest index. The direction need not be normalized; zero gives vertex 0. It must be finite.
+///
+/// `hint` is a vertex to try first, best the answer to a nearby direction, or TL_NO_VERTEX; it changes the time only,
+/// and may be any number. Thread safe. Scans a small hull; climbs on a large one from a table of directions.
+/// Sources: Allen Chou, Game Physics: Implementing Support Function for Polyhedrons using Half Edges, 2013; Dobkin and
+/// Kirkpatrick, A Linear Algorithm for Determining the Separation of Convex Polyhedra, 1985.
+TL_API uint32_t tl_hull_support(const tl_hull *hull, tl_vec3 direction, uint32_t hint);
+
+/// Where a ray meets a hull.
+typedef struct tl_hull_hit {
+    float t;        ///< in units of the direction's length; 0 when the origin is inside
+    uint32_t face;  ///< the face it enters by, TL_NO_VERTEX when the origin is inside
+    tl_vec3 normal; ///< unit, of that face; zero when the origin is inside
+} tl_hull_hit;
+
+/// Whether the ray from `origin` along `direction` (any length, not zero) enters the solid hull at t in [0, max_t].
+/// `hit_out` may be NULL. Thread safe. O(F).
+TL_API bool tl_hull_cast_ray(const tl_hull *hull, tl_vec3 origin, tl_vec3 direction, float max_t, tl_hull_hit *hit_out);
+
+/// Whether a point lies in the closed hull, exactly decided. O(F).
+TL_API bool tl_hull_contains(const tl_hull *hull, tl_vec3 point);
+
+/// V positions.
+static inline const tl_vec3 *tl_hull_vertices(const tl_hull *hull)
+{
+    return (const tl_vec3 *)(const void *)((const char *)hull + hull->vertices);
+}
+
+/// V indices into the points that the hull was built from. A thickened hull names a point more than once.
+static inline const uint32_t *tl_hull_sources(const tl_hull *hull)
+{
+    return (const uint32_t *)(const void *)((const char *)hull + hull->sources);
+}
+
+/// For each vertex one half-edge that starts there. The others follow by `half_edges[twin].next`.
+static inline const uint32_t *tl_hull_vertex_edges(const tl_hull *hull)
+{
+    return (const uint32_t *)(const void *)((const char *)hull + hull->vertex_edges);
+}
+
+static inline const tl_hull_half_edge *tl_hull_half_edges(const tl_hull *hull)
+{
+    return (const tl_hull_half_edge *)(const void *)((const char *)hull + hull->half_edges);
+}
+
+static inline const tl_hull_face *tl_hull_faces(const tl_hull *hull)
+{
+    return (const tl_hull_face *)(const void *)((const char *)hull + hull->faces);
+}
+
+/// One outward plane a face.
+static inline const tl_hull_plane *tl_hull_planes(const tl_hull *hull)
+{
+    return (const tl_hull_plane *)(const void *)((const char *)hull + hull->planes);
+}
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
