@@ -6,6 +6,8 @@
 #define TALUS_TALUS_H
 
 #include <talus/base.h>
+#include <talus/convex.h>
+#include <talus/hull.h>
 #include <talus/mesh.h>
 #include <talus/nav_build.h>
 #include <talus/nav_tile.h>
