@@ -2,6 +2,10 @@
 //
 // The baked tile of a navmesh: what nav_build writes and nav_query reads. An immutable blob.
 // It has a header of its own because building and querying never include each other.
+//
+// A tile keeps two forms of every polygon corner: exact integers on the lattice, on which seams and convexity are
+// decided, and floats in metres, laid out polygon by polygon, on which queries run. The floats follow from the
+// integers by one formula (tl_nav_tile_position), so that two tiles give a point of their common seam the same bits.
 
 #ifndef TALUS_NAV_TILE_H
 #define TALUS_NAV_TILE_H
@@ -14,7 +18,8 @@
 extern "C" {
 #endif
 
-typedef struct tl_nav_tile tl_nav_tile;
+// ---------------------------------------------------------------------------------------------------------
+// Detail mesh, as it is built.
 
 /// One polygon's share of the detail mesh.
 typedef struct tl_nav_detail_patch {
@@ -43,6 +48,208 @@ typedef struct tl_nav_detail {
 } tl_nav_detail;
 
 TL_API void tl_nav_detail_free(tl_nav_detail *detail, const tl_allocator *allocator);
+
+// ---------------------------------------------------------------------------------------------------------
+// Limits, checked when a tile is baked and again when its bytes are.
+
+#define TL_NAV_TILE_MAGIC        0x5456414eu ///< "NAVT"
+#define TL_NAV_TILE_VERSION      1u
+#define TL_NAV_MAX_CORNERS       64         ///< of one polygon
+#define TL_NAV_MAX_TILE_POLYGONS (1u << 28) ///< so that a polygon's number fits a reference (nav_query.h)
+#define TL_NAV_MAX_AREA          63         ///< areas are 1 to 63
+#define TL_NAV_MAX_TILE_INDEX    (1 << 24)  ///< |tile_x| and |tile_z|
+#define TL_NAV_MAX_TILE_DEPTH    40         ///< of the box tree: log2 of the polygons, and room
+
+// ---------------------------------------------------------------------------------------------------------
+// The layout. Offsets are bytes from the start of the blob, multiples of 64, in the order of the fields; all padding
+// is zero. Read it through the functions below; the fields are public because a format has no secrets.
+
+#define TL_NAV_LINK_WALL   UINT32_MAX  ///< nothing lies across this edge
+#define TL_NAV_LINK_PORTAL 0x80000000u ///< | index of a tl_nav_portal: the edge lies on the tile's border
+
+/// An edge on the tile's border, across which other tiles' polygons may lie.
+typedef struct tl_nav_portal {
+    uint32_t polygon;
+    uint32_t corner;        ///< index in the corner arrays where the edge starts
+    int32_t low, high;      ///< lattice, low < high: its stretch along the side (z on sides 0 and 2, x on 1 and 3)
+    uint32_t first_profile; ///< its heights, from low to high, both ends included
+    uint32_t profile_count; ///< >= 2
+} tl_nav_portal;
+
+/// A height of the surface along a portal; straight between two of them.
+typedef struct tl_nav_profile_point {
+    float along;  ///< lattice units along the side, in the tile
+    float height; ///< metres
+} tl_nav_profile_point;
+
+/// Depth-first tree of boxes over polygons and their detail. An inner node's first child is the next node, its second
+/// child is the first child's `skip`.
+typedef struct tl_nav_tile_node {
+    tl_aabb box;      ///< metres
+    uint32_t skip;    ///< the node behind this subtree; > own index
+    uint32_t polygon; ///< of a leaf, or TL_NO_POLYGON
+} tl_nav_tile_node;
+
+typedef struct tl_nav_tile {
+    tl_blob blob;
+    int32_t tile_x, tile_z; ///< place in the grid of tiles
+    uint32_t tile_size;     ///< cells; 0: the tile is the whole navmesh
+    uint32_t polygon_count;
+    uint32_t vertex_count; ///< lattice vertices, shared
+    uint32_t corner_count; ///< of all polygons
+    uint32_t detail_vertex_count;
+    uint32_t detail_triangle_count;
+    uint32_t node_count;
+    uint32_t portal_count;
+    uint32_t profile_count;
+    uint32_t side_first[5]; ///< portals of side s: [side_first[s], side_first[s + 1]), ascending by low, then polygon
+    double area;            ///< square metres in the plane, of all polygons
+    tl_vec3 origin;         ///< metres: lattice point (0, 0, 0) of tile (0, 0); the same in all tiles of a navmesh
+    float cell_size;        ///< metres
+    float cell_height;      ///< metres
+    float agent_height, agent_radius, agent_max_climb; ///< metres
+    tl_aabb bounds;                                    ///< metres, of the surface
+    uint64_t first_corner;                             ///< uint32_t [polygon_count + 1]
+    uint64_t corners;                                  ///< tl_vec3 [corner_count], metres
+    uint64_t links;               ///< uint32_t [corner_count]: polygon, TL_NAV_LINK_WALL or TL_NAV_LINK_PORTAL | portal
+    uint64_t corner_vertices;     ///< uint32_t [corner_count]
+    uint64_t vertices;            ///< int32_t [3 * vertex_count], lattice
+    uint64_t flags;               ///< uint64_t [polygon_count]
+    uint64_t areas;               ///< uint8_t [polygon_count]
+    uint64_t detail_first_vertex; ///< uint32_t [polygon_count + 1]
+    uint64_t detail_first_triangle; ///< uint32_t [polygon_count + 1]
+    uint64_t detail_vertices;  ///< tl_vec3 [detail_vertex_count], metres; a patch begins with its polygon's corners
+    uint64_t detail_triangles; ///< tl_nav_detail_triangle [detail_triangle_count]
+    uint64_t nodes;            ///< tl_nav_tile_node [node_count]
+    uint64_t portals;          ///< tl_nav_portal [portal_count]
+    uint64_t profile;          ///< tl_nav_profile_point [profile_count]
+} tl_nav_tile;
+
+// ---------------------------------------------------------------------------------------------------------
+// Baking and checking.
+
+/// What a tile is baked from. Nothing is kept or owned.
+typedef struct tl_nav_tile_source {
+    /// Convex polygons with area, in the contours' winding, 3 to 64 corners each, areas 1 to 63. Its bounds, cell_size
+    /// and cell_height place the lattice. A portal edge that does not lie on its side of the tile (x or z = 0 or
+    /// tile_size) is a wall.
+    const tl_polygon_mesh *polygons;
+    /// One patch a polygon, or NULL: the polygons are their own surface.
+    const tl_nav_detail *detail;
+    int32_t tile_x, tile_z; ///< |.| <= TL_NAV_MAX_TILE_INDEX
+    uint32_t tile_size;     ///< cells of a whole tile without its border; 0: the only tile, at (0, 0)
+    /// Metres: where lattice point (0, 0, 0) of tile (0, 0) lies. The same bits for all tiles of a navmesh. It must
+    /// agree with polygons->bounds.min to a quarter of a cell; with one tile it is polygons->bounds.min.
+    tl_vec3 origin;
+    float agent_height;    ///< metres, > 0
+    float agent_radius;    ///< metres, >= 0
+    float agent_max_climb; ///< metres, >= 0: tiles are linked where their seams differ by no more
+    const uint64_t *flags; ///< one a polygon, or NULL: all 1
+} tl_nav_tile_source;
+
+/// Bakes one tile. The same source gives the same bytes everywhere.
+///
+/// `*tile_out` is freed with tl_blob_free(tile, allocator). On failure it is NULL, and the report (which may be NULL)
+/// names the element. Errors: TL_ERR_EMPTY (no polygon), TL_ERR_ARGUMENT (a setting, an area), TL_ERR_INDEX,
+/// TL_ERR_RANGE (a vertex), TL_ERR_NOT_FINITE, TL_ERR_DEGENERATE and TL_ERR_WINDING (a polygon without area, or not
+/// convex, or wound the wrong way), TL_ERR_NON_MANIFOLD (a neighbour that does not point back), TL_ERR_LIMIT,
+/// TL_ERR_MEMORY. O(n log n).
+TL_API tl_result tl_nav_tile_create(const tl_nav_tile_source *source, const tl_allocator *allocator,
+                                    tl_nav_tile **tile_out, tl_report *report_out);
+
+/// Whether bytes from anywhere are a whole tile that every query can be trusted with. Safe on any bytes.
+///
+/// `bytes` must be 8-byte aligned (TL_ERR_ARGUMENT). TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION; TL_ERR_CORRUPT for
+/// all else, with the element in the report (which may be NULL). O(n).
+TL_API tl_result tl_nav_tile_check(const void *bytes, uint64_t size, tl_report *report_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Reading a tile. `polygon` < polygon_count and `edge` < its corner count; nothing is checked here.
+
+static inline const void *tl_nav_tile_at(const tl_nav_tile *tile, uint64_t offset)
+{
+    return (const char *)tile + offset;
+}
+
+/// Metres of a lattice coordinate: the one formula by which all tiles place their corners.
+/// `tile_index` * `tile_size` is the tile's own offset in the lattice; 0 for y.
+static inline float tl_nav_tile_position(float origin, int32_t tile_index, uint32_t tile_size, int32_t lattice,
+                                         float cell)
+{
+    // The sum is below 2^57 and usually below 2^53, where it is exact; the product and sum are rounded once each.
+    int64_t steps = (int64_t)tile_index * (int64_t)tile_size + lattice;
+    return (float)((double)origin + (double)steps * (double)cell);
+}
+
+/// The polygon's corners in metres, in the contours' winding (counter-clockwise seen from above, y up).
+static inline const tl_vec3 *tl_nav_tile_corners(const tl_nav_tile *tile, uint32_t polygon, uint32_t *count_out)
+{
+    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
+    *count_out = first[1] - first[0];
+    return (const tl_vec3 *)tl_nav_tile_at(tile, tile->corners) + first[0];
+}
+
+/// The polygon's links, one an edge: a polygon of this tile, TL_NAV_LINK_WALL or TL_NAV_LINK_PORTAL | portal.
+static inline const uint32_t *tl_nav_tile_links(const tl_nav_tile *tile, uint32_t polygon)
+{
+    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
+    return (const uint32_t *)tl_nav_tile_at(tile, tile->links) + first[0];
+}
+
+static inline const tl_nav_portal *tl_nav_tile_portals(const tl_nav_tile *tile)
+{
+    return (const tl_nav_portal *)tl_nav_tile_at(tile, tile->portals);
+}
+
+static inline uint8_t tl_nav_tile_area(const tl_nav_tile *tile, uint32_t polygon)
+{
+    return ((const uint8_t *)tl_nav_tile_at(tile, tile->areas))[polygon];
+}
+
+static inline uint64_t tl_nav_tile_flags(const tl_nav_tile *tile, uint32_t polygon)
+{
+    return ((const uint64_t *)tl_nav_tile_at(tile, tile->flags))[polygon];
+}
+
+static inline const tl_nav_tile_node *tl_nav_tile_nodes(const tl_nav_tile *tile)
+{
+    return (const tl_nav_tile_node *)tl_nav_tile_at(tile, tile->nodes);
+}
+
+/// A polygon's surface: the triangles index `vertices`, whose first ones are the polygon's corners.
+typedef struct tl_nav_surface {
+    const tl_vec3 *vertices;
+    uint32_t vertex_count;
+    const tl_nav_detail_triangle *triangles;
+    uint32_t triangle_count;
+} tl_nav_surface;
+
+static inline tl_nav_surface tl_nav_tile_surface(const tl_nav_tile *tile, uint32_t polygon)
+{
+    const uint32_t *vertex = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_vertex) + polygon;
+    const uint32_t *triangle = (const uint32_t *)tl_nav_tile_at(tile, tile->detail_first_triangle) + polygon;
+    tl_nav_surface surface;
+    surface.vertices = (const tl_vec3 *)tl_nav_tile_at(tile, tile->detail_vertices) + vertex[0];
+    surface.vertex_count = vertex[1] - vertex[0];
+    surface.triangles = (const tl_nav_detail_triangle *)tl_nav_tile_at(tile, tile->detail_triangles) + triangle[0];
+    surface.triangle_count = triangle[1] - triangle[0];
+    return surface;
+}
+
+/// A corner's exact lattice coordinates in its tile.
+static inline const int32_t *tl_nav_tile_lattice(const tl_nav_tile *tile, uint32_t polygon, uint32_t corner)
+{
+    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner);
+    const uint32_t *vertex = (const uint32_t *)tl_nav_tile_at(tile, tile->corner_vertices);
+    return (const int32_t *)tl_nav_tile_at(tile, tile->vertices) + 3 * (size_t)vertex[first[polygon] + corner];
+}
+
+/// What lies across an edge, in the words of tl_polygon_mesh: a polygon of this tile, TL_NO_POLYGON or
+/// TL_PORTAL | side.
+TL_API uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon, uint32_t edge);
+
+/// Square metres of one polygon in the plane.
+TL_API double tl_nav_tile_polygon_area(const tl_nav_tile *tile, uint32_t polygon);
 
 #ifdef __cplusplus
 }

@@ -10,7 +10,9 @@
 #include <talus/hull.h>
 #include <talus/mesh.h>
 #include <talus/nav_build.h>
+#include <talus/nav_query.h>
 #include <talus/nav_tile.h>
+#include <talus/pack.h>
 #include <talus/polygon.h>
 #include <talus/soup.h>
 #include <talus/vec.h>

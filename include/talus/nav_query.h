@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+//
+// Asking a navmesh: the table of tiles, nearest polygon, height, paths, straight paths, rays along the surface.
+//
+//   tl_navmesh    tiles side by side, linked across their seams. Adding and removing a tile needs it alone; all
+//                 queries take it const and may run from any number of threads at once.
+//   tl_nav_query  the search state of one thread. Only the path search needs one.
+//
+// Queries allocate nothing. xz is the plane in which polygons are convex and points are inside or outside; y follows
+// from the surface. All loops are bounded, and every way to end has a name.
+
+#ifndef TALUS_NAV_QUERY_H
+#define TALUS_NAV_QUERY_H
+
+#include <talus/nav_tile.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// ---------------------------------------------------------------------------------------------------------
+// The table of tiles.
+
+typedef struct tl_navmesh tl_navmesh;
+
+/// A polygon in a navmesh: a slot of the table (20 bits), the polygon in its tile (28 bits), and the slot's salt
+/// (16 bits), which changes whenever a tile leaves the slot. A slot whose salts are used up is never used again, so
+/// that a reference to a removed tile stays invalid for ever.
+typedef uint64_t tl_nav_ref;
+
+#define TL_NAV_NO_REF    0u
+#define TL_NAV_MAX_TILES (1u << 20)
+
+/// Who frees a tile's bytes.
+typedef enum tl_nav_tile_ownership {
+    TL_NAV_TILE_BORROWED, ///< the caller; they must outlive the tile's stay, for example a mapped file
+    TL_NAV_TILE_OWNED     ///< the navmesh, with tl_blob_free and its own allocator
+} tl_nav_tile_ownership;
+
+/// An empty navmesh. `allocator` is copied; NULL: malloc.
+TL_API tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_out);
+/// Frees the table and the tiles it owns. NULL: nothing happens.
+TL_API void tl_navmesh_free(tl_navmesh *navmesh);
+
+/// Puts a tile at its own (tile_x, tile_z) and links it with its four neighbours.
+///
+/// The tile must be known to be whole: fresh from tl_nav_tile_create, or passed by tl_nav_tile_check. Two portals are
+/// linked where they overlap by more than a point and their heights come within agent_max_climb, the larger of both
+/// tiles', and one cell height of one another. On failure nothing is changed and the tile stays the caller's:
+/// TL_ERR_ARGUMENT (there is a tile already, or origin, cell sizes or tile_size differ from the other tiles'),
+/// TL_ERR_LIMIT (TL_NAV_MAX_TILES), TL_ERR_MEMORY. O(portals of the five tiles).
+TL_API tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership);
+
+/// Takes a tile out, and the links to it. TL_ERR_NOT_FOUND when there is none. Never fails otherwise.
+TL_API tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
+
+/// The tile at a place, or NULL.
+TL_API const tl_nav_tile *tl_navmesh_find_tile(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
+
+TL_API uint32_t tl_navmesh_tile_count(const tl_navmesh *navmesh);
+/// To iterate over all tiles: slots below tl_navmesh_slot_count hold a tile or NULL.
+TL_API uint32_t tl_navmesh_slot_count(const tl_navmesh *navmesh);
+TL_API const tl_nav_tile *tl_navmesh_slot_tile(const tl_navmesh *navmesh, uint32_t slot);
+/// Ways to step from a polygon into another, over all tiles. A search has at most two nodes more than that.
+TL_API uint64_t tl_navmesh_link_count(const tl_navmesh *navmesh);
+
+/// The reference of a polygon in the tile of a slot, or TL_NAV_NO_REF when there is none.
+TL_API tl_nav_ref tl_navmesh_polygon_ref(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);
+/// The tile and polygon that a reference names. TL_ERR_NOT_FOUND: it is stale or was never valid. Outputs may be NULL.
+TL_API tl_result tl_navmesh_resolve(const tl_navmesh *navmesh, tl_nav_ref ref, const tl_nav_tile **tile_out,
+                                    uint32_t *polygon_out);
+
+/// A way from a polygon into a neighbour: the stretch of edge that both share. Seen from inside the polygon, looking
+/// out, `left` is the end on the left.
+typedef struct tl_nav_link {
+    tl_nav_ref to;
+    uint32_t edge; ///< of the polygon that is left
+    tl_vec3 left, right;
+} tl_nav_link;
+
+/// A polygon's links in the order of its edges, and along a tile's side by ascending lattice coordinate.
+/// Writes the first `capacity`; `*count_out` is the true count. TL_ERR_CAPACITY when that is more, TL_ERR_NOT_FOUND
+/// for a stale reference.
+TL_API tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_link *links_out, uint32_t capacity,
+                                  uint32_t *count_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Which polygons count, and what they cost.
+
+/// A polygon passes when (flags & include) != 0 and (flags & exclude) == 0. A metre in it costs area_cost[its area].
+typedef struct tl_nav_filter {
+    uint64_t include_flags;
+    uint64_t exclude_flags;
+    float area_cost[TL_NAV_MAX_AREA + 1]; ///< finite, > 0
+} tl_nav_filter;
+
+/// All polygons pass, each metre costs 1. It is also what a NULL filter stands for.
+TL_API tl_nav_filter tl_default_nav_filter(void);
+
+TL_API bool tl_nav_filter_passes(const tl_nav_filter *filter, const tl_nav_tile *tile, uint32_t polygon);
+
+// ---------------------------------------------------------------------------------------------------------
+// Points and polygons.
+
+/// A point on the surface of a polygon.
+typedef struct tl_nav_location {
+    tl_nav_ref polygon;
+    tl_vec3 point;
+} tl_nav_location;
+
+/// The polygon nearest to `center` among those that come into the box center +- half_extents, and its point.
+///
+/// A polygon's point is its closest one in the plane, lifted to the surface; it must lie in the box. Points are
+/// compared by their distance in space; but a point that lies more than agent_max_climb above `center` counts as
+/// farther by agent_height. So any point of an agent's body, from its soles to its crown, finds the floor that the
+/// agent stands on, never the one overhead, though that one may be nearer. Ties go to the lower slot, then polygon.
+/// TL_ERR_NOT_FOUND: none is in the box. TL_ERR_NOT_FINITE, TL_ERR_ARGUMENT (negative extents).
+TL_API tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_vec3 center,
+                                         tl_vec3 half_extents, tl_nav_location *location_out);
+
+/// The polygon's point closest to `point` in the plane, lifted to the surface. A point over the polygon keeps its x
+/// and z bit by bit; `*inside_out` (may be NULL) says whether it was so. TL_ERR_NOT_FOUND for a stale reference.
+TL_API tl_result tl_navmesh_closest_point(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 point,
+                                          tl_vec3 *closest_out, bool *inside_out);
+
+/// The surface's height at x and z, from the detail mesh; outside the polygon, that of the closest point in the plane.
+/// TL_ERR_NOT_FOUND for a stale reference.
+TL_API tl_result tl_navmesh_height(const tl_navmesh *navmesh, tl_nav_ref ref, float x, float z, float *height_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Paths.
+
+typedef struct tl_nav_query tl_nav_query;
+
+typedef struct tl_nav_query_def {
+    /// Ways into polygons that one search may look at, >= 2; about 64 bytes each. tl_navmesh_link_count + 2 is always
+    /// enough. Default 65536.
+    uint32_t max_nodes;
+    const tl_allocator *allocator;
+} tl_nav_query_def;
+
+TL_API tl_nav_query_def tl_default_nav_query_def(void);
+
+/// A search state for one thread at a time; it may serve any navmesh. TL_ERR_ARGUMENT, TL_ERR_MEMORY.
+TL_API tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_out);
+TL_API void tl_nav_query_free(tl_nav_query *query);
+
+/// How a path search ended.
+typedef enum tl_nav_path_status {
+    TL_NAV_PATH_COMPLETE,    ///< the path leads to the goal
+    TL_NAV_PATH_UNREACHABLE, ///< proven: no path to the goal; this one leads as near to it as any
+    TL_NAV_PATH_OUT_OF_NODES ///< gave up at max_nodes; this one leads as near to the goal as was seen
+} tl_nav_path_status;
+
+/// A word for a status: "complete", "unreachable", "out of nodes".
+TL_API const char *tl_nav_path_status_name(tl_nav_path_status status);
+
+typedef struct tl_nav_path {
+    tl_nav_path_status status;
+    uint32_t polygon_count; ///< of the whole path, though the buffer may hold fewer
+    tl_nav_location end;    ///< the goal, or for a partial path the entry point of its last polygon
+    float cost;             ///< as searched: metres times area costs, from portal to portal
+    uint32_t node_count;    ///< nodes that the search used
+} tl_nav_path;
+
+/// A* from polygon to polygon.
+///
+/// A search node is a way into a polygon, at a fixed point of its portal; so the search graph is fixed, and a complete
+/// path is the cheapest in it. Path polygons are in order, the start's first; neighbours in the path share a portal.
+/// start and goal must lie on their polygons (tl_navmesh_find_nearest); the start's polygon need not pass the filter.
+/// TL_OK for every status. TL_ERR_CAPACITY: the first `capacity` polygons were written. TL_ERR_NOT_FOUND: a stale
+/// reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: an area cost. NULL filter: the default one.
+/// Source: Hart, Nilsson, Raphael 1968.
+TL_API tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                        const tl_nav_location *start, const tl_nav_location *goal,
+                                        tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out);
+
+#define TL_NAV_CORNER_START 1u ///< the path's start
+#define TL_NAV_CORNER_END   2u ///< the path's end
+#define TL_NAV_CORNER_LEFT  4u ///< the path turns left around it
+#define TL_NAV_CORNER_RIGHT 8u ///< the path turns right around it
+
+/// A corner of a straight path.
+typedef struct tl_nav_corner {
+    tl_vec3 point;
+    tl_nav_ref polygon; ///< entered at this corner: the path goes on in it
+    uint32_t flags;     ///< TL_NAV_CORNER_...
+} tl_nav_corner;
+
+/// The shortest line in the plane from start to end through a corridor of polygons, each a neighbour of the one before.
+///
+/// start and end are first moved to the closest point of the first and last polygon. Two corners at least (start, end).
+/// `*length_out` (may be NULL) is the sum of the straight distances in space. TL_ERR_CAPACITY: the first `capacity`
+/// corners were written, count and length are true. TL_ERR_ARGUMENT: no polygon, or two that are not neighbours.
+/// TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. Source: Mikko Mononen, Simple Stupid Funnel Algorithm, 2010.
+TL_API tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
+                                          tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
+                                          uint32_t *count_out, float *length_out);
+
+/// A ray along the surface.
+typedef struct tl_nav_ray_hit {
+    bool hit;               ///< false: the end was reached, t is 1
+    float t;                ///< [0, 1] of the way in the plane
+    tl_vec3 point;          ///< where it ended, on the surface
+    tl_vec3 normal;         ///< of the wall, unit, in the plane, towards the walkable side; 0 without a hit
+    tl_nav_ref polygon;     ///< where it ended
+    uint32_t edge;          ///< of that polygon, that was hit
+    uint32_t polygon_count; ///< crossed, the first and last included
+} tl_nav_ray_hit;
+
+/// Walks from start straight towards `end` (its x and z) until a wall, or a polygon that the filter refuses, is met.
+///
+/// A ray that only touches a wall or corner passes it. `polygons_out` (may be NULL with capacity 0) gets the polygons
+/// crossed; TL_ERR_CAPACITY: only the first were written, the hit is whole. TL_ERR_NOT_FOUND: a stale reference.
+/// TL_ERR_NOT_FINITE. TL_ERR_ITERATIONS: more steps than polygons, which only a damaged tile can cause.
+/// O(polygons crossed).
+TL_API tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                     const tl_nav_location *start, tl_vec3 end, tl_nav_ref *polygons_out,
+                                     uint32_t capacity, tl_nav_ray_hit *hit_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// All in one.
+
+/// The caller's room for a route.
+typedef struct tl_nav_route_buffers {
+    tl_nav_ref *polygons;
+    uint32_t polygon_capacity;
+    tl_nav_corner *corners;
+    uint32_t corner_capacity;
+} tl_nav_route_buffers;
+
+typedef struct tl_nav_route {
+    tl_nav_location start, goal; ///< the nearest points on the navmesh
+    tl_nav_path path;
+    uint32_t corner_count;
+    float length; ///< metres along the corners
+} tl_nav_route;
+
+/// Nearest points to start and goal, path, straight path. A partial path's corners lead to its last polygon's point
+/// that is closest to the goal.
+///
+/// TL_ERR_NOT_FOUND: no polygon near start (route_out->start.polygon is TL_NAV_NO_REF) or near goal
+/// (route_out->goal.polygon is). TL_ERR_CAPACITY: path.polygon_count and, when the polygons fitted, corner_count say
+/// how much room is needed. Other errors as those of the functions it calls.
+TL_API tl_result tl_nav_query_find_route(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                         tl_vec3 start, tl_vec3 goal, tl_vec3 half_extents,
+                                         const tl_nav_route_buffers *buffers, tl_nav_route *route_out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
