@@ -25,3 +25,8 @@ if(XXHASH_LIBRARY AND XXHASH_INCLUDE_DIR)
     target_link_libraries(talus_peer_xxhash INTERFACE ${XXHASH_LIBRARY})
 endif()
 set(talus_test_hash_needs talus_peer_xxhash)
+
+# The io library's tests.
+foreach(stem atomic_write file_map format_float mesh_import obj_reader obj_write parse_float point_cloud)
+    set(talus_test_${stem}_needs talus_io)
+endforeach()
