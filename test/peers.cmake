@@ -30,3 +30,6 @@ set(talus_test_hash_needs talus_peer_xxhash)
 foreach(stem atomic_write file_map format_float mesh_import obj_reader obj_write parse_float point_cloud)
     set(talus_test_${stem}_needs talus_io)
 endforeach()
+
+# The built-in levels of the command.
+set(talus_test_sample_level_needs talus_sample)
