@@ -3,46 +3,49 @@
 #   make demo       set up, build, and run the whole job on built-in levels; pictures go to build/demo
 #   make test       set up, build, and pass the tests
 
-CC ?= cc
+# make's own default for CC is cc; CXX is needed by the tests that compare with C++ peers.
+CXX_OF_CC = $(if $(findstring clang,$(CC)),clang++,g++)
 BUILD ?= build/release
 DEMO ?= build/demo
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 CMAKE_FLAGS ?=
 TEST_FLAGS ?=
 
-CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DTALUS_WERROR=ON $(CMAKE_FLAGS)
+CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX_COMPILER=$(CXX_OF_CC) -DTALUS_WERROR=ON \
+    -DCMAKE_BUILD_TYPE=Release $(CMAKE_FLAGS)
 
-.PHONY: all demo test bench sanitize tsan fuzz format lint docs install clean
+# Optimised a little, asserts on.
+CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
+
+.PHONY: all demo test bench sanitize tsan fuzz format lint install clean
 
 all:
 	tools/setup tools
-	$(CONFIGURE) -DCMAKE_BUILD_TYPE=Release -DTALUS_TESTS=OFF
+	$(CONFIGURE) -DTALUS_TESTS=OFF
 	cmake --build $(BUILD) --parallel $(JOBS)
 
-demo:
-	tools/setup tools
-	cmake -S . -B build/tools -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_BUILD_TYPE=Release -DTALUS_TESTS=OFF
-	cmake --build build/tools --parallel $(JOBS) --target talus_command
-	tools/demo build/tools/cli/talus $(DEMO)
+demo: all
+	tools/demo $(BUILD)/cli/talus $(DEMO)
 
 test:
 	tools/setup tools tests
-	$(CONFIGURE) -DCMAKE_BUILD_TYPE=Release
+	$(CONFIGURE) -DTALUS_TESTS=ON
 	cmake --build $(BUILD) --parallel $(JOBS)
 	ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure $(TEST_FLAGS)
 
 bench:
 	tools/setup tools tests bench
-	$(CONFIGURE) -DCMAKE_BUILD_TYPE=Release -DTALUS_BENCH=ON
+	$(CONFIGURE) -DTALUS_BENCH=ON
 	cmake --build $(BUILD) --parallel $(JOBS)
 	tools/bench $(BUILD)/bench
 
 sanitize:
 	$(MAKE) test CC=clang BUILD=build/sanitize \
-	    CMAKE_FLAGS="-DTALUS_SANITIZE=address,undefined -DTALUS_VALIDATE=ON -DCMAKE_C_FLAGS=-O1"
+	    CMAKE_FLAGS="-DTALUS_SANITIZE=address,undefined -DTALUS_VALIDATE=ON $(CHECKED_FLAGS)"
 
 tsan:
-	$(MAKE) test CC=clang BUILD=build/tsan CMAKE_FLAGS="-DTALUS_SANITIZE=thread" TEST_FLAGS="-R thread"
+	$(MAKE) test CC=clang BUILD=build/tsan TEST_FLAGS="-R thread" \
+	    CMAKE_FLAGS="-DTALUS_SANITIZE=thread $(CHECKED_FLAGS)"
 
 fuzz:
 	tools/setup tools tests lint
