@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+//
+// The sheet: panels made of rays, lines over them by Cairo (faint where the level hides them), and the words around.
+
+#include "cli/draw_sheet.h"
+
+#include "cli/draw_camera.h"
+#include "cli/draw_raycast.h"
+#include "io/atomic_write.h"
+
+#include <cairo-svg.h>
+#include <cairo.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { HEAD_PIXELS = 64, FOOT_PIXELS = 62, GAP_PIXELS = 12, MOST_PANELS = 2 };
+
+static const draw_colour INK = 0x2b2b33;
+
+typedef struct draw_sheet {
+    const draw_scene *scene;
+    draw_soups soups;
+    draw_camera cameras[MOST_PANELS];
+    cairo_surface_t *images[MOST_PANELS];
+    uint32_t panel_count;
+    uint32_t width, height;
+} draw_sheet;
+
+static void set_colour(cairo_t *cairo, draw_colour colour, double alpha)
+{
+    cairo_set_source_rgba(cairo, ((colour >> 16) & 255) / 255.0, ((colour >> 8) & 255) / 255.0, (colour & 255) / 255.0,
+                          alpha);
+}
+
+static void text(cairo_t *cairo, double x, double y, double size, bool bold, const char *words)
+{
+    cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+    cairo_set_font_size(cairo, size);
+    cairo_move_to(cairo, x, y);
+    cairo_show_text(cairo, words);
+}
+
+static double text_width(cairo_t *cairo, const char *words)
+{
+    cairo_text_extents_t extents;
+    cairo_text_extents(cairo, words, &extents);
+    return extents.x_advance;
+}
+
+// A stretch of a line: hidden ones are drawn faintly, so that one sees where they go on.
+static void stroke(cairo_t *cairo, const draw_line *line, const double from[2], const double to[2], bool hidden)
+{
+    set_colour(cairo, line->colour, (double)line->alpha * (hidden ? 0.28 : 1.0));
+    cairo_set_line_width(cairo, (double)line->width);
+    cairo_move_to(cairo, from[0], from[1]);
+    cairo_line_to(cairo, to[0], to[1]);
+    cairo_stroke(cairo);
+}
+
+static void draw_one_line(cairo_t *cairo, const draw_sheet *sheet, const draw_camera *camera, const draw_line *line)
+{
+    const double piece_pixels = 3.0;
+    double a[2];
+    double b[2];
+    draw_camera_project(camera, line->a, &a[0], &a[1]);
+    draw_camera_project(camera, line->b, &b[0], &b[1]);
+    int pieces = (int)(hypot(b[0] - a[0], b[1] - a[1]) / piece_pixels) + 1;
+    double begin = 0.0;
+    bool hidden = false;
+    for (int i = 0; i <= pieces; i++) {
+        double middle = (i + 0.5) / pieces;
+        tl_vec3 point = tl_lerp(line->a, line->b, (float)middle);
+        bool now = i < pieces ? draw_is_hidden(sheet->scene, &sheet->soups, camera, point) : !hidden;
+        if (i > 0 && now != hidden) {
+            double end = (double)i / pieces;
+            const double from[2] = { a[0] + (b[0] - a[0]) * begin, a[1] + (b[1] - a[1]) * begin };
+            const double to[2] = { a[0] + (b[0] - a[0]) * end, a[1] + (b[1] - a[1]) * end };
+            stroke(cairo, line, from, to, hidden);
+            begin = end;
+        }
+        hidden = now;
+    }
+}
+
+static void draw_marks(cairo_t *cairo, const draw_sheet *sheet, const draw_camera *camera)
+{
+    const draw_scene *scene = sheet->scene;
+    cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
+    for (uint32_t i = 0; i < scene->line_count; i++) {
+        draw_one_line(cairo, sheet, camera, &scene->lines[i]);
+    }
+    for (uint32_t i = 0; i < scene->dot_count; i++) {
+        const draw_dot *dot = &scene->dots[i];
+        double x;
+        double y;
+        draw_camera_project(camera, dot->at, &x, &y);
+        bool hidden = draw_is_hidden(scene, &sheet->soups, camera, dot->at);
+        set_colour(cairo, dot->colour, hidden ? 0.28 : 1.0);
+        cairo_arc(cairo, x, y, (double)dot->radius, 0.0, 6.283185307179586);
+        cairo_fill(cairo);
+    }
+}
+
+// A round length of 1, 2 or 5 times a power of ten that takes about a fifth of the panel.
+static double scale_bar_metres(const draw_camera *camera)
+{
+    double wish = 0.2 * camera->width / (double)camera->pixels_per_metre;
+    double power = pow(10.0, floor(log10(wish)));
+    return wish >= 5.0 * power ? 5.0 * power : wish >= 2.0 * power ? 2.0 * power : power;
+}
+
+static void draw_scale_bar(cairo_t *cairo, const draw_camera *camera, double right, double y)
+{
+    double metres = scale_bar_metres(camera);
+    double length = metres * (double)camera->pixels_per_metre;
+    char words[32];
+    snprintf(words, sizeof words, "%g m", metres);
+    set_colour(cairo, INK, 1.0);
+    cairo_set_line_width(cairo, 1.5);
+    cairo_move_to(cairo, right - length, y - 5);
+    cairo_line_to(cairo, right - length, y);
+    cairo_line_to(cairo, right, y);
+    cairo_line_to(cairo, right, y - 5);
+    cairo_stroke(cairo);
+    text(cairo, right - length + 6, y - 5, 12, false, words);
+}
+
+static void draw_legend_row(cairo_t *cairo, const draw_scene *scene, double y)
+{
+    double x = 20;
+    for (uint32_t i = 0; i < scene->legend_count; i++) {
+        const draw_legend *legend = &scene->legends[i];
+        set_colour(cairo, legend->colour, 1.0);
+        cairo_rectangle(cairo, x, y - 11, 14, 14);
+        cairo_fill(cairo);
+        set_colour(cairo, INK, 1.0);
+        text(cairo, x + 20, y, 13, false, legend->text);
+        x += 20 + text_width(cairo, legend->text) + 24;
+    }
+}
+
+static void draw_all(cairo_t *cairo, const draw_sheet *sheet)
+{
+    set_colour(cairo, DRAW_PAPER, 1.0);
+    cairo_paint(cairo);
+    double x = 0;
+    for (uint32_t i = 0; i < sheet->panel_count; i++) {
+        const draw_camera *camera = &sheet->cameras[i];
+        cairo_save(cairo);
+        cairo_translate(cairo, x, HEAD_PIXELS);
+        cairo_set_source_surface(cairo, sheet->images[i], 0, 0);
+        cairo_paint(cairo);
+        draw_marks(cairo, sheet, camera);
+        cairo_restore(cairo);
+        draw_scale_bar(cairo, camera, x + camera->width - 20, HEAD_PIXELS + camera->height + 18);
+        x += camera->width + GAP_PIXELS;
+    }
+    set_colour(cairo, INK, 1.0);
+    text(cairo, 20, 30, 20, true, sheet->scene->title);
+    set_colour(cairo, 0x6a6a72, 1.0);
+    text(cairo, 20, 52, 13, false, sheet->scene->subtitle);
+    draw_legend_row(cairo, sheet->scene, sheet->height - 18);
+}
+
+static tl_result render_panels(draw_sheet *sheet, const draw_options *options, const tl_host *host)
+{
+    const bool wanted[MOST_PANELS] = { options->top, options->oblique };
+    sheet->width = GAP_PIXELS;
+    for (uint32_t view = 0; view < MOST_PANELS; view++) {
+        if (!wanted[view]) {
+            continue;
+        }
+        uint32_t i = sheet->panel_count++;
+        draw_camera *camera = &sheet->cameras[i];
+        *camera = draw_camera_fit(view == 0 ? DRAW_TOP : DRAW_OBLIQUE, sheet->scene->bounds, options->panel_size);
+        sheet->images[i] = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)camera->width, (int)camera->height);
+        if (cairo_surface_status(sheet->images[i]) != CAIRO_STATUS_SUCCESS) {
+            return TL_ERR_MEMORY;
+        }
+        uint32_t *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(sheet->images[i]);
+        uint32_t stride = (uint32_t)cairo_image_surface_get_stride(sheet->images[i]) / 4;
+        tl_result result = draw_raycast(sheet->scene, &sheet->soups, camera, host, pixels, stride);
+        if (result != TL_OK) {
+            return result;
+        }
+        cairo_surface_mark_dirty(sheet->images[i]);
+        sheet->width += camera->width + (i > 0 ? GAP_PIXELS : 0);
+        uint32_t height = camera->height + HEAD_PIXELS + FOOT_PIXELS;
+        sheet->height = sheet->height < height ? height : sheet->height;
+    }
+    return TL_OK;
+}
+
+typedef struct sheet_file {
+    tl_atomic_file *file;
+    tl_io_error *error;
+    tl_result result;
+} sheet_file;
+
+static cairo_status_t write_bytes(void *closure, const unsigned char *bytes, unsigned int size)
+{
+    sheet_file *out = closure;
+    out->result = out->result == TL_OK ? tl_atomic_file_write(out->file, bytes, size, out->error) : out->result;
+    return out->result == TL_OK ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+}
+
+static bool ends_in_svg(const char *path)
+{
+    size_t length = strlen(path);
+    return length >= 4 && strcmp(path + length - 4, ".svg") == 0;
+}
+
+static cairo_status_t paint(const draw_sheet *sheet, bool svg, sheet_file *out)
+{
+    cairo_surface_t *surface =
+        svg ? cairo_svg_surface_create_for_stream(write_bytes, out, sheet->width, sheet->height)
+            : cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)sheet->width, (int)sheet->height);
+    cairo_t *cairo = cairo_create(surface);
+    draw_all(cairo, sheet);
+    cairo_status_t status = cairo_status(cairo);
+    cairo_destroy(cairo);
+    if (svg) {
+        cairo_surface_finish(surface);
+    } else if (status == CAIRO_STATUS_SUCCESS) {
+        status = cairo_surface_write_to_png_stream(surface, write_bytes, out);
+    }
+    status = status == CAIRO_STATUS_SUCCESS ? cairo_surface_status(surface) : status;
+    cairo_surface_destroy(surface);
+    return status;
+}
+
+static tl_result write_file(const draw_sheet *sheet, const char *path, tl_io_error *error_out)
+{
+    sheet_file out = { NULL, error_out, TL_OK };
+    tl_result result = tl_atomic_file_open(path, &out.file, error_out);
+    if (result != TL_OK) {
+        return result;
+    }
+    cairo_status_t status = paint(sheet, ends_in_svg(path), &out);
+    if (out.result == TL_OK && status != CAIRO_STATUS_SUCCESS) {
+        out.result = tl_io_fail(error_out, TL_ERR_MEMORY, path, 0, "try a smaller --size", "cannot paint: %s",
+                                cairo_status_to_string(status));
+    }
+    if (out.result != TL_OK) {
+        tl_atomic_file_abort(out.file);
+        return out.result;
+    }
+    return tl_atomic_file_commit(out.file, error_out);
+}
+
+tl_result draw_sheet_write(const draw_scene *scene, const draw_options *options, const char *path, const tl_host *host,
+                           tl_io_error *error_out)
+{
+    if (scene->out_of_memory) {
+        return tl_io_fail(error_out, TL_ERR_MEMORY, path, 0, NULL, "out of memory for the picture");
+    }
+    if (tl_aabb_is_empty(scene->bounds)) {
+        return tl_io_fail(error_out, TL_ERR_EMPTY, path, 0, "try another --stage",
+                          "there is nothing to draw in this stage");
+    }
+    draw_sheet sheet;
+    memset(&sheet, 0, sizeof sheet);
+    sheet.scene = scene;
+    tl_result result = draw_soups_build(scene, host, &sheet.soups);
+    if (result == TL_OK) {
+        result = render_panels(&sheet, options, host);
+    }
+    if (result != TL_OK) {
+        tl_io_fail(error_out, result, path, 0, NULL, "%s", tl_result_text(result));
+    } else {
+        result = write_file(&sheet, path, error_out);
+    }
+    for (uint32_t i = 0; i < sheet.panel_count; i++) {
+        cairo_surface_destroy(sheet.images[i]);
+    }
+    draw_soups_free(&sheet.soups);
+    return result;
+}
