@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+//
+// The soup: each pair in two shades of one hue, singles in orange, the tree's boxes at one depth.
+
+#include "cli/draw_stage.h"
+
+#include <stdio.h>
+
+typedef struct box_job {
+    draw_scene *scene;
+    uint32_t depth;
+    uint32_t count;
+} box_job;
+
+static bool add_box_at_depth(tl_aabb box, uint32_t depth, bool leaf, void *user)
+{
+    (void)leaf;
+    box_job *job = user;
+    if (depth == job->depth) {
+        draw_add_box(job->scene, box, 0x1d2f6f, 1.0f, 0.55f);
+        job->count++;
+    }
+    return true;
+}
+
+void draw_stage_soup(draw_scene *scene, const tl_soup *soup, uint32_t depth)
+{
+    const draw_colour single = 0xe8833a;
+    scene->overlay_alpha = 1.0f;
+    scene->overlay_bias = 0.002f * tl_length(tl_aabb_size(tl_soup_bounds(soup)));
+    uint64_t cursor = 0;
+    tl_soup_pair pair;
+    for (uint32_t i = 1; tl_soup_next_pair(soup, &cursor, &pair); i++) {
+        draw_colour hue = draw_colour_of_id(i);
+        if (pair.triangles[1] == TL_NO_TRIANGLE) {
+            draw_add_triangle(scene, pair.corners[0], pair.corners[1], pair.corners[2], single);
+        } else {
+            draw_add_triangle(scene, pair.corners[0], pair.corners[1], pair.corners[2],
+                              draw_colour_mix(hue, 0xffffff, 0.25f));
+            draw_add_triangle(scene, pair.corners[0], pair.corners[2], pair.corners[3],
+                              draw_colour_mix(hue, 0x303030, 0.22f));
+        }
+    }
+    box_job job = { scene, depth, 0 };
+    tl_soup_tree_boxes(soup, depth, add_box_at_depth, &job);
+
+    tl_soup_stats stats = tl_soup_get_stats(soup);
+    snprintf(scene->subtitle, sizeof scene->subtitle,
+             "%u triangles, %.1f%% of them in %u pairs; %u nodes, %.1f bytes a triangle; %u boxes at depth %u",
+             stats.triangle_count, 200.0 * stats.pair_count / stats.triangle_count, stats.pair_count, stats.node_count,
+             (double)stats.size / stats.triangle_count, job.count, depth);
+    draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(2), 0xffffff, 0.25f), "pair: first triangle");
+    draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(2), 0x303030, 0.22f), "second triangle");
+    draw_add_legend(scene, single, "single");
+    draw_add_legend(scene, 0x1d2f6f, "box of the tree");
+}
