@@ -106,7 +106,6 @@ typedef struct tl_nav_config {
 #define TL_NAV_MAX_COLUMNS (1u << 30) ///< width * height of one tile, border included
 #define TL_NAV_MAX_SIDE    (1u << 24) ///< columns along one side of a tile, border included
 #define TL_NAV_MAX_LATTICE (1u << 29) ///< columns along one side of the whole level
-#define TL_NAV_MAX_TILES   (1u << 28) ///< tiles of one level
 #define TL_NAV_MAX_VOXELS  0x7fffu    ///< walkable_height, walkable_climb, walkable_radius
 
 /// The number of tiles along x and z that a def makes of a level. Both 1 when def->tile_size is 0.

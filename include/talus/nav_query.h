@@ -28,8 +28,7 @@ typedef struct tl_navmesh tl_navmesh;
 /// that a reference to a removed tile stays invalid for ever.
 typedef uint64_t tl_nav_ref;
 
-#define TL_NAV_NO_REF    0u
-#define TL_NAV_MAX_TILES (1u << 20)
+#define TL_NAV_NO_REF 0u
 
 /// Who frees a tile's bytes.
 typedef enum tl_nav_tile_ownership {

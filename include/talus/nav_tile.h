@@ -57,6 +57,7 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail, const tl_allocator *alloca
 #define TL_NAV_MAX_CORNERS       64         ///< of one polygon
 #define TL_NAV_MAX_TILE_POLYGONS (1u << 28) ///< so that a polygon's number fits a reference (nav_query.h)
 #define TL_NAV_MAX_AREA          63         ///< areas are 1 to 63
+#define TL_NAV_MAX_TILES         (1u << 20) ///< of one navmesh, so that a slot fits a reference (nav_query.h)
 #define TL_NAV_MAX_TILE_INDEX    (1 << 24)  ///< |tile_x| and |tile_z|
 #define TL_NAV_MAX_TILE_DEPTH    40         ///< of the box tree: log2 of the polygons, and room
 
