@@ -79,6 +79,7 @@ typedef struct tl_nav_config {
     float cell_height;              ///< metres
     uint32_t width;                 ///< columns along x, border included
     uint32_t height;                ///< columns along z, border included
+    uint32_t height_voxels;         ///< voxels from the bottom to the top of the bounds
     uint32_t border_size;           ///< columns on each side that belong to the neighbour tiles
     uint32_t walkable_height;       ///< voxels, >= 1
     uint32_t walkable_climb;        ///< voxels

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+//
+// The unsorted spans of a band of columns, and their canonical union.
+
+#ifndef TALUS_SRC_NAV_BUILD_SPAN_BUFFER_H
+#define TALUS_SRC_NAV_BUILD_SPAN_BUFFER_H
+
+#include <talus/nav_build.h>
+
+/// One voxelized piece of a triangle: column (24 bits), min, max (16 each), area (8), most significant first. Sorting
+/// the integers sorts by column, then from bottom to top.
+typedef uint64_t tl_span_item;
+
+#define TL_SPAN_ITEM_MAX_COLUMNS (1u << 24)
+
+static inline tl_span_item tl_span_item_make(uint32_t column, uint32_t min, uint32_t max, uint32_t area)
+{
+    return (uint64_t)column << 40 | (uint64_t)min << 24 | (uint64_t)max << 8 | area;
+}
+
+static inline uint32_t tl_span_item_column(tl_span_item item)
+{
+    return (uint32_t)(item >> 40);
+}
+
+static inline uint32_t tl_span_item_min(tl_span_item item)
+{
+    return (uint32_t)(item >> 24) & 0xffffu;
+}
+
+static inline uint32_t tl_span_item_max(tl_span_item item)
+{
+    return (uint32_t)(item >> 8) & 0xffffu;
+}
+
+static inline uint32_t tl_span_item_area(tl_span_item item)
+{
+    return (uint32_t)item & 0xffu;
+}
+
+/// Grows as needed and is used again for the next band. Zero is an empty buffer.
+typedef struct tl_span_buffer {
+    tl_span_item *items;
+    tl_span_item *sorted; ///< the other half of the same block
+    uint64_t count;
+    uint64_t capacity; ///< of each half
+    uint32_t *ends;    ///< [end_capacity] per column, while sorting
+    uint32_t end_capacity;
+    uint32_t column_count;   ///< of the band at hand
+    uint32_t walkable_climb; ///< voxels
+    const tl_allocator *allocator;
+} tl_span_buffer;
+
+/// Empties the buffer for a band of column_count columns, at most TL_SPAN_ITEM_MAX_COLUMNS.
+tl_result tl_span_buffer_begin(tl_span_buffer *buffer, uint32_t column_count);
+void tl_span_buffer_free(tl_span_buffer *buffer);
+
+/// Makes room for `count` more items: afterwards items[buffer->count .. + count) may be written.
+tl_result tl_span_buffer_reserve(tl_span_buffer *buffer, uint32_t count);
+
+/// The canonical union of all items, column by column. `*spans_out` lies in the buffer and holds until its next use;
+/// counts_out[column] spans belong to each column.
+void tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *counts_out, const tl_nav_span **spans_out,
+                          uint32_t *span_count_out);
+
+#endif

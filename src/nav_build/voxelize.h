@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// One triangle to the voxels that it touches, within a band of rows.
+
+#ifndef TALUS_SRC_NAV_BUILD_VOXELIZE_H
+#define TALUS_SRC_NAV_BUILD_VOXELIZE_H
+
+#include "nav_build/span_buffer.h"
+
+/// A point in lattice units relative to a field's first column: one unit is a column on x and z, a voxel on y.
+typedef struct tl_lattice_point {
+    double x, y, z;
+} tl_lattice_point;
+
+/// From metres to a field's lattice.
+typedef struct tl_lattice_map {
+    double origin_x, origin_y, origin_z; ///< metres
+    double per_cell, per_height;         ///< 1 / cell_size, 1 / cell_height
+    double first_x, first_z;             ///< columns
+} tl_lattice_map;
+
+tl_lattice_map tl_lattice_map_make(const tl_nav_lattice *lattice, float cell_size, float cell_height);
+
+/// x and z are rounded to a fine grid within the cell, so that data modelled on the lattice lies on it.
+tl_lattice_point tl_lattice_map_point(const tl_lattice_map *map, tl_vec3 point);
+
+/// A band of rows of a field, and the buffer that its spans go to.
+typedef struct tl_voxel_band {
+    uint32_t width;         ///< columns
+    uint32_t first_row;     ///< in the field
+    uint32_t row_count;     ///< width * row_count <= TL_SPAN_ITEM_MAX_COLUMNS
+    uint32_t field_height;  ///< rows of the field
+    uint32_t height_voxels; ///< spans are cut to [0, height_voxels]
+    bool closed_far_side;   ///< a wall that lies exactly on the field's far side belongs to its last column or row
+    double *low, *high;     ///< [width] scratch; +infinity and -infinity before and after each call
+    tl_span_buffer *buffer;
+} tl_voxel_band;
+
+/// Adds the spans of the triangle abc, of the given area, to the band's buffer. TL_ERR_MEMORY or TL_ERR_LIMIT when that
+/// can't grow.
+tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_lattice_point a, tl_lattice_point b, tl_lattice_point c,
+                               uint32_t area);
+
+#endif
