@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Terrain: a height field of value noise (Ken Perlin's lattice idea with smooth interpolation), terraced into plateaus
-// where a slow noise says so. Every 96 m square may have a gorge cut through a hill, roofed over with rock to a tunnel,
-// and an arch. A small request is given wide grid cells, a large one cells of 1 m over a large land.
+// where a slow noise says so. Most 96 m squares have a mound with a gorge cut through, roofed over with rock to a
+// tunnel, and each has an arch. A small request is given wide grid cells, a large one cells of 1 m over a large land.
 
 #include "sample_level.h"
 
@@ -52,49 +52,53 @@ static float natural_height(uint64_t seed, float x, float z)
     return height;
 }
 
-// A straight level cut along x. half_width 0: none here.
+// A cut along x, through a mound that is put there for it. half_width 0: none here.
 typedef struct gorge {
-    float x, z; // of its middle
-    float floor;
+    float x, z;       // of its middle
+    float west, east; // floor at both ends
     float half_width;
 } gorge;
 
 static gorge gorge_of(uint64_t seed, int64_t square_x, int64_t square_z)
 {
-    gorge none = { 0, 0, 0, 0 };
     tl_sample_random random = tl_sample_random_make(seed ^ 0x676f726765u, (uint64_t)square_x, (uint64_t)square_z);
-    for (unsigned trial = 0; trial < 24; ++trial) {
-        float margin = 0.5f * GORGE_LENGTH + 8.0f;
-        float x = (float)square_x * FEATURE_SQUARE + tl_sample_random_range(&random, margin, FEATURE_SQUARE - margin);
-        float z = (float)square_z * FEATURE_SQUARE + tl_sample_random_range(&random, 10.0f, FEATURE_SQUARE - 10.0f);
-        float west = natural_height(seed, x - 0.5f * GORGE_LENGTH, z);
-        float east = natural_height(seed, x + 0.5f * GORGE_LENGTH, z);
-        float floor = tl_minf(west, east);
-        bool level = tl_maxf(west, east) - floor < 3.0f;
-        if (level && natural_height(seed, x, z) > floor + 7.0f) {
-            gorge found = { x, z, floor, GORGE_HALF };
-            return found;
-        }
+    gorge cut = { 0, 0, 0, 0, 0 };
+    if (tl_sample_random_below(&random, 3) != 0) {
+        float half = 0.5f * GORGE_LENGTH;
+        cut.x = ((float)square_x + tl_sample_random_range(&random, 0.35f, 0.65f)) * FEATURE_SQUARE;
+        cut.z = ((float)square_z + tl_sample_random_range(&random, 0.25f, 0.75f)) * FEATURE_SQUARE;
+        cut.west = natural_height(seed, cut.x - half, cut.z);
+        cut.east = natural_height(seed, cut.x + half, cut.z);
+        cut.half_width = GORGE_HALF;
     }
-    return none;
+    return cut;
 }
 
-// Smooth at both ends, steep at the sides.
-static float gorge_depth_weight(const gorge *cut, float x, float z)
+static float gorge_floor(const gorge *cut, float x)
 {
-    if (cut->half_width <= 0.0f) {
-        return 0.0f;
-    }
-    float along = (0.5f * GORGE_LENGTH + 6.0f - fabsf(x - cut->x)) / 6.0f;
-    float across = (cut->half_width + 1.0f - fabsf(z - cut->z)) / 1.0f;
-    return tl_clampf(along, 0.0f, 1.0f) * tl_clampf(across, 0.0f, 1.0f);
+    float t = tl_clampf((x - cut->x) / GORGE_LENGTH + 0.5f, 0.0f, 1.0f);
+    return cut->west * (1.0f - t) + cut->east * t;
 }
 
+// The land with the mound.
+static float hill_height(uint64_t seed, const gorge *cut, float x, float z)
+{
+    float along = tl_minf(fabsf(x - cut->x) / (0.5f * GORGE_LENGTH), 1.0f);
+    float across = tl_minf(fabsf(z - cut->z) / 20.0f, 1.0f);
+    float along_weight = (1.0f - along * along) * (1.0f - along * along);
+    float across_weight = (1.0f - across * across) * (1.0f - across * across);
+    float mound = cut->half_width > 0.0f ? 11.0f * along_weight * across_weight : 0.0f;
+    return natural_height(seed, x, z) + mound;
+}
+
+// The land with the mound and the cut: gentle at both ends, steep at the sides.
 static float ground_height(uint64_t seed, const gorge *cut, float x, float z)
 {
-    float height = natural_height(seed, x, z);
-    float weight = gorge_depth_weight(cut, x, z);
-    return height > cut->floor ? height + weight * (cut->floor - height) : height;
+    float height = hill_height(seed, cut, x, z);
+    float along = tl_clampf((0.5f * GORGE_LENGTH - fabsf(x - cut->x)) / 6.0f, 0.0f, 1.0f);
+    float across = tl_clampf(cut->half_width + 1.0f - fabsf(z - cut->z), 0.0f, 1.0f);
+    float depth = height - gorge_floor(cut, x);
+    return cut->half_width > 0.0f && depth > 0.0f ? height - along * across * depth : height;
 }
 
 static float spacing_of(const tl_sample_plan *plan)
@@ -113,8 +117,8 @@ static void add_gorge_roof(uint64_t seed, const gorge *cut, tl_sample_mesh *mesh
         for (uint32_t k = 0; k <= GORGE_RIBS; ++k) {
             float v = 2.0f * (float)k / (float)GORGE_RIBS - 1.0f;
             float z = cut->z + v * (cut->half_width + 1.5f);
-            float under = cut->floor + 4.5f - 2.0f * v * v;
-            float over = tl_maxf(natural_height(seed, x, z), under + 0.8f);
+            float under = gorge_floor(cut, x) + 4.5f - 2.0f * v * v;
+            float over = tl_maxf(hill_height(seed, cut, x, z), under + 0.8f);
             top[i][k] = tl_sample_vertex(mesh, tl_vec3_make(x, over, z));
             bottom[i][k] = tl_sample_vertex(mesh, tl_vec3_make(x, under, z));
         }

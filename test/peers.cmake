@@ -33,3 +33,6 @@ endforeach()
 
 # The built-in levels of the command.
 set(talus_test_sample_level_needs talus_sample)
+
+# Parts of the command.
+set(talus_test_thread_pool_needs talus_cli)

@@ -83,7 +83,7 @@ static void test_golden(void **state)
     } golden[] = {
         { "courtyard", 0x9010fc49390170b8 },
         { "dungeon", 0x5c9bd20951d67eb6 },
-        { "terrain", 0x1548d0cb9ac8c7d9 },
+        { "terrain", 0x2e0c333b925a03d4 },
         { "city", 0x94d450d22cfea9f1 },
     };
     for (size_t i = 0; i < 4; ++i) {

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+//
+// The commands, in the order in which a new user meets them. A new one is one line here.
+
+#include "command.h"
+
+// clang-format off
+#define COMMANDS(COMMAND) \
+    COMMAND(sample)
+// clang-format on
+
+#define DECLARE(name) extern const tl_command tl_##name##_command;
+COMMANDS(DECLARE)
+
+#define ENTRY(name) &tl_##name##_command,
+static const tl_command *const commands[] = { COMMANDS(ENTRY) };
+
+const tl_command *const *tl_command_table(uint32_t *count_out)
+{
+    *count_out = (uint32_t)(sizeof(commands) / sizeof(commands[0]));
+    return commands;
+}

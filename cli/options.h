@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// Options as tables: each command lists its options once, and gets parsing, range checks and help from it. popt reads
+// the command line.
+
+#ifndef TALUS_CLI_OPTIONS_H
+#define TALUS_CLI_OPTIONS_H
+
+#include <talus/base.h>
+
+typedef enum tl_option_kind {
+    TL_OPTION_FLAG,   ///< bool, set to true
+    TL_OPTION_UNFLAG, ///< bool, set to false
+    TL_OPTION_FLOAT,
+    TL_OPTION_COUNT,  ///< uint32_t
+    TL_OPTION_NUMBER, ///< uint64_t
+    TL_OPTION_TEXT,   ///< const char *; points into the command line
+    TL_OPTION_CHOICE  ///< int; the index of the word in `words`
+} tl_option_kind;
+
+/// One option. The target's value before parsing is the default that the help shows.
+typedef struct tl_option {
+    const char *name; ///< long name; NULL ends a table
+    char letter;      ///< or 0
+    tl_option_kind kind;
+    void *target;
+    const char *metavar;      ///< what stands for the value in the help
+    const char *help;         ///< without full stop
+    const char *const *words; ///< CHOICE: NULL-terminated
+    float min, max;           ///< FLOAT: closed range
+    uint32_t least, most;     ///< COUNT: closed range; most 0: any
+} tl_option;
+
+#define TL_OPTION_TABLE_END                                                                                            \
+    {                                                                                                                  \
+        NULL, 0, TL_OPTION_FLAG, NULL, NULL, NULL, NULL, 0, 0, 0, 0                                                    \
+    }
+
+/// A headed part of a command's options.
+typedef struct tl_option_group {
+    const char *title; ///< "Options:", or NULL ends the groups
+    const tl_option *options;
+} tl_option_group;
+
+typedef enum tl_parse_outcome {
+    TL_PARSE_OK,
+    TL_PARSE_HELP, ///< --help or -? was given
+    TL_PARSE_ERROR ///< `message` says what and what to do
+} tl_parse_outcome;
+
+enum { TL_MAX_ARGUMENTS = 64, TL_OPTION_MESSAGE_BYTES = 512 };
+
+/// The words that are not options, in order.
+typedef struct tl_arguments {
+    const char *words[TL_MAX_ARGUMENTS];
+    uint32_t count;
+    char message[TL_OPTION_MESSAGE_BYTES];
+    void *storage; ///< what the words and TEXT targets point into; freed by tl_arguments_free
+} tl_arguments;
+
+/// Parses argv[1..]. Words like -1,2,3 are values, not options.
+tl_parse_outcome tl_options_parse(const tl_option_group *groups, int argc, const char *const *argv,
+                                  tl_arguments *arguments_out);
+void tl_arguments_free(tl_arguments *arguments);
+
+/// Prints the options with their defaults, one or two lines each.
+void tl_options_print(const tl_option_group *groups);
+
+#endif
