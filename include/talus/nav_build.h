@@ -163,6 +163,15 @@ TL_API void tl_nav_filter_walkable_low_height_spans(const tl_nav_config *config,
 #define TL_NAV_NO_SPAN       UINT32_MAX
 #define TL_NAV_BORDER_REGION 0x80000000u ///< flag of a region that paints a tile's border
 
+/// What the last region build did besides dividing. A walkable floor without a region belongs to a filtered island.
+typedef struct tl_nav_region_stats {
+    uint32_t split;            ///< regions that lay over themselves and were divided
+    uint32_t merged;           ///< regions that became part of a neighbour
+    uint32_t filtered_regions; ///< regions dropped with their island: fewer than min_region_area columns
+    uint32_t filtered_spans;   ///< floors that these held
+} tl_nav_region_stats;
+
+/// Neighbours are mutual: the span beside in direction d has this one in direction d ^ 2.
 /// Direction d steps (dx, dz): 0 (-1, 0), 1 (0, +1), 2 (+1, 0), 3 (0, -1).
 typedef struct tl_nav_compact {
     uint32_t width, height;
@@ -179,9 +188,10 @@ typedef struct tl_nav_compact {
     uint32_t *neighbour;  ///< [4 * span_count]: span beside, by direction, or TL_NAV_NO_SPAN
     uint16_t
         *distance; ///< [span_count] twice the distance to the border in columns; after tl_nav_distance_field, else NULL
-    uint16_t max_distance;
+    uint16_t max_distance; ///< no distance is larger
     uint32_t *region;      ///< [span_count] 0: none; after a region build, else NULL
     uint32_t region_count; ///< largest region id + 1
+    tl_nav_region_stats region_stats;
     const tl_allocator *allocator;
 } tl_nav_compact;
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// No region lies over itself: one that does is cut apart.
+//
+// On a spiral stair or a ramp that winds under a bridge a watershed region can meet its own column again, one storey
+// up. Its outline then crosses itself and cannot be triangulated. Recast reports this and goes on; here such a region
+// is flooded again, breadth first from its lowest index, and the flood stays out of columns that it already holds.
+// What is left becomes further regions. Regions that do not overlap are not touched.
+
+#include "nav_build/regions.h"
+
+#include <string.h>
+
+typedef struct splitter {
+    const tl_nav_compact *compact;
+    uint32_t *region;
+    uint32_t *column_of; // [span_count]
+    uint32_t *queue;     // [span_count]
+} splitter;
+
+// Marks the regions that have two floors in a column, and returns their number. `last_column` is zeroed.
+static uint32_t find_overlaps(const tl_region_work *work, uint32_t *last_column, uint8_t *overlaps)
+{
+    const tl_nav_compact *compact = work->compact;
+    uint32_t column_count = compact->width * compact->height, found = 0;
+    for (uint32_t c = 0; c < column_count; c++) {
+        uint32_t begin = compact->first_span[c], end = compact->first_span[c + 1];
+        for (uint32_t i = begin; end - begin > 1 && i < end; i++) {
+            uint32_t region = work->region[i];
+            if (region == 0 || tl_region_is_border(region)) {
+                continue;
+            }
+            if (last_column[region] == c + 1 && overlaps[region] == 0) {
+                overlaps[region] = 1;
+                found++;
+            }
+            last_column[region] = c + 1;
+        }
+    }
+    return found;
+}
+
+static bool column_holds(const splitter *s, uint32_t floor, uint32_t region)
+{
+    uint32_t column = s->column_of[floor];
+    for (uint32_t i = s->compact->first_span[column]; i < s->compact->first_span[column + 1]; i++) {
+        if (s->region[i] == region) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void flood_piece(splitter *s, uint32_t seed, uint32_t piece)
+{
+    uint32_t whole = s->region[seed], head = 0, tail = 0;
+    s->region[seed] = piece;
+    s->queue[tail++] = seed;
+    while (head < tail) {
+        const uint32_t *link = s->compact->neighbour + 4 * (size_t)s->queue[head++];
+        for (int d = 0; d < 4; d++) {
+            if (link[d] != TL_NAV_NO_SPAN && s->region[link[d]] == whole && !column_holds(s, link[d], piece)) {
+                s->region[link[d]] = piece;
+                s->queue[tail++] = link[d];
+            }
+        }
+    }
+}
+
+static tl_result split(tl_region_work *work, const uint8_t *overlaps)
+{
+    const tl_nav_compact *compact = work->compact;
+    splitter s = { compact, work->region, NULL, NULL };
+    s.column_of = TL_PUSH(work->arena, uint32_t, compact->span_count);
+    s.queue = TL_PUSH(work->arena, uint32_t, compact->span_count);
+    if (s.column_of == NULL || s.queue == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t c = 0; c < compact->width * compact->height; c++) {
+        for (uint32_t i = compact->first_span[c]; i < compact->first_span[c + 1]; i++) {
+            s.column_of[i] = c;
+        }
+    }
+    uint32_t whole_count = work->region_count;
+    for (uint32_t i = 0; i < compact->span_count; i++) {
+        uint32_t region = work->region[i];
+        if (region != 0 && region < whole_count && overlaps[region] != 0) {
+            flood_piece(&s, i, work->region_count++);
+        }
+    }
+    return TL_OK;
+}
+
+tl_result tl_regions_split_overlaps(tl_region_work *work)
+{
+    uint32_t *last_column = TL_PUSH_ZERO(work->arena, uint32_t, work->region_count);
+    uint8_t *overlaps = TL_PUSH_ZERO(work->arena, uint8_t, work->region_count);
+    if (last_column == NULL || overlaps == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    work->stats.split = find_overlaps(work, last_column, overlaps);
+    return work->stats.split > 0 ? split(work, overlaps) : TL_OK;
+}
