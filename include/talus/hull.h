@@ -23,8 +23,8 @@ extern "C" {
 /// Largest absolute coordinate of a hull's points: edges and their dot products stay finite floats.
 #define TL_MAX_HULL_COORDINATE 1e30f
 
-/// A build takes fewer points than this.
-#define TL_MAX_HULL_POINTS 0x40000000u
+/// A build takes fewer points than this, so that its half-edges fit 32 bits.
+#define TL_MAX_HULL_POINTS 0x10000000u
 
 #define TL_NO_VERTEX       UINT32_MAX
 
@@ -48,7 +48,7 @@ typedef struct tl_hull_report {
     uint32_t triangle_count; ///< of the hull before coplanar ones were merged
     bool thickened;
     uint32_t points_left_out; ///< outside, because max_vertices was reached
-    double max_outside;       ///< metres; how far the farthest of these lies outside at most, 0 when there is none
+    double max_outside;       ///< metres; the farthest of these lies at least so far outside, 0 when there is none
 } tl_hull_report;
 
 /// One directed edge of a face. The face lies to its left, seen from outside; the half-edges of a face are consecutive.
@@ -85,12 +85,12 @@ typedef struct tl_hull {
     uint32_t vertex_count;    ///< V >= 4
     uint32_t face_count;      ///< F
     uint32_t half_edge_count; ///< 2 E; V - E + F = 2
-    uint32_t scan_count;      ///< V rounded up to a multiple of 8; the scan's rows are that long
     uint32_t block_count;     ///< blocks of the climb
-    uint32_t table_cells;     ///< cells along a side of the direction table, 0: no table, the scan is used
+    uint32_t scan_count;      ///< length of the scan's rows, a multiple of 8; 0: the hull is too large to be scanned
+    uint32_t table_cells;     ///< cells along a side of the direction table, 0 when the hull is scanned
     tl_aabb bounds;
-    tl_vec3 scan_center; ///< what the scan's rows are relative to
-    float scan_error;    ///< error of the scan's dot products, a metre of direction
+    tl_vec3 table_scale; ///< what a direction is multiplied by before it is looked up
+    float scan_error;    ///< error of the scan's dot products for a direction with |x| + |y| + |z| = 1
     tl_hull_mass mass;
     uint64_t vertices;     ///< tl_vec3 [V]
     uint64_t sources;      ///< uint32_t [V] index of the input point
@@ -98,10 +98,12 @@ typedef struct tl_hull {
     uint64_t half_edges;   ///< tl_hull_half_edge [2 E]
     uint64_t faces;        ///< tl_hull_face [F]
     uint64_t planes;       ///< tl_hull_plane [F]
-    uint64_t scan;         ///< float [3][scan_count]: x, y, z
-    uint64_t climb;        ///< the climb's vertices and blocks (private layout)
-    uint64_t table;        ///< uint32_t [6 * table_cells^2] a vertex to start from
-    uint64_t end;
+    // What tl_hull_support reads; the layout is private.
+    uint64_t vertex_blocks;  ///< uint32_t [V] the first block of each vertex
+    uint64_t block_vertices; ///< uint32_t [block_count] the vertex that each block belongs to
+    uint64_t blocks;         ///< edge vectors and blocks of neighbours
+    uint64_t scan;           ///< float [3][scan_count]: x, y, z from the middle of the bounds
+    uint64_t table;          ///< uint32_t [table_cells^2] a block to start from
 } tl_hull;
 
 TL_API tl_hull_def tl_default_hull_def(void);
@@ -132,7 +134,7 @@ typedef struct tl_hull_validation {
 
 /// Proves a checked hull's geometry exactly, and that it contains `count` points (which may be 0).
 /// TL_OK when all holds, else TL_ERR_CORRUPT (topology, convexity) or TL_ERR_RANGE (a point outside).
-/// O(E + count * F): meant for tests and tools. `validation_out` may be NULL.
+/// O((V + count) * F): meant for tests and tools. `validation_out` may be NULL.
 TL_API tl_result tl_hull_validate(const tl_hull *hull, const tl_vec3 *points, uint32_t count,
                                   tl_hull_validation *validation_out);
 

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+//
+// The polygons of a finished hull, laid out as one block: topology and planes for whoever reads them, and for the
+// support query the rows of the scan, the blocks of the climb and the direction table.
+
+#include "hull/quickhull.h"
+#include "hull/support.h"
+
+#include <string.h>
+
+static uint32_t count_blocks(const tl_hull_polygons *polygons, uint32_t *degrees)
+{
+    uint32_t blocks = 0;
+    for (uint32_t h = 0; h < polygons->half_edge_count; h++) {
+        degrees[polygons->half_edges[h].origin]++;
+    }
+    for (uint32_t v = 0; v < polygons->vertex_count; v++) {
+        blocks += (degrees[v] + TL_CLIMB_LANES - 1) / TL_CLIMB_LANES;
+    }
+    return blocks;
+}
+
+static void write_topology(tl_hull *hull, const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies)
+{
+    char *bytes = (char *)hull;
+    tl_vec3 *vertices = (tl_vec3 *)(void *)(bytes + hull->vertices);
+    uint32_t *sources = (uint32_t *)(void *)(bytes + hull->sources);
+    uint32_t *vertex_edges = (uint32_t *)(void *)(bytes + hull->vertex_edges);
+    tl_hull_half_edge *half_edges = (tl_hull_half_edge *)(void *)(bytes + hull->half_edges);
+    tl_hull_face *faces = (tl_hull_face *)(void *)(bytes + hull->faces);
+    hull->bounds = tl_aabb_empty();
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        vertices[v] = points[polygons->points[v]];
+        sources[v] = polygons->points[v] / copies;
+        vertex_edges[v] = TL_NONE;
+        hull->bounds = tl_aabb_add_point(hull->bounds, vertices[v]);
+    }
+    for (uint32_t h = 0; h < hull->half_edge_count; h++) {
+        half_edges[h] = polygons->half_edges[h];
+        if (vertex_edges[half_edges[h].origin] == TL_NONE) {
+            vertex_edges[half_edges[h].origin] = h;
+        }
+    }
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        faces[f] = polygons->faces[f];
+    }
+}
+
+// Newell's normal about the first vertex: every corner counts, and differences of floats are nearly always exact.
+static tl_hull_plane fit_plane(const tl_hull *hull, tl_hull_face face)
+{
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    tl_vec3 a = vertices[half_edges[face.first].origin];
+    double n[3] = { 0.0, 0.0, 0.0 };
+    double ux = 0.0, uy = 0.0, uz = 0.0;
+    for (uint32_t k = 1; k < face.count; k++) {
+        tl_vec3 p = vertices[half_edges[face.first + k].origin];
+        double vx = (double)p.x - (double)a.x, vy = (double)p.y - (double)a.y, vz = (double)p.z - (double)a.z;
+        n[0] += uy * vz - uz * vy;
+        n[1] += uz * vx - ux * vz;
+        n[2] += ux * vy - uy * vx;
+        ux = vx;
+        uy = vy;
+        uz = vz;
+    }
+    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    tl_hull_plane plane = { { n[0] / length, n[1] / length, n[2] / length }, -(double)INFINITY };
+    for (uint32_t k = 0; k < face.count; k++) {
+        tl_vec3 p = vertices[half_edges[face.first + k].origin];
+        double offset = plane.normal[0] * (double)p.x + plane.normal[1] * (double)p.y + plane.normal[2] * (double)p.z;
+        plane.offset = offset > plane.offset ? offset : plane.offset;
+    }
+    return plane;
+}
+
+static void write_scan(tl_hull *hull)
+{
+    float *rows = (float *)(void *)((char *)hull + hull->scan);
+    for (uint32_t i = 0; i < hull->scan_count; i++) {
+        tl_vec3 r = tl_hull_scan_point(hull, i);
+        rows[i] = r.x;
+        rows[hull->scan_count + i] = r.y;
+        rows[2 * hull->scan_count + i] = r.z;
+    }
+    hull->scan_error = tl_hull_scan_error(hull);
+}
+
+static void write_blocks(tl_hull *hull, const uint32_t *degrees)
+{
+    char *bytes = (char *)hull;
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    uint32_t *vertex_blocks = (uint32_t *)(void *)(bytes + hull->vertex_blocks);
+    uint32_t *block_vertices = (uint32_t *)(void *)(bytes + hull->block_vertices);
+    tl_climb_block *blocks = (tl_climb_block *)(void *)(bytes + hull->blocks);
+    uint32_t count = 0;
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        vertex_blocks[v] = count;
+        for (uint32_t k = 0; k < degrees[v]; k += TL_CLIMB_LANES) {
+            block_vertices[count++] = v;
+        }
+    }
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        uint32_t edge = tl_hull_vertex_edges(hull)[v];
+        uint32_t lanes = (degrees[v] + TL_CLIMB_LANES - 1) / TL_CLIMB_LANES * TL_CLIMB_LANES;
+        for (uint32_t k = 0; k < lanes; k++) {
+            uint32_t other = half_edges[half_edges[edge].next].origin;
+            tl_climb_block *block = &blocks[vertex_blocks[v] + k / TL_CLIMB_LANES];
+            uint32_t lane = k % TL_CLIMB_LANES;
+            tl_vec3 edge_vector = tl_hull_edge_vector(vertices[v], vertices[other]);
+            block->x[lane] = edge_vector.x;
+            block->y[lane] = edge_vector.y;
+            block->z[lane] = edge_vector.z;
+            block->link[lane] = vertex_blocks[other];
+            if (lane == 0 && k + TL_CLIMB_LANES < lanes) {
+                block->link[0] |= TL_CLIMB_MORE;
+            }
+            // Around and around: the lanes that are left over repeat neighbours.
+            edge = half_edges[half_edges[edge].twin].next;
+        }
+    }
+}
+
+// Extents over the largest one, so that no product with a direction in range under- or overflows.
+static tl_vec3 table_scale(tl_aabb bounds)
+{
+    double size[3] = { (double)bounds.max.x - (double)bounds.min.x, (double)bounds.max.y - (double)bounds.min.y,
+                       (double)bounds.max.z - (double)bounds.min.z };
+    double largest = size[0] > size[1] ? size[0] : size[1];
+    largest = size[2] > largest ? size[2] : largest;
+    // A body thinner than this share gains nothing from more stretching.
+    const double least = 1e-6;
+    for (int i = 0; i < 3; i++) {
+        size[i] = size[i] / largest > least ? size[i] / largest : least;
+    }
+    return tl_vec3_make((float)size[0], (float)size[1], (float)size[2]);
+}
+
+tl_result tl_hull_bake(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
+                       tl_hull **hull_out)
+{
+    uint32_t *degrees = TL_PUSH_ZERO(arena, uint32_t, polygons->vertex_count);
+    if (degrees == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_hull head;
+    memset(&head, 0, sizeof head); // padding too: blobs are the same byte for byte
+    uint64_t size;
+    head.vertex_count = polygons->vertex_count;
+    head.face_count = polygons->face_count;
+    head.half_edge_count = polygons->half_edge_count;
+    head.block_count = count_blocks(polygons, degrees);
+    size = tl_hull_lay_out(&head);
+    tl_hull *hull = tl_blob_allocate(&arena->allocator, TL_HULL_MAGIC, TL_HULL_VERSION, size);
+    if (hull == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    head.blob = hull->blob;
+    memcpy(hull, &head, sizeof head);
+    write_topology(hull, polygons, points, copies);
+    tl_hull_plane *planes = (tl_hull_plane *)(void *)((char *)hull + hull->planes);
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        planes[f] = fit_plane(hull, tl_hull_faces(hull)[f]);
+    }
+    tl_hull_measure_mass(hull);
+    hull->table_scale = table_scale(hull->bounds);
+    hull->scan_error = 0.0f;
+    write_blocks(hull, degrees);
+    if (hull->scan_count > 0) {
+        write_scan(hull);
+    } else {
+        tl_hull_fill_table(hull);
+    }
+    *hull_out = hull;
+    return TL_OK;
+}

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+//
+// Is this block of bytes a hull? Every count, offset and index is proven in range before it is used, and everything
+// that the bake derives from the vertices and the topology is derived again and compared. So a climb on a hull that
+// passes ends, whatever its vertices are: each of its steps is a true gain.
+
+#include "hull/support.h"
+
+#include "base/assert.h"
+
+#include <string.h>
+
+static bool same_bits(float a, float b)
+{
+    return memcmp(&a, &b, sizeof a) == 0;
+}
+
+static tl_result check_head(const void *bytes, uint64_t size)
+{
+    if (size < sizeof(tl_blob)) {
+        return TL_ERR_TRUNCATED;
+    }
+    const tl_hull *hull = bytes;
+    if (hull->blob.magic != TL_HULL_MAGIC) {
+        return TL_ERR_MAGIC;
+    }
+    if (hull->blob.version != TL_HULL_VERSION) {
+        return TL_ERR_VERSION;
+    }
+    if (size < sizeof(tl_hull) || size < hull->blob.size) {
+        return TL_ERR_TRUNCATED;
+    }
+    const uint32_t most_vertices = TL_MAX_HULL_POINTS;
+    // E <= 3 V - 6, F <= 2 V - 4 (Euler), and a block holds at least one half-edge.
+    if (hull->vertex_count < 4 || hull->vertex_count > most_vertices || hull->half_edge_count % 2 != 0 ||
+        hull->half_edge_count > 6 * (uint64_t)hull->vertex_count || hull->block_count > hull->half_edge_count ||
+        (uint64_t)hull->vertex_count + hull->face_count != (uint64_t)hull->half_edge_count / 2 + 2) {
+        return TL_ERR_CORRUPT;
+    }
+    tl_hull expected = *hull;
+    uint64_t expected_size = tl_hull_lay_out(&expected);
+    if (hull->blob.size != expected_size || memcmp(&expected, hull, sizeof expected) != 0) {
+        return TL_ERR_CORRUPT;
+    }
+    return TL_OK;
+}
+
+static bool check_loops(const tl_hull *hull)
+{
+    const tl_hull_face *faces = tl_hull_faces(hull);
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    uint32_t first = 0;
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        if (faces[f].first != first || faces[f].count < 3 || faces[f].count > hull->half_edge_count - first) {
+            return false;
+        }
+        for (uint32_t k = 0; k < faces[f].count; k++) {
+            tl_hull_half_edge h = half_edges[first + k];
+            uint32_t next = k + 1 < faces[f].count ? first + k + 1 : first;
+            if (h.face != f || h.next != next || h.origin >= hull->vertex_count || h.twin >= hull->half_edge_count ||
+                h.origin < half_edges[first].origin) {
+                return false;
+            }
+        }
+        first += faces[f].count;
+    }
+    if (first != hull->half_edge_count) {
+        return false;
+    }
+    for (uint32_t h = 0; h < hull->half_edge_count; h++) {
+        uint32_t twin = half_edges[h].twin;
+        if (twin == h || half_edges[twin].twin != h || half_edges[twin].origin == half_edges[h].origin ||
+            half_edges[half_edges[h].next].origin != half_edges[twin].origin) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// One vertex's ring and blocks. The loops are proven, so to turn around a vertex is a permutation of half-edges and the
+// ring closes; rings of different vertices are disjoint, which bounds the work by 2 E.
+static bool check_ring(const tl_hull *hull, uint32_t vertex, uint32_t *half_edges_seen, uint32_t *next_block)
+{
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    uint32_t start = tl_hull_vertex_edges(hull)[vertex];
+    if (start >= hull->half_edge_count || half_edges[start].origin != vertex) {
+        return false;
+    }
+    uint32_t degree = 0, edge = start;
+    do {
+        if (half_edges[edge].origin != vertex) {
+            return false;
+        }
+        degree++;
+        edge = half_edges[half_edges[edge].twin].next;
+    } while (edge != start);
+    *half_edges_seen += degree;
+    uint32_t blocks = (degree + TL_CLIMB_LANES - 1) / TL_CLIMB_LANES;
+    if (tl_hull_vertex_blocks(hull)[vertex] != *next_block || blocks > hull->block_count - *next_block) {
+        return false;
+    }
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    for (uint32_t k = 0; k < blocks * TL_CLIMB_LANES; k++) {
+        const tl_climb_block *block = &tl_hull_blocks(hull)[*next_block + k / TL_CLIMB_LANES];
+        uint32_t lane = k % TL_CLIMB_LANES;
+        uint32_t other = half_edges[half_edges[edge].next].origin;
+        uint32_t more = lane == 0 && k / TL_CLIMB_LANES + 1 < blocks ? TL_CLIMB_MORE : 0;
+        tl_vec3 e = tl_hull_edge_vector(vertices[vertex], vertices[other]);
+        if (tl_hull_block_vertices(hull)[*next_block + k / TL_CLIMB_LANES] != vertex ||
+            block->link[lane] != (tl_hull_vertex_blocks(hull)[other] | more) || !same_bits(block->x[lane], e.x) ||
+            !same_bits(block->y[lane], e.y) || !same_bits(block->z[lane], e.z)) {
+            return false;
+        }
+        edge = half_edges[half_edges[edge].twin].next;
+    }
+    *next_block += blocks;
+    return true;
+}
+
+static bool check_geometry(const tl_hull *hull)
+{
+    tl_aabb bounds = tl_aabb_empty();
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        tl_vec3 p = tl_hull_vertices(hull)[v], size = tl_abs(p);
+        if (!tl_is_finite(p) || tl_maxf(size.x, tl_maxf(size.y, size.z)) > TL_MAX_HULL_COORDINATE) {
+            return false;
+        }
+        bounds = tl_aabb_add_point(bounds, p);
+    }
+    if (memcmp(&bounds, &hull->bounds, sizeof bounds) != 0) {
+        return false;
+    }
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        const tl_hull_plane *plane = &tl_hull_planes(hull)[f];
+        double length_sq = plane->normal[0] * plane->normal[0] + plane->normal[1] * plane->normal[1] +
+                           plane->normal[2] * plane->normal[2];
+        // Generous: this only keeps nonsense out, tl_hull_validate measures.
+        if (!(length_sq > 0.999 && length_sq < 1.001) || !isfinite(plane->offset)) {
+            return false;
+        }
+    }
+    const double *mass = &hull->mass.volume;
+    for (size_t i = 0; i < sizeof hull->mass / sizeof *mass; i++) {
+        if (!isfinite(mass[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool check_starts(const tl_hull *hull)
+{
+    const float *rows = (const float *)(const void *)((const char *)hull + hull->scan);
+    for (uint32_t i = 0; i < hull->scan_count; i++) {
+        tl_vec3 p = tl_hull_scan_point(hull, i);
+        if (!same_bits(rows[i], p.x) || !same_bits(rows[hull->scan_count + i], p.y) ||
+            !same_bits(rows[2 * hull->scan_count + i], p.z)) {
+            return false;
+        }
+    }
+    if (!same_bits(hull->scan_error, hull->scan_count > 0 ? tl_hull_scan_error(hull) : 0.0f) ||
+        !tl_is_finite(hull->table_scale)) {
+        return false;
+    }
+    const uint32_t *table = (const uint32_t *)(const void *)((const char *)hull + hull->table);
+    for (uint64_t i = 0; i < (uint64_t)hull->table_cells * hull->table_cells; i++) {
+        if (table[i] >= hull->block_count ||
+            tl_hull_vertex_blocks(hull)[tl_hull_block_vertices(hull)[table[i]]] != table[i]) {
+            return false;
+        }
+    }
+    return true;
+}
+
+tl_result tl_hull_check(const void *bytes, uint64_t size)
+{
+    TL_TRY(check_head(bytes, size));
+    const tl_hull *hull = bytes;
+    if (!check_loops(hull) || !check_geometry(hull)) {
+        return TL_ERR_CORRUPT;
+    }
+    uint32_t half_edges_seen = 0, blocks_seen = 0;
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        if (!check_ring(hull, v, &half_edges_seen, &blocks_seen)) {
+            return TL_ERR_CORRUPT;
+        }
+    }
+    if (half_edges_seen != hull->half_edge_count || blocks_seen != hull->block_count || !check_starts(hull)) {
+        return TL_ERR_CORRUPT;
+    }
+    return TL_OK;
+}

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+//
+// Conflict lists: each point that is still outside is filed under one face that it lies strictly in front of.
+//
+// When faces are replaced by a cone, their points are asked of the cone's faces only. That is enough: a point that saw
+// a removed face and still sees a kept one sees, walking from one to the other inside its visible region, both faces at
+// some horizon edge, and the new face there lies between the two.
+// Clarkson, Shor, Applications of Random Sampling in Computational Geometry, 1989, keep all conflicts; one is enough.
+
+#include "hull/quickhull.h"
+
+#include "base/assert.h"
+
+#include <string.h>
+
+static void file_under(tl_quickhull *hull, tl_quickhull_face *face, uint32_t point, double value)
+{
+    hull->next_conflict[point] = face->first_conflict;
+    face->first_conflict = point;
+    if (face->farthest == TL_NONE || value > face->farthest_value ||
+        (value == face->farthest_value && point < face->farthest)) {
+        face->farthest = point;
+        face->farthest_value = value;
+    }
+}
+
+void tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
+{
+    for (uint32_t p = 0; p < hull->point_count; p++) {
+        if (p == seed[0] || p == seed[1] || p == seed[2] || p == seed[3]) {
+            continue;
+        }
+        for (uint32_t f = 0; f < 4; f++) {
+            double value;
+            if (tl_side_plane_test(&hull->faces[f].plane, hull->points[p], &value) > 0) {
+                file_under(hull, &hull->faces[f], p, value);
+                break;
+            }
+        }
+    }
+}
+
+void tl_quickhull_refile(tl_quickhull *hull)
+{
+    for (uint32_t i = 0; i < hull->visible_count; i++) {
+        uint32_t p = hull->faces[hull->visible[i]].first_conflict;
+        while (p != TL_NONE) {
+            uint32_t next = hull->next_conflict[p];
+            tl_vec3 point = hull->points[p];
+            for (uint32_t k = 0; k < hull->created_count; k++) {
+                tl_quickhull_face *face = &hull->faces[hull->created[k]];
+                double value;
+                if (tl_side_plane_test(&face->plane, point, &value) > 0) {
+                    file_under(hull, face, p, value);
+                    break;
+                }
+            }
+            p = next;
+        }
+    }
+    for (uint32_t i = 0; i < hull->visible_count; i++) {
+        tl_quickhull_free_face(hull, hull->visible[i]);
+    }
+}
+
+// A larger distance first; on ties the lower point, so that the order does not depend on the heap's shape.
+static bool comes_before(const tl_quickhull_entry *a, const tl_quickhull_entry *b)
+{
+    if (a->distance != b->distance) {
+        return a->distance > b->distance;
+    }
+    return a->point != b->point ? a->point < b->point : a->face < b->face;
+}
+
+static tl_result push_heap(tl_quickhull *hull, uint32_t face)
+{
+    if (hull->heap_count == hull->heap_capacity) {
+        uint32_t capacity = hull->heap_capacity < 64 ? 64 : hull->heap_capacity * 2;
+        tl_quickhull_entry *heap = TL_PUSH(hull->arena, tl_quickhull_entry, capacity);
+        if (heap == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        if (hull->heap_count > 0) {
+            memcpy(heap, hull->heap, hull->heap_count * sizeof *heap);
+        }
+        hull->heap = heap;
+        hull->heap_capacity = capacity;
+    }
+    const tl_quickhull_face *f = &hull->faces[face];
+    tl_quickhull_entry entry = { f->farthest_value / tl_side_plane_length(&f->plane), face, f->farthest };
+    uint32_t at = hull->heap_count++;
+    while (at > 0 && comes_before(&entry, &hull->heap[(at - 1) / 2])) {
+        hull->heap[at] = hull->heap[(at - 1) / 2];
+        at = (at - 1) / 2;
+    }
+    hull->heap[at] = entry;
+    return TL_OK;
+}
+
+static tl_quickhull_entry pop_heap(tl_quickhull *hull)
+{
+    tl_quickhull_entry top = hull->heap[0];
+    tl_quickhull_entry last = hull->heap[--hull->heap_count];
+    uint32_t at = 0;
+    for (;;) {
+        uint32_t child = 2 * at + 1;
+        if (child >= hull->heap_count) {
+            break;
+        }
+        if (child + 1 < hull->heap_count && comes_before(&hull->heap[child + 1], &hull->heap[child])) {
+            child++;
+        }
+        if (!comes_before(&hull->heap[child], &last)) {
+            break;
+        }
+        hull->heap[at] = hull->heap[child];
+        at = child;
+    }
+    hull->heap[at] = last;
+    return top;
+}
+
+tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t index)
+{
+    tl_quickhull_face *face = &hull->faces[index];
+    if (face->first_conflict == TL_NONE) {
+        return TL_OK;
+    }
+    if (hull->farthest_first) {
+        return push_heap(hull, index);
+    }
+    // A face that died in the ring and came to life again still has its place there.
+    if (!face->queued) {
+        face->queued = true;
+        TL_ASSERT(hull->ring_count < hull->face_capacity);
+        uint32_t at = hull->ring_first + hull->ring_count++;
+        hull->ring[at < hull->face_capacity ? at : at - hull->face_capacity] = index;
+    }
+    return TL_OK;
+}
+
+uint32_t tl_quickhull_dequeue(tl_quickhull *hull)
+{
+    while (hull->farthest_first && hull->heap_count > 0) {
+        tl_quickhull_entry entry = pop_heap(hull);
+        const tl_quickhull_face *face = &hull->faces[entry.face];
+        // An entry of a face that is gone, or whose place another one took, is dropped.
+        if (face->live && face->first_conflict != TL_NONE && face->farthest == entry.point) {
+            return entry.face;
+        }
+    }
+    while (!hull->farthest_first && hull->ring_count > 0) {
+        uint32_t index = hull->ring[hull->ring_first];
+        hull->ring_first = hull->ring_first + 1 < hull->face_capacity ? hull->ring_first + 1 : 0;
+        hull->ring_count--;
+        hull->faces[index].queued = false;
+        if (hull->faces[index].live && hull->faces[index].first_conflict != TL_NONE) {
+            return index;
+        }
+    }
+    return TL_NONE;
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+//
+// The first tetrahedron, and what input without volume is called.
+//
+// The two extreme points of the box that are farthest apart, then the point farthest from their line, then the one
+// farthest from that plane: a fat tetrahedron leaves few points outside. Distances are approximate here; that the four
+// are independent is decided exactly.
+
+#include "hull/quickhull.h"
+
+#include "base/assert.h"
+#include "math/predicates.h"
+#include "math/tolerance.h"
+
+typedef struct vec3d {
+    double x, y, z;
+} vec3d;
+
+static vec3d difference(tl_vec3 a, tl_vec3 b)
+{
+    vec3d r = { (double)a.x - (double)b.x, (double)a.y - (double)b.y, (double)a.z - (double)b.z };
+    return r;
+}
+
+static vec3d cross(vec3d a, vec3d b)
+{
+    vec3d r = { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+    return r;
+}
+
+static double dot(vec3d a, vec3d b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static float coordinate(tl_vec3 p, int axis)
+{
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+static void farthest_extremes(const tl_quickhull *hull, uint32_t *a_out, uint32_t *b_out)
+{
+    uint32_t extreme[6] = { 0 };
+    for (uint32_t i = 1; i < hull->point_count; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            float value = coordinate(hull->points[i], axis);
+            if (value < coordinate(hull->points[extreme[2 * axis]], axis)) {
+                extreme[2 * axis] = i;
+            }
+            if (value > coordinate(hull->points[extreme[2 * axis + 1]], axis)) {
+                extreme[2 * axis + 1] = i;
+            }
+        }
+    }
+    double best = -1.0;
+    for (int i = 0; i < 6; i++) {
+        for (int j = i + 1; j < 6; j++) {
+            vec3d d = difference(hull->points[extreme[i]], hull->points[extreme[j]]);
+            if (dot(d, d) > best) {
+                best = dot(d, d);
+                *a_out = extreme[i];
+                *b_out = extreme[j];
+            }
+        }
+    }
+}
+
+// The point with the largest distance from the line a, b; its distance.
+static uint32_t farthest_from_line(const tl_quickhull *hull, uint32_t a, uint32_t b, double *distance_out)
+{
+    vec3d along = difference(hull->points[b], hull->points[a]);
+    uint32_t best = a;
+    double best_sq = -1.0;
+    for (uint32_t i = 0; i < hull->point_count; i++) {
+        vec3d n = cross(along, difference(hull->points[i], hull->points[a]));
+        double value = dot(n, n);
+        if (value > best_sq) {
+            best_sq = value;
+            best = i;
+        }
+    }
+    *distance_out = sqrt(best_sq / dot(along, along));
+    return best;
+}
+
+// The point with the largest distance from the plane a, b, c, and how thick the cloud is across the plane.
+static uint32_t farthest_from_plane(const tl_quickhull *hull, const uint32_t seed[3], double *thickness_out)
+{
+    tl_vec3 a = hull->points[seed[0]];
+    vec3d n = cross(difference(hull->points[seed[1]], a), difference(hull->points[seed[2]], a));
+    uint32_t best = seed[0];
+    double best_value = -1.0, low = 0.0, high = 0.0;
+    for (uint32_t i = 0; i < hull->point_count; i++) {
+        double value = dot(n, difference(hull->points[i], a));
+        low = value < low ? value : low;
+        high = value > high ? value : high;
+        if (fabs(value) > best_value) {
+            best_value = fabs(value);
+            best = i;
+        }
+    }
+    *thickness_out = (high - low) / sqrt(dot(n, n));
+    return best;
+}
+
+tl_result tl_quickhull_seed(tl_quickhull *hull, double flatness, uint32_t seed[4], uint32_t *rank_out)
+{
+    // One rounding moves a coordinate by at most TL_FLOAT_ROUNDING * max_abs.
+    double noise = flatness * (double)TL_FLOAT_ROUNDING * hull->max_abs;
+    double size = 0.0;
+    for (int axis = 0; axis < 3; axis++) {
+        size = hull->extent[axis] > size ? hull->extent[axis] : size;
+    }
+    *rank_out = 0;
+    seed[0] = seed[1] = seed[2] = seed[3] = 0;
+    if (size == 0.0 || size <= noise) {
+        return TL_ERR_COINCIDENT;
+    }
+    farthest_extremes(hull, &seed[0], &seed[1]);
+    *rank_out = 1;
+    double distance;
+    seed[2] = farthest_from_line(hull, seed[0], seed[1], &distance);
+    tl_vec3 a = hull->points[seed[0]], b = hull->points[seed[1]];
+    bool straight = distance <= noise || tl_is_collinear(a, b, hull->points[seed[2]]);
+    // The approximate farthest may be an exactly collinear one where the cloud is thinner than double rounding.
+    for (uint32_t i = 0; flatness == 0.0 && straight && i < hull->point_count; i++) {
+        straight = tl_is_collinear(a, b, hull->points[i]);
+        seed[2] = i;
+    }
+    if (straight) {
+        return TL_ERR_COLLINEAR;
+    }
+    *rank_out = 2;
+    seed[3] = farthest_from_plane(hull, seed, &distance);
+    tl_vec3 c = hull->points[seed[2]];
+    bool flat = distance <= noise || tl_orient3d(a, b, c, hull->points[seed[3]]) == 0;
+    for (uint32_t i = 0; flatness == 0.0 && flat && i < hull->point_count; i++) {
+        flat = tl_orient3d(a, b, c, hull->points[i]) == 0;
+        seed[3] = i;
+    }
+    if (flat) {
+        return TL_ERR_COPLANAR;
+    }
+    *rank_out = 3;
+    return TL_OK;
+}

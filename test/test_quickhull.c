@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: MIT
+//
+// Hulls: proven by exact predicates, at all scales, of all kinds of clouds; degenerate input by name; memory that runs
+// out; the same bytes twice.
+
+#include "talus_test.h"
+
+#include "hull_shapes.h"
+
+#include <talus/hull.h>
+
+#include <string.h>
+
+static tl_hull *build(const tl_vec3 *points, uint32_t count)
+{
+    tl_hull_def def = tl_default_hull_def();
+    def.flatness = 0.0f;
+    tl_hull *hull;
+    TEST_RESULT(tl_hull_build(points, count, &def, &hull, NULL), TL_OK);
+    return hull;
+}
+
+static void prove(const tl_hull *hull, const tl_vec3 *points, uint32_t count)
+{
+    TEST_RESULT(tl_hull_check(hull, hull->blob.size), TL_OK);
+    TEST_RESULT(tl_hull_validate(hull, points, count, NULL), TL_OK);
+    // Each vertex is the input point it names, and the first of those at its place.
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        tl_vec3 p = tl_hull_vertices(hull)[v];
+        uint32_t source = tl_hull_sources(hull)[v];
+        TEST_CHECK(source < count && tl_distance_sq(points[source], p) == 0.0f);
+        TEST_CHECK(v == 0 || tl_hull_sources(hull)[v - 1] < source);
+    }
+}
+
+static bool same_topology(const tl_hull *a, const tl_hull *b)
+{
+    return a->vertex_count == b->vertex_count && a->face_count == b->face_count &&
+           a->half_edge_count == b->half_edge_count &&
+           memcmp(tl_hull_half_edges(a), tl_hull_half_edges(b), a->half_edge_count * sizeof(tl_hull_half_edge)) == 0 &&
+           memcmp(tl_hull_sources(a), tl_hull_sources(b), a->vertex_count * sizeof(uint32_t)) == 0;
+}
+
+static void test_hulls_are_proven_at_all_scales(void **state)
+{
+    (void)state;
+    static const uint32_t counts[] = { 4, 5, 8, 20, 60, 200, 700 };
+    static const int exponents[] = { -50, -20, 17, 50, 85 };
+    tl_vec3 *points = malloc(700 * sizeof *points);
+    tl_vec3 *scaled = malloc(700 * sizeof *points);
+    uint32_t hulls = 0, merged = 0;
+    for (int kind = 0; kind < SHAPE_COUNT; kind++) {
+        for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+            test_random random = { (uint64_t)kind * 100 + c };
+            uint32_t count = shape_make((shape_kind)kind, &random, points, counts[c]);
+            tl_hull_def def = tl_default_hull_def();
+            tl_hull *hull;
+            def.flatness = 0.0f;
+            if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
+                // Lattices of few points and small prisms may be flat.
+                TEST_CHECK(count <= 8);
+                continue;
+            }
+            prove(hull, points, count);
+            hulls++;
+            merged += hull->face_count < 2 * hull->vertex_count - 4;
+            for (size_t e = 0; e < sizeof exponents / sizeof *exponents; e++) {
+                for (uint32_t i = 0; i < count; i++) {
+                    scaled[i] = tl_vec3_make(ldexpf(points[i].x, exponents[e]), ldexpf(points[i].y, exponents[e]),
+                                             ldexpf(points[i].z, exponents[e]));
+                }
+                tl_hull *other = build(scaled, count);
+                TEST_CHECK(same_topology(hull, other));
+                TEST_RESULT(tl_hull_check(other, other->blob.size), TL_OK);
+                tl_blob_free(other, NULL);
+            }
+            tl_blob_free(hull, NULL);
+        }
+    }
+    TEST_CHECK(hulls > 70 && merged > 15);
+    free(points);
+    free(scaled);
+}
+
+// Far from the origin floats are a coarse lattice: coincident, collinear and coplanar points everywhere.
+static void test_hulls_far_from_the_origin(void **state)
+{
+    (void)state;
+    tl_vec3 points[500], moved[500];
+    for (int kind = 0; kind < SHAPE_COUNT; kind++) {
+        for (int k = 0; k < 4; k++) {
+            test_random random = { (uint64_t)(kind * 4 + k) };
+            shape_make((shape_kind)kind, &random, points, 500);
+            tl_vec3 offset = tl_scale(tl_vec3_make(1e6f, -0.7e6f, 0.3e6f), k == 3 ? 100.0f : (float)k);
+            for (int i = 0; i < 500; i++) {
+                moved[i] = tl_add(points[i], offset);
+            }
+            tl_hull_def def = tl_default_hull_def();
+            def.flatness = 0.0f;
+            tl_hull *hull;
+            if (tl_hull_build(moved, 500, &def, &hull, NULL) == TL_OK) {
+                prove(hull, moved, 500);
+                // The same lattice points near the origin give the same hull.
+                tl_vec3 back[500];
+                for (int i = 0; i < 500; i++) {
+                    back[i] = tl_sub(moved[i], offset);
+                }
+                tl_hull *near = build(back, 500);
+                TEST_CHECK(same_topology(hull, near));
+                TEST_CHECK(fabs(near->mass.volume - hull->mass.volume) <= 1e-6 * near->mass.volume);
+                tl_blob_free(near, NULL);
+                tl_blob_free(hull, NULL);
+            } else {
+                TEST_CHECK(k == 3);
+            }
+        }
+    }
+}
+
+static void test_degenerate_input_is_named(void **state)
+{
+    (void)state;
+    tl_vec3 line[5], plane[30], tilted[30], same[4];
+    test_random random = { 5 };
+    for (int i = 0; i < 5; i++) {
+        line[i] = tl_scale(tl_vec3_make(1, 2, 3), (float)i);
+    }
+    for (int i = 0; i < 4; i++) {
+        same[i] = tl_vec3_make(0.1f, 0.2f, 0.3f);
+    }
+    tl_vec3 u = test_random_direction(&random), v = test_random_direction(&random);
+    for (int i = 0; i < 30; i++) {
+        float s = test_random_range(&random, -1, 1), t = test_random_range(&random, -1, 1);
+        plane[i] = tl_vec3_make(s, 3.0f, t);
+        tilted[i] = tl_add(tl_vec3_make(7, 5, 3), tl_add(tl_scale(u, s), tl_scale(v, t)));
+    }
+    const struct {
+        const tl_vec3 *points;
+        uint32_t count;
+        tl_result expected;
+    } table[] = {
+        { NULL, 0, TL_ERR_EMPTY },      { same, 1, TL_ERR_COINCIDENT },  { same, 4, TL_ERR_COINCIDENT },
+        { line, 2, TL_ERR_COLLINEAR },  { line, 5, TL_ERR_COLLINEAR },   { plane, 3, TL_ERR_COPLANAR },
+        { plane, 30, TL_ERR_COPLANAR }, { tilted, 30, TL_ERR_COPLANAR },
+    };
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
+        tl_hull_def def = tl_default_hull_def();
+        tl_hull *hull;
+        tl_hull_report report;
+        TEST_RESULT(tl_hull_build(table[i].points, table[i].count, &def, &hull, &report), table[i].expected);
+        TEST_CHECK(hull == NULL && report.base.advice != NULL);
+        if (table[i].count == 0) {
+            continue;
+        }
+        def.thickness = 0.25f;
+        TEST_RESULT(tl_hull_build(table[i].points, table[i].count, &def, &hull, &report), TL_OK);
+        TEST_CHECK(report.thickened);
+        TEST_RESULT(tl_hull_check(hull, hull->blob.size), TL_OK);
+        TEST_RESULT(tl_hull_validate(hull, NULL, 0, NULL), TL_OK);
+        // The ends of a line lie on the end faces, which were rounded to floats.
+        tl_hull_validation found;
+        tl_hull_validate(hull, table[i].points, table[i].count, &found);
+        TEST_CHECK(found.max_outside <= 1e-6);
+        for (uint32_t k = 0; k < hull->vertex_count; k++) {
+            TEST_CHECK(tl_hull_sources(hull)[k] < table[i].count);
+        }
+        tl_blob_free(hull, NULL);
+    }
+    // Exactly decided, the tilted plane is a thin body; and a thickness that rounds to nothing is no thickness.
+    tl_hull_def def = tl_default_hull_def();
+    tl_hull *hull;
+    def.flatness = 0.0f;
+    TEST_RESULT(tl_hull_build(tilted, 30, &def, &hull, NULL), TL_OK);
+    prove(hull, tilted, 30);
+    tl_blob_free(hull, NULL);
+    def.thickness = 1e-20f;
+    TEST_RESULT(tl_hull_build(plane, 30, &def, &hull, NULL), TL_ERR_COPLANAR);
+}
+
+static void test_bad_points_and_defs_are_refused(void **state)
+{
+    (void)state;
+    tl_vec3 points[8];
+    test_random random = { 6 };
+    shape_make(SHAPE_SPHERE, &random, points, 8);
+    tl_hull_def def = tl_default_hull_def();
+    tl_hull *hull;
+    tl_hull_report report;
+    const float bad[] = { NAN, INFINITY, -INFINITY, 2e30f };
+    for (int i = 0; i < 4; i++) {
+        tl_vec3 kept = points[5];
+        points[5].y = bad[i];
+        TEST_RESULT(tl_hull_build(points, 8, &def, &hull, &report), i < 3 ? TL_ERR_NOT_FINITE : TL_ERR_RANGE);
+        TEST_CHECK(report.base.element_index == 5 && strcmp(report.base.element, "point") == 0);
+        points[5] = kept;
+    }
+    def.max_vertices = 3;
+    TEST_RESULT(tl_hull_build(points, 8, &def, &hull, &report), TL_ERR_ARGUMENT);
+    def = tl_default_hull_def();
+    def.thickness = -1.0f;
+    TEST_RESULT(tl_hull_build(points, 8, &def, &hull, &report), TL_ERR_ARGUMENT);
+    def.thickness = NAN;
+    TEST_RESULT(tl_hull_build(points, 8, &def, &hull, &report), TL_ERR_ARGUMENT);
+}
+
+static void test_a_cube_is_a_cube(void **state)
+{
+    (void)state;
+    tl_vec3 points[500];
+    test_random random = { 7 };
+    shape_make(SHAPE_CUBE_SURFACE, &random, points, 500);
+    tl_hull *hull = build(points, 500);
+    TEST_CHECK(hull->vertex_count == 8 && hull->face_count == 6 && hull->half_edge_count == 24);
+    TEST_CHECK(fabs(hull->mass.volume - 8.0) < 1e-14 && fabs(hull->mass.area - 24.0) < 1e-13);
+    for (int i = 0; i < 3; i++) {
+        TEST_CHECK(fabs(hull->mass.center[i]) < 1e-15);
+        TEST_CHECK(fabs(hull->mass.inertia[i] - 8.0 / 12.0 * 8.0) < 1e-13);
+        TEST_CHECK(fabs(hull->mass.inertia[i + 3]) < 1e-14);
+    }
+    tl_blob_free(hull, NULL);
+    // A lattice: its corners only.
+    for (int i = 0; i < 343; i++) {
+        points[i] = tl_vec3_make((float)(i % 7), (float)(i / 7 % 7), (float)(i / 49));
+    }
+    hull = build(points, 343);
+    TEST_CHECK(hull->vertex_count == 8 && hull->face_count == 6);
+    prove(hull, points, 343);
+    tl_blob_free(hull, NULL);
+}
+
+static void test_reduction_is_graceful(void **state)
+{
+    (void)state;
+    enum { N = 3000 };
+    tl_vec3 *points = malloc(N * sizeof *points);
+    for (int kind = 0; kind < SHAPE_COUNT; kind++) {
+        test_random random = { (uint64_t)kind };
+        shape_make((shape_kind)kind, &random, points, N);
+        double outside = 0.0, volume = 0.0;
+        static const uint32_t limits[] = { 4, 8, 32, 128, 500, 0 };
+        for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
+            tl_hull_def def = tl_default_hull_def();
+            def.max_vertices = limits[i];
+            tl_hull *hull;
+            tl_hull_report report;
+            TEST_RESULT(tl_hull_build(points, N, &def, &hull, &report), TL_OK);
+            TEST_CHECK(limits[i] == 0 || hull->vertex_count <= limits[i]);
+            TEST_RESULT(tl_hull_validate(hull, NULL, 0, NULL), TL_OK);
+            TEST_CHECK((report.points_left_out == 0) == (report.max_outside == 0.0));
+            tl_hull_validation found;
+            tl_result inside = tl_hull_validate(hull, points, N, &found);
+            TEST_CHECK((inside == TL_OK) == (report.points_left_out == 0));
+            TEST_CHECK(found.max_outside >= report.max_outside * 0.999999);
+            // The hulls are nested.
+            TEST_CHECK(hull->mass.volume >= volume);
+            outside = found.max_outside;
+            volume = hull->mass.volume;
+            tl_blob_free(hull, NULL);
+        }
+        TEST_CHECK(outside == 0.0);
+    }
+    free(points);
+}
+
+static void test_same_points_same_bytes(void **state)
+{
+    (void)state;
+    tl_vec3 points[400];
+    for (int kind = 0; kind < SHAPE_COUNT; kind++) {
+        test_random random = { (uint64_t)kind };
+        shape_make((shape_kind)kind, &random, points, 400);
+        tl_hull *a = build(points, 400), *b = build(points, 400);
+        TEST_CHECK(a->blob.size == b->blob.size && memcmp(a, b, a->blob.size) == 0);
+        tl_blob_free(a, NULL);
+        tl_blob_free(b, NULL);
+    }
+}
+
+static void test_memory_runs_out(void **state)
+{
+    (void)state;
+    enum { N = 2000 };
+    tl_vec3 *points = malloc(N * sizeof *points);
+    for (int flat = 0; flat < 2; flat++) {
+        test_random random = { 9 };
+        shape_make(SHAPE_SPHERE, &random, points, N);
+        for (int i = 0; flat && i < N; i++) {
+            points[i].y = 0.0f;
+        }
+        uint64_t failures = 0;
+        for (uint64_t k = 1;; k++) {
+            test_allocator memory;
+            test_allocator_init(&memory, k);
+            tl_hull_def def = tl_default_hull_def();
+            def.host.allocator = &memory.allocator;
+            def.thickness = 0.1f;
+            def.max_vertices = flat ? 100 : 0;
+            tl_hull *hull;
+            tl_result result = tl_hull_build(points, N, &def, &hull, NULL);
+            if (result == TL_OK) {
+                tl_blob_free(hull, &memory.allocator);
+                TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
+                break;
+            }
+            failures++;
+            TEST_RESULT(result, TL_ERR_MEMORY);
+            TEST_CHECK(hull == NULL && memory.live_blocks == 0 && memory.live_bytes == 0);
+        }
+        TEST_CHECK(failures >= 3);
+    }
+    free(points);
+}
+
+static bool cancel(const char *stage, uint64_t done, uint64_t total, void *user)
+{
+    (void)stage;
+    (void)done;
+    (void)total;
+    (void)user;
+    return false;
+}
+
+static void test_a_build_can_be_cancelled(void **state)
+{
+    (void)state;
+    tl_vec3 points[100];
+    test_random random = { 10 };
+    shape_make(SHAPE_SPHERE, &random, points, 100);
+    tl_progress progress = { cancel, NULL };
+    tl_hull_def def = tl_default_hull_def();
+    def.host.progress = &progress;
+    tl_hull *hull;
+    TEST_RESULT(tl_hull_build(points, 100, &def, &hull, NULL), TL_ERR_CANCELLED);
+    TEST_CHECK(hull == NULL);
+}
+
+static void visit_cloud(tl_vec3 *points, uint32_t count, void *user)
+{
+    uint32_t *flat = user;
+    tl_hull_def def = tl_default_hull_def();
+    tl_hull *hull;
+    tl_result result = tl_hull_build(points, count, &def, &hull, NULL);
+    if (result != TL_OK) {
+        TEST_CHECK(result == TL_ERR_COPLANAR || result == TL_ERR_COLLINEAR || result == TL_ERR_COINCIDENT);
+        ++*flat;
+        return;
+    }
+    prove(hull, points, count);
+    tl_hull *first = hull;
+    static const int exponents[] = { -50, 50 };
+    for (int e = 0; e < 2; e++) {
+        for (uint32_t i = 0; i < count; i++) {
+            int shift = exponents[e] - (e > 0 ? exponents[e - 1] : 0);
+            points[i] =
+                tl_vec3_make(ldexpf(points[i].x, shift), ldexpf(points[i].y, shift), ldexpf(points[i].z, shift));
+        }
+        TEST_RESULT(tl_hull_build(points, count, &def, &hull, NULL), TL_OK);
+        TEST_CHECK(same_topology(first, hull));
+        tl_blob_free(hull, NULL);
+    }
+    tl_blob_free(first, NULL);
+}
+
+static void test_real_clouds(void **state)
+{
+    (void)state;
+    uint32_t flat = 0;
+    uint32_t clouds = shape_each_cloud(TALUS_DATA_DIR "/hulls/hulls_dev.txt", visit_cloud, &flat);
+    if (clouds == 0) {
+        skip();
+    }
+    print_message("%u clouds, %u of them flat\n", clouds, flat);
+    TEST_CHECK(clouds > 3000 && flat < clouds / 10);
+}
+
+static void test_real_models(void **state)
+{
+    (void)state;
+    static const char *const names[] = {
+        "models/cow.obj",      "models/fandisk.obj",     "models/rocker-arm.obj", "models/stanford-bunny.obj",
+        "models/suzanne.obj",  "models/teapot.obj",      "levels/dungeon.obj",    "levels/collision_mesh_01.obj",
+        "levels/nav_test.obj", "levels/proto-level.obj", "levels/test_map01.obj", "levels/undulating.obj",
+    };
+    uint32_t seen = 0;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s/%s", TALUS_DATA_DIR, names[i]);
+        uint32_t count;
+        tl_vec3 *points = shape_read_obj(path, &count);
+        if (points == NULL) {
+            continue;
+        }
+        tl_hull *hull = build(points, count);
+        prove(hull, points, count);
+        tl_blob_free(hull, NULL);
+        free(points);
+        seen++;
+    }
+    if (seen == 0) {
+        skip();
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_hulls_are_proven_at_all_scales),
+        cmocka_unit_test(test_hulls_far_from_the_origin),
+        cmocka_unit_test(test_degenerate_input_is_named),
+        cmocka_unit_test(test_bad_points_and_defs_are_refused),
+        cmocka_unit_test(test_a_cube_is_a_cube),
+        cmocka_unit_test(test_reduction_is_graceful),
+        cmocka_unit_test(test_same_points_same_bytes),
+        cmocka_unit_test(test_memory_runs_out),
+        cmocka_unit_test(test_a_build_can_be_cancelled),
+        cmocka_unit_test(test_real_clouds),
+        cmocka_unit_test(test_real_models),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
