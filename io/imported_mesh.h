@@ -30,8 +30,8 @@ typedef struct tl_imported_mesh {
     uint64_t source_bytes;    ///< size of the file
     uint32_t face_count;      ///< in the file, triangles and polygons
     uint32_t polygon_count;   ///< faces of more than three corners
-    uint32_t concave_count;   ///< polygons that were not convex and were split along ears
-    uint32_t crooked_count;   ///< polygons that no proper split was found for, left as a fan from their first corner
+    uint32_t clipped_count;   ///< polygons split along ears: concave, or with corners in line (split_polygon.h)
+    uint32_t crooked_count;   ///< polygons for which no proper split was found: left as a fan from their first corner
     uint64_t ignored_points;  ///< point and
     uint64_t ignored_lines;   ///< line elements: they bound nothing
     uint64_t skipped_lines;   ///< lines of an unknown keyword

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+//
+// Which reader a mesh file is for; then its axes and its unit.
+
+#include "io/mesh_import.h"
+
+#include "io/assimp_reader.h"
+#include "io/file_map.h"
+#include "io/obj_reader.h"
+
+#include <string.h>
+
+enum { EXTENSION_BYTES = 16, SNIFF_BYTES = 4096, STL_HEAD_BYTES = 84, STL_TRIANGLE_BYTES = 50 };
+
+static const char known_kinds[] = "OBJ, glTF, GLB, FBX, STL, PLY and DAE are known";
+
+tl_import_options tl_default_import_options(void)
+{
+    tl_import_options options;
+    memset(&options, 0, sizeof options);
+    options.unit_scale = 1.0f;
+    return options;
+}
+
+// The extension with its point in lower case, or "".
+static void find_extension(const char *path, char extension[EXTENSION_BYTES])
+{
+    const char *slash = strrchr(path, '/');
+    const char *point = strrchr(slash != NULL ? slash : path, '.');
+    extension[0] = '\0';
+    if (point == NULL || strlen(point) >= EXTENSION_BYTES) {
+        return;
+    }
+    size_t i = 0;
+    for (; point[i] != '\0'; i++) {
+        extension[i] = point[i] >= 'A' && point[i] <= 'Z' ? (char)(point[i] - 'A' + 'a') : point[i];
+    }
+    extension[i] = '\0';
+}
+
+static bool begins_with(const char *bytes, size_t size, const char *text)
+{
+    size_t length = strlen(text);
+    return size >= length && memcmp(bytes, text, length) == 0;
+}
+
+static bool contains(const char *bytes, size_t size, const char *text)
+{
+    size_t length = strlen(text);
+    for (size_t i = 0; i + length <= size; i++) {
+        if (memcmp(bytes + i, text, length) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// A binary STL file says nothing but its triangle count.
+static bool is_binary_stl(const unsigned char *bytes, size_t size)
+{
+    if (size < STL_HEAD_BYTES) {
+        return false;
+    }
+    const unsigned char *c = bytes + STL_HEAD_BYTES - 4;
+    uint64_t count = (uint64_t)c[0] | (uint64_t)c[1] << 8 | (uint64_t)c[2] << 16 | (uint64_t)c[3] << 24;
+    return count > 0 && size == STL_HEAD_BYTES + count * STL_TRIANGLE_BYTES;
+}
+
+// What the leading bytes say by a mark that OBJ text cannot have: an extension that Assimp knows, or NULL.
+static const char *sniff_other(const char *bytes, size_t size)
+{
+    size_t head = size < SNIFF_BYTES ? size : SNIFF_BYTES;
+    size_t blanks = 0;
+    while (blanks < head &&
+           (bytes[blanks] == ' ' || bytes[blanks] == '\t' || bytes[blanks] == '\r' || bytes[blanks] == '\n')) {
+        blanks++;
+    }
+    if (begins_with(bytes, size, "glTF")) {
+        return "glb";
+    }
+    if (begins_with(bytes, size, "Kaydara FBX Binary") || begins_with(bytes, size, "; FBX")) {
+        return "fbx";
+    }
+    if (begins_with(bytes, size, "ply\n") || begins_with(bytes, size, "ply\r")) {
+        return "ply";
+    }
+    if (blanks < head && bytes[blanks] == '{' && contains(bytes, head, "\"asset\"")) {
+        return "gltf";
+    }
+    if (blanks < head && bytes[blanks] == '<' && contains(bytes, head, "<COLLADA")) {
+        return "dae";
+    }
+    if (is_binary_stl((const unsigned char *)bytes, size) ||
+        (begins_with(bytes, size, "solid") && contains(bytes, head, "facet"))) {
+        return "stl";
+    }
+    return NULL;
+}
+
+// Whether the first line that is not empty or a comment begins as OBJ lines do.
+static bool sniff_obj(const char *bytes, size_t size)
+{
+    static const char *const keywords[] = { "v ",  "v\t", "vn ", "vt ",     "o ",      "g ",
+                                            "g\n", "s ",  "f ",  "mtllib ", "usemtl ", "\xef\xbb\xbf" };
+    size_t at = 0;
+    while (at < size) {
+        while (at < size && (bytes[at] == ' ' || bytes[at] == '\t' || bytes[at] == '\r' || bytes[at] == '\n')) {
+            at++;
+        }
+        if (at < size && bytes[at] == '#') {
+            while (at < size && bytes[at] != '\n' && bytes[at] != '\r') {
+                at++;
+            }
+            continue;
+        }
+        for (size_t i = 0; i < sizeof keywords / sizeof keywords[0]; i++) {
+            if (begins_with(bytes + at, size - at, keywords[i])) {
+                return true;
+            }
+        }
+        return false;
+    }
+    return false;
+}
+
+static tl_result read_mesh(const char *path, const tl_file_map *map, const tl_import_options *options,
+                           tl_imported_mesh *mesh, tl_io_error *error)
+{
+    const tl_host *host = &options->host;
+    bool allow = options->allow_no_triangles;
+    bool stream = strcmp(path, "-") == 0;
+    const char *name = stream ? "standard input" : path;
+    char extension[EXTENSION_BYTES];
+    find_extension(path, extension);
+    if (map->size == 0) {
+        return tl_io_fail(error, TL_ERR_EMPTY, name, 0, "export the level again", "the file is empty");
+    }
+    const char *other = sniff_other(map->bytes, map->size);
+    bool named_obj = strcmp(extension, ".obj") == 0;
+    if (named_obj && other == NULL) {
+        return tl_obj_read(map->bytes, map->size, name, allow, host, mesh, error);
+    }
+    if (!named_obj && !stream && extension[0] != '\0' && tl_assimp_knows(extension)) {
+        return tl_assimp_read(path, NULL, map->size, NULL, allow, host, mesh, error);
+    }
+    if (other != NULL) {
+        return tl_assimp_read(name, map->bytes, map->size, other, allow, host, mesh, error);
+    }
+    if (sniff_obj(map->bytes, map->size)) {
+        return tl_obj_read(map->bytes, map->size, name, allow, host, mesh, error);
+    }
+    return tl_io_fail(error, TL_ERR_UNSUPPORTED, name, 0, known_kinds, "neither its name nor its content is a mesh's");
+}
+
+static tl_result place(tl_imported_mesh *mesh, const tl_import_options *options, const char *path, tl_io_error *error)
+{
+    float scale = options->unit_scale;
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        tl_vec3 vertex = mesh->vertices[i];
+        if (options->up_axis == TL_UP_Z) {
+            vertex = tl_vec3_make(vertex.x, vertex.z, 0.0f - vertex.y); // no -0 from a 0
+        }
+        vertex = tl_scale(vertex, scale);
+        if (!tl_is_finite(vertex)) {
+            tl_io_fail(error, TL_ERR_RANGE, path, 0, "check the unit scale",
+                       "vertex %u times the unit scale is beyond the largest float", (unsigned)i);
+            return tl_io_blame(error, TL_ERR_RANGE, "vertex", i);
+        }
+        mesh->vertices[i] = vertex;
+    }
+    return TL_OK;
+}
+
+static tl_result check_options(const tl_import_options *options, const char *path, tl_io_error *error)
+{
+    if (!(options->unit_scale > 0.0f && isfinite(options->unit_scale))) {
+        return tl_io_fail(error, TL_ERR_ARGUMENT, path, 0, "give metres a file unit, such as 0.01 for centimetres",
+                          "the unit scale is not a positive number");
+    }
+    if (options->up_axis != TL_UP_Y && options->up_axis != TL_UP_Z) {
+        return tl_io_fail(error, TL_ERR_ARGUMENT, path, 0, "y or z", "the up axis is not known");
+    }
+    return TL_OK;
+}
+
+tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_imported_mesh *mesh_out,
+                         tl_io_error *error_out)
+{
+    tl_import_options used = options != NULL ? *options : tl_default_import_options();
+    memset(mesh_out, 0, sizeof *mesh_out);
+    tl_result result = check_options(&used, path, error_out);
+    if (result != TL_OK) {
+        return result;
+    }
+    tl_file_map map;
+    result = tl_file_map_open(path, used.max_file_bytes, &map, error_out);
+    if (result != TL_OK) {
+        return result;
+    }
+    result = read_mesh(path, &map, &used, mesh_out, error_out);
+    tl_file_map_close(&map);
+    bool as_it_is = used.up_axis == TL_UP_Y && used.unit_scale == 1.0f;
+    if (result == TL_OK && !as_it_is) {
+        result = place(mesh_out, &used, path, error_out);
+    }
+    if (result != TL_OK) {
+        tl_imported_mesh_free(mesh_out);
+    }
+    return result;
+}
