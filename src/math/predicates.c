@@ -205,16 +205,21 @@ static exact_row row_difference(tl_vec3 a, tl_vec3 b)
     return r;
 }
 
+static void determinant_sum(exact_sum *sum, const exact_row *u, const exact_row *v, const exact_row *w)
+{
+    sum->count = 0;
+    add_pair_product3(sum, u->y, v->z, w->x);
+    add_pair_product3(sum, negated(u->z), v->y, w->x);
+    add_pair_product3(sum, u->z, v->x, w->y);
+    add_pair_product3(sum, negated(u->x), v->z, w->y);
+    add_pair_product3(sum, u->x, v->y, w->z);
+    add_pair_product3(sum, negated(u->y), v->x, w->z);
+}
+
 static int determinant_exact(const exact_row *u, const exact_row *v, const exact_row *w)
 {
     exact_sum sum;
-    sum.count = 0;
-    add_pair_product3(&sum, u->y, v->z, w->x);
-    add_pair_product3(&sum, negated(u->z), v->y, w->x);
-    add_pair_product3(&sum, u->z, v->x, w->y);
-    add_pair_product3(&sum, negated(u->x), v->z, w->y);
-    add_pair_product3(&sum, u->x, v->y, w->z);
-    add_pair_product3(&sum, negated(u->y), v->x, w->z);
+    determinant_sum(&sum, u, v, w);
     return exact_sign(&sum);
 }
 
@@ -263,6 +268,21 @@ int tl_line_side(tl_vec3 origin, tl_vec3 direction, tl_vec3 a, tl_vec3 b)
     exact_row v = row_difference(a, origin);
     exact_row w = row_difference(b, origin);
     return determinant_exact(&u, &v, &w);
+}
+
+double tl_normal_dot(tl_vec3 a, tl_vec3 b, tl_vec3 c, tl_vec3 p, tl_vec3 q)
+{
+    exact_row u = row_difference(b, a);
+    exact_row v = row_difference(c, a);
+    exact_row w = row_difference(p, q);
+    exact_sum sum;
+    determinant_sum(&sum, &u, &v, &w);
+    // Each component is below the last bit of the next, so all but the last two sums only round the last bits.
+    double value = 0.0;
+    for (int i = 0; i < sum.count; i++) {
+        value += sum.components[i];
+    }
+    return value;
 }
 
 int tl_compare_along(tl_vec3 direction, tl_vec3 p, tl_vec3 q)

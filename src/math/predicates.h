@@ -21,6 +21,10 @@ int tl_orient3d(tl_vec3 a, tl_vec3 b, tl_vec3 c, tl_vec3 d);
 /// Antisymmetric in a and b, so two triangles that share an edge never both miss a line through it.
 int tl_line_side(tl_vec3 origin, tl_vec3 direction, tl_vec3 a, tl_vec3 b);
 
+/// ((b - a) x (c - a)) . (p - q), summed exactly and rounded to within two ulps; 0 only when it is 0. Slow: for values
+/// whose sign or size a filter could not settle.
+double tl_normal_dot(tl_vec3 a, tl_vec3 b, tl_vec3 c, tl_vec3 p, tl_vec3 q);
+
 /// Sign of direction . (p - q): 1 when p lies farther along the direction than q.
 int tl_compare_along(tl_vec3 direction, tl_vec3 p, tl_vec3 q);
 

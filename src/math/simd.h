@@ -1,0 +1,431 @@
+// SPDX-License-Identifier: MIT
+//
+// A small vocabulary of vectors. A kernel is written once over it and compiled once per instruction set; the file's
+// compiler flags choose the branch below. Names say element and lanes: tl_f32x8 is eight floats.
+//
+// A file that defines TL_SIMD_SCALAR before it includes this gets plain C whatever its flags are: the twin that every
+// other branch is compared with. `tl_*_mul_add` is fused where the instruction set has it and rounded twice where it
+// has not, so it is only for values whose error bound covers both.
+
+#ifndef TALUS_SRC_MATH_SIMD_H
+#define TALUS_SRC_MATH_SIMD_H
+
+#include <stdint.h>
+
+#if defined(TL_SIMD_SCALAR)
+#define TL_SIMD_LEVEL 0
+#elif defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512BW__) && defined(__AVX512DQ__)
+#define TL_SIMD_LEVEL 3
+#elif defined(__AVX2__) && defined(__FMA__)
+#define TL_SIMD_LEVEL 2
+#elif defined(__SSE4_2__)
+#define TL_SIMD_LEVEL 1
+#else
+#define TL_SIMD_LEVEL 0
+#endif
+
+#if TL_SIMD_LEVEL > 0
+#include <immintrin.h>
+#endif
+
+// ---------------------------------------------------------------------------------------------- eight floats
+
+#if TL_SIMD_LEVEL >= 2
+
+typedef __m256 tl_f32x8;
+
+static inline tl_f32x8 tl_f32x8_all(float value)
+{
+    return _mm256_set1_ps(value);
+}
+
+/// Four floats in each half.
+static inline tl_f32x8 tl_f32x8_load_twice(const float *four)
+{
+    return _mm256_broadcast_ps((const __m128 *)(const void *)four);
+}
+
+static inline tl_f32x8 tl_f32x8_load_halves(const float *low, const float *high)
+{
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
+}
+
+static inline tl_f32x8 tl_f32x8_sub(tl_f32x8 a, tl_f32x8 b)
+{
+    return _mm256_sub_ps(a, b);
+}
+
+static inline tl_f32x8 tl_f32x8_mul(tl_f32x8 a, tl_f32x8 b)
+{
+    return _mm256_mul_ps(a, b);
+}
+
+static inline tl_f32x8 tl_f32x8_min(tl_f32x8 a, tl_f32x8 b)
+{
+    return _mm256_min_ps(a, b);
+}
+
+static inline tl_f32x8 tl_f32x8_max(tl_f32x8 a, tl_f32x8 b)
+{
+    return _mm256_max_ps(a, b);
+}
+
+/// Bit i: not a[i] < b[i], so true for NaN.
+static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)
+{
+    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_NLT_UQ));
+}
+
+#elif TL_SIMD_LEVEL == 1
+
+typedef struct tl_f32x8 {
+    __m128 low, high;
+} tl_f32x8;
+
+static inline tl_f32x8 tl_f32x8_make(__m128 low, __m128 high)
+{
+    tl_f32x8 r = { low, high };
+    return r;
+}
+
+static inline tl_f32x8 tl_f32x8_all(float value)
+{
+    return tl_f32x8_make(_mm_set1_ps(value), _mm_set1_ps(value));
+}
+
+static inline tl_f32x8 tl_f32x8_load_twice(const float *four)
+{
+    __m128 v = _mm_loadu_ps(four);
+    return tl_f32x8_make(v, v);
+}
+
+static inline tl_f32x8 tl_f32x8_load_halves(const float *low, const float *high)
+{
+    return tl_f32x8_make(_mm_loadu_ps(low), _mm_loadu_ps(high));
+}
+
+static inline tl_f32x8 tl_f32x8_sub(tl_f32x8 a, tl_f32x8 b)
+{
+    return tl_f32x8_make(_mm_sub_ps(a.low, b.low), _mm_sub_ps(a.high, b.high));
+}
+
+static inline tl_f32x8 tl_f32x8_mul(tl_f32x8 a, tl_f32x8 b)
+{
+    return tl_f32x8_make(_mm_mul_ps(a.low, b.low), _mm_mul_ps(a.high, b.high));
+}
+
+static inline tl_f32x8 tl_f32x8_min(tl_f32x8 a, tl_f32x8 b)
+{
+    return tl_f32x8_make(_mm_min_ps(a.low, b.low), _mm_min_ps(a.high, b.high));
+}
+
+static inline tl_f32x8 tl_f32x8_max(tl_f32x8 a, tl_f32x8 b)
+{
+    return tl_f32x8_make(_mm_max_ps(a.low, b.low), _mm_max_ps(a.high, b.high));
+}
+
+static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_cmpnlt_ps(a.low, b.low)) |
+           (uint32_t)_mm_movemask_ps(_mm_cmpnlt_ps(a.high, b.high)) << 4;
+}
+
+#else
+
+typedef struct tl_f32x8 {
+    float v[8];
+} tl_f32x8;
+
+static inline tl_f32x8 tl_f32x8_all(float value)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = value;
+    }
+    return r;
+}
+
+static inline tl_f32x8 tl_f32x8_load_halves(const float *low, const float *high)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = low[i];
+        r.v[4 + i] = high[i];
+    }
+    return r;
+}
+
+static inline tl_f32x8 tl_f32x8_load_twice(const float *four)
+{
+    return tl_f32x8_load_halves(four, four);
+}
+
+static inline tl_f32x8 tl_f32x8_sub(tl_f32x8 a, tl_f32x8 b)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = a.v[i] - b.v[i];
+    }
+    return r;
+}
+
+static inline tl_f32x8 tl_f32x8_mul(tl_f32x8 a, tl_f32x8 b)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = a.v[i] * b.v[i];
+    }
+    return r;
+}
+
+static inline tl_f32x8 tl_f32x8_min(tl_f32x8 a, tl_f32x8 b)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
+    }
+    return r;
+}
+
+static inline tl_f32x8 tl_f32x8_max(tl_f32x8 a, tl_f32x8 b)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
+    }
+    return r;
+}
+
+static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)
+{
+    uint32_t mask = 0;
+    for (int i = 0; i < 8; i++) {
+        mask |= (uint32_t) !(a.v[i] < b.v[i]) << i;
+    }
+    return mask;
+}
+
+#endif
+
+// -------------------------------------------------------------------------------------------- sixteen floats
+
+#if TL_SIMD_LEVEL == 3
+
+typedef __m512 tl_f32x16;
+
+static inline tl_f32x16 tl_f32x16_all(float value)
+{
+    return _mm512_set1_ps(value);
+}
+
+static inline tl_f32x16 tl_f32x16_from_u16(const uint16_t *sixteen)
+{
+    return _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(_mm256_loadu_si256((const __m256i *)(const void *)sixteen)));
+}
+
+static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
+{
+    return _mm512_fmadd_ps(a, b, c);
+}
+
+static inline tl_f32x16 tl_f32x16_min(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_min_ps(a, b);
+}
+
+static inline tl_f32x16 tl_f32x16_max(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_max_ps(a, b);
+}
+
+static inline void tl_f32x16_store(float *sixteen, tl_f32x16 a)
+{
+    _mm512_storeu_ps(sixteen, a);
+}
+
+/// Bit i: a[i] <= b[i].
+static inline uint32_t tl_f32x16_less_equal(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
+}
+
+/// Bit i: sixteen[i] is not 0.
+static inline uint32_t tl_u32x16_nonzero(const uint32_t *sixteen)
+{
+    __m512i v = _mm512_loadu_si512(sixteen);
+    return _mm512_test_epi32_mask(v, v);
+}
+
+#else
+
+/// Two halves of tl_f32x8.
+typedef struct tl_f32x16 {
+    tl_f32x8 low, high;
+} tl_f32x16;
+
+static inline tl_f32x16 tl_f32x16_all(float value)
+{
+    tl_f32x16 r = { tl_f32x8_all(value), tl_f32x8_all(value) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_min(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_min(a.low, b.low), tl_f32x8_min(a.high, b.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_max(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_max(a.low, b.low), tl_f32x8_max(a.high, b.high) };
+    return r;
+}
+
+#if TL_SIMD_LEVEL == 2
+
+static inline tl_f32x16 tl_f32x16_from_u16(const uint16_t *sixteen)
+{
+    const __m128i *halves = (const __m128i *)(const void *)sixteen;
+    tl_f32x16 r = { _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(halves))),
+                    _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(halves + 1))) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
+{
+    tl_f32x16 r = { _mm256_fmadd_ps(a.low, b.low, c.low), _mm256_fmadd_ps(a.high, b.high, c.high) };
+    return r;
+}
+
+static inline void tl_f32x16_store(float *sixteen, tl_f32x16 a)
+{
+    _mm256_storeu_ps(sixteen, a.low);
+    _mm256_storeu_ps(sixteen + 8, a.high);
+}
+
+static inline uint32_t tl_f32x16_less_equal(tl_f32x16 a, tl_f32x16 b)
+{
+    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a.low, b.low, _CMP_LE_OQ)) |
+           (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a.high, b.high, _CMP_LE_OQ)) << 8;
+}
+
+static inline uint32_t tl_u32x16_nonzero(const uint32_t *sixteen)
+{
+    const __m256i *halves = (const __m256i *)(const void *)sixteen;
+    __m256i zero = _mm256_setzero_si256();
+    __m256i low = _mm256_cmpeq_epi32(_mm256_loadu_si256(halves), zero);
+    __m256i high = _mm256_cmpeq_epi32(_mm256_loadu_si256(halves + 1), zero);
+    uint32_t empty = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(low)) |
+                     (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(high)) << 8;
+    return ~empty & 0xffffu;
+}
+
+#elif TL_SIMD_LEVEL == 1
+
+static inline tl_f32x8 tl_f32x8_from_u16(const uint16_t *eight)
+{
+    __m128i v = _mm_loadu_si128((const __m128i *)(const void *)eight);
+    return tl_f32x8_make(_mm_cvtepi32_ps(_mm_cvtepu16_epi32(v)),
+                         _mm_cvtepi32_ps(_mm_cvtepu16_epi32(_mm_unpackhi_epi64(v, v))));
+}
+
+static inline tl_f32x16 tl_f32x16_from_u16(const uint16_t *sixteen)
+{
+    tl_f32x16 r = { tl_f32x8_from_u16(sixteen), tl_f32x8_from_u16(sixteen + 8) };
+    return r;
+}
+
+static inline tl_f32x8 tl_f32x8_mul_add(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c)
+{
+    return tl_f32x8_make(_mm_add_ps(_mm_mul_ps(a.low, b.low), c.low), _mm_add_ps(_mm_mul_ps(a.high, b.high), c.high));
+}
+
+static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
+{
+    tl_f32x16 r = { tl_f32x8_mul_add(a.low, b.low, c.low), tl_f32x8_mul_add(a.high, b.high, c.high) };
+    return r;
+}
+
+static inline void tl_f32x16_store(float *sixteen, tl_f32x16 a)
+{
+    _mm_storeu_ps(sixteen, a.low.low);
+    _mm_storeu_ps(sixteen + 4, a.low.high);
+    _mm_storeu_ps(sixteen + 8, a.high.low);
+    _mm_storeu_ps(sixteen + 12, a.high.high);
+}
+
+static inline uint32_t tl_f32x8_less_equal(tl_f32x8 a, tl_f32x8 b)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a.low, b.low)) |
+           (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a.high, b.high)) << 4;
+}
+
+static inline uint32_t tl_f32x16_less_equal(tl_f32x16 a, tl_f32x16 b)
+{
+    return tl_f32x8_less_equal(a.low, b.low) | tl_f32x8_less_equal(a.high, b.high) << 8;
+}
+
+static inline uint32_t tl_u32x16_nonzero(const uint32_t *sixteen)
+{
+    uint32_t empty = 0;
+    for (int i = 0; i < 4; i++) {
+        __m128i v = _mm_loadu_si128((const __m128i *)(const void *)(sixteen + 4 * i));
+        __m128i zero = _mm_cmpeq_epi32(v, _mm_setzero_si128());
+        empty |= (uint32_t)_mm_movemask_ps(_mm_castsi128_ps(zero)) << (4 * i);
+    }
+    return ~empty & 0xffffu;
+}
+
+#else
+
+static inline tl_f32x16 tl_f32x16_from_u16(const uint16_t *sixteen)
+{
+    tl_f32x16 r;
+    for (int i = 0; i < 8; i++) {
+        r.low.v[i] = (float)sixteen[i];
+        r.high.v[i] = (float)sixteen[i + 8];
+    }
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
+{
+    tl_f32x16 r;
+    for (int i = 0; i < 8; i++) {
+        r.low.v[i] = a.low.v[i] * b.low.v[i] + c.low.v[i];
+        r.high.v[i] = a.high.v[i] * b.high.v[i] + c.high.v[i];
+    }
+    return r;
+}
+
+static inline void tl_f32x16_store(float *sixteen, tl_f32x16 a)
+{
+    for (int i = 0; i < 8; i++) {
+        sixteen[i] = a.low.v[i];
+        sixteen[i + 8] = a.high.v[i];
+    }
+}
+
+static inline uint32_t tl_f32x16_less_equal(tl_f32x16 a, tl_f32x16 b)
+{
+    uint32_t mask = 0;
+    for (int i = 0; i < 8; i++) {
+        mask |= (uint32_t)(a.low.v[i] <= b.low.v[i]) << i;
+        mask |= (uint32_t)(a.high.v[i] <= b.high.v[i]) << (i + 8);
+    }
+    return mask;
+}
+
+static inline uint32_t tl_u32x16_nonzero(const uint32_t *sixteen)
+{
+    uint32_t mask = 0;
+    for (int i = 0; i < 16; i++) {
+        mask |= (uint32_t)(sixteen[i] != 0) << i;
+    }
+    return mask;
+}
+
+#endif
+#endif
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// One ray on its way through a soup.
+//
+// A query has three parts. Boxes and leaves are filtered in float, conservatively: what they reject is proven to be no
+// hit, whatever rounds how. What passes is decided in double, exactly where signs matter (ray_decide.c). So the filters
+// may differ between instruction sets, and the answers do not.
+
+#ifndef TALUS_SRC_SOUP_RAY_H
+#define TALUS_SRC_SOUP_RAY_H
+
+#include "soup/soup_layout.h"
+
+typedef struct tl_ray_job {
+    const tl_soup *soup;
+    const tl_ray_filter *filter; ///< never NULL
+    tl_vec3 origin;
+    tl_vec3 target;  ///< a ray's direction or a segment's end
+    bool is_segment; ///< direction is target - origin, not rounded; t is within [0, 1]
+
+    // Boxes. Grid plane q of axis i is met at t = (q * plane_scale[i] + near_base[i]) / box_scale, rounded down, or
+    // with far_base up.
+    float plane_scale[3];
+    float near_base[3];
+    float far_base[3];
+    uint8_t near_row[3]; ///< row of tl_soup_node.plane that the ray enters by
+    uint8_t far_row[3];
+    float box_scale; ///< power of two: box t = t * box_scale
+    float box_limit; ///< boxes that begin beyond it are skipped
+
+    // Leaves: origin moved to zero, then sheared so that the ray runs along axis_z.
+    uint32_t axis_x, axis_y, axis_z;
+    float shear_x, shear_y;
+    float corner_error; ///< metres: bound of the error of a sheared corner
+
+    // The exact part.
+    double direction[3];
+    double shear[2];
+
+    // The best so far. t begins as tmax, so the first hit at tmax itself still wins by its index.
+    float t;
+    uint32_t triangle; ///< UINT32_MAX: none
+    tl_leaf_view leaf;
+    uint32_t lane;
+    double weight[3]; ///< of the view's corners; not normalized
+    bool back;
+} tl_ray_job;
+
+/// Fills all but soup, filter, origin, target, is_segment and t, which the caller has set. False: nothing can be hit.
+bool tl_ray_prepare(tl_ray_job *job);
+
+/// Decides one lane of a leaf. If it is hit, and better than the best so far, it becomes the best.
+bool tl_ray_decide(tl_ray_job *job, const tl_leaf_view *leaf, uint32_t lane);
+
+/// The walk through the tree, once per instruction set. `any`: returns at the first hit. True: something was hit.
+typedef bool tl_ray_walk_fn(tl_ray_job *job, bool any);
+
+bool tl_ray_walk_scalar(tl_ray_job *job, bool any);
+#if defined(__x86_64__)
+bool tl_ray_walk_sse42(tl_ray_job *job, bool any);
+bool tl_ray_walk_avx2(tl_ray_job *job, bool any);
+bool tl_ray_walk_avx512(tl_ray_job *job, bool any);
+#endif
+
+/// Instruction sets, ascending.
+typedef enum tl_ray_isa { TL_RAY_SCALAR, TL_RAY_SSE42, TL_RAY_AVX2, TL_RAY_AVX512, TL_RAY_ISA_COUNT } tl_ray_isa;
+
+/// The walk for an instruction set, or NULL where this machine or build lacks it.
+tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa);
+
+/// The public queries with a walk of the caller's choice.
+bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,
+                           tl_ray_hit *hit_out);
+bool tl_soup_occluded_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter);
+bool tl_soup_cast_segment_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b,
+                               const tl_ray_filter *filter, tl_ray_hit *hit_out);
+bool tl_soup_line_of_sight_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b,
+                                const tl_ray_filter *filter);
+
+#endif

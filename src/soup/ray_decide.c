@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+//
+// Whether a ray meets a triangle, exactly, and where.
+//
+// The ray is sheared into an axis and the triangle's corners into a plane across it, in double. The sidedness of the
+// ray and an edge a, b is then E(a, b) = a.x b.y - a.y b.x: the scalar triple product of the text, divided by the
+// direction's largest component. The line meets the closed triangle when no two edges have opposite signs; a sign that
+// the error bound cannot vouch for is found exactly. E of the three edges are also the weights of the opposite corners.
+//
+// Error of E, u = TL_DOUBLE_ROUNDING, M the largest coordinate of the three corners seen from the origin, m the largest
+// after the shear: corners are off by at most 8 u M (ray_prepare.c), so E by at most 4 (8 u M) m + 2 (8 u M)^2, and its
+// own two products and difference add 4 u m^2.
+//
+// Error of t = sum(E_i t_i) / sum(E_i): errors e of the weights move it by at most 3 e (max t_i - min t_i) / |sum E|;
+// the rest is rounding, some 11 u max |t_i|, taken as 16.
+//
+// Sources: Christer Ericson, Real-Time Collision Detection, 2005, section 5.3.4; Woop, Benthin, Wald, Watertight
+// Ray/Triangle Intersection, JCGT 2013.
+
+#include "soup/ray.h"
+
+#include "math/predicates.h"
+#include "math/tolerance.h"
+
+#include <float.h>
+
+// A t is recomputed exactly when its weights may have moved it by more than this share of itself...
+#define T_WEIGHT_ERROR 7.450580596923828e-9 // 2^-27: an eighth of an ulp of float
+// ...or more than this share of the farthest corner's t: 2^-46.
+#define T_ROUNDING_ERROR 1.4210854715202004e-14
+
+typedef struct triangle_test {
+    tl_vec3 corner[3];
+    double depth[3];  // t at which the ray passes each corner
+    double weight[3]; // E of the edge across from each corner
+    double error;     // bound of a weight's error
+    int sign;         // of the weights that are not zero
+} triangle_test;
+
+static inline double component(tl_vec3 v, uint32_t axis)
+{
+    return (double)(axis == 0 ? v.x : axis == 1 ? v.y : v.z);
+}
+
+static inline int sign_of(double value)
+{
+    return (value > 0.0) - (value < 0.0);
+}
+
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+// The exact side on which the line passes the edge from a to b, as the sign of E(a, b).
+static int exact_side(const tl_ray_job *job, tl_vec3 a, tl_vec3 b)
+{
+    int side =
+        job->is_segment ? tl_orient3d(job->origin, job->target, a, b) : tl_line_side(job->origin, job->target, a, b);
+    return job->direction[job->axis_z] > 0.0 ? side : -side;
+}
+
+// Weights and their common sign; false when the line misses the triangle or lies in its plane.
+static bool meets_line(const tl_ray_job *job, triangle_test *test)
+{
+    double x[3], y[3];
+    double reach = 0.0, size = 0.0;
+    double direction_z = job->direction[job->axis_z];
+    for (int k = 0; k < 3; k++) {
+        double dx = component(test->corner[k], job->axis_x) - component(job->origin, job->axis_x);
+        double dy = component(test->corner[k], job->axis_y) - component(job->origin, job->axis_y);
+        double dz = component(test->corner[k], job->axis_z) - component(job->origin, job->axis_z);
+        x[k] = dx - job->shear[0] * dz;
+        y[k] = dy - job->shear[1] * dz;
+        test->depth[k] = dz / direction_z;
+        reach = larger(reach, larger(larger(fabs(dx), fabs(dy)), fabs(dz)));
+        size = larger(size, larger(fabs(x[k]), fabs(y[k])));
+    }
+    test->error =
+        TL_DOUBLE_ROUNDING * (33.0 * reach * size + 5.0 * size * size + 256.0 * TL_DOUBLE_ROUNDING * reach * reach);
+    bool positive = false, negative = false;
+    for (int k = 0; k < 3; k++) {
+        int i = (k + 1) % 3, j = (k + 2) % 3;
+        test->weight[k] = x[i] * y[j] - y[i] * x[j];
+        positive |= test->weight[k] > test->error;
+        negative |= test->weight[k] < -test->error;
+    }
+    for (int k = 0; k < 3 && !(positive && negative); k++) {
+        if (fabs(test->weight[k]) <= test->error) {
+            int sign = exact_side(job, test->corner[(k + 1) % 3], test->corner[(k + 2) % 3]);
+            test->weight[k] = sign != 0 && sign_of(test->weight[k]) == sign ? test->weight[k] : 0.0;
+            positive |= sign > 0;
+            negative |= sign < 0;
+        }
+    }
+    test->sign = positive ? 1 : -1;
+    return positive != negative;
+}
+
+// t of the triangle's plane by exact sums: for lines that graze it, where the weights say little.
+static double exact_t(const tl_ray_job *job, const triangle_test *test)
+{
+    const tl_vec3 *v = test->corner;
+    double across = tl_normal_dot(v[0], v[1], v[2], v[0], job->origin);
+    double along = job->is_segment ? tl_normal_dot(v[0], v[1], v[2], job->target, job->origin)
+                                   : tl_normal_dot(v[0], v[1], v[2], job->target, tl_vec3_make(0.0f, 0.0f, 0.0f));
+    return across / along;
+}
+
+// On which side of t = 0 the hit lies, exactly; `at` is the point of t = 0, or of t = 1 to compare with that.
+static int exact_order(const tl_ray_job *job, const triangle_test *test, tl_vec3 at)
+{
+    const tl_vec3 *v = test->corner;
+    // normal . (corner - at) over normal . direction; the latter's sign is that of the weights along the axis.
+    int across = -tl_orient3d(v[0], v[1], v[2], at);
+    int along = job->direction[job->axis_z] > 0.0 ? test->sign : -test->sign;
+    return across * along;
+}
+
+// The reported t; false when the hit lies before the ray's start or a segment's end.
+static bool find_t(const tl_ray_job *job, const triangle_test *test, float *t_out)
+{
+    double sum = test->weight[0] + test->weight[1] + test->weight[2];
+    const double *depth = test->depth;
+    double t = (test->weight[0] * depth[0] + test->weight[1] * depth[1] + test->weight[2] * depth[2]) / sum;
+    double low = depth[0] < depth[1] ? depth[0] : depth[1];
+    double high = larger(depth[0], depth[1]);
+    low = low < depth[2] ? low : depth[2];
+    high = larger(high, depth[2]);
+    double farthest = larger(fabs(low), fabs(high));
+    double rounding = 16.0 * TL_DOUBLE_ROUNDING * farthest;
+    double error = 3.0 * test->error * (high - low) / fabs(sum);
+    // Written so that NaN, from a sum of zero, takes the exact way too.
+    if (!(error <= T_WEIGHT_ERROR * fabs(t) || error <= T_ROUNDING_ERROR * farthest)) {
+        t = exact_t(job, test);
+        error = 8.0 * TL_DOUBLE_ROUNDING * fabs(t);
+    }
+    error += rounding;
+    if (t < -error || (t <= error && low < 0.0 && exact_order(job, test, job->origin) < 0)) {
+        return false;
+    }
+    if (job->is_segment &&
+        (t > 1.0 + error || (t >= 1.0 - error && high > 1.0 - rounding && exact_order(job, test, job->target) > 0))) {
+        return false;
+    }
+    t = t > 0.0 ? t : 0.0;
+    *t_out = t < (double)FLT_MAX ? (float)t : FLT_MAX;
+    if (job->is_segment && *t_out > 1.0f) {
+        *t_out = 1.0f;
+    }
+    return true;
+}
+
+static bool passes_filter(const tl_ray_job *job, uint32_t triangle, bool back)
+{
+    const tl_ray_filter *filter = job->filter;
+    if (filter->cull == (back ? TL_RAY_CULL_BACK : TL_RAY_CULL_FRONT)) {
+        return false;
+    }
+    if (filter->material_mask == UINT64_MAX && filter->accept == NULL) {
+        return true;
+    }
+    uint16_t material = tl_soup_material(job->soup, triangle);
+    uint32_t bit = material < 63 ? material : 63;
+    if ((filter->material_mask >> bit & 1) == 0) {
+        return false;
+    }
+    return filter->accept == NULL || filter->accept(triangle, material, filter->accept_user);
+}
+
+bool tl_ray_decide(tl_ray_job *job, const tl_leaf_view *leaf, uint32_t lane)
+{
+    uint32_t triangle = leaf->ids[lane] & TL_ID_INDEX;
+    triangle_test test;
+    tl_leaf_corners(leaf, lane, test.corner);
+    float t;
+    if (!meets_line(job, &test) || !find_t(job, &test, &t)) {
+        return false;
+    }
+    if (!(t < job->t || (t == job->t && triangle < job->triangle))) {
+        return false;
+    }
+    // normal . direction > 0: the ray runs with the normal, so it came from behind.
+    bool back = (job->direction[job->axis_z] > 0.0) == (test.sign > 0);
+    if (!passes_filter(job, triangle, back)) {
+        return false;
+    }
+    job->t = t;
+    job->box_limit = t * job->box_scale + FLT_MIN;
+    job->triangle = triangle;
+    job->leaf = *leaf;
+    job->lane = lane;
+    job->back = back;
+    for (int k = 0; k < 3; k++) {
+        job->weight[k] = test.weight[k];
+    }
+    return true;
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+//
+// The public ray queries: choose the walk, run it, describe the hit.
+//
+// The choice reads the processor's features as the C runtime found them at program start (__builtin_cpu_supports): one
+// load and a branch, no state of our own. A cached choice would be mutable global state; a choice stored in the soup
+// would make its bytes depend on the machine.
+
+#include "soup/ray.h"
+
+#include "base/assert.h"
+
+#include <float.h>
+#include <string.h>
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+static inline bool has_avx512(void)
+{
+    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
+}
+
+static inline bool has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+}
+
+tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
+{
+    switch (isa) {
+    case TL_RAY_SCALAR:
+        return tl_ray_walk_scalar;
+    case TL_RAY_SSE42:
+        return __builtin_cpu_supports("sse4.2") ? tl_ray_walk_sse42 : NULL;
+    case TL_RAY_AVX2:
+        return has_avx2() ? tl_ray_walk_avx2 : NULL;
+    case TL_RAY_AVX512:
+        return has_avx512() ? tl_ray_walk_avx512 : NULL;
+    default:
+        return NULL;
+    }
+}
+
+static inline tl_ray_walk_fn *best_walk(void)
+{
+    if (has_avx512()) {
+        return tl_ray_walk_avx512;
+    }
+    if (has_avx2()) {
+        return tl_ray_walk_avx2;
+    }
+    return __builtin_cpu_supports("sse4.2") ? tl_ray_walk_sse42 : tl_ray_walk_scalar;
+}
+
+#else
+
+tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
+{
+    return isa == TL_RAY_SCALAR ? tl_ray_walk_scalar : NULL;
+}
+
+static inline tl_ray_walk_fn *best_walk(void)
+{
+    return tl_ray_walk_scalar;
+}
+
+#endif
+
+tl_ray_filter tl_default_ray_filter(void)
+{
+    tl_ray_filter filter = { TL_RAY_CULL_NONE, UINT64_MAX, NULL, NULL };
+    return filter;
+}
+
+static tl_vec3 unit_normal(const tl_vec3 corner[3])
+{
+    double ux = (double)corner[1].x - (double)corner[0].x, vx = (double)corner[2].x - (double)corner[0].x;
+    double uy = (double)corner[1].y - (double)corner[0].y, vy = (double)corner[2].y - (double)corner[0].y;
+    double uz = (double)corner[1].z - (double)corner[0].z, vz = (double)corner[2].z - (double)corner[0].z;
+    double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+    double length = sqrt(x * x + y * y + z * z);
+    if (!(length > 0.0)) {
+        return tl_vec3_make(0.0f, 0.0f, 0.0f);
+    }
+    return tl_vec3_make((float)(x / length), (float)(y / length), (float)(z / length));
+}
+
+static void describe_hit(const tl_ray_job *job, tl_ray_hit *hit)
+{
+    memset(hit, 0, sizeof *hit);
+    hit->t = job->t;
+    hit->triangle = job->triangle;
+    hit->material = tl_soup_material(job->soup, job->triangle);
+    hit->back = job->back;
+    double sum = job->weight[0] + job->weight[1] + job->weight[2];
+    // A needle seen edge-on may have weights that all vanish in double: then the hit is anywhere on it.
+    hit->u = sum != 0.0 ? (float)(job->weight[1] / sum) : 0.0f;
+    hit->v = sum != 0.0 ? (float)(job->weight[2] / sum) : 0.0f;
+    tl_vec3 corner[3];
+    tl_leaf_corners(&job->leaf, job->lane, corner);
+    hit->normal = unit_normal(corner);
+}
+
+static bool run(tl_ray_walk_fn *walk, tl_ray_job *job, const tl_ray_filter *filter, tl_ray_hit *hit_out)
+{
+    tl_ray_filter everything = tl_default_ray_filter();
+    job->filter = filter != NULL ? filter : &everything;
+    if (!tl_ray_prepare(job) || !walk(job, hit_out == NULL)) {
+        return false;
+    }
+    if (hit_out != NULL) {
+        describe_hit(job, hit_out);
+    }
+    return true;
+}
+
+static bool run_ray(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,
+                    tl_ray_hit *hit_out)
+{
+    TL_ASSERT(soup != NULL && ray != NULL);
+    tl_ray_job job;
+    job.soup = soup;
+    job.origin = ray->origin;
+    job.target = ray->direction;
+    job.is_segment = false;
+    job.t = ray->tmax;
+    return run(walk, &job, filter, hit_out);
+}
+
+static bool run_segment(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter,
+                        tl_ray_hit *hit_out)
+{
+    TL_ASSERT(soup != NULL);
+    tl_ray_job job;
+    job.soup = soup;
+    job.origin = a;
+    job.target = b;
+    job.is_segment = true;
+    job.t = 1.0f;
+    return run(walk, &job, filter, hit_out);
+}
+
+bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,
+                           tl_ray_hit *hit_out)
+{
+    TL_ASSERT(hit_out != NULL);
+    return run_ray(walk, soup, ray, filter, hit_out);
+}
+
+bool tl_soup_occluded_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter)
+{
+    return run_ray(walk, soup, ray, filter, NULL);
+}
+
+bool tl_soup_cast_segment_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b,
+                               const tl_ray_filter *filter, tl_ray_hit *hit_out)
+{
+    TL_ASSERT(hit_out != NULL);
+    return run_segment(walk, soup, a, b, filter, hit_out);
+}
+
+bool tl_soup_line_of_sight_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b,
+                                const tl_ray_filter *filter)
+{
+    return !run_segment(walk, soup, a, b, filter, NULL);
+}
+
+bool tl_soup_cast_ray(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter, tl_ray_hit *hit_out)
+{
+    return tl_soup_cast_ray_with(best_walk(), soup, ray, filter, hit_out);
+}
+
+bool tl_soup_occluded(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter)
+{
+    return tl_soup_occluded_with(best_walk(), soup, ray, filter);
+}
+
+bool tl_soup_cast_segment(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter, tl_ray_hit *hit_out)
+{
+    return tl_soup_cast_segment_with(best_walk(), soup, a, b, filter, hit_out);
+}
+
+bool tl_soup_line_of_sight(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter)
+{
+    return tl_soup_line_of_sight_with(best_walk(), soup, a, b, filter);
+}

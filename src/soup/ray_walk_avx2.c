@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+//
+// The walk for AVX2 with FMA: a leaf's eight lanes in one register.
+
+#if defined(__x86_64__)
+#define TL_RAY_WALK tl_ray_walk_avx2
+#include "soup/ray_walk.h"
+#endif

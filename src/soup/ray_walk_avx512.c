@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+//
+// The walk for AVX-512 (F, VL, BW, DQ): a node's sixteen boxes in one register.
+
+#if defined(__x86_64__)
+#define TL_RAY_WALK tl_ray_walk_avx512
+#include "soup/ray_walk.h"
+#endif

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+//
+// The walk for SSE4.2: lanes by four.
+
+#if defined(__x86_64__)
+#define TL_RAY_WALK tl_ray_walk_sse42
+#include "soup/ray_walk.h"
+#endif

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: MIT
+//
+// From the binary tree to the blob: wide nodes are cut from it, boxes are rounded outward to the grid, and pairs are
+// written into leaves.
+//
+// A wide node starts with the two children of a binary node and opens the inner child with the largest surface until it
+// has sixteen: the child that rays enter most is the one whose test should not cost a visit.
+// Source: Ingo Wald, Carsten Benthin, Solomon Boulos, Getting Rid of Packets, 2008.
+
+#include "base/assert.h"
+#include "soup/soup_build.h"
+#include "soup/soup_layout.h"
+
+#include <float.h>
+#include <string.h>
+
+typedef struct baker {
+    const tl_mesh_view *view;
+    const tl_mesh *mesh;
+    const tl_pair *pairs;
+    uint32_t pair_count;
+    const tl_tree *tree;
+    uint32_t *roots;  // binary node of each wide node, in breadth-first order
+    uint8_t *written; // pairs that have been written once
+    uint32_t node_count;
+    uint32_t leaf_count;
+    uint32_t depth;
+    uint64_t leaf_bytes;
+} baker;
+
+// The binary nodes that become the children of a wide node.
+static uint32_t cut_children(const tl_tree *tree, uint32_t root, uint32_t children[TL_SOUP_WIDTH])
+{
+    const tl_tree_node *nodes = tree->nodes;
+    if (nodes[root].count > 0) {
+        children[0] = root;
+        return 1;
+    }
+    children[0] = nodes[root].left;
+    children[1] = nodes[root].right;
+    uint32_t count = 2;
+    while (count < TL_SOUP_WIDTH) {
+        uint32_t widest = TL_SOUP_WIDTH;
+        float widest_area = -1.0f;
+        for (uint32_t i = 0; i < count; i++) {
+            float area = tl_aabb_half_area(nodes[children[i]].box);
+            if (nodes[children[i]].count == 0 && area > widest_area) {
+                widest = i;
+                widest_area = area;
+            }
+        }
+        if (widest == TL_SOUP_WIDTH) {
+            break;
+        }
+        uint32_t opened = children[widest];
+        children[widest] = nodes[opened].left;
+        children[count++] = nodes[opened].right;
+    }
+    return count;
+}
+
+// Finds the wide nodes breadth first, and with them all sizes.
+static void cut_tree(baker *b)
+{
+    b->roots[0] = b->tree->root;
+    b->node_count = 1;
+    uint32_t level_end = 1;
+    b->depth = 1;
+    for (uint32_t i = 0; i < b->node_count; i++) {
+        if (i == level_end) {
+            level_end = b->node_count;
+            b->depth++;
+        }
+        uint32_t children[TL_SOUP_WIDTH];
+        uint32_t count = cut_children(b->tree, b->roots[i], children);
+        for (uint32_t k = 0; k < count; k++) {
+            const tl_tree_node *child = &b->tree->nodes[children[k]];
+            if (child->count > 0) {
+                b->leaf_count++;
+                b->leaf_bytes += tl_leaf_size(child->count);
+            } else {
+                b->roots[b->node_count++] = children[k];
+            }
+        }
+    }
+}
+
+// A cell so large that 65535 of them reach across; cells below the smallest normal float would lose their precision.
+static float choose_cell(float min, float max)
+{
+    double extent = (double)max - (double)min;
+    if (!(extent > 0.0)) {
+        return 0.0f;
+    }
+    float cell = (float)(extent / TL_SOUP_GRID_MAX * (1.0 + 4.0 * (double)FLT_EPSILON));
+    return cell > FLT_MIN ? cell : FLT_MIN;
+}
+
+static uint16_t grid_below(float value, float origin, float cell)
+{
+    if (!(cell > 0.0f)) {
+        return 0;
+    }
+    double step = floor(((double)value - (double)origin) / (double)cell);
+    uint32_t q = step < 0.0 ? 0 : step > TL_SOUP_GRID_MAX ? TL_SOUP_GRID_MAX : (uint32_t)step;
+    while (q > 0 && (double)origin + (double)q * (double)cell > (double)value) {
+        q--;
+    }
+    return (uint16_t)q;
+}
+
+static uint16_t grid_above(float value, float origin, float cell)
+{
+    uint32_t q = grid_below(value, origin, cell);
+    while (q < TL_SOUP_GRID_MAX && (double)origin + (double)q * (double)cell < (double)value) {
+        q++;
+    }
+    return (uint16_t)q;
+}
+
+static void write_box(const tl_soup *soup, tl_aabb box, uint32_t lane, tl_soup_node *node)
+{
+    tl_vec3 origin = soup->grid_origin;
+    tl_vec3 cell = soup->grid_cell;
+    node->plane[0][lane] = grid_below(box.min.x, origin.x, cell.x);
+    node->plane[1][lane] = grid_above(box.max.x, origin.x, cell.x);
+    node->plane[2][lane] = grid_below(box.min.y, origin.y, cell.y);
+    node->plane[3][lane] = grid_above(box.max.y, origin.y, cell.y);
+    node->plane[4][lane] = grid_below(box.min.z, origin.z, cell.z);
+    node->plane[5][lane] = grid_above(box.max.z, origin.z, cell.z);
+}
+
+static float triangle_extent(tl_vec3 a, tl_vec3 b, tl_vec3 c)
+{
+    tl_vec3 size = tl_sub(tl_max(tl_max(a, b), c), tl_min(tl_min(a, b), c));
+    return tl_maxf(tl_maxf(size.x, size.y), size.z);
+}
+
+static void write_corner(float *const *arrays, uint32_t i, tl_vec3 corner)
+{
+    arrays[0][i] = corner.x;
+    arrays[1][i] = corner.y;
+    arrays[2][i] = corner.z;
+}
+
+static void write_leaf(baker *b, const tl_tree_node *node, tl_soup_leaf *leaf)
+{
+    uint32_t n = node->count;
+    leaf->tagged_count = TL_LEAF_TAG | n;
+    uint32_t *ids = (uint32_t *)(void *)(leaf + 1);
+    float *floats = (float *)(void *)(ids + 2 * (size_t)n);
+    float *a[3], *c[3], *e[3];
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        a[axis] = floats + (size_t)axis * n;
+        c[axis] = floats + (size_t)(3 + axis) * n;
+        e[axis] = floats + (size_t)(6 + 2 * axis) * n;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        uint32_t index = b->tree->refs[node->first + i].pair;
+        const tl_pair *pair = &b->pairs[index];
+        uint32_t copy = b->written[index] ? TL_ID_COPY : 0;
+        b->written[index] = 1;
+        tl_vec3 corner[4];
+        for (uint32_t k = 0; k < 4; k++) {
+            corner[k] = b->mesh->vertices[pair->corner[k]];
+        }
+        write_corner(a, i, corner[0]);
+        write_corner(e, i, corner[1]);
+        write_corner(c, i, corner[2]);
+        write_corner(e, n + i, corner[3]);
+        for (uint32_t k = 0; k < 2; k++) {
+            ids[k * n + i] = pair->triangle[k] == TL_NO_TRIANGLE
+                                 ? TL_ID_NONE
+                                 : b->mesh->source_triangles[pair->triangle[k]] | copy | (uint32_t)pair->order[k] << 29;
+        }
+        leaf->extent = tl_maxf(leaf->extent, tl_maxf(triangle_extent(corner[0], corner[1], corner[2]),
+                                                     triangle_extent(corner[0], corner[2], corner[3])));
+    }
+}
+
+static void write_tree(baker *b, tl_soup *soup)
+{
+    tl_soup_node *nodes = (tl_soup_node *)(void *)((char *)soup + soup->node_offset);
+    uint32_t next_node = 1;
+    uint64_t leaf_offset = 0;
+    for (uint32_t i = 0; i < b->node_count; i++) {
+        uint32_t children[TL_SOUP_WIDTH];
+        uint32_t count = cut_children(b->tree, b->roots[i], children);
+        for (uint32_t k = 0; k < count; k++) {
+            const tl_tree_node *child = &b->tree->nodes[children[k]];
+            write_box(soup, child->box, k, &nodes[i]);
+            if (child->count > 0) {
+                nodes[i].child[k] = tl_child_of_leaf(leaf_offset, child->count);
+                write_leaf(b, child, (tl_soup_leaf *)(void *)((char *)soup + soup->leaf_offset + leaf_offset));
+                leaf_offset += tl_leaf_size(child->count);
+            } else {
+                nodes[i].child[k] = next_node++;
+            }
+        }
+    }
+    TL_ASSERT(next_node == b->node_count && leaf_offset == b->leaf_bytes);
+}
+
+// The material of all triangles, or whether they need a table.
+static bool needs_material_table(const tl_mesh_view *view, uint32_t *uniform_out)
+{
+    *uniform_out = view->materials != NULL ? view->materials[0] : 0;
+    for (uint32_t i = 1; view->materials != NULL && i < view->triangle_count; i++) {
+        if (view->materials[i] != view->materials[0]) {
+            *uniform_out = 0;
+            return true;
+        }
+    }
+    return false;
+}
+
+static void fill_head(const baker *b, tl_soup *soup)
+{
+    soup->source_triangle_count = b->view->triangle_count;
+    soup->triangle_count = b->mesh->triangle_count;
+    soup->pair_count = b->mesh->triangle_count - b->pair_count;
+    soup->single_count = b->pair_count - soup->pair_count;
+    soup->reference_count = b->tree->ref_count;
+    soup->leaf_count = b->leaf_count;
+    soup->node_count = b->node_count;
+    soup->depth = b->depth;
+    tl_aabb bounds = b->mesh->bounds;
+    soup->bounds = bounds;
+    soup->grid_origin = bounds.min;
+    soup->grid_cell = tl_vec3_make(choose_cell(bounds.min.x, bounds.max.x), choose_cell(bounds.min.y, bounds.max.y),
+                                   choose_cell(bounds.min.z, bounds.max.z));
+}
+
+tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count,
+                       const tl_tree *tree, const tl_allocator *allocator, tl_arena *arena, tl_soup **soup_out)
+{
+    baker b = { .view = view, .mesh = mesh, .pairs = pairs, .pair_count = pair_count, .tree = tree };
+    // A wide node stands for a binary inner node, of which there are fewer than references; or for a lone leaf.
+    b.roots = TL_PUSH(arena, uint32_t, tree->ref_count);
+    b.written = TL_PUSH_ZERO(arena, uint8_t, pair_count);
+    if (b.roots == NULL || b.written == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    cut_tree(&b);
+    if (b.leaf_bytes / TL_SOUP_LEAF_ALIGN > TL_MAX_LEAF_UNITS) {
+        return TL_ERR_LIMIT;
+    }
+    uint32_t uniform_material;
+    bool has_materials = needs_material_table(view, &uniform_material);
+    uint64_t node_offset = sizeof(tl_soup);
+    uint64_t leaf_offset = node_offset + (uint64_t)b.node_count * sizeof(tl_soup_node);
+    uint64_t material_offset = leaf_offset + b.leaf_bytes + TL_SOUP_TAIL_BYTES;
+    uint64_t size = material_offset + (has_materials ? (uint64_t)view->triangle_count * sizeof(uint16_t) : 0);
+    tl_soup *soup = tl_blob_allocate(allocator, TL_SOUP_MAGIC, TL_SOUP_VERSION, size);
+    if (soup == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    fill_head(&b, soup);
+    soup->uniform_material = uniform_material;
+    soup->has_materials = has_materials;
+    soup->node_offset = node_offset;
+    soup->leaf_offset = leaf_offset;
+    soup->leaf_bytes = b.leaf_bytes;
+    soup->material_offset = material_offset;
+    write_tree(&b, soup);
+    if (has_materials) {
+        memcpy((char *)soup + material_offset, view->materials, (size_t)view->triangle_count * sizeof(uint16_t));
+    }
+    *soup_out = soup;
+    return TL_OK;
+}

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+//
+// The stages of a soup's build and what they hand on.
+
+#ifndef TALUS_SRC_SOUP_SOUP_BUILD_H
+#define TALUS_SRC_SOUP_SOUP_BUILD_H
+
+#include "base/arena.h"
+
+#include <talus/mesh.h>
+#include <talus/soup.h>
+
+/// Two triangles that share an edge, or one. Corners are vertices of the welded mesh: triangles a, b, c and a, c, d
+/// (as sets: the second may run against the first). Orders are rows of tl_soup_corner_slots.
+typedef struct tl_pair {
+    uint32_t corner[4];   ///< a, b, c, d; a single has d == a
+    uint32_t triangle[2]; ///< in the welded mesh; the second is TL_NO_TRIANGLE for a single
+    uint8_t order[2];
+} tl_pair;
+
+/// Matches triangles over shared edges. `pairs` has room for triangle_count. Scratch goes to the arena.
+tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, tl_arena *arena, tl_pair *pairs,
+                            uint32_t *pair_count_out);
+
+/// A pair's box, or the part of it that a spatial split left. 32 bytes, so that two fill a cache line.
+typedef struct tl_tree_ref {
+    tl_vec3 min;
+    uint32_t pair;
+    tl_vec3 max;
+    uint32_t unused;
+} tl_tree_ref;
+
+/// A binary tree node. Inner: children; leaf: references [first, first + count).
+typedef struct tl_tree_node {
+    tl_aabb box;
+    uint32_t left, right; ///< inner: indices of nodes
+    uint32_t first;
+    uint32_t count; ///< 0: inner
+} tl_tree_node;
+
+typedef struct tl_tree {
+    tl_tree_ref *refs;
+    tl_tree_node *nodes;
+    uint32_t root;
+    uint32_t ref_count; ///< in leaves
+} tl_tree;
+
+/// Builds the binary tree that the wide one is cut from. Leaves hold 1 .. TL_SOUP_LEAF_PAIRS references.
+tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
+                        tl_arena *arena, tl_tree *tree_out);
+
+/// Cuts the binary tree into wide nodes and writes the blob.
+tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count,
+                       const tl_tree *tree, const tl_allocator *allocator, tl_arena *arena, tl_soup **soup_out);
+
+#endif

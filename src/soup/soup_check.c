@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+//
+// Whether bytes are a sound soup. Offsets must be the ones that the baker computes from the counts; nodes must be
+// numbered breadth first and leaves lie in the order in which nodes name them. Each child word is then forced, so two
+// counters prove that the nodes form a tree, that every query ends, and that nothing lies outside.
+
+#include "soup/soup_layout.h"
+
+#include <string.h>
+
+typedef struct checker {
+    const tl_soup *soup;
+    uint32_t next_node;
+    uint64_t next_leaf; // offset
+    uint32_t leaf_count;
+    uint32_t reference_count;
+    uint32_t triangle_count;
+    uint32_t pair_count;
+    uint32_t single_count;
+    uint32_t depth;
+} checker;
+
+static bool in_range(float value)
+{
+    return fabsf(value) <= TL_MAX_COORDINATE; // false for NaN
+}
+
+static bool vec_in_range(tl_vec3 v)
+{
+    return in_range(v.x) && in_range(v.y) && in_range(v.z);
+}
+
+static bool cell_in_range(float cell)
+{
+    return cell >= 0.0f && cell <= TL_MAX_COORDINATE;
+}
+
+static bool head_is_sound(const tl_soup *soup)
+{
+    uint64_t size = soup->blob.size;
+    if (soup->node_count == 0 || soup->has_materials > 1 || soup->uniform_material > UINT16_MAX ||
+        soup->source_triangle_count > TL_MAX_SOUP_TRIANGLES || soup->leaf_bytes > size) {
+        return false;
+    }
+    uint64_t nodes = sizeof(tl_soup);
+    uint64_t leaves = nodes + (uint64_t)soup->node_count * sizeof(tl_soup_node);
+    uint64_t materials = leaves + soup->leaf_bytes + TL_SOUP_TAIL_BYTES;
+    uint64_t end = materials + (soup->has_materials ? (uint64_t)soup->source_triangle_count * sizeof(uint16_t) : 0);
+    if (soup->node_offset != nodes || soup->leaf_offset != leaves || soup->material_offset != materials ||
+        ((end + TL_BLOB_ALIGNMENT - 1) & ~(uint64_t)(TL_BLOB_ALIGNMENT - 1)) != size) {
+        return false;
+    }
+    return vec_in_range(soup->bounds.min) && vec_in_range(soup->bounds.max) && !tl_aabb_is_empty(soup->bounds) &&
+           vec_in_range(soup->grid_origin) && cell_in_range(soup->grid_cell.x) && cell_in_range(soup->grid_cell.y) &&
+           cell_in_range(soup->grid_cell.z);
+}
+
+static bool id_is_sound(const checker *c, uint32_t id)
+{
+    uint32_t order = tl_id_order(id);
+    return (id & TL_ID_INDEX) < c->soup->source_triangle_count && order >= 1 && order <= 6;
+}
+
+static bool check_leaf(checker *c, uint32_t child)
+{
+    uint32_t pairs = tl_child_pair_count(child);
+    uint64_t offset = tl_child_leaf_offset(child);
+    // leaf_bytes is within the blob; next_leaf never passes it.
+    if (offset != c->next_leaf || tl_leaf_size(pairs) > c->soup->leaf_bytes - offset) {
+        return false;
+    }
+    c->next_leaf += tl_leaf_size(pairs);
+    c->leaf_count++;
+    c->reference_count += pairs;
+    const tl_soup_leaf *leaf = tl_soup_leaf_at(c->soup, offset);
+    if (leaf->tagged_count != (TL_LEAF_TAG | pairs) || !cell_in_range(leaf->extent)) {
+        return false;
+    }
+    tl_leaf_view view = tl_view_leaf(leaf);
+    for (uint32_t i = 0; i < pairs; i++) {
+        bool single = view.ids[pairs + i] == TL_ID_NONE;
+        bool copy = (view.ids[i] & TL_ID_COPY) != 0;
+        if (!id_is_sound(c, view.ids[i]) ||
+            (!single && (!id_is_sound(c, view.ids[pairs + i]) || copy != ((view.ids[pairs + i] & TL_ID_COPY) != 0)))) {
+            return false;
+        }
+        c->pair_count += !copy && !single;
+        c->single_count += !copy && single;
+        c->triangle_count += copy ? 0 : single ? 1 : 2;
+    }
+    for (uint32_t i = 0; i < 12 * pairs; i++) {
+        if (!in_range(view.a[0][i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool check_nodes(checker *c)
+{
+    const tl_soup_node *nodes = tl_soup_nodes(c->soup);
+    c->next_node = 1;
+    c->depth = 1;
+    uint32_t level_end = 1;
+    for (uint32_t i = 0; i < c->soup->node_count; i++) {
+        if (i == level_end) {
+            if (level_end == c->next_node) {
+                return false; // nobody names node i
+            }
+            level_end = c->next_node;
+            c->depth++;
+        }
+        for (uint32_t k = 0; k < TL_SOUP_WIDTH; k++) {
+            uint32_t child = nodes[i].child[k];
+            if ((child & TL_CHILD_LEAF) != 0) {
+                if (!check_leaf(c, child)) {
+                    return false;
+                }
+            } else if (child != 0 && (child != c->next_node++ || child >= c->soup->node_count)) {
+                return false;
+            }
+        }
+    }
+    return c->next_node == c->soup->node_count && c->next_leaf == c->soup->leaf_bytes;
+}
+
+tl_result tl_soup_check(const void *bytes, uint64_t size)
+{
+    if (bytes == NULL || size < sizeof(tl_soup)) {
+        return TL_ERR_TRUNCATED;
+    }
+    if ((uintptr_t)bytes % TL_BLOB_ALIGNMENT != 0) {
+        return TL_ERR_ARGUMENT;
+    }
+    const tl_soup *soup = bytes;
+    if (soup->blob.magic != TL_SOUP_MAGIC) {
+        return TL_ERR_MAGIC;
+    }
+    if (soup->blob.version != TL_SOUP_VERSION) {
+        return TL_ERR_VERSION;
+    }
+    if (soup->blob.size > size) {
+        return TL_ERR_TRUNCATED;
+    }
+    checker c;
+    memset(&c, 0, sizeof c);
+    c.soup = soup;
+    if (!head_is_sound(soup) || !check_nodes(&c)) {
+        return TL_ERR_CORRUPT;
+    }
+    bool counts = c.leaf_count == soup->leaf_count && c.reference_count == soup->reference_count &&
+                  c.triangle_count == soup->triangle_count && c.pair_count == soup->pair_count &&
+                  c.single_count == soup->single_count && c.depth == soup->depth && c.depth <= TL_SOUP_MAX_DEPTH;
+    return counts ? TL_OK : TL_ERR_CORRUPT;
+}

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+//
+// The soup's bytes: a head, 16-wide nodes, leaves of one to four pairs, materials.
+//
+//   tl_soup | tl_soup_node[node_count] | leaves, each 16-byte aligned | 64 zero bytes | uint16 materials[] | zeros
+//
+// Nodes hold 16 child boxes as 16-bit steps of one grid over the whole soup. 16 children because a ray's time goes into
+// visits (a missed branch, a missed cache line), not into box arithmetic; 16 bits because a node is then 256 bytes, and
+// because on one global grid the ray's constants need no change from node to node. A frame per node with 8-bit steps is
+// smaller, but its constants cost a dependent load, multiply and shuffle in each visit.
+//
+// Leaves hold their corners themselves, one array a coordinate, without padding lanes: a ray reads one run of memory.
+// A leaf of n pairs, in 4-byte words, follows its head (see tl_leaf_view):
+//   uint32 ids[2n]; float a.x[n] a.y[n] a.z[n] c.x[n] c.y[n] c.z[n] e.x[2n] e.y[2n] e.z[2n]
+// where e is b for the first n lanes and d for the last n: with a, e, c both triangles of a pair take one formula.
+
+#ifndef TALUS_SRC_SOUP_SOUP_LAYOUT_H
+#define TALUS_SRC_SOUP_SOUP_LAYOUT_H
+
+#include <assert.h>
+#include <talus/soup.h>
+
+enum {
+    TL_SOUP_WIDTH = 16,      ///< children of a node
+    TL_SOUP_LEAF_PAIRS = 4,  ///< most pairs of a leaf
+    TL_SOUP_LEAF_ALIGN = 16, ///< bytes
+    TL_SOUP_TAIL_BYTES = 64, ///< readable zeros behind the last leaf, so that vector loads may run over it
+    TL_SOUP_MAX_DEPTH = 96,  ///< nodes on a way from root to leaf; tree_build.c keeps it
+    TL_SOUP_GRID_MAX = 65535
+};
+
+typedef struct tl_soup_node {
+    uint16_t plane[6][TL_SOUP_WIDTH]; ///< min x, max x, min y, max y, min z, max z, in grid steps
+    uint32_t child[TL_SOUP_WIDTH];    ///< 0: none
+} tl_soup_node;
+
+static_assert(sizeof(tl_soup_node) == 256, "a node is four cache lines");
+
+struct tl_soup {
+    tl_blob blob;
+    uint32_t source_triangle_count;
+    uint32_t triangle_count;
+    uint32_t pair_count;
+    uint32_t single_count;
+    uint32_t reference_count;
+    uint32_t leaf_count;
+    uint32_t node_count;
+    uint32_t depth;
+    tl_aabb bounds;
+    tl_vec3 grid_origin; ///< grid plane q lies at origin + q * cell, taken as real numbers
+    tl_vec3 grid_cell;
+    uint32_t uniform_material; ///< of all triangles, where there is no table
+    uint32_t has_materials;
+    uint64_t node_offset;
+    uint64_t leaf_offset;
+    uint64_t leaf_bytes;
+    uint64_t material_offset;
+    uint64_t reserved[7]; ///< zero
+};
+
+static_assert(sizeof(tl_soup) == 192, "no padding holes in the head");
+
+// A child word. Nodes are numbered in breadth-first order and leaves lie in the order in which those name them, so a
+// check needs one counter for each, and no marks.
+#define TL_CHILD_LEAF 0x80000000u
+/// Leaves: bit 31, 29 bits of offset in units of 16 bytes, 2 bits of pair count - 1. 2^29 units are 8 GiB.
+#define TL_MAX_LEAF_UNITS 0x1fffffffu
+
+static inline uint32_t tl_child_of_leaf(uint64_t offset, uint32_t pair_count)
+{
+    return TL_CHILD_LEAF | ((uint32_t)(offset / TL_SOUP_LEAF_ALIGN) << 2) | (pair_count - 1);
+}
+
+static inline uint64_t tl_child_leaf_offset(uint32_t child)
+{
+    return (uint64_t)((child & ~TL_CHILD_LEAF) >> 2) * TL_SOUP_LEAF_ALIGN;
+}
+
+static inline uint32_t tl_child_pair_count(uint32_t child)
+{
+    return (child & 3u) + 1;
+}
+
+/// The head of a leaf.
+typedef struct tl_soup_leaf {
+    float extent;          ///< metres: largest extent along an axis of a triangle in this leaf
+    uint32_t tagged_count; ///< TL_LEAF_TAG | pairs, 1 .. TL_SOUP_LEAF_PAIRS
+} tl_soup_leaf;
+
+/// Vector loads of a short leaf's last array run into the next leaf's head, and arithmetic on denormals is slow: so no
+/// word of a head may look like one. The tag and the corner order, which is 1 or more, keep the exponent bits busy.
+#define TL_LEAF_TAG 0x746c6600u
+
+static inline uint32_t tl_leaf_pair_count(const tl_soup_leaf *leaf)
+{
+    return leaf->tagged_count & 7u;
+}
+
+static inline uint64_t tl_leaf_size(uint32_t pair_count)
+{
+    uint64_t bytes = sizeof(tl_soup_leaf) + (uint64_t)pair_count * (2 * sizeof(uint32_t) + 12 * sizeof(float));
+    return (bytes + TL_SOUP_LEAF_ALIGN - 1) & ~(uint64_t)(TL_SOUP_LEAF_ALIGN - 1);
+}
+
+/// Where a leaf's arrays are.
+typedef struct tl_leaf_view {
+    uint32_t pair_count;
+    const uint32_t *ids; ///< lane i < n: triangle a, e[i], c of pair i; lane n + i: its second triangle
+    const float *a[3];   ///< n each
+    const float *c[3];   ///< n each
+    const float *e[3];   ///< 2n each
+} tl_leaf_view;
+
+static inline tl_leaf_view tl_view_leaf(const tl_soup_leaf *leaf)
+{
+    tl_leaf_view view;
+    uint32_t n = tl_leaf_pair_count(leaf);
+    view.pair_count = n;
+    view.ids = (const uint32_t *)(const void *)(leaf + 1);
+    const float *floats = (const float *)(const void *)(view.ids + 2 * (size_t)n);
+    for (int axis = 0; axis < 3; axis++) {
+        view.a[axis] = floats + (size_t)axis * n;
+        view.c[axis] = floats + (size_t)(3 + axis) * n;
+        view.e[axis] = floats + (size_t)(6 + 2 * axis) * n;
+    }
+    return view;
+}
+
+// An id word: 28 bits of the triangle's index in the view, one bit for a copy that spatial splits made, three bits for
+// the order in which the view has the corners, 1 to 6. TL_ID_NONE in the second lane is the text's bit: this is no
+// pair.
+#define TL_ID_NONE  UINT32_MAX
+#define TL_ID_COPY  0x10000000u
+#define TL_ID_INDEX 0x0fffffffu
+
+/// Slots 0: a, 1: e, 2: c. Row p, corner k: the slot that holds the view's corner k.
+extern const uint8_t tl_soup_corner_slots[8][3];
+
+static inline uint32_t tl_id_order(uint32_t id)
+{
+    return id >> 29;
+}
+
+static inline const tl_soup_node *tl_soup_nodes(const tl_soup *soup)
+{
+    return (const tl_soup_node *)(const void *)((const char *)soup + soup->node_offset);
+}
+
+static inline const tl_soup_leaf *tl_soup_leaf_at(const tl_soup *soup, uint64_t offset)
+{
+    return (const tl_soup_leaf *)(const void *)((const char *)soup + soup->leaf_offset + offset);
+}
+
+static inline uint16_t tl_soup_material(const tl_soup *soup, uint32_t triangle)
+{
+    if (!soup->has_materials) {
+        return (uint16_t)soup->uniform_material;
+    }
+    return ((const uint16_t *)(const void *)((const char *)soup + soup->material_offset))[triangle];
+}
+
+static inline tl_vec3 tl_leaf_slot(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot)
+{
+    uint32_t pair = lane < leaf->pair_count ? lane : lane - leaf->pair_count;
+    const float *const *arrays = slot == 0 ? leaf->a : slot == 1 ? leaf->e : leaf->c;
+    uint32_t i = slot == 1 ? lane : pair;
+    return tl_vec3_make(arrays[0][i], arrays[1][i], arrays[2][i]);
+}
+
+/// The triangle of a lane, its corners as the view has them.
+static inline void tl_leaf_corners(const tl_leaf_view *leaf, uint32_t lane, tl_vec3 corners[3])
+{
+    const uint8_t *slots = tl_soup_corner_slots[tl_id_order(leaf->ids[lane])];
+    for (int k = 0; k < 3; k++) {
+        corners[k] = tl_leaf_slot(leaf, lane, slots[k]);
+    }
+}
+
+#endif

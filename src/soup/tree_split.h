@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// How a range of references is split in two.
+
+#ifndef TALUS_SRC_SOUP_TREE_SPLIT_H
+#define TALUS_SRC_SOUP_TREE_SPLIT_H
+
+#include "soup/soup_build.h"
+
+/// References [first, first + count), with room up to first + capacity.
+typedef struct tl_tree_range {
+    tl_aabb box;
+    uint32_t first;
+    uint32_t count;
+    uint32_t capacity;
+    uint32_t depth;
+} tl_tree_range;
+
+typedef struct tl_tree_split {
+    bool found;   ///< false: no plane parts the references; they are halved by count
+    bool spatial; ///< a plane that cuts references, not one that sorts them
+    uint32_t axis;
+    uint32_t bin;   ///< object splits: centroids of bins below it go left
+    float position; ///< spatial splits: the plane
+    float scale;    ///< object splits: bins a metre of doubled centroid...
+    float base;     ///< ...from here on
+    uint32_t bin_count;
+    float cost; ///< sum over both sides of half area times blocks of TL_SOUP_LEAF_PAIRS
+} tl_tree_split;
+
+typedef struct tl_tree_splitter {
+    const tl_mesh *mesh;
+    const tl_pair *pairs;
+    tl_tree_ref *refs;
+    float root_half_area;
+} tl_tree_splitter;
+
+/// The cheapest split that was found. Reads the range only.
+tl_tree_split tl_tree_find_split(const tl_tree_splitter *splitter, const tl_tree_range *range);
+
+/// Carries a split out. Both sides get at least one reference.
+void tl_tree_apply_split(const tl_tree_splitter *splitter, const tl_tree_range *range, const tl_tree_split *split,
+                         tl_tree_range *left_out, tl_tree_range *right_out);
+
+/// Component 0, 1 or 2.
+static inline float tl_component(tl_vec3 v, uint32_t axis)
+{
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+/// What a side of so many references costs to test.
+static inline float tl_tree_blocks(uint32_t count)
+{
+    return (float)((count + 3u) / 4u);
+}
+
+#endif
