@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+//
+// Is a contour plain, that is, does it touch itself nowhere? Then it can be triangulated as it is.
+// All others (bridges to holes among them) go the general way: vertices at one place become one node, edges are split
+// where they meet, and the faces that the contour winds around are traced.
+
+#include "polygon/outline.h"
+
+#include "base/assert.h"
+#include "polygon/key_table.h"
+
+#include <string.h>
+
+static int64_t signed_area2(const tl_lattice_point *points, uint32_t count)
+{
+    // Modulo 2^64: the sum is below 2^63 in the end, though not always on the way.
+    uint64_t sum = 0;
+    for (uint32_t i = 1; i + 1 < count; i++) {
+        sum += (uint64_t)tl_turn(points[0], points[i], points[i + 1]);
+    }
+    return (int64_t)sum;
+}
+
+static bool boxes_apart(tl_lattice_point a, tl_lattice_point b, tl_lattice_point c, tl_lattice_point d)
+{
+    int32_t ab_low_x = a.x < b.x ? a.x : b.x, ab_high_x = a.x < b.x ? b.x : a.x;
+    int32_t ab_low_z = a.z < b.z ? a.z : b.z, ab_high_z = a.z < b.z ? b.z : a.z;
+    return (c.x < ab_low_x && d.x < ab_low_x) || (c.x > ab_high_x && d.x > ab_high_x) ||
+           (c.z < ab_low_z && d.z < ab_low_z) || (c.z > ab_high_z && d.z > ab_high_z);
+}
+
+// Closed segments whose boxes overlap.
+static bool segments_meet(tl_lattice_point a, tl_lattice_point b, tl_lattice_point c, tl_lattice_point d)
+{
+    int64_t c_side = tl_turn(a, b, c);
+    int64_t d_side = tl_turn(a, b, d);
+    if ((c_side > 0 && d_side > 0) || (c_side < 0 && d_side < 0)) {
+        return false;
+    }
+    int64_t a_side = tl_turn(c, d, a);
+    int64_t b_side = tl_turn(c, d, b);
+    return !((a_side > 0 && b_side > 0) || (a_side < 0 && b_side < 0));
+}
+
+// Whether a corner folds back onto the edge it came by, or has an edge of no length.
+static bool folds_back(tl_lattice_point before, tl_lattice_point corner, tl_lattice_point after)
+{
+    return tl_turn(before, corner, after) == 0 && tl_dot2(corner, before, after) >= 0;
+}
+
+// O(n^2), and the fastest way for the few dozen vertices that contours have.
+static bool is_plain_by_pairs(const tl_lattice_point *points, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        tl_lattice_point a = points[i];
+        tl_lattice_point b = points[i + 1 < count ? i + 1 : 0];
+        tl_lattice_point after = points[i + 2 < count ? i + 2 : i + 2 - count];
+        if (folds_back(a, b, after)) {
+            return false;
+        }
+        // Edges next to each other were tested at their corner.
+        uint32_t last = i == 0 ? count - 1 : count;
+        for (uint32_t j = i + 2; j < last; j++) {
+            tl_lattice_point c = points[j];
+            tl_lattice_point d = points[j + 1 < count ? j + 1 : 0];
+            if (!boxes_apart(a, b, c, d) && segments_meet(a, b, c, d)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool allocate_nodes(tl_outline_nodes *nodes, tl_arena *arena, uint32_t count)
+{
+    nodes->points = TL_PUSH(arena, tl_lattice_point, count);
+    nodes->heights = TL_PUSH(arena, int32_t, count);
+    nodes->is_border = TL_PUSH(arena, uint8_t, count);
+    nodes->count = 0;
+    nodes->capacity = count;
+    return nodes->points != NULL && nodes->heights != NULL && nodes->is_border != NULL;
+}
+
+static tl_result keep_as_it_is(tl_arena *arena, tl_outline *outline)
+{
+    uint32_t count = outline->nodes.count;
+    outline->walk_first = TL_PUSH(arena, uint32_t, 2);
+    outline->corners = TL_PUSH(arena, uint32_t, count);
+    if (outline->walk_first == NULL || outline->corners == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        outline->corners[i] = i;
+    }
+    outline->walk_first[0] = 0;
+    outline->walk_first[1] = count;
+    outline->walk_count = 1;
+    outline->is_plain = true;
+    return TL_OK;
+}
+
+// Makes one node of vertices at one place. places[i] becomes the node of vertex i.
+static tl_result unite_nodes(tl_arena *arena, tl_outline_nodes *nodes, uint32_t *places)
+{
+    tl_key_table table;
+    if (!tl_key_table_init(&table, arena, nodes->count)) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t united = 0;
+    for (uint32_t i = 0; i < nodes->count; i++) {
+        tl_lattice_point p = nodes->points[i];
+        uint32_t *place = tl_key_table_at(&table, tl_pair_key((uint32_t)p.x, (uint32_t)p.z));
+        if (*place == TL_NO_VALUE) {
+            *place = united;
+            nodes->points[united] = p;
+            nodes->heights[united] = nodes->heights[i];
+            nodes->is_border[united] = nodes->is_border[i];
+            united++;
+        } else {
+            nodes->is_border[*place] |= nodes->is_border[i];
+        }
+        places[i] = *place;
+    }
+    nodes->count = united;
+    return TL_OK;
+}
+
+static tl_result take_apart(tl_arena *arena, tl_outline *outline)
+{
+    uint32_t count = outline->nodes.count;
+    uint32_t *places = TL_PUSH(arena, uint32_t, count);
+    tl_outline_edge *edges = TL_PUSH(arena, tl_outline_edge, count);
+    if (places == NULL || edges == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    TL_TRY(unite_nodes(arena, &outline->nodes, places));
+    uint32_t edge_count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        tl_outline_edge edge = { places[i], places[i + 1 < count ? i + 1 : 0] };
+        if (edge.from != edge.to) {
+            edges[edge_count++] = edge;
+        } else if (outline->faults == 0) {
+            outline->faults = TL_CONTOUR_FAULT_DUPLICATE;
+            outline->fault_vertex = i;
+        }
+    }
+    uint32_t fault_edge = 0;
+    uint32_t faults = 0;
+    TL_TRY(tl_outline_split_contacts(arena, &outline->nodes, &edges, &edge_count, &faults, &fault_edge));
+    if (outline->faults == 0) {
+        outline->fault_vertex = fault_edge;
+    }
+    outline->faults |= faults;
+    if (outline->faults & TL_CONTOUR_FAULT_REFUSED) {
+        return TL_OK;
+    }
+    return tl_outline_trace_faces(arena, edges, edge_count, outline);
+}
+
+tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices, uint32_t count,
+                             tl_outline *outline_out)
+{
+    memset(outline_out, 0, sizeof *outline_out);
+    tl_outline_nodes *nodes = &outline_out->nodes;
+    if (!allocate_nodes(nodes, arena, count)) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        nodes->points[i].x = vertices[i].x;
+        nodes->points[i].z = vertices[i].z;
+        nodes->heights[i] = vertices[i].y;
+        nodes->is_border[i] = (vertices[i].flags & TL_CONTOUR_BORDER_VERTEX) != 0;
+    }
+    nodes->count = count;
+    outline_out->area2 = signed_area2(nodes->points, count);
+    if (count < 3) {
+        outline_out->faults = TL_CONTOUR_FAULT_EMPTY;
+        return TL_OK;
+    }
+    if (outline_out->area2 > 0 && is_plain_by_pairs(nodes->points, count)) {
+        return keep_as_it_is(arena, outline_out);
+    }
+    TL_TRY(take_apart(arena, outline_out));
+    if (outline_out->walk_count == 0 && outline_out->area2 == 0 && !(outline_out->faults & TL_CONTOUR_FAULT_REFUSED)) {
+        outline_out->faults |= TL_CONTOUR_FAULT_EMPTY;
+    }
+    return TL_OK;
+}

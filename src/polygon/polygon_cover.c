@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+//
+// The validator's second half: do the polygons of one contour cover it exactly?
+//
+// Overlap: two convex polygons are apart when one of them has an edge with all of the other on its outer side (the
+// separating axis theorem in the plane). Covering: disjoint polygons inside an outline whose area is the outline's.
+// That they are inside follows from their common outline: edges that no other polygon of the contour runs back along
+// must be just the edges of the contour, less its bridges.
+
+#include "polygon/polygon_check.h"
+
+#include "base/assert.h"
+#include "base/radix_sort.h"
+#include "polygon/key_table.h"
+
+#include <string.h>
+
+// Polygons of one contour: a range of `order`.
+typedef struct cover {
+    tl_polygon_checker *checker;
+    tl_sort_item *order; // polygons by contour, then by their lowest x
+    tl_sort_item *vertices;
+    uint32_t first, end;
+} cover;
+
+typedef struct lattice_box {
+    int32_t min_x, max_x, min_z, max_z;
+} lattice_box;
+
+static lattice_box box_of(const tl_polygon_mesh *mesh, uint32_t p)
+{
+    tl_lattice_point a = tl_mesh_corner(mesh, mesh->first[p]);
+    lattice_box box = { a.x, a.x, a.z, a.z };
+    for (uint32_t k = mesh->first[p] + 1; k < mesh->first[p + 1]; k++) {
+        a = tl_mesh_corner(mesh, k);
+        box.min_x = a.x < box.min_x ? a.x : box.min_x;
+        box.max_x = a.x > box.max_x ? a.x : box.max_x;
+        box.min_z = a.z < box.min_z ? a.z : box.min_z;
+        box.max_z = a.z > box.max_z ? a.z : box.max_z;
+    }
+    return box;
+}
+
+static bool has_separating_edge(const tl_polygon_mesh *mesh, uint32_t p, uint32_t q)
+{
+    for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+        tl_lattice_point a = tl_mesh_corner(mesh, k);
+        tl_lattice_point b = tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k));
+        bool separates = true;
+        for (uint32_t j = mesh->first[q]; separates && j < mesh->first[q + 1]; j++) {
+            separates = tl_turn(a, b, tl_mesh_corner(mesh, j)) <= 0;
+        }
+        if (separates) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static uint32_t x_key(int32_t x)
+{
+    return (uint32_t)(x + TL_MAX_CONTOUR_COORDINATE);
+}
+
+static void check_overlaps(cover *c)
+{
+    const tl_polygon_mesh *mesh = c->checker->mesh;
+    for (uint32_t i = c->first; i < c->end; i++) {
+        lattice_box a = box_of(mesh, c->order[i].value);
+        for (uint32_t j = i + 1; j < c->end && (uint32_t)c->order[j].key < x_key(a.max_x); j++) {
+            lattice_box b = box_of(mesh, c->order[j].value);
+            if (a.min_z < b.max_z && b.min_z < a.max_z &&
+                !has_separating_edge(mesh, c->order[i].value, c->order[j].value) &&
+                !has_separating_edge(mesh, c->order[j].value, c->order[i].value)) {
+                tl_polygon_checker_note(c->checker, TL_POLYGON_FAULT_OVERLAP, "polygon", c->order[j].value);
+            }
+        }
+    }
+}
+
+static bool lies_inside_an_edge(const tl_polygon_mesh *mesh, uint32_t p, tl_lattice_point v)
+{
+    for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+        tl_lattice_point a = tl_mesh_corner(mesh, k);
+        tl_lattice_point b = tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k));
+        if (tl_turn(a, b, v) == 0 && tl_within_span(a, b, v) && !tl_same_point(a, v) && !tl_same_point(b, v)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The contour's vertices, sorted by x, against its polygons' edges.
+static void check_t_junctions(cover *c)
+{
+    const tl_polygon_mesh *mesh = c->checker->mesh;
+    uint32_t count = 0;
+    uint64_t last = UINT64_MAX;
+    uint32_t filled = 0;
+    for (uint32_t i = c->first; i < c->end; i++) {
+        uint32_t p = c->order[i].value;
+        for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+            tl_lattice_point v = tl_mesh_corner(mesh, k);
+            tl_sort_item item = { (uint64_t)x_key(v.x) << 32 | x_key(v.z), mesh->indices[k], 0 };
+            c->vertices[filled++] = item;
+        }
+    }
+    tl_radix_sort(c->vertices, c->vertices + filled, filled);
+    for (uint32_t i = 0; i < filled; i++) {
+        if (c->vertices[i].key != last) {
+            last = c->vertices[i].key;
+            c->vertices[count++] = c->vertices[i];
+        }
+    }
+    for (uint32_t i = c->first; i < c->end; i++) {
+        uint32_t p = c->order[i].value;
+        lattice_box box = box_of(mesh, p);
+        uint32_t low = 0;
+        for (uint32_t rest = count; rest > 0;) {
+            uint32_t half = rest / 2;
+            bool below = (uint32_t)(c->vertices[low + half].key >> 32) < x_key(box.min_x);
+            low = below ? low + half + 1 : low;
+            rest = below ? rest - half - 1 : half;
+        }
+        for (; low < count && (uint32_t)(c->vertices[low].key >> 32) <= x_key(box.max_x); low++) {
+            tl_lattice_point v = tl_mesh_point(mesh, c->vertices[low].value);
+            if (v.z >= box.min_z && v.z <= box.max_z && lies_inside_an_edge(mesh, p, v)) {
+                tl_polygon_checker_note(c->checker, TL_POLYGON_FAULT_T_JUNCTION, "polygon", p);
+            }
+        }
+    }
+}
+
+static tl_result sort_polygons(cover *c)
+{
+    const tl_polygon_mesh *mesh = c->checker->mesh;
+    tl_arena *arena = &c->checker->arena;
+    c->order = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)mesh->polygon_count);
+    c->vertices = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)mesh->index_count);
+    if (c->order == NULL || c->vertices == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t p = 0; p < mesh->polygon_count; p++) {
+        tl_sort_item item = { (uint64_t)mesh->contours[p] << 32 | x_key(box_of(mesh, p).min_x), p, 0 };
+        c->order[p] = item;
+    }
+    tl_radix_sort(c->order, c->order + mesh->polygon_count, mesh->polygon_count);
+    return TL_OK;
+}
+
+// Doubled area of the polygons of each contour; polygons of several contours go into *shared.
+static int64_t *sum_areas(tl_polygon_checker *checker, int64_t *shared)
+{
+    const tl_polygon_mesh *mesh = checker->mesh;
+    int64_t *areas = TL_PUSH_ZERO(&checker->arena, int64_t, checker->contours->contour_count);
+    *shared = 0;
+    for (uint32_t p = 0; areas != NULL && p < mesh->polygon_count; p++) {
+        int64_t *sum = mesh->contours[p] == TL_SEVERAL_CONTOURS ? shared : &areas[mesh->contours[p]];
+        for (uint32_t k = mesh->first[p] + 1; k + 1 < mesh->first[p + 1]; k++) {
+            *sum += tl_turn(tl_mesh_corner(mesh, mesh->first[p]), tl_mesh_corner(mesh, k), tl_mesh_corner(mesh, k + 1));
+        }
+    }
+    return areas;
+}
+
+static int64_t contour_area2(const tl_contour_set *set, uint32_t index)
+{
+    const tl_contour_vertex *v = set->vertices + set->contours[index].first_vertex;
+    uint64_t sum = 0;
+    for (uint32_t k = 1; k + 1 < set->contours[index].vertex_count; k++) {
+        tl_lattice_point a = { v[0].x, v[0].z }, b = { v[k].x, v[k].z }, d = { v[k + 1].x, v[k + 1].z };
+        sum += (uint64_t)tl_turn(a, b, d);
+    }
+    return (int64_t)sum;
+}
+
+// is_whole_out[i]: contour i is covered by polygons of its own alone and has no note.
+static tl_result check_areas(tl_polygon_checker *checker, uint8_t *is_whole)
+{
+    const tl_polygon_mesh *mesh = checker->mesh;
+    int64_t shared;
+    int64_t *areas = sum_areas(checker, &shared);
+    if (areas == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t note = 0;
+    int64_t missing = 0;
+    for (uint32_t i = 0; i < checker->contours->contour_count; i++) {
+        int64_t expected = contour_area2(checker->contours, i);
+        is_whole[i] = 1;
+        for (; note < mesh->note_count && mesh->notes[note].contour <= i; note++) {
+            if (mesh->notes[note].contour == i) {
+                expected = mesh->notes[note].covered_area2;
+                is_whole[i] = 0;
+            }
+        }
+        if (areas[i] > expected || (areas[i] < expected && shared == 0)) {
+            tl_polygon_checker_note(checker, TL_POLYGON_FAULT_AREA, "contour", i);
+        }
+        if (areas[i] < expected) {
+            missing += expected - areas[i];
+            is_whole[i] = 0;
+        }
+    }
+    if (shared != 0 && missing != shared) {
+        tl_polygon_checker_note(checker, TL_POLYGON_FAULT_AREA, "contour", TL_NO_ELEMENT);
+    }
+    return TL_OK;
+}
+
+// Undirected edges with how much more often they were run along forward than backward.
+typedef struct edge_sums {
+    tl_key_table places; // of points
+    tl_key_table edges;
+    int32_t *sums;
+    uint32_t point_count, edge_count;
+} edge_sums;
+
+static uint32_t number_of(edge_sums *e, tl_lattice_point p)
+{
+    uint32_t *place = tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z));
+    if (*place == TL_NO_VALUE) {
+        *place = e->point_count++;
+    }
+    return *place;
+}
+
+static void add_edge(edge_sums *e, tl_lattice_point from, tl_lattice_point to, int32_t times)
+{
+    uint32_t a = number_of(e, from);
+    uint32_t b = number_of(e, to);
+    uint32_t *place = tl_key_table_at(&e->edges, a < b ? tl_pair_key(a, b) : tl_pair_key(b, a));
+    if (*place == TL_NO_VALUE) {
+        *place = e->edge_count;
+        e->sums[e->edge_count++] = 0;
+    }
+    e->sums[*place] += a < b ? times : -times;
+}
+
+// The polygons' edges, and the contour's backward, must cancel.
+static tl_result check_outline(cover *c, uint32_t contour_index)
+{
+    const tl_polygon_mesh *mesh = c->checker->mesh;
+    const tl_contour_set *set = c->checker->contours;
+    tl_arena *arena = &c->checker->arena;
+    const tl_contour *contour = &set->contours[contour_index];
+    uint64_t edges = contour->vertex_count;
+    for (uint32_t i = c->first; i < c->end; i++) {
+        edges += mesh->first[c->order[i].value + 1] - mesh->first[c->order[i].value];
+    }
+    edge_sums e;
+    memset(&e, 0, sizeof e);
+    e.sums = TL_PUSH(arena, int32_t, edges);
+    if (e.sums == NULL || !tl_key_table_init(&e.places, arena, edges) || !tl_key_table_init(&e.edges, arena, edges)) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = c->first; i < c->end; i++) {
+        uint32_t p = c->order[i].value;
+        for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+            add_edge(&e, tl_mesh_corner(mesh, k), tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k)), 1);
+        }
+    }
+    const tl_contour_vertex *v = set->vertices + contour->first_vertex;
+    for (uint32_t k = 0; k < contour->vertex_count; k++) {
+        const tl_contour_vertex *w = &v[k + 1 < contour->vertex_count ? k + 1 : 0];
+        tl_lattice_point from = { v[k].x, v[k].z }, to = { w->x, w->z };
+        add_edge(&e, from, to, -1);
+    }
+    for (uint32_t i = 0; i < e.edge_count; i++) {
+        if (e.sums[i] != 0) {
+            tl_polygon_checker_note(c->checker, TL_POLYGON_FAULT_OUTLINE, "contour", contour_index);
+            break;
+        }
+    }
+    return TL_OK;
+}
+
+tl_result tl_polygon_check_cover(tl_polygon_checker *checker)
+{
+    cover c;
+    memset(&c, 0, sizeof c);
+    c.checker = checker;
+    uint8_t *is_whole = NULL;
+    TL_TRY(sort_polygons(&c));
+    if (checker->contours != NULL) {
+        is_whole = TL_PUSH(&checker->arena, uint8_t, checker->contours->contour_count);
+        if (is_whole == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        TL_TRY(check_areas(checker, is_whole));
+    }
+    for (c.first = 0; c.first < checker->mesh->polygon_count; c.first = c.end) {
+        uint32_t contour = (uint32_t)(c.order[c.first].key >> 32);
+        c.end = c.first;
+        while (c.end < checker->mesh->polygon_count && (uint32_t)(c.order[c.end].key >> 32) == contour) {
+            c.end++;
+        }
+        check_overlaps(&c);
+        check_t_junctions(&c);
+        if (is_whole != NULL && contour != TL_SEVERAL_CONTOURS && is_whole[contour]) {
+            tl_arena_mark mark = tl_arena_get_mark(&checker->arena);
+            TL_TRY(check_outline(&c, contour));
+            tl_arena_rollback(&checker->arena, mark);
+        }
+    }
+    return TL_OK;
+}

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+//
+// Merging into convex polygons: always the two with the longest shared edge, while the result stays convex.
+// Source: "Convex Polygon Generation", Critterai Navigation Mesh Generation documentation, section Merge into Convex
+// Polygons.
+//
+// Polygons of triangles that share an edge share one partition edge, and to merge them is to take that edge away.
+// Angles and corner counts only grow, so an edge that cannot go now cannot go later: one pass over the edges by falling
+// length does what the plain form, O(n^3), finds by searching all pairs again after each merge.
+//
+// Among edges of equal length the lowest pair of places goes first. A merged polygon keeps the lower place and
+// the last polygon moves into the free one, so places change, and within one length the edges wait in a heap whose
+// entries move up when a place changes. That order is arbitrary, but it is the one that users of Recast know.
+
+#include "polygon/polygon_merge.h"
+
+#include "base/assert.h"
+#include "base/radix_sort.h"
+#include "polygon/triangulate.h"
+
+#include <string.h>
+
+enum { NOT_WAITING = UINT32_MAX };
+
+typedef struct merger {
+    const tl_lattice_point *points;
+    const uint32_t *origin; // [edge] corner where it starts
+    const uint32_t *twins;
+    uint32_t *next;     // [edge] around the polygon
+    uint32_t *previous; // [edge]
+    uint32_t *parent;   // [triangle] union-find; a root stands for its polygon
+    uint32_t *place;    // [root]
+    uint32_t *size;     // [root] corners
+    uint32_t *any_edge; // [root] an edge of the polygon
+    uint32_t *at_place; // [place] root
+    uint32_t place_count;
+    uint32_t *heap;       // edges of the current length
+    uint32_t *heap_place; // [edge] where in the heap, or NOT_WAITING
+    uint32_t heap_count;
+    uint32_t max_corners;
+} merger;
+
+static uint32_t polygon_of(merger *m, uint32_t edge)
+{
+    uint32_t t = edge / 3;
+    while (m->parent[t] != t) {
+        m->parent[t] = m->parent[m->parent[t]];
+        t = m->parent[t];
+    }
+    return t;
+}
+
+// The pair of places of an edge as one number: low place first.
+static uint64_t place_pair(merger *m, uint32_t edge)
+{
+    uint64_t a = m->place[polygon_of(m, edge)];
+    uint64_t b = m->place[polygon_of(m, m->twins[edge])];
+    return a < b ? a << 32 | b : b << 32 | a;
+}
+
+static void heap_set(merger *m, uint32_t i, uint32_t edge)
+{
+    m->heap[i] = edge;
+    m->heap_place[edge] = i;
+}
+
+static void sift_up(merger *m, uint32_t i)
+{
+    uint32_t edge = m->heap[i];
+    uint64_t pair = place_pair(m, edge);
+    while (i > 0 && pair < place_pair(m, m->heap[(i - 1) / 2])) {
+        heap_set(m, i, m->heap[(i - 1) / 2]);
+        i = (i - 1) / 2;
+    }
+    heap_set(m, i, edge);
+}
+
+static void sift_down(merger *m, uint32_t i)
+{
+    uint32_t edge = m->heap[i];
+    uint64_t pair = place_pair(m, edge);
+    for (;;) {
+        uint32_t child = 2 * i + 1;
+        if (child >= m->heap_count) {
+            break;
+        }
+        uint64_t child_pair = place_pair(m, m->heap[child]);
+        if (child + 1 < m->heap_count) {
+            uint64_t right_pair = place_pair(m, m->heap[child + 1]);
+            if (right_pair < child_pair) {
+                child++;
+                child_pair = right_pair;
+            }
+        }
+        if (pair <= child_pair) {
+            break;
+        }
+        heap_set(m, i, m->heap[child]);
+        i = child;
+    }
+    heap_set(m, i, edge);
+}
+
+static void heapify(merger *m)
+{
+    for (uint32_t i = m->heap_count / 2; i-- > 0;) {
+        sift_down(m, i);
+    }
+}
+
+static uint32_t heap_pop(merger *m)
+{
+    uint32_t top = m->heap[0];
+    m->heap_place[top] = NOT_WAITING;
+    m->heap_count--;
+    if (m->heap_count > 0) {
+        heap_set(m, 0, m->heap[m->heap_count]);
+        sift_down(m, 0);
+    }
+    return top;
+}
+
+// A polygon's place has become lower: its waiting edges move up. One of many edges costs more than the heap anew.
+static void place_changed(merger *m, uint32_t root)
+{
+    if (m->heap_count == 0) {
+        return;
+    }
+    if (m->size[root] > m->heap_count) {
+        heapify(m);
+        return;
+    }
+    uint32_t start = m->any_edge[root];
+    uint32_t edge = start;
+    do {
+        uint32_t twin = m->twins[edge];
+        uint32_t key = twin == TL_NO_EDGE || edge < twin ? edge : twin;
+        if (m->heap_place[key] != NOT_WAITING) {
+            sift_up(m, m->heap_place[key]);
+        }
+        edge = m->next[edge];
+    } while (edge != start);
+}
+
+// Whether the corner where `edge` starts stays convex without it: from before the edge to after its twin.
+static bool stays_convex(const merger *m, uint32_t edge)
+{
+    uint32_t twin = m->twins[edge];
+    uint32_t after = m->next[m->next[twin]];
+    return tl_turn(m->points[m->origin[m->previous[edge]]], m->points[m->origin[edge]], m->points[m->origin[after]]) >
+           0;
+}
+
+static void remove_edge(merger *m, uint32_t edge)
+{
+    uint32_t twin = m->twins[edge];
+    uint32_t a = polygon_of(m, edge);
+    uint32_t b = polygon_of(m, twin);
+    uint32_t size = m->size[a] + m->size[b] - 2;
+    if (a == b || (m->max_corners != 0 && size > m->max_corners) || !stays_convex(m, edge) || !stays_convex(m, twin)) {
+        return;
+    }
+    m->any_edge[a] = m->next[edge];
+    m->next[m->previous[edge]] = m->next[twin];
+    m->previous[m->next[twin]] = m->previous[edge];
+    m->next[m->previous[twin]] = m->next[edge];
+    m->previous[m->next[edge]] = m->previous[twin];
+    // The larger polygon's root stays, so that roots are found in O(log n).
+    uint32_t low = m->place[a] < m->place[b] ? m->place[a] : m->place[b];
+    uint32_t free_place = m->place[a] ^ m->place[b] ^ low;
+    uint32_t root = m->size[a] >= m->size[b] ? a : b;
+    m->parent[root == a ? b : a] = root;
+    m->any_edge[root] = m->any_edge[a];
+    m->size[root] = size;
+    m->place[root] = low;
+    m->at_place[low] = root;
+    uint32_t last = m->at_place[--m->place_count];
+    if (free_place != m->place_count) {
+        m->place[last] = free_place;
+        m->at_place[free_place] = last;
+        place_changed(m, last);
+    }
+    place_changed(m, root);
+}
+
+static bool allocate(merger *m, tl_arena *arena, uint32_t triangle_count)
+{
+    uint64_t edges = 3 * (uint64_t)triangle_count;
+    m->next = TL_PUSH(arena, uint32_t, edges);
+    m->previous = TL_PUSH(arena, uint32_t, edges);
+    m->parent = TL_PUSH(arena, uint32_t, triangle_count);
+    m->place = TL_PUSH(arena, uint32_t, triangle_count);
+    m->size = TL_PUSH(arena, uint32_t, triangle_count);
+    m->any_edge = TL_PUSH(arena, uint32_t, triangle_count);
+    m->at_place = TL_PUSH(arena, uint32_t, triangle_count);
+    m->heap_place = TL_PUSH(arena, uint32_t, edges);
+    return m->next != NULL && m->previous != NULL && m->parent != NULL && m->place != NULL && m->size != NULL &&
+           m->any_edge != NULL && m->at_place != NULL && m->heap_place != NULL;
+}
+
+static void start(merger *m, uint32_t triangle_count)
+{
+    for (uint32_t t = 0; t < triangle_count; t++) {
+        m->parent[t] = m->place[t] = m->at_place[t] = t;
+        m->size[t] = 3;
+        m->any_edge[t] = 3 * t;
+        for (uint32_t k = 0; k < 3; k++) {
+            m->next[3 * t + k] = 3 * t + (k + 1) % 3;
+            m->previous[3 * t + k] = 3 * t + (k + 2) % 3;
+            m->heap_place[3 * t + k] = NOT_WAITING;
+        }
+    }
+    m->place_count = triangle_count;
+}
+
+// Edges that could go if they went first, longest first; each pair of twins once.
+static tl_result sort_edges(merger *m, tl_arena *arena, uint32_t edge_count, tl_sort_item **items_out,
+                            uint32_t *count_out)
+{
+    tl_sort_item *items = TL_PUSH(arena, tl_sort_item, edge_count);
+    if (items == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t count = 0;
+    for (uint32_t edge = 0; edge < edge_count; edge++) {
+        uint32_t twin = m->twins[edge];
+        if (twin != TL_NO_EDGE && edge < twin && stays_convex(m, edge) && stays_convex(m, twin)) {
+            int64_t length2 = tl_distance2(m->points[m->origin[edge]], m->points[m->origin[twin]]);
+            tl_sort_item item = { ~(uint64_t)length2, edge, 0 };
+            items[count++] = item;
+        }
+    }
+    // Each pair of twins takes two of edge_count, so the rest of items is scratch enough.
+    tl_radix_sort(items, items + count, count);
+    *items_out = items;
+    *count_out = count;
+    return TL_OK;
+}
+
+static tl_result write_parts(merger *m, tl_arena *arena, uint32_t edge_count, tl_convex_parts *parts)
+{
+    parts->count = m->place_count;
+    parts->first = TL_PUSH(arena, uint32_t, (uint64_t)m->place_count + 1);
+    parts->corners = TL_PUSH(arena, uint32_t, edge_count);
+    if (parts->first == NULL || parts->corners == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t filled = 0;
+    for (uint32_t p = 0; p < m->place_count; p++) {
+        parts->first[p] = filled;
+        uint32_t begin = m->any_edge[m->at_place[p]];
+        uint32_t edge = begin;
+        do {
+            parts->corners[filled++] = m->origin[edge];
+            edge = m->next[edge];
+        } while (edge != begin);
+    }
+    parts->first[m->place_count] = filled;
+    return TL_OK;
+}
+
+tl_result tl_merge_triangles(tl_arena *arena, const tl_lattice_point *points, const uint32_t *corners,
+                             const uint32_t *twins, uint32_t triangle_count, uint32_t max_corners,
+                             tl_convex_parts *parts_out)
+{
+    uint32_t edge_count = 3 * triangle_count;
+    merger m;
+    memset(&m, 0, sizeof m);
+    m.points = points;
+    m.origin = corners;
+    m.twins = twins;
+    m.max_corners = max_corners;
+    if (!allocate(&m, arena, triangle_count)) {
+        return TL_ERR_MEMORY;
+    }
+    start(&m, triangle_count);
+    tl_sort_item *items;
+    uint32_t count;
+    TL_TRY(sort_edges(&m, arena, edge_count, &items, &count));
+    m.heap = TL_PUSH(arena, uint32_t, count);
+    if (m.heap == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t low = 0; low < count;) {
+        uint32_t high = low;
+        for (; high < count && items[high].key == items[low].key; high++) {
+            heap_set(&m, high - low, items[high].value);
+        }
+        m.heap_count = high - low;
+        heapify(&m);
+        while (m.heap_count > 0) {
+            remove_edge(&m, heap_pop(&m));
+        }
+        low = high;
+    }
+    return write_parts(&m, arena, edge_count, parts_out);
+}

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+//
+// Triangulation: of all corners whose two neighbours can be joined inside the outline, cut off the one with the
+// shortest new edge (the partition edge), and go on with the rest.
+// Source: "Convex Polygon Generation", Critterai Navigation Mesh Generation documentation, section Triangulation.
+// The valid-partition test: O'Rourke, Computational Geometry in C, section 1.5.
+//
+// The plain form tests every corner against every edge before each cut, O(n^3). Here each corner is tested once and
+// again only when a cut moves one of its neighbours, because validity does not change in between: what remains of the
+// floor only shrinks, so a partition edge that left it still leaves it, and two corners that are both valid and not
+// neighbours cut off disjoint triangles. So there are at most 3n tests and the valid corners wait in a heap.
+//
+// A partition edge is valid when it lies in the interior angle at both ends (the internal angle test) and the triangle
+// it cuts off holds no other vertex (the edge intersection test): the part of the outline that would intrude has a
+// vertex in the triangle, and its foremost one is reflex or straight. So only such vertices are kept, in a k-d tree.
+// All is exact; ties go to the lowest vertex before the corner.
+
+#include "polygon/triangulate.h"
+
+#include "polygon/reflex_tree.h"
+
+// A valid corner b with its neighbours when it was tested; stale as soon as one of them is cut off.
+typedef struct corner {
+    int64_t length2; // of the partition edge from a to c
+    uint32_t a, b, c;
+} corner;
+
+typedef struct triangulation {
+    const tl_lattice_point *points;
+    uint32_t *previous;
+    uint32_t *next;
+    uint32_t *across;   // [point] edge of a cut triangle on the far side of the edge that starts here, or TL_NO_EDGE
+    uint8_t *is_reflex; // or straight
+    tl_reflex_tree reflex;
+    corner *heap;
+    uint32_t heap_count;
+} triangulation;
+
+static bool comes_first(const corner *a, const corner *b)
+{
+    return a->length2 != b->length2 ? a->length2 < b->length2 : a->a < b->a;
+}
+
+static void heap_push(triangulation *t, corner item)
+{
+    uint32_t i = t->heap_count++;
+    while (i > 0 && comes_first(&item, &t->heap[(i - 1) / 2])) {
+        t->heap[i] = t->heap[(i - 1) / 2];
+        i = (i - 1) / 2;
+    }
+    t->heap[i] = item;
+}
+
+static corner heap_pop(triangulation *t)
+{
+    corner top = t->heap[0];
+    corner last = t->heap[--t->heap_count];
+    uint32_t i = 0;
+    for (;;) {
+        uint32_t child = 2 * i + 1;
+        if (child >= t->heap_count) {
+            break;
+        }
+        if (child + 1 < t->heap_count && comes_first(&t->heap[child + 1], &t->heap[child])) {
+            child++;
+        }
+        if (!comes_first(&t->heap[child], &last)) {
+            break;
+        }
+        t->heap[i] = t->heap[child];
+        i = child;
+    }
+    t->heap[i] = last;
+    return top;
+}
+
+// Puts corner b on the heap when it can be cut off.
+static void consider(triangulation *t, uint32_t b)
+{
+    if (t->is_reflex[b]) {
+        return;
+    }
+    uint32_t a = t->previous[b];
+    uint32_t c = t->next[b];
+    tl_lattice_point pa = t->points[a];
+    tl_lattice_point pb = t->points[b];
+    tl_lattice_point pc = t->points[c];
+    // The internal angle test. b is convex, so one half of it holds already, and at a reflex end that is enough.
+    if (!t->is_reflex[a] && tl_turn(pa, pc, t->points[t->previous[a]]) <= 0) {
+        return;
+    }
+    if (!t->is_reflex[c] && tl_turn(pc, t->points[t->next[c]], pa) <= 0) {
+        return;
+    }
+    if (tl_reflex_tree_any_in_triangle(&t->reflex, pa, pb, pc)) {
+        return;
+    }
+    corner item = { tl_distance2(pa, pc), a, b, c };
+    heap_push(t, item);
+}
+
+// A corner whose angle a cut has made smaller.
+static void update_angle(triangulation *t, uint32_t b)
+{
+    if (t->is_reflex[b] && tl_turn(t->points[t->previous[b]], t->points[b], t->points[t->next[b]]) > 0) {
+        t->is_reflex[b] = 0;
+        tl_reflex_tree_remove(&t->reflex, b);
+    }
+}
+
+static bool is_current(const triangulation *t, const corner *item)
+{
+    // A vertex that was cut off keeps its neighbours' numbers, but they no longer name it.
+    return t->next[item->a] == item->b && t->next[item->b] == item->c && t->previous[item->c] == item->b &&
+           t->previous[item->b] == item->a;
+}
+
+static void emit(triangulation *t, uint32_t triangle, const uint32_t corners[3], uint32_t edges,
+                 uint32_t *triangles_out, uint32_t *twins_out)
+{
+    for (uint32_t k = 0; k < 3; k++) {
+        triangles_out[3 * triangle + k] = corners[k];
+        uint32_t twin = k < edges ? t->across[corners[k]] : TL_NO_EDGE;
+        twins_out[3 * triangle + k] = twin;
+        if (twin != TL_NO_EDGE) {
+            twins_out[twin] = 3 * triangle + k;
+        }
+    }
+}
+
+static bool allocate(triangulation *t, tl_arena *scratch, uint32_t count)
+{
+    t->previous = TL_PUSH(scratch, uint32_t, count);
+    t->next = TL_PUSH(scratch, uint32_t, count);
+    t->across = TL_PUSH(scratch, uint32_t, count);
+    t->is_reflex = TL_PUSH(scratch, uint8_t, count);
+    // n corners at first, and two more for each of the n - 3 cuts.
+    t->heap = TL_PUSH(scratch, corner, 3 * (uint64_t)count);
+    t->heap_count = 0;
+    return t->previous != NULL && t->next != NULL && t->across != NULL && t->is_reflex != NULL && t->heap != NULL;
+}
+
+static bool start(triangulation *t, tl_arena *scratch, const tl_lattice_point *points, uint32_t count)
+{
+    t->points = points;
+    if (!allocate(t, scratch, count)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        t->previous[i] = i > 0 ? i - 1 : count - 1;
+        t->next[i] = i + 1 < count ? i + 1 : 0;
+        t->across[i] = TL_NO_EDGE;
+        t->is_reflex[i] = tl_turn(points[t->previous[i]], points[i], points[t->next[i]]) <= 0;
+    }
+    if (!tl_reflex_tree_build(&t->reflex, scratch, points, t->is_reflex, count)) {
+        return false;
+    }
+    if (count > 3) {
+        for (uint32_t i = 0; i < count; i++) {
+            consider(t, i);
+        }
+    }
+    return true;
+}
+
+tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint32_t count, uint32_t *triangles_out,
+                         uint32_t *twins_out)
+{
+    triangulation t;
+    if (!start(&t, scratch, points, count)) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t triangle = 0;
+    for (uint32_t left = count; left > 3; left--) {
+        corner cut;
+        do {
+            if (t.heap_count == 0) {
+                return TL_ERR_SELF_INTERSECTION;
+            }
+            cut = heap_pop(&t);
+        } while (!is_current(&t, &cut));
+        uint32_t corners[3] = { cut.a, cut.b, cut.c };
+        emit(&t, triangle, corners, 2, triangles_out, twins_out);
+        t.across[cut.a] = 3 * triangle + 2;
+        t.next[cut.a] = cut.c;
+        t.previous[cut.c] = cut.a;
+        update_angle(&t, cut.a);
+        update_angle(&t, cut.c);
+        triangle++;
+        if (left > 4) {
+            consider(&t, cut.a);
+            consider(&t, cut.c);
+        }
+    }
+    // The last triangle begins at its lowest vertex.
+    uint32_t corners[3] = { 0, 0, 0 };
+    while (t.next[t.previous[corners[0]]] != corners[0] || t.previous[t.next[corners[0]]] != corners[0]) {
+        corners[0]++;
+    }
+    corners[1] = t.next[corners[0]];
+    corners[2] = t.next[corners[1]];
+    if (tl_turn(points[corners[0]], points[corners[1]], points[corners[2]]) <= 0) {
+        return TL_ERR_SELF_INTERSECTION;
+    }
+    emit(&t, triangle, corners, 3, triangles_out, twins_out);
+    return TL_OK;
+}
