@@ -38,7 +38,7 @@ typedef struct tl_nav_def {
     float agent_height;    ///< metres, > 0: free height that an agent needs, rounded up to whole voxels. Default 2
     float agent_radius;    ///< metres, >= 0: the walkable area is eroded by it, rounded up to whole cells. Default 0.6
     float agent_max_climb; ///< metres, >= 0: highest step, rounded down to whole voxels. Default 0.9
-    float agent_max_slope; ///< degrees, [0, 90): steepest walkable triangle. Default 45
+    float agent_max_slope; ///< degrees, [0, 90): floors less steep than this, and flat ones, are walkable. Default 45
     float region_min_size; ///< cells: islands of less than its square are dropped. Default 8
     float region_merge_size;       ///< cells: regions of less than its square are merged into a neighbour. Default 20
     float edge_max_len;            ///< metres, >= 0: longest contour edge along a wall, 0: any. Default 12
@@ -84,7 +84,7 @@ typedef struct tl_nav_config {
     uint32_t walkable_height;       ///< voxels, >= 1
     uint32_t walkable_climb;        ///< voxels
     uint32_t walkable_radius;       ///< columns
-    float walkable_slope_cos;       ///< smallest y of the unit normal of a walkable triangle
+    float walkable_slope_cos;       ///< walkable triangles have a unit normal of larger y
     uint32_t min_region_area;       ///< columns
     uint32_t merge_region_area;     ///< columns
     uint32_t max_edge_len;          ///< columns, 0: any
@@ -142,8 +142,8 @@ typedef struct tl_nav_heightfield {
     const tl_allocator *allocator;
 } tl_nav_heightfield;
 
-/// Voxelizes triangles conservatively and merges their spans. Triangles whose slope is at most the agent's are given
-/// `areas[i]` (NULL: TL_NAV_WALKABLE_AREA), steeper ones TL_NAV_NULL_AREA. Triangles outside the bounds are clipped.
+/// Voxelizes triangles conservatively and merges their spans. Triangles less steep than the agent's limit are given
+/// `areas[i]` (NULL: TL_NAV_WALKABLE_AREA), the others TL_NAV_NULL_AREA. Triangles outside the bounds are clipped.
 /// The result does not depend on the order of the triangles. Errors: TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
 TL_API tl_result tl_nav_rasterize(const tl_nav_config *config, const tl_mesh_view *mesh, const uint8_t *areas,
                                   const tl_host *host, tl_nav_heightfield *heightfield_out, tl_report *report_out);

@@ -46,16 +46,17 @@ tl_result tl_level_mesh_check(const tl_mesh_view *mesh, tl_aabb *bounds_out, tl_
     return TL_OK;
 }
 
-/// The cosine was rounded once to float, so a slope of exactly the limit may miss it by that much: the limit itself is
-/// walkable.
-#define SLOPE_COS_NOISE ((double)TL_FLOAT_GAMMA(1))
+/// Relative noise of the comparison: the limit's cosine was rounded to float once, and the triangle's own slope comes
+/// from coordinates that were. A slope of exactly the limit lies within it, and is not below the limit.
+#define SLOPE_COS_NOISE ((double)TL_FLOAT_GAMMA(2))
 
 bool tl_triangle_is_walkable(tl_vec3 a, tl_vec3 b, tl_vec3 c, float slope_cos)
 {
     double ux = (double)b.x - (double)a.x, uy = (double)b.y - (double)a.y, uz = (double)b.z - (double)a.z;
     double vx = (double)c.x - (double)a.x, vy = (double)c.y - (double)a.y, vz = (double)c.z - (double)a.z;
     double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-    double limit = (double)slope_cos * (1.0 - SLOPE_COS_NOISE);
+    double limit = (double)slope_cos * (1.0 + SLOPE_COS_NOISE);
+    limit = limit < 1.0 ? limit : 1.0; // what is exactly flat is walkable at any limit
     // n.y / |n| >= limit without root and division; both sides are positive.
     return ny > 0.0 && ny * ny >= limit * limit * (nx * nx + ny * ny + nz * nz);
 }

@@ -11,7 +11,7 @@
 /// NULL.
 tl_result tl_level_mesh_check(const tl_mesh_view *mesh, tl_aabb *bounds_out, tl_report *report);
 
-/// Whether the triangle faces up and is at most as steep as a slope of that cosine.
+/// Whether the triangle faces up and is less steep than a slope of that cosine, or flat.
 bool tl_triangle_is_walkable(tl_vec3 a, tl_vec3 b, tl_vec3 c, float slope_cos);
 
 #endif
