@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+//
+// Whether bytes from anywhere are a whole tile. Offsets are not followed but computed anew from the counts and
+// compared; then every index that a query will use is bounded, and every derived value is derived again. Nothing is
+// allocated, so that a mapped file can be checked in place.
+
+#include "base/assert.h"
+#include "base/hash.h"
+#include "base/host.h"
+#include "box_tree.h"
+#include "lattice.h"
+#include "layout.h"
+#include "source_check.h"
+
+#include <math.h>
+#include <string.h>
+#include <talus/mesh.h>
+
+static tl_result corrupt(tl_report *report, const char *element, uint64_t index)
+{
+    return tl_report_fail(report, TL_ERR_CORRUPT, element, index, "bake the level again");
+}
+
+static bool is_positive(float value)
+{
+    return value > 0.0f && isfinite(value);
+}
+
+static bool is_place(float value)
+{
+    return value >= -TL_MAX_COORDINATE && value <= TL_MAX_COORDINATE;
+}
+
+static bool is_point(tl_vec3 v)
+{
+    return is_place(v.x) && is_place(v.y) && is_place(v.z);
+}
+
+// Bitwise, so that -0 and 0 differ: baked values are reproducible to the last bit.
+static bool same_bits(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
+static tl_result check_scalars(const tl_nav_tile *tile, tl_report *report)
+{
+    bool counts = tile->polygon_count >= 1 && tile->polygon_count <= TL_NAV_MAX_TILE_POLYGONS &&
+                  tile->corner_count < TL_NAV_LINK_PORTAL && tile->node_count == 2 * tile->polygon_count - 1;
+    bool place = tile->tile_x >= -TL_NAV_MAX_TILE_INDEX && tile->tile_x <= TL_NAV_MAX_TILE_INDEX &&
+                 tile->tile_z >= -TL_NAV_MAX_TILE_INDEX && tile->tile_z <= TL_NAV_MAX_TILE_INDEX &&
+                 tile->tile_size <= TL_MAX_CONTOUR_COORDINATE &&
+                 (tile->tile_size > 0 || (tile->tile_x == 0 && tile->tile_z == 0));
+    bool sizes = is_positive(tile->cell_size) && is_positive(tile->cell_height) && is_positive(tile->agent_height) &&
+                 tile->agent_radius >= 0.0f && isfinite(tile->agent_radius) && tile->agent_max_climb >= 0.0f &&
+                 isfinite(tile->agent_max_climb) && isfinite(tile->origin.x) && isfinite(tile->origin.y) &&
+                 isfinite(tile->origin.z);
+    bool sides = tile->side_first[0] == 0 && tile->side_first[4] == tile->portal_count;
+    for (int side = 0; side < 4; side++) {
+        sides = sides && tile->side_first[side] <= tile->side_first[side + 1];
+    }
+    return counts && place && sizes && sides ? TL_OK : corrupt(report, "header", TL_NO_ELEMENT);
+}
+
+static tl_result check_layout(const tl_nav_tile *tile, tl_report *report)
+{
+    tl_nav_extent extents[TL_NAV_TILE_ARRAYS];
+    tl_nav_tile_extents(tile, extents);
+    tl_nav_tile expected = *tile;
+    tl_nav_tile_set_offsets(&expected, extents);
+    if (!same_bits(&expected, tile, sizeof expected) || tile->blob.size != extents[TL_NAV_TILE_ARRAYS - 1].end) {
+        return corrupt(report, "header", TL_NO_ELEMENT);
+    }
+    const uint8_t *bytes = (const uint8_t *)tile;
+    for (uint32_t i = 0; i < TL_NAV_TILE_ARRAYS; i++) {
+        for (uint64_t at = extents[i].offset + extents[i].size; at < extents[i].end; at++) {
+            if (bytes[at] != 0) {
+                return corrupt(report, "padding", at);
+            }
+        }
+    }
+    return TL_OK;
+}
+
+// first[0] is 0, every step is in [low, high], and the last entry is `total`.
+static bool is_range_table(const uint32_t *first, uint32_t count, uint32_t low, uint32_t high, uint32_t total)
+{
+    if (first[0] != 0 || first[count] != total) {
+        return false;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (first[i + 1] < first[i] || first[i + 1] - first[i] < low || first[i + 1] - first[i] > high) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static tl_result check_corners(const tl_nav_tile *tile, tl_report *report)
+{
+    const int32_t *vertices = tl_nav_tile_at(tile, tile->vertices);
+    for (uint64_t i = 0; i < 3 * (uint64_t)tile->vertex_count; i++) {
+        if (vertices[i] < -TL_MAX_CONTOUR_COORDINATE || vertices[i] > TL_MAX_CONTOUR_COORDINATE) {
+            return corrupt(report, "vertex", i / 3);
+        }
+    }
+    const uint32_t *corner_vertices = tl_nav_tile_at(tile, tile->corner_vertices);
+    const tl_vec3 *corners = tl_nav_tile_at(tile, tile->corners);
+    for (uint32_t k = 0; k < tile->corner_count; k++) {
+        if (corner_vertices[k] >= tile->vertex_count) {
+            return corrupt(report, "corner", k);
+        }
+        const int32_t *v = vertices + 3 * (size_t)corner_vertices[k];
+        tl_vec3 expected = { tl_nav_tile_position(tile->origin.x, tile->tile_x, tile->tile_size, v[0], tile->cell_size),
+                             tl_nav_tile_position(tile->origin.y, 0, 0, v[1], tile->cell_height),
+                             tl_nav_tile_position(tile->origin.z, tile->tile_z, tile->tile_size, v[2],
+                                                  tile->cell_size) };
+        if (!is_point(expected) || !same_bits(&expected, &corners[k], sizeof expected)) {
+            return corrupt(report, "corner", k);
+        }
+    }
+    return TL_OK;
+}
+
+static bool is_link(const tl_nav_tile *tile, const uint32_t *first, uint32_t p, uint32_t k)
+{
+    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
+    uint32_t link = links[k];
+    if (link == TL_NAV_LINK_WALL) {
+        return true;
+    }
+    if ((link & TL_NAV_LINK_PORTAL) != 0) {
+        uint32_t portal = link & ~TL_NAV_LINK_PORTAL;
+        return portal < tile->portal_count && tl_nav_tile_portals(tile)[portal].corner == k;
+    }
+    return link < tile->polygon_count && link != p &&
+           tl_nav_links_back(first, tl_nav_tile_at(tile, tile->corner_vertices), links, p, k);
+}
+
+static tl_result check_polygons(const tl_nav_tile *tile, tl_report *report)
+{
+    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
+    if (!is_range_table(first, tile->polygon_count, 3, TL_NAV_MAX_CORNERS, tile->corner_count)) {
+        return corrupt(report, "polygon", TL_NO_ELEMENT);
+    }
+    TL_TRY(check_corners(tile, report));
+    const uint32_t *corner_vertices = tl_nav_tile_at(tile, tile->corner_vertices);
+    const int32_t *vertices = tl_nav_tile_at(tile, tile->vertices);
+    double area = 0.0;
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        const uint32_t *corners = corner_vertices + first[p];
+        uint32_t count = first[p + 1] - first[p];
+        uint8_t kind = tl_nav_tile_area(tile, p);
+        if (kind == 0 || kind > TL_NAV_MAX_AREA || tl_nav_double_area(vertices, corners, count) <= 0 ||
+            !tl_nav_is_convex(vertices, corners, count)) {
+            return corrupt(report, "polygon", p);
+        }
+        for (uint32_t k = first[p]; k < first[p + 1]; k++) {
+            if (!is_link(tile, first, p, k)) {
+                return corrupt(report, "polygon", p);
+            }
+        }
+        area += tl_nav_tile_polygon_area(tile, p);
+    }
+    return same_bits(&area, &tile->area, sizeof area) ? TL_OK : corrupt(report, "header", TL_NO_ELEMENT);
+}
+
+static bool is_surface(const tl_nav_tile *tile, uint32_t p)
+{
+    uint32_t corner_count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, p, &corner_count);
+    tl_nav_surface surface = tl_nav_tile_surface(tile, p);
+    if (surface.vertex_count < corner_count) {
+        return false;
+    }
+    for (uint32_t i = 0; i < surface.vertex_count; i++) {
+        if (!is_point(surface.vertices[i])) {
+            return false;
+        }
+    }
+    for (uint32_t i = 0; i < corner_count; i++) {
+        if (!same_bits(&surface.vertices[i].x, &corners[i].x, sizeof(float)) ||
+            !same_bits(&surface.vertices[i].z, &corners[i].z, sizeof(float))) {
+            return false;
+        }
+    }
+    for (uint32_t i = 0; i < surface.triangle_count; i++) {
+        const tl_nav_detail_triangle *triangle = &surface.triangles[i];
+        if (triangle->corner[0] >= surface.vertex_count || triangle->corner[1] >= surface.vertex_count ||
+            triangle->corner[2] >= surface.vertex_count || triangle->edge_flags > 7) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static tl_result check_surfaces(const tl_nav_tile *tile, tl_report *report)
+{
+    const uint32_t *first_vertex = tl_nav_tile_at(tile, tile->detail_first_vertex);
+    const uint32_t *first_triangle = tl_nav_tile_at(tile, tile->detail_first_triangle);
+    if (!is_range_table(first_vertex, tile->polygon_count, 3, UINT16_MAX + 1u, tile->detail_vertex_count) ||
+        !is_range_table(first_triangle, tile->polygon_count, 1, UINT32_MAX, tile->detail_triangle_count)) {
+        return corrupt(report, "patch", TL_NO_ELEMENT);
+    }
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        if (!is_surface(tile, p)) {
+            return corrupt(report, "patch", p);
+        }
+    }
+    return TL_OK;
+}
+
+static bool is_profile(const tl_nav_tile *tile, const tl_nav_portal *portal)
+{
+    const tl_nav_profile_point *profile = tl_nav_tile_at(tile, tile->profile);
+    if (portal->profile_count < 2 || portal->first_profile > tile->profile_count ||
+        portal->profile_count > tile->profile_count - portal->first_profile) {
+        return false;
+    }
+    const tl_nav_profile_point *points = profile + portal->first_profile;
+    uint32_t last = portal->profile_count - 1;
+    bool right = points[0].along == (float)portal->low && points[last].along == (float)portal->high;
+    for (uint32_t i = 0; i <= last; i++) {
+        right = right && is_place(points[i].height) && (i == 0 || points[i - 1].along <= points[i].along);
+    }
+    return right;
+}
+
+static bool is_portal(const tl_nav_tile *tile, uint32_t index, uint32_t side)
+{
+    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
+    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
+    const tl_nav_portal *portal = &tl_nav_tile_portals(tile)[index];
+    uint32_t p = portal->polygon;
+    if (p >= tile->polygon_count || portal->corner < first[p] || portal->corner >= first[p + 1] ||
+        links[portal->corner] != (TL_NAV_LINK_PORTAL | index)) {
+        return false;
+    }
+    uint32_t edge = portal->corner - first[p];
+    uint32_t next = portal->corner + 1 < first[p + 1] ? edge + 1 : 0;
+    const int32_t *a = tl_nav_tile_lattice(tile, p, edge);
+    const int32_t *b = tl_nav_tile_lattice(tile, p, next);
+    uint32_t axis = tl_nav_side_axis(side);
+    return tl_nav_on_side(a, b, side, tile->tile_size) && portal->low == (a[axis] < b[axis] ? a[axis] : b[axis]) &&
+           portal->high == (a[axis] < b[axis] ? b[axis] : a[axis]) && is_profile(tile, portal);
+}
+
+static tl_result check_portals(const tl_nav_tile *tile, tl_report *report)
+{
+    const tl_nav_portal *portals = tl_nav_tile_portals(tile);
+    uint32_t profile_end = 0;
+    for (uint32_t side = 0; side < 4; side++) {
+        for (uint32_t i = tile->side_first[side]; i < tile->side_first[side + 1]; i++) {
+            bool ordered = i == tile->side_first[side] || portals[i - 1].low < portals[i].low ||
+                           (portals[i - 1].low == portals[i].low && portals[i - 1].corner < portals[i].corner);
+            if (!ordered || portals[i].first_profile != profile_end || !is_portal(tile, i, side)) {
+                return corrupt(report, "portal", i);
+            }
+            profile_end += portals[i].profile_count;
+        }
+    }
+    return profile_end == tile->profile_count ? TL_OK : corrupt(report, "portal", TL_NO_ELEMENT);
+}
+
+typedef struct tree_check {
+    const tl_nav_tile *tile;
+    const tl_nav_tile_node *nodes;
+    uint64_t polygon_digest; // sum of the hashes of the polygons seen
+} tree_check;
+
+// Checks the subtree at `node`, which must end exactly at `end`. Subtrees are disjoint and the depth is bounded, so
+// the recursion is too.
+static bool check_subtree(tree_check *check, uint32_t node, uint32_t end, uint32_t depth)
+{
+    const tl_nav_tile_node *at = &check->nodes[node];
+    if (at->skip != end || depth > TL_NAV_MAX_TILE_DEPTH) {
+        return false;
+    }
+    if (end - node == 1) {
+        if (at->polygon >= check->tile->polygon_count) {
+            return false;
+        }
+        tl_aabb box = tl_nav_polygon_box(check->tile, at->polygon);
+        check->polygon_digest += tl_hash_mix(at->polygon + 1u);
+        return same_bits(&box, &at->box, sizeof box);
+    }
+    uint32_t second = check->nodes[node + 1].skip;
+    if (at->polygon != TL_NO_POLYGON || second <= node + 1 || second >= end) {
+        return false;
+    }
+    tl_aabb box = tl_aabb_union(check->nodes[node + 1].box, check->nodes[second].box);
+    return same_bits(&box, &at->box, sizeof box) && check_subtree(check, node + 1, second, depth + 1) &&
+           check_subtree(check, second, end, depth + 1);
+}
+
+static tl_result check_tree(const tl_nav_tile *tile, tl_report *report)
+{
+    tree_check check = { tile, tl_nav_tile_nodes(tile), 0 };
+    if (!check_subtree(&check, 0, tile->node_count, 0)) {
+        return corrupt(report, "node", TL_NO_ELEMENT);
+    }
+    // There are as many leaves as polygons; that each polygon has one follows when the sums of hashes agree, which
+    // spares a table of marks.
+    uint64_t expected = 0;
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        expected += tl_hash_mix(p + 1u);
+    }
+    if (check.polygon_digest != expected || !same_bits(&tile->bounds, &check.nodes[0].box, sizeof tile->bounds)) {
+        return corrupt(report, "node", TL_NO_ELEMENT);
+    }
+    return TL_OK;
+}
+
+tl_result tl_nav_tile_check(const void *bytes, uint64_t size, tl_report *report_out)
+{
+    tl_report_begin(report_out, "check tile");
+    if ((uintptr_t)bytes % 8 != 0) {
+        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "bytes", TL_NO_ELEMENT, "align the bytes to 8");
+    }
+    if (size < sizeof(tl_blob)) {
+        return tl_report_fail(report_out, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT, NULL);
+    }
+    const tl_nav_tile *tile = bytes;
+    if (tile->blob.magic != TL_NAV_TILE_MAGIC) {
+        return tl_report_fail(report_out, TL_ERR_MAGIC, "header", TL_NO_ELEMENT, NULL);
+    }
+    if (tile->blob.version != TL_NAV_TILE_VERSION) {
+        return tl_report_fail(report_out, TL_ERR_VERSION, "header", TL_NO_ELEMENT, "bake the level again");
+    }
+    if (size < sizeof *tile || size < tile->blob.size) {
+        return tl_report_fail(report_out, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT, NULL);
+    }
+    if (size != tile->blob.size) {
+        return corrupt(report_out, "header", TL_NO_ELEMENT);
+    }
+    TL_TRY(check_scalars(tile, report_out));
+    TL_TRY(check_layout(tile, report_out));
+    TL_TRY(check_polygons(tile, report_out));
+    TL_TRY(check_surfaces(tile, report_out));
+    TL_TRY(check_portals(tile, report_out));
+    return check_tree(tile, report_out);
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+//
+// Where the arrays of a tile lie, given their counts. Writer and checker share it, so a tile's offsets are never
+// interpreted: they are computed anew and compared.
+
+#ifndef TALUS_SRC_NAV_FORMAT_LAYOUT_H
+#define TALUS_SRC_NAV_FORMAT_LAYOUT_H
+
+#include <talus/nav_tile.h>
+
+enum { TL_NAV_TILE_ARRAYS = 14 };
+
+/// One array of the tile: [offset, offset + size), padding up to `end`.
+typedef struct tl_nav_extent {
+    uint64_t offset, size, end;
+} tl_nav_extent;
+
+/// The arrays in their order, from the counts in `tile`. The last one's end is the blob's size.
+/// No overflow for any counts: each array is below 2^38 bytes.
+void tl_nav_tile_extents(const tl_nav_tile *tile, tl_nav_extent extents_out[TL_NAV_TILE_ARRAYS]);
+
+/// Writes the extents' offsets into the tile's header.
+void tl_nav_tile_set_offsets(tl_nav_tile *tile, const tl_nav_extent extents[TL_NAV_TILE_ARRAYS]);
+
+#endif

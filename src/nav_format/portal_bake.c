@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+//
+// Portals: the edges on a tile's border, sorted by side and place, each with the profile of the surface along it.
+//
+// Two tiles are linked where their borders meet in height. A polygon's edge is straight from corner to corner, while
+// the floor under it may rise and fall by more than a step; and the neighbour tile may have put its corners elsewhere.
+// To compare straight edges (as other systems do) misses links on hilly ground, or makes false ones with a tolerance
+// wide enough to avoid that. So the heights of the detail mesh along the edge are baked in, and those are compared.
+
+#include "portal_bake.h"
+
+#include "base/host.h"
+#include "base/radix_sort.h"
+#include "lattice.h"
+
+#include <math.h>
+
+// A detail vertex belongs to the border when it is no farther from it than this. Vertices on the edge are off by
+// float rounding only; vertices inside a polygon lie on cell centres or sample points, at least half a cell away.
+#define BORDER_VERTEX_CELLS 0.25
+
+// The side on which a portal edge really lies, or 4.
+static uint32_t portal_side(const tl_nav_tile_source *source, uint32_t p, uint32_t k)
+{
+    const tl_polygon_mesh *polygons = source->polygons;
+    uint32_t across = polygons->neighbours[k];
+    if (across < TL_PORTAL || across == TL_NO_POLYGON || source->tile_size == 0) {
+        return 4;
+    }
+    uint32_t next = k + 1 < polygons->first[p + 1] ? k + 1 : polygons->first[p];
+    const int32_t *a = polygons->vertices + 3 * (size_t)polygons->indices[k];
+    const int32_t *b = polygons->vertices + 3 * (size_t)polygons->indices[next];
+    uint32_t side = across - TL_PORTAL;
+    return tl_nav_on_side(a, b, side, source->tile_size) ? side : 4;
+}
+
+typedef struct profile_frame {
+    double origin_along, origin_across; // metres: the tile's lattice origin, on the two axes
+    double cell;
+    double border; // metres from origin_across
+    bool along_x;
+} profile_frame;
+
+static profile_frame make_frame(const tl_nav_tile_source *source, uint32_t side)
+{
+    double cell = (double)source->polygons->cell_size;
+    double x = (double)source->origin.x + (double)source->tile_x * (double)source->tile_size * cell;
+    double z = (double)source->origin.z + (double)source->tile_z * (double)source->tile_size * cell;
+    bool along_x = tl_nav_side_axis(side) == 0;
+    bool far_side = side == 1 || side == 2;
+    profile_frame frame = { along_x ? x : z, along_x ? z : x, cell, far_side ? source->tile_size * cell : 0.0,
+                            along_x };
+    return frame;
+}
+
+// Heights of the patch's own copy of a corner, or of the polygon where there is no detail.
+static float corner_height(const tl_nav_tile_source *source, uint32_t p, uint32_t k)
+{
+    const tl_polygon_mesh *polygons = source->polygons;
+    if (source->detail != NULL) {
+        return source->detail->vertices[source->detail->patches[p].first_vertex + (k - polygons->first[p])].y;
+    }
+    int32_t y = polygons->vertices[3 * (size_t)polygons->indices[k] + 1];
+    return tl_nav_tile_position(source->origin.y, 0, 0, y, polygons->cell_height);
+}
+
+// The added vertices of a patch that lie on the border strictly between low and high, sorted; returns their number.
+static uint32_t border_vertices(const tl_nav_tile_source *source, const tl_nav_portal *portal, uint32_t side,
+                                tl_sort_item *items, tl_sort_item *scratch)
+{
+    const tl_polygon_mesh *polygons = source->polygons;
+    const tl_nav_detail_patch *patch = &source->detail->patches[portal->polygon];
+    profile_frame frame = make_frame(source, side);
+    uint32_t corner_count = polygons->first[portal->polygon + 1] - polygons->first[portal->polygon];
+    uint32_t count = 0;
+    for (uint32_t i = corner_count; i < patch->vertex_count; i++) {
+        tl_vec3 v = source->detail->vertices[patch->first_vertex + i];
+        double across = (double)(frame.along_x ? v.z : v.x) - frame.origin_across;
+        double along = ((double)(frame.along_x ? v.x : v.z) - frame.origin_along) / frame.cell;
+        float place = (float)along;
+        if (fabs(across - frame.border) <= BORDER_VERTEX_CELLS * frame.cell && place > (float)portal->low &&
+            place < (float)portal->high) {
+            tl_sort_item item = { tl_float_sort_key(place), patch->first_vertex + i, 0 };
+            items[count++] = item;
+        }
+    }
+    tl_radix_sort(items, scratch, count);
+    return count;
+}
+
+static void append_profile(tl_nav_portals *portals, float along, float height)
+{
+    tl_nav_profile_point point = { along, height };
+    portals->profile[portals->profile_count++] = point;
+}
+
+static void bake_profile(const tl_nav_tile_source *source, uint32_t side, tl_nav_portal *portal, tl_sort_item *items,
+                         tl_sort_item *scratch, tl_nav_portals *portals)
+{
+    const tl_polygon_mesh *polygons = source->polygons;
+    uint32_t p = portal->polygon;
+    uint32_t next = portal->corner + 1 < polygons->first[p + 1] ? portal->corner + 1 : polygons->first[p];
+    bool rising = side < 2; // sides 0 and 1 run from low to high
+    portal->first_profile = portals->profile_count;
+    append_profile(portals, (float)portal->low, corner_height(source, p, rising ? portal->corner : next));
+    if (source->detail != NULL) {
+        profile_frame frame = make_frame(source, side);
+        uint32_t count = border_vertices(source, portal, side, items, scratch);
+        for (uint32_t i = 0; i < count; i++) {
+            // Two vertices at one place: the first stands for both.
+            if (i == 0 || items[i].key != items[i - 1].key) {
+                tl_vec3 v = source->detail->vertices[items[i].value];
+                double along = ((double)(frame.along_x ? v.x : v.z) - frame.origin_along) / frame.cell;
+                append_profile(portals, (float)along, v.y);
+            }
+        }
+    }
+    append_profile(portals, (float)portal->high, corner_height(source, p, rising ? next : portal->corner));
+    portal->profile_count = portals->profile_count - portal->first_profile;
+}
+
+// Orders portals by side, then low, then corner. The corner is the sort's input order, which it keeps.
+static bool sort_portals(tl_nav_portal *portals, uint8_t *sides, uint32_t count, tl_arena *arena,
+                         tl_nav_portals *portals_out)
+{
+    tl_sort_item *items = TL_PUSH(arena, tl_sort_item, count);
+    tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, count);
+    portals_out->portals = TL_PUSH(arena, tl_nav_portal, count);
+    if (items == NULL || scratch == NULL || portals_out->portals == NULL) {
+        return false;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t biased_low = (uint32_t)portals[i].low ^ 0x80000000u;
+        tl_sort_item item = { (uint64_t)sides[i] << 32 | biased_low, i, 0 };
+        items[i] = item;
+        for (uint32_t side = sides[i] + 1u; side < 5; side++) {
+            portals_out->side_first[side]++;
+        }
+    }
+    tl_radix_sort(items, scratch, count);
+    for (uint32_t i = 0; i < count; i++) {
+        portals_out->portals[i] = portals[items[i].value];
+    }
+    portals_out->portal_count = count;
+    return true;
+}
+
+static tl_nav_portal make_portal(const tl_polygon_mesh *polygons, uint32_t p, uint32_t k, uint32_t side)
+{
+    uint32_t next = k + 1 < polygons->first[p + 1] ? k + 1 : polygons->first[p];
+    uint32_t axis = tl_nav_side_axis(side);
+    int32_t a = polygons->vertices[3 * (size_t)polygons->indices[k] + axis];
+    int32_t b = polygons->vertices[3 * (size_t)polygons->indices[next] + axis];
+    tl_nav_portal portal = { p, k, a < b ? a : b, a < b ? b : a, 0, 0 };
+    return portal;
+}
+
+tl_result tl_nav_bake_portals(const tl_nav_tile_source *source, tl_arena *arena, tl_nav_portals *portals_out,
+                              tl_report *report)
+{
+    const tl_polygon_mesh *polygons = source->polygons;
+    tl_nav_portals zero = { 0 };
+    *portals_out = zero;
+    uint32_t count = 0;
+    uint32_t largest_patch = 0;
+    uint64_t profile_capacity = 0;
+    for (uint32_t p = 0; p < polygons->polygon_count; p++) {
+        uint32_t patch_vertices = source->detail != NULL ? source->detail->patches[p].vertex_count : 0;
+        largest_patch = patch_vertices > largest_patch ? patch_vertices : largest_patch;
+        for (uint32_t k = polygons->first[p]; k < polygons->first[p + 1]; k++) {
+            if (portal_side(source, p, k) < 4) {
+                count++;
+                profile_capacity += 2 + (uint64_t)patch_vertices;
+            }
+        }
+    }
+    if (profile_capacity > UINT32_MAX) {
+        return tl_report_fail(report, TL_ERR_LIMIT, "detail", TL_NO_ELEMENT, "use smaller tiles");
+    }
+    tl_nav_portal *found = TL_PUSH(arena, tl_nav_portal, count);
+    uint8_t *sides = TL_PUSH(arena, uint8_t, count);
+    tl_sort_item *items = TL_PUSH(arena, tl_sort_item, largest_patch);
+    tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, largest_patch);
+    portals_out->profile = TL_PUSH(arena, tl_nav_profile_point, profile_capacity);
+    if (found == NULL || sides == NULL || items == NULL || scratch == NULL || portals_out->profile == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t made = 0;
+    for (uint32_t p = 0; p < polygons->polygon_count; p++) {
+        for (uint32_t k = polygons->first[p]; k < polygons->first[p + 1]; k++) {
+            uint32_t side = portal_side(source, p, k);
+            if (side < 4) {
+                sides[made] = (uint8_t)side;
+                found[made++] = make_portal(polygons, p, k, side);
+            }
+        }
+    }
+    if (!sort_portals(found, sides, count, arena, portals_out)) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0, side = 0; i < count; i++) {
+        while (i >= portals_out->side_first[side + 1]) {
+            side++;
+        }
+        bake_profile(source, side, &portals_out->portals[i], items, scratch, portals_out);
+    }
+    return TL_OK;
+}

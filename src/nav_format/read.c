@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// Readings of a tile that are not one array access.
+
+#include "lattice.h"
+
+uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon, uint32_t edge)
+{
+    uint32_t link = tl_nav_tile_links(tile, polygon)[edge];
+    if (link == TL_NAV_LINK_WALL || (link & TL_NAV_LINK_PORTAL) == 0) {
+        return link == TL_NAV_LINK_WALL ? TL_NO_POLYGON : link;
+    }
+    uint32_t portal = link & ~TL_NAV_LINK_PORTAL;
+    uint32_t side = 0;
+    while (side < 3 && portal >= tile->side_first[side + 1]) {
+        side++;
+    }
+    return TL_PORTAL | side;
+}
+
+double tl_nav_tile_polygon_area(const tl_nav_tile *tile, uint32_t polygon)
+{
+    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
+    const uint32_t *corner_vertices = tl_nav_tile_at(tile, tile->corner_vertices);
+    int64_t area2 = tl_nav_double_area(tl_nav_tile_at(tile, tile->vertices), corner_vertices + first[polygon],
+                                       first[polygon + 1] - first[polygon]);
+    return 0.5 * (double)area2 * ((double)tile->cell_size * (double)tile->cell_size);
+}
