@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+//
+// The point of a polygon closest to a point, in the plane: the point itself when it is inside, else the closest one of
+// the edges. Inside is decided exactly; distances are compared in double, ties to the lower edge.
+
+#include "navmesh.h"
+#include "side.h"
+#include "surface.h"
+
+bool tl_nav_is_over(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (tl_nav_side_of(corners[i], corners[i + 1 < count ? i + 1 : 0], point) > 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The closest point of the edge, exact at its ends, and within its box.
+static tl_vec3 closest_on_edge(tl_vec3 a, tl_vec3 b, tl_vec3 point)
+{
+    double dx = (double)b.x - (double)a.x;
+    double dz = (double)b.z - (double)a.z;
+    double along = dx * ((double)point.x - (double)a.x) + dz * ((double)point.z - (double)a.z);
+    double length_sq = dx * dx + dz * dz;
+    if (!(along > 0.0)) {
+        return a;
+    }
+    if (along >= length_sq) {
+        return b;
+    }
+    tl_vec3 on_edge = tl_lerp(a, b, (float)(along / length_sq));
+    return tl_min(tl_max(on_edge, tl_min(a, b)), tl_max(a, b));
+}
+
+tl_vec3 tl_nav_clamp_to_polygon(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point, bool *inside_out)
+{
+    *inside_out = tl_nav_is_over(tile, polygon, point);
+    if (*inside_out) {
+        return point;
+    }
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
+    tl_vec3 closest = corners[0];
+    double closest_sq = INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        tl_vec3 candidate = closest_on_edge(corners[i], corners[i + 1 < count ? i + 1 : 0], point);
+        double dx = (double)candidate.x - (double)point.x;
+        double dz = (double)candidate.z - (double)point.z;
+        if (dx * dx + dz * dz < closest_sq) {
+            closest_sq = dx * dx + dz * dz;
+            closest = candidate;
+        }
+    }
+    return closest;
+}
+
+tl_vec3 tl_nav_closest_on_surface(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point, bool *inside_out)
+{
+    tl_vec3 closest = tl_nav_clamp_to_polygon(tile, polygon, point, inside_out);
+    closest.y = tl_nav_surface_height(tile, polygon, closest.x, closest.z);
+    return closest;
+}
+
+tl_result tl_navmesh_closest_point(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 point, tl_vec3 *closest_out,
+                                   bool *inside_out)
+{
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    bool inside = false;
+    *closest_out = tl_vec3_make(0.0f, 0.0f, 0.0f);
+    if (inside_out != NULL) {
+        *inside_out = false;
+    }
+    if (!tl_nav_is_finite(point)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    *closest_out = tl_nav_closest_on_surface(navmesh->slots[slot].tile, polygon, point, &inside);
+    if (inside_out != NULL) {
+        *inside_out = inside;
+    }
+    return TL_OK;
+}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+//
+// A* over the ways into polygons.
+//
+// A node is a way into a polygon (a portal, crossed in one direction), not a polygon: where a polygon is entered
+// decides what crossing it costs. With polygons as nodes the cost of a step would depend on the path that led there,
+// and the search could neither promise the cheapest path nor be checked against one. Each way has one fixed point, the
+// middle of its portal, so the graph is fixed; the straight distance times the least area cost never overestimates, so
+// no node is opened twice and the first path that reaches the goal is the cheapest. Source: Hart, Nilsson, Raphael, A
+// Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968.
+
+#include "base/assert.h"
+#include "filter.h"
+#include "navmesh.h"
+#include "node_pool.h"
+#include "surface.h"
+
+// Keys of the two nodes that are no ways. A slot is below 2^20, so no way has them.
+#define START_KEY UINT64_MAX
+#define GOAL_KEY  (UINT64_MAX - 1u)
+
+typedef struct path_search {
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter;
+    float least_cost; // of a metre
+    uint32_t goal_slot, goal_polygon;
+    tl_vec3 goal;
+    bool out_of_nodes;
+} path_search;
+
+// Offers a way to reach a node. `from` is TL_NAV_NO_NODE for the start.
+static void relax(path_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost,
+                  uint32_t from)
+{
+    uint32_t index = tl_nav_pool_get(search->query, key);
+    if (index == TL_NAV_NO_NODE) {
+        search->out_of_nodes = true;
+        return;
+    }
+    tl_nav_node *node = &search->query->nodes[index];
+    if (node->heap_at == TL_NAV_NODE_CLOSED || (node->heap_at != TL_NAV_NODE_NEW && cost >= node->cost)) {
+        return;
+    }
+    node->slot = slot;
+    node->polygon = polygon;
+    node->point = point;
+    node->cost = cost;
+    node->total = cost + search->least_cost * tl_distance(point, search->goal);
+    node->parent = from;
+    tl_nav_heap_improve(search->query, index);
+}
+
+static void expand(path_search *search, uint32_t index)
+{
+    const tl_nav_node node = search->query->nodes[index];
+    const tl_nav_tile *tile = search->navmesh->slots[node.slot].tile;
+    float metre = search->filter != NULL ? search->filter->area_cost[tl_nav_tile_area(tile, node.polygon)] : 1.0f;
+    if (node.slot == search->goal_slot && node.polygon == search->goal_polygon) {
+        relax(search, GOAL_KEY, node.slot, node.polygon, search->goal,
+              node.cost + metre * tl_distance(node.point, search->goal), index);
+    }
+    const tl_nav_node *parent = node.parent != TL_NAV_NO_NODE ? &search->query->nodes[node.parent] : NULL;
+    tl_nav_ways ways = tl_nav_ways_of(search->navmesh, node.slot, node.polygon);
+    tl_nav_way way;
+    while (tl_nav_ways_next(&ways, &way)) {
+        // Polygons are convex: to go back to the one we come from never pays.
+        if (parent != NULL && way.polygon == parent->polygon && way.slot == parent->slot) {
+            continue;
+        }
+        if (!tl_nav_passes(search->filter, search->navmesh->slots[way.slot].tile, way.polygon)) {
+            continue;
+        }
+        tl_vec3 middle = tl_scale(tl_add(way.left, way.right), 0.5f);
+        relax(search, way.key, way.slot, way.polygon, middle, node.cost + metre * tl_distance(node.point, middle),
+              index);
+    }
+}
+
+// The node whose polygon comes nearest to the goal, by the distance to its closest point; ties to the cheaper one, then
+// to the lower index.
+static uint32_t nearest_to_goal(const path_search *search, tl_vec3 *point_out)
+{
+    uint32_t best = 0;
+    float best_sq = INFINITY;
+    for (uint32_t i = 0; i < search->query->node_count; i++) {
+        const tl_nav_node *node = &search->query->nodes[i];
+        bool inside = false;
+        tl_vec3 point =
+            tl_nav_closest_on_surface(search->navmesh->slots[node->slot].tile, node->polygon, search->goal, &inside);
+        float distance_sq = tl_distance_sq(point, search->goal);
+        if (distance_sq < best_sq || (distance_sq == best_sq && node->cost < search->query->nodes[best].cost)) {
+            best = i;
+            best_sq = distance_sq;
+            *point_out = point;
+        }
+    }
+    return best;
+}
+
+static tl_result write_path(const path_search *search, uint32_t last, tl_nav_ref *polygons_out, uint32_t capacity,
+                            tl_nav_path *path_out)
+{
+    const tl_nav_node *nodes = search->query->nodes;
+    // The goal's node stands in the polygon of its parent.
+    uint32_t end = nodes[last].key == GOAL_KEY ? nodes[last].parent : last;
+    uint32_t count = 0;
+    for (uint32_t i = end; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
+        count++;
+    }
+    uint32_t at = count;
+    for (uint32_t i = end; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
+        at--;
+        if (at < capacity) {
+            polygons_out[at] = tl_nav_make_ref(search->navmesh, nodes[i].slot, nodes[i].polygon);
+        }
+    }
+    path_out->polygon_count = count;
+    path_out->cost = nodes[last].cost;
+    path_out->end.polygon = tl_nav_make_ref(search->navmesh, nodes[end].slot, nodes[end].polygon);
+    path_out->node_count = search->query->node_count;
+    return count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}
+
+// Runs to the goal's node, or until nothing is open or the pool is used up (TL_NAV_NO_NODE).
+static uint32_t run(path_search *search)
+{
+    for (;;) {
+        uint32_t index = tl_nav_heap_pop(search->query);
+        if (index == TL_NAV_NO_NODE || search->query->nodes[index].key == GOAL_KEY) {
+            return index;
+        }
+        expand(search, index);
+        if (search->out_of_nodes) {
+            return TL_NAV_NO_NODE;
+        }
+    }
+}
+
+tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                 const tl_nav_location *start, const tl_nav_location *goal, tl_nav_ref *polygons_out,
+                                 uint32_t capacity, tl_nav_path *path_out)
+{
+    tl_nav_path none = { TL_NAV_PATH_UNREACHABLE, 0, { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } }, 0.0f, 0 };
+    *path_out = none;
+    path_search search = { query, navmesh, filter, 1.0f, 0, 0, goal->point, false };
+    uint32_t start_slot = 0;
+    uint32_t start_polygon = 0;
+    if (!tl_nav_is_finite(start->point) || !tl_nav_is_finite(goal->point)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (!tl_nav_split_ref(navmesh, start->polygon, &start_slot, &start_polygon) ||
+        !tl_nav_split_ref(navmesh, goal->polygon, &search.goal_slot, &search.goal_polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    if (filter != NULL && !tl_nav_filter_costs(filter, &search.least_cost)) {
+        return TL_ERR_ARGUMENT;
+    }
+    tl_nav_pool_reset(query);
+    relax(&search, START_KEY, start_slot, start_polygon, start->point, 0.0f, TL_NAV_NO_NODE);
+    uint32_t last = run(&search);
+    if (last != TL_NAV_NO_NODE) {
+        path_out->status = TL_NAV_PATH_COMPLETE;
+        path_out->end.point = goal->point;
+    } else {
+        path_out->status = search.out_of_nodes ? TL_NAV_PATH_OUT_OF_NODES : TL_NAV_PATH_UNREACHABLE;
+        last = nearest_to_goal(&search, &path_out->end.point);
+    }
+    return write_path(&search, last, polygons_out, capacity, path_out);
+}
+
+const char *tl_nav_path_status_name(tl_nav_path_status status)
+{
+    static const char *const NAMES[] = { "complete", "unreachable", "out of nodes" };
+    return (unsigned)status < TL_COUNT_OF(NAMES) ? NAMES[status] : "unknown";
+}

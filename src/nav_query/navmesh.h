@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+//
+// The inside of a navmesh: slots of tiles, their seam links, and walking over a polygon's ways out.
+
+#ifndef TALUS_SRC_NAV_QUERY_NAVMESH_H
+#define TALUS_SRC_NAV_QUERY_NAVMESH_H
+
+#include <talus/nav_query.h>
+
+#define TL_NAV_NO_SLOT UINT32_MAX
+
+/// A way across a tile's border.
+typedef struct tl_nav_seam_link {
+    uint32_t slot, polygon; ///< where it leads
+    tl_vec3 left, right;    ///< seen looking out
+} tl_nav_seam_link;
+
+/// The links of one side of a tile; portal i of the side has [first[i], first[i + 1]). NULL without a neighbour.
+typedef struct tl_nav_side_links {
+    uint32_t *first;
+    tl_nav_seam_link *links;
+    uint32_t portal_count;
+    uint32_t link_count;
+} tl_nav_side_links;
+
+typedef struct tl_nav_slot {
+    const tl_nav_tile *tile; ///< NULL: free
+    uint32_t salt;           ///< 1 to 65535
+    uint32_t next;           ///< in the chain of its bucket, or of the free slots
+    uint64_t inner_links;    ///< ways between polygons of the tile
+    tl_nav_tile_ownership ownership;
+    tl_nav_side_links sides[4];
+} tl_nav_slot;
+
+struct tl_navmesh {
+    tl_allocator allocator;
+    tl_nav_slot *slots;
+    uint32_t *buckets; ///< heads of chains of slots by tile place; bucket_count is a power of two
+    uint32_t slot_count, slot_capacity;
+    uint32_t bucket_count;
+    uint32_t free_slots; ///< head of the chain of free slots
+    uint32_t tile_count;
+    uint64_t link_count;
+    uint64_t polygon_count;
+    // Of all tiles; valid while tile_count > 0.
+    tl_vec3 origin;
+    float cell_size, cell_height;
+    uint32_t tile_size;
+};
+
+enum { TL_NAV_REF_POLYGON_BITS = 28, TL_NAV_REF_SLOT_BITS = 20 };
+
+static inline tl_nav_ref tl_nav_make_ref(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    return (uint64_t)navmesh->slots[slot].salt << (TL_NAV_REF_POLYGON_BITS + TL_NAV_REF_SLOT_BITS) |
+           (uint64_t)slot << TL_NAV_REF_POLYGON_BITS | polygon;
+}
+
+/// Slot and polygon of a reference; false when it is stale.
+bool tl_nav_split_ref(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *slot_out, uint32_t *polygon_out);
+
+/// The slot of the tile at a place, or TL_NAV_NO_SLOT.
+uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t tile_z);
+
+/// Links side `side` of tile a with the opposite side of tile b, both ways. Both outputs are fresh, or on
+/// TL_ERR_MEMORY untouched.
+tl_result tl_nav_link_sides(const tl_allocator *allocator, const tl_nav_tile *a, uint32_t slot_a, uint32_t side,
+                            const tl_nav_tile *b, uint32_t slot_b, tl_nav_side_links *a_out, tl_nav_side_links *b_out);
+void tl_nav_free_side(const tl_allocator *allocator, tl_nav_side_links *side);
+
+// ---------------------------------------------------------------------------------------------------------
+// Walking over the ways out of a polygon, edge by edge.
+
+typedef struct tl_nav_way {
+    uint32_t slot, polygon; ///< where it leads
+    uint32_t edge;          ///< of the polygon that is left
+    tl_vec3 left, right;    ///< seen looking out
+    uint64_t key;           ///< names this way among all of the navmesh
+} tl_nav_way;
+
+typedef struct tl_nav_ways {
+    const tl_nav_slot *slots;
+    const tl_nav_tile *tile;
+    uint32_t slot;
+    uint32_t first_corner;
+    const tl_vec3 *corners;
+    const uint32_t *links;
+    uint32_t corner_count;
+    uint32_t edge; ///< the next one
+    const tl_nav_seam_link *seam, *seam_end;
+    uint64_t seam_key; ///< of the next seam link
+} tl_nav_ways;
+
+static inline tl_nav_ways tl_nav_ways_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    tl_nav_ways ways;
+    ways.slots = navmesh->slots;
+    ways.tile = navmesh->slots[slot].tile;
+    ways.slot = slot;
+    ways.first_corner = ((const uint32_t *)tl_nav_tile_at(ways.tile, ways.tile->first_corner))[polygon];
+    ways.corners = tl_nav_tile_corners(ways.tile, polygon, &ways.corner_count);
+    ways.links = tl_nav_tile_links(ways.tile, polygon);
+    ways.edge = 0;
+    ways.seam = NULL;
+    ways.seam_end = NULL;
+    ways.seam_key = 0;
+    return ways;
+}
+
+/// The seam links of a portal. An empty range (both NULL) where no tile lies.
+static inline void tl_nav_seam_range(const tl_nav_slot *slot, uint32_t portal, const tl_nav_seam_link **begin_out,
+                                     const tl_nav_seam_link **end_out, uint64_t *key_out)
+{
+    const tl_nav_tile *tile = slot->tile;
+    uint32_t side = 0;
+    while (side < 3 && portal >= tile->side_first[side + 1]) {
+        side++;
+    }
+    const tl_nav_side_links *links = &slot->sides[side];
+    *begin_out = NULL;
+    *end_out = NULL;
+    if (links->first != NULL) {
+        uint32_t at = portal - tile->side_first[side];
+        *begin_out = links->links + links->first[at];
+        *end_out = links->links + links->first[at + 1];
+        *key_out = (uint64_t)1 << 35 | (uint64_t)side << 32 | links->first[at];
+    }
+}
+
+/// A way's key: slot (20 bits), then 36 bits: an edge's place among the tile's corners, or seam | side | link.
+static inline uint64_t tl_nav_way_key(uint32_t slot, uint64_t place)
+{
+    return (uint64_t)slot << 36 | place;
+}
+
+static inline bool tl_nav_ways_next(tl_nav_ways *ways, tl_nav_way *way_out)
+{
+    for (;;) {
+        if (ways->seam != ways->seam_end) {
+            way_out->slot = ways->seam->slot;
+            way_out->polygon = ways->seam->polygon;
+            way_out->edge = ways->edge - 1;
+            way_out->left = ways->seam->left;
+            way_out->right = ways->seam->right;
+            way_out->key = tl_nav_way_key(ways->slot, ways->seam_key++);
+            ways->seam++;
+            return true;
+        }
+        if (ways->edge == ways->corner_count) {
+            return false;
+        }
+        uint32_t edge = ways->edge++;
+        uint32_t link = ways->links[edge];
+        if (link == TL_NAV_LINK_WALL) {
+            continue;
+        }
+        if ((link & TL_NAV_LINK_PORTAL) != 0) {
+            tl_nav_seam_range(&ways->slots[ways->slot], link & ~TL_NAV_LINK_PORTAL, &ways->seam, &ways->seam_end,
+                              &ways->seam_key);
+            continue;
+        }
+        way_out->slot = ways->slot;
+        way_out->polygon = link;
+        way_out->edge = edge;
+        way_out->right = ways->corners[edge];
+        way_out->left = ways->corners[edge + 1 < ways->corner_count ? edge + 1 : 0];
+        way_out->key = tl_nav_way_key(ways->slot, ways->first_corner + edge);
+        return true;
+    }
+}
+
+#endif

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+//
+// The nearest polygon: branch and bound over the tiles' box trees, the nearer child first.
+//
+// The measure punishes floors overhead by the agent's height (nav_query.h), so that a point anywhere on an agent's body
+// finds the floor it stands on. Every operation of the bound is monotone and mirrors the measure's own, so rounding
+// never prunes the answer, and the result is bit by bit that of trying all polygons.
+
+#include "filter.h"
+#include "navmesh.h"
+#include "surface.h"
+
+typedef struct nearest_search {
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter;
+    tl_vec3 center;
+    tl_aabb box;
+    float best; // squared measure
+    uint32_t best_slot, best_polygon;
+    tl_vec3 best_point;
+} nearest_search;
+
+// The vertical part of the measure for a floor `above` metres over the centre (negative: under it).
+static float vertical_measure(const tl_nav_tile *tile, float above)
+{
+    return above > tile->agent_max_climb ? above + tile->agent_height : above;
+}
+
+static float measure(const nearest_search *search, const tl_nav_tile *tile, tl_vec3 point)
+{
+    float dx = point.x - search->center.x;
+    float dz = point.z - search->center.z;
+    float dy = vertical_measure(tile, point.y - search->center.y);
+    return dx * dx + dz * dz + dy * dy;
+}
+
+// Distance from c to [low, high].
+static float gap(float c, float low, float high)
+{
+    return c < low ? low - c : c > high ? c - high : 0.0f;
+}
+
+// The least measure that any point of the box can have.
+static float bound_of(const nearest_search *search, const tl_nav_tile *tile, const tl_aabb *box)
+{
+    tl_vec3 c = search->center;
+    float dx = gap(c.x, box->min.x, box->max.x);
+    float dz = gap(c.z, box->min.z, box->max.z);
+    float above = box->min.y - c.y;
+    float dy = above > 0.0f ? vertical_measure(tile, above) : gap(c.y, box->min.y, box->max.y);
+    return dx * dx + dz * dz + dy * dy;
+}
+
+static void try_polygon(nearest_search *search, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
+    if (!tl_nav_passes(search->filter, tile, polygon)) {
+        return;
+    }
+    bool inside = false;
+    tl_vec3 point = tl_nav_closest_on_surface(tile, polygon, search->center, &inside);
+    if (!tl_aabb_contains(search->box, point)) {
+        return;
+    }
+    float distance = measure(search, tile, point);
+    bool wins_tie = distance == search->best &&
+                    (slot < search->best_slot || (slot == search->best_slot && polygon < search->best_polygon));
+    if (distance < search->best || wins_tie) {
+        search->best = distance;
+        search->best_slot = slot;
+        search->best_polygon = polygon;
+        search->best_point = point;
+    }
+}
+
+typedef struct pending_node {
+    uint32_t node;
+    float bound;
+} pending_node;
+
+static void search_tile(nearest_search *search, uint32_t slot)
+{
+    const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
+    const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
+    // A step down leaves one node behind, so the depth bounds the stack.
+    pending_node stack[TL_NAV_MAX_TILE_DEPTH + 1];
+    uint32_t depth = 0;
+    pending_node at = { 0, bound_of(search, tile, &nodes[0].box) };
+    for (;;) {
+        const tl_nav_tile_node *node = &nodes[at.node];
+        if (at.bound <= search->best && tl_aabb_overlaps(node->box, search->box)) {
+            if (node->polygon == TL_NO_POLYGON) {
+                pending_node near_node = { at.node + 1, bound_of(search, tile, &nodes[at.node + 1].box) };
+                uint32_t second = nodes[at.node + 1].skip;
+                pending_node far_node = { second, bound_of(search, tile, &nodes[second].box) };
+                bool ordered = near_node.bound <= far_node.bound;
+                stack[depth++] = ordered ? far_node : near_node;
+                at = ordered ? near_node : far_node;
+                continue;
+            }
+            try_polygon(search, slot, node->polygon);
+        }
+        if (depth == 0) {
+            return;
+        }
+        at = stack[--depth];
+    }
+}
+
+// Tiles along one axis that an interval touches, one cell of margin on each side for rounding.
+static void tile_range(double low, double high, double origin, const tl_navmesh *navmesh, int64_t *first_out,
+                       int64_t *last_out)
+{
+    double cell = (double)navmesh->cell_size;
+    double size = cell * (double)navmesh->tile_size;
+    double limit = (double)TL_NAV_MAX_TILE_INDEX;
+    double first = floor((low - origin - cell) / size);
+    double last = floor((high - origin + cell) / size);
+    *first_out = (int64_t)(first < -limit ? -limit : first > limit ? limit : first);
+    *last_out = (int64_t)(last < -limit ? -limit : last > limit ? limit : last);
+}
+
+static void search_tiles(nearest_search *search)
+{
+    const tl_navmesh *navmesh = search->navmesh;
+    if (navmesh->tile_size > 0) {
+        int64_t first_x, last_x, first_z, last_z;
+        tile_range((double)search->box.min.x, (double)search->box.max.x, (double)navmesh->origin.x, navmesh, &first_x,
+                   &last_x);
+        tile_range((double)search->box.min.z, (double)search->box.max.z, (double)navmesh->origin.z, navmesh, &first_z,
+                   &last_z);
+        // Places are below 2^25 an axis: the product fits 64 bits.
+        if ((last_x - first_x + 1) * (last_z - first_z + 1) <= (int64_t)navmesh->slot_count) {
+            for (int64_t z = first_z; z <= last_z; z++) {
+                for (int64_t x = first_x; x <= last_x; x++) {
+                    uint32_t slot = tl_nav_find_slot(navmesh, x, z);
+                    if (slot != TL_NAV_NO_SLOT) {
+                        search_tile(search, slot);
+                    }
+                }
+            }
+            return;
+        }
+    }
+    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
+        if (navmesh->slots[slot].tile != NULL) {
+            search_tile(search, slot);
+        }
+    }
+}
+
+tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_vec3 center,
+                                  tl_vec3 half_extents, tl_nav_location *location_out)
+{
+    tl_nav_location none = { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } };
+    *location_out = none;
+    if (!tl_nav_is_finite(center) || !tl_nav_is_finite(half_extents)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (half_extents.x < 0.0f || half_extents.y < 0.0f || half_extents.z < 0.0f) {
+        return TL_ERR_ARGUMENT;
+    }
+    tl_aabb box = { tl_sub(center, half_extents), tl_add(center, half_extents) };
+    nearest_search search = { navmesh,  filter,         center,        box,
+                              INFINITY, TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f } };
+    search_tiles(&search);
+    if (search.best_slot == TL_NAV_NO_SLOT) {
+        return TL_ERR_NOT_FOUND;
+    }
+    location_out->polygon = tl_nav_make_ref(navmesh, search.best_slot, search.best_polygon);
+    location_out->point = search.best_point;
+    return TL_OK;
+}

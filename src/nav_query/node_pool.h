@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// The nodes of a search: a fixed pool with a hash table from keys, and the heap of open ones.
+
+#ifndef TALUS_SRC_NAV_QUERY_NODE_POOL_H
+#define TALUS_SRC_NAV_QUERY_NODE_POOL_H
+
+#include <talus/nav_query.h>
+
+#define TL_NAV_NO_NODE UINT32_MAX
+
+// Values of tl_nav_node.heap_at beside places in the heap.
+#define TL_NAV_NODE_NEW    UINT32_MAX
+#define TL_NAV_NODE_CLOSED (UINT32_MAX - 1u)
+
+/// A way into a polygon.
+typedef struct tl_nav_node {
+    uint64_t key;
+    tl_vec3 point; ///< where the polygon is entered
+    float cost;    ///< from the start to point
+    float total;   ///< cost and estimate to the goal: what the heap is ordered by
+    uint32_t parent;
+    uint32_t slot, polygon; ///< that is entered
+    uint32_t heap_at;
+    uint32_t next; ///< in the chain of its bucket
+} tl_nav_node;
+
+struct tl_nav_query {
+    tl_allocator allocator;
+    tl_nav_node *nodes;
+    uint32_t *buckets; ///< bucket_count is a power of two
+    uint32_t *heap;    ///< node indices; children of i at 4i + 1 .. 4i + 4
+    uint32_t max_nodes, node_count;
+    uint32_t bucket_count;
+    uint32_t heap_count;
+};
+
+/// Forgets all nodes. O(nodes used by the search before).
+void tl_nav_pool_reset(tl_nav_query *query);
+/// The node of a key, a fresh one if need be, or TL_NAV_NO_NODE when the pool is used up.
+uint32_t tl_nav_pool_get(tl_nav_query *query, uint64_t key);
+
+/// Puts a node into the heap, or moves it up after its total has fallen.
+void tl_nav_heap_improve(tl_nav_query *query, uint32_t node);
+/// Takes out the node of least total, ties to the lower index, and marks it closed. TL_NAV_NO_NODE when empty.
+uint32_t tl_nav_heap_pop(tl_nav_query *query);
+
+#endif

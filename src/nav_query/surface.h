@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// Points and polygons of one tile.
+
+#ifndef TALUS_SRC_NAV_QUERY_SURFACE_H
+#define TALUS_SRC_NAV_QUERY_SURFACE_H
+
+#include <talus/nav_tile.h>
+
+/// The height of a polygon's surface at x and z; where no triangle holds the point, that of the nearest one.
+float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z);
+
+/// Whether x and z lie over the polygon, its outline included. Exact.
+bool tl_nav_is_over(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point);
+
+/// The polygon's point closest in the plane, on its edges' own height; `point` itself (its y too) when it is over the
+/// polygon.
+tl_vec3 tl_nav_clamp_to_polygon(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point, bool *inside_out);
+
+/// The same, lifted to the surface.
+tl_vec3 tl_nav_closest_on_surface(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point, bool *inside_out);
+
+static inline bool tl_nav_is_finite(tl_vec3 v)
+{
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
+}
+
+#endif

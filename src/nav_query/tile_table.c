@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+//
+// The table of tiles: slots with salts, found by their place through a chained hash.
+//
+// A slot's salt changes when its tile leaves, so that an old reference to the slot is recognized. When the salts of a
+// slot are used up the slot is retired: a reference never comes to mean another polygon.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/hash.h"
+#include "navmesh.h"
+
+#include <string.h>
+
+enum { FIRST_CAPACITY = 16, LAST_SALT = 0xffff };
+
+static const int32_t SIDE_STEP[4][2] = { { -1, 0 }, { 0, 1 }, { 1, 0 }, { 0, -1 } };
+
+static uint32_t opposite(uint32_t side)
+{
+    return side ^ 2u;
+}
+
+static uint32_t bucket_of(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    uint64_t place = (uint64_t)(uint32_t)tile_x << 32 | (uint32_t)tile_z;
+    return (uint32_t)tl_hash_mix(place) & (navmesh->bucket_count - 1);
+}
+
+tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_out)
+{
+    *navmesh_out = NULL;
+    tl_navmesh *navmesh = tl_allocate_array(allocator, 1, sizeof *navmesh);
+    if (navmesh == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(navmesh, 0, sizeof *navmesh);
+    navmesh->allocator = tl_allocator_or_default(allocator);
+    navmesh->free_slots = TL_NAV_NO_SLOT;
+    *navmesh_out = navmesh;
+    return TL_OK;
+}
+
+static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
+{
+    for (int side = 0; side < 4; side++) {
+        tl_nav_free_side(&navmesh->allocator, &slot->sides[side]);
+    }
+    if (slot->ownership == TL_NAV_TILE_OWNED && slot->tile != NULL) {
+        // The navmesh was given the blob to free; const only says that queries never write to it.
+        union {
+            const tl_nav_tile *read;
+            tl_nav_tile *write;
+        } tile = { slot->tile };
+        tl_blob_free(tile.write, &navmesh->allocator);
+    }
+    slot->tile = NULL;
+}
+
+void tl_navmesh_free(tl_navmesh *navmesh)
+{
+    if (navmesh == NULL) {
+        return;
+    }
+    for (uint32_t i = 0; i < navmesh->slot_count; i++) {
+        free_slot_content(navmesh, &navmesh->slots[i]);
+    }
+    tl_allocator allocator = navmesh->allocator;
+    tl_release_array(&allocator, navmesh->slots, navmesh->slot_capacity, sizeof *navmesh->slots);
+    tl_release_array(&allocator, navmesh->buckets, navmesh->bucket_count, sizeof *navmesh->buckets);
+    tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
+}
+
+uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t tile_z)
+{
+    if (navmesh->bucket_count == 0 || tile_x < INT32_MIN || tile_x > INT32_MAX || tile_z < INT32_MIN ||
+        tile_z > INT32_MAX) {
+        return TL_NAV_NO_SLOT;
+    }
+    uint32_t slot = navmesh->buckets[bucket_of(navmesh, (int32_t)tile_x, (int32_t)tile_z)];
+    while (slot != TL_NAV_NO_SLOT) {
+        const tl_nav_tile *tile = navmesh->slots[slot].tile;
+        if (tile->tile_x == tile_x && tile->tile_z == tile_z) {
+            return slot;
+        }
+        slot = navmesh->slots[slot].next;
+    }
+    return TL_NAV_NO_SLOT;
+}
+
+static void chain_slot(tl_navmesh *navmesh, uint32_t slot)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    uint32_t bucket = bucket_of(navmesh, tile->tile_x, tile->tile_z);
+    navmesh->slots[slot].next = navmesh->buckets[bucket];
+    navmesh->buckets[bucket] = slot;
+}
+
+static void unchain_slot(tl_navmesh *navmesh, uint32_t slot)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    uint32_t *at = &navmesh->buckets[bucket_of(navmesh, tile->tile_x, tile->tile_z)];
+    while (*at != slot) {
+        at = &navmesh->slots[*at].next;
+    }
+    *at = navmesh->slots[slot].next;
+}
+
+// Doubles the room for slots; two buckets a slot.
+static tl_result grow(tl_navmesh *navmesh)
+{
+    if (navmesh->slot_count >= TL_NAV_MAX_TILES) {
+        return TL_ERR_LIMIT;
+    }
+    uint32_t capacity = navmesh->slot_capacity > 0 ? 2 * navmesh->slot_capacity : FIRST_CAPACITY;
+    tl_nav_slot *slots = tl_allocate_array(&navmesh->allocator, capacity, sizeof *slots);
+    uint32_t *buckets = tl_allocate_array(&navmesh->allocator, 2 * (uint64_t)capacity, sizeof *buckets);
+    if (slots == NULL || buckets == NULL) {
+        tl_release_array(&navmesh->allocator, slots, capacity, sizeof *slots);
+        tl_release_array(&navmesh->allocator, buckets, 2 * (uint64_t)capacity, sizeof *buckets);
+        return TL_ERR_MEMORY;
+    }
+    memset(slots, 0, capacity * sizeof *slots);
+    if (navmesh->slot_count > 0) {
+        memcpy(slots, navmesh->slots, navmesh->slot_count * sizeof *slots);
+    }
+    tl_release_array(&navmesh->allocator, navmesh->slots, navmesh->slot_capacity, sizeof *slots);
+    tl_release_array(&navmesh->allocator, navmesh->buckets, navmesh->bucket_count, sizeof *buckets);
+    navmesh->slots = slots;
+    navmesh->slot_capacity = capacity;
+    navmesh->buckets = buckets;
+    navmesh->bucket_count = 2 * capacity;
+    memset(buckets, 0xff, navmesh->bucket_count * sizeof *buckets);
+    for (uint32_t i = 0; i < navmesh->slot_count; i++) {
+        if (slots[i].tile != NULL) {
+            chain_slot(navmesh, i);
+        }
+    }
+    return TL_OK;
+}
+
+// The slot that the next tile will get.
+static tl_result reserve_slot(tl_navmesh *navmesh, uint32_t *slot_out)
+{
+    if (navmesh->free_slots == TL_NAV_NO_SLOT && navmesh->slot_count == navmesh->slot_capacity) {
+        TL_TRY(grow(navmesh));
+    }
+    *slot_out = navmesh->free_slots != TL_NAV_NO_SLOT ? navmesh->free_slots : navmesh->slot_count;
+    return TL_OK;
+}
+
+static bool same_lattice(const tl_navmesh *navmesh, const tl_nav_tile *tile)
+{
+    return navmesh->origin.x == tile->origin.x && navmesh->origin.y == tile->origin.y &&
+           navmesh->origin.z == tile->origin.z && navmesh->cell_size == tile->cell_size &&
+           navmesh->cell_height == tile->cell_height && navmesh->tile_size == tile->tile_size;
+}
+
+static uint64_t count_inner_links(const tl_nav_tile *tile)
+{
+    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
+    uint64_t count = 0;
+    for (uint32_t k = 0; k < tile->corner_count; k++) {
+        count += links[k] < TL_NAV_LINK_PORTAL ? 1 : 0;
+    }
+    return count;
+}
+
+// New links of a tile and of its neighbours' facing sides, made before anything is changed.
+typedef struct seam_set {
+    uint32_t neighbours[4];
+    tl_nav_side_links own[4], facing[4];
+} seam_set;
+
+static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)
+{
+    memset(seams, 0, sizeof *seams);
+    for (uint32_t side = 0; side < 4; side++) {
+        uint32_t neighbour = tl_nav_find_slot(navmesh, (int64_t)tile->tile_x + SIDE_STEP[side][0],
+                                              (int64_t)tile->tile_z + SIDE_STEP[side][1]);
+        seams->neighbours[side] = neighbour;
+        if (neighbour == TL_NAV_NO_SLOT) {
+            continue;
+        }
+        tl_result result = tl_nav_link_sides(&navmesh->allocator, tile, slot, side, navmesh->slots[neighbour].tile,
+                                             neighbour, &seams->own[side], &seams->facing[side]);
+        if (result != TL_OK) {
+            for (uint32_t made = 0; made < side; made++) {
+                tl_nav_free_side(&navmesh->allocator, &seams->own[made]);
+                tl_nav_free_side(&navmesh->allocator, &seams->facing[made]);
+            }
+            return result;
+        }
+    }
+    return TL_OK;
+}
+
+static void install_seams(tl_navmesh *navmesh, uint32_t slot, const seam_set *seams)
+{
+    for (uint32_t side = 0; side < 4; side++) {
+        if (seams->neighbours[side] != TL_NAV_NO_SLOT) {
+            // The facing side had no links: there was no tile here.
+            TL_ASSERT(navmesh->slots[seams->neighbours[side]].sides[opposite(side)].first == NULL);
+            navmesh->slots[slot].sides[side] = seams->own[side];
+            navmesh->slots[seams->neighbours[side]].sides[opposite(side)] = seams->facing[side];
+            navmesh->link_count += (uint64_t)seams->own[side].link_count + seams->facing[side].link_count;
+        }
+    }
+}
+
+tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership)
+{
+    bool alone = tile->tile_size == 0;
+    if (navmesh->tile_count > 0 && (alone || !same_lattice(navmesh, tile))) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (tl_nav_find_slot(navmesh, tile->tile_x, tile->tile_z) != TL_NAV_NO_SLOT) {
+        return TL_ERR_ARGUMENT;
+    }
+    uint32_t index = 0;
+    seam_set seams;
+    TL_TRY(reserve_slot(navmesh, &index));
+    TL_TRY(make_seams(navmesh, tile, index, &seams));
+
+    tl_nav_slot *slot = &navmesh->slots[index];
+    if (index == navmesh->free_slots) {
+        navmesh->free_slots = slot->next;
+    } else {
+        navmesh->slot_count++;
+        slot->salt = 1;
+    }
+    slot->tile = tile;
+    slot->ownership = ownership;
+    slot->inner_links = count_inner_links(tile);
+    chain_slot(navmesh, index);
+    install_seams(navmesh, index, &seams);
+    navmesh->origin = tile->origin;
+    navmesh->cell_size = tile->cell_size;
+    navmesh->cell_height = tile->cell_height;
+    navmesh->tile_size = tile->tile_size;
+    navmesh->tile_count++;
+    navmesh->link_count += slot->inner_links;
+    navmesh->polygon_count += tile->polygon_count;
+    return TL_OK;
+}
+
+tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    uint32_t index = tl_nav_find_slot(navmesh, tile_x, tile_z);
+    if (index == TL_NAV_NO_SLOT) {
+        return TL_ERR_NOT_FOUND;
+    }
+    tl_nav_slot *slot = &navmesh->slots[index];
+    for (uint32_t side = 0; side < 4; side++) {
+        uint32_t neighbour =
+            tl_nav_find_slot(navmesh, (int64_t)tile_x + SIDE_STEP[side][0], (int64_t)tile_z + SIDE_STEP[side][1]);
+        if (neighbour != TL_NAV_NO_SLOT) {
+            tl_nav_side_links *facing = &navmesh->slots[neighbour].sides[opposite(side)];
+            navmesh->link_count -= (uint64_t)slot->sides[side].link_count + facing->link_count;
+            tl_nav_free_side(&navmesh->allocator, facing);
+        }
+    }
+    unchain_slot(navmesh, index);
+    navmesh->tile_count--;
+    navmesh->link_count -= slot->inner_links;
+    navmesh->polygon_count -= slot->tile->polygon_count;
+    free_slot_content(navmesh, slot);
+    if (slot->salt < LAST_SALT) {
+        slot->salt++;
+        slot->next = navmesh->free_slots;
+        navmesh->free_slots = index;
+    }
+    return TL_OK;
+}
+
+const tl_nav_tile *tl_navmesh_find_tile(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z);
+    return slot != TL_NAV_NO_SLOT ? navmesh->slots[slot].tile : NULL;
+}
+
+uint32_t tl_navmesh_tile_count(const tl_navmesh *navmesh)
+{
+    return navmesh->tile_count;
+}
+
+uint32_t tl_navmesh_slot_count(const tl_navmesh *navmesh)
+{
+    return navmesh->slot_count;
+}
+
+const tl_nav_tile *tl_navmesh_slot_tile(const tl_navmesh *navmesh, uint32_t slot)
+{
+    return slot < navmesh->slot_count ? navmesh->slots[slot].tile : NULL;
+}
+
+uint64_t tl_navmesh_link_count(const tl_navmesh *navmesh)
+{
+    return navmesh->link_count;
+}
+
+tl_nav_ref tl_navmesh_polygon_ref(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
+    return tile != NULL && polygon < tile->polygon_count ? tl_nav_make_ref(navmesh, slot, polygon) : TL_NAV_NO_REF;
+}
+
+bool tl_nav_split_ref(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *slot_out, uint32_t *polygon_out)
+{
+    uint32_t polygon = (uint32_t)(ref & ((1u << TL_NAV_REF_POLYGON_BITS) - 1));
+    uint32_t slot = (uint32_t)(ref >> TL_NAV_REF_POLYGON_BITS) & ((1u << TL_NAV_REF_SLOT_BITS) - 1);
+    uint32_t salt = (uint32_t)(ref >> (TL_NAV_REF_POLYGON_BITS + TL_NAV_REF_SLOT_BITS));
+    if (slot >= navmesh->slot_count || navmesh->slots[slot].tile == NULL || navmesh->slots[slot].salt != salt ||
+        polygon >= navmesh->slots[slot].tile->polygon_count) {
+        return false;
+    }
+    *slot_out = slot;
+    *polygon_out = polygon;
+    return true;
+}
+
+tl_result tl_navmesh_resolve(const tl_navmesh *navmesh, tl_nav_ref ref, const tl_nav_tile **tile_out,
+                             uint32_t *polygon_out)
+{
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    if (tile_out != NULL) {
+        *tile_out = navmesh->slots[slot].tile;
+    }
+    if (polygon_out != NULL) {
+        *polygon_out = polygon;
+    }
+    return TL_OK;
+}
+
+tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_link *links_out, uint32_t capacity,
+                           uint32_t *count_out)
+{
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    *count_out = 0;
+    if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    tl_nav_ways ways = tl_nav_ways_of(navmesh, slot, polygon);
+    tl_nav_way way;
+    while (tl_nav_ways_next(&ways, &way)) {
+        if (*count_out < capacity) {
+            tl_nav_link link = { tl_nav_make_ref(navmesh, way.slot, way.polygon), way.edge, way.left, way.right };
+            links_out[*count_out] = link;
+        }
+        (*count_out)++;
+    }
+    return *count_out <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}
