@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+//
+// The baked tile: what goes in comes out, bad sources are refused by name, and no bytes upset the check.
+
+#include "nav_fixture.h"
+
+#include <math.h>
+
+static const char *const ROOM[] = { "00#0", "0000", "#r..", "0.1." };
+
+static void test_example(void **state)
+{
+    (void)state;
+    fixture_level level = fixture_make(ROOM, 4);
+    level.cell_size = 0.3f;
+    level.origin = tl_vec3_make(1000.1f, -3.0f, 2000.7f);
+    tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
+    TEST_CHECK(tile->polygon_count == 18); // open cells, both floors counted
+    TEST_CHECK(tile->portal_count == 0);
+    double expected = 18 * (FIXTURE_STEP * (double)0.3f) * (FIXTURE_STEP * (double)0.3f);
+    TEST_CHECK(fabs(tile->area - expected) < 1e-9 * expected);
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, 0, &count);
+    TEST_CHECK(count == 4);
+    TEST_CHECK(corners[0].x == 1000.1f && corners[0].y == -3.0f && corners[0].z == 2000.7f);
+    TEST_CHECK(corners[2].x == (float)((double)1000.1f + 16 * (double)0.3f));
+    TEST_CHECK(tl_nav_tile_neighbour(tile, 0, 0) == TL_NO_POLYGON);
+    TEST_CHECK(tl_nav_tile_neighbour(tile, 0, 2) == 1);
+    TEST_CHECK(tl_nav_tile_lattice(tile, 0, 2)[0] == FIXTURE_STEP &&
+               tl_nav_tile_lattice(tile, 0, 2)[2] == FIXTURE_STEP);
+    TEST_CHECK(tl_nav_tile_area(tile, 0) == TL_NAV_MAX_AREA && tl_nav_tile_flags(tile, 0) == 1);
+    tl_nav_surface surface = tl_nav_tile_surface(tile, 0);
+    TEST_CHECK(surface.vertex_count == 4 && surface.triangle_count == 2);
+    tl_blob_free(tile, NULL);
+}
+
+static void test_portals(void **state)
+{
+    (void)state;
+    fixture_level level = fixture_make(ROOM, 4);
+    level.tile_cells = 2;
+    tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
+    TEST_CHECK(tile->portal_count == 8); // 2 x 2 open cells: two a side
+    for (uint32_t side = 0; side < 4; side++) {
+        TEST_CHECK(tile->side_first[side + 1] - tile->side_first[side] == 2);
+        const tl_nav_portal *portal = tl_nav_tile_portals(tile) + tile->side_first[side];
+        TEST_CHECK(portal[0].low == 0 && portal[0].high == 16 && portal[1].low == 16 && portal[1].high == 32);
+        uint32_t first = ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[portal->polygon];
+        TEST_CHECK(tl_nav_tile_neighbour(tile, portal->polygon, portal->corner - first) == (TL_PORTAL | side));
+    }
+    tl_blob_free(tile, NULL);
+}
+
+// A vertex of the detail mesh in the middle of a portal edge makes a bend in its profile.
+static void test_profile(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "0" };
+    fixture_level level = fixture_make(rows, 1);
+    level.tile_cells = 1;
+    level.detail = true;
+    fixture_mesh mesh = fixture_build_mesh(&level, 0, 0);
+    mesh.detail.vertices[4] = tl_vec3_make(0.0f, 3.0f, 1.0f); // on side 0, 4 lattice units along z
+    tl_nav_tile_source source = fixture_source(&mesh);
+    tl_nav_tile *tile = NULL;
+    TEST_RESULT(tl_nav_tile_create(&source, NULL, &tile, NULL), TL_OK);
+    const tl_nav_portal *portal = tl_nav_tile_portals(tile);
+    const tl_nav_profile_point *profile = tl_nav_tile_at(tile, tile->profile);
+    TEST_CHECK(portal[0].profile_count == 3 && portal[1].profile_count == 2);
+    TEST_CHECK(profile[1].along == 4.0f && profile[1].height == 3.0f);
+    tl_blob_free(tile, NULL);
+    fixture_free_mesh(&mesh);
+}
+
+static void refuse(fixture_mesh *mesh, const tl_nav_tile_source *source, tl_result expected, const char *element)
+{
+    tl_nav_tile *tile = NULL;
+    tl_report report;
+    TEST_RESULT(tl_nav_tile_create(source, NULL, &tile, &report), expected);
+    TEST_CHECK(tile == NULL);
+    TEST_CHECK(report.element != NULL && strcmp(report.element, element) == 0);
+    fixture_free_mesh(mesh);
+}
+
+#define REFUSE(change, expected, element)                                                                              \
+    do {                                                                                                               \
+        fixture_mesh m = fixture_build_mesh(&level, 0, 0);                                                             \
+        tl_nav_tile_source s = fixture_source(&m);                                                                     \
+        change;                                                                                                        \
+        refuse(&m, &s, expected, element);                                                                             \
+    } while (0)
+
+static void test_bad_sources(void **state)
+{
+    (void)state;
+    fixture_level level = fixture_make(ROOM, 4);
+    level.detail = true;
+    REFUSE(m.mesh.polygon_count = 0, TL_ERR_EMPTY, "polygon");
+    REFUSE(m.mesh.cell_size = 0.0f, TL_ERR_ARGUMENT, "cell_size");
+    REFUSE(m.mesh.cell_height = NAN, TL_ERR_ARGUMENT, "cell_size");
+    REFUSE(s.agent_height = 0.0f, TL_ERR_ARGUMENT, "agent_height");
+    REFUSE(s.agent_max_climb = -1.0f, TL_ERR_ARGUMENT, "agent_height");
+    REFUSE(s.tile_x = 1, TL_ERR_ARGUMENT, "tile_x"); // without a tile size
+    REFUSE(s.origin.x += 0.2f, TL_ERR_ARGUMENT, "origin");
+    REFUSE(s.origin.x = NAN, TL_ERR_NOT_FINITE, "origin");
+    REFUSE(m.mesh.vertices[7] = TL_MAX_CONTOUR_COORDINATE + 1, TL_ERR_RANGE, "vertex");
+    REFUSE(m.mesh.first[1] = 2, TL_ERR_INDEX, "polygon");
+    REFUSE(m.mesh.indices[0] = m.mesh.vertex_count, TL_ERR_INDEX, "polygon");
+    REFUSE(m.mesh.indices[0] = m.mesh.indices[2], TL_ERR_DEGENERATE, "polygon");
+    REFUSE(m.mesh.indices[1] = m.mesh.indices[3], TL_ERR_DEGENERATE, "polygon");
+    uint32_t swap = 0;
+    REFUSE((swap = m.mesh.indices[1], m.mesh.indices[1] = m.mesh.indices[3], m.mesh.indices[3] = swap), TL_ERR_WINDING,
+           "polygon");
+    REFUSE(m.mesh.vertices[0] += FIXTURE_STEP - 1; m.mesh.vertices[2] += FIXTURE_STEP - 1, TL_ERR_WINDING, "polygon");
+    REFUSE(m.mesh.areas[3] = 0, TL_ERR_ARGUMENT, "polygon");
+    REFUSE(m.mesh.areas[3] = 64, TL_ERR_ARGUMENT, "polygon");
+    REFUSE(m.mesh.neighbours[2] = 2, TL_ERR_NON_MANIFOLD, "polygon");
+    REFUSE(m.mesh.neighbours[2] = 999, TL_ERR_INDEX, "polygon");
+    REFUSE(m.mesh.neighbours[2] = TL_PORTAL | 4, TL_ERR_INDEX, "polygon");
+    REFUSE(m.detail.patch_count--, TL_ERR_ARGUMENT, "detail");
+    REFUSE(m.detail.patches[1].vertex_count = 3, TL_ERR_INDEX, "patch");
+    REFUSE(m.detail.patches[1].triangle_count = 0, TL_ERR_INDEX, "patch");
+    REFUSE(m.detail.patches[1].first_vertex = 4000, TL_ERR_INDEX, "patch");
+    REFUSE(m.detail.vertices[9].y = NAN, TL_ERR_NOT_FINITE, "patch");
+    REFUSE(m.detail.vertices[9].y = 1e13f, TL_ERR_RANGE, "patch");
+    REFUSE(m.detail.triangles[0].corner[1] = 5, TL_ERR_INDEX, "patch");
+}
+
+// Link every neighbour pair by vertices; contained boxes; seams of random tiles have equal bits on both sides.
+static void test_random_tiles(void **state)
+{
+    (void)state;
+    test_random random = { 11 };
+    uint32_t shared_vertices = 0;
+    for (uint32_t round = 0; round < 40; round++) {
+        fixture_level level = fixture_random(&random, round % 6, 8);
+        level.tile_cells = 4;
+        level.shake = 0; // so that border vertices of both tiles coincide
+        level.origin =
+            tl_vec3_make(test_random_range(&random, -9000, 9000), 0, test_random_range(&random, -9000, 9000));
+        level.cell_size = test_random_range(&random, 0.05f, 0.7f);
+        tl_nav_tile *a = fixture_build_tile(&level, 0, 0, NULL);
+        tl_nav_tile *b = fixture_build_tile(&level, 1, 0, NULL);
+        for (uint32_t i = 0; a != NULL && b != NULL && i < a->corner_count; i++) {
+            tl_vec3 corner = ((const tl_vec3 *)tl_nav_tile_at(a, a->corners))[i];
+            for (uint32_t k = 0; k < b->corner_count; k++) {
+                tl_vec3 other = ((const tl_vec3 *)tl_nav_tile_at(b, b->corners))[k];
+                if (tl_distance(corner, other) < 0.5f * level.cell_size) {
+                    TEST_CHECK(memcmp(&corner, &other, sizeof corner) == 0);
+                    shared_vertices++;
+                }
+            }
+        }
+        tl_blob_free(a, NULL);
+        tl_blob_free(b, NULL);
+    }
+    TEST_CHECK(shared_vertices > 200);
+}
+
+static void test_same_bytes(void **state)
+{
+    (void)state;
+    test_random random = { 5 };
+    fixture_level level = fixture_random(&random, 5, 10);
+    tl_nav_tile *a = fixture_build_tile(&level, 0, 0, NULL);
+    test_allocator counting;
+    test_allocator_init(&counting, 0);
+    tl_nav_tile *b = fixture_build_tile(&level, 0, 0, &counting.allocator);
+    TEST_CHECK(a->blob.size == b->blob.size && memcmp(a, b, a->blob.size) == 0);
+    tl_blob_free(b, &counting.allocator);
+    TEST_CHECK(counting.live_blocks == 0);
+    tl_blob_free(a, NULL);
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    test_random random = { 6 };
+    fixture_level level = fixture_random(&random, 5, 6);
+    level.tile_cells = 6;
+    level.detail = true;
+    fixture_mesh mesh = fixture_build_mesh(&level, 0, 0);
+    tl_nav_tile_source source = fixture_source(&mesh);
+    uint32_t failures = 0;
+    for (uint64_t k = 1;; k++) {
+        test_allocator failing;
+        test_allocator_init(&failing, k);
+        tl_nav_tile *tile = NULL;
+        tl_result result = tl_nav_tile_create(&source, &failing.allocator, &tile, NULL);
+        if (result == TL_OK) {
+            tl_blob_free(tile, &failing.allocator);
+            TEST_CHECK(failing.live_blocks == 0);
+            break;
+        }
+        TEST_RESULT(result, TL_ERR_MEMORY);
+        TEST_CHECK(tile == NULL && failing.live_blocks == 0);
+        failures++;
+    }
+    TEST_CHECK(failures >= 2);
+    fixture_free_mesh(&mesh);
+}
+
+static void test_truncated(void **state)
+{
+    (void)state;
+    fixture_level level = fixture_make(ROOM, 2);
+    level.tile_cells = 2;
+    tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
+    for (uint64_t size = 0; size < tile->blob.size; size++) {
+        // A copy of exactly this size, so that a sanitizer sees a read beyond it.
+        void *copy = malloc(size > 0 ? size : 1);
+        memcpy(copy, tile, size);
+        TEST_RESULT(tl_nav_tile_check(copy, size, NULL), TL_ERR_TRUNCATED);
+        free(copy);
+    }
+    tl_blob_free(tile, NULL);
+}
+
+// A flipped bit is either refused, or it changed a value that may have any value; then every query must still be safe.
+static void test_bit_flips(void **state)
+{
+    (void)state;
+    fixture_level level = fixture_make(ROOM, 3);
+    level.tile_cells = 3;
+    level.detail = true;
+    tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
+    size_t size = (size_t)tile->blob.size;
+    uint8_t *copy = aligned_alloc(64, size);
+    memcpy(copy, tile, size);
+    uint32_t refused = 0, passed = 0;
+    for (size_t bit = 0; bit < 8 * size; bit++) {
+        copy[bit / 8] ^= (uint8_t)(1u << bit % 8);
+        if (tl_nav_tile_check(copy, size, NULL) == TL_OK) {
+            passed++;
+            tl_navmesh *navmesh = NULL;
+            tl_nav_location nearest;
+            tl_nav_ray_hit hit;
+            TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+            TEST_RESULT(tl_navmesh_add_tile(navmesh, (const tl_nav_tile *)(const void *)copy, TL_NAV_TILE_BORROWED),
+                        TL_OK);
+            if (tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(3, 0, 3), tl_vec3_make(9, 9, 9), &nearest) ==
+                TL_OK) {
+                TEST_RESULT(tl_navmesh_cast_ray(navmesh, NULL, &nearest, tl_vec3_make(11, 0, 8), NULL, 0, &hit), TL_OK);
+            }
+            tl_navmesh_free(navmesh);
+        } else {
+            refused++;
+        }
+        copy[bit / 8] ^= (uint8_t)(1u << bit % 8);
+    }
+    // Areas, flags, sizes of the agent, and within bounds the detail mesh are free; all else is tied down.
+    TEST_CHECK(passed > 100 && refused > 4 * passed);
+    free(copy);
+    tl_blob_free(tile, NULL);
+}
+
+static void test_other_bytes(void **state)
+{
+    (void)state;
+    fixture_level level = fixture_make(ROOM, 4);
+    tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
+    tl_report report;
+    TEST_RESULT(tl_nav_tile_check((const char *)tile + 4, 64, NULL), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size + 64, &report), TL_ERR_CORRUPT);
+    tile->blob.version++;
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_VERSION);
+    tile->blob.magic++;
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_MAGIC);
+    tile->blob.magic--;
+    tile->blob.version--;
+    tile->polygon_count = UINT32_MAX;
+    TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, &report), TL_ERR_CORRUPT);
+    TEST_CHECK(strcmp(report.element, "header") == 0);
+    tl_blob_free(tile, NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_example),     cmocka_unit_test(test_portals),      cmocka_unit_test(test_profile),
+        cmocka_unit_test(test_bad_sources), cmocka_unit_test(test_random_tiles), cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_memory),      cmocka_unit_test(test_truncated),    cmocka_unit_test(test_bit_flips),
+        cmocka_unit_test(test_other_bytes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
