@@ -11,26 +11,11 @@
 #include "base/assert.h"
 #include "math/predicates.h"
 #include "math/tolerance.h"
+#include "math/vec3d.h"
 
-typedef struct vec3d {
-    double x, y, z;
-} vec3d;
-
-static vec3d difference(tl_vec3 a, tl_vec3 b)
+static tl_vec3d difference(tl_vec3 a, tl_vec3 b)
 {
-    vec3d r = { (double)a.x - (double)b.x, (double)a.y - (double)b.y, (double)a.z - (double)b.z };
-    return r;
-}
-
-static vec3d cross(vec3d a, vec3d b)
-{
-    vec3d r = { a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
-    return r;
-}
-
-static double dot(vec3d a, vec3d b)
-{
-    return a.x * b.x + a.y * b.y + a.z * b.z;
+    return tl_vec3d_sub(tl_vec3d_from(a), tl_vec3d_from(b));
 }
 
 static float coordinate(tl_vec3 p, int axis)
@@ -55,9 +40,9 @@ static void farthest_extremes(const tl_quickhull *hull, uint32_t *a_out, uint32_
     double best = -1.0;
     for (int i = 0; i < 6; i++) {
         for (int j = i + 1; j < 6; j++) {
-            vec3d d = difference(hull->points[extreme[i]], hull->points[extreme[j]]);
-            if (dot(d, d) > best) {
-                best = dot(d, d);
+            tl_vec3d d = difference(hull->points[extreme[i]], hull->points[extreme[j]]);
+            if (tl_vec3d_dot(d, d) > best) {
+                best = tl_vec3d_dot(d, d);
                 *a_out = extreme[i];
                 *b_out = extreme[j];
             }
@@ -68,18 +53,18 @@ static void farthest_extremes(const tl_quickhull *hull, uint32_t *a_out, uint32_
 // The point with the largest distance from the line a, b; its distance.
 static uint32_t farthest_from_line(const tl_quickhull *hull, uint32_t a, uint32_t b, double *distance_out)
 {
-    vec3d along = difference(hull->points[b], hull->points[a]);
+    tl_vec3d along = difference(hull->points[b], hull->points[a]);
     uint32_t best = a;
     double best_sq = -1.0;
     for (uint32_t i = 0; i < hull->point_count; i++) {
-        vec3d n = cross(along, difference(hull->points[i], hull->points[a]));
-        double value = dot(n, n);
+        tl_vec3d n = tl_vec3d_cross(along, difference(hull->points[i], hull->points[a]));
+        double value = tl_vec3d_dot(n, n);
         if (value > best_sq) {
             best_sq = value;
             best = i;
         }
     }
-    *distance_out = sqrt(best_sq / dot(along, along));
+    *distance_out = sqrt(best_sq / tl_vec3d_dot(along, along));
     return best;
 }
 
@@ -87,11 +72,11 @@ static uint32_t farthest_from_line(const tl_quickhull *hull, uint32_t a, uint32_
 static uint32_t farthest_from_plane(const tl_quickhull *hull, const uint32_t seed[3], double *thickness_out)
 {
     tl_vec3 a = hull->points[seed[0]];
-    vec3d n = cross(difference(hull->points[seed[1]], a), difference(hull->points[seed[2]], a));
+    tl_vec3d n = tl_vec3d_cross(difference(hull->points[seed[1]], a), difference(hull->points[seed[2]], a));
     uint32_t best = seed[0];
     double best_value = -1.0, low = 0.0, high = 0.0;
     for (uint32_t i = 0; i < hull->point_count; i++) {
-        double value = dot(n, difference(hull->points[i], a));
+        double value = tl_vec3d_dot(n, difference(hull->points[i], a));
         low = value < low ? value : low;
         high = value > high ? value : high;
         if (fabs(value) > best_value) {
@@ -99,7 +84,7 @@ static uint32_t farthest_from_plane(const tl_quickhull *hull, const uint32_t see
             best = i;
         }
     }
-    *thickness_out = (high - low) / sqrt(dot(n, n));
+    *thickness_out = (high - low) / sqrt(tl_vec3d_dot(n, n));
     return best;
 }
 

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+//
+// GJK: the distance of two convex shapes is that of the origin from their difference A - B. Walk with a simplex of
+// support points toward the origin; the nearest point of the simplex bounds the distance from above, the support along
+// it from below.
+// Source: Gilbert, Johnson, Keerthi, A Fast Procedure for Computing the Distance Between Complex Objects in
+// Three-Dimensional Space, 1988; the ends by van den Bergen, A Fast and Robust GJK Implementation, 1999.
+//
+// There is no tolerance that decides anything but "equal": the walk ends when the bounds meet to float precision, when
+// the support brings nothing new, or when rounding allows no progress; and the bounds hold in each case.
+
+#include "convex/gjk.h"
+
+#include "math/tolerance.h"
+
+// The result is a float: bounds closer than a rounding of one are equal.
+#define BOUND_GAP ((double)TL_FLOAT_ROUNDING)
+
+// A point of A - B is a difference of two rotated points: less than 16 roundings of their size.
+#define POINT_ERROR TL_DOUBLE_GAMMA(16)
+
+static bool start_from_cache(const tl_pair *pair, const tl_simplex_cache *cache, tl_simplex *simplex)
+{
+    simplex->count = 0;
+    for (uint32_t i = 0; i < cache->count && i < 4; i++) {
+        if (!tl_pair_vertex(pair, cache->vertex_a[i], cache->vertex_b[i], &simplex->points[simplex->count])) {
+            return false;
+        }
+        simplex->count++;
+    }
+    return simplex->count > 0;
+}
+
+static void store_cache(const tl_simplex *simplex, tl_simplex_cache *cache)
+{
+    cache->count = simplex->count;
+    for (uint32_t i = 0; i < simplex->count; i++) {
+        cache->vertex_a[i] = simplex->points[i].vertex_a;
+        cache->vertex_b[i] = simplex->points[i].vertex_b;
+    }
+}
+
+static bool is_known(const tl_simplex *simplex, const tl_pair_point *point)
+{
+    for (uint32_t i = 0; i < simplex->count; i++) {
+        const tl_pair_point *p = &simplex->points[i];
+        if (p->w.x == point->w.x && p->w.y == point->w.y && p->w.z == point->w.z) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static double size_of(tl_vec3d a)
+{
+    return fabs(a.x) + fabs(a.y) + fabs(a.z);
+}
+
+// Distances below this cannot be told from zero.
+static double noise_of(const tl_simplex *simplex)
+{
+    double size = 0.0;
+    for (uint32_t i = 0; i < simplex->count; i++) {
+        double pair_size = size_of(simplex->points[i].a) + size_of(simplex->points[i].b);
+        size = pair_size > size ? pair_size : size;
+    }
+    return POINT_ERROR * size;
+}
+
+static void start(tl_pair *pair, tl_simplex_cache *cache, tl_gjk *gjk)
+{
+    gjk->lower = 0.0;
+    gjk->overlap = false;
+    gjk->iterations = 0;
+    if (cache == NULL || !start_from_cache(pair, cache, &gjk->simplex)) {
+        tl_vec3d offset = tl_pair_offset(pair);
+        if (tl_vec3d_dot(offset, offset) == 0.0) {
+            offset = tl_vec3d_make(1.0, 0.0, 0.0);
+        }
+        gjk->simplex.points[0] = tl_pair_support(pair, tl_vec3d_neg(offset));
+        gjk->simplex.count = 1;
+    } else {
+        pair->last_a = gjk->simplex.points[0].vertex_a;
+        pair->last_b = gjk->simplex.points[0].vertex_b;
+    }
+    gjk->nearest = tl_simplex_nearest(&gjk->simplex);
+    gjk->upper = tl_vec3d_length(gjk->nearest);
+}
+
+// One step: false when the walk is over.
+static bool advance(tl_pair *pair, double decide_at, tl_gjk *gjk)
+{
+    gjk->status = TL_CONVEX_CONVERGED;
+    double noise = noise_of(&gjk->simplex);
+    if (gjk->simplex.count == 4 || gjk->upper <= noise) {
+        gjk->overlap = true;
+        gjk->upper = gjk->lower = 0.0;
+        gjk->nearest = tl_vec3d_make(0.0, 0.0, 0.0);
+        return false;
+    }
+    if (gjk->upper <= decide_at) {
+        return false;
+    }
+    tl_pair_point point = tl_pair_support(pair, tl_vec3d_neg(gjk->nearest));
+    double lower = tl_vec3d_dot(gjk->nearest, point.w) / gjk->upper - pair->direction_error - noise;
+    gjk->lower = lower > gjk->lower ? lower : gjk->lower;
+    if (decide_at >= 0.0 && gjk->lower > decide_at) {
+        return false;
+    }
+    if (gjk->upper - gjk->lower <= BOUND_GAP * gjk->upper || is_known(&gjk->simplex, &point)) {
+        return false;
+    }
+    tl_simplex next = gjk->simplex;
+    next.points[next.count++] = point;
+    tl_vec3d nearest = tl_simplex_nearest(&next);
+    double upper = tl_vec3d_length(nearest);
+    if (!(upper < gjk->upper)) {
+        // No progress. With the bounds within the error of the direction this is the end, else a bad simplex.
+        gjk->status =
+            gjk->upper - gjk->lower <= BOUND_GAP * gjk->upper + 4.0 * pair->direction_error + noise_of(&gjk->simplex)
+                ? TL_CONVEX_CONVERGED
+                : TL_CONVEX_DEGENERATE;
+        return false;
+    }
+    gjk->simplex = next;
+    gjk->nearest = nearest;
+    gjk->upper = upper;
+    return true;
+}
+
+void tl_gjk_run(tl_pair *pair, tl_simplex_cache *cache, double decide_at, tl_gjk *gjk)
+{
+    start(pair, cache, gjk);
+    while (advance(pair, decide_at, gjk)) {
+        if (++gjk->iterations == TL_MAX_GJK_ITERATIONS) {
+            gjk->status = TL_CONVEX_ITERATIONS;
+            break;
+        }
+    }
+    if (cache != NULL) {
+        store_cache(&gjk->simplex, cache);
+    }
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef TALUS_SRC_CONVEX_GJK_H
+#define TALUS_SRC_CONVEX_GJK_H
+
+#include "convex/simplex.h"
+
+typedef struct tl_gjk {
+    tl_simplex simplex;
+    tl_vec3d nearest;    // of the simplex; zero when the cores overlap
+    double upper, lower; // bounds of the distance of the cores
+    bool overlap;        // of the cores
+    tl_convex_status status;
+    uint32_t iterations;
+} tl_gjk;
+
+// Runs until the bounds meet, or, with decide_at >= 0, until it is known on which side of decide_at the distance lies.
+void tl_gjk_run(tl_pair *pair, tl_simplex_cache *cache, double decide_at, tl_gjk *gjk);
+
+#endif

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//
+// A pair of shapes in the frame of the first, and the support points of their difference.
+
+#ifndef TALUS_SRC_CONVEX_PROXY_H
+#define TALUS_SRC_CONVEX_PROXY_H
+
+#include "math/vec3d.h"
+
+#include <talus/convex.h>
+
+// A point of A - B, with the points that it is the difference of, all in A's frame.
+typedef struct tl_pair_point {
+    tl_vec3d w; // a - b
+    tl_vec3d a, b;
+    uint32_t vertex_a, vertex_b; // TL_NO_VERTEX for a custom shape
+} tl_pair_point;
+
+typedef struct tl_pair {
+    const tl_convex *a, *b;
+    tl_frame b_to_a;
+    tl_frame a_to_world;
+    // A support direction is rounded to float, so a support value is short of the true one by at most
+    // |direction| times this: the size of both shapes times one rounding of the direction.
+    double direction_error;
+    uint32_t last_a, last_b; // hints
+} tl_pair;
+
+tl_pair tl_pair_make(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b);
+
+// From the middle of B to the middle of A, roughly; zero when they coincide.
+tl_vec3d tl_pair_offset(const tl_pair *pair);
+
+// The point of A - B farthest along the direction, which is not zero.
+tl_pair_point tl_pair_support(tl_pair *pair, tl_vec3d direction);
+
+// The point of A - B of two vertices; false when a shape has no such vertex.
+bool tl_pair_vertex(const tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b, tl_pair_point *point_out);
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+//
+// The simplex that GJK walks with: at most four points of A - B, and the point of their hull nearest to the origin.
+
+#ifndef TALUS_SRC_CONVEX_SIMPLEX_H
+#define TALUS_SRC_CONVEX_SIMPLEX_H
+
+#include "convex/proxy.h"
+
+typedef struct tl_simplex {
+    uint32_t count; // 1 .. 4
+    tl_pair_point points[4];
+    double weights[4]; // of the nearest point; >= 0, sum 1
+} tl_simplex;
+
+// Cuts the simplex down to the points that carry its nearest point, sets their weights and returns that point. When the
+// origin lies inside of four points all stay, and the result is zero.
+tl_vec3d tl_simplex_nearest(tl_simplex *simplex);
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+//
+// Double vectors, for queries that compute in the pair's own frame.
+
+#ifndef TALUS_SRC_MATH_VEC3D_H
+#define TALUS_SRC_MATH_VEC3D_H
+
+#include <talus/vec.h>
+
+typedef struct tl_vec3d {
+    double x, y, z;
+} tl_vec3d;
+
+static inline tl_vec3d tl_vec3d_make(double x, double y, double z)
+{
+    tl_vec3d r = { x, y, z };
+    return r;
+}
+
+static inline tl_vec3d tl_vec3d_from(tl_vec3 a)
+{
+    return tl_vec3d_make((double)a.x, (double)a.y, (double)a.z);
+}
+
+static inline tl_vec3 tl_vec3d_to_float(tl_vec3d a)
+{
+    return tl_vec3_make((float)a.x, (float)a.y, (float)a.z);
+}
+
+static inline tl_vec3d tl_vec3d_add(tl_vec3d a, tl_vec3d b)
+{
+    return tl_vec3d_make(a.x + b.x, a.y + b.y, a.z + b.z);
+}
+
+static inline tl_vec3d tl_vec3d_sub(tl_vec3d a, tl_vec3d b)
+{
+    return tl_vec3d_make(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+static inline tl_vec3d tl_vec3d_neg(tl_vec3d a)
+{
+    return tl_vec3d_make(-a.x, -a.y, -a.z);
+}
+
+static inline tl_vec3d tl_vec3d_scale(tl_vec3d a, double s)
+{
+    return tl_vec3d_make(a.x * s, a.y * s, a.z * s);
+}
+
+static inline tl_vec3d tl_vec3d_mul_add(tl_vec3d a, tl_vec3d b, double s)
+{
+    return tl_vec3d_make(a.x + b.x * s, a.y + b.y * s, a.z + b.z * s);
+}
+
+static inline double tl_vec3d_dot(tl_vec3d a, tl_vec3d b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline tl_vec3d tl_vec3d_cross(tl_vec3d a, tl_vec3d b)
+{
+    return tl_vec3d_make(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+
+static inline double tl_vec3d_length(tl_vec3d a)
+{
+    return sqrt(tl_vec3d_dot(a, a));
+}
+
+// The rotation matrix's rows, and where the origin goes.
+typedef struct tl_frame {
+    tl_vec3d rows[3];
+    tl_vec3d origin;
+} tl_frame;
+
+static inline tl_vec3d tl_frame_rotate(const tl_frame *f, tl_vec3d v)
+{
+    return tl_vec3d_make(tl_vec3d_dot(f->rows[0], v), tl_vec3d_dot(f->rows[1], v), tl_vec3d_dot(f->rows[2], v));
+}
+
+static inline tl_vec3d tl_frame_rotate_back(const tl_frame *f, tl_vec3d v)
+{
+    return tl_vec3d_make(f->rows[0].x * v.x + f->rows[1].x * v.y + f->rows[2].x * v.z,
+                         f->rows[0].y * v.x + f->rows[1].y * v.y + f->rows[2].y * v.z,
+                         f->rows[0].z * v.x + f->rows[1].z * v.y + f->rows[2].z * v.z);
+}
+
+static inline tl_vec3d tl_frame_point(const tl_frame *f, tl_vec3d p)
+{
+    return tl_vec3d_add(tl_frame_rotate(f, p), f->origin);
+}
+
+#endif
