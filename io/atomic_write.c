@@ -141,7 +141,7 @@ static tl_result open_target(tl_atomic_file *file)
     if (file->target == NULL) {
         return tl_io_fail_system(&file->failure, file->path, "write", errno);
     }
-    if (exists && access(file->target, W_OK) != 0) {
+    if (exists && faccessat(AT_FDCWD, file->target, W_OK, AT_EACCESS) != 0) {
         return tl_io_fail_system(&file->failure, file->path, "write", errno);
     }
     return open_temporary(file, exists ? &status : NULL);

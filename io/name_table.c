@@ -24,8 +24,9 @@ static uint32_t hash_name(const char *name, size_t size)
 
 static bool is_name(const tl_name_table *table, uint32_t id, const char *name, size_t size)
 {
+    // strncmp, not memcmp: the text may end before `size`, and the name has no zero in it.
     const char *text = table->text + table->offsets[id];
-    return memcmp(text, name, size) == 0 && text[size] == '\0';
+    return strncmp(text, name, size) == 0 && text[size] == '\0';
 }
 
 // The slot that holds the name, or the empty one where it belongs. The table must have an empty slot.
@@ -63,7 +64,10 @@ static bool reserve_slots(tl_name_table *table, const tl_allocator *allocator)
 tl_result tl_name_table_add(tl_name_table *table, const tl_allocator *allocator, const char *name, size_t size,
                             uint32_t max_count, uint32_t *id_out)
 {
-    const char *zero = size > 0 ? memchr(name, '\0', size) : NULL;
+    if (size == 0) {
+        name = "";
+    }
+    const char *zero = memchr(name, '\0', size);
     if (zero != NULL) {
         size = (size_t)(zero - name);
     }
