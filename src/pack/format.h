@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+//
+// The layout of a container: header, table, chunks. docs/file-format.md describes it for others.
+
+#ifndef TALUS_SRC_PACK_FORMAT_H
+#define TALUS_SRC_PACK_FORMAT_H
+
+#include <talus/pack.h>
+
+/// "TALUS", then bytes that text transfers and 7-bit channels would damage.
+#define TL_PACK_MAGIC     "TALUS\r\n\xb5"
+#define TL_PACK_ALIGNMENT 64
+
+/// At offset 0.
+typedef struct tl_pack_header {
+    uint8_t magic[8];
+    uint32_t version;
+    uint32_t chunk_count;
+    uint64_t size;       ///< of the whole file
+    uint64_t table_hash; ///< XXH64 of the table
+    uint64_t reserved[3];
+    uint64_t header_hash; ///< XXH64 of the 56 bytes before
+} tl_pack_header;
+
+/// Entries follow the header; then zeros up to a multiple of 64.
+typedef struct tl_pack_entry {
+    uint32_t type;
+    uint32_t id;
+    uint64_t offset; ///< from the start of the file; a multiple of 64
+    uint64_t size;
+    uint64_t hash; ///< XXH64 of the chunk
+} tl_pack_entry;
+
+_Static_assert(sizeof(tl_pack_header) == 64 && sizeof(tl_pack_entry) == 32, "no hidden padding");
+
+static inline uint64_t tl_pack_align(uint64_t offset)
+{
+    return (offset + TL_PACK_ALIGNMENT - 1) & ~(uint64_t)(TL_PACK_ALIGNMENT - 1);
+}
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// From an open container to a navmesh that reads its tiles in place.
+
+#include "base/assert.h"
+#include "base/host.h"
+
+#include <talus/pack.h>
+
+static tl_result add_tiles(const tl_pack *pack, tl_navmesh *navmesh, tl_report *report)
+{
+    for (uint32_t i = 0; i < pack->chunk_count; i++) {
+        tl_pack_chunk chunk = tl_pack_chunk_at(pack, i);
+        if (chunk.type != TL_PACK_NAVT) {
+            continue;
+        }
+        tl_result result = tl_nav_tile_check(chunk.bytes, chunk.size, report);
+        if (result == TL_OK) {
+            result = tl_navmesh_add_tile(navmesh, chunk.bytes, TL_NAV_TILE_BORROWED);
+        }
+        if (result != TL_OK) {
+            return tl_report_fail(report, result, "chunk", i, "bake the level again");
+        }
+    }
+    return TL_OK;
+}
+
+tl_result tl_pack_load_navmesh(const tl_pack *pack, const tl_allocator *allocator, tl_navmesh **navmesh_out,
+                               tl_report *report_out)
+{
+    *navmesh_out = NULL;
+    tl_report_begin(report_out, "load navmesh");
+    if (tl_pack_count(pack, TL_PACK_NAVM) == 0 && tl_pack_count(pack, TL_PACK_NAVT) == 0) {
+        return tl_report_fail(report_out, TL_ERR_NOT_FOUND, "chunk", TL_NO_ELEMENT, "bake the file with a navmesh");
+    }
+    tl_navmesh *navmesh = NULL;
+    TL_TRY(tl_navmesh_create(allocator, &navmesh));
+    tl_result result = add_tiles(pack, navmesh, report_out);
+    if (result != TL_OK) {
+        tl_navmesh_free(navmesh);
+        return result;
+    }
+    *navmesh_out = navmesh;
+    return TL_OK;
+}

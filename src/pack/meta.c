@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+//
+// The chunks that describe the file itself: where the geometry came from, and what the navmesh was built with.
+
+#include "base/arena.h"
+#include "base/assert.h"
+
+#include <math.h>
+#include <string.h>
+#include <talus/pack.h>
+
+_Static_assert(sizeof(tl_pack_meta) == 64 && sizeof(tl_pack_navmesh) == 144, "no hidden padding");
+
+enum { MAX_NAME_BYTES = 1 << 16, MAX_MAX_VERTS = 64 };
+
+tl_result tl_pack_meta_create(const char *source_name, uint64_t source_vertices, uint64_t source_triangles,
+                              tl_aabb bounds, const tl_allocator *allocator, tl_pack_meta **meta_out)
+{
+    *meta_out = NULL;
+    const char *name = source_name != NULL ? source_name : "";
+    size_t name_size = strlen(name);
+    if (name_size > MAX_NAME_BYTES) {
+        return TL_ERR_LIMIT;
+    }
+    tl_pack_meta *meta =
+        tl_blob_allocate(allocator, TL_PACK_META_MAGIC, TL_PACK_META_VERSION, sizeof *meta + name_size + 1);
+    if (meta == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    meta->source_vertices = source_vertices;
+    meta->source_triangles = source_triangles;
+    meta->bounds = bounds;
+    meta->name_size = (uint32_t)name_size;
+    memcpy(meta + 1, name, name_size);
+    *meta_out = meta;
+    return TL_OK;
+}
+
+// The head of a blob of at least `least` bytes.
+static tl_result check_head(const void *bytes, uint64_t size, uint32_t magic, uint32_t version, uint64_t least)
+{
+    if ((uintptr_t)bytes % 8 != 0) {
+        return TL_ERR_ARGUMENT;
+    }
+    const tl_blob *blob = bytes;
+    if (size < sizeof *blob) {
+        return TL_ERR_TRUNCATED;
+    }
+    if (blob->magic != magic) {
+        return TL_ERR_MAGIC;
+    }
+    if (blob->version != version) {
+        return TL_ERR_VERSION;
+    }
+    if (size < least || size < blob->size) {
+        return TL_ERR_TRUNCATED;
+    }
+    return blob->size == size ? TL_OK : TL_ERR_CORRUPT;
+}
+
+tl_result tl_pack_meta_check(const void *bytes, uint64_t size)
+{
+    TL_TRY(check_head(bytes, size, TL_PACK_META_MAGIC, TL_PACK_META_VERSION, sizeof(tl_pack_meta)));
+    const tl_pack_meta *meta = bytes;
+    uint64_t room = size - sizeof *meta;
+    if (meta->name_size > MAX_NAME_BYTES || meta->name_size >= room || meta->reserved != 0) {
+        return TL_ERR_CORRUPT;
+    }
+    // One string without a zero inside, then zeros only.
+    const char *name = tl_pack_meta_name(meta);
+    for (uint64_t i = 0; i < room; i++) {
+        if ((name[i] == 0) != (i >= meta->name_size)) {
+            return TL_ERR_CORRUPT;
+        }
+    }
+    return TL_OK;
+}
+
+const char *tl_pack_meta_name(const tl_pack_meta *meta)
+{
+    return (const char *)(meta + 1);
+}
+
+tl_result tl_pack_navmesh_create(const tl_nav_def *def, tl_aabb bounds, uint32_t tiles_x, uint32_t tiles_z,
+                                 uint32_t tile_count, const tl_allocator *allocator, tl_pack_navmesh **navmesh_out)
+{
+    *navmesh_out = NULL;
+    tl_pack_navmesh *navmesh =
+        tl_blob_allocate(allocator, TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVMESH_VERSION, sizeof *navmesh);
+    if (navmesh == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    navmesh->cell_size = def->cell_size;
+    navmesh->cell_height = def->cell_height;
+    navmesh->agent_height = def->agent_height;
+    navmesh->agent_radius = def->agent_radius;
+    navmesh->agent_max_climb = def->agent_max_climb;
+    navmesh->agent_max_slope = def->agent_max_slope;
+    navmesh->region_min_size = def->region_min_size;
+    navmesh->region_merge_size = def->region_merge_size;
+    navmesh->edge_max_len = def->edge_max_len;
+    navmesh->edge_max_error = def->edge_max_error;
+    navmesh->max_verts_per_poly = def->max_verts_per_poly;
+    navmesh->detail_sample_dist = def->detail_sample_dist;
+    navmesh->detail_sample_max_error = def->detail_sample_max_error;
+    navmesh->partition = (uint32_t)def->partition;
+    navmesh->filters = (def->filter_low_hanging_obstacles ? 1u : 0u) | (def->filter_ledge_spans ? 2u : 0u) |
+                       (def->filter_walkable_low_height_spans ? 4u : 0u);
+    navmesh->tile_size = def->tile_size;
+    navmesh->tiles_x = tiles_x;
+    navmesh->tiles_z = tiles_z;
+    navmesh->tile_count = tile_count;
+    navmesh->bounds = bounds;
+    *navmesh_out = navmesh;
+    return TL_OK;
+}
+
+tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size)
+{
+    TL_TRY(check_head(bytes, size, TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVMESH_VERSION, sizeof(tl_pack_navmesh)));
+    const tl_pack_navmesh *navmesh = bytes;
+    const uint8_t *behind = (const uint8_t *)(navmesh + 1);
+    bool zero = true;
+    for (uint64_t i = 0; i < size - sizeof *navmesh; i++) {
+        zero = zero && behind[i] == 0;
+    }
+    for (size_t i = 0; i < TL_COUNT_OF(navmesh->reserved); i++) {
+        zero = zero && navmesh->reserved[i] == 0;
+    }
+    bool sane = navmesh->cell_size > 0.0f && isfinite(navmesh->cell_size) && navmesh->cell_height > 0.0f &&
+                isfinite(navmesh->cell_height) && navmesh->partition <= TL_NAV_LAYERS && navmesh->filters <= 7 &&
+                navmesh->max_verts_per_poly <= MAX_MAX_VERTS &&
+                navmesh->tile_count <= (uint64_t)navmesh->tiles_x * navmesh->tiles_z;
+    return zero && sane ? TL_OK : TL_ERR_CORRUPT;
+}

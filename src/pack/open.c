@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+//
+// Opening a container: whole or not at all.
+//
+// The order of the checks gives each fault its own name. The header's hash comes before its size is believed, so that
+// an altered size is not mistaken for a truncated file; the table's hash comes before any offset is followed.
+
+#include "base/assert.h"
+#include "base/byte_reader.h"
+#include "base/hash.h"
+#include "base/host.h"
+#include "format.h"
+
+#include <string.h>
+
+static const tl_pack_header *header_of(const tl_pack *pack)
+{
+    return pack->bytes;
+}
+
+static const tl_pack_entry *table_of(const tl_pack *pack)
+{
+    return (const tl_pack_entry *)(header_of(pack) + 1);
+}
+
+static tl_result check_header(const void *bytes, uint64_t size, tl_report *report)
+{
+    const char *not_ours = "it is not a talus file";
+    size_t shown = size < sizeof TL_PACK_MAGIC - 1 ? (size_t)size : sizeof TL_PACK_MAGIC - 1;
+    if (memcmp(bytes, TL_PACK_MAGIC, shown) != 0) {
+        return tl_report_fail(report, TL_ERR_MAGIC, "header", TL_NO_ELEMENT, not_ours);
+    }
+    if (size < sizeof(tl_pack_header)) {
+        return tl_report_fail(report, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT, "copy or bake the file again");
+    }
+    const tl_pack_header *header = bytes;
+    if (header->version != TL_PACK_VERSION) {
+        return tl_report_fail(report, TL_ERR_VERSION, "header", TL_NO_ELEMENT,
+                              "bake the level again with this version");
+    }
+    if (header->header_hash != tl_hash_bytes(header, offsetof(tl_pack_header, header_hash), 0)) {
+        return tl_report_fail(report, TL_ERR_HASH, "header", TL_NO_ELEMENT, "copy or bake the file again");
+    }
+    if (size < header->size) {
+        return tl_report_fail(report, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT, "copy or bake the file again");
+    }
+    if (size > header->size) {
+        return tl_report_fail(report, TL_ERR_CORRUPT, "header", TL_NO_ELEMENT, "there are bytes behind its end");
+    }
+    return TL_OK;
+}
+
+static bool is_zero(const uint8_t *bytes, uint64_t begin, uint64_t end)
+{
+    for (uint64_t i = begin; i < end; i++) {
+        if (bytes[i] != 0) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static tl_result check_table(const tl_pack *pack, tl_report *report)
+{
+    const tl_pack_header *header = header_of(pack);
+    if (!tl_range_fits(sizeof *header, header->chunk_count, sizeof(tl_pack_entry), pack->size)) {
+        return tl_report_fail(report, TL_ERR_CORRUPT, "table", TL_NO_ELEMENT, NULL);
+    }
+    const tl_pack_entry *table = table_of(pack);
+    uint64_t table_size = (uint64_t)header->chunk_count * sizeof *table;
+    if (header->table_hash != tl_hash_bytes(table, (size_t)table_size, 0)) {
+        return tl_report_fail(report, TL_ERR_HASH, "table", TL_NO_ELEMENT, "copy or bake the file again");
+    }
+    // Chunks stand one behind the other, without gaps but for the padding.
+    uint64_t end = sizeof *header + table_size;
+    for (uint32_t i = 0; i <= header->chunk_count; i++) {
+        uint64_t next = i < header->chunk_count ? table[i].offset : pack->size;
+        if (next != tl_pack_align(end) || next > pack->size || !is_zero(pack->bytes, end, next)) {
+            return tl_report_fail(report, TL_ERR_CORRUPT, "table", i, "padding or an offset is wrong");
+        }
+        if (i < header->chunk_count) {
+            if (table[i].type == 0 || table[i].size > pack->size - next) {
+                return tl_report_fail(report, TL_ERR_CORRUPT, "table", i, "a chunk has no type or no room");
+            }
+            end = next + table[i].size;
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result check_chunks(const tl_pack *pack, tl_report *report)
+{
+    const tl_pack_entry *table = table_of(pack);
+    for (uint32_t i = 0; i < pack->chunk_count; i++) {
+        const uint8_t *bytes = (const uint8_t *)pack->bytes + table[i].offset;
+        if (table[i].hash != tl_hash_bytes(bytes, (size_t)table[i].size, 0)) {
+            return tl_report_fail(report, TL_ERR_HASH, "chunk", i, "copy or bake the file again");
+        }
+    }
+    return TL_OK;
+}
+
+tl_result tl_pack_open(const void *bytes, uint64_t size, tl_pack *pack_out, tl_report *report_out)
+{
+    memset(pack_out, 0, sizeof *pack_out);
+    tl_report_begin(report_out, "open pack");
+    if ((uintptr_t)bytes % TL_PACK_ALIGNMENT != 0) {
+        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "bytes", TL_NO_ELEMENT, "align the bytes to 64");
+    }
+    if (size == 0) {
+        return tl_report_fail(report_out, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT, "the file is empty");
+    }
+    TL_TRY(check_header(bytes, size, report_out));
+    tl_pack pack = { bytes, size, ((const tl_pack_header *)bytes)->chunk_count };
+    TL_TRY(check_table(&pack, report_out));
+    TL_TRY(check_chunks(&pack, report_out));
+    *pack_out = pack;
+    return TL_OK;
+}
+
+tl_pack_chunk tl_pack_chunk_at(const tl_pack *pack, uint32_t index)
+{
+    TL_ASSERT(index < pack->chunk_count);
+    const tl_pack_entry *entry = &table_of(pack)[index];
+    tl_pack_chunk chunk = { entry->type, entry->id, (const uint8_t *)pack->bytes + entry->offset, entry->size };
+    return chunk;
+}
+
+tl_result tl_pack_find(const tl_pack *pack, uint32_t type, uint32_t id, tl_pack_chunk *chunk_out)
+{
+    for (uint32_t i = 0; i < pack->chunk_count; i++) {
+        const tl_pack_entry *entry = &table_of(pack)[i];
+        if (entry->type == type && entry->id == id) {
+            *chunk_out = tl_pack_chunk_at(pack, i);
+            return TL_OK;
+        }
+    }
+    memset(chunk_out, 0, sizeof *chunk_out);
+    return TL_ERR_NOT_FOUND;
+}
+
+uint32_t tl_pack_count(const tl_pack *pack, uint32_t type)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < pack->chunk_count; i++) {
+        count += table_of(pack)[i].type == type ? 1 : 0;
+    }
+    return count;
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+//
+// Writing a container: sizes and hashes are known beforehand, so the file is written once, front to back, and a sink
+// that cannot seek will do. The header hashes itself and the table, the table hashes each chunk, so that no byte is
+// left uncovered; the padding between chunks is zero, and its place follows from the table.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/hash.h"
+#include "base/host.h"
+#include "base/radix_sort.h"
+#include "format.h"
+
+#include <string.h>
+
+static uint64_t table_end(uint32_t count)
+{
+    return tl_pack_align(sizeof(tl_pack_header) + (uint64_t)count * sizeof(tl_pack_entry));
+}
+
+uint64_t tl_pack_size(const tl_pack_item *items, uint32_t count)
+{
+    uint64_t size = table_end(count);
+    for (uint32_t i = 0; i < count; i++) {
+        size = tl_pack_align(size + items[i].size);
+    }
+    return size;
+}
+
+static uint64_t name_of(const tl_pack_item *item)
+{
+    return (uint64_t)item->type << 32 | item->id;
+}
+
+static tl_result check_names(const tl_pack_item *items, uint32_t count, tl_arena *arena, tl_report *report)
+{
+    tl_sort_item *names = TL_PUSH(arena, tl_sort_item, count);
+    tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, count);
+    if (names == NULL || scratch == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (items[i].type == 0 || items[i].size > SIZE_MAX) {
+            return tl_report_fail(report, TL_ERR_ARGUMENT, "chunk", i, "a type has four characters");
+        }
+        tl_sort_item name = { name_of(&items[i]), i, 0 };
+        names[i] = name;
+    }
+    tl_radix_sort(names, scratch, count);
+    for (uint32_t i = 1; i < count; i++) {
+        if (names[i].key == names[i - 1].key) {
+            return tl_report_fail(report, TL_ERR_ARGUMENT, "chunk", names[i].value, "type and id occur twice");
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result write_padding(uint64_t written, tl_write_fn *write, void *user)
+{
+    static const uint8_t ZEROS[TL_PACK_ALIGNMENT];
+    uint64_t padding = tl_pack_align(written) - written;
+    return padding > 0 ? write(ZEROS, (size_t)padding, user) : TL_OK;
+}
+
+static tl_result write_all(const tl_pack_item *items, uint32_t count, tl_arena *arena, tl_write_fn *write, void *user,
+                           tl_report *report)
+{
+    TL_TRY(check_names(items, count, arena, report));
+    uint64_t table_size = (uint64_t)count * sizeof(tl_pack_entry);
+    tl_pack_entry *table = tl_arena_push_zero(arena, count, sizeof *table);
+    if (table == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint64_t offset = table_end(count);
+    for (uint32_t i = 0; i < count; i++) {
+        tl_pack_entry entry = { items[i].type, items[i].id, offset, items[i].size,
+                                tl_hash_bytes(items[i].bytes, (size_t)items[i].size, 0) };
+        table[i] = entry;
+        offset = tl_pack_align(offset + items[i].size);
+    }
+    tl_pack_header header;
+    memset(&header, 0, sizeof header);
+    memcpy(header.magic, TL_PACK_MAGIC, sizeof header.magic);
+    header.version = TL_PACK_VERSION;
+    header.chunk_count = count;
+    header.size = offset;
+    header.table_hash = tl_hash_bytes(table, (size_t)table_size, 0);
+    header.header_hash = tl_hash_bytes(&header, offsetof(tl_pack_header, header_hash), 0);
+
+    TL_TRY(write(&header, sizeof header, user));
+    if (count > 0) {
+        TL_TRY(write(table, (size_t)table_size, user));
+    }
+    TL_TRY(write_padding(sizeof header + table_size, write, user));
+    for (uint32_t i = 0; i < count; i++) {
+        if (items[i].size > 0) {
+            TL_TRY(write(items[i].bytes, (size_t)items[i].size, user));
+        }
+        TL_TRY(write_padding(table[i].offset + items[i].size, write, user));
+    }
+    return TL_OK;
+}
+
+tl_result tl_pack_write(const tl_pack_item *items, uint32_t count, const tl_allocator *allocator, tl_write_fn *write,
+                        void *user, tl_report *report_out)
+{
+    tl_report_begin(report_out, "write pack");
+    tl_arena arena;
+    tl_arena_init(&arena, allocator);
+    tl_result result = write_all(items, count, &arena, write, user, report_out);
+    if (report_out != NULL) {
+        report_out->peak_bytes = arena.peak_bytes;
+    }
+    tl_arena_free(&arena);
+    return result;
+}

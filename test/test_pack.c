@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+//
+// The container: written and read back, every prefix and every altered byte refused by name.
+
+#include "nav_fixture.h"
+
+#include <math.h>
+#include <talus/pack.h>
+
+typedef struct memory_sink {
+    uint8_t *bytes;
+    size_t size;
+    size_t capacity;
+    size_t fail_after; // 0: never
+} memory_sink;
+
+static tl_result sink_write(const void *bytes, size_t size, void *user)
+{
+    memory_sink *sink = user;
+    if (sink->fail_after != 0 && sink->size + size > sink->fail_after) {
+        return TL_ERR_IO;
+    }
+    assert_true(sink->size + size <= sink->capacity);
+    memcpy(sink->bytes + sink->size, bytes, size);
+    sink->size += size;
+    return TL_OK;
+}
+
+static memory_sink sink_make(size_t capacity)
+{
+    memory_sink sink = { aligned_alloc(64, (capacity + 63) / 64 * 64), 0, capacity, 0 };
+    return sink;
+}
+
+static memory_sink write_items(const tl_pack_item *items, uint32_t count)
+{
+    memory_sink sink = sink_make((size_t)tl_pack_size(items, count));
+    TEST_RESULT(tl_pack_write(items, count, NULL, sink_write, &sink, NULL), TL_OK);
+    TEST_CHECK(sink.size == tl_pack_size(items, count));
+    return sink;
+}
+
+static const char WORDS[] = "loose rock at the foot of a cliff, and the bone that you walk on, and some more words";
+
+static memory_sink write_small(void)
+{
+    const tl_pack_item items[] = { { TL_PACK_SOUP, 0, WORDS, 70 },
+                                   { TL_PACK_HULL, 0, WORDS, 0 },
+                                   { TL_PACK_HULL, 1, WORDS, 64 },
+                                   { TL_PACK_NAVT, 7, WORDS, 1 } };
+    return write_items(items, 4);
+}
+
+static void test_round_trip(void **state)
+{
+    (void)state;
+    memory_sink sink = write_small();
+    tl_pack pack;
+    tl_pack_chunk chunk;
+    TEST_RESULT(tl_pack_open(sink.bytes, sink.size, &pack, NULL), TL_OK);
+    TEST_CHECK(pack.chunk_count == 4 && tl_pack_count(&pack, TL_PACK_HULL) == 2);
+    TEST_RESULT(tl_pack_find(&pack, TL_PACK_SOUP, 0, &chunk), TL_OK);
+    TEST_CHECK(chunk.size == 70 && memcmp(chunk.bytes, WORDS, 70) == 0 && (uintptr_t)chunk.bytes % 64 == 0);
+    TEST_RESULT(tl_pack_find(&pack, TL_PACK_HULL, 0, &chunk), TL_OK);
+    TEST_CHECK(chunk.size == 0);
+    TEST_RESULT(tl_pack_find(&pack, TL_PACK_NAVT, 7, &chunk), TL_OK);
+    TEST_CHECK(chunk.size == 1 && ((const char *)chunk.bytes)[0] == 'l');
+    TEST_RESULT(tl_pack_find(&pack, TL_PACK_NAVT, 0, &chunk), TL_ERR_NOT_FOUND);
+    TEST_CHECK(tl_pack_chunk_at(&pack, 2).id == 1);
+    free(sink.bytes);
+}
+
+// The layout is a promise to other programs: some of its bytes, and its hash.
+static void test_layout(void **state)
+{
+    (void)state;
+    memory_sink sink = write_small();
+    static const uint8_t head[24] = { 'T', 'A', 'L', 'U', 'S', '\r', '\n', 0xb5, 1, 0, 0, 0, 4, 0, 0, 0, 0xc0, 1 };
+    TEST_CHECK(sink.size == 448 && memcmp(sink.bytes, head, sizeof head) == 0);
+    static const uint8_t entry[24] = { 'S', 'O', 'U', 'P', 0, 0, 0, 0, 192, 0, 0, 0, 0, 0, 0, 0, 70 };
+    TEST_CHECK(memcmp(sink.bytes + 64, entry, sizeof entry) == 0);
+    TEST_CHECK(memcmp(sink.bytes + 192, WORDS, 70) == 0);
+    free(sink.bytes);
+}
+
+static void test_empty(void **state)
+{
+    (void)state;
+    memory_sink sink = write_items(NULL, 0);
+    tl_pack pack;
+    TEST_CHECK(sink.size == 64);
+    TEST_RESULT(tl_pack_open(sink.bytes, sink.size, &pack, NULL), TL_OK);
+    TEST_CHECK(pack.chunk_count == 0);
+    tl_navmesh *navmesh = NULL;
+    TEST_RESULT(tl_pack_load_navmesh(&pack, NULL, &navmesh, NULL), TL_ERR_NOT_FOUND);
+    free(sink.bytes);
+}
+
+static void test_prefixes(void **state)
+{
+    (void)state;
+    memory_sink sink = write_small();
+    for (size_t size = 0; size < sink.size; size++) {
+        // No larger than alignment demands, and filled up with what no file has.
+        size_t room = size > 0 ? (size + 63) / 64 * 64 : 64;
+        uint8_t *block = aligned_alloc(64, room);
+        memset(block, 0xa5, room);
+        memcpy(block, sink.bytes, size);
+        tl_pack pack;
+        tl_report report;
+        TEST_RESULT(tl_pack_open(block, size, &pack, &report), TL_ERR_TRUNCATED);
+        TEST_CHECK(pack.bytes == NULL && report.element != NULL);
+        free(block);
+    }
+    tl_pack pack;
+    uint8_t *longer = aligned_alloc(64, sink.size + 64);
+    memset(longer, 0, sink.size + 64);
+    memcpy(longer, sink.bytes, sink.size);
+    TEST_RESULT(tl_pack_open(longer, sink.size + 64, &pack, NULL), TL_ERR_CORRUPT);
+    free(longer);
+    free(sink.bytes);
+}
+
+static tl_result expected_for(size_t at)
+{
+    if (at < 8) {
+        return TL_ERR_MAGIC;
+    }
+    if (at < 12) {
+        return TL_ERR_VERSION;
+    }
+    if (at < 192) {
+        return TL_ERR_HASH; // header, table
+    }
+    bool chunk = at < 192 + 70 || (at >= 320 && at < 384) || at == 384;
+    return chunk ? TL_ERR_HASH : TL_ERR_CORRUPT; // else padding
+}
+
+static void test_altered(void **state)
+{
+    (void)state;
+    const tl_pack_item items[] = { { TL_PACK_SOUP, 0, WORDS, 70 },
+                                   { TL_PACK_HULL, 0, WORDS, 0 },
+                                   { TL_PACK_HULL, 1, WORDS, 64 },
+                                   { TL_PACK_NAVT, 7, WORDS, 1 } };
+    memory_sink sink = write_items(items, 4);
+    uint32_t hash = 0, corrupt = 0;
+    for (size_t at = 0; at < sink.size; at++) {
+        for (uint32_t change = 1; change < 256; change++) {
+            sink.bytes[at] ^= (uint8_t)change;
+            tl_pack pack;
+            tl_result result = tl_pack_open(sink.bytes, sink.size, &pack, NULL);
+            TEST_RESULT(result, expected_for(at));
+            hash += result == TL_ERR_HASH;
+            corrupt += result == TL_ERR_CORRUPT;
+            sink.bytes[at] ^= (uint8_t)change;
+        }
+    }
+    TEST_CHECK(hash > 10000 && corrupt > 10000);
+    tl_pack pack;
+    TEST_RESULT(tl_pack_open(sink.bytes, sink.size, &pack, NULL), TL_OK);
+    TEST_RESULT(tl_pack_open(sink.bytes + 1, sink.size - 1, &pack, NULL), TL_ERR_ARGUMENT);
+    free(sink.bytes);
+}
+
+static void test_bad_items(void **state)
+{
+    (void)state;
+    tl_pack_item items[] = { { TL_PACK_SOUP, 0, WORDS, 8 },
+                             { TL_PACK_HULL, 3, WORDS, 8 },
+                             { TL_PACK_HULL, 3, WORDS, 9 } };
+    memory_sink sink = sink_make(4096);
+    tl_report report;
+    TEST_RESULT(tl_pack_write(items, 3, NULL, sink_write, &sink, &report), TL_ERR_ARGUMENT);
+    TEST_CHECK(report.element_index == 2 && sink.size == 0);
+    items[2].type = 0;
+    TEST_RESULT(tl_pack_write(items, 3, NULL, sink_write, &sink, &report), TL_ERR_ARGUMENT);
+    items[2].type = TL_PACK_META;
+    for (uint64_t k = 1;; k++) {
+        test_allocator failing;
+        test_allocator_init(&failing, k);
+        sink.size = 0;
+        tl_result result = tl_pack_write(items, 3, &failing.allocator, sink_write, &sink, &report);
+        TEST_CHECK(failing.live_blocks == 0);
+        if (result == TL_OK) {
+            TEST_CHECK(k > 1);
+            break;
+        }
+        TEST_RESULT(result, TL_ERR_MEMORY);
+    }
+    size_t whole = sink.size;
+    for (size_t limit = 1; limit < whole; limit += 17) {
+        sink.size = 0;
+        sink.fail_after = limit;
+        TEST_RESULT(tl_pack_write(items, 3, NULL, sink_write, &sink, &report), TL_ERR_IO);
+    }
+    free(sink.bytes);
+}
+
+static void test_meta(void **state)
+{
+    (void)state;
+    tl_aabb bounds = { { -1, -2, -3 }, { 4, 5, 6 } };
+    tl_pack_meta *meta = NULL;
+    TEST_RESULT(tl_pack_meta_create("level.obj", 123, 456, bounds, NULL, &meta), TL_OK);
+    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_OK);
+    TEST_CHECK(strcmp(tl_pack_meta_name(meta), "level.obj") == 0 && meta->source_triangles == 456);
+    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size - 64), TL_ERR_TRUNCATED);
+    meta->name_size = 200;
+    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_ERR_CORRUPT);
+    meta->name_size = 8;
+    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_ERR_CORRUPT);
+    tl_blob_free(meta, NULL);
+    TEST_RESULT(tl_pack_meta_create(NULL, 0, 0, bounds, NULL, &meta), TL_OK);
+    TEST_CHECK(tl_pack_meta_name(meta)[0] == 0);
+    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_OK);
+    tl_blob_free(meta, NULL);
+    char *long_name = malloc(70000);
+    memset(long_name, 'a', 69999);
+    long_name[69999] = 0;
+    TEST_RESULT(tl_pack_meta_create(long_name, 0, 0, bounds, NULL, &meta), TL_ERR_LIMIT);
+    free(long_name);
+}
+
+static void test_navmesh_settings(void **state)
+{
+    (void)state;
+    tl_nav_def def;
+    memset(&def, 0, sizeof def);
+    def.cell_size = 0.3f;
+    def.cell_height = 0.2f;
+    def.max_verts_per_poly = 6;
+    def.filter_ledge_spans = true;
+    def.partition = TL_NAV_MONOTONE;
+    def.tile_size = 48;
+    tl_aabb bounds = { { -1, -2, -3 }, { 4, 5, 6 } };
+    tl_pack_navmesh *settings = NULL;
+    TEST_RESULT(tl_pack_navmesh_create(&def, bounds, 4, 3, 11, NULL, &settings), TL_OK);
+    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_OK);
+    TEST_CHECK(settings->filters == 2 && settings->partition == TL_NAV_MONOTONE && settings->tile_size == 48);
+    settings->tile_count = 13;
+    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_ERR_CORRUPT);
+    settings->tile_count = 12;
+    settings->cell_size = NAN;
+    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_ERR_CORRUPT);
+    tl_blob_free(settings, NULL);
+}
+
+static void test_load_navmesh(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "0000", "0000", "0000", "0000" };
+    fixture_level level = fixture_make(rows, 4);
+    level.tile_cells = 2;
+    tl_pack_item items[4];
+    tl_nav_tile *tiles[4];
+    for (uint32_t i = 0; i < 4; i++) {
+        tiles[i] = fixture_build_tile(&level, (int32_t)(i % 2), (int32_t)(i / 2), NULL);
+        tl_pack_item item = { TL_PACK_NAVT, i, tiles[i], tiles[i]->blob.size };
+        items[i] = item;
+    }
+    memory_sink sink = write_items(items, 4);
+    tl_pack pack;
+    tl_navmesh *navmesh = NULL;
+    TEST_RESULT(tl_pack_open(sink.bytes, sink.size, &pack, NULL), TL_OK);
+    TEST_RESULT(tl_pack_load_navmesh(&pack, NULL, &navmesh, NULL), TL_OK);
+    TEST_CHECK(tl_navmesh_tile_count(navmesh) == 4);
+    TEST_CHECK(tl_navmesh_link_count(navmesh) == 48); // 24 inner edges of a grid of 4 x 4, both ways
+    tl_navmesh_free(navmesh);
+    free(sink.bytes);
+
+    tiles[2]->side_first[1]++; // hashes right, content wrong
+    sink = write_items(items, 4);
+    tl_report report;
+    TEST_RESULT(tl_pack_open(sink.bytes, sink.size, &pack, NULL), TL_OK);
+    TEST_RESULT(tl_pack_load_navmesh(&pack, NULL, &navmesh, &report), TL_ERR_CORRUPT);
+    TEST_CHECK(navmesh == NULL && report.element_index == 2);
+    free(sink.bytes);
+    for (uint32_t i = 0; i < 4; i++) {
+        tl_blob_free(tiles[i], NULL);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_layout),           cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_prefixes),   cmocka_unit_test(test_altered),          cmocka_unit_test(test_bad_items),
+        cmocka_unit_test(test_meta),       cmocka_unit_test(test_navmesh_settings), cmocka_unit_test(test_load_navmesh),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
