@@ -101,6 +101,7 @@ typedef struct tl_hull {
     // What tl_hull_support reads; the layout is private.
     uint64_t vertex_blocks;  ///< uint32_t [V] the first block of each vertex
     uint64_t block_vertices; ///< uint32_t [block_count] the vertex that each block belongs to
+    uint64_t block_errors;   ///< float [block_count] error of a block's dot products for |x| + |y| + |z| = 1
     uint64_t blocks;         ///< edge vectors and blocks of neighbours
     uint64_t scan;           ///< float [3][scan_count]: x, y, z from the middle of the bounds
     uint64_t table;          ///< uint32_t [table_cells^2] a block to start from

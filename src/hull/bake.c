@@ -120,6 +120,10 @@ static void write_blocks(tl_hull *hull, const uint32_t *degrees)
             edge = half_edges[half_edges[edge].twin].next;
         }
     }
+    float *errors = (float *)(void *)(bytes + hull->block_errors);
+    for (uint32_t i = 0; i < hull->block_count; i++) {
+        errors[i] = tl_hull_block_error(&blocks[i]);
+    }
 }
 
 // Extents over the largest one, so that no product with a direction in range under- or overflows.

@@ -113,6 +113,12 @@ static bool check_ring(const tl_hull *hull, uint32_t vertex, uint32_t *half_edge
         }
         edge = half_edges[half_edges[edge].twin].next;
     }
+    for (uint32_t k = 0; k < blocks; k++) {
+        const tl_climb_block *block = &tl_hull_blocks(hull)[*next_block + k];
+        if (!same_bits(tl_hull_block_errors(hull)[*next_block + k], tl_hull_block_error(block))) {
+            return false;
+        }
+    }
     *next_block += blocks;
     return true;
 }

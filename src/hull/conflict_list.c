@@ -42,12 +42,14 @@ void tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
 
 void tl_quickhull_refile(tl_quickhull *hull)
 {
+    // The new point lies in the planes of all created faces: it need not be asked, and asking would be the costly case.
+    uint32_t eye = hull->faces[hull->created[0]].vertex[2];
     for (uint32_t i = 0; i < hull->visible_count; i++) {
         uint32_t p = hull->faces[hull->visible[i]].first_conflict;
         while (p != TL_NONE) {
             uint32_t next = hull->next_conflict[p];
             tl_vec3 point = hull->points[p];
-            for (uint32_t k = 0; k < hull->created_count; k++) {
+            for (uint32_t k = 0; p != eye && k < hull->created_count; k++) {
                 tl_quickhull_face *face = &hull->faces[hull->created[k]];
                 double value;
                 if (tl_side_plane_test(&face->plane, point, &value) > 0) {

@@ -10,6 +10,8 @@
 // A coordinate relative to the middle is rounded once; then a product and two sums; the comparison's own roundings make
 // less than eight in a row.
 #define SCAN_ERROR TL_FLOAT_GAMMA(8)
+// An edge vector is rounded once; the rest as above.
+#define EDGE_ERROR TL_FLOAT_GAMMA(8)
 
 static uint64_t place(uint64_t *size, uint64_t count, uint64_t element_size)
 {
@@ -32,6 +34,7 @@ uint64_t tl_hull_lay_out(tl_hull *head)
     head->planes = place(&size, head->face_count, sizeof(tl_hull_plane));
     head->vertex_blocks = place(&size, head->vertex_count, sizeof(uint32_t));
     head->block_vertices = place(&size, head->block_count, sizeof(uint32_t));
+    head->block_errors = place(&size, head->block_count, sizeof(float));
     head->blocks = place(&size, head->block_count, sizeof(tl_climb_block));
     head->scan = place(&size, 3 * (uint64_t)head->scan_count, sizeof(float));
     head->table = place(&size, (uint64_t)head->table_cells * head->table_cells, sizeof(uint32_t));
@@ -42,6 +45,15 @@ tl_vec3 tl_hull_edge_vector(tl_vec3 from, tl_vec3 to)
 {
     return tl_vec3_make((float)((double)to.x - (double)from.x), (float)((double)to.y - (double)from.y),
                         (float)((double)to.z - (double)from.z));
+}
+
+float tl_hull_block_error(const tl_climb_block *block)
+{
+    float reach = 0.0f;
+    for (uint32_t i = 0; i < TL_CLIMB_LANES; i++) {
+        reach = tl_maxf(reach, tl_maxf(fabsf(block->x[i]), tl_maxf(fabsf(block->y[i]), fabsf(block->z[i]))));
+    }
+    return reach * EDGE_ERROR;
 }
 
 tl_vec3 tl_hull_scan_point(const tl_hull *hull, uint32_t index)

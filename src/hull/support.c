@@ -5,7 +5,8 @@
 // Float arithmetic decides whenever its error bound allows; what it leaves open is settled exactly. So the answer is a
 // true maximiser, and does not depend on the hint or on the way it was found.
 
-#include "hull/support.h"
+#include "hull/direction_table.h"
+#include "hull/support_climb.h"
 
 #include "base/assert.h"
 
@@ -25,16 +26,19 @@ static double reciprocal_power(float size)
 
 static uint32_t support_in_range(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
 {
+    tl_climber climber = tl_climber_make(direction);
     if (hint < hull->vertex_count) {
         uint32_t block = tl_hull_vertex_blocks(hull)[hint];
-        if (tl_hull_climb_is_farthest(hull, direction, block)) {
+        if (tl_hull_climb_is_farthest(hull, &climber, block)) {
             return hint;
         }
     }
     if (hull->scan_count > 0) {
         return tl_hull_scan(hull, direction);
     }
-    return tl_hull_climb(hull, direction, tl_hull_table_block(hull, direction));
+    uint32_t block = tl_hull_table_block(hull, direction);
+    uint32_t vertex = tl_hull_climb(hull, &climber, &block);
+    return vertex != TL_NO_VERTEX ? vertex : tl_hull_climb_exact(hull, direction, tl_hull_block_vertices(hull)[block]);
 }
 
 static uint32_t support_out_of_range(const tl_hull *hull, tl_vec3 direction, float size, uint32_t hint)

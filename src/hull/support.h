@@ -12,8 +12,9 @@
 
 #include <talus/hull.h>
 
-// Hulls up to this many vertices are scanned: the mask of candidates is one word.
-#define TL_HULL_SCAN_LIMIT 64u
+// Hulls up to this many vertices are scanned: there the scan and the climb from the table take equally long (SSE2), and
+// the mask of candidates is one word.
+#define TL_HULL_SCAN_LIMIT 48u
 
 // Directions whose largest component lies between these need no scaling: no product of a component and an edge of a
 // hull within TL_MAX_HULL_COORDINATE overflows, and underflow is covered by TL_SUPPORT_UNDERFLOW.
@@ -37,6 +38,11 @@ static inline const uint32_t *tl_hull_vertex_blocks(const tl_hull *hull)
     return (const uint32_t *)(const void *)((const char *)hull + hull->vertex_blocks);
 }
 
+static inline const float *tl_hull_block_errors(const tl_hull *hull)
+{
+    return (const float *)(const void *)((const char *)hull + hull->block_errors);
+}
+
 static inline const uint32_t *tl_hull_block_vertices(const tl_hull *hull)
 {
     return (const uint32_t *)(const void *)((const char *)hull + hull->block_vertices);
@@ -47,20 +53,13 @@ static inline const tl_climb_block *tl_hull_blocks(const tl_hull *hull)
     return (const tl_climb_block *)(const void *)((const char *)hull + hull->blocks);
 }
 
-// support_climb.c. The caller has brought the direction into the range above.
-// Whether the block's vertex is proven to be the only farthest one.
-bool tl_hull_climb_is_farthest(const tl_hull *hull, tl_vec3 direction, uint32_t block);
-// The farthest vertex, climbing from a block.
-uint32_t tl_hull_climb(const tl_hull *hull, tl_vec3 direction, uint32_t block);
-
-// support_scan.c. Needs scan_count > 0.
+// support_scan.c. Needs scan_count > 0 and a direction in the range above.
 uint32_t tl_hull_scan(const tl_hull *hull, tl_vec3 direction);
 
 // support_exact.c. Climbs on the half-edges with exact comparisons, any direction.
 uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t vertex);
 
-// direction_table.c
-uint32_t tl_hull_table_block(const tl_hull *hull, tl_vec3 direction);
+// direction_table.c; the look-up is in direction_table.h.
 // Cells along a side for a hull of so many vertices.
 uint32_t tl_hull_table_side(uint32_t vertex_count);
 // Fills the table of an otherwise finished hull.
@@ -70,6 +69,8 @@ void tl_hull_fill_table(tl_hull *hull);
 // Fills in the offsets and the counts that follow from V, F, 2 E and block_count; the size of the whole.
 uint64_t tl_hull_lay_out(tl_hull *head);
 tl_vec3 tl_hull_edge_vector(tl_vec3 from, tl_vec3 to);
+// Bound of the error of direction . edge vector over a block, for a direction with |x| + |y| + |z| = 1.
+float tl_hull_block_error(const tl_climb_block *block);
 // Row entry `index` of the scan: a vertex relative to the middle of the bounds; beyond V the last vertex again.
 tl_vec3 tl_hull_scan_point(const tl_hull *hull, uint32_t index);
 float tl_hull_scan_error(const tl_hull *hull);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Support by scan: all dot products of a small hull, four at a time; nothing is faster below some 64 vertices.
+// Support by scan: all dot products of a small hull, four at a time; nothing is faster below some 48 vertices.
 //
 // The first pass keeps only the maximum, so it has no index to carry; the second compares the kept products with the
 // maximum less twice their error bound. Nearly always one vertex remains; else the remaining ones are compared exactly.
