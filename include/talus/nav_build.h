@@ -227,14 +227,26 @@ TL_API tl_result tl_nav_build_regions(const tl_nav_config *config, const tl_host
 /// simplification.
 typedef struct tl_nav_contours {
     tl_contour_set set;
-    tl_contour_set raw; ///< the traced outlines, same count and order as set, holes not bridged; for drawing and checks
+    /// The traced outlines, for drawing and checks. Its first set.contour_count contours are those of set, in the same
+    /// order, before simplification and without their holes. Holes follow, then what has no area.
+    tl_contour_set raw;
+    uint32_t hole_count;      ///< traced outlines that run round a hole
+    uint32_t unbridged_count; ///< holes left out of set, because no bridge to their outline was found
+    uint32_t slit_count; ///< traced outlines without area, between floors of one region that are not linked; left out
+    uint32_t repaired_count; ///< traced outlines that got vertices back, lest their simplified forms collapse or cross
     const tl_allocator *allocator;
     void *block;
     size_t block_size;
 } tl_nav_contours;
 
 /// Traces each region's outline, simplifies it within max_simplification_error and max_edge_len, and bridges holes.
-/// The origin of the set is the tile without its border.
+///
+/// The origin of the set is the tile without its border. An edge between two regions has the same vertices on xz in
+/// both. Simplified outlines of a region neither cross themselves nor one another, and none with area is lost. The low
+/// 16 bits of a vertex's flags hold 0 for a wall, and for other edges a number in 1 .. 0x7fff made from the region
+/// across (for regions up to 0x7fff its id), | 0x8000 on the tile's border: information only, nothing rests on it.
+/// Needs regions (TL_ERR_ARGUMENT). Errors: TL_ERR_CORRUPT (neighbours are not mutual), TL_ERR_LIMIT, TL_ERR_MEMORY,
+/// TL_ERR_CANCELLED. On failure contours_out is zeroed.
 TL_API tl_result tl_nav_build_contours(const tl_nav_config *config, const tl_nav_compact *compact, const tl_host *host,
                                        tl_nav_contours *contours_out, tl_report *report_out);
 TL_API void tl_nav_contours_free(tl_nav_contours *contours);

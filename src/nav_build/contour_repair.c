@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+//
+// Contour repair: simplified outlines that collapsed, turned over or cross get traced vertices back.
+//
+// An edge between two regions is made straight however far it bends, and walls may move by max_error on both of their
+// sides; so simplified outlines can cross themselves or one another, and thin floors and thin walls can vanish. Of two
+// edges that conflict the one that strayed farther gets its farthest traced vertex back, on both of its sides; then all
+// regions concerned are looked at again. Traced outlines have no conflict, so this ends at them at the latest.
+//
+// Conflicts are found exactly, by a sweep along x over the edges of one region. Allowed are edges that share an end,
+// and those that run the same way back: the two sides of a drop inside a region. (Recast does not look; it names the
+// region in its log when a hole is left without an outline.)
+
+#include "nav_build/contours.h"
+
+#include "base/assert.h"
+
+#include <string.h>
+
+typedef struct simple_edge {
+    uint32_t begin, end; // raw vertices
+    int32_t low_x, high_x, low_z, high_z;
+} simple_edge;
+
+typedef struct repair {
+    tl_contour_work *work;
+    uint32_t region_count;
+    uint32_t *first_loop; // [region_count + 1] into `loops`
+    uint32_t *loops;      // by region
+    uint8_t *dirty;       // [region_count] to be looked at
+    uint8_t *mended;      // [loop_count]
+    simple_edge *edges;
+    tl_sort_item *items, *scratch;
+    uint32_t *path_vertices; // of one loop
+    uint32_t *stack;
+} repair;
+
+static int sign_of(int64_t value)
+{
+    return (value > 0) - (value < 0);
+}
+
+static bool is_between(const tl_contour_vertex *p, const tl_contour_vertex *a, const tl_contour_vertex *b)
+{
+    int64_t along = ((int64_t)p->x - a->x) * ((int64_t)b->x - a->x) + ((int64_t)p->z - a->z) * ((int64_t)b->z - a->z);
+    int64_t back = ((int64_t)p->x - b->x) * ((int64_t)a->x - b->x) + ((int64_t)p->z - b->z) * ((int64_t)a->z - b->z);
+    return along > 0 && back > 0;
+}
+
+// Two edges cross, or one's end lies inside the other. Not: a common end, or the same edge there and back.
+static bool edges_conflict(const tl_contour_vertex *a, const tl_contour_vertex *b, const tl_contour_vertex *c,
+                           const tl_contour_vertex *d)
+{
+    int c_side = sign_of(tl_contour_area2(a, b, c)), d_side = sign_of(tl_contour_area2(a, b, d));
+    int a_side = sign_of(tl_contour_area2(c, d, a)), b_side = sign_of(tl_contour_area2(c, d, b));
+    if (c_side * d_side < 0 && a_side * b_side < 0) {
+        return true;
+    }
+    return (c_side == 0 && is_between(c, a, b)) || (d_side == 0 && is_between(d, a, b)) ||
+           (a_side == 0 && is_between(a, c, d)) || (b_side == 0 && is_between(b, c, d));
+}
+
+// Keeps a vertex, and has all regions that got it looked at again.
+static void keep(repair *r, uint32_t vertex)
+{
+    tl_contour_work *work = r->work;
+    tl_contours_keep(work, vertex);
+    r->mended[work->loop_of[vertex]] = 1;
+    r->dirty[work->loops[work->loop_of[vertex]].region] = 1;
+    for (uint32_t v = vertex; work->twin[v] != TL_NO_TWIN;) {
+        v = tl_contour_next(work, work->twin[v]);
+        if (v == vertex) {
+            break;
+        }
+        r->dirty[work->loops[work->loop_of[v]].region] = 1;
+    }
+    for (uint32_t v = vertex; work->twin[tl_contour_previous(work, v)] != TL_NO_TWIN;) {
+        v = work->twin[tl_contour_previous(work, v)];
+        if (v == vertex) {
+            break;
+        }
+        r->dirty[work->loops[work->loop_of[v]].region] = 1;
+    }
+}
+
+// Where the traced path runs along the edge itself, it is straight along an axis: the vertex at p, if p is on it.
+static bool keep_at(repair *r, const simple_edge *edge, const tl_contour_vertex *p)
+{
+    const tl_contour_work *work = r->work;
+    const tl_contour_vertex *a = &work->vertices[edge->begin], *b = &work->vertices[edge->end];
+    if (tl_contour_area2(a, b, p) != 0 || !is_between(p, a, b)) {
+        return false;
+    }
+    for (uint32_t k = tl_contour_next(work, edge->begin); k != edge->end; k = tl_contour_next(work, k)) {
+        if (tl_contour_same_xz(&work->vertices[k], p)) {
+            keep(r, k);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool mend_pair(repair *r, const simple_edge *e, const simple_edge *f)
+{
+    const tl_contour_vertex *v = r->work->vertices;
+    double e_error, f_error;
+    uint32_t e_far = tl_contours_farthest(r->work, e->begin, e->end, &e_error);
+    uint32_t f_far = tl_contours_farthest(r->work, f->begin, f->end, &f_error);
+    if (e_error > 0 && e_error >= f_error) {
+        keep(r, e_far);
+        return true;
+    }
+    if (f_error > 0) {
+        keep(r, f_far);
+        return true;
+    }
+    bool at_f = keep_at(r, e, &v[f->begin]) || keep_at(r, e, &v[f->end]);
+    bool at_e = keep_at(r, f, &v[e->begin]) || keep_at(r, f, &v[e->end]);
+    return at_f || at_e;
+}
+
+// A loop that lost its area, or its direction, gets a vertex back on each of its edges.
+static bool mend_collapse(repair *r, const tl_contour_loop *loop, const tl_contour_path *path)
+{
+    const tl_contour_work *work = r->work;
+    int64_t area2 = 0;
+    for (uint32_t k = 0; k < path->count; k++) {
+        const tl_contour_vertex *a = &work->vertices[path->vertices[k]];
+        const tl_contour_vertex *b = &work->vertices[path->vertices[k + 1 < path->count ? k + 1 : 0]];
+        area2 += (int64_t)b->x * a->z - (int64_t)a->x * b->z;
+    }
+    if (sign_of(area2) == sign_of(loop->area2)) {
+        return false;
+    }
+    bool changed = false;
+    for (uint32_t k = 0; k < path->count; k++) {
+        double error;
+        uint32_t end = path->vertices[k + 1 < path->count ? k + 1 : 0];
+        uint32_t farthest = tl_contours_farthest(work, path->vertices[k], end, &error);
+        if (error > 0 && !work->keep[farthest]) {
+            keep(r, farthest);
+            changed = true;
+        }
+    }
+    return changed;
+}
+
+// The simplified edges of a region's loops; 0 when a loop had to be mended first.
+static uint32_t collect_edges(repair *r, uint32_t region)
+{
+    tl_contour_work *work = r->work;
+    uint32_t count = 0;
+    bool mended = false;
+    for (uint32_t k = r->first_loop[region]; k < r->first_loop[region + 1]; k++) {
+        tl_contour_path path = { r->path_vertices, 0 };
+        if (work->loops[r->loops[k]].area2 == 0) {
+            continue; // a slit: it will not be part of any contour
+        }
+        tl_contours_simplified(work, r->loops[k], &path);
+        mended |= mend_collapse(r, &work->loops[r->loops[k]], &path);
+        for (uint32_t j = 0; j < path.count && path.count > 2; j++) {
+            simple_edge e = { path.vertices[j], path.vertices[j + 1 < path.count ? j + 1 : 0], 0, 0, 0, 0 };
+            const tl_contour_vertex *a = &work->vertices[e.begin], *b = &work->vertices[e.end];
+            e.low_x = a->x < b->x ? a->x : b->x;
+            e.high_x = a->x < b->x ? b->x : a->x;
+            e.low_z = a->z < b->z ? a->z : b->z;
+            e.high_z = a->z < b->z ? b->z : a->z;
+            r->edges[count++] = e;
+        }
+    }
+    return mended ? 0 : count;
+}
+
+static void mend_crossings(repair *r, uint32_t count)
+{
+    const tl_contour_vertex *v = r->work->vertices;
+    for (uint32_t k = 0; k < count; k++) {
+        r->items[k].key = (uint64_t)((int64_t)r->edges[k].low_x - INT32_MIN);
+        r->items[k].value = k;
+        r->items[k].extra = 0;
+    }
+    tl_radix_sort(r->items, r->scratch, count);
+    for (uint32_t k = 0; k < count; k++) {
+        const simple_edge *e = &r->edges[r->items[k].value];
+        for (uint32_t j = k + 1; j < count; j++) {
+            const simple_edge *f = &r->edges[r->items[j].value];
+            if (f->low_x > e->high_x) {
+                break;
+            }
+            if (f->low_z <= e->high_z && f->high_z >= e->low_z &&
+                edges_conflict(&v[e->begin], &v[e->end], &v[f->begin], &v[f->end])) {
+                mend_pair(r, e, f);
+            }
+        }
+    }
+}
+
+static tl_result group_loops(repair *r)
+{
+    tl_contour_work *work = r->work;
+    r->first_loop = TL_PUSH_ZERO(work->arena, uint32_t, (uint64_t)r->region_count + 2);
+    r->loops = TL_PUSH(work->arena, uint32_t, work->loop_count);
+    if (r->first_loop == NULL || r->loops == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t *next = r->first_loop + 1;
+    for (uint32_t l = 0; l < work->loop_count; l++) {
+        next[work->loops[l].region + 1]++;
+    }
+    for (uint32_t k = 1; k <= r->region_count; k++) {
+        next[k] += next[k - 1];
+    }
+    for (uint32_t l = 0; l < work->loop_count; l++) {
+        r->loops[next[work->loops[l].region]++] = l;
+    }
+    return TL_OK;
+}
+
+static tl_result prepare(repair *r)
+{
+    tl_contour_work *work = r->work;
+    TL_TRY(group_loops(r));
+    uint32_t count = work->vertex_count;
+    r->dirty = TL_PUSH(work->arena, uint8_t, r->region_count);
+    r->mended = TL_PUSH_ZERO(work->arena, uint8_t, work->loop_count);
+    r->path_vertices = TL_PUSH(work->arena, uint32_t, count);
+    r->stack = TL_PUSH(work->arena, uint32_t, count);
+    r->edges = TL_PUSH(work->arena, simple_edge, count);
+    r->items = TL_PUSH(work->arena, tl_sort_item, count);
+    r->scratch = TL_PUSH(work->arena, tl_sort_item, count);
+    return r->dirty && r->mended && r->path_vertices && r->stack && r->edges && r->items && r->scratch ? TL_OK
+                                                                                                       : TL_ERR_MEMORY;
+}
+
+tl_result tl_contours_repair(tl_contour_work *work)
+{
+    repair r = { .work = work, .region_count = work->compact->region_count };
+    tl_arena_mark mark = tl_arena_get_mark(work->arena);
+    TL_TRY(prepare(&r));
+    memset(r.dirty, 1, r.region_count);
+    for (bool changed = true; changed;) { // each round but the last keeps at least one vertex more
+        changed = false;
+        for (uint32_t region = 1; region < r.region_count; region++) {
+            if (!r.dirty[region]) {
+                continue;
+            }
+            r.dirty[region] = 0;
+            for (uint32_t k = r.first_loop[region]; k < r.first_loop[region + 1]; k++) {
+                tl_contours_keep_within_error(work, r.loops[k], r.stack);
+            }
+            mend_crossings(&r, collect_edges(&r, region));
+            changed = true;
+        }
+    }
+    for (uint32_t l = 0; l < work->loop_count; l++) {
+        work->repaired_count += r.mended[l];
+    }
+    tl_arena_rollback(work->arena, mark);
+    return TL_OK;
+}

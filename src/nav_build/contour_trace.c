@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+//
+// Contour trace: the outlines of all regions, edge by edge of the lattice.
+//
+// A floor's edge is on an outline when the floor across it has another region, or is none. A walk keeps its region on
+// the right: along such an edge it turns clockwise, through any other edge it steps and turns back. Vertices get the
+// height of the highest floor that meets in them. Each edge knows its twin, the same edge in the outline of the region
+// across, so that later stages can do to both sides what they do to one.
+// Source: Mononen, Recast (walk, corner heights, border vertices).
+//
+// Differences from Recast: a region of one column is traced like any other; the region across is kept in 32 bits.
+
+#include "nav_build/contours.h"
+
+#include "base/assert.h"
+
+#include <string.h>
+
+typedef struct tracer {
+    tl_contour_work *work;
+    uint8_t *open;        // [span_count] bit d: edge d is on an outline and was not walked yet
+    uint8_t *outline;     // [span_count] bit d: edge d is on an outline
+    uint32_t *first_edge; // [span_count] outline edges of the floors before this one
+    uint32_t *vertex_of;  // [outline edges] the raw vertex where that edge starts
+    uint32_t loop_capacity;
+    uint64_t steps_left; // a walk leaves each pair (floor, direction) once: 4 a floor
+} tracer;
+
+static inline bool is_traced(uint32_t region)
+{
+    return region != 0 && (region & TL_NAV_BORDER_REGION) == 0;
+}
+
+static inline uint32_t edge_index(const tracer *t, uint32_t floor, uint32_t direction)
+{
+    uint32_t before = t->outline[floor] & ((1u << direction) - 1);
+    return t->first_edge[floor] + (before & 1) + ((before >> 1) & 1) + ((before >> 2) & 1);
+}
+
+// Marks the outline edges of each floor and returns their number.
+static uint64_t find_outlines(tracer *t)
+{
+    const tl_nav_compact *compact = t->work->compact;
+    uint64_t edge_count = 0;
+    for (uint32_t i = 0; i < compact->span_count; i++) {
+        uint32_t region = compact->region[i], mask = 0;
+        if (is_traced(region)) {
+            for (uint32_t d = 0; d < 4; d++) {
+                uint32_t beside = compact->neighbour[4 * (size_t)i + d];
+                bool inside = beside != TL_NAV_NO_SPAN && compact->region[beside] == region;
+                mask |= (inside ? 0u : 1u) << d;
+            }
+        }
+        t->first_edge[i] = (uint32_t)edge_count;
+        t->outline[i] = (uint8_t)mask;
+        t->open[i] = (uint8_t)mask;
+        edge_count += (mask & 1) + ((mask >> 1) & 1) + ((mask >> 2) & 1) + (mask >> 3);
+    }
+    return edge_count;
+}
+
+// The floors that meet in the corner behind edge `direction` of a floor, going clockwise: the floor itself, the one
+// across the edge, the one diagonally across, the one across the next edge. Those that are not linked are
+// TL_NAV_NO_SPAN.
+typedef struct corner {
+    uint32_t floors[4];
+    uint32_t height;
+} corner;
+
+static corner find_corner(const tl_nav_compact *compact, uint32_t floor, uint32_t direction)
+{
+    const uint32_t *neighbour = compact->neighbour;
+    uint32_t turned = (direction + 1) & 3;
+    corner c = { { floor, neighbour[4 * (size_t)floor + direction], TL_NAV_NO_SPAN,
+                   neighbour[4 * (size_t)floor + turned] },
+                 compact->floor[floor] };
+    uint32_t first_way = c.floors[1] != TL_NAV_NO_SPAN ? neighbour[4 * (size_t)c.floors[1] + turned] : TL_NAV_NO_SPAN;
+    uint32_t other_way =
+        c.floors[3] != TL_NAV_NO_SPAN ? neighbour[4 * (size_t)c.floors[3] + direction] : TL_NAV_NO_SPAN;
+    c.floors[2] = other_way != TL_NAV_NO_SPAN ? other_way : first_way;
+    const uint32_t seen[4] = { c.floors[1], first_way, c.floors[3], other_way };
+    for (int k = 0; k < 4; k++) {
+        if (seen[k] != TL_NAV_NO_SPAN && compact->floor[seen[k]] > c.height) {
+            c.height = compact->floor[seen[k]];
+        }
+    }
+    return c;
+}
+
+// Two floors of one border side beside two inner floors of one area: the vertex is there only because the outline bends
+// or changes its neighbour on the tile's border. It is removed after merging, so that both tiles have the same edge.
+static bool is_border_vertex(const tl_nav_compact *compact, const corner *c)
+{
+    uint32_t region[4], area[4];
+    for (int k = 0; k < 4; k++) {
+        bool present = c->floors[k] != TL_NAV_NO_SPAN;
+        region[k] = present ? compact->region[c->floors[k]] : 0;
+        area[k] = present ? compact->area[c->floors[k]] : 0;
+        if (region[k] == 0 && area[k] == 0) {
+            return false;
+        }
+    }
+    for (int k = 0; k < 4; k++) {
+        int l = (k + 1) & 3, m = (k + 2) & 3, n = (k + 3) & 3;
+        bool same_outside = (region[k] & TL_NAV_BORDER_REGION) != 0 && region[k] == region[l] && area[k] == area[l];
+        bool inside = ((region[m] | region[n]) & TL_NAV_BORDER_REGION) == 0 && area[m] == area[n];
+        if (same_outside && inside) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The low 16 bits of a vertex's flags: the region across, so that 0 means none and the border is told apart. Ids above
+// 0x7fff repeat; nothing but information rests on them.
+static uint32_t region_flags(uint32_t across)
+{
+    if (across == 0) {
+        return 0;
+    }
+    uint32_t id = ((across & ~TL_NAV_BORDER_REGION) - 1) % 0x7fffu + 1;
+    return (across & TL_NAV_BORDER_REGION) != 0 ? id | 0x8000u : id;
+}
+
+// Writes what belongs to the edge at its start vertex, and what belongs to its end vertex one place further.
+static void emit_edge(tracer *t, uint32_t vertex, uint32_t floor, uint32_t direction, uint32_t x, uint32_t z)
+{
+    tl_contour_work *work = t->work;
+    const tl_nav_compact *compact = work->compact;
+    uint32_t beside = compact->neighbour[4 * (size_t)floor + direction];
+    uint32_t across = beside != TL_NAV_NO_SPAN ? compact->region[beside] : 0;
+    bool area_border = beside != TL_NAV_NO_SPAN && compact->area[beside] != compact->area[floor];
+    work->across[vertex] = across;
+    work->vertices[vertex].flags |= region_flags(across) | (area_border ? TL_CONTOUR_AREA_BORDER : 0);
+    t->vertex_of[edge_index(t, floor, direction)] = vertex;
+
+    corner c = find_corner(compact, floor, direction);
+    tl_contour_vertex *end = &work->vertices[vertex + 1];
+    end->x = (int32_t)(x + (direction == 1 || direction == 2)) - (int32_t)compact->border_size;
+    end->z = (int32_t)(z + (direction == 0 || direction == 1)) - (int32_t)compact->border_size;
+    end->y = (int32_t)c.height;
+    end->flags = is_border_vertex(compact, &c) ? TL_CONTOUR_BORDER_VERTEX : 0;
+}
+
+static int64_t loop_area2(const tl_contour_vertex *vertices, uint32_t count)
+{
+    int64_t area2 = 0; // exact: the sum of at most 2^30 columns, doubled
+    for (uint32_t k = 0, previous = count - 1; k < count; previous = k++) {
+        area2 += (int64_t)vertices[k].x * vertices[previous].z - (int64_t)vertices[previous].x * vertices[k].z;
+    }
+    return area2;
+}
+
+static tl_result close_loop(tracer *t, uint32_t first, uint32_t floor)
+{
+    tl_contour_work *work = t->work;
+    if (work->loop_count == t->loop_capacity) {
+        uint32_t capacity = t->loop_capacity > 0 ? 2 * t->loop_capacity : 64;
+        tl_contour_loop *grown = TL_PUSH(work->arena, tl_contour_loop, capacity);
+        if (grown == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        if (work->loop_count > 0) {
+            memcpy(grown, work->loops, work->loop_count * sizeof *grown);
+        }
+        work->loops = grown;
+        t->loop_capacity = capacity;
+    }
+    // The last edge's end is the first vertex, whose flags hold the first edge's share already.
+    tl_contour_vertex last = work->vertices[work->vertex_count];
+    uint32_t edge_flags = work->vertices[first].flags;
+    work->vertices[first] = last;
+    work->vertices[first].flags |= edge_flags;
+    tl_contour_loop *loop = &work->loops[work->loop_count];
+    loop->first = first;
+    loop->count = work->vertex_count - first;
+    loop->region = work->compact->region[floor];
+    loop->area = work->compact->area[floor];
+    loop->area2 = loop_area2(work->vertices + first, loop->count);
+    for (uint32_t k = first; k < work->vertex_count; k++) {
+        work->loop_of[k] = work->loop_count;
+    }
+    work->loop_count++;
+    return TL_OK;
+}
+
+static tl_result walk_loop(tracer *t, uint32_t start, uint32_t start_x, uint32_t start_z)
+{
+    tl_contour_work *work = t->work;
+    uint32_t floor = start, x = start_x, z = start_z, direction = 0, first = work->vertex_count;
+    while ((t->open[start] & (1u << direction)) == 0) {
+        direction++;
+    }
+    uint32_t start_direction = direction;
+    work->vertices[first].flags = 0;
+    do {
+        if (t->steps_left-- == 0) {
+            return TL_ERR_CORRUPT;
+        }
+        if ((t->outline[floor] & (1u << direction)) != 0) {
+            if ((t->open[floor] & (1u << direction)) == 0) {
+                return TL_ERR_CORRUPT;
+            }
+            t->open[floor] = (uint8_t)(t->open[floor] & ~(1u << direction));
+            emit_edge(t, work->vertex_count++, floor, direction, x, z);
+            direction = (direction + 1) & 3;
+        } else {
+            floor = work->compact->neighbour[4 * (size_t)floor + direction];
+            x += (direction == 2) - (uint32_t)(direction == 0);
+            z += (direction == 1) - (uint32_t)(direction == 3);
+            direction = (direction + 3) & 3;
+        }
+    } while (floor != start || direction != start_direction);
+    return close_loop(t, first, start);
+}
+
+static tl_result walk_all(tracer *t)
+{
+    const tl_nav_compact *compact = t->work->compact;
+    for (uint32_t z = 0; z < compact->height; z++) {
+        for (uint32_t x = 0; x < compact->width; x++) {
+            size_t column = (size_t)z * compact->width + x;
+            for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
+                while (t->open[i] != 0) {
+                    TL_TRY(walk_loop(t, i, x, z));
+                }
+            }
+        }
+    }
+    return TL_OK;
+}
+
+static void find_twins(tracer *t)
+{
+    tl_contour_work *work = t->work;
+    const tl_nav_compact *compact = work->compact;
+    for (uint32_t i = 0; i < compact->span_count; i++) {
+        for (uint32_t d = 0; t->outline[i] != 0 && d < 4; d++) {
+            if ((t->outline[i] & (1u << d)) == 0) {
+                continue;
+            }
+            uint32_t beside = compact->neighbour[4 * (size_t)i + d];
+            bool has_twin = beside != TL_NAV_NO_SPAN && (t->outline[beside] & (1u << (d ^ 2))) != 0;
+            work->twin[t->vertex_of[edge_index(t, i, d)]] =
+                has_twin ? t->vertex_of[edge_index(t, beside, d ^ 2)] : TL_NO_TWIN;
+        }
+    }
+}
+
+tl_result tl_contours_trace(tl_contour_work *work)
+{
+    const tl_nav_compact *compact = work->compact;
+    tracer t = { .work = work, .steps_left = 4 * (uint64_t)compact->span_count };
+    t.open = TL_PUSH(work->arena, uint8_t, compact->span_count);
+    t.outline = TL_PUSH(work->arena, uint8_t, compact->span_count);
+    t.first_edge = TL_PUSH(work->arena, uint32_t, compact->span_count);
+    if (t.open == NULL || t.outline == NULL || t.first_edge == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint64_t edge_count = find_outlines(&t);
+    if (edge_count >= UINT32_MAX) {
+        return TL_ERR_LIMIT;
+    }
+    t.vertex_of = TL_PUSH(work->arena, uint32_t, edge_count);
+    work->vertices = TL_PUSH(work->arena, tl_contour_vertex, edge_count + 1); // one ahead while a loop is open
+    work->across = TL_PUSH(work->arena, uint32_t, edge_count);
+    work->twin = TL_PUSH(work->arena, uint32_t, edge_count);
+    work->loop_of = TL_PUSH(work->arena, uint32_t, edge_count);
+    if (t.vertex_of == NULL || work->vertices == NULL || work->across == NULL || work->twin == NULL ||
+        work->loop_of == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    TL_TRY(walk_all(&t));
+    find_twins(&t);
+    return TL_OK;
+}
