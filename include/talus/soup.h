@@ -150,9 +150,8 @@ typedef struct tl_ray_hit {
 
 /// The closest hit of a ray; false and an untouched `hit_out` when there is none. `filter` may be NULL.
 ///
-/// The error of t: at most half an ulp of t, plus 2^-46 of the distance (in t) between the triangle's nearest and
-/// farthest corner times M * L / A, where M is the largest distance from the origin to a corner, L the triangle's
-/// largest extent and A its area seen along the ray. t never leaves the corners' own range.
+/// t is within 3/4 ulp of the exact value, plus 2^-45 of the t at which the ray passes the triangle's farthest corner
+/// (which matters only when that is thousands of times farther than the hit).
 TL_API bool tl_soup_cast_ray(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter, tl_ray_hit *hit_out);
 
 /// Whether a ray hits anything. Agrees with tl_soup_cast_ray, and is faster. `filter` may be NULL.

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+//
+// tree_build.c with tree_split.c: every pair is in a leaf, every box holds what is below it, and the tree pays.
+
+#include "soup/soup_build.h"
+#include "soup/soup_layout.h"
+#include "soup_models.h"
+
+typedef struct walk {
+    const tl_mesh *mesh;
+    const tl_pair *pairs;
+    const tl_tree *tree;
+    uint32_t *seen; // references to each pair
+    uint32_t references, leaves, depth;
+    double cost; // surface of all nodes' boxes over the root's, leaves only
+} walk;
+
+static bool holds(tl_aabb outer, tl_aabb inner)
+{
+    return tl_aabb_contains(outer, inner.min) && tl_aabb_contains(outer, inner.max);
+}
+
+static void check_node(walk *w, uint32_t index, uint32_t depth)
+{
+    const tl_tree_node *node = &w->tree->nodes[index];
+    w->depth = depth > w->depth ? depth : w->depth;
+    if (node->count == 0) {
+        TEST_CHECK(holds(node->box, w->tree->nodes[node->left].box));
+        TEST_CHECK(holds(node->box, w->tree->nodes[node->right].box));
+        check_node(w, node->left, depth + 1);
+        check_node(w, node->right, depth + 1);
+        return;
+    }
+    TEST_CHECK(node->count <= TL_SOUP_LEAF_PAIRS);
+    for (uint32_t i = 0; i < node->count; i++) {
+        const tl_tree_ref *ref = &w->tree->refs[node->first + i];
+        tl_aabb box = { ref->min, ref->max };
+        TEST_CHECK(holds(node->box, box));
+        w->seen[ref->pair]++;
+    }
+    w->references += node->count;
+    w->leaves++;
+    w->cost += (double)tl_aabb_half_area(node->box);
+}
+
+static walk check_tree(const model *m, float split_budget)
+{
+    tl_mesh_view view = model_view(m);
+    tl_mesh_def mesh_def = tl_default_mesh_def();
+    mesh_def.keep_duplicates = true;
+    tl_mesh mesh;
+    TEST_RESULT(tl_mesh_build(&view, &mesh_def, &mesh, NULL), TL_OK);
+    tl_arena arena;
+    tl_arena_init(&arena, NULL);
+    tl_pair *pairs = TL_PUSH(&arena, tl_pair, mesh.triangle_count);
+    uint32_t count;
+    TEST_RESULT(tl_pair_triangles(&mesh, true, &arena, pairs, &count), TL_OK);
+    tl_soup_def def = tl_default_soup_def();
+    def.split_budget = split_budget;
+    tl_tree tree;
+    TEST_RESULT(tl_tree_build(&mesh, pairs, count, &def, &arena, &tree), TL_OK);
+    walk w = { &mesh, pairs, &tree, TL_PUSH_ZERO(&arena, uint32_t, count), 0, 0, 0, 0 };
+    check_node(&w, tree.root, 1);
+    for (uint32_t i = 0; i < count; i++) {
+        TEST_CHECK(w.seen[i] >= 1 && (split_budget > 0 || w.seen[i] == 1));
+    }
+    TEST_CHECK(w.references == tree.ref_count && w.depth <= TL_SOUP_MAX_DEPTH);
+    TEST_CHECK(w.references <= (uint32_t)((float)count * (1 + split_budget)) + 1);
+    w.cost /= (double)tl_aabb_half_area(tree.nodes[tree.root].box);
+    tl_arena_free(&arena);
+    tl_mesh_free(&mesh, NULL);
+    return w;
+}
+
+static void test_shapes(void **state)
+{
+    (void)state;
+    for (uint32_t count = 1; count < 60; count++) {
+        model m = model_random(count, 5, 1, count);
+        check_tree(&m, 0);
+        check_tree(&m, 0.5f);
+        model_free(&m);
+    }
+    model m = model_random(3000, 10, 3, 1);
+    walk plain = check_tree(&m, 0);
+    TEST_CHECK(plain.leaves > 3000 / 4 && plain.depth < 40);
+    check_tree(&m, 0.3f);
+    model_free(&m);
+}
+
+// Nothing tells these apart: the tree is balanced by count, not a chain.
+static void test_coinciding_triangles(void **state)
+{
+    (void)state;
+    model m = { 0 };
+    for (uint32_t i = 0; i < 5000; i++) {
+        uint32_t a = model_vertex(&m, 0, 0, (float)(i % 2));
+        model_vertex(&m, 1, 0, 0);
+        model_vertex(&m, 0, 1, 0);
+        model_triangle(&m, a, a + 1, a + 2);
+    }
+    TEST_CHECK(check_tree(&m, 0.2f).depth < 20);
+    model_free(&m);
+}
+
+// Sizes that halve toward a corner make a chain of the heuristic; the depth stays bounded.
+static void test_depth_is_bounded(void **state)
+{
+    (void)state;
+    model m = { 0 };
+    for (uint32_t i = 0; i < 4000; i++) {
+        float size = ldexpf(1.0f + (float)(i / 200) * 0.01f, 30 - (int)(i % 150));
+        uint32_t a = model_vertex(&m, size, 0, 0);
+        model_vertex(&m, size * 1.5f, 0, 0);
+        model_vertex(&m, size, size, size * 0.5f);
+        model_triangle(&m, a, a + 1, a + 2);
+    }
+    walk w = check_tree(&m, 0.2f);
+    TEST_CHECK(w.depth > 30);
+    model_free(&m);
+}
+
+static void test_tree_pays(void **state)
+{
+    (void)state;
+    model m = model_terrain(60, 3, tl_vec3_make(0, 0, 0), 1);
+    walk w = check_tree(&m, 0);
+    print_message("terrain: %u leaves, depth %u, leaf surface %.2f of the root's\n", w.leaves, w.depth, w.cost);
+    // One leaf of all pairs would cost 1 a block: over a thousand blocks.
+    TEST_CHECK(w.cost < 40);
+    model_free(&m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shapes),
+        cmocka_unit_test(test_coinciding_triangles),
+        cmocka_unit_test(test_depth_is_bounded),
+        cmocka_unit_test(test_tree_pays),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
