@@ -22,6 +22,12 @@
 
 enum { NOT_WAITING = UINT32_MAX };
 
+// An edge and the places of its two polygons, the lower one in the high bits.
+typedef struct waiting_edge {
+    uint64_t pair;
+    uint32_t edge;
+} waiting_edge;
+
 typedef struct merger {
     const tl_lattice_point *points;
     const uint32_t *origin; // [edge] corner where it starts
@@ -34,7 +40,7 @@ typedef struct merger {
     uint32_t *any_edge; // [root] an edge of the polygon
     uint32_t *at_place; // [place] root
     uint32_t place_count;
-    uint32_t *heap;       // edges of the current length
+    waiting_edge *heap;   // edges of the current length
     uint32_t *heap_place; // [edge] where in the heap, or NOT_WAITING
     uint32_t heap_count;
     uint32_t max_corners;
@@ -58,51 +64,47 @@ static uint64_t place_pair(merger *m, uint32_t edge)
     return a < b ? a << 32 | b : b << 32 | a;
 }
 
-static void heap_set(merger *m, uint32_t i, uint32_t edge)
+static void heap_set(merger *m, uint32_t i, waiting_edge item)
 {
-    m->heap[i] = edge;
-    m->heap_place[edge] = i;
+    m->heap[i] = item;
+    m->heap_place[item.edge] = i;
 }
 
 static void sift_up(merger *m, uint32_t i)
 {
-    uint32_t edge = m->heap[i];
-    uint64_t pair = place_pair(m, edge);
-    while (i > 0 && pair < place_pair(m, m->heap[(i - 1) / 2])) {
+    waiting_edge item = m->heap[i];
+    while (i > 0 && item.pair < m->heap[(i - 1) / 2].pair) {
         heap_set(m, i, m->heap[(i - 1) / 2]);
         i = (i - 1) / 2;
     }
-    heap_set(m, i, edge);
+    heap_set(m, i, item);
 }
 
 static void sift_down(merger *m, uint32_t i)
 {
-    uint32_t edge = m->heap[i];
-    uint64_t pair = place_pair(m, edge);
+    waiting_edge item = m->heap[i];
     for (;;) {
         uint32_t child = 2 * i + 1;
         if (child >= m->heap_count) {
             break;
         }
-        uint64_t child_pair = place_pair(m, m->heap[child]);
-        if (child + 1 < m->heap_count) {
-            uint64_t right_pair = place_pair(m, m->heap[child + 1]);
-            if (right_pair < child_pair) {
-                child++;
-                child_pair = right_pair;
-            }
+        if (child + 1 < m->heap_count && m->heap[child + 1].pair < m->heap[child].pair) {
+            child++;
         }
-        if (pair <= child_pair) {
+        if (item.pair <= m->heap[child].pair) {
             break;
         }
         heap_set(m, i, m->heap[child]);
         i = child;
     }
-    heap_set(m, i, edge);
+    heap_set(m, i, item);
 }
 
 static void heapify(merger *m)
 {
+    for (uint32_t i = 0; i < m->heap_count; i++) {
+        m->heap[i].pair = place_pair(m, m->heap[i].edge);
+    }
     for (uint32_t i = m->heap_count / 2; i-- > 0;) {
         sift_down(m, i);
     }
@@ -110,7 +112,7 @@ static void heapify(merger *m)
 
 static uint32_t heap_pop(merger *m)
 {
-    uint32_t top = m->heap[0];
+    uint32_t top = m->heap[0].edge;
     m->heap_place[top] = NOT_WAITING;
     m->heap_count--;
     if (m->heap_count > 0) {
@@ -120,7 +122,8 @@ static uint32_t heap_pop(merger *m)
     return top;
 }
 
-// A polygon's place has become lower: its waiting edges move up. One of many edges costs more than the heap anew.
+// A polygon's place has become lower: its waiting edges move up, one after another, each by its pair of places as
+// known so far, so that the heap is in order before each step. Where there are many, the heap is made anew.
 static void place_changed(merger *m, uint32_t root)
 {
     if (m->heap_count == 0) {
@@ -135,8 +138,10 @@ static void place_changed(merger *m, uint32_t root)
     do {
         uint32_t twin = m->twins[edge];
         uint32_t key = twin == TL_NO_EDGE || edge < twin ? edge : twin;
-        if (m->heap_place[key] != NOT_WAITING) {
-            sift_up(m, m->heap_place[key]);
+        uint32_t i = m->heap_place[key];
+        if (i != NOT_WAITING) {
+            m->heap[i].pair = place_pair(m, key);
+            sift_up(m, i);
         }
         edge = m->next[edge];
     } while (edge != start);
@@ -277,14 +282,15 @@ tl_result tl_merge_triangles(tl_arena *arena, const tl_lattice_point *points, co
     tl_sort_item *items;
     uint32_t count;
     TL_TRY(sort_edges(&m, arena, edge_count, &items, &count));
-    m.heap = TL_PUSH(arena, uint32_t, count);
+    m.heap = TL_PUSH(arena, waiting_edge, count);
     if (m.heap == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t low = 0; low < count;) {
         uint32_t high = low;
         for (; high < count && items[high].key == items[low].key; high++) {
-            heap_set(&m, high - low, items[high].value);
+            waiting_edge item = { 0, items[high].value };
+            heap_set(&m, high - low, item);
         }
         m.heap_count = high - low;
         heapify(&m);

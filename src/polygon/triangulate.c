@@ -85,6 +85,10 @@ static void consider(triangulation *t, uint32_t b)
     tl_lattice_point pa = t->points[a];
     tl_lattice_point pb = t->points[b];
     tl_lattice_point pc = t->points[c];
+    // Angles only shrink in an outline; in a scribble a convex corner may turn reflex.
+    if (tl_turn(pa, pb, pc) <= 0) {
+        return;
+    }
     // The internal angle test. b is convex, so one half of it holds already, and at a reflex end that is enough.
     if (!t->is_reflex[a] && tl_turn(pa, pc, t->points[t->previous[a]]) <= 0) {
         return;

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+//
+// The validator must name each kind of broken mesh. A good mesh is spoilt in one way at a time.
+
+#include "polygon_shapes.h"
+
+#include <talus/polygon.h>
+
+enum { MAX_VERTICES = 64 };
+
+typedef struct fixture {
+    oracle_point points[MAX_VERTICES];
+    tl_contour_vertex vertices[MAX_VERTICES];
+    tl_contour contour;
+    tl_contour_set set;
+    tl_polygon_mesh mesh;
+} fixture;
+
+static void build(fixture *f, const oracle_point *points, uint32_t n, uint32_t max_verts)
+{
+    memcpy(f->points, points, n * sizeof *points);
+    f->set = shape_as_set(f->points, n, f->vertices, &f->contour);
+    f->set.width = 8;
+    f->set.height = 4;
+    f->set.border_size = 1;
+    tl_polygon_def def = tl_default_polygon_def();
+    def.max_verts_per_poly = max_verts;
+    TEST_RESULT(tl_polygon_mesh_build(&f->set, &def, &f->mesh, NULL), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_check(&f->mesh, &f->set, NULL, NULL), TL_OK);
+}
+
+// Two squares side by side, with a straight corner where they meet, in triangles.
+static void build_bar(fixture *f)
+{
+    const oracle_point bar[6] = { { 0, 0 }, { 0, 4 }, { 4, 4 }, { 8, 4 }, { 8, 0 }, { 4, 0 } };
+    build(f, bar, 6, 3);
+    TEST_CHECK(f->mesh.polygon_count == 4);
+}
+
+static tl_polygon_check_report expect(fixture *f, tl_polygon_fault fault, bool with_contours)
+{
+    tl_polygon_check_report report;
+    TEST_RESULT(tl_polygon_mesh_check(&f->mesh, with_contours ? &f->set : NULL, NULL, &report), TL_ERR_CORRUPT);
+    if (report.counts[fault] == 0) {
+        fail_msg("expected '%s', got '%s'", tl_polygon_fault_text(fault), tl_polygon_fault_text(report.first_fault));
+    }
+    TEST_CHECK(report.base.element != NULL && report.base.advice != NULL);
+    tl_polygon_mesh_free(&f->mesh, NULL);
+    return report;
+}
+
+static uint32_t linked_edge(const tl_polygon_mesh *mesh)
+{
+    uint32_t k = 0;
+    while (mesh->neighbours[k] >= mesh->polygon_count) {
+        k++;
+    }
+    return k;
+}
+
+static uint32_t portal_edge(const tl_polygon_mesh *mesh)
+{
+    uint32_t k = 0;
+    while (mesh->neighbours[k] < TL_PORTAL || mesh->neighbours[k] == TL_NO_POLYGON) {
+        k++;
+    }
+    return k;
+}
+
+static void names_indices_out_of_range(void **state)
+{
+    (void)state;
+    fixture f;
+    build_bar(&f);
+    f.mesh.indices[4] = f.mesh.vertex_count;
+    expect(&f, TL_POLYGON_FAULT_RANGE, true);
+    build_bar(&f);
+    f.mesh.neighbours[4] = f.mesh.polygon_count;
+    expect(&f, TL_POLYGON_FAULT_RANGE, false);
+    build_bar(&f);
+    f.mesh.neighbours[4] = TL_PORTAL | 4u;
+    expect(&f, TL_POLYGON_FAULT_RANGE, false);
+    build_bar(&f);
+    f.mesh.first[1] = UINT32_MAX;
+    expect(&f, TL_POLYGON_FAULT_RANGE, false);
+    build_bar(&f);
+    f.mesh.first[f.mesh.polygon_count]--;
+    expect(&f, TL_POLYGON_FAULT_RANGE, false);
+    build_bar(&f);
+    f.mesh.contours[0] = 1;
+    expect(&f, TL_POLYGON_FAULT_RANGE, true);
+    build_bar(&f);
+    f.mesh.vertices[0] = INT32_MIN;
+    expect(&f, TL_POLYGON_FAULT_RANGE, false);
+}
+
+static void names_wrong_corner_counts(void **state)
+{
+    (void)state;
+    fixture f;
+    build_bar(&f);
+    f.mesh.first[1]--;
+    expect(&f, TL_POLYGON_FAULT_CORNERS, false);
+    const oracle_point square[4] = { { 0, 0 }, { 0, 4 }, { 8, 4 }, { 8, 0 } };
+    build(&f, square, 4, 4);
+    f.mesh.max_verts_per_poly = 3;
+    expect(&f, TL_POLYGON_FAULT_CORNERS, false);
+}
+
+static void names_bad_shapes(void **state)
+{
+    (void)state;
+    fixture f;
+    build_bar(&f);
+    f.mesh.indices[1] = f.mesh.indices[0];
+    expect(&f, TL_POLYGON_FAULT_REPEATED, false);
+    build_bar(&f);
+    uint32_t t = f.mesh.indices[1];
+    f.mesh.indices[1] = f.mesh.indices[2];
+    f.mesh.indices[2] = t;
+    expect(&f, TL_POLYGON_FAULT_INVERTED, false);
+    // A dent, a straight corner, and a star that turns left everywhere but goes around twice.
+    const oracle_point pentagon[5] = { { 0, 2 }, { 4, 8 }, { 8, 2 }, { 6, -4 }, { 2, -4 } };
+    build(&f, pentagon, 5, 6);
+    TEST_CHECK(f.mesh.polygon_count == 1);
+    for (uint32_t v = 0; v < 5; v++) {
+        if (f.mesh.vertices[3 * v + 2] == 8) {
+            f.mesh.vertices[3 * v + 2] = 1;
+        }
+    }
+    expect(&f, TL_POLYGON_FAULT_NOT_CONVEX, false);
+    build(&f, pentagon, 5, 6);
+    for (uint32_t v = 0; v < 5; v++) {
+        if (f.mesh.vertices[3 * v + 2] == 8) {
+            f.mesh.vertices[3 * v + 2] = 2;
+        }
+    }
+    expect(&f, TL_POLYGON_FAULT_NOT_CONVEX, false);
+    build(&f, pentagon, 5, 6);
+    uint32_t star[5];
+    for (uint32_t k = 0; k < 5; k++) {
+        star[k] = f.mesh.indices[2 * k % 5];
+    }
+    memcpy(f.mesh.indices, star, sizeof star);
+    expect(&f, TL_POLYGON_FAULT_NOT_CONVEX, false);
+}
+
+static void names_overlaps_and_t_junctions(void **state)
+{
+    (void)state;
+    fixture f;
+    build_bar(&f);
+    // One triangle on top of another.
+    memcpy(f.mesh.indices, f.mesh.indices + 3, 3 * sizeof *f.mesh.indices);
+    tl_polygon_check_report report = expect(&f, TL_POLYGON_FAULT_OVERLAP, true);
+    TEST_CHECK(report.counts[TL_POLYGON_FAULT_OUTLINE] == 1);
+    // Another contour's floor may lie over this one's.
+    build_bar(&f);
+    memcpy(f.mesh.indices, f.mesh.indices + 3, 3 * sizeof *f.mesh.indices);
+    f.mesh.contours[0] = 5;
+    tl_polygon_mesh_check(&f.mesh, NULL, NULL, &report);
+    TEST_CHECK(report.counts[TL_POLYGON_FAULT_OVERLAP] == 0);
+    tl_polygon_mesh_free(&f.mesh, NULL);
+    // In a kite the upper triangle is put over the lower one, whose own corner then lies inside the upper one's edge.
+    const oracle_point kite[4] = { { 0, 0 }, { 4, 4 }, { 8, 0 }, { 4, -4 } };
+    build(&f, kite, 4, 3);
+    TEST_CHECK(f.mesh.polygon_count == 2);
+    int32_t *vertices = f.mesh.vertices;
+    uint32_t corner[4] = { 0, 0, 0, 0 };
+    for (uint32_t v = 0; v < 4; v++) {
+        for (uint32_t k = 0; k < 4; k++) {
+            corner[k] = vertices[3 * v] == kite[k].x && vertices[3 * v + 2] == kite[k].z ? v : corner[k];
+        }
+    }
+    vertices[3 * corner[1] + 2] = 0;
+    const uint32_t big[3] = { corner[0], corner[2], corner[3] }, small[3] = { corner[0], corner[1], corner[3] };
+    memcpy(f.mesh.indices, big, sizeof big);
+    memcpy(f.mesh.indices + 3, small, sizeof small);
+    report = expect(&f, TL_POLYGON_FAULT_T_JUNCTION, false);
+    TEST_CHECK(report.counts[TL_POLYGON_FAULT_OVERLAP] == 1);
+}
+
+static void names_broken_links(void **state)
+{
+    (void)state;
+    fixture f;
+    build_bar(&f);
+    f.mesh.neighbours[linked_edge(&f.mesh)] = TL_NO_POLYGON;
+    expect(&f, TL_POLYGON_FAULT_LINK, false);
+    build_bar(&f);
+    uint32_t k = linked_edge(&f.mesh);
+    f.mesh.neighbours[k] = (f.mesh.neighbours[k] + 1) % f.mesh.polygon_count;
+    expect(&f, TL_POLYGON_FAULT_LINK, false);
+    // Both sides left out.
+    build_bar(&f);
+    k = linked_edge(&f.mesh);
+    for (uint32_t other = 0; other < f.mesh.index_count; other++) {
+        if (other / 3 == f.mesh.neighbours[k] && f.mesh.neighbours[other] == k / 3) {
+            f.mesh.neighbours[other] = TL_NO_POLYGON;
+        }
+    }
+    f.mesh.neighbours[k] = TL_NO_POLYGON;
+    expect(&f, TL_POLYGON_FAULT_LINK, false);
+    build_bar(&f);
+    k = portal_edge(&f.mesh);
+    f.mesh.neighbours[k] = TL_PORTAL | ((f.mesh.neighbours[k] + 1) & 3u);
+    expect(&f, TL_POLYGON_FAULT_PORTAL, true);
+    build_bar(&f);
+    f.set.border_size = 0;
+    expect(&f, TL_POLYGON_FAULT_PORTAL, true);
+}
+
+static void names_uncovered_floor(void **state)
+{
+    (void)state;
+    fixture f;
+    build_bar(&f);
+    // The last polygon is left out, and who linked to it does so no more.
+    uint32_t last = --f.mesh.polygon_count;
+    f.mesh.index_count = f.mesh.first[last];
+    for (uint32_t k = 0; k < f.mesh.index_count; k++) {
+        f.mesh.neighbours[k] = f.mesh.neighbours[k] == last ? TL_NO_POLYGON : f.mesh.neighbours[k];
+    }
+    TEST_RESULT(tl_polygon_mesh_check(&f.mesh, NULL, NULL, NULL), TL_OK);
+    expect(&f, TL_POLYGON_FAULT_AREA, true);
+    // Same area, another place.
+    build_bar(&f);
+    for (uint32_t v = 0; v < f.mesh.vertex_count; v++) {
+        f.mesh.vertices[3 * v] += 1;
+    }
+    f.set.border_size = 1;
+    for (uint32_t k = 0; k < f.mesh.index_count; k++) {
+        f.mesh.neighbours[k] = f.mesh.neighbours[k] >= TL_PORTAL ? TL_NO_POLYGON : f.mesh.neighbours[k];
+    }
+    expect(&f, TL_POLYGON_FAULT_OUTLINE, true);
+}
+
+static void runs_out_of_memory_cleanly(void **state)
+{
+    (void)state;
+    fixture f;
+    build_bar(&f);
+    tl_result result = TL_ERR_MEMORY;
+    uint64_t fail_at = 1;
+    for (; result == TL_ERR_MEMORY; fail_at++) {
+        test_allocator allocator;
+        test_allocator_init(&allocator, fail_at);
+        result = tl_polygon_mesh_check(&f.mesh, &f.set, &allocator.allocator, NULL);
+        TEST_CHECK(allocator.live_blocks == 0);
+    }
+    TEST_RESULT(result, TL_OK);
+    TEST_CHECK(fail_at > 2);
+    tl_polygon_mesh_free(&f.mesh, NULL);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(names_indices_out_of_range), cmocka_unit_test(names_wrong_corner_counts),
+        cmocka_unit_test(names_bad_shapes),           cmocka_unit_test(names_overlaps_and_t_junctions),
+        cmocka_unit_test(names_broken_links),         cmocka_unit_test(names_uncovered_floor),
+        cmocka_unit_test(runs_out_of_memory_cleanly),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,449 @@
+// SPDX-License-Identifier: MIT
+
+#include "io/contour_text.h"
+#include "io/file_map.h"
+#include "polygon_shapes.h"
+
+#include <talus/polygon.h>
+
+#include <dirent.h>
+#include <stdio.h>
+
+enum { MAX_POINTS = 4096 };
+
+static oracle_point points[MAX_POINTS];
+static tl_contour_vertex vertices[MAX_POINTS];
+
+static void check_good(const tl_polygon_mesh *mesh, const tl_contour_set *set)
+{
+    tl_polygon_check_report report;
+    if (tl_polygon_mesh_check(mesh, set, NULL, &report) != TL_OK) {
+        fail_msg("%s at %s %llu", tl_polygon_fault_text(report.first_fault), report.base.element,
+                 (unsigned long long)report.base.element_index);
+    }
+}
+
+static void two_contours_meet_in_links(void **state)
+{
+    (void)state;
+    const tl_contour_vertex corners[8] = { { 0, 0, 0, 0 }, { 0, 0, 4, 0 }, { 4, 1, 4, 2 }, { 4, 1, 0, 0 },
+                                           { 4, 3, 0, 0 }, { 4, 2, 4, 1 }, { 8, 0, 4, 0 }, { 8, 0, 0, 0 } };
+    const tl_contour contours[2] = { { 0, 4, 1, 10 }, { 4, 4, 2, 20 } };
+    tl_contour_set set;
+    memset(&set, 0, sizeof set);
+    set.vertices = corners;
+    set.vertex_count = 8;
+    set.contours = contours;
+    set.contour_count = 2;
+    set.bounds.min = tl_vec3_make(10.0f, 20.0f, 30.0f);
+    set.cell_size = 0.5f;
+    set.cell_height = 0.25f;
+    tl_polygon_def def = tl_default_polygon_def();
+    tl_polygon_mesh mesh;
+    tl_polygon_report report;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    check_good(&mesh, &set);
+    TEST_CHECK(mesh.polygon_count == 2 && mesh.vertex_count == 6 && mesh.index_count == 8);
+    TEST_CHECK(mesh.regions[0] == 1 && mesh.regions[1] == 2 && mesh.areas[0] == 10 && mesh.areas[1] == 20);
+    TEST_CHECK(report.link_count == 1 && report.portal_count == 0 && report.triangle_count == 4);
+    tl_vec3 v = tl_polygon_mesh_vertex(&mesh, 2);
+    TEST_CHECK(v.x == 12.0f && v.y == 20.25f && v.z == 32.0f);
+    tl_polygon_mesh_free(&mesh, NULL);
+    // Heights 1 and 3, 1 and 2 at the shared corners: an exact merge leaves both pairs apart, one unit one of them.
+    static const uint32_t heights[3] = { 0, 1, 2 }, expected_vertices[3] = { 8, 7, 6 }, expected_links[3] = { 0, 0, 1 };
+    for (uint32_t i = 0; i < 3; i++) {
+        def.merge_height = heights[i];
+        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+        check_good(&mesh, &set);
+        TEST_CHECK(mesh.vertex_count == expected_vertices[i] && report.link_count == expected_links[i]);
+        tl_polygon_mesh_free(&mesh, NULL);
+    }
+}
+
+// A tile's border runs along x == 0; regions 1 and 2 meet it in the border vertex (0, 4).
+static void border_vertices_go_where_the_border_is_straight(void **state)
+{
+    (void)state;
+    tl_contour_vertex corners[8] = {
+        { 0, 0, 0, 0 },
+        { 0, 0, 4, TL_CONTOUR_BORDER_VERTEX },
+        { 6, 0, 4, 0 },
+        { 6, 0, 0, 0 },
+        { 0, 0, 4, TL_CONTOUR_BORDER_VERTEX },
+        { 0, 0, 8, 0 },
+        { 6, 0, 8, 0 },
+        { 6, 0, 4, 0 },
+    };
+    tl_contour contours[2] = { { 0, 4, 1, 63 }, { 4, 4, 2, 63 } };
+    tl_contour_set set;
+    memset(&set, 0, sizeof set);
+    set.vertices = corners;
+    set.vertex_count = 8;
+    set.contours = contours;
+    set.contour_count = 2;
+    set.cell_size = set.cell_height = 1.0f;
+    set.width = 20;
+    set.height = 8;
+    set.border_size = 3;
+    tl_polygon_def def = tl_default_polygon_def();
+    tl_polygon_mesh mesh;
+    tl_polygon_report report;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    check_good(&mesh, &set);
+    TEST_CHECK(report.border_vertices_gone == 1 && report.border_vertices_kept == 0 && mesh.vertex_count == 5);
+    TEST_CHECK(report.portal_count == 3); // x == 0 is one edge now, z == 0 and z == 8
+    uint32_t sides[4] = { 0, 0, 0, 0 };
+    for (uint32_t k = 0; k < mesh.index_count; k++) {
+        if (mesh.neighbours[k] != TL_NO_POLYGON && mesh.neighbours[k] >= TL_PORTAL) {
+            sides[mesh.neighbours[k] & 3u]++;
+        }
+    }
+    TEST_CHECK(sides[0] == 1 && sides[1] == 1 && sides[2] == 0 && sides[3] == 1);
+    for (uint32_t p = 0; p < mesh.polygon_count; p++) {
+        TEST_CHECK(mesh.areas[p] == 63 && mesh.regions[p] == TL_SEVERAL_REGIONS &&
+                   mesh.contours[p] == TL_SEVERAL_CONTOURS);
+    }
+    tl_polygon_mesh_free(&mesh, NULL);
+    def.keep_border_vertices = true;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    check_good(&mesh, &set);
+    TEST_CHECK(mesh.vertex_count == 6 && mesh.polygon_count == 2 && report.border_vertices_kept == 0);
+    tl_polygon_mesh_free(&mesh, NULL);
+    def.keep_border_vertices = false;
+    // A border that bends there keeps its vertex, and so do regions of different areas.
+    contours[1].area = 1;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
+    tl_polygon_mesh_free(&mesh, NULL);
+    contours[1].area = 63;
+    corners[1].x = corners[4].x = 1;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    check_good(&mesh, &set);
+    TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
+    tl_polygon_mesh_free(&mesh, NULL);
+}
+
+// Many border vertices in a row, around which polygons are replaced again and again.
+static void border_vertices_go_one_after_another(void **state)
+{
+    (void)state;
+    enum { STRIPS = 12 };
+    tl_contour_vertex corners[4 * STRIPS];
+    tl_contour contours[STRIPS];
+    for (int32_t s = 0; s < STRIPS; s++) {
+        tl_contour_vertex strip[4] = {
+            { 0, 0, 4 * s, 0 }, { 0, 0, 4 * s + 4, 0 }, { 9, 0, 4 * s + 4, 0 }, { 9, 0, 4 * s, 0 }
+        };
+        strip[0].flags = s > 0 ? TL_CONTOUR_BORDER_VERTEX : 0;
+        strip[1].flags = s + 1 < STRIPS ? TL_CONTOUR_BORDER_VERTEX : 0;
+        memcpy(corners + 4 * s, strip, sizeof strip);
+        tl_contour contour = { 4 * (uint32_t)s, 4, (uint32_t)s + 1, 63 };
+        contours[s] = contour;
+    }
+    tl_contour_set set;
+    memset(&set, 0, sizeof set);
+    set.vertices = corners;
+    set.vertex_count = 4 * STRIPS;
+    set.contours = contours;
+    set.contour_count = STRIPS;
+    set.cell_size = set.cell_height = 1.0f;
+    set.width = 20;
+    set.height = 4 * STRIPS;
+    set.border_size = 3;
+    for (uint32_t cap = 3; cap <= 8; cap++) {
+        tl_polygon_def def = tl_default_polygon_def();
+        def.max_verts_per_poly = cap;
+        tl_polygon_mesh mesh;
+        tl_polygon_report report;
+        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+        check_good(&mesh, &set);
+        TEST_CHECK(report.border_vertices_gone == STRIPS - 1 && report.portal_count == 3);
+        tl_polygon_mesh_free(&mesh, NULL);
+    }
+}
+
+// Scribbles of all kinds: whatever is built passes the validator, and whatever is not as it came has a note.
+static void scribbles_give_good_meshes(void **state)
+{
+    (void)state;
+    test_random random = { 31 };
+    uint32_t plain = 0, repaired = 0, empty = 0;
+    for (uint32_t round = 0; round < 6000; round++) {
+        uint32_t n = 3 + test_random_below(&random, round % 16 == 0 ? 40 : 9);
+        shape_random_points(&random, points, n, 3u << test_random_below(&random, 10));
+        if (round % 3 == 0) {
+            shape_make_outer(points, n);
+        }
+        tl_contour contour;
+        tl_contour_set set = shape_as_set(points, n, vertices, &contour);
+        tl_polygon_def def = tl_default_polygon_def();
+        def.max_verts_per_poly = 3 + test_random_below(&random, 6);
+        tl_polygon_mesh mesh;
+        tl_polygon_report report;
+        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+        check_good(&mesh, &set);
+        TEST_CHECK(report.refused_contours == 0);
+        bool simple = oracle_is_simple(points, n) && oracle_contour_area2(points, n) > 0;
+        TEST_CHECK(simple == (mesh.note_count == 0));
+        plain += simple;
+        repaired += report.repaired_contours;
+        empty += report.empty_contours;
+        tl_polygon_mesh_free(&mesh, NULL);
+    }
+    TEST_CHECK(plain > 300 && repaired > 2000 && empty > 20);
+}
+
+static void hard_families_pass_the_validator(void **state)
+{
+    (void)state;
+    static const uint32_t caps[4] = { 0, 3, 6, 64 };
+    for (uint32_t i = 0; i < 4; i++) {
+        for (uint32_t kind = 0; kind < 4; kind++) {
+            uint32_t n = 2000;
+            if (kind == 0) {
+                shape_star(points, n, 1e8, 3e7);
+            } else if (kind == 1) {
+                shape_comb(points, n, 1000);
+            } else if (kind == 2) {
+                shape_spiral(points, n);
+            } else {
+                n = shape_holes(points, 25, 25);
+            }
+            tl_contour contour;
+            tl_contour_set set = shape_as_set(points, n, vertices, &contour);
+            tl_polygon_def def = tl_default_polygon_def();
+            def.max_verts_per_poly = caps[i];
+            tl_polygon_mesh mesh;
+            tl_polygon_report report;
+            TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+            TEST_CHECK(mesh.note_count == 0 && report.triangle_count == n - 2);
+            check_good(&mesh, &set);
+            tl_polygon_mesh_free(&mesh, NULL);
+        }
+    }
+}
+
+static void more_than_16_bits_of_everything(void **state)
+{
+    (void)state;
+    // 300 x 300 squares of four corners each: 90,000 polygons, 90,601 vertices, 179,400 links.
+    enum { ACROSS = 300 };
+    tl_contour_vertex *corners = malloc(4 * ACROSS * ACROSS * sizeof *corners);
+    tl_contour *contours = malloc(ACROSS * ACROSS * sizeof *contours);
+    for (int32_t i = 0; i < ACROSS * ACROSS; i++) {
+        int32_t x = 3 * (i % ACROSS), z = 3 * (i / ACROSS);
+        tl_contour_vertex square[4] = {
+            { x, 0, z, 0 }, { x, 0, z + 3, 0 }, { x + 3, 0, z + 3, 0 }, { x + 3, 0, z, 0 }
+        };
+        memcpy(corners + 4 * i, square, sizeof square);
+        tl_contour contour = { 4 * (uint32_t)i, 4, (uint32_t)i + 1, 63 };
+        contours[i] = contour;
+    }
+    tl_contour_set set;
+    memset(&set, 0, sizeof set);
+    set.vertices = corners;
+    set.vertex_count = 4 * ACROSS * ACROSS;
+    set.contours = contours;
+    set.contour_count = ACROSS * ACROSS;
+    set.cell_size = set.cell_height = 1.0f;
+    tl_polygon_def def = tl_default_polygon_def();
+    tl_polygon_mesh mesh;
+    tl_polygon_report report;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    check_good(&mesh, &set);
+    TEST_CHECK(mesh.polygon_count == ACROSS * ACROSS && mesh.vertex_count == (ACROSS + 1) * (ACROSS + 1));
+    TEST_CHECK(report.link_count == 2 * ACROSS * (ACROSS - 1) && report.crowded_edges == 0);
+    tl_polygon_mesh_free(&mesh, NULL);
+    free(corners);
+    free(contours);
+}
+
+static void floors_upon_each_other_are_counted(void **state)
+{
+    (void)state;
+    const tl_contour_vertex corners[4] = { { 0, 0, 0, 0 }, { 0, 0, 4, 0 }, { 4, 0, 4, 0 }, { 4, 0, 0, 0 } };
+    const tl_contour contours[2] = { { 0, 4, 1, 63 }, { 0, 4, 2, 63 } };
+    tl_contour_set set;
+    memset(&set, 0, sizeof set);
+    set.vertices = corners;
+    set.vertex_count = 4;
+    set.contours = contours;
+    set.contour_count = 2;
+    set.cell_size = set.cell_height = 1.0f;
+    tl_polygon_def def = tl_default_polygon_def();
+    tl_polygon_mesh mesh;
+    tl_polygon_report report;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_CHECK(mesh.polygon_count == 2 && report.link_count == 0 && report.crowded_edges > 0);
+    check_good(&mesh, &set);
+    tl_polygon_mesh_free(&mesh, NULL);
+}
+
+static void bad_arguments_are_named(void **state)
+{
+    (void)state;
+    const oracle_point square[4] = { { 0, 0 }, { 0, 4 }, { 4, 4 }, { 4, 0 } };
+    tl_contour contour;
+    tl_contour_set set = shape_as_set(square, 4, vertices, &contour);
+    tl_polygon_mesh mesh;
+    tl_polygon_report report;
+    tl_polygon_def def = tl_default_polygon_def();
+    def.max_verts_per_poly = 2;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_ERR_ARGUMENT);
+    def.max_verts_per_poly = 65;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_ERR_ARGUMENT);
+    TEST_CHECK(strcmp(report.base.element, "max_verts_per_poly") == 0 && report.base.advice != NULL);
+    def = tl_default_polygon_def();
+    contour.vertex_count = 5;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_ERR_INDEX);
+    contour.vertex_count = 4;
+    contour.first_vertex = UINT32_MAX;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_ERR_INDEX);
+    contour.first_vertex = 0;
+    vertices[2].y = TL_MAX_CONTOUR_COORDINATE + 1;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_ERR_RANGE);
+    TEST_CHECK(strcmp(report.base.element, "contour") == 0 && report.base.element_index == 0);
+    set.contour_count = 0;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_CHECK(mesh.polygon_count == 0 && mesh.first[0] == 0);
+    check_good(&mesh, &set);
+    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh, NULL);
+}
+
+static bool stop_at_once(const char *stage, uint64_t done, uint64_t total, void *user)
+{
+    (void)stage;
+    (void)done;
+    (void)total;
+    (void)user;
+    return false;
+}
+
+static void a_build_can_be_cancelled(void **state)
+{
+    (void)state;
+    const oracle_point square[4] = { { 0, 0 }, { 0, 4 }, { 4, 4 }, { 4, 0 } };
+    tl_contour contour;
+    tl_contour_set set = shape_as_set(square, 4, vertices, &contour);
+    tl_polygon_def def = tl_default_polygon_def();
+    tl_progress progress = { stop_at_once, NULL };
+    test_allocator allocator;
+    test_allocator_init(&allocator, 0);
+    def.host.progress = &progress;
+    def.host.allocator = &allocator.allocator;
+    tl_polygon_mesh mesh;
+    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, NULL), TL_ERR_CANCELLED);
+    TEST_CHECK(allocator.live_blocks == 0);
+}
+
+static void every_allocation_may_fail(void **state)
+{
+    (void)state;
+    // Bridges, a crossing and border vertices, large enough that each path allocates.
+    uint32_t n = shape_holes(points, 20, 20);
+    points[1].x += 5;
+    points[1].z = points[2].z + 7;
+    tl_contour contour;
+    tl_contour_set set = shape_as_set(points, n, vertices, &contour);
+    vertices[20].flags = TL_CONTOUR_BORDER_VERTEX;
+    tl_polygon_def def = tl_default_polygon_def();
+    tl_result result = TL_ERR_MEMORY;
+    uint64_t fail_at = 1;
+    for (; result == TL_ERR_MEMORY; fail_at++) {
+        test_allocator allocator;
+        test_allocator_init(&allocator, fail_at);
+        def.host.allocator = &allocator.allocator;
+        tl_polygon_mesh mesh;
+        memset(&mesh, 0, sizeof mesh);
+        result = tl_polygon_mesh_build(&set, &def, &mesh, NULL);
+        TEST_CHECK(allocator.live_blocks == (result == TL_OK ? 1 : 0));
+        TEST_CHECK(result == TL_OK || mesh.block == NULL);
+        if (result == TL_OK) {
+            check_good(&mesh, &set);
+            tl_polygon_mesh_free(&mesh, &allocator.allocator);
+            TEST_CHECK(allocator.live_blocks == 0 && allocator.live_bytes == 0);
+        }
+    }
+    TEST_RESULT(result, TL_OK);
+    TEST_CHECK(fail_at > 6);
+}
+
+// Where real contour sets are there: polygons as Recast makes them, one by one, or more right.
+static void compare_with_recast(const char *path)
+{
+    char beside[1200];
+    snprintf(beside, sizeof beside, "%.*s.recast.txt", (int)strlen(path) - 4, path);
+    tl_file_map contours_file, recast_file;
+    TEST_RESULT(tl_file_map_open(path, 0, &contours_file, NULL), TL_OK);
+    bool has_recast = tl_file_map_open(beside, 0, &recast_file, NULL) == TL_OK;
+    tl_contour_reader reader = { contours_file.bytes, contours_file.size, path, NULL, 0, 0 };
+    tl_contour_reader recast_reader = { recast_file.bytes, recast_file.size, beside, NULL, 0, 0 };
+    while (!tl_contour_reader_at_end(&reader)) {
+        tl_contour_text text;
+        TEST_RESULT(tl_contour_text_read(&reader, &text, NULL), TL_OK);
+        tl_polygon_def def = tl_default_polygon_def();
+        def.max_verts_per_poly = text.max_verts_per_poly;
+        tl_polygon_mesh mesh;
+        tl_polygon_report report;
+        TEST_RESULT(tl_polygon_mesh_build(&text.set, &def, &mesh, &report), TL_OK);
+        check_good(&mesh, &text.set);
+        if (has_recast) {
+            tl_polygon_text recast;
+            TEST_RESULT(tl_polygon_text_read(&recast_reader, &recast, NULL), TL_OK);
+            // Both are the same method with the same ties, so counts differ only where Recast's mesh has a fault or a
+            // contour needed a repair.
+            if (recast.bad_triangulations == 0 && report.repaired_contours == 0 && recast.ok &&
+                tl_polygon_mesh_check(&recast.mesh, NULL, NULL, NULL) == TL_OK) {
+                TEST_CHECK(mesh.polygon_count == recast.mesh.polygon_count);
+            }
+            tl_polygon_text_free(&recast);
+        }
+        tl_polygon_mesh_free(&mesh, NULL);
+        tl_contour_text_free(&text);
+    }
+    tl_file_map_close(&contours_file);
+    if (has_recast) {
+        tl_file_map_close(&recast_file);
+    }
+}
+
+static void equals_recast_on_real_contours(void **state)
+{
+    (void)state;
+    DIR *folder = opendir(TALUS_DATA_DIR "/contours");
+    if (folder == NULL) {
+        skip();
+    }
+    uint32_t compared = 0;
+    for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
+        size_t length = strlen(entry->d_name);
+        if (length > 4 && strcmp(entry->d_name + length - 4, ".txt") == 0 && strstr(entry->d_name, ".recast") == NULL &&
+            strstr(entry->d_name, "critterai") == NULL) {
+            char path[1024];
+            snprintf(path, sizeof path, "%s/contours/%.500s", TALUS_DATA_DIR, entry->d_name);
+            compare_with_recast(path);
+            compared++;
+        }
+    }
+    closedir(folder);
+    TEST_CHECK(compared > 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(two_contours_meet_in_links),
+        cmocka_unit_test(border_vertices_go_where_the_border_is_straight),
+        cmocka_unit_test(border_vertices_go_one_after_another),
+        cmocka_unit_test(scribbles_give_good_meshes),
+        cmocka_unit_test(hard_families_pass_the_validator),
+        cmocka_unit_test(more_than_16_bits_of_everything),
+        cmocka_unit_test(floors_upon_each_other_are_counted),
+        cmocka_unit_test(bad_arguments_are_named),
+        cmocka_unit_test(a_build_can_be_cancelled),
+        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(equals_recast_on_real_contours),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
