@@ -164,7 +164,7 @@ static void refuses_a_scribble_beyond_measure(void **state)
     enum { CHORDS = 2501 };
     oracle_point p[CHORDS];
     for (uint32_t i = 0; i < CHORDS; i++) {
-        double angle = 6.283185307179586 * (i * 1250ull % CHORDS) / CHORDS;
+        double angle = 6.283185307179586 * (double)(i * 1250u % CHORDS) / CHORDS;
         p[i].x = (int64_t)floor(1e8 * cos(angle) + 0.5);
         p[i].z = (int64_t)floor(1e8 * sin(angle) + 0.5);
     }

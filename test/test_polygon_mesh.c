@@ -167,7 +167,7 @@ static void scribbles_give_good_meshes(void **state)
 {
     (void)state;
     test_random random = { 31 };
-    uint32_t plain = 0, repaired = 0, empty = 0;
+    uint32_t plain = 0, touched = 0, repaired = 0, empty = 0;
     for (uint32_t round = 0; round < 6000; round++) {
         uint32_t n = 3 + test_random_below(&random, round % 16 == 0 ? 40 : 9);
         shape_random_points(&random, points, n, 3u << test_random_below(&random, 10));
@@ -184,13 +184,15 @@ static void scribbles_give_good_meshes(void **state)
         check_good(&mesh, &set);
         TEST_CHECK(report.refused_contours == 0);
         bool simple = oracle_is_simple(points, n) && oracle_contour_area2(points, n) > 0;
-        TEST_CHECK(simple == (mesh.note_count == 0));
+        // A hole that touches the outline in a vertex is no fault either.
+        TEST_CHECK(mesh.note_count == 0 || !simple);
+        touched += mesh.note_count == 0 && !simple;
         plain += simple;
         repaired += report.repaired_contours;
         empty += report.empty_contours;
         tl_polygon_mesh_free(&mesh, NULL);
     }
-    TEST_CHECK(plain > 300 && repaired > 2000 && empty > 20);
+    TEST_CHECK(plain > 300 && touched > 0 && repaired > 2000 && empty > 20);
 }
 
 static void hard_families_pass_the_validator(void **state)

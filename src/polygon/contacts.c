@@ -86,8 +86,8 @@ static tl_result add_node(splitter *s, tl_lattice_point point, int32_t height)
     return TL_OK;
 }
 
-// round(distance * numerator / denominator), by binary long multiplication and division. numerator < denominator <=
-// 2^62, so twice the remainder and a numerator stay below 2^64.
+// floor(distance * numerator / denominator + 1/2), by binary long multiplication and division. numerator < denominator
+// <= 2^62, so twice the remainder and a numerator stay below 2^64.
 static int32_t scale_rounded(int64_t distance, uint64_t numerator, uint64_t denominator)
 {
     uint64_t length = (uint64_t)(distance < 0 ? -distance : distance);
@@ -101,7 +101,7 @@ static int32_t scale_rounded(int64_t distance, uint64_t numerator, uint64_t deno
             quotient++;
         }
     }
-    quotient += 2 * remainder >= denominator;
+    quotient += distance < 0 ? 2 * remainder > denominator : 2 * remainder >= denominator;
     return distance < 0 ? -(int32_t)quotient : (int32_t)quotient;
 }
 
@@ -231,9 +231,24 @@ static tl_result unite_new_nodes(splitter *s)
     return TL_OK;
 }
 
-// Draws every segment through the nodes whose closed unit square it meets. A node's square is met when the node lies in
-// the segment's box and its turn, doubled area that is, is at most (|dx| + |dz|) / 2: the square's farthest corners lie
-// so far from its centre.
+// Whether a segment meets the unit square around a node, without its sides of larger x and z. The node lies in
+// the segment's box; then the line must not leave all corners on one side. With d = b - a and the turn t of the node,
+// corner (u, v) / 2 from the node has the turn (2t + u dz - v dx) / 2, u and v being -1 or a shade less than 1.
+static bool meets_square(tl_lattice_point a, tl_lattice_point b, tl_lattice_point node)
+{
+    if (!tl_within_span(a, b, node)) {
+        return false;
+    }
+    int64_t dx = (int64_t)b.x - a.x;
+    int64_t dz = (int64_t)b.z - a.z;
+    int64_t reach = (dx < 0 ? -dx : dx) + (dz < 0 ? -dz : dz);
+    int64_t twice = 2 * tl_turn(a, b, node);
+    bool not_all_right = dz > 0 || dx < 0 ? twice + reach > 0 : twice + reach >= 0;
+    bool not_all_left = dz < 0 || dx > 0 ? twice - reach < 0 : twice - reach <= 0;
+    return not_all_right && not_all_left;
+}
+
+// Draws every segment through the nodes whose square it meets.
 static tl_result snap_segments(splitter *s)
 {
     const tl_outline_nodes *nodes = s->nodes;
@@ -251,8 +266,6 @@ static tl_result snap_segments(splitter *s)
         segment e = s->segments[i];
         tl_lattice_point a = nodes->points[e.a];
         tl_lattice_point b = nodes->points[e.b];
-        int64_t dx = (int64_t)b.x - a.x, dz = (int64_t)b.z - a.z;
-        int64_t reach = (dx < 0 ? -dx : dx) + (dz < 0 ? -dz : dz);
         uint64_t low = sort_key(a.x < b.x ? a.x : b.x), high = sort_key(a.x < b.x ? b.x : a.x);
         uint32_t first = 0;
         for (uint32_t rest = nodes->count; rest > 0;) {
@@ -263,9 +276,7 @@ static tl_result snap_segments(splitter *s)
         }
         for (; first < nodes->count && order[first].key <= high; first++) {
             uint32_t node = order[first].value;
-            int64_t turn = tl_turn(a, b, nodes->points[node]);
-            if (node != e.a && node != e.b && 2 * (turn < 0 ? -turn : turn) <= reach &&
-                tl_within_span(a, b, nodes->points[node])) {
+            if (node != e.a && node != e.b && meets_square(a, b, nodes->points[node])) {
                 TL_TRY(add_split(s, i, node));
             }
         }
