@@ -6,7 +6,8 @@
 
 // clang-format off
 #define COMMANDS(COMMAND) \
-    COMMAND(sample)
+    COMMAND(sample) \
+    COMMAND(polygonize)
 // clang-format on
 
 #define DECLARE(name) extern const tl_command tl_##name##_command;
