@@ -123,7 +123,14 @@ static bool sniff_obj(const char *bytes, size_t size)
     return false;
 }
 
-static tl_result read_mesh(const char *path, const tl_file_map *map, const tl_import_options *options,
+bool tl_import_is_mesh_name(const char *path)
+{
+    char extension[EXTENSION_BYTES];
+    find_extension(path, extension);
+    return strcmp(extension, ".obj") == 0 || (extension[0] != '\0' && tl_assimp_knows(extension));
+}
+
+static tl_result read_mesh(const void *bytes, size_t size, const char *path, const tl_import_options *options,
                            tl_imported_mesh *mesh, tl_io_error *error)
 {
     const tl_host *host = &options->host;
@@ -132,79 +139,88 @@ static tl_result read_mesh(const char *path, const tl_file_map *map, const tl_im
     const char *name = stream ? "standard input" : path;
     char extension[EXTENSION_BYTES];
     find_extension(path, extension);
-    if (map->size == 0) {
+    if (size == 0) {
         return tl_io_fail(error, TL_ERR_EMPTY, name, 0, "export the level again", "the file is empty");
     }
-    const char *other = sniff_other(map->bytes, map->size);
+    const char *other = sniff_other(bytes, size);
     bool named_obj = strcmp(extension, ".obj") == 0;
     if (named_obj && other == NULL) {
-        return tl_obj_read(map->bytes, map->size, name, allow, host, mesh, error);
+        return tl_obj_read(bytes, size, name, allow, host, mesh, error);
     }
-    if (!named_obj && !stream && extension[0] != '\0' && tl_assimp_knows(extension)) {
-        return tl_assimp_read(path, NULL, map->size, NULL, allow, host, mesh, error);
+    if (!named_obj && !stream && tl_import_is_mesh_name(path)) {
+        return tl_assimp_read(path, NULL, size, NULL, allow, host, mesh, error);
     }
     if (other != NULL) {
-        return tl_assimp_read(name, map->bytes, map->size, other, allow, host, mesh, error);
+        return tl_assimp_read(name, bytes, size, other, allow, host, mesh, error);
     }
-    if (sniff_obj(map->bytes, map->size)) {
-        return tl_obj_read(map->bytes, map->size, name, allow, host, mesh, error);
+    if (sniff_obj(bytes, size)) {
+        return tl_obj_read(bytes, size, name, allow, host, mesh, error);
     }
     return tl_io_fail(error, TL_ERR_UNSUPPORTED, name, 0, known_kinds, "neither its name nor its content is a mesh's");
 }
 
-static tl_result place(tl_imported_mesh *mesh, const tl_import_options *options, const char *path, tl_io_error *error)
+tl_result tl_import_place_vertices(const tl_import_options *options, const char *path, tl_vec3 *vertices,
+                                   uint32_t count, tl_io_error *error_out)
 {
     float scale = options->unit_scale;
-    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
-        tl_vec3 vertex = mesh->vertices[i];
+    if (options->up_axis == TL_UP_Y && scale == 1.0f) {
+        return TL_OK;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        tl_vec3 vertex = vertices[i];
         if (options->up_axis == TL_UP_Z) {
             vertex = tl_vec3_make(vertex.x, vertex.z, 0.0f - vertex.y); // no -0 from a 0
         }
         vertex = tl_scale(vertex, scale);
         if (!tl_is_finite(vertex)) {
-            tl_io_fail(error, TL_ERR_RANGE, path, 0, "check the unit scale",
+            tl_io_fail(error_out, TL_ERR_RANGE, path, 0, "check the unit scale",
                        "vertex %u times the unit scale is beyond the largest float", (unsigned)i);
-            return tl_io_blame(error, TL_ERR_RANGE, "vertex", i);
+            return tl_io_blame(error_out, TL_ERR_RANGE, "vertex", i);
         }
-        mesh->vertices[i] = vertex;
+        vertices[i] = vertex;
     }
     return TL_OK;
 }
 
-static tl_result check_options(const tl_import_options *options, const char *path, tl_io_error *error)
+tl_result tl_import_options_check(const tl_import_options *options, const char *path, tl_io_error *error_out)
 {
     if (!(options->unit_scale > 0.0f && isfinite(options->unit_scale))) {
-        return tl_io_fail(error, TL_ERR_ARGUMENT, path, 0, "give metres a file unit, such as 0.01 for centimetres",
+        return tl_io_fail(error_out, TL_ERR_ARGUMENT, path, 0, "give metres a file unit, such as 0.01 for centimetres",
                           "the unit scale is not a positive number");
     }
     if (options->up_axis != TL_UP_Y && options->up_axis != TL_UP_Z) {
-        return tl_io_fail(error, TL_ERR_ARGUMENT, path, 0, "y or z", "the up axis is not known");
+        return tl_io_fail(error_out, TL_ERR_ARGUMENT, path, 0, "y or z", "the up axis is not known");
     }
     return TL_OK;
+}
+
+tl_result tl_import_mesh_bytes(const void *bytes, size_t size, const char *path, const tl_import_options *options,
+                               tl_imported_mesh *mesh_out, tl_io_error *error_out)
+{
+    tl_import_options used = options != NULL ? *options : tl_default_import_options();
+    memset(mesh_out, 0, sizeof *mesh_out);
+    tl_result result = tl_import_options_check(&used, path, error_out);
+    if (result == TL_OK) {
+        result = read_mesh(bytes, size, path, &used, mesh_out, error_out);
+    }
+    if (result == TL_OK) {
+        result = tl_import_place_vertices(&used, path, mesh_out->vertices, mesh_out->vertex_count, error_out);
+    }
+    if (result != TL_OK) {
+        tl_imported_mesh_free(mesh_out);
+    }
+    return result;
 }
 
 tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_imported_mesh *mesh_out,
                          tl_io_error *error_out)
 {
-    tl_import_options used = options != NULL ? *options : tl_default_import_options();
     memset(mesh_out, 0, sizeof *mesh_out);
-    tl_result result = check_options(&used, path, error_out);
-    if (result != TL_OK) {
-        return result;
-    }
     tl_file_map map;
-    result = tl_file_map_open(path, used.max_file_bytes, &map, error_out);
-    if (result != TL_OK) {
-        return result;
-    }
-    result = read_mesh(path, &map, &used, mesh_out, error_out);
-    tl_file_map_close(&map);
-    bool as_it_is = used.up_axis == TL_UP_Y && used.unit_scale == 1.0f;
-    if (result == TL_OK && !as_it_is) {
-        result = place(mesh_out, &used, path, error_out);
-    }
-    if (result != TL_OK) {
-        tl_imported_mesh_free(mesh_out);
+    tl_result result = tl_file_map_open(path, options != NULL ? options->max_file_bytes : 0, &map, error_out);
+    if (result == TL_OK) {
+        result = tl_import_mesh_bytes(map.bytes, map.size, path, options, mesh_out, error_out);
+        tl_file_map_close(&map);
     }
     return result;
 }

@@ -46,6 +46,19 @@ tl_import_options tl_default_import_options(void);
 tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_imported_mesh *mesh_out,
                          tl_io_error *error_out);
 
+/// The same of a file that is in memory already. `path` names it, and is where files beside it are looked for; "-" is
+/// standard input, of which nothing more is read.
+tl_result tl_import_mesh_bytes(const void *bytes, size_t size, const char *path, const tl_import_options *options,
+                               tl_imported_mesh *mesh_out, tl_io_error *error_out);
+
+/// For readers of other kinds: checks the options' values, and turns and scales vertices as they say.
+tl_result tl_import_options_check(const tl_import_options *options, const char *path, tl_io_error *error_out);
+tl_result tl_import_place_vertices(const tl_import_options *options, const char *path, tl_vec3 *vertices,
+                                   uint32_t count, tl_io_error *error_out);
+
+/// For readers of other kinds: whether the path's extension names a kind of mesh file.
+bool tl_import_is_mesh_name(const char *path);
+
 #ifdef __cplusplus
 }
 #endif
