@@ -172,6 +172,15 @@ tl_exit tl_cli_fail_io(tl_cli *cli, const tl_io_error *error)
                        error->advice != NULL ? error->advice : "");
 }
 
+// A def's field is set by the option of the same name: cell_size by --cell-size.
+static void name_option(const char *field, char *text, size_t capacity)
+{
+    snprintf(text, capacity, "--%s: ", field);
+    for (char *c = text; *c != '\0'; ++c) {
+        *c = *c == '_' ? '-' : *c;
+    }
+}
+
 tl_exit tl_cli_fail_result(tl_cli *cli, const char *path, tl_result result, const tl_report *report)
 {
     if (result == TL_ERR_CANCELLED) {
@@ -179,7 +188,9 @@ tl_exit tl_cli_fail_result(tl_cli *cli, const char *path, tl_result result, cons
     }
     char place[128] = "";
     const char *advice = report != NULL ? report->advice : NULL;
-    if (report != NULL && report->element != NULL && report->element_index != TL_NO_ELEMENT) {
+    if (report != NULL && report->element != NULL && result == TL_ERR_ARGUMENT) {
+        name_option(report->element, place, sizeof(place));
+    } else if (report != NULL && report->element != NULL && report->element_index != TL_NO_ELEMENT) {
         snprintf(place, sizeof(place), "%s %llu: ", report->element, (unsigned long long)report->element_index);
     } else if (report != NULL && report->element != NULL) {
         snprintf(place, sizeof(place), "%s: ", report->element);

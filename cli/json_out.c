@@ -38,7 +38,7 @@ json_t *tl_json_point(tl_vec3 point)
 
 json_t *tl_json_bounds(tl_aabb bounds)
 {
-    return json_pack("{soso}", "min", tl_json_point(bounds.min), "max", tl_json_point(bounds.max));
+    return json_pack("{so so}", "min", tl_json_point(bounds.min), "max", tl_json_point(bounds.max));
 }
 
 static int print(json_t *object, size_t flags)

@@ -104,7 +104,7 @@ static int flatten(const tl_option_group *groups, const tl_option **flat, struct
 
 static const char *skip_marker(const char *value)
 {
-    return value[0] == ' ' ? value + 1 : value;
+    return value[0] == ' ' && is_negative_number(value + 1) ? value + 1 : value;
 }
 
 static bool refuse(tl_arguments *arguments, const tl_option *option, const char *value, const char *reason)
@@ -131,7 +131,7 @@ static bool set_float(tl_arguments *arguments, const tl_option *option, const ch
 
 static bool set_count(tl_arguments *arguments, const tl_option *option, const char *value)
 {
-    uint32_t most = option->most != 0 ? option->most : UINT32_MAX;
+    uint32_t most = option->most != 0 ? option->most : UINT32_MAX - 1;
     uint64_t number = 0;
     const char *reason = tl_parse_count_value(value, most, &number);
     if (reason == NULL && number < option->least) {
@@ -174,6 +174,7 @@ static bool set_value(tl_arguments *arguments, const tl_option *option, const ch
     case TL_OPTION_FLOAT:
         return set_float(arguments, option, value);
     case TL_OPTION_COUNT:
+    case TL_OPTION_NEEDED_COUNT:
         return set_count(arguments, option, value);
     case TL_OPTION_NUMBER:
         reason = tl_parse_count_value(value, UINT64_MAX, &number);
@@ -185,7 +186,7 @@ static bool set_value(tl_arguments *arguments, const tl_option *option, const ch
     case TL_OPTION_CHOICE:
         return set_choice(arguments, option, value);
     default:
-        *(const char **)option->target = value;
+        *(const char **)option->target = skip_marker(value);
         return true;
     }
 }

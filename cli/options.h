@@ -12,10 +12,11 @@ typedef enum tl_option_kind {
     TL_OPTION_FLAG,   ///< bool, set to true
     TL_OPTION_UNFLAG, ///< bool, set to false
     TL_OPTION_FLOAT,
-    TL_OPTION_COUNT,  ///< uint32_t
-    TL_OPTION_NUMBER, ///< uint64_t
-    TL_OPTION_TEXT,   ///< const char *; points into the command line
-    TL_OPTION_CHOICE  ///< int; the index of the word in `words`
+    TL_OPTION_COUNT,        ///< uint32_t
+    TL_OPTION_NEEDED_COUNT, ///< uint32_t without a default: UINT32_MAX when it is not given
+    TL_OPTION_NUMBER,       ///< uint64_t
+    TL_OPTION_TEXT,         ///< const char *; points into the command line
+    TL_OPTION_CHOICE        ///< int; the index of the word in `words`
 } tl_option_kind;
 
 /// One option. The target's value before parsing is the default that the help shows.

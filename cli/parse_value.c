@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// strtof in the C locale does the reading (the program never calls setlocale); what it would let pass and nobody means
-// - nan, inf, 0x1p3 - is refused here, by name.
+// The io library reads the digits, correctly rounded and without a locale; what people write instead of numbers - nan,
+// inf, 0x1p3 - is refused here, by name.
 
 #include "parse_value.h"
+
+#include "io/parse_float.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static const char not_finite[] = "is not finite";
 static const char not_a_number[] = "is not a number";
@@ -26,43 +29,38 @@ static const char *skip_blanks(const char *text)
     return text;
 }
 
-// One number at `text`; `*end_out` is behind it.
-static const char *read_float(const char *text, float *value_out, const char **end_out)
+// One number at `text`; `*text` is moved behind it.
+static const char *read_float(const char **text, const char *end, float *value_out)
 {
-    const char *digits = text + (*text == '+' || *text == '-');
-    *end_out = text;
-    if (*digits == 'n' || *digits == 'N' || *digits == 'i' || *digits == 'I') {
-        char *end;
-        (void)strtof(text, &end);
-        return end != text ? not_finite : not_a_number;
+    const char *word = *text;
+    const char *letter = word + (word < end && (*word == '+' || *word == '-'));
+    if (end - letter >= 3 && (strncasecmp(letter, "nan", 3) == 0 || strncasecmp(letter, "inf", 3) == 0)) {
+        return not_finite;
     }
-    bool starts = (*digits >= '0' && *digits <= '9') || *digits == '.';
-    if (!starts || (digits[0] == '0' && (digits[1] == 'x' || digits[1] == 'X'))) {
-        return not_a_number;
-    }
-    char *end;
-    float value = strtof(text, &end);
-    if (end == text) {
+    float value = 0.0f;
+    const char *behind = tl_parse_float(word, end, &value);
+    if (behind == NULL) {
         return not_a_number;
     }
     if (!isfinite(value)) {
         return too_large;
     }
     *value_out = value;
-    *end_out = end;
+    *text = behind;
     return NULL;
 }
 
 const char *tl_parse_float_list(const char *text, float *values_out, uint32_t least, uint32_t count,
                                 uint32_t *count_out)
 {
+    const char *end = text + strlen(text);
     uint32_t found = 0;
     for (;;) {
         if (found == count) {
             return "has too many numbers";
         }
         text = skip_blanks(text);
-        const char *reason = read_float(text, &values_out[found], &text);
+        const char *reason = read_float(&text, end, &values_out[found]);
         if (reason != NULL) {
             return reason;
         }
@@ -126,6 +124,7 @@ const char *tl_parse_count_value(const char *text, uint64_t max, uint64_t *value
 const char *tl_parse_float_words(const char *line, float *values_out, uint32_t capacity, uint32_t *count_out,
                                  const char **bad_out)
 {
+    const char *end = line + strlen(line);
     uint32_t count = 0;
     for (;;) {
         while (is_blank(*line) || *line == ',' || *line == '\r') {
@@ -135,20 +134,19 @@ const char *tl_parse_float_words(const char *line, float *values_out, uint32_t c
             *count_out = count;
             return NULL;
         }
+        const char *word = line;
         float value = 0.0f;
-        const char *end;
-        const char *reason = read_float(line, &value, &end);
-        if (reason == NULL && *end != '\0' && *end != ',' && *end != '\r' && !is_blank(*end)) {
+        const char *reason = read_float(&line, end, &value);
+        if (reason == NULL && *line != '\0' && *line != ',' && *line != '\r' && !is_blank(*line)) {
             reason = not_a_number;
         }
         if (reason != NULL) {
-            *bad_out = line;
+            *bad_out = word;
             return reason;
         }
         if (count < capacity) {
             values_out[count] = value;
         }
         count++;
-        line = end;
     }
 }

@@ -18,7 +18,7 @@ static tl_exit list_levels(tl_cli *cli)
         json_t *array = json_array();
         for (uint32_t i = 0; i < count; ++i) {
             json_array_append_new(array,
-                                  json_pack("{sssssi}", "name", levels[i].name, "description", levels[i].description,
+                                  json_pack("{ss ss si}", "name", levels[i].name, "description", levels[i].description,
                                             "triangles", (int)levels[i].default_triangles));
         }
         return tl_json_print(array) ? TL_EXIT_OK : TL_EXIT_MEMORY;
@@ -42,9 +42,9 @@ static tl_exit report(tl_cli *cli, const char *name, const char *output, const t
 {
     tl_aabb bounds = bounds_of(mesh);
     if (cli->json) {
-        json_t *object =
-            json_pack("{sssssIsIso}", "level", name, "output", output, "triangles", (json_int_t)mesh->triangle_count,
-                      "vertices", (json_int_t)mesh->vertex_count, "bounds", tl_json_bounds(bounds));
+        json_t *object = json_pack("{ss ss sI sI so}", "level", name, "output", output, "triangles",
+                                   (json_int_t)mesh->triangle_count, "vertices", (json_int_t)mesh->vertex_count,
+                                   "bounds", tl_json_bounds(bounds));
         return tl_json_print(object) ? TL_EXIT_OK : TL_EXIT_MEMORY;
     }
     tl_vec3 size = tl_aabb_size(bounds);

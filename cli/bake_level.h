@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// Baking: a level to soup, hull and navmesh, in memory; with one option a field of the defs.
+
+#ifndef TALUS_CLI_BAKE_LEVEL_H
+#define TALUS_CLI_BAKE_LEVEL_H
+
+#include "load_level.h"
+
+#include <talus/hull.h>
+#include <talus/nav_build.h>
+#include <talus/nav_query.h>
+#include <talus/soup.h>
+
+/// What to bake, and how.
+typedef struct tl_bake_settings {
+    tl_level_settings level;
+    bool soup, nav, hull;
+    tl_nav_def nav_def; ///< the host is set when baking
+    int partition;      ///< a tl_nav_partition
+    const char *bounds; ///< "x,y,z,x,y,z", or NULL: the level's own
+} tl_bake_settings;
+
+enum { TL_NAV_OPTIONS = 20, TL_PART_OPTIONS = 4 };
+
+/// Soup and navmesh, no hull; Recast's defaults.
+tl_bake_settings tl_default_bake_settings(void);
+/// Options for the navmesh's def, named as its fields.
+void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS]);
+/// Reads the text of --bounds into the def. False: it was refused.
+bool tl_bake_take_bounds(tl_cli *cli, tl_bake_settings *settings, tl_exit *exit_out);
+/// Options for which parts are baked.
+void tl_part_options(tl_bake_settings *settings, tl_option table[TL_PART_OPTIONS]);
+
+/// What came out. Parts that were not asked for are NULL or zero.
+typedef struct tl_bake {
+    tl_soup *soup;
+    tl_soup_report soup_report;
+    tl_hull *hull;
+    tl_result hull_result; ///< not TL_OK: the level has no hull (flat), and why
+    tl_nav_tiles tiles;
+    tl_nav_def nav_def; ///< as it was used
+    tl_nav_build_report nav_report;
+    bool walkable;      ///< there is at least one navmesh polygon
+    tl_aabb nav_bounds; ///< what the navmesh was built over
+    double nav_area;    ///< square metres in the plane
+} tl_bake;
+
+/// False: the failure was reported, and `*exit_out` says how to end. Free with tl_bake_free, also then.
+/// A level of which nothing is walkable is no failure: `walkable` is false.
+bool tl_bake_level(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake_out,
+                   tl_exit *exit_out);
+void tl_bake_free(tl_bake *bake);
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// Text in the making: answers of a batch, built on several threads and printed in order.
+
+#ifndef TALUS_CLI_TEXT_BUFFER_H
+#define TALUS_CLI_TEXT_BUFFER_H
+
+#include <talus/vec.h>
+
+#include <stddef.h>
+
+/// Zero is an empty text. When memory is out `failed` is set and the text stays as it is.
+typedef struct tl_text {
+    char *bytes; ///< not terminated
+    size_t size, capacity;
+    bool failed;
+} tl_text;
+
+void tl_text_free(tl_text *text);
+void tl_text_add(tl_text *text, const char *words);
+/// The fewest digits that read back as the same float.
+void tl_text_add_float(tl_text *text, float value);
+void tl_text_add_count(tl_text *text, uint64_t value);
+/// Three floats with a separator between.
+void tl_text_add_point(tl_text *text, tl_vec3 point, char separator);
+/// The same as JSON: a number, or null when it is not finite.
+void tl_text_add_json_float(tl_text *text, float value);
+void tl_text_add_json_point(tl_text *text, tl_vec3 point);
+
+#endif
