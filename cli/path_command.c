@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+//
+// talus path: the way from one point to another, one pair or many.
+
+#include "batch.h"
+#include "json_out.h"
+#include "open_input.h"
+#include "parse_value.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct path_settings {
+    tl_bake_settings bake;
+    const char *pairs;
+    const char *extents_text;
+    tl_vec3 extents;
+    bool partial;
+    bool json;
+} path_settings;
+
+// What one worker searches with. Buffers grow when a route needs more.
+typedef struct searcher {
+    tl_nav_query *query;
+    tl_nav_route_buffers buffers;
+} searcher;
+
+typedef struct path_queries {
+    const tl_navmesh *navmesh;
+    const path_settings *settings;
+    searcher *searchers; // one a worker
+    uint32_t searcher_count;
+} path_queries;
+
+enum { FIRST_CAPACITY = 1024 };
+
+static bool grow(searcher *s, uint32_t polygons, uint32_t corners)
+{
+    if (polygons > s->buffers.polygon_capacity) {
+        tl_nav_ref *moved = realloc(s->buffers.polygons, polygons * sizeof(*moved));
+        if (moved == NULL) {
+            return false;
+        }
+        s->buffers.polygons = moved;
+        s->buffers.polygon_capacity = polygons;
+    }
+    if (corners > s->buffers.corner_capacity) {
+        tl_nav_corner *moved = realloc(s->buffers.corners, corners * sizeof(*moved));
+        if (moved == NULL) {
+            return false;
+        }
+        s->buffers.corners = moved;
+        s->buffers.corner_capacity = corners;
+    }
+    return true;
+}
+
+// A route's corners may outnumber its polygons by the two ends; a second growth happens when only the first count was
+// known.
+static tl_result find_route(const path_queries *queries, searcher *s, const float *n, tl_nav_route *route)
+{
+    tl_vec3 start = tl_vec3_make(n[0], n[1], n[2]);
+    tl_vec3 goal = tl_vec3_make(n[3], n[4], n[5]);
+    tl_result result = TL_ERR_CAPACITY;
+    for (unsigned trial = 0; trial < 3 && result == TL_ERR_CAPACITY; ++trial) {
+        memset(route, 0, sizeof(*route));
+        result = tl_nav_query_find_route(s->query, queries->navmesh, NULL, start, goal, queries->settings->extents,
+                                         &s->buffers, route);
+        if (result == TL_ERR_CAPACITY && !grow(s, route->path.polygon_count, route->corner_count + 2)) {
+            return TL_ERR_MEMORY;
+        }
+    }
+    return result;
+}
+
+static void write_corners(tl_text *text, const searcher *s, const tl_nav_route *route, bool json)
+{
+    for (uint32_t i = 0; i < route->corner_count; ++i) {
+        if (json) {
+            tl_text_add(text, i > 0 ? "," : "");
+            tl_text_add_json_point(text, s->buffers.corners[i].point);
+        } else {
+            tl_text_add(text, " ");
+            tl_text_add_point(text, s->buffers.corners[i].point, ',');
+        }
+    }
+}
+
+static void write_json_route(tl_text *text, const searcher *s, const tl_nav_route *route, tl_result result)
+{
+    if (result == TL_ERR_NOT_FOUND) {
+        bool start = route->start.polygon == TL_NAV_NO_REF;
+        tl_text_add(text, start ? "{\"status\":\"no navmesh at start\"}\n" : "{\"status\":\"no navmesh at goal\"}\n");
+        return;
+    }
+    tl_text_add(text, "{\"status\":\"");
+    tl_text_add(text, tl_nav_path_status_name(route->path.status));
+    tl_text_add(text, "\",\"length\":");
+    tl_text_add_json_float(text, route->length);
+    tl_text_add(text, ",\"polygons\":");
+    tl_text_add_count(text, route->path.polygon_count);
+    tl_text_add(text, ",\"corners\":[");
+    write_corners(text, s, route, true);
+    tl_text_add(text, "]}\n");
+}
+
+static void write_route(tl_text *text, const searcher *s, const tl_nav_route *route, tl_result result, bool partial)
+{
+    if (result == TL_ERR_NOT_FOUND) {
+        bool start = route->start.polygon == TL_NAV_NO_REF;
+        tl_text_add(text, start ? "none: no navmesh at the start\n" : "none: no navmesh at the goal\n");
+        return;
+    }
+    bool complete = route->path.status == TL_NAV_PATH_COMPLETE;
+    if (complete || partial) {
+        tl_text_add(text, complete ? "" : "partial ");
+        tl_text_add_float(text, route->length);
+        write_corners(text, s, route, false);
+    } else {
+        tl_vec3 end = s->buffers.corners[route->corner_count - 1].point;
+        tl_text_add(text, "none: ");
+        tl_text_add(text, tl_nav_path_status_name(route->path.status));
+        tl_text_add(text, ", ends ");
+        tl_text_add_float(text, tl_distance(end, route->goal.point));
+        tl_text_add(text, " m short at ");
+        tl_text_add_point(text, end, ',');
+    }
+    tl_text_add(text, "\n");
+}
+
+// Returns whether the goal is reached.
+static bool answer_pair(const path_queries *queries, searcher *s, const float *numbers, tl_text *text)
+{
+    tl_nav_route route;
+    tl_result result = find_route(queries, s, numbers, &route);
+    if (result != TL_OK && result != TL_ERR_NOT_FOUND) {
+        bool json = queries->settings->json;
+        text->failed = text->failed || result == TL_ERR_MEMORY;
+        tl_text_add(text, json ? "{\"status\":\"" : "none: ");
+        tl_text_add(text, tl_result_text(result));
+        tl_text_add(text, json ? "\"}\n" : "\n");
+        return false;
+    }
+    if (queries->settings->json) {
+        write_json_route(text, s, &route, result);
+    } else {
+        write_route(text, s, &route, result, queries->settings->partial);
+    }
+    return result == TL_OK && route.path.status == TL_NAV_PATH_COMPLETE;
+}
+
+static void answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
+{
+    const path_queries *queries = user;
+    (void)count;
+    answer_pair(queries, &queries->searchers[worker], numbers, text);
+}
+
+static void free_searchers(path_queries *queries)
+{
+    for (uint32_t i = 0; i < queries->searcher_count; ++i) {
+        tl_nav_query_free(queries->searchers[i].query);
+        free(queries->searchers[i].buffers.polygons);
+        free(queries->searchers[i].buffers.corners);
+    }
+    free(queries->searchers);
+}
+
+// Nodes for every link there is, so that no search gives up.
+static bool make_searchers(path_queries *queries, uint32_t count)
+{
+    tl_nav_query_def def = tl_default_nav_query_def();
+    uint64_t nodes = tl_navmesh_link_count(queries->navmesh) + 2;
+    def.max_nodes = nodes < UINT32_MAX ? (uint32_t)nodes : UINT32_MAX;
+    queries->searchers = calloc(count, sizeof(*queries->searchers));
+    if (queries->searchers == NULL) {
+        return false;
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        queries->searcher_count = i + 1;
+        searcher *s = &queries->searchers[i];
+        if (tl_nav_query_create(&def, &s->query) != TL_OK || !grow(s, FIRST_CAPACITY, FIRST_CAPACITY)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static tl_exit find_one(tl_cli *cli, path_queries *queries, const float *numbers)
+{
+    tl_text text;
+    memset(&text, 0, sizeof(text));
+    bool reached = answer_pair(queries, &queries->searchers[0], numbers, &text);
+    tl_exit code = reached ? TL_EXIT_OK : TL_EXIT_NEGATIVE;
+    if (text.failed) {
+        code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
+    }
+    fwrite(text.bytes, 1, text.size, stdout);
+    tl_text_free(&text);
+    return code;
+}
+
+static tl_exit find_many(tl_cli *cli, path_queries *queries)
+{
+    tl_batch batch;
+    memset(&batch, 0, sizeof(batch));
+    batch.path = queries->settings->pairs;
+    batch.wanted = "ax ay az bx by bz";
+    batch.least = 6;
+    batch.most = 6;
+    batch.answer = answer_line;
+    batch.user = queries;
+    return tl_batch_run(cli, &batch);
+}
+
+static tl_exit find(tl_cli *cli, const path_settings *settings, const float *numbers)
+{
+    tl_input input;
+    tl_exit code;
+    if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
+        path_queries queries = { input.navmesh, settings, NULL, 0 };
+        if (!make_searchers(&queries, settings->pairs != NULL ? cli->host.tasks->worker_count : 1)) {
+            code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
+        } else {
+            code = settings->pairs != NULL ? find_many(cli, &queries) : find_one(cli, &queries, numbers);
+        }
+        free_searchers(&queries);
+    }
+    tl_input_close(&input);
+    return code;
+}
+
+static bool parse_words(tl_cli *cli, path_settings *settings, float numbers[6], tl_exit *exit_out)
+{
+    if (settings->extents_text != NULL) {
+        const char *reason = tl_parse_point_value(settings->extents_text, &settings->extents);
+        if (reason == NULL && (settings->extents.x < 0 || settings->extents.y < 0 || settings->extents.z < 0)) {
+            reason = "is negative";
+        }
+        if (reason != NULL) {
+            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--extents: '%s' %s; write it as X,Y,Z", settings->extents_text,
+                                    reason);
+            return false;
+        }
+    }
+    if ((settings->pairs != NULL) == (cli->arguments.count > 1) || cli->arguments.count == 2) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "give start and goal behind FILE, or many pairs with --pairs");
+        return false;
+    }
+    for (uint32_t i = 0; i < 2 && settings->pairs == NULL; ++i) {
+        const char *reason = tl_parse_float_list(cli->arguments.words[1 + i], numbers + 3 * i, 3, 3, NULL);
+        if (reason != NULL) {
+            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s '%s' %s; write it as X,Y,Z", i == 0 ? "start" : "goal",
+                                    cli->arguments.words[1 + i], reason);
+            return false;
+        }
+    }
+    return true;
+}
+
+static tl_exit run(tl_cli *cli)
+{
+    path_settings settings;
+    memset(&settings, 0, sizeof(settings));
+    settings.bake = tl_default_bake_settings();
+    settings.extents = tl_vec3_make(2.0f, 4.0f, 2.0f);
+    const tl_option options[] = {
+        { "pairs", 'p', TL_OPTION_TEXT, &settings.pairs, "FILE",
+          "find the paths of FILE, a pair a line; - is standard input", NULL, 0, 0, 0, 0 },
+        { "extents", 0, TL_OPTION_TEXT, &settings.extents_text, "X,Y,Z",
+          "metres: how far from a point its navmesh polygon may lie (2,4,2)", NULL, 0, 0, 0, 0 },
+        { "partial", 0, TL_OPTION_FLAG, &settings.partial, NULL,
+          "print the way as near to the goal as it leads, as: partial length points", NULL, 0, 0, 0, 0 },
+        TL_OPTION_TABLE_END,
+    };
+    tl_option level_options[TL_LEVEL_OPTIONS];
+    tl_option nav_options[TL_NAV_OPTIONS];
+    tl_level_options(&settings.bake.level, level_options);
+    tl_nav_options(&settings.bake, nav_options);
+    const tl_option_group groups[] = { { "Options:", options },
+                                       { "When FILE is a level:", level_options },
+                                       { "When FILE is a level, for its navmesh:", nav_options },
+                                       { NULL, NULL } };
+    tl_exit code;
+    float numbers[6] = { 0 };
+    if (!tl_cli_parse(cli, groups, 1, 3, &code) || !tl_bake_take_bounds(cli, &settings.bake, &code)) {
+        return code;
+    }
+    settings.json = cli->json;
+    return parse_words(cli, &settings, numbers, &code) ? find(cli, &settings, numbers) : code;
+}
+
+const tl_command tl_path_command = {
+    "path",
+    "find the way from one point to another",
+    "FILE AX,AY,AZ BX,BY,BZ [options]\nFILE --pairs PAIRS|- [options]",
+    "Finds a path over the navmesh and prints its length in metres and its corner points, or why there\n"
+    "is none. FILE is a baked file, or a level, which is then baked in memory.\n\n"
+    "PAIRS holds a pair a line: ax ay az bx by bz. The answer is a line a pair, in order: length x,y,z\n"
+    "x,y,z ..., or none: reason. A single path that does not exist ends with exit code 1.",
+    "talus path courtyard.talus 2,0,20 38,0,20\n"
+    "talus path courtyard.obj 2,0,20 38,0,20 --agent-radius 0.4 --json\n"
+    "talus path courtyard.talus --pairs pairs.txt",
+    run,
+};

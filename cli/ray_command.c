@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+//
+// talus ray: what a ray hits, one ray or many.
+
+#include "batch.h"
+#include "json_out.h"
+#include "open_input.h"
+#include "parse_value.h"
+
+#include <stdio.h>
+#include <string.h>
+
+typedef struct ray_settings {
+    tl_bake_settings bake;
+    const char *rays;
+    float tmax;
+    int cull; ///< a tl_ray_cull
+    bool any;
+    bool segment;
+    bool json;
+} ray_settings;
+
+typedef struct ray_query {
+    const tl_soup *soup;
+    tl_ray_filter filter;
+    const ray_settings *settings;
+} ray_query;
+
+static bool is_any_hit(const ray_query *query, const float *n, float tmax)
+{
+    if (query->settings->segment) {
+        return !tl_soup_line_of_sight(query->soup, tl_vec3_make(n[0], n[1], n[2]), tl_vec3_make(n[3], n[4], n[5]),
+                                      &query->filter);
+    }
+    tl_ray ray = { { n[0], n[1], n[2] }, { n[3], n[4], n[5] }, tmax };
+    return tl_soup_occluded(query->soup, &ray, &query->filter);
+}
+
+static bool find_closest(const ray_query *query, const float *n, float tmax, tl_ray_hit *hit_out)
+{
+    if (query->settings->segment) {
+        return tl_soup_cast_segment(query->soup, tl_vec3_make(n[0], n[1], n[2]), tl_vec3_make(n[3], n[4], n[5]),
+                                    &query->filter, hit_out);
+    }
+    tl_ray ray = { { n[0], n[1], n[2] }, { n[3], n[4], n[5] }, tmax };
+    return tl_soup_cast_ray(query->soup, &ray, &query->filter, hit_out);
+}
+
+// Zero has no sign here: -0 would only puzzle a reader.
+static tl_ray_hit without_negative_zero(tl_ray_hit hit)
+{
+    hit.t += 0.0f;
+    hit.u += 0.0f;
+    hit.v += 0.0f;
+    hit.normal = tl_add(hit.normal, tl_vec3_make(0.0f, 0.0f, 0.0f));
+    return hit;
+}
+
+static void write_hit(tl_text *text, const tl_ray_hit *hit)
+{
+    tl_text_add_float(text, hit->t);
+    tl_text_add(text, " ");
+    tl_text_add_count(text, hit->triangle);
+    tl_text_add(text, " ");
+    tl_text_add_float(text, hit->u);
+    tl_text_add(text, " ");
+    tl_text_add_float(text, hit->v);
+    tl_text_add(text, "\n");
+}
+
+static void write_json_hit(tl_text *text, const tl_ray_hit *hit, const float *n, bool segment)
+{
+    tl_vec3 from = tl_vec3_make(n[0], n[1], n[2]);
+    tl_vec3 to = tl_vec3_make(n[3], n[4], n[5]);
+    tl_vec3 point = segment ? tl_lerp(from, to, hit->t) : tl_mul_add(from, to, hit->t);
+    tl_text_add(text, "{\"hit\":true,\"t\":");
+    tl_text_add_json_float(text, hit->t);
+    tl_text_add(text, ",\"triangle\":");
+    tl_text_add_count(text, hit->triangle);
+    tl_text_add(text, ",\"u\":");
+    tl_text_add_json_float(text, hit->u);
+    tl_text_add(text, ",\"v\":");
+    tl_text_add_json_float(text, hit->v);
+    tl_text_add(text, ",\"point\":");
+    tl_text_add_json_point(text, point);
+    tl_text_add(text, ",\"normal\":");
+    tl_text_add_json_point(text, hit->normal);
+    tl_text_add(text, hit->back ? ",\"back\":true}\n" : ",\"back\":false}\n");
+}
+
+// Answers one ray; returns whether it hit.
+static bool answer_ray(const ray_query *query, const float *numbers, float tmax, tl_text *text)
+{
+    const ray_settings *settings = query->settings;
+    if (settings->any) {
+        bool hit = is_any_hit(query, numbers, tmax);
+        tl_text_add(text, settings->json ? (hit ? "{\"hit\":true}\n" : "{\"hit\":false}\n") : hit ? "hit\n" : "miss\n");
+        return hit;
+    }
+    tl_ray_hit hit;
+    if (!find_closest(query, numbers, tmax, &hit)) {
+        tl_text_add(text, settings->json ? "{\"hit\":false}\n" : "miss\n");
+        return false;
+    }
+    hit = without_negative_zero(hit);
+    if (settings->json) {
+        write_json_hit(text, &hit, numbers, settings->segment);
+    } else {
+        write_hit(text, &hit);
+    }
+    return true;
+}
+
+static void answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
+{
+    const ray_query *query = user;
+    (void)worker;
+    answer_ray(query, numbers, count == 7 ? numbers[6] : query->settings->tmax, text);
+}
+
+static tl_exit cast_one(tl_cli *cli, const ray_query *query, const float *numbers)
+{
+    tl_text text;
+    memset(&text, 0, sizeof(text));
+    bool hit = answer_ray(query, numbers, query->settings->tmax, &text);
+    tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory")
+                   : hit       ? TL_EXIT_OK
+                               : TL_EXIT_NEGATIVE;
+    fwrite(text.bytes, 1, text.size, stdout);
+    tl_text_free(&text);
+    return code;
+}
+
+static tl_exit cast_many(tl_cli *cli, ray_query *query)
+{
+    tl_batch batch;
+    memset(&batch, 0, sizeof(batch));
+    batch.path = query->settings->rays;
+    batch.wanted = query->settings->segment ? "ax ay az bx by bz" : "ox oy oz dx dy dz [tmax]";
+    batch.least = 6;
+    batch.most = query->settings->segment ? 6 : 7;
+    batch.answer = answer_line;
+    batch.user = query;
+    return tl_batch_run(cli, &batch);
+}
+
+static tl_exit cast(tl_cli *cli, const ray_settings *settings, const float *numbers)
+{
+    tl_input input;
+    tl_exit code;
+    if (tl_input_open_soup(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
+        ray_query query = { input.soup, tl_default_ray_filter(), settings };
+        query.filter.cull = (tl_ray_cull)settings->cull;
+        code = settings->rays != NULL ? cast_many(cli, &query) : cast_one(cli, &query, numbers);
+    }
+    tl_input_close(&input);
+    return code;
+}
+
+// The two points of a single ray, from the command line.
+static bool parse_points(tl_cli *cli, bool segment, float numbers[6], tl_exit *exit_out)
+{
+    for (uint32_t i = 0; i < 2; ++i) {
+        const char *reason = tl_parse_float_list(cli->arguments.words[1 + i], numbers + 3 * i, 3, 3, NULL);
+        if (reason != NULL) {
+            const char *what = i == 0 ? (segment ? "start" : "origin") : segment ? "end" : "direction";
+            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s '%s' %s; write it as X,Y,Z", what,
+                                    cli->arguments.words[1 + i], reason);
+            return false;
+        }
+    }
+    if (!segment && numbers[3] == 0.0f && numbers[4] == 0.0f && numbers[5] == 0.0f) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "the direction 0,0,0 leads nowhere");
+        return false;
+    }
+    return true;
+}
+
+static tl_exit run(tl_cli *cli)
+{
+    static const char *const culls[] = { "none", "back", "front", NULL };
+    ray_settings settings;
+    memset(&settings, 0, sizeof(settings));
+    settings.bake = tl_default_bake_settings();
+    settings.tmax = INFINITY;
+    const tl_option options[] = {
+        { "rays", 'r', TL_OPTION_TEXT, &settings.rays, "FILE", "cast the rays of FILE, one a line; - is standard input",
+          NULL, 0, 0, 0, 0 },
+        { "any", 0, TL_OPTION_FLAG, &settings.any, NULL, "say only hit or miss, which is faster", NULL, 0, 0, 0, 0 },
+        { "segment", 0, TL_OPTION_FLAG, &settings.segment, NULL,
+          "from point to point: the second triple is the end, t runs from 0 to 1", NULL, 0, 0, 0, 0 },
+        { "tmax", 0, TL_OPTION_FLOAT, &settings.tmax, "T", "how far rays reach, in lengths of their direction", NULL,
+          0.0f, 3e38f, 0, 0 },
+        { "cull", 0, TL_OPTION_CHOICE, &settings.cull, NULL, "sides of triangles that rays pass through", culls, 0, 0,
+          0, 0 },
+        TL_OPTION_TABLE_END,
+    };
+    tl_option level_options[TL_LEVEL_OPTIONS];
+    tl_level_options(&settings.bake.level, level_options);
+    const tl_option_group groups[] = { { "Options:", options },
+                                       { "When FILE is a level:", level_options },
+                                       { NULL, NULL } };
+    tl_exit code;
+    float numbers[6] = { 0 };
+    if (!tl_cli_parse(cli, groups, 1, 3, &code)) {
+        return code;
+    }
+    settings.json = cli->json;
+    if ((settings.rays != NULL) == (cli->arguments.count > 1) || cli->arguments.count == 2) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "give one ray as two points behind FILE, or many with --rays");
+    }
+    if (settings.rays == NULL && !parse_points(cli, settings.segment, numbers, &code)) {
+        return code;
+    }
+    return cast(cli, &settings, numbers);
+}
+
+const tl_command tl_ray_command = {
+    "ray",
+    "cast rays at a baked file or a level",
+    "FILE OX,OY,OZ DX,DY,DZ [options]\nFILE --rays RAYS|- [options]",
+    "Finds the first triangle that a ray meets, or tells whether there is one. FILE is a baked file, or\n"
+    "a level, which is then baked in memory.\n\n"
+    "RAYS holds a ray a line: ox oy oz dx dy dz [tmax]; with --segment: ax ay az bx by bz. The answer is\n"
+    "a line a ray, in order: t triangle u v, or miss; with --any: hit or miss. The point is origin +\n"
+    "t * direction, and corner 0 * (1-u-v) + corner 1 * u + corner 2 * v of the triangle, whose number\n"
+    "counts the source's triangles from 0. A single ray that misses ends with exit code 1.",
+    "talus ray courtyard.talus 20,10,20 0,-1,0\n"
+    "talus ray courtyard.talus --segment 2,1.7,20 38,1.7,20 --any\n"
+    "echo '20 10 20 0 -1 0' | talus ray courtyard.obj --rays - --json",
+    run,
+};
