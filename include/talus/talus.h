@@ -7,6 +7,7 @@
 
 #include <talus/base.h>
 #include <talus/convex.h>
+#include <talus/halfedge.h>
 #include <talus/hull.h>
 #include <talus/mesh.h>
 #include <talus/nav_build.h>
