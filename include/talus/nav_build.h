@@ -252,7 +252,14 @@ TL_API tl_result tl_nav_build_contours(const tl_nav_config *config, const tl_nav
 TL_API void tl_nav_contours_free(tl_nav_contours *contours);
 
 /// The detail mesh: heights inside the polygons, sampled from the floors (tl_nav_detail is in nav_tile.h).
-/// Vertices that lie on an edge between two polygons are the same in both.
+///
+/// Each patch is a Delaunay triangulation of its polygon, in the polygon's winding. Its vertices are the polygon's
+/// corners in order, then samples on edges, then inner ones; a height is that of a floor of the polygon's region, or of
+/// one that links to it. Linked polygons have the same vertices on their common edge. No sample (edges: at most
+/// detail_sample_dist apart; inside: at column centres, half of it from the edges) is farther than
+/// detail_sample_max_error above or below the surface, but in patches that `limited_patches` counts.
+/// `polygons` comes from contours of `compact`. Errors: TL_ERR_ARGUMENT (no regions), TL_ERR_LIMIT (a polygon more than
+/// 2^20 columns wide), TL_ERR_MEMORY, TL_ERR_CANCELLED. On failure detail_out is zeroed.
 TL_API tl_result tl_nav_build_detail(const tl_nav_config *config, const tl_nav_compact *compact,
                                      const tl_polygon_mesh *polygons, const tl_host *host, tl_nav_detail *detail_out,
                                      tl_report *report_out);

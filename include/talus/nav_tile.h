@@ -43,7 +43,10 @@ typedef struct tl_nav_detail {
     tl_nav_detail_patch *patches;
     tl_vec3 *vertices; ///< metres, in the world
     tl_nav_detail_triangle *triangles;
-    void *block; ///< one block holds all arrays
+    float max_error; ///< metres: how far the farthest inner height sample lies from the finished surface, vertically
+    uint32_t limited_patches; ///< that reached 65,535 vertices with larger errors left, or have an edge too long to be
+                              ///< sampled as densely as asked (more than 512 steps)
+    void *block;              ///< one block holds all arrays
     size_t block_size;
 } tl_nav_detail;
 
