@@ -237,6 +237,32 @@ static void add_edge(edge_sums *e, tl_lattice_point from, tl_lattice_point to, i
     e->sums[*place] += a < b ? times : -times;
 }
 
+// The contour's edges, -1 times each. Border vertices that no polygon has any more are passed over: where their removal
+// changed the outline, other edges will not cancel.
+static void add_contour_backward(edge_sums *e, const tl_contour_vertex *vertices, uint32_t count)
+{
+    tl_lattice_point first = { 0, 0 }, last = { 0, 0 };
+    bool has_first = false;
+    for (uint32_t k = 0; k < count; k++) {
+        tl_lattice_point p = { vertices[k].x, vertices[k].z };
+        bool was_removed = (vertices[k].flags & TL_CONTOUR_BORDER_VERTEX) != 0 &&
+                           *tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z)) == TL_NO_VALUE;
+        if (was_removed) {
+            continue;
+        }
+        if (has_first) {
+            add_edge(e, last, p, -1);
+        } else {
+            first = p;
+            has_first = true;
+        }
+        last = p;
+    }
+    if (has_first) {
+        add_edge(e, last, first, -1);
+    }
+}
+
 // The polygons' edges, and the contour's backward, must cancel.
 static tl_result check_outline(cover *c, uint32_t contour_index)
 {
@@ -260,12 +286,7 @@ static tl_result check_outline(cover *c, uint32_t contour_index)
             add_edge(&e, tl_mesh_corner(mesh, k), tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k)), 1);
         }
     }
-    const tl_contour_vertex *v = set->vertices + contour->first_vertex;
-    for (uint32_t k = 0; k < contour->vertex_count; k++) {
-        const tl_contour_vertex *w = &v[k + 1 < contour->vertex_count ? k + 1 : 0];
-        tl_lattice_point from = { v[k].x, v[k].z }, to = { w->x, w->z };
-        add_edge(&e, from, to, -1);
-    }
+    add_contour_backward(&e, set->vertices + contour->first_vertex, contour->vertex_count);
     for (uint32_t i = 0; i < e.edge_count; i++) {
         if (e.sums[i] != 0) {
             tl_polygon_checker_note(c->checker, TL_POLYGON_FAULT_OUTLINE, "contour", contour_index);
