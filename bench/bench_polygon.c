@@ -195,10 +195,9 @@ static void bench_folder(const char *folder, totals *sums)
 
 int main(int argc, char **argv)
 {
-    totals sums[4] = { { 'w', 0, 0, 0, 0, 0, 0 },
-                       { 'm', 0, 0, 0, 0, 0, 0 },
-                       { 'l', 0, 0, 0, 0, 0, 0 },
-                       { '*', 0, 0, 0, 0, 0, 0 } };
+    totals sums[4] = {
+        { 'w', 0, 0, 0, 0, 0, 0 }, { 'm', 0, 0, 0, 0, 0, 0 }, { 'l', 0, 0, 0, 0, 0, 0 }, { '*', 0, 0, 0, 0, 0, 0 }
+    };
     static const char *const names[4] = { "all watershed", "all monotone", "all layers", "all" };
     printf("%-34s %8s %10s %8s %12s %8s %8s\n", "contours", "vertices", "talus us", "polygons", "Recast us", "polygons",
            "ratio");

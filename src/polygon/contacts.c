@@ -14,17 +14,15 @@
 #include "base/assert.h"
 #include "base/radix_sort.h"
 #include "polygon/key_table.h"
+#include "polygon/sweep.h"
 
 #include <string.h>
 
 // More crossings than this refuse the contour: it is a scribble, and its pieces would be too.
 enum { MAX_CROSSINGS = 1 << 20, MAX_ROUNDS = 16 };
 
-// An undirected edge of the contour, once, however often it is run along.
-typedef struct segment {
-    uint32_t a, b;
-    uint32_t source; // first directed edge along it
-} segment;
+// From this many segments on it pays to ask first, by a sweep, whether there is any contact at all.
+enum { SMALLEST_SWEEP = 128 };
 
 // Node `node` is to be put into segment `segment`.
 typedef struct split {
@@ -34,7 +32,8 @@ typedef struct split {
 typedef struct splitter {
     tl_arena *arena;
     tl_outline_nodes *nodes;
-    segment *segments;
+    tl_lattice_segment *segments; // each undirected edge once, however often it is run along
+    uint32_t *source;             // [segment] first directed edge along it
     uint32_t segment_count;
     uint32_t *segment_of; // [edge]
     split *splits;
@@ -109,7 +108,7 @@ static int32_t scale_rounded(int64_t distance, uint64_t numerator, uint64_t deno
 static tl_result add_crossing(splitter *s, uint32_t first, uint32_t second)
 {
     const tl_lattice_point *points = s->nodes->points;
-    segment f = s->segments[first];
+    tl_lattice_segment f = s->segments[first];
     tl_lattice_point a = points[f.a];
     tl_lattice_point b = points[f.b];
     tl_lattice_point c = points[s->segments[second].a];
@@ -127,8 +126,8 @@ static tl_result add_crossing(splitter *s, uint32_t first, uint32_t second)
 
 static void note_contact(splitter *s, uint32_t first, uint32_t second)
 {
-    uint32_t a = s->segments[first].source;
-    uint32_t b = s->segments[second].source;
+    uint32_t a = s->source[first];
+    uint32_t b = s->source[second];
     uint32_t lowest = a < b ? a : b;
     s->first_contact = lowest < s->first_contact ? lowest : s->first_contact;
 }
@@ -137,7 +136,7 @@ static void note_contact(splitter *s, uint32_t first, uint32_t second)
 static tl_result touch(splitter *s, uint32_t index, uint32_t other, uint32_t node, bool *touches)
 {
     const tl_lattice_point *points = s->nodes->points;
-    segment e = s->segments[index];
+    tl_lattice_segment e = s->segments[index];
     if (node == e.a || node == e.b || tl_turn(points[e.a], points[e.b], points[node]) != 0 ||
         !tl_within_span(points[e.a], points[e.b], points[node])) {
         return TL_OK;
@@ -149,8 +148,8 @@ static tl_result touch(splitter *s, uint32_t index, uint32_t other, uint32_t nod
 
 static tl_result test_pair(splitter *s, uint32_t first, uint32_t second)
 {
-    segment e = s->segments[first];
-    segment f = s->segments[second];
+    tl_lattice_segment e = s->segments[first];
+    tl_lattice_segment f = s->segments[second];
     bool touches = false;
     TL_TRY(touch(s, first, second, f.a, &touches));
     TL_TRY(touch(s, first, second, f.b, &touches));
@@ -196,8 +195,8 @@ static tl_result test_all_pairs(splitter *s)
     for (uint32_t i = 0; i < count && s->crossings <= MAX_CROSSINGS; i++) {
         for (uint32_t j = i + 1; j < count && order[j].key <= order[i].extra; j++) {
             const tl_lattice_point *p = s->nodes->points;
-            segment e = s->segments[order[i].value];
-            segment f = s->segments[order[j].value];
+            tl_lattice_segment e = s->segments[order[i].value];
+            tl_lattice_segment f = s->segments[order[j].value];
             int32_t e_low = p[e.a].z < p[e.b].z ? p[e.a].z : p[e.b].z, e_high = p[e.a].z ^ p[e.b].z ^ e_low;
             int32_t f_low = p[f.a].z < p[f.b].z ? p[f.a].z : p[f.b].z, f_high = p[f.a].z ^ p[f.b].z ^ f_low;
             if (e_low <= f_high && f_low <= e_high) {
@@ -263,7 +262,7 @@ static tl_result snap_segments(splitter *s)
     tl_radix_sort(order, order + nodes->count, nodes->count);
     s->split_count = 0;
     for (uint32_t i = 0; i < s->segment_count; i++) {
-        segment e = s->segments[i];
+        tl_lattice_segment e = s->segments[i];
         tl_lattice_point a = nodes->points[e.a];
         tl_lattice_point b = nodes->points[e.b];
         uint64_t low = sort_key(a.x < b.x ? a.x : b.x), high = sort_key(a.x < b.x ? b.x : a.x);
@@ -288,10 +287,12 @@ static tl_result snap_segments(splitter *s)
 static tl_result gather_segments(splitter *s, const tl_outline_edge *edges, uint32_t count)
 {
     tl_key_table table;
-    s->segments = TL_PUSH(s->arena, segment, count);
+    s->segments = TL_PUSH(s->arena, tl_lattice_segment, count);
+    s->source = TL_PUSH(s->arena, uint32_t, count);
     s->segment_of = TL_PUSH(s->arena, uint32_t, count);
     s->segment_count = 0;
-    if (s->segments == NULL || s->segment_of == NULL || !tl_key_table_init(&table, s->arena, count)) {
+    if (s->segments == NULL || s->source == NULL || s->segment_of == NULL ||
+        !tl_key_table_init(&table, s->arena, count)) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < count; i++) {
@@ -299,8 +300,9 @@ static tl_result gather_segments(splitter *s, const tl_outline_edge *edges, uint
         uint32_t high = edges[i].from < edges[i].to ? edges[i].to : edges[i].from;
         uint32_t *place = tl_key_table_at(&table, tl_pair_key(low, high));
         if (*place == TL_NO_VALUE) {
-            segment e = { low, high, i };
+            tl_lattice_segment e = { low, high };
             *place = s->segment_count;
+            s->source[s->segment_count] = i;
             s->segments[s->segment_count++] = e;
         }
         s->segment_of[i] = *place;
@@ -320,7 +322,7 @@ static tl_result sort_splits(splitter *s, uint32_t **first_out)
     }
     const tl_lattice_point *p = s->nodes->points;
     for (uint32_t i = 0; i < count; i++) {
-        segment e = s->segments[s->splits[i].segment];
+        tl_lattice_segment e = s->segments[s->splits[i].segment];
         // Along the segment, and not farther than its length: >= 0 for nodes in its box.
         tl_sort_item item = { (uint64_t)tl_dot2(p[e.a], p[e.b], p[s->splits[i].node]), i, 0 };
         order[i] = item;
@@ -389,7 +391,13 @@ tl_result tl_outline_split_contacts(tl_arena *arena, tl_outline_nodes *nodes, tl
         s.nodes = nodes;
         s.first_contact = UINT32_MAX;
         TL_TRY(gather_segments(&s, *edges, *count));
-        TL_TRY(test_all_pairs(&s));
+        bool apart = false;
+        if (s.segment_count >= SMALLEST_SWEEP) {
+            TL_TRY(tl_sweep_segments(arena, nodes->points, nodes->count, s.segments, s.segment_count, &apart));
+        }
+        if (!apart) {
+            TL_TRY(test_all_pairs(&s));
+        }
         if (s.crossings > MAX_CROSSINGS) {
             break;
         }

@@ -11,6 +11,9 @@
 
 #include <string.h>
 
+// Beyond this the sweep of the general way is faster than testing all pairs of edges.
+enum { MOST_PAIRED_VERTICES = 128 };
+
 static int64_t signed_area2(const tl_lattice_point *points, uint32_t count)
 {
     // Modulo 2^64: the sum is below 2^63 in the end, though not always on the way.
@@ -177,7 +180,7 @@ tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices,
         outline_out->faults = TL_CONTOUR_FAULT_EMPTY;
         return TL_OK;
     }
-    if (outline_out->area2 > 0 && is_plain_by_pairs(nodes->points, count)) {
+    if (count <= MOST_PAIRED_VERTICES && outline_out->area2 > 0 && is_plain_by_pairs(nodes->points, count)) {
         return keep_as_it_is(arena, outline_out);
     }
     TL_TRY(take_apart(arena, outline_out));

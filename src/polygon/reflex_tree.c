@@ -13,46 +13,41 @@
 // Small outlines, nearly all there are, become one leaf: a plain loop.
 enum { LEAF_POINTS = 12, MAX_DEPTH = 64 };
 
-static int64_t coordinate(const tl_reflex_tree *tree, uint32_t point, bool along_x)
+static int32_t coordinate(const tl_reflex_point *point, bool along_x)
 {
-    return along_x ? tree->positions[point].x : tree->positions[point].z;
+    return along_x ? point->position.x : point->position.z;
 }
 
 // A total order, so that equal coordinates split evenly too.
-static bool before(const tl_reflex_tree *tree, uint32_t a, uint32_t b, bool along_x)
+static bool before(const tl_reflex_point *a, const tl_reflex_point *b, bool along_x)
 {
-    int64_t ka = coordinate(tree, a, along_x);
-    int64_t kb = coordinate(tree, b, along_x);
-    return ka != kb ? ka < kb : a < b;
-}
-
-static void swap(uint32_t *a, uint32_t *b)
-{
-    uint32_t t = *a;
-    *a = *b;
-    *b = t;
+    int32_t ka = coordinate(a, along_x);
+    int32_t kb = coordinate(b, along_x);
+    return ka != kb ? ka < kb : a->number < b->number;
 }
 
 // Quickselect (Hoare's FIND): afterwards points[middle] is in its sorted place, smaller ones before it.
-static void select_middle(const tl_reflex_tree *tree, uint32_t *points, uint32_t count, uint32_t middle, bool along_x)
+static void select_middle(tl_reflex_point *points, uint32_t count, uint32_t middle, bool along_x)
 {
     uint32_t low = 0;
     uint32_t high = count - 1;
     while (low < high) {
-        uint32_t pivot = points[low + (high - low) / 2];
+        tl_reflex_point pivot = points[low + (high - low) / 2];
         uint32_t i = low;
         uint32_t j = high;
         for (;;) {
-            while (before(tree, points[i], pivot, along_x)) {
+            while (before(&points[i], &pivot, along_x)) {
                 i++;
             }
-            while (before(tree, pivot, points[j], along_x)) {
+            while (before(&pivot, &points[j], along_x)) {
                 j--;
             }
             if (i >= j) {
                 break;
             }
-            swap(&points[i++], &points[j--]);
+            tl_reflex_point t = points[i];
+            points[i++] = points[j];
+            points[j--] = t;
         }
         // Everything up to j is at most the pivot, everything after it at least. The pivot is not the last of more than
         // one, so j < high and both parts are smaller.
@@ -64,13 +59,13 @@ static void select_middle(const tl_reflex_tree *tree, uint32_t *points, uint32_t
     }
 }
 
-static void fill_box(tl_reflex_tree *tree, tl_reflex_node *node)
+static void fill_box(const tl_reflex_tree *tree, tl_reflex_node *node)
 {
-    tl_lattice_point p = tree->positions[tree->points[node->first]];
+    tl_lattice_point p = tree->points[node->first].position;
     node->min_x = node->max_x = p.x;
     node->min_z = node->max_z = p.z;
     for (uint32_t i = 1; i < node->alive; i++) {
-        p = tree->positions[tree->points[node->first + i]];
+        p = tree->points[node->first + i].position;
         node->min_x = p.x < node->min_x ? p.x : node->min_x;
         node->max_x = p.x > node->max_x ? p.x : node->max_x;
         node->min_z = p.z < node->min_z ? p.z : node->min_z;
@@ -90,13 +85,13 @@ static uint32_t build_node(tl_reflex_tree *tree, uint32_t parent, uint32_t first
     fill_box(tree, node);
     if (count <= LEAF_POINTS) {
         for (uint32_t i = 0; i < count; i++) {
-            tree->leaf[tree->points[first + i]] = index;
+            tree->leaf[tree->points[first + i].number] = index;
         }
         return index;
     }
     bool along_x = (int64_t)node->max_x - node->min_x >= (int64_t)node->max_z - node->min_z;
     uint32_t half = count / 2;
-    select_middle(tree, tree->points + first, count, half, along_x);
+    select_middle(tree->points + first, count, half, along_x);
     build_node(tree, index, first, half);
     uint32_t right = build_node(tree, index, first + half, count - half);
     tree->nodes[index].right = right;
@@ -110,12 +105,11 @@ bool tl_reflex_tree_build(tl_reflex_tree *tree, tl_arena *arena, const tl_lattic
     for (uint32_t i = 0; i < count; i++) {
         reflex_count += is_reflex[i];
     }
-    tree->positions = positions;
     tree->node_count = 0;
     // A leaf made by a split holds at least half of LEAF_POINTS + 1 points, rounded down; inner nodes are one less.
     uint64_t leaves = 1 + reflex_count / ((LEAF_POINTS + 1) / 2);
     tree->nodes = TL_PUSH(arena, tl_reflex_node, 2 * leaves);
-    tree->points = TL_PUSH(arena, uint32_t, reflex_count);
+    tree->points = TL_PUSH(arena, tl_reflex_point, reflex_count);
     tree->leaf = TL_PUSH(arena, uint32_t, count);
     if (tree->nodes == NULL || tree->points == NULL || tree->leaf == NULL) {
         return false;
@@ -123,7 +117,8 @@ bool tl_reflex_tree_build(tl_reflex_tree *tree, tl_arena *arena, const tl_lattic
     uint32_t filled = 0;
     for (uint32_t i = 0; i < count; i++) {
         if (is_reflex[i]) {
-            tree->points[filled++] = i;
+            tl_reflex_point point = { positions[i], i };
+            tree->points[filled++] = point;
         }
     }
     if (reflex_count > 0) {
@@ -136,9 +131,9 @@ void tl_reflex_tree_remove(tl_reflex_tree *tree, uint32_t point)
 {
     uint32_t index = tree->leaf[point];
     const tl_reflex_node *leaf = &tree->nodes[index];
-    uint32_t *points = tree->points + leaf->first;
+    tl_reflex_point *points = tree->points + leaf->first;
     uint32_t place = 0;
-    while (points[place] != point) {
+    while (points[place].number != point) {
         place++;
         TL_ASSERT(place < leaf->alive);
     }
@@ -156,23 +151,51 @@ static bool is_outside(const tl_reflex_node *node, tl_lattice_point a, tl_lattic
     return tl_turn(a, b, corner) < 0;
 }
 
-static bool any_in_leaf(const tl_reflex_tree *tree, const tl_reflex_node *leaf, tl_lattice_point a, tl_lattice_point b,
-                        tl_lattice_point c)
+// The triangle with its box.
+typedef struct query {
+    tl_lattice_point a, b, c;
+    int32_t min_x, max_x, min_z, max_z;
+} query;
+
+static int32_t least(int32_t a, int32_t b, int32_t c)
 {
-    const uint32_t *points = tree->points + leaf->first;
+    int32_t low = a < b ? a : b;
+    return low < c ? low : c;
+}
+
+static int32_t greatest(int32_t a, int32_t b, int32_t c)
+{
+    int32_t high = a > b ? a : b;
+    return high > c ? high : c;
+}
+
+static bool any_in_leaf(const tl_reflex_tree *tree, const tl_reflex_node *leaf, const query *q)
+{
+    const tl_reflex_point *points = tree->points + leaf->first;
     for (uint32_t i = 0; i < leaf->alive; i++) {
-        tl_lattice_point p = tree->positions[points[i]];
-        if (tl_turn(c, a, p) >= 0 && tl_turn(a, b, p) >= 0 && tl_turn(b, c, p) >= 0 && !tl_same_point(p, a) &&
-            !tl_same_point(p, b) && !tl_same_point(p, c)) {
+        tl_lattice_point p = points[i].position;
+        if (p.x < q->min_x || p.x > q->max_x || p.z < q->min_z || p.z > q->max_z) {
+            continue;
+        }
+        if (tl_turn(q->c, q->a, p) >= 0 && tl_turn(q->a, q->b, p) >= 0 && tl_turn(q->b, q->c, p) >= 0 &&
+            !tl_same_point(p, q->a) && !tl_same_point(p, q->b) && !tl_same_point(p, q->c)) {
             return true;
         }
     }
     return false;
 }
 
+static bool may_hold_a_point(const tl_reflex_node *node, const query *q)
+{
+    return node->alive > 0 && node->min_x <= q->max_x && node->max_x >= q->min_x && node->min_z <= q->max_z &&
+           node->max_z >= q->min_z && !is_outside(node, q->c, q->a) && !is_outside(node, q->a, q->b) &&
+           !is_outside(node, q->b, q->c);
+}
+
 bool tl_reflex_tree_any_in_triangle(const tl_reflex_tree *tree, tl_lattice_point a, tl_lattice_point b,
                                     tl_lattice_point c)
 {
+    query q = { a, b, c, least(a.x, b.x, c.x), greatest(a.x, b.x, c.x), least(a.z, b.z, c.z), greatest(a.z, b.z, c.z) };
     uint32_t stack[MAX_DEPTH];
     uint32_t depth = 0;
     if (tree->node_count > 0) {
@@ -181,22 +204,20 @@ bool tl_reflex_tree_any_in_triangle(const tl_reflex_tree *tree, tl_lattice_point
     while (depth > 0) {
         uint32_t index = stack[--depth];
         const tl_reflex_node *node = &tree->nodes[index];
-        if (node->alive == 0) {
-            continue;
-        }
         if (node->right == 0) {
-            if (any_in_leaf(tree, node, a, b, c)) {
+            if (any_in_leaf(tree, node, &q)) {
                 return true;
             }
             continue;
         }
-        if (is_outside(node, a, b) || is_outside(node, b, c) || is_outside(node, c, a)) {
-            continue;
-        }
         // Each level leaves at most one node behind on the stack.
         TL_ASSERT(depth + 2 <= MAX_DEPTH);
-        stack[depth++] = node->right;
-        stack[depth++] = index + 1;
+        if (may_hold_a_point(&tree->nodes[node->right], &q)) {
+            stack[depth++] = node->right;
+        }
+        if (may_hold_a_point(&tree->nodes[index + 1], &q)) {
+            stack[depth++] = index + 1;
+        }
     }
     return false;
 }

@@ -16,12 +16,17 @@ typedef struct tl_reflex_node {
     uint32_t parent;
 } tl_reflex_node;
 
+/// A point in the tree, with its position at hand.
+typedef struct tl_reflex_point {
+    tl_lattice_point position;
+    uint32_t number;
+} tl_reflex_point;
+
 typedef struct tl_reflex_tree {
-    const tl_lattice_point *positions;
     uint32_t node_count;
     tl_reflex_node *nodes;
-    uint32_t *points; // leaf after leaf; the living ones of a leaf come first
-    uint32_t *leaf;   // [positions] of each point in the tree
+    tl_reflex_point *points; // leaf after leaf; the living ones of a leaf come first
+    uint32_t *leaf;          // [number] of each point in the tree
 } tl_reflex_tree;
 
 /// Builds the tree over the positions with is_reflex[i] set. O(n log n). False: out of memory.
