@@ -112,7 +112,8 @@ typedef struct tl_nav_location {
 /// A polygon's point is its closest one in the plane, lifted to the surface; it must lie in the box. Points are
 /// compared by their distance in space; but a point that lies more than agent_max_climb above `center` counts as
 /// farther by agent_height. So any point of an agent's body, from its soles to its crown, finds the floor that the
-/// agent stands on, never the one overhead, though that one may be nearer. Ties go to the lower slot, then polygon.
+/// agent stands on and not the one overhead, though that one may be nearer; unless it lies within agent_max_climb
+/// under the next floor. Ties go to the lower slot, then polygon.
 /// TL_ERR_NOT_FOUND: none is in the box. TL_ERR_NOT_FINITE, TL_ERR_ARGUMENT (negative extents).
 TL_API tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_vec3 center,
                                          tl_vec3 half_extents, tl_nav_location *location_out);
