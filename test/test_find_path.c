@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: MIT
+//
+// A* against Dijkstra on the same graph, reachability against connected components.
+
+#include "nav_fixture.h"
+
+#include <math.h>
+
+// The search graph, written out: node 0 is the start, then one node a link.
+typedef struct way_graph {
+    fixture_refs all;
+    uint32_t *first_way; // [all.count + 1]
+    tl_nav_link *ways;
+    uint32_t *way_to; // index of the polygon that a way enters
+    uint32_t *component;
+    uint32_t way_count;
+} way_graph;
+
+static bool passes(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref ref)
+{
+    const tl_nav_tile *tile = NULL;
+    uint32_t polygon = 0;
+    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, &tile, &polygon), TL_OK);
+    return tl_nav_filter_passes(filter, tile, polygon);
+}
+
+static way_graph make_graph(const tl_navmesh *navmesh, const tl_nav_filter *filter)
+{
+    way_graph g;
+    memset(&g, 0, sizeof g);
+    g.all = fixture_all_refs(navmesh);
+    g.first_way = calloc(g.all.count + 1u, sizeof *g.first_way);
+    g.ways = calloc((size_t)tl_navmesh_link_count(navmesh) + 1, sizeof *g.ways);
+    g.way_to = calloc((size_t)tl_navmesh_link_count(navmesh) + 1, sizeof *g.way_to);
+    g.component = calloc(g.all.count + 1u, sizeof *g.component);
+    for (uint32_t i = 0; i < g.all.count; i++) {
+        uint32_t count = 0;
+        TEST_RESULT(tl_navmesh_links(navmesh, g.all.refs[i], g.ways + g.way_count, 64, &count), TL_OK);
+        g.way_count += count;
+        g.first_way[i + 1] = g.way_count;
+        g.component[i] = i;
+    }
+    for (uint32_t k = 0; k < g.way_count; k++) {
+        g.way_to[k] = fixture_index_of(&g.all, g.ways[k].to);
+    }
+    for (bool changed = true; changed;) { // labels sink until neighbours agree
+        changed = false;
+        for (uint32_t i = 0; i < g.all.count; i++) {
+            for (uint32_t k = g.first_way[i]; k < g.first_way[i + 1]; k++) {
+                uint32_t j = g.way_to[k];
+                bool both = passes(navmesh, filter, g.all.refs[i]) && passes(navmesh, filter, g.all.refs[j]);
+                if (both && g.component[j] > g.component[i]) {
+                    g.component[j] = g.component[i];
+                    changed = true;
+                }
+            }
+        }
+    }
+    return g;
+}
+
+static void free_graph(way_graph *g)
+{
+    free(g->all.refs);
+    free(g->first_way);
+    free(g->ways);
+    free(g->way_to);
+    free(g->component);
+}
+
+static double area_cost(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref ref)
+{
+    const tl_nav_tile *tile = NULL;
+    uint32_t polygon = 0;
+    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, &tile, &polygon), TL_OK);
+    return (double)filter->area_cost[tl_nav_tile_area(tile, polygon)];
+}
+
+static double distance(tl_vec3 a, tl_vec3 b)
+{
+    double dx = (double)a.x - (double)b.x, dy = (double)a.y - (double)b.y, dz = (double)a.z - (double)b.z;
+    return sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+static tl_vec3 middle_of(const tl_nav_link *way)
+{
+    return tl_scale(tl_add(way->left, way->right), 0.5f);
+}
+
+// Cheapest cost to the goal, INFINITY when there is no way. O(n^2), by scanning.
+static double dijkstra(const tl_navmesh *navmesh, const way_graph *g, const tl_nav_filter *filter,
+                       const tl_nav_location *start, const tl_nav_location *goal)
+{
+    uint32_t start_index = fixture_index_of(&g->all, start->polygon);
+    uint32_t goal_index = fixture_index_of(&g->all, goal->polygon);
+    double *cost = malloc((g->way_count + 1u) * sizeof *cost);
+    bool *done = calloc(g->way_count + 1u, sizeof *done);
+    for (uint32_t i = 0; i <= g->way_count; i++) {
+        cost[i] = INFINITY;
+    }
+    cost[g->way_count] = 0.0; // the start
+    double best = INFINITY;
+    for (;;) {
+        uint32_t at = UINT32_MAX;
+        for (uint32_t i = 0; i <= g->way_count; i++) {
+            if (!done[i] && isfinite(cost[i]) && (at == UINT32_MAX || cost[i] < cost[at])) {
+                at = i;
+            }
+        }
+        if (at == UINT32_MAX) {
+            break;
+        }
+        done[at] = true;
+        uint32_t polygon = at == g->way_count ? start_index : g->way_to[at];
+        tl_vec3 point = at == g->way_count ? start->point : middle_of(&g->ways[at]);
+        double metre = area_cost(navmesh, filter, g->all.refs[polygon]);
+        if (polygon == goal_index) {
+            double total = cost[at] + metre * distance(point, goal->point);
+            best = total < best ? total : best;
+        }
+        for (uint32_t k = g->first_way[polygon]; k < g->first_way[polygon + 1]; k++) {
+            double offer = cost[at] + metre * distance(point, middle_of(&g->ways[k]));
+            if (passes(navmesh, filter, g->ways[k].to) && offer < cost[k]) {
+                cost[k] = offer;
+            }
+        }
+    }
+    free(cost);
+    free(done);
+    return best;
+}
+
+// Path polygons are neighbours in order, and pass the filter.
+static void check_chain(const tl_navmesh *navmesh, const tl_nav_filter *filter, const tl_nav_ref *polygons,
+                        uint32_t count)
+{
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        tl_nav_link links[64];
+        uint32_t link_count = 0;
+        bool linked = false;
+        TEST_RESULT(tl_navmesh_links(navmesh, polygons[i], links, 64, &link_count), TL_OK);
+        for (uint32_t k = 0; k < link_count; k++) {
+            linked = linked || links[k].to == polygons[i + 1];
+        }
+        TEST_CHECK(linked && passes(navmesh, filter, polygons[i + 1]));
+    }
+}
+
+// Costs and flags by polygon: the tile's own arrays, which may hold any flags.
+static void randomize_flags(tl_navmesh *navmesh, test_random *random)
+{
+    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
+        uint64_t *flags = (uint64_t *)((uintptr_t)tile + tile->flags);
+        for (uint32_t p = 0; p < tile->polygon_count; p++) {
+            flags[p] = test_random_below(random, 12) == 0 ? 2 : 1;
+        }
+    }
+}
+
+static void test_against_dijkstra(void **state)
+{
+    (void)state;
+    test_random random = { 41 };
+    tl_nav_query *query = NULL;
+    tl_nav_query_def def = tl_default_nav_query_def();
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    uint32_t complete = 0, unreachable = 0, alone = 0, longest = 0;
+    for (uint32_t round = 0; round < 30; round++) {
+        fixture_level level = fixture_random(&random, round % 6, 9);
+        level.tile_cells = round % 2 == 0 ? 0 : 4;
+        level.area_count = 3;
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        randomize_flags(navmesh, &random);
+        tl_nav_filter filter = tl_default_nav_filter();
+        filter.exclude_flags = round % 3 == 0 ? 2 : 0;
+        for (uint32_t area = 1; area <= 3 && round % 4 != 0; area++) {
+            filter.area_cost[area] = test_random_range(&random, 0.5f, 6.0f);
+        }
+        way_graph g = make_graph(navmesh, &filter);
+        for (uint32_t i = 0; i < 20; i++) {
+            tl_nav_location start = fixture_random_location(navmesh, &g.all, &random);
+            tl_nav_location goal = fixture_random_location(navmesh, &g.all, &random);
+            if (!passes(navmesh, &filter, start.polygon) || !passes(navmesh, &filter, goal.polygon)) {
+                continue;
+            }
+            tl_nav_ref polygons[512];
+            tl_nav_path path;
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons, 512, &path), TL_OK);
+            check_chain(navmesh, &filter, polygons, path.polygon_count);
+            TEST_CHECK(polygons[0] == start.polygon && polygons[path.polygon_count - 1] == path.end.polygon);
+            bool reachable = g.component[fixture_index_of(&g.all, start.polygon)] ==
+                             g.component[fixture_index_of(&g.all, goal.polygon)];
+            TEST_CHECK(path.status == (reachable ? TL_NAV_PATH_COMPLETE : TL_NAV_PATH_UNREACHABLE));
+            TEST_CHECK(path.node_count <= tl_navmesh_link_count(navmesh) + 2);
+            double expected = dijkstra(navmesh, &g, &filter, &start, &goal);
+            TEST_CHECK(reachable == (isfinite(expected) != 0));
+            if (reachable) {
+                // A path of n steps adds n rounded floats of a few roundings each.
+                TEST_CHECK(fabs((double)path.cost - expected) <= 1e-6 * (8.0 + path.polygon_count) * expected);
+                TEST_CHECK(path.end.polygon == goal.polygon && path.end.point.x == goal.point.x);
+                complete++;
+                alone += path.polygon_count == 1;
+                longest = path.polygon_count > longest ? path.polygon_count : longest;
+            } else {
+                unreachable++;
+            }
+        }
+        free_graph(&g);
+        tl_navmesh_free(navmesh);
+    }
+    tl_nav_query_free(query);
+    TEST_CHECK(complete > 200 && unreachable > 60 && alone >= 3 && longest > 30);
+}
+
+// A partial path ends in the reachable polygon whose closest point is nearest to the goal.
+static void test_partial(void **state)
+{
+    (void)state;
+    test_random random = { 42 };
+    tl_nav_query *query = NULL;
+    tl_nav_query_def def = tl_default_nav_query_def();
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    uint32_t partial = 0;
+    for (uint32_t round = 0; round < 20; round++) {
+        fixture_level level = fixture_random(&random, round % 2 == 0 ? 1 : 5, 9);
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        tl_nav_filter filter = tl_default_nav_filter();
+        way_graph g = make_graph(navmesh, &filter);
+        for (uint32_t i = 0; i < 20; i++) {
+            tl_nav_location start = fixture_random_location(navmesh, &g.all, &random);
+            tl_nav_location goal = fixture_random_location(navmesh, &g.all, &random);
+            uint32_t from = fixture_index_of(&g.all, start.polygon);
+            if (g.component[from] == g.component[fixture_index_of(&g.all, goal.polygon)]) {
+                continue;
+            }
+            float best = INFINITY;
+            for (uint32_t k = 0; k < g.all.count; k++) {
+                tl_vec3 closest;
+                TEST_RESULT(tl_navmesh_closest_point(navmesh, g.all.refs[k], goal.point, &closest, NULL), TL_OK);
+                float d = tl_distance_sq(closest, goal.point);
+                best = g.component[k] == g.component[from] && d < best ? d : best;
+            }
+            tl_nav_ref polygons[512];
+            tl_nav_path path;
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 512, &path), TL_OK);
+            TEST_CHECK(path.status == TL_NAV_PATH_UNREACHABLE);
+            TEST_CHECK(tl_distance_sq(path.end.point, goal.point) == best);
+            partial++;
+        }
+        free_graph(&g);
+        tl_navmesh_free(navmesh);
+    }
+    tl_nav_query_free(query);
+    TEST_CHECK(partial > 60);
+}
+
+// Every pool size: the answer is either the whole one, or says that it gave up.
+static void test_out_of_nodes(void **state)
+{
+    (void)state;
+    test_random random = { 43 };
+    fixture_level level = fixture_random(&random, 2, 12);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    fixture_refs all = fixture_all_refs(navmesh);
+    tl_nav_location start = { all.refs[0], { 0, 0, 0 } }, goal = { all.refs[all.count - 1], { 0, 0, 0 } };
+    TEST_RESULT(tl_navmesh_closest_point(navmesh, start.polygon, level.origin, &start.point, NULL), TL_OK);
+    TEST_RESULT(tl_navmesh_closest_point(navmesh, goal.polygon, tl_vec3_make(99, 0, 99), &goal.point, NULL), TL_OK);
+    uint32_t gave_up = 0, complete = 0;
+    tl_nav_filter filter = tl_default_nav_filter();
+    for (uint32_t max_nodes = 2; max_nodes <= tl_navmesh_link_count(navmesh) + 2; max_nodes++) {
+        tl_nav_query_def def = tl_default_nav_query_def();
+        def.max_nodes = max_nodes;
+        tl_nav_query *query = NULL;
+        TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+        tl_nav_ref polygons[512];
+        tl_nav_path path;
+        TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 512, &path), TL_OK);
+        check_chain(navmesh, &filter, polygons, path.polygon_count);
+        TEST_CHECK(path.status != TL_NAV_PATH_UNREACHABLE && path.node_count <= max_nodes);
+        TEST_CHECK(complete == 0 || path.status == TL_NAV_PATH_COMPLETE);
+        gave_up += path.status == TL_NAV_PATH_OUT_OF_NODES;
+        complete += path.status == TL_NAV_PATH_COMPLETE;
+        tl_nav_query_free(query);
+    }
+    TEST_CHECK(gave_up > 20 && complete > 0);
+    free(all.refs);
+    tl_navmesh_free(navmesh);
+}
+
+// A query is as good after a thousand searches as before, and does not depend on them.
+static void test_query_is_reusable(void **state)
+{
+    (void)state;
+    test_random random = { 44 };
+    fixture_level level = fixture_random(&random, 4, 16);
+    level.tile_cells = 5;
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    fixture_refs all = fixture_all_refs(navmesh);
+    tl_nav_query *used = NULL;
+    tl_nav_query_def def = tl_default_nav_query_def();
+    TEST_RESULT(tl_nav_query_create(&def, &used), TL_OK);
+    for (uint32_t i = 0; i < 300; i++) {
+        tl_nav_location start = fixture_random_location(navmesh, &all, &random);
+        tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
+        tl_nav_query *fresh = NULL;
+        TEST_RESULT(tl_nav_query_create(&def, &fresh), TL_OK);
+        tl_nav_ref a[256], b[256];
+        tl_nav_path path_a, path_b;
+        TEST_RESULT(tl_nav_query_find_path(used, navmesh, NULL, &start, &goal, a, 256, &path_a), TL_OK);
+        TEST_RESULT(tl_nav_query_find_path(fresh, navmesh, NULL, &start, &goal, b, 256, &path_b), TL_OK);
+        TEST_CHECK(path_a.polygon_count == path_b.polygon_count && path_a.cost == path_b.cost);
+        TEST_CHECK(memcmp(a, b, path_a.polygon_count * sizeof *a) == 0);
+        tl_nav_query_free(fresh);
+    }
+    tl_nav_query_free(used);
+    free(all.refs);
+    tl_navmesh_free(navmesh);
+}
+
+static void test_arguments(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "000", "0#0", "000" };
+    fixture_level level = fixture_make(rows, 3);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    tl_nav_query *query = NULL;
+    tl_nav_query_def def = tl_default_nav_query_def();
+    def.max_nodes = 1;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_ERR_ARGUMENT);
+    def = tl_default_nav_query_def();
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 1, 0, 1 } };
+    tl_nav_location goal = { tl_navmesh_polygon_ref(navmesh, 0, 7), { 11, 0, 11 } };
+    tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
+    tl_nav_ref polygons[8] = { 0 };
+    tl_nav_path path;
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &stale, &goal, polygons, 8, &path), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &stale, polygons, 8, &path), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &nan, &goal, polygons, 8, &path), TL_ERR_NOT_FINITE);
+    const float bad[3] = { 0.0f, NAN, INFINITY };
+    for (int i = 0; i < 3; i++) {
+        tl_nav_filter filter = tl_default_nav_filter();
+        filter.area_cost[5] = bad[i];
+        TEST_RESULT(tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons, 8, &path),
+                    TL_ERR_ARGUMENT);
+    }
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 3, &path), TL_ERR_CAPACITY);
+    TEST_CHECK(path.polygon_count == 5 && path.status == TL_NAV_PATH_COMPLETE);
+    TEST_CHECK(polygons[0] == start.polygon && polygons[3] == 0);
+    TEST_CHECK(strcmp(tl_nav_path_status_name(TL_NAV_PATH_OUT_OF_NODES), "out of nodes") == 0);
+    TEST_CHECK(strcmp(tl_nav_path_status_name((tl_nav_path_status)9), "unknown") == 0);
+
+    // All in one.
+    tl_nav_corner corners[8];
+    tl_nav_route_buffers buffers = { polygons, 8, corners, 8 };
+    tl_nav_route route;
+    tl_vec3 extents = { 1, 2, 1 };
+    TEST_RESULT(tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(2, 0.5f, 2), tl_vec3_make(10, 0, 10),
+                                        extents, &buffers, &route),
+                TL_OK);
+    TEST_CHECK(route.corner_count == 3 && fabsf(route.length - 2.0f * sqrtf(4.0f + 36.0f)) < 1e-5f);
+    TEST_RESULT(tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(2, 0, 2), tl_vec3_make(40, 0, 10), extents,
+                                        &buffers, &route),
+                TL_ERR_NOT_FOUND);
+    TEST_CHECK(route.start.polygon != TL_NAV_NO_REF && route.goal.polygon == TL_NAV_NO_REF);
+    buffers.corner_capacity = 2;
+    TEST_RESULT(tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(2, 0, 2), tl_vec3_make(10, 0, 10), extents,
+                                        &buffers, &route),
+                TL_ERR_CAPACITY);
+    TEST_CHECK(route.corner_count == 3);
+    tl_nav_query_free(query);
+    tl_nav_query_free(NULL);
+    tl_navmesh_free(navmesh);
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    uint32_t failures = 0;
+    for (uint64_t k = 1;; k++) {
+        test_allocator failing;
+        test_allocator_init(&failing, k);
+        tl_nav_query_def def = { 1000, &failing.allocator };
+        tl_nav_query *query = NULL;
+        tl_result result = tl_nav_query_create(&def, &query);
+        if (result == TL_OK) {
+            tl_nav_query_free(query);
+            TEST_CHECK(failing.live_blocks == 0);
+            break;
+        }
+        TEST_RESULT(result, TL_ERR_MEMORY);
+        TEST_CHECK(query == NULL && failing.live_blocks == 0);
+        failures++;
+    }
+    TEST_CHECK(failures == 4);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_against_dijkstra),  cmocka_unit_test(test_partial),   cmocka_unit_test(test_out_of_nodes),
+        cmocka_unit_test(test_query_is_reusable), cmocka_unit_test(test_arguments), cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
