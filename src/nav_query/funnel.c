@@ -3,10 +3,14 @@
 // String pulling: narrow a wedge from the apex, portal by portal; where one side would cross the other, the other is a
 // corner and the next apex, and the walk goes on from that corner's last portal.
 //
-// All turns are decided exactly, so portals of no width, portals that share an end with the apex, and wedges that have
-// closed to a line need no tolerance: a point on a side's own line still narrows it. A corner is remembered with the
-// last portal that has it, so each restart begins behind the one before: at most n(n + 1)/2 portals are looked at, and
-// about 2n on real corridors.
+// All turns are decided exactly, so nothing needs a tolerance; what remains is to decide every tie. Where both sides of
+// the wedge fall on one line the path must follow it, so the side that the corridor reaches first becomes a corner at
+// once, and the next corner removes it again if it lies straight behind. That keeps the order right where a corridor
+// turns back along a line, as it does around the end of a wall on the seam of two tiles.
+// Where a corridor leaves a polygon by the very edge by which it came in (to another of two polygons that lie over one
+// another there), the line is inside the corridor but need not be the shortest.
+// A corner is remembered with the last portal that has it, so each restart begins behind the one before: at most
+// n(n + 1)/2 portals are looked at, and about 2n on real corridors.
 // Source: Mikko Mononen, Simple Stupid Funnel Algorithm, 2010; Lee and Preparata, Euclidean Shortest Paths in the
 // Presence of Rectilinear Barriers, 1984.
 
@@ -15,24 +19,48 @@
 #include "side.h"
 #include "surface.h"
 
+#include <string.h>
+
 typedef struct corner_list {
     tl_nav_corner *corners;
     uint32_t capacity, count;
-    tl_vec3 last;
-    double length;
+    tl_vec3 last, before; // the last two points
+    double length, length_before;
 } corner_list;
 
+static void set_last(corner_list *list, tl_vec3 point, tl_nav_ref polygon, uint32_t flags)
+{
+    list->last = point;
+    list->length = list->length_before + (list->count > 1 ? (double)tl_distance(list->before, point) : 0.0);
+    if (list->count <= list->capacity) {
+        tl_nav_corner corner = { point, polygon, flags };
+        list->corners[list->count - 1] = corner;
+    }
+}
+
+static bool same_place(tl_vec3 a, tl_vec3 b)
+{
+    return a.x == b.x && a.z == b.z;
+}
+
+// Whether b lies on the straight way from a to c.
+static bool is_straight(tl_vec3 a, tl_vec3 b, tl_vec3 c)
+{
+    double ahead = ((double)b.x - (double)a.x) * ((double)c.x - (double)b.x) +
+                   ((double)b.z - (double)a.z) * ((double)c.z - (double)b.z);
+    return ahead > 0.0 && tl_nav_side_of(a, b, c) == 0;
+}
+
+// Adds a corner; one before it that is no bend, or the same place, gives way to it.
 static void add_corner(corner_list *list, tl_vec3 point, tl_nav_ref polygon, uint32_t flags)
 {
-    if (list->count > 0) {
-        list->length += (double)tl_distance(list->last, point);
+    bool replaces = list->count > 1 && (same_place(list->last, point) || is_straight(list->before, list->last, point));
+    if (!replaces) {
+        list->before = list->last;
+        list->length_before = list->length;
+        list->count++;
     }
-    if (list->count < list->capacity) {
-        tl_nav_corner corner = { point, polygon, flags };
-        list->corners[list->count] = corner;
-    }
-    list->count++;
-    list->last = point;
+    set_last(list, point, polygon, flags);
 }
 
 // One side of the wedge: where it is, and the portal that put it there.
@@ -46,21 +74,11 @@ typedef struct funnel {
     const tl_nav_ref *polygons;
     uint32_t polygon_count;
     tl_vec3 start, end;
+    tl_vec3 apex;
+    wedge_side left, right; // at the apex: open, no portal has narrowed it yet
+    uint32_t portal;        // the one to look at
     corner_list list;
 } funnel;
-
-static bool same_place(tl_vec3 a, tl_vec3 b)
-{
-    return a.x == b.x && a.z == b.z;
-}
-
-// A corner that coincides with the one before, or with the end, adds nothing.
-static void add_turn(funnel *f, const wedge_side *side, uint32_t flags)
-{
-    if (!same_place(side->point, f->list.last) && !same_place(side->point, f->end)) {
-        add_corner(&f->list, side->point, f->polygons[side->portal + 1], flags);
-    }
-}
 
 // Portal i leads from polygon i to i + 1; the last one is the end itself.
 static tl_result portal_at(const funnel *f, uint32_t i, tl_vec3 *left_out, tl_vec3 *right_out)
@@ -79,39 +97,84 @@ static tl_result portal_at(const funnel *f, uint32_t i, tl_vec3 *left_out, tl_ve
                                                                                                  : TL_ERR_ARGUMENT;
 }
 
+// Makes a side of the wedge a corner and the apex; the walk goes on behind its portal.
+static void turn_at(funnel *f, const wedge_side *side, uint32_t flags)
+{
+    // A corner in the start's own place is no corner; add_corner sees to all others.
+    if (f->list.count > 1 || !same_place(side->point, f->start)) {
+        add_corner(&f->list, side->point, f->polygons[side->portal + 1], flags);
+    }
+    f->apex = side->point;
+    f->portal = side->portal + 1;
+    f->left.point = f->apex;
+    f->right.point = f->apex;
+}
+
+// Whether `point` lies at least as far from the apex as `side`, which is on the same line.
+static bool is_no_nearer(const funnel *f, const wedge_side *side, tl_vec3 point)
+{
+    double x = (double)side->point.x - (double)f->apex.x;
+    double z = (double)side->point.z - (double)f->apex.z;
+    return x * ((double)point.x - (double)side->point.x) + z * ((double)point.z - (double)side->point.z) >= 0.0;
+}
+
+// Whether `point`, an end of the current portal, lies on or beyond the ray from the apex through the other side.
+static bool closes(const funnel *f, const wedge_side *other, int hand, tl_vec3 point, bool *in_line_out)
+{
+    *in_line_out = false;
+    if (same_place(other->point, f->apex)) {
+        return false;
+    }
+    // The end of the path is both ends of its portal, and closes nothing by itself.
+    if (f->portal + 1 == f->polygon_count && other->portal == f->portal) {
+        return false;
+    }
+    int side = hand * tl_nav_side_of(f->apex, other->point, point);
+    double ahead = ((double)other->point.x - (double)f->apex.x) * ((double)point.x - (double)f->apex.x) +
+                   ((double)other->point.z - (double)f->apex.z) * ((double)point.z - (double)f->apex.z);
+    *in_line_out = side == 0 && ahead > 0.0;
+    return side < 0 || *in_line_out;
+}
+
+// Moves one side of the wedge to its end of the current portal, unless that would widen it. `hand` is 1 for the right
+// side, -1 for the left one: hand * side_of is < 0 for what lies on the inner side of it.
+// Returns true when the wedge has closed: then there is a new apex.
+static bool narrow(funnel *f, wedge_side *own, const wedge_side *other, int hand, tl_vec3 end)
+{
+    if (same_place(end, f->apex)) {
+        return false;
+    }
+    if (!same_place(own->point, f->apex)) {
+        int side = hand * tl_nav_side_of(f->apex, own->point, end);
+        if (side > 0 || (side == 0 && !is_no_nearer(f, own, end))) {
+            return false;
+        }
+    }
+    wedge_side moved = { end, f->portal };
+    bool in_line = false;
+    if (!closes(f, other, hand, end, &in_line)) {
+        *own = moved;
+        return false;
+    }
+    // Both ends of one portal in line with the apex: the near one comes first.
+    bool own_is_first = in_line && other->portal == f->portal && !is_no_nearer(f, other, end);
+    wedge_side first = own_is_first ? moved : *other;
+    bool is_left = (hand < 0) == own_is_first;
+    turn_at(f, &first, is_left ? TL_NAV_CORNER_LEFT : TL_NAV_CORNER_RIGHT);
+    return true;
+}
+
 static tl_result pull(funnel *f)
 {
-    tl_vec3 apex = f->start;
-    // The apex stands before portal 0; `portal` of an unset side is never read.
-    wedge_side left = { apex, 0 };
-    wedge_side right = { apex, 0 };
-    uint32_t i = 0;
-    while (i < f->polygon_count) {
-        tl_vec3 new_left, new_right;
-        TL_TRY(portal_at(f, i, &new_left, &new_right));
-        if (tl_nav_side_of(apex, right.point, new_right) <= 0) {
-            if (tl_nav_side_of(apex, left.point, new_right) < 0) {
-                add_turn(f, &left, TL_NAV_CORNER_LEFT);
-                apex = left.point;
-                i = left.portal + 1;
-                right = left;
-                continue;
-            }
-            right.point = new_right;
-            right.portal = i;
+    while (f->portal < f->polygon_count) {
+        tl_vec3 left, right;
+        TL_TRY(portal_at(f, f->portal, &left, &right));
+        if (f->portal + 1 == f->polygon_count && same_place(f->end, f->apex)) {
+            return TL_OK;
         }
-        if (tl_nav_side_of(apex, left.point, new_left) >= 0) {
-            if (tl_nav_side_of(apex, right.point, new_left) > 0) {
-                add_turn(f, &right, TL_NAV_CORNER_RIGHT);
-                apex = right.point;
-                i = right.portal + 1;
-                left = right;
-                continue;
-            }
-            left.point = new_left;
-            left.portal = i;
+        if (!narrow(f, &f->right, &f->left, 1, right) && !narrow(f, &f->left, &f->right, -1, left)) {
+            f->portal++;
         }
-        i++;
     }
     return TL_OK;
 }
@@ -136,12 +199,18 @@ tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *
         return TL_ERR_NOT_FOUND;
     }
     bool inside = false;
-    funnel f = { navmesh,
-                 polygons,
-                 polygon_count,
-                 tl_nav_clamp_to_polygon(navmesh->slots[slots[0]].tile, ends[0], start, &inside),
-                 tl_nav_clamp_to_polygon(navmesh->slots[slots[1]].tile, ends[1], end, &inside),
-                 { corners_out, capacity, 0, start, 0.0 } };
+    funnel f;
+    memset(&f, 0, sizeof f);
+    f.navmesh = navmesh;
+    f.polygons = polygons;
+    f.polygon_count = polygon_count;
+    f.start = tl_nav_clamp_to_polygon(navmesh->slots[slots[0]].tile, ends[0], start, &inside);
+    f.end = tl_nav_clamp_to_polygon(navmesh->slots[slots[1]].tile, ends[1], end, &inside);
+    f.apex = f.start;
+    f.left.point = f.start;
+    f.right.point = f.start;
+    f.list.corners = corners_out;
+    f.list.capacity = capacity;
     add_corner(&f.list, f.start, polygons[0], TL_NAV_CORNER_START);
     TL_TRY(pull(&f));
     add_corner(&f.list, f.end, polygons[polygon_count - 1], TL_NAV_CORNER_END);

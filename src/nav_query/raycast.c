@@ -5,8 +5,11 @@
 // Which edge that is is not read off intersection parameters, whose rounding differs from polygon to polygon, but off
 // one label a vertex: left or right of the ray. The ray leaves by the edge that runs from a right vertex to a left one.
 // A vertex has the same label in all polygons around it, so the walk cannot lose its way or turn in circles at a
-// corner. A vertex within rounding of the ray counts as left, or, when that ends at a wall, as right in a second walk:
-// so a ray that only touches a corner or runs along a wall passes.
+// corner.
+//
+// A vertex within rounding of the ray is touched. It counts as left, or, when that ends at a wall, as right in a second
+// walk; and where that ends at a wall that begins in a touched vertex, the walk goes on from this vertex in the same
+// two ways. So a ray that only touches corners, on either hand, or runs along walls, passes.
 // Sources: for the walk, Guibas and Stolfi 1985; for the labels, Edelsbrunner and Muecke, Simulation of Simplicity,
 // 1990.
 
@@ -21,17 +24,27 @@ typedef struct surface_ray {
     const tl_navmesh *navmesh;
     const tl_nav_filter *filter;
     tl_vec3 start, end;
+    tl_vec3 from;          // where the walk begins: the start, or a touched vertex
+    double rounding;       // metres in the plane within which two points are the same
     double grazing;        // doubled area: a vertex nearer to the ray's line than rounding
     bool touching_is_left; // the label of such a vertex
     bool touched;          // there was one
+    uint64_t steps_left;
 } surface_ray;
 
-typedef struct walk_end {
-    bool hit;
+// Where a walk is, and what it has crossed.
+typedef struct ray_walk {
+    uint32_t slot, polygon;
+    uint32_t polygon_count; // crossed, this one included
     double t;
-    uint32_t slot, polygon, edge;
-    uint32_t polygon_count;
-} walk_end;
+    bool hit;
+    uint32_t edge; // that was hit
+} ray_walk;
+
+typedef struct ray_trace {
+    tl_nav_ref *polygons;
+    uint32_t capacity;
+} ray_trace;
 
 // Distance in the plane, as a share of the largest coordinate, within which a vertex may lie on the ray: its own and
 // the ray's two points' coordinates are each rounded to float, on both axes.
@@ -80,8 +93,25 @@ static bool find_exit(surface_ray *ray, const tl_vec3 *corners, uint32_t count, 
     return found;
 }
 
+// Whether the ray goes through this stretch of a seam.
+static bool is_through(surface_ray *ray, const tl_nav_seam_link *seam)
+{
+    return !is_left(ray, seam->right) && is_left(ray, seam->left);
+}
+
+// Whether the place where the walk begins lies in this stretch of a seam.
+static bool is_beside(surface_ray *ray, const tl_nav_seam_link *seam)
+{
+    double dx = (double)seam->left.x - (double)seam->right.x;
+    double dz = (double)seam->left.z - (double)seam->right.z;
+    double along =
+        dx * ((double)ray->start.x - (double)seam->right.x) + dz * ((double)ray->start.z - (double)seam->right.z);
+    return along >= 0.0 && along <= dx * dx + dz * dz;
+}
+
 // Steps over an edge; false at a wall, at a gap in a tile's seam, and where the filter refuses the polygon behind.
-static bool step(surface_ray *ray, uint32_t edge, uint32_t *slot, uint32_t *polygon)
+static bool step(surface_ray *ray, uint32_t edge, bool (*takes)(surface_ray *, const tl_nav_seam_link *),
+                 uint32_t *slot, uint32_t *polygon)
 {
     const tl_nav_slot *from = &ray->navmesh->slots[*slot];
     uint32_t link = tl_nav_tile_links(from->tile, *polygon)[edge];
@@ -95,7 +125,7 @@ static bool step(surface_ray *ray, uint32_t edge, uint32_t *slot, uint32_t *poly
         const tl_nav_seam_link *end = NULL;
         uint64_t key = 0;
         tl_nav_seam_range(from, link & ~TL_NAV_LINK_PORTAL, &seam, &end, &key);
-        while (seam != end && (is_left(ray, seam->right) || !is_left(ray, seam->left))) {
+        while (seam != end && !takes(ray, seam)) {
             seam++;
         }
         if (seam == end) {
@@ -112,32 +142,169 @@ static bool step(surface_ray *ray, uint32_t edge, uint32_t *slot, uint32_t *poly
     return true;
 }
 
-static tl_result walk(surface_ray *ray, uint32_t slot, uint32_t polygon, tl_nav_ref *polygons_out, uint32_t capacity,
-                      walk_end *end_out)
+// Whether the walk's begin, moved ahead by a trifle and by a far smaller one aside, is beyond the edge from a to b. To
+// the side away from vertices that touch: they count as left, so the ray passes right of them, or the other way around.
+static bool starts_beyond(const surface_ray *ray, tl_vec3 a, tl_vec3 b)
 {
-    double t = 0.0;
-    // A line enters a convex polygon once at most.
-    for (uint64_t steps = 0; steps < ray->navmesh->polygon_count; steps++) {
-        if (steps < capacity) {
-            polygons_out[steps] = tl_nav_make_ref(ray->navmesh, slot, polygon);
-        }
-        walk_end end = { false, 1.0, slot, polygon, 0, (uint32_t)steps + 1 };
-        *end_out = end;
+    double ex = (double)b.x - (double)a.x;
+    double ez = (double)b.z - (double)a.z;
+    double length = sqrt(ex * ex + ez * ez);
+    double turn = tl_nav_turn(a, b, ray->from);
+    if (fabs(turn) > ray->rounding * length) {
+        return turn > 0.0;
+    }
+    double dx = (double)ray->end.x - (double)ray->start.x;
+    double dz = (double)ray->end.z - (double)ray->start.z;
+    double ahead = ex * dz - ez * dx;
+    if (fabs(ahead) > ray->rounding * length) {
+        return ahead > 0.0;
+    }
+    // The edge lies on the ray: it runs with it or against it, and its inside is on its left.
+    bool with_ray = ex * dx + ez * dz > 0.0;
+    return with_ray == ray->touching_is_left;
+}
+
+// Polygons around one vertex: more than meet in any that a bake makes.
+#define MAX_START_STEPS 256
+
+static void record(const surface_ray *ray, const ray_walk *at, const ray_trace *trace)
+{
+    if (at->polygon_count <= trace->capacity) {
+        trace->polygons[at->polygon_count - 1] = tl_nav_make_ref(ray->navmesh, at->slot, at->polygon);
+    }
+}
+
+// Moves to the polygon in which the walk begins: from a vertex or an edge there may be several to begin in. Where walls
+// close the way, the walk stays.
+static void find_start(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
+{
+    ray_walk at = *walk;
+    uint32_t from_slot = TL_NAV_NO_SLOT;
+    uint32_t from_polygon = TL_NO_POLYGON;
+    for (uint32_t steps = 0; steps < MAX_START_STEPS; steps++) {
         uint32_t count = 0;
-        const tl_vec3 *corners = tl_nav_tile_corners(ray->navmesh->slots[slot].tile, polygon, &count);
-        double exit_t = 0.0;
-        bool crosses = find_exit(ray, corners, count, &end_out->edge, &exit_t);
-        t = exit_t > t ? exit_t : t;
-        if (t >= 1.0) {
-            return TL_OK;
+        const tl_vec3 *corners = tl_nav_tile_corners(ray->navmesh->slots[at.slot].tile, at.polygon, &count);
+        bool inside = true;
+        bool moved = false;
+        for (uint32_t i = 0; i < count && !moved; i++) {
+            if (!starts_beyond(ray, corners[i], corners[i + 1 < count ? i + 1 : 0])) {
+                continue;
+            }
+            inside = false;
+            ray_walk next = at;
+            if (step(ray, i, is_beside, &next.slot, &next.polygon) &&
+                (next.slot != from_slot || next.polygon != from_polygon)) {
+                from_slot = at.slot;
+                from_polygon = at.polygon;
+                at = next;
+                at.polygon_count++;
+                record(ray, &at, trace);
+                moved = true;
+            }
         }
-        if (!crosses || !step(ray, end_out->edge, &slot, &polygon)) {
-            end_out->hit = true;
-            end_out->t = t;
-            return TL_OK;
+        if (inside) {
+            *walk = at;
+        }
+        if (!moved) {
+            return;
         }
     }
+}
+
+// Whether the ray's end lies beyond the edge by more than rounding.
+static bool ends_beyond(const surface_ray *ray, tl_vec3 a, tl_vec3 b)
+{
+    double ex = (double)b.x - (double)a.x;
+    double ez = (double)b.z - (double)a.z;
+    return tl_nav_turn(a, b, ray->end) > ray->rounding * sqrt(ex * ex + ez * ez);
+}
+
+// Walks on from the polygon of `walk`, which is on record, to the ray's end or a wall.
+static tl_result walk_on(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
+{
+    find_start(ray, walk, trace);
+    for (; ray->steps_left > 0; ray->steps_left--) {
+        uint32_t count = 0;
+        const tl_vec3 *corners = tl_nav_tile_corners(ray->navmesh->slots[walk->slot].tile, walk->polygon, &count);
+        double t = 0.0;
+        uint32_t edge = 0;
+        bool crosses = find_exit(ray, corners, count, &edge, &t);
+        if (crosses && !ends_beyond(ray, corners[edge], corners[edge + 1 < count ? edge + 1 : 0])) {
+            walk->hit = false;
+            walk->t = 1.0;
+            return TL_OK;
+        }
+        t = t < 1.0 ? t : 1.0;
+        walk->t = t > walk->t ? t : walk->t;
+        if (!crosses || !step(ray, edge, is_through, &walk->slot, &walk->polygon)) {
+            walk->hit = true;
+            walk->edge = edge;
+            return TL_OK;
+        }
+        walk->polygon_count++;
+        record(ray, walk, trace);
+    }
     return TL_ERR_ITERATIONS;
+}
+
+// The same with touched vertices left of the ray, then right of it; what came farther.
+static tl_result walk_both_ways(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
+{
+    const ray_walk begin = *walk;
+    const ray_trace no_trace = { NULL, 0 };
+    ray->touching_is_left = true;
+    ray->touched = false;
+    tl_result result = walk_on(ray, walk, trace);
+    if (result != TL_OK || !walk->hit || !ray->touched) {
+        return result;
+    }
+    ray_walk other = begin;
+    ray->touching_is_left = false;
+    if (walk_on(ray, &other, &no_trace) == TL_OK && other.t > walk->t) {
+        *walk = begin;
+        result = walk_on(ray, walk, trace);
+    }
+    return result;
+}
+
+// How far along the ray a point lies, 0 at the start, 1 at the end.
+static double place_on(const surface_ray *ray, tl_vec3 point)
+{
+    double dx = (double)ray->end.x - (double)ray->start.x;
+    double dz = (double)ray->end.z - (double)ray->start.z;
+    double along = dx * ((double)point.x - (double)ray->start.x) + dz * ((double)point.z - (double)ray->start.z);
+    return along / (dx * dx + dz * dz);
+}
+
+// Whether the wall that was hit begins or ends in a touched vertex farther along the ray than the last walk began; that
+// is where the next one begins.
+static bool touches_ahead(surface_ray *ray, const ray_walk *walk)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(ray->navmesh->slots[walk->slot].tile, walk->polygon, &count);
+    double farthest = place_on(ray, ray->from);
+    bool found = false;
+    for (uint32_t k = 0; k < 2; k++) {
+        tl_vec3 vertex = corners[(walk->edge + k) % count];
+        if (fabs(tl_nav_turn(ray->start, ray->end, vertex)) <= ray->grazing && place_on(ray, vertex) > farthest) {
+            farthest = place_on(ray, vertex);
+            ray->from = vertex;
+            found = true;
+        }
+    }
+    return found && farthest < 1.0;
+}
+
+static tl_result walk_to_end(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
+{
+    record(ray, walk, trace);
+    do {
+        tl_result result = walk_both_ways(ray, walk, trace);
+        if (result != TL_OK) {
+            return result;
+        }
+    } while (walk->hit && touches_ahead(ray, walk));
+    return TL_OK;
 }
 
 static double largest_coordinate(tl_vec3 a, tl_vec3 b)
@@ -157,7 +324,7 @@ static tl_vec3 edge_normal(const tl_vec3 *corners, uint32_t count, uint32_t edge
     return tl_normalize(tl_vec3_make(along.z, 0.0f, -along.x));
 }
 
-static void describe(const surface_ray *ray, const walk_end *end, tl_nav_ray_hit *hit_out)
+static void describe(const surface_ray *ray, const ray_walk *end, tl_nav_ray_hit *hit_out)
 {
     const tl_nav_tile *tile = ray->navmesh->slots[end->slot].tile;
     hit_out->hit = end->hit;
@@ -191,29 +358,22 @@ tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *fi
     tl_vec3 from = tl_nav_clamp_to_polygon(navmesh->slots[slot].tile, polygon, start->point, &inside);
     double dx = (double)end.x - (double)from.x;
     double dz = (double)end.z - (double)from.z;
-    double grazing = GRAZING_ERROR * largest_coordinate(from, end) * sqrt(dx * dx + dz * dz);
-    surface_ray ray = { navmesh, filter, from, end, grazing, true, false };
+    double rounding = GRAZING_ERROR * largest_coordinate(from, end);
+    // Each polygon once, in either way of touching, and again for each vertex that is gone around.
+    uint64_t steps = 4 * navmesh->polygon_count + MAX_START_STEPS;
+    surface_ray ray = { navmesh, filter, from, end, from, rounding, rounding * sqrt(dx * dx + dz * dz),
+                        true,    false,  steps };
+    ray_walk walk = { slot, polygon, 1, 0.0, false, 0 };
+    const ray_trace trace = { polygons_out, capacity };
     if (dx == 0.0 && dz == 0.0) {
-        walk_end stay = { false, 1.0, slot, polygon, 0, 1 };
-        if (capacity > 0) {
-            polygons_out[0] = start->polygon;
-        }
-        describe(&ray, &stay, hit_out);
-        return capacity > 0 || polygons_out == NULL ? TL_OK : TL_ERR_CAPACITY;
-    }
-    walk_end first;
-    tl_result result = walk(&ray, slot, polygon, polygons_out, capacity, &first);
-    if (result == TL_OK && first.hit && ray.touched) {
-        walk_end second;
-        ray.touching_is_left = false;
-        tl_result again = walk(&ray, slot, polygon, NULL, 0, &second);
-        if (again == TL_OK && second.t > first.t) {
-            result = walk(&ray, slot, polygon, polygons_out, capacity, &first);
+        walk.t = 1.0;
+        record(&ray, &walk, &trace);
+    } else {
+        tl_result result = walk_to_end(&ray, &walk, &trace);
+        if (result != TL_OK) {
+            return result;
         }
     }
-    if (result != TL_OK) {
-        return result;
-    }
-    describe(&ray, &first, hit_out);
-    return first.polygon_count <= capacity || polygons_out == NULL ? TL_OK : TL_ERR_CAPACITY;
+    describe(&ray, &walk, hit_out);
+    return walk.polygon_count <= capacity || polygons_out == NULL ? TL_OK : TL_ERR_CAPACITY;
 }
