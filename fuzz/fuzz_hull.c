@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+//
+// Hulls of arbitrary floats. The property: a build either names what is wrong, or gives a hull that passes its own
+// check and is proven convex, with all points inside and exact support. The same bytes are also read as a baked hull:
+// what the check accepts must be safe to use.
+
+#include "math/predicates.h"
+
+#include <talus/hull.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_POINTS = 64 };
+
+static void require(int condition)
+{
+    if (!condition) {
+        abort();
+    }
+}
+
+static void use(const tl_hull *hull, tl_vec3 direction)
+{
+    uint32_t answer = tl_hull_support(hull, direction, TL_NO_VERTEX);
+    require(answer < hull->vertex_count);
+    for (uint32_t hint = 0; hint < hull->vertex_count; hint += 3) {
+        require(tl_hull_support(hull, direction, hint) < hull->vertex_count);
+    }
+    tl_hull_cast_ray(hull, direction, tl_neg(direction), 2.0f, NULL);
+    tl_hull_contains(hull, direction);
+}
+
+static void build(const tl_vec3 *points, uint32_t count, uint32_t limit)
+{
+    tl_hull_def def = tl_default_hull_def();
+    def.flatness = 0.0f;
+    def.max_vertices = limit;
+    tl_hull *hull;
+    if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
+        return;
+    }
+    require(tl_hull_check(hull, hull->blob.size) == TL_OK);
+    tl_result proof = tl_hull_validate(hull, points, count, NULL);
+    require(proof == TL_OK || (limit != 0 && proof == TL_ERR_RANGE));
+    for (uint32_t i = 0; i < count; i++) {
+        use(hull, points[i]);
+        uint32_t best = tl_hull_support(hull, points[i], i);
+        for (uint32_t v = 0; v < hull->vertex_count; v++) {
+            int order = tl_compare_along(points[i], tl_hull_vertices(hull)[v], tl_hull_vertices(hull)[best]);
+            require(order < 0 || (order == 0 && v >= best));
+        }
+    }
+    tl_blob_free(hull, NULL);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    if (size < 2) {
+        return 0;
+    }
+    tl_vec3 points[MAX_POINTS];
+    uint32_t count = 0;
+    size_t at = 2;
+    if (data[0] % 3 == 0) {
+        // Raw floats: every exponent, NaN and infinity.
+        for (; count < MAX_POINTS && at + sizeof(tl_vec3) <= size; at += sizeof(tl_vec3)) {
+            memcpy(&points[count++], data + at, sizeof(tl_vec3));
+        }
+    } else {
+        // A small lattice, near or far: many points coincide, are collinear or coplanar.
+        float offset = data[0] % 3 == 1 ? 0.0f : 8388608.0f;
+        for (; count < MAX_POINTS && at + 3 <= size; at += 3) {
+            points[count++] = tl_vec3_make((float)(data[at] % 8) + offset, (float)(data[at + 1] % 8) - offset,
+                                           (float)(data[at + 2] % 8));
+        }
+    }
+    build(points, count, data[1] % 4 == 0 ? 4u + data[1] / 4u : 0);
+
+    void *copy = aligned_alloc(64, (size + 63) / 64 * 64);
+    memcpy(copy, data, size);
+    if (tl_hull_check(copy, size) == TL_OK) {
+        use(copy, tl_vec3_make(1.0f, -2.0f, 0.5f));
+    }
+    free(copy);
+    return 0;
+}
