@@ -243,6 +243,9 @@ static void test_orient2d_matches_gmp(void **state)
         TEST_CHECK(tl_orient2d(p[2], p[3], p[0], p[1], p[4], p[5]) == -expected);
         zero += expected == 0;
         signs[expected + 1]++;
+        // The oracle's s holds the area times 2^298.
+        double area = tl_area2d(p[0], p[1], p[2], p[3], p[4], p[5]), exact = ldexp(mpz_get_d(gmp.s), -298);
+        TEST_CHECK(fabs(area - exact) <= fabs(exact) * 0x1p-45);
     }
     TEST_CHECK(zero > 10000 && signs[0] > 10000 && signs[2] > 10000);
 }

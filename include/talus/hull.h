@@ -70,7 +70,8 @@ typedef struct tl_hull_plane {
     double offset;
 } tl_hull_plane;
 
-/// For density 1. Computed in double about a point inside, so it is as good far from the origin.
+/// For density 1. Computed in double about a point inside, so it is as good far from the origin. A body thinner than
+/// double rounding of its length has volume and inertia 0, and the mean of its vertices as centre.
 typedef struct tl_hull_mass {
     double volume;
     double area;

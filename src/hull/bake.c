@@ -5,6 +5,8 @@
 
 #include "hull/quickhull.h"
 #include "hull/support.h"
+#include "math/predicates.h"
+#include "math/vec3d.h"
 
 #include <string.h>
 
@@ -46,28 +48,35 @@ static void write_topology(tl_hull *hull, const tl_hull_polygons *polygons, cons
     }
 }
 
-// Newell's normal about the first vertex: every corner counts, and differences of floats are nearly always exact.
+static tl_vec3 corner(const tl_hull *hull, uint32_t half_edge)
+{
+    return tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin];
+}
+
+// The fan triangle with the largest area spans the plane best; its normal is taken with all digits right, for a face
+// may be thinner than double rounding.
 static tl_hull_plane fit_plane(const tl_hull *hull, tl_hull_face face)
 {
-    const tl_vec3 *vertices = tl_hull_vertices(hull);
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
-    tl_vec3 a = vertices[half_edges[face.first].origin];
-    double n[3] = { 0.0, 0.0, 0.0 };
-    double ux = 0.0, uy = 0.0, uz = 0.0;
-    for (uint32_t k = 1; k < face.count; k++) {
-        tl_vec3 p = vertices[half_edges[face.first + k].origin];
-        double vx = (double)p.x - (double)a.x, vy = (double)p.y - (double)a.y, vz = (double)p.z - (double)a.z;
-        n[0] += uy * vz - uz * vy;
-        n[1] += uz * vx - ux * vz;
-        n[2] += ux * vy - uy * vx;
-        ux = vx;
-        uy = vy;
-        uz = vz;
+    tl_vec3 a = corner(hull, face.first);
+    uint32_t best = 1;
+    double best_area = 0.0;
+    for (uint32_t k = 1; k + 1 < face.count && face.count > 3; k++) {
+        tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(corner(hull, face.first + k)), tl_vec3d_from(a));
+        tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(corner(hull, face.first + k + 1)), tl_vec3d_from(a));
+        tl_vec3d normal = tl_vec3d_cross(u, v);
+        double area = tl_vec3d_dot(normal, normal);
+        if (area > best_area) {
+            best_area = area;
+            best = k;
+        }
     }
+    tl_vec3 b = corner(hull, face.first + best), c = corner(hull, face.first + best + 1);
+    double n[3] = { tl_area2d(a.y, a.z, b.y, b.z, c.y, c.z), tl_area2d(a.z, a.x, b.z, b.x, c.z, c.x),
+                    tl_area2d(a.x, a.y, b.x, b.y, c.x, c.y) };
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     tl_hull_plane plane = { { n[0] / length, n[1] / length, n[2] / length }, -(double)INFINITY };
     for (uint32_t k = 0; k < face.count; k++) {
-        tl_vec3 p = vertices[half_edges[face.first + k].origin];
+        tl_vec3 p = corner(hull, face.first + k);
         double offset = plane.normal[0] * (double)p.x + plane.normal[1] * (double)p.y + plane.normal[2] * (double)p.z;
         plane.offset = offset > plane.offset ? offset : plane.offset;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Volume, area, centre of mass and inertia, as sums over the tetrahedra from the middle of the bounds to the triangles
-// of each face's fan. All terms are positive, so nothing cancels.
+// Volume, area, centre of mass and inertia, as sums over the tetrahedra from the mean of the vertices to the triangles of
+// each face's fan. The mean lies inside, so all terms are positive and nothing cancels.
 // Source: David Eberly, Polyhedral Mass Properties (Revisited), 2002; here in the form of tetrahedra.
 
 #include "hull/support.h"
@@ -47,9 +47,17 @@ static void add_tetrahedron(moments *m, const double a[3], const double b[3], co
 
 void tl_hull_measure_mass(tl_hull *hull)
 {
-    double middle[3] = { 0.5 * ((double)hull->bounds.min.x + (double)hull->bounds.max.x),
-                         0.5 * ((double)hull->bounds.min.y + (double)hull->bounds.max.y),
-                         0.5 * ((double)hull->bounds.min.z + (double)hull->bounds.max.z) };
+    double middle[3] = { 0.0, 0.0, 0.0 };
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        tl_vec3 p = tl_hull_vertices(hull)[v];
+        middle[0] += (double)p.x;
+        middle[1] += (double)p.y;
+        middle[2] += (double)p.z;
+    }
+    for (int i = 0; i < 3; i++) {
+        middle[i] /= (double)hull->vertex_count;
+        hull->mass.center[i] = middle[i];
+    }
     moments m = { 0.0, { 0.0 }, { 0.0 }, 0.0 };
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_face face = tl_hull_faces(hull)[f];
@@ -62,8 +70,11 @@ void tl_hull_measure_mass(tl_hull *hull)
         }
     }
     tl_hull_mass *mass = &hull->mass;
-    mass->volume = m.volume6 / 6.0;
     mass->area = 0.5 * m.area2;
+    if (!(m.volume6 > 0.0)) {
+        return; // thinner than double rounding of its length: no volume, the mean as centre
+    }
+    mass->volume = m.volume6 / 6.0;
     double center[3];
     for (int i = 0; i < 3; i++) {
         center[i] = m.first[i] / (4.0 * m.volume6);

@@ -49,7 +49,10 @@ static void validate_face(const tl_hull *hull, uint32_t face, const tl_side_plan
     // No three corners of a face are on a line, and the loop turns left everywhere, seen along the normal.
     tl_hull_face f = tl_hull_faces(hull)[face];
     const tl_hull_half_edge *h = &tl_hull_half_edges(hull)[f.first];
-    const double *n = plane->normal;
+    // The exact normal: in double a thin face may seem to have none.
+    tl_vec3 p = plane->a, q = plane->b, r = plane->c;
+    double n[3] = { tl_area2d(p.y, p.z, q.y, q.z, r.y, r.z), tl_area2d(p.z, p.x, q.z, q.x, r.z, r.x),
+                    tl_area2d(p.x, p.y, q.x, q.y, r.x, r.y) };
     for (uint32_t k = 0; k < f.count; k++) {
         tl_vec3 a = tl_hull_vertices(hull)[h[k].origin];
         tl_vec3 b = tl_hull_vertices(hull)[h[(k + 1) % f.count].origin];

@@ -173,13 +173,11 @@ static inline exact_pair difference(float a, float b)
     return two_sum((double)a, -(double)b);
 }
 
-static int orient2d_exact(float ax, float ay, float bx, float by, float cx, float cy)
+static void orient2d_exact(exact_sum *sum, float ax, float ay, float bx, float by, float cx, float cy)
 {
-    exact_sum sum;
-    sum.count = 0;
-    add_pair_product2(&sum, difference(bx, ax), difference(cy, ay));
-    add_pair_product2(&sum, negated(difference(by, ay)), difference(cx, ax));
-    return exact_sign(&sum);
+    sum->count = 0;
+    add_pair_product2(sum, difference(bx, ax), difference(cy, ay));
+    add_pair_product2(sum, negated(difference(by, ay)), difference(cx, ax));
 }
 
 int tl_orient2d(float ax, float ay, float bx, float by, float cx, float cy)
@@ -191,7 +189,31 @@ int tl_orient2d(float ax, float ay, float bx, float by, float cx, float cy)
     if (absolute(determinant) > ORIENT2D_BOUND * permanent) {
         return sign_of(determinant);
     }
-    return permanent == 0.0 ? 0 : orient2d_exact(ax, ay, bx, by, cx, cy);
+    if (permanent == 0.0) {
+        return 0;
+    }
+    exact_sum sum;
+    orient2d_exact(&sum, ax, ay, bx, by, cx, cy);
+    return exact_sign(&sum);
+}
+
+double tl_area2d(float ax, float ay, float bx, float by, float cx, float cy)
+{
+    double left = ((double)bx - (double)ax) * ((double)cy - (double)ay);
+    double right = ((double)by - (double)ay) * ((double)cx - (double)ax);
+    double determinant = left - right;
+    // At most six bits cancelled: 3 * 2^-53 * 2^6 is below 2^-45.
+    if (absolute(determinant) >= 0.015625 * (absolute(left) + absolute(right))) {
+        return determinant;
+    }
+    exact_sum sum;
+    orient2d_exact(&sum, ax, ay, bx, by, cx, cy);
+    // Components do not overlap: from small to large each addition rounds once, and only the last ones matter.
+    double value = 0.0;
+    for (int i = 0; i < sum.count; i++) {
+        value += sum.components[i];
+    }
+    return value;
 }
 
 // Rows of a 3 x 3 determinant.
