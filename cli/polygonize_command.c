@@ -80,8 +80,8 @@ static json_t *notes_as_json(const tl_polygon_mesh *mesh)
                 json_array_append_new(faults, json_string(fault_name(bit)));
             }
         }
-        json_array_append_new(array, json_pack("{sIsIsosfsf}", "contour", (json_int_t)note->contour, "vertex",
-                                               (json_int_t)note->vertex, "faults", faults, "area_cells",
+        json_array_append_new(array, json_pack("{s:I, s:I, s:o, s:f, s:f}", "contour", (json_int_t)note->contour,
+                                               "vertex", (json_int_t)note->vertex, "faults", faults, "area_cells",
                                                (double)note->contour_area2 * 0.5, "covered_cells",
                                                (double)note->covered_area2 * 0.5));
     }
@@ -104,16 +104,16 @@ static void report_set(job *j, const char *name, const tl_polygon_mesh *mesh, co
     if (j->sets != NULL) {
         json_array_append_new(
             j->sets,
-            json_pack("{sssIsIsIsIsIsIsIsIsIsIsIsIsIsfsosssI}", "name", name, "contours",
-                      (json_int_t)report->contour_count, "empty_contours", (json_int_t)report->empty_contours,
-                      "repaired_contours", (json_int_t)report->repaired_contours, "refused_contours",
-                      (json_int_t)report->refused_contours, "triangles", (json_int_t)report->triangle_count, "polygons",
-                      (json_int_t)report->polygon_count, "vertices", (json_int_t)report->vertex_count, "links",
-                      (json_int_t)report->link_count, "portals", (json_int_t)report->portal_count, "crowded_edges",
-                      (json_int_t)report->crowded_edges, "border_vertices_removed",
-                      (json_int_t)report->border_vertices_gone, "border_vertices_kept",
-                      (json_int_t)report->border_vertices_kept, "seconds", seconds, "notes", notes_as_json(mesh),
-                      "check", verdict, "peak_bytes", (json_int_t)report->base.peak_bytes));
+            json_pack("{s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:s, s:I}", "name",
+                      name, "contours", (json_int_t)report->contour_count, "empty_contours",
+                      (json_int_t)report->empty_contours, "repaired_contours", (json_int_t)report->repaired_contours,
+                      "refused_contours", (json_int_t)report->refused_contours, "triangles",
+                      (json_int_t)report->triangle_count, "polygons", (json_int_t)report->polygon_count, "vertices",
+                      (json_int_t)report->vertex_count, "links", (json_int_t)report->link_count, "portals",
+                      (json_int_t)report->portal_count, "crowded_edges", (json_int_t)report->crowded_edges,
+                      "border_vertices_removed", (json_int_t)report->border_vertices_gone, "border_vertices_kept",
+                      (json_int_t)report->border_vertices_kept, "seconds", tl_json_double(seconds), "notes",
+                      notes_as_json(mesh), "check", verdict, "peak_bytes", (json_int_t)report->base.peak_bytes));
     }
     j->set_count++;
     j->contours += report->contour_count;
@@ -204,7 +204,8 @@ static tl_exit print_report(job *j)
     }
     tl_exit code = j->faulty_sets > 0 ? TL_EXIT_NEGATIVE : TL_EXIT_OK;
     if (j->cli->json) {
-        json_t *object = json_pack("{sssOsf}", "input", j->input, "sets", j->sets, "seconds", j->seconds);
+        json_t *object =
+            json_pack("{s:s, s:O, s:o}", "input", j->input, "sets", j->sets, "seconds", tl_json_double(j->seconds));
         return tl_json_print(object) ? code : TL_EXIT_MEMORY;
     }
     if (j->output != NULL && strcmp(j->output, "-") != 0) {
