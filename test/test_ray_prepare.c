@@ -8,19 +8,13 @@
 
 #include <float.h>
 
-static tl_ray_filter everything;
-
 static bool prepare(tl_ray_job *job, const tl_soup *soup, tl_vec3 origin, tl_vec3 target, bool is_segment)
 {
     memset(job, 0, sizeof *job);
-    everything = tl_default_ray_filter();
     job->soup = soup;
-    job->filter = &everything;
-    job->origin = origin;
-    job->target = target;
     job->is_segment = is_segment;
     job->t = is_segment ? 1.0f : INFINITY;
-    return tl_ray_prepare(job);
+    return tl_ray_prepare(job, origin, target);
 }
 
 static long double component(tl_vec3 v, uint32_t axis)
@@ -36,10 +30,10 @@ static void check_planes(const tl_ray_job *job, tl_aabb bounds, test_random *ran
 {
     long double direction[3], largest = 0, reach = 0;
     for (uint32_t i = 0; i < 3; i++) {
-        direction[i] = component(job->target, i) - (job->is_segment ? component(job->origin, i) : 0.0L);
+        direction[i] = component(job->target.point, i) - (job->is_segment ? component(job->origin.point, i) : 0.0L);
         largest = fabsl(direction[i]) > largest ? fabsl(direction[i]) : largest;
-        long double below = fabsl(component(bounds.min, i) - component(job->origin, i));
-        long double above = fabsl(component(bounds.max, i) - component(job->origin, i));
+        long double below = fabsl(component(bounds.min, i) - component(job->origin.point, i));
+        long double above = fabsl(component(bounds.max, i) - component(job->origin.point, i));
         reach = below > reach ? below : reach;
         reach = above > reach ? above : reach;
     }
@@ -49,7 +43,7 @@ static void check_planes(const tl_ray_job *job, tl_aabb bounds, test_random *ran
         float enter = q * job->plane_scale[i] + job->near_base[i];
         float leave = q * job->plane_scale[i] + job->far_base[i];
         long double plane = component(job->soup->grid_origin, i) + (long double)q * component(job->soup->grid_cell, i);
-        long double distance = plane - component(job->origin, i);
+        long double distance = plane - component(job->origin.point, i);
         if (fabsl(direction[i]) > largest * 0x1p-59L) {
             long double t = distance / direction[i] * (long double)job->box_scale;
             TEST_CHECK((long double)enter <= t && t <= (long double)leave);
@@ -70,11 +64,11 @@ static void check_planes(const tl_ray_job *job, tl_aabb bounds, test_random *ran
 
 static void check_corner(const tl_ray_job *job, tl_vec3 p, regimes *seen)
 {
-    const float origin[3] = { job->origin.x, job->origin.y, job->origin.z };
+    const float origin[3] = { job->origin.lane[0], job->origin.lane[1], job->origin.lane[2] };
     const float point[3] = { p.x, p.y, p.z };
     long double direction[3];
     for (uint32_t i = 0; i < 3; i++) {
-        direction[i] = component(job->target, i) - (job->is_segment ? component(job->origin, i) : 0.0L);
+        direction[i] = component(job->target.point, i) - (job->is_segment ? component(job->origin.point, i) : 0.0L);
     }
     uint32_t x = job->axis_x, y = job->axis_y, z = job->axis_z;
     TEST_CHECK(x != y && y != z && z != x);

@@ -304,7 +304,10 @@ static void test_lattice_against_integers(void **state)
             bool found = segment ? tl_soup_cast_segment(soup, from, toward, NULL, &hit)
                                  : tl_soup_cast_ray(soup, &ray, NULL, &hit);
             TEST_CHECK(found == (best != UINT32_MAX));
-            TEST_CHECK(!found || (hit.t == best_t && hit.triangle == best));
+            if (found && !(hit.t == best_t && hit.triangle == best)) {
+                fail_msg("t %a triangle %u, expected %a triangle %u, segment %d", (double)hit.t, hit.triangle,
+                         (double)best_t, best, segment);
+            }
             if (segment) {
                 TEST_CHECK(tl_soup_line_of_sight(soup, from, toward, NULL) == !found);
                 TEST_CHECK(tl_soup_line_of_sight(soup, toward, from, NULL) == !found);

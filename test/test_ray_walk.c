@@ -18,22 +18,19 @@ static tl_vec3 vec(float x, float y, float z)
 // The closest hit by the same decision for every lane of every leaf, without the tree and the float filters.
 static bool cast_without_tree(const tl_soup *soup, const tl_ray *ray, tl_ray_job *job)
 {
-    static tl_ray_filter everything;
-    everything = tl_default_ray_filter();
     job->soup = soup;
-    job->filter = &everything;
-    job->origin = ray->origin;
-    job->target = ray->direction;
+    job->filter = NULL;
     job->is_segment = false;
     job->t = ray->tmax;
-    if (!tl_ray_prepare(job)) {
+    if (!tl_ray_prepare(job, ray->origin, ray->direction)) {
         return false;
     }
     bool hit = false;
     for (uint64_t offset = 0; offset < soup->leaf_bytes;) {
-        tl_leaf_view leaf = tl_view_leaf(tl_soup_leaf_at(soup, offset));
+        const tl_soup_leaf *packed = tl_soup_leaf_at(soup, offset);
+        tl_leaf_view leaf = tl_view_leaf(packed);
         for (uint32_t lane = 0; lane < 2 * leaf.pair_count; lane++) {
-            hit |= leaf.ids[lane] != TL_ID_NONE && tl_ray_decide(job, &leaf, lane);
+            hit |= leaf.ids[lane] != TL_ID_NONE && tl_ray_decide(job, packed, lane);
         }
         offset += tl_leaf_size(leaf.pair_count);
     }

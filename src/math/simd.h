@@ -11,6 +11,7 @@
 #define TALUS_SRC_MATH_SIMD_H
 
 #include <stdint.h>
+#include <string.h>
 
 #if defined(TL_SIMD_SCALAR)
 #define TL_SIMD_LEVEL 0
@@ -26,6 +27,184 @@
 
 #if TL_SIMD_LEVEL > 0
 #include <immintrin.h>
+#endif
+
+// ----------------------------------------------------------------------------------------------- four floats
+
+#if TL_SIMD_LEVEL >= 1
+
+typedef __m128 tl_f32x4;
+
+static inline tl_f32x4 tl_f32x4_all(float value)
+{
+    return _mm_set1_ps(value);
+}
+
+static inline tl_f32x4 tl_f32x4_make(float x, float y, float z, float w)
+{
+    return _mm_setr_ps(x, y, z, w);
+}
+
+static inline tl_f32x4 tl_f32x4_add(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_add_ps(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_sub(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_sub_ps(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_mul(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_mul_ps(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_div(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_div_ps(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_max(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_max_ps(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_abs(tl_f32x4 a)
+{
+    return _mm_andnot_ps(_mm_set1_ps(-0.0f), a);
+}
+
+/// Lane i: a[i] < b[i] ? c[i] : d[i].
+static inline tl_f32x4 tl_f32x4_if_less(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f32x4 d)
+{
+    return _mm_blendv_ps(d, c, _mm_cmplt_ps(a, b));
+}
+
+/// Bit i: a[i] <= b[i], so false for NaN.
+static inline uint32_t tl_f32x4_less_equal(tl_f32x4 a, tl_f32x4 b)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
+}
+
+/// Bit i: a[i] has its sign bit set.
+static inline uint32_t tl_f32x4_signs(tl_f32x4 a)
+{
+    return (uint32_t)_mm_movemask_ps(a);
+}
+
+static inline void tl_f32x4_store(float *four, tl_f32x4 a)
+{
+    _mm_storeu_ps(four, a);
+}
+
+/// The largest of the first three lanes, in all lanes.
+static inline tl_f32x4 tl_f32x4_max_of_three(tl_f32x4 a)
+{
+    __m128 y = _mm_shuffle_ps(a, a, _MM_SHUFFLE(1, 1, 1, 1));
+    __m128 z = _mm_shuffle_ps(a, a, _MM_SHUFFLE(2, 2, 2, 2));
+    __m128 m = _mm_max_ps(_mm_max_ps(a, y), z);
+    return _mm_shuffle_ps(m, m, _MM_SHUFFLE(0, 0, 0, 0));
+}
+
+#else
+
+typedef struct tl_f32x4 {
+    float v[4];
+} tl_f32x4;
+
+static inline tl_f32x4 tl_f32x4_make(float x, float y, float z, float w)
+{
+    tl_f32x4 r = { { x, y, z, w } };
+    return r;
+}
+
+static inline tl_f32x4 tl_f32x4_all(float value)
+{
+    return tl_f32x4_make(value, value, value, value);
+}
+
+static inline tl_f32x4 tl_f32x4_add(tl_f32x4 a, tl_f32x4 b)
+{
+    return tl_f32x4_make(a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]);
+}
+
+static inline tl_f32x4 tl_f32x4_sub(tl_f32x4 a, tl_f32x4 b)
+{
+    return tl_f32x4_make(a.v[0] - b.v[0], a.v[1] - b.v[1], a.v[2] - b.v[2], a.v[3] - b.v[3]);
+}
+
+static inline tl_f32x4 tl_f32x4_mul(tl_f32x4 a, tl_f32x4 b)
+{
+    return tl_f32x4_make(a.v[0] * b.v[0], a.v[1] * b.v[1], a.v[2] * b.v[2], a.v[3] * b.v[3]);
+}
+
+static inline tl_f32x4 tl_f32x4_div(tl_f32x4 a, tl_f32x4 b)
+{
+    return tl_f32x4_make(a.v[0] / b.v[0], a.v[1] / b.v[1], a.v[2] / b.v[2], a.v[3] / b.v[3]);
+}
+
+static inline tl_f32x4 tl_f32x4_max(tl_f32x4 a, tl_f32x4 b)
+{
+    tl_f32x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
+    }
+    return r;
+}
+
+static inline tl_f32x4 tl_f32x4_abs(tl_f32x4 a)
+{
+    tl_f32x4 r;
+    for (int i = 0; i < 4; i++) {
+        uint32_t bits;
+        memcpy(&bits, &a.v[i], sizeof bits);
+        bits &= 0x7fffffffu;
+        memcpy(&r.v[i], &bits, sizeof bits);
+    }
+    return r;
+}
+
+static inline tl_f32x4 tl_f32x4_if_less(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f32x4 d)
+{
+    tl_f32x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = a.v[i] < b.v[i] ? c.v[i] : d.v[i];
+    }
+    return r;
+}
+
+static inline uint32_t tl_f32x4_less_equal(tl_f32x4 a, tl_f32x4 b)
+{
+    uint32_t mask = 0;
+    for (int i = 0; i < 4; i++) {
+        mask |= (uint32_t)(a.v[i] <= b.v[i]) << i;
+    }
+    return mask;
+}
+
+static inline uint32_t tl_f32x4_signs(tl_f32x4 a)
+{
+    uint32_t mask = 0;
+    for (int i = 0; i < 4; i++) {
+        uint32_t bits;
+        memcpy(&bits, &a.v[i], sizeof bits);
+        mask |= (bits >> 31) << i;
+    }
+    return mask;
+}
+
+static inline void tl_f32x4_store(float *four, tl_f32x4 a)
+{
+    memcpy(four, a.v, sizeof a.v);
+}
+
+static inline tl_f32x4 tl_f32x4_max_of_three(tl_f32x4 a)
+{
+    float xy = a.v[0] > a.v[1] ? a.v[0] : a.v[1];
+    return tl_f32x4_all(xy > a.v[2] ? xy : a.v[2]);
+}
+
 #endif
 
 // ---------------------------------------------------------------------------------------------- eight floats
@@ -238,9 +417,9 @@ static inline tl_f32x16 tl_f32x16_max(tl_f32x16 a, tl_f32x16 b)
     return _mm512_max_ps(a, b);
 }
 
-static inline void tl_f32x16_store(float *sixteen, tl_f32x16 a)
+static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 {
-    _mm512_storeu_ps(sixteen, a);
+    _mm512_storeu_si512(sixteen, _mm512_castps_si512(a));
 }
 
 /// Bit i: a[i] <= b[i].
@@ -297,10 +476,11 @@ static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
     return r;
 }
 
-static inline void tl_f32x16_store(float *sixteen, tl_f32x16 a)
+static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 {
-    _mm256_storeu_ps(sixteen, a.low);
-    _mm256_storeu_ps(sixteen + 8, a.high);
+    __m256i *halves = (__m256i *)(void *)sixteen;
+    _mm256_storeu_si256(halves, _mm256_castps_si256(a.low));
+    _mm256_storeu_si256(halves + 1, _mm256_castps_si256(a.high));
 }
 
 static inline uint32_t tl_f32x16_less_equal(tl_f32x16 a, tl_f32x16 b)
@@ -346,12 +526,13 @@ static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
     return r;
 }
 
-static inline void tl_f32x16_store(float *sixteen, tl_f32x16 a)
+static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 {
-    _mm_storeu_ps(sixteen, a.low.low);
-    _mm_storeu_ps(sixteen + 4, a.low.high);
-    _mm_storeu_ps(sixteen + 8, a.high.low);
-    _mm_storeu_ps(sixteen + 12, a.high.high);
+    __m128i *quarters = (__m128i *)(void *)sixteen;
+    _mm_storeu_si128(quarters, _mm_castps_si128(a.low.low));
+    _mm_storeu_si128(quarters + 1, _mm_castps_si128(a.low.high));
+    _mm_storeu_si128(quarters + 2, _mm_castps_si128(a.high.low));
+    _mm_storeu_si128(quarters + 3, _mm_castps_si128(a.high.high));
 }
 
 static inline uint32_t tl_f32x8_less_equal(tl_f32x8 a, tl_f32x8 b)
@@ -398,12 +579,10 @@ static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
     return r;
 }
 
-static inline void tl_f32x16_store(float *sixteen, tl_f32x16 a)
+static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 {
-    for (int i = 0; i < 8; i++) {
-        sixteen[i] = a.low.v[i];
-        sixteen[i + 8] = a.high.v[i];
-    }
+    memcpy(sixteen, a.low.v, sizeof a.low.v);
+    memcpy(sixteen + 8, a.high.v, sizeof a.high.v);
 }
 
 static inline uint32_t tl_f32x16_less_equal(tl_f32x16 a, tl_f32x16 b)

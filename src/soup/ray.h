@@ -11,55 +11,68 @@
 
 #include "soup/soup_layout.h"
 
+/// Three coordinates and a lane to spare: stored as one vector, read one by one.
+typedef union tl_ray_point {
+    tl_vec3 point;
+    float lane[4];
+} tl_ray_point;
+
 typedef struct tl_ray_job {
     const tl_soup *soup;
-    const tl_ray_filter *filter; ///< never NULL
-    tl_vec3 origin;
-    tl_vec3 target;  ///< a ray's direction or a segment's end
-    bool is_segment; ///< direction is target - origin, not rounded; t is within [0, 1]
+    const tl_ray_filter *filter; ///< NULL: nothing is passed by
+    tl_ray_point origin;
+    tl_ray_point target; ///< a ray's direction or a segment's end
+    bool is_segment;     ///< direction is target - origin, not rounded; t is within [0, 1]
+    bool is_exact;       ///< direction, shear and inverse_z are filled
 
     // Boxes. Grid plane q of axis i is met at t = (q * plane_scale[i] + near_base[i]) / box_scale, rounded down, or
-    // with far_base up.
-    float plane_scale[3];
-    float near_base[3];
-    float far_base[3];
-    uint8_t near_row[3]; ///< row of tl_soup_node.plane that the ray enters by
-    uint8_t far_row[3];
-    float box_scale; ///< power of two: box t = t * box_scale
-    float box_limit; ///< boxes that begin beyond it are skipped
+    // with far_base up. Lane 3 is not used.
+    float plane_scale[4];
+    float near_base[4];
+    float far_base[4];
+    uint32_t backward; ///< bit i: the ray runs down along axis i, so it enters a box by its max plane
+    float box_scale;   ///< power of two: box t = t * box_scale
+    float box_limit;   ///< boxes that begin beyond it are skipped
 
     // Leaves: origin moved to zero, then sheared so that the ray runs along axis_z.
     uint32_t axis_x, axis_y, axis_z;
     float shear_x, shear_y;
     float corner_error; ///< metres: bound of the error of a sheared corner
 
-    // The exact part.
+    // The exact part, filled when the first lane is decided.
     double direction[3];
     double shear[2];
+    double inverse_z; ///< 1 / direction[axis_z]
 
     // The best so far. t begins as tmax, so the first hit at tmax itself still wins by its index.
     float t;
     uint32_t triangle; ///< UINT32_MAX: none
-    tl_leaf_view leaf;
+    const tl_soup_leaf *leaf;
     uint32_t lane;
     double weight[3]; ///< of the view's corners; not normalized
     bool back;
 } tl_ray_job;
 
-/// Fills all but soup, filter, origin, target, is_segment and t, which the caller has set. False: nothing can be hit.
-bool tl_ray_prepare(tl_ray_job *job);
+/// Fills what the filters need; the caller has set soup, filter, is_segment and t. False: nothing can be hit.
+/// The walks have it inline (ray_prepare.h).
+bool tl_ray_prepare(tl_ray_job *job, tl_vec3 origin, tl_vec3 target);
+
+/// The rare rest of it, with origin and target set: directions that need scaling, and origins too far away for float
+/// filters.
+bool tl_ray_prepare_unusual(tl_ray_job *job);
 
 /// Decides one lane of a leaf. If it is hit, and better than the best so far, it becomes the best.
-bool tl_ray_decide(tl_ray_job *job, const tl_leaf_view *leaf, uint32_t lane);
+bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane);
 
-/// The walk through the tree, once per instruction set. `any`: returns at the first hit. True: something was hit.
-typedef bool tl_ray_walk_fn(tl_ray_job *job, bool any);
+/// Prepares a ray and walks the tree, once per instruction set. `any`: returns at the first hit. True: something was
+/// hit.
+typedef bool tl_ray_walk_fn(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any);
 
-bool tl_ray_walk_scalar(tl_ray_job *job, bool any);
+bool tl_ray_walk_scalar(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any);
 #if defined(__x86_64__)
-bool tl_ray_walk_sse42(tl_ray_job *job, bool any);
-bool tl_ray_walk_avx2(tl_ray_job *job, bool any);
-bool tl_ray_walk_avx512(tl_ray_job *job, bool any);
+bool tl_ray_walk_sse42(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any);
+bool tl_ray_walk_avx2(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any);
+bool tl_ray_walk_avx512(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any);
 #endif
 
 /// Instruction sets, ascending.

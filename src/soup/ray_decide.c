@@ -8,7 +8,7 @@
 // the error bound cannot vouch for is found exactly. E of the three edges are also the weights of the opposite corners.
 //
 // Error of E, u = TL_DOUBLE_ROUNDING, M the largest coordinate of the three corners seen from the origin, m the largest
-// after the shear: corners are off by at most 8 u M (ray_prepare.c), so E by at most 4 (8 u M) m + 2 (8 u M)^2, and its
+// after the shear: corners are off by at most 8 u M (ray_prepare.h), so E by at most 4 (8 u M) m + 2 (8 u M)^2, and its
 // own two products and difference add 4 u m^2.
 //
 // Error of t = sum(E_i t_i) / sum(E_i): errors e of the weights move it by at most 3 e (max t_i - min t_i) / |sum E|;
@@ -30,17 +30,13 @@
 #define T_ROUNDING_ERROR 1.4210854715202004e-14
 
 typedef struct triangle_test {
-    tl_vec3 corner[3];
+    tl_leaf_view leaf;
+    uint32_t lane;
     double depth[3];  // t at which the ray passes each corner
     double weight[3]; // E of the edge across from each corner
     double error;     // bound of a weight's error
     int sign;         // of the weights that are not zero
 } triangle_test;
-
-static inline double component(tl_vec3 v, uint32_t axis)
-{
-    return (double)(axis == 0 ? v.x : axis == 1 ? v.y : v.z);
-}
 
 static inline int sign_of(double value)
 {
@@ -52,12 +48,27 @@ static inline double larger(double a, double b)
     return a > b ? a : b;
 }
 
-// The exact side on which the line passes the edge from a to b, as the sign of E(a, b).
-static int exact_side(const tl_ray_job *job, tl_vec3 a, tl_vec3 b)
+// The exact side on which the line passes the edge across from corner k, as the sign of that corner's weight.
+static int exact_side(const tl_ray_job *job, const triangle_test *test, int k)
 {
-    int side =
-        job->is_segment ? tl_orient3d(job->origin, job->target, a, b) : tl_line_side(job->origin, job->target, a, b);
+    tl_vec3 v[3];
+    tl_leaf_corners(&test->leaf, test->lane, v);
+    tl_vec3 a = v[(k + 1) % 3], b = v[(k + 2) % 3];
+    int side = job->is_segment ? tl_orient3d(job->origin.point, job->target.point, a, b)
+                               : tl_line_side(job->origin.point, job->target.point, a, b);
     return job->direction[job->axis_z] > 0.0 ? side : -side;
+}
+
+static void prepare_exact(tl_ray_job *job)
+{
+    for (int i = 0; i < 3; i++) {
+        double from = job->is_segment ? (double)job->origin.lane[i] : 0.0;
+        job->direction[i] = (double)job->target.lane[i] - from;
+    }
+    job->inverse_z = 1.0 / job->direction[job->axis_z];
+    job->shear[0] = job->direction[job->axis_x] * job->inverse_z;
+    job->shear[1] = job->direction[job->axis_y] * job->inverse_z;
+    job->is_exact = true;
 }
 
 // Weights and their common sign; false when the line misses the triangle or lies in its plane.
@@ -65,14 +76,19 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
 {
     double x[3], y[3];
     double reach = 0.0, size = 0.0;
-    double direction_z = job->direction[job->axis_z];
+    double origin_x = (double)job->origin.lane[job->axis_x];
+    double origin_y = (double)job->origin.lane[job->axis_y];
+    double origin_z = (double)job->origin.lane[job->axis_z];
+    const uint8_t *slots = tl_soup_corner_slots[tl_id_order(test->leaf.ids[test->lane])];
     for (int k = 0; k < 3; k++) {
-        double dx = component(test->corner[k], job->axis_x) - component(job->origin, job->axis_x);
-        double dy = component(test->corner[k], job->axis_y) - component(job->origin, job->axis_y);
-        double dz = component(test->corner[k], job->axis_z) - component(job->origin, job->axis_z);
+        uint32_t stride;
+        const float *corner = tl_leaf_corner(&test->leaf, test->lane, slots[k], &stride);
+        double dx = (double)corner[job->axis_x * stride] - origin_x;
+        double dy = (double)corner[job->axis_y * stride] - origin_y;
+        double dz = (double)corner[job->axis_z * stride] - origin_z;
         x[k] = dx - job->shear[0] * dz;
         y[k] = dy - job->shear[1] * dz;
-        test->depth[k] = dz / direction_z;
+        test->depth[k] = dz * job->inverse_z;
         reach = larger(reach, larger(larger(fabs(dx), fabs(dy)), fabs(dz)));
         size = larger(size, larger(fabs(x[k]), fabs(y[k])));
     }
@@ -87,7 +103,7 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
     }
     for (int k = 0; k < 3 && !(positive && negative); k++) {
         if (fabs(test->weight[k]) <= test->error) {
-            int sign = exact_side(job, test->corner[(k + 1) % 3], test->corner[(k + 2) % 3]);
+            int sign = exact_side(job, test, k);
             test->weight[k] = sign != 0 && sign_of(test->weight[k]) == sign ? test->weight[k] : 0.0;
             positive |= sign > 0;
             negative |= sign < 0;
@@ -100,17 +116,19 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
 // t of the triangle's plane by exact sums: for lines that graze it, where the weights say little.
 static double exact_t(const tl_ray_job *job, const triangle_test *test)
 {
-    const tl_vec3 *v = test->corner;
-    double across = tl_normal_dot(v[0], v[1], v[2], v[0], job->origin);
-    double along = job->is_segment ? tl_normal_dot(v[0], v[1], v[2], job->target, job->origin)
-                                   : tl_normal_dot(v[0], v[1], v[2], job->target, tl_vec3_make(0.0f, 0.0f, 0.0f));
+    tl_vec3 v[3];
+    tl_leaf_corners(&test->leaf, test->lane, v);
+    double across = tl_normal_dot(v[0], v[1], v[2], v[0], job->origin.point);
+    double along = job->is_segment ? tl_normal_dot(v[0], v[1], v[2], job->target.point, job->origin.point)
+                                   : tl_normal_dot(v[0], v[1], v[2], job->target.point, tl_vec3_make(0.0f, 0.0f, 0.0f));
     return across / along;
 }
 
-// On which side of t = 0 the hit lies, exactly; `at` is the point of t = 0, or of t = 1 to compare with that.
+// On which side of the point `at` of the line the hit lies, exactly: the origin is t = 0, a segment's end t = 1.
 static int exact_order(const tl_ray_job *job, const triangle_test *test, tl_vec3 at)
 {
-    const tl_vec3 *v = test->corner;
+    tl_vec3 v[3];
+    tl_leaf_corners(&test->leaf, test->lane, v);
     // normal . (corner - at) over normal . direction; the latter's sign is that of the weights along the axis.
     int across = -tl_orient3d(v[0], v[1], v[2], at);
     int along = job->direction[job->axis_z] > 0.0 ? test->sign : -test->sign;
@@ -136,24 +154,34 @@ static bool find_t(const tl_ray_job *job, const triangle_test *test, float *t_ou
         error = 8.0 * TL_DOUBLE_ROUNDING * fabs(t);
     }
     error += rounding;
-    if (t < -error || (t <= error && low < 0.0 && exact_order(job, test, job->origin) < 0)) {
+    if (t < -error) {
         return false;
     }
-    if (job->is_segment &&
-        (t > 1.0 + error || (t >= 1.0 - error && high > 1.0 - rounding && exact_order(job, test, job->target) > 0))) {
-        return false;
+    if (t <= error && low < 0.0) {
+        int order = exact_order(job, test, job->origin.point);
+        if (order < 0) {
+            return false;
+        }
+        t = order == 0 || t < 0.0 ? 0.0 : t;
+    }
+    if (job->is_segment && t >= 1.0 - error && high > 1.0 - rounding) {
+        int order = t > 1.0 + error ? 1 : exact_order(job, test, job->target.point);
+        if (order > 0) {
+            return false;
+        }
+        t = order == 0 || t > 1.0 ? 1.0 : t;
     }
     t = t > 0.0 ? t : 0.0;
     *t_out = t < (double)FLT_MAX ? (float)t : FLT_MAX;
-    if (job->is_segment && *t_out > 1.0f) {
-        *t_out = 1.0f;
-    }
     return true;
 }
 
 static bool passes_filter(const tl_ray_job *job, uint32_t triangle, bool back)
 {
     const tl_ray_filter *filter = job->filter;
+    if (filter == NULL) {
+        return true;
+    }
     if (filter->cull == (back ? TL_RAY_CULL_BACK : TL_RAY_CULL_FRONT)) {
         return false;
     }
@@ -168,11 +196,15 @@ static bool passes_filter(const tl_ray_job *job, uint32_t triangle, bool back)
     return filter->accept == NULL || filter->accept(triangle, material, filter->accept_user);
 }
 
-bool tl_ray_decide(tl_ray_job *job, const tl_leaf_view *leaf, uint32_t lane)
+bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
 {
-    uint32_t triangle = leaf->ids[lane] & TL_ID_INDEX;
+    if (!job->is_exact) {
+        prepare_exact(job);
+    }
     triangle_test test;
-    tl_leaf_corners(leaf, lane, test.corner);
+    test.leaf = tl_view_leaf(leaf);
+    test.lane = lane;
+    uint32_t triangle = test.leaf.ids[lane] & TL_ID_INDEX;
     float t;
     if (!meets_line(job, &test) || !find_t(job, &test, &t)) {
         return false;
@@ -186,9 +218,10 @@ bool tl_ray_decide(tl_ray_job *job, const tl_leaf_view *leaf, uint32_t lane)
         return false;
     }
     job->t = t;
-    job->box_limit = t * job->box_scale + FLT_MIN;
+    // A saturated t says nothing about where the hit is.
+    job->box_limit = t < FLT_MAX ? t * job->box_scale + FLT_MIN : INFINITY;
     job->triangle = triangle;
-    job->leaf = *leaf;
+    job->leaf = leaf;
     job->lane = lane;
     job->back = back;
     for (int k = 0; k < 3; k++) {

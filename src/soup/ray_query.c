@@ -79,11 +79,9 @@ static tl_vec3 unit_normal(const tl_vec3 corner[3])
     double uy = (double)corner[1].y - (double)corner[0].y, vy = (double)corner[2].y - (double)corner[0].y;
     double uz = (double)corner[1].z - (double)corner[0].z, vz = (double)corner[2].z - (double)corner[0].z;
     double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    double length = sqrt(x * x + y * y + z * z);
-    if (!(length > 0.0)) {
-        return tl_vec3_make(0.0f, 0.0f, 0.0f);
-    }
-    return tl_vec3_make((float)(x / length), (float)(y / length), (float)(z / length));
+    double length_sq = x * x + y * y + z * z;
+    double scale = length_sq > 0.0 ? 1.0 / sqrt(length_sq) : 0.0;
+    return tl_vec3_make((float)(x * scale), (float)(y * scale), (float)(z * scale));
 }
 
 static void describe_hit(const tl_ray_job *job, tl_ray_hit *hit)
@@ -95,75 +93,57 @@ static void describe_hit(const tl_ray_job *job, tl_ray_hit *hit)
     hit->back = job->back;
     double sum = job->weight[0] + job->weight[1] + job->weight[2];
     // A needle seen edge-on may have weights that all vanish in double: then the hit is anywhere on it.
-    hit->u = sum != 0.0 ? (float)(job->weight[1] / sum) : 0.0f;
-    hit->v = sum != 0.0 ? (float)(job->weight[2] / sum) : 0.0f;
+    double scale = sum != 0.0 ? 1.0 / sum : 0.0;
+    hit->u = (float)(job->weight[1] * scale);
+    hit->v = (float)(job->weight[2] * scale);
     tl_vec3 corner[3];
-    tl_leaf_corners(&job->leaf, job->lane, corner);
+    tl_leaf_view leaf = tl_view_leaf(job->leaf);
+    tl_leaf_corners(&leaf, job->lane, corner);
     hit->normal = unit_normal(corner);
 }
 
-static bool run(tl_ray_walk_fn *walk, tl_ray_job *job, const tl_ray_filter *filter, tl_ray_hit *hit_out)
-{
-    tl_ray_filter everything = tl_default_ray_filter();
-    job->filter = filter != NULL ? filter : &everything;
-    if (!tl_ray_prepare(job) || !walk(job, hit_out == NULL)) {
-        return false;
-    }
-    if (hit_out != NULL) {
-        describe_hit(job, hit_out);
-    }
-    return true;
-}
-
-static bool run_ray(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,
-                    tl_ray_hit *hit_out)
-{
-    TL_ASSERT(soup != NULL && ray != NULL);
-    tl_ray_job job;
-    job.soup = soup;
-    job.origin = ray->origin;
-    job.target = ray->direction;
-    job.is_segment = false;
-    job.t = ray->tmax;
-    return run(walk, &job, filter, hit_out);
-}
-
-static bool run_segment(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter,
-                        tl_ray_hit *hit_out)
+static inline bool run(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 origin, tl_vec3 target, float tmax,
+                       bool is_segment, const tl_ray_filter *filter, tl_ray_hit *hit_out)
 {
     TL_ASSERT(soup != NULL);
     tl_ray_job job;
     job.soup = soup;
-    job.origin = a;
-    job.target = b;
-    job.is_segment = true;
-    job.t = 1.0f;
-    return run(walk, &job, filter, hit_out);
+    job.filter = filter;
+    job.is_segment = is_segment;
+    job.t = tmax;
+    if (!walk(&job, origin, target, hit_out == NULL)) {
+        return false;
+    }
+    if (hit_out != NULL) {
+        describe_hit(&job, hit_out);
+    }
+    return true;
 }
 
 bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,
                            tl_ray_hit *hit_out)
 {
-    TL_ASSERT(hit_out != NULL);
-    return run_ray(walk, soup, ray, filter, hit_out);
+    TL_ASSERT(ray != NULL && hit_out != NULL);
+    return run(walk, soup, ray->origin, ray->direction, ray->tmax, false, filter, hit_out);
 }
 
 bool tl_soup_occluded_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter)
 {
-    return run_ray(walk, soup, ray, filter, NULL);
+    TL_ASSERT(ray != NULL);
+    return run(walk, soup, ray->origin, ray->direction, ray->tmax, false, filter, NULL);
 }
 
 bool tl_soup_cast_segment_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b,
                                const tl_ray_filter *filter, tl_ray_hit *hit_out)
 {
     TL_ASSERT(hit_out != NULL);
-    return run_segment(walk, soup, a, b, filter, hit_out);
+    return run(walk, soup, a, b, 1.0f, true, filter, hit_out);
 }
 
 bool tl_soup_line_of_sight_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b,
                                 const tl_ray_filter *filter)
 {
-    return !run_segment(walk, soup, a, b, filter, NULL);
+    return !run(walk, soup, a, b, 1.0f, true, filter, NULL);
 }
 
 bool tl_soup_cast_ray(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter, tl_ray_hit *hit_out)

@@ -89,7 +89,7 @@ static bool check_leaf(checker *c, uint32_t child)
         c->triangle_count += copy ? 0 : single ? 1 : 2;
     }
     for (uint32_t i = 0; i < 12 * pairs; i++) {
-        if (!in_range(view.a[0][i])) {
+        if (!in_range(view.floats[i])) {
             return false;
         }
     }

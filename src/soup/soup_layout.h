@@ -102,27 +102,20 @@ static inline uint64_t tl_leaf_size(uint32_t pair_count)
     return (bytes + TL_SOUP_LEAF_ALIGN - 1) & ~(uint64_t)(TL_SOUP_LEAF_ALIGN - 1);
 }
 
-/// Where a leaf's arrays are.
+/// Where a leaf's arrays are. The corners: axis k of a begins at floats + k n, of c at floats + (3 + k) n, of e at
+/// floats + (6 + 2 k) n.
 typedef struct tl_leaf_view {
     uint32_t pair_count;
     const uint32_t *ids; ///< lane i < n: triangle a, e[i], c of pair i; lane n + i: its second triangle
-    const float *a[3];   ///< n each
-    const float *c[3];   ///< n each
-    const float *e[3];   ///< 2n each
+    const float *floats; ///< 12 n
 } tl_leaf_view;
 
 static inline tl_leaf_view tl_view_leaf(const tl_soup_leaf *leaf)
 {
     tl_leaf_view view;
-    uint32_t n = tl_leaf_pair_count(leaf);
-    view.pair_count = n;
+    view.pair_count = tl_leaf_pair_count(leaf);
     view.ids = (const uint32_t *)(const void *)(leaf + 1);
-    const float *floats = (const float *)(const void *)(view.ids + 2 * (size_t)n);
-    for (int axis = 0; axis < 3; axis++) {
-        view.a[axis] = floats + (size_t)axis * n;
-        view.c[axis] = floats + (size_t)(3 + axis) * n;
-        view.e[axis] = floats + (size_t)(6 + 2 * axis) * n;
-    }
+    view.floats = (const float *)(const void *)(view.ids + 2 * (size_t)view.pair_count);
     return view;
 }
 
@@ -159,12 +152,20 @@ static inline uint16_t tl_soup_material(const tl_soup *soup, uint32_t triangle)
     return ((const uint16_t *)(const void *)((const char *)soup + soup->material_offset))[triangle];
 }
 
+/// Corner in a slot of a lane, 0: a, 1: e, 2: c. Axis k is at [k * *stride_out].
+static inline const float *tl_leaf_corner(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot, uint32_t *stride_out)
+{
+    uint32_t n = leaf->pair_count;
+    uint32_t pair = lane < n ? lane : lane - n;
+    *stride_out = slot == 1 ? 2 * n : n;
+    return leaf->floats + (slot == 0 ? pair : slot == 1 ? 6 * n + lane : 3 * n + pair);
+}
+
 static inline tl_vec3 tl_leaf_slot(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot)
 {
-    uint32_t pair = lane < leaf->pair_count ? lane : lane - leaf->pair_count;
-    const float *const *arrays = slot == 0 ? leaf->a : slot == 1 ? leaf->e : leaf->c;
-    uint32_t i = slot == 1 ? lane : pair;
-    return tl_vec3_make(arrays[0][i], arrays[1][i], arrays[2][i]);
+    uint32_t stride;
+    const float *corner = tl_leaf_corner(leaf, lane, slot, &stride);
+    return tl_vec3_make(corner[0], corner[stride], corner[2 * (size_t)stride]);
 }
 
 /// The triangle of a lane, its corners as the view has them.
