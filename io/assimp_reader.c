@@ -3,17 +3,18 @@
 // A scene of Assimp's to one list of triangles.
 //
 // The node tree is walked here, not by aiProcess_PreTransformVertices: that one leaves mirrored nodes wound inside out,
-// joins what has no need to be joined, and reorders triangles. Matrices are multiplied in double, so that a level deep
-// in a tree of nodes is placed as exactly as its vertices are stored. The walk keeps its own stack: a hostile file's
-// depth of nesting must not become ours.
+// joins what has no need to be joined, and reorders triangles. Nor are polygons split by aiProcess_Triangulate, which
+// asserts on faces without corners; they are treated as those of OBJ files are (split_polygon.h). Matrices are
+// multiplied in double, so that a level deep in a tree of nodes is placed as exactly as its vertices are stored. The
+// walk keeps its own stack: a hostile file's depth of nesting must not become ours.
 
 #include "io/assimp_reader.h"
 
 #include "io/growable.h"
+#include "io/split_polygon.h"
 
 #include <assimp/cimport.h>
 #include <assimp/material.h>
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <string.h>
 
@@ -36,6 +37,8 @@ typedef struct scene_reader {
     pending_node *stack;
     uint64_t stack_count;
     uint64_t stack_capacity;
+    tl_split_corner *scratch; // TL_MAX_SPLIT_CORNERS of each, once there is a polygon
+    uint32_t *corners;
 } scene_reader;
 
 static affine affine_of(const struct aiMatrix4x4 *m)
@@ -135,43 +138,91 @@ static tl_result add_vertices(scene_reader *reader, const struct aiMesh *part, c
     return TL_OK;
 }
 
-static tl_result add_faces(scene_reader *reader, const struct aiMesh *part, uint32_t first_vertex, bool mirrored)
+// The fan of a face of three corners or more, wound the other way when mirrored.
+static tl_result add_fan(scene_reader *reader, const struct aiFace *face, uint32_t first_vertex, bool mirrored,
+                         uint32_t material)
 {
     tl_imported_mesh *mesh = reader->mesh;
-    uint32_t material;
-    tl_result result = find_material(reader, part->mMaterialIndex, &material);
-    if (result != TL_OK) {
-        return result;
-    }
-    result = tl_imported_mesh_reserve_triangles(mesh, part->mNumFaces);
+    tl_result result = tl_imported_mesh_reserve_triangles(mesh, (uint64_t)face->mNumIndices - 2);
     if (result != TL_OK) {
         return fail_reserve(reader, result, "triangles");
     }
-    for (unsigned i = 0; i < part->mNumFaces; i++) {
-        const struct aiFace *face = &part->mFaces[i];
-        for (unsigned k = 0; k < face->mNumIndices; k++) {
-            if (face->mIndices[k] >= part->mNumVertices) {
-                tl_io_fail(reader->error, TL_ERR_INDEX, reader->path, 0, "export the file again",
-                           "face %u of mesh '%s' names vertex %u of %u", i, part->mName.data, face->mIndices[k],
-                           part->mNumVertices);
-                return tl_io_blame(reader->error, TL_ERR_INDEX, "face", mesh->face_count);
-            }
-        }
-        mesh->ignored_points += face->mNumIndices == 1;
-        mesh->ignored_lines += face->mNumIndices == 2;
-        if (face->mNumIndices != 3) {
-            continue;
-        }
+    for (unsigned k = 1; k + 1 < face->mNumIndices; k++) {
         uint32_t *indices = mesh->indices + (size_t)mesh->triangle_count * 3;
         indices[0] = first_vertex + face->mIndices[0];
-        indices[1] = first_vertex + face->mIndices[mirrored ? 2 : 1];
-        indices[2] = first_vertex + face->mIndices[mirrored ? 1 : 2];
+        indices[1] = first_vertex + face->mIndices[mirrored ? k + 1 : k];
+        indices[2] = first_vertex + face->mIndices[mirrored ? k : k + 1];
         mesh->materials[mesh->triangle_count] = (uint16_t)material;
         mesh->source_lines[mesh->triangle_count] = 0;
         mesh->triangle_count++;
-        mesh->face_count++;
+    }
+    mesh->face_count++;
+    return TL_OK;
+}
+
+// Splits the polygon whose fan was added last.
+static tl_result split_last(scene_reader *reader, const struct aiFace *face, uint32_t first_vertex, bool mirrored)
+{
+    tl_imported_mesh *mesh = reader->mesh;
+    uint32_t count = face->mNumIndices;
+    mesh->polygon_count++;
+    if (count > TL_MAX_SPLIT_CORNERS) {
+        mesh->crooked_count++;
+        return TL_OK;
+    }
+    if (reader->scratch == NULL) {
+        reader->scratch = tl_io_allocate(&mesh->allocator, TL_MAX_SPLIT_CORNERS * sizeof *reader->scratch);
+    }
+    if (reader->corners == NULL) {
+        reader->corners = tl_io_allocate(&mesh->allocator, TL_MAX_SPLIT_CORNERS * sizeof *reader->corners);
+    }
+    if (reader->scratch == NULL || reader->corners == NULL) {
+        return fail_memory(reader);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        reader->corners[k] = first_vertex + face->mIndices[mirrored && k > 0 ? count - k : k];
+    }
+    uint32_t *triangles = mesh->indices + (size_t)(mesh->triangle_count - (count - 2)) * 3;
+    tl_split split = tl_split_polygon(mesh->vertices, reader->corners, count, reader->scratch, triangles);
+    mesh->clipped_count += split == TL_SPLIT_EARS;
+    mesh->crooked_count += split == TL_SPLIT_GAVE_UP;
+    return TL_OK;
+}
+
+static tl_result check_face(scene_reader *reader, const struct aiMesh *part, unsigned index)
+{
+    const struct aiFace *face = &part->mFaces[index];
+    for (unsigned k = 0; k < face->mNumIndices; k++) {
+        if (face->mIndices[k] >= part->mNumVertices) {
+            tl_io_fail(reader->error, TL_ERR_INDEX, reader->path, 0, "export the file again",
+                       "face %u of mesh '%s' names vertex %u of %u", index, part->mName.data, face->mIndices[k],
+                       part->mNumVertices);
+            return tl_io_blame(reader->error, TL_ERR_INDEX, "face", reader->mesh->face_count);
+        }
     }
     return TL_OK;
+}
+
+static tl_result add_faces(scene_reader *reader, const struct aiMesh *part, uint32_t first_vertex, bool mirrored)
+{
+    uint32_t material;
+    tl_result result = find_material(reader, part->mMaterialIndex, &material);
+    for (unsigned i = 0; i < part->mNumFaces && result == TL_OK; i++) {
+        const struct aiFace *face = &part->mFaces[i];
+        reader->mesh->ignored_points += face->mNumIndices == 1;
+        reader->mesh->ignored_lines += face->mNumIndices == 2;
+        if (face->mNumIndices < 3) {
+            continue;
+        }
+        result = check_face(reader, part, i);
+        if (result == TL_OK) {
+            result = add_fan(reader, face, first_vertex, mirrored, material);
+        }
+        if (result == TL_OK && face->mNumIndices > 3) {
+            result = split_last(reader, face, first_vertex, mirrored);
+        }
+    }
+    return result;
 }
 
 static tl_result add_node(scene_reader *reader, const struct aiNode *node, const affine *to_world)
@@ -242,6 +293,8 @@ static tl_result read_scene(scene_reader *reader, bool allow_no_triangles)
     }
     tl_result result = walk_nodes(reader);
     tl_io_release(&mesh->allocator, reader->stack, reader->stack_capacity * sizeof *reader->stack);
+    tl_io_release(&mesh->allocator, reader->scratch, TL_MAX_SPLIT_CORNERS * sizeof *reader->scratch);
+    tl_io_release(&mesh->allocator, reader->corners, TL_MAX_SPLIT_CORNERS * sizeof *reader->corners);
     if (result != TL_OK) {
         return result;
     }
@@ -258,16 +311,15 @@ bool tl_assimp_knows(const char *extension)
 }
 
 tl_result tl_assimp_read(const char *path, const void *bytes, size_t size, const char *hint, bool allow_no_triangles,
-                         const tl_host *host, tl_imported_mesh *mesh_out, tl_io_error *error_out)
+                         const tl_allocator *allocator, tl_imported_mesh *mesh_out, tl_io_error *error_out)
 {
     memset(mesh_out, 0, sizeof *mesh_out);
     if (hint != NULL && size > UINT32_MAX) {
         return tl_io_fail(error_out, TL_ERR_LIMIT, path, 0, "give it a name with an extension, and read it from there",
                           "more than 4 GiB in memory");
     }
-    unsigned flags = aiProcess_Triangulate;
     const struct aiScene *scene =
-        hint != NULL ? aiImportFileFromMemory(bytes, (unsigned)size, flags, hint) : aiImportFile(path, flags);
+        hint != NULL ? aiImportFileFromMemory(bytes, (unsigned)size, 0, hint) : aiImportFile(path, 0);
     if (scene == NULL || scene->mRootNode == NULL) {
         const char *reason = aiGetErrorString();
         tl_io_fail(error_out, TL_ERR_FORMAT, path, 0, "open it in a modelling tool and export it again", "%s",
@@ -275,10 +327,10 @@ tl_result tl_assimp_read(const char *path, const void *bytes, size_t size, const
         aiReleaseImport(scene);
         return TL_ERR_FORMAT;
     }
-    tl_imported_mesh_init(mesh_out, host != NULL ? host->allocator : NULL);
+    tl_imported_mesh_init(mesh_out, allocator);
     mesh_out->format = "Assimp";
     mesh_out->source_bytes = size;
-    scene_reader reader = { scene, mesh_out, path, error_out, NULL, 0, 0 };
+    scene_reader reader = { scene, mesh_out, path, error_out, NULL, 0, 0, NULL, NULL };
     tl_result result = read_scene(&reader, allow_no_triangles);
     if (result != TL_OK) {
         tl_imported_mesh_free(mesh_out);

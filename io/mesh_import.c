@@ -4,13 +4,20 @@
 
 #include "io/mesh_import.h"
 
+#include "io/assimp_process.h"
 #include "io/assimp_reader.h"
 #include "io/file_map.h"
 #include "io/obj_reader.h"
 
 #include <string.h>
 
-enum { EXTENSION_BYTES = 16, SNIFF_BYTES = 4096, STL_HEAD_BYTES = 84, STL_TRIANGLE_BYTES = 50 };
+enum {
+    EXTENSION_BYTES = 16,
+    SNIFF_BYTES = 4096,
+    STL_HEAD_BYTES = 84,
+    STL_TRIANGLE_BYTES = 50,
+    LONGEST_PLY_HEADER = 1 << 20
+};
 
 static const char known_kinds[] = "OBJ, glTF, GLB, FBX, STL, PLY and DAE are known";
 
@@ -123,6 +130,15 @@ static bool sniff_obj(const char *bytes, size_t size)
     return false;
 }
 
+// Assimp 5 looks for the end of a PLY header beyond the end of the file, until its time is over. A header is short
+// text; comments may make it longer, but not without end.
+static bool is_cut_ply(const char *bytes, size_t size)
+{
+    size_t head = size < LONGEST_PLY_HEADER ? size : LONGEST_PLY_HEADER;
+    return begins_with(bytes, size, "ply") && !contains(bytes, head, "end_header\n") &&
+           !contains(bytes, head, "end_header\r");
+}
+
 bool tl_import_is_mesh_name(const char *path)
 {
     char extension[EXTENSION_BYTES];
@@ -144,14 +160,17 @@ static tl_result read_mesh(const void *bytes, size_t size, const char *path, con
     }
     const char *other = sniff_other(bytes, size);
     bool named_obj = strcmp(extension, ".obj") == 0;
+    if (is_cut_ply(bytes, size)) {
+        return tl_io_fail(error, TL_ERR_FORMAT, name, 0, "the file is cut short", "a PLY file without an end_header");
+    }
     if (named_obj && other == NULL) {
         return tl_obj_read(bytes, size, name, allow, host, mesh, error);
     }
     if (!named_obj && !stream && tl_import_is_mesh_name(path)) {
-        return tl_assimp_read(path, NULL, size, NULL, allow, host, mesh, error);
+        return tl_assimp_read_isolated(path, NULL, size, NULL, allow, host, mesh, error);
     }
     if (other != NULL) {
-        return tl_assimp_read(name, bytes, size, other, allow, host, mesh, error);
+        return tl_assimp_read_isolated(name, bytes, size, other, allow, host, mesh, error);
     }
     if (sniff_obj(bytes, size)) {
         return tl_obj_read(bytes, size, name, allow, host, mesh, error);

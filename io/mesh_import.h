@@ -42,7 +42,8 @@ tl_import_options tl_default_import_options(void);
 /// Errors, each with file, place and advice in `error_out` (may be NULL): TL_ERR_NOT_FOUND, TL_ERR_IO, TL_ERR_FORMAT,
 /// TL_ERR_UNSUPPORTED (a kind of file that is not known), TL_ERR_EMPTY (no triangles), TL_ERR_NOT_FINITE,
 /// TL_ERR_RANGE (a coordinate does not fit a float), TL_ERR_INDEX, TL_ERR_LIMIT, TL_ERR_ARGUMENT, TL_ERR_MEMORY,
-/// TL_ERR_CANCELLED. On failure `*mesh_out` is zeroed. Assimp allocates by itself, not from the host's allocator.
+/// TL_ERR_CANCELLED. On failure `*mesh_out` is zeroed. Assimp runs in a child process, so that a file that makes it
+/// crash or run for ever is an error too (assimp_process.h); its own memory is not the host's allocator's.
 tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_imported_mesh *mesh_out,
                          tl_io_error *error_out);
 
