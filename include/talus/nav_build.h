@@ -185,7 +185,7 @@ typedef struct tl_nav_compact {
     uint16_t *floor;      ///< [span_count] voxels: where an agent stands
     uint16_t *clearance;  ///< [span_count] voxels of free height above the floor, clamped to 0xffff
     uint8_t *area;        ///< [span_count]
-    uint32_t *neighbour;  ///< [4 * span_count]: span beside, by direction, or TL_NAV_NO_SPAN
+    uint32_t *neighbour;  ///< [4 * span_count]: span beside, by direction, or TL_NAV_NO_SPAN; mutual
     uint16_t
         *distance; ///< [span_count] twice the distance to the border in columns; after tl_nav_distance_field, else NULL
     uint16_t max_distance; ///< no distance is larger

@@ -132,6 +132,27 @@ static tl_result link_floors(tl_nav_compact *compact, const tl_host *host)
     return tl_progress_update(host, "compact", bands, bands);
 }
 
+// Of two floors of one column that both fit a third one beside them, that one takes the lower, but both may take it.
+// Links that are not returned are dropped, so that outlines can be walked.
+static void drop_one_sided_links(tl_nav_compact *compact)
+{
+    // Between two such floors lie a solid voxel and the room to pass: more than walkable_height. Both are within a
+    // climb of the third.
+    if (2 * compact->walkable_climb <= compact->walkable_height) {
+        return;
+    }
+    uint32_t *neighbour = compact->neighbour;
+    for (uint32_t i = 0; i < compact->span_count; i++) {
+        for (uint32_t direction = 0; direction < 4; direction++) {
+            uint32_t beside = neighbour[4 * (size_t)i + direction];
+            if (beside != TL_NAV_NO_SPAN && neighbour[4 * (size_t)beside + (direction ^ 2)] != i) {
+                // Whether another link is returned does not depend on this one: it is returned by none.
+                neighbour[4 * (size_t)i + direction] = TL_NAV_NO_SPAN;
+            }
+        }
+    }
+}
+
 tl_result tl_nav_compact_build(const tl_nav_config *config, const tl_nav_heightfield *heightfield, const tl_host *host,
                                tl_nav_compact *compact_out, tl_report *report_out)
 {
@@ -154,6 +175,9 @@ tl_result tl_nav_compact_build(const tl_nav_config *config, const tl_nav_heightf
     if (result == TL_OK) {
         fill_floors(heightfield, compact);
         result = link_floors(compact, host);
+    }
+    if (result == TL_OK) {
+        drop_one_sided_links(compact);
     }
     if (result != TL_OK) {
         tl_nav_compact_free(compact);

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+//
+// A whole level: its triangles sorted into tiles once, then every tile built alone, as tasks where the host has some.
+//
+// Tiles share nothing but the lattice, so their bytes do not depend on who builds them or when. The progress hook may
+// be called on the caller's thread only: tiles run in batches, and it is called between them. A failure is that of the
+// first tile that fails, in row-major order, whatever the number of workers: all tiles of a batch are finished.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+#include "nav_build/memory_meter.h"
+#include "nav_build/tile_build.h"
+
+#include <string.h>
+
+enum { TILES_PER_WORKER = 8 }; // between two calls of the progress hook
+
+#define NO_TILE UINT64_MAX
+
+typedef struct level_worker {
+    tl_nav_build_report counts;
+    uint64_t failed_tile; ///< the lowest one, or NO_TILE
+    tl_result result;     ///< its result
+    tl_report failure;    ///< its report
+} level_worker;
+
+typedef struct level_job {
+    const tl_nav_def *def;
+    const tl_nav_input *input;
+    tl_aabb bounds;
+    tl_host host; ///< with the meter's allocator
+    uint32_t tiles_x, tiles_z;
+    tl_triangle_bins bins;
+    tl_nav_tile **tiles;   ///< [tiles_x * tiles_z]
+    level_worker *workers; ///< [worker_count]
+    uint32_t worker_count;
+    uint64_t first_tile; ///< of the batch at hand
+} level_job;
+
+static void add_counts(tl_nav_build_report *sum, const tl_nav_build_report *part)
+{
+    sum->span_count += part->span_count;
+    sum->compact_span_count += part->compact_span_count;
+    sum->region_count += part->region_count;
+    sum->contour_count += part->contour_count;
+    sum->repaired_contours += part->repaired_contours;
+    sum->polygon_count += part->polygon_count;
+    sum->vertex_count += part->vertex_count;
+    sum->detail_triangle_count += part->detail_triangle_count;
+    sum->tile_count += part->tile_count;
+}
+
+static tl_result run_tile(const level_job *job, uint64_t tile, tl_triangle_list list, const tl_host *host,
+                          tl_nav_build_report *counts)
+{
+    tl_nav_config config;
+    tl_nav_stages stages;
+    memset(&stages, 0, sizeof stages);
+    TL_TRY(tl_nav_config_make(job->def, job->bounds, (uint32_t)(tile % job->tiles_x), (uint32_t)(tile / job->tiles_x),
+                              &config, &counts->base));
+    return tl_nav_tile_run(&config, job->input, list, host, false, &stages, &job->tiles[tile], counts);
+}
+
+static void tile_task(uint32_t index, uint32_t worker_index, void *task_user)
+{
+    level_job *job = task_user;
+    level_worker *worker = &job->workers[worker_index];
+    const uint64_t tile = job->first_tile + index;
+    tl_triangle_list list = tl_triangle_bins_get(&job->bins, tile);
+    if (list.count == 0) {
+        return;
+    }
+    tl_host host = { job->host.allocator, NULL, NULL };
+    tl_result result = run_tile(job, tile, list, &host, &worker->counts);
+    if (result != TL_OK && tile < worker->failed_tile) {
+        worker->failed_tile = tile;
+        worker->result = result;
+        worker->failure = worker->counts.base;
+        if (worker->failure.element == NULL) {
+            worker->failure.element = "tile";
+            worker->failure.element_index = tile;
+        }
+    }
+}
+
+static tl_result first_failure(const level_job *job, tl_report *report)
+{
+    const level_worker *first = &job->workers[0];
+    for (uint32_t w = 1; w < job->worker_count; w++) {
+        first = job->workers[w].failed_tile < first->failed_tile ? &job->workers[w] : first;
+    }
+    if (first->failed_tile == NO_TILE) {
+        return TL_OK;
+    }
+    *report = first->failure;
+    return first->result;
+}
+
+static tl_result run_tiles(level_job *job, tl_report *report)
+{
+    const uint64_t count = (uint64_t)job->tiles_x * job->tiles_z;
+    const uint64_t batch = (uint64_t)job->worker_count * TILES_PER_WORKER;
+    tl_report_begin(report, "tiles");
+    for (job->first_tile = 0; job->first_tile < count; job->first_tile += batch) {
+        TL_TRY(tl_progress_update(&job->host, "tiles", job->first_tile, count));
+        uint64_t left = count - job->first_tile;
+        tl_run_tasks(&job->host, tile_task, (uint32_t)(left < batch ? left : batch), job);
+        TL_TRY(first_failure(job, report));
+    }
+    return tl_progress_update(&job->host, "tiles", count, count);
+}
+
+// The columns of the level's lattice fall into tiles, each with the border that it sees of its neighbours.
+static tl_result sort_triangles(level_job *job, tl_report *report)
+{
+    tl_nav_config config;
+    TL_TRY(tl_nav_config_make(job->def, job->bounds, 0, 0, &config, report));
+    tl_report_begin(report, "sort triangles");
+    tl_nav_lattice lattice = { config.lattice.origin, 0, 0 };
+    tl_lattice_map map = tl_lattice_map_make(&lattice, config.cell_size, config.cell_height);
+    tl_bin_grid grid = { job->tiles_x, job->tiles_z, job->def->tile_size, job->def->tile_size, config.border_size };
+    tl_triangle_list all = { NULL, job->input->mesh.triangle_count };
+    tl_result result = tl_triangle_bins_build(&job->input->mesh, all, &map, &grid, job->host.allocator, &job->bins);
+    return result == TL_ERR_LIMIT ? tl_report_fail(report, result, "tile_size", TL_NO_ELEMENT,
+                                                   "raise tile_size: too many tiles a triangle")
+                                  : result;
+}
+
+static tl_result build_tiles(level_job *job, tl_nav_build_report *report)
+{
+    if (job->def->tile_size == 0) {
+        tl_triangle_list all = { NULL, job->input->mesh.triangle_count };
+        return run_tile(job, 0, all, &job->host, report);
+    }
+    TL_TRY(sort_triangles(job, &report->base));
+    job->worker_count = tl_worker_count(&job->host);
+    job->workers = tl_allocate_array(job->host.allocator, job->worker_count, sizeof *job->workers);
+    if (job->workers == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(job->workers, 0, job->worker_count * sizeof *job->workers);
+    for (uint32_t w = 0; w < job->worker_count; w++) {
+        job->workers[w].failed_tile = NO_TILE;
+    }
+    tl_result result = run_tiles(job, &report->base);
+    for (uint32_t w = 0; w < job->worker_count; w++) {
+        add_counts(report, &job->workers[w].counts);
+    }
+    return result;
+}
+
+// Those that hold polygons, in an array of their number.
+static tl_result keep_tiles(level_job *job, uint32_t tile_count, tl_nav_tiles *tiles_out)
+{
+    const uint64_t count = (uint64_t)job->tiles_x * job->tiles_z;
+    tiles_out->tiles = tl_allocate_array(job->host.allocator, tile_count, sizeof *tiles_out->tiles);
+    if (tiles_out->tiles == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint64_t t = 0; t < count; t++) {
+        if (job->tiles[t] != NULL) {
+            tiles_out->tiles[tiles_out->tile_count++] = job->tiles[t];
+            job->tiles[t] = NULL;
+        }
+    }
+    tiles_out->tiles_x = job->tiles_x;
+    tiles_out->tiles_z = job->tiles_z;
+    return TL_OK;
+}
+
+static tl_result build_level(level_job *job, tl_nav_tiles *tiles_out, tl_nav_build_report *report)
+{
+    TL_TRY(tl_nav_input_check(job->input, &job->bounds, &report->base));
+    TL_TRY(tl_nav_tile_grid(job->def, job->bounds, &job->tiles_x, &job->tiles_z, &report->base));
+    const uint64_t count = (uint64_t)job->tiles_x * job->tiles_z;
+    job->tiles = tl_allocate_array(job->host.allocator, count, sizeof *job->tiles);
+    if (job->tiles == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(job->tiles, 0, count * sizeof *job->tiles);
+    TL_TRY(build_tiles(job, report));
+    return keep_tiles(job, report->tile_count, tiles_out);
+}
+
+static void end_job(level_job *job)
+{
+    const uint64_t count = (uint64_t)job->tiles_x * job->tiles_z;
+    for (uint64_t t = 0; job->tiles != NULL && t < count; t++) {
+        tl_blob_free(job->tiles[t], job->host.allocator);
+    }
+    tl_release_array(job->host.allocator, job->tiles, count, sizeof *job->tiles);
+    tl_release_array(job->host.allocator, job->workers, job->worker_count, sizeof *job->workers);
+    tl_triangle_bins_free(&job->bins);
+}
+
+tl_result tl_nav_build(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tiles *tiles_out,
+                       tl_nav_build_report *report_out)
+{
+    tl_nav_build_report report;
+    memset(&report, 0, sizeof report);
+    memset(tiles_out, 0, sizeof *tiles_out);
+    tl_memory_meter meter;
+    tl_memory_meter_init(&meter, def->host.allocator);
+    level_job job;
+    memset(&job, 0, sizeof job);
+    job.def = def;
+    job.input = input;
+    job.host = def->host;
+    job.host.allocator = &meter.allocator;
+
+    tl_result result = build_level(&job, tiles_out, &report);
+    end_job(&job);
+    report.base.peak_bytes = tl_memory_meter_peak(&meter);
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    return result;
+}
+
+void tl_nav_tiles_free(tl_nav_tiles *tiles, const tl_allocator *allocator)
+{
+    if (tiles == NULL) {
+        return;
+    }
+    for (uint32_t i = 0; i < tiles->tile_count; i++) {
+        tl_blob_free(tiles->tiles[i], allocator);
+    }
+    tl_release_array(allocator, tiles->tiles, tiles->tile_count, sizeof *tiles->tiles);
+    memset(tiles, 0, sizeof *tiles);
+}

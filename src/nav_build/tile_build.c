@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+//
+// One tile, from triangles to the baked blob: the pipeline's table of contents.
+// Source of the order of stages: Mikko Mononen, Recast.
+//
+// Intermediate data is freed as soon as its last reader is done: the heightfield after the compact one, the distance
+// field after the regions, the contours after the polygons, the compact heightfield after the detail mesh.
+
+#include "nav_build/tile_build.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+#include "nav_build/memory_meter.h"
+#include "nav_build/rasterize.h"
+
+#include <string.h>
+
+typedef struct tile_job {
+    const tl_nav_config *config;
+    const tl_nav_input *input;
+    tl_triangle_list list;
+    tl_host host;
+    bool keep;
+    tl_nav_stages *stages;
+    tl_nav_tile *tile;
+    tl_nav_build_report *report;
+} tile_job;
+
+static tl_result rasterize(tile_job *job)
+{
+    tl_report_begin(&job->report->base, "rasterize");
+    TL_TRY(tl_nav_rasterize_list(job->config, &job->input->mesh, job->input->areas, job->list, &job->host,
+                                 &job->stages->heightfield, &job->report->base));
+    job->report->span_count += job->stages->heightfield.span_count;
+    return TL_OK;
+}
+
+static tl_result filter(tile_job *job)
+{
+    const tl_nav_config *config = job->config;
+    tl_nav_heightfield *heightfield = &job->stages->heightfield;
+    tl_report_begin(&job->report->base, "filter");
+    TL_TRY(tl_progress_update(&job->host, "filter", 0, 3));
+    if (config->filter_low_hanging_obstacles) {
+        tl_nav_filter_low_hanging_obstacles(config, heightfield);
+    }
+    TL_TRY(tl_progress_update(&job->host, "filter", 1, 3));
+    if (config->filter_ledge_spans) {
+        tl_nav_filter_ledge_spans(config, heightfield);
+    }
+    TL_TRY(tl_progress_update(&job->host, "filter", 2, 3));
+    if (config->filter_walkable_low_height_spans) {
+        tl_nav_filter_walkable_low_height_spans(config, heightfield);
+    }
+    return tl_progress_update(&job->host, "filter", 3, 3);
+}
+
+static tl_result build_compact(tile_job *job)
+{
+    tl_nav_compact *compact = &job->stages->compact;
+    TL_TRY(tl_nav_compact_build(job->config, &job->stages->heightfield, &job->host, compact, &job->report->base));
+    job->report->compact_span_count += compact->span_count;
+    if (!job->keep) {
+        tl_nav_heightfield_free(&job->stages->heightfield);
+    }
+    return TL_OK;
+}
+
+static tl_result erode(tile_job *job)
+{
+    tl_report_begin(&job->report->base, "erode");
+    return tl_nav_erode(job->config, &job->host, &job->stages->compact);
+}
+
+static void mark_volume(const tl_nav_volume *volume, tl_nav_compact *compact)
+{
+    switch (volume->kind) {
+    case TL_NAV_VOLUME_BOX:
+        tl_nav_mark_box(compact, volume->box, volume->area);
+        break;
+    case TL_NAV_VOLUME_POLYGON:
+        tl_nav_mark_polygon(compact, volume->points, volume->point_count, volume->box.min.y, volume->box.max.y,
+                            volume->area);
+        break;
+    case TL_NAV_VOLUME_CYLINDER:
+        tl_nav_mark_cylinder(compact, volume->base, volume->radius, volume->height, volume->area);
+        break;
+    }
+}
+
+static tl_result mark_areas(tile_job *job)
+{
+    const tl_nav_input *input = job->input;
+    tl_report_begin(&job->report->base, "areas");
+    for (uint32_t i = 0; i < input->volume_count; i++) {
+        TL_TRY(tl_progress_update(&job->host, "areas", i, input->volume_count));
+        mark_volume(&input->volumes[i], &job->stages->compact);
+    }
+    return tl_progress_update(&job->host, "areas", input->volume_count, input->volume_count);
+}
+
+static tl_result build_regions(tile_job *job)
+{
+    tl_nav_compact *compact = &job->stages->compact;
+    if (job->config->partition == TL_NAV_WATERSHED) {
+        TL_TRY(tl_nav_distance_field(&job->host, compact, &job->report->base));
+    }
+    TL_TRY(tl_nav_build_regions(job->config, &job->host, compact, &job->report->base));
+    job->report->region_count += compact->region_count > 0 ? compact->region_count - 1 : 0;
+    if (!job->keep) {
+        tl_release_array(compact->allocator, compact->distance, compact->span_count, sizeof *compact->distance);
+        compact->distance = NULL;
+    }
+    return TL_OK;
+}
+
+static tl_result build_contours(tile_job *job)
+{
+    tl_nav_contours *contours = &job->stages->contours;
+    TL_TRY(tl_nav_build_contours(job->config, &job->stages->compact, &job->host, contours, &job->report->base));
+    job->report->contour_count += contours->set.contour_count;
+    return TL_OK;
+}
+
+static tl_result build_polygons(tile_job *job)
+{
+    tl_polygon_def def = tl_default_polygon_def();
+    def.max_verts_per_poly = job->config->max_verts_per_poly;
+    def.host = job->host;
+    tl_polygon_report report;
+    tl_result result = tl_polygon_mesh_build(&job->stages->contours.set, &def, &job->stages->polygons, &report);
+    job->report->base = report.base;
+    TL_TRY(result);
+    job->report->repaired_contours += report.repaired_contours;
+    job->report->polygon_count += report.polygon_count;
+    job->report->vertex_count += report.vertex_count;
+    if (!job->keep) {
+        tl_nav_contours_free(&job->stages->contours);
+    }
+    return TL_OK;
+}
+
+static tl_result build_detail(tile_job *job)
+{
+    tl_nav_detail *detail = &job->stages->detail;
+    TL_TRY(tl_nav_build_detail(job->config, &job->stages->compact, &job->stages->polygons, &job->host, detail,
+                               &job->report->base));
+    job->report->detail_triangle_count += detail->triangle_count;
+    if (!job->keep) {
+        tl_nav_compact_free(&job->stages->compact);
+    }
+    return TL_OK;
+}
+
+static tl_result bake_tile(tile_job *job)
+{
+    const tl_nav_config *config = job->config;
+    tl_report_begin(&job->report->base, "tile");
+    TL_TRY(tl_progress_update(&job->host, "tile", 0, 1));
+    tl_nav_tile_source source;
+    memset(&source, 0, sizeof source);
+    source.polygons = &job->stages->polygons;
+    source.detail = &job->stages->detail;
+    source.tile_x = (int32_t)config->tile_x;
+    source.tile_z = (int32_t)config->tile_z;
+    source.tile_size = config->border_size > 0 ? config->width - 2 * config->border_size : 0;
+    source.origin = config->lattice.origin;
+    source.agent_height = config->agent_height;
+    source.agent_radius = config->agent_radius;
+    source.agent_max_climb = config->agent_max_climb;
+    TL_TRY(tl_nav_tile_create(&source, job->host.allocator, &job->tile, &job->report->base));
+    job->report->tile_count++;
+    return tl_progress_update(&job->host, "tile", 1, 1);
+}
+
+static tl_result build_tile(tile_job *job)
+{
+    TL_TRY(rasterize(job));
+    TL_TRY(filter(job));
+    TL_TRY(build_compact(job));
+    TL_TRY(erode(job));
+    TL_TRY(mark_areas(job));
+    TL_TRY(build_regions(job));
+    TL_TRY(build_contours(job));
+    TL_TRY(build_polygons(job));
+    TL_TRY(build_detail(job));
+    return job->stages->polygons.polygon_count > 0 ? bake_tile(job) : TL_OK;
+}
+
+tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input, tl_triangle_list list,
+                          const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile **tile_out,
+                          tl_nav_build_report *report)
+{
+    tile_job job;
+    memset(&job, 0, sizeof job);
+    job.config = config;
+    job.input = input;
+    job.list = list;
+    job.host = *host;
+    job.keep = keep_stages;
+    job.stages = stages;
+    job.report = report;
+    *tile_out = NULL;
+    tl_result result = build_tile(&job);
+    if (result != TL_OK) {
+        tl_blob_free(job.tile, host->allocator);
+        job.tile = NULL;
+    }
+    if (!keep_stages) {
+        tl_nav_stages_free(stages, host->allocator);
+    }
+    *tile_out = job.tile;
+    return result;
+}
+
+// The stages were built through the meter, which ends here; what holds an allocator gets the host's.
+static void hand_over_stages(tl_nav_stages *stages, const tl_allocator *allocator)
+{
+    stages->heightfield.allocator = allocator;
+    stages->compact.allocator = allocator;
+    stages->contours.allocator = allocator;
+}
+
+tl_result tl_nav_tile_build(const tl_nav_config *config, const tl_nav_input *input, const tl_host *host,
+                            tl_nav_stages *stages_out, tl_nav_tile **tile_out, tl_nav_build_report *report_out)
+{
+    tl_nav_build_report report;
+    memset(&report, 0, sizeof report);
+    tl_nav_stages stages;
+    memset(&stages, 0, sizeof stages);
+    const tl_allocator *allocator = host != NULL ? host->allocator : NULL;
+    tl_memory_meter meter;
+    tl_memory_meter_init(&meter, allocator);
+    tl_host metered = { &meter.allocator, host != NULL ? host->tasks : NULL, host != NULL ? host->progress : NULL };
+
+    *tile_out = NULL;
+    tl_result result = tl_nav_input_check(input, NULL, &report.base);
+    if (result == TL_OK) {
+        tl_triangle_list all = { NULL, input->mesh.triangle_count };
+        result = tl_nav_tile_run(config, input, all, &metered, stages_out != NULL, &stages, tile_out, &report);
+    }
+    if (result == TL_OK && stages_out != NULL) {
+        hand_over_stages(&stages, allocator);
+        *stages_out = stages;
+    } else {
+        tl_nav_stages_free(&stages, &meter.allocator);
+    }
+    report.base.peak_bytes = tl_memory_meter_peak(&meter);
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    return result;
+}
