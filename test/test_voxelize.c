@@ -19,17 +19,14 @@ static const double DISPLACEMENT = 1.0 / 1024;
 typedef struct bench {
     tl_voxel_band band;
     tl_span_buffer buffer;
-    double heights[2 * WIDTH];
+    double heights[TL_VOXEL_HEIGHTS_PER_COLUMN * WIDTH];
 } bench;
 
 static void bench_begin(bench *b)
 {
     memset(b, 0, sizeof *b);
-    for (uint32_t i = 0; i < WIDTH; i++) {
-        b->heights[i] = INFINITY;
-        b->heights[WIDTH + i] = -INFINITY;
-    }
-    b->band = (tl_voxel_band){ WIDTH, 0, HEIGHT, HEIGHT, VOXELS, false, b->heights, b->heights + WIDTH, &b->buffer };
+    tl_voxel_heights_init(b->heights, WIDTH);
+    b->band = (tl_voxel_band){ WIDTH, 0, HEIGHT, HEIGHT, VOXELS, false, b->heights, &b->buffer };
     TEST_RESULT(tl_span_buffer_begin(&b->buffer, WIDTH * HEIGHT), TL_OK);
 }
 
@@ -42,9 +39,9 @@ static void voxelize(bench *b, tl_lattice_point p, tl_lattice_point q, tl_lattic
 {
     b->buffer.count = 0;
     TEST_RESULT(tl_voxelize_triangle(&b->band, p, q, r, 1), TL_OK);
-    for (uint32_t i = 0; i < WIDTH; i++) {
-        TEST_CHECK(b->heights[i] == (double)INFINITY && b->heights[WIDTH + i] == -(double)INFINITY);
-    }
+    double clean[TL_VOXEL_HEIGHTS_PER_COLUMN * WIDTH];
+    tl_voxel_heights_init(clean, WIDTH);
+    TEST_CHECK(memcmp(clean, b->heights, sizeof clean) == 0);
 }
 
 // The item of a column, or 0. A column has at most one.

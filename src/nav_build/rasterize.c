@@ -13,7 +13,6 @@
 #include "base/host.h"
 #include "nav_build/level_mesh.h"
 
-#include <math.h>
 #include <string.h>
 
 enum {
@@ -29,7 +28,7 @@ typedef struct band_spans {
 
 typedef struct worker_scratch {
     tl_span_buffer buffer;
-    double *heights; ///< [2 * width]: low, then high
+    double *heights; ///< [TL_VOXEL_HEIGHTS_PER_COLUMN * width]
 } worker_scratch;
 
 typedef struct raster_job {
@@ -55,14 +54,11 @@ static tl_result prepare_worker(raster_job *job, worker_scratch *scratch, uint32
     if (scratch->heights == NULL) {
         scratch->buffer.allocator = job->allocator;
         scratch->buffer.walkable_climb = job->config->walkable_climb;
-        scratch->heights = tl_allocate_array(job->allocator, 2 * width, sizeof *scratch->heights);
+        scratch->heights = tl_allocate_array(job->allocator, TL_VOXEL_HEIGHTS_PER_COLUMN * width, sizeof(double));
         if (scratch->heights == NULL) {
             return TL_ERR_MEMORY;
         }
-        for (uint64_t i = 0; i < width; i++) {
-            scratch->heights[i] = INFINITY;
-            scratch->heights[width + i] = -INFINITY;
-        }
+        tl_voxel_heights_init(scratch->heights, job->config->width);
     }
     return tl_span_buffer_begin(&scratch->buffer, columns);
 }
@@ -92,15 +88,10 @@ static tl_result rasterize_band(raster_job *job, uint32_t band_index, worker_scr
     uint32_t rows = config->height - first_row < job->rows_per_band ? config->height - first_row : job->rows_per_band;
     TL_TRY(prepare_worker(job, scratch, config->width * rows));
 
-    tl_voxel_band band = { config->width,
-                           first_row,
-                           rows,
-                           config->height,
-                           config->height_voxels,
-                           config->border_size == 0,
-                           scratch->heights,
-                           scratch->heights + config->width,
-                           &scratch->buffer };
+    tl_voxel_band band = {
+        config->width,    first_row,       rows, config->height, config->height_voxels, config->border_size == 0,
+        scratch->heights, &scratch->buffer
+    };
     tl_triangle_list list = job->band_count > 1 ? tl_triangle_bins_get(&job->bins, band_index) : job->list;
     TL_TRY(voxelize_list(job, &band, list));
 
@@ -215,7 +206,8 @@ static void end_job(raster_job *job)
 {
     for (uint32_t w = 0; job->workers != NULL && w < job->worker_count; w++) {
         tl_span_buffer_free(&job->workers[w].buffer);
-        tl_release_array(job->allocator, job->workers[w].heights, 2 * (uint64_t)job->config->width, sizeof(double));
+        tl_release_array(job->allocator, job->workers[w].heights,
+                         TL_VOXEL_HEIGHTS_PER_COLUMN * (uint64_t)job->config->width, sizeof(double));
     }
     for (uint32_t b = 0; job->bands != NULL && b < job->band_count; b++) {
         tl_release_array(job->allocator, job->bands[b].spans, job->bands[b].count, sizeof(tl_nav_span));

@@ -24,12 +24,16 @@
 #include "base/assert.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { SUBDIVISION_BITS = 10, SUBDIVISIONS = 1 << SUBDIVISION_BITS };
 
 /// 1.5 * 2^(52 - 10): to add and subtract it rounds a double to a multiple of 2^-10, ties to even, when it is below
 /// 2^41 in size. Larger values keep their own, coarser ulp: such points are far outside any field.
 static const double ROUNDER = 6755399441055744.0 / SUBDIVISIONS;
+
+/// The same for whole numbers; the sum then ends in the number's low bits, as two's complement.
+static const double WHOLE_ROUNDER = 6755399441055744.0;
 
 static double round_to_subdivision(double value)
 {
@@ -57,31 +61,43 @@ tl_lattice_point tl_lattice_map_point(const tl_lattice_map *map, tl_vec3 point)
 
 // ---- Small helpers -----------------------------------------------------------------------------------------
 
-static double min_of(double a, double b)
+static inline double min_of(double a, double b)
 {
     return a < b ? a : b;
 }
 
-static double max_of(double a, double b)
+static inline double max_of(double a, double b)
 {
     return a > b ? a : b;
 }
 
-// The cells that [min, max] overlaps, cut to [low, high]; none when *last_out < *first_out.
-static void cell_range(double min, double max, int64_t low, int64_t high, int64_t *first_out, int64_t *last_out)
+static inline double clamp(double value, double low, double high)
 {
-    // Cut before the conversion, to what it can hold, one cell wider than the range so that outside stays outside.
-    double bounded_min = max_of(min, (double)low - 1.0), bounded_max = min_of(max, (double)high + 2.0);
-    bounded_min = min_of(bounded_min, (double)high + 2.0);
-    bounded_max = max_of(bounded_max, (double)low - 1.0);
-    int64_t first = (int64_t)bounded_min, last = (int64_t)bounded_max;
-    first -= (double)first > bounded_min; // floor
-    last -= (double)last > bounded_max;
-    if (min < max && (double)last == bounded_max) {
-        last--; // the next cell is only touched
+    return min_of(max_of(value, low), high);
+}
+
+// The nearest whole number, ties to even, of a value within +-2^31.
+static inline int32_t round_to_int(double value)
+{
+    double sum = value + WHOLE_ROUNDER;
+    uint64_t bits;
+    memcpy(&bits, &sum, sizeof bits);
+    return (int32_t)(uint32_t)bits;
+}
+
+// The cells of 0 .. count - 1 that [min, max] overlaps; none when *last_out < *first_out. What is only touched is not
+// overlapped, but a single point lies in the cell to its right.
+static inline void cell_range(double min, double max, uint32_t count, int32_t *first_out, int32_t *last_out)
+{
+    const double end = (double)count;
+    int32_t first = (int32_t)clamp(min, 0.0, end), last = (int32_t)clamp(max, 0.0, end);
+    if (min < max) {
+        last -= (double)last >= max; // touched by max, or max is left of all
+    } else {
+        last -= max < 0.0;
     }
-    *first_out = first > low ? first : low;
-    *last_out = last < high ? last : high;
+    *first_out = first;
+    *last_out = last < (int32_t)count ? last : (int32_t)count - 1;
 }
 
 // Of two points of one edge, the one that it is walked from: the same for both triangles of the edge.
@@ -100,64 +116,81 @@ static void swap_points(tl_lattice_point *a, tl_lattice_point *b)
     *b = t;
 }
 
-// ---- Spans -------------------------------------------------------------------------------------------------
+// ---- Spans of a row ----------------------------------------------------------------------------------------
 
-// The voxels of the heights [low, high], cut to the field. False when they lie outside.
-static bool span_of_heights(double low, double high, uint32_t height_voxels, uint32_t *min_out, uint32_t *max_out)
+// The voxels of the heights [low, high], in subdivisions, cut to the field. False when they lie outside.
+static inline bool span_of_heights(double low, double high, uint32_t height_voxels, uint32_t *min_out,
+                                   uint32_t *max_out)
 {
-    double limit = (double)height_voxels;
-    low = round_to_subdivision(low);
-    high = round_to_subdivision(high);
-    if (high < 0.0 || low > limit) {
+    // Bounded before the conversion, by more than rounding can bring back.
+    const int32_t limit = (int32_t)height_voxels * SUBDIVISIONS;
+    int32_t bottom = round_to_int(clamp(low, -SUBDIVISIONS, (double)limit + SUBDIVISIONS));
+    int32_t top = round_to_int(clamp(high, -SUBDIVISIONS, (double)limit + SUBDIVISIONS));
+    if (top < 0 || bottom > limit) {
         return false;
     }
-    low = max_of(low, 0.0);
-    high = min_of(high, limit);
-    uint32_t min = (uint32_t)low, max = (uint32_t)high;
-    max += (double)max < high;
+    bottom = bottom > 0 ? bottom : 0;
+    top = top < limit ? top : limit;
+    uint32_t min = (uint32_t)bottom >> SUBDIVISION_BITS;
+    uint32_t max = ((uint32_t)top + SUBDIVISIONS - 1) >> SUBDIVISION_BITS;
     *min_out = min;
     *max_out = max > min ? max : min + 1;
     return true;
 }
 
-// Whether any piece of the heights [low, high] has the same span: they end below the next voxel and inside the field.
+// Whether any piece of the heights [low, high], in subdivisions, has the same span: they end below the next voxel and
+// inside the field.
 static bool lies_in_one_layer(double low, double high, uint32_t height_voxels)
 {
-    low = round_to_subdivision(low);
-    high = round_to_subdivision(high);
-    return low >= 0.0 && high <= (double)height_voxels && high < (double)((uint32_t)low + 1);
+    const int32_t limit = (int32_t)height_voxels * SUBDIVISIONS;
+    if (!(low > -1.0 && high < (double)limit + 1.0)) {
+        return false;
+    }
+    int32_t bottom = round_to_int(low), top = round_to_int(high);
+    return bottom >= 0 && top <= limit && bottom >> SUBDIVISION_BITS == top >> SUBDIVISION_BITS;
 }
 
-// Adds the span [min, max) to the cells first..last of a row.
-static tl_result add_level_row(const tl_voxel_band *band, uint32_t row, int64_t first, int64_t last, uint32_t min,
-                               uint32_t max, uint32_t area)
+// A triangle on its way through the rows of a band. Heights in subdivisions of a voxel.
+typedef struct walk {
+    const tl_voxel_band *band;
+    uint32_t area;
+    bool level; ///< all cells have the span [level_min, level_max)
+    uint32_t level_min, level_max;
+    double *low, *high;           ///< of the row at hand
+    double *next_low, *next_high; ///< of the row after it
+    double left, right;           ///< of the piece in the row at hand
+    double next_left, next_right;
+} walk;
+
+static tl_result add_level_row(const walk *w, uint32_t row, int32_t first, int32_t last)
 {
-    tl_span_buffer *buffer = band->buffer;
-    TL_TRY(tl_span_buffer_reserve(buffer, (uint32_t)(last - first + 1)));
-    const uint32_t row_start = (row - band->first_row) * band->width;
-    tl_span_item item = tl_span_item_make(row_start + (uint32_t)first, min, max, area);
+    tl_span_buffer *buffer = w->band->buffer;
+    const uint32_t count = (uint32_t)(last - first + 1);
+    TL_TRY(tl_span_buffer_reserve(buffer, count));
+    const uint32_t column = (row - w->band->first_row) * w->band->width + (uint32_t)first;
+    tl_span_item item = tl_span_item_make(column, w->level_min, w->level_max, w->area);
     tl_span_item *items = buffer->items + buffer->count;
     const tl_span_item next_column = tl_span_item_make(1, 0, 0, 0);
-    for (int64_t i = first; i <= last; i++) {
-        *items++ = item;
+    for (uint32_t i = 0; i < count; i++) {
+        items[i] = item;
         item += next_column;
     }
-    buffer->count += (uint64_t)(last - first + 1);
+    buffer->count += count;
     return TL_OK;
 }
 
-// Adds the spans that lie in band->low and ->high for the cells first..last of a row, and clears those.
-static tl_result add_row(const tl_voxel_band *band, uint32_t row, int64_t first, int64_t last, uint32_t area)
+// Adds the spans that lie in low and high for the cells first..last of a row, and clears those.
+static tl_result add_row(const walk *w, uint32_t row, int32_t first, int32_t last)
 {
-    tl_span_buffer *buffer = band->buffer;
+    tl_span_buffer *buffer = w->band->buffer;
     TL_TRY(tl_span_buffer_reserve(buffer, (uint32_t)(last - first + 1)));
-    const uint32_t row_start = (row - band->first_row) * band->width;
-    double *low = band->low, *high = band->high;
+    const uint32_t row_start = (row - w->band->first_row) * w->band->width;
+    double *low = w->low, *high = w->high;
     tl_span_item *items = buffer->items + buffer->count;
-    for (int64_t i = first; i <= last; i++) {
+    for (int32_t i = first; i <= last; i++) {
         uint32_t min, max;
-        if (span_of_heights(low[i], high[i], band->height_voxels, &min, &max)) {
-            *items++ = tl_span_item_make(row_start + (uint32_t)i, min, max, area);
+        if (span_of_heights(low[i], high[i], w->band->height_voxels, &min, &max)) {
+            *items++ = tl_span_item_make(row_start + (uint32_t)i, min, max, w->area);
         }
         low[i] = INFINITY;
         high[i] = -INFINITY;
@@ -166,84 +199,105 @@ static tl_result add_row(const tl_voxel_band *band, uint32_t row, int64_t first,
     return TL_OK;
 }
 
-// ---- The slice of a triangle in one row --------------------------------------------------------------------
+// ---- Edges of the pieces -----------------------------------------------------------------------------------
 
-typedef struct slice {
-    tl_lattice_point points[5]; ///< the outline in order; z is not used
-    int count;
-} slice;
-
-static void slice_add(slice *s, tl_lattice_point point)
+static inline void widen_cell(double *low, double *high, int32_t cell, double y0, double y1)
 {
-    s->points[s->count++] = point;
+    low[cell] = min_of(low[cell], min_of(y0, y1));
+    high[cell] = max_of(high[cell], max_of(y0, y1));
 }
 
-// Widens the cells first..last by the heights of the edge from p to q.
-static void widen_by_edge(const tl_voxel_band *band, tl_lattice_point p, tl_lattice_point q, int64_t first,
-                          int64_t last)
+// Widens the cells that the edge from p to q passes, in the row at hand, and in the next one where `in_next`.
+// Over a cell the edge takes the heights from one x line to the next; its ends are what they are.
+static inline void walk_edge(walk *w, tl_lattice_point p, tl_lattice_point q, bool in_next)
 {
     if (p.x > q.x) {
         swap_points(&p, &q);
     }
-    const double min_y = min_of(p.y, q.y), max_y = max_of(p.y, q.y);
-    int64_t begin, end;
-    cell_range(p.x, q.x, first, last, &begin, &end);
-    double *low = band->low, *high = band->high;
-    if (begin == end && p.x >= (double)begin && q.x <= (double)(begin + 1)) {
-        low[begin] = min_of(low[begin], min_y);
-        high[begin] = max_of(high[begin], max_y);
+    int32_t first, last;
+    cell_range(p.x, q.x, w->band->width, &first, &last);
+    if (first > last) {
         return;
     }
-    if (begin > end) {
-        return;
+    double before = p.y;
+    if (first < last || p.x < (double)first || q.x > (double)(last + 1)) { // then p.x < q.x
+        const double slope = (q.y - p.y) / (q.x - p.x);
+        if (p.x < (double)first) {
+            before = p.y + ((double)first - p.x) * slope;
+        }
+        for (; first < last; first++) {
+            double after = p.y + ((double)(first + 1) - p.x) * slope;
+            widen_cell(w->low, w->high, first, before, after);
+            if (in_next) {
+                widen_cell(w->next_low, w->next_high, first, before, after);
+            }
+            before = after;
+        }
+        if (q.x > (double)(last + 1)) {
+            q.y = p.y + ((double)(last + 1) - p.x) * slope;
+        }
     }
-    // Over cell i the edge takes the heights from line i to line i + 1, which is cut off at its ends by the clamp: the
-    // height is monotone along the edge. p.x < q.x, or else it lay within one cell.
-    const double slope = (q.y - p.y) / (q.x - p.x);
-    double left = p.y + ((double)begin - p.x) * slope;
-    left = max_of(min_of(left, max_y), min_y);
-    for (int64_t i = begin; i <= end; i++) {
-        double right = p.y + ((double)(i + 1) - p.x) * slope;
-        right = max_of(min_of(right, max_y), min_y);
-        low[i] = min_of(low[i], min_of(left, right));
-        high[i] = max_of(high[i], max_of(left, right));
-        left = right;
+    widen_cell(w->low, w->high, last, before, q.y);
+    if (in_next) {
+        widen_cell(w->next_low, w->next_high, last, before, q.y);
     }
 }
 
-static tl_result add_slice(const tl_voxel_band *band, uint32_t row, const slice *s, uint32_t area)
+// The piece in the row at hand reaches to the point, which lies in it or on its lines.
+static inline void reach(walk *w, const tl_lattice_point *point)
 {
-    double min_x = s->points[0].x, max_x = min_x, min_y = s->points[0].y, max_y = min_y;
-    for (int i = 1; i < s->count; i++) {
-        min_x = min_of(min_x, s->points[i].x);
-        max_x = max_of(max_x, s->points[i].x);
-        min_y = min_of(min_y, s->points[i].y);
-        max_y = max_of(max_y, s->points[i].y);
+    w->left = min_of(w->left, point->x);
+    w->right = max_of(w->right, point->x);
+}
+
+// The cut between the row at hand and the next one.
+static inline void add_cut(walk *w, const tl_lattice_point *p, const tl_lattice_point *q)
+{
+    w->next_left = min_of(p->x, q->x);
+    w->next_right = max_of(p->x, q->x);
+    w->left = min_of(w->left, w->next_left);
+    w->right = max_of(w->right, w->next_right);
+    if (!w->level) {
+        walk_edge(w, *p, *q, true);
     }
-    if (band->closed_far_side && min_x == max_x && min_x == (double)band->width) {
-        // A wall on the far side: as a piece within the last column.
-        uint32_t min, max;
-        int64_t column = (int64_t)band->width - 1;
-        return span_of_heights(min_y, max_y, band->height_voxels, &min, &max)
-                   ? add_level_row(band, row, column, column, min, max, area)
-                   : TL_OK;
+}
+
+static inline void add_edge(walk *w, const tl_lattice_point *p, const tl_lattice_point *q)
+{
+    if (!w->level) {
+        walk_edge(w, *p, *q, false);
     }
-    int64_t first, last;
-    cell_range(min_x, max_x, 0, (int64_t)band->width - 1, &first, &last);
-    if (first > last) {
-        return TL_OK;
+}
+
+// The row at hand is complete: adds its spans, and the next one is at hand.
+static tl_result finish_row(walk *w, uint32_t row)
+{
+    int32_t first, last;
+    cell_range(w->left, w->right, w->band->width, &first, &last);
+    if (first <= last) {
+        TL_TRY(w->level ? add_level_row(w, row, first, last) : add_row(w, row, first, last));
     }
-    bool one_cell = first == last && min_x >= (double)first && max_x <= (double)(first + 1);
-    if (one_cell || lies_in_one_layer(min_y, max_y, band->height_voxels)) {
-        uint32_t min, max;
-        return span_of_heights(min_y, max_y, band->height_voxels, &min, &max)
-                   ? add_level_row(band, row, first, last, min, max, area)
-                   : TL_OK;
+    double *low = w->low, *high = w->high;
+    if (last + 1 < (int32_t)w->band->width) { // what only touches the piece's right end is in that cell
+        low[last + 1] = INFINITY;
+        high[last + 1] = -INFINITY;
     }
-    for (int i = 0; i < s->count; i++) {
-        widen_by_edge(band, s->points[i], s->points[i + 1 < s->count ? i + 1 : 0], first, last);
+    w->low = w->next_low;
+    w->high = w->next_high;
+    w->next_low = low;
+    w->next_high = high;
+    w->left = w->next_left;
+    w->right = w->next_right;
+    return TL_OK;
+}
+
+// Low and high of the row at hand, then of the next one.
+void tl_voxel_heights_init(double *heights, uint32_t width)
+{
+    for (uint32_t i = 0; i < width; i++) {
+        heights[i] = heights[2 * (size_t)width + i] = INFINITY;
+        heights[width + i] = heights[3 * (size_t)width + i] = -INFINITY;
     }
-    return add_row(band, row, first, last, area);
 }
 
 // ---- The triangle ------------------------------------------------------------------------------------------
@@ -254,7 +308,7 @@ typedef struct edge {
     double dx, dy; ///< per unit of z; not used when the edge lies along a row
 } edge;
 
-static edge make_edge(const tl_lattice_point *start, const tl_lattice_point *end)
+static inline edge make_edge(const tl_lattice_point *start, const tl_lattice_point *end)
 {
     double dz = end->z - start->z;
     edge e = { *start, 0.0, 0.0 };
@@ -265,11 +319,71 @@ static edge make_edge(const tl_lattice_point *start, const tl_lattice_point *end
     return e;
 }
 
-static tl_lattice_point cross_line(const edge *e, double z)
+static inline tl_lattice_point cross_line(const edge *e, double z)
 {
     double along = z - e->start.z;
     tl_lattice_point point = { round_to_subdivision(e->start.x + along * e->dx), e->start.y + along * e->dy, z };
     return point;
+}
+
+// a, b, c in the order of comes_first; the rows first..last are the band's that it overlaps.
+static tl_result walk_rows(walk *w, const tl_lattice_point *a, const tl_lattice_point *b, const tl_lattice_point *c,
+                           int32_t first, int32_t last)
+{
+    const edge whole = make_edge(a, c), lower = make_edge(a, b), upper = make_edge(b, c);
+    double line = (double)first;
+    tl_lattice_point on_whole = *a, on_bent = *a; // where the two sides of the outline enter the row
+    w->left = w->right = a->x;
+    if (a->z < line) {
+        on_whole = cross_line(&whole, line);
+        on_bent = cross_line(b->z > line ? &lower : &upper, line);
+        w->left = min_of(on_whole.x, on_bent.x);
+        w->right = max_of(on_whole.x, on_bent.x);
+        add_edge(w, &on_whole, &on_bent);
+    }
+    for (int32_t row = first; row <= last; row++) {
+        const double next = line + 1.0;
+        tl_lattice_point whole_end = *c, bent_end = *c;
+        const bool cut = c->z > next;
+        if (cut) {
+            whole_end = cross_line(&whole, next);
+            bent_end = cross_line(b->z > next ? &lower : &upper, next);
+            if (row < last) {
+                add_cut(w, &whole_end, &bent_end);
+            } else {
+                add_edge(w, &whole_end, &bent_end);
+                reach(w, &whole_end);
+                reach(w, &bent_end);
+            }
+        } else {
+            reach(w, c);
+        }
+        add_edge(w, &on_whole, &whole_end);
+        if (b->z >= line && b->z <= next) {
+            add_edge(w, &on_bent, b);
+            add_edge(w, b, &bent_end);
+            reach(w, b);
+        } else {
+            add_edge(w, &on_bent, &bent_end);
+        }
+        TL_TRY(finish_row(w, (uint32_t)row));
+        on_whole = whole_end;
+        on_bent = bent_end;
+        line = next;
+    }
+    return TL_OK;
+}
+
+// A wall exactly on the field's far side moves half a cell inwards.
+static void close_far_side(const tl_voxel_band *band, tl_lattice_point *a, tl_lattice_point *b, tl_lattice_point *c)
+{
+    const double end_x = (double)band->width, end_z = (double)band->field_height;
+    if (a->x == end_x && b->x == end_x && c->x == end_x) {
+        a->x = b->x = c->x = end_x - 0.5;
+    }
+    if (a->z == end_z && b->z == end_z && c->z == end_z) {
+        a->z = b->z = c->z = end_z - 0.5;
+    }
 }
 
 tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_lattice_point a, tl_lattice_point b, tl_lattice_point c,
@@ -284,49 +398,28 @@ tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_lattice_point a, tl
             swap_points(&a, &b);
         }
     }
+    if (band->closed_far_side) {
+        close_far_side(band, &a, &b, &c);
+    }
     double min_x = min_of(a.x, min_of(b.x, c.x)), max_x = max_of(a.x, max_of(b.x, c.x));
     double min_y = min_of(a.y, min_of(b.y, c.y)), max_y = max_of(a.y, max_of(b.y, c.y));
     if (max_x < 0.0 || min_x > (double)band->width || max_y < -1.0 || min_y > (double)band->height_voxels + 1.0) {
         return TL_OK;
     }
-    int64_t first, last;
-    const int64_t row_end = (int64_t)band->first_row + band->row_count;
-    if (band->closed_far_side && a.z == c.z && a.z == (double)band->field_height) {
-        first = (int64_t)band->field_height - 1;
-        last = row_end > first ? first : first - 1;
-    } else {
-        cell_range(a.z, c.z, band->first_row, row_end - 1, &first, &last);
-    }
+    int32_t first, last;
+    cell_range(a.z - (double)band->first_row, c.z - (double)band->first_row, band->row_count, &first, &last);
     if (first > last) {
         return TL_OK;
     }
-
-    const edge whole = make_edge(&a, &c), lower = make_edge(&a, &b), upper = make_edge(&b, &c);
-    double line = (double)first;
-    tl_lattice_point on_whole = a, on_bent = a; // where the two sides of the outline enter the row
-    if (a.z < line) {
-        on_whole = cross_line(&whole, line);
-        on_bent = cross_line(b.z > line ? &lower : &upper, line);
+    a.y *= SUBDIVISIONS;
+    b.y *= SUBDIVISIONS;
+    c.y *= SUBDIVISIONS;
+    walk w = { band, area, false, 0, 0, band->heights, band->heights + band->width, NULL, NULL, 0, 0, 0, 0 };
+    w.next_low = w.high + band->width;
+    w.next_high = w.next_low + band->width;
+    if (lies_in_one_layer(min_y * SUBDIVISIONS, max_y * SUBDIVISIONS, band->height_voxels)) {
+        w.level = span_of_heights(min_y * SUBDIVISIONS, max_y * SUBDIVISIONS, band->height_voxels, &w.level_min,
+                                  &w.level_max);
     }
-    for (int64_t row = first; row <= last; row++) {
-        const double next = (double)(row + 1);
-        slice s;
-        s.count = 0;
-        slice_add(&s, on_whole);
-        slice_add(&s, on_bent);
-        if (b.z >= line && b.z <= next) {
-            slice_add(&s, b);
-        }
-        if (c.z > next) {
-            on_whole = cross_line(&whole, next);
-            on_bent = cross_line(b.z > next ? &lower : &upper, next);
-            slice_add(&s, on_bent);
-            slice_add(&s, on_whole);
-        } else {
-            slice_add(&s, c);
-        }
-        TL_TRY(add_slice(band, (uint32_t)row, &s, area));
-        line = next;
-    }
-    return TL_OK;
+    return walk_rows(&w, &a, &b, &c, first + (int32_t)band->first_row, last + (int32_t)band->first_row);
 }

@@ -32,9 +32,13 @@ typedef struct tl_voxel_band {
     uint32_t field_height;  ///< rows of the field
     uint32_t height_voxels; ///< spans are cut to [0, height_voxels]
     bool closed_far_side;   ///< a wall that lies exactly on the field's far side belongs to its last column or row
-    double *low, *high;     ///< [width] scratch; +infinity and -infinity before and after each call
+    double *heights;        ///< [4 * width] scratch, set up by tl_voxel_heights_init; each call leaves it so
     tl_span_buffer *buffer;
 } tl_voxel_band;
+
+#define TL_VOXEL_HEIGHTS_PER_COLUMN 4
+
+void tl_voxel_heights_init(double *heights, uint32_t width);
 
 /// Adds the spans of the triangle abc, of the given area, to the band's buffer. TL_ERR_MEMORY or TL_ERR_LIMIT when that
 /// can't grow.
