@@ -27,7 +27,10 @@ enum {
     FIRST_ITEMS_PER_COLUMN = 4,
     // A buffer grows without being reduced up to here: in real levels so many triangles a column are seldom redundant.
     GROWING_ITEMS_PER_COLUMN = 16,
-    INSERTION_SORT_MAX = 24
+    INSERTION_SORT_MAX = 24,
+    SORTED_MAX = 6, // items of a column that are sorted rather than drawn
+    DRAWN_VOXELS = 4096,
+    VOXELS_PER_DRAWN_ITEM = 32 // a drawing's cost is about an item's a machine word
 };
 
 static void release_items(tl_span_buffer *buffer)
@@ -103,9 +106,36 @@ static void sift_down(tl_span_item *items, uint32_t root, uint32_t count)
     items[root] = moved;
 }
 
+// Compiles to conditional moves: the order of two spans is a coin's toss that no branch predictor wins.
+static inline void order(tl_span_item *a, tl_span_item *b)
+{
+    tl_span_item low = *a < *b ? *a : *b, high = *a < *b ? *b : *a;
+    *a = low;
+    *b = high;
+}
+
 // A column holds few items, nearly always; heapsort bounds the rest. Equal items are equal bits, so stability is moot.
 static void sort_column(tl_span_item *items, uint32_t count)
 {
+    switch (count) {
+    case 2:
+        order(&items[0], &items[1]);
+        return;
+    case 3:
+        order(&items[0], &items[1]);
+        order(&items[1], &items[2]);
+        order(&items[0], &items[1]);
+        return;
+    case 4:
+        order(&items[0], &items[1]);
+        order(&items[2], &items[3]);
+        order(&items[0], &items[2]);
+        order(&items[1], &items[3]);
+        order(&items[1], &items[2]);
+        return;
+    default:
+        break;
+    }
     if (count > INSERTION_SORT_MAX) {
         for (uint32_t i = count / 2; i-- > 0;) {
             sift_down(items, i, count);
@@ -128,8 +158,8 @@ static void sort_column(tl_span_item *items, uint32_t count)
     }
 }
 
-// Leaves all items in `sorted`, column by column and in order within each; ends[c] is where column c ends.
-static void sort_items(tl_span_buffer *buffer)
+// Leaves all items in `sorted`, column by column; ends[c] is where column c ends.
+static void group_by_column(tl_span_buffer *buffer)
 {
     uint32_t *ends = buffer->ends;
     const tl_span_item *items = buffer->items;
@@ -147,14 +177,6 @@ static void sort_items(tl_span_buffer *buffer)
     }
     for (uint32_t i = 0; i < count; i++) {
         sorted[ends[tl_span_item_column(items[i])]++] = items[i];
-    }
-    uint32_t begin = 0;
-    for (uint32_t c = 0; c < column_count; c++) {
-        uint32_t end = ends[c];
-        if (end - begin > 1) {
-            sort_column(sorted + begin, end - begin);
-        }
-        begin = end;
     }
 }
 
@@ -203,11 +225,12 @@ static uint32_t reduce_union(const tl_span_item *items, uint32_t count, uint32_t
 // Replaces the items by the fewest that have the same union. At most 256 passes over each, one an area.
 static void reduce(tl_span_buffer *buffer)
 {
-    sort_items(buffer);
+    group_by_column(buffer);
     uint64_t kept = 0;
     uint32_t begin = 0;
     for (uint32_t c = 0; c < buffer->column_count; c++) {
         uint32_t end = buffer->ends[c];
+        sort_column(buffer->sorted + begin, end - begin);
         while (begin < end) {
             uint32_t max;
             uint32_t next = union_end(buffer->sorted, begin, end, &max);
@@ -249,22 +272,119 @@ static tl_nav_span merge_union(const tl_span_item *items, uint32_t count, uint32
     return span;
 }
 
+// The unions of a column of few items, bottom to top; returns how many.
+static uint32_t merge_sorted(tl_span_item *items, uint32_t count, uint32_t walkable_climb, tl_nav_span *spans)
+{
+    uint32_t span_count = 0;
+    sort_column(items, count);
+    for (uint32_t begin = 0; begin < count;) {
+        uint32_t max;
+        uint32_t end = union_end(items, begin, count, &max);
+        spans[span_count++] = merge_union(items + begin, end - begin, max, walkable_climb);
+        begin = end;
+    }
+    return span_count;
+}
+
+// Sets the bits [begin, end), end > begin.
+static void set_bits(uint64_t *words, uint32_t begin, uint32_t end)
+{
+    const uint32_t first = begin / 64, last = (end - 1) / 64;
+    const uint64_t from_begin = UINT64_MAX << (begin % 64), to_end = UINT64_MAX >> (63 - (end - 1) % 64);
+    if (first == last) {
+        words[first] |= from_begin & to_end;
+        return;
+    }
+    words[first] |= from_begin;
+    for (uint32_t i = first + 1; i < last; i++) {
+        words[i] = UINT64_MAX;
+    }
+    words[last] |= to_end;
+}
+
+static uint32_t lowest_bit(uint64_t word)
+{
+    uint32_t bit = 0;
+    for (uint32_t step = 32; step > 0; step /= 2) {
+        uint64_t low = word & ((UINT64_C(1) << step) - 1);
+        bit += low == 0 ? step : 0;
+        word = low == 0 ? word >> step : low;
+    }
+    return bit;
+}
+
+// The first bit at or above `from` that is `set`; there is one.
+static uint32_t find_bit(const uint64_t *words, uint32_t from, bool set)
+{
+    const uint64_t flip = set ? 0 : UINT64_MAX;
+    uint32_t word = from / 64;
+    uint64_t found = (words[word] ^ flip) & (UINT64_MAX << (from % 64));
+    while (found == 0) {
+        found = words[++word] ^ flip;
+    }
+    return word * 64 + lowest_bit(found);
+}
+
+// The same for many items within few voxels: they are drawn into a column of bits, and each top notes its largest area.
+// No sorting; detailed props put hundreds of small triangles over one column.
+static uint32_t merge_drawn(const tl_span_item *items, uint32_t count, uint32_t bottom, uint32_t top,
+                            uint32_t walkable_climb, tl_nav_span *spans)
+{
+    uint64_t solid[DRAWN_VOXELS / 64 + 1]; // a clear bit above the top included
+    uint8_t area_of_top[DRAWN_VOXELS + 1];
+    const uint32_t height = top - bottom;
+    memset(solid, 0, (height / 64 + 1) * sizeof *solid);
+    memset(area_of_top, 0, height + 1);
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t max = tl_span_item_max(items[i]) - bottom, area = tl_span_item_area(items[i]);
+        set_bits(solid, tl_span_item_min(items[i]) - bottom, max);
+        area_of_top[max] = (uint8_t)(area > area_of_top[max] ? area : area_of_top[max]);
+    }
+    uint32_t span_count = 0;
+    for (uint32_t end = 0; end < height;) {
+        const uint32_t begin = find_bit(solid, end, true);
+        end = find_bit(solid, begin, false);
+        uint32_t area = 0, y = end > begin + walkable_climb ? end - walkable_climb : begin + 1;
+        for (; y <= end; y++) {
+            area = area_of_top[y] > area ? area_of_top[y] : area;
+        }
+        tl_nav_span span = { (uint16_t)(bottom + begin), (uint16_t)(bottom + end), (uint16_t)area, 0 };
+        spans[span_count++] = span;
+    }
+    return span_count;
+}
+
+static uint32_t merge_column(tl_span_item *items, uint32_t count, uint32_t walkable_climb, tl_nav_span *spans)
+{
+    if (count > SORTED_MAX) {
+        uint32_t bottom = UINT32_MAX, top = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t min = tl_span_item_min(items[i]), max = tl_span_item_max(items[i]);
+            bottom = min < bottom ? min : bottom;
+            top = max > top ? max : top;
+        }
+        if (top - bottom < DRAWN_VOXELS && top - bottom < count * VOXELS_PER_DRAWN_ITEM) {
+            return merge_drawn(items, count, bottom, top, walkable_climb, spans);
+        }
+    }
+    return merge_sorted(items, count, walkable_climb, spans);
+}
+
 void tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *counts_out, const tl_nav_span **spans_out,
                           uint32_t *span_count_out)
 {
-    sort_items(buffer);
-    // The unsorted items are no longer needed: the spans take their place.
+    group_by_column(buffer);
+    // The ungrouped items are no longer needed: the spans take their place.
     tl_nav_span *spans = (tl_nav_span *)(void *)buffer->items;
     uint32_t span_count = 0, begin = 0;
     for (uint32_t c = 0; c < buffer->column_count; c++) {
-        uint32_t end = buffer->ends[c], before = span_count;
-        while (begin < end) {
-            uint32_t max;
-            uint32_t next = union_end(buffer->sorted, begin, end, &max);
-            spans[span_count++] = merge_union(buffer->sorted + begin, next - begin, max, buffer->walkable_climb);
-            begin = next;
+        uint32_t end = buffer->ends[c], count = 0;
+        if (end > begin) {
+            count = merge_column(buffer->sorted + begin, end - begin, buffer->walkable_climb, spans + span_count);
         }
-        counts_out[c] = span_count - before;
+        counts_out[c] = count;
+        span_count += count;
+        begin = end;
     }
     *spans_out = spans;
     *span_count_out = span_count;

@@ -14,12 +14,6 @@ typedef struct bin_range {
     uint32_t x0, x1, z0, z1; ///< inclusive; empty when x1 < x0
 } bin_range;
 
-static int64_t floor_div(int64_t a, int64_t b)
-{
-    int64_t q = a / b;
-    return q - (a % b != 0 && a < 0);
-}
-
 // Bins along one axis whose columns [i * size - margin, (i + 1) * size + margin) meet [min, max], points that only
 // touch included.
 static bool axis_range(double min, double max, uint32_t count, uint32_t size, uint32_t margin, uint32_t *first_out,
@@ -29,11 +23,12 @@ static bool axis_range(double min, double max, uint32_t count, uint32_t size, ui
     if (max < low || min > high) {
         return false;
     }
-    // Cut to the grid, the conversions are exact enough; one column more on each side costs nothing.
-    int64_t begin = (int64_t)(min > low ? min : low) - 1, end = (int64_t)(max < high ? max : high) + 1;
-    int64_t first = floor_div(begin - (int64_t)margin, size), last = floor_div(end + (int64_t)margin, size);
-    *first_out = first > 0 ? (uint32_t)first : 0;
-    *last_out = last < (int64_t)count ? (uint32_t)last : count - 1;
+    // Cut to the grid, so the conversions hold; one column more on each side costs nothing. 2^30 + 2^16 is below 2^31.
+    int32_t begin = (int32_t)(min > low ? min : low) - 1 - (int32_t)margin;
+    uint32_t end = (uint32_t)((int32_t)(max < high ? max : high) + 1 + (int32_t)margin);
+    uint32_t first = begin > 0 ? (uint32_t)begin / size : 0, last = end / size;
+    *first_out = first;
+    *last_out = last < count ? last : count - 1;
     return true;
 }
 
