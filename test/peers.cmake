@@ -43,3 +43,7 @@ foreach(stem frame bake ray path hull polygonize bad_input)
     set(talus_test_cli_${stem}_needs talus_command_path)
 endforeach()
 set(talus_test_hull_qhull_needs talus_peer_qhull)
+
+# Recast: the navmesh pipeline to compare with.
+include(${PROJECT_SOURCE_DIR}/cmake/TalusPeerRecast.cmake)
+set(talus_test_nav_recast_needs talus_peer_recast talus_sample talus_io)
