@@ -14,21 +14,6 @@
 static const int8_t tl_nav_step_x[4] = { -1, 0, 1, 0 };
 static const int8_t tl_nav_step_z[4] = { 0, 1, 0, -1 };
 
-/// Whether column (x, z) has a column beside it in that direction.
-static inline bool tl_nav_has_column(uint32_t width, uint32_t height, uint32_t x, uint32_t z, uint32_t direction)
-{
-    switch (direction) {
-    case 0:
-        return x > 0;
-    case 1:
-        return z + 1 < height;
-    case 2:
-        return x + 1 < width;
-    default:
-        return z > 0;
-    }
-}
-
 /// What to add to a column's index to step in a direction; wraps around as unsigned arithmetic does.
 static inline uint32_t tl_nav_column_step(uint32_t width, uint32_t direction)
 {

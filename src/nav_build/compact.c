@@ -50,52 +50,69 @@ static void fill_floors(const tl_nav_heightfield *field, tl_nav_compact *compact
             compact->floor[at] = field->spans[i].max;
             compact->clearance[at] = (uint16_t)(clearance < 0xffff ? clearance : 0xffff);
             compact->area[at] = (uint8_t)field->spans[i].area;
+            for (uint32_t direction = 0; direction < 4; direction++) {
+                compact->neighbour[4 * (size_t)at + direction] = TL_NAV_NO_SPAN;
+            }
             at++;
         }
     }
     compact->first_span[columns] = at;
 }
 
-// Links the floors of one column to the lowest fitting floor of the column [begin, end) beside it.
-static void link_column(tl_nav_compact *compact, uint32_t column, uint32_t direction, uint32_t begin, uint32_t end)
+// Whether one can step between two floors: close enough in height, and with room above both.
+static inline bool can_step(const tl_nav_compact *compact, uint32_t a, uint32_t b)
 {
-    const uint16_t *floors = compact->floor, *clearances = compact->clearance;
-    const int32_t climb = (int32_t)compact->walkable_climb, room = (int32_t)compact->walkable_height;
-    for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
-        const int32_t floor = floors[i], ceiling = floor + clearances[i];
-        uint32_t found = TL_NAV_NO_SPAN;
+    const int32_t floor_a = compact->floor[a], floor_b = compact->floor[b];
+    const int32_t ceiling_a = floor_a + compact->clearance[a], ceiling_b = floor_b + compact->clearance[b];
+    const int32_t bottom = floor_a > floor_b ? floor_a : floor_b,
+                  step = floor_a > floor_b ? floor_a - floor_b : floor_b - floor_a;
+    const int32_t top = ceiling_a < ceiling_b ? ceiling_a : ceiling_b;
+    return step <= (int32_t)compact->walkable_climb && top - bottom >= (int32_t)compact->walkable_height;
+}
+
+// Links the floors of a column with those of the column beside it in a direction, bottom up and in pairs: each with the
+// lowest one that it can step to and that is not taken. So links are mutual and do not cross.
+//
+// One floor can step to two of a column only where twice the climb exceeds the agent's height: between those two lie
+// a solid voxel and the room to pass, and both are within a climb. In all other settings these are Recast's links.
+static void link_columns(tl_nav_compact *compact, uint32_t column, uint32_t beside, uint32_t direction)
+{
+    const uint16_t *floors = compact->floor;
+    const uint32_t end = compact->first_span[column + 1], beside_end = compact->first_span[beside + 1];
+    uint32_t next = compact->first_span[beside];
+    for (uint32_t i = compact->first_span[column]; i < end; i++) {
         // Floors rise within a column: what lies too deep for this one does so for those above it.
-        while (begin < end && (int32_t)floors[begin] < floor - climb) {
-            begin++;
+        const int32_t lowest = (int32_t)floors[i] - (int32_t)compact->walkable_climb;
+        const int32_t highest = (int32_t)floors[i] + (int32_t)compact->walkable_climb;
+        while (next < beside_end && (int32_t)floors[next] < lowest) {
+            next++;
         }
-        for (uint32_t k = begin; k < end && (int32_t)floors[k] <= floor + climb; k++) {
-            int32_t beside_floor = floors[k], beside_ceiling = beside_floor + clearances[k];
-            int32_t top = beside_ceiling < ceiling ? beside_ceiling : ceiling;
-            int32_t bottom = beside_floor > floor ? beside_floor : floor;
-            if (top - bottom >= room) {
-                found = k;
+        for (uint32_t k = next; k < beside_end && (int32_t)floors[k] <= highest; k++) {
+            if (can_step(compact, i, k)) {
+                compact->neighbour[4 * (size_t)i + direction] = k;
+                compact->neighbour[4 * (size_t)k + (direction ^ 2)] = i;
+                next = k + 1;
                 break;
             }
         }
-        compact->neighbour[4 * (size_t)i + direction] = found;
     }
 }
 
+// Each column with the one after it on x and on z: that is every pair once.
 static void link_row(tl_nav_compact *compact, uint32_t z)
 {
-    for (uint32_t x = 0; x < compact->width; x++) {
-        const uint32_t column = z * compact->width + x;
+    const uint32_t width = compact->width;
+    const bool last_row = z + 1 == compact->height;
+    for (uint32_t x = 0; x < width; x++) {
+        const uint32_t column = z * width + x;
         if (compact->first_span[column] == compact->first_span[column + 1]) {
             continue;
         }
-        for (uint32_t direction = 0; direction < 4; direction++) {
-            uint32_t begin = 0, end = 0;
-            if (tl_nav_has_column(compact->width, compact->height, x, z, direction)) {
-                uint32_t beside = column + tl_nav_column_step(compact->width, direction);
-                begin = compact->first_span[beside];
-                end = compact->first_span[beside + 1];
-            }
-            link_column(compact, column, direction, begin, end);
+        if (x + 1 < width) {
+            link_columns(compact, column, column + 1, 2);
+        }
+        if (!last_row) {
+            link_columns(compact, column, column + width, 1);
         }
     }
 }
@@ -132,27 +149,6 @@ static tl_result link_floors(tl_nav_compact *compact, const tl_host *host)
     return tl_progress_update(host, "compact", bands, bands);
 }
 
-// Of two floors of one column that both fit a third one beside them, that one takes the lower, but both may take it.
-// Links that are not returned are dropped, so that outlines can be walked.
-static void drop_one_sided_links(tl_nav_compact *compact)
-{
-    // Between two such floors lie a solid voxel and the room to pass: more than walkable_height. Both are within a
-    // climb of the third.
-    if (2 * compact->walkable_climb <= compact->walkable_height) {
-        return;
-    }
-    uint32_t *neighbour = compact->neighbour;
-    for (uint32_t i = 0; i < compact->span_count; i++) {
-        for (uint32_t direction = 0; direction < 4; direction++) {
-            uint32_t beside = neighbour[4 * (size_t)i + direction];
-            if (beside != TL_NAV_NO_SPAN && neighbour[4 * (size_t)beside + (direction ^ 2)] != i) {
-                // Whether another link is returned does not depend on this one: it is returned by none.
-                neighbour[4 * (size_t)i + direction] = TL_NAV_NO_SPAN;
-            }
-        }
-    }
-}
-
 tl_result tl_nav_compact_build(const tl_nav_config *config, const tl_nav_heightfield *heightfield, const tl_host *host,
                                tl_nav_compact *compact_out, tl_report *report_out)
 {
@@ -175,9 +171,6 @@ tl_result tl_nav_compact_build(const tl_nav_config *config, const tl_nav_heightf
     if (result == TL_OK) {
         fill_floors(heightfield, compact);
         result = link_floors(compact, host);
-    }
-    if (result == TL_OK) {
-        drop_one_sided_links(compact);
     }
     if (result != TL_OK) {
         tl_nav_compact_free(compact);
