@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Volume, area, centre of mass and inertia, as sums over the tetrahedra from the mean of the vertices to the triangles of
-// each face's fan. The mean lies inside, so all terms are positive and nothing cancels.
-// Source: David Eberly, Polyhedral Mass Properties (Revisited), 2002; here in the form of tetrahedra.
+// Volume, area, centre of mass and inertia, as sums over the tetrahedra from the mean of the vertices to the triangles
+// of each face's fan. The mean lies inside, so all terms are positive and nothing cancels. Source: David Eberly,
+// Polyhedral Mass Properties (Revisited), 2002; here in the form of tetrahedra.
 
 #include "hull/support.h"
 

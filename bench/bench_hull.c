@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+//
+// Convex hulls of clouds, with Qhull as peer where it is installed: microseconds, CPU time, the best of several
+// repetitions. Talus's figure includes the baked block with planes, mass and support tables; Qhull's is the bare hull.
+
+#define _GNU_SOURCE
+
+#include <talus/hull.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+#ifdef TALUS_BENCH_QHULL
+#include <libqhull_r/qhull_ra.h>
+#endif
+
+enum { MOST_POINTS = 140000 };
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return 1e6 * (double)time.tv_sec + 1e-3 * (double)time.tv_nsec;
+}
+
+static uint64_t random_state = 1;
+
+static float random_signed(void)
+{
+    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (float)((z ^ (z >> 31)) >> 40) * (1.0f / 8388608.0f) - 1.0f;
+}
+
+typedef enum cloud_kind { CLOUD_SPHERE, CLOUD_CUBE, CLOUD_CUBE_FACES, CLOUD_GRID } cloud_kind;
+
+static void make_cloud(cloud_kind kind, tl_vec3 *points, uint32_t count)
+{
+    uint32_t side = (uint32_t)ceilf(cbrtf((float)count));
+    for (uint32_t i = 0; i < count; i++) {
+        tl_vec3 p = tl_vec3_make(random_signed(), random_signed(), random_signed());
+        if (kind == CLOUD_SPHERE) {
+            p = tl_normalize(p);
+        } else if (kind == CLOUD_CUBE_FACES) {
+            p = i % 3 == 0   ? tl_vec3_make(p.x > 0 ? 1.0f : -1.0f, p.y, p.z)
+                : i % 3 == 1 ? tl_vec3_make(p.x, p.y > 0 ? 1.0f : -1.0f, p.z)
+                             : tl_vec3_make(p.x, p.y, p.z > 0 ? 1.0f : -1.0f);
+        } else if (kind == CLOUD_GRID) {
+            p = tl_vec3_make((float)(i % side), (float)(i / side % side), (float)(i / (side * side)));
+        }
+        points[i] = p;
+    }
+}
+
+static double run_talus(const tl_vec3 *points, uint32_t count, uint32_t *vertices_out)
+{
+    tl_hull_def def = tl_default_hull_def();
+    tl_hull *hull;
+    double start = now();
+    if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
+        return 1e30;
+    }
+    double time = now() - start;
+    *vertices_out = hull->vertex_count;
+    tl_blob_free(hull, NULL);
+    return time;
+}
+
+#ifdef TALUS_BENCH_QHULL
+static double run_qhull(const tl_vec3 *points, uint32_t count, uint32_t *vertices_out)
+{
+    static coordT coordinates[3 * MOST_POINTS];
+    for (uint32_t i = 0; i < count; i++) {
+        coordinates[3 * i] = (double)points[i].x;
+        coordinates[3 * i + 1] = (double)points[i].y;
+        coordinates[3 * i + 2] = (double)points[i].z;
+    }
+    FILE *null = fopen("/dev/null", "w");
+    char options[] = "qhull Pp";
+    qhT qh;
+    double start = now();
+    qh_zero(&qh, NULL);
+    int failed = qh_new_qhull(&qh, 3, (int)count, coordinates, False, options, NULL, null);
+    double time = failed ? 1e30 : now() - start;
+    *vertices_out = (uint32_t)qh.num_vertices;
+    qh_freeqhull(&qh, qh_ALL);
+    fclose(null);
+    return time;
+}
+#endif
+
+int main(void)
+{
+    static const struct {
+        const char *name;
+        cloud_kind kind;
+        uint32_t count;
+        int repetitions;
+    } cases[] = {
+        { "sphere 32", CLOUD_SPHERE, 32, 200 },
+        { "sphere 128", CLOUD_SPHERE, 128, 100 },
+        { "sphere 512", CLOUD_SPHERE, 512, 50 },
+        { "sphere 8192", CLOUD_SPHERE, 8192, 7 },
+        { "cube 8192", CLOUD_CUBE, 8192, 20 },
+        { "cube 131072", CLOUD_CUBE, 131072, 5 },
+        { "cube faces 8192", CLOUD_CUBE_FACES, 8192, 9 },
+        { "grid 132651", CLOUD_GRID, 132651, 5 },
+    };
+    static tl_vec3 points[MOST_POINTS];
+    printf("%-16s %10s %10s %10s %7s\n", "hull", "vertices", "talus us", "qhull us", "ratio");
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        make_cloud(cases[c].kind, points, cases[c].count);
+        double talus = 1e30, peer = 1e30;
+        uint32_t vertices = 0;
+        for (int k = 0; k < cases[c].repetitions; k++) {
+            talus = fmin(talus, run_talus(points, cases[c].count, &vertices));
+#ifdef TALUS_BENCH_QHULL
+            uint32_t peer_vertices;
+            peer = fmin(peer, run_qhull(points, cases[c].count, &peer_vertices));
+#endif
+        }
+        printf("%-16s %10u %10.1f", cases[c].name, vertices, talus);
+        if (peer < 1e30) {
+            printf(" %10.1f %7.2f\n", peer, talus / peer);
+        } else {
+            printf(" %10s %7s\n", "-", "-");
+        }
+    }
+    return 0;
+}
