@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+//
+// From triangles to a path: bake a navmesh in memory, ask it for the way around a wall.
+
+#include <talus/nav_build.h>
+#include <talus/nav_query.h>
+
+#include <math.h>
+#include <stdio.h>
+
+enum { MOST_POLYGONS = 64, MOST_CORNERS = 64 };
+
+// A floor 20 m square, and a wall 3 m high that leaves a way around its end at z = 6.
+static const tl_vec3 VERTICES[] = { { -10, 0, -10 },  { -10, 0, 10 }, { 10, 0, 10 },  { 10, 0, -10 },
+                                    { 0, 0, -10 },    { 0, 0, 6 },    { 0, 3, 6 },    { 0, 3, -10 },
+                                    { 0.5f, 0, -10 }, { 0.5f, 0, 6 }, { 0.5f, 3, 6 }, { 0.5f, 3, -10 } };
+static const uint32_t INDICES[] = { 0, 1,  2, 0, 2, 3,  4, 5,  6, 4, 6, 7,  8, 11, 10,
+                                    8, 10, 9, 5, 9, 10, 5, 10, 6, 7, 6, 10, 7, 10, 11 };
+
+static tl_result bake(tl_navmesh *navmesh)
+{
+    tl_nav_input input = { { VERTICES, 12, INDICES, 10, NULL }, NULL, NULL, 0 };
+    tl_nav_def def = tl_default_nav_def();
+    def.agent_radius = 0.4f;
+    tl_nav_tiles tiles;
+    tl_nav_build_report report;
+    tl_result result = tl_nav_build(&def, &input, &tiles, &report);
+    if (result != TL_OK) {
+        return result;
+    }
+    printf("%u regions, %u polygons, %u tile\n", report.region_count, report.polygon_count, report.tile_count);
+    for (uint32_t i = 0; i < tiles.tile_count && result == TL_OK; i++) {
+        result = tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED);
+        if (result == TL_OK) {
+            tiles.tiles[i] = NULL; // the navmesh frees it
+        }
+    }
+    tl_nav_tiles_free(&tiles, NULL);
+    return result;
+}
+
+static tl_result walk(const tl_navmesh *navmesh, float *length_out)
+{
+    tl_nav_query_def def = tl_default_nav_query_def();
+    tl_nav_query *query;
+    tl_result result = tl_nav_query_create(&def, &query);
+    if (result != TL_OK) {
+        return result;
+    }
+    tl_nav_ref polygons[MOST_POLYGONS];
+    tl_nav_corner corners[MOST_CORNERS];
+    tl_nav_route_buffers buffers = { polygons, MOST_POLYGONS, corners, MOST_CORNERS };
+    tl_nav_route route;
+    result = tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(-5, 0, -5), tl_vec3_make(5, 0, -5),
+                                     tl_vec3_make(1, 2, 1), &buffers, &route);
+    if (result == TL_OK && route.path.status == TL_NAV_PATH_COMPLETE) {
+        printf("%g m through %u polygons:\n", (double)route.length, route.path.polygon_count);
+        for (uint32_t i = 0; i < route.corner_count; i++) {
+            printf("  %g %g %g\n", (double)corners[i].point.x, (double)corners[i].point.y, (double)corners[i].point.z);
+        }
+        *length_out = route.length;
+    }
+    tl_nav_query_free(query);
+    return result;
+}
+
+int main(void)
+{
+    tl_navmesh *navmesh;
+    float length = 0.0f;
+    tl_result result = tl_navmesh_create(NULL, &navmesh);
+    if (result == TL_OK) {
+        result = bake(navmesh);
+    }
+    if (result == TL_OK) {
+        result = walk(navmesh, &length);
+    }
+    tl_navmesh_free(navmesh);
+    if (result != TL_OK) {
+        fprintf(stderr, "talus: %s\n", tl_result_text(result));
+        return 1;
+    }
+    // Twice the way from (-5, -5) to beyond the wall's end at z = 6, with half a metre of room for the agent.
+    return length > 23.5f && length < 26.0f ? 0 : 1;
+}
