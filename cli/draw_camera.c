@@ -2,7 +2,7 @@
 //
 // Fitting and projecting without perspective.
 
-#include "cli/draw_camera.h"
+#include "draw_camera.h"
 
 #include <math.h>
 

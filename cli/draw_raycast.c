@@ -5,7 +5,7 @@
 // A painter's sort of the triangles goes wrong wherever a long floor meets a small thing on it, and a z-buffer is one
 // more renderer to keep; the rays are what the library is for, and a picture is their hardest user.
 
-#include "cli/draw_raycast.h"
+#include "draw_raycast.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,8 +5,8 @@
 #ifndef TALUS_CLI_DRAW_RAYCAST_H
 #define TALUS_CLI_DRAW_RAYCAST_H
 
-#include "cli/draw_camera.h"
-#include "cli/draw_scene.h"
+#include "draw_camera.h"
+#include "draw_scene.h"
 
 #include <talus/soup.h>
 

@@ -2,7 +2,7 @@
 //
 // Collecting what a picture shows.
 
-#include "cli/draw_scene.h"
+#include "draw_scene.h"
 
 #include <math.h>
 #include <stdio.h>

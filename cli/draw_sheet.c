@@ -2,10 +2,10 @@
 //
 // The sheet: panels made of rays, lines over them by Cairo (faint where the level hides them), and the words around.
 
-#include "cli/draw_sheet.h"
+#include "draw_sheet.h"
 
-#include "cli/draw_camera.h"
-#include "cli/draw_raycast.h"
+#include "draw_camera.h"
+#include "draw_raycast.h"
 #include "io/atomic_write.h"
 
 #include <cairo-svg.h>

@@ -3,7 +3,7 @@
 #ifndef TALUS_CLI_DRAW_SHEET_H
 #define TALUS_CLI_DRAW_SHEET_H
 
-#include "cli/draw_scene.h"
+#include "draw_scene.h"
 #include "io/io_error.h"
 
 typedef struct draw_options {

@@ -5,7 +5,7 @@
 #ifndef TALUS_CLI_DRAW_STAGE_H
 #define TALUS_CLI_DRAW_STAGE_H
 
-#include "cli/draw_scene.h"
+#include "draw_scene.h"
 
 #include <talus/nav_build.h>
 #include <talus/nav_query.h>

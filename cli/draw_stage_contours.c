@@ -2,7 +2,7 @@
 //
 // Contours: the traced outline of each region, thin, and the simplified one over it with its vertices.
 
-#include "cli/draw_stage.h"
+#include "draw_stage.h"
 
 #include <stdio.h>
 

@@ -2,7 +2,7 @@
 //
 // Polygon stages: convex polygons with their edges, the detail mesh, the navmesh of a baked file, a route over it.
 
-#include "cli/draw_stage.h"
+#include "draw_stage.h"
 
 #include <stdio.h>
 

@@ -2,7 +2,7 @@
 //
 // The soup: each pair in two shades of one hue, singles in orange, the tree's boxes at one depth.
 
-#include "cli/draw_stage.h"
+#include "draw_stage.h"
 
 #include <stdio.h>
 

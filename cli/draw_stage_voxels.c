@@ -2,7 +2,7 @@
 //
 // Voxel stages: solid spans as blocks, open floors as squares coloured by area, distance or region.
 
-#include "cli/draw_stage.h"
+#include "draw_stage.h"
 
 #include <stdio.h>
 
