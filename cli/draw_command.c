@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: MIT
+//
+// talus draw: pictures of every stage, of a level or of a baked file.
+
+#include "draw_sheet.h"
+#include "draw_source.h"
+#include "draw_stage.h"
+#include "json_out.h"
+#include "parse_value.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The order is that of the pipeline.
+static const char *const STAGE_NAMES[] = { "soup",     "spans",     "areas",    "distance", "regions",
+                                           "contours", "triangles", "polygons", "detail",   "path" };
+enum {
+    STAGE_SOUP,
+    STAGE_SPANS,
+    STAGE_AREAS,
+    STAGE_DISTANCE,
+    STAGE_REGIONS,
+    STAGE_CONTOURS,
+    STAGE_TRIANGLES,
+    STAGE_POLYGONS,
+    STAGE_DETAIL,
+    STAGE_PATH,
+    STAGE_COUNT
+};
+
+enum { MOST_PATH_BYTES = 4096 };
+
+typedef struct draw_settings {
+    tl_bake_settings bake;
+    const char *output;
+    const char *stages_text;
+    const char *from_text, *to_text;
+    int view; // 0 both, 1 top, 2 oblique
+    uint32_t size;
+    uint32_t depth;
+    bool stages[STAGE_COUNT];
+    uint32_t stage_count;
+    bool has_ends;
+    tl_vec3 from, to;
+} draw_settings;
+
+// One word of --stage. False when it names no stage.
+static bool choose_stage(draw_settings *settings, const char *word, size_t length)
+{
+    bool all = length == 3 && strncmp(word, "all", 3) == 0;
+    bool known = all;
+    for (int i = 0; i < STAGE_COUNT; i++) {
+        bool named = strlen(STAGE_NAMES[i]) == length && strncmp(STAGE_NAMES[i], word, length) == 0;
+        if ((all || named) && !settings->stages[i]) {
+            settings->stages[i] = true;
+            settings->stage_count++;
+        }
+        known = known || named;
+    }
+    return known;
+}
+
+static bool choose_stages(tl_cli *cli, draw_settings *settings, tl_exit *exit_out)
+{
+    const char *text = settings->stages_text;
+    if (text == NULL) {
+        text = settings->has_ends ? "path" : "polygons";
+    }
+    for (const char *word = text; *word != '\0';) {
+        size_t length = strcspn(word, ",");
+        if (!choose_stage(settings, word, length)) {
+            *exit_out =
+                tl_cli_fail(cli, TL_EXIT_USAGE,
+                            "--stage: there is no stage '%.*s'; there are soup, spans, areas, distance, regions, "
+                            "contours, triangles, polygons, detail, path, and all",
+                            (int)length, word);
+            return false;
+        }
+        word += length + (word[length] == ',');
+    }
+    if (settings->stage_count == 0) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--stage: name a stage, or all");
+    }
+    return settings->stage_count > 0;
+}
+
+static bool read_end(tl_cli *cli, const char *option, const char *text, tl_vec3 *point, tl_exit *exit_out)
+{
+    const char *reason = tl_parse_point_value(text, point);
+    if (reason != NULL) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s: '%s' %s; give x,y,z", option, text, reason);
+    }
+    return reason == NULL;
+}
+
+static bool read_ends(tl_cli *cli, draw_settings *settings, tl_exit *exit_out)
+{
+    if (settings->from_text == NULL && settings->to_text == NULL) {
+        return true;
+    }
+    if (settings->from_text == NULL || settings->to_text == NULL) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "a path needs both --from and --to");
+        return false;
+    }
+    settings->has_ends = true;
+    return read_end(cli, "--from", settings->from_text, &settings->from, exit_out) &&
+           read_end(cli, "--to", settings->to_text, &settings->to, exit_out);
+}
+
+// One stage goes to the output itself; of several, each to a file with the stage's name before the ending.
+static bool output_path(const draw_settings *settings, int stage, char *path, size_t size)
+{
+    const char *output = settings->output;
+    int length;
+    if (settings->stage_count == 1) {
+        length = snprintf(path, size, "%s", output);
+    } else {
+        const char *slash = strrchr(output, '/');
+        const char *dot = strrchr(output, '.');
+        const char *end = dot != NULL && (slash == NULL || dot > slash) ? dot : output + strlen(output);
+        length = snprintf(path, size, "%.*s-%s%s", (int)(end - output), output, STAGE_NAMES[stage], end);
+    }
+    return length > 0 && (size_t)length < size;
+}
+
+// A route over the navmesh: what is needed to draw it.
+typedef struct draw_route {
+    tl_nav_query *query;
+    tl_nav_route_buffers buffers;
+    tl_nav_route route;
+    bool found;
+} draw_route;
+
+static void free_route(draw_route *route)
+{
+    tl_nav_query_free(route->query);
+    free(route->buffers.polygons);
+    free(route->buffers.corners);
+}
+
+static tl_result make_route_room(const tl_navmesh *navmesh, draw_route *route)
+{
+    memset(route, 0, sizeof *route);
+    uint64_t links = tl_navmesh_link_count(navmesh) + 2;
+    if (links > UINT32_MAX / 2) {
+        return TL_ERR_LIMIT;
+    }
+    tl_nav_query_def def = tl_default_nav_query_def();
+    def.max_nodes = (uint32_t)links;
+    // A path enters each polygon at most once, by one link; a straight path has a corner a portal, and two ends.
+    route->buffers.polygon_capacity = (uint32_t)links;
+    route->buffers.corner_capacity = (uint32_t)links + 2;
+    route->buffers.polygons = malloc(links * sizeof *route->buffers.polygons);
+    route->buffers.corners = malloc((links + 2) * sizeof *route->buffers.corners);
+    if (route->buffers.polygons == NULL || route->buffers.corners == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    return tl_nav_query_create(&def, &route->query);
+}
+
+static tl_result find_route(const tl_navmesh *navmesh, draw_route *route, tl_vec3 from, tl_vec3 to, tl_vec3 extents)
+{
+    tl_result result =
+        tl_nav_query_find_route(route->query, navmesh, NULL, from, to, extents, &route->buffers, &route->route);
+    route->found = result == TL_OK;
+    return result;
+}
+
+// Without ends given: across the level, the longer one of its two diagonals that leads all the way, at the height of
+// whatever floor is nearest there.
+static tl_result find_longest_route(const draw_source *source, draw_route *route)
+{
+    const tl_navmesh *navmesh = source->input.navmesh;
+    tl_aabb bounds = tl_aabb_empty();
+    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
+        bounds = tile != NULL ? tl_aabb_union(bounds, tile->bounds) : bounds;
+    }
+    tl_vec3 size = tl_aabb_size(bounds);
+    float longest = -1.0f;
+    int best = 0;
+    tl_vec3 from[2] = { bounds.min, { bounds.min.x, bounds.min.y, bounds.max.z } };
+    tl_vec3 to[2] = { bounds.max, { bounds.max.x, bounds.min.y, bounds.min.z } };
+    tl_result result = TL_ERR_NOT_FOUND;
+    for (int i = 0; i < 3; i++) {
+        int diagonal = i < 2 ? i : best;
+        tl_result found = find_route(navmesh, route, from[diagonal], to[diagonal], size);
+        if (found != TL_OK && found != TL_ERR_NOT_FOUND) {
+            return found;
+        }
+        bool complete = found == TL_OK && route->route.path.status == TL_NAV_PATH_COMPLETE;
+        float length = found != TL_OK ? -1.0f : complete ? 1e6f + route->route.length : route->route.length;
+        if (length > longest) {
+            longest = length;
+            best = diagonal;
+            result = found;
+        }
+    }
+    return result;
+}
+
+static bool add_route(draw_source *source, const draw_settings *settings, draw_scene *scene, tl_exit *exit_out)
+{
+    if (!draw_need_navmesh(source, exit_out)) {
+        return false;
+    }
+    const tl_navmesh *navmesh = source->input.navmesh;
+    draw_route route;
+    tl_result result = make_route_room(navmesh, &route);
+    if (result == TL_OK) {
+        const tl_vec3 near = { 2.0f, 4.0f, 2.0f };
+        result = settings->has_ends ? find_route(navmesh, &route, settings->from, settings->to, near)
+                                    : find_longest_route(source, &route);
+    }
+    if (result == TL_OK) {
+        draw_stage_route(scene, navmesh, &route.route, &route.buffers);
+    } else if (result == TL_ERR_NOT_FOUND) {
+        draw_stage_navmesh(scene, navmesh);
+        tl_cli_warn(source->cli, "%s: there is no navmesh near %s; the picture shows no path", source->input.path,
+                    route.route.start.polygon == TL_NAV_NO_REF ? "the start" : "the goal");
+    } else {
+        *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, NULL);
+    }
+    free_route(&route);
+    return result == TL_OK || result == TL_ERR_NOT_FOUND;
+}
+
+static bool add_triangulation(draw_source *source, draw_scene *scene, tl_exit *exit_out)
+{
+    tl_polygon_def def = tl_default_polygon_def();
+    def.max_verts_per_poly = 3;
+    def.host = source->cli->host;
+    tl_polygon_mesh triangles;
+    tl_result result = tl_polygon_mesh_build(&source->stages.contours.set, &def, &triangles, NULL);
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, NULL);
+        return false;
+    }
+    draw_stage_polygons(scene, &triangles, "triangles");
+    tl_polygon_mesh_free(&triangles, NULL);
+    return true;
+}
+
+static bool add_pipeline_stage(draw_source *source, int stage, draw_scene *scene, tl_exit *exit_out)
+{
+    if (!draw_need_stages(source, exit_out)) {
+        return false;
+    }
+    const tl_nav_stages *stages = &source->stages;
+    switch (stage) {
+    case STAGE_SPANS:
+        draw_stage_spans(scene, &stages->heightfield);
+        break;
+    case STAGE_AREAS:
+        draw_stage_floors(scene, &stages->compact, DRAW_FLOOR_AREA);
+        break;
+    case STAGE_DISTANCE:
+        draw_stage_floors(scene, &stages->compact, DRAW_FLOOR_DISTANCE);
+        break;
+    case STAGE_REGIONS:
+        draw_stage_floors(scene, &stages->compact, DRAW_FLOOR_REGION);
+        break;
+    case STAGE_CONTOURS:
+        draw_stage_contours(scene, &stages->contours);
+        break;
+    case STAGE_TRIANGLES:
+        return add_triangulation(source, scene, exit_out);
+    case STAGE_POLYGONS:
+        draw_stage_polygons(scene, &stages->polygons, "polygons");
+        break;
+    default:
+        draw_stage_detail(scene, &stages->detail);
+        break;
+    }
+    return true;
+}
+
+static const char *file_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? slash + 1 : path;
+}
+
+static bool make_scene(draw_source *source, const draw_settings *settings, int stage, draw_scene *scene,
+                       tl_exit *exit_out)
+{
+    draw_scene_init(scene, source->bounds);
+    snprintf(scene->title, sizeof scene->title, "%s: %s", file_name(source->input.path), STAGE_NAMES[stage]);
+    // The soup and the spans are the level themselves; everything else lies on it.
+    if (stage != STAGE_SOUP && stage != STAGE_SPANS) {
+        draw_add_backdrop(scene, &source->mesh);
+    }
+    if (stage == STAGE_SOUP) {
+        bool ready = draw_need_soup(source, exit_out);
+        if (ready) {
+            draw_stage_soup(scene, source->soup, settings->depth);
+        }
+        return ready;
+    }
+    return stage == STAGE_PATH ? add_route(source, settings, scene, exit_out)
+                               : add_pipeline_stage(source, stage, scene, exit_out);
+}
+
+static bool draw_one(draw_source *source, const draw_settings *settings, int stage, json_t *list, tl_exit *exit_out)
+{
+    draw_scene scene;
+    char path[MOST_PATH_BYTES];
+    bool done = make_scene(source, settings, stage, &scene, exit_out);
+    if (done && !output_path(settings, stage, path, sizeof path)) {
+        *exit_out = tl_cli_fail(source->cli, TL_EXIT_USAGE, "--output: the name is too long");
+        done = false;
+    }
+    if (done) {
+        const draw_options options = { settings->view != 2, settings->view != 1, settings->size };
+        tl_io_error error;
+        memset(&error, 0, sizeof error);
+        if (draw_sheet_write(&scene, &options, path, &source->cli->host, &error) != TL_OK) {
+            *exit_out = tl_cli_fail_io(source->cli, &error);
+            done = false;
+        }
+    }
+    if (done && list != NULL) {
+        json_array_append_new(
+            list, json_pack("{ssssss}", "stage", STAGE_NAMES[stage], "output", path, "summary", scene.subtitle));
+    } else if (done) {
+        tl_progress_end(&source->cli->progress);
+        printf("%s: %s\n", path, scene.subtitle);
+    }
+    draw_scene_free(&scene);
+    return done;
+}
+
+static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *settings)
+{
+    draw_source source;
+    tl_exit code = TL_EXIT_OK;
+    json_t *list = cli->json ? json_array() : NULL;
+    bool going = draw_source_open(cli, path, &settings->bake, &source, &code);
+    for (int stage = 0; going && stage < STAGE_COUNT; stage++) {
+        if (settings->stages[stage]) {
+            going = draw_one(&source, settings, stage, list, &code);
+        }
+    }
+    if (list != NULL && going) {
+        code = tl_json_print(list) ? code : TL_EXIT_MEMORY;
+    } else {
+        json_decref(list);
+    }
+    draw_source_close(&source);
+    return code;
+}
+
+static tl_exit run(tl_cli *cli)
+{
+    draw_settings settings;
+    memset(&settings, 0, sizeof settings);
+    settings.bake = tl_default_bake_settings();
+    settings.size = 900;
+    settings.depth = 2;
+    static const char *const views[] = { "both", "top", "oblique", NULL };
+    const tl_option options[] = {
+        { "output", 'o', TL_OPTION_TEXT, &settings.output, "FILE", "where to write: .png or .svg", NULL, 0, 0, 0, 0 },
+        { "stage", 's', TL_OPTION_TEXT, &settings.stages_text, "NAME,...", "what to draw (polygons)", NULL, 0, 0, 0,
+          0 },
+        { "view", 0, TL_OPTION_CHOICE, &settings.view, NULL, "from where", views, 0, 0, 0, 0 },
+        { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "longer side of each view", NULL, 0, 0, 200, 8000 },
+        { "depth", 0, TL_OPTION_COUNT, &settings.depth, "N", "soup: which boxes of the tree are shown", NULL, 0, 0, 0,
+          64 },
+        { "from", 0, TL_OPTION_TEXT, &settings.from_text, "X,Y,Z", "path: where it starts", NULL, 0, 0, 0, 0 },
+        { "to", 0, TL_OPTION_TEXT, &settings.to_text, "X,Y,Z", "path: where it leads (without ends: across the level)",
+          NULL, 0, 0, 0, 0 },
+        TL_OPTION_TABLE_END,
+    };
+    tl_option level_options[TL_LEVEL_OPTIONS];
+    tl_option nav_options[TL_NAV_OPTIONS];
+    tl_level_options(&settings.bake.level, level_options);
+    tl_nav_options(&settings.bake, nav_options);
+    const tl_option_group groups[] = { { "Options:", options },
+                                       { "Reading the level:", level_options },
+                                       { "Navmesh (a baked file brings its own):", nav_options },
+                                       { NULL, NULL } };
+    tl_exit code = TL_EXIT_OK;
+    if (!tl_cli_parse(cli, groups, 1, 1, &code) || !read_ends(cli, &settings, &code) ||
+        !choose_stages(cli, &settings, &code)) {
+        return code;
+    }
+    if (settings.output == NULL) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "say where to write: -o FILE.png");
+    }
+    return draw_stages(cli, cli->arguments.words[0], &settings);
+}
+
+const tl_command tl_draw_command = {
+    "draw",
+    "draw the stages of a level or a baked file as PNG or SVG",
+    "FILE -o OUT.png|OUT.svg [--stage NAME,...] [--view both|top|oblique]",
+    "FILE is a level or a baked file. Stages, in the order of the pipeline: soup, spans, areas, distance,\n"
+    "regions, contours, triangles, polygons, detail, path; or all. Several stages go to several files:\n"
+    "OUT-STAGE.png. A top view and an oblique view, both to scale. Where the level hides a part of what\n"
+    "lies on it, that part is drawn faintly.",
+    "talus draw courtyard.obj -o courtyard.png --stage all\n"
+    "talus draw courtyard.talus -o way.svg --from 2,0,20 --to 38,0,20 --view top",
+    run,
+};

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+//
+// Getting what a stage is drawn from. A baked file keeps its geometry once, in the soup; the triangles are read back
+// from there, and the navmesh's intermediate data is made again with the parameters that the file remembers.
+
+#include "draw_source.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static bool fail_memory(draw_source *source, tl_exit *exit_out)
+{
+    *exit_out = tl_cli_fail(source->cli, TL_EXIT_MEMORY, "out of memory");
+    return false;
+}
+
+static bool triangles_of_soup(draw_source *source, tl_exit *exit_out)
+{
+    tl_soup_stats stats = tl_soup_get_stats(source->soup);
+    size_t corner_count = 3 * (size_t)stats.triangle_count;
+    source->corners = malloc(corner_count * sizeof *source->corners);
+    source->indices = malloc(corner_count * sizeof *source->indices);
+    if (source->corners == NULL || source->indices == NULL) {
+        return fail_memory(source, exit_out);
+    }
+    uint64_t cursor = 0;
+    tl_soup_triangle triangle;
+    uint32_t count = 0;
+    while (count < stats.triangle_count && tl_soup_next_triangle(source->soup, &cursor, &triangle)) {
+        for (uint32_t k = 0; k < 3; k++) {
+            source->corners[3 * (size_t)count + k] = triangle.corners[k];
+            source->indices[3 * (size_t)count + k] = 3 * count + k;
+        }
+        count++;
+    }
+    tl_mesh_view view = { source->corners, 3 * count, source->indices, count, NULL };
+    source->mesh = view;
+    source->bounds = tl_soup_bounds(source->soup);
+    return true;
+}
+
+static bool open_baked(draw_source *source, const char *path, const tl_bake_settings *settings, tl_exit *exit_out)
+{
+    if (!tl_input_open_soup(source->cli, path, settings, &source->input, exit_out)) {
+        return false;
+    }
+    source->soup = source->input.soup;
+    tl_result result;
+    const tl_pack_navmesh *parameters =
+        tl_input_checked_chunk(&source->input, TL_PACK_NAVM, tl_pack_navmesh_check, &result);
+    if (parameters != NULL) {
+        source->nav_def = tl_pack_navmesh_def(parameters);
+    }
+    return triangles_of_soup(source, exit_out);
+}
+
+bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *settings, draw_source *source_out,
+                      tl_exit *exit_out)
+{
+    memset(source_out, 0, sizeof *source_out);
+    source_out->cli = cli;
+    source_out->nav_def = settings->nav_def;
+    source_out->nav_def.partition = (tl_nav_partition)settings->partition;
+    if (tl_input_is_baked(path)) {
+        return open_baked(source_out, path, settings, exit_out);
+    }
+    source_out->input.path = path;
+    if (!tl_level_load(cli, path, &settings->level, &source_out->input.level, exit_out)) {
+        return false;
+    }
+    source_out->mesh = tl_mesh_as_view(&source_out->input.level.mesh);
+    source_out->bounds = source_out->input.level.mesh.bounds;
+    return true;
+}
+
+void draw_source_close(draw_source *source)
+{
+    tl_nav_stages_free(&source->stages, NULL);
+    tl_blob_free(source->baked_soup, NULL);
+    free(source->corners);
+    free(source->indices);
+    tl_input_close(&source->input);
+    memset(source, 0, sizeof *source);
+}
+
+bool draw_need_soup(draw_source *source, tl_exit *exit_out)
+{
+    if (source->soup != NULL) {
+        return true;
+    }
+    tl_soup_def def = tl_default_soup_def();
+    def.host = source->cli->host;
+    tl_soup_report report;
+    tl_result result = tl_soup_build(&source->mesh, &def, &source->baked_soup, &report);
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, &report.base);
+    }
+    source->soup = source->baked_soup;
+    return result == TL_OK;
+}
+
+bool draw_need_stages(draw_source *source, tl_exit *exit_out)
+{
+    if (source->has_stages) {
+        return true;
+    }
+    tl_nav_def def = source->nav_def;
+    def.tile_size = 0;
+    def.host = source->cli->host;
+    tl_nav_config config;
+    tl_nav_build_report report;
+    memset(&report, 0, sizeof report);
+    tl_result result = tl_nav_config_make(&def, source->bounds, 0, 0, &config, &report.base);
+    tl_nav_tile *tile = NULL;
+    if (result == TL_OK) {
+        tl_nav_input input = { source->mesh, NULL, NULL, 0 };
+        result = tl_nav_tile_build(&config, &input, &source->cli->host, &source->stages, &tile, &report);
+    }
+    tl_blob_free(tile, NULL);
+    source->has_stages = result == TL_OK;
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, &report.base);
+    }
+    return source->has_stages;
+}
+
+static tl_result load_tiles(draw_source *source, tl_report *report)
+{
+    if (source->input.baked) {
+        return tl_pack_load_navmesh(&source->input.pack, NULL, &source->input.navmesh, report);
+    }
+    tl_nav_def def = source->nav_def;
+    def.host = source->cli->host;
+    tl_nav_input input = { source->mesh, NULL, NULL, 0 };
+    tl_nav_build_report build;
+    tl_result result = tl_nav_build(&def, &input, &source->input.bake.tiles, &build);
+    *report = build.base;
+    if (result == TL_OK) {
+        result = tl_navmesh_create(NULL, &source->input.navmesh);
+    }
+    const tl_nav_tiles *tiles = &source->input.bake.tiles;
+    for (uint32_t i = 0; result == TL_OK && i < tiles->tile_count; i++) {
+        result = tl_navmesh_add_tile(source->input.navmesh, tiles->tiles[i], TL_NAV_TILE_BORROWED);
+    }
+    return result;
+}
+
+bool draw_need_navmesh(draw_source *source, tl_exit *exit_out)
+{
+    if (source->has_navmesh) {
+        return true;
+    }
+    tl_report report;
+    memset(&report, 0, sizeof report);
+    report.element_index = TL_NO_ELEMENT;
+    tl_result result = load_tiles(source, &report);
+    source->has_navmesh = result == TL_OK;
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, &report);
+    }
+    return source->has_navmesh;
+}

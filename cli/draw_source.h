@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+//
+// What pictures are drawn from: a level, or a baked file whose soup gives the level's triangles back; and each thing
+// that a stage needs, made when the first stage asks for it.
+
+#ifndef TALUS_CLI_DRAW_SOURCE_H
+#define TALUS_CLI_DRAW_SOURCE_H
+
+#include "open_input.h"
+
+typedef struct draw_source {
+    tl_cli *cli;
+    tl_input input;
+    tl_nav_def nav_def; ///< of the options, or of the baked file
+    tl_mesh_view mesh;  ///< the level's triangles
+    tl_aabb bounds;     ///< of the triangles
+    tl_vec3 *corners;   ///< what `mesh` points into for a baked file
+    uint32_t *indices;
+    tl_soup *baked_soup; ///< made here
+    const tl_soup *soup; ///< after draw_need_soup
+    tl_nav_stages stages;
+    bool has_stages;  ///< after draw_need_stages
+    bool has_navmesh; ///< after draw_need_navmesh: input.navmesh
+} draw_source;
+
+/// Opens FILE. False: reported, and `*exit_out` says how to end. Close it then too.
+bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *settings, draw_source *source_out,
+                      tl_exit *exit_out);
+void draw_source_close(draw_source *source);
+
+bool draw_need_soup(draw_source *source, tl_exit *exit_out);
+/// The navmesh pipeline over the whole level in one tile, all intermediate data kept.
+bool draw_need_stages(draw_source *source, tl_exit *exit_out);
+bool draw_need_navmesh(draw_source *source, tl_exit *exit_out);
+
+#endif
