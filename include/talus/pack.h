@@ -128,6 +128,9 @@ TL_API tl_result tl_pack_navmesh_create(const tl_nav_def *def, tl_aabb bounds, u
 /// Safe on any 8-byte aligned bytes.
 TL_API tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size);
 
+/// The def that a navmesh was built with, host empty; its bounds are those it was built over.
+TL_API tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh);
+
 /// Checks every NAVT chunk and puts the tiles, borrowed, into a fresh navmesh: the pack's bytes must outlive it.
 /// TL_ERR_NOT_FOUND: there is no navmesh in the file. Else what tl_nav_tile_check and tl_navmesh_add_tile return, with
 /// the chunk's index in the report (which may be NULL).

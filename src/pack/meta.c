@@ -115,6 +115,31 @@ tl_result tl_pack_navmesh_create(const tl_nav_def *def, tl_aabb bounds, uint32_t
     return TL_OK;
 }
 
+tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh)
+{
+    tl_nav_def def = tl_default_nav_def();
+    def.cell_size = navmesh->cell_size;
+    def.cell_height = navmesh->cell_height;
+    def.agent_height = navmesh->agent_height;
+    def.agent_radius = navmesh->agent_radius;
+    def.agent_max_climb = navmesh->agent_max_climb;
+    def.agent_max_slope = navmesh->agent_max_slope;
+    def.region_min_size = navmesh->region_min_size;
+    def.region_merge_size = navmesh->region_merge_size;
+    def.edge_max_len = navmesh->edge_max_len;
+    def.edge_max_error = navmesh->edge_max_error;
+    def.max_verts_per_poly = navmesh->max_verts_per_poly;
+    def.detail_sample_dist = navmesh->detail_sample_dist;
+    def.detail_sample_max_error = navmesh->detail_sample_max_error;
+    def.partition = (tl_nav_partition)navmesh->partition;
+    def.filter_low_hanging_obstacles = (navmesh->filters & 1u) != 0;
+    def.filter_ledge_spans = (navmesh->filters & 2u) != 0;
+    def.filter_walkable_low_height_spans = (navmesh->filters & 4u) != 0;
+    def.tile_size = navmesh->tile_size;
+    def.bounds = navmesh->bounds;
+    return def;
+}
+
 tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size)
 {
     TL_TRY(check_head(bytes, size, TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVMESH_VERSION, sizeof(tl_pack_navmesh)));
