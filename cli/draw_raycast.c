@@ -93,7 +93,11 @@ static float sunlight(const tl_soup *soup, const tl_ray *ray, const tl_ray_hit *
         tl_vec3 point = tl_mul_add(ray->origin, ray->direction, hit->t);
         // Off the surface by half a pixel: invisible, and well above the rounding of the point.
         tl_ray to_sun = { tl_mul_add(point, normal, 0.5f * pixel), sun, INFINITY };
-        if (tl_soup_occluded(soup, &to_sun, NULL)) {
+        // Only what is left by its back casts a shadow: a solid does, a one-sided ceiling that is looked through does
+        // not.
+        tl_ray_filter backs = tl_default_ray_filter();
+        backs.cull = TL_RAY_CULL_FRONT;
+        if (tl_soup_occluded(soup, &to_sun, &backs)) {
             lambert *= 0.35f;
         }
     }
