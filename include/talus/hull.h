@@ -116,7 +116,7 @@ TL_API tl_hull_def tl_default_hull_def(void);
 /// Errors: TL_ERR_EMPTY (no point), TL_ERR_NOT_FINITE and TL_ERR_RANGE (with the point's index), TL_ERR_COINCIDENT,
 /// TL_ERR_COLLINEAR, TL_ERR_COPLANAR (input without volume, see tl_hull_def; also when `thickness` is lost in
 /// rounding), TL_ERR_ARGUMENT, TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED. On failure `*hull_out` is NULL.
-/// `report_out` may be NULL, and so may `points` when count is 0. Free with tl_blob_free.
+/// `def` NULL: defaults. `report_out` may be NULL, and so may `points` when count is 0. Free with tl_blob_free.
 TL_API tl_result tl_hull_build(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
                                tl_hull_report *report_out);
 

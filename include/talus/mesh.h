@@ -68,7 +68,8 @@ TL_API tl_mesh_def tl_default_mesh_def(void);
 /// Triangles keep their order; vertices are ordered by first use. The result depends on nothing but the view and def.
 /// Errors, each with the element's index in `report_out->base`: TL_ERR_EMPTY (no triangle left), TL_ERR_NOT_FINITE
 /// (vertex), TL_ERR_RANGE (vertex beyond TL_MAX_COORDINATE), TL_ERR_INDEX (triangle), TL_ERR_LIMIT, TL_ERR_ARGUMENT.
-/// An unused vertex may hold anything. On failure `*mesh_out` is zeroed. `report_out` may be NULL.
+/// An unused vertex may hold anything. On failure `*mesh_out` is zeroed. `def` NULL: defaults. `report_out` may be
+/// NULL.
 TL_API tl_result tl_mesh_build(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out,
                                tl_mesh_report *report_out);
 

@@ -158,9 +158,9 @@ TL_API tl_polygon_def tl_default_polygon_def(void);
 ///
 /// `contours` has valid ranges and coordinates within +-TL_MAX_CONTOUR_COORDINATE; else TL_ERR_INDEX or TL_ERR_RANGE,
 /// with the contour named. Contours without area are legal and counted. `mesh_out` is written only with TL_OK;
-/// free it with tl_polygon_mesh_free. `report_out` may be NULL. Thread safe. Near-linear for outlines that
-/// do not cross themselves: O(n log n) with n vertices, for all but contrived ones.
-/// Errors: TL_ERR_ARGUMENT, TL_ERR_INDEX, TL_ERR_RANGE, TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
+/// free it with tl_polygon_mesh_free. `def` NULL: defaults. `report_out` may be NULL. Thread safe. Near-linear for
+/// outlines that do not cross themselves: O(n log n) with n vertices, for all but contrived ones. Errors:
+/// TL_ERR_ARGUMENT, TL_ERR_INDEX, TL_ERR_RANGE, TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
 TL_API tl_result tl_polygon_mesh_build(const tl_contour_set *contours, const tl_polygon_def *def,
                                        tl_polygon_mesh *mesh_out, tl_polygon_report *report_out);
 

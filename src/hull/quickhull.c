@@ -245,7 +245,9 @@ static tl_result build(tl_quickhull *hull, const tl_hull_def *def, tl_hull **hul
 tl_result tl_hull_build(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
                         tl_hull_report *report_out)
 {
-    TL_ASSERT(hull_out != NULL && def != NULL);
+    TL_ASSERT(hull_out != NULL);
+    const tl_hull_def defaults = tl_default_hull_def();
+    def = def != NULL ? def : &defaults;
     *hull_out = NULL;
     tl_report *base = NULL;
     if (report_out != NULL) {

@@ -141,7 +141,9 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh_def *def, tl_aren
 
 tl_result tl_mesh_build(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out, tl_mesh_report *report_out)
 {
-    TL_ASSERT(view != NULL && def != NULL && mesh_out != NULL);
+    TL_ASSERT(view != NULL && mesh_out != NULL);
+    const tl_mesh_def defaults = tl_default_mesh_def();
+    def = def != NULL ? def : &defaults;
     tl_mesh_report unread;
     tl_mesh_report *report = report_out != NULL ? report_out : &unread;
     memset(report, 0, sizeof *report);

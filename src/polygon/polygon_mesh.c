@@ -308,7 +308,9 @@ static tl_result build(builder *b, tl_polygon_mesh *mesh_out)
 tl_result tl_polygon_mesh_build(const tl_contour_set *contours, const tl_polygon_def *def, tl_polygon_mesh *mesh_out,
                                 tl_polygon_report *report_out)
 {
-    TL_ASSERT(contours != NULL && def != NULL && mesh_out != NULL);
+    TL_ASSERT(contours != NULL && mesh_out != NULL);
+    const tl_polygon_def defaults = tl_default_polygon_def();
+    def = def != NULL ? def : &defaults;
     builder b;
     memset(&b, 0, sizeof b);
     b.contours = contours;
