@@ -93,7 +93,8 @@ static inline void fixture_compact_init(tl_nav_compact *compact, uint32_t width,
     compact->walkable_climb = FIXTURE_CLIMB;
     compact->cell_size = 0.5f;
     compact->cell_height = 0.25f;
-    compact->bounds.min = tl_vec3_make(-3.0f, 1.0f, 7.0f);
+    compact->lattice.origin = tl_vec3_make(-3.0f, 0.0f, 7.0f);
+    compact->bounds.min = compact->lattice.origin;
     compact->bounds.max = tl_vec3_make(-3.0f + 0.5f * (float)width, 300.0f, 7.0f + 0.5f * (float)height);
 }
 
