@@ -18,7 +18,7 @@
 #include <string.h>
 
 typedef struct simple_edge {
-    uint32_t begin, end; // raw vertices
+    uint32_t before, begin, end; // raw vertices; the loop's last edge ran from `before` to `begin`
     int32_t low_x, high_x, low_z, high_z;
 } simple_edge;
 
@@ -60,6 +60,24 @@ static bool edges_conflict(const tl_contour_vertex *a, const tl_contour_vertex *
            (a_side == 0 && is_between(a, c, d)) || (b_side == 0 && is_between(b, c, d));
 }
 
+// Whether the direction to p lies strictly within the floor's wedge of the corner before, at, after.
+static bool is_in_wedge(const tl_contour_vertex *before, const tl_contour_vertex *at, const tl_contour_vertex *after,
+                        const tl_contour_vertex *p)
+{
+    if (tl_contour_area2(before, at, after) < 0) { // convex
+        return tl_contour_area2(before, at, p) < 0 && tl_contour_area2(at, after, p) < 0;
+    }
+    return tl_contour_area2(before, at, p) < 0 || tl_contour_area2(at, after, p) < 0;
+}
+
+// Two outlines pass one place. They cross there when the floor's wedges overlap.
+static bool corners_conflict(const tl_contour_vertex *v, const simple_edge *e, const simple_edge *f)
+{
+    const tl_contour_vertex *a = &v[e->before], *at = &v[e->begin], *b = &v[e->end], *c = &v[f->before],
+                            *d = &v[f->end];
+    return is_in_wedge(a, at, b, c) || is_in_wedge(a, at, b, d) || is_in_wedge(c, at, d, a) || is_in_wedge(c, at, d, b);
+}
+
 // Keeps a vertex, and has all regions that got it looked at again.
 static void keep(repair *r, uint32_t vertex)
 {
@@ -92,7 +110,7 @@ static bool keep_at(repair *r, const simple_edge *edge, const tl_contour_vertex 
         return false;
     }
     for (uint32_t k = tl_contour_next(work, edge->begin); k != edge->end; k = tl_contour_next(work, k)) {
-        if (tl_contour_same_xz(&work->vertices[k], p)) {
+        if (tl_contour_same_xz(&work->vertices[k], p) && !work->keep[k]) {
             keep(r, k);
             return true;
         }
@@ -119,6 +137,27 @@ static bool mend_pair(repair *r, const simple_edge *e, const simple_edge *f)
     return at_f || at_e;
 }
 
+// Of the four edges that meet where two outlines cross in a place, the one that strayed farthest gets a vertex back.
+static void mend_corners(repair *r, const simple_edge *e, const simple_edge *f)
+{
+    const uint32_t ends[4][2] = {
+        { e->before, e->begin }, { e->begin, e->end }, { f->before, f->begin }, { f->begin, f->end }
+    };
+    double largest = 0;
+    uint32_t farthest = 0;
+    for (int k = 0; k < 4; k++) {
+        double error;
+        uint32_t vertex = tl_contours_farthest(r->work, ends[k][0], ends[k][1], &error);
+        if (error > largest) {
+            largest = error;
+            farthest = vertex;
+        }
+    }
+    if (largest > 0) {
+        keep(r, farthest);
+    }
+}
+
 // A loop that lost its area, or its direction, gets a vertex back on each of its edges.
 static bool mend_collapse(repair *r, const tl_contour_loop *loop, const tl_contour_path *path)
 {
@@ -137,7 +176,7 @@ static bool mend_collapse(repair *r, const tl_contour_loop *loop, const tl_conto
         double error;
         uint32_t end = path->vertices[k + 1 < path->count ? k + 1 : 0];
         uint32_t farthest = tl_contours_farthest(work, path->vertices[k], end, &error);
-        if (error > 0 && !work->keep[farthest]) {
+        if (error > 0) {
             keep(r, farthest);
             changed = true;
         }
@@ -159,7 +198,13 @@ static uint32_t collect_edges(repair *r, uint32_t region)
         tl_contours_simplified(work, r->loops[k], &path);
         mended |= mend_collapse(r, &work->loops[r->loops[k]], &path);
         for (uint32_t j = 0; j < path.count && path.count > 2; j++) {
-            simple_edge e = { path.vertices[j], path.vertices[j + 1 < path.count ? j + 1 : 0], 0, 0, 0, 0 };
+            simple_edge e = { path.vertices[j > 0 ? j - 1 : path.count - 1],
+                              path.vertices[j],
+                              path.vertices[j + 1 < path.count ? j + 1 : 0],
+                              0,
+                              0,
+                              0,
+                              0 };
             const tl_contour_vertex *a = &work->vertices[e.begin], *b = &work->vertices[e.end];
             e.low_x = a->x < b->x ? a->x : b->x;
             e.high_x = a->x < b->x ? b->x : a->x;
@@ -187,9 +232,13 @@ static void mend_crossings(repair *r, uint32_t count)
             if (f->low_x > e->high_x) {
                 break;
             }
-            if (f->low_z <= e->high_z && f->high_z >= e->low_z &&
-                edges_conflict(&v[e->begin], &v[e->end], &v[f->begin], &v[f->end])) {
+            if (f->low_z > e->high_z || f->high_z < e->low_z) {
+                continue;
+            }
+            if (edges_conflict(&v[e->begin], &v[e->end], &v[f->begin], &v[f->end])) {
                 mend_pair(r, e, f);
+            } else if (tl_contour_same_xz(&v[e->begin], &v[f->begin]) && corners_conflict(v, e, f)) {
+                mend_corners(r, e, f);
             }
         }
     }

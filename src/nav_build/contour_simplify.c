@@ -107,7 +107,7 @@ uint32_t tl_contours_farthest(const tl_contour_work *work, uint32_t begin, uint3
             break;
         }
         double d = distance_sq(&work->vertices[k], &work->vertices[from], &work->vertices[to]);
-        if (d > largest) {
+        if (d > largest && !work->keep[k]) {
             largest = d;
             farthest = k;
         }
@@ -218,21 +218,50 @@ tl_result tl_contours_simplify(tl_contour_work *work)
     return TL_OK;
 }
 
+// Takes a vertex at the path's end back together with the one before it where they make nothing: two in a row at one
+// place, of which the later stays because the edge that goes on is its own; or a spike, there and back.
+static void append(const tl_contour_work *work, tl_contour_path *path, uint32_t vertex)
+{
+    const tl_contour_vertex *v = &work->vertices[vertex];
+    const uint32_t *last = path->vertices + path->count;
+    if (path->count > 0 && tl_contour_same_xz(v, &work->vertices[last[-1]])) {
+        path->count -= 1;
+    } else if (path->count > 1 && tl_contour_same_xz(v, &work->vertices[last[-2]])) {
+        path->count -= 2;
+    }
+    path->vertices[path->count++] = vertex;
+}
+
+// The same where the path's end meets its beginning.
+static void trim_ends(const tl_contour_work *work, tl_contour_path *path)
+{
+    uint32_t begin = 0, end = path->count;
+    while (end - begin > 1) {
+        const tl_contour_vertex *first = &work->vertices[path->vertices[begin]];
+        const tl_contour_vertex *last = &work->vertices[path->vertices[end - 1]];
+        bool more = end - begin > 2;
+        if (tl_contour_same_xz(first, last) ||
+            (more && tl_contour_same_xz(first, &work->vertices[path->vertices[end - 2]]))) {
+            end -= tl_contour_same_xz(first, last) ? 1 : 2;
+        } else if (more && tl_contour_same_xz(&work->vertices[path->vertices[begin + 1]], last)) {
+            begin += 1; // the spike's tip; its foot is the last vertex and the second
+            end -= 1;
+        } else {
+            break;
+        }
+    }
+    path->count = end - begin;
+    memmove(path->vertices, path->vertices + begin, path->count * sizeof *path->vertices);
+}
+
 void tl_contours_simplified(const tl_contour_work *work, uint32_t loop, tl_contour_path *path)
 {
     const tl_contour_loop *l = &work->loops[loop];
     path->count = 0;
     for (uint32_t k = l->first; k < l->first + l->count; k++) {
-        const tl_contour_vertex *v = &work->vertices[k];
         if (work->keep[k]) {
-            // Of two in a row at one place the later stays: the edge that goes on is its own.
-            bool repeats = path->count > 0 && tl_contour_same_xz(v, &work->vertices[path->vertices[path->count - 1]]);
-            path->count -= repeats;
-            path->vertices[path->count++] = k;
+            append(work, path, k);
         }
     }
-    while (path->count > 1 &&
-           tl_contour_same_xz(&work->vertices[path->vertices[0]], &work->vertices[path->vertices[path->count - 1]])) {
-        path->count--;
-    }
+    trim_ends(work, path);
 }

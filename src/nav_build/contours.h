@@ -55,15 +55,16 @@ void tl_contours_keep(tl_contour_work *work, uint32_t vertex);
 /// Keeps what a loop needs to be within max_error. `stack` has room for the loop's count.
 void tl_contours_keep_within_error(tl_contour_work *work, uint32_t loop, uint32_t *stack);
 
-/// The traced vertex between begin and end that is farthest from the segment between them; begin or end when all lie on
-/// it. The same from both sides of an edge.
+/// Of the traced vertices between begin and end that are not kept, the one farthest from the segment between them;
+/// begin or end when all lie on it. The same from both sides of an edge.
 uint32_t tl_contours_farthest(const tl_contour_work *work, uint32_t begin, uint32_t end, double *distance_sq_out);
 
 /// Keeps more vertices until no loop has collapsed or turned over, and no edges of one region cross, or touch where the
 /// traced ones did not.
 tl_result tl_contours_repair(tl_contour_work *work);
 
-/// The kept vertices of a loop, without repeats in a row on xz. `path->vertices` has room for the loop's count.
+/// The kept vertices of a loop, without repeats in a row on xz and without spikes (there and back).
+/// `path->vertices` has room for the loop's count.
 void tl_contours_simplified(const tl_contour_work *work, uint32_t loop, tl_contour_path *path);
 
 /// Bridges holes into an outline, in place; `outline->vertices` has room for all vertices of both and two more a hole.
