@@ -249,10 +249,36 @@ static inline tl_f32x8 tl_f32x8_max(tl_f32x8 a, tl_f32x8 b)
     return _mm256_max_ps(a, b);
 }
 
+static inline tl_f32x8 tl_f32x8_add(tl_f32x8 a, tl_f32x8 b)
+{
+    return _mm256_add_ps(a, b);
+}
+
+static inline tl_f32x8 tl_f32x8_div(tl_f32x8 a, tl_f32x8 b)
+{
+    return _mm256_div_ps(a, b);
+}
+
+static inline tl_f32x8 tl_f32x8_abs(tl_f32x8 a)
+{
+    return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a);
+}
+
+static inline void tl_f32x8_store(float *eight, tl_f32x8 a)
+{
+    _mm256_storeu_ps(eight, a);
+}
+
 /// Bit i: not a[i] < b[i], so true for NaN.
 static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)
 {
     return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_NLT_UQ));
+}
+
+/// Bit i: a[i] < b[i], so false for NaN.
+static inline uint32_t tl_f32x8_less(tl_f32x8 a, tl_f32x8 b)
+{
+    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ));
 }
 
 #elif TL_SIMD_LEVEL == 1
@@ -301,6 +327,33 @@ static inline tl_f32x8 tl_f32x8_min(tl_f32x8 a, tl_f32x8 b)
 static inline tl_f32x8 tl_f32x8_max(tl_f32x8 a, tl_f32x8 b)
 {
     return tl_f32x8_make(_mm_max_ps(a.low, b.low), _mm_max_ps(a.high, b.high));
+}
+
+static inline tl_f32x8 tl_f32x8_add(tl_f32x8 a, tl_f32x8 b)
+{
+    return tl_f32x8_make(_mm_add_ps(a.low, b.low), _mm_add_ps(a.high, b.high));
+}
+
+static inline tl_f32x8 tl_f32x8_div(tl_f32x8 a, tl_f32x8 b)
+{
+    return tl_f32x8_make(_mm_div_ps(a.low, b.low), _mm_div_ps(a.high, b.high));
+}
+
+static inline tl_f32x8 tl_f32x8_abs(tl_f32x8 a)
+{
+    return tl_f32x8_make(tl_f32x4_abs(a.low), tl_f32x4_abs(a.high));
+}
+
+static inline void tl_f32x8_store(float *eight, tl_f32x8 a)
+{
+    _mm_storeu_ps(eight, a.low);
+    _mm_storeu_ps(eight + 4, a.high);
+}
+
+static inline uint32_t tl_f32x8_less(tl_f32x8 a, tl_f32x8 b)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a.low, b.low)) |
+           (uint32_t)_mm_movemask_ps(_mm_cmplt_ps(a.high, b.high)) << 4;
 }
 
 static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)
@@ -373,6 +426,47 @@ static inline tl_f32x8 tl_f32x8_max(tl_f32x8 a, tl_f32x8 b)
         r.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
     }
     return r;
+}
+
+static inline tl_f32x8 tl_f32x8_add(tl_f32x8 a, tl_f32x8 b)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = a.v[i] + b.v[i];
+    }
+    return r;
+}
+
+static inline tl_f32x8 tl_f32x8_div(tl_f32x8 a, tl_f32x8 b)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = a.v[i] / b.v[i];
+    }
+    return r;
+}
+
+static inline tl_f32x8 tl_f32x8_abs(tl_f32x8 a)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = a.v[i] < 0.0f ? -a.v[i] : a.v[i];
+    }
+    return r;
+}
+
+static inline void tl_f32x8_store(float *eight, tl_f32x8 a)
+{
+    memcpy(eight, a.v, sizeof a.v);
+}
+
+static inline uint32_t tl_f32x8_less(tl_f32x8 a, tl_f32x8 b)
+{
+    uint32_t mask = 0;
+    for (int i = 0; i < 8; i++) {
+        mask |= (uint32_t)(a.v[i] < b.v[i]) << i;
+    }
+    return mask;
 }
 
 static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)

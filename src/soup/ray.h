@@ -37,6 +37,7 @@ typedef struct tl_ray_job {
     // Leaves: origin moved to zero, then sheared so that the ray runs along axis_z.
     uint32_t axis_x, axis_y, axis_z;
     float shear_x, shear_y;
+    float per_depth;    ///< box t a metre along axis_z
     float corner_error; ///< metres: bound of the error of a sheared corner
 
     // The exact part, filled when the first lane is decided.

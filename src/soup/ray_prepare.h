@@ -81,6 +81,7 @@ static inline bool tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 origin, tl_f
     tl_f32x4_store(r, reach);
     job->shear_x = d[job->axis_x] * i[z];
     job->shear_y = d[job->axis_y] * i[z];
+    job->per_depth = i[z];
     job->corner_error = e[0];
     return r[0] < TL_RAY_FILTER_MAX;
 }

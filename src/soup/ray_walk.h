@@ -11,6 +11,14 @@
 // sheared corners lie no farther from the ray than the triangle is wide: |coordinates| <= 2 L, L the largest extent in
 // the leaf. With corner error d = 8 u M, E is then off by at most 4 d (2 L + d) + 2 d^2 + 4 u (2 L + d)^2
 // <= 12 d L + 7 d^2, as L <= 2 M. Underflow adds less than FLT_MIN.
+//
+// Lanes that pass get an interval of t, so that most of what is left is settled without ray_decide.c: triangles behind
+// the ray or beyond the best are dropped, and one that is surely hit, surely in front of the best, only waits: it is
+// decided when another comes too near to tell them apart, or at the end. With m the largest sheared coordinate of the
+// lane, E is off by at most e = 4 d m + 2 d^2 + 4 u m^2 <= 5.1 d m + 2 d^2, whether or not the line meets the triangle.
+// With D = sum(E), |D| >= 16 e, depths z_i that round once, at most Z, and t = sum(E_i z_i) / D, the true t of a
+// triangle that is met differs by at most Z (6.1 e / |D| + 9 u) before the division, its rounding and the product with
+// per_depth (two roundings of its own) add 6 u more: taken as Z (7 e / |D| + 24 u).
 
 #include "math/simd.h"
 #include "soup/ray_prepare.h"
@@ -20,6 +28,15 @@
 
 #define LEAF_EXTENT_TERM 13.0f
 #define LEAF_ERROR_TERM  8.0f
+
+#define LANE_SIZE_TERM   6.0f
+#define LANE_ERROR_TERM  3.0f
+#define LANE_MIN_RATIO   16.0f // |D| / e
+#define T_RATIO_TERM     7.0f
+#define T_ROUNDING       (24.0f * TL_FLOAT_ROUNDING)
+
+// Around a t that is decided: where another's interval must end or begin to be told from it.
+#define T_MARGIN (4.0f * TL_FLOAT_ROUNDING)
 
 // Each node on the way down leaves at most fifteen siblings behind.
 enum { WALK_STACK_SIZE = (TL_SOUP_WIDTH - 1) * TL_SOUP_MAX_DEPTH + 1 };
@@ -133,9 +150,15 @@ static inline uint32_t push_children(const uint32_t *t_bits, const tl_soup_node 
     return (uint32_t)nearer(low, high);
 }
 
-// Bits of lanes that the line may meet: 0-3 first triangles, 4-7 second ones.
-static inline uint32_t filter_leaf(const tl_ray_job *job, const walk_ray *ray, const float *floats, uint32_t n,
-                                   float extent)
+// A leaf's triangles as the ray sees them.
+typedef struct leaf_lanes {
+    tl_f32x8 az, ez, cz;             // depths
+    tl_f32x8 ax, ay, ex, ey, cx, cy; // sheared
+    tl_f32x8 ae, ec, ca;             // sidedness of each edge: the weights of c, a and e
+} leaf_lanes;
+
+static inline void load_leaf(const tl_ray_job *job, const walk_ray *ray, const float *floats, uint32_t n,
+                             leaf_lanes *lanes)
 {
     size_t x = (size_t)job->axis_x * n, y = (size_t)job->axis_y * n, z = (size_t)job->axis_z * n;
     const float *c = floats + 3 * (size_t)n, *e = floats + 6 * (size_t)n;
@@ -148,42 +171,129 @@ static inline uint32_t filter_leaf(const tl_ray_job *job, const walk_ray *ray, c
     tl_f32x8 ez = tl_f32x8_sub(tl_f32x8_load_halves(e + 2 * z, e + 2 * z + n), ray->origin_z);
     tl_f32x8 ex = tl_f32x8_sub(tl_f32x8_load_halves(e + 2 * x, e + 2 * x + n), ray->origin_x);
     tl_f32x8 ey = tl_f32x8_sub(tl_f32x8_load_halves(e + 2 * y, e + 2 * y + n), ray->origin_y);
-    ax = tl_f32x8_sub(ax, tl_f32x8_mul(ray->shear_x, az));
-    ay = tl_f32x8_sub(ay, tl_f32x8_mul(ray->shear_y, az));
-    cx = tl_f32x8_sub(cx, tl_f32x8_mul(ray->shear_x, cz));
-    cy = tl_f32x8_sub(cy, tl_f32x8_mul(ray->shear_y, cz));
-    ex = tl_f32x8_sub(ex, tl_f32x8_mul(ray->shear_x, ez));
-    ey = tl_f32x8_sub(ey, tl_f32x8_mul(ray->shear_y, ez));
+    lanes->az = az;
+    lanes->cz = cz;
+    lanes->ez = ez;
+    lanes->ax = tl_f32x8_sub(ax, tl_f32x8_mul(ray->shear_x, az));
+    lanes->ay = tl_f32x8_sub(ay, tl_f32x8_mul(ray->shear_y, az));
+    lanes->cx = tl_f32x8_sub(cx, tl_f32x8_mul(ray->shear_x, cz));
+    lanes->cy = tl_f32x8_sub(cy, tl_f32x8_mul(ray->shear_y, cz));
+    lanes->ex = tl_f32x8_sub(ex, tl_f32x8_mul(ray->shear_x, ez));
+    lanes->ey = tl_f32x8_sub(ey, tl_f32x8_mul(ray->shear_y, ez));
+    lanes->ae = tl_f32x8_sub(tl_f32x8_mul(lanes->ax, lanes->ey), tl_f32x8_mul(lanes->ay, lanes->ex));
+    lanes->ec = tl_f32x8_sub(tl_f32x8_mul(lanes->ex, lanes->cy), tl_f32x8_mul(lanes->ey, lanes->cx));
+    lanes->ca = tl_f32x8_sub(tl_f32x8_mul(lanes->cx, lanes->ay), tl_f32x8_mul(lanes->cy, lanes->ax));
+}
 
-    tl_f32x8 ae = tl_f32x8_sub(tl_f32x8_mul(ax, ey), tl_f32x8_mul(ay, ex));
-    tl_f32x8 ec = tl_f32x8_sub(tl_f32x8_mul(ex, cy), tl_f32x8_mul(ey, cx));
-    tl_f32x8 ca = tl_f32x8_sub(tl_f32x8_mul(cx, ay), tl_f32x8_mul(cy, ax));
+// Bits of lanes that the line may meet: 0-3 first triangles, 4-7 second ones.
+static inline uint32_t filter_leaf(const tl_ray_job *job, const leaf_lanes *lanes, uint32_t n, float extent)
+{
     float error = job->corner_error * (LEAF_EXTENT_TERM * extent + LEAF_ERROR_TERM * job->corner_error) + FLT_MIN;
-    tl_f32x8 lowest = tl_f32x8_min(tl_f32x8_min(ae, ec), ca);
-    tl_f32x8 highest = tl_f32x8_max(tl_f32x8_max(ae, ec), ca);
+    tl_f32x8 lowest = tl_f32x8_min(tl_f32x8_min(lanes->ae, lanes->ec), lanes->ca);
+    tl_f32x8 highest = tl_f32x8_max(tl_f32x8_max(lanes->ae, lanes->ec), lanes->ca);
     uint32_t maybe = tl_f32x8_not_less(lowest, tl_f32x8_all(-error)) | tl_f32x8_not_less(tl_f32x8_all(error), highest);
     return maybe & (((1u << n) - 1u) * 0x11u);
 }
 
-static inline bool visit_leaf(tl_ray_job *job, const walk_ray *ray, uint32_t child, bool any)
+static inline tl_f32x8 largest_of_four(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c, tl_f32x8 d)
+{
+    return tl_f32x8_max(tl_f32x8_max(tl_f32x8_abs(a), tl_f32x8_abs(b)), tl_f32x8_max(tl_f32x8_abs(c), tl_f32x8_abs(d)));
+}
+
+// Intervals of t in box t, and which lanes they can be trusted in (clear), which of these the line surely meets.
+static inline void find_intervals(const tl_ray_job *job, const leaf_lanes *v, float *low, float *high,
+                                  uint32_t *clear_out, uint32_t *sure_out)
+{
+    tl_f32x8 size = tl_f32x8_max(largest_of_four(v->ax, v->ay, v->ex, v->ey),
+                                 tl_f32x8_max(tl_f32x8_abs(v->cx), tl_f32x8_abs(v->cy)));
+    tl_f32x8 corner_error = tl_f32x8_all(job->corner_error);
+    tl_f32x8 error = tl_f32x8_add(tl_f32x8_mul(size, tl_f32x8_all(LANE_SIZE_TERM)),
+                                  tl_f32x8_mul(corner_error, tl_f32x8_all(LANE_ERROR_TERM)));
+    error = tl_f32x8_add(tl_f32x8_mul(error, corner_error), tl_f32x8_all(FLT_MIN));
+    tl_f32x8 lowest = tl_f32x8_min(tl_f32x8_min(v->ae, v->ec), v->ca);
+    tl_f32x8 highest = tl_f32x8_max(tl_f32x8_max(v->ae, v->ec), v->ca);
+    tl_f32x8 below = tl_f32x8_sub(tl_f32x8_all(0.0f), error);
+    *sure_out = tl_f32x8_less(error, lowest) | tl_f32x8_less(highest, below);
+
+    tl_f32x8 sum = tl_f32x8_add(tl_f32x8_add(v->ae, v->ec), v->ca);
+    tl_f32x8 weighted =
+        tl_f32x8_add(tl_f32x8_add(tl_f32x8_mul(v->ae, v->cz), tl_f32x8_mul(v->ec, v->az)), tl_f32x8_mul(v->ca, v->ez));
+    tl_f32x8 inverse = tl_f32x8_div(tl_f32x8_all(1.0f), sum);
+    tl_f32x8 ratio = tl_f32x8_abs(tl_f32x8_mul(error, inverse));
+    *clear_out = tl_f32x8_less(ratio, tl_f32x8_all(1.0f / LANE_MIN_RATIO));
+    tl_f32x8 t = tl_f32x8_mul(tl_f32x8_mul(weighted, inverse), tl_f32x8_all(job->per_depth));
+    tl_f32x8 depth = tl_f32x8_max(tl_f32x8_max(tl_f32x8_abs(v->az), tl_f32x8_abs(v->ez)), tl_f32x8_abs(v->cz));
+    tl_f32x8 spread = tl_f32x8_add(tl_f32x8_mul(ratio, tl_f32x8_all(T_RATIO_TERM)), tl_f32x8_all(T_ROUNDING));
+    spread = tl_f32x8_mul(tl_f32x8_mul(depth, spread), tl_f32x8_all(fabsf(job->per_depth)));
+    tl_f32x8_store(low, tl_f32x8_sub(t, spread));
+    tl_f32x8_store(high, tl_f32x8_add(t, spread));
+}
+
+// A triangle that is surely hit, surely nearer than the best that was decided, and not decided yet.
+typedef struct waiting {
+    const tl_soup_leaf *leaf; // NULL: none
+    uint32_t lane;
+    float ahead; // whatever surely ends before this t is nearer than all that is known
+} waiting;
+
+static inline void decide_lane(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane, waiting *wait)
+{
+    if (wait->leaf != NULL) {
+        (void)tl_ray_decide(job, wait->leaf, wait->lane);
+        wait->leaf = NULL;
+    }
+    if (leaf != NULL) {
+        (void)tl_ray_decide(job, leaf, lane);
+    }
+    wait->ahead = job->t * (1.0f - T_MARGIN);
+}
+
+// Settles the lanes of a leaf that may be hit. True: any hit will do, and there is one.
+static inline bool settle_lanes(tl_ray_job *job, const leaf_lanes *lanes, uint32_t maybe, const tl_soup_leaf *leaf,
+                                uint32_t n, bool any, waiting *wait)
+{
+    const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
+    float low[8], high[8];
+    uint32_t clear = 0, sure = 0;
+    if (job->box_scale == 1.0f) {
+        find_intervals(job, lanes, low, high, &clear, &sure);
+        sure &= job->filter == NULL ? clear : 0u;
+    }
+    do {
+        uint32_t bit = lowest_bit(maybe);
+        uint32_t lane = bit < 4 ? bit : n + bit - 4;
+        uint32_t is_clear = clear >> bit & 1u, is_sure = sure >> bit & 1u;
+        maybe &= maybe - 1;
+        if (ids[lane] == TL_ID_NONE || (is_clear && (high[bit] < 0.0f || low[bit] > job->box_limit))) {
+            continue;
+        }
+        if (is_sure && low[bit] > 0.0f && high[bit] < wait->ahead) {
+            if (any) {
+                return true;
+            }
+            wait->leaf = leaf;
+            wait->lane = lane;
+            wait->ahead = low[bit];
+            job->box_limit = high[bit];
+            continue;
+        }
+        decide_lane(job, leaf, lane, wait);
+        if (any && job->triangle != UINT32_MAX) {
+            return true;
+        }
+    } while (maybe != 0);
+    return false;
+}
+
+static inline bool visit_leaf(tl_ray_job *job, const walk_ray *ray, uint32_t child, bool any, waiting *wait)
 {
     const tl_soup_leaf *leaf = (const tl_soup_leaf *)(const void *)(ray->leaves + tl_child_leaf_offset(child));
     uint32_t n = tl_child_pair_count(child);
     const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
-    uint32_t maybe = filter_leaf(job, ray, (const float *)(const void *)(ids + 2 * (size_t)n), n, leaf->extent);
-    bool hit = false;
-    while (maybe != 0) {
-        uint32_t bit = lowest_bit(maybe);
-        maybe &= maybe - 1;
-        uint32_t lane = bit < 4 ? bit : n + bit - 4;
-        if (ids[lane] != TL_ID_NONE && tl_ray_decide(job, leaf, lane)) {
-            hit = true;
-            if (any) {
-                break;
-            }
-        }
-    }
-    return hit;
+    leaf_lanes lanes;
+    load_leaf(job, ray, (const float *)(const void *)(ids + 2 * (size_t)n), n, &lanes);
+    uint32_t maybe = filter_leaf(job, &lanes, n, leaf->extent);
+    return maybe != 0 && settle_lanes(job, &lanes, maybe, leaf, n, any, wait);
 }
 
 static inline void spread_ray(const tl_ray_job *job, walk_ray *ray)
@@ -213,7 +323,7 @@ bool TL_RAY_WALK(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any)
     walk_entry stack[WALK_STACK_SIZE];
     uint32_t stack_count = 0;
     uint32_t child = 0;
-    bool hit = false;
+    waiting wait = { NULL, 0, job->t * (1.0f - T_MARGIN) };
     for (;;) {
         if ((child & TL_CHILD_LEAF) == 0) {
             const tl_soup_node *node = &ray.nodes[child];
@@ -223,18 +333,16 @@ bool TL_RAY_WALK(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any)
                 child = push_children(t_bits, node, mask, stack, &stack_count);
                 continue;
             }
-        } else if (visit_leaf(job, &ray, child, any)) {
-            hit = true;
-            if (any) {
-                return true;
-            }
+        } else if (visit_leaf(job, &ray, child, any, &wait)) {
+            return true;
         }
         uint32_t limit_bits;
         memcpy(&limit_bits, &job->box_limit, sizeof limit_bits);
         walk_entry limit = (uint64_t)limit_bits << 32 | UINT32_MAX;
         do {
             if (stack_count == 0) {
-                return hit;
+                decide_lane(job, NULL, 0, &wait);
+                return job->triangle != UINT32_MAX;
             }
             stack_count--;
         } while (stack[stack_count] > limit);
