@@ -91,7 +91,7 @@ static double_answer cast_in_double(const model *m, const tl_ray *ray)
 }
 
 typedef struct regimes {
-    uint32_t rays, hit, miss, unsure, axis_parallel, brute;
+    uint32_t rays, hit, miss, unsure, axis_parallel, brute, cut;
 } regimes;
 
 // Bits equal over all walks, and what they say.
@@ -142,12 +142,23 @@ static tl_ray random_ray(test_random *random, const model *m, tl_aabb bounds, ui
 static void check_model(const model *m, uint32_t ray_count, uint64_t seed, regimes *seen)
 {
     test_random random = { seed };
-    tl_soup *soup = model_soup(m, NULL);
+    tl_soup_def def = tl_default_soup_def();
+    tl_soup *soup = model_soup(m, &def);
+    // The same answers from other layouts: cut references, and no pairs.
+    def.split_budget = 0.4f;
+    tl_soup *cut = model_soup(m, &def);
+    def.pair_triangles = false;
+    tl_soup *singles = model_soup(m, &def);
     tl_aabb bounds = tl_soup_bounds(soup);
     for (uint32_t i = 0; i < ray_count; i++) {
         tl_ray ray = random_ray(&random, m, bounds, i);
         tl_ray_hit hit;
         bool found = cast_with_all(soup, &ray, &hit);
+        tl_ray_hit other = { 0 };
+        TEST_CHECK(tl_soup_cast_ray(cut, &ray, NULL, &other) == found);
+        TEST_CHECK(!found || memcmp(&hit, &other, sizeof hit) == 0);
+        TEST_CHECK(tl_soup_cast_ray(singles, &ray, NULL, &other) == found);
+        TEST_CHECK(!found || memcmp(&hit, &other, sizeof hit) == 0);
         double_answer truth = cast_in_double(m, &ray);
         if (truth.unsure) {
             seen->unsure++;
@@ -167,7 +178,10 @@ static void check_model(const model *m, uint32_t ray_count, uint64_t seed, regim
         seen->miss += !found;
         seen->axis_parallel += i % 4 == 2;
     }
+    seen->cut += tl_soup_get_stats(cut).reference_count > tl_soup_get_stats(soup).reference_count;
     tl_blob_free(soup, NULL);
+    tl_blob_free(cut, NULL);
+    tl_blob_free(singles, NULL);
 }
 
 static void test_generated_models(void **state)
@@ -201,6 +215,7 @@ static void test_generated_models(void **state)
     print_message("rays %u, hits %u, misses %u, too close for double %u, axis-parallel %u, without tree %u\n",
                   seen.rays, seen.hit, seen.miss, seen.unsure, seen.axis_parallel, seen.brute);
     TEST_CHECK(seen.hit > 8000 && seen.miss > 5000 && seen.axis_parallel > 4000 && seen.brute > 1000);
+    TEST_CHECK(seen.cut > 10);
     TEST_CHECK(seen.unsure > 500 && seen.unsure < seen.rays / 2);
 }
 

@@ -58,13 +58,29 @@ static bool mark_found(const tl_soup_triangle *triangle, void *user)
     return ++set->count != set->limit;
 }
 
-static void check_box_search(const model *m, const tl_soup *soup, uint64_t seed)
+// Whether points of the triangle, picked at random, lie in the box: then the triangle touches it.
+static bool surely_touches(const model *m, uint32_t triangle, tl_aabb box, test_random *random)
+{
+    const uint32_t *corner = m->indices + 3 * (size_t)triangle;
+    for (uint32_t i = 0; i < 8; i++) {
+        tl_vec3 p = tl_lerp(m->vertices[corner[0]], m->vertices[corner[1]], test_random_unit(random));
+        p = tl_lerp(p, m->vertices[corner[2]], test_random_unit(random));
+        tl_vec3 margin = tl_scale(tl_abs(p), 4 * FLT_EPSILON); // p itself is rounded
+        tl_aabb inner = { tl_add(box.min, margin), tl_sub(box.max, margin) };
+        if (tl_aabb_contains(inner, p)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static uint32_t check_box_search(const model *m, const tl_soup *soup, bool splits, uint64_t seed)
 {
     test_random random = { seed };
     tl_aabb bounds = tl_soup_bounds(soup);
     found_set set = { malloc(m->triangle_count), 0, 0 };
     TEST_CHECK(set.seen != NULL);
-    uint32_t empty = 0, some = 0;
+    uint32_t empty = 0, some = 0, touching = 0;
     for (uint32_t i = 0; i < 300; i++) {
         tl_vec3 a = test_random_point(&random, bounds.min, bounds.max);
         tl_vec3 size = tl_scale(tl_aabb_size(bounds), i % 3 == 0 ? 0.0f : test_random_range(&random, 0, 0.3f));
@@ -81,7 +97,12 @@ static void check_box_search(const model *m, const tl_soup *soup, uint64_t seed)
             for (uint32_t c = 0; c < 3; c++) {
                 own = tl_aabb_add_point(own, m->vertices[m->indices[3 * (size_t)k + c]]);
             }
-            TEST_CHECK(tl_aabb_overlaps(own, box) == (set.seen[k] != 0));
+            TEST_CHECK(tl_aabb_overlaps(own, box) || !set.seen[k]);
+            TEST_CHECK(splits || tl_aabb_overlaps(own, box) == (set.seen[k] != 0));
+            if (surely_touches(m, k, box, &random)) {
+                TEST_CHECK(set.seen[k]);
+                touching++;
+            }
         }
         some += set.count > 0;
         empty += set.count == 0;
@@ -93,6 +114,7 @@ static void check_box_search(const model *m, const tl_soup *soup, uint64_t seed)
     }
     TEST_CHECK(some > 50 && some + empty == 300);
     free(set.seen);
+    return touching;
 }
 
 typedef struct box_walk {
@@ -145,32 +167,35 @@ static void check_tree_boxes(const tl_soup *soup)
     TEST_CHECK(!tl_soup_tree_boxes(soup, UINT32_MAX, visit_box, &ended) && ended.count == 2);
 }
 
-static void check_all(model m, float split_budget)
+static uint32_t check_all(model m, float split_budget)
 {
     tl_soup_def def = tl_default_soup_def();
     def.split_budget = split_budget;
     tl_soup *soup = model_soup(&m, &def);
     TEST_RESULT(tl_soup_check(soup, tl_soup_size(soup)), TL_OK);
     check_enumeration(&m, soup);
-    check_box_search(&m, soup, 1);
+    uint32_t touching = check_box_search(&m, soup, split_budget > 0, 1);
     check_tree_boxes(soup);
     tl_blob_free(soup, NULL);
     model_free(&m);
+    return touching;
 }
 
 static void test_models(void **state)
 {
     (void)state;
+    uint32_t touching = 0;
     for (uint32_t splits = 0; splits < 2; splits++) {
         float budget = splits == 0 ? 0.0f : 0.5f;
-        check_all(model_random(1, 5, 1, 1), budget);
-        check_all(model_random(300, 5, 2, 2), budget);
-        check_all(model_terrain(16, 2, tl_vec3_make(0, 0, 0), 3), budget);
-        check_all(model_terrain(16, 2, tl_vec3_make(5000, 100, -5000), 4), budget);
-        check_all(model_ball(3, 1e-6f, 0.1f, tl_vec3_make(0, 0, 0), 5), budget);
-        check_all(model_random(100, 1e11f, 1e11f, 6), budget);
-        check_all(model_random(100, 1e-36f, 1e-37f, 7), budget);
+        touching += check_all(model_random(1, 5, 1, 1), budget);
+        touching += check_all(model_random(300, 5, 2, 2), budget);
+        touching += check_all(model_terrain(16, 2, tl_vec3_make(0, 0, 0), 3), budget);
+        touching += check_all(model_terrain(16, 2, tl_vec3_make(5000, 100, -5000), 4), budget);
+        touching += check_all(model_ball(3, 1e-6f, 0.1f, tl_vec3_make(0, 0, 0), 5), budget);
+        touching += check_all(model_random(100, 1e11f, 1e11f, 6), budget);
+        touching += check_all(model_random(100, 1e-36f, 1e-37f, 7), budget);
     }
+    TEST_CHECK(touching > 1000);
 }
 
 static void test_materials_come_back(void **state)

@@ -49,7 +49,8 @@ typedef struct tl_soup tl_soup;
 typedef struct tl_soup_def {
     bool pair_triangles; ///< false keeps every triangle single, to measure what pairs are worth
     /// [0, 1]: share of extra references that spatial splits may add. A pair that straddles a split plane is then
-    /// stored on both sides, which costs memory and saves the time that fat boxes cost. 0: none.
+    /// stored on both sides, so that large triangles do not make the boxes around small ones fat. It costs build time
+    /// and memory, and pays only where sizes differ much. 0: none.
     float split_budget;
     tl_host host;
 } tl_soup_def;
@@ -63,7 +64,7 @@ typedef struct tl_soup_report {
     uint32_t single_count;
 } tl_soup_report;
 
-/// Pairs, and split_budget 0.2.
+/// Pairs, and no spatial splits.
 TL_API tl_soup_def tl_default_soup_def(void);
 
 /// Bakes a triangle list. Triangles keep the index they have in the view: that is what queries report.
@@ -188,8 +189,9 @@ TL_API bool tl_soup_next_pair(const tl_soup *soup, uint64_t *cursor, tl_soup_pai
 /// Called for each triangle found; false ends the search.
 typedef bool tl_soup_triangle_fn(const tl_soup_triangle *triangle, void *user);
 
-/// Calls `found` for every triangle whose own box overlaps `box` (closed), in the soup's order. A triangle that spatial
-/// splits stored twice may be reported twice. Returns false when `found` ended the search.
+/// Calls `found` for the triangles that may touch `box` (closed), in the soup's order: for every one that does, and for
+/// none whose own box stays apart from it. A triangle that spatial splits stored twice may be reported twice. Returns
+/// false when `found` ended the search.
 TL_API bool tl_soup_triangles_in_box(const tl_soup *soup, tl_aabb box, tl_soup_triangle_fn *found, void *user);
 
 /// Called for each box of the tree; `depth` 0 is the root's box, `leaf` tells a box that holds pairs. False ends it.

@@ -327,7 +327,7 @@ bool TL_RAY_WALK(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any)
     for (;;) {
         if ((child & TL_CHILD_LEAF) == 0) {
             const tl_soup_node *node = &ray.nodes[child];
-            uint32_t t_bits[TL_SOUP_WIDTH];
+            _Alignas(64) uint32_t t_bits[TL_SOUP_WIDTH]; // one line: a split store is not forwarded
             uint32_t mask = enter_children(job, &ray, node, t_bits);
             if (mask != 0) {
                 child = push_children(t_bits, node, mask, stack, &stack_count);

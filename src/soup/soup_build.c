@@ -12,7 +12,7 @@
 
 tl_soup_def tl_default_soup_def(void)
 {
-    tl_soup_def def = { true, 0.2f, { NULL, NULL, NULL } };
+    tl_soup_def def = { true, 0.0f, { NULL, NULL, NULL } };
     return def;
 }
 

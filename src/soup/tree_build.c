@@ -58,6 +58,25 @@ static uint32_t node_of_split(uint32_t right_first)
     return 2 * right_first - 1;
 }
 
+// Both parts of a pair that was cut may end in one leaf: one of them is enough.
+static uint32_t drop_repeated(tl_tree_ref *refs, uint32_t count)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t k = 0;
+        while (k < kept && refs[k].pair != refs[i].pair) {
+            k++;
+        }
+        if (k == kept) {
+            refs[kept++] = refs[i];
+        } else {
+            refs[k].min = tl_min(refs[k].min, refs[i].min);
+            refs[k].max = tl_max(refs[k].max, refs[i].max);
+        }
+    }
+    return kept;
+}
+
 static uint32_t make_leaf(builder *b, const tl_tree_range *range)
 {
     uint32_t index = node_of_leaf(range->first);
@@ -65,7 +84,7 @@ static uint32_t make_leaf(builder *b, const tl_tree_range *range)
     memset(node, 0, sizeof *node);
     node->box = range->box;
     node->first = range->first;
-    node->count = range->count;
+    node->count = drop_repeated(b->splitter.refs + range->first, range->count);
     return index;
 }
 

@@ -56,6 +56,7 @@ static void evaluate_axis(const tl_aabb *boxes, const uint32_t *counts, uint32_t
                           tl_tree_split *best)
 {
     float right_cost[MAX_BINS];
+    tl_aabb right_box[MAX_BINS];
     tl_aabb box = tl_aabb_empty();
     uint32_t count = 0;
     for (uint32_t bin = bin_count - 1; bin > 0; bin--) {
@@ -63,6 +64,7 @@ static void evaluate_axis(const tl_aabb *boxes, const uint32_t *counts, uint32_t
             box = tl_aabb_union(box, boxes[bin]);
             count += counts[bin];
         }
+        right_box[bin] = box;
         right_cost[bin] = count > 0 ? tl_aabb_half_area(box) * tl_tree_blocks(count) : -1.0f;
     }
     box = tl_aabb_empty();
@@ -81,6 +83,8 @@ static void evaluate_axis(const tl_aabb *boxes, const uint32_t *counts, uint32_t
             best->axis = axis;
             best->bin = bin;
             best->cost = cost;
+            tl_aabb shared = tl_aabb_intersection(box, right_box[bin]);
+            best->overlap = tl_aabb_is_empty(shared) ? 0.0f : tl_aabb_half_area(shared);
         }
     }
 }
@@ -119,6 +123,7 @@ tl_tree_split tl_tree_find_split(const tl_tree_splitter *splitter, const tl_tree
     }
     best.base = base[best.axis];
     best.scale = scale[best.axis];
+    tl_tree_improve_by_spatial_split(splitter, range, &best);
     return best;
 }
 
@@ -161,11 +166,15 @@ void tl_tree_apply_split(const tl_tree_splitter *splitter, const tl_tree_range *
                          tl_tree_range *left_out, tl_tree_range *right_out)
 {
     tl_tree_ref *refs = splitter->refs + range->first;
-    uint32_t left_count = split->found ? partition(refs, range->count, split) : range->count / 2;
-    TL_ASSERT(left_count > 0 && left_count < range->count);
-    uint32_t right_count = range->count - left_count;
-    uint64_t spare = range->capacity - range->count;
-    uint32_t left_capacity = left_count + (uint32_t)(spare * left_count / range->count);
+    uint32_t left_count, right_count;
+    if (!split->spatial || !tl_tree_apply_spatial_split(splitter, range, split, &left_count, &right_count)) {
+        left_count = split->found && !split->spatial ? partition(refs, range->count, split) : range->count / 2;
+        right_count = range->count - left_count;
+    }
+    TL_ASSERT(left_count > 0 && right_count > 0 && left_count + right_count <= range->capacity);
+    uint32_t count = left_count + right_count;
+    uint64_t spare = range->capacity - count;
+    uint32_t left_capacity = left_count + (uint32_t)(spare * left_count / count);
     if (left_capacity > left_count) {
         memmove(refs + left_capacity, refs + left_count, (size_t)right_count * sizeof *refs);
     }

@@ -25,7 +25,8 @@ typedef struct tl_tree_split {
     float scale;    ///< object splits: bins a metre of doubled centroid...
     float base;     ///< ...from here on
     uint32_t bin_count;
-    float cost; ///< sum over both sides of half area times blocks of TL_SOUP_LEAF_PAIRS
+    float overlap; ///< half area of what both sides' boxes share
+    float cost;    ///< sum over both sides of half area times blocks of TL_SOUP_LEAF_PAIRS
 } tl_tree_split;
 
 typedef struct tl_tree_splitter {
@@ -37,6 +38,15 @@ typedef struct tl_tree_splitter {
 
 /// The cheapest split that was found. Reads the range only.
 tl_tree_split tl_tree_find_split(const tl_tree_splitter *splitter, const tl_tree_range *range);
+
+/// Replaces an object split by a spatial one where that is cheaper and there is room for its references.
+void tl_tree_improve_by_spatial_split(const tl_tree_splitter *splitter, const tl_tree_range *range,
+                                      tl_tree_split *split);
+
+/// Cuts and sorts the range's references: left ones, then right ones. False, and nothing changed, when the plane does
+/// not part them or there is no room.
+bool tl_tree_apply_spatial_split(const tl_tree_splitter *splitter, const tl_tree_range *range,
+                                 const tl_tree_split *split, uint32_t *left_count_out, uint32_t *right_count_out);
 
 /// Carries a split out. Both sides get at least one reference.
 void tl_tree_apply_split(const tl_tree_splitter *splitter, const tl_tree_range *range, const tl_tree_split *split,
