@@ -92,6 +92,12 @@ static void names_indices_out_of_range(void **state)
     build_bar(&f);
     f.mesh.vertices[0] = INT32_MIN;
     expect(&f, TL_POLYGON_FAULT_RANGE, false);
+    build_bar(&f);
+    f.contour.vertex_count = 7;
+    expect(&f, TL_POLYGON_FAULT_RANGE, true);
+    build_bar(&f);
+    f.vertices[0].x = INT32_MAX;
+    expect(&f, TL_POLYGON_FAULT_RANGE, true);
 }
 
 static void names_wrong_corner_counts(void **state)

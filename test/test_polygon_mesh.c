@@ -60,108 +60,6 @@ static void two_contours_meet_in_links(void **state)
     }
 }
 
-// A tile's border runs along x == 0; regions 1 and 2 meet it in the border vertex (0, 4).
-static void border_vertices_go_where_the_border_is_straight(void **state)
-{
-    (void)state;
-    tl_contour_vertex corners[8] = {
-        { 0, 0, 0, 0 },
-        { 0, 0, 4, TL_CONTOUR_BORDER_VERTEX },
-        { 6, 0, 4, 0 },
-        { 6, 0, 0, 0 },
-        { 0, 0, 4, TL_CONTOUR_BORDER_VERTEX },
-        { 0, 0, 8, 0 },
-        { 6, 0, 8, 0 },
-        { 6, 0, 4, 0 },
-    };
-    tl_contour contours[2] = { { 0, 4, 1, 63 }, { 4, 4, 2, 63 } };
-    tl_contour_set set;
-    memset(&set, 0, sizeof set);
-    set.vertices = corners;
-    set.vertex_count = 8;
-    set.contours = contours;
-    set.contour_count = 2;
-    set.cell_size = set.cell_height = 1.0f;
-    set.width = 20;
-    set.height = 8;
-    set.border_size = 3;
-    tl_polygon_def def = tl_default_polygon_def();
-    tl_polygon_mesh mesh;
-    tl_polygon_report report;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-    check_good(&mesh, &set);
-    TEST_CHECK(report.border_vertices_gone == 1 && report.border_vertices_kept == 0 && mesh.vertex_count == 5);
-    TEST_CHECK(report.portal_count == 3); // x == 0 is one edge now, z == 0 and z == 8
-    uint32_t sides[4] = { 0, 0, 0, 0 };
-    for (uint32_t k = 0; k < mesh.index_count; k++) {
-        if (mesh.neighbours[k] != TL_NO_POLYGON && mesh.neighbours[k] >= TL_PORTAL) {
-            sides[mesh.neighbours[k] & 3u]++;
-        }
-    }
-    TEST_CHECK(sides[0] == 1 && sides[1] == 1 && sides[2] == 0 && sides[3] == 1);
-    for (uint32_t p = 0; p < mesh.polygon_count; p++) {
-        TEST_CHECK(mesh.areas[p] == 63 && mesh.regions[p] == TL_SEVERAL_REGIONS &&
-                   mesh.contours[p] == TL_SEVERAL_CONTOURS);
-    }
-    tl_polygon_mesh_free(&mesh, NULL);
-    def.keep_border_vertices = true;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-    check_good(&mesh, &set);
-    TEST_CHECK(mesh.vertex_count == 6 && mesh.polygon_count == 2 && report.border_vertices_kept == 0);
-    tl_polygon_mesh_free(&mesh, NULL);
-    def.keep_border_vertices = false;
-    // A border that bends there keeps its vertex, and so do regions of different areas.
-    contours[1].area = 1;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-    TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
-    tl_polygon_mesh_free(&mesh, NULL);
-    contours[1].area = 63;
-    corners[1].x = corners[4].x = 1;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-    check_good(&mesh, &set);
-    TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
-    tl_polygon_mesh_free(&mesh, NULL);
-}
-
-// Many border vertices in a row, around which polygons are replaced again and again.
-static void border_vertices_go_one_after_another(void **state)
-{
-    (void)state;
-    enum { STRIPS = 12 };
-    tl_contour_vertex corners[4 * STRIPS];
-    tl_contour contours[STRIPS];
-    for (int32_t s = 0; s < STRIPS; s++) {
-        tl_contour_vertex strip[4] = {
-            { 0, 0, 4 * s, 0 }, { 0, 0, 4 * s + 4, 0 }, { 9, 0, 4 * s + 4, 0 }, { 9, 0, 4 * s, 0 }
-        };
-        strip[0].flags = s > 0 ? TL_CONTOUR_BORDER_VERTEX : 0;
-        strip[1].flags = s + 1 < STRIPS ? TL_CONTOUR_BORDER_VERTEX : 0;
-        memcpy(corners + 4 * s, strip, sizeof strip);
-        tl_contour contour = { 4 * (uint32_t)s, 4, (uint32_t)s + 1, 63 };
-        contours[s] = contour;
-    }
-    tl_contour_set set;
-    memset(&set, 0, sizeof set);
-    set.vertices = corners;
-    set.vertex_count = 4 * STRIPS;
-    set.contours = contours;
-    set.contour_count = STRIPS;
-    set.cell_size = set.cell_height = 1.0f;
-    set.width = 20;
-    set.height = 4 * STRIPS;
-    set.border_size = 3;
-    for (uint32_t cap = 3; cap <= 8; cap++) {
-        tl_polygon_def def = tl_default_polygon_def();
-        def.max_verts_per_poly = cap;
-        tl_polygon_mesh mesh;
-        tl_polygon_report report;
-        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-        check_good(&mesh, &set);
-        TEST_CHECK(report.border_vertices_gone == STRIPS - 1 && report.portal_count == 3);
-        tl_polygon_mesh_free(&mesh, NULL);
-    }
-}
-
 // Scribbles of all kinds: whatever is built passes the validator, and whatever is not as it came has a note.
 static void scribbles_give_good_meshes(void **state)
 {
@@ -435,16 +333,10 @@ static void equals_recast_on_real_contours(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_contours_meet_in_links),
-        cmocka_unit_test(border_vertices_go_where_the_border_is_straight),
-        cmocka_unit_test(border_vertices_go_one_after_another),
-        cmocka_unit_test(scribbles_give_good_meshes),
-        cmocka_unit_test(hard_families_pass_the_validator),
-        cmocka_unit_test(more_than_16_bits_of_everything),
-        cmocka_unit_test(floors_upon_each_other_are_counted),
-        cmocka_unit_test(bad_arguments_are_named),
-        cmocka_unit_test(a_build_can_be_cancelled),
-        cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(two_contours_meet_in_links),         cmocka_unit_test(scribbles_give_good_meshes),
+        cmocka_unit_test(hard_families_pass_the_validator),   cmocka_unit_test(more_than_16_bits_of_everything),
+        cmocka_unit_test(floors_upon_each_other_are_counted), cmocka_unit_test(bad_arguments_are_named),
+        cmocka_unit_test(a_build_can_be_cancelled),           cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(equals_recast_on_real_contours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -75,7 +75,8 @@ typedef struct tl_contour_note {
     uint32_t faults;       ///< TL_CONTOUR_FAULT_ bits
     uint32_t vertex;       ///< in the contour: where the first fault was found
     uint32_t reserved;     ///< 0
-    int64_t contour_area2; ///< doubled area that it encloses, signed: > 0 for an outer contour
+    int64_t contour_area2; ///< doubled area that it encloses, signed: > 0 for an outer contour. Modulo 2^64, which only
+                           ///< outlines reach that wind around the largest lattice four times
     int64_t covered_area2; ///< doubled area of its polygons
 } tl_contour_note;
 

@@ -79,6 +79,26 @@ static bool ranges_are_good(tl_polygon_checker *c)
     return good;
 }
 
+static bool contours_are_good(tl_polygon_checker *c)
+{
+    const tl_contour_set *set = c->contours;
+    for (uint32_t i = 0; set != NULL && i < set->contour_count; i++) {
+        const tl_contour *contour = &set->contours[i];
+        bool good = contour->first_vertex <= set->vertex_count &&
+                    contour->vertex_count <= set->vertex_count - contour->first_vertex;
+        for (uint32_t k = 0; good && k < contour->vertex_count; k++) {
+            const tl_contour_vertex *v = &set->vertices[contour->first_vertex + k];
+            const int32_t limit = TL_MAX_CONTOUR_COORDINATE;
+            good = v->x >= -limit && v->x <= limit && v->z >= -limit && v->z <= limit;
+        }
+        if (!good) {
+            tl_polygon_checker_note(c, TL_POLYGON_FAULT_RANGE, "contour", i);
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool is_late_direction(tl_lattice_point a, tl_lattice_point b)
 {
     return !(b.x > a.x || (b.x == a.x && b.z > a.z));
@@ -235,7 +255,7 @@ static tl_result check_links(tl_polygon_checker *c)
 
 static tl_result check(tl_polygon_checker *c)
 {
-    if (!ranges_are_good(c)) {
+    if (!ranges_are_good(c) || !contours_are_good(c)) {
         return TL_OK;
     }
     bool shapes_are_good;

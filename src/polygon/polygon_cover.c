@@ -148,16 +148,18 @@ static tl_result sort_polygons(cover *c)
     return TL_OK;
 }
 
-// Doubled area of the polygons of each contour; polygons of several contours go into *shared.
-static int64_t *sum_areas(tl_polygon_checker *checker, int64_t *shared)
+// Doubled area of the polygons of each contour; polygons of several contours go into *shared. Modulo 2^64: a mesh that
+// is wrong may have any number of polygons on one place.
+static uint64_t *sum_areas(tl_polygon_checker *checker, uint64_t *shared)
 {
     const tl_polygon_mesh *mesh = checker->mesh;
-    int64_t *areas = TL_PUSH_ZERO(&checker->arena, int64_t, checker->contours->contour_count);
+    uint64_t *areas = TL_PUSH_ZERO(&checker->arena, uint64_t, checker->contours->contour_count);
     *shared = 0;
     for (uint32_t p = 0; areas != NULL && p < mesh->polygon_count; p++) {
-        int64_t *sum = mesh->contours[p] == TL_SEVERAL_CONTOURS ? shared : &areas[mesh->contours[p]];
+        uint64_t *sum = mesh->contours[p] == TL_SEVERAL_CONTOURS ? shared : &areas[mesh->contours[p]];
         for (uint32_t k = mesh->first[p] + 1; k + 1 < mesh->first[p + 1]; k++) {
-            *sum += tl_turn(tl_mesh_corner(mesh, mesh->first[p]), tl_mesh_corner(mesh, k), tl_mesh_corner(mesh, k + 1));
+            *sum += (uint64_t)tl_turn(tl_mesh_corner(mesh, mesh->first[p]), tl_mesh_corner(mesh, k),
+                                      tl_mesh_corner(mesh, k + 1));
         }
     }
     return areas;
@@ -178,13 +180,13 @@ static int64_t contour_area2(const tl_contour_set *set, uint32_t index)
 static tl_result check_areas(tl_polygon_checker *checker, uint8_t *is_whole)
 {
     const tl_polygon_mesh *mesh = checker->mesh;
-    int64_t shared;
-    int64_t *areas = sum_areas(checker, &shared);
+    uint64_t shared;
+    uint64_t *areas = sum_areas(checker, &shared);
     if (areas == NULL) {
         return TL_ERR_MEMORY;
     }
     uint32_t note = 0;
-    int64_t missing = 0;
+    uint64_t missing = 0;
     for (uint32_t i = 0; i < checker->contours->contour_count; i++) {
         int64_t expected = contour_area2(checker->contours, i);
         is_whole[i] = 1;
@@ -194,11 +196,13 @@ static tl_result check_areas(tl_polygon_checker *checker, uint8_t *is_whole)
                 is_whole[i] = 0;
             }
         }
-        if (areas[i] > expected || (areas[i] < expected && shared == 0)) {
+        // Polygons of several contours may hold the rest.
+        int64_t rest = (int64_t)((uint64_t)expected - areas[i]);
+        if (rest < 0 || (rest > 0 && shared == 0)) {
             tl_polygon_checker_note(checker, TL_POLYGON_FAULT_AREA, "contour", i);
         }
-        if (areas[i] < expected) {
-            missing += expected - areas[i];
+        if (rest > 0) {
+            missing += (uint64_t)rest;
             is_whole[i] = 0;
         }
     }

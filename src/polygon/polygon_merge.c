@@ -20,7 +20,7 @@
 
 #include <string.h>
 
-enum { NOT_WAITING = UINT32_MAX };
+#define NOT_WAITING UINT32_MAX
 
 // An edge and the places of its two polygons, the lower one in the high bits.
 typedef struct waiting_edge {

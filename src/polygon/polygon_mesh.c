@@ -198,7 +198,9 @@ static tl_result add_contour(builder *b, uint32_t index)
     note.vertex = outline.fault_vertex;
     note.contour_area2 = outline.area2;
     note.covered_area2 = stored_area2(&b->store, first_polygon);
-    b->report.uncovered_area2 += note.contour_area2 - note.covered_area2;
+    // Modulo 2^64, as the areas of outlines that wind around much floor several times are.
+    b->report.uncovered_area2 =
+        (int64_t)((uint64_t)b->report.uncovered_area2 + (uint64_t)note.contour_area2 - (uint64_t)note.covered_area2);
     if (note.faults & TL_CONTOUR_FAULT_REFUSED) {
         b->report.refused_contours++;
     } else if (note.faults & TL_CONTOUR_FAULT_EMPTY) {
