@@ -5,6 +5,7 @@
 
 #include "talus_test.h"
 
+#include "base/hash.h"
 #include "hull_shapes.h"
 
 #include <talus/hull.h>
@@ -276,6 +277,24 @@ static void test_same_points_same_bytes(void **state)
     }
 }
 
+// Bytes that all compilers, levels of optimization and the scalar twin of the SIMD code agree on. A change here means a
+// change of the format or of the hulls themselves: raise TL_HULL_VERSION when old files cannot be read.
+static void test_golden_hash(void **state)
+{
+    (void)state;
+    static const shape_kind kinds[] = { SHAPE_SPHERE, SHAPE_CUBE_SURFACE, SHAPE_GRID, SHAPE_CUBE_VOLUME };
+    tl_vec3 points[300];
+    uint64_t hash = 0;
+    for (int i = 0; i < 4; i++) {
+        test_random random = { (uint64_t)i };
+        shape_make(kinds[i], &random, points, 300);
+        tl_hull *hull = build(points, 300);
+        hash = tl_hash_bytes(hull, hull->blob.size, hash);
+        tl_blob_free(hull, NULL);
+    }
+    TEST_CHECK(hash == 0xb6c924bbe6698a92u);
+}
+
 static void test_memory_runs_out(void **state)
 {
     (void)state;
@@ -411,6 +430,7 @@ int main(void)
         cmocka_unit_test(test_a_cube_is_a_cube),
         cmocka_unit_test(test_reduction_is_graceful),
         cmocka_unit_test(test_same_points_same_bytes),
+        cmocka_unit_test(test_golden_hash),
         cmocka_unit_test(test_memory_runs_out),
         cmocka_unit_test(test_a_build_can_be_cancelled),
         cmocka_unit_test(test_real_clouds),
