@@ -48,6 +48,7 @@ static uint32_t floor_sqrt(uint32_t n)
     return root;
 }
 
+// As square as it gets: columns * rows is at most `cells` and close to it.
 static tl_sample_plan plan_of(uint32_t cells, uint32_t detail, uint64_t seed)
 {
     tl_sample_plan plan;
@@ -67,31 +68,31 @@ static uint32_t count_triangles(const tl_sample_level *level, uint32_t cells, ui
     return counter.result == TL_OK ? counter.triangle_count : UINT32_MAX;
 }
 
-// The count grows nearly in proportion to the cells, so a few proportional steps come close; the last ones only shrink.
+// The count grows nearly in proportion to the cells, so a few proportional steps come close. `low` cells fit and `high`
+// cells do not; a step never leaves the two, and ends when no rectangle of cells lies between.
 static tl_sample_plan choose_plan(const tl_sample_level *level, uint32_t triangle_count, uint64_t seed)
 {
-    enum { PROBES = 12, FREE_PROBES = 6 };
+    enum { PROBES = 20 };
     uint32_t detail = count_triangles(level, 1, 1, seed) <= triangle_count ? 1 : 0;
-    uint32_t best = 1;
-    uint32_t cells = 4;
-    for (uint32_t probe = 0; probe < PROBES; ++probe) {
-        uint32_t count = count_triangles(level, cells, detail, seed);
-        if (count <= triangle_count) {
-            best = cells > best ? cells : best;
-            if (probe >= FREE_PROBES || count >= triangle_count - triangle_count / 64) {
+    uint64_t low = 1;
+    uint64_t high = (uint64_t)triangle_count + 2; // a cell has at least one triangle
+    uint64_t guess = 4;
+    for (uint32_t probe = 0; probe < PROBES && guess > low && guess < high; ++probe) {
+        uint32_t count = count_triangles(level, (uint32_t)guess, detail, seed);
+        tl_sample_plan plan = plan_of((uint32_t)guess, detail, seed);
+        if (count > triangle_count) {
+            high = (uint64_t)plan.columns * plan.rows;
+        } else {
+            low = guess;
+            if (count >= triangle_count - triangle_count / 64) {
                 break;
             }
         }
-        uint64_t next = (uint64_t)cells * triangle_count / (count > 0 ? count : 1);
-        if (next == cells || next == 0) {
-            next = count > triangle_count && cells > 1 ? cells - 1 : cells + 1;
-        }
-        if (next > triangle_count) {
-            break; // a cell has at least one triangle
-        }
-        cells = (uint32_t)next;
+        uint64_t next = guess * triangle_count / (count > 0 ? count : 1);
+        next = next > low ? next : low + 1 + low / 64;
+        guess = next < high ? next : high - 1;
     }
-    return plan_of(best, detail, seed);
+    return plan_of((uint32_t)low, detail, seed);
 }
 
 // A rock level is used while at least four of it fit, so that what is left is strewn in all sizes and not in one.

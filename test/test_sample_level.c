@@ -37,6 +37,29 @@ static void test_reaches_the_size(void **state)
     }
 }
 
+// A large request is met by extent, not by rocks: four times the triangles is about four times the ground.
+static void test_grows_by_extent(void **state)
+{
+    (void)state;
+    uint32_t count;
+    const tl_sample_level *levels = tl_sample_levels(&count);
+    for (uint32_t i = 0; i < count; ++i) {
+        double ground[2];
+        for (unsigned k = 0; k < 2; ++k) {
+            tl_sample_mesh mesh;
+            build(&levels[i], k == 0 ? 250000 : 1000000, 1, &mesh);
+            tl_aabb bounds = tl_aabb_empty();
+            for (uint32_t v = 0; v < mesh.vertex_count; ++v) {
+                bounds = tl_aabb_add_point(bounds, mesh.vertices[v]);
+            }
+            tl_vec3 size = tl_aabb_size(bounds);
+            ground[k] = (double)size.x * (double)size.z;
+            tl_sample_mesh_free(&mesh);
+        }
+        TEST_CHECK(ground[1] > 3.2 * ground[0] && ground[1] < 4.8 * ground[0]);
+    }
+}
+
 static void test_too_small_gives_the_smallest(void **state)
 {
     (void)state;
@@ -256,9 +279,13 @@ static void test_carving(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_reaches_the_size), cmocka_unit_test(test_too_small_gives_the_smallest),
-        cmocka_unit_test(test_golden),           cmocka_unit_test(test_closed_levels_are_closed),
-        cmocka_unit_test(test_no_flat_triangle), cmocka_unit_test(test_pieces),
+        cmocka_unit_test(test_reaches_the_size),
+        cmocka_unit_test(test_grows_by_extent),
+        cmocka_unit_test(test_too_small_gives_the_smallest),
+        cmocka_unit_test(test_golden),
+        cmocka_unit_test(test_closed_levels_are_closed),
+        cmocka_unit_test(test_no_flat_triangle),
+        cmocka_unit_test(test_pieces),
         cmocka_unit_test(test_carving),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
