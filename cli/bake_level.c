@@ -17,7 +17,7 @@ tl_bake_settings tl_default_bake_settings(void)
     settings.soup = true;
     settings.nav = true;
     settings.nav_def = tl_default_nav_def();
-    settings.partition = settings.nav_def.partition;
+    settings.partition = (int)settings.nav_def.partition;
     return settings;
 }
 
