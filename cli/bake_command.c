@@ -166,7 +166,7 @@ static uint32_t collect_counts(const bake_result *r, stage_count out[STAGE_COUNT
         { "contours", "contours", nav->contour_count, 0 },
         { "polygons", "polygons", nav->polygon_count, 0 },
         { "detail", "triangles", nav->detail_triangle_count, 0 },
-        { "bake tile", "polygons", nav->polygon_count, tile_bytes(r->bake) },
+        { "tile", "polygons", nav->polygon_count, tile_bytes(r->bake) },
         { "tiles", "tiles", nav->tile_count, tile_bytes(r->bake) },
         { "write", "", 0, r->file_bytes },
     };

@@ -7,6 +7,14 @@
 // clang-format off
 #define COMMANDS(COMMAND) \
     COMMAND(sample) \
+    COMMAND(bake) \
+    COMMAND(info) \
+    COMMAND(check) \
+    COMMAND(ray) \
+    COMMAND(path) \
+    COMMAND(hull) \
+    COMMAND(support) \
+    COMMAND(distance) \
     COMMAND(polygonize)
 // clang-format on
 

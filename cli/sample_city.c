@@ -65,13 +65,13 @@ static void add_walls(const lot *here, bool windows, float top, tl_sample_mesh *
     for (uint32_t i = 0; windows && i < here->storeys; ++i) {
         cut_windows(&walls, (float)i * STOREY);
     }
-    tl_sample_carving_cut(&walls, 2.4f, 0.0f, -HALF_Z, 4.0f, 2.3f, -z); // front door
-    tl_sample_carving_cut(&walls, -4.0f, 0.0f, z, -2.4f, 2.3f, HALF_Z); // back door
+    tl_sample_carving_cut(&walls, 2.0f, 0.0f, -HALF_Z, 4.2f, 2.4f, -z); // front door
+    tl_sample_carving_cut(&walls, -0.2f, 0.0f, z, 2.0f, 2.4f, HALF_Z);  // back door
     tl_sample_carving_finish(&walls, NULL, mesh);
     for (uint32_t i = 0; windows && i < here->storeys; ++i) {
         float floor = (float)i * STOREY;
         tl_sample_carving_add(&walls, -0.06f, floor, -z, 0.06f, floor + STOREY - SLAB, z);
-        tl_sample_carving_cut(&walls, -0.06f, floor, -1.0f, 0.06f, floor + 2.2f, 1.0f);
+        tl_sample_carving_cut(&walls, -0.06f, floor, -1.2f, 0.06f, floor + 2.4f, 1.2f);
         tl_sample_carving_finish(&walls, NULL, mesh);
     }
 }
@@ -89,11 +89,11 @@ static void add_floors(const lot *here, bool roof_access, tl_sample_mesh *mesh)
         tl_sample_place(mesh, here->center, turns);
         tl_sample_carving_add(&slab, -x, top - SLAB, -z, x, top, z);
         if (opening) {
-            tl_sample_carving_cut(&slab, -5.9f, top - SLAB, -z, -2.7f, top, -z + 1.5f);
+            tl_sample_carving_cut(&slab, -6.2f, top - SLAB, -z, -2.2f, top, -z + 2.5f);
         }
         tl_sample_carving_finish(&slab, NULL, mesh);
         if (opening) {
-            tl_sample_stairs(mesh, tl_sample_bounds(-7.1f, top - STOREY, -z, -2.7f, top, -z + 1.4f), 16);
+            tl_sample_stairs(mesh, tl_sample_bounds(-6.0f, top - STOREY, -z, -2.2f, top, -z + 2.4f), 16);
         }
     }
 }
@@ -123,10 +123,10 @@ static void add_park(const lot *here, tl_sample_mesh *mesh)
 {
     tl_sample_carving fence = { 0 };
     tl_sample_place(mesh, here->center, here->turns);
-    tl_sample_stairs(mesh, tl_sample_bounds(0.0f, -3.0f, 3.0f, 5.0f, 0.0f, 5.0f), 15);
+    tl_sample_stairs(mesh, tl_sample_bounds(0.0f, -3.0f, 2.2f, 5.0f, 0.0f, 5.0f), 15);
     tl_sample_carving_add(&fence, -5.6f, 0.0f, -5.6f, 5.6f, 1.0f, 5.6f);
     tl_sample_carving_cut(&fence, -5.52f, 0.0f, -5.52f, 5.52f, 1.0f, 5.52f);
-    tl_sample_carving_cut(&fence, 5.52f, 0.0f, 3.0f, 5.6f, 1.0f, 5.0f);
+    tl_sample_carving_cut(&fence, 5.52f, 0.0f, 2.2f, 5.6f, 1.0f, 5.0f);
     tl_sample_carving_finish(&fence, NULL, mesh);
     for (unsigned i = 0; i < 4; ++i) {
         add_tree(mesh, i & 1 ? 7.5f : -7.5f, i & 2 ? 7.5f : -7.5f, here->hash + i);
@@ -157,13 +157,13 @@ static void add_footbridge(uint32_t column, uint32_t row, tl_sample_mesh *mesh)
     tl_vec3 middle = { ((float)column + 1.0f) * BLOCK, 0.0f, ((float)row + 0.5f) * BLOCK };
     tl_sample_carving deck = { 0 };
     tl_sample_place(mesh, middle, 0);
-    tl_sample_carving_add(&deck, -8.0f, 4.7f, -1.2f, 8.0f, 5.0f, 1.2f);
-    tl_sample_carving_add(&deck, -6.0f, 5.0f, -1.2f, 6.0f, 6.0f, -1.14f);
-    tl_sample_carving_add(&deck, -6.0f, 5.0f, 1.14f, 6.0f, 6.0f, 1.2f);
+    tl_sample_carving_add(&deck, -7.8f, 4.7f, -1.4f, 7.8f, 5.0f, 1.4f);
+    tl_sample_carving_add(&deck, -4.9f, 5.0f, -1.4f, 4.9f, 6.0f, -1.34f);
+    tl_sample_carving_add(&deck, -4.9f, 5.0f, 1.34f, 4.9f, 6.0f, 1.4f);
     tl_sample_carving_finish(&deck, NULL, mesh);
     for (unsigned side = 0; side < 2; ++side) {
         tl_sample_place(mesh, middle, 1 + 2 * side); // climbs towards -z, then towards +z
-        tl_sample_stairs(mesh, tl_sample_bounds(-8.2f, KERB, 6.2f, -1.2f, 5.0f, 8.0f), 28);
+        tl_sample_stairs(mesh, tl_sample_bounds(-8.4f, 0.0f, 5.0f, -1.4f, 5.0f, 7.8f), 28);
         tl_sample_pillar(mesh, tl_vec3_make(0.0f, 0.0f, 6.6f), 0.3f, 4.7f, 2);
     }
 }

@@ -9,7 +9,7 @@
 #include "sample_level.h"
 
 #define WARD      40.0f
-#define HALF_WALL 17.0f // outer face of the walls, from the ward's centre
+#define HALF_WALL 18.0f // outer face of the walls, from the ward's centre
 #define INNER     15.0f // inner face
 #define WALK      5.0f  // height of the wall-walk
 
@@ -37,7 +37,7 @@ static void add_walls(const tl_sample_plan *plan, tl_sample_mesh *mesh)
         tl_sample_carving_add(&walls, -a, WALK, -a, a, WALK + 1.1f, a);
         tl_sample_carving_cut(&walls, -a + 0.3f, WALK, -a + 0.3f, a - 0.3f, WALK + 1.1f, a - 0.3f);
         for (int i = -3; i <= 3; ++i) { // crenels
-            float at = 4.0f * (float)i;
+            float at = 4.5f * (float)i;
             tl_sample_carving_cut(&walls, at - 0.5f, WALK + 0.6f, -a, at + 0.5f, WALK + 1.1f, a);
             tl_sample_carving_cut(&walls, -a, WALK + 0.6f, at - 0.5f, a, WALK + 1.1f, at + 0.5f);
         }
@@ -57,12 +57,12 @@ static void add_climbs(const tl_sample_plan *plan, tl_vec3 center, unsigned turn
 {
     float w = INNER;
     tl_sample_place(mesh, center, turns);
-    tl_sample_stairs(mesh, tl_sample_bounds(-w + 4.0f, 0.0f, -w, -w + 11.0f, WALK, -w + 2.0f), plan->detail ? 25 : 12);
-    tl_sample_box(mesh, tl_sample_bounds(-w + 11.0f, 0.0f, -w, -w + 12.5f, WALK, -w + 2.0f)); // landing
+    tl_sample_stairs(mesh, tl_sample_bounds(-w + 4.0f, 0.0f, -w, -w + 11.0f, WALK, -w + 2.6f), plan->detail ? 25 : 12);
+    tl_sample_box(mesh, tl_sample_bounds(-w + 11.0f, 0.0f, -w, -w + 13.0f, WALK, -w + 2.6f)); // landing
     if (plan->detail > 0) {
         tl_sample_place(mesh, center, turns + 2);
-        tl_sample_ramp(mesh, tl_sample_bounds(-w + 1.5f, 0.0f, -w, -w + 12.0f, WALK, -w + 2.2f));
-        tl_sample_box(mesh, tl_sample_bounds(-w + 12.0f, 0.0f, -w, -w + 13.0f, WALK, -w + 2.2f));
+        tl_sample_ramp(mesh, tl_sample_bounds(-w + 1.5f, 0.0f, -w, -w + 12.0f, WALK, -w + 2.6f));
+        tl_sample_box(mesh, tl_sample_bounds(-w + 12.0f, 0.0f, -w, -w + 13.5f, WALK, -w + 2.6f));
     }
 }
 
@@ -96,9 +96,9 @@ static void add_gatehouse(tl_vec3 center, unsigned turns, tl_sample_mesh *mesh)
     tl_sample_place(mesh, center, turns);
     tl_sample_carving_add(&house, -13.0f, 0.0f, 7.0f, -6.0f, 3.4f, 12.6f);
     tl_sample_carving_cut(&house, -12.7f, 0.15f, 7.3f, -6.3f, 3.0f, 12.3f);
-    tl_sample_carving_cut(&house, -10.3f, 0.15f, 7.0f, -8.9f, 2.35f, 7.3f);
+    tl_sample_carving_cut(&house, -9.2f, 0.15f, 7.0f, -7.0f, 2.45f, 7.3f);
     tl_sample_carving_cut(&house, -6.3f, 1.1f, 9.0f, -6.0f, 2.2f, 10.4f);
-    tl_sample_carving_add(&house, -9.6f, 0.15f, 9.4f, -9.5f, 3.0f, 12.3f); // a thin partition inside
+    tl_sample_carving_add(&house, -9.6f, 0.15f, 9.8f, -9.5f, 3.0f, 12.3f); // a thin partition inside
     tl_sample_carving_finish(&house, NULL, mesh);
     tl_sample_gable(mesh, tl_sample_bounds(-13.6f, 3.4f, 6.4f, -5.4f, 5.6f, 13.2f));
 }

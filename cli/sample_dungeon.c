@@ -120,9 +120,9 @@ static void furnish_rock(tl_sample_carving *rock, const room *r)
         break;
     case ROOM_PARTITION: // two thin walls with a door each, on opposite sides
         tl_sample_carving_add(rock, a.x, a.y, -1.9f, b.x, b.y, -1.8f);
-        tl_sample_carving_cut(rock, a.x + 0.6f, a.y, -1.9f, a.x + 2.2f, a.y + 2.2f, -1.8f);
+        tl_sample_carving_cut(rock, a.x + 0.6f, a.y, -1.9f, a.x + 2.8f, a.y + 2.4f, -1.8f);
         tl_sample_carving_add(rock, a.x, a.y, 1.8f, b.x, b.y, 1.9f);
-        tl_sample_carving_cut(rock, b.x - 2.2f, a.y, 1.8f, b.x - 0.6f, a.y + 2.2f, 1.9f);
+        tl_sample_carving_cut(rock, b.x - 2.8f, a.y, 1.8f, b.x - 0.6f, a.y + 2.4f, 1.9f);
         break;
     default:
         break;
@@ -142,7 +142,7 @@ static void furnish_mesh(const room *r, tl_vec3 center, tl_sample_mesh *mesh)
     } else if (r->kind == ROOM_GALLERY) {
         float top = a.y + 3.25f;
         tl_sample_place(mesh, center, 3);                                                      // climbs towards +z
-        tl_aabb box = tl_sample_bounds(b.z - 2.6f - 4.0f, a.y, -2.8f, b.z - 2.6f, top, -1.4f); // clear of the doors
+        tl_aabb box = tl_sample_bounds(b.z - 2.6f - 4.0f, a.y, -4.0f, b.z - 2.6f, top, -1.4f); // clear of the doors
         tl_sample_stairs(mesh, box, 16);
     }
 }

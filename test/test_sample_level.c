@@ -104,10 +104,10 @@ static void test_golden(void **state)
         const char *name;
         uint64_t hash;
     } golden[] = {
-        { "courtyard", 0x9010fc49390170b8 },
-        { "dungeon", 0x5c9bd20951d67eb6 },
+        { "courtyard", 0x10ed80d4410cd5bb },
+        { "dungeon", 0x4dea8e609aa0d01c },
         { "terrain", 0x2e0c333b925a03d4 },
-        { "city", 0x94d450d22cfea9f1 },
+        { "city", 0x633897e1ac1d1941 },
     };
     for (size_t i = 0; i < 4; ++i) {
         uint64_t hash = hash_of(golden[i].name, 30000, 1);
