@@ -24,8 +24,8 @@ static room room_of(const tl_sample_plan *plan, uint32_t column, uint32_t row)
 {
     tl_sample_random random = tl_sample_random_make(plan->seed, column, row);
     room result;
-    float half_x = tl_sample_random_range(&random, 4.0f, 5.8f);
-    float half_z = tl_sample_random_range(&random, 4.0f, 5.8f);
+    float half_x = tl_sample_random_range(&random, 4.8f, 6.4f);
+    float half_z = tl_sample_random_range(&random, 4.8f, 6.4f);
     float floor = STOREY * (float)tl_sample_random_below(&random, 3);
     float height = tl_sample_random_range(&random, 4.2f, 5.5f);
     result.kind = plan->detail > 0 ? (room_kind)tl_sample_random_below(&random, ROOM_KINDS) : ROOM_PLAIN;
@@ -93,7 +93,7 @@ static void add_climb(const room *here, const room *there, unsigned side, tl_vec
         return;
     }
     float reach = side % 2 == 0 ? here->box.max.x : here->box.max.z;
-    float length = rise * 1.25f;
+    float length = rise * 1.1f;
     tl_sample_place(mesh, center, turns[side]);
     tl_aabb box = tl_sample_bounds(-reach - length, there->box.min.y, -HALF_DOOR, -reach, here->box.min.y, HALF_DOOR);
     if (rise < 1.5f * STOREY && (here->hash >> (16 + side)) % 2 != 0) {
@@ -111,8 +111,8 @@ static void furnish_rock(tl_sample_carving *rock, const room *r)
     tl_vec3 b = r->box.max;
     switch (r->kind) {
     case ROOM_PIT: // a hole with a bridge across and one flush floor all round
-        tl_sample_carving_cut(rock, a.x + 1.6f, a.y - 4.0f, a.z + 1.6f, b.x - 1.6f, a.y, b.z - 1.6f);
-        tl_sample_carving_add(rock, a.x + 1.6f, a.y - 0.4f, -1.0f, b.x - 1.6f, a.y, 1.0f);
+        tl_sample_carving_cut(rock, a.x + 2.2f, a.y - 4.0f, a.z + 2.2f, b.x - 2.2f, a.y, b.z - 2.2f);
+        tl_sample_carving_add(rock, a.x + 2.2f, a.y - 0.4f, -1.3f, b.x - 2.2f, a.y, 1.3f);
         break;
     case ROOM_GALLERY: // a second floor along +z, reached by stairs
         tl_sample_carving_cut(rock, a.x, b.y, a.z, b.x, a.y + 6.0f, b.z);
@@ -141,8 +141,8 @@ static void furnish_mesh(const room *r, tl_vec3 center, tl_sample_mesh *mesh)
         }
     } else if (r->kind == ROOM_GALLERY) {
         float top = a.y + 3.25f;
-        tl_sample_place(mesh, center, 3);                                                      // climbs towards +z
-        tl_aabb box = tl_sample_bounds(b.z - 2.6f - 4.0f, a.y, -4.0f, b.z - 2.6f, top, -1.4f); // clear of the doors
+        tl_sample_place(mesh, center, 3); // climbs towards +z
+        tl_aabb box = tl_sample_bounds(b.z - 2.6f - 4.0f, a.y, -1.25f, b.z - 2.6f, top, 1.25f);
         tl_sample_stairs(mesh, box, 16);
     }
 }

