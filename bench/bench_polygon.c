@@ -139,8 +139,18 @@ static void bench_file(const char *path, totals *sums)
     }
 }
 
-static void bench_family(const char *name, const oracle_point *points, uint32_t n)
+static void bench_family(const char *name, oracle_point *points, uint32_t n)
 {
+    // Recast's coordinates are 16 bits without sign.
+    oracle_point low = points[0];
+    for (uint32_t i = 1; i < n; i++) {
+        low.x = points[i].x < low.x ? points[i].x : low.x;
+        low.z = points[i].z < low.z ? points[i].z : low.z;
+    }
+    for (uint32_t i = 0; i < n; i++) {
+        points[i].x -= low.x;
+        points[i].z -= low.z;
+    }
     tl_contour_vertex *vertices = malloc(n * sizeof *vertices);
     tl_contour contour;
     tl_contour_set set = shape_as_set(points, n, vertices, &contour);
@@ -157,7 +167,7 @@ static void bench_families(void)
     static const uint32_t sizes[4] = { 400, 10000, 20000, 100000 };
     oracle_point *points = malloc(200000 * sizeof *points);
     for (uint32_t i = 0; i < 4; i++) {
-        shape_star(points, sizes[i], 1e8, 3e7);
+        shape_star(points, sizes[i], i == 0 ? 3e4 : 1e8, i == 0 ? 1e4 : 3e7);
         bench_family("star", points, sizes[i]);
         shape_comb(points, sizes[i], 1000);
         bench_family("comb", points, sizes[i]);

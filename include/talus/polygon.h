@@ -117,9 +117,9 @@ typedef enum tl_partition_method {
 typedef struct tl_polygon_def {
     uint32_t max_verts_per_poly; ///< [3, 64], or 0: as many as it takes. Default 6
     tl_partition_method method;  ///< Default TL_PARTITION_CLASSIC
-    uint32_t merge_height; ///< lattice units: vertices of equal x and z at most this far apart on y become one, the
-                           ///< nearest one. Two regions take a corner's height each from its own floor, so on slopes
-                           ///< and stairs exact heights lose links between them. Default 2, as Recast
+    uint32_t merge_height;     ///< lattice units: vertices of equal x and z at most this far apart on y become one, the
+                               ///< nearest one. 0: equal vertices only, which is enough where both regions take a
+                               ///< corner's height from the same floors. Default 2, as Recast
     bool keep_border_vertices; ///< true: vertices flagged TL_CONTOUR_BORDER_VERTEX stay. Default false
     tl_host host;
 } tl_polygon_def;
