@@ -45,6 +45,12 @@ static void invariants(void **state)
                 TEST_CHECK(v->x != next->x || v->z != next->z);
             }
         }
+        // Polygons are made of them as they are: nothing to repair.
+        tl_polygon_def def = tl_default_polygon_def();
+        tl_polygon_mesh polygons;
+        TEST_RESULT(tl_polygon_mesh_build(&contours.set, &def, &polygons, NULL), TL_OK);
+        TEST_CHECK(polygons.note_count == 0);
+        tl_polygon_mesh_free(&polygons, NULL);
         contours_seen += contours.set.contour_count;
         holes += contours.hole_count;
         repaired += contours.repaired_count;
@@ -56,10 +62,82 @@ static void invariants(void **state)
     TEST_CHECK(unbridged == 0);
 }
 
+static void lattice_of_a_tile(void **state)
+{
+    (void)state;
+    test_random random = { 3 };
+    tl_nav_compact compact = fixture_random(&random, 30, 26, 1, 0, 3);
+    compact.lattice.first_x = 61;
+    compact.lattice.first_z = -3;
+    tl_nav_config config = region_config(TL_NAV_LAYERS, 0, 0);
+    tl_nav_contours contours;
+    make_contours(&compact, &config, &contours);
+    TEST_CHECK(contours.set.width == 24 && contours.set.height == 20 && contours.set.border_size == 3);
+    TEST_CHECK(contours.set.bounds.min.x == -3.0f + 64 * 0.5f && contours.set.bounds.min.z == 7.0f);
+    TEST_CHECK(contours.set.bounds.max.x == -3.0f + 88 * 0.5f && contours.set.bounds.max.z == 7.0f + 20 * 0.5f);
+    for (uint32_t k = 0; k < contours.set.vertex_count; k++) {
+        const tl_contour_vertex *v = &contours.set.vertices[k];
+        TEST_CHECK(v->x >= 0 && v->x <= 24 && v->z >= 0 && v->z <= 20);
+    }
+    tl_nav_contours_free(&contours);
+    fixture_compact_free(&compact);
+}
+
+static void nothing_walkable(void **state)
+{
+    (void)state;
+    static const char *const rows[] = { "###", "   " };
+    tl_nav_compact compact = fixture_from_rows(rows, 2, 0);
+    tl_nav_config config = region_config(TL_NAV_WATERSHED, 0, 0);
+    tl_nav_contours contours;
+    tl_report report;
+    TEST_RESULT(tl_nav_build_contours(&config, &compact, NULL, &contours, &report), TL_ERR_ARGUMENT); // no regions yet
+    TEST_CHECK(report.advice != NULL && contours.block == NULL);
+    make_contours(&compact, &config, &contours);
+    TEST_CHECK(contours.set.contour_count == 0 && contours.raw.contour_count == 0);
+    tl_nav_contours_free(&contours);
+    fixture_compact_free(&compact);
+}
+
+static void fails_at_each_allocation(void **state)
+{
+    (void)state;
+    test_random random = { 12 };
+    tl_nav_compact compact = fixture_random(&random, 50, 50, 2, 6, 0);
+    tl_nav_config config = region_config(TL_NAV_LAYERS, 5, 0);
+    config.max_simplification_error = 2.0f;
+    tl_nav_contours whole;
+    make_contours(&compact, &config, &whole);
+    test_allocator test;
+    uint64_t k = 1;
+    for (;; k++) {
+        test_allocator_init(&test, k);
+        tl_host host = { &test.allocator, NULL, NULL };
+        tl_nav_contours contours;
+        tl_result result = tl_nav_build_contours(&config, &compact, &host, &contours, NULL);
+        if (result == TL_OK) {
+            TEST_CHECK(contours.set.vertex_count == whole.set.vertex_count);
+            assert_memory_equal(contours.set.vertices, whole.set.vertices,
+                                whole.set.vertex_count * sizeof *whole.set.vertices);
+            tl_nav_contours_free(&contours);
+            TEST_CHECK(test.live_blocks == 0 && test.live_bytes == 0);
+            break;
+        }
+        TEST_RESULT(result, TL_ERR_MEMORY);
+        TEST_CHECK(test.live_blocks == 0 && contours.block == NULL && contours.set.contours == NULL);
+    }
+    TEST_CHECK(k > 3);
+    tl_nav_contours_free(&whole);
+    fixture_compact_free(&compact);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(invariants),
+        cmocka_unit_test(lattice_of_a_tile),
+        cmocka_unit_test(nothing_walkable),
+        cmocka_unit_test(fails_at_each_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -295,7 +295,7 @@ tl_result tl_contours_repair(tl_contour_work *work)
             }
             r.dirty[region] = 0;
             for (uint32_t k = r.first_loop[region]; k < r.first_loop[region + 1]; k++) {
-                tl_contours_keep_within_error(work, r.loops[k], r.stack);
+                tl_contours_refine(work, r.loops[k], r.stack);
             }
             mend_crossings(&r, collect_edges(&r, region));
             changed = true;

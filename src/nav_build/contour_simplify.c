@@ -4,7 +4,7 @@
 //
 // Kept from the start: where the region or area across changes, else the outline's lower left and upper right corner.
 // Between these, along walls and area borders, the farthest vertex is kept until all are within max_error of the
-// simplified edge; an edge between two regions of one area is made straight. Then long edges along walls are halved.
+// simplified edge, and long edges along walls are halved; an edge between two regions of one area is made straight.
 // Source: Ramer 1972, Douglas and Peucker 1973; Mononen, Recast (where to start, which edges).
 //
 // Two regions that share an edge see it from both sides and must simplify it alike, or gaps open. Therefore each
@@ -135,23 +135,23 @@ static uint32_t middle_of_long(const tl_contour_work *work, const tl_contour_loo
     return middle < loop->first + loop->count ? middle : middle - loop->count;
 }
 
-typedef uint32_t split_fn(const tl_contour_work *work, const tl_contour_loop *loop, uint32_t begin, uint32_t end);
-
-static uint32_t beyond_error(const tl_contour_work *work, const tl_contour_loop *loop, uint32_t begin, uint32_t end)
+// The vertex to keep next between two kept ones, or `begin` when the edge between them will do. Halving an edge moves
+// it, so the error comes first again on both halves. (Recast looks at errors, then at lengths, and no more.)
+static uint32_t choose_split(const tl_contour_work *work, const tl_contour_loop *loop, uint32_t begin, uint32_t end)
 {
-    (void)loop;
     double error = (double)work->config->max_simplification_error, largest;
     uint32_t farthest = tl_contours_farthest(work, begin, end, &largest);
-    return largest > error * error ? farthest : begin;
+    if (largest > error * error) {
+        return farthest;
+    }
+    return work->across[begin] == 0 ? middle_of_long(work, loop, begin, end) : begin;
 }
 
-// Keeps vertices between two kept ones as long as `split` names one. `stack` has room for the loop's count.
-static void refine(tl_contour_work *work, const tl_contour_loop *loop, uint32_t begin, uint32_t end, split_fn *split,
-                   uint32_t *stack)
+static void refine(tl_contour_work *work, const tl_contour_loop *loop, uint32_t begin, uint32_t end, uint32_t *stack)
 {
     uint32_t depth = 0; // ends that wait, all different: at most the loop's vertices
     for (;;) {
-        uint32_t middle = split(work, loop, begin, end);
+        uint32_t middle = choose_split(work, loop, begin, end);
         if (middle != begin) {
             work->keep[middle] = 1;
             stack[depth++] = end;
@@ -165,11 +165,10 @@ static void refine(tl_contour_work *work, const tl_contour_loop *loop, uint32_t 
     }
 }
 
-// Visits the stretches between kept vertices that lie along a wall, or with `areas` along an area border too.
-static void refine_loop(tl_contour_work *work, const tl_contour_loop *loop, bool areas, split_fn *split,
-                        uint32_t *stack)
+void tl_contours_refine(tl_contour_work *work, uint32_t loop, uint32_t *stack)
 {
-    uint32_t start = loop->first;
+    const tl_contour_loop *l = &work->loops[loop];
+    uint32_t start = l->first;
     while (!work->keep[start]) {
         start++;
     }
@@ -178,20 +177,14 @@ static void refine_loop(tl_contour_work *work, const tl_contour_loop *loop, bool
         while (!work->keep[end]) {
             end = tl_contour_next(work, end);
         }
-        bool area_border = (work->vertices[begin].flags & TL_CONTOUR_AREA_BORDER) != 0;
-        if (work->across[begin] == 0 || (areas && area_border)) {
-            refine(work, loop, begin, end, split, stack);
+        if (work->across[begin] == 0 || (work->vertices[begin].flags & TL_CONTOUR_AREA_BORDER) != 0) {
+            refine(work, l, begin, end, stack);
         }
         if (end == start) {
             return;
         }
         begin = end;
     }
-}
-
-void tl_contours_keep_within_error(tl_contour_work *work, uint32_t loop, uint32_t *stack)
-{
-    refine_loop(work, &work->loops[loop], true, beyond_error, stack);
 }
 
 tl_result tl_contours_simplify(tl_contour_work *work)
@@ -212,8 +205,7 @@ tl_result tl_contours_simplify(tl_contour_work *work)
         keep_extremes(work, &work->loops[l]);
     }
     for (uint32_t l = 0; l < work->loop_count; l++) {
-        tl_contours_keep_within_error(work, l, stack);
-        refine_loop(work, &work->loops[l], false, middle_of_long, stack);
+        tl_contours_refine(work, l, stack);
     }
     return TL_OK;
 }

@@ -18,10 +18,12 @@
 
 typedef struct tracer {
     tl_contour_work *work;
-    uint8_t *open;        // [span_count] bit d: edge d is on an outline and was not walked yet
-    uint8_t *outline;     // [span_count] bit d: edge d is on an outline
-    uint32_t *first_edge; // [span_count] outline edges of the floors before this one
-    uint32_t *vertex_of;  // [outline edges] the raw vertex where that edge starts
+    uint8_t *open;         // [span_count] bit d: edge d is on an outline and was not walked yet
+    uint8_t *outline;      // [span_count] bit d: edge d is on an outline
+    uint32_t *first_edge;  // [span_count] outline edges of the floors before this one
+    uint32_t *vertex_of;   // [outline edges] the raw vertex where that edge starts
+    uint32_t *floor_of;    // [raw vertices] and its floor
+    uint8_t *direction_of; // [raw vertices] and its direction
     uint32_t loop_capacity;
     uint64_t steps_left; // a walk leaves each pair (floor, direction) once: 4 a floor
 } tracer;
@@ -37,23 +39,36 @@ static inline uint32_t edge_index(const tracer *t, uint32_t floor, uint32_t dire
     return t->first_edge[floor] + (before & 1) + ((before >> 1) & 1) + ((before >> 2) & 1);
 }
 
-// Marks the outline edges of each floor and returns their number.
-static uint64_t find_outlines(tracer *t)
+// Marks the outline edges of each floor. A link is looked at from its later floor and marked on both sides.
+static void mark_outlines(tracer *t)
 {
     const tl_nav_compact *compact = t->work->compact;
-    uint64_t edge_count = 0;
     for (uint32_t i = 0; i < compact->span_count; i++) {
+        const uint32_t *link = compact->neighbour + 4 * (size_t)i;
         uint32_t region = compact->region[i], mask = 0;
-        if (is_traced(region)) {
-            for (uint32_t d = 0; d < 4; d++) {
-                uint32_t beside = compact->neighbour[4 * (size_t)i + d];
-                bool inside = beside != TL_NAV_NO_SPAN && compact->region[beside] == region;
-                mask |= (inside ? 0u : 1u) << d;
+        bool traced = is_traced(region);
+        for (uint32_t d = 0; d < 4; d++) {
+            uint32_t beside = link[d];
+            bool leads_out = beside == TL_NAV_NO_SPAN;
+            if (!leads_out && (d == 0 || d == 3) && compact->region[beside] != region) {
+                leads_out = true;
+                if (is_traced(compact->region[beside])) {
+                    t->outline[beside] = (uint8_t)(t->outline[beside] | (1u << (d ^ 2)));
+                }
             }
+            mask |= (traced && leads_out ? 1u : 0u) << d;
         }
-        t->first_edge[i] = (uint32_t)edge_count;
         t->outline[i] = (uint8_t)mask;
-        t->open[i] = (uint8_t)mask;
+    }
+}
+
+// Counts them.
+static uint64_t number_edges(tracer *t)
+{
+    uint64_t edge_count = 0;
+    for (uint32_t i = 0; i < t->work->compact->span_count; i++) {
+        uint32_t mask = t->outline[i];
+        t->first_edge[i] = (uint32_t)edge_count;
         edge_count += (mask & 1) + ((mask >> 1) & 1) + ((mask >> 2) & 1) + (mask >> 3);
     }
     return edge_count;
@@ -133,6 +148,8 @@ static void emit_edge(tracer *t, uint32_t vertex, uint32_t floor, uint32_t direc
     work->across[vertex] = across;
     work->vertices[vertex].flags |= region_flags(across) | (area_border ? TL_CONTOUR_AREA_BORDER : 0);
     t->vertex_of[edge_index(t, floor, direction)] = vertex;
+    t->floor_of[vertex] = floor;
+    t->direction_of[vertex] = (uint8_t)direction;
 
     corner c = find_corner(compact, floor, direction);
     tl_contour_vertex *end = &work->vertices[vertex + 1];
@@ -233,17 +250,11 @@ static tl_result walk_all(tracer *t)
 static void find_twins(tracer *t)
 {
     tl_contour_work *work = t->work;
-    const tl_nav_compact *compact = work->compact;
-    for (uint32_t i = 0; i < compact->span_count; i++) {
-        for (uint32_t d = 0; t->outline[i] != 0 && d < 4; d++) {
-            if ((t->outline[i] & (1u << d)) == 0) {
-                continue;
-            }
-            uint32_t beside = compact->neighbour[4 * (size_t)i + d];
-            bool has_twin = beside != TL_NAV_NO_SPAN && (t->outline[beside] & (1u << (d ^ 2))) != 0;
-            work->twin[t->vertex_of[edge_index(t, i, d)]] =
-                has_twin ? t->vertex_of[edge_index(t, beside, d ^ 2)] : TL_NO_TWIN;
-        }
+    for (uint32_t k = 0; k < work->vertex_count; k++) {
+        uint32_t direction = t->direction_of[k];
+        uint32_t beside = work->compact->neighbour[4 * (size_t)t->floor_of[k] + direction];
+        bool has_twin = beside != TL_NAV_NO_SPAN && (t->outline[beside] & (1u << (direction ^ 2))) != 0;
+        work->twin[k] = has_twin ? t->vertex_of[edge_index(t, beside, direction ^ 2)] : TL_NO_TWIN;
     }
 }
 
@@ -257,17 +268,21 @@ tl_result tl_contours_trace(tl_contour_work *work)
     if (t.open == NULL || t.outline == NULL || t.first_edge == NULL) {
         return TL_ERR_MEMORY;
     }
-    uint64_t edge_count = find_outlines(&t);
+    mark_outlines(&t);
+    memcpy(t.open, t.outline, compact->span_count);
+    uint64_t edge_count = number_edges(&t);
     if (edge_count >= UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
     t.vertex_of = TL_PUSH(work->arena, uint32_t, edge_count);
+    t.floor_of = TL_PUSH(work->arena, uint32_t, edge_count);
+    t.direction_of = TL_PUSH(work->arena, uint8_t, edge_count);
     work->vertices = TL_PUSH(work->arena, tl_contour_vertex, edge_count + 1); // one ahead while a loop is open
     work->across = TL_PUSH(work->arena, uint32_t, edge_count);
     work->twin = TL_PUSH(work->arena, uint32_t, edge_count);
     work->loop_of = TL_PUSH(work->arena, uint32_t, edge_count);
-    if (t.vertex_of == NULL || work->vertices == NULL || work->across == NULL || work->twin == NULL ||
-        work->loop_of == NULL) {
+    if (t.vertex_of == NULL || t.floor_of == NULL || t.direction_of == NULL || work->vertices == NULL ||
+        work->across == NULL || work->twin == NULL || work->loop_of == NULL) {
         return TL_ERR_MEMORY;
     }
     TL_TRY(walk_all(&t));

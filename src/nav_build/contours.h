@@ -52,8 +52,8 @@ tl_result tl_contours_simplify(tl_contour_work *work);
 /// Keeps a vertex in all outlines that pass it.
 void tl_contours_keep(tl_contour_work *work, uint32_t vertex);
 
-/// Keeps what a loop needs to be within max_error. `stack` has room for the loop's count.
-void tl_contours_keep_within_error(tl_contour_work *work, uint32_t loop, uint32_t *stack);
+/// Keeps what a loop needs to be within max_error and max_edge_len. `stack` has room for the loop's count.
+void tl_contours_refine(tl_contour_work *work, uint32_t loop, uint32_t *stack);
 
 /// Of the traced vertices between begin and end that are not kept, the one farthest from the segment between them;
 /// begin or end when all lie on it. The same from both sides of an edge.
