@@ -86,7 +86,9 @@ static double run_qhull(const tl_vec3 *points, uint32_t count, uint32_t *vertice
     int failed = qh_new_qhull(&qh, 3, (int)count, coordinates, False, options, NULL, null);
     double time = failed ? 1e30 : now() - start;
     *vertices_out = (uint32_t)qh.num_vertices;
-    qh_freeqhull(&qh, qh_ALL);
+    qh_freeqhull(&qh, !qh_ALL);
+    int long_blocks, long_bytes;
+    qh_memfreeshort(&qh, &long_blocks, &long_bytes);
     fclose(null);
     return time;
 }

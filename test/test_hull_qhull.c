@@ -42,7 +42,9 @@ static qhull_result run_qhull(const tl_vec3 *points, uint32_t count)
         }
     }
     fclose(null);
-    qh_freeqhull(&qh, qh_ALL);
+    qh_freeqhull(&qh, !qh_ALL);
+    int long_blocks, long_bytes;
+    qh_memfreeshort(&qh, &long_blocks, &long_bytes);
     free(coordinates);
     return result;
 }
