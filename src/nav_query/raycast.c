@@ -99,19 +99,8 @@ static bool is_through(surface_ray *ray, const tl_nav_seam_link *seam)
     return !is_left(ray, seam->right) && is_left(ray, seam->left);
 }
 
-// Whether the place where the walk begins lies in this stretch of a seam.
-static bool is_beside(surface_ray *ray, const tl_nav_seam_link *seam)
-{
-    double dx = (double)seam->left.x - (double)seam->right.x;
-    double dz = (double)seam->left.z - (double)seam->right.z;
-    double along =
-        dx * ((double)ray->start.x - (double)seam->right.x) + dz * ((double)ray->start.z - (double)seam->right.z);
-    return along >= 0.0 && along <= dx * dx + dz * dz;
-}
-
 // Steps over an edge; false at a wall, at a gap in a tile's seam, and where the filter refuses the polygon behind.
-static bool step(surface_ray *ray, uint32_t edge, bool (*takes)(surface_ray *, const tl_nav_seam_link *),
-                 uint32_t *slot, uint32_t *polygon)
+static bool step(surface_ray *ray, uint32_t edge, uint32_t *slot, uint32_t *polygon)
 {
     const tl_nav_slot *from = &ray->navmesh->slots[*slot];
     uint32_t link = tl_nav_tile_links(from->tile, *polygon)[edge];
@@ -125,7 +114,7 @@ static bool step(surface_ray *ray, uint32_t edge, bool (*takes)(surface_ray *, c
         const tl_nav_seam_link *end = NULL;
         uint64_t key = 0;
         tl_nav_seam_range(from, link & ~TL_NAV_LINK_PORTAL, &seam, &end, &key);
-        while (seam != end && !takes(ray, seam)) {
+        while (seam != end && !is_through(ray, seam)) {
             seam++;
         }
         if (seam == end) {
@@ -164,9 +153,6 @@ static bool starts_beyond(const surface_ray *ray, tl_vec3 a, tl_vec3 b)
     return with_ray == ray->touching_is_left;
 }
 
-// Polygons around one vertex: more than meet in any that a bake makes.
-#define MAX_START_STEPS 256
-
 static void record(const surface_ray *ray, const ray_walk *at, const ray_trace *trace)
 {
     if (at->polygon_count <= trace->capacity) {
@@ -174,39 +160,94 @@ static void record(const surface_ray *ray, const ray_walk *at, const ray_trace *
     }
 }
 
-// Moves to the polygon in which the walk begins: from a vertex or an edge there may be several to begin in. Where walls
-// close the way, the walk stays.
+static bool begins_in(const surface_ray *ray, uint32_t slot, uint32_t polygon)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(ray->navmesh->slots[slot].tile, polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (starts_beyond(ray, corners[i], corners[i + 1 < count ? i + 1 : 0])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Whether the place where the walk begins lies on a way, ends included.
+static bool begins_on(const surface_ray *ray, const tl_nav_way *way)
+{
+    double dx = (double)way->left.x - (double)way->right.x;
+    double dz = (double)way->left.z - (double)way->right.z;
+    double length_sq = dx * dx + dz * dz;
+    double slack = ray->rounding * sqrt(length_sq);
+    double along =
+        dx * ((double)ray->from.x - (double)way->right.x) + dz * ((double)ray->from.z - (double)way->right.z);
+    return along >= -slack && along <= length_sq + slack &&
+           fabs(tl_nav_turn(way->right, way->left, ray->from)) <= slack;
+}
+
+// Polygons around one point: more than meet in any vertex that a bake makes. Beyond it a corner stops the ray.
+enum { MAX_AROUND = 64 };
+
+// The polygons around the place where a walk begins, each with the one that it was found from.
+typedef struct polygons_around {
+    uint32_t slot[MAX_AROUND], polygon[MAX_AROUND], found_from[MAX_AROUND];
+    uint32_t count;
+} polygons_around;
+
+static void add_around(polygons_around *around, uint32_t slot, uint32_t polygon, uint32_t found_from)
+{
+    for (uint32_t i = 0; i < around->count; i++) {
+        if (around->slot[i] == slot && around->polygon[i] == polygon) {
+            return;
+        }
+    }
+    if (around->count < MAX_AROUND) {
+        around->slot[around->count] = slot;
+        around->polygon[around->count] = polygon;
+        around->found_from[around->count] = found_from;
+        around->count++;
+    }
+}
+
+// Moves the walk to one of the polygons around, through those in between.
+static void move_around(const surface_ray *ray, const polygons_around *around, uint32_t to, ray_walk *walk,
+                        const ray_trace *trace)
+{
+    uint32_t steps = 0;
+    for (uint32_t i = to; i != 0; i = around->found_from[i]) {
+        steps++;
+    }
+    ray_walk at = *walk;
+    at.polygon_count += steps;
+    for (uint32_t i = to; i != 0; i = around->found_from[i]) {
+        at.slot = around->slot[i];
+        at.polygon = around->polygon[i];
+        record(ray, &at, trace);
+        at.polygon_count--;
+    }
+    walk->slot = around->slot[to];
+    walk->polygon = around->polygon[to];
+    walk->polygon_count += steps;
+}
+
+// Moves to the polygon in which the walk begins: from a vertex or an edge there may be several to begin in. Breadth
+// first through the polygons that share the point; where walls close every way, the walk stays.
 static void find_start(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
 {
-    ray_walk at = *walk;
-    uint32_t from_slot = TL_NAV_NO_SLOT;
-    uint32_t from_polygon = TL_NO_POLYGON;
-    for (uint32_t steps = 0; steps < MAX_START_STEPS; steps++) {
-        uint32_t count = 0;
-        const tl_vec3 *corners = tl_nav_tile_corners(ray->navmesh->slots[at.slot].tile, at.polygon, &count);
-        bool inside = true;
-        bool moved = false;
-        for (uint32_t i = 0; i < count && !moved; i++) {
-            if (!starts_beyond(ray, corners[i], corners[i + 1 < count ? i + 1 : 0])) {
-                continue;
-            }
-            inside = false;
-            ray_walk next = at;
-            if (step(ray, i, is_beside, &next.slot, &next.polygon) &&
-                (next.slot != from_slot || next.polygon != from_polygon)) {
-                from_slot = at.slot;
-                from_polygon = at.polygon;
-                at = next;
-                at.polygon_count++;
-                record(ray, &at, trace);
-                moved = true;
-            }
-        }
-        if (inside) {
-            *walk = at;
-        }
-        if (!moved) {
+    polygons_around around;
+    around.count = 0;
+    add_around(&around, walk->slot, walk->polygon, 0);
+    for (uint32_t i = 0; i < around.count; i++) {
+        if (begins_in(ray, around.slot[i], around.polygon[i])) {
+            move_around(ray, &around, i, walk, trace);
             return;
+        }
+        tl_nav_ways ways = tl_nav_ways_of(ray->navmesh, around.slot[i], around.polygon[i]);
+        tl_nav_way way;
+        while (tl_nav_ways_next(&ways, &way)) {
+            if (begins_on(ray, &way) && tl_nav_passes(ray->filter, ray->navmesh->slots[way.slot].tile, way.polygon)) {
+                add_around(&around, way.slot, way.polygon, i);
+            }
         }
     }
 }
@@ -236,7 +277,7 @@ static tl_result walk_on(surface_ray *ray, ray_walk *walk, const ray_trace *trac
         }
         t = t < 1.0 ? t : 1.0;
         walk->t = t > walk->t ? t : walk->t;
-        if (!crosses || !step(ray, edge, is_through, &walk->slot, &walk->polygon)) {
+        if (!crosses || !step(ray, edge, &walk->slot, &walk->polygon)) {
             walk->hit = true;
             walk->edge = edge;
             return TL_OK;
@@ -360,7 +401,7 @@ tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *fi
     double dz = (double)end.z - (double)from.z;
     double rounding = GRAZING_ERROR * largest_coordinate(from, end);
     // Each polygon once, in either way of touching, and again for each vertex that is gone around.
-    uint64_t steps = 4 * navmesh->polygon_count + MAX_START_STEPS;
+    uint64_t steps = 4 * navmesh->polygon_count + MAX_AROUND;
     surface_ray ray = { navmesh, filter, from, end, from, rounding, rounding * sqrt(dx * dx + dz * dz),
                         true,    false,  steps };
     ray_walk walk = { slot, polygon, 1, 0.0, false, 0 };
