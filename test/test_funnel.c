@@ -31,17 +31,19 @@ static bool crosses_inside(tl_vec3 a, tl_vec3 b, tl_vec3 left, tl_vec3 right, do
     if (length_sq == 0.0 || side_left > slack || side_right < -slack) {
         return false;
     }
-    // Where the portal meets the line; it may lie in it.
+    // Where the portal meets the line: in a point, or all along when it lies in it.
     double span = side_right - side_left;
+    double at_left = (((double)left.x - ax) * dx + ((double)left.z - az) * dz) / length_sq;
+    double at_right = (((double)right.x - ax) * dx + ((double)right.z - az) * dz) / length_sq;
     double w = span > 0.0 ? side_right / span : 0.0;
-    double x = (double)right.x + w * ((double)left.x - (double)right.x) - ax;
-    double z = (double)right.z + w * ((double)left.z - (double)right.z) - az;
-    double at = (x * dx + z * dz) / length_sq;
-    double loose = (span <= 2.0 * slack ? distance(left, right) : 1e-4) / sqrt(length_sq);
-    if (at < *t - loose || at > 1.0 + loose) {
+    bool in_line = span <= 2.0 * slack;
+    double low = in_line ? fmin(at_left, at_right) : at_right + w * (at_left - at_right);
+    double high = in_line ? fmax(at_left, at_right) : low;
+    double loose = 1e-4 / sqrt(length_sq);
+    if (high < *t - loose || low > 1.0 + loose) {
         return false;
     }
-    *t = at > *t ? at : *t;
+    *t = low > *t ? low : *t;
     return true;
 }
 
@@ -50,15 +52,19 @@ static bool is_on(tl_vec3 point, tl_vec3 left, tl_vec3 right)
     return distance(point, left) + distance(point, right) <= distance(left, right) + 1e-6;
 }
 
-// The same, or it begins or ends in the portal, from whatever side.
+// The same, or it begins or ends in the portal, or touches an end of it, from whatever side.
 static bool crosses(tl_vec3 a, tl_vec3 b, tl_vec3 left, tl_vec3 right, double *t)
 {
     if (crosses_inside(a, b, left, right, t) || (*t <= 0.0 && is_on(a, left, right))) {
         return true;
     }
-    if (is_on(b, left, right)) {
-        *t = 1.0;
-        return true;
+    for (int i = 0; i < 3; i++) {
+        tl_vec3 touch = i == 0 ? left : i == 1 ? right : b;
+        double at = distance(a, touch) / distance(a, b);
+        if (is_on(touch, a, b) && is_on(touch, left, right) && at >= *t - 1e-4) {
+            *t = at > *t ? at : *t;
+            return true;
+        }
     }
     return false;
 }
@@ -191,12 +197,10 @@ static void check_corridor(const tl_navmesh *navmesh, const corridor *c, tl_vec3
         for (uint32_t k = at; k < next; k++) {
             TEST_CHECK(crosses(corners[i - 1].point, corners[i].point, c->left[k], c->right[k], &t));
         }
-        // It bends to the side that it says.
+        // A corner is that end of the portal before its polygon which it says.
         if (i + 1 < count) {
-            tl_vec3 a = corners[i - 1].point, b = corners[i].point, d = corners[i + 1].point;
-            double turn = ((double)b.x - (double)a.x) * ((double)d.z - (double)a.z) -
-                          ((double)b.z - (double)a.z) * ((double)d.x - (double)a.x);
-            TEST_CHECK(corners[i].flags == TL_NAV_CORNER_LEFT ? turn <= 1e-6 : turn >= -1e-6);
+            tl_vec3 end = corners[i].flags == TL_NAV_CORNER_LEFT ? c->left[next - 1] : c->right[next - 1];
+            TEST_CHECK(corners[i].point.x == end.x && corners[i].point.z == end.z);
         }
         at = next;
     }
