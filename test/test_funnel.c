@@ -199,8 +199,8 @@ static void check_corridor(const tl_navmesh *navmesh, const corridor *c, tl_vec3
         }
         // A corner is that end of the portal before its polygon which it says.
         if (i + 1 < count) {
-            tl_vec3 end = corners[i].flags == TL_NAV_CORNER_LEFT ? c->left[next - 1] : c->right[next - 1];
-            TEST_CHECK(corners[i].point.x == end.x && corners[i].point.z == end.z);
+            tl_vec3 own = corners[i].flags == TL_NAV_CORNER_LEFT ? c->left[next - 1] : c->right[next - 1];
+            TEST_CHECK(corners[i].point.x == own.x && corners[i].point.z == own.z);
         }
         at = next;
     }
