@@ -263,8 +263,8 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
 {
     const tl_bake *bake = r->bake;
     const tl_mesh_report *report = &r->level->report;
-    json_t *object =
-        json_pack("{ss ss so}", "level", r->level->path, "output", r->output, "stages", stages_json(cli, r));
+    json_t *object = json_pack("{so so so}", "level", tl_json_text(r->level->path), "output", tl_json_text(r->output),
+                               "stages", stages_json(cli, r));
     json_object_set_new(object, "seconds", tl_json_double(r->seconds));
     json_object_set_new(object, "bytes", json_integer((json_int_t)r->file_bytes));
     json_object_set_new(object, "bounds", tl_json_bounds(r->level->mesh.bounds));
@@ -297,10 +297,10 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
     return object;
 }
 
-static tl_exit print_report(const tl_cli *cli, const bake_result *r)
+static tl_exit print_report(tl_cli *cli, const bake_result *r)
 {
     if (cli->json) {
-        return tl_json_print(result_json(cli, r)) ? TL_EXIT_OK : TL_EXIT_MEMORY;
+        return tl_cli_print_json(cli, result_json(cli, r));
     }
     print_table(cli, r);
     print_summary(r);

@@ -294,8 +294,8 @@ static tl_exit run(tl_cli *cli)
     if (code == TL_EXIT_OK) {
         code = f.faults > 0 ? TL_EXIT_NEGATIVE : TL_EXIT_OK;
         if (cli->json) {
-            json_t *object = json_pack("{ss ss sb sO}", "file", path, "kind", baked ? "baked" : "mesh", "ok",
-                                       (int)(f.faults == 0), baked ? "faults" : "notes", f.list);
+            json_t *object = json_pack("{so ss sb sO}", "file", tl_json_text(path), "kind", baked ? "baked" : "mesh",
+                                       "ok", (int)(f.faults == 0), baked ? "faults" : "notes", f.list);
             code = tl_json_print(object) ? code : TL_EXIT_MEMORY;
         } else if (baked) {
             printf(f.faults == 0 ? "%s is whole\n" : "%s is damaged; bake it again\n", path);

@@ -116,7 +116,7 @@ static tl_exit hull_of_one(tl_cli *cli, const tl_hull_settings *settings, const 
         } else if (output != NULL && strcmp(output, "-") == 0) {
             code = TL_EXIT_OK; // the hull itself went to standard output
         } else if (cli->json) {
-            code = tl_json_print(hull_json(input.hull, input.points, &input.report)) ? TL_EXIT_OK : TL_EXIT_MEMORY;
+            code = tl_cli_print_json(cli, hull_json(input.hull, input.points, &input.report));
         } else {
             print_hull(input.hull, input.points, &input.report);
         }

@@ -229,7 +229,7 @@ static json_t *navmesh_json(const baked_info *info)
 
 static json_t *baked_json(const tl_input *input, const baked_info *info)
 {
-    json_t *object = json_pack("{ss ss sI sI}", "file", input->path, "kind", "baked", "version",
+    json_t *object = json_pack("{so ss sI sI}", "file", tl_json_text(input->path), "kind", "baked", "version",
                                (json_int_t)TL_PACK_VERSION, "bytes", (json_int_t)input->pack.size);
     json_t *chunks = json_array();
     for (uint32_t i = 0; i < input->pack.chunk_count; ++i) {
@@ -242,7 +242,7 @@ static json_t *baked_json(const tl_input *input, const baked_info *info)
     json_object_set_new(object, "chunks", chunks);
     if (info->meta != NULL) {
         json_object_set_new(object, "source",
-                            json_pack("{ss sI sI}", "name", tl_pack_meta_name(info->meta), "triangles",
+                            json_pack("{so sI sI}", "name", tl_json_text(tl_pack_meta_name(info->meta)), "triangles",
                                       (json_int_t)info->meta->source_triangles, "vertices",
                                       (json_int_t)info->meta->source_vertices));
         json_object_set_new(object, "bounds", tl_json_bounds(info->meta->bounds));
@@ -271,7 +271,7 @@ static tl_exit info_of_baked(tl_cli *cli, const char *path)
     if (tl_input_open_baked(cli, path, &input, &code) && collect(cli, &input, &info, &code)) {
         code = TL_EXIT_OK;
         if (cli->json) {
-            code = tl_json_print(baked_json(&input, &info)) ? TL_EXIT_OK : TL_EXIT_MEMORY;
+            code = tl_cli_print_json(cli, baked_json(&input, &info));
         } else {
             print_baked(&input, &info);
         }
@@ -321,12 +321,12 @@ static void print_mesh(const tl_level *level, const tl_adjacency *adjacency)
 static json_t *mesh_json(const tl_level *level, const tl_adjacency *adjacency)
 {
     const tl_imported_mesh *m = &level->imported;
-    return json_pack("{ss ss ss sI sI sI sI sI sI sI sI sI sI sI so so}", "file", level->path, "kind", "mesh", "format",
-                     m->format, "bytes", (json_int_t)m->source_bytes, "faces", (json_int_t)m->face_count, "polygons",
-                     (json_int_t)m->polygon_count, "triangles", (json_int_t)m->triangle_count, "vertices",
-                     (json_int_t)m->vertex_count, "distinct_vertices", (json_int_t)level->mesh.vertex_count,
-                     "materials", (json_int_t)m->names.count, "degenerate_triangles",
-                     (json_int_t)level->report.degenerate_triangles, "duplicate_triangles",
+    return json_pack("{so ss ss sI sI sI sI sI sI sI sI sI sI sI so so}", "file", tl_json_text(level->path), "kind",
+                     "mesh", "format", m->format, "bytes", (json_int_t)m->source_bytes, "faces",
+                     (json_int_t)m->face_count, "polygons", (json_int_t)m->polygon_count, "triangles",
+                     (json_int_t)m->triangle_count, "vertices", (json_int_t)m->vertex_count, "distinct_vertices",
+                     (json_int_t)level->mesh.vertex_count, "materials", (json_int_t)m->names.count,
+                     "degenerate_triangles", (json_int_t)level->report.degenerate_triangles, "duplicate_triangles",
                      (json_int_t)level->report.duplicate_triangles, "paired_edges", (json_int_t)adjacency->paired_edges,
                      "open_edges", (json_int_t)adjacency->border_edges, "area",
                      tl_json_double(surface_area(&level->mesh)), "bounds", tl_json_bounds(level->mesh.bounds));
@@ -344,7 +344,7 @@ static tl_exit info_of_mesh(tl_cli *cli, const char *path, const tl_level_settin
         if (result != TL_OK) {
             code = tl_cli_fail_result(cli, path, result, NULL);
         } else if (cli->json) {
-            code = tl_json_print(mesh_json(&level, &adjacency)) ? TL_EXIT_OK : TL_EXIT_MEMORY;
+            code = tl_cli_print_json(cli, mesh_json(&level, &adjacency));
         } else {
             print_mesh(&level, &adjacency);
             code = TL_EXIT_OK;

@@ -21,7 +21,7 @@ static tl_exit list_levels(tl_cli *cli)
                                   json_pack("{ss ss si}", "name", levels[i].name, "description", levels[i].description,
                                             "triangles", (int)levels[i].default_triangles));
         }
-        return tl_json_print(array) ? TL_EXIT_OK : TL_EXIT_MEMORY;
+        return tl_cli_print_json(cli, array);
     }
     for (uint32_t i = 0; i < count; ++i) {
         printf("%-11s %6u triangles  %s\n", levels[i].name, levels[i].default_triangles, levels[i].description);
@@ -42,10 +42,10 @@ static tl_exit report(tl_cli *cli, const char *name, const char *output, const t
 {
     tl_aabb bounds = bounds_of(mesh);
     if (cli->json) {
-        json_t *object = json_pack("{ss ss sI sI so}", "level", name, "output", output, "triangles",
+        json_t *object = json_pack("{ss so sI sI so}", "level", name, "output", tl_json_text(output), "triangles",
                                    (json_int_t)mesh->triangle_count, "vertices", (json_int_t)mesh->vertex_count,
                                    "bounds", tl_json_bounds(bounds));
-        return tl_json_print(object) ? TL_EXIT_OK : TL_EXIT_MEMORY;
+        return tl_cli_print_json(cli, object);
     }
     tl_vec3 size = tl_aabb_size(bounds);
     printf("%s: %s, %u triangles, %.0f x %.0f x %.0f m\n", output, name, mesh->triangle_count, (double)size.x,

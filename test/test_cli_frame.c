@@ -178,13 +178,32 @@ static void test_samples(void **state)
     cli_check_error(2, "sample city --triangles 9999999999", "--triangles", "too large");
 }
 
+// Names come back as they are, whatever they look like.
+static void test_odd_names(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "a[1,2].obj", "quo\"te\\.obj", "\xc3\xa4[.obj", "{.obj" };
+    for (size_t i = 0; i < sizeof(names) / sizeof(names[0]); ++i) {
+        char line[64];
+        cli_write_floor(names[i], 4, false);
+        snprintf(line, sizeof(line), "info %s --json", names[i]);
+        json_t *info = cli_json(0, line);
+        assert_string_equal(json_string_value(json_object_get(info, "file")), names[i]);
+        json_decref(info);
+    }
+    cli_write_floor("\xff.obj", 4, false); // no UTF-8: JSON cannot say it
+    json_t *info = cli_json(0, "info \xff.obj --json");
+    assert_string_equal(json_string_value(json_object_get(info, "file")), "?.obj");
+    json_decref(info);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_global_help),      cmocka_unit_test(test_help_of_each),
         cmocka_unit_test(test_usage_errors),     cmocka_unit_test(test_missing_files),
         cmocka_unit_test(test_progress_as_json), cmocka_unit_test(test_full_standard_output),
-        cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_samples),          cmocka_unit_test(test_odd_names),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }
