@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+//
+// talus draw: every stage of a level and of a baked file, PNG and SVG, and what it refuses.
+#include "cli_run.h"
+
+#include <talus/vec.h>
+
+static uint32_t big_endian(const unsigned char *bytes)
+{
+    return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
+}
+
+// The picture's size from a PNG's head; fails when the file is none.
+static void check_png(const char *path, uint32_t *width_out, uint32_t *height_out)
+{
+    size_t size;
+    char *file = cli_read_file(path, &size);
+    TEST_CHECK(size > 1000 && memcmp(file, "\x89PNG\r\n\x1a\n", 8) == 0 && memcmp(file + 12, "IHDR", 4) == 0);
+    *width_out = big_endian((const unsigned char *)file + 16);
+    *height_out = big_endian((const unsigned char *)file + 20);
+    TEST_CHECK(memcmp(file + size - 8, "IEND", 4) == 0);
+    free(file);
+}
+
+static void make_files(void)
+{
+    cli_do(0, "sample courtyard --triangles 2000 -o yard.obj");
+    cli_do(0, "bake yard.obj -o yard.talus --cell-size 0.4");
+}
+
+static void test_every_stage(void **state)
+{
+    (void)state;
+    static const char *const stages[] = { "soup",     "spans",     "areas",    "distance", "regions",
+                                          "contours", "triangles", "polygons", "detail",   "path" };
+    enum { STAGES = sizeof(stages) / sizeof(stages[0]) };
+    make_files();
+    static const char *const inputs[] = { "yard.obj", "yard.talus" };
+    for (size_t input = 0; input < 2; ++input) {
+        char line[128];
+        snprintf(line, sizeof(line), "draw %s -o p%zu.png --stage all --size 240 --json", inputs[input], input);
+        json_t *list = cli_json(0, line);
+        assert_int_equal(json_array_size(list), STAGES);
+        for (size_t i = 0; i < STAGES; ++i) {
+            const json_t *entry = json_array_get(list, i);
+            assert_string_equal(json_string_value(json_object_get(entry, "stage")), stages[i]);
+            char path[64];
+            snprintf(path, sizeof(path), "p%zu-%s.png", input, stages[i]);
+            assert_string_equal(json_string_value(json_object_get(entry, "output")), path);
+            uint32_t width;
+            uint32_t height;
+            check_png(path, &width, &height);
+            TEST_CHECK(width >= 2 * 200 && width <= 2 * 240 + 40 && height >= 200 && height <= 240 + 140);
+        }
+        json_decref(list);
+    }
+}
+
+// The same picture from the same level, with one thread or more; and not the same of another stage.
+static void test_same_bytes(void **state)
+{
+    (void)state;
+    make_files();
+    static const char *const lines[] = { "draw yard.obj -o a.png --stage regions --size 300 --threads 1",
+                                         "draw yard.obj -o b.png --stage regions --size 300 --threads 3",
+                                         "draw yard.obj -o c.png --stage distance --size 300 --threads 3" };
+    for (size_t i = 0; i < 3; ++i) {
+        cli_do(0, lines[i]);
+    }
+    size_t size_a;
+    size_t size_b;
+    size_t size_c;
+    char *a = cli_read_file("a.png", &size_a);
+    char *b = cli_read_file("b.png", &size_b);
+    char *c = cli_read_file("c.png", &size_c);
+    TEST_CHECK(size_a == size_b && memcmp(a, b, size_a) == 0);
+    TEST_CHECK(size_a != size_c || memcmp(a, c, size_a) != 0);
+    free(a);
+    free(b);
+    free(c);
+}
+
+static void test_path_svg_and_views(void **state)
+{
+    (void)state;
+    make_files();
+    cli_result drawn = cli_expect(0, "draw yard.talus -o way.svg --from 2,0,20 --to 38,0,20 --view top --size 300");
+    cli_check_part(drawn.out, "path complete");
+    cli_free(&drawn);
+    char *svg = cli_read_file("way.svg", NULL);
+    cli_check_part(svg, "<svg");
+    cli_check_part(svg, "</svg>");
+    free(svg);
+    uint32_t width[2];
+    uint32_t height[2];
+    cli_do(0, "draw yard.obj -o top.png --view top --size 300");
+    cli_do(0, "draw yard.obj -o both.png --size 300");
+    check_png("top.png", &width[0], &height[0]);
+    check_png("both.png", &width[1], &height[1]);
+    TEST_CHECK(width[0] < 340 && width[1] > 500);
+    // No navmesh near an end: said, and the picture is made all the same.
+    drawn = cli_expect(0, "draw yard.talus -o far.png --from 500,0,500 --to 38,0,20 --size 200");
+    cli_check_part(drawn.err, "no navmesh near the start");
+    cli_free(&drawn);
+    TEST_CHECK(cli_exists("far.png"));
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    make_files();
+    static const struct {
+        int code;
+        const char *line;
+        const char *part;
+    } table[] = {
+        { 2, "draw yard.obj", "-o FILE.png" },
+        { 2, "draw yard.obj -o x.png --stage voxels", "there is no stage 'voxels'" },
+        { 2, "draw yard.obj -o x.png --stage ,", "stage" },
+        { 2, "draw yard.obj -o x.png --from 1,2,3", "both --from and --to" },
+        { 2, "draw yard.obj -o x.png --from 1,2,3 --to 1,2", "x,y,z" },
+        { 2, "draw yard.obj -o x.png --size 100", "--size" },
+        { 4, "draw none.obj -o x.png", "none.obj" },
+        { 4, "draw yard.obj -o none/x.png --size 200", "none/x.png" },
+        { 4, "draw yard.obj -o /dev/full --size 200", "/dev/full" },
+        { 3, "draw yard.obj -o x.png --cell-size 0", "cell" },
+    };
+    for (size_t i = 0; i < sizeof(table) / sizeof(table[0]); ++i) {
+        cli_result refused = cli_run(table[i].line);
+        if (table[i].code == 3) {
+            TEST_CHECK(refused.code == 2 || refused.code == 3); // by the option's range, or by the build
+        } else {
+            assert_int_equal(refused.code, table[i].code);
+        }
+        cli_check_part(refused.err, table[i].part);
+        TEST_CHECK(!cli_exists("x.png"));
+        cli_free(&refused);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_stage),
+        cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_path_svg_and_views),
+        cmocka_unit_test(test_refusals),
+    };
+    return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
+}
