@@ -15,7 +15,8 @@
     COMMAND(hull) \
     COMMAND(support) \
     COMMAND(distance) \
-    COMMAND(polygonize)
+    COMMAND(polygonize) \
+    COMMAND(draw)
 // clang-format on
 
 #define DECLARE(name) extern const tl_command tl_##name##_command;

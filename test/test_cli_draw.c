@@ -126,7 +126,7 @@ static void test_refusals(void **state)
         { 3, "draw yard.obj -o x.png --cell-size 0", "cell" },
     };
     for (size_t i = 0; i < sizeof(table) / sizeof(table[0]); ++i) {
-        cli_result refused = cli_run(table[i].line);
+        cli_result refused = cli_run_with(NULL, table[i].line);
         if (table[i].code == 3) {
             TEST_CHECK(refused.code == 2 || refused.code == 3); // by the option's range, or by the build
         } else {
