@@ -28,7 +28,7 @@ static tl_mesh_view random_mesh(test_random *random, tl_vec3 *vertices, uint32_t
 static bool overlaps(const tl_mesh_view *mesh, const tl_lattice_map *map, uint32_t triangle, double x0, double x1,
                      double z0, double z1)
 {
-    double min_x = INFINITY, max_x = -(double)INFINITY, min_z = INFINITY, max_z = -(double)INFINITY;
+    double min_x = (double)INFINITY, max_x = -(double)INFINITY, min_z = (double)INFINITY, max_z = -(double)INFINITY;
     for (uint32_t k = 0; k < 3; k++) {
         tl_lattice_point p = tl_lattice_map_point(map, mesh->vertices[mesh->indices[3 * triangle + k]]);
         min_x = fmin(min_x, p.x);

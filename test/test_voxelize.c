@@ -96,8 +96,8 @@ static bool heights_over(const tl_lattice_point *triangle, uint32_t x, uint32_t 
     if (polygon.count == 0) {
         return false;
     }
-    *low = INFINITY;
-    *high = -INFINITY;
+    *low = (double)INFINITY;
+    *high = -(double)INFINITY;
     for (int i = 0; i < polygon.count; i++) {
         *low = fmin(*low, polygon.points[i].y);
         *high = fmax(*high, polygon.points[i].y);

@@ -35,6 +35,9 @@ static const double ROUNDER = 6755399441055744.0 / SUBDIVISIONS;
 /// The same for whole numbers; the sum then ends in the number's low bits, as two's complement.
 static const double WHOLE_ROUNDER = 6755399441055744.0;
 
+/// Heights of a cell that nothing has reached yet.
+static const double NO_LOW = (double)INFINITY, NO_HIGH = -(double)INFINITY;
+
 static double round_to_subdivision(double value)
 {
     return (value + ROUNDER) - ROUNDER;
@@ -192,8 +195,8 @@ static tl_result add_row(const walk *w, uint32_t row, int32_t first, int32_t las
         if (span_of_heights(low[i], high[i], w->band->height_voxels, &min, &max)) {
             *items++ = tl_span_item_make(row_start + (uint32_t)i, min, max, w->area);
         }
-        low[i] = INFINITY;
-        high[i] = -INFINITY;
+        low[i] = NO_LOW;
+        high[i] = NO_HIGH;
     }
     buffer->count = (uint64_t)(items - buffer->items);
     return TL_OK;
@@ -279,8 +282,8 @@ static tl_result finish_row(walk *w, uint32_t row)
     }
     double *low = w->low, *high = w->high;
     if (last + 1 < (int32_t)w->band->width) { // what only touches the piece's right end is in that cell
-        low[last + 1] = INFINITY;
-        high[last + 1] = -INFINITY;
+        low[last + 1] = NO_LOW;
+        high[last + 1] = NO_HIGH;
     }
     w->low = w->next_low;
     w->high = w->next_high;
@@ -295,8 +298,8 @@ static tl_result finish_row(walk *w, uint32_t row)
 void tl_voxel_heights_init(double *heights, uint32_t width)
 {
     for (uint32_t i = 0; i < width; i++) {
-        heights[i] = heights[2 * (size_t)width + i] = INFINITY;
-        heights[width + i] = heights[3 * (size_t)width + i] = -INFINITY;
+        heights[i] = heights[2 * (size_t)width + i] = NO_LOW;
+        heights[width + i] = heights[3 * (size_t)width + i] = NO_HIGH;
     }
 }
 
