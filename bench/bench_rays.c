@@ -23,7 +23,7 @@
 enum { KINDS = 5, SYSTEMS = 5, MAX_LEVELS = 32 };
 
 static const char *const kind_names[KINDS] = { "camera", "incoherent", "sight", "segment", "down" };
-static const char *const system_names[SYSTEMS] = { "talus", "talus avx2", "fast", "quads", "robust" };
+static const char *const system_names[SYSTEMS] = { "talus", "avx512", "fast", "quads", "robust" };
 
 typedef struct level {
     char name[64];
@@ -364,7 +364,7 @@ static void bench_level(RTCDevice device, const level *l, uint32_t repetitions, 
             for (uint32_t s = 0; s < SYSTEMS; s++) {
                 t0 = now();
                 a[s] = s == 0   ? run_talus(NULL, soup, queries, ray_count, kind)
-                       : s == 1 ? run_talus(tl_ray_walk_for(TL_RAY_AVX2), soup, queries, ray_count, kind)
+                       : s == 1 ? run_talus(tl_ray_walk_for(TL_RAY_AVX512), soup, queries, ray_count, kind)
                                 : run_embree(s == 2   ? fast
                                              : s == 3 ? quads
                                                       : robust,

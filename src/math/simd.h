@@ -45,6 +45,11 @@ static inline tl_f32x4 tl_f32x4_make(float x, float y, float z, float w)
     return _mm_setr_ps(x, y, z, w);
 }
 
+static inline tl_f32x4 tl_f32x4_load(const float *four)
+{
+    return _mm_loadu_ps(four);
+}
+
 static inline tl_f32x4 tl_f32x4_add(tl_f32x4 a, tl_f32x4 b)
 {
     return _mm_add_ps(a, b);
@@ -122,6 +127,11 @@ static inline tl_f32x4 tl_f32x4_make(float x, float y, float z, float w)
 static inline tl_f32x4 tl_f32x4_all(float value)
 {
     return tl_f32x4_make(value, value, value, value);
+}
+
+static inline tl_f32x4 tl_f32x4_load(const float *four)
+{
+    return tl_f32x4_make(four[0], four[1], four[2], four[3]);
 }
 
 static inline tl_f32x4 tl_f32x4_add(tl_f32x4 a, tl_f32x4 b)

@@ -59,17 +59,17 @@ static inline bool tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 origin, tl_f
     job->axis_x = next[z + 1];
     job->axis_y = next[z + 2];
 
-    tl_f32x4 below = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_of(job->soup->bounds.min)));
-    tl_f32x4 above = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_of(job->soup->bounds.max)));
+    tl_f32x4 below = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_load(&job->soup->bounds_min.x)));
+    tl_f32x4 above = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_load(&job->soup->bounds_max.x)));
     tl_f32x4 reach = tl_f32x4_max_of_three(tl_f32x4_max(below, above));
     tl_f32x4 error = tl_f32x4_add(tl_f32x4_mul(reach, tl_f32x4_all(TL_RAY_CORNER_ERROR)), tl_f32x4_all(FLT_MIN));
 
     tl_f32x4 smallest = tl_f32x4_mul(largest, tl_f32x4_all(TL_RAY_SMALLEST_INCLINE));
     tl_f32x4 inclined = tl_f32x4_if_less(size, smallest, smallest, direction);
     tl_f32x4 inverse = tl_f32x4_div(tl_f32x4_all(1.0f), inclined);
-    tl_f32x4 base = tl_f32x4_mul(tl_f32x4_sub(tl_f32x4_of(job->soup->grid_origin), origin), inverse);
+    tl_f32x4 base = tl_f32x4_mul(tl_f32x4_sub(tl_f32x4_load(&job->soup->grid_origin.x), origin), inverse);
     tl_f32x4 pad = tl_f32x4_mul(tl_f32x4_mul(error, tl_f32x4_all(TL_RAY_PLANE_PAD)), tl_f32x4_abs(inverse));
-    tl_f32x4_store(job->plane_scale, tl_f32x4_mul(tl_f32x4_of(job->soup->grid_cell), inverse));
+    tl_f32x4_store(job->plane_scale, tl_f32x4_mul(tl_f32x4_load(&job->soup->grid_cell.x), inverse));
     tl_f32x4_store(job->near_base, tl_f32x4_sub(base, pad));
     tl_f32x4_store(job->far_base, tl_f32x4_add(base, pad));
     job->backward = tl_f32x4_signs(inclined);

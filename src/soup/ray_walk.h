@@ -72,6 +72,22 @@ static inline walk_entry make_entry(const uint32_t *t_bits, const tl_soup_node *
     return (uint64_t)t_bits[lane] << 32 | node->child[lane];
 }
 
+// What waits on the stack is mostly visited soon, and its lines are then under way.
+static inline void prefetch_child(const walk_ray *ray, uint32_t child)
+{
+#if defined(__GNUC__)
+    bool leaf = (child & TL_CHILD_LEAF) != 0;
+    const char *base = leaf ? ray->leaves : (const char *)ray->nodes;
+    const char *at = base + (leaf ? tl_child_leaf_offset(child) : (uint64_t)child * sizeof(tl_soup_node));
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + 64);
+    __builtin_prefetch(at + 128);
+#else
+    (void)ray;
+    (void)child;
+#endif
+}
+
 static inline walk_entry nearer(walk_entry a, walk_entry b)
 {
     return a < b ? a : b;
@@ -93,9 +109,8 @@ static inline uint32_t enter_children(const tl_ray_job *job, const walk_ray *ray
         enter[i] = tl_f32x16_mul_add(near_plane, ray->scale[i], ray->near_base[i]);
         leave[i] = tl_f32x16_mul_add(far_plane, ray->scale[i], ray->far_base[i]);
     }
-    // The zero last: of equal values max gives the second, so that -0 becomes +0, whose bits sort first.
+    // Of equal values max gives the second, so the zero goes there: it never becomes -0, whose bits would sort last.
     tl_f32x16 first = tl_f32x16_max(tl_f32x16_max(enter[0], enter[1]), tl_f32x16_max(enter[2], tl_f32x16_all(0.0f)));
-    first = tl_f32x16_max(first, tl_f32x16_all(0.0f));
     tl_f32x16 last =
         tl_f32x16_min(tl_f32x16_min(leave[0], leave[1]), tl_f32x16_min(leave[2], tl_f32x16_all(job->box_limit)));
     tl_f32x16_store_bits(t_bits, first);
@@ -122,8 +137,8 @@ static inline uint32_t push_sorted(const uint32_t *t_bits, const tl_soup_node *n
 }
 
 // The same, without branches for two and three children, which are most visits; `mask` is not empty.
-static inline uint32_t push_children(const uint32_t *t_bits, const tl_soup_node *node, uint32_t mask, walk_entry *stack,
-                                     uint32_t *stack_count)
+static inline uint32_t push_children(const walk_ray *ray, const uint32_t *t_bits, const tl_soup_node *node,
+                                     uint32_t mask, walk_entry *stack, uint32_t *stack_count)
 {
     uint32_t rest = mask & (mask - 1);
     if (rest == 0) {
@@ -135,6 +150,7 @@ static inline uint32_t push_children(const uint32_t *t_bits, const tl_soup_node 
     rest &= rest - 1;
     if (rest == 0) {
         top[0] = farther(a, b);
+        prefetch_child(ray, (uint32_t)top[0]);
         *stack_count += 1;
         return (uint32_t)nearer(a, b);
     }
@@ -146,6 +162,7 @@ static inline uint32_t push_children(const uint32_t *t_bits, const tl_soup_node 
     top[0] = farther(high, c);
     high = nearer(high, c);
     top[1] = farther(low, high);
+    prefetch_child(ray, (uint32_t)top[1]);
     *stack_count += 2;
     return (uint32_t)nearer(low, high);
 }
@@ -330,7 +347,7 @@ bool TL_RAY_WALK(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any)
             _Alignas(64) uint32_t t_bits[TL_SOUP_WIDTH]; // one line: a split store is not forwarded
             uint32_t mask = enter_children(job, &ray, node, t_bits);
             if (mask != 0) {
-                child = push_children(t_bits, node, mask, stack, &stack_count);
+                child = push_children(&ray, t_bits, node, mask, stack, &stack_count);
                 continue;
             }
         } else if (visit_leaf(job, &ray, child, any, &wait)) {

@@ -225,7 +225,8 @@ static void fill_head(const baker *b, tl_soup *soup)
     soup->node_count = b->node_count;
     soup->depth = b->depth;
     tl_aabb bounds = b->mesh->bounds;
-    soup->bounds = bounds;
+    soup->bounds_min = bounds.min;
+    soup->bounds_max = bounds.max;
     soup->grid_origin = bounds.min;
     soup->grid_cell = tl_vec3_make(choose_cell(bounds.min.x, bounds.max.x), choose_cell(bounds.min.y, bounds.max.y),
                                    choose_cell(bounds.min.z, bounds.max.z));

@@ -50,9 +50,9 @@ static bool head_is_sound(const tl_soup *soup)
         ((end + TL_BLOB_ALIGNMENT - 1) & ~(uint64_t)(TL_BLOB_ALIGNMENT - 1)) != size) {
         return false;
     }
-    return vec_in_range(soup->bounds.min) && vec_in_range(soup->bounds.max) && !tl_aabb_is_empty(soup->bounds) &&
-           vec_in_range(soup->grid_origin) && cell_in_range(soup->grid_cell.x) && cell_in_range(soup->grid_cell.y) &&
-           cell_in_range(soup->grid_cell.z);
+    return vec_in_range(soup->bounds_min) && vec_in_range(soup->bounds_max) &&
+           !tl_aabb_is_empty(tl_soup_bounds(soup)) && vec_in_range(soup->grid_origin) &&
+           cell_in_range(soup->grid_cell.x) && cell_in_range(soup->grid_cell.y) && cell_in_range(soup->grid_cell.z);
 }
 
 static bool id_is_sound(const checker *c, uint32_t id)

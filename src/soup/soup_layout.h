@@ -46,16 +46,21 @@ struct tl_soup {
     uint32_t leaf_count;
     uint32_t node_count;
     uint32_t depth;
-    tl_aabb bounds;
+    tl_vec3 bounds_min; ///< these four are read as vectors of four floats, hence the padding
+    float padding_a;
+    tl_vec3 bounds_max;
+    float padding_b;
     tl_vec3 grid_origin; ///< grid plane q lies at origin + q * cell, taken as real numbers
+    float padding_c;
     tl_vec3 grid_cell;
+    float padding_d;
     uint32_t uniform_material; ///< of all triangles, where there is no table
     uint32_t has_materials;
     uint64_t node_offset;
     uint64_t leaf_offset;
     uint64_t leaf_bytes;
     uint64_t material_offset;
-    uint64_t reserved[7]; ///< zero
+    uint64_t reserved[5]; ///< zero
 };
 
 static_assert(sizeof(tl_soup) == 192, "no padding holes in the head");

@@ -15,7 +15,8 @@ uint64_t tl_soup_size(const tl_soup *soup)
 
 tl_aabb tl_soup_bounds(const tl_soup *soup)
 {
-    return soup->bounds;
+    tl_aabb bounds = { soup->bounds_min, soup->bounds_max };
+    return bounds;
 }
 
 tl_soup_stats tl_soup_get_stats(const tl_soup *soup)
@@ -164,7 +165,7 @@ typedef struct box_entry {
 bool tl_soup_tree_boxes(const tl_soup *soup, uint32_t max_depth, tl_soup_tree_box_fn *visit, void *user)
 {
     TL_ASSERT(soup != NULL && visit != NULL);
-    if (!visit(soup->bounds, 0, false, user)) {
+    if (!visit(tl_soup_bounds(soup), 0, false, user)) {
         return false;
     }
     box_entry stack[(TL_SOUP_WIDTH - 1) * TL_SOUP_MAX_DEPTH + TL_SOUP_WIDTH];
