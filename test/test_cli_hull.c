@@ -104,7 +104,7 @@ static void test_support_against_scan(void **state)
     char *line = strtok_r(result.out, "\n", &rest);
     for (int i = 0; i < DIRECTIONS; ++i) {
         int best = 0;
-        double best_dot = -INFINITY;
+        double best_dot = -(double)INFINITY;
         for (int k = 0; k < POINTS; ++k) {
             double dot = (double)points[k].x * (double)directions[i].x + (double)points[k].y * (double)directions[i].y +
                          (double)points[k].z * (double)directions[i].z;

@@ -32,7 +32,7 @@ static double hit_triangle(const tl_vec3 *c, const double o[3], const double d[3
 
 static double brute_force(const tl_sample_mesh *mesh, const float n[6])
 {
-    double best = INFINITY;
+    double best = (double)INFINITY;
     double o[3] = { (double)n[0], (double)n[1], (double)n[2] };
     double d[3] = { (double)n[3], (double)n[4], (double)n[5] };
     for (uint32_t i = 0; i < mesh->triangle_count; ++i) {

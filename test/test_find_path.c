@@ -96,10 +96,10 @@ static double dijkstra(const tl_navmesh *navmesh, const way_graph *g, const tl_n
     double *cost = malloc((g->way_count + 1u) * sizeof *cost);
     bool *done = calloc(g->way_count + 1u, sizeof *done);
     for (uint32_t i = 0; i <= g->way_count; i++) {
-        cost[i] = INFINITY;
+        cost[i] = (double)INFINITY;
     }
     cost[g->way_count] = 0.0; // the start
-    double best = INFINITY;
+    double best = (double)INFINITY;
     for (;;) {
         uint32_t at = UINT32_MAX;
         for (uint32_t i = 0; i <= g->way_count; i++) {

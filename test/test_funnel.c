@@ -75,11 +75,11 @@ static double shortest(const corridor *c, tl_vec3 start, tl_vec3 end)
 {
     uint32_t portals = c->count - 1;
     double best[MAX_CORRIDOR][2];
-    double result = INFINITY;
+    double result = (double)INFINITY;
     for (uint32_t target = 0; target <= portals; target++) {
         for (int side = 0; side < 2; side++) {
             tl_vec3 to = target == portals ? end : side == 0 ? c->left[target] : c->right[target];
-            double shortest_here = INFINITY;
+            double shortest_here = (double)INFINITY;
             for (uint32_t from = 0; from <= target; from++) { // from 0: the start, else portal from - 1
                 for (int from_side = 0; from_side < 2; from_side++) {
                     tl_vec3 at = from == 0 ? start : from_side == 0 ? c->left[from - 1] : c->right[from - 1];

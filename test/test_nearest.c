@@ -16,7 +16,7 @@ static double turn(tl_vec3 a, tl_vec3 b, tl_vec3 c)
 static double plane_distance(const tl_vec3 *corners, uint32_t count, tl_vec3 p)
 {
     bool inside = true;
-    double best = INFINITY;
+    double best = (double)INFINITY;
     for (uint32_t i = 0; i < count; i++) {
         tl_vec3 a = corners[i], b = corners[(i + 1) % count];
         inside = inside && turn(a, b, p) <= 0.0;

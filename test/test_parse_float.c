@@ -129,7 +129,7 @@ static void test_forms(void **state)
     }
     TEST_CHECK(check_text("16777217") == 16777216.0f && check_text("16777217.0000001") == 16777218.0f);
     float value = 2.0f;
-    TEST_CHECK(tl_parse_float("inf", "inf" + 3, &value) == NULL && tl_parse_float("nan", "nan" + 3, &value) == NULL);
+    TEST_CHECK(tl_parse_float("inf", &"inf"[3], &value) == NULL && tl_parse_float("nan", &"nan"[3], &value) == NULL);
     const char *hexadecimal = "0x10";
     TEST_CHECK(tl_parse_float(hexadecimal, hexadecimal + 4, &value) == hexadecimal + 1 && value == 0.0f);
 }

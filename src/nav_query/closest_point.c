@@ -45,7 +45,7 @@ tl_vec3 tl_nav_clamp_to_polygon(const tl_nav_tile *tile, uint32_t polygon, tl_ve
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
     tl_vec3 closest = corners[0];
-    double closest_sq = INFINITY;
+    double closest_sq = (double)INFINITY;
     for (uint32_t i = 0; i < count; i++) {
         tl_vec3 candidate = closest_on_edge(corners[i], corners[i + 1 < count ? i + 1 : 0], point);
         double dx = (double)candidate.x - (double)point.x;

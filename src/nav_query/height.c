@@ -55,7 +55,7 @@ static float mix_heights(const tl_vec3 *corners[3], const triangle_weights *weig
 
 static float nearest_vertex_height(const tl_nav_surface *surface, double x, double z)
 {
-    double best = INFINITY;
+    double best = (double)INFINITY;
     float height = surface->vertices[0].y;
     for (uint32_t i = 0; i < surface->vertex_count; i++) {
         double dx = (double)surface->vertices[i].x - x;
@@ -72,7 +72,7 @@ float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, 
 {
     tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
     const tl_vec3 *best[3] = { NULL, NULL, NULL };
-    triangle_weights best_weights = { { 0.0, 0.0, 0.0 }, -INFINITY };
+    triangle_weights best_weights = { { 0.0, 0.0, 0.0 }, -(double)INFINITY };
     for (uint32_t i = 0; i < surface.triangle_count && best_weights.worst < 0.0; i++) {
         const tl_nav_detail_triangle *triangle = &surface.triangles[i];
         const tl_vec3 *a = &surface.vertices[triangle->corner[0]];
