@@ -17,6 +17,9 @@ void tl_text_free(tl_text *text)
 
 static void add(tl_text *text, const char *bytes, size_t size)
 {
+    if (size == 0) {
+        return; // memcpy takes no NULL, not even for nothing
+    }
     if (text->capacity - text->size < size) {
         size_t grown = 2 * text->capacity + size + 256;
         char *moved = realloc(text->bytes, grown);
