@@ -2,10 +2,10 @@
 //
 // talus bake: a level to a baked file, and a table of what it took.
 
-#include "bake_level.h"
+#include "cli/bake_level.h"
+#include "cli/json_out.h"
+#include "cli/table.h"
 #include "io/atomic_write.h"
-#include "json_out.h"
-#include "table.h"
 
 #include <talus/pack.h>
 
@@ -186,7 +186,8 @@ static const stage_count *count_of(const stage_count *counts, uint32_t count, co
 
 static void print_table(const tl_cli *cli, const bake_result *r)
 {
-    static tl_table table; // 25 KB
+    tl_table table;
+    memset(&table, 0, sizeof(table));
     stage_count counts[STAGE_COUNTS];
     uint32_t count = collect_counts(r, counts);
     tl_table_row(&table);

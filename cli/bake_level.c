@@ -3,9 +3,9 @@
 // The soup takes the source's triangles, so that rays report the source's indices; navmesh and hull take the cleaned
 // mesh.
 
-#include "bake_level.h"
+#include "cli/bake_level.h"
 
-#include "parse_value.h"
+#include "cli/parse_value.h"
 
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #ifndef TALUS_CLI_BAKE_LEVEL_H
 #define TALUS_CLI_BAKE_LEVEL_H
 
-#include "load_level.h"
+#include "cli/load_level.h"
 
 #include <talus/hull.h>
 #include <talus/nav_build.h>

@@ -2,11 +2,11 @@
 //
 // Blocks of lines: parsed in order, answered in chunks that each fill a text of their own, printed chunk by chunk.
 
-#include "batch.h"
+#include "cli/batch.h"
 
-#include "interrupt.h"
-#include "line_input.h"
-#include "parse_value.h"
+#include "cli/interrupt.h"
+#include "cli/line_input.h"
+#include "cli/parse_value.h"
 
 #include <errno.h>
 #include <stdio.h>

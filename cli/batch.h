@@ -5,8 +5,8 @@
 #ifndef TALUS_CLI_BATCH_H
 #define TALUS_CLI_BATCH_H
 
-#include "command.h"
-#include "text_buffer.h"
+#include "cli/command.h"
+#include "cli/text_buffer.h"
 
 enum { TL_MAX_LINE_NUMBERS = 8 };
 

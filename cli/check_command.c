@@ -2,8 +2,8 @@
 //
 // talus check: proves a baked file right, or names each fault; tells what is odd about a mesh file.
 
-#include "json_out.h"
-#include "open_input.h"
+#include "cli/json_out.h"
+#include "cli/open_input.h"
 
 #include <talus/polygon.h>
 

@@ -2,9 +2,9 @@
 //
 // One frame round all commands, so that they parse, fail, report and end in the same way.
 
-#include "command.h"
+#include "cli/command.h"
 
-#include "interrupt.h"
+#include "cli/interrupt.h"
 
 #include <errno.h>
 #include <stdarg.h>

@@ -8,10 +8,10 @@
 #ifndef TALUS_CLI_COMMAND_H
 #define TALUS_CLI_COMMAND_H
 
+#include "cli/options.h"
+#include "cli/progress.h"
+#include "cli/thread_pool.h"
 #include "io/io_error.h"
-#include "options.h"
-#include "progress.h"
-#include "thread_pool.h"
 
 #include <talus/base.h>
 

@@ -2,7 +2,7 @@
 //
 // The commands, in the order in which a new user meets them. A new one is one line here.
 
-#include "command.h"
+#include "cli/command.h"
 
 // clang-format off
 #define COMMANDS(COMMAND) \

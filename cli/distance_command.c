@@ -2,10 +2,10 @@
 //
 // talus distance: how far two hulls are apart, and where they are nearest.
 
-#include "batch.h"
-#include "json_out.h"
-#include "open_hull.h"
-#include "parse_value.h"
+#include "cli/batch.h"
+#include "cli/json_out.h"
+#include "cli/open_hull.h"
+#include "cli/parse_value.h"
 
 #include <talus/convex.h>
 

@@ -2,10 +2,10 @@
 //
 // talus hull: the convex hull of points or of a mesh, measured and written.
 
+#include "cli/json_out.h"
+#include "cli/open_hull.h"
 #include "io/atomic_write.h"
 #include "io/obj_write.h"
-#include "json_out.h"
-#include "open_hull.h"
 
 #include <stdio.h>
 #include <stdlib.h>

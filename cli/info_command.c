@@ -2,10 +2,10 @@
 //
 // talus info: what a baked file, or a mesh file, holds.
 
-#include "json_out.h"
-#include "open_input.h"
-#include "table.h"
-#include "text_buffer.h"
+#include "cli/json_out.h"
+#include "cli/open_input.h"
+#include "cli/table.h"
+#include "cli/text_buffer.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -150,7 +150,8 @@ static void chunk_name(uint32_t type, char name[5])
 // Tiles are summed in one row: a city has thousands.
 static void print_chunks(const tl_input *input, const nav_sums *nav)
 {
-    static tl_table table; // 25 KB
+    tl_table table;
+    memset(&table, 0, sizeof(table));
     tl_table_row(&table);
     tl_table_text(&table, "chunk");
     tl_table_text(&table, "number");

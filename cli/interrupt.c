@@ -3,7 +3,7 @@
 // SA_RESETHAND lets a second Ctrl-C through, for work that does not look at the flag; no SA_RESTART, so that a read
 // from a terminal or pipe returns at once.
 
-#include "interrupt.h"
+#include "cli/interrupt.h"
 
 #include <signal.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 // A float's shortest decimal form (found with 6 to 9 digits) becomes a double, which then prints the same digits again
 // because 15 digits survive a double unchanged.
 
-#include "json_out.h"
+#include "cli/json_out.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #ifndef TALUS_CLI_JSON_OUT_H
 #define TALUS_CLI_JSON_OUT_H
 
-#include "command.h"
+#include "cli/command.h"
 
 #include <jansson.h>
 #include <talus/vec.h>

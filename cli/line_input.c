@@ -3,9 +3,9 @@
 // One buffer, read(2) and memchr. stdio was rejected: getline cannot say whether it would wait, and a program that
 // asks line by line over a pipe must get its answers line by line.
 
-#include "line_input.h"
+#include "cli/line_input.h"
 
-#include "interrupt.h"
+#include "cli/interrupt.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -4,7 +4,7 @@
 // indices rays must report. Without welding the second is the file as read; with it, the welded vertices are put back
 // under the source's triangles.
 
-#include "load_level.h"
+#include "cli/load_level.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #ifndef TALUS_CLI_LOAD_LEVEL_H
 #define TALUS_CLI_LOAD_LEVEL_H
 
-#include "command.h"
+#include "cli/command.h"
 #include "io/mesh_import.h"
 
 #include <talus/mesh.h>

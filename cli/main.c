@@ -2,8 +2,8 @@
 //
 // talus COMMAND ...: finds the command and hands over.
 
-#include "closest_word.h"
-#include "command.h"
+#include "cli/closest_word.h"
+#include "cli/command.h"
 
 #include <stdio.h>
 #include <string.h>

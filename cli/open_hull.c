@@ -2,7 +2,7 @@
 //
 // One way in for hull, support and distance.
 
-#include "open_hull.h"
+#include "cli/open_hull.h"
 
 #include <string.h>
 

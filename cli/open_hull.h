@@ -5,8 +5,8 @@
 #ifndef TALUS_CLI_OPEN_HULL_H
 #define TALUS_CLI_OPEN_HULL_H
 
+#include "cli/open_input.h"
 #include "io/point_cloud.h"
-#include "open_input.h"
 
 #include <talus/hull.h>
 

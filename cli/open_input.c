@@ -3,7 +3,7 @@
 // A baked file is recognised by its name or its head; a damaged one must be refused as what it is, and never be tried
 // as a mesh.
 
-#include "open_input.h"
+#include "cli/open_input.h"
 
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #ifndef TALUS_CLI_OPEN_INPUT_H
 #define TALUS_CLI_OPEN_INPUT_H
 
-#include "bake_level.h"
+#include "cli/bake_level.h"
 #include "io/file_map.h"
 
 #include <talus/pack.h>

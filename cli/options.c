@@ -4,10 +4,10 @@
 // option, the value and the range. The help is printed from the same tables, because popt's own shows no defaults of
 // values that it does not parse.
 
-#include "options.h"
+#include "cli/options.h"
 
-#include "closest_word.h"
-#include "parse_value.h"
+#include "cli/closest_word.h"
+#include "cli/parse_value.h"
 
 #include <popt.h>
 #include <stdio.h>

@@ -3,9 +3,9 @@
 // A stage begins when another name, or 0 done, is reported, and ends with the next one. Ten updates a second are shown:
 // more cannot be read and would cost time.
 
-#include "progress.h"
+#include "cli/progress.h"
 
-#include "interrupt.h"
+#include "cli/interrupt.h"
 
 #include <stdio.h>
 #include <string.h>

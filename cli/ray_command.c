@@ -2,10 +2,10 @@
 //
 // talus ray: what a ray hits, one ray or many.
 
-#include "batch.h"
-#include "json_out.h"
-#include "open_input.h"
-#include "parse_value.h"
+#include "cli/batch.h"
+#include "cli/json_out.h"
+#include "cli/open_input.h"
+#include "cli/parse_value.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 // wherever the two meet. Faces end at every plane, so no corner lies inside another face's edge: there are no
 // T-junctions. Merging faces into larger rectangles was rejected, because it would bring them back.
 
-#include "sample_carving.h"
+#include "cli/sample_carving.h"
 
 #include <stdlib.h>
 #include <string.h>

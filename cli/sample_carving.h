@@ -6,7 +6,7 @@
 #ifndef TALUS_CLI_SAMPLE_CARVING_H
 #define TALUS_CLI_SAMPLE_CARVING_H
 
-#include "sample_mesh.h"
+#include "cli/sample_mesh.h"
 
 typedef struct tl_sample_carving_box {
     tl_aabb box;

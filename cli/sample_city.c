@@ -4,8 +4,8 @@
 // storeys, hollow, with windows, doors, partitions and stairs from floor to floor, up to a flat roof with a parapet or
 // under a gable with overhang; or a park with trees round a sunken square. Footbridges lead over some streets.
 
-#include "sample_carving.h"
-#include "sample_level.h"
+#include "cli/sample_carving.h"
+#include "cli/sample_level.h"
 
 #define BLOCK    52.0f
 #define PAVEMENT 20.0f // from the block's centre to the kerb

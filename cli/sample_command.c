@@ -2,10 +2,10 @@
 //
 // talus sample: a built-in level as an OBJ file.
 
-#include "command.h"
+#include "cli/command.h"
+#include "cli/json_out.h"
+#include "cli/sample_level.h"
 #include "io/obj_write.h"
-#include "json_out.h"
-#include "sample_level.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -5,8 +5,8 @@
 // garden with a kerb and thin fences, a sunken basin, a well, a colonnade under a roof with overhang, and a gatehouse
 // with a room inside.
 
-#include "sample_carving.h"
-#include "sample_level.h"
+#include "cli/sample_carving.h"
+#include "cli/sample_level.h"
 
 #define WARD      40.0f
 #define HALF_WALL 18.0f // outer face of the walls, from the ward's centre

@@ -4,8 +4,8 @@
 // Rooms lie on three floor heights; the higher room's half of a corridor has the stairs or the ramp. Everything is
 // hollowed out of rock, so surfaces look inward and nothing is walkable on top.
 
-#include "sample_carving.h"
-#include "sample_level.h"
+#include "cli/sample_carving.h"
+#include "cli/sample_level.h"
 
 #define CELL        20.0f
 #define HALF_DOOR   1.2f

@@ -3,7 +3,7 @@
 // The table of levels, and how a level comes to the number of triangles that was asked for: count levels of growing
 // extent until the next one would be too large, then spend what is left on rocks, large ones first.
 
-#include "sample_level.h"
+#include "cli/sample_level.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #ifndef TALUS_CLI_SAMPLE_LEVEL_H
 #define TALUS_CLI_SAMPLE_LEVEL_H
 
-#include "sample_mesh.h"
+#include "cli/sample_mesh.h"
 
 /// What a level is built from: cells (rooms, wards, blocks, terrain squares) in rows and columns.
 typedef struct tl_sample_plan {

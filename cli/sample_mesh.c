@@ -3,7 +3,7 @@
 // The pieces of sample levels. Circles are made of rational points ((1 - t^2) / (1 + t^2), 2t / (1 + t^2)) instead of
 // sines, which differ between C libraries.
 
-#include "sample_mesh.h"
+#include "cli/sample_mesh.h"
 
 #include <stdlib.h>
 

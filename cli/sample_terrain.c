@@ -4,7 +4,7 @@
 // where a slow noise says so. Most 96 m squares have a mound with a gorge cut through, roofed over with rock to a
 // tunnel, and each has an arch. A small request is given wide grid cells, a large one cells of 1 m over a large land.
 
-#include "sample_level.h"
+#include "cli/sample_level.h"
 
 #include <stdlib.h>
 

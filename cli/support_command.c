@@ -2,9 +2,9 @@
 //
 // talus support: the point of a hull that lies farthest along a direction.
 
-#include "batch.h"
-#include "open_hull.h"
-#include "parse_value.h"
+#include "cli/batch.h"
+#include "cli/open_hull.h"
+#include "cli/parse_value.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 //
 // Cells are kept as text until all are known, because a column is as wide as its widest cell.
 
-#include "table.h"
+#include "cli/table.h"
 
 #include <assert.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 //
 // A growing array of bytes.
 
-#include "text_buffer.h"
+#include "cli/text_buffer.h"
 
 #include "io/format_float.h"
 

@@ -4,7 +4,7 @@
 // The caller works too; it returns when every thread that joined the loop has left it, so the loop's data may live on
 // its stack. Work stealing was rejected: items are milliseconds long, one counter is never contended.
 
-#include "thread_pool.h"
+#include "cli/thread_pool.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

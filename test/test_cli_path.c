@@ -166,10 +166,8 @@ static void test_bad_pairs(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_straight),
-        cmocka_unit_test(test_no_way),
-        cmocka_unit_test(test_many),
-        cmocka_unit_test(test_sample_levels_are_walkable),
+        cmocka_unit_test(test_straight),  cmocka_unit_test(test_no_way),
+        cmocka_unit_test(test_many),      cmocka_unit_test(test_sample_levels_are_walkable),
         cmocka_unit_test(test_bad_pairs),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
