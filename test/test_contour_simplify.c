@@ -52,8 +52,8 @@ static uint32_t next_kept(const tl_contour_work *work, uint32_t vertex)
 
 static tl_nav_config random_config(test_random *random, int round)
 {
-    tl_nav_config config =
-        region_config((tl_nav_partition)(round % 3), test_random_below(random, 20), test_random_below(random, 200));
+    uint32_t min_area = test_random_below(random, 20);
+    tl_nav_config config = region_config((tl_nav_partition)(round % 3), min_area, test_random_below(random, 200));
     config.max_simplification_error = round % 6 == 0 ? 0.0f : test_random_range(random, 0.3f, 4.0f);
     config.max_edge_len = round % 2 == 0 ? 0 : 2 + test_random_below(random, 20);
     return config;

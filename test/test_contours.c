@@ -6,18 +6,20 @@
 
 static tl_nav_compact random_level(test_random *random, int round)
 {
-    return round % 7 == 6 ? fixture_spiral(8 + test_random_below(random, 30), 1 + test_random_below(random, 3), 4)
-                          : fixture_random(random, 10 + test_random_below(random, 50),
-                                           10 + test_random_below(random, 50), 1 + round % 4,
-                                           test_random_below(random, 1 + (uint32_t)round % 16), round % 3 == 2 ? 3 : 0);
+    uint32_t width = test_random_below(random, 50), height = test_random_below(random, 50);
+    if (round % 7 == 6) {
+        return fixture_spiral(8 + width / 2, 1 + height % 3, 4);
+    }
+    uint32_t holes = test_random_below(random, 1 + (uint32_t)round % 16), border = round % 3 == 2 ? 3 : 0;
+    return fixture_random(random, 10 + width, 10 + height, 1 + round % 4, holes, border);
 }
 
 static tl_nav_config contour_config(test_random *random, int round)
 {
-    tl_nav_config config =
-        region_config((tl_nav_partition)(round % 3), test_random_below(random, 20), test_random_below(random, 300));
+    uint32_t min_area = test_random_below(random, 20);
+    tl_nav_config config = region_config((tl_nav_partition)(round % 3), min_area, test_random_below(random, 300));
     config.max_simplification_error = round % 5 == 0 ? 0.0f : test_random_range(random, 0.5f, 4.0f);
-    config.max_edge_len = test_random_below(random, 2) * test_random_below(random, 30);
+    config.max_edge_len = round % 2 == 0 ? 0 : test_random_below(random, 30);
     return config;
 }
 

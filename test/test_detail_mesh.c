@@ -36,10 +36,10 @@ static void free_level(level *l)
 
 static tl_nav_config detail_config(test_random *random, int round)
 {
-    tl_nav_config config =
-        region_config((tl_nav_partition)(round % 3), test_random_below(random, 20), test_random_below(random, 300));
+    uint32_t min_area = test_random_below(random, 20);
+    tl_nav_config config = region_config((tl_nav_partition)(round % 3), min_area, test_random_below(random, 300));
     config.max_simplification_error = test_random_range(random, 0.5f, 2.0f);
-    config.max_edge_len = test_random_below(random, 2) * (5 + test_random_below(random, 30));
+    config.max_edge_len = round % 2 == 0 ? 0 : 5 + test_random_below(random, 30);
     config.detail_sample_dist = 0.5f * test_random_range(random, 0.9f, 6.0f); // columns of 0.5 m
     config.detail_sample_max_error = 0.25f * test_random_range(random, 0.0f, 3.0f);
     return config;
@@ -47,11 +47,12 @@ static tl_nav_config detail_config(test_random *random, int round)
 
 static tl_nav_compact random_level(test_random *random, int round)
 {
-    uint32_t border = round % 3 == 2 ? 3 : 0;
-    return round % 7 == 6
-               ? fixture_spiral(10 + test_random_below(random, 30), 2, 3)
-               : fixture_random(random, 10 + test_random_below(random, 50), 10 + test_random_below(random, 50),
-                                1 + round % 3, test_random_below(random, 4), border);
+    uint32_t width = test_random_below(random, 50), height = test_random_below(random, 50);
+    if (round % 7 == 6) {
+        return fixture_spiral(10 + width / 2, 2, 3);
+    }
+    uint32_t holes = test_random_below(random, 4), border = round % 3 == 2 ? 3 : 0;
+    return fixture_random(random, 10 + width, 10 + height, 1 + round % 3, holes, border);
 }
 
 // A vertex of the detail mesh in columns of the tile, exact to the rounding of floats.
@@ -120,7 +121,7 @@ static double surface_at(const level *l, uint32_t p, double x, double z)
     const tl_nav_detail_patch *patch = &l->detail.patches[p];
     const tl_vec3 *v = l->detail.vertices + patch->first_vertex;
     const tl_nav_detail_triangle *t = l->detail.triangles + patch->first_triangle;
-    double best = NAN, best_inside = -1e-3;
+    double best = (double)NAN, best_inside = -1e-3;
     for (uint32_t k = 0; k < patch->triangle_count; k++) {
         double cx[3], cy[3], cz[3], weight[3], inside = 1;
         for (int e = 0; e < 3; e++) {
@@ -166,7 +167,7 @@ static uint32_t check_inner_samples(const level *l, uint32_t p)
     }
     for (double i = 0; i * spacing < l->contours.set.height; i += 1) {
         for (double j = 0; j * spacing < l->contours.set.width; j += 1) {
-            double x = floor(j * spacing) + 0.5, z = floor(i * spacing) + 0.5, depth = INFINITY;
+            double x = floor(j * spacing) + 0.5, z = floor(i * spacing) + 0.5, depth = (double)INFINITY;
             for (uint32_t k = 0; k < count; k++) {
                 const int32_t *a = m->vertices + 3 * m->indices[begin + k];
                 const int32_t *b = m->vertices + 3 * m->indices[begin + (k + 1) % count];

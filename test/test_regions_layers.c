@@ -11,8 +11,9 @@ static void invariants(void **state)
     uint32_t several = 0, bordered = 0;
     for (int round = 0; round < 80; round++) {
         uint32_t border = round % 5 == 1 ? 3 : 0;
-        tl_nav_compact compact = fixture_random(&random, 10 + test_random_below(&random, 50), 40, 1 + round % 5,
-                                                test_random_below(&random, 20), border);
+        uint32_t width = 10 + test_random_below(&random, 50);
+        tl_nav_compact compact =
+            fixture_random(&random, width, 40, 1 + round % 5, test_random_below(&random, 20), border);
         tl_nav_config config = region_config(TL_NAV_LAYERS, 20, 60);
         TEST_RESULT(tl_nav_build_regions(&config, NULL, &compact, NULL), TL_OK);
         check_regions(&compact, compact.region, compact.region_count);

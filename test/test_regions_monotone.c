@@ -30,8 +30,9 @@ static void one_run_a_row(void **state)
     uint32_t regions = 0, long_regions = 0;
     for (int round = 0; round < 80; round++) {
         uint32_t border = round % 4 == 1 ? 2 : 0;
-        tl_nav_compact compact = fixture_random(&random, 5 + test_random_below(&random, 50), 40, 1 + round % 4,
-                                                test_random_below(&random, 20), border);
+        uint32_t width = 5 + test_random_below(&random, 50);
+        tl_nav_compact compact =
+            fixture_random(&random, width, 40, 1 + round % 4, test_random_below(&random, 20), border);
         tl_arena arena;
         tl_region_work work;
         partition_only(&compact, &arena, &work);

@@ -204,8 +204,9 @@ static void invariants(void **state)
     uint32_t dropped = 0, merged = 0;
     for (int round = 0; round < 60; round++) {
         uint32_t border = round % 3 == 2 ? 4 : 0;
-        tl_nav_compact compact = fixture_random(&random, 30 + test_random_below(&random, 60), 50, 1 + round % 4,
-                                                test_random_below(&random, 25), border);
+        uint32_t width = 30 + test_random_below(&random, 60);
+        tl_nav_compact compact =
+            fixture_random(&random, width, 50, 1 + round % 4, test_random_below(&random, 25), border);
         tl_nav_config config = region_config(TL_NAV_WATERSHED, 30, 80);
         TEST_RESULT(tl_nav_distance_field(NULL, &compact, NULL), TL_OK);
         TEST_RESULT(tl_nav_build_regions(&config, NULL, &compact, NULL), TL_OK);

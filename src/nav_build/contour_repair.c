@@ -7,6 +7,7 @@
 // edges that conflict the one that strayed farther gets its farthest traced vertex back, on both of its sides; then all
 // regions concerned are looked at again. Traced outlines have no conflict, so this ends at them at the latest.
 //
+// A hole that an edge has left behind on its wrong side is a conflict too.
 // Conflicts are found exactly, by a sweep along x over the edges of one region. Allowed are edges that share an end,
 // and those that run the same way back: the two sides of a drop inside a region. (Recast does not look; it names the
 // region in its log when a hole is left without an outline.)
@@ -244,6 +245,64 @@ static void mend_crossings(repair *r, uint32_t count)
     }
 }
 
+// Signed crossings of the edge from a to b with the ray from p to the left: they sum up to the winding number of p.
+static int ray_crossing(const tl_contour_vertex *p, const tl_contour_vertex *a, const tl_contour_vertex *b)
+{
+    if ((a->z <= p->z) == (b->z <= p->z)) {
+        return 0;
+    }
+    int upward = a->z <= p->z ? 1 : -1;
+    int side = sign_of(tl_contour_area2(a, b, p));
+    return side * upward < 0 ? upward : 0;
+}
+
+// Whether p lies between an edge and the traced path that it stands for.
+static bool is_cut_off(const tl_contour_work *work, const simple_edge *e, const tl_contour_vertex *p)
+{
+    const tl_contour_vertex *v = work->vertices;
+    int winding = ray_crossing(p, &v[e->end], &v[e->begin]);
+    for (uint32_t k = e->begin; k != e->end;) {
+        uint32_t next = tl_contour_next(work, k);
+        winding += ray_crossing(p, &v[k], &v[next]);
+        k = next;
+    }
+    return winding != 0;
+}
+
+// An edge can move right across a hole and leave it outside, or inside another hole, and cross nothing. A vertex of the
+// hole then has another winding number than 1 in the region's other loops; the edges that cut it off are mended.
+static void mend_stray_holes(repair *r, uint32_t region, uint32_t count)
+{
+    const tl_contour_work *work = r->work;
+    for (uint32_t k = r->first_loop[region]; k < r->first_loop[region + 1]; k++) {
+        uint32_t hole = r->loops[k];
+        int winding = 0;
+        if (work->loops[hole].area2 >= 0) {
+            continue;
+        }
+        uint32_t vertex = work->loops[hole].first;
+        while (!work->keep[vertex]) {
+            vertex++;
+        }
+        const tl_contour_vertex *p = &work->vertices[vertex];
+        for (uint32_t j = 0; j < count; j++) {
+            const simple_edge *e = &r->edges[j];
+            bool other = work->loop_of[e->begin] != hole;
+            winding += other ? ray_crossing(p, &work->vertices[e->begin], &work->vertices[e->end]) : 0;
+        }
+        for (uint32_t j = 0; j < count && winding != 1; j++) {
+            double error;
+            const simple_edge *e = &r->edges[j];
+            if (work->loop_of[e->begin] != hole && is_cut_off(work, e, p)) {
+                uint32_t farthest = tl_contours_farthest(work, e->begin, e->end, &error);
+                if (error > 0) {
+                    keep(r, farthest);
+                }
+            }
+        }
+    }
+}
+
 static tl_result group_loops(repair *r)
 {
     tl_contour_work *work = r->work;
@@ -297,7 +356,11 @@ tl_result tl_contours_repair(tl_contour_work *work)
             for (uint32_t k = r.first_loop[region]; k < r.first_loop[region + 1]; k++) {
                 tl_contours_refine(work, r.loops[k], r.stack);
             }
-            mend_crossings(&r, collect_edges(&r, region));
+            uint32_t count = collect_edges(&r, region);
+            mend_crossings(&r, count);
+            if (!r.dirty[region]) {
+                mend_stray_holes(&r, region, count);
+            }
             changed = true;
         }
     }

@@ -22,7 +22,7 @@ static interval row_inside(const tl_detail_work *work, uint32_t polygon, double 
 {
     const tl_polygon_mesh *polygons = work->polygons;
     uint32_t begin = polygons->first[polygon], end = polygons->first[polygon + 1];
-    interval row = { -INFINITY, INFINITY };
+    interval row = { -(double)INFINITY, (double)INFINITY };
     for (uint32_t k = begin; k < end; k++) {
         const int32_t *a = polygons->vertices + 3 * (size_t)polygons->indices[k];
         const int32_t *b = polygons->vertices + 3 * (size_t)polygons->indices[k + 1 < end ? k + 1 : begin];
@@ -30,11 +30,13 @@ static interval row_inside(const tl_detail_work *work, uint32_t polygon, double 
         // Inside: (x - a.x) dz - dx (z - a.z) >= spacing / 2 * length
         double needed = 0.5 * work->spacing * sqrt(dx * dx + dz * dz) + dx * (z - a[2]);
         if (dz > 0) {
-            row.low = fmax(row.low, a[0] + needed / dz);
+            double bound = a[0] + needed / dz;
+            row.low = bound > row.low ? bound : row.low;
         } else if (dz < 0) {
-            row.high = fmin(row.high, a[0] + needed / dz);
+            double bound = a[0] + needed / dz;
+            row.high = bound < row.high ? bound : row.high;
         } else if (needed > 0) {
-            row.high = -INFINITY;
+            row.high = -(double)INFINITY;
         }
     }
     return row;
