@@ -72,29 +72,40 @@ static found_floor find_nearest(const tl_detail_floors *floors, int64_t x, int64
     return best;
 }
 
-// Walks from a floor towards a column, along the longer way first, and round by the other where a link is missing.
-static uint32_t walk_towards(const tl_nav_compact *compact, found_floor from, int64_t x, int64_t z)
+// Walks over links towards a column, along one axis first, and along the other where a link is missing.
+static void walk_towards(const tl_nav_compact *compact, found_floor *at, int64_t x, int64_t z, bool x_first)
 {
-    uint32_t span = from.span;
-    while (from.x != x || from.z != z) {
-        int64_t dx = x - from.x, dz = z - from.z;
+    while (at->x != x || at->z != z) {
+        int64_t dx = x - at->x, dz = z - at->z;
         uint32_t along_x = dx < 0 ? 0 : 2, along_z = dz < 0 ? 3 : 1;
-        bool x_first = (dx < 0 ? -dx : dx) >= (dz < 0 ? -dz : dz);
-        uint32_t first = x_first ? along_x : along_z, second = x_first ? along_z : along_x;
-        bool second_leads = x_first ? dz != 0 : dx != 0;
-        uint32_t direction = first, next = compact->neighbour[4 * (size_t)span + first];
-        if (next == TL_NAV_NO_SPAN && second_leads) {
-            direction = second;
-            next = compact->neighbour[4 * (size_t)span + second];
+        uint32_t first = (x_first && dx != 0) || dz == 0 ? along_x : along_z, direction = first;
+        uint32_t next = compact->neighbour[4 * (size_t)at->span + direction];
+        if (next == TL_NAV_NO_SPAN && dx != 0 && dz != 0) {
+            direction = first == along_x ? along_z : along_x;
+            next = compact->neighbour[4 * (size_t)at->span + direction];
         }
         if (next == TL_NAV_NO_SPAN) {
             break;
         }
-        span = next;
-        from.x += (direction == 2) - (direction == 0);
-        from.z += (direction == 1) - (direction == 3);
+        at->span = next;
+        at->x += (direction == 2) - (direction == 0);
+        at->z += (direction == 1) - (direction == 3);
     }
-    return span;
+    at->distance_sq = (x - at->x) * (x - at->x) + (z - at->z) * (z - at->z);
+}
+
+// The floor nearest to the column of those that two walks reach.
+static uint32_t walk_on(const tl_nav_compact *compact, found_floor from, int64_t x, int64_t z)
+{
+    int64_t dx = x - from.x, dz = z - from.z;
+    bool x_first = (dx < 0 ? -dx : dx) >= (dz < 0 ? -dz : dz); // the longer way
+    found_floor first = from, second = from;
+    walk_towards(compact, &first, x, z, x_first);
+    if (first.distance_sq > 0) {
+        walk_towards(compact, &second, x, z, !x_first);
+        first = second.distance_sq < first.distance_sq ? second : first;
+    }
+    return first.span;
 }
 
 int32_t tl_detail_floor_at(const tl_detail_floors *floors, int64_t x, int64_t z, int32_t fallback)
@@ -109,7 +120,7 @@ int32_t tl_detail_floor_at(const tl_detail_floors *floors, int64_t x, int64_t z,
         if (nearest.span == TL_NAV_NO_SPAN) {
             return fallback;
         }
-        span = walk_towards(compact, nearest, x, z);
+        span = walk_on(compact, nearest, x, z);
     }
     return compact->floor[span];
 }
