@@ -42,8 +42,8 @@ tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
     }
 }
 
-// AVX2 before AVX-512: with nodes of 256 bytes the wider registers save instructions and no time, and on Sapphire Rapids
-// they cost 2 to 8 per cent of a ray (bench_rays). A machine with AVX-512 always has AVX2.
+// AVX2 before AVX-512: with nodes of 256 bytes the wider registers save instructions and no time, and on Sapphire
+// Rapids they cost 2 to 8 per cent of a ray (bench_rays). A machine with AVX-512 always has AVX2.
 static inline tl_ray_walk_fn *best_walk(void)
 {
     if (has_avx2()) {

@@ -20,7 +20,7 @@
 // triangle that is met differs by at most Z (6.1 e / |D| + 9 u) before the division, its rounding and the product with
 // per_depth (two roundings of its own) add 6 u more: taken as Z (7 e / |D| + 24 u).
 
-#include "math/simd.h"
+#include "math/simd16.h"
 #include "soup/ray_prepare.h"
 
 #include <float.h>
