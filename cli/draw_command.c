@@ -287,6 +287,9 @@ static bool make_scene(draw_source *source, const draw_settings *settings, int s
 {
     draw_scene_init(scene, source->bounds);
     snprintf(scene->title, sizeof scene->title, "%s: %s", file_name(source->input.path), STAGE_NAMES[stage]);
+    // Coarse polygons dip under the ground between their corners. What is less than an agent's height above them is
+    // their own floor, not one overhead.
+    scene->overlay_bias = 0.95f * source->nav_def.agent_height;
     // The soup and the spans are the level themselves; everything else lies on it.
     if (stage != STAGE_SOUP && stage != STAGE_SPANS) {
         draw_add_backdrop(scene, &source->mesh);
