@@ -4,11 +4,11 @@
 
 #include "base/assert.h"
 #include "base/host.h"
-#include "box_tree.h"
-#include "lattice.h"
-#include "layout.h"
-#include "portal_bake.h"
-#include "source_check.h"
+#include "nav_format/box_tree.h"
+#include "nav_format/lattice.h"
+#include "nav_format/layout.h"
+#include "nav_format/portal_bake.h"
+#include "nav_format/source_check.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 // ordered query still finds both children. The median bounds the depth by log2 of the polygons, so that queries can
 // hold their stack in an array; a cost-driven split was left out, because floors are flat and alike in size.
 
-#include "box_tree.h"
+#include "nav_format/box_tree.h"
 
 #include "base/assert.h"
 #include "base/radix_sort.h"

@@ -7,10 +7,10 @@
 #include "base/assert.h"
 #include "base/hash.h"
 #include "base/host.h"
-#include "box_tree.h"
-#include "lattice.h"
-#include "layout.h"
-#include "source_check.h"
+#include "nav_format/box_tree.h"
+#include "nav_format/lattice.h"
+#include "nav_format/layout.h"
+#include "nav_format/source_check.h"
 
 #include <math.h>
 #include <string.h>

@@ -7,11 +7,11 @@
 // To compare straight edges (as other systems do) misses links on hilly ground, or makes false ones with a tolerance
 // wide enough to avoid that. So the heights of the detail mesh along the edge are baked in, and those are compared.
 
-#include "portal_bake.h"
+#include "nav_format/portal_bake.h"
 
 #include "base/host.h"
 #include "base/radix_sort.h"
-#include "lattice.h"
+#include "nav_format/lattice.h"
 
 #include <math.h>
 

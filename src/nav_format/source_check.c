@@ -3,11 +3,11 @@
 // What a tile may be baked from: every property that queries rest on is checked here, in integers, before a byte is
 // written, so that a fault of a caller's own polygons is named where it lies and never becomes a wrong path.
 
-#include "source_check.h"
+#include "nav_format/source_check.h"
 
 #include "base/assert.h"
 #include "base/host.h"
-#include "lattice.h"
+#include "nav_format/lattice.h"
 
 #include <math.h>
 #include <talus/mesh.h>

@@ -3,9 +3,9 @@
 // The point of a polygon closest to a point, in the plane: the point itself when it is inside, else the closest one of
 // the edges. Inside is decided exactly; distances are compared in double, ties to the lower edge.
 
-#include "navmesh.h"
-#include "side.h"
-#include "surface.h"
+#include "nav_query/navmesh.h"
+#include "nav_query/side.h"
+#include "nav_query/surface.h"
 
 bool tl_nav_is_over(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point)
 {

@@ -2,7 +2,7 @@
 //
 // Filters: which polygons count, and what a metre in them costs.
 
-#include "filter.h"
+#include "nav_query/filter.h"
 
 tl_nav_filter tl_default_nav_filter(void)
 {

@@ -10,10 +10,10 @@
 // Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968.
 
 #include "base/assert.h"
-#include "filter.h"
-#include "navmesh.h"
-#include "node_pool.h"
-#include "surface.h"
+#include "nav_query/filter.h"
+#include "nav_query/navmesh.h"
+#include "nav_query/node_pool.h"
+#include "nav_query/surface.h"
 
 // Keys of the two nodes that are no ways. A slot is below 2^20, so no way has them.
 #define START_KEY UINT64_MAX

@@ -15,9 +15,9 @@
 // Presence of Rectilinear Barriers, 1984.
 
 #include "base/assert.h"
-#include "portal_between.h"
-#include "side.h"
-#include "surface.h"
+#include "nav_query/portal_between.h"
+#include "nav_query/side.h"
+#include "nav_query/surface.h"
 
 #include <string.h>
 

@@ -5,8 +5,8 @@
 // No triangle may hold the point by a rounding's breadth, at an edge of the patch. Then the triangle that misses it
 // least answers, with its negative weights cut off; so a point on a polygon always has a height.
 
-#include "navmesh.h"
-#include "surface.h"
+#include "nav_query/navmesh.h"
+#include "nav_query/surface.h"
 
 typedef struct triangle_weights {
     double w[3];  // parts of the area, sum 1

@@ -6,9 +6,9 @@
 // finds the floor it stands on. Every operation of the bound is monotone and mirrors the measure's own, so rounding
 // never prunes the answer, and the result is bit by bit that of trying all polygons.
 
-#include "filter.h"
-#include "navmesh.h"
-#include "surface.h"
+#include "nav_query/filter.h"
+#include "nav_query/navmesh.h"
+#include "nav_query/surface.h"
 
 typedef struct nearest_search {
     const tl_navmesh *navmesh;

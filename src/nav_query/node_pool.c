@@ -5,7 +5,7 @@
 // A search leaves its buckets filled; the next one empties just those, so that a short search in a large pool costs
 // nothing for the room that it does not use.
 
-#include "node_pool.h"
+#include "nav_query/node_pool.h"
 
 #include "base/arena.h"
 #include "base/hash.h"

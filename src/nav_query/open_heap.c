@@ -4,7 +4,7 @@
 // cost moves a node up instead of adding it again. Four children halve the depth and share a cache line.
 // Source: Johnson, Priority Queues with Update and Finding Minimum Spanning Trees, 1975.
 
-#include "node_pool.h"
+#include "nav_query/node_pool.h"
 
 enum { ARITY = 4 };
 

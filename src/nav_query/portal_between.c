@@ -5,7 +5,7 @@
 // Two convex polygons share stretches of one line only, and each contains the line between any two of its points. So
 // the hull of all stretches is inside both, and the path may cross anywhere on it.
 
-#include "portal_between.h"
+#include "nav_query/portal_between.h"
 
 bool tl_nav_portal_between(const tl_navmesh *navmesh, tl_nav_ref from, uint32_t to_slot, uint32_t to_polygon,
                            tl_vec3 *left_out, tl_vec3 *right_out)

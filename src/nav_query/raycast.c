@@ -13,10 +13,10 @@
 // Sources: for the walk, Guibas and Stolfi 1985; for the labels, Edelsbrunner and Muecke, Simulation of Simplicity,
 // 1990.
 
-#include "filter.h"
-#include "navmesh.h"
-#include "side.h"
-#include "surface.h"
+#include "nav_query/filter.h"
+#include "nav_query/navmesh.h"
+#include "nav_query/side.h"
+#include "nav_query/surface.h"
 
 #include <string.h>
 

@@ -6,7 +6,7 @@
 // the surface, at every bend of either one, so that a hill on the seam neither hides a link nor fakes one.
 
 #include "base/arena.h"
-#include "navmesh.h"
+#include "nav_query/navmesh.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,7 +8,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/hash.h"
-#include "navmesh.h"
+#include "nav_query/navmesh.h"
 
 #include <string.h>
 

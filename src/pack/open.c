@@ -9,7 +9,7 @@
 #include "base/byte_reader.h"
 #include "base/hash.h"
 #include "base/host.h"
-#include "format.h"
+#include "pack/format.h"
 
 #include <string.h>
 

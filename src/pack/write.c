@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "base/host.h"
 #include "base/radix_sort.h"
-#include "format.h"
+#include "pack/format.h"
 
 #include <string.h>
 
