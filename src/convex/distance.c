@@ -6,11 +6,6 @@
 
 #include <string.h>
 
-static tl_vec3 to_world(const tl_pair *pair, tl_vec3d p)
-{
-    return tl_vec3d_to_float(tl_frame_point(&pair->a_to_world, p));
-}
-
 void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                         tl_simplex_cache *cache, tl_separation *separation_out)
 {
@@ -20,14 +15,11 @@ void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex
     memset(separation_out, 0, sizeof *separation_out);
     separation_out->status = gjk.status;
     separation_out->iterations = gjk.iterations;
-    tl_vec3d on_a = tl_vec3d_make(0.0, 0.0, 0.0), on_b = on_a;
-    for (uint32_t i = 0; i < gjk.simplex.count; i++) {
-        on_a = tl_vec3d_mul_add(on_a, gjk.simplex.points[i].a, gjk.simplex.weights[i]);
-        on_b = tl_vec3d_mul_add(on_b, gjk.simplex.points[i].b, gjk.simplex.weights[i]);
-    }
+    tl_vec3d on_a, on_b;
+    tl_simplex_witness(&gjk.simplex, &on_a, &on_b);
     if (gjk.overlap) {
         separation_out->overlap = true;
-        separation_out->point_a = separation_out->point_b = to_world(&pair, on_a);
+        separation_out->point_a = separation_out->point_b = tl_pair_to_world(&pair, on_a);
         return;
     }
     // From A to B: against the nearest point of A - B.
@@ -36,8 +28,8 @@ void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex
     separation_out->overlap = gjk.upper <= radii;
     separation_out->distance = gjk.upper > radii ? (float)(gjk.upper - radii) : 0.0f;
     separation_out->lower_bound = gjk.lower > radii ? (float)((gjk.lower - radii) * (1.0 - 1e-7)) : 0.0f;
-    separation_out->point_a = to_world(&pair, tl_vec3d_mul_add(on_a, normal, (double)a->radius));
-    separation_out->point_b = to_world(&pair, tl_vec3d_mul_add(on_b, normal, -(double)b->radius));
+    separation_out->point_a = tl_pair_to_world(&pair, tl_vec3d_mul_add(on_a, normal, (double)a->radius));
+    separation_out->point_b = tl_pair_to_world(&pair, tl_vec3d_mul_add(on_b, normal, -(double)b->radius));
     separation_out->normal = tl_vec3d_to_float(tl_frame_rotate(&pair.a_to_world, normal));
 }
 

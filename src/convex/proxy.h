@@ -37,4 +37,9 @@ tl_pair_point tl_pair_support(tl_pair *pair, tl_vec3d direction);
 // The point of A - B of two vertices; false when a shape has no such vertex.
 bool tl_pair_vertex(const tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b, tl_pair_point *point_out);
 
+static inline tl_vec3 tl_pair_to_world(const tl_pair *pair, tl_vec3d p)
+{
+    return tl_vec3d_to_float(tl_frame_point(&pair->a_to_world, p));
+}
+
 #endif

@@ -138,3 +138,14 @@ tl_vec3d tl_simplex_nearest(tl_simplex *simplex)
     }
     return keep(simplex, &best);
 }
+
+void tl_simplex_witness(const tl_simplex *simplex, tl_vec3d *on_a_out, tl_vec3d *on_b_out)
+{
+    tl_vec3d on_a = tl_vec3d_make(0.0, 0.0, 0.0), on_b = on_a;
+    for (uint32_t i = 0; i < simplex->count; i++) {
+        on_a = tl_vec3d_mul_add(on_a, simplex->points[i].a, simplex->weights[i]);
+        on_b = tl_vec3d_mul_add(on_b, simplex->points[i].b, simplex->weights[i]);
+    }
+    *on_a_out = on_a;
+    *on_b_out = on_b;
+}

@@ -17,4 +17,7 @@ typedef struct tl_simplex {
 // origin lies inside of four points all stay, and the result is zero.
 tl_vec3d tl_simplex_nearest(tl_simplex *simplex);
 
+// The points of A and of B whose difference is the nearest point, by its weights.
+void tl_simplex_witness(const tl_simplex *simplex, tl_vec3d *on_a_out, tl_vec3d *on_b_out);
+
 #endif

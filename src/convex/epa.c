@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+//
+// EPA: the depth of two shapes that overlap is the distance of the origin from the surface of A - B. Grow a polytope
+// inside of A - B by the support along its face nearest to the origin: that face bounds the depth from below, each
+// support from above.
+// Source: van den Bergen, Proximity Queries and Penetration Depth Computation on 3D Game Objects, 2001.
+//
+// Both bounds hold at any time, so the loop may end anywhere and the answer says how good it is. A flat difference,
+// which has no tetrahedron to start from, is no failure: its depth is 0 and its normal that of the plane.
+
+#include "convex/epa.h"
+
+#include "convex/polytope.h"
+#include "math/tolerance.h"
+
+// The result is a float in a world whose coordinates are: bounds closer than four roundings of the size are equal.
+#define DEPTH_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
+
+// A point of A - B is off by 16 roundings; a plane through three of them and the distance of a fourth, by 16 more each
+// where the triangle is not thin; thin ones are kept off by the margin that follows from 4 times that.
+#define PLANE_ERROR TL_DOUBLE_GAMMA(128)
+
+typedef struct search {
+    tl_pair *pair;
+    double size;  // largest |a| + |b|
+    double noise; // metres that rounding may be off
+    double reach; // largest |w|; the origin is inside, so this is the size of A - B
+    tl_epa *epa;
+} search;
+
+static double size_of(tl_vec3d a)
+{
+    return fabs(a.x) + fabs(a.y) + fabs(a.z);
+}
+
+static void grow_size(search *s, const tl_pair_point *point)
+{
+    double size = size_of(point->a) + size_of(point->b);
+    if (size > s->size) {
+        s->size = size;
+        s->noise = PLANE_ERROR * size;
+    }
+    double reach = size_of(point->w);
+    s->reach = reach > s->reach ? reach : s->reach;
+}
+
+// The support along a unit direction; it bounds the depth from above. True when this is the best bound so far.
+static bool ask(search *s, tl_vec3d direction, tl_pair_point *point_out)
+{
+    *point_out = tl_pair_support(s->pair, direction);
+    grow_size(s, point_out);
+    double upper = tl_vec3d_dot(direction, point_out->w);
+    if (upper < s->epa->upper) {
+        s->epa->upper = upper;
+        s->epa->normal = direction;
+        return true;
+    }
+    return false;
+}
+
+static tl_vec3d perpendicular(tl_vec3d d)
+{
+    // Across the axis that d is least along.
+    tl_vec3d axis = fabs(d.x) <= fabs(d.y) && fabs(d.x) <= fabs(d.z) ? tl_vec3d_make(1.0, 0.0, 0.0)
+                    : fabs(d.y) <= fabs(d.z)                         ? tl_vec3d_make(0.0, 1.0, 0.0)
+                                                                     : tl_vec3d_make(0.0, 0.0, 1.0);
+    tl_vec3d p = tl_vec3d_cross(d, axis);
+    return tl_vec3d_scale(p, 1.0 / tl_vec3d_length(p));
+}
+
+// Asks along six directions and keeps the point for which `spread` of its difference from the first is largest.
+static bool widen(search *s, tl_pair_point *points, uint32_t count, const tl_vec3d directions[6])
+{
+    double best = 0.0;
+    tl_vec3d line = count > 1 ? tl_vec3d_sub(points[1].w, points[0].w) : tl_vec3d_make(0.0, 0.0, 0.0);
+    double length = tl_vec3d_length(line);
+    for (int i = 0; i < 6; i++) {
+        tl_pair_point point;
+        ask(s, directions[i], &point);
+        tl_vec3d away = tl_vec3d_sub(point.w, points[0].w);
+        double spread = count > 1 ? tl_vec3d_length(tl_vec3d_cross(line, away)) / length : tl_vec3d_length(away);
+        if (spread > best) {
+            best = spread;
+            points[count] = point;
+        }
+    }
+    return best > 4.0 * s->noise;
+}
+
+static bool widen_point(search *s, tl_pair_point *points)
+{
+    static const tl_vec3d axes[6] = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } };
+    return widen(s, points, 1, axes);
+}
+
+static bool widen_line(search *s, tl_pair_point *points)
+{
+    tl_vec3d line = tl_vec3d_sub(points[1].w, points[0].w);
+    line = tl_vec3d_scale(line, 1.0 / tl_vec3d_length(line));
+    tl_vec3d u = perpendicular(line), v = tl_vec3d_cross(line, u);
+    tl_vec3d directions[6];
+    for (int i = 0; i < 6; i++) {
+        // A hexagon: cos and sin of multiples of 60 degrees.
+        static const double turn[6][2] = { { 1, 0 },  { 0.5, 0.8660254037844386 },   { -0.5, 0.8660254037844386 },
+                                           { -1, 0 }, { -0.5, -0.8660254037844386 }, { 0.5, -0.8660254037844386 } };
+        directions[i] = tl_vec3d_mul_add(tl_vec3d_scale(u, turn[i][0]), v, turn[i][1]);
+    }
+    return widen(s, points, 2, directions);
+}
+
+static bool widen_plane(search *s, tl_pair_point *points)
+{
+    tl_vec3d n = tl_vec3d_cross(tl_vec3d_sub(points[1].w, points[0].w), tl_vec3d_sub(points[2].w, points[0].w));
+    double length = tl_vec3d_length(n);
+    if (!(length > 0.0)) {
+        return false;
+    }
+    n = tl_vec3d_scale(n, 1.0 / length);
+    tl_pair_point up, down;
+    ask(s, n, &up);
+    ask(s, tl_vec3d_neg(n), &down);
+    double height = tl_vec3d_dot(n, tl_vec3d_sub(up.w, points[0].w)),
+           depth = -tl_vec3d_dot(n, tl_vec3d_sub(down.w, points[0].w));
+    points[3] = height > depth ? up : down;
+    return (height > depth ? height : depth) > 4.0 * s->noise;
+}
+
+// Points of A and B whose difference is a triangle's point nearest to the origin. Returns how far that is from where
+// the depth and the normal say.
+static double witness_on(const search *s, const tl_polytope *p, const uint16_t vertices[3], tl_vec3d *on_a,
+                         tl_vec3d *on_b)
+{
+    tl_simplex triangle;
+    triangle.count = 3;
+    for (int i = 0; i < 3; i++) {
+        const tl_polytope_vertex *v = &p->vertices[vertices[i]];
+        tl_pair_point point = { v->w, v->a, tl_vec3d_sub(v->a, v->w), TL_NO_VERTEX, TL_NO_VERTEX };
+        triangle.points[i] = point;
+    }
+    tl_vec3d nearest = tl_simplex_nearest(&triangle);
+    tl_simplex_witness(&triangle, on_a, on_b);
+    return tl_vec3d_length(tl_vec3d_mul_add(nearest, s->epa->normal, -s->epa->upper));
+}
+
+// A face of A - B is often several triangles, and the one that was asked last need not hold the origin's foot: of all
+// that are as near, take the one that does.
+static void find_witness(search *s, const tl_polytope *p, const uint16_t best_vertices[3])
+{
+    double gap = DEPTH_GAP * s->reach;
+    double reach = p->distances[tl_polytope_nearest_face(p)] + gap;
+    double best = witness_on(s, p, best_vertices, &s->epa->on_a, &s->epa->on_b);
+    for (uint32_t f = 0; f < p->face_count && best > gap; f++) {
+        if (p->distances[f] <= reach) {
+            tl_vec3d on_a, on_b;
+            double off = witness_on(s, p, p->faces[f].vertices, &on_a, &on_b);
+            if (off < best) {
+                best = off;
+                s->epa->on_a = on_a;
+                s->epa->on_b = on_b;
+            }
+        }
+    }
+}
+
+static void expand(search *s, tl_polytope *p)
+{
+    uint16_t best_vertices[3] = { 0, 1, 2 };
+    tl_epa *epa = s->epa;
+    epa->upper = (double)INFINITY; // what the start asked is found again where it matters, with its triangle
+    for (;;) {
+        uint32_t f = tl_polytope_nearest_face(p);
+        tl_vec3d normal = p->faces[f].normal;
+        double distance = p->distances[f];
+        tl_pair_point point;
+        if (ask(s, normal, &point)) {
+            for (int i = 0; i < 3; i++) {
+                best_vertices[i] = p->faces[f].vertices[i];
+            }
+        }
+        double lower = distance - s->noise;
+        epa->lower = lower > epa->lower ? lower : epa->lower;
+        double gap = DEPTH_GAP * s->reach;
+        if (epa->upper - epa->lower <= gap || tl_vec3d_dot(normal, point.w) - distance <= 2.0 * s->noise) {
+            epa->status = epa->upper - epa->lower <= gap + 4.0 * s->pair->direction_error ? TL_CONVEX_CONVERGED
+                                                                                          : TL_CONVEX_DEGENERATE;
+            break;
+        }
+        p->coplanar = s->noise;
+        if (!tl_polytope_add(p, f, &point)) {
+            epa->status = p->vertex_count == TL_POLYTOPE_VERTICES ? TL_CONVEX_ITERATIONS : TL_CONVEX_DEGENERATE;
+            break;
+        }
+        epa->iterations++;
+    }
+    find_witness(s, p, best_vertices);
+}
+
+void tl_epa_run(tl_pair *pair, const tl_gjk *gjk, tl_epa *epa)
+{
+    tl_pair_point points[4];
+    search s = { pair, 0.0, 0.0, 0.0, epa };
+    tl_epa zero = { { 0.0, 0.0, 0.0 },   0.0, (double)INFINITY, 0.0, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 },
+                    TL_CONVEX_CONVERGED, 0 };
+    *epa = zero;
+    for (uint32_t i = 0; i < gjk->simplex.count; i++) {
+        points[i] = gjk->simplex.points[i];
+        grow_size(&s, &points[i]);
+    }
+    tl_simplex_witness(&gjk->simplex, &epa->on_a, &epa->on_b); // stays when A - B is flat
+    uint32_t count = gjk->simplex.count;
+    bool solid = count > 1 || widen_point(&s, points);
+    solid = solid && (count > 2 || widen_line(&s, points));
+    solid = solid && (count > 3 || widen_plane(&s, points));
+    if (solid) {
+        tl_polytope polytope;
+        tl_polytope_init(&polytope, points, s.noise);
+        expand(&s, &polytope);
+    }
+    // The support's direction was rounded: the true value is not above this.
+    epa->depth = epa->upper > 0.0 ? epa->upper : 0.0;
+    epa->upper = epa->depth + pair->direction_error;
+}
