@@ -39,26 +39,31 @@ static inline uint32_t edge_index(const tracer *t, uint32_t floor, uint32_t dire
     return t->first_edge[floor] + (before & 1) + ((before >> 1) & 1) + ((before >> 2) & 1);
 }
 
-// Marks the outline edges of each floor. A link is looked at from its later floor and marked on both sides.
+// If the floor beside in direction d has another region: marks that on its side, and returns the bit for this one.
+static inline uint32_t mark_link(tracer *t, uint32_t region, uint32_t beside, uint32_t d)
+{
+    const uint32_t *regions = t->work->compact->region;
+    if (beside == TL_NAV_NO_SPAN || regions[beside] == region) {
+        return 0;
+    }
+    if (is_traced(regions[beside])) {
+        t->outline[beside] = (uint8_t)(t->outline[beside] | (1u << (d ^ 2)));
+    }
+    return 1u << d;
+}
+
+// Marks the outline edges of each floor. A link is looked at once, from its later floor.
 static void mark_outlines(tracer *t)
 {
     const tl_nav_compact *compact = t->work->compact;
     for (uint32_t i = 0; i < compact->span_count; i++) {
         const uint32_t *link = compact->neighbour + 4 * (size_t)i;
         uint32_t region = compact->region[i], mask = 0;
-        bool traced = is_traced(region);
         for (uint32_t d = 0; d < 4; d++) {
-            uint32_t beside = link[d];
-            bool leads_out = beside == TL_NAV_NO_SPAN;
-            if (!leads_out && (d == 0 || d == 3) && compact->region[beside] != region) {
-                leads_out = true;
-                if (is_traced(compact->region[beside])) {
-                    t->outline[beside] = (uint8_t)(t->outline[beside] | (1u << (d ^ 2)));
-                }
-            }
-            mask |= (traced && leads_out ? 1u : 0u) << d;
+            mask |= (uint32_t)(link[d] == TL_NAV_NO_SPAN) << d;
         }
-        t->outline[i] = (uint8_t)mask;
+        mask |= mark_link(t, region, link[0], 0) | mark_link(t, region, link[3], 3);
+        t->outline[i] = (uint8_t)(is_traced(region) ? mask : 0);
     }
 }
 
@@ -68,6 +73,9 @@ static uint64_t number_edges(tracer *t)
     uint64_t edge_count = 0;
     for (uint32_t i = 0; i < t->work->compact->span_count; i++) {
         uint32_t mask = t->outline[i];
+        if (mask == 0) {
+            continue; // nobody asks for its edges
+        }
         t->first_edge[i] = (uint32_t)edge_count;
         edge_count += (mask & 1) + ((mask >> 1) & 1) + ((mask >> 2) & 1) + (mask >> 3);
     }
@@ -231,16 +239,26 @@ static tl_result walk_loop(tracer *t, uint32_t start, uint32_t start_x, uint32_t
     return close_loop(t, first, start);
 }
 
+// The column of a floor within a row: the last one that begins at or before it.
+static uint32_t column_of(const uint32_t *row, uint32_t width, uint32_t floor)
+{
+    uint32_t low = 0, high = width;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        low = row[middle] <= floor ? middle : low;
+        high = row[middle] <= floor ? high : middle;
+    }
+    return low;
+}
+
 static tl_result walk_all(tracer *t)
 {
     const tl_nav_compact *compact = t->work->compact;
     for (uint32_t z = 0; z < compact->height; z++) {
-        for (uint32_t x = 0; x < compact->width; x++) {
-            size_t column = (size_t)z * compact->width + x;
-            for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
-                while (t->open[i] != 0) {
-                    TL_TRY(walk_loop(t, i, x, z));
-                }
+        const uint32_t *row = compact->first_span + (size_t)z * compact->width;
+        for (uint32_t i = row[0]; i < row[compact->width]; i++) {
+            while (t->open[i] != 0) { // few floors begin a walk, so columns are looked up and not counted along
+                TL_TRY(walk_loop(t, i, column_of(row, compact->width, i), z));
             }
         }
     }
