@@ -245,7 +245,7 @@ static tl_exit run_job(job *j)
 
 static tl_exit run(tl_cli *cli)
 {
-    static const char *const methods[] = { "classic", NULL };
+    static const char *const methods[] = { "classic", "optimal", NULL };
     const char *output = NULL;
     int method = 0;
     uint32_t max_verts = 0;
@@ -282,7 +282,7 @@ static tl_exit run(tl_cli *cli)
     j.input = cli->arguments.words[0];
     j.output = output != NULL || cli->json ? output : "-";
     j.def = def;
-    j.def.method = TL_PARTITION_CLASSIC;
+    j.def.method = (tl_partition_method)method;
     j.def.max_verts_per_poly = unlimited ? 0 : max_verts != 0 ? max_verts : def.max_verts_per_poly;
     j.def.keep_border_vertices = keep_border;
     j.def.host = cli->host;

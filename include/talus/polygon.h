@@ -111,6 +111,8 @@ typedef struct tl_polygon_mesh {
 /// How a contour is divided.
 typedef enum tl_partition_method {
     TL_PARTITION_CLASSIC, ///< shortest partition edge first, then merging across the longest shared edge first
+    TL_PARTITION_OPTIMAL, ///< as few polygons as there can be. Exact for every contour of up to 128 vertices that has no
+                          ///< holes, and for most larger ones; else the best of several ways
 } tl_partition_method;
 
 /// What to build. Start from tl_default_polygon_def().
@@ -132,6 +134,8 @@ typedef struct tl_polygon_report {
     uint32_t repaired_contours;    ///< divided after a repair; named in the mesh's notes
     uint32_t refused_contours;     ///< left out; named in the mesh's notes
     uint32_t triangle_count;       ///< before merging
+    uint32_t lower_bound;          ///< fewest polygons that the contours, each by itself and divided along chords
+                                   ///< between its corners, could take: exact where TL_PARTITION_OPTIMAL is
     uint32_t polygon_count;        ///< in the end
     uint32_t vertex_count;         ///< in the end
     uint32_t border_vertices_gone; ///< border vertices removed

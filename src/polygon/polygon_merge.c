@@ -32,13 +32,14 @@ typedef struct merger {
     const tl_lattice_point *points;
     const uint32_t *origin; // [edge] corner where it starts
     const uint32_t *twins;
-    uint32_t *next;     // [edge] around the polygon
-    uint32_t *previous; // [edge]
-    uint32_t *parent;   // [triangle] union-find; a root stands for its polygon
-    uint32_t *place;    // [root]
-    uint32_t *size;     // [root] corners
-    uint32_t *any_edge; // [root] an edge of the polygon
-    uint32_t *at_place; // [place] root
+    const uint8_t *joined_first; // [edge] or NULL
+    uint32_t *next;              // [edge] around the polygon
+    uint32_t *previous;          // [edge]
+    uint32_t *parent;            // [triangle] union-find; a root stands for its polygon
+    uint32_t *place;             // [root]
+    uint32_t *size;              // [root] corners
+    uint32_t *any_edge;          // [root] an edge of the polygon
+    uint32_t *at_place;          // [place] root
     uint32_t place_count;
     waiting_edge *heap;   // edges of the current length
     uint32_t *heap_place; // [edge] where in the heap, or NOT_WAITING
@@ -231,7 +232,8 @@ static tl_result sort_edges(merger *m, tl_arena *arena, uint32_t edge_count, tl_
         uint32_t twin = m->twins[edge];
         if (twin != TL_NO_EDGE && edge < twin && stays_convex(m, edge) && stays_convex(m, twin)) {
             int64_t length2 = tl_distance2(m->points[m->origin[edge]], m->points[m->origin[twin]]);
-            tl_sort_item item = { ~(uint64_t)length2, edge, 0 };
+            bool goes_first = m->joined_first != NULL && m->joined_first[edge];
+            tl_sort_item item = { goes_first ? 0 : ~(uint64_t)length2, edge, 0 };
             items[count++] = item;
         }
     }
@@ -265,8 +267,8 @@ static tl_result write_parts(merger *m, tl_arena *arena, uint32_t edge_count, tl
 }
 
 tl_result tl_merge_triangles(tl_arena *arena, const tl_lattice_point *points, const uint32_t *corners,
-                             const uint32_t *twins, uint32_t triangle_count, uint32_t max_corners,
-                             tl_convex_parts *parts_out)
+                             const uint32_t *twins, const uint8_t *joined_first, uint32_t triangle_count,
+                             uint32_t max_corners, tl_convex_parts *parts_out)
 {
     uint32_t edge_count = 3 * triangle_count;
     merger m;
@@ -274,6 +276,7 @@ tl_result tl_merge_triangles(tl_arena *arena, const tl_lattice_point *points, co
     m.points = points;
     m.origin = corners;
     m.twins = twins;
+    m.joined_first = joined_first;
     m.max_corners = max_corners;
     if (!allocate(&m, arena, triangle_count)) {
         return TL_ERR_MEMORY;

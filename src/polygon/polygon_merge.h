@@ -17,9 +17,10 @@ typedef struct tl_convex_parts {
 
 /// Merges triangles across the longest shared edge first, while the result is strictly convex and has at most
 /// `max_corners` corners (0: any number). `corners` are 3 a triangle, indices of points; `twins` as tl_triangulate
-/// gives them. Results lie in `arena`. TL_ERR_MEMORY is the only error. O(n log n).
+/// gives them. joined_first (may be NULL) marks edges that go before all others, on both sides. Results lie in `arena`.
+/// TL_ERR_MEMORY is the only error. O(n log n).
 tl_result tl_merge_triangles(tl_arena *arena, const tl_lattice_point *points, const uint32_t *corners,
-                             const uint32_t *twins, uint32_t triangle_count, uint32_t max_corners,
-                             tl_convex_parts *parts_out);
+                             const uint32_t *twins, const uint8_t *joined_first, uint32_t triangle_count,
+                             uint32_t max_corners, tl_convex_parts *parts_out);
 
 #endif

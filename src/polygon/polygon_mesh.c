@@ -8,10 +8,8 @@
 
 #include "base/assert.h"
 #include "base/host.h"
-#include "polygon/outline.h"
-#include "polygon/polygon_merge.h"
+#include "polygon/divide.h"
 #include "polygon/polygon_store.h"
-#include "polygon/triangulate.h"
 
 #include <string.h>
 
@@ -42,8 +40,8 @@ static tl_result check_arguments(const tl_contour_set *set, const tl_polygon_def
     if (def->max_verts_per_poly != 0 && (def->max_verts_per_poly < 3 || def->max_verts_per_poly > 64)) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "max_verts_per_poly", TL_NO_ELEMENT, "use 0 or 3 to 64");
     }
-    if (def->method != TL_PARTITION_CLASSIC) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "method", TL_NO_ELEMENT, "use TL_PARTITION_CLASSIC");
+    if (def->method != TL_PARTITION_CLASSIC && def->method != TL_PARTITION_OPTIMAL) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "method", TL_NO_ELEMENT, "use a TL_PARTITION_ value");
     }
     uint64_t vertices = 0;
     for (uint32_t i = 0; i < set->contour_count; i++) {
@@ -68,59 +66,6 @@ static tl_result check_arguments(const tl_contour_set *set, const tl_polygon_def
     return TL_OK;
 }
 
-// Bridges run there and back: their two sides are partition edges like others.
-static tl_result pair_bridges(tl_arena *scratch, const uint32_t *corners, uint32_t *twins, uint32_t edge_count)
-{
-    tl_key_table table;
-    if (!tl_key_table_init(&table, scratch, edge_count)) {
-        return TL_ERR_MEMORY;
-    }
-    for (uint32_t edge = 0; edge < edge_count; edge++) {
-        if (twins[edge] == TL_NO_EDGE) {
-            uint32_t from = corners[edge];
-            uint32_t to = corners[edge % 3 < 2 ? edge + 1 : edge - 2];
-            uint32_t *back = tl_key_table_at(&table, tl_pair_key(to, from));
-            if (*back != TL_NO_VALUE) {
-                twins[edge] = *back;
-                twins[*back] = edge;
-            } else {
-                *tl_key_table_at(&table, tl_pair_key(from, to)) = edge;
-            }
-        }
-    }
-    return TL_OK;
-}
-
-// Triangulates all walks of an outline. corners_out are nodes.
-static tl_result triangulate_walks(tl_arena *scratch, const tl_outline *outline, uint32_t *corners_out,
-                                   uint32_t *twins_out, uint32_t *triangle_count_out)
-{
-    uint32_t made = 0;
-    for (uint32_t w = 0; w < outline->walk_count; w++) {
-        const uint32_t *walk = outline->corners + outline->walk_first[w];
-        uint32_t count = outline->walk_first[w + 1] - outline->walk_first[w];
-        const tl_lattice_point *points = outline->nodes.points;
-        if (!outline->is_plain) {
-            tl_lattice_point *copy = TL_PUSH(scratch, tl_lattice_point, count);
-            if (copy == NULL) {
-                return TL_ERR_MEMORY;
-            }
-            for (uint32_t i = 0; i < count; i++) {
-                copy[i] = outline->nodes.points[walk[i]];
-            }
-            points = copy;
-        }
-        TL_TRY(tl_triangulate(scratch, points, count, corners_out + 3 * made, twins_out + 3 * made));
-        for (uint32_t i = 3 * made; i < 3 * (made + count - 2); i++) {
-            corners_out[i] = walk[corners_out[i]];
-            twins_out[i] += twins_out[i] != TL_NO_EDGE ? 3 * made : 0;
-        }
-        made += count - 2;
-    }
-    *triangle_count_out = made;
-    return outline->is_plain ? TL_OK : pair_bridges(scratch, corners_out, twins_out, 3 * made);
-}
-
 // Merges the outline's nodes with those of earlier contours. Nodes that no walk uses make no vertex.
 static tl_result merge_vertices(builder *b, const tl_outline *outline, uint32_t *map)
 {
@@ -142,26 +87,22 @@ static tl_result merge_vertices(builder *b, const tl_outline *outline, uint32_t 
 
 static tl_result divide(builder *b, uint32_t contour, const tl_outline *outline)
 {
-    uint32_t edges = 3 * outline->walk_first[outline->walk_count];
-    uint32_t *corners = TL_PUSH(&b->scratch, uint32_t, edges);
-    uint32_t *twins = TL_PUSH(&b->scratch, uint32_t, edges);
     uint32_t *map = TL_PUSH(&b->scratch, uint32_t, outline->nodes.count);
-    if (corners == NULL || twins == NULL || map == NULL) {
+    if (map == NULL) {
         return TL_ERR_MEMORY;
     }
-    uint32_t triangles;
-    TL_TRY(triangulate_walks(&b->scratch, outline, corners, twins, &triangles));
-    tl_convex_parts parts;
-    TL_TRY(tl_merge_triangles(&b->scratch, outline->nodes.points, corners, twins, triangles, b->def->max_verts_per_poly,
-                              &parts));
+    tl_division division;
+    TL_TRY(tl_divide_outline(&b->scratch, outline, b->def->method, b->def->max_verts_per_poly, &division));
     TL_TRY(merge_vertices(b, outline, map));
     tl_stored_polygon of = { 0, 0, b->contours->contours[contour].region, b->contours->contours[contour].area,
                              contour };
-    for (uint32_t p = 0; p < parts.count; p++) {
-        TL_TRY(tl_polygon_store_add(&b->store, parts.corners + parts.first[p], parts.first[p + 1] - parts.first[p], map,
-                                    &of));
+    const tl_convex_parts *parts = &division.parts;
+    for (uint32_t p = 0; p < parts->count; p++) {
+        TL_TRY(tl_polygon_store_add(&b->store, parts->corners + parts->first[p], parts->first[p + 1] - parts->first[p],
+                                    map, &of));
     }
-    b->report.triangle_count += triangles;
+    b->report.triangle_count += division.triangle_count;
+    b->report.lower_bound += division.lower_bound;
     return TL_OK;
 }
 
