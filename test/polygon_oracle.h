@@ -109,6 +109,22 @@ static inline bool oracle_is_valid_cut(const oracle_point *p, const uint32_t *le
     return true;
 }
 
+/// Whether corners i and j of the outline `left`, not neighbours, are joined by a chord strictly inside it.
+static inline bool oracle_sees(const oracle_point *p, const uint32_t *left, uint32_t n, uint32_t i, uint32_t j)
+{
+    oracle_point a = p[left[i]], b = p[left[j]];
+    if (!oracle_in_angle(p, left, n, i, b) || !oracle_in_angle(p, left, n, j, a)) {
+        return false;
+    }
+    for (uint32_t k = 0; k < n; k++) {
+        uint32_t l = (k + 1) % n;
+        if (k != i && k != j && l != i && l != j && oracle_segments_meet(a, b, p[left[k]], p[left[l]])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 /// False: no valid partition was left. triangles: [3 * (n - 2)]
 static inline bool oracle_triangulate(const oracle_point *p, uint32_t n, uint32_t *triangles)
 {

@@ -53,6 +53,9 @@ static void test_errors(void **state)
     cli_check_error(4, "polygonize nowhere.txt", "nowhere.txt", "check the path");
     cli_check_error(2, "polygonize square.txt --max-verts 2", "--max-verts", "3 to 64");
     cli_check_error(2, "polygonize square.txt --method best", "--method", "classic");
+    cli_result optimal = cli_expect(0, "polygonize square.txt --method optimal --check");
+    cli_check_part(optimal.out, "polys 1");
+    cli_free(&optimal);
     cli_check_error(2, "polygonize square.txt --json -o -", "standard output", "-o");
     cli_check_error(4, "polygonize square.txt -o no/where.txt", "no/where.txt", "check the path");
     cli_write_text("bad.txt", "navcontours 1\nname x\ncs 1\nch 0\n");
