@@ -183,11 +183,14 @@ static void known_shapes(void **state)
     // Coordinates at the limits.
     const int64_t limit = 1 << 29;
     const oracle_point notch[5] = {
-        { -limit, -limit }, { -limit, limit }, { 0, 0 }, { limit, limit }, { limit, -limit }
+        { -limit, -limit }, { -limit, limit }, { 1, 0 }, { limit, limit }, { limit, -limit }
     };
     memcpy(points, notch, sizeof notch);
     shape_make_outer(points, 5);
     TEST_CHECK(partition(5, 6, UINT64_MAX) == 2);
+    // One unit to the side, and no chord makes both parts strictly convex.
+    points[2].x = 0;
+    TEST_CHECK(partition(5, 6, UINT64_MAX) == 3);
 }
 
 static void gives_up_above_the_limit(void **state)
