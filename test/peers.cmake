@@ -48,3 +48,7 @@ set(talus_test_hull_qhull_needs talus_peer_qhull)
 # Recast: the navmesh pipeline to compare with.
 include(${PROJECT_SOURCE_DIR}/cmake/TalusPeerRecast.cmake)
 set(talus_test_nav_recast_needs talus_peer_recast talus_sample talus_io)
+
+# Detour: the queries to compare with.
+include(${PROJECT_SOURCE_DIR}/cmake/TalusPeerDetour.cmake)
+set(talus_test_path_detour_needs talus_peer_detour talus_sample talus_io)

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+//
+// Paths against Detour's: on the very same polygons, which tests the queries alone, and on each one's own bake of the
+// same level.
+
+#include "detour_mesh.hpp"
+
+#include "io/mesh_import.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+// C headers that do not say so themselves.
+extern "C" {
+#include "cli/sample_level.h"
+#include "talus_test.h"
+}
+
+namespace
+{
+
+const tl_vec3 EXTENTS = { 2.0f, 4.0f, 2.0f };
+
+struct level {
+    std::string name;
+    float cell_size;
+    std::vector<tl_vec3> vertices;
+    std::vector<uint32_t> indices;
+
+    tl_mesh_view view() const
+    {
+        return { vertices.data(), (uint32_t)vertices.size(), indices.data(), (uint32_t)(indices.size() / 3), nullptr };
+    }
+
+    tl_aabb bounds() const
+    {
+        tl_aabb box = tl_aabb_empty();
+        for (uint32_t i : indices) {
+            box = tl_aabb_add_point(box, vertices[i]);
+        }
+        return box;
+    }
+};
+
+level copy_level(const std::string &name, float cell_size, const tl_mesh_view &view)
+{
+    return { name,
+             cell_size,
+             { view.vertices, view.vertices + view.vertex_count },
+             { view.indices, view.indices + 3 * (size_t)view.triangle_count } };
+}
+
+// The built-in levels, then those of the data folder.
+std::vector<level> all_levels()
+{
+    std::vector<level> levels;
+    uint32_t count;
+    const tl_sample_level *samples = tl_sample_levels(&count);
+    for (uint32_t i = 0; i < count; i++) {
+        tl_sample_mesh mesh;
+        uint32_t triangles = samples[i].default_triangles < 8000 ? samples[i].default_triangles : 8000;
+        TEST_RESULT(tl_sample_build_level(&samples[i], triangles, 1, &mesh), TL_OK);
+        levels.push_back(copy_level(samples[i].name, 0.25f, tl_sample_mesh_as_view(&mesh)));
+        tl_sample_mesh_free(&mesh);
+    }
+    for (const char *file : { "nav_test", "dungeon", "undulating", "proto-level" }) {
+        std::string path = std::string(TALUS_DATA_DIR) + "/levels/" + file + ".obj";
+        tl_imported_mesh mesh;
+        if (tl_import_mesh(path.c_str(), nullptr, &mesh, nullptr) == TL_OK) {
+            levels.push_back(copy_level(file, 0.3f, tl_imported_mesh_as_view(&mesh)));
+            tl_imported_mesh_free(&mesh);
+        }
+    }
+    return levels;
+}
+
+tl_nav_def make_def(const level &l, uint32_t tile_size)
+{
+    tl_nav_def def = tl_default_nav_def();
+    def.cell_size = l.cell_size;
+    def.tile_size = tile_size;
+    return def;
+}
+
+std::unique_ptr<tl_navmesh, detour_deleter> bake(const level &l, const tl_nav_def &def)
+{
+    tl_nav_input input = {};
+    input.mesh = l.view();
+    tl_nav_tiles tiles;
+    tl_navmesh *navmesh = nullptr;
+    TEST_RESULT(tl_nav_build(&def, &input, &tiles, nullptr), TL_OK);
+    TEST_RESULT(tl_navmesh_create(nullptr, &navmesh), TL_OK);
+    for (uint32_t i = 0; i < tiles.tile_count; i++) {
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED), TL_OK);
+        tiles.tiles[i] = nullptr; // the navmesh's now
+    }
+    tl_nav_tiles_free(&tiles, nullptr);
+    return std::unique_ptr<tl_navmesh, detour_deleter>(navmesh);
+}
+
+test_random detour_random;
+
+float detour_unit()
+{
+    return test_random_unit(&detour_random);
+}
+
+// What one side finds.
+struct found_path {
+    bool on_mesh, complete;
+    double length;
+};
+
+found_path find_detour(const detour_level &detour, tl_vec3 start, tl_vec3 goal)
+{
+    dtQueryFilter filter;
+    dtPolyRef start_ref = 0, goal_ref = 0, polygons[2048];
+    float near_start[3], near_goal[3], corners[3 * 2048];
+    detour.query->findNearestPoly(&start.x, &EXTENTS.x, &filter, &start_ref, near_start);
+    detour.query->findNearestPoly(&goal.x, &EXTENTS.x, &filter, &goal_ref, near_goal);
+    found_path found = { start_ref != 0 && goal_ref != 0, false, 0.0 };
+    if (!found.on_mesh) {
+        return found;
+    }
+    int count = 0, corner_count = 0;
+    detour.query->findPath(start_ref, goal_ref, near_start, near_goal, &filter, polygons, &count, 2048);
+    found.complete = count > 0 && polygons[count - 1] == goal_ref;
+    detour.query->findStraightPath(near_start, near_goal, polygons, count, corners, nullptr, nullptr, &corner_count,
+                                   2048);
+    for (int i = 1; i < corner_count; i++) {
+        found.length += (double)rcVdist(corners + 3 * (i - 1), corners + 3 * i);
+    }
+    return found;
+}
+
+found_path find_talus(const tl_navmesh *navmesh, tl_nav_query *query, tl_vec3 start, tl_vec3 goal)
+{
+    tl_nav_ref polygons[2048];
+    tl_nav_corner corners[2048];
+    tl_nav_route_buffers buffers = { polygons, 2048, corners, 2048 };
+    tl_nav_route route;
+    tl_result result = tl_nav_query_find_route(query, navmesh, nullptr, start, goal, EXTENTS, &buffers, &route);
+    if (result == TL_ERR_NOT_FOUND) {
+        return { false, false, 0.0 };
+    }
+    TEST_RESULT(result, TL_OK);
+    TEST_CHECK(route.path.status != TL_NAV_PATH_OUT_OF_NODES);
+    return { true, route.path.status == TL_NAV_PATH_COMPLETE, (double)route.length };
+}
+
+std::unique_ptr<tl_nav_query, detour_deleter> make_query(const tl_navmesh *navmesh)
+{
+    tl_nav_query_def def = tl_default_nav_query_def();
+    def.max_nodes = (uint32_t)tl_navmesh_link_count(navmesh) + 2;
+    tl_nav_query *query = nullptr;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    return std::unique_ptr<tl_nav_query, detour_deleter>(query);
+}
+
+// How paths of both compare over many pairs.
+struct comparison {
+    uint32_t pairs = 0, agree = 0, complete = 0, only_talus = 0, only_detour = 0, off_mesh = 0;
+    std::vector<double> ratios; // our length to Detour's
+
+    void add(const found_path &ours, const found_path &theirs)
+    {
+        if (!ours.on_mesh || !theirs.on_mesh) {
+            off_mesh++;
+            return;
+        }
+        pairs++;
+        agree += ours.complete == theirs.complete;
+        complete += ours.complete && theirs.complete;
+        only_talus += ours.complete && !theirs.complete;
+        only_detour += !ours.complete && theirs.complete;
+        if (ours.complete && theirs.complete && theirs.length > 1.0) {
+            ratios.push_back(ours.length / theirs.length);
+        }
+    }
+
+    double mean() const
+    {
+        double sum = 0.0;
+        for (double ratio : ratios) {
+            sum += ratio;
+        }
+        return ratios.empty() ? 1.0 : sum / (double)ratios.size();
+    }
+
+    double quantile(double q) const
+    {
+        std::vector<double> sorted = ratios;
+        std::sort(sorted.begin(), sorted.end());
+        return sorted.empty() ? 1.0 : sorted[(size_t)(q * (double)(sorted.size() - 1))];
+    }
+
+    void print(const char *what, const level &l, uint32_t tile_size) const
+    {
+        std::printf("%-8s %-12s tile %2u: %5u pairs, %5u complete, agree %.3f%% (only talus %u, only Detour %u), off "
+                    "mesh %u; length / Detour's: mean %.5f, 1%% %.4f, median %.5f, 99%% %.4f, most %.4f\n",
+                    what, l.name.c_str(), tile_size, pairs, complete, 100.0 * agree / (pairs > 0 ? pairs : 1),
+                    only_talus, only_detour, off_mesh, mean(), quantile(0.01), quantile(0.5), quantile(0.99),
+                    quantile(1.0));
+    }
+};
+
+enum { PAIRS = 10000 };
+
+void paths_agree(void **)
+{
+    for (const level &l : all_levels()) {
+        for (uint32_t tile_size : { 0u, 48u }) {
+            tl_nav_def def = make_def(l, tile_size);
+            detour_level detour;
+            TEST_CHECK(detour.build(def, l.view(), l.bounds()));
+            auto own = bake(l, def);
+            auto own_query = make_query(own.get()), twin_query = make_query(detour.twin.get());
+            comparison same_polygons, own_bake;
+            detour_random.state = 7;
+            dtQueryFilter filter;
+            for (int i = 0; i < PAIRS; i++) {
+                dtPolyRef ref;
+                tl_vec3 start, goal;
+                detour.query->findRandomPoint(&filter, detour_unit, &ref, &start.x);
+                detour.query->findRandomPoint(&filter, detour_unit, &ref, &goal.x);
+                found_path theirs = find_detour(detour, start, goal);
+                if (detour.twin_is_whole) {
+                    same_polygons.add(find_talus(detour.twin.get(), twin_query.get(), start, goal), theirs);
+                }
+                own_bake.add(find_talus(own.get(), own_query.get(), start, goal), theirs);
+            }
+            same_polygons.print("same", l, tile_size);
+            own_bake.print("own bake", l, tile_size);
+        }
+    }
+}
+
+} // namespace
+
+int main()
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(paths_agree) };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
