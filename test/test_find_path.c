@@ -249,13 +249,13 @@ static double sampled_shortest(const way_graph *g, const tl_nav_location *start,
     bool *done = calloc(count, sizeof *done);
     tl_vec3 *points = malloc(count * sizeof *points);
     for (uint32_t i = 0; i < count; i++) {
-        length[i] = INFINITY;
+        length[i] = (double)INFINITY;
         const tl_nav_link *way = &g->ways[i / SAMPLES];
         points[i] =
             i + 1 == count ? start->point : tl_lerp(way->right, way->left, (float)(i % SAMPLES) / (SAMPLES - 1));
     }
     length[count - 1] = 0.0;
-    double best = INFINITY;
+    double best = (double)INFINITY;
     for (;;) {
         uint32_t at = UINT32_MAX;
         for (uint32_t i = 0; i < count; i++) {
