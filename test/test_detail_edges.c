@@ -63,9 +63,9 @@ static void within_error(void **state)
                 double length = hypot(high[0] - low[0], high[2] - low[2]);
                 TEST_CHECK(length / steps <= work.spacing && (steps == 1 || 2 * length / steps > work.spacing));
                 for (uint32_t s = 0; s <= edge->count; s++) {
-                    const tl_detail_edge_sample *sample = &work.edges.samples[edge->first + s];
-                    int32_t step = s < edge->count ? sample->step : steps;
-                    int32_t y = s < edge->count ? sample->y : high[1];
+                    const tl_detail_edge_sample *sample = s < edge->count ? &work.edges.samples[edge->first + s] : NULL;
+                    int32_t step = sample != NULL ? sample->step : steps;
+                    int32_t y = sample != NULL ? sample->y : high[1];
                     TEST_CHECK(step > last_step && step <= steps);
                     for (int32_t m = last_step + 1; m <= step && m < steps; m++) {
                         double x = low[0] + (double)(high[0] - low[0]) * m / steps;
