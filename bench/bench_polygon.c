@@ -19,10 +19,14 @@
 
 enum { MAX_RUNS = 101, MAX_FILES = 512 };
 
+// Recast, and talus by each of its methods.
+enum { CLASSIC, OPTIMAL, DELAUNAY, RECAST, WAY_COUNT };
+
 typedef struct totals {
     char kind;
-    double talus, recast;
-    uint64_t talus_polygons, recast_polygons, contours, vertices;
+    double seconds[WAY_COUNT]; // 0: not run
+    uint64_t polygons[WAY_COUNT];
+    uint64_t contours, vertices;
 } totals;
 
 static double now(void)
@@ -43,27 +47,15 @@ static int by_name(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-// Runs until 0.1 s have passed, at least 3 and at most MAX_RUNS times.
-static double median_seconds(double (*run)(const tl_contour_set *, uint32_t, uint32_t *), const tl_contour_set *set,
-                             uint32_t cap, uint32_t *polygons)
+static double run(int way, const tl_contour_set *set, uint32_t cap, uint32_t *polygons)
 {
-    double times[MAX_RUNS];
-    int runs = 0;
-    for (double sum = 0; runs < MAX_RUNS && (runs < 3 || sum < 0.1); runs++) {
-        times[runs] = run(set, cap, polygons);
-        sum += times[runs];
-        if (times[runs] > 2.0) {
-            return times[runs];
-        }
+    static const tl_partition_method methods[] = { TL_PARTITION_CLASSIC, TL_PARTITION_OPTIMAL, TL_PARTITION_DELAUNAY };
+    if (way == RECAST) {
+        return bench_recast_polygons(set, cap, polygons);
     }
-    qsort(times, (size_t)runs, sizeof *times, by_size);
-    return times[runs / 2];
-}
-
-static double run_talus(const tl_contour_set *set, uint32_t cap, uint32_t *polygons)
-{
     tl_polygon_def def = tl_default_polygon_def();
     def.max_verts_per_poly = cap;
+    def.method = methods[way];
     tl_polygon_mesh mesh;
     double began = now();
     tl_result result = tl_polygon_mesh_build(set, &def, &mesh, NULL);
@@ -77,18 +69,37 @@ static double run_talus(const tl_contour_set *set, uint32_t cap, uint32_t *polyg
     return seconds;
 }
 
-static double run_recast(const tl_contour_set *set, uint32_t cap, uint32_t *polygons)
+// Runs until 0.1 s have passed, at least 3 and at most MAX_RUNS times, and adds the median to the sums.
+static void measure(int way, const tl_contour_set *set, uint32_t cap, totals *sums)
 {
-    return bench_recast_polygons(set, cap, polygons);
+    double times[MAX_RUNS];
+    int runs = 0;
+    uint32_t polygons = 0;
+    for (double sum = 0; runs < MAX_RUNS && (runs < 3 || sum < 0.1); runs++) {
+        times[runs] = run(way, set, cap, &polygons);
+        sum += times[runs];
+        if (times[runs] > 2.0) {
+            runs++;
+            break;
+        }
+    }
+    qsort(times, (size_t)runs, sizeof *times, by_size);
+    sums->seconds[way] += times[runs / 2];
+    sums->polygons[way] += polygons;
 }
 
-static void print_row(const char *name, uint64_t vertices, double talus, uint64_t talus_polygons, double recast,
-                      uint64_t recast_polygons)
+static void print_row(const char *name, const totals *sums)
 {
-    printf("%-34s %8llu %10.1f %8llu", name, (unsigned long long)vertices, talus * 1e6,
-           (unsigned long long)talus_polygons);
-    if (recast > 0.0) {
-        printf(" %12.1f %8llu %8.3f", recast * 1e6, (unsigned long long)recast_polygons, talus / recast);
+    printf("%-34s %8llu", name, (unsigned long long)sums->vertices);
+    for (int way = 0; way < WAY_COUNT; way++) {
+        if (sums->seconds[way] > 0.0) {
+            printf(" %10.1f %8llu", sums->seconds[way] * 1e6, (unsigned long long)sums->polygons[way]);
+        } else {
+            printf(" %10s %8s", "-", "-");
+        }
+    }
+    for (int way = 0; way < RECAST && sums->seconds[RECAST] > 0.0; way++) {
+        printf(" %8.3f", sums->seconds[way] / sums->seconds[RECAST]);
     }
     printf("\n");
 }
@@ -108,31 +119,29 @@ static void bench_file(const char *path, totals *sums)
     size_t length = strlen(name);
     // NAME_m.txt: monotone, w: watershed, l: layers.
     char kind = length > 6 ? name[length - 5] : '?';
-    totals file = { kind, 0, 0, 0, 0, 0, 0 };
+    totals file;
+    memset(&file, 0, sizeof file);
     while (!tl_contour_reader_at_end(&reader)) {
         tl_contour_text text;
         if (tl_contour_text_read(&reader, &text, &error) != TL_OK) {
             fprintf(stderr, "bench_polygon: %s:%llu: %s\n", path, (unsigned long long)error.line, error.message);
             exit(1);
         }
-        uint32_t cap = text.max_verts_per_poly, polygons = 0;
-        file.talus += median_seconds(run_talus, &text.set, cap, &polygons);
-        file.talus_polygons += polygons;
-        polygons = 0;
-        file.recast += median_seconds(run_recast, &text.set, cap, &polygons);
-        file.recast_polygons += polygons;
+        for (int way = 0; way < WAY_COUNT; way++) {
+            measure(way, &text.set, text.max_verts_per_poly, &file);
+        }
         file.contours += text.set.contour_count;
         file.vertices += text.set.vertex_count;
         tl_contour_text_free(&text);
     }
     tl_file_map_close(&map);
-    print_row(name, file.vertices, file.talus, file.talus_polygons, file.recast, file.recast_polygons);
+    print_row(name, &file);
     for (uint32_t i = 0; i < 4; i++) {
         if (sums[i].kind == kind || i == 3) {
-            sums[i].talus += file.talus;
-            sums[i].recast += file.recast;
-            sums[i].talus_polygons += file.talus_polygons;
-            sums[i].recast_polygons += file.recast_polygons;
+            for (int way = 0; way < WAY_COUNT; way++) {
+                sums[i].seconds[way] += file.seconds[way];
+                sums[i].polygons[way] += file.polygons[way];
+            }
             sums[i].contours += file.contours;
             sums[i].vertices += file.vertices;
         }
@@ -154,11 +163,14 @@ static void bench_family(const char *name, oracle_point *points, uint32_t n)
     tl_contour_vertex *vertices = malloc(n * sizeof *vertices);
     tl_contour contour;
     tl_contour_set set = shape_as_set(points, n, vertices, &contour);
-    uint32_t polygons = 0, recast_polygons = 0;
-    double talus = median_seconds(run_talus, &set, 6, &polygons);
+    totals sums;
+    memset(&sums, 0, sizeof sums);
+    sums.vertices = n;
     // The plain method takes hours beyond this.
-    double recast = n <= 500 ? median_seconds(run_recast, &set, 6, &recast_polygons) : 0.0;
-    print_row(name, n, talus, polygons, recast, recast_polygons);
+    for (int way = 0; way < (n <= 500 ? WAY_COUNT : RECAST); way++) {
+        measure(way, &set, 6, &sums);
+    }
+    print_row(name, &sums);
     free(vertices);
 }
 
@@ -205,12 +217,15 @@ static void bench_folder(const char *folder, totals *sums)
 
 int main(int argc, char **argv)
 {
-    totals sums[4] = {
-        { 'w', 0, 0, 0, 0, 0, 0 }, { 'm', 0, 0, 0, 0, 0, 0 }, { 'l', 0, 0, 0, 0, 0, 0 }, { '*', 0, 0, 0, 0, 0, 0 }
-    };
+    static const char kinds[4] = { 'w', 'm', 'l', '*' };
+    totals sums[4];
+    memset(sums, 0, sizeof sums);
+    for (uint32_t i = 0; i < 4; i++) {
+        sums[i].kind = kinds[i];
+    }
     static const char *const names[4] = { "all watershed", "all monotone", "all layers", "all" };
-    printf("%-34s %8s %10s %8s %12s %8s %8s\n", "contours", "vertices", "talus us", "polygons", "Recast us", "polygons",
-           "ratio");
+    printf("%-34s %8s %10s %8s %10s %8s %10s %8s %10s %8s %26s\n", "contours", "vertices", "classic us", "polygons",
+           "optimal us", "polygons", "Delaunay", "polygons", "Recast us", "polygons", "ratios to Recast");
     if (argc > 1) {
         for (int i = 1; i < argc; i++) {
             bench_file(argv[i], sums);
@@ -220,8 +235,7 @@ int main(int argc, char **argv)
     }
     for (uint32_t i = 0; i < 4; i++) {
         if (sums[i].contours > 0) {
-            print_row(names[i], sums[i].vertices, sums[i].talus, sums[i].talus_polygons, sums[i].recast,
-                      sums[i].recast_polygons);
+            print_row(names[i], &sums[i]);
         }
     }
     bench_families();

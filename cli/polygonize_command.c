@@ -7,6 +7,7 @@
 #include "io/contour_text.h"
 #include "io/file_map.h"
 #include "json_out.h"
+#include "polygonize_compare.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -20,7 +21,7 @@ typedef struct job {
     const char *output; // NULL: none
     tl_polygon_def def;
     bool has_cap; // --max-verts was given
-    bool check;
+    bool check, compare;
     tl_atomic_file *file;
     tl_io_error error;
     json_t *sets; // NULL without --json
@@ -104,14 +105,15 @@ static void report_set(job *j, const char *name, const tl_polygon_mesh *mesh, co
     if (j->sets != NULL) {
         json_array_append_new(
             j->sets,
-            json_pack("{s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:s, s:I}", "name",
-                      name, "contours", (json_int_t)report->contour_count, "empty_contours",
+            json_pack("{s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:s, s:I}",
+                      "name", name, "contours", (json_int_t)report->contour_count, "empty_contours",
                       (json_int_t)report->empty_contours, "repaired_contours", (json_int_t)report->repaired_contours,
                       "refused_contours", (json_int_t)report->refused_contours, "triangles",
-                      (json_int_t)report->triangle_count, "polygons", (json_int_t)report->polygon_count, "vertices",
-                      (json_int_t)report->vertex_count, "links", (json_int_t)report->link_count, "portals",
-                      (json_int_t)report->portal_count, "crowded_edges", (json_int_t)report->crowded_edges,
-                      "border_vertices_removed", (json_int_t)report->border_vertices_gone, "border_vertices_kept",
+                      (json_int_t)report->triangle_count, "lower_bound", (json_int_t)report->lower_bound, "polygons",
+                      (json_int_t)report->polygon_count, "vertices", (json_int_t)report->vertex_count, "links",
+                      (json_int_t)report->link_count, "portals", (json_int_t)report->portal_count, "crowded_edges",
+                      (json_int_t)report->crowded_edges, "border_vertices_removed",
+                      (json_int_t)report->border_vertices_gone, "border_vertices_kept",
                       (json_int_t)report->border_vertices_kept, "seconds", tl_json_double(seconds), "notes",
                       notes_as_json(mesh), "check", verdict, "peak_bytes", (json_int_t)report->base.peak_bytes));
     }
@@ -152,6 +154,12 @@ static tl_exit run_set(job *j, const tl_contour_text *text)
     tl_polygon_def def = j->def;
     if (!j->has_cap && text->max_verts_per_poly >= 3 && text->max_verts_per_poly <= 64) {
         def.max_verts_per_poly = text->max_verts_per_poly;
+    }
+    if (j->compare) {
+        bool is_right = true;
+        tl_exit compared = tl_polygonize_compare(j->cli, j->input, text, &def, j->check, j->sets, &is_right);
+        j->faulty_sets += !is_right;
+        return compared;
     }
     tl_polygon_mesh mesh;
     tl_polygon_report report;
@@ -245,16 +253,16 @@ static tl_exit run_job(job *j)
 
 static tl_exit run(tl_cli *cli)
 {
-    static const char *const methods[] = { "classic", "optimal", NULL };
     const char *output = NULL;
     int method = 0;
     uint32_t max_verts = 0;
-    bool unlimited = false, check = false, keep_border = false;
+    bool unlimited = false, check = false, compare = false, keep_border = false;
     tl_polygon_def def = tl_default_polygon_def();
     const tl_option options[] = {
         { "output", 'o', TL_OPTION_TEXT, &output, "FILE",
           "where to write the meshes; - is standard output (the default without --json)", NULL, 0, 0, 0, 0 },
-        { "method", 'm', TL_OPTION_CHOICE, &method, "NAME", "how contours are divided", methods, 0, 0, 0, 0 },
+        { "method", 'm', TL_OPTION_CHOICE, &method, "NAME", "how contours are divided", tl_partition_method_names, 0, 0,
+          0, 0 },
         { "max-verts", 'n', TL_OPTION_COUNT, &max_verts, "N",
           "corners a polygon may have, 3 to 64 (0: what the set says, else 6)", NULL, 0, 0, 0, 64 },
         { "unlimited", 0, TL_OPTION_FLAG, &unlimited, NULL, "polygons may have any number of corners", NULL, 0, 0, 0,
@@ -266,6 +274,8 @@ static tl_exit run(tl_cli *cli)
           "leave vertices in that a tile's border does not need", NULL, 0, 0, 0, 0 },
         { "check", 'c', TL_OPTION_FLAG, &check, NULL, "prove the result right; exit code 1 when it is not", NULL, 0, 0,
           0, 0 },
+        { "compare", 0, TL_OPTION_FLAG, &compare, NULL,
+          "divide by every method and print them side by side; writes no meshes", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
@@ -276,11 +286,14 @@ static tl_exit run(tl_cli *cli)
     if (max_verts == 1 || max_verts == 2) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "--max-verts: a polygon has at least 3 corners; use 3 to 64");
     }
+    if (compare && output != NULL) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "--compare writes no meshes; leave -o out");
+    }
     job j;
     memset(&j, 0, sizeof j);
     j.cli = cli;
     j.input = cli->arguments.words[0];
-    j.output = output != NULL || cli->json ? output : "-";
+    j.output = output != NULL || cli->json || compare ? output : "-";
     j.def = def;
     j.def.method = (tl_partition_method)method;
     j.def.max_verts_per_poly = unlimited ? 0 : max_verts != 0 ? max_verts : def.max_verts_per_poly;
@@ -288,6 +301,7 @@ static tl_exit run(tl_cli *cli)
     j.def.host = cli->host;
     j.has_cap = unlimited || max_verts != 0;
     j.check = check;
+    j.compare = compare;
     if (cli->json && output != NULL && strcmp(output, "-") == 0) {
         return tl_cli_fail(cli, TL_EXIT_USAGE,
                            "--json and the meshes cannot both go to standard output; name a file with -o");
@@ -303,10 +317,11 @@ static tl_exit run(tl_cli *cli)
 const tl_command tl_polygonize_command = {
     "polygonize",
     "divide contours into convex polygons",
-    "CONTOURS [-o MESH.txt] [--max-verts N] [--check]",
+    "CONTOURS [-o MESH.txt] [--method NAME] [--max-verts N] [--check] [--compare]",
     "Reads contour sets (text, 'navcontours 1'), divides each contour into convex polygons, links\n"
     "neighbours, and writes one mesh ('navpolys 1') for each set, in order. docs/polygon.md describes\n"
     "both formats and the method. Contours that touch or cross themselves are repaired and named.",
-    "talus polygonize contours.txt -o mesh.txt --check\ntalus polygonize contours.txt --max-verts 12 --json",
+    "talus polygonize contours.txt -o mesh.txt --check\ntalus polygonize contours.txt --max-verts 12 --json\n"
+    "talus polygonize contours.txt --compare",
     run,
 };

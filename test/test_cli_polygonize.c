@@ -3,6 +3,8 @@
 // talus polygonize.
 #include "cli_run.h"
 
+#include <math.h>
+
 static const char square[] = "navcontours 1\nname square\ncs 0.5\nch 0.25\nbmin 0 0 0\nbmax 4 1 4\nwidth 8\nheight 8\n"
                              "border 1\nmaxerror 1.3\nnvp 6\ncontours 1\nc 0 7 63 4\n"
                              "0 3 0 0\n0 3 4 0\n4 3 4 0\n4 3 0 0\nend\n";
@@ -46,6 +48,31 @@ static void test_reports(void **state)
     json_decref(report);
 }
 
+static void test_compares_methods(void **state)
+{
+    (void)state;
+    cli_write_text("square.txt", square);
+    cli_result result = cli_expect(0, "polygonize square.txt --compare --check");
+    cli_check_part(result.out, "square: 1 contours, 4 vertices");
+    cli_check_part(result.out, "classic");
+    cli_check_part(result.out, "optimal");
+    cli_check_part(result.out, "delaunay");
+    TEST_CHECK(strstr(result.out, "navpolys") == NULL);
+    cli_free(&result);
+    json_t *report = cli_json(0, "polygonize square.txt --compare --json --check");
+    const json_t *methods = json_object_get(json_array_get(json_object_get(report, "sets"), 0), "methods");
+    TEST_CHECK(json_array_size(methods) == 3);
+    for (size_t i = 0; i < 3; i++) {
+        const json_t *method = json_array_get(methods, i);
+        TEST_CHECK(cli_number(method, "polygons") == 1 && cli_number(method, "lower_bound") == 1);
+        TEST_CHECK(fabs(cli_number(method, "smallest_angle_degrees") - 90.0) < 1e-9);
+        TEST_CHECK(cli_number(method, "mean_aspect") == 1.0);
+        TEST_CHECK(strcmp(json_string_value(json_object_get(method, "check")), "ok") == 0);
+    }
+    json_decref(report);
+    cli_check_error(2, "polygonize square.txt --compare -o mesh.txt", "--compare", "-o");
+}
+
 static void test_errors(void **state)
 {
     (void)state;
@@ -70,6 +97,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_set_in_one_set_out),
         cmocka_unit_test(test_reports),
+        cmocka_unit_test(test_compares_methods),
         cmocka_unit_test(test_errors),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);

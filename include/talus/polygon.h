@@ -111,8 +111,10 @@ typedef struct tl_polygon_mesh {
 /// How a contour is divided.
 typedef enum tl_partition_method {
     TL_PARTITION_CLASSIC, ///< shortest partition edge first, then merging across the longest shared edge first
-    TL_PARTITION_OPTIMAL, ///< as few polygons as there can be. Exact for every contour of up to 128 vertices that has no
-                          ///< holes, and for most larger ones; else the best of several ways
+    TL_PARTITION_OPTIMAL, ///< as few polygons as there can be. Exact for every contour of up to 128 vertices that has
+                          ///< no holes, and for most larger ones; else the best of several ways
+    TL_PARTITION_DELAUNAY, ///< constrained Delaunay triangulation, then merged as in the classic way: well-shaped
+                           ///< polygons
 } tl_partition_method;
 
 /// What to build. Start from tl_default_polygon_def().
@@ -180,6 +182,21 @@ static inline tl_vec3 tl_polygon_mesh_vertex(const tl_polygon_mesh *mesh, uint32
                         mesh->bounds.min.y + (float)v[1] * mesh->cell_height,
                         mesh->bounds.min.z + (float)v[2] * mesh->cell_size);
 }
+
+/// The shapes of a mesh's polygons on the xz plane.
+typedef struct tl_polygon_quality {
+    uint32_t polygon_count;
+    uint32_t most_corners;
+    double mean_corners;          ///< corners a polygon
+    double smallest_angle_cosine; ///< of the sharpest corner: its cosine; -1 without polygons
+    double mean_sharpest_cosine;  ///< of each polygon's sharpest corner, the mean of the cosines
+    double mean_aspect;           ///< a polygon's extent along its longest edge by its extent across it, or the inverse
+                                  ///< where that is larger; the mean
+    double worst_aspect;          ///< the largest
+} tl_polygon_quality;
+
+/// Measures the polygons of a mesh that is right (tl_polygon_mesh_check). O(corners).
+TL_API tl_polygon_quality tl_polygon_mesh_measure(const tl_polygon_mesh *mesh);
 
 /// What can be wrong with a polygon mesh.
 typedef enum tl_polygon_fault {

@@ -8,6 +8,7 @@
 #include "polygon/divide.h"
 
 #include "base/assert.h"
+#include "polygon/delaunay.h"
 #include "polygon/key_table.h"
 #include "polygon/triangulate.h"
 
@@ -133,6 +134,9 @@ tl_result tl_divide_outline(tl_arena *arena, const tl_outline *outline, tl_parti
         if (!outline->is_plain) {
             TL_TRY(
                 tl_pair_edges(arena, triangles.corners, triangles.twins, 3 * triangles.count, &triangles.bridge_count));
+        }
+        if (method == TL_PARTITION_DELAUNAY) {
+            TL_TRY(tl_make_delaunay(arena, outline->nodes.points, triangles.corners, triangles.twins, triangles.count));
         }
         TL_TRY(tl_merge_triangles(arena, outline->nodes.points, triangles.corners, triangles.twins, NULL,
                                   triangles.count, max_corners, &division_out->parts));

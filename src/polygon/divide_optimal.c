@@ -4,12 +4,13 @@
 //
 // An outline that is one small walk is solved exactly. A larger one is cut along edges of its triangulation into pieces
 // of a few dozen triangles, each piece is solved exactly, and the polygons are merged across the cuts and across the
-// bridges to holes. (With holes the exact problem is NP-hard: Lingas 1982.) Merging the triangles as they are is tried
-// as well, and the fewest polygons win.
+// bridges to holes. (With holes the exact problem is NP-hard: Lingas 1982.) Merging the triangles is tried as well, as
+// they are and as Delaunay triangles, and the fewest polygons win.
 
 #include "polygon/divide.h"
 
 #include "base/assert.h"
+#include "polygon/delaunay.h"
 #include "polygon/optimal_partition.h"
 #include "polygon/triangulate.h"
 
@@ -287,7 +288,12 @@ tl_result tl_divide_optimally(tl_arena *arena, const tl_outline *outline, uint32
     *is_exact &= triangles->bridge_count == 0;
     parts_out->count = UINT32_MAX;
     TL_TRY(merge_and_compare(arena, points, f.corners, f.twins, f.joined, f.count, max_corners, parts_out));
-    return *is_exact ? TL_OK
-                     : merge_and_compare(arena, points, triangles->corners, triangles->twins, NULL, triangles->count,
-                                         max_corners, parts_out);
+    if (*is_exact) {
+        return TL_OK;
+    }
+    TL_TRY(merge_and_compare(arena, points, triangles->corners, triangles->twins, NULL, triangles->count, max_corners,
+                             parts_out));
+    TL_TRY(tl_make_delaunay(arena, points, triangles->corners, triangles->twins, triangles->count));
+    return merge_and_compare(arena, points, triangles->corners, triangles->twins, NULL, triangles->count, max_corners,
+                             parts_out);
 }

@@ -40,7 +40,8 @@ static tl_result check_arguments(const tl_contour_set *set, const tl_polygon_def
     if (def->max_verts_per_poly != 0 && (def->max_verts_per_poly < 3 || def->max_verts_per_poly > 64)) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "max_verts_per_poly", TL_NO_ELEMENT, "use 0 or 3 to 64");
     }
-    if (def->method != TL_PARTITION_CLASSIC && def->method != TL_PARTITION_OPTIMAL) {
+    if (def->method != TL_PARTITION_CLASSIC && def->method != TL_PARTITION_OPTIMAL &&
+        def->method != TL_PARTITION_DELAUNAY) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "method", TL_NO_ELEMENT, "use a TL_PARTITION_ value");
     }
     uint64_t vertices = 0;
