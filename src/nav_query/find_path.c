@@ -103,19 +103,40 @@ static void expand(path_search *search, uint32_t index)
     }
 }
 
+// The squared distance in the plane from the goal to the box of a polygon's corners.
+static float bound_to_goal(const path_search *search, const tl_nav_node *node)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(search->navmesh->slots[node->slot].tile, node->polygon, &count);
+    tl_aabb box = { corners[0], corners[0] };
+    for (uint32_t i = 1; i < count; i++) {
+        box = tl_aabb_add_point(box, corners[i]);
+    }
+    tl_vec3 gap = tl_sub(tl_min(tl_max(search->goal, box.min), box.max), search->goal);
+    return gap.x * gap.x + gap.z * gap.z;
+}
+
 // The node whose polygon comes nearest to the goal, by the distance to its closest point; ties to the cheaper one, then
 // to the lower index.
 static uint32_t nearest_to_goal(const path_search *search, tl_vec3 *point_out)
 {
+    const tl_nav_node *nodes = search->query->nodes;
     uint32_t best = 0;
     float best_sq = INFINITY;
     for (uint32_t i = 0; i < search->query->node_count; i++) {
-        const tl_nav_node *node = &search->query->nodes[i];
+        const tl_nav_node *node = &nodes[i];
+        if (i > 0 && node->slot == nodes[best].slot && node->polygon == nodes[best].polygon) {
+            best = node->cost < nodes[best].cost ? i : best;
+            continue;
+        }
+        if (bound_to_goal(search, node) > best_sq) {
+            continue;
+        }
         bool inside = false;
         tl_vec3 point =
             tl_nav_closest_on_surface(search->navmesh->slots[node->slot].tile, node->polygon, search->goal, &inside);
         float distance_sq = tl_distance_sq(point, search->goal);
-        if (distance_sq < best_sq || (distance_sq == best_sq && node->cost < search->query->nodes[best].cost)) {
+        if (distance_sq < best_sq || (distance_sq == best_sq && node->cost < nodes[best].cost)) {
             best = i;
             best_sq = distance_sq;
             *point_out = point;
