@@ -21,11 +21,13 @@ extern "C" {
 typedef tl_vec3 tl_convex_support_fn(tl_vec3 direction, void *user);
 
 typedef enum tl_convex_kind {
-    TL_CONVEX_HULL,   ///< a baked hull
-    TL_CONVEX_POINTS, ///< the hull of 1 .. n points in the caller's memory; flat and coincident ones are fine
-    TL_CONVEX_INLINE, ///< the hull of 1 .. 3 points held here: point, segment, triangle
-    TL_CONVEX_BOX,    ///< centre in corners[0], half extents in corners[1]
-    TL_CONVEX_CUSTOM  ///< a function of the caller's
+    TL_CONVEX_HULL,     ///< a baked hull
+    TL_CONVEX_POINTS,   ///< the hull of 1 .. n points in the caller's memory; flat and coincident ones are fine
+    TL_CONVEX_INLINE,   ///< the hull of 1 .. 3 points held here: point, segment, triangle
+    TL_CONVEX_BOX,      ///< centre in corners[0], half extents in corners[1]
+    TL_CONVEX_CYLINDER, ///< middles of both discs in corners[0] and [1], their radius in corners[2].x
+    TL_CONVEX_CONE,     ///< middle of the base in corners[0], apex in corners[1], the base's radius in corners[2].x
+    TL_CONVEX_CUSTOM    ///< a function of the caller's
 } tl_convex_kind;
 
 /// A convex shape in its own frame. Build it with the functions below; nothing is copied or owned.
@@ -47,6 +49,10 @@ TL_API tl_convex tl_convex_box(tl_vec3 center, tl_vec3 half_extents, float radiu
 TL_API tl_convex tl_convex_sphere(tl_vec3 center, float radius);
 TL_API tl_convex tl_convex_capsule(tl_vec3 a, tl_vec3 b, float radius);
 TL_API tl_convex tl_convex_triangle(tl_vec3 a, tl_vec3 b, tl_vec3 c, float radius);
+/// The middles of the two discs, which differ; disc_radius >= 0. The support is exact, to double rounding.
+TL_API tl_convex tl_convex_cylinder(tl_vec3 a, tl_vec3 b, float disc_radius, float radius);
+/// The middle of the base disc and the apex, which differ; disc_radius >= 0.
+TL_API tl_convex tl_convex_cone(tl_vec3 base, tl_vec3 apex, float disc_radius, float radius);
 TL_API tl_convex tl_convex_custom(tl_convex_support_fn *support, void *user, float radius);
 
 /// How far a query's answer can be trusted.
@@ -63,7 +69,7 @@ typedef enum tl_convex_status {
 /// It changes the time only. Keep one for each pair and thread.
 typedef struct tl_simplex_cache {
     uint32_t count;       ///< 0 .. 4
-    uint32_t vertex_a[4]; ///< vertices of A; of a custom shape nothing is cached
+    uint32_t vertex_a[4]; ///< vertices of A; of curved and custom shapes nothing is cached
     uint32_t vertex_b[4];
 } tl_simplex_cache;
 
@@ -119,6 +125,35 @@ typedef struct tl_penetration {
 /// Source: van den Bergen, Proximity Queries and Penetration Depth Computation on 3D Game Objects, 2001.
 TL_API bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                                   tl_simplex_cache *cache, tl_penetration *penetration_out);
+
+/// A cast advances by what a plane proves free; more steps than this means that it grazes within rounding.
+#define TL_MAX_CAST_ITERATIONS 128u
+
+/// Where a moving shape or a ray meets a shape.
+typedef struct tl_convex_hit {
+    bool hit;
+    bool initial_overlap; ///< they overlap at the start: t is 0, the normal zero; tl_convex_penetration tells the way
+                          ///< out
+    float t;        ///< share of the motion, or ray parameter; never later than the true one but for double rounding
+    float gap;      ///< metres still between the shapes at t; at most some 2.4e-7 of their size when converged
+    tl_vec3 point;  ///< on A's surface, world
+    tl_vec3 normal; ///< unit, from A to B, world
+    tl_convex_status status; ///< ITERATIONS and DEGENERATE: free until t, unknown beyond; reported as a hit
+    uint32_t iterations;
+} tl_convex_hit;
+
+/// Moves B by `motion` without turning it, and finds when it first touches A. Returns `hit`.
+///
+/// Shapes that touch at the start and part or slide along each other do not hit. Shapes that pass one another closer
+/// than `gap` may be said to hit. Poses and threads as in tl_convex_distance; no allocation.
+/// Source: van den Bergen, Ray Casting against General Convex Objects, 2004.
+TL_API bool tl_convex_cast(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
+                           tl_vec3 motion, tl_convex_hit *hit_out);
+
+/// Casts a ray at any shape. The direction has any length but zero; t counts in it and ends at t_max, which may be
+/// INFINITY. An origin inside is an initial overlap.
+TL_API bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec3 origin, tl_vec3 direction,
+                               float t_max, tl_convex_hit *hit_out);
 
 #ifdef __cplusplus
 }

@@ -160,6 +160,12 @@ static void find_witness(search *s, const tl_polytope *p, const uint16_t best_ve
             }
         }
     }
+    // On curved surfaces a depth that is right to a gap has a normal that is right to the root of it only: witnesses
+    // may be off sideways, in the surfaces, by so much. Halve that between them, so that they lie along the normal.
+    tl_vec3d apart = tl_vec3d_sub(s->epa->on_a, s->epa->on_b);
+    tl_vec3d off = tl_vec3d_mul_add(apart, s->epa->normal, -s->epa->upper);
+    s->epa->on_a = tl_vec3d_mul_add(s->epa->on_a, off, -0.5);
+    s->epa->on_b = tl_vec3d_mul_add(s->epa->on_b, off, 0.5);
 }
 
 static void expand(search *s, tl_polytope *p)

@@ -76,6 +76,25 @@ tl_convex tl_convex_triangle(tl_vec3 a, tl_vec3 b, tl_vec3 c, float radius)
     return shape;
 }
 
+static tl_convex make_round(tl_convex_kind kind, tl_vec3 a, tl_vec3 b, float disc_radius, float radius)
+{
+    tl_convex shape = make(kind, radius);
+    shape.corners[0] = a;
+    shape.corners[1] = b;
+    shape.corners[2] = tl_vec3_make(disc_radius, 0.0f, 0.0f);
+    return shape;
+}
+
+tl_convex tl_convex_cylinder(tl_vec3 a, tl_vec3 b, float disc_radius, float radius)
+{
+    return make_round(TL_CONVEX_CYLINDER, a, b, disc_radius, radius);
+}
+
+tl_convex tl_convex_cone(tl_vec3 base, tl_vec3 apex, float disc_radius, float radius)
+{
+    return make_round(TL_CONVEX_CONE, base, apex, disc_radius, radius);
+}
+
 tl_convex tl_convex_custom(tl_convex_support_fn *support, void *user, float radius)
 {
     tl_convex shape = make(TL_CONVEX_CUSTOM, radius);
@@ -156,6 +175,24 @@ static tl_vec3 float_direction(tl_vec3d d)
     return tl_vec3d_to_float(tl_vec3d_scale(d, 1.0 / size));
 }
 
+// Cylinder and cone: the farthest point of a disc's rim lies where the direction's part across the axis points. That
+// part is a cross product, which is across the axis even where it is mere rounding; a difference would not be.
+static tl_vec3d round_support(const tl_convex *shape, tl_vec3d direction)
+{
+    tl_vec3d a = tl_vec3d_from(shape->corners[0]), b = tl_vec3d_from(shape->corners[1]);
+    tl_vec3d axis = tl_vec3d_sub(b, a);
+    double height = tl_vec3d_length(axis), disc_radius = (double)shape->corners[2].x;
+    axis = tl_vec3d_scale(axis, 1.0 / height);
+    double along = tl_vec3d_dot(direction, axis);
+    tl_vec3d across = tl_vec3d_cross(axis, tl_vec3d_cross(direction, axis));
+    double length = tl_vec3d_length(across);
+    double reach = length > 0.0 ? disc_radius / length : 0.0;
+    if (shape->kind == TL_CONVEX_CYLINDER) {
+        return tl_vec3d_mul_add(along > 0.0 ? b : a, across, reach);
+    }
+    return along * height > length * disc_radius ? b : tl_vec3d_mul_add(a, across, reach);
+}
+
 static tl_vec3d support_of(const tl_convex *shape, tl_vec3d direction, uint32_t *vertex)
 {
     switch (shape->kind) {
@@ -171,6 +208,10 @@ static tl_vec3d support_of(const tl_convex *shape, tl_vec3d direction, uint32_t 
     case TL_CONVEX_BOX:
         *vertex = (direction.x > 0.0 ? 1u : 0u) | (direction.y > 0.0 ? 2u : 0u) | (direction.z > 0.0 ? 4u : 0u);
         return box_vertex(shape, *vertex);
+    case TL_CONVEX_CYLINDER:
+    case TL_CONVEX_CONE:
+        *vertex = TL_NO_VERTEX;
+        return round_support(shape, direction);
     default:
         *vertex = TL_NO_VERTEX;
         return tl_vec3d_from(shape->support(float_direction(direction), shape->user));

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+//
+// Linear cast: B moves along a line until it touches A. The origin is cast as a ray at A - B, grown by the radii: the
+// support along the simplex's nearest point is a plane between the two, and the origin may go as far as that plane
+// without a look at anything else. One simplex serves the whole way.
+// Source: van den Bergen, Ray Casting against General Convex Objects with Application to Continuous Collision
+// Detection, 2004; conservative advancement: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996.
+//
+// The time only grows by what a plane proves to be free, less the rounding, so the time reported is never late.
+
+#include "convex/simplex.h"
+
+#include "math/tolerance.h"
+
+#include <string.h>
+
+// Shapes closer than four float roundings of their size, in coordinates that are floats, touch.
+#define TOUCH_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
+
+// Two rotated points, a shift and their difference.
+#define POINT_ERROR TL_DOUBLE_GAMMA(24)
+
+typedef struct cast {
+    tl_pair *pair;
+    tl_vec3d motion; // A's frame
+    double t, t_max, radii;
+    tl_simplex simplex; // points unshifted; weights and nearest for the time t
+    tl_vec3d nearest;
+    double distance; // of the cores at t, from above
+    double size;     // spread of the points seen, and the radii
+    double scale;    // largest |a| + |b|
+    tl_vec3d normal; // of the last plane
+    bool inside, moved;
+} cast;
+
+static double size_of(tl_vec3d a)
+{
+    return fabs(a.x) + fabs(a.y) + fabs(a.z);
+}
+
+static double noise_of(const cast *c)
+{
+    return POINT_ERROR * (c->scale + c->t * size_of(c->motion));
+}
+
+static double touch_gap(const cast *c)
+{
+    return TOUCH_GAP * c->size + 2.0 * c->pair->direction_error + 2.0 * noise_of(c);
+}
+
+// The simplex seen from the origin at time t.
+static void look(cast *c)
+{
+    tl_simplex shifted = c->simplex;
+    for (uint32_t i = 0; i < shifted.count; i++) {
+        shifted.points[i].w = tl_vec3d_mul_add(shifted.points[i].w, c->motion, -c->t);
+    }
+    c->nearest = tl_simplex_nearest(&shifted);
+    c->distance = tl_vec3d_length(c->nearest);
+    for (uint32_t i = 0; i < shifted.count; i++) {
+        shifted.points[i].w = tl_vec3d_sub(shifted.points[i].a, shifted.points[i].b);
+    }
+    c->simplex = shifted;
+    c->inside = shifted.count == 4 || c->distance <= noise_of(c);
+}
+
+static void grow(cast *c, const tl_pair_point *point)
+{
+    double spread = tl_vec3d_length(tl_vec3d_sub(point->w, c->simplex.points[0].w)) + c->radii;
+    double scale = size_of(point->a) + size_of(point->b);
+    c->size = spread > c->size ? spread : c->size;
+    c->scale = scale > c->scale ? scale : c->scale;
+}
+
+static void start(cast *c)
+{
+    tl_vec3d offset = tl_pair_offset(c->pair);
+    if (tl_vec3d_dot(offset, offset) == 0.0) {
+        offset = tl_vec3d_make(1.0, 0.0, 0.0);
+    }
+    c->simplex.points[0] = tl_pair_support(c->pair, tl_vec3d_neg(offset));
+    c->simplex.count = 1;
+    grow(c, &c->simplex.points[0]);
+    look(c);
+    c->normal = c->inside ? tl_vec3d_make(0.0, 0.0, 0.0) : tl_vec3d_scale(c->nearest, -1.0 / c->distance);
+}
+
+static bool is_known(const tl_simplex *simplex, const tl_pair_point *point)
+{
+    for (uint32_t i = 0; i < simplex->count; i++) {
+        const tl_vec3d *w = &simplex->points[i].w;
+        if (w->x == point->w.x && w->y == point->w.y && w->z == point->w.z) {
+            return true;
+        }
+    }
+    return false;
+}
+
+typedef enum step { STEP_ON, STEP_HIT, STEP_MISS, STEP_STUCK } step;
+
+static step advance(cast *c)
+{
+    if (c->inside || c->distance <= c->radii) {
+        return STEP_HIT;
+    }
+    tl_vec3d u = tl_vec3d_scale(c->nearest, 1.0 / c->distance);
+    double closing = tl_vec3d_dot(u, c->motion);
+    bool touches = c->distance <= c->radii + touch_gap(c);
+    if (touches && closing > 0.0) {
+        c->normal = c->moved && c->radii == 0.0 ? c->normal : tl_vec3d_neg(u);
+        return STEP_HIT;
+    }
+    tl_pair_point point = tl_pair_support(c->pair, tl_vec3d_neg(u));
+    grow(c, &point);
+    double slack = c->pair->direction_error + noise_of(c);
+    double free = tl_vec3d_dot(u, tl_vec3d_mul_add(point.w, c->motion, -c->t)) - c->radii;
+    // Nothing comes nearer along this plane, and it parts the shapes; where they touch, as well as can be told.
+    if (closing <= 0.0 && free > (touches ? -slack : slack)) {
+        return STEP_MISS;
+    }
+    bool advanced = free > slack && closing > 0.0;
+    if (advanced) {
+        c->t += (free - slack) / closing;
+        if (c->t > c->t_max) {
+            return STEP_MISS;
+        }
+        c->normal = tl_vec3d_neg(u);
+        c->moved = true;
+    }
+    double before = c->distance;
+    bool known = is_known(&c->simplex, &point);
+    if (known && !advanced) {
+        return STEP_STUCK;
+    }
+    if (!known) {
+        c->simplex.points[c->simplex.count++] = point;
+    }
+    look(c);
+    return advanced || c->inside || c->distance < before ? STEP_ON : STEP_STUCK;
+}
+
+static void run(cast *c, tl_convex_hit *hit)
+{
+    start(c);
+    bool at_start = c->inside || c->distance <= c->radii;
+    step state = STEP_ON;
+    while (state == STEP_ON) {
+        state = advance(c);
+        at_start = at_start || (!c->moved && (c->inside || c->distance <= c->radii));
+        if (state == STEP_ON && ++hit->iterations == TL_MAX_CAST_ITERATIONS) {
+            hit->status = TL_CONVEX_ITERATIONS;
+            break;
+        }
+    }
+    double gap = c->inside || c->distance <= c->radii ? 0.0 : c->distance - c->radii;
+    if (state == STEP_STUCK && gap > 2.0 * touch_gap(c)) {
+        hit->status = TL_CONVEX_DEGENERATE;
+    }
+    if (state == STEP_MISS) {
+        return;
+    }
+    hit->hit = true;
+    hit->initial_overlap = at_start && !c->moved;
+    hit->gap = (float)gap;
+    tl_vec3d on_a, on_b;
+    tl_simplex_witness(&c->simplex, &on_a, &on_b);
+    hit->point = tl_pair_to_world(c->pair, tl_vec3d_mul_add(on_a, c->normal, (double)c->pair->a->radius));
+    if (!hit->initial_overlap) {
+        hit->normal = tl_vec3d_to_float(tl_frame_rotate(&c->pair->a_to_world, c->normal));
+    }
+}
+
+static bool cast_pair(tl_pair *pair, tl_vec3 motion, double t_max, tl_convex_hit *hit_out)
+{
+    cast c;
+    memset(&c, 0, sizeof c);
+    memset(hit_out, 0, sizeof *hit_out);
+    c.pair = pair;
+    c.motion = tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_from(motion));
+    c.t_max = t_max;
+    c.radii = (double)pair->a->radius + (double)pair->b->radius;
+    c.size = c.radii;
+    run(&c, hit_out);
+    if (hit_out->hit) {
+        // Rounded down: not late.
+        float t = (float)c.t;
+        hit_out->t = (double)t > c.t ? t * (1.0f - 2.0f * TL_FLOAT_ROUNDING) : t;
+    }
+    return hit_out->hit;
+}
+
+bool tl_convex_cast(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b, tl_vec3 motion,
+                    tl_convex_hit *hit_out)
+{
+    tl_pair pair = tl_pair_make(a, pose_a, b, pose_b);
+    return cast_pair(&pair, motion, 1.0, hit_out);
+}
+
+bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec3 origin, tl_vec3 direction, float t_max,
+                        tl_convex_hit *hit_out)
+{
+    tl_convex point = tl_convex_sphere(tl_vec3_make(0.0f, 0.0f, 0.0f), 0.0f);
+    tl_transform at_origin = tl_transform_identity();
+    at_origin.position = origin;
+    tl_pair pair = tl_pair_make(shape, pose, &point, at_origin);
+    return cast_pair(&pair, direction, (double)t_max, hit_out);
+}
