@@ -155,6 +155,33 @@ TL_API bool tl_convex_cast(const tl_convex *a, tl_transform pose_a, const tl_con
 TL_API bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec3 origin, tl_vec3 direction,
                                float t_max, tl_convex_hit *hit_out);
 
+#define TL_MAX_CONTACTS 4u
+
+typedef struct tl_contact {
+    tl_vec3 point_a;  ///< on A's surface, world
+    tl_vec3 point_b;  ///< on B's surface, world; point_a + separation * normal
+    float separation; ///< metres; negative: this deep
+} tl_contact;
+
+typedef struct tl_contact_manifold {
+    uint32_t count; ///< 0 .. TL_MAX_CONTACTS
+    tl_contact contacts[TL_MAX_CONTACTS];
+    tl_vec3 normal; ///< unit, from A to B, world
+    tl_convex_status status;
+} tl_contact_manifold;
+
+/// Where two shapes rest on each other. Returns the number of contacts; 0 when they are more than `margin` metres
+/// apart.
+///
+/// Where faces of hulls, boxes or triangles meet, these are corners of their common patch that are at most `tolerance`
+/// metres less deep than the deepest point; of more than four, the deepest and those that span the largest area.
+/// Everything else, and edges that cross, give one contact. Both lengths are >= 0; a hundredth of the size of the
+/// smaller shape serves well. Complexity: O(faces) of each hull beside the distance. Poses, cache, threads as in
+/// tl_convex_distance.
+TL_API uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
+                                   float margin, float tolerance, tl_simplex_cache *cache,
+                                   tl_contact_manifold *manifold_out);
+
 #ifdef __cplusplus
 }
 #endif

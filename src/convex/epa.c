@@ -58,16 +58,6 @@ static bool ask(search *s, tl_vec3d direction, tl_pair_point *point_out)
     return false;
 }
 
-static tl_vec3d perpendicular(tl_vec3d d)
-{
-    // Across the axis that d is least along.
-    tl_vec3d axis = fabs(d.x) <= fabs(d.y) && fabs(d.x) <= fabs(d.z) ? tl_vec3d_make(1.0, 0.0, 0.0)
-                    : fabs(d.y) <= fabs(d.z)                         ? tl_vec3d_make(0.0, 1.0, 0.0)
-                                                                     : tl_vec3d_make(0.0, 0.0, 1.0);
-    tl_vec3d p = tl_vec3d_cross(d, axis);
-    return tl_vec3d_scale(p, 1.0 / tl_vec3d_length(p));
-}
-
 // Asks along six directions and keeps the point for which `spread` of its difference from the first is largest.
 static bool widen(search *s, tl_pair_point *points, uint32_t count, const tl_vec3d directions[6])
 {
@@ -97,7 +87,7 @@ static bool widen_line(search *s, tl_pair_point *points)
 {
     tl_vec3d line = tl_vec3d_sub(points[1].w, points[0].w);
     line = tl_vec3d_scale(line, 1.0 / tl_vec3d_length(line));
-    tl_vec3d u = perpendicular(line), v = tl_vec3d_cross(line, u);
+    tl_vec3d u = tl_vec3d_perpendicular(line), v = tl_vec3d_cross(line, u);
     tl_vec3d directions[6];
     for (int i = 0; i < 6; i++) {
         // A hexagon: cos and sin of multiples of 60 degrees.

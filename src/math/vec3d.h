@@ -67,6 +67,17 @@ static inline double tl_vec3d_length(tl_vec3d a)
     return sqrt(tl_vec3d_dot(a, a));
 }
 
+// A unit vector across a unit vector.
+static inline tl_vec3d tl_vec3d_perpendicular(tl_vec3d d)
+{
+    // Across the axis that d is least along.
+    tl_vec3d axis = fabs(d.x) <= fabs(d.y) && fabs(d.x) <= fabs(d.z) ? tl_vec3d_make(1.0, 0.0, 0.0)
+                    : fabs(d.y) <= fabs(d.z)                         ? tl_vec3d_make(0.0, 1.0, 0.0)
+                                                                     : tl_vec3d_make(0.0, 0.0, 1.0);
+    tl_vec3d p = tl_vec3d_cross(d, axis);
+    return tl_vec3d_scale(p, 1.0 / tl_vec3d_length(p));
+}
+
 // The rotation matrix's rows, and where the origin goes.
 typedef struct tl_frame {
     tl_vec3d rows[3];

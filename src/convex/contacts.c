@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// Contacts of two shapes: the normal and depth of the distance or penetration query, and where faces rest on each other
+// the corners of their common patch.
+//
+// Whether faces touch is not asked of angles. What the two most opposed faces have in common is cut out, and of its
+// corners those count that are not much farther apart than the deepest point. That is one length, it gives a tilted box
+// one edge and a flat one four corners, and it has no angle at which the number of contacts would jump for large faces
+// but not for small ones.
+
+#include "convex/epa.h"
+
+#include "convex/face_patch.h"
+
+#include <string.h>
+
+static void add_contact(const tl_pair *pair, tl_vec3d on_a, tl_vec3d on_b, tl_vec3d normal, tl_contact_manifold *out)
+{
+    double radius_a = (double)pair->a->radius, radius_b = (double)pair->b->radius;
+    tl_contact *contact = &out->contacts[out->count++];
+    contact->point_a = tl_pair_to_world(pair, tl_vec3d_mul_add(on_a, normal, radius_a));
+    contact->point_b = tl_pair_to_world(pair, tl_vec3d_mul_add(on_b, normal, -radius_b));
+    contact->separation = (float)(tl_vec3d_dot(normal, tl_vec3d_sub(on_b, on_a)) - radius_a - radius_b);
+}
+
+static void add_patch(const tl_pair *pair, tl_vec3d normal, double limit, tl_contact_manifold *out)
+{
+    tl_face face_a, face_b;
+    tl_patch patch;
+    if (!tl_face_along(pair->a, NULL, normal, &face_a) ||
+        !tl_face_along(pair->b, &pair->b_to_a, tl_vec3d_neg(normal), &face_b)) {
+        return;
+    }
+    tl_patch_find(&face_a, &face_b, normal, limit, &patch);
+    for (uint32_t i = 0; i < patch.count; i++) {
+        const tl_patch_point *p = &patch.points[i];
+        tl_vec3d flat = tl_vec3d_mul_add(tl_vec3d_scale(patch.u, p->x), patch.v, p->y);
+        add_contact(pair, tl_vec3d_mul_add(flat, normal, p->on_a), tl_vec3d_mul_add(flat, normal, p->on_b), normal,
+                    out);
+    }
+}
+
+uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
+                            float margin, float tolerance, tl_simplex_cache *cache, tl_contact_manifold *manifold_out)
+{
+    tl_pair pair = tl_pair_make(a, pose_a, b, pose_b);
+    double radii = (double)a->radius + (double)b->radius;
+    tl_gjk gjk;
+    memset(manifold_out, 0, sizeof *manifold_out);
+    tl_gjk_run(&pair, cache, -1.0, &gjk);
+    manifold_out->status = gjk.status;
+    tl_vec3d on_a, on_b, normal;
+    double separation; // of the cores
+    if (gjk.overlap) {
+        tl_epa epa;
+        tl_epa_run(&pair, &gjk, &epa);
+        manifold_out->status = epa.status;
+        normal = epa.normal;
+        on_a = epa.on_a;
+        on_b = epa.on_b;
+        separation = -epa.depth;
+    } else {
+        if (gjk.upper - radii > (double)margin) {
+            return 0;
+        }
+        normal = tl_vec3d_scale(gjk.nearest, -1.0 / gjk.upper);
+        tl_simplex_witness(&gjk.simplex, &on_a, &on_b);
+        separation = gjk.upper;
+    }
+    double limit = fmin(separation + (double)tolerance, (double)margin + radii);
+    manifold_out->normal = tl_vec3d_to_float(tl_frame_rotate(&pair.a_to_world, normal));
+    add_patch(&pair, normal, limit, manifold_out);
+    if (manifold_out->count == 0) {
+        add_contact(&pair, on_a, on_b, normal, manifold_out);
+    }
+    return manifold_out->count;
+}

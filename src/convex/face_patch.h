@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//
+// The patch that two faces share when seen along a normal.
+
+#ifndef TALUS_SRC_CONVEX_FACE_PATCH_H
+#define TALUS_SRC_CONVEX_FACE_PATCH_H
+
+#include "convex/proxy.h"
+
+// A face of a hull, a box or a triangle, in A's frame.
+typedef struct tl_face {
+    const tl_convex *shape;
+    const tl_frame *frame; // to A's frame; NULL for A itself
+    uint32_t first, count; // a hull's half-edges
+    tl_vec3d corners[4];   // of the others
+    tl_vec3d normal;
+    double offset;
+} tl_face;
+
+// The face of the shape that looks most along the direction. False when the shape has no faces.
+bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direction, tl_face *face_out);
+
+typedef struct tl_patch_point {
+    double x, y;       // in the plane across the normal
+    double on_a, on_b; // heights along the normal
+} tl_patch_point;
+
+// At most this many are kept of a patch: the deepest and those that span the largest area with it.
+enum { TL_PATCH_POINTS = 4 };
+
+typedef struct tl_patch {
+    tl_vec3d u, v, normal;
+    tl_patch_point points[TL_PATCH_POINTS];
+    uint32_t count;
+} tl_patch;
+
+// Corners of the common part of both faces, seen along the normal, where B's face lies at most `limit` above A's.
+void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double limit, tl_patch *patch_out);
+
+#endif
