@@ -15,10 +15,11 @@
 
 #include <string.h>
 
-// Polygons of one contour: a range of `order`.
+// Polygons of one contour: a range of `order`. Those of several contours are parted into pieces that hang together by
+// edges: two pieces are different floors, which may lie over one another.
 typedef struct cover {
     tl_polygon_checker *checker;
-    tl_sort_item *order; // polygons by contour, then by their lowest x
+    tl_sort_item *order; // polygons by group, then by their lowest x
     tl_sort_item *vertices;
     uint32_t first, end;
 } cover;
@@ -62,12 +63,20 @@ static uint32_t x_key(int32_t x)
     return (uint32_t)(x + TL_MAX_CONTOUR_COORDINATE);
 }
 
+// A key of `order`: x_key, at most 2 * TL_MAX_CONTOUR_COORDINATE = 2^30, under the 33 bits of the group.
+enum { GROUP_SHIFT = 31 };
+
+static uint32_t group_x(uint64_t key)
+{
+    return (uint32_t)(key & (((uint64_t)1 << GROUP_SHIFT) - 1));
+}
+
 static void check_overlaps(cover *c)
 {
     const tl_polygon_mesh *mesh = c->checker->mesh;
     for (uint32_t i = c->first; i < c->end; i++) {
         lattice_box a = box_of(mesh, c->order[i].value);
-        for (uint32_t j = i + 1; j < c->end && (uint32_t)c->order[j].key < x_key(a.max_x); j++) {
+        for (uint32_t j = i + 1; j < c->end && group_x(c->order[j].key) < x_key(a.max_x); j++) {
             lattice_box b = box_of(mesh, c->order[j].value);
             if (a.min_z < b.max_z && b.min_z < a.max_z &&
                 !has_separating_edge(mesh, c->order[i].value, c->order[j].value) &&
@@ -131,17 +140,49 @@ static void check_t_junctions(cover *c)
     }
 }
 
+static uint32_t find_root(uint32_t *parent, uint32_t p)
+{
+    while (parent[p] != p) {
+        parent[p] = parent[parent[p]];
+        p = parent[p];
+    }
+    return p;
+}
+
+// Joins neighbours of several contours; a piece is named by its lowest polygon.
+static uint32_t *join_pieces(const tl_polygon_mesh *mesh, tl_arena *arena)
+{
+    uint32_t *parent = TL_PUSH(arena, uint32_t, mesh->polygon_count);
+    for (uint32_t p = 0; parent != NULL && p < mesh->polygon_count; p++) {
+        parent[p] = p;
+    }
+    for (uint32_t p = 0; parent != NULL && p < mesh->polygon_count; p++) {
+        for (uint32_t k = mesh->first[p]; mesh->contours[p] == TL_SEVERAL_CONTOURS && k < mesh->first[p + 1]; k++) {
+            uint32_t beside = mesh->neighbours[k];
+            if (beside < mesh->polygon_count && mesh->contours[beside] == TL_SEVERAL_CONTOURS) {
+                uint32_t a = find_root(parent, p);
+                uint32_t b = find_root(parent, beside);
+                parent[a > b ? a : b] = a > b ? b : a;
+            }
+        }
+    }
+    return parent;
+}
+
 static tl_result sort_polygons(cover *c)
 {
     const tl_polygon_mesh *mesh = c->checker->mesh;
     tl_arena *arena = &c->checker->arena;
     c->order = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)mesh->polygon_count);
     c->vertices = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)mesh->index_count);
-    if (c->order == NULL || c->vertices == NULL) {
+    uint32_t *pieces = join_pieces(mesh, arena);
+    if (c->order == NULL || c->vertices == NULL || pieces == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t p = 0; p < mesh->polygon_count; p++) {
-        tl_sort_item item = { (uint64_t)mesh->contours[p] << 32 | x_key(box_of(mesh, p).min_x), p, 0 };
+        bool is_shared = mesh->contours[p] == TL_SEVERAL_CONTOURS;
+        uint64_t group = is_shared ? ((uint64_t)1 << 32) + find_root(pieces, p) : mesh->contours[p];
+        tl_sort_item item = { group << GROUP_SHIFT | x_key(box_of(mesh, p).min_x), p, 0 };
         c->order[p] = item;
     }
     tl_radix_sort(c->order, c->order + mesh->polygon_count, mesh->polygon_count);
@@ -315,9 +356,10 @@ tl_result tl_polygon_check_cover(tl_polygon_checker *checker)
         TL_TRY(check_areas(checker, is_whole));
     }
     for (c.first = 0; c.first < checker->mesh->polygon_count; c.first = c.end) {
-        uint32_t contour = (uint32_t)(c.order[c.first].key >> 32);
+        uint64_t group = c.order[c.first].key >> GROUP_SHIFT;
+        uint32_t contour = checker->mesh->contours[c.order[c.first].value];
         c.end = c.first;
-        while (c.end < checker->mesh->polygon_count && (uint32_t)(c.order[c.end].key >> 32) == contour) {
+        while (c.end < checker->mesh->polygon_count && c.order[c.end].key >> GROUP_SHIFT == group) {
             c.end++;
         }
         check_overlaps(&c);
