@@ -16,10 +16,12 @@
 
 #include <string.h>
 
-// Every outline of 128 corners, and even a convex one of 290, takes fewer chords and steps: n^2 / 2 and n^3 / 6.
-#define MOST_CHORDS (1u << 16)
-#define MOST_STEPS  (1u << 22)
-// Beyond this many corners an exact solution is not tried: the chords of levels' outlines pass the limit there.
+// Up to here an outline is solved whatever it takes; a convex one takes n^2 / 2 chords and n^3 / 6 steps, stars of
+// spread angles take several times as many steps.
+#define ALWAYS_SOLVED 128
+// Larger outlines are given up above these limits. All but the largest of levels stay below them.
+#define MOST_CHORDS  (1u << 16)
+#define MOST_STEPS   (1u << 22)
 #define MOST_CORNERS (1u << 12)
 // A piece has at most 2 * PIECE_TRIANGLES + 1 triangles.
 #define PIECE_TRIANGLES 48
@@ -47,7 +49,8 @@ static tl_result solve(tl_arena *arena, const tl_lattice_point *points, uint32_t
     tl_visibility visibility;
     TL_TRY(tl_find_visibility(arena, points, count, triangles, twins, MOST_CHORDS, &visibility, found));
     if (*found) {
-        TL_TRY(tl_partition_optimally(arena, points, count, &visibility, max_corners, MOST_STEPS, parts, found));
+        uint64_t max_steps = count <= ALWAYS_SOLVED ? UINT64_MAX : MOST_STEPS;
+        TL_TRY(tl_partition_optimally(arena, points, count, &visibility, max_corners, max_steps, parts, found));
     }
     return TL_OK;
 }

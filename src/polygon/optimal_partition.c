@@ -124,6 +124,7 @@ static bool is_as_good(const partition *p, const chain *a, const chain *b, uint3
 static tl_result keep_chain(partition *p, chord *at, const chain *item, bool apex_is_reflex)
 {
     chain *kept = p->chains + at->first_chain;
+    p->steps += at->chain_count;
     for (uint32_t k = 0; k < at->chain_count; k++) {
         if (is_as_good(p, &kept[k], item, at->to, apex_is_reflex)) {
             return TL_OK;
@@ -166,6 +167,7 @@ static tl_result extend(partition *p, uint32_t i, chord *at, const arrival *by, 
         return TL_OK;
     }
     bool extended = false;
+    p->steps += from.chain_count;
     for (uint32_t k = from.first_chain; k < from.first_chain + from.chain_count; k++) {
         const chain old = p->chains[k];
         if ((step != 0 && old.count == p->max_corners) ||
