@@ -105,17 +105,19 @@ static void report_set(job *j, const char *name, const tl_polygon_mesh *mesh, co
     if (j->sets != NULL) {
         json_array_append_new(
             j->sets,
-            json_pack("{s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:s, s:I}",
-                      "name", name, "contours", (json_int_t)report->contour_count, "empty_contours",
-                      (json_int_t)report->empty_contours, "repaired_contours", (json_int_t)report->repaired_contours,
-                      "refused_contours", (json_int_t)report->refused_contours, "triangles",
-                      (json_int_t)report->triangle_count, "lower_bound", (json_int_t)report->lower_bound, "polygons",
-                      (json_int_t)report->polygon_count, "vertices", (json_int_t)report->vertex_count, "links",
-                      (json_int_t)report->link_count, "portals", (json_int_t)report->portal_count, "crowded_edges",
-                      (json_int_t)report->crowded_edges, "border_vertices_removed",
-                      (json_int_t)report->border_vertices_gone, "border_vertices_kept",
-                      (json_int_t)report->border_vertices_kept, "seconds", tl_json_double(seconds), "notes",
-                      notes_as_json(mesh), "check", verdict, "peak_bytes", (json_int_t)report->base.peak_bytes));
+            json_pack(
+                "{s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:o, s:o, s:s, s:I}",
+                "name", name, "contours", (json_int_t)report->contour_count, "empty_contours",
+                (json_int_t)report->empty_contours, "repaired_contours", (json_int_t)report->repaired_contours,
+                "refused_contours", (json_int_t)report->refused_contours, "triangles",
+                (json_int_t)report->triangle_count, "lower_bound", (json_int_t)report->lower_bound, "polygons",
+                (json_int_t)report->polygon_count, "vertices", (json_int_t)report->vertex_count, "links",
+                (json_int_t)report->link_count, "portals", (json_int_t)report->portal_count, "crowded_edges",
+                (json_int_t)report->crowded_edges, "straight_vertices_removed",
+                (json_int_t)report->straight_vertices_gone, "contour_merges", (json_int_t)report->contour_merges,
+                "border_vertices_removed", (json_int_t)report->border_vertices_gone, "border_vertices_kept",
+                (json_int_t)report->border_vertices_kept, "seconds", tl_json_double(seconds), "notes",
+                notes_as_json(mesh), "check", verdict, "peak_bytes", (json_int_t)report->base.peak_bytes));
     }
     j->set_count++;
     j->contours += report->contour_count;
@@ -256,7 +258,8 @@ static tl_exit run(tl_cli *cli)
     const char *output = NULL;
     int method = 0;
     uint32_t max_verts = 0;
-    bool unlimited = false, check = false, compare = false, keep_border = false;
+    bool unlimited = false, check = false, compare = false, keep_border = false, drop_straight = false,
+         merge_contours = false;
     tl_polygon_def def = tl_default_polygon_def();
     const tl_option options[] = {
         { "output", 'o', TL_OPTION_TEXT, &output, "FILE",
@@ -272,6 +275,10 @@ static tl_exit run(tl_cli *cli)
           UINT16_MAX },
         { "keep-border-vertices", 0, TL_OPTION_FLAG, &keep_border, NULL,
           "leave vertices in that a tile's border does not need", NULL, 0, 0, 0, 0 },
+        { "drop-straight", 0, TL_OPTION_FLAG, &drop_straight, NULL,
+          "take vertices out of straight runs where no other contour has them", NULL, 0, 0, 0, 0 },
+        { "merge-contours", 0, TL_OPTION_FLAG, &merge_contours, NULL,
+          "merge polygons across contours of one region and area", NULL, 0, 0, 0, 0 },
         { "check", 'c', TL_OPTION_FLAG, &check, NULL, "prove the result right; exit code 1 when it is not", NULL, 0, 0,
           0, 0 },
         { "compare", 0, TL_OPTION_FLAG, &compare, NULL,
@@ -298,6 +305,8 @@ static tl_exit run(tl_cli *cli)
     j.def.method = (tl_partition_method)method;
     j.def.max_verts_per_poly = unlimited ? 0 : max_verts != 0 ? max_verts : def.max_verts_per_poly;
     j.def.keep_border_vertices = keep_border;
+    j.def.drop_straight_vertices = drop_straight;
+    j.def.merge_contours = merge_contours;
     j.def.host = cli->host;
     j.has_cap = unlimited || max_verts != 0;
     j.check = check;

@@ -70,6 +70,10 @@ static void test_compares_methods(void **state)
         TEST_CHECK(strcmp(json_string_value(json_object_get(method, "check")), "ok") == 0);
     }
     json_decref(report);
+    report = cli_json(0, "polygonize square.txt --json --check --drop-straight --merge-contours");
+    const json_t *set = json_array_get(json_object_get(report, "sets"), 0);
+    TEST_CHECK(cli_number(set, "straight_vertices_removed") == 0 && cli_number(set, "contour_merges") == 0);
+    json_decref(report);
     cli_check_error(2, "polygonize square.txt --compare -o mesh.txt", "--compare", "-o");
 }
 

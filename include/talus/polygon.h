@@ -104,15 +104,15 @@ typedef struct tl_polygon_mesh {
 } tl_polygon_mesh;
 
 /// regions[p] and contours[p] of a polygon that holds floor of several contours. It arises only where a border vertex
-/// between two contours was removed.
+/// between two contours was removed, and with merge_contours, where the region stays.
 #define TL_SEVERAL_REGIONS  0u
 #define TL_SEVERAL_CONTOURS UINT32_MAX
 
 /// How a contour is divided.
 typedef enum tl_partition_method {
-    TL_PARTITION_CLASSIC, ///< shortest partition edge first, then merging across the longest shared edge first
-    TL_PARTITION_OPTIMAL, ///< as few polygons as there can be. Exact for every contour of up to 128 vertices that has
-                          ///< no holes, and for most larger ones; else the best of several ways
+    TL_PARTITION_CLASSIC,  ///< shortest partition edge first, then merging across the longest shared edge first
+    TL_PARTITION_OPTIMAL,  ///< as few polygons as there can be. Exact for every contour of up to 128 vertices that has
+                           ///< no holes, and for most larger ones; else the best of several ways
     TL_PARTITION_DELAUNAY, ///< constrained Delaunay triangulation, then merged as in the classic way: well-shaped
                            ///< polygons
 } tl_partition_method;
@@ -125,25 +125,31 @@ typedef struct tl_polygon_def {
                                ///< nearest one. 0: equal vertices only, which is enough where both regions take a
                                ///< corner's height from the same floors. Default 2, as Recast
     bool keep_border_vertices; ///< true: vertices flagged TL_CONTOUR_BORDER_VERTEX stay. Default false
+    bool drop_straight_vertices; ///< true: vertices in straight runs go where no other vertex is at the same x and z,
+                                 ///< before the contour is divided. Fewer polygons; default false
+    bool merge_contours; ///< true: polygons of different contours of one region and area are merged as well. Default
+                         ///< false
     tl_host host;
 } tl_polygon_def;
 
 /// The counts of one build.
 typedef struct tl_polygon_report {
     tl_report base;
-    uint32_t contour_count;        ///< contours given
-    uint32_t empty_contours;       ///< without area: fewer than three vertices, or all on one line
-    uint32_t repaired_contours;    ///< divided after a repair; named in the mesh's notes
-    uint32_t refused_contours;     ///< left out; named in the mesh's notes
-    uint32_t triangle_count;       ///< before merging
-    uint32_t lower_bound;          ///< fewest polygons that the contours, each by itself and divided along chords
-                                   ///< between its corners, could take: exact where TL_PARTITION_OPTIMAL is
-    uint32_t polygon_count;        ///< in the end
-    uint32_t vertex_count;         ///< in the end
-    uint32_t border_vertices_gone; ///< border vertices removed
-    uint32_t border_vertices_kept; ///< border vertices whose removal would have changed the floor's outline
-    uint32_t link_count;           ///< edges between two polygons
-    uint32_t portal_count;         ///< edges on a tile's border
+    uint32_t contour_count;          ///< contours given
+    uint32_t empty_contours;         ///< without area: fewer than three vertices, or all on one line
+    uint32_t repaired_contours;      ///< divided after a repair; named in the mesh's notes
+    uint32_t refused_contours;       ///< left out; named in the mesh's notes
+    uint32_t triangle_count;         ///< before merging
+    uint32_t lower_bound;            ///< fewest polygons that the contours, each by itself and divided along chords
+                                     ///< between its corners, could take: exact where TL_PARTITION_OPTIMAL is
+    uint32_t polygon_count;          ///< in the end
+    uint32_t vertex_count;           ///< in the end
+    uint32_t straight_vertices_gone; ///< by drop_straight_vertices
+    uint32_t contour_merges;         ///< by merge_contours: so many polygons fewer
+    uint32_t border_vertices_gone;   ///< border vertices removed
+    uint32_t border_vertices_kept;   ///< border vertices whose removal would have changed the floor's outline
+    uint32_t link_count;             ///< edges between two polygons
+    uint32_t portal_count;           ///< edges on a tile's border
     uint32_t crowded_edges; ///< edges claimed by more than two polygons; the first two of opposite direction are linked
     int64_t uncovered_area2; ///< doubled area of all contours, less that of the polygons; 0 without repairs
 } tl_polygon_report;

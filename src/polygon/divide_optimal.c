@@ -11,6 +11,7 @@
 
 #include "base/assert.h"
 #include "polygon/delaunay.h"
+#include "polygon/fans.h"
 #include "polygon/optimal_partition.h"
 #include "polygon/triangulate.h"
 
@@ -25,14 +26,6 @@
 #define MOST_CORNERS (1u << 12)
 // A piece has at most 2 * PIECE_TRIANGLES + 1 triangles.
 #define PIECE_TRIANGLES 48
-
-// Polygons as triangles again, so that they can be merged further: fans, whose inner edges go first.
-typedef struct fans {
-    uint32_t count;
-    uint32_t *corners;
-    uint32_t *twins;
-    uint8_t *joined;
-} fans;
 
 static uint32_t next_edge(uint32_t edge)
 {
@@ -55,23 +48,10 @@ static tl_result solve(tl_arena *arena, const tl_lattice_point *points, uint32_t
     return TL_OK;
 }
 
-static void add_fans(fans *f, const tl_convex_parts *parts, const uint32_t *names)
+static void add_fans(tl_fans *fans, const tl_convex_parts *parts, const uint32_t *names)
 {
     for (uint32_t p = 0; p < parts->count; p++) {
-        const uint32_t *corners = parts->corners + parts->first[p];
-        uint32_t triangles = parts->first[p + 1] - parts->first[p] - 2;
-        for (uint32_t t = 0; t < triangles; t++) {
-            uint32_t edge = 3 * f->count++;
-            f->corners[edge] = names[corners[0]];
-            f->corners[edge + 1] = names[corners[t + 1]];
-            f->corners[edge + 2] = names[corners[t + 2]];
-            f->joined[edge] = t > 0;
-            f->joined[edge + 1] = 0;
-            f->joined[edge + 2] = t + 1 < triangles;
-            f->twins[edge] = t > 0 ? edge - 1 : TL_NO_EDGE;
-            f->twins[edge + 1] = TL_NO_EDGE;
-            f->twins[edge + 2] = t + 1 < triangles ? edge + 3 : TL_NO_EDGE;
-        }
+        tl_fans_add(fans, parts->corners + parts->first[p], parts->first[p + 1] - parts->first[p], names);
     }
 }
 
@@ -160,7 +140,7 @@ static bool trace_piece(tl_arena *arena, const tl_lattice_point *points, const t
 
 // All triangles of one walk, piece by piece, into fans.
 static tl_result solve_pieces(tl_arena *arena, const tl_lattice_point *points, const tl_outline_triangles *walk,
-                              uint32_t max_corners, fans *f)
+                              uint32_t max_corners, tl_fans *f)
 {
     uint32_t *piece, piece_count;
     TL_TRY(cut_into_pieces(arena, walk->twins, walk->count, &piece, &piece_count));
@@ -203,7 +183,7 @@ static tl_result solve_pieces(tl_arena *arena, const tl_lattice_point *points, c
 
 // One walk into fans: at once where that can be, else in pieces.
 static tl_result solve_walk(tl_arena *arena, const tl_lattice_point *points, const tl_outline_triangles *walk,
-                            uint32_t max_corners, fans *f, bool *is_exact)
+                            uint32_t max_corners, tl_fans *f, bool *is_exact)
 {
     uint32_t *piece = TL_PUSH_ZERO(arena, uint32_t, walk->count);
     uint32_t *members = TL_PUSH(arena, uint32_t, walk->count);
@@ -228,14 +208,9 @@ static tl_result solve_walk(tl_arena *arena, const tl_lattice_point *points, con
 }
 
 static tl_result solve_walks(tl_arena *arena, const tl_outline *outline, uint32_t max_corners,
-                             const tl_outline_triangles *triangles, fans *f, bool *is_exact)
+                             const tl_outline_triangles *triangles, tl_fans *f, bool *is_exact)
 {
-    uint64_t edges = 3 * (uint64_t)triangles->count;
-    f->count = 0;
-    f->corners = TL_PUSH(arena, uint32_t, edges);
-    f->twins = TL_PUSH(arena, uint32_t, edges);
-    f->joined = TL_PUSH(arena, uint8_t, edges);
-    if (f->corners == NULL || f->twins == NULL || f->joined == NULL) {
+    if (!tl_fans_init(f, arena, triangles->count)) {
         return TL_ERR_MEMORY;
     }
     *is_exact = true;
@@ -282,7 +257,7 @@ tl_result tl_divide_optimally(tl_arena *arena, const tl_outline *outline, uint32
             return TL_OK;
         }
     }
-    fans f;
+    tl_fans f;
     TL_TRY(solve_walks(arena, outline, max_corners, triangles, &f, is_exact));
     uint32_t edges = 3 * triangles->count;
     uint32_t pairs = 0;

@@ -282,16 +282,15 @@ static void add_edge(edge_sums *e, tl_lattice_point from, tl_lattice_point to, i
     e->sums[*place] += a < b ? times : -times;
 }
 
-// The contour's edges, -1 times each. Border vertices that no polygon has any more are passed over: where their removal
-// changed the outline, other edges will not cancel.
+// The contour's edges, -1 times each. Vertices that no polygon has (border vertices, and those in straight runs) are
+// passed over: where their removal changed the outline, other edges will not cancel.
 static void add_contour_backward(edge_sums *e, const tl_contour_vertex *vertices, uint32_t count)
 {
     tl_lattice_point first = { 0, 0 }, last = { 0, 0 };
     bool has_first = false;
     for (uint32_t k = 0; k < count; k++) {
         tl_lattice_point p = { vertices[k].x, vertices[k].z };
-        bool was_removed = (vertices[k].flags & TL_CONTOUR_BORDER_VERTEX) != 0 &&
-                           *tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z)) == TL_NO_VALUE;
+        bool was_removed = *tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z)) == TL_NO_VALUE;
         if (was_removed) {
             continue;
         }

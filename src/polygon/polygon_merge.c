@@ -263,6 +263,16 @@ static tl_result write_parts(merger *m, tl_arena *arena, uint32_t edge_count, tl
         } while (edge != begin);
     }
     parts->first[m->place_count] = filled;
+    parts->part_of = NULL;
+    if (m->joined_first != NULL) {
+        parts->part_of = TL_PUSH(arena, uint32_t, edge_count / 3);
+        if (parts->part_of == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        for (uint32_t t = 0; t < edge_count / 3; t++) {
+            parts->part_of[t] = m->place[polygon_of(m, 3 * t)];
+        }
+    }
     return TL_OK;
 }
 

@@ -13,6 +13,7 @@ typedef struct tl_convex_parts {
     uint32_t count;
     uint32_t *first;   // [count + 1]
     uint32_t *corners; // numbers as in the triangles
+    uint32_t *part_of; // [triangle] the polygon that holds it; only where some edges are joined first
 } tl_convex_parts;
 
 /// Merges triangles across the longest shared edge first, while the result is strictly convex and has at most

@@ -9,7 +9,9 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "polygon/divide.h"
+#include "polygon/merge_contours.h"
 #include "polygon/polygon_store.h"
+#include "polygon/straight_vertices.h"
 
 #include <string.h>
 
@@ -22,6 +24,7 @@ typedef struct builder {
     tl_arena arena;   // lives as long as the build
     tl_arena scratch; // emptied after each contour
     tl_polygon_store store;
+    tl_place_counts places; // with drop_straight_vertices
     tl_polygon_report report;
 } builder;
 
@@ -124,9 +127,21 @@ static tl_result add_contour(builder *b, uint32_t index)
 {
     const tl_contour *contour = &b->contours->contours[index];
     uint32_t first_polygon = b->store.polygon_count;
+    const tl_contour_vertex *vertices = b->contours->vertices + contour->first_vertex;
+    uint32_t count = contour->vertex_count;
+    uint32_t *places = NULL;
+    if (b->def->drop_straight_vertices) {
+        tl_contour_vertex *kept = TL_PUSH(&b->scratch, tl_contour_vertex, count);
+        places = TL_PUSH(&b->scratch, uint32_t, count);
+        if (kept == NULL || places == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        count = tl_drop_straight_vertices(&b->places, b->contours, contour, kept, places);
+        vertices = kept;
+        b->report.straight_vertices_gone += contour->vertex_count - count;
+    }
     tl_outline outline;
-    TL_TRY(tl_outline_prepare(&b->scratch, b->contours->vertices + contour->first_vertex, contour->vertex_count,
-                              &outline));
+    TL_TRY(tl_outline_prepare(&b->scratch, vertices, count, &outline));
     if (outline.walk_count > 0) {
         TL_TRY(divide(b, index, &outline));
     }
@@ -137,7 +152,7 @@ static tl_result add_contour(builder *b, uint32_t index)
     memset(&note, 0, sizeof note);
     note.contour = index;
     note.faults = outline.faults;
-    note.vertex = outline.fault_vertex;
+    note.vertex = places != NULL && count > 0 ? places[outline.fault_vertex] : outline.fault_vertex;
     note.contour_area2 = outline.area2;
     note.covered_area2 = stored_area2(&b->store, first_polygon);
     // Modulo 2^64, as the areas of outlines that wind around much floor several times are.
@@ -238,10 +253,16 @@ static tl_result build(builder *b, tl_polygon_mesh *mesh_out)
         return TL_ERR_MEMORY;
     }
     TL_TRY(tl_polygon_store_init(&b->store, &b->arena, b->def, b->contours->vertex_count, b->contours->contour_count));
+    if (b->def->drop_straight_vertices && !tl_place_counts_init(&b->places, &b->arena, b->contours)) {
+        return TL_ERR_MEMORY;
+    }
     TL_TRY(add_contours(b));
     if (!b->def->keep_border_vertices) {
         TL_TRY(tl_remove_border_vertices(&b->store, &b->scratch, b->def->max_verts_per_poly,
                                          &b->report.border_vertices_gone, &b->report.border_vertices_kept));
+    }
+    if (b->def->merge_contours) {
+        TL_TRY(tl_merge_across_contours(&b->store, &b->scratch, b->def->max_verts_per_poly, &b->report.contour_merges));
     }
     TL_TRY(tl_link_neighbours(&b->store, &b->scratch, b->contours, &b->report));
     b->report.polygon_count = b->store.polygon_count;

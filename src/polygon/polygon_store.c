@@ -124,3 +124,44 @@ tl_result tl_polygon_store_note(tl_polygon_store *store, const tl_contour_note *
     store->notes[store->note_count++] = *note;
     return TL_OK;
 }
+
+tl_result tl_polygon_store_compact(tl_polygon_store *store, tl_arena *scratch)
+{
+    uint32_t *number = TL_PUSH(scratch, uint32_t, store->vertex_count);
+    uint32_t *indices = TL_PUSH(store->arena, uint32_t, store->index_count);
+    if (number == NULL || indices == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(number, 0xff, store->vertex_count * sizeof *number);
+    uint32_t polygons = 0;
+    uint32_t filled = 0;
+    for (uint32_t p = 0; p < store->polygon_count; p++) {
+        tl_stored_polygon polygon = store->polygons[p];
+        if (polygon.count == 0) {
+            continue;
+        }
+        for (uint32_t k = 0; k < polygon.count; k++) {
+            indices[filled + k] = store->indices[polygon.first + k];
+            number[indices[filled + k]] = 0;
+        }
+        polygon.first = filled;
+        filled += polygon.count;
+        store->polygons[polygons++] = polygon;
+    }
+    uint32_t vertices = 0;
+    for (uint32_t v = 0; v < store->vertex_count; v++) {
+        if (number[v] != TL_NO_VALUE) {
+            memmove(store->vertices + 3 * (size_t)vertices, store->vertices + 3 * (size_t)v,
+                    3 * sizeof *store->vertices);
+            number[v] = vertices++;
+        }
+    }
+    for (uint32_t i = 0; i < filled; i++) {
+        indices[i] = number[indices[i]];
+    }
+    store->indices = indices;
+    store->index_count = filled;
+    store->polygon_count = polygons;
+    store->vertex_count = vertices;
+    return TL_OK;
+}

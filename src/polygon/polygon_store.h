@@ -59,6 +59,10 @@ static inline tl_lattice_point tl_stored_point(const tl_polygon_store *store, ui
     return p;
 }
 
+/// Drops polygons that were replaced and vertices that no polygon uses any more. What is known of places and border
+/// vertices is stale after it.
+tl_result tl_polygon_store_compact(tl_polygon_store *store, tl_arena *scratch);
+
 /// Takes border vertices out of the polygons where that leaves the floor as it is. Counts into *gone and *kept.
 tl_result tl_remove_border_vertices(tl_polygon_store *store, tl_arena *scratch, uint32_t max_corners, uint32_t *gone,
                                     uint32_t *kept);
