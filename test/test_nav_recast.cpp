@@ -10,8 +10,6 @@
 
 #include "recast_pipeline.hpp"
 
-#include "io/mesh_import.h"
-
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -19,68 +17,14 @@
 #include <stdlib.h>
 #include <string>
 
-// C headers that do not say so themselves.
-extern "C" {
-#include "cli/sample_level.h"
-#include "talus_test.h"
-}
+// Last: cmocka takes the word fail from the standard headers.
+#include "level_list.hpp"
 
 namespace
 {
 
-struct level {
-    std::string name;
-    float cell_size;
-    std::vector<tl_vec3> vertices;
-    std::vector<uint32_t> indices;
-
-    tl_mesh_view view() const
-    {
-        return { vertices.data(), (uint32_t)vertices.size(), indices.data(), (uint32_t)(indices.size() / 3), nullptr };
-    }
-
-    tl_aabb bounds() const
-    {
-        tl_aabb box = tl_aabb_empty();
-        for (uint32_t i : indices) {
-            box = tl_aabb_add_point(box, vertices[i]);
-        }
-        return box;
-    }
-};
-
-level copy_level(const std::string &name, float cell_size, const tl_mesh_view &view)
-{
-    return { name,
-             cell_size,
-             { view.vertices, view.vertices + view.vertex_count },
-             { view.indices, view.indices + 3 * (size_t)view.triangle_count } };
-}
-
-// The built-in levels, then those of the data folder.
-std::vector<level> all_levels()
-{
-    std::vector<level> levels;
-    uint32_t count;
-    const tl_sample_level *samples = tl_sample_levels(&count);
-    for (uint32_t i = 0; i < count; i++) {
-        tl_sample_mesh mesh;
-        uint32_t triangles = samples[i].default_triangles < 20000 ? samples[i].default_triangles : 20000;
-        TEST_RESULT(tl_sample_build_level(&samples[i], triangles, 1, &mesh), TL_OK);
-        levels.push_back(copy_level(samples[i].name, 0.25f, tl_sample_mesh_as_view(&mesh)));
-        tl_sample_mesh_free(&mesh);
-    }
-    const char *files[] = { "nav_test", "dungeon", "undulating", "proto-level", "collision_mesh_01", "test_map01" };
-    for (const char *file : files) {
-        std::string path = std::string(TALUS_DATA_DIR) + "/levels/" + file + ".obj";
-        tl_imported_mesh mesh;
-        if (tl_import_mesh(path.c_str(), nullptr, &mesh, nullptr) == TL_OK) {
-            levels.push_back(copy_level(file, 0.3f, tl_imported_mesh_as_view(&mesh)));
-            tl_imported_mesh_free(&mesh);
-        }
-    }
-    return levels;
-}
+const std::vector<std::string> FILES = { "nav_test",    "dungeon",           "undulating",
+                                         "proto-level", "collision_mesh_01", "test_map01" };
 
 tl_nav_config make_config(const level &l, tl_nav_partition partition)
 {
@@ -94,7 +38,7 @@ tl_nav_config make_config(const level &l, tl_nav_partition partition)
 
 void lattice_is_recasts(void **)
 {
-    for (const level &l : all_levels()) {
+    for (const level &l : all_levels(20000, FILES)) {
         tl_nav_config config = make_config(l, TL_NAV_WATERSHED);
         tl_aabb box = l.bounds();
         int width, height;
@@ -137,7 +81,7 @@ span_counts compare_spans(const tl_nav_heightfield &field, const rcHeightfield &
 
 void spans_and_floors_agree(void **)
 {
-    for (const level &l : all_levels()) {
+    for (const level &l : all_levels(20000, FILES)) {
         tl_nav_config config = make_config(l, TL_NAV_WATERSHED);
         tl_mesh_view mesh = l.view();
         recast_pipeline recast;
@@ -208,7 +152,7 @@ double polygon_area(const tl_polygon_mesh &mesh)
 void polygons_agree(void **)
 {
     const tl_nav_partition partitions[] = { TL_NAV_WATERSHED, TL_NAV_MONOTONE };
-    for (const level &l : all_levels()) {
+    for (const level &l : all_levels(20000, FILES)) {
         for (tl_nav_partition partition : partitions) {
             tl_nav_config config = make_config(l, partition);
             tl_mesh_view mesh = l.view();

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// The levels that are compared with Recast and Detour: built-in ones at 0.25 m, and those of the data folder at 0.3 m.
+
+#ifndef TALUS_TEST_LEVEL_LIST_HPP
+#define TALUS_TEST_LEVEL_LIST_HPP
+
+#include "io/mesh_import.h"
+
+#include <talus/mesh.h>
+
+// C headers that do not say so themselves.
+extern "C" {
+#include "cli/sample_level.h"
+#include "talus_test.h"
+}
+
+#include <string>
+#include <vector>
+
+struct level {
+    std::string name;
+    float cell_size;
+    std::vector<tl_vec3> vertices;
+    std::vector<uint32_t> indices;
+
+    tl_mesh_view view() const
+    {
+        return { vertices.data(), (uint32_t)vertices.size(), indices.data(), (uint32_t)(indices.size() / 3), nullptr };
+    }
+
+    tl_aabb bounds() const
+    {
+        tl_aabb box = tl_aabb_empty();
+        for (uint32_t i : indices) {
+            box = tl_aabb_add_point(box, vertices[i]);
+        }
+        return box;
+    }
+};
+
+inline level copy_level(const std::string &name, float cell_size, const tl_mesh_view &view)
+{
+    return { name,
+             cell_size,
+             { view.vertices, view.vertices + view.vertex_count },
+             { view.indices, view.indices + 3 * (size_t)view.triangle_count } };
+}
+
+// A level of the data folder; false where there is none.
+inline bool load_level(const std::string &name, level *out)
+{
+    std::string path = std::string(TALUS_DATA_DIR) + "/levels/" + name + ".obj";
+    tl_imported_mesh mesh;
+    if (tl_import_mesh(path.c_str(), nullptr, &mesh, nullptr) != TL_OK) {
+        return false;
+    }
+    *out = copy_level(name, 0.3f, tl_imported_mesh_as_view(&mesh));
+    tl_imported_mesh_free(&mesh);
+    return true;
+}
+
+// The built-in levels of at most `most_triangles`, then those of `files` that the data folder has.
+inline std::vector<level> all_levels(uint32_t most_triangles, const std::vector<std::string> &files)
+{
+    std::vector<level> levels;
+    uint32_t count;
+    const tl_sample_level *samples = tl_sample_levels(&count);
+    for (uint32_t i = 0; i < count; i++) {
+        tl_sample_mesh mesh;
+        uint32_t triangles =
+            samples[i].default_triangles < most_triangles ? samples[i].default_triangles : most_triangles;
+        TEST_RESULT(tl_sample_build_level(&samples[i], triangles, 1, &mesh), TL_OK);
+        levels.push_back(copy_level(samples[i].name, 0.25f, tl_sample_mesh_as_view(&mesh)));
+        tl_sample_mesh_free(&mesh);
+    }
+    for (const std::string &name : files) {
+        level l;
+        if (load_level(name, &l)) {
+            levels.push_back(l);
+        }
+    }
+    return levels;
+}
+
+#endif
