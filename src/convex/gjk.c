@@ -110,20 +110,20 @@ static bool advance(tl_pair *pair, double decide_at, tl_gjk *gjk)
     if (gjk->upper - gjk->lower <= BOUND_GAP * gjk->upper || is_known(&gjk->simplex, &point)) {
         return false;
     }
-    tl_simplex next = gjk->simplex;
-    next.points[next.count++] = point;
-    tl_vec3d nearest = tl_simplex_nearest(&next);
-    double upper = tl_vec3d_length(nearest);
+    gjk->simplex.points[gjk->simplex.count++] = point;
+    tl_simplex_point nearest;
+    tl_simplex_solve(&gjk->simplex, &nearest);
+    double upper = sqrt(nearest.distance_sq);
     if (!(upper < gjk->upper)) {
+        gjk->simplex.count--; // the old points and weights are still there
         // No progress. With the bounds within the error of the direction this is the end, else a bad simplex.
-        gjk->status =
-            gjk->upper - gjk->lower <= BOUND_GAP * gjk->upper + 4.0 * pair->direction_error + noise_of(&gjk->simplex)
-                ? TL_CONVEX_CONVERGED
-                : TL_CONVEX_DEGENERATE;
+        gjk->status = gjk->upper - gjk->lower <= BOUND_GAP * gjk->upper + 4.0 * pair->direction_error + noise
+                          ? TL_CONVEX_CONVERGED
+                          : TL_CONVEX_DEGENERATE;
         return false;
     }
-    gjk->simplex = next;
-    gjk->nearest = nearest;
+    tl_simplex_keep(&gjk->simplex, &nearest);
+    gjk->nearest = nearest.point;
     gjk->upper = upper;
     return true;
 }

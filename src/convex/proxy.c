@@ -16,6 +16,10 @@
 // most sqrt(3) of that.
 #define DIRECTION_ROUNDING (1.7320508075688774 * (double)TL_FLOAT_ROUNDING)
 
+// A hull this small is scanned in double at once: faster than a call that rounds the direction, scans in float and
+// proves the answer. Measured: equal at 16 vertices.
+#define SCANNED_HERE 12u
+
 static tl_convex make(tl_convex_kind kind, float radius)
 {
     tl_convex shape;
@@ -197,6 +201,10 @@ static tl_vec3d support_of(const tl_convex *shape, tl_vec3d direction, uint32_t 
 {
     switch (shape->kind) {
     case TL_CONVEX_HULL:
+        if (shape->hull->vertex_count <= SCANNED_HERE) {
+            *vertex = farthest_of(tl_hull_vertices(shape->hull), shape->hull->vertex_count, direction);
+            return tl_vec3d_from(tl_hull_vertices(shape->hull)[*vertex]);
+        }
         *vertex = tl_hull_support(shape->hull, float_direction(direction), *vertex);
         return tl_vec3d_from(tl_hull_vertices(shape->hull)[*vertex]);
     case TL_CONVEX_POINTS:
@@ -220,7 +228,7 @@ static tl_vec3d support_of(const tl_convex *shape, tl_vec3d direction, uint32_t 
 
 static double size_of(const tl_convex *shape)
 {
-    if (shape->kind == TL_CONVEX_HULL) {
+    if (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count > SCANNED_HERE) {
         tl_aabb box = shape->hull->bounds;
         return tl_vec3d_length(tl_vec3d_sub(tl_vec3d_from(box.max), tl_vec3d_from(box.min)));
     }

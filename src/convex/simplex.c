@@ -16,18 +16,12 @@
 // A determinant of three differences has a relative error of less than 16 roundings of the product of their lengths.
 #define VOLUME_ERROR TL_DOUBLE_GAMMA(16)
 
-typedef struct candidate {
-    tl_vec3d point;
-    double distance_sq;
-    uint32_t count;
-    uint32_t index[3];
-    double weight[3];
-} candidate;
+typedef tl_simplex_point candidate;
 
 static candidate nearest_on_point(const tl_simplex *s, uint32_t i)
 {
     tl_vec3d w = s->points[i].w;
-    candidate c = { w, tl_vec3d_dot(w, w), 1, { i, 0, 0 }, { 1.0, 0.0, 0.0 } };
+    candidate c = { w, tl_vec3d_dot(w, w), 1, { i, 0, 0, 0 }, { 1.0, 0.0, 0.0, 0.0 } };
     return c;
 }
 
@@ -44,7 +38,7 @@ static candidate nearest_on_segment(const tl_simplex *s, uint32_t i, uint32_t j)
     }
     double t = along / length_sq;
     tl_vec3d p = tl_vec3d_mul_add(a, d, t);
-    candidate c = { p, tl_vec3d_dot(p, p), 2, { i, j, 0 }, { 1.0 - t, t, 0.0 } };
+    candidate c = { p, tl_vec3d_dot(p, p), 2, { i, j, 0, 0 }, { 1.0 - t, t, 0.0, 0.0 } };
     return c;
 }
 
@@ -65,26 +59,23 @@ static candidate nearest_on_triangle(const tl_simplex *s, uint32_t i, uint32_t j
     if (u > 0.0 && v > 0.0 && w > 0.0 && area_sq > 0.0) {
         double sum = u + v + w;
         tl_vec3d foot = tl_vec3d_scale(n, tl_vec3d_dot(n, a) / area_sq);
-        candidate inside = { foot, tl_vec3d_dot(foot, foot), 3, { i, j, k }, { u / sum, v / sum, w / sum } };
+        candidate inside = { foot, tl_vec3d_dot(foot, foot), 3, { i, j, k, 0 }, { u / sum, v / sum, w / sum, 0.0 } };
         return inside;
     }
     candidate best = nearest_on_segment(s, i, j);
     best = nearer(best, nearest_on_segment(s, j, k));
-    return nearer(best, nearest_on_segment(s, k, i));
+    return nearer(best, nearest_on_segment(s, i, k));
 }
 
-static tl_vec3d keep(tl_simplex *simplex, const candidate *best)
+void tl_simplex_keep(tl_simplex *simplex, const tl_simplex_point *nearest)
 {
-    tl_pair_point kept[3];
-    for (uint32_t i = 0; i < best->count; i++) {
-        kept[i] = simplex->points[best->index[i]];
+    for (uint32_t i = 0; i < nearest->count; i++) {
+        if (nearest->index[i] != i) { // ascending, so nothing is overwritten that is still wanted
+            simplex->points[i] = simplex->points[nearest->index[i]];
+        }
+        simplex->weights[i] = nearest->weight[i];
     }
-    for (uint32_t i = 0; i < best->count; i++) {
-        simplex->points[i] = kept[i];
-        simplex->weights[i] = best->weight[i];
-    }
-    simplex->count = best->count;
-    return best->point;
+    simplex->count = nearest->count;
 }
 
 static double volume(tl_vec3d a, tl_vec3d b, tl_vec3d c)
@@ -92,9 +83,11 @@ static double volume(tl_vec3d a, tl_vec3d b, tl_vec3d c)
     return tl_vec3d_dot(a, tl_vec3d_cross(b, c));
 }
 
-static tl_vec3d nearest_on_tetrahedron(tl_simplex *simplex)
+static candidate nearest_on_tetrahedron(const tl_simplex *simplex)
 {
-    static const uint32_t faces[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+    // Ascending; turn says which look inward.
+    static const uint32_t faces[4][3] = { { 1, 2, 3 }, { 0, 2, 3 }, { 0, 1, 3 }, { 0, 1, 2 } };
+    static const double turn[4] = { 1.0, -1.0, 1.0, -1.0 };
     const tl_pair_point *p = simplex->points;
     tl_vec3d u = tl_vec3d_sub(p[1].w, p[0].w), v = tl_vec3d_sub(p[2].w, p[0].w), w = tl_vec3d_sub(p[3].w, p[0].w);
     double whole = volume(u, v, w);
@@ -104,39 +97,45 @@ static tl_vec3d nearest_on_tetrahedron(tl_simplex *simplex)
     candidate best = nearest_on_point(simplex, 0);
     for (uint32_t f = 0; f < 4; f++) {
         // The volume of the origin with this face: of the sign of the whole where the origin is inside.
-        parts[f] = volume(p[faces[f][0]].w, p[faces[f][1]].w, p[faces[f][2]].w);
+        parts[f] = turn[f] * volume(p[faces[f][0]].w, p[faces[f][1]].w, p[faces[f][2]].w);
         if (flat || !(whole > 0.0 ? parts[f] > 0.0 : parts[f] < 0.0)) {
             outside = true;
             best = nearer(best, nearest_on_triangle(simplex, faces[f][0], faces[f][1], faces[f][2]));
         }
     }
     if (outside) {
-        return keep(simplex, &best);
+        return best;
     }
     double sum = parts[0] + parts[1] + parts[2] + parts[3];
-    for (int f = 0; f < 4; f++) {
-        simplex->weights[f] = parts[f] / sum;
+    candidate inside = {
+        { 0.0, 0.0, 0.0 }, 0.0, 4, { 0, 1, 2, 3 }, { parts[0] / sum, parts[1] / sum, parts[2] / sum, parts[3] / sum }
+    };
+    return inside;
+}
+
+void tl_simplex_solve(const tl_simplex *simplex, tl_simplex_point *nearest_out)
+{
+    switch (simplex->count) {
+    case 1:
+        *nearest_out = nearest_on_point(simplex, 0);
+        break;
+    case 2:
+        *nearest_out = nearest_on_segment(simplex, 0, 1);
+        break;
+    case 3:
+        *nearest_out = nearest_on_triangle(simplex, 0, 1, 2);
+        break;
+    default:
+        *nearest_out = nearest_on_tetrahedron(simplex);
     }
-    return tl_vec3d_make(0.0, 0.0, 0.0);
 }
 
 tl_vec3d tl_simplex_nearest(tl_simplex *simplex)
 {
-    candidate best;
-    switch (simplex->count) {
-    case 1:
-        best = nearest_on_point(simplex, 0);
-        break;
-    case 2:
-        best = nearest_on_segment(simplex, 0, 1);
-        break;
-    case 3:
-        best = nearest_on_triangle(simplex, 0, 1, 2);
-        break;
-    default:
-        return nearest_on_tetrahedron(simplex);
-    }
-    return keep(simplex, &best);
+    tl_simplex_point nearest;
+    tl_simplex_solve(simplex, &nearest);
+    tl_simplex_keep(simplex, &nearest);
+    return nearest.point;
 }
 
 void tl_simplex_witness(const tl_simplex *simplex, tl_vec3d *on_a_out, tl_vec3d *on_b_out)

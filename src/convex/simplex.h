@@ -13,8 +13,22 @@ typedef struct tl_simplex {
     double weights[4]; // of the nearest point; >= 0, sum 1
 } tl_simplex;
 
-// Cuts the simplex down to the points that carry its nearest point, sets their weights and returns that point. When the
-// origin lies inside of four points all stay, and the result is zero.
+// The point of a simplex nearest to the origin, and the points that carry it, in ascending order.
+typedef struct tl_simplex_point {
+    tl_vec3d point;
+    double distance_sq;
+    uint32_t count; // 4: the origin is inside, and the point zero
+    uint32_t index[4];
+    double weight[4];
+} tl_simplex_point;
+
+void tl_simplex_solve(const tl_simplex *simplex, tl_simplex_point *nearest_out);
+
+// Cuts the simplex down to what carries the point, and sets the weights.
+void tl_simplex_keep(tl_simplex *simplex, const tl_simplex_point *nearest);
+
+// Both. Cuts the simplex down to the points that carry its nearest point, sets their weights and returns that point.
+// When the origin lies inside of four points all stay, and the result is zero.
 tl_vec3d tl_simplex_nearest(tl_simplex *simplex);
 
 // The points of A and of B whose difference is the nearest point, by its weights.
