@@ -158,11 +158,12 @@ TL_API tl_polygon_def tl_default_polygon_def(void);
 
 /// Divides contours into convex polygons and links them.
 ///
-/// Each contour is triangulated on its xz projection by repeatedly cutting off the valid corner whose new edge is
-/// shortest (ties: the lowest vertex before the corner), then triangles and polygons of one contour are merged across
-/// the longest shared edge while they stay strictly convex and within max_verts_per_poly. Ties in merging: the
-/// lowest pair of places, where triangles take places in the order they were cut, a merged polygon keeps the lower
-/// place of its two parts and the last polygon moves into the free one. Border vertices are removed after that.
+/// By TL_PARTITION_CLASSIC each contour is triangulated on its xz projection by repeatedly cutting off the valid corner
+/// whose new edge is shortest (ties: the lowest vertex before the corner), then triangles and polygons of one contour
+/// are merged across the longest shared edge while they stay strictly convex and within max_verts_per_poly. Ties in
+/// merging: the lowest pair of places, where triangles take places in the order they were cut, a merged polygon keeps
+/// the lower place of its two parts and the last polygon moves into the free one. Border vertices are removed after
+/// that.
 ///
 /// Guaranteed for every result: polygons strictly convex, wound as the contours, without doubled corners, disjoint
 /// within their contour and without T-junctions there, together exactly the contour's floor; neighbours symmetric.
