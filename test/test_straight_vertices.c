@@ -54,6 +54,21 @@ static void only_vertices_without_a_neighbour_go(void **state)
     TEST_CHECK(build(&set, true, &polygons).straight_vertices_gone == 0);
 }
 
+// A triangle whose contour runs to (2, 0) and back, twice: no polygon has that vertex, and nothing is missing.
+static void runs_there_and_back_leave_the_outline_whole(void **state)
+{
+    (void)state;
+    const oracle_point runs[9] = { { 2, 0 }, { 0, 0 }, { 0, 2 }, { 0, 0 }, { 0, 2 },
+                                   { 1, 2 }, { 2, 0 }, { 1, 2 }, { 0, 0 } };
+    tl_contour contour;
+    tl_contour_set set = shape_as_set(runs, 9, vertices, &contour);
+    uint32_t polygons;
+    build(&set, false, &polygons);
+    TEST_CHECK(polygons == 1);
+    build(&set, true, &polygons);
+    TEST_CHECK(polygons == 1);
+}
+
 static void fewer_polygons_cover_the_same_floor(void **state)
 {
     (void)state;
@@ -111,6 +126,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(only_vertices_without_a_neighbour_go),
+        cmocka_unit_test(runs_there_and_back_leave_the_outline_whole),
         cmocka_unit_test(fewer_polygons_cover_the_same_floor),
         cmocka_unit_test(every_allocation_may_fail),
     };

@@ -274,6 +274,9 @@ static void add_edge(edge_sums *e, tl_lattice_point from, tl_lattice_point to, i
 {
     uint32_t a = number_of(e, from);
     uint32_t b = number_of(e, to);
+    if (a == b) { // a run to a vertex that was passed over, and back
+        return;
+    }
     uint32_t *place = tl_key_table_at(&e->edges, a < b ? tl_pair_key(a, b) : tl_pair_key(b, a));
     if (*place == TL_NO_VALUE) {
         *place = e->edge_count;
