@@ -36,9 +36,9 @@ void draw_stage_soup(draw_scene *scene, const tl_soup *soup, uint32_t depth)
             draw_add_triangle(scene, pair.corners[0], pair.corners[1], pair.corners[2], single);
         } else {
             draw_add_triangle(scene, pair.corners[0], pair.corners[1], pair.corners[2],
-                              draw_colour_mix(hue, 0xffffff, 0.25f));
+                              draw_colour_mix(hue, 0xffffff, 0.5f));
             draw_add_triangle(scene, pair.corners[0], pair.corners[2], pair.corners[3],
-                              draw_colour_mix(hue, 0x303030, 0.22f));
+                              draw_colour_mix(hue, 0x8a8a90, 0.35f));
         }
     }
     box_job job = { scene, depth, 0 };
@@ -49,8 +49,8 @@ void draw_stage_soup(draw_scene *scene, const tl_soup *soup, uint32_t depth)
              "%u triangles, %.1f%% of them in %u pairs; %u nodes, %.1f bytes a triangle; %u boxes at depth %u",
              stats.triangle_count, 200.0 * stats.pair_count / stats.triangle_count, stats.pair_count, stats.node_count,
              (double)stats.size / stats.triangle_count, job.count, depth);
-    draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(2), 0xffffff, 0.25f), "pair: first triangle");
-    draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(2), 0x303030, 0.22f), "second triangle");
+    draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(2), 0xffffff, 0.5f), "pair: first triangle");
+    draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(2), 0x8a8a90, 0.35f), "second triangle");
     draw_add_legend(scene, single, "single");
     draw_add_legend(scene, 0x1d2f6f, "box of the tree");
 }

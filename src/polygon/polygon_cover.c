@@ -285,16 +285,39 @@ static void add_edge(edge_sums *e, tl_lattice_point from, tl_lattice_point to, i
     e->sums[*place] += a < b ? times : -times;
 }
 
+// Whether a polygon has this edge: those of the contour are numbered behind the polygons'.
+static bool has_edge(edge_sums *e, uint32_t polygon_edges, tl_lattice_point from, tl_lattice_point to)
+{
+    uint32_t a = *tl_key_table_at(&e->places, tl_pair_key((uint32_t)from.x, (uint32_t)from.z));
+    uint32_t b = *tl_key_table_at(&e->places, tl_pair_key((uint32_t)to.x, (uint32_t)to.z));
+    if (a == TL_NO_VALUE || b == TL_NO_VALUE) {
+        return false;
+    }
+    uint32_t edge = *tl_key_table_at(&e->edges, a < b ? tl_pair_key(a, b) : tl_pair_key(b, a));
+    return edge < polygon_edges; // not TL_NO_VALUE either
+}
+
 // The contour's edges, -1 times each. Vertices that no polygon has (border vertices, and those in straight runs) are
-// passed over: where their removal changed the outline, other edges will not cancel.
+// passed over: where their removal changed the outline, other edges will not cancel. Of a border vertex that is asked
+// by its edge, which is never a bridge: the contour may come by the same place again on another floor.
 static void add_contour_backward(edge_sums *e, const tl_contour_vertex *vertices, uint32_t count)
 {
+    const uint32_t polygon_edges = e->edge_count;
     tl_lattice_point first = { 0, 0 }, last = { 0, 0 };
     bool has_first = false;
     for (uint32_t k = 0; k < count; k++) {
         tl_lattice_point p = { vertices[k].x, vertices[k].z };
-        bool was_removed = *tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z)) == TL_NO_VALUE;
-        if (was_removed) {
+        bool may_be_gone = (vertices[k].flags & TL_CONTOUR_BORDER_VERTEX) != 0;
+        bool is_gone = *tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z)) == TL_NO_VALUE;
+        if (!is_gone && may_be_gone) {
+            tl_lattice_point before = last;
+            if (!has_first) {
+                before.x = vertices[count - 1].x;
+                before.z = vertices[count - 1].z;
+            }
+            is_gone = !has_edge(e, polygon_edges, before, p);
+        }
+        if (is_gone) {
             continue;
         }
         if (has_first) {
