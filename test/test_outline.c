@@ -20,7 +20,7 @@ static void prepare(prepared *r, const oracle_point *p, uint32_t n)
     tl_contour contour;
     shape_as_set(p, n, vertices, &contour);
     tl_arena_init(&r->arena, NULL);
-    TEST_RESULT(tl_outline_prepare(&r->arena, vertices, n, &r->outline), TL_OK);
+    TEST_RESULT(tl_outline_prepare(&r->arena, vertices, n, 2, &r->outline), TL_OK);
 }
 
 static int64_t covered_area2(const prepared *r)

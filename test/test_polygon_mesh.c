@@ -330,13 +330,53 @@ static void equals_recast_on_real_contours(void **state)
     TEST_CHECK(compared > 0);
 }
 
+// A stair that comes up beside its own landing: the outline runs from (0, 1) to (2, 1) on the lower floor and back on
+// the upper one, 3 m higher. In the plane that is a bridge; it is a wall.
+static void a_run_back_on_another_floor_is_a_wall(void **state)
+{
+    (void)state;
+    const tl_contour_vertex stair[] = {
+        { 0, 21, 0, 0x8001 },   { 0, 21, 1, 0x20000 }, { 2, 21, 1, 0x20000 },  { 11, 21, 1, 0x20000 },
+        { 12, 23, 5, 0x20000 }, { 2, 35, 6, 0x20000 }, { 1, 37, 2, 0x20000 },  { 2, 37, 1, 5 },
+        { 0, 37, 1, 0x18001 },  { 0, 37, 9, 0x20000 }, { 15, 21, 9, 0x20000 }, { 15, 21, 0, 0x8003 },
+    };
+    const tl_contour whole = { 0, 12, 1, 63 };
+    tl_contour_set set = { stair, 12, &whole, 1, { { 0, 0, 0 }, { 64, 10, 64 } }, 0.3f, 0.2f, 64, 64, 5, 1.3f };
+    for (int method = TL_PARTITION_CLASSIC; method <= TL_PARTITION_DELAUNAY; method++) {
+        tl_polygon_def def = tl_default_polygon_def();
+        def.method = (tl_partition_method)method;
+        tl_polygon_mesh mesh;
+        tl_polygon_check_report check;
+        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, NULL), TL_OK);
+        TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, &check), TL_OK);
+        uint32_t walls = 0;
+        for (uint32_t p = 0; p < mesh.polygon_count; p++) {
+            for (uint32_t k = mesh.first[p]; k < mesh.first[p + 1]; k++) {
+                const int32_t *a = mesh.vertices + 3 * mesh.indices[k];
+                const int32_t *b = mesh.vertices + 3 * mesh.indices[k + 1 < mesh.first[p + 1] ? k + 1 : mesh.first[p]];
+                if (a[2] == 1 && b[2] == 1 && a[0] + b[0] == 2) {
+                    TEST_CHECK(a[1] == b[1] && mesh.neighbours[k] == TL_NO_POLYGON);
+                    walls++;
+                }
+            }
+        }
+        assert_int_equal(walls, 2);
+        tl_polygon_mesh_free(&mesh, NULL);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_contours_meet_in_links),         cmocka_unit_test(scribbles_give_good_meshes),
-        cmocka_unit_test(hard_families_pass_the_validator),   cmocka_unit_test(more_than_16_bits_of_everything),
-        cmocka_unit_test(floors_upon_each_other_are_counted), cmocka_unit_test(bad_arguments_are_named),
-        cmocka_unit_test(a_build_can_be_cancelled),           cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(a_run_back_on_another_floor_is_a_wall),
+        cmocka_unit_test(two_contours_meet_in_links),
+        cmocka_unit_test(scribbles_give_good_meshes),
+        cmocka_unit_test(hard_families_pass_the_validator),
+        cmocka_unit_test(more_than_16_bits_of_everything),
+        cmocka_unit_test(floors_upon_each_other_are_counted),
+        cmocka_unit_test(bad_arguments_are_named),
+        cmocka_unit_test(a_build_can_be_cancelled),
+        cmocka_unit_test(every_allocation_may_fail),
         cmocka_unit_test(equals_recast_on_real_contours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

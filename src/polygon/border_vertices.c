@@ -220,7 +220,7 @@ static tl_result remove_vertex(remover *r, uint32_t vertex, bool *gone)
         corners[i].z = v[2];
     }
     tl_outline plain;
-    TL_TRY(tl_outline_prepare(r->scratch, corners, count, &plain));
+    TL_TRY(tl_outline_prepare(r->scratch, corners, count, 0, &plain));
     if (!plain.is_plain) {
         return TL_OK;
     }

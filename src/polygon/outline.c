@@ -128,12 +128,63 @@ static tl_result unite_nodes(tl_arena *arena, tl_outline_nodes *nodes, uint32_t 
     return TL_OK;
 }
 
-static tl_result take_apart(tl_arena *arena, tl_outline *outline)
+static bool on_other_floor(int32_t a, int32_t b, uint32_t merge_height)
+{
+    int64_t difference = (int64_t)a - b;
+    return (difference < 0 ? -difference : difference) > (int64_t)merge_height;
+}
+
+// Parts nodes that the contour passes on two floors. starts[e] is the contour's vertex at which its edge e starts.
+// There is room: each node after this is another vertex of the contour.
+static tl_result part_floors(tl_arena *arena, const tl_contour_vertex *vertices, const uint32_t *starts,
+                             uint32_t merge_height, tl_outline *outline)
+{
+    tl_outline_nodes *nodes = &outline->nodes;
+    uint32_t corner_count = outline->walk_first[outline->walk_count];
+    uint32_t united = nodes->count;
+    uint8_t *is_border = TL_PUSH_ZERO(arena, uint8_t, united);
+    uint8_t *is_parted = TL_PUSH_ZERO(arena, uint8_t, united);
+    tl_key_table table;
+    if (is_border == NULL || is_parted == NULL || !tl_key_table_init(&table, arena, corner_count)) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < corner_count; i++) {
+        if (outline->edges[i] == TL_NO_EDGE_OF_CONTOUR) {
+            continue;
+        }
+        const tl_contour_vertex *vertex = &vertices[starts[outline->edges[i]]];
+        uint8_t border = (vertex->flags & TL_CONTOUR_BORDER_VERTEX) != 0;
+        uint32_t node = outline->corners[i];
+        if (!on_other_floor(vertex->y, nodes->heights[node], merge_height)) {
+            is_border[node] |= border;
+            continue;
+        }
+        is_parted[node] = 1;
+        uint32_t *place = tl_key_table_at(&table, tl_pair_key(node, (uint32_t)vertex->y));
+        if (*place == TL_NO_VALUE) {
+            TL_ASSERT(nodes->count < nodes->capacity);
+            *place = nodes->count;
+            nodes->points[nodes->count] = nodes->points[node];
+            nodes->heights[nodes->count] = vertex->y;
+            nodes->is_border[nodes->count++] = 0;
+        }
+        nodes->is_border[*place] |= border;
+        outline->corners[i] = *place;
+    }
+    for (uint32_t node = 0; node < united; node++) {
+        nodes->is_border[node] = is_parted[node] ? is_border[node] : nodes->is_border[node];
+    }
+    return TL_OK;
+}
+
+static tl_result take_apart(tl_arena *arena, const tl_contour_vertex *vertices, uint32_t merge_height,
+                            tl_outline *outline)
 {
     uint32_t count = outline->nodes.count;
     uint32_t *places = TL_PUSH(arena, uint32_t, count);
+    uint32_t *starts = TL_PUSH(arena, uint32_t, count);
     tl_outline_edge *edges = TL_PUSH(arena, tl_outline_edge, count);
-    if (places == NULL || edges == NULL) {
+    if (places == NULL || starts == NULL || edges == NULL) {
         return TL_ERR_MEMORY;
     }
     TL_TRY(unite_nodes(arena, &outline->nodes, places));
@@ -141,6 +192,7 @@ static tl_result take_apart(tl_arena *arena, tl_outline *outline)
     for (uint32_t i = 0; i < count; i++) {
         tl_outline_edge edge = { places[i], places[i + 1 < count ? i + 1 : 0] };
         if (edge.from != edge.to) {
+            starts[edge_count] = i;
             edges[edge_count++] = edge;
         } else if (outline->faults == 0) {
             outline->faults = TL_CONTOUR_FAULT_DUPLICATE;
@@ -157,10 +209,13 @@ static tl_result take_apart(tl_arena *arena, tl_outline *outline)
     if (outline->faults & TL_CONTOUR_FAULT_REFUSED) {
         return TL_OK;
     }
-    return tl_outline_trace_faces(arena, edges, edge_count, outline);
+    TL_TRY(tl_outline_trace_faces(arena, edges, edge_count, outline));
+    // Where edges were split they are no longer the contour's; such a contour is mended on one floor.
+    bool is_split = (faults & (TL_CONTOUR_FAULT_TOUCH | TL_CONTOUR_FAULT_CROSSING)) != 0;
+    return is_split || outline->walk_count == 0 ? TL_OK : part_floors(arena, vertices, starts, merge_height, outline);
 }
 
-tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices, uint32_t count,
+tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices, uint32_t count, uint32_t merge_height,
                              tl_outline *outline_out)
 {
     memset(outline_out, 0, sizeof *outline_out);
@@ -183,7 +238,7 @@ tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices,
     if (count <= MOST_PAIRED_VERTICES && outline_out->area2 > 0 && is_plain_by_pairs(nodes->points, count)) {
         return keep_as_it_is(arena, outline_out);
     }
-    TL_TRY(take_apart(arena, outline_out));
+    TL_TRY(take_apart(arena, vertices, merge_height, outline_out));
     if (outline_out->walk_count == 0 && outline_out->area2 == 0 && !(outline_out->faults & TL_CONTOUR_FAULT_REFUSED)) {
         outline_out->faults |= TL_CONTOUR_FAULT_EMPTY;
     }

@@ -10,7 +10,8 @@
 
 #include <talus/polygon.h>
 
-/// A place of the contour. Points at the same x and z are one node, except in a plain outline, which has none.
+/// A place of the contour. Points at the same x and z are one node, except in a plain outline, which has none, and
+/// except where the contour comes by on two floors: those stay two nodes.
 typedef struct tl_outline_nodes {
     tl_lattice_point *points;
     int32_t *heights;
@@ -25,15 +26,19 @@ typedef struct tl_outline {
     uint32_t walk_count;
     uint32_t *walk_first; // [walk_count + 1] into corners
     uint32_t *corners;    // nodes in order
-    bool is_plain;        // one walk, over all nodes in order
-    uint32_t faults;      // TL_CONTOUR_FAULT_ bits
+    uint32_t *edges; // the contour's edge that leaves each corner, TL_NO_EDGE_OF_CONTOUR where it runs none that way
+    bool is_plain;   // one walk, over all nodes in order
+    uint32_t faults; // TL_CONTOUR_FAULT_ bits
     uint32_t fault_vertex;
     int64_t area2; // of the contour as it came
 } tl_outline;
 
-/// Fills `outline_out`, all in `arena`. TL_ERR_MEMORY is the only error: a contour beyond repair has no walks and the
-/// bit TL_CONTOUR_FAULT_REFUSED.
-tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices, uint32_t count,
+#define TL_NO_EDGE_OF_CONTOUR UINT32_MAX
+
+/// Fills `outline_out`, all in `arena`. Vertices at one place whose heights differ by more than `merge_height` are on
+/// different floors: a run there and back between them is a wall, not a bridge. TL_ERR_MEMORY is the only error: a
+/// contour beyond repair has no walks and the bit TL_CONTOUR_FAULT_REFUSED.
+tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices, uint32_t count, uint32_t merge_height,
                              tl_outline *outline_out);
 
 /// A directed edge between two nodes.

@@ -141,7 +141,7 @@ static tl_result add_contour(builder *b, uint32_t index)
         b->report.straight_vertices_gone += contour->vertex_count - count;
     }
     tl_outline outline;
-    TL_TRY(tl_outline_prepare(&b->scratch, vertices, count, &outline));
+    TL_TRY(tl_outline_prepare(&b->scratch, vertices, count, b->def->merge_height, &outline));
     if (outline.walk_count > 0) {
         TL_TRY(divide(b, index, &outline));
     }

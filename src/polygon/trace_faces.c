@@ -24,6 +24,7 @@ typedef struct graph {
     uint32_t *origin;  // [half_count]
     int32_t *net;      // [half_count / 2] times forward, less times backward
     uint32_t *half_of; // [edge of the walk] the half-edge it runs along
+    uint32_t *edge_of; // [half_count] the first edge of the walk that runs along it
     uint32_t *next;    // [half_count] around the face on the left
     uint32_t *face;    // [half_count]
     uint32_t face_count;
@@ -42,9 +43,12 @@ static tl_result gather_half_edges(graph *g, tl_arena *arena, const tl_outline_e
     g->origin = TL_PUSH(arena, uint32_t, 2 * (uint64_t)count);
     g->net = TL_PUSH_ZERO(arena, int32_t, count);
     g->half_of = TL_PUSH(arena, uint32_t, count);
-    if (g->origin == NULL || g->net == NULL || g->half_of == NULL || !tl_key_table_init(&table, arena, count)) {
+    g->edge_of = TL_PUSH(arena, uint32_t, 2 * (uint64_t)count);
+    if (g->origin == NULL || g->net == NULL || g->half_of == NULL || g->edge_of == NULL ||
+        !tl_key_table_init(&table, arena, count)) {
         return TL_ERR_MEMORY;
     }
+    memset(g->edge_of, 0xff, 2 * (size_t)count * sizeof *g->edge_of);
     uint32_t made = 0;
     for (uint32_t i = 0; i < count; i++) {
         bool rising = edges[i].from < edges[i].to;
@@ -59,6 +63,9 @@ static tl_result gather_half_edges(graph *g, tl_arena *arena, const tl_outline_e
         bool forward = g->origin[2 * *place] == edges[i].from;
         g->half_of[i] = 2 * *place + (forward ? 0 : 1);
         g->net[*place] += forward ? 1 : -1;
+        if (g->edge_of[g->half_of[i]] == TL_NO_EDGE_OF_CONTOUR) {
+            g->edge_of[g->half_of[i]] = i;
+        }
     }
     g->half_count = 2 * made;
     return TL_OK;
@@ -224,8 +231,10 @@ static void add_walk(const graph *g, uint32_t start, uint32_t *halves, tl_outlin
         outline->faults |= TL_CONTOUR_FAULT_SPIKE;
     }
     uint32_t *corners = outline->corners + outline->walk_first[outline->walk_count];
+    uint32_t *edges = outline->edges + outline->walk_first[outline->walk_count];
     for (uint32_t i = first; i < count; i++) {
         *corners++ = g->origin[halves[i]];
+        *edges++ = g->edge_of[halves[i]];
     }
     outline->walk_count++;
     outline->walk_first[outline->walk_count] = (uint32_t)(corners - outline->corners);
@@ -265,7 +274,9 @@ tl_result tl_outline_trace_faces(tl_arena *arena, const tl_outline_edge *edges, 
     uint32_t *halves = TL_PUSH(arena, uint32_t, g.half_count);
     outline->walk_first = TL_PUSH(arena, uint32_t, (uint64_t)g.face_count + 1);
     outline->corners = TL_PUSH(arena, uint32_t, g.half_count);
-    if (done == NULL || halves == NULL || outline->walk_first == NULL || outline->corners == NULL) {
+    outline->edges = TL_PUSH(arena, uint32_t, g.half_count);
+    if (done == NULL || halves == NULL || outline->walk_first == NULL || outline->corners == NULL ||
+        outline->edges == NULL) {
         return TL_ERR_MEMORY;
     }
     outline->walk_first[0] = 0;
