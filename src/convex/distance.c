@@ -4,6 +4,8 @@
 
 #include "convex/gjk.h"
 
+#include "math/tolerance.h"
+
 #include <string.h>
 
 void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
@@ -27,7 +29,7 @@ void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex
     double radii = (double)a->radius + (double)b->radius;
     separation_out->overlap = gjk.upper <= radii;
     separation_out->distance = gjk.upper > radii ? (float)(gjk.upper - radii) : 0.0f;
-    separation_out->lower_bound = gjk.lower > radii ? (float)((gjk.lower - radii) * (1.0 - 1e-7)) : 0.0f;
+    separation_out->lower_bound = gjk.lower > radii ? (float)((gjk.lower - radii) * (1.0 - TL_FLOAT_OUTWARD)) : 0.0f;
     separation_out->point_a = tl_pair_to_world(&pair, tl_vec3d_mul_add(on_a, normal, (double)a->radius));
     separation_out->point_b = tl_pair_to_world(&pair, tl_vec3d_mul_add(on_b, normal, -(double)b->radius));
     separation_out->normal = tl_vec3d_to_float(tl_frame_rotate(&pair.a_to_world, normal));

@@ -6,6 +6,7 @@
 #include "convex/epa.h"
 
 #include "convex/polytope.h"
+#include "math/tolerance.h"
 
 #include <string.h>
 
@@ -19,8 +20,8 @@ static void fill(const tl_pair *pair, double depth, double lower, double upper, 
     double radii = radius_a + radius_b;
     out->overlap = true;
     out->depth = (float)(radii + depth);
-    out->lower_bound = radii + lower > 0.0 ? (float)((radii + lower) * (1.0 - 1e-7)) : 0.0f; // rounded down
-    out->upper_bound = (float)((radii + upper) * (1.0 + 1e-7));                              // and up
+    out->lower_bound = radii + lower > 0.0 ? (float)((radii + lower) * (1.0 - TL_FLOAT_OUTWARD)) : 0.0f; // rounded down
+    out->upper_bound = (float)((radii + upper) * (1.0 + TL_FLOAT_OUTWARD));                              // and up
     out->normal = tl_vec3d_to_float(tl_frame_rotate(&pair->a_to_world, normal));
     out->point_a = tl_pair_to_world(pair, tl_vec3d_mul_add(on_a, normal, radius_a));
     out->point_b = tl_pair_to_world(pair, tl_vec3d_mul_add(on_b, normal, -radius_b));

@@ -135,6 +135,10 @@ static void write_blocks(tl_hull *hull, const uint32_t *degrees)
     }
 }
 
+// A body thinner than this share of its largest extent gains nothing from more stretching: the direction table only
+// says where a climb starts.
+#define TABLE_LEAST_EXTENT 1e-6
+
 // Extents over the largest one, so that no product with a direction in range under- or overflows.
 static tl_vec3 table_scale(tl_aabb bounds)
 {
@@ -142,8 +146,7 @@ static tl_vec3 table_scale(tl_aabb bounds)
                        (double)bounds.max.z - (double)bounds.min.z };
     double largest = size[0] > size[1] ? size[0] : size[1];
     largest = size[2] > largest ? size[2] : largest;
-    // A body thinner than this share gains nothing from more stretching.
-    const double least = 1e-6;
+    const double least = TABLE_LEAST_EXTENT;
     for (int i = 0; i < 3; i++) {
         size[i] = size[i] / largest > least ? size[i] / largest : least;
     }

@@ -12,6 +12,8 @@
 
 #include "hull/support.h"
 
+#include <float.h>
+
 static inline float tl_octahedron_fold(float near, float far)
 {
     float folded = 1.0f - fabsf(far);
@@ -30,7 +32,7 @@ static inline uint32_t tl_hull_table_block(const tl_hull *hull, tl_vec3 directio
     const uint32_t *table = (const uint32_t *)(const void *)((const char *)hull + hull->table);
     tl_vec3 d = tl_mul(direction, hull->table_scale);
     float size = fabsf(d.x) + fabsf(d.y) + fabsf(d.z);
-    float inverse = size >= 1e-30f ? 1.0f / size : 0.0f; // only where to start: any cell is right
+    float inverse = size >= FLT_MIN ? 1.0f / size : 0.0f; // only where to start: any cell is right
     float u = d.x * inverse, v = d.y * inverse;
     if (d.z < 0.0f) {
         float folded = tl_octahedron_fold(u, v);
