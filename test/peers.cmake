@@ -52,3 +52,6 @@ set(talus_test_nav_recast_needs talus_peer_recast talus_sample talus_io)
 # Detour: the queries to compare with.
 include(${PROJECT_SOURCE_DIR}/cmake/TalusPeerDetour.cmake)
 set(talus_test_path_detour_needs talus_peer_detour talus_sample talus_io)
+
+# The whole pipeline over the built-in levels and real ones.
+set(talus_test_settings_sweep_needs talus_sample talus_io)

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+//
+// Random settings on the built-in levels, and on real ones where they are: every tile's polygons pass the validator
+// (convex, simple, disjoint, covering their contours, linked both ways), and every baked tile passes its check.
+// An argument raises the number of settings a level: test_settings_sweep 500.
+
+#include "talus_test.h"
+
+#include "cli/sample_level.h"
+#include "io/mesh_import.h"
+
+#include <talus/nav_build.h>
+
+#include <stdio.h>
+
+static uint32_t settings_a_level = 12;
+
+typedef struct sweep_counts {
+    uint32_t tiles, polygons, tiled, solo, repaired;
+    uint32_t partitions[3];
+} sweep_counts;
+
+static tl_nav_def random_def(test_random *random)
+{
+    tl_nav_def def = tl_default_nav_def();
+    def.cell_size = test_random_range(random, 0.15f, 0.65f);
+    def.cell_height = test_random_range(random, 0.05f, 0.35f);
+    def.agent_radius = test_random_range(random, 0.0f, 1.0f);
+    def.agent_height = test_random_range(random, 0.5f, 2.5f);
+    def.agent_max_climb = test_random_range(random, 0.0f, 1.2f);
+    def.agent_max_slope = test_random_range(random, 0.0f, 80.0f);
+    def.region_min_size = test_random_range(random, 0.0f, 10.0f);
+    def.region_merge_size = test_random_range(random, 0.0f, 30.0f);
+    def.edge_max_len = test_random_range(random, 0.0f, 20.0f);
+    def.edge_max_error = test_random_range(random, 0.0f, 3.0f);
+    def.max_verts_per_poly = 3 + test_random_below(random, 8);
+    def.detail_sample_dist = test_random_range(random, 0.0f, 8.0f);
+    def.partition = (tl_nav_partition)test_random_below(random, 3);
+    def.tile_size = test_random_below(random, 2) == 0 ? 0 : 16 + test_random_below(random, 100);
+    return def;
+}
+
+static void check_tile(const tl_nav_config *config, const tl_mesh_view *mesh, const char *name, sweep_counts *counts)
+{
+    const tl_nav_input input = { *mesh, NULL, NULL, 0 };
+    tl_host host = { NULL, NULL, NULL };
+    tl_nav_stages stages = { 0 };
+    tl_nav_tile *tile;
+    TEST_RESULT(tl_nav_tile_build(config, &input, &host, &stages, &tile, NULL), TL_OK);
+    tl_polygon_check_report report;
+    if (tl_polygon_mesh_check(&stages.polygons, &stages.contours.set, NULL, &report) != TL_OK) {
+        fail_msg("%s, tile %u, %u of cells of %g m: %s", name, config->tile_x, config->tile_z,
+                 (double)config->cell_size, tl_polygon_fault_text(report.first_fault));
+    }
+    if (tile != NULL) {
+        TEST_RESULT(tl_nav_tile_check(tile, ((const tl_blob *)tile)->size, NULL), TL_OK);
+    }
+    counts->tiles++;
+    counts->polygons += stages.polygons.polygon_count;
+    counts->repaired += stages.polygons.note_count;
+    tl_blob_free(tile, NULL);
+    tl_nav_stages_free(&stages, NULL);
+}
+
+static void sweep_level(const tl_mesh_view *view, const char *name, uint64_t seed, sweep_counts *counts)
+{
+    tl_mesh mesh;
+    TEST_RESULT(tl_mesh_build(view, NULL, &mesh, NULL), TL_OK);
+    tl_mesh_view clean = tl_mesh_as_view(&mesh);
+    test_random random = { seed };
+    for (uint32_t i = 0; i < settings_a_level; i++) {
+        tl_nav_def def = random_def(&random);
+        uint32_t tiles_x;
+        uint32_t tiles_z;
+        TEST_RESULT(tl_nav_tile_grid(&def, mesh.bounds, &tiles_x, &tiles_z, NULL), TL_OK);
+        for (uint32_t t = 0; t < tiles_x * tiles_z; t++) {
+            tl_nav_config config;
+            TEST_RESULT(tl_nav_config_make(&def, mesh.bounds, t % tiles_x, t / tiles_x, &config, NULL), TL_OK);
+            check_tile(&config, &clean, name, counts);
+        }
+        *(def.tile_size == 0 ? &counts->solo : &counts->tiled) += 1;
+        counts->partitions[def.partition]++;
+    }
+    tl_mesh_free(&mesh, NULL);
+}
+
+static void print_counts(const sweep_counts *counts)
+{
+    print_message("%u tiles, %u polygons, %u repaired contours; %u settings in one tile, %u in tiles\n", counts->tiles,
+                  counts->polygons, counts->repaired, counts->solo, counts->tiled);
+}
+
+static void built_in_levels(void **state)
+{
+    (void)state;
+    sweep_counts counts = { 0 };
+    uint32_t count;
+    const tl_sample_level *levels = tl_sample_levels(&count);
+    for (uint32_t i = 0; i < count; i++) {
+        tl_sample_mesh mesh;
+        TEST_RESULT(tl_sample_build_level(&levels[i], 4000, i + 1, &mesh), TL_OK);
+        tl_mesh_view view = tl_sample_mesh_as_view(&mesh);
+        sweep_level(&view, levels[i].name, i, &counts);
+        tl_sample_mesh_free(&mesh);
+    }
+    print_counts(&counts);
+    TEST_CHECK(counts.polygons > 2000 && counts.solo > 10 && counts.tiled > 10);
+    TEST_CHECK(counts.partitions[0] > 5 && counts.partitions[1] > 5 && counts.partitions[2] > 5);
+}
+
+static void real_levels(void **state)
+{
+    (void)state;
+    static const char *const names[] = { "nav_test", "dungeon", "collision_mesh_01", "test_map01" };
+    sweep_counts counts = { 0 };
+    for (uint32_t i = 0; i < 4; i++) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s/levels/%s.obj", TALUS_DATA_DIR, names[i]);
+        tl_imported_mesh mesh;
+        if (tl_import_mesh(path, NULL, &mesh, NULL) == TL_OK) {
+            tl_mesh_view view = tl_imported_mesh_as_view(&mesh);
+            sweep_level(&view, names[i], i, &counts);
+            tl_imported_mesh_free(&mesh);
+        }
+    }
+    print_counts(&counts);
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1) {
+        settings_a_level = (uint32_t)strtoul(argv[1], NULL, 10);
+    }
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(built_in_levels),
+        cmocka_unit_test(real_levels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
