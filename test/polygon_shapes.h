@@ -234,4 +234,27 @@ static inline tl_contour_set shape_as_set(const oracle_point *p, uint32_t n, tl_
     return set;
 }
 
+/// Builds a mesh with every allocation failing in turn, until none does: each failure is TL_ERR_MEMORY, nothing leaks
+/// and the mesh stays untouched. Returns how many builds it took, and one.
+/// The def's allocator is replaced.
+static inline uint64_t shape_check_failing_memory(const tl_contour_set *set, tl_polygon_def def)
+{
+    tl_result result = TL_ERR_MEMORY;
+    uint64_t fail_at = 1;
+    for (; result == TL_ERR_MEMORY; fail_at++) {
+        test_allocator allocator;
+        test_allocator_init(&allocator, fail_at);
+        def.host.allocator = &allocator.allocator;
+        tl_polygon_mesh mesh;
+        memset(&mesh, 0, sizeof mesh);
+        result = tl_polygon_mesh_build(set, &def, &mesh, NULL);
+        TEST_CHECK(allocator.live_blocks == (result == TL_OK ? 1 : 0));
+        TEST_CHECK(result == TL_OK || mesh.block == NULL);
+        tl_polygon_mesh_free(&mesh, &allocator.allocator);
+        TEST_CHECK(allocator.live_blocks == 0 && allocator.live_bytes == 0);
+    }
+    TEST_RESULT(result, TL_OK);
+    return fail_at;
+}
+
 #endif

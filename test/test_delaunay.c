@@ -214,20 +214,7 @@ static void every_allocation_may_fail(void **state)
     tl_contour_set set = shape_as_set(points, n, vertices, &contour);
     tl_polygon_def def = tl_default_polygon_def();
     def.method = TL_PARTITION_DELAUNAY;
-    tl_result result = TL_ERR_MEMORY;
-    uint64_t fail_at = 1;
-    for (; result == TL_ERR_MEMORY; fail_at++) {
-        test_allocator allocator;
-        test_allocator_init(&allocator, fail_at);
-        def.host.allocator = &allocator.allocator;
-        tl_polygon_mesh mesh;
-        memset(&mesh, 0, sizeof mesh);
-        result = tl_polygon_mesh_build(&set, &def, &mesh, NULL);
-        tl_polygon_mesh_free(&mesh, &allocator.allocator);
-        TEST_CHECK(allocator.live_blocks == 0 && allocator.live_bytes == 0);
-    }
-    TEST_RESULT(result, TL_OK);
-    TEST_CHECK(fail_at > 3);
+    TEST_CHECK(shape_check_failing_memory(&set, def) > 3);
 }
 
 int main(void)
