@@ -2,6 +2,7 @@
 #
 #   make demo       set up, build, and run the whole job on built-in levels; pictures go to build/demo
 #   make test       set up, build, and pass the tests
+#   make bench      set up, build, and run every benchmark; make bench-rays runs one
 
 # make's own default for CC is cc; CXX is needed by the tests that compare with C++ peers.
 CXX_OF_CC = $(if $(findstring clang,$(CC)),clang++,g++)
@@ -38,6 +39,12 @@ bench:
 	$(CONFIGURE) -DTALUS_BENCH=ON
 	cmake --build $(BUILD) --parallel $(JOBS)
 	tools/bench $(BUILD)/bench
+
+bench-%:
+	tools/setup tools tests bench
+	$(CONFIGURE) -DTALUS_BENCH=ON
+	cmake --build $(BUILD) --parallel $(JOBS) --target bench_$* bench_chart
+	tools/bench $(BUILD)/bench $*
 
 sanitize:
 	$(MAKE) test CC=clang BUILD=build/sanitize \

@@ -12,6 +12,7 @@
 #include "io/file_map.h"
 #include "io/mesh_import.h"
 #include "io/obj_reader.h"
+#include "report.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>
@@ -141,7 +142,8 @@ static double time_assimp(const char *path, uint32_t *triangles_out)
     return seconds;
 }
 
-static void measure(const char *path, const obj_form *form, int repetitions, int assimp_repetitions)
+static void measure(const char *path, const obj_form *form, int repetitions, int assimp_repetitions,
+                    bench_report *report)
 {
     double seconds[MOST_REPETITIONS];
     uint32_t triangles = 0;
@@ -158,6 +160,7 @@ static void measure(const char *path, const obj_form *form, int repetitions, int
     }
     double ours = median(seconds, repetitions);
     printf("%-22s %8.1f %10u %9.1f %8.0f", form->name, megabytes, triangles, ours * 1e3, megabytes / ours);
+    bench_report_value(report, "OBJ import", "talus", form->name, megabytes / ours);
     if (assimp_repetitions > 0) {
         for (int i = 0; i < assimp_repetitions; i++) {
             seconds[i] = time_assimp(path, &assimp_triangles);
@@ -165,18 +168,20 @@ static void measure(const char *path, const obj_form *form, int repetitions, int
         double theirs = median(seconds, assimp_repetitions);
         printf(" %9.1f %8.0f %7.1f%s", theirs * 1e3, megabytes / theirs, theirs / ours,
                assimp_triangles == triangles ? "" : "  (counts differ)");
+        bench_report_value(report, "OBJ import", "Assimp", form->name, megabytes / theirs);
     }
     printf("\n");
 }
 
 int main(int argc, char **argv)
 {
+    const char *json_path = bench_report_path(&argc, argv);
     unsigned side = argc > 1 ? (unsigned)atoi(argv[1]) : 707; // 999,698 triangles
     int repetitions = argc > 2 ? atoi(argv[2]) : 5;
     int assimp_repetitions = argc > 3 ? atoi(argv[3]) : 1;
     if (side < 1 || side > 10000 || repetitions < 1 || repetitions > MOST_REPETITIONS || assimp_repetitions < 0 ||
         assimp_repetitions > MOST_REPETITIONS) {
-        fprintf(stderr, "usage: bench_obj [side [repetitions [assimp repetitions]]]\n");
+        fprintf(stderr, "usage: bench_obj [side [repetitions [assimp repetitions]]] [--json FILE]\n");
         return 2;
     }
     static const obj_form forms[] = {
@@ -191,6 +196,7 @@ int main(int argc, char **argv)
         return 1;
     }
     close(descriptor);
+    bench_report *report = bench_report_new("obj", "MB/s", NULL);
     printf("%-22s %8s %10s %9s %8s %9s %8s %7s\n", "OBJ", "MB", "triangles", "ms", "MB/s", "Assimp ms", "MB/s",
            "ratio");
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++) {
@@ -199,9 +205,9 @@ int main(int argc, char **argv)
             fprintf(stderr, "%s\n", error.message);
             break;
         }
-        measure(path, &forms[i], repetitions, assimp_repetitions);
+        measure(path, &forms[i], repetitions, assimp_repetitions, report);
         fflush(stdout);
     }
     unlink(path);
-    return 0;
+    return bench_report_close(report, json_path);
 }
