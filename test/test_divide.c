@@ -18,7 +18,7 @@ static tl_division divide(tl_arena *arena, uint32_t n, tl_partition_method metho
     tl_division division;
     TEST_RESULT(tl_outline_prepare(arena, set.vertices, n, 2, &outline), TL_OK);
     TEST_CHECK(outline.walk_count > 0);
-    TEST_RESULT(tl_divide_outline(arena, &outline, method, cap, &division), TL_OK);
+    TEST_RESULT(tl_divide_outline(arena, &outline, method, cap, NULL, &division), TL_OK);
     return division;
 }
 

@@ -87,7 +87,7 @@ static uint32_t partition(uint32_t n, uint32_t max_corners, uint64_t max_steps)
     bool found;
     tl_visibility visibility;
     tl_convex_parts parts;
-    TEST_RESULT(tl_triangulate(&arena, lattice, n, triangles, twins), TL_OK);
+    TEST_RESULT(tl_triangulate(&arena, lattice, n, NULL, triangles, twins), TL_OK);
     TEST_RESULT(tl_find_visibility(&arena, lattice, n, triangles, twins, UINT32_MAX, &visibility, &found), TL_OK);
     TEST_CHECK(found);
     TEST_RESULT(tl_partition_optimally(&arena, lattice, n, &visibility, max_corners, max_steps, &parts, &found), TL_OK);
@@ -110,7 +110,8 @@ static uint32_t merged_triangles(uint32_t n, uint32_t max_corners)
     tl_arena arena;
     tl_arena_init(&arena, NULL);
     tl_convex_parts parts;
-    TEST_RESULT(tl_merge_triangles(&arena, lattice, triangles, twins, NULL, n - 2, max_corners, &parts), TL_OK);
+    const tl_merge_input input = { lattice, triangles, twins, n - 2, max_corners, NULL, NULL };
+    TEST_RESULT(tl_merge_triangles(&arena, &input, &parts), TL_OK);
     tl_arena_free(&arena);
     return parts.count;
 }

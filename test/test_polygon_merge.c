@@ -20,9 +20,10 @@ static uint32_t compare(uint32_t n, uint32_t max_corners)
     }
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    TEST_RESULT(tl_triangulate(&arena, lattice, n, triangles, twins), TL_OK);
+    TEST_RESULT(tl_triangulate(&arena, lattice, n, NULL, triangles, twins), TL_OK);
     tl_convex_parts parts;
-    TEST_RESULT(tl_merge_triangles(&arena, lattice, triangles, twins, NULL, n - 2, max_corners, &parts), TL_OK);
+    const tl_merge_input input = { lattice, triangles, twins, n - 2, max_corners, NULL, NULL };
+    TEST_RESULT(tl_merge_triangles(&arena, &input, &parts), TL_OK);
     oracle_polygons expected = oracle_merge(points, triangles, n - 2, max_corners);
     TEST_CHECK(parts.count == expected.count);
     for (uint32_t p = 0; p < parts.count; p++) {

@@ -22,7 +22,7 @@ static tl_result run(uint32_t n)
     }
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    tl_result result = tl_triangulate(&arena, f.lattice, n, f.triangles, f.twins);
+    tl_result result = tl_triangulate(&arena, f.lattice, n, NULL, f.triangles, f.twins);
     tl_arena_free(&arena);
     return result;
 }

@@ -18,7 +18,7 @@ static tl_visibility look(tl_arena *arena, uint32_t n, uint64_t max_chords, bool
         lattice[i].z = (int32_t)points[i].z;
     }
     tl_visibility visibility;
-    TEST_RESULT(tl_triangulate(arena, lattice, n, triangles, twins), TL_OK);
+    TEST_RESULT(tl_triangulate(arena, lattice, n, NULL, triangles, twins), TL_OK);
     TEST_RESULT(tl_find_visibility(arena, lattice, n, triangles, twins, max_chords, &visibility, found), TL_OK);
     return visibility;
 }

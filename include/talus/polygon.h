@@ -117,6 +117,32 @@ typedef enum tl_partition_method {
                            ///< polygons
 } tl_partition_method;
 
+/// What a step of dividing a contour does.
+typedef enum tl_polygon_step_kind {
+    TL_POLYGON_STEP_CUT,   ///< the shortest potential partition cuts a triangle off what is left of the outline
+    TL_POLYGON_STEP_MERGE, ///< two polygons become one across the longest shared edge
+} tl_polygon_step_kind;
+
+/// One step, as the text's figures show it. All points are pairs of x and z, in lattice units.
+typedef struct tl_polygon_step {
+    tl_polygon_step_kind kind;
+    uint32_t contour; ///< in the set
+    uint32_t partition_count;
+    const int32_t *partitions; ///< [4 * partition_count] both ends of each, the chosen one first. Of a cut: all
+                               ///< potential partitions, none for the last triangle. Of a merge: all edges across
+                               ///< which two polygons could be merged, each once
+    uint32_t outline_count;
+    const int32_t *outline; ///< [2 * outline_count] of a cut: what was left of the outline before it; else none
+    uint32_t corner_count;
+    const int32_t *corners; ///< [2 * corner_count] the triangle that was cut off, or the merged polygon
+} tl_polygon_step;
+
+/// Is called with every step, on the thread that called the build. The step's arrays are gone after the call.
+typedef struct tl_polygon_trace {
+    void (*step)(const tl_polygon_step *step, void *user);
+    void *user;
+} tl_polygon_trace;
+
 /// What to build. Start from tl_default_polygon_def().
 typedef struct tl_polygon_def {
     uint32_t max_verts_per_poly; ///< [3, 64], or 0: as many as it takes. Default 6
@@ -129,6 +155,9 @@ typedef struct tl_polygon_def {
                                  ///< before the contour is divided. Fewer polygons; default false
     bool merge_contours; ///< true: polygons of different contours of one region and area are merged as well. Default
                          ///< false
+    const tl_polygon_trace *trace; ///< NULL: none, and no cost. Follows the classic method, cuts and then merges of
+                                   ///< each outline, O(n^2); of the other methods what they share with it: the cuts,
+                                   ///< and Delaunay's merges
     tl_host host;
 } tl_polygon_def;
 

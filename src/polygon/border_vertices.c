@@ -170,9 +170,10 @@ static tl_result refill(remover *r, const fan_blade *blades, uint32_t blade_coun
     if (triangles == NULL || twins == NULL) {
         return TL_ERR_MEMORY;
     }
-    TL_TRY(tl_triangulate(r->scratch, points, count, triangles, twins));
+    TL_TRY(tl_triangulate(r->scratch, points, count, NULL, triangles, twins));
     tl_convex_parts parts;
-    TL_TRY(tl_merge_triangles(r->scratch, points, triangles, twins, NULL, count - 2, r->max_corners, &parts));
+    const tl_merge_input input = { points, triangles, twins, count - 2, r->max_corners, NULL, NULL };
+    TL_TRY(tl_merge_triangles(r->scratch, &input, &parts));
     tl_stored_polygon of = common_origin(r->store, blades, blade_count);
     for (uint32_t i = 0; i < blade_count; i++) {
         r->store->polygons[blades[i].polygon].count = 0;

@@ -39,7 +39,8 @@ tl_result tl_pair_edges(tl_arena *arena, const uint32_t *corners, uint32_t *twin
 }
 
 // Triangulates all walks of an outline.
-static tl_result triangulate_walks(tl_arena *arena, const tl_outline *outline, tl_outline_triangles *triangles)
+static tl_result triangulate_walks(tl_arena *arena, const tl_outline *outline, const tl_step_tracer *tracer,
+                                   tl_outline_triangles *triangles)
 {
     uint32_t edges = 3 * outline->walk_first[outline->walk_count];
     triangles->corners = TL_PUSH(arena, uint32_t, edges);
@@ -63,7 +64,8 @@ static tl_result triangulate_walks(tl_arena *arena, const tl_outline *outline, t
             }
             points = copy;
         }
-        TL_TRY(tl_triangulate(arena, points, count, triangles->corners + 3 * made, triangles->twins + 3 * made));
+        TL_TRY(
+            tl_triangulate(arena, points, count, tracer, triangles->corners + 3 * made, triangles->twins + 3 * made));
         for (uint32_t i = 3 * made; i < 3 * (made + count - 2); i++) {
             triangles->corners[i] = walk[triangles->corners[i]];
             triangles->twins[i] += triangles->twins[i] != TL_NO_EDGE ? 3 * made : 0;
@@ -121,10 +123,10 @@ static tl_result bound_from_below(tl_arena *arena, const tl_outline *outline, co
 }
 
 tl_result tl_divide_outline(tl_arena *arena, const tl_outline *outline, tl_partition_method method,
-                            uint32_t max_corners, tl_division *division_out)
+                            uint32_t max_corners, const tl_step_tracer *tracer, tl_division *division_out)
 {
     tl_outline_triangles triangles;
-    TL_TRY(triangulate_walks(arena, outline, &triangles));
+    TL_TRY(triangulate_walks(arena, outline, tracer, &triangles));
     division_out->triangle_count = triangles.count;
     bool is_exact = false;
     if (method == TL_PARTITION_OPTIMAL) {
@@ -138,8 +140,10 @@ tl_result tl_divide_outline(tl_arena *arena, const tl_outline *outline, tl_parti
         if (method == TL_PARTITION_DELAUNAY) {
             TL_TRY(tl_make_delaunay(arena, outline->nodes.points, triangles.corners, triangles.twins, triangles.count));
         }
-        TL_TRY(tl_merge_triangles(arena, outline->nodes.points, triangles.corners, triangles.twins, NULL,
-                                  triangles.count, max_corners, &division_out->parts));
+        const tl_merge_input input = {
+            outline->nodes.points, triangles.corners, triangles.twins, triangles.count, max_corners, NULL, tracer
+        };
+        TL_TRY(tl_merge_triangles(arena, &input, &division_out->parts));
     }
     if (is_exact) {
         division_out->lower_bound = division_out->parts.count;

@@ -24,9 +24,9 @@ typedef struct tl_outline_triangles {
 } tl_outline_triangles;
 
 /// Divides an outline that has walks. Results lie in `arena`. Errors: TL_ERR_MEMORY, and TL_ERR_SELF_INTERSECTION where
-/// the outline is not as tl_outline_prepare makes it.
+/// the outline is not as tl_outline_prepare makes it. `tracer` may be NULL.
 tl_result tl_divide_outline(tl_arena *arena, const tl_outline *outline, tl_partition_method method,
-                            uint32_t max_corners, tl_division *division_out);
+                            uint32_t max_corners, const tl_step_tracer *tracer, tl_division *division_out);
 
 /// Pairs edges without a twin that run there and back between two corners. Adds the pairs to *pair_count.
 tl_result tl_pair_edges(tl_arena *arena, const uint32_t *corners, uint32_t *twins, uint32_t edge_count,

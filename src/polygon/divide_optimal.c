@@ -236,12 +236,10 @@ static tl_result solve_walks(tl_arena *arena, const tl_outline *outline, uint32_
     return TL_OK;
 }
 
-static tl_result merge_and_compare(tl_arena *arena, const tl_lattice_point *points, const uint32_t *corners,
-                                   const uint32_t *twins, const uint8_t *joined, uint32_t triangle_count,
-                                   uint32_t max_corners, tl_convex_parts *best)
+static tl_result merge_and_compare(tl_arena *arena, const tl_merge_input *input, tl_convex_parts *best)
 {
     tl_convex_parts parts;
-    TL_TRY(tl_merge_triangles(arena, points, corners, twins, joined, triangle_count, max_corners, &parts));
+    TL_TRY(tl_merge_triangles(arena, input, &parts));
     *best = parts.count < best->count ? parts : *best;
     return TL_OK;
 }
@@ -265,13 +263,14 @@ tl_result tl_divide_optimally(tl_arena *arena, const tl_outline *outline, uint32
     TL_TRY(tl_pair_edges(arena, triangles->corners, triangles->twins, edges, &triangles->bridge_count));
     *is_exact &= triangles->bridge_count == 0;
     parts_out->count = UINT32_MAX;
-    TL_TRY(merge_and_compare(arena, points, f.corners, f.twins, f.joined, f.count, max_corners, parts_out));
+    const tl_merge_input pieces = { points, f.corners, f.twins, f.count, max_corners, f.joined, NULL };
+    TL_TRY(merge_and_compare(arena, &pieces, parts_out));
     if (*is_exact) {
         return TL_OK;
     }
-    TL_TRY(merge_and_compare(arena, points, triangles->corners, triangles->twins, NULL, triangles->count, max_corners,
-                             parts_out));
+    const tl_merge_input plain = { points, triangles->corners, triangles->twins, triangles->count, max_corners, NULL,
+                                   NULL };
+    TL_TRY(merge_and_compare(arena, &plain, parts_out));
     TL_TRY(tl_make_delaunay(arena, points, triangles->corners, triangles->twins, triangles->count));
-    return merge_and_compare(arena, points, triangles->corners, triangles->twins, NULL, triangles->count, max_corners,
-                             parts_out);
+    return merge_and_compare(arena, &plain, parts_out);
 }

@@ -76,7 +76,8 @@ static tl_result merge_members(tl_polygon_store *store, tl_arena *scratch, const
     uint32_t pairs = 0;
     TL_TRY(tl_pair_edges(scratch, fans.corners, fans.twins, 3 * triangles, &pairs));
     tl_convex_parts parts;
-    TL_TRY(tl_merge_triangles(scratch, points, fans.corners, fans.twins, fans.joined, triangles, max_corners, &parts));
+    const tl_merge_input input = { points, fans.corners, fans.twins, triangles, max_corners, fans.joined, NULL };
+    TL_TRY(tl_merge_triangles(scratch, &input, &parts));
     *gone += count - parts.count;
     return parts.count < count ? replace(store, scratch, members, count, &parts) : TL_OK;
 }

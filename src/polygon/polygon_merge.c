@@ -29,22 +29,21 @@ typedef struct waiting_edge {
 } waiting_edge;
 
 typedef struct merger {
+    const tl_merge_input *input;
     const tl_lattice_point *points;
     const uint32_t *origin; // [edge] corner where it starts
     const uint32_t *twins;
-    const uint8_t *joined_first; // [edge] or NULL
-    uint32_t *next;              // [edge] around the polygon
-    uint32_t *previous;          // [edge]
-    uint32_t *parent;            // [triangle] union-find; a root stands for its polygon
-    uint32_t *place;             // [root]
-    uint32_t *size;              // [root] corners
-    uint32_t *any_edge;          // [root] an edge of the polygon
-    uint32_t *at_place;          // [place] root
+    uint32_t *next;     // [edge] around the polygon
+    uint32_t *previous; // [edge]
+    uint32_t *parent;   // [triangle] union-find; a root stands for its polygon
+    uint32_t *place;    // [root]
+    uint32_t *size;     // [root] corners
+    uint32_t *any_edge; // [root] an edge of the polygon
+    uint32_t *at_place; // [place] root
     uint32_t place_count;
     waiting_edge *heap;   // edges of the current length
     uint32_t *heap_place; // [edge] where in the heap, or NOT_WAITING
     uint32_t heap_count;
-    uint32_t max_corners;
 } merger;
 
 static uint32_t polygon_of(merger *m, uint32_t edge)
@@ -157,15 +156,23 @@ static bool stays_convex(const merger *m, uint32_t edge)
            0;
 }
 
+// Whether the polygons of an edge can be merged.
+static bool can_go(merger *m, uint32_t edge)
+{
+    uint32_t twin = m->twins[edge];
+    uint32_t a = polygon_of(m, edge);
+    uint32_t b = polygon_of(m, twin);
+    uint32_t most = m->input->max_corners;
+    return a != b && (most == 0 || m->size[a] + m->size[b] - 2 <= most) && stays_convex(m, edge) &&
+           stays_convex(m, twin);
+}
+
 static void remove_edge(merger *m, uint32_t edge)
 {
     uint32_t twin = m->twins[edge];
     uint32_t a = polygon_of(m, edge);
     uint32_t b = polygon_of(m, twin);
     uint32_t size = m->size[a] + m->size[b] - 2;
-    if (a == b || (m->max_corners != 0 && size > m->max_corners) || !stays_convex(m, edge) || !stays_convex(m, twin)) {
-        return;
-    }
     m->any_edge[a] = m->next[edge];
     m->next[m->previous[edge]] = m->next[twin];
     m->previous[m->next[twin]] = m->previous[edge];
@@ -232,7 +239,7 @@ static tl_result sort_edges(merger *m, tl_arena *arena, uint32_t edge_count, tl_
         uint32_t twin = m->twins[edge];
         if (twin != TL_NO_EDGE && edge < twin && stays_convex(m, edge) && stays_convex(m, twin)) {
             int64_t length2 = tl_distance2(m->points[m->origin[edge]], m->points[m->origin[twin]]);
-            bool goes_first = m->joined_first != NULL && m->joined_first[edge];
+            bool goes_first = m->input->joined_first != NULL && m->input->joined_first[edge];
             tl_sort_item item = { goes_first ? 0 : ~(uint64_t)length2, edge, 0 };
             items[count++] = item;
         }
@@ -241,6 +248,45 @@ static tl_result sort_edges(merger *m, tl_arena *arena, uint32_t edge_count, tl_
     tl_radix_sort(items, items + count, count);
     *items_out = items;
     *count_out = count;
+    return TL_OK;
+}
+
+static uint32_t write_corners(const merger *m, uint32_t root, uint32_t *corners)
+{
+    uint32_t begin = m->any_edge[root];
+    uint32_t edge = begin;
+    uint32_t count = 0;
+    do {
+        corners[count++] = m->origin[edge];
+        edge = m->next[edge];
+    } while (edge != begin);
+    return count;
+}
+
+// Removes an edge and hands out the merge, with the edges that could have gone instead.
+static tl_result remove_and_trace(merger *m, tl_arena *arena, uint32_t edge)
+{
+    uint32_t edge_count = 3 * m->input->triangle_count;
+    tl_arena_mark mark = tl_arena_get_mark(arena);
+    uint32_t *partitions = TL_PUSH(arena, uint32_t, edge_count);
+    uint32_t *corners = TL_PUSH(arena, uint32_t, edge_count);
+    if (partitions == NULL || corners == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_traced_step step = { TL_POLYGON_STEP_MERGE, partitions, 1, NULL, 0, corners, 0 };
+    partitions[0] = m->origin[edge];
+    partitions[1] = m->origin[m->twins[edge]];
+    for (uint32_t other = 0; other < edge_count; other++) {
+        uint32_t twin = m->twins[other];
+        if (twin != TL_NO_EDGE && other < twin && other != edge && can_go(m, other)) {
+            partitions[2 * step.partition_count] = m->origin[other];
+            partitions[2 * step.partition_count++ + 1] = m->origin[twin];
+        }
+    }
+    remove_edge(m, edge);
+    step.corner_count = write_corners(m, polygon_of(m, edge), corners);
+    TL_TRY(tl_trace_step(m->input->tracer, arena, m->points, &step));
+    tl_arena_rollback(arena, mark);
     return TL_OK;
 }
 
@@ -255,16 +301,11 @@ static tl_result write_parts(merger *m, tl_arena *arena, uint32_t edge_count, tl
     uint32_t filled = 0;
     for (uint32_t p = 0; p < m->place_count; p++) {
         parts->first[p] = filled;
-        uint32_t begin = m->any_edge[m->at_place[p]];
-        uint32_t edge = begin;
-        do {
-            parts->corners[filled++] = m->origin[edge];
-            edge = m->next[edge];
-        } while (edge != begin);
+        filled += write_corners(m, m->at_place[p], parts->corners + filled);
     }
     parts->first[m->place_count] = filled;
     parts->part_of = NULL;
-    if (m->joined_first != NULL) {
+    if (m->input->joined_first != NULL) {
         parts->part_of = TL_PUSH(arena, uint32_t, edge_count / 3);
         if (parts->part_of == NULL) {
             return TL_ERR_MEMORY;
@@ -276,22 +317,19 @@ static tl_result write_parts(merger *m, tl_arena *arena, uint32_t edge_count, tl
     return TL_OK;
 }
 
-tl_result tl_merge_triangles(tl_arena *arena, const tl_lattice_point *points, const uint32_t *corners,
-                             const uint32_t *twins, const uint8_t *joined_first, uint32_t triangle_count,
-                             uint32_t max_corners, tl_convex_parts *parts_out)
+tl_result tl_merge_triangles(tl_arena *arena, const tl_merge_input *input, tl_convex_parts *parts_out)
 {
-    uint32_t edge_count = 3 * triangle_count;
+    uint32_t edge_count = 3 * input->triangle_count;
     merger m;
     memset(&m, 0, sizeof m);
-    m.points = points;
-    m.origin = corners;
-    m.twins = twins;
-    m.joined_first = joined_first;
-    m.max_corners = max_corners;
-    if (!allocate(&m, arena, triangle_count)) {
+    m.input = input;
+    m.points = input->points;
+    m.origin = input->corners;
+    m.twins = input->twins;
+    if (!allocate(&m, arena, input->triangle_count)) {
         return TL_ERR_MEMORY;
     }
-    start(&m, triangle_count);
+    start(&m, input->triangle_count);
     tl_sort_item *items;
     uint32_t count;
     TL_TRY(sort_edges(&m, arena, edge_count, &items, &count));
@@ -308,7 +346,15 @@ tl_result tl_merge_triangles(tl_arena *arena, const tl_lattice_point *points, co
         m.heap_count = high - low;
         heapify(&m);
         while (m.heap_count > 0) {
-            remove_edge(&m, heap_pop(&m));
+            uint32_t edge = heap_pop(&m);
+            if (!can_go(&m, edge)) {
+                continue;
+            }
+            if (input->tracer == NULL) {
+                remove_edge(&m, edge);
+            } else {
+                TL_TRY(remove_and_trace(&m, arena, edge));
+            }
         }
         low = high;
     }

@@ -96,7 +96,9 @@ static tl_result divide(builder *b, uint32_t contour, const tl_outline *outline)
         return TL_ERR_MEMORY;
     }
     tl_division division;
-    TL_TRY(tl_divide_outline(&b->scratch, outline, b->def->method, b->def->max_verts_per_poly, &division));
+    const tl_step_tracer tracer = { b->def->trace, contour };
+    TL_TRY(tl_divide_outline(&b->scratch, outline, b->def->method, b->def->max_verts_per_poly,
+                             b->def->trace != NULL ? &tracer : NULL, &division));
     TL_TRY(merge_vertices(b, outline, map));
     tl_stored_polygon of = { 0, 0, b->contours->contours[contour].region, b->contours->contours[contour].area,
                              contour };

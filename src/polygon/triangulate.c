@@ -17,6 +17,7 @@
 
 #include "polygon/triangulate.h"
 
+#include "base/assert.h"
 #include "polygon/reflex_tree.h"
 
 // A valid corner b with its neighbours when it was tested; stale as soon as one of them is cut off.
@@ -167,8 +168,39 @@ static bool start(triangulation *t, tl_arena *scratch, const tl_lattice_point *p
     return true;
 }
 
-tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint32_t count, uint32_t *triangles_out,
-                         uint32_t *twins_out)
+// Hands out a cut with the partitions that could have been chosen instead: the current corners on the heap.
+static tl_result trace_cut(const triangulation *t, tl_arena *scratch, const tl_step_tracer *tracer, uint32_t left,
+                           const uint32_t corners[3])
+{
+    tl_arena_mark mark = tl_arena_get_mark(scratch);
+    uint32_t *outline = TL_PUSH(scratch, uint32_t, left);
+    uint32_t *partitions = TL_PUSH(scratch, uint32_t, 2 * ((uint64_t)t->heap_count + 1));
+    if (outline == NULL || partitions == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    outline[0] = corners[0];
+    for (uint32_t i = 1; i < left; i++) {
+        outline[i] = t->next[outline[i - 1]];
+    }
+    tl_traced_step step = { TL_POLYGON_STEP_CUT, partitions, 0, outline, left, corners, 3 };
+    if (left > 3) {
+        partitions[0] = corners[0];
+        partitions[1] = corners[2];
+        step.partition_count = 1;
+    }
+    for (uint32_t i = 0; i < t->heap_count && left > 3; i++) {
+        if (is_current(t, &t->heap[i])) {
+            partitions[2 * step.partition_count] = t->heap[i].a;
+            partitions[2 * step.partition_count++ + 1] = t->heap[i].c;
+        }
+    }
+    TL_TRY(tl_trace_step(tracer, scratch, t->points, &step));
+    tl_arena_rollback(scratch, mark);
+    return TL_OK;
+}
+
+tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint32_t count,
+                         const tl_step_tracer *tracer, uint32_t *triangles_out, uint32_t *twins_out)
 {
     triangulation t;
     if (!start(&t, scratch, points, count)) {
@@ -184,6 +216,9 @@ tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint
             cut = heap_pop(&t);
         } while (!is_current(&t, &cut));
         uint32_t corners[3] = { cut.a, cut.b, cut.c };
+        if (tracer != NULL) {
+            TL_TRY(trace_cut(&t, scratch, tracer, left, corners));
+        }
         emit(&t, triangle, corners, 2, triangles_out, twins_out);
         t.across[cut.a] = 3 * triangle + 2;
         t.next[cut.a] = cut.c;
@@ -207,5 +242,5 @@ tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint
         return TL_ERR_SELF_INTERSECTION;
     }
     emit(&t, triangle, corners, 3, triangles_out, twins_out);
-    return TL_OK;
+    return tracer != NULL ? trace_cut(&t, scratch, tracer, 3, corners) : TL_OK;
 }

@@ -7,6 +7,7 @@
 
 #include "base/arena.h"
 #include "polygon/lattice.h"
+#include "polygon/trace_steps.h"
 
 #define TL_NO_EDGE UINT32_MAX
 
@@ -17,8 +18,9 @@
 /// Triangle t has the corners triangles_out[3t .. 3t + 2], indices of points, in the order (before, cut corner, after);
 /// triangles come in the order they were cut. twins_out[3t + k] is the number (3 * triangle + edge) of the same
 /// partition edge seen from the other triangle, or TL_NO_EDGE on the outline; edge k runs from corner k to corner k
-/// + 1. TL_ERR_SELF_INTERSECTION: no valid partition was left, so the outline was not as described.
-tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint32_t count, uint32_t *triangles_out,
-                         uint32_t *twins_out);
+/// + 1. `tracer` may be NULL. TL_ERR_SELF_INTERSECTION: no valid partition was left, so the outline was not as
+/// described.
+tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint32_t count,
+                         const tl_step_tracer *tracer, uint32_t *triangles_out, uint32_t *twins_out);
 
 #endif
