@@ -6,6 +6,8 @@
 #ifndef TALUS_SRC_HULL_LANES_H
 #define TALUS_SRC_HULL_LANES_H
 
+#include "base/lowest_bit.h"
+
 #include <stdint.h>
 
 #if defined(__SSE2__) || defined(_M_X64)
@@ -147,20 +149,5 @@ static inline float tl_lanes_largest(tl_lanes a)
 }
 
 #endif
-
-// Index of the lowest set bit; the mask is not zero.
-static inline uint32_t tl_lowest_bit(uint64_t mask)
-{
-#if defined(__GNUC__)
-    return (uint32_t)__builtin_ctzll(mask);
-#else
-    uint32_t index = 0;
-    while ((mask & 1u) == 0) {
-        mask >>= 1;
-        index++;
-    }
-    return index;
-#endif
-}
 
 #endif

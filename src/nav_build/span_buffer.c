@@ -18,6 +18,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/lowest_bit.h"
 
 #include <string.h>
 
@@ -302,17 +303,6 @@ static void set_bits(uint64_t *words, uint32_t begin, uint32_t end)
     words[last] |= to_end;
 }
 
-static uint32_t lowest_bit(uint64_t word)
-{
-    uint32_t bit = 0;
-    for (uint32_t step = 32; step > 0; step /= 2) {
-        uint64_t low = word & ((UINT64_C(1) << step) - 1);
-        bit += low == 0 ? step : 0;
-        word = low == 0 ? word >> step : low;
-    }
-    return bit;
-}
-
 // The first bit at or above `from` that is `set`; there is one.
 static uint32_t find_bit(const uint64_t *words, uint32_t from, bool set)
 {
@@ -322,7 +312,7 @@ static uint32_t find_bit(const uint64_t *words, uint32_t from, bool set)
     while (found == 0) {
         found = words[++word] ^ flip;
     }
-    return word * 64 + lowest_bit(found);
+    return word * 64 + tl_lowest_bit(found);
 }
 
 // The same for many items within few voxels: they are drawn into a column of bits, and each top notes its largest area.

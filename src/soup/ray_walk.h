@@ -20,6 +20,7 @@
 // triangle that is met differs by at most Z (6.1 e / |D| + 9 u) before the division, its rounding and the product with
 // per_depth (two roundings of its own) add 6 u more: taken as Z (7 e / |D| + 24 u).
 
+#include "base/lowest_bit.h"
 #include "math/simd16.h"
 #include "soup/ray_prepare.h"
 
@@ -49,19 +50,6 @@ typedef struct walk_ray {
     const tl_soup_node *nodes;
     const char *leaves;
 } walk_ray;
-
-static inline uint32_t lowest_bit(uint32_t mask)
-{
-#if defined(__GNUC__)
-    return (uint32_t)__builtin_ctz(mask);
-#else
-    uint32_t bit = 0;
-    while ((mask >> bit & 1) == 0) {
-        bit++;
-    }
-    return bit;
-#endif
-}
 
 // A child that the ray enters: the bits of the box t where, above the child word. Such t are never negative, so their
 // bits have the order of their values, and one integer compare orders entries.
@@ -124,7 +112,7 @@ static inline uint32_t push_sorted(const uint32_t *t_bits, const tl_soup_node *n
     walk_entry *base = stack + *stack_count;
     uint32_t count = 0;
     do {
-        walk_entry entry = make_entry(t_bits, node, lowest_bit(mask));
+        walk_entry entry = make_entry(t_bits, node, tl_lowest_bit(mask));
         mask &= mask - 1;
         uint32_t place = count++;
         for (; place > 0 && base[place - 1] < entry; place--) {
@@ -142,10 +130,10 @@ static inline uint32_t push_children(const walk_ray *ray, const uint32_t *t_bits
 {
     uint32_t rest = mask & (mask - 1);
     if (rest == 0) {
-        return node->child[lowest_bit(mask)];
+        return node->child[tl_lowest_bit(mask)];
     }
-    walk_entry a = make_entry(t_bits, node, lowest_bit(mask));
-    walk_entry b = make_entry(t_bits, node, lowest_bit(rest));
+    walk_entry a = make_entry(t_bits, node, tl_lowest_bit(mask));
+    walk_entry b = make_entry(t_bits, node, tl_lowest_bit(rest));
     walk_entry *top = stack + *stack_count;
     rest &= rest - 1;
     if (rest == 0) {
@@ -157,7 +145,7 @@ static inline uint32_t push_children(const walk_ray *ray, const uint32_t *t_bits
     if ((rest & (rest - 1)) != 0) {
         return push_sorted(t_bits, node, mask, stack, stack_count);
     }
-    walk_entry c = make_entry(t_bits, node, lowest_bit(rest));
+    walk_entry c = make_entry(t_bits, node, tl_lowest_bit(rest));
     walk_entry low = nearer(a, b), high = farther(a, b);
     top[0] = farther(high, c);
     high = nearer(high, c);
@@ -277,7 +265,7 @@ static inline bool settle_lanes(tl_ray_job *job, const leaf_lanes *lanes, uint32
         sure &= job->filter == NULL ? clear : 0u;
     }
     do {
-        uint32_t bit = lowest_bit(maybe);
+        uint32_t bit = tl_lowest_bit(maybe);
         uint32_t lane = bit < 4 ? bit : n + bit - 4;
         uint32_t is_clear = clear >> bit & 1u, is_sure = sure >> bit & 1u;
         maybe &= maybe - 1;

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+//
+// Masks of candidates are walked from their lowest bit up.
+
+#ifndef TALUS_SRC_BASE_LOWEST_BIT_H
+#define TALUS_SRC_BASE_LOWEST_BIT_H
+
+#include <stdint.h>
+
+// Index of the lowest set bit; the mask is not zero.
+static inline uint32_t tl_lowest_bit(uint64_t mask)
+{
+#if defined(__GNUC__)
+    return (uint32_t)__builtin_ctzll(mask);
+#else
+    uint32_t index = 0;
+    while ((mask & 1u) == 0) {
+        mask >>= 1;
+        index++;
+    }
+    return index;
+#endif
+}
+
+#endif
