@@ -54,6 +54,7 @@ typedef struct found_set {
 static bool mark_found(const tl_soup_triangle *triangle, void *user)
 {
     found_set *set = user;
+    TEST_CHECK(!set->seen[triangle->triangle]); // each once
     set->seen[triangle->triangle] = 1;
     return ++set->count != set->limit;
 }
@@ -109,6 +110,7 @@ static uint32_t check_box_search(const model *m, const tl_soup *soup, bool split
         if (set.count > 1) {
             set.limit = 1;
             set.count = 0;
+            memset(set.seen, 0, m->triangle_count);
             TEST_CHECK(!tl_soup_triangles_in_box(soup, box, mark_found, &set) && set.count == 1);
         }
     }

@@ -190,8 +190,7 @@ TL_API bool tl_soup_next_pair(const tl_soup *soup, uint64_t *cursor, tl_soup_pai
 typedef bool tl_soup_triangle_fn(const tl_soup_triangle *triangle, void *user);
 
 /// Calls `found` for the triangles that may touch `box` (closed), in the soup's order: for every one that does, and for
-/// none whose own box stays apart from it. A triangle that spatial splits stored twice may be reported twice. Returns
-/// false when `found` ended the search.
+/// none whose own box stays apart from it; each once. Returns false when `found` ended the search.
 TL_API bool tl_soup_triangles_in_box(const tl_soup *soup, tl_aabb box, tl_soup_triangle_fn *found, void *user);
 
 /// Called for each box of the tree; `depth` 0 is the root's box, `leaf` tells a box that holds pairs. False ends it.

@@ -21,6 +21,7 @@
 
 #include "math/predicates.h"
 #include "math/tolerance.h"
+#include "soup/filter.h"
 
 #include <float.h>
 
@@ -176,26 +177,6 @@ static bool find_t(const tl_ray_job *job, const triangle_test *test, float *t_ou
     return true;
 }
 
-static bool passes_filter(const tl_ray_job *job, uint32_t triangle, bool back)
-{
-    const tl_ray_filter *filter = job->filter;
-    if (filter == NULL) {
-        return true;
-    }
-    if (filter->cull == (back ? TL_RAY_CULL_BACK : TL_RAY_CULL_FRONT)) {
-        return false;
-    }
-    if (filter->material_mask == UINT64_MAX && filter->accept == NULL) {
-        return true;
-    }
-    uint16_t material = tl_soup_material(job->soup, triangle);
-    uint32_t bit = material < 63 ? material : 63;
-    if ((filter->material_mask >> bit & 1) == 0) {
-        return false;
-    }
-    return filter->accept == NULL || filter->accept(triangle, material, filter->accept_user);
-}
-
 bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
 {
     if (!job->is_exact) {
@@ -214,7 +195,7 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
     }
     // normal . direction > 0: the ray runs with the normal, so it came from behind.
     bool back = (job->direction[job->axis_z] > 0.0) == (test.sign > 0);
-    if (!passes_filter(job, triangle, back)) {
+    if (!tl_filter_passes(job->soup, job->filter, triangle, back ? TL_SEEN_BACK : TL_SEEN_FRONT)) {
         return false;
     }
     job->t = t;
