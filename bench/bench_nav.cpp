@@ -2,64 +2,147 @@
 //
 // The navmesh build stage by stage, with Recast in the same process on the same settings where it is installed.
 //
-//   bench_nav [cell size, metres (0.3)] [repetitions (5)] [level.obj ...]
+//   bench_nav [--json FILE] [cell size, metres (0.3)] [repetitions (5)] [level.obj ...]
 //
-// Without levels: the built-in ones, and those of the data folder. CPU time of one thread, the best of the repetitions.
+// Without levels: the built-in ones, those of the data folder, and a city of a million triangles in tiles of 64 cells.
+// CPU time of one thread, the best of the repetitions, which alternate. `whole` is the build as users call it, for
+// Recast the sum of its stages. Memory is the most that was held at one time, counted by the allocator hooks of both;
+// each piece is freed when its last reader is done. A tiled level's memory is that of its largest tile.
 
-#include "io/mesh_import.h"
+#include "bench_nav_levels.hpp"
+#include "report.h"
 
 #ifdef TALUS_HAVE_RECAST
 #include "../test/recast_pipeline.hpp"
+#include <recastnavigation/RecastAlloc.h>
 #endif
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
-#include <string>
-#include <talus/nav_build.h>
-#include <vector>
-
-extern "C" {
-#include "cli/sample_level.h"
-}
+#include <thread>
 
 namespace
 {
 
-const char *const STAGES[] = { "rasterize", "filter",   "compact",  "erode", "distance",
-                               "regions",   "contours", "polygons", "detail" };
-constexpr int STAGE_COUNT = 9;
+const char *const STAGES[] = { "rasterize", "filter",   "compact",  "erode",  "distance",
+                               "regions",   "contours", "polygons", "detail", "whole" };
+enum stage { RASTERIZE, FILTER, COMPACT, ERODE, DISTANCE, REGIONS, CONTOURS, POLYGONS, DETAIL, WHOLE, STAGE_COUNT };
 
-struct times {
-    double ms[STAGE_COUNT];
+// Milliseconds a stage, and the most bytes held.
+struct figures {
+    double ms[STAGE_COUNT] = {};
+    double peak = 0;
+
+    double sum(std::initializer_list<stage> stages) const
+    {
+        double total = 0;
+        for (stage s : stages) {
+            total += ms[s];
+        }
+        return total;
+    }
+
+    void add(const figures &part)
+    {
+        for (int i = 0; i < STAGE_COUNT; i++) {
+            ms[i] += part.ms[i];
+        }
+        peak += part.peak;
+    }
+
+    void keep_best(const figures &other)
+    {
+        for (int i = 0; i < STAGE_COUNT; i++) {
+            ms[i] = std::min(ms[i], other.ms[i]);
+        }
+    }
 };
 
-double now_ms()
+double clock_ms(clockid_t clock)
 {
     timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    clock_gettime(clock, &t);
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
 }
 
-// Runs stage after stage, keeping the best time of each; false when one fails.
+// Runs stage after stage and adds the time that each takes.
 struct stopwatch {
-    times *best;
+    figures *sum;
     int stage = 0;
 
     template <class run_stage> bool time(run_stage run)
     {
-        double begin = now_ms();
-        bool done = run();
-        best->ms[stage] = std::min(best->ms[stage], now_ms() - begin);
-        stage++;
+        const double begin = clock_ms(CLOCK_PROCESS_CPUTIME_ID);
+        const bool done = run();
+        sum->ms[stage++] += clock_ms(CLOCK_PROCESS_CPUTIME_ID) - begin;
         return done;
     }
 };
 
-bool run_talus(const tl_nav_config &config, const tl_mesh_view &mesh, times *best)
+// ---- Memory ------------------------------------------------------------------------------------------------
+
+// Bytes asked for and not yet given back. A block's size lies before it.
+struct meter {
+    static constexpr size_t HEAD = 64;
+    static size_t live, peak;
+
+    static void *take(size_t size)
+    {
+        char *block = static_cast<char *>(std::aligned_alloc(HEAD, (HEAD + size + HEAD - 1) / HEAD * HEAD));
+        *reinterpret_cast<size_t *>(block) = size;
+        live += size;
+        peak = std::max(peak, live);
+        return block + HEAD;
+    }
+
+    static void give_back(void *memory)
+    {
+        if (memory != nullptr) {
+            char *block = static_cast<char *>(memory) - HEAD;
+            live -= *reinterpret_cast<size_t *>(block);
+            std::free(block);
+        }
+    }
+};
+size_t meter::live = 0, meter::peak = 0;
+
+double talus_peak(const bench_part &part)
 {
-    stopwatch watch{ best };
+    const tl_allocator allocator = { [](size_t size, size_t, void *) { return meter::take(size); },
+                                     [](void *block, size_t, void *) { meter::give_back(block); }, nullptr };
+    const tl_host host = { &allocator, nullptr, nullptr };
+    tl_nav_input input = {};
+    input.mesh = part.mesh.view();
+    tl_nav_tile *tile;
+    meter::live = meter::peak = 0;
+    tl_nav_tile_build(&part.config, &input, &host, nullptr, &tile, nullptr);
+    tl_blob_free(tile, &allocator);
+    return (double)meter::peak;
+}
+
+// ---- The builds --------------------------------------------------------------------------------------------
+
+bool time_whole(const bench_part &part, figures *sum)
+{
+    tl_nav_input input = {};
+    input.mesh = part.mesh.view();
+    tl_nav_tile *tile;
+    stopwatch watch{ sum, WHOLE };
+    const bool done =
+        watch.time([&] { return !tl_nav_tile_build(&part.config, &input, nullptr, nullptr, &tile, nullptr); });
+    tl_blob_free(tile, nullptr);
+    return done;
+}
+
+bool run_talus(const bench_part &part, figures *sum)
+{
+    const tl_nav_config &config = part.config;
+    const tl_mesh_view mesh = part.mesh.view();
+    const bool watershed = config.partition == TL_NAV_WATERSHED;
+    stopwatch watch{ sum };
     tl_nav_stages s = {};
     tl_nav_compact *compact = &s.compact;
     bool done =
@@ -72,7 +155,7 @@ bool run_talus(const tl_nav_config &config, const tl_mesh_view &mesh, times *bes
         }) &&
         watch.time([&] { return !tl_nav_compact_build(&config, &s.heightfield, nullptr, compact, nullptr); }) &&
         watch.time([&] { return !tl_nav_erode(&config, nullptr, compact); }) &&
-        watch.time([&] { return !tl_nav_distance_field(nullptr, compact, nullptr); }) &&
+        watch.time([&] { return !watershed || !tl_nav_distance_field(nullptr, compact, nullptr); }) &&
         watch.time([&] { return !tl_nav_build_regions(&config, nullptr, compact, nullptr); }) &&
         watch.time([&] { return !tl_nav_build_contours(&config, compact, nullptr, &s.contours, nullptr); }) &&
         watch.time([&] {
@@ -82,120 +165,219 @@ bool run_talus(const tl_nav_config &config, const tl_mesh_view &mesh, times *bes
         }) &&
         watch.time([&] { return !tl_nav_build_detail(&config, compact, &s.polygons, nullptr, &s.detail, nullptr); });
     tl_nav_stages_free(&s, nullptr);
+    return done && time_whole(part, sum);
+}
+
+#ifdef TALUS_HAVE_RECAST
+bool run_recast(const bench_part &part, figures *sum)
+{
+    const tl_nav_config &config = part.config;
+    const tl_mesh_view mesh = part.mesh.view();
+    const bool watershed = config.partition == TL_NAV_WATERSHED;
+    figures own;
+    stopwatch watch{ &own };
+    recast_pipeline recast;
+    bool done = watch.time([&] { return recast.rasterize(config, mesh, 45.0f); }) &&
+                watch.time([&] { return recast.filter(config); }) &&
+                watch.time([&] { return recast.build_compact(config); });
+    recast.free_heightfield();
+    done = done && watch.time([&] { return recast.erode(config); }) &&
+           watch.time([&] { return !watershed || recast.distance_field(); }) &&
+           watch.time([&] { return recast.regions(config); }) &&
+           watch.time([&] { return recast.build_contours(config); }) &&
+           watch.time([&] { return recast.build_polygons(config); });
+    recast.free_contours();
+    done = done && watch.time([&] { return recast.build_detail(config); });
+    own.ms[WHOLE] = own.sum({ RASTERIZE, FILTER, COMPACT, ERODE, DISTANCE, REGIONS, CONTOURS, POLYGONS, DETAIL });
+    sum->add(own);
     return done;
 }
 
-#ifdef TALUS_HAVE_RECAST
-bool run_recast(const tl_nav_config &config, const tl_mesh_view &mesh, times *best)
+double recast_peak(const bench_part &part)
 {
-    stopwatch watch{ best };
-    recast_pipeline recast;
-    return watch.time([&] { return recast.rasterize(config, mesh, 45.0f); }) &&
-           watch.time([&] { return recast.filter(config); }) &&
-           watch.time([&] { return recast.build_compact(config); }) &&
-           watch.time([&] { return recast.erode(config); }) && watch.time([&] { return recast.distance_field(); }) &&
-           watch.time([&] { return recast.regions(config); }) &&
-           watch.time([&] { return recast.build_contours(config); }) &&
-           watch.time([&] { return recast.build_polygons(config); }) &&
-           watch.time([&] { return recast.build_detail(config); });
+    rcAllocSetCustom([](size_t size, rcAllocHint) { return meter::take(size); }, meter::give_back);
+    meter::live = meter::peak = 0;
+    figures ignored;
+    run_recast(part, &ignored);
+    rcAllocSetCustom(nullptr, nullptr);
+    return (double)meter::peak;
+}
+#else
+bool run_recast(const bench_part &, figures *)
+{
+    return false;
+}
+
+double recast_peak(const bench_part &)
+{
+    return 0;
 }
 #endif
 
-double sum_of(const times &t)
+// ---- Two threads -------------------------------------------------------------------------------------------
+
+void run_on_two_threads(tl_task_fn *task, uint32_t count, void *task_user, void *)
 {
-    double sum = 0;
-    for (double ms : t.ms) {
-        sum += ms;
-    }
-    return sum;
+    std::atomic<uint32_t> next{ 0 };
+    auto work = [&](uint32_t worker) {
+        for (uint32_t i; (i = next.fetch_add(1)) < count;) {
+            task(i, worker, task_user);
+        }
+    };
+    std::thread other(work, 1);
+    work(0);
+    other.join();
 }
 
-void print_row(const char *name, const times &t)
+// Wall milliseconds of a level's build.
+double wall_ms(const bench_level &level, tl_nav_def def, const tl_tasks *tasks)
+{
+    def.host.tasks = tasks;
+    tl_nav_input input = {};
+    input.mesh = level.mesh.view();
+    tl_nav_tiles tiles;
+    const double begin = clock_ms(CLOCK_MONOTONIC);
+    const tl_result result = tl_nav_build(&def, &input, &tiles, nullptr);
+    const double ms = clock_ms(CLOCK_MONOTONIC) - begin;
+    tl_nav_tiles_free(&tiles, nullptr);
+    return result == TL_OK ? ms : 0;
+}
+
+void bench_threads(bench_report *report, const bench_level &level, const tl_nav_def &def, int repetitions)
+{
+    const tl_tasks two = { run_on_two_threads, 2, nullptr };
+    double alone = 1e9, together = 1e9;
+    for (int r = 0; r < repetitions; r++) {
+        alone = std::min(alone, wall_ms(level, def, nullptr));
+        together = std::min(together, wall_ms(level, def, &two));
+    }
+    std::printf("%s, wall ms: one thread %.0f, two %.0f: %.2f times as fast (%u processors)\n", level.name.c_str(),
+                alone, together, alone / together, std::thread::hardware_concurrency());
+    bench_report_at_least(report, "tiles, two threads", alone / together, 1.9);
+}
+
+// ---- Tables ------------------------------------------------------------------------------------------------
+
+void print_row(const char *name, const figures &f)
 {
     std::printf("  %-8s", name);
-    for (double ms : t.ms) {
+    for (double ms : f.ms) {
         std::printf(" %9.2f", ms);
     }
-    std::printf(" %9.2f\n", sum_of(t));
+    std::printf(" %8.2f\n", f.peak * 1e-6);
 }
 
-void print_ratio(const times &ours, const times &theirs)
+void print_ratio(const figures &ours, const figures &theirs)
 {
     std::printf("  %-8s", "ratio");
     for (int i = 0; i < STAGE_COUNT; i++) {
-        std::printf(" %9.2f", ours.ms[i] / theirs.ms[i]);
+        theirs.ms[i] > 0 ? std::printf(" %9.2f", ours.ms[i] / theirs.ms[i]) : std::printf(" %9s", "-");
     }
-    std::printf(" %9.2f\n", sum_of(ours) / sum_of(theirs));
+    std::printf(" %8.2f\n", ours.peak / theirs.peak);
 }
 
-struct totals {
-    times talus = {}, recast = {};
+struct bench {
+    bench_report *report;
+    int repetitions;
+    figures talus, recast; ///< sums over the levels
+    double worst = 0;      ///< ratio of a level's whole build
+
+    void run(const bench_level &level, const char *chart)
+    {
+        figures ours, theirs;
+        bool done = true, peer_done = true;
+        for (int r = 0; r < repetitions; r++) {
+            figures our_sum, their_sum;
+            for (const bench_part &part : level.parts) {
+                done = done && run_talus(part, &our_sum);
+                peer_done = peer_done && run_recast(part, &their_sum);
+            }
+            r == 0 ? ours.add(our_sum) : ours.keep_best(our_sum);
+            r == 0 ? theirs.add(their_sum) : theirs.keep_best(their_sum);
+        }
+        for (const bench_part &part : level.parts) {
+            ours.peak = std::max(ours.peak, talus_peak(part));
+            theirs.peak = std::max(theirs.peak, recast_peak(part));
+        }
+        std::printf("%s\n", level.description.c_str());
+        if (!done) {
+            std::printf("  a stage failed\n");
+            return;
+        }
+        print_row("talus", ours);
+        talus.add(ours);
+        bench_report_value(report, chart, "talus", level.name.c_str(), ours.ms[WHOLE]);
+        if (peer_done) {
+            print_row("Recast", theirs);
+            print_ratio(ours, theirs);
+            recast.add(theirs);
+            bench_report_value(report, chart, "Recast", level.name.c_str(), theirs.ms[WHOLE]);
+            worst = std::max(worst, ours.ms[WHOLE] / theirs.ms[WHOLE]);
+        }
+    }
+
+    // The share of Recast's time that some stages take.
+    void claim(const char *stages, std::initializer_list<stage> list, double bar)
+    {
+        bench_report_at_most(report, stages, talus.sum(list) / recast.sum(list), bar);
+    }
+
+    void print_sum(const char *title) const
+    {
+        std::printf("%s\n", title);
+        print_row("talus", talus);
+        if (recast.ms[WHOLE] > 0) {
+            print_row("Recast", recast);
+            print_ratio(talus, recast);
+        }
+    }
 };
 
-void add(times *sum, const times &part)
+void print_head(const char *title, int repetitions, float cell_size)
 {
-    for (int i = 0; i < STAGE_COUNT; i++) {
-        sum->ms[i] += part.ms[i];
+    std::printf("%s: CPU ms, best of %d, one thread, cells of %.2f m\n  %-8s", title, repetitions, (double)cell_size,
+                "");
+    for (const char *stage : STAGES) {
+        std::printf(" %9s", stage);
+    }
+    std::printf(" %8s\n", "peak MB");
+}
+
+void bench_watershed(bench_report *report, const std::vector<bench_level> &levels, int repetitions)
+{
+    bench b = { report, repetitions, {}, {} };
+    for (const bench_level &level : levels) {
+        b.run(level, "watershed");
+    }
+    b.print_sum("all levels");
+    if (b.recast.ms[WHOLE] > 0) {
+        b.claim("rasterize, share of Recast's time", { RASTERIZE }, 0.4);
+        b.claim("filter + compact", { FILTER, COMPACT }, 0.35);
+        b.claim("erode + distance + watershed", { ERODE, DISTANCE, REGIONS }, 0.4);
+        b.claim("contours + polygons", { CONTOURS, POLYGONS }, 0.4);
+        b.claim("detail", { DETAIL }, 0.35);
+        b.claim("whole build", { WHOLE }, 0.4);
+        bench_report_at_most(report, "whole build, the worst level", b.worst, 0.4);
+        bench_report_at_most(report, "peak memory, share of Recast's", b.talus.peak / b.recast.peak, 0.6);
     }
 }
 
-void bench_level(const std::string &name, const tl_mesh_view &mesh, float cell_size, int repetitions, totals *sum)
+// Of whole levels: what layers cost Recast depends on the size of what it divides.
+void bench_layers(bench_report *report, std::vector<bench_level> levels, int repetitions)
 {
-    tl_aabb bounds = tl_aabb_empty();
-    for (size_t i = 0; i < 3 * (size_t)mesh.triangle_count; i++) {
-        bounds = tl_aabb_add_point(bounds, mesh.vertices[mesh.indices[i]]);
-    }
-    tl_nav_def def = tl_default_nav_def();
-    def.cell_size = cell_size;
-    tl_nav_config config;
-    if (tl_nav_config_make(&def, bounds, 0, 0, &config, nullptr) != TL_OK) {
-        std::printf("%s: no lattice\n", name.c_str());
-        return;
-    }
-    times talus, recast;
-    std::fill(talus.ms, talus.ms + STAGE_COUNT, 1e9);
-    recast = talus;
-    bool done = true, peer_done = false;
-    for (int r = 0; r < repetitions; r++) {
-        done = done && run_talus(config, mesh, &talus);
-#ifdef TALUS_HAVE_RECAST
-        peer_done = run_recast(config, mesh, &recast);
-#endif
-    }
-    std::printf("%s: %u triangles, %u x %u columns\n", name.c_str(), mesh.triangle_count, config.width, config.height);
-    if (!done) {
-        std::printf("  a stage failed\n");
-        return;
-    }
-    print_row("talus", talus);
-    add(&sum->talus, talus);
-    if (peer_done) {
-        print_row("Recast", recast);
-        print_ratio(talus, recast);
-        add(&sum->recast, recast);
-    }
-}
-
-void bench_file(const std::string &path, float cell_size, int repetitions, totals *sum)
-{
-    tl_imported_mesh mesh;
-    if (tl_import_mesh(path.c_str(), nullptr, &mesh, nullptr) != TL_OK) {
-        return;
-    }
-    bench_level(path.substr(path.find_last_of('/') + 1), tl_imported_mesh_as_view(&mesh), cell_size, repetitions, sum);
-    tl_imported_mesh_free(&mesh);
-}
-
-void bench_samples(float cell_size, int repetitions, totals *sum)
-{
-    uint32_t count;
-    const tl_sample_level *levels = tl_sample_levels(&count);
-    for (uint32_t i = 0; i < count; i++) {
-        tl_sample_mesh mesh;
-        if (tl_sample_build_level(&levels[i], levels[i].default_triangles, 1, &mesh) == TL_OK) {
-            bench_level(levels[i].name, tl_sample_mesh_as_view(&mesh), cell_size, repetitions, sum);
+    bench b = { report, repetitions, {}, {} };
+    for (bench_level &level : levels) {
+        if (level.parts.size() > 1) {
+            continue;
         }
-        tl_sample_mesh_free(&mesh);
+        for (bench_part &part : level.parts) {
+            part.config.partition = TL_NAV_LAYERS;
+        }
+        b.run(level, "layers");
+    }
+    b.print_sum("all levels");
+    if (b.recast.ms[WHOLE] > 0) {
+        b.claim("layers, whole build, levels of one part", { WHOLE }, 0.15);
     }
 }
 
@@ -203,29 +385,24 @@ void bench_samples(float cell_size, int repetitions, totals *sum)
 
 int main(int argc, char **argv)
 {
-    const float cell_size = argc > 1 ? std::strtof(argv[1], nullptr) : 0.3f;
+    const char *json = bench_report_path(&argc, argv);
     const int repetitions = argc > 2 ? std::atoi(argv[2]) : 5;
-    std::printf("CPU ms, best of %d, one thread, cells of %.2f m\n  %-8s", repetitions, (double)cell_size, "");
-    for (const char *stage : STAGES) {
-        std::printf(" %9s", stage);
-    }
-    std::printf(" %9s\n", "sum");
-    totals sum;
-    for (int i = 3; i < argc; i++) {
-        bench_file(argv[i], cell_size, repetitions, &sum);
-    }
-    if (argc <= 3) {
-        bench_samples(cell_size, repetitions, &sum);
-        const char *files[] = { "nav_test", "dungeon", "undulating", "proto-level", "collision_mesh_01", "test_map01" };
-        for (const char *file : files) {
-            bench_file(std::string(TALUS_DATA_DIR) + "/levels/" + file + ".obj", cell_size, repetitions, &sum);
+    tl_nav_def def = tl_default_nav_def();
+    def.cell_size = argc > 1 ? std::strtof(argv[1], nullptr) : 0.3f;
+    std::vector<std::string> files(argv + std::min(argc, 3), argv + argc);
+    std::vector<bench_level> levels = files.empty() ? default_levels(def) : levels_of_files(files, def);
+    bench_report *report = bench_report_new("nav", "ms", nullptr);
+    print_head("watershed", repetitions, def.cell_size);
+    bench_watershed(report, levels, repetitions);
+    print_head("layers", 1, def.cell_size);
+    bench_layers(report, levels, 1);
+    for (const bench_level &level : levels) {
+        if (level.parts.size() > 1) {
+            tl_nav_def tiled = def;
+            tiled.tile_size = TILE_SIZE;
+            bench_threads(report, level, tiled, repetitions);
         }
     }
-    std::printf("all levels\n");
-    print_row("talus", sum.talus);
-    if (sum_of(sum.recast) > 0) {
-        print_row("Recast", sum.recast);
-        print_ratio(sum.talus, sum.recast);
-    }
-    return 0;
+    bench_report_print_claims(report);
+    return bench_report_close(report, json);
 }

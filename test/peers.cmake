@@ -55,3 +55,7 @@ set(talus_test_path_detour_needs talus_peer_detour talus_sample talus_io)
 
 # The whole pipeline over the built-in levels and real ones.
 set(talus_test_settings_sweep_needs talus_sample talus_io)
+
+# The same bytes from any order, thread count and compiler.
+set(talus_test_nav_golden_needs talus_sample talus_io)
+set(talus_test_nav_golden_libraries pthread)

@@ -59,6 +59,13 @@ struct recast_pipeline {
                                          *heightfield, *compact);
     }
 
+    // Nothing but the floors is read from here on.
+    void free_heightfield()
+    {
+        rcFreeHeightField(heightfield);
+        heightfield = nullptr;
+    }
+
     bool erode(const tl_nav_config &config)
     {
         return rcErodeWalkableArea(&context, (int)config.walkable_radius, *compact);
@@ -93,6 +100,12 @@ struct recast_pipeline {
     bool build_polygons(const tl_nav_config &config)
     {
         return rcBuildPolyMesh(&context, *contours, (int)config.max_verts_per_poly, *polygons);
+    }
+
+    void free_contours()
+    {
+        rcFreeContourSet(contours);
+        contours = nullptr;
     }
 
     bool build_detail(const tl_nav_config &config)
