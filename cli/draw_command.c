@@ -2,6 +2,7 @@
 //
 // talus draw: pictures of every stage, of a level or of a baked file.
 
+#include "draw_route.h"
 #include "draw_sheet.h"
 #include "draw_source.h"
 #include "draw_stage.h"
@@ -9,7 +10,6 @@
 #include "parse_value.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 // The order is that of the pipeline.
@@ -42,7 +42,7 @@ typedef struct draw_settings {
     bool stages[STAGE_COUNT];
     uint32_t stage_count;
     bool has_ends;
-    tl_vec3 from, to;
+    draw_route_ends ends;
 } draw_settings;
 
 // One word of --stage. False when it names no stage.
@@ -104,8 +104,8 @@ static bool read_ends(tl_cli *cli, draw_settings *settings, tl_exit *exit_out)
         return false;
     }
     settings->has_ends = true;
-    return read_end(cli, "--from", settings->from_text, &settings->from, exit_out) &&
-           read_end(cli, "--to", settings->to_text, &settings->to, exit_out);
+    return read_end(cli, "--from", settings->from_text, &settings->ends.from, exit_out) &&
+           read_end(cli, "--to", settings->to_text, &settings->ends.to, exit_out);
 }
 
 // One stage goes to the output itself; of several, each to a file with the stage's name before the ending.
@@ -122,108 +122,6 @@ static bool output_path(const draw_settings *settings, int stage, char *path, si
         length = snprintf(path, size, "%.*s-%s%s", (int)(end - output), output, STAGE_NAMES[stage], end);
     }
     return length > 0 && (size_t)length < size;
-}
-
-// A route over the navmesh: what is needed to draw it.
-typedef struct draw_route {
-    tl_nav_query *query;
-    tl_nav_route_buffers buffers;
-    tl_nav_route route;
-    bool found;
-} draw_route;
-
-static void free_route(draw_route *route)
-{
-    tl_nav_query_free(route->query);
-    free(route->buffers.polygons);
-    free(route->buffers.corners);
-}
-
-static tl_result make_route_room(const tl_navmesh *navmesh, draw_route *route)
-{
-    memset(route, 0, sizeof *route);
-    uint64_t links = tl_navmesh_link_count(navmesh) + 2;
-    if (links > UINT32_MAX / 2) {
-        return TL_ERR_LIMIT;
-    }
-    tl_nav_query_def def = tl_default_nav_query_def();
-    def.max_nodes = (uint32_t)links;
-    // A path enters each polygon at most once, by one link; a straight path has a corner a portal, and two ends.
-    route->buffers.polygon_capacity = (uint32_t)links;
-    route->buffers.corner_capacity = (uint32_t)links + 2;
-    route->buffers.polygons = malloc(links * sizeof *route->buffers.polygons);
-    route->buffers.corners = malloc((links + 2) * sizeof *route->buffers.corners);
-    if (route->buffers.polygons == NULL || route->buffers.corners == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    return tl_nav_query_create(&def, &route->query);
-}
-
-static tl_result find_route(const tl_navmesh *navmesh, draw_route *route, tl_vec3 from, tl_vec3 to, tl_vec3 extents)
-{
-    tl_result result =
-        tl_nav_query_find_route(route->query, navmesh, NULL, from, to, extents, &route->buffers, &route->route);
-    route->found = result == TL_OK;
-    return result;
-}
-
-// Without ends given: across the level, the longer one of its two diagonals that leads all the way, at the height of
-// whatever floor is nearest there.
-static tl_result find_longest_route(const draw_source *source, draw_route *route)
-{
-    const tl_navmesh *navmesh = source->input.navmesh;
-    tl_aabb bounds = tl_aabb_empty();
-    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
-        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
-        bounds = tile != NULL ? tl_aabb_union(bounds, tile->bounds) : bounds;
-    }
-    tl_vec3 size = tl_aabb_size(bounds);
-    float longest = -1.0f;
-    int best = 0;
-    tl_vec3 from[2] = { bounds.min, { bounds.min.x, bounds.min.y, bounds.max.z } };
-    tl_vec3 to[2] = { bounds.max, { bounds.max.x, bounds.min.y, bounds.min.z } };
-    tl_result result = TL_ERR_NOT_FOUND;
-    for (int i = 0; i < 3; i++) {
-        int diagonal = i < 2 ? i : best;
-        tl_result found = find_route(navmesh, route, from[diagonal], to[diagonal], size);
-        if (found != TL_OK && found != TL_ERR_NOT_FOUND) {
-            return found;
-        }
-        bool complete = found == TL_OK && route->route.path.status == TL_NAV_PATH_COMPLETE;
-        float length = found != TL_OK ? -1.0f : complete ? 1e6f + route->route.length : route->route.length;
-        if (length > longest) {
-            longest = length;
-            best = diagonal;
-            result = found;
-        }
-    }
-    return result;
-}
-
-static bool add_route(draw_source *source, const draw_settings *settings, draw_scene *scene, tl_exit *exit_out)
-{
-    if (!draw_need_navmesh(source, exit_out)) {
-        return false;
-    }
-    const tl_navmesh *navmesh = source->input.navmesh;
-    draw_route route;
-    tl_result result = make_route_room(navmesh, &route);
-    if (result == TL_OK) {
-        const tl_vec3 near = { 2.0f, 4.0f, 2.0f };
-        result = settings->has_ends ? find_route(navmesh, &route, settings->from, settings->to, near)
-                                    : find_longest_route(source, &route);
-    }
-    if (result == TL_OK) {
-        draw_stage_route(scene, navmesh, &route.route, &route.buffers);
-    } else if (result == TL_ERR_NOT_FOUND) {
-        draw_stage_navmesh(scene, navmesh);
-        tl_cli_warn(source->cli, "%s: there is no navmesh near %s; the picture shows no path", source->input.path,
-                    route.route.start.polygon == TL_NAV_NO_REF ? "the start" : "the goal");
-    } else {
-        *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, NULL);
-    }
-    free_route(&route);
-    return result == TL_OK || result == TL_ERR_NOT_FOUND;
 }
 
 static bool add_triangulation(draw_source *source, draw_scene *scene, tl_exit *exit_out)
@@ -301,7 +199,7 @@ static bool make_scene(draw_source *source, const draw_settings *settings, int s
         }
         return ready;
     }
-    return stage == STAGE_PATH ? add_route(source, settings, scene, exit_out)
+    return stage == STAGE_PATH ? draw_route_add(source, settings->has_ends ? &settings->ends : NULL, scene, exit_out)
                                : add_pipeline_stage(source, stage, scene, exit_out);
 }
 

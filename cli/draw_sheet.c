@@ -5,19 +5,15 @@
 #include "draw_sheet.h"
 
 #include "draw_camera.h"
+#include "draw_paper.h"
 #include "draw_raycast.h"
-#include "io/atomic_write.h"
 
-#include <cairo-svg.h>
-#include <cairo.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { HEAD_PIXELS = 64, FOOT_PIXELS = 62, GAP_PIXELS = 12, MOST_PANELS = 2 };
-
-static const draw_colour INK = 0x2b2b33;
 
 typedef struct draw_sheet {
     const draw_scene *scene;
@@ -28,32 +24,10 @@ typedef struct draw_sheet {
     uint32_t width, height;
 } draw_sheet;
 
-static void set_colour(cairo_t *cairo, draw_colour colour, double alpha)
-{
-    cairo_set_source_rgba(cairo, ((colour >> 16) & 255) / 255.0, ((colour >> 8) & 255) / 255.0, (colour & 255) / 255.0,
-                          alpha);
-}
-
-static void text(cairo_t *cairo, double x, double y, double size, bool bold, const char *words)
-{
-    cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                           bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-    cairo_set_font_size(cairo, size);
-    cairo_move_to(cairo, x, y);
-    cairo_show_text(cairo, words);
-}
-
-static double text_width(cairo_t *cairo, const char *words)
-{
-    cairo_text_extents_t extents;
-    cairo_text_extents(cairo, words, &extents);
-    return extents.x_advance;
-}
-
 // A stretch of a line: hidden ones are drawn faintly, so that one sees where they go on.
 static void stroke(cairo_t *cairo, const draw_line *line, const double from[2], const double to[2], bool hidden)
 {
-    set_colour(cairo, line->colour, (double)line->alpha * (hidden ? 0.28 : 1.0));
+    draw_set_colour(cairo, line->colour, (double)line->alpha * (hidden ? 0.28 : 1.0));
     cairo_set_line_width(cairo, (double)line->width);
     cairo_move_to(cairo, from[0], from[1]);
     cairo_line_to(cairo, to[0], to[1]);
@@ -98,7 +72,7 @@ static void draw_marks(cairo_t *cairo, const draw_sheet *sheet, const draw_camer
         double y;
         draw_camera_project(camera, dot->at, &x, &y);
         bool hidden = draw_is_hidden(scene, &sheet->soups, camera, dot->at);
-        set_colour(cairo, dot->colour, hidden ? 0.28 : 1.0);
+        draw_set_colour(cairo, dot->colour, hidden ? 0.28 : 1.0);
         cairo_arc(cairo, x, y, (double)dot->radius, 0.0, 6.283185307179586);
         cairo_fill(cairo);
     }
@@ -118,14 +92,14 @@ static void draw_scale_bar(cairo_t *cairo, const draw_camera *camera, double rig
     double length = metres * (double)camera->pixels_per_metre;
     char words[32];
     snprintf(words, sizeof words, "%g m", metres);
-    set_colour(cairo, INK, 1.0);
+    draw_set_colour(cairo, DRAW_INK, 1.0);
     cairo_set_line_width(cairo, 1.5);
     cairo_move_to(cairo, right - length, y - 5);
     cairo_line_to(cairo, right - length, y);
     cairo_line_to(cairo, right, y);
     cairo_line_to(cairo, right, y - 5);
     cairo_stroke(cairo);
-    text(cairo, right - length + 6, y - 5, 12, false, words);
+    draw_text(cairo, right - length + 6, y - 5, 12, false, words);
 }
 
 static void draw_legend_row(cairo_t *cairo, const draw_scene *scene, double y)
@@ -133,18 +107,19 @@ static void draw_legend_row(cairo_t *cairo, const draw_scene *scene, double y)
     double x = 20;
     for (uint32_t i = 0; i < scene->legend_count; i++) {
         const draw_legend *legend = &scene->legends[i];
-        set_colour(cairo, legend->colour, 1.0);
+        draw_set_colour(cairo, legend->colour, 1.0);
         cairo_rectangle(cairo, x, y - 11, 14, 14);
         cairo_fill(cairo);
-        set_colour(cairo, INK, 1.0);
-        text(cairo, x + 20, y, 13, false, legend->text);
-        x += 20 + text_width(cairo, legend->text) + 24;
+        draw_set_colour(cairo, DRAW_INK, 1.0);
+        draw_text(cairo, x + 20, y, 13, false, legend->text);
+        x += 20 + draw_text_width(cairo, legend->text) + 24;
     }
 }
 
-static void draw_all(cairo_t *cairo, const draw_sheet *sheet)
+static void paint_sheet(cairo_t *cairo, const void *user)
 {
-    set_colour(cairo, DRAW_PAPER, 1.0);
+    const draw_sheet *sheet = user;
+    draw_set_colour(cairo, DRAW_PAPER, 1.0);
     cairo_paint(cairo);
     double x = 0;
     for (uint32_t i = 0; i < sheet->panel_count; i++) {
@@ -158,10 +133,10 @@ static void draw_all(cairo_t *cairo, const draw_sheet *sheet)
         draw_scale_bar(cairo, camera, x + camera->width - 20, HEAD_PIXELS + camera->height + 18);
         x += camera->width + GAP_PIXELS;
     }
-    set_colour(cairo, INK, 1.0);
-    text(cairo, 20, 30, 20, true, sheet->scene->title);
-    set_colour(cairo, 0x6a6a72, 1.0);
-    text(cairo, 20, 52, 13, false, sheet->scene->subtitle);
+    draw_set_colour(cairo, DRAW_INK, 1.0);
+    draw_text(cairo, 20, 30, 20, true, sheet->scene->title);
+    draw_set_colour(cairo, 0x6a6a72, 1.0);
+    draw_text(cairo, 20, 52, 13, false, sheet->scene->subtitle);
     draw_legend_row(cairo, sheet->scene, sheet->height - 18);
 }
 
@@ -194,63 +169,6 @@ static tl_result render_panels(draw_sheet *sheet, const draw_options *options, c
     return TL_OK;
 }
 
-typedef struct sheet_file {
-    tl_atomic_file *file;
-    tl_io_error *error;
-    tl_result result;
-} sheet_file;
-
-static cairo_status_t write_bytes(void *closure, const unsigned char *bytes, unsigned int size)
-{
-    sheet_file *out = closure;
-    out->result = out->result == TL_OK ? tl_atomic_file_write(out->file, bytes, size, out->error) : out->result;
-    return out->result == TL_OK ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
-}
-
-static bool ends_in_svg(const char *path)
-{
-    size_t length = strlen(path);
-    return length >= 4 && strcmp(path + length - 4, ".svg") == 0;
-}
-
-static cairo_status_t paint(const draw_sheet *sheet, bool svg, sheet_file *out)
-{
-    cairo_surface_t *surface =
-        svg ? cairo_svg_surface_create_for_stream(write_bytes, out, sheet->width, sheet->height)
-            : cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)sheet->width, (int)sheet->height);
-    cairo_t *cairo = cairo_create(surface);
-    draw_all(cairo, sheet);
-    cairo_status_t status = cairo_status(cairo);
-    cairo_destroy(cairo);
-    if (svg) {
-        cairo_surface_finish(surface);
-    } else if (status == CAIRO_STATUS_SUCCESS) {
-        status = cairo_surface_write_to_png_stream(surface, write_bytes, out);
-    }
-    status = status == CAIRO_STATUS_SUCCESS ? cairo_surface_status(surface) : status;
-    cairo_surface_destroy(surface);
-    return status;
-}
-
-static tl_result write_file(const draw_sheet *sheet, const char *path, tl_io_error *error_out)
-{
-    sheet_file out = { NULL, error_out, TL_OK };
-    tl_result result = tl_atomic_file_open(path, &out.file, error_out);
-    if (result != TL_OK) {
-        return result;
-    }
-    cairo_status_t status = paint(sheet, ends_in_svg(path), &out);
-    if (out.result == TL_OK && status != CAIRO_STATUS_SUCCESS) {
-        out.result = tl_io_fail(error_out, TL_ERR_MEMORY, path, 0, "try a smaller --size", "cannot paint: %s",
-                                cairo_status_to_string(status));
-    }
-    if (out.result != TL_OK) {
-        tl_atomic_file_abort(out.file);
-        return out.result;
-    }
-    return tl_atomic_file_commit(out.file, error_out);
-}
-
 tl_result draw_sheet_write(const draw_scene *scene, const draw_options *options, const char *path, const tl_host *host,
                            tl_io_error *error_out)
 {
@@ -271,7 +189,7 @@ tl_result draw_sheet_write(const draw_scene *scene, const draw_options *options,
     if (result != TL_OK) {
         tl_io_fail(error_out, result, path, 0, NULL, "%s", tl_result_text(result));
     } else {
-        result = write_file(&sheet, path, error_out);
+        result = draw_paper_write(path, sheet.width, sheet.height, paint_sheet, &sheet, error_out);
     }
     for (uint32_t i = 0; i < sheet.panel_count; i++) {
         cairo_surface_destroy(sheet.images[i]);

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef TALUS_CLI_DRAW_ROUTE_H
+#define TALUS_CLI_DRAW_ROUTE_H
+
+#include "draw_scene.h"
+#include "draw_source.h"
+
+typedef struct draw_route_ends {
+    tl_vec3 from, to;
+} draw_route_ends;
+
+/// Adds the navmesh and a route over it; `ends` NULL: across the level. Ends without navmesh near them are a warning.
+/// False: reported.
+bool draw_route_add(draw_source *source, const draw_route_ends *ends, draw_scene *scene, tl_exit *exit_out);
+
+#endif
