@@ -6,6 +6,7 @@
 #include "draw_sheet.h"
 #include "draw_source.h"
 #include "draw_stage.h"
+#include "draw_steps.h"
 #include "json_out.h"
 #include "parse_value.h"
 
@@ -13,8 +14,8 @@
 #include <string.h>
 
 // The order is that of the pipeline.
-static const char *const STAGE_NAMES[] = { "soup",     "spans",     "areas",    "distance", "regions",
-                                           "contours", "triangles", "polygons", "detail",   "path" };
+static const char *const STAGE_NAMES[] = { "soup",          "spans",   "areas",     "distance", "regions", "contours",
+                                           "triangulation", "merging", "triangles", "polygons", "detail",  "path" };
 enum {
     STAGE_SOUP,
     STAGE_SPANS,
@@ -22,6 +23,8 @@ enum {
     STAGE_DISTANCE,
     STAGE_REGIONS,
     STAGE_CONTOURS,
+    STAGE_TRIANGULATION,
+    STAGE_MERGING,
     STAGE_TRIANGLES,
     STAGE_POLYGONS,
     STAGE_DETAIL,
@@ -39,6 +42,9 @@ typedef struct draw_settings {
     int view; // 0 both, 1 top, 2 oblique
     uint32_t size;
     uint32_t depth;
+    uint32_t contour; // UINT32_MAX: one worth a look
+    uint32_t set;
+    bool all; // what of it FILE can show
     bool stages[STAGE_COUNT];
     uint32_t stage_count;
     bool has_ends;
@@ -50,6 +56,7 @@ static bool choose_stage(draw_settings *settings, const char *word, size_t lengt
 {
     bool all = length == 3 && strncmp(word, "all", 3) == 0;
     bool known = all;
+    settings->all = settings->all || all;
     for (int i = 0; i < STAGE_COUNT; i++) {
         bool named = strlen(STAGE_NAMES[i]) == length && strncmp(STAGE_NAMES[i], word, length) == 0;
         if ((all || named) && !settings->stages[i]) {
@@ -73,7 +80,7 @@ static bool choose_stages(tl_cli *cli, draw_settings *settings, tl_exit *exit_ou
             *exit_out =
                 tl_cli_fail(cli, TL_EXIT_USAGE,
                             "--stage: there is no stage '%.*s'; there are soup, spans, areas, distance, regions, "
-                            "contours, triangles, polygons, detail, path, and all",
+                            "contours, triangulation, merging, triangles, polygons, detail, path, and all",
                             (int)length, word);
             return false;
         }
@@ -124,19 +131,45 @@ static bool output_path(const draw_settings *settings, int stage, char *path, si
     return length > 0 && (size_t)length < size;
 }
 
-static bool add_triangulation(draw_source *source, draw_scene *scene, tl_exit *exit_out)
+// What can be drawn of contours alone.
+static bool is_of_contours(int stage)
+{
+    return stage >= STAGE_CONTOURS && stage <= STAGE_POLYGONS;
+}
+
+static bool add_polygons(draw_source *source, uint32_t max_verts_per_poly, const char *what, draw_scene *scene,
+                         tl_exit *exit_out)
 {
     tl_polygon_def def = tl_default_polygon_def();
-    def.max_verts_per_poly = 3;
+    def.max_verts_per_poly = max_verts_per_poly;
     def.host = source->cli->host;
-    tl_polygon_mesh triangles;
-    tl_result result = tl_polygon_mesh_build(&source->stages.contours.set, &def, &triangles, NULL);
+    tl_polygon_mesh polygons;
+    tl_result result = tl_polygon_mesh_build(source->contours, &def, &polygons, NULL);
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, NULL);
         return false;
     }
-    draw_stage_polygons(scene, &triangles, "triangles");
-    tl_polygon_mesh_free(&triangles, NULL);
+    draw_stage_polygons(scene, &polygons, what);
+    tl_polygon_mesh_free(&polygons, NULL);
+    return true;
+}
+
+static bool add_contour_stage(draw_source *source, int stage, draw_scene *scene, tl_exit *exit_out)
+{
+    if (!draw_need_contours(source, exit_out)) {
+        return false;
+    }
+    if (stage == STAGE_TRIANGLES) {
+        return add_polygons(source, 3, "triangles", scene, exit_out);
+    }
+    if (stage == STAGE_POLYGONS) {
+        return add_polygons(source, source->nav_def.max_verts_per_poly, "polygons", scene, exit_out);
+    }
+    if (source->is_contours) {
+        draw_stage_contour_set(scene, source->contours);
+    } else {
+        draw_stage_contours(scene, &source->stages.contours);
+    }
     return true;
 }
 
@@ -159,11 +192,6 @@ static bool add_pipeline_stage(draw_source *source, int stage, draw_scene *scene
     case STAGE_REGIONS:
         draw_stage_floors(scene, &stages->compact, DRAW_FLOOR_REGION);
         break;
-    case STAGE_CONTOURS:
-        draw_stage_contours(scene, &stages->contours);
-        break;
-    case STAGE_TRIANGLES:
-        return add_triangulation(source, scene, exit_out);
     case STAGE_POLYGONS:
         draw_stage_polygons(scene, &stages->polygons, "polygons");
         break;
@@ -199,19 +227,19 @@ static bool make_scene(draw_source *source, const draw_settings *settings, int s
         }
         return ready;
     }
-    return stage == STAGE_PATH ? draw_route_add(source, settings->has_ends ? &settings->ends : NULL, scene, exit_out)
-                               : add_pipeline_stage(source, stage, scene, exit_out);
+    if (stage == STAGE_PATH) {
+        return draw_route_add(source, settings->has_ends ? &settings->ends : NULL, scene, exit_out);
+    }
+    return stage == STAGE_CONTOURS || stage == STAGE_TRIANGLES || source->is_contours
+               ? add_contour_stage(source, stage, scene, exit_out)
+               : add_pipeline_stage(source, stage, scene, exit_out);
 }
 
-static bool draw_one(draw_source *source, const draw_settings *settings, int stage, json_t *list, tl_exit *exit_out)
+static bool draw_scene_of_stage(draw_source *source, const draw_settings *settings, int stage, const char *path,
+                                char summary[DRAW_STEPS_SUMMARY], tl_exit *exit_out)
 {
     draw_scene scene;
-    char path[MOST_PATH_BYTES];
     bool done = make_scene(source, settings, stage, &scene, exit_out);
-    if (done && !output_path(settings, stage, path, sizeof path)) {
-        *exit_out = tl_cli_fail(source->cli, TL_EXIT_USAGE, "--output: the name is too long");
-        done = false;
-    }
     if (done) {
         const draw_options options = { settings->view != 2, settings->view != 1, settings->size };
         tl_io_error error;
@@ -220,16 +248,61 @@ static bool draw_one(draw_source *source, const draw_settings *settings, int sta
             *exit_out = tl_cli_fail_io(source->cli, &error);
             done = false;
         }
-    }
-    if (done && list != NULL) {
-        json_array_append_new(
-            list, json_pack("{ssssss}", "stage", STAGE_NAMES[stage], "output", path, "summary", scene.subtitle));
-    } else if (done) {
-        tl_progress_end(&source->cli->progress);
-        printf("%s: %s\n", path, scene.subtitle);
+        snprintf(summary, DRAW_STEPS_SUMMARY, "%s", scene.subtitle);
     }
     draw_scene_free(&scene);
     return done;
+}
+
+// The steps of one contour: many small panels.
+static bool draw_steps_of_stage(draw_source *source, const draw_settings *settings, int stage, const char *path,
+                                char summary[DRAW_STEPS_SUMMARY], tl_exit *exit_out)
+{
+    if (!draw_need_contours(source, exit_out)) {
+        return false;
+    }
+    const tl_contour_set *set = source->contours;
+    uint32_t contour = settings->contour != UINT32_MAX ? settings->contour : draw_steps_telling_contour(set);
+    if (contour >= set->contour_count) {
+        *exit_out =
+            settings->contour != UINT32_MAX
+                ? tl_cli_fail(source->cli, TL_EXIT_USAGE, "--contour: there are %u contours, numbered from 0",
+                              set->contour_count)
+                : tl_cli_fail(source->cli, TL_EXIT_DATA, "%s: there is no contour to divide", source->input.path);
+        return false;
+    }
+    const draw_steps_options options = { stage == STAGE_MERGING ? TL_POLYGON_STEP_MERGE : TL_POLYGON_STEP_CUT, contour,
+                                         source->nav_def.max_verts_per_poly, settings->size / 3,
+                                         file_name(source->input.path) };
+    tl_io_error error;
+    memset(&error, 0, sizeof error);
+    tl_result result = draw_steps_write(set, &options, path, &source->cli->host, summary, &error);
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_io(source->cli, &error);
+    }
+    return result == TL_OK;
+}
+
+static bool draw_one(draw_source *source, const draw_settings *settings, int stage, json_t *list, tl_exit *exit_out)
+{
+    char path[MOST_PATH_BYTES];
+    if (!output_path(settings, stage, path, sizeof path)) {
+        *exit_out = tl_cli_fail(source->cli, TL_EXIT_USAGE, "--output: the name is too long");
+        return false;
+    }
+    char summary[DRAW_STEPS_SUMMARY];
+    bool steps = stage == STAGE_TRIANGULATION || stage == STAGE_MERGING;
+    if (!(steps ? draw_steps_of_stage : draw_scene_of_stage)(source, settings, stage, path, summary, exit_out)) {
+        return false;
+    }
+    if (list != NULL) {
+        json_array_append_new(list,
+                              json_pack("{ssssss}", "stage", STAGE_NAMES[stage], "output", path, "summary", summary));
+    } else {
+        tl_progress_end(&source->cli->progress);
+        printf("%s: %s\n", path, summary);
+    }
+    return true;
 }
 
 static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *settings)
@@ -237,9 +310,16 @@ static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *s
     draw_source source;
     tl_exit code = TL_EXIT_OK;
     json_t *list = cli->json ? json_array() : NULL;
-    bool going = draw_source_open(cli, path, &settings->bake, &source, &code);
+    bool going = draw_source_open(cli, path, &settings->bake, settings->set, &source, &code);
     for (int stage = 0; going && stage < STAGE_COUNT; stage++) {
-        if (settings->stages[stage]) {
+        bool can = !source.is_contours || is_of_contours(stage);
+        if (settings->stages[stage] && !can && !settings->all) {
+            code = tl_cli_fail(cli, TL_EXIT_USAGE,
+                               "%s holds contours: --stage contours, triangulation, merging, triangles and polygons "
+                               "show them",
+                               path);
+            going = false;
+        } else if (settings->stages[stage] && can) {
             going = draw_one(&source, settings, stage, list, &code);
         }
     }
@@ -259,6 +339,7 @@ static tl_exit run(tl_cli *cli)
     settings.bake = tl_default_bake_settings();
     settings.size = 900;
     settings.depth = 2;
+    settings.contour = UINT32_MAX;
     static const char *const views[] = { "both", "top", "oblique", NULL };
     const tl_option options[] = {
         { "output", 'o', TL_OPTION_TEXT, &settings.output, "FILE", "where to write: .png or .svg", NULL, 0, 0, 0, 0 },
@@ -268,6 +349,10 @@ static tl_exit run(tl_cli *cli)
         { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "longer side of each view", NULL, 0, 0, 200, 8000 },
         { "depth", 0, TL_OPTION_COUNT, &settings.depth, "N", "soup: which boxes of the tree are shown", NULL, 0, 0, 0,
           64 },
+        { "contour", 0, TL_OPTION_COUNT, &settings.contour, "N",
+          "triangulation, merging: which contour (one worth a look)", NULL, 0, 0, 0, UINT32_MAX - 1 },
+        { "set", 0, TL_OPTION_COUNT, &settings.set, "N", "a contour file: which of its sets", NULL, 0, 0, 0,
+          UINT32_MAX - 1 },
         { "from", 0, TL_OPTION_TEXT, &settings.from_text, "X,Y,Z", "path: where it starts", NULL, 0, 0, 0, 0 },
         { "to", 0, TL_OPTION_TEXT, &settings.to_text, "X,Y,Z", "path: where it leads (without ends: across the level)",
           NULL, 0, 0, 0, 0 },
@@ -296,11 +381,13 @@ const tl_command tl_draw_command = {
     "draw",
     "draw the stages of a level or a baked file as PNG or SVG",
     "FILE -o OUT.png|OUT.svg [--stage NAME,...] [--view both|top|oblique]",
-    "FILE is a level or a baked file. Stages, in the order of the pipeline: soup, spans, areas, distance,\n"
-    "regions, contours, triangles, polygons, detail, path; or all. Several stages go to several files:\n"
-    "OUT-STAGE.png. A top view and an oblique view, both to scale. Where the level hides a part of what\n"
-    "lies on it, that part is drawn faintly.",
+    "FILE is a level, a baked file, or contours ('navcontours 1'). Stages, in the order of the pipeline: soup,\n"
+    "spans, areas, distance, regions, contours, triangulation, merging, triangles, polygons, detail, path; or\n"
+    "all. Several stages go to several files: OUT-STAGE.png. A top view and an oblique view, both to scale.\n"
+    "Where the level hides a part of what lies on it, that part is drawn faintly. triangulation and merging\n"
+    "show one contour being divided, step by step.",
     "talus draw courtyard.obj -o courtyard.png --stage all\n"
-    "talus draw courtyard.talus -o way.svg --from 2,0,20 --to 38,0,20 --view top",
+    "talus draw courtyard.talus -o way.svg --from 2,0,20 --to 38,0,20 --view top\n"
+    "talus draw courtyard.obj -o steps.png --stage triangulation,merging --contour 0",
     run,
 };

@@ -54,8 +54,58 @@ static bool open_baked(draw_source *source, const char *path, const tl_bake_sett
     return triangles_of_soup(source, exit_out);
 }
 
-bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *settings, draw_source *source_out,
-                      tl_exit *exit_out)
+// Whether the file's first word says that it holds contours. One that cannot be opened does not: reading it as a level
+// names the reason.
+static bool is_contour_file(const char *path)
+{
+    static const char magic[] = "navcontours ";
+    tl_file_map map;
+    if (strcmp(path, "-") == 0 || tl_file_map_open(path, 0, &map, NULL) != TL_OK) {
+        return false;
+    }
+    bool is = map.size >= sizeof magic && memcmp(map.bytes, magic, sizeof magic - 1) == 0;
+    tl_file_map_close(&map);
+    return is;
+}
+
+static bool open_contours(draw_source *source, const char *path, uint32_t set, tl_exit *exit_out)
+{
+    tl_io_error error;
+    tl_file_map map;
+    source->input.path = path;
+    source->is_contours = true;
+    if (tl_file_map_open(path, 0, &map, &error) != TL_OK) {
+        *exit_out = tl_cli_fail_io(source->cli, &error);
+        return false;
+    }
+    tl_contour_reader reader;
+    memset(&reader, 0, sizeof reader);
+    reader.bytes = map.bytes;
+    reader.size = map.size;
+    reader.path = path;
+    tl_result result = tl_contour_text_read(&reader, &source->text, &error);
+    uint32_t at = 0;
+    for (; result == TL_OK && at < set && !tl_contour_reader_at_end(&reader); at++) {
+        tl_contour_text_free(&source->text);
+        result = tl_contour_text_read(&reader, &source->text, &error);
+    }
+    tl_file_map_close(&map);
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_io(source->cli, &error);
+    } else if (at < set) {
+        *exit_out = tl_cli_fail(source->cli, TL_EXIT_USAGE, "--set: %s holds %u sets, numbered from 0", path, at + 1);
+        result = TL_ERR_NOT_FOUND;
+    }
+    source->contours = &source->text.set;
+    source->bounds = source->text.set.bounds;
+    if (source->text.max_verts_per_poly >= 3 && source->text.max_verts_per_poly <= 64) {
+        source->nav_def.max_verts_per_poly = source->text.max_verts_per_poly;
+    }
+    return result == TL_OK;
+}
+
+bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *settings, uint32_t set,
+                      draw_source *source_out, tl_exit *exit_out)
 {
     memset(source_out, 0, sizeof *source_out);
     source_out->cli = cli;
@@ -63,6 +113,9 @@ bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *set
     source_out->nav_def.partition = (tl_nav_partition)settings->partition;
     if (tl_input_is_baked(path)) {
         return open_baked(source_out, path, settings, exit_out);
+    }
+    if (is_contour_file(path)) {
+        return open_contours(source_out, path, set, exit_out);
     }
     source_out->input.path = path;
     if (!tl_level_load(cli, path, &settings->level, &source_out->input.level, exit_out)) {
@@ -75,6 +128,9 @@ bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *set
 
 void draw_source_close(draw_source *source)
 {
+    if (source->is_contours) {
+        tl_contour_text_free(&source->text);
+    }
     tl_nav_stages_free(&source->stages, NULL);
     tl_blob_free(source->baked_soup, NULL);
     free(source->corners);
@@ -122,6 +178,14 @@ bool draw_need_stages(draw_source *source, tl_exit *exit_out)
         *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, &report.base);
     }
     return source->has_stages;
+}
+
+bool draw_need_contours(draw_source *source, tl_exit *exit_out)
+{
+    if (source->contours == NULL && draw_need_stages(source, exit_out)) {
+        source->contours = &source->stages.contours.set;
+    }
+    return source->contours != NULL;
 }
 
 static tl_result load_tiles(draw_source *source, tl_report *report)

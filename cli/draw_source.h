@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// What pictures are drawn from: a level, or a baked file whose soup gives the level's triangles back; and each thing
-// that a stage needs, made when the first stage asks for it.
+// What pictures are drawn from: a level; a baked file, whose soup gives the level's triangles back; or a set of
+// contours alone. And each thing that a stage needs, made when the first stage asks for it.
 
 #ifndef TALUS_CLI_DRAW_SOURCE_H
 #define TALUS_CLI_DRAW_SOURCE_H
 
+#include "io/contour_text.h"
 #include "open_input.h"
 
 typedef struct draw_source {
@@ -19,18 +20,24 @@ typedef struct draw_source {
     tl_soup *baked_soup; ///< made here
     const tl_soup *soup; ///< after draw_need_soup
     tl_nav_stages stages;
-    bool has_stages;  ///< after draw_need_stages
-    bool has_navmesh; ///< after draw_need_navmesh: input.navmesh
+    bool is_contours; ///< FILE is a contour set: no triangles, no stages but those that contours have
+    tl_contour_text text;
+    const tl_contour_set *contours; ///< after draw_need_contours
+    bool has_stages;                ///< after draw_need_stages
+    bool has_navmesh;               ///< after draw_need_navmesh: input.navmesh
 } draw_source;
 
-/// Opens FILE. False: reported, and `*exit_out` says how to end. Close it then too.
-bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *settings, draw_source *source_out,
-                      tl_exit *exit_out);
+/// Opens FILE; of a contour file, set number `set`. False: reported, and `*exit_out` says how to end. Close it then
+/// too.
+bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *settings, uint32_t set,
+                      draw_source *source_out, tl_exit *exit_out);
 void draw_source_close(draw_source *source);
 
 bool draw_need_soup(draw_source *source, tl_exit *exit_out);
 /// The navmesh pipeline over the whole level in one tile, all intermediate data kept.
 bool draw_need_stages(draw_source *source, tl_exit *exit_out);
+/// The contours, of the pipeline or of the contour file.
+bool draw_need_contours(draw_source *source, tl_exit *exit_out);
 bool draw_need_navmesh(draw_source *source, tl_exit *exit_out);
 
 #endif

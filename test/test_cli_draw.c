@@ -31,8 +31,8 @@ static void make_files(void)
 static void test_every_stage(void **state)
 {
     (void)state;
-    static const char *const stages[] = { "soup",     "spans",     "areas",    "distance", "regions",
-                                          "contours", "triangles", "polygons", "detail",   "path" };
+    static const char *const stages[] = { "soup",          "spans",   "areas",     "distance", "regions", "contours",
+                                          "triangulation", "merging", "triangles", "polygons", "detail",  "path" };
     enum { STAGES = sizeof(stages) / sizeof(stages[0]) };
     make_files();
     static const char *const inputs[] = { "yard.obj", "yard.talus" };
@@ -50,7 +50,11 @@ static void test_every_stage(void **state)
             uint32_t width;
             uint32_t height;
             check_png(path, &width, &height);
-            TEST_CHECK(width >= 2 * 200 && width <= 2 * 240 + 40 && height >= 200 && height <= 240 + 140);
+            if (strstr(path, "triangulation") == NULL && strstr(path, "merging") == NULL) {
+                TEST_CHECK(width >= 2 * 200 && width <= 2 * 240 + 40 && height >= 200 && height <= 240 + 140);
+            } else {
+                TEST_CHECK(width >= 3 * 80 && height >= 80); // panels of a third of the size, at least three
+            }
         }
         json_decref(list);
     }
@@ -105,10 +109,45 @@ static void test_path_svg_and_views(void **state)
     TEST_CHECK(cli_exists("far.png"));
 }
 
+// A hexagon with a notch: five cuts and what they merge to; a set of several; a contour without area.
+static const char notched[] =
+    "navcontours 1\nname notched\ncs 1\nch 1\ncontours 2\nc 0 1 63 7\n0 0 0 0\n0 0 9 0\n5 0 12 0\n"
+    "10 0 9 0\n10 0 0 0\n6 0 0 0\n5 0 7 0\nc 1 2 63 2\n0 0 0 0\n1 0 0 0\nend\n"
+    "navcontours 1\nname triangle\ncs 1\nch 1\ncontours 1\nc 0 1 63 3\n0 0 0 0\n0 0 9 0\n9 0 0 0\n"
+    "end\n";
+
+static void test_steps_of_a_contour(void **state)
+{
+    (void)state;
+    cli_write_text("notched.txt", notched);
+    json_t *list = cli_json(0, "draw notched.txt -o s.svg --stage triangulation,merging --json");
+    assert_int_equal(json_array_size(list), 2);
+    const char *summary = json_string_value(json_object_get(json_array_get(list, 0), "summary"));
+    cli_check_part(summary, "7 vertices: 5 cuts, then ");
+    json_decref(list);
+    static const char *const files[] = { "s-triangulation.svg", "s-merging.svg" };
+    for (size_t i = 0; i < 2; ++i) {
+        char *svg = cli_read_file(files[i], NULL);
+        cli_check_part(svg, "<svg");
+        cli_check_part(svg, "</svg>");
+        free(svg);
+    }
+    // All that contours can show, and nothing else.
+    list = cli_json(0, "draw notched.txt -o n.png --stage all --size 240 --json");
+    assert_int_equal(json_array_size(list), 5);
+    json_decref(list);
+    // The second set is one triangle: one cut, no merge.
+    cli_result drawn = cli_expect(0, "draw notched.txt -o t.png --stage merging --set 1");
+    cli_check_part(drawn.out, "3 vertices: 1 cuts, then 0 merges to 1 convex polygons");
+    cli_free(&drawn);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
     make_files();
+    cli_write_text("notched.txt", notched);
+    cli_write_text("cut.txt", "navcontours 1\ncs 1\n");
     static const struct {
         int code;
         const char *line;
@@ -124,6 +163,11 @@ static void test_refusals(void **state)
         { 4, "draw yard.obj -o none/x.png --size 200", "none/x.png" },
         { 4, "draw yard.obj -o /dev/full --size 200", "/dev/full" },
         { 3, "draw yard.obj -o x.png --cell-size 0", "cell" },
+        { 2, "draw notched.txt -o x.png --stage soup", "holds contours" },
+        { 2, "draw notched.txt -o x.png --stage merging --contour 2", "there are 2 contours" },
+        { 3, "draw notched.txt -o x.png --stage merging --contour 1", "try another --contour" },
+        { 2, "draw notched.txt -o x.png --stage contours --set 2", "holds 2 sets" },
+        { 3, "draw cut.txt -o x.png --stage contours", "cut.txt" },
     };
     for (size_t i = 0; i < sizeof(table) / sizeof(table[0]); ++i) {
         cli_result refused = cli_run_with(NULL, table[i].line);
@@ -141,9 +185,8 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_stage),
-        cmocka_unit_test(test_same_bytes),
-        cmocka_unit_test(test_path_svg_and_views),
+        cmocka_unit_test(test_every_stage),        cmocka_unit_test(test_same_bytes),
+        cmocka_unit_test(test_path_svg_and_views), cmocka_unit_test(test_steps_of_a_contour),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
