@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The chunky triangle soup: any triangle list, baked into pairs of triangles that share an edge under a wide tree of
-// boxes, and asked by rays.
+// boxes, and asked by rays, points and shapes.
 //
 //   tl_mesh_view --tl_soup_build (weld, pair, tree)--> tl_soup --tl_soup_cast_ray, tl_soup_occluded ...--> tl_ray_hit
 //
@@ -128,7 +128,8 @@ typedef enum tl_ray_cull {
 /// triangles that are not the closest, in any order and more than once.
 typedef bool tl_triangle_filter_fn(uint32_t triangle, uint16_t material, void *user);
 
-/// What a ray passes by. All zero with material_mask UINT64_MAX passes by nothing, as a NULL filter does.
+/// What a ray, or another query, passes by. All zero with material_mask UINT64_MAX passes by nothing, as a NULL filter
+/// does.
 typedef struct tl_ray_filter {
     tl_ray_cull cull;
     uint64_t material_mask;        ///< bit m: triangles of material m count; bit 63 stands for all materials >= 63
@@ -166,6 +167,38 @@ TL_API bool tl_soup_cast_segment(const tl_soup *soup, tl_vec3 a, tl_vec3 b, cons
 /// Whether no triangle meets the closed segment from a to b. The same as from b to a, always (but for culling).
 /// `filter` may be NULL.
 TL_API bool tl_soup_line_of_sight(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter);
+
+/// A part of a triangle, corners numbered as in the view.
+typedef enum tl_triangle_feature {
+    TL_TRIANGLE_FACE = 0, ///< inside
+    TL_TRIANGLE_EDGE_0,   ///< from corner 0 to corner 1
+    TL_TRIANGLE_EDGE_1,   ///< from corner 1 to corner 2
+    TL_TRIANGLE_EDGE_2,   ///< from corner 2 to corner 0
+    TL_TRIANGLE_CORNER_0,
+    TL_TRIANGLE_CORNER_1,
+    TL_TRIANGLE_CORNER_2
+} tl_triangle_feature;
+
+/// A point on the soup.
+typedef struct tl_soup_point {
+    tl_vec3 point;
+    float distance; ///< metres from the query's point
+    tl_vec3 normal; ///< unit length, of the triangle's front; zero for a needle too thin for doubles to tell
+    uint32_t triangle;
+    uint16_t material;
+    bool back; ///< the query's point lies behind the triangle's plane, exactly
+    tl_triangle_feature feature;
+} tl_soup_point;
+
+/// The point of the soup that is nearest to `point`, and at most `max_distance` metres away (INFINITY: anywhere).
+///
+/// Distances are computed in double from each triangle's own corners, relative error 1e-7 at most; of equal ones the
+/// lowest triangle index wins. So the answer does not depend on how the triangles are stored. A point in a triangle's
+/// plane counts as seen from both sides. `filter` may be NULL.
+/// TL_ERR_NOT_FOUND: nothing is that near; TL_ERR_NOT_FINITE: the point; TL_ERR_ARGUMENT: max_distance is negative or
+/// NaN. `nearest_out` is then untouched.
+TL_API tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance, const tl_ray_filter *filter,
+                                 tl_soup_point *nearest_out);
 
 /// One stored triangle.
 typedef struct tl_soup_triangle {

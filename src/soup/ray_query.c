@@ -9,6 +9,7 @@
 #include "soup/ray.h"
 
 #include "base/assert.h"
+#include "soup/triangle_point.h"
 
 #include <float.h>
 #include <string.h>
@@ -72,17 +73,6 @@ tl_ray_filter tl_default_ray_filter(void)
     return filter;
 }
 
-static tl_vec3 unit_normal(const tl_vec3 corner[3])
-{
-    double ux = (double)corner[1].x - (double)corner[0].x, vx = (double)corner[2].x - (double)corner[0].x;
-    double uy = (double)corner[1].y - (double)corner[0].y, vy = (double)corner[2].y - (double)corner[0].y;
-    double uz = (double)corner[1].z - (double)corner[0].z, vz = (double)corner[2].z - (double)corner[0].z;
-    double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-    double length_sq = x * x + y * y + z * z;
-    double scale = length_sq > 0.0 ? 1.0 / sqrt(length_sq) : 0.0;
-    return tl_vec3_make((float)(x * scale), (float)(y * scale), (float)(z * scale));
-}
-
 static void describe_hit(const tl_ray_job *job, tl_ray_hit *hit)
 {
     memset(hit, 0, sizeof *hit);
@@ -98,7 +88,7 @@ static void describe_hit(const tl_ray_job *job, tl_ray_hit *hit)
     tl_vec3 corner[3];
     tl_leaf_view leaf = tl_view_leaf(job->leaf);
     tl_leaf_corners(&leaf, job->lane, corner);
-    hit->normal = unit_normal(corner);
+    hit->normal = tl_triangle_normal(corner);
 }
 
 static inline bool run(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 origin, tl_vec3 target, float tmax,
