@@ -20,6 +20,7 @@ typedef struct steps_sheet {
     const steps_record *record;
     const char *summary;
     uint32_t columns, rows, width, height;
+    uint32_t panel_width, panel_height; // pixels, without the caption
     int64_t least_x, least_z;
     double scale; // pixels a lattice unit
 } steps_sheet;
@@ -242,8 +243,7 @@ static void draw_step_panel(cairo_t *cairo, const steps_sheet *sheet, uint32_t s
     if (entry->partition_count > 0) {
         double length = hypot((double)chosen[0] - (double)chosen[2], (double)chosen[1] - (double)chosen[3]);
         snprintf(second, sizeof second,
-                 merging ? "may go: %u shared edges, the longest %.1f cells"
-                         : "potential: %u partitions, the shortest %.1f cells",
+                 merging ? "%u may go, the longest: %.1f cells" : "%u potential, the shortest: %.1f cells",
                  entry->candidates, length);
     }
     caption(cairo, first, second);
@@ -310,8 +310,8 @@ static void paint_sheet(cairo_t *cairo, const void *user)
     cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
     for (uint32_t i = 0; i < kind->shown_count + 2; i++) {
         cairo_save(cairo);
-        cairo_translate(cairo, GAP + (double)(i % sheet->columns) * (options->panel_size + GAP),
-                        HEAD + CAPTION + (double)(i / sheet->columns) * (options->panel_size + CAPTION + GAP));
+        cairo_translate(cairo, GAP + (double)(i % sheet->columns) * (sheet->panel_width + GAP),
+                        HEAD + CAPTION + (double)(i / sheet->columns) * (sheet->panel_height + CAPTION + GAP));
         add_contour(cairo, sheet);
         draw_set_colour(cairo, FLOOR, 1.0);
         cairo_fill(cairo);
@@ -346,13 +346,16 @@ static void lay_out(steps_sheet *sheet)
         most_x = vertices[i].x > most_x ? vertices[i].x : most_x;
         most_z = vertices[i].z > most_z ? vertices[i].z : most_z;
     }
-    double extent = fmax((double)(most_x - sheet->least_x), (double)(most_z - sheet->least_z)) + 1.0;
-    uint32_t panels = sheet->record->kinds[sheet->options->kind].shown_count + 2, size = sheet->options->panel_size;
-    sheet->scale = size / extent;
+    double size_x = (double)(most_x - sheet->least_x) + 1.0, size_z = (double)(most_z - sheet->least_z) + 1.0;
+    uint32_t panels = sheet->record->kinds[sheet->options->kind].shown_count + 2;
+    sheet->scale = sheet->options->panel_size / fmax(size_x, size_z);
+    double caption_width = 190.0; // what the longest caption takes
+    sheet->panel_width = (uint32_t)ceil(fmax(size_x * sheet->scale, caption_width));
+    sheet->panel_height = (uint32_t)ceil(size_z * sheet->scale);
     sheet->columns = panels < COLUMNS ? panels : COLUMNS;
     sheet->rows = (panels + sheet->columns - 1) / sheet->columns;
-    sheet->width = GAP + sheet->columns * (size + GAP);
-    sheet->height = HEAD + sheet->rows * (size + CAPTION + GAP) + FOOT;
+    sheet->width = GAP + sheet->columns * (sheet->panel_width + GAP);
+    sheet->height = HEAD + sheet->rows * (sheet->panel_height + CAPTION + GAP) + FOOT;
 }
 
 tl_result draw_steps_write(const tl_contour_set *set, const draw_steps_options *options, const char *path,
