@@ -35,30 +35,30 @@ uint32_t tl_quickhull_new_face(tl_quickhull *hull, uint32_t a, uint32_t b, uint3
     } else {
         TL_ASSERT(hull->face_count < hull->face_capacity);
         index = hull->face_count++;
-        hull->faces[index].queued = false;
-        hull->faces[index].stamp = 0;
+        hull->conflicts[index].seen = 0;
     }
     tl_quickhull_face *face = &hull->faces[index];
     face->vertex[0] = a;
     face->vertex[1] = b;
     face->vertex[2] = c;
     face->across[0] = face->across[1] = face->across[2] = TL_NONE;
-    face->first_conflict = TL_NONE;
-    face->farthest = TL_NONE;
-    face->farthest_value = 0.0;
-    face->visible = false;
-    face->live = true;
+    const tl_quickhull_point *local = hull->local;
+    face->plane = tl_side_plane_make(local[a].position, local[b].position, local[c].position, hull->reach);
+    tl_quickhull_conflicts *conflicts = &hull->conflicts[index];
+    conflicts->first = TL_NONE;
+    conflicts->farthest = TL_NONE;
+    conflicts->farthest_value = 0.0;
+    conflicts->live = true;
     hull->live_faces++;
-    face->plane = tl_side_plane_make(hull->points[a], hull->points[b], hull->points[c], hull->extent);
     return index;
 }
 
 void tl_quickhull_free_face(tl_quickhull *hull, uint32_t index)
 {
-    tl_quickhull_face *face = &hull->faces[index];
-    face->live = false;
-    face->first_conflict = TL_NONE;
-    face->vertex[0] = hull->free_face;
+    tl_quickhull_unqueue(hull, index);
+    hull->conflicts[index].live = false;
+    hull->conflicts[index].first = TL_NONE;
+    hull->faces[index].vertex[0] = hull->free_face;
     hull->free_face = index;
     hull->live_faces--;
 }
@@ -74,25 +74,22 @@ tl_result tl_quickhull_reserve(tl_quickhull *hull, uint32_t more)
         capacity *= 2;
     }
     tl_quickhull_face *faces = TL_PUSH(hull->arena, tl_quickhull_face, capacity);
-    uint32_t *ring = TL_PUSH(hull->arena, uint32_t, capacity);
+    tl_quickhull_conflicts *conflicts = TL_PUSH(hull->arena, tl_quickhull_conflicts, capacity);
     uint32_t *visible = TL_PUSH(hull->arena, uint32_t, capacity);
     // A disk of n triangles has at most n + 2 border edges.
     uint32_t *horizon = TL_PUSH(hull->arena, uint32_t, (uint64_t)capacity + 2);
     uint32_t *created = TL_PUSH(hull->arena, uint32_t, (uint64_t)capacity + 2);
-    if (faces == NULL || ring == NULL || visible == NULL || horizon == NULL || created == NULL) {
+    if (faces == NULL || conflicts == NULL || visible == NULL || horizon == NULL || created == NULL) {
         return TL_ERR_MEMORY;
     }
     if (hull->face_count > 0) {
         memcpy(faces, hull->faces, hull->face_count * sizeof *faces);
+        memcpy(conflicts, hull->conflicts, hull->face_count * sizeof *conflicts);
         memcpy(visible, hull->visible, hull->visible_count * sizeof *visible);
         memcpy(horizon, hull->horizon, hull->horizon_count * sizeof *horizon);
     }
-    for (uint32_t i = 0; i < hull->ring_count; i++) {
-        ring[i] = hull->ring[(hull->ring_first + i) % hull->face_capacity];
-    }
     hull->faces = faces;
-    hull->ring = ring;
-    hull->ring_first = 0;
+    hull->conflicts = conflicts;
     hull->visible = visible;
     hull->horizon = horizon;
     hull->created = created;
@@ -123,15 +120,31 @@ static tl_result check_points(const tl_vec3 *points, uint32_t count, tl_report *
 
 static void measure(tl_quickhull *hull)
 {
-    tl_aabb box = tl_aabb_empty();
+    hull->box = tl_aabb_empty();
     for (uint32_t i = 0; i < hull->point_count; i++) {
-        box = tl_aabb_add_point(box, hull->points[i]);
+        hull->box = tl_aabb_add_point(hull->box, hull->points[i]);
     }
-    hull->extent[0] = (double)box.max.x - (double)box.min.x;
-    hull->extent[1] = (double)box.max.y - (double)box.min.y;
-    hull->extent[2] = (double)box.max.z - (double)box.min.z;
-    tl_vec3 size = tl_max(tl_abs(box.min), tl_abs(box.max));
-    hull->max_abs = (double)tl_maxf(size.x, tl_maxf(size.y, size.z));
+}
+
+// Moves the points near the origin, where the bounds of side tests are tight. No coordinate is rounded, so the hull is
+// the same.
+static tl_result make_local(tl_quickhull *hull)
+{
+    hull->local = TL_PUSH(hull->arena, tl_quickhull_point, hull->point_count);
+    if (hull->local == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_vec3 low = hull->box.min, high = hull->box.max;
+    tl_vec3 origin =
+        tl_vec3_make(tl_side_origin(low.x, high.x), tl_side_origin(low.y, high.y), tl_side_origin(low.z, high.z));
+    tl_vec3 reach = tl_max(tl_abs(tl_sub(low, origin)), tl_abs(tl_sub(high, origin)));
+    hull->reach[0] = (double)reach.x;
+    hull->reach[1] = (double)reach.y;
+    hull->reach[2] = (double)reach.z;
+    for (uint32_t i = 0; i < hull->point_count; i++) {
+        hull->local[i].position = tl_sub(hull->points[i], origin);
+    }
+    return TL_OK;
 }
 
 // Links the four faces of the tetrahedron, turned outward.
@@ -148,12 +161,13 @@ static tl_result make_tetrahedron(tl_quickhull *hull, const uint32_t seed[4])
     tl_quickhull_new_face(hull, a, d, b);
     tl_quickhull_new_face(hull, b, d, c);
     tl_quickhull_new_face(hull, c, d, a);
+    // Loops of 3: half-edge i % 3 of face i / 3.
     for (uint32_t i = 0; i < 12; i++) {
         uint32_t from = hull->faces[i / 3].vertex[i % 3];
         uint32_t to = hull->faces[i / 3].vertex[(i + 1) % 3];
         for (uint32_t j = 0; j < 12; j++) {
             if (hull->faces[j / 3].vertex[j % 3] == to && hull->faces[j / 3].vertex[(j + 1) % 3] == from) {
-                hull->faces[i / 3].across[i % 3] = j;
+                hull->faces[i / 3].across[i % 3] = 4 * (j / 3) + j % 3;
             }
         }
     }
@@ -189,14 +203,14 @@ static void report_left_out(const tl_quickhull *hull, tl_hull_report *report)
     }
     report->triangle_count = hull->live_faces;
     for (uint32_t i = 0; i < hull->face_count; i++) {
-        const tl_quickhull_face *face = &hull->faces[i];
-        if (!face->live || face->first_conflict == TL_NONE) {
+        const tl_quickhull_conflicts *conflicts = &hull->conflicts[i];
+        if (!conflicts->live || conflicts->first == TL_NONE) {
             continue;
         }
-        for (uint32_t p = face->first_conflict; p != TL_NONE; p = hull->next_conflict[p]) {
+        for (uint32_t p = conflicts->first; p != TL_NONE; p = hull->local[p].next) {
             report->points_left_out++;
         }
-        double distance = face->farthest_value / tl_side_plane_length(&face->plane);
+        double distance = conflicts->farthest_value / tl_side_plane_length(&hull->faces[i].plane);
         report->max_outside = distance > report->max_outside ? distance : report->max_outside;
     }
 }
@@ -221,11 +235,11 @@ static tl_result build(tl_quickhull *hull, const tl_hull_def *def, tl_hull **hul
     if (result != TL_OK) {
         return fail_without_volume(base, result);
     }
-    hull->next_conflict = TL_PUSH(hull->arena, uint32_t, hull->point_count);
     hull->cone_face = TL_PUSH(hull->arena, uint32_t, hull->point_count);
-    if (hull->next_conflict == NULL || hull->cone_face == NULL) {
+    if (hull->cone_face == NULL) {
         return TL_ERR_MEMORY;
     }
+    TL_TRY(make_local(hull));
     TL_TRY(make_tetrahedron(hull, seed));
     tl_quickhull_file_all(hull, seed);
     for (uint32_t i = 0; i < 4; i++) {
@@ -269,6 +283,7 @@ tl_result tl_hull_build(const tl_vec3 *points, uint32_t count, const tl_hull_def
     hull.points = points;
     hull.point_count = count;
     hull.free_face = TL_NONE;
+    hull.newest = TL_NONE;
     hull.farthest_first = def->max_vertices != 0;
     tl_result result = build(&hull, def, hull_out, report_out);
     if (base != NULL) {

@@ -15,19 +15,28 @@
 
 #define TL_NONE UINT32_MAX
 
-// Half-edge k of triangle f is 3 * f + k and runs from vertex k to vertex (k + 1) % 3.
+// Half-edge k of triangle f is 4 * f + k and runs from vertex k to vertex (k + 1) % 3. What a step asks of a face is
+// one cache line; what it keeps for it lies beside, in tl_quickhull_conflicts.
 typedef struct tl_quickhull_face {
     tl_side_plane plane;
-    double farthest_value;
     uint32_t vertex[3];
-    uint32_t across[3];      // the twin of each half-edge
-    uint32_t first_conflict; // head of a list linked by next_conflict
-    uint32_t farthest;       // its point with the largest value; lowest index on ties
-    uint32_t stamp;          // the step that last asked whether it is visible
-    bool visible;
-    bool live;
-    bool queued;
+    uint32_t across[3]; // the twin of each half-edge
 } tl_quickhull_face;
+
+typedef struct tl_quickhull_conflicts {
+    double farthest_value; // height of the farthest point times the normal's length
+    uint32_t first;        // head of a list linked by tl_quickhull_point.next
+    uint32_t farthest;     // its point with the largest value; lowest index on ties
+    uint32_t seen;         // twice the step that last asked whether the face is visible, plus 1 when it is
+    uint32_t newer, older; // neighbours among the faces that wait
+    bool live;
+} tl_quickhull_conflicts;
+
+// An input point, moved by tl_quickhull.origin.
+typedef struct tl_quickhull_point {
+    tl_vec3 position;
+    uint32_t next; // in its face's list
+} tl_quickhull_point;
 
 // Farthest-first order, when the number of vertices is limited.
 typedef struct tl_quickhull_entry {
@@ -40,17 +49,18 @@ typedef struct tl_quickhull {
     tl_arena *arena;
     const tl_vec3 *points;
     uint32_t point_count;
-    double extent[3]; // of the points' box
-    double max_abs;   // largest absolute coordinate
+    tl_aabb box;
+    tl_quickhull_point *local; // [point_count] the points near the origin, exactly moved
+    double reach[3];           // the largest absolute local coordinates
 
     tl_quickhull_face *faces;
-    uint32_t face_count; // used entries, dead ones included
+    tl_quickhull_conflicts *conflicts; // [face_capacity]
+    uint32_t face_count;               // used entries, dead ones included
     uint32_t face_capacity;
     uint32_t live_faces;
     uint32_t free_face; // list of dead faces linked by vertex[0]
 
-    uint32_t *next_conflict; // [point_count]
-    uint32_t *cone_face;     // [point_count] the new face whose horizon edge starts at this vertex
+    uint32_t *cone_face; // [point_count] the new face whose horizon edge starts at this vertex
 
     // One step's scratch, grown with the faces.
     uint32_t *visible; // faces that see the new point
@@ -59,11 +69,10 @@ typedef struct tl_quickhull {
     uint32_t horizon_count;
     uint32_t *created;
     uint32_t created_count;
-    uint32_t stamp;
+    uint32_t step;
 
-    // Faces that wait: a ring, or a heap when farthest_first.
-    uint32_t *ring; // [face_capacity]
-    uint32_t ring_first, ring_count;
+    // Faces that wait: the newest first, or a heap when farthest_first.
+    uint32_t newest;
     bool farthest_first;
     tl_quickhull_entry *heap;
     uint32_t heap_count, heap_capacity;
@@ -79,14 +88,35 @@ typedef struct tl_hull_polygons {
 
 static inline uint32_t tl_half_edge_face(uint32_t half_edge)
 {
-    return half_edge / 3;
+    return half_edge >> 2;
+}
+
+static inline uint32_t tl_half_edge_corner(uint32_t half_edge)
+{
+    return half_edge & 3u;
 }
 
 static inline uint32_t tl_half_edge_next(uint32_t half_edge)
 {
-    return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+    return tl_half_edge_corner(half_edge) == 2 ? half_edge - 2 : half_edge + 1;
 }
 
+// 1 when a point, given by its local position, is in front of a face, 0 in its plane, -1 behind; exact. `height_out`
+// gets its approximate height times the normal's length.
+static inline int tl_quickhull_side(const tl_quickhull *hull, const tl_quickhull_face *face, tl_vec3 p,
+                                    double *height_out)
+{
+    *height_out = tl_side_plane_height(&face->plane, p);
+    int sign = tl_side_plane_sign(&face->plane, *height_out);
+    if (sign != 0) {
+        return sign;
+    }
+    const tl_quickhull_point *local = hull->local;
+    return tl_orient3d(local[face->vertex[0]].position, local[face->vertex[1]].position,
+                       local[face->vertex[2]].position, p);
+}
+
+// quickhull.c
 // A live face without neighbours; the caller has made room by tl_quickhull_reserve.
 uint32_t tl_quickhull_new_face(tl_quickhull *hull, uint32_t a, uint32_t b, uint32_t c);
 void tl_quickhull_free_face(tl_quickhull *hull, uint32_t face);
@@ -100,7 +130,10 @@ tl_result tl_quickhull_seed(tl_quickhull *hull, double flatness, uint32_t seed_o
 void tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4]);
 // Files the points of the visible faces under the created ones.
 void tl_quickhull_refile(tl_quickhull *hull);
+// Lets a new face wait for its turn, if it has points.
 tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face);
+// Takes a face that is about to die out of the waiting ones.
+void tl_quickhull_unqueue(tl_quickhull *hull, uint32_t face);
 // The next face with a point outside, or TL_NONE.
 uint32_t tl_quickhull_dequeue(tl_quickhull *hull);
 

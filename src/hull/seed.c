@@ -90,12 +90,11 @@ static uint32_t farthest_from_plane(const tl_quickhull *hull, const uint32_t see
 
 tl_result tl_quickhull_seed(tl_quickhull *hull, double flatness, uint32_t seed[4], uint32_t *rank_out)
 {
-    // One rounding moves a coordinate by at most TL_FLOAT_ROUNDING * max_abs.
-    double noise = flatness * (double)TL_FLOAT_ROUNDING * hull->max_abs;
-    double size = 0.0;
-    for (int axis = 0; axis < 3; axis++) {
-        size = hull->extent[axis] > size ? hull->extent[axis] : size;
-    }
+    // One rounding moves a coordinate by at most TL_FLOAT_ROUNDING times the largest.
+    tl_vec3 largest = tl_max(tl_abs(hull->box.min), tl_abs(hull->box.max));
+    double noise = flatness * (double)TL_FLOAT_ROUNDING * (double)tl_maxf(largest.x, tl_maxf(largest.y, largest.z));
+    tl_vec3d extent = difference(hull->box.max, hull->box.min);
+    double size = fmax(extent.x, fmax(extent.y, extent.z));
     *rank_out = 0;
     seed[0] = seed[1] = seed[2] = seed[3] = 0;
     if (size == 0.0 || size <= noise) {

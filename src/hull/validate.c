@@ -13,11 +13,34 @@
 
 #include <string.h>
 
-static tl_side_plane plane_of(const tl_hull *hull, uint32_t face, const double extent[3])
+// A face's plane, by three of its corners; positions near the origin, as side planes like them.
+typedef struct face_plane {
+    tl_vec3 a, b, c, origin;
+    tl_side_plane plane;
+} face_plane;
+
+static face_plane plane_of(const tl_hull *hull, uint32_t face, tl_aabb box)
 {
     const tl_vec3 *vertices = tl_hull_vertices(hull);
     const tl_hull_half_edge *h = &tl_hull_half_edges(hull)[tl_hull_faces(hull)[face].first];
-    return tl_side_plane_make(vertices[h[0].origin], vertices[h[1].origin], vertices[h[2].origin], extent);
+    face_plane p;
+    p.origin = tl_vec3_make(tl_side_origin(box.min.x, box.max.x), tl_side_origin(box.min.y, box.max.y),
+                            tl_side_origin(box.min.z, box.max.z));
+    p.a = tl_sub(vertices[h[0].origin], p.origin);
+    p.b = tl_sub(vertices[h[1].origin], p.origin);
+    p.c = tl_sub(vertices[h[2].origin], p.origin);
+    tl_vec3 size = tl_max(tl_abs(tl_sub(box.min, p.origin)), tl_abs(tl_sub(box.max, p.origin)));
+    double reach[3] = { (double)size.x, (double)size.y, (double)size.z };
+    p.plane = tl_side_plane_make(p.a, p.b, p.c, reach);
+    return p;
+}
+
+static int side_of(const face_plane *p, tl_vec3 point, double *height_out)
+{
+    tl_vec3 local = tl_sub(point, p->origin);
+    *height_out = tl_side_plane_height(&p->plane, local);
+    int sign = tl_side_plane_sign(&p->plane, *height_out);
+    return sign != 0 ? sign : tl_orient3d(p->a, p->b, p->c, local);
 }
 
 static bool face_has(const tl_hull *hull, uint32_t face, uint32_t vertex)
@@ -31,12 +54,12 @@ static bool face_has(const tl_hull *hull, uint32_t face, uint32_t vertex)
     return false;
 }
 
-static void validate_face(const tl_hull *hull, uint32_t face, const tl_side_plane *plane, tl_hull_validation *out)
+static void validate_face(const tl_hull *hull, uint32_t face, const face_plane *plane, tl_hull_validation *out)
 {
     uint32_t in_plane = 0;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         double value;
-        int side = tl_side_plane_test(plane, tl_hull_vertices(hull)[v], &value);
+        int side = side_of(plane, tl_hull_vertices(hull)[v], &value);
         // In the plane are the face's own corners and no others.
         if (side > 0 || (side == 0 && !face_has(hull, face, v))) {
             out->convex = false;
@@ -68,12 +91,12 @@ static void validate_face(const tl_hull *hull, uint32_t face, const tl_side_plan
     }
 }
 
-static void validate_points(const tl_side_plane *plane, const tl_vec3 *points, uint32_t count, tl_hull_validation *out)
+static void validate_points(const face_plane *plane, const tl_vec3 *points, uint32_t count, tl_hull_validation *out)
 {
     for (uint32_t i = 0; i < count; i++) {
         double value;
-        if (tl_side_plane_test(plane, points[i], &value) > 0) {
-            double height = value / tl_side_plane_length(plane);
+        if (side_of(plane, points[i], &value) > 0) {
+            double height = value / tl_side_plane_length(&plane->plane);
             out->contains = false;
             out->max_outside = height > out->max_outside ? height : out->max_outside;
         }
@@ -91,10 +114,8 @@ tl_result tl_hull_validate(const tl_hull *hull, const tl_vec3 *points, uint32_t 
     for (uint32_t i = 0; i < count; i++) {
         box = tl_aabb_add_point(box, points[i]);
     }
-    double extent[3] = { (double)box.max.x - (double)box.min.x, (double)box.max.y - (double)box.min.y,
-                         (double)box.max.z - (double)box.min.z };
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_side_plane plane = plane_of(hull, f, extent);
+        face_plane plane = plane_of(hull, f, box);
         validate_face(hull, f, &plane, &found);
         validate_points(&plane, points, count, &found);
     }
