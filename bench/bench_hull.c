@@ -102,13 +102,11 @@ int main(void)
         uint32_t count;
         int repetitions;
     } cases[] = {
-        { "sphere 32", CLOUD_SPHERE, 32, 200 },
-        { "sphere 128", CLOUD_SPHERE, 128, 100 },
-        { "sphere 512", CLOUD_SPHERE, 512, 50 },
-        { "sphere 8192", CLOUD_SPHERE, 8192, 7 },
-        { "cube 8192", CLOUD_CUBE, 8192, 20 },
-        { "cube 131072", CLOUD_CUBE, 131072, 5 },
-        { "cube faces 8192", CLOUD_CUBE_FACES, 8192, 9 },
+        { "sphere 32", CLOUD_SPHERE, 32, 200 },       { "sphere 128", CLOUD_SPHERE, 128, 100 },
+        { "sphere 512", CLOUD_SPHERE, 512, 50 },      { "sphere 2048", CLOUD_SPHERE, 2048, 20 },
+        { "sphere 8192", CLOUD_SPHERE, 8192, 9 },     { "sphere 32768", CLOUD_SPHERE, 32768, 5 },
+        { "sphere 131072", CLOUD_SPHERE, 131072, 3 }, { "cube 8192", CLOUD_CUBE, 8192, 20 },
+        { "cube 131072", CLOUD_CUBE, 131072, 5 },     { "cube faces 8192", CLOUD_CUBE_FACES, 8192, 9 },
         { "grid 132651", CLOUD_GRID, 132651, 5 },
     };
     static tl_vec3 points[MOST_POINTS];
