@@ -285,6 +285,62 @@ static void test_text_reused_twin_and_second_face(void **state)
     tl_halfedge_free(&mesh);
 }
 
+// A drum, whose two large faces have more corners than a new face remembers the edges of.
+static void test_rings_of_large_faces(void **state)
+{
+    (void)state;
+    enum { RING = 150 };
+    tl_halfedge mesh;
+    tl_halfedge_init(&mesh, NULL);
+    uint32_t lower[RING], upper[RING], turned[RING], list[RING], v;
+    for (uint32_t i = 0; i < RING; i++) {
+        tl_halfedge_add_vertex(&mesh, tl_vec3_make((float)i, 0.0f, 0.0f), &lower[i]);
+    }
+    for (uint32_t i = 0; i < RING; i++) {
+        tl_halfedge_add_vertex(&mesh, tl_vec3_make((float)i, 1.0f, 0.0f), &upper[i]);
+        turned[RING - 1 - i] = upper[i];
+    }
+    TEST_RESULT(tl_halfedge_add_vertex(&mesh, tl_vec3_make(0.0f, 2.0f, 0.0f), &v), TL_OK);
+    uint32_t bottom, top;
+    TEST_RESULT(tl_halfedge_add_face(&mesh, lower, RING, &bottom), TL_OK);
+    for (uint32_t i = 0; i < RING; i += 2) {
+        uint32_t j = (i + 1) % RING, side[4] = { lower[j], lower[i], upper[i], upper[j] };
+        TEST_RESULT(tl_halfedge_add_face(&mesh, side, 4, NULL), TL_OK);
+    }
+    // Every second side is there: half of the lid's edges are found, half are new.
+    TEST_RESULT(tl_halfedge_add_face(&mesh, upper, RING, NULL), TL_ERR_WINDING);
+    TEST_RESULT(tl_halfedge_add_face(&mesh, turned, RING, &top), TL_OK);
+    TEST_RESULT(tl_halfedge_check(&mesh), TL_OK);
+    TEST_CHECK(mesh.boundary_count == 2 * RING && tl_halfedge_face_vertices(&mesh, top, NULL, 0) == RING);
+    for (uint32_t i = 1; i < RING; i += 2) {
+        uint32_t j = (i + 1) % RING, side[4] = { lower[j], lower[i], upper[i], upper[j] };
+        TEST_RESULT(tl_halfedge_add_face(&mesh, side, 4, NULL), TL_OK);
+    }
+    TEST_RESULT(tl_halfedge_check(&mesh), TL_OK);
+    TEST_CHECK(mesh.boundary_count == 0 && mesh.half_edge_count == 6 * RING);
+    TEST_RESULT(tl_halfedge_add_face(&mesh, turned, RING, NULL), TL_ERR_NON_MANIFOLD);
+    // Around each vertex: three neighbours and three faces, each of which has it.
+    for (uint32_t i = 0; i < RING; i++) {
+        uint32_t faces[3], around[3];
+        TEST_CHECK(tl_halfedge_vertex_neighbours(&mesh, lower[i], around, 3) == 3);
+        TEST_CHECK(tl_halfedge_vertex_faces(&mesh, lower[i], faces, 3) == 3);
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t edge = tl_halfedge_find_edge(&mesh, lower[i], around[k]);
+            TEST_CHECK(edge != TL_HALFEDGE_NONE && tl_halfedge_left_face(&mesh, edge) == faces[k]);
+            TEST_CHECK(tl_halfedge_prev(&mesh, tl_halfedge_next(&mesh, edge)) == edge);
+            TEST_CHECK(around[k] == upper[i] || faces[k] == bottom ||
+                       tl_halfedge_left_face(&mesh, tl_halfedge_twin(edge)) == bottom);
+        }
+    }
+    TEST_RESULT(tl_halfedge_remove_face(&mesh, top), TL_OK);
+    TEST_CHECK(tl_halfedge_vertex_faces(&mesh, upper[7], list, 1) == 2);
+    TEST_CHECK(tl_halfedge_vertex_neighbours(&mesh, upper[7], list, RING) == 3);
+    TEST_CHECK(tl_halfedge_vertex_faces(&mesh, v, list, RING) == 0);
+    TEST_CHECK(tl_halfedge_vertex_neighbours(&mesh, v, list, RING) == 0);
+    TEST_CHECK(tl_halfedge_vertex_faces(&mesh, 100000, list, RING) == 0);
+    tl_halfedge_free(&mesh);
+}
+
 static void test_support_on_flat_faces(void **state)
 {
     (void)state;
@@ -414,6 +470,7 @@ int main(void)
         cmocka_unit_test(test_text_boundary_count_is_not_cleared),
         cmocka_unit_test(test_text_start_vertex_without_edges),
         cmocka_unit_test(test_text_reused_twin_and_second_face),
+        cmocka_unit_test(test_rings_of_large_faces),
         cmocka_unit_test(test_support_on_flat_faces),
         cmocka_unit_test(test_memory_runs_out),
         cmocka_unit_test(test_check_sees_damage),

@@ -106,6 +106,16 @@ TL_API uint32_t tl_halfedge_find_edge(const tl_halfedge *mesh, uint32_t from, ui
 TL_API uint32_t tl_halfedge_vertex_edges(const tl_halfedge *mesh, uint32_t vertex, uint32_t *edges_out,
                                          uint32_t capacity);
 
+/// The vertices that share an edge with a vertex, in the order of its ring. Returns and writes like
+/// tl_halfedge_vertex_edges.
+TL_API uint32_t tl_halfedge_vertex_neighbours(const tl_halfedge *mesh, uint32_t vertex, uint32_t *vertices_out,
+                                              uint32_t capacity);
+
+/// The faces at a vertex, in the order of its ring; gaps are left out. Returns and writes like
+/// tl_halfedge_vertex_edges.
+TL_API uint32_t tl_halfedge_vertex_faces(const tl_halfedge *mesh, uint32_t vertex, uint32_t *faces_out,
+                                         uint32_t capacity);
+
 /// The vertices of a face, in its order. Returns how many there are and writes those that fit; 0 when it is not live.
 TL_API uint32_t tl_halfedge_face_vertices(const tl_halfedge *mesh, uint32_t face, uint32_t *vertices_out,
                                           uint32_t capacity);
@@ -158,6 +168,24 @@ static inline uint32_t tl_halfedge_target(const tl_halfedge *mesh, uint32_t edge
 static inline uint32_t tl_halfedge_origin(const tl_halfedge *mesh, uint32_t edge)
 {
     return mesh->edges[edge ^ 1u].vertex;
+}
+
+/// The face to the left of a half-edge, TL_HALFEDGE_NONE on the boundary; that of its twin is the edge's other face.
+static inline uint32_t tl_halfedge_left_face(const tl_halfedge *mesh, uint32_t edge)
+{
+    return mesh->edges[edge].face;
+}
+
+/// The next half-edge around the same face or hole.
+static inline uint32_t tl_halfedge_next(const tl_halfedge *mesh, uint32_t edge)
+{
+    return mesh->edges[edge].next;
+}
+
+/// The half-edge before it around the same face or hole.
+static inline uint32_t tl_halfedge_prev(const tl_halfedge *mesh, uint32_t edge)
+{
+    return mesh->edges[edge].prev;
 }
 
 /// The next half-edge that starts at the same vertex, clockwise; after the last the first.

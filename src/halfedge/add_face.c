@@ -36,13 +36,33 @@ static uint32_t other_end_of_fan(const tl_halfedge *mesh, uint32_t outgoing)
     return incoming;
 }
 
-static tl_result check_vertices(tl_halfedge *mesh, const uint32_t *vertices, uint32_t count)
+// Edges of a face that are looked up once; those of a larger face are looked up again where they are needed.
+enum { KNOWN_EDGES = 64 };
+
+typedef struct new_face {
+    const uint32_t *vertices;
+    uint32_t count;
+    uint32_t missing;            // edges that are not there yet
+    uint32_t known[KNOWN_EDGES]; // the half-edge from each vertex to the next, or none
+} new_face;
+
+static uint32_t find_side(const tl_halfedge *mesh, const new_face *face, uint32_t i)
 {
-    if (count < 3) {
+    return tl_halfedge_find_edge(mesh, face->vertices[i], face->vertices[i + 1 < face->count ? i + 1 : 0]);
+}
+
+static uint32_t side(const tl_halfedge *mesh, const new_face *face, uint32_t i)
+{
+    return i < KNOWN_EDGES ? face->known[i] : find_side(mesh, face, i);
+}
+
+static tl_result check_vertices(tl_halfedge *mesh, const new_face *face)
+{
+    if (face->count < 3) {
         return TL_ERR_ARGUMENT;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        if (!tl_halfedge_is_vertex(mesh, vertices[i])) {
+    for (uint32_t i = 0; i < face->count; i++) {
+        if (!tl_halfedge_is_vertex(mesh, face->vertices[i])) {
             return TL_ERR_INDEX;
         }
     }
@@ -52,29 +72,32 @@ static tl_result check_vertices(tl_halfedge *mesh, const uint32_t *vertices, uin
         }
         mesh->stamp = 1;
     }
-    for (uint32_t i = 0; i < count; i++) {
-        if (mesh->vertices[vertices[i]].mark == mesh->stamp) {
+    for (uint32_t i = 0; i < face->count; i++) {
+        tl_halfedge_vertex *vertex = &mesh->vertices[face->vertices[i]];
+        if (vertex->mark == mesh->stamp) {
             return TL_ERR_DEGENERATE;
         }
-        mesh->vertices[vertices[i]].mark = mesh->stamp;
+        vertex->mark = mesh->stamp;
     }
     return TL_OK;
 }
 
-// What the edges say; how many are missing.
-static tl_result check_edges(const tl_halfedge *mesh, const uint32_t *vertices, uint32_t count, uint32_t *missing_out)
+// What the edges say; which are there.
+static tl_result check_edges(const tl_halfedge *mesh, new_face *face)
 {
-    uint32_t missing = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t edge = tl_halfedge_find_edge(mesh, vertices[i], vertices[i + 1 < count ? i + 1 : 0]);
+    face->missing = 0;
+    for (uint32_t i = 0; i < face->count; i++) {
+        uint32_t edge = find_side(mesh, face, i);
+        if (i < KNOWN_EDGES) {
+            face->known[i] = edge;
+        }
         if (edge == TL_HALFEDGE_NONE) {
-            missing++;
+            face->missing++;
         } else if (mesh->edges[edge].face != TL_HALFEDGE_NONE) {
             bool single = mesh->edges[tl_halfedge_twin(edge)].face == TL_HALFEDGE_NONE;
             return single ? TL_ERR_WINDING : TL_ERR_NON_MANIFOLD;
         }
     }
-    *missing_out = missing;
     return TL_OK;
 }
 
@@ -91,12 +114,12 @@ static tl_result check_corner(const tl_halfedge *mesh, uint32_t vertex, uint32_t
     return TL_OK;
 }
 
-static tl_result check_corners(const tl_halfedge *mesh, const uint32_t *vertices, uint32_t count)
+static tl_result check_corners(const tl_halfedge *mesh, const new_face *face)
 {
-    uint32_t incoming = tl_halfedge_find_edge(mesh, vertices[count - 1], vertices[0]);
-    for (uint32_t i = 0; i < count; i++) {
-        uint32_t outgoing = tl_halfedge_find_edge(mesh, vertices[i], vertices[i + 1 < count ? i + 1 : 0]);
-        TL_TRY(check_corner(mesh, vertices[i], incoming, outgoing));
+    uint32_t incoming = side(mesh, face, face->count - 1);
+    for (uint32_t i = 0; i < face->count; i++) {
+        uint32_t outgoing = side(mesh, face, i);
+        TL_TRY(check_corner(mesh, face->vertices[i], incoming, outgoing));
         incoming = outgoing;
     }
     return TL_OK;
@@ -141,31 +164,27 @@ static void link_corner(tl_halfedge *mesh, uint32_t vertex, uint32_t incoming, b
     tl_halfedge_join(mesh, incoming, outgoing);
 }
 
-tl_result tl_halfedge_add_face(tl_halfedge *mesh, const uint32_t *vertices, uint32_t count, uint32_t *face_out)
+static uint32_t link_face(tl_halfedge *mesh, const new_face *face)
 {
-    uint32_t missing;
-    TL_TRY(check_vertices(mesh, vertices, count));
-    TL_TRY(check_edges(mesh, vertices, count, &missing));
-    TL_TRY(check_corners(mesh, vertices, count));
-    TL_TRY(tl_halfedge_reserve(mesh, 1, missing));
-    uint32_t face = tl_halfedge_take_face(mesh);
+    uint32_t index = tl_halfedge_take_face(mesh), count = face->count;
+    const uint32_t *vertices = face->vertices;
     // The edge into the first corner, then each edge out of a corner; a corner is linked when both are there.
-    uint32_t last = tl_halfedge_find_edge(mesh, vertices[count - 1], vertices[0]);
+    uint32_t last = side(mesh, face, count - 1);
     bool last_new = last == TL_HALFEDGE_NONE;
     if (last_new) {
         last = tl_halfedge_take_edge(mesh, vertices[count - 1], vertices[0]);
     }
     uint32_t incoming = last;
     bool incoming_new = last_new;
-    mesh->faces[face].edge = last;
+    mesh->faces[index].edge = last;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t outgoing = i + 1 < count ? tl_halfedge_find_edge(mesh, vertices[i], vertices[i + 1]) : last;
+        uint32_t outgoing = i + 1 < count ? side(mesh, face, i) : last;
         bool outgoing_new = i + 1 < count ? outgoing == TL_HALFEDGE_NONE : last_new;
         if (outgoing == TL_HALFEDGE_NONE) {
             outgoing = tl_halfedge_take_edge(mesh, vertices[i], vertices[i + 1]);
         }
         link_corner(mesh, vertices[i], incoming, incoming_new, outgoing, outgoing_new);
-        mesh->edges[outgoing].face = face;
+        mesh->edges[outgoing].face = index;
         if (outgoing_new) {
             mesh->boundary_count++; // its other side
         } else {
@@ -174,8 +193,21 @@ tl_result tl_halfedge_add_face(tl_halfedge *mesh, const uint32_t *vertices, uint
         incoming = outgoing;
         incoming_new = outgoing_new;
     }
+    return index;
+}
+
+tl_result tl_halfedge_add_face(tl_halfedge *mesh, const uint32_t *vertices, uint32_t count, uint32_t *face_out)
+{
+    new_face face;
+    face.vertices = vertices;
+    face.count = count;
+    TL_TRY(check_vertices(mesh, &face));
+    TL_TRY(check_edges(mesh, &face));
+    TL_TRY(check_corners(mesh, &face));
+    TL_TRY(tl_halfedge_reserve(mesh, 1, face.missing));
+    uint32_t index = link_face(mesh, &face);
     if (face_out != NULL) {
-        *face_out = face;
+        *face_out = index;
     }
     return TL_OK;
 }

@@ -45,6 +45,33 @@ uint32_t tl_halfedge_vertex_edges(const tl_halfedge *mesh, uint32_t vertex, uint
     return count;
 }
 
+uint32_t tl_halfedge_vertex_neighbours(const tl_halfedge *mesh, uint32_t vertex, uint32_t *vertices_out,
+                                       uint32_t capacity)
+{
+    uint32_t count = tl_halfedge_vertex_edges(mesh, vertex, vertices_out, capacity);
+    for (uint32_t i = 0; i < count && i < capacity; i++) {
+        vertices_out[i] = tl_halfedge_target(mesh, vertices_out[i]);
+    }
+    return count;
+}
+
+uint32_t tl_halfedge_vertex_faces(const tl_halfedge *mesh, uint32_t vertex, uint32_t *faces_out, uint32_t capacity)
+{
+    if (!tl_halfedge_is_vertex(mesh, vertex) || mesh->vertices[vertex].edge == TL_HALFEDGE_NONE) {
+        return 0;
+    }
+    uint32_t start = mesh->vertices[vertex].edge, edge = start, count = 0;
+    do {
+        uint32_t face = tl_halfedge_left_face(mesh, edge);
+        if (face != TL_HALFEDGE_NONE && count < capacity) {
+            faces_out[count] = face;
+        }
+        count += face != TL_HALFEDGE_NONE;
+        edge = tl_halfedge_around(mesh, edge);
+    } while (edge != start);
+    return count;
+}
+
 uint32_t tl_halfedge_face_vertices(const tl_halfedge *mesh, uint32_t face, uint32_t *vertices_out, uint32_t capacity)
 {
     if (!tl_halfedge_is_face(mesh, face)) {
