@@ -55,6 +55,9 @@ TL_API tl_convex tl_convex_cylinder(tl_vec3 a, tl_vec3 b, float disc_radius, flo
 TL_API tl_convex tl_convex_cone(tl_vec3 base, tl_vec3 apex, float disc_radius, float radius);
 TL_API tl_convex tl_convex_custom(tl_convex_support_fn *support, void *user, float radius);
 
+/// The box of a shape in the world: nothing of it lies outside, and each side is off by a few float roundings at most.
+TL_API tl_aabb tl_convex_bounds(const tl_convex *shape, tl_transform pose);
+
 /// How far a query's answer can be trusted.
 typedef enum tl_convex_status {
     TL_CONVEX_CONVERGED,  ///< the bounds met, or overlap was proven

@@ -28,6 +28,7 @@
 #define TALUS_SOUP_H
 
 #include <talus/base.h>
+#include <talus/convex.h>
 #include <talus/mesh.h>
 #include <talus/vec.h>
 
@@ -199,6 +200,22 @@ typedef struct tl_soup_point {
 /// NaN. `nearest_out` is then untouched.
 TL_API tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance, const tl_ray_filter *filter,
                                  tl_soup_point *nearest_out);
+
+/// Whether a shape, standing still, touches any triangle.
+///
+/// Spheres, capsules and boxes without a radius are decided by formulas in double, other shapes by tl_convex_overlap;
+/// touching within the rounding of either is touching. A triangle is seen from the side on which the middle of the
+/// shape's box lies. `filter` may be NULL.
+/// TL_ERR_NOT_FINITE: the pose, or the shape has no finite box; TL_ERR_ARGUMENT: a radius is negative or NaN.
+TL_API tl_result tl_soup_overlaps(const tl_soup *soup, const tl_convex *shape, tl_transform pose,
+                                  const tl_ray_filter *filter, bool *overlaps_out);
+
+/// The triangles that a shape touches, each once, in an order of the soup's own. Rules and errors as in
+/// tl_soup_overlaps.
+/// Writes at most `capacity` of them, and to `*count_out` how many there are: TL_ERR_CAPACITY when that is more.
+TL_API tl_result tl_soup_find_overlaps(const tl_soup *soup, const tl_convex *shape, tl_transform pose,
+                                       const tl_ray_filter *filter, uint32_t *triangles_out, uint32_t capacity,
+                                       uint32_t *count_out);
 
 /// One stored triangle.
 typedef struct tl_soup_triangle {

@@ -107,19 +107,6 @@ tl_convex tl_convex_custom(tl_convex_support_fn *support, void *user, float radi
     return shape;
 }
 
-static tl_frame frame_from(tl_transform pose)
-{
-    double x = (double)pose.rotation.x, y = (double)pose.rotation.y, z = (double)pose.rotation.z,
-           w = (double)pose.rotation.w;
-    double length_sq = x * x + y * y + z * z + w * w;
-    double s = length_sq > 0.0 ? 2.0 / length_sq : 0.0; // normalizes; a zero quaternion is the identity
-    tl_frame f = { { { 1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w) },
-                     { s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w) },
-                     { s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y) } },
-                   tl_vec3d_from(pose.position) };
-    return f;
-}
-
 // Vertex k of a box: bit i of k says which side on axis i.
 static tl_vec3d box_vertex(const tl_convex *shape, uint32_t k)
 {
@@ -266,10 +253,10 @@ static tl_vec3d middle_of(const tl_convex *shape)
 tl_pair tl_pair_make(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b)
 {
     tl_pair pair;
-    tl_frame to_world_b = frame_from(pose_b);
+    tl_frame to_world_b = tl_frame_from(pose_b);
     pair.a = a;
     pair.b = b;
-    pair.a_to_world = frame_from(pose_a);
+    pair.a_to_world = tl_frame_from(pose_a);
     // Rows of transpose(A) * B are the columns of A times B.
     const tl_frame *fa = &pair.a_to_world;
     tl_vec3d columns[3] = { { fa->rows[0].x, fa->rows[1].x, fa->rows[2].x },

@@ -84,6 +84,20 @@ typedef struct tl_frame {
     tl_vec3d origin;
 } tl_frame;
 
+// The pose's rotation is normalized; a zero quaternion is the identity.
+static inline tl_frame tl_frame_from(tl_transform pose)
+{
+    double x = (double)pose.rotation.x, y = (double)pose.rotation.y, z = (double)pose.rotation.z,
+           w = (double)pose.rotation.w;
+    double length_sq = x * x + y * y + z * z + w * w;
+    double s = length_sq > 0.0 ? 2.0 / length_sq : 0.0;
+    tl_frame f = { { { 1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w) },
+                     { s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w) },
+                     { s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y) } },
+                   tl_vec3d_from(pose.position) };
+    return f;
+}
+
 static inline tl_vec3d tl_frame_rotate(const tl_frame *f, tl_vec3d v)
 {
     return tl_vec3d_make(tl_vec3d_dot(f->rows[0], v), tl_vec3d_dot(f->rows[1], v), tl_vec3d_dot(f->rows[2], v));
