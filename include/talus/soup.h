@@ -217,6 +217,37 @@ TL_API tl_result tl_soup_find_overlaps(const tl_soup *soup, const tl_convex *sha
                                        const tl_ray_filter *filter, uint32_t *triangles_out, uint32_t capacity,
                                        uint32_t *count_out);
 
+/// What a moving shape met.
+typedef struct tl_shape_hit {
+    float t;              ///< share of the motion, [0, 1]; not later than the true one
+    bool initial_overlap; ///< it overlapped at the start: t is 0
+    bool back;            ///< it moved with the triangle's normal, so it came from behind
+    uint16_t material;
+    uint32_t triangle;
+    float depth;         ///< metres, of an initial overlap: this far along the normal parts shape and triangle
+    tl_vec3 point;       ///< on the triangle
+    tl_vec3 normal;      ///< unit, from the triangle to the shape: the face's, or an edge's or corner's own
+    tl_vec3 face_normal; ///< unit length, of the triangle's front; zero for a needle too thin for doubles to tell
+    /// ITERATIONS or DEGENERATE: free until t, unknown beyond, reported as a hit
+    tl_convex_status status;
+} tl_shape_hit;
+
+/// Moves a convex shape by `motion` without turning it, and finds the triangle that it meets first.
+///
+/// Spheres and capsules (characters) take a path of their own. Of triangles met at the same time the lowest index is
+/// reported, of those that overlap at the start the deepest. `filter` may be NULL; a triangle is seen from the front by
+/// a motion against its normal, and by a shape that stands still from the side of its box's middle.
+///
+/// Touching: a shape that comes no deeper into a triangle than 2.4e-7 of the largest coordinate it reaches passes. So
+/// it slides along the floor that it was put on, over all its inner edges, and moves away from a wall it leans on.
+/// Edges are not smoothed: at an inner edge of a floor that bends, `normal` is the edge's, and `face_normal` the
+/// floor's.
+///
+/// TL_ERR_NOT_FOUND: the way is free; TL_ERR_NOT_FINITE: motion, pose or shape; TL_ERR_ARGUMENT: a radius is negative
+/// or NaN. `hit_out` is then untouched.
+TL_API tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_transform pose, tl_vec3 motion,
+                                    const tl_ray_filter *filter, tl_shape_hit *hit_out);
+
 /// One stored triangle.
 typedef struct tl_soup_triangle {
     tl_vec3 corners[3]; ///< as in the view, order and winding kept

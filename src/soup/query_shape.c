@@ -67,7 +67,9 @@ bool tl_query_shape_touches(const tl_query_shape *shape, const tl_vec3 corners[3
         return nearest.distance_sq <= shape->radius * shape->radius;
     }
     if (shape->kind == TL_QUERY_CAPSULE) {
-        return tl_segment_triangle_distance_sq(shape->ends, corners) <= shape->radius * shape->radius;
+        tl_segment_triangle nearest;
+        tl_segment_triangle_nearest(shape->ends, corners, &nearest);
+        return nearest.distance_sq <= shape->radius * shape->radius;
     }
     if (shape->kind == TL_QUERY_BOX) {
         tl_vec3d local[3];

@@ -15,8 +15,19 @@ static double clamp_share(double share)
     return share > 0.0 ? share < 1.0 ? share : 1.0 : 0.0;
 }
 
-// Squared distance of the segments p + s d and q + t e.
-static double segments_distance_sq(tl_vec3d p, tl_vec3d d, tl_vec3d q, tl_vec3d e)
+static void keep_nearer(tl_segment_triangle *best, tl_vec3d on_segment, tl_vec3d on_triangle)
+{
+    tl_vec3d away = tl_vec3d_sub(on_segment, on_triangle);
+    double distance_sq = tl_vec3d_dot(away, away);
+    if (distance_sq < best->distance_sq) {
+        best->distance_sq = distance_sq;
+        best->on_segment = on_segment;
+        best->on_triangle = on_triangle;
+    }
+}
+
+// Nearest points of the segments p + s d and q + t e.
+static void try_edge(tl_segment_triangle *best, tl_vec3d p, tl_vec3d d, tl_vec3d q, tl_vec3d e)
 {
     tl_vec3d r = tl_vec3d_sub(p, q);
     double dd = tl_vec3d_dot(d, d), ee = tl_vec3d_dot(e, e), de = tl_vec3d_dot(d, e);
@@ -26,8 +37,7 @@ static double segments_distance_sq(tl_vec3d p, tl_vec3d d, tl_vec3d q, tl_vec3d 
     double s = determinant > 0.0 ? clamp_share((de * er - dr * ee) / determinant) : 0.0;
     double t = ee > 0.0 ? clamp_share((de * s + er) / ee) : 0.0;
     s = dd > 0.0 ? clamp_share((de * t - dr) / dd) : 0.0;
-    tl_vec3d away = tl_vec3d_mul_add(tl_vec3d_mul_add(r, d, s), e, -t);
-    return tl_vec3d_dot(away, away);
+    keep_nearer(best, tl_vec3d_mul_add(p, d, s), tl_vec3d_mul_add(q, e, t));
 }
 
 static bool crosses(const tl_vec3d ends[2], const tl_vec3d v[3])
@@ -49,22 +59,21 @@ static bool crosses(const tl_vec3d ends[2], const tl_vec3d v[3])
     return left != right;
 }
 
-double tl_segment_triangle_distance_sq(const tl_vec3d ends[2], const tl_vec3 corners[3])
+void tl_segment_triangle_nearest(const tl_vec3d ends[2], const tl_vec3 corners[3], tl_segment_triangle *nearest_out)
 {
-    tl_triangle_point nearest;
-    tl_triangle_nearest(corners, ends[0], &nearest);
-    double least = nearest.distance_sq;
-    tl_triangle_nearest(corners, ends[1], &nearest);
-    least = nearest.distance_sq < least ? nearest.distance_sq : least;
     tl_vec3d v[3] = { tl_vec3d_from(corners[0]), tl_vec3d_from(corners[1]), tl_vec3d_from(corners[2]) };
     if (crosses(ends, v)) {
-        return 0.0;
+        nearest_out->distance_sq = 0.0;
+        return;
+    }
+    nearest_out->distance_sq = (double)INFINITY;
+    for (int i = 0; i < 2; i++) {
+        tl_triangle_point nearest;
+        tl_triangle_nearest(corners, ends[i], &nearest);
+        keep_nearer(nearest_out, ends[i], nearest.point);
     }
     tl_vec3d direction = tl_vec3d_sub(ends[1], ends[0]);
     for (int k = 0; k < 3; k++) {
-        tl_vec3d edge = tl_vec3d_sub(v[(k + 1) % 3], v[k]);
-        double distance_sq = segments_distance_sq(ends[0], direction, v[k], edge);
-        least = distance_sq < least ? distance_sq : least;
+        try_edge(nearest_out, ends[0], direction, v[k], tl_vec3d_sub(v[(k + 1) % 3], v[k]));
     }
-    return least;
 }
