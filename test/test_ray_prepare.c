@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// ray_prepare.c: the slab constants bracket the true t of every grid plane, and sheared corners stay within the bound,
+// ray_prepare.c: the slab constants bracket the true t of every plane, and sheared corners stay within the bound,
 // both measured in long double. The brackets must also be tight: a filter that passes everything is no filter.
 
 #include "soup/ray.h"
@@ -38,21 +38,24 @@ static void check_planes(const tl_ray_job *job, tl_aabb bounds, test_random *ran
         reach = above > reach ? above : reach;
     }
     for (uint32_t i = 0; i < 3; i++) {
-        float q = (float)test_random_below(random, 65536);
+        float low = (float)component(bounds.min, i), high = (float)component(bounds.max, i);
+        float plane = tl_clampf(low + (high - low) * test_random_unit(random), low, high);
         // The filter's arithmetic, unfused; a fused one rounds less.
-        float enter = q * job->plane_scale[i] + job->near_base[i];
-        float leave = q * job->plane_scale[i] + job->far_base[i];
-        long double plane = component(job->soup->grid_origin, i) + (long double)q * component(job->soup->grid_cell, i);
-        long double distance = plane - component(job->origin.point, i);
+        float enter = plane * job->plane_scale[i] + job->near_base[i];
+        float leave = plane * job->plane_scale[i] + job->far_base[i];
+        long double from = component(job->origin.point, i);
+        long double distance = (long double)plane - from;
+        // The pad grows with coordinates, not only with distances.
+        long double farthest = fabsl(from) + fabsl((long double)low) + fabsl((long double)high);
         if (fabsl(direction[i]) > largest * 0x1p-59L) {
             long double t = distance / direction[i] * (long double)job->box_scale;
             TEST_CHECK((long double)enter <= t && t <= (long double)leave);
-            long double slack = 100 * 6e-8L * reach / fabsl(direction[i]) * (long double)job->box_scale;
+            long double slack = 40 * 6e-8L * (farthest + reach) / fabsl(direction[i]) * (long double)job->box_scale;
             TEST_CHECK((long double)leave - (long double)enter <= slack);
             seen->inclined++;
         } else {
             // The ray stays on one side: planes clearly ahead are never entered within reach, nor those behind left.
-            bool ahead = distance > 1e-4L * reach, behind = distance < -1e-4L * reach;
+            bool ahead = distance > 1e-4L * (farthest + reach), behind = -distance > 1e-4L * (farthest + reach);
             long double end = 4 * reach / largest * (long double)job->box_scale;
             TEST_CHECK(!ahead || fabsl((long double)enter) > end);
             TEST_CHECK(!behind || fabsl((long double)leave) > end);

@@ -41,7 +41,7 @@ typedef struct tl_soup tl_soup;
 
 /// "tlsp" in memory.
 #define TL_SOUP_MAGIC   0x70736c74u
-#define TL_SOUP_VERSION 1u
+#define TL_SOUP_VERSION 2u
 
 /// Most triangles of one view: their index shares a 32-bit word with four bits of the pair.
 #define TL_MAX_SOUP_TRIANGLES 0x0fffffffu

@@ -22,4 +22,18 @@ static inline uint32_t tl_lowest_bit(uint64_t mask)
 #endif
 }
 
+// How many bits are set.
+static inline uint32_t tl_bit_count(uint32_t mask)
+{
+#if defined(__GNUC__)
+    return (uint32_t)__builtin_popcount(mask);
+#else
+    uint32_t count = 0;
+    for (; mask != 0; mask &= mask - 1) {
+        count++;
+    }
+    return count;
+#endif
+}
+
 #endif

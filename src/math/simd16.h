@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
 // The vocabulary of simd.h, sixteen floats wide: one register with AVX-512, two halves of tl_f32x8 elsewhere.
+//
+// Names with `bits` take the bits of a float as a signed integer. Of numbers that are not negative these have the order
+// of the values, and any negative one lies below them; comparing them takes one cycle where floats take four.
 
 #ifndef TALUS_SRC_MATH_SIMD16_H
 #define TALUS_SRC_MATH_SIMD16_H
 
+#include "base/lowest_bit.h"
 #include "math/simd.h"
 
 #if TL_SIMD_LEVEL == 3
@@ -16,9 +20,9 @@ static inline tl_f32x16 tl_f32x16_all(float value)
     return _mm512_set1_ps(value);
 }
 
-static inline tl_f32x16 tl_f32x16_from_u16(const uint16_t *sixteen)
+static inline tl_f32x16 tl_f32x16_load(const float *sixteen)
 {
-    return _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(_mm256_loadu_si256((const __m256i *)(const void *)sixteen)));
+    return _mm512_loadu_ps(sixteen);
 }
 
 static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
@@ -26,32 +30,25 @@ static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
     return _mm512_fmadd_ps(a, b, c);
 }
 
-static inline tl_f32x16 tl_f32x16_min(tl_f32x16 a, tl_f32x16 b)
+static inline tl_f32x16 tl_f32x16_min_bits(tl_f32x16 a, tl_f32x16 b)
 {
-    return _mm512_min_ps(a, b);
+    return _mm512_castsi512_ps(_mm512_min_epi32(_mm512_castps_si512(a), _mm512_castps_si512(b)));
 }
 
-static inline tl_f32x16 tl_f32x16_max(tl_f32x16 a, tl_f32x16 b)
+static inline tl_f32x16 tl_f32x16_max_bits(tl_f32x16 a, tl_f32x16 b)
 {
-    return _mm512_max_ps(a, b);
+    return _mm512_castsi512_ps(_mm512_max_epi32(_mm512_castps_si512(a), _mm512_castps_si512(b)));
+}
+
+/// Bit i: a[i] <= b[i], as bits.
+static inline uint32_t tl_f32x16_less_equal_bits(tl_f32x16 a, tl_f32x16 b)
+{
+    return _mm512_cmple_epi32_mask(_mm512_castps_si512(a), _mm512_castps_si512(b));
 }
 
 static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 {
     _mm512_storeu_si512(sixteen, _mm512_castps_si512(a));
-}
-
-/// Bit i: a[i] <= b[i].
-static inline uint32_t tl_f32x16_less_equal(tl_f32x16 a, tl_f32x16 b)
-{
-    return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
-}
-
-/// Bit i: sixteen[i] is not 0.
-static inline uint32_t tl_u32x16_nonzero(const uint32_t *sixteen)
-{
-    __m512i v = _mm512_loadu_si512(sixteen);
-    return _mm512_test_epi32_mask(v, v);
 }
 
 #else
@@ -63,80 +60,15 @@ typedef struct tl_f32x16 {
 
 static inline tl_f32x16 tl_f32x16_all(float value)
 {
-    tl_f32x16 r = { tl_f32x8_all(value), tl_f32x8_all(value) };
+    tl_f32x8 half = tl_f32x8_all(value);
+    tl_f32x16 r = { half, half };
     return r;
 }
 
-static inline tl_f32x16 tl_f32x16_min(tl_f32x16 a, tl_f32x16 b)
+static inline tl_f32x16 tl_f32x16_load(const float *sixteen)
 {
-    tl_f32x16 r = { tl_f32x8_min(a.low, b.low), tl_f32x8_min(a.high, b.high) };
+    tl_f32x16 r = { tl_f32x8_load(sixteen), tl_f32x8_load(sixteen + 8) };
     return r;
-}
-
-static inline tl_f32x16 tl_f32x16_max(tl_f32x16 a, tl_f32x16 b)
-{
-    tl_f32x16 r = { tl_f32x8_max(a.low, b.low), tl_f32x8_max(a.high, b.high) };
-    return r;
-}
-
-#if TL_SIMD_LEVEL == 2
-
-static inline tl_f32x16 tl_f32x16_from_u16(const uint16_t *sixteen)
-{
-    const __m128i *halves = (const __m128i *)(const void *)sixteen;
-    tl_f32x16 r = { _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(halves))),
-                    _mm256_cvtepi32_ps(_mm256_cvtepu16_epi32(_mm_loadu_si128(halves + 1))) };
-    return r;
-}
-
-static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
-{
-    tl_f32x16 r = { _mm256_fmadd_ps(a.low, b.low, c.low), _mm256_fmadd_ps(a.high, b.high, c.high) };
-    return r;
-}
-
-static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
-{
-    __m256i *halves = (__m256i *)(void *)sixteen;
-    _mm256_storeu_si256(halves, _mm256_castps_si256(a.low));
-    _mm256_storeu_si256(halves + 1, _mm256_castps_si256(a.high));
-}
-
-static inline uint32_t tl_f32x16_less_equal(tl_f32x16 a, tl_f32x16 b)
-{
-    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a.low, b.low, _CMP_LE_OQ)) |
-           (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a.high, b.high, _CMP_LE_OQ)) << 8;
-}
-
-static inline uint32_t tl_u32x16_nonzero(const uint32_t *sixteen)
-{
-    const __m256i *halves = (const __m256i *)(const void *)sixteen;
-    __m256i zero = _mm256_setzero_si256();
-    __m256i low = _mm256_cmpeq_epi32(_mm256_loadu_si256(halves), zero);
-    __m256i high = _mm256_cmpeq_epi32(_mm256_loadu_si256(halves + 1), zero);
-    uint32_t empty = (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(low)) |
-                     (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(high)) << 8;
-    return ~empty & 0xffffu;
-}
-
-#elif TL_SIMD_LEVEL == 1
-
-static inline tl_f32x8 tl_f32x8_from_u16(const uint16_t *eight)
-{
-    __m128i v = _mm_loadu_si128((const __m128i *)(const void *)eight);
-    return tl_f32x8_make(_mm_cvtepi32_ps(_mm_cvtepu16_epi32(v)),
-                         _mm_cvtepi32_ps(_mm_cvtepu16_epi32(_mm_unpackhi_epi64(v, v))));
-}
-
-static inline tl_f32x16 tl_f32x16_from_u16(const uint16_t *sixteen)
-{
-    tl_f32x16 r = { tl_f32x8_from_u16(sixteen), tl_f32x8_from_u16(sixteen + 8) };
-    return r;
-}
-
-static inline tl_f32x8 tl_f32x8_mul_add(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c)
-{
-    return tl_f32x8_make(_mm_add_ps(_mm_mul_ps(a.low, b.low), c.low), _mm_add_ps(_mm_mul_ps(a.high, b.high), c.high));
 }
 
 static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
@@ -145,85 +77,55 @@ static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
     return r;
 }
 
+static inline tl_f32x16 tl_f32x16_min_bits(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_min_bits(a.low, b.low), tl_f32x8_min_bits(a.high, b.high) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_max_bits(tl_f32x16 a, tl_f32x16 b)
+{
+    tl_f32x16 r = { tl_f32x8_max_bits(a.low, b.low), tl_f32x8_max_bits(a.high, b.high) };
+    return r;
+}
+
+static inline uint32_t tl_f32x16_less_equal_bits(tl_f32x16 a, tl_f32x16 b)
+{
+    return (tl_f32x8_less_bits(b.low, a.low) | tl_f32x8_less_bits(b.high, a.high) << 8) ^ 0xffffu;
+}
+
 static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 {
-    __m128i *quarters = (__m128i *)(void *)sixteen;
-    _mm_storeu_si128(quarters, _mm_castps_si128(a.low.low));
-    _mm_storeu_si128(quarters + 1, _mm_castps_si128(a.low.high));
-    _mm_storeu_si128(quarters + 2, _mm_castps_si128(a.high.low));
-    _mm_storeu_si128(quarters + 3, _mm_castps_si128(a.high.high));
+    tl_f32x8_store((float *)(void *)sixteen, a.low);
+    tl_f32x8_store((float *)(void *)(sixteen + 8), a.high);
 }
 
-static inline uint32_t tl_f32x8_less_equal(tl_f32x8 a, tl_f32x8 b)
-{
-    return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a.low, b.low)) |
-           (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a.high, b.high)) << 4;
-}
+#endif
 
-static inline uint32_t tl_f32x16_less_equal(tl_f32x16 a, tl_f32x16 b)
+/// Writes high[i] << 32 | low[i] for each lane i of the mask, in their order. Has room for sixteen.
+static inline void tl_u32x16_compress_pairs(uint64_t *to, uint32_t mask, const uint32_t *high, const uint32_t *low)
 {
-    return tl_f32x8_less_equal(a.low, b.low) | tl_f32x8_less_equal(a.high, b.high) << 8;
-}
-
-static inline uint32_t tl_u32x16_nonzero(const uint32_t *sixteen)
-{
-    uint32_t empty = 0;
-    for (int i = 0; i < 4; i++) {
-        __m128i v = _mm_loadu_si128((const __m128i *)(const void *)(sixteen + 4 * i));
-        __m128i zero = _mm_cmpeq_epi32(v, _mm_setzero_si128());
-        empty |= (uint32_t)_mm_movemask_ps(_mm_castsi128_ps(zero)) << (4 * i);
+#if TL_SIMD_LEVEL == 3
+    __m512i h = _mm512_maskz_compress_epi32((__mmask16)mask, _mm512_loadu_si512(high));
+    __m512i l = _mm512_maskz_compress_epi32((__mmask16)mask, _mm512_loadu_si512(low));
+    // Interleaved, pairs 4i and 4i + 1 are in quarter i of one register, 4i + 2 and 4i + 3 in that of the other.
+    __m512i a = _mm512_unpacklo_epi32(l, h), b = _mm512_unpackhi_epi32(l, h);
+    _mm_storeu_si128((__m128i *)(void *)to, _mm512_castsi512_si128(a));
+    _mm_storeu_si128((__m128i *)(void *)(to + 2), _mm512_castsi512_si128(b));
+    if (_mm_popcnt_u32(mask) > 4) {
+        _mm_storeu_si128((__m128i *)(void *)(to + 4), _mm512_extracti32x4_epi32(a, 1));
+        _mm_storeu_si128((__m128i *)(void *)(to + 6), _mm512_extracti32x4_epi32(b, 1));
+        _mm_storeu_si128((__m128i *)(void *)(to + 8), _mm512_extracti32x4_epi32(a, 2));
+        _mm_storeu_si128((__m128i *)(void *)(to + 10), _mm512_extracti32x4_epi32(b, 2));
+        _mm_storeu_si128((__m128i *)(void *)(to + 12), _mm512_extracti32x4_epi32(a, 3));
+        _mm_storeu_si128((__m128i *)(void *)(to + 14), _mm512_extracti32x4_epi32(b, 3));
     }
-    return ~empty & 0xffffu;
-}
-
 #else
-
-static inline tl_f32x16 tl_f32x16_from_u16(const uint16_t *sixteen)
-{
-    tl_f32x16 r;
-    for (int i = 0; i < 8; i++) {
-        r.low.v[i] = (float)sixteen[i];
-        r.high.v[i] = (float)sixteen[i + 8];
+    for (; mask != 0; mask &= mask - 1) {
+        uint32_t lane = tl_lowest_bit(mask);
+        *to++ = (uint64_t)high[lane] << 32 | low[lane];
     }
-    return r;
-}
-
-static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
-{
-    tl_f32x16 r;
-    for (int i = 0; i < 8; i++) {
-        r.low.v[i] = a.low.v[i] * b.low.v[i] + c.low.v[i];
-        r.high.v[i] = a.high.v[i] * b.high.v[i] + c.high.v[i];
-    }
-    return r;
-}
-
-static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
-{
-    memcpy(sixteen, a.low.v, sizeof a.low.v);
-    memcpy(sixteen + 8, a.high.v, sizeof a.high.v);
-}
-
-static inline uint32_t tl_f32x16_less_equal(tl_f32x16 a, tl_f32x16 b)
-{
-    uint32_t mask = 0;
-    for (int i = 0; i < 8; i++) {
-        mask |= (uint32_t)(a.low.v[i] <= b.low.v[i]) << i;
-        mask |= (uint32_t)(a.high.v[i] <= b.high.v[i]) << (i + 8);
-    }
-    return mask;
-}
-
-static inline uint32_t tl_u32x16_nonzero(const uint32_t *sixteen)
-{
-    uint32_t mask = 0;
-    for (int i = 0; i < 16; i++) {
-        mask |= (uint32_t)(sixteen[i] != 0) << i;
-    }
-    return mask;
-}
-
 #endif
-#endif
+}
 
 #endif

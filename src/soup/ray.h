@@ -25,8 +25,8 @@ typedef struct tl_ray_job {
     bool is_segment;     ///< direction is target - origin, not rounded; t is within [0, 1]
     bool is_exact;       ///< direction, shear and inverse_z are filled
 
-    // Boxes. Grid plane q of axis i is met at t = (q * plane_scale[i] + near_base[i]) / box_scale, rounded down, or
-    // with far_base up. Lane 3 is not used.
+    // Boxes. Plane p of axis i is met at t = (p * plane_scale[i] + near_base[i]) / box_scale, rounded down, or with
+    // far_base up. Lane 3 is not used.
     float plane_scale[4];
     float near_base[4];
     float far_base[4];
@@ -38,6 +38,7 @@ typedef struct tl_ray_job {
     uint32_t axis_x, axis_y, axis_z;
     float shear_x, shear_y;
     float per_depth;    ///< box t a metre along axis_z
+    float reach;        ///< metres: the largest distance along an axis from the origin to a corner of the soup's box
     float corner_error; ///< metres: bound of the error of a sheared corner
 
     // The exact part, filled when the first lane is decided.
@@ -50,6 +51,7 @@ typedef struct tl_ray_job {
     uint32_t triangle; ///< UINT32_MAX: none
     const tl_soup_leaf *leaf;
     uint32_t lane;
+    bool is_waiting;  ///< the best is leaf, lane: surely hit, surely nearer than t, and not decided
     double weight[3]; ///< of the view's corners; not normalized
     bool back;
 } tl_ray_job;
@@ -62,8 +64,14 @@ bool tl_ray_prepare(tl_ray_job *job, tl_vec3 origin, tl_vec3 target);
 /// filters.
 bool tl_ray_prepare_unusual(tl_ray_job *job);
 
+/// Share of t that errors of the weights may move it: an eighth of an ulp of float.
+#define TL_RAY_T_WEIGHT_ERROR 7.450580596923828e-9 // 2^-27
+
 /// Decides one lane of a leaf. If it is hit, and better than the best so far, it becomes the best.
 bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane);
+
+/// Describes the best hit. False: it waited, and is none after all, which only damaged soups bring about.
+bool tl_ray_describe(tl_ray_job *job, tl_ray_hit *hit_out);
 
 /// Prepares a ray and walks the tree, once per instruction set. `any`: returns at the first hit. True: something was
 /// hit.

@@ -25,9 +25,8 @@
 
 #include <float.h>
 
-// A t is recomputed exactly when its weights may have moved it by more than this share of itself...
-#define T_WEIGHT_ERROR 7.450580596923828e-9 // 2^-27: an eighth of an ulp of float
-// ...or more than this share of the farthest corner's t: 2^-46.
+// A t is recomputed exactly when its weights may have moved it by more than TL_RAY_T_WEIGHT_ERROR of itself, or more
+// than this share of the farthest corner's t: 2^-46.
 #define T_ROUNDING_ERROR 1.4210854715202004e-14
 
 typedef struct triangle_test {
@@ -81,9 +80,9 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
     double origin_y = (double)job->origin.lane[job->axis_y];
     double origin_z = (double)job->origin.lane[job->axis_z];
     const uint8_t *slots = tl_soup_corner_slots[tl_id_order(test->leaf.ids[test->lane])];
+    uint32_t stride = tl_leaf_stride(&test->leaf);
     for (int k = 0; k < 3; k++) {
-        uint32_t stride;
-        const float *corner = tl_leaf_corner(&test->leaf, test->lane, slots[k], &stride);
+        const float *corner = tl_leaf_corner(&test->leaf, test->lane, slots[k]);
         double dx = (double)corner[job->axis_x * stride] - origin_x;
         double dy = (double)corner[job->axis_y * stride] - origin_y;
         double dz = (double)corner[job->axis_z * stride] - origin_z;
@@ -150,7 +149,7 @@ static bool find_t(const tl_ray_job *job, const triangle_test *test, float *t_ou
     double rounding = 16.0 * TL_DOUBLE_ROUNDING * farthest;
     double error = 3.0 * test->error * (high - low) / fabs(sum);
     // Written so that NaN, from a sum of zero, takes the exact way too.
-    if (!(error <= T_WEIGHT_ERROR * fabs(t) || error <= T_ROUNDING_ERROR * farthest)) {
+    if (!(error <= TL_RAY_T_WEIGHT_ERROR * fabs(t) || error <= T_ROUNDING_ERROR * farthest)) {
         t = exact_t(job, test);
         error = 8.0 * TL_DOUBLE_ROUNDING * fabs(t);
     }

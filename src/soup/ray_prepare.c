@@ -17,7 +17,7 @@ static double power_scale(double largest)
 static void pass_everything(tl_ray_job *job)
 {
     for (uint32_t i = 0; i < 3; i++) {
-        job->plane_scale[i] = 0.0f;
+        job->plane_scale[i] = FLT_MIN; // not 0: the infinite planes of a lane without a child stay infinite
         job->near_base[i] = -1.0f;
         job->far_base[i] = FLT_MAX;
     }
@@ -45,6 +45,7 @@ bool tl_ray_prepare_unusual(tl_ray_job *job)
     double scale = power_scale(largest);
     job->is_exact = false;
     job->triangle = UINT32_MAX;
+    job->is_waiting = false;
     job->box_scale = (float)(1.0 / scale);
     job->box_limit = job->t < FLT_MAX ? job->t * job->box_scale + FLT_MIN : INFINITY;
     tl_f32x4 scaled = tl_f32x4_make((float)(direction[0] * scale), (float)(direction[1] * scale),

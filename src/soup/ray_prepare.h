@@ -10,10 +10,11 @@
 // (a segment's direction, the inverse, the product), S Z and the difference once: |error| <= u (|X| + 5 |S Z| + |x'|)
 // <= u (2 |X| + 6 |Z|) <= 8 u M.
 //
-// Slab planes. t = q (cell inv) + (G - O) inv. inv has two roundings, cell inv a third, its product with q a fourth
-// (none when fused); G - O has one, its product with inv is the fourth; the sum and the pad round once each. With
-// q cell <= 2 M the error is at most (4 * 2 + 4 + 2) u M |inv| = 14 u M |inv|. The pad is 24 u M |inv|. What is left,
-// 10 u M, covers the rounding of the reported t (u M) with which boxes are compared, and the error before it.
+// Slab planes. t = p inv - O inv, with p the plane. inv has two roundings (a segment's direction, the division), each
+// product one, the difference one: |error| <= 4 u (|p| + |O|) |inv|. The pad is 8 u (|P| + |O| + M) |inv|, P the
+// farther of the soup's sides along the axis; it rounds, and so does O inv with the pad, which takes 2 u of it. 2 u
+// (|P| + |O|) |inv| and 8 u M |inv| are left for the rounding of the reported t (u t) with which boxes are compared,
+// and the error before it, which grows with the t of a triangle's farthest corner.
 //
 // A direction component that is tiny or zero is replaced by 2^-60 of the largest, which keeps all numbers finite: over
 // the whole way through the soup's box that moves the ray by at most 2^-59 M.
@@ -31,7 +32,6 @@
 #include <float.h>
 
 #define TL_RAY_CORNER_ERROR     TL_FLOAT_GAMMA(8.1)
-#define TL_RAY_PLANE_PAD        3.0f           // in corner errors
 #define TL_RAY_SMALLEST_INCLINE 8.6736174e-19f // 2^-60
 
 // Directions whose largest component is within these bounds are used as they are; others are scaled by a power of two.
@@ -59,19 +59,23 @@ static inline bool tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 origin, tl_f
     job->axis_x = next[z + 1];
     job->axis_y = next[z + 2];
 
-    tl_f32x4 below = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_load(&job->soup->bounds_min.x)));
-    tl_f32x4 above = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_load(&job->soup->bounds_max.x)));
+    tl_f32x4 low = tl_f32x4_load(&job->soup->bounds_min.x), high = tl_f32x4_load(&job->soup->bounds_max.x);
+    tl_f32x4 below = tl_f32x4_abs(tl_f32x4_sub(origin, low));
+    tl_f32x4 above = tl_f32x4_abs(tl_f32x4_sub(origin, high));
     tl_f32x4 reach = tl_f32x4_max_of_three(tl_f32x4_max(below, above));
     tl_f32x4 error = tl_f32x4_add(tl_f32x4_mul(reach, tl_f32x4_all(TL_RAY_CORNER_ERROR)), tl_f32x4_all(FLT_MIN));
 
     tl_f32x4 smallest = tl_f32x4_mul(largest, tl_f32x4_all(TL_RAY_SMALLEST_INCLINE));
     tl_f32x4 inclined = tl_f32x4_if_less(size, smallest, smallest, direction);
     tl_f32x4 inverse = tl_f32x4_div(tl_f32x4_all(1.0f), inclined);
-    tl_f32x4 base = tl_f32x4_mul(tl_f32x4_sub(tl_f32x4_load(&job->soup->grid_origin.x), origin), inverse);
-    tl_f32x4 pad = tl_f32x4_mul(tl_f32x4_mul(error, tl_f32x4_all(TL_RAY_PLANE_PAD)), tl_f32x4_abs(inverse));
-    tl_f32x4_store(job->plane_scale, tl_f32x4_mul(tl_f32x4_load(&job->soup->grid_cell.x), inverse));
-    tl_f32x4_store(job->near_base, tl_f32x4_sub(base, pad));
-    tl_f32x4_store(job->far_base, tl_f32x4_add(base, pad));
+    tl_f32x4 base = tl_f32x4_mul(origin, inverse);
+    tl_f32x4 far_side = tl_f32x4_max(tl_f32x4_abs(low), tl_f32x4_abs(high));
+    tl_f32x4 size_sum = tl_f32x4_add(far_side, tl_f32x4_abs(origin));
+    tl_f32x4 plane_error = tl_f32x4_add(tl_f32x4_mul(size_sum, tl_f32x4_all(TL_RAY_CORNER_ERROR)), error);
+    tl_f32x4 pad = tl_f32x4_mul(plane_error, tl_f32x4_abs(inverse));
+    tl_f32x4_store(job->plane_scale, inverse);
+    tl_f32x4_store(job->near_base, tl_f32x4_sub(tl_f32x4_sub(tl_f32x4_all(0.0f), base), pad));
+    tl_f32x4_store(job->far_base, tl_f32x4_sub(pad, base));
     job->backward = tl_f32x4_signs(inclined);
 
     float d[4], i[4], e[4], r[4];
@@ -82,6 +86,7 @@ static inline bool tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 origin, tl_f
     job->shear_x = d[job->axis_x] * i[z];
     job->shear_y = d[job->axis_y] * i[z];
     job->per_depth = i[z];
+    job->reach = r[0];
     job->corner_error = e[0];
     return r[0] < TL_RAY_FILTER_MAX;
 }
@@ -105,6 +110,7 @@ static inline bool tl_ray_prepare_inline(tl_ray_job *job, tl_vec3 origin_point, 
     }
     job->is_exact = false;
     job->triangle = UINT32_MAX;
+    job->is_waiting = false;
     job->box_scale = 1.0f;
     job->box_limit = job->t + FLT_MIN;
     (void)tl_ray_prepare_filters(job, origin, direction, largest);

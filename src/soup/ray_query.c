@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The public ray queries: choose the walk, run it, describe the hit.
+// The public ray queries: choose the walk and run it.
 //
 // The choice reads the processor's features as the C runtime found them at program start (__builtin_cpu_supports): one
 // load and a branch, no state of our own. A cached choice would be mutable global state; a choice stored in the soup
@@ -9,22 +9,21 @@
 #include "soup/ray.h"
 
 #include "base/assert.h"
-#include "soup/triangle_point.h"
 
 #include <float.h>
 #include <string.h>
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
+static inline bool has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi");
+}
+
 static inline bool has_avx512(void)
 {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq");
-}
-
-static inline bool has_avx2(void)
-{
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") && has_avx2();
 }
 
 tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
@@ -73,24 +72,6 @@ tl_ray_filter tl_default_ray_filter(void)
     return filter;
 }
 
-static void describe_hit(const tl_ray_job *job, tl_ray_hit *hit)
-{
-    memset(hit, 0, sizeof *hit);
-    hit->t = job->t;
-    hit->triangle = job->triangle;
-    hit->material = tl_soup_material(job->soup, job->triangle);
-    hit->back = job->back;
-    double sum = job->weight[0] + job->weight[1] + job->weight[2];
-    // A needle seen edge-on may have weights that all vanish in double: then the hit is anywhere on it.
-    double scale = sum != 0.0 ? 1.0 / sum : 0.0;
-    hit->u = (float)(job->weight[1] * scale);
-    hit->v = (float)(job->weight[2] * scale);
-    tl_vec3 corner[3];
-    tl_leaf_view leaf = tl_view_leaf(job->leaf);
-    tl_leaf_corners(&leaf, job->lane, corner);
-    hit->normal = tl_triangle_normal(corner);
-}
-
 static inline bool run(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 origin, tl_vec3 target, float tmax,
                        bool is_segment, const tl_ray_filter *filter, tl_ray_hit *hit_out)
 {
@@ -103,10 +84,7 @@ static inline bool run(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 origin
     if (!walk(&job, origin, target, hit_out == NULL)) {
         return false;
     }
-    if (hit_out != NULL) {
-        describe_hit(&job, hit_out);
-    }
-    return true;
+    return hit_out == NULL || tl_ray_describe(&job, hit_out);
 }
 
 bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,

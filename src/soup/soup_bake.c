@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// From the binary tree to the blob: wide nodes are cut from it, boxes are rounded outward to the grid, and pairs are
-// written into leaves.
+// From the binary tree to the blob: wide nodes are cut from it, and pairs are written into leaves.
 //
 // A wide node starts with the two children of a binary node and opens the inner child with the largest surface until it
 // has sixteen: the child that rays enter most is the one whose test should not cost a visit.
@@ -85,49 +84,12 @@ static void cut_tree(baker *b)
     }
 }
 
-// A cell so large that 65535 of them reach across; cells below the smallest normal float would lose their precision.
-static float choose_cell(float min, float max)
+static void write_box(tl_aabb box, uint32_t lane, tl_soup_node *node)
 {
-    double extent = (double)max - (double)min;
-    if (!(extent > 0.0)) {
-        return 0.0f;
+    const float planes[6] = { box.min.x, box.max.x, box.min.y, box.max.y, box.min.z, box.max.z };
+    for (uint32_t i = 0; i < 6; i++) {
+        node->plane[i][lane] = planes[i];
     }
-    float cell = (float)(extent / TL_SOUP_GRID_MAX * (1.0 + 4.0 * (double)FLT_EPSILON));
-    return cell > FLT_MIN ? cell : FLT_MIN;
-}
-
-static uint16_t grid_below(float value, float origin, float cell)
-{
-    if (!(cell > 0.0f)) {
-        return 0;
-    }
-    double step = floor(((double)value - (double)origin) / (double)cell);
-    uint32_t q = step < 0.0 ? 0 : step > TL_SOUP_GRID_MAX ? TL_SOUP_GRID_MAX : (uint32_t)step;
-    while (q > 0 && (double)origin + (double)q * (double)cell > (double)value) {
-        q--;
-    }
-    return (uint16_t)q;
-}
-
-static uint16_t grid_above(float value, float origin, float cell)
-{
-    uint32_t q = grid_below(value, origin, cell);
-    while (q < TL_SOUP_GRID_MAX && (double)origin + (double)q * (double)cell < (double)value) {
-        q++;
-    }
-    return (uint16_t)q;
-}
-
-static void write_box(const tl_soup *soup, tl_aabb box, uint32_t lane, tl_soup_node *node)
-{
-    tl_vec3 origin = soup->grid_origin;
-    tl_vec3 cell = soup->grid_cell;
-    node->plane[0][lane] = grid_below(box.min.x, origin.x, cell.x);
-    node->plane[1][lane] = grid_above(box.max.x, origin.x, cell.x);
-    node->plane[2][lane] = grid_below(box.min.y, origin.y, cell.y);
-    node->plane[3][lane] = grid_above(box.max.y, origin.y, cell.y);
-    node->plane[4][lane] = grid_below(box.min.z, origin.z, cell.z);
-    node->plane[5][lane] = grid_above(box.max.z, origin.z, cell.z);
 }
 
 static float triangle_extent(tl_vec3 a, tl_vec3 b, tl_vec3 c)
@@ -151,9 +113,9 @@ static void write_leaf(baker *b, const tl_tree_node *node, tl_soup_leaf *leaf)
     float *floats = (float *)(void *)(ids + 2 * (size_t)n);
     float *a[3], *c[3], *e[3];
     for (uint32_t axis = 0; axis < 3; axis++) {
-        a[axis] = floats + (size_t)axis * n;
-        c[axis] = floats + (size_t)(3 + axis) * n;
-        e[axis] = floats + (size_t)(6 + 2 * axis) * n;
+        a[axis] = floats + (size_t)(4 * axis) * n;
+        c[axis] = a[axis] + n;
+        e[axis] = c[axis] + n;
     }
     for (uint32_t i = 0; i < n; i++) {
         uint32_t index = b->tree->refs[node->first + i].pair;
@@ -188,7 +150,7 @@ static void write_tree(baker *b, tl_soup *soup)
         uint32_t count = cut_children(b->tree, b->roots[i], children);
         for (uint32_t k = 0; k < count; k++) {
             const tl_tree_node *child = &b->tree->nodes[children[k]];
-            write_box(soup, child->box, k, &nodes[i]);
+            write_box(child->box, k, &nodes[i]);
             if (child->count > 0) {
                 nodes[i].child[k] = tl_child_of_leaf(leaf_offset, child->count);
                 write_leaf(b, child, (tl_soup_leaf *)(void *)((char *)soup + soup->leaf_offset + leaf_offset));
@@ -196,6 +158,9 @@ static void write_tree(baker *b, tl_soup *soup)
             } else {
                 nodes[i].child[k] = next_node++;
             }
+        }
+        for (uint32_t k = count; k < TL_SOUP_WIDTH; k++) {
+            write_box(tl_aabb_empty(), k, &nodes[i]);
         }
     }
     TL_ASSERT(next_node == b->node_count && leaf_offset == b->leaf_bytes);
@@ -227,9 +192,6 @@ static void fill_head(const baker *b, tl_soup *soup)
     tl_aabb bounds = b->mesh->bounds;
     soup->bounds_min = bounds.min;
     soup->bounds_max = bounds.max;
-    soup->grid_origin = bounds.min;
-    soup->grid_cell = tl_vec3_make(choose_cell(bounds.min.x, bounds.max.x), choose_cell(bounds.min.y, bounds.max.y),
-                                   choose_cell(bounds.min.z, bounds.max.z));
 }
 
 tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count,

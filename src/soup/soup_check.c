@@ -30,9 +30,9 @@ static bool vec_in_range(tl_vec3 v)
     return in_range(v.x) && in_range(v.y) && in_range(v.z);
 }
 
-static bool cell_in_range(float cell)
+static bool extent_in_range(float extent)
 {
-    return cell >= 0.0f && cell <= TL_MAX_COORDINATE;
+    return extent >= 0.0f && extent <= 2.0f * TL_MAX_COORDINATE;
 }
 
 static bool head_is_sound(const tl_soup *soup)
@@ -50,9 +50,7 @@ static bool head_is_sound(const tl_soup *soup)
         ((end + TL_BLOB_ALIGNMENT - 1) & ~(uint64_t)(TL_BLOB_ALIGNMENT - 1)) != size) {
         return false;
     }
-    return vec_in_range(soup->bounds_min) && vec_in_range(soup->bounds_max) &&
-           !tl_aabb_is_empty(tl_soup_bounds(soup)) && vec_in_range(soup->grid_origin) &&
-           cell_in_range(soup->grid_cell.x) && cell_in_range(soup->grid_cell.y) && cell_in_range(soup->grid_cell.z);
+    return vec_in_range(soup->bounds_min) && vec_in_range(soup->bounds_max) && !tl_aabb_is_empty(tl_soup_bounds(soup));
 }
 
 static bool id_is_sound(const checker *c, uint32_t id)
@@ -73,7 +71,7 @@ static bool check_leaf(checker *c, uint32_t child)
     c->leaf_count++;
     c->reference_count += pairs;
     const tl_soup_leaf *leaf = tl_soup_leaf_at(c->soup, offset);
-    if (leaf->tagged_count != (TL_LEAF_TAG | pairs) || !cell_in_range(leaf->extent)) {
+    if (leaf->tagged_count != (TL_LEAF_TAG | pairs) || !extent_in_range(leaf->extent)) {
         return false;
     }
     tl_leaf_view view = tl_view_leaf(leaf);
@@ -84,12 +82,30 @@ static bool check_leaf(checker *c, uint32_t child)
             (!single && (!id_is_sound(c, view.ids[pairs + i]) || copy != ((view.ids[pairs + i] & TL_ID_COPY) != 0)))) {
             return false;
         }
+        // A lane without a triangle has no area, so no ray can surely hit it.
+        tl_vec3 a = tl_leaf_slot(&view, i, 0), d = tl_leaf_slot(&view, pairs + i, 1);
+        if (single && !(a.x == d.x && a.y == d.y && a.z == d.z)) {
+            return false;
+        }
         c->pair_count += !copy && !single;
         c->single_count += !copy && single;
         c->triangle_count += copy ? 0 : single ? 1 : 2;
     }
     for (uint32_t i = 0; i < 12 * pairs; i++) {
         if (!in_range(view.floats[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The walks do not look at child words to tell lanes apart, so a lane without a child must have the box that no ray
+// enters.
+static bool box_is_sound(const tl_soup_node *node, uint32_t lane)
+{
+    for (uint32_t i = 0; i < 6; i++) {
+        float plane = node->plane[i][lane];
+        if (node->child[lane] != 0 ? !in_range(plane) : plane != (i % 2 == 0 ? INFINITY : -INFINITY)) {
             return false;
         }
     }
@@ -112,6 +128,9 @@ static bool check_nodes(checker *c)
         }
         for (uint32_t k = 0; k < TL_SOUP_WIDTH; k++) {
             uint32_t child = nodes[i].child[k];
+            if (!box_is_sound(&nodes[i], k)) {
+                return false;
+            }
             if ((child & TL_CHILD_LEAF) != 0) {
                 if (!check_leaf(c, child)) {
                     return false;

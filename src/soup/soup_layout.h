@@ -4,15 +4,16 @@
 //
 //   tl_soup | tl_soup_node[node_count] | leaves, each 16-byte aligned | 64 zero bytes | uint16 materials[] | zeros
 //
-// Nodes hold 16 child boxes as 16-bit steps of one grid over the whole soup. 16 children because a ray's time goes into
-// visits (a missed branch, a missed cache line), not into box arithmetic; 16 bits because a node is then 256 bytes, and
-// because on one global grid the ray's constants need no change from node to node. A frame per node with 8-bit steps is
-// smaller, but its constants cost a dependent load, multiply and shuffle in each visit.
+// Nodes hold 16 child boxes as plain floats: 448 bytes, seven cache lines. 16 children because a ray's time goes into
+// visits (a missed branch, a missed cache line), not into box arithmetic. Floats because a ray waits for each visit to
+// learn where to go: 16-bit planes halve a node, but to widen and to convert them costs a third of a visit, and rays a
+// tenth of their time. What nodes weigh is then a matter of how well they are filled (soup_cut.c).
 //
 // Leaves hold their corners themselves, one array a coordinate, without padding lanes: a ray reads one run of memory.
 // A leaf of n pairs, in 4-byte words, follows its head (see tl_leaf_view):
-//   uint32 ids[2n]; float a.x[n] a.y[n] a.z[n] c.x[n] c.y[n] c.z[n] e.x[2n] e.y[2n] e.z[2n]
-// where e is b for the first n lanes and d for the last n: with a, e, c both triangles of a pair take one formula.
+//   uint32 ids[2n]; float x: a[n] c[n] b[n] d[n], y: a[n] c[n] b[n] d[n], z: a[n] c[n] b[n] d[n]
+// Behind c lies e[2n]: b for the first n lanes and d for the last n. With a, e, c both triangles of a pair take one
+// formula.
 
 #ifndef TALUS_SRC_SOUP_SOUP_LAYOUT_H
 #define TALUS_SRC_SOUP_SOUP_LAYOUT_H
@@ -25,16 +26,15 @@ enum {
     TL_SOUP_LEAF_PAIRS = 4,  ///< most pairs of a leaf
     TL_SOUP_LEAF_ALIGN = 16, ///< bytes
     TL_SOUP_TAIL_BYTES = 64, ///< readable zeros behind the last leaf, so that vector loads may run over it
-    TL_SOUP_MAX_DEPTH = 96,  ///< nodes on a way from root to leaf; tree_build.c keeps it
-    TL_SOUP_GRID_MAX = 65535
+    TL_SOUP_MAX_DEPTH = 96   ///< nodes on a way from root to leaf; tree_build.c keeps it
 };
 
 typedef struct tl_soup_node {
-    uint16_t plane[6][TL_SOUP_WIDTH]; ///< min x, max x, min y, max y, min z, max z, in grid steps
-    uint32_t child[TL_SOUP_WIDTH];    ///< 0: none
+    float plane[6][TL_SOUP_WIDTH]; ///< min x, max x, min y, max y, min z, max z; no child: min INFINITY, max -INFINITY
+    uint32_t child[TL_SOUP_WIDTH]; ///< 0: none
 } tl_soup_node;
 
-static_assert(sizeof(tl_soup_node) == 256, "a node is four cache lines");
+static_assert(sizeof(tl_soup_node) == 448, "a node is seven cache lines");
 
 struct tl_soup {
     tl_blob blob;
@@ -46,21 +46,17 @@ struct tl_soup {
     uint32_t leaf_count;
     uint32_t node_count;
     uint32_t depth;
-    tl_vec3 bounds_min; ///< these four are read as vectors of four floats, hence the padding
+    tl_vec3 bounds_min; ///< these two are read as vectors of four floats, hence the padding
     float padding_a;
     tl_vec3 bounds_max;
     float padding_b;
-    tl_vec3 grid_origin; ///< grid plane q lies at origin + q * cell, taken as real numbers
-    float padding_c;
-    tl_vec3 grid_cell;
-    float padding_d;
     uint32_t uniform_material; ///< of all triangles, where there is no table
     uint32_t has_materials;
     uint64_t node_offset;
     uint64_t leaf_offset;
     uint64_t leaf_bytes;
     uint64_t material_offset;
-    uint64_t reserved[5]; ///< zero
+    uint64_t reserved[9]; ///< zero
 };
 
 static_assert(sizeof(tl_soup) == 192, "no padding holes in the head");
@@ -157,19 +153,23 @@ static inline uint16_t tl_soup_material(const tl_soup *soup, uint32_t triangle)
     return ((const uint16_t *)(const void *)((const char *)soup + soup->material_offset))[triangle];
 }
 
-/// Corner in a slot of a lane, 0: a, 1: e, 2: c. Axis k is at [k * *stride_out].
-static inline const float *tl_leaf_corner(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot, uint32_t *stride_out)
+/// Corner in a slot of a lane, 0: a, 1: e, 2: c. Axis k is at [k * tl_leaf_stride].
+static inline const float *tl_leaf_corner(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot)
 {
     uint32_t n = leaf->pair_count;
     uint32_t pair = lane < n ? lane : lane - n;
-    *stride_out = slot == 1 ? 2 * n : n;
-    return leaf->floats + (slot == 0 ? pair : slot == 1 ? 6 * n + lane : 3 * n + pair);
+    return leaf->floats + (slot == 0 ? pair : slot == 1 ? 2 * n + lane : n + pair);
+}
+
+static inline uint32_t tl_leaf_stride(const tl_leaf_view *leaf)
+{
+    return 4 * leaf->pair_count;
 }
 
 static inline tl_vec3 tl_leaf_slot(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot)
 {
-    uint32_t stride;
-    const float *corner = tl_leaf_corner(leaf, lane, slot, &stride);
+    const float *corner = tl_leaf_corner(leaf, lane, slot);
+    uint32_t stride = tl_leaf_stride(leaf);
     return tl_vec3_make(corner[0], corner[stride], corner[2 * (size_t)stride]);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The tree as every query but the ray walk sees it: decoded boxes of a node's children, a stack of what is still to be
+// The tree as every query but the ray walk sees it: boxes of a node's children, a stack of what is still to be
 // visited, and the triangles of a leaf. What the bytes of a node look like is known here and nowhere above.
 //
 //   tl_walk_begin(&walk, soup);
@@ -30,15 +30,14 @@ enum {
 
 /// The children of a node.
 typedef struct tl_walk_boxes {
-    float min[3][TL_WALK_WIDTH]; ///< rounded outward; of a lane without a child anything
-    float max[3][TL_WALK_WIDTH];
-    uint32_t mask; ///< bit i: lane i has a child
+    float min[3][TL_WALK_WIDTH]; ///< of a lane without a child INFINITY
+    float max[3][TL_WALK_WIDTH]; ///< of a lane without a child -INFINITY
+    uint32_t mask;               ///< bit i: lane i has a child
     uint32_t child[TL_WALK_WIDTH];
 } tl_walk_boxes;
 
 typedef struct tl_walk {
     const tl_soup *soup;
-    float pad[3];
     uint32_t count;
     // The bits of the key above the child word: keys are never negative, so their bits have the order of their values.
     uint64_t entries[TL_WALK_STACK_SIZE];
@@ -49,20 +48,10 @@ static inline bool tl_walk_is_leaf(uint32_t child)
     return (child & TL_CHILD_LEAF) != 0;
 }
 
-// A plane at origin + q cell rounds twice, and once more when the pad is added; R bounds all three results.
-static inline float tl_walk_pad(float origin, float cell)
-{
-    float reach = fabsf(origin) + (float)TL_SOUP_GRID_MAX * cell;
-    return reach * TL_FLOAT_GAMMA(4) + FLT_MIN;
-}
-
 /// The root comes first, with key 0.
 static inline void tl_walk_begin(tl_walk *walk, const tl_soup *soup)
 {
     walk->soup = soup;
-    walk->pad[0] = tl_walk_pad(soup->grid_origin.x, soup->grid_cell.x);
-    walk->pad[1] = tl_walk_pad(soup->grid_origin.y, soup->grid_cell.y);
-    walk->pad[2] = tl_walk_pad(soup->grid_origin.z, soup->grid_cell.z);
     walk->count = 1;
     walk->entries[0] = 0;
 }
@@ -83,18 +72,13 @@ static inline bool tl_walk_next(tl_walk *walk, float limit, uint32_t *child_out)
     return false;
 }
 
-/// Decodes the boxes of a node's children.
+/// The boxes of a node's children.
 static inline void tl_walk_read_boxes(const tl_walk *walk, uint32_t node_index, tl_walk_boxes *boxes)
 {
     const tl_soup_node *node = &tl_soup_nodes(walk->soup)[node_index];
-    const float origin[3] = { walk->soup->grid_origin.x, walk->soup->grid_origin.y, walk->soup->grid_origin.z };
-    const float cell[3] = { walk->soup->grid_cell.x, walk->soup->grid_cell.y, walk->soup->grid_cell.z };
     for (uint32_t axis = 0; axis < 3; axis++) {
-        for (uint32_t lane = 0; lane < TL_WALK_WIDTH; lane++) {
-            boxes->min[axis][lane] = origin[axis] + (float)node->plane[2 * axis][lane] * cell[axis] - walk->pad[axis];
-            boxes->max[axis][lane] =
-                origin[axis] + (float)node->plane[2 * axis + 1][lane] * cell[axis] + walk->pad[axis];
-        }
+        memcpy(boxes->min[axis], node->plane[2 * axis], sizeof boxes->min[axis]);
+        memcpy(boxes->max[axis], node->plane[2 * axis + 1], sizeof boxes->max[axis]);
     }
     boxes->mask = 0;
     for (uint32_t lane = 0; lane < TL_WALK_WIDTH; lane++) {
