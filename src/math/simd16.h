@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
 // The vocabulary of simd.h, sixteen floats wide: one register with AVX-512, two halves of tl_f32x8 elsewhere.
-//
-// Names with `bits` take the bits of a float as a signed integer. Of numbers that are not negative these have the order
-// of the values, and any negative one lies below them; comparing them takes one cycle where floats take four.
 
 #ifndef TALUS_SRC_MATH_SIMD16_H
 #define TALUS_SRC_MATH_SIMD16_H
 
 #include "base/lowest_bit.h"
-#include "math/simd.h"
+#include "math/simd8.h"
 
 #if TL_SIMD_LEVEL == 3
 
