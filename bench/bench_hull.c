@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
 // Convex hulls of clouds, with Qhull as peer where it is installed: microseconds, CPU time, the best of several
-// repetitions. Talus's figure includes the baked block with planes, mass and support tables; Qhull's is the bare hull.
+// repetitions, taken by turns. Talus's figure includes the baked block with planes, mass and support tables; Qhull's is
+// the bare hull. Then rays against hulls: nanoseconds a ray with each of the kernels, in a row and each waiting for the
+// last.
 
 #define _GNU_SOURCE
+
+#include "report.h"
+
+#include "hull/ray.h"
 
 #include <talus/hull.h>
 
@@ -94,20 +100,21 @@ static double run_qhull(const tl_vec3 *points, uint32_t count, uint32_t *vertice
 }
 #endif
 
-int main(void)
+static void bench_builds(bench_report *report)
 {
     static const struct {
         const char *name;
         cloud_kind kind;
         uint32_t count;
         int repetitions;
+        double limit; // of our time over Qhull's; 0: none
     } cases[] = {
-        { "sphere 32", CLOUD_SPHERE, 32, 200 },       { "sphere 128", CLOUD_SPHERE, 128, 100 },
-        { "sphere 512", CLOUD_SPHERE, 512, 50 },      { "sphere 2048", CLOUD_SPHERE, 2048, 20 },
-        { "sphere 8192", CLOUD_SPHERE, 8192, 9 },     { "sphere 32768", CLOUD_SPHERE, 32768, 5 },
-        { "sphere 131072", CLOUD_SPHERE, 131072, 3 }, { "cube 8192", CLOUD_CUBE, 8192, 20 },
-        { "cube 131072", CLOUD_CUBE, 131072, 5 },     { "cube faces 8192", CLOUD_CUBE_FACES, 8192, 9 },
-        { "grid 132651", CLOUD_GRID, 132651, 5 },
+        { "sphere 32", CLOUD_SPHERE, 32, 200, 0.0 },       { "sphere 128", CLOUD_SPHERE, 128, 100, 0.0 },
+        { "sphere 512", CLOUD_SPHERE, 512, 50, 0.5 },      { "sphere 2048", CLOUD_SPHERE, 2048, 20, 0.5 },
+        { "sphere 8192", CLOUD_SPHERE, 8192, 9, 0.5 },     { "sphere 32768", CLOUD_SPHERE, 32768, 5, 0.5 },
+        { "sphere 131072", CLOUD_SPHERE, 131072, 3, 0.5 }, { "cube 8192", CLOUD_CUBE, 8192, 20, 1.0 },
+        { "cube 131072", CLOUD_CUBE, 131072, 5, 1.0 },     { "cube faces 8192", CLOUD_CUBE_FACES, 8192, 9, 1.0 },
+        { "grid 132651", CLOUD_GRID, 132651, 5, 1.0 },
     };
     static tl_vec3 points[MOST_POINTS];
     printf("%-16s %10s %10s %10s %7s\n", "hull", "vertices", "talus us", "qhull us", "ratio");
@@ -123,11 +130,103 @@ int main(void)
 #endif
         }
         printf("%-16s %10u %10.1f", cases[c].name, vertices, talus);
+        bench_report_value(report, "build a hull, us", "talus", cases[c].name, talus);
         if (peer < 1e30) {
             printf(" %10.1f %7.2f\n", peer, talus / peer);
+            bench_report_value(report, "build a hull, us", "Qhull", cases[c].name, peer);
+            if (cases[c].limit > 0.0) {
+                char claim[64];
+                snprintf(claim, sizeof claim, "%s, share of Qhull's time", cases[c].name);
+                bench_report_at_most(report, claim, talus / peer, cases[c].limit);
+            }
         } else {
             printf(" %10s %7s\n", "-", "-");
         }
     }
-    return 0;
+}
+
+enum { RAY_COUNT = 2048, RAY_ROUNDS = 15 };
+
+typedef struct ray {
+    double origin[3], direction[3];
+} ray;
+
+// From a sphere twice as large to points around the middle: most rays hit.
+static void make_rays(ray *rays)
+{
+    for (int i = 0; i < RAY_COUNT; i++) {
+        tl_vec3 from = tl_scale(tl_normalize(tl_vec3_make(random_signed(), random_signed(), random_signed())), 2.0f);
+        tl_vec3 to = tl_scale(tl_vec3_make(random_signed(), random_signed(), random_signed()), 0.4f);
+        tl_vec3 along = tl_sub(to, from);
+        ray r = { { (double)from.x, (double)from.y, (double)from.z },
+                  { (double)along.x, (double)along.y, (double)along.z } };
+        rays[i] = r;
+    }
+}
+
+static double time_rays(tl_ray_planes_fn *kernel, const tl_hull *hull, const ray *rays, bool wait, uint32_t *hits_out)
+{
+    double best = 1e30;
+    for (int round = 0; round < RAY_ROUNDS; round++) {
+        double start = now(), t = 0.0;
+        uint32_t hits = 0, face;
+        for (int i = 0; i < RAY_COUNT; i++) {
+            // When it waits, the last answer is part of the next question, too small to change it.
+            double last = wait ? t * 1e-40 : 0.0;
+            double origin[3] = { rays[i].origin[0] + last, rays[i].origin[1], rays[i].origin[2] };
+            hits += kernel(hull, origin, rays[i].direction, 10.0, &t, &face);
+        }
+        best = fmin(best, 1e3 * (now() - start) / RAY_COUNT);
+        *hits_out = hits;
+    }
+    return best;
+}
+
+static void bench_rays(bench_report *report)
+{
+    static const char *const names[] = { "scalar", "SSE4.2", "AVX2", "AVX-512", "chosen" };
+    static const uint32_t counts[] = { 8, 32, 128, 512 };
+    static ray rays[RAY_COUNT];
+    make_rays(rays);
+    printf("%-20s %6s", "ray on hull, ns", "faces");
+    for (int level = 0; level < 5; level++) {
+        printf(" %8s", names[level]);
+    }
+    printf(" %6s\n", "hits");
+    for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+        static tl_vec3 points[512];
+        tl_hull *hull;
+        make_cloud(CLOUD_SPHERE, points, counts[c]);
+        if (tl_hull_build(points, counts[c], NULL, &hull, NULL) != TL_OK) {
+            continue;
+        }
+        for (int wait = 0; wait < 2; wait++) {
+            char label[32];
+            uint32_t hits = 0;
+            snprintf(label, sizeof label, "sphere %u%s", counts[c], wait ? ", waiting" : "");
+            printf("%-20s %6u", label, hull->face_count);
+            for (int level = 0; level < 5; level++) {
+                tl_ray_planes_fn *kernel = level < 4 ? tl_ray_planes_for(level) : tl_hull_clip_ray;
+                if (kernel == NULL) {
+                    printf(" %8s", "-");
+                    continue;
+                }
+                double time = time_rays(kernel, hull, rays, wait != 0, &hits);
+                printf(" %8.1f", time);
+                bench_report_value(report, "ray on a hull, ns", names[level], label, time);
+            }
+            printf(" %6u\n", hits);
+        }
+        tl_blob_free(hull, NULL);
+    }
+}
+
+int main(int argc, char **argv)
+{
+    const char *path = bench_report_path(&argc, argv);
+    bench_report *report = bench_report_new("Hulls", "time", NULL);
+    bench_builds(report);
+    bench_rays(report);
+    bench_report_print_claims(report);
+    return bench_report_close(report, path);
 }

@@ -107,9 +107,9 @@ static void test_contacts_of_all_families(void **state)
         float size = tl_maxf(a.size, b.size), tolerance = 0.01f * size;
         if (i % 4 == 0 && a.hull != NULL && b.hull != NULL) {
             // Lay a face of b on a face of a.
-            const tl_hull_plane *pa = tl_hull_planes(a.hull), *pb = tl_hull_planes(b.hull);
-            tl_vec3 na = tl_vec3_make((float)pa->normal[0], (float)pa->normal[1], (float)pa->normal[2]);
-            tl_vec3 nb = tl_vec3_make(-(float)pb->normal[0], -(float)pb->normal[1], -(float)pb->normal[2]);
+            tl_hull_plane pa = tl_hull_face_plane(a.hull, 0), pb = tl_hull_face_plane(b.hull, 0);
+            tl_vec3 na = tl_vec3_make((float)pa.normal[0], (float)pa.normal[1], (float)pa.normal[2]);
+            tl_vec3 nb = tl_vec3_make(-(float)pb.normal[0], -(float)pb.normal[1], -(float)pb.normal[2]);
             tl_vec3 axis = tl_cross(nb, na);
             tl_quat turn = { axis.x, axis.y, axis.z, 1.0f + tl_dot(na, nb) };
             pose_a = tl_transform_identity();

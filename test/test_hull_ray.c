@@ -4,10 +4,14 @@
 
 #include "talus_test.h"
 
+#include "hull/ray.h"
 #include "hull_shapes.h"
 #include "math/predicates.h"
 
+#include <talus/convex.h>
 #include <talus/hull.h>
+
+#include <string.h>
 
 static void test_rays_agree_with_sidedness(void **state)
 {
@@ -80,6 +84,96 @@ static void test_rays_agree_with_sidedness(void **state)
     TEST_CHECK(hits > 10000 && misses > 5000 && inside > 500 && grazing < 500);
 }
 
+// Every instruction set gives the bits of the scalar kernel.
+static void test_kernels_agree(void **state)
+{
+    (void)state;
+    tl_vec3 points[200];
+    uint32_t hits = 0, misses = 0, inside = 0, kernels = 0;
+    static const uint32_t counts[] = { 4, 5, 6, 8, 20, 32, 100, 200 };
+    static const int exponents[] = { 0, 0, -40, 90 };
+    for (int level = 1; level <= 3; level++) {
+        kernels += tl_ray_planes_for(level) != NULL;
+    }
+    for (uint32_t c = 0; c < 4 * (uint32_t)(sizeof counts / sizeof *counts); c++) {
+        test_random random = { c };
+        uint32_t count = shape_make(c % 8 < 4 ? SHAPE_SPHERE : SHAPE_CUBE_SURFACE, &random, points, counts[c / 4]);
+        for (uint32_t i = 0; i < count; i++) {
+            points[i] = tl_scale(points[i], ldexpf(1.0f, exponents[c % 4]));
+        }
+        tl_hull *hull;
+        TEST_RESULT(tl_hull_build(points, count, NULL, &hull, NULL), TL_OK);
+        double size = (double)tl_maxf(hull->bounds.max.x, -hull->bounds.min.x);
+        for (int i = 0; i < 4000; i++) {
+            double o[3], d[3], t[4] = { 0.0 }, max_t = i % 5 == 0 ? (double)INFINITY : 1.0;
+            uint32_t face[4] = { 0 };
+            for (int k = 0; k < 3; k++) {
+                o[k] = size * (double)test_random_range(&random, -2.0f, 2.0f);
+                d[k] = size * (double)test_random_range(&random, -0.7f, 0.7f) - o[k];
+                d[k] = i % 7 == 0 && k > 0 ? 0.0 : d[k];
+            }
+            bool hit = tl_ray_planes_scalar(hull, o, d, max_t, &t[0], &face[0]);
+            for (int level = 1; level <= 3; level++) {
+                tl_ray_planes_fn *kernel = tl_ray_planes_for(level);
+                TEST_CHECK(kernel == NULL || kernel(hull, o, d, max_t, &t[level], &face[level]) == hit);
+                TEST_CHECK(kernel == NULL || !hit ||
+                           (memcmp(&t[0], &t[level], sizeof t[0]) == 0 && face[0] == face[level]));
+            }
+            inside += hit && face[0] == TL_NO_VERTEX;
+            hits += hit;
+            misses += !hit;
+        }
+        tl_blob_free(hull, NULL);
+    }
+    print_message("%u kernels beside the scalar one\n", kernels);
+    TEST_CHECK(hits > 30000 && misses > 30000 && inside > 1000);
+}
+
+// A posed hull is cast at by its planes, the cloud of its vertices by GJK: the same answers.
+static void test_posed_hulls_agree_with_clouds(void **state)
+{
+    (void)state;
+    tl_vec3 points[40];
+    uint32_t hits = 0, misses = 0;
+    for (int kind = 0; kind < SHAPE_COUNT; kind++) {
+        test_random random = { (uint64_t)kind };
+        shape_make((shape_kind)kind, &random, points, 40);
+        tl_hull *hull;
+        TEST_RESULT(tl_hull_build(points, 40, NULL, &hull, NULL), TL_OK);
+        tl_convex planes = tl_convex_from_hull(hull, 0.0f);
+        tl_convex cloud = tl_convex_from_points(tl_hull_vertices(hull), hull->vertex_count, 0.0f);
+        tl_vec3 size = tl_aabb_size(hull->bounds);
+        float reach = tl_maxf(size.x, tl_maxf(size.y, size.z));
+        for (int i = 0; i < 300; i++) {
+            tl_transform pose = tl_transform_identity();
+            pose.position = tl_scale(test_random_direction(&random), 100.0f * reach);
+            tl_vec3 axis = test_random_direction(&random);
+            tl_quat turn = { axis.x, axis.y, axis.z, test_random_range(&random, -1.0f, 1.0f) };
+            pose.rotation = tl_quat_normalize(turn);
+            tl_vec3 middle = tl_transform_point(pose, tl_aabb_center(hull->bounds));
+            tl_vec3 origin = tl_add(middle, tl_scale(test_random_direction(&random), 3.0f * reach));
+            tl_vec3 target = tl_add(middle, tl_scale(test_random_direction(&random), 0.4f * reach));
+            tl_vec3 direction = tl_sub(target, origin);
+            tl_convex_hit a, b;
+            bool hit = tl_convex_cast_ray(&planes, pose, origin, direction, INFINITY, &a);
+            TEST_CHECK(a.status == TL_CONVEX_CONVERGED && a.gap == 0.0f);
+            // What passes closer than the gap may be said to hit.
+            bool near = tl_convex_cast_ray(&cloud, pose, origin, direction, INFINITY, &b);
+            TEST_CHECK(near || !hit);
+            if (hit) {
+                hits++;
+                float slope = -tl_dot(a.normal, tl_normalize(direction));
+                TEST_CHECK(slope > 0.0f);
+                TEST_CHECK(fabsf(a.t - b.t) * tl_length(direction) * slope <= 2e-6f * reach);
+                TEST_CHECK(tl_distance(a.point, tl_mul_add(origin, direction, a.t)) <= 1e-4f * reach);
+            }
+            misses += !hit && !near;
+        }
+        tl_blob_free(hull, NULL);
+    }
+    TEST_CHECK(hits > 1000 && misses > 500);
+}
+
 static void test_contains_is_exact(void **state)
 {
     (void)state;
@@ -122,8 +216,8 @@ static void test_mass_of_known_bodies(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rays_agree_with_sidedness),
-        cmocka_unit_test(test_contains_is_exact),
+        cmocka_unit_test(test_rays_agree_with_sidedness),     cmocka_unit_test(test_kernels_agree),
+        cmocka_unit_test(test_posed_hulls_agree_with_clouds), cmocka_unit_test(test_contains_is_exact),
         cmocka_unit_test(test_mass_of_known_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -35,7 +35,8 @@ static tl_vec3 make_direction(const tl_hull *hull, test_random *random, tl_vec3 
     tl_vec3 d = test_random_direction(random);
     switch (test_random_below(random, 7)) {
     case 0: {
-        const double *n = tl_hull_planes(hull)[test_random_below(random, hull->face_count)].normal;
+        tl_hull_plane plane = tl_hull_face_plane(hull, test_random_below(random, hull->face_count));
+        const double *n = plane.normal;
         return tl_vec3_make((float)n[0], (float)n[1], (float)n[2]);
     }
     case 1: {

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 #define TL_HULL_MAGIC   0x4c554854u ///< "THUL"
-#define TL_HULL_VERSION 1u
+#define TL_HULL_VERSION 2u
 
 /// Largest absolute coordinate of a hull's points: edges and their dot products stay finite floats.
 #define TL_MAX_HULL_COORDINATE 1e30f
@@ -70,6 +70,13 @@ typedef struct tl_hull_plane {
     double offset;
 } tl_hull_plane;
 
+/// The planes of eight faces, as queries read them: face f is lane f % 8 of block f / 8. Lanes beyond the last face are
+/// zero, planes that everything is on.
+typedef struct tl_hull_plane_block {
+    double x[8], y[8], z[8]; ///< normals
+    double offset[8];
+} tl_hull_plane_block;
+
 /// For density 1. Computed in double about a point inside, so it is as good far from the origin. A body thinner than
 /// double rounding of its length has volume and inertia 0, and the mean of its vertices as centre.
 typedef struct tl_hull_mass {
@@ -98,7 +105,7 @@ typedef struct tl_hull {
     uint64_t vertex_edges; ///< uint32_t [V] a half-edge that starts there
     uint64_t half_edges;   ///< tl_hull_half_edge [2 E]
     uint64_t faces;        ///< tl_hull_face [F]
-    uint64_t planes;       ///< tl_hull_plane [F]
+    uint64_t planes;       ///< tl_hull_plane_block [(F + 7) / 8]
     // What tl_hull_support reads; the layout is private.
     uint64_t vertex_blocks;  ///< uint32_t [V] the first block of each vertex
     uint64_t block_vertices; ///< uint32_t [block_count] the vertex that each block belongs to
@@ -160,6 +167,11 @@ typedef struct tl_hull_hit {
 /// `hit_out` may be NULL. Thread safe. O(F).
 TL_API bool tl_hull_cast_ray(const tl_hull *hull, tl_vec3 origin, tl_vec3 direction, float max_t, tl_hull_hit *hit_out);
 
+/// The same in double, for a ray that was brought into the hull's frame: `t_out` and `face_out` as in tl_hull_hit, set
+/// only when it hits. max_t may be INFINITY.
+TL_API bool tl_hull_clip_ray(const tl_hull *hull, const double origin[3], const double direction[3], double max_t,
+                             double *t_out, uint32_t *face_out);
+
 /// Whether a point lies in the closed hull, exactly decided. O(F).
 TL_API bool tl_hull_contains(const tl_hull *hull, tl_vec3 point);
 
@@ -191,10 +203,23 @@ static inline const tl_hull_face *tl_hull_faces(const tl_hull *hull)
     return (const tl_hull_face *)(const void *)((const char *)hull + hull->faces);
 }
 
-/// One outward plane a face.
-static inline const tl_hull_plane *tl_hull_planes(const tl_hull *hull)
+static inline uint32_t tl_hull_plane_block_count(uint32_t face_count)
 {
-    return (const tl_hull_plane *)(const void *)((const char *)hull + hull->planes);
+    return face_count / 8 + (face_count % 8 != 0);
+}
+
+static inline const tl_hull_plane_block *tl_hull_plane_blocks(const tl_hull *hull)
+{
+    return (const tl_hull_plane_block *)(const void *)((const char *)hull + hull->planes);
+}
+
+/// The outward plane of a face.
+static inline tl_hull_plane tl_hull_face_plane(const tl_hull *hull, uint32_t face)
+{
+    const tl_hull_plane_block *block = &tl_hull_plane_blocks(hull)[face / 8];
+    uint32_t lane = face % 8;
+    tl_hull_plane plane = { { block->x[lane], block->y[lane], block->z[lane] }, block->offset[lane] };
+    return plane;
 }
 
 #ifdef __cplusplus

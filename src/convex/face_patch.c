@@ -41,11 +41,11 @@ static tl_vec3d face_corner(const tl_face *face, uint32_t i)
 
 static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
 {
-    const tl_hull_plane *planes = tl_hull_planes(shape->hull);
     uint32_t best = 0;
     double best_dot = -2.0;
     for (uint32_t f = 0; f < shape->hull->face_count; f++) {
-        double dot = d.x * planes[f].normal[0] + d.y * planes[f].normal[1] + d.z * planes[f].normal[2];
+        tl_hull_plane plane = tl_hull_face_plane(shape->hull, f);
+        double dot = d.x * plane.normal[0] + d.y * plane.normal[1] + d.z * plane.normal[2];
         if (dot > best_dot) {
             best_dot = dot;
             best = f;
@@ -53,7 +53,8 @@ static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
     }
     face->first = tl_hull_faces(shape->hull)[best].first;
     face->count = tl_hull_faces(shape->hull)[best].count;
-    face->normal = tl_vec3d_make(planes[best].normal[0], planes[best].normal[1], planes[best].normal[2]);
+    tl_hull_plane plane = tl_hull_face_plane(shape->hull, best);
+    face->normal = tl_vec3d_make(plane.normal[0], plane.normal[1], plane.normal[2]);
 }
 
 static void box_face(const tl_convex *shape, tl_vec3d d, tl_face *face)

@@ -83,6 +83,19 @@ static tl_hull_plane fit_plane(const tl_hull *hull, tl_hull_face face)
     return plane;
 }
 
+static void write_planes(tl_hull *hull)
+{
+    tl_hull_plane_block *blocks = (tl_hull_plane_block *)(void *)((char *)hull + hull->planes);
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        tl_hull_plane plane = fit_plane(hull, tl_hull_faces(hull)[f]);
+        tl_hull_plane_block *block = &blocks[f / 8];
+        block->x[f % 8] = plane.normal[0];
+        block->y[f % 8] = plane.normal[1];
+        block->z[f % 8] = plane.normal[2];
+        block->offset[f % 8] = plane.offset;
+    }
+}
+
 static void write_scan(tl_hull *hull)
 {
     float *rows = (float *)(void *)((char *)hull + hull->scan);
@@ -175,10 +188,7 @@ tl_result tl_hull_bake(const tl_hull_polygons *polygons, const tl_vec3 *points, 
     head.blob = hull->blob;
     memcpy(hull, &head, sizeof head);
     write_topology(hull, polygons, points, copies);
-    tl_hull_plane *planes = (tl_hull_plane *)(void *)((char *)hull + hull->planes);
-    for (uint32_t f = 0; f < hull->face_count; f++) {
-        planes[f] = fit_plane(hull, tl_hull_faces(hull)[f]);
-    }
+    write_planes(hull);
     tl_hull_measure_mass(hull);
     hull->table_scale = table_scale(hull->bounds);
     hull->scan_error = 0.0f;

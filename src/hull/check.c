@@ -137,11 +137,18 @@ static bool check_geometry(const tl_hull *hull)
         return false;
     }
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        const tl_hull_plane *plane = &tl_hull_planes(hull)[f];
-        double length_sq = plane->normal[0] * plane->normal[0] + plane->normal[1] * plane->normal[1] +
-                           plane->normal[2] * plane->normal[2];
+        tl_hull_plane plane = tl_hull_face_plane(hull, f);
+        double length_sq =
+            plane.normal[0] * plane.normal[0] + plane.normal[1] * plane.normal[1] + plane.normal[2] * plane.normal[2];
         // Generous: this only keeps nonsense out, tl_hull_validate measures.
-        if (!(length_sq > 0.999 && length_sq < 1.001) || !isfinite(plane->offset)) {
+        if (!(length_sq > 0.999 && length_sq < 1.001) || !isfinite(plane.offset)) {
+            return false;
+        }
+    }
+    // A query must not name a face that is not there.
+    for (uint32_t f = hull->face_count; f < 8 * tl_hull_plane_block_count(hull->face_count); f++) {
+        tl_hull_plane plane = tl_hull_face_plane(hull, f);
+        if (plane.normal[0] != 0.0 || plane.normal[1] != 0.0 || plane.normal[2] != 0.0 || plane.offset != 0.0) {
             return false;
         }
     }

@@ -31,7 +31,7 @@ uint64_t tl_hull_lay_out(tl_hull *head)
     head->vertex_edges = place(&size, head->vertex_count, sizeof(uint32_t));
     head->half_edges = place(&size, head->half_edge_count, sizeof(tl_hull_half_edge));
     head->faces = place(&size, head->face_count, sizeof(tl_hull_face));
-    head->planes = place(&size, head->face_count, sizeof(tl_hull_plane));
+    head->planes = place(&size, tl_hull_plane_block_count(head->face_count), sizeof(tl_hull_plane_block));
     head->vertex_blocks = place(&size, head->vertex_count, sizeof(uint32_t));
     head->block_vertices = place(&size, head->block_count, sizeof(uint32_t));
     head->block_errors = place(&size, head->block_count, sizeof(float));

@@ -1,48 +1,72 @@
 // SPDX-License-Identifier: MIT
 //
-// Ray against a hull: the ray is clipped by every plane; what is left is the part inside.
+// Ray against a hull: the ray is clipped by every plane; what is left is the part inside. The kernel is in
+// ray_planes.h, chosen as in the soup's ray query: by a look at the processor's features, so that there is no state.
 // Source: Cyrus, Beck, Generalized Two- and Three-Dimensional Clipping, 1978. In double, so that neither the hull's
 // distance from the origin nor the ray's length costs precision that a float result could show.
 
-#include "hull/side_plane.h"
+#include "hull/ray.h"
 
 #include "base/assert.h"
+#include "math/predicates.h"
 
-#include <talus/hull.h>
+#if defined(__x86_64__) && defined(__GNUC__)
+
+tl_ray_planes_fn *tl_ray_planes_for(int level)
+{
+    switch (level) {
+    case 0:
+        return tl_ray_planes_scalar;
+    case 1:
+        return __builtin_cpu_supports("sse4.2") ? tl_ray_planes_sse42 : NULL;
+    case 2:
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? tl_ray_planes_avx2 : NULL;
+    case 3:
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq")
+                   ? tl_ray_planes_avx512
+                   : NULL;
+    default:
+        return NULL;
+    }
+}
+
+#else
+
+tl_ray_planes_fn *tl_ray_planes_for(int level)
+{
+    return level == 0 ? tl_ray_planes_scalar : NULL;
+}
+
+#endif
+
+bool tl_hull_clip_ray(const tl_hull *hull, const double origin[3], const double direction[3], double max_t,
+                      double *t_out, uint32_t *face_out)
+{
+    tl_ray_planes_fn *best = NULL;
+    for (int level = 3; best == NULL; level--) {
+        best = tl_ray_planes_for(level);
+    }
+    return best(hull, origin, direction, max_t, t_out, face_out);
+}
 
 bool tl_hull_cast_ray(const tl_hull *hull, tl_vec3 origin, tl_vec3 direction, float max_t, tl_hull_hit *hit_out)
 {
-    const tl_hull_plane *planes = tl_hull_planes(hull);
-    double ox = (double)origin.x, oy = (double)origin.y, oz = (double)origin.z;
-    double dx = (double)direction.x, dy = (double)direction.y, dz = (double)direction.z;
-    double enter = 0.0, leave = (double)max_t;
-    uint32_t face = TL_NO_VERTEX;
-    for (uint32_t f = 0; f < hull->face_count; f++) {
-        const double *n = planes[f].normal;
-        double height = n[0] * ox + n[1] * oy + n[2] * oz - planes[f].offset;
-        double slope = n[0] * dx + n[1] * dy + n[2] * dz;
-        if (slope < 0.0) {
-            // Coming in: inside after t.
-            if (height > -slope * enter) {
-                enter = height / -slope;
-                face = f;
-            }
-        } else if (height > 0.0) {
-            return false;
-        } else if (slope > 0.0 && -height < slope * leave) {
-            leave = -height / slope;
-        }
-        if (enter > leave) {
-            return false;
-        }
+    const double from[3] = { (double)origin.x, (double)origin.y, (double)origin.z };
+    const double along[3] = { (double)direction.x, (double)direction.y, (double)direction.z };
+    double t;
+    uint32_t face;
+    if (!tl_hull_clip_ray(hull, from, along, (double)max_t, &t, &face)) {
+        return false;
     }
     if (hit_out != NULL) {
-        hit_out->t = (float)enter;
+        hit_out->t = (float)t;
         hit_out->face = face;
-        hit_out->normal = face == TL_NO_VERTEX
-                              ? tl_vec3_make(0.0f, 0.0f, 0.0f)
-                              : tl_vec3_make((float)planes[face].normal[0], (float)planes[face].normal[1],
-                                             (float)planes[face].normal[2]);
+        hit_out->normal = tl_vec3_make(0.0f, 0.0f, 0.0f);
+        if (face != TL_NO_VERTEX) {
+            tl_hull_plane plane = tl_hull_face_plane(hull, face);
+            hit_out->normal = tl_vec3_make((float)plane.normal[0], (float)plane.normal[1], (float)plane.normal[2]);
+        }
     }
     return true;
 }
