@@ -5,53 +5,20 @@
 #include "cli/bake_level.h"
 #include "cli/json_out.h"
 #include "cli/table.h"
-#include "io/atomic_write.h"
-
-#include <talus/pack.h>
+#include "cli/write_pack.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-// The chunks of one file, and what must be freed with them.
-typedef struct file_content {
-    tl_pack_item *items;
-    uint32_t count;
-    tl_pack_meta *meta;
-    tl_pack_navmesh *navmesh;
-} file_content;
-
-static void free_content(file_content *content)
+static tl_result make_content(const tl_level *level, const tl_bake *bake, bool nav, tl_pack_content *content)
 {
-    tl_blob_free(content->meta, NULL);
-    tl_blob_free(content->navmesh, NULL);
-    free(content->items);
-}
-
-static void add_blob(file_content *content, uint32_t type, uint32_t id, const void *blob)
-{
-    if (blob != NULL) {
-        tl_pack_item item = { type, id, blob, ((const tl_blob *)blob)->size };
-        content->items[content->count++] = item;
+    tl_result result = tl_pack_content_make(bake->tiles.tile_count + 4, content);
+    if (result != TL_OK) {
+        return result;
     }
-}
-
-// The file's own name of its source: without folders, so that the same level gives the same bytes anywhere.
-static const char *base_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash != NULL ? slash + 1 : path;
-}
-
-static tl_result make_content(const tl_level *level, const tl_bake *bake, bool nav, file_content *content)
-{
-    memset(content, 0, sizeof(*content));
-    content->items = calloc((size_t)bake->tiles.tile_count + 4, sizeof(*content->items));
-    if (content->items == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    tl_result result = tl_pack_meta_create(base_name(level->path), level->imported.vertex_count,
-                                           level->imported.triangle_count, level->mesh.bounds, NULL, &content->meta);
+    result = tl_pack_meta_create(tl_pack_source_name(level->path), level->imported.vertex_count,
+                                 level->imported.triangle_count, level->mesh.bounds, NULL, &content->meta);
     if (result == TL_OK && nav) {
         result = tl_pack_navmesh_create(&bake->nav_def, bake->nav_bounds, bake->tiles.tiles_x, bake->tiles.tiles_z,
                                         bake->tiles.tile_count, NULL, &content->navmesh);
@@ -59,59 +26,14 @@ static tl_result make_content(const tl_level *level, const tl_bake *bake, bool n
     if (result != TL_OK) {
         return result;
     }
-    add_blob(content, TL_PACK_META, 0, content->meta);
-    add_blob(content, TL_PACK_SOUP, 0, bake->soup);
-    add_blob(content, TL_PACK_HULL, 0, bake->hull);
-    add_blob(content, TL_PACK_NAVM, 0, content->navmesh);
+    tl_pack_content_add(content, TL_PACK_META, 0, content->meta);
+    tl_pack_content_add(content, TL_PACK_SOUP, 0, bake->soup);
+    tl_pack_content_add(content, TL_PACK_HULL, 0, bake->hull);
+    tl_pack_content_add(content, TL_PACK_NAVM, 0, content->navmesh);
     for (uint32_t i = 0; i < bake->tiles.tile_count; ++i) {
-        add_blob(content, TL_PACK_NAVT, i, bake->tiles.tiles[i]);
+        tl_pack_content_add(content, TL_PACK_NAVT, i, bake->tiles.tiles[i]);
     }
     return TL_OK;
-}
-
-typedef struct file_sink {
-    tl_cli *cli;
-    tl_atomic_file *file;
-    tl_io_error error;
-    uint64_t total;
-} file_sink;
-
-static tl_result write_bytes(const void *bytes, size_t size, void *user)
-{
-    file_sink *sink = user;
-    tl_result result = tl_atomic_file_write(sink->file, bytes, size, &sink->error);
-    const tl_progress *progress = sink->cli->host.progress;
-    uint64_t done = tl_atomic_file_size(sink->file);
-    // The last step is left to the commit, which flushes to disk.
-    if (result == TL_OK &&
-        !progress->update("write", done < sink->total ? done : sink->total, sink->total + 1, progress->user)) {
-        result = TL_ERR_CANCELLED;
-    }
-    return result;
-}
-
-static tl_exit write_file(tl_cli *cli, const char *output, const file_content *content, uint64_t *size_out)
-{
-    file_sink sink;
-    memset(&sink, 0, sizeof(sink));
-    sink.cli = cli;
-    sink.total = tl_pack_size(content->items, content->count);
-    *size_out = sink.total;
-    if (tl_atomic_file_open(output, &sink.file, &sink.error) != TL_OK) {
-        return tl_cli_fail_io(cli, &sink.error);
-    }
-    tl_result result = tl_pack_write(content->items, content->count, NULL, write_bytes, &sink, NULL);
-    if (result != TL_OK) {
-        tl_atomic_file_abort(sink.file);
-        return sink.error.result != TL_OK ? tl_cli_fail_io(cli, &sink.error)
-                                          : tl_cli_fail_result(cli, output, result, NULL);
-    }
-    if (tl_atomic_file_commit(sink.file, &sink.error) != TL_OK) {
-        return tl_cli_fail_io(cli, &sink.error);
-    }
-    const tl_progress *progress = cli->host.progress;
-    progress->update("write", sink.total + 1, sink.total + 1, progress->user);
-    return TL_EXIT_OK;
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -314,13 +236,13 @@ static tl_exit bake_and_write(tl_cli *cli, const tl_level *level, const tl_bake_
                               double began)
 {
     tl_bake bake;
-    file_content content;
+    tl_pack_content content;
     memset(&content, 0, sizeof(content));
     tl_exit code;
     if (tl_bake_level(cli, level, settings, &bake, &code)) {
         bake_result result = { level, &bake, settings, output, 0, 0.0 };
         tl_result made = make_content(level, &bake, settings->nav, &content);
-        code = made == TL_OK ? write_file(cli, output, &content, &result.file_bytes)
+        code = made == TL_OK ? tl_pack_content_write(cli, output, &content, &result.file_bytes)
                              : tl_cli_fail_result(cli, output, made, NULL);
         tl_progress_end(&cli->progress);
         result.seconds = tl_clock_seconds() - began;
@@ -328,7 +250,7 @@ static tl_exit bake_and_write(tl_cli *cli, const tl_level *level, const tl_bake_
             code = print_report(cli, &result);
         }
     }
-    free_content(&content);
+    tl_pack_content_free(&content);
     tl_bake_free(&bake);
     return code;
 }

@@ -16,6 +16,8 @@
     COMMAND(support) \
     COMMAND(distance) \
     COMMAND(polygonize) \
+    COMMAND(export) \
+    COMMAND(import) \
     COMMAND(draw)
 // clang-format on
 

@@ -131,10 +131,21 @@ static bool output_path(const draw_settings *settings, int stage, char *path, si
     return length > 0 && (size_t)length < size;
 }
 
-// What can be drawn of contours alone.
-static bool is_of_contours(int stage)
+// What can be drawn of a level or its soup; of contours alone; of a navmesh alone.
+static bool is_drawable(const draw_source *source, int stage)
 {
-    return stage >= STAGE_CONTOURS && stage <= STAGE_POLYGONS;
+    return source->is_contours ? stage >= STAGE_CONTOURS && stage <= STAGE_POLYGONS
+           : source->is_bare   ? stage == STAGE_POLYGONS || stage == STAGE_PATH
+                               : true;
+}
+
+static bool add_navmesh(draw_source *source, draw_scene *scene, tl_exit *exit_out)
+{
+    bool ready = draw_need_navmesh(source, exit_out);
+    if (ready) {
+        draw_stage_navmesh(scene, source->input.navmesh);
+    }
+    return ready;
 }
 
 static bool add_polygons(draw_source *source, uint32_t max_verts_per_poly, const char *what, draw_scene *scene,
@@ -230,6 +241,9 @@ static bool make_scene(draw_source *source, const draw_settings *settings, int s
     if (stage == STAGE_PATH) {
         return draw_route_add(source, settings->has_ends ? &settings->ends : NULL, scene, exit_out);
     }
+    if (source->is_bare) {
+        return add_navmesh(source, scene, exit_out);
+    }
     return stage == STAGE_CONTOURS || stage == STAGE_TRIANGLES || source->is_contours
                ? add_contour_stage(source, stage, scene, exit_out)
                : add_pipeline_stage(source, stage, scene, exit_out);
@@ -312,12 +326,13 @@ static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *s
     json_t *list = cli->json ? json_array() : NULL;
     bool going = draw_source_open(cli, path, &settings->bake, settings->set, &source, &code);
     for (int stage = 0; going && stage < STAGE_COUNT; stage++) {
-        bool can = !source.is_contours || is_of_contours(stage);
+        bool can = is_drawable(&source, stage);
         if (settings->stages[stage] && !can && !settings->all) {
-            code = tl_cli_fail(cli, TL_EXIT_USAGE,
-                               "%s holds contours: --stage contours, triangulation, merging, triangles and polygons "
-                               "show them",
-                               path);
+            code = tl_cli_fail(cli, TL_EXIT_USAGE, "%s holds %s show%s", path,
+                               source.is_bare ? "a navmesh and no triangles: --stage polygons and path"
+                                              : "contours: --stage contours, triangulation, merging, triangles and "
+                                                "polygons",
+                               source.is_bare ? " it" : " them");
             going = false;
         } else if (settings->stages[stage] && can) {
             going = draw_one(&source, settings, stage, list, &code);

@@ -39,19 +39,25 @@ static bool triangles_of_soup(draw_source *source, tl_exit *exit_out)
     return true;
 }
 
-static bool open_baked(draw_source *source, const char *path, const tl_bake_settings *settings, tl_exit *exit_out)
+static bool open_baked(draw_source *source, const char *path, tl_exit *exit_out)
 {
-    if (!tl_input_open_soup(source->cli, path, settings, &source->input, exit_out)) {
+    if (!tl_input_open_baked(source->cli, path, &source->input, exit_out)) {
         return false;
     }
-    source->soup = source->input.soup;
     tl_result result;
+    source->soup = tl_input_checked_chunk(&source->input, TL_PACK_SOUP, tl_soup_check, &result);
+    if (source->soup == NULL && result != TL_ERR_NOT_FOUND) {
+        *exit_out = tl_cli_fail_result(source->cli, path, result, NULL);
+        return false;
+    }
+    source->is_bare = source->soup == NULL;
     const tl_pack_navmesh *parameters =
         tl_input_checked_chunk(&source->input, TL_PACK_NAVM, tl_pack_navmesh_check, &result);
     if (parameters != NULL) {
         source->nav_def = tl_pack_navmesh_def(parameters);
+        source->bounds = parameters->bounds;
     }
-    return triangles_of_soup(source, exit_out);
+    return source->is_bare || triangles_of_soup(source, exit_out);
 }
 
 // Whether the file's first word says that it holds contours. One that cannot be opened does not: reading it as a level
@@ -112,7 +118,7 @@ bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *set
     source_out->nav_def = settings->nav_def;
     source_out->nav_def.partition = (tl_nav_partition)settings->partition;
     if (tl_input_is_baked(path)) {
-        return open_baked(source_out, path, settings, exit_out);
+        return open_baked(source_out, path, exit_out);
     }
     if (is_contour_file(path)) {
         return open_contours(source_out, path, set, exit_out);

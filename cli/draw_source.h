@@ -20,6 +20,7 @@ typedef struct draw_source {
     tl_soup *baked_soup; ///< made here
     const tl_soup *soup; ///< after draw_need_soup
     tl_nav_stages stages;
+    bool is_bare;     ///< a baked file without triangles: its navmesh can be drawn, and paths over it
     bool is_contours; ///< FILE is a contour set: no triangles, no stages but those that contours have
     tl_contour_text text;
     const tl_contour_set *contours; ///< after draw_need_contours

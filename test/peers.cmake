@@ -40,7 +40,7 @@ set(talus_test_thread_pool_needs talus_cli)
 
 set(talus_test_ray_decide_needs talus_peer_gmp)
 set(talus_test_soup_build_libraries pthread)
-foreach(stem frame bake ray path hull polygonize draw bad_input)
+foreach(stem frame bake ray path hull polygonize draw detour bad_input)
     set(talus_test_cli_${stem}_needs talus_command_path)
 endforeach()
 set(talus_test_hull_qhull_needs talus_peer_qhull)
@@ -51,7 +51,9 @@ set(talus_test_nav_recast_needs talus_peer_recast talus_sample talus_io)
 
 # Detour: the queries to compare with.
 include(${PROJECT_SOURCE_DIR}/cmake/TalusPeerDetour.cmake)
-set(talus_test_path_detour_needs talus_peer_detour talus_sample talus_io)
+foreach(stem path_detour detour_exchange)
+    set(talus_test_${stem}_needs talus_peer_detour talus_sample talus_io)
+endforeach()
 
 # The whole pipeline over the built-in levels and real ones.
 set(talus_test_settings_sweep_needs talus_sample talus_io)

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// Navmesh tiles in the form of Recast Navigation's Detour, and back: a game can move step by step, in either direction.
+//
+// A tile is the data of dtNavMesh::addTile (version 7); a set is the file that RecastDemo saves ("MSET", version 1):
+// the parameters of dtNavMesh::init and all tiles. Both with references of 32 bits or of 64 (DT_POLYREF64), which is
+// how Detour was compiled. Bytes are little-endian, as Detour has them on the machines where talus runs.
+
+#ifndef TALUS_NAV_DETOUR_H
+#define TALUS_NAV_DETOUR_H
+
+#include <talus/nav_tile.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define TL_DETOUR_MAX_CORNERS  6      ///< of a polygon
+#define TL_DETOUR_MAX_POLYGONS 0x7ffe ///< of a tile
+#define TL_DETOUR_MAX_VERTICES 0xfffe ///< of a tile
+
+typedef enum tl_detour_refs {
+    TL_DETOUR_REFS_32, ///< Detour as it comes
+    TL_DETOUR_REFS_64, ///< compiled with DT_POLYREF64
+} tl_detour_refs;
+
+/// What a conversion found. `base` names the element of a failure.
+typedef struct tl_detour_report {
+    tl_report base;
+    uint32_t tile_count;
+    uint32_t polygon_count;
+    uint32_t plain_patches;    ///< writing: polygons whose height detail is beyond Detour's 255 vertices or triangles a
+                               ///< polygon; written with the surface of their corners. Reading: with unusable detail
+    uint32_t dropped_polygons; ///< reading: without area or not convex once on the lattice; left out, their links walls
+    uint32_t one_way_links;    ///< reading: links to a polygon that does not link back; made walls
+    uint32_t off_mesh_links;   ///< reading: off-mesh connections, which tiles do not keep; left out
+    uint32_t area_zeros;       ///< reading: polygons of area 0, which became TL_NAV_MAX_AREA, Recast's walkable area
+} tl_detour_report;
+
+/// Bytes of a tile, or of a set of tiles, in Detour's form; 0 when it cannot be written (writing says why).
+TL_API uint64_t tl_detour_tile_size(const tl_nav_tile *tile, tl_detour_refs refs);
+TL_API uint64_t tl_detour_set_size(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_refs refs);
+
+/// Writes one tile into `bytes` of at least tl_detour_tile_size: what dtNavMesh::addTile takes, and init when the tile
+/// is the whole navmesh. Polygon i of the tile is polygon i there. Nothing is allocated.
+///
+/// Errors, with the polygon named: TL_ERR_LIMIT (more corners than 6, flags above the lowest 16, or a tile with more
+/// polygons, vertices or cells than 16 bits count), TL_ERR_CAPACITY. `report_out` may be NULL.
+TL_API tl_result tl_detour_tile_write(const tl_nav_tile *tile, tl_detour_refs refs, void *bytes, uint64_t capacity,
+                                      tl_detour_report *report_out);
+
+/// Writes the tiles of one navmesh as a set, no two of one place. All have the same origin, cells and tile size
+/// (TL_ERR_ARGUMENT). With 32 bits, tiles and polygons a tile must fit 22 bits together, as Detour asks (TL_ERR_LIMIT).
+TL_API tl_result tl_detour_set_write(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_refs refs,
+                                     void *bytes, uint64_t capacity, tl_detour_report *report_out);
+
+/// Tiles that were read. Free with tl_detour_tiles_free.
+typedef struct tl_detour_tiles {
+    tl_nav_tile **tiles;
+    uint32_t tile_count;
+} tl_detour_tiles;
+
+typedef struct tl_detour_read_def {
+    /// Metres a lattice step of height, > 0. Detour's tiles do not keep their cell height, so the corners' heights are
+    /// rounded to this. Default 1/1024, which no agent notices.
+    float cell_height;
+    const tl_allocator *allocator; ///< NULL: malloc
+} tl_detour_read_def;
+
+TL_API tl_detour_read_def tl_default_detour_read_def(void);
+
+/// Reads a set, or a single tile, which is then the whole navmesh. Safe on any bytes. `def` NULL: defaults.
+///
+/// The corners must lie on a lattice of the cell size that the tile's bounding volume factor tells, as those that
+/// Recast makes do (TL_ERR_RANGE names the vertex of another). Errors: TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED,
+/// TL_ERR_CORRUPT (a count or an index is wrong), TL_ERR_EMPTY (no polygon left), TL_ERR_NOT_FINITE, TL_ERR_RANGE,
+/// TL_ERR_LIMIT (several layers at one place), TL_ERR_MEMORY. `tiles_out` is cleared unless TL_OK.
+TL_API tl_result tl_detour_read(const void *bytes, uint64_t size, const tl_detour_read_def *def,
+                                tl_detour_tiles *tiles_out, tl_detour_report *report_out);
+TL_API void tl_detour_tiles_free(tl_detour_tiles *tiles, const tl_allocator *allocator);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

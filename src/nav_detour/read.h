@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+//
+// Between reading a set and reading a tile.
+
+#ifndef TALUS_SRC_NAV_DETOUR_READ_H
+#define TALUS_SRC_NAV_DETOUR_READ_H
+
+#include "nav_detour/layout.h"
+
+#include <math.h>
+
+// How far a corner may lie from its lattice point. Recast computes corners in floats, whose steps are below a hundredth
+// of a cell wherever a navmesh makes sense; a mesh that was not made on a lattice is off by up to half a cell.
+#define TL_DETOUR_ON_LATTICE 0.05 // cells
+
+// One tile's bytes, and where it lies in the grid.
+typedef struct tl_detour_tile_bytes {
+    const uint8_t *bytes;
+    tl_detour_header header;
+    tl_detour_offsets at;
+    tl_vec3 origin;     // of the grid
+    uint32_t tile_size; // cells; 0: the only tile
+} tl_detour_tile_bytes;
+
+// The lattice step nearest to a coordinate, and how far off it is.
+static inline int32_t tl_detour_nearest_step(double along, double *off)
+{
+    double rounded = floor(along + 0.5);
+    *off = fabs(along - rounded);
+    return fabs(rounded) <= (double)TL_MAX_CONTOUR_COORDINATE ? (int32_t)rounded : INT32_MAX;
+}
+
+static inline bool tl_detour_is_finite(const float v[3])
+{
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
+/// Takes a tile's header apart and checks every count of it against the size. The place in the grid is left alone.
+tl_result tl_detour_open_tile(const uint8_t *bytes, uint64_t size, tl_detour_tile_bytes *tile,
+                              tl_detour_report *report);
+
+/// Bakes an open tile; counts add to `report`.
+tl_result tl_detour_read_tile(const tl_detour_tile_bytes *tile, const tl_detour_read_def *def, tl_detour_report *report,
+                              tl_nav_tile **tile_out);
+
+#endif

@@ -1,0 +1,357 @@
+// SPDX-License-Identifier: MIT
+//
+// A tile in Detour's form. The two are near relatives, so nothing is computed anew: shared vertices, polygons and
+// links are copied, and the box tree, which is depth first with skips in both, goes node by node.
+//
+// Source: the public description of the data in DetourNavMesh.h.
+
+#include "nav_detour/layout.h"
+
+#include "base/assert.h"
+#include "base/host.h"
+
+#include <math.h>
+#include <string.h>
+
+// Side 0 x-, 1 z+, 2 x+, 3 z- in Detour's eighths of a turn from x+.
+static const uint16_t SIDES[4] = { 4, 2, 0, 6 };
+
+static bool is_plain(tl_nav_surface surface, uint32_t corner_count)
+{
+    return surface.vertex_count - corner_count > UINT8_MAX || surface.vertex_count > UINT8_MAX + 1u ||
+           surface.triangle_count > UINT8_MAX;
+}
+
+static tl_result check_polygon(const tl_nav_tile *tile, uint32_t p, tl_report *report)
+{
+    uint32_t count;
+    tl_nav_tile_corners(tile, p, &count);
+    if (count > TL_DETOUR_MAX_CORNERS) {
+        return tl_report_fail(report, TL_ERR_LIMIT, "polygon", p,
+                              "Detour's polygons have at most 6 corners; bake with max_verts_per_poly 6");
+    }
+    if (tl_nav_tile_flags(tile, p) > UINT16_MAX) {
+        return tl_report_fail(report, TL_ERR_LIMIT, "polygon", p, "Detour keeps the lowest 16 flags only");
+    }
+    if (tl_nav_tile_area(tile, p) > TL_NAV_MAX_AREA) {
+        return tl_report_fail(report, TL_ERR_LIMIT, "polygon", p, "Detour's areas are 0 to 63");
+    }
+    return TL_OK;
+}
+
+static float position_x(const tl_nav_tile *tile, int32_t x)
+{
+    return tl_nav_tile_position(tile->origin.x, tile->tile_x, tile->tile_size, x, tile->cell_size);
+}
+
+static float position_z(const tl_nav_tile *tile, int32_t z)
+{
+    return tl_nav_tile_position(tile->origin.z, tile->tile_z, tile->tile_size, z, tile->cell_size);
+}
+
+// The box in which polygons are looked for: the whole tile, as the grid has it; of the only tile, what there is.
+static void place(const tl_nav_tile *tile, tl_detour_header *header)
+{
+    bool alone = tile->tile_size == 0;
+    header->min[0] = alone ? tile->bounds.min.x : position_x(tile, 0);
+    header->min[1] = tile->bounds.min.y;
+    header->min[2] = alone ? tile->bounds.min.z : position_z(tile, 0);
+    header->max[0] = alone ? tile->bounds.max.x : position_x(tile, (int32_t)tile->tile_size);
+    header->max[1] = tile->bounds.max.y;
+    header->max[2] = alone ? tile->bounds.max.z : position_z(tile, (int32_t)tile->tile_size);
+    header->quantization = 1.0f / tile->cell_size;
+}
+
+static tl_result make_header(const tl_nav_tile *tile, tl_detour_header *header, tl_detour_report *report)
+{
+    if (tile->polygon_count > TL_DETOUR_MAX_POLYGONS || tile->vertex_count > TL_DETOUR_MAX_VERTICES) {
+        return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", TL_NO_ELEMENT,
+                              "it has more polygons or vertices than Detour counts in 16 bits; bake smaller tiles");
+    }
+    memset(header, 0, sizeof *header);
+    header->magic = (int32_t)TL_DETOUR_TILE_MAGIC;
+    header->version = TL_DETOUR_TILE_VERSION;
+    header->x = tile->tile_x;
+    header->y = tile->tile_z;
+    header->polygon_count = header->detail_mesh_count = header->off_mesh_base = (int32_t)tile->polygon_count;
+    header->vertex_count = (int32_t)tile->vertex_count;
+    // One link an edge, and two more for each edge on the border, which several polygons may adjoin.
+    header->max_link_count = (int32_t)(tile->corner_count + 2 * tile->portal_count);
+    header->node_count = (int32_t)tile->node_count;
+    header->walkable_height = tile->agent_height;
+    header->walkable_radius = tile->agent_radius;
+    header->walkable_climb = tile->agent_max_climb;
+    place(tile, header);
+    float cells = fmaxf(header->max[0] - header->min[0], header->max[2] - header->min[2]) * header->quantization;
+    if (!(fmaxf(cells, (header->max[1] - header->min[1]) * header->quantization) < (float)UINT16_MAX)) {
+        return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", TL_NO_ELEMENT,
+                              "it has more cells along a side than Detour counts in 16 bits; bake smaller tiles");
+    }
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        TL_TRY(check_polygon(tile, p, &report->base));
+        uint32_t corner_count;
+        tl_nav_tile_corners(tile, p, &corner_count);
+        tl_nav_surface surface = tl_nav_tile_surface(tile, p);
+        bool plain = is_plain(surface, corner_count);
+        report->plain_patches += plain;
+        header->detail_vertex_count += plain ? 0 : (int32_t)(surface.vertex_count - corner_count);
+        header->detail_triangle_count += (int32_t)(plain ? corner_count - 2 : surface.triangle_count);
+    }
+    report->polygon_count += tile->polygon_count;
+    report->tile_count++;
+    return TL_OK;
+}
+
+static void write_polygon(const tl_nav_tile *tile, uint32_t p, uint8_t *bytes)
+{
+    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
+    const uint32_t *vertices = (const uint32_t *)tl_nav_tile_at(tile, tile->corner_vertices) + first[p];
+    tl_detour_polygon out;
+    memset(&out, 0, sizeof out);
+    out.first_link = UINT32_MAX;
+    out.flags = (uint16_t)tl_nav_tile_flags(tile, p);
+    out.vertex_count = (uint8_t)(first[p + 1] - first[p]);
+    out.area_and_type = (uint8_t)(tl_nav_tile_area(tile, p) | TL_DETOUR_GROUND << 6);
+    for (uint32_t k = 0; k < out.vertex_count; k++) {
+        uint32_t across = tl_nav_tile_neighbour(tile, p, k);
+        out.vertices[k] = (uint16_t)vertices[k];
+        out.neighbours[k] = across == TL_NO_POLYGON ? 0
+                            : across >= TL_PORTAL   ? (uint16_t)(TL_DETOUR_EXTERNAL | SIDES[across & 3u])
+                                                    : (uint16_t)(across + 1);
+    }
+    memcpy(bytes + p * sizeof out, &out, sizeof out);
+}
+
+static void write_vertices(const tl_nav_tile *tile, uint8_t *bytes)
+{
+    const int32_t *lattice = tl_nav_tile_at(tile, tile->vertices);
+    for (uint32_t i = 0; i < tile->vertex_count; i++) {
+        const int32_t *v = lattice + 3 * (size_t)i;
+        float out[3] = { position_x(tile, v[0]), tl_nav_tile_position(tile->origin.y, 0, 0, v[1], tile->cell_height),
+                         position_z(tile, v[2]) };
+        memcpy(bytes + i * sizeof out, out, sizeof out);
+    }
+}
+
+static void write_triangle(const uint16_t *corners, uint32_t outline_bits, uint8_t *bytes)
+{
+    uint32_t flags = 0;
+    for (uint32_t k = 0; k < 3; k++) {
+        bytes[k] = (uint8_t)corners[k];
+        flags |= (outline_bits >> k & 1u) != 0 ? TL_DETOUR_EDGE_OUTLINE << (2 * k) : 0;
+    }
+    bytes[3] = (uint8_t)flags;
+}
+
+static void write_detail(const tl_nav_tile *tile, const tl_detour_offsets *at, uint8_t *bytes)
+{
+    uint32_t vertex = 0, triangle = 0;
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        uint32_t corner_count;
+        tl_nav_tile_corners(tile, p, &corner_count);
+        tl_nav_surface surface = tl_nav_tile_surface(tile, p);
+        bool plain = is_plain(surface, corner_count);
+        uint32_t added = plain ? 0 : surface.vertex_count - corner_count;
+        uint32_t triangles = plain ? corner_count - 2 : surface.triangle_count;
+        tl_detour_patch patch = { vertex, triangle, (uint8_t)added, (uint8_t)triangles, { 0, 0 } };
+        memcpy(bytes + at->patches + p * sizeof patch, &patch, sizeof patch);
+        if (added > 0) {
+            memcpy(bytes + at->detail_vertices + 12 * (uint64_t)vertex, surface.vertices + corner_count,
+                   12 * (size_t)added);
+        }
+        uint8_t *out = bytes + at->detail_triangles + 4 * (uint64_t)triangle;
+        for (uint32_t i = 0; i < triangles; i++) {
+            const uint16_t fan[3] = { 0, (uint16_t)(i + 1), (uint16_t)(i + 2) };
+            uint32_t fan_outline = 2u | (i == 0 ? 1u : 0u) | (i + 1 == triangles ? 4u : 0u);
+            write_triangle(plain ? fan : surface.triangles[i].corner,
+                           plain ? fan_outline : surface.triangles[i].edge_flags, out + 4 * (size_t)i);
+        }
+        vertex += added;
+        triangle += triangles;
+    }
+}
+
+// Rounded outward: a box may only grow.
+static uint16_t quantized(float value, float origin, float factor, bool up)
+{
+    float cells = (value - origin) * factor;
+    float rounded = up ? ceilf(cells) + 1.0f : floorf(cells) - 1.0f;
+    return (uint16_t)fminf(fmaxf(rounded, 0.0f), (float)UINT16_MAX);
+}
+
+static void write_nodes(const tl_nav_tile *tile, const tl_detour_header *header, uint8_t *bytes)
+{
+    const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
+    for (uint32_t i = 0; i < tile->node_count; i++) {
+        const float min[3] = { nodes[i].box.min.x, nodes[i].box.min.y, nodes[i].box.min.z };
+        const float max[3] = { nodes[i].box.max.x, nodes[i].box.max.y, nodes[i].box.max.z };
+        tl_detour_node out;
+        for (int k = 0; k < 3; k++) {
+            out.min[k] = quantized(min[k], header->min[k], header->quantization, false);
+            out.max[k] = quantized(max[k], header->min[k], header->quantization, true);
+        }
+        out.index = nodes[i].polygon != TL_NO_POLYGON ? (int32_t)nodes[i].polygon : -(int32_t)(nodes[i].skip - i);
+        memcpy(bytes + i * sizeof out, &out, sizeof out);
+    }
+}
+
+uint64_t tl_detour_tile_size(const tl_nav_tile *tile, tl_detour_refs refs)
+{
+    tl_detour_header header;
+    tl_detour_report report;
+    memset(&report, 0, sizeof report);
+    return make_header(tile, &header, &report) == TL_OK ? tl_detour_offsets_of(&header, refs).end : 0;
+}
+
+static tl_result write_tile(const tl_nav_tile *tile, tl_detour_refs refs, uint8_t *bytes, uint64_t capacity,
+                            uint64_t *size_out, tl_detour_report *report)
+{
+    tl_detour_header header;
+    TL_TRY(make_header(tile, &header, report));
+    tl_detour_offsets at = tl_detour_offsets_of(&header, refs);
+    if (at.end > capacity) {
+        return TL_ERR_CAPACITY;
+    }
+    memcpy(bytes, &header, sizeof header);
+    write_vertices(tile, bytes + at.vertices);
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        write_polygon(tile, p, bytes + at.polygons);
+    }
+    memset(bytes + at.links, 0, at.patches - at.links); // Detour links a tile when it is added
+    write_detail(tile, &at, bytes);
+    write_nodes(tile, &header, bytes + at.nodes);
+    *size_out = at.end;
+    return TL_OK;
+}
+
+tl_result tl_detour_tile_write(const tl_nav_tile *tile, tl_detour_refs refs, void *bytes, uint64_t capacity,
+                               tl_detour_report *report_out)
+{
+    tl_detour_report report;
+    memset(&report, 0, sizeof report);
+    tl_report_begin(&report.base, "write detour tile");
+    uint64_t size;
+    tl_result result = write_tile(tile, refs, bytes, capacity, &size, &report);
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Sets.
+
+static uint32_t bits_for(uint32_t count)
+{
+    uint32_t bits = 0;
+    while ((uint64_t)1 << bits < count) {
+        bits++;
+    }
+    return bits;
+}
+
+// Detour's dtTileRef of the tile in slot `index`, as a navmesh gives it the first time: salt 1, polygon 0.
+static uint64_t tile_reference(uint32_t index, uint32_t tile_bits, uint32_t polygon_bits, tl_detour_refs refs)
+{
+    return refs == TL_DETOUR_REFS_64 ? (uint64_t)1 << 48 | (uint64_t)index << 20
+                                     : (uint64_t)1 << (tile_bits + polygon_bits) | (uint64_t)index << polygon_bits;
+}
+
+static tl_result check_grid(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_report *report)
+{
+    const tl_nav_tile *model = tiles[0];
+    for (uint32_t i = 0; i < tile_count; i++) {
+        const tl_nav_tile *tile = tiles[i];
+        if (memcmp(&tile->origin, &model->origin, sizeof tile->origin) != 0 || tile->cell_size != model->cell_size ||
+            tile->cell_height != model->cell_height || tile->tile_size != model->tile_size) {
+            return tl_report_fail(report, TL_ERR_ARGUMENT, "tile", i, "it is of another grid than the first one");
+        }
+    }
+    return TL_OK;
+}
+
+static void make_set_header(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_set_header *header)
+{
+    const tl_nav_tile *model = tiles[0];
+    memset(header, 0, sizeof *header);
+    header->magic = (int32_t)TL_DETOUR_SET_MAGIC;
+    header->version = TL_DETOUR_SET_VERSION;
+    header->tile_count = (int32_t)tile_count;
+    tl_detour_params *params = &header->params;
+    params->origin[0] = model->origin.x;
+    params->origin[1] = model->origin.y;
+    params->origin[2] = model->origin.z;
+    params->tile_width = params->tile_height = (float)model->tile_size * model->cell_size;
+    if (model->tile_size == 0) {
+        params->tile_width = model->bounds.max.x - model->origin.x;
+        params->tile_height = model->bounds.max.z - model->origin.z;
+    }
+    params->max_tiles = (int32_t)tile_count;
+    for (uint32_t i = 0; i < tile_count; i++) {
+        int32_t count = (int32_t)tiles[i]->polygon_count;
+        params->max_polygons = count > params->max_polygons ? count : params->max_polygons;
+    }
+}
+
+uint64_t tl_detour_set_size(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_refs refs)
+{
+    uint64_t size = sizeof(tl_detour_set_header);
+    for (uint32_t i = 0; i < tile_count; i++) {
+        uint64_t tile = tl_detour_tile_size(tiles[i], refs);
+        if (tile == 0) {
+            return 0;
+        }
+        size += tl_detour_entry_bytes(refs) + tile;
+    }
+    return tile_count > 0 ? size : 0;
+}
+
+static tl_result write_set(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_refs refs, uint8_t *bytes,
+                           uint64_t capacity, tl_detour_report *report)
+{
+    if (tile_count == 0) {
+        return tl_report_fail(&report->base, TL_ERR_EMPTY, "tile", TL_NO_ELEMENT, NULL);
+    }
+    TL_TRY(check_grid(tiles, tile_count, &report->base));
+    tl_detour_set_header header;
+    make_set_header(tiles, tile_count, &header);
+    uint32_t tile_bits = bits_for(tile_count), polygon_bits = bits_for((uint32_t)header.params.max_polygons);
+    if (refs == TL_DETOUR_REFS_32 && tile_bits + polygon_bits > 22) {
+        return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", TL_NO_ELEMENT,
+                              "tiles and polygons a tile need more than 22 bits; write 64-bit references");
+    }
+    uint64_t entry = tl_detour_entry_bytes(refs), at = sizeof header;
+    if (at > capacity) {
+        return TL_ERR_CAPACITY;
+    }
+    memcpy(bytes, &header, sizeof header);
+    for (uint32_t i = 0; i < tile_count; i++) {
+        uint64_t size = 0;
+        tl_result result = at + entry > capacity
+                               ? TL_ERR_CAPACITY
+                               : write_tile(tiles[i], refs, bytes + at + entry, capacity - at - entry, &size, report);
+        if (result != TL_OK) {
+            return result;
+        }
+        uint64_t reference = tile_reference(i, tile_bits, polygon_bits, refs);
+        uint32_t size32 = (uint32_t)size;
+        memset(bytes + at, 0, (size_t)entry);
+        memcpy(bytes + at, &reference, refs == TL_DETOUR_REFS_64 ? 8 : 4);
+        memcpy(bytes + at + (refs == TL_DETOUR_REFS_64 ? 8 : 4), &size32, 4);
+        at += entry + size;
+    }
+    return TL_OK;
+}
+
+tl_result tl_detour_set_write(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_refs refs, void *bytes,
+                              uint64_t capacity, tl_detour_report *report_out)
+{
+    tl_detour_report report;
+    memset(&report, 0, sizeof report);
+    tl_report_begin(&report.base, "write detour set");
+    tl_result result = write_set(tiles, tile_count, refs, bytes, capacity, &report);
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    return result;
+}
