@@ -17,8 +17,12 @@
 tl_result tl_pair_edges(tl_arena *arena, const uint32_t *corners, uint32_t *twins, uint32_t edge_count,
                         uint32_t *pair_count)
 {
+    uint32_t open_count = 0;
+    for (uint32_t edge = 0; edge < edge_count; edge++) {
+        open_count += twins[edge] == TL_NO_EDGE;
+    }
     tl_key_table table;
-    if (!tl_key_table_init(&table, arena, edge_count)) {
+    if (!tl_key_table_init(&table, arena, open_count)) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t edge = 0; edge < edge_count; edge++) {

@@ -33,6 +33,18 @@ static uint32_t next_corner(const tl_stored_polygon *polygon, uint32_t place)
     return place + 1 < polygon->first + polygon->count ? place + 1 : polygon->first;
 }
 
+static uint32_t count_rising_edges(const tl_polygon_store *store)
+{
+    uint32_t count = 0;
+    for (uint32_t p = 0; p < store->polygon_count; p++) {
+        const tl_stored_polygon *polygon = &store->polygons[p];
+        for (uint32_t place = polygon->first; place < polygon->first + polygon->count; place++) {
+            count += store->indices[place] < store->indices[next_corner(polygon, place)];
+        }
+    }
+    return count;
+}
+
 static void claim_edge(linker *l, uint32_t polygon, uint32_t place, uint32_t from, uint32_t to)
 {
     claim item = { place, polygon, TL_NO_VALUE, false };
@@ -89,9 +101,10 @@ tl_result tl_link_neighbours(tl_polygon_store *store, tl_arena *scratch, const t
     l.store = store;
     l.report = report;
     store->neighbours = TL_PUSH(store->arena, uint32_t, store->index_count);
-    l.claims = TL_PUSH(scratch, claim, store->index_count);
-    // A falling edge that nobody claims takes no room either: looking it up leaves its value free.
-    if (store->neighbours == NULL || l.claims == NULL || !tl_key_table_init(&l.table, scratch, store->index_count)) {
+    const uint32_t rising = count_rising_edges(store);
+    l.claims = TL_PUSH(scratch, claim, rising);
+    // A falling edge takes no room: looking it up leaves the value free where nobody claims it.
+    if (store->neighbours == NULL || l.claims == NULL || !tl_key_table_init(&l.table, scratch, rising)) {
         return TL_ERR_MEMORY;
     }
     memset(store->neighbours, 0xff, store->index_count * sizeof *store->neighbours);

@@ -8,10 +8,11 @@
 
 #include "base/assert.h"
 #include "polygon/key_table.h"
+#include "polygon/sweep.h"
 
 #include <string.h>
 
-// Beyond this the sweep of the general way is faster than testing all pairs of edges.
+// Beyond this a sweep is faster than testing all pairs of edges.
 enum { MOST_PAIRED_VERTICES = 128 };
 
 static int64_t signed_area2(const tl_lattice_point *points, uint32_t count)
@@ -72,6 +73,31 @@ static bool is_plain_by_pairs(const tl_lattice_point *points, uint32_t count)
         }
     }
     return true;
+}
+
+static tl_result is_plain_by_sweep(tl_arena *scratch, const tl_lattice_point *points, uint32_t count, bool *is_plain)
+{
+    tl_arena_mark mark = tl_arena_get_mark(scratch);
+    tl_lattice_segment *segments = TL_PUSH(scratch, tl_lattice_segment, count);
+    if (segments == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        segments[i].a = i;
+        segments[i].b = i + 1 < count ? i + 1 : 0;
+    }
+    TL_TRY(tl_sweep_segments(scratch, points, count, segments, count, is_plain));
+    tl_arena_rollback(scratch, mark);
+    return TL_OK;
+}
+
+static tl_result is_plain(tl_arena *scratch, const tl_lattice_point *points, uint32_t count, bool *plain_out)
+{
+    if (count > MOST_PAIRED_VERTICES) {
+        return is_plain_by_sweep(scratch, points, count, plain_out);
+    }
+    *plain_out = is_plain_by_pairs(points, count);
+    return TL_OK;
 }
 
 static bool allocate_nodes(tl_outline_nodes *nodes, tl_arena *arena, uint32_t count)
@@ -235,7 +261,11 @@ tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices,
         outline_out->faults = TL_CONTOUR_FAULT_EMPTY;
         return TL_OK;
     }
-    if (count <= MOST_PAIRED_VERTICES && outline_out->area2 > 0 && is_plain_by_pairs(nodes->points, count)) {
+    bool plain = false;
+    if (outline_out->area2 > 0) {
+        TL_TRY(is_plain(arena, nodes->points, count, &plain));
+    }
+    if (plain) {
         return keep_as_it_is(arena, outline_out);
     }
     TL_TRY(take_apart(arena, vertices, merge_height, outline_out));

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A k-d tree split at medians, with the number of living points in each node.
+// A k-d tree split at medians, in which nodes without living points are skipped.
 //
 // Only reflex vertices can block a corner that is to be cut off, and vertices only ever turn from reflex to convex, so
-// points are removed and never added. A node is skipped when it is empty or lies outside one edge of the triangle. A
-// uniform grid was rejected: the long thin triangles of combs and spirals cross too many of its cells.
+// points are removed and never added. A node is skipped when it is empty or lies outside one edge of the triangle. The
+// node nearer to the corner that would be cut off is searched first: where the outline turns, a large triangle is
+// mostly blocked by a point near there, and is full of nodes. A uniform grid was rejected: the long thin triangles of
+// combs and spirals cross too many of its cells.
 
 #include "polygon/reflex_tree.h"
 
@@ -59,12 +61,12 @@ static void select_middle(tl_reflex_point *points, uint32_t count, uint32_t midd
     }
 }
 
-static void fill_box(const tl_reflex_tree *tree, tl_reflex_node *node)
+static void fill_box(const tl_reflex_tree *tree, tl_reflex_node *node, uint32_t count)
 {
     tl_lattice_point p = tree->points[node->first].position;
     node->min_x = node->max_x = p.x;
     node->min_z = node->max_z = p.z;
-    for (uint32_t i = 1; i < node->alive; i++) {
+    for (uint32_t i = 1; i < count; i++) {
         p = tree->points[node->first + i].position;
         node->min_x = p.x < node->min_x ? p.x : node->min_x;
         node->max_x = p.x > node->max_x ? p.x : node->max_x;
@@ -79,10 +81,10 @@ static uint32_t build_node(tl_reflex_tree *tree, uint32_t parent, uint32_t first
     uint32_t index = tree->node_count++;
     tl_reflex_node *node = &tree->nodes[index];
     node->first = first;
-    node->alive = count;
+    node->alive = count <= LEAF_POINTS ? count : 2;
     node->parent = parent;
     node->right = 0;
-    fill_box(tree, node);
+    fill_box(tree, node, count);
     if (count <= LEAF_POINTS) {
         for (uint32_t i = 0; i < count; i++) {
             tree->leaf[tree->points[first + i].number] = index;
@@ -138,8 +140,9 @@ void tl_reflex_tree_remove(tl_reflex_tree *tree, uint32_t point)
         TL_ASSERT(place < leaf->alive);
     }
     points[place] = points[leaf->alive - 1];
-    for (; index != UINT32_MAX; index = tree->nodes[index].parent) {
-        tree->nodes[index].alive--;
+    // A node that still lives keeps its parent alive.
+    while (--tree->nodes[index].alive == 0 && tree->nodes[index].parent != UINT32_MAX) {
+        index = tree->nodes[index].parent;
     }
 }
 
@@ -187,9 +190,22 @@ static bool any_in_leaf(const tl_reflex_tree *tree, const tl_reflex_node *leaf, 
 
 static bool may_hold_a_point(const tl_reflex_node *node, const query *q)
 {
-    return node->alive > 0 && node->min_x <= q->max_x && node->max_x >= q->min_x && node->min_z <= q->max_z &&
-           node->max_z >= q->min_z && !is_outside(node, q->c, q->a) && !is_outside(node, q->a, q->b) &&
-           !is_outside(node, q->b, q->c);
+    if (node->alive == 0 || node->min_x > q->max_x || node->max_x < q->min_x || node->min_z > q->max_z ||
+        node->max_z < q->min_z) {
+        return false;
+    }
+    // Around the whole triangle nothing can be said; so it is on most of the way down.
+    if (node->min_x <= q->min_x && node->max_x >= q->max_x && node->min_z <= q->min_z && node->max_z >= q->max_z) {
+        return true;
+    }
+    return !is_outside(node, q->c, q->a) && !is_outside(node, q->a, q->b) && !is_outside(node, q->b, q->c);
+}
+
+static int64_t distance2_to_box(const tl_reflex_node *node, tl_lattice_point p)
+{
+    int64_t dx = p.x < node->min_x ? (int64_t)node->min_x - p.x : p.x > node->max_x ? (int64_t)p.x - node->max_x : 0;
+    int64_t dz = p.z < node->min_z ? (int64_t)node->min_z - p.z : p.z > node->max_z ? (int64_t)p.z - node->max_z : 0;
+    return dx * dx + dz * dz;
 }
 
 bool tl_reflex_tree_any_in_triangle(const tl_reflex_tree *tree, tl_lattice_point a, tl_lattice_point b,
@@ -212,11 +228,16 @@ bool tl_reflex_tree_any_in_triangle(const tl_reflex_tree *tree, tl_lattice_point
         }
         // Each level leaves at most one node behind on the stack.
         TL_ASSERT(depth + 2 <= MAX_DEPTH);
-        if (may_hold_a_point(&tree->nodes[node->right], &q)) {
-            stack[depth++] = node->right;
+        const uint32_t child[2] = { index + 1, node->right };
+        const bool open[2] = { may_hold_a_point(&tree->nodes[child[0]], &q),
+                               may_hold_a_point(&tree->nodes[child[1]], &q) };
+        const int nearer = open[0] && open[1] &&
+                           distance2_to_box(&tree->nodes[child[1]], b) < distance2_to_box(&tree->nodes[child[0]], b);
+        if (open[!nearer]) {
+            stack[depth++] = child[!nearer];
         }
-        if (may_hold_a_point(&tree->nodes[index + 1], &q)) {
-            stack[depth++] = index + 1;
+        if (open[nearer]) {
+            stack[depth++] = child[nearer];
         }
     }
     return false;

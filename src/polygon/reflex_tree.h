@@ -10,7 +10,7 @@
 
 typedef struct tl_reflex_node {
     int32_t min_x, max_x, min_z, max_z;
-    uint32_t alive; // points left below this node
+    uint32_t alive; // points left in this leaf, or children with any left
     uint32_t first; // of its points in `points`
     uint32_t right; // second child; the first one is the next node. 0: a leaf
     uint32_t parent;

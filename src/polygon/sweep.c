@@ -149,40 +149,76 @@ static bool clash(const sweep *s, uint32_t below, uint32_t above)
     return comes_first(b, d) ? tl_turn(c, d, b) >= 0 : tl_turn(a, b, d) <= 0;
 }
 
-// Handles the segments that end and begin in a point. False: a contact.
-static bool pass_point(sweep *s, uint32_t point)
+// Takes out the segments that end in a point. Those next to the last one, after the others are gone, are next to the
+// point, unless a segment that runs through the point stood between them: then it is one of them. Returns how many.
+static uint32_t end_segments(sweep *s, uint32_t point, uint32_t around[2])
 {
-    uint32_t begin = s->first[point], end = s->first[point + 1];
-    uint32_t around[2], starting = 0;
-    if (begin == end) {
-        return true;
-    }
-    for (uint32_t k = begin; k < end; k++) {
-        if (s->items[s->around[k]].to == point) {
+    uint32_t ended = 0;
+    for (uint32_t k = s->first[point]; k < s->first[point + 1]; k++) {
+        const sweep_item *i = &s->items[s->around[k]];
+        if (i->to == point) {
+            around[0] = i->neighbour[0];
+            around[1] = i->neighbour[1];
             take_out(s, s->around[k]);
+            ended++;
         }
     }
-    for (uint32_t k = begin; k < end; k++) {
+    return ended;
+}
+
+static bool runs_through(const sweep *s, uint32_t item, uint32_t point)
+{
+    return item != NONE && tl_turn(s->points[s->items[item].from], s->points[s->items[item].to], s->points[point]) == 0;
+}
+
+// Where to put one of two segments that begin in a point, the other one being there. False: one runs along the other.
+static bool locate_beside(const sweep *s, uint32_t other, uint32_t item, uint32_t around[2])
+{
+    const sweep_item *o = &s->items[other];
+    int64_t turn = tl_turn(s->points[o->from], s->points[o->to], s->points[s->items[item].to]);
+    around[0] = turn > 0 ? other : o->neighbour[0];
+    around[1] = turn > 0 ? o->neighbour[1] : other;
+    return turn != 0;
+}
+
+// Puts in the segments that begin in a point; around[] is known where others ended there. False: a contact.
+static bool begin_segments(sweep *s, uint32_t point, uint32_t around[2], bool is_located)
+{
+    uint32_t begun = 0, first = NONE;
+    for (uint32_t k = s->first[point]; k < s->first[point + 1]; k++) {
         uint32_t item = s->around[k];
-        if (s->items[item].from == point) {
-            if (!locate(s, point, s->items[item].to, around)) {
-                return false;
-            }
-            insert_between(s, item, around[0], around[1]);
-            starting++;
+        if (s->items[item].from != point) {
+            continue;
         }
+        bool apart = begun == 1                 ? locate_beside(s, first, item, around)
+                     : begun > 0 || !is_located ? locate(s, point, s->items[item].to, around)
+                                                : true;
+        if (!apart) {
+            return false;
+        }
+        insert_between(s, item, around[0], around[1]);
+        first = begun == 0 ? item : first;
+        begun++;
     }
-    if (starting == 0) {
-        return locate(s, point, NONE, around) && !clash(s, around[0], around[1]);
-    }
-    for (uint32_t k = begin; k < end; k++) {
+    for (uint32_t k = s->first[point]; k < s->first[point + 1] && begun > 0; k++) {
         uint32_t item = s->around[k];
         if (s->items[item].from == point &&
             (clash(s, s->items[item].neighbour[0], item) || clash(s, item, s->items[item].neighbour[1]))) {
             return false;
         }
     }
-    return true;
+    return begun > 0 || !clash(s, around[0], around[1]);
+}
+
+// False: a contact at the point, or of segments that have become neighbours there. All points are ends of segments.
+static bool pass_point(sweep *s, uint32_t point)
+{
+    uint32_t around[2] = { NONE, NONE };
+    uint32_t ended = end_segments(s, point, around);
+    if (ended > 0 && (runs_through(s, around[0], point) || runs_through(s, around[1], point))) {
+        return false;
+    }
+    return begin_segments(s, point, around, ended > 0);
 }
 
 static bool gather(sweep *s, tl_arena *arena, uint32_t point_count, const tl_lattice_segment *segments, uint32_t count)
@@ -229,6 +265,9 @@ tl_result tl_sweep_segments(tl_arena *arena, const tl_lattice_point *points, uin
     }
     tl_radix_sort(order, order + point_count, point_count);
     *apart_out = true;
+    for (uint32_t i = 1; i < point_count && *apart_out; i++) {
+        *apart_out = order[i].key != order[i - 1].key;
+    }
     for (uint32_t i = 0; i < point_count && *apart_out; i++) {
         *apart_out = pass_point(&s, order[i].value);
     }

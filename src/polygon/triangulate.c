@@ -20,29 +20,34 @@
 #include "base/assert.h"
 #include "polygon/reflex_tree.h"
 
-// A valid corner b with its neighbours when it was tested; stale as soon as one of them is cut off.
-typedef struct corner {
-    int64_t length2; // of the partition edge from a to c
-    uint32_t a, b, c;
-} corner;
+// A vertex with the ones next to it in what is left of the outline.
+typedef struct outline_vertex {
+    tl_lattice_point position;
+    uint32_t previous, next;
+    uint32_t across; // edge of a cut triangle on the far side of the edge that starts here, or TL_NO_EDGE
+} outline_vertex;
+
+// A valid partition: of the one corner between a and c. Stale as soon as a, c or that corner is cut off.
+typedef struct partition {
+    int64_t length2;
+    uint32_t a, c;
+} partition;
 
 typedef struct triangulation {
     const tl_lattice_point *points;
-    uint32_t *previous;
-    uint32_t *next;
-    uint32_t *across;   // [point] edge of a cut triangle on the far side of the edge that starts here, or TL_NO_EDGE
+    outline_vertex *vertices;
     uint8_t *is_reflex; // or straight
     tl_reflex_tree reflex;
-    corner *heap;
+    partition *heap;
     uint32_t heap_count;
 } triangulation;
 
-static bool comes_first(const corner *a, const corner *b)
+static bool comes_first(const partition *a, const partition *b)
 {
     return a->length2 != b->length2 ? a->length2 < b->length2 : a->a < b->a;
 }
 
-static void heap_push(triangulation *t, corner item)
+static void heap_push(triangulation *t, partition item)
 {
     uint32_t i = t->heap_count++;
     while (i > 0 && comes_first(&item, &t->heap[(i - 1) / 2])) {
@@ -52,10 +57,10 @@ static void heap_push(triangulation *t, corner item)
     t->heap[i] = item;
 }
 
-static corner heap_pop(triangulation *t)
+static partition heap_pop(triangulation *t)
 {
-    corner top = t->heap[0];
-    corner last = t->heap[--t->heap_count];
+    partition top = t->heap[0];
+    partition last = t->heap[--t->heap_count];
     uint32_t i = 0;
     for (;;) {
         uint32_t child = 2 * i + 1;
@@ -75,49 +80,54 @@ static corner heap_pop(triangulation *t)
     return top;
 }
 
-// Puts corner b on the heap when it can be cut off.
+// Puts the partition that cuts off corner b on the heap when it is valid.
 static void consider(triangulation *t, uint32_t b)
 {
     if (t->is_reflex[b]) {
         return;
     }
-    uint32_t a = t->previous[b];
-    uint32_t c = t->next[b];
-    tl_lattice_point pa = t->points[a];
-    tl_lattice_point pb = t->points[b];
-    tl_lattice_point pc = t->points[c];
+    const uint32_t a = t->vertices[b].previous, c = t->vertices[b].next;
+    const outline_vertex *before = &t->vertices[a], *after = &t->vertices[c];
+    const tl_lattice_point pa = before->position, pb = t->vertices[b].position, pc = after->position;
     // Angles only shrink in an outline; in a scribble a convex corner may turn reflex.
     if (tl_turn(pa, pb, pc) <= 0) {
         return;
     }
     // The internal angle test. b is convex, so one half of it holds already, and at a reflex end that is enough.
-    if (!t->is_reflex[a] && tl_turn(pa, pc, t->points[t->previous[a]]) <= 0) {
+    if (!t->is_reflex[a] && tl_turn(pa, pc, t->vertices[before->previous].position) <= 0) {
         return;
     }
-    if (!t->is_reflex[c] && tl_turn(pc, t->points[t->next[c]], pa) <= 0) {
+    if (!t->is_reflex[c] && tl_turn(pc, t->vertices[after->next].position, pa) <= 0) {
         return;
     }
     if (tl_reflex_tree_any_in_triangle(&t->reflex, pa, pb, pc)) {
         return;
     }
-    corner item = { tl_distance2(pa, pc), a, b, c };
+    partition item = { tl_distance2(pa, pc), a, c };
     heap_push(t, item);
 }
 
 // A corner whose angle a cut has made smaller.
 static void update_angle(triangulation *t, uint32_t b)
 {
-    if (t->is_reflex[b] && tl_turn(t->points[t->previous[b]], t->points[b], t->points[t->next[b]]) > 0) {
+    const outline_vertex *v = &t->vertices[b];
+    if (t->is_reflex[b] && tl_turn(t->vertices[v->previous].position, v->position, t->vertices[v->next].position) > 0) {
         t->is_reflex[b] = 0;
         tl_reflex_tree_remove(&t->reflex, b);
     }
 }
 
-static bool is_current(const triangulation *t, const corner *item)
+// A vertex that was cut off keeps its neighbours' numbers, but they no longer name it. And since vertices only go, the
+// one between a and c is still the one that was tested.
+static bool is_current(const triangulation *t, const partition *item)
 {
-    // A vertex that was cut off keeps its neighbours' numbers, but they no longer name it.
-    return t->next[item->a] == item->b && t->next[item->b] == item->c && t->previous[item->c] == item->b &&
-           t->previous[item->b] == item->a;
+    const uint32_t b = t->vertices[item->a].next;
+    return t->vertices[b].previous == item->a && t->vertices[b].next == item->c;
+}
+
+static bool is_left(const triangulation *t, uint32_t b)
+{
+    return t->vertices[t->vertices[b].previous].next == b && t->vertices[t->vertices[b].next].previous == b;
 }
 
 static void emit(triangulation *t, uint32_t triangle, const uint32_t corners[3], uint32_t edges,
@@ -125,7 +135,7 @@ static void emit(triangulation *t, uint32_t triangle, const uint32_t corners[3],
 {
     for (uint32_t k = 0; k < 3; k++) {
         triangles_out[3 * triangle + k] = corners[k];
-        uint32_t twin = k < edges ? t->across[corners[k]] : TL_NO_EDGE;
+        uint32_t twin = k < edges ? t->vertices[corners[k]].across : TL_NO_EDGE;
         twins_out[3 * triangle + k] = twin;
         if (twin != TL_NO_EDGE) {
             twins_out[twin] = 3 * triangle + k;
@@ -133,29 +143,21 @@ static void emit(triangulation *t, uint32_t triangle, const uint32_t corners[3],
     }
 }
 
-static bool allocate(triangulation *t, tl_arena *scratch, uint32_t count)
-{
-    t->previous = TL_PUSH(scratch, uint32_t, count);
-    t->next = TL_PUSH(scratch, uint32_t, count);
-    t->across = TL_PUSH(scratch, uint32_t, count);
-    t->is_reflex = TL_PUSH(scratch, uint8_t, count);
-    // n corners at first, and two more for each of the n - 3 cuts.
-    t->heap = TL_PUSH(scratch, corner, 3 * (uint64_t)count);
-    t->heap_count = 0;
-    return t->previous != NULL && t->next != NULL && t->across != NULL && t->is_reflex != NULL && t->heap != NULL;
-}
-
 static bool start(triangulation *t, tl_arena *scratch, const tl_lattice_point *points, uint32_t count)
 {
     t->points = points;
-    if (!allocate(t, scratch, count)) {
+    t->vertices = TL_PUSH(scratch, outline_vertex, count);
+    t->is_reflex = TL_PUSH(scratch, uint8_t, count);
+    // n corners at first, and two more for each of the n - 3 cuts.
+    t->heap = TL_PUSH(scratch, partition, 3 * (uint64_t)count);
+    t->heap_count = 0;
+    if (t->vertices == NULL || t->is_reflex == NULL || t->heap == NULL) {
         return false;
     }
     for (uint32_t i = 0; i < count; i++) {
-        t->previous[i] = i > 0 ? i - 1 : count - 1;
-        t->next[i] = i + 1 < count ? i + 1 : 0;
-        t->across[i] = TL_NO_EDGE;
-        t->is_reflex[i] = tl_turn(points[t->previous[i]], points[i], points[t->next[i]]) <= 0;
+        outline_vertex v = { points[i], i > 0 ? i - 1 : count - 1, i + 1 < count ? i + 1 : 0, TL_NO_EDGE };
+        t->vertices[i] = v;
+        t->is_reflex[i] = tl_turn(points[v.previous], points[i], points[v.next]) <= 0;
     }
     if (!tl_reflex_tree_build(&t->reflex, scratch, points, t->is_reflex, count)) {
         return false;
@@ -180,7 +182,7 @@ static tl_result trace_cut(const triangulation *t, tl_arena *scratch, const tl_s
     }
     outline[0] = corners[0];
     for (uint32_t i = 1; i < left; i++) {
-        outline[i] = t->next[outline[i - 1]];
+        outline[i] = t->vertices[outline[i - 1]].next;
     }
     tl_traced_step step = { TL_POLYGON_STEP_CUT, partitions, 0, outline, left, corners, 3 };
     if (left > 3) {
@@ -208,36 +210,37 @@ tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint
     }
     uint32_t triangle = 0;
     for (uint32_t left = count; left > 3; left--) {
-        corner cut;
+        partition chosen;
         do {
             if (t.heap_count == 0) {
                 return TL_ERR_SELF_INTERSECTION;
             }
-            cut = heap_pop(&t);
-        } while (!is_current(&t, &cut));
-        uint32_t corners[3] = { cut.a, cut.b, cut.c };
+            chosen = heap_pop(&t);
+        } while (!is_current(&t, &chosen));
+        const uint32_t a = chosen.a, c = chosen.c;
+        const uint32_t corners[3] = { a, t.vertices[a].next, c };
         if (tracer != NULL) {
             TL_TRY(trace_cut(&t, scratch, tracer, left, corners));
         }
         emit(&t, triangle, corners, 2, triangles_out, twins_out);
-        t.across[cut.a] = 3 * triangle + 2;
-        t.next[cut.a] = cut.c;
-        t.previous[cut.c] = cut.a;
-        update_angle(&t, cut.a);
-        update_angle(&t, cut.c);
+        t.vertices[a].across = 3 * triangle + 2;
+        t.vertices[a].next = c;
+        t.vertices[c].previous = a;
+        update_angle(&t, a);
+        update_angle(&t, c);
         triangle++;
         if (left > 4) {
-            consider(&t, cut.a);
-            consider(&t, cut.c);
+            consider(&t, a);
+            consider(&t, c);
         }
     }
     // The last triangle begins at its lowest vertex.
     uint32_t corners[3] = { 0, 0, 0 };
-    while (t.next[t.previous[corners[0]]] != corners[0] || t.previous[t.next[corners[0]]] != corners[0]) {
+    while (!is_left(&t, corners[0])) {
         corners[0]++;
     }
-    corners[1] = t.next[corners[0]];
-    corners[2] = t.next[corners[1]];
+    corners[1] = t.vertices[corners[0]].next;
+    corners[2] = t.vertices[corners[1]].next;
     if (tl_turn(points[corners[0]], points[corners[1]], points[corners[2]]) <= 0) {
         return TL_ERR_SELF_INTERSECTION;
     }
