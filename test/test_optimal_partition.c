@@ -5,7 +5,7 @@
 #include "polygon/triangulate.h"
 #include "polygon_shapes.h"
 
-enum { MAX_POINTS = 128, MAX_EXHAUSTED = 12 };
+enum { MAX_POINTS = 128, MAX_EXHAUSTED = 12, MAX_CAP = 12 };
 
 static oracle_point points[MAX_POINTS];
 static tl_lattice_point lattice[MAX_POINTS];
@@ -72,6 +72,76 @@ static uint32_t fewest_by_exhaustion(uint32_t n, uint32_t max_corners)
         }
     }
     return exhaust(&e, 0, n - 1);
+}
+
+// The other oracle, for all that tl_partition_optimally promises: dynamic programming in its plain form, over every
+// chain of corners behind a chord by its second corner, its last edge and its number of corners, none left out.
+typedef struct plain_program {
+    uint32_t n, most;
+    uint8_t sees[MAX_POINTS][MAX_POINTS];
+    uint32_t fewest[MAX_POINTS][MAX_POINTS];
+    uint32_t chain[MAX_POINTS][MAX_POINTS][MAX_CAP + 1]; // by last edge and corners, for one first edge
+} plain_program;
+
+static plain_program plain;
+
+static bool bends_in(uint32_t a, uint32_t b, uint32_t c)
+{
+    return oracle_area2(points[a], points[b], points[c]) < 0;
+}
+
+// Grows all chains that begin with the edge (i, second), and closes them.
+static void grow_chains(uint32_t i, uint32_t second, bool has_cap)
+{
+    const uint32_t n = plain.n;
+    for (uint32_t u = second; u < n; u++) {
+        memset(plain.chain[u], 0xff, sizeof plain.chain[u]);
+    }
+    memset(plain.chain[i], 0xff, sizeof plain.chain[i]);
+    plain.chain[i][second][has_cap ? 2 : 0] = plain.fewest[i][second];
+    for (uint32_t v = second; v < n; v++) {
+        for (uint32_t u = i; u < v && plain.sees[i][v]; u = u == i ? second : u + 1) {
+            for (uint32_t count = 0; count <= plain.most; count++) {
+                const uint32_t cost = plain.chain[u][v][count];
+                if (cost == UINT32_MAX) {
+                    continue;
+                }
+                const uint32_t longer = has_cap ? count + 1 : count;
+                for (uint32_t w = v + 1; w < n && longer <= plain.most; w++) {
+                    uint32_t *to = &plain.chain[v][w][longer];
+                    if (plain.sees[i][w] && plain.sees[v][w] && bends_in(u, v, w) && cost + plain.fewest[v][w] < *to) {
+                        *to = cost + plain.fewest[v][w];
+                    }
+                }
+                if (v > second && bends_in(u, v, i) && bends_in(v, i, second) && cost + 1 < plain.fewest[i][v]) {
+                    plain.fewest[i][v] = cost + 1;
+                }
+            }
+        }
+    }
+}
+
+static uint32_t fewest_by_plain_program(uint32_t n, uint32_t max_corners)
+{
+    plain.n = n;
+    plain.most = max_corners;
+    TEST_CHECK(max_corners <= MAX_CAP);
+    memset(plain.fewest, 0xff, sizeof plain.fewest);
+    memset(plain.sees, 0, sizeof plain.sees);
+    for (uint32_t i = 0; i < n; i++) {
+        for (uint32_t j = i + 1; j < n; j++) {
+            plain.sees[i][j] = j == i + 1 || (i == 0 && j == n - 1) || oracle_sees(points, identity, n, i, j);
+        }
+    }
+    for (uint32_t i = n - 1; i-- > 0;) {
+        plain.fewest[i][i + 1] = 0;
+        for (uint32_t second = i + 1; second < n; second++) {
+            if (plain.sees[i][second]) {
+                grow_chains(i, second, max_corners != 0);
+            }
+        }
+    }
+    return plain.fewest[0][n - 1];
 }
 
 // Partitions, and checks that the parts are convex, small enough, and together the outline's area. 0: given up.
@@ -143,6 +213,62 @@ static void equals_exhaustion(void **state)
     TEST_CHECK(compared > 1500 && large > 200 && better > 100 && straight > 40);
 }
 
+// Corners all around at random distances: many see each other.
+static void random_star(test_random *random, uint32_t n, double least)
+{
+    const double turn = 6.283185307179586 / n;
+    for (uint32_t i = 0; i < n; i++) {
+        double radius = 1e6 * (least + (1.0 - least) * (double)test_random_unit(random));
+        points[i].x = (int64_t)(radius * cos(turn * i));
+        points[i].z = (int64_t)(radius * sin(turn * i));
+    }
+    shape_make_outer(points, n);
+}
+
+static void equals_the_plain_program(void **state)
+{
+    (void)state;
+    static const uint32_t caps[6] = { 6, 0, 3, 4, 12, 5 };
+    test_random random = { 33 };
+    uint32_t compared = 0, large = 0, better = 0;
+    for (uint32_t round = 0; round < 400; round++) {
+        uint32_t n = 3 + test_random_below(&random, MAX_POINTS - 2);
+        switch (round % 4) {
+        case 0: // the plain program is a check of the other oracle too
+            n = 3 + n % (MAX_EXHAUSTED - 2);
+            random_star(&random, n, 0.2);
+            break;
+        case 1:
+            random_star(&random, n, 0.1);
+            break;
+        case 2:
+            n = n % 48 + 3;
+            if (!shape_untangled(&random, points, n, 1u << 12)) {
+                continue;
+            }
+            break;
+        default:
+            n = shape_cells(&random, 14, 10 + test_random_below(&random, 90), points, MAX_POINTS);
+        }
+        if (n < 3 || !oracle_is_simple(points, n)) {
+            continue;
+        }
+        uint32_t cap = caps[test_random_below(&random, 6)];
+        uint32_t count = partition(n, cap, UINT64_MAX);
+        uint32_t fewest = fewest_by_plain_program(n, cap);
+        TEST_CHECK(count == fewest && (n > MAX_EXHAUSTED || count == fewest_by_exhaustion(n, cap)));
+        compared++;
+        large += n > 100;
+        better += count < merged_triangles(n, cap);
+    }
+    TEST_CHECK(compared > 300 && large > 15 && better > 100);
+    // The largest size promised, with the most chords.
+    shape_star(points, MAX_POINTS, 1e8, 1e8);
+    TEST_CHECK(partition(MAX_POINTS, 6, UINT64_MAX) == 32);
+    random_star(&random, MAX_POINTS, 0.9);
+    TEST_CHECK(partition(MAX_POINTS, 6, UINT64_MAX) == fewest_by_plain_program(MAX_POINTS, 6));
+}
+
 static void is_never_worse_than_merging(void **state)
 {
     (void)state;
@@ -205,9 +331,8 @@ static void gives_up_above_the_limit(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equals_exhaustion),
-        cmocka_unit_test(is_never_worse_than_merging),
-        cmocka_unit_test(known_shapes),
+        cmocka_unit_test(equals_exhaustion),           cmocka_unit_test(equals_the_plain_program),
+        cmocka_unit_test(is_never_worse_than_merging), cmocka_unit_test(known_shapes),
         cmocka_unit_test(gives_up_above_the_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

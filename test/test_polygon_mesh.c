@@ -123,41 +123,6 @@ static void hard_families_pass_the_validator(void **state)
     }
 }
 
-static void more_than_16_bits_of_everything(void **state)
-{
-    (void)state;
-    // 300 x 300 squares of four corners each: 90,000 polygons, 90,601 vertices, 179,400 links.
-    enum { ACROSS = 300 };
-    tl_contour_vertex *corners = malloc(4 * ACROSS * ACROSS * sizeof *corners);
-    tl_contour *contours = malloc(ACROSS * ACROSS * sizeof *contours);
-    for (int32_t i = 0; i < ACROSS * ACROSS; i++) {
-        int32_t x = 3 * (i % ACROSS), z = 3 * (i / ACROSS);
-        tl_contour_vertex square[4] = {
-            { x, 0, z, 0 }, { x, 0, z + 3, 0 }, { x + 3, 0, z + 3, 0 }, { x + 3, 0, z, 0 }
-        };
-        memcpy(corners + 4 * i, square, sizeof square);
-        tl_contour contour = { 4 * (uint32_t)i, 4, (uint32_t)i + 1, 63 };
-        contours[i] = contour;
-    }
-    tl_contour_set set;
-    memset(&set, 0, sizeof set);
-    set.vertices = corners;
-    set.vertex_count = 4 * ACROSS * ACROSS;
-    set.contours = contours;
-    set.contour_count = ACROSS * ACROSS;
-    set.cell_size = set.cell_height = 1.0f;
-    tl_polygon_def def = tl_default_polygon_def();
-    tl_polygon_mesh mesh;
-    tl_polygon_report report;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-    check_good(&mesh, &set);
-    TEST_CHECK(mesh.polygon_count == ACROSS * ACROSS && mesh.vertex_count == (ACROSS + 1) * (ACROSS + 1));
-    TEST_CHECK(report.link_count == 2 * ACROSS * (ACROSS - 1) && report.crowded_edges == 0);
-    tl_polygon_mesh_free(&mesh, NULL);
-    free(corners);
-    free(contours);
-}
-
 static void floors_upon_each_other_are_counted(void **state)
 {
     (void)state;
@@ -372,7 +337,6 @@ int main(void)
         cmocka_unit_test(two_contours_meet_in_links),
         cmocka_unit_test(scribbles_give_good_meshes),
         cmocka_unit_test(hard_families_pass_the_validator),
-        cmocka_unit_test(more_than_16_bits_of_everything),
         cmocka_unit_test(floors_upon_each_other_are_counted),
         cmocka_unit_test(bad_arguments_are_named),
         cmocka_unit_test(a_build_can_be_cancelled),

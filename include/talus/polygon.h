@@ -152,7 +152,8 @@ typedef struct tl_polygon_def {
                                ///< corner's height from the same floors. Default 2, as Recast
     bool keep_border_vertices; ///< true: vertices flagged TL_CONTOUR_BORDER_VERTEX stay. Default false
     bool drop_straight_vertices; ///< true: vertices in straight runs go where no other vertex is at the same x and z,
-                                 ///< before the contour is divided. Fewer polygons; default false
+                                 ///< before the contour is divided, unless it needs a repair. Fewer polygons; default
+                                 ///< false
     bool merge_contours; ///< true: polygons of different contours of one region and area are merged as well. Default
                          ///< false
     const tl_polygon_trace *trace; ///< NULL: none, and no cost. Follows the classic method, cuts and then merges of

@@ -125,25 +125,37 @@ static int64_t stored_area2(const tl_polygon_store *store, uint32_t first_polygo
     return (int64_t)sum;
 }
 
+// Prepares a contour without its straight vertices, where any may go. Not where it needs a repair: crossings that stand
+// on such a vertex would be rounded to the lattice without need.
+static tl_result prepare_without_straight(builder *b, const tl_contour *contour, tl_outline *outline, bool *is_prepared)
+{
+    tl_contour_vertex *kept = TL_PUSH(&b->scratch, tl_contour_vertex, contour->vertex_count);
+    if (kept == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t count = tl_drop_straight_vertices(&b->places, b->contours, contour, kept);
+    *is_prepared = false;
+    if (count < contour->vertex_count) {
+        TL_TRY(tl_outline_prepare(&b->scratch, kept, count, b->def->merge_height, outline));
+        *is_prepared = outline->faults == 0;
+        b->report.straight_vertices_gone += *is_prepared ? contour->vertex_count - count : 0;
+    }
+    return TL_OK;
+}
+
 static tl_result add_contour(builder *b, uint32_t index)
 {
     const tl_contour *contour = &b->contours->contours[index];
     uint32_t first_polygon = b->store.polygon_count;
-    const tl_contour_vertex *vertices = b->contours->vertices + contour->first_vertex;
-    uint32_t count = contour->vertex_count;
-    uint32_t *places = NULL;
-    if (b->def->drop_straight_vertices) {
-        tl_contour_vertex *kept = TL_PUSH(&b->scratch, tl_contour_vertex, count);
-        places = TL_PUSH(&b->scratch, uint32_t, count);
-        if (kept == NULL || places == NULL) {
-            return TL_ERR_MEMORY;
-        }
-        count = tl_drop_straight_vertices(&b->places, b->contours, contour, kept, places);
-        vertices = kept;
-        b->report.straight_vertices_gone += contour->vertex_count - count;
-    }
     tl_outline outline;
-    TL_TRY(tl_outline_prepare(&b->scratch, vertices, count, b->def->merge_height, &outline));
+    bool is_prepared = false;
+    if (b->def->drop_straight_vertices) {
+        TL_TRY(prepare_without_straight(b, contour, &outline, &is_prepared));
+    }
+    if (!is_prepared) {
+        TL_TRY(tl_outline_prepare(&b->scratch, b->contours->vertices + contour->first_vertex, contour->vertex_count,
+                                  b->def->merge_height, &outline));
+    }
     if (outline.walk_count > 0) {
         TL_TRY(divide(b, index, &outline));
     }
@@ -154,7 +166,7 @@ static tl_result add_contour(builder *b, uint32_t index)
     memset(&note, 0, sizeof note);
     note.contour = index;
     note.faults = outline.faults;
-    note.vertex = places != NULL && count > 0 ? places[outline.fault_vertex] : outline.fault_vertex;
+    note.vertex = outline.fault_vertex;
     note.contour_area2 = outline.area2;
     note.covered_area2 = stored_area2(&b->store, first_polygon);
     // Modulo 2^64, as the areas of outlines that wind around much floor several times are.

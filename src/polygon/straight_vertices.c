@@ -47,7 +47,7 @@ static bool runs_straight(const tl_contour_vertex *a, const tl_contour_vertex *b
 }
 
 uint32_t tl_drop_straight_vertices(tl_place_counts *counts, const tl_contour_set *contours, const tl_contour *contour,
-                                   tl_contour_vertex *kept, uint32_t *places)
+                                   tl_contour_vertex *kept)
 {
     const tl_contour_vertex *vertices = contours->vertices + contour->first_vertex;
     uint32_t n = contour->vertex_count;
@@ -58,8 +58,7 @@ uint32_t tl_drop_straight_vertices(tl_place_counts *counts, const tl_contour_set
                     runs_straight(&vertices[k > 0 ? k - 1 : n - 1], v, &vertices[k + 1 < n ? k + 1 : 0]) &&
                     *tl_key_table_at(&counts->table, place_key(v)) == 1;
         if (!goes) {
-            kept[made] = *v;
-            places[made++] = k;
+            kept[made++] = *v;
         }
     }
     return made;

@@ -17,9 +17,8 @@ typedef struct tl_place_counts {
 /// False: out of memory.
 bool tl_place_counts_init(tl_place_counts *counts, tl_arena *arena, const tl_contour_set *contours);
 
-/// Copies a contour's vertices to `kept`, which has room for all, without those that can go; places[i] becomes the
-/// contour's vertex that kept[i] was. Returns how many are kept.
+/// Copies a contour's vertices to `kept`, which has room for all, without those that can go. Returns how many are kept.
 uint32_t tl_drop_straight_vertices(tl_place_counts *counts, const tl_contour_set *contours, const tl_contour *contour,
-                                   tl_contour_vertex *kept, uint32_t *places);
+                                   tl_contour_vertex *kept);
 
 #endif
