@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-#include "io/contour_text.h"
-#include "io/file_map.h"
 #include "polygon_shapes.h"
 
 #include <talus/polygon.h>
-
-#include <dirent.h>
-#include <stdio.h>
 
 enum { MAX_POINTS = 4096 };
 
@@ -234,67 +229,6 @@ static void every_allocation_may_fail(void **state)
     TEST_CHECK(fail_at > 6);
 }
 
-// Where real contour sets are there: polygons as Recast makes them, one by one, or more right.
-static void compare_with_recast(const char *path)
-{
-    char beside[1200];
-    snprintf(beside, sizeof beside, "%.*s.recast.txt", (int)strlen(path) - 4, path);
-    tl_file_map contours_file, recast_file;
-    TEST_RESULT(tl_file_map_open(path, 0, &contours_file, NULL), TL_OK);
-    bool has_recast = tl_file_map_open(beside, 0, &recast_file, NULL) == TL_OK;
-    tl_contour_reader reader = { contours_file.bytes, contours_file.size, path, NULL, 0, 0 };
-    tl_contour_reader recast_reader = { recast_file.bytes, recast_file.size, beside, NULL, 0, 0 };
-    while (!tl_contour_reader_at_end(&reader)) {
-        tl_contour_text text;
-        TEST_RESULT(tl_contour_text_read(&reader, &text, NULL), TL_OK);
-        tl_polygon_def def = tl_default_polygon_def();
-        def.max_verts_per_poly = text.max_verts_per_poly;
-        tl_polygon_mesh mesh;
-        tl_polygon_report report;
-        TEST_RESULT(tl_polygon_mesh_build(&text.set, &def, &mesh, &report), TL_OK);
-        check_good(&mesh, &text.set);
-        if (has_recast) {
-            tl_polygon_text recast;
-            TEST_RESULT(tl_polygon_text_read(&recast_reader, &recast, NULL), TL_OK);
-            // Both are the same method with the same ties, so counts differ only where Recast's mesh has a fault or a
-            // contour needed a repair.
-            if (recast.bad_triangulations == 0 && report.repaired_contours == 0 && recast.ok &&
-                tl_polygon_mesh_check(&recast.mesh, NULL, NULL, NULL) == TL_OK) {
-                TEST_CHECK(mesh.polygon_count == recast.mesh.polygon_count);
-            }
-            tl_polygon_text_free(&recast);
-        }
-        tl_polygon_mesh_free(&mesh, NULL);
-        tl_contour_text_free(&text);
-    }
-    tl_file_map_close(&contours_file);
-    if (has_recast) {
-        tl_file_map_close(&recast_file);
-    }
-}
-
-static void equals_recast_on_real_contours(void **state)
-{
-    (void)state;
-    DIR *folder = opendir(TALUS_DATA_DIR "/contours");
-    if (folder == NULL) {
-        skip();
-    }
-    uint32_t compared = 0;
-    for (struct dirent *entry = readdir(folder); entry != NULL; entry = readdir(folder)) {
-        size_t length = strlen(entry->d_name);
-        if (length > 4 && strcmp(entry->d_name + length - 4, ".txt") == 0 && strstr(entry->d_name, ".recast") == NULL &&
-            strstr(entry->d_name, "critterai") == NULL) {
-            char path[1024];
-            snprintf(path, sizeof path, "%s/contours/%.500s", TALUS_DATA_DIR, entry->d_name);
-            compare_with_recast(path);
-            compared++;
-        }
-    }
-    closedir(folder);
-    TEST_CHECK(compared > 0);
-}
-
 // A stair that comes up beside its own landing: the outline runs from (0, 1) to (2, 1) on the lower floor and back on
 // the upper one, 3 m higher. In the plane that is a bridge; it is a wall.
 static void a_run_back_on_another_floor_is_a_wall(void **state)
@@ -341,7 +275,6 @@ int main(void)
         cmocka_unit_test(bad_arguments_are_named),
         cmocka_unit_test(a_build_can_be_cancelled),
         cmocka_unit_test(every_allocation_may_fail),
-        cmocka_unit_test(equals_recast_on_real_contours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
