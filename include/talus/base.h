@@ -60,6 +60,7 @@ typedef enum tl_result {
     TL_ERR_COPLANAR,          ///< all points lie in one plane
     TL_ERR_NON_MANIFOLD,      ///< an edge would get more than two faces, or a vertex two fans
     TL_ERR_WINDING,           ///< a face runs against its neighbour
+    TL_ERR_NOT_CLOSED,        ///< a surface that must enclose a space has a hole or a rim
     TL_ERR_SELF_INTERSECTION, ///< an outline crosses itself
 
     // What was wrong with bytes.

@@ -169,6 +169,26 @@ TL_API bool tl_soup_cast_segment(const tl_soup *soup, tl_vec3 a, tl_vec3 b, cons
 /// `filter` may be NULL.
 TL_API bool tl_soup_line_of_sight(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter);
 
+/// What counts as a hit where a ray passes through an edge or a corner.
+typedef enum tl_hit_rule {
+    /// Every triangle that the ray touches, as tl_soup_cast_ray has it: an edge gives both of its triangles, a corner
+    /// its fan.
+    TL_HITS_TOUCHED,
+    /// Each passage through a surface once: of the triangles around an edge or corner those count that the ray still
+    /// meets when it is moved aside by less than any number. A line crosses a closed surface an even number of times,
+    /// always, and one from the inside an odd number. The rim of an open surface counts on one side only.
+    TL_HITS_CROSSED
+} tl_hit_rule;
+
+/// All hits of a ray, sorted by t, of equal t by triangle; each triangle at most once. `filter` may be NULL.
+///
+/// Writes the nearest `capacity` of them, and to `*count_out` how many there are: TL_ERR_CAPACITY when that is more.
+/// With TL_HITS_TOUCHED the first is the hit of tl_soup_cast_ray, bit for bit. TL_ERR_NOT_FINITE: origin or direction;
+/// TL_ERR_ARGUMENT: the direction is zero, or tmax negative or NaN.
+TL_API tl_result tl_soup_cast_ray_all(const tl_soup *soup, const tl_ray *ray, tl_hit_rule rule,
+                                      const tl_ray_filter *filter, tl_ray_hit *hits_out, uint32_t capacity,
+                                      uint32_t *count_out);
+
 /// A part of a triangle, corners numbered as in the view.
 typedef enum tl_triangle_feature {
     TL_TRIANGLE_FACE = 0, ///< inside
@@ -247,6 +267,31 @@ typedef struct tl_shape_hit {
 /// or NaN. `hit_out` is then untouched.
 TL_API tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_transform pose, tl_vec3 motion,
                                     const tl_ray_filter *filter, tl_shape_hit *hit_out);
+
+typedef enum tl_soup_side { TL_SOUP_OUTSIDE, TL_SOUP_INSIDE, TL_SOUP_ON_SURFACE } tl_soup_side;
+
+/// Where a point lies to a closed surface.
+typedef struct tl_soup_place {
+    tl_soup_side side; ///< inside: the winding number is not 0
+    int32_t winding;   ///< how often the surface goes around the point: 1 in a solid, more where solids overlap, -1 in
+                       ///< one that is inside out
+    uint32_t triangle; ///< on the surface: the lowest that holds the point, else TL_NO_TRIANGLE
+} tl_soup_place;
+
+/// Whether a point lies inside of a soup that is closed: exactly, whatever edges and corners its rays go through.
+///
+/// TL_ERR_NOT_CLOSED, TL_ERR_WINDING: rays from the point to both sides contradict each other, so the surface has a
+/// hole or a rim, or triangles that face against their neighbours. Not every hole shows at every point;
+/// tl_soup_check_closed proves that there is none. TL_ERR_NOT_FINITE: the point. `place_out` is then untouched.
+TL_API tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_place *place_out);
+
+/// Whether the triangles of a soup enclose a space: along every edge as many run one way as the other. They may
+/// intersect.
+///
+/// TL_ERR_NOT_CLOSED (a hole or rim) or TL_ERR_WINDING (all edges are shared, but some neighbours face against each
+/// other), with a triangle in `report_out`, which may be NULL. Not a query: it takes memory from the host, which may be
+/// NULL too. TL_ERR_MEMORY, TL_ERR_CANCELLED. O(n).
+TL_API tl_result tl_soup_check_closed(const tl_soup *soup, const tl_host *host, tl_report *report_out);
 
 /// One stored triangle.
 typedef struct tl_soup_triangle {

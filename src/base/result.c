@@ -33,6 +33,7 @@ static const result_words RESULTS[TL_RESULT_COUNT] = {
     WORDS(TL_ERR_COPLANAR, "all points lie in one plane"),
     WORDS(TL_ERR_NON_MANIFOLD, "it would not be a manifold surface"),
     WORDS(TL_ERR_WINDING, "a face is wound against its neighbour"),
+    WORDS(TL_ERR_NOT_CLOSED, "the surface is not closed"),
     WORDS(TL_ERR_SELF_INTERSECTION, "an outline crosses itself"),
     WORDS(TL_ERR_FORMAT, "it is not in the format that it claims"),
     WORDS(TL_ERR_MAGIC, "it is another kind of data"),
