@@ -353,73 +353,6 @@ static void test_a_build_can_be_cancelled(void **state)
     TEST_CHECK(hull == NULL);
 }
 
-static void visit_cloud(tl_vec3 *points, uint32_t count, void *user)
-{
-    uint32_t *flat = user;
-    tl_hull_def def = tl_default_hull_def();
-    tl_hull *hull;
-    tl_result result = tl_hull_build(points, count, &def, &hull, NULL);
-    if (result != TL_OK) {
-        TEST_CHECK(result == TL_ERR_COPLANAR || result == TL_ERR_COLLINEAR || result == TL_ERR_COINCIDENT);
-        ++*flat;
-        return;
-    }
-    prove(hull, points, count);
-    tl_hull *first = hull;
-    static const int exponents[] = { -50, 50 };
-    for (int e = 0; e < 2; e++) {
-        for (uint32_t i = 0; i < count; i++) {
-            int shift = exponents[e] - (e > 0 ? exponents[e - 1] : 0);
-            points[i] =
-                tl_vec3_make(ldexpf(points[i].x, shift), ldexpf(points[i].y, shift), ldexpf(points[i].z, shift));
-        }
-        TEST_RESULT(tl_hull_build(points, count, &def, &hull, NULL), TL_OK);
-        TEST_CHECK(same_topology(first, hull));
-        tl_blob_free(hull, NULL);
-    }
-    tl_blob_free(first, NULL);
-}
-
-static void test_real_clouds(void **state)
-{
-    (void)state;
-    uint32_t flat = 0;
-    uint32_t clouds = shape_each_cloud(TALUS_DATA_DIR "/hulls/hulls_dev.txt", visit_cloud, &flat);
-    if (clouds == 0) {
-        skip();
-    }
-    print_message("%u clouds, %u of them flat\n", clouds, flat);
-    TEST_CHECK(clouds > 3000 && flat < clouds / 10);
-}
-
-static void test_real_models(void **state)
-{
-    (void)state;
-    static const char *const names[] = {
-        "models/cow.obj",      "models/fandisk.obj",     "models/rocker-arm.obj", "models/stanford-bunny.obj",
-        "models/suzanne.obj",  "models/teapot.obj",      "levels/dungeon.obj",    "levels/collision_mesh_01.obj",
-        "levels/nav_test.obj", "levels/proto-level.obj", "levels/test_map01.obj", "levels/undulating.obj",
-    };
-    uint32_t seen = 0;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        char path[1024];
-        snprintf(path, sizeof path, "%s/%s", TALUS_DATA_DIR, names[i]);
-        uint32_t count;
-        tl_vec3 *points = shape_read_obj(path, &count);
-        if (points == NULL) {
-            continue;
-        }
-        tl_hull *hull = build(points, count);
-        prove(hull, points, count);
-        tl_blob_free(hull, NULL);
-        free(points);
-        seen++;
-    }
-    if (seen == 0) {
-        skip();
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -433,8 +366,6 @@ int main(void)
         cmocka_unit_test(test_golden_hash),
         cmocka_unit_test(test_memory_runs_out),
         cmocka_unit_test(test_a_build_can_be_cancelled),
-        cmocka_unit_test(test_real_clouds),
-        cmocka_unit_test(test_real_models),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -127,6 +127,18 @@ TL_API tl_hull_def tl_default_hull_def(void);
 TL_API tl_result tl_hull_build(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
                                tl_hull_report *report_out);
 
+/// A copy of a hull, scaled along its own axes, then turned and moved: p becomes rotation(scale * p) + position. A
+/// negative scale mirrors.
+///
+/// The copy is the hull of the mapped corners, each coordinate rounded once; it is a valid hull whatever the map. Faces
+/// stay whole where the rounding keeps them flat (moves and scales of boxes, powers of two of anything), else they
+/// become several. `sources` name the points of the first build. To turn a body each frame, keep the hull and use
+/// poses. O(V log V). Errors, `*hull_out` NULL: TL_ERR_COINCIDENT, TL_ERR_COLLINEAR, TL_ERR_COPLANAR (nothing solid is
+/// left), TL_ERR_NOT_FINITE, TL_ERR_RANGE, TL_ERR_MEMORY, TL_ERR_CANCELLED. `host` and `report_out` may be NULL. Free
+/// with tl_blob_free.
+TL_API tl_result tl_hull_transform(const tl_hull *hull, tl_vec3 scale, tl_transform pose, const tl_host *host,
+                                   tl_hull **hull_out, tl_hull_report *report_out);
+
 /// Whether bytes of unknown origin are a hull that every query can be trusted with: head, offsets, indices, loops,
 /// twins, Euler's formula, finite values. Safe on any bytes; `bytes` must be 16-byte aligned. O(size).
 /// Convexity is not proven here: tl_hull_validate does that.

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// A hull scaled, turned and moved: its corners are mapped in double and rounded once, and the hull of the result is
+// built anew. To keep the topology instead would be quicker and wrong: four corners in one plane are so no more when
+// each has been rounded on its own, and a blunt corner may end up inside.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "math/vec3d.h"
+
+#include <talus/hull.h>
+
+tl_result tl_hull_transform(const tl_hull *hull, tl_vec3 scale, tl_transform pose, const tl_host *host,
+                            tl_hull **hull_out, tl_hull_report *report_out)
+{
+    TL_ASSERT(hull_out != NULL);
+    *hull_out = NULL;
+    tl_hull_def def = tl_default_hull_def();
+    def.flatness = 0.0f; // the hull was no chip of rounding, so what remains of it is meant
+    if (host != NULL) {
+        def.host = *host;
+    }
+    tl_vec3 *points = tl_allocate_array(def.host.allocator, hull->vertex_count, sizeof *points);
+    if (points == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_frame frame = tl_frame_from(pose);
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        tl_vec3 p = tl_hull_vertices(hull)[v];
+        tl_vec3d scaled =
+            tl_vec3d_make((double)scale.x * (double)p.x, (double)scale.y * (double)p.y, (double)scale.z * (double)p.z);
+        points[v] = tl_vec3d_to_float(tl_frame_point(&frame, scaled));
+    }
+    tl_hull *out;
+    tl_result result = tl_hull_build(points, hull->vertex_count, &def, &out, report_out);
+    tl_release_array(def.host.allocator, points, hull->vertex_count, sizeof *points);
+    if (result == TL_OK) {
+        uint32_t *sources = (uint32_t *)(void *)((char *)out + out->sources);
+        for (uint32_t v = 0; v < out->vertex_count; v++) {
+            sources[v] = tl_hull_sources(hull)[sources[v]];
+        }
+        *hull_out = out;
+    }
+    return result;
+}
