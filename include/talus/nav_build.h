@@ -330,6 +330,46 @@ TL_API tl_result tl_nav_build(const tl_nav_def *def, const tl_nav_input *input, 
                               tl_nav_build_report *report_out);
 TL_API void tl_nav_tiles_free(tl_nav_tiles *tiles, const tl_allocator *allocator);
 
+// ---------------------------------------------------------------------------------------------------------
+// A part of the tiles: levels that change.
+
+/// The tiles [x, x + count_x) by [z, z + count_z) of the grid.
+typedef struct tl_nav_tile_range {
+    uint32_t x, z, count_x, count_z;
+} tl_nav_tile_range;
+
+/// The tiles that can differ when something inside `box` changes: those whose columns, border included, meet it. Empty
+/// (counts 0) beside the level. `level_bounds`: def->bounds where they are given, else those of the mesh. `box` must
+/// have min <= max (TL_ERR_ARGUMENT). Errors else as tl_nav_tile_grid.
+TL_API tl_result tl_nav_tiles_in_box(const tl_nav_def *def, tl_aabb level_bounds, tl_aabb box,
+                                     tl_nav_tile_range *range_out, tl_report *report_out);
+
+/// Is handed each tile's intermediate data as it is done, on the thread that built it; tiles without triangles are
+/// left out. What it takes out of `stages` (and zeroes there) is its own, in def->host.allocator.
+typedef struct tl_nav_stage_sink {
+    void (*take)(const tl_nav_config *config, tl_nav_stages *stages, void *user);
+    void *user;
+} tl_nav_stage_sink;
+
+/// The tiles of a range, row-major; NULL where nothing is walkable.
+typedef struct tl_nav_tile_block {
+    tl_nav_tile_range range;
+    tl_nav_tile **tiles; ///< [range.count_x * range.count_z]
+} tl_nav_tile_block;
+
+/// Bakes a range of tiles: the same bytes as in tl_nav_build of the whole. `sink` may be NULL. A caller whose mesh
+/// changes gives def->bounds, so that the lattice stays where it is. TL_ERR_ARGUMENT: a range beyond the grid.
+TL_API tl_result tl_nav_build_range(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tile_range range,
+                                    const tl_nav_stage_sink *sink, tl_nav_tile_block *block_out,
+                                    tl_nav_build_report *report_out);
+
+/// Bakes again what a change inside `changed` can have touched (cover both what was there and what is there now): the
+/// same bytes as a bake of the whole level. def->bounds must be given, and the same as when the others were baked
+/// (TL_ERR_ARGUMENT). Replace or remove each tile of the block in the navmesh.
+TL_API tl_result tl_nav_rebuild(const tl_nav_def *def, const tl_nav_input *input, tl_aabb changed,
+                                tl_nav_tile_block *block_out, tl_nav_build_report *report_out);
+TL_API void tl_nav_tile_block_free(tl_nav_tile_block *block, const tl_allocator *allocator);
+
 #ifdef __cplusplus
 }
 #endif

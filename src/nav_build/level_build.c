@@ -30,13 +30,20 @@ typedef struct level_job {
     const tl_nav_input *input;
     tl_aabb bounds;
     tl_host host; ///< with the meter's allocator
-    uint32_t tiles_x, tiles_z;
+    const tl_nav_stage_sink *sink;
+    uint32_t tiles_x, tiles_z; ///< of the level
+    tl_nav_tile_range range;   ///< what is built
     tl_triangle_bins bins;
-    tl_nav_tile **tiles;   ///< [tiles_x * tiles_z]
+    tl_nav_tile **tiles;   ///< [range.count_x * range.count_z]
     level_worker *workers; ///< [worker_count]
     uint32_t worker_count;
     uint64_t first_tile; ///< of the batch at hand
 } level_job;
+
+static uint64_t tile_count_of(const level_job *job)
+{
+    return (uint64_t)job->range.count_x * job->range.count_z;
+}
 
 static void add_counts(tl_nav_build_report *sum, const tl_nav_build_report *part)
 {
@@ -57,9 +64,18 @@ static tl_result run_tile(const level_job *job, uint64_t tile, tl_triangle_list 
     tl_nav_config config;
     tl_nav_stages stages;
     memset(&stages, 0, sizeof stages);
-    TL_TRY(tl_nav_config_make(job->def, job->bounds, (uint32_t)(tile % job->tiles_x), (uint32_t)(tile / job->tiles_x),
-                              &config, &counts->base));
-    return tl_nav_tile_run(&config, job->input, list, host, false, &stages, &job->tiles[tile], counts);
+    TL_TRY(tl_nav_config_make(job->def, job->bounds, job->range.x + (uint32_t)(tile % job->range.count_x),
+                              job->range.z + (uint32_t)(tile / job->range.count_x), &config, &counts->base));
+    const bool keep = job->sink != NULL;
+    tl_result result = tl_nav_tile_run(&config, job->input, list, host, keep, &stages, &job->tiles[tile], counts);
+    if (keep) {
+        tl_nav_stages_hand_over(&stages, job->def->host.allocator);
+        if (result == TL_OK) {
+            job->sink->take(&config, &stages, job->sink->user);
+        }
+        tl_nav_stages_free(&stages, job->def->host.allocator);
+    }
+    return result;
 }
 
 static void tile_task(uint32_t index, uint32_t worker_index, void *task_user)
@@ -99,7 +115,7 @@ static tl_result first_failure(const level_job *job, tl_report *report)
 
 static tl_result run_tiles(level_job *job, tl_report *report)
 {
-    const uint64_t count = (uint64_t)job->tiles_x * job->tiles_z;
+    const uint64_t count = tile_count_of(job);
     const uint64_t batch = (uint64_t)job->worker_count * TILES_PER_WORKER;
     tl_report_begin(report, "tiles");
     for (job->first_tile = 0; job->first_tile < count; job->first_tile += batch) {
@@ -117,9 +133,10 @@ static tl_result sort_triangles(level_job *job, tl_report *report)
     tl_nav_config config;
     TL_TRY(tl_nav_config_make(job->def, job->bounds, 0, 0, &config, report));
     tl_report_begin(report, "sort triangles");
-    tl_nav_lattice lattice = { config.lattice.origin, 0, 0 };
+    const uint32_t size = job->def->tile_size;
+    tl_nav_lattice lattice = { config.lattice.origin, (int32_t)(job->range.x * size), (int32_t)(job->range.z * size) };
     tl_lattice_map map = tl_lattice_map_make(&lattice, config.cell_size, config.cell_height);
-    tl_bin_grid grid = { job->tiles_x, job->tiles_z, job->def->tile_size, job->def->tile_size, config.border_size };
+    tl_bin_grid grid = { job->range.count_x, job->range.count_z, size, size, config.border_size };
     tl_triangle_list all = { NULL, job->input->mesh.triangle_count };
     tl_result result = tl_triangle_bins_build(&job->input->mesh, all, &map, &grid, job->host.allocator, &job->bins);
     return result == TL_ERR_LIMIT ? tl_report_fail(report, result, "tile_size", TL_NO_ELEMENT,
@@ -150,10 +167,61 @@ static tl_result build_tiles(level_job *job, tl_nav_build_report *report)
     return result;
 }
 
+// All tiles of a range, which is checked against the level's grid.
+static tl_result build_range(level_job *job, const tl_nav_tile_range *range, tl_nav_build_report *report)
+{
+    TL_TRY(tl_nav_input_check(job->input, &job->bounds, &report->base));
+    TL_TRY(tl_nav_tile_grid(job->def, job->bounds, &job->tiles_x, &job->tiles_z, &report->base));
+    tl_nav_tile_range all = { 0, 0, job->tiles_x, job->tiles_z };
+    job->range = range != NULL ? *range : all;
+    if (job->range.x > job->tiles_x || job->range.count_x > job->tiles_x - job->range.x ||
+        job->range.z > job->tiles_z || job->range.count_z > job->tiles_z - job->range.z) {
+        job->range = (tl_nav_tile_range){ 0, 0, 0, 0 };
+        return tl_report_fail(&report->base, TL_ERR_ARGUMENT, "range", TL_NO_ELEMENT,
+                              "ask tl_nav_tile_grid how many tiles there are");
+    }
+    const uint64_t count = tile_count_of(job);
+    if (count == 0) {
+        return TL_OK;
+    }
+    job->tiles = tl_allocate_array(job->host.allocator, count, sizeof *job->tiles);
+    if (job->tiles == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(job->tiles, 0, count * sizeof *job->tiles);
+    return build_tiles(job, report);
+}
+
+static void begin_job(level_job *job, const tl_nav_def *def, const tl_nav_input *input, tl_memory_meter *meter)
+{
+    tl_memory_meter_init(meter, def->host.allocator);
+    memset(job, 0, sizeof *job);
+    job->def = def;
+    job->input = input;
+    job->host = def->host;
+    job->host.allocator = &meter->allocator;
+}
+
+static void end_job(level_job *job, tl_memory_meter *meter, const tl_nav_build_report *report,
+                    tl_nav_build_report *report_out)
+{
+    const uint64_t count = tile_count_of(job);
+    for (uint64_t t = 0; job->tiles != NULL && t < count; t++) {
+        tl_blob_free(job->tiles[t], job->host.allocator);
+    }
+    tl_release_array(job->host.allocator, job->tiles, count, sizeof *job->tiles);
+    tl_release_array(job->host.allocator, job->workers, job->worker_count, sizeof *job->workers);
+    tl_triangle_bins_free(&job->bins);
+    if (report_out != NULL) {
+        *report_out = *report;
+        report_out->base.peak_bytes = tl_memory_meter_peak(meter);
+    }
+}
+
 // Those that hold polygons, in an array of their number.
 static tl_result keep_tiles(level_job *job, uint32_t tile_count, tl_nav_tiles *tiles_out)
 {
-    const uint64_t count = (uint64_t)job->tiles_x * job->tiles_z;
+    const uint64_t count = tile_count_of(job);
     tiles_out->tiles = tl_allocate_array(job->host.allocator, tile_count, sizeof *tiles_out->tiles);
     if (tiles_out->tiles == NULL) {
         return TL_ERR_MEMORY;
@@ -169,31 +237,6 @@ static tl_result keep_tiles(level_job *job, uint32_t tile_count, tl_nav_tiles *t
     return TL_OK;
 }
 
-static tl_result build_level(level_job *job, tl_nav_tiles *tiles_out, tl_nav_build_report *report)
-{
-    TL_TRY(tl_nav_input_check(job->input, &job->bounds, &report->base));
-    TL_TRY(tl_nav_tile_grid(job->def, job->bounds, &job->tiles_x, &job->tiles_z, &report->base));
-    const uint64_t count = (uint64_t)job->tiles_x * job->tiles_z;
-    job->tiles = tl_allocate_array(job->host.allocator, count, sizeof *job->tiles);
-    if (job->tiles == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    memset(job->tiles, 0, count * sizeof *job->tiles);
-    TL_TRY(build_tiles(job, report));
-    return keep_tiles(job, report->tile_count, tiles_out);
-}
-
-static void end_job(level_job *job)
-{
-    const uint64_t count = (uint64_t)job->tiles_x * job->tiles_z;
-    for (uint64_t t = 0; job->tiles != NULL && t < count; t++) {
-        tl_blob_free(job->tiles[t], job->host.allocator);
-    }
-    tl_release_array(job->host.allocator, job->tiles, count, sizeof *job->tiles);
-    tl_release_array(job->host.allocator, job->workers, job->worker_count, sizeof *job->workers);
-    tl_triangle_bins_free(&job->bins);
-}
-
 tl_result tl_nav_build(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tiles *tiles_out,
                        tl_nav_build_report *report_out)
 {
@@ -201,21 +244,45 @@ tl_result tl_nav_build(const tl_nav_def *def, const tl_nav_input *input, tl_nav_
     memset(&report, 0, sizeof report);
     memset(tiles_out, 0, sizeof *tiles_out);
     tl_memory_meter meter;
-    tl_memory_meter_init(&meter, def->host.allocator);
     level_job job;
-    memset(&job, 0, sizeof job);
-    job.def = def;
-    job.input = input;
-    job.host = def->host;
-    job.host.allocator = &meter.allocator;
-
-    tl_result result = build_level(&job, tiles_out, &report);
-    end_job(&job);
-    report.base.peak_bytes = tl_memory_meter_peak(&meter);
-    if (report_out != NULL) {
-        *report_out = report;
+    begin_job(&job, def, input, &meter);
+    tl_result result = build_range(&job, NULL, &report);
+    if (result == TL_OK) {
+        result = keep_tiles(&job, report.tile_count, tiles_out);
     }
+    end_job(&job, &meter, &report, report_out);
     return result;
+}
+
+tl_result tl_nav_build_range(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tile_range range,
+                             const tl_nav_stage_sink *sink, tl_nav_tile_block *block_out,
+                             tl_nav_build_report *report_out)
+{
+    tl_nav_build_report report;
+    memset(&report, 0, sizeof report);
+    memset(block_out, 0, sizeof *block_out);
+    tl_memory_meter meter;
+    level_job job;
+    begin_job(&job, def, input, &meter);
+    job.sink = sink;
+    tl_result result = build_range(&job, &range, &report);
+    if (result == TL_OK) {
+        block_out->range = job.range;
+        block_out->tiles = job.tiles;
+        job.tiles = NULL;
+    }
+    end_job(&job, &meter, &report, report_out);
+    return result;
+}
+
+void tl_nav_tile_block_free(tl_nav_tile_block *block, const tl_allocator *allocator)
+{
+    const uint64_t count = (uint64_t)block->range.count_x * block->range.count_z;
+    for (uint64_t t = 0; block->tiles != NULL && t < count; t++) {
+        tl_blob_free(block->tiles[t], allocator);
+    }
+    tl_release_array(allocator, block->tiles, count, sizeof *block->tiles);
+    memset(block, 0, sizeof *block);
 }
 
 void tl_nav_tiles_free(tl_nav_tiles *tiles, const tl_allocator *allocator)

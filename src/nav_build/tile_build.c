@@ -214,8 +214,7 @@ tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input
     return result;
 }
 
-// The stages were built through the meter, which ends here; what holds an allocator gets the host's.
-static void hand_over_stages(tl_nav_stages *stages, const tl_allocator *allocator)
+void tl_nav_stages_hand_over(tl_nav_stages *stages, const tl_allocator *allocator)
 {
     stages->heightfield.allocator = allocator;
     stages->compact.allocator = allocator;
@@ -241,7 +240,7 @@ tl_result tl_nav_tile_build(const tl_nav_config *config, const tl_nav_input *inp
         result = tl_nav_tile_run(config, input, all, &metered, stages_out != NULL, &stages, tile_out, &report);
     }
     if (result == TL_OK && stages_out != NULL) {
-        hand_over_stages(&stages, allocator);
+        tl_nav_stages_hand_over(&stages, allocator);
         *stages_out = stages;
     } else {
         tl_nav_stages_free(&stages, &meter.allocator);

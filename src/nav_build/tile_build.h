@@ -17,4 +17,7 @@ tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input
                           const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile **tile_out,
                           tl_nav_build_report *report);
 
+/// The stages were built through a meter, which ends with the build; what holds an allocator gets the host's.
+void tl_nav_stages_hand_over(tl_nav_stages *stages, const tl_allocator *allocator);
+
 #endif
