@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Support queries, nanoseconds each, one thread: a scalar scan, a scan in SIMD over separate coordinates, the text's
-// climb as written (its index slip mended, or it would answer nothing), and tl_hull_support without and with a hint.
+// Support queries, nanoseconds each, one thread: exhaustive scans in scalar code and in SIMD, the text's climb as
+// written from the first vertex and from the last answer, and tl_hull_support without and with a hint.
 //
-// A figure is the best of several repetitions in CPU time; every query waits for the one before it, as in GJK. Random
-// directions have nothing in common; turning ones differ by one degree.
+// Directions: random ones; ones that turn by one degree a query; and those that GJK asked of the hull for other shapes
+// around it. Every query waits for the one before it, as in GJK: where the next direction is read from depends on the
+// last answer. A figure is the best of several rounds of CPU time; the methods take turns within a round, and with them
+// the yardstick: the AVX2 scan of a sphere of 256, in which the claims are expressed. So claims hold or fall whatever
+// else the machine does.
 
 #define _GNU_SOURCE
 
-#include "hull/lanes.h"
+#include "report.h"
+#include "support_peers.h"
 
-#include <talus/halfedge.h>
-#include <talus/hull.h>
+#include <talus/convex.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -19,7 +22,10 @@
 #include <string.h>
 #include <time.h>
 
-enum { QUERIES = 4096, REPETITIONS = 15, MOST_POINTS = 65536 };
+enum { QUERIES = 4096, ROUNDS = 9, MOST_POINTS = 200000 };
+
+// A batch of queries is cut short after so long, so that scans of large hulls do not take minutes.
+static const double BATCH_NS = 4e5;
 
 static double now(void)
 {
@@ -48,210 +54,431 @@ static tl_vec3 random_direction(void)
     }
 }
 
-typedef enum cloud_kind { CLOUD_SPHERE, CLOUD_PRISM, CLOUD_CAPSULE, CLOUD_NEEDLE, CLOUD_COUNT } cloud_kind;
+// ---- shapes
 
-static const char *const cloud_names[] = { "sphere", "prism", "capsule", "needle 100:1" };
+typedef enum shape { SHAPE_SPHERE, SHAPE_LENS, SHAPE_CAPSULE, SHAPE_BOX, SHAPE_PRISM, SHAPE_COUNT } shape;
 
-static void make_cloud(cloud_kind kind, tl_vec3 *points, uint32_t count)
+static const char *const shape_names[SHAPE_COUNT] = { "sphere", "lens", "capsule", "rounded box", "prism" };
+
+static float sign_of(float a)
 {
+    return a < 0.0f ? -1.0f : 1.0f;
+}
+
+// The first eight points of the rounded box are corners, so the smallest is a plain box.
+static tl_vec3 shape_point(shape kind, uint32_t i, uint32_t count)
+{
+    tl_vec3 d = random_direction();
+    float angle = 6.2831853f * (float)(i / 2) / (float)(count / 2), c = sqrtf(1.0f / 3.0f);
+    switch (kind) {
+    case SHAPE_LENS: {
+        // The caps of two balls.
+        float y = 0.8f + 0.2f * random_unit(), radius = sqrtf((1 - y * y) / (d.x * d.x + d.z * d.z));
+        return tl_vec3_make(d.x * radius, (y - 0.8f) * sign_of(d.y), d.z * radius);
+    }
+    case SHAPE_CAPSULE:
+        return tl_vec3_make(d.x, d.y + 2.0f * sign_of(d.y), d.z);
+    case SHAPE_BOX:
+        d = i < 8 ? tl_vec3_make(i & 1 ? c : -c, i & 2 ? c : -c, i & 4 ? c : -c) : d;
+        return tl_vec3_make(d.x + 2.0f * sign_of(d.x), d.y + 2.0f * sign_of(d.y), d.z + 2.0f * sign_of(d.z));
+    case SHAPE_PRISM:
+        return tl_vec3_make(cosf(angle), i % 2 ? 1.0f : -1.0f, sinf(angle));
+    default:
+        return d;
+    }
+}
+
+static const tl_hull *build_hull(const tl_vec3 *points, uint32_t count)
+{
+    tl_hull_def def = tl_default_hull_def();
+    tl_hull *hull;
+    if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
+        fprintf(stderr, "a hull could not be built\n");
+        exit(1);
+    }
+    return hull;
+}
+
+static const tl_hull *build_shape(shape kind, uint32_t count)
+{
+    static tl_vec3 points[MOST_POINTS];
     for (uint32_t i = 0; i < count; i++) {
-        tl_vec3 d = random_direction();
-        float angle = 6.2831853f * (float)(i / 2) / (float)(count / 2);
-        points[i] = kind == CLOUD_PRISM     ? tl_vec3_make(cosf(angle), i % 2 ? 1.0f : -1.0f, sinf(angle))
-                    : kind == CLOUD_CAPSULE ? tl_vec3_make(d.x, d.y + (d.y > 0 ? 2.0f : -2.0f), d.z)
-                    : kind == CLOUD_NEEDLE  ? tl_vec3_make(d.x * 100, d.y, d.z)
-                                            : d;
+        points[i] = shape_point(kind, i, count);
+    }
+    return build_hull(points, count);
+}
+
+// The hull of an OBJ file's vertices, or NULL when it is not there.
+static const tl_hull *build_model(const char *name)
+{
+    static tl_vec3 points[MOST_POINTS];
+    char path[512], line[256];
+    snprintf(path, sizeof path, "%s/models/%s.obj", TALUS_DATA_DIR, name);
+    FILE *file = fopen(path, "r");
+    if (file == NULL) {
+        return NULL;
+    }
+    uint32_t count = 0;
+    while (count < MOST_POINTS && fgets(line, sizeof line, file) != NULL) {
+        tl_vec3 *p = &points[count];
+        count += sscanf(line, "v %f %f %f", &p->x, &p->y, &p->z) == 3;
+    }
+    fclose(file);
+    return build_hull(points, count);
+}
+
+// ---- directions
+
+typedef struct directions {
+    tl_vec3 d[QUERIES + 1]; // one more, for an address that is computed and not used
+    uint32_t count;
+} directions;
+
+static directions random_set, turning_set, recorded_set;
+
+static void fill_directions(void)
+{
+    tl_vec3 d = random_direction();
+    random_set.count = turning_set.count = QUERIES;
+    for (int i = 0; i < QUERIES; i++) {
+        random_set.d[i] = random_direction();
+        tl_vec3 aside = tl_cross(d, random_direction());
+        d = tl_normalize(tl_mul_add(d, tl_normalize(aside), 0.0174533f));
+        turning_set.d[i] = d;
+    }
+}
+
+static tl_vec3 recording_support(tl_vec3 d, void *user)
+{
+    const tl_hull *hull = user;
+    if (recorded_set.count < QUERIES) {
+        recorded_set.d[recorded_set.count++] = d;
+    }
+    return tl_hull_vertices(hull)[tl_hull_support(hull, d, TL_NO_VERTEX)];
+}
+
+// What GJK asks of the hull while a small box is put around it at a twentieth to once its size.
+static void record_gjk(const tl_hull *hull)
+{
+    tl_convex shape_a = tl_convex_custom(recording_support, (void *)(uintptr_t)hull, 0.0f);
+    float size = tl_length(tl_sub(hull->bounds.max, hull->bounds.min));
+    tl_convex shape_b = tl_convex_box(tl_vec3_make(0, 0, 0), tl_scale(tl_vec3_make(0.1f, 0.05f, 0.2f), size), 0.0f);
+    tl_transform at_home = tl_transform_identity();
+    for (recorded_set.count = 0; recorded_set.count < QUERIES;) {
+        tl_vec3 d = random_direction(), axis = random_direction();
+        tl_vec3 rim = tl_hull_vertices(hull)[tl_hull_support(hull, d, TL_NO_VERTEX)];
+        float gap = (0.05f + random_unit()) * size;
+        tl_quat turn = { axis.x, axis.y, axis.z, random_unit() };
+        tl_transform pose = { turn, tl_mul_add(rim, d, gap) };
+        tl_separation found;
+        tl_convex_distance(&shape_a, at_home, &shape_b, pose, NULL, &found);
     }
 }
 
 // ---- what is measured
 
-typedef struct subject {
-    const tl_hull *hull;
-    float *rows; // x, y, z, padded to 8
-    uint32_t padded;
-    tl_halfedge mesh; // for the text's climb
-    uint32_t last;
-} subject;
-
-static uint32_t scalar_scan(subject *s, tl_vec3 d)
+static uint32_t talus(peer_hull *peer, tl_vec3 d)
 {
-    const tl_vec3 *v = tl_hull_vertices(s->hull);
-    uint32_t best = 0;
-    float best_dot = tl_dot(d, v[0]);
-    for (uint32_t i = 1; i < s->hull->vertex_count; i++) {
-        float dot = tl_dot(d, v[i]);
-        if (dot > best_dot) {
-            best_dot = dot;
-            best = i;
-        }
-    }
-    return best;
+    return tl_hull_support(peer->hull, d, TL_NO_VERTEX);
 }
 
-// The maximum first, then where it is: no index is carried through the loop.
-static uint32_t simd_scan(subject *s, tl_vec3 d)
+static uint32_t talus_hinted(peer_hull *peer, tl_vec3 d)
 {
-    const float *x = s->rows, *y = x + s->padded, *z = y + s->padded;
-    static _Alignas(64) float dots[MOST_POINTS + 8];
-    tl_lanes dx = tl_lanes_all(d.x), dy = tl_lanes_all(d.y), dz = tl_lanes_all(d.z), best = tl_lanes_all(-INFINITY);
-    for (uint32_t i = 0; i < s->padded; i += 4) {
-        tl_lanes dot =
-            tl_lanes_add(tl_lanes_add(tl_lanes_mul(dx, tl_lanes_load(x + i)), tl_lanes_mul(dy, tl_lanes_load(y + i))),
-                         tl_lanes_mul(dz, tl_lanes_load(z + i)));
-        tl_lanes_store(dots + i, dot);
-        best = tl_lanes_max(best, dot);
-    }
-    tl_lanes all = tl_lanes_all(tl_lanes_largest(best));
-    for (uint32_t i = 0;; i += 4) {
-        uint32_t mask = tl_lanes_mask_ge(tl_lanes_load(dots + i), all);
-        if (mask != 0) {
-            return i + tl_lowest_bit(mask);
-        }
-    }
+    return peer->last = tl_hull_support(peer->hull, d, peer->last);
 }
 
-static uint32_t text_climb_from(const subject *s, tl_vec3 d, uint32_t best)
+typedef enum method {
+    TALUS,
+    TALUS_HINTED,
+    SCALAR_SCAN,
+    SSE2_SCAN,
+    AVX2_SCAN,
+    AVX512_SCAN,
+    TEXT,
+    TEXT_WARM,
+    METHOD_COUNT
+} method;
+
+static const char *const method_names[METHOD_COUNT] = {
+    "talus",        "talus, last answer first", "scalar scan",           "SSE2 scan", "AVX2 scan",
+    "AVX-512 scan", "the text's climb",         "the text's climb, warm"
+};
+
+static peer_support_fn *methods[METHOD_COUNT];
+
+// Nanoseconds a query; the first bit of an answer, always 0, goes into the address of the next direction.
+static double run_batch(peer_hull *peer, peer_support_fn *support, const directions *set)
 {
-    const tl_halfedge *mesh = &s->mesh;
-    float best_dot = tl_dot(d, mesh->vertices[best].position);
-    for (bool end = false; !end;) {
-        uint32_t start = mesh->vertices[best].edge, e = start;
-        float old = best_dot;
-        do {
-            uint32_t other = mesh->edges[e].vertex;
-            float dot = tl_dot(d, mesh->vertices[other].position);
-            if (dot >= best_dot + 1e-6f) {
-                best = other;
-                best_dot = dot;
+    static volatile uint32_t sink;
+    enum { STRETCH = 256 };
+    uint32_t answer = 0, done = 0;
+    peer->last = 0;
+    double start = now(), time = 0.0;
+    while (done < set->count && time < BATCH_NS) {
+        uint32_t end = done + STRETCH < set->count ? done + STRETCH : set->count;
+        for (; done < end; done++) {
+            answer = support(peer, set->d[done + (answer >> 31)]);
+        }
+        time = now() - start;
+    }
+    sink = answer;
+    (void)sink;
+    return time / done;
+}
+
+typedef struct timing {
+    double ns[METHOD_COUNT]; // 0: not measured
+    double yardstick;
+} timing;
+
+static peer_hull yardstick_hull;
+
+enum { MOST_COLUMNS = 6 };
+
+// What is measured of a set of directions, and printed in this order.
+typedef struct columns {
+    method method[MOST_COLUMNS];
+    int count;
+} columns;
+
+static const columns random_columns = { { SCALAR_SCAN, SSE2_SCAN, AVX2_SCAN, AVX512_SCAN, TEXT, TALUS }, 6 };
+static const columns turning_columns = { { AVX2_SCAN, TEXT, TEXT_WARM, TALUS_HINTED }, 4 };
+static const columns recorded_columns = { { AVX2_SCAN, TEXT_WARM, TALUS, TALUS_HINTED }, 4 };
+
+static timing measure(peer_hull *peer, const directions *set, const columns *shown)
+{
+    timing best;
+    memset(&best, 0, sizeof best);
+    for (int round = 0; round < ROUNDS; round++) {
+        for (int i = 0; i < shown->count; i++) {
+            method m = shown->method[i];
+            if (methods[m] == NULL) {
+                continue;
             }
-            e = tl_halfedge_around(mesh, e);
-        } while (e != start);
-        end = best_dot == old;
-    }
-    return best;
-}
-
-static uint32_t text_climb(subject *s, tl_vec3 d)
-{
-    return text_climb_from(s, d, 0);
-}
-
-static uint32_t text_warm(subject *s, tl_vec3 d)
-{
-    return s->last = text_climb_from(s, d, s->last);
-}
-
-static uint32_t ours(subject *s, tl_vec3 d)
-{
-    return tl_hull_support(s->hull, d, TL_NO_VERTEX);
-}
-
-static uint32_t ours_hinted(subject *s, tl_vec3 d)
-{
-    return s->last = tl_hull_support(s->hull, d, s->last);
-}
-
-typedef uint32_t support_fn(subject *s, tl_vec3 d);
-
-// Adding a zero made from the last answer makes each query wait for the one before.
-static double measure(subject *s, support_fn *support, const tl_vec3 *directions)
-{
-    double best = 1e30;
-    volatile uint32_t sink = 0;
-    for (int k = 0; k < REPETITIONS; k++) {
-        uint32_t answer = 0;
-        s->last = 0;
-        double start = now();
-        for (int i = 0; i < QUERIES; i++) {
-            float zero = (float)(answer >> 31);
-            answer = support(s, tl_vec3_make(directions[i].x + zero, directions[i].y, directions[i].z));
+            double ns = run_batch(peer, methods[m], set);
+            best.ns[m] = round == 0 || ns < best.ns[m] ? ns : best.ns[m];
         }
-        double time = (now() - start) / QUERIES;
-        best = time < best ? time : best;
-        sink = sink + answer;
+        if (methods[AVX2_SCAN] != NULL) {
+            double ns = run_batch(&yardstick_hull, methods[AVX2_SCAN], &random_set);
+            best.yardstick = round == 0 || ns < best.yardstick ? ns : best.yardstick;
+        }
     }
     return best;
 }
 
-static uint32_t count_wrong(subject *s, support_fn *support, const tl_vec3 *directions)
+static uint32_t count_wrong(peer_hull *peer, peer_support_fn *support, const directions *set)
 {
-    uint32_t wrong = 0;
-    const tl_vec3 *v = tl_hull_vertices(s->hull);
-    s->last = 0;
-    for (int i = 0; i < QUERIES; i++) {
-        tl_vec3 a = v[support(s, directions[i])], b = v[scalar_scan(s, directions[i])];
-        double x = (double)directions[i].x, y = (double)directions[i].y, z = (double)directions[i].z;
-        wrong +=
-            x * (double)a.x + y * (double)a.y + z * (double)a.z < x * (double)b.x + y * (double)b.y + z * (double)b.z;
+    uint32_t wrong = 0, step = 1 + peer->count / 4096;
+    peer->last = 0;
+    for (uint32_t i = 0; i < set->count; i += step) {
+        tl_vec3 d = set->d[i], a = peer->vertices[support(peer, d)];
+        double x = (double)d.x, y = (double)d.y, z = (double)d.z;
+        double dot = x * (double)a.x + y * (double)a.y + z * (double)a.z;
+        for (uint32_t v = 0; v < peer->count; v++) {
+            tl_vec3 b = peer->vertices[v];
+            if (x * (double)b.x + y * (double)b.y + z * (double)b.z > dot) {
+                wrong++;
+                break;
+            }
+        }
     }
     return wrong;
 }
 
-static bool make_subject(subject *s, cloud_kind kind, uint32_t count, tl_vec3 *points)
+// ---- claims
+
+typedef enum claim {
+    CLAIM_SMALL,
+    CLAIM_RANDOM,
+    CLAIM_RANDOM_1024,
+    CLAIM_RANDOM_4096,
+    CLAIM_TURNING,
+    CLAIM_PRISM,
+    CLAIM_COUNT
+} claim;
+
+typedef struct limit {
+    const char *text;
+    double most;
+} limit;
+
+// The limits are what the best peers need, in scans of 256 with AVX2 (32 ns on the machine where they were measured).
+static const limit limits[CLAIM_COUNT] = {
+    { "N <= 32, random: of the fastest SIMD scan of N", 1.1 },
+    { "8 <= N <= 1024, random: of the AVX2 scan of 256", 1.1 },
+    { "N = 1024, random: of the AVX2 scan of 1024", 0.45 },
+    { "N = 4096, random: of the AVX2 scan of 256", 45.0 / 32.0 },
+    { "N <= 512, turning: of the AVX2 scan of 256", 12.0 / 32.0 },
+    { "prism of 256, random: of the AVX2 scan of 256", 50.0 / 32.0 },
+};
+
+// The worst over all shapes.
+static double found[CLAIM_COUNT];
+
+static void note(claim which, double ratio)
 {
-    make_cloud(kind, points, count);
-    tl_hull_def def = tl_default_hull_def();
-    tl_hull *hull;
-    if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
-        return false;
-    }
-    memset(s, 0, sizeof *s);
-    s->hull = hull;
-    s->padded = (hull->vertex_count + 7) & ~7u;
-    s->rows = aligned_alloc(64, (3 * (size_t)s->padded * sizeof(float) + 63) / 64 * 64);
-    tl_halfedge_init(&s->mesh, NULL);
-    for (uint32_t i = 0; i < s->padded; i++) {
-        tl_vec3 p = tl_hull_vertices(hull)[i < hull->vertex_count ? i : hull->vertex_count - 1];
-        s->rows[i] = p.x;
-        s->rows[s->padded + i] = p.y;
-        s->rows[2 * s->padded + i] = p.z;
-    }
-    uint32_t unused;
-    for (uint32_t v = 0; v < hull->vertex_count; v++) {
-        tl_halfedge_add_vertex(&s->mesh, tl_hull_vertices(hull)[v], &unused);
-    }
-    // The text knows triangles only: a fan for each polygon.
-    const tl_hull_half_edge *h = tl_hull_half_edges(hull);
-    for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_hull_face face = tl_hull_faces(hull)[f];
-        for (uint32_t k = 1; k + 1 < face.count; k++) {
-            tl_halfedge_add_triangle(&s->mesh, h[face.first].origin, h[face.first + k].origin,
-                                     h[face.first + k + 1].origin, NULL);
-        }
-    }
-    return true;
+    found[which] = ratio > found[which] ? ratio : found[which];
 }
 
-int main(void)
+static double fastest_simd(const timing *t)
 {
-    static const uint32_t counts[] = { 8, 16, 32, 64, 128, 256, 512, 1024, 4096, 16384 };
-    static tl_vec3 points[MOST_POINTS], random_directions[QUERIES], turning[QUERIES];
-    tl_vec3 d = random_direction();
-    for (int i = 0; i < QUERIES; i++) {
-        random_directions[i] = random_direction();
-        tl_vec3 aside = tl_cross(d, random_direction());
-        d = tl_normalize(tl_mul_add(d, tl_normalize(aside), 0.0174533f));
-        turning[i] = d;
+    double best = 1e30;
+    for (int m = SSE2_SCAN; m <= AVX512_SCAN; m++) {
+        best = t->ns[m] > 0.0 && t->ns[m] < best ? t->ns[m] : best;
     }
-    printf("support, ns a query; random directions, then directions that turn one degree a query\n");
-    for (int kind = 0; kind < CLOUD_COUNT; kind++) {
-        printf("\n%-12s | %8s %8s %8s %8s | %8s %8s | wrong (text, ours)\n", cloud_names[kind], "scalar", "simd",
-               "text", "talus", "text", "talus");
-        for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
-            subject s;
-            if (!make_subject(&s, (cloud_kind)kind, counts[c], points)) {
-                continue;
-            }
-            printf("%12u | %8.1f %8.1f %8.1f %8.1f | %8.1f %8.1f | %u, %u\n", s.hull->vertex_count,
-                   measure(&s, scalar_scan, random_directions), measure(&s, simd_scan, random_directions),
-                   measure(&s, text_climb, random_directions), measure(&s, ours, random_directions),
-                   measure(&s, text_warm, turning), measure(&s, ours_hinted, turning),
-                   count_wrong(&s, text_climb, random_directions), count_wrong(&s, ours, random_directions));
-            tl_halfedge_free(&s.mesh);
-            free(s.rows);
-            tl_blob_free((tl_hull *)(uintptr_t)s.hull, NULL);
+    return best;
+}
+
+static void judge(shape kind, uint32_t count, const timing *random, const timing *turning)
+{
+    if (random->yardstick == 0.0) {
+        return;
+    }
+    double ratio = random->ns[TALUS] / random->yardstick;
+    if (count <= 32) {
+        note(CLAIM_SMALL, random->ns[TALUS] / fastest_simd(random));
+    }
+    if (kind == SHAPE_PRISM) {
+        if (count == 256) {
+            note(CLAIM_PRISM, ratio);
+        }
+        return;
+    }
+    if (count <= 1024) {
+        note(CLAIM_RANDOM, ratio);
+    }
+    if (count == 1024) {
+        note(CLAIM_RANDOM_1024, random->ns[TALUS] / random->ns[AVX2_SCAN]);
+    }
+    if (count == 4096) {
+        note(CLAIM_RANDOM_4096, ratio);
+    }
+    if (count <= 512) {
+        note(CLAIM_TURNING, turning->ns[TALUS_HINTED] / turning->yardstick);
+    }
+}
+
+// ---- the table
+
+static void print_head(const char *name)
+{
+    printf("\n%-12s | %-47s | %-31s | %-31s | wrong\n", name, "random directions", "turning 1 degree",
+           "recorded from GJK");
+    printf("%12s | %7s %7s %7s %7s %7s %7s | %7s %7s %7s %7s | %7s %7s %7s %7s | talus text\n", "N", "scalar", "SSE2",
+           "AVX2", "AVX-512", "text", "talus", "AVX2", "text", "text,w", "talus,w", "AVX2", "text,w", "talus",
+           "talus,w");
+}
+
+static void print_times(const timing *times, const columns *shown)
+{
+    printf(" |");
+    for (int i = 0; i < shown->count; i++) {
+        double ns = times->ns[shown->method[i]];
+        if (ns > 0.0) {
+            printf(ns < 10000.0 ? " %7.1f" : " %7.0f", ns);
+        } else {
+            printf(" %7s", "-");
         }
     }
-    return 0;
+}
+
+static void print_row(peer_hull *peer, const timing *random, const timing *turning, const timing *recorded)
+{
+    printf("%12u", peer->count);
+    print_times(random, &random_columns);
+    print_times(turning, &turning_columns);
+    print_times(recorded, &recorded_columns);
+    uint32_t wrong = 0;
+    const directions *sets[] = { &random_set, &turning_set, &recorded_set };
+    for (int i = 0; i < 3; i++) {
+        wrong += count_wrong(peer, talus, sets[i]) + count_wrong(peer, talus_hinted, sets[i]);
+    }
+    printf(" | %5u %4u\n", wrong, count_wrong(peer, peer_text_climb, &random_set));
+    fflush(stdout);
+}
+
+static void report_curves(bench_report *report, const char *name, double count, const timing *random,
+                          const timing *turning)
+{
+    char chart[64];
+    snprintf(chart, sizeof chart, "%s, random directions", name);
+    for (int m = 0; m < METHOD_COUNT; m++) {
+        if (random->ns[m] > 0.0) {
+            bench_report_point(report, chart, method_names[m], count, random->ns[m]);
+        }
+    }
+    static const method warm[] = { TALUS_HINTED, AVX2_SCAN, TEXT_WARM };
+    snprintf(chart, sizeof chart, "%s, directions that turn 1 degree", name);
+    for (int i = 0; i < 3; i++) {
+        if (turning->ns[warm[i]] > 0.0) {
+            bench_report_point(report, chart, method_names[warm[i]], count, turning->ns[warm[i]]);
+        }
+    }
+}
+
+// `asked`: points that the hull was made of; 0 for a model.
+static void run_subject(bench_report *report, const char *name, shape kind, uint32_t asked, const tl_hull *hull)
+{
+    peer_hull peer;
+    if (!peer_hull_make(&peer, hull)) {
+        fprintf(stderr, "out of memory\n");
+        exit(1);
+    }
+    record_gjk(hull);
+    timing random = measure(&peer, &random_set, &random_columns);
+    timing turning = measure(&peer, &turning_set, &turning_columns);
+    timing recorded = measure(&peer, &recorded_set, &recorded_columns);
+    print_row(&peer, &random, &turning, &recorded);
+    if (kind < SHAPE_COUNT) {
+        judge(kind, asked, &random, &turning);
+    }
+    if (kind == SHAPE_SPHERE || kind == SHAPE_PRISM) {
+        report_curves(report, name, (double)peer.count, &random, &turning);
+    }
+    peer_hull_free(&peer);
+    tl_blob_free((tl_hull *)(uintptr_t)hull, NULL);
+}
+
+int main(int argc, char **argv)
+{
+    static const uint32_t counts[] = { 8, 12, 16, 24, 32, 48, 64, 96, 128, 256, 512, 1024, 4096, 16384, 100000 };
+    static const char *const models[] = { "suzanne", "teapot", "cow", "fandisk", "rocker-arm", "stanford-bunny" };
+    const char *path = bench_report_path(&argc, argv);
+    bench_report *report = bench_report_new("support", "ns a query", "vertices");
+    methods[TALUS] = talus;
+    methods[TALUS_HINTED] = talus_hinted;
+    methods[SCALAR_SCAN] = peer_scan_scalar;
+    methods[SSE2_SCAN] = peer_scan_sse2();
+    methods[AVX2_SCAN] = peer_scan_avx2();
+    methods[AVX512_SCAN] = peer_scan_avx512();
+    methods[TEXT] = peer_text_climb;
+    methods[TEXT_WARM] = peer_text_climb_warm;
+    fill_directions();
+    const tl_hull *yardstick = build_shape(SHAPE_SPHERE, 256);
+    if (!peer_hull_make(&yardstick_hull, yardstick)) {
+        return 1;
+    }
+    printf("support, ns a query (text,w and talus,w: warm, from the last answer)\n");
+    for (int kind = 0; kind < SHAPE_COUNT; kind++) {
+        print_head(shape_names[kind]);
+        for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
+            run_subject(report, shape_names[kind], (shape)kind, counts[c], build_shape((shape)kind, counts[c]));
+        }
+    }
+    for (size_t i = 0; i < sizeof models / sizeof *models; i++) {
+        const tl_hull *hull = build_model(models[i]);
+        if (hull != NULL) {
+            print_head(models[i]);
+            run_subject(report, models[i], SHAPE_COUNT, 0, hull);
+        }
+    }
+    timing reference = measure(&yardstick_hull, &random_set, &random_columns);
+    printf("\nthe AVX2 scan of 256 takes %.1f ns here; the worst of all shapes:\n", reference.yardstick);
+    for (int i = 0; i < CLAIM_COUNT && reference.yardstick > 0.0; i++) {
+        bench_report_at_most(report, limits[i].text, found[i], limits[i].most);
+    }
+    bench_report_print_claims(report);
+    peer_hull_free(&yardstick_hull);
+    tl_blob_free((tl_hull *)(uintptr_t)yardstick, NULL);
+    return bench_report_close(report, path);
 }
