@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 #define TL_HULL_MAGIC   0x4c554854u ///< "THUL"
-#define TL_HULL_VERSION 2u
+#define TL_HULL_VERSION 3u
 
 /// Largest absolute coordinate of a hull's points: edges and their dot products stay finite floats.
 #define TL_MAX_HULL_COORDINATE 1e30f
@@ -90,15 +90,23 @@ typedef struct tl_hull_mass {
 /// Vertices are in the order of their points in the input, so "lowest vertex" is "earliest point".
 typedef struct tl_hull {
     tl_blob blob;
-    uint32_t vertex_count;    ///< V >= 4
+    // All that tl_hull_support reads of the head lies in its first cache line; the layout of these parts is private.
+    // Offsets here are in units of TL_BLOB_ALIGNMENT.
+    uint32_t vertex_count; ///< V >= 4
+    uint32_t scan_count;   ///< length of the scan's rows, a multiple of 8; 0: the hull is too large to be scanned
+    float scan_error;      ///< error of the scan's dot products for a direction with |x| + |y| + |z| = 1
+    uint32_t table_side;   ///< cells along a side of the direction table's two squares, 0 when the hull is scanned
+    tl_vec3 table_scale;   ///< what a direction is multiplied by before it is looked up
+    uint32_t blocks;       ///< edge vectors and neighbours
+    uint32_t scan;         ///< float [3][scan_count]: x, y, z from the middle of the bounds
+    uint32_t table;        ///< uint32_t [2 table_side^2 + ring_cells] a vertex to start from, or a ring to look in
+    uint32_t rings;        ///< maps of large faces
+    uint32_t block_count;  ///< V, and one for every seven neighbours of a vertex beyond eight
+    uint32_t ring_count;
+    uint32_t ring_cells;      ///< of all rings
     uint32_t face_count;      ///< F
     uint32_t half_edge_count; ///< 2 E; V - E + F = 2
-    uint32_t block_count;     ///< blocks of the climb
-    uint32_t scan_count;      ///< length of the scan's rows, a multiple of 8; 0: the hull is too large to be scanned
-    uint32_t table_cells;     ///< cells along a side of the direction table, 0 when the hull is scanned
     tl_aabb bounds;
-    tl_vec3 table_scale; ///< what a direction is multiplied by before it is looked up
-    float scan_error;    ///< error of the scan's dot products for a direction with |x| + |y| + |z| = 1
     tl_hull_mass mass;
     uint64_t vertices;     ///< tl_vec3 [V]
     uint64_t sources;      ///< uint32_t [V] index of the input point
@@ -106,13 +114,6 @@ typedef struct tl_hull {
     uint64_t half_edges;   ///< tl_hull_half_edge [2 E]
     uint64_t faces;        ///< tl_hull_face [F]
     uint64_t planes;       ///< tl_hull_plane_block [(F + 7) / 8]
-    // What tl_hull_support reads; the layout is private.
-    uint64_t vertex_blocks;  ///< uint32_t [V] the first block of each vertex
-    uint64_t block_vertices; ///< uint32_t [block_count] the vertex that each block belongs to
-    uint64_t block_errors;   ///< float [block_count] error of a block's dot products for |x| + |y| + |z| = 1
-    uint64_t blocks;         ///< edge vectors and blocks of neighbours
-    uint64_t scan;           ///< float [3][scan_count]: x, y, z from the middle of the bounds
-    uint64_t table;          ///< uint32_t [table_cells^2] a block to start from
 } tl_hull;
 
 TL_API tl_hull_def tl_default_hull_def(void);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The polygons of a finished hull, laid out as one block: topology and planes for whoever reads them, and for the
-// support query the rows of the scan, the blocks of the climb and the direction table.
+// support query the rows of the scan, or the blocks of the climb and the direction table.
 
 #include "hull/quickhull.h"
 #include "hull/support.h"
@@ -17,7 +17,7 @@ static uint32_t count_blocks(const tl_hull_polygons *polygons, uint32_t *degrees
         degrees[polygons->half_edges[h].origin]++;
     }
     for (uint32_t v = 0; v < polygons->vertex_count; v++) {
-        blocks += (degrees[v] + TL_CLIMB_LANES - 1) / TL_CLIMB_LANES;
+        blocks += tl_hull_blocks_of(degrees[v]);
     }
     return blocks;
 }
@@ -98,7 +98,7 @@ static void write_planes(tl_hull *hull)
 
 static void write_scan(tl_hull *hull)
 {
-    float *rows = (float *)(void *)((char *)hull + hull->scan);
+    float *rows = (float *)(uintptr_t)tl_hull_scan_rows(hull);
     for (uint32_t i = 0; i < hull->scan_count; i++) {
         tl_vec3 r = tl_hull_scan_point(hull, i);
         rows[i] = r.x;
@@ -110,60 +110,21 @@ static void write_scan(tl_hull *hull)
 
 static void write_blocks(tl_hull *hull, const uint32_t *degrees)
 {
-    char *bytes = (char *)hull;
-    const tl_vec3 *vertices = tl_hull_vertices(hull);
-    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
-    uint32_t *vertex_blocks = (uint32_t *)(void *)(bytes + hull->vertex_blocks);
-    uint32_t *block_vertices = (uint32_t *)(void *)(bytes + hull->block_vertices);
-    tl_climb_block *blocks = (tl_climb_block *)(void *)(bytes + hull->blocks);
-    uint32_t count = 0;
+    tl_climb_block *blocks = (tl_climb_block *)(uintptr_t)tl_hull_blocks(hull);
+    uint32_t behind = hull->vertex_count;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
-        vertex_blocks[v] = count;
-        for (uint32_t k = 0; k < degrees[v]; k += TL_CLIMB_LANES) {
-            block_vertices[count++] = v;
-        }
-    }
-    for (uint32_t v = 0; v < hull->vertex_count; v++) {
-        uint32_t edge = tl_hull_vertex_edges(hull)[v];
-        uint32_t lanes = (degrees[v] + TL_CLIMB_LANES - 1) / TL_CLIMB_LANES * TL_CLIMB_LANES;
-        for (uint32_t k = 0; k < lanes; k++) {
-            uint32_t other = half_edges[half_edges[edge].next].origin;
-            tl_climb_block *block = &blocks[vertex_blocks[v] + k / TL_CLIMB_LANES];
-            uint32_t lane = k % TL_CLIMB_LANES;
-            tl_vec3 edge_vector = tl_hull_edge_vector(vertices[v], vertices[other]);
-            block->x[lane] = edge_vector.x;
-            block->y[lane] = edge_vector.y;
-            block->z[lane] = edge_vector.z;
-            block->link[lane] = vertex_blocks[other];
-            if (lane == 0 && k + TL_CLIMB_LANES < lanes) {
-                block->link[0] |= TL_CLIMB_MORE;
+        uint32_t edge = tl_hull_vertex_edges(hull)[v], left = degrees[v], at = v;
+        for (;;) {
+            bool more = left > TL_CLIMB_LANES;
+            tl_hull_fill_block(hull, v, &edge, more ? TL_CLIMB_LANES - 1 : left, &blocks[at]);
+            if (!more) {
+                break;
             }
-            // Around and around: the lanes that are left over repeat neighbours.
-            edge = half_edges[half_edges[edge].twin].next;
+            left -= TL_CLIMB_LANES - 1;
+            blocks[at].link[TL_CLIMB_LANES - 1] = TL_CLIMB_MORE | behind;
+            at = behind++;
         }
     }
-    float *errors = (float *)(void *)(bytes + hull->block_errors);
-    for (uint32_t i = 0; i < hull->block_count; i++) {
-        errors[i] = tl_hull_block_error(&blocks[i]);
-    }
-}
-
-// A body thinner than this share of its largest extent gains nothing from more stretching: the direction table only
-// says where a climb starts.
-#define TABLE_LEAST_EXTENT 1e-6
-
-// Extents over the largest one, so that no product with a direction in range under- or overflows.
-static tl_vec3 table_scale(tl_aabb bounds)
-{
-    double size[3] = { (double)bounds.max.x - (double)bounds.min.x, (double)bounds.max.y - (double)bounds.min.y,
-                       (double)bounds.max.z - (double)bounds.min.z };
-    double largest = size[0] > size[1] ? size[0] : size[1];
-    largest = size[2] > largest ? size[2] : largest;
-    const double least = TABLE_LEAST_EXTENT;
-    for (int i = 0; i < 3; i++) {
-        size[i] = size[i] / largest > least ? size[i] / largest : least;
-    }
-    return tl_vec3_make((float)size[0], (float)size[1], (float)size[2]);
 }
 
 tl_result tl_hull_bake(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
@@ -180,6 +141,7 @@ tl_result tl_hull_bake(const tl_hull_polygons *polygons, const tl_vec3 *points, 
     head.face_count = polygons->face_count;
     head.half_edge_count = polygons->half_edge_count;
     head.block_count = count_blocks(polygons, degrees);
+    tl_hull_count_rings(&head, polygons->faces);
     size = tl_hull_lay_out(&head);
     tl_hull *hull = tl_blob_allocate(&arena->allocator, TL_HULL_MAGIC, TL_HULL_VERSION, size);
     if (hull == NULL) {
@@ -190,13 +152,17 @@ tl_result tl_hull_bake(const tl_hull_polygons *polygons, const tl_vec3 *points, 
     write_topology(hull, polygons, points, copies);
     write_planes(hull);
     tl_hull_measure_mass(hull);
-    hull->table_scale = table_scale(hull->bounds);
-    hull->scan_error = 0.0f;
+    hull->table_scale = tl_hull_table_scale(hull);
     write_blocks(hull, degrees);
+    tl_result result = TL_OK;
     if (hull->scan_count > 0) {
         write_scan(hull);
     } else {
-        tl_hull_fill_table(hull);
+        result = tl_hull_fill_table(hull, arena);
+    }
+    if (result != TL_OK) {
+        tl_blob_free(hull, &arena->allocator);
+        return result;
     }
     *hull_out = hull;
     return TL_OK;

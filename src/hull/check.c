@@ -4,7 +4,7 @@
 // that the bake derives from the vertices and the topology is derived again and compared. So a climb on a hull that
 // passes ends, whatever its vertices are: each of its steps is a true gain.
 
-#include "hull/support.h"
+#include "hull/face_ring.h"
 
 #include "base/assert.h"
 
@@ -33,7 +33,9 @@ static tl_result check_head(const void *bytes, uint64_t size)
     const uint32_t most_vertices = TL_MAX_HULL_POINTS;
     // E <= 3 V - 6, F <= 2 V - 4 (Euler), and a block holds at least one half-edge.
     if (hull->vertex_count < 4 || hull->vertex_count > most_vertices || hull->half_edge_count % 2 != 0 ||
-        hull->half_edge_count > 6 * (uint64_t)hull->vertex_count || hull->block_count > hull->half_edge_count ||
+        hull->half_edge_count > 6 * (uint64_t)hull->vertex_count || hull->block_count < hull->vertex_count ||
+        hull->block_count > hull->half_edge_count || hull->ring_count > hull->face_count ||
+        hull->ring_cells > tl_face_ring_cells(hull->half_edge_count) ||
         (uint64_t)hull->vertex_count + hull->face_count != (uint64_t)hull->half_edge_count / 2 + 2) {
         return TL_ERR_CORRUPT;
     }
@@ -95,32 +97,26 @@ static bool check_ring(const tl_hull *hull, uint32_t vertex, uint32_t *half_edge
         edge = half_edges[half_edges[edge].twin].next;
     } while (edge != start);
     *half_edges_seen += degree;
-    uint32_t blocks = (degree + TL_CLIMB_LANES - 1) / TL_CLIMB_LANES;
-    if (tl_hull_vertex_blocks(hull)[vertex] != *next_block || blocks > hull->block_count - *next_block) {
-        return false;
-    }
-    const tl_vec3 *vertices = tl_hull_vertices(hull);
-    for (uint32_t k = 0; k < blocks * TL_CLIMB_LANES; k++) {
-        const tl_climb_block *block = &tl_hull_blocks(hull)[*next_block + k / TL_CLIMB_LANES];
-        uint32_t lane = k % TL_CLIMB_LANES;
-        uint32_t other = half_edges[half_edges[edge].next].origin;
-        uint32_t more = lane == 0 && k / TL_CLIMB_LANES + 1 < blocks ? TL_CLIMB_MORE : 0;
-        tl_vec3 e = tl_hull_edge_vector(vertices[vertex], vertices[other]);
-        if (tl_hull_block_vertices(hull)[*next_block + k / TL_CLIMB_LANES] != vertex ||
-            block->link[lane] != (tl_hull_vertex_blocks(hull)[other] | more) || !same_bits(block->x[lane], e.x) ||
-            !same_bits(block->y[lane], e.y) || !same_bits(block->z[lane], e.z)) {
+    uint32_t at = vertex, left = degree;
+    for (;;) {
+        bool more = left > TL_CLIMB_LANES;
+        tl_climb_block expected;
+        tl_hull_fill_block(hull, vertex, &edge, more ? TL_CLIMB_LANES - 1 : left, &expected);
+        if (more) {
+            expected.link[TL_CLIMB_LANES - 1] = TL_CLIMB_MORE | *next_block;
+        }
+        if (memcmp(&expected, &tl_hull_blocks(hull)[at], sizeof expected) != 0) {
             return false;
         }
-        edge = half_edges[half_edges[edge].twin].next;
-    }
-    for (uint32_t k = 0; k < blocks; k++) {
-        const tl_climb_block *block = &tl_hull_blocks(hull)[*next_block + k];
-        if (!same_bits(tl_hull_block_errors(hull)[*next_block + k], tl_hull_block_error(block))) {
+        if (!more) {
+            return true;
+        }
+        left -= TL_CLIMB_LANES - 1;
+        at = (*next_block)++;
+        if (at >= hull->block_count) {
             return false;
         }
     }
-    *next_block += blocks;
-    return true;
 }
 
 static bool check_geometry(const tl_hull *hull)
@@ -161,9 +157,9 @@ static bool check_geometry(const tl_hull *hull)
     return true;
 }
 
-static bool check_starts(const tl_hull *hull)
+static bool check_scan(const tl_hull *hull)
 {
-    const float *rows = (const float *)(const void *)((const char *)hull + hull->scan);
+    const float *rows = tl_hull_scan_rows(hull);
     for (uint32_t i = 0; i < hull->scan_count; i++) {
         tl_vec3 p = tl_hull_scan_point(hull, i);
         if (!same_bits(rows[i], p.x) || !same_bits(rows[hull->scan_count + i], p.y) ||
@@ -171,18 +167,33 @@ static bool check_starts(const tl_hull *hull)
             return false;
         }
     }
-    if (!same_bits(hull->scan_error, hull->scan_count > 0 ? tl_hull_scan_error(hull) : 0.0f) ||
-        !tl_is_finite(hull->table_scale)) {
-        return false;
-    }
-    const uint32_t *table = (const uint32_t *)(const void *)((const char *)hull + hull->table);
-    for (uint64_t i = 0; i < (uint64_t)hull->table_cells * hull->table_cells; i++) {
-        if (table[i] >= hull->block_count ||
-            tl_hull_vertex_blocks(hull)[tl_hull_block_vertices(hull)[table[i]]] != table[i]) {
+    return same_bits(hull->scan_error, hull->scan_count > 0 ? tl_hull_scan_error(hull) : 0.0f);
+}
+
+// Any vertex is a right start, so the cells are only proven to hold vertices.
+static bool check_table(const tl_hull *hull)
+{
+    tl_vec3 scale = tl_hull_table_scale(hull);
+    const uint32_t *table = tl_hull_table(hull);
+    uint64_t squares = 2 * (uint64_t)hull->table_side * hull->table_side;
+    for (uint64_t i = 0; i < squares + hull->ring_cells; i++) {
+        bool ring = i < squares && (table[i] & TL_TABLE_RING) != 0;
+        if (ring ? (table[i] & ~TL_TABLE_RING) >= hull->ring_count : table[i] >= hull->vertex_count) {
             return false;
         }
     }
-    return true;
+    uint32_t count = 0, first = (uint32_t)squares;
+    for (uint32_t face = 0; face < hull->face_count && hull->ring_count > 0; face++) {
+        uint32_t corners = tl_hull_faces(hull)[face].count;
+        if (tl_face_has_ring(corners)) {
+            tl_face_ring expected = tl_face_ring_make(hull, face, first);
+            if (memcmp(&expected, &tl_hull_rings(hull)[count++], sizeof expected) != 0) {
+                return false;
+            }
+            first += tl_face_ring_cells(corners);
+        }
+    }
+    return memcmp(&scale, &hull->table_scale, sizeof scale) == 0;
 }
 
 tl_result tl_hull_check(const void *bytes, uint64_t size)
@@ -192,13 +203,19 @@ tl_result tl_hull_check(const void *bytes, uint64_t size)
     if (!check_loops(hull) || !check_geometry(hull)) {
         return TL_ERR_CORRUPT;
     }
-    uint32_t half_edges_seen = 0, blocks_seen = 0;
+    tl_hull rings = *hull;
+    tl_hull_count_rings(&rings, tl_hull_faces(hull));
+    if (rings.ring_count != hull->ring_count || rings.ring_cells != hull->ring_cells) {
+        return TL_ERR_CORRUPT;
+    }
+    uint32_t half_edges_seen = 0, blocks_seen = hull->vertex_count;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         if (!check_ring(hull, v, &half_edges_seen, &blocks_seen)) {
             return TL_ERR_CORRUPT;
         }
     }
-    if (half_edges_seen != hull->half_edge_count || blocks_seen != hull->block_count || !check_starts(hull)) {
+    if (half_edges_seen != hull->half_edge_count || blocks_seen != hull->block_count || !check_scan(hull) ||
+        !check_table(hull)) {
         return TL_ERR_CORRUPT;
     }
     return TL_OK;

@@ -1,16 +1,74 @@
 // SPDX-License-Identifier: MIT
 //
-// The support query: the caller's hint first, then a scan of a small hull or a climb on a large one.
+// The support query's front: which instruction set, and directions of unusual length.
 //
-// Float arithmetic decides whenever its error bound allows; what it leaves open is settled exactly. So the answer is a
-// true maximiser, and does not depend on the hint or on the way it was found.
+// The choice reads the processor's features as the C runtime found them at program start (__builtin_cpu_supports): one
+// load and a branch, no state of our own, and the baked hull has the same bytes on every machine.
 
-#include "hull/direction_table.h"
-#include "hull/support_climb.h"
-
-#include "base/assert.h"
+#include "hull/support.h"
 
 #include <string.h>
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+static inline bool has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+}
+
+static inline bool has_sse42(void)
+{
+    return __builtin_cpu_supports("sse4.2");
+}
+
+#else
+
+// Never called.
+#define tl_hull_support_avx2  tl_hull_support_scalar
+#define tl_hull_climb_avx2    tl_hull_climb_scalar
+#define tl_hull_march_avx2    tl_hull_march_scalar
+#define tl_hull_support_sse42 tl_hull_support_scalar
+#define tl_hull_climb_sse42   tl_hull_climb_scalar
+#define tl_hull_march_sse42   tl_hull_march_scalar
+
+static inline bool has_avx2(void)
+{
+    return false;
+}
+
+static inline bool has_sse42(void)
+{
+    return false;
+}
+
+#endif
+
+bool tl_support_kernel_for(tl_support_isa isa, tl_support_kernel *kernel_out)
+{
+    const tl_support_kernel kernels[TL_SUPPORT_ISA_COUNT] = {
+        { tl_hull_support_scalar, tl_hull_climb_scalar, tl_hull_march_scalar },
+        { tl_hull_support_sse42, tl_hull_climb_sse42, tl_hull_march_sse42 },
+        { tl_hull_support_avx2, tl_hull_climb_avx2, tl_hull_march_avx2 },
+    };
+    *kernel_out = kernels[isa];
+    return isa == TL_SUPPORT_SCALAR || (isa == TL_SUPPORT_SSE42 && has_sse42()) ||
+           (isa == TL_SUPPORT_AVX2 && has_avx2());
+}
+
+tl_support_kernel tl_support_kernel_best(void)
+{
+    tl_support_kernel kernel;
+    tl_support_kernel_for(has_avx2() ? TL_SUPPORT_AVX2 : has_sse42() ? TL_SUPPORT_SSE42 : TL_SUPPORT_SCALAR, &kernel);
+    return kernel;
+}
+
+uint32_t tl_hull_support(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
+{
+    if (has_avx2()) {
+        return tl_hull_support_avx2(hull, direction, hint);
+    }
+    return has_sse42() ? tl_hull_support_sse42(hull, direction, hint) : tl_hull_support_scalar(hull, direction, hint);
+}
 
 // 2^-exponent(size) as a double, for a float size > 0: exact, and never a denormal.
 static double reciprocal_power(float size)
@@ -24,44 +82,19 @@ static double reciprocal_power(float size)
     return result;
 }
 
-static uint32_t support_in_range(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
-{
-    tl_climber climber = tl_climber_make(direction);
-    if (hint < hull->vertex_count) {
-        uint32_t block = tl_hull_vertex_blocks(hull)[hint];
-        if (tl_hull_climb_is_farthest(hull, &climber, block)) {
-            return hint;
-        }
-    }
-    if (hull->scan_count > 0) {
-        return tl_hull_scan(hull, direction);
-    }
-    uint32_t block = tl_hull_table_block(hull, direction);
-    uint32_t vertex = tl_hull_climb(hull, &climber, &block);
-    return vertex != TL_NO_VERTEX ? vertex : tl_hull_climb_exact(hull, direction, tl_hull_block_vertices(hull)[block]);
-}
-
-static uint32_t support_out_of_range(const tl_hull *hull, tl_vec3 direction, float size, uint32_t hint)
-{
-    if (!(size > 0.0f) || !tl_is_finite(direction)) {
-        return 0;
-    }
-    double scale = reciprocal_power(size);
-    double x = (double)direction.x * scale, y = (double)direction.y * scale, z = (double)direction.z * scale;
-    tl_vec3 scaled = tl_vec3_make((float)x, (float)y, (float)z);
-    if ((double)scaled.x == x && (double)scaled.y == y && (double)scaled.z == z) {
-        return support_in_range(hull, scaled, hint);
-    }
-    // Components too far apart for one float scale.
-    return tl_hull_climb_exact(hull, direction, hint < hull->vertex_count ? hint : 0);
-}
-
-uint32_t tl_hull_support(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
+uint32_t tl_hull_support_unusual(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
 {
     tl_vec3 size = tl_abs(direction);
     float largest = tl_maxf(size.x, tl_maxf(size.y, size.z));
-    if (largest >= TL_SUPPORT_DIRECTION_MIN && largest <= TL_SUPPORT_DIRECTION_MAX) {
-        return support_in_range(hull, direction, hint);
+    if (!(largest > 0.0f) || !tl_is_finite(direction)) {
+        return 0;
     }
-    return support_out_of_range(hull, direction, largest, hint);
+    double scale = reciprocal_power(largest);
+    double x = (double)direction.x * scale, y = (double)direction.y * scale, z = (double)direction.z * scale;
+    tl_vec3 scaled = tl_vec3_make((float)x, (float)y, (float)z);
+    if ((double)scaled.x == x && (double)scaled.y == y && (double)scaled.z == z) {
+        return tl_hull_support(hull, scaled, hint); // now its largest component lies in [1, 2)
+    }
+    // Components too far apart for one float scale.
+    return tl_hull_climb_exact(hull, direction, hint < hull->vertex_count ? hint : 0);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the support query's parts share: the climb's blocks and the two ways to answer.
+// What the support query's parts share: the climb's blocks, the rings of large faces, and the ways to answer.
 //
 // All float estimates here are of edge vectors or of positions relative to the hull's own middle, never of world
 // positions, so their error bounds scale with the hull and not with its distance from the origin.
@@ -12,12 +12,12 @@
 
 #include <talus/hull.h>
 
-// Hulls up to this many vertices are scanned: there the scan and the climb from the table take equally long (SSE2), and
-// the mask of candidates is one word.
+// Hulls up to this many vertices are scanned, larger ones start from the direction table: there both take equally long
+// with AVX2; with SSE4.2 they do at 32. (bench_support)
 #define TL_HULL_SCAN_LIMIT 48u
 
-// Directions whose largest component lies between these need no scaling: no product of a component and an edge of a
-// hull within TL_MAX_HULL_COORDINATE overflows, and underflow is covered by TL_SUPPORT_UNDERFLOW.
+// Directions d with |x| + |y| + |z| between these need no scaling: no product of a component and an edge of a hull
+// within TL_MAX_HULL_COORDINATE overflows, and underflow is covered by TL_SUPPORT_UNDERFLOW.
 #define TL_SUPPORT_DIRECTION_MIN 9.5367432e-7f // 2^-20
 #define TL_SUPPORT_DIRECTION_MAX 1048576.0f    // 2^20
 
@@ -25,36 +25,83 @@
 #define TL_SUPPORT_UNDERFLOW 2.2420775e-44f // 2^-145
 
 #define TL_CLIMB_LANES       8u
-#define TL_CLIMB_MORE        0x80000000u // in the first link: the next block belongs to the same vertex
+#define TL_CLIMB_MORE        0x80000000u // in the last link: not a neighbour, the rest of them is in that block
 
-// Up to eight neighbours of a vertex: the vectors to them and their blocks. Unused lanes repeat a neighbour.
+// Up to eight neighbours of a vertex: the vectors to them and which they are. Unused lanes repeat the first neighbour.
+// Vertex v has block v; the rest of vertices with more than eight neighbours follows behind.
 typedef struct tl_climb_block {
     float x[TL_CLIMB_LANES], y[TL_CLIMB_LANES], z[TL_CLIMB_LANES];
     uint32_t link[TL_CLIMB_LANES];
 } tl_climb_block;
 
-static inline const uint32_t *tl_hull_vertex_blocks(const tl_hull *hull)
-{
-    return (const uint32_t *)(const void *)((const char *)hull + hull->vertex_blocks);
-}
+#define TL_TABLE_RING 0x80000000u // in a cell of the table: not a vertex, look in that ring
 
-static inline const float *tl_hull_block_errors(const tl_hull *hull)
-{
-    return (const float *)(const void *)((const char *)hull + hull->block_errors);
-}
+// A large face: where a direction points in its plane tells the vertex, by cells of their own behind the table's.
+typedef struct tl_face_ring {
+    float u[3], v[3];           // axes of the plane, stretched by the face's extents
+    uint32_t first, cell_count; // in the table
+} tl_face_ring;
 
-static inline const uint32_t *tl_hull_block_vertices(const tl_hull *hull)
+static inline const void *tl_hull_part(const tl_hull *hull, uint32_t part)
 {
-    return (const uint32_t *)(const void *)((const char *)hull + hull->block_vertices);
+    return (const char *)hull + (uint64_t)part * TL_BLOB_ALIGNMENT;
 }
 
 static inline const tl_climb_block *tl_hull_blocks(const tl_hull *hull)
 {
-    return (const tl_climb_block *)(const void *)((const char *)hull + hull->blocks);
+    return tl_hull_part(hull, hull->blocks);
 }
 
-// support_scan.c. Needs scan_count > 0 and a direction in the range above.
-uint32_t tl_hull_scan(const tl_hull *hull, tl_vec3 direction);
+static inline const float *tl_hull_scan_rows(const tl_hull *hull)
+{
+    return tl_hull_part(hull, hull->scan);
+}
+
+static inline const uint32_t *tl_hull_table(const tl_hull *hull)
+{
+    return tl_hull_part(hull, hull->table);
+}
+
+static inline const tl_face_ring *tl_hull_rings(const tl_hull *hull)
+{
+    return tl_hull_part(hull, hull->rings);
+}
+
+// Instruction sets, ascending.
+typedef enum tl_support_isa {
+    TL_SUPPORT_SCALAR,
+    TL_SUPPORT_SSE42,
+    TL_SUPPORT_AVX2,
+    TL_SUPPORT_ISA_COUNT
+} tl_support_isa;
+
+// Once per instruction set (support_query.h): the whole query; the climb alone, from a vertex and for a direction in
+// the range above, which needs no table; and the march along a row of the table (support_march.h).
+typedef uint32_t tl_hull_support_fn(const tl_hull *hull, tl_vec3 direction, uint32_t hint);
+typedef uint32_t tl_hull_march_fn(const tl_hull *hull, tl_vec3 from, tl_vec3 step, uint32_t count, uint32_t vertex,
+                                  uint32_t *cells);
+
+tl_hull_support_fn tl_hull_support_scalar, tl_hull_climb_scalar;
+tl_hull_march_fn tl_hull_march_scalar;
+#if defined(__x86_64__)
+tl_hull_support_fn tl_hull_support_sse42, tl_hull_climb_sse42;
+tl_hull_march_fn tl_hull_march_sse42;
+tl_hull_support_fn tl_hull_support_avx2, tl_hull_climb_avx2;
+tl_hull_march_fn tl_hull_march_avx2;
+#endif
+
+typedef struct tl_support_kernel {
+    tl_hull_support_fn *support, *climb;
+    tl_hull_march_fn *march;
+} tl_support_kernel;
+
+// False where this machine or build lacks the instructions.
+bool tl_support_kernel_for(tl_support_isa isa, tl_support_kernel *kernel_out);
+// That of this machine.
+tl_support_kernel tl_support_kernel_best(void);
+
+// The query for directions out of the range above.
+uint32_t tl_hull_support_unusual(const tl_hull *hull, tl_vec3 direction, uint32_t hint);
 
 // support_exact.c. Climbs on the half-edges with exact comparisons, any direction.
 uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t vertex);
@@ -62,15 +109,22 @@ uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t ve
 // direction_table.c; the look-up is in direction_table.h.
 // Cells along a side for a hull of so many vertices.
 uint32_t tl_hull_table_side(uint32_t vertex_count);
+// What directions are multiplied by; for a hull whose bounds and planes are there.
+tl_vec3 tl_hull_table_scale(const tl_hull *hull);
 // Fills the table of an otherwise finished hull.
-void tl_hull_fill_table(tl_hull *hull);
+tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena);
 
 // layout.c
-// Fills in the offsets and the counts that follow from V, F, 2 E and block_count; the size of the whole.
+// Fills in the offsets and the counts that follow from V, F, 2 E, block_count, ring_count and ring_cells; the size of
+// the whole.
 uint64_t tl_hull_lay_out(tl_hull *head);
+// Fills in ring_count and ring_cells of a head whose V and F are set.
+void tl_hull_count_rings(tl_hull *head, const tl_hull_face *faces);
+// Writes `count` <= 8 neighbours of a vertex, those of `edge` and on, which is moved behind them.
+void tl_hull_fill_block(const tl_hull *hull, uint32_t vertex, uint32_t *edge, uint32_t count, tl_climb_block *block);
+// Blocks of a vertex with so many neighbours.
+uint32_t tl_hull_blocks_of(uint32_t degree);
 tl_vec3 tl_hull_edge_vector(tl_vec3 from, tl_vec3 to);
-// Bound of the error of direction . edge vector over a block, for a direction with |x| + |y| + |z| = 1.
-float tl_hull_block_error(const tl_climb_block *block);
 // Row entry `index` of the scan: a vertex relative to the middle of the bounds; beyond V the last vertex again.
 tl_vec3 tl_hull_scan_point(const tl_hull *hull, uint32_t index);
 float tl_hull_scan_error(const tl_hull *hull);

@@ -1,88 +1,106 @@
 // SPDX-License-Identifier: MIT
 //
 // Support by hill climbing over blocks: the vectors from a vertex to its neighbours lie side by side, so one step loads
-// two cache lines, takes eight dot products at once and follows a link to the next block.
+// two cache lines, takes eight dot products at once and follows a link to the next vertex.
 //
 // Vectors and not positions: whether a neighbour is farther is the sign of direction . (neighbour - vertex), whose
-// error bound is a few roundings of that short vector, however far from the origin the hull lies. A step is taken only
-// when the gain is certain, so the climb cannot run in circles; an end that is not certain is handed to the exact
-// climb. The bound is one number a block: to take it lane by lane would be tighter and cost as much as the products.
+// error bound is a few roundings of the sum of its three absolute products, however far from the origin the hull lies.
+// The bound is taken lane by lane: one for the block would be that of its longest edge, and leave a prism of many
+// corners, whose long edges stand beside very short ones, undecided most of the time.
+//
+// A step is taken only when the gain is certain, so the climb cannot run in circles; what is open at its end is
+// compared exactly.
 
 #ifndef TALUS_SRC_HULL_SUPPORT_CLIMB_H
 #define TALUS_SRC_HULL_SUPPORT_CLIMB_H
 
-#include "hull/lanes.h"
+#include "base/lowest_bit.h"
 #include "hull/support.h"
+#include "math/simd8.h"
+#include "math/tolerance.h"
+
+// A vector is rounded once; then a product, two sums, and what is made of them takes three more roundings.
+#define TL_CLIMB_ERROR TL_FLOAT_GAMMA(8)
 
 typedef struct tl_climber {
-    tl_lanes x, y, z;
-    float size; // |x| + |y| + |z|
+    tl_f32x8 x, y, z;
 } tl_climber;
 
 static inline tl_climber tl_climber_make(tl_vec3 d)
 {
-    tl_climber c = { tl_lanes_all(d.x), tl_lanes_all(d.y), tl_lanes_all(d.z), fabsf(d.x) + fabsf(d.y) + fabsf(d.z) };
+    tl_climber c = { tl_f32x8_all(d.x), tl_f32x8_all(d.y), tl_f32x8_all(d.z) };
     return c;
 }
 
-// The gains of four neighbours.
-static inline tl_lanes tl_climber_gains(const tl_climber *c, const tl_climb_block *block, uint32_t lane)
+// direction . each neighbour's vector, and how wrong it may be.
+typedef struct tl_climb_gains {
+    tl_f32x8 gain, error;
+} tl_climb_gains;
+
+static inline tl_climb_gains tl_climber_ask(const tl_climber *c, const tl_climb_block *block)
 {
-    return tl_lanes_add(tl_lanes_add(tl_lanes_mul(c->x, tl_lanes_load(block->x + lane)),
-                                     tl_lanes_mul(c->y, tl_lanes_load(block->y + lane))),
-                        tl_lanes_mul(c->z, tl_lanes_load(block->z + lane)));
+    tl_f32x8 x = tl_f32x8_mul(c->x, tl_f32x8_load(block->x));
+    tl_f32x8 y = tl_f32x8_mul(c->y, tl_f32x8_load(block->y));
+    tl_f32x8 z = tl_f32x8_mul(c->z, tl_f32x8_load(block->z));
+    tl_f32x8 size = tl_f32x8_add(tl_f32x8_add(tl_f32x8_abs(x), tl_f32x8_abs(y)), tl_f32x8_abs(z));
+    tl_climb_gains g = { tl_f32x8_add(tl_f32x8_add(x, y), z),
+                         tl_f32x8_add(tl_f32x8_mul(size, tl_f32x8_all(TL_CLIMB_ERROR)),
+                                      tl_f32x8_all(TL_SUPPORT_UNDERFLOW)) };
+    return g;
 }
 
-// Whether the block's vertex is proven to be the only farthest one.
-static inline bool tl_hull_climb_is_farthest(const tl_hull *hull, const tl_climber *c, uint32_t block)
+// Bit i: neighbour i may be as far as the vertex itself, or farther.
+static inline uint32_t tl_climber_open(tl_climb_gains g)
+{
+    return tl_f32x8_not_less(tl_f32x8_add(g.gain, g.error), tl_f32x8_all(0.0f));
+}
+
+// The block that goes on with the neighbours of the same vertex, TL_NO_VERTEX when there is none.
+static inline uint32_t tl_climb_block_after(const tl_climb_block *block)
+{
+    uint32_t link = block->link[TL_CLIMB_LANES - 1];
+    return (link & TL_CLIMB_MORE) != 0 ? link & ~TL_CLIMB_MORE : TL_NO_VERTEX;
+}
+
+// Whether a vertex is proven to be the only farthest one.
+static inline bool tl_hull_is_farthest(const tl_hull *hull, const tl_climber *c, uint32_t vertex)
 {
     const tl_climb_block *blocks = tl_hull_blocks(hull);
-    const float *errors = tl_hull_block_errors(hull);
-    for (;; block++) {
-        tl_lanes best = tl_lanes_max(tl_climber_gains(c, &blocks[block], 0), tl_climber_gains(c, &blocks[block], 4));
-        float error = errors[block] * c->size + TL_SUPPORT_UNDERFLOW;
-        if (tl_lanes_mask_ge(best, tl_lanes_all(-error)) != 0) {
+    for (uint32_t at = vertex; at != TL_NO_VERTEX; at = tl_climb_block_after(&blocks[at])) {
+        if (tl_climber_open(tl_climber_ask(c, &blocks[at])) != 0) {
             return false;
         }
-        if ((blocks[block].link[0] & TL_CLIMB_MORE) == 0) {
-            return true;
-        }
     }
+    return true;
 }
 
-// Climbs from a block to the farthest vertex. TL_NO_VERTEX when rounding leaves the end open: `block` is where then.
-static inline uint32_t tl_hull_climb(const tl_hull *hull, const tl_climber *c, uint32_t *block)
+// Climbs from a vertex to the farthest one. False when rounding leaves the end open: `vertex` is where then.
+static inline bool tl_hull_climb_blocks(const tl_hull *hull, const tl_climber *c, uint32_t *vertex)
 {
     const tl_climb_block *blocks = tl_hull_blocks(hull);
-    const float *errors = tl_hull_block_errors(hull);
     for (;;) {
-        uint32_t at = *block, next = at;
-        float gain = 0.0f;
-        bool open = false, more;
-        do {
-            tl_lanes gain0 = tl_climber_gains(c, &blocks[at], 0), gain1 = tl_climber_gains(c, &blocks[at], 4);
-            tl_lanes best = tl_lanes_max(gain0, gain1);
-            float error = errors[at] * c->size + TL_SUPPORT_UNDERFLOW;
-            more = (blocks[at].link[0] & TL_CLIMB_MORE) != 0;
-            if (tl_lanes_mask_ge(best, tl_lanes_all(-error)) != 0) {
-                float largest = tl_lanes_largest(best);
-                open = true;
-                if (largest > error && largest > gain) {
-                    tl_lanes all = tl_lanes_all(largest);
-                    gain = largest;
-                    next = blocks[at]
-                               .link[tl_lowest_bit(tl_lanes_mask_ge(gain0, all) | tl_lanes_mask_ge(gain1, all) << 4)];
-                }
+        uint32_t next = *vertex;
+        float least_gain = 0.0f;
+        bool open = false;
+        for (uint32_t at = *vertex; at != TL_NO_VERTEX; at = tl_climb_block_after(&blocks[at])) {
+            tl_climb_gains g = tl_climber_ask(c, &blocks[at]);
+            if (tl_climber_open(g) == 0) {
+                continue;
             }
-            at++;
-        } while (more);
+            open = true;
+            tl_f32x8 certain = tl_f32x8_sub(g.gain, g.error), best = tl_f32x8_largest(certain);
+            if (tl_f32x8_first(best) > least_gain) {
+                least_gain = tl_f32x8_first(best);
+                next = blocks[at].link[tl_lowest_bit(tl_f32x8_not_less(certain, best))];
+            }
+        }
         if (!open) {
-            return tl_hull_block_vertices(hull)[*block];
+            return true;
         }
-        if (next == *block) {
-            return TL_NO_VERTEX;
+        if (next == *vertex) {
+            return false;
         }
-        *block = next & ~TL_CLIMB_MORE;
+        *vertex = next;
     }
 }
 

@@ -24,6 +24,20 @@ static inline tl_f32x8 tl_f32x8_load(const float *eight)
     return _mm256_loadu_ps(eight);
 }
 
+/// The first lane.
+static inline float tl_f32x8_first(tl_f32x8 a)
+{
+    return _mm256_cvtss_f32(a);
+}
+
+/// The largest lane, in all lanes.
+static inline tl_f32x8 tl_f32x8_largest(tl_f32x8 a)
+{
+    __m256 m = _mm256_max_ps(a, _mm256_permute2f128_ps(a, a, 1));
+    m = _mm256_max_ps(m, _mm256_permute_ps(m, _MM_SHUFFLE(1, 0, 3, 2)));
+    return _mm256_max_ps(m, _mm256_permute_ps(m, _MM_SHUFFLE(2, 3, 0, 1)));
+}
+
 /// Four floats in each half.
 static inline tl_f32x8 tl_f32x8_load_twice(const float *four)
 {
@@ -99,6 +113,23 @@ static inline uint32_t tl_f32x8_signs(tl_f32x8 a)
     return (uint32_t)_mm256_movemask_ps(a);
 }
 
+static inline tl_f32x8 tl_f32x8_max(tl_f32x8 a, tl_f32x8 b)
+{
+    return _mm256_max_ps(a, b);
+}
+
+/// Bit i: not a[i] < b[i], so true for NaN.
+static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)
+{
+    return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_NLT_UQ));
+}
+
+/// Lane i: a[i] < b[i] ? c[i] : d[i].
+static inline tl_f32x8 tl_f32x8_if_less(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c, tl_f32x8 d)
+{
+    return _mm256_blendv_ps(d, c, _mm256_cmp_ps(a, b, _CMP_LT_OQ));
+}
+
 static inline tl_f32x8 tl_f32x8_abs(tl_f32x8 a)
 {
     return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a);
@@ -135,6 +166,19 @@ static inline tl_f32x8 tl_f32x8_all(float value)
 static inline tl_f32x8 tl_f32x8_load(const float *eight)
 {
     return tl_f32x8_make(_mm_loadu_ps(eight), _mm_loadu_ps(eight + 4));
+}
+
+static inline float tl_f32x8_first(tl_f32x8 a)
+{
+    return _mm_cvtss_f32(a.low);
+}
+
+static inline tl_f32x8 tl_f32x8_largest(tl_f32x8 a)
+{
+    __m128 m = _mm_max_ps(a.low, a.high);
+    m = _mm_max_ps(m, _mm_shuffle_ps(m, m, _MM_SHUFFLE(1, 0, 3, 2)));
+    m = _mm_max_ps(m, _mm_shuffle_ps(m, m, _MM_SHUFFLE(2, 3, 0, 1)));
+    return tl_f32x8_make(m, m);
 }
 
 static inline tl_f32x8 tl_f32x8_load_twice(const float *four)
@@ -224,6 +268,23 @@ static inline uint32_t tl_f32x8_signs(tl_f32x8 a)
     return (uint32_t)_mm_movemask_ps(a.low) | (uint32_t)_mm_movemask_ps(a.high) << 4;
 }
 
+static inline tl_f32x8 tl_f32x8_max(tl_f32x8 a, tl_f32x8 b)
+{
+    return tl_f32x8_make(_mm_max_ps(a.low, b.low), _mm_max_ps(a.high, b.high));
+}
+
+static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_cmpnlt_ps(a.low, b.low)) |
+           (uint32_t)_mm_movemask_ps(_mm_cmpnlt_ps(a.high, b.high)) << 4;
+}
+
+static inline tl_f32x8 tl_f32x8_if_less(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c, tl_f32x8 d)
+{
+    return tl_f32x8_make(tl_f32x4_if_less(a.low, b.low, c.low, d.low),
+                         tl_f32x4_if_less(a.high, b.high, c.high, d.high));
+}
+
 static inline tl_f32x8 tl_f32x8_abs(tl_f32x8 a)
 {
     return tl_f32x8_make(tl_f32x4_abs(a.low), tl_f32x4_abs(a.high));
@@ -261,6 +322,20 @@ static inline tl_f32x8 tl_f32x8_load(const float *eight)
     tl_f32x8 r;
     memcpy(r.v, eight, sizeof r.v);
     return r;
+}
+
+static inline float tl_f32x8_first(tl_f32x8 a)
+{
+    return a.v[0];
+}
+
+static inline tl_f32x8 tl_f32x8_largest(tl_f32x8 a)
+{
+    float largest = a.v[0];
+    for (int i = 1; i < 8; i++) {
+        largest = a.v[i] > largest ? a.v[i] : largest;
+    }
+    return tl_f32x8_all(largest);
 }
 
 static inline tl_f32x8 tl_f32x8_load_halves(const float *low, const float *high)
@@ -390,6 +465,33 @@ static inline uint32_t tl_f32x8_signs(tl_f32x8 a)
         mask |= (uint32_t)(tl_float_bits(a.v[i]) < 0) << i;
     }
     return mask;
+}
+
+static inline tl_f32x8 tl_f32x8_max(tl_f32x8 a, tl_f32x8 b)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
+    }
+    return r;
+}
+
+static inline uint32_t tl_f32x8_not_less(tl_f32x8 a, tl_f32x8 b)
+{
+    uint32_t mask = 0;
+    for (int i = 0; i < 8; i++) {
+        mask |= (uint32_t) !(a.v[i] < b.v[i]) << i;
+    }
+    return mask;
+}
+
+static inline tl_f32x8 tl_f32x8_if_less(tl_f32x8 a, tl_f32x8 b, tl_f32x8 c, tl_f32x8 d)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = a.v[i] < b.v[i] ? c.v[i] : d.v[i];
+    }
+    return r;
 }
 
 static inline tl_f32x8 tl_f32x8_abs(tl_f32x8 a)
