@@ -345,9 +345,16 @@ void bench(const char *title, std::vector<shape> &shapes, float gap, kind k)
 
 } // namespace
 
-int main()
+int main(int argc, char **argv)
 {
-    for (int count : { 8, 32, 256 }) {
+    std::vector<int> counts = { 8, 32, 64, 128, 256, 1024 };
+    if (argc > 1) {
+        counts.clear();
+        for (int i = 1; i < argc; i++) {
+            counts.push_back(std::atoi(argv[i]));
+        }
+    }
+    for (int count : counts) {
         std::vector<shape> shapes;
         for (int i = 0; i < 16; i++) {
             shapes.push_back(make_shape(count));

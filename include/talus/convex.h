@@ -105,7 +105,7 @@ TL_API bool tl_convex_overlap(const tl_convex *a, tl_transform pose_a, const tl_
 
 /// Room for the growing polytope of a penetration query; a hull is done after some ten steps, a curved shape after some
 /// fifty.
-#define TL_MAX_EPA_ITERATIONS 172u
+#define TL_MAX_EPA_ITERATIONS 124u
 
 /// How deep two shapes are in one another.
 typedef struct tl_penetration {

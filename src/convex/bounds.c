@@ -19,8 +19,10 @@ static double component(tl_vec3d v, int axis)
 static float reach(tl_pair *pair, int axis, double sign)
 {
     tl_vec3d direction = tl_vec3d_make(axis == 0 ? -sign : 0.0, axis == 1 ? -sign : 0.0, axis == 2 ? -sign : 0.0);
-    tl_vec3d point = tl_pair_support(pair, direction).b;
-    double size = fabs(point.x) + fabs(point.y) + fabs(point.z) + (double)pair->b->radius;
+    tl_pair_point support;
+    tl_pair_support(pair, direction, &support);
+    tl_vec3d point = tl_vec3d_neg(support.w); // A is the origin
+    double size = tl_vec3d_size(point) + (double)pair->b->radius;
     double at = component(point, axis) + sign * ((double)pair->b->radius + pair->direction_error + POINT_ERROR * size);
     return (float)(at + sign * (fabs(at) * TL_FLOAT_OUTWARD + (double)FLT_MIN));
 }
@@ -29,7 +31,8 @@ tl_aabb tl_convex_bounds(const tl_convex *shape, tl_transform pose)
 {
     // The origin as shape A: then B's support points are in the world.
     tl_convex origin = tl_convex_sphere(tl_vec3_make(0.0f, 0.0f, 0.0f), 0.0f);
-    tl_pair pair = tl_pair_make(&origin, tl_transform_identity(), shape, pose);
+    tl_pair pair;
+    tl_pair_init(&pair, &origin, tl_transform_identity(), shape, pose);
     tl_aabb box;
     box.min = tl_vec3_make(reach(&pair, 0, -1.0), reach(&pair, 1, -1.0), reach(&pair, 2, -1.0));
     box.max = tl_vec3_make(reach(&pair, 0, 1.0), reach(&pair, 1, 1.0), reach(&pair, 2, 1.0));

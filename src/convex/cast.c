@@ -30,19 +30,13 @@ typedef struct cast {
     tl_vec3d nearest;
     double distance; // of the cores at t, from above
     double size;     // spread of the points seen, and the radii
-    double scale;    // largest |a| + |b|
     tl_vec3d normal; // of the last plane
     bool inside, moved;
 } cast;
 
-static double size_of(tl_vec3d a)
-{
-    return fabs(a.x) + fabs(a.y) + fabs(a.z);
-}
-
 static double noise_of(const cast *c)
 {
-    return POINT_ERROR * (c->scale + c->t * size_of(c->motion));
+    return POINT_ERROR * (c->pair->scale + c->t * tl_vec3d_size(c->motion));
 }
 
 static double touch_gap(const cast *c)
@@ -57,45 +51,27 @@ static void look(cast *c)
     for (uint32_t i = 0; i < shifted.count; i++) {
         shifted.points[i].w = tl_vec3d_mul_add(shifted.points[i].w, c->motion, -c->t);
     }
-    c->nearest = tl_simplex_nearest(&shifted);
-    c->distance = tl_vec3d_length(c->nearest);
-    for (uint32_t i = 0; i < shifted.count; i++) {
-        shifted.points[i].w = tl_vec3d_sub(shifted.points[i].a, shifted.points[i].b);
-    }
-    c->simplex = shifted;
-    c->inside = shifted.count == 4 || c->distance <= noise_of(c);
+    tl_simplex_point nearest;
+    tl_simplex_solve(&shifted, &nearest);
+    tl_simplex_keep(&c->simplex, &nearest);
+    c->nearest = nearest.point;
+    c->distance = sqrt(nearest.distance_sq);
+    c->inside = nearest.count == 4 || c->distance <= noise_of(c);
 }
 
 static void grow(cast *c, const tl_pair_point *point)
 {
     double spread = tl_vec3d_length(tl_vec3d_sub(point->w, c->simplex.points[0].w)) + c->radii;
-    double scale = size_of(point->a) + size_of(point->b);
     c->size = spread > c->size ? spread : c->size;
-    c->scale = scale > c->scale ? scale : c->scale;
 }
 
 static void start(cast *c)
 {
-    tl_vec3d offset = tl_pair_offset(c->pair);
-    if (tl_vec3d_dot(offset, offset) == 0.0) {
-        offset = tl_vec3d_make(1.0, 0.0, 0.0);
-    }
-    c->simplex.points[0] = tl_pair_support(c->pair, tl_vec3d_neg(offset));
+    tl_pair_support(c->pair, tl_vec3d_neg(tl_pair_offset(c->pair)), &c->simplex.points[0]);
     c->simplex.count = 1;
     grow(c, &c->simplex.points[0]);
     look(c);
     c->normal = c->inside ? tl_vec3d_make(0.0, 0.0, 0.0) : tl_vec3d_scale(c->nearest, -1.0 / c->distance);
-}
-
-static bool is_known(const tl_simplex *simplex, const tl_pair_point *point)
-{
-    for (uint32_t i = 0; i < simplex->count; i++) {
-        const tl_vec3d *w = &simplex->points[i].w;
-        if (w->x == point->w.x && w->y == point->w.y && w->z == point->w.z) {
-            return true;
-        }
-    }
-    return false;
 }
 
 typedef enum step { STEP_ON, STEP_HIT, STEP_MISS, STEP_STUCK } step;
@@ -112,7 +88,8 @@ static step advance(cast *c)
         c->normal = c->moved && c->radii == 0.0 ? c->normal : tl_vec3d_neg(u);
         return STEP_HIT;
     }
-    tl_pair_point point = tl_pair_support(c->pair, tl_vec3d_neg(u));
+    tl_pair_point point;
+    tl_pair_support(c->pair, tl_vec3d_neg(u), &point);
     grow(c, &point);
     double slack = c->pair->direction_error + noise_of(c);
     double free = tl_vec3d_dot(u, tl_vec3d_mul_add(point.w, c->motion, -c->t)) - c->radii;
@@ -130,7 +107,7 @@ static step advance(cast *c)
         c->moved = true;
     }
     double before = c->distance;
-    bool known = is_known(&c->simplex, &point);
+    bool known = tl_simplex_holds(&c->simplex, &point);
     if (known && !advanced) {
         return STEP_STUCK;
     }
@@ -199,7 +176,8 @@ static bool cast_pair(tl_pair *pair, tl_vec3 motion, double t_max, tl_convex_hit
 bool tl_convex_cast(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b, tl_vec3 motion,
                     tl_convex_hit *hit_out)
 {
-    tl_pair pair = tl_pair_make(a, pose_a, b, pose_b);
+    tl_pair pair;
+    tl_pair_init(&pair, a, pose_a, b, pose_b);
     return cast_pair(&pair, motion, 1.0, hit_out);
 }
 
@@ -233,7 +211,8 @@ bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec3 origi
     tl_convex point = tl_convex_sphere(tl_vec3_make(0.0f, 0.0f, 0.0f), 0.0f);
     tl_transform at_origin = tl_transform_identity();
     at_origin.position = origin;
-    tl_pair pair = tl_pair_make(shape, pose, &point, at_origin);
+    tl_pair pair;
+    tl_pair_init(&pair, shape, pose, &point, at_origin);
     if (shape->kind == TL_CONVEX_HULL && shape->radius == 0.0f &&
         clip_by_hull(&pair, direction, (double)t_max, hit_out)) {
         return hit_out->hit;

@@ -43,7 +43,8 @@ static void add_patch(const tl_pair *pair, tl_vec3d normal, double limit, tl_con
 uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                             float margin, float tolerance, tl_simplex_cache *cache, tl_contact_manifold *manifold_out)
 {
-    tl_pair pair = tl_pair_make(a, pose_a, b, pose_b);
+    tl_pair pair;
+    tl_pair_init(&pair, a, pose_a, b, pose_b);
     double radii = (double)a->radius + (double)b->radius;
     tl_gjk gjk;
     memset(manifold_out, 0, sizeof *manifold_out);

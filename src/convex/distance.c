@@ -11,7 +11,8 @@
 void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                         tl_simplex_cache *cache, tl_separation *separation_out)
 {
-    tl_pair pair = tl_pair_make(a, pose_a, b, pose_b);
+    tl_pair pair;
+    tl_pair_init(&pair, a, pose_a, b, pose_b);
     tl_gjk gjk;
     tl_gjk_run(&pair, cache, -1.0, &gjk);
     memset(separation_out, 0, sizeof *separation_out);
@@ -38,7 +39,8 @@ void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex
 bool tl_convex_overlap(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                        tl_simplex_cache *cache)
 {
-    tl_pair pair = tl_pair_make(a, pose_a, b, pose_b);
+    tl_pair pair;
+    tl_pair_init(&pair, a, pose_a, b, pose_b);
     double radii = (double)a->radius + (double)b->radius;
     tl_gjk gjk;
     tl_gjk_run(&pair, cache, radii, &gjk);

@@ -22,33 +22,27 @@
 
 typedef struct search {
     tl_pair *pair;
-    double size;  // largest |a| + |b|
-    double noise; // metres that rounding may be off
-    double reach; // largest |w|; the origin is inside, so this is the size of A - B
+    double reach; // largest |w| of the points seen; the origin is inside, so this is the size of A - B
     tl_epa *epa;
 } search;
 
-static double size_of(tl_vec3d a)
+// Metres that rounding may be off.
+static double noise_of(const search *s)
 {
-    return fabs(a.x) + fabs(a.y) + fabs(a.z);
+    return PLANE_ERROR * s->pair->scale;
 }
 
-static void grow_size(search *s, const tl_pair_point *point)
+static void grow_reach(search *s, const tl_pair_point *point)
 {
-    double size = size_of(point->a) + size_of(point->b);
-    if (size > s->size) {
-        s->size = size;
-        s->noise = PLANE_ERROR * size;
-    }
-    double reach = size_of(point->w);
+    double reach = tl_vec3d_size(point->w);
     s->reach = reach > s->reach ? reach : s->reach;
 }
 
 // The support along a unit direction; it bounds the depth from above. True when this is the best bound so far.
 static bool ask(search *s, tl_vec3d direction, tl_pair_point *point_out)
 {
-    *point_out = tl_pair_support(s->pair, direction);
-    grow_size(s, point_out);
+    tl_pair_support(s->pair, direction, point_out);
+    grow_reach(s, point_out);
     double upper = tl_vec3d_dot(direction, point_out->w);
     if (upper < s->epa->upper) {
         s->epa->upper = upper;
@@ -74,7 +68,7 @@ static bool widen(search *s, tl_pair_point *points, uint32_t count, const tl_vec
             points[count] = point;
         }
     }
-    return best > 4.0 * s->noise;
+    return best > 4.0 * noise_of(s);
 }
 
 static bool widen_point(search *s, tl_pair_point *points)
@@ -112,19 +106,19 @@ static bool widen_plane(search *s, tl_pair_point *points)
     double height = tl_vec3d_dot(n, tl_vec3d_sub(up.w, points[0].w)),
            depth = -tl_vec3d_dot(n, tl_vec3d_sub(down.w, points[0].w));
     points[3] = height > depth ? up : down;
-    return (height > depth ? height : depth) > 4.0 * s->noise;
+    return (height > depth ? height : depth) > 4.0 * noise_of(s);
 }
 
 // Points of A and B whose difference is a triangle's point nearest to the origin. Returns how far that is from where
 // the depth and the normal say.
-static double witness_on(const search *s, const tl_polytope *p, const uint16_t vertices[3], tl_vec3d *on_a,
+static double witness_on(const search *s, const tl_polytope *p, const uint8_t vertices[3], tl_vec3d *on_a,
                          tl_vec3d *on_b)
 {
     tl_simplex triangle;
     triangle.count = 3;
     for (int i = 0; i < 3; i++) {
         const tl_polytope_vertex *v = &p->vertices[vertices[i]];
-        tl_pair_point point = { v->w, v->a, tl_vec3d_sub(v->a, v->w), TL_NO_VERTEX, TL_NO_VERTEX };
+        tl_pair_point point = { v->w, v->a, TL_NO_VERTEX, TL_NO_VERTEX };
         triangle.points[i] = point;
     }
     tl_vec3d nearest = tl_simplex_nearest(&triangle);
@@ -134,13 +128,15 @@ static double witness_on(const search *s, const tl_polytope *p, const uint16_t v
 
 // A face of A - B is often several triangles, and the one that was asked last need not hold the origin's foot: of all
 // that are as near, take the one that does.
-static void find_witness(search *s, const tl_polytope *p, const uint16_t best_vertices[3])
+static void find_witness(search *s, const tl_polytope *p, const uint8_t best_vertices[3])
 {
     double gap = DEPTH_GAP * s->reach;
-    double reach = p->distances[tl_polytope_nearest_face(p)] + gap;
+    double reach;
+    tl_polytope_plane(p, tl_polytope_nearest_face(p), &reach);
+    reach = (reach + gap) * (reach + gap);
     double best = witness_on(s, p, best_vertices, &s->epa->on_a, &s->epa->on_b);
     for (uint32_t f = 0; f < p->face_count && best > gap; f++) {
-        if (p->distances[f] <= reach) {
+        if (p->keys[f] <= reach) {
             tl_vec3d on_a, on_b;
             double off = witness_on(s, p, p->faces[f].vertices, &on_a, &on_b);
             if (off < best) {
@@ -160,29 +156,27 @@ static void find_witness(search *s, const tl_polytope *p, const uint16_t best_ve
 
 static void expand(search *s, tl_polytope *p)
 {
-    uint16_t best_vertices[3] = { 0, 1, 2 };
+    uint8_t best_vertices[3] = { 0, 1, 2 };
     tl_epa *epa = s->epa;
     epa->upper = (double)INFINITY; // what the start asked is found again where it matters, with its triangle
     for (;;) {
         uint32_t f = tl_polytope_nearest_face(p);
-        tl_vec3d normal = p->faces[f].normal;
-        double distance = p->distances[f];
+        double distance;
+        tl_vec3d normal = tl_polytope_plane(p, f, &distance);
         tl_pair_point point;
         if (ask(s, normal, &point)) {
             for (int i = 0; i < 3; i++) {
                 best_vertices[i] = p->faces[f].vertices[i];
             }
         }
-        double lower = distance - s->noise;
+        double noise = noise_of(s), lower = distance - noise, gap = DEPTH_GAP * s->reach;
         epa->lower = lower > epa->lower ? lower : epa->lower;
-        double gap = DEPTH_GAP * s->reach;
-        if (epa->upper - epa->lower <= gap || tl_vec3d_dot(normal, point.w) - distance <= 2.0 * s->noise) {
+        if (epa->upper - epa->lower <= gap || tl_vec3d_dot(normal, point.w) - distance <= 2.0 * noise) {
             epa->status = epa->upper - epa->lower <= gap + 4.0 * s->pair->direction_error ? TL_CONVEX_CONVERGED
                                                                                           : TL_CONVEX_DEGENERATE;
             break;
         }
-        p->coplanar = s->noise;
-        if (!tl_polytope_add(p, f, &point)) {
+        if (!tl_polytope_add(p, f, &point, noise)) {
             epa->status = p->vertex_count == TL_POLYTOPE_VERTICES ? TL_CONVEX_ITERATIONS : TL_CONVEX_DEGENERATE;
             break;
         }
@@ -194,13 +188,13 @@ static void expand(search *s, tl_polytope *p)
 void tl_epa_run(tl_pair *pair, const tl_gjk *gjk, tl_epa *epa)
 {
     tl_pair_point points[4];
-    search s = { pair, 0.0, 0.0, 0.0, epa };
+    search s = { pair, 0.0, epa };
     tl_epa zero = { { 0.0, 0.0, 0.0 },   0.0, (double)INFINITY, 0.0, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 },
                     TL_CONVEX_CONVERGED, 0 };
     *epa = zero;
     for (uint32_t i = 0; i < gjk->simplex.count; i++) {
         points[i] = gjk->simplex.points[i];
-        grow_size(&s, &points[i]);
+        grow_reach(&s, &points[i]);
     }
     tl_simplex_witness(&gjk->simplex, &epa->on_a, &epa->on_b); // stays when A - B is flat
     uint32_t count = gjk->simplex.count;
@@ -209,7 +203,7 @@ void tl_epa_run(tl_pair *pair, const tl_gjk *gjk, tl_epa *epa)
     solid = solid && (count > 3 || widen_plane(&s, points));
     if (solid) {
         tl_polytope polytope;
-        tl_polytope_init(&polytope, points, s.noise);
+        tl_polytope_init(&polytope, points);
         expand(&s, &polytope);
     }
     // The support's direction was rounded: the true value is not above this.

@@ -19,7 +19,7 @@
 // A point of A - B is a difference of two rotated points: less than 16 roundings of their size.
 #define POINT_ERROR TL_DOUBLE_GAMMA(16)
 
-static bool start_from_cache(const tl_pair *pair, const tl_simplex_cache *cache, tl_simplex *simplex)
+static bool start_from_cache(tl_pair *pair, const tl_simplex_cache *cache, tl_simplex *simplex)
 {
     simplex->count = 0;
     for (uint32_t i = 0; i < cache->count && i < 4; i++) {
@@ -40,50 +40,21 @@ static void store_cache(const tl_simplex *simplex, tl_simplex_cache *cache)
     }
 }
 
-static bool is_known(const tl_simplex *simplex, const tl_pair_point *point)
-{
-    for (uint32_t i = 0; i < simplex->count; i++) {
-        const tl_pair_point *p = &simplex->points[i];
-        if (p->w.x == point->w.x && p->w.y == point->w.y && p->w.z == point->w.z) {
-            return true;
-        }
-    }
-    return false;
-}
-
-static double size_of(tl_vec3d a)
-{
-    return fabs(a.x) + fabs(a.y) + fabs(a.z);
-}
-
-// Distances below this cannot be told from zero.
-static double noise_of(const tl_simplex *simplex)
-{
-    double size = 0.0;
-    for (uint32_t i = 0; i < simplex->count; i++) {
-        double pair_size = size_of(simplex->points[i].a) + size_of(simplex->points[i].b);
-        size = pair_size > size ? pair_size : size;
-    }
-    return POINT_ERROR * size;
-}
-
-static void start(tl_pair *pair, tl_simplex_cache *cache, tl_gjk *gjk)
+static void start(tl_pair *pair, const tl_simplex_cache *cache, tl_gjk *gjk)
 {
     gjk->lower = 0.0;
     gjk->overlap = false;
     gjk->iterations = 0;
     if (cache == NULL || !start_from_cache(pair, cache, &gjk->simplex)) {
-        tl_vec3d offset = tl_pair_offset(pair);
-        if (tl_vec3d_dot(offset, offset) == 0.0) {
-            offset = tl_vec3d_make(1.0, 0.0, 0.0);
-        }
-        gjk->simplex.points[0] = tl_pair_support(pair, tl_vec3d_neg(offset));
+        tl_pair_support(pair, tl_vec3d_neg(tl_pair_offset(pair)), &gjk->simplex.points[0]);
         gjk->simplex.count = 1;
+        gjk->simplex.weights[0] = 1.0;
+        gjk->nearest = gjk->simplex.points[0].w;
     } else {
         pair->last_a = gjk->simplex.points[0].vertex_a;
         pair->last_b = gjk->simplex.points[0].vertex_b;
+        gjk->nearest = tl_simplex_nearest(&gjk->simplex);
     }
-    gjk->nearest = tl_simplex_nearest(&gjk->simplex);
     gjk->upper = tl_vec3d_length(gjk->nearest);
 }
 
@@ -91,7 +62,7 @@ static void start(tl_pair *pair, tl_simplex_cache *cache, tl_gjk *gjk)
 static bool advance(tl_pair *pair, double decide_at, tl_gjk *gjk)
 {
     gjk->status = TL_CONVEX_CONVERGED;
-    double noise = noise_of(&gjk->simplex);
+    double noise = POINT_ERROR * pair->scale; // distances below this cannot be told from zero
     if (gjk->simplex.count == 4 || gjk->upper <= noise) {
         gjk->overlap = true;
         gjk->upper = gjk->lower = 0.0;
@@ -101,18 +72,19 @@ static bool advance(tl_pair *pair, double decide_at, tl_gjk *gjk)
     if (gjk->upper <= decide_at) {
         return false;
     }
-    tl_pair_point point = tl_pair_support(pair, tl_vec3d_neg(gjk->nearest));
-    double lower = tl_vec3d_dot(gjk->nearest, point.w) / gjk->upper - pair->direction_error - noise;
+    tl_pair_point *point = &gjk->simplex.points[gjk->simplex.count];
+    tl_pair_support(pair, tl_vec3d_neg(gjk->nearest), point);
+    double lower = tl_vec3d_dot(gjk->nearest, point->w) / gjk->upper - pair->direction_error - noise;
     gjk->lower = lower > gjk->lower ? lower : gjk->lower;
     if (decide_at >= 0.0 && gjk->lower > decide_at) {
         return false;
     }
-    if (gjk->upper - gjk->lower <= BOUND_GAP * gjk->upper || is_known(&gjk->simplex, &point)) {
+    if (gjk->upper - gjk->lower <= BOUND_GAP * gjk->upper || tl_simplex_holds(&gjk->simplex, point)) {
         return false;
     }
-    gjk->simplex.points[gjk->simplex.count++] = point;
+    gjk->simplex.count++;
     tl_simplex_point nearest;
-    tl_simplex_solve(&gjk->simplex, &nearest);
+    tl_simplex_solve_last(&gjk->simplex, &nearest);
     double upper = sqrt(nearest.distance_sq);
     if (!(upper < gjk->upper)) {
         gjk->simplex.count--; // the old points and weights are still there

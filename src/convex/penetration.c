@@ -30,7 +30,8 @@ static void fill(const tl_pair *pair, double depth, double lower, double upper, 
 bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                            tl_simplex_cache *cache, tl_penetration *penetration_out)
 {
-    tl_pair pair = tl_pair_make(a, pose_a, b, pose_b);
+    tl_pair pair;
+    tl_pair_init(&pair, a, pose_a, b, pose_b);
     double radii = (double)a->radius + (double)b->radius;
     tl_gjk gjk;
     memset(penetration_out, 0, sizeof *penetration_out);

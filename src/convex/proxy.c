@@ -7,10 +7,8 @@
 
 #include "convex/proxy.h"
 
-#include "base/assert.h"
+#include "convex/farthest.h"
 #include "math/tolerance.h"
-
-#include <string.h>
 
 // A direction is rounded to float once in each shape's frame: a component is off by half an ulp, so the direction by at
 // most sqrt(3) of that.
@@ -20,91 +18,41 @@
 // proves the answer. Measured: equal at 16 vertices.
 #define SCANNED_HERE 12u
 
-static tl_convex make(tl_convex_kind kind, float radius)
+typedef struct quaternion {
+    double x, y, z, w, length_sq;
+} quaternion;
+
+// A zero quaternion is the identity.
+static quaternion rotation_of(tl_quat r)
 {
-    tl_convex shape;
-    memset(&shape, 0, sizeof shape);
-    shape.kind = kind;
-    shape.radius = radius;
-    return shape;
+    quaternion q = { (double)r.x, (double)r.y, (double)r.z, (double)r.w, 0.0 };
+    q.length_sq = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    if (!(q.length_sq > 0.0)) {
+        q.w = q.length_sq = 1.0;
+    }
+    return q;
 }
 
-tl_convex tl_convex_from_hull(const tl_hull *hull, float radius)
+// The rotation by `by`, then back by `from`.
+static quaternion rotation_from(const quaternion *from, const quaternion *by)
 {
-    tl_convex shape = make(TL_CONVEX_HULL, radius);
-    shape.hull = hull;
-    return shape;
+    const quaternion *a = from, *b = by;
+    quaternion q = { (a->w * b->x - a->x * b->w) - (a->y * b->z - a->z * b->y),
+                     (a->w * b->y - a->y * b->w) - (a->z * b->x - a->x * b->z),
+                     (a->w * b->z - a->z * b->w) - (a->x * b->y - a->y * b->x),
+                     (a->w * b->w + a->x * b->x) + (a->y * b->y + a->z * b->z), a->length_sq * b->length_sq };
+    return q;
 }
 
-tl_convex tl_convex_from_points(const tl_vec3 *points, uint32_t count, float radius)
+// The matrix of a quaternion of any length.
+static void set_rotation(tl_frame *frame, const quaternion *q)
 {
-    TL_ASSERT(count > 0);
-    tl_convex shape = make(TL_CONVEX_POINTS, radius);
-    shape.points = points;
-    shape.point_count = count;
-    return shape;
-}
-
-tl_convex tl_convex_box(tl_vec3 center, tl_vec3 half_extents, float radius)
-{
-    tl_convex shape = make(TL_CONVEX_BOX, radius);
-    shape.corners[0] = center;
-    shape.corners[1] = half_extents;
-    return shape;
-}
-
-tl_convex tl_convex_sphere(tl_vec3 center, float radius)
-{
-    tl_convex shape = make(TL_CONVEX_INLINE, radius);
-    shape.corners[0] = center;
-    shape.point_count = 1;
-    return shape;
-}
-
-tl_convex tl_convex_capsule(tl_vec3 a, tl_vec3 b, float radius)
-{
-    tl_convex shape = make(TL_CONVEX_INLINE, radius);
-    shape.corners[0] = a;
-    shape.corners[1] = b;
-    shape.point_count = 2;
-    return shape;
-}
-
-tl_convex tl_convex_triangle(tl_vec3 a, tl_vec3 b, tl_vec3 c, float radius)
-{
-    tl_convex shape = make(TL_CONVEX_INLINE, radius);
-    shape.corners[0] = a;
-    shape.corners[1] = b;
-    shape.corners[2] = c;
-    shape.point_count = 3;
-    return shape;
-}
-
-static tl_convex make_round(tl_convex_kind kind, tl_vec3 a, tl_vec3 b, float disc_radius, float radius)
-{
-    tl_convex shape = make(kind, radius);
-    shape.corners[0] = a;
-    shape.corners[1] = b;
-    shape.corners[2] = tl_vec3_make(disc_radius, 0.0f, 0.0f);
-    return shape;
-}
-
-tl_convex tl_convex_cylinder(tl_vec3 a, tl_vec3 b, float disc_radius, float radius)
-{
-    return make_round(TL_CONVEX_CYLINDER, a, b, disc_radius, radius);
-}
-
-tl_convex tl_convex_cone(tl_vec3 base, tl_vec3 apex, float disc_radius, float radius)
-{
-    return make_round(TL_CONVEX_CONE, base, apex, disc_radius, radius);
-}
-
-tl_convex tl_convex_custom(tl_convex_support_fn *support, void *user, float radius)
-{
-    tl_convex shape = make(TL_CONVEX_CUSTOM, radius);
-    shape.support = support;
-    shape.user = user;
-    return shape;
+    double s = 2.0 / q->length_sq, x = s * q->x, y = s * q->y, z = s * q->z;
+    double xx = x * q->x, yy = y * q->y, zz = z * q->z, xy = x * q->y, xz = x * q->z, yz = y * q->z, xw = x * q->w,
+           yw = y * q->w, zw = z * q->w;
+    frame->rows[0] = tl_vec3d_make(1.0 - (yy + zz), xy - zw, xz + yw);
+    frame->rows[1] = tl_vec3d_make(xy + zw, 1.0 - (xx + zz), yz - xw);
+    frame->rows[2] = tl_vec3d_make(xz - yw, yz + xw, 1.0 - (xx + yy));
 }
 
 // Vertex k of a box: bit i of k says which side on axis i.
@@ -144,20 +92,6 @@ static bool vertex_of(const tl_convex *shape, uint32_t vertex, tl_vec3d *point_o
     }
 }
 
-static uint32_t farthest_of(const tl_vec3 *points, uint32_t count, tl_vec3d direction)
-{
-    uint32_t best = 0;
-    double best_dot = tl_vec3d_dot(direction, tl_vec3d_from(points[0]));
-    for (uint32_t i = 1; i < count; i++) {
-        double dot = tl_vec3d_dot(direction, tl_vec3d_from(points[i]));
-        if (dot > best_dot) {
-            best_dot = dot;
-            best = i;
-        }
-    }
-    return best;
-}
-
 // The largest component becomes 1 or -1, so that no float under- or overflows.
 static tl_vec3 float_direction(tl_vec3d d)
 {
@@ -184,55 +118,63 @@ static tl_vec3d round_support(const tl_convex *shape, tl_vec3d direction)
     return along * height > length * disc_radius ? b : tl_vec3d_mul_add(a, across, reach);
 }
 
-static tl_vec3d support_of(const tl_convex *shape, tl_vec3d direction, uint32_t *vertex)
+static tl_vec3d curved_support(const tl_convex *shape, tl_vec3d direction)
 {
-    switch (shape->kind) {
-    case TL_CONVEX_HULL:
-        if (shape->hull->vertex_count <= SCANNED_HERE) {
-            *vertex = farthest_of(tl_hull_vertices(shape->hull), shape->hull->vertex_count, direction);
-            return tl_vec3d_from(tl_hull_vertices(shape->hull)[*vertex]);
-        }
-        *vertex = tl_hull_support(shape->hull, float_direction(direction), *vertex);
-        return tl_vec3d_from(tl_hull_vertices(shape->hull)[*vertex]);
-    case TL_CONVEX_POINTS:
-        *vertex = farthest_of(shape->points, shape->point_count, direction);
-        return tl_vec3d_from(shape->points[*vertex]);
-    case TL_CONVEX_INLINE:
-        *vertex = farthest_of(shape->corners, shape->point_count, direction);
-        return tl_vec3d_from(shape->corners[*vertex]);
-    case TL_CONVEX_BOX:
-        *vertex = (direction.x > 0.0 ? 1u : 0u) | (direction.y > 0.0 ? 2u : 0u) | (direction.z > 0.0 ? 4u : 0u);
-        return box_vertex(shape, *vertex);
-    case TL_CONVEX_CYLINDER:
-    case TL_CONVEX_CONE:
-        *vertex = TL_NO_VERTEX;
-        return round_support(shape, direction);
-    default:
-        *vertex = TL_NO_VERTEX;
-        return tl_vec3d_from(shape->support(float_direction(direction), shape->user));
-    }
+    return shape->kind == TL_CONVEX_CUSTOM ? tl_vec3d_from(shape->support(float_direction(direction), shape->user))
+                                           : round_support(shape, direction);
 }
 
-static double size_of(const tl_convex *shape)
+// Sets the vertex, which comes as a hint, and the point. What has vertices is done here: it is short, and asked often.
+static void find_support(const tl_convex *shape, const tl_vec3d *direction, uint32_t *vertex, tl_vec3d *point)
+{
+    const tl_vec3 *points;
+    switch (shape->kind) {
+    case TL_CONVEX_HULL:
+        points = tl_hull_vertices(shape->hull);
+        *vertex = shape->hull->vertex_count <= SCANNED_HERE
+                      ? tl_farthest(points, shape->hull->vertex_count, direction)
+                      : tl_hull_support(shape->hull, float_direction(*direction), *vertex);
+        break;
+    case TL_CONVEX_POINTS:
+        points = shape->points;
+        *vertex = tl_farthest(points, shape->point_count, direction);
+        break;
+    case TL_CONVEX_INLINE:
+        points = shape->corners;
+        *vertex = tl_farthest(points, shape->point_count, direction);
+        break;
+    case TL_CONVEX_BOX:
+        *vertex = (direction->x > 0.0 ? 1u : 0u) | (direction->y > 0.0 ? 2u : 0u) | (direction->z > 0.0 ? 4u : 0u);
+        *point = box_vertex(shape, *vertex);
+        return;
+    default:
+        *vertex = TL_NO_VERTEX;
+        *point = curved_support(shape, *direction);
+        return;
+    }
+    *point = tl_vec3d_from(points[*vertex]);
+}
+
+static double custom_size(const tl_convex *shape)
+{
+    tl_vec3d size;
+    double *extent[3] = { &size.x, &size.y, &size.z };
+    for (int axis = 0; axis < 3; axis++) {
+        tl_vec3 d = tl_vec3_make(axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f);
+        tl_vec3 high = shape->support(d, shape->user), low = shape->support(tl_neg(d), shape->user);
+        *extent[axis] = tl_vec3d_dot(tl_vec3d_from(d), tl_vec3d_sub(tl_vec3d_from(high), tl_vec3d_from(low)));
+    }
+    return tl_vec3d_length(size);
+}
+
+// Of a shape that is asked along float directions; 0 of what is asked in double.
+static double rounded_size(const tl_convex *shape)
 {
     if (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count > SCANNED_HERE) {
         tl_aabb box = shape->hull->bounds;
         return tl_vec3d_length(tl_vec3d_sub(tl_vec3d_from(box.max), tl_vec3d_from(box.min)));
     }
-    if (shape->kind == TL_CONVEX_CUSTOM) {
-        tl_vec3d size = tl_vec3d_make(0.0, 0.0, 0.0);
-        for (int axis = 0; axis < 3; axis++) {
-            tl_vec3 d = tl_vec3_make(axis == 0 ? 1.0f : 0.0f, axis == 1 ? 1.0f : 0.0f, axis == 2 ? 1.0f : 0.0f);
-            tl_vec3 high = shape->support(d, shape->user), low = shape->support(tl_neg(d), shape->user);
-            double extent = axis == 0   ? (double)high.x - (double)low.x
-                            : axis == 1 ? (double)high.y - (double)low.y
-                                        : (double)high.z - (double)low.z;
-            size = tl_vec3d_add(
-                size, tl_vec3d_make(axis == 0 ? extent : 0.0, axis == 1 ? extent : 0.0, axis == 2 ? extent : 0.0));
-        }
-        return tl_vec3d_length(size);
-    }
-    return 0.0; // asked in double
+    return shape->kind == TL_CONVEX_CUSTOM ? custom_size(shape) : 0.0;
 }
 
 static tl_vec3d middle_of(const tl_convex *shape)
@@ -250,52 +192,54 @@ static tl_vec3d middle_of(const tl_convex *shape)
     }
 }
 
-tl_pair tl_pair_make(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b)
+void tl_pair_init(tl_pair *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b)
 {
-    tl_pair pair;
-    tl_frame to_world_b = tl_frame_from(pose_b);
-    pair.a = a;
-    pair.b = b;
-    pair.a_to_world = tl_frame_from(pose_a);
-    // Rows of transpose(A) * B are the columns of A times B.
-    const tl_frame *fa = &pair.a_to_world;
-    tl_vec3d columns[3] = { { fa->rows[0].x, fa->rows[1].x, fa->rows[2].x },
-                            { fa->rows[0].y, fa->rows[1].y, fa->rows[2].y },
-                            { fa->rows[0].z, fa->rows[1].z, fa->rows[2].z } };
-    for (int i = 0; i < 3; i++) {
-        pair.b_to_a.rows[i] = tl_frame_rotate_back(&to_world_b, columns[i]);
-    }
-    pair.b_to_a.origin = tl_frame_rotate_back(fa, tl_vec3d_sub(to_world_b.origin, fa->origin));
-    pair.direction_error = DIRECTION_ROUNDING * (size_of(a) + size_of(b));
-    pair.last_a = pair.last_b = TL_NO_VERTEX;
-    return pair;
+    quaternion rotation_a = rotation_of(pose_a.rotation), rotation_b = rotation_of(pose_b.rotation);
+    quaternion relative = rotation_from(&rotation_a, &rotation_b);
+    pair->a = a;
+    pair->b = b;
+    set_rotation(&pair->a_to_world, &rotation_a);
+    set_rotation(&pair->b_to_a, &relative);
+    pair->a_to_world.origin = tl_vec3d_from(pose_a.position);
+    pair->b_to_a.origin =
+        tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(tl_vec3d_from(pose_b.position), pair->a_to_world.origin));
+    pair->direction_error = DIRECTION_ROUNDING * (rounded_size(a) + rounded_size(b));
+    pair->scale = 0.0;
+    pair->last_a = pair->last_b = TL_NO_VERTEX;
 }
 
 tl_vec3d tl_pair_offset(const tl_pair *pair)
 {
-    return tl_vec3d_sub(middle_of(pair->a), tl_frame_point(&pair->b_to_a, middle_of(pair->b)));
+    tl_vec3d offset = tl_vec3d_sub(middle_of(pair->a), tl_frame_point(&pair->b_to_a, middle_of(pair->b)));
+    return tl_vec3d_dot(offset, offset) > 0.0 ? offset : tl_vec3d_make(1.0, 0.0, 0.0);
 }
 
-tl_pair_point tl_pair_support(tl_pair *pair, tl_vec3d direction)
+// Sets w from the point of B in B's frame.
+static void finish_point(tl_pair *pair, tl_vec3d on_b, tl_pair_point *point)
 {
-    tl_pair_point point;
-    point.a = support_of(pair->a, direction, &pair->last_a);
-    tl_vec3d direction_b = tl_frame_rotate_back(&pair->b_to_a, tl_vec3d_neg(direction));
-    point.b = tl_frame_point(&pair->b_to_a, support_of(pair->b, direction_b, &pair->last_b));
-    point.w = tl_vec3d_sub(point.a, point.b);
-    point.vertex_a = pair->last_a;
-    point.vertex_b = pair->last_b;
-    return point;
+    point->w = tl_vec3d_sub(point->a, tl_frame_point(&pair->b_to_a, on_b));
+    double scale = tl_vec3d_size(point->a) + tl_vec3d_size(on_b) + tl_vec3d_size(pair->b_to_a.origin);
+    pair->scale = scale > pair->scale ? scale : pair->scale;
 }
 
-bool tl_pair_vertex(const tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b, tl_pair_point *point_out)
+void tl_pair_support(tl_pair *pair, tl_vec3d direction, tl_pair_point *point)
 {
-    if (!vertex_of(pair->a, vertex_a, &point_out->a) || !vertex_of(pair->b, vertex_b, &point_out->b)) {
+    tl_vec3d direction_b = tl_frame_rotate_back(&pair->b_to_a, tl_vec3d_neg(direction)), on_b;
+    find_support(pair->a, &direction, &pair->last_a, &point->a);
+    find_support(pair->b, &direction_b, &pair->last_b, &on_b);
+    point->vertex_a = pair->last_a;
+    point->vertex_b = pair->last_b;
+    finish_point(pair, on_b, point);
+}
+
+bool tl_pair_vertex(tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b, tl_pair_point *point)
+{
+    tl_vec3d on_b;
+    if (!vertex_of(pair->a, vertex_a, &point->a) || !vertex_of(pair->b, vertex_b, &on_b)) {
         return false;
     }
-    point_out->b = tl_frame_point(&pair->b_to_a, point_out->b);
-    point_out->w = tl_vec3d_sub(point_out->a, point_out->b);
-    point_out->vertex_a = vertex_a;
-    point_out->vertex_b = vertex_b;
+    point->vertex_a = vertex_a;
+    point->vertex_b = vertex_b;
+    finish_point(pair, on_b, point);
     return true;
 }

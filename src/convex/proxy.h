@@ -9,11 +9,12 @@
 
 #include <talus/convex.h>
 
-// A point of A - B, with the points that it is the difference of, all in A's frame.
+// A point of A - B, in A's frame. The point of B is a - w: that the sum is rounded once more moves it by less than its
+// own error.
 typedef struct tl_pair_point {
     tl_vec3d w; // a - b
-    tl_vec3d a, b;
-    uint32_t vertex_a, vertex_b; // TL_NO_VERTEX for a custom shape
+    tl_vec3d a;
+    uint32_t vertex_a, vertex_b; // TL_NO_VERTEX for curved and custom shapes
 } tl_pair_point;
 
 typedef struct tl_pair {
@@ -23,19 +24,20 @@ typedef struct tl_pair {
     // A support direction is rounded to float, so a support value is short of the true one by at most
     // |direction| times this: the size of both shapes times one rounding of the direction.
     double direction_error;
+    double scale;            // what rounding is relative to: the largest coordinates that went into a point so far
     uint32_t last_a, last_b; // hints
 } tl_pair;
 
-tl_pair tl_pair_make(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b);
+void tl_pair_init(tl_pair *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b);
 
-// From the middle of B to the middle of A, roughly; zero when they coincide.
+// From the middle of B to the middle of A, roughly; any direction but zero when they coincide.
 tl_vec3d tl_pair_offset(const tl_pair *pair);
 
 // The point of A - B farthest along the direction, which is not zero.
-tl_pair_point tl_pair_support(tl_pair *pair, tl_vec3d direction);
+void tl_pair_support(tl_pair *pair, tl_vec3d direction, tl_pair_point *point_out);
 
 // The point of A - B of two vertices; false when a shape has no such vertex.
-bool tl_pair_vertex(const tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b, tl_pair_point *point_out);
+bool tl_pair_vertex(tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b, tl_pair_point *point_out);
 
 static inline tl_vec3 tl_pair_to_world(const tl_pair *pair, tl_vec3d p)
 {

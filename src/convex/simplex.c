@@ -16,40 +16,50 @@
 // A determinant of three differences has a relative error of less than 16 roundings of the product of their lengths.
 #define VOLUME_ERROR TL_DOUBLE_GAMMA(16)
 
-typedef tl_simplex_point candidate;
+// Each of the functions below takes the place of `best` when it has found a nearer point.
 
-static candidate nearest_on_point(const tl_simplex *s, uint32_t i)
+static void ask_point(const tl_simplex *s, uint32_t i, tl_simplex_point *best)
 {
-    tl_vec3d w = s->points[i].w;
-    candidate c = { w, tl_vec3d_dot(w, w), 1, { i, 0, 0, 0 }, { 1.0, 0.0, 0.0, 0.0 } };
-    return c;
+    double distance_sq = tl_vec3d_dot(s->points[i].w, s->points[i].w);
+    if (distance_sq < best->distance_sq) {
+        best->point = s->points[i].w;
+        best->distance_sq = distance_sq;
+        best->count = 1;
+        best->index[0] = i;
+        best->weight[0] = 1.0;
+    }
 }
 
-static candidate nearest_on_segment(const tl_simplex *s, uint32_t i, uint32_t j)
+static void ask_segment(const tl_simplex *s, uint32_t i, uint32_t j, tl_simplex_point *best)
 {
-    tl_vec3d a = s->points[i].w, b = s->points[j].w;
-    tl_vec3d d = tl_vec3d_sub(b, a);
+    const tl_vec3d a = s->points[i].w, d = tl_vec3d_sub(s->points[j].w, a);
     double along = -tl_vec3d_dot(a, d), length_sq = tl_vec3d_dot(d, d);
     if (!(along > 0.0)) {
-        return nearest_on_point(s, i);
+        ask_point(s, i, best);
+        return;
     }
     if (!(along < length_sq)) {
-        return nearest_on_point(s, j);
+        ask_point(s, j, best);
+        return;
     }
     double t = along / length_sq;
     tl_vec3d p = tl_vec3d_mul_add(a, d, t);
-    candidate c = { p, tl_vec3d_dot(p, p), 2, { i, j, 0, 0 }, { 1.0 - t, t, 0.0, 0.0 } };
-    return c;
+    double distance_sq = tl_vec3d_dot(p, p);
+    if (distance_sq < best->distance_sq) {
+        best->point = p;
+        best->distance_sq = distance_sq;
+        best->count = 2;
+        best->index[0] = i;
+        best->index[1] = j;
+        best->weight[0] = 1.0 - t;
+        best->weight[1] = t;
+    }
 }
 
-static candidate nearer(candidate a, candidate b)
+// `all`: the edge from i to j too.
+static void ask_triangle(const tl_simplex *s, uint32_t i, uint32_t j, uint32_t k, bool all, tl_simplex_point *best)
 {
-    return b.distance_sq < a.distance_sq ? b : a;
-}
-
-static candidate nearest_on_triangle(const tl_simplex *s, uint32_t i, uint32_t j, uint32_t k)
-{
-    tl_vec3d a = s->points[i].w, b = s->points[j].w, c = s->points[k].w;
+    const tl_vec3d a = s->points[i].w, b = s->points[j].w, c = s->points[k].w;
     tl_vec3d n = tl_vec3d_cross(tl_vec3d_sub(b, a), tl_vec3d_sub(c, a));
     double area_sq = tl_vec3d_dot(n, n);
     // Areas of the triangles that the foot of the origin makes with each edge, times the area.
@@ -57,14 +67,100 @@ static candidate nearest_on_triangle(const tl_simplex *s, uint32_t i, uint32_t j
     double v = tl_vec3d_dot(n, tl_vec3d_cross(c, a));
     double w = tl_vec3d_dot(n, tl_vec3d_cross(a, b));
     if (u > 0.0 && v > 0.0 && w > 0.0 && area_sq > 0.0) {
-        double sum = u + v + w;
         tl_vec3d foot = tl_vec3d_scale(n, tl_vec3d_dot(n, a) / area_sq);
-        candidate inside = { foot, tl_vec3d_dot(foot, foot), 3, { i, j, k, 0 }, { u / sum, v / sum, w / sum, 0.0 } };
-        return inside;
+        double distance_sq = tl_vec3d_dot(foot, foot);
+        if (distance_sq < best->distance_sq) {
+            double scale = 1.0 / (u + v + w);
+            best->point = foot;
+            best->distance_sq = distance_sq;
+            best->count = 3;
+            best->index[0] = i;
+            best->index[1] = j;
+            best->index[2] = k;
+            best->weight[0] = u * scale;
+            best->weight[1] = v * scale;
+            best->weight[2] = w * scale;
+        }
+        return;
     }
-    candidate best = nearest_on_segment(s, i, j);
-    best = nearer(best, nearest_on_segment(s, j, k));
-    return nearer(best, nearest_on_segment(s, i, k));
+    if (all) {
+        ask_segment(s, i, j, best);
+    }
+    ask_segment(s, j, k, best);
+    ask_segment(s, i, k, best);
+}
+
+static void ask_tetrahedron(const tl_simplex *s, bool all, tl_simplex_point *best)
+{
+    const tl_vec3d a = s->points[0].w, b = s->points[1].w, c = s->points[2].w, d = s->points[3].w;
+    tl_vec3d u = tl_vec3d_sub(b, a), v = tl_vec3d_sub(c, a), w = tl_vec3d_sub(d, a);
+    double whole = tl_vec3d_dot(u, tl_vec3d_cross(v, w));
+    bool flat =
+        whole * whole <= VOLUME_ERROR * VOLUME_ERROR * tl_vec3d_dot(u, u) * tl_vec3d_dot(v, v) * tl_vec3d_dot(w, w);
+    // The volume of the origin with the face across from each point: of the sign of the whole where the origin is on
+    // the inner side.
+    tl_vec3d ab = tl_vec3d_cross(a, b), cd = tl_vec3d_cross(c, d);
+    double parts[4] = { tl_vec3d_dot(b, cd), -tl_vec3d_dot(a, cd), tl_vec3d_dot(d, ab), -tl_vec3d_dot(c, ab) };
+    bool out[4], outside = flat;
+    for (int f = 0; f < 4; f++) {
+        out[f] = flat || !(whole > 0.0 ? parts[f] > 0.0 : parts[f] < 0.0);
+        outside = outside || out[f];
+    }
+    if (!outside) {
+        double scale = 1.0 / (parts[0] + parts[1] + parts[2] + parts[3]);
+        best->point = tl_vec3d_make(0.0, 0.0, 0.0);
+        best->distance_sq = 0.0;
+        best->count = 4;
+        for (uint32_t i = 0; i < 4; i++) {
+            best->index[i] = i;
+            best->weight[i] = parts[i] * scale;
+        }
+        return;
+    }
+    if (out[0]) {
+        ask_triangle(s, 1, 2, 3, all, best);
+    }
+    if (out[1]) {
+        ask_triangle(s, 0, 2, 3, all, best);
+    }
+    if (out[2]) {
+        ask_triangle(s, 0, 1, 3, all, best);
+    }
+    if (all && out[3]) {
+        ask_triangle(s, 0, 1, 2, all, best);
+    }
+}
+
+static void solve(const tl_simplex *simplex, bool all, tl_simplex_point *best)
+{
+    best->point = simplex->points[0].w; // what remains when nothing compares: a point that is not finite
+    best->distance_sq = (double)INFINITY;
+    best->count = 1;
+    best->index[0] = 0;
+    best->weight[0] = 1.0;
+    switch (simplex->count) {
+    case 1:
+        ask_point(simplex, 0, best);
+        break;
+    case 2:
+        ask_segment(simplex, 0, 1, best);
+        break;
+    case 3:
+        ask_triangle(simplex, 0, 1, 2, all, best);
+        break;
+    default:
+        ask_tetrahedron(simplex, all, best);
+    }
+}
+
+void tl_simplex_solve(const tl_simplex *simplex, tl_simplex_point *nearest_out)
+{
+    solve(simplex, true, nearest_out);
+}
+
+void tl_simplex_solve_last(const tl_simplex *simplex, tl_simplex_point *nearest_out)
+{
+    solve(simplex, false, nearest_out);
 }
 
 void tl_simplex_keep(tl_simplex *simplex, const tl_simplex_point *nearest)
@@ -76,58 +172,6 @@ void tl_simplex_keep(tl_simplex *simplex, const tl_simplex_point *nearest)
         simplex->weights[i] = nearest->weight[i];
     }
     simplex->count = nearest->count;
-}
-
-static double volume(tl_vec3d a, tl_vec3d b, tl_vec3d c)
-{
-    return tl_vec3d_dot(a, tl_vec3d_cross(b, c));
-}
-
-static candidate nearest_on_tetrahedron(const tl_simplex *simplex)
-{
-    // Ascending; turn says which look inward.
-    static const uint32_t faces[4][3] = { { 1, 2, 3 }, { 0, 2, 3 }, { 0, 1, 3 }, { 0, 1, 2 } };
-    static const double turn[4] = { 1.0, -1.0, 1.0, -1.0 };
-    const tl_pair_point *p = simplex->points;
-    tl_vec3d u = tl_vec3d_sub(p[1].w, p[0].w), v = tl_vec3d_sub(p[2].w, p[0].w), w = tl_vec3d_sub(p[3].w, p[0].w);
-    double whole = volume(u, v, w);
-    bool flat = fabs(whole) <= VOLUME_ERROR * tl_vec3d_length(u) * tl_vec3d_length(v) * tl_vec3d_length(w);
-    double parts[4];
-    bool outside = false;
-    candidate best = nearest_on_point(simplex, 0);
-    for (uint32_t f = 0; f < 4; f++) {
-        // The volume of the origin with this face: of the sign of the whole where the origin is inside.
-        parts[f] = turn[f] * volume(p[faces[f][0]].w, p[faces[f][1]].w, p[faces[f][2]].w);
-        if (flat || !(whole > 0.0 ? parts[f] > 0.0 : parts[f] < 0.0)) {
-            outside = true;
-            best = nearer(best, nearest_on_triangle(simplex, faces[f][0], faces[f][1], faces[f][2]));
-        }
-    }
-    if (outside) {
-        return best;
-    }
-    double sum = parts[0] + parts[1] + parts[2] + parts[3];
-    candidate inside = {
-        { 0.0, 0.0, 0.0 }, 0.0, 4, { 0, 1, 2, 3 }, { parts[0] / sum, parts[1] / sum, parts[2] / sum, parts[3] / sum }
-    };
-    return inside;
-}
-
-void tl_simplex_solve(const tl_simplex *simplex, tl_simplex_point *nearest_out)
-{
-    switch (simplex->count) {
-    case 1:
-        *nearest_out = nearest_on_point(simplex, 0);
-        break;
-    case 2:
-        *nearest_out = nearest_on_segment(simplex, 0, 1);
-        break;
-    case 3:
-        *nearest_out = nearest_on_triangle(simplex, 0, 1, 2);
-        break;
-    default:
-        *nearest_out = nearest_on_tetrahedron(simplex);
-    }
 }
 
 tl_vec3d tl_simplex_nearest(tl_simplex *simplex)
@@ -142,8 +186,9 @@ void tl_simplex_witness(const tl_simplex *simplex, tl_vec3d *on_a_out, tl_vec3d 
 {
     tl_vec3d on_a = tl_vec3d_make(0.0, 0.0, 0.0), on_b = on_a;
     for (uint32_t i = 0; i < simplex->count; i++) {
-        on_a = tl_vec3d_mul_add(on_a, simplex->points[i].a, simplex->weights[i]);
-        on_b = tl_vec3d_mul_add(on_b, simplex->points[i].b, simplex->weights[i]);
+        const tl_pair_point *p = &simplex->points[i];
+        on_a = tl_vec3d_mul_add(on_a, p->a, simplex->weights[i]);
+        on_b = tl_vec3d_mul_add(on_b, tl_vec3d_sub(p->a, p->w), simplex->weights[i]);
     }
     *on_a_out = on_a;
     *on_b_out = on_b;

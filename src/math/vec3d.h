@@ -67,6 +67,12 @@ static inline double tl_vec3d_length(tl_vec3d a)
     return sqrt(tl_vec3d_dot(a, a));
 }
 
+// The sum of the components' sizes: a bound of the length that costs no root.
+static inline double tl_vec3d_size(tl_vec3d a)
+{
+    return fabs(a.x) + fabs(a.y) + fabs(a.z);
+}
+
 // A unit vector across a unit vector.
 static inline tl_vec3d tl_vec3d_perpendicular(tl_vec3d d)
 {
