@@ -38,15 +38,17 @@ static void grow_reach(search *s, const tl_pair_point *point)
     s->reach = reach > s->reach ? reach : s->reach;
 }
 
-// The support along a unit direction; it bounds the depth from above. True when this is the best bound so far.
-static bool ask(search *s, tl_vec3d direction, tl_pair_point *point_out)
+// The support along a direction, whose length is one over `scale`. It bounds the depth from above: true when this is
+// the best bound so far. The face that is nearest is seldom near the one before, so no hint would help.
+static bool ask(search *s, tl_vec3d direction, double scale, tl_pair_point *point_out)
 {
+    s->pair->last_a = s->pair->last_b = TL_NO_VERTEX;
     tl_pair_support(s->pair, direction, point_out);
     grow_reach(s, point_out);
-    double upper = tl_vec3d_dot(direction, point_out->w);
+    double upper = tl_vec3d_dot(direction, point_out->w) * scale;
     if (upper < s->epa->upper) {
         s->epa->upper = upper;
-        s->epa->normal = direction;
+        s->epa->normal = tl_vec3d_scale(direction, scale);
         return true;
     }
     return false;
@@ -60,7 +62,7 @@ static bool widen(search *s, tl_pair_point *points, uint32_t count, const tl_vec
     double length = tl_vec3d_length(line);
     for (int i = 0; i < 6; i++) {
         tl_pair_point point;
-        ask(s, directions[i], &point);
+        ask(s, directions[i], 1.0, &point);
         tl_vec3d away = tl_vec3d_sub(point.w, points[0].w);
         double spread = count > 1 ? tl_vec3d_length(tl_vec3d_cross(line, away)) / length : tl_vec3d_length(away);
         if (spread > best) {
@@ -101,8 +103,8 @@ static bool widen_plane(search *s, tl_pair_point *points)
     }
     n = tl_vec3d_scale(n, 1.0 / length);
     tl_pair_point up, down;
-    ask(s, n, &up);
-    ask(s, tl_vec3d_neg(n), &down);
+    ask(s, n, 1.0, &up);
+    ask(s, tl_vec3d_neg(n), 1.0, &down);
     double height = tl_vec3d_dot(n, tl_vec3d_sub(up.w, points[0].w)),
            depth = -tl_vec3d_dot(n, tl_vec3d_sub(down.w, points[0].w));
     points[3] = height > depth ? up : down;
@@ -131,14 +133,12 @@ static double witness_on(const search *s, const tl_polytope *p, const uint8_t ve
 static void find_witness(search *s, const tl_polytope *p, const uint8_t best_vertices[3])
 {
     double gap = DEPTH_GAP * s->reach;
-    double reach;
-    tl_polytope_plane(p, tl_polytope_nearest_face(p), &reach);
-    reach = (reach + gap) * (reach + gap);
+    double key = p->keys[tl_polytope_nearest_face(p)], reach = sqrt(fmax(key, 0.0)) + gap;
     double best = witness_on(s, p, best_vertices, &s->epa->on_a, &s->epa->on_b);
     for (uint32_t f = 0; f < p->face_count && best > gap; f++) {
-        if (p->keys[f] <= reach) {
+        if (p->keys[f] <= reach * reach) {
             tl_vec3d on_a, on_b;
-            double off = witness_on(s, p, p->faces[f].vertices, &on_a, &on_b);
+            double off = witness_on(s, p, &p->origins[4 * f], &on_a, &on_b);
             if (off < best) {
                 best = off;
                 s->epa->on_a = on_a;
@@ -161,17 +161,17 @@ static void expand(search *s, tl_polytope *p)
     epa->upper = (double)INFINITY; // what the start asked is found again where it matters, with its triangle
     for (;;) {
         uint32_t f = tl_polytope_nearest_face(p);
-        double distance;
-        tl_vec3d normal = tl_polytope_plane(p, f, &distance);
+        const tl_vec3d normal = p->faces[f].normal;
+        double scale = 1.0 / sqrt(p->faces[f].normal_sq), distance = p->faces[f].offset * scale;
         tl_pair_point point;
-        if (ask(s, normal, &point)) {
+        if (ask(s, normal, scale, &point)) {
             for (int i = 0; i < 3; i++) {
-                best_vertices[i] = p->faces[f].vertices[i];
+                best_vertices[i] = p->origins[4 * f + (uint32_t)i];
             }
         }
         double noise = noise_of(s), lower = distance - noise, gap = DEPTH_GAP * s->reach;
         epa->lower = lower > epa->lower ? lower : epa->lower;
-        if (epa->upper - epa->lower <= gap || tl_vec3d_dot(normal, point.w) - distance <= 2.0 * noise) {
+        if (epa->upper - epa->lower <= gap || tl_vec3d_dot(normal, point.w) * scale - distance <= 2.0 * noise) {
             epa->status = epa->upper - epa->lower <= gap + 4.0 * s->pair->direction_error ? TL_CONVEX_CONVERGED
                                                                                           : TL_CONVEX_DEGENERATE;
             break;
@@ -192,6 +192,7 @@ void tl_epa_run(tl_pair *pair, const tl_gjk *gjk, tl_epa *epa)
     tl_epa zero = { { 0.0, 0.0, 0.0 },   0.0, (double)INFINITY, 0.0, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 },
                     TL_CONVEX_CONVERGED, 0 };
     *epa = zero;
+    tl_pair_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
     for (uint32_t i = 0; i < gjk->simplex.count; i++) {
         points[i] = gjk->simplex.points[i];
         grow_reach(&s, &points[i]);

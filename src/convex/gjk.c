@@ -51,8 +51,7 @@ static void start(tl_pair *pair, const tl_simplex_cache *cache, tl_gjk *gjk)
         gjk->simplex.weights[0] = 1.0;
         gjk->nearest = gjk->simplex.points[0].w;
     } else {
-        pair->last_a = gjk->simplex.points[0].vertex_a;
-        pair->last_b = gjk->simplex.points[0].vertex_b;
+        tl_pair_set_hints(pair, gjk->simplex.points[0].vertex_a, gjk->simplex.points[0].vertex_b);
         gjk->nearest = tl_simplex_nearest(&gjk->simplex);
     }
     gjk->upper = tl_vec3d_length(gjk->nearest);

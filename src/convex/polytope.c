@@ -14,12 +14,12 @@
 
 #include "base/assert.h"
 
-// From the vectors that lead from its last vertex to its first two.
-static void set_plane(tl_polytope *p, uint32_t f, tl_vec3d to_first, tl_vec3d to_second)
+// From the vectors that lead from its last corner to its first two.
+static void set_plane(tl_polytope *p, uint32_t f, tl_vec3d last, tl_vec3d to_first, tl_vec3d to_second)
 {
     tl_polytope_face *face = &p->faces[f];
     tl_vec3d n = tl_vec3d_cross(to_first, to_second);
-    double offset = tl_vec3d_dot(n, p->vertices[face->vertices[2]].w), normal_sq = tl_vec3d_dot(n, n);
+    double offset = tl_vec3d_dot(n, last), normal_sq = tl_vec3d_dot(n, n);
     face->normal = n;
     face->offset = offset;
     face->normal_sq = normal_sq;
@@ -37,7 +37,7 @@ static uint8_t add_vertex(tl_polytope *p, const tl_pair_point *point)
 void tl_polytope_init(tl_polytope *p, const tl_pair_point points[4])
 {
     static const uint8_t corners[4][3] = { { 0, 1, 2 }, { 0, 3, 1 }, { 0, 2, 3 }, { 1, 3, 2 } };
-    static const uint8_t neighbors[4][3] = { { 1, 3, 2 }, { 2, 3, 0 }, { 0, 3, 1 }, { 1, 2, 0 } };
+    static const uint8_t twins[4][3] = { { 6, 14, 8 }, { 10, 12, 0 }, { 2, 13, 4 }, { 5, 9, 1 } };
     p->vertex_count = p->free_count = 0;
     p->face_count = 4;
     tl_vec3d u = tl_vec3d_sub(points[1].w, points[0].w), v = tl_vec3d_sub(points[2].w, points[0].w),
@@ -49,13 +49,13 @@ void tl_polytope_init(tl_polytope *p, const tl_pair_point points[4])
     add_vertex(p, &points[flip ? 1 : 2]);
     add_vertex(p, &points[3]);
     for (uint32_t f = 0; f < 4; f++) {
-        for (int i = 0; i < 3; i++) {
-            p->faces[f].vertices[i] = corners[f][i];
-            p->faces[f].neighbors[i] = neighbors[f][i];
+        for (uint32_t i = 0; i < 3; i++) {
+            p->origins[4 * f + i] = corners[f][i];
+            p->twins[4 * f + i] = twins[f][i];
         }
-        tl_vec3d apex = p->vertices[corners[f][2]].w;
-        set_plane(p, f, tl_vec3d_sub(p->vertices[corners[f][0]].w, apex),
-                  tl_vec3d_sub(p->vertices[corners[f][1]].w, apex));
+        tl_vec3d last = tl_polytope_corner(p, f, 2)->w;
+        set_plane(p, f, last, tl_vec3d_sub(tl_polytope_corner(p, f, 0)->w, last),
+                  tl_vec3d_sub(tl_polytope_corner(p, f, 1)->w, last));
     }
 }
 
@@ -76,110 +76,96 @@ static bool sees(const tl_polytope_face *face, tl_vec3d point, double coplanar_s
     return above > 0.0 || above * above < coplanar_sq * face->normal_sq;
 }
 
-typedef struct half_edge {
-    uint8_t face, edge;
-} half_edge;
+static uint32_t next_of(uint32_t half_edge)
+{
+    return (half_edge & 3u) == 2 ? half_edge - 2 : half_edge + 1;
+}
 
-// What a point sees, and the edges of the faces beyond, in the order of the rim.
+static uint32_t previous_of(uint32_t half_edge)
+{
+    return (half_edge & 3u) == 0 ? half_edge + 2 : half_edge - 1;
+}
+
+// What a point sees, and the half-edges of the faces beyond, in the order of the rim.
 typedef struct view {
+    uint16_t rim[TL_POLYTOPE_FACES];
     uint8_t seen[TL_POLYTOPE_FACES];
-    half_edge rim[TL_POLYTOPE_FACES];
     uint32_t seen_count, rim_count;
 } view;
 
 static void look(tl_polytope *p, uint32_t first, tl_vec3d point, double coplanar_sq, view *v)
 {
-    half_edge stack[TL_POLYTOPE_FACES + 2]; // each face seen takes one edge off and puts two on
-    uint32_t depth = 0;
-    v->seen_count = v->rim_count = 0;
-    v->seen[v->seen_count++] = (uint8_t)first;
+    uint16_t stack[TL_POLYTOPE_FACES + 2]; // each face seen takes one half-edge off and puts two on
+    uint32_t depth = 3, seen_count = 1, rim_count = 0;
+    v->seen[0] = (uint8_t)first;
     p->faces[first].seen = true;
-    for (uint8_t e = 3; e-- > 0;) {
-        half_edge edge = { (uint8_t)first, e };
-        stack[depth++] = edge;
-    }
+    stack[0] = p->twins[4 * first + 2];
+    stack[1] = p->twins[4 * first + 1];
+    stack[2] = p->twins[4 * first];
     while (depth > 0) {
-        half_edge from = stack[--depth];
-        uint8_t n = p->faces[from.face].neighbors[from.edge];
-        tl_polytope_face *face = &p->faces[n];
+        uint32_t across = stack[--depth];
+        tl_polytope_face *face = &p->faces[across >> 2];
         if (face->seen) {
             continue;
         }
-        uint8_t back = face->neighbors[0] == from.face ? 0 : face->neighbors[1] == from.face ? 1 : 2;
         if (sees(face, point, coplanar_sq)) {
             face->seen = true;
-            v->seen[v->seen_count++] = n;
-            half_edge next = { n, (uint8_t)((back + 1) % 3) }, last = { n, (uint8_t)((back + 2) % 3) };
-            stack[depth++] = last;
-            stack[depth++] = next;
+            v->seen[seen_count++] = (uint8_t)(across >> 2);
+            stack[depth++] = p->twins[previous_of(across)];
+            stack[depth++] = p->twins[next_of(across)];
         } else {
-            half_edge edge = { n, back };
-            v->rim[v->rim_count++] = edge;
+            v->rim[rim_count++] = (uint16_t)across;
         }
     }
+    v->seen_count = seen_count;
+    v->rim_count = rim_count;
 }
 
-// The face beyond an edge of the rim holds it the other way round: the rim runs to its `edge` from the one after.
-static uint8_t rim_start(const tl_polytope *p, half_edge edge)
-{
-    return p->faces[edge.face].vertices[(edge.edge + 1) % 3];
-}
-
-static uint8_t rim_end(const tl_polytope *p, half_edge edge)
-{
-    return p->faces[edge.face].vertices[edge.edge];
-}
-
+// A half-edge beyond the rim holds the rim's edge the other way round.
 static bool is_loop(const tl_polytope *p, const view *v)
 {
     if (v->rim_count < 3) {
         return false;
     }
-    uint8_t at = rim_end(p, v->rim[v->rim_count - 1]);
+    uint8_t at = p->origins[v->rim[v->rim_count - 1]];
     for (uint32_t i = 0; i < v->rim_count; i++) {
-        if (rim_start(p, v->rim[i]) != at) {
+        if (p->origins[next_of(v->rim[i])] != at) {
             return false;
         }
-        at = rim_end(p, v->rim[i]);
+        at = p->origins[v->rim[i]];
     }
     return true;
 }
 
 // The slots of what is seen first, then free ones.
-static uint8_t take_face(tl_polytope *p, const view *v, uint32_t i)
+static uint32_t take_face(tl_polytope *p, const view *v, uint32_t i)
 {
-    return i < v->seen_count   ? v->seen[i]
-           : p->free_count > 0 ? p->free_faces[--p->free_count]
-                               : (uint8_t)p->face_count++;
+    return i < v->seen_count ? v->seen[i] : p->free_count > 0 ? p->free_faces[--p->free_count] : p->face_count++;
 }
 
-// New triangles from the point to each edge of the rim. Neighbour 0 is beyond the rim, 1 the next triangle, 2 the last.
+// New triangles from the point to each edge of the rim. Half-edge 0 lies on the rim, 1 beside the next triangle, 2
+// beside the last.
 static void fan(tl_polytope *p, const view *v, uint8_t apex)
 {
-    uint8_t start = rim_start(p, v->rim[0]), first = 0, last = 0;
+    uint8_t start = p->origins[next_of(v->rim[0])];
+    uint32_t first = take_face(p, v, 0), f = first;
     tl_vec3d top = p->vertices[apex].w, to_start = tl_vec3d_sub(p->vertices[start].w, top);
     for (uint32_t i = 0; i < v->rim_count; i++) {
-        uint8_t f = take_face(p, v, i), end = rim_end(p, v->rim[i]);
+        uint32_t beyond = v->rim[i], next = i + 1 < v->rim_count ? take_face(p, v, i + 1) : first;
+        uint8_t end = p->origins[beyond];
         tl_vec3d to_end = tl_vec3d_sub(p->vertices[end].w, top);
-        tl_polytope_face *face = &p->faces[f];
-        face->vertices[0] = start;
-        face->vertices[1] = end;
-        face->vertices[2] = apex;
-        face->neighbors[0] = v->rim[i].face;
-        face->neighbors[2] = last;
-        p->faces[v->rim[i].face].neighbors[v->rim[i].edge] = f;
-        set_plane(p, f, to_start, to_end);
-        if (i == 0) {
-            first = f;
-        } else {
-            p->faces[last].neighbors[1] = f;
-        }
-        last = f;
+        p->origins[4 * f] = start;
+        p->origins[4 * f + 1] = end;
+        p->origins[4 * f + 2] = apex;
+        p->twins[4 * f] = (uint16_t)beyond;
+        p->twins[beyond] = (uint16_t)(4 * f);
+        p->twins[4 * f + 1] = (uint16_t)(4 * next + 2);
+        p->twins[4 * next + 2] = (uint16_t)(4 * f + 1);
+        set_plane(p, f, top, to_start, to_end);
+        f = next;
         start = end;
         to_start = to_end;
     }
-    p->faces[first].neighbors[2] = last;
-    p->faces[last].neighbors[1] = first;
 }
 
 bool tl_polytope_add(tl_polytope *p, uint32_t face, const tl_pair_point *point, double coplanar)

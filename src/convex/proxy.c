@@ -92,12 +92,13 @@ static bool vertex_of(const tl_convex *shape, uint32_t vertex, tl_vec3d *point_o
     }
 }
 
-// The largest component becomes 1 or -1, so that no float under- or overflows.
-static tl_vec3 float_direction(tl_vec3d d)
+// In the range where a hull takes a direction as it is; the largest component of any other becomes 1 or -1, so that no
+// float under- or overflows.
+static tl_vec3 float_direction(const tl_vec3d *d)
 {
-    double size = fabs(d.x) > fabs(d.y) ? fabs(d.x) : fabs(d.y);
-    size = fabs(d.z) > size ? fabs(d.z) : size;
-    return tl_vec3d_to_float(tl_vec3d_scale(d, 1.0 / size));
+    double size = fabs(d->x) > fabs(d->y) ? fabs(d->x) : fabs(d->y);
+    size = fabs(d->z) > size ? fabs(d->z) : size;
+    return tl_vec3d_to_float(size > 0x1p-10 && size < 0x1p10 ? *d : tl_vec3d_scale(*d, 1.0 / size));
 }
 
 // Cylinder and cone: the farthest point of a disc's rim lies where the direction's part across the axis points. That
@@ -120,20 +121,21 @@ static tl_vec3d round_support(const tl_convex *shape, tl_vec3d direction)
 
 static tl_vec3d curved_support(const tl_convex *shape, tl_vec3d direction)
 {
-    return shape->kind == TL_CONVEX_CUSTOM ? tl_vec3d_from(shape->support(float_direction(direction), shape->user))
+    return shape->kind == TL_CONVEX_CUSTOM ? tl_vec3d_from(shape->support(float_direction(&direction), shape->user))
                                            : round_support(shape, direction);
 }
 
 // Sets the vertex, which comes as a hint, and the point. What has vertices is done here: it is short, and asked often.
-static void find_support(const tl_convex *shape, const tl_vec3d *direction, uint32_t *vertex, tl_vec3d *point)
+static void find_support(const tl_pair *pair, const tl_convex *shape, const tl_vec3d *direction, uint32_t *vertex,
+                         tl_vec3d *point)
 {
     const tl_vec3 *points;
     switch (shape->kind) {
     case TL_CONVEX_HULL:
         points = tl_hull_vertices(shape->hull);
-        *vertex = shape->hull->vertex_count <= SCANNED_HERE
+        *vertex = shape->hull->vertex_count <= pair->scan_limit
                       ? tl_farthest(points, shape->hull->vertex_count, direction)
-                      : tl_hull_support(shape->hull, float_direction(*direction), *vertex);
+                      : tl_hull_support(shape->hull, float_direction(direction), *vertex);
         break;
     case TL_CONVEX_POINTS:
         points = shape->points;
@@ -168,9 +170,9 @@ static double custom_size(const tl_convex *shape)
 }
 
 // Of a shape that is asked along float directions; 0 of what is asked in double.
-static double rounded_size(const tl_convex *shape)
+static double rounded_size(const tl_pair *pair, const tl_convex *shape)
 {
-    if (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count > SCANNED_HERE) {
+    if (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count > pair->scan_limit) {
         tl_aabb box = shape->hull->bounds;
         return tl_vec3d_length(tl_vec3d_sub(tl_vec3d_from(box.max), tl_vec3d_from(box.min)));
     }
@@ -192,6 +194,14 @@ static tl_vec3d middle_of(const tl_convex *shape)
     }
 }
 
+void tl_pair_set_hints(tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b)
+{
+    pair->last_a = vertex_a;
+    pair->last_b = vertex_b;
+    pair->scan_limit = vertex_a == TL_NO_VERTEX ? SCANNED_HERE : 0;
+    pair->direction_error = DIRECTION_ROUNDING * (rounded_size(pair, pair->a) + rounded_size(pair, pair->b));
+}
+
 void tl_pair_init(tl_pair *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b)
 {
     quaternion rotation_a = rotation_of(pose_a.rotation), rotation_b = rotation_of(pose_b.rotation);
@@ -203,9 +213,8 @@ void tl_pair_init(tl_pair *pair, const tl_convex *a, tl_transform pose_a, const 
     pair->a_to_world.origin = tl_vec3d_from(pose_a.position);
     pair->b_to_a.origin =
         tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(tl_vec3d_from(pose_b.position), pair->a_to_world.origin));
-    pair->direction_error = DIRECTION_ROUNDING * (rounded_size(a) + rounded_size(b));
     pair->scale = 0.0;
-    pair->last_a = pair->last_b = TL_NO_VERTEX;
+    tl_pair_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
 }
 
 tl_vec3d tl_pair_offset(const tl_pair *pair)
@@ -225,8 +234,8 @@ static void finish_point(tl_pair *pair, tl_vec3d on_b, tl_pair_point *point)
 void tl_pair_support(tl_pair *pair, tl_vec3d direction, tl_pair_point *point)
 {
     tl_vec3d direction_b = tl_frame_rotate_back(&pair->b_to_a, tl_vec3d_neg(direction)), on_b;
-    find_support(pair->a, &direction, &pair->last_a, &point->a);
-    find_support(pair->b, &direction_b, &pair->last_b, &on_b);
+    find_support(pair, pair->a, &direction, &pair->last_a, &point->a);
+    find_support(pair, pair->b, &direction_b, &pair->last_b, &on_b);
     point->vertex_a = pair->last_a;
     point->vertex_b = pair->last_b;
     finish_point(pair, on_b, point);

@@ -26,9 +26,14 @@ typedef struct tl_pair {
     double direction_error;
     double scale;            // what rounding is relative to: the largest coordinates that went into a point so far
     uint32_t last_a, last_b; // hints
+    uint32_t scan_limit;     // hulls of so many vertices are scanned, whatever the hint
 } tl_pair;
 
 void tl_pair_init(tl_pair *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b);
+
+// Vertices that are likely to be the next support points, or TL_NO_VERTEX for both. Where a hint is right it is faster
+// than any scan.
+void tl_pair_set_hints(tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b);
 
 // From the middle of B to the middle of A, roughly; any direction but zero when they coincide.
 tl_vec3d tl_pair_offset(const tl_pair *pair);
