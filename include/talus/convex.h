@@ -107,6 +107,9 @@ TL_API bool tl_convex_overlap(const tl_convex *a, tl_transform pose_a, const tl_
 /// fifty.
 #define TL_MAX_EPA_ITERATIONS 124u
 
+/// Supports asked at most when that was too little: two balls of many facets in one place. 10 to 20 ms.
+#define TL_MAX_DIRECTION_STEPS 131072u
+
 /// How deep two shapes are in one another.
 typedef struct tl_penetration {
     bool overlap;      ///< false: the shapes are apart, all else but status and iterations is zero

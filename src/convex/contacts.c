@@ -8,7 +8,7 @@
 // one edge and a flat one four corners, and it has no angle at which the number of contacts would jump for large faces
 // but not for small ones.
 
-#include "convex/epa.h"
+#include "convex/depth.h"
 
 #include "convex/face_patch.h"
 
@@ -53,13 +53,13 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
     tl_vec3d on_a, on_b, normal;
     double separation; // of the cores
     if (gjk.overlap) {
-        tl_epa epa;
-        tl_epa_run(&pair, &gjk, &epa);
-        manifold_out->status = epa.status;
-        normal = epa.normal;
-        on_a = epa.on_a;
-        on_b = epa.on_b;
-        separation = -epa.depth;
+        tl_depth depth;
+        tl_depth_find(&pair, &gjk, &depth);
+        manifold_out->status = depth.status;
+        normal = depth.normal;
+        on_a = depth.on_a;
+        on_b = depth.on_b;
+        separation = -depth.upper;
     } else {
         if (gjk.upper - radii > (double)margin) {
             return 0;

@@ -13,6 +13,8 @@
 #include "convex/polytope.h"
 #include "math/tolerance.h"
 
+#include <string.h>
+
 // The result is a float in a world whose coordinates are: bounds closer than four roundings of the size are equal.
 #define DEPTH_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
 
@@ -23,7 +25,7 @@
 typedef struct search {
     tl_pair *pair;
     double reach; // largest |w| of the points seen; the origin is inside, so this is the size of A - B
-    tl_epa *epa;
+    tl_depth *depth;
 } search;
 
 // Metres that rounding may be off.
@@ -46,9 +48,9 @@ static bool ask(search *s, tl_vec3d direction, double scale, tl_pair_point *poin
     tl_pair_support(s->pair, direction, point_out);
     grow_reach(s, point_out);
     double upper = tl_vec3d_dot(direction, point_out->w) * scale;
-    if (upper < s->epa->upper) {
-        s->epa->upper = upper;
-        s->epa->normal = tl_vec3d_scale(direction, scale);
+    if (upper < s->depth->upper) {
+        s->depth->upper = upper;
+        s->depth->normal = tl_vec3d_scale(direction, scale);
         return true;
     }
     return false;
@@ -125,7 +127,7 @@ static double witness_on(const search *s, const tl_polytope *p, const uint8_t ve
     }
     tl_vec3d nearest = tl_simplex_nearest(&triangle);
     tl_simplex_witness(&triangle, on_a, on_b);
-    return tl_vec3d_length(tl_vec3d_mul_add(nearest, s->epa->normal, -s->epa->upper));
+    return tl_vec3d_length(tl_vec3d_mul_add(nearest, s->depth->normal, -s->depth->upper));
 }
 
 // A face of A - B is often several triangles, and the one that was asked last need not hold the origin's foot: of all
@@ -134,31 +136,31 @@ static void find_witness(search *s, const tl_polytope *p, const uint8_t best_ver
 {
     double gap = DEPTH_GAP * s->reach;
     double key = p->keys[tl_polytope_nearest_face(p)], reach = sqrt(fmax(key, 0.0)) + gap;
-    double best = witness_on(s, p, best_vertices, &s->epa->on_a, &s->epa->on_b);
+    double best = witness_on(s, p, best_vertices, &s->depth->on_a, &s->depth->on_b);
     for (uint32_t f = 0; f < p->face_count && best > gap; f++) {
         if (p->keys[f] <= reach * reach) {
             tl_vec3d on_a, on_b;
             double off = witness_on(s, p, &p->origins[4 * f], &on_a, &on_b);
             if (off < best) {
                 best = off;
-                s->epa->on_a = on_a;
-                s->epa->on_b = on_b;
+                s->depth->on_a = on_a;
+                s->depth->on_b = on_b;
             }
         }
     }
     // On curved surfaces a depth that is right to a gap has a normal that is right to the root of it only: witnesses
     // may be off sideways, in the surfaces, by so much. Halve that between them, so that they lie along the normal.
-    tl_vec3d apart = tl_vec3d_sub(s->epa->on_a, s->epa->on_b);
-    tl_vec3d off = tl_vec3d_mul_add(apart, s->epa->normal, -s->epa->upper);
-    s->epa->on_a = tl_vec3d_mul_add(s->epa->on_a, off, -0.5);
-    s->epa->on_b = tl_vec3d_mul_add(s->epa->on_b, off, 0.5);
+    tl_vec3d apart = tl_vec3d_sub(s->depth->on_a, s->depth->on_b);
+    tl_vec3d off = tl_vec3d_mul_add(apart, s->depth->normal, -s->depth->upper);
+    s->depth->on_a = tl_vec3d_mul_add(s->depth->on_a, off, -0.5);
+    s->depth->on_b = tl_vec3d_mul_add(s->depth->on_b, off, 0.5);
 }
 
 static void expand(search *s, tl_polytope *p)
 {
     uint8_t best_vertices[3] = { 0, 1, 2 };
-    tl_epa *epa = s->epa;
-    epa->upper = (double)INFINITY; // what the start asked is found again where it matters, with its triangle
+    tl_depth *depth = s->depth;
+    depth->upper = (double)INFINITY; // what the start asked is found again where it matters, with its triangle
     for (;;) {
         uint32_t f = tl_polytope_nearest_face(p);
         const tl_vec3d normal = p->faces[f].normal;
@@ -170,34 +172,33 @@ static void expand(search *s, tl_polytope *p)
             }
         }
         double noise = noise_of(s), lower = distance - noise, gap = DEPTH_GAP * s->reach;
-        epa->lower = lower > epa->lower ? lower : epa->lower;
-        if (epa->upper - epa->lower <= gap || tl_vec3d_dot(normal, point.w) * scale - distance <= 2.0 * noise) {
-            epa->status = epa->upper - epa->lower <= gap + 4.0 * s->pair->direction_error ? TL_CONVEX_CONVERGED
-                                                                                          : TL_CONVEX_DEGENERATE;
+        depth->lower = lower > depth->lower ? lower : depth->lower;
+        if (depth->upper - depth->lower <= gap || tl_vec3d_dot(normal, point.w) * scale - distance <= 2.0 * noise) {
+            depth->status = depth->upper - depth->lower <= gap + 4.0 * s->pair->direction_error ? TL_CONVEX_CONVERGED
+                                                                                                : TL_CONVEX_DEGENERATE;
             break;
         }
         if (!tl_polytope_add(p, f, &point, noise)) {
-            epa->status = p->vertex_count == TL_POLYTOPE_VERTICES ? TL_CONVEX_ITERATIONS : TL_CONVEX_DEGENERATE;
+            depth->status = p->vertex_count == TL_POLYTOPE_VERTICES ? TL_CONVEX_ITERATIONS : TL_CONVEX_DEGENERATE;
             break;
         }
-        epa->iterations++;
+        depth->iterations++;
     }
     find_witness(s, p, best_vertices);
 }
 
-void tl_epa_run(tl_pair *pair, const tl_gjk *gjk, tl_epa *epa)
+void tl_epa_run(tl_pair *pair, const tl_gjk *gjk, tl_depth *depth)
 {
     tl_pair_point points[4];
-    search s = { pair, 0.0, epa };
-    tl_epa zero = { { 0.0, 0.0, 0.0 },   0.0, (double)INFINITY, 0.0, { 0.0, 0.0, 0.0 }, { 0.0, 0.0, 0.0 },
-                    TL_CONVEX_CONVERGED, 0 };
-    *epa = zero;
+    search s = { pair, 0.0, depth };
+    memset(depth, 0, sizeof *depth);
+    depth->upper = (double)INFINITY;
     tl_pair_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
     for (uint32_t i = 0; i < gjk->simplex.count; i++) {
         points[i] = gjk->simplex.points[i];
         grow_reach(&s, &points[i]);
     }
-    tl_simplex_witness(&gjk->simplex, &epa->on_a, &epa->on_b); // stays when A - B is flat
+    tl_simplex_witness(&gjk->simplex, &depth->on_a, &depth->on_b); // stays when A - B is flat
     uint32_t count = gjk->simplex.count;
     bool solid = count > 1 || widen_point(&s, points);
     solid = solid && (count > 2 || widen_line(&s, points));
@@ -207,7 +208,4 @@ void tl_epa_run(tl_pair *pair, const tl_gjk *gjk, tl_epa *epa)
         tl_polytope_init(&polytope, points);
         expand(&s, &polytope);
     }
-    // The support's direction was rounded: the true value is not above this.
-    epa->depth = epa->upper > 0.0 ? epa->upper : 0.0;
-    epa->upper = epa->depth + pair->direction_error;
 }

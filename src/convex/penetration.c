@@ -3,7 +3,7 @@
 // Depth of rounded shapes: the radii less the distance of the cores while these are apart, the cores' depth and the
 // radii beyond.
 
-#include "convex/epa.h"
+#include "convex/depth.h"
 
 #include "convex/polytope.h"
 #include "math/tolerance.h"
@@ -39,11 +39,12 @@ bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const tl_con
     penetration_out->status = gjk.status;
     penetration_out->iterations = gjk.iterations;
     if (gjk.overlap) {
-        tl_epa epa;
-        tl_epa_run(&pair, &gjk, &epa);
-        penetration_out->status = epa.status;
-        penetration_out->iterations += epa.iterations;
-        fill(&pair, epa.depth, epa.lower, epa.upper, epa.normal, epa.on_a, epa.on_b, penetration_out);
+        tl_depth depth;
+        tl_depth_find(&pair, &gjk, &depth);
+        penetration_out->status = depth.status;
+        penetration_out->iterations += depth.iterations;
+        fill(&pair, depth.upper, depth.lower, depth.upper + pair.direction_error, depth.normal, depth.on_a, depth.on_b,
+             penetration_out);
     } else if (gjk.upper <= radii) {
         tl_vec3d on_a, on_b;
         tl_simplex_witness(&gjk.simplex, &on_a, &on_b);

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+
+#ifndef TALUS_SRC_CONVEX_DIRECTION_SEARCH_H
+#define TALUS_SRC_CONVEX_DIRECTION_SEARCH_H
+
+#include "convex/depth.h"
+
+// Brings the bounds of a depth together, with the normal and the witnesses, from what EPA had to leave. The status says
+// CONVERGED, or ITERATIONS when TL_MAX_DIRECTION_STEPS were not enough.
+void tl_direction_search(tl_pair *pair, tl_depth *depth);
+
+#endif
