@@ -16,7 +16,7 @@
 #include <ctime>
 #include <vector>
 
-#ifdef TALUS_BENCH_BULLET
+#ifdef TALUS_HAVE_BULLET
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
@@ -24,7 +24,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 #endif
-#ifdef TALUS_BENCH_CCD
+#ifdef TALUS_HAVE_CCD
 #include <ccd/ccd.h>
 #endif
 
@@ -72,7 +72,7 @@ struct shape {
     tl_hull *hull;
     tl_convex convex;
     std::vector<tl_vec3> points;
-#ifdef TALUS_BENCH_BULLET
+#ifdef TALUS_HAVE_BULLET
     btConvexHullShape *bullet;
 #endif
 };
@@ -88,7 +88,7 @@ shape make_shape(int count)
         std::exit(1);
     }
     s.convex = tl_convex_from_hull(s.hull, 0.0f);
-#ifdef TALUS_BENCH_BULLET
+#ifdef TALUS_HAVE_BULLET
     s.bullet = new btConvexHullShape(&s.points[0].x, count, (int)sizeof(tl_vec3));
     s.bullet->setMargin(0);
 #endif
@@ -138,7 +138,7 @@ float talus_cast(const query &q, int)
     return tl_convex_cast(&q.a->convex, q.pose_a, &q.b->convex, q.pose_b, q.motion, &hit) ? hit.t : 2.0f;
 }
 
-#ifdef TALUS_BENCH_BULLET
+#ifdef TALUS_HAVE_BULLET
 btTransform bullet_transform(tl_transform t)
 {
     return btTransform(btQuaternion(t.rotation.x, t.rotation.y, t.rotation.z, t.rotation.w),
@@ -171,7 +171,7 @@ float bullet_cast(const query &q, int)
 }
 #endif
 
-#ifdef TALUS_BENCH_CCD
+#ifdef TALUS_HAVE_CCD
 struct ccd_shape {
     const shape *s;
     tl_transform pose;
@@ -320,7 +320,7 @@ void bench(const char *title, std::vector<shape> &shapes, float gap, kind k)
     std::printf(" %s\n", title);
     if (k == kind_cast) {
         run("talus cast", queries, truths, k, talus_cast, false);
-#ifdef TALUS_BENCH_BULLET
+#ifdef TALUS_HAVE_BULLET
         run("Bullet continuous", queries, truths, k, bullet_cast, false);
 #endif
         return;
@@ -332,10 +332,10 @@ void bench(const char *title, std::vector<shape> &shapes, float gap, kind k)
     } else {
         run("talus penetration", queries, truths, k, talus_penetration, false);
     }
-#ifdef TALUS_BENCH_BULLET
+#ifdef TALUS_HAVE_BULLET
     run(gap > 0.0f ? "Bullet GJK" : "Bullet GJK + EPA", queries, truths, k, bullet_distance, false);
 #endif
-#ifdef TALUS_BENCH_CCD
+#ifdef TALUS_HAVE_CCD
     run("libccd overlap", queries, truths, kind_overlap, ccd_overlap, false);
     if (gap <= 0.0f) {
         run("libccd EPA", queries, truths, k, ccd_penetration, false);
@@ -366,7 +366,7 @@ int main(int argc, char **argv)
         bench("cast", shapes, 1.0f, kind_cast);
         for (shape &s : shapes) {
             tl_blob_free(s.hull, nullptr);
-#ifdef TALUS_BENCH_BULLET
+#ifdef TALUS_HAVE_BULLET
             delete s.bullet;
 #endif
         }

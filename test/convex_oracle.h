@@ -62,17 +62,22 @@ static inline void oracle_from_hull(oracle_body *body, const tl_hull *hull, tl_t
     }
 }
 
-/// 1 to 3 points.
-static inline void oracle_from_points(oracle_body *body, const tl_vec3 *points, uint32_t count, tl_transform pose)
+/// A point, a segment, or the corners of a flat convex polygon in their order.
+static inline void oracle_from_polygon(oracle_body *body, const tl_vec3 *points, uint32_t count, tl_transform pose)
 {
     body->vertex_count = count;
-    body->edge_count = count == 3 ? 3 : count - 1;
-    body->triangle_count = count == 3 ? 1 : 0;
+    body->edge_count = count >= 3 ? count : count - 1;
+    body->triangle_count = count >= 3 ? count - 2 : 0;
     body->solid = false;
     for (uint32_t i = 0; i < count; i++) {
         body->vertices[i] = oracle_transform(pose, points[i]);
-        body->edges[2 * i] = body->triangles[i] = i;
+        body->edges[2 * i] = i;
         body->edges[2 * i + 1] = (i + 1) % count;
+    }
+    for (uint32_t i = 0; i < body->triangle_count; i++) {
+        body->triangles[3 * i] = 0;
+        body->triangles[3 * i + 1] = i + 1;
+        body->triangles[3 * i + 2] = i + 2;
     }
 }
 
@@ -298,7 +303,7 @@ static inline void test_body_oracle(const test_body *body, tl_transform pose, or
     if (body->hull != NULL) {
         oracle_from_hull(out, body->hull, pose);
     } else {
-        oracle_from_points(out, body->points, body->point_count, pose);
+        oracle_from_polygon(out, body->points, body->point_count, pose);
     }
 }
 

@@ -105,7 +105,7 @@ static inline uint32_t shape_each_cloud(const char *path, void (*visit)(tl_vec3 
         return 0;
     }
     while (fscanf(file, "%u", &count) == 1) {
-        tl_vec3 *points = malloc((count + 1) * sizeof *points);
+        tl_vec3 *points = (tl_vec3 *)malloc((count + 1) * sizeof *points);
         for (uint32_t i = 0; i < count; i++) {
             assert_int_equal(fscanf(file, "%f %f %f", &points[i].x, &points[i].y, &points[i].z), 3);
         }
@@ -127,13 +127,13 @@ static inline tl_vec3 *shape_read_obj(const char *path, uint32_t *count_out)
     }
     char line[256];
     uint32_t count = 0, capacity = 1024;
-    tl_vec3 *points = malloc(capacity * sizeof *points);
+    tl_vec3 *points = (tl_vec3 *)malloc(capacity * sizeof *points);
     while (fgets(line, sizeof line, file) != NULL) {
         tl_vec3 p;
         if (sscanf(line, "v %f %f %f", &p.x, &p.y, &p.z) == 3) {
             if (count == capacity) {
                 capacity *= 2;
-                points = realloc(points, capacity * sizeof *points);
+                points = (tl_vec3 *)realloc(points, capacity * sizeof *points);
             }
             points[count++] = p;
         }

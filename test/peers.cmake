@@ -61,3 +61,7 @@ set(talus_test_settings_sweep_needs talus_sample talus_io)
 # The same bytes from any order, thread count and compiler.
 set(talus_test_nav_golden_needs talus_sample talus_io)
 set(talus_test_nav_golden_libraries pthread)
+
+# Bullet and libccd: convex pairs to compare with, in one table.
+include(${PROJECT_SOURCE_DIR}/cmake/TalusPeerConvex.cmake)
+set(talus_test_convex_families_libraries talus_peer_convex)
