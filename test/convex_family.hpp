@@ -257,7 +257,9 @@ inline double brute_separation(const placed_body &a, const placed_body &b)
 {
     double radii = (double)a.body->radius + (double)b.body->radius;
     double apart = oracle_distance(&a.core, &b.core);
-    if (apart > 0) {
+    // An edge that runs exactly through another one pierces no triangle next to it, in rounded arithmetic; so of what
+    // touches to rounding the depth is asked, which is 0 then, or shows that it is more.
+    if (apart > 1e-9 * (double)std::max(a.body->size, b.body->size)) {
         return apart - radii;
     }
     double depth = oracle_depth(&a.core, &b.core);
