@@ -204,7 +204,7 @@ struct placed_body {
         } else if (b.hull != nullptr) {
             oracle_from_hull(&core, b.hull, pose);
         } else {
-            oracle_from_polygon(&core, b.points.data(), (uint32_t)b.points.size(), pose);
+            oracle_from_points(&core, b.points.data(), (uint32_t)b.points.size(), pose);
         }
     }
 

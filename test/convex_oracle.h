@@ -63,7 +63,7 @@ static inline void oracle_from_hull(oracle_body *body, const tl_hull *hull, tl_t
 }
 
 /// A point, a segment, or the corners of a flat convex polygon in their order.
-static inline void oracle_from_polygon(oracle_body *body, const tl_vec3 *points, uint32_t count, tl_transform pose)
+static inline void oracle_from_points(oracle_body *body, const tl_vec3 *points, uint32_t count, tl_transform pose)
 {
     body->vertex_count = count;
     body->edge_count = count >= 3 ? count : count - 1;
@@ -303,7 +303,7 @@ static inline void test_body_oracle(const test_body *body, tl_transform pose, or
     if (body->hull != NULL) {
         oracle_from_hull(out, body->hull, pose);
     } else {
-        oracle_from_polygon(out, body->points, body->point_count, pose);
+        oracle_from_points(out, body->points, body->point_count, pose);
     }
 }
 

@@ -276,7 +276,7 @@ static void test_rays_on_hulls(void **state)
             tl_vec3 target = tl_scale(tl_hull_vertices(a.hull)[test_random_below(&random, a.hull->vertex_count)],
                                       test_random_range(&random, 0, 1.1f));
             tl_vec3 from = tl_scale(test_random_direction(&random), 4), d = tl_sub(target, from);
-            oracle_from_polygon(&oracle_b, &from, 1, tl_transform_identity());
+            oracle_from_points(&oracle_b, &from, 1, tl_transform_identity());
             double times[3];
             find_times(tl_vec3d_from(d), (double)a.size, times);
             tl_convex_hit hit;

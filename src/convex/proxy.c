@@ -18,43 +18,6 @@
 // proves the answer. Measured: equal at 16 vertices.
 #define SCANNED_HERE 12u
 
-typedef struct quaternion {
-    double x, y, z, w, length_sq;
-} quaternion;
-
-// A zero quaternion is the identity.
-static quaternion rotation_of(tl_quat r)
-{
-    quaternion q = { (double)r.x, (double)r.y, (double)r.z, (double)r.w, 0.0 };
-    q.length_sq = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
-    if (!(q.length_sq > 0.0)) {
-        q.w = q.length_sq = 1.0;
-    }
-    return q;
-}
-
-// The rotation by `by`, then back by `from`.
-static quaternion rotation_from(const quaternion *from, const quaternion *by)
-{
-    const quaternion *a = from, *b = by;
-    quaternion q = { (a->w * b->x - a->x * b->w) - (a->y * b->z - a->z * b->y),
-                     (a->w * b->y - a->y * b->w) - (a->z * b->x - a->x * b->z),
-                     (a->w * b->z - a->z * b->w) - (a->x * b->y - a->y * b->x),
-                     (a->w * b->w + a->x * b->x) + (a->y * b->y + a->z * b->z), a->length_sq * b->length_sq };
-    return q;
-}
-
-// The matrix of a quaternion of any length.
-static void set_rotation(tl_frame *frame, const quaternion *q)
-{
-    double s = 2.0 / q->length_sq, x = s * q->x, y = s * q->y, z = s * q->z;
-    double xx = x * q->x, yy = y * q->y, zz = z * q->z, xy = x * q->y, xz = x * q->z, yz = y * q->z, xw = x * q->w,
-           yw = y * q->w, zw = z * q->w;
-    frame->rows[0] = tl_vec3d_make(1.0 - (yy + zz), xy - zw, xz + yw);
-    frame->rows[1] = tl_vec3d_make(xy + zw, 1.0 - (xx + zz), yz - xw);
-    frame->rows[2] = tl_vec3d_make(xz - yw, yz + xw, 1.0 - (xx + yy));
-}
-
 // Vertex k of a box: bit i of k says which side on axis i.
 static tl_vec3d box_vertex(const tl_convex *shape, uint32_t k)
 {
@@ -204,15 +167,13 @@ void tl_pair_set_hints(tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b)
 
 void tl_pair_init(tl_pair *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b)
 {
-    quaternion rotation_a = rotation_of(pose_a.rotation), rotation_b = rotation_of(pose_b.rotation);
-    quaternion relative = rotation_from(&rotation_a, &rotation_b);
+    tl_quatd rotation_a = tl_quatd_from(pose_a.rotation), rotation_b = tl_quatd_from(pose_b.rotation);
+    tl_vec3d position_a = tl_vec3d_from(pose_a.position), position_b = tl_vec3d_from(pose_b.position);
     pair->a = a;
     pair->b = b;
-    set_rotation(&pair->a_to_world, &rotation_a);
-    set_rotation(&pair->b_to_a, &relative);
-    pair->a_to_world.origin = tl_vec3d_from(pose_a.position);
-    pair->b_to_a.origin =
-        tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(tl_vec3d_from(pose_b.position), pair->a_to_world.origin));
+    tl_frame_set(&pair->a_to_world, rotation_a, position_a);
+    tl_frame_set(&pair->b_to_a, tl_quatd_between(rotation_a, rotation_b),
+                 tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(position_b, position_a)));
     pair->scale = 0.0;
     tl_pair_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
 }

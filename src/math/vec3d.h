@@ -90,17 +90,47 @@ typedef struct tl_frame {
     tl_vec3d origin;
 } tl_frame;
 
-// The pose's rotation is normalized; a zero quaternion is the identity.
+// A rotation. Its length is free, since `length_sq` is divided out.
+typedef struct tl_quatd {
+    double x, y, z, w, length_sq;
+} tl_quatd;
+
+// A zero quaternion is the identity.
+static inline tl_quatd tl_quatd_from(tl_quat r)
+{
+    tl_quatd q = { (double)r.x, (double)r.y, (double)r.z, (double)r.w, 0.0 };
+    q.length_sq = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    if (!(q.length_sq > 0.0)) {
+        q.w = q.length_sq = 1.0;
+    }
+    return q;
+}
+
+// The rotation by `by`, then back by `from`.
+static inline tl_quatd tl_quatd_between(tl_quatd from, tl_quatd by)
+{
+    tl_quatd q = { (from.w * by.x - from.x * by.w) - (from.y * by.z - from.z * by.y),
+                   (from.w * by.y - from.y * by.w) - (from.z * by.x - from.x * by.z),
+                   (from.w * by.z - from.z * by.w) - (from.x * by.y - from.y * by.x),
+                   (from.w * by.w + from.x * by.x) + (from.y * by.y + from.z * by.z), from.length_sq * by.length_sq };
+    return q;
+}
+
+static inline void tl_frame_set(tl_frame *frame, tl_quatd q, tl_vec3d origin)
+{
+    double s = 2.0 / q.length_sq, x = s * q.x, y = s * q.y, z = s * q.z;
+    double xx = x * q.x, yy = y * q.y, zz = z * q.z, xy = x * q.y, xz = x * q.z, yz = y * q.z, xw = x * q.w,
+           yw = y * q.w, zw = z * q.w;
+    frame->rows[0] = tl_vec3d_make(1.0 - (yy + zz), xy - zw, xz + yw);
+    frame->rows[1] = tl_vec3d_make(xy + zw, 1.0 - (xx + zz), yz - xw);
+    frame->rows[2] = tl_vec3d_make(xz - yw, yz + xw, 1.0 - (xx + yy));
+    frame->origin = origin;
+}
+
 static inline tl_frame tl_frame_from(tl_transform pose)
 {
-    double x = (double)pose.rotation.x, y = (double)pose.rotation.y, z = (double)pose.rotation.z,
-           w = (double)pose.rotation.w;
-    double length_sq = x * x + y * y + z * z + w * w;
-    double s = length_sq > 0.0 ? 2.0 / length_sq : 0.0;
-    tl_frame f = { { { 1.0 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w) },
-                     { s * (x * y + z * w), 1.0 - s * (x * x + z * z), s * (y * z - x * w) },
-                     { s * (x * z - y * w), s * (y * z + x * w), 1.0 - s * (x * x + y * y) } },
-                   tl_vec3d_from(pose.position) };
+    tl_frame f;
+    tl_frame_set(&f, tl_quatd_from(pose.rotation), tl_vec3d_from(pose.position));
     return f;
 }
 
