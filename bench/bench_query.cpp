@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: MIT
+//
+// Navmesh queries beside Detour's: on the very same polygons, in one process, runs taking turns.
+//
+//   bench_query [--city TRIANGLES (1000000)] [--pairs MOST (10000)] [--runs RUNS (5)] [--only NAME]
+//
+// Pairs: the recorded ones of the data folder, and 10,000 seeded ones on the built-in city in tiles. The polygons are
+// Recast's, so that both sides search the same mesh. Wall time of one thread, the best run of each side. Lengths are
+// compared in the plan (x and z), in which both sides pull their paths straight.
+
+#include "../test/detour_mesh.hpp"
+#include "io/mesh_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <functional>
+#include <string>
+
+extern "C" {
+#include "cli/sample_level.h"
+}
+
+namespace
+{
+
+const tl_vec3 EXTENTS = { 2.0f, 4.0f, 2.0f };
+constexpr int MOST_POLYGONS = 2048;
+constexpr float WALL_RADIUS = 10.0f;
+
+double now_seconds()
+{
+    timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+// What is asked.
+struct question {
+    tl_vec3 start, goal, near_point, target;
+};
+
+// The same place as both sides know it.
+struct place {
+    dtPolyRef detour = 0;
+    float detour_point[3] = {};
+    tl_nav_location talus = {};
+};
+
+struct located_pair {
+    place start, goal;
+    tl_vec3 near_point, target;
+    bool complete = false;
+    double detour_length = 0.0;
+};
+
+uint64_t random_state = 1;
+
+// SplitMix64, [0, 1).
+float random_unit()
+{
+    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return (float)((z ^ (z >> 31)) >> 40) * 0x1p-24f;
+}
+
+double plan_length(const float *points, size_t count, size_t stride)
+{
+    double length = 0.0;
+    for (size_t i = 1; i < count; i++) {
+        const float *a = points + (i - 1) * stride, *b = points + i * stride;
+        length += std::hypot((double)b[0] - (double)a[0], (double)b[2] - (double)a[2]);
+    }
+    return length;
+}
+
+// One level with everything that its queries need.
+struct arena {
+    std::string name;
+    detour_level level;
+    std::unique_ptr<dtNavMeshQuery, detour_deleter> detour{ dtAllocNavMeshQuery() };
+    std::unique_ptr<tl_nav_query, detour_deleter> talus;
+    std::vector<located_pair> pairs;
+    std::vector<size_t> complete, incomplete; // of pairs
+    dtQueryFilter filter;
+    std::vector<dtPolyRef> detour_polygons = std::vector<dtPolyRef>(MOST_POLYGONS);
+    std::vector<float> detour_corners = std::vector<float>(3 * MOST_POLYGONS);
+    std::vector<tl_nav_ref> polygons = std::vector<tl_nav_ref>(1 << 16);
+    std::vector<tl_nav_corner> corners = std::vector<tl_nav_corner>(1 << 16);
+    uint64_t checksum = 0; // so that nothing is optimised away
+
+    const tl_navmesh *navmesh() const
+    {
+        return level.twin.get();
+    }
+
+    bool locate(tl_vec3 point, place *out)
+    {
+        detour->findNearestPoly(&point.x, &EXTENTS.x, &filter, &out->detour, out->detour_point);
+        if (out->detour == 0) {
+            return false;
+        }
+        tl_vec3 on_mesh = { out->detour_point[0], out->detour_point[1], out->detour_point[2] };
+        return tl_navmesh_find_nearest(navmesh(), nullptr, on_mesh, EXTENTS, &out->talus) == TL_OK;
+    }
+
+    int detour_path(const located_pair &p, bool *complete_out)
+    {
+        int count = 0, corner_count = 0;
+        detour->findPath(p.start.detour, p.goal.detour, p.start.detour_point, p.goal.detour_point, &filter,
+                         detour_polygons.data(), &count, MOST_POLYGONS);
+        *complete_out = count > 0 && detour_polygons[(size_t)count - 1] == p.goal.detour;
+        if (*complete_out) {
+            detour->findStraightPath(p.start.detour_point, p.goal.detour_point, detour_polygons.data(), count,
+                                     detour_corners.data(), nullptr, nullptr, &corner_count, MOST_POLYGONS);
+        }
+        return corner_count;
+    }
+
+    uint32_t talus_path(const located_pair &p)
+    {
+        tl_nav_path path;
+        uint32_t count = 0;
+        if (tl_nav_query_find_path(talus.get(), navmesh(), nullptr, &p.start.talus, &p.goal.talus, polygons.data(),
+                                   (uint32_t)polygons.size(), &path) != TL_OK ||
+            path.status != TL_NAV_PATH_COMPLETE) {
+            return 0;
+        }
+        tl_navmesh_straight_path(navmesh(), polygons.data(), path.polygon_count, p.start.talus.point,
+                                 p.goal.talus.point, corners.data(), (uint32_t)corners.size(), &count, nullptr);
+        return count;
+    }
+
+    bool prepare(const std::vector<question> &questions)
+    {
+        uint32_t polygon_count = 0;
+        for (uint32_t s = 0; s < tl_navmesh_slot_count(navmesh()); s++) {
+            polygon_count += tl_navmesh_slot_tile(navmesh(), s)->polygon_count;
+        }
+        tl_nav_query_def def = tl_default_nav_query_def();
+        tl_nav_query *query = nullptr;
+        // Detour's pool has the usual 2048 nodes where they suffice: it is cleared by every search.
+        if (tl_nav_query_create(&def, &query) != TL_OK ||
+            dtStatusFailed(detour->init(level.mesh.get(), polygon_count < 2048 ? 2048 : 65535))) {
+            return false;
+        }
+        talus.reset(query);
+        for (const question &q : questions) {
+            located_pair p;
+            if (!locate(q.start, &p.start) || !locate(q.goal, &p.goal)) {
+                continue;
+            }
+            p.near_point = q.near_point;
+            p.target = q.target;
+            int corner_count = detour_path(p, &p.complete);
+            p.detour_length = plan_length(detour_corners.data(), (size_t)corner_count, 3);
+            (p.complete ? complete : incomplete).push_back(pairs.size());
+            pairs.push_back(p);
+        }
+        std::printf("\n%s: %u tiles, %u polygons, %zu pairs, %zu of them without a path\n", name.c_str(),
+                    tl_navmesh_tile_count(navmesh()), polygon_count, pairs.size(), incomplete.size());
+        return true;
+    }
+};
+
+int runs = 5;
+
+// The best time of a run over all indices, in microseconds a query. Short runs are repeated to last a while.
+double time_once(const std::vector<size_t> &indices, const std::function<void(size_t)> &query)
+{
+    double begin = now_seconds(), seconds = 0.0;
+    int repeats = 0;
+    do {
+        for (size_t i : indices) {
+            query(i);
+        }
+        repeats++;
+        seconds = now_seconds() - begin;
+    } while (seconds < 0.02);
+    return seconds * 1e6 / ((double)repeats * (double)indices.size());
+}
+
+// Both sides in turns; prints a row with the ratio of their rates and whether it reaches the bar.
+void compare(const char *what, double bar, const std::vector<size_t> &indices,
+             const std::function<void(size_t)> &detour, const std::function<void(size_t)> &talus)
+{
+    if (indices.empty()) {
+        return;
+    }
+    double theirs = 1e30, ours = 1e30;
+    for (int run = 0; run < runs; run++) {
+        theirs = std::min(theirs, time_once(indices, detour));
+        ours = std::min(ours, time_once(indices, talus));
+    }
+    std::printf("  %-22s Detour %9.3f us   talus %9.3f us   rate %6.2fx   bar %.1fx %s\n", what, theirs, ours,
+                theirs / ours, bar, theirs >= bar * ours ? "met" : "MISSED");
+}
+
+// How the lengths of complete paths compare. Rounding: both sides hold corners in floats.
+void compare_lengths(const arena &a, const char *what, const std::vector<double> &lengths)
+{
+    double sum = 0.0, most = 0.0;
+    size_t longer = 0, lost = 0;
+    std::vector<double> ratios;
+    for (size_t k = 0; k < a.complete.size(); k++) {
+        double theirs = a.pairs[a.complete[k]].detour_length, ours = lengths[k];
+        if (ours < 0.0) {
+            lost++;
+            continue;
+        }
+        longer += ours > theirs + 1e-5 * (1.0 + theirs);
+        if (theirs > 1.0) {
+            ratios.push_back(theirs / ours);
+            sum += theirs / ours;
+            most = std::max(most, ours / theirs);
+        }
+    }
+    if (ratios.empty()) {
+        return;
+    }
+    std::sort(ratios.begin(), ratios.end());
+    auto quantile = [&](double q) { return ratios[(size_t)(q * (double)(ratios.size() - 1))]; };
+    std::printf("  %-22s Detour's are longer by %.3f%% on average, 99%% quantile %.2f%%, most %.2f%%; talus longer in "
+                "%zu (at most %.4fx), no path in %zu   %s\n",
+                what, 100.0 * (sum / (double)ratios.size() - 1.0), 100.0 * (quantile(0.99) - 1.0),
+                100.0 * (quantile(1.0) - 1.0), longer, most, lost, longer + lost == 0 ? "met" : "MISSED");
+}
+
+std::vector<size_t> all_indices(const arena &a)
+{
+    std::vector<size_t> all(a.pairs.size());
+    for (size_t i = 0; i < all.size(); i++) {
+        all[i] = i;
+    }
+    return all;
+}
+
+void bench_paths(arena &a, double bar)
+{
+    auto detour = [&](size_t i) {
+        bool complete;
+        a.checksum += (uint64_t)a.detour_path(a.pairs[i], &complete);
+    };
+    compare("path + straight path", bar, a.complete, detour,
+            [&](size_t i) { a.checksum += a.talus_path(a.pairs[i]); });
+    compare("unreachable", 1.0, a.incomplete, detour, [&](size_t i) { a.checksum += a.talus_path(a.pairs[i]); });
+    std::vector<double> lengths;
+    for (size_t i : a.complete) {
+        uint32_t count = a.talus_path(a.pairs[i]);
+        lengths.push_back(count == 0 ? -1.0
+                                     : plan_length(&a.corners[0].point.x, count, sizeof(tl_nav_corner) / sizeof(float)));
+    }
+    compare_lengths(a, "lengths", lengths);
+}
+
+void bench_places(arena &a)
+{
+    std::vector<size_t> all = all_indices(a);
+    compare(
+        "nearest", 1.0, all,
+        [&](size_t i) {
+            dtPolyRef ref;
+            float point[3];
+            a.detour->findNearestPoly(&a.pairs[i].near_point.x, &EXTENTS.x, &a.filter, &ref, point);
+            a.checksum += ref;
+        },
+        [&](size_t i) {
+            tl_nav_location found;
+            tl_navmesh_find_nearest(a.navmesh(), nullptr, a.pairs[i].near_point, EXTENTS, &found);
+            a.checksum += found.polygon;
+        });
+    compare(
+        "surface ray", 1.0, all,
+        [&](size_t i) {
+            const located_pair &p = a.pairs[i];
+            float t, normal[3];
+            int count;
+            a.detour->raycast(p.start.detour, p.start.detour_point, p.goal.detour_point, &a.filter, &t, normal,
+                              a.detour_polygons.data(), &count, MOST_POLYGONS);
+            a.checksum += (uint64_t)count;
+        },
+        [&](size_t i) {
+            const located_pair &p = a.pairs[i];
+            tl_nav_ray_hit hit;
+            tl_navmesh_cast_ray(a.navmesh(), nullptr, &p.start.talus, p.goal.talus.point, a.polygons.data(),
+                                MOST_POLYGONS, &hit);
+            a.checksum += hit.polygon_count;
+        });
+}
+
+void bench_arena(arena &a, const std::vector<question> &questions, double path_bar)
+{
+    if (!a.level.twin_is_whole) {
+        std::printf("\n%s: left out, Recast made a polygon that is none\n", a.name.c_str());
+        return;
+    }
+    if (!a.prepare(questions)) {
+        std::printf("\n%s: no queries\n", a.name.c_str());
+        return;
+    }
+    bench_paths(a, path_bar);
+    bench_places(a);
+}
+
+tl_aabb bounds_of(const tl_mesh_view &mesh)
+{
+    tl_aabb bounds = tl_aabb_empty();
+    for (size_t i = 0; i < 3 * (size_t)mesh.triangle_count; i++) {
+        bounds = tl_aabb_add_point(bounds, mesh.vertices[mesh.indices[i]]);
+    }
+    return bounds;
+}
+
+tl_nav_def make_def(float cell_size, uint32_t tile_size)
+{
+    tl_nav_def def = tl_default_nav_def();
+    def.cell_size = cell_size;
+    def.tile_size = tile_size;
+    return def;
+}
+
+// A file of pairs: a header, then a line a pair of four points, and behind a bar what Detour once answered.
+void bench_recorded(const std::string &file, size_t most_pairs)
+{
+    std::ifstream in(std::string(TALUS_DATA_DIR) + "/queries/" + file + ".txt");
+    std::string line, mesh_name;
+    unsigned tile_size = 0;
+    float cell_size = 0.3f;
+    while (std::getline(in, line) && line[0] != '#') {
+        char name[64];
+        if (std::sscanf(line.c_str(), "mesh %63s", name) == 1) {
+            mesh_name = name;
+        }
+        std::sscanf(line.c_str(), "tile %u", &tile_size);
+        std::sscanf(line.c_str(), "cs %f", &cell_size);
+    }
+    std::vector<question> questions;
+    while (questions.size() < most_pairs && std::getline(in, line)) {
+        question q;
+        float *numbers[] = { &q.start.x, &q.goal.x, &q.near_point.x, &q.target.x };
+        const char *at = line.c_str();
+        for (float *number : numbers) {
+            for (int k = 0; k < 3; k++) {
+                char *end = nullptr;
+                number[k] = std::strtof(at, &end);
+                at = end;
+            }
+        }
+        questions.push_back(q);
+    }
+    tl_imported_mesh mesh;
+    std::string path = std::string(TALUS_DATA_DIR) + "/levels/" + mesh_name + ".obj";
+    if (questions.empty() || tl_import_mesh(path.c_str(), nullptr, &mesh, nullptr) != TL_OK) {
+        return;
+    }
+    tl_mesh_view view = tl_imported_mesh_as_view(&mesh);
+    arena a;
+    a.name = file;
+    if (a.level.build(make_def(cell_size, tile_size), view, bounds_of(view))) {
+        bench_arena(a, questions, 2.0);
+    }
+    tl_imported_mesh_free(&mesh);
+}
+
+// Random points of the surface; beside each start a point near it and one to slide to.
+std::vector<question> seeded_questions(arena &a, size_t count)
+{
+    std::vector<question> questions(count);
+    random_state = 7;
+    for (question &q : questions) {
+        dtPolyRef ref;
+        a.level.query->findRandomPoint(&a.filter, random_unit, &ref, &q.start.x);
+        a.level.query->findRandomPoint(&a.filter, random_unit, &ref, &q.goal.x);
+        tl_vec3 off = { random_unit() - 0.5f, random_unit() - 0.5f, random_unit() - 0.5f };
+        q.near_point = tl_mul_add(q.start, off, 2.0f);
+        q.target = tl_add(q.start, tl_vec3_make(6.0f * (random_unit() - 0.5f), 0.0f, 6.0f * (random_unit() - 0.5f)));
+    }
+    return questions;
+}
+
+void bench_sample(const char *name, uint32_t triangles, float cell_size, uint32_t tile_size, size_t pairs, double bar)
+{
+    const tl_sample_level *sample = tl_sample_find_level(name);
+    tl_sample_mesh mesh;
+    if (sample != nullptr && tl_sample_build_level(sample, triangles, 1, &mesh) == TL_OK) {
+        tl_mesh_view view = tl_sample_mesh_as_view(&mesh);
+        arena a;
+        a.name = std::string(name) + " in tiles of " + std::to_string(tile_size);
+        if (a.level.build(make_def(cell_size, tile_size), view, bounds_of(view))) {
+            bench_arena(a, seeded_questions(a, pairs), bar);
+        }
+        tl_sample_mesh_free(&mesh);
+    }
+}
+
+} // namespace
+
+int main(int argc, char **argv)
+{
+    size_t pairs = 10000;
+    uint32_t city_triangles = 1000000;
+    std::string only;
+    for (int i = 1; i + 1 < argc; i += 2) {
+        std::string option = argv[i];
+        if (option == "--city") {
+            city_triangles = (uint32_t)std::strtoul(argv[i + 1], nullptr, 10);
+        } else if (option == "--pairs") {
+            pairs = std::strtoul(argv[i + 1], nullptr, 10);
+        } else if (option == "--runs") {
+            runs = std::atoi(argv[i + 1]);
+        } else if (option == "--only") {
+            only = argv[i + 1];
+        } else {
+            std::fprintf(stderr, "unknown option %s\n", argv[i]);
+            return 2;
+        }
+    }
+    const char *files[] = { "nav_test_cs0.3_w_solo", "nav_test_cs0.3_w_t48",    "dungeon_cs0.3_w_solo",
+                            "dungeon_cs0.3_w_t48",   "undulating_cs0.3_w_solo", "undulating_cs0.3_w_t48" };
+    for (const char *file : files) {
+        if (std::string(file).find(only) != std::string::npos) {
+            bench_recorded(file, pairs);
+        }
+    }
+    if (city_triangles > 0 && std::string("city").find(only) != std::string::npos) {
+        bench_sample("city", city_triangles, 0.3f, 64, pairs, 5.0);
+    }
+    return 0;
+}
