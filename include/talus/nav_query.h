@@ -47,10 +47,11 @@ TL_API void tl_navmesh_free(tl_navmesh *navmesh);
 /// linked where they overlap by more than a point and their heights come within agent_max_climb, the larger of both
 /// tiles', and one cell height of one another. On failure nothing is changed and the tile stays the caller's:
 /// TL_ERR_ARGUMENT (there is a tile already, or origin, cell sizes or tile_size differ from the other tiles'),
-/// TL_ERR_LIMIT (TL_NAV_MAX_TILES), TL_ERR_MEMORY. O(portals of the five tiles).
+/// TL_ERR_LIMIT (TL_NAV_MAX_TILES), TL_ERR_MEMORY. O(corners and links of the five tiles).
 TL_API tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership);
 
 /// Takes a tile out, and the links to it. TL_ERR_NOT_FOUND when there is none. Never fails otherwise.
+/// O(corners of the neighbours), and all tiles' seam links for the islands.
 TL_API tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
 
 /// The tile at a place, or NULL.
@@ -82,6 +83,11 @@ typedef struct tl_nav_link {
 /// for a stale reference.
 TL_API tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_link *links_out, uint32_t capacity,
                                   uint32_t *count_out);
+
+/// The island of a polygon: all that hangs together over tiles and links, whatever flags say. Two polygons have a path
+/// between them, for a filter that refuses none on the way, exactly when their islands are the same. Numbers hold until
+/// a tile is added or removed. TL_ERR_NOT_FOUND for a stale reference. O(1); O(log tiles) where tiles came in last.
+TL_API tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *island_out);
 
 // ---------------------------------------------------------------------------------------------------------
 // Which polygons count, and what they cost.

@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_NAVMESH_H
 #define TALUS_SRC_NAV_QUERY_NAVMESH_H
 
-#include <talus/nav_query.h>
+#include "nav_query/rings.h"
 
 #define TL_NAV_NO_SLOT UINT32_MAX
 
@@ -16,12 +16,12 @@ typedef struct tl_nav_seam_link {
 } tl_nav_seam_link;
 
 /// The links of one side of a tile; portal i of the side has [first[i], first[i + 1]). NULL without a neighbour.
-typedef struct tl_nav_side_links {
+struct tl_nav_side_links {
     uint32_t *first;
     tl_nav_seam_link *links;
     uint32_t portal_count;
     uint32_t link_count;
-} tl_nav_side_links;
+};
 
 typedef struct tl_nav_slot {
     const tl_nav_tile *tile; ///< NULL: free
@@ -30,7 +30,14 @@ typedef struct tl_nav_slot {
     uint64_t inner_links;    ///< ways between polygons of the tile
     tl_nav_tile_ownership ownership;
     tl_nav_side_links sides[4];
+    tl_nav_rings rings;
 } tl_nav_slot;
+
+/// A node of the union-find over the tiles' components (islands.c).
+typedef struct tl_nav_island {
+    uint32_t parent; ///< itself: the node names an island
+    uint32_t size;   ///< nodes, of an island
+} tl_nav_island;
 
 struct tl_navmesh {
     tl_allocator allocator;
@@ -42,6 +49,11 @@ struct tl_navmesh {
     uint32_t tile_count;
     uint64_t link_count;
     uint64_t polygon_count;
+    tl_nav_island *islands;
+    uint32_t island_count, island_capacity;
+    uint32_t last_fan;  ///< the last number that fans.c gave
+    uint64_t all_flags; ///< that every polygon of every tile so far has
+    uint64_t any_flags; ///< that some polygon of some tile so far has
     // Of all tiles; valid while tile_count > 0.
     tl_vec3 origin;
     float cell_size, cell_height;
@@ -67,6 +79,17 @@ uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t til
 tl_result tl_nav_link_sides(const tl_allocator *allocator, const tl_nav_tile *a, uint32_t slot_a, uint32_t side,
                             const tl_nav_tile *b, uint32_t slot_b, tl_nav_side_links *a_out, tl_nav_side_links *b_out);
 void tl_nav_free_side(const tl_allocator *allocator, tl_nav_side_links *side);
+
+/// Numbers the turning vertices of all fans that touch a slot's polygons (fans.c).
+void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot);
+
+/// Room for `count` more labels of tiles. TL_ERR_MEMORY, TL_ERR_LIMIT.
+tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count);
+/// Joins a new slot's labels, for which there is room, to its neighbours'.
+void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot);
+/// Joins all labels anew, after a tile has left.
+void tl_nav_rebuild_islands(tl_navmesh *navmesh);
+uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);
 
 // ---------------------------------------------------------------------------------------------------------
 // Walking over the ways out of a polygon, edge by edge.

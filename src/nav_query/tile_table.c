@@ -46,6 +46,7 @@ static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
     for (int side = 0; side < 4; side++) {
         tl_nav_free_side(&navmesh->allocator, &slot->sides[side]);
     }
+    tl_nav_rings_free(&navmesh->allocator, &slot->rings);
     if (slot->ownership == TL_NAV_TILE_OWNED && slot->tile != NULL) {
         // The navmesh was given the blob to free; const only says that queries never write to it.
         union {
@@ -68,6 +69,7 @@ void tl_navmesh_free(tl_navmesh *navmesh)
     tl_allocator allocator = navmesh->allocator;
     tl_release_array(&allocator, navmesh->slots, navmesh->slot_capacity, sizeof *navmesh->slots);
     tl_release_array(&allocator, navmesh->buckets, navmesh->bucket_count, sizeof *navmesh->buckets);
+    tl_release_array(&allocator, navmesh->islands, navmesh->island_capacity, sizeof *navmesh->islands);
     tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
 }
 
@@ -166,45 +168,119 @@ static uint64_t count_inner_links(const tl_nav_tile *tile)
     return count;
 }
 
-// New links of a tile and of its neighbours' facing sides, made before anything is changed.
+// What a new tile brings: links of its sides and of its neighbours' facing ones, its own rings and theirs. All made
+// before anything is changed.
 typedef struct seam_set {
     uint32_t neighbours[4];
     tl_nav_side_links own[4], facing[4];
+    tl_nav_rings rings, neighbour_rings[4];
 } seam_set;
 
-static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)
+static void free_seams(const tl_navmesh *navmesh, seam_set *seams)
 {
-    memset(seams, 0, sizeof *seams);
+    for (uint32_t side = 0; side < 4; side++) {
+        tl_nav_free_side(&navmesh->allocator, &seams->own[side]);
+        tl_nav_free_side(&navmesh->allocator, &seams->facing[side]);
+        tl_nav_rings_free(&navmesh->allocator, &seams->neighbour_rings[side]);
+    }
+    tl_nav_rings_free(&navmesh->allocator, &seams->rings);
+}
+
+static tl_result make_links(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)
+{
     for (uint32_t side = 0; side < 4; side++) {
         uint32_t neighbour = tl_nav_find_slot(navmesh, (int64_t)tile->tile_x + SIDE_STEP[side][0],
                                               (int64_t)tile->tile_z + SIDE_STEP[side][1]);
         seams->neighbours[side] = neighbour;
-        if (neighbour == TL_NAV_NO_SLOT) {
-            continue;
-        }
-        tl_result result = tl_nav_link_sides(&navmesh->allocator, tile, slot, side, navmesh->slots[neighbour].tile,
-                                             neighbour, &seams->own[side], &seams->facing[side]);
-        if (result != TL_OK) {
-            for (uint32_t made = 0; made < side; made++) {
-                tl_nav_free_side(&navmesh->allocator, &seams->own[made]);
-                tl_nav_free_side(&navmesh->allocator, &seams->facing[made]);
-            }
-            return result;
+        if (neighbour != TL_NAV_NO_SLOT) {
+            TL_TRY(tl_nav_link_sides(&navmesh->allocator, tile, slot, side, navmesh->slots[neighbour].tile, neighbour,
+                                     &seams->own[side], &seams->facing[side]));
         }
     }
     return TL_OK;
 }
 
-static void install_seams(tl_navmesh *navmesh, uint32_t slot, const seam_set *seams)
+static tl_result make_rings(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
 {
+    const tl_nav_side_links *sides[4] = { &seams->own[0], &seams->own[1], &seams->own[2], &seams->own[3] };
+    TL_TRY(tl_nav_rings_make(&navmesh->allocator, tile, sides, &seams->rings));
     for (uint32_t side = 0; side < 4; side++) {
         if (seams->neighbours[side] != TL_NAV_NO_SLOT) {
-            // The facing side had no links: there was no tile here.
-            TL_ASSERT(navmesh->slots[seams->neighbours[side]].sides[opposite(side)].first == NULL);
-            navmesh->slots[slot].sides[side] = seams->own[side];
-            navmesh->slots[seams->neighbours[side]].sides[opposite(side)] = seams->facing[side];
-            navmesh->link_count += (uint64_t)seams->own[side].link_count + seams->facing[side].link_count;
+            const tl_nav_slot *slot = &navmesh->slots[seams->neighbours[side]];
+            for (uint32_t i = 0; i < 4; i++) {
+                sides[i] = i == opposite(side) ? &seams->facing[side] : &slot->sides[i];
+            }
+            TL_TRY(tl_nav_rings_make(&navmesh->allocator, slot->tile, sides, &seams->neighbour_rings[side]));
         }
+    }
+    return TL_OK;
+}
+
+static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)
+{
+    memset(seams, 0, sizeof *seams);
+    tl_result result = make_links(navmesh, tile, slot, seams);
+    if (result == TL_OK) {
+        result = make_rings(navmesh, tile, seams);
+    }
+    if (result != TL_OK) {
+        free_seams(navmesh, seams);
+    }
+    return result;
+}
+
+static void install_seams(tl_navmesh *navmesh, uint32_t slot, const seam_set *seams)
+{
+    navmesh->slots[slot].rings = seams->rings;
+    for (uint32_t side = 0; side < 4; side++) {
+        if (seams->neighbours[side] == TL_NAV_NO_SLOT) {
+            continue;
+        }
+        tl_nav_slot *neighbour = &navmesh->slots[seams->neighbours[side]];
+        // The facing side had no links: there was no tile here.
+        TL_ASSERT(neighbour->sides[opposite(side)].first == NULL);
+        navmesh->slots[slot].sides[side] = seams->own[side];
+        neighbour->sides[opposite(side)] = seams->facing[side];
+        navmesh->link_count += (uint64_t)seams->own[side].link_count + seams->facing[side].link_count;
+        // Labels within a tile do not depend on its seams.
+        memcpy(seams->neighbour_rings[side].island, neighbour->rings.island,
+               neighbour->rings.component_count * sizeof *neighbour->rings.island);
+        tl_nav_rings_free(&navmesh->allocator, &neighbour->rings);
+        neighbour->rings = seams->neighbour_rings[side];
+    }
+}
+
+// Gives numbers to the turning vertices around a slot. Numbers are handed out once; before they run out, all anew.
+static void number_fans(tl_navmesh *navmesh, uint32_t slot, const uint32_t neighbours[4])
+{
+    if (navmesh->last_fan > UINT32_MAX / 2) {
+        navmesh->last_fan = 0;
+        for (uint32_t i = 0; i < navmesh->slot_count; i++) {
+            if (navmesh->slots[i].tile != NULL) {
+                tl_nav_number_fans(navmesh, i);
+            }
+        }
+        return;
+    }
+    if (slot != TL_NAV_NO_SLOT) {
+        tl_nav_number_fans(navmesh, slot);
+    }
+    for (uint32_t side = 0; side < 4; side++) {
+        if (neighbours[side] != TL_NAV_NO_SLOT) {
+            tl_nav_number_fans(navmesh, neighbours[side]);
+        }
+    }
+}
+
+static void note_flags(tl_navmesh *navmesh, const tl_nav_tile *tile)
+{
+    if (navmesh->tile_count == 0) {
+        navmesh->all_flags = UINT64_MAX;
+        navmesh->any_flags = 0;
+    }
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        navmesh->all_flags &= tl_nav_tile_flags(tile, p);
+        navmesh->any_flags |= tl_nav_tile_flags(tile, p);
     }
 }
 
@@ -221,6 +297,11 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     seam_set seams;
     TL_TRY(reserve_slot(navmesh, &index));
     TL_TRY(make_seams(navmesh, tile, index, &seams));
+    tl_result reserved = tl_nav_reserve_islands(navmesh, seams.rings.component_count);
+    if (reserved != TL_OK) {
+        free_seams(navmesh, &seams);
+        return reserved;
+    }
 
     tl_nav_slot *slot = &navmesh->slots[index];
     if (index == navmesh->free_slots) {
@@ -234,6 +315,9 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     slot->inner_links = count_inner_links(tile);
     chain_slot(navmesh, index);
     install_seams(navmesh, index, &seams);
+    tl_nav_join_islands(navmesh, index);
+    number_fans(navmesh, index, seams.neighbours);
+    note_flags(navmesh, tile);
     navmesh->origin = tile->origin;
     navmesh->cell_size = tile->cell_size;
     navmesh->cell_height = tile->cell_height;
@@ -251,13 +335,16 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
         return TL_ERR_NOT_FOUND;
     }
     tl_nav_slot *slot = &navmesh->slots[index];
+    uint32_t neighbours[4];
     for (uint32_t side = 0; side < 4; side++) {
         uint32_t neighbour =
             tl_nav_find_slot(navmesh, (int64_t)tile_x + SIDE_STEP[side][0], (int64_t)tile_z + SIDE_STEP[side][1]);
+        neighbours[side] = neighbour;
         if (neighbour != TL_NAV_NO_SLOT) {
             tl_nav_side_links *facing = &navmesh->slots[neighbour].sides[opposite(side)];
             navmesh->link_count -= (uint64_t)slot->sides[side].link_count + facing->link_count;
             tl_nav_free_side(&navmesh->allocator, facing);
+            tl_nav_rings_close(&navmesh->slots[neighbour].rings, index);
         }
     }
     unchain_slot(navmesh, index);
@@ -265,6 +352,8 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
     navmesh->link_count -= slot->inner_links;
     navmesh->polygon_count -= slot->tile->polygon_count;
     free_slot_content(navmesh, slot);
+    tl_nav_rebuild_islands(navmesh);
+    number_fans(navmesh, TL_NAV_NO_SLOT, neighbours);
     if (slot->salt < LAST_SALT) {
         slot->salt++;
         slot->next = navmesh->free_slots;

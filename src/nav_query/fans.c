@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+//
+// Vertices at which a shortest path may turn: those of walls, where the free way around is wider than a half plane.
+//
+// From a wall the polygons around a vertex are gone through one by one, over seams too, up to the next wall: a fan. Its
+// vertices in all those rings get one number, so that a search knows them for one place; two fans that touch in a point
+// (on two floors, or on two sides of a wall) have two. All other vertices have none. A fan is wider than a half plane
+// when one of its edges lies beyond the first one's line, which takes signs only.
+
+#include "nav_query/ring_step.h"
+
+#include "math/tolerance.h"
+
+// More polygons around a vertex than any bake makes. Beyond it the fan counts as one to turn at.
+enum { MAX_FAN = 64 };
+
+typedef struct fan {
+    tl_nav_ring_edge *members[MAX_FAN];
+    uint32_t count;
+    double x, z;             // the vertex
+    double first_x, first_z; // along the first edge
+    bool is_wide;
+} fan;
+
+static tl_nav_ring_edge *ring_at(tl_navmesh *navmesh, tl_nav_ring_place place, uint32_t *count_out)
+{
+    tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
+    tl_nav_ring_of(rings, place.polygon, count_out);
+    return rings->edges + rings->first[place.polygon];
+}
+
+// A fan turns left from its first edge: while it is no wider than a half plane nothing lies on the right.
+static void widen(fan *f, const tl_nav_ring_edge *end)
+{
+    double dx = (double)end->x - f->x;
+    double dz = (double)end->z - f->z;
+    double ahead = f->first_x * dz;
+    double aside = f->first_z * dx;
+    f->is_wide = f->is_wide || ahead - aside > TL_CROSS_ERROR * (fabs(ahead) + fabs(aside));
+}
+
+// Gathers the fan that begins with the edge at `begin`, over the edges that end in its vertex; false when it is closed.
+static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, fan *f)
+{
+    uint32_t count = 0;
+    tl_nav_ring_edge *ring = ring_at(navmesh, begin, &count);
+    const tl_nav_ring_edge *first_end = &ring[begin.edge + 1 < count ? begin.edge + 1 : 0];
+    f->count = 0;
+    f->x = (double)ring[begin.edge].x;
+    f->z = (double)ring[begin.edge].z;
+    f->first_x = (double)first_end->x - f->x;
+    f->first_z = (double)first_end->z - f->z;
+    f->is_wide = ring[begin.edge].to == TL_NAV_RING_BACK;
+    tl_nav_ring_place at = begin;
+    for (;;) {
+        f->members[f->count++] = &ring[at.edge];
+        uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;
+        widen(f, &ring[before]);
+        f->is_wide = f->is_wide || f->count == MAX_FAN || ring[before].to == TL_NAV_RING_BACK;
+        if (f->count == MAX_FAN || !tl_nav_ring_is_open(&ring[before])) {
+            return true;
+        }
+        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, ring, count, before);
+        if (at.slot == begin.slot && at.polygon == begin.polygon && at.edge == begin.edge) {
+            return false;
+        }
+        ring = ring_at(navmesh, at, &count);
+    }
+}
+
+static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
+{
+    fan f;
+    bool is_walled = gather_fan(navmesh, begin, &f);
+    uint32_t number = is_walled && f.is_wide ? ++navmesh->last_fan : 0;
+    for (uint32_t i = 0; i < f.count; i++) {
+        f.members[i]->turn = number;
+    }
+}
+
+// Goes the other way around the vertex where the edge at `at` starts, to the wall where its fan begins, or once around.
+static tl_nav_ring_place find_begin(tl_navmesh *navmesh, tl_nav_ring_place at)
+{
+    tl_nav_ring_place from = at;
+    for (uint32_t i = 0; i < MAX_FAN; i++) {
+        uint32_t count = 0;
+        const tl_nav_ring_edge *ring = ring_at(navmesh, at, &count);
+        if (!tl_nav_ring_is_open(&ring[at.edge])) {
+            break;
+        }
+        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, ring, count, at.edge);
+        ring_at(navmesh, at, &count);
+        at.edge = at.edge + 1 < count ? at.edge + 1 : 0;
+        if (at.slot == from.slot && at.polygon == from.polygon && at.edge == from.edge) {
+            break;
+        }
+    }
+    return at;
+}
+
+void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot)
+{
+    const tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    for (uint32_t p = 0; p < rings->polygon_count; p++) {
+        uint32_t count = 0;
+        const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, p, &count);
+        for (uint32_t i = 0; i < count; i++) {
+            tl_nav_ring_place place = { slot, p, i };
+            if (!tl_nav_ring_is_open(&ring[i])) {
+                number_fan(navmesh, place);
+            } else if ((ring[i].to & TL_NAV_RING_SEAM) != 0) {
+                // The fan comes in over a seam: it may begin in a tile that is not looked at.
+                number_fan(navmesh, find_begin(navmesh, place));
+            }
+        }
+    }
+}

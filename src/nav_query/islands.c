@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+//
+// Islands: what hangs together over all tiles. Two polygons on two islands have no path between them, whatever the
+// filter, and two array reads per polygon say so.
+//
+// Within a tile polygons are labelled once (rings.c). Labels of tiles are joined over seams by union-find: a tile that
+// comes in joins its labels to its neighbours', in time in proportion to its own seams. A tile that leaves may split an
+// island, which union-find cannot undo: all labels (not polygons) are joined anew.
+// Unions go by size, so that a reader finds a root in log2(labels) steps without writing; a rebuild flattens to one.
+// Source: Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm, 1975.
+
+#include "base/arena.h"
+#include "nav_query/ring_step.h"
+
+#include <string.h>
+
+uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    uint32_t node = rings->island[rings->component[polygon]];
+    while (navmesh->islands[node].parent != node) {
+        node = navmesh->islands[node].parent;
+    }
+    return node;
+}
+
+tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
+{
+    uint64_t needed = (uint64_t)navmesh->island_count + count;
+    if (needed <= navmesh->island_capacity) {
+        return TL_OK;
+    }
+    uint64_t capacity = 2 * needed;
+    if (capacity > UINT32_MAX) {
+        return TL_ERR_LIMIT;
+    }
+    tl_nav_island *grown = tl_allocate_array(&navmesh->allocator, capacity, sizeof *grown);
+    if (grown == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    if (navmesh->island_count > 0) {
+        memcpy(grown, navmesh->islands, navmesh->island_count * sizeof *grown);
+    }
+    tl_release_array(&navmesh->allocator, navmesh->islands, navmesh->island_capacity, sizeof *grown);
+    navmesh->islands = grown;
+    navmesh->island_capacity = (uint32_t)capacity;
+    return TL_OK;
+}
+
+static void join(tl_navmesh *navmesh, uint32_t a, uint32_t b)
+{
+    if (a == b) {
+        return;
+    }
+    // The larger one stays; of two alike the elder.
+    bool a_stays = navmesh->islands[a].size != navmesh->islands[b].size
+                       ? navmesh->islands[a].size > navmesh->islands[b].size
+                       : a < b;
+    uint32_t root = a_stays ? a : b;
+    uint32_t child = a_stays ? b : a;
+    navmesh->islands[child].parent = root;
+    navmesh->islands[root].size += navmesh->islands[child].size;
+}
+
+static void make_nodes(tl_navmesh *navmesh, uint32_t slot)
+{
+    tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    for (uint32_t c = 0; c < rings->component_count; c++) {
+        tl_nav_island node = { navmesh->island_count, 1 };
+        rings->island[c] = navmesh->island_count;
+        navmesh->islands[navmesh->island_count++] = node;
+    }
+}
+
+static void join_over_seams(tl_navmesh *navmesh, uint32_t slot)
+{
+    const tl_nav_slot *own = &navmesh->slots[slot];
+    for (uint32_t side = 0; side < 4; side++) {
+        const tl_nav_side_links *links = &own->sides[side];
+        const tl_nav_portal *portals = tl_nav_tile_portals(own->tile) + own->tile->side_first[side];
+        for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
+            for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
+                const tl_nav_seam_link *link = &links->links[k];
+                join(navmesh, tl_nav_island_of(navmesh, slot, portals[i].polygon),
+                     tl_nav_island_of(navmesh, link->slot, link->polygon));
+            }
+        }
+    }
+}
+
+void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot)
+{
+    make_nodes(navmesh, slot);
+    join_over_seams(navmesh, slot);
+}
+
+void tl_nav_rebuild_islands(tl_navmesh *navmesh)
+{
+    navmesh->island_count = 0;
+    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
+        if (navmesh->slots[slot].tile != NULL) {
+            make_nodes(navmesh, slot);
+        }
+    }
+    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
+        if (navmesh->slots[slot].tile != NULL) {
+            join_over_seams(navmesh, slot);
+        }
+    }
+    for (uint32_t node = 0; node < navmesh->island_count; node++) {
+        uint32_t root = node;
+        while (navmesh->islands[root].parent != root) {
+            root = navmesh->islands[root].parent;
+        }
+        navmesh->islands[node].parent = root;
+    }
+}
+
+tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *island_out)
+{
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    *island_out = 0;
+    if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    *island_out = tl_nav_island_of(navmesh, slot, polygon);
+    return TL_OK;
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// What path searches run on: a tile's polygons as rings of edges, with the ways over its seams among them.
+//
+// A polygon's ring stands in one piece of memory: per edge where it starts, what lies across it, and where that knows
+// of it. Edges on the tile's border are cut where links begin and end, so that a step over a seam looks like any other.
+// Tiles are immutable and know nothing of their neighbours; the rings belong to the navmesh and are made as tiles come.
+
+#ifndef TALUS_SRC_NAV_QUERY_RINGS_H
+#define TALUS_SRC_NAV_QUERY_RINGS_H
+
+#include <talus/nav_query.h>
+
+// Values of tl_nav_ring_edge.to beside polygons of the tile.
+#define TL_NAV_RING_SEAM 0x80000000u       ///< | index of a tl_nav_ring_seam
+#define TL_NAV_RING_BACK (UINT32_MAX - 1u) ///< runs back where links of two floors lie over one another: no way
+#define TL_NAV_RING_WALL UINT32_MAX
+
+/// An edge of a polygon, from where it stands to where the next one does. Seen from inside looking out, it starts at
+/// its right end.
+typedef struct tl_nav_ring_edge {
+    float x, y, z;
+    uint32_t to;   ///< across: a polygon of the tile, or TL_NAV_RING_...
+    uint32_t turn; ///< names the free way around this vertex when a shortest path may turn here, else 0
+    uint32_t twin; ///< within a tile: the same edge's place in the ring across
+} tl_nav_ring_edge;
+
+typedef struct tl_nav_ring_seam {
+    uint32_t slot, polygon;
+} tl_nav_ring_seam;
+
+typedef struct tl_nav_rings {
+    uint32_t *first; ///< [polygon_count + 1], of edges
+    tl_nav_ring_edge *edges;
+    tl_nav_ring_seam *seams;
+    uint32_t *dead_end;  ///< by polygon: 0, or the dead end of this tile that it belongs to (dead_ends.c)
+    uint32_t *component; ///< by polygon: what hangs together within the tile, counted from 0
+    uint32_t *island;    ///< by component: a node of the navmesh's islands (islands.c)
+    uint32_t polygon_count, component_count;
+    void *block; ///< that all arrays stand in
+    uint64_t block_size;
+} tl_nav_rings;
+
+typedef struct tl_nav_side_links tl_nav_side_links;
+
+/// Rings of a tile with these links on its four sides. TL_ERR_MEMORY.
+tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile, const tl_nav_side_links *sides[4],
+                            tl_nav_rings *rings_out);
+void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings);
+
+/// Makes walls of all ways to a slot. The cuts in the edges stay.
+void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot);
+
+/// Finds the dead ends of a tile. `scratch` holds 2 * polygon_count numbers.
+void tl_nav_mark_dead_ends(tl_nav_rings *rings, uint32_t *scratch);
+
+/// Whether an edge may be crossed.
+static inline bool tl_nav_ring_is_open(const tl_nav_ring_edge *edge)
+{
+    return edge->to < TL_NAV_RING_BACK;
+}
+
+/// A polygon's ring: edges [0, *count_out).
+static inline const tl_nav_ring_edge *tl_nav_ring_of(const tl_nav_rings *rings, uint32_t polygon, uint32_t *count_out)
+{
+    const uint32_t *first = rings->first + polygon;
+    *count_out = first[1] - first[0];
+    return rings->edges + first[0];
+}
+
+#endif
