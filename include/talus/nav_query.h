@@ -139,8 +139,8 @@ TL_API tl_result tl_navmesh_height(const tl_navmesh *navmesh, tl_nav_ref ref, fl
 typedef struct tl_nav_query tl_nav_query;
 
 typedef struct tl_nav_query_def {
-    /// Ways into polygons that one search may look at, >= 2; about 64 bytes each. tl_navmesh_link_count + 2 is always
-    /// enough. Default 65536.
+    /// Nodes that one search may use, >= 2; about 170 bytes each. tl_navmesh_link_count + 2 is always enough to find a
+    /// path where there is one. Default 65536.
     uint32_t max_nodes;
     const tl_allocator *allocator;
 } tl_nav_query_def;
@@ -164,17 +164,20 @@ TL_API const char *tl_nav_path_status_name(tl_nav_path_status status);
 typedef struct tl_nav_path {
     tl_nav_path_status status;
     uint32_t polygon_count; ///< of the whole path, though the buffer may hold fewer
-    tl_nav_location end;    ///< the goal, or for a partial path the entry point of its last polygon
-    float cost;             ///< as searched: metres times area costs, from portal to portal
+    tl_nav_location end;    ///< the goal, or for a partial path the point of its last polygon nearest to the goal
+    float cost;             ///< as searched: metres times area costs
     uint32_t node_count;    ///< nodes that the search used
 } tl_nav_path;
 
-/// A* from polygon to polygon.
+/// The polygons of a path, the start's first; each shares an edge with the one before.
 ///
-/// A search node is a way into a polygon, entered where the way from the point before, over the portal, to the goal is
-/// shortest. So the path is near the shortest (the straight path on it is 0.4% shorter than Detour's on average), but
-/// not proven to be it; that there is a path, or none, is. Path polygons are in order, the start's first; neighbours
-/// in the path share a portal.
+/// Where all area costs are the same the path is the shortest there is in the plane (tl_nav_query_find_shortest_path),
+/// and the straight path through its polygons has that length. Where they differ, and where that search is out of
+/// nodes, the path is A*'s: a node is a way into a polygon, entered where the way from the point before to the goal is
+/// shortest. Then the path is near the cheapest, but not proven to be it; that there is one, or none, is.
+///
+/// A goal on another island (tl_navmesh_island) is TL_NAV_PATH_UNREACHABLE at once, with no search, and the path is the
+/// start's polygon alone; tl_nav_query_find_route leads as near to such a goal as any path does.
 /// start and goal must lie on their polygons (tl_navmesh_find_nearest); the start's polygon need not pass the filter.
 /// TL_OK for every status. TL_ERR_CAPACITY: the first `capacity` polygons were written. TL_ERR_NOT_FOUND: a stale
 /// reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: an area cost. NULL filter: the default one.
@@ -204,6 +207,34 @@ typedef struct tl_nav_corner {
 TL_API tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
                                           tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
                                           uint32_t *count_out, float *length_out);
+
+/// The shortest path and its certificate.
+typedef struct tl_nav_shortest_path {
+    tl_nav_path_status status;
+    uint32_t corner_count;  ///< of the whole path, though the buffers may hold fewer
+    uint32_t polygon_count;
+    double length;          ///< metres in the plane, of the corners
+    double lower_bound;     ///< metres in the plane: no path is shorter; below length by rounding only
+    double surface_length;  ///< metres in space, straight from corner to corner
+    uint32_t node_count;    ///< nodes that the search used
+} tl_nav_shortest_path;
+
+/// The shortest path in the plane from point to point, over tiles, seams and floors that lie over one another, with its
+/// corners and its polygons, and a proof.
+///
+/// Lengths are measured in x and z, where "straight" means the same on every floor; heights follow from the surface.
+/// Area costs are not looked at, the filter's flags are. Corners are the start, the vertices where the path turns, and
+/// the goal. Start and goal are first moved onto their polygons, in the plane.
+/// TL_NAV_PATH_UNREACHABLE: proven, and for another island at once. TL_NAV_PATH_OUT_OF_NODES: gave up at max_nodes;
+/// lower_bound still holds. In both cases nothing is written and the counts are 0.
+/// TL_ERR_CAPACITY: the first corners and polygons were written, counts and lengths are true. Either buffer may be NULL
+/// with capacity 0: it is then left out. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
+/// Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh, IJCAI 2017.
+TL_API tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh *navmesh,
+                                                 const tl_nav_filter *filter, const tl_nav_location *start,
+                                                 const tl_nav_location *goal, tl_nav_corner *corners_out,
+                                                 uint32_t corner_capacity, tl_nav_ref *polygons_out,
+                                                 uint32_t polygon_capacity, tl_nav_shortest_path *path_out);
 
 /// A ray along the surface.
 typedef struct tl_nav_ray_hit {

@@ -9,6 +9,7 @@
 
 #include "base/arena.h"
 #include "base/hash.h"
+#include "nav_query/shortest_search.h"
 
 #include <string.h>
 
@@ -47,11 +48,17 @@ tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_
     query->nodes = tl_allocate_array(def->allocator, query->max_nodes, sizeof *query->nodes);
     query->heap = tl_allocate_array(def->allocator, query->max_nodes, sizeof *query->heap);
     query->buckets = tl_allocate_array(def->allocator, query->bucket_count, sizeof *query->buckets);
-    if (query->nodes == NULL || query->heap == NULL || query->buckets == NULL) {
+    // At most one new root a wedge: the table stays half empty.
+    query->root_mask = 2 * query->bucket_count - 1;
+    query->wedges = tl_allocate_array(def->allocator, query->max_nodes, sizeof *query->wedges);
+    query->wedge_heap = tl_allocate_array(def->allocator, query->max_nodes, sizeof *query->wedge_heap);
+    query->roots = tl_allocate_array(def->allocator, (uint64_t)query->root_mask + 1, sizeof *query->roots);
+    if (query->wedges == NULL || query->wedge_heap == NULL || query->roots == NULL || query->nodes == NULL || query->heap == NULL || query->buckets == NULL) {
         tl_nav_query_free(query);
         return TL_ERR_MEMORY;
     }
     memset(query->buckets, 0xff, (size_t)query->bucket_count * sizeof *query->buckets);
+    memset(query->roots, 0, ((size_t)query->root_mask + 1) * sizeof *query->roots);
     *query_out = query;
     return TL_OK;
 }
@@ -64,6 +71,9 @@ void tl_nav_query_free(tl_nav_query *query)
     tl_allocator allocator = query->allocator;
     tl_release_array(&allocator, query->nodes, query->max_nodes, sizeof *query->nodes);
     tl_release_array(&allocator, query->heap, query->max_nodes, sizeof *query->heap);
+    tl_release_array(&allocator, query->wedges, query->max_nodes, sizeof *query->wedges);
+    tl_release_array(&allocator, query->wedge_heap, query->max_nodes, sizeof *query->wedge_heap);
+    tl_release_array(&allocator, query->roots, (uint64_t)query->root_mask + 1, sizeof *query->roots);
     tl_release_array(&allocator, query->buckets, query->bucket_count, sizeof *query->buckets);
     tl_release_array(&allocator, query, 1, sizeof *query);
 }

@@ -25,8 +25,28 @@ typedef struct tl_nav_node {
     uint32_t next; ///< in the chain of its bucket
 } tl_nav_node;
 
+typedef struct tl_nav_wedge tl_nav_wedge; // shortest_search.h
+
+typedef struct tl_nav_heap_entry {
+    float total;
+    uint32_t wedge;
+} tl_nav_heap_entry;
+
+/// A vertex where an exact search has turned (root_table.h).
+typedef struct tl_nav_root {
+    uint64_t number;
+    uint32_t generation; ///< of the search that wrote the entry
+    float cost;          ///< metres from the start
+} tl_nav_root;
+
 struct tl_nav_query {
     tl_allocator allocator;
+    tl_nav_wedge *wedges;          ///< [max_nodes]
+    tl_nav_heap_entry *wedge_heap; ///< [max_nodes]
+    tl_nav_root *roots;            ///< [root_mask + 1], more than wedges
+    uint32_t root_mask;
+    uint32_t wedge_count, open_count; ///< of wedges, and of entries of wedge_heap
+    uint32_t generation;
     tl_nav_node *nodes;
     uint32_t *buckets; ///< bucket_count is a power of two
     uint32_t *heap;    ///< node indices; children of i at 4i + 1 .. 4i + 4

@@ -1,0 +1,468 @@
+// SPDX-License-Identifier: MIT
+//
+// Exact shortest paths in the plane, over polygons, tiles and floors: Polyanya.
+//
+// A node is a wedge: a root (the start, or a vertex where the path has turned) and what is seen from it through the
+// edge by which a polygon is entered. To go on from a polygon, each of its edges takes its part of the wedge; where the
+// wedge ends in a vertex of a wall, the parts beyond become wedges of that vertex, for a path that turns there. The
+// estimate to the goal is the shortest way through the wedge's opening, with the goal mirrored where it lies on the
+// near side: a lower bound, so the first wedge that is taken up in the goal's polygon has the shortest path of all.
+//
+// What is our own: an end of a wedge is not the point where a ray crosses an edge, which would be rounded from edge to
+// edge, but the direction from the root to a vertex, the same doubles all the way. Two wedges side by side share their
+// border bit by bit, a vertex on it belongs to both, and no path slips through between. Edges that are seen edge-on
+// (walls and doors in line, on a lattice the rule) are gone along to their nearer vertex. Dead ends are left out,
+// vertices that no shortest path turns at are known beforehand (fans.c), and the best wedge of a step goes on at once
+// without a turn in the heap.
+// Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh, IJCAI 2017.
+
+#include "nav_query/shortest_search.h"
+
+#include "math/tolerance.h"
+#include "nav_query/filter.h"
+#include "nav_query/ring_step.h"
+#include "nav_query/root_table.h"
+#include "nav_query/wedge_heap.h"
+
+#include <math.h>
+
+// A vertex counts as on a line when it is no farther from it than rounding its coordinates to float may have moved the
+// three points, as a share of the largest coordinate.
+#define EDGE_ON_ERROR ((double)TL_FLOAT_GAMMA(6))
+
+typedef struct wedge_search {
+    tl_nav_shortest_search *in;
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    double goal_x, goal_z;
+    double rounding;           // metres
+    uint32_t dead_ends[2];     // that may be entered: of the goal's slot, of the start's
+    tl_nav_search_end trouble; // FOUND: none
+    uint32_t best;             // wedge of the current step, kept out of the heap
+    float best_total;
+} wedge_search;
+
+static double cross(tl_nav_direction a, tl_nav_direction b)
+{
+    return a.x * b.z - a.z * b.x;
+}
+
+// The sign of the cross product; 0 within its own rounding: < 0 when b lies left of a.
+static double side(tl_nav_direction a, tl_nav_direction b)
+{
+    double p = a.x * b.z;
+    double q = a.z * b.x;
+    double turn = p - q;
+    return fabs(turn) <= TL_CROSS_ERROR * (fabs(p) + fabs(q)) ? 0.0 : turn;
+}
+
+static double length_of(tl_nav_direction d)
+{
+    return sqrt(d.x * d.x + d.z * d.z);
+}
+
+static bool is_open(tl_nav_direction d)
+{
+    return d.x == 0.0 && d.z == 0.0;
+}
+
+// Where the ray from the root along `d` meets the line through a and b (relative to the root).
+static tl_nav_direction meet(tl_nav_direction d, tl_nav_direction a, tl_nav_direction b)
+{
+    tl_nav_direction e = { b.x - a.x, b.z - a.z };
+    double across = cross(d, e);
+    double t = across != 0.0 ? cross(a, e) / across : 0.0;
+    tl_nav_direction point = { t * d.x, t * d.z };
+    return point;
+}
+
+// An edge as it is seen from a root: its ends relative to it.
+typedef struct seen_edge {
+    tl_nav_direction right, left;
+} seen_edge;
+
+// Metres from the root through the part of the edge between two directions to the goal, at least.
+static double estimate(const wedge_search *s, float root_x, float root_z, const seen_edge *edge, tl_nav_direction left,
+                       tl_nav_direction right)
+{
+    tl_nav_direction goal = { s->goal_x - (double)root_x, s->goal_z - (double)root_z };
+    tl_nav_direction along = { edge->left.x - edge->right.x, edge->left.z - edge->right.z };
+    tl_nav_direction from_edge = { goal.x - edge->right.x, goal.z - edge->right.z };
+    double beyond = cross(along, from_edge); // > 0: on the far side, right of the edge from its right end to its left
+    if (beyond < 0.0) {
+        double scale = 2.0 * beyond / (along.x * along.x + along.z * along.z);
+        goal.x += scale * along.z;
+        goal.z -= scale * along.x;
+    }
+    bool is_left_of = cross(left, goal) < 0.0;
+    if (!is_left_of && !(cross(right, goal) > 0.0)) {
+        return length_of(goal);
+    }
+    tl_nav_direction limit = is_left_of ? left : right;
+    tl_nav_direction vertex = is_left_of ? edge->left : edge->right;
+    tl_nav_direction via = limit.x == vertex.x && limit.z == vertex.z ? vertex : meet(limit, edge->right, edge->left);
+    tl_nav_direction rest = { goal.x - via.x, goal.z - via.z };
+    return length_of(via) + length_of(rest);
+}
+
+static bool may_enter(const wedge_search *s, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_shortest_search *in = s->in;
+    uint32_t dead_end = s->navmesh->slots[slot].rings.dead_end[polygon];
+    if (dead_end != 0 && !(slot == in->goal_slot && dead_end == s->dead_ends[0]) &&
+        !(slot == in->start_slot && dead_end == s->dead_ends[1])) {
+        return false;
+    }
+    return in->filter == NULL || tl_nav_passes(in->filter, s->navmesh->slots[slot].tile, polygon);
+}
+
+static uint32_t new_wedge(wedge_search *s)
+{
+    tl_nav_query *query = s->query;
+    if (query->wedge_count == query->max_nodes) {
+        s->trouble = TL_NAV_SEARCH_OUT_OF_NODES;
+        return TL_NAV_NO_NODE;
+    }
+    return query->wedge_count++;
+}
+
+// Keeps the best wedge of a step at hand, and gives the others to the heap.
+static void offer(wedge_search *s, uint32_t wedge, float total)
+{
+    if (s->best == TL_NAV_NO_NODE) {
+        s->best = wedge;
+        s->best_total = total;
+        return;
+    }
+    if (total < s->best_total) {
+        tl_nav_wedge_push(s->query, s->best_total, s->best);
+        s->best = wedge;
+        s->best_total = total;
+    } else {
+        tl_nav_wedge_push(s->query, total, wedge);
+    }
+}
+
+// What a step goes on from.
+typedef struct step_from {
+    uint32_t wedge; // that is taken up
+    uint32_t slot, polygon;
+    const tl_nav_ring_edge *ring;
+    uint32_t count;
+} step_from;
+
+// A wedge through edge i of the polygon. `root_*`, `cost`: its root.
+static void add_wedge(wedge_search *s, const step_from *from, uint32_t i, float root_x, float root_z, double cost,
+                      const seen_edge *edge, tl_nav_direction left, tl_nav_direction right)
+{
+    tl_nav_ring_place twin = tl_nav_ring_twin(s->navmesh, from->slot, from->polygon, from->ring, from->count, i);
+    if (!may_enter(s, twin.slot, twin.polygon)) {
+        return;
+    }
+    uint32_t index = new_wedge(s);
+    if (index == TL_NAV_NO_NODE) {
+        return;
+    }
+    tl_nav_wedge *wedge = &s->query->wedges[index];
+    wedge->left = left;
+    wedge->right = right;
+    wedge->cost = cost;
+    wedge->root_x = root_x;
+    wedge->root_z = root_z;
+    wedge->slot = twin.slot;
+    wedge->polygon = twin.polygon;
+    wedge->edge = twin.edge;
+    wedge->parent = from->wedge;
+    double total = cost + estimate(s, root_x, root_z, edge, left, right);
+    offer(s, index, (float)total);
+}
+
+static seen_edge see(const step_from *from, uint32_t i, float root_x, float root_z)
+{
+    const tl_nav_ring_edge *a = &from->ring[i];
+    const tl_nav_ring_edge *b = &from->ring[i + 1 < from->count ? i + 1 : 0];
+    seen_edge edge = { { (double)a->x - (double)root_x, (double)a->z - (double)root_z },
+                       { (double)b->x - (double)root_x, (double)b->z - (double)root_z } };
+    return edge;
+}
+
+// How an edge is seen: whether it shows its inner side, and whether edge-on, as far as rounding can tell.
+typedef struct view {
+    bool facing, edge_on;
+} view;
+
+static view view_of(const wedge_search *s, const seen_edge *edge)
+{
+    double area = cross(edge->right, edge->left);
+    double x = edge->left.x - edge->right.x;
+    double z = edge->left.z - edge->right.z;
+    view v = { area < 0.0, area * area <= s->rounding * s->rounding * (x * x + z * z) };
+    return v;
+}
+
+// The number of a vertex of the ring in this search, or 0 when no shortest path turns there.
+static uint64_t turn_of(const wedge_search *s, const step_from *from, uint32_t vertex)
+{
+    // Where the filter refuses polygons, walls are where it says, and each corner of each polygon is its own.
+    if (s->in->filter != NULL) {
+        const tl_nav_rings *rings = &s->navmesh->slots[from->slot].rings;
+        return (uint64_t)1 << 63 | (uint64_t)from->slot << 32 | (rings->first[from->polygon] + vertex);
+    }
+    return from->ring[vertex].turn;
+}
+
+// Turns at a vertex of edge i into the polygon behind. `to_vertex` leads there from the root.
+static void turn_into(wedge_search *s, const step_from *from, uint32_t i, uint32_t vertex, double cost,
+                      tl_nav_direction to_vertex)
+{
+    const tl_nav_direction open = { 0.0, 0.0 };
+    uint64_t turn = turn_of(s, from, vertex);
+    cost += length_of(to_vertex);
+    if (turn != 0 && tl_nav_root_improves(s->query, turn, cost)) {
+        float x = from->ring[vertex].x;
+        float z = from->ring[vertex].z;
+        seen_edge edge = see(from, i, x, z);
+        add_wedge(s, from, i, x, z, cost, &edge, open, open);
+    }
+}
+
+// Goes along edge i, which is seen edge-on from the root, to its vertices, and turns there into the polygon behind. A
+// root that is a vertex of the edge sees all of that polygon.
+static void add_edge_on(wedge_search *s, const step_from *from, uint32_t i, float root_x, float root_z, double cost,
+                        const seen_edge *edge)
+{
+    if (is_open(edge->left) || is_open(edge->right)) {
+        const tl_nav_direction open = { 0.0, 0.0 };
+        add_wedge(s, from, i, root_x, root_z, cost, edge, open, open);
+        return;
+    }
+    turn_into(s, from, i, i, cost, edge->right);
+    turn_into(s, from, i, i + 1 < from->count ? i + 1 : 0, cost, edge->left);
+}
+
+// The edges that are reached by turning at a vertex of the edge of entry: `hand` is 1 for the left one, -1 for the
+// right one. They lie beyond the wedge's `limit` on that hand.
+static void turn_at(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge, uint32_t vertex, int hand)
+{
+    uint64_t turn = turn_of(s, from, vertex);
+    if (turn == 0) {
+        return;
+    }
+    float x = from->ring[vertex].x;
+    float z = from->ring[vertex].z;
+    tl_nav_direction limit = hand > 0 ? wedge->left : wedge->right;
+    double cost = wedge->cost + length_of(limit); // the limit leads to the vertex
+    bool is_new = true;
+    for (uint32_t k = 1; k < from->count; k++) {
+        uint32_t i = wedge->edge + k < from->count ? wedge->edge + k : wedge->edge + k - from->count;
+        if (!tl_nav_ring_is_open(&from->ring[i])) {
+            continue;
+        }
+        seen_edge edge = see(from, i, x, z);
+        double left = side(limit, edge.left);
+        double right = side(limit, edge.right);
+        view v = view_of(s, &edge);
+        bool is_beyond = hand > 0 ? left < 0.0 : right > 0.0;
+        bool touches = v.edge_on && (hand > 0 ? right <= 0.0 : left >= 0.0);
+        if (!(is_beyond && v.facing) && !touches) {
+            continue;
+        }
+        if (is_new && !tl_nav_root_improves(s->query, turn, cost)) {
+            return;
+        }
+        is_new = false;
+        if (touches) {
+            add_edge_on(s, from, i, x, z, cost, &edge);
+        } else if (hand > 0) {
+            add_wedge(s, from, i, x, z, cost, &edge, edge.left, right > 0.0 ? limit : edge.right);
+        } else {
+            add_wedge(s, from, i, x, z, cost, &edge, left < 0.0 ? limit : edge.left, edge.right);
+        }
+    }
+}
+
+// The edges that are seen through the wedge.
+static void see_through(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge)
+{
+    bool left_open = is_open(wedge->left);
+    bool right_open = is_open(wedge->right);
+    for (uint32_t k = 1; k < from->count; k++) {
+        uint32_t i = wedge->edge + k < from->count ? wedge->edge + k : wedge->edge + k - from->count;
+        if (!tl_nav_ring_is_open(&from->ring[i])) {
+            continue;
+        }
+        seen_edge edge = see(from, i, wedge->root_x, wedge->root_z);
+        view v = view_of(s, &edge);
+        double right_of_left = side(wedge->left, edge.right);
+        double left_of_right = side(wedge->right, edge.left);
+        if (v.facing && (left_open || right_of_left > 0.0) && (right_open || left_of_right < 0.0)) {
+            bool left_inside = left_open || side(wedge->left, edge.left) >= 0.0;
+            bool right_inside = right_open || side(wedge->right, edge.right) <= 0.0;
+            add_wedge(s, from, i, wedge->root_x, wedge->root_z, wedge->cost, &edge,
+                      left_inside ? edge.left : wedge->left, right_inside ? edge.right : wedge->right);
+        }
+        if (v.edge_on && (left_open || right_of_left >= 0.0) && (right_open || left_of_right <= 0.0)) {
+            add_edge_on(s, from, i, wedge->root_x, wedge->root_z, wedge->cost, &edge);
+        }
+    }
+}
+
+static void expand(wedge_search *s, uint32_t index)
+{
+    const tl_nav_wedge wedge = s->query->wedges[index];
+    step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
+    from.ring = tl_nav_ring_at(s->navmesh, wedge.slot, wedge.polygon, &from.count);
+    see_through(s, &from, &wedge);
+    // Looking in, the edge of entry starts at its left end.
+    uint32_t left = wedge.edge;
+    uint32_t right = wedge.edge + 1 < from.count ? wedge.edge + 1 : 0;
+    seen_edge entry = see(&from, wedge.edge, wedge.root_x, wedge.root_z);
+    if (!is_open(wedge.left) && wedge.left.x == entry.right.x && wedge.left.z == entry.right.z) {
+        turn_at(s, &from, &wedge, left, 1);
+    }
+    if (!is_open(wedge.right) && wedge.right.x == entry.left.x && wedge.right.z == entry.left.z) {
+        turn_at(s, &from, &wedge, right, -1);
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// The start: all polygons that hold it, on an edge or in a vertex several, one found from another.
+
+enum { MAX_AROUND = 64 };
+
+// Whether the root, which lies on the line of an edge, is between its ends.
+static bool is_within(const wedge_search *s, const seen_edge *edge)
+{
+    double x = edge->left.x - edge->right.x;
+    double z = edge->left.z - edge->right.z;
+    double along = -(x * edge->right.x + z * edge->right.z);
+    double slack = s->rounding * sqrt(x * x + z * z);
+    return along >= -slack && along <= x * x + z * z + slack;
+}
+
+static void add_start(wedge_search *s, uint32_t slot, uint32_t polygon, uint32_t parent)
+{
+    const tl_nav_shortest_search *in = s->in;
+    for (uint32_t i = 0; i < s->query->wedge_count; i++) {
+        if (s->query->wedges[i].slot == slot && s->query->wedges[i].polygon == polygon) {
+            return;
+        }
+    }
+    uint32_t index = s->query->wedge_count < MAX_AROUND ? new_wedge(s) : TL_NAV_NO_NODE;
+    if (index != TL_NAV_NO_NODE) {
+        tl_nav_wedge wedge = { { 0.0, 0.0 }, { 0.0, 0.0 }, 0.0,        in->start.x, in->start.z,
+                               slot,         polygon,      UINT32_MAX, parent };
+        s->query->wedges[index] = wedge;
+    }
+}
+
+// Looks from the start through all edges around it. Returns the wedge of a polygon that holds the goal too.
+static uint32_t begin(wedge_search *s)
+{
+    const tl_nav_shortest_search *in = s->in;
+    add_start(s, in->start_slot, in->start_polygon, TL_NAV_NO_NODE);
+    // Wedges that are added to the pool by the walk over the first polygon stand behind those that hold the start, so
+    // the polygons are gathered first.
+    for (uint32_t pass = 0; pass < 2; pass++) {
+        uint32_t around = s->query->wedge_count;
+        for (uint32_t w = 0; w < (pass == 0 ? s->query->wedge_count : around); w++) {
+            step_from from = { w, s->query->wedges[w].slot, s->query->wedges[w].polygon, NULL, 0 };
+            if (from.slot == in->goal_slot && from.polygon == in->goal_polygon) {
+                return w;
+            }
+            from.ring = tl_nav_ring_at(s->navmesh, from.slot, from.polygon, &from.count);
+            for (uint32_t i = 0; i < from.count; i++) {
+                if (!tl_nav_ring_is_open(&from.ring[i])) {
+                    continue;
+                }
+                seen_edge edge = see(&from, i, in->start.x, in->start.z);
+                view v = view_of(s, &edge);
+                bool on_edge = v.edge_on && is_within(s, &edge);
+                if (pass == 0 && on_edge) {
+                    tl_nav_ring_seam to = tl_nav_ring_across(s->navmesh, from.slot, from.ring[i].to);
+                    if (may_enter(s, to.slot, to.polygon)) {
+                        add_start(s, to.slot, to.polygon, w);
+                    }
+                } else if (pass == 1 && !on_edge && v.edge_on) {
+                    add_edge_on(s, &from, i, in->start.x, in->start.z, 0.0, &edge);
+                } else if (pass == 1 && !on_edge && v.facing) {
+                    add_wedge(s, &from, i, in->start.x, in->start.z, 0.0, &edge, edge.left, edge.right);
+                }
+            }
+        }
+    }
+    return TL_NAV_NO_NODE;
+}
+
+// Takes up wedges, the least total first, until one has entered the goal's polygon.
+static tl_nav_search_end run(wedge_search *s)
+{
+    tl_nav_query *query = s->query;
+    for (;;) {
+        if (s->trouble != TL_NAV_SEARCH_FOUND) {
+            return s->trouble;
+        }
+        tl_nav_heap_entry next = { s->best_total, s->best };
+        if (s->best == TL_NAV_NO_NODE) {
+            if (query->open_count == 0) {
+                return TL_NAV_SEARCH_EXHAUSTED;
+            }
+            next = tl_nav_wedge_pop(query);
+        } else if (query->open_count > 0 && tl_nav_wedge_before(query->wedge_heap[0], next)) {
+            tl_nav_heap_entry top = query->wedge_heap[0];
+            tl_nav_wedge_sink(query, next);
+            next = top;
+        }
+        s->best = TL_NAV_NO_NODE;
+        const tl_nav_wedge *wedge = &query->wedges[next.wedge];
+        if (wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot) {
+            s->in->last = next.wedge;
+            s->in->lower_bound = (double)next.total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
+            return TL_NAV_SEARCH_FOUND;
+        }
+        expand(s, next.wedge);
+    }
+}
+
+static double largest_of(double a, double b)
+{
+    return fabs(a) > fabs(b) ? fabs(a) : fabs(b);
+}
+
+// Entries of a table whose generations have run out would look like new ones.
+static void next_generation(tl_nav_query *query)
+{
+    if (++query->generation == 0) {
+        for (uint32_t i = 0; i <= query->root_mask; i++) {
+            query->roots[i].generation = 0;
+        }
+        query->generation = 1;
+    }
+}
+
+tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
+{
+    const tl_navmesh *navmesh = search->navmesh;
+    wedge_search s = { search,
+                       search->query,
+                       navmesh,
+                       (double)search->goal.x,
+                       (double)search->goal.z,
+                       0.0,
+                       { navmesh->slots[search->goal_slot].rings.dead_end[search->goal_polygon],
+                         navmesh->slots[search->start_slot].rings.dead_end[search->start_polygon] },
+                       TL_NAV_SEARCH_FOUND,
+                       TL_NAV_NO_NODE,
+                       0.0f };
+    double start_size = largest_of((double)search->start.x, (double)search->start.z);
+    s.rounding = EDGE_ON_ERROR * largest_of(start_size, largest_of(s.goal_x, s.goal_z));
+    search->query->wedge_count = 0;
+    search->query->open_count = 0;
+    next_generation(search->query);
+    search->last = begin(&s);
+    if (search->last != TL_NAV_NO_NODE) {
+        search->lower_bound = 0.0;
+        return TL_NAV_SEARCH_FOUND;
+    }
+    return run(&s);
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// The exact shortest path in the plane, from point to point over rings (shortest_search.c).
+
+#ifndef TALUS_SRC_NAV_QUERY_SHORTEST_SEARCH_H
+#define TALUS_SRC_NAV_QUERY_SHORTEST_SEARCH_H
+
+#include "nav_query/navmesh.h"
+#include "nav_query/node_pool.h"
+
+/// Seen from a root: a direction in the plane. Both 0: open, nothing lies beyond it.
+typedef struct tl_nav_direction {
+    double x, z;
+} tl_nav_direction;
+
+/// A node of the search: what can be seen from a root through an edge by which a polygon is entered.
+typedef struct tl_nav_wedge {
+    tl_nav_direction left, right; ///< from the root, the ends of what is seen
+    double cost;                  ///< metres from the start to the root
+    float root_x, root_z;
+    uint32_t slot, polygon; ///< that is entered
+    uint32_t edge;          ///< by which, of its ring; UINT32_MAX: it holds the start
+    uint32_t parent;
+} tl_nav_wedge;
+
+typedef enum tl_nav_search_end { TL_NAV_SEARCH_FOUND, TL_NAV_SEARCH_EXHAUSTED, TL_NAV_SEARCH_OUT_OF_NODES } tl_nav_search_end;
+
+typedef struct tl_nav_shortest_search {
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter; ///< NULL: all polygons pass
+    uint32_t start_slot, start_polygon;
+    uint32_t goal_slot, goal_polygon;
+    tl_vec3 start, goal; ///< on their polygons
+    // Found:
+    uint32_t last;     ///< wedge, in the goal's polygon
+    double lower_bound; ///< no path is shorter
+} tl_nav_shortest_search;
+
+/// Runs the search. Afterwards the wedges, from `last` over parents to the start's, are the path.
+tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search);
+
+/// Fills in what a search needs from a caller's words: points are moved onto their polygons. Errors as those of
+/// tl_nav_query_find_shortest_path.
+tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                  const tl_nav_location *start, const tl_nav_location *goal,
+                                  tl_nav_shortest_search *search_out);
+/// Whether start and goal lie on two islands.
+bool tl_nav_is_cut_off(const tl_nav_shortest_search *search);
+/// The polygons of a path that was found; returns their number.
+uint32_t tl_nav_write_wedges(const tl_nav_shortest_search *search, tl_nav_ref *polygons, uint32_t capacity);
+
+#endif
