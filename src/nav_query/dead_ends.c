@@ -8,8 +8,6 @@
 
 #include "nav_query/rings.h"
 
-#include <string.h>
-
 // The neighbour that a peeled polygon hangs on: its only one that was not peeled before it; itself when there is none.
 static uint32_t hangs_on(const tl_nav_rings *rings, uint32_t polygon, const uint32_t *degree)
 {
@@ -31,6 +29,7 @@ void tl_nav_mark_dead_ends(tl_nav_rings *rings, uint32_t *scratch)
     for (uint32_t p = 0; p < rings->polygon_count; p++) {
         uint32_t count = 0;
         const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, p, &count);
+        rings->cells[p].dead_end = 0;
         degree[p] = 0;
         for (uint32_t i = 0; i < count; i++) {
             degree[p] += tl_nav_ring_is_open(&ring[i]) ? 1 : 0;
@@ -39,7 +38,6 @@ void tl_nav_mark_dead_ends(tl_nav_rings *rings, uint32_t *scratch)
             order[peeled++] = p;
         }
     }
-    memset(rings->dead_end, 0, rings->polygon_count * sizeof *rings->dead_end);
     for (uint32_t k = 0; k < peeled; k++) {
         uint32_t polygon = order[k];
         // The two last polygons of a tree that is an island of its own may both stand in the queue.
@@ -48,13 +46,13 @@ void tl_nav_mark_dead_ends(tl_nav_rings *rings, uint32_t *scratch)
         if (holder != polygon && --degree[holder] == 1) {
             order[peeled++] = holder;
         }
-        rings->dead_end[polygon] = 1 + holder;
+        rings->cells[polygon].dead_end = 1 + holder;
     }
     // Back from the holder outward: whatever hangs on a peeled polygon belongs to the same dead end.
     for (uint32_t k = peeled; k > 0; k--) {
         uint32_t polygon = order[k - 1];
-        uint32_t holder = rings->dead_end[polygon] - 1;
-        bool holder_is_peeled = holder != polygon && rings->dead_end[holder] != 0;
-        rings->dead_end[polygon] = holder_is_peeled ? rings->dead_end[holder] : 1 + polygon;
+        uint32_t holder = rings->cells[polygon].dead_end - 1;
+        bool holder_is_peeled = holder != polygon && rings->cells[holder].dead_end != 0;
+        rings->cells[polygon].dead_end = holder_is_peeled ? rings->cells[holder].dead_end : 1 + polygon;
     }
 }

@@ -16,17 +16,26 @@ enum { MAX_FAN = 64 };
 
 typedef struct fan {
     tl_nav_ring_edge *members[MAX_FAN];
+    tl_nav_ring_walls *walls[MAX_FAN]; // of the members
     uint32_t count;
     double x, z;             // the vertex
     double first_x, first_z; // along the first edge
+    double last_x, last_z;   // along the last one
     bool is_wide;
+    bool is_odd; // an end is no wall: two floors lie over one another, or the fan was too large
 } fan;
 
 static tl_nav_ring_edge *ring_at(tl_navmesh *navmesh, tl_nav_ring_place place, uint32_t *count_out)
 {
     tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
     tl_nav_ring_of(rings, place.polygon, count_out);
-    return rings->edges + rings->first[place.polygon];
+    return rings->edges + rings->cells[place.polygon].first;
+}
+
+static tl_nav_ring_walls *walls_of(tl_navmesh *navmesh, tl_nav_ring_place place)
+{
+    tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
+    return rings->walls + rings->cells[place.polygon].first + place.edge;
 }
 
 // A fan turns left from its first edge: while it is no wider than a half plane nothing lies on the right.
@@ -34,6 +43,8 @@ static void widen(fan *f, const tl_nav_ring_edge *end)
 {
     double dx = (double)end->x - f->x;
     double dz = (double)end->z - f->z;
+    f->last_x = dx;
+    f->last_z = dz;
     double ahead = f->first_x * dz;
     double aside = f->first_z * dx;
     f->is_wide = f->is_wide || ahead - aside > TL_CROSS_ERROR * (fabs(ahead) + fabs(aside));
@@ -50,13 +61,15 @@ static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, fan *f)
     f->z = (double)ring[begin.edge].z;
     f->first_x = (double)first_end->x - f->x;
     f->first_z = (double)first_end->z - f->z;
-    f->is_wide = ring[begin.edge].to == TL_NAV_RING_BACK;
+    f->is_wide = false;
+    f->is_odd = ring[begin.edge].to == TL_NAV_RING_BACK;
     tl_nav_ring_place at = begin;
     for (;;) {
-        f->members[f->count++] = &ring[at.edge];
+        f->members[f->count] = &ring[at.edge];
+        f->walls[f->count++] = walls_of(navmesh, at);
         uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;
         widen(f, &ring[before]);
-        f->is_wide = f->is_wide || f->count == MAX_FAN || ring[before].to == TL_NAV_RING_BACK;
+        f->is_odd = f->is_odd || f->count == MAX_FAN || ring[before].to == TL_NAV_RING_BACK;
         if (f->count == MAX_FAN || !tl_nav_ring_is_open(&ring[before])) {
             return true;
         }
@@ -72,9 +85,15 @@ static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
 {
     fan f;
     bool is_walled = gather_fan(navmesh, begin, &f);
-    uint32_t number = is_walled && f.is_wide ? ++navmesh->last_fan : 0;
+    uint32_t number = is_walled && (f.is_wide || f.is_odd) ? ++navmesh->last_fan : 0;
+    tl_nav_ring_walls walls = { 0.0f, 0.0f, 0.0f, 0.0f };
+    if (!f.is_odd) {
+        tl_nav_ring_walls known = { (float)f.first_x, (float)f.first_z, (float)f.last_x, (float)f.last_z };
+        walls = known;
+    }
     for (uint32_t i = 0; i < f.count; i++) {
         f.members[i]->turn = number;
+        *f.walls[i] = walls;
     }
 }
 

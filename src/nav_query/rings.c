@@ -85,7 +85,7 @@ static void find_twins(tl_nav_rings *rings)
 {
     for (uint32_t p = 0; p < rings->polygon_count; p++) {
         uint32_t count = 0;
-        tl_nav_ring_edge *ring = rings->edges + rings->first[p];
+        tl_nav_ring_edge *ring = rings->edges + rings->cells[p].first;
         tl_nav_ring_of(rings, p, &count);
         for (uint32_t i = 0; i < count; i++) {
             if (ring[i].to >= TL_NAV_RING_SEAM) {
@@ -135,8 +135,8 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
 static bool allocate(const tl_allocator *allocator, uint64_t polygons, uint64_t edges, uint64_t seams,
                      tl_nav_rings *rings)
 {
-    uint64_t size = edges * sizeof(tl_nav_ring_edge) + seams * sizeof(tl_nav_ring_seam) +
-                    (4 * polygons + 1) * sizeof(uint32_t);
+    uint64_t size = edges * (sizeof(tl_nav_ring_edge) + sizeof(tl_nav_ring_walls)) + seams * sizeof(tl_nav_ring_seam) +
+                    (polygons + 1) * sizeof(tl_nav_ring_cell) + 2 * polygons * sizeof(uint32_t);
     char *at = tl_allocate_array(allocator, size, 1);
     if (at == NULL) {
         return false;
@@ -145,11 +145,13 @@ static bool allocate(const tl_allocator *allocator, uint64_t polygons, uint64_t 
     rings->block_size = size;
     rings->edges = (tl_nav_ring_edge *)(void *)at;
     at += edges * sizeof(tl_nav_ring_edge);
+    rings->walls = (tl_nav_ring_walls *)(void *)at;
+    at += edges * sizeof(tl_nav_ring_walls);
     rings->seams = (tl_nav_ring_seam *)(void *)at;
     at += seams * sizeof(tl_nav_ring_seam);
-    rings->first = (uint32_t *)(void *)at;
-    rings->dead_end = rings->first + polygons + 1;
-    rings->component = rings->dead_end + polygons;
+    rings->cells = (tl_nav_ring_cell *)(void *)at;
+    at += (polygons + 1) * sizeof(tl_nav_ring_cell);
+    rings->component = (uint32_t *)(void *)at;
     rings->island = rings->component + polygons;
     return true;
 }
@@ -177,10 +179,11 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
     rings.polygon_count = tile->polygon_count;
     ring_writer writer = { &rings, 0, 0 };
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        rings.first[p] = writer.edge_count;
+        rings.cells[p].first = writer.edge_count;
         add_polygon(&writer, tile, sides, p);
     }
-    rings.first[tile->polygon_count] = writer.edge_count;
+    rings.cells[tile->polygon_count].first = writer.edge_count;
+    rings.cells[tile->polygon_count].dead_end = 0;
     TL_ASSERT(writer.edge_count <= edges);
     find_twins(&rings);
     label_components(&rings, scratch);
@@ -198,7 +201,7 @@ void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings)
 
 void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot)
 {
-    for (uint32_t i = 0; i < rings->first[rings->polygon_count]; i++) {
+    for (uint32_t i = 0; i < rings->cells[rings->polygon_count].first; i++) {
         tl_nav_ring_edge *edge = &rings->edges[i];
         if (tl_nav_ring_is_open(edge) && (edge->to & TL_NAV_RING_SEAM) != 0 &&
             rings->seams[edge->to & ~TL_NAV_RING_SEAM].slot == slot) {

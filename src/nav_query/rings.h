@@ -29,11 +29,23 @@ typedef struct tl_nav_ring_seam {
     uint32_t slot, polygon;
 } tl_nav_ring_seam;
 
+/// The walls on both sides of the free way around a vertex, as directions from it: the way goes left from the first to
+/// the last. All 0: not known.
+typedef struct tl_nav_ring_walls {
+    float first_x, first_z;
+    float last_x, last_z;
+} tl_nav_ring_walls;
+
+typedef struct tl_nav_ring_cell {
+    uint32_t first;    ///< of the polygon's edges; they end where the next cell's begin
+    uint32_t dead_end; ///< 0, or the dead end of this tile that the polygon belongs to (dead_ends.c)
+} tl_nav_ring_cell;
+
 typedef struct tl_nav_rings {
-    uint32_t *first; ///< [polygon_count + 1], of edges
+    tl_nav_ring_cell *cells; ///< [polygon_count + 1]
     tl_nav_ring_edge *edges;
+    tl_nav_ring_walls *walls; ///< by edge: of the vertex where it starts, when its turn is not 0
     tl_nav_ring_seam *seams;
-    uint32_t *dead_end;  ///< by polygon: 0, or the dead end of this tile that it belongs to (dead_ends.c)
     uint32_t *component; ///< by polygon: what hangs together within the tile, counted from 0
     uint32_t *island;    ///< by component: a node of the navmesh's islands (islands.c)
     uint32_t polygon_count, component_count;
@@ -63,9 +75,9 @@ static inline bool tl_nav_ring_is_open(const tl_nav_ring_edge *edge)
 /// A polygon's ring: edges [0, *count_out).
 static inline const tl_nav_ring_edge *tl_nav_ring_of(const tl_nav_rings *rings, uint32_t polygon, uint32_t *count_out)
 {
-    const uint32_t *first = rings->first + polygon;
-    *count_out = first[1] - first[0];
-    return rings->edges + first[0];
+    const tl_nav_ring_cell *cell = rings->cells + polygon;
+    *count_out = cell[1].first - cell[0].first;
+    return rings->edges + cell[0].first;
 }
 
 #endif

@@ -30,6 +30,11 @@
 // three points, as a share of the largest coordinate.
 #define EDGE_ON_ERROR ((double)TL_FLOAT_GAMMA(6))
 
+// An edge as it is seen from a root: its ends relative to it.
+typedef struct seen_edge {
+    tl_nav_direction right, left;
+} seen_edge;
+
 typedef struct wedge_search {
     tl_nav_shortest_search *in;
     tl_nav_query *query;
@@ -38,7 +43,9 @@ typedef struct wedge_search {
     double rounding;           // metres
     uint32_t dead_ends[2];     // that may be entered: of the goal's slot, of the start's
     tl_nav_search_end trouble; // FOUND: none
-    uint32_t best;             // wedge of the current step, kept out of the heap
+    uint32_t only;             // wedge of the current step, while it is the only one
+    seen_edge only_edge;       // that it looks through
+    uint32_t best;             // the best of several, kept out of the heap
     float best_total;
 } wedge_search;
 
@@ -76,11 +83,6 @@ static tl_nav_direction meet(tl_nav_direction d, tl_nav_direction a, tl_nav_dire
     return point;
 }
 
-// An edge as it is seen from a root: its ends relative to it.
-typedef struct seen_edge {
-    tl_nav_direction right, left;
-} seen_edge;
-
 // Metres from the root through the part of the edge between two directions to the goal, at least.
 static double estimate(const wedge_search *s, float root_x, float root_z, const seen_edge *edge, tl_nav_direction left,
                        tl_nav_direction right)
@@ -108,7 +110,7 @@ static double estimate(const wedge_search *s, float root_x, float root_z, const 
 static bool may_enter(const wedge_search *s, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_shortest_search *in = s->in;
-    uint32_t dead_end = s->navmesh->slots[slot].rings.dead_end[polygon];
+    uint32_t dead_end = s->navmesh->slots[slot].rings.cells[polygon].dead_end;
     if (dead_end != 0 && !(slot == in->goal_slot && dead_end == s->dead_ends[0]) &&
         !(slot == in->start_slot && dead_end == s->dead_ends[1])) {
         return false;
@@ -126,15 +128,13 @@ static uint32_t new_wedge(wedge_search *s)
     return query->wedge_count++;
 }
 
-// Keeps the best wedge of a step at hand, and gives the others to the heap.
+// Gives a wedge to the heap, or keeps it at hand when it is the best of its step; then the one before goes there.
 static void offer(wedge_search *s, uint32_t wedge, float total)
 {
     if (s->best == TL_NAV_NO_NODE) {
         s->best = wedge;
         s->best_total = total;
-        return;
-    }
-    if (total < s->best_total) {
+    } else if (total < s->best_total) {
         tl_nav_wedge_push(s->query, s->best_total, s->best);
         s->best = wedge;
         s->best_total = total;
@@ -151,7 +151,14 @@ typedef struct step_from {
     uint32_t count;
 } step_from;
 
-// A wedge through edge i of the polygon. `root_*`, `cost`: its root.
+// The least length of a path through a wedge.
+static float total_of(const wedge_search *s, const tl_nav_wedge *wedge, const seen_edge *edge)
+{
+    return (float)(wedge->cost + estimate(s, wedge->root_x, wedge->root_z, edge, wedge->left, wedge->right));
+}
+
+// A wedge through edge i of the polygon. `root_*`, `cost`: its root. The first one of a step is kept as it is: where it
+// stays the only one the search goes on with it at once, and its total is not asked for.
 static void add_wedge(wedge_search *s, const step_from *from, uint32_t i, float root_x, float root_z, double cost,
                       const seen_edge *edge, tl_nav_direction left, tl_nav_direction right)
 {
@@ -173,8 +180,17 @@ static void add_wedge(wedge_search *s, const step_from *from, uint32_t i, float 
     wedge->polygon = twin.polygon;
     wedge->edge = twin.edge;
     wedge->parent = from->wedge;
-    double total = cost + estimate(s, root_x, root_z, edge, left, right);
-    offer(s, index, (float)total);
+    if (s->only == TL_NAV_NO_NODE && s->best == TL_NAV_NO_NODE) {
+        s->only = index;
+        s->only_edge = *edge;
+        return;
+    }
+    if (s->only != TL_NAV_NO_NODE) {
+        uint32_t first = s->only;
+        s->only = TL_NAV_NO_NODE;
+        offer(s, first, total_of(s, &s->query->wedges[first], &s->only_edge));
+    }
+    offer(s, index, total_of(s, wedge, edge));
 }
 
 static seen_edge see(const step_from *from, uint32_t i, float root_x, float root_z)
@@ -187,16 +203,15 @@ static seen_edge see(const step_from *from, uint32_t i, float root_x, float root
 }
 
 // How an edge is seen: whether it shows its inner side, and whether edge-on, as far as rounding can tell.
-typedef struct view {
+typedef struct edge_view {
     bool facing, edge_on;
-} view;
+} edge_view;
 
-static view view_of(const wedge_search *s, const seen_edge *edge)
+static edge_view view_of(const wedge_search *s, const seen_edge *edge)
 {
     double area = cross(edge->right, edge->left);
-    double x = edge->left.x - edge->right.x;
-    double z = edge->left.z - edge->right.z;
-    view v = { area < 0.0, area * area <= s->rounding * s->rounding * (x * x + z * z) };
+    double size = fabs(edge->left.x - edge->right.x) + fabs(edge->left.z - edge->right.z);
+    edge_view v = { area < 0.0, fabs(area) <= s->rounding * size };
     return v;
 }
 
@@ -206,7 +221,7 @@ static uint64_t turn_of(const wedge_search *s, const step_from *from, uint32_t v
     // Where the filter refuses polygons, walls are where it says, and each corner of each polygon is its own.
     if (s->in->filter != NULL) {
         const tl_nav_rings *rings = &s->navmesh->slots[from->slot].rings;
-        return (uint64_t)1 << 63 | (uint64_t)from->slot << 32 | (rings->first[from->polygon] + vertex);
+        return (uint64_t)1 << 63 | (uint64_t)from->slot << 32 | (rings->cells[from->polygon].first + vertex);
     }
     return from->ring[vertex].turn;
 }
@@ -240,20 +255,41 @@ static void add_edge_on(wedge_search *s, const step_from *from, uint32_t i, floa
     turn_into(s, from, i, i + 1 < from->count ? i + 1 : 0, cost, edge->left);
 }
 
-// The edges that are reached by turning at a vertex of the edge of entry: `hand` is 1 for the left one, -1 for the
-// right one. They lie beyond the wedge's `limit` on that hand.
-static void turn_at(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge, uint32_t vertex, int hand)
+// Whether a path that comes along `limit` to a vertex has its walls on one hand, so that a shortest one may turn to
+// that hand there. Directions of walls are floats.
+static bool has_walls_on(const wedge_search *s, const step_from *from, uint32_t vertex, tl_nav_direction limit,
+                         int hand)
 {
+    const tl_nav_rings *rings = &s->navmesh->slots[from->slot].rings;
+    const tl_nav_ring_walls *walls = &rings->walls[rings->cells[from->polygon].first + vertex];
+    const float ends[2][2] = { { walls->first_x, walls->first_z }, { walls->last_x, walls->last_z } };
+    for (int i = 0; i < 2; i++) {
+        double p = limit.x * (double)ends[i][1];
+        double q = limit.z * (double)ends[i][0];
+        if (hand * (p - q) > (double)TL_FLOAT_GAMMA(4) * (fabs(p) + fabs(q))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The edges that are reached by turning at a vertex of the edge of entry: `hand` is 1 for the left one, -1 for the
+// right one. They lie beyond the wedge's `limit` on that hand, in the part of the ring from `begin` to `end` (counted
+// from the edge of entry).
+static void turn_at(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge, int hand, uint32_t begin,
+                    uint32_t end)
+{
+    uint32_t vertex = hand > 0 ? wedge->edge : wedge->edge + 1 < from->count ? wedge->edge + 1 : 0;
+    tl_nav_direction limit = hand > 0 ? wedge->left : wedge->right;
     uint64_t turn = turn_of(s, from, vertex);
-    if (turn == 0) {
+    if (turn == 0 || (s->in->filter == NULL && !has_walls_on(s, from, vertex, limit, hand))) {
         return;
     }
     float x = from->ring[vertex].x;
     float z = from->ring[vertex].z;
-    tl_nav_direction limit = hand > 0 ? wedge->left : wedge->right;
     double cost = wedge->cost + length_of(limit); // the limit leads to the vertex
     bool is_new = true;
-    for (uint32_t k = 1; k < from->count; k++) {
+    for (uint32_t k = begin; k < end; k++) {
         uint32_t i = wedge->edge + k < from->count ? wedge->edge + k : wedge->edge + k - from->count;
         if (!tl_nav_ring_is_open(&from->ring[i])) {
             continue;
@@ -261,7 +297,7 @@ static void turn_at(wedge_search *s, const step_from *from, const tl_nav_wedge *
         seen_edge edge = see(from, i, x, z);
         double left = side(limit, edge.left);
         double right = side(limit, edge.right);
-        view v = view_of(s, &edge);
+        edge_view v = view_of(s, &edge);
         bool is_beyond = hand > 0 ? left < 0.0 : right > 0.0;
         bool touches = v.edge_on && (hand > 0 ? right <= 0.0 : left >= 0.0);
         if (!(is_beyond && v.facing) && !touches) {
@@ -281,47 +317,101 @@ static void turn_at(wedge_search *s, const step_from *from, const tl_nav_wedge *
     }
 }
 
-// The edges that are seen through the wedge.
-static void see_through(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge)
+// A vertex as a wedge sees it.
+typedef struct seen_vertex {
+    tl_nav_direction at;
+    bool left_of_left, right_of_left;   // limit; neither: on it within rounding
+    bool left_of_right, right_of_right; // limit
+} seen_vertex;
+
+// What a wedge compares vertices with.
+typedef struct wedge_view {
+    tl_nav_direction left, right;
+    double root_x, root_z;
+    double left_error, right_error; // rounding of a cross product, as a share of the vertex's coordinates
+    bool left_open, right_open;
+} wedge_view;
+
+static wedge_view make_view(const tl_nav_wedge *wedge)
 {
-    bool left_open = is_open(wedge->left);
-    bool right_open = is_open(wedge->right);
-    for (uint32_t k = 1; k < from->count; k++) {
-        uint32_t i = wedge->edge + k < from->count ? wedge->edge + k : wedge->edge + k - from->count;
-        if (!tl_nav_ring_is_open(&from->ring[i])) {
-            continue;
-        }
-        seen_edge edge = see(from, i, wedge->root_x, wedge->root_z);
-        view v = view_of(s, &edge);
-        double right_of_left = side(wedge->left, edge.right);
-        double left_of_right = side(wedge->right, edge.left);
-        if (v.facing && (left_open || right_of_left > 0.0) && (right_open || left_of_right < 0.0)) {
-            bool left_inside = left_open || side(wedge->left, edge.left) >= 0.0;
-            bool right_inside = right_open || side(wedge->right, edge.right) <= 0.0;
-            add_wedge(s, from, i, wedge->root_x, wedge->root_z, wedge->cost, &edge,
-                      left_inside ? edge.left : wedge->left, right_inside ? edge.right : wedge->right);
-        }
-        if (v.edge_on && (left_open || right_of_left >= 0.0) && (right_open || left_of_right <= 0.0)) {
-            add_edge_on(s, from, i, wedge->root_x, wedge->root_z, wedge->cost, &edge);
-        }
-    }
+    wedge_view view = { wedge->left,
+                        wedge->right,
+                        (double)wedge->root_x,
+                        (double)wedge->root_z,
+                        TL_CROSS_ERROR * (fabs(wedge->left.x) + fabs(wedge->left.z)),
+                        TL_CROSS_ERROR * (fabs(wedge->right.x) + fabs(wedge->right.z)),
+                        is_open(wedge->left),
+                        is_open(wedge->right) };
+    return view;
 }
 
+static seen_vertex look_at(const wedge_view *view, const tl_nav_ring_edge *vertex)
+{
+    seen_vertex seen;
+    seen.at.x = (double)vertex->x - view->root_x;
+    seen.at.z = (double)vertex->z - view->root_z;
+    double size = fabs(seen.at.x) + fabs(seen.at.z);
+    double to_left = cross(view->left, seen.at);
+    double to_right = cross(view->right, seen.at);
+    double left_error = view->left_error * size;
+    double right_error = view->right_error * size;
+    seen.left_of_left = to_left < -left_error;
+    seen.right_of_left = to_left > left_error || view->left_open;
+    seen.left_of_right = to_right < -right_error || view->right_open;
+    seen.right_of_right = to_right > right_error;
+    return seen;
+}
+
+// Goes around the ring from the right end of the edge of entry to its left end, which is from right to left as it is
+// seen from the root. Edges right of the wedge are reached by turning right, those left of it by turning left.
 static void expand(wedge_search *s, uint32_t index)
 {
     const tl_nav_wedge wedge = s->query->wedges[index];
+    const wedge_view view = make_view(&wedge);
     step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
     from.ring = tl_nav_ring_at(s->navmesh, wedge.slot, wedge.polygon, &from.count);
-    see_through(s, &from, &wedge);
-    // Looking in, the edge of entry starts at its left end.
-    uint32_t left = wedge.edge;
-    uint32_t right = wedge.edge + 1 < from.count ? wedge.edge + 1 : 0;
-    seen_edge entry = see(&from, wedge.edge, wedge.root_x, wedge.root_z);
-    if (!is_open(wedge.left) && wedge.left.x == entry.right.x && wedge.left.z == entry.right.z) {
-        turn_at(s, &from, &wedge, left, 1);
+    uint32_t first_seen = from.count; // the first way that ends left of the wedge's right side
+    uint32_t last_seen = 1;           // the last one that begins right of its left side
+    uint32_t i = wedge.edge;
+    seen_vertex right, left;
+    uint32_t left_is = UINT32_MAX; // the vertex that was looked at last
+    for (uint32_t k = 1; k < from.count; k++) {
+        i = i + 1 < from.count ? i + 1 : 0;
+        if (!tl_nav_ring_is_open(&from.ring[i])) {
+            continue;
+        }
+        uint32_t next = i + 1 < from.count ? i + 1 : 0;
+        right = left_is == i ? left : look_at(&view, &from.ring[i]);
+        if (right.left_of_left) {
+            break; // and so are all that follow
+        }
+        left = look_at(&view, &from.ring[next]);
+        left_is = next;
+        if (left.right_of_right) {
+            continue;
+        }
+        last_seen = right.right_of_left ? k : last_seen;
+        first_seen = left.left_of_right && k < first_seen ? k : first_seen;
+        seen_edge edge = { right.at, left.at };
+        edge_view v = view_of(s, &edge);
+        if (v.facing && right.right_of_left && left.left_of_right) {
+            add_wedge(s, &from, i, wedge.root_x, wedge.root_z, wedge.cost, &edge,
+                      left.left_of_left ? wedge.left : left.at, right.right_of_right ? wedge.right : right.at);
+        }
+        if (v.edge_on) {
+            add_edge_on(s, &from, i, wedge.root_x, wedge.root_z, wedge.cost, &edge);
+        }
     }
-    if (!is_open(wedge.right) && wedge.right.x == entry.left.x && wedge.right.z == entry.left.z) {
-        turn_at(s, &from, &wedge, right, -1);
+    // Looking in, the edge of entry starts at its left end.
+    const tl_nav_ring_edge *entry_left = &from.ring[wedge.edge];
+    const tl_nav_ring_edge *entry_right = &from.ring[wedge.edge + 1 < from.count ? wedge.edge + 1 : 0];
+    if (!view.left_open && wedge.left.x == (double)entry_left->x - view.root_x &&
+        wedge.left.z == (double)entry_left->z - view.root_z) {
+        turn_at(s, &from, &wedge, 1, last_seen, from.count);
+    }
+    if (!view.right_open && wedge.right.x == (double)entry_right->x - view.root_x &&
+        wedge.right.z == (double)entry_right->z - view.root_z) {
+        turn_at(s, &from, &wedge, -1, 1, first_seen < from.count ? first_seen + 1 : from.count);
     }
 }
 
@@ -376,7 +466,7 @@ static uint32_t begin(wedge_search *s)
                     continue;
                 }
                 seen_edge edge = see(&from, i, in->start.x, in->start.z);
-                view v = view_of(s, &edge);
+                edge_view v = view_of(s, &edge);
                 bool on_edge = v.edge_on && is_within(s, &edge);
                 if (pass == 0 && on_edge) {
                     tl_nav_ring_seam to = tl_nav_ring_across(s->navmesh, from.slot, from.ring[i].to);
@@ -394,33 +484,51 @@ static uint32_t begin(wedge_search *s)
     return TL_NAV_NO_NODE;
 }
 
+// The wedge to go on with: the only one of the step before, or the best of all.
+static uint32_t next_wedge(wedge_search *s, float *total_out)
+{
+    tl_nav_query *query = s->query;
+    uint32_t only = s->only;
+    s->only = TL_NAV_NO_NODE;
+    if (only != TL_NAV_NO_NODE) {
+        const tl_nav_wedge *wedge = &query->wedges[only];
+        if (wedge->polygon != s->in->goal_polygon || wedge->slot != s->in->goal_slot) {
+            return only;
+        }
+        offer(s, only, total_of(s, wedge, &s->only_edge));
+    }
+    tl_nav_heap_entry next = { s->best_total, s->best };
+    if (s->best == TL_NAV_NO_NODE) {
+        if (query->open_count == 0) {
+            return TL_NAV_NO_NODE;
+        }
+        next = tl_nav_wedge_pop(query);
+    } else if (query->open_count > 0 && tl_nav_wedge_before(query->wedge_heap[0], next)) {
+        tl_nav_heap_entry top = query->wedge_heap[0];
+        tl_nav_wedge_sink(query, next);
+        next = top;
+    }
+    s->best = TL_NAV_NO_NODE;
+    *total_out = next.total;
+    return next.wedge;
+}
+
 // Takes up wedges, the least total first, until one has entered the goal's polygon.
 static tl_nav_search_end run(wedge_search *s)
 {
-    tl_nav_query *query = s->query;
+    float total = 0.0f;
     for (;;) {
-        if (s->trouble != TL_NAV_SEARCH_FOUND) {
-            return s->trouble;
+        uint32_t next = next_wedge(s, &total);
+        if (s->trouble != TL_NAV_SEARCH_FOUND || next == TL_NAV_NO_NODE) {
+            return s->trouble != TL_NAV_SEARCH_FOUND ? s->trouble : TL_NAV_SEARCH_EXHAUSTED;
         }
-        tl_nav_heap_entry next = { s->best_total, s->best };
-        if (s->best == TL_NAV_NO_NODE) {
-            if (query->open_count == 0) {
-                return TL_NAV_SEARCH_EXHAUSTED;
-            }
-            next = tl_nav_wedge_pop(query);
-        } else if (query->open_count > 0 && tl_nav_wedge_before(query->wedge_heap[0], next)) {
-            tl_nav_heap_entry top = query->wedge_heap[0];
-            tl_nav_wedge_sink(query, next);
-            next = top;
-        }
-        s->best = TL_NAV_NO_NODE;
-        const tl_nav_wedge *wedge = &query->wedges[next.wedge];
+        const tl_nav_wedge *wedge = &s->query->wedges[next];
         if (wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot) {
-            s->in->last = next.wedge;
-            s->in->lower_bound = (double)next.total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
+            s->in->last = next;
+            s->in->lower_bound = (double)total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
             return TL_NAV_SEARCH_FOUND;
         }
-        expand(s, next.wedge);
+        expand(s, next);
     }
 }
 
@@ -449,9 +557,11 @@ tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
                        (double)search->goal.x,
                        (double)search->goal.z,
                        0.0,
-                       { navmesh->slots[search->goal_slot].rings.dead_end[search->goal_polygon],
-                         navmesh->slots[search->start_slot].rings.dead_end[search->start_polygon] },
+                       { navmesh->slots[search->goal_slot].rings.cells[search->goal_polygon].dead_end,
+                         navmesh->slots[search->start_slot].rings.cells[search->start_polygon].dead_end },
                        TL_NAV_SEARCH_FOUND,
+                       TL_NAV_NO_NODE,
+                       { { 0.0, 0.0 }, { 0.0, 0.0 } },
                        TL_NAV_NO_NODE,
                        0.0f };
     double start_size = largest_of((double)search->start.x, (double)search->start.z);
