@@ -124,6 +124,11 @@ typedef struct tl_nav_location {
 TL_API tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_vec3 center,
                                          tl_vec3 half_extents, tl_nav_location *location_out);
 
+/// The point nearest to `point` in space on the island of polygon `from`, on polygons that pass: where to go when the
+/// goal itself lies on another island. TL_ERR_NOT_FOUND: a stale reference, or no polygon passes. TL_ERR_NOT_FINITE.
+TL_API tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                                   tl_nav_ref from, tl_vec3 point, tl_nav_location *location_out);
+
 /// The polygon's point closest to `point` in the plane, lifted to the surface. A point over the polygon keeps its x
 /// and z bit by bit; `*inside_out` (may be NULL) says whether it was so. TL_ERR_NOT_FOUND for a stale reference.
 TL_API tl_result tl_navmesh_closest_point(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 point,
@@ -275,8 +280,8 @@ typedef struct tl_nav_route {
     float length; ///< metres along the corners
 } tl_nav_route;
 
-/// Nearest points to start and goal, path, straight path. A partial path's corners lead to its last polygon's point
-/// that is closest to the goal.
+/// Nearest points to start and goal, path, straight path. Where there is no path, the corners lead to the point nearest
+/// to the goal that can be reached, and the status says so.
 ///
 /// TL_ERR_NOT_FOUND: no polygon near start (route_out->start.polygon is TL_NAV_NO_REF) or near goal
 /// (route_out->goal.polygon is). TL_ERR_CAPACITY: path.polygon_count and, when the polygons fitted, corner_count say

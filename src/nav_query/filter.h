@@ -17,7 +17,7 @@ static inline bool tl_nav_passes(const tl_nav_filter *filter, const tl_nav_tile 
     return (flags & filter->include_flags) != 0 && (flags & filter->exclude_flags) == 0;
 }
 
-/// Whether all costs are finite and above 0, and the least of them.
-bool tl_nav_filter_costs(const tl_nav_filter *filter, float *least_out);
+/// Whether all costs are finite and above 0; the least of them, and whether they are all the same.
+bool tl_nav_filter_costs(const tl_nav_filter *filter, float *least_out, bool *uniform_out);
 
 #endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A* over the ways into polygons.
+// Paths as polygons: the shortest where every metre costs the same (shortest_search.c), else A* over the ways into
+// polygons.
 //
 // A node is a way into a polygon (a portal, crossed in one direction), not a polygon: where a polygon is entered
 // decides what crossing it costs. A portal is entered where the way from the point before, over the portal, to the goal
@@ -16,6 +17,7 @@
 #include "nav_query/filter.h"
 #include "nav_query/navmesh.h"
 #include "nav_query/node_pool.h"
+#include "nav_query/shortest_search.h"
 #include "nav_query/surface.h"
 
 // Keys of the two nodes that are no ways. A slot is below 2^20, so no way has them.
@@ -184,25 +186,15 @@ static uint32_t run(path_search *search)
     }
 }
 
-tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                 const tl_nav_location *start, const tl_nav_location *goal, tl_nav_ref *polygons_out,
-                                 uint32_t capacity, tl_nav_path *path_out)
+static tl_result find_by_ways(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                              const tl_nav_location *start, const tl_nav_location *goal, float least_cost,
+                              tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
 {
-    tl_nav_path none = { TL_NAV_PATH_UNREACHABLE, 0, { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } }, 0.0f, 0 };
-    *path_out = none;
-    path_search search = { query, navmesh, filter, 1.0f, 0, 0, goal->point, false };
+    path_search search = { query, navmesh, filter, least_cost, 0, 0, goal->point, false };
     uint32_t start_slot = 0;
     uint32_t start_polygon = 0;
-    if (!tl_nav_is_finite(start->point) || !tl_nav_is_finite(goal->point)) {
-        return TL_ERR_NOT_FINITE;
-    }
-    if (!tl_nav_split_ref(navmesh, start->polygon, &start_slot, &start_polygon) ||
-        !tl_nav_split_ref(navmesh, goal->polygon, &search.goal_slot, &search.goal_polygon)) {
-        return TL_ERR_NOT_FOUND;
-    }
-    if (filter != NULL && !tl_nav_filter_costs(filter, &search.least_cost)) {
-        return TL_ERR_ARGUMENT;
-    }
+    tl_nav_split_ref(navmesh, start->polygon, &start_slot, &start_polygon);
+    tl_nav_split_ref(navmesh, goal->polygon, &search.goal_slot, &search.goal_polygon);
     tl_nav_pool_reset(query);
     relax(&search, START_KEY, start_slot, start_polygon, start->point, 0.0f, TL_NAV_NO_NODE);
     uint32_t last = run(&search);
@@ -214,6 +206,54 @@ tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh,
         last = nearest_to_goal(&search, &path_out->end.point);
     }
     return write_path(&search, last, polygons_out, capacity, path_out);
+}
+
+// The start's polygon alone.
+static tl_result write_stay(const tl_nav_location *start, tl_nav_ref *polygons_out, uint32_t capacity,
+                            tl_nav_path *path_out)
+{
+    path_out->polygon_count = 1;
+    path_out->end = *start;
+    if (capacity == 0) {
+        return TL_ERR_CAPACITY;
+    }
+    polygons_out[0] = start->polygon;
+    return TL_OK;
+}
+
+static tl_result write_shortest(const tl_nav_shortest_search *search, const tl_nav_location *goal, float metre,
+                                tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
+{
+    path_out->status = TL_NAV_PATH_COMPLETE;
+    path_out->end = *goal;
+    path_out->cost = metre * (float)tl_nav_shortest_length(search);
+    path_out->node_count = search->query->wedge_count;
+    path_out->polygon_count = tl_nav_write_wedges(search, polygons_out, capacity);
+    return path_out->polygon_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}
+
+tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                 const tl_nav_location *start, const tl_nav_location *goal, tl_nav_ref *polygons_out,
+                                 uint32_t capacity, tl_nav_path *path_out)
+{
+    tl_nav_path none = { TL_NAV_PATH_UNREACHABLE, 0, { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } }, 0.0f, 0 };
+    *path_out = none;
+    float least = 1.0f;
+    bool is_uniform = true;
+    tl_nav_shortest_search search;
+    TL_TRY(tl_nav_prepare_shortest(query, navmesh, filter, start, goal, &search));
+    if (filter != NULL && !tl_nav_filter_costs(filter, &least, &is_uniform)) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (tl_nav_is_cut_off(&search)) {
+        return write_stay(start, polygons_out, capacity, path_out);
+    }
+    if (is_uniform && tl_nav_search_shortest(&search) == TL_NAV_SEARCH_FOUND) {
+        return write_shortest(&search, goal, least, polygons_out, capacity, path_out);
+    }
+    // Also where the search above has found none: the flags forbid it, and this one tells how far they let go; or it
+    // was out of nodes, of which this one needs fewer.
+    return find_by_ways(query, navmesh, filter, start, goal, least, polygons_out, capacity, path_out);
 }
 
 const char *tl_nav_path_status_name(tl_nav_path_status status)

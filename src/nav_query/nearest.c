@@ -18,19 +18,21 @@ typedef struct nearest_search {
     float best; // squared measure
     uint32_t best_slot, best_polygon;
     tl_vec3 best_point;
+    bool on_island; // only polygons of `island` count, anywhere, by their plain distance
+    uint32_t island;
 } nearest_search;
 
 // The vertical part of the measure for a floor `above` metres over the centre (negative: under it).
-static float vertical_measure(const tl_nav_tile *tile, float above)
+static float vertical_measure(const nearest_search *search, const tl_nav_tile *tile, float above)
 {
-    return above > tile->agent_max_climb ? above + tile->agent_height : above;
+    return !search->on_island && above > tile->agent_max_climb ? above + tile->agent_height : above;
 }
 
 static float measure(const nearest_search *search, const tl_nav_tile *tile, tl_vec3 point)
 {
     float dx = point.x - search->center.x;
     float dz = point.z - search->center.z;
-    float dy = vertical_measure(tile, point.y - search->center.y);
+    float dy = vertical_measure(search, tile, point.y - search->center.y);
     return dx * dx + dz * dz + dy * dy;
 }
 
@@ -47,19 +49,20 @@ static float bound_of(const nearest_search *search, const tl_nav_tile *tile, con
     float dx = gap(c.x, box->min.x, box->max.x);
     float dz = gap(c.z, box->min.z, box->max.z);
     float above = box->min.y - c.y;
-    float dy = above > 0.0f ? vertical_measure(tile, above) : gap(c.y, box->min.y, box->max.y);
+    float dy = above > 0.0f ? vertical_measure(search, tile, above) : gap(c.y, box->min.y, box->max.y);
     return dx * dx + dz * dz + dy * dy;
 }
 
 static void try_polygon(nearest_search *search, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
-    if (!tl_nav_passes(search->filter, tile, polygon)) {
+    if (!tl_nav_passes(search->filter, tile, polygon) ||
+        (search->on_island && tl_nav_island_of(search->navmesh, slot, polygon) != search->island)) {
         return;
     }
     bool inside = false;
     tl_vec3 point = tl_nav_closest_on_surface(tile, polygon, search->center, &inside);
-    if (!tl_aabb_contains(search->box, point)) {
+    if (!search->on_island && !tl_aabb_contains(search->box, point)) {
         return;
     }
     float distance = measure(search, tile, point);
@@ -149,6 +152,16 @@ static void search_tiles(nearest_search *search)
     }
 }
 
+static tl_result write_nearest(const nearest_search *search, tl_nav_location *location_out)
+{
+    if (search->best_slot == TL_NAV_NO_SLOT) {
+        return TL_ERR_NOT_FOUND;
+    }
+    location_out->polygon = tl_nav_make_ref(search->navmesh, search->best_slot, search->best_polygon);
+    location_out->point = search->best_point;
+    return TL_OK;
+}
+
 tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_vec3 center,
                                   tl_vec3 half_extents, tl_nav_location *location_out)
 {
@@ -161,13 +174,33 @@ tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter
         return TL_ERR_ARGUMENT;
     }
     tl_aabb box = { tl_sub(center, half_extents), tl_add(center, half_extents) };
-    nearest_search search = { navmesh,  filter,         center,        box,
-                              INFINITY, TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f } };
+    nearest_search search = { navmesh,        filter,        center,               box,   INFINITY,
+                              TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f }, false, 0 };
     search_tiles(&search);
-    if (search.best_slot == TL_NAV_NO_SLOT) {
+    return write_nearest(&search, location_out);
+}
+
+tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref from,
+                                            tl_vec3 point, tl_nav_location *location_out)
+{
+    tl_nav_location none = { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } };
+    *location_out = none;
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    if (!tl_nav_is_finite(point)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (!tl_nav_split_ref(navmesh, from, &slot, &polygon)) {
         return TL_ERR_NOT_FOUND;
     }
-    location_out->polygon = tl_nav_make_ref(navmesh, search.best_slot, search.best_polygon);
-    location_out->point = search.best_point;
-    return TL_OK;
+    tl_aabb everywhere = { { -INFINITY, -INFINITY, -INFINITY }, { INFINITY, INFINITY, INFINITY } };
+    nearest_search search = { navmesh,        filter,        point,                everywhere, INFINITY,
+                              TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f }, true,       0 };
+    search.island = tl_nav_island_of(navmesh, slot, polygon);
+    for (slot = 0; slot < navmesh->slot_count; slot++) {
+        if (navmesh->slots[slot].tile != NULL) {
+            search_tile(&search, slot);
+        }
+    }
+    return write_nearest(&search, location_out);
 }

@@ -115,15 +115,28 @@ static void write_corners(const tl_nav_shortest_search *search, tl_nav_corner *c
     }
 }
 
+double tl_nav_shortest_length(const tl_nav_shortest_search *search)
+{
+    const tl_nav_wedge *last = &search->query->wedges[search->last];
+    return last->cost + plan_distance(tl_vec3_make(last->root_x, 0.0f, last->root_z), search->goal);
+}
+
 uint32_t tl_nav_write_wedges(const tl_nav_shortest_search *search, tl_nav_ref *polygons, uint32_t capacity)
 {
     const tl_nav_wedge *wedges = search->query->wedges;
+    // A path that turns in the goal's polygon itself has two wedges there.
+    uint32_t last = search->last;
+    uint32_t before = wedges[last].parent;
+    if (before != TL_NAV_NO_NODE && wedges[before].slot == search->goal_slot &&
+        wedges[before].polygon == search->goal_polygon) {
+        last = before;
+    }
     uint32_t count = 0;
-    for (uint32_t i = search->last; i != TL_NAV_NO_NODE; i = wedges[i].parent) {
+    for (uint32_t i = last; i != TL_NAV_NO_NODE; i = wedges[i].parent) {
         count++;
     }
     uint32_t at = count;
-    for (uint32_t i = search->last; i != TL_NAV_NO_NODE && capacity > 0; i = wedges[i].parent) {
+    for (uint32_t i = last; i != TL_NAV_NO_NODE && capacity > 0; i = wedges[i].parent) {
         at--;
         if (at < capacity) {
             polygons[at] = tl_nav_make_ref(search->navmesh, wedges[i].slot, wedges[i].polygon);

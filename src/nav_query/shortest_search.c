@@ -264,9 +264,9 @@ static bool has_walls_on(const wedge_search *s, const step_from *from, uint32_t 
     const tl_nav_ring_walls *walls = &rings->walls[rings->cells[from->polygon].first + vertex];
     const float ends[2][2] = { { walls->first_x, walls->first_z }, { walls->last_x, walls->last_z } };
     for (int i = 0; i < 2; i++) {
-        double p = limit.x * (double)ends[i][1];
-        double q = limit.z * (double)ends[i][0];
-        if (hand * (p - q) > (double)TL_FLOAT_GAMMA(4) * (fabs(p) + fabs(q))) {
+        tl_nav_direction wall = { (double)ends[i][0], (double)ends[i][1] };
+        double size = fabs(limit.x) + fabs(limit.z) + fabs(wall.x) + fabs(wall.z);
+        if (hand * cross(limit, wall) > 2.0 * s->rounding * size) {
             return false;
         }
     }
@@ -513,6 +513,36 @@ static uint32_t next_wedge(wedge_search *s, float *total_out)
     return next.wedge;
 }
 
+// The wedge that holds the goal: the one that entered its polygon, or, where the goal lies beside that wedge's end in a
+// vertex, one that turns there. An end that is no vertex has another wedge beside it, and that one sees the goal; this
+// one came first by rounding only.
+static uint32_t end_in(wedge_search *s, uint32_t entered)
+{
+    const tl_nav_wedge *wedge = &s->query->wedges[entered];
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, wedge->slot, wedge->polygon, &count);
+    tl_nav_direction goal = { s->goal_x - (double)wedge->root_x, s->goal_z - (double)wedge->root_z };
+    bool is_left_of = cross(wedge->left, goal) < 0.0;
+    if (!is_left_of && !(cross(wedge->right, goal) > 0.0)) {
+        return entered;
+    }
+    tl_nav_direction limit = is_left_of ? wedge->left : wedge->right;
+    const tl_nav_ring_edge *vertex = &ring[is_left_of ? wedge->edge : wedge->edge + 1 < count ? wedge->edge + 1 : 0];
+    if (limit.x != (double)vertex->x - (double)wedge->root_x || limit.z != (double)vertex->z - (double)wedge->root_z) {
+        return entered;
+    }
+    uint32_t turned = new_wedge(s);
+    if (turned != TL_NAV_NO_NODE) {
+        tl_nav_wedge *last = &s->query->wedges[turned];
+        *last = *wedge;
+        last->root_x = vertex->x;
+        last->root_z = vertex->z;
+        last->cost = wedge->cost + length_of(limit);
+        last->parent = entered;
+    }
+    return turned;
+}
+
 // Takes up wedges, the least total first, until one has entered the goal's polygon.
 static tl_nav_search_end run(wedge_search *s)
 {
@@ -524,7 +554,10 @@ static tl_nav_search_end run(wedge_search *s)
         }
         const tl_nav_wedge *wedge = &s->query->wedges[next];
         if (wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot) {
-            s->in->last = next;
+            s->in->last = end_in(s, next);
+            if (s->in->last == TL_NAV_NO_NODE) {
+                return s->trouble;
+            }
             s->in->lower_bound = (double)total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
             return TL_NAV_SEARCH_FOUND;
         }

@@ -45,6 +45,8 @@ tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search);
 tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                   const tl_nav_location *start, const tl_nav_location *goal,
                                   tl_nav_shortest_search *search_out);
+/// Metres in the plane of a path that was found.
+double tl_nav_shortest_length(const tl_nav_shortest_search *search);
 /// Whether start and goal lie on two islands.
 bool tl_nav_is_cut_off(const tl_nav_shortest_search *search);
 /// The polygons of a path that was found; returns their number.
