@@ -516,14 +516,17 @@ static uint32_t next_wedge(wedge_search *s, float *total_out)
 // The wedge that holds the goal: the one that entered its polygon, or, where the goal lies beside that wedge's end in a
 // vertex, one that turns there. An end that is no vertex has another wedge beside it, and that one sees the goal; this
 // one came first by rounding only.
-static uint32_t end_in(wedge_search *s, uint32_t entered)
+static uint32_t end_in(wedge_search *s, uint32_t entered, float total)
 {
     const tl_nav_wedge *wedge = &s->query->wedges[entered];
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, wedge->slot, wedge->polygon, &count);
     tl_nav_direction goal = { s->goal_x - (double)wedge->root_x, s->goal_z - (double)wedge->root_z };
     bool is_left_of = cross(wedge->left, goal) < 0.0;
-    if (!is_left_of && !(cross(wedge->right, goal) > 0.0)) {
+    bool is_beside = is_left_of || cross(wedge->right, goal) > 0.0;
+    // On the edge of entry the goal may lie beside the wedge by rounding, though its total is that of a straight way.
+    double straight = wedge->cost + length_of(goal);
+    if (!is_beside || straight + s->rounding >= (double)total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING)) {
         return entered;
     }
     tl_nav_direction limit = is_left_of ? wedge->left : wedge->right;
@@ -554,7 +557,7 @@ static tl_nav_search_end run(wedge_search *s)
         }
         const tl_nav_wedge *wedge = &s->query->wedges[next];
         if (wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot) {
-            s->in->last = end_in(s, next);
+            s->in->last = end_in(s, next, total);
             if (s->in->last == TL_NAV_NO_NODE) {
                 return s->trouble;
             }
