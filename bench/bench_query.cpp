@@ -273,8 +273,7 @@ void bench_paths(arena &a, double bar)
         bool complete;
         a.checksum += (uint64_t)a.detour_path(a.pairs[i], &complete);
     };
-    compare("path + straight path", bar, a.complete, detour,
-            [&](size_t i) { a.checksum += a.talus_path(a.pairs[i]); });
+    compare("path + straight path", bar, a.complete, detour, [&](size_t i) { a.checksum += a.talus_path(a.pairs[i]); });
     compare("exact", 1.0, a.complete, detour, [&](size_t i) {
         uint32_t count;
         a.shortest_path(a.pairs[i], &count);
@@ -284,8 +283,8 @@ void bench_paths(arena &a, double bar)
     std::vector<double> lengths;
     for (size_t i : a.complete) {
         uint32_t count = a.talus_path(a.pairs[i]);
-        lengths.push_back(count == 0 ? -1.0
-                                     : plan_length(&a.corners[0].point.x, count, sizeof(tl_nav_corner) / sizeof(float)));
+        lengths.push_back(
+            count == 0 ? -1.0 : plan_length(&a.corners[0].point.x, count, sizeof(tl_nav_corner) / sizeof(float)));
     }
     compare_lengths(a, "lengths, path", lengths);
     lengths.clear();

@@ -363,8 +363,7 @@ static void test_partial(void **state)
             TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 512, &path), TL_OK);
             TEST_CHECK(path.status == TL_NAV_PATH_UNREACHABLE && path.node_count == 0 && path.polygon_count == 1);
             tl_nav_location near_goal;
-            TEST_RESULT(
-                tl_navmesh_find_nearest_reachable(navmesh, NULL, start.polygon, goal.point, &near_goal), TL_OK);
+            TEST_RESULT(tl_navmesh_find_nearest_reachable(navmesh, NULL, start.polygon, goal.point, &near_goal), TL_OK);
             TEST_CHECK(tl_distance_sq(near_goal.point, goal.point) == best);
             tl_nav_route_buffers buffers = { polygons, 512, corners, 512 };
             tl_nav_route route;

@@ -216,12 +216,12 @@ TL_API tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_na
 /// The shortest path and its certificate.
 typedef struct tl_nav_shortest_path {
     tl_nav_path_status status;
-    uint32_t corner_count;  ///< of the whole path, though the buffers may hold fewer
+    uint32_t corner_count; ///< of the whole path, though the buffers may hold fewer
     uint32_t polygon_count;
-    double length;          ///< metres in the plane, of the corners
-    double lower_bound;     ///< metres in the plane: no path is shorter; below length by rounding only
-    double surface_length;  ///< metres in space, straight from corner to corner
-    uint32_t node_count;    ///< nodes that the search used
+    double length;         ///< metres in the plane, of the corners
+    double lower_bound;    ///< metres in the plane: no path is shorter; below length by rounding only
+    double surface_length; ///< metres in space, straight from corner to corner
+    uint32_t node_count;   ///< nodes that the search used
 } tl_nav_shortest_path;
 
 /// The shortest path in the plane from point to point, over tiles, seams and floors that lie over one another, with its

@@ -174,8 +174,9 @@ tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter
         return TL_ERR_ARGUMENT;
     }
     tl_aabb box = { tl_sub(center, half_extents), tl_add(center, half_extents) };
-    nearest_search search = { navmesh,        filter,        center,               box,   INFINITY,
-                              TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f }, false, 0 };
+    nearest_search search = {
+        navmesh, filter, center, box, INFINITY, TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f }, false, 0
+    };
     search_tiles(&search);
     return write_nearest(&search, location_out);
 }
@@ -194,8 +195,9 @@ tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_
         return TL_ERR_NOT_FOUND;
     }
     tl_aabb everywhere = { { -INFINITY, -INFINITY, -INFINITY }, { INFINITY, INFINITY, INFINITY } };
-    nearest_search search = { navmesh,        filter,        point,                everywhere, INFINITY,
-                              TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f }, true,       0 };
+    nearest_search search = {
+        navmesh, filter, point, everywhere, INFINITY, TL_NAV_NO_SLOT, TL_NO_POLYGON, { 0.0f, 0.0f, 0.0f }, true, 0
+    };
     search.island = tl_nav_island_of(navmesh, slot, polygon);
     for (slot = 0; slot < navmesh->slot_count; slot++) {
         if (navmesh->slots[slot].tile != NULL) {

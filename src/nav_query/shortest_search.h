@@ -23,7 +23,11 @@ typedef struct tl_nav_wedge {
     uint32_t parent;
 } tl_nav_wedge;
 
-typedef enum tl_nav_search_end { TL_NAV_SEARCH_FOUND, TL_NAV_SEARCH_EXHAUSTED, TL_NAV_SEARCH_OUT_OF_NODES } tl_nav_search_end;
+typedef enum tl_nav_search_end {
+    TL_NAV_SEARCH_FOUND,
+    TL_NAV_SEARCH_EXHAUSTED,
+    TL_NAV_SEARCH_OUT_OF_NODES
+} tl_nav_search_end;
 
 typedef struct tl_nav_shortest_search {
     tl_nav_query *query;
@@ -33,7 +37,7 @@ typedef struct tl_nav_shortest_search {
     uint32_t goal_slot, goal_polygon;
     tl_vec3 start, goal; ///< on their polygons
     // Found:
-    uint32_t last;     ///< wedge, in the goal's polygon
+    uint32_t last;      ///< wedge, in the goal's polygon
     double lower_bound; ///< no path is shorter
 } tl_nav_shortest_search;
 
