@@ -27,9 +27,10 @@
 namespace
 {
 
-const char *const STAGES[] = { "rasterize", "filter",   "compact",  "erode",  "distance",
-                               "regions",   "contours", "polygons", "detail", "whole" };
-enum stage { RASTERIZE, FILTER, COMPACT, ERODE, DISTANCE, REGIONS, CONTOURS, POLYGONS, DETAIL, WHOLE, STAGE_COUNT };
+const char *const STAGES[] = { "rasterize", "floors",   "erode",  "distance", "regions",
+                               "contours",  "polygons", "detail", "whole" };
+/// FLOORS: filters and compaction.
+enum stage { RASTERIZE, FLOORS, ERODE, DISTANCE, REGIONS, CONTOURS, POLYGONS, DETAIL, WHOLE, STAGE_COUNT };
 
 // Milliseconds a stage, and the most bytes held.
 struct figures {
@@ -147,13 +148,7 @@ bool run_talus(const bench_part &part, figures *sum)
     tl_nav_compact *compact = &s.compact;
     bool done =
         watch.time([&] { return !tl_nav_rasterize(&config, &mesh, nullptr, nullptr, &s.heightfield, nullptr); }) &&
-        watch.time([&] {
-            tl_nav_filter_low_hanging_obstacles(&config, &s.heightfield);
-            tl_nav_filter_ledge_spans(&config, &s.heightfield);
-            tl_nav_filter_walkable_low_height_spans(&config, &s.heightfield);
-            return true;
-        }) &&
-        watch.time([&] { return !tl_nav_compact_build(&config, &s.heightfield, nullptr, compact, nullptr); }) &&
+        watch.time([&] { return !tl_nav_open_floors(&config, &s.heightfield, nullptr, compact, nullptr); }) &&
         watch.time([&] { return !tl_nav_erode(&config, nullptr, compact); }) &&
         watch.time([&] { return !watershed || !tl_nav_distance_field(nullptr, compact, nullptr); }) &&
         watch.time([&] { return !tl_nav_build_regions(&config, nullptr, compact, nullptr); }) &&
@@ -178,8 +173,7 @@ bool run_recast(const bench_part &part, figures *sum)
     stopwatch watch{ &own };
     recast_pipeline recast;
     bool done = watch.time([&] { return recast.rasterize(config, mesh, 45.0f); }) &&
-                watch.time([&] { return recast.filter(config); }) &&
-                watch.time([&] { return recast.build_compact(config); });
+                watch.time([&] { return recast.filter(config) && recast.build_compact(config); });
     recast.free_heightfield();
     done = done && watch.time([&] { return recast.erode(config); }) &&
            watch.time([&] { return !watershed || recast.distance_field(); }) &&
@@ -188,7 +182,7 @@ bool run_recast(const bench_part &part, figures *sum)
            watch.time([&] { return recast.build_polygons(config); });
     recast.free_contours();
     done = done && watch.time([&] { return recast.build_detail(config); });
-    own.ms[WHOLE] = own.sum({ RASTERIZE, FILTER, COMPACT, ERODE, DISTANCE, REGIONS, CONTOURS, POLYGONS, DETAIL });
+    own.ms[WHOLE] = own.sum({ RASTERIZE, FLOORS, ERODE, DISTANCE, REGIONS, CONTOURS, POLYGONS, DETAIL });
     sum->add(own);
     return done;
 }
@@ -352,7 +346,7 @@ void bench_watershed(bench_report *report, const std::vector<bench_level> &level
     b.print_sum("all levels");
     if (b.recast.ms[WHOLE] > 0) {
         b.claim("rasterize, share of Recast's time", { RASTERIZE }, 0.4);
-        b.claim("filter + compact", { FILTER, COMPACT }, 0.35);
+        b.claim("filter + compact", { FLOORS }, 0.35);
         b.claim("erode + distance + watershed", { ERODE, DISTANCE, REGIONS }, 0.4);
         b.claim("contours + polygons", { CONTOURS, POLYGONS }, 0.4);
         b.claim("detail", { DETAIL }, 0.35);

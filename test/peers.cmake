@@ -65,3 +65,5 @@ set(talus_test_nav_golden_libraries pthread)
 # Bullet and libccd: convex pairs to compare with, in one table.
 include(${PROJECT_SOURCE_DIR}/cmake/TalusPeerConvex.cmake)
 set(talus_test_convex_families_libraries talus_peer_convex)
+# The floors of a built-in level.
+set(talus_test_open_floors_needs talus_sample)

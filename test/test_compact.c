@@ -73,7 +73,7 @@ static void agrees_with_the_definition(void **state)
                 TEST_CHECK(compact.floor[at] == field.spans[i].max && compact.area[at] == field.spans[i].area);
                 TEST_CHECK(compact.clearance[at] == (top ? 0xffff : field.spans[i + 1].min - field.spans[i].max));
                 for (uint32_t d = 0; d < 4; d++) {
-                    TEST_CHECK(compact.neighbour[4 * at + d] == expected[4 * at + d]);
+                    TEST_CHECK(tl_nav_beside(&compact, at, d) == expected[4 * at + d]);
                     linked += expected[4 * at + d] != TL_NAV_NO_SPAN;
                     unlinked += expected[4 * at + d] == TL_NAV_NO_SPAN;
                 }
@@ -95,7 +95,7 @@ static void failing_and_cancelling_leave_nothing(void **state)
     tl_nav_config config = test_nav_config(30, 100);
     tl_nav_heightfield field = test_random_heightfield(&random, &config, 4);
     uint32_t failed = 0, cancelled = 0;
-    for (uint32_t k = 1; k < 20; k++) {
+    for (uint32_t k = 1; k < 40; k++) {
         test_allocator memory;
         test_allocator_init(&memory, k % 2 ? k / 2 + 1 : 0);
         test_progress progress;
@@ -109,7 +109,7 @@ static void failing_and_cancelling_leave_nothing(void **state)
         tl_nav_compact_free(&compact);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
     }
-    TEST_CHECK(failed == 5 && cancelled >= 2);
+    TEST_CHECK(failed >= 10 && failed < 20 && cancelled >= 2);
     tl_nav_heightfield_free(&field);
 }
 

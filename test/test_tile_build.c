@@ -179,7 +179,7 @@ static void the_same_bytes_always(void **state)
     tl_blob_free(first, NULL);
 }
 
-static const char *const STAGES[] = { "rasterize", "filter",   "compact",  "erode",  "areas", "distance field",
+static const char *const STAGES[] = { "rasterize", "compact",  "erode",    "areas",  "distance field",
                                       "regions",   "contours", "polygons", "detail", "tile" };
 
 typedef struct stage_log {

@@ -1,181 +1,237 @@
 // SPDX-License-Identifier: MIT
 //
-// The open space above walkable spans, and which floor lies beside which.
+// The compact heightfield: the floors above the solid spans, and which lies beside which.
 // Source: Mikko Mononen, Recast (rcBuildCompactHeightfield).
 //
-// A neighbour is kept as an index into the floors, not as a number within the next column: all later stages walk from
-// floor to floor, and so do it without looking at columns.
+// Runs of rows are opened as tasks (open_floors.c), each into a piece of its own; then the pieces are joined and the
+// floors linked (link_floors.c). The spans come from a heightfield, or straight from the rasterizer, a band at a time:
+// then no heightfield is ever whole, and its spans are read while they are in the cache.
+
+#include "nav_build/compact.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
-#include "nav_build/column.h"
+#include "nav_build/batches.h"
+#include "nav_build/open_floors.h"
 
 #include <string.h>
 
-static uint32_t count_floors(const tl_nav_heightfield *field)
+enum { COLUMNS_PER_TASK = 16384, TASKS_PER_WORKER = 4 };
+
+typedef struct open_worker {
+    tl_open_scratch scratch;
+    uint64_t span_count; ///< of the rows that it opened
+} open_worker;
+
+typedef struct open_job {
+    const tl_nav_config *config; ///< with the filters to apply
+    const tl_span_rows *rows;    ///< of the whole field, or NULL: the rasterizer's
+    tl_rasterizer *rasterizer;
+    tl_nav_compact *compact;
+    uint32_t rows_per_task, task_count;
+    tl_floors *pieces;    ///< [task_count]
+    open_worker *workers; ///< [worker_count]
+    uint32_t worker_count;
+    const tl_allocator *allocator;
+} open_job;
+
+// The floors of one run of rows. A piece has room for all that its spans may hold, and where it has to wait for others,
+// then as much as it needs.
+static tl_result open_rows(open_job *job, const tl_span_rows *rows, uint32_t begin, uint32_t end, open_worker *worker,
+                           tl_floors *piece)
 {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < field->span_count; i++) {
-        count += field->spans[i].area != TL_NAV_NULL_AREA;
+    const uint32_t width = rows->width;
+    const uint32_t spans = tl_span_rows_at(rows, end - 1)[width] - tl_span_rows_at(rows, begin)[0];
+    worker->span_count += spans;
+    worker->scratch.allocator = job->allocator;
+    tl_floors all;
+    TL_TRY(tl_floors_allocate(&all, spans, job->allocator));
+    tl_result result = tl_open_rows(job->config, rows, begin, end, &worker->scratch, &all,
+                                    job->compact->first_span + (size_t)begin * width + 1);
+    if (job->task_count == 1) {
+        *piece = all;
+        return result;
     }
-    return count;
+    result = result == TL_OK ? tl_floors_allocate(piece, all.count, job->allocator) : result;
+    if (result == TL_OK) {
+        tl_floors_append(piece, &all);
+    }
+    tl_floors_release(&all, job->allocator);
+    return result;
 }
 
-static tl_result allocate_floors(tl_nav_compact *compact)
+static tl_result open_task(uint32_t index, uint32_t worker, void *user)
 {
-    const uint64_t columns = (uint64_t)compact->width * compact->height, count = compact->span_count;
+    open_job *job = user;
+    const uint32_t begin = index * job->rows_per_task, height = job->compact->height;
+    const uint32_t end = height - begin < job->rows_per_task ? height : begin + job->rows_per_task;
+    tl_span_rows band;
+    if (job->rows == NULL) {
+        TL_TRY(tl_rasterizer_run(job->rasterizer, index, worker, &band));
+    }
+    return open_rows(job, job->rows != NULL ? job->rows : &band, begin, end, &job->workers[worker],
+                     &job->pieces[index]);
+}
+
+static tl_result allocate_job(open_job *job, const tl_host *host)
+{
+    tl_nav_compact *compact = job->compact;
+    const uint64_t columns = (uint64_t)compact->width * compact->height;
+    job->worker_count = tl_worker_count(host);
     compact->first_span = tl_allocate_array(compact->allocator, columns + 1, sizeof *compact->first_span);
+    job->pieces = tl_allocate_array(job->allocator, job->task_count, sizeof *job->pieces);
+    job->workers = tl_allocate_array(job->allocator, job->worker_count, sizeof *job->workers);
+    if (job->pieces != NULL) {
+        memset(job->pieces, 0, job->task_count * sizeof *job->pieces);
+    }
+    if (job->workers != NULL) {
+        memset(job->workers, 0, job->worker_count * sizeof *job->workers);
+    }
+    return compact->first_span && job->pieces && job->workers ? TL_OK : TL_ERR_MEMORY;
+}
+
+static void free_workers(open_job *job)
+{
+    for (uint32_t w = 0; job->workers != NULL && w < job->worker_count; w++) {
+        tl_open_scratch_free(&job->workers[w].scratch);
+    }
+    tl_release_array(job->allocator, job->workers, job->worker_count, sizeof *job->workers);
+    job->workers = NULL;
+}
+
+static void free_pieces(open_job *job)
+{
+    for (uint32_t k = 0; job->pieces != NULL && k < job->task_count; k++) {
+        tl_floors_release(&job->pieces[k], job->allocator);
+    }
+    tl_release_array(job->allocator, job->pieces, job->task_count, sizeof *job->pieces);
+    job->pieces = NULL;
+}
+
+// All pieces in the order of the rows; counts become positions. Each piece is freed when it has been copied.
+static tl_result join_pieces(open_job *job)
+{
+    tl_nav_compact *compact = job->compact;
+    uint64_t count = 0;
+    for (uint32_t k = 0; k < job->task_count; k++) {
+        count += job->pieces[k].count;
+    }
+    if (count >= TL_NAV_NO_SPAN) {
+        return TL_ERR_LIMIT;
+    }
+    compact->span_count = (uint32_t)count;
     compact->floor = tl_allocate_array(compact->allocator, count, sizeof *compact->floor);
     compact->clearance = tl_allocate_array(compact->allocator, count, sizeof *compact->clearance);
     compact->area = tl_allocate_array(compact->allocator, count, sizeof *compact->area);
-    compact->neighbour = tl_allocate_array(compact->allocator, 4 * count, sizeof *compact->neighbour);
-    return compact->first_span && compact->floor && compact->clearance && compact->area && compact->neighbour
-               ? TL_OK
-               : TL_ERR_MEMORY;
-}
-
-static void fill_floors(const tl_nav_heightfield *field, tl_nav_compact *compact)
-{
-    const uint32_t columns = field->width * field->height;
-    uint32_t at = 0;
-    for (uint32_t c = 0; c < columns; c++) {
-        const uint32_t end = field->first_span[c + 1];
-        compact->first_span[c] = at;
-        for (uint32_t i = field->first_span[c]; i < end; i++) {
-            if (field->spans[i].area == TL_NAV_NULL_AREA) {
-                continue;
-            }
-            uint32_t clearance = tl_nav_ceiling(field->spans, i, end) - field->spans[i].max;
-            compact->floor[at] = field->spans[i].max;
-            compact->clearance[at] = (uint16_t)(clearance < 0xffff ? clearance : 0xffff);
-            compact->area[at] = (uint8_t)field->spans[i].area;
-            for (uint32_t direction = 0; direction < 4; direction++) {
-                compact->neighbour[4 * (size_t)at + direction] = TL_NAV_NO_SPAN;
-            }
-            at++;
-        }
+    if (compact->floor == NULL || compact->clearance == NULL || compact->area == NULL) {
+        return TL_ERR_MEMORY;
     }
-    compact->first_span[columns] = at;
-}
-
-// Whether one can step between two floors: close enough in height, and with room above both.
-static inline bool can_step(const tl_nav_compact *compact, uint32_t a, uint32_t b)
-{
-    const int32_t floor_a = compact->floor[a], floor_b = compact->floor[b];
-    const int32_t ceiling_a = floor_a + compact->clearance[a], ceiling_b = floor_b + compact->clearance[b];
-    const int32_t bottom = floor_a > floor_b ? floor_a : floor_b,
-                  step = floor_a > floor_b ? floor_a - floor_b : floor_b - floor_a;
-    const int32_t top = ceiling_a < ceiling_b ? ceiling_a : ceiling_b;
-    return step <= (int32_t)compact->walkable_climb && top - bottom >= (int32_t)compact->walkable_height;
-}
-
-// Links the floors of a column with those of the column beside it in a direction, bottom up and in pairs: each with the
-// lowest one that it can step to and that is not taken. So links are mutual and do not cross.
-//
-// One floor can step to two of a column only where twice the climb exceeds the agent's height: between those two lie
-// a solid voxel and the room to pass, and both are within a climb. In all other settings these are Recast's links.
-static void link_columns(tl_nav_compact *compact, uint32_t column, uint32_t beside, uint32_t direction)
-{
-    const uint16_t *floors = compact->floor;
-    const uint32_t end = compact->first_span[column + 1], beside_end = compact->first_span[beside + 1];
-    uint32_t next = compact->first_span[beside];
-    for (uint32_t i = compact->first_span[column]; i < end; i++) {
-        // Floors rise within a column: what lies too deep for this one does so for those above it.
-        const int32_t lowest = (int32_t)floors[i] - (int32_t)compact->walkable_climb;
-        const int32_t highest = (int32_t)floors[i] + (int32_t)compact->walkable_climb;
-        while (next < beside_end && (int32_t)floors[next] < lowest) {
-            next++;
-        }
-        for (uint32_t k = next; k < beside_end && (int32_t)floors[k] <= highest; k++) {
-            if (can_step(compact, i, k)) {
-                compact->neighbour[4 * (size_t)i + direction] = k;
-                compact->neighbour[4 * (size_t)k + (direction ^ 2)] = i;
-                next = k + 1;
-                break;
-            }
-        }
+    tl_floors all = { compact->floor, compact->clearance, compact->area, 0, compact->span_count };
+    for (uint32_t k = 0; k < job->task_count; k++) {
+        tl_floors_append(&all, &job->pieces[k]);
+        tl_floors_release(&job->pieces[k], job->allocator);
     }
+    const uint64_t columns = (uint64_t)compact->width * compact->height;
+    compact->first_span[0] = 0;
+    for (uint64_t c = 0; c < columns; c++) {
+        compact->first_span[c + 1] += compact->first_span[c];
+    }
+    return TL_OK;
 }
 
-// Each column with the one after it on x and on z: that is every pair once.
-static void link_row(tl_nav_compact *compact, uint32_t z)
+static tl_result open_all(open_job *job, const tl_host *host, uint64_t *span_count_out)
 {
-    const uint32_t width = compact->width;
-    const bool last_row = z + 1 == compact->height;
-    for (uint32_t x = 0; x < width; x++) {
-        const uint32_t column = z * width + x;
-        if (compact->first_span[column] == compact->first_span[column + 1]) {
-            continue;
-        }
-        if (x + 1 < width) {
-            link_columns(compact, column, column + 1, 2);
-        }
-        if (!last_row) {
-            link_columns(compact, column, column + width, 1);
-        }
+    TL_TRY(allocate_job(job, host));
+    TL_TRY(tl_run_batches(host, job->rows == NULL ? "rasterize" : "compact", open_task, job->task_count,
+                          TASKS_PER_WORKER, job));
+    for (uint32_t w = 0; w < job->worker_count; w++) {
+        *span_count_out += job->workers[w].span_count;
     }
+    free_workers(job);
+    if (job->rasterizer != NULL) {
+        tl_rasterizer_free(job->rasterizer);
+    }
+    TL_TRY(join_pieces(job));
+    return tl_nav_link_floors(host, job->compact);
 }
 
-enum { ROWS_PER_TASK = 32, BATCHES_PER_WORKER = 16 };
-
-typedef struct link_job {
-    tl_nav_compact *compact;
-    uint32_t first_band;
-} link_job;
-
-static void link_rows_task(uint32_t index, uint32_t worker, void *task_user)
+static tl_result finish(open_job *job, tl_result result, tl_report *report)
 {
-    (void)worker;
-    const link_job *job = task_user;
-    uint32_t z = (job->first_band + index) * ROWS_PER_TASK;
-    uint32_t end = job->compact->height - z < ROWS_PER_TASK ? job->compact->height : z + ROWS_PER_TASK;
-    for (; z < end; z++) {
-        link_row(job->compact, z);
+    free_workers(job);
+    free_pieces(job);
+    if (result != TL_OK) {
+        tl_nav_compact_free(job->compact);
     }
+    return result == TL_ERR_LIMIT ? tl_report_fail(report, result, "cell_size", TL_NO_ELEMENT,
+                                                   "set tile_size, or raise cell_size: a field has too many floors")
+                                  : result;
 }
 
-static tl_result link_floors(tl_nav_compact *compact, const tl_host *host)
+static open_job start_job(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact)
 {
-    const uint32_t bands = (compact->height - 1) / ROWS_PER_TASK + 1;
-    uint32_t batch = host != NULL && host->progress != NULL ? tl_worker_count(host) * BATCHES_PER_WORKER : bands;
-    link_job job = { compact, 0 };
-    while (job.first_band < bands) {
-        TL_TRY(tl_progress_update(host, "compact", job.first_band, bands));
-        uint32_t left = bands - job.first_band, count = left < batch ? left : batch;
-        tl_run_tasks(host, link_rows_task, count, &job);
-        job.first_band += count;
+    open_job job;
+    memset(&job, 0, sizeof job);
+    memset(compact, 0, sizeof *compact);
+    compact->width = config->width;
+    compact->height = config->height;
+    compact->border_size = config->border_size;
+    compact->walkable_height = config->walkable_height;
+    compact->walkable_climb = config->walkable_climb;
+    compact->lattice = config->lattice;
+    compact->bounds = config->bounds;
+    compact->cell_size = config->cell_size;
+    compact->cell_height = config->cell_height;
+    compact->allocator = host != NULL ? host->allocator : NULL;
+    job.config = config;
+    job.compact = compact;
+    job.allocator = compact->allocator;
+    return job;
+}
+
+tl_result tl_nav_open_triangles(const tl_nav_config *config, const tl_mesh_view *mesh, const uint8_t *areas,
+                                tl_triangle_list list, const tl_host *host, tl_nav_compact *compact_out,
+                                uint64_t *span_count, tl_report *report)
+{
+    tl_report_begin(report, "rasterize");
+    tl_rasterizer rasterizer;
+    open_job job = start_job(config, host, compact_out);
+    tl_result result =
+        tl_rasterizer_init(&rasterizer, config, mesh, areas, list, config->filter_ledge_spans ? 1 : 0, host);
+    if (result == TL_OK) {
+        job.rasterizer = &rasterizer;
+        job.rows_per_task = rasterizer.rows_per_band;
+        job.task_count = rasterizer.band_count;
+        result = open_all(&job, host, span_count);
+        tl_rasterizer_free(&rasterizer);
     }
-    return tl_progress_update(host, "compact", bands, bands);
+    return finish(&job, result, report);
+}
+
+tl_result tl_nav_open_floors(const tl_nav_config *config, const tl_nav_heightfield *heightfield, const tl_host *host,
+                             tl_nav_compact *compact_out, tl_report *report_out)
+{
+    const tl_nav_heightfield *field = heightfield;
+    TL_ASSERT(config->width == field->width && config->height == field->height);
+    tl_report_begin(report_out, "compact");
+    open_job job = start_job(config, host, compact_out);
+    const tl_span_rows rows = { field->spans, field->first_span, field->width, field->height, 0 };
+    const uint32_t per_task = COLUMNS_PER_TASK / field->width;
+    uint64_t span_count = 0;
+    job.rows = &rows;
+    job.rows_per_task = per_task > 0 ? per_task : 1;
+    job.task_count = (field->height - 1) / job.rows_per_task + 1;
+    return finish(&job, open_all(&job, host, &span_count), report_out);
 }
 
 tl_result tl_nav_compact_build(const tl_nav_config *config, const tl_nav_heightfield *heightfield, const tl_host *host,
                                tl_nav_compact *compact_out, tl_report *report_out)
 {
-    tl_nav_compact *compact = compact_out;
-    tl_report_begin(report_out, "compact");
-    memset(compact, 0, sizeof *compact);
-    compact->width = heightfield->width;
-    compact->height = heightfield->height;
-    compact->border_size = config->border_size;
-    compact->walkable_height = config->walkable_height;
-    compact->walkable_climb = config->walkable_climb;
-    compact->lattice = heightfield->lattice;
-    compact->bounds = heightfield->bounds;
-    compact->cell_size = heightfield->cell_size;
-    compact->cell_height = heightfield->cell_height;
-    compact->allocator = host != NULL ? host->allocator : NULL;
-    compact->span_count = count_floors(heightfield);
-    // TL_NAV_NO_SPAN, and four neighbours a floor, must not meet an index: 2^32 - 1 spans of a heightfield at most.
-    tl_result result = allocate_floors(compact);
-    if (result == TL_OK) {
-        fill_floors(heightfield, compact);
-        result = link_floors(compact, host);
-    }
-    if (result != TL_OK) {
-        tl_nav_compact_free(compact);
-    }
-    return result;
+    tl_nav_config as_it_is = *config;
+    as_it_is.filter_low_hanging_obstacles = false;
+    as_it_is.filter_ledge_spans = false;
+    as_it_is.filter_walkable_low_height_spans = false;
+    return tl_nav_open_floors(&as_it_is, heightfield, host, compact_out, report_out);
 }
 
 void tl_nav_compact_free(tl_nav_compact *compact)
@@ -189,6 +245,7 @@ void tl_nav_compact_free(tl_nav_compact *compact)
     tl_release_array(allocator, compact->floor, count, sizeof *compact->floor);
     tl_release_array(allocator, compact->clearance, count, sizeof *compact->clearance);
     tl_release_array(allocator, compact->area, count, sizeof *compact->area);
+    tl_release_array(allocator, compact->step, 4 * count, sizeof *compact->step);
     tl_release_array(allocator, compact->neighbour, 4 * count, sizeof *compact->neighbour);
     tl_release_array(allocator, compact->distance, count, sizeof *compact->distance);
     tl_release_array(allocator, compact->region, count, sizeof *compact->region);

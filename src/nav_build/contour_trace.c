@@ -13,6 +13,7 @@
 #include "nav_build/contours.h"
 
 #include "base/assert.h"
+#include "nav_build/links.h"
 
 #include <string.h>
 
@@ -57,12 +58,12 @@ static void mark_outlines(tracer *t)
 {
     const tl_nav_compact *compact = t->work->compact;
     for (uint32_t i = 0; i < compact->span_count; i++) {
-        const uint32_t *link = compact->neighbour + 4 * (size_t)i;
+        const tl_links links = tl_nav_links(compact, i);
         uint32_t region = compact->region[i], mask = 0;
         for (uint32_t d = 0; d < 4; d++) {
-            mask |= (uint32_t)(link[d] == TL_NAV_NO_SPAN) << d;
+            mask |= (uint32_t)(links.to[d] == TL_NAV_NO_SPAN) << d;
         }
-        mask |= mark_link(t, region, link[0], 0) | mark_link(t, region, link[3], 3);
+        mask |= mark_link(t, region, links.to[0], 0) | mark_link(t, region, links.to[3], 3);
         t->outline[i] = (uint8_t)(is_traced(region) ? mask : 0);
     }
 }
@@ -92,14 +93,13 @@ typedef struct corner {
 
 static corner find_corner(const tl_nav_compact *compact, uint32_t floor, uint32_t direction)
 {
-    const uint32_t *neighbour = compact->neighbour;
     uint32_t turned = (direction + 1) & 3;
-    corner c = { { floor, neighbour[4 * (size_t)floor + direction], TL_NAV_NO_SPAN,
-                   neighbour[4 * (size_t)floor + turned] },
+    corner c = { { floor, tl_nav_beside(compact, floor, direction), TL_NAV_NO_SPAN,
+                   tl_nav_beside(compact, floor, turned) },
                  compact->floor[floor] };
-    uint32_t first_way = c.floors[1] != TL_NAV_NO_SPAN ? neighbour[4 * (size_t)c.floors[1] + turned] : TL_NAV_NO_SPAN;
+    uint32_t first_way = c.floors[1] != TL_NAV_NO_SPAN ? tl_nav_beside(compact, c.floors[1], turned) : TL_NAV_NO_SPAN;
     uint32_t other_way =
-        c.floors[3] != TL_NAV_NO_SPAN ? neighbour[4 * (size_t)c.floors[3] + direction] : TL_NAV_NO_SPAN;
+        c.floors[3] != TL_NAV_NO_SPAN ? tl_nav_beside(compact, c.floors[3], direction) : TL_NAV_NO_SPAN;
     c.floors[2] = other_way != TL_NAV_NO_SPAN ? other_way : first_way;
     const uint32_t seen[4] = { c.floors[1], first_way, c.floors[3], other_way };
     for (int k = 0; k < 4; k++) {
@@ -150,7 +150,7 @@ static void emit_edge(tracer *t, uint32_t vertex, uint32_t floor, uint32_t direc
 {
     tl_contour_work *work = t->work;
     const tl_nav_compact *compact = work->compact;
-    uint32_t beside = compact->neighbour[4 * (size_t)floor + direction];
+    uint32_t beside = tl_nav_beside(compact, floor, direction);
     uint32_t across = beside != TL_NAV_NO_SPAN ? compact->region[beside] : 0;
     bool area_border = beside != TL_NAV_NO_SPAN && compact->area[beside] != compact->area[floor];
     work->across[vertex] = across;
@@ -230,7 +230,7 @@ static tl_result walk_loop(tracer *t, uint32_t start, uint32_t start_x, uint32_t
             emit_edge(t, work->vertex_count++, floor, direction, x, z);
             direction = (direction + 1) & 3;
         } else {
-            floor = work->compact->neighbour[4 * (size_t)floor + direction];
+            floor = tl_nav_beside(work->compact, floor, direction);
             x += (direction == 2) - (uint32_t)(direction == 0);
             z += (direction == 1) - (uint32_t)(direction == 3);
             direction = (direction + 3) & 3;
@@ -270,7 +270,7 @@ static void find_twins(tracer *t)
     tl_contour_work *work = t->work;
     for (uint32_t k = 0; k < work->vertex_count; k++) {
         uint32_t direction = t->direction_of[k];
-        uint32_t beside = work->compact->neighbour[4 * (size_t)t->floor_of[k] + direction];
+        uint32_t beside = tl_nav_beside(work->compact, t->floor_of[k], direction);
         bool has_twin = beside != TL_NAV_NO_SPAN && (t->outline[beside] & (1u << (direction ^ 2))) != 0;
         work->twin[k] = has_twin ? t->vertex_of[edge_index(t, beside, direction ^ 2)] : TL_NO_TWIN;
     }

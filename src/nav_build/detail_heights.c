@@ -79,10 +79,10 @@ static void walk_towards(const tl_nav_compact *compact, found_floor *at, int64_t
         int64_t dx = x - at->x, dz = z - at->z;
         uint32_t along_x = dx < 0 ? 0 : 2, along_z = dz < 0 ? 3 : 1;
         uint32_t first = (x_first && dx != 0) || dz == 0 ? along_x : along_z, direction = first;
-        uint32_t next = compact->neighbour[4 * (size_t)at->span + direction];
+        uint32_t next = tl_nav_beside(compact, at->span, direction);
         if (next == TL_NAV_NO_SPAN && dx != 0 && dz != 0) {
             direction = first == along_x ? along_z : along_x;
-            next = compact->neighbour[4 * (size_t)at->span + direction];
+            next = tl_nav_beside(compact, at->span, direction);
         }
         if (next == TL_NAV_NO_SPAN) {
             break;

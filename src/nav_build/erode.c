@@ -10,8 +10,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
-
-#include <talus/nav_build.h>
+#include "nav_build/links.h"
 
 #include <string.h>
 
@@ -22,10 +21,10 @@ static void seed_borders(const tl_nav_compact *compact, uint16_t far, uint16_t *
 {
     const uint8_t *area = compact->area;
     for (uint32_t i = 0; i < compact->span_count; i++) {
-        const uint32_t *beside = compact->neighbour + 4 * (size_t)i;
+        const tl_links links = tl_nav_links(compact, i);
         bool inside = area[i] != TL_NAV_NULL_AREA;
         for (uint32_t d = 0; inside && d < 4; d++) {
-            inside = beside[d] != TL_NAV_NO_SPAN && area[beside[d]] != TL_NAV_NULL_AREA;
+            inside = links.to[d] != TL_NAV_NO_SPAN && area[links.to[d]] != TL_NAV_NULL_AREA;
         }
         distance[i] = inside ? far : 0;
     }
@@ -35,13 +34,13 @@ static void seed_borders(const tl_nav_compact *compact, uint16_t far, uint16_t *
 static uint32_t nearest_over(const tl_nav_compact *compact, const uint16_t *distance, uint32_t i, uint32_t direction,
                              uint32_t turn, uint32_t nearest)
 {
-    uint32_t beside = compact->neighbour[4 * (size_t)i + direction];
+    uint32_t beside = tl_nav_beside(compact, i, direction);
     if (beside == TL_NAV_NO_SPAN) {
         return nearest;
     }
     uint32_t straight = (uint32_t)distance[beside] + STRAIGHT;
     nearest = straight < nearest ? straight : nearest;
-    uint32_t across = compact->neighbour[4 * (size_t)beside + turn];
+    uint32_t across = tl_nav_beside(compact, beside, turn);
     if (across == TL_NAV_NO_SPAN) {
         return nearest;
     }

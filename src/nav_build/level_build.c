@@ -2,13 +2,13 @@
 //
 // A whole level: its triangles sorted into tiles once, then every tile built alone, as tasks where the host has some.
 //
-// Tiles share nothing but the lattice, so their bytes do not depend on who builds them or when. The progress hook may
-// be called on the caller's thread only: tiles run in batches, and it is called between them. A failure is that of the
-// first tile that fails, in row-major order, whatever the number of workers: all tiles of a batch are finished.
+// Tiles share nothing but the lattice, so their bytes do not depend on who builds them or when. A failure is that of
+// the first tile that fails, in row-major order, whatever the number of workers.
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "nav_build/batches.h"
 #include "nav_build/memory_meter.h"
 #include "nav_build/tile_build.h"
 
@@ -21,7 +21,6 @@ enum { TILES_PER_WORKER = 8 }; // between two calls of the progress hook
 typedef struct level_worker {
     tl_nav_build_report counts;
     uint64_t failed_tile; ///< the lowest one, or NO_TILE
-    tl_result result;     ///< its result
     tl_report failure;    ///< its report
 } level_worker;
 
@@ -37,7 +36,6 @@ typedef struct level_job {
     tl_nav_tile **tiles;   ///< [range.count_x * range.count_z]
     level_worker *workers; ///< [worker_count]
     uint32_t worker_count;
-    uint64_t first_tile; ///< of the batch at hand
 } level_job;
 
 static uint64_t tile_count_of(const level_job *job)
@@ -78,53 +76,40 @@ static tl_result run_tile(const level_job *job, uint64_t tile, tl_triangle_list 
     return result;
 }
 
-static void tile_task(uint32_t index, uint32_t worker_index, void *task_user)
+static tl_result build_one_tile(uint32_t tile, uint32_t worker_index, void *user)
 {
-    level_job *job = task_user;
+    level_job *job = user;
     level_worker *worker = &job->workers[worker_index];
-    const uint64_t tile = job->first_tile + index;
     tl_triangle_list list = tl_triangle_bins_get(&job->bins, tile);
     if (list.count == 0) {
-        return;
+        return TL_OK;
     }
     tl_host host = { job->host.allocator, NULL, NULL };
     tl_result result = run_tile(job, tile, list, &host, &worker->counts);
     if (result != TL_OK && tile < worker->failed_tile) {
         worker->failed_tile = tile;
-        worker->result = result;
         worker->failure = worker->counts.base;
         if (worker->failure.element == NULL) {
             worker->failure.element = "tile";
             worker->failure.element_index = tile;
         }
     }
-}
-
-static tl_result first_failure(const level_job *job, tl_report *report)
-{
-    const level_worker *first = &job->workers[0];
-    for (uint32_t w = 1; w < job->worker_count; w++) {
-        first = job->workers[w].failed_tile < first->failed_tile ? &job->workers[w] : first;
-    }
-    if (first->failed_tile == NO_TILE) {
-        return TL_OK;
-    }
-    *report = first->failure;
-    return first->result;
+    return result;
 }
 
 static tl_result run_tiles(level_job *job, tl_report *report)
 {
-    const uint64_t count = tile_count_of(job);
-    const uint64_t batch = (uint64_t)job->worker_count * TILES_PER_WORKER;
     tl_report_begin(report, "tiles");
-    for (job->first_tile = 0; job->first_tile < count; job->first_tile += batch) {
-        TL_TRY(tl_progress_update(&job->host, "tiles", job->first_tile, count));
-        uint64_t left = count - job->first_tile;
-        tl_run_tasks(&job->host, tile_task, (uint32_t)(left < batch ? left : batch), job);
-        TL_TRY(first_failure(job, report));
+    tl_result result =
+        tl_run_batches(&job->host, "tiles", build_one_tile, (uint32_t)tile_count_of(job), TILES_PER_WORKER, job);
+    const level_worker *first = &job->workers[0];
+    for (uint32_t w = 1; w < job->worker_count; w++) {
+        first = job->workers[w].failed_tile < first->failed_tile ? &job->workers[w] : first;
     }
-    return tl_progress_update(&job->host, "tiles", count, count);
+    if (first->failed_tile != NO_TILE) {
+        *report = first->failure;
+    }
+    return result;
 }
 
 // The columns of the level's lattice fall into tiles, each with the border that it sees of its neighbours.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Triangles to a heightfield of solid spans, a band of rows at a time.
+// Triangles to the solid spans of their columns, a band of rows at a time.
 //
 // A band has so few columns that its unsorted spans and its sort stay in the second-level cache; bands are independent,
 // so they may run as tasks and the bytes are the same. Its spans are merged by a rule without order (span_buffer.c).
@@ -11,210 +11,229 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "nav_build/batches.h"
 #include "nav_build/level_mesh.h"
 
 #include <string.h>
 
 enum {
-    BAND_COLUMNS = 16384,  // 4 items each, twice, of 8 bytes: 1 MB
-    BATCHES_PER_WORKER = 4 // bands between two calls of the progress hook, a worker
+    BAND_COLUMNS = 16384, // 4 items each, twice, of 8 bytes: 1 MB
+    BANDS_PER_WORKER = 4  // between two calls of the progress hook
 };
 
-typedef struct band_spans {
-    tl_nav_span *spans;
-    uint32_t count;
-    tl_result result;
-} band_spans;
-
-typedef struct worker_scratch {
+struct tl_raster_worker {
     tl_span_buffer buffer;
-    double *heights; ///< [TL_VOXEL_HEIGHTS_PER_COLUMN * width]
-} worker_scratch;
+    double *heights;      ///< [TL_VOXEL_HEIGHTS_PER_COLUMN * width]
+    uint32_t *first_span; ///< [first_capacity]
+    uint32_t first_capacity;
+};
 
-typedef struct raster_job {
-    const tl_nav_config *config;
-    const tl_mesh_view *mesh;
-    const uint8_t *areas;
-    const tl_allocator *allocator;
-    tl_triangle_list list;
-    tl_triangle_bins bins; ///< by band; not made when there is one band
-    tl_lattice_map map;
-    uint32_t rows_per_band;
-    uint32_t band_count;
-    band_spans *bands;       ///< [band_count]
-    worker_scratch *workers; ///< [worker_count]
-    uint32_t worker_count;
-    uint32_t first_band; ///< of the batch at hand
-    tl_nav_heightfield *heightfield;
-} raster_job;
-
-static tl_result prepare_worker(raster_job *job, worker_scratch *scratch, uint32_t columns)
+static tl_result prepare_worker(const tl_rasterizer *r, tl_raster_worker *worker, uint32_t columns)
 {
-    const uint64_t width = job->config->width;
-    if (scratch->heights == NULL) {
-        scratch->buffer.allocator = job->allocator;
-        scratch->buffer.walkable_climb = job->config->walkable_climb;
-        scratch->heights = tl_allocate_array(job->allocator, TL_VOXEL_HEIGHTS_PER_COLUMN * width, sizeof(double));
-        if (scratch->heights == NULL) {
+    const uint64_t width = r->config->width;
+    if (worker->heights == NULL) {
+        worker->buffer.allocator = r->allocator;
+        worker->buffer.walkable_climb = r->config->walkable_climb;
+        worker->heights = tl_allocate_array(r->allocator, TL_VOXEL_HEIGHTS_PER_COLUMN * width, sizeof(double));
+        if (worker->heights == NULL) {
             return TL_ERR_MEMORY;
         }
-        tl_voxel_heights_init(scratch->heights, job->config->width);
+        tl_voxel_heights_init(worker->heights, r->config->width);
     }
-    return tl_span_buffer_begin(&scratch->buffer, columns);
+    if (worker->first_capacity < columns + 1) {
+        tl_release_array(r->allocator, worker->first_span, worker->first_capacity, sizeof *worker->first_span);
+        worker->first_capacity = 0;
+        worker->first_span = tl_allocate_array(r->allocator, (uint64_t)columns + 1, sizeof *worker->first_span);
+        if (worker->first_span == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        worker->first_capacity = columns + 1;
+    }
+    return tl_span_buffer_begin(&worker->buffer, columns);
 }
 
-static tl_result voxelize_list(const raster_job *job, const tl_voxel_band *band, tl_triangle_list list)
+static tl_result voxelize_list(const tl_rasterizer *r, const tl_voxel_band *band, tl_triangle_list list)
 {
-    const tl_nav_config *config = job->config;
-    const tl_mesh_view *mesh = job->mesh;
+    const tl_nav_config *config = r->config;
+    const tl_mesh_view *mesh = r->mesh;
     for (uint32_t i = 0; i < list.count; i++) {
         uint32_t triangle = tl_triangle_list_get(&list, i);
         const uint32_t *corner = mesh->indices + 3 * (size_t)triangle;
         tl_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
         uint32_t area = TL_NAV_NULL_AREA;
         if (tl_triangle_is_walkable(a, b, c, config->walkable_slope_cos)) {
-            area = job->areas != NULL ? job->areas[triangle] : TL_NAV_WALKABLE_AREA;
+            area = r->areas != NULL ? r->areas[triangle] : TL_NAV_WALKABLE_AREA;
         }
-        TL_TRY(tl_voxelize_triangle(band, tl_lattice_map_point(&job->map, a), tl_lattice_map_point(&job->map, b),
-                                    tl_lattice_map_point(&job->map, c), area));
+        TL_TRY(tl_voxelize_triangle(band, tl_lattice_map_point(&r->map, a), tl_lattice_map_point(&r->map, b),
+                                    tl_lattice_map_point(&r->map, c), area));
     }
     return TL_OK;
 }
 
-static tl_result rasterize_band(raster_job *job, uint32_t band_index, worker_scratch *scratch)
+tl_result tl_rasterizer_run(tl_rasterizer *rasterizer, uint32_t band_index, uint32_t worker_index,
+                            tl_span_rows *rows_out)
 {
-    const tl_nav_config *config = job->config;
-    uint32_t first_row = band_index * job->rows_per_band;
-    uint32_t rows = config->height - first_row < job->rows_per_band ? config->height - first_row : job->rows_per_band;
-    TL_TRY(prepare_worker(job, scratch, config->width * rows));
+    const tl_rasterizer *r = rasterizer;
+    const tl_nav_config *config = r->config;
+    tl_raster_worker *worker = &r->workers[worker_index];
+    uint32_t begin = band_index * r->rows_per_band;
+    uint32_t end = config->height - begin < r->rows_per_band ? config->height : begin + r->rows_per_band;
+    begin -= begin < r->margin ? begin : r->margin;
+    end += config->height - end < r->margin ? config->height - end : r->margin;
+    TL_TRY(prepare_worker(r, worker, config->width * (end - begin)));
 
-    tl_voxel_band band = {
-        config->width,    first_row,       rows, config->height, config->height_voxels, config->border_size == 0,
-        scratch->heights, &scratch->buffer
-    };
-    tl_triangle_list list = job->band_count > 1 ? tl_triangle_bins_get(&job->bins, band_index) : job->list;
-    TL_TRY(voxelize_list(job, &band, list));
+    tl_voxel_band band = { config->width,         begin,
+                           end - begin,           config->height,
+                           config->height_voxels, config->border_size == 0,
+                           worker->heights,       &worker->buffer };
+    tl_triangle_list list = r->band_count > 1 ? tl_triangle_bins_get(&r->bins, band_index) : r->list;
+    TL_TRY(voxelize_list(r, &band, list));
+    tl_nav_span *spans = tl_span_buffer_merge(&worker->buffer, worker->first_span);
+    *rows_out = (tl_span_rows){ spans, worker->first_span, config->width, config->height, begin };
+    return TL_OK;
+}
 
-    const tl_nav_span *spans;
-    band_spans *result = &job->bands[band_index];
-    uint64_t first_column = (uint64_t)first_row * config->width;
-    tl_span_buffer_merge(&scratch->buffer, job->heightfield->first_span + first_column + 1, &spans, &result->count);
-    result->spans = tl_allocate_array(job->allocator, result->count, sizeof *spans);
-    if (result->spans == NULL) {
+static tl_result init(tl_rasterizer *r, const tl_host *host)
+{
+    const tl_nav_config *config = r->config;
+    uint32_t rows = BAND_COLUMNS / config->width;
+    r->rows_per_band = rows > 0 ? rows : 1;
+    r->band_count = (config->height - 1) / r->rows_per_band + 1;
+    r->worker_count = tl_worker_count(host);
+    r->map = tl_lattice_map_make(&config->lattice, config->cell_size, config->cell_height);
+    r->workers = tl_allocate_array(r->allocator, r->worker_count, sizeof *r->workers);
+    if (r->workers == NULL) {
         return TL_ERR_MEMORY;
     }
-    memcpy(result->spans, spans, result->count * sizeof *spans);
+    memset(r->workers, 0, r->worker_count * sizeof *r->workers);
+    if (r->band_count > 1) {
+        tl_bin_grid grid = { 1, r->band_count, config->width, r->rows_per_band, r->margin };
+        return tl_triangle_bins_build(r->mesh, r->list, &r->map, &grid, r->allocator, &r->bins);
+    }
     return TL_OK;
 }
 
-static void rasterize_band_task(uint32_t index, uint32_t worker, void *task_user)
+tl_result tl_rasterizer_init(tl_rasterizer *rasterizer, const tl_nav_config *config, const tl_mesh_view *mesh,
+                             const uint8_t *areas, tl_triangle_list list, uint32_t margin, const tl_host *host)
 {
-    raster_job *job = task_user;
-    uint32_t band = job->first_band + index;
-    job->bands[band].result = rasterize_band(job, band, &job->workers[worker]);
+    tl_rasterizer *r = rasterizer;
+    memset(r, 0, sizeof *r);
+    r->config = config;
+    r->mesh = mesh;
+    r->areas = areas;
+    r->list = list;
+    r->margin = margin;
+    r->allocator = host != NULL ? host->allocator : NULL;
+    tl_result result = init(r, host);
+    if (result != TL_OK) {
+        tl_rasterizer_free(r);
+    }
+    return result;
 }
 
-// All bands, in batches so that the progress hook is called here between them.
-static tl_result rasterize_bands(raster_job *job, const tl_host *host)
+void tl_rasterizer_free(tl_rasterizer *rasterizer)
 {
-    uint32_t batch = job->band_count;
-    if (host != NULL && host->progress != NULL) {
-        batch = job->worker_count * BATCHES_PER_WORKER;
+    tl_rasterizer *r = rasterizer;
+    for (uint32_t w = 0; r->workers != NULL && w < r->worker_count; w++) {
+        tl_raster_worker *worker = &r->workers[w];
+        tl_span_buffer_free(&worker->buffer);
+        tl_release_array(r->allocator, worker->heights, TL_VOXEL_HEIGHTS_PER_COLUMN * (uint64_t)r->config->width,
+                         sizeof(double));
+        tl_release_array(r->allocator, worker->first_span, worker->first_capacity, sizeof *worker->first_span);
     }
-    for (job->first_band = 0; job->first_band < job->band_count; job->first_band += batch) {
-        TL_TRY(tl_progress_update(host, "rasterize", job->first_band, job->band_count));
-        uint32_t left = job->band_count - job->first_band;
-        uint32_t count = left < batch ? left : batch;
-        tl_run_tasks(host, rasterize_band_task, count, job);
-        for (uint32_t i = 0; i < count; i++) {
-            TL_TRY(job->bands[job->first_band + i].result);
-        }
-        if (left <= batch) {
-            break;
-        }
-    }
-    return tl_progress_update(host, "rasterize", job->band_count, job->band_count);
+    tl_release_array(r->allocator, r->workers, r->worker_count, sizeof *r->workers);
+    tl_triangle_bins_free(&r->bins);
+    memset(r, 0, sizeof *r);
 }
 
-// One array of all spans, in the order of the bands; counts become positions.
-static tl_result join_bands(raster_job *job)
+// ---- The heightfield ---------------------------------------------------------------------------------------
+
+typedef struct band_spans {
+    tl_nav_span *spans;
+    uint32_t count;
+} band_spans;
+
+typedef struct field_job {
+    tl_rasterizer rasterizer;
+    tl_nav_heightfield *field;
+    band_spans *bands; ///< [band_count]
+} field_job;
+
+static tl_result rasterize_band(uint32_t index, uint32_t worker, void *user)
 {
-    tl_nav_heightfield *field = job->heightfield;
+    field_job *job = user;
+    tl_span_rows rows;
+    TL_TRY(tl_rasterizer_run(&job->rasterizer, index, worker, &rows));
+    const uint32_t left = rows.field_height - rows.first_row;
+    const uint32_t height = left < job->rasterizer.rows_per_band ? left : job->rasterizer.rows_per_band;
+    const uint32_t columns = rows.width * height;
+    band_spans *band = &job->bands[index];
+    band->count = rows.first_span[columns];
+    band->spans = tl_allocate_array(job->field->allocator, band->count, sizeof *band->spans);
+    if (band->spans == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memcpy(band->spans, rows.spans, band->count * sizeof *band->spans);
+    memcpy(job->field->first_span + (size_t)rows.first_row * rows.width, rows.first_span,
+           columns * sizeof *rows.first_span);
+    return TL_OK;
+}
+
+// One array of all spans, in the order of the bands; positions within a band become positions in the field.
+static tl_result join_bands(field_job *job)
+{
+    tl_nav_heightfield *field = job->field;
+    const uint32_t band_count = job->rasterizer.band_count;
     uint64_t total = 0;
-    for (uint32_t b = 0; b < job->band_count; b++) {
+    for (uint32_t b = 0; b < band_count; b++) {
         total += job->bands[b].count;
     }
     if (total >= UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
     field->span_count = (uint32_t)total;
-    if (job->band_count == 1) {
+    const uint64_t columns = (uint64_t)field->width * field->height;
+    field->first_span[columns] = field->span_count;
+    if (band_count == 1) {
         field->spans = job->bands[0].spans;
         job->bands[0].spans = NULL;
-    } else {
-        field->spans = tl_allocate_array(job->allocator, total, sizeof *field->spans);
-        if (field->spans == NULL) {
-            return TL_ERR_MEMORY;
-        }
-        uint64_t done = 0;
-        for (uint32_t b = 0; b < job->band_count; b++) {
-            band_spans *band = &job->bands[b];
-            memcpy(field->spans + done, band->spans, band->count * sizeof *band->spans);
-            done += band->count;
-            tl_release_array(job->allocator, band->spans, band->count, sizeof *band->spans);
-            band->spans = NULL;
-        }
+        return TL_OK;
     }
-    const uint64_t columns = (uint64_t)field->width * field->height;
-    field->first_span[0] = 0;
-    for (uint64_t c = 0; c < columns; c++) {
-        field->first_span[c + 1] += field->first_span[c];
-    }
-    return TL_OK;
-}
-
-static tl_result start_job(raster_job *job, const tl_host *host)
-{
-    const tl_nav_config *config = job->config;
-    uint32_t rows = BAND_COLUMNS / config->width;
-    job->rows_per_band = rows > 0 ? rows : 1;
-    job->band_count = (config->height - 1) / job->rows_per_band + 1;
-    job->worker_count = tl_worker_count(host);
-    job->map = tl_lattice_map_make(&config->lattice, config->cell_size, config->cell_height);
-
-    const uint64_t columns = (uint64_t)config->width * config->height;
-    job->heightfield->first_span = tl_allocate_array(job->allocator, columns + 1, sizeof(uint32_t));
-    job->bands = tl_allocate_array(job->allocator, job->band_count, sizeof *job->bands);
-    job->workers = tl_allocate_array(job->allocator, job->worker_count, sizeof *job->workers);
-    if (job->bands != NULL) {
-        memset(job->bands, 0, job->band_count * sizeof *job->bands);
-    }
-    if (job->workers != NULL) {
-        memset(job->workers, 0, job->worker_count * sizeof *job->workers);
-    }
-    if (job->heightfield->first_span == NULL || job->bands == NULL || job->workers == NULL) {
+    field->spans = tl_allocate_array(field->allocator, total, sizeof *field->spans);
+    if (field->spans == NULL) {
         return TL_ERR_MEMORY;
     }
-    if (job->band_count > 1) {
-        tl_bin_grid grid = { 1, job->band_count, config->width, job->rows_per_band, 0 };
-        return tl_triangle_bins_build(job->mesh, job->list, &job->map, &grid, job->allocator, &job->bins);
+    const uint64_t columns_per_band = (uint64_t)field->width * job->rasterizer.rows_per_band;
+    uint32_t done = 0;
+    for (uint32_t b = 0; b < band_count; b++) {
+        band_spans *band = &job->bands[b];
+        const uint64_t first = b * columns_per_band, left = columns - first;
+        for (uint64_t c = 0; c < columns_per_band && c < left; c++) {
+            field->first_span[first + c] += done;
+        }
+        memcpy(field->spans + done, band->spans, band->count * sizeof *band->spans);
+        done += band->count;
+        tl_release_array(field->allocator, band->spans, band->count, sizeof *band->spans);
+        band->spans = NULL;
     }
     return TL_OK;
 }
 
-static void end_job(raster_job *job)
+static tl_result rasterize(field_job *job, const tl_host *host)
 {
-    for (uint32_t w = 0; job->workers != NULL && w < job->worker_count; w++) {
-        tl_span_buffer_free(&job->workers[w].buffer);
-        tl_release_array(job->allocator, job->workers[w].heights,
-                         TL_VOXEL_HEIGHTS_PER_COLUMN * (uint64_t)job->config->width, sizeof(double));
+    tl_nav_heightfield *field = job->field;
+    const uint32_t band_count = job->rasterizer.band_count;
+    field->first_span =
+        tl_allocate_array(field->allocator, (uint64_t)field->width * field->height + 1, sizeof *field->first_span);
+    job->bands = tl_allocate_array(field->allocator, band_count, sizeof *job->bands);
+    if (job->bands != NULL) {
+        memset(job->bands, 0, band_count * sizeof *job->bands);
     }
-    for (uint32_t b = 0; job->bands != NULL && b < job->band_count; b++) {
-        tl_release_array(job->allocator, job->bands[b].spans, job->bands[b].count, sizeof(tl_nav_span));
+    if (field->first_span == NULL || job->bands == NULL) {
+        return TL_ERR_MEMORY;
     }
-    tl_release_array(job->allocator, job->workers, job->worker_count, sizeof *job->workers);
-    tl_release_array(job->allocator, job->bands, job->band_count, sizeof *job->bands);
-    tl_triangle_bins_free(&job->bins);
+    TL_TRY(tl_run_batches(host, "rasterize", rasterize_band, band_count, BANDS_PER_WORKER, job));
+    return join_bands(job);
 }
 
 tl_result tl_nav_rasterize_list(const tl_nav_config *config, const tl_mesh_view *mesh, const uint8_t *areas,
@@ -231,19 +250,18 @@ tl_result tl_nav_rasterize_list(const tl_nav_config *config, const tl_mesh_view 
     field->cell_height = config->cell_height;
     field->allocator = host != NULL ? host->allocator : NULL;
 
-    raster_job job;
+    field_job job;
     memset(&job, 0, sizeof job);
-    job.config = config;
-    job.mesh = mesh;
-    job.areas = areas;
-    job.list = list;
-    job.allocator = field->allocator;
-    job.heightfield = field;
-
-    tl_result result = start_job(&job, host);
-    result = result == TL_OK ? rasterize_bands(&job, host) : result;
-    result = result == TL_OK ? join_bands(&job) : result;
-    end_job(&job);
+    job.field = field;
+    tl_result result = tl_rasterizer_init(&job.rasterizer, config, mesh, areas, list, 0, host);
+    if (result == TL_OK) {
+        result = rasterize(&job, host);
+        for (uint32_t b = 0; job.bands != NULL && b < job.rasterizer.band_count; b++) {
+            tl_release_array(field->allocator, job.bands[b].spans, job.bands[b].count, sizeof *job.bands[b].spans);
+        }
+        tl_release_array(field->allocator, job.bands, job.rasterizer.band_count, sizeof *job.bands);
+        tl_rasterizer_free(&job.rasterizer);
+    }
     if (result != TL_OK) {
         tl_nav_heightfield_free(field);
     }

@@ -32,7 +32,7 @@ typedef struct monotone {
 // The region beside a floor in a direction, or 0 when there is none of its area. Border floors are none.
 static inline uint32_t region_beside(const monotone *m, uint32_t floor, uint32_t direction)
 {
-    uint32_t beside = m->compact->neighbour[4 * (size_t)floor + direction];
+    uint32_t beside = tl_nav_beside(m->compact, floor, direction);
     if (beside == TL_NAV_NO_SPAN || m->compact->area[beside] != m->compact->area[floor] ||
         tl_region_is_border(m->region[beside])) {
         return 0;

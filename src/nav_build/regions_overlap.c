@@ -7,6 +7,7 @@
 // is flooded again, breadth first from its lowest index, and the flood stays out of columns that it already holds.
 // What is left becomes further regions. Regions that do not overlap are not touched.
 
+#include "nav_build/links.h"
 #include "nav_build/regions.h"
 
 #include <string.h>
@@ -57,11 +58,12 @@ static void flood_piece(splitter *s, uint32_t seed, uint32_t piece)
     s->region[seed] = piece;
     s->queue[tail++] = seed;
     while (head < tail) {
-        const uint32_t *link = s->compact->neighbour + 4 * (size_t)s->queue[head++];
+        const tl_links links = tl_nav_links(s->compact, s->queue[head++]);
         for (int d = 0; d < 4; d++) {
-            if (link[d] != TL_NAV_NO_SPAN && s->region[link[d]] == whole && !column_holds(s, link[d], piece)) {
-                s->region[link[d]] = piece;
-                s->queue[tail++] = link[d];
+            const uint32_t beside = links.to[d];
+            if (beside != TL_NAV_NO_SPAN && s->region[beside] == whole && !column_holds(s, beside, piece)) {
+                s->region[beside] = piece;
+                s->queue[tail++] = beside;
             }
         }
     }

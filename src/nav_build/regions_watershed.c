@@ -17,6 +17,7 @@
 #include "nav_build/regions.h"
 
 #include "base/assert.h"
+#include "nav_build/links.h"
 
 enum {
     GROWTH_STEPS = 8, // of growth at each level but the last; what is left is a new basin
@@ -49,11 +50,11 @@ static inline bool is_interior(uint32_t region)
 // direction.
 static void look_for_region(watershed *w, uint32_t floor)
 {
-    const uint32_t *link = w->compact->neighbour + 4 * (size_t)floor;
+    const tl_links links = tl_nav_links(w->compact, floor);
     uint8_t area = w->compact->area[floor];
     uint32_t nearest = UINT32_MAX, region = 0;
     for (int d = 0; d < 4; d++) {
-        uint32_t beside = link[d];
+        uint32_t beside = links.to[d];
         if (beside != TL_NAV_NO_SPAN && is_interior(w->region[beside]) && w->compact->area[beside] == area &&
             w->reach[beside] < nearest) {
             nearest = w->reach[beside];
@@ -84,10 +85,10 @@ static void look_beside_frontier(watershed *w, uint32_t level)
 {
     for (uint32_t k = 0; k < w->frontier_count; k++) {
         uint32_t floor = w->frontier[k];
-        const uint32_t *link = w->compact->neighbour + 4 * (size_t)floor;
+        const tl_links links = tl_nav_links(w->compact, floor);
         uint8_t area = w->compact->area[floor];
         for (int d = 0; d < 4; d++) {
-            uint32_t beside = link[d];
+            uint32_t beside = links.to[d];
             if (beside != TL_NAV_NO_SPAN && w->region[beside] == 0 && w->compact->distance[beside] >= level &&
                 w->compact->area[beside] == area) {
                 look_for_region(w, beside);
@@ -116,18 +117,18 @@ static void grow(watershed *w, uint32_t begin, uint32_t end, uint32_t level)
 // Whether another region than `own` lies beside the floor, or round a corner from it.
 static bool touches_other_region(const watershed *w, uint32_t floor, uint32_t own)
 {
-    const uint32_t *neighbour = w->compact->neighbour;
-    uint8_t area = w->compact->area[floor];
+    const tl_nav_compact *compact = w->compact;
+    uint8_t area = compact->area[floor];
     for (uint32_t d = 0; d < 4; d++) {
-        uint32_t beside = neighbour[4 * (size_t)floor + d];
-        if (beside == TL_NAV_NO_SPAN || w->compact->area[beside] != area || tl_region_is_border(w->region[beside])) {
+        uint32_t beside = tl_nav_beside(compact, floor, d);
+        if (beside == TL_NAV_NO_SPAN || compact->area[beside] != area || tl_region_is_border(w->region[beside])) {
             continue;
         }
         if (w->region[beside] != 0 && w->region[beside] != own) {
             return true;
         }
-        uint32_t diagonal = neighbour[4 * (size_t)beside + ((d + 1) & 3)];
-        if (diagonal != TL_NAV_NO_SPAN && w->compact->area[diagonal] == area && w->region[diagonal] != 0 &&
+        uint32_t diagonal = tl_nav_beside(compact, beside, (d + 1) & 3);
+        if (diagonal != TL_NAV_NO_SPAN && compact->area[diagonal] == area && w->region[diagonal] != 0 &&
             w->region[diagonal] != own && !tl_region_is_border(w->region[diagonal])) {
             return true;
         }
@@ -152,9 +153,9 @@ static bool flood(watershed *w, uint32_t seed, uint32_t level)
             continue;
         }
         taken++;
-        const uint32_t *link = compact->neighbour + 4 * (size_t)floor;
+        const tl_links links = tl_nav_links(compact, floor);
         for (int d = 0; d < 4; d++) {
-            uint32_t beside = link[d];
+            uint32_t beside = links.to[d];
             if (beside != TL_NAV_NO_SPAN && w->region[beside] == 0 && compact->distance[beside] >= level &&
                 compact->area[beside] == compact->area[floor]) {
                 w->region[beside] = own;

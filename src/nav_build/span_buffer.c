@@ -360,22 +360,20 @@ static uint32_t merge_column(tl_span_item *items, uint32_t count, uint32_t walka
     return merge_sorted(items, count, walkable_climb, spans);
 }
 
-void tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *counts_out, const tl_nav_span **spans_out,
-                          uint32_t *span_count_out)
+tl_nav_span *tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *first_span_out)
 {
     group_by_column(buffer);
     // The ungrouped items are no longer needed: the spans take their place.
     tl_nav_span *spans = (tl_nav_span *)(void *)buffer->items;
     uint32_t span_count = 0, begin = 0;
     for (uint32_t c = 0; c < buffer->column_count; c++) {
-        uint32_t end = buffer->ends[c], count = 0;
+        uint32_t end = buffer->ends[c];
+        first_span_out[c] = span_count;
         if (end > begin) {
-            count = merge_column(buffer->sorted + begin, end - begin, buffer->walkable_climb, spans + span_count);
+            span_count += merge_column(buffer->sorted + begin, end - begin, buffer->walkable_climb, spans + span_count);
         }
-        counts_out[c] = count;
-        span_count += count;
         begin = end;
     }
-    *spans_out = spans;
-    *span_count_out = span_count;
+    first_span_out[buffer->column_count] = span_count;
+    return spans;
 }

@@ -58,9 +58,8 @@ void tl_span_buffer_free(tl_span_buffer *buffer);
 /// Makes room for `count` more items: afterwards items[buffer->count .. + count) may be written.
 tl_result tl_span_buffer_reserve(tl_span_buffer *buffer, uint32_t count);
 
-/// The canonical union of all items, column by column. `*spans_out` lies in the buffer and holds until its next use;
-/// counts_out[column] spans belong to each column.
-void tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *counts_out, const tl_nav_span **spans_out,
-                          uint32_t *span_count_out);
+/// The canonical union of all items: those of column c begin at first_span_out[c] and end at first_span_out[c + 1]. The
+/// spans lie in the buffer, may be changed, and hold until its next use.
+tl_nav_span *tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *first_span_out);
 
 #endif

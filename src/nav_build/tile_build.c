@@ -3,16 +3,16 @@
 // One tile, from triangles to the baked blob: the pipeline's table of contents.
 // Source of the order of stages: Mikko Mononen, Recast.
 //
-// Intermediate data is freed as soon as its last reader is done: the heightfield after the compact one, the distance
-// field after the regions, the contours after the polygons, the compact heightfield after the detail mesh.
+// Intermediate data is freed as soon as its last reader is done: a band of solid spans when its floors are known, the
+// distance field after the regions, the contours after the polygons, the compact heightfield after the detail mesh.
 
 #include "nav_build/tile_build.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "nav_build/compact.h"
 #include "nav_build/memory_meter.h"
-#include "nav_build/rasterize.h"
 
 #include <string.h>
 
@@ -27,43 +27,42 @@ typedef struct tile_job {
     tl_nav_build_report *report;
 } tile_job;
 
-static tl_result rasterize(tile_job *job)
-{
-    tl_report_begin(&job->report->base, "rasterize");
-    TL_TRY(tl_nav_rasterize_list(job->config, &job->input->mesh, job->input->areas, job->list, &job->host,
-                                 &job->stages->heightfield, &job->report->base));
-    job->report->span_count += job->stages->heightfield.span_count;
-    return TL_OK;
-}
-
-static tl_result filter(tile_job *job)
+// The heightfield as the filters leave it, to be looked at.
+static tl_result keep_heightfield(tile_job *job)
 {
     const tl_nav_config *config = job->config;
     tl_nav_heightfield *heightfield = &job->stages->heightfield;
-    tl_report_begin(&job->report->base, "filter");
-    TL_TRY(tl_progress_update(&job->host, "filter", 0, 3));
+    TL_TRY(tl_nav_rasterize_list(config, &job->input->mesh, job->input->areas, job->list, &job->host, heightfield,
+                                 &job->report->base));
     if (config->filter_low_hanging_obstacles) {
         tl_nav_filter_low_hanging_obstacles(config, heightfield);
     }
-    TL_TRY(tl_progress_update(&job->host, "filter", 1, 3));
     if (config->filter_ledge_spans) {
         tl_nav_filter_ledge_spans(config, heightfield);
     }
-    TL_TRY(tl_progress_update(&job->host, "filter", 2, 3));
     if (config->filter_walkable_low_height_spans) {
         tl_nav_filter_walkable_low_height_spans(config, heightfield);
     }
-    return tl_progress_update(&job->host, "filter", 3, 3);
+    job->report->span_count += heightfield->span_count;
+    return TL_OK;
 }
 
-static tl_result build_compact(tile_job *job)
+// Straight from the triangles, a band at a time, unless the heightfield is kept.
+static tl_result build_floors(tile_job *job)
 {
+    const tl_nav_config *config = job->config;
+    const tl_nav_input *input = job->input;
     tl_nav_compact *compact = &job->stages->compact;
-    TL_TRY(tl_nav_compact_build(job->config, &job->stages->heightfield, &job->host, compact, &job->report->base));
-    job->report->compact_span_count += compact->span_count;
-    if (!job->keep) {
-        tl_nav_heightfield_free(&job->stages->heightfield);
+    tl_report *report = &job->report->base;
+    tl_report_begin(report, "rasterize");
+    if (job->keep) {
+        TL_TRY(keep_heightfield(job));
+        TL_TRY(tl_nav_compact_build(config, &job->stages->heightfield, &job->host, compact, report));
+    } else {
+        TL_TRY(tl_nav_open_triangles(config, &input->mesh, input->areas, job->list, &job->host, compact,
+                                     &job->report->span_count, report));
     }
+    job->report->compact_span_count += compact->span_count;
     return TL_OK;
 }
 
@@ -176,9 +175,7 @@ static tl_result bake_tile(tile_job *job)
 
 static tl_result build_tile(tile_job *job)
 {
-    TL_TRY(rasterize(job));
-    TL_TRY(filter(job));
-    TL_TRY(build_compact(job));
+    TL_TRY(build_floors(job));
     TL_TRY(erode(job));
     TL_TRY(mark_areas(job));
     TL_TRY(build_regions(job));
