@@ -11,6 +11,9 @@
     COMMAND(info) \
     COMMAND(check) \
     COMMAND(ray) \
+    COMMAND(nearest) \
+    COMMAND(overlap) \
+    COMMAND(sweep) \
     COMMAND(path) \
     COMMAND(hull) \
     COMMAND(support) \

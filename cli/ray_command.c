@@ -8,6 +8,7 @@
 #include "cli/parse_value.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 typedef struct ray_settings {
@@ -16,6 +17,8 @@ typedef struct ray_settings {
     float tmax;
     int cull; ///< a tl_ray_cull
     bool any;
+    bool all;       ///< every triangle that is touched
+    bool crossings; ///< every passage through a surface, once
     bool segment;
     bool json;
 } ray_settings;
@@ -68,12 +71,12 @@ static void write_hit(tl_text *text, const tl_ray_hit *hit)
     tl_text_add(text, "\n");
 }
 
-static void write_json_hit(tl_text *text, const tl_ray_hit *hit, const float *n, bool segment)
+static void add_json_hit(tl_text *text, const tl_ray_hit *hit, const float *n, bool segment)
 {
     tl_vec3 from = tl_vec3_make(n[0], n[1], n[2]);
     tl_vec3 to = tl_vec3_make(n[3], n[4], n[5]);
     tl_vec3 point = segment ? tl_lerp(from, to, hit->t) : tl_mul_add(from, to, hit->t);
-    tl_text_add(text, "{\"hit\":true,\"t\":");
+    tl_text_add(text, "\"t\":");
     tl_text_add_json_float(text, hit->t);
     tl_text_add(text, ",\"triangle\":");
     tl_text_add_count(text, hit->triangle);
@@ -85,13 +88,60 @@ static void write_json_hit(tl_text *text, const tl_ray_hit *hit, const float *n,
     tl_text_add_json_point(text, point);
     tl_text_add(text, ",\"normal\":");
     tl_text_add_json_point(text, hit->normal);
-    tl_text_add(text, hit->back ? ",\"back\":true}\n" : ",\"back\":false}\n");
+    tl_text_add(text, hit->back ? ",\"back\":true}" : ",\"back\":false}");
+}
+
+static void write_all(tl_text *text, const tl_ray_hit *hits, uint32_t count, const float *n, bool json)
+{
+    if (json) {
+        tl_text_add(text, "{\"hits\":[");
+    } else {
+        tl_text_add_count(text, count);
+        tl_text_add(text, "\n");
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        tl_ray_hit hit = without_negative_zero(hits[i]);
+        if (json) {
+            tl_text_add(text, i > 0 ? ",{" : "{");
+            add_json_hit(text, &hit, n, false);
+        } else {
+            write_hit(text, &hit);
+        }
+    }
+    tl_text_add(text, json ? "]}\n" : "");
+}
+
+// Answers one ray with all its hits; returns whether there are any.
+static bool answer_all(const ray_query *query, const float *n, float tmax, tl_text *text)
+{
+    enum { FEW = 64 };
+    tl_ray ray = { { n[0], n[1], n[2] }, { n[3], n[4], n[5] }, tmax };
+    tl_hit_rule rule = query->settings->crossings ? TL_HITS_CROSSED : TL_HITS_TOUCHED;
+    tl_ray_hit few[FEW], *hits = few;
+    uint32_t count = 0; // stays 0 for a ray that leads nowhere
+    tl_result result = tl_soup_cast_ray_all(query->soup, &ray, rule, &query->filter, few, FEW, &count);
+    if (result == TL_ERR_CAPACITY) {
+        hits = malloc(count * sizeof(*hits));
+        if (hits == NULL) {
+            text->failed = true;
+            return true;
+        }
+        (void)tl_soup_cast_ray_all(query->soup, &ray, rule, &query->filter, hits, count, &count);
+    }
+    write_all(text, hits, count, n, query->settings->json);
+    if (hits != few) {
+        free(hits);
+    }
+    return count > 0;
 }
 
 // Answers one ray; returns whether it hit.
 static bool answer_ray(const ray_query *query, const float *numbers, float tmax, tl_text *text)
 {
     const ray_settings *settings = query->settings;
+    if (settings->all) {
+        return answer_all(query, numbers, tmax, text);
+    }
     if (settings->any) {
         bool hit = is_any_hit(query, numbers, tmax);
         tl_text_add(text, settings->json ? (hit ? "{\"hit\":true}\n" : "{\"hit\":false}\n") : hit ? "hit\n" : "miss\n");
@@ -104,7 +154,9 @@ static bool answer_ray(const ray_query *query, const float *numbers, float tmax,
     }
     hit = without_negative_zero(hit);
     if (settings->json) {
-        write_json_hit(text, &hit, numbers, settings->segment);
+        tl_text_add(text, "{\"hit\":true,");
+        add_json_hit(text, &hit, numbers, settings->segment);
+        tl_text_add(text, "\n");
     } else {
         write_hit(text, &hit);
     }
@@ -187,6 +239,10 @@ static tl_exit run(tl_cli *cli)
         { "rays", 'r', TL_OPTION_TEXT, &settings.rays, "FILE", "cast the rays of FILE, one a line; - is standard input",
           NULL, 0, 0, 0, 0 },
         { "any", 0, TL_OPTION_FLAG, &settings.any, NULL, "say only hit or miss, which is faster", NULL, 0, 0, 0, 0 },
+        { "all", 'a', TL_OPTION_FLAG, &settings.all, NULL, "every triangle that the ray touches, nearest first", NULL,
+          0, 0, 0, 0 },
+        { "crossings", 0, TL_OPTION_FLAG, &settings.crossings, NULL,
+          "the same, but each passage through a surface once, edges and corners too", NULL, 0, 0, 0, 0 },
         { "segment", 0, TL_OPTION_FLAG, &settings.segment, NULL,
           "from point to point: the second triple is the end, t runs from 0 to 1", NULL, 0, 0, 0, 0 },
         { "tmax", 0, TL_OPTION_FLOAT, &settings.tmax, "T", "how far rays reach, in lengths of their direction", NULL,
@@ -206,6 +262,10 @@ static tl_exit run(tl_cli *cli)
         return code;
     }
     settings.json = cli->json;
+    settings.all = settings.all || settings.crossings;
+    if (settings.all && (settings.any || settings.segment)) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "--all and --crossings go with rays, not with --any or --segment");
+    }
     if ((settings.rays != NULL) == (cli->arguments.count > 1) || cli->arguments.count == 2) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "give one ray as two points behind FILE, or many with --rays");
     }
@@ -222,10 +282,12 @@ const tl_command tl_ray_command = {
     "Finds the first triangle that a ray meets, or tells whether there is one. FILE is a baked file, or\n"
     "a level, which is then baked in memory.\n\n"
     "RAYS holds a ray a line: ox oy oz dx dy dz [tmax]; with --segment: ax ay az bx by bz. The answer is\n"
-    "a line a ray, in order: t triangle u v, or miss; with --any: hit or miss. The point is origin +\n"
-    "t * direction, and corner 0 * (1-u-v) + corner 1 * u + corner 2 * v of the triangle, whose number\n"
-    "counts the source's triangles from 0. A single ray that misses ends with exit code 1.",
+    "a line a ray, in order: t triangle u v, or miss; with --any: hit or miss; with --all or --crossings:\n"
+    "a line with the number of hits, and a line for each. The point is origin + t * direction, and corner 0\n"
+    "* (1-u-v) + corner 1 * u + corner 2 * v of the triangle, whose number counts the source's triangles\n"
+    "from 0. A single ray that misses ends with exit code 1.",
     "talus ray courtyard.talus 20,10,20 0,-1,0\n"
+    "talus ray courtyard.talus 20,10,20 0,-1,0 --all\n"
     "talus ray courtyard.talus --segment 2,1.7,20 38,1.7,20 --any\n"
     "echo '20 10 20 0 -1 0' | talus ray courtyard.obj --rays - --json",
     run,
