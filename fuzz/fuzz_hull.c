@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Hulls of arbitrary floats. The property: a build either names what is wrong, or gives a hull that passes its own
-// check and is proven convex, with all points inside and exact support. The same bytes are also read as a baked hull:
-// what the check accepts must be safe to use.
+// check and is proven convex, with all points inside and exact support; and so is its image under any map that leaves
+// something solid. The same bytes are also read as a baked hull: what the check accepts must be safe to use.
 
 #include "math/predicates.h"
 
@@ -31,6 +31,17 @@ static void use(const tl_hull *hull, tl_vec3 direction)
     tl_hull_contains(hull, direction);
 }
 
+static void transform(const tl_hull *hull, tl_vec3 scale, tl_vec3 turn, tl_vec3 shift)
+{
+    tl_transform pose = { { turn.x, turn.y, turn.z, 1.0f }, shift };
+    tl_hull *image;
+    if (tl_hull_transform(hull, scale, pose, NULL, &image, NULL) == TL_OK) {
+        require(tl_hull_check(image, image->blob.size) == TL_OK);
+        require(tl_hull_validate(image, NULL, 0, NULL) == TL_OK);
+        tl_blob_free(image, NULL);
+    }
+}
+
 static void build(const tl_vec3 *points, uint32_t count, uint32_t limit)
 {
     tl_hull_def def = tl_default_hull_def();
@@ -51,6 +62,7 @@ static void build(const tl_vec3 *points, uint32_t count, uint32_t limit)
             require(order < 0 || (order == 0 && v >= best));
         }
     }
+    transform(hull, points[0], points[1], points[2]);
     tl_blob_free(hull, NULL);
 }
 

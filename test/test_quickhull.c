@@ -118,66 +118,6 @@ static void test_hulls_far_from_the_origin(void **state)
     }
 }
 
-static void test_degenerate_input_is_named(void **state)
-{
-    (void)state;
-    tl_vec3 line[5], plane[30], tilted[30], same[4];
-    test_random random = { 5 };
-    for (int i = 0; i < 5; i++) {
-        line[i] = tl_scale(tl_vec3_make(1, 2, 3), (float)i);
-    }
-    for (int i = 0; i < 4; i++) {
-        same[i] = tl_vec3_make(0.1f, 0.2f, 0.3f);
-    }
-    tl_vec3 u = test_random_direction(&random), v = test_random_direction(&random);
-    for (int i = 0; i < 30; i++) {
-        float s = test_random_range(&random, -1, 1), t = test_random_range(&random, -1, 1);
-        plane[i] = tl_vec3_make(s, 3.0f, t);
-        tilted[i] = tl_add(tl_vec3_make(7, 5, 3), tl_add(tl_scale(u, s), tl_scale(v, t)));
-    }
-    const struct {
-        const tl_vec3 *points;
-        uint32_t count;
-        tl_result expected;
-    } table[] = {
-        { NULL, 0, TL_ERR_EMPTY },      { same, 1, TL_ERR_COINCIDENT },  { same, 4, TL_ERR_COINCIDENT },
-        { line, 2, TL_ERR_COLLINEAR },  { line, 5, TL_ERR_COLLINEAR },   { plane, 3, TL_ERR_COPLANAR },
-        { plane, 30, TL_ERR_COPLANAR }, { tilted, 30, TL_ERR_COPLANAR },
-    };
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
-        tl_hull_def def = tl_default_hull_def();
-        tl_hull *hull;
-        tl_hull_report report;
-        TEST_RESULT(tl_hull_build(table[i].points, table[i].count, &def, &hull, &report), table[i].expected);
-        TEST_CHECK(hull == NULL && report.base.advice != NULL);
-        if (table[i].count == 0) {
-            continue;
-        }
-        def.thickness = 0.25f;
-        TEST_RESULT(tl_hull_build(table[i].points, table[i].count, &def, &hull, &report), TL_OK);
-        TEST_CHECK(report.thickened);
-        TEST_RESULT(tl_hull_check(hull, hull->blob.size), TL_OK);
-        TEST_RESULT(tl_hull_validate(hull, NULL, 0, NULL), TL_OK);
-        // The ends of a line lie on the end faces, which were rounded to floats.
-        tl_hull_validation found;
-        tl_hull_validate(hull, table[i].points, table[i].count, &found);
-        TEST_CHECK(found.max_outside <= 1e-6);
-        for (uint32_t k = 0; k < hull->vertex_count; k++) {
-            TEST_CHECK(tl_hull_sources(hull)[k] < table[i].count);
-        }
-        tl_blob_free(hull, NULL);
-    }
-    // Exactly decided, the tilted plane is a thin body; and a thickness that rounds to nothing is no thickness.
-    tl_hull_def def = tl_default_hull_def();
-    tl_hull *hull;
-    def.flatness = 0.0f;
-    TEST_RESULT(tl_hull_build(tilted, 30, &def, &hull, NULL), TL_OK);
-    prove(hull, tilted, 30);
-    tl_blob_free(hull, NULL);
-    def.thickness = 1e-20f;
-    TEST_RESULT(tl_hull_build(plane, 30, &def, &hull, NULL), TL_ERR_COPLANAR);
-}
-
 static void test_bad_points_and_defs_are_refused(void **state)
 {
     (void)state;
@@ -358,7 +298,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_hulls_are_proven_at_all_scales),
         cmocka_unit_test(test_hulls_far_from_the_origin),
-        cmocka_unit_test(test_degenerate_input_is_named),
         cmocka_unit_test(test_bad_points_and_defs_are_refused),
         cmocka_unit_test(test_a_cube_is_a_cube),
         cmocka_unit_test(test_reduction_is_graceful),

@@ -6,9 +6,14 @@
 #include "hull/quickhull.h"
 #include "hull/support.h"
 #include "math/predicates.h"
+#include "math/tolerance.h"
 #include "math/vec3d.h"
 
 #include <string.h>
+
+// A plane's normal is right to this share of its length: 2^-45, which is what tl_area2d promises. At the far end of a
+// face as large as the hull the plane is then off by some 3e-14 of the size.
+#define TL_NORMAL_ERROR 2.8421709430404007e-14
 
 static uint32_t count_blocks(const tl_hull_polygons *polygons, uint32_t *degrees)
 {
@@ -53,8 +58,23 @@ static tl_vec3 corner(const tl_hull *hull, uint32_t half_edge)
     return tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin];
 }
 
-// The fan triangle with the largest area spans the plane best; its normal is taken with all digits right, for a face
-// may be thinner than double rounding.
+// Twice the area's vector of a triangle, (b - a) x (c - a), to within TL_NORMAL_ERROR of its length. A face may be
+// thinner than double rounding: then the digits are summed exactly.
+static tl_vec3d normal_of(tl_vec3 a, tl_vec3 b, tl_vec3 c)
+{
+    tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(b), tl_vec3d_from(a));
+    tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(c), tl_vec3d_from(a));
+    tl_vec3d n = tl_vec3d_cross(u, v);
+    double products =
+        fabs(u.y * v.z) + fabs(u.z * v.y) + fabs(u.z * v.x) + fabs(u.x * v.z) + fabs(u.x * v.y) + fabs(u.y * v.x);
+    if (TL_CROSS_ERROR * products <= TL_NORMAL_ERROR * (fabs(n.x) + fabs(n.y) + fabs(n.z))) {
+        return n;
+    }
+    return tl_vec3d_make(tl_area2d(a.y, a.z, b.y, b.z, c.y, c.z), tl_area2d(a.z, a.x, b.z, b.x, c.z, c.x),
+                         tl_area2d(a.x, a.y, b.x, b.y, c.x, c.y));
+}
+
+// The fan triangle with the largest area spans the plane best.
 static tl_hull_plane fit_plane(const tl_hull *hull, tl_hull_face face)
 {
     tl_vec3 a = corner(hull, face.first);
@@ -71,10 +91,9 @@ static tl_hull_plane fit_plane(const tl_hull *hull, tl_hull_face face)
         }
     }
     tl_vec3 b = corner(hull, face.first + best), c = corner(hull, face.first + best + 1);
-    double n[3] = { tl_area2d(a.y, a.z, b.y, b.z, c.y, c.z), tl_area2d(a.z, a.x, b.z, b.x, c.z, c.x),
-                    tl_area2d(a.x, a.y, b.x, b.y, c.x, c.y) };
-    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    tl_hull_plane plane = { { n[0] / length, n[1] / length, n[2] / length }, -(double)INFINITY };
+    tl_vec3d n = normal_of(a, b, c);
+    double length = tl_vec3d_length(n);
+    tl_hull_plane plane = { { n.x / length, n.y / length, n.z / length }, -(double)INFINITY };
     for (uint32_t k = 0; k < face.count; k++) {
         tl_vec3 p = corner(hull, face.first + k);
         double offset = plane.normal[0] * (double)p.x + plane.normal[1] * (double)p.y + plane.normal[2] * (double)p.z;

@@ -37,6 +37,7 @@ void tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
             double value;
             if (tl_quickhull_side(hull, &hull->faces[f], hull->local[p].position, &value) > 0) {
                 file_under(hull, f, p, value);
+                hull->waiting++;
                 break;
             }
         }
@@ -52,7 +53,8 @@ void tl_quickhull_refile(tl_quickhull *hull)
         while (p != TL_NONE) {
             uint32_t next = hull->local[p].next;
             tl_vec3 position = hull->local[p].position;
-            for (uint32_t k = 0; p != eye && k < hull->created_count; k++) {
+            uint32_t k = p != eye ? 0 : hull->created_count;
+            for (; k < hull->created_count; k++) {
                 uint32_t face = hull->created[k];
                 double value;
                 if (tl_quickhull_side(hull, &hull->faces[face], position, &value) > 0) {
@@ -60,6 +62,7 @@ void tl_quickhull_refile(tl_quickhull *hull)
                     break;
                 }
             }
+            hull->waiting -= k == hull->created_count; // inside, or on the surface
             p = next;
         }
     }

@@ -19,6 +19,10 @@
 // Steps between two calls of the progress hook.
 #define PROGRESS_STEPS 4096u
 
+// Room for faces: a first block, then each as large as all that may come, within this factor.
+#define FACES_A_STEP 64u
+#define FACE_GROWTH  8u
+
 tl_hull_def tl_default_hull_def(void)
 {
     tl_hull_def def;
@@ -65,14 +69,16 @@ void tl_quickhull_free_face(tl_quickhull *hull, uint32_t index)
 
 tl_result tl_quickhull_reserve(tl_quickhull *hull, uint32_t more)
 {
-    uint32_t needed = hull->face_count + more;
+    uint32_t needed = hull->live_faces + more;
     if (needed <= hull->face_capacity) {
         return TL_OK;
     }
-    uint32_t capacity = hull->face_capacity < 64 ? 64 : hull->face_capacity;
-    while (capacity < needed) {
-        capacity *= 2;
-    }
+    // As many as there will be if every point that waits becomes a corner (Euler), and some for a step; but no more
+    // than some times what it has come to, for of a solid cloud few do.
+    uint64_t most = (uint64_t)hull->live_faces + 2 * (uint64_t)hull->waiting + FACES_A_STEP;
+    uint64_t growth = FACE_GROWTH * (uint64_t)needed;
+    uint32_t capacity = (uint32_t)(most < growth ? most : growth);
+    capacity = capacity < needed ? needed : capacity;
     tl_quickhull_face *faces = TL_PUSH(hull->arena, tl_quickhull_face, capacity);
     tl_quickhull_conflicts *conflicts = TL_PUSH(hull->arena, tl_quickhull_conflicts, capacity);
     uint32_t *visible = TL_PUSH(hull->arena, uint32_t, capacity);
@@ -202,13 +208,11 @@ static void report_left_out(const tl_quickhull *hull, tl_hull_report *report)
         return;
     }
     report->triangle_count = hull->live_faces;
+    report->points_left_out = hull->waiting;
     for (uint32_t i = 0; i < hull->face_count; i++) {
         const tl_quickhull_conflicts *conflicts = &hull->conflicts[i];
         if (!conflicts->live || conflicts->first == TL_NONE) {
             continue;
-        }
-        for (uint32_t p = conflicts->first; p != TL_NONE; p = hull->local[p].next) {
-            report->points_left_out++;
         }
         double distance = conflicts->farthest_value / tl_side_plane_length(&hull->faces[i].plane);
         report->max_outside = distance > report->max_outside ? distance : report->max_outside;

@@ -49,6 +49,7 @@ typedef struct tl_quickhull {
     tl_arena *arena;
     const tl_vec3 *points;
     uint32_t point_count;
+    uint32_t waiting; // points that are filed under a face
     tl_aabb box;
     tl_quickhull_point *local; // [point_count] the points near the origin, exactly moved
     double reach[3];           // the largest absolute local coordinates
