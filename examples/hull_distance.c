@@ -34,11 +34,13 @@ int main(void)
     tl_transform there = { turn, { 5, 0, 0 } };
     tl_separation separation;
     tl_convex_distance(&shape, here, &shape, there, NULL, &separation);
-    printf("distance %g, from (%g, %g, %g)\n", (double)separation.distance, (double)separation.point_a.x,
-           (double)separation.point_a.y, (double)separation.point_a.z);
+    tl_vec3 a = separation.point_a, b = separation.point_b; // the witness points: where they are nearest
+    printf("distance %g, from (%g, %g, %g) to (%g, %g, %g)\n", (double)separation.distance, (double)a.x, (double)a.y,
+           (double)a.z, (double)b.x, (double)b.y, (double)b.z);
 
     bool right = hull->vertex_count == 8 && hull->face_count == 6 && corner.x == 1 && corner.y == 1 && corner.z == 1 &&
-                 fabsf(separation.distance - (4.0f - sqrtf(2.0f))) < 1e-5f && !separation.overlap;
+                 fabsf(separation.distance - (4.0f - sqrtf(2.0f))) < 1e-5f && !separation.overlap &&
+                 fabsf(a.x - 1.0f) < 1e-5f && fabsf(tl_distance(a, b) - separation.distance) < 1e-5f;
     tl_blob_free(hull, NULL);
     return right ? 0 : 1;
 }
