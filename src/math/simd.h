@@ -30,6 +30,13 @@
 #include <immintrin.h>
 #endif
 
+/// A kernel's values must stay in registers over its parts.
+#if defined(__GNUC__)
+#define TL_ALWAYS_INLINE inline __attribute__((always_inline))
+#else
+#define TL_ALWAYS_INLINE inline
+#endif
+
 // ----------------------------------------------------------------------------------------------- four floats
 
 #if TL_SIMD_LEVEL >= 1
@@ -49,6 +56,42 @@ static inline tl_f32x4 tl_f32x4_make(float x, float y, float z, float w)
 static inline tl_f32x4 tl_f32x4_load(const float *four)
 {
     return _mm_loadu_ps(four);
+}
+
+/// The fourth lane is 0.
+static inline tl_f32x4 tl_f32x4_load_three(const float *three)
+{
+    __m128 xy = _mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(const void *)three));
+    return _mm_movelh_ps(xy, _mm_load_ss(three + 2));
+}
+
+static inline float tl_f32x4_get_x(tl_f32x4 a)
+{
+    return _mm_cvtss_f32(a);
+}
+
+static inline float tl_f32x4_get_y(tl_f32x4 a)
+{
+    return _mm_cvtss_f32(_mm_shuffle_ps(a, a, _MM_SHUFFLE(1, 1, 1, 1)));
+}
+
+static inline float tl_f32x4_get_z(tl_f32x4 a)
+{
+    return _mm_cvtss_f32(_mm_shuffle_ps(a, a, _MM_SHUFFLE(2, 2, 2, 2)));
+}
+
+/// Lane i: a[order[i]].
+static inline tl_f32x4 tl_f32x4_permute(tl_f32x4 a, const uint32_t *order)
+{
+    __m128i lanes = _mm_loadu_si128((const __m128i *)(const void *)order);
+#if TL_SIMD_LEVEL >= 2
+    return _mm_permutevar_ps(a, lanes);
+#else
+    // Four bytes a lane.
+    __m128i first = _mm_mullo_epi32(lanes, _mm_set1_epi32(0x04040404));
+    __m128i bytes = _mm_add_epi32(first, _mm_set1_epi32(0x03020100));
+    return _mm_castsi128_ps(_mm_shuffle_epi8(_mm_castps_si128(a), bytes));
+#endif
 }
 
 static inline tl_f32x4 tl_f32x4_add(tl_f32x4 a, tl_f32x4 b)
@@ -133,6 +176,31 @@ static inline tl_f32x4 tl_f32x4_all(float value)
 static inline tl_f32x4 tl_f32x4_load(const float *four)
 {
     return tl_f32x4_make(four[0], four[1], four[2], four[3]);
+}
+
+static inline tl_f32x4 tl_f32x4_load_three(const float *three)
+{
+    return tl_f32x4_make(three[0], three[1], three[2], 0.0f);
+}
+
+static inline float tl_f32x4_get_x(tl_f32x4 a)
+{
+    return a.v[0];
+}
+
+static inline float tl_f32x4_get_y(tl_f32x4 a)
+{
+    return a.v[1];
+}
+
+static inline float tl_f32x4_get_z(tl_f32x4 a)
+{
+    return a.v[2];
+}
+
+static inline tl_f32x4 tl_f32x4_permute(tl_f32x4 a, const uint32_t *order)
+{
+    return tl_f32x4_make(a.v[order[0]], a.v[order[1]], a.v[order[2]], a.v[order[3]]);
 }
 
 static inline tl_f32x4 tl_f32x4_add(tl_f32x4 a, tl_f32x4 b)

@@ -73,6 +73,13 @@ static inline double tl_vec3d_size(tl_vec3d a)
     return fabs(a.x) + fabs(a.y) + fabs(a.z);
 }
 
+// The direction of a vector, rounded to float; zero when its length underflows.
+static inline tl_vec3 tl_vec3d_unit_or_zero(tl_vec3d a)
+{
+    double length_sq = tl_vec3d_dot(a, a);
+    return tl_vec3d_to_float(tl_vec3d_scale(a, length_sq > 0.0 ? 1.0 / sqrt(length_sq) : 0.0));
+}
+
 // A unit vector across a unit vector.
 static inline tl_vec3d tl_vec3d_perpendicular(tl_vec3d d)
 {

@@ -81,9 +81,7 @@ static bool collect(const tl_walk_triangle *triangle, void *user)
     collector *c = user;
     (void)triangle;
     tl_ray_hit hit;
-    if (!tl_ray_describe(&c->job, &hit)) {
-        return true;
-    }
+    tl_ray_describe(&c->job, &hit);
     if (c->count < c->capacity) {
         c->hits[c->count] = hit;
         sift_up(c->hits, c->count);

@@ -51,13 +51,12 @@ typedef struct tl_ray_job {
     uint32_t triangle; ///< UINT32_MAX: none
     const tl_soup_leaf *leaf;
     uint32_t lane;
-    bool is_waiting;  ///< the best is leaf, lane: surely hit, surely nearer than t, and not decided
     double weight[3]; ///< of the view's corners; not normalized
     bool back;
 } tl_ray_job;
 
 /// Fills what the filters need; the caller has set soup, filter, is_segment and t. False: nothing can be hit.
-/// The walks have it inline (ray_prepare.h).
+/// The walks have it inline and keep the results in registers (ray_prepare.h).
 bool tl_ray_prepare(tl_ray_job *job, tl_vec3 origin, tl_vec3 target);
 
 /// The rare rest of it, with origin and target set: directions that need scaling, and origins too far away for float
@@ -70,18 +69,18 @@ bool tl_ray_prepare_unusual(tl_ray_job *job);
 /// Decides one lane of a leaf. If it is hit, and better than the best so far, it becomes the best.
 bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane);
 
-/// Describes the best hit. False: it waited, and is none after all, which only damaged soups bring about.
-bool tl_ray_describe(tl_ray_job *job, tl_ray_hit *hit_out);
+/// Describes the best hit.
+void tl_ray_describe(const tl_ray_job *job, tl_ray_hit *hit_out);
 
-/// Prepares a ray and walks the tree, once per instruction set. `any`: returns at the first hit. True: something was
-/// hit.
-typedef bool tl_ray_walk_fn(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any);
+/// Prepares a ray and walks the tree, once per instruction set. Without `hit_out` it returns at the first hit. True:
+/// something was hit.
+typedef bool tl_ray_walk_fn(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out);
 
-bool tl_ray_walk_scalar(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any);
+bool tl_ray_walk_scalar(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out);
 #if defined(__x86_64__)
-bool tl_ray_walk_sse42(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any);
-bool tl_ray_walk_avx2(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any);
-bool tl_ray_walk_avx512(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any);
+bool tl_ray_walk_sse42(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out);
+bool tl_ray_walk_avx2(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out);
+bool tl_ray_walk_avx512(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out);
 #endif
 
 /// Instruction sets, ascending.

@@ -79,10 +79,11 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
     double origin_x = (double)job->origin.lane[job->axis_x];
     double origin_y = (double)job->origin.lane[job->axis_y];
     double origin_z = (double)job->origin.lane[job->axis_z];
-    const uint8_t *slots = tl_soup_corner_slots[tl_id_order(test->leaf.ids[test->lane])];
+    const float *corners[3];
+    tl_leaf_find_corners(&test->leaf, test->lane, corners);
     uint32_t stride = tl_leaf_stride(&test->leaf);
     for (int k = 0; k < 3; k++) {
-        const float *corner = tl_leaf_corner(&test->leaf, test->lane, slots[k]);
+        const float *corner = corners[k];
         double dx = (double)corner[job->axis_x * stride] - origin_x;
         double dy = (double)corner[job->axis_y * stride] - origin_y;
         double dz = (double)corner[job->axis_z * stride] - origin_z;

@@ -27,6 +27,7 @@ static void pass_everything(tl_ray_job *job)
 
 bool tl_ray_prepare_unusual(tl_ray_job *job)
 {
+    job->axis_z = 0; // what is refused is not looked at, but has a value
     tl_vec3 from = job->origin.point;
     tl_vec3 to = job->target.point;
     if (!tl_is_finite(from) || !tl_is_finite(to) || !(job->t >= 0.0f)) {
@@ -43,14 +44,15 @@ bool tl_ray_prepare_unusual(tl_ray_job *job)
         return false;
     }
     double scale = power_scale(largest);
-    job->is_exact = false;
-    job->triangle = UINT32_MAX;
-    job->is_waiting = false;
-    job->box_scale = (float)(1.0 / scale);
-    job->box_limit = job->t < FLT_MAX ? job->t * job->box_scale + FLT_MIN : INFINITY;
+    float box_scale = (float)(1.0 / scale);
+    tl_ray_begin(job, box_scale, job->t < FLT_MAX ? job->t * box_scale + FLT_MIN : INFINITY);
     tl_f32x4 scaled = tl_f32x4_make((float)(direction[0] * scale), (float)(direction[1] * scale),
                                     (float)(direction[2] * scale), 0.0f);
-    if (!tl_ray_prepare_filters(job, tl_f32x4_of(from), scaled, tl_f32x4_max_of_three(tl_f32x4_abs(scaled)))) {
+    tl_ray_vectors v;
+    tl_ray_find_vectors(job->soup, tl_f32x4_load(job->origin.lane), scaled, tl_f32x4_max_of_three(tl_f32x4_abs(scaled)),
+                        &v);
+    tl_ray_store_vectors(job, &v);
+    if (!(job->reach < TL_RAY_FILTER_MAX)) {
         pass_everything(job);
     }
     return true;
@@ -58,5 +60,8 @@ bool tl_ray_prepare_unusual(tl_ray_job *job)
 
 bool tl_ray_prepare(tl_ray_job *job, tl_vec3 origin, tl_vec3 target)
 {
-    return tl_ray_prepare_inline(job, origin, target);
+    tl_ray_vectors v;
+    bool possible = tl_ray_prepare_vectors(job, &origin, &target, &v);
+    tl_ray_store_vectors(job, &v);
+    return possible;
 }

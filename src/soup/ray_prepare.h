@@ -11,10 +11,10 @@
 // <= u (2 |X| + 6 |Z|) <= 8 u M.
 //
 // Slab planes. t = p inv - O inv, with p the plane. inv has two roundings (a segment's direction, the division), each
-// product one, the difference one: |error| <= 4 u (|p| + |O|) |inv|. The pad is 8 u (|P| + |O| + M) |inv|, P the
-// farther of the soup's sides along the axis; it rounds, and so does O inv with the pad, which takes 2 u of it. 2 u
-// (|P| + |O|) |inv| and 8 u M |inv| are left for the rounding of the reported t (u t) with which boxes are compared,
-// and the error before it, which grows with the t of a triangle's farthest corner.
+// product one, the difference one: |error| <= 4 u (|p| + |O|) |inv| <= 4 u (2 |O| + M) |inv|. The pad is
+// 16 u (|O| + M) |inv|; it rounds, and so does O inv with the pad, which takes 2 u (|O| + M) of it. What is left,
+// 6 u |O| + 10 u M, covers the rounding of the reported t (u t) with which boxes are compared, and the error before it,
+// which grows with the t of a triangle's farthest corner.
 //
 // A direction component that is tiny or zero is replaced by 2^-60 of the largest, which keeps all numbers finite: over
 // the whole way through the soup's box that moves the ray by at most 2^-59 M.
@@ -32,6 +32,7 @@
 #include <float.h>
 
 #define TL_RAY_CORNER_ERROR     TL_FLOAT_GAMMA(8.1)
+#define TL_RAY_PLANE_ERROR      TL_FLOAT_GAMMA(16.2)
 #define TL_RAY_SMALLEST_INCLINE 8.6736174e-19f // 2^-60
 
 // Directions whose largest component is within these bounds are used as they are; others are scaled by a power of two.
@@ -41,79 +42,120 @@
 // Beyond this distance the products of the filters could overflow; every box and leaf then passes.
 #define TL_RAY_FILTER_MAX 1e15f
 
-static inline tl_f32x4 tl_f32x4_of(tl_vec3 v)
+// What the filters need, in registers. Lanes of the first three are axes, those of the next two axis_x, axis_y, axis_z.
+typedef struct tl_ray_vectors {
+    tl_f32x4 plane_scale, near_base, far_base;
+    tl_f32x4 origin;
+    tl_f32x4 shear; // the third is 1
+    float per_depth, reach, corner_error;
+    uint32_t backward;
+    const uint32_t *axes;
+} tl_ray_vectors;
+
+// Axes x, y, z of the shear by the axes along which a direction is largest; z is the lowest of them.
+static inline const uint32_t *tl_ray_axes(uint32_t largest_mask)
 {
-    return tl_f32x4_make(v.x, v.y, v.z, 0.0f);
+    static const uint32_t axes[8][4] = { { 1, 2, 0, 3 }, { 1, 2, 0, 3 }, { 2, 0, 1, 3 }, { 1, 2, 0, 3 },
+                                         { 0, 1, 2, 3 }, { 1, 2, 0, 3 }, { 2, 0, 1, 3 }, { 1, 2, 0, 3 } };
+    return axes[largest_mask];
 }
 
 // Slabs, shear and error of a direction whose largest component is `largest` in all lanes, within the bounds above.
-// False when the origin is too far away.
-static inline bool tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 origin, tl_f32x4 direction, tl_f32x4 largest)
+static inline void tl_ray_find_vectors(const tl_soup *soup, tl_f32x4 origin, tl_f32x4 direction, tl_f32x4 largest,
+                                       tl_ray_vectors *v)
 {
-    // Axis z by the lanes that are largest: the lowest of them.
-    static const uint8_t lowest[8] = { 0, 0, 1, 0, 2, 0, 1, 0 };
-    static const uint8_t next[5] = { 0, 1, 2, 0, 1 };
     tl_f32x4 size = tl_f32x4_abs(direction);
-    uint32_t z = lowest[tl_f32x4_less_equal(largest, size) & 7u];
-    job->axis_z = z;
-    job->axis_x = next[z + 1];
-    job->axis_y = next[z + 2];
-
-    tl_f32x4 low = tl_f32x4_load(&job->soup->bounds_min.x), high = tl_f32x4_load(&job->soup->bounds_max.x);
-    tl_f32x4 below = tl_f32x4_abs(tl_f32x4_sub(origin, low));
-    tl_f32x4 above = tl_f32x4_abs(tl_f32x4_sub(origin, high));
-    tl_f32x4 reach = tl_f32x4_max_of_three(tl_f32x4_max(below, above));
-    tl_f32x4 error = tl_f32x4_add(tl_f32x4_mul(reach, tl_f32x4_all(TL_RAY_CORNER_ERROR)), tl_f32x4_all(FLT_MIN));
-
     tl_f32x4 smallest = tl_f32x4_mul(largest, tl_f32x4_all(TL_RAY_SMALLEST_INCLINE));
     tl_f32x4 inclined = tl_f32x4_if_less(size, smallest, smallest, direction);
     tl_f32x4 inverse = tl_f32x4_div(tl_f32x4_all(1.0f), inclined);
-    tl_f32x4 base = tl_f32x4_mul(origin, inverse);
-    tl_f32x4 far_side = tl_f32x4_max(tl_f32x4_abs(low), tl_f32x4_abs(high));
-    tl_f32x4 size_sum = tl_f32x4_add(far_side, tl_f32x4_abs(origin));
-    tl_f32x4 plane_error = tl_f32x4_add(tl_f32x4_mul(size_sum, tl_f32x4_all(TL_RAY_CORNER_ERROR)), error);
-    tl_f32x4 pad = tl_f32x4_mul(plane_error, tl_f32x4_abs(inverse));
-    tl_f32x4_store(job->plane_scale, inverse);
-    tl_f32x4_store(job->near_base, tl_f32x4_sub(tl_f32x4_sub(tl_f32x4_all(0.0f), base), pad));
-    tl_f32x4_store(job->far_base, tl_f32x4_sub(pad, base));
-    job->backward = tl_f32x4_signs(inclined);
 
-    float d[4], i[4], e[4], r[4];
-    tl_f32x4_store(d, direction);
-    tl_f32x4_store(i, inverse);
-    tl_f32x4_store(e, error);
-    tl_f32x4_store(r, reach);
-    job->shear_x = d[job->axis_x] * i[z];
-    job->shear_y = d[job->axis_y] * i[z];
-    job->per_depth = i[z];
-    job->reach = r[0];
-    job->corner_error = e[0];
-    return r[0] < TL_RAY_FILTER_MAX;
+    tl_f32x4 below = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_load(&soup->bounds_min.x)));
+    tl_f32x4 above = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_load(&soup->bounds_max.x)));
+    tl_f32x4 reach = tl_f32x4_max_of_three(tl_f32x4_max(below, above));
+    tl_f32x4 plane_error = tl_f32x4_mul(tl_f32x4_add(tl_f32x4_abs(origin), reach), tl_f32x4_all(TL_RAY_PLANE_ERROR));
+    tl_f32x4 pad = tl_f32x4_mul(tl_f32x4_add(plane_error, tl_f32x4_all(FLT_MIN)), tl_f32x4_abs(inverse));
+    tl_f32x4 base = tl_f32x4_mul(origin, inverse);
+    v->plane_scale = inverse;
+    v->near_base = tl_f32x4_sub(tl_f32x4_sub(tl_f32x4_all(0.0f), base), pad);
+    v->far_base = tl_f32x4_sub(pad, base);
+    v->backward = tl_f32x4_signs(inclined);
+
+    v->axes = tl_ray_axes(tl_f32x4_less_equal(largest, size) & 7u);
+    v->per_depth = tl_f32x4_get_z(tl_f32x4_permute(inverse, v->axes));
+    v->origin = tl_f32x4_permute(origin, v->axes);
+    v->shear = tl_f32x4_mul(tl_f32x4_permute(direction, v->axes), tl_f32x4_all(v->per_depth));
+    v->reach = tl_f32x4_get_x(reach);
+    v->corner_error = v->reach * TL_RAY_CORNER_ERROR + FLT_MIN;
 }
 
-/// tl_ray_prepare.
-static inline bool tl_ray_prepare_inline(tl_ray_job *job, tl_vec3 origin_point, tl_vec3 target_point)
+static inline void tl_ray_set_axes(tl_ray_job *job, const uint32_t *axes)
 {
-    tl_f32x4 origin = tl_f32x4_of(origin_point);
-    tl_f32x4 target = tl_f32x4_of(target_point);
+    job->axis_x = axes[0];
+    job->axis_y = axes[1];
+    job->axis_z = axes[2];
+}
+
+static inline void tl_ray_store_vectors(tl_ray_job *job, const tl_ray_vectors *v)
+{
+    tl_f32x4_store(job->plane_scale, v->plane_scale);
+    tl_f32x4_store(job->near_base, v->near_base);
+    tl_f32x4_store(job->far_base, v->far_base);
+    job->backward = v->backward;
+    tl_ray_set_axes(job, v->axes);
+    job->shear_x = tl_f32x4_get_x(v->shear);
+    job->shear_y = tl_f32x4_get_y(v->shear);
+    job->per_depth = v->per_depth;
+    job->reach = v->reach;
+    job->corner_error = v->corner_error;
+}
+
+static inline void tl_ray_load_vectors(const tl_ray_job *job, tl_ray_vectors *v)
+{
+    v->plane_scale = tl_f32x4_load(job->plane_scale);
+    v->near_base = tl_f32x4_load(job->near_base);
+    v->far_base = tl_f32x4_load(job->far_base);
+    v->backward = job->backward;
+    v->axes = tl_ray_axes(1u << job->axis_z);
+    v->origin = tl_f32x4_permute(tl_f32x4_load(job->origin.lane), v->axes);
+    v->shear = tl_f32x4_make(job->shear_x, job->shear_y, 1.0f, 0.0f);
+    v->per_depth = job->per_depth;
+    v->reach = job->reach;
+    v->corner_error = job->corner_error;
+}
+
+static inline void tl_ray_begin(tl_ray_job *job, float box_scale, float box_limit)
+{
+    job->is_exact = false;
+    job->triangle = UINT32_MAX;
+    job->box_scale = box_scale;
+    job->box_limit = box_limit;
+}
+
+/// tl_ray_prepare, with what the filters need in registers instead of the job.
+static inline bool tl_ray_prepare_vectors(tl_ray_job *job, const tl_vec3 *origin_point, const tl_vec3 *target_point,
+                                          tl_ray_vectors *v)
+{
+    tl_f32x4 origin = tl_f32x4_load_three(&origin_point->x);
+    tl_f32x4 target = tl_f32x4_load_three(&target_point->x);
     tl_f32x4 direction = job->is_segment ? tl_f32x4_sub(target, origin) : target;
     tl_f32x4_store(job->origin.lane, origin);
     tl_f32x4_store(job->target.lane, target);
-    tl_f32x4 largest = tl_f32x4_max_of_three(tl_f32x4_abs(direction));
-    tl_f32x4 magnitude = tl_f32x4_add(tl_f32x4_abs(origin), tl_f32x4_abs(direction));
+    tl_f32x4 size = tl_f32x4_abs(direction);
+    tl_f32x4 largest = tl_f32x4_max_of_three(size);
     // A NaN or infinity anywhere fails the first compare.
+    tl_f32x4 magnitude = tl_f32x4_add(tl_f32x4_abs(origin), size);
     bool usual = (tl_f32x4_less_equal(magnitude, tl_f32x4_all(TL_RAY_FILTER_MAX)) &
                   tl_f32x4_less_equal(tl_f32x4_all(TL_RAY_DIRECTION_MIN), largest) &
                   tl_f32x4_less_equal(largest, tl_f32x4_all(TL_RAY_DIRECTION_MAX))) == 15u;
     if (!usual) {
-        return tl_ray_prepare_unusual(job);
+        bool possible = tl_ray_prepare_unusual(job);
+        tl_ray_load_vectors(job, v);
+        return possible;
     }
-    job->is_exact = false;
-    job->triangle = UINT32_MAX;
-    job->is_waiting = false;
-    job->box_scale = 1.0f;
-    job->box_limit = job->t + FLT_MIN;
-    (void)tl_ray_prepare_filters(job, origin, direction, largest);
+    tl_ray_begin(job, 1.0f, job->t + FLT_MIN);
+    tl_ray_find_vectors(job->soup, origin, direction, largest, v);
+    tl_ray_set_axes(job, v->axes);
+    job->reach = v->reach;
     return job->t >= 0.0f;
 }
 

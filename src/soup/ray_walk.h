@@ -20,14 +20,16 @@
 //
 // Lanes that pass get an interval of t, so that most of what is left is settled without ray_decide.c: triangles behind
 // the ray or beyond the best are dropped, and one that is surely hit, surely in front of the best, only waits: it is
-// decided when another comes too near to tell them apart, or at the end (ray_describe.c). With D = sum(E), |D| >= 64 e,
-// depths z_i that round once, at most Z, and t = sum(E_i z_i) / D, the true t of a triangle that is met differs by at
-// most Z (6.1 e / |D| + 9 u) before the division; its rounding and the product with per_depth (two roundings of its
-// own) add 6 u more: taken as Z (7 e / |D| + 24 u). Corners are no deeper than the hit and the extent, so with all in
-// t, Z <= |t| + L + the error itself, which is less than an eighth of Z: (|t| + L) (8 e / |D| + 28 u) bounds the error.
+// decided when another comes too near to tell them apart, or measured at the end (ray_measure.h). With D = sum(E), |D|
+// >= 64 e, depths z_i that round once, at most Z, and t = sum(E_i z_i) / D, the true t of a triangle that is met
+// differs by at most Z (6.1 e / |D| + 9 u) before the division; its rounding and the product with per_depth (two
+// roundings of its own) add 6 u more: taken as Z (7 e / |D| + 24 u). Corners are no deeper than the hit and the extent,
+// so with all in t, Z <= |t| + L + the error itself, which is less than an eighth of Z: (|t| + L) (8 e / |D| + 28 u)
+// bounds the error.
 
 #include "base/lowest_bit.h"
 #include "math/simd16.h"
+#include "soup/ray_measure.h"
 #include "soup/ray_prepare.h"
 
 #include <float.h>
@@ -56,7 +58,8 @@ typedef struct walk_ray {
     uint32_t pass_lanes;                // lanes that no float filter may reject: all, or none
     uint32_t trust_intervals;           // lanes whose intervals of t count: all, or none
     uint32_t trust_hits;                // lanes in which a sure hit needs no decision: all, or none
-    const tl_soup_node *nodes;
+    uint32_t axis_x, axis_y, axis_z;
+    const char *nodes;
     const char *leaves;
 } walk_ray;
 
@@ -74,7 +77,7 @@ static inline void prefetch_child(const walk_ray *ray, uint32_t child)
 {
 #if defined(__GNUC__)
     bool leaf = (child & TL_CHILD_LEAF) != 0;
-    const char *base = leaf ? ray->leaves : (const char *)ray->nodes;
+    const char *base = leaf ? ray->leaves : ray->nodes;
     const char *at = base + (leaf ? tl_child_leaf_offset(child) : (uint64_t)child * sizeof(tl_soup_node));
     __builtin_prefetch(at);
     __builtin_prefetch(at + 64);
@@ -96,7 +99,8 @@ static inline walk_entry farther(walk_entry a, walk_entry b)
 }
 
 // Which children the ray enters, and where.
-static inline uint32_t enter_children(const walk_ray *ray, const tl_soup_node *node, float limit, uint32_t *t_bits)
+static TL_ALWAYS_INLINE uint32_t enter_children(const walk_ray *ray, const tl_soup_node *node, float limit,
+                                                uint32_t *t_bits)
 {
     tl_f32x16 enter[3], leave[3];
     for (uint32_t i = 0; i < 3; i++) {
@@ -135,8 +139,8 @@ static inline uint32_t push_sorted(const uint32_t *t_bits, const tl_soup_node *n
 
 // The same, without branches for two and three children, which are most visits; `mask` is not empty. Any hit will do:
 // sorting costs more than it saves, and the lowest lane is as good as another.
-static inline uint32_t push_children(const walk_ray *ray, const uint32_t *t_bits, const tl_soup_node *node,
-                                     uint32_t mask, bool any, walk_entry *stack, uint32_t *stack_count)
+static TL_ALWAYS_INLINE uint32_t push_children(const walk_ray *ray, const uint32_t *t_bits, const tl_soup_node *node,
+                                               uint32_t mask, bool any, walk_entry *stack, uint32_t *stack_count)
 {
     uint32_t rest = mask & (mask - 1);
     uint32_t first = tl_lowest_bit(mask);
@@ -186,13 +190,12 @@ static inline tl_f32x8 cross(tl_f32x8 ax, tl_f32x8 ay, tl_f32x8 bx, tl_f32x8 by)
     return tl_f32x8_sub(tl_f32x8_mul(ax, by), tl_f32x8_mul(ay, bx));
 }
 
-static inline void test_leaf(const tl_ray_job *job, const walk_ray *ray, const tl_soup_leaf *leaf, uint32_t n,
-                             leaf_lanes *lanes)
+static TL_ALWAYS_INLINE void test_leaf(const walk_ray *ray, const tl_soup_leaf *leaf, uint32_t n, leaf_lanes *lanes)
 {
     const float *floats = (const float *)(const void *)((const uint32_t *)(const void *)(leaf + 1) + 2 * (size_t)n);
     size_t stride = 4 * (size_t)n;
-    const float *x = floats + job->axis_x * stride, *y = floats + job->axis_y * stride;
-    const float *z = floats + job->axis_z * stride;
+    const float *x = floats + ray->axis_x * stride, *y = floats + ray->axis_y * stride;
+    const float *z = floats + ray->axis_z * stride;
     tl_f32x8 az = tl_f32x8_sub(tl_f32x8_load_twice(z), ray->origin_z);
     tl_f32x8 cz = tl_f32x8_sub(tl_f32x8_load_twice(z + n), ray->origin_z);
     tl_f32x8 ez = tl_f32x8_sub(tl_f32x8_load_halves(z + 2 * n, z + 3 * n), ray->origin_z);
@@ -250,8 +253,8 @@ static inline void decide_lane(tl_ray_job *job, const tl_soup_leaf *leaf, uint32
 }
 
 // Settles the lanes of a leaf that may be hit. True: any hit will do, and there is one.
-static inline bool settle_lanes(tl_ray_job *job, const walk_ray *ray, const leaf_lanes *v, const tl_soup_leaf *leaf,
-                                uint32_t n, bool any, walk_best *best)
+static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const walk_ray *ray, const leaf_lanes *v,
+                                          const tl_soup_leaf *leaf, uint32_t n, bool any, walk_best *best)
 {
     tl_f32x8 sum = tl_f32x8_add(tl_f32x8_add(v->ae, v->ec), v->ca);
     tl_f32x8 weighted =
@@ -298,53 +301,81 @@ static inline bool settle_lanes(tl_ray_job *job, const walk_ray *ray, const leaf
     return false;
 }
 
-static inline bool visit_leaf(tl_ray_job *job, const walk_ray *ray, uint32_t child, bool any, walk_best *best)
+static TL_ALWAYS_INLINE bool visit_leaf(tl_ray_job *job, const walk_ray *ray, uint32_t child, bool any, walk_best *best)
 {
     const tl_soup_leaf *leaf = (const tl_soup_leaf *)(const void *)(ray->leaves + tl_child_leaf_offset(child));
     uint32_t n = tl_child_pair_count(child);
     leaf_lanes lanes;
-    test_leaf(job, ray, leaf, n, &lanes);
+    test_leaf(ray, leaf, n, &lanes);
     return lanes.maybe != 0 && settle_lanes(job, ray, &lanes, leaf, n, any, best);
 }
 
-static inline void spread_ray(const tl_ray_job *job, walk_ray *ray)
+static TL_ALWAYS_INLINE void spread_ray(const tl_ray_job *job, const tl_ray_vectors *v, walk_ray *ray)
 {
+    ray->scale[0] = tl_f32x16_all(tl_f32x4_get_x(v->plane_scale));
+    ray->scale[1] = tl_f32x16_all(tl_f32x4_get_y(v->plane_scale));
+    ray->scale[2] = tl_f32x16_all(tl_f32x4_get_z(v->plane_scale));
+    ray->near_base[0] = tl_f32x16_all(tl_f32x4_get_x(v->near_base));
+    ray->near_base[1] = tl_f32x16_all(tl_f32x4_get_y(v->near_base));
+    ray->near_base[2] = tl_f32x16_all(tl_f32x4_get_z(v->near_base));
+    ray->far_base[0] = tl_f32x16_all(tl_f32x4_get_x(v->far_base));
+    ray->far_base[1] = tl_f32x16_all(tl_f32x4_get_y(v->far_base));
+    ray->far_base[2] = tl_f32x16_all(tl_f32x4_get_z(v->far_base));
     for (uint32_t i = 0; i < 3; i++) {
-        ray->scale[i] = tl_f32x16_all(job->plane_scale[i]);
-        ray->near_base[i] = tl_f32x16_all(job->near_base[i]);
-        ray->far_base[i] = tl_f32x16_all(job->far_base[i]);
-        ray->near_row[i] = 2 * i + (job->backward >> i & 1u);
+        ray->near_row[i] = 2 * i + (v->backward >> i & 1u);
     }
-    ray->origin_x = tl_f32x8_all(job->origin.lane[job->axis_x]);
-    ray->origin_y = tl_f32x8_all(job->origin.lane[job->axis_y]);
-    ray->origin_z = tl_f32x8_all(job->origin.lane[job->axis_z]);
-    ray->shear_x = tl_f32x8_all(job->shear_x);
-    ray->shear_y = tl_f32x8_all(job->shear_y);
-    ray->per_depth = tl_f32x8_all(job->per_depth);
-    ray->error_per_extent = job->corner_error * LEAF_EXTENT_TERM;
-    ray->error_base = job->corner_error * (LEAF_ERROR_TERM * job->corner_error) + FLT_MIN;
-    ray->depth_scale = fabsf(job->per_depth);
-    ray->pass_lanes = job->corner_error < INFINITY ? 0u : 0xffu;
+    ray->origin_x = tl_f32x8_all(tl_f32x4_get_x(v->origin));
+    ray->origin_y = tl_f32x8_all(tl_f32x4_get_y(v->origin));
+    ray->origin_z = tl_f32x8_all(tl_f32x4_get_z(v->origin));
+    ray->shear_x = tl_f32x8_all(tl_f32x4_get_x(v->shear));
+    ray->shear_y = tl_f32x8_all(tl_f32x4_get_y(v->shear));
+    ray->per_depth = tl_f32x8_all(v->per_depth);
+    ray->axis_x = v->axes[0];
+    ray->axis_y = v->axes[1];
+    ray->axis_z = v->axes[2];
+    ray->error_per_extent = v->corner_error * LEAF_EXTENT_TERM;
+    ray->error_base = v->corner_error * (LEAF_ERROR_TERM * v->corner_error) + FLT_MIN;
+    ray->depth_scale = fabsf(v->per_depth);
+    ray->pass_lanes = v->corner_error < INFINITY ? 0u : 0xffu;
     ray->trust_intervals = job->box_scale == 1.0f ? 0xffu : 0u;
     ray->trust_hits = job->filter == NULL ? 0xffu : 0u;
-    ray->nodes = tl_soup_nodes(job->soup);
+    ray->nodes = (const char *)tl_soup_nodes(job->soup);
     ray->leaves = (const char *)job->soup + job->soup->leaf_offset;
 }
 
-static inline bool walk(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any)
+// The end of a walk: false when nothing was hit. Any hit would have ended it before, if it was sure.
+static TL_ALWAYS_INLINE bool report(tl_ray_job *job, const walk_best *best, tl_ray_hit *hit)
 {
-    if (!tl_ray_prepare_inline(job, origin, target)) {
+    if (best->leaf != NULL) {
+        job->leaf = best->leaf;
+        job->lane = best->lane;
+        if (hit != NULL && tl_ray_measure(job, hit)) {
+            return true;
+        }
+        (void)tl_ray_decide(job, best->leaf, best->lane);
+    }
+    if (hit != NULL && job->triangle != UINT32_MAX) {
+        tl_ray_describe(job, hit);
+    }
+    return job->triangle != UINT32_MAX;
+}
+
+static TL_ALWAYS_INLINE bool walk(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit)
+{
+    const bool any = hit == NULL;
+    tl_ray_vectors vectors;
+    if (!tl_ray_prepare_vectors(job, origin, target, &vectors)) {
         return false;
     }
     walk_ray ray;
-    spread_ray(job, &ray);
+    spread_ray(job, &vectors, &ray);
     walk_entry stack[WALK_STACK_SIZE];
     uint32_t stack_count = 0;
     uint32_t child = 0;
     walk_best best = { job->box_limit, job->t * (1.0f - T_MARGIN), NULL, 0 };
     for (;;) {
         if ((child & TL_CHILD_LEAF) == 0) {
-            const tl_soup_node *node = &ray.nodes[child];
+            const tl_soup_node *node = (const tl_soup_node *)(const void *)(ray.nodes + child * sizeof(tl_soup_node));
             _Alignas(64) uint32_t t_bits[TL_SOUP_WIDTH]; // one line: a split store is not forwarded
             uint32_t mask = enter_children(&ray, node, best.limit, t_bits);
             if (mask != 0) {
@@ -359,12 +390,7 @@ static inline bool walk(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool an
         walk_entry limit = (uint64_t)limit_bits << 32 | UINT32_MAX;
         do {
             if (stack_count == 0) {
-                job->is_waiting = best.leaf != NULL;
-                if (job->is_waiting) {
-                    job->leaf = best.leaf;
-                    job->lane = best.lane;
-                }
-                return job->is_waiting || job->triangle != UINT32_MAX;
+                return report(job, &best, hit);
             }
             stack_count--;
         } while (stack[stack_count] > limit);
@@ -372,7 +398,7 @@ static inline bool walk(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool an
     }
 }
 
-bool TL_RAY_WALK(tl_ray_job *job, tl_vec3 origin, tl_vec3 target, bool any)
+bool TL_RAY_WALK(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out)
 {
-    return any ? walk(job, origin, target, true) : walk(job, origin, target, false);
+    return hit_out == NULL ? walk(job, origin, target, NULL) : walk(job, origin, target, hit_out);
 }

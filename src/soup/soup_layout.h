@@ -74,7 +74,7 @@ static inline uint32_t tl_child_of_leaf(uint64_t offset, uint32_t pair_count)
 
 static inline uint64_t tl_child_leaf_offset(uint32_t child)
 {
-    return (uint64_t)((child & ~TL_CHILD_LEAF) >> 2) * TL_SOUP_LEAF_ALIGN;
+    return (uint64_t)(child & ~(TL_CHILD_LEAF | 3u)) * (TL_SOUP_LEAF_ALIGN / 4);
 }
 
 static inline uint32_t tl_child_pair_count(uint32_t child)
@@ -153,12 +153,15 @@ static inline uint16_t tl_soup_material(const tl_soup *soup, uint32_t triangle)
     return ((const uint16_t *)(const void *)((const char *)soup + soup->material_offset))[triangle];
 }
 
-/// Corner in a slot of a lane, 0: a, 1: e, 2: c. Axis k is at [k * tl_leaf_stride].
-static inline const float *tl_leaf_corner(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot)
+/// Where the corners a, e, c of a lane are. Axis k of each is at [k * tl_leaf_stride]. Without branches: which lane, and
+/// below which corner, is what nobody can foretell.
+static inline void tl_leaf_slots(const tl_leaf_view *leaf, uint32_t lane, const float *slots_out[3])
 {
     uint32_t n = leaf->pair_count;
-    uint32_t pair = lane < n ? lane : lane - n;
-    return leaf->floats + (slot == 0 ? pair : slot == 1 ? 2 * n + lane : n + pair);
+    uint32_t pair = lane - (n & (0u - (uint32_t)(lane >= n)));
+    slots_out[0] = leaf->floats + pair;
+    slots_out[1] = leaf->floats + 2 * n + lane;
+    slots_out[2] = leaf->floats + n + pair;
 }
 
 static inline uint32_t tl_leaf_stride(const tl_leaf_view *leaf)
@@ -166,19 +169,38 @@ static inline uint32_t tl_leaf_stride(const tl_leaf_view *leaf)
     return 4 * leaf->pair_count;
 }
 
-static inline tl_vec3 tl_leaf_slot(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot)
+/// Where the corners of a lane's triangle are, in the order of the view.
+static inline void tl_leaf_find_corners(const tl_leaf_view *leaf, uint32_t lane, const float *corners_out[3])
 {
-    const float *corner = tl_leaf_corner(leaf, lane, slot);
+    const float *slots[3];
+    tl_leaf_slots(leaf, lane, slots);
+    const uint8_t *order = tl_soup_corner_slots[tl_id_order(leaf->ids[lane])];
+    for (int k = 0; k < 3; k++) {
+        corners_out[k] = slots[order[k]];
+    }
+}
+
+static inline tl_vec3 tl_leaf_point(const tl_leaf_view *leaf, const float *corner)
+{
     uint32_t stride = tl_leaf_stride(leaf);
     return tl_vec3_make(corner[0], corner[stride], corner[2 * (size_t)stride]);
+}
+
+/// Corner a (slot 0), e (1) or c (2) of a lane.
+static inline tl_vec3 tl_leaf_slot(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot)
+{
+    const float *slots[3];
+    tl_leaf_slots(leaf, lane, slots);
+    return tl_leaf_point(leaf, slots[slot]);
 }
 
 /// The triangle of a lane, its corners as the view has them.
 static inline void tl_leaf_corners(const tl_leaf_view *leaf, uint32_t lane, tl_vec3 corners[3])
 {
-    const uint8_t *slots = tl_soup_corner_slots[tl_id_order(leaf->ids[lane])];
+    const float *at[3];
+    tl_leaf_find_corners(leaf, lane, at);
     for (int k = 0; k < 3; k++) {
-        corners[k] = tl_leaf_slot(leaf, lane, slots[k]);
+        corners[k] = tl_leaf_point(leaf, at[k]);
     }
 }
 

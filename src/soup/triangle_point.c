@@ -69,6 +69,5 @@ tl_vec3 tl_triangle_normal(const tl_vec3 corners[3])
     tl_vec3d a = tl_vec3d_from(corners[0]);
     tl_vec3d normal =
         tl_vec3d_cross(tl_vec3d_sub(tl_vec3d_from(corners[1]), a), tl_vec3d_sub(tl_vec3d_from(corners[2]), a));
-    double length_sq = tl_vec3d_dot(normal, normal);
-    return tl_vec3d_to_float(tl_vec3d_scale(normal, length_sq > 0.0 ? 1.0 / sqrt(length_sq) : 0.0));
+    return tl_vec3d_unit_or_zero(normal);
 }
