@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// From the binary tree to the blob: wide nodes are cut from it, and pairs are written into leaves.
-//
-// A wide node starts with the two children of a binary node and opens the inner child with the largest surface until it
-// has sixteen: the child that rays enter most is the one whose test should not cost a visit.
-// Source: Ingo Wald, Carsten Benthin, Solomon Boulos, Getting Rid of Packets, 2008.
+// From the binary tree to the blob: wide nodes are cut from it (tree_cut.c), and pairs are written into leaves.
 
 #include "base/assert.h"
 #include "soup/soup_build.h"
 #include "soup/soup_layout.h"
+#include "soup/tree_cut.h"
 
 #include <float.h>
 #include <string.h>
@@ -19,6 +16,7 @@ typedef struct baker {
     const tl_pair *pairs;
     uint32_t pair_count;
     const tl_tree *tree;
+    tl_tree_cut cut;
     uint32_t *roots;  // binary node of each wide node, in breadth-first order
     uint8_t *written; // pairs that have been written once
     uint32_t node_count;
@@ -26,37 +24,6 @@ typedef struct baker {
     uint32_t depth;
     uint64_t leaf_bytes;
 } baker;
-
-// The binary nodes that become the children of a wide node.
-static uint32_t cut_children(const tl_tree *tree, uint32_t root, uint32_t children[TL_SOUP_WIDTH])
-{
-    const tl_tree_node *nodes = tree->nodes;
-    if (nodes[root].count > 0) {
-        children[0] = root;
-        return 1;
-    }
-    children[0] = nodes[root].left;
-    children[1] = nodes[root].right;
-    uint32_t count = 2;
-    while (count < TL_SOUP_WIDTH) {
-        uint32_t widest = TL_SOUP_WIDTH;
-        float widest_area = -1.0f;
-        for (uint32_t i = 0; i < count; i++) {
-            float area = tl_aabb_half_area(nodes[children[i]].box);
-            if (nodes[children[i]].count == 0 && area > widest_area) {
-                widest = i;
-                widest_area = area;
-            }
-        }
-        if (widest == TL_SOUP_WIDTH) {
-            break;
-        }
-        uint32_t opened = children[widest];
-        children[widest] = nodes[opened].left;
-        children[count++] = nodes[opened].right;
-    }
-    return count;
-}
 
 // Finds the wide nodes breadth first, and with them all sizes.
 static void cut_tree(baker *b)
@@ -71,7 +38,7 @@ static void cut_tree(baker *b)
             b->depth++;
         }
         uint32_t children[TL_SOUP_WIDTH];
-        uint32_t count = cut_children(b->tree, b->roots[i], children);
+        uint32_t count = tl_tree_cut_children(&b->cut, b->roots[i], children);
         for (uint32_t k = 0; k < count; k++) {
             const tl_tree_node *child = &b->tree->nodes[children[k]];
             if (child->count > 0) {
@@ -147,7 +114,7 @@ static void write_tree(baker *b, tl_soup *soup)
     uint64_t leaf_offset = 0;
     for (uint32_t i = 0; i < b->node_count; i++) {
         uint32_t children[TL_SOUP_WIDTH];
-        uint32_t count = cut_children(b->tree, b->roots[i], children);
+        uint32_t count = tl_tree_cut_children(&b->cut, b->roots[i], children);
         for (uint32_t k = 0; k < count; k++) {
             const tl_tree_node *child = &b->tree->nodes[children[k]];
             write_box(child->box, k, &nodes[i]);
@@ -204,6 +171,7 @@ tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_p
     if (b.roots == NULL || b.written == NULL) {
         return TL_ERR_MEMORY;
     }
+    TL_TRY(tl_tree_cut_plan(tree, arena, &b.cut));
     cut_tree(&b);
     if (b.leaf_bytes / TL_SOUP_LEAF_ALIGN > TL_MAX_LEAF_UNITS) {
         return TL_ERR_LIMIT;

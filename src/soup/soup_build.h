@@ -41,6 +41,7 @@ typedef struct tl_tree_node {
 typedef struct tl_tree {
     tl_tree_ref *refs;
     tl_tree_node *nodes;
+    uint32_t node_capacity; ///< indices of nodes are below it
     uint32_t root;
     uint32_t ref_count; ///< in leaves
 } tl_tree;

@@ -7,7 +7,7 @@
 // Nodes hold 16 child boxes as plain floats: 448 bytes, seven cache lines. 16 children because a ray's time goes into
 // visits (a missed branch, a missed cache line), not into box arithmetic. Floats because a ray waits for each visit to
 // learn where to go: 16-bit planes halve a node, but to widen and to convert them costs a third of a visit, and rays a
-// tenth of their time. What nodes weigh is then a matter of how well they are filled (soup_cut.c).
+// tenth of their time. What nodes weigh is then a matter of how well they are filled (tree_cut.c).
 //
 // Leaves hold their corners themselves, one array a coordinate, without padding lanes: a ray reads one run of memory.
 // A leaf of n pairs, in 4-byte words, follows its head (see tl_leaf_view):
@@ -153,8 +153,8 @@ static inline uint16_t tl_soup_material(const tl_soup *soup, uint32_t triangle)
     return ((const uint16_t *)(const void *)((const char *)soup + soup->material_offset))[triangle];
 }
 
-/// Where the corners a, e, c of a lane are. Axis k of each is at [k * tl_leaf_stride]. Without branches: which lane, and
-/// below which corner, is what nobody can foretell.
+/// Where the corners a, e, c of a lane are. Axis k of each is at [k * tl_leaf_stride]. Without branches: which lane,
+/// and below which corner, is what nobody can foretell.
 static inline void tl_leaf_slots(const tl_leaf_view *leaf, uint32_t lane, const float *slots_out[3])
 {
     uint32_t n = leaf->pair_count;

@@ -29,7 +29,7 @@ static_assert(HEURISTIC_DEPTH + 32 <= TL_SOUP_MAX_DEPTH, "a range of 2^32 refere
 enum { TASK_SHARE = 64, SMALL_SHARE = 16, MIN_TASK_REFS = 512 };
 
 // A child box costs this share of a leaf test to look at.
-#define TRAVERSAL_COST 0.5f
+#define TRAVERSAL_COST 0.25f
 
 typedef struct subtree {
     tl_tree_range range;
@@ -207,6 +207,7 @@ tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair
     tl_run_tasks(&def->host, build_subtree, b.subtree_count, &b);
     tree_out->refs = refs;
     tree_out->nodes = b.nodes;
+    tree_out->node_capacity = 2 * capacity;
     tree_out->root = b.root;
     tree_out->ref_count = count_references(b.nodes, b.root);
     return TL_OK;

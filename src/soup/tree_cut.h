@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+//
+// Which binary nodes become the children of a wide node.
+
+#ifndef TALUS_SRC_SOUP_TREE_CUT_H
+#define TALUS_SRC_SOUP_TREE_CUT_H
+
+#include "soup/soup_build.h"
+#include "soup/soup_layout.h"
+
+typedef struct tl_tree_cut {
+    const tl_tree *tree;
+    const struct tl_tree_plan *plans;
+    const uint32_t *plan_of; ///< by binary node
+} tl_tree_cut;
+
+/// Plans the cut of a tree. Memory is the arena's.
+tl_result tl_tree_cut_plan(const tl_tree *tree, tl_arena *arena, tl_tree_cut *cut_out);
+
+/// The children of the wide node that stands for the binary node `root`, from left to right; returns how many.
+uint32_t tl_tree_cut_children(const tl_tree_cut *cut, uint32_t root, uint32_t children[TL_SOUP_WIDTH]);
+
+#endif
