@@ -162,7 +162,18 @@ static void test_refusals(void **state)
     TEST_RESULT(tl_nav_rebuild(&def, &input, tl_aabb_empty(), &block, &report), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_rebuild(&def, &input, not_finite, &block, &report), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_rebuild(&def, &input, far_away, &block, &report), TL_OK);
-    TEST_CHECK(block.tiles == NULL && block.range.count_x == 0);
+    TEST_CHECK(block.range.count_x == 0 && block.range.count_z == 0);
+    tl_nav_tile_block_free(&block, NULL);
+    // A fault is named by the caller's own number, and one that lies elsewhere does no harm.
+    uint32_t last = level.mesh.triangle_count - 1;
+    level.vertices[level.indices[3 * last]] = tl_vec3_make(NAN, 0.0f, NAN);
+    tl_aabb corner = { { 1, 0, 1 }, { 1.1f, 1, 1.1f } };
+    TEST_RESULT(tl_nav_rebuild(&def, &input, corner, &block, &report), TL_ERR_NOT_FINITE);
+    level.vertices[level.indices[3 * last]] = tl_vec3_make(25.0f, 0.0f, 17.0f);
+    level.indices[3 * last] = 60000;
+    TEST_RESULT(tl_nav_rebuild(&def, &input, corner, &block, &report), TL_ERR_INDEX);
+    TEST_CHECK(strcmp(report.base.element, "triangle") == 0 && report.base.element_index == last);
+    test_level_make(&level, tl_vec3_make(0, 0, 0));
     def.bounds = tl_aabb_empty();
     TEST_RESULT(tl_nav_rebuild(&def, &input, box, &block, &report), TL_ERR_ARGUMENT);
     assert_string_equal(report.base.element, "bounds");

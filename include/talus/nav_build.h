@@ -335,6 +335,12 @@ typedef struct tl_nav_build_report {
 TL_API tl_result tl_nav_tile_build(const tl_nav_config *config, const tl_nav_input *input, const tl_host *host,
                                    tl_nav_stages *stages_out, tl_nav_tile **tile_out, tl_nav_build_report *report_out);
 
+/// The stages from regions to the tile, on floors that are there: walkable areas final, eroded and marked. The field's
+/// `distance` and `region` are made anew and left freed; nothing else of it is changed. For obstacles that come and go
+/// without a look at the triangles.
+TL_API tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
+                                         tl_nav_tile **tile_out, tl_nav_build_report *report_out);
+
 /// All tiles of a level, in parallel where def->host has tasks; the same bytes for any number of workers.
 typedef struct tl_nav_tiles {
     tl_nav_tile **tiles; ///< only those that hold polygons, row-major by (tile_z, tile_x)

@@ -12,6 +12,7 @@
 #include <talus/mesh.h>
 #include <talus/nav_build.h>
 #include <talus/nav_detour.h>
+#include <talus/nav_obstacles.h>
 #include <talus/nav_query.h>
 #include <talus/nav_tile.h>
 #include <talus/pack.h>

@@ -10,6 +10,7 @@
 #include "base/host.h"
 #include "nav_build/batches.h"
 #include "nav_build/memory_meter.h"
+#include "nav_build/range_input.h"
 #include "nav_build/tile_build.h"
 
 #include <string.h>
@@ -152,29 +153,38 @@ static tl_result build_tiles(level_job *job, tl_nav_build_report *report)
     return result;
 }
 
-// All tiles of a range, which is checked against the level's grid.
-static tl_result build_range(level_job *job, const tl_nav_tile_range *range, tl_nav_build_report *report)
+// The grid of the level, and the range, which must lie in it; NULL: all tiles.
+static tl_result take_range(level_job *job, const tl_nav_tile_range *range, tl_report *report)
 {
-    TL_TRY(tl_nav_input_check(job->input, &job->bounds, &report->base));
-    TL_TRY(tl_nav_tile_grid(job->def, job->bounds, &job->tiles_x, &job->tiles_z, &report->base));
-    tl_nav_tile_range all = { 0, 0, job->tiles_x, job->tiles_z };
-    job->range = range != NULL ? *range : all;
-    if (job->range.x > job->tiles_x || job->range.count_x > job->tiles_x - job->range.x ||
-        job->range.z > job->tiles_z || job->range.count_z > job->tiles_z - job->range.z) {
-        job->range = (tl_nav_tile_range){ 0, 0, 0, 0 };
-        return tl_report_fail(&report->base, TL_ERR_ARGUMENT, "range", TL_NO_ELEMENT,
+    TL_TRY(tl_nav_tile_grid(job->def, job->bounds, &job->tiles_x, &job->tiles_z, report));
+    const tl_nav_tile_range all = { 0, 0, job->tiles_x, job->tiles_z };
+    const tl_nav_tile_range wanted = range != NULL ? *range : all;
+    if (wanted.x > all.count_x || wanted.count_x > all.count_x - wanted.x || wanted.z > all.count_z ||
+        wanted.count_z > all.count_z - wanted.z) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "range", TL_NO_ELEMENT,
                               "ask tl_nav_tile_grid how many tiles there are");
     }
+    job->range = wanted;
+    return TL_OK;
+}
+
+static tl_result make_room(level_job *job)
+{
     const uint64_t count = tile_count_of(job);
-    if (count == 0) {
-        return TL_OK;
-    }
     job->tiles = tl_allocate_array(job->host.allocator, count, sizeof *job->tiles);
     if (job->tiles == NULL) {
         return TL_ERR_MEMORY;
     }
     memset(job->tiles, 0, count * sizeof *job->tiles);
-    return build_tiles(job, report);
+    return TL_OK;
+}
+
+static tl_result build_range(level_job *job, const tl_nav_tile_range *range, tl_nav_build_report *report)
+{
+    TL_TRY(tl_nav_input_check(job->input, &job->bounds, &report->base));
+    TL_TRY(take_range(job, range, &report->base));
+    TL_TRY(make_room(job));
+    return tile_count_of(job) > 0 ? build_tiles(job, report) : TL_OK;
 }
 
 static void begin_job(level_job *job, const tl_nav_def *def, const tl_nav_input *input, tl_memory_meter *meter)
@@ -239,6 +249,45 @@ tl_result tl_nav_build(const tl_nav_def *def, const tl_nav_input *input, tl_nav_
     return result;
 }
 
+// Where the columns of a range lie, border included, and one column more on each side.
+static tl_result range_window(const tl_nav_def *def, const tl_nav_tile_range *range, tl_aabb *window, tl_report *report)
+{
+    tl_nav_config first, last;
+    TL_TRY(tl_nav_config_make(def, def->bounds, range->x, range->z, &first, report));
+    TL_TRY(tl_nav_config_make(def, def->bounds, range->x + range->count_x - 1, range->z + range->count_z - 1, &last,
+                              report));
+    *window = tl_aabb_union(first.bounds, last.bounds);
+    const tl_vec3 column = { def->cell_size, 0.0f, def->cell_size };
+    window->min = tl_sub(window->min, column);
+    window->max = tl_add(window->max, column);
+    return TL_OK;
+}
+
+// A few tiles of a level whose bounds are given: only the triangles that can reach them are looked at.
+static tl_result build_part(level_job *job, const tl_nav_tile_range *range, tl_nav_build_report *report)
+{
+    const tl_nav_input *whole = job->input;
+    tl_aabb window;
+    tl_range_input part;
+    TL_TRY(take_range(job, range, &report->base));
+    TL_TRY(range_window(job->def, range, &window, &report->base));
+    tl_result result = tl_range_input_make(whole, window, job->host.allocator, &part);
+    if (result == TL_OK && part.input.mesh.triangle_count == 0) {
+        result = make_room(job); // tiles without triangles are no tiles
+    } else if (result == TL_OK) {
+        job->input = &part.input;
+        result = build_range(job, range, report);
+        job->input = whole;
+        tl_report *base = &report->base;
+        if (result != TL_OK && base->element != NULL && strcmp(base->element, "triangle") == 0 &&
+            base->element_index < part.input.mesh.triangle_count) {
+            base->element_index = part.triangles[base->element_index];
+        }
+    }
+    tl_range_input_free(&part, job->host.allocator);
+    return result;
+}
+
 tl_result tl_nav_build_range(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tile_range range,
                              const tl_nav_stage_sink *sink, tl_nav_tile_block *block_out,
                              tl_nav_build_report *report_out)
@@ -250,7 +299,8 @@ tl_result tl_nav_build_range(const tl_nav_def *def, const tl_nav_input *input, t
     level_job job;
     begin_job(&job, def, input, &meter);
     job.sink = sink;
-    tl_result result = build_range(&job, &range, &report);
+    const bool part = !tl_aabb_is_empty(def->bounds) && def->tile_size > 0 && range.count_x > 0 && range.count_z > 0;
+    tl_result result = part ? build_part(&job, &range, &report) : build_range(&job, &range, &report);
     if (result == TL_OK) {
         block_out->range = job.range;
         block_out->tiles = job.tiles;

@@ -173,16 +173,21 @@ static tl_result bake_tile(tile_job *job)
     return tl_progress_update(&job->host, "tile", 1, 1);
 }
 
-static tl_result build_tile(tile_job *job)
+static tl_result finish_tile(tile_job *job)
 {
-    TL_TRY(build_floors(job));
-    TL_TRY(erode(job));
-    TL_TRY(mark_areas(job));
     TL_TRY(build_regions(job));
     TL_TRY(build_contours(job));
     TL_TRY(build_polygons(job));
     TL_TRY(build_detail(job));
     return job->stages->polygons.polygon_count > 0 ? bake_tile(job) : TL_OK;
+}
+
+static tl_result build_tile(tile_job *job)
+{
+    TL_TRY(build_floors(job));
+    TL_TRY(erode(job));
+    TL_TRY(mark_areas(job));
+    return finish_tile(job);
 }
 
 tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input, tl_triangle_list list,
@@ -243,6 +248,41 @@ tl_result tl_nav_tile_build(const tl_nav_config *config, const tl_nav_input *inp
         tl_nav_stages_free(&stages, &meter.allocator);
     }
     report.base.peak_bytes = tl_memory_meter_peak(&meter);
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    return result;
+}
+
+tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
+                                  tl_nav_tile **tile_out, tl_nav_build_report *report_out)
+{
+    static const tl_host plain = { NULL, NULL, NULL };
+    tl_nav_build_report report;
+    memset(&report, 0, sizeof report);
+    tl_nav_stages stages;
+    memset(&stages, 0, sizeof stages);
+    stages.compact = *compact;
+    tile_job job;
+    memset(&job, 0, sizeof job);
+    job.config = config;
+    job.host = host != NULL ? *host : plain;
+    job.keep = true; // the floors are the caller's
+    job.stages = &stages;
+    job.report = &report;
+    tl_result result = finish_tile(&job);
+    if (result != TL_OK) {
+        tl_blob_free(job.tile, job.host.allocator);
+        job.tile = NULL;
+    }
+    const tl_nav_compact *worked = &stages.compact;
+    tl_release_array(compact->allocator, worked->distance, worked->span_count, sizeof *worked->distance);
+    tl_release_array(compact->allocator, worked->region, worked->span_count, sizeof *worked->region);
+    compact->distance = NULL;
+    compact->region = NULL;
+    memset(&stages.compact, 0, sizeof stages.compact);
+    tl_nav_stages_free(&stages, job.host.allocator);
+    *tile_out = job.tile;
     if (report_out != NULL) {
         *report_out = report;
     }

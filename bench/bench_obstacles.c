@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+//
+// A city that changes: a box of it baked again, and obstacles that come, move and go. Talus alone: Detour's tile cache
+// is not in Debian's library with the means to compare (it needs the caller's own compressor and mesh processing).
+//
+//   bench_obstacles [triangles] [--json FILE]
+
+#include "cli/sample_level.h"
+#include "report.h"
+
+#include <talus/nav_obstacles.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { EDITS = 400, REBUILDS = 20 };
+
+static double now(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time); // one thread, on a machine that others use too
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static void must(tl_result result, const char *what)
+{
+    if (result != TL_OK) {
+        fprintf(stderr, "%s: %s\n", what, tl_result_text(result));
+        exit(1);
+    }
+}
+
+static int by_value(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double quantile(double *values, size_t count, double share)
+{
+    qsort(values, count, sizeof *values, by_value);
+    return values[(size_t)(share * (double)(count - 1))];
+}
+
+static uint32_t random_state = 1;
+
+static float random_between(float low, float high)
+{
+    random_state = random_state * 1664525u + 1013904223u;
+    return low + (high - low) * (float)(random_state >> 8) / 16777216.0f;
+}
+
+static void measure_rebuilds(const tl_nav_def *def, const tl_nav_input *input, bench_report *report)
+{
+    double times[REBUILDS];
+    uint32_t tiles = 0;
+    for (int i = 0; i < REBUILDS; i++) {
+        tl_vec3 at = { random_between(def->bounds.min.x, def->bounds.max.x), 0.0f,
+                       random_between(def->bounds.min.z, def->bounds.max.z) };
+        tl_aabb box = { { at.x, -100.0f, at.z }, { at.x + 3.0f, 100.0f, at.z + 3.0f } };
+        tl_nav_tile_block block;
+        double began = now();
+        must(tl_nav_rebuild(def, input, box, &block, NULL), "rebuild");
+        times[i] = (now() - began) * 1e3;
+        tiles += block.range.count_x * block.range.count_z;
+        tl_nav_tile_block_free(&block, NULL);
+    }
+    double median = quantile(times, REBUILDS, 0.5);
+    printf("a box of 3 m baked again: median %.2f ms, most %.2f ms, %.1f tiles\n", median,
+           quantile(times, REBUILDS, 1.0), (double)tiles / REBUILDS);
+    bench_report_at_most(report, "a changed box baked again, ms", median, 20.0);
+}
+
+static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, const char *name, bench_report *report)
+{
+    tl_nav_obstacles *obstacles;
+    tl_navmesh *navmesh;
+    double began = now();
+    must(tl_nav_obstacles_bake(&def, input, &obstacles, NULL, NULL), "bake");
+    double bake = now() - began;
+    must(tl_navmesh_create(NULL, &navmesh), "navmesh");
+    must(tl_nav_obstacles_update(obstacles, navmesh, UINT32_MAX, NULL, NULL), "update");
+    uint32_t tiles = tl_navmesh_tile_count(navmesh);
+    static double add[EDITS], tile[4 * EDITS + 64];
+    size_t made = 0;
+    for (int i = 0; i < EDITS; i++) {
+        tl_nav_obstacle crate;
+        memset(&crate, 0, sizeof crate);
+        crate.shape = TL_NAV_OBSTACLE_CYLINDER;
+        crate.radius = random_between(0.3f, 1.5f);
+        crate.height = 2.0f;
+        crate.base = tl_vec3_make(random_between(def.bounds.min.x, def.bounds.max.x), 0.0f,
+                                  random_between(def.bounds.min.z, def.bounds.max.z));
+        tl_nav_obstacle_id id;
+        began = now();
+        must(tl_nav_obstacles_add(obstacles, &crate, &id), "add");
+        add[i] = (now() - began) * 1e6;
+        while (tl_nav_obstacles_waiting(obstacles) > 0 && made < sizeof tile / sizeof tile[0]) {
+            began = now();
+            must(tl_nav_obstacles_update(obstacles, navmesh, 1, NULL, NULL), "update");
+            tile[made++] = (now() - began) * 1e6;
+        }
+    }
+    double add_median = quantile(add, EDITS, 0.5), tile_median = quantile(tile, made, 0.5);
+    printf("%-9s baked in %.2f s, floors of %u tiles kept in %.1f MB; a cylinder added: median %.2f us, 99%% %.2f; its "
+           "tile made and linked: median %.0f us, 90%% %.0f, 99%% %.0f\n",
+           name, bake, tiles, (double)tl_nav_obstacles_bytes(obstacles) * 1e-6, add_median, quantile(add, EDITS, 0.99),
+           tile_median, quantile(tile, made, 0.9), quantile(tile, made, 0.99));
+    char claim[96];
+    snprintf(claim, sizeof claim, "a cylinder added (%s), us", name);
+    bench_report_at_most(report, claim, add_median, 100.0);
+    snprintf(claim, sizeof claim, "its tile made and linked (%s), us", name);
+    bench_report_at_most(report, claim, tile_median, 200.0);
+    bench_report_value(report, "one obstacle in the city", "add", name, add_median);
+    bench_report_value(report, "one obstacle in the city", "tile made and linked", name, tile_median);
+    tl_navmesh_free(navmesh);
+    tl_nav_obstacles_free(obstacles);
+}
+
+int main(int argc, char **argv)
+{
+    const char *json_path = bench_report_path(&argc, argv);
+    uint32_t triangles = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 1000000;
+    uint32_t count;
+    const tl_sample_level *levels = tl_sample_levels(&count);
+    tl_sample_mesh mesh;
+    for (uint32_t i = 0; i < count; i++) {
+        if (strcmp(levels[i].name, "city") == 0) {
+            must(tl_sample_build_level(&levels[i], triangles, 1, &mesh), "city");
+        }
+    }
+    tl_nav_input input;
+    memset(&input, 0, sizeof input);
+    input.mesh = tl_sample_mesh_as_view(&mesh);
+    tl_nav_def def = tl_default_nav_def();
+    def.tile_size = 64;
+    for (uint32_t i = 0; i < input.mesh.vertex_count; i++) {
+        def.bounds = tl_aabb_add_point(def.bounds, input.mesh.vertices[i]);
+    }
+    bench_report *report = bench_report_new("obstacles", "us", NULL);
+    printf("city of %u triangles, tiles of 64 cells\n", input.mesh.triangle_count);
+    measure_rebuilds(&def, &input, report);
+    measure_obstacles(def, &input, "watershed", report);
+    def.partition = TL_NAV_MONOTONE;
+    measure_obstacles(def, &input, "monotone", report);
+    bench_report_print_claims(report);
+    tl_sample_mesh_free(&mesh);
+    return bench_report_close(report, json_path);
+}

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+//
+// Temporary obstacles: crates, cars, doors, fires that come, move and go while the game runs.
+//
+// The floors of each tile are kept as they were before regions are made from them. An obstacle marks floors, and the
+// tiles that it touches are made again from there: the triangles are never looked at. What a tile becomes depends on
+// the obstacles that are there, not on the order in which they came; without any it has the bytes of the first bake.
+//
+//   tl_nav_obstacles_bake(&def, &input, &obstacles, NULL, NULL);
+//   tl_nav_obstacles_add(obstacles, &crate, &id);
+//   tl_nav_obstacles_update(obstacles, navmesh, 4, &waiting, NULL);   each frame, until nothing is waiting
+//
+// One thread at a time uses an obstacles object. Queries on the navmesh may go on while tl_nav_obstacles_build_next
+// works, which does not know it; a navmesh is changed only by tl_nav_obstacles_update and by tl_navmesh_remove_tile and
+// tl_navmesh_add_tile, during which nobody else may use it.
+
+#ifndef TALUS_NAV_OBSTACLES_H
+#define TALUS_NAV_OBSTACLES_H
+
+#include <talus/nav_build.h>
+#include <talus/nav_query.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define TL_NAV_MAX_OBSTACLE_POINTS 16
+
+typedef enum tl_nav_obstacle_shape {
+    TL_NAV_OBSTACLE_CYLINDER,
+    TL_NAV_OBSTACLE_BOX,
+    TL_NAV_OBSTACLE_PRISM, ///< upright, over a convex outline
+} tl_nav_obstacle_shape;
+
+/// What stands in the way. Lengths in metres.
+typedef struct tl_nav_obstacle {
+    tl_nav_obstacle_shape shape;
+    /// TL_NAV_NULL_AREA: a body. No agent stands where it would overlap it: floors are cut away under and around it,
+    /// out to the agent's radius, and from agent_height below its base to its top. Another area: floors inside it, from
+    /// base to top, get that area (a cost, a danger), and nothing is cut away.
+    uint8_t area;
+    tl_vec3 base;         ///< the middle of its foot
+    float height;         ///< >= 0
+    float radius;         ///< CYLINDER: > 0
+    float half_x, half_z; ///< BOX: >= 0, before it is turned
+    float cosine, sine;   ///< BOX, PRISM: turned about y, so that local x points to (cosine, -sine) in (x, z). Any
+                          ///< length; both 0: not turned
+    tl_vec3 points[TL_NAV_MAX_OBSTACLE_POINTS]; ///< PRISM: convex outline around base in x and z, either winding; y: 0
+    uint32_t point_count;                       ///< PRISM: >= 3
+} tl_nav_obstacle;
+
+typedef struct tl_nav_obstacles tl_nav_obstacles;
+
+/// Names an obstacle until it is removed; names are not used again.
+typedef uint64_t tl_nav_obstacle_id;
+
+/// Bakes a level in tiles and keeps their floors. `def` needs a tile_size and bounds. Its host is used now; later only
+/// a copy of its allocator.
+///
+/// `block_out`: the tiles without obstacles, as tl_nav_build_range gives them. NULL: they are dropped, and all tiles
+/// wait to be made; the first updates fill the navmesh. Errors: TL_ERR_ARGUMENT (no tile_size, no bounds), and those of
+/// tl_nav_build; then `*obstacles_out` is NULL.
+TL_API tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input,
+                                       tl_nav_obstacles **obstacles_out, tl_nav_tile_block *block_out,
+                                       tl_nav_build_report *report_out);
+TL_API void tl_nav_obstacles_free(tl_nav_obstacles *obstacles);
+
+/// Adds an obstacle; the tiles that it touches wait to be made again. Takes a microsecond or less, and memory only
+/// where the list of obstacles grows. TL_ERR_ARGUMENT (a size, the area, an outline that is not convex),
+/// TL_ERR_NOT_FINITE, TL_ERR_MEMORY.
+TL_API tl_result tl_nav_obstacles_add(tl_nav_obstacles *obstacles, const tl_nav_obstacle *obstacle,
+                                      tl_nav_obstacle_id *id_out);
+/// Moves it, or makes it another: the tiles of its old and its new place wait. TL_ERR_NOT_FOUND for a name that is not
+/// in use; else as adding.
+TL_API tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id,
+                                       const tl_nav_obstacle *obstacle);
+TL_API tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id);
+
+TL_API uint32_t tl_nav_obstacles_count(const tl_nav_obstacles *obstacles);
+/// Tiles that wait to be made again.
+TL_API uint32_t tl_nav_obstacles_waiting(const tl_nav_obstacles *obstacles);
+/// Bytes that the kept floors and the list of obstacles take.
+TL_API uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles);
+
+/// Bakes again, from triangles, what a change of the level inside `changed` can have touched, and lets those tiles
+/// wait. `input` is the level as it is now; the obstacles stay. Errors as tl_nav_rebuild; then nothing is changed.
+TL_API tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_input *input, tl_aabb changed,
+                                         tl_nav_build_report *report_out);
+
+/// A tile made again.
+typedef struct tl_nav_remade_tile {
+    int32_t tile_x, tile_z;
+    tl_nav_tile *tile; ///< the caller's, from the def's allocator; NULL: nothing is walkable there now
+} tl_nav_remade_tile;
+
+/// Makes the tile that has waited longest. TL_ERR_NOT_FOUND: none waits. On another failure it goes on waiting.
+TL_API tl_result tl_nav_obstacles_build_next(tl_nav_obstacles *obstacles, tl_nav_remade_tile *remade_out,
+                                             tl_nav_build_report *report_out);
+
+/// Makes up to `most_tiles` waiting tiles and puts them into the navmesh in the place of the old ones. The navmesh
+/// takes them over, so it must have been created with the def's allocator.
+/// `*waiting_out` (may be NULL): how many wait still. On failure the tile at hand goes on waiting, and the navmesh has
+/// the old one or, out of memory in between, none there.
+TL_API tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t most_tiles,
+                                         uint32_t *waiting_out, tl_nav_build_report *report_out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

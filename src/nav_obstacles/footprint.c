@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+//
+// Marking floors under an obstacle.
+//
+// A body's footprint is the sum of its outline and a disc of the agent's radius: the places where the agent's own disc
+// would touch it. The distance from a column's centre to the outline decides, so corners are round as the agent is, and
+// nothing is grown twice. An area marks what lies inside its outline, as volumes of a bake do.
+
+#include "nav_obstacles/footprint.h"
+
+#include "base/host.h"
+
+#include <math.h>
+
+// The outline in its own frame: local = turn(world - base). A box is a polygon of four corners.
+typedef struct footprint {
+    bool round;
+    double radius;       // of the cylinder
+    double x[16], z[16]; // of the polygon, counter-clockwise where x runs right and z up
+    uint32_t count;
+    double base_x, base_z;
+    double cosine, sine;
+    double grow;      // metres; 0 for an area
+    double low, high; // heights of floors, metres
+} footprint;
+
+// A floor at exactly the body's top is free, and one that leaves exactly the agent's height below its base too; an
+// area holds its ends. So bodies test low < y < high, areas low <= y <= high.
+static bool height_is_in(const footprint *foot, double y)
+{
+    return foot->grow >= 0.0 ? y > foot->low && y < foot->high : y >= foot->low && y <= foot->high;
+}
+
+static double twice_area(const footprint *foot)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0, before = foot->count - 1; i < foot->count; before = i++) {
+        sum += foot->x[before] * foot->z[i] - foot->x[i] * foot->z[before];
+    }
+    return sum;
+}
+
+static void reverse(footprint *foot)
+{
+    for (uint32_t i = 0, k = foot->count - 1; i < k; i++, k--) {
+        double x = foot->x[i], z = foot->z[i];
+        foot->x[i] = foot->x[k];
+        foot->z[i] = foot->z[k];
+        foot->x[k] = x;
+        foot->z[k] = z;
+    }
+}
+
+static void make_outline(const tl_nav_obstacle *obstacle, footprint *foot)
+{
+    foot->count = obstacle->shape == TL_NAV_OBSTACLE_BOX ? 4 : obstacle->point_count;
+    for (uint32_t i = 0; i < foot->count; i++) {
+        bool right = i == 1 || i == 2, far = i >= 2;
+        bool box = obstacle->shape == TL_NAV_OBSTACLE_BOX;
+        foot->x[i] = box ? (double)(right ? obstacle->half_x : -obstacle->half_x) : (double)obstacle->points[i].x;
+        foot->z[i] = box ? (double)(far ? obstacle->half_z : -obstacle->half_z) : (double)obstacle->points[i].z;
+    }
+    if (twice_area(foot) < 0.0) {
+        reverse(foot);
+    }
+}
+
+static footprint make_footprint(const tl_nav_obstacle *obstacle, float agent_radius, float agent_height)
+{
+    footprint foot;
+    bool body = obstacle->area == TL_NAV_NULL_AREA;
+    foot.round = obstacle->shape == TL_NAV_OBSTACLE_CYLINDER;
+    foot.radius = (double)obstacle->radius;
+    foot.count = 0;
+    if (!foot.round) {
+        make_outline(obstacle, &foot);
+    }
+    foot.base_x = (double)obstacle->base.x;
+    foot.base_z = (double)obstacle->base.z;
+    double length =
+        sqrt((double)obstacle->cosine * (double)obstacle->cosine + (double)obstacle->sine * (double)obstacle->sine);
+    foot.cosine = length > 0.0 ? (double)obstacle->cosine / length : 1.0;
+    foot.sine = length > 0.0 ? (double)obstacle->sine / length : 0.0;
+    foot.grow = body ? (double)agent_radius : -1.0;
+    foot.low = (double)obstacle->base.y - (body ? (double)agent_height : 0.0);
+    foot.high = (double)obstacle->base.y + (double)obstacle->height;
+    return foot;
+}
+
+static double clamp_unit(double t)
+{
+    return t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+}
+
+// Squared distance to a segment of the outline.
+static double segment_distance_sq(const footprint *foot, uint32_t a, uint32_t b, double x, double z)
+{
+    double ux = foot->x[b] - foot->x[a], uz = foot->z[b] - foot->z[a];
+    double dx = x - foot->x[a], dz = z - foot->z[a];
+    double length_sq = ux * ux + uz * uz;
+    double t = length_sq > 0.0 ? clamp_unit((dx * ux + dz * uz) / length_sq) : 0.0;
+    dx -= t * ux;
+    dz -= t * uz;
+    return dx * dx + dz * dz;
+}
+
+static bool polygon_reaches(const footprint *foot, double x, double z)
+{
+    bool inside = true;
+    double nearest = INFINITY;
+    for (uint32_t i = 0, before = foot->count - 1; i < foot->count; before = i++) {
+        double ux = foot->x[i] - foot->x[before], uz = foot->z[i] - foot->z[before];
+        inside = inside && ux * (z - foot->z[before]) - uz * (x - foot->x[before]) >= 0.0;
+        if (foot->grow >= 0.0) {
+            double distance_sq = segment_distance_sq(foot, before, i, x, z);
+            nearest = distance_sq < nearest ? distance_sq : nearest;
+        }
+    }
+    return inside || (foot->grow >= 0.0 && nearest <= foot->grow * foot->grow);
+}
+
+static bool reaches(const footprint *foot, double world_x, double world_z)
+{
+    double dx = world_x - foot->base_x, dz = world_z - foot->base_z;
+    if (foot->round) {
+        double radius = foot->radius + (foot->grow > 0.0 ? foot->grow : 0.0);
+        return dx * dx + dz * dz < radius * radius;
+    }
+    return polygon_reaches(foot, dx * foot->cosine - dz * foot->sine, dx * foot->sine + dz * foot->cosine);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+
+static bool is_convex(const tl_nav_obstacle *obstacle)
+{
+    footprint foot;
+    make_outline(obstacle, &foot);
+    double area = twice_area(&foot);
+    for (uint32_t i = 0; i < foot.count; i++) {
+        uint32_t next = (i + 1) % foot.count;
+        double ux = foot.x[next] - foot.x[i], uz = foot.z[next] - foot.z[i];
+        for (uint32_t k = 0; k < foot.count; k++) {
+            // A corner may lie on another's edge line by rounding, not beyond it.
+            if (ux * (foot.z[k] - foot.z[i]) - uz * (foot.x[k] - foot.x[i]) < -1e-9 * area) {
+                return false;
+            }
+        }
+    }
+    return area > 0.0;
+}
+
+static tl_result check_prism(const tl_nav_obstacle *obstacle, tl_report *report)
+{
+    if (obstacle->point_count < 3 || obstacle->point_count > TL_NAV_MAX_OBSTACLE_POINTS) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "point_count", TL_NO_ELEMENT, "give 3 to 16 points");
+    }
+    for (uint32_t i = 0; i < obstacle->point_count; i++) {
+        if (!tl_is_finite(obstacle->points[i])) {
+            return tl_report_fail(report, TL_ERR_NOT_FINITE, "point", i, NULL);
+        }
+    }
+    return is_convex(obstacle) ? TL_OK
+                               : tl_report_fail(report, TL_ERR_ARGUMENT, "points", TL_NO_ELEMENT,
+                                                "give the outline of a convex polygon with area, in order");
+}
+
+tl_result tl_obstacle_check(const tl_nav_obstacle *obstacle, tl_report *report)
+{
+    if ((unsigned)obstacle->shape > (unsigned)TL_NAV_OBSTACLE_PRISM) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "shape", TL_NO_ELEMENT, "use a tl_nav_obstacle_shape");
+    }
+    if (obstacle->area > TL_NAV_MAX_AREA) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "area", TL_NO_ELEMENT, "use an area that a tile can hold");
+    }
+    if (!tl_is_finite(obstacle->base) || !isfinite(obstacle->height)) {
+        return tl_report_fail(report, TL_ERR_NOT_FINITE, "base", TL_NO_ELEMENT, NULL);
+    }
+    bool round = obstacle->shape == TL_NAV_OBSTACLE_CYLINDER;
+    if (!round && (!isfinite(obstacle->cosine) || !isfinite(obstacle->sine))) {
+        return tl_report_fail(report, TL_ERR_NOT_FINITE, "cosine", TL_NO_ELEMENT, NULL);
+    }
+    if (!(obstacle->height >= 0.0f)) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "height", TL_NO_ELEMENT, "give a height of 0 or more");
+    }
+    if (round && !(obstacle->radius > 0.0f && isfinite(obstacle->radius))) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "radius", TL_NO_ELEMENT, "give a radius above 0");
+    }
+    if (obstacle->shape == TL_NAV_OBSTACLE_BOX && !(obstacle->half_x >= 0.0f && isfinite(obstacle->half_x) &&
+                                                    obstacle->half_z >= 0.0f && isfinite(obstacle->half_z))) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "half_x", TL_NO_ELEMENT, "give extents of 0 or more");
+    }
+    return obstacle->shape == TL_NAV_OBSTACLE_PRISM ? check_prism(obstacle, report) : TL_OK;
+}
+
+// The smallest box that a float can name around [low, high].
+static void round_outward(double low, double high, float *min, float *max)
+{
+    *min = nextafterf((float)low, -INFINITY);
+    *max = nextafterf((float)high, INFINITY);
+}
+
+tl_aabb tl_obstacle_box(const tl_nav_obstacle *obstacle, float agent_radius, float agent_height)
+{
+    footprint foot = make_footprint(obstacle, agent_radius, agent_height);
+    double grow = foot.grow > 0.0 ? foot.grow : 0.0;
+    double min_x = -foot.radius, max_x = foot.radius, min_z = -foot.radius, max_z = foot.radius;
+    if (!foot.round) {
+        min_x = min_z = INFINITY;
+        max_x = max_z = -INFINITY;
+        for (uint32_t i = 0; i < foot.count; i++) {
+            double x = foot.x[i] * foot.cosine + foot.z[i] * foot.sine;
+            double z = foot.z[i] * foot.cosine - foot.x[i] * foot.sine;
+            min_x = x < min_x ? x : min_x;
+            max_x = x > max_x ? x : max_x;
+            min_z = z < min_z ? z : min_z;
+            max_z = z > max_z ? z : max_z;
+        }
+    }
+    tl_aabb box;
+    round_outward(foot.base_x + min_x - grow, foot.base_x + max_x + grow, &box.min.x, &box.max.x);
+    round_outward(foot.low, foot.high, &box.min.y, &box.max.y);
+    round_outward(foot.base_z + min_z - grow, foot.base_z + max_z + grow, &box.min.z, &box.max.z);
+    return box;
+}
+
+// Columns [*first, *end) of `count` whose centres can lie in [min, max], metres.
+static void column_range(float min, float max, float origin, float cell_size, int32_t first_column, uint32_t count,
+                         uint32_t *first, uint32_t *end)
+{
+    double shift = (double)first_column + 0.5;
+    double low = floor(((double)min - (double)origin) / (double)cell_size - shift);
+    double high = ceil(((double)max - (double)origin) / (double)cell_size - shift) + 1.0;
+    *first = *end = 0;
+    if (low < high && high > 0.0 && low < (double)count) {
+        *first = low > 0.0 ? (uint32_t)low : 0;
+        *end = high < (double)count ? (uint32_t)high : count;
+    }
+}
+
+static void mark_column(const footprint *foot, uint8_t area, uint32_t column, tl_nav_compact *compact)
+{
+    for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
+        double y = (double)compact->lattice.origin.y + (double)compact->floor[i] * (double)compact->cell_height;
+        if (compact->area[i] != TL_NAV_NULL_AREA && height_is_in(foot, y)) {
+            compact->area[i] = area;
+        }
+    }
+}
+
+void tl_obstacle_mark(const tl_nav_obstacle *obstacle, float agent_radius, float agent_height, tl_nav_compact *compact)
+{
+    const tl_nav_lattice *lattice = &compact->lattice;
+    footprint foot = make_footprint(obstacle, agent_radius, agent_height);
+    tl_aabb box = tl_obstacle_box(obstacle, agent_radius, agent_height);
+    uint32_t first_x, end_x, first_z, end_z;
+    column_range(box.min.x, box.max.x, lattice->origin.x, compact->cell_size, lattice->first_x, compact->width,
+                 &first_x, &end_x);
+    column_range(box.min.z, box.max.z, lattice->origin.z, compact->cell_size, lattice->first_z, compact->height,
+                 &first_z, &end_z);
+    const double size = (double)compact->cell_size;
+    for (uint32_t z = first_z; z < end_z; z++) {
+        double center_z = (double)lattice->origin.z + ((double)lattice->first_z + (double)z + 0.5) * size;
+        for (uint32_t x = first_x; x < end_x; x++) {
+            double center_x = (double)lattice->origin.x + ((double)lattice->first_x + (double)x + 0.5) * size;
+            if (reaches(&foot, center_x, center_z)) {
+                mark_column(&foot, obstacle->area, z * compact->width + x, compact);
+            }
+        }
+    }
+}

@@ -1,0 +1,514 @@
+// SPDX-License-Identifier: MIT
+//
+// The floors of every tile, the obstacles that stand on them, and the tiles that wait to be made again.
+//
+// Source of the idea: DetourTileCache (Mikko Mononen), which keeps compressed layers of heights and cuts obstacles out
+// of those. Here the whole compact field is kept: floors over one another need no layers, a tile is the same as a bake
+// of the level with those volumes, and nothing has to be unpacked.
+
+#include "nav_obstacles/footprint.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+
+#include <string.h>
+
+// A tile's floors. `area` of the field is scratch; what the bake gave is in base_area.
+typedef struct tile_floors {
+    tl_nav_compact compact;
+    uint8_t *base_area;
+    uint32_t next_waiting; // in the queue, while it waits
+    bool is_there, waits;
+} tile_floors;
+
+typedef struct obstacle_slot {
+    tl_nav_obstacle obstacle;
+    tl_nav_tile_range range; // the tiles that it touches
+    uint32_t generation;     // odd: in use
+    uint32_t next_free;
+} obstacle_slot;
+
+struct tl_nav_obstacles {
+    tl_allocator allocator;
+    tl_nav_def def; // without host
+    uint32_t tiles_x, tiles_z;
+    tile_floors *tiles; // [tiles_x * tiles_z]
+    obstacle_slot *slots;
+    uint32_t slot_count, slot_capacity, first_free, used_count;
+    uint32_t first_waiting, last_waiting, waiting_count;
+};
+
+#define NONE UINT32_MAX
+
+static uint64_t tile_count(const tl_nav_obstacles *o)
+{
+    return (uint64_t)o->tiles_x * o->tiles_z;
+}
+
+static tile_floors *tile_at(const tl_nav_obstacles *o, uint32_t x, uint32_t z)
+{
+    return &o->tiles[(uint64_t)z * o->tiles_x + x];
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Waiting tiles: a queue through the tiles themselves, so that nothing has to be allocated.
+
+static void let_wait(tl_nav_obstacles *o, const tl_nav_tile_range *range)
+{
+    for (uint32_t z = range->z; z < range->z + range->count_z; z++) {
+        for (uint32_t x = range->x; x < range->x + range->count_x; x++) {
+            tile_floors *tile = tile_at(o, x, z);
+            if (tile->waits || !tile->is_there) {
+                continue;
+            }
+            uint32_t index = z * o->tiles_x + x;
+            tile->waits = true;
+            tile->next_waiting = NONE;
+            if (o->last_waiting == NONE) {
+                o->first_waiting = index;
+            } else {
+                o->tiles[o->last_waiting].next_waiting = index;
+            }
+            o->last_waiting = index;
+            o->waiting_count++;
+        }
+    }
+}
+
+static void end_wait(tl_nav_obstacles *o)
+{
+    tile_floors *tile = &o->tiles[o->first_waiting];
+    o->first_waiting = tile->next_waiting;
+    o->last_waiting = o->first_waiting == NONE ? NONE : o->last_waiting;
+    tile->waits = false;
+    o->waiting_count--;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Floors.
+
+static void free_floors(tl_nav_obstacles *o, tile_floors *tile)
+{
+    tl_release_array(&o->allocator, tile->base_area, tile->compact.span_count, sizeof *tile->base_area);
+    tl_nav_compact_free(&tile->compact);
+    memset(&tile->compact, 0, sizeof tile->compact);
+    tile->base_area = NULL;
+}
+
+// Where a bake puts the floors that it makes: beside those that are there until all is well.
+typedef struct floors_taker {
+    tl_nav_obstacles *obstacles;
+    tl_nav_tile_range range;
+    tl_nav_compact *fresh; // [range.count_x * range.count_z]
+} floors_taker;
+
+static void take_floors(const tl_nav_config *config, tl_nav_stages *stages, void *user)
+{
+    floors_taker *taker = user;
+    uint32_t x = config->tile_x - taker->range.x, z = config->tile_z - taker->range.z;
+    tl_nav_compact *fresh = &taker->fresh[(uint64_t)z * taker->range.count_x + x];
+    *fresh = stages->compact;
+    memset(&stages->compact, 0, sizeof stages->compact);
+    fresh->allocator = &taker->obstacles->allocator;
+    tl_release_array(fresh->allocator, fresh->distance, fresh->span_count, sizeof *fresh->distance);
+    tl_release_array(fresh->allocator, fresh->region, fresh->span_count, sizeof *fresh->region);
+    fresh->distance = NULL;
+    fresh->region = NULL;
+}
+
+// The bake's areas become the base; both or nothing.
+static tl_result copy_areas(const tl_nav_obstacles *o, const floors_taker *taker, uint8_t **areas)
+{
+    const uint64_t count = (uint64_t)taker->range.count_x * taker->range.count_z;
+    for (uint64_t i = 0; i < count; i++) {
+        const tl_nav_compact *fresh = &taker->fresh[i];
+        if (fresh->span_count == 0) {
+            continue;
+        }
+        areas[i] = tl_allocate_array(&o->allocator, fresh->span_count, sizeof *areas[i]);
+        if (areas[i] == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        memcpy(areas[i], fresh->area, fresh->span_count);
+    }
+    return TL_OK;
+}
+
+static void install(tl_nav_obstacles *o, const floors_taker *taker, uint8_t **areas)
+{
+    for (uint32_t z = 0; z < taker->range.count_z; z++) {
+        for (uint32_t x = 0; x < taker->range.count_x; x++) {
+            uint64_t i = (uint64_t)z * taker->range.count_x + x;
+            tile_floors *tile = tile_at(o, taker->range.x + x, taker->range.z + z);
+            free_floors(o, tile);
+            tile->compact = taker->fresh[i];
+            tile->base_area = areas[i];
+            tile->is_there = true;
+        }
+    }
+}
+
+static void drop(const tl_nav_obstacles *o, const floors_taker *taker, uint8_t **areas)
+{
+    const uint64_t count = (uint64_t)taker->range.count_x * taker->range.count_z;
+    for (uint64_t i = 0; i < count; i++) {
+        tl_release_array(&o->allocator, areas[i], taker->fresh[i].span_count, sizeof *areas[i]);
+        tl_nav_compact_free(&taker->fresh[i]);
+    }
+}
+
+// Bakes a range and keeps its floors; the tiles come back in `block`.
+static tl_result bake_range(tl_nav_obstacles *o, const tl_host *host, const tl_nav_input *input,
+                            tl_nav_tile_range range, tl_nav_tile_block *block, tl_nav_build_report *report_out)
+{
+    const uint64_t count = (uint64_t)range.count_x * range.count_z;
+    floors_taker taker = { o, range, tl_allocate_array(&o->allocator, count, sizeof *taker.fresh) };
+    uint8_t **areas = tl_allocate_array(&o->allocator, count, sizeof *areas);
+    tl_result result = TL_ERR_MEMORY;
+    if (taker.fresh != NULL && areas != NULL) {
+        memset(taker.fresh, 0, count * sizeof *taker.fresh);
+        memset(areas, 0, count * sizeof *areas);
+        const tl_nav_stage_sink sink = { take_floors, &taker };
+        tl_nav_def def = o->def;
+        def.host = *host;
+        def.host.allocator = &o->allocator;
+        result = tl_nav_build_range(&def, input, range, &sink, block, report_out);
+        if (result == TL_OK) {
+            result = copy_areas(o, &taker, areas);
+        }
+        if (result == TL_OK) {
+            install(o, &taker, areas);
+        } else {
+            drop(o, &taker, areas);
+            tl_nav_tile_block_free(block, &o->allocator);
+        }
+    }
+    tl_release_array(&o->allocator, taker.fresh, count, sizeof *taker.fresh);
+    tl_release_array(&o->allocator, areas, count, sizeof *areas);
+    return result;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Making and ending.
+
+static tl_result check_def(const tl_nav_def *def, tl_report *report)
+{
+    if (def->tile_size == 0) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "tile_size", TL_NO_ELEMENT,
+                              "give a tile_size, such as 64: only touched tiles are made again");
+    }
+    if (tl_aabb_is_empty(def->bounds)) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "bounds", TL_NO_ELEMENT,
+                              "give def->bounds, or the lattice moves when the mesh does");
+    }
+    return TL_OK;
+}
+
+static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report *report)
+{
+    TL_TRY(check_def(def, report));
+    uint32_t tiles_x, tiles_z;
+    TL_TRY(tl_nav_tile_grid(def, def->bounds, &tiles_x, &tiles_z, report));
+    const tl_allocator allocator = tl_allocator_or_default(def->host.allocator);
+    tl_nav_obstacles *o = tl_allocate_array(&allocator, 1, sizeof *o);
+    if (o == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(o, 0, sizeof *o);
+    o->allocator = allocator;
+    o->def = *def;
+    memset(&o->def.host, 0, sizeof o->def.host);
+    o->tiles_x = tiles_x;
+    o->tiles_z = tiles_z;
+    o->first_free = o->first_waiting = o->last_waiting = NONE;
+    o->tiles = tl_allocate_array(&allocator, tile_count(o), sizeof *o->tiles);
+    if (o->tiles == NULL) {
+        tl_release_array(&allocator, o, 1, sizeof *o);
+        return TL_ERR_MEMORY;
+    }
+    memset(o->tiles, 0, tile_count(o) * sizeof *o->tiles);
+    *out = o;
+    return TL_OK;
+}
+
+tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input, tl_nav_obstacles **obstacles_out,
+                                tl_nav_tile_block *block_out, tl_nav_build_report *report_out)
+{
+    tl_nav_obstacles *o = NULL;
+    tl_nav_tile_block block;
+    memset(&block, 0, sizeof block);
+    *obstacles_out = NULL;
+    if (block_out != NULL) {
+        *block_out = block;
+    }
+    tl_nav_build_report report;
+    memset(&report, 0, sizeof report);
+    tl_report_begin(&report.base, "obstacles");
+    tl_result result = create(def, &o, &report.base);
+    if (result == TL_OK) {
+        tl_nav_tile_range all = { 0, 0, o->tiles_x, o->tiles_z };
+        result = bake_range(o, &def->host, input, all, &block, &report);
+    }
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    if (result != TL_OK) {
+        tl_nav_obstacles_free(o);
+        return result;
+    }
+    if (block_out != NULL) {
+        *block_out = block;
+    } else {
+        tl_nav_tile_block_free(&block, &o->allocator);
+        let_wait(o, &(tl_nav_tile_range){ 0, 0, o->tiles_x, o->tiles_z });
+    }
+    *obstacles_out = o;
+    return TL_OK;
+}
+
+tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_input *input, tl_aabb changed,
+                                  tl_nav_build_report *report_out)
+{
+    static const tl_host alone = { NULL, NULL, NULL };
+    tl_nav_obstacles *o = obstacles;
+    tl_nav_tile_range range;
+    tl_nav_tile_block block;
+    tl_nav_build_report report;
+    memset(&report, 0, sizeof report);
+    tl_report_begin(&report.base, "rebake");
+    tl_result result = tl_nav_tiles_in_box(&o->def, o->def.bounds, changed, &range, &report.base);
+    if (result == TL_OK && range.count_x > 0) {
+        result = bake_range(o, &alone, input, range, &block, &report);
+        if (result == TL_OK) {
+            tl_nav_tile_block_free(&block, &o->allocator); // made again with the obstacles
+            let_wait(o, &range);
+        }
+    }
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    return result;
+}
+
+void tl_nav_obstacles_free(tl_nav_obstacles *obstacles)
+{
+    tl_nav_obstacles *o = obstacles;
+    if (o == NULL) {
+        return;
+    }
+    for (uint64_t i = 0; i < tile_count(o); i++) {
+        free_floors(o, &o->tiles[i]);
+    }
+    const tl_allocator allocator = o->allocator;
+    tl_release_array(&allocator, o->tiles, tile_count(o), sizeof *o->tiles);
+    tl_release_array(&allocator, o->slots, o->slot_capacity, sizeof *o->slots);
+    tl_release_array(&allocator, o, 1, sizeof *o);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Obstacles.
+
+static tl_nav_obstacle_id id_of(const tl_nav_obstacles *o, uint32_t slot)
+{
+    return (uint64_t)o->slots[slot].generation << 32 | slot;
+}
+
+static obstacle_slot *find(const tl_nav_obstacles *o, tl_nav_obstacle_id id)
+{
+    uint32_t slot = (uint32_t)id, generation = (uint32_t)(id >> 32);
+    bool there = slot < o->slot_count && (generation & 1u) != 0 && o->slots[slot].generation == generation;
+    return there ? &o->slots[slot] : NULL;
+}
+
+static tl_result range_of(const tl_nav_obstacles *o, const tl_nav_obstacle *obstacle, tl_nav_tile_range *range)
+{
+    TL_TRY(tl_obstacle_check(obstacle, NULL));
+    tl_aabb box = tl_obstacle_box(obstacle, o->def.agent_radius, o->def.agent_height);
+    return tl_nav_tiles_in_box(&o->def, o->def.bounds, box, range, NULL);
+}
+
+static tl_result take_slot(tl_nav_obstacles *o, uint32_t *slot_out)
+{
+    if (o->first_free != NONE) {
+        *slot_out = o->first_free;
+        o->first_free = o->slots[o->first_free].next_free;
+        return TL_OK;
+    }
+    if (o->slot_count == o->slot_capacity) {
+        uint32_t capacity = o->slot_capacity > 0 ? 2 * o->slot_capacity : 16;
+        if (capacity < o->slot_capacity || capacity == NONE) {
+            return TL_ERR_LIMIT;
+        }
+        obstacle_slot *slots = tl_allocate_array(&o->allocator, capacity, sizeof *slots);
+        if (slots == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        if (o->slot_count > 0) {
+            memcpy(slots, o->slots, o->slot_count * sizeof *slots);
+        }
+        tl_release_array(&o->allocator, o->slots, o->slot_capacity, sizeof *slots);
+        o->slots = slots;
+        o->slot_capacity = capacity;
+    }
+    memset(&o->slots[o->slot_count], 0, sizeof *o->slots);
+    *slot_out = o->slot_count++;
+    return TL_OK;
+}
+
+tl_result tl_nav_obstacles_add(tl_nav_obstacles *obstacles, const tl_nav_obstacle *obstacle, tl_nav_obstacle_id *id_out)
+{
+    tl_nav_tile_range range;
+    uint32_t index = 0;
+    TL_TRY(range_of(obstacles, obstacle, &range));
+    TL_TRY(take_slot(obstacles, &index));
+    obstacle_slot *slot = &obstacles->slots[index];
+    slot->obstacle = *obstacle;
+    slot->range = range;
+    slot->generation++;
+    obstacles->used_count++;
+    let_wait(obstacles, &range);
+    *id_out = id_of(obstacles, index);
+    return TL_OK;
+}
+
+tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id, const tl_nav_obstacle *obstacle)
+{
+    obstacle_slot *slot = find(obstacles, id);
+    tl_nav_tile_range range;
+    if (slot == NULL) {
+        return TL_ERR_NOT_FOUND;
+    }
+    TL_TRY(range_of(obstacles, obstacle, &range));
+    let_wait(obstacles, &slot->range);
+    slot->obstacle = *obstacle;
+    slot->range = range;
+    let_wait(obstacles, &range);
+    return TL_OK;
+}
+
+tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id)
+{
+    obstacle_slot *slot = find(obstacles, id);
+    if (slot == NULL) {
+        return TL_ERR_NOT_FOUND;
+    }
+    let_wait(obstacles, &slot->range);
+    slot->generation++;
+    // A name is not used again: a slot whose generations are used up is given up.
+    if (slot->generation != 0) {
+        slot->next_free = obstacles->first_free;
+        obstacles->first_free = (uint32_t)(slot - obstacles->slots);
+    }
+    obstacles->used_count--;
+    return TL_OK;
+}
+
+uint32_t tl_nav_obstacles_count(const tl_nav_obstacles *obstacles)
+{
+    return obstacles->used_count;
+}
+
+uint32_t tl_nav_obstacles_waiting(const tl_nav_obstacles *obstacles)
+{
+    return obstacles->waiting_count;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Making tiles again.
+
+static bool holds(const tl_nav_tile_range *range, uint32_t x, uint32_t z)
+{
+    return x >= range->x && x - range->x < range->count_x && z >= range->z && z - range->z < range->count_z;
+}
+
+// Marks all of one area, and finds the next higher area of those that touch the tile; NONE: there is none.
+static uint32_t mark_area(const tl_nav_obstacles *o, uint32_t x, uint32_t z, uint32_t area, tl_nav_compact *compact)
+{
+    uint32_t next = NONE;
+    for (uint32_t i = 0; i < o->slot_count; i++) {
+        const obstacle_slot *slot = &o->slots[i];
+        if ((slot->generation & 1u) == 0 || !holds(&slot->range, x, z)) {
+            continue;
+        }
+        if (slot->obstacle.area == area) {
+            tl_obstacle_mark(&slot->obstacle, o->def.agent_radius, o->def.agent_height, compact);
+        } else if (slot->obstacle.area > area && slot->obstacle.area < next) {
+            next = slot->obstacle.area;
+        }
+    }
+    return next;
+}
+
+// By area, not by who came first: where areas overlap the highest number counts, and a body always cuts. A floor that
+// is cut stays cut, so the bodies, whose area is 0, come first.
+static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl_nav_compact *compact)
+{
+    for (uint32_t area = TL_NAV_NULL_AREA; area != NONE;) {
+        area = mark_area(o, x, z, area, compact);
+    }
+}
+
+tl_result tl_nav_obstacles_build_next(tl_nav_obstacles *obstacles, tl_nav_remade_tile *remade_out,
+                                      tl_nav_build_report *report_out)
+{
+    tl_nav_obstacles *o = obstacles;
+    memset(remade_out, 0, sizeof *remade_out);
+    if (o->first_waiting == NONE) {
+        return TL_ERR_NOT_FOUND;
+    }
+    tile_floors *tile = &o->tiles[o->first_waiting];
+    const uint32_t x = o->first_waiting % o->tiles_x, z = o->first_waiting / o->tiles_x;
+    remade_out->tile_x = (int32_t)x;
+    remade_out->tile_z = (int32_t)z;
+    if (tile->compact.span_count > 0) {
+        tl_nav_config config;
+        TL_TRY(
+            tl_nav_config_make(&o->def, o->def.bounds, x, z, &config, report_out != NULL ? &report_out->base : NULL));
+        memcpy(tile->compact.area, tile->base_area, tile->compact.span_count);
+        mark_obstacles(o, x, z, &tile->compact);
+        const tl_host host = { &o->allocator, NULL, NULL };
+        TL_TRY(tl_nav_tile_from_floors(&config, &tile->compact, &host, &remade_out->tile, report_out));
+    }
+    end_wait(o);
+    return TL_OK;
+}
+
+tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t most_tiles,
+                                  uint32_t *waiting_out, tl_nav_build_report *report_out)
+{
+    tl_nav_obstacles *o = obstacles;
+    tl_result result = TL_OK;
+    for (uint32_t i = 0; i < most_tiles && result == TL_OK && o->first_waiting != NONE; i++) {
+        const uint32_t index = o->first_waiting;
+        tl_nav_remade_tile remade;
+        result = tl_nav_obstacles_build_next(o, &remade, report_out);
+        if (result != TL_OK) {
+            break;
+        }
+        (void)tl_navmesh_remove_tile(navmesh, remade.tile_x, remade.tile_z); // there may be none
+        result = remade.tile != NULL ? tl_navmesh_add_tile(navmesh, remade.tile, TL_NAV_TILE_OWNED) : TL_OK;
+        if (result != TL_OK) {
+            tl_blob_free(remade.tile, &o->allocator);
+            let_wait(o, &(tl_nav_tile_range){ index % o->tiles_x, index / o->tiles_x, 1, 1 });
+        }
+    }
+    if (waiting_out != NULL) {
+        *waiting_out = o->waiting_count;
+    }
+    return result;
+}
+
+uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)
+{
+    const tl_nav_obstacles *o = obstacles;
+    uint64_t bytes = sizeof *o + tile_count(o) * sizeof *o->tiles + (uint64_t)o->slot_capacity * sizeof *o->slots;
+    for (uint64_t i = 0; i < tile_count(o); i++) {
+        const tl_nav_compact *compact = &o->tiles[i].compact;
+        const uint64_t spans = compact->span_count;
+        bytes += ((uint64_t)compact->width * compact->height + 1) * sizeof *compact->first_span;
+        bytes += spans * (sizeof *compact->floor + sizeof *compact->clearance + 2 * sizeof *compact->area);
+        bytes += spans * 4 * sizeof *compact->neighbour;
+    }
+    return bytes;
+}

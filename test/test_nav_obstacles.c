@@ -1,0 +1,513 @@
+// SPDX-License-Identifier: MIT
+//
+// Temporary obstacles: the same bytes as a bake with those volumes, whatever came and went before; no agent's body in
+// an obstacle's; floors and names kept right under random edits.
+
+#include "nav_level.h"
+#include "nav_obstacles/footprint.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <talus/nav_obstacles.h>
+
+enum { CELLS = 20 };
+
+static tl_nav_def make_def(void)
+{
+    tl_nav_def def = tl_default_nav_def();
+    def.tile_size = CELLS;
+    def.bounds.min = tl_vec3_make(-1, -3, -1);
+    def.bounds.max = tl_vec3_make(26, 9, 20);
+    return def;
+}
+
+static bool same_tile(const tl_nav_tile *a, const tl_nav_tile *b)
+{
+    return (a == NULL) == (b == NULL) &&
+           (a == NULL || (a->blob.size == b->blob.size && memcmp(a, b, a->blob.size) == 0));
+}
+
+// Obstacles on the test level, and a navmesh that follows them.
+typedef struct world {
+    test_level level;
+    tl_nav_def def;
+    tl_nav_input input;
+    tl_nav_obstacles *obstacles;
+    tl_navmesh *navmesh;
+} world;
+
+static void make_world(world *w, const tl_allocator *allocator)
+{
+    test_level_make(&w->level, tl_vec3_make(0, 0, 0));
+    w->def = make_def();
+    w->def.host.allocator = allocator;
+    memset(&w->input, 0, sizeof w->input);
+    w->input.mesh = w->level.mesh;
+    TEST_RESULT(tl_nav_obstacles_bake(&w->def, &w->input, &w->obstacles, NULL, NULL), TL_OK);
+    TEST_RESULT(tl_navmesh_create(allocator, &w->navmesh), TL_OK);
+    uint32_t waiting;
+    TEST_RESULT(tl_nav_obstacles_update(w->obstacles, w->navmesh, UINT32_MAX, &waiting, NULL), TL_OK);
+    TEST_CHECK(waiting == 0 && tl_navmesh_tile_count(w->navmesh) > 10);
+}
+
+static void free_world(world *w)
+{
+    tl_navmesh_free(w->navmesh);
+    tl_nav_obstacles_free(w->obstacles);
+}
+
+static void settle(world *w)
+{
+    uint32_t waiting = 1;
+    for (int i = 0; waiting > 0; i++) {
+        TEST_CHECK(i < 1000);
+        TEST_RESULT(tl_nav_obstacles_update(w->obstacles, w->navmesh, 3, &waiting, NULL), TL_OK);
+    }
+    TEST_CHECK(tl_nav_obstacles_waiting(w->obstacles) == 0);
+}
+
+// Every tile of the navmesh is that of a bake with the volumes given.
+static void check_against_bake(const world *w, const tl_nav_volume *volumes, uint32_t volume_count)
+{
+    tl_nav_input input = w->input;
+    input.volumes = volumes;
+    input.volume_count = volume_count;
+    tl_nav_tile_range all = { 0, 0, 0, 0 };
+    tl_nav_tile_block block;
+    TEST_RESULT(tl_nav_tile_grid(&w->def, w->def.bounds, &all.count_x, &all.count_z, NULL), TL_OK);
+    TEST_RESULT(tl_nav_build_range(&w->def, &input, all, NULL, &block, NULL), TL_OK);
+    for (uint32_t i = 0; i < all.count_x * all.count_z; i++) {
+        const tl_nav_tile *now =
+            tl_navmesh_find_tile(w->navmesh, (int32_t)(i % all.count_x), (int32_t)(i / all.count_x));
+        TEST_CHECK(same_tile(now, block.tiles[i]));
+    }
+    tl_nav_tile_block_free(&block, w->def.host.allocator);
+}
+
+static tl_nav_obstacle cylinder(uint8_t area, tl_vec3 base, float radius, float height)
+{
+    tl_nav_obstacle o;
+    memset(&o, 0, sizeof o);
+    o.shape = TL_NAV_OBSTACLE_CYLINDER;
+    o.area = area;
+    o.base = base;
+    o.radius = radius;
+    o.height = height;
+    return o;
+}
+
+static tl_nav_obstacle box(uint8_t area, tl_vec3 base, float half_x, float half_z, float height)
+{
+    tl_nav_obstacle o;
+    memset(&o, 0, sizeof o);
+    o.shape = TL_NAV_OBSTACLE_BOX;
+    o.area = area;
+    o.base = base;
+    o.half_x = half_x;
+    o.half_z = half_z;
+    o.height = height;
+    return o;
+}
+
+// An area without growth is a volume of the bake; a body is a volume grown by the radius and lowered by the height.
+static void test_volumes(void **state)
+{
+    (void)state;
+    world w;
+    make_world(&w, NULL);
+    check_against_bake(&w, NULL, 0);
+    tl_nav_volume volumes[3];
+    memset(volumes, 0, sizeof volumes);
+    volumes[0].kind = volumes[1].kind = TL_NAV_VOLUME_CYLINDER;
+    volumes[0].area = 5;
+    volumes[0].base = tl_vec3_make(7.3f, -0.1f, 8.1f);
+    volumes[0].radius = 2.4f;
+    volumes[0].height = 1.0f;
+    // Floors at exactly the ends are told apart by a hair, which no floor of the level is at.
+    volumes[1].area = TL_NAV_NULL_AREA;
+    volumes[1].base = tl_vec3_make(14.2f, -0.05f - w.def.agent_height, 9.3f);
+    volumes[1].radius = 1.5f + w.def.agent_radius;
+    volumes[1].height = 1.0f + w.def.agent_height;
+    volumes[2].kind = TL_NAV_VOLUME_BOX;
+    volumes[2].area = 9;
+    volumes[2].box.min = tl_vec3_make(1.13f, -0.3f, 8.2f);
+    volumes[2].box.max = tl_vec3_make(5.37f, 0.7f, 14.4f);
+    tl_nav_obstacle wanted[3] = {
+        cylinder(5, volumes[0].base, 2.4f, 1.0f),
+        cylinder(TL_NAV_NULL_AREA, tl_vec3_make(14.2f, -0.05f, 9.3f), 1.5f, 1.0f),
+        box(9, tl_vec3_make(3.25f, -0.3f, 11.3f), 2.12f, 3.1f, 1.0f),
+    };
+    tl_nav_obstacle_id ids[3];
+    for (int i = 0; i < 3; i++) {
+        TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &wanted[i], &ids[i]), TL_OK);
+        settle(&w);
+        check_against_bake(&w, volumes, (uint32_t)i + 1);
+    }
+    TEST_CHECK(tl_nav_obstacles_count(w.obstacles) == 3);
+    // Elsewhere and back: as if nothing had been.
+    tl_nav_obstacle moved = wanted[1];
+    moved.base.x += 4.0f;
+    TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[1], &moved), TL_OK);
+    settle(&w);
+    TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[1], &wanted[1]), TL_OK);
+    settle(&w);
+    check_against_bake(&w, volumes, 3);
+    for (int i = 3; i-- > 0;) {
+        TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, ids[i]), TL_OK);
+        settle(&w);
+        check_against_bake(&w, volumes, (uint32_t)i);
+        TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, ids[i]), TL_ERR_NOT_FOUND);
+        TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[i], &moved), TL_ERR_NOT_FOUND);
+    }
+    free_world(&w);
+}
+
+static tl_nav_obstacle random_obstacle(test_random *random)
+{
+    tl_vec3 base = test_random_point(random, tl_vec3_make(-1, -1, -1), tl_vec3_make(26, 4, 19));
+    uint8_t area = (uint8_t)(test_random_below(random, 3) == 0 ? 1 + test_random_below(random, 4) : 0);
+    float height = test_random_range(random, 0.1f, 2.5f);
+    uint32_t kind = test_random_below(random, 3);
+    if (kind == 0) {
+        return cylinder(area, base, test_random_range(random, 0.1f, 2.5f), height);
+    }
+    tl_nav_obstacle o =
+        box(area, base, test_random_range(random, 0.0f, 2.0f), test_random_range(random, 0.05f, 2.0f), height);
+    float turn = test_random_range(random, 0.0f, 6.28f);
+    o.cosine = 3.0f * cosf(turn);
+    o.sine = 3.0f * sinf(turn);
+    if (kind == 2) { // points on an ellipse, either way round
+        o.shape = TL_NAV_OBSTACLE_PRISM;
+        o.point_count = 3 + test_random_below(random, TL_NAV_MAX_OBSTACLE_POINTS - 2);
+        bool backward = test_random_below(random, 2) == 0;
+        for (uint32_t i = 0; i < o.point_count; i++) {
+            float angle = 6.2831853f * ((float)i + test_random_range(random, 0.0f, 0.8f)) / (float)o.point_count;
+            uint32_t at = backward ? o.point_count - 1 - i : i;
+            o.points[at] = tl_vec3_make(0.2f + 2.0f * cosf(angle), 0.0f, 1.1f * sinf(angle) - 0.1f);
+        }
+    }
+    return o;
+}
+
+// An outline's distance from a point, by walking along its edges in small steps: slow, and nothing of the code's.
+static double walked_distance(const tl_nav_obstacle *o, double x, double z, double *inside_turns)
+{
+    double corners[TL_NAV_MAX_OBSTACLE_POINTS][2];
+    uint32_t count = o->shape == TL_NAV_OBSTACLE_BOX ? 4 : o->point_count;
+    double length = hypot((double)o->cosine, (double)o->sine);
+    double c = length > 0.0 ? (double)o->cosine / length : 1.0, s = length > 0.0 ? (double)o->sine / length : 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        double lx = o->shape == TL_NAV_OBSTACLE_BOX ? (double)(i == 0 || i == 3 ? -o->half_x : o->half_x)
+                                                    : (double)o->points[i].x;
+        double lz = o->shape == TL_NAV_OBSTACLE_BOX ? (double)(i < 2 ? -o->half_z : o->half_z) : (double)o->points[i].z;
+        // Local x points to (cosine, -sine), local z to (sine, cosine).
+        corners[i][0] = (double)o->base.x + lx * c + lz * s - x;
+        corners[i][1] = (double)o->base.z - lx * s + lz * c - z;
+    }
+    double nearest = INFINITY, turns = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        const double *a = corners[i], *b = corners[(i + 1) % count];
+        for (int k = 0; k <= 400; k++) {
+            double t = k / 400.0;
+            nearest = fmin(nearest, hypot(a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])));
+        }
+        turns += atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
+    }
+    *inside_turns = turns;
+    return nearest;
+}
+
+// How far a point of the plane is from an obstacle's outline: below 0 inside.
+static double outline_distance(const tl_nav_obstacle *o, double x, double z)
+{
+    if (o->shape == TL_NAV_OBSTACLE_CYLINDER) {
+        return hypot(x - (double)o->base.x, z - (double)o->base.z) - (double)o->radius;
+    }
+    double turns, distance = walked_distance(o, x, z, &turns);
+    return fabs(turns) > 3.0 ? -distance : distance;
+}
+
+// Each walkable floor of a field, marked by one obstacle: by the definition, except within a hair of its limits.
+static void test_marks(void **state)
+{
+    (void)state;
+    test_random random = { 21 };
+    test_level level;
+    test_level_make(&level, tl_vec3_make(0, 0, 0));
+    tl_nav_def def = make_def();
+    def.tile_size = 0;
+    tl_nav_config config;
+    tl_nav_input input = { level.mesh, NULL, NULL, 0 };
+    tl_nav_stages stages;
+    memset(&stages, 0, sizeof stages);
+    tl_nav_tile *tile;
+    TEST_RESULT(tl_nav_config_make(&def, def.bounds, 0, 0, &config, NULL), TL_OK);
+    TEST_RESULT(tl_nav_tile_build(&config, &input, NULL, &stages, &tile, NULL), TL_OK);
+    tl_nav_compact *compact = &stages.compact;
+    uint8_t *base = malloc(compact->span_count);
+    memcpy(base, compact->area, compact->span_count);
+    uint64_t marked[3] = { 0, 0, 0 }, left = 0, close = 0, by_height = 0;
+    for (int round = 0; round < 300; round++) {
+        tl_nav_obstacle o = random_obstacle(&random);
+        TEST_RESULT(tl_obstacle_check(&o, NULL), TL_OK);
+        bool body = o.area == TL_NAV_NULL_AREA;
+        double grow = body ? (double)def.agent_radius : 0.0;
+        double low = (double)o.base.y - (body ? (double)def.agent_height : 0.0);
+        double high = (double)o.base.y + (double)o.height;
+        tl_aabb bounds = tl_obstacle_box(&o, def.agent_radius, def.agent_height);
+        memcpy(compact->area, base, compact->span_count);
+        tl_obstacle_mark(&o, def.agent_radius, def.agent_height, compact);
+        for (uint32_t column = 0; column < compact->width * compact->height; column++) {
+            double x = (double)def.bounds.min.x + ((double)(column % compact->width) + 0.5) * (double)def.cell_size;
+            double z = (double)def.bounds.min.z + ((double)(column / compact->width) + 0.5) * (double)def.cell_size;
+            bool beside = x < (double)bounds.min.x || x > (double)bounds.max.x || z < (double)bounds.min.z ||
+                          z > (double)bounds.max.z;
+            double distance = beside ? 1e9 : outline_distance(&o, x, z);
+            for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
+                double y = (double)def.bounds.min.y + (double)compact->floor[i] * (double)def.cell_height;
+                bool near_limit = fabs(distance - grow) < 2e-2 || fabs(y - low) < 1e-4 || fabs(y - high) < 1e-4;
+                bool in = distance < grow && y > low && y < high;
+                uint8_t expected = in && base[i] != TL_NAV_NULL_AREA ? o.area : base[i];
+                close += near_limit;
+                TEST_CHECK(near_limit || compact->area[i] == expected);
+                marked[o.shape] += !near_limit && expected != base[i];
+                left += !near_limit && !in;
+                by_height += distance < grow && !in && !near_limit;
+            }
+        }
+    }
+    TEST_CHECK(marked[0] > 500 && marked[1] > 500 && marked[2] > 500);
+    TEST_CHECK(left > 100000 && by_height > 500 && close > 100 && close < left / 50);
+    free(base);
+    tl_blob_free(tile, NULL);
+    tl_nav_stages_free(&stages, NULL);
+}
+
+// Whatever comes, moves and goes, in whatever order: the same bytes as when only what is left had come.
+static void test_random_edits(void **state)
+{
+    (void)state;
+    enum { EDITS = 1000, MOST = 24 };
+    world w, other;
+    make_world(&w, NULL);
+    make_world(&other, NULL);
+    tl_nav_obstacle there[MOST];
+    tl_nav_obstacle_id ids[MOST], other_ids[MOST];
+    uint32_t count = 0, added = 0, moved = 0, removed = 0, compared = 0;
+    test_random random = { 3 };
+    for (int edit = 0; edit < EDITS; edit++) {
+        uint32_t what = test_random_below(&random, 3);
+        if (count == 0 || (what == 0 && count < MOST)) {
+            there[count] = random_obstacle(&random);
+            TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &there[count], &ids[count]), TL_OK);
+            count++;
+            added++;
+        } else {
+            uint32_t which = test_random_below(&random, count);
+            if (what == 1) {
+                there[which] = random_obstacle(&random);
+                TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[which], &there[which]), TL_OK);
+                moved++;
+            } else {
+                TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, ids[which]), TL_OK);
+                there[which] = there[--count];
+                ids[which] = ids[count];
+                removed++;
+            }
+        }
+        TEST_CHECK(tl_nav_obstacles_count(w.obstacles) == count);
+        if (test_random_below(&random, 4) == 0) { // several edits may wait together
+            TEST_RESULT(tl_nav_obstacles_update(w.obstacles, w.navmesh, test_random_below(&random, 6), NULL, NULL),
+                        TL_OK);
+        }
+        if (edit % 50 != 49) {
+            continue;
+        }
+        settle(&w);
+        for (uint32_t i = count; i-- > 0;) { // in the other order
+            TEST_RESULT(tl_nav_obstacles_add(other.obstacles, &there[i], &other_ids[i]), TL_OK);
+        }
+        settle(&other);
+        TEST_CHECK(tl_navmesh_tile_count(w.navmesh) == tl_navmesh_tile_count(other.navmesh));
+        for (uint32_t slot = 0; slot < tl_navmesh_slot_count(w.navmesh); slot++) {
+            const tl_nav_tile *tile = tl_navmesh_slot_tile(w.navmesh, slot);
+            if (tile != NULL) {
+                TEST_CHECK(same_tile(tile, tl_navmesh_find_tile(other.navmesh, tile->tile_x, tile->tile_z)));
+                TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
+                compared++;
+            }
+        }
+        for (uint32_t i = 0; i < count; i++) {
+            TEST_RESULT(tl_nav_obstacles_remove(other.obstacles, other_ids[i]), TL_OK);
+        }
+    }
+    TEST_CHECK(added > 200 && moved > 200 && removed > 200 && compared > 150);
+    free_world(&w);
+    free_world(&other);
+}
+
+// The level itself changes under the obstacles.
+static void test_rebake(void **state)
+{
+    (void)state;
+    world w;
+    make_world(&w, NULL);
+    tl_nav_obstacle_id id;
+    tl_nav_obstacle danger = cylinder(5, tl_vec3_make(7.3f, -0.1f, 8.1f), 2.4f, 1.0f);
+    TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &danger, &id), TL_OK);
+    settle(&w);
+    test_level_box(&w.level, 6, 0, 7, 8, 2.0f, 9.5f, 2.0f);
+    w.input.mesh = w.level.mesh;
+    tl_aabb changed = { { 6, 0, 7 }, { 8, 2, 9.5f } };
+    TEST_RESULT(tl_nav_obstacles_rebake(w.obstacles, &w.input, changed, NULL), TL_OK);
+    TEST_CHECK(tl_nav_obstacles_waiting(w.obstacles) > 0);
+    settle(&w);
+    tl_nav_volume volume;
+    memset(&volume, 0, sizeof volume);
+    volume.kind = TL_NAV_VOLUME_CYLINDER;
+    volume.area = 5;
+    volume.base = danger.base;
+    volume.radius = danger.radius;
+    volume.height = danger.height;
+    check_against_bake(&w, &volume, 1);
+    tl_aabb elsewhere = { { 900, 0, 7 }, { 901, 2, 9.5f } };
+    TEST_RESULT(tl_nav_obstacles_rebake(w.obstacles, &w.input, elsewhere, NULL), TL_OK);
+    TEST_CHECK(tl_nav_obstacles_waiting(w.obstacles) == 0);
+    free_world(&w);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    world w;
+    make_world(&w, NULL);
+    const tl_nav_obstacle good = cylinder(0, tl_vec3_make(5, 0, 5), 1.0f, 1.0f);
+    tl_nav_obstacle_id id;
+    for (int i = 0; i < 12; i++) {
+        tl_nav_obstacle bad = i < 4 ? good : box(0, tl_vec3_make(5, 0, 5), 1.0f, 1.0f, 1.0f);
+        tl_result expected = TL_ERR_ARGUMENT;
+        switch (i) {
+        case 0:
+            bad.radius = 0.0f;
+            break;
+        case 1:
+            bad.height = -1.0f;
+            break;
+        case 2:
+            bad.area = TL_NAV_MAX_AREA + 1;
+            break;
+        case 3:
+            bad.base.x = NAN;
+            expected = TL_ERR_NOT_FINITE;
+            break;
+        case 4:
+            bad.half_x = -1.0f;
+            break;
+        case 5:
+            bad.half_z = INFINITY;
+            break;
+        case 6:
+            bad.cosine = NAN;
+            expected = TL_ERR_NOT_FINITE;
+            break;
+        case 7:
+            bad.shape = (tl_nav_obstacle_shape)9;
+            break;
+        default:
+            bad.shape = TL_NAV_OBSTACLE_PRISM;
+            bad.point_count = i == 8 ? 2 : i == 9 ? 17 : 4;
+            bad.points[1].x = bad.points[2].x = i == 11 ? NAN : 1.0f;
+            bad.points[2].z = 1.0f; // 10: the fourth point is the first again, but with a dent
+            bad.points[3] = tl_vec3_make(0.9f, 0.0f, 0.2f);
+            expected = i == 11 ? TL_ERR_NOT_FINITE : TL_ERR_ARGUMENT;
+            break;
+        }
+        TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &bad, &id), expected);
+    }
+    TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, 0), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, UINT64_MAX), TL_ERR_NOT_FOUND);
+    tl_nav_obstacle far_away = good;
+    far_away.base.x = 1e6f;
+    TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &far_away, &id), TL_OK);
+    TEST_CHECK(tl_nav_obstacles_count(w.obstacles) == 1 && tl_nav_obstacles_waiting(w.obstacles) == 0);
+    tl_nav_remade_tile remade;
+    TEST_RESULT(tl_nav_obstacles_build_next(w.obstacles, &remade, NULL), TL_ERR_NOT_FOUND);
+    tl_nav_build_report report;
+    tl_nav_obstacles *none;
+    tl_nav_def def = w.def;
+    def.tile_size = 0;
+    TEST_RESULT(tl_nav_obstacles_bake(&def, &w.input, &none, NULL, &report), TL_ERR_ARGUMENT);
+    assert_string_equal(report.base.element, "tile_size");
+    def = w.def;
+    def.bounds = tl_aabb_empty();
+    TEST_RESULT(tl_nav_obstacles_bake(&def, &w.input, &none, NULL, &report), TL_ERR_ARGUMENT);
+    assert_string_equal(report.base.element, "bounds");
+    TEST_CHECK(none == NULL);
+    free_world(&w);
+}
+
+// Every allocation may fail; what waits goes on waiting and comes when there is memory again.
+static void test_out_of_memory(void **state)
+{
+    (void)state;
+    test_allocator counting;
+    tl_nav_def def = make_def();
+    def.bounds.max = tl_vec3_make(9, 9, 9);
+    test_level level;
+    test_level_make(&level, tl_vec3_make(0, 0, 0));
+    tl_nav_input input = { level.mesh, NULL, NULL, 0 };
+    def.host.allocator = &counting.allocator;
+    tl_nav_obstacles *obstacles = NULL;
+    tl_nav_obstacle_id id;
+    const tl_nav_obstacle crate = box(0, tl_vec3_make(4, 0, 8), 1.0f, 1.0f, 1.0f);
+    uint32_t failures[3] = { 0, 0, 0 };
+    for (uint64_t k = 1; obstacles == NULL; k += 1 + k / 8) {
+        test_allocator_init(&counting, k);
+        tl_result result = tl_nav_obstacles_bake(&def, &input, &obstacles, NULL, NULL);
+        TEST_CHECK(result == TL_OK || (result == TL_ERR_MEMORY && counting.live_blocks == 0));
+        failures[0] += result != TL_OK;
+    }
+    for (uint64_t k = 1;; k++) {
+        counting.calls = 0;
+        counting.fail_at = k;
+        tl_result result = tl_nav_obstacles_add(obstacles, &crate, &id);
+        if (result == TL_OK) {
+            break;
+        }
+        TEST_RESULT(result, TL_ERR_MEMORY);
+        failures[1]++;
+    }
+    while (tl_nav_obstacles_waiting(obstacles) > 0) {
+        uint32_t waiting = tl_nav_obstacles_waiting(obstacles);
+        for (uint64_t k = 1;; k++) {
+            tl_nav_remade_tile remade;
+            counting.calls = 0;
+            counting.fail_at = k;
+            uint64_t blocks = counting.live_blocks;
+            tl_result result = tl_nav_obstacles_build_next(obstacles, &remade, NULL);
+            if (result == TL_OK) {
+                TEST_CHECK(counting.live_blocks == blocks + (remade.tile != NULL));
+                tl_blob_free(remade.tile, &counting.allocator);
+                break;
+            }
+            TEST_RESULT(result, TL_ERR_MEMORY);
+            TEST_CHECK(counting.live_blocks == blocks && remade.tile == NULL);
+            TEST_CHECK(tl_nav_obstacles_waiting(obstacles) == waiting);
+            failures[2]++;
+        }
+    }
+    TEST_CHECK(failures[0] > 10 && failures[1] > 0 && failures[2] > 30);
+    TEST_CHECK(tl_nav_obstacles_bytes(obstacles) > 1000);
+    counting.fail_at = 0;
+    tl_nav_obstacles_free(obstacles);
+    TEST_CHECK(counting.live_blocks == 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_volumes), cmocka_unit_test(test_marks),    cmocka_unit_test(test_random_edits),
+        cmocka_unit_test(test_rebake),  cmocka_unit_test(test_refusals), cmocka_unit_test(test_out_of_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
