@@ -1,27 +1,36 @@
 // SPDX-License-Identifier: MIT
 //
 // Pairs of convex shapes, nanoseconds a query, one thread: apart, coherent with a cache, shallow and deep penetration,
-// and casts. Bullet and libccd answer the same queries in the same process where they are installed.
+// casts and rays. Bullet and libccd answer the same queries in the same process where they are installed.
 //
-// A figure is the best of several repetitions in CPU time over the same pairs. Beside it stands the share of wrong
-// answers: a wrong decision, or a length that misses talus's proven bounds by more than 1e-4 of the size. Casts are
-// wrong when they miss what the bounds of the distance prove to be hit, or are later or earlier than 1e-4 of the size.
+//   bench_convex [--json FILE] [N...]      hulls of N points on a sphere; by default 8 .. 1024
+//
+// A figure is the best of several repetitions in CPU time over the same pairs; the libraries take turns, so that what
+// slows the machine slows all. Beside it stands the share of wrong answers: a wrong decision, or a length that misses
+// talus's proven bounds by more than 1e-4 of the size. Casts are wrong when they miss what the bounds of the distance
+// prove to be hit, or are later or earlier than 1e-4 of the size.
+
+#include "report.h"
 
 #include <talus/convex.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <string>
 #include <vector>
 
 #ifdef TALUS_HAVE_BULLET
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
+#include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 #endif
 #ifdef TALUS_HAVE_CCD
@@ -31,7 +40,7 @@
 namespace
 {
 
-constexpr int pair_count = 96, steps = 16, repetitions = 9;
+constexpr int pair_count = 96, steps = 16;
 
 double now()
 {
@@ -104,7 +113,7 @@ struct query {
 // The answer of one library to one query: signed distance, or the time of a cast, 2 when it misses.
 using ask = float (*)(const query &q, int warm);
 
-enum kind { kind_distance, kind_overlap, kind_cast };
+enum kind { kind_distance, kind_overlap, kind_cast, kind_ray };
 
 struct truth {
     double low, high; // signed distance
@@ -138,6 +147,13 @@ float talus_cast(const query &q, int)
     return tl_convex_cast(&q.a->convex, q.pose_a, &q.b->convex, q.pose_b, q.motion, &hit) ? hit.t : 2.0f;
 }
 
+// B's origin is the ray's; it goes where B goes.
+float talus_ray(const query &q, int)
+{
+    tl_convex_hit hit;
+    return tl_convex_cast_ray(&q.a->convex, q.pose_a, q.pose_b.position, q.motion, 1.0f, &hit) ? hit.t : 2.0f;
+}
+
 #ifdef TALUS_HAVE_BULLET
 btTransform bullet_transform(tl_transform t)
 {
@@ -168,6 +184,22 @@ float bullet_cast(const query &q, int)
     btConvexCast::CastResult result;
     result.m_fraction = 1;
     return cast.calcTimeOfImpact(a, a, from, to, result) ? (float)result.m_fraction : 2.0f;
+}
+
+// As its world does it: a cast of a point.
+float bullet_ray(const query &q, int)
+{
+    btSphereShape point(0);
+    point.setMargin(0);
+    btVoronoiSimplexSolver simplex;
+    btSubsimplexConvexCast cast(&point, q.a->bullet, &simplex);
+    btTransform from = btTransform::getIdentity(), a = bullet_transform(q.pose_a);
+    from.setOrigin(btVector3(q.pose_b.position.x, q.pose_b.position.y, q.pose_b.position.z));
+    btTransform to = from;
+    to.setOrigin(from.getOrigin() + btVector3(q.motion.x, q.motion.y, q.motion.z));
+    btConvexCast::CastResult result;
+    result.m_fraction = 1;
+    return cast.calcTimeOfImpact(from, to, a, a, result) ? (float)result.m_fraction : 2.0f;
 }
 #endif
 
@@ -243,7 +275,8 @@ truth find_truth(const query &q, kind k)
     truth t = { 0, 0, false, 0, 0 };
     tl_separation s;
     tl_penetration p;
-    if (k != kind_cast) {
+    tl_convex point = tl_convex_sphere(tl_vec3_make(0, 0, 0), 0.0f), *moving = k == kind_ray ? &point : &q.b->convex;
+    if (k == kind_distance) {
         tl_convex_distance(&q.a->convex, q.pose_a, &q.b->convex, q.pose_b, nullptr, &s);
         tl_convex_penetration(&q.a->convex, q.pose_a, &q.b->convex, q.pose_b, nullptr, &p);
         t.low = s.overlap ? -(double)p.upper_bound : (double)s.lower_bound;
@@ -255,7 +288,7 @@ truth find_truth(const query &q, kind k)
     for (int i = 0; i < 4000 && time <= 1.0; i++) {
         query moved = q;
         moved.pose_b.position = tl_mul_add(q.pose_b.position, q.motion, (float)time);
-        tl_convex_distance(&q.a->convex, moved.pose_a, &q.b->convex, moved.pose_b, nullptr, &s);
+        tl_convex_distance(&q.a->convex, moved.pose_a, moving, moved.pose_b, nullptr, &s);
         if (s.overlap || s.lower_bound < 2e-6f) {
             t.hit = true;
             t.t_low = t.t_high = time;
@@ -273,97 +306,184 @@ bool is_wrong(const truth &t, float answer, kind k)
     case kind_overlap:
         return (answer < 0.0f) != (t.high <= 0.0);
     case kind_cast:
+    case kind_ray:
         return (answer <= 1.0f) != t.hit || (t.hit && std::fabs((double)answer - t.t_low) > slack);
     default:
         return !((double)answer >= t.low - slack && (double)answer <= t.high + slack);
     }
 }
 
-void run(const char *name, const std::vector<query> &queries, const std::vector<truth> &truths, kind k, ask f,
-         bool warm)
+// One library's way to answer, and what came of it.
+struct contender {
+    const char *name;
+    ask answer;
+    kind k;
+    bool warm;
+    double ns, wrong; // share
+};
+
+void measure(const std::vector<query> &queries, const std::vector<truth> &truths, std::vector<contender> &all)
 {
-    double best = 1e30;
-    for (int r = 0; r < repetitions; r++) {
-        std::memset(caches, 0, sizeof caches);
-        double begin = now();
-        volatile float sink = 0;
+    for (contender &c : all) {
+        c.ns = 1e30;
+        size_t wrong = 0;
         for (size_t i = 0; i < queries.size(); i++) {
-            sink = sink + f(queries[i], warm ? (int)(i / steps) : -1);
+            wrong += is_wrong(truths[i], c.answer(queries[i], -1), c.k);
         }
-        best = std::fmin(best, now() - begin);
+        c.wrong = (double)wrong / (double)queries.size();
     }
-    size_t wrong = 0;
-    for (size_t i = 0; i < queries.size(); i++) {
-        wrong += is_wrong(truths[i], f(queries[i], -1), k);
+    for (int repetition = 0; repetition < 9; repetition++) {
+        for (contender &c : all) {
+            std::memset(caches, 0, sizeof caches);
+            double begin = now();
+            volatile float sink = 0;
+            for (size_t i = 0; i < queries.size(); i++) {
+                sink = sink + c.answer(queries[i], c.warm ? (int)(i / steps) : -1);
+            }
+            c.ns = std::fmin(c.ns, (now() - begin) / (double)queries.size());
+        }
     }
-    std::printf("  %-22s %8.0f ns   %5.1f%% wrong\n", name, best / (double)queries.size(),
-                100.0 * (double)wrong / (double)queries.size());
 }
 
-void bench(const char *title, std::vector<shape> &shapes, float gap, kind k)
+struct scene {
+    const char *title;
+    float gap;
+    kind k;
+};
+
+std::vector<contender> contenders_of(const scene &s)
+{
+    std::vector<contender> all;
+    auto add = [&](const char *name, ask answer, kind k, bool warm) { all.push_back({ name, answer, k, warm, 0, 0 }); };
+    bool apart = s.gap > 0.0f;
+    if (s.k == kind_cast) {
+        add("talus", talus_cast, kind_cast, false);
+    } else if (s.k == kind_ray) {
+        add("talus", talus_ray, kind_ray, false);
+    } else {
+        add("talus", apart ? talus_distance : talus_penetration, kind_distance, false);
+        if (apart) {
+            add("talus cached", talus_distance, kind_distance, true);
+        }
+        add("talus overlap", talus_overlap, kind_overlap, false);
+    }
+#ifdef TALUS_HAVE_BULLET
+    add("Bullet", s.k == kind_cast ? bullet_cast : s.k == kind_ray ? bullet_ray : bullet_distance, s.k, false);
+#endif
+#ifdef TALUS_HAVE_CCD
+    if (s.k == kind_distance) {
+        add("libccd overlap", ccd_overlap, kind_overlap, false);
+        if (!apart) {
+            add("libccd", ccd_penetration, kind_distance, false);
+        }
+    }
+#endif
+    return all;
+}
+
+std::vector<query> queries_of(const scene &s, std::vector<shape> &shapes, std::vector<truth> *truths)
 {
     std::vector<query> queries;
-    std::vector<truth> truths;
     for (int i = 0; i < pair_count; i++) {
-        query q = place(&shapes[(size_t)(2 * i) % shapes.size()], &shapes[(size_t)(2 * i + 1) % shapes.size()], gap);
+        query q = place(&shapes[(size_t)(2 * i) % shapes.size()], &shapes[(size_t)(2 * i + 1) % shapes.size()], s.gap);
         tl_quat turn = { 0, 0.0087265f, 0, 0.9999619f }; // one degree
         for (int step = 0; step < steps; step++) {
             q.pose_b.rotation = tl_quat_normalize(tl_quat_mul(q.pose_b.rotation, turn));
-            truth t = find_truth(q, k);
+            truth t = find_truth(q, s.k);
             // A depth is asked of pairs that overlap.
-            if (gap > 0.0f || t.high < 0.0) {
+            if (s.gap > 0.0f || t.high < 0.0) {
                 queries.push_back(q);
-                truths.push_back(t);
+                truths->push_back(t);
             }
         }
     }
-    std::printf(" %s\n", title);
-    if (k == kind_cast) {
-        run("talus cast", queries, truths, k, talus_cast, false);
-#ifdef TALUS_HAVE_BULLET
-        run("Bullet continuous", queries, truths, k, bullet_cast, false);
-#endif
-        return;
+    return queries;
+}
+
+// What a scene's times may be at most, as a share of another contender's; 0: nothing is claimed.
+double limit_of(const scene &s, int count, const std::string &name, const std::string &other)
+{
+    if (name == "talus cached") {
+        return other == "talus" ? 0.6 : 0;
     }
-    run("talus overlap", queries, truths, kind_overlap, talus_overlap, false);
-    if (gap > 0.0f) {
-        run("talus distance", queries, truths, k, talus_distance, false);
-        run("talus, cached", queries, truths, k, talus_distance, true);
-    } else {
-        run("talus penetration", queries, truths, k, talus_penetration, false);
+    if (name == "talus overlap") {
+        return other == "libccd overlap" ? 1.0 : 0;
     }
-#ifdef TALUS_HAVE_BULLET
-    run(gap > 0.0f ? "Bullet GJK" : "Bullet GJK + EPA", queries, truths, k, bullet_distance, false);
-#endif
-#ifdef TALUS_HAVE_CCD
-    run("libccd overlap", queries, truths, kind_overlap, ccd_overlap, false);
-    if (gap <= 0.0f) {
-        run("libccd EPA", queries, truths, k, ccd_penetration, false);
+    if (name != "talus" || other != "Bullet") {
+        return 0;
     }
-#endif
+    switch (s.k) {
+    case kind_cast:
+        return 0.3;
+    case kind_ray:
+        return 0;
+    default:
+        return s.gap < 0.0f ? 0.5 : count == 8 ? 0.6 : count == 32 ? 0.4 : count == 256 ? 0.15 : 0;
+    }
+}
+
+void claim(bench_report *report, const scene &s, int count, const std::vector<contender> &all)
+{
+    std::string place = std::string(s.title) + ", N = " + std::to_string(count) + ": ";
+    for (const contender &c : all) {
+        for (const contender &other : all) {
+            double limit = limit_of(s, count, c.name, other.name);
+            if (limit > 0) {
+                bench_report_at_most(report, (place + c.name + " / " + other.name).c_str(), c.ns / other.ns, limit);
+            }
+        }
+        if (std::strncmp(c.name, "talus", 5) == 0) {
+            bench_report_at_most(report, (place + c.name + ", wrong answers").c_str(), c.wrong, 0);
+        }
+    }
+}
+
+void run(bench_report *report, const scene &s, int count, std::vector<shape> &shapes)
+{
+    std::vector<truth> truths;
+    std::vector<query> queries = queries_of(s, shapes, &truths);
+    std::vector<contender> all = contenders_of(s);
+    measure(queries, truths, all);
+    for (const contender &c : all) {
+        std::printf("%5d  %-18s %-15s %8.0f ns  %5.1f%% wrong ", count, s.title, c.name, c.ns, 100 * c.wrong);
+        for (const contender &other : all) {
+            double limit = limit_of(s, count, c.name, other.name);
+            if (limit > 0) {
+                std::printf("  %.2f of %s (at most %g)", c.ns / other.ns, other.name, limit);
+            }
+        }
+        std::printf("\n");
+        bench_report_point(report, s.title, c.name, count, c.ns);
+    }
+    claim(report, s, count, all);
 }
 
 } // namespace
 
 int main(int argc, char **argv)
 {
+    const char *path = bench_report_path(&argc, argv);
+    bench_report *report = bench_report_new("convex", "ns a query", "points of each hull");
     std::vector<int> counts = { 8, 32, 64, 128, 256, 1024 };
     if (argc > 1) {
         counts.clear();
         for (int i = 1; i < argc; i++) {
-            counts.push_back(std::atoi(argv[i]));
+            counts.push_back(std::max(4, std::atoi(argv[i])));
         }
     }
+    const scene scenes[] = { { "apart, 0.5", 0.5f, kind_distance },
+                             { "penetrating, 0.1", -0.1f, kind_distance },
+                             { "deep, 0.8", -0.8f, kind_distance },
+                             { "cast", 1.0f, kind_cast },
+                             { "ray", 1.0f, kind_ray } };
     for (int count : counts) {
         std::vector<shape> shapes;
         for (int i = 0; i < 16; i++) {
             shapes.push_back(make_shape(count));
         }
-        std::printf("N = %d\n", count);
-        bench("apart, 0.5", shapes, 0.5f, kind_distance);
-        bench("penetrating, 0.1", shapes, -0.1f, kind_distance);
-        bench("deep, 0.8", shapes, -0.8f, kind_distance);
-        bench("cast", shapes, 1.0f, kind_cast);
+        for (const scene &s : scenes) {
+            run(report, s, count, shapes);
+        }
         for (shape &s : shapes) {
             tl_blob_free(s.hull, nullptr);
 #ifdef TALUS_HAVE_BULLET
@@ -371,5 +491,6 @@ int main(int argc, char **argv)
 #endif
         }
     }
-    return 0;
+    bench_report_print_claims(report);
+    return bench_report_close(report, path);
 }

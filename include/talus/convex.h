@@ -182,8 +182,8 @@ typedef struct tl_contact_manifold {
 /// Where faces of hulls, boxes or triangles meet, these are corners of their common patch that are at most `tolerance`
 /// metres less deep than the deepest point; of more than four, the deepest and those that span the largest area.
 /// Everything else, and edges that cross, give one contact. Both lengths are >= 0; a hundredth of the size of the
-/// smaller shape serves well. Complexity: O(faces) of each hull beside the distance. Poses, cache, threads as in
-/// tl_convex_distance.
+/// smaller shape serves well. Beside the distance it costs a support query and a look at a face's surroundings. Poses,
+/// cache, threads as in tl_convex_distance.
 TL_API uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                                    float margin, float tolerance, tl_simplex_cache *cache,
                                    tl_contact_manifold *manifold_out);

@@ -17,8 +17,11 @@ typedef struct tl_face {
     double offset;
 } tl_face;
 
-// The face of the shape that looks most along the direction. False when the shape has no faces.
+// face_along.c
+// The face of the shape that looks most along the unit direction. False when the shape has no faces.
 bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direction, tl_face *face_out);
+// Corner i, in A's frame.
+tl_vec3d tl_face_corner(const tl_face *face, uint32_t i);
 
 typedef struct tl_patch_point {
     double x, y;       // in the plane across the normal

@@ -129,7 +129,7 @@ static double custom_size(const tl_convex *shape)
         tl_vec3 high = shape->support(d, shape->user), low = shape->support(tl_neg(d), shape->user);
         *extent[axis] = tl_vec3d_dot(tl_vec3d_from(d), tl_vec3d_sub(tl_vec3d_from(high), tl_vec3d_from(low)));
     }
-    return tl_vec3d_length(size);
+    return tl_vec3d_size(size);
 }
 
 // Of a shape that is asked along float directions; 0 of what is asked in double.
@@ -137,7 +137,7 @@ static double rounded_size(const tl_pair *pair, const tl_convex *shape)
 {
     if (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count > pair->scan_limit) {
         tl_aabb box = shape->hull->bounds;
-        return tl_vec3d_length(tl_vec3d_sub(tl_vec3d_from(box.max), tl_vec3d_from(box.min)));
+        return tl_vec3d_size(tl_vec3d_sub(tl_vec3d_from(box.max), tl_vec3d_from(box.min)));
     }
     return shape->kind == TL_CONVEX_CUSTOM ? custom_size(shape) : 0.0;
 }

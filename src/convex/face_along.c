@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+//
+// The face of a shape that looks most along a direction.
+//
+// A hull of few faces is scanned. On one of many the search begins at the faces around the support vertex, whose
+// normals are the corners of the region of directions that this one lies in, and climbs: from a face to the best of
+// those that share a corner with it. A face to rest on has a normal close to the direction, and is then around that
+// vertex or next to it; far from every normal the climb may end at a face that is not quite the best, and there is
+// nothing to rest on.
+
+#include "convex/face_patch.h"
+
+// Measured: a scan of so many faces takes as long as a support query and the look at what is around its vertex.
+#define SCANNED_FACES 48u
+
+typedef struct candidate {
+    const tl_hull *hull;
+    tl_vec3d direction;
+    uint32_t face;
+    double dot;
+} candidate;
+
+// Takes the face's place where it looks more along the direction; the lower one of equals.
+static void ask(candidate *best, uint32_t face)
+{
+    const tl_hull_plane_block *block = &tl_hull_plane_blocks(best->hull)[face / 8];
+    uint32_t lane = face % 8;
+    double dot =
+        best->direction.x * block->x[lane] + best->direction.y * block->y[lane] + best->direction.z * block->z[lane];
+    if (dot > best->dot || (dot == best->dot && face < best->face)) {
+        best->face = face;
+        best->dot = dot;
+    }
+}
+
+static void ask_around(candidate *best, uint32_t vertex)
+{
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(best->hull);
+    uint32_t first = tl_hull_vertex_edges(best->hull)[vertex], edge = first;
+    do {
+        ask(best, half_edges[edge].face);
+        edge = half_edges[half_edges[edge].twin].next;
+    } while (edge != first);
+}
+
+// Each turn but the last finds a better face, so there are at most as many as faces.
+static void climb(candidate *best)
+{
+    uint32_t from;
+    ask_around(best, tl_hull_support(best->hull, tl_vec3d_to_float(best->direction), TL_NO_VERTEX));
+    do {
+        from = best->face;
+        tl_hull_face face = tl_hull_faces(best->hull)[from];
+        for (uint32_t i = 0; i < face.count; i++) {
+            ask_around(best, tl_hull_half_edges(best->hull)[face.first + i].origin);
+        }
+    } while (best->face != from);
+}
+
+static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
+{
+    candidate best = { shape->hull, d, 0, -2.0 };
+    if (shape->hull->face_count > SCANNED_FACES) {
+        climb(&best);
+    } else {
+        for (uint32_t f = 0; f < shape->hull->face_count; f++) {
+            ask(&best, f);
+        }
+    }
+    tl_hull_plane plane = tl_hull_face_plane(shape->hull, best.face);
+    face->first = tl_hull_faces(shape->hull)[best.face].first;
+    face->count = tl_hull_faces(shape->hull)[best.face].count;
+    face->normal = tl_vec3d_make(plane.normal[0], plane.normal[1], plane.normal[2]);
+}
+
+static void box_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
+{
+    double size[3] = { fabs(d.x), fabs(d.y), fabs(d.z) };
+    int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+    double side = (axis == 0 ? d.x : axis == 1 ? d.y : d.z) < 0.0 ? -1.0 : 1.0;
+    tl_vec3d h = tl_vec3d_from(shape->corners[1]), axes[3] = { { h.x, 0, 0 }, { 0, h.y, 0 }, { 0, 0, h.z } };
+    tl_vec3d out = tl_vec3d_scale(axes[axis], side), u = axes[(axis + 1) % 3],
+             v = tl_vec3d_scale(axes[(axis + 2) % 3], side);
+    tl_vec3d middle = tl_vec3d_add(tl_vec3d_from(shape->corners[0]), out);
+    static const double corners[4][2] = { { -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } };
+    for (int i = 0; i < 4; i++) {
+        face->corners[i] = tl_vec3d_mul_add(tl_vec3d_mul_add(middle, u, corners[i][0]), v, corners[i][1]);
+    }
+    face->count = 4;
+    face->normal = tl_vec3d_make(axis == 0 ? side : 0.0, axis == 1 ? side : 0.0, axis == 2 ? side : 0.0);
+}
+
+static bool triangle_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
+{
+    tl_vec3d a = tl_vec3d_from(shape->corners[0]), b = tl_vec3d_from(shape->corners[1]),
+             c = tl_vec3d_from(shape->corners[2]);
+    tl_vec3d n = tl_vec3d_cross(tl_vec3d_sub(b, a), tl_vec3d_sub(c, a));
+    double length = tl_vec3d_length(n);
+    bool back = tl_vec3d_dot(n, d) < 0.0;
+    face->corners[0] = a;
+    face->corners[1] = back ? c : b;
+    face->corners[2] = back ? b : c;
+    face->count = 3;
+    face->normal = tl_vec3d_scale(n, (back ? -1.0 : 1.0) / length);
+    return length > 0.0;
+}
+
+bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direction, tl_face *face)
+{
+    tl_vec3d d = frame != NULL ? tl_frame_rotate_back(frame, direction) : direction;
+    face->shape = shape;
+    face->frame = frame;
+    if (shape->kind == TL_CONVEX_HULL) {
+        hull_face(shape, d, face);
+    } else if (shape->kind == TL_CONVEX_BOX) {
+        box_face(shape, d, face);
+    } else if (shape->kind != TL_CONVEX_INLINE || shape->point_count != 3 || !triangle_face(shape, d, face)) {
+        return false;
+    }
+    if (frame != NULL) {
+        face->normal = tl_frame_rotate(frame, face->normal);
+        for (uint32_t i = 0; shape->kind != TL_CONVEX_HULL && i < face->count; i++) {
+            face->corners[i] = tl_frame_point(frame, face->corners[i]);
+        }
+    }
+    face->offset = tl_vec3d_dot(face->normal, tl_face_corner(face, 0));
+    return true;
+}
+
+tl_vec3d tl_face_corner(const tl_face *face, uint32_t i)
+{
+    if (face->shape->kind != TL_CONVEX_HULL) {
+        return face->corners[i];
+    }
+    const tl_hull *hull = face->shape->hull;
+    tl_vec3d p = tl_vec3d_from(tl_hull_vertices(hull)[tl_hull_half_edges(hull)[face->first + i].origin]);
+    return face->frame != NULL ? tl_frame_point(face->frame, p) : p;
+}
