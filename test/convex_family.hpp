@@ -77,8 +77,8 @@ struct family_body {
         float wide = scale * test_random_range(&random, 0.1f, 1);
         switch (f) {
         case family_box:
-            make_box(tl_scale(tl_vec3_make(1, test_random_range(&random, 0.1f, 1), test_random_range(&random, 0.1f, 1)),
-                              scale));
+            make_box(test_random_point(&random, tl_scale(tl_vec3_make(1, 0.1f, 0.1f), scale),
+                                       tl_scale(tl_vec3_make(1, 1, 1), scale)));
             break;
         case family_cloud:
             make_cloud(random, scale, clouds);

@@ -64,7 +64,7 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
         if (gjk.upper - radii > (double)margin) {
             return 0;
         }
-        normal = tl_vec3d_scale(gjk.nearest, -1.0 / gjk.upper);
+        normal = gjk.normal;
         tl_simplex_witness(&gjk.simplex, &on_a, &on_b);
         separation = gjk.upper;
     }

@@ -42,7 +42,7 @@ static void store_cache(const tl_simplex *simplex, tl_simplex_cache *cache)
 
 static void start(tl_pair *pair, const tl_simplex_cache *cache, tl_gjk *gjk)
 {
-    gjk->lower = 0.0;
+    gjk->lower = -(double)INFINITY;
     gjk->overlap = false;
     gjk->iterations = 0;
     if (cache == NULL || !start_from_cache(pair, cache, &gjk->simplex)) {
@@ -74,7 +74,11 @@ static bool advance(tl_pair *pair, double decide_at, tl_gjk *gjk)
     tl_pair_point *point = &gjk->simplex.points[gjk->simplex.count];
     tl_pair_support(pair, tl_vec3d_neg(gjk->nearest), point);
     double lower = tl_vec3d_dot(gjk->nearest, point->w) / gjk->upper - pair->direction_error - noise;
-    gjk->lower = lower > gjk->lower ? lower : gjk->lower;
+    if (lower > gjk->lower) {
+        // The nearest point of a curved shape settles before its direction does: the best one is kept.
+        gjk->lower = lower;
+        gjk->normal = tl_vec3d_scale(gjk->nearest, -1.0 / gjk->upper);
+    }
     if (decide_at >= 0.0 && gjk->lower > decide_at) {
         return false;
     }
@@ -108,6 +112,7 @@ void tl_gjk_run(tl_pair *pair, tl_simplex_cache *cache, double decide_at, tl_gjk
             break;
         }
     }
+    gjk->lower = gjk->lower > 0.0 ? gjk->lower : 0.0;
     if (cache != NULL) {
         store_cache(&gjk->simplex, cache);
     }

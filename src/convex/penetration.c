@@ -48,8 +48,7 @@ bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const tl_con
     } else if (gjk.upper <= radii) {
         tl_vec3d on_a, on_b;
         tl_simplex_witness(&gjk.simplex, &on_a, &on_b);
-        fill(&pair, -gjk.upper, -gjk.upper, -gjk.lower, tl_vec3d_scale(gjk.nearest, -1.0 / gjk.upper), on_a, on_b,
-             penetration_out);
+        fill(&pair, -gjk.upper, -gjk.upper, -gjk.lower, gjk.normal, on_a, on_b, penetration_out);
     }
     return penetration_out->overlap;
 }
