@@ -341,9 +341,9 @@ void test_casts(void **)
             family_body a((family)fa, random, scale, clouds), b((family)(i % family_count), random, scale, clouds);
             for (gap_class gap : { GAP_DEEP, GAP_TOUCHING, GAP_1E_4, GAP_1E_2, GAP_ONE, GAP_ONE }) {
                 query q = place(a, b, gap, random);
-                tl_vec3 motion =
-                    tl_add(tl_scale(tl_sub(q.pose_a.position, q.pose_b.position), test_random_range(&random, 0, 2)),
-                           tl_scale(test_random_direction(&random), 0.5f * (float)q.size));
+                tl_vec3 toward = tl_sub(q.pose_a.position, q.pose_b.position);
+                tl_vec3 aside = tl_scale(test_random_direction(&random), 0.5f * (float)q.size);
+                tl_vec3 motion = tl_mul_add(aside, toward, test_random_range(&random, 0, 2));
                 int wrong = row.wrong;
                 check_cast(q, motion, &row);
                 if (row.wrong > wrong) {

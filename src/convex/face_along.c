@@ -67,10 +67,10 @@ static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
             ask(&best, f);
         }
     }
-    tl_hull_plane plane = tl_hull_face_plane(shape->hull, best.face);
-    face->first = tl_hull_faces(shape->hull)[best.face].first;
-    face->count = tl_hull_faces(shape->hull)[best.face].count;
-    face->normal = tl_vec3d_make(plane.normal[0], plane.normal[1], plane.normal[2]);
+    face->facet = tl_facet_around(shape->hull, best.face);
+    face->first = face->facet.first;
+    const double *n = face->facet.plane.normal;
+    face->normal = tl_vec3d_make(n[0], n[1], n[2]);
 }
 
 static void box_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
@@ -110,6 +110,7 @@ bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direc
     tl_vec3d d = frame != NULL ? tl_frame_rotate_back(frame, direction) : direction;
     face->shape = shape;
     face->frame = frame;
+    face->first = face->count = 0;
     if (shape->kind == TL_CONVEX_HULL) {
         hull_face(shape, d, face);
     } else if (shape->kind == TL_CONVEX_BOX) {
@@ -119,20 +120,25 @@ bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direc
     }
     if (frame != NULL) {
         face->normal = tl_frame_rotate(frame, face->normal);
-        for (uint32_t i = 0; shape->kind != TL_CONVEX_HULL && i < face->count; i++) {
+        for (uint32_t i = 0; i < face->count; i++) {
             face->corners[i] = tl_frame_point(frame, face->corners[i]);
         }
     }
-    face->offset = tl_vec3d_dot(face->normal, tl_face_corner(face, 0));
+    face->offset = tl_vec3d_dot(face->normal, tl_face_corner(face, face->first));
     return true;
 }
 
-tl_vec3d tl_face_corner(const tl_face *face, uint32_t i)
+tl_vec3d tl_face_corner(const tl_face *face, uint32_t at)
 {
     if (face->shape->kind != TL_CONVEX_HULL) {
-        return face->corners[i];
+        return face->corners[at];
     }
     const tl_hull *hull = face->shape->hull;
-    tl_vec3d p = tl_vec3d_from(tl_hull_vertices(hull)[tl_hull_half_edges(hull)[face->first + i].origin]);
+    tl_vec3d p = tl_vec3d_from(tl_hull_vertices(hull)[tl_hull_half_edges(hull)[at].origin]);
     return face->frame != NULL ? tl_frame_point(face->frame, p) : p;
+}
+
+uint32_t tl_face_next(const tl_face *face, uint32_t at)
+{
+    return face->shape->kind == TL_CONVEX_HULL ? tl_facet_next(&face->facet, at) : (at + 1) % face->count;
 }

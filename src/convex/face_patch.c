@@ -3,7 +3,7 @@
 // The corners of what two convex faces have in common: each edge of one is cut to what lies within the other (Cyrus and
 // Beck, Generalized Two- and Three-Dimensional Clipping, 1978), and the ends of all pieces are the corners. Against
 // clipping the whole polygon edge by edge (Sutherland and Hodgman) this needs no room for the polygon, so faces of any
-// number of corners do, without allocation.
+// number of corners do, without allocation: some edges of one at a time are taken around the other.
 
 #include "convex/face_patch.h"
 
@@ -15,7 +15,7 @@
 // A face that is steeper than 60 degrees to the normal is no face to rest on.
 #define MIN_COSINE 0.5
 
-enum { PATCH_BUFFER = 32 };
+enum { PATCH_BUFFER = 32, PIECES = 32 };
 
 typedef struct point2 {
     double x, y;
@@ -29,9 +29,9 @@ typedef struct clipper {
     uint32_t count;
 } clipper;
 
-static point2 project(const clipper *c, const tl_face *face, uint32_t i)
+static point2 project(const clipper *c, const tl_face *face, uint32_t at)
 {
-    tl_vec3d p = tl_face_corner(face, i % face->count);
+    tl_vec3d p = tl_face_corner(face, at);
     point2 q = { tl_vec3d_dot(c->patch->u, p), tl_vec3d_dot(c->patch->v, p) };
     return q;
 }
@@ -96,53 +96,79 @@ static void emit(clipper *c, point2 p)
     }
 }
 
-// `turn` is 1 when `within` runs counter-clockwise seen against the normal, else -1.
-static void clip_edge(clipper *c, point2 p, point2 q, const tl_face *within, double turn)
+// What is left of an edge from p to q: between the shares low and high.
+typedef struct piece {
+    point2 p, q;
+    double low, high;
+} piece;
+
+// Cuts off what lies to the right of the line, or, when `turn` is -1, to the left.
+static void cut(const clipper *c, piece *e, point2 from, point2 to, double turn)
 {
-    double low = 0.0, high = 1.0;
-    point2 from = project(c, within, within->count - 1);
-    for (uint32_t i = 0; i < within->count; i++) {
-        point2 to = project(c, within, i);
-        double ex = (to.x - from.x) * turn, ey = (to.y - from.y) * turn, length = sqrt(ex * ex + ey * ey);
-        // How far inside the ends are.
-        double at_p = ex * (p.y - from.y) - ey * (p.x - from.x), at_q = ex * (q.y - from.y) - ey * (q.x - from.x);
-        double gap = c->gap * length;
-        if (at_p < -gap && at_q < -gap) {
-            return;
-        }
-        if (at_p < -gap) {
-            low = fmax(low, at_p / (at_p - at_q));
-        } else if (at_q < -gap) {
-            high = fmin(high, at_p / (at_p - at_q));
-        }
-        from = to;
-    }
-    if (low <= high) {
-        point2 begin = { p.x + (q.x - p.x) * low, p.y + (q.y - p.y) * low },
-               end = { p.x + (q.x - p.x) * high, p.y + (q.y - p.y) * high };
-        emit(c, begin);
-        emit(c, end);
+    double ex = (to.x - from.x) * turn, ey = (to.y - from.y) * turn, length = sqrt(ex * ex + ey * ey);
+    // How far inside the ends are.
+    double at_p = ex * (e->p.y - from.y) - ey * (e->p.x - from.x),
+           at_q = ex * (e->q.y - from.y) - ey * (e->q.x - from.x);
+    double gap = c->gap * length;
+    if (at_p < -gap && at_q < -gap) {
+        e->high = -1.0;
+    } else if (at_p < -gap) {
+        e->low = fmax(e->low, at_p / (at_p - at_q));
+    } else if (at_q < -gap) {
+        e->high = fmin(e->high, at_p / (at_p - at_q));
     }
 }
 
+static void cut_all(clipper *c, piece *pieces, uint32_t count, const tl_face *within, double turn)
+{
+    uint32_t at = within->first;
+    point2 from = project(c, within, at);
+    do {
+        at = tl_face_next(within, at);
+        point2 to = project(c, within, at);
+        for (uint32_t i = 0; i < count; i++) {
+            cut(c, &pieces[i], from, to, turn);
+        }
+        from = to;
+    } while (at != within->first);
+    for (uint32_t i = 0; i < count; i++) {
+        const piece *e = &pieces[i];
+        if (e->low <= e->high) {
+            point2 begin = { e->p.x + (e->q.x - e->p.x) * e->low, e->p.y + (e->q.y - e->p.y) * e->low },
+                   end = { e->p.x + (e->q.x - e->p.x) * e->high, e->p.y + (e->q.y - e->p.y) * e->high };
+            emit(c, begin);
+            emit(c, end);
+        }
+    }
+}
+
+// `turn` is 1 when `within` runs counter-clockwise seen against the normal, else -1.
 static void clip_face(clipper *c, const tl_face *face, const tl_face *within, double turn)
 {
-    point2 from = project(c, face, face->count - 1);
-    for (uint32_t i = 0; i < face->count; i++) {
-        point2 to = project(c, face, i);
-        clip_edge(c, from, to, within, turn);
-        from = to;
-    }
+    piece pieces[PIECES];
+    uint32_t count = 0, at = face->first;
+    point2 from = project(c, face, at);
+    do {
+        at = tl_face_next(face, at);
+        piece next = { from, project(c, face, at), 0.0, 1.0 };
+        pieces[count++] = next;
+        from = next.q;
+        if (count == PIECES || at == face->first) {
+            cut_all(c, pieces, count, within, turn);
+            count = 0;
+        }
+    } while (at != face->first);
 }
 
 static double extent(const clipper *c, const tl_face *face)
 {
-    point2 first = project(c, face, 0);
-    double most = fabs(first.x) + fabs(first.y);
-    for (uint32_t i = 1; i < face->count; i++) {
-        point2 p = project(c, face, i);
+    double most = 0.0;
+    uint32_t at = face->first;
+    do {
+        point2 p = project(c, face, at);
         most = fmax(most, fabs(p.x) + fabs(p.y));
-    }
+        at = tl_face_next(face, at);
+    } while (at != face->first);
     return most;
 }
 

@@ -5,14 +5,16 @@
 #ifndef TALUS_SRC_CONVEX_FACE_PATCH_H
 #define TALUS_SRC_CONVEX_FACE_PATCH_H
 
+#include "convex/facet.h"
 #include "convex/proxy.h"
 
-// A face of a hull, a box or a triangle, in A's frame.
+// A face of a hull, a box or a triangle, in A's frame. Its corners are walked from `first`, until that comes again.
 typedef struct tl_face {
     const tl_convex *shape;
     const tl_frame *frame; // to A's frame; NULL for A itself
-    uint32_t first, count; // a hull's half-edges
-    tl_vec3d corners[4];   // of the others
+    tl_facet facet;        // of a hull; corners are half-edges
+    tl_vec3d corners[4];   // of the others, `count`
+    uint32_t first, count;
     tl_vec3d normal;
     double offset;
 } tl_face;
@@ -20,8 +22,8 @@ typedef struct tl_face {
 // face_along.c
 // The face of the shape that looks most along the unit direction. False when the shape has no faces.
 bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direction, tl_face *face_out);
-// Corner i, in A's frame.
-tl_vec3d tl_face_corner(const tl_face *face, uint32_t i);
+tl_vec3d tl_face_corner(const tl_face *face, uint32_t at);
+uint32_t tl_face_next(const tl_face *face, uint32_t at);
 
 typedef struct tl_patch_point {
     double x, y;       // in the plane across the normal

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+//
+// A face of a hull with its neighbours that lie in the same plane, to rounding: what a body really rests on.
+
+#ifndef TALUS_SRC_CONVEX_FACET_H
+#define TALUS_SRC_CONVEX_FACET_H
+
+#include <talus/hull.h>
+
+typedef struct tl_facet {
+    const tl_hull *hull;
+    uint32_t face; // the one that the others lie in a plane with
+    tl_hull_plane plane;
+    double gap;     // metres that a corner may lie below it
+    uint32_t first; // a half-edge of the outline
+} tl_facet;
+
+tl_facet tl_facet_around(const tl_hull *hull, uint32_t face);
+
+// The half-edge of the outline that follows, counter-clockwise seen from outside.
+uint32_t tl_facet_next(const tl_facet *facet, uint32_t half_edge);
+
+#endif
