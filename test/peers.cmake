@@ -55,6 +55,9 @@ foreach(stem path_detour detour_exchange)
     set(talus_test_${stem}_needs talus_peer_detour talus_sample talus_io)
 endforeach()
 
+# Exact paths on real levels.
+set(talus_test_shortest_path_needs talus_io)
+
 # The whole pipeline over the built-in levels and real ones.
 set(talus_test_settings_sweep_needs talus_sample talus_io)
 

@@ -6,7 +6,10 @@
 // vertices in all those rings get one number, so that a search knows them for one place; two fans that touch in a point
 // (on two floors, or on two sides of a wall) have two. All other vertices have none. A fan is wider than a half plane
 // when one of its edges lies beyond the first one's line, which takes signs only.
+// Where a polygon is linked to two floors over the same stretch of a seam, the ways around its ends fork. All vertices
+// there count as places to turn at, walls or not.
 
+#include "nav_query/filter.h"
 #include "nav_query/ring_step.h"
 
 #include "math/tolerance.h"
@@ -22,7 +25,7 @@ typedef struct fan {
     double first_x, first_z; // along the first edge
     double last_x, last_z;   // along the last one
     bool is_wide;
-    bool is_odd; // an end is no wall: two floors lie over one another, or the fan was too large
+    bool is_odd; // walls do not tell on which hand to turn: ways fork, or go more than once around, or too many
 } fan;
 
 static tl_nav_ring_edge *ring_at(tl_navmesh *navmesh, tl_nav_ring_place place, uint32_t *count_out)
@@ -47,7 +50,24 @@ static void widen(fan *f, const tl_nav_ring_edge *end)
     f->last_z = dz;
     double ahead = f->first_x * dz;
     double aside = f->first_z * dx;
-    f->is_wide = f->is_wide || ahead - aside > TL_CROSS_ERROR * (fabs(ahead) + fabs(aside));
+    double error = TL_CROSS_ERROR * (fabs(ahead) + fabs(aside));
+    // Once past the line and back on its left side: the fan winds up a spiral stair, more than once around.
+    f->is_odd = f->is_odd || (f->is_wide && ahead - aside < -error);
+    f->is_wide = f->is_wide || ahead - aside > error;
+}
+
+// Whether a ring runs back at a vertex: links lie over one another there.
+static bool forks_at(const tl_nav_rings *rings, const tl_nav_ring_edge *ring, uint32_t count, double x, double z)
+{
+    for (uint32_t i = 0; i < count && rings->has_back; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        bool touches =
+            ((double)ring[i].x == x && (double)ring[i].z == z) || ((double)end->x == x && (double)end->z == z);
+        if (ring[i].to == TL_NAV_RING_BACK && touches) {
+            return true;
+        }
+    }
+    return false;
 }
 
 // Gathers the fan that begins with the edge at `begin`, over the edges that end in its vertex; false when it is closed.
@@ -62,14 +82,15 @@ static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, fan *f)
     f->first_x = (double)first_end->x - f->x;
     f->first_z = (double)first_end->z - f->z;
     f->is_wide = false;
-    f->is_odd = ring[begin.edge].to == TL_NAV_RING_BACK;
+    f->is_odd = false;
     tl_nav_ring_place at = begin;
     for (;;) {
         f->members[f->count] = &ring[at.edge];
         f->walls[f->count++] = walls_of(navmesh, at);
         uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;
         widen(f, &ring[before]);
-        f->is_odd = f->is_odd || f->count == MAX_FAN || ring[before].to == TL_NAV_RING_BACK;
+        f->is_odd =
+            f->is_odd || f->count == MAX_FAN || forks_at(&navmesh->slots[at.slot].rings, ring, count, f->x, f->z);
         if (f->count == MAX_FAN || !tl_nav_ring_is_open(&ring[before])) {
             return true;
         }
@@ -85,7 +106,7 @@ static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
 {
     fan f;
     bool is_walled = gather_fan(navmesh, begin, &f);
-    uint32_t number = is_walled && (f.is_wide || f.is_odd) ? ++navmesh->last_fan : 0;
+    uint32_t number = (is_walled && f.is_wide) || f.is_odd ? ++navmesh->last_fan : 0;
     tl_nav_ring_walls walls = { 0.0f, 0.0f, 0.0f, 0.0f };
     if (!f.is_odd) {
         tl_nav_ring_walls known = { (float)f.first_x, (float)f.first_z, (float)f.last_x, (float)f.last_z };
@@ -97,24 +118,27 @@ static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
     }
 }
 
-// Goes the other way around the vertex where the edge at `at` starts, to the wall where its fan begins, or once around.
-static tl_nav_ring_place find_begin(tl_navmesh *navmesh, tl_nav_ring_place at)
+bool tl_nav_find_fan(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ring_place *at)
 {
-    tl_nav_ring_place from = at;
+    const tl_nav_ring_place from = *at;
     for (uint32_t i = 0; i < MAX_FAN; i++) {
         uint32_t count = 0;
-        const tl_nav_ring_edge *ring = ring_at(navmesh, at, &count);
-        if (!tl_nav_ring_is_open(&ring[at.edge])) {
-            break;
+        const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, at->slot, at->polygon, &count);
+        if (!tl_nav_ring_is_open(&ring[at->edge])) {
+            return true;
         }
-        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, ring, count, at.edge);
-        ring_at(navmesh, at, &count);
-        at.edge = at.edge + 1 < count ? at.edge + 1 : 0;
-        if (at.slot == from.slot && at.polygon == from.polygon && at.edge == from.edge) {
-            break;
+        tl_nav_ring_place next = tl_nav_ring_twin(navmesh, at->slot, at->polygon, ring, count, at->edge);
+        if (filter != NULL && !tl_nav_passes(filter, navmesh->slots[next.slot].tile, next.polygon)) {
+            return true;
+        }
+        *at = next;
+        tl_nav_ring_at(navmesh, at->slot, at->polygon, &count);
+        at->edge = at->edge + 1 < count ? at->edge + 1 : 0;
+        if (at->slot == from.slot && at->polygon == from.polygon && at->edge == from.edge) {
+            return false;
         }
     }
-    return at;
+    return true;
 }
 
 void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot)
@@ -127,9 +151,10 @@ void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot)
             tl_nav_ring_place place = { slot, p, i };
             if (!tl_nav_ring_is_open(&ring[i])) {
                 number_fan(navmesh, place);
-            } else if ((ring[i].to & TL_NAV_RING_SEAM) != 0) {
+            } else if ((ring[i].to & TL_NAV_RING_SEAM) != 0 || rings->has_back) {
                 // The fan comes in over a seam: it may begin in a tile that is not looked at.
-                number_fan(navmesh, find_begin(navmesh, place));
+                tl_nav_find_fan(navmesh, NULL, &place);
+                number_fan(navmesh, place);
             }
         }
     }

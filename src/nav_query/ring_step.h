@@ -51,4 +51,8 @@ static inline tl_nav_ring_place tl_nav_ring_twin(const tl_navmesh *navmesh, uint
     return twin;
 }
 
+/// Goes around the vertex where the edge at `at` starts to the wall where its fan begins; what the filter (NULL: none)
+/// refuses is wall. False: there is none, and `at` is where it was.
+bool tl_nav_find_fan(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ring_place *at);
+
 #endif

@@ -33,6 +33,7 @@ static void add_gap(ring_writer *writer, tl_vec3 at, tl_vec3 point, tl_vec3 ahea
     if (at.x != point.x || at.z != point.z) {
         bool forward = tl_dot(tl_sub(point, at), ahead) > 0.0f;
         add_edge(writer, at, forward ? TL_NAV_RING_WALL : TL_NAV_RING_BACK);
+        writer->rings->has_back = writer->rings->has_back || !forward;
     }
 }
 
@@ -177,6 +178,7 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
         return TL_ERR_MEMORY;
     }
     rings.polygon_count = tile->polygon_count;
+    memset(rings.walls, 0, edges * sizeof *rings.walls);
     ring_writer writer = { &rings, 0, 0 };
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         rings.cells[p].first = writer.edge_count;

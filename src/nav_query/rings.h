@@ -30,7 +30,7 @@ typedef struct tl_nav_ring_seam {
 } tl_nav_ring_seam;
 
 /// The walls on both sides of the free way around a vertex, as directions from it: the way goes left from the first to
-/// the last. All 0: not known.
+/// the last. All 0: they do not tell, as where floors lie over one another at a seam (fans.c).
 typedef struct tl_nav_ring_walls {
     float first_x, first_z;
     float last_x, last_z;
@@ -49,7 +49,8 @@ typedef struct tl_nav_rings {
     uint32_t *component; ///< by polygon: what hangs together within the tile, counted from 0
     uint32_t *island;    ///< by component: a node of the navmesh's islands (islands.c)
     uint32_t polygon_count, component_count;
-    void *block; ///< that all arrays stand in
+    bool has_back; ///< some edge is a TL_NAV_RING_BACK
+    void *block;   ///< that all arrays stand in
     uint64_t block_size;
 } tl_nav_rings;
 

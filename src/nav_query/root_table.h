@@ -10,28 +10,45 @@
 #include "math/tolerance.h"
 #include "nav_query/node_pool.h"
 
+/// The entry of a number; `*found_out` says whether it is there already.
+static inline tl_nav_root *tl_nav_find_root(tl_nav_query *query, uint64_t number, bool *found_out)
+{
+    // Numbers of one tile follow one another, and so do their places. Those of corners have high bits.
+    uint64_t place = number < (uint64_t)1 << 32 ? number : tl_hash_mix(number);
+    for (;; place++) {
+        tl_nav_root *root = &query->roots[place & query->root_mask];
+        *found_out = root->generation == query->generation;
+        if (!*found_out || root->number == number) {
+            root->number = number;
+            root->generation = query->generation;
+            return root;
+        }
+    }
+}
+
 /// Whether `cost` is no worse than any known way to the vertex of this number, within the rounding of the float in
 /// which it is kept; it is then the cheapest known.
 static inline bool tl_nav_root_improves(tl_nav_query *query, uint64_t number, double cost)
 {
-    // Numbers of one tile follow one another, and so do their places. Those of a filtered search have high bits.
-    uint64_t place = number < (uint64_t)1 << 32 ? number : tl_hash_mix(number);
-    for (;; place++) {
-        tl_nav_root *root = &query->roots[place & query->root_mask];
-        if (root->generation != query->generation) {
-            root->number = number;
-            root->generation = query->generation;
-            root->cost = (float)cost;
-            return true;
-        }
-        if (root->number == number) {
-            if (cost > (double)root->cost * (1.0 + 2.0 * (double)TL_FLOAT_ROUNDING)) {
-                return false;
-            }
-            root->cost = (float)cost < root->cost ? (float)cost : root->cost;
-            return true;
-        }
+    bool found = false;
+    tl_nav_root *root = tl_nav_find_root(query, number, &found);
+    if (found && cost > (double)root->cost * (1.0 + 2.0 * (double)TL_FLOAT_ROUNDING)) {
+        return false;
     }
+    root->cost = found && root->cost < (float)cost ? root->cost : (float)cost;
+    return true;
+}
+
+/// Whether no way as cheap, within that rounding, has come to this number yet.
+static inline bool tl_nav_root_is_first(tl_nav_query *query, uint64_t number, double cost)
+{
+    bool found = false;
+    tl_nav_root *root = tl_nav_find_root(query, number, &found);
+    if (found && cost >= (double)root->cost * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING)) {
+        return false;
+    }
+    root->cost = (float)cost;
+    return true;
 }
 
 #endif

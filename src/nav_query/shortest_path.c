@@ -73,8 +73,9 @@ static uint32_t walk_corners(const tl_nav_shortest_search *search, corner_walk *
         if (!turns(&wedges[i], parent)) {
             continue;
         }
+        // The vertex is the parent's, and through its polygon the path goes on.
         tl_nav_corner corner = { root_point(search->navmesh, &wedges[i], parent),
-                                 tl_nav_make_ref(search->navmesh, wedges[i].slot, wedges[i].polygon), 0 };
+                                 tl_nav_make_ref(search->navmesh, parent->slot, parent->polygon), 0 };
         tl_vec3 before = { parent->root_x, 0.0f, parent->root_z };
         double turn = turn_at(before, corner.point, walk->held.point);
         if (turn == 0.0) {
@@ -121,22 +122,26 @@ double tl_nav_shortest_length(const tl_nav_shortest_search *search)
     return last->cost + plan_distance(tl_vec3_make(last->root_x, 0.0f, last->root_z), search->goal);
 }
 
+// The wedge before that entered another polygon. A turn within a polygon has a wedge of its own there.
+static uint32_t before(const tl_nav_wedge *wedges, uint32_t wedge)
+{
+    uint32_t at = wedges[wedge].parent;
+    while (at != TL_NAV_NO_NODE && wedges[at].slot == wedges[wedge].slot &&
+           wedges[at].polygon == wedges[wedge].polygon) {
+        at = wedges[at].parent;
+    }
+    return at;
+}
+
 uint32_t tl_nav_write_wedges(const tl_nav_shortest_search *search, tl_nav_ref *polygons, uint32_t capacity)
 {
     const tl_nav_wedge *wedges = search->query->wedges;
-    // A path that turns in the goal's polygon itself has two wedges there.
-    uint32_t last = search->last;
-    uint32_t before = wedges[last].parent;
-    if (before != TL_NAV_NO_NODE && wedges[before].slot == search->goal_slot &&
-        wedges[before].polygon == search->goal_polygon) {
-        last = before;
-    }
     uint32_t count = 0;
-    for (uint32_t i = last; i != TL_NAV_NO_NODE; i = wedges[i].parent) {
+    for (uint32_t i = search->last; i != TL_NAV_NO_NODE; i = before(wedges, i)) {
         count++;
     }
     uint32_t at = count;
-    for (uint32_t i = last; i != TL_NAV_NO_NODE && capacity > 0; i = wedges[i].parent) {
+    for (uint32_t i = search->last; i != TL_NAV_NO_NODE && capacity > 0; i = before(wedges, i)) {
         at--;
         if (at < capacity) {
             polygons[at] = tl_nav_make_ref(search->navmesh, wedges[i].slot, wedges[i].polygon);
@@ -193,7 +198,6 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
     }
     tl_nav_search_end end = tl_nav_search_shortest(&search);
     path_out->node_count = query->wedge_count;
-    path_out->lower_bound = search.lower_bound;
     if (end != TL_NAV_SEARCH_FOUND) {
         path_out->status = end == TL_NAV_SEARCH_EXHAUSTED ? TL_NAV_PATH_UNREACHABLE : TL_NAV_PATH_OUT_OF_NODES;
         return TL_OK;
@@ -201,9 +205,7 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
     path_out->status = TL_NAV_PATH_COMPLETE;
     write_corners(&search, corners_out, corner_capacity, path_out);
     path_out->polygon_count = tl_nav_write_wedges(&search, polygons_out, polygon_capacity);
-    if (query->wedges[search.last].parent == TL_NAV_NO_NODE || path_out->lower_bound > path_out->length) {
-        path_out->lower_bound = path_out->length;
-    }
+    path_out->lower_bound = fmin(search.lower_bound, path_out->length);
     bool fits = (corner_capacity == 0 || path_out->corner_count <= corner_capacity) &&
                 (polygon_capacity == 0 || path_out->polygon_count <= polygon_capacity);
     return fits ? TL_OK : TL_ERR_CAPACITY;

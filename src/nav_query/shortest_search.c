@@ -215,15 +215,40 @@ static edge_view view_of(const wedge_search *s, const seen_edge *edge)
     return v;
 }
 
+// Numbers of corners of polygons, beside those of fans.
+#define CORNER_NUMBER  ((uint64_t)1 << 63)
+#define TURNING_NUMBER ((uint64_t)1 << 62)
+
+static uint64_t corner_number(const wedge_search *s, uint32_t slot, uint32_t polygon, uint32_t vertex)
+{
+    const tl_nav_rings *rings = &s->navmesh->slots[slot].rings;
+    return CORNER_NUMBER | (uint64_t)slot << 32 | (rings->cells[polygon].first + vertex);
+}
+
 // The number of a vertex of the ring in this search, or 0 when no shortest path turns there.
 static uint64_t turn_of(const wedge_search *s, const step_from *from, uint32_t vertex)
 {
-    // Where the filter refuses polygons, walls are where it says, and each corner of each polygon is its own.
-    if (s->in->filter != NULL) {
-        const tl_nav_rings *rings = &s->navmesh->slots[from->slot].rings;
-        return (uint64_t)1 << 63 | (uint64_t)from->slot << 32 | (rings->cells[from->polygon].first + vertex);
+    if (s->in->filter == NULL) {
+        return from->ring[vertex].turn;
     }
-    return from->ring[vertex].turn;
+    // Walls are where the filter says, so the fan is sought anew. Where floors fork each corner stands for itself.
+    tl_nav_ring_place place = { from->slot, from->polygon, vertex };
+    bool is_walled = tl_nav_find_fan(s->navmesh, s->in->filter, &place);
+    if (!is_walled && !s->navmesh->slots[from->slot].rings.has_back) {
+        return 0;
+    }
+    return corner_number(s, place.slot, place.polygon, place.edge);
+}
+
+// Whether a wedge that turns around a vertex of edge i may go on over the edge: where there is no wall to end it, only
+// once.
+static bool may_turn_on(wedge_search *s, const step_from *from, uint32_t vertex, double cost)
+{
+    const tl_nav_rings *rings = &s->navmesh->slots[from->slot].rings;
+    const tl_nav_ring_walls *walls = &rings->walls[rings->cells[from->polygon].first + vertex];
+    bool is_walled = walls->first_x != 0.0f || walls->first_z != 0.0f;
+    return (is_walled && s->in->filter == NULL) ||
+           tl_nav_root_is_first(s->query, TURNING_NUMBER | corner_number(s, from->slot, from->polygon, vertex), cost);
 }
 
 // Turns at a vertex of edge i into the polygon behind. `to_vertex` leads there from the root.
@@ -246,13 +271,17 @@ static void turn_into(wedge_search *s, const step_from *from, uint32_t i, uint32
 static void add_edge_on(wedge_search *s, const step_from *from, uint32_t i, float root_x, float root_z, double cost,
                         const seen_edge *edge)
 {
+    uint32_t next = i + 1 < from->count ? i + 1 : 0;
     if (is_open(edge->left) || is_open(edge->right)) {
         const tl_nav_direction open = { 0.0, 0.0 };
+        if (!may_turn_on(s, from, is_open(edge->left) ? next : i, cost)) {
+            return;
+        }
         add_wedge(s, from, i, root_x, root_z, cost, edge, open, open);
         return;
     }
     turn_into(s, from, i, i, cost, edge->right);
-    turn_into(s, from, i, i + 1 < from->count ? i + 1 : 0, cost, edge->left);
+    turn_into(s, from, i, next, cost, edge->left);
 }
 
 // Whether a path that comes along `limit` to a vertex has its walls on one hand, so that a shortest one may turn to
@@ -271,6 +300,21 @@ static bool has_walls_on(const wedge_search *s, const step_from *from, uint32_t 
         }
     }
     return true;
+}
+
+// A wedge that is never taken up: a turn on the way to another one, for whoever reads the path.
+static uint32_t add_turn(wedge_search *s, uint32_t parent, float root_x, float root_z, double cost)
+{
+    uint32_t index = new_wedge(s);
+    if (index != TL_NAV_NO_NODE) {
+        tl_nav_wedge *wedge = &s->query->wedges[index];
+        *wedge = s->query->wedges[parent];
+        wedge->root_x = root_x;
+        wedge->root_z = root_z;
+        wedge->cost = cost;
+        wedge->parent = parent;
+    }
+    return index;
 }
 
 // The edges that are reached by turning at a vertex of the edge of entry: `hand` is 1 for the left one, -1 for the
@@ -308,7 +352,10 @@ static void turn_at(wedge_search *s, const step_from *from, const tl_nav_wedge *
         }
         is_new = false;
         if (touches) {
-            add_edge_on(s, from, i, x, z, cost, &edge);
+            // It may turn a second time at once, at the end of the edge: the first turn needs a wedge of its own.
+            step_from turned = *from;
+            turned.wedge = add_turn(s, from->wedge, x, z, cost);
+            add_edge_on(s, &turned, i, x, z, cost, &edge);
         } else if (hand > 0) {
             add_wedge(s, from, i, x, z, cost, &edge, edge.left, right > 0.0 ? limit : edge.right);
         } else {
@@ -513,37 +560,34 @@ static uint32_t next_wedge(wedge_search *s, float *total_out)
     return next.wedge;
 }
 
+// What a total that was rounded to float says for certain.
+static double bound_of(float total)
+{
+    return (double)total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
+}
+
 // The wedge that holds the goal: the one that entered its polygon, or, where the goal lies beside that wedge's end in a
-// vertex, one that turns there. An end that is no vertex has another wedge beside it, and that one sees the goal; this
-// one came first by rounding only.
-static uint32_t end_in(wedge_search *s, uint32_t entered, float total)
+// vertex, one that turns there. TL_NAV_NO_NODE where that end is no vertex: then another wedge lies beside it, which
+// leads to the goal in a way that is straight, and this one came first by rounding only.
+static uint32_t end_in(wedge_search *s, uint32_t entered)
 {
     const tl_nav_wedge *wedge = &s->query->wedges[entered];
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, wedge->slot, wedge->polygon, &count);
     tl_nav_direction goal = { s->goal_x - (double)wedge->root_x, s->goal_z - (double)wedge->root_z };
-    bool is_left_of = cross(wedge->left, goal) < 0.0;
-    bool is_beside = is_left_of || cross(wedge->right, goal) > 0.0;
-    // On the edge of entry the goal may lie beside the wedge by rounding, though its total is that of a straight way.
-    double straight = wedge->cost + length_of(goal);
-    if (!is_beside || straight + s->rounding >= (double)total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING)) {
+    // A goal on the wedge's border, as one on the edge of entry may be, lies beside it by rounding only.
+    double left_slack = s->rounding * (fabs(wedge->left.x) + fabs(wedge->left.z));
+    double right_slack = s->rounding * (fabs(wedge->right.x) + fabs(wedge->right.z));
+    bool is_left_of = cross(wedge->left, goal) < -left_slack;
+    if (!is_left_of && !(cross(wedge->right, goal) > right_slack)) {
         return entered;
     }
     tl_nav_direction limit = is_left_of ? wedge->left : wedge->right;
     const tl_nav_ring_edge *vertex = &ring[is_left_of ? wedge->edge : wedge->edge + 1 < count ? wedge->edge + 1 : 0];
     if (limit.x != (double)vertex->x - (double)wedge->root_x || limit.z != (double)vertex->z - (double)wedge->root_z) {
-        return entered;
+        return TL_NAV_NO_NODE;
     }
-    uint32_t turned = new_wedge(s);
-    if (turned != TL_NAV_NO_NODE) {
-        tl_nav_wedge *last = &s->query->wedges[turned];
-        *last = *wedge;
-        last->root_x = vertex->x;
-        last->root_z = vertex->z;
-        last->cost = wedge->cost + length_of(limit);
-        last->parent = entered;
-    }
-    return turned;
+    return add_turn(s, entered, vertex->x, vertex->z, wedge->cost + length_of(limit));
 }
 
 // Takes up wedges, the least total first, until one has entered the goal's polygon.
@@ -557,11 +601,11 @@ static tl_nav_search_end run(wedge_search *s)
         }
         const tl_nav_wedge *wedge = &s->query->wedges[next];
         if (wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot) {
-            s->in->last = end_in(s, next, total);
+            s->in->lower_bound = s->in->lower_bound > 0.0 ? s->in->lower_bound : bound_of(total);
+            s->in->last = end_in(s, next);
             if (s->in->last == TL_NAV_NO_NODE) {
-                return s->trouble;
+                continue;
             }
-            s->in->lower_bound = (double)total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
             return TL_NAV_SEARCH_FOUND;
         }
         expand(s, next);
@@ -607,7 +651,7 @@ tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
     next_generation(search->query);
     search->last = begin(&s);
     if (search->last != TL_NAV_NO_NODE) {
-        search->lower_bound = 0.0;
+        search->lower_bound = tl_nav_shortest_length(search);
         return TL_NAV_SEARCH_FOUND;
     }
     return run(&s);
