@@ -25,6 +25,11 @@ static void from_hull(tl_halfedge *mesh, text_mesh *text, uint32_t count, float 
     tl_hull_def def = tl_default_hull_def();
     tl_hull *hull;
     TEST_RESULT(tl_hull_build(points, count, &def, &hull, NULL), TL_OK);
+    if (!triangulate) {
+        TEST_RESULT(tl_hull_to_halfedge(hull, mesh), TL_OK);
+        tl_blob_free(hull, NULL);
+        return;
+    }
     const tl_hull_half_edge *h = tl_hull_half_edges(hull);
     uint32_t unused;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
@@ -35,18 +40,12 @@ static void from_hull(tl_halfedge *mesh, text_mesh *text, uint32_t count, float 
     }
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_face face = tl_hull_faces(hull)[f];
-        uint32_t loop[600];
-        for (uint32_t k = 0; k < face.count; k++) {
-            loop[k] = h[face.first + k].origin;
-        }
-        for (uint32_t k = 1; triangulate && k + 1 < face.count; k++) {
-            TEST_RESULT(tl_halfedge_add_triangle(mesh, loop[0], loop[k], loop[k + 1], NULL), TL_OK);
+        for (uint32_t k = 1; k + 1 < face.count; k++) {
+            uint32_t a = h[face.first].origin, b = h[face.first + k].origin, c = h[face.first + k + 1].origin;
+            TEST_RESULT(tl_halfedge_add_triangle(mesh, a, b, c, NULL), TL_OK);
             if (text != NULL) {
-                text_add_face(text, (int)loop[0], (int)loop[k], (int)loop[k + 1]);
+                text_add_face(text, (int)a, (int)b, (int)c);
             }
-        }
-        if (!triangulate) {
-            TEST_RESULT(tl_halfedge_add_face(mesh, loop, face.count, NULL), TL_OK);
         }
     }
     tl_blob_free(hull, NULL);
@@ -341,6 +340,57 @@ static void test_rings_of_large_faces(void **state)
     tl_halfedge_free(&mesh);
 }
 
+static void test_a_hull_can_be_edited(void **state)
+{
+    (void)state;
+    for (int kind = 0; kind < SHAPE_COUNT; kind++) {
+        tl_vec3 points[200];
+        test_random random = { (uint64_t)kind };
+        shape_make((shape_kind)kind, &random, points, 200);
+        tl_hull *hull;
+        TEST_RESULT(tl_hull_build(points, 200, NULL, &hull, NULL), TL_OK);
+        uint64_t failures = 0;
+        for (uint64_t k = 1;; k++) {
+            test_allocator memory;
+            test_allocator_init(&memory, k);
+            tl_halfedge mesh;
+            tl_halfedge_init(&mesh, &memory.allocator);
+            tl_result result = tl_hull_to_halfedge(hull, &mesh);
+            if (result != TL_OK) {
+                TEST_RESULT(result, TL_ERR_MEMORY);
+                TEST_CHECK(mesh.vertex_count == 0 && mesh.half_edge_count == 0);
+                tl_halfedge_free(&mesh);
+                TEST_CHECK(memory.live_blocks == 0);
+                failures++;
+                continue;
+            }
+            memory.fail_at = 0;
+            TEST_RESULT(tl_halfedge_check(&mesh), TL_OK);
+            TEST_CHECK(mesh.boundary_count == 0 && mesh.half_edge_count == hull->half_edge_count);
+            const tl_hull_half_edge *h = tl_hull_half_edges(hull);
+            for (uint32_t e = 0; e < hull->half_edge_count; e++) {
+                uint32_t edge = tl_halfedge_find_edge(&mesh, h[e].origin, h[h[e].next].origin);
+                TEST_CHECK(edge != TL_HALFEDGE_NONE && tl_halfedge_left_face(&mesh, edge) == h[e].face);
+            }
+            for (int i = 0; i < 50; i++) {
+                tl_vec3 d = test_random_direction(&random);
+                uint32_t a = tl_halfedge_support(&mesh, d, 0), b = tl_hull_support(hull, d, TL_NO_VERTEX);
+                TEST_CHECK(tl_compare_along(d, mesh.vertices[a].position, tl_hull_vertices(hull)[b]) == 0);
+            }
+            // Without its first corner it is open there, and still a mesh.
+            uint32_t degree = tl_halfedge_vertex_edges(&mesh, 0, NULL, 0);
+            TEST_RESULT(tl_halfedge_remove_vertex(&mesh, 0), TL_OK);
+            TEST_CHECK(mesh.face_count == hull->face_count - degree && mesh.boundary_count >= 3);
+            TEST_RESULT(tl_halfedge_check(&mesh), TL_OK);
+            tl_halfedge_free(&mesh);
+            TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
+            break;
+        }
+        TEST_CHECK(failures >= 4);
+        tl_blob_free(hull, NULL);
+    }
+}
+
 static void test_support_on_flat_faces(void **state)
 {
     (void)state;
@@ -471,6 +521,7 @@ int main(void)
         cmocka_unit_test(test_text_start_vertex_without_edges),
         cmocka_unit_test(test_text_reused_twin_and_second_face),
         cmocka_unit_test(test_rings_of_large_faces),
+        cmocka_unit_test(test_a_hull_can_be_edited),
         cmocka_unit_test(test_support_on_flat_faces),
         cmocka_unit_test(test_memory_runs_out),
         cmocka_unit_test(test_check_sees_damage),

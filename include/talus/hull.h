@@ -11,6 +11,7 @@
 #define TALUS_HULL_H
 
 #include <talus/base.h>
+#include <talus/halfedge.h>
 #include <talus/vec.h>
 
 #ifdef __cplusplus
@@ -139,6 +140,10 @@ TL_API tl_result tl_hull_build(const tl_vec3 *points, uint32_t count, const tl_h
 /// with tl_blob_free.
 TL_API tl_result tl_hull_transform(const tl_hull *hull, tl_vec3 scale, tl_transform pose, const tl_host *host,
                                    tl_hull **hull_out, tl_hull_report *report_out);
+
+/// The hull as an editable mesh: vertices and faces have the hull's indices. `mesh` is initialized; what it held is
+/// removed. TL_ERR_MEMORY, TL_ERR_LIMIT: it is empty then. O(V), but for corners of many edges.
+TL_API tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge *mesh);
 
 /// Whether bytes of unknown origin are a hull that every query can be trusted with: head, offsets, indices, loops,
 /// twins, Euler's formula, finite values. Safe on any bytes; `bytes` must be 16-byte aligned. O(size).
