@@ -4,6 +4,7 @@
 
 #include "talus_test.h"
 
+#include "hull/quickhull.h"
 #include "hull_shapes.h"
 
 #include <talus/hull.h>
@@ -83,11 +84,61 @@ static void test_altered_hulls_are_refused_or_harmless(void **state)
     TEST_CHECK(named[0] > 100 && named[1] > 100 && named[2] > 50000);
 }
 
+// The faces of a cube with a pyramid on top, baked with the tip at some height: below the top, consistent bytes of a
+// body with a dent.
+static tl_hull *bake_pyramid(const tl_hull *right, float height, float bottom, tl_arena *arena)
+{
+    tl_vec3 corners[9];
+    uint32_t numbers[9];
+    for (uint32_t v = 0; v < 9; v++) {
+        corners[v] = tl_hull_vertices(right)[v];
+        numbers[v] = v;
+    }
+    corners[8].y = height;
+    corners[0].y = bottom;
+    tl_hull_half_edge half_edges[64];
+    tl_hull_face faces[32];
+    memcpy(half_edges, tl_hull_half_edges(right), right->half_edge_count * sizeof *half_edges);
+    memcpy(faces, tl_hull_faces(right), right->face_count * sizeof *faces);
+    tl_hull_polygons polygons = { 9, right->face_count, right->half_edge_count, numbers, half_edges, faces };
+    tl_hull *hull;
+    TEST_RESULT(tl_hull_bake(&polygons, corners, 1, arena, &hull), TL_OK);
+    return hull;
+}
+
+static void test_dented_hulls_are_refused(void **state)
+{
+    (void)state;
+    tl_vec3 points[9];
+    for (int i = 0; i < 8; i++) {
+        points[i] = tl_vec3_make(i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, i & 4 ? 1.0f : -1.0f);
+    }
+    points[8] = tl_vec3_make(0.25f, 1.5f, 0.25f);
+    tl_hull *right;
+    TEST_RESULT(tl_hull_build(points, 9, NULL, &right, NULL), TL_OK);
+    TEST_CHECK(right->vertex_count == 9 && right->face_count == 9);
+    tl_arena arena;
+    tl_arena_init(&arena, NULL);
+    const float above = nextafterf(1.0f, 2.0f), below = nextafterf(1.0f, 0.0f);
+    const float heights[] = { 1.5f, 1.1f, above, 1.0f, below, 0.9f, 0.0f };
+    for (size_t i = 0; i < sizeof heights / sizeof *heights; i++) {
+        tl_hull *hull = bake_pyramid(right, heights[i], -1.0f, &arena);
+        TEST_RESULT(tl_hull_check(hull, hull->blob.size), heights[i] > 1.0f ? TL_OK : TL_ERR_CORRUPT);
+        tl_blob_free(hull, NULL);
+    }
+    tl_hull *bent = bake_pyramid(right, 1.5f, nextafterf(-1.0f, -2.0f), &arena);
+    TEST_RESULT(tl_hull_check(bent, bent->blob.size), TL_ERR_CORRUPT);
+    tl_blob_free(bent, NULL);
+    tl_arena_free(&arena);
+    tl_blob_free(right, NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_prefixes_are_refused),
         cmocka_unit_test(test_altered_hulls_are_refused_or_harmless),
+        cmocka_unit_test(test_dented_hulls_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

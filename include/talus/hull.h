@@ -146,8 +146,9 @@ TL_API tl_result tl_hull_transform(const tl_hull *hull, tl_vec3 scale, tl_transf
 TL_API tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge *mesh);
 
 /// Whether bytes of unknown origin are a hull that every query can be trusted with: head, offsets, indices, loops,
-/// twins, Euler's formula, finite values. Safe on any bytes; `bytes` must be 16-byte aligned. O(size).
-/// Convexity is not proven here: tl_hull_validate does that.
+/// twins, Euler's formula, finite values, and, exactly decided, that every face is flat and every edge convex. Safe on
+/// any bytes; `bytes` must be 16-byte aligned. O(size). That the points of the input lie inside, and that the surface
+/// does not wind around twice, which no build does, takes tl_hull_validate.
 TL_API tl_result tl_hull_check(const void *bytes, uint64_t size);
 
 /// What tl_hull_validate found.

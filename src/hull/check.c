@@ -2,11 +2,12 @@
 //
 // Is this block of bytes a hull? Every count, offset and index is proven in range before it is used, and everything
 // that the bake derives from the vertices and the topology is derived again and compared. So a climb on a hull that
-// passes ends, whatever its vertices are: each of its steps is a true gain.
+// passes ends, since each of its steps is a true gain; and it ends at a maximum, since the surface is convex there.
 
 #include "hull/face_ring.h"
 
 #include "base/assert.h"
+#include "math/predicates.h"
 
 #include <string.h>
 
@@ -157,6 +158,36 @@ static bool check_geometry(const tl_hull *hull)
     return true;
 }
 
+static tl_vec3 corner(const tl_hull *hull, uint32_t half_edge)
+{
+    return tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin];
+}
+
+// Exactly: every face lies in one plane and turns left at each corner, and at every edge the surface is bent inward.
+// What this leaves open is a surface that winds around more than once, which only tl_hull_validate excludes.
+static bool check_convexity(const tl_hull *hull)
+{
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    for (uint32_t h = 0; h < hull->half_edge_count; h++) {
+        uint32_t next = half_edges[h].next, twin = half_edges[h].twin;
+        uint32_t beyond = half_edges[half_edges[twin].next].next; // starts at a corner of the other face, off this edge
+        if (tl_orient3d(corner(hull, h), corner(hull, next), corner(hull, half_edges[next].next),
+                        corner(hull, beyond)) >= 0) {
+            return false;
+        }
+    }
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        tl_hull_face face = tl_hull_faces(hull)[f];
+        for (uint32_t k = 3; k < face.count; k++) {
+            if (tl_orient3d(corner(hull, face.first), corner(hull, face.first + 1), corner(hull, face.first + 2),
+                            corner(hull, face.first + k)) != 0) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 static bool check_scan(const tl_hull *hull)
 {
     const float *rows = tl_hull_scan_rows(hull);
@@ -200,7 +231,7 @@ tl_result tl_hull_check(const void *bytes, uint64_t size)
 {
     TL_TRY(check_head(bytes, size));
     const tl_hull *hull = bytes;
-    if (!check_loops(hull) || !check_geometry(hull)) {
+    if (!check_loops(hull) || !check_geometry(hull) || !check_convexity(hull)) {
         return TL_ERR_CORRUPT;
     }
     tl_hull rings = *hull;
