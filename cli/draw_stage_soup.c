@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The soup: each pair in two shades of one hue, singles in orange, the tree's boxes at one depth.
+// The soup: each pair in two shades of one hue, singles in orange, the tree's boxes down to a depth, lower ones in
+// thinner lines.
 
 #include "draw_stage.h"
 
@@ -12,12 +13,14 @@ typedef struct box_job {
     uint32_t count;
 } box_job;
 
-static bool add_box_at_depth(tl_aabb box, uint32_t depth, bool leaf, void *user)
+static bool add_tree_box(tl_aabb box, uint32_t depth, bool leaf, void *user)
 {
     (void)leaf;
     box_job *job = user;
-    if (depth == job->depth) {
-        draw_add_box(job->scene, box, 0x1d2f6f, 1.0f, 0.55f);
+    if (depth > 0 || job->depth == 0) {
+        // The lowest boxes in the thinnest line, and no more than three widths.
+        uint32_t above = job->depth - depth < 2 ? job->depth - depth : 2;
+        draw_add_box(job->scene, box, 0x1d2f6f, 0.8f + 0.8f * (float)above, above == 0 ? 0.5f : 0.75f);
         job->count++;
     }
     return true;
@@ -41,12 +44,13 @@ void draw_stage_soup(draw_scene *scene, const tl_soup *soup, uint32_t depth)
                               draw_colour_mix(hue, 0x8a8a90, 0.35f));
         }
     }
-    box_job job = { scene, depth, 0 };
-    tl_soup_tree_boxes(soup, depth, add_box_at_depth, &job);
-
     tl_soup_stats stats = tl_soup_get_stats(soup);
+    depth = depth < stats.depth ? depth : stats.depth;
+    box_job job = { scene, depth, 0 };
+    tl_soup_tree_boxes(soup, depth, add_tree_box, &job);
+
     snprintf(scene->subtitle, sizeof scene->subtitle,
-             "%u triangles, %.1f%% of them in %u pairs; %u nodes, %.1f bytes a triangle; %u boxes at depth %u",
+             "%u triangles, %.1f%% of them in %u pairs; %u nodes, %.1f bytes a triangle; %u boxes down to depth %u",
              stats.triangle_count, 200.0 * stats.pair_count / stats.triangle_count, stats.pair_count, stats.node_count,
              (double)stats.size / stats.triangle_count, job.count, depth);
     draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(2), 0xffffff, 0.5f), "pair: first triangle");
