@@ -40,6 +40,7 @@ set(talus_test_thread_pool_needs talus_cli)
 
 set(talus_test_ray_decide_needs talus_peer_gmp)
 set(talus_test_soup_build_libraries pthread)
+set(talus_test_soup_batch_libraries pthread)
 foreach(stem frame bake ray soup_queries path hull polygonize draw detour bad_input)
     set(talus_test_cli_${stem}_needs talus_command_path)
 endforeach()

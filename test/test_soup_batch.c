@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+//
+// batch.c: a batch gives the bits of single calls, in any order, on any number of threads.
+
+#include "soup_models.h"
+
+#include <pthread.h>
+
+// From this size on rays are put in order.
+#define SORTED_SIZE (8u << 20)
+
+static tl_vec3 vec(float x, float y, float z)
+{
+    return tl_vec3_make(x, y, z);
+}
+
+typedef struct loop {
+    tl_task_fn *task;
+    void *task_user;
+    uint32_t count, worker;
+} loop;
+
+// Every third item: three threads.
+static void *run_third(void *user)
+{
+    loop *l = user;
+    for (uint32_t i = l->worker; i < l->count; i += 3) {
+        l->task(i, l->worker, l->task_user);
+    }
+    return NULL;
+}
+
+static void run_on_threads(tl_task_fn *task, uint32_t count, void *task_user, void *user)
+{
+    pthread_t threads[3];
+    loop loops[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        loops[i] = (loop){ task, task_user, count, i };
+        TEST_CHECK(pthread_create(&threads[i], NULL, run_third, &loops[i]) == 0);
+    }
+    for (uint32_t i = 0; i < 3; i++) {
+        pthread_join(threads[i], NULL);
+    }
+    *(uint32_t *)user += count;
+}
+
+static bool even(uint32_t triangle, uint16_t material, void *user)
+{
+    (void)material;
+    (void)user;
+    return triangle % 2 == 0;
+}
+
+static bool same_hit(const tl_ray_hit *a, const tl_ray_hit *b)
+{
+    return memcmp(&a->t, &b->t, sizeof a->t) == 0 && a->triangle == b->triangle &&
+           memcmp(&a->u, &b->u, sizeof a->u) == 0 && memcmp(&a->v, &b->v, sizeof a->v) == 0 &&
+           memcmp(&a->normal, &b->normal, sizeof a->normal) == 0 && a->material == b->material && a->back == b->back;
+}
+
+static void check_batch(const tl_soup *soup, uint32_t count, const tl_ray_filter *filter, uint64_t seed)
+{
+    test_random random = { seed };
+    tl_aabb bounds = tl_soup_bounds(soup);
+    tl_ray *rays = malloc(count * sizeof *rays + 1);
+    tl_ray_hit *single = malloc(count * sizeof *single + 1), *batch = malloc(count * sizeof *batch + 1);
+    uint64_t *scratch = malloc(2 * count * sizeof *scratch + 1);
+    TEST_CHECK(rays != NULL && single != NULL && batch != NULL && scratch != NULL);
+    uint32_t hits = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        rays[i].origin = test_random_point(&random, bounds.min, bounds.max);
+        rays[i].direction = test_random_direction(&random);
+        rays[i].tmax = i % 5 == 0 ? 2.0f : INFINITY;
+        if (i % 1000 == 7) { // what hits nothing
+            rays[i].origin.y = i % 3 == 0 ? NAN : i % 3 == 1 ? INFINITY : -3e38f;
+        }
+        memset(&single[i], 0, sizeof single[i]);
+        if (!tl_soup_cast_ray(soup, &rays[i], filter, &single[i])) {
+            single[i].t = INFINITY;
+            single[i].triangle = TL_NO_TRIANGLE;
+        }
+        hits += single[i].triangle != TL_NO_TRIANGLE;
+    }
+    uint32_t tasks = 0;
+    tl_tasks threads = { run_on_threads, 3, &tasks };
+    tl_host host = { NULL, &threads, NULL };
+    for (uint32_t way = 0; way < 4; way++) {
+        memset(batch, 0xff, count * sizeof *batch);
+        tl_soup_cast_rays(soup, rays, count, filter, way & 1 ? &host : NULL, way & 2 ? scratch : NULL, batch);
+        for (uint32_t i = 0; i < count; i++) {
+            TEST_CHECK(same_hit(&batch[i], &single[i]));
+        }
+    }
+    TEST_CHECK(count == 0 || (tasks > 0 && hits > count / 50 && hits < count));
+    free(rays);
+    free(single);
+    free(batch);
+    free(scratch);
+}
+
+static void test_same_bits(void **state)
+{
+    (void)state;
+    // Larger than what is sorted, and smaller.
+    model large = model_terrain(360, 4, vec(0, 0, 0), 1), small = model_terrain(20, 4, vec(900, 0, 0), 2);
+    tl_soup *soups[2] = { model_soup(&large, NULL), model_soup(&small, NULL) };
+    TEST_CHECK(tl_soup_size(soups[0]) > SORTED_SIZE && tl_soup_size(soups[1]) < SORTED_SIZE);
+    tl_ray_filter filter = tl_default_ray_filter();
+    filter.accept = even;
+    for (uint32_t i = 0; i < 2; i++) {
+        check_batch(soups[i], 150000, NULL, 1);
+        check_batch(soups[i], 5000, &filter, 2);
+        check_batch(soups[i], 0, NULL, 3);
+        tl_blob_free(soups[i], NULL);
+    }
+    model_free(&large);
+    model_free(&small);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_same_bits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
