@@ -91,7 +91,8 @@ static void check_batch(const tl_soup *soup, uint32_t count, const tl_ray_filter
             TEST_CHECK(same_hit(&batch[i], &single[i]));
         }
     }
-    TEST_CHECK(count == 0 || (tasks > 0 && hits > count / 50 && hits < count));
+    TEST_CHECK(count == 0 || (hits > count / 50 && hits < count));
+    TEST_CHECK(count <= 65536 || tasks > 0); // a loop of one item needs no host
     free(rays);
     free(single);
     free(batch);
@@ -108,7 +109,7 @@ static void test_same_bits(void **state)
     tl_ray_filter filter = tl_default_ray_filter();
     filter.accept = even;
     for (uint32_t i = 0; i < 2; i++) {
-        check_batch(soups[i], 150000, NULL, 1);
+        check_batch(soups[i], 70000, NULL, 1);
         check_batch(soups[i], 5000, &filter, 2);
         check_batch(soups[i], 0, NULL, 3);
         tl_blob_free(soups[i], NULL);

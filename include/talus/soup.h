@@ -81,6 +81,19 @@ TL_API tl_soup_def tl_default_soup_def(void);
 TL_API tl_result tl_soup_build(const tl_mesh_view *view, const tl_soup_def *def, tl_soup **soup_out,
                                tl_soup_report *report_out);
 
+/// Moves a soup's triangles to where their vertices are now: the same triangles, indices and number of vertices or not,
+/// other positions. In place, O(n), no memory.
+///
+/// Every query then answers as if the soup had been built anew, bit for bit; the tree is as good as the triangles still
+/// lie together, so build anew when they have mixed. Triangles that lost their area are kept, and no ray hits them;
+/// those that had none when the soup was built stay away. Vertices at equal positions then must have equal positions
+/// now. The soup must be writable (not a mapped file), and no query may run meanwhile: move a second soup while the
+/// first is asked.
+/// TL_ERR_ARGUMENT (another number of triangles, or a triangle that came apart from its pair), TL_ERR_INDEX (triangle),
+/// TL_ERR_NOT_FINITE, TL_ERR_RANGE (vertex), with the element in `report_out`, which may be NULL; the soup is then
+/// unchanged.
+TL_API tl_result tl_soup_refit(tl_soup *soup, const tl_mesh_view *moved, tl_report *report_out);
+
 /// Whether `size` bytes at `bytes` are a sound soup: TL_OK, or TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION,
 /// TL_ERR_ARGUMENT (not aligned to TL_BLOB_ALIGNMENT), TL_ERR_CORRUPT. Safe on any bytes. O(size).
 /// On success the bytes may be used as a tl_soup in place. It proves that queries are safe and end, not that the tree's
@@ -173,9 +186,9 @@ TL_API bool tl_soup_line_of_sight(const tl_soup *soup, tl_vec3 a, tl_vec3 b, con
 /// INFINITY where it hits nothing. `filter` and `host` may be NULL.
 ///
 /// Runs on the host's tasks, 65,536 rays each. `scratch` has room for 2 * count words, or is NULL. With it, the rays
-/// are cast in the order of where they begin: in soups larger than the caches (over 8 MB) rays without any order of their
-/// own are answered some 1.3 times as fast, more where many begin near each other. Rays that come in order (a camera's)
-/// and small soups gain nothing.
+/// are cast in the order of where they begin: in soups larger than the caches (over 8 MB) rays without any order of
+/// their own are answered some 1.3 times as fast, more where many begin near each other. Rays that come in order (a
+/// camera's) and small soups gain nothing.
 TL_API void tl_soup_cast_rays(const tl_soup *soup, const tl_ray *rays, uint32_t count, const tl_ray_filter *filter,
                               const tl_host *host, uint64_t *scratch, tl_ray_hit *hits_out);
 
