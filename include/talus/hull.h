@@ -94,7 +94,7 @@ typedef struct tl_hull {
     // All that tl_hull_support reads of the head lies in its first cache line; the layout of these parts is private.
     // Offsets here are in units of TL_BLOB_ALIGNMENT.
     uint32_t vertex_count; ///< V >= 4
-    uint32_t scan_count;   ///< length of the scan's rows, a multiple of 8; 0: the hull is too large to be scanned
+    uint32_t scan_count;   ///< length of the scan's rows, 8 or a multiple of 16; 0: the hull is too large to be scanned
     float scan_error;      ///< error of the scan's dot products for a direction with |x| + |y| + |z| = 1
     uint32_t table_side;   ///< cells along a side of the direction table's two squares, 0 when the hull is scanned
     tl_vec3 table_scale;   ///< what a direction is multiplied by before it is looked up

@@ -32,7 +32,8 @@ uint64_t tl_hull_lay_out(tl_hull *head)
     _Static_assert(offsetof(tl_hull, rings) + sizeof(uint32_t) <= TL_BLOB_ALIGNMENT, "a support reads one cache line");
     uint64_t units = (sizeof(tl_hull) + TL_BLOB_ALIGNMENT - 1) / TL_BLOB_ALIGNMENT;
     bool scanned = head->vertex_count <= TL_HULL_SCAN_LIMIT;
-    head->scan_count = scanned ? (head->vertex_count + TL_CLIMB_LANES - 1) / TL_CLIMB_LANES * TL_CLIMB_LANES : 0;
+    uint32_t padding = head->vertex_count <= TL_CLIMB_LANES ? TL_CLIMB_LANES : TL_SCAN_PAIR;
+    head->scan_count = scanned ? (head->vertex_count + padding - 1) / padding * padding : 0;
     head->table_side = scanned ? 0 : tl_hull_table_side(head->vertex_count);
     uint64_t cells = 2 * (uint64_t)head->table_side * head->table_side + head->ring_cells;
     head->scan = (uint32_t)place(&units, 3 * (uint64_t)head->scan_count, sizeof(float));

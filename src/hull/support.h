@@ -25,6 +25,7 @@
 #define TL_SUPPORT_UNDERFLOW 2.2420775e-44f // 2^-145
 
 #define TL_CLIMB_LANES       8u
+#define TL_SCAN_PAIR         16u         // rows of more than eight vertices are padded to whole pairs of lanes
 #define TL_CLIMB_MORE        0x80000000u // in the last link: not a neighbour, the rest of them is in that block
 
 // Up to eight neighbours of a vertex: the vectors to them and which they are. Unused lanes repeat the first neighbour.
@@ -90,6 +91,12 @@ tl_hull_support_fn tl_hull_support_avx2, tl_hull_climb_avx2;
 tl_hull_march_fn tl_hull_march_avx2;
 #endif
 
+#if defined(__GNUC__)
+#define TL_NOINLINE __attribute__((noinline))
+#else
+#define TL_NOINLINE
+#endif
+
 typedef struct tl_support_kernel {
     tl_hull_support_fn *support, *climb;
     tl_hull_march_fn *march;
@@ -103,8 +110,11 @@ tl_support_kernel tl_support_kernel_best(void);
 // The query for directions out of the range above.
 uint32_t tl_hull_support_unusual(const tl_hull *hull, tl_vec3 direction, uint32_t hint);
 
-// support_exact.c. Climbs on the half-edges with exact comparisons, any direction.
+// support_exact.c, for any direction.
+// Climbs on the half-edges.
 uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t vertex);
+// The lowest of the farthest vertices among those whose bits are set; one is.
+uint32_t tl_hull_decide_exact(const tl_hull *hull, tl_vec3 direction, uint64_t candidates);
 
 // direction_table.c; the look-up is in direction_table.h.
 // Cells along a side for a hull of so many vertices.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Hill climbing on the half-edges with exact comparisons: the text's function with its defects mended.
+// What float arithmetic leaves open, by exact comparisons.
+//
+// Hill climbing on the half-edges: the text's function with its defects mended.
 // Source: Allen Chou, Game Physics: Implementing Support Function for Polyhedrons using Half Edges, 2013.
 //
 // A vertex of a convex body that no neighbour exceeds is a farthest one, and all farthest vertices are those of one
@@ -8,6 +10,7 @@
 
 #include "hull/support.h"
 
+#include "base/lowest_bit.h"
 #include "math/predicates.h"
 
 // The lowest vertex of the whole loop of a face.
@@ -45,4 +48,18 @@ uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t ve
         }
         vertex = better;
     }
+}
+
+uint32_t tl_hull_decide_exact(const tl_hull *hull, tl_vec3 direction, uint64_t candidates)
+{
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    uint32_t vertex = tl_lowest_bit(candidates);
+    for (uint64_t left = candidates & (candidates - 1); left != 0; left &= left - 1) {
+        uint32_t other = tl_lowest_bit(left);
+        // The rows of a scan are padded with the last vertex, whose own bit is lower.
+        if (other < hull->vertex_count && tl_compare_along(direction, vertices[other], vertices[vertex]) > 0) {
+            vertex = other;
+        }
+    }
+    return vertex;
 }

@@ -14,6 +14,7 @@
 #include "hull/support_climb.h"
 #include "hull/support_march.h"
 #include "hull/support_scan.h"
+#include "math/predicates.h"
 
 typedef enum climb_end { END_FARTHEST, END_LEVEL, END_HIGHER } climb_end;
 
@@ -41,23 +42,19 @@ static inline climb_end settle(const tl_hull *hull, tl_vec3 direction, const tl_
     return end;
 }
 
-static inline uint32_t climb_on(const tl_hull *hull, tl_vec3 direction, const tl_climber *climber, uint32_t vertex)
+// Not inlined, so that the query itself needs little stack.
+TL_NOINLINE uint32_t TL_SUPPORT_CLIMB(const tl_hull *hull, tl_vec3 direction, uint32_t vertex)
 {
+    tl_climber climber = tl_climber_make(direction);
     for (;;) {
-        if (tl_hull_climb_blocks(hull, climber, &vertex)) {
+        if (tl_hull_climb_blocks(hull, &climber, &vertex)) {
             return vertex;
         }
-        climb_end end = settle(hull, direction, climber, &vertex);
+        climb_end end = settle(hull, direction, &climber, &vertex);
         if (end != END_HIGHER) {
             return end == END_LEVEL ? tl_hull_climb_exact(hull, direction, vertex) : vertex;
         }
     }
-}
-
-uint32_t TL_SUPPORT_CLIMB(const tl_hull *hull, tl_vec3 direction, uint32_t vertex)
-{
-    tl_climber climber = tl_climber_make(direction);
-    return climb_on(hull, direction, &climber, vertex);
 }
 
 uint32_t TL_SUPPORT_MARCH(const tl_hull *hull, tl_vec3 from, tl_vec3 step, uint32_t count, uint32_t vertex,
@@ -83,5 +80,5 @@ uint32_t TL_SUPPORT_QUERY(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
     if (tl_hull_is_farthest(hull, &climber, start)) {
         return start;
     }
-    return climb_on(hull, direction, &climber, start);
+    return TL_SUPPORT_CLIMB(hull, direction, start);
 }
