@@ -20,12 +20,12 @@
 //
 // Lanes that pass get an interval of t, so that most of what is left is settled without ray_decide.c: triangles behind
 // the ray or beyond the best are dropped, and one that is surely hit, surely in front of the best, only waits: it is
-// decided when another comes too near to tell them apart, or measured at the end (ray_measure.h). With D = sum(E), |D|
-// >= 64 e, depths z_i that round once, at most Z, and t = sum(E_i z_i) / D, the true t of a triangle that is met
-// differs by at most Z (6.1 e / |D| + 9 u) before the division; its rounding and the product with per_depth (two
-// roundings of its own) add 6 u more: taken as Z (7 e / |D| + 24 u). Corners are no deeper than the hit and the extent,
-// so with all in t, Z <= |t| + L + the error itself, which is less than an eighth of Z: (|t| + L) (8 e / |D| + 28 u)
-// bounds the error.
+// decided when another comes too near to tell them apart, or measured at the end (ray_measure.h). With D = sum(E) and
+// depths z_i, at most Z, t = sum(E_i z_i) / D times per_depth. Let the line meet the triangle. Then no corner is
+// farther away than Z + L, so the bound e above holds with Z + L in the place of M. True weights have one sign, so
+// errors of the weights move the quotient by at most sum(e |z_i - z|) / |D| <= 3 e L / |D|, since depths differ by L at
+// most. With |D| >= 64 e, roundings of depths, products, sums and the quotient add 18 u Z, per_depth (two of its own)
+// and its product 3 u Z. Taken as 4 e L / |D| + 26 u Z.
 
 #include "base/lowest_bit.h"
 #include "math/simd16.h"
@@ -54,7 +54,6 @@ typedef struct walk_ray {
     uint32_t near_row[3]; // of tl_soup_node.plane: the ray enters by it and leaves by its neighbour
     tl_f32x8 origin_x, origin_y, origin_z, shear_x, shear_y, per_depth;
     float error_per_extent, error_base; // of E in a leaf
-    float depth_scale;                  // |per_depth|
     uint32_t pass_lanes;                // lanes that no float filter may reject: all, or none
     uint32_t trust_intervals;           // lanes whose intervals of t count: all, or none
     uint32_t trust_hits;                // lanes in which a sure hit needs no decision: all, or none
@@ -181,7 +180,6 @@ typedef struct leaf_lanes {
     tl_f32x8 ae, ec, ca; // sidedness of each edge: the weights of c, a and e
     uint32_t maybe;      // bits of lanes that the line may meet: 0-3 first triangles, 4-7 second ones
     tl_f32x8 sure;       // signs: lanes that it meets
-    float error;         // of a sidedness
     float extent;        // of any triangle, in metres
 } leaf_lanes;
 
@@ -212,9 +210,8 @@ static TL_ALWAYS_INLINE void test_leaf(const walk_ray *ray, const tl_soup_leaf *
     cy = tl_f32x8_mul_sub_from(ray->shear_y, cz, cy);
     ey = tl_f32x8_mul_sub_from(ray->shear_y, ez, ey);
     tl_f32x8 ae = cross(ax, ay, ex, ey), ec = cross(ex, ey, cx, cy), ca = cross(cx, cy, ax, ay);
-    lanes->error = ray->error_per_extent * leaf->extent + ray->error_base;
     lanes->extent = leaf->extent;
-    tl_f32x8 error = tl_f32x8_all(lanes->error);
+    tl_f32x8 error = tl_f32x8_all(ray->error_per_extent * leaf->extent + ray->error_base);
     // Signs tell which edges are surely negative, and which surely positive.
     tl_f32x8 below_ae = tl_f32x8_add(ae, error), above_ae = tl_f32x8_sub(error, ae);
     tl_f32x8 below_ec = tl_f32x8_add(ec, error), above_ec = tl_f32x8_sub(error, ec);
@@ -261,9 +258,17 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const walk_ray *ray, 
         tl_f32x8_add(tl_f32x8_add(tl_f32x8_mul(v->ae, v->cz), tl_f32x8_mul(v->ec, v->az)), tl_f32x8_mul(v->ca, v->ez));
     tl_f32x8 inverse = tl_f32x8_div(tl_f32x8_all(1.0f), sum);
     tl_f32x8 t = tl_f32x8_mul(tl_f32x8_mul(weighted, inverse), ray->per_depth);
-    tl_f32x8 ratio = tl_f32x8_abs(tl_f32x8_mul(tl_f32x8_all(v->error), inverse));
-    tl_f32x8 spread = tl_f32x8_add(tl_f32x8_mul(ratio, tl_f32x8_all(T_RATIO_TERM)), tl_f32x8_all(T_ROUNDING));
-    spread = tl_f32x8_mul(tl_f32x8_add(tl_f32x8_abs(t), tl_f32x8_all(v->extent * ray->depth_scale)), spread);
+    tl_f32x8 depth =
+        tl_f32x8_max_bits(tl_f32x8_max_bits(tl_f32x8_abs(v->az), tl_f32x8_abs(v->cz)), tl_f32x8_abs(v->ez));
+    tl_f32x8 corner_error = tl_f32x8_mul_add(tl_f32x8_add(depth, tl_f32x8_all(v->extent)),
+                                             tl_f32x8_all(TL_RAY_CORNER_ERROR), tl_f32x8_all(FLT_MIN));
+    tl_f32x8 error =
+        tl_f32x8_mul_add(corner_error, tl_f32x8_all(LEAF_ERROR_TERM), tl_f32x8_all(LEAF_EXTENT_TERM * v->extent));
+    error = tl_f32x8_mul_add(error, corner_error, tl_f32x8_all(FLT_MIN));
+    tl_f32x8 ratio = tl_f32x8_abs(tl_f32x8_mul(error, inverse));
+    tl_f32x8 spread =
+        tl_f32x8_mul_add(ratio, tl_f32x8_all(T_RATIO_TERM * v->extent), tl_f32x8_mul(depth, tl_f32x8_all(T_ROUNDING)));
+    spread = tl_f32x8_mul(spread, tl_f32x8_abs(ray->per_depth));
     tl_f32x8 low = tl_f32x8_sub(t, spread), high = tl_f32x8_add(t, spread);
     uint32_t clear = tl_f32x8_less(ratio, tl_f32x8_all(1.0f / LANE_MIN_RATIO)) & ray->trust_intervals;
     uint32_t gone = tl_f32x8_less(high, tl_f32x8_all(0.0f)) | tl_f32x8_less(tl_f32x8_all(best->limit), low);
@@ -335,7 +340,6 @@ static TL_ALWAYS_INLINE void spread_ray(const tl_ray_job *job, const tl_ray_vect
     ray->axis_z = v->axes[2];
     ray->error_per_extent = v->corner_error * LEAF_EXTENT_TERM;
     ray->error_base = v->corner_error * (LEAF_ERROR_TERM * v->corner_error) + FLT_MIN;
-    ray->depth_scale = fabsf(v->per_depth);
     ray->pass_lanes = v->corner_error < INFINITY ? 0u : 0xffu;
     ray->trust_intervals = job->box_scale == 1.0f ? 0xffu : 0u;
     ray->trust_hits = job->filter == NULL ? 0xffu : 0u;
