@@ -77,7 +77,7 @@ static void check_corner(const tl_ray_job *job, tl_vec3 p, regimes *seen)
     TEST_CHECK(x != y && y != z && z != x);
     TEST_CHECK(fabsl(direction[z]) >= fabsl(direction[x]) && fabsl(direction[z]) >= fabsl(direction[y]));
     float depth = point[z] - origin[z];
-    float sheared = (point[x] - origin[x]) - job->shear_x * depth;
+    float sheared = (point[x] - origin[x]) - job->shear[0] * depth;
     long double true_depth = (long double)point[z] - (long double)origin[z];
     long double truth = (long double)point[x] - (long double)origin[x] - direction[x] / direction[z] * true_depth;
     TEST_CHECK(fabsl((long double)sheared - truth) <= (long double)job->corner_error);

@@ -20,14 +20,16 @@ typedef union tl_ray_point {
 typedef struct tl_ray_job {
     const tl_soup *soup;
     const tl_ray_filter *filter; ///< NULL: nothing is passed by
-    tl_ray_point origin;
+    _Alignas(16) tl_ray_point origin;
     tl_ray_point target; ///< a ray's direction or a segment's end
     bool is_segment;     ///< direction is target - origin, not rounded; t is within [0, 1]
-    bool is_exact;       ///< direction, shear and inverse_z are filled
+    bool is_exact;       ///< direction, exact_shear and inverse_z are filled
+
+    bool is_usual; ///< box t is t, and no filter is out of its range
 
     // Boxes. Plane p of axis i is met at t = (p * plane_scale[i] + near_base[i]) / box_scale, rounded down, or with
-    // far_base up. Lane 3 is not used.
-    float plane_scale[4];
+    // far_base up. Lane 3 is not used. Vectors are aligned, so that a lane is read from the store that is under way.
+    _Alignas(16) float plane_scale[4];
     float near_base[4];
     float far_base[4];
     uint32_t backward; ///< bit i: the ray runs down along axis i, so it enters a box by its max plane
@@ -35,15 +37,16 @@ typedef struct tl_ray_job {
     float box_limit;   ///< boxes that begin beyond it are skipped
 
     // Leaves: origin moved to zero, then sheared so that the ray runs along axis_z.
+    float per_depth;                   ///< box t a metre along axis_z
+    _Alignas(16) float leaf_origin[4]; ///< along axis_x, axis_y, axis_z
+    float shear[4];                    ///< direction by its component along axis_z, in the same order
     uint32_t axis_x, axis_y, axis_z;
-    float shear_x, shear_y;
-    float per_depth;    ///< box t a metre along axis_z
     float reach;        ///< metres: the largest distance along an axis from the origin to a corner of the soup's box
     float corner_error; ///< metres: bound of the error of a sheared corner
 
     // The exact part, filled when the first lane is decided.
     double direction[3];
-    double shear[2];
+    double exact_shear[2];
     double inverse_z; ///< 1 / direction[axis_z]
 
     // The best so far. t begins as tmax, so the first hit at tmax itself still wins by its index.
@@ -56,7 +59,7 @@ typedef struct tl_ray_job {
 } tl_ray_job;
 
 /// Fills what the filters need; the caller has set soup, filter, is_segment and t. False: nothing can be hit.
-/// The walks have it inline and keep the results in registers (ray_prepare.h).
+/// The walks have it inline (ray_prepare.h).
 bool tl_ray_prepare(tl_ray_job *job, tl_vec3 origin, tl_vec3 target);
 
 /// The rare rest of it, with origin and target set: directions that need scaling, and origins too far away for float

@@ -66,8 +66,8 @@ static void prepare_exact(tl_ray_job *job)
         job->direction[i] = (double)job->target.lane[i] - from;
     }
     job->inverse_z = 1.0 / job->direction[job->axis_z];
-    job->shear[0] = job->direction[job->axis_x] * job->inverse_z;
-    job->shear[1] = job->direction[job->axis_y] * job->inverse_z;
+    job->exact_shear[0] = job->direction[job->axis_x] * job->inverse_z;
+    job->exact_shear[1] = job->direction[job->axis_y] * job->inverse_z;
     job->is_exact = true;
 }
 
@@ -87,8 +87,8 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
         double dx = (double)corner[job->axis_x * stride] - origin_x;
         double dy = (double)corner[job->axis_y * stride] - origin_y;
         double dz = (double)corner[job->axis_z * stride] - origin_z;
-        x[k] = dx - job->shear[0] * dz;
-        y[k] = dy - job->shear[1] * dz;
+        x[k] = dx - job->exact_shear[0] * dz;
+        y[k] = dy - job->exact_shear[1] * dz;
         test->depth[k] = dz * job->inverse_z;
         reach = larger(reach, larger(larger(fabs(dx), fabs(dy)), fabs(dz)));
         size = larger(size, larger(fabs(x[k]), fabs(y[k])));

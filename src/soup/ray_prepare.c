@@ -20,6 +20,9 @@ static void pass_everything(tl_ray_job *job)
         job->plane_scale[i] = FLT_MIN; // not 0: the infinite planes of a lane without a child stay infinite
         job->near_base[i] = -1.0f;
         job->far_base[i] = FLT_MAX;
+        // Sidedness must be a number, so that the error outweighs it.
+        job->leaf_origin[i] = 0.0f;
+        job->shear[i] = 0.0f;
     }
     job->backward = 0;
     job->corner_error = INFINITY;
@@ -27,7 +30,6 @@ static void pass_everything(tl_ray_job *job)
 
 bool tl_ray_prepare_unusual(tl_ray_job *job)
 {
-    job->axis_z = 0; // what is refused is not looked at, but has a value
     tl_vec3 from = job->origin.point;
     tl_vec3 to = job->target.point;
     if (!tl_is_finite(from) || !tl_is_finite(to) || !(job->t >= 0.0f)) {
@@ -44,14 +46,12 @@ bool tl_ray_prepare_unusual(tl_ray_job *job)
         return false;
     }
     double scale = power_scale(largest);
-    float box_scale = (float)(1.0 / scale);
-    tl_ray_begin(job, box_scale, job->t < FLT_MAX ? job->t * box_scale + FLT_MIN : INFINITY);
+    job->box_scale = (float)(1.0 / scale);
+    job->box_limit = job->t < FLT_MAX ? job->t * job->box_scale + FLT_MIN : INFINITY;
     tl_f32x4 scaled = tl_f32x4_make((float)(direction[0] * scale), (float)(direction[1] * scale),
                                     (float)(direction[2] * scale), 0.0f);
-    tl_ray_vectors v;
-    tl_ray_find_vectors(job->soup, tl_f32x4_load(job->origin.lane), scaled, tl_f32x4_max_of_three(tl_f32x4_abs(scaled)),
-                        &v);
-    tl_ray_store_vectors(job, &v);
+    tl_f32x4 size = tl_f32x4_abs(scaled);
+    tl_ray_prepare_filters(job, tl_f32x4_load(job->origin.lane), scaled, size, tl_f32x4_max_of_three(size));
     if (!(job->reach < TL_RAY_FILTER_MAX)) {
         pass_everything(job);
     }
@@ -60,8 +60,5 @@ bool tl_ray_prepare_unusual(tl_ray_job *job)
 
 bool tl_ray_prepare(tl_ray_job *job, tl_vec3 origin, tl_vec3 target)
 {
-    tl_ray_vectors v;
-    bool possible = tl_ray_prepare_vectors(job, &origin, &target, &v);
-    tl_ray_store_vectors(job, &v);
-    return possible;
+    return tl_ray_prepare_inline(job, &origin, &target);
 }

@@ -42,17 +42,8 @@
 // Beyond this distance the products of the filters could overflow; every box and leaf then passes.
 #define TL_RAY_FILTER_MAX 1e15f
 
-// What the filters need, in registers. Lanes of the first three are axes, those of the next two axis_x, axis_y, axis_z.
-typedef struct tl_ray_vectors {
-    tl_f32x4 plane_scale, near_base, far_base;
-    tl_f32x4 origin;
-    tl_f32x4 shear; // the third is 1
-    float per_depth, reach, corner_error;
-    uint32_t backward;
-    const uint32_t *axes;
-} tl_ray_vectors;
-
-// Axes x, y, z of the shear by the axes along which a direction is largest; z is the lowest of them.
+// Axes x, y, z of the shear by the axes along which a direction is largest; z is the lowest of them. The axes follow
+// each other as x, y, z do.
 static inline const uint32_t *tl_ray_axes(uint32_t largest_mask)
 {
     static const uint32_t axes[8][4] = { { 1, 2, 0, 3 }, { 1, 2, 0, 3 }, { 2, 0, 1, 3 }, { 1, 2, 0, 3 },
@@ -61,85 +52,46 @@ static inline const uint32_t *tl_ray_axes(uint32_t largest_mask)
 }
 
 // Slabs, shear and error of a direction whose largest component is `largest` in all lanes, within the bounds above.
-static inline void tl_ray_find_vectors(const tl_soup *soup, tl_f32x4 origin, tl_f32x4 direction, tl_f32x4 largest,
-                                       tl_ray_vectors *v)
+static TL_ALWAYS_INLINE void tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 origin, tl_f32x4 direction, tl_f32x4 size,
+                                                    tl_f32x4 largest)
 {
-    tl_f32x4 size = tl_f32x4_abs(direction);
     tl_f32x4 smallest = tl_f32x4_mul(largest, tl_f32x4_all(TL_RAY_SMALLEST_INCLINE));
     tl_f32x4 inclined = tl_f32x4_if_less(size, smallest, smallest, direction);
     tl_f32x4 inverse = tl_f32x4_div(tl_f32x4_all(1.0f), inclined);
 
-    tl_f32x4 below = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_load(&soup->bounds_min.x)));
-    tl_f32x4 above = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_load(&soup->bounds_max.x)));
+    tl_f32x4 below = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_load(&job->soup->bounds_min.x)));
+    tl_f32x4 above = tl_f32x4_abs(tl_f32x4_sub(origin, tl_f32x4_load(&job->soup->bounds_max.x)));
     tl_f32x4 reach = tl_f32x4_max_of_three(tl_f32x4_max(below, above));
     tl_f32x4 plane_error = tl_f32x4_mul(tl_f32x4_add(tl_f32x4_abs(origin), reach), tl_f32x4_all(TL_RAY_PLANE_ERROR));
     tl_f32x4 pad = tl_f32x4_mul(tl_f32x4_add(plane_error, tl_f32x4_all(FLT_MIN)), tl_f32x4_abs(inverse));
     tl_f32x4 base = tl_f32x4_mul(origin, inverse);
-    v->plane_scale = inverse;
-    v->near_base = tl_f32x4_sub(tl_f32x4_sub(tl_f32x4_all(0.0f), base), pad);
-    v->far_base = tl_f32x4_sub(pad, base);
-    v->backward = tl_f32x4_signs(inclined);
+    tl_f32x4_store(job->plane_scale, inverse);
+    tl_f32x4_store(job->near_base, tl_f32x4_sub(tl_f32x4_sub(tl_f32x4_all(0.0f), base), pad));
+    tl_f32x4_store(job->far_base, tl_f32x4_sub(pad, base));
+    job->backward = tl_f32x4_signs(inclined);
 
-    v->axes = tl_ray_axes(tl_f32x4_less_equal(largest, size) & 7u);
-    v->per_depth = tl_f32x4_get_z(tl_f32x4_permute(inverse, v->axes));
-    v->origin = tl_f32x4_permute(origin, v->axes);
-    v->shear = tl_f32x4_mul(tl_f32x4_permute(direction, v->axes), tl_f32x4_all(v->per_depth));
-    v->reach = tl_f32x4_get_x(reach);
-    v->corner_error = v->reach * TL_RAY_CORNER_ERROR + FLT_MIN;
-}
-
-static inline void tl_ray_set_axes(tl_ray_job *job, const uint32_t *axes)
-{
+    const uint32_t *axes = tl_ray_axes(tl_f32x4_less_equal(largest, size) & 7u);
     job->axis_x = axes[0];
     job->axis_y = axes[1];
     job->axis_z = axes[2];
+    job->per_depth = tl_f32x4_get_z(tl_f32x4_permute(inverse, axes));
+    tl_f32x4_store(job->leaf_origin, tl_f32x4_permute(origin, axes));
+    tl_f32x4_store(job->shear, tl_f32x4_mul(tl_f32x4_permute(direction, axes), tl_f32x4_all(job->per_depth)));
+    job->reach = tl_f32x4_get_x(reach);
+    job->corner_error = job->reach * TL_RAY_CORNER_ERROR + FLT_MIN;
 }
 
-static inline void tl_ray_store_vectors(tl_ray_job *job, const tl_ray_vectors *v)
-{
-    tl_f32x4_store(job->plane_scale, v->plane_scale);
-    tl_f32x4_store(job->near_base, v->near_base);
-    tl_f32x4_store(job->far_base, v->far_base);
-    job->backward = v->backward;
-    tl_ray_set_axes(job, v->axes);
-    job->shear_x = tl_f32x4_get_x(v->shear);
-    job->shear_y = tl_f32x4_get_y(v->shear);
-    job->per_depth = v->per_depth;
-    job->reach = v->reach;
-    job->corner_error = v->corner_error;
-}
-
-static inline void tl_ray_load_vectors(const tl_ray_job *job, tl_ray_vectors *v)
-{
-    v->plane_scale = tl_f32x4_load(job->plane_scale);
-    v->near_base = tl_f32x4_load(job->near_base);
-    v->far_base = tl_f32x4_load(job->far_base);
-    v->backward = job->backward;
-    v->axes = tl_ray_axes(1u << job->axis_z);
-    v->origin = tl_f32x4_permute(tl_f32x4_load(job->origin.lane), v->axes);
-    v->shear = tl_f32x4_make(job->shear_x, job->shear_y, 1.0f, 0.0f);
-    v->per_depth = job->per_depth;
-    v->reach = job->reach;
-    v->corner_error = job->corner_error;
-}
-
-static inline void tl_ray_begin(tl_ray_job *job, float box_scale, float box_limit)
-{
-    job->is_exact = false;
-    job->triangle = UINT32_MAX;
-    job->box_scale = box_scale;
-    job->box_limit = box_limit;
-}
-
-/// tl_ray_prepare, with what the filters need in registers instead of the job.
-static inline bool tl_ray_prepare_vectors(tl_ray_job *job, const tl_vec3 *origin_point, const tl_vec3 *target_point,
-                                          tl_ray_vectors *v)
+/// tl_ray_prepare.
+static TL_ALWAYS_INLINE bool tl_ray_prepare_inline(tl_ray_job *job, const tl_vec3 *origin_point,
+                                                   const tl_vec3 *target_point)
 {
     tl_f32x4 origin = tl_f32x4_load_three(&origin_point->x);
     tl_f32x4 target = tl_f32x4_load_three(&target_point->x);
     tl_f32x4 direction = job->is_segment ? tl_f32x4_sub(target, origin) : target;
     tl_f32x4_store(job->origin.lane, origin);
     tl_f32x4_store(job->target.lane, target);
+    job->is_exact = false;
+    job->triangle = UINT32_MAX;
     tl_f32x4 size = tl_f32x4_abs(direction);
     tl_f32x4 largest = tl_f32x4_max_of_three(size);
     // A NaN or infinity anywhere fails the first compare.
@@ -147,15 +99,13 @@ static inline bool tl_ray_prepare_vectors(tl_ray_job *job, const tl_vec3 *origin
     bool usual = (tl_f32x4_less_equal(magnitude, tl_f32x4_all(TL_RAY_FILTER_MAX)) &
                   tl_f32x4_less_equal(tl_f32x4_all(TL_RAY_DIRECTION_MIN), largest) &
                   tl_f32x4_less_equal(largest, tl_f32x4_all(TL_RAY_DIRECTION_MAX))) == 15u;
+    job->is_usual = usual;
     if (!usual) {
-        bool possible = tl_ray_prepare_unusual(job);
-        tl_ray_load_vectors(job, v);
-        return possible;
+        return tl_ray_prepare_unusual(job);
     }
-    tl_ray_begin(job, 1.0f, job->t + FLT_MIN);
-    tl_ray_find_vectors(job->soup, origin, direction, largest, v);
-    tl_ray_set_axes(job, v->axes);
-    job->reach = v->reach;
+    job->box_scale = 1.0f;
+    job->box_limit = job->t + FLT_MIN;
+    tl_ray_prepare_filters(job, origin, direction, size, largest);
     return job->t >= 0.0f;
 }
 

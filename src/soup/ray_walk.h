@@ -48,16 +48,9 @@
 // Each node on the way down leaves at most fifteen siblings behind; tl_u32x16_compress_pairs may write sixteen.
 enum { WALK_STACK_SIZE = (TL_SOUP_WIDTH - 1) * TL_SOUP_MAX_DEPTH + TL_SOUP_WIDTH };
 
-// A ray's constants, spread over the lanes.
+// What a visit needs beside the job.
 typedef struct walk_ray {
-    tl_f32x16 scale[3], near_base[3], far_base[3];
     uint32_t near_row[3]; // of tl_soup_node.plane: the ray enters by it and leaves by its neighbour
-    tl_f32x8 origin_x, origin_y, origin_z, shear_x, shear_y, per_depth;
-    float error_per_extent, error_base; // of E in a leaf
-    uint32_t pass_lanes;                // lanes that no float filter may reject: all, or none
-    uint32_t trust_intervals;           // lanes whose intervals of t count: all, or none
-    uint32_t trust_hits;                // lanes in which a sure hit needs no decision: all, or none
-    uint32_t axis_x, axis_y, axis_z;
     const char *nodes;
     const char *leaves;
 } walk_ray;
@@ -98,15 +91,16 @@ static inline walk_entry farther(walk_entry a, walk_entry b)
 }
 
 // Which children the ray enters, and where.
-static TL_ALWAYS_INLINE uint32_t enter_children(const walk_ray *ray, const tl_soup_node *node, float limit,
-                                                uint32_t *t_bits)
+static TL_ALWAYS_INLINE uint32_t enter_children(const tl_ray_job *job, const walk_ray *ray, const tl_soup_node *node,
+                                                float limit, uint32_t *t_bits)
 {
     tl_f32x16 enter[3], leave[3];
     for (uint32_t i = 0; i < 3; i++) {
+        tl_f32x16 scale = tl_f32x16_all(job->plane_scale[i]);
         tl_f32x16 near_plane = tl_f32x16_load(node->plane[ray->near_row[i]]);
         tl_f32x16 far_plane = tl_f32x16_load(node->plane[ray->near_row[i] ^ 1u]);
-        enter[i] = tl_f32x16_mul_add(near_plane, ray->scale[i], ray->near_base[i]);
-        leave[i] = tl_f32x16_mul_add(far_plane, ray->scale[i], ray->far_base[i]);
+        enter[i] = tl_f32x16_mul_add(near_plane, scale, tl_f32x16_all(job->near_base[i]));
+        leave[i] = tl_f32x16_mul_add(far_plane, scale, tl_f32x16_all(job->far_base[i]));
     }
     // The last maximum leaves nothing negative. A negative minimum is below that whichever it is.
     tl_f32x16 first =
@@ -188,37 +182,41 @@ static inline tl_f32x8 cross(tl_f32x8 ax, tl_f32x8 ay, tl_f32x8 bx, tl_f32x8 by)
     return tl_f32x8_sub(tl_f32x8_mul(ax, by), tl_f32x8_mul(ay, bx));
 }
 
-static TL_ALWAYS_INLINE void test_leaf(const walk_ray *ray, const tl_soup_leaf *leaf, uint32_t n, leaf_lanes *lanes)
+static TL_ALWAYS_INLINE void test_leaf(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, leaf_lanes *lanes)
 {
     const float *floats = (const float *)(const void *)((const uint32_t *)(const void *)(leaf + 1) + 2 * (size_t)n);
     size_t stride = 4 * (size_t)n;
-    const float *x = floats + ray->axis_x * stride, *y = floats + ray->axis_y * stride;
-    const float *z = floats + ray->axis_z * stride;
-    tl_f32x8 az = tl_f32x8_sub(tl_f32x8_load_twice(z), ray->origin_z);
-    tl_f32x8 cz = tl_f32x8_sub(tl_f32x8_load_twice(z + n), ray->origin_z);
-    tl_f32x8 ez = tl_f32x8_sub(tl_f32x8_load_halves(z + 2 * n, z + 3 * n), ray->origin_z);
-    tl_f32x8 ax = tl_f32x8_sub(tl_f32x8_load_twice(x), ray->origin_x);
-    tl_f32x8 cx = tl_f32x8_sub(tl_f32x8_load_twice(x + n), ray->origin_x);
-    tl_f32x8 ex = tl_f32x8_sub(tl_f32x8_load_halves(x + 2 * n, x + 3 * n), ray->origin_x);
-    tl_f32x8 ay = tl_f32x8_sub(tl_f32x8_load_twice(y), ray->origin_y);
-    tl_f32x8 cy = tl_f32x8_sub(tl_f32x8_load_twice(y + n), ray->origin_y);
-    tl_f32x8 ey = tl_f32x8_sub(tl_f32x8_load_halves(y + 2 * n, y + 3 * n), ray->origin_y);
-    ax = tl_f32x8_mul_sub_from(ray->shear_x, az, ax);
-    cx = tl_f32x8_mul_sub_from(ray->shear_x, cz, cx);
-    ex = tl_f32x8_mul_sub_from(ray->shear_x, ez, ex);
-    ay = tl_f32x8_mul_sub_from(ray->shear_y, az, ay);
-    cy = tl_f32x8_mul_sub_from(ray->shear_y, cz, cy);
-    ey = tl_f32x8_mul_sub_from(ray->shear_y, ez, ey);
+    const float *x = floats + job->axis_x * stride, *y = floats + job->axis_y * stride;
+    const float *z = floats + job->axis_z * stride;
+    tl_f32x8 origin_x = tl_f32x8_all(job->leaf_origin[0]), origin_y = tl_f32x8_all(job->leaf_origin[1]);
+    tl_f32x8 origin_z = tl_f32x8_all(job->leaf_origin[2]);
+    tl_f32x8 shear_x = tl_f32x8_all(job->shear[0]), shear_y = tl_f32x8_all(job->shear[1]);
+    tl_f32x8 az = tl_f32x8_sub(tl_f32x8_load_twice(z), origin_z);
+    tl_f32x8 cz = tl_f32x8_sub(tl_f32x8_load_twice(z + n), origin_z);
+    tl_f32x8 ez = tl_f32x8_sub(tl_f32x8_load_halves(z + 2 * n, z + 3 * n), origin_z);
+    tl_f32x8 ax = tl_f32x8_sub(tl_f32x8_load_twice(x), origin_x);
+    tl_f32x8 cx = tl_f32x8_sub(tl_f32x8_load_twice(x + n), origin_x);
+    tl_f32x8 ex = tl_f32x8_sub(tl_f32x8_load_halves(x + 2 * n, x + 3 * n), origin_x);
+    tl_f32x8 ay = tl_f32x8_sub(tl_f32x8_load_twice(y), origin_y);
+    tl_f32x8 cy = tl_f32x8_sub(tl_f32x8_load_twice(y + n), origin_y);
+    tl_f32x8 ey = tl_f32x8_sub(tl_f32x8_load_halves(y + 2 * n, y + 3 * n), origin_y);
+    ax = tl_f32x8_mul_sub_from(shear_x, az, ax);
+    cx = tl_f32x8_mul_sub_from(shear_x, cz, cx);
+    ex = tl_f32x8_mul_sub_from(shear_x, ez, ex);
+    ay = tl_f32x8_mul_sub_from(shear_y, az, ay);
+    cy = tl_f32x8_mul_sub_from(shear_y, cz, cy);
+    ey = tl_f32x8_mul_sub_from(shear_y, ez, ey);
     tl_f32x8 ae = cross(ax, ay, ex, ey), ec = cross(ex, ey, cx, cy), ca = cross(cx, cy, ax, ay);
     lanes->extent = leaf->extent;
-    tl_f32x8 error = tl_f32x8_all(ray->error_per_extent * leaf->extent + ray->error_base);
+    tl_f32x8 error = tl_f32x8_all(
+        job->corner_error * (LEAF_EXTENT_TERM * leaf->extent + LEAF_ERROR_TERM * job->corner_error) + FLT_MIN);
     // Signs tell which edges are surely negative, and which surely positive.
     tl_f32x8 below_ae = tl_f32x8_add(ae, error), above_ae = tl_f32x8_sub(error, ae);
     tl_f32x8 below_ec = tl_f32x8_add(ec, error), above_ec = tl_f32x8_sub(error, ec);
     tl_f32x8 below_ca = tl_f32x8_add(ca, error), above_ca = tl_f32x8_sub(error, ca);
     tl_f32x8 below = tl_f32x8_or(tl_f32x8_or(below_ae, below_ec), below_ca);
     tl_f32x8 above = tl_f32x8_or(tl_f32x8_or(above_ae, above_ec), above_ca);
-    uint32_t rejected = tl_f32x8_signs(tl_f32x8_and(below, above)) & ~ray->pass_lanes;
+    uint32_t rejected = tl_f32x8_signs(tl_f32x8_and(below, above));
     lanes->maybe = ~rejected & (((1u << n) - 1u) * 0x11u);
     lanes->sure = tl_f32x8_or(tl_f32x8_and(tl_f32x8_and(below_ae, below_ec), below_ca),
                               tl_f32x8_and(tl_f32x8_and(above_ae, above_ec), above_ca));
@@ -250,14 +248,15 @@ static inline void decide_lane(tl_ray_job *job, const tl_soup_leaf *leaf, uint32
 }
 
 // Settles the lanes of a leaf that may be hit. True: any hit will do, and there is one.
-static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const walk_ray *ray, const leaf_lanes *v,
-                                          const tl_soup_leaf *leaf, uint32_t n, bool any, walk_best *best)
+static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, const tl_soup_leaf *leaf, uint32_t n,
+                                          bool any, walk_best *best)
 {
+    tl_f32x8 per_depth = tl_f32x8_all(job->per_depth);
     tl_f32x8 sum = tl_f32x8_add(tl_f32x8_add(v->ae, v->ec), v->ca);
     tl_f32x8 weighted =
         tl_f32x8_add(tl_f32x8_add(tl_f32x8_mul(v->ae, v->cz), tl_f32x8_mul(v->ec, v->az)), tl_f32x8_mul(v->ca, v->ez));
     tl_f32x8 inverse = tl_f32x8_div(tl_f32x8_all(1.0f), sum);
-    tl_f32x8 t = tl_f32x8_mul(tl_f32x8_mul(weighted, inverse), ray->per_depth);
+    tl_f32x8 t = tl_f32x8_mul(tl_f32x8_mul(weighted, inverse), per_depth);
     tl_f32x8 depth =
         tl_f32x8_max_bits(tl_f32x8_max_bits(tl_f32x8_abs(v->az), tl_f32x8_abs(v->cz)), tl_f32x8_abs(v->ez));
     tl_f32x8 corner_error = tl_f32x8_mul_add(tl_f32x8_add(depth, tl_f32x8_all(v->extent)),
@@ -268,15 +267,16 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const walk_ray *ray, 
     tl_f32x8 ratio = tl_f32x8_abs(tl_f32x8_mul(error, inverse));
     tl_f32x8 spread =
         tl_f32x8_mul_add(ratio, tl_f32x8_all(T_RATIO_TERM * v->extent), tl_f32x8_mul(depth, tl_f32x8_all(T_ROUNDING)));
-    spread = tl_f32x8_mul(spread, tl_f32x8_abs(ray->per_depth));
+    spread = tl_f32x8_mul(spread, tl_f32x8_abs(per_depth));
     tl_f32x8 low = tl_f32x8_sub(t, spread), high = tl_f32x8_add(t, spread);
-    uint32_t clear = tl_f32x8_less(ratio, tl_f32x8_all(1.0f / LANE_MIN_RATIO)) & ray->trust_intervals;
+    uint32_t clear = tl_f32x8_less(ratio, tl_f32x8_all(1.0f / LANE_MIN_RATIO)) & (job->is_usual ? 0xffu : 0u);
     uint32_t gone = tl_f32x8_less(high, tl_f32x8_all(0.0f)) | tl_f32x8_less(tl_f32x8_all(best->limit), low);
     uint32_t maybe = v->maybe & ~(gone & clear);
     if (maybe == 0) {
         return false;
     }
-    uint32_t sure = tl_f32x8_signs(v->sure) & tl_f32x8_less(tl_f32x8_all(0.0f), low) & clear & ray->trust_hits;
+    uint32_t sure =
+        tl_f32x8_signs(v->sure) & tl_f32x8_less(tl_f32x8_all(0.0f), low) & clear & (job->filter == NULL ? 0xffu : 0u);
     float lows[8], highs[8];
     tl_f32x8_store(lows, low);
     tl_f32x8_store(highs, high);
@@ -311,40 +311,8 @@ static TL_ALWAYS_INLINE bool visit_leaf(tl_ray_job *job, const walk_ray *ray, ui
     const tl_soup_leaf *leaf = (const tl_soup_leaf *)(const void *)(ray->leaves + tl_child_leaf_offset(child));
     uint32_t n = tl_child_pair_count(child);
     leaf_lanes lanes;
-    test_leaf(ray, leaf, n, &lanes);
-    return lanes.maybe != 0 && settle_lanes(job, ray, &lanes, leaf, n, any, best);
-}
-
-static TL_ALWAYS_INLINE void spread_ray(const tl_ray_job *job, const tl_ray_vectors *v, walk_ray *ray)
-{
-    ray->scale[0] = tl_f32x16_all(tl_f32x4_get_x(v->plane_scale));
-    ray->scale[1] = tl_f32x16_all(tl_f32x4_get_y(v->plane_scale));
-    ray->scale[2] = tl_f32x16_all(tl_f32x4_get_z(v->plane_scale));
-    ray->near_base[0] = tl_f32x16_all(tl_f32x4_get_x(v->near_base));
-    ray->near_base[1] = tl_f32x16_all(tl_f32x4_get_y(v->near_base));
-    ray->near_base[2] = tl_f32x16_all(tl_f32x4_get_z(v->near_base));
-    ray->far_base[0] = tl_f32x16_all(tl_f32x4_get_x(v->far_base));
-    ray->far_base[1] = tl_f32x16_all(tl_f32x4_get_y(v->far_base));
-    ray->far_base[2] = tl_f32x16_all(tl_f32x4_get_z(v->far_base));
-    for (uint32_t i = 0; i < 3; i++) {
-        ray->near_row[i] = 2 * i + (v->backward >> i & 1u);
-    }
-    ray->origin_x = tl_f32x8_all(tl_f32x4_get_x(v->origin));
-    ray->origin_y = tl_f32x8_all(tl_f32x4_get_y(v->origin));
-    ray->origin_z = tl_f32x8_all(tl_f32x4_get_z(v->origin));
-    ray->shear_x = tl_f32x8_all(tl_f32x4_get_x(v->shear));
-    ray->shear_y = tl_f32x8_all(tl_f32x4_get_y(v->shear));
-    ray->per_depth = tl_f32x8_all(v->per_depth);
-    ray->axis_x = v->axes[0];
-    ray->axis_y = v->axes[1];
-    ray->axis_z = v->axes[2];
-    ray->error_per_extent = v->corner_error * LEAF_EXTENT_TERM;
-    ray->error_base = v->corner_error * (LEAF_ERROR_TERM * v->corner_error) + FLT_MIN;
-    ray->pass_lanes = v->corner_error < INFINITY ? 0u : 0xffu;
-    ray->trust_intervals = job->box_scale == 1.0f ? 0xffu : 0u;
-    ray->trust_hits = job->filter == NULL ? 0xffu : 0u;
-    ray->nodes = (const char *)tl_soup_nodes(job->soup);
-    ray->leaves = (const char *)job->soup + job->soup->leaf_offset;
+    test_leaf(job, leaf, n, &lanes);
+    return lanes.maybe != 0 && settle_lanes(job, &lanes, leaf, n, any, best);
 }
 
 // The end of a walk: false when nothing was hit. Any hit would have ended it before, if it was sure.
@@ -367,12 +335,15 @@ static TL_ALWAYS_INLINE bool report(tl_ray_job *job, const walk_best *best, tl_r
 static TL_ALWAYS_INLINE bool walk(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit)
 {
     const bool any = hit == NULL;
-    tl_ray_vectors vectors;
-    if (!tl_ray_prepare_vectors(job, origin, target, &vectors)) {
+    if (!tl_ray_prepare_inline(job, origin, target)) {
         return false;
     }
     walk_ray ray;
-    spread_ray(job, &vectors, &ray);
+    for (uint32_t i = 0; i < 3; i++) {
+        ray.near_row[i] = 2 * i + (job->backward >> i & 1u);
+    }
+    ray.nodes = (const char *)tl_soup_nodes(job->soup);
+    ray.leaves = (const char *)job->soup + job->soup->leaf_offset;
     walk_entry stack[WALK_STACK_SIZE];
     uint32_t stack_count = 0;
     uint32_t child = 0;
@@ -381,7 +352,7 @@ static TL_ALWAYS_INLINE bool walk(tl_ray_job *job, const tl_vec3 *origin, const 
         if ((child & TL_CHILD_LEAF) == 0) {
             const tl_soup_node *node = (const tl_soup_node *)(const void *)(ray.nodes + child * sizeof(tl_soup_node));
             _Alignas(64) uint32_t t_bits[TL_SOUP_WIDTH]; // one line: a split store is not forwarded
-            uint32_t mask = enter_children(&ray, node, best.limit, t_bits);
+            uint32_t mask = enter_children(job, &ray, node, best.limit, t_bits);
             if (mask != 0) {
                 child = push_children(&ray, t_bits, node, mask, any, stack, &stack_count);
                 continue;
