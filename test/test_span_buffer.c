@@ -80,7 +80,8 @@ static void agrees_with_voxels(void **state)
         TEST_RESULT(tl_span_buffer_begin(&buffer, COLUMNS), TL_OK);
         add(&buffer, items, count);
         uint32_t first[COLUMNS + 1], at = 0;
-        const tl_nav_span *spans = tl_span_buffer_merge(&buffer, first);
+        const tl_nav_span *spans;
+        TEST_RESULT(tl_span_buffer_merge(&buffer, first, &spans), TL_OK);
         for (uint32_t c = 0; c < COLUMNS; c++) {
             tl_nav_span expected[VOXELS];
             uint32_t expected_count = naive_union(items, count, c, buffer.walkable_climb, expected);
@@ -126,7 +127,8 @@ static void reducing_changes_nothing(void **state)
         add(&buffer, items, COUNT);
         TEST_CHECK(buffer.capacity < 10000); // it never held them all
         uint32_t first[FEW + 1];
-        const tl_nav_span *spans = tl_span_buffer_merge(&buffer, first);
+        const tl_nav_span *spans;
+        TEST_RESULT(tl_span_buffer_merge(&buffer, first, &spans), TL_OK);
         for (uint32_t c = 0; c < FEW; c++) {
             TEST_CHECK(first[c + 1] - first[c] == expected_counts[c]);
             TEST_CHECK(memcmp(spans + first[c], expected[c], expected_counts[c] * sizeof *spans) == 0);

@@ -19,14 +19,14 @@ static const double DISPLACEMENT = 1.0 / 1024;
 typedef struct bench {
     tl_voxel_band band;
     tl_span_buffer buffer;
-    double heights[TL_VOXEL_HEIGHTS_PER_COLUMN * WIDTH];
+    double heights[TL_VOXEL_HEIGHTS_PER_CELL * WIDTH];
 } bench;
 
 static void bench_begin(bench *b)
 {
     memset(b, 0, sizeof *b);
     tl_voxel_heights_init(b->heights, WIDTH);
-    b->band = (tl_voxel_band){ WIDTH, 0, HEIGHT, HEIGHT, VOXELS, false, b->heights, &b->buffer };
+    b->band = (tl_voxel_band){ WIDTH, 0, HEIGHT, HEIGHT, VOXELS, false, WIDTH, b->heights, &b->buffer };
     TEST_RESULT(tl_span_buffer_begin(&b->buffer, WIDTH * HEIGHT), TL_OK);
 }
 
@@ -39,7 +39,7 @@ static void voxelize(bench *b, tl_lattice_point p, tl_lattice_point q, tl_lattic
 {
     b->buffer.count = 0;
     TEST_RESULT(tl_voxelize_triangle(&b->band, p, q, r, 1), TL_OK);
-    double clean[TL_VOXEL_HEIGHTS_PER_COLUMN * WIDTH];
+    double clean[TL_VOXEL_HEIGHTS_PER_CELL * WIDTH];
     tl_voxel_heights_init(clean, WIDTH);
     TEST_CHECK(memcmp(clean, b->heights, sizeof clean) == 0);
 }

@@ -2,8 +2,8 @@
 //
 // Allocator defaults and the build arena.
 //
-// The arena is a chain of blocks that grow geometrically: a build's memory is few large allocations, freed by one call.
-// A request larger than the next block gets a block of its own size, so that nothing is cut and little is wasted.
+// The arena is a chain of blocks, each at least an eighth of all before it: a build's memory is few large allocations,
+// freed by one call, and little of it lies idle. A request larger than the next block gets a block of its own size.
 
 #include "base/arena.h"
 
@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_BLOCK_BYTES = 64 * 1024, LARGEST_GROWTH_BYTES = 16 * 1024 * 1024, ARENA_ALIGNMENT = 64 };
+enum { LEAST_BLOCK_BYTES = 16 * 1024, LIVE_SHARE = 8, ARENA_ALIGNMENT = 64 };
 
 struct tl_arena_block {
     tl_arena_block *older;
@@ -136,10 +136,8 @@ static bool add_block(tl_arena *arena, size_t bytes)
     if (bytes > SIZE_MAX - head - ARENA_ALIGNMENT) {
         return false;
     }
-    size_t size = FIRST_BLOCK_BYTES;
-    if (arena->newest != NULL) {
-        size = arena->newest->size < LARGEST_GROWTH_BYTES / 2 ? arena->newest->size * 2 : LARGEST_GROWTH_BYTES;
-    }
+    size_t size = round_up((size_t)(arena->live_bytes / LIVE_SHARE), ARENA_ALIGNMENT);
+    size = size > LEAST_BLOCK_BYTES ? size : LEAST_BLOCK_BYTES;
     if (size < head + bytes) {
         size = round_up(head + bytes, ARENA_ALIGNMENT);
     }

@@ -328,7 +328,14 @@ static tl_result prepare(repair *r)
 {
     tl_contour_work *work = r->work;
     TL_TRY(group_loops(r));
-    uint32_t count = work->vertex_count;
+    uint32_t count = 0; // of the region with the most traced vertices
+    for (uint32_t region = 1; region < r->region_count; region++) {
+        uint32_t sum = 0;
+        for (uint32_t k = r->first_loop[region]; k < r->first_loop[region + 1]; k++) {
+            sum += work->loops[r->loops[k]].count;
+        }
+        count = sum > count ? sum : count;
+    }
     r->dirty = TL_PUSH(work->arena, uint8_t, r->region_count);
     r->mended = TL_PUSH_ZERO(work->arena, uint8_t, work->loop_count);
     r->path_vertices = TL_PUSH(work->arena, uint32_t, count);

@@ -19,9 +19,8 @@
 
 typedef struct tracer {
     tl_contour_work *work;
-    uint8_t *open;         // [span_count] bit d: edge d is on an outline and was not walked yet
-    uint8_t *outline;      // [span_count] bit d: edge d is on an outline
-    uint32_t *first_edge;  // [span_count] outline edges of the floors before this one
+    uint8_t *outline;      // [span_count + 8] bit d: edge d is on an outline; bit d + 4: and was not walked yet
+    uint32_t *first_edge;  // [span_count / 8 + 1] outline edges of the floors before each eighth one
     uint32_t *vertex_of;   // [outline edges] the raw vertex where that edge starts
     uint32_t *floor_of;    // [raw vertices] and its floor
     uint8_t *direction_of; // [raw vertices] and its direction
@@ -34,10 +33,36 @@ static inline bool is_traced(uint32_t region)
     return region != 0 && (region & TL_NAV_BORDER_REGION) == 0;
 }
 
+// Bits set in the low halves of eight bytes.
+static inline uint32_t count_edges(uint64_t outlines)
+{
+    uint64_t bits = outlines & 0x0f0f0f0f0f0f0f0fu;
+    bits -= (bits >> 1) & 0x0505050505050505u;
+    bits = (bits & 0x0303030303030303u) + ((bits >> 2) & 0x0303030303030303u);
+    return (uint32_t)((bits * 0x0101010101010101u) >> 56);
+}
+
+// The outlines of the eight floors from `first` on, the lowest byte first on any machine.
+static inline uint64_t eight_outlines(const tracer *t, uint32_t first)
+{
+    uint64_t outlines = 0;
+    for (uint32_t k = 8; k-- > 0;) {
+        outlines = outlines << 8 | t->outline[first + k];
+    }
+    return outlines;
+}
+
+// Edges are numbered by floor, then by direction; a number for each eighth floor says where to begin counting.
 static inline uint32_t edge_index(const tracer *t, uint32_t floor, uint32_t direction)
 {
-    uint32_t before = t->outline[floor] & ((1u << direction) - 1);
-    return t->first_edge[floor] + (before & 1) + ((before >> 1) & 1) + ((before >> 2) & 1);
+    const uint32_t place = 8 * (floor & 7u) + direction;
+    const uint64_t before = eight_outlines(t, floor & ~7u) & ((UINT64_C(1) << place) - 1);
+    return t->first_edge[floor / 8] + count_edges(before);
+}
+
+static inline bool is_open(const tracer *t, uint32_t floor, uint32_t direction)
+{
+    return (t->outline[floor] >> (direction + 4) & 1) != 0;
 }
 
 // If the floor beside in direction d has another region: marks that on its side, and returns the bit for this one.
@@ -68,17 +93,17 @@ static void mark_outlines(tracer *t)
     }
 }
 
-// Counts them.
+// Counts them, and marks them as not yet walked.
 static uint64_t number_edges(tracer *t)
 {
+    const uint32_t count = t->work->compact->span_count;
     uint64_t edge_count = 0;
-    for (uint32_t i = 0; i < t->work->compact->span_count; i++) {
-        uint32_t mask = t->outline[i];
-        if (mask == 0) {
-            continue; // nobody asks for its edges
-        }
-        t->first_edge[i] = (uint32_t)edge_count;
-        edge_count += (mask & 1) + ((mask >> 1) & 1) + ((mask >> 2) & 1) + (mask >> 3);
+    for (uint32_t i = 0; i < count; i += 8) {
+        t->first_edge[i / 8] = (uint32_t)edge_count;
+        edge_count += count_edges(eight_outlines(t, i));
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        t->outline[i] = (uint8_t)(t->outline[i] * 0x11);
     }
     return edge_count;
 }
@@ -213,7 +238,7 @@ static tl_result walk_loop(tracer *t, uint32_t start, uint32_t start_x, uint32_t
 {
     tl_contour_work *work = t->work;
     uint32_t floor = start, x = start_x, z = start_z, direction = 0, first = work->vertex_count;
-    while ((t->open[start] & (1u << direction)) == 0) {
+    while (!is_open(t, start, direction)) {
         direction++;
     }
     uint32_t start_direction = direction;
@@ -223,10 +248,10 @@ static tl_result walk_loop(tracer *t, uint32_t start, uint32_t start_x, uint32_t
             return TL_ERR_CORRUPT;
         }
         if ((t->outline[floor] & (1u << direction)) != 0) {
-            if ((t->open[floor] & (1u << direction)) == 0) {
+            if (!is_open(t, floor, direction)) {
                 return TL_ERR_CORRUPT;
             }
-            t->open[floor] = (uint8_t)(t->open[floor] & ~(1u << direction));
+            t->outline[floor] = (uint8_t)(t->outline[floor] & ~(0x10u << direction));
             emit_edge(t, work->vertex_count++, floor, direction, x, z);
             direction = (direction + 1) & 3;
         } else {
@@ -257,7 +282,7 @@ static tl_result walk_all(tracer *t)
     for (uint32_t z = 0; z < compact->height; z++) {
         const uint32_t *row = compact->first_span + (size_t)z * compact->width;
         for (uint32_t i = row[0]; i < row[compact->width]; i++) {
-            while (t->open[i] != 0) { // few floors begin a walk, so columns are looked up and not counted along
+            while (t->outline[i] >> 4 != 0) { // few floors begin a walk, so columns are looked up and not counted along
                 TL_TRY(walk_loop(t, i, column_of(row, compact->width, i), z));
             }
         }
@@ -276,34 +301,44 @@ static void find_twins(tracer *t)
     }
 }
 
-tl_result tl_contours_trace(tl_contour_work *work)
+// What only the walk needs, in the scratch arena; what stays, in the work's.
+static tl_result prepare(tracer *t, tl_arena *scratch)
 {
-    const tl_nav_compact *compact = work->compact;
-    tracer t = { .work = work, .steps_left = 4 * (uint64_t)compact->span_count };
-    t.open = TL_PUSH(work->arena, uint8_t, compact->span_count);
-    t.outline = TL_PUSH(work->arena, uint8_t, compact->span_count);
-    t.first_edge = TL_PUSH(work->arena, uint32_t, compact->span_count);
-    if (t.open == NULL || t.outline == NULL || t.first_edge == NULL) {
+    tl_contour_work *work = t->work;
+    const uint32_t count = work->compact->span_count;
+    t->outline = TL_PUSH_ZERO(scratch, uint8_t, (uint64_t)count + 8);
+    t->first_edge = TL_PUSH(scratch, uint32_t, (uint64_t)count / 8 + 1);
+    if (t->outline == NULL || t->first_edge == NULL) {
         return TL_ERR_MEMORY;
     }
-    mark_outlines(&t);
-    memcpy(t.open, t.outline, compact->span_count);
-    uint64_t edge_count = number_edges(&t);
+    mark_outlines(t);
+    uint64_t edge_count = number_edges(t);
     if (edge_count >= UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
-    t.vertex_of = TL_PUSH(work->arena, uint32_t, edge_count);
-    t.floor_of = TL_PUSH(work->arena, uint32_t, edge_count);
-    t.direction_of = TL_PUSH(work->arena, uint8_t, edge_count);
+    t->vertex_of = TL_PUSH(scratch, uint32_t, edge_count);
+    t->floor_of = TL_PUSH(scratch, uint32_t, edge_count);
+    t->direction_of = TL_PUSH(scratch, uint8_t, edge_count);
     work->vertices = TL_PUSH(work->arena, tl_contour_vertex, edge_count + 1); // one ahead while a loop is open
     work->across = TL_PUSH(work->arena, uint32_t, edge_count);
     work->twin = TL_PUSH(work->arena, uint32_t, edge_count);
     work->loop_of = TL_PUSH(work->arena, uint32_t, edge_count);
-    if (t.vertex_of == NULL || t.floor_of == NULL || t.direction_of == NULL || work->vertices == NULL ||
-        work->across == NULL || work->twin == NULL || work->loop_of == NULL) {
-        return TL_ERR_MEMORY;
+    return t->vertex_of && t->floor_of && t->direction_of && work->vertices && work->across && work->twin &&
+                   work->loop_of
+               ? TL_OK
+               : TL_ERR_MEMORY;
+}
+
+tl_result tl_contours_trace(tl_contour_work *work)
+{
+    tracer t = { .work = work, .steps_left = 4 * (uint64_t)work->compact->span_count };
+    tl_arena scratch;
+    tl_arena_init(&scratch, &work->arena->allocator);
+    tl_result result = prepare(&t, &scratch);
+    result = result == TL_OK ? walk_all(&t) : result;
+    if (result == TL_OK) {
+        find_twins(&t);
     }
-    TL_TRY(walk_all(&t));
-    find_twins(&t);
-    return TL_OK;
+    tl_arena_free(&scratch);
+    return result;
 }

@@ -17,28 +17,28 @@
 #include <string.h>
 
 enum {
-    BAND_COLUMNS = 16384, // 4 items each, twice, of 8 bytes: 1 MB
-    BANDS_PER_WORKER = 4  // between two calls of the progress hook
+    BAND_COLUMNS = 4096, // with 4 items each, of 8 bytes, and as much to sort them: 256 KB
+    BANDS_PER_WORKER = 4 // between two calls of the progress hook
 };
 
 struct tl_raster_worker {
     tl_span_buffer buffer;
-    double *heights;      ///< [TL_VOXEL_HEIGHTS_PER_COLUMN * width]
+    double *heights;      ///< [TL_VOXEL_HEIGHTS_PER_CELL * line]
     uint32_t *first_span; ///< [first_capacity]
     uint32_t first_capacity;
 };
 
 static tl_result prepare_worker(const tl_rasterizer *r, tl_raster_worker *worker, uint32_t columns)
 {
-    const uint64_t width = r->config->width;
     if (worker->heights == NULL) {
         worker->buffer.allocator = r->allocator;
         worker->buffer.walkable_climb = r->config->walkable_climb;
-        worker->heights = tl_allocate_array(r->allocator, TL_VOXEL_HEIGHTS_PER_COLUMN * width, sizeof(double));
+        worker->heights =
+            tl_allocate_array(r->allocator, TL_VOXEL_HEIGHTS_PER_CELL * (uint64_t)r->line, sizeof(double));
         if (worker->heights == NULL) {
             return TL_ERR_MEMORY;
         }
-        tl_voxel_heights_init(worker->heights, r->config->width);
+        tl_voxel_heights_init(worker->heights, r->line);
     }
     if (worker->first_capacity < columns + 1) {
         tl_release_array(r->allocator, worker->first_span, worker->first_capacity, sizeof *worker->first_span);
@@ -82,13 +82,14 @@ tl_result tl_rasterizer_run(tl_rasterizer *rasterizer, uint32_t band_index, uint
     end += config->height - end < r->margin ? config->height - end : r->margin;
     TL_TRY(prepare_worker(r, worker, config->width * (end - begin)));
 
-    tl_voxel_band band = { config->width,         begin,
-                           end - begin,           config->height,
-                           config->height_voxels, config->border_size == 0,
-                           worker->heights,       &worker->buffer };
+    tl_voxel_band band = {
+        config->width, begin,           end - begin,    config->height, config->height_voxels, config->border_size == 0,
+        r->line,       worker->heights, &worker->buffer
+    };
     tl_triangle_list list = r->band_count > 1 ? tl_triangle_bins_get(&r->bins, band_index) : r->list;
     TL_TRY(voxelize_list(r, &band, list));
-    tl_nav_span *spans = tl_span_buffer_merge(&worker->buffer, worker->first_span);
+    const tl_nav_span *spans;
+    TL_TRY(tl_span_buffer_merge(&worker->buffer, worker->first_span, &spans));
     *rows_out = (tl_span_rows){ spans, worker->first_span, config->width, config->height, begin };
     return TL_OK;
 }
@@ -96,9 +97,14 @@ tl_result tl_rasterizer_run(tl_rasterizer *rasterizer, uint32_t band_index, uint
 static tl_result init(tl_rasterizer *r, const tl_host *host)
 {
     const tl_nav_config *config = r->config;
-    uint32_t rows = BAND_COLUMNS / config->width;
-    r->rows_per_band = rows > 0 ? rows : 1;
+    // Bands of equal height, of about so many columns: a tile that is a little larger is not cut in two.
+    const uint64_t columns = (uint64_t)config->width * config->height;
+    const uint64_t wanted = (columns + BAND_COLUMNS / 2) / BAND_COLUMNS;
+    const uint32_t bands = wanted < 1 ? 1 : wanted < config->height ? (uint32_t)wanted : config->height;
+    r->rows_per_band = (config->height - 1) / bands + 1;
     r->band_count = (config->height - 1) / r->rows_per_band + 1;
+    const uint64_t rows_seen = (uint64_t)r->rows_per_band + 2 * (uint64_t)r->margin;
+    r->line = rows_seen > config->width ? (uint32_t)rows_seen : config->width;
     r->worker_count = tl_worker_count(host);
     r->map = tl_lattice_map_make(&config->lattice, config->cell_size, config->cell_height);
     r->workers = tl_allocate_array(r->allocator, r->worker_count, sizeof *r->workers);
@@ -137,8 +143,7 @@ void tl_rasterizer_free(tl_rasterizer *rasterizer)
     for (uint32_t w = 0; r->workers != NULL && w < r->worker_count; w++) {
         tl_raster_worker *worker = &r->workers[w];
         tl_span_buffer_free(&worker->buffer);
-        tl_release_array(r->allocator, worker->heights, TL_VOXEL_HEIGHTS_PER_COLUMN * (uint64_t)r->config->width,
-                         sizeof(double));
+        tl_release_array(r->allocator, worker->heights, TL_VOXEL_HEIGHTS_PER_CELL * (uint64_t)r->line, sizeof(double));
         tl_release_array(r->allocator, worker->first_span, worker->first_capacity, sizeof *worker->first_span);
     }
     tl_release_array(r->allocator, r->workers, r->worker_count, sizeof *r->workers);

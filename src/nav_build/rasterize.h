@@ -21,6 +21,7 @@ typedef struct tl_rasterizer {
     uint32_t margin;
     uint32_t rows_per_band;
     uint32_t band_count;
+    uint32_t line;             ///< columns or rows, the more: of a band with its margins
     tl_raster_worker *workers; ///< [worker_count]
     uint32_t worker_count;
     const tl_allocator *allocator;

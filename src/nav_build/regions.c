@@ -32,14 +32,24 @@ static void paint_border(const tl_nav_compact *compact, uint32_t *region)
     }
 }
 
+// Watershed basins. What only they need is given back before the regions are merged.
+static tl_result divide_by_watershed(tl_region_work *work)
+{
+    const tl_arena_mark mark = tl_arena_get_mark(work->arena);
+    TL_TRY(tl_regions_watershed(work));
+    tl_arena_rollback(work->arena, mark);
+    TL_TRY(tl_regions_split_overlaps(work));
+    tl_arena_rollback(work->arena, mark);
+    return TL_OK;
+}
+
 static tl_result partition(const tl_nav_config *config, tl_region_work *work)
 {
     uint32_t merge_area = config->merge_region_area;
     merge_area = merge_area < TL_REGIONS_NO_MERGE ? merge_area : TL_REGIONS_NO_MERGE - 1;
     switch (config->partition) {
     case TL_NAV_WATERSHED:
-        TL_TRY(tl_regions_watershed(work));
-        TL_TRY(tl_regions_split_overlaps(work));
+        TL_TRY(divide_by_watershed(work));
         return tl_regions_filter_and_merge(work, config->min_region_area, merge_area);
     case TL_NAV_MONOTONE:
         TL_TRY(tl_regions_monotone(work));
@@ -51,8 +61,8 @@ static tl_result partition(const tl_nav_config *config, tl_region_work *work)
     return TL_ERR_ARGUMENT;
 }
 
-tl_result tl_nav_build_regions(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact,
-                               tl_report *report_out)
+tl_result tl_nav_divide_regions(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact,
+                                bool keep_distance, tl_report *report_out)
 {
     TL_ASSERT(config != NULL && compact != NULL);
     tl_report_begin(report_out, "regions");
@@ -77,7 +87,7 @@ tl_result tl_nav_build_regions(const tl_nav_config *config, const tl_host *host,
     }
     tl_arena arena;
     tl_arena_init(&arena, host != NULL ? host->allocator : NULL);
-    tl_region_work work = { compact, &arena, region, 1, { 0, 0, 0, 0 } };
+    tl_region_work work = { compact, &arena, region, 1, { 0, 0, 0, 0 }, keep_distance ? NULL : compact->distance };
     tl_result result = partition(config, &work);
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + (uint64_t)compact->span_count * sizeof *region;
@@ -96,5 +106,15 @@ tl_result tl_nav_build_regions(const tl_nav_config *config, const tl_host *host,
     compact->region = region;
     compact->region_count = work.region_count;
     compact->region_stats = work.stats;
+    if (!keep_distance) {
+        tl_release_array(compact->allocator, compact->distance, compact->span_count, sizeof *compact->distance);
+        compact->distance = NULL;
+    }
     return TL_OK;
+}
+
+tl_result tl_nav_build_regions(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact,
+                               tl_report *report_out)
+{
+    return tl_nav_divide_regions(config, host, compact, true, report_out);
 }

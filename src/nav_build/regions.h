@@ -16,7 +16,13 @@ typedef struct tl_region_work {
     uint32_t *region;      ///< [span_count]
     uint32_t region_count; ///< largest id without the border's + 1
     tl_nav_region_stats stats;
+    uint16_t *scrap; ///< compact->distance where it may be overwritten, else NULL
 } tl_region_work;
+
+/// tl_nav_build_regions that frees the distance field as soon as it is no longer needed: with `keep_distance` false it
+/// is used up on the way.
+tl_result tl_nav_divide_regions(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact,
+                                bool keep_distance, tl_report *report);
 
 /// Watershed: floods downhill from the floors that are farthest from any border.
 tl_result tl_regions_watershed(tl_region_work *work);

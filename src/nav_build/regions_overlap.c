@@ -7,16 +7,20 @@
 // is flooded again, breadth first from its lowest index, and the flood stays out of columns that it already holds.
 // What is left becomes further regions. Regions that do not overlap are not touched.
 
+#include "nav_build/column.h"
 #include "nav_build/links.h"
 #include "nav_build/regions.h"
 
 #include <string.h>
 
+typedef struct placed_floor {
+    uint32_t floor, column;
+} placed_floor;
+
 typedef struct splitter {
     const tl_nav_compact *compact;
     uint32_t *region;
-    uint32_t *column_of; // [span_count]
-    uint32_t *queue;     // [span_count]
+    placed_floor *queue; // room for all floors of regions that overlap
 } splitter;
 
 // Marks the regions that have two floors in a column, and returns their number. `last_column` is zeroed.
@@ -41,9 +45,8 @@ static uint32_t find_overlaps(const tl_region_work *work, uint32_t *last_column,
     return found;
 }
 
-static bool column_holds(const splitter *s, uint32_t floor, uint32_t region)
+static bool column_holds(const splitter *s, uint32_t column, uint32_t region)
 {
-    uint32_t column = s->column_of[floor];
     for (uint32_t i = s->compact->first_span[column]; i < s->compact->first_span[column + 1]; i++) {
         if (s->region[i] == region) {
             return true;
@@ -52,18 +55,19 @@ static bool column_holds(const splitter *s, uint32_t floor, uint32_t region)
     return false;
 }
 
-static void flood_piece(splitter *s, uint32_t seed, uint32_t piece)
+static void flood_piece(splitter *s, placed_floor seed, uint32_t piece)
 {
-    uint32_t whole = s->region[seed], head = 0, tail = 0;
-    s->region[seed] = piece;
+    uint32_t whole = s->region[seed.floor], head = 0, tail = 0;
+    s->region[seed.floor] = piece;
     s->queue[tail++] = seed;
     while (head < tail) {
-        const tl_links links = tl_nav_links(s->compact, s->queue[head++]);
-        for (int d = 0; d < 4; d++) {
-            const uint32_t beside = links.to[d];
-            if (beside != TL_NAV_NO_SPAN && s->region[beside] == whole && !column_holds(s, beside, piece)) {
-                s->region[beside] = piece;
-                s->queue[tail++] = beside;
+        const placed_floor from = s->queue[head++];
+        const tl_links links = tl_nav_links(s->compact, from.floor);
+        for (uint32_t d = 0; d < 4; d++) {
+            const placed_floor to = { links.to[d], from.column + tl_nav_column_step(s->compact->width, d) };
+            if (to.floor != TL_NAV_NO_SPAN && s->region[to.floor] == whole && !column_holds(s, to.column, piece)) {
+                s->region[to.floor] = piece;
+                s->queue[tail++] = to;
             }
         }
     }
@@ -72,22 +76,21 @@ static void flood_piece(splitter *s, uint32_t seed, uint32_t piece)
 static tl_result split(tl_region_work *work, const uint8_t *overlaps)
 {
     const tl_nav_compact *compact = work->compact;
-    splitter s = { compact, work->region, NULL, NULL };
-    s.column_of = TL_PUSH(work->arena, uint32_t, compact->span_count);
-    s.queue = TL_PUSH(work->arena, uint32_t, compact->span_count);
-    if (s.column_of == NULL || s.queue == NULL) {
+    const uint32_t whole_count = work->region_count;
+    uint32_t floors = 0;
+    for (uint32_t i = 0; i < compact->span_count; i++) {
+        floors += work->region[i] < whole_count && overlaps[work->region[i]] != 0;
+    }
+    splitter s = { compact, work->region, TL_PUSH(work->arena, placed_floor, floors) };
+    if (s.queue == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t c = 0; c < compact->width * compact->height; c++) {
         for (uint32_t i = compact->first_span[c]; i < compact->first_span[c + 1]; i++) {
-            s.column_of[i] = c;
-        }
-    }
-    uint32_t whole_count = work->region_count;
-    for (uint32_t i = 0; i < compact->span_count; i++) {
-        uint32_t region = work->region[i];
-        if (region != 0 && region < whole_count && overlaps[region] != 0) {
-            flood_piece(&s, i, work->region_count++);
+            uint32_t region = work->region[i];
+            if (region != 0 && region < whole_count && overlaps[region] != 0) {
+                flood_piece(&s, (placed_floor){ i, c }, work->region_count++);
+            }
         }
     }
     return TL_OK;

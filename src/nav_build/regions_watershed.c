@@ -8,19 +8,23 @@
 // level's growth settles the seam between them evenly.
 // Source: Vincent, Soille, "Watersheds in digital spaces", 1991; Mononen, Recast (levels, growth limit, seam rule).
 //
-// Why it is fast here: all floors are sorted by level once, and wait in that one array. Growth keeps a frontier (the
-// floors that joined in the last step), where Recast looks at each waiting floor in each step and gathers the field
-// anew every eight levels. Steps are simultaneous in both, so the regions are the same, but for two things: leftovers
-// of a level always seed before newer floors, and a field without any inner floor (corridors of one or two columns) is
-// divided too, where Recast drops it.
+// Why it is fast here: floors are sorted by level, a few levels at a time, and wait in that one array. Growth keeps a
+// frontier (the floors that joined in the last step), where Recast looks at each waiting floor in each step and gathers
+// the field anew every eight levels. Steps are simultaneous in both, so the regions are the same, but for two things:
+// leftovers of a level always seed before newer floors, and a field without any inner floor (corridors of one or two
+// columns) is divided too, where Recast drops it.
 
 #include "nav_build/regions.h"
 
 #include "base/assert.h"
 #include "nav_build/links.h"
 
+#include <string.h>
+
 enum {
-    GROWTH_STEPS = 8, // of growth at each level but the last; what is left is a new basin
+    GROWTH_STEPS = 8,      // of growth at each level but the last; what is left is a new basin
+    FIELDS_SHARE = 8,      // at least an eighth of the field's floors is sorted at a time,
+    SORTED_AT_ONCE = 16384 // and at least so many
 };
 
 // The region of a floor that joins it at the end of this step: not yet interior, and no longer none.
@@ -28,18 +32,49 @@ enum {
 // Steps from a region's core are counted up to here. Beyond it the seam is drawn by direction alone.
 #define FARTHEST 0xffffu
 
+// Floors that wait for something. Grows as needed: mostly it holds one contour line of the field.
+typedef struct floor_list {
+    uint32_t *floors;
+    uint32_t count, capacity;
+} floor_list;
+
 typedef struct watershed {
     const tl_nav_compact *compact;
+    const tl_allocator *allocator;
     uint32_t *region;
-    uint16_t *reach;    // [span_count] growth steps from the region's flooded core
-    uint32_t *order;    // walkable floors by level, highest first, then by index
-    uint32_t *level_at; // [level_count + 1] level k, from the highest, begins at order[level_at[k]]
+    // [span_count] growth steps from the region's flooded core. Of floors with a region only, and the distances of
+    // those are no longer asked for: where it may be, it is the same array.
+    uint16_t *reach;
+    floor_list order;     // walkable floors of some levels, highest first, then by index; before them, what is left
+    uint32_t *level_size; // [level_count] floors of level k, counted from the highest
+    uint32_t *level_end;  // [level_count] where it ends in the order
     uint32_t level_count;
-    uint32_t *joining;  // floors that join in this step
-    uint32_t *frontier; // floors that joined in the last step; the stack while flooding
-    uint32_t joining_count, frontier_count;
+    floor_list joining;  // floors that join in this step
+    floor_list frontier; // floors that joined in the last step; the stack while flooding
     uint32_t next_region;
 } watershed;
+
+// Room for `count` floors in all.
+static tl_result reserve(const watershed *w, floor_list *list, uint64_t count)
+{
+    if (count <= list->capacity) {
+        return TL_OK;
+    }
+    const uint64_t most = w->compact->span_count, doubled = 2 * (uint64_t)list->capacity;
+    uint64_t capacity = count > doubled ? count : doubled;
+    capacity = capacity < most ? capacity : most;
+    uint32_t *grown = tl_allocate_array(w->allocator, capacity, sizeof *grown);
+    if (grown == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    if (list->count > 0) {
+        memcpy(grown, list->floors, list->count * sizeof *grown);
+    }
+    tl_release_array(w->allocator, list->floors, list->capacity, sizeof *list->floors);
+    list->floors = grown;
+    list->capacity = (uint32_t)capacity;
+    return TL_OK;
+}
 
 static inline bool is_interior(uint32_t region)
 {
@@ -64,27 +99,28 @@ static void look_for_region(watershed *w, uint32_t floor)
     if (region != 0) {
         w->reach[floor] = (uint16_t)(nearest < FARTHEST ? nearest + 1 : FARTHEST);
         w->region[floor] = JOINING | region;
-        w->joining[w->joining_count++] = floor;
+        w->joining.floors[w->joining.count++] = floor;
     }
 }
 
 // All that were found in this step join at once, so the result does not depend on the order of looking.
 static void join(watershed *w)
 {
-    for (uint32_t k = 0; k < w->joining_count; k++) {
-        w->region[w->joining[k]] &= ~JOINING;
+    for (uint32_t k = 0; k < w->joining.count; k++) {
+        w->region[w->joining.floors[k]] &= ~JOINING;
     }
-    uint32_t *joined = w->joining;
+    const floor_list joined = w->joining;
     w->joining = w->frontier;
     w->frontier = joined;
-    w->frontier_count = w->joining_count;
-    w->joining_count = 0;
+    w->joining.count = 0;
 }
 
-static void look_beside_frontier(watershed *w, uint32_t level)
+static tl_result look_beside_frontier(watershed *w, uint32_t level)
 {
-    for (uint32_t k = 0; k < w->frontier_count; k++) {
-        uint32_t floor = w->frontier[k];
+    const uint64_t most = w->compact->span_count, beside_all = 4 * (uint64_t)w->frontier.count;
+    TL_TRY(reserve(w, &w->joining, beside_all < most ? beside_all : most));
+    for (uint32_t k = 0; k < w->frontier.count; k++) {
+        uint32_t floor = w->frontier.floors[k];
         const tl_links links = tl_nav_links(w->compact, floor);
         uint8_t area = w->compact->area[floor];
         for (int d = 0; d < 4; d++) {
@@ -95,23 +131,29 @@ static void look_beside_frontier(watershed *w, uint32_t level)
             }
         }
     }
+    return TL_OK;
 }
 
 // Grows the regions over the waiting floors: order[begin, end), all at `level` or above it.
-static void grow(watershed *w, uint32_t begin, uint32_t end, uint32_t level)
+static tl_result grow(watershed *w, uint32_t begin, uint32_t end, uint32_t level)
 {
+    w->joining.count = w->frontier.count = 0;
     for (uint32_t k = begin; k < end; k++) {
-        if (w->region[w->order[k]] == 0) {
-            look_for_region(w, w->order[k]);
+        if (w->joining.count == w->joining.capacity) {
+            TL_TRY(reserve(w, &w->joining, (uint64_t)w->joining.count + 1024));
+        }
+        if (w->region[w->order.floors[k]] == 0) {
+            look_for_region(w, w->order.floors[k]);
         }
     }
     // Terminates: each step takes at least one floor from those that wait.
-    for (uint32_t step = 1; w->joining_count > 0; step++) {
+    for (uint32_t step = 1; w->joining.count > 0; step++) {
         join(w);
         if (level == 0 || step < GROWTH_STEPS) {
-            look_beside_frontier(w, level);
+            TL_TRY(look_beside_frontier(w, level));
         }
     }
+    return TL_OK;
 }
 
 // Whether another region than `own` lies beside the floor, or round a corner from it.
@@ -136,35 +178,40 @@ static bool touches_other_region(const watershed *w, uint32_t floor, uint32_t ow
     return false;
 }
 
-// Floods from a seed over floors at or above `level`. False: the seed itself touches another region, nothing is taken.
-static bool flood(watershed *w, uint32_t seed, uint32_t level)
+// Floods from a seed over floors at or above `level`. Takes nothing when the seed itself touches another region.
+static tl_result flood(watershed *w, uint32_t seed, uint32_t level, uint32_t *taken_out)
 {
     const tl_nav_compact *compact = w->compact;
     uint32_t own = w->next_region, taken = 0;
     // A floor on the stack has the region, and so is pushed once: the stack holds at most span_count.
-    uint32_t *stack = w->frontier, stack_count = 0;
-    stack[stack_count++] = seed;
+    floor_list *stack = &w->frontier;
+    stack->count = 0;
+    TL_TRY(reserve(w, stack, 1));
+    stack->floors[stack->count++] = seed;
     w->region[seed] = own;
-    w->reach[seed] = 0;
-    while (stack_count > 0) {
-        uint32_t floor = stack[--stack_count];
+    while (stack->count > 0) {
+        uint32_t floor = stack->floors[--stack->count];
         if (touches_other_region(w, floor, own)) {
             w->region[floor] = 0;
             continue;
         }
         taken++;
+        w->reach[floor] = 0;
+        if (stack->capacity - stack->count < 4 && stack->capacity < compact->span_count) {
+            TL_TRY(reserve(w, stack, (uint64_t)stack->capacity + 4));
+        }
         const tl_links links = tl_nav_links(compact, floor);
         for (int d = 0; d < 4; d++) {
             uint32_t beside = links.to[d];
             if (beside != TL_NAV_NO_SPAN && w->region[beside] == 0 && compact->distance[beside] >= level &&
                 compact->area[beside] == compact->area[floor]) {
                 w->region[beside] = own;
-                w->reach[beside] = 0;
-                stack[stack_count++] = beside;
+                stack->floors[stack->count++] = beside;
             }
         }
     }
-    return taken > 0;
+    *taken_out = taken;
+    return TL_OK;
 }
 
 static uint32_t level_of(const watershed *w, uint32_t floor)
@@ -173,32 +220,58 @@ static uint32_t level_of(const watershed *w, uint32_t floor)
     return level < w->level_count ? w->level_count - 1 - level : 0;
 }
 
-// Counting sort of the walkable floors, without those of the tile's border.
-static tl_result sort_by_level(watershed *w, tl_arena *arena)
+// Whether a floor waits for a region; those of the tile's border never do.
+static inline bool waits(const watershed *w, uint32_t floor)
 {
-    const tl_nav_compact *compact = w->compact;
-    uint32_t half = (compact->max_distance + 1u) / 2;
+    return w->region[floor] == 0 && w->compact->area[floor] != TL_NAV_NULL_AREA;
+}
+
+// How many floors each level has, at level_size[level].
+static tl_result measure_levels(watershed *w, tl_arena *arena)
+{
+    uint32_t half = (w->compact->max_distance + 1u) / 2;
     w->level_count = half > 0 ? half : 1;
-    w->level_at = TL_PUSH_ZERO(arena, uint32_t, w->level_count + 2);
-    if (w->level_at == NULL) {
+    w->level_size = TL_PUSH_ZERO(arena, uint32_t, w->level_count);
+    w->level_end = TL_PUSH(arena, uint32_t, w->level_count);
+    if (w->level_size == NULL || w->level_end == NULL) {
         return TL_ERR_MEMORY;
     }
-    uint32_t *next = w->level_at + 1; // becomes the begin of each level, one place ahead of where it is counted
-    for (uint32_t i = 0; i < compact->span_count; i++) {
-        if (compact->area[i] != TL_NAV_NULL_AREA && w->region[i] == 0) {
-            next[level_of(w, i) + 1]++;
+    for (uint32_t i = 0; i < w->compact->span_count; i++) {
+        if (waits(w, i)) {
+            w->level_size[level_of(w, i)]++;
         }
     }
-    for (uint32_t k = 1; k <= w->level_count; k++) {
-        next[k] += next[k - 1];
+    return TL_OK;
+}
+
+// Appends the floors that wait in the levels [first, end) to the order: a counting sort.
+static tl_result sort_levels(watershed *w, uint32_t first, uint32_t end)
+{
+    const uint32_t count = w->compact->span_count;
+    uint32_t *next = w->level_end; // where the next floor of a level goes, then where the level ends
+    memset(next + first, 0, (end - first) * sizeof *next);
+    for (uint32_t i = 0; i < count; i++) {
+        if (waits(w, i)) {
+            const uint32_t level = level_of(w, i);
+            if (level < end) { // floors of earlier levels that still wait are in the order already
+                next[level] += level >= first;
+            }
+        }
     }
-    w->order = TL_PUSH(arena, uint32_t, next[w->level_count]);
-    if (w->order == NULL) {
-        return TL_ERR_MEMORY;
+    uint32_t position = w->order.count;
+    for (uint32_t k = first; k < end; k++) {
+        const uint32_t size = next[k];
+        next[k] = position;
+        position += size;
     }
-    for (uint32_t i = 0; i < compact->span_count; i++) {
-        if (compact->area[i] != TL_NAV_NULL_AREA && w->region[i] == 0) {
-            w->order[next[level_of(w, i)]++] = i;
+    TL_TRY(reserve(w, &w->order, position));
+    w->order.count = position;
+    for (uint32_t i = 0; i < count; i++) {
+        if (waits(w, i)) {
+            const uint32_t level = level_of(w, i);
+            if (level >= first && level < end) {
+                w->order.floors[next[level]++] = i;
+            }
         }
     }
     return TL_OK;
@@ -209,46 +282,78 @@ static uint32_t keep_leftovers(watershed *w, uint32_t begin, uint32_t end)
 {
     uint32_t kept = end;
     for (uint32_t k = end; k-- > begin;) {
-        if (w->region[w->order[k]] == 0) {
-            w->order[--kept] = w->order[k];
+        if (w->region[w->order.floors[k]] == 0) {
+            w->order.floors[--kept] = w->order.floors[k];
         }
     }
     return kept;
 }
 
-static void run_levels(watershed *w)
+// One past the last of the levels from `first` on that are sorted at a time: few passes over the field, and an order
+// that is small beside it.
+static uint32_t last_level(const watershed *w, uint32_t first)
 {
-    uint32_t begin = 0;
-    for (uint32_t k = 0; k < w->level_count; k++) {
-        uint32_t level = 2 * (w->level_count - 1 - k);
-        uint32_t flood_level = level >= 2 ? level - 2 : 0;
-        uint32_t end = w->level_at[k + 1];
-        grow(w, begin, end, level);
-        for (uint32_t j = begin; j < end; j++) {
-            if (w->region[w->order[j]] == 0 && flood(w, w->order[j], flood_level)) {
-                w->next_region++;
-            }
-        }
-        begin = keep_leftovers(w, begin, end);
+    const uint32_t share = w->compact->span_count / FIELDS_SHARE,
+                   most = share > SORTED_AT_ONCE ? share : SORTED_AT_ONCE;
+    uint32_t end = first + 1;
+    for (uint64_t sum = w->level_size[first]; end < w->level_count && sum + w->level_size[end] <= most; end++) {
+        sum += w->level_size[end];
     }
-    grow(w, begin, w->level_at[w->level_count], 0);
+    return end;
+}
+
+static tl_result run_level(watershed *w, uint32_t *begin, uint32_t k)
+{
+    const uint32_t level = 2 * (w->level_count - 1 - k), flood_level = level >= 2 ? level - 2 : 0;
+    const uint32_t end = w->level_end[k];
+    TL_TRY(grow(w, *begin, end, level));
+    for (uint32_t j = *begin; j < end; j++) {
+        uint32_t taken = 0;
+        if (w->region[w->order.floors[j]] == 0) {
+            TL_TRY(flood(w, w->order.floors[j], flood_level, &taken));
+        }
+        w->next_region += taken > 0;
+    }
+    *begin = keep_leftovers(w, *begin, end);
+    return TL_OK;
+}
+
+static tl_result run_levels(watershed *w)
+{
+    for (uint32_t k = 0; k < w->level_count;) {
+        const uint32_t end = last_level(w, k);
+        uint32_t begin = 0;
+        TL_TRY(sort_levels(w, k, end));
+        for (; k < end; k++) {
+            TL_TRY(run_level(w, &begin, k));
+        }
+        w->order.count -= begin;
+        memmove(w->order.floors, w->order.floors + begin, w->order.count * sizeof *w->order.floors);
+    }
+    return grow(w, 0, w->order.count, 0);
+}
+
+static void free_list(const watershed *w, floor_list *list)
+{
+    tl_release_array(w->allocator, list->floors, list->capacity, sizeof *list->floors);
 }
 
 tl_result tl_regions_watershed(tl_region_work *work)
 {
     watershed w = { 0 };
     w.compact = work->compact;
+    w.allocator = &work->arena->allocator;
     w.region = work->region;
     w.next_region = 1;
-    TL_TRY(sort_by_level(&w, work->arena));
-    uint32_t count = work->compact->span_count;
-    w.reach = TL_PUSH_ZERO(work->arena, uint16_t, count);
-    w.joining = TL_PUSH(work->arena, uint32_t, count);
-    w.frontier = TL_PUSH(work->arena, uint32_t, count);
-    if (w.reach == NULL || w.joining == NULL || w.frontier == NULL) {
+    w.reach = work->scrap != NULL ? work->scrap : TL_PUSH(work->arena, uint16_t, work->compact->span_count);
+    if (w.reach == NULL) {
         return TL_ERR_MEMORY;
     }
-    run_levels(&w);
+    TL_TRY(measure_levels(&w, work->arena));
+    tl_result result = run_levels(&w);
+    free_list(&w, &w.order);
+    free_list(&w, &w.joining);
+    free_list(&w, &w.frontier);
     work->region_count = w.next_region;
-    return TL_OK;
+    return result;
 }

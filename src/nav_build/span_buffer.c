@@ -34,10 +34,11 @@ enum {
     VOXELS_PER_DRAWN_ITEM = 32 // a drawing's cost is about an item's a machine word
 };
 
-static void release_items(tl_span_buffer *buffer)
+static void release_sorted(tl_span_buffer *buffer)
 {
-    tl_release_array(buffer->allocator, buffer->items < buffer->sorted ? buffer->items : buffer->sorted,
-                     2 * buffer->capacity, sizeof(tl_span_item));
+    tl_release_array(buffer->allocator, buffer->sorted, buffer->sorted_capacity, sizeof *buffer->sorted);
+    buffer->sorted = NULL;
+    buffer->sorted_capacity = 0;
 }
 
 static tl_result grow(tl_span_buffer *buffer, uint64_t capacity)
@@ -46,16 +47,16 @@ static tl_result grow(tl_span_buffer *buffer, uint64_t capacity)
     if (capacity > UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
-    tl_span_item *items = tl_allocate_array(buffer->allocator, 2 * capacity, sizeof *items);
+    release_sorted(buffer); // made anew when it is needed again
+    tl_span_item *items = tl_allocate_array(buffer->allocator, capacity, sizeof *items);
     if (items == NULL) {
         return TL_ERR_MEMORY;
     }
     if (buffer->capacity > 0) {
         memcpy(items, buffer->items, buffer->count * sizeof *items);
-        release_items(buffer);
+        tl_release_array(buffer->allocator, buffer->items, buffer->capacity, sizeof *items);
     }
     buffer->items = items;
-    buffer->sorted = items + capacity;
     buffer->capacity = capacity;
     return TL_OK;
 }
@@ -80,11 +81,10 @@ tl_result tl_span_buffer_begin(tl_span_buffer *buffer, uint32_t column_count)
 
 void tl_span_buffer_free(tl_span_buffer *buffer)
 {
-    if (buffer->capacity > 0) {
-        release_items(buffer);
-    }
+    release_sorted(buffer);
+    tl_release_array(buffer->allocator, buffer->items, buffer->capacity, sizeof *buffer->items);
     tl_release_array(buffer->allocator, buffer->ends, buffer->end_capacity, sizeof *buffer->ends);
-    buffer->items = buffer->sorted = NULL;
+    buffer->items = NULL;
     buffer->ends = NULL;
     buffer->count = buffer->capacity = 0;
     buffer->end_capacity = 0;
@@ -160,8 +160,16 @@ static void sort_column(tl_span_item *items, uint32_t count)
 }
 
 // Leaves all items in `sorted`, column by column; ends[c] is where column c ends.
-static void group_by_column(tl_span_buffer *buffer)
+static tl_result group_by_column(tl_span_buffer *buffer)
 {
+    if (buffer->sorted == NULL || buffer->sorted_capacity < buffer->count) {
+        release_sorted(buffer);
+        buffer->sorted = tl_allocate_array(buffer->allocator, buffer->count, sizeof *buffer->sorted);
+        if (buffer->sorted == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        buffer->sorted_capacity = buffer->count;
+    }
     uint32_t *ends = buffer->ends;
     const tl_span_item *items = buffer->items;
     tl_span_item *sorted = buffer->sorted;
@@ -179,6 +187,7 @@ static void group_by_column(tl_span_buffer *buffer)
     for (uint32_t i = 0; i < count; i++) {
         sorted[ends[tl_span_item_column(items[i])]++] = items[i];
     }
+    return TL_OK;
 }
 
 // One past the last item of the union that begins with items[begin]; its top in *max_out.
@@ -224,9 +233,9 @@ static uint32_t reduce_union(const tl_span_item *items, uint32_t count, uint32_t
 }
 
 // Replaces the items by the fewest that have the same union. At most 256 passes over each, one an area.
-static void reduce(tl_span_buffer *buffer)
+static tl_result reduce(tl_span_buffer *buffer)
 {
-    group_by_column(buffer);
+    TL_TRY(group_by_column(buffer));
     uint64_t kept = 0;
     uint32_t begin = 0;
     for (uint32_t c = 0; c < buffer->column_count; c++) {
@@ -240,6 +249,7 @@ static void reduce(tl_span_buffer *buffer)
         }
     }
     buffer->count = kept;
+    return TL_OK;
 }
 
 tl_result tl_span_buffer_reserve(tl_span_buffer *buffer, uint32_t count)
@@ -249,7 +259,7 @@ tl_result tl_span_buffer_reserve(tl_span_buffer *buffer, uint32_t count)
     }
     uint64_t growing = (uint64_t)buffer->column_count * GROWING_ITEMS_PER_COLUMN;
     if (buffer->capacity >= growing) {
-        reduce(buffer);
+        TL_TRY(reduce(buffer));
         if (buffer->count <= buffer->capacity / 2 && buffer->capacity - buffer->count >= count) {
             return TL_OK;
         }
@@ -360,9 +370,9 @@ static uint32_t merge_column(tl_span_item *items, uint32_t count, uint32_t walka
     return merge_sorted(items, count, walkable_climb, spans);
 }
 
-tl_nav_span *tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *first_span_out)
+tl_result tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *first_span_out, const tl_nav_span **spans_out)
 {
-    group_by_column(buffer);
+    TL_TRY(group_by_column(buffer));
     // The ungrouped items are no longer needed: the spans take their place.
     tl_nav_span *spans = (tl_nav_span *)(void *)buffer->items;
     uint32_t span_count = 0, begin = 0;
@@ -375,5 +385,6 @@ tl_nav_span *tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *first_span_o
         begin = end;
     }
     first_span_out[buffer->column_count] = span_count;
-    return spans;
+    *spans_out = spans;
+    return TL_OK;
 }

@@ -41,10 +41,10 @@ static inline uint32_t tl_span_item_area(tl_span_item item)
 /// Grows as needed and is used again for the next band. Zero is an empty buffer.
 typedef struct tl_span_buffer {
     tl_span_item *items;
-    tl_span_item *sorted; ///< the other half of the same block
+    tl_span_item *sorted; ///< [sorted_capacity] made when it is first needed
     uint64_t count;
-    uint64_t capacity; ///< of each half
-    uint32_t *ends;    ///< [end_capacity] per column, while sorting
+    uint64_t capacity, sorted_capacity;
+    uint32_t *ends; ///< [end_capacity] per column, while sorting
     uint32_t end_capacity;
     uint32_t column_count;   ///< of the band at hand
     uint32_t walkable_climb; ///< voxels
@@ -59,7 +59,7 @@ void tl_span_buffer_free(tl_span_buffer *buffer);
 tl_result tl_span_buffer_reserve(tl_span_buffer *buffer, uint32_t count);
 
 /// The canonical union of all items: those of column c begin at first_span_out[c] and end at first_span_out[c + 1]. The
-/// spans lie in the buffer, may be changed, and hold until its next use.
-tl_nav_span *tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *first_span_out);
+/// spans lie in the buffer and hold until its next use.
+tl_result tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *first_span_out, const tl_nav_span **spans_out);
 
 #endif

@@ -13,6 +13,7 @@
 #include "base/host.h"
 #include "nav_build/compact.h"
 #include "nav_build/memory_meter.h"
+#include "nav_build/regions.h"
 
 #include <string.h>
 
@@ -61,6 +62,8 @@ static tl_result build_floors(tile_job *job)
     } else {
         TL_TRY(tl_nav_open_triangles(config, &input->mesh, input->areas, job->list, &job->host, compact,
                                      &job->report->span_count, report));
+        tl_release_array(compact->allocator, compact->clearance, compact->span_count, sizeof *compact->clearance);
+        compact->clearance = NULL; // links were its last reader
     }
     job->report->compact_span_count += compact->span_count;
     return TL_OK;
@@ -105,12 +108,8 @@ static tl_result build_regions(tile_job *job)
     if (job->config->partition == TL_NAV_WATERSHED) {
         TL_TRY(tl_nav_distance_field(&job->host, compact, &job->report->base));
     }
-    TL_TRY(tl_nav_build_regions(job->config, &job->host, compact, &job->report->base));
+    TL_TRY(tl_nav_divide_regions(job->config, &job->host, compact, job->keep, &job->report->base));
     job->report->region_count += compact->region_count > 0 ? compact->region_count - 1 : 0;
-    if (!job->keep) {
-        tl_release_array(compact->allocator, compact->distance, compact->span_count, sizeof *compact->distance);
-        compact->distance = NULL;
-    }
     return TL_OK;
 }
 

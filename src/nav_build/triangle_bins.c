@@ -36,15 +36,13 @@ static bin_range triangle_range(const tl_mesh_view *mesh, uint32_t triangle, con
                                 const tl_bin_grid *grid)
 {
     const uint32_t *corner = mesh->indices + 3 * (size_t)triangle;
-    tl_lattice_point p = tl_lattice_map_point(map, mesh->vertices[corner[0]]);
-    double min_x = p.x, max_x = p.x, min_z = p.z, max_z = p.z;
-    for (int k = 1; k < 3; k++) {
-        p = tl_lattice_map_point(map, mesh->vertices[corner[k]]);
-        min_x = p.x < min_x ? p.x : min_x;
-        max_x = p.x > max_x ? p.x : max_x;
-        min_z = p.z < min_z ? p.z : min_z;
-        max_z = p.z > max_z ? p.z : max_z;
+    tl_aabb box = tl_aabb_empty();
+    for (int k = 0; k < 3; k++) {
+        box = tl_aabb_add_point(box, mesh->vertices[corner[k]]);
     }
+    // The map is monotone: the ends of the range are those of the box.
+    const double min_x = tl_lattice_map_x(map, box.min.x), max_x = tl_lattice_map_x(map, box.max.x);
+    const double min_z = tl_lattice_map_z(map, box.min.z), max_z = tl_lattice_map_z(map, box.max.z);
     bin_range range = { 1, 0, 0, 0 };
     uint32_t x0, x1, z0, z1;
     if (axis_range(min_x, max_x, grid->count_x, grid->size_x, grid->margin, &x0, &x1) &&

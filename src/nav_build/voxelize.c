@@ -26,22 +26,14 @@
 #include <math.h>
 #include <string.h>
 
-enum { SUBDIVISION_BITS = 10, SUBDIVISIONS = 1 << SUBDIVISION_BITS };
+enum { SUBDIVISION_BITS = 10, SUBDIVISIONS = TL_SUBDIVISIONS };
+_Static_assert(SUBDIVISIONS == 1 << SUBDIVISION_BITS, "heights are shifted by the bits");
 
-/// 1.5 * 2^(52 - 10): to add and subtract it rounds a double to a multiple of 2^-10, ties to even, when it is below
-/// 2^41 in size. Larger values keep their own, coarser ulp: such points are far outside any field.
-static const double ROUNDER = 6755399441055744.0 / SUBDIVISIONS;
-
-/// The same for whole numbers; the sum then ends in the number's low bits, as two's complement.
+/// As TL_SUBDIVISION_ROUNDER, for whole numbers; the sum then ends in the number's low bits, as two's complement.
 static const double WHOLE_ROUNDER = 6755399441055744.0;
 
 /// Heights of a cell that nothing has reached yet.
 static const double NO_LOW = (double)INFINITY, NO_HIGH = -(double)INFINITY;
-
-static double round_to_subdivision(double value)
-{
-    return (value + ROUNDER) - ROUNDER;
-}
 
 tl_lattice_map tl_lattice_map_make(const tl_nav_lattice *lattice, float cell_size, float cell_height)
 {
@@ -49,17 +41,6 @@ tl_lattice_map tl_lattice_map_make(const tl_nav_lattice *lattice, float cell_siz
                            1.0 / (double)cell_size,   1.0 / (double)cell_height, (double)lattice->first_x,
                            (double)lattice->first_z };
     return map;
-}
-
-tl_lattice_point tl_lattice_map_point(const tl_lattice_map *map, tl_vec3 point)
-{
-    // Rounded in the level's lattice, then moved by whole columns: every tile gets the same point.
-    tl_lattice_point mapped = {
-        round_to_subdivision(((double)point.x - map->origin_x) * map->per_cell) - map->first_x,
-        ((double)point.y - map->origin_y) * map->per_height,
-        round_to_subdivision(((double)point.z - map->origin_z) * map->per_cell) - map->first_z,
-    };
-    return mapped;
 }
 
 // ---- Small helpers -----------------------------------------------------------------------------------------
@@ -210,40 +191,61 @@ static inline void widen_cell(double *low, double *high, int32_t cell, double y0
     high[cell] = max_of(high[cell], max_of(y0, y1));
 }
 
-// Widens the cells that the edge from p to q passes, in the row at hand, and in the next one where `in_next`.
-// Over a cell the edge takes the heights from one x line to the next; its ends are what they are.
-static inline void walk_edge(walk *w, tl_lattice_point p, tl_lattice_point q, bool in_next)
+// A point of an edge seen from the side: how far along the cells it lies, and how high.
+typedef struct profile_point {
+    double along, y;
+} profile_point;
+
+// Low and high of some cells in line.
+typedef struct cell_heights {
+    double *low, *high;
+} cell_heights;
+
+// Widens the cells of 0 .. count - 1 that the edge from p to q passes, in one line of cells, and in a second one where
+// `both`. Over a cell the edge takes the heights from one border to the next; its ends are what they are.
+static inline void walk_profile(profile_point p, profile_point q, uint32_t count, cell_heights one, cell_heights two,
+                                bool both)
 {
-    if (p.x > q.x) {
-        swap_points(&p, &q);
+    if (p.along > q.along) {
+        const profile_point t = p;
+        p = q;
+        q = t;
     }
     int32_t first, last;
-    cell_range(p.x, q.x, w->band->width, &first, &last);
+    cell_range(p.along, q.along, count, &first, &last);
     if (first > last) {
         return;
     }
     double before = p.y;
-    if (first < last || p.x < (double)first || q.x > (double)(last + 1)) { // then p.x < q.x
-        const double slope = (q.y - p.y) / (q.x - p.x);
-        if (p.x < (double)first) {
-            before = p.y + ((double)first - p.x) * slope;
+    if (first < last || p.along < (double)first || q.along > (double)(last + 1)) { // then p.along < q.along
+        const double slope = (q.y - p.y) / (q.along - p.along);
+        if (p.along < (double)first) {
+            before = p.y + ((double)first - p.along) * slope;
         }
         for (; first < last; first++) {
-            double after = p.y + ((double)(first + 1) - p.x) * slope;
-            widen_cell(w->low, w->high, first, before, after);
-            if (in_next) {
-                widen_cell(w->next_low, w->next_high, first, before, after);
+            double after = p.y + ((double)(first + 1) - p.along) * slope;
+            widen_cell(one.low, one.high, first, before, after);
+            if (both) {
+                widen_cell(two.low, two.high, first, before, after);
             }
             before = after;
         }
-        if (q.x > (double)(last + 1)) {
-            q.y = p.y + ((double)(last + 1) - p.x) * slope;
+        if (q.along > (double)(last + 1)) {
+            q.y = p.y + ((double)(last + 1) - p.along) * slope;
         }
     }
-    widen_cell(w->low, w->high, last, before, q.y);
-    if (in_next) {
-        widen_cell(w->next_low, w->next_high, last, before, q.y);
+    widen_cell(one.low, one.high, last, before, q.y);
+    if (both) {
+        widen_cell(two.low, two.high, last, before, q.y);
     }
+}
+
+// Widens the cells of the row at hand, and of the next one where `in_next`.
+static inline void walk_edge(walk *w, const tl_lattice_point *p, const tl_lattice_point *q, bool in_next)
+{
+    const profile_point from = { p->x, p->y }, to = { q->x, q->y };
+    const cell_heights here = { w->low, w->high }, next = { w->next_low, w->next_high };
+    walk_profile(from, to, w->band->width, here, next, in_next);
 }
 
 // The piece in the row at hand reaches to the point, which lies in it or on its lines.
@@ -261,14 +263,14 @@ static inline void add_cut(walk *w, const tl_lattice_point *p, const tl_lattice_
     w->left = min_of(w->left, w->next_left);
     w->right = max_of(w->right, w->next_right);
     if (!w->level) {
-        walk_edge(w, *p, *q, true);
+        walk_edge(w, p, q, true);
     }
 }
 
 static inline void add_edge(walk *w, const tl_lattice_point *p, const tl_lattice_point *q)
 {
     if (!w->level) {
-        walk_edge(w, *p, *q, false);
+        walk_edge(w, p, q, false);
     }
 }
 
@@ -295,11 +297,11 @@ static tl_result finish_row(walk *w, uint32_t row)
 }
 
 // Low and high of the row at hand, then of the next one.
-void tl_voxel_heights_init(double *heights, uint32_t width)
+void tl_voxel_heights_init(double *heights, uint32_t line)
 {
-    for (uint32_t i = 0; i < width; i++) {
-        heights[i] = heights[2 * (size_t)width + i] = NO_LOW;
-        heights[width + i] = heights[3 * (size_t)width + i] = NO_HIGH;
+    for (uint32_t i = 0; i < line; i++) {
+        heights[i] = heights[2 * (size_t)line + i] = NO_LOW;
+        heights[line + i] = heights[3 * (size_t)line + i] = NO_HIGH;
     }
 }
 
@@ -325,7 +327,7 @@ static inline edge make_edge(const tl_lattice_point *start, const tl_lattice_poi
 static inline tl_lattice_point cross_line(const edge *e, double z)
 {
     double along = z - e->start.z;
-    tl_lattice_point point = { round_to_subdivision(e->start.x + along * e->dx), e->start.y + along * e->dy, z };
+    tl_lattice_point point = { tl_round_to_subdivision(e->start.x + along * e->dx), e->start.y + along * e->dy, z };
     return point;
 }
 
@@ -377,6 +379,64 @@ static tl_result walk_rows(walk *w, const tl_lattice_point *a, const tl_lattice_
     return TL_OK;
 }
 
+// A triangle within one row of cells, such as a wall along x: its edges are walked as they are.
+static tl_result walk_one_row(walk *w, const tl_lattice_point *a, const tl_lattice_point *b, const tl_lattice_point *c,
+                              uint32_t row)
+{
+    w->left = min_of(a->x, min_of(b->x, c->x));
+    w->right = max_of(a->x, max_of(b->x, c->x));
+    add_edge(w, a, c);
+    add_edge(w, a, b);
+    add_edge(w, b, c);
+    return finish_row(w, row);
+}
+
+// A triangle within one column of cells, such as a wall along z: the same with x and z exchanged. a, b, c in the order
+// of comes_first; the rows first..last are the band's that it overlaps.
+static tl_result walk_one_column(walk *w, const tl_lattice_point *a, const tl_lattice_point *b,
+                                 const tl_lattice_point *c, uint32_t column, int32_t first, int32_t last)
+{
+    const tl_voxel_band *band = w->band;
+    tl_span_buffer *buffer = band->buffer;
+    TL_TRY(tl_span_buffer_reserve(buffer, (uint32_t)(last - first + 1)));
+    tl_span_item *items = buffer->items + buffer->count;
+    uint32_t cell = (uint32_t)first * band->width + column;
+    if (w->level) {
+        for (int32_t i = first; i <= last; i++, cell += band->width) {
+            *items++ = tl_span_item_make(cell, w->level_min, w->level_max, w->area);
+        }
+        buffer->count = (uint64_t)(items - buffer->items);
+        return TL_OK;
+    }
+    const double origin = (double)band->first_row;
+    const profile_point p = { a->z - origin, a->y }, q = { b->z - origin, b->y }, r = { c->z - origin, c->y };
+    const cell_heights heights = { w->low, w->high };
+    walk_profile(p, r, band->row_count, heights, heights, false);
+    walk_profile(p, q, band->row_count, heights, heights, false);
+    walk_profile(q, r, band->row_count, heights, heights, false);
+    for (int32_t i = first; i <= last; i++, cell += band->width) {
+        uint32_t min, max;
+        if (span_of_heights(w->low[i], w->high[i], band->height_voxels, &min, &max)) {
+            *items++ = tl_span_item_make(cell, min, max, w->area);
+        }
+        w->low[i] = NO_LOW;
+        w->high[i] = NO_HIGH;
+    }
+    if (last + 1 < (int32_t)band->row_count) { // what only touches the far end is in that cell
+        w->low[last + 1] = NO_LOW;
+        w->high[last + 1] = NO_HIGH;
+    }
+    buffer->count = (uint64_t)(items - buffer->items);
+    return TL_OK;
+}
+
+// Whether a range lies within one cell, borders included. A single point on a border lies in the cell to its right.
+static inline bool is_in_one_cell(double min, double max, double *cell_out)
+{
+    *cell_out = floor(min);
+    return max <= *cell_out + 1.0;
+}
+
 // A wall exactly on the field's far side moves half a cell inwards.
 static void close_far_side(const tl_voxel_band *band, tl_lattice_point *a, tl_lattice_point *b, tl_lattice_point *c)
 {
@@ -417,12 +477,22 @@ tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_lattice_point a, tl
     a.y *= SUBDIVISIONS;
     b.y *= SUBDIVISIONS;
     c.y *= SUBDIVISIONS;
-    walk w = { band, area, false, 0, 0, band->heights, band->heights + band->width, NULL, NULL, 0, 0, 0, 0 };
-    w.next_low = w.high + band->width;
-    w.next_high = w.next_low + band->width;
+    const size_t line = band->line;
+    walk w = { band, area, false, 0, 0, band->heights, band->heights + line, NULL, NULL, 0, 0, 0, 0 };
+    w.next_low = w.high + line;
+    w.next_high = w.next_low + line;
     if (lies_in_one_layer(min_y * SUBDIVISIONS, max_y * SUBDIVISIONS, band->height_voxels)) {
         w.level = span_of_heights(min_y * SUBDIVISIONS, max_y * SUBDIVISIONS, band->height_voxels, &w.level_min,
                                   &w.level_max);
+    }
+    // Judged in the whole lattice, not in the band's or field's part of it: all that see a triangle treat it alike.
+    double cell;
+    if (is_in_one_cell(a.z, c.z, &cell)) {
+        return walk_one_row(&w, &a, &b, &c, (uint32_t)first + band->first_row);
+    }
+    if (is_in_one_cell(min_x, max_x, &cell)) {
+        const bool inside = cell >= 0.0 && cell < (double)band->width;
+        return inside ? walk_one_column(&w, &a, &b, &c, (uint32_t)cell, first, last) : TL_OK;
     }
     return walk_rows(&w, &a, &b, &c, first + (int32_t)band->first_row, last + (int32_t)band->first_row);
 }
