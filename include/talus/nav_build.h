@@ -322,6 +322,8 @@ typedef struct tl_nav_build_report {
     uint64_t span_count;         ///< solid spans after rasterization
     uint64_t compact_span_count; ///< open floors
     uint32_t region_count;
+    uint32_t filtered_regions; ///< islands of fewer than region_min_size squared columns, which were dropped
+    uint64_t filtered_spans;   ///< floors that these held
     uint32_t contour_count;
     uint32_t repaired_contours; ///< outlines that could not be simplified or triangulated as they were, and were mended
     uint32_t polygon_count;

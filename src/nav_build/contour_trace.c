@@ -65,31 +65,22 @@ static inline bool is_open(const tracer *t, uint32_t floor, uint32_t direction)
     return (t->outline[floor] >> (direction + 4) & 1) != 0;
 }
 
-// If the floor beside in direction d has another region: marks that on its side, and returns the bit for this one.
-static inline uint32_t mark_link(tracer *t, uint32_t region, uint32_t beside, uint32_t d)
-{
-    const uint32_t *regions = t->work->compact->region;
-    if (beside == TL_NAV_NO_SPAN || regions[beside] == region) {
-        return 0;
-    }
-    if (is_traced(regions[beside])) {
-        t->outline[beside] = (uint8_t)(t->outline[beside] | (1u << (d ^ 2)));
-    }
-    return 1u << d;
-}
-
-// Marks the outline edges of each floor. A link is looked at once, from its later floor.
+// Marks the outline edges of each floor: those beyond which there is no floor, or one of another region.
 static void mark_outlines(tracer *t)
 {
     const tl_nav_compact *compact = t->work->compact;
+    const uint32_t *regions = compact->region;
     for (uint32_t i = 0; i < compact->span_count; i++) {
-        const tl_links links = tl_nav_links(compact, i);
-        uint32_t region = compact->region[i], mask = 0;
-        for (uint32_t d = 0; d < 4; d++) {
-            mask |= (uint32_t)(links.to[d] == TL_NAV_NO_SPAN) << d;
+        const uint32_t region = regions[i];
+        if (!is_traced(region)) {
+            continue; // nobody asks for its edges
         }
-        mask |= mark_link(t, region, links.to[0], 0) | mark_link(t, region, links.to[3], 3);
-        t->outline[i] = (uint8_t)(is_traced(region) ? mask : 0);
+        const tl_links links = tl_nav_links(compact, i);
+        uint32_t mask = 0;
+        for (uint32_t d = 0; d < 4; d++) {
+            mask |= (uint32_t)(links.to[d] == TL_NAV_NO_SPAN || regions[links.to[d]] != region) << d;
+        }
+        t->outline[i] = (uint8_t)mask;
     }
 }
 

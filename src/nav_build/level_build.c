@@ -49,6 +49,8 @@ static void add_counts(tl_nav_build_report *sum, const tl_nav_build_report *part
     sum->span_count += part->span_count;
     sum->compact_span_count += part->compact_span_count;
     sum->region_count += part->region_count;
+    sum->filtered_regions += part->filtered_regions;
+    sum->filtered_spans += part->filtered_spans;
     sum->contour_count += part->contour_count;
     sum->repaired_contours += part->repaired_contours;
     sum->polygon_count += part->polygon_count;

@@ -110,6 +110,8 @@ static tl_result build_regions(tile_job *job)
     }
     TL_TRY(tl_nav_divide_regions(job->config, &job->host, compact, job->keep, &job->report->base));
     job->report->region_count += compact->region_count > 0 ? compact->region_count - 1 : 0;
+    job->report->filtered_regions += compact->region_stats.filtered_regions;
+    job->report->filtered_spans += compact->region_stats.filtered_spans;
     return TL_OK;
 }
 
