@@ -126,9 +126,43 @@ static tl_result bound_from_below(tl_arena *arena, const tl_outline *outline, co
     return TL_OK;
 }
 
+// A strictly convex outline that is small enough is one polygon by every method; of levels' contours every other one is.
+static bool is_one_polygon(const tl_outline *outline, uint32_t max_corners)
+{
+    const tl_lattice_point *points = outline->nodes.points;
+    const uint32_t count = outline->nodes.count;
+    bool is_convex = outline->is_plain && (max_corners == 0 || count <= max_corners);
+    for (uint32_t i = 0; i < count && is_convex; i++) {
+        const uint32_t before = i > 0 ? i - 1 : count - 1, after = i + 1 < count ? i + 1 : 0;
+        is_convex = tl_turn(points[before], points[i], points[after]) > 0;
+    }
+    return is_convex;
+}
+
+static tl_result keep_whole(tl_arena *arena, const tl_outline *outline, tl_division *division)
+{
+    tl_convex_parts *parts = &division->parts;
+    parts->count = 1;
+    parts->first = TL_PUSH(arena, uint32_t, 2);
+    parts->corners = outline->corners;
+    parts->part_of = NULL;
+    if (parts->first == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    parts->first[0] = 0;
+    parts->first[1] = outline->nodes.count;
+    division->triangle_count = outline->nodes.count - 2;
+    division->lower_bound = 1;
+    return TL_OK;
+}
+
 tl_result tl_divide_outline(tl_arena *arena, const tl_outline *outline, tl_partition_method method,
                             uint32_t max_corners, const tl_step_tracer *tracer, tl_division *division_out)
 {
+    const bool is_one = is_one_polygon(outline, max_corners);
+    if (is_one && tracer == NULL) {
+        return keep_whole(arena, outline, division_out);
+    }
     tl_outline_triangles triangles;
     TL_TRY(triangulate_walks(arena, outline, tracer, &triangles));
     division_out->triangle_count = triangles.count;
@@ -148,6 +182,9 @@ tl_result tl_divide_outline(tl_arena *arena, const tl_outline *outline, tl_parti
             outline->nodes.points, triangles.corners, triangles.twins, triangles.count, max_corners, NULL, tracer
         };
         TL_TRY(tl_merge_triangles(arena, &input, &division_out->parts));
+    }
+    if (is_one) { // it was divided for those who watch
+        return keep_whole(arena, outline, division_out);
     }
     if (is_exact) {
         division_out->lower_bound = division_out->parts.count;

@@ -25,7 +25,7 @@
 #define MOST_STEPS   (1u << 22)
 #define MOST_CORNERS (1u << 12)
 // A piece has at most 2 * PIECE_TRIANGLES + 1 triangles.
-#define PIECE_TRIANGLES 48
+#define PIECE_TRIANGLES 32
 
 static uint32_t next_edge(uint32_t edge)
 {

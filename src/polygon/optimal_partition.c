@@ -205,12 +205,13 @@ static tl_result solve_corner(partition *p, uint32_t i, bool *found)
             continue;
         }
         at->fewest = NONE;
-        for (uint32_t a = p->arrival_first[at->to]; p->arrivals[a].from > i; a++) {
-            p->steps++;
-            if (p->chord_to[p->arrivals[a].from] != NONE) {
-                TL_TRY(extend(p, i, at, &p->arrivals[a], apex_is_reflex));
+        const arrival *first = &p->arrivals[p->arrival_first[at->to]], *by = first;
+        for (; by->from > i; by++) {
+            if (p->chord_to[by->from] != NONE) {
+                TL_TRY(extend(p, i, at, by, apex_is_reflex));
             }
         }
+        p->steps += (uint64_t)(by - first);
         *found = p->steps <= p->max_steps;
     }
     for (uint32_t k = seen->first[i]; k < seen->first[i + 1]; k++) {
