@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Convex polygon generation against rcBuildPolyMesh, where Recast is installed, in one process: all contour sets
-// below TALUS_DATA_DIR/contours or those named, then the hard families. Medians of repeated runs.
+// below TALUS_DATA_DIR/contours or those named, then the hard families and how their time grows. CPU time of one
+// thread, medians of repeated runs; growth from the fastest ones.
 //
-//   bench_polygon [CONTOURS.txt...]
+//   bench_polygon [CONTOURS.txt... | families]
 
 #include "bench_polygon_recast.h"
 #include "io/contour_text.h"
@@ -25,6 +26,7 @@ enum { CLASSIC, OPTIMAL, DELAUNAY, RECAST, WAY_COUNT };
 typedef struct totals {
     char kind;
     double seconds[WAY_COUNT]; // 0: not run
+    double fastest[WAY_COUNT];
     uint64_t polygons[WAY_COUNT];
     uint64_t contours, vertices;
 } totals;
@@ -32,7 +34,7 @@ typedef struct totals {
 static double now(void)
 {
     struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
     return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
 }
 
@@ -69,13 +71,13 @@ static double run(int way, const tl_contour_set *set, uint32_t cap, uint32_t *po
     return seconds;
 }
 
-// Runs until 0.1 s have passed, at least 3 and at most MAX_RUNS times, and adds the median to the sums.
+// Runs until 0.1 s have passed, at least 5 and at most MAX_RUNS times, and adds the median to the sums.
 static void measure(int way, const tl_contour_set *set, uint32_t cap, totals *sums)
 {
     double times[MAX_RUNS];
     int runs = 0;
     uint32_t polygons = 0;
-    for (double sum = 0; runs < MAX_RUNS && (runs < 3 || sum < 0.1); runs++) {
+    for (double sum = 0; runs < MAX_RUNS && (runs < 5 || sum < 0.1); runs++) {
         times[runs] = run(way, set, cap, &polygons);
         sum += times[runs];
         if (times[runs] > 2.0) {
@@ -85,6 +87,7 @@ static void measure(int way, const tl_contour_set *set, uint32_t cap, totals *su
     }
     qsort(times, (size_t)runs, sizeof *times, by_size);
     sums->seconds[way] += times[runs / 2];
+    sums->fastest[way] += times[0];
     sums->polygons[way] += polygons;
 }
 
@@ -148,7 +151,7 @@ static void bench_file(const char *path, totals *sums)
     }
 }
 
-static void bench_family(const char *name, oracle_point *points, uint32_t n)
+static totals bench_family(const char *name, oracle_point *points, uint32_t n)
 {
     // Recast's coordinates are 16 bits without sign.
     oracle_point low = points[0];
@@ -172,22 +175,34 @@ static void bench_family(const char *name, oracle_point *points, uint32_t n)
     }
     print_row(name, &sums);
     free(vertices);
+    return sums;
 }
 
 static void bench_families(void)
 {
-    static const uint32_t sizes[4] = { 400, 10000, 20000, 100000 };
+    enum { SIZES = 4, FAMILIES = 3 };
+    static const uint32_t sizes[SIZES] = { 400, 10000, 20000, 100000 };
+    static const char *const names[FAMILIES] = { "star", "comb", "spiral" };
     oracle_point *points = malloc(200000 * sizeof *points);
-    for (uint32_t i = 0; i < 4; i++) {
+    totals sums[SIZES][FAMILIES];
+    for (uint32_t i = 0; i < SIZES; i++) {
         shape_star(points, sizes[i], i == 0 ? 3e4 : 1e8, i == 0 ? 1e4 : 3e7);
-        bench_family("star", points, sizes[i]);
+        sums[i][0] = bench_family(names[0], points, sizes[i]);
         shape_comb(points, sizes[i], 1000);
-        bench_family("comb", points, sizes[i]);
+        sums[i][1] = bench_family(names[1], points, sizes[i]);
         shape_spiral(points, sizes[i]);
-        bench_family("spiral", points, sizes[i]);
+        sums[i][2] = bench_family(names[2], points, sizes[i]);
     }
     bench_family("1,024 holes", points, shape_holes(points, 32, 32));
     free(points);
+    printf("\ntime of 100,000 vertices over that of 10,000   classic   optimal  Delaunay\n");
+    for (uint32_t f = 0; f < FAMILIES; f++) {
+        printf("%-43s", names[f]);
+        for (int way = 0; way < RECAST; way++) {
+            printf(" %9.1f", sums[3][f].fastest[way] / sums[1][f].fastest[way]);
+        }
+        printf("\n");
+    }
 }
 
 static void bench_folder(const char *folder, totals *sums)
@@ -226,11 +241,11 @@ int main(int argc, char **argv)
     static const char *const names[4] = { "all watershed", "all monotone", "all layers", "all" };
     printf("%-34s %8s %10s %8s %10s %8s %10s %8s %10s %8s %26s\n", "contours", "vertices", "classic us", "polygons",
            "optimal us", "polygons", "Delaunay", "polygons", "Recast us", "polygons", "ratios to Recast");
-    if (argc > 1) {
+    if (argc > 1 && strcmp(argv[1], "families") != 0) {
         for (int i = 1; i < argc; i++) {
             bench_file(argv[i], sums);
         }
-    } else {
+    } else if (argc == 1) {
         bench_folder(TALUS_DATA_DIR "/contours", sums);
     }
     for (uint32_t i = 0; i < 4; i++) {

@@ -6,9 +6,16 @@
 
 #ifdef TALUS_BENCH_RECAST
 
-#include <chrono>
+#include <ctime>
 #include <recastnavigation/Recast.h>
 #include <vector>
+
+static double cpu_seconds()
+{
+    timespec time;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+}
 
 double bench_recast_polygons(const tl_contour_set *set, uint32_t max_verts_per_poly, uint32_t *polygons_out)
 {
@@ -42,16 +49,16 @@ double bench_recast_polygons(const tl_contour_set *set, uint32_t max_verts_per_p
     given->maxError = set->max_error;
     rcPolyMesh *mesh = rcAllocPolyMesh();
     rcContext context(false);
-    auto began = std::chrono::steady_clock::now();
+    double began = cpu_seconds();
     bool ok = rcBuildPolyMesh(&context, *given, static_cast<int>(max_verts_per_poly), *mesh);
-    std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
+    double seconds = cpu_seconds() - began;
     *polygons_out = ok ? static_cast<uint32_t>(mesh->npolys) : 0;
     rcFreePolyMesh(mesh);
     // The contours are not the set's to free.
     given->conts = nullptr;
     given->nconts = 0;
     rcFreeContourSet(given);
-    return seconds.count();
+    return seconds;
 }
 
 #else

@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-/// Seconds of one rcBuildPolyMesh, and the polygons it made. 0 where Recast is not installed.
+/// CPU seconds of one rcBuildPolyMesh, and the polygons it made. 0 where Recast is not installed.
 double bench_recast_polygons(const tl_contour_set *set, uint32_t max_verts_per_poly, uint32_t *polygons_out);
 
 #ifdef __cplusplus

@@ -180,7 +180,8 @@ typedef struct tl_polygon_report {
     uint32_t border_vertices_kept;   ///< border vertices whose removal would have changed the floor's outline
     uint32_t link_count;             ///< edges between two polygons
     uint32_t portal_count;           ///< edges on a tile's border
-    uint32_t crowded_edges; ///< edges claimed by more than two polygons; the first two of opposite direction are linked
+    uint32_t crowded_edges;  ///< edges along which more than one polygon runs in one direction; of both directions the
+                             ///< first are linked, then the second, as far as there are
     int64_t uncovered_area2; ///< doubled area of all contours, less that of the polygons; 0 without repairs
 } tl_polygon_report;
 

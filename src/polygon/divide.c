@@ -126,7 +126,8 @@ static tl_result bound_from_below(tl_arena *arena, const tl_outline *outline, co
     return TL_OK;
 }
 
-// A strictly convex outline that is small enough is one polygon by every method; of levels' contours every other one is.
+// A strictly convex outline that is small enough is one polygon by every method; of levels' contours every other one
+// is.
 static bool is_one_polygon(const tl_outline *outline, uint32_t max_corners)
 {
     const tl_lattice_point *points = outline->nodes.points;

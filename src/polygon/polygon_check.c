@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The validator: each polygon by itself, then its links; what polygons of one contour do together is in
-// polygon_cover.c. It shares no step with the build: links are proved by sorting instead of hashing, convexity by
-// walking directions.
+// polygon_cover.c. It shares no step with the build: links are proved by looking back and by one sort of all open
+// edges, convexity by walking directions.
 
 #include "polygon/polygon_check.h"
 

@@ -8,7 +8,8 @@
 // The plain form tests every corner against every edge before each cut, O(n^3). Here each corner is tested once and
 // again only when a cut moves one of its neighbours, because validity does not change in between: what remains of the
 // floor only shrinks, so a partition edge that left it still leaves it, and two corners that are both valid and not
-// neighbours cut off disjoint triangles. So there are at most 3n tests and the valid corners wait in a heap.
+// neighbours cut off disjoint triangles. So there are at most 3n partitions. Those that pass the cheap half of the test
+// wait in a heap, and have the other half when their turn comes, for which many never live.
 //
 // A partition edge is valid when it lies in the interior angle at both ends (the internal angle test) and the triangle
 // it cuts off holds no other vertex (the edge intersection test): the part of the outline that would intrude has a
@@ -27,7 +28,7 @@ typedef struct outline_vertex {
     uint32_t across; // edge of a cut triangle on the far side of the edge that starts here, or TL_NO_EDGE
 } outline_vertex;
 
-// A valid partition: of the one corner between a and c. Stale as soon as a, c or that corner is cut off.
+// A partition that cuts off the one corner between a and c. Stale as soon as a, c or that corner is cut off.
 typedef struct partition {
     int64_t length2;
     uint32_t a, c;
@@ -80,7 +81,7 @@ static partition heap_pop(triangulation *t)
     return top;
 }
 
-// Puts the partition that cuts off corner b on the heap when it is valid.
+// Puts the partition that cuts off corner b on the heap when it passes the internal angle test.
 static void consider(triangulation *t, uint32_t b)
 {
     if (t->is_reflex[b]) {
@@ -98,9 +99,6 @@ static void consider(triangulation *t, uint32_t b)
         return;
     }
     if (!t->is_reflex[c] && tl_turn(pc, t->vertices[after->next].position, pa) <= 0) {
-        return;
-    }
-    if (tl_reflex_tree_any_in_triangle(&t->reflex, pa, pb, pc)) {
         return;
     }
     partition item = { tl_distance2(pa, pc), a, c };
@@ -123,6 +121,14 @@ static bool is_current(const triangulation *t, const partition *item)
 {
     const uint32_t b = t->vertices[item->a].next;
     return t->vertices[b].previous == item->a && t->vertices[b].next == item->c;
+}
+
+// The edge intersection test.
+static bool is_free(const triangulation *t, const partition *item)
+{
+    const outline_vertex *a = &t->vertices[item->a];
+    return !tl_reflex_tree_any_in_triangle(&t->reflex, a->position, t->vertices[a->next].position,
+                                           t->vertices[item->c].position);
 }
 
 static bool is_left(const triangulation *t, uint32_t b)
@@ -170,7 +176,7 @@ static bool start(triangulation *t, tl_arena *scratch, const tl_lattice_point *p
     return true;
 }
 
-// Hands out a cut with the partitions that could have been chosen instead: the current corners on the heap.
+// Hands out a cut with the partitions that could have been chosen instead: the current and free ones on the heap.
 static tl_result trace_cut(const triangulation *t, tl_arena *scratch, const tl_step_tracer *tracer, uint32_t left,
                            const uint32_t corners[3])
 {
@@ -191,7 +197,7 @@ static tl_result trace_cut(const triangulation *t, tl_arena *scratch, const tl_s
         step.partition_count = 1;
     }
     for (uint32_t i = 0; i < t->heap_count && left > 3; i++) {
-        if (is_current(t, &t->heap[i])) {
+        if (is_current(t, &t->heap[i]) && is_free(t, &t->heap[i])) {
             partitions[2 * step.partition_count] = t->heap[i].a;
             partitions[2 * step.partition_count++ + 1] = t->heap[i].c;
         }
@@ -216,7 +222,7 @@ tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint
                 return TL_ERR_SELF_INTERSECTION;
             }
             chosen = heap_pop(&t);
-        } while (!is_current(&t, &chosen));
+        } while (!is_current(&t, &chosen) || !is_free(&t, &chosen));
         const uint32_t a = chosen.a, c = chosen.c;
         const uint32_t corners[3] = { a, t.vertices[a].next, c };
         if (tracer != NULL) {
