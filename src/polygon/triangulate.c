@@ -9,7 +9,7 @@
 // again only when a cut moves one of its neighbours, because validity does not change in between: what remains of the
 // floor only shrinks, so a partition edge that left it still leaves it, and two corners that are both valid and not
 // neighbours cut off disjoint triangles. So there are at most 3n partitions. Those that pass the cheap half of the test
-// wait in a heap, and have the other half when their turn comes, for which many never live.
+// wait in a queue, and have the other half when their turn comes, for which many never live.
 //
 // A partition edge is valid when it lies in the interior angle at both ends (the internal angle test) and the triangle
 // it cuts off holds no other vertex (the edge intersection test): the part of the outline that would intrude has a
@@ -19,6 +19,7 @@
 #include "polygon/triangulate.h"
 
 #include "base/assert.h"
+#include "polygon/partition_queue.h"
 #include "polygon/reflex_tree.h"
 
 // A vertex with the ones next to it in what is left of the outline.
@@ -28,81 +29,44 @@ typedef struct outline_vertex {
     uint32_t across; // edge of a cut triangle on the far side of the edge that starts here, or TL_NO_EDGE
 } outline_vertex;
 
-// A partition that cuts off the one corner between a and c. Stale as soon as a, c or that corner is cut off.
-typedef struct partition {
-    int64_t length2;
-    uint32_t a, c;
-} partition;
-
 typedef struct triangulation {
     const tl_lattice_point *points;
     outline_vertex *vertices;
     uint8_t *is_reflex; // or straight
     tl_reflex_tree reflex;
-    partition *heap;
-    uint32_t heap_count;
+    tl_partition_queue queue;
 } triangulation;
 
-static bool comes_first(const partition *a, const partition *b)
-{
-    return a->length2 != b->length2 ? a->length2 < b->length2 : a->a < b->a;
-}
-
-static void heap_push(triangulation *t, partition item)
-{
-    uint32_t i = t->heap_count++;
-    while (i > 0 && comes_first(&item, &t->heap[(i - 1) / 2])) {
-        t->heap[i] = t->heap[(i - 1) / 2];
-        i = (i - 1) / 2;
-    }
-    t->heap[i] = item;
-}
-
-static partition heap_pop(triangulation *t)
-{
-    partition top = t->heap[0];
-    partition last = t->heap[--t->heap_count];
-    uint32_t i = 0;
-    for (;;) {
-        uint32_t child = 2 * i + 1;
-        if (child >= t->heap_count) {
-            break;
-        }
-        if (child + 1 < t->heap_count && comes_first(&t->heap[child + 1], &t->heap[child])) {
-            child++;
-        }
-        if (!comes_first(&t->heap[child], &last)) {
-            break;
-        }
-        t->heap[i] = t->heap[child];
-        i = child;
-    }
-    t->heap[i] = last;
-    return top;
-}
-
-// Puts the partition that cuts off corner b on the heap when it passes the internal angle test.
-static void consider(triangulation *t, uint32_t b)
+// The partition that cuts off corner b. False: it fails the internal angle test.
+static bool find_partition(const triangulation *t, uint32_t b, tl_partition *found)
 {
     if (t->is_reflex[b]) {
-        return;
+        return false;
     }
     const uint32_t a = t->vertices[b].previous, c = t->vertices[b].next;
     const outline_vertex *before = &t->vertices[a], *after = &t->vertices[c];
     const tl_lattice_point pa = before->position, pb = t->vertices[b].position, pc = after->position;
     // Angles only shrink in an outline; in a scribble a convex corner may turn reflex.
     if (tl_turn(pa, pb, pc) <= 0) {
-        return;
+        return false;
     }
     // The internal angle test. b is convex, so one half of it holds already, and at a reflex end that is enough.
-    if (!t->is_reflex[a] && tl_turn(pa, pc, t->vertices[before->previous].position) <= 0) {
-        return;
+    if ((!t->is_reflex[a] && tl_turn(pa, pc, t->vertices[before->previous].position) <= 0) ||
+        (!t->is_reflex[c] && tl_turn(pc, t->vertices[after->next].position, pa) <= 0)) {
+        return false;
     }
-    if (!t->is_reflex[c] && tl_turn(pc, t->vertices[after->next].position, pa) <= 0) {
-        return;
+    found->key = (uint64_t)tl_distance2(pa, pc);
+    found->value = a;
+    found->extra = c;
+    return true;
+}
+
+static void consider(triangulation *t, uint32_t b)
+{
+    tl_partition item;
+    if (find_partition(t, b, &item)) {
+        tl_partition_queue_push(&t->queue, item);
     }
-    partition item = { tl_distance2(pa, pc), a, c };
-    heap_push(t, item);
 }
 
 // A corner whose angle a cut has made smaller.
@@ -115,20 +79,21 @@ static void update_angle(triangulation *t, uint32_t b)
     }
 }
 
-// A vertex that was cut off keeps its neighbours' numbers, but they no longer name it. And since vertices only go, the
-// one between a and c is still the one that was tested.
-static bool is_current(const triangulation *t, const partition *item)
+// A partition is stale as soon as one of its ends, or the corner between them, is cut off. A vertex that was cut off
+// keeps its neighbours' numbers, but they no longer name it. And since vertices only go, the one between the ends is
+// still the one that was tested.
+static bool is_current(const triangulation *t, const tl_partition *item)
 {
-    const uint32_t b = t->vertices[item->a].next;
-    return t->vertices[b].previous == item->a && t->vertices[b].next == item->c;
+    const outline_vertex *b = &t->vertices[t->vertices[item->value].next];
+    return b->previous == item->value && b->next == item->extra;
 }
 
 // The edge intersection test.
-static bool is_free(const triangulation *t, const partition *item)
+static bool is_free(const triangulation *t, const tl_partition *item)
 {
-    const outline_vertex *a = &t->vertices[item->a];
+    const outline_vertex *a = &t->vertices[item->value];
     return !tl_reflex_tree_any_in_triangle(&t->reflex, a->position, t->vertices[a->next].position,
-                                           t->vertices[item->c].position);
+                                           t->vertices[item->extra].position);
 }
 
 static bool is_left(const triangulation *t, uint32_t b)
@@ -154,10 +119,7 @@ static bool start(triangulation *t, tl_arena *scratch, const tl_lattice_point *p
     t->points = points;
     t->vertices = TL_PUSH(scratch, outline_vertex, count);
     t->is_reflex = TL_PUSH(scratch, uint8_t, count);
-    // n corners at first, and two more for each of the n - 3 cuts.
-    t->heap = TL_PUSH(scratch, partition, 3 * (uint64_t)count);
-    t->heap_count = 0;
-    if (t->vertices == NULL || t->is_reflex == NULL || t->heap == NULL) {
+    if (t->vertices == NULL || t->is_reflex == NULL || !tl_partition_queue_init(&t->queue, scratch, count)) {
         return false;
     }
     for (uint32_t i = 0; i < count; i++) {
@@ -168,21 +130,33 @@ static bool start(triangulation *t, tl_arena *scratch, const tl_lattice_point *p
     if (!tl_reflex_tree_build(&t->reflex, scratch, points, t->is_reflex, count)) {
         return false;
     }
-    if (count > 3) {
-        for (uint32_t i = 0; i < count; i++) {
-            consider(t, i);
-        }
+    tl_partition_queue *queue = &t->queue;
+    for (uint32_t a = 0; a < count && count > 3; a++) {
+        queue->sorted_count += find_partition(t, a + 1 < count ? a + 1 : 0, &queue->sorted[queue->sorted_count]);
     }
+    tl_partition_queue_sort(queue);
     return true;
 }
 
-// Hands out a cut with the partitions that could have been chosen instead: the current and free ones on the heap.
+static void add_potential(const triangulation *t, const tl_partition *items, uint32_t count, uint32_t *partitions,
+                          uint32_t *partition_count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (is_current(t, &items[i]) && is_free(t, &items[i])) {
+            partitions[2 * *partition_count] = items[i].value;
+            partitions[2 * (*partition_count)++ + 1] = items[i].extra;
+        }
+    }
+}
+
+// Hands out a cut with the partitions that could have been chosen instead: the current and free ones that wait.
 static tl_result trace_cut(const triangulation *t, tl_arena *scratch, const tl_step_tracer *tracer, uint32_t left,
                            const uint32_t corners[3])
 {
     tl_arena_mark mark = tl_arena_get_mark(scratch);
     uint32_t *outline = TL_PUSH(scratch, uint32_t, left);
-    uint32_t *partitions = TL_PUSH(scratch, uint32_t, 2 * ((uint64_t)t->heap_count + 1));
+    const uint64_t waiting = (uint64_t)t->queue.sorted_count + t->queue.heap_count;
+    uint32_t *partitions = TL_PUSH(scratch, uint32_t, 2 * (waiting + 1));
     if (outline == NULL || partitions == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -195,12 +169,8 @@ static tl_result trace_cut(const triangulation *t, tl_arena *scratch, const tl_s
         partitions[0] = corners[0];
         partitions[1] = corners[2];
         step.partition_count = 1;
-    }
-    for (uint32_t i = 0; i < t->heap_count && left > 3; i++) {
-        if (is_current(t, &t->heap[i]) && is_free(t, &t->heap[i])) {
-            partitions[2 * step.partition_count] = t->heap[i].a;
-            partitions[2 * step.partition_count++ + 1] = t->heap[i].c;
-        }
+        add_potential(t, t->queue.sorted, t->queue.sorted_count, partitions, &step.partition_count);
+        add_potential(t, t->queue.heap, t->queue.heap_count, partitions, &step.partition_count);
     }
     TL_TRY(tl_trace_step(tracer, scratch, t->points, &step));
     tl_arena_rollback(scratch, mark);
@@ -216,14 +186,13 @@ tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint
     }
     uint32_t triangle = 0;
     for (uint32_t left = count; left > 3; left--) {
-        partition chosen;
+        tl_partition chosen;
         do {
-            if (t.heap_count == 0) {
+            if (!tl_partition_queue_pop(&t.queue, &chosen)) {
                 return TL_ERR_SELF_INTERSECTION;
             }
-            chosen = heap_pop(&t);
         } while (!is_current(&t, &chosen) || !is_free(&t, &chosen));
-        const uint32_t a = chosen.a, c = chosen.c;
+        const uint32_t a = chosen.value, c = chosen.extra;
         const uint32_t corners[3] = { a, t.vertices[a].next, c };
         if (tracer != NULL) {
             TL_TRY(trace_cut(&t, scratch, tracer, left, corners));
