@@ -39,7 +39,8 @@ static tl_result grow_vertices(tl_polygon_store *s, uint32_t capacity)
     }
     for (uint64_t i = 0; s->place_count > 0 && i <= old.mask; i++) {
         if (old.entries[i].value != TL_NO_VALUE) {
-            *tl_key_table_at(&s->places, old.entries[i].key) = old.entries[i].value;
+            const uint64_t key = tl_pair_key(old.entries[i].high, old.entries[i].low);
+            *tl_key_table_at(&s->places, key) = old.entries[i].value;
         }
     }
     return TL_OK;
