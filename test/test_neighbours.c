@@ -16,7 +16,7 @@ static void begin(fixture *f)
     memset(f, 0, sizeof *f);
     tl_arena_init(&f->arena, NULL);
     const tl_polygon_def def = tl_default_polygon_def();
-    TEST_RESULT(tl_polygon_store_init(&f->store, &f->arena, &def, 4, 1), TL_OK);
+    TEST_RESULT(tl_polygon_store_init(&f->store, &f->arena, &def, 4), TL_OK);
 }
 
 static uint32_t vertex(fixture *f, int32_t x, int32_t y, int32_t z)

@@ -18,7 +18,7 @@ static void merges_within_the_height(void **state)
     tl_arena_init(&arena, NULL);
     tl_polygon_def def = tl_default_polygon_def();
     tl_polygon_store store;
-    TEST_RESULT(tl_polygon_store_init(&store, &arena, &def, 0, 0), TL_OK);
+    TEST_RESULT(tl_polygon_store_init(&store, &arena, &def, 0), TL_OK);
     TEST_CHECK(vertex(&store, 5, 10, 5) == 0);
     TEST_CHECK(vertex(&store, 5, 12, 5) == 0 && vertex(&store, 5, 8, 5) == 0);
     TEST_CHECK(vertex(&store, 5, 13, 5) == 1);
@@ -39,7 +39,7 @@ static void grows_and_still_finds(void **state)
     tl_polygon_def def = tl_default_polygon_def();
     def.merge_height = 0;
     tl_polygon_store store;
-    TEST_RESULT(tl_polygon_store_init(&store, &arena, &def, 0, 0), TL_OK);
+    TEST_RESULT(tl_polygon_store_init(&store, &arena, &def, 0), TL_OK);
     for (int32_t round = 0; round < 2; round++) {
         for (int32_t i = 0; i < 3000; i++) {
             // Three heights a place.

@@ -185,6 +185,15 @@ void *tl_arena_push_zero(tl_arena *arena, uint64_t count, size_t size)
     return memory;
 }
 
+bool tl_arena_reserve(tl_arena *arena, uint64_t bytes)
+{
+    const tl_arena_block *block = arena->newest;
+    if (block != NULL && block->size - block->used >= bytes) {
+        return true;
+    }
+    return bytes <= SIZE_MAX && add_block(arena, (size_t)bytes);
+}
+
 tl_arena_mark tl_arena_get_mark(const tl_arena *arena)
 {
     tl_arena_mark mark = { arena->newest, arena->newest != NULL ? arena->newest->used : 0 };

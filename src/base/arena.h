@@ -47,6 +47,10 @@ void *tl_arena_push(tl_arena *arena, uint64_t count, size_t size);
 /// The same, zeroed.
 void *tl_arena_push_zero(tl_arena *arena, uint64_t count, size_t size);
 
+/// Makes sure that pushes of so many bytes together take one block at most, so that rolling back and pushing again
+/// costs the allocator nothing. False: out of memory.
+bool tl_arena_reserve(tl_arena *arena, uint64_t bytes);
+
 tl_arena_mark tl_arena_get_mark(const tl_arena *arena);
 /// Frees all that was pushed since the mark.
 void tl_arena_rollback(tl_arena *arena, tl_arena_mark mark);

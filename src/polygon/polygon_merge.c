@@ -290,73 +290,84 @@ static tl_result remove_and_trace(merger *m, tl_arena *arena, uint32_t edge)
     return TL_OK;
 }
 
-static tl_result write_parts(merger *m, tl_arena *arena, uint32_t edge_count, tl_convex_parts *parts)
+static void write_parts(merger *m, tl_convex_parts *parts)
 {
-    parts->count = m->place_count;
-    parts->first = TL_PUSH(arena, uint32_t, (uint64_t)m->place_count + 1);
-    parts->corners = TL_PUSH(arena, uint32_t, edge_count);
-    if (parts->first == NULL || parts->corners == NULL) {
-        return TL_ERR_MEMORY;
-    }
     uint32_t filled = 0;
+    parts->count = m->place_count;
     for (uint32_t p = 0; p < m->place_count; p++) {
         parts->first[p] = filled;
         filled += write_corners(m, m->at_place[p], parts->corners + filled);
     }
     parts->first[m->place_count] = filled;
-    parts->part_of = NULL;
-    if (m->input->joined_first != NULL) {
-        parts->part_of = TL_PUSH(arena, uint32_t, edge_count / 3);
-        if (parts->part_of == NULL) {
-            return TL_ERR_MEMORY;
-        }
-        for (uint32_t t = 0; t < edge_count / 3; t++) {
-            parts->part_of[t] = m->place[polygon_of(m, 3 * t)];
-        }
+    for (uint32_t t = 0; parts->part_of != NULL && t < m->input->triangle_count; t++) {
+        parts->part_of[t] = m->place[polygon_of(m, 3 * t)];
     }
-    return TL_OK;
 }
 
-tl_result tl_merge_triangles(tl_arena *arena, const tl_merge_input *input, tl_convex_parts *parts_out)
+// As large as the parts can become, before anything else: the rest of the memory goes back.
+static bool allocate_parts(tl_convex_parts *parts, tl_arena *arena, const tl_merge_input *input)
 {
-    uint32_t edge_count = 3 * input->triangle_count;
-    merger m;
-    memset(&m, 0, sizeof m);
-    m.input = input;
-    m.points = input->points;
-    m.origin = input->corners;
-    m.twins = input->twins;
-    if (!allocate(&m, arena, input->triangle_count)) {
-        return TL_ERR_MEMORY;
+    parts->first = TL_PUSH(arena, uint32_t, (uint64_t)input->triangle_count + 1);
+    parts->corners = TL_PUSH(arena, uint32_t, 3 * (uint64_t)input->triangle_count);
+    parts->part_of = NULL;
+    if (input->joined_first != NULL) {
+        parts->part_of = TL_PUSH(arena, uint32_t, input->triangle_count);
     }
-    start(&m, input->triangle_count);
+    return parts->first != NULL && parts->corners != NULL && (input->joined_first == NULL || parts->part_of != NULL);
+}
+
+static tl_result merge(merger *m, tl_arena *scratch)
+{
+    const uint32_t edge_count = 3 * m->input->triangle_count;
     tl_sort_item *items;
     uint32_t count;
-    TL_TRY(sort_edges(&m, arena, edge_count, &items, &count));
-    m.heap = TL_PUSH(arena, waiting_edge, count);
-    if (m.heap == NULL) {
+    TL_TRY(sort_edges(m, scratch, edge_count, &items, &count));
+    m->heap = TL_PUSH(scratch, waiting_edge, count);
+    if (m->heap == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t low = 0; low < count;) {
         uint32_t high = low;
         for (; high < count && items[high].key == items[low].key; high++) {
             waiting_edge item = { 0, items[high].value };
-            heap_set(&m, high - low, item);
+            heap_set(m, high - low, item);
         }
-        m.heap_count = high - low;
-        heapify(&m);
-        while (m.heap_count > 0) {
-            uint32_t edge = heap_pop(&m);
-            if (!can_go(&m, edge)) {
+        m->heap_count = high - low;
+        heapify(m);
+        while (m->heap_count > 0) {
+            uint32_t edge = heap_pop(m);
+            if (!can_go(m, edge)) {
                 continue;
             }
-            if (input->tracer == NULL) {
-                remove_edge(&m, edge);
+            if (m->input->tracer == NULL) {
+                remove_edge(m, edge);
             } else {
-                TL_TRY(remove_and_trace(&m, arena, edge));
+                TL_TRY(remove_and_trace(m, scratch, edge));
             }
         }
         low = high;
     }
-    return write_parts(&m, arena, edge_count, parts_out);
+    return TL_OK;
+}
+
+tl_result tl_merge_triangles(tl_arena *arena, const tl_merge_input *input, tl_convex_parts *parts_out)
+{
+    merger m;
+    memset(&m, 0, sizeof m);
+    m.input = input;
+    m.points = input->points;
+    m.origin = input->corners;
+    m.twins = input->twins;
+    if (!allocate_parts(parts_out, arena, input)) {
+        return TL_ERR_MEMORY;
+    }
+    const tl_arena_mark mark = tl_arena_get_mark(arena);
+    if (!allocate(&m, arena, input->triangle_count)) {
+        return TL_ERR_MEMORY;
+    }
+    start(&m, input->triangle_count);
+    TL_TRY(merge(&m, arena));
+    write_parts(&m, parts_out);
+    tl_arena_rollback(arena, mark);
+    return TL_OK;
 }

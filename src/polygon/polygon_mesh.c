@@ -18,6 +18,9 @@
 // Beyond this 3 * (triangles of one contour) could leave 32 bits once repairs have added corners.
 #define MAX_CONTOUR_VERTICES (1u << 28)
 
+// What a contour that touches itself nowhere takes of scratch memory, most of it while its triangles are merged.
+#define SCRATCH_BYTES_A_VERTEX 200u
+
 typedef struct builder {
     const tl_contour_set *contours;
     const tl_polygon_def *def;
@@ -38,7 +41,8 @@ tl_polygon_def tl_default_polygon_def(void)
     return def;
 }
 
-static tl_result check_arguments(const tl_contour_set *set, const tl_polygon_def *def, tl_report *report)
+static tl_result check_arguments(const tl_contour_set *set, const tl_polygon_def *def, uint32_t *vertex_count,
+                                 tl_report *report)
 {
     if (def->max_verts_per_poly != 0 && (def->max_verts_per_poly < 3 || def->max_verts_per_poly > 64)) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "max_verts_per_poly", TL_NO_ELEMENT, "use 0 or 3 to 64");
@@ -67,6 +71,7 @@ static tl_result check_arguments(const tl_contour_set *set, const tl_polygon_def
     if (vertices > MAX_CONTOUR_VERTICES) {
         return tl_report_fail(report, TL_ERR_LIMIT, "contour", TL_NO_ELEMENT, "divide the level into tiles");
     }
+    *vertex_count = (uint32_t)vertices;
     return TL_OK;
 }
 
@@ -259,14 +264,24 @@ static tl_result write_mesh(builder *b, tl_polygon_mesh *mesh)
     return TL_OK;
 }
 
+static uint32_t most_vertices(const tl_contour_set *contours)
+{
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < contours->contour_count; i++) {
+        most = contours->contours[i].vertex_count > most ? contours->contours[i].vertex_count : most;
+    }
+    return most;
+}
+
 static tl_result build(builder *b, tl_polygon_mesh *mesh_out)
 {
-    TL_TRY(check_arguments(b->contours, b->def, &b->report.base));
-    // A first block that stays: contours are mostly small, and none of them should cost an allocation.
-    if (tl_arena_push(&b->scratch, 1, 1) == NULL) {
+    uint32_t vertex_count = 0;
+    TL_TRY(check_arguments(b->contours, b->def, &vertex_count, &b->report.base));
+    // A first block that stays, large enough for most contours: none of them should cost an allocation.
+    if (!tl_arena_reserve(&b->scratch, SCRATCH_BYTES_A_VERTEX * (uint64_t)most_vertices(b->contours))) {
         return TL_ERR_MEMORY;
     }
-    TL_TRY(tl_polygon_store_init(&b->store, &b->arena, b->def, b->contours->vertex_count, b->contours->contour_count));
+    TL_TRY(tl_polygon_store_init(&b->store, &b->arena, b->def, vertex_count));
     if (b->def->drop_straight_vertices && !tl_place_counts_init(&b->places, &b->arena, b->contours)) {
         return TL_ERR_MEMORY;
     }

@@ -11,6 +11,10 @@
 
 #include <string.h>
 
+// Of all arrays together, neighbours among them, as long as repairs add none: a contour of n vertices makes n - 2
+// triangles at most. What is not used is never touched.
+#define BYTES_A_VERTEX 112u
+
 static tl_result reserve(tl_arena *arena, void **array, uint64_t used, uint64_t capacity, size_t size)
 {
     void *larger = tl_arena_push(arena, capacity, size);
@@ -47,14 +51,17 @@ static tl_result grow_vertices(tl_polygon_store *s, uint32_t capacity)
 }
 
 tl_result tl_polygon_store_init(tl_polygon_store *store, tl_arena *arena, const tl_polygon_def *def,
-                                uint32_t vertex_count, uint32_t contour_count)
+                                uint32_t vertex_count)
 {
     memset(store, 0, sizeof *store);
     store->arena = arena;
     store->merge_height = def->merge_height;
+    if (!tl_arena_reserve(arena, BYTES_A_VERTEX * (uint64_t)vertex_count)) {
+        return TL_ERR_MEMORY;
+    }
     TL_TRY(grow_vertices(store, vertex_count + 16));
-    store->polygon_capacity = vertex_count / 2 + contour_count + 16;
-    store->index_capacity = 2 * vertex_count + 16;
+    store->polygon_capacity = vertex_count + 16;
+    store->index_capacity = 3 * vertex_count + 16;
     RESERVE(store, polygons, 0, store->polygon_capacity);
     RESERVE(store, indices, 0, store->index_capacity);
     return TL_OK;

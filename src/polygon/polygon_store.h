@@ -41,7 +41,7 @@ typedef struct tl_polygon_store {
 
 /// Room for the expected counts; it grows beyond them.
 tl_result tl_polygon_store_init(tl_polygon_store *store, tl_arena *arena, const tl_polygon_def *def,
-                                uint32_t vertex_count, uint32_t contour_count);
+                                uint32_t vertex_count);
 
 /// The vertex at a place, made when there is none within merge_height. Of several the nearest on y, then the lowest.
 tl_result tl_polygon_store_vertex(tl_polygon_store *store, int32_t x, int32_t y, int32_t z, bool is_border,

@@ -177,48 +177,57 @@ static tl_result trace_cut(const triangulation *t, tl_arena *scratch, const tl_s
     return TL_OK;
 }
 
-tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint32_t count,
-                         const tl_step_tracer *tracer, uint32_t *triangles_out, uint32_t *twins_out)
+static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count, const tl_step_tracer *tracer,
+                             uint32_t *triangles_out, uint32_t *twins_out)
 {
-    triangulation t;
-    if (!start(&t, scratch, points, count)) {
-        return TL_ERR_MEMORY;
-    }
     uint32_t triangle = 0;
     for (uint32_t left = count; left > 3; left--) {
         tl_partition chosen;
         do {
-            if (!tl_partition_queue_pop(&t.queue, &chosen)) {
+            if (!tl_partition_queue_pop(&t->queue, &chosen)) {
                 return TL_ERR_SELF_INTERSECTION;
             }
-        } while (!is_current(&t, &chosen) || !is_free(&t, &chosen));
+        } while (!is_current(t, &chosen) || !is_free(t, &chosen));
         const uint32_t a = chosen.value, c = chosen.extra;
-        const uint32_t corners[3] = { a, t.vertices[a].next, c };
+        const uint32_t corners[3] = { a, t->vertices[a].next, c };
         if (tracer != NULL) {
-            TL_TRY(trace_cut(&t, scratch, tracer, left, corners));
+            TL_TRY(trace_cut(t, scratch, tracer, left, corners));
         }
-        emit(&t, triangle, corners, 2, triangles_out, twins_out);
-        t.vertices[a].across = 3 * triangle + 2;
-        t.vertices[a].next = c;
-        t.vertices[c].previous = a;
-        update_angle(&t, a);
-        update_angle(&t, c);
+        emit(t, triangle, corners, 2, triangles_out, twins_out);
+        t->vertices[a].across = 3 * triangle + 2;
+        t->vertices[a].next = c;
+        t->vertices[c].previous = a;
+        update_angle(t, a);
+        update_angle(t, c);
         triangle++;
         if (left > 4) {
-            consider(&t, a);
-            consider(&t, c);
+            consider(t, a);
+            consider(t, c);
         }
     }
     // The last triangle begins at its lowest vertex.
     uint32_t corners[3] = { 0, 0, 0 };
-    while (!is_left(&t, corners[0])) {
+    while (!is_left(t, corners[0])) {
         corners[0]++;
     }
-    corners[1] = t.vertices[corners[0]].next;
-    corners[2] = t.vertices[corners[1]].next;
-    if (tl_turn(points[corners[0]], points[corners[1]], points[corners[2]]) <= 0) {
+    corners[1] = t->vertices[corners[0]].next;
+    corners[2] = t->vertices[corners[1]].next;
+    if (tl_turn(t->points[corners[0]], t->points[corners[1]], t->points[corners[2]]) <= 0) {
         return TL_ERR_SELF_INTERSECTION;
     }
-    emit(&t, triangle, corners, 3, triangles_out, twins_out);
-    return tracer != NULL ? trace_cut(&t, scratch, tracer, 3, corners) : TL_OK;
+    emit(t, triangle, corners, 3, triangles_out, twins_out);
+    return tracer != NULL ? trace_cut(t, scratch, tracer, 3, corners) : TL_OK;
+}
+
+tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint32_t count,
+                         const tl_step_tracer *tracer, uint32_t *triangles_out, uint32_t *twins_out)
+{
+    const tl_arena_mark mark = tl_arena_get_mark(scratch);
+    triangulation t;
+    if (!start(&t, scratch, points, count)) {
+        return TL_ERR_MEMORY;
+    }
+    TL_TRY(triangulate(&t, scratch, count, tracer, triangles_out, twins_out));
+    tl_arena_rollback(scratch, mark);
+    return TL_OK;
 }
