@@ -28,30 +28,38 @@ typedef struct waiting_edge {
     uint32_t edge;
 } waiting_edge;
 
+// All of an edge, and all of a polygon, side by side: edges come by length, from anywhere.
+typedef struct merge_edge {
+    uint32_t origin; // corner where it starts
+    uint32_t twin;
+    uint32_t next, previous; // around the polygon
+    uint32_t heap_place;     // or NOT_WAITING
+} merge_edge;
+
+typedef struct merge_part {
+    uint32_t parent; // union-find; a root stands for its polygon, and the rest is the root's
+    uint32_t place;
+    uint32_t size; // corners
+    uint32_t any_edge;
+} merge_part;
+
 typedef struct merger {
     const tl_merge_input *input;
     const tl_lattice_point *points;
-    const uint32_t *origin; // [edge] corner where it starts
-    const uint32_t *twins;
-    uint32_t *next;     // [edge] around the polygon
-    uint32_t *previous; // [edge]
-    uint32_t *parent;   // [triangle] union-find; a root stands for its polygon
-    uint32_t *place;    // [root]
-    uint32_t *size;     // [root] corners
-    uint32_t *any_edge; // [root] an edge of the polygon
+    merge_edge *edges;
+    merge_part *parts;  // [triangle]
     uint32_t *at_place; // [place] root
     uint32_t place_count;
-    waiting_edge *heap;   // edges of the current length
-    uint32_t *heap_place; // [edge] where in the heap, or NOT_WAITING
+    waiting_edge *heap; // edges of the current length
     uint32_t heap_count;
 } merger;
 
 static uint32_t polygon_of(merger *m, uint32_t edge)
 {
     uint32_t t = edge / 3;
-    while (m->parent[t] != t) {
-        m->parent[t] = m->parent[m->parent[t]];
-        t = m->parent[t];
+    while (m->parts[t].parent != t) {
+        m->parts[t].parent = m->parts[m->parts[t].parent].parent;
+        t = m->parts[t].parent;
     }
     return t;
 }
@@ -59,15 +67,15 @@ static uint32_t polygon_of(merger *m, uint32_t edge)
 // The pair of places of an edge as one number: low place first.
 static uint64_t place_pair(merger *m, uint32_t edge)
 {
-    uint64_t a = m->place[polygon_of(m, edge)];
-    uint64_t b = m->place[polygon_of(m, m->twins[edge])];
+    uint64_t a = m->parts[polygon_of(m, edge)].place;
+    uint64_t b = m->parts[polygon_of(m, m->edges[edge].twin)].place;
     return a < b ? a << 32 | b : b << 32 | a;
 }
 
 static void heap_set(merger *m, uint32_t i, waiting_edge item)
 {
     m->heap[i] = item;
-    m->heap_place[item.edge] = i;
+    m->edges[item.edge].heap_place = i;
 }
 
 static void sift_up(merger *m, uint32_t i)
@@ -113,7 +121,7 @@ static void heapify(merger *m)
 static uint32_t heap_pop(merger *m)
 {
     uint32_t top = m->heap[0].edge;
-    m->heap_place[top] = NOT_WAITING;
+    m->edges[top].heap_place = NOT_WAITING;
     m->heap_count--;
     if (m->heap_count > 0) {
         heap_set(m, 0, m->heap[m->heap_count]);
@@ -129,101 +137,91 @@ static void place_changed(merger *m, uint32_t root)
     if (m->heap_count == 0) {
         return;
     }
-    if (m->size[root] > m->heap_count) {
+    if (m->parts[root].size > m->heap_count) {
         heapify(m);
         return;
     }
-    uint32_t start = m->any_edge[root];
+    uint32_t start = m->parts[root].any_edge;
     uint32_t edge = start;
     do {
-        uint32_t twin = m->twins[edge];
+        uint32_t twin = m->edges[edge].twin;
         uint32_t key = twin == TL_NO_EDGE || edge < twin ? edge : twin;
-        uint32_t i = m->heap_place[key];
+        uint32_t i = m->edges[key].heap_place;
         if (i != NOT_WAITING) {
             m->heap[i].pair = place_pair(m, key);
             sift_up(m, i);
         }
-        edge = m->next[edge];
+        edge = m->edges[edge].next;
     } while (edge != start);
 }
 
 // Whether the corner where `edge` starts stays convex without it: from before the edge to after its twin.
 static bool stays_convex(const merger *m, uint32_t edge)
 {
-    uint32_t twin = m->twins[edge];
-    uint32_t after = m->next[m->next[twin]];
-    return tl_turn(m->points[m->origin[m->previous[edge]]], m->points[m->origin[edge]], m->points[m->origin[after]]) >
-           0;
+    const merge_edge *e = &m->edges[edge], *after = &m->edges[m->edges[m->edges[e->twin].next].next];
+    return tl_turn(m->points[m->edges[e->previous].origin], m->points[e->origin], m->points[after->origin]) > 0;
 }
 
 // Whether the polygons of an edge can be merged.
 static bool can_go(merger *m, uint32_t edge)
 {
-    uint32_t twin = m->twins[edge];
+    uint32_t twin = m->edges[edge].twin;
     uint32_t a = polygon_of(m, edge);
     uint32_t b = polygon_of(m, twin);
     uint32_t most = m->input->max_corners;
-    return a != b && (most == 0 || m->size[a] + m->size[b] - 2 <= most) && stays_convex(m, edge) &&
+    return a != b && (most == 0 || m->parts[a].size + m->parts[b].size - 2 <= most) && stays_convex(m, edge) &&
            stays_convex(m, twin);
 }
 
 static void remove_edge(merger *m, uint32_t edge)
 {
-    uint32_t twin = m->twins[edge];
-    uint32_t a = polygon_of(m, edge);
-    uint32_t b = polygon_of(m, twin);
-    uint32_t size = m->size[a] + m->size[b] - 2;
-    m->any_edge[a] = m->next[edge];
-    m->next[m->previous[edge]] = m->next[twin];
-    m->previous[m->next[twin]] = m->previous[edge];
-    m->next[m->previous[twin]] = m->next[edge];
-    m->previous[m->next[edge]] = m->previous[twin];
+    const merge_edge e = m->edges[edge], twin = m->edges[e.twin];
+    const uint32_t a = polygon_of(m, edge), b = polygon_of(m, e.twin);
+    const uint32_t size = m->parts[a].size + m->parts[b].size - 2;
+    m->edges[e.previous].next = twin.next;
+    m->edges[twin.next].previous = e.previous;
+    m->edges[twin.previous].next = e.next;
+    m->edges[e.next].previous = twin.previous;
     // The larger polygon's root stays, so that roots are found in O(log n).
-    uint32_t low = m->place[a] < m->place[b] ? m->place[a] : m->place[b];
-    uint32_t free_place = m->place[a] ^ m->place[b] ^ low;
-    uint32_t root = m->size[a] >= m->size[b] ? a : b;
-    m->parent[root == a ? b : a] = root;
-    m->any_edge[root] = m->any_edge[a];
-    m->size[root] = size;
-    m->place[root] = low;
+    uint32_t low = m->parts[a].place < m->parts[b].place ? m->parts[a].place : m->parts[b].place;
+    uint32_t free_place = m->parts[a].place ^ m->parts[b].place ^ low;
+    uint32_t root = m->parts[a].size >= m->parts[b].size ? a : b;
+    m->parts[root == a ? b : a].parent = root;
+    m->parts[root].any_edge = e.next;
+    m->parts[root].size = size;
+    m->parts[root].place = low;
     m->at_place[low] = root;
     uint32_t last = m->at_place[--m->place_count];
     if (free_place != m->place_count) {
-        m->place[last] = free_place;
+        m->parts[last].place = free_place;
         m->at_place[free_place] = last;
         place_changed(m, last);
     }
     place_changed(m, root);
 }
 
-static bool allocate(merger *m, tl_arena *arena, uint32_t triangle_count)
+static bool start(merger *m, tl_arena *scratch)
 {
-    uint64_t edges = 3 * (uint64_t)triangle_count;
-    m->next = TL_PUSH(arena, uint32_t, edges);
-    m->previous = TL_PUSH(arena, uint32_t, edges);
-    m->parent = TL_PUSH(arena, uint32_t, triangle_count);
-    m->place = TL_PUSH(arena, uint32_t, triangle_count);
-    m->size = TL_PUSH(arena, uint32_t, triangle_count);
-    m->any_edge = TL_PUSH(arena, uint32_t, triangle_count);
-    m->at_place = TL_PUSH(arena, uint32_t, triangle_count);
-    m->heap_place = TL_PUSH(arena, uint32_t, edges);
-    return m->next != NULL && m->previous != NULL && m->parent != NULL && m->place != NULL && m->size != NULL &&
-           m->any_edge != NULL && m->at_place != NULL && m->heap_place != NULL;
-}
-
-static void start(merger *m, uint32_t triangle_count)
-{
-    for (uint32_t t = 0; t < triangle_count; t++) {
-        m->parent[t] = m->place[t] = m->at_place[t] = t;
-        m->size[t] = 3;
-        m->any_edge[t] = 3 * t;
+    const tl_merge_input *input = m->input;
+    m->edges = TL_PUSH(scratch, merge_edge, 3 * (uint64_t)input->triangle_count);
+    m->parts = TL_PUSH(scratch, merge_part, input->triangle_count);
+    m->at_place = TL_PUSH(scratch, uint32_t, input->triangle_count);
+    if (m->edges == NULL || m->parts == NULL || m->at_place == NULL) {
+        return false;
+    }
+    for (uint32_t t = 0; t < input->triangle_count; t++) {
+        const merge_part part = { t, t, 3, 3 * t };
+        m->parts[t] = part;
+        m->at_place[t] = t;
         for (uint32_t k = 0; k < 3; k++) {
-            m->next[3 * t + k] = 3 * t + (k + 1) % 3;
-            m->previous[3 * t + k] = 3 * t + (k + 2) % 3;
-            m->heap_place[3 * t + k] = NOT_WAITING;
+            const uint32_t edge = 3 * t + k;
+            const merge_edge e = { input->corners[edge], input->twins[edge], 3 * t + (k + 1) % 3, 3 * t + (k + 2) % 3,
+                                   NOT_WAITING };
+            m->edges[edge] = e;
         }
     }
-    m->place_count = triangle_count;
+    m->place_count = input->triangle_count;
+    return true;
 }
 
 // Edges that could go if they went first, longest first; each pair of twins once.
@@ -236,9 +234,9 @@ static tl_result sort_edges(merger *m, tl_arena *arena, uint32_t edge_count, tl_
     }
     uint32_t count = 0;
     for (uint32_t edge = 0; edge < edge_count; edge++) {
-        uint32_t twin = m->twins[edge];
+        uint32_t twin = m->edges[edge].twin;
         if (twin != TL_NO_EDGE && edge < twin && stays_convex(m, edge) && stays_convex(m, twin)) {
-            int64_t length2 = tl_distance2(m->points[m->origin[edge]], m->points[m->origin[twin]]);
+            int64_t length2 = tl_distance2(m->points[m->edges[edge].origin], m->points[m->edges[twin].origin]);
             bool goes_first = m->input->joined_first != NULL && m->input->joined_first[edge];
             tl_sort_item item = { goes_first ? 0 : ~(uint64_t)length2, edge, 0 };
             items[count++] = item;
@@ -253,12 +251,12 @@ static tl_result sort_edges(merger *m, tl_arena *arena, uint32_t edge_count, tl_
 
 static uint32_t write_corners(const merger *m, uint32_t root, uint32_t *corners)
 {
-    uint32_t begin = m->any_edge[root];
+    uint32_t begin = m->parts[root].any_edge;
     uint32_t edge = begin;
     uint32_t count = 0;
     do {
-        corners[count++] = m->origin[edge];
-        edge = m->next[edge];
+        corners[count++] = m->edges[edge].origin;
+        edge = m->edges[edge].next;
     } while (edge != begin);
     return count;
 }
@@ -274,13 +272,13 @@ static tl_result remove_and_trace(merger *m, tl_arena *arena, uint32_t edge)
         return TL_ERR_MEMORY;
     }
     tl_traced_step step = { TL_POLYGON_STEP_MERGE, partitions, 1, NULL, 0, corners, 0 };
-    partitions[0] = m->origin[edge];
-    partitions[1] = m->origin[m->twins[edge]];
+    partitions[0] = m->edges[edge].origin;
+    partitions[1] = m->edges[m->edges[edge].twin].origin;
     for (uint32_t other = 0; other < edge_count; other++) {
-        uint32_t twin = m->twins[other];
+        uint32_t twin = m->edges[other].twin;
         if (twin != TL_NO_EDGE && other < twin && other != edge && can_go(m, other)) {
-            partitions[2 * step.partition_count] = m->origin[other];
-            partitions[2 * step.partition_count++ + 1] = m->origin[twin];
+            partitions[2 * step.partition_count] = m->edges[other].origin;
+            partitions[2 * step.partition_count++ + 1] = m->edges[twin].origin;
         }
     }
     remove_edge(m, edge);
@@ -300,7 +298,7 @@ static void write_parts(merger *m, tl_convex_parts *parts)
     }
     parts->first[m->place_count] = filled;
     for (uint32_t t = 0; parts->part_of != NULL && t < m->input->triangle_count; t++) {
-        parts->part_of[t] = m->place[polygon_of(m, 3 * t)];
+        parts->part_of[t] = m->parts[polygon_of(m, 3 * t)].place;
     }
 }
 
@@ -356,16 +354,13 @@ tl_result tl_merge_triangles(tl_arena *arena, const tl_merge_input *input, tl_co
     memset(&m, 0, sizeof m);
     m.input = input;
     m.points = input->points;
-    m.origin = input->corners;
-    m.twins = input->twins;
     if (!allocate_parts(parts_out, arena, input)) {
         return TL_ERR_MEMORY;
     }
     const tl_arena_mark mark = tl_arena_get_mark(arena);
-    if (!allocate(&m, arena, input->triangle_count)) {
+    if (!start(&m, arena)) {
         return TL_ERR_MEMORY;
     }
-    start(&m, input->triangle_count);
     TL_TRY(merge(&m, arena));
     write_parts(&m, parts_out);
     tl_arena_rollback(arena, mark);
