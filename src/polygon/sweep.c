@@ -20,8 +20,9 @@
 typedef struct sweep_item {
     uint32_t child[2]; // below, above
     uint32_t parent;
-    uint32_t neighbour[2]; // next below, next above
-    uint32_t from, to;     // points, `from` first on the sweep's way
+    uint32_t neighbour[2];       // next below, next above
+    uint32_t from, to;           // points, `from` first on the sweep's way
+    tl_lattice_point begin, end; // where they are: on the way down the tree each item is looked at once
 } sweep_item;
 
 typedef struct sweep {
@@ -120,8 +121,7 @@ static bool locate(const sweep *s, uint32_t point, uint32_t target, uint32_t aro
     tl_lattice_point p = s->points[point];
     for (uint32_t item = s->root; item != NONE;) {
         const sweep_item *i = &s->items[item];
-        int64_t turn = i->from == point ? tl_turn(p, s->points[i->to], s->points[target])
-                                        : tl_turn(s->points[i->from], s->points[i->to], p);
+        int64_t turn = i->from == point ? tl_turn(p, i->end, s->points[target]) : tl_turn(i->begin, i->end, p);
         if (turn == 0) {
             return false;
         }
@@ -144,7 +144,7 @@ static bool clash(const sweep *s, uint32_t below, uint32_t above)
         // Should they overlap, an end of one lies inside the other and is found there.
         return false;
     }
-    tl_lattice_point a = s->points[i->from], b = s->points[i->to], c = s->points[j->from], d = s->points[j->to];
+    tl_lattice_point a = i->begin, b = i->end, c = j->begin, d = j->end;
     // Both are in order now; they meet when the one that ends first ends on the wrong side of the other, or on it.
     return comes_first(b, d) ? tl_turn(c, d, b) >= 0 : tl_turn(a, b, d) <= 0;
 }
@@ -168,14 +168,14 @@ static uint32_t end_segments(sweep *s, uint32_t point, uint32_t around[2])
 
 static bool runs_through(const sweep *s, uint32_t item, uint32_t point)
 {
-    return item != NONE && tl_turn(s->points[s->items[item].from], s->points[s->items[item].to], s->points[point]) == 0;
+    return item != NONE && tl_turn(s->items[item].begin, s->items[item].end, s->points[point]) == 0;
 }
 
 // Where to put one of two segments that begin in a point, the other one being there. False: one runs along the other.
 static bool locate_beside(const sweep *s, uint32_t other, uint32_t item, uint32_t around[2])
 {
     const sweep_item *o = &s->items[other];
-    int64_t turn = tl_turn(s->points[o->from], s->points[o->to], s->points[s->items[item].to]);
+    int64_t turn = tl_turn(o->begin, o->end, s->items[item].end);
     around[0] = turn > 0 ? other : o->neighbour[0];
     around[1] = turn > 0 ? o->neighbour[1] : other;
     return turn != 0;
@@ -233,6 +233,8 @@ static bool gather(sweep *s, tl_arena *arena, uint32_t point_count, const tl_lat
         bool forward = comes_first(s->points[segments[i].a], s->points[segments[i].b]);
         s->items[i].from = forward ? segments[i].a : segments[i].b;
         s->items[i].to = forward ? segments[i].b : segments[i].a;
+        s->items[i].begin = s->points[s->items[i].from];
+        s->items[i].end = s->points[s->items[i].to];
         s->first[segments[i].a + 2]++;
         s->first[segments[i].b + 2]++;
     }
