@@ -70,7 +70,7 @@ static tl_result triangulate_walks(tl_arena *arena, const tl_outline *outline, c
         }
         TL_TRY(
             tl_triangulate(arena, points, count, tracer, triangles->corners + 3 * made, triangles->twins + 3 * made));
-        for (uint32_t i = 3 * made; i < 3 * (made + count - 2); i++) {
+        for (uint32_t i = 3 * made; i < 3 * (made + count - 2) && !outline->is_plain; i++) {
             triangles->corners[i] = walk[triangles->corners[i]];
             triangles->twins[i] += triangles->twins[i] != TL_NO_EDGE ? 3 * made : 0;
         }
