@@ -170,7 +170,7 @@ static int by_middle(const void *a, const void *b)
     return (x->middle > y->middle) - (x->middle < y->middle);
 }
 
-// Far beyond 16 bits: 304,200 polygons of 152,100 contours, 152,881 vertices, 456,690 edges. Links are proved by place,
+// Far beyond 16 bits: 304,200 polygons of 152,100 contours, 152,881 vertices, 457,080 edges. Links are proved by place,
 // not by vertex number.
 static void three_hundred_thousand_polygons_are_linked_right(void **state)
 {
