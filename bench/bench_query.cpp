@@ -5,7 +5,7 @@
 //   bench_query [--city TRIANGLES (1000000)] [--pairs MOST (10000)] [--runs RUNS (5)] [--only NAME]
 //
 // Pairs: the recorded ones of the data folder, and 10,000 seeded ones on the built-in city in tiles. The polygons are
-// Recast's, so that both sides search the same mesh. Wall time of one thread, the best run of each side. Lengths are
+// Recast's, so that both sides search the same mesh. CPU time of one thread, the best run of each side. Lengths are
 // compared in the plan (x and z), in which both sides pull their paths straight.
 
 #include "../test/detour_mesh.hpp"
@@ -33,7 +33,7 @@ constexpr float WALL_RADIUS = 10.0f;
 double now_seconds()
 {
     timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
@@ -314,6 +314,39 @@ void bench_places(arena &a)
             a.checksum += found.polygon;
         });
     compare(
+        "slide", 1.0, all,
+        [&](size_t i) {
+            const located_pair &p = a.pairs[i];
+            float end[3];
+            int count;
+            a.detour->moveAlongSurface(p.start.detour, p.start.detour_point, &p.target.x, &a.filter, end,
+                                       a.detour_polygons.data(), &count, 64);
+            a.checksum += (uint64_t)count;
+        },
+        [&](size_t i) {
+            const located_pair &p = a.pairs[i];
+            tl_nav_location end;
+            uint32_t count;
+            tl_nav_query_slide(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, p.target, a.polygons.data(), 64,
+                               &count, &end);
+            a.checksum += count;
+        });
+    compare(
+        "wall distance", 1.0, all,
+        [&](size_t i) {
+            const located_pair &p = a.pairs[i];
+            float distance, point[3], normal[3];
+            a.detour->findDistanceToWall(p.start.detour, p.start.detour_point, WALL_RADIUS, &a.filter, &distance, point,
+                                         normal);
+            a.checksum += (uint64_t)distance;
+        },
+        [&](size_t i) {
+            const located_pair &p = a.pairs[i];
+            tl_nav_wall wall;
+            tl_nav_query_find_wall(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, WALL_RADIUS, &wall);
+            a.checksum += (uint64_t)wall.distance;
+        });
+    compare(
         "surface ray", 1.0, all,
         [&](size_t i) {
             const located_pair &p = a.pairs[i];
@@ -332,6 +365,31 @@ void bench_places(arena &a)
         });
 }
 
+// Where slides and walls are not Detour's.
+void compare_places(arena &a)
+{
+    size_t slides = 0, walls = 0;
+    for (const located_pair &p : a.pairs) {
+        float end[3], distance, point[3], normal[3];
+        int count;
+        uint32_t own_count;
+        tl_nav_location own_end;
+        tl_nav_wall wall;
+        a.detour->moveAlongSurface(p.start.detour, p.start.detour_point, &p.target.x, &a.filter, end,
+                                   a.detour_polygons.data(), &count, 64);
+        tl_nav_query_slide(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, p.target, nullptr, 0, &own_count,
+                           &own_end);
+        double theirs = plan_distance(end, p.target), ours = plan_distance(&own_end.point.x, p.target);
+        slides += ours > theirs + 2e-3;
+        a.detour->findDistanceToWall(p.start.detour, p.start.detour_point, WALL_RADIUS, &a.filter, &distance, point,
+                                     normal);
+        tl_nav_query_find_wall(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, WALL_RADIUS, &wall);
+        walls += std::fabs((double)wall.distance - (double)distance) > 2e-3;
+    }
+    std::printf("  %-22s of %zu slides %zu end farther from their target than Detour's, %zu wall distances differ\n",
+                "agreement", a.pairs.size(), slides, walls);
+}
+
 void bench_arena(arena &a, const std::vector<question> &questions, double path_bar)
 {
     if (!a.level.twin_is_whole) {
@@ -344,6 +402,7 @@ void bench_arena(arena &a, const std::vector<question> &questions, double path_b
     }
     bench_paths(a, path_bar);
     bench_places(a);
+    compare_places(a);
 }
 
 tl_aabb bounds_of(const tl_mesh_view &mesh)

@@ -38,24 +38,31 @@ static double plan(tl_vec3 a, tl_vec3 b)
     return hypot((double)b.x - (double)a.x, (double)b.z - (double)a.z);
 }
 
+static double distance_to(tl_vec3 p, tl_vec3 a, tl_vec3 b)
+{
+    double ex = (double)b.x - (double)a.x, ez = (double)b.z - (double)a.z;
+    double px = (double)p.x - (double)a.x, pz = (double)p.z - (double)a.z;
+    double t = (px * ex + pz * ez) / (ex * ex + ez * ez);
+    t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
+    return hypot(px - t * ex, pz - t * ez);
+}
+
 // Where the segment from u to w meets the stretch from a to b, ends included; false when it does not.
 static bool meets(tl_vec3 u, tl_vec3 w, tl_vec3 a, tl_vec3 b, double *first_out, double *last_out)
 {
     double dx = (double)w.x - (double)u.x, dz = (double)w.z - (double)u.z, length = hypot(dx, dz);
+    bool at_u = distance_to(u, a, b) <= same, at_w = distance_to(w, a, b) <= same;
+    *first_out = at_u ? 0.0 : length;
+    *last_out = at_w ? length : 0.0;
+    if (at_u || at_w || length == 0.0) {
+        return at_u || at_w;
+    }
     double ends[2][2] = { { (double)a.x - (double)u.x, (double)a.z - (double)u.z },
                           { (double)b.x - (double)u.x, (double)b.z - (double)u.z } };
     double along[2], off[2];
     for (int i = 0; i < 2; i++) {
-        along[i] = length > 0.0 ? (ends[i][0] * dx + ends[i][1] * dz) / length : 0.0;
-        off[i] = length > 0.0 ? (ends[i][0] * dz - ends[i][1] * dx) / length : hypot(ends[i][0], ends[i][1]);
-    }
-    if (length == 0.0) {
-        // A point: on the stretch or not.
-        double ex = (double)b.x - (double)a.x, ez = (double)b.z - (double)a.z;
-        double t = -(ends[0][0] * ex + ends[0][1] * ez) / (ex * ex + ez * ez);
-        t = t < 0.0 ? 0.0 : t > 1.0 ? 1.0 : t;
-        *first_out = *last_out = 0.0;
-        return hypot(ends[0][0] + t * ex, ends[0][1] + t * ez) <= same;
+        along[i] = (ends[i][0] * dx + ends[i][1] * dz) / length;
+        off[i] = (ends[i][0] * dz - ends[i][1] * dx) / length;
     }
     if (fabs(off[0]) <= same && fabs(off[1]) <= same) {
         *first_out = fmin(along[0], along[1]);

@@ -263,6 +263,36 @@ TL_API tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_fil
                                      uint32_t capacity, tl_nav_ray_hit *hit_out);
 
 // ---------------------------------------------------------------------------------------------------------
+// Around a place.
+
+/// Moves from start towards `target` (its x and z) and along walls.
+///
+/// The move ends at the target when polygons that touch the circle over the way there lead to it, else at the point of
+/// their walls that is nearest to it. What the filter refuses is wall. The end is lifted to the surface.
+/// `polygons_out` (may be NULL with capacity 0) gets the polygons from the start's to the end's, neighbours in order;
+/// `*count_out` is their true number. TL_ERR_CAPACITY: only the first were written, the end is whole. TL_ERR_LIMIT: the
+/// query was out of nodes; the end is the best that was seen. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
+/// O(polygons that touch the circle).
+TL_API tl_result tl_nav_query_slide(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                    const tl_nav_location *start, tl_vec3 target, tl_nav_ref *polygons_out,
+                                    uint32_t capacity, uint32_t *count_out, tl_nav_location *end_out);
+
+/// The wall nearest to a place, in the plane.
+typedef struct tl_nav_wall {
+    bool hit;           ///< false: none within the radius
+    float distance;     ///< metres in the plane; max_radius without a hit
+    tl_vec3 point;      ///< on the wall
+    tl_vec3 normal;     ///< unit, in the plane, towards the walkable side; 0 without a hit
+    tl_nav_ref polygon; ///< that the wall belongs to; the centre's without a hit
+} tl_nav_wall;
+
+/// Finds the wall nearest to `center` among the polygons that hang together with its own within `max_radius` metres.
+/// What the filter refuses is wall. TL_ERR_LIMIT: the query was out of nodes; the wall is the nearest that was seen.
+/// TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
+TL_API tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                        const tl_nav_location *center, float max_radius, tl_nav_wall *wall_out);
+
+// ---------------------------------------------------------------------------------------------------------
 // All in one.
 
 /// The caller's room for a route.

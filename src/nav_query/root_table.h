@@ -10,6 +10,17 @@
 #include "math/tolerance.h"
 #include "nav_query/node_pool.h"
 
+/// Forgets all entries. Those of a table whose generations have run out would look like new ones: they are cleared.
+static inline void tl_nav_next_generation(tl_nav_query *query)
+{
+    if (++query->generation == 0) {
+        for (uint32_t i = 0; i <= query->root_mask; i++) {
+            query->roots[i].generation = 0;
+        }
+        query->generation = 1;
+    }
+}
+
 /// The entry of a number; `*found_out` says whether it is there already.
 static inline tl_nav_root *tl_nav_find_root(tl_nav_query *query, uint64_t number, bool *found_out)
 {

@@ -534,17 +534,6 @@ static double largest_of(double a, double b)
     return fabs(a) > fabs(b) ? fabs(a) : fabs(b);
 }
 
-// Entries of a table whose generations have run out would look like new ones.
-static void next_generation(tl_nav_query *query)
-{
-    if (++query->generation == 0) {
-        for (uint32_t i = 0; i <= query->root_mask; i++) {
-            query->roots[i].generation = 0;
-        }
-        query->generation = 1;
-    }
-}
-
 tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
 {
     const tl_navmesh *navmesh = search->navmesh;
@@ -565,7 +554,7 @@ tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
     s.rounding = EDGE_ON_ERROR * largest_of(start_size, largest_of(s.goal_x, s.goal_z));
     search->query->wedge_count = 0;
     search->query->open_count = 0;
-    next_generation(search->query);
+    tl_nav_next_generation(search->query);
     search->last = begin(&s);
     if (search->last != TL_NAV_NO_NODE) {
         search->lower_bound = tl_nav_shortest_length(search);

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+//
+// The nearest wall: polygons are looked at in the order in which their edges come near, until none nearer than the
+// nearest wall is left. Dijkstra's order without his sums: the distance to an edge needs no path.
+
+#include "nav_query/local_search.h"
+#include "nav_query/plan.h"
+#include "nav_query/surface.h"
+#include "nav_query/wedge_heap.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct wall_search {
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter;
+    double x, z;
+    double best_sq;
+    double best_t;
+    const tl_nav_ring_edge *start, *end; // of the nearest wall; NULL: none yet
+    uint32_t slot, polygon;              // that it belongs to
+    bool full;
+} wall_search;
+
+static void look_around(wall_search *search, uint32_t node)
+{
+    uint32_t slot = search->query->wedges[node].slot;
+    uint32_t polygon = search->query->wedges[node].polygon;
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, slot, polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        tl_nav_plan_point nearest = tl_nav_nearest_on_edge(&ring[i], end, search->x, search->z);
+        if (nearest.distance_sq >= search->best_sq || ring[i].to == TL_NAV_RING_BACK) {
+            continue;
+        }
+        if (ring[i].to != TL_NAV_RING_WALL) {
+            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring[i].to);
+            if (tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
+                uint32_t next = tl_nav_local_add(search->query, to.slot, to.polygon, node, &search->full);
+                if (next != TL_NAV_NO_NODE) {
+                    tl_nav_wedge_push(search->query, (float)nearest.distance_sq, next);
+                }
+                continue;
+            }
+        }
+        search->best_sq = nearest.distance_sq;
+        search->best_t = nearest.t;
+        search->start = &ring[i];
+        search->end = end;
+        search->slot = slot;
+        search->polygon = polygon;
+    }
+}
+
+tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                 const tl_nav_location *center, float max_radius, tl_nav_wall *wall_out)
+{
+    memset(wall_out, 0, sizeof *wall_out);
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    if (!tl_nav_is_finite(center->point) || !isfinite(max_radius)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (max_radius < 0.0f) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (!tl_nav_split_ref(navmesh, center->polygon, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    double radius_sq = (double)max_radius * (double)max_radius;
+    wall_search search = {
+        query, navmesh, filter, (double)center->point.x, (double)center->point.z, radius_sq, 0.0, NULL, NULL,
+        slot,  polygon, false
+    };
+    tl_nav_local_begin(query);
+    look_around(&search, tl_nav_local_add(query, slot, polygon, TL_NAV_NO_NODE, &search.full));
+    while (query->open_count > 0) {
+        tl_nav_heap_entry next = tl_nav_wedge_pop(query);
+        // Keys are rounded: one more polygon may be looked at than need be, never one less.
+        if ((double)next.total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING) >= search.best_sq) {
+            break;
+        }
+        look_around(&search, next.wedge);
+    }
+    wall_out->distance = max_radius;
+    wall_out->polygon = tl_nav_make_ref(navmesh, search.slot, search.polygon);
+    if (search.start != NULL) {
+        wall_out->hit = true;
+        wall_out->distance = (float)sqrt(search.best_sq);
+        wall_out->point = tl_nav_point_on_edge(search.start, search.end, search.best_t);
+        // Towards the inside, which is left of the edge.
+        wall_out->normal =
+            tl_normalize(tl_vec3_make(search.end->z - search.start->z, 0.0f, search.start->x - search.end->x));
+    }
+    return search.full ? TL_ERR_LIMIT : TL_OK;
+}

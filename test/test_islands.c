@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+//
+// Islands, and the rings that searches run on, under edits: tiles come and go at random, and after each the islands are
+// those of a flood over the links, and paths those of a navmesh that was built afresh.
+
+#include "nav_fixture.h"
+
+#include <math.h>
+
+enum { TILES = 5 };
+
+typedef struct edited {
+    fixture_level level;
+    tl_navmesh *navmesh;
+    bool present[TILES][TILES];
+} edited;
+
+static void toggle(edited *e, uint32_t x, uint32_t z)
+{
+    if (e->present[z][x]) {
+        TEST_RESULT(tl_navmesh_remove_tile(e->navmesh, (int32_t)x, (int32_t)z), TL_OK);
+        e->present[z][x] = false;
+        return;
+    }
+    tl_nav_tile *tile = fixture_build_tile(&e->level, (int32_t)x, (int32_t)z, NULL);
+    if (tile != NULL) {
+        TEST_RESULT(tl_navmesh_add_tile(e->navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+        e->present[z][x] = true;
+    }
+}
+
+// Tiles in row order.
+static tl_navmesh *build_afresh(const edited *e)
+{
+    tl_navmesh *navmesh = NULL;
+    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+    for (uint32_t z = 0; z < TILES; z++) {
+        for (uint32_t x = 0; x < TILES; x++) {
+            if (e->present[z][x]) {
+                tl_nav_tile *tile = fixture_build_tile(&e->level, (int32_t)x, (int32_t)z, NULL);
+                TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+            }
+        }
+    }
+    return navmesh;
+}
+
+// Labels of what hangs together, by sinking until neighbours agree.
+static uint32_t *flood(const tl_navmesh *navmesh, const fixture_refs *all)
+{
+    uint32_t *label = calloc(all->count + 1u, sizeof *label);
+    for (uint32_t i = 0; i < all->count; i++) {
+        label[i] = i;
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (uint32_t i = 0; i < all->count; i++) {
+            tl_nav_link links[64];
+            uint32_t count = 0;
+            TEST_RESULT(tl_navmesh_links(navmesh, all->refs[i], links, 64, &count), TL_OK);
+            for (uint32_t k = 0; k < count; k++) {
+                uint32_t j = fixture_index_of(all, links[k].to);
+                uint32_t least = label[i] < label[j] ? label[i] : label[j];
+                changed = changed || label[i] != label[j];
+                label[i] = label[j] = least;
+            }
+        }
+    }
+    return label;
+}
+
+static void check_islands(const tl_navmesh *navmesh, uint64_t *same_out, uint64_t *apart_out)
+{
+    fixture_refs all = fixture_all_refs(navmesh);
+    uint32_t *label = flood(navmesh, &all);
+    uint32_t *island = calloc(all.count + 1u, sizeof *island);
+    for (uint32_t i = 0; i < all.count; i++) {
+        TEST_RESULT(tl_navmesh_island(navmesh, all.refs[i], &island[i]), TL_OK);
+        for (uint32_t j = 0; j < i; j++) {
+            TEST_CHECK((label[i] == label[j]) == (island[i] == island[j]));
+            *same_out += label[i] == label[j];
+            *apart_out += label[i] != label[j];
+        }
+    }
+    free(all.refs);
+    free(label);
+    free(island);
+}
+
+static void check_paths(const edited *e, tl_nav_query *query, test_random *random, uint64_t *complete_out)
+{
+    tl_navmesh *fresh = build_afresh(e);
+    fixture_refs all = fixture_all_refs(fresh);
+    for (uint32_t i = 0; i < 10 && all.count > 0; i++) {
+        tl_nav_location a = fixture_random_location(fresh, &all, random), c;
+        tl_nav_location b = fixture_random_location(fresh, &all, random), d;
+        tl_vec3 near_by = tl_vec3_make(0.001f, 0.1f, 0.001f);
+        TEST_RESULT(tl_navmesh_find_nearest(e->navmesh, NULL, a.point, near_by, &c), TL_OK);
+        TEST_RESULT(tl_navmesh_find_nearest(e->navmesh, NULL, b.point, near_by, &d), TL_OK);
+        tl_nav_shortest_path expected, found;
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, fresh, NULL, &a, &b, NULL, 0, NULL, 0, &expected), TL_OK);
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, e->navmesh, NULL, &c, &d, NULL, 0, NULL, 0, &found), TL_OK);
+        TEST_CHECK(expected.status == found.status);
+        TEST_CHECK(fabs(expected.length - found.length) <= 1e-5 * (1.0 + expected.length));
+        *complete_out += found.status == TL_NAV_PATH_COMPLETE;
+    }
+    free(all.refs);
+    tl_navmesh_free(fresh);
+}
+
+static void test_edits(void **state)
+{
+    (void)state;
+    test_random random = { 81 };
+    tl_nav_query_def def = tl_default_nav_query_def();
+    tl_nav_query *query = NULL;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    uint64_t same = 0, apart = 0, complete = 0;
+    for (uint32_t round = 0; round < 6; round++) {
+        edited e;
+        memset(&e, 0, sizeof e);
+        e.level = fixture_random(&random, round, TILES * 2);
+        e.level.tile_cells = 2;
+        TEST_RESULT(tl_navmesh_create(NULL, &e.navmesh), TL_OK);
+        for (uint32_t edit = 0; edit < 120; edit++) {
+            // Grow first, then come and go.
+            uint32_t x = test_random_below(&random, TILES), z = test_random_below(&random, TILES);
+            if (edit >= 30 || !e.present[z][x]) {
+                toggle(&e, x, z);
+            }
+            check_islands(e.navmesh, &same, &apart);
+            if (edit % 8 == 7) {
+                check_paths(&e, query, &random, &complete);
+            }
+        }
+        tl_navmesh_free(e.navmesh);
+    }
+    tl_nav_query_free(query);
+    TEST_CHECK(same > 10000 && apart > 10000 && complete > 200);
+}
+
+// An unreachable goal is known without a search.
+static void test_cut_off(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "00#00", "00#00" };
+    fixture_level level = fixture_make(rows, 2);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    tl_nav_query_def def = { 2, NULL };
+    tl_nav_query *query = NULL;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    fixture_refs all = fixture_all_refs(navmesh);
+    tl_nav_location start = { all.refs[0], { 1, 0, 1 } }, goal = { all.refs[all.count - 1], { 19, 0, 7 } };
+    tl_nav_ref polygons[2];
+    tl_nav_path path;
+    tl_nav_shortest_path shortest;
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 2, &path), TL_OK);
+    TEST_CHECK(path.status == TL_NAV_PATH_UNREACHABLE && path.node_count == 0 && path.polygon_count == 1);
+    TEST_CHECK(polygons[0] == start.polygon && path.end.polygon == start.polygon);
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &shortest),
+                TL_OK);
+    TEST_CHECK(shortest.status == TL_NAV_PATH_UNREACHABLE && shortest.node_count == 0);
+    uint32_t island;
+    TEST_RESULT(tl_navmesh_island(navmesh, 77, &island), TL_ERR_NOT_FOUND);
+    free(all.refs);
+    tl_nav_query_free(query);
+    tl_navmesh_free(navmesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_edits), cmocka_unit_test(test_cut_off) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
