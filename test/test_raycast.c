@@ -233,8 +233,11 @@ static void test_arguments(void **state)
     TEST_CHECK(!hit.hit && hit.polygon_count == 1 && polygons[0] == start.polygon);
     // A filter is a wall.
     tl_nav_filter filter = tl_default_nav_filter();
-    const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, 0);
+    tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
     ((uint64_t *)((uintptr_t)tile + tile->flags))[1] = 4;
+    TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_OK);
+    TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+    start.polygon = tl_navmesh_polygon_ref(navmesh, 0, 0);
     filter.exclude_flags = 4;
     TEST_RESULT(tl_navmesh_cast_ray(navmesh, &filter, &start, tl_vec3_make(11, 0, 2), NULL, 0, &hit), TL_OK);
     TEST_CHECK(hit.hit && hit.polygon_count == 1 && fabsf(hit.point.x - 4.0f) < 1e-5f);

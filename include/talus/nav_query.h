@@ -43,7 +43,8 @@ TL_API void tl_navmesh_free(tl_navmesh *navmesh);
 
 /// Puts a tile at its own (tile_x, tile_z) and links it with its four neighbours.
 ///
-/// The tile must be known to be whole: fresh from tl_nav_tile_create, or passed by tl_nav_tile_check. Two portals are
+/// The tile must be known to be whole: fresh from tl_nav_tile_create, or passed by tl_nav_tile_check; and it must not
+/// change while it is in (to change flags, take it out and put the changed one in). Two portals are
 /// linked where they overlap by more than a point and their heights come within agent_max_climb, the larger of both
 /// tiles', and one cell height of one another. On failure nothing is changed and the tile stays the caller's:
 /// TL_ERR_ARGUMENT (there is a tile already, or origin, cell sizes or tile_size differ from the other tiles'),

@@ -19,8 +19,7 @@ bool tl_nav_is_over(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point)
     return true;
 }
 
-// The closest point of the edge, exact at its ends, and within its box.
-static tl_vec3 closest_on_edge(tl_vec3 a, tl_vec3 b, tl_vec3 point)
+tl_vec3 tl_nav_closest_on_edge(tl_vec3 a, tl_vec3 b, tl_vec3 point)
 {
     double dx = (double)b.x - (double)a.x;
     double dz = (double)b.z - (double)a.z;
@@ -47,7 +46,7 @@ tl_vec3 tl_nav_clamp_to_polygon(const tl_nav_tile *tile, uint32_t polygon, tl_ve
     tl_vec3 closest = corners[0];
     double closest_sq = (double)INFINITY;
     for (uint32_t i = 0; i < count; i++) {
-        tl_vec3 candidate = closest_on_edge(corners[i], corners[i + 1 < count ? i + 1 : 0], point);
+        tl_vec3 candidate = tl_nav_closest_on_edge(corners[i], corners[i + 1 < count ? i + 1 : 0], point);
         double dx = (double)candidate.x - (double)point.x;
         double dz = (double)candidate.z - (double)point.z;
         if (dx * dx + dz * dz < closest_sq) {

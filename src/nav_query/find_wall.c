@@ -21,6 +21,7 @@ typedef struct wall_search {
     const tl_nav_ring_edge *start, *end; // of the nearest wall; NULL: none yet
     uint32_t slot, polygon;              // that it belongs to
     bool full;
+    bool all_pass; // the filter refuses nothing
 } wall_search;
 
 static void look_around(wall_search *search, uint32_t node)
@@ -37,7 +38,7 @@ static void look_around(wall_search *search, uint32_t node)
         }
         if (ring[i].to != TL_NAV_RING_WALL) {
             tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring[i].to);
-            if (tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
+            if (search->all_pass || tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
                 uint32_t next = tl_nav_local_add(search->query, to.slot, to.polygon, node, &search->full);
                 if (next != TL_NAV_NO_NODE) {
                     tl_nav_wedge_push(search->query, (float)nearest.distance_sq, next);
@@ -71,8 +72,8 @@ tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh,
     }
     double radius_sq = (double)max_radius * (double)max_radius;
     wall_search search = {
-        query, navmesh, filter, (double)center->point.x, (double)center->point.z, radius_sq, 0.0, NULL, NULL,
-        slot,  polygon, false
+        query, navmesh, filter, (double)center->point.x,         (double)center->point.z, radius_sq, 0.0, NULL, NULL,
+        slot,  polygon, false,  tl_nav_all_pass(navmesh, filter)
     };
     tl_nav_local_begin(query);
     look_around(&search, tl_nav_local_add(query, slot, polygon, TL_NAV_NO_NODE, &search.full));

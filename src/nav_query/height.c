@@ -13,22 +13,35 @@ typedef struct triangle_weights {
     double worst; // the smallest of them; >= 0: the triangle holds the point
 } triangle_weights;
 
-// False for a triangle without area in the plane.
-static bool weigh(tl_vec3 a, tl_vec3 b, tl_vec3 c, double x, double z, triangle_weights *out)
+// Twice the areas of the parts into which a point divides a triangle.
+static void divide(tl_vec3 a, tl_vec3 b, tl_vec3 c, double x, double z, double parts[3])
 {
     double ax = (double)a.x - x, az = (double)a.z - z;
     double bx = (double)b.x - x, bz = (double)b.z - z;
     double cx = (double)c.x - x, cz = (double)c.z - z;
-    double wa = bx * cz - bz * cx;
-    double wb = cx * az - cz * ax;
-    double wc = ax * bz - az * bx;
-    double sum = wa + wb + wc;
+    parts[0] = bx * cz - bz * cx;
+    parts[1] = cx * az - cz * ax;
+    parts[2] = ax * bz - az * bx;
+}
+
+// Whether a triangle with area holds the point: what weigh would find, without its divisions.
+static bool holds(const double parts[3])
+{
+    double sum = parts[0] + parts[1] + parts[2];
+    return (parts[0] >= 0.0 && parts[1] >= 0.0 && parts[2] >= 0.0 && sum > 0.0) ||
+           (parts[0] <= 0.0 && parts[1] <= 0.0 && parts[2] <= 0.0 && sum < 0.0);
+}
+
+// False for a triangle without area in the plane.
+static bool weigh(const double parts[3], triangle_weights *out)
+{
+    double sum = parts[0] + parts[1] + parts[2];
     if (sum == 0.0) {
         return false;
     }
-    out->w[0] = wa / sum;
-    out->w[1] = wb / sum;
-    out->w[2] = wc / sum;
+    out->w[0] = parts[0] / sum;
+    out->w[1] = parts[1] / sum;
+    out->w[2] = parts[2] / sum;
     out->worst = out->w[0] < out->w[1] ? out->w[0] : out->w[1];
     out->worst = out->w[2] < out->worst ? out->w[2] : out->worst;
     return true;
@@ -68,26 +81,43 @@ static float nearest_vertex_height(const tl_nav_surface *surface, double x, doub
     return height;
 }
 
-float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z)
+// The height where no triangle holds the point.
+static float height_beside(const tl_nav_surface *surface, double x, double z)
 {
-    tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
     const tl_vec3 *best[3] = { NULL, NULL, NULL };
     triangle_weights best_weights = { { 0.0, 0.0, 0.0 }, -(double)INFINITY };
-    for (uint32_t i = 0; i < surface.triangle_count && best_weights.worst < 0.0; i++) {
-        const tl_nav_detail_triangle *triangle = &surface.triangles[i];
-        const tl_vec3 *a = &surface.vertices[triangle->corner[0]];
-        const tl_vec3 *b = &surface.vertices[triangle->corner[1]];
-        const tl_vec3 *c = &surface.vertices[triangle->corner[2]];
+    for (uint32_t i = 0; i < surface->triangle_count; i++) {
+        const uint16_t *corner = surface->triangles[i].corner;
+        const tl_vec3 *v = surface->vertices;
+        double parts[3];
         triangle_weights weights;
-        if (weigh(*a, *b, *c, (double)x, (double)z, &weights) && weights.worst > best_weights.worst) {
+        divide(v[corner[0]], v[corner[1]], v[corner[2]], x, z, parts);
+        if (weigh(parts, &weights) && weights.worst > best_weights.worst) {
             best_weights = weights;
-            best[0] = a;
-            best[1] = b;
-            best[2] = c;
+            best[0] = &v[corner[0]];
+            best[1] = &v[corner[1]];
+            best[2] = &v[corner[2]];
         }
     }
     // Only a patch that is one vertical wall has no triangle with area in the plane.
-    return best[0] != NULL ? mix_heights(best, &best_weights) : nearest_vertex_height(&surface, (double)x, (double)z);
+    return best[0] != NULL ? mix_heights(best, &best_weights) : nearest_vertex_height(surface, x, z);
+}
+
+float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z)
+{
+    tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
+    for (uint32_t i = 0; i < surface.triangle_count; i++) {
+        const tl_nav_detail_triangle *triangle = &surface.triangles[i];
+        const tl_vec3 *corners[3] = { &surface.vertices[triangle->corner[0]], &surface.vertices[triangle->corner[1]],
+                                      &surface.vertices[triangle->corner[2]] };
+        double parts[3];
+        triangle_weights weights;
+        divide(*corners[0], *corners[1], *corners[2], (double)x, (double)z, parts);
+        if (holds(parts) && weigh(parts, &weights)) {
+            return mix_heights(corners, &weights);
+        }
+    }
+    return height_beside(&surface, (double)x, (double)z);
 }
 
 tl_result tl_navmesh_height(const tl_navmesh *navmesh, tl_nav_ref ref, float x, float z, float *height_out)

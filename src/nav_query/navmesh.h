@@ -68,6 +68,15 @@ static inline tl_nav_ref tl_nav_make_ref(const tl_navmesh *navmesh, uint32_t slo
            (uint64_t)slot << TL_NAV_REF_POLYGON_BITS | polygon;
 }
 
+/// Whether a filter, for which NULL stands for the default one, surely refuses no polygon.
+static inline bool tl_nav_all_pass(const tl_navmesh *navmesh, const tl_nav_filter *filter)
+{
+    if (filter == NULL) {
+        return navmesh->all_flags != 0;
+    }
+    return (navmesh->all_flags & filter->include_flags) != 0 && (navmesh->any_flags & filter->exclude_flags) == 0;
+}
+
 /// Slot and polygon of a reference; false when it is stale.
 bool tl_nav_split_ref(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *slot_out, uint32_t *polygon_out);
 

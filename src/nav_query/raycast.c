@@ -14,7 +14,7 @@
 // 1990.
 
 #include "nav_query/filter.h"
-#include "nav_query/navmesh.h"
+#include "nav_query/ring_step.h"
 #include "nav_query/side.h"
 #include "nav_query/surface.h"
 
@@ -39,6 +39,8 @@ typedef struct ray_walk {
     double t;
     bool hit;
     uint32_t edge; // that was hit
+    bool has_point;
+    tl_vec3 point; // where it ends, in the plane and in the polygon
 } ray_walk;
 
 typedef struct ray_trace {
@@ -255,9 +257,12 @@ static void find_start(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
 // Whether the ray's end lies beyond the edge by more than rounding.
 static bool ends_beyond(const surface_ray *ray, tl_vec3 a, tl_vec3 b)
 {
+    double turn = tl_nav_turn(a, b, ray->end);
     double ex = (double)b.x - (double)a.x;
     double ez = (double)b.z - (double)a.z;
-    return tl_nav_turn(a, b, ray->end) > ray->rounding * sqrt(ex * ex + ez * ez);
+    // The sum of both is no less than the length: mostly that decides.
+    return turn > 0.0 &&
+           (turn > ray->rounding * (fabs(ex) + fabs(ez)) || turn > ray->rounding * sqrt(ex * ex + ez * ez));
 }
 
 // Walks on from the polygon of `walk`, which is on record, to the ray's end or a wall.
@@ -336,9 +341,120 @@ static bool touches_ahead(surface_ray *ray, const ray_walk *walk)
     return found && farthest < 1.0;
 }
 
+// ---------------------------------------------------------------------------------------------------------
+// The common case: a ray that begins inside its polygon and touches no vertex. It runs on the rings, where a step is
+// one look at the vertices between the edge of entry and that of exit. Its answers are those of the walk above.
+
+// Whether the walk's begin lies inside a ring by more than rounding, and which edge the ray leaves it by.
+static bool find_clean_exit(const surface_ray *ray, const tl_nav_ring_edge *ring, uint32_t count, uint32_t *edge_out)
+{
+    bool found = false;
+    tl_vec3 a = tl_vec3_make(ring[0].x, 0.0f, ring[0].z);
+    double side = tl_nav_turn(ray->start, ray->end, a);
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_ring_edge *next = &ring[i + 1 < count ? i + 1 : 0];
+        tl_vec3 b = tl_vec3_make(next->x, 0.0f, next->z);
+        double next_side = tl_nav_turn(ray->start, ray->end, b);
+        double size = fabs((double)b.x - (double)a.x) + fabs((double)b.z - (double)a.z);
+        if (fabs(next_side) <= ray->grazing || tl_nav_turn(a, b, ray->start) >= -ray->rounding * size) {
+            return false;
+        }
+        if (side > 0.0 && next_side < 0.0) {
+            *edge_out = i;
+            found = true;
+        }
+        a = b;
+        side = next_side;
+    }
+    return found;
+}
+
+// The edge that the ray leaves a ring by, from the edge of entry on; false when it touches a vertex on the way.
+static bool find_next_exit(const surface_ray *ray, const tl_nav_ring_edge *ring, uint32_t count, uint32_t entry,
+                           uint32_t *edge_out)
+{
+    uint32_t i = entry + 1 < count ? entry + 1 : 0; // where the edge of entry ends: right of the ray
+    for (uint32_t k = 1; k < count; k++) {
+        uint32_t next = i + 1 < count ? i + 1 : 0;
+        double side = tl_nav_turn(ray->start, ray->end, tl_vec3_make(ring[next].x, 0.0f, ring[next].z));
+        if (fabs(side) <= ray->grazing) {
+            return false;
+        }
+        if (side < 0.0) {
+            *edge_out = i;
+            return next != entry + 1;
+        }
+        i = next;
+    }
+    return false;
+}
+
+// The polygon's own number of a ring's edge, which may be a piece of it.
+static uint32_t edge_of_piece(const tl_nav_tile *tile, uint32_t polygon, const tl_nav_ring_edge *ring, uint32_t piece)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
+    uint32_t edge = 0;
+    for (uint32_t i = 1; i <= piece && edge + 1 < count; i++) {
+        edge += ring[i].x == corners[edge + 1].x && ring[i].z == corners[edge + 1].z ? 1 : 0;
+    }
+    return edge;
+}
+
+// False where the ray is no such case; then `walk` is as it was.
+static bool walk_clean(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
+{
+    const bool all_pass = tl_nav_all_pass(ray->navmesh, ray->filter);
+    ray_walk at = *walk;
+    uint32_t count = 0;
+    uint32_t edge = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(ray->navmesh, at.slot, at.polygon, &count);
+    bool is_clean = find_clean_exit(ray, ring, count, &edge);
+    for (uint64_t steps = ray->steps_left; is_clean && steps > 0; steps--) {
+        const tl_nav_ring_edge *next = &ring[edge + 1 < count ? edge + 1 : 0];
+        tl_vec3 a = tl_vec3_make(ring[edge].x, 0.0f, ring[edge].z);
+        tl_vec3 b = tl_vec3_make(next->x, 0.0f, next->z);
+        if (!ends_beyond(ray, a, b)) {
+            at.t = 1.0;
+            at.point = ray->end;
+            at.has_point = tl_nav_side_of(a, b, ray->end) <= 0;
+            *walk = at;
+            return true;
+        }
+        if (ray->navmesh->slots[at.slot].rings.has_back) {
+            return false;
+        }
+        bool is_way = ring[edge].to != TL_NAV_RING_WALL;
+        tl_nav_ring_place twin = { at.slot, at.polygon, 0 };
+        if (is_way) {
+            twin = tl_nav_ring_twin(ray->navmesh, at.slot, at.polygon, ring, count, edge);
+            is_way = all_pass || tl_nav_passes(ray->filter, ray->navmesh->slots[twin.slot].tile, twin.polygon);
+        }
+        if (!is_way) {
+            double t = crossing(ray, a, b);
+            at.t = t < 1.0 ? t : 1.0;
+            at.hit = true;
+            at.has_point = true;
+            at.point = tl_lerp(ray->start, ray->end, (float)at.t);
+            if (tl_nav_side_of(a, b, at.point) > 0) {
+                at.point = tl_nav_closest_on_edge(a, b, at.point);
+            }
+            at.edge = edge_of_piece(ray->navmesh->slots[at.slot].tile, at.polygon, ring, edge);
+            *walk = at;
+            return true;
+        }
+        at.slot = twin.slot;
+        at.polygon = twin.polygon;
+        at.polygon_count++;
+        record(ray, &at, trace);
+        ring = tl_nav_ring_at(ray->navmesh, at.slot, at.polygon, &count);
+        is_clean = find_next_exit(ray, ring, count, twin.edge, &edge);
+    }
+    return false;
+}
+
 static tl_result walk_to_end(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
 {
-    record(ray, walk, trace);
     do {
         tl_result result = walk_both_ways(ray, walk, trace);
         if (result != TL_OK) {
@@ -372,15 +488,32 @@ static void describe(const surface_ray *ray, const ray_walk *end, tl_nav_ray_hit
     hit_out->t = (float)end->t;
     hit_out->polygon = tl_nav_make_ref(ray->navmesh, end->slot, end->polygon);
     hit_out->polygon_count = end->polygon_count;
-    tl_vec3 point = end->hit ? tl_lerp(ray->start, ray->end, (float)end->t) : ray->end;
-    bool inside = false;
-    hit_out->point = tl_nav_closest_on_surface(tile, end->polygon, point, &inside);
+    if (end->has_point) {
+        hit_out->point = end->point;
+        hit_out->point.y = tl_nav_surface_height(tile, end->polygon, end->point.x, end->point.z);
+    } else {
+        tl_vec3 point = end->hit ? tl_lerp(ray->start, ray->end, (float)end->t) : ray->end;
+        bool inside = false;
+        hit_out->point = tl_nav_closest_on_surface(tile, end->polygon, point, &inside);
+    }
     if (end->hit) {
         uint32_t count = 0;
         const tl_vec3 *corners = tl_nav_tile_corners(tile, end->polygon, &count);
         hit_out->edge = end->edge;
         hit_out->normal = edge_normal(corners, count, end->edge);
     }
+}
+
+static surface_ray make_ray(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_vec3 from, tl_vec3 end)
+{
+    double dx = (double)end.x - (double)from.x;
+    double dz = (double)end.z - (double)from.z;
+    double rounding = GRAZING_ERROR * largest_coordinate(from, end);
+    // Each polygon once, in either way of touching, and again for each vertex that is gone around.
+    uint64_t steps = 4 * navmesh->polygon_count + MAX_AROUND;
+    surface_ray ray = { navmesh, filter, from, end, from, rounding, rounding * sqrt(dx * dx + dz * dz),
+                        true,    false,  steps };
+    return ray;
 }
 
 tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *filter, const tl_nav_location *start,
@@ -395,22 +528,25 @@ tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *fi
     if (!tl_nav_split_ref(navmesh, start->polygon, &slot, &polygon)) {
         return TL_ERR_NOT_FOUND;
     }
-    bool inside = false;
-    tl_vec3 from = tl_nav_clamp_to_polygon(navmesh->slots[slot].tile, polygon, start->point, &inside);
-    double dx = (double)end.x - (double)from.x;
-    double dz = (double)end.z - (double)from.z;
-    double rounding = GRAZING_ERROR * largest_coordinate(from, end);
-    // Each polygon once, in either way of touching, and again for each vertex that is gone around.
-    uint64_t steps = 4 * navmesh->polygon_count + MAX_AROUND;
-    surface_ray ray = { navmesh, filter, from, end, from, rounding, rounding * sqrt(dx * dx + dz * dz),
-                        true,    false,  steps };
-    ray_walk walk = { slot, polygon, 1, 0.0, false, 0 };
+    ray_walk walk;
+    memset(&walk, 0, sizeof walk);
+    walk.slot = slot;
+    walk.polygon = polygon;
+    walk.polygon_count = 1;
     const ray_trace trace = { polygons_out, capacity };
-    if (dx == 0.0 && dz == 0.0) {
-        walk.t = 1.0;
-        record(&ray, &walk, &trace);
-    } else {
-        tl_result result = walk_to_end(&ray, &walk, &trace);
+    surface_ray ray = make_ray(navmesh, filter, start->point, end);
+    record(&ray, &walk, &trace);
+    // A clean start is inside its polygon.
+    if (!walk_clean(&ray, &walk, &trace)) {
+        bool inside = false;
+        ray = make_ray(navmesh, filter,
+                       tl_nav_clamp_to_polygon(navmesh->slots[slot].tile, polygon, start->point, &inside), end);
+        tl_result result = TL_OK;
+        if (ray.start.x == end.x && ray.start.z == end.z) {
+            walk.t = 1.0;
+        } else {
+            result = walk_to_end(&ray, &walk, &trace);
+        }
         if (result != TL_OK) {
             return result;
         }

@@ -164,9 +164,7 @@ tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh
     }
     search_out->query = query;
     search_out->navmesh = navmesh;
-    bool all_pass = filter == NULL ? navmesh->all_flags != 0
-                                   : (navmesh->all_flags & filter->include_flags) != 0 &&
-                                         (navmesh->any_flags & filter->exclude_flags) == 0;
+    bool all_pass = tl_nav_all_pass(navmesh, filter);
     static const tl_nav_filter any = { UINT64_MAX, 0, { 0 } };
     search_out->filter = all_pass ? NULL : filter != NULL ? filter : &any;
     bool inside = false;

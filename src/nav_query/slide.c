@@ -26,6 +26,7 @@ typedef struct slide_search {
     const tl_nav_ring_edge *start, *end; // of the nearest wall
     uint32_t best;                       // node
     bool full;
+    bool all_pass; // the filter refuses nothing
 } slide_search;
 
 // Whether the target lies over a ring, its outline included.
@@ -61,7 +62,7 @@ static bool look_around(slide_search *search, uint32_t node)
         }
         if (ring[i].to != TL_NAV_RING_WALL) {
             tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring[i].to);
-            if (tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
+            if (search->all_pass || tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
                 if (tl_nav_nearest_on_edge(&ring[i], end, search->middle_x, search->middle_z).distance_sq <=
                     search->reach_sq) {
                     tl_nav_local_add(search->query, to.slot, to.polygon, node, &search->full);
@@ -132,7 +133,8 @@ tl_result tl_nav_query_slide(tl_nav_query *query, const tl_navmesh *navmesh, con
                             NULL,
                             NULL,
                             TL_NAV_NO_NODE,
-                            false };
+                            false,
+                            tl_nav_all_pass(navmesh, filter) };
     tl_nav_local_begin(query);
     tl_nav_local_add(query, slot, polygon, TL_NAV_NO_NODE, &search.full);
     for (uint32_t node = 0; node < query->wedge_count && !look_around(&search, node); node++) {

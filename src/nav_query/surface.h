@@ -13,6 +13,9 @@ float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, 
 /// Whether x and z lie over the polygon, its outline included. Exact.
 bool tl_nav_is_over(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point);
 
+/// The point of the edge from a to b closest in the plane: exact at its ends, and within its box.
+tl_vec3 tl_nav_closest_on_edge(tl_vec3 a, tl_vec3 b, tl_vec3 point);
+
 /// The polygon's point closest in the plane, on its edges' own height; `point` itself (its y too) when it is over the
 /// polygon.
 tl_vec3 tl_nav_clamp_to_polygon(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point, bool *inside_out);
