@@ -240,7 +240,10 @@ void compare_lengths(const arena &a, const char *what, const std::vector<double>
             continue;
         }
         compared++;
-        longer += ours > theirs + moved + 1e-5 * (1.0 + theirs);
+        // Half a float's step at these coordinates, for each end of a leg.
+        const tl_vec3 &place = a.pairs[a.complete[k]].goal.talus.point;
+        double rounding = 2.5e-7 * (std::fabs((double)place.x) + std::fabs((double)place.z)) + 1e-5 * (1.0 + theirs);
+        longer += ours > theirs + moved + rounding;
         if (theirs > 1.0) {
             ratios.push_back(theirs / ours);
             sum += theirs / ours;

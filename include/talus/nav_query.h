@@ -269,7 +269,8 @@ TL_API tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_fil
 /// Moves from start towards `target` (its x and z) and along walls.
 ///
 /// The move ends at the target when polygons that touch the circle over the way there lead to it, else at the point of
-/// their walls that is nearest to it. What the filter refuses is wall. The end is lifted to the surface.
+/// their walls that is nearest to it. What the filter refuses is wall. The end is exact in x and z; its y is
+/// that of the target or of the wall (tl_navmesh_height gives the surface's).
 /// `polygons_out` (may be NULL with capacity 0) gets the polygons from the start's to the end's, neighbours in order;
 /// `*count_out` is their true number. TL_ERR_CAPACITY: only the first were written, the end is whole. TL_ERR_LIMIT: the
 /// query was out of nodes; the end is the best that was seen. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.

@@ -7,6 +7,8 @@
 
 #include "nav_query/portal_between.h"
 
+#include "nav_query/ring_step.h"
+
 bool tl_nav_portal_between(const tl_navmesh *navmesh, tl_nav_ref from, uint32_t to_slot, uint32_t to_polygon,
                            tl_vec3 *left_out, tl_vec3 *right_out)
 {
@@ -15,30 +17,35 @@ bool tl_nav_portal_between(const tl_navmesh *navmesh, tl_nav_ref from, uint32_t 
     if (!tl_nav_split_ref(navmesh, from, &slot, &polygon)) {
         return false;
     }
-    tl_nav_ways ways = tl_nav_ways_of(navmesh, slot, polygon);
-    tl_nav_way way;
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, slot, polygon, &count);
     bool found = false;
     double leftmost = 0.0;
     double rightmost = 0.0;
     double dx = 0.0;
     double dz = 0.0;
-    while (tl_nav_ways_next(&ways, &way)) {
-        if (way.slot != to_slot || way.polygon != to_polygon) {
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_ring_seam to = { 0, 0 };
+        if (tl_nav_ring_is_open(&ring[i])) {
+            to = tl_nav_ring_across(navmesh, slot, ring[i].to);
+        }
+        if (!tl_nav_ring_is_open(&ring[i]) || to.slot != to_slot || to.polygon != to_polygon) {
             continue;
         }
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
         if (!found) {
-            dx = (double)way.left.x - (double)way.right.x;
-            dz = (double)way.left.z - (double)way.right.z;
+            dx = (double)end->x - (double)ring[i].x;
+            dz = (double)end->z - (double)ring[i].z;
         }
-        double left = dx * (double)way.left.x + dz * (double)way.left.z;
-        double right = dx * (double)way.right.x + dz * (double)way.right.z;
+        double left = dx * (double)end->x + dz * (double)end->z;
+        double right = dx * (double)ring[i].x + dz * (double)ring[i].z;
         if (!found || left > leftmost) {
             leftmost = left;
-            *left_out = way.left;
+            *left_out = tl_vec3_make(end->x, end->y, end->z);
         }
         if (!found || right < rightmost) {
             rightmost = right;
-            *right_out = way.right;
+            *right_out = tl_vec3_make(ring[i].x, ring[i].y, ring[i].z);
         }
         found = true;
     }

@@ -303,9 +303,13 @@ static void turn_at(wedge_search *s, const step_from *from, const tl_nav_wedge *
         seen_edge edge = see(from, i, x, z);
         double left = side(limit, edge.left);
         double right = side(limit, edge.right);
-        edge_view v = view_of(s, &edge);
         bool is_beyond = hand > 0 ? left < 0.0 : right > 0.0;
-        bool touches = v.edge_on && (hand > 0 ? right <= 0.0 : left >= 0.0);
+        bool is_near = hand > 0 ? right <= 0.0 : left >= 0.0;
+        if (!is_beyond && !is_near) {
+            continue;
+        }
+        edge_view v = view_of(s, &edge);
+        bool touches = v.edge_on && is_near;
         if (!(is_beyond && v.facing) && !touches) {
             continue;
         }

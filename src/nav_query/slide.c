@@ -142,7 +142,6 @@ tl_result tl_nav_query_slide(tl_nav_query *query, const tl_navmesh *navmesh, con
     if (search.best != TL_NAV_NO_NODE) {
         const tl_nav_wedge *last = &query->wedges[search.best];
         tl_vec3 point = search.start == NULL ? target : tl_nav_point_on_edge(search.start, search.end, search.best_t);
-        point.y = tl_nav_surface_height(navmesh->slots[last->slot].tile, last->polygon, point.x, point.z);
         end_out->polygon = tl_nav_make_ref(navmesh, last->slot, last->polygon);
         end_out->point = point;
         *count_out = write_way(&search, polygons_out, capacity);
