@@ -64,7 +64,9 @@ set(talus_test_settings_sweep_needs talus_sample talus_io)
 
 # The same bytes from any order, thread count and compiler.
 set(talus_test_nav_golden_needs talus_sample talus_io)
-set(talus_test_nav_golden_libraries pthread)
+foreach(stem nav_golden nav_obstacles_thread)
+    set(talus_test_${stem}_libraries pthread)
+endforeach()
 
 # Bullet and libccd: convex pairs to compare with, in one table.
 include(${PROJECT_SOURCE_DIR}/cmake/TalusPeerConvex.cmake)

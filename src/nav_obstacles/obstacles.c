@@ -508,7 +508,7 @@ uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)
         const uint64_t spans = compact->span_count;
         bytes += ((uint64_t)compact->width * compact->height + 1) * sizeof *compact->first_span;
         bytes += spans * (sizeof *compact->floor + sizeof *compact->clearance + 2 * sizeof *compact->area);
-        bytes += spans * 4 * sizeof *compact->neighbour;
+        bytes += spans * 4 * (compact->step != NULL ? sizeof *compact->step : sizeof *compact->neighbour);
     }
     return bytes;
 }
