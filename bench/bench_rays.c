@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
 // Rays against Embree 3, in one process, one ray a call, on one thread: the levels of TALUS_DATA_DIR and generated
-// ones. Each repetition runs every system on the same rays in turn; the best repetition counts. Rows are million rays a
-// second, the last table ratios to Embree (fast, triangles, quality HIGH), geometric mean over levels.
+// ones. Each repetition runs every system on the same rays in turn, twice, and the best second run counts. Rows are
+// million rays a second; claims are ratios, as geometric means over levels, to Embree robust and to the better of
+// Embree's fast triangles and quads, all built at quality HIGH.
 //
-//   bench_rays [repetitions [rays [only]]]
+//   bench_rays [--json FILE] [repetitions [rays [only]]]
 //
 // `only` is a part of a level's name. Pin it to a core (taskset -c 1) and keep the machine quiet.
 
 #define _POSIX_C_SOURCE 200809L
 
 #include "cli/sample_level.h"
+#include "report.h"
 #include "soup/ray.h"
 
 #include <embree3/rtcore.h>
@@ -20,10 +22,12 @@
 #include <string.h>
 #include <time.h>
 
-enum { KINDS = 5, SYSTEMS = 5, MAX_LEVELS = 32 };
+enum { KINDS = 5, MAX_LEVELS = 32 };
+enum { TALUS, TALUS_AVX2, TALUS_AVX512, FAST, QUADS, ROBUST, SYSTEMS };
 
 static const char *const kind_names[KINDS] = { "camera", "incoherent", "sight", "segment", "down" };
-static const char *const system_names[SYSTEMS] = { "talus", "avx512", "fast", "quads", "robust" };
+static const char *const system_names[SYSTEMS] = { "talus",       "talus avx2",   "talus avx512",
+                                                   "Embree fast", "Embree quads", "Embree robust" };
 
 typedef struct level {
     char name[64];
@@ -109,21 +113,20 @@ static bool load_obj(const char *path, level *l)
 
 static uint32_t load_levels(level *levels, const char *only)
 {
-    static const char *const files[] = { "levels/nav_test.obj",    "levels/dungeon.obj",        "levels/undulating.obj",
-                                         "levels/proto-level.obj", "models/stanford-bunny.obj", "models/rocker-arm.obj",
-                                         "models/fandisk.obj" };
+    static const char *const files[] = { "nav_test",    "dungeon",           "undulating",
+                                         "proto-level", "collision_mesh_01", "test_map01" };
     static const struct {
         const char *name;
         uint32_t triangles;
-    } samples[] = { { "dungeon", 50000 }, { "city", 100000 }, { "terrain", 100000 }, { "city", 1000000 } };
+    } samples[] = { { "dungeon", 8000 }, { "dungeon", 50000 }, { "dungeon", 200000 },
+                    { "city", 8000 },    { "city", 100000 },   { "city", 1000000 } };
     uint32_t count = 0;
     for (uint32_t i = 0; i < sizeof files / sizeof files[0]; i++) {
         level *l = &levels[count];
         memset(l, 0, sizeof *l);
         char path[1024];
-        snprintf(path, sizeof path, "%s/%s", TALUS_DATA_DIR, files[i]);
-        snprintf(l->name, sizeof l->name, "%s", strchr(files[i], '/') + 1);
-        *strchr(l->name, '.') = 0;
+        snprintf(path, sizeof path, "%s/levels/%s.obj", TALUS_DATA_DIR, files[i]);
+        snprintf(l->name, sizeof l->name, "%s", files[i]);
         count += (only == NULL || strstr(l->name, only) != NULL) && load_obj(path, l);
     }
     for (uint32_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
@@ -319,101 +322,227 @@ static RTCScene make_scene(RTCDevice device, const level *l, const tl_soup *soup
 
 // ------------------------------------------------------------------------------------------------------- runs
 
-static double log_ratio[KINDS][SYSTEMS];
-static uint32_t ratio_count;
+// What a level gave.
+typedef struct result {
+    double rate[KINDS][SYSTEMS]; // rays a second
+    double miss_ns[SYSTEMS];     // a call whose ray misses the root
+    double bytes;                // a triangle
+    double build_share;          // of Embree's time at MEDIUM, and with spatial splits of that at HIGH
+    double quality_build_share;
+} result;
 
-static void bench_level(RTCDevice device, const level *l, uint32_t repetitions, uint32_t ray_count)
+typedef struct scenes {
+    const tl_soup *soup;
+    RTCScene embree[SYSTEMS];
+} scenes;
+
+static answer run_system(const scenes *s, uint32_t system, const query *queries, uint32_t count, uint32_t kind)
+{
+    switch (system) {
+    case TALUS:
+        return run_talus(NULL, s->soup, queries, count, kind);
+    case TALUS_AVX2:
+        return run_talus(tl_ray_walk_for(TL_RAY_AVX2), s->soup, queries, count, kind);
+    case TALUS_AVX512:
+        return run_talus(tl_ray_walk_for(TL_RAY_AVX512), s->soup, queries, count, kind);
+    default:
+        return run_embree(s->embree[system], queries, count, kind);
+    }
+}
+
+// Best seconds of each system for all queries.
+static void time_systems(const scenes *s, const query *queries, uint32_t count, uint32_t kind, uint32_t repetitions,
+                         double best[SYSTEMS], answer answers[SYSTEMS])
+{
+    for (uint32_t system = 0; system < SYSTEMS; system++) {
+        best[system] = 1e30;
+    }
+    for (uint32_t repetition = 0; repetition < repetitions; repetition++) {
+        for (uint32_t system = 0; system < SYSTEMS; system++) {
+            // Once to have its own data in the caches, not its neighbour's.
+            (void)run_system(s, system, queries, count, kind);
+            double start = now();
+            answers[system] = run_system(s, system, queries, count, kind);
+            double t = now() - start;
+            best[system] = t < best[system] ? t : best[system];
+        }
+    }
+}
+
+static double build_seconds(const tl_mesh_view *view, float split_budget, tl_soup **soup_out)
+{
+    tl_soup_def def = tl_default_soup_def();
+    def.split_budget = split_budget;
+    double start = now();
+    tl_result code = tl_soup_build(view, &def, soup_out, NULL);
+    double seconds = now() - start;
+    if (code != TL_OK) {
+        fprintf(stderr, "%s\n", tl_result_text(code));
+        exit(1);
+    }
+    return seconds;
+}
+
+static void build_level(RTCDevice device, const level *l, scenes *s, tl_soup **soup_out, result *r)
 {
     tl_mesh_view view = { l->vertices, l->vertex_count, l->indices, l->triangle_count, NULL };
-    tl_soup *soup = NULL;
-    double t0 = now();
-    tl_result result = tl_soup_build(&view, NULL, &soup, NULL);
-    double ours = now() - t0;
-    if (result != TL_OK) {
-        printf("%s: %s\n", l->name, tl_result_text(result));
-        return;
-    }
-    enum RTCBuildQuality high = RTC_BUILD_QUALITY_HIGH, medium = RTC_BUILD_QUALITY_MEDIUM;
-    t0 = now();
-    rtcReleaseScene(make_scene(device, l, soup, false, RTC_SCENE_FLAG_NONE, medium));
-    double embree_medium = now() - t0;
+    tl_soup *quality = NULL;
+    double ours_quality = build_seconds(&view, 0.1f, &quality);
+    double quality_bytes = (double)tl_soup_size(quality) / l->triangle_count;
+    tl_blob_free(quality, NULL);
+    double ours = build_seconds(&view, 0.0f, soup_out);
+    s->soup = *soup_out;
+    double start = now();
+    rtcReleaseScene(make_scene(device, l, s->soup, false, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM));
+    double medium = now() - start;
     embree_bytes = 0;
-    t0 = now();
-    RTCScene fast = make_scene(device, l, soup, false, RTC_SCENE_FLAG_NONE, high);
-    double embree_high = now() - t0;
+    start = now();
+    s->embree[FAST] = make_scene(device, l, s->soup, false, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
+    double high = now() - start;
     double fast_bytes = embree_bytes;
-    RTCScene quads = make_scene(device, l, soup, true, RTC_SCENE_FLAG_NONE, high);
-    RTCScene robust = make_scene(device, l, soup, false, RTC_SCENE_FLAG_ROBUST, high);
-    tl_soup_stats stats = tl_soup_get_stats(soup);
+    s->embree[QUADS] = make_scene(device, l, s->soup, true, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
+    s->embree[ROBUST] = make_scene(device, l, s->soup, false, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
+    tl_soup_stats stats = tl_soup_get_stats(s->soup);
     double n = (double)stats.triangle_count;
-    printf("%-20s %7u triangles, %.1f%% paired, %.2f references a pair, leaf fill %.2f, %.1f bytes a triangle (Embree "
-           "%.1f); build %.2f us a triangle (Embree medium %.2f, high %.2f)\n",
-           l->name, stats.triangle_count, 200.0 * (double)stats.pair_count / n,
-           (double)stats.reference_count / (double)(stats.pair_count + stats.single_count),
-           (double)stats.reference_count / (double)stats.leaf_count, (double)stats.size / n, fast_bytes / n,
-           1e6 * ours / n, 1e6 * embree_medium / n, 1e6 * embree_high / n);
+    r->bytes = (double)stats.size / n;
+    r->build_share = ours / medium;
+    r->quality_build_share = ours_quality / high;
+    printf(
+        "%-20s %7u triangles, %.1f%% paired, leaf fill %.2f, node fill %.1f, %.1f bytes a triangle (with splits %.1f, "
+        "Embree %.1f); build %.2f us a triangle (Embree medium %.2f; with splits %.2f, Embree high %.2f)\n",
+        l->name, stats.triangle_count, 200.0 * (double)stats.pair_count / n,
+        (double)stats.reference_count / (double)stats.leaf_count,
+        (double)(stats.node_count + stats.leaf_count - 1) / (double)stats.node_count, r->bytes, quality_bytes,
+        fast_bytes / n, 1e6 * ours / n, 1e6 * medium / n, 1e6 * ours_quality / n, 1e6 * high / n);
+}
+
+static void bench_level(RTCDevice device, const level *l, uint32_t repetitions, uint32_t ray_count,
+                        bench_report *report, result *r)
+{
+    scenes s;
+    tl_soup *soup = NULL;
+    build_level(device, l, &s, &soup, r);
     query *queries = malloc(ray_count * sizeof *queries);
+    double best[SYSTEMS];
+    answer a[SYSTEMS];
     for (uint32_t kind = 0; kind < KINDS; kind++) {
         make_queries(queries, ray_count, kind, tl_soup_bounds(soup));
-        double best[SYSTEMS];
-        answer a[SYSTEMS];
-        for (uint32_t s = 0; s < SYSTEMS; s++) {
-            best[s] = 1e30;
-        }
-        for (uint32_t repetition = 0; repetition < repetitions; repetition++) {
-            for (uint32_t s = 0; s < SYSTEMS; s++) {
-                t0 = now();
-                a[s] = s == 0   ? run_talus(NULL, soup, queries, ray_count, kind)
-                       : s == 1 ? run_talus(tl_ray_walk_for(TL_RAY_AVX512), soup, queries, ray_count, kind)
-                                : run_embree(s == 2   ? fast
-                                             : s == 3 ? quads
-                                                      : robust,
-                                             queries, ray_count, kind);
-                double t = now() - t0;
-                best[s] = t < best[s] ? t : best[s];
-            }
-        }
+        time_systems(&s, queries, ray_count, kind, repetitions, best, a);
+        char chart[64];
+        snprintf(chart, sizeof chart, "%s, Mray/s", kind_names[kind]);
         printf("  %-10s", kind_names[kind]);
-        for (uint32_t s = 0; s < SYSTEMS; s++) {
-            printf("  %s %6.2f", system_names[s], (double)ray_count / best[s] * 1e-6);
-            log_ratio[kind][s] += log(best[2] / best[s]);
+        for (uint32_t system = 0; system < SYSTEMS; system++) {
+            r->rate[kind][system] = (double)ray_count / best[system];
+            printf("  %s %6.2f", system_names[system], r->rate[kind][system] * 1e-6);
+            bench_report_value(report, chart, system_names[system], l->name, r->rate[kind][system] * 1e-6);
         }
-        printf("   hits %.1f%%, fast %+d, robust %+d\n", 100.0 * a[0].hits / ray_count, (int)(a[2].hits - a[0].hits),
-               (int)(a[4].hits - a[0].hits));
+        printf("   hits %.1f%%, fast %+d, robust %+d\n", 100.0 * a[TALUS].hits / ray_count,
+               (int)(a[FAST].hits - a[TALUS].hits), (int)(a[ROBUST].hits - a[TALUS].hits));
     }
+    // Straight up, from above the level.
+    tl_aabb bounds = tl_soup_bounds(soup);
+    for (uint32_t i = 0; i < ray_count; i++) {
+        query q = { point_in(bounds), tl_vec3_make(0.1f * unit(), 1, 0.1f * unit()), INFINITY };
+        q.origin.y = bounds.max.y + 1;
+        queries[i] = q;
+    }
+    time_systems(&s, queries, ray_count, 1, repetitions, best, a);
+    printf("  %-10s", "miss, ns");
+    for (uint32_t system = 0; system < SYSTEMS; system++) {
+        r->miss_ns[system] = 1e9 * best[system] / ray_count;
+        printf("  %s %6.1f", system_names[system], r->miss_ns[system]);
+    }
+    printf("\n");
     fflush(stdout);
-    ratio_count++;
     free(queries);
-    rtcReleaseScene(fast);
-    rtcReleaseScene(quads);
-    rtcReleaseScene(robust);
+    rtcReleaseScene(s.embree[FAST]);
+    rtcReleaseScene(s.embree[QUADS]);
+    rtcReleaseScene(s.embree[ROBUST]);
     tl_blob_free(soup, NULL);
+}
+
+// ----------------------------------------------------------------------------------------------------- claims
+
+static double fast_rate(const result *r, uint32_t kind)
+{
+    double fast = r->rate[kind][FAST], quads = r->rate[kind][QUADS];
+    return fast > quads ? fast : quads;
+}
+
+static double mean_to_fast(const result *results, uint32_t count, uint32_t kind, uint32_t system)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        sum += log(results[i].rate[kind][system] / fast_rate(&results[i], kind));
+    }
+    return exp(sum / count);
+}
+
+static void claim_rates(bench_report *report, const result *results, uint32_t count)
+{
+    static const double to_robust[KINDS] = { 1.5, 1.35, 1.35, 1.25, 1.5 };
+    static const double to_fast[KINDS] = { 1.2, 1.05, 1.1, 1.0, 1.15 };
+    static const double avx2_to_fast[KINDS] = { 1.0, 0.95, 1.0, 0.95, 0.95 };
+    char text[96];
+    for (uint32_t kind = 0; kind < KINDS; kind++) {
+        double robust = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            robust += log(results[i].rate[kind][TALUS] / results[i].rate[kind][ROBUST]);
+        }
+        snprintf(text, sizeof text, "%s: talus to Embree robust", kind_names[kind]);
+        bench_report_at_least(report, text, exp(robust / count), to_robust[kind]);
+    }
+    for (uint32_t kind = 0; kind < KINDS; kind++) {
+        snprintf(text, sizeof text, "%s: talus to the better of Embree fast", kind_names[kind]);
+        bench_report_at_least(report, text, mean_to_fast(results, count, kind, TALUS), to_fast[kind]);
+    }
+    for (uint32_t kind = 0; kind < KINDS; kind++) {
+        snprintf(text, sizeof text, "%s: talus with AVX2 to the better of Embree fast", kind_names[kind]);
+        bench_report_at_least(report, text, mean_to_fast(results, count, kind, TALUS_AVX2), avx2_to_fast[kind]);
+    }
+}
+
+static void claim_others(bench_report *report, const result *results, uint32_t count)
+{
+    double worst = 1e30, miss = 0, bytes = 0, build = 0, quality = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t kind = 0; kind < KINDS; kind++) {
+            double ratio = results[i].rate[kind][TALUS] / fast_rate(&results[i], kind);
+            worst = ratio < worst ? ratio : worst;
+        }
+        miss += log(results[i].miss_ns[TALUS]);
+        bytes = results[i].bytes > bytes ? results[i].bytes : bytes;
+        build += log(results[i].build_share);
+        quality += log(results[i].quality_build_share);
+    }
+    bench_report_at_least(report, "worst level and kind: talus to the better of Embree fast", worst, 0.95);
+    bench_report_at_most(report, "a call that misses the root, ns", exp(miss / count), 14);
+    bench_report_at_most(report, "most bytes a triangle", bytes, 40);
+    bench_report_at_most(report, "build time to Embree medium", exp(build / count), 1);
+    bench_report_at_most(report, "build time with spatial splits to Embree high", exp(quality / count), 1);
 }
 
 int main(int argc, char **argv)
 {
+    const char *path = bench_report_path(&argc, argv);
     uint32_t repetitions = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 5;
     uint32_t ray_count = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 20000;
+    bench_report *report = bench_report_new("rays", "Mray/s", NULL);
     RTCDevice device = rtcNewDevice("threads=1");
     rtcSetDeviceMemoryMonitorFunction(device, count_memory, NULL);
     static level levels[MAX_LEVELS];
+    static result results[MAX_LEVELS];
     uint32_t count = load_levels(levels, argc > 3 ? argv[3] : NULL);
     for (uint32_t i = 0; i < count; i++) {
-        bench_level(device, &levels[i], repetitions, ray_count);
+        bench_level(device, &levels[i], repetitions, ray_count, report, &results[i]);
         free(levels[i].vertices);
         free(levels[i].indices);
     }
-    printf("\nratio to Embree fast, geometric mean of %u levels\n%-12s", ratio_count, "");
-    for (uint32_t s = 0; s < SYSTEMS; s++) {
-        printf("%12s", system_names[s]);
+    if (count > 0) {
+        claim_rates(report, results, count);
+        claim_others(report, results, count);
     }
-    for (uint32_t kind = 0; kind < KINDS; kind++) {
-        printf("\n%-12s", kind_names[kind]);
-        for (uint32_t s = 0; s < SYSTEMS; s++) {
-            printf("%12.2f", exp(log_ratio[kind][s] / ratio_count));
-        }
-    }
-    printf("\n");
+    bench_report_print_claims(report);
     rtcReleaseDevice(device);
-    return 0;
+    return bench_report_close(report, path);
 }
