@@ -327,16 +327,37 @@ static void test_lattice_against_integers(void **state)
 
 // ------------------------------------------------------------------------------------------------- leaks
 
-static void aim(const tl_soup *soup, tl_vec3 from, tl_vec3 at, uint32_t *aimed)
+enum { AT_CORNER, AT_MIDDLE, AT_EDGE, AIMS };
+
+typedef struct aimed {
+    uint32_t inside[AIMS]; // from within the surface
+    uint32_t far[AIMS];    // from 25 diagonals away
+} aimed;
+
+static void aim(const tl_soup *soup, tl_vec3 from, tl_vec3 at, uint32_t *count)
 {
     tl_vec3 direction = tl_sub(at, from);
     if (tl_length_sq(direction) > 0) {
         TEST_CHECK(hits(soup, from, direction, INFINITY));
-        (*aimed)++;
+        (*count)++;
     }
 }
 
-// From inside a closed surface every ray must hit: aimed at each corner, at edge midpoints and at random edge points.
+// A line that passes through a ball within the surface must cross the surface.
+static void aim_from_afar(const tl_soup *soup, test_random *random, tl_vec3 center, float ball, float diagonal,
+                          tl_vec3 at, uint32_t *count)
+{
+    tl_vec3 outward = tl_normalize(tl_sub(at, center));
+    tl_vec3 away = tl_normalize(tl_mul_add(outward, test_random_direction(random), 0.5f));
+    tl_vec3 from = tl_mul_add(center, away, 25 * diagonal);
+    tl_vec3 along = tl_normalize(tl_sub(at, from));
+    if (tl_length(tl_cross(along, tl_sub(center, from))) < 0.9f * ball) {
+        aim(soup, from, at, count);
+    }
+}
+
+// From inside a closed surface every ray must hit, and so must those through its middle from afar: aimed at each
+// corner, at edge midpoints and at random edge points.
 static void test_closed_surface_has_no_leak(void **state)
 {
     (void)state;
@@ -346,25 +367,37 @@ static void test_closed_surface_has_no_leak(void **state)
         float offset;
     } cases[] = { { 10, 0.05f, 0 },  { 0.05f, 0.05f, 0 }, { 10, 0.05f, 5000 }, { 1e-6f, 0.1f, 0 },
                   { 1e9f, 0.1f, 0 }, { 10, 0, 0 },        { 1, 0.3f, -700 } };
-    uint32_t aimed = 0;
+    aimed seen = { { 0 }, { 0 } };
     for (uint32_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+        float radius = cases[c].radius;
         tl_vec3 center = vec(cases[c].offset, cases[c].offset * 0.5f, -cases[c].offset);
-        model m = model_ball(5, cases[c].radius, cases[c].bump, center, c + 1);
+        model m = model_ball(5, radius, cases[c].bump, center, c + 1);
         tl_soup *soup = model_soup(&m, NULL);
+        float diagonal = tl_length(tl_aabb_size(tl_soup_bounds(soup)));
+        // Its triangles are a thirtieth as wide as the surface, so they cut off less than a hundredth.
+        float ball = radius * (0.98f - 1.1f * cases[c].bump);
         for (uint32_t i = 0; i < 3 * m.triangle_count; i++) {
-            tl_vec3 inside = tl_mul_add(center, test_random_direction(&random),
-                                        cases[c].radius * test_random_range(&random, 0, 0.5f));
+            tl_vec3 inside =
+                tl_mul_add(center, test_random_direction(&random), radius * test_random_range(&random, 0, 0.5f));
             tl_vec3 a = m.vertices[m.indices[i]];
             tl_vec3 b = m.vertices[m.indices[i % 3 == 2 ? i - 2 : i + 1]];
-            aim(soup, inside, a, &aimed);
-            aim(soup, inside, tl_lerp(a, b, 0.5f), &aimed);
-            aim(soup, inside, tl_lerp(a, b, test_random_unit(&random)), &aimed);
-            aim(soup, center, a, &aimed);
+            tl_vec3 at[AIMS] = { a, tl_lerp(a, b, 0.5f), tl_lerp(a, b, test_random_unit(&random)) };
+            for (uint32_t k = 0; k < AIMS; k++) {
+                aim(soup, inside, at[k], &seen.inside[k]);
+                aim_from_afar(soup, &random, center, ball, diagonal, at[k], &seen.far[k]);
+            }
+            aim(soup, center, a, &seen.inside[AT_CORNER]);
         }
         tl_blob_free(soup, NULL);
         model_free(&m);
     }
-    TEST_CHECK(aimed > 400000);
+    print_message("leaks 0; aimed from inside at corners %u, middles of edges %u, edges %u; from 25 diagonals away %u, "
+                  "%u, %u\n",
+                  seen.inside[AT_CORNER], seen.inside[AT_MIDDLE], seen.inside[AT_EDGE], seen.far[AT_CORNER],
+                  seen.far[AT_MIDDLE], seen.far[AT_EDGE]);
+    for (uint32_t k = 0; k < AIMS; k++) {
+        TEST_CHECK(seen.inside[k] > 150000 && seen.far[k] > 100000);
+    }
 }
 
 typedef struct hit_set {
