@@ -6,8 +6,11 @@
 #include "hull/face_ring.h"
 
 // With 16 cells a vertex the start is right in seven of eight queries. Four times as many would halve the rest, and
-// their memory would cost more than that gains.
+// their memory would cost more than that gains,
 #define CELLS_PER_VERTEX 16.0f
+// but for small hulls with large faces: there finer cells save most of the second look-ups that rings cost.
+#define RINGED_CELLS_PER_VERTEX 64.0f
+#define SMALL_RINGED            256u
 // More cells than this no longer fit a second-level cache beside the blocks.
 #define MAX_SIDE 512u
 
@@ -18,9 +21,10 @@
 // The scale is chosen by so many of the faces, in a table of so many cells along a side.
 enum { SAMPLES = 256, SAMPLE_SIDE = 16 };
 
-uint32_t tl_hull_table_side(uint32_t vertex_count)
+uint32_t tl_hull_table_side(uint32_t vertex_count, bool has_rings)
 {
-    uint32_t side = (uint32_t)sqrtf(0.5f * CELLS_PER_VERTEX * (float)vertex_count) + 1;
+    float cells = has_rings && vertex_count <= SMALL_RINGED ? RINGED_CELLS_PER_VERTEX : CELLS_PER_VERTEX;
+    uint32_t side = (uint32_t)sqrtf(0.5f * cells * (float)vertex_count) + 1;
     return side < MAX_SIDE ? side : MAX_SIDE;
 }
 
@@ -125,7 +129,8 @@ static void fill_squares(const tl_hull *hull, uint32_t *table, const uint32_t *r
     }
 }
 
-// Whether a cell lies among wedges: at least two of the cells beside it belong to other vertices of the same ring.
+// Whether a cell lies among wedges: at least three of the four cells beside it belong to other vertices of the same
+// ring.
 static bool is_among_wedges(const uint32_t *square, uint32_t side, uint32_t row, uint32_t column, const uint32_t *rings)
 {
     uint32_t vertex = square[row * side + column] & ~TL_TABLE_RING, others = 0;
@@ -137,7 +142,7 @@ static bool is_among_wedges(const uint32_t *square, uint32_t side, uint32_t row,
             others += other != vertex && rings[other] == rings[vertex];
         }
     }
-    return others >= 2;
+    return others >= 3;
 }
 
 static void name_rings(const tl_hull *hull, uint32_t *table, const uint32_t *rings)

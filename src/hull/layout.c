@@ -34,7 +34,7 @@ uint64_t tl_hull_lay_out(tl_hull *head)
     bool scanned = head->vertex_count <= TL_HULL_SCAN_LIMIT;
     uint32_t padding = head->vertex_count <= TL_CLIMB_LANES ? TL_CLIMB_LANES : TL_SCAN_PAIR;
     head->scan_count = scanned ? (head->vertex_count + padding - 1) / padding * padding : 0;
-    head->table_side = scanned ? 0 : tl_hull_table_side(head->vertex_count);
+    head->table_side = scanned ? 0 : tl_hull_table_side(head->vertex_count, head->ring_count > 0);
     uint64_t cells = 2 * (uint64_t)head->table_side * head->table_side + head->ring_cells;
     head->scan = (uint32_t)place(&units, 3 * (uint64_t)head->scan_count, sizeof(float));
     head->table = (uint32_t)place(&units, cells, sizeof(uint32_t));

@@ -118,7 +118,7 @@ uint32_t tl_hull_decide_exact(const tl_hull *hull, tl_vec3 direction, uint64_t c
 
 // direction_table.c; the look-up is in direction_table.h.
 // Cells along a side for a hull of so many vertices.
-uint32_t tl_hull_table_side(uint32_t vertex_count);
+uint32_t tl_hull_table_side(uint32_t vertex_count, bool has_rings);
 // What directions are multiplied by; for a hull whose bounds and planes are there.
 tl_vec3 tl_hull_table_scale(const tl_hull *hull);
 // Fills the table of an otherwise finished hull.
