@@ -359,4 +359,33 @@ static inline void test_place(test_random *random, const test_body *a, const tes
     pose_b->position = tl_vec3d_to_float(tl_vec3d_add(tl_vec3d_from(pose_b->position), move));
 }
 
+/// Pairs of all families near the origin and 16384 sizes away: B lies on a lattice that floats hold at both places, up
+/// to `reach` sizes from A, so whatever is asked has the same bits.
+static inline void test_each_far_pair(uint64_t seed, float reach,
+                                      void (*visit)(const test_body *a, const test_body *b, const tl_transform near[2],
+                                                    const tl_transform far[2], void *user),
+                                      void *user)
+{
+    test_random random = { seed };
+    const tl_vec3 offset = tl_vec3_make(16384, -16384, 8192);
+    for (int i = 0; i < 400; i++) {
+        test_body a, b;
+        test_body_make(&a, (body_family)(i % BODY_COUNT), (uint64_t)i, 1.0f);
+        test_body_make(&b, (body_family)(i / 3 % BODY_COUNT), (uint64_t)i + 1, 1.0f);
+        tl_transform near[2], far[2];
+        near[0].rotation = test_random_rotation(&random);
+        near[1].rotation = test_random_rotation(&random);
+        tl_vec3 d = tl_scale(test_random_direction(&random), 256.0f * reach);
+        near[0].position = tl_vec3_make(0, 0, 0);
+        near[1].position = tl_scale(tl_vec3_make(rintf(d.x), rintf(d.y), rintf(d.z)), 1.0f / 256.0f);
+        for (int k = 0; k < 2; k++) {
+            far[k] = near[k];
+            far[k].position = tl_add(near[k].position, offset);
+        }
+        visit(&a, &b, near, far, user);
+        test_body_free(&a);
+        test_body_free(&b);
+    }
+}
+
 #endif

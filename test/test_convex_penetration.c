@@ -231,31 +231,23 @@ static void test_concentric_balls(void **state)
     TEST_CHECK(searched >= 3);
 }
 
+static void compare_far(const test_body *a, const test_body *b, const tl_transform near[2], const tl_transform far[2],
+                        void *user)
+{
+    tl_penetration at_origin, away;
+    tl_convex_penetration(&a->shape, near[0], &b->shape, near[1], NULL, &at_origin);
+    tl_convex_penetration(&a->shape, far[0], &b->shape, far[1], NULL, &away);
+    TEST_CHECK(at_origin.overlap == away.overlap && at_origin.depth == away.depth &&
+               at_origin.iterations == away.iterations);
+    TEST_CHECK(memcmp(&at_origin.normal, &away.normal, sizeof away.normal) == 0);
+    *(uint32_t *)user += away.depth > 0.01f;
+}
+
 static void test_place_in_the_world_does_not_matter(void **state)
 {
     (void)state;
-    test_random random = { 12 };
     uint32_t deep = 0;
-    for (int i = 0; i < 300; i++) {
-        test_body a, b;
-        test_body_make(&a, (body_family)(i % BODY_COUNT), (uint64_t)i, 1.0f);
-        test_body_make(&b, (body_family)(i / 3 % BODY_COUNT), (uint64_t)i + 1, 1.0f);
-        tl_transform pose_a = { test_random_rotation(&random), { 0, 0, 0 } };
-        tl_transform pose_b = { test_random_rotation(&random), { 0, 0, 0 } };
-        tl_vec3 d = test_random_direction(&random);
-        pose_b.position = tl_vec3_make(rintf(d.x * 64) / 256, rintf(d.y * 64) / 256, rintf(d.z * 64) / 256);
-        tl_penetration near, far;
-        tl_convex_penetration(&a.shape, pose_a, &b.shape, pose_b, NULL, &near);
-        tl_vec3 offset = tl_vec3_make(16384, -16384, 8192);
-        pose_a.position = tl_add(pose_a.position, offset);
-        pose_b.position = tl_add(pose_b.position, offset);
-        tl_convex_penetration(&a.shape, pose_a, &b.shape, pose_b, NULL, &far);
-        TEST_CHECK(near.overlap == far.overlap && near.depth == far.depth && near.iterations == far.iterations);
-        TEST_CHECK(memcmp(&near.normal, &far.normal, sizeof near.normal) == 0);
-        deep += near.depth > 0.01f;
-        test_body_free(&a);
-        test_body_free(&b);
-    }
+    test_each_far_pair(12, 0.25f, compare_far, &deep);
     TEST_CHECK(deep > 100);
 }
 
