@@ -91,10 +91,10 @@ static bool advance(tl_pair *pair, double decide_at, tl_gjk *gjk)
     double upper = sqrt(nearest.distance_sq);
     if (!(upper < gjk->upper)) {
         gjk->simplex.count--; // the old points and weights are still there
-        // No progress. With the bounds within the error of the direction this is the end, else a bad simplex.
-        gjk->status = gjk->upper - gjk->lower <= BOUND_GAP * gjk->upper + 4.0 * pair->direction_error + noise
-                          ? TL_CONVEX_CONVERGED
-                          : TL_CONVEX_DEGENERATE;
+        // No progress: what is left is too small to show in the length of a vector. Bounds closer than a float rounding
+        // of the coordinates are the end, else it is a bad simplex.
+        double gap = BOUND_GAP * (gjk->upper + pair->scale) + 4.0 * pair->direction_error;
+        gjk->status = gjk->upper - gjk->lower <= gap ? TL_CONVEX_CONVERGED : TL_CONVEX_DEGENERATE;
         return false;
     }
     tl_simplex_keep(&gjk->simplex, &nearest);
