@@ -54,6 +54,28 @@ static void rollback_gives_back_blocks(void **state)
     tl_arena_free(&arena);
 }
 
+static void what_is_reserved_costs_one_block(void **state)
+{
+    (void)state;
+    test_allocator test;
+    test_allocator_init(&test, 0);
+    tl_arena arena;
+    tl_arena_init(&arena, &test.allocator);
+    TEST_CHECK(tl_arena_reserve(&arena, 1000000) && test.live_blocks == 1);
+    tl_arena_mark mark = tl_arena_get_mark(&arena);
+    for (int round = 0; round < 3; round++) {
+        for (int i = 0; i < 100; i++) {
+            TEST_CHECK(TL_PUSH(&arena, char, 9984) != NULL);
+        }
+        TEST_CHECK(test.live_blocks == 1 && tl_arena_reserve(&arena, 0) && test.live_blocks == 1);
+        tl_arena_rollback(&arena, mark);
+        TEST_CHECK(test.live_blocks == 1);
+    }
+    TEST_CHECK(!tl_arena_reserve(&arena, UINT64_MAX) && tl_arena_reserve(&arena, 2000000) && test.live_blocks == 2);
+    tl_arena_free(&arena);
+    TEST_CHECK(test.live_blocks == 0);
+}
+
 static void impossible_sizes_are_refused(void **state)
 {
     (void)state;
@@ -93,9 +115,8 @@ static void blobs_are_zeroed_and_counted(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pushes_are_aligned_and_apart),
-        cmocka_unit_test(rollback_gives_back_blocks),
-        cmocka_unit_test(impossible_sizes_are_refused),
+        cmocka_unit_test(pushes_are_aligned_and_apart),     cmocka_unit_test(rollback_gives_back_blocks),
+        cmocka_unit_test(what_is_reserved_costs_one_block), cmocka_unit_test(impossible_sizes_are_refused),
         cmocka_unit_test(blobs_are_zeroed_and_counted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
