@@ -23,7 +23,7 @@
 
 enum {
     GROWTH_STEPS = 8,      // of growth at each level but the last; what is left is a new basin
-    FIELDS_SHARE = 8,      // at least an eighth of the field's floors is sorted at a time,
+    FIELDS_SHARE = 4,      // at least a quarter of the field's floors is sorted at a time,
     SORTED_AT_ONCE = 16384 // and at least so many
 };
 
@@ -226,21 +226,31 @@ static inline bool waits(const watershed *w, uint32_t floor)
     return w->region[floor] == 0 && w->compact->area[floor] != TL_NAV_NULL_AREA;
 }
 
+// Counts the floors that wait in the levels [first, end) into sizes[level].
+static void count_waiting(const watershed *w, uint32_t first, uint32_t end, uint32_t *sizes)
+{
+    memset(sizes + first, 0, (end - first) * sizeof *sizes);
+    for (uint32_t i = 0; i < w->compact->span_count; i++) {
+        if (waits(w, i)) {
+            const uint32_t level = level_of(w, i);
+            if (level >= first && level < end) { // those of earlier levels are in the order already
+                sizes[level]++;
+            }
+        }
+    }
+}
+
 // How many floors each level has, at level_size[level].
 static tl_result measure_levels(watershed *w, tl_arena *arena)
 {
     uint32_t half = (w->compact->max_distance + 1u) / 2;
     w->level_count = half > 0 ? half : 1;
-    w->level_size = TL_PUSH_ZERO(arena, uint32_t, w->level_count);
+    w->level_size = TL_PUSH(arena, uint32_t, w->level_count);
     w->level_end = TL_PUSH(arena, uint32_t, w->level_count);
     if (w->level_size == NULL || w->level_end == NULL) {
         return TL_ERR_MEMORY;
     }
-    for (uint32_t i = 0; i < w->compact->span_count; i++) {
-        if (waits(w, i)) {
-            w->level_size[level_of(w, i)]++;
-        }
-    }
+    count_waiting(w, 0, w->level_count, w->level_size);
     return TL_OK;
 }
 
@@ -249,14 +259,9 @@ static tl_result sort_levels(watershed *w, uint32_t first, uint32_t end)
 {
     const uint32_t count = w->compact->span_count;
     uint32_t *next = w->level_end; // where the next floor of a level goes, then where the level ends
-    memset(next + first, 0, (end - first) * sizeof *next);
-    for (uint32_t i = 0; i < count; i++) {
-        if (waits(w, i)) {
-            const uint32_t level = level_of(w, i);
-            if (level < end) { // floors of earlier levels that still wait are in the order already
-                next[level] += level >= first;
-            }
-        }
+    memcpy(next + first, w->level_size + first, (end - first) * sizeof *next);
+    if (first > 0) { // floods have taken some since they were counted
+        count_waiting(w, first, end, next);
     }
     uint32_t position = w->order.count;
     for (uint32_t k = first; k < end; k++) {

@@ -29,7 +29,7 @@ enum {
     // A buffer grows without being reduced up to here: in real levels so many triangles a column are seldom redundant.
     GROWING_ITEMS_PER_COLUMN = 16,
     INSERTION_SORT_MAX = 24,
-    SORTED_MAX = 6, // items of a column that are sorted rather than drawn
+    SORTED_MAX = 10, // items of a column that are sorted rather than drawn
     DRAWN_VOXELS = 4096,
     VOXELS_PER_DRAWN_ITEM = 32 // a drawing's cost is about an item's a machine word
 };
@@ -252,11 +252,8 @@ static tl_result reduce(tl_span_buffer *buffer)
     return TL_OK;
 }
 
-tl_result tl_span_buffer_reserve(tl_span_buffer *buffer, uint32_t count)
+tl_result tl_span_buffer_make_room(tl_span_buffer *buffer, uint32_t count)
 {
-    if (buffer->capacity - buffer->count >= count) {
-        return TL_OK;
-    }
     uint64_t growing = (uint64_t)buffer->column_count * GROWING_ITEMS_PER_COLUMN;
     if (buffer->capacity >= growing) {
         TL_TRY(reduce(buffer));

@@ -55,8 +55,14 @@ typedef struct tl_span_buffer {
 tl_result tl_span_buffer_begin(tl_span_buffer *buffer, uint32_t column_count);
 void tl_span_buffer_free(tl_span_buffer *buffer);
 
+/// What tl_span_buffer_reserve does when there is no room.
+tl_result tl_span_buffer_make_room(tl_span_buffer *buffer, uint32_t count);
+
 /// Makes room for `count` more items: afterwards items[buffer->count .. + count) may be written.
-tl_result tl_span_buffer_reserve(tl_span_buffer *buffer, uint32_t count);
+static inline tl_result tl_span_buffer_reserve(tl_span_buffer *buffer, uint32_t count)
+{
+    return buffer->capacity - buffer->count >= count ? TL_OK : tl_span_buffer_make_room(buffer, count);
+}
 
 /// The canonical union of all items: those of column c begin at first_span_out[c] and end at first_span_out[c + 1]. The
 /// spans lie in the buffer and hold until its next use.
