@@ -109,16 +109,6 @@ void tl_open_scratch_free(tl_open_scratch *scratch)
     }
 }
 
-static inline int32_t min_of(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
-static inline int32_t max_of(int32_t a, int32_t b)
-{
-    return a > b ? a : b;
-}
-
 // ---- The gaps of a row -------------------------------------------------------------------------------------
 
 // As many layers as the block's columns, and those beside it, have spans.
