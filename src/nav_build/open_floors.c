@@ -141,7 +141,7 @@ static tl_result lay_out(const sweep *s, const uint32_t *first, tl_open_row *row
         row->blocks[b].layer_count = layers_needed(s, first, b);
         layers += row->blocks[b].layer_count;
     }
-    if (row->layer_capacity < layers) {
+    if (row->layers == NULL || row->layer_capacity < layers) {
         tl_release_array(allocator, row->layers, row->layer_capacity, sizeof(layer));
         row->layer_capacity = 0;
         row->layers = tl_allocate_array(allocator, layers, sizeof(layer));
