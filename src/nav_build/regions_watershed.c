@@ -332,8 +332,10 @@ static tl_result run_levels(watershed *w)
         for (; k < end; k++) {
             TL_TRY(run_level(w, &begin, k));
         }
-        w->order.count -= begin;
-        memmove(w->order.floors, w->order.floors + begin, w->order.count * sizeof *w->order.floors);
+        if (begin > 0) {
+            w->order.count -= begin;
+            memmove(w->order.floors, w->order.floors + begin, w->order.count * sizeof *w->order.floors);
+        }
     }
     return grow(w, 0, w->order.count, 0);
 }
