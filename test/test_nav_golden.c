@@ -99,10 +99,10 @@ static void built_in_levels(void **state)
     static const struct {
         const char *name;
         uint64_t hash;
-    } golden[] = { { "courtyard", 0xdfb5b09e2db6408d },
-                   { "dungeon", 0x5ca60f50989539b1 },
-                   { "terrain", 0xb8f3b081bcbd85a1 },
-                   { "city", 0x2df586e257813ebf } };
+    } golden[] = { { "courtyard", 0x169e20c7d23686ff },
+                   { "dungeon", 0xa260d28f0a4acaad },
+                   { "terrain", 0x1f5bc1f4a2b6d8d1 },
+                   { "city", 0x7a9ce523b58b41a5 } };
     const tl_tasks two = { run_on_two_threads, 2, NULL };
     bool equal = true;
     for (size_t i = 0; i < 4; i++) {
