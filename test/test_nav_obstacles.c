@@ -204,7 +204,7 @@ static double walked_distance(const tl_nav_obstacle *o, double x, double z, doub
         corners[i][0] = (double)o->base.x + lx * c + lz * s - x;
         corners[i][1] = (double)o->base.z - lx * s + lz * c - z;
     }
-    double nearest = INFINITY, turns = 0.0;
+    double nearest = (double)INFINITY, turns = 0.0;
     for (uint32_t i = 0; i < count; i++) {
         const double *a = corners[i], *b = corners[(i + 1) % count];
         for (int k = 0; k <= 400; k++) {

@@ -107,7 +107,7 @@ static double segment_distance_sq(const footprint *foot, uint32_t a, uint32_t b,
 static bool polygon_reaches(const footprint *foot, double x, double z)
 {
     bool inside = true;
-    double nearest = INFINITY;
+    double nearest = (double)INFINITY;
     for (uint32_t i = 0, before = foot->count - 1; i < foot->count; before = i++) {
         double ux = foot->x[i] - foot->x[before], uz = foot->z[i] - foot->z[before];
         inside = inside && ux * (z - foot->z[before]) - uz * (x - foot->x[before]) >= 0.0;
@@ -205,8 +205,8 @@ tl_aabb tl_obstacle_box(const tl_nav_obstacle *obstacle, float agent_radius, flo
     double grow = foot.grow > 0.0 ? foot.grow : 0.0;
     double min_x = -foot.radius, max_x = foot.radius, min_z = -foot.radius, max_z = foot.radius;
     if (!foot.round) {
-        min_x = min_z = INFINITY;
-        max_x = max_z = -INFINITY;
+        min_x = min_z = (double)INFINITY;
+        max_x = max_z = -(double)INFINITY;
         for (uint32_t i = 0; i < foot.count; i++) {
             double x = foot.x[i] * foot.cosine + foot.z[i] * foot.sine;
             double z = foot.z[i] * foot.cosine - foot.x[i] * foot.sine;
