@@ -9,6 +9,7 @@
 #include "bench_polygon_recast.h"
 #include "io/contour_text.h"
 #include "io/file_map.h"
+#include "report.h"
 #include "test/polygon_shapes.h"
 
 #include <dirent.h>
@@ -22,6 +23,7 @@ enum { MAX_RUNS = 101, MAX_FILES = 512 };
 
 // Recast, and talus by each of its methods.
 enum { CLASSIC, OPTIMAL, DELAUNAY, RECAST, WAY_COUNT };
+static const char *const way_names[WAY_COUNT] = { "classic", "optimal", "Delaunay", "Recast" };
 
 typedef struct totals {
     char kind;
@@ -178,7 +180,7 @@ static totals bench_family(const char *name, oracle_point *points, uint32_t n)
     return sums;
 }
 
-static void bench_families(void)
+static void bench_families(bench_report *report)
 {
     enum { SIZES = 4, FAMILIES = 3 };
     static const uint32_t sizes[SIZES] = { 400, 10000, 20000, 100000 };
@@ -193,7 +195,8 @@ static void bench_families(void)
         shape_spiral(points, sizes[i]);
         sums[i][2] = bench_family(names[2], points, sizes[i]);
     }
-    bench_family("1,024 holes", points, shape_holes(points, 32, 32));
+    totals holes = bench_family("1,024 holes", points, shape_holes(points, 32, 32));
+    bench_report_at_most(report, "1,024 holes in one contour, ms", holes.seconds[CLASSIC] * 1e3, 100.0);
     free(points);
     printf("\ntime of 100,000 vertices over that of 10,000   classic   optimal  Delaunay\n");
     for (uint32_t f = 0; f < FAMILIES; f++) {
@@ -201,6 +204,13 @@ static void bench_families(void)
         for (int way = 0; way < RECAST; way++) {
             printf(" %9.1f", sums[3][f].fastest[way] / sums[1][f].fastest[way]);
         }
+        char claim[96];
+        snprintf(claim, sizeof claim, "%s of 20,000 vertices, classic, ms", names[f]);
+        bench_report_at_most(report, claim, sums[2][f].seconds[CLASSIC] * 1e3, 50.0);
+        snprintf(claim, sizeof claim, "%s of 100,000 vertices, classic, ms", names[f]);
+        bench_report_at_most(report, claim, sums[3][f].seconds[CLASSIC] * 1e3, 500.0);
+        snprintf(claim, sizeof claim, "%s, time of 100,000 over that of 10,000", names[f]);
+        bench_report_at_most(report, claim, sums[3][f].fastest[CLASSIC] / sums[1][f].fastest[0], 15.0);
         printf("\n");
     }
 }
@@ -230,8 +240,37 @@ static void bench_folder(const char *folder, totals *sums)
     }
 }
 
+// What the sets of contours show beside Recast's stage.
+static void claim_sets(const totals *sums, const char *const *names, bench_report *report)
+{
+    static const double classic_bars[4] = { 0.3, 0.3, 0.05, 0.3 };
+    for (uint32_t i = 0; i < 4; i++) {
+        if (sums[i].contours == 0) {
+            continue;
+        }
+        for (int way = 0; way < WAY_COUNT; way++) {
+            if (sums[i].seconds[way] > 0.0) {
+                bench_report_value(report, "sets of contours", way_names[way], names[i], sums[i].seconds[way] * 1e3);
+            }
+        }
+        if (sums[i].seconds[RECAST] > 0.0) {
+            char claim[96];
+            snprintf(claim, sizeof claim, "%s: classic, share of Recast's time", names[i]);
+            bench_report_at_most(report, claim, sums[i].seconds[CLASSIC] / sums[i].seconds[RECAST], classic_bars[i]);
+            snprintf(claim, sizeof claim, "%s: optimal, share of Recast's time", names[i]);
+            bench_report_at_most(report, claim, sums[i].seconds[OPTIMAL] / sums[i].seconds[RECAST], 1.0);
+        }
+    }
+    if (sums[0].contours > 0 && sums[0].polygons[RECAST] > 0) {
+        bench_report_at_most(report, "all watershed: optimal, share of Recast's polygons",
+                             (double)sums[0].polygons[OPTIMAL] / (double)sums[0].polygons[RECAST], 0.88);
+    }
+}
+
 int main(int argc, char **argv)
 {
+    const char *json_path = bench_report_path(&argc, argv);
+    bench_report *report = bench_report_new("polygon", "ms", NULL);
     static const char kinds[4] = { 'w', 'm', 'l', '*' };
     totals sums[4];
     memset(sums, 0, sizeof sums);
@@ -253,6 +292,9 @@ int main(int argc, char **argv)
             print_row(names[i], &sums[i]);
         }
     }
-    bench_families();
-    return 0;
+    claim_sets(sums, names, report);
+    bench_families(report);
+    printf("\n");
+    bench_report_print_claims(report);
+    return bench_report_close(report, json_path);
 }

@@ -10,6 +10,7 @@
 
 #include "../test/detour_mesh.hpp"
 #include "io/mesh_import.h"
+#include "report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,8 @@ struct arena {
 };
 
 int runs = 5;
+bench_report *report;
+std::string current; // the level at hand
 
 // The best time of a run over all indices, in microseconds a query. Short runs are repeated to last a while.
 double time_once(const std::vector<size_t> &indices, const std::function<void(size_t)> &query)
@@ -223,6 +226,9 @@ void compare(const char *what, double bar, const std::vector<size_t> &indices,
     }
     std::printf("  %-22s Detour %9.3f us   talus %9.3f us   rate %6.2fx   bar %.1fx %s\n", what, theirs, ours,
                 theirs / ours, bar, theirs >= bar * ours ? "met" : "MISSED");
+    bench_report_value(report, current.c_str(), "talus", what, ours);
+    bench_report_value(report, current.c_str(), "Detour", what, theirs);
+    bench_report_at_least(report, (current + ": " + what + ", rate to Detour's").c_str(), theirs / ours, bar);
 }
 
 // How the lengths of complete paths compare. Rounding: both sides hold corners in floats.
@@ -405,6 +411,7 @@ void bench_arena(arena &a, const std::vector<question> &questions, double path_b
         std::printf("\n%s: no queries\n", a.name.c_str());
         return;
     }
+    current = a.name;
     bench_paths(a, path_bar);
     bench_places(a);
     compare_places(a);
@@ -505,6 +512,8 @@ void bench_sample(const char *name, uint32_t triangles, float cell_size, uint32_
 
 int main(int argc, char **argv)
 {
+    const char *json_path = bench_report_path(&argc, argv);
+    report = bench_report_new("query", "us", nullptr);
     size_t pairs = 10000;
     uint32_t city_triangles = 1000000;
     std::string only;
@@ -533,5 +542,7 @@ int main(int argc, char **argv)
     if (city_triangles > 0 && std::string("city").find(only) != std::string::npos) {
         bench_sample("city", city_triangles, 0.3f, 64, pairs, 5.0);
     }
-    return 0;
+    std::printf("\n");
+    bench_report_print_claims(report);
+    return bench_report_close(report, json_path);
 }

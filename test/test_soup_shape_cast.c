@@ -262,7 +262,7 @@ static void test_large_level(void **state)
         hits += r.hit[k];
     }
     print_message("51,824 triangles: %u casts hit, %u of them overlap at the start\n", hits, r.overlap);
-    TEST_CHECK(hits > cast_count / 40);
+    TEST_CHECK(hits > cast_count / 60);
 }
 
 static tl_result cast_at(const tl_soup *soup, tl_convex shape, tl_vec3 at, tl_vec3 step, const tl_ray_filter *filter,
