@@ -6,6 +6,7 @@
 #include "cli/bake_level.h"
 
 #include "cli/parse_value.h"
+#include "cli/polygonize_compare.h"
 
 #include <string.h>
 
@@ -18,7 +19,16 @@ tl_bake_settings tl_default_bake_settings(void)
     settings.nav = true;
     settings.nav_def = tl_default_nav_def();
     settings.partition = (int)settings.nav_def.partition;
+    settings.polygon_method = (int)settings.nav_def.polygon_method;
     return settings;
+}
+
+tl_nav_def tl_bake_nav_def(const tl_bake_settings *settings)
+{
+    tl_nav_def def = settings->nav_def;
+    def.partition = (tl_nav_partition)settings->partition;
+    def.polygon_method = (tl_partition_method)settings->polygon_method;
+    return def;
 }
 
 void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS])
@@ -41,6 +51,8 @@ void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS])
           0, 89.9f, 0, 0 },
         { "partition", 0, TL_OPTION_CHOICE, &settings->partition, NULL, "how floors are divided into regions",
           partitions, 0, 0, 0, 0 },
+        { "polygons", 0, TL_OPTION_CHOICE, &settings->polygon_method, NULL, "how contours are divided into polygons",
+          tl_partition_method_names, 0, 0, 0, 0 },
         { "tile-size", 0, TL_OPTION_COUNT, &d->tile_size, "CELLS",
           "bake in square tiles of that many cells, on all threads; 0: one tile", NULL, 0, 0, 0, 1u << 20 },
         { "region-min-size", 0, TL_OPTION_FLOAT, &d->region_min_size, "CELLS",
@@ -139,8 +151,7 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
     tl_nav_input input;
     memset(&input, 0, sizeof(input));
     input.mesh = tl_mesh_as_view(&level->mesh);
-    bake->nav_def = settings->nav_def;
-    bake->nav_def.partition = (tl_nav_partition)settings->partition;
+    bake->nav_def = tl_bake_nav_def(settings);
     bake->nav_def.host = cli->host;
     bake->nav_bounds = tl_aabb_is_empty(bake->nav_def.bounds) ? level->mesh.bounds : bake->nav_def.bounds;
     tl_result result = tl_nav_build(&bake->nav_def, &input, &bake->tiles, &bake->nav_report);

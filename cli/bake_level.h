@@ -18,14 +18,18 @@ typedef struct tl_bake_settings {
     bool soup, nav, hull;
     tl_nav_def nav_def; ///< the host is set when baking
     int partition;      ///< a tl_nav_partition
+    int polygon_method; ///< a tl_partition_method
     const char *bounds; ///< "x,y,z,x,y,z", or NULL: the level's own
 } tl_bake_settings;
 
-enum { TL_NAV_OPTIONS = 20, TL_PART_OPTIONS = 4 };
+enum { TL_NAV_OPTIONS = 21, TL_PART_OPTIONS = 4 };
 
 /// Soup and navmesh, no hull; Recast's defaults.
 tl_bake_settings tl_default_bake_settings(void);
 /// Options for the navmesh's def, named as its fields.
+/// The def with what the options chose.
+tl_nav_def tl_bake_nav_def(const tl_bake_settings *settings);
+
 void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS]);
 /// Reads the text of --bounds into the def. False: it was refused.
 bool tl_bake_take_bounds(tl_cli *cli, tl_bake_settings *settings, tl_exit *exit_out);

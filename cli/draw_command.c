@@ -153,6 +153,7 @@ static bool add_polygons(draw_source *source, uint32_t max_verts_per_poly, const
 {
     tl_polygon_def def = tl_default_polygon_def();
     def.max_verts_per_poly = max_verts_per_poly;
+    def.method = source->nav_def.polygon_method;
     def.host = source->cli->host;
     tl_polygon_mesh polygons;
     tl_result result = tl_polygon_mesh_build(source->contours, &def, &polygons, NULL);

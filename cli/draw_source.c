@@ -115,8 +115,7 @@ bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *set
 {
     memset(source_out, 0, sizeof *source_out);
     source_out->cli = cli;
-    source_out->nav_def = settings->nav_def;
-    source_out->nav_def.partition = (tl_nav_partition)settings->partition;
+    source_out->nav_def = tl_bake_nav_def(settings);
     if (tl_input_is_baked(path)) {
         return open_baked(source_out, path, exit_out);
     }

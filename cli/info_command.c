@@ -4,6 +4,7 @@
 
 #include "cli/json_out.h"
 #include "cli/open_input.h"
+#include "cli/polygonize_compare.h"
 #include "cli/table.h"
 #include "cli/text_buffer.h"
 
@@ -109,6 +110,11 @@ static const char *partition_word(uint32_t partition)
     return partition < 3 ? words[partition] : "unknown";
 }
 
+static const char *polygons_word(uint32_t method)
+{
+    return method <= TL_PARTITION_DELAUNAY ? tl_partition_method_names[method] : "unknown";
+}
+
 static void print_navmesh(const baked_info *info)
 {
     const tl_pack_navmesh *n = info->navmesh;
@@ -121,8 +127,8 @@ static void print_navmesh(const baked_info *info)
     }
     printf("agent      height %g m, radius %g m, climbs %g m, slopes up to %g degrees\n", (double)n->agent_height,
            (double)n->agent_radius, (double)n->agent_max_climb, (double)n->agent_max_slope);
-    printf("cells      %g m, %g m high, %s", (double)n->cell_size, (double)n->cell_height,
-           partition_word(n->partition));
+    printf("cells      %g m, %g m high, %s, %s polygons", (double)n->cell_size, (double)n->cell_height,
+           partition_word(n->partition), polygons_word(n->polygon_method));
     if (n->tile_size > 0) {
         printf(", tiles of %u cells in a grid of %u x %u", n->tile_size, n->tiles_x, n->tiles_z);
     }
@@ -218,12 +224,13 @@ static json_t *navmesh_json(const baked_info *info)
                                "detail_triangles", (json_int_t)info->nav.detail_triangles, "area",
                                tl_json_double(info->nav.area), "bytes", (json_int_t)info->nav.bytes);
     json_object_set_new(object, "settings",
-                        json_pack("{so so so so so so so ss sI sI}", "cell_size", tl_json_float(n->cell_size),
+                        json_pack("{so so so so so so so ss ss sI sI}", "cell_size", tl_json_float(n->cell_size),
                                   "cell_height", tl_json_float(n->cell_height), "agent_height",
                                   tl_json_float(n->agent_height), "agent_radius", tl_json_float(n->agent_radius),
                                   "agent_max_climb", tl_json_float(n->agent_max_climb), "agent_max_slope",
                                   tl_json_float(n->agent_max_slope), "edge_max_error", tl_json_float(n->edge_max_error),
-                                  "partition", partition_word(n->partition), "tile_size", (json_int_t)n->tile_size,
+                                  "partition", partition_word(n->partition), "polygon_method",
+                                  polygons_word(n->polygon_method), "tile_size", (json_int_t)n->tile_size,
                                   "max_verts_per_poly", (json_int_t)n->max_verts_per_poly));
     return object;
 }

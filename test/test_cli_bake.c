@@ -155,6 +155,31 @@ static void test_options_matter(void **state)
     TEST_CHECK(area[7] > area[0]);
 }
 
+// The same floor in fewer polygons, and the file remembers how.
+static void test_polygon_methods(void **state)
+{
+    (void)state;
+    cli_do(0, "sample dungeon --triangles 3000 -o level.obj");
+    static const char *const methods[] = { "classic", "optimal", "delaunay" };
+    double polygons[3], area[3];
+    for (size_t i = 0; i < 3; ++i) {
+        char line[160];
+        snprintf(line, sizeof(line), "bake level.obj -o level.talus --json --polygons %s", methods[i]);
+        json_t *bake = cli_json(0, line);
+        polygons[i] = cli_number(bake, "navmesh.polygons");
+        area[i] = cli_number(bake, "navmesh.area");
+        json_decref(bake);
+        cli_do(0, "check level.talus");
+        cli_result info = cli_expect(0, "info level.talus");
+        snprintf(line, sizeof(line), "%s polygons", methods[i]);
+        cli_check_part(info.out, line);
+        cli_free(&info);
+    }
+    TEST_CHECK(polygons[1] < polygons[0] && polygons[1] <= polygons[2]);
+    TEST_CHECK(area[1] > 0.999 * area[0] && area[1] < 1.001 * area[0]);
+    TEST_CHECK(area[2] > 0.999 * area[0] && area[2] < 1.001 * area[0]);
+}
+
 static void test_real_levels(void **state)
 {
     (void)state;
@@ -185,6 +210,7 @@ int main(void)
         cmocka_unit_test(test_all_levels_and_partitions),
         cmocka_unit_test(test_parts),
         cmocka_unit_test(test_options_matter),
+        cmocka_unit_test(test_polygon_methods),
         cmocka_unit_test(test_real_levels),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);

@@ -126,6 +126,9 @@ static void every_field_is_checked(void **state)
     int partition = 7;
     memcpy(&def.partition, &partition, sizeof def.partition);
     TEST_RESULT(tl_nav_config_make(&def, LEVEL, 0, 0, &config, NULL), TL_ERR_ARGUMENT);
+    def = tl_default_nav_def();
+    memcpy(&def.polygon_method, &partition, sizeof def.polygon_method);
+    TEST_RESULT(tl_nav_config_make(&def, LEVEL, 0, 0, &config, NULL), TL_ERR_ARGUMENT);
 }
 
 static void expect_limit(const tl_nav_def *def, tl_aabb bounds, const char *element)

@@ -232,12 +232,17 @@ static void test_navmesh_settings(void **state)
     def.max_verts_per_poly = 6;
     def.filter_ledge_spans = true;
     def.partition = TL_NAV_MONOTONE;
+    def.polygon_method = TL_PARTITION_OPTIMAL;
     def.tile_size = 48;
     tl_aabb bounds = { { -1, -2, -3 }, { 4, 5, 6 } };
     tl_pack_navmesh *settings = NULL;
     TEST_RESULT(tl_pack_navmesh_create(&def, bounds, 4, 3, 11, NULL, &settings), TL_OK);
     TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_OK);
     TEST_CHECK(settings->filters == 2 && settings->partition == TL_NAV_MONOTONE && settings->tile_size == 48);
+    TEST_CHECK(tl_pack_navmesh_def(settings).polygon_method == TL_PARTITION_OPTIMAL);
+    settings->polygon_method = 3;
+    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_ERR_CORRUPT);
+    settings->polygon_method = 0;
     settings->tile_count = 13;
     TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_ERR_CORRUPT);
     settings->tile_count = 12;

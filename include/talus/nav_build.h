@@ -47,6 +47,7 @@ typedef struct tl_nav_def {
     float detail_sample_dist;      ///< cells: spacing of the detail mesh's height samples; < 0.9: no samples. Default 6
     float detail_sample_max_error; ///< voxel heights: how far the detail mesh may leave the floor. Default 1
     tl_nav_partition partition;    ///< Default TL_NAV_WATERSHED
+    tl_partition_method polygon_method;    ///< how contours are divided (polygon.h). Default TL_PARTITION_CLASSIC
     bool filter_low_hanging_obstacles;     ///< Default true
     bool filter_ledge_spans;               ///< Default true
     bool filter_walkable_low_height_spans; ///< Default true
@@ -93,6 +94,7 @@ typedef struct tl_nav_config {
     float detail_sample_dist;      ///< metres, 0: no samples
     float detail_sample_max_error; ///< metres
     tl_nav_partition partition;
+    tl_partition_method polygon_method;
     bool filter_low_hanging_obstacles, filter_ledge_spans, filter_walkable_low_height_spans;
     uint32_t tile_x, tile_z;                           ///< this tile's place in the grid of tiles
     float agent_height, agent_radius, agent_max_climb; ///< metres, as given; kept in the tile for queries

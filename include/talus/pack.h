@@ -117,9 +117,10 @@ typedef struct tl_pack_navmesh {
     uint32_t filters;   ///< bit 0 low hanging obstacles, 1 ledge spans, 2 low height spans
     uint32_t tile_size; ///< cells, 0: one tile
     uint32_t tiles_x, tiles_z;
-    uint32_t tile_count; ///< NAVT chunks
-    tl_aabb bounds;      ///< metres; bounds.min is the origin of the lattice
-    uint32_t reserved[7];
+    uint32_t tile_count;     ///< NAVT chunks
+    tl_aabb bounds;          ///< metres; bounds.min is the origin of the lattice
+    uint32_t polygon_method; ///< a tl_partition_method
+    uint32_t reserved[6];
 } tl_pack_navmesh;
 
 TL_API tl_result tl_pack_navmesh_create(const tl_nav_def *def, tl_aabb bounds, uint32_t tiles_x, uint32_t tiles_z,

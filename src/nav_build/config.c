@@ -42,6 +42,7 @@ tl_nav_def tl_default_nav_def(void)
     def.detail_sample_dist = 6.0f;
     def.detail_sample_max_error = 1.0f;
     def.partition = TL_NAV_WATERSHED;
+    def.polygon_method = TL_PARTITION_CLASSIC;
     def.filter_low_hanging_obstacles = true;
     def.filter_ledge_spans = true;
     def.filter_walkable_low_height_spans = true;
@@ -100,6 +101,10 @@ static tl_result check_fields(const tl_nav_def *def, tl_report *report)
     if (def->partition != TL_NAV_WATERSHED && def->partition != TL_NAV_MONOTONE && def->partition != TL_NAV_LAYERS) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "partition", TL_NO_ELEMENT,
                               "use TL_NAV_WATERSHED, TL_NAV_MONOTONE or TL_NAV_LAYERS");
+    }
+    if ((unsigned)def->polygon_method > (unsigned)TL_PARTITION_DELAUNAY) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "polygon_method", TL_NO_ELEMENT,
+                              "use TL_PARTITION_CLASSIC, TL_PARTITION_OPTIMAL or TL_PARTITION_DELAUNAY");
     }
     return TL_OK;
 }
@@ -297,6 +302,7 @@ tl_result tl_nav_config_make(const tl_nav_def *def, tl_aabb level_bounds, uint32
     config->detail_sample_dist = def->detail_sample_dist < 0.9f ? 0.0f : def->detail_sample_dist * def->cell_size;
     config->detail_sample_max_error = def->detail_sample_max_error * def->cell_height;
     config->partition = def->partition;
+    config->polygon_method = def->polygon_method;
     config->filter_low_hanging_obstacles = def->filter_low_hanging_obstacles;
     config->filter_ledge_spans = def->filter_ledge_spans;
     config->filter_walkable_low_height_spans = def->filter_walkable_low_height_spans;

@@ -127,6 +127,7 @@ static tl_result build_polygons(tile_job *job)
 {
     tl_polygon_def def = tl_default_polygon_def();
     def.max_verts_per_poly = job->config->max_verts_per_poly;
+    def.method = job->config->polygon_method;
     def.host = job->host;
     tl_polygon_report report;
     tl_result result = tl_polygon_mesh_build(&job->stages->contours.set, &def, &job->stages->polygons, &report);

@@ -72,17 +72,31 @@ static void make_nodes(tl_navmesh *navmesh, uint32_t slot)
     }
 }
 
-static void join_over_seams(tl_navmesh *navmesh, uint32_t slot)
+// The root, with every second node on the way hung higher; for the writer, who may.
+static uint32_t find_root(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    tl_nav_island *islands = navmesh->islands;
+    uint32_t node = rings->island[rings->component[polygon]];
+    while (islands[node].parent != node) {
+        islands[node].parent = islands[islands[node].parent].parent;
+        node = islands[node].parent;
+    }
+    return node;
+}
+
+// Over the sides from `first_side` on: links are mutual, so a seam may be looked at from one of its tiles.
+static void join_over_seams(tl_navmesh *navmesh, uint32_t slot, uint32_t first_side, uint32_t side_count)
 {
     const tl_nav_slot *own = &navmesh->slots[slot];
-    for (uint32_t side = 0; side < 4; side++) {
+    for (uint32_t side = first_side; side < first_side + side_count; side++) {
         const tl_nav_side_links *links = &own->sides[side];
         const tl_nav_portal *portals = tl_nav_tile_portals(own->tile) + own->tile->side_first[side];
         for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
             for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
                 const tl_nav_seam_link *link = &links->links[k];
-                join(navmesh, tl_nav_island_of(navmesh, slot, portals[i].polygon),
-                     tl_nav_island_of(navmesh, link->slot, link->polygon));
+                join(navmesh, find_root(navmesh, slot, portals[i].polygon),
+                     find_root(navmesh, link->slot, link->polygon));
             }
         }
     }
@@ -91,7 +105,7 @@ static void join_over_seams(tl_navmesh *navmesh, uint32_t slot)
 void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot)
 {
     make_nodes(navmesh, slot);
-    join_over_seams(navmesh, slot);
+    join_over_seams(navmesh, slot, 0, 4);
 }
 
 void tl_nav_rebuild_islands(tl_navmesh *navmesh)
@@ -104,7 +118,7 @@ void tl_nav_rebuild_islands(tl_navmesh *navmesh)
     }
     for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
         if (navmesh->slots[slot].tile != NULL) {
-            join_over_seams(navmesh, slot);
+            join_over_seams(navmesh, slot, 0, 2);
         }
     }
     for (uint32_t node = 0; node < navmesh->island_count; node++) {

@@ -104,6 +104,7 @@ tl_result tl_pack_navmesh_create(const tl_nav_def *def, tl_aabb bounds, uint32_t
     navmesh->detail_sample_dist = def->detail_sample_dist;
     navmesh->detail_sample_max_error = def->detail_sample_max_error;
     navmesh->partition = (uint32_t)def->partition;
+    navmesh->polygon_method = (uint32_t)def->polygon_method;
     navmesh->filters = (def->filter_low_hanging_obstacles ? 1u : 0u) | (def->filter_ledge_spans ? 2u : 0u) |
                        (def->filter_walkable_low_height_spans ? 4u : 0u);
     navmesh->tile_size = def->tile_size;
@@ -132,6 +133,7 @@ tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh)
     def.detail_sample_dist = navmesh->detail_sample_dist;
     def.detail_sample_max_error = navmesh->detail_sample_max_error;
     def.partition = (tl_nav_partition)navmesh->partition;
+    def.polygon_method = (tl_partition_method)navmesh->polygon_method;
     def.filter_low_hanging_obstacles = (navmesh->filters & 1u) != 0;
     def.filter_ledge_spans = (navmesh->filters & 2u) != 0;
     def.filter_walkable_low_height_spans = (navmesh->filters & 4u) != 0;
@@ -153,7 +155,8 @@ tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size)
         zero = zero && navmesh->reserved[i] == 0;
     }
     bool sane = navmesh->cell_size > 0.0f && isfinite(navmesh->cell_size) && navmesh->cell_height > 0.0f &&
-                isfinite(navmesh->cell_height) && navmesh->partition <= TL_NAV_LAYERS && navmesh->filters <= 7 &&
+                isfinite(navmesh->cell_height) && navmesh->partition <= TL_NAV_LAYERS &&
+                navmesh->polygon_method <= TL_PARTITION_DELAUNAY && navmesh->filters <= 7 &&
                 navmesh->max_verts_per_poly <= MAX_MAX_VERTS &&
                 navmesh->tile_count <= (uint64_t)navmesh->tiles_x * navmesh->tiles_z;
     return zero && sane ? TL_OK : TL_ERR_CORRUPT;
