@@ -349,7 +349,7 @@ static void lay_out(steps_sheet *sheet)
     double size_x = (double)(most_x - sheet->least_x) + 1.0, size_z = (double)(most_z - sheet->least_z) + 1.0;
     uint32_t panels = sheet->record->kinds[sheet->options->kind].shown_count + 2;
     sheet->scale = sheet->options->panel_size / fmax(size_x, size_z);
-    double caption_width = 190.0; // what the longest caption takes
+    double caption_width = 215.0; // what the longest caption takes
     sheet->panel_width = (uint32_t)ceil(fmax(size_x * sheet->scale, caption_width));
     sheet->panel_height = (uint32_t)ceil(size_z * sheet->scale);
     sheet->columns = panels < COLUMNS ? panels : COLUMNS;
