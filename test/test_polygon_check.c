@@ -241,6 +241,43 @@ static void names_uncovered_floor(void **state)
     expect(&f, TL_POLYGON_FAULT_OUTLINE, true);
 }
 
+// Border vertices that are gone or stay, wherever the contour begins: none of it is a fault of the outline.
+static void passes_over_border_vertices(void **state)
+{
+    (void)state;
+    enum { N = 5 };
+    // The third and the fourth vertex lie on the straight run from the second to the first.
+    static const int32_t corners[N][2] = { { 255, 255 }, { 16, 0 }, { 0, 0 }, { 32, 32 }, { 64, 64 } };
+    uint32_t gone = 0, kept = 0;
+    for (uint32_t flags = 0; flags < 1u << N; flags++) {
+        for (uint32_t start = 0; start < N; start++) {
+            tl_contour_vertex vertices[N];
+            for (uint32_t k = 0; k < N; k++) {
+                uint32_t from = (start + k) % N;
+                tl_contour_vertex v = { corners[from][0], 0, corners[from][1],
+                                        (flags >> from & 1u) != 0 ? TL_CONTOUR_BORDER_VERTEX : 0 };
+                vertices[k] = v;
+            }
+            tl_contour contour = { 0, N, 1, 1 };
+            tl_contour_set set;
+            memset(&set, 0, sizeof set);
+            set.vertices = vertices;
+            set.vertex_count = N;
+            set.contours = &contour;
+            set.contour_count = 1;
+            set.cell_size = set.cell_height = 1.0f;
+            tl_polygon_mesh mesh;
+            tl_polygon_report report;
+            TEST_RESULT(tl_polygon_mesh_build(&set, NULL, &mesh, &report), TL_OK);
+            TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, NULL), TL_OK);
+            gone += report.border_vertices_gone;
+            kept += report.border_vertices_kept;
+            tl_polygon_mesh_free(&mesh, NULL);
+        }
+    }
+    TEST_CHECK(gone > 50 && kept > 50);
+}
+
 static void runs_out_of_memory_cleanly(void **state)
 {
     (void)state;
@@ -262,9 +299,13 @@ static void runs_out_of_memory_cleanly(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(names_indices_out_of_range), cmocka_unit_test(names_wrong_corner_counts),
-        cmocka_unit_test(names_bad_shapes),           cmocka_unit_test(names_overlaps_and_t_junctions),
-        cmocka_unit_test(names_broken_links),         cmocka_unit_test(names_uncovered_floor),
+        cmocka_unit_test(names_indices_out_of_range),
+        cmocka_unit_test(names_wrong_corner_counts),
+        cmocka_unit_test(names_bad_shapes),
+        cmocka_unit_test(names_overlaps_and_t_junctions),
+        cmocka_unit_test(names_broken_links),
+        cmocka_unit_test(names_uncovered_floor),
+        cmocka_unit_test(passes_over_border_vertices),
         cmocka_unit_test(runs_out_of_memory_cleanly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -297,40 +297,68 @@ static bool has_edge(edge_sums *e, uint32_t polygon_edges, tl_lattice_point from
     return edge < polygon_edges; // not TL_NO_VALUE either
 }
 
+static tl_lattice_point point_of(const tl_contour_vertex *vertex)
+{
+    tl_lattice_point p = { vertex->x, vertex->z };
+    return p;
+}
+
+static bool is_in_mesh(edge_sums *e, const tl_contour_vertex *vertex)
+{
+    tl_lattice_point p = point_of(vertex);
+    return *tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z)) != TL_NO_VALUE;
+}
+
+static bool may_be_gone(const tl_contour_vertex *vertex)
+{
+    return (vertex->flags & TL_CONTOUR_BORDER_VERTEX) != 0;
+}
+
+// A vertex that is surely there: no border vertex, or one that a polygon's edge comes to from the vertex before it that
+// the mesh has. `count` when there is none.
+static uint32_t surely_kept(edge_sums *e, uint32_t polygon_edges, const tl_contour_vertex *vertices, uint32_t count)
+{
+    uint32_t last = count;
+    for (uint32_t k = 0; k < count; k++) {
+        if (is_in_mesh(e, &vertices[k])) {
+            last = k;
+            if (!may_be_gone(&vertices[k])) {
+                return k;
+            }
+        }
+    }
+    for (uint32_t k = 0; k < count && last < count; k++) {
+        if (is_in_mesh(e, &vertices[k])) {
+            if (has_edge(e, polygon_edges, point_of(&vertices[last]), point_of(&vertices[k]))) {
+                return k;
+            }
+            last = k;
+        }
+    }
+    return count;
+}
+
 // The contour's edges, -1 times each. Vertices that no polygon has (border vertices, and those in straight runs) are
 // passed over: where their removal changed the outline, other edges will not cancel. Of a border vertex that is asked
 // by its edge, which is never a bridge: the contour may come by the same place again on another floor.
 static void add_contour_backward(edge_sums *e, const tl_contour_vertex *vertices, uint32_t count)
 {
     const uint32_t polygon_edges = e->edge_count;
-    tl_lattice_point first = { 0, 0 }, last = { 0, 0 };
-    bool has_first = false;
-    for (uint32_t k = 0; k < count; k++) {
-        tl_lattice_point p = { vertices[k].x, vertices[k].z };
-        bool may_be_gone = (vertices[k].flags & TL_CONTOUR_BORDER_VERTEX) != 0;
-        bool is_gone = *tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z)) == TL_NO_VALUE;
-        if (!is_gone && may_be_gone) {
-            tl_lattice_point before = last;
-            if (!has_first) {
-                before.x = vertices[count - 1].x;
-                before.z = vertices[count - 1].z;
-            }
-            is_gone = !has_edge(e, polygon_edges, before, p);
-        }
-        if (is_gone) {
-            continue;
-        }
-        if (has_first) {
+    const uint32_t start = surely_kept(e, polygon_edges, vertices, count);
+    if (start == count) {
+        return;
+    }
+    const tl_lattice_point first = point_of(&vertices[start]);
+    tl_lattice_point last = first;
+    for (uint32_t i = 1; i < count; i++) {
+        const tl_contour_vertex *vertex = &vertices[(start + i) % count];
+        tl_lattice_point p = point_of(vertex);
+        if (is_in_mesh(e, vertex) && (!may_be_gone(vertex) || has_edge(e, polygon_edges, last, p))) {
             add_edge(e, last, p, -1);
-        } else {
-            first = p;
-            has_first = true;
+            last = p;
         }
-        last = p;
     }
-    if (has_first) {
-        add_edge(e, last, first, -1);
-    }
+    add_edge(e, last, first, -1);
 }
 
 // The polygons' edges, and the contour's backward, must cancel.
