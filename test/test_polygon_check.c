@@ -278,6 +278,48 @@ static void passes_over_border_vertices(void **state)
     TEST_CHECK(gone > 50 && kept > 50);
 }
 
+// A slope that winds up over itself: a border vertex goes, polygons of four contours hang together, and some lie over
+// others. Floors whose heights do not meet are no overlap.
+static void floors_that_hang_together_may_lie_over_each_other(void **state)
+{
+    (void)state;
+    enum { B = TL_CONTOUR_BORDER_VERTEX, A = TL_CONTOUR_AREA_BORDER };
+    static const tl_contour_vertex vertices[] = {
+        { 0, 91, 0, 0 },    { 0, 61, 35, B },   { 60, 109, 35, A }, { 65, 119, 32, A }, { 81, 142, 33, 0 },
+        { 81, 99, 0, 0 },   { 0, 61, 35, B },   { 0, 60, 81, 0 },   { 62, 158, 81, B }, { 62, 126, 64, A },
+        { 60, 113, 62, A }, { 63, 110, 59, A }, { 81, 101, 57, 0 }, { 81, 113, 44, A }, { 65, 108, 43, A },
+        { 60, 109, 35, 0 }, { 64, 116, 36, A }, { 65, 120, 42, A }, { 81, 122, 43, 0 }, { 81, 142, 36, A },
+        { 64, 129, 36, A }, { 64, 136, 51, A }, { 62, 126, 64, 0 }, { 62, 158, 81, B }, { 81, 189, 81, 0 },
+        { 81, 165, 36, A },
+    };
+    static const tl_contour contours[] = { { 0, 6, 2, 63 }, { 6, 10, 1, 63 }, { 16, 4, 4, 63 }, { 20, 6, 3, 63 } };
+    tl_contour_set set;
+    memset(&set, 0, sizeof set);
+    set.vertices = vertices;
+    set.vertex_count = sizeof vertices / sizeof vertices[0];
+    set.contours = contours;
+    set.contour_count = 4;
+    set.cell_size = set.cell_height = 1.0f;
+    set.width = set.height = 81;
+    set.border_size = 4;
+    tl_polygon_mesh mesh;
+    TEST_RESULT(tl_polygon_mesh_build(&set, NULL, &mesh, NULL), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, NULL), TL_OK);
+    uint32_t several = 0;
+    for (uint32_t p = 0; p < mesh.polygon_count; p++) {
+        several += mesh.contours[p] == TL_SEVERAL_CONTOURS;
+    }
+    TEST_CHECK(several > 1);
+    // On one height they do overlap.
+    for (uint32_t i = 0; i < mesh.vertex_count; i++) {
+        mesh.vertices[3 * i + 1] = 0;
+    }
+    tl_polygon_check_report report;
+    TEST_RESULT(tl_polygon_mesh_check(&mesh, NULL, NULL, &report), TL_ERR_CORRUPT);
+    TEST_CHECK(report.counts[TL_POLYGON_FAULT_OVERLAP] > 0);
+    tl_polygon_mesh_free(&mesh, NULL);
+}
+
 static void runs_out_of_memory_cleanly(void **state)
 {
     (void)state;
@@ -306,6 +348,7 @@ int main(void)
         cmocka_unit_test(names_broken_links),
         cmocka_unit_test(names_uncovered_floor),
         cmocka_unit_test(passes_over_border_vertices),
+        cmocka_unit_test(floors_that_hang_together_may_lie_over_each_other),
         cmocka_unit_test(runs_out_of_memory_cleanly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -243,7 +243,7 @@ typedef enum tl_polygon_fault {
     TL_POLYGON_FAULT_REPEATED,   ///< a corner twice in one polygon
     TL_POLYGON_FAULT_INVERTED,   ///< wound against the contours, or without area
     TL_POLYGON_FAULT_NOT_CONVEX, ///< a corner of 180 degrees or more, or winding around more than once
-    TL_POLYGON_FAULT_OVERLAP,    ///< two polygons of one contour share floor
+    TL_POLYGON_FAULT_OVERLAP,    ///< two polygons of one contour share floor; of several contours: and heights
     TL_POLYGON_FAULT_T_JUNCTION, ///< a vertex of the contour inside an edge of one of its polygons
     TL_POLYGON_FAULT_LINK,       ///< a neighbour that does not hold the edge or does not link back, or a link left out
     TL_POLYGON_FAULT_PORTAL,     ///< a portal whose edge is not on that side of the tile (needs the contours)

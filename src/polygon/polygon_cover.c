@@ -71,6 +71,39 @@ static uint32_t group_x(uint64_t key)
     return (uint32_t)(key & (((uint64_t)1 << GROUP_SHIFT) - 1));
 }
 
+typedef struct height_range {
+    int32_t low, high;
+} height_range;
+
+static height_range heights_of(const tl_polygon_mesh *mesh, uint32_t p)
+{
+    height_range range = { INT32_MAX, INT32_MIN };
+    for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+        int32_t y = mesh->vertices[3 * (size_t)mesh->indices[k] + 1];
+        range.low = y < range.low ? y : range.low;
+        range.high = y > range.high ? y : range.high;
+    }
+    return range;
+}
+
+// A stair or a spiral joins floors that lie over one another. One contour never holds both, but polygons of several
+// contours that hang together may; what tells such floors apart is that their heights do not meet.
+static bool are_floors_apart(const tl_polygon_mesh *mesh, uint32_t p, uint32_t q)
+{
+    if (mesh->contours[p] != TL_SEVERAL_CONTOURS) {
+        return false;
+    }
+    height_range a = heights_of(mesh, p), b = heights_of(mesh, q);
+    return a.high < b.low || b.high < a.low;
+}
+
+static bool is_vertex_apart(const tl_polygon_mesh *mesh, uint32_t p, uint32_t vertex)
+{
+    height_range range = heights_of(mesh, p);
+    int32_t y = mesh->vertices[3 * (size_t)vertex + 1];
+    return mesh->contours[p] == TL_SEVERAL_CONTOURS && (y < range.low || y > range.high);
+}
+
 static void check_overlaps(cover *c)
 {
     const tl_polygon_mesh *mesh = c->checker->mesh;
@@ -80,7 +113,8 @@ static void check_overlaps(cover *c)
             lattice_box b = box_of(mesh, c->order[j].value);
             if (a.min_z < b.max_z && b.min_z < a.max_z &&
                 !has_separating_edge(mesh, c->order[i].value, c->order[j].value) &&
-                !has_separating_edge(mesh, c->order[j].value, c->order[i].value)) {
+                !has_separating_edge(mesh, c->order[j].value, c->order[i].value) &&
+                !are_floors_apart(mesh, c->order[i].value, c->order[j].value)) {
                 tl_polygon_checker_note(c->checker, TL_POLYGON_FAULT_OVERLAP, "polygon", c->order[j].value);
             }
         }
@@ -133,7 +167,8 @@ static void check_t_junctions(cover *c)
         }
         for (; low < count && (uint32_t)(c->vertices[low].key >> 32) <= x_key(box.max_x); low++) {
             tl_lattice_point v = tl_mesh_point(mesh, c->vertices[low].value);
-            if (v.z >= box.min_z && v.z <= box.max_z && lies_inside_an_edge(mesh, p, v)) {
+            if (v.z >= box.min_z && v.z <= box.max_z && lies_inside_an_edge(mesh, p, v) &&
+                !is_vertex_apart(mesh, p, c->vertices[low].value)) {
                 tl_polygon_checker_note(c->checker, TL_POLYGON_FAULT_T_JUNCTION, "polygon", p);
             }
         }
