@@ -114,7 +114,20 @@ static tl_exit run_lines(tl_cli *cli, block *b, tl_line_input *input)
     }
 }
 
-tl_exit tl_batch_run(tl_cli *cli, const tl_batch *batch)
+static tl_exit answer_one(tl_cli *cli, const tl_batch *batch, const float *numbers)
+{
+    tl_text text;
+    memset(&text, 0, sizeof(text));
+    const bool yes = batch->answer(numbers, batch->least, &text, 0, batch->user);
+    const tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory")
+                         : yes       ? TL_EXIT_OK
+                                     : TL_EXIT_NEGATIVE;
+    fwrite(text.bytes, 1, text.size, stdout);
+    tl_text_free(&text);
+    return code;
+}
+
+static tl_exit answer_lines(tl_cli *cli, const tl_batch *batch)
 {
     tl_io_error error;
     memset(&error, 0, sizeof(error));
@@ -137,4 +150,9 @@ tl_exit tl_batch_run(tl_cli *cli, const tl_batch *batch)
     }
     tl_line_input_close(&input);
     return code;
+}
+
+tl_exit tl_batch_run(tl_cli *cli, const tl_batch *batch, const float *numbers)
+{
+    return batch->path != NULL ? answer_lines(cli, batch) : answer_one(cli, batch, numbers);
 }

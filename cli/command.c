@@ -5,6 +5,7 @@
 #include "cli/command.h"
 
 #include "cli/interrupt.h"
+#include "cli/parse_value.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -225,4 +226,14 @@ tl_exit tl_command_run(const tl_command *command, int argc, const char *const *a
     tl_thread_pool_free(cli.pool);
     tl_arguments_free(&cli.arguments);
     return code;
+}
+
+bool tl_cli_read_triple(tl_cli *cli, uint32_t word, const char *what, float numbers_out[3], tl_exit *exit_out)
+{
+    const char *text = cli->arguments.words[word];
+    const char *reason = tl_parse_float_list(text, numbers_out, 3, 3, NULL);
+    if (reason != NULL) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s '%s' %s; write it as X,Y,Z", what, text, reason);
+    }
+    return reason == NULL;
 }

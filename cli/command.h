@@ -73,4 +73,7 @@ tl_exit tl_cli_fail_io(tl_cli *cli, const tl_io_error *error);
 tl_exit tl_cli_fail_result(tl_cli *cli, const char *path, tl_result result, const tl_report *report);
 tl_exit tl_exit_of(tl_result result);
 
+/// Reads word number `word` as X,Y,Z. False: reported; `what` names it ("point", "goal").
+bool tl_cli_read_triple(tl_cli *cli, uint32_t word, const char *what, float numbers_out[3], tl_exit *exit_out);
+
 #endif

@@ -9,7 +9,6 @@
 
 #include <talus/convex.h>
 
-#include <stdio.h>
 #include <string.h>
 
 typedef struct distance_settings {
@@ -112,7 +111,7 @@ static void answer_pose(const distance_query *query, tl_transform pose_b, tl_tex
     }
 }
 
-static void answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
+static bool answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
 {
     tl_transform pose;
     (void)worker;
@@ -125,28 +124,24 @@ static void answer_line(const float *numbers, uint32_t count, tl_text *text, uin
         tl_text_add(text, reason);
         tl_text_add(text, query->json ? "\"}\n" : "\n");
     }
+    return true;
+}
+
+// The pose that the options gave.
+static bool answer_given(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
+{
+    const distance_query *query = user;
+    (void)numbers;
+    (void)count;
+    (void)worker;
+    answer_pose(query, query->pose_b, text);
+    return true;
 }
 
 static tl_exit answer(tl_cli *cli, distance_query *query, const char *poses)
 {
-    if (poses != NULL) {
-        tl_batch batch;
-        memset(&batch, 0, sizeof(batch));
-        batch.path = poses;
-        batch.wanted = "px py pz [qx qy qz qw]";
-        batch.least = 3;
-        batch.most = 7;
-        batch.answer = answer_line;
-        batch.user = query;
-        return tl_batch_run(cli, &batch);
-    }
-    tl_text text;
-    memset(&text, 0, sizeof(text));
-    answer_pose(query, query->pose_b, &text);
-    tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory") : TL_EXIT_OK;
-    fwrite(text.bytes, 1, text.size, stdout);
-    tl_text_free(&text);
-    return code;
+    const tl_batch batch = { poses, "px py pz [qx qy qz qw]", 3, 7, poses != NULL ? answer_line : answer_given, query };
+    return tl_batch_run(cli, &batch, NULL);
 }
 
 static tl_exit run(tl_cli *cli)

@@ -12,21 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static tl_result write_file(const char *output, const void *bytes, uint64_t size, tl_io_error *error)
-{
-    tl_atomic_file *file;
-    tl_result result = tl_atomic_file_open(output, &file, error);
-    if (result == TL_OK) {
-        result = tl_atomic_file_write(file, bytes, size, error);
-        if (result != TL_OK) {
-            tl_atomic_file_abort(file);
-            return result;
-        }
-        result = tl_atomic_file_commit(file, error);
-    }
-    return result;
-}
-
 static tl_exit print_report(tl_cli *cli, const char *output, uint64_t size, const tl_detour_report *report)
 {
     if (report->plain_patches > 0) {
@@ -67,7 +52,7 @@ static tl_exit export_navmesh(tl_cli *cli, const tl_input *input, tl_detour_refs
     tl_io_error error;
     if (result != TL_OK) {
         code = tl_cli_fail_result(cli, input->path, result, result == TL_ERR_MEMORY ? NULL : &report.base);
-    } else if (write_file(output, bytes, size, &error) != TL_OK) {
+    } else if (tl_atomic_write(output, bytes, size, &error) != TL_OK) {
         code = tl_cli_fail_io(cli, &error);
     } else {
         code = print_report(cli, output, size, &report);

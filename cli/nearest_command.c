@@ -5,9 +5,7 @@
 #include "cli/batch.h"
 #include "cli/json_out.h"
 #include "cli/open_input.h"
-#include "cli/parse_value.h"
 
-#include <stdio.h>
 #include <string.h>
 
 typedef struct nearest_settings {
@@ -79,9 +77,12 @@ static bool answer_inside(const nearest_query *query, tl_vec3 at, tl_text *text)
 }
 
 // Answers one point; returns whether there is something near it.
-static bool answer_point(const nearest_query *query, const float *n, tl_text *text)
+static bool answer_point(const float *n, uint32_t count, tl_text *text, uint32_t worker, void *user)
 {
+    const nearest_query *query = user;
     const nearest_settings *settings = query->settings;
+    (void)count;
+    (void)worker;
     tl_vec3 at = tl_vec3_make(n[0], n[1], n[2]), zero = tl_vec3_make(0.0f, 0.0f, 0.0f);
     if (settings->inside) {
         return answer_inside(query, at, text);
@@ -100,26 +101,6 @@ static bool answer_point(const nearest_query *query, const float *n, tl_text *te
         write_point(text, &found);
     }
     return true;
-}
-
-static void answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
-{
-    (void)count;
-    (void)worker;
-    answer_point(user, numbers, text);
-}
-
-static tl_exit find_one(tl_cli *cli, const nearest_query *query, const float *numbers)
-{
-    tl_text text;
-    memset(&text, 0, sizeof(text));
-    bool found = answer_point(query, numbers, &text);
-    tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory")
-                   : found     ? TL_EXIT_OK
-                               : TL_EXIT_NEGATIVE;
-    fwrite(text.bytes, 1, text.size, stdout);
-    tl_text_free(&text);
-    return code;
 }
 
 // --inside is for levels that enclose a space. One that does not is answered too, but the user is told.
@@ -161,19 +142,17 @@ static tl_exit run(tl_cli *cli)
     if ((settings.points != NULL) == (cli->arguments.count > 1)) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "give a point behind FILE, or many with --points");
     }
-    const char *reason =
-        settings.points != NULL ? NULL : tl_parse_float_list(cli->arguments.words[1], numbers, 3, 3, NULL);
-    if (reason != NULL) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "point '%s' %s; write it as X,Y,Z", cli->arguments.words[1], reason);
+    if (settings.points == NULL && !tl_cli_read_triple(cli, 1, "point", numbers, &code)) {
+        return code;
     }
     tl_input input;
     if (tl_input_open_soup(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
         nearest_query query = { input.soup, &settings };
-        tl_batch batch = { settings.points, "x y z", 3, 3, answer_line, &query };
+        tl_batch batch = { settings.points, "x y z", 3, 3, answer_point, &query };
         if (settings.inside) {
             warn_when_open(cli, &query);
         }
-        code = settings.points != NULL ? tl_batch_run(cli, &batch) : find_one(cli, &query, numbers);
+        code = tl_batch_run(cli, &batch, numbers);
     }
     tl_input_close(&input);
     return code;

@@ -5,10 +5,8 @@
 #include "cli/batch.h"
 #include "cli/json_out.h"
 #include "cli/open_input.h"
-#include "cli/parse_value.h"
 #include "cli/shape_option.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -38,9 +36,12 @@ static void write_list(tl_text *text, const uint32_t *triangles, uint32_t count,
 }
 
 // Answers one point; returns whether anything is touched.
-static bool answer_point(const overlap_query *query, const float *n, tl_text *text)
+static bool answer_point(const float *n, uint32_t number_count, tl_text *text, uint32_t worker, void *user)
 {
     enum { FEW = 256 };
+    const overlap_query *query = user;
+    (void)number_count;
+    (void)worker;
     const overlap_settings *settings = query->settings;
     tl_transform pose = tl_transform_identity();
     pose.position = tl_vec3_make(n[0], n[1], n[2]);
@@ -67,26 +68,6 @@ static bool answer_point(const overlap_query *query, const float *n, tl_text *te
         free(triangles);
     }
     return count > 0;
-}
-
-static void answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
-{
-    (void)count;
-    (void)worker;
-    answer_point(user, numbers, text);
-}
-
-static tl_exit overlap_one(tl_cli *cli, const overlap_query *query, const float *numbers)
-{
-    tl_text text;
-    memset(&text, 0, sizeof(text));
-    bool touches = answer_point(query, numbers, &text);
-    tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory")
-                   : touches   ? TL_EXIT_OK
-                               : TL_EXIT_NEGATIVE;
-    fwrite(text.bytes, 1, text.size, stdout);
-    tl_text_free(&text);
-    return code;
 }
 
 static tl_exit run(tl_cli *cli)
@@ -117,16 +98,14 @@ static tl_exit run(tl_cli *cli)
     if ((settings.points != NULL) == (cli->arguments.count > 1)) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "give a point behind FILE, or many with --points");
     }
-    const char *reason =
-        settings.points != NULL ? NULL : tl_parse_float_list(cli->arguments.words[1], numbers, 3, 3, NULL);
-    if (reason != NULL) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "point '%s' %s; write it as X,Y,Z", cli->arguments.words[1], reason);
+    if (settings.points == NULL && !tl_cli_read_triple(cli, 1, "point", numbers, &code)) {
+        return code;
     }
     tl_input input;
     if (tl_input_open_soup(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
         overlap_query query = { input.soup, &settings };
-        tl_batch batch = { settings.points, "x y z", 3, 3, answer_line, &query };
-        code = settings.points != NULL ? tl_batch_run(cli, &batch) : overlap_one(cli, &query, numbers);
+        tl_batch batch = { settings.points, "x y z", 3, 3, answer_point, &query };
+        code = tl_batch_run(cli, &batch, numbers);
     }
     tl_input_close(&input);
     return code;

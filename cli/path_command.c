@@ -150,11 +150,11 @@ static bool answer_pair(const path_queries *queries, searcher *s, const float *n
     return result == TL_OK && route.path.status == TL_NAV_PATH_COMPLETE;
 }
 
-static void answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
+static bool answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
 {
     const path_queries *queries = user;
     (void)count;
-    answer_pair(queries, &queries->searchers[worker], numbers, text);
+    return answer_pair(queries, &queries->searchers[worker], numbers, text);
 }
 
 static void free_searchers(path_queries *queries)
@@ -187,33 +187,6 @@ static bool make_searchers(path_queries *queries, uint32_t count)
     return true;
 }
 
-static tl_exit find_one(tl_cli *cli, path_queries *queries, const float *numbers)
-{
-    tl_text text;
-    memset(&text, 0, sizeof(text));
-    bool reached = answer_pair(queries, &queries->searchers[0], numbers, &text);
-    tl_exit code = reached ? TL_EXIT_OK : TL_EXIT_NEGATIVE;
-    if (text.failed) {
-        code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
-    }
-    fwrite(text.bytes, 1, text.size, stdout);
-    tl_text_free(&text);
-    return code;
-}
-
-static tl_exit find_many(tl_cli *cli, path_queries *queries)
-{
-    tl_batch batch;
-    memset(&batch, 0, sizeof(batch));
-    batch.path = queries->settings->pairs;
-    batch.wanted = "ax ay az bx by bz";
-    batch.least = 6;
-    batch.most = 6;
-    batch.answer = answer_line;
-    batch.user = queries;
-    return tl_batch_run(cli, &batch);
-}
-
 static tl_exit find(tl_cli *cli, const path_settings *settings, const float *numbers)
 {
     tl_input input;
@@ -223,7 +196,8 @@ static tl_exit find(tl_cli *cli, const path_settings *settings, const float *num
         if (!make_searchers(&queries, settings->pairs != NULL ? cli->host.tasks->worker_count : 1)) {
             code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
         } else {
-            code = settings->pairs != NULL ? find_many(cli, &queries) : find_one(cli, &queries, numbers);
+            const tl_batch batch = { settings->pairs, "ax ay az bx by bz", 6, 6, answer_line, &queries };
+            code = tl_batch_run(cli, &batch, numbers);
         }
         free_searchers(&queries);
     }
@@ -248,15 +222,8 @@ static bool parse_words(tl_cli *cli, path_settings *settings, float numbers[6], 
         *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "give start and goal behind FILE, or many pairs with --pairs");
         return false;
     }
-    for (uint32_t i = 0; i < 2 && settings->pairs == NULL; ++i) {
-        const char *reason = tl_parse_float_list(cli->arguments.words[1 + i], numbers + 3 * i, 3, 3, NULL);
-        if (reason != NULL) {
-            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s '%s' %s; write it as X,Y,Z", i == 0 ? "start" : "goal",
-                                    cli->arguments.words[1 + i], reason);
-            return false;
-        }
-    }
-    return true;
+    return settings->pairs != NULL || (tl_cli_read_triple(cli, 1, "start", numbers, exit_out) &&
+                                       tl_cli_read_triple(cli, 2, "goal", numbers + 3, exit_out));
 }
 
 static tl_exit run(tl_cli *cli)

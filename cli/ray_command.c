@@ -5,9 +5,7 @@
 #include "cli/batch.h"
 #include "cli/json_out.h"
 #include "cli/open_input.h"
-#include "cli/parse_value.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -136,9 +134,12 @@ static bool answer_all(const ray_query *query, const float *n, float tmax, tl_te
 }
 
 // Answers one ray; returns whether it hit.
-static bool answer_ray(const ray_query *query, const float *numbers, float tmax, tl_text *text)
+static bool answer_ray(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
 {
+    const ray_query *query = user;
     const ray_settings *settings = query->settings;
+    const float tmax = count == 7 ? numbers[6] : settings->tmax;
+    (void)worker;
     if (settings->all) {
         return answer_all(query, numbers, tmax, text);
     }
@@ -163,39 +164,6 @@ static bool answer_ray(const ray_query *query, const float *numbers, float tmax,
     return true;
 }
 
-static void answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
-{
-    const ray_query *query = user;
-    (void)worker;
-    answer_ray(query, numbers, count == 7 ? numbers[6] : query->settings->tmax, text);
-}
-
-static tl_exit cast_one(tl_cli *cli, const ray_query *query, const float *numbers)
-{
-    tl_text text;
-    memset(&text, 0, sizeof(text));
-    bool hit = answer_ray(query, numbers, query->settings->tmax, &text);
-    tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory")
-                   : hit       ? TL_EXIT_OK
-                               : TL_EXIT_NEGATIVE;
-    fwrite(text.bytes, 1, text.size, stdout);
-    tl_text_free(&text);
-    return code;
-}
-
-static tl_exit cast_many(tl_cli *cli, ray_query *query)
-{
-    tl_batch batch;
-    memset(&batch, 0, sizeof(batch));
-    batch.path = query->settings->rays;
-    batch.wanted = query->settings->segment ? "ax ay az bx by bz" : "ox oy oz dx dy dz [tmax]";
-    batch.least = 6;
-    batch.most = query->settings->segment ? 6 : 7;
-    batch.answer = answer_line;
-    batch.user = query;
-    return tl_batch_run(cli, &batch);
-}
-
 static tl_exit cast(tl_cli *cli, const ray_settings *settings, const float *numbers)
 {
     tl_input input;
@@ -203,7 +171,9 @@ static tl_exit cast(tl_cli *cli, const ray_settings *settings, const float *numb
     if (tl_input_open_soup(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
         ray_query query = { input.soup, tl_default_ray_filter(), settings };
         query.filter.cull = (tl_ray_cull)settings->cull;
-        code = settings->rays != NULL ? cast_many(cli, &query) : cast_one(cli, &query, numbers);
+        const tl_batch rays = { settings->rays, "ox oy oz dx dy dz [tmax]", 6, 7, answer_ray, &query };
+        const tl_batch segments = { settings->rays, "ax ay az bx by bz", 6, 6, answer_ray, &query };
+        code = tl_batch_run(cli, settings->segment ? &segments : &rays, numbers);
     }
     tl_input_close(&input);
     return code;
@@ -212,14 +182,9 @@ static tl_exit cast(tl_cli *cli, const ray_settings *settings, const float *numb
 // The two points of a single ray, from the command line.
 static bool parse_points(tl_cli *cli, bool segment, float numbers[6], tl_exit *exit_out)
 {
-    for (uint32_t i = 0; i < 2; ++i) {
-        const char *reason = tl_parse_float_list(cli->arguments.words[1 + i], numbers + 3 * i, 3, 3, NULL);
-        if (reason != NULL) {
-            const char *what = i == 0 ? (segment ? "start" : "origin") : segment ? "end" : "direction";
-            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s '%s' %s; write it as X,Y,Z", what,
-                                    cli->arguments.words[1 + i], reason);
-            return false;
-        }
+    if (!tl_cli_read_triple(cli, 1, segment ? "start" : "origin", numbers, exit_out) ||
+        !tl_cli_read_triple(cli, 2, segment ? "end" : "direction", numbers + 3, exit_out)) {
+        return false;
     }
     if (!segment && numbers[3] == 0.0f && numbers[4] == 0.0f && numbers[5] == 0.0f) {
         *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "the direction 0,0,0 leads nowhere");

@@ -4,9 +4,7 @@
 
 #include "cli/batch.h"
 #include "cli/open_hull.h"
-#include "cli/parse_value.h"
 
-#include <stdio.h>
 #include <string.h>
 
 typedef struct support_query {
@@ -15,7 +13,7 @@ typedef struct support_query {
 } support_query;
 
 // The dot product of the floats, in double, so that an oracle can be compared with it.
-static void answer_direction(const float *n, uint32_t count, tl_text *text, uint32_t worker, void *user)
+static bool answer_direction(const float *n, uint32_t count, tl_text *text, uint32_t worker, void *user)
 {
     const support_query *query = user;
     (void)count;
@@ -40,36 +38,7 @@ static void answer_direction(const float *n, uint32_t count, tl_text *text, uint
         tl_text_add_float(text, dot);
         tl_text_add(text, "\n");
     }
-}
-
-static tl_exit answer_one(tl_cli *cli, support_query *query)
-{
-    tl_vec3 direction;
-    const char *reason = tl_parse_point_value(cli->arguments.words[1], &direction);
-    if (reason != NULL) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "direction '%s' %s; write it as X,Y,Z", cli->arguments.words[1], reason);
-    }
-    float numbers[3] = { direction.x, direction.y, direction.z };
-    tl_text text;
-    memset(&text, 0, sizeof(text));
-    answer_direction(numbers, 3, &text, 0, query);
-    tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory") : TL_EXIT_OK;
-    fwrite(text.bytes, 1, text.size, stdout);
-    tl_text_free(&text);
-    return code;
-}
-
-static tl_exit answer_many(tl_cli *cli, support_query *query, const char *path)
-{
-    tl_batch batch;
-    memset(&batch, 0, sizeof(batch));
-    batch.path = path;
-    batch.wanted = "dx dy dz";
-    batch.least = 3;
-    batch.most = 3;
-    batch.answer = answer_direction;
-    batch.user = query;
-    return tl_batch_run(cli, &batch);
+    return true;
 }
 
 static tl_exit run(tl_cli *cli)
@@ -94,7 +63,11 @@ static tl_exit run(tl_cli *cli)
     tl_hull_input input;
     if (tl_hull_open(cli, cli->arguments.words[0], &settings, &input, &code)) {
         support_query query = { input.hull, cli->json };
-        code = directions != NULL ? answer_many(cli, &query, directions) : answer_one(cli, &query);
+        const tl_batch batch = { directions, "dx dy dz", 3, 3, answer_direction, &query };
+        float numbers[3] = { 0 };
+        if (directions != NULL || tl_cli_read_triple(cli, 1, "direction", numbers, &code)) {
+            code = tl_batch_run(cli, &batch, numbers);
+        }
     }
     tl_hull_input_close(&input);
     return code;

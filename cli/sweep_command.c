@@ -5,10 +5,8 @@
 #include "cli/batch.h"
 #include "cli/json_out.h"
 #include "cli/open_input.h"
-#include "cli/parse_value.h"
 #include "cli/shape_option.h"
 
-#include <stdio.h>
 #include <string.h>
 
 typedef struct sweep_settings {
@@ -64,8 +62,11 @@ static void write_json_hit(tl_text *text, const tl_shape_hit *hit)
 }
 
 // Answers one sweep; returns whether something was hit.
-static bool answer_sweep(const sweep_query *query, const float *n, tl_text *text)
+static bool answer_sweep(const float *n, uint32_t count, tl_text *text, uint32_t worker, void *user)
 {
+    const sweep_query *query = user;
+    (void)count;
+    (void)worker;
     tl_transform pose = tl_transform_identity();
     pose.position = tl_vec3_make(n[0], n[1], n[2]);
     tl_shape_hit hit;
@@ -86,26 +87,6 @@ static bool answer_sweep(const sweep_query *query, const float *n, tl_text *text
     return true;
 }
 
-static void answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
-{
-    (void)count;
-    (void)worker;
-    answer_sweep(user, numbers, text);
-}
-
-static tl_exit sweep_one(tl_cli *cli, const sweep_query *query, const float *numbers)
-{
-    tl_text text;
-    memset(&text, 0, sizeof(text));
-    bool hit = answer_sweep(query, numbers, &text);
-    tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory")
-                   : hit       ? TL_EXIT_OK
-                               : TL_EXIT_NEGATIVE;
-    fwrite(text.bytes, 1, text.size, stdout);
-    tl_text_free(&text);
-    return code;
-}
-
 static tl_exit sweep(tl_cli *cli, const sweep_settings *settings, const float *numbers)
 {
     tl_input input;
@@ -113,24 +94,11 @@ static tl_exit sweep(tl_cli *cli, const sweep_settings *settings, const float *n
     if (tl_input_open_soup(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
         sweep_query query = { input.soup, tl_default_ray_filter(), settings };
         query.filter.cull = (tl_ray_cull)settings->cull;
-        tl_batch batch = { settings->sweeps, "x y z dx dy dz", 6, 6, answer_line, &query };
-        code = settings->sweeps != NULL ? tl_batch_run(cli, &batch) : sweep_one(cli, &query, numbers);
+        tl_batch batch = { settings->sweeps, "x y z dx dy dz", 6, 6, answer_sweep, &query };
+        code = tl_batch_run(cli, &batch, numbers);
     }
     tl_input_close(&input);
     return code;
-}
-
-static bool parse_points(tl_cli *cli, float numbers[6], tl_exit *exit_out)
-{
-    for (uint32_t i = 0; i < 2; ++i) {
-        const char *reason = tl_parse_float_list(cli->arguments.words[1 + i], numbers + 3 * i, 3, 3, NULL);
-        if (reason != NULL) {
-            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s '%s' %s; write it as X,Y,Z", i == 0 ? "point" : "motion",
-                                    cli->arguments.words[1 + i], reason);
-            return false;
-        }
-    }
-    return true;
 }
 
 static tl_exit run(tl_cli *cli)
@@ -162,7 +130,8 @@ static tl_exit run(tl_cli *cli)
     if ((settings.sweeps != NULL) == (cli->arguments.count > 1) || cli->arguments.count == 2) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "give a point and a motion behind FILE, or many with --sweeps");
     }
-    if (settings.sweeps == NULL && !parse_points(cli, numbers, &code)) {
+    if (settings.sweeps == NULL && (!tl_cli_read_triple(cli, 1, "point", numbers, &code) ||
+                                    !tl_cli_read_triple(cli, 2, "motion", numbers + 3, &code))) {
         return code;
     }
     return sweep(cli, &settings, numbers);
