@@ -5,6 +5,7 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "nav_format/box_tree.h"
+#include "nav_format/fan.h"
 #include "nav_format/lattice.h"
 #include "nav_format/layout.h"
 #include "nav_format/portal_bake.h"
@@ -103,11 +104,8 @@ static void bake_fan(const tl_vec3 *corners, uint32_t corner_count, tl_vec3 *ver
                      tl_nav_detail_triangle *triangles)
 {
     memcpy(vertices, corners, corner_count * sizeof *vertices);
-    for (uint32_t i = 1; i + 1 < corner_count; i++) {
-        // Edge 1 is always on the outline, the first triangle's edge 0 and the last one's edge 2 are too.
-        uint32_t flags = 2u | (i == 1 ? 1u : 0u) | (i + 2 == corner_count ? 4u : 0u);
-        tl_nav_detail_triangle triangle = { { 0, (uint16_t)i, (uint16_t)(i + 1) }, (uint16_t)flags };
-        triangles[i - 1] = triangle;
+    for (uint32_t i = 0; i + 2 < corner_count; i++) {
+        triangles[i] = tl_nav_fan_triangle(i, corner_count);
     }
 }
 

@@ -2,10 +2,10 @@
 //
 // Between reading a set and reading a tile.
 
-#ifndef TALUS_SRC_NAV_DETOUR_READ_H
-#define TALUS_SRC_NAV_DETOUR_READ_H
+#ifndef TALUS_SRC_NAV_FORMAT_DETOUR_READ_H
+#define TALUS_SRC_NAV_FORMAT_DETOUR_READ_H
 
-#include "nav_detour/layout.h"
+#include "nav_format/detour_layout.h"
 
 #include <math.h>
 

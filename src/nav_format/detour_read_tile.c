@@ -7,11 +7,14 @@
 // The bytes may come from anywhere: counts are checked against the size before anything is read, and every index
 // before it is used.
 
-#include "nav_detour/read.h"
+#include "nav_format/detour_read.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "nav_format/fan.h"
+#include "nav_format/lattice.h"
+#include "nav_format/source_check.h"
 
 #include <string.h>
 
@@ -126,25 +129,14 @@ static tl_detour_polygon polygon_at(const reading *r, uint32_t p)
     return polygon;
 }
 
-static int64_t area2(const int32_t *a, const int32_t *b, const int32_t *c)
+static bool has_area_and_is_convex(const int32_t *vertices, const tl_detour_polygon *polygon)
 {
-    return ((int64_t)b[0] - a[0]) * ((int64_t)c[2] - a[2]) - ((int64_t)c[0] - a[0]) * ((int64_t)b[2] - a[2]);
-}
-
-// Each corner strictly on the inner side of each edge that it is not on.
-static bool is_convex(const int32_t *vertices, const tl_detour_polygon *polygon)
-{
-    uint32_t n = polygon->vertex_count;
-    for (uint32_t k = 0; k < n; k++) {
-        const int32_t *a = vertices + 3 * (size_t)polygon->vertices[k];
-        const int32_t *b = vertices + 3 * (size_t)polygon->vertices[(k + 1) % n];
-        for (uint32_t i = 2; i < n; i++) {
-            if (area2(a, b, vertices + 3 * (size_t)polygon->vertices[(k + i) % n]) >= 0) {
-                return false;
-            }
-        }
+    uint32_t corners[TL_DETOUR_MAX_CORNERS];
+    for (uint32_t k = 0; k < polygon->vertex_count; k++) {
+        corners[k] = polygon->vertices[k];
     }
-    return true;
+    return tl_nav_double_area(vertices, corners, polygon->vertex_count) > 0 &&
+           tl_nav_is_convex(vertices, corners, polygon->vertex_count);
 }
 
 // Numbers the polygons that stay.
@@ -170,7 +162,7 @@ static tl_result choose_polygons(reading *r)
         if (!right) {
             return tl_report_fail(&r->report->base, TL_ERR_CORRUPT, "polygon", p, "its corners are out of range");
         }
-        if (!is_convex(r->mesh.vertices, &polygon)) {
+        if (!has_area_and_is_convex(r->mesh.vertices, &polygon)) {
             r->report->dropped_polygons++;
             continue;
         }
@@ -195,19 +187,6 @@ static uint32_t across_edge(const reading *r, const tl_detour_polygon *polygon, 
     return link != 0 && link <= (uint32_t)r->tile.header.polygon_count ? r->own[link - 1] : TL_NO_POLYGON;
 }
 
-static bool links_back(const tl_polygon_mesh *mesh, uint32_t p, uint32_t k)
-{
-    uint32_t from = mesh->indices[k], to = mesh->indices[k + 1 < mesh->first[p + 1] ? k + 1 : mesh->first[p]];
-    uint32_t other = mesh->neighbours[k];
-    for (uint32_t i = mesh->first[other]; i < mesh->first[other + 1]; i++) {
-        uint32_t next = i + 1 < mesh->first[other + 1] ? i + 1 : mesh->first[other];
-        if (mesh->neighbours[i] == p && mesh->indices[i] == to && mesh->indices[next] == from) {
-            return true;
-        }
-    }
-    return false;
-}
-
 // Both ends of a broken link become walls in one pass each, so no chain of repairs can arise: a link that points back
 // to one that was cut is cut by its own check.
 static void cut_one_way_links(reading *r)
@@ -218,7 +197,8 @@ static void cut_one_way_links(reading *r)
         again = false;
         for (uint32_t p = 0; p < mesh->polygon_count; p++) {
             for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
-                if (mesh->neighbours[k] < mesh->polygon_count && !links_back(mesh, p, k)) {
+                if (mesh->neighbours[k] < mesh->polygon_count &&
+                    !tl_nav_links_back(mesh->first, mesh->indices, mesh->neighbours, p, k)) {
                     mesh->neighbours[k] = TL_NO_POLYGON;
                     r->report->one_way_links++;
                     again = true;
@@ -321,9 +301,7 @@ static void make_fan(reading *r, uint32_t corner_count, tl_nav_detail_patch *pat
     patch->vertex_count = corner_count;
     patch->triangle_count = corner_count - 2;
     for (uint32_t i = 0; i + 2 < corner_count; i++) {
-        uint32_t outline = 2u | (i == 0 ? 1u : 0u) | (i + 3 == corner_count ? 4u : 0u);
-        tl_nav_detail_triangle triangle = { { 0, (uint16_t)(i + 1), (uint16_t)(i + 2) }, (uint16_t)outline };
-        r->detail.triangles[patch->first_triangle + i] = triangle;
+        r->detail.triangles[patch->first_triangle + i] = tl_nav_fan_triangle(i, corner_count);
     }
 }
 

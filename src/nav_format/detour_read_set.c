@@ -3,7 +3,7 @@
 // What RecastDemo saves: the grid, then each tile behind its reference; or a tile alone, which is then the whole
 // navmesh.
 
-#include "nav_detour/read.h"
+#include "nav_format/detour_read.h"
 
 #include "base/arena.h"
 #include "base/assert.h"

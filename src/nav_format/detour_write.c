@@ -5,10 +5,11 @@
 //
 // Source: the public description of the data in DetourNavMesh.h.
 
-#include "nav_detour/layout.h"
+#include "nav_format/detour_layout.h"
 
 #include "base/assert.h"
 #include "base/host.h"
+#include "nav_format/fan.h"
 
 #include <math.h>
 #include <string.h>
@@ -133,12 +134,12 @@ static void write_vertices(const tl_nav_tile *tile, uint8_t *bytes)
     }
 }
 
-static void write_triangle(const uint16_t *corners, uint32_t outline_bits, uint8_t *bytes)
+static void write_triangle(tl_nav_detail_triangle triangle, uint8_t *bytes)
 {
     uint32_t flags = 0;
     for (uint32_t k = 0; k < 3; k++) {
-        bytes[k] = (uint8_t)corners[k];
-        flags |= (outline_bits >> k & 1u) != 0 ? TL_DETOUR_EDGE_OUTLINE << (2 * k) : 0;
+        bytes[k] = (uint8_t)triangle.corner[k];
+        flags |= ((uint32_t)triangle.edge_flags >> k & 1u) != 0 ? TL_DETOUR_EDGE_OUTLINE << (2 * k) : 0;
     }
     bytes[3] = (uint8_t)flags;
 }
@@ -161,10 +162,7 @@ static void write_detail(const tl_nav_tile *tile, const tl_detour_offsets *at, u
         }
         uint8_t *out = bytes + at->detail_triangles + 4 * (uint64_t)triangle;
         for (uint32_t i = 0; i < triangles; i++) {
-            const uint16_t fan[3] = { 0, (uint16_t)(i + 1), (uint16_t)(i + 2) };
-            uint32_t fan_outline = 2u | (i == 0 ? 1u : 0u) | (i + 1 == triangles ? 4u : 0u);
-            write_triangle(plain ? fan : surface.triangles[i].corner,
-                           plain ? fan_outline : surface.triangles[i].edge_flags, out + 4 * (size_t)i);
+            write_triangle(plain ? tl_nav_fan_triangle(i, corner_count) : surface.triangles[i], out + 4 * (size_t)i);
         }
         vertex += added;
         triangle += triangles;

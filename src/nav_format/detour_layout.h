@@ -3,8 +3,8 @@
 // Detour's data: the header, then the arrays in this order, each a multiple of four bytes long. The fields are those
 // of dtMeshHeader, dtPoly, dtPolyDetail, dtBVNode (DetourNavMesh.h, version 7) and of the set that RecastDemo saves.
 
-#ifndef TALUS_SRC_NAV_DETOUR_LAYOUT_H
-#define TALUS_SRC_NAV_DETOUR_LAYOUT_H
+#ifndef TALUS_SRC_NAV_FORMAT_DETOUR_LAYOUT_H
+#define TALUS_SRC_NAV_FORMAT_DETOUR_LAYOUT_H
 
 #include <talus/nav_detour.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "nav_detour/layout.h"
+#include "nav_format/detour_layout.h"
 
 #include <assert.h>
 
