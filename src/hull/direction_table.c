@@ -14,10 +14,6 @@
 // More cells than this no longer fit a second-level cache beside the blocks.
 #define MAX_SIDE 512u
 
-// A body thinner than this share of its largest extent gains nothing from more stretching: the table only says where a
-// climb starts.
-#define LEAST_EXTENT 1e-6
-
 // The scale is chosen by so many of the faces, in a table of so many cells along a side.
 enum { SAMPLES = 256, SAMPLE_SIDE = 16 };
 
@@ -35,11 +31,8 @@ static tl_vec3 relative_extents(tl_aabb bounds)
                        (double)bounds.max.z - (double)bounds.min.z };
     double largest = size[0] > size[1] ? size[0] : size[1];
     largest = size[2] > largest ? size[2] : largest;
-    const double least = LEAST_EXTENT;
-    for (int i = 0; i < 3; i++) {
-        size[i] = size[i] / largest > least ? size[i] / largest : least;
-    }
-    return tl_vec3_make((float)size[0], (float)size[1], (float)size[2]);
+    return tl_vec3_make((float)tl_relative_extent(size[0], largest), (float)tl_relative_extent(size[1], largest),
+                        (float)tl_relative_extent(size[2], largest));
 }
 
 // How many cells the normals of some faces fall into. Where normals are dense vertices change often.

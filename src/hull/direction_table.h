@@ -25,6 +25,17 @@
 // than a cell's width would notice.
 #define TL_TABLE_INWARD (1.0f - 9.5367432e-7f) // 1 - 2^-20
 
+// A body or face thinner than this share of its largest extent gains nothing from more stretching: tables only say
+// where a climb starts.
+#define TL_LEAST_RELATIVE_EXTENT 1e-6
+
+// An extent over the largest one, so that no product with a direction in range under- or overflows.
+static inline double tl_relative_extent(double extent, double largest)
+{
+    double share = extent / largest;
+    return share > TL_LEAST_RELATIVE_EXTENT ? share : TL_LEAST_RELATIVE_EXTENT;
+}
+
 static inline uint32_t tl_table_cell(tl_vec3 scaled, uint32_t side)
 {
     float size = fabsf(scaled.x) + fabsf(scaled.y) + fabsf(scaled.z);

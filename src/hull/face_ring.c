@@ -5,10 +5,8 @@
 
 #include "hull/face_ring.h"
 
+#include "hull/direction_table.h"
 #include "math/vec3d.h"
-
-// As for the table's scale: stretching beyond this gains nothing.
-#define LEAST_EXTENT 1e-6
 
 static tl_vec3d corner_of(const tl_hull *hull, uint32_t half_edge)
 {
@@ -39,7 +37,7 @@ static void extents_along(const tl_hull *hull, uint32_t face, const tl_vec3d axe
     }
     double largest = extent[0] > extent[1] ? extent[0] : extent[1];
     for (int i = 0; i < 2; i++) {
-        extent[i] = extent[i] > LEAST_EXTENT * largest ? extent[i] / largest : LEAST_EXTENT;
+        extent[i] = tl_relative_extent(extent[i], largest);
     }
 }
 
