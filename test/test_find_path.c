@@ -5,6 +5,7 @@
 
 #include "nav_fixture.h"
 
+#include <float.h>
 #include <math.h>
 
 // The search graph, written out: node 0 is the start, then one node a link.
@@ -468,10 +469,10 @@ static void test_arguments(void **state)
     TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &stale, &goal, polygons, 8, &path), TL_ERR_NOT_FOUND);
     TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &stale, polygons, 8, &path), TL_ERR_NOT_FOUND);
     TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &nan, &goal, polygons, 8, &path), TL_ERR_NOT_FINITE);
-    const float bad[3] = { 0.0f, NAN, INFINITY };
-    for (int i = 0; i < 3; i++) {
+    const float bad[8] = { 0.0f, -0.0f, -1.0f, -FLT_MIN, NAN, -NAN, INFINITY, -INFINITY };
+    for (int i = 0; i < 16; i++) {
         tl_nav_filter filter = tl_default_nav_filter();
-        filter.area_cost[5] = bad[i];
+        filter.area_cost[i < 8 ? 5 : TL_NAV_MAX_AREA] = bad[i % 8];
         TEST_RESULT(tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons, 8, &path),
                     TL_ERR_ARGUMENT);
     }

@@ -227,6 +227,48 @@ static void bad_input_is_named(void **state)
     tl_nav_tiles_free(&tiles, NULL);
 }
 
+// A floor of 256 strips 4 m wide, an area each: all that are walkable come out, whatever the partition.
+static void all_areas_are_kept(void **state)
+{
+    (void)state;
+    static const float STRIP = 4.0f, DEPTH = 3.0f;
+    static tl_vec3 vertices[2 * 257];
+    static uint32_t indices[6 * 256];
+    static uint8_t areas[2 * 256];
+    for (uint32_t i = 0; i <= 256; i++) {
+        vertices[2 * i] = tl_vec3_make(STRIP * (float)i, 0, 0);
+        vertices[2 * i + 1] = tl_vec3_make(STRIP * (float)i, 0, DEPTH);
+    }
+    for (uint32_t i = 0; i < 256; i++) {
+        const uint32_t quad[6] = { 2 * i, 2 * i + 1, 2 * i + 3, 2 * i, 2 * i + 3, 2 * i + 2 };
+        memcpy(indices + 6 * i, quad, sizeof quad);
+        areas[2 * i] = areas[2 * i + 1] = (uint8_t)i;
+    }
+    const tl_nav_input input = { { vertices, 2 * 257, indices, 2 * 256, NULL }, areas, NULL, 0 };
+    for (uint32_t run = 0; run < 6; run++) {
+        tl_nav_def def = level_def(0.5f, run < 3 ? 0 : 100);
+        def.partition = (tl_nav_partition)(run % 3);
+        def.agent_radius = 0.0f;
+        def.region_min_size = 0.0f;
+        def.region_merge_size = 0.0f;
+        tl_nav_tiles tiles;
+        TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
+        double square_metres[TL_NAV_MAX_AREA + 1] = { 0 };
+        for (uint32_t t = 0; t < tiles.tile_count; t++) {
+            TEST_RESULT(tl_nav_tile_check(tiles.tiles[t], tiles.tiles[t]->blob.size, NULL), TL_OK);
+            for (uint32_t p = 0; p < tiles.tiles[t]->polygon_count; p++) {
+                square_metres[tl_nav_tile_area(tiles.tiles[t], p)] += tl_nav_tile_polygon_area(tiles.tiles[t], p);
+            }
+        }
+        TEST_CHECK(square_metres[0] == 0.0);
+        for (uint32_t area = 2; area < TL_NAV_MAX_AREA; area++) { // the ends' rims are ledges
+            TEST_CHECK(square_metres[area] == (double)STRIP * ((double)DEPTH - 1.0));
+        }
+        TEST_CHECK(square_metres[1] > 0.0 && square_metres[TL_NAV_MAX_AREA] > 0.0);
+        tl_nav_tiles_free(&tiles, NULL);
+    }
+}
+
 static void cancelling_leaves_nothing(void **state)
 {
     (void)state;
@@ -280,9 +322,13 @@ static void failing_memory_leaves_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(tiles_find_what_one_bake_finds), cmocka_unit_test(seams_match_from_both_sides),
-        cmocka_unit_test(workers_do_not_matter),          cmocka_unit_test(bad_input_is_named),
-        cmocka_unit_test(cancelling_leaves_nothing),      cmocka_unit_test(failing_memory_leaves_nothing),
+        cmocka_unit_test(tiles_find_what_one_bake_finds),
+        cmocka_unit_test(seams_match_from_both_sides),
+        cmocka_unit_test(workers_do_not_matter),
+        cmocka_unit_test(all_areas_are_kept),
+        cmocka_unit_test(bad_input_is_named),
+        cmocka_unit_test(cancelling_leaves_nothing),
+        cmocka_unit_test(failing_memory_leaves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -159,6 +159,13 @@ static void test_what_cannot_be_written(void **state)
     flags[2] = (uint64_t)1 << 16;
     TEST_RESULT(tl_detour_tile_write(tiles.tiles[0], TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_ERR_LIMIT);
     TEST_CHECK(report.base.element_index == 2);
+    flags[2] = 1;
+    uint8_t *areas = (uint8_t *)tiles.tiles[0] + tiles.tiles[0]->areas;
+    areas[1] = TL_DETOUR_MAX_AREA;
+    TEST_RESULT(tl_detour_tile_write(tiles.tiles[0], TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_OK);
+    areas[1] = TL_DETOUR_MAX_AREA + 1;
+    TEST_RESULT(tl_detour_tile_write(tiles.tiles[0], TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_ERR_LIMIT);
+    TEST_CHECK(report.base.element_index == 1);
     tl_nav_tiles_free(&tiles, NULL);
 
     TEST_RESULT(tl_detour_set_write(NULL, 0, TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_ERR_EMPTY);

@@ -394,7 +394,7 @@ static void test_refusals(void **state)
             bad.height = -1.0f;
             break;
         case 2:
-            bad.area = TL_NAV_MAX_AREA + 1;
+            bad.radius = NAN;
             break;
         case 3:
             bad.base.x = NAN;

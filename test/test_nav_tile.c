@@ -113,7 +113,7 @@ static void test_bad_sources(void **state)
            "polygon");
     REFUSE(m.mesh.vertices[0] += FIXTURE_STEP - 1; m.mesh.vertices[2] += FIXTURE_STEP - 1, TL_ERR_WINDING, "polygon");
     REFUSE(m.mesh.areas[3] = 0, TL_ERR_ARGUMENT, "polygon");
-    REFUSE(m.mesh.areas[3] = 64, TL_ERR_ARGUMENT, "polygon");
+    REFUSE(m.mesh.areas[3] = 256, TL_ERR_ARGUMENT, "polygon");
     REFUSE(m.mesh.neighbours[2] = 2, TL_ERR_NON_MANIFOLD, "polygon");
     REFUSE(m.mesh.neighbours[2] = 999, TL_ERR_INDEX, "polygon");
     REFUSE(m.mesh.neighbours[2] = TL_PORTAL | 4, TL_ERR_INDEX, "polygon");

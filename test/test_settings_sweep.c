@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Random settings on the built-in levels, and on real ones where they are: every tile's polygons pass the validator
-// (convex, simple, disjoint, covering their contours, linked both ways), and every baked tile passes its check.
+// (convex, simple, disjoint, covering their contours, linked both ways), every baked tile passes its check, and all
+// tiles of a level go into one navmesh, where each way from polygon to polygon, over seams too, has one back.
 // An argument raises the number of settings a level: test_settings_sweep 500.
 
 #include "talus_test.h"
@@ -10,6 +11,7 @@
 #include "io/mesh_import.h"
 
 #include <talus/nav_build.h>
+#include <talus/nav_query.h>
 
 #include <stdio.h>
 
@@ -17,7 +19,8 @@ static uint32_t settings_a_level = 12;
 
 typedef struct sweep_counts {
     uint32_t tiles, polygons, tiled, solo, repaired;
-    uint32_t partitions[3];
+    uint32_t partitions[3], methods[3];
+    uint64_t links, filtered_spans;
 } sweep_counts;
 
 static tl_nav_def random_def(test_random *random)
@@ -36,11 +39,13 @@ static tl_nav_def random_def(test_random *random)
     def.max_verts_per_poly = 3 + test_random_below(random, 8);
     def.detail_sample_dist = test_random_range(random, 0.0f, 8.0f);
     def.partition = (tl_nav_partition)test_random_below(random, 3);
+    def.polygon_method = (tl_partition_method)test_random_below(random, 3);
     def.tile_size = test_random_below(random, 2) == 0 ? 0 : 16 + test_random_below(random, 100);
     return def;
 }
 
-static void check_tile(const tl_nav_config *config, const tl_mesh_view *mesh, const char *name, sweep_counts *counts)
+static void check_tile(const tl_nav_config *config, const tl_mesh_view *mesh, const char *name, tl_navmesh *navmesh,
+                       sweep_counts *counts)
 {
     const tl_nav_input input = { *mesh, NULL, NULL, 0 };
     tl_host host = { NULL, NULL, NULL };
@@ -54,12 +59,45 @@ static void check_tile(const tl_nav_config *config, const tl_mesh_view *mesh, co
     }
     if (tile != NULL) {
         TEST_RESULT(tl_nav_tile_check(tile, ((const tl_blob *)tile)->size, NULL), TL_OK);
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
     }
     counts->tiles++;
     counts->polygons += stages.polygons.polygon_count;
     counts->repaired += stages.polygons.note_count;
-    tl_blob_free(tile, NULL);
+    counts->filtered_spans += stages.compact.region_stats.filtered_spans;
     tl_nav_stages_free(&stages, NULL);
+}
+
+static bool leads_to(const tl_navmesh *navmesh, tl_nav_ref from, tl_nav_ref to)
+{
+    tl_nav_link links[256];
+    uint32_t count;
+    TEST_RESULT(tl_navmesh_links(navmesh, from, links, 256, &count), TL_OK);
+    for (uint32_t i = 0; i < count; i++) {
+        if (links[i].to == to) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void check_links(const tl_navmesh *navmesh, const char *name, sweep_counts *counts)
+{
+    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
+        for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++) {
+            tl_nav_link links[256];
+            uint32_t count;
+            const tl_nav_ref from = tl_navmesh_polygon_ref(navmesh, slot, p);
+            TEST_RESULT(tl_navmesh_links(navmesh, from, links, 256, &count), TL_OK);
+            for (uint32_t i = 0; i < count; i++) {
+                if (!leads_to(navmesh, links[i].to, from)) {
+                    fail_msg("%s, tile %d, %d, polygon %u: a link leads one way", name, tile->tile_x, tile->tile_z, p);
+                }
+            }
+            counts->links += count;
+        }
+    }
 }
 
 static void sweep_level(const tl_mesh_view *view, const char *name, uint64_t seed, sweep_counts *counts)
@@ -73,21 +111,28 @@ static void sweep_level(const tl_mesh_view *view, const char *name, uint64_t see
         uint32_t tiles_x;
         uint32_t tiles_z;
         TEST_RESULT(tl_nav_tile_grid(&def, mesh.bounds, &tiles_x, &tiles_z, NULL), TL_OK);
+        tl_navmesh *navmesh;
+        TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
         for (uint32_t t = 0; t < tiles_x * tiles_z; t++) {
             tl_nav_config config;
             TEST_RESULT(tl_nav_config_make(&def, mesh.bounds, t % tiles_x, t / tiles_x, &config, NULL), TL_OK);
-            check_tile(&config, &clean, name, counts);
+            check_tile(&config, &clean, name, navmesh, counts);
         }
+        check_links(navmesh, name, counts);
+        tl_navmesh_free(navmesh);
         *(def.tile_size == 0 ? &counts->solo : &counts->tiled) += 1;
         counts->partitions[def.partition]++;
+        counts->methods[def.polygon_method]++;
     }
     tl_mesh_free(&mesh, NULL);
 }
 
 static void print_counts(const sweep_counts *counts)
 {
-    print_message("%u tiles, %u polygons, %u repaired contours; %u settings in one tile, %u in tiles\n", counts->tiles,
-                  counts->polygons, counts->repaired, counts->solo, counts->tiled);
+    print_message("%u tiles, %u polygons, %llu links, %u repaired contours, %llu floors of small islands dropped; "
+                  "%u settings in one tile, %u in tiles\n",
+                  counts->tiles, counts->polygons, (unsigned long long)counts->links, counts->repaired,
+                  (unsigned long long)counts->filtered_spans, counts->solo, counts->tiled);
 }
 
 static void built_in_levels(void **state)
@@ -106,14 +151,16 @@ static void built_in_levels(void **state)
     print_counts(&counts);
     TEST_CHECK(counts.polygons > 2000 && counts.solo > 10 && counts.tiled > 10);
     TEST_CHECK(counts.partitions[0] > 5 && counts.partitions[1] > 5 && counts.partitions[2] > 5);
+    TEST_CHECK(counts.methods[0] > 5 && counts.methods[1] > 5 && counts.methods[2] > 5 && counts.links > 2000);
 }
 
 static void real_levels(void **state)
 {
     (void)state;
-    static const char *const names[] = { "nav_test", "dungeon", "collision_mesh_01", "test_map01" };
+    static const char *const names[] = { "nav_test",    "dungeon",    "collision_mesh_01",
+                                         "proto-level", "undulating", "test_map01" };
     sweep_counts counts = { 0 };
-    for (uint32_t i = 0; i < 4; i++) {
+    for (uint32_t i = 0; i < 6; i++) {
         char path[1024];
         snprintf(path, sizeof path, "%s/levels/%s.obj", TALUS_DATA_DIR, names[i]);
         tl_imported_mesh mesh;

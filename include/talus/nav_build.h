@@ -100,7 +100,8 @@ typedef struct tl_nav_config {
     float agent_height, agent_radius, agent_max_climb; ///< metres, as given; kept in the tile for queries
 } tl_nav_config;
 
-/// Area 0 is not walkable. Areas 1 to 63 are free for the user; TL_NAV_WALKABLE_AREA is what slope gives.
+/// Area 0 is not walkable. Areas 1 to 255 are free for the user; TL_NAV_WALKABLE_AREA, which is Recast's, is what
+/// triangles have that are given none.
 #define TL_NAV_NULL_AREA     0
 #define TL_NAV_WALKABLE_AREA 63
 

@@ -18,6 +18,7 @@ extern "C" {
 #define TL_DETOUR_MAX_CORNERS  6      ///< of a polygon
 #define TL_DETOUR_MAX_POLYGONS 0x7ffe ///< of a tile
 #define TL_DETOUR_MAX_VERTICES 0xfffe ///< of a tile
+#define TL_DETOUR_MAX_AREA     63     ///< six bits; also Recast's walkable area
 
 typedef enum tl_detour_refs {
     TL_DETOUR_REFS_32, ///< Detour as it comes
@@ -34,7 +35,7 @@ typedef struct tl_detour_report {
     uint32_t dropped_polygons; ///< reading: without area or not convex once on the lattice; left out, their links walls
     uint32_t one_way_links;    ///< reading: links to a polygon that does not link back; made walls
     uint32_t off_mesh_links;   ///< reading: off-mesh connections, which tiles do not keep; left out
-    uint32_t area_zeros;       ///< reading: polygons of area 0, which became TL_NAV_MAX_AREA, Recast's walkable area
+    uint32_t area_zeros;       ///< reading: polygons of area 0, which became Recast's walkable area
 } tl_detour_report;
 
 /// Bytes of a tile, or of a set of tiles, in Detour's form; 0 when it cannot be written (writing says why).
@@ -44,7 +45,8 @@ TL_API uint64_t tl_detour_set_size(const tl_nav_tile *const *tiles, uint32_t til
 /// Writes one tile into `bytes` of at least tl_detour_tile_size: what dtNavMesh::addTile takes, and init when the tile
 /// is the whole navmesh. Polygon i of the tile is polygon i there. Nothing is allocated.
 ///
-/// Errors, with the polygon named: TL_ERR_LIMIT (more corners than 6, flags above the lowest 16, or a tile with more
+/// Errors, with the polygon named: TL_ERR_LIMIT (more corners than 6, flags above the lowest 16, an area
+/// above 63, or a tile with more
 /// polygons, vertices or cells than 16 bits count), TL_ERR_CAPACITY. `report_out` may be NULL.
 TL_API tl_result tl_detour_tile_write(const tl_nav_tile *tile, tl_detour_refs refs, void *bytes, uint64_t capacity,
                                       tl_detour_report *report_out);

@@ -59,7 +59,7 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail, const tl_allocator *alloca
 #define TL_NAV_TILE_VERSION      1u
 #define TL_NAV_MAX_CORNERS       64         ///< of one polygon
 #define TL_NAV_MAX_TILE_POLYGONS (1u << 28) ///< so that a polygon's number fits a reference (nav_query.h)
-#define TL_NAV_MAX_AREA          63         ///< areas are 1 to 63
+#define TL_NAV_MAX_AREA          255        ///< areas are 1 to 255, 0 is not walkable
 #define TL_NAV_MAX_TILES         (1u << 20) ///< of one navmesh, so that a slot fits a reference (nav_query.h)
 #define TL_NAV_MAX_TILE_INDEX    (1 << 24)  ///< |tile_x| and |tile_z|
 #define TL_NAV_MAX_TILE_DEPTH    40         ///< of the box tree: log2 of the polygons, and room
@@ -134,7 +134,7 @@ typedef struct tl_nav_tile {
 
 /// What a tile is baked from. Nothing is kept or owned.
 typedef struct tl_nav_tile_source {
-    /// Convex polygons with area, in the contours' winding, 3 to 64 corners each, areas 1 to 63. Its bounds, cell_size
+    /// Convex polygons with area, in the contours' winding, 3 to 64 corners each, areas 1 to 255. Its bounds, cell_size
     /// and cell_height place the lattice. A portal edge that does not lie on its side of the tile (x or z = 0 or
     /// tile_size) is a wall.
     const tl_polygon_mesh *polygons;

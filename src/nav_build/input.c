@@ -33,9 +33,6 @@ static tl_result check_volume(const tl_nav_volume *volume, uint32_t index, tl_re
     if ((unsigned)volume->kind > (unsigned)TL_NAV_VOLUME_CYLINDER) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "volume", index, "use a tl_nav_volume_kind");
     }
-    if (volume->area > TL_NAV_MAX_AREA) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "volume", index, "use an area of 0 to 63");
-    }
     if (volume->kind == TL_NAV_VOLUME_POLYGON && (volume->points == NULL || volume->point_count < 3)) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "volume", index, "give the polygon at least three points");
     }
@@ -49,11 +46,6 @@ tl_result tl_nav_input_check(const tl_nav_input *input, tl_aabb *bounds_out, tl_
 {
     tl_report_begin(report, "check");
     TL_TRY(tl_level_mesh_check(&input->mesh, bounds_out, report));
-    for (uint32_t i = 0; input->areas != NULL && i < input->mesh.triangle_count; i++) {
-        if (input->areas[i] > TL_NAV_MAX_AREA) {
-            return tl_report_fail(report, TL_ERR_ARGUMENT, "triangle", i, "use an area of 0 to 63");
-        }
-    }
     for (uint32_t i = 0; i < input->volume_count; i++) {
         TL_TRY(check_volume(&input->volumes[i], i, report));
     }

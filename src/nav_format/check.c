@@ -149,8 +149,7 @@ static tl_result check_polygons(const tl_nav_tile *tile, tl_report *report)
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         const uint32_t *corners = corner_vertices + first[p];
         uint32_t count = first[p + 1] - first[p];
-        uint8_t kind = tl_nav_tile_area(tile, p);
-        if (kind == 0 || kind > TL_NAV_MAX_AREA || tl_nav_double_area(vertices, corners, count) <= 0 ||
+        if (tl_nav_tile_area(tile, p) == 0 || tl_nav_double_area(vertices, corners, count) <= 0 ||
             !tl_nav_is_convex(vertices, corners, count)) {
             return corrupt(report, "polygon", p);
         }

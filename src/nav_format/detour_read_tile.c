@@ -226,7 +226,7 @@ static tl_result read_polygons(reading *r)
         tl_detour_polygon polygon = polygon_at(r, r->theirs[p]);
         uint32_t area = polygon.area_and_type & 0x3fu;
         r->report->area_zeros += area == 0;
-        mesh->areas[p] = area != 0 ? area : TL_NAV_MAX_AREA;
+        mesh->areas[p] = area != 0 ? area : TL_DETOUR_MAX_AREA;
         r->flags[p] = polygon.flags;
         mesh->first[p] = at;
         for (uint32_t k = 0; k < polygon.vertex_count; k++) {

@@ -34,8 +34,9 @@ static tl_result check_polygon(const tl_nav_tile *tile, uint32_t p, tl_report *r
     if (tl_nav_tile_flags(tile, p) > UINT16_MAX) {
         return tl_report_fail(report, TL_ERR_LIMIT, "polygon", p, "Detour keeps the lowest 16 flags only");
     }
-    if (tl_nav_tile_area(tile, p) > TL_NAV_MAX_AREA) {
-        return tl_report_fail(report, TL_ERR_LIMIT, "polygon", p, "Detour's areas are 0 to 63");
+    if (tl_nav_tile_area(tile, p) > TL_DETOUR_MAX_AREA) {
+        return tl_report_fail(report, TL_ERR_LIMIT, "polygon", p,
+                              "Detour's areas are 0 to 63; give the areas above lower numbers");
     }
     return TL_OK;
 }

@@ -220,7 +220,7 @@ tl_result tl_nav_tile_check_source(const tl_nav_tile_source *source, tl_report *
     for (uint32_t p = 0; p < polygons->polygon_count; p++) {
         TL_TRY(check_shape(polygons, p, report));
         if (polygons->areas[p] == 0 || polygons->areas[p] > TL_NAV_MAX_AREA) {
-            return tl_report_fail(report, TL_ERR_ARGUMENT, "polygon", p, "areas are 1 to 63");
+            return tl_report_fail(report, TL_ERR_ARGUMENT, "polygon", p, "areas are 1 to 255");
         }
     }
     for (uint32_t p = 0; p < polygons->polygon_count; p++) {

@@ -169,9 +169,6 @@ tl_result tl_obstacle_check(const tl_nav_obstacle *obstacle, tl_report *report)
     if ((unsigned)obstacle->shape > (unsigned)TL_NAV_OBSTACLE_PRISM) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "shape", TL_NO_ELEMENT, "use a tl_nav_obstacle_shape");
     }
-    if (obstacle->area > TL_NAV_MAX_AREA) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "area", TL_NO_ELEMENT, "use an area that a tile can hold");
-    }
     if (!tl_is_finite(obstacle->base) || !isfinite(obstacle->height)) {
         return tl_report_fail(report, TL_ERR_NOT_FINITE, "base", TL_NO_ELEMENT, NULL);
     }

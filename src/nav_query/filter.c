@@ -4,6 +4,8 @@
 
 #include "nav_query/filter.h"
 
+#include <string.h>
+
 tl_nav_filter tl_default_nav_filter(void)
 {
     tl_nav_filter filter;
@@ -20,19 +22,21 @@ bool tl_nav_filter_passes(const tl_nav_filter *filter, const tl_nav_tile *tile, 
     return tl_nav_passes(filter, tile, polygon);
 }
 
+// Floats above 0 are ordered as their bits are. What is not above 0 has bits that are none or negative, infinity and
+// NaN have those from INFINITY_BITS on. So the least and the most of the bits say all, without a branch: a search asks
+// this of 256 costs before it begins.
 bool tl_nav_filter_costs(const tl_nav_filter *filter, float *least_out, bool *uniform_out)
 {
-    float least = filter->area_cost[0];
-    float most = least;
+    enum { INFINITY_BITS = 0x7f800000 };
+    int32_t least = INT32_MAX;
+    int32_t most = INT32_MIN;
     for (int area = 0; area <= TL_NAV_MAX_AREA; area++) {
-        float cost = filter->area_cost[area];
-        if (!(cost > 0.0f) || !isfinite(cost)) {
-            return false;
-        }
-        least = cost < least ? cost : least;
-        most = cost > most ? cost : most;
+        int32_t bits;
+        memcpy(&bits, &filter->area_cost[area], sizeof bits);
+        least = bits < least ? bits : least;
+        most = bits > most ? bits : most;
     }
+    memcpy(least_out, &least, sizeof least);
     *uniform_out = least == most;
-    *least_out = least;
-    return true;
+    return least > 0 && most < INFINITY_BITS;
 }
