@@ -93,14 +93,28 @@ TL_API tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, ui
 // ---------------------------------------------------------------------------------------------------------
 // Which polygons count, and what they cost.
 
-/// A polygon passes when (flags & include) != 0 and (flags & exclude) == 0. A metre in it costs area_cost[its area].
+/// Whether a polygon passes whose flags do. It must not change its mind while a search runs.
+typedef bool tl_nav_pass_fn(const tl_nav_tile *tile, uint32_t polygon, void *user);
+
+/// What it costs to go straight through a polygon from one point to another; `cost` is what it would without this
+/// function: metres times area cost. Negative, infinite or NaN: it cannot be done. The cheapest path is sought by an
+/// estimate that takes the least area cost for each metre; where this function asks for less the path may be dearer
+/// than need be.
+typedef float tl_nav_cost_fn(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 from, tl_vec3 to, float cost,
+                             void *user);
+
+/// A polygon passes when (flags & include) != 0 and (flags & exclude) == 0, and `pass` says so. A metre in it costs
+/// area_cost[its area], or what `cost` makes of it. Functions are called by the thread that asks, with `user`.
 typedef struct tl_nav_filter {
     uint64_t include_flags;
     uint64_t exclude_flags;
     float area_cost[TL_NAV_MAX_AREA + 1]; ///< finite, > 0
+    tl_nav_pass_fn *pass;                 ///< NULL: flags decide
+    tl_nav_cost_fn *cost;                 ///< NULL: metres times area cost
+    void *user;
 } tl_nav_filter;
 
-/// All polygons pass, each metre costs 1. It is also what a NULL filter stands for.
+/// All polygons pass, each metre costs 1, no functions. It is also what a NULL filter stands for.
 TL_API tl_nav_filter tl_default_nav_filter(void);
 
 TL_API bool tl_nav_filter_passes(const tl_nav_filter *filter, const tl_nav_tile *tile, uint32_t polygon);
@@ -159,12 +173,14 @@ TL_API void tl_nav_query_free(tl_nav_query *query);
 
 /// How a path search ended.
 typedef enum tl_nav_path_status {
-    TL_NAV_PATH_COMPLETE,    ///< the path leads to the goal
-    TL_NAV_PATH_UNREACHABLE, ///< proven: no path to the goal; this one leads as near to it as any
-    TL_NAV_PATH_OUT_OF_NODES ///< gave up at max_nodes; this one leads as near to the goal as was seen
+    TL_NAV_PATH_COMPLETE,     ///< the path leads to the goal
+    TL_NAV_PATH_UNREACHABLE,  ///< proven: no path to the goal; this one leads as near to it as any
+    TL_NAV_PATH_OUT_OF_NODES, ///< gave up at max_nodes; this one leads as near to the goal as was seen
+    TL_NAV_PATH_UNFINISHED,   ///< in slices, and there is more to do; this one leads as near as was seen so far
+    TL_NAV_PATH_STALE         ///< in slices, and a tile that was searched has changed: begin again
 } tl_nav_path_status;
 
-/// A word for a status: "complete", "unreachable", "out of nodes".
+/// A word for a status: "complete", "unreachable", "out of nodes", "unfinished", "stale".
 TL_API const char *tl_nav_path_status_name(tl_nav_path_status status);
 
 typedef struct tl_nav_path {
@@ -177,8 +193,8 @@ typedef struct tl_nav_path {
 
 /// The polygons of a path, the start's first; each shares an edge with the one before.
 ///
-/// Where all area costs are the same the path is the shortest there is in the plane (tl_nav_query_find_shortest_path),
-/// and the straight path through its polygons has that length. Where they differ, and where that search is out of
+/// Where every metre costs the same the path is the shortest there is in the plane (tl_nav_query_find_shortest_path),
+/// and the straight path through its polygons has that length. Where costs differ, and where that search is out of
 /// nodes, the path is A*'s: a node is a way into a polygon, entered where the way from the point before to the goal is
 /// shortest. Then the path is near the cheapest, but not proven to be it; that there is one, or none, is.
 ///
@@ -191,6 +207,34 @@ typedef struct tl_nav_path {
 TL_API tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                         const tl_nav_location *start, const tl_nav_location *goal,
                                         tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out);
+
+/// The same search in slices, for long paths over many frames: begin, step until the status is not
+/// TL_NAV_PATH_UNFINISHED, write. tl_nav_query_find_path is one long step: however a search is cut, the path is the
+/// same, bit by bit.
+///
+/// One search a query is under way. Another one, or any question that needs the query, ends it. The filter is copied;
+/// its functions and their `user` must stay. Tiles may come and go between steps: where one that the search has looked
+/// at changes, or one beside it, the search is TL_NAV_PATH_STALE; others change nothing of what is known, and what is
+/// searched later is searched as it is then. Errors as those of tl_nav_query_find_path; then nothing is under way.
+TL_API tl_result tl_nav_query_begin_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                         const tl_nav_location *start, const tl_nav_location *goal);
+
+/// How far a search in slices has come.
+typedef struct tl_nav_path_progress {
+    tl_nav_path_status status;
+    uint32_t node_count;    ///< nodes used so far
+    int32_t tile_x, tile_z; ///< TL_NAV_PATH_STALE: the tile that came or went; else 0
+} tl_nav_path_progress;
+
+/// Goes on for at most `max_steps` nodes. 0 only looks whether tiles have changed. TL_ERR_NOT_FOUND: no search is under
+/// way.
+TL_API tl_result tl_nav_query_step_path(tl_nav_query *query, uint32_t max_steps, tl_nav_path_progress *progress_out);
+
+/// The path as far as it is known, at any time; the search may go on afterwards. While TL_NAV_PATH_UNFINISHED the cost
+/// is no more than a lower bound. TL_NAV_PATH_STALE: there is none, polygon_count is 0. TL_ERR_NOT_FOUND: no search is
+/// under way. TL_ERR_CAPACITY: the first `capacity` polygons were written. O(nodes used) before the goal is reached.
+TL_API tl_result tl_nav_query_write_path(tl_nav_query *query, tl_nav_ref *polygons_out, uint32_t capacity,
+                                         tl_nav_path *path_out);
 
 #define TL_NAV_CORNER_START 1u ///< the path's start
 #define TL_NAV_CORNER_END   2u ///< the path's end

@@ -85,6 +85,7 @@ static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, fan *f)
     f->is_odd = false;
     tl_nav_ring_place at = begin;
     for (;;) {
+        tl_nav_note_edit(navmesh, at.slot);
         f->members[f->count] = &ring[at.edge];
         f->walls[f->count++] = walls_of(navmesh, at);
         uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;

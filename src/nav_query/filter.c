@@ -14,6 +14,9 @@ tl_nav_filter tl_default_nav_filter(void)
     for (int area = 0; area <= TL_NAV_MAX_AREA; area++) {
         filter.area_cost[area] = 1.0f;
     }
+    filter.pass = NULL;
+    filter.cost = NULL;
+    filter.user = NULL;
     return filter;
 }
 
@@ -37,6 +40,6 @@ bool tl_nav_filter_costs(const tl_nav_filter *filter, float *least_out, bool *un
         most = bits > most ? bits : most;
     }
     memcpy(least_out, &least, sizeof least);
-    *uniform_out = least == most;
+    *uniform_out = least == most && filter->cost == NULL;
     return least > 0 && most < INFINITY_BITS;
 }

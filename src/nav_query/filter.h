@@ -5,6 +5,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_FILTER_H
 #define TALUS_SRC_NAV_QUERY_FILTER_H
 
+#include <math.h>
 #include <talus/nav_query.h>
 
 /// NULL passes all but polygons without any flag, as the default filter does.
@@ -14,10 +15,27 @@ static inline bool tl_nav_passes(const tl_nav_filter *filter, const tl_nav_tile 
     if (filter == NULL) {
         return flags != 0;
     }
-    return (flags & filter->include_flags) != 0 && (flags & filter->exclude_flags) == 0;
+    return (flags & filter->include_flags) != 0 && (flags & filter->exclude_flags) == 0 &&
+           (filter->pass == NULL || filter->pass(tile, polygon, filter->user));
 }
 
-/// Whether all costs are finite and above 0; the least of them, and whether they are all the same.
+/// What it costs to go straight through a polygon; infinite when it cannot be done.
+static inline float tl_nav_cost_between(const tl_nav_filter *filter, const tl_nav_tile *tile, uint32_t polygon,
+                                        tl_vec3 from, tl_vec3 to)
+{
+    float metres = tl_distance(from, to);
+    if (filter == NULL) {
+        return metres;
+    }
+    float cost = filter->area_cost[tl_nav_tile_area(tile, polygon)] * metres;
+    if (filter->cost != NULL) {
+        cost = filter->cost(tile, polygon, from, to, cost, filter->user);
+        cost = cost >= 0.0f ? cost : INFINITY;
+    }
+    return cost;
+}
+
+/// Whether all costs are finite and above 0; the least of them, and whether every metre costs the same.
 bool tl_nav_filter_costs(const tl_nav_filter *filter, float *least_out, bool *uniform_out);
 
 #endif

@@ -17,27 +17,22 @@
 #include "nav_query/filter.h"
 #include "nav_query/navmesh.h"
 #include "nav_query/node_pool.h"
-#include "nav_query/shortest_search.h"
+#include "nav_query/path_run.h"
 #include "nav_query/surface.h"
+
+#include <string.h>
 
 // Keys of the two nodes that are no ways. A slot is below 2^20, so no way has them.
 #define START_KEY UINT64_MAX
 #define GOAL_KEY  (UINT64_MAX - 1u)
 
-typedef struct path_search {
-    tl_nav_query *query;
-    const tl_navmesh *navmesh;
-    const tl_nav_filter *filter;
-    float least_cost; // of a metre
-    uint32_t goal_slot, goal_polygon;
-    tl_vec3 goal;
-    bool out_of_nodes;
-} path_search;
-
 // Offers a way to reach a node. `from` is TL_NAV_NO_NODE for the start.
-static void relax(path_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost,
+static void relax(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost,
                   uint32_t from)
 {
+    if (cost == INFINITY) {
+        return; // it cannot be gone
+    }
     uint32_t index = tl_nav_pool_get(search->query, key);
     if (index == TL_NAV_NO_NODE) {
         search->out_of_nodes = true;
@@ -80,14 +75,13 @@ static tl_vec3 crossing_point(tl_vec3 from, tl_vec3 goal, const tl_nav_way *way)
     return along >= length_sq ? way->left : tl_lerp(way->right, way->left, (float)(along / length_sq));
 }
 
-static void expand(path_search *search, uint32_t index)
+static void expand(tl_nav_way_search *search, uint32_t index)
 {
     const tl_nav_node node = search->query->nodes[index];
     const tl_nav_tile *tile = search->navmesh->slots[node.slot].tile;
-    float metre = search->filter != NULL ? search->filter->area_cost[tl_nav_tile_area(tile, node.polygon)] : 1.0f;
     if (node.slot == search->goal_slot && node.polygon == search->goal_polygon) {
-        relax(search, GOAL_KEY, node.slot, node.polygon, search->goal,
-              node.cost + metre * tl_distance(node.point, search->goal), index);
+        float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, search->goal);
+        relax(search, GOAL_KEY, node.slot, node.polygon, search->goal, node.cost + cost, index);
     }
     const tl_nav_node *parent = node.parent != TL_NAV_NO_NODE ? &search->query->nodes[node.parent] : NULL;
     tl_nav_ways ways = tl_nav_ways_of(search->navmesh, node.slot, node.polygon);
@@ -101,44 +95,99 @@ static void expand(path_search *search, uint32_t index)
             continue;
         }
         tl_vec3 point = crossing_point(node.point, search->goal, &way);
-        relax(search, way.key, way.slot, way.polygon, point, node.cost + metre * tl_distance(node.point, point), index);
+        float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, point);
+        relax(search, way.key, way.slot, way.polygon, point, node.cost + cost, index);
     }
 }
 
+// Goes on until the goal's node is taken up, or nothing is open, or the pool or the steps are used up.
+static tl_nav_path_status step_by_ways(tl_nav_way_search *search, uint64_t *steps)
+{
+    for (; *steps > 0; --*steps) {
+        uint32_t index = tl_nav_heap_pop(search->query);
+        if (index == TL_NAV_NO_NODE) {
+            return TL_NAV_PATH_UNREACHABLE;
+        }
+        if (search->query->nodes[index].key == GOAL_KEY) {
+            search->last = index;
+            return TL_NAV_PATH_COMPLETE;
+        }
+        expand(search, index);
+        if (search->out_of_nodes) {
+            return TL_NAV_PATH_OUT_OF_NODES;
+        }
+    }
+    return TL_NAV_PATH_UNFINISHED;
+}
+
+static void begin_by_ways(tl_nav_path_run *run)
+{
+    tl_nav_way_search *search = &run->ways;
+    tl_nav_pool_reset(search->query);
+    relax(search, START_KEY, run->exact.start_slot, run->exact.start_polygon, run->start.point, 0.0f, TL_NAV_NO_NODE);
+    run->stage = TL_NAV_RUN_WAYS;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// As near to the goal as a search has come: the nodes of either kind, by number.
+
+typedef struct seen_polygon {
+    uint32_t slot, polygon;
+    double cost; // metres times area costs from the start, at least
+} seen_polygon;
+
+static seen_polygon seen_at(const tl_nav_path_run *run, uint32_t i)
+{
+    const tl_nav_query *query = run->ways.query;
+    seen_polygon seen;
+    if (run->stage == TL_NAV_RUN_EXACT) {
+        seen.slot = query->wedges[i].slot;
+        seen.polygon = query->wedges[i].polygon;
+        seen.cost = query->wedges[i].cost;
+    } else {
+        seen.slot = query->nodes[i].slot;
+        seen.polygon = query->nodes[i].polygon;
+        seen.cost = (double)query->nodes[i].cost;
+    }
+    return seen;
+}
+
 // The squared distance in the plane from the goal to the box of a polygon's corners.
-static float bound_to_goal(const path_search *search, const tl_nav_node *node)
+static float bound_to_goal(const tl_nav_path_run *run, const seen_polygon *seen)
 {
     uint32_t count = 0;
-    const tl_vec3 *corners = tl_nav_tile_corners(search->navmesh->slots[node->slot].tile, node->polygon, &count);
+    const tl_vec3 *corners = tl_nav_tile_corners(run->ways.navmesh->slots[seen->slot].tile, seen->polygon, &count);
     tl_aabb box = { corners[0], corners[0] };
     for (uint32_t i = 1; i < count; i++) {
         box = tl_aabb_add_point(box, corners[i]);
     }
-    tl_vec3 gap = tl_sub(tl_min(tl_max(search->goal, box.min), box.max), search->goal);
+    tl_vec3 gap = tl_sub(tl_min(tl_max(run->goal.point, box.min), box.max), run->goal.point);
     return gap.x * gap.x + gap.z * gap.z;
 }
 
 // The node whose polygon comes nearest to the goal, by the distance to its closest point; ties to the cheaper one, then
 // to the lower index.
-static uint32_t nearest_to_goal(const path_search *search, tl_vec3 *point_out)
+static uint32_t nearest_to_goal(const tl_nav_path_run *run, tl_vec3 *point_out)
 {
-    const tl_nav_node *nodes = search->query->nodes;
+    const tl_nav_query *query = run->ways.query;
+    uint32_t count = run->stage == TL_NAV_RUN_EXACT ? query->wedge_count : query->node_count;
     uint32_t best = 0;
     float best_sq = INFINITY;
-    for (uint32_t i = 0; i < search->query->node_count; i++) {
-        const tl_nav_node *node = &nodes[i];
-        if (i > 0 && node->slot == nodes[best].slot && node->polygon == nodes[best].polygon) {
-            best = node->cost < nodes[best].cost ? i : best;
+    for (uint32_t i = 0; i < count; i++) {
+        seen_polygon seen = seen_at(run, i);
+        seen_polygon best_seen = seen_at(run, best);
+        if (i > 0 && seen.slot == best_seen.slot && seen.polygon == best_seen.polygon) {
+            best = seen.cost < best_seen.cost ? i : best;
             continue;
         }
-        if (bound_to_goal(search, node) > best_sq) {
+        if (bound_to_goal(run, &seen) > best_sq) {
             continue;
         }
         bool inside = false;
         tl_vec3 point =
-            tl_nav_closest_on_surface(search->navmesh->slots[node->slot].tile, node->polygon, search->goal, &inside);
-        float distance_sq = tl_distance_sq(point, search->goal);
-        if (distance_sq < best_sq || (distance_sq == best_sq && node->cost < nodes[best].cost)) {
+            tl_nav_closest_on_surface(run->ways.navmesh->slots[seen.slot].tile, seen.polygon, run->goal.point, &inside);
+        float distance_sq = tl_distance_sq(point, run->goal.point);
+        if (distance_sq < best_sq || (distance_sq == best_sq && seen.cost < best_seen.cost)) {
             best = i;
             best_sq = distance_sq;
             *point_out = point;
@@ -147,8 +196,11 @@ static uint32_t nearest_to_goal(const path_search *search, tl_vec3 *point_out)
     return best;
 }
 
-static tl_result write_path(const path_search *search, uint32_t last, tl_nav_ref *polygons_out, uint32_t capacity,
-                            tl_nav_path *path_out)
+// ---------------------------------------------------------------------------------------------------------
+// What the caller gets.
+
+static void write_ways(const tl_nav_way_search *search, uint32_t last, tl_nav_ref *polygons_out, uint32_t capacity,
+                       tl_nav_path *path_out)
 {
     const tl_nav_node *nodes = search->query->nodes;
     // The goal's node stands in the polygon of its parent.
@@ -168,96 +220,115 @@ static tl_result write_path(const path_search *search, uint32_t last, tl_nav_ref
     path_out->cost = nodes[last].cost;
     path_out->end.polygon = tl_nav_make_ref(search->navmesh, nodes[end].slot, nodes[end].polygon);
     path_out->node_count = search->query->node_count;
-    return count <= capacity ? TL_OK : TL_ERR_CAPACITY;
 }
 
-// Runs to the goal's node, or until nothing is open or the pool is used up (TL_NAV_NO_NODE).
-static uint32_t run(path_search *search)
+static void write_exact(const tl_nav_path_run *run, uint32_t last, tl_nav_ref *polygons_out, uint32_t capacity,
+                        tl_nav_path *path_out)
 {
-    for (;;) {
-        uint32_t index = tl_nav_heap_pop(search->query);
-        if (index == TL_NAV_NO_NODE || search->query->nodes[index].key == GOAL_KEY) {
-            return index;
-        }
-        expand(search, index);
-        if (search->out_of_nodes) {
-            return TL_NAV_NO_NODE;
-        }
+    tl_nav_shortest_search search = run->exact;
+    const tl_nav_wedge *wedge = &search.query->wedges[last];
+    if (run->status != TL_NAV_PATH_COMPLETE) {
+        // As if the root saw the point: no path there is shorter.
+        search.last = last;
+        search.goal = path_out->end.point;
+        path_out->end.polygon = tl_nav_make_ref(search.navmesh, wedge->slot, wedge->polygon);
     }
+    path_out->cost = run->ways.least_cost * (float)tl_nav_shortest_length(&search);
+    path_out->node_count = search.query->wedge_count;
+    path_out->polygon_count = tl_nav_write_wedges(&search, polygons_out, capacity);
 }
 
-static tl_result find_by_ways(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                              const tl_nav_location *start, const tl_nav_location *goal, float least_cost,
-                              tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
+tl_result tl_nav_run_write(const tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity,
+                           tl_nav_path *path_out)
 {
-    path_search search = { query, navmesh, filter, least_cost, 0, 0, goal->point, false };
-    uint32_t start_slot = 0;
-    uint32_t start_polygon = 0;
-    tl_nav_split_ref(navmesh, start->polygon, &start_slot, &start_polygon);
-    tl_nav_split_ref(navmesh, goal->polygon, &search.goal_slot, &search.goal_polygon);
-    tl_nav_pool_reset(query);
-    relax(&search, START_KEY, start_slot, start_polygon, start->point, 0.0f, TL_NAV_NO_NODE);
-    uint32_t last = run(&search);
-    if (last != TL_NAV_NO_NODE) {
-        path_out->status = TL_NAV_PATH_COMPLETE;
-        path_out->end.point = goal->point;
+    path_out->status = run->status;
+    path_out->end = run->goal;
+    if (run->stage == TL_NAV_RUN_CUT_OFF) {
+        path_out->polygon_count = 1;
+        path_out->end = run->start;
+        if (capacity > 0) {
+            polygons_out[0] = run->start.polygon;
+        }
+    } else if (run->stage == TL_NAV_RUN_EXACT) {
+        bool found = run->status == TL_NAV_PATH_COMPLETE;
+        uint32_t last = found ? run->exact.last : nearest_to_goal(run, &path_out->end.point);
+        write_exact(run, last, polygons_out, capacity, path_out);
     } else {
-        path_out->status = search.out_of_nodes ? TL_NAV_PATH_OUT_OF_NODES : TL_NAV_PATH_UNREACHABLE;
-        last = nearest_to_goal(&search, &path_out->end.point);
+        bool found = run->status == TL_NAV_PATH_COMPLETE;
+        uint32_t last = found ? run->ways.last : nearest_to_goal(run, &path_out->end.point);
+        write_ways(&run->ways, last, polygons_out, capacity, path_out);
     }
-    return write_path(&search, last, polygons_out, capacity, path_out);
+    return path_out->polygon_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
 }
 
-// The start's polygon alone.
-static tl_result write_stay(const tl_nav_location *start, tl_nav_ref *polygons_out, uint32_t capacity,
-                            tl_nav_path *path_out)
+// ---------------------------------------------------------------------------------------------------------
+// The run: the shortest path where every metre costs the same. Then, or where that has found none (the flags forbid it,
+// and A* tells how far they let go; or it was out of nodes, of which A* needs fewer), A*.
+
+static void note_exact_end(tl_nav_path_run *run, tl_nav_search_end end)
 {
-    path_out->polygon_count = 1;
-    path_out->end = *start;
-    if (capacity == 0) {
-        return TL_ERR_CAPACITY;
+    if (end == TL_NAV_SEARCH_FOUND) {
+        run->status = TL_NAV_PATH_COMPLETE;
+    } else if (end != TL_NAV_SEARCH_PAUSED) {
+        begin_by_ways(run);
     }
-    polygons_out[0] = start->polygon;
+}
+
+tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                           const tl_nav_location *start, const tl_nav_location *goal, tl_nav_path_run *run)
+{
+    float least = 1.0f;
+    bool is_uniform = true;
+    run->stage = TL_NAV_RUN_NONE;
+    TL_TRY(tl_nav_prepare_shortest(query, navmesh, filter, start, goal, &run->exact));
+    if (filter != NULL && !tl_nav_filter_costs(filter, &least, &is_uniform)) {
+        return TL_ERR_ARGUMENT;
+    }
+    tl_nav_way_search ways = {
+        query, navmesh, filter, least, run->exact.goal_slot, run->exact.goal_polygon, goal->point, false, TL_NAV_NO_NODE
+    };
+    run->ways = ways;
+    run->start = *start;
+    run->goal = *goal;
+    run->status = TL_NAV_PATH_UNFINISHED;
+    run->edits = navmesh->edit.number;
+    if (tl_nav_is_cut_off(&run->exact)) {
+        run->stage = TL_NAV_RUN_CUT_OFF;
+        run->status = TL_NAV_PATH_UNREACHABLE;
+    } else if (is_uniform) {
+        run->stage = TL_NAV_RUN_EXACT;
+        note_exact_end(run, tl_nav_begin_shortest(&run->exact));
+    } else {
+        begin_by_ways(run);
+    }
     return TL_OK;
 }
 
-static tl_result write_shortest(const tl_nav_shortest_search *search, const tl_nav_location *goal, float metre,
-                                tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
+void tl_nav_run_step(tl_nav_path_run *run, uint64_t *steps)
 {
-    path_out->status = TL_NAV_PATH_COMPLETE;
-    path_out->end = *goal;
-    path_out->cost = metre * (float)tl_nav_shortest_length(search);
-    path_out->node_count = search->query->wedge_count;
-    path_out->polygon_count = tl_nav_write_wedges(search, polygons_out, capacity);
-    return path_out->polygon_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    if (run->status == TL_NAV_PATH_UNFINISHED && run->stage == TL_NAV_RUN_EXACT) {
+        note_exact_end(run, tl_nav_step_shortest(&run->exact, steps));
+    }
+    if (run->status == TL_NAV_PATH_UNFINISHED && run->stage == TL_NAV_RUN_WAYS) {
+        run->status = step_by_ways(&run->ways, steps);
+    }
 }
 
 tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                  const tl_nav_location *start, const tl_nav_location *goal, tl_nav_ref *polygons_out,
                                  uint32_t capacity, tl_nav_path *path_out)
 {
-    tl_nav_path none = { TL_NAV_PATH_UNREACHABLE, 0, { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } }, 0.0f, 0 };
-    *path_out = none;
-    float least = 1.0f;
-    bool is_uniform = true;
-    tl_nav_shortest_search search;
-    TL_TRY(tl_nav_prepare_shortest(query, navmesh, filter, start, goal, &search));
-    if (filter != NULL && !tl_nav_filter_costs(filter, &least, &is_uniform)) {
-        return TL_ERR_ARGUMENT;
-    }
-    if (tl_nav_is_cut_off(&search)) {
-        return write_stay(start, polygons_out, capacity, path_out);
-    }
-    if (is_uniform && tl_nav_search_shortest(&search) == TL_NAV_SEARCH_FOUND) {
-        return write_shortest(&search, goal, least, polygons_out, capacity, path_out);
-    }
-    // Also where the search above has found none: the flags forbid it, and this one tells how far they let go; or it
-    // was out of nodes, of which this one needs fewer.
-    return find_by_ways(query, navmesh, filter, start, goal, least, polygons_out, capacity, path_out);
+    memset(path_out, 0, sizeof *path_out);
+    path_out->status = TL_NAV_PATH_UNREACHABLE;
+    tl_nav_path_run run;
+    TL_TRY(tl_nav_run_begin(query, navmesh, filter, start, goal, &run));
+    uint64_t steps = UINT64_MAX;
+    tl_nav_run_step(&run, &steps);
+    return tl_nav_run_write(&run, polygons_out, capacity, path_out);
 }
 
 const char *tl_nav_path_status_name(tl_nav_path_status status)
 {
-    static const char *const NAMES[] = { "complete", "unreachable", "out of nodes" };
+    static const char *const NAMES[] = { "complete", "unreachable", "out of nodes", "unfinished", "stale" };
     return (unsigned)status < TL_COUNT_OF(NAMES) ? NAMES[status] : "unknown";
 }

@@ -23,10 +23,17 @@ struct tl_nav_side_links {
     uint32_t link_count;
 };
 
+/// A change of the navmesh: which one it was, counted from 1, and of which tile.
+typedef struct tl_nav_edit {
+    uint64_t number;
+    int32_t tile_x, tile_z;
+} tl_nav_edit;
+
 typedef struct tl_nav_slot {
     const tl_nav_tile *tile; ///< NULL: free
     uint32_t salt;           ///< 1 to 65535
     uint32_t next;           ///< in the chain of its bucket, or of the free slots
+    tl_nav_edit last_edit;   ///< that changed what a search sees here
     uint64_t inner_links;    ///< ways between polygons of the tile
     tl_nav_tile_ownership ownership;
     tl_nav_side_links sides[4];
@@ -49,6 +56,7 @@ struct tl_navmesh {
     uint32_t tile_count;
     uint64_t link_count;
     uint64_t polygon_count;
+    tl_nav_edit edit; ///< the last one
     tl_nav_island *islands;
     uint32_t island_count, island_capacity;
     uint32_t last_fan;  ///< the last number that fans.c gave
@@ -68,13 +76,28 @@ static inline tl_nav_ref tl_nav_make_ref(const tl_navmesh *navmesh, uint32_t slo
            (uint64_t)slot << TL_NAV_REF_POLYGON_BITS | polygon;
 }
 
+/// Begins a change of the tile at a place.
+static inline void tl_nav_begin_edit(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    navmesh->edit.number++;
+    navmesh->edit.tile_x = tile_x;
+    navmesh->edit.tile_z = tile_z;
+}
+
+/// Notes that the change under way is one of what a search sees in a slot (sliced_path.c asks).
+static inline void tl_nav_note_edit(tl_navmesh *navmesh, uint32_t slot)
+{
+    navmesh->slots[slot].last_edit = navmesh->edit;
+}
+
 /// Whether a filter, for which NULL stands for the default one, surely refuses no polygon.
 static inline bool tl_nav_all_pass(const tl_navmesh *navmesh, const tl_nav_filter *filter)
 {
     if (filter == NULL) {
         return navmesh->all_flags != 0;
     }
-    return (navmesh->all_flags & filter->include_flags) != 0 && (navmesh->any_flags & filter->exclude_flags) == 0;
+    return (navmesh->all_flags & filter->include_flags) != 0 && (navmesh->any_flags & filter->exclude_flags) == 0 &&
+           filter->pass == NULL;
 }
 
 /// Slot and polygon of a reference; false when it is stale.

@@ -9,7 +9,7 @@
 
 #include "base/arena.h"
 #include "base/hash.h"
-#include "nav_query/shortest_search.h"
+#include "nav_query/path_run.h"
 
 #include <string.h>
 
@@ -53,11 +53,13 @@ tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_
     query->wedges = tl_allocate_array(def->allocator, query->max_nodes, sizeof *query->wedges);
     query->wedge_heap = tl_allocate_array(def->allocator, query->max_nodes, sizeof *query->wedge_heap);
     query->roots = tl_allocate_array(def->allocator, (uint64_t)query->root_mask + 1, sizeof *query->roots);
-    if (query->wedges == NULL || query->wedge_heap == NULL || query->roots == NULL || query->nodes == NULL ||
-        query->heap == NULL || query->buckets == NULL) {
+    query->run = tl_allocate_array(def->allocator, 1, sizeof *query->run);
+    if (query->run == NULL || query->wedges == NULL || query->wedge_heap == NULL || query->roots == NULL ||
+        query->nodes == NULL || query->heap == NULL || query->buckets == NULL) {
         tl_nav_query_free(query);
         return TL_ERR_MEMORY;
     }
+    memset(query->run, 0, sizeof *query->run);
     memset(query->buckets, 0xff, (size_t)query->bucket_count * sizeof *query->buckets);
     memset(query->roots, 0, ((size_t)query->root_mask + 1) * sizeof *query->roots);
     *query_out = query;
@@ -76,6 +78,7 @@ void tl_nav_query_free(tl_nav_query *query)
     tl_release_array(&allocator, query->wedge_heap, query->max_nodes, sizeof *query->wedge_heap);
     tl_release_array(&allocator, query->roots, (uint64_t)query->root_mask + 1, sizeof *query->roots);
     tl_release_array(&allocator, query->buckets, query->bucket_count, sizeof *query->buckets);
+    tl_release_array(&allocator, query->run, 1, sizeof *query->run);
     tl_release_array(&allocator, query, 1, sizeof *query);
 }
 
@@ -91,6 +94,7 @@ void tl_nav_pool_reset(tl_nav_query *query)
     }
     query->node_count = 0;
     query->heap_count = 0;
+    query->pool_generation++;
 }
 
 uint32_t tl_nav_pool_get(tl_nav_query *query, uint64_t key)

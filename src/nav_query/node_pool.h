@@ -25,7 +25,8 @@ typedef struct tl_nav_node {
     uint32_t next; ///< in the chain of its bucket
 } tl_nav_node;
 
-typedef struct tl_nav_wedge tl_nav_wedge; // shortest_search.h
+typedef struct tl_nav_wedge tl_nav_wedge;       // shortest_search.h
+typedef struct tl_nav_path_run tl_nav_path_run; // path_run.h
 
 typedef struct tl_nav_heap_entry {
     float total;
@@ -53,6 +54,8 @@ struct tl_nav_query {
     uint32_t max_nodes, node_count;
     uint32_t bucket_count;
     uint32_t heap_count;
+    uint64_t pool_generation; ///< counts resets
+    tl_nav_path_run *run;     ///< in slices
 };
 
 /// Forgets all nodes. O(nodes used by the search before).

@@ -165,7 +165,7 @@ tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh
     search_out->query = query;
     search_out->navmesh = navmesh;
     bool all_pass = tl_nav_all_pass(navmesh, filter);
-    static const tl_nav_filter any = { UINT64_MAX, 0, { 0 } };
+    static const tl_nav_filter any = { UINT64_MAX, 0, { 0 }, NULL, NULL, NULL };
     search_out->filter = all_pass ? NULL : filter != NULL ? filter : &any;
     bool inside = false;
     search_out->start = tl_nav_clamp_to_polygon(navmesh->slots[search_out->start_slot].tile, search_out->start_polygon,

@@ -511,11 +511,11 @@ static uint32_t end_in(wedge_search *s, uint32_t entered)
     return add_turn(s, entered, vertex->x, vertex->z, wedge->cost + length_of(limit));
 }
 
-// Takes up wedges, the least total first, until one has entered the goal's polygon.
-static tl_nav_search_end run(wedge_search *s)
+// Takes up wedges, the least total first, until one has entered the goal's polygon or the steps are used up.
+static tl_nav_search_end run(wedge_search *s, uint64_t *steps)
 {
     float total = 0.0f;
-    for (;;) {
+    for (; *steps > 0; --*steps) {
         uint32_t next = next_wedge(s, &total);
         if (s->trouble != TL_NAV_SEARCH_FOUND || next == TL_NAV_NO_NODE) {
             return s->trouble != TL_NAV_SEARCH_FOUND ? s->trouble : TL_NAV_SEARCH_EXHAUSTED;
@@ -531,6 +531,7 @@ static tl_nav_search_end run(wedge_search *s)
         }
         expand(s, next);
     }
+    return s->trouble != TL_NAV_SEARCH_FOUND ? s->trouble : TL_NAV_SEARCH_PAUSED;
 }
 
 static double largest_of(double a, double b)
@@ -538,7 +539,8 @@ static double largest_of(double a, double b)
     return fabs(a) > fabs(b) ? fabs(a) : fabs(b);
 }
 
-tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
+// The search as its last step left it.
+static wedge_search take_up(tl_nav_shortest_search *search)
 {
     const tl_navmesh *navmesh = search->navmesh;
     wedge_search s = { search,
@@ -550,19 +552,52 @@ tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
                        { navmesh->slots[search->goal_slot].rings.cells[search->goal_polygon].dead_end,
                          navmesh->slots[search->start_slot].rings.cells[search->start_polygon].dead_end },
                        TL_NAV_SEARCH_FOUND,
-                       TL_NAV_NO_NODE,
-                       { { 0.0, 0.0 }, { 0.0, 0.0 } },
-                       TL_NAV_NO_NODE,
-                       0.0f };
+                       search->only,
+                       { search->only_right, search->only_left },
+                       search->best,
+                       search->best_total };
     double start_size = largest_of((double)search->start.x, (double)search->start.z);
     s.rounding = EDGE_ON_ERROR * largest_of(start_size, largest_of(s.goal_x, s.goal_z));
+    return s;
+}
+
+static void lay_down(const wedge_search *s, tl_nav_shortest_search *search)
+{
+    search->only = s->only;
+    search->only_right = s->only_edge.right;
+    search->only_left = s->only_edge.left;
+    search->best = s->best;
+    search->best_total = s->best_total;
+}
+
+tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search)
+{
     search->query->wedge_count = 0;
     search->query->open_count = 0;
     tl_nav_next_generation(search->query);
+    search->only = TL_NAV_NO_NODE;
+    search->best = TL_NAV_NO_NODE;
+    wedge_search s = take_up(search);
     search->last = begin(&s);
+    lay_down(&s, search);
     if (search->last != TL_NAV_NO_NODE) {
         search->lower_bound = tl_nav_shortest_length(search);
         return TL_NAV_SEARCH_FOUND;
     }
-    return run(&s);
+    return s.trouble != TL_NAV_SEARCH_FOUND ? s.trouble : TL_NAV_SEARCH_PAUSED;
+}
+
+tl_nav_search_end tl_nav_step_shortest(tl_nav_shortest_search *search, uint64_t *steps)
+{
+    wedge_search s = take_up(search);
+    tl_nav_search_end end = run(&s, steps);
+    lay_down(&s, search);
+    return end;
+}
+
+tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
+{
+    uint64_t steps = UINT64_MAX;
+    tl_nav_search_end end = tl_nav_begin_shortest(search);
+    return end == TL_NAV_SEARCH_PAUSED ? tl_nav_step_shortest(search, &steps) : end;
 }

@@ -26,7 +26,8 @@ typedef struct tl_nav_wedge {
 typedef enum tl_nav_search_end {
     TL_NAV_SEARCH_FOUND,
     TL_NAV_SEARCH_EXHAUSTED,
-    TL_NAV_SEARCH_OUT_OF_NODES
+    TL_NAV_SEARCH_OUT_OF_NODES,
+    TL_NAV_SEARCH_PAUSED ///< its steps are used up; it may go on
 } tl_nav_search_end;
 
 typedef struct tl_nav_shortest_search {
@@ -39,9 +40,19 @@ typedef struct tl_nav_shortest_search {
     // Found:
     uint32_t last;      ///< wedge, in the goal's polygon
     double lower_bound; ///< no path is shorter
+    // Between two steps:
+    uint32_t only;                          ///< wedge to go on with, or TL_NAV_NO_NODE
+    tl_nav_direction only_right, only_left; ///< ends of the edge that it looks through
+    uint32_t best;                          ///< else the best wedge that is not in the heap, or TL_NAV_NO_NODE
+    float best_total;
 } tl_nav_shortest_search;
 
-/// Runs the search. Afterwards the wedges, from `last` over parents to the start's, are the path.
+/// Begins the search and, when start and goal see one another at once, ends it.
+tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search);
+/// Goes on for at most `*steps` wedges, which are counted down. Where a search is cut into steps changes nothing but
+/// the time. Once it is found the wedges, from `last` over parents to the start's, are the path.
+tl_nav_search_end tl_nav_step_shortest(tl_nav_shortest_search *search, uint64_t *steps);
+/// Both, to the end.
 tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search);
 
 /// Fills in what a search needs from a caller's words: points are moved onto their polygons. Errors as those of

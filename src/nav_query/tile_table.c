@@ -232,6 +232,7 @@ static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
 static void install_seams(tl_navmesh *navmesh, uint32_t slot, const seam_set *seams)
 {
     navmesh->slots[slot].rings = seams->rings;
+    tl_nav_note_edit(navmesh, slot);
     for (uint32_t side = 0; side < 4; side++) {
         if (seams->neighbours[side] == TL_NAV_NO_SLOT) {
             continue;
@@ -247,6 +248,7 @@ static void install_seams(tl_navmesh *navmesh, uint32_t slot, const seam_set *se
                neighbour->rings.component_count * sizeof *neighbour->rings.island);
         tl_nav_rings_free(&navmesh->allocator, &neighbour->rings);
         neighbour->rings = seams->neighbour_rings[side];
+        tl_nav_note_edit(navmesh, seams->neighbours[side]);
     }
 }
 
@@ -303,6 +305,7 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
         return reserved;
     }
 
+    tl_nav_begin_edit(navmesh, tile->tile_x, tile->tile_z);
     tl_nav_slot *slot = &navmesh->slots[index];
     if (index == navmesh->free_slots) {
         navmesh->free_slots = slot->next;
@@ -336,6 +339,8 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
     }
     tl_nav_slot *slot = &navmesh->slots[index];
     uint32_t neighbours[4];
+    tl_nav_begin_edit(navmesh, tile_x, tile_z);
+    tl_nav_note_edit(navmesh, index);
     for (uint32_t side = 0; side < 4; side++) {
         uint32_t neighbour =
             tl_nav_find_slot(navmesh, (int64_t)tile_x + SIDE_STEP[side][0], (int64_t)tile_z + SIDE_STEP[side][1]);
@@ -345,6 +350,7 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
             navmesh->link_count -= (uint64_t)slot->sides[side].link_count + facing->link_count;
             tl_nav_free_side(&navmesh->allocator, facing);
             tl_nav_rings_close(&navmesh->slots[neighbour].rings, index);
+            tl_nav_note_edit(navmesh, neighbour);
         }
     }
     unchain_slot(navmesh, index);
