@@ -234,6 +234,16 @@ static inline tl_contour_set shape_as_set(const oracle_point *p, uint32_t n, tl_
     return set;
 }
 
+/// Fails with the validator's words when the mesh is not what its contours demand.
+static inline void shape_check_mesh(const tl_polygon_mesh *mesh, const tl_contour_set *set)
+{
+    tl_polygon_check_report check;
+    if (tl_polygon_mesh_check(mesh, set, NULL, &check) != TL_OK) {
+        fail_msg("%s at %s %llu", tl_polygon_fault_text(check.first_fault), check.base.element,
+                 (unsigned long long)check.base.element_index);
+    }
+}
+
 /// Builds a mesh with every allocation failing in turn, until none does: each failure is TL_ERR_MEMORY, nothing leaks
 /// and the mesh stays untouched. Returns how many builds it took, and one.
 /// The def's allocator is replaced.

@@ -1,18 +1,8 @@
 // SPDX-License-Identifier: MIT
 
-#include "talus_test.h"
+#include "polygon_shapes.h"
 
-#include <string.h>
 #include <talus/polygon.h>
-
-static void check_good(const tl_polygon_mesh *mesh, const tl_contour_set *set)
-{
-    tl_polygon_check_report report;
-    if (tl_polygon_mesh_check(mesh, set, NULL, &report) != TL_OK) {
-        fail_msg("%s at %s %llu", tl_polygon_fault_text(report.first_fault), report.base.element,
-                 (unsigned long long)report.base.element_index);
-    }
-}
 
 // A tile's border runs along x == 0; regions 1 and 2 meet it in the border vertex (0, 4).
 static void border_vertices_go_where_the_border_is_straight(void **state)
@@ -43,7 +33,7 @@ static void border_vertices_go_where_the_border_is_straight(void **state)
     tl_polygon_mesh mesh;
     tl_polygon_report report;
     TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-    check_good(&mesh, &set);
+    shape_check_mesh(&mesh, &set);
     TEST_CHECK(report.border_vertices_gone == 1 && report.border_vertices_kept == 0 && mesh.vertex_count == 5);
     TEST_CHECK(report.portal_count == 3); // x == 0 is one edge now, z == 0 and z == 8
     uint32_t sides[4] = { 0, 0, 0, 0 };
@@ -60,7 +50,7 @@ static void border_vertices_go_where_the_border_is_straight(void **state)
     tl_polygon_mesh_free(&mesh, NULL);
     def.keep_border_vertices = true;
     TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-    check_good(&mesh, &set);
+    shape_check_mesh(&mesh, &set);
     TEST_CHECK(mesh.vertex_count == 6 && mesh.polygon_count == 2 && report.border_vertices_kept == 0);
     tl_polygon_mesh_free(&mesh, NULL);
     def.keep_border_vertices = false;
@@ -72,7 +62,7 @@ static void border_vertices_go_where_the_border_is_straight(void **state)
     contours[1].area = 63;
     corners[1].x = corners[4].x = 1;
     TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-    check_good(&mesh, &set);
+    shape_check_mesh(&mesh, &set);
     TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
     tl_polygon_mesh_free(&mesh, NULL);
 }
@@ -110,7 +100,7 @@ static void border_vertices_go_one_after_another(void **state)
         tl_polygon_mesh mesh;
         tl_polygon_report report;
         TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-        check_good(&mesh, &set);
+        shape_check_mesh(&mesh, &set);
         TEST_CHECK(report.border_vertices_gone == STRIPS - 1 && report.portal_count == 3);
         tl_polygon_mesh_free(&mesh, NULL);
     }
@@ -163,7 +153,7 @@ static void random_tiles_keep_their_floor(void **state)
         tl_polygon_mesh mesh;
         tl_polygon_report report;
         TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-        check_good(&mesh, &set);
+        shape_check_mesh(&mesh, &set);
         gone += report.border_vertices_gone;
         kept += report.border_vertices_kept;
         for (uint32_t p = 0; p < mesh.polygon_count; p++) {

@@ -30,11 +30,7 @@ static outcome build(uint32_t n, uint32_t cap)
     tl_polygon_mesh_free(&mesh, NULL);
     def.method = TL_PARTITION_OPTIMAL;
     TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &o.report), TL_OK);
-    tl_polygon_check_report check;
-    if (tl_polygon_mesh_check(&mesh, &set, NULL, &check) != TL_OK) {
-        fail_msg("%s at %s %llu", tl_polygon_fault_text(check.first_fault), check.base.element,
-                 (unsigned long long)check.base.element_index);
-    }
+    shape_check_mesh(&mesh, &set);
     TEST_CHECK(o.report.lower_bound <= o.report.polygon_count && o.report.polygon_count <= o.classic);
     TEST_CHECK(o.report.lower_bound >= 1 || o.report.polygon_count == 0);
     tl_polygon_mesh_free(&mesh, NULL);

@@ -9,15 +9,6 @@ enum { MAX_POINTS = 4096 };
 static oracle_point points[MAX_POINTS];
 static tl_contour_vertex vertices[MAX_POINTS];
 
-static void check_good(const tl_polygon_mesh *mesh, const tl_contour_set *set)
-{
-    tl_polygon_check_report report;
-    if (tl_polygon_mesh_check(mesh, set, NULL, &report) != TL_OK) {
-        fail_msg("%s at %s %llu", tl_polygon_fault_text(report.first_fault), report.base.element,
-                 (unsigned long long)report.base.element_index);
-    }
-}
-
 static void two_contours_meet_in_links(void **state)
 {
     (void)state;
@@ -37,7 +28,7 @@ static void two_contours_meet_in_links(void **state)
     tl_polygon_mesh mesh;
     tl_polygon_report report;
     TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-    check_good(&mesh, &set);
+    shape_check_mesh(&mesh, &set);
     TEST_CHECK(mesh.polygon_count == 2 && mesh.vertex_count == 6 && mesh.index_count == 8);
     TEST_CHECK(mesh.regions[0] == 1 && mesh.regions[1] == 2 && mesh.areas[0] == 10 && mesh.areas[1] == 20);
     TEST_CHECK(report.link_count == 1 && report.portal_count == 0 && report.triangle_count == 4);
@@ -49,7 +40,7 @@ static void two_contours_meet_in_links(void **state)
     for (uint32_t i = 0; i < 3; i++) {
         def.merge_height = heights[i];
         TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-        check_good(&mesh, &set);
+        shape_check_mesh(&mesh, &set);
         TEST_CHECK(mesh.vertex_count == expected_vertices[i] && report.link_count == expected_links[i]);
         tl_polygon_mesh_free(&mesh, NULL);
     }
@@ -74,7 +65,7 @@ static void scribbles_give_good_meshes(void **state)
         tl_polygon_mesh mesh;
         tl_polygon_report report;
         TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
-        check_good(&mesh, &set);
+        shape_check_mesh(&mesh, &set);
         TEST_CHECK(report.refused_contours == 0);
         bool simple = oracle_is_simple(points, n) && oracle_contour_area2(points, n) > 0;
         // A hole that touches the outline in a vertex is no fault either.
@@ -112,7 +103,7 @@ static void hard_families_pass_the_validator(void **state)
             tl_polygon_report report;
             TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
             TEST_CHECK(mesh.note_count == 0 && report.triangle_count == n - 2);
-            check_good(&mesh, &set);
+            shape_check_mesh(&mesh, &set);
             tl_polygon_mesh_free(&mesh, NULL);
         }
     }
@@ -135,7 +126,7 @@ static void floors_upon_each_other_are_counted(void **state)
     tl_polygon_report report;
     TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
     TEST_CHECK(mesh.polygon_count == 2 && report.link_count == 0 && report.crowded_edges > 0);
-    check_good(&mesh, &set);
+    shape_check_mesh(&mesh, &set);
     tl_polygon_mesh_free(&mesh, NULL);
 }
 
@@ -166,7 +157,7 @@ static void bad_arguments_are_named(void **state)
     set.contour_count = 0;
     TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
     TEST_CHECK(mesh.polygon_count == 0 && mesh.first[0] == 0);
-    check_good(&mesh, &set);
+    shape_check_mesh(&mesh, &set);
     tl_polygon_mesh_free(&mesh, NULL);
     tl_polygon_mesh_free(&mesh, NULL);
 }
@@ -220,7 +211,7 @@ static void every_allocation_may_fail(void **state)
         TEST_CHECK(allocator.live_blocks == (result == TL_OK ? 1 : 0));
         TEST_CHECK(result == TL_OK || mesh.block == NULL);
         if (result == TL_OK) {
-            check_good(&mesh, &set);
+            shape_check_mesh(&mesh, &set);
             tl_polygon_mesh_free(&mesh, &allocator.allocator);
             TEST_CHECK(allocator.live_blocks == 0 && allocator.live_bytes == 0);
         }

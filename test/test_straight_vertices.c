@@ -18,11 +18,7 @@ static tl_polygon_report build(const tl_contour_set *set, bool drop, uint32_t *p
     tl_polygon_mesh mesh;
     tl_polygon_report report;
     TEST_RESULT(tl_polygon_mesh_build(set, &def, &mesh, &report), TL_OK);
-    tl_polygon_check_report check;
-    if (tl_polygon_mesh_check(&mesh, set, NULL, &check) != TL_OK) {
-        fail_msg("%s at %s %llu", tl_polygon_fault_text(check.first_fault), check.base.element,
-                 (unsigned long long)check.base.element_index);
-    }
+    shape_check_mesh(&mesh, set);
     *polygons = mesh.polygon_count;
     tl_polygon_mesh_free(&mesh, NULL);
     return report;
