@@ -55,6 +55,17 @@ static inline tl_mesh_view model_view(const model *m)
     return view;
 }
 
+/// The ways to store a model: answers must not tell them apart.
+typedef enum model_storage { MODEL_BOXES, MODEL_SPLITS, MODEL_KD, MODEL_STORAGES } model_storage;
+
+static inline tl_soup_def model_soup_def(model_storage storage)
+{
+    tl_soup_def def = tl_default_soup_def();
+    def.split_budget = storage == MODEL_SPLITS ? 0.5f : 0.0f;
+    def.partition = storage == MODEL_KD ? TL_SOUP_KD : TL_SOUP_BOXES;
+    return def;
+}
+
 static inline tl_soup *model_soup(const model *m, const tl_soup_def *def)
 {
     tl_mesh_view view = model_view(m);

@@ -144,21 +144,25 @@ static void check_model(const model *m, uint32_t ray_count, uint64_t seed, regim
     test_random random = { seed };
     tl_soup_def def = tl_default_soup_def();
     tl_soup *soup = model_soup(m, &def);
-    // The same answers from other layouts: cut references, and no pairs.
-    def.split_budget = 0.4f;
-    tl_soup *cut = model_soup(m, &def);
-    def.pair_triangles = false;
-    tl_soup *singles = model_soup(m, &def);
+    // The same answers from other layouts: cut references, cells of space, and no pairs.
+    enum { OTHERS = 4 };
+    tl_soup *others[OTHERS];
+    for (uint32_t k = 0; k < OTHERS; k++) {
+        def = model_soup_def(k % 2 == 0 ? MODEL_SPLITS : MODEL_KD);
+        def.pair_triangles = k < 2;
+        others[k] = model_soup(m, &def);
+    }
     tl_aabb bounds = tl_soup_bounds(soup);
     for (uint32_t i = 0; i < ray_count; i++) {
         tl_ray ray = random_ray(&random, m, bounds, i);
         tl_ray_hit hit;
         bool found = cast_with_all(soup, &ray, &hit);
-        tl_ray_hit other = { 0 };
-        TEST_CHECK(tl_soup_cast_ray(cut, &ray, NULL, &other) == found);
-        TEST_CHECK(!found || memcmp(&hit, &other, sizeof hit) == 0);
-        TEST_CHECK(tl_soup_cast_ray(singles, &ray, NULL, &other) == found);
-        TEST_CHECK(!found || memcmp(&hit, &other, sizeof hit) == 0);
+        for (uint32_t k = 0; k < OTHERS; k++) {
+            tl_ray_hit other = { 0 };
+            TEST_CHECK(tl_soup_cast_ray(others[k], &ray, NULL, &other) == found);
+            TEST_CHECK(!found || memcmp(&hit, &other, sizeof hit) == 0);
+            TEST_CHECK(tl_soup_occluded(others[k], &ray, NULL) == found);
+        }
         double_answer truth = cast_in_double(m, &ray);
         if (truth.unsure) {
             seen->unsure++;
@@ -178,10 +182,11 @@ static void check_model(const model *m, uint32_t ray_count, uint64_t seed, regim
         seen->miss += !found;
         seen->axis_parallel += i % 4 == 2;
     }
-    seen->cut += tl_soup_get_stats(cut).reference_count > tl_soup_get_stats(soup).reference_count;
+    seen->cut += tl_soup_get_stats(others[0]).reference_count > tl_soup_get_stats(soup).reference_count;
     tl_blob_free(soup, NULL);
-    tl_blob_free(cut, NULL);
-    tl_blob_free(singles, NULL);
+    for (uint32_t k = 0; k < OTHERS; k++) {
+        tl_blob_free(others[k], NULL);
+    }
 }
 
 static void test_generated_models(void **state)

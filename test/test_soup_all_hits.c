@@ -78,11 +78,10 @@ static void check_against_each(const model *m, const tl_soup *soup, tl_vec3 orig
     }
 }
 
-static void check_model(model m, float split_budget, uint32_t *total)
+static void check_model(model m, model_storage storage, uint32_t *total)
 {
     test_random random = { m.triangle_count };
-    tl_soup_def def = tl_default_soup_def();
-    def.split_budget = split_budget;
+    tl_soup_def def = model_soup_def(storage);
     tl_soup *soup = model_soup(&m, &def);
     tl_aabb bounds = tl_soup_bounds(soup);
     for (uint32_t i = 0; i < 150; i++) {
@@ -106,13 +105,12 @@ static void test_against_each_triangle(void **state)
 {
     (void)state;
     uint32_t total = 0;
-    for (uint32_t splits = 0; splits < 2; splits++) {
-        float budget = splits == 0 ? 0.0f : 0.5f;
-        check_model(model_random(300, 5, 3, 2), budget, &total);
-        check_model(model_terrain(12, 2, vec(0, 0, 0), 3), budget, &total);
-        check_model(model_terrain(12, 2, vec(5000, 100, -5000), 4), budget, &total);
-        check_model(model_ball(3, 1e-3f, 0.2f, vec(0, 0, 0), 5), budget, &total);
-        check_model(model_random(100, 1e11f, 1e11f, 6), budget, &total);
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+        check_model(model_random(300, 5, 3, 2), storage, &total);
+        check_model(model_terrain(12, 2, vec(0, 0, 0), 3), storage, &total);
+        check_model(model_terrain(12, 2, vec(5000, 100, -5000), 4), storage, &total);
+        check_model(model_ball(3, 1e-3f, 0.2f, vec(0, 0, 0), 5), storage, &total);
+        check_model(model_random(100, 1e11f, 1e11f, 6), storage, &total);
     }
     print_message("%u hits\n", total);
     TEST_CHECK(total > 2000);
@@ -210,9 +208,8 @@ static void test_parity_of_ball(void **state)
         tl_vec3 center = place == 0 ? vec(0, 0, 0) : place == 1 ? vec(5000, -300, 2500) : vec(1, 2, 3);
         float radius = place == 2 ? 0.1f : 3.0f;
         model m = model_ball(4, radius, 0.05f, center, 3);
-        for (uint32_t splits = 0; splits < 2; splits++) {
-            tl_soup_def def = tl_default_soup_def();
-            def.split_budget = splits ? 0.5f : 0.0f;
+        for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+            tl_soup_def def = model_soup_def(storage);
             tl_soup *soup = model_soup(&m, &def);
             parity p = { 0 };
             for (uint32_t i = 0; i < 3 * m.triangle_count; i += 2) {

@@ -49,6 +49,10 @@ static void test_bad_input_is_named(void **state)
         TEST_RESULT(build(&view, &def, &report), TL_ERR_ARGUMENT);
         TEST_CHECK(strcmp(report.base.element, "split_budget") == 0);
     }
+    def = tl_default_soup_def();
+    def.partition = (tl_soup_partition)2;
+    TEST_RESULT(build(&view, &def, &report), TL_ERR_ARGUMENT);
+    TEST_CHECK(strcmp(report.base.element, "partition") == 0);
     model_free(&m);
 }
 
@@ -90,22 +94,24 @@ static void test_memory_fails_anywhere(void **state)
     materials[3] = 9;
     tl_mesh_view view = model_view(&m);
     view.materials = materials;
-    tl_soup_def def = tl_default_soup_def();
-    uint32_t failures = 0;
-    for (uint64_t k = 1;; k++) {
-        test_allocator allocator;
-        test_allocator_init(&allocator, k);
-        def.host.allocator = &allocator.allocator;
-        tl_soup_report report;
-        tl_result result = build(&view, &def, &report);
-        TEST_CHECK(allocator.live_blocks == 0 && allocator.live_bytes == 0);
-        if (result == TL_OK) {
-            break;
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+        tl_soup_def def = model_soup_def(storage);
+        uint32_t failures = 0;
+        for (uint64_t k = 1;; k++) {
+            test_allocator allocator;
+            test_allocator_init(&allocator, k);
+            def.host.allocator = &allocator.allocator;
+            tl_soup_report report;
+            tl_result result = build(&view, &def, &report);
+            TEST_CHECK(allocator.live_blocks == 0 && allocator.live_bytes == 0);
+            if (result == TL_OK) {
+                break;
+            }
+            TEST_RESULT(result, TL_ERR_MEMORY);
+            failures++;
         }
-        TEST_RESULT(result, TL_ERR_MEMORY);
-        failures++;
+        TEST_CHECK(failures >= 4);
     }
-    TEST_CHECK(failures >= 4);
     free(materials);
     model_free(&m);
 }

@@ -43,12 +43,11 @@ static bool in_closed(tl_vec3 p, float low, float high)
 static void test_boxes(void **state)
 {
     (void)state;
-    for (uint32_t splits = 0; splits < 2; splits++) {
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
         model m = { 0 };
         add_box(&m, vec(0, 0, 0), vec(4, 4, 4));
         add_box(&m, vec(2, 2, 2), vec(6, 6, 6));
-        tl_soup_def def = tl_default_soup_def();
-        def.split_budget = splits ? 1.0f : 0.0f;
+        tl_soup_def def = model_soup_def(storage);
         tl_soup *soup = model_soup(&m, &def);
         TEST_RESULT(tl_soup_check_closed(soup, NULL, NULL), TL_OK);
         uint32_t windings[3] = { 0, 0, 0 }, on_surface = 0;

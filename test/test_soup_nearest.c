@@ -110,7 +110,7 @@ typedef struct regimes {
     uint32_t found, none, face, edge, corner, behind, filtered;
 } regimes;
 
-static void check_model(model m, float split_budget, uint32_t count, regimes *r)
+static void check_model(model m, model_storage storage, uint32_t count, regimes *r)
 {
     test_random random = { m.triangle_count };
     uint16_t *materials = malloc(m.triangle_count * sizeof *materials);
@@ -120,8 +120,7 @@ static void check_model(model m, float split_budget, uint32_t count, regimes *r)
     }
     tl_mesh_view view = model_view(&m);
     view.materials = materials;
-    tl_soup_def def = tl_default_soup_def();
-    def.split_budget = split_budget;
+    tl_soup_def def = model_soup_def(storage);
     tl_soup *soup = NULL;
     TEST_RESULT(tl_soup_build(&view, &def, &soup, NULL), TL_OK);
     tl_aabb bounds = tl_soup_bounds(soup);
@@ -169,13 +168,12 @@ static void test_against_all_triangles(void **state)
     (void)state;
     regimes r = { 0 };
     uint32_t n = query_count / 10;
-    for (uint32_t splits = 0; splits < 2; splits++) {
-        float budget = splits == 0 ? 0.0f : 0.5f;
-        check_model(model_terrain(24, 2, vec(0, 0, 0), 1), budget, n, &r);
-        check_model(model_terrain(24, 2, vec(5000, 100, -5000), 2), budget, n, &r);
-        check_model(model_random(1000, 5, 1, 3), budget, n, &r);
-        check_model(model_ball(4, 1, 0.1f, vec(0, 0, 0), 4), budget, n, &r);
-        check_model(model_random(500, 1e-15f, 1e-16f, 5), budget, n, &r);
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+        check_model(model_terrain(24, 2, vec(0, 0, 0), 1), storage, n, &r);
+        check_model(model_terrain(24, 2, vec(5000, 100, -5000), 2), storage, n, &r);
+        check_model(model_random(1000, 5, 1, 3), storage, n, &r);
+        check_model(model_ball(4, 1, 0.1f, vec(0, 0, 0), 4), storage, n, &r);
+        check_model(model_random(500, 1e-15f, 1e-16f, 5), storage, n, &r);
     }
     print_message("found %u, none %u; face %u, edge %u, corner %u; behind %u, filtered %u\n", r.found, r.none, r.face,
                   r.edge, r.corner, r.behind, r.filtered);
@@ -190,7 +188,7 @@ static void test_levels(void **state)
     for (uint32_t i = 0; i < sizeof model_levels / sizeof model_levels[0]; i++) {
         model m = model_load(model_levels[i]);
         if (m.triangle_count > 0) {
-            check_model(m, 0.0f, query_count / 50, &r);
+            check_model(m, MODEL_BOXES, query_count / 50, &r);
         }
         print_message("%s: found %u\n", model_levels[i], r.found);
     }

@@ -137,11 +137,10 @@ static void check_query(const model *m, const tl_soup *soup, const test_shape *s
     }
 }
 
-static void check_model(model m, float split_budget, uint32_t count, regimes *r)
+static void check_model(model m, model_storage storage, uint32_t count, regimes *r)
 {
     test_random random = { m.triangle_count + 1 };
-    tl_soup_def def = tl_default_soup_def();
-    def.split_budget = split_budget;
+    tl_soup_def def = model_soup_def(storage);
     tl_soup *soup = model_soup(&m, &def);
     tl_aabb bounds = tl_soup_bounds(soup);
     test_body hull;
@@ -167,12 +166,11 @@ static void test_against_all_triangles(void **state)
     (void)state;
     regimes r = { 0 };
     uint32_t n = query_count / 8;
-    for (uint32_t splits = 0; splits < 2; splits++) {
-        float budget = splits == 0 ? 0.0f : 0.5f;
-        check_model(model_terrain(20, 2, vec(0, 0, 0), 1), budget, n, &r);
-        check_model(model_terrain(20, 2, vec(5000, 100, -5000), 2), budget, n, &r);
-        check_model(model_random(400, 5, 1, 3), budget, n, &r);
-        check_model(model_ball(4, 3, 0.1f, vec(0, 0, 0), 4), budget, n, &r);
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+        check_model(model_terrain(20, 2, vec(0, 0, 0), 1), storage, n, &r);
+        check_model(model_terrain(20, 2, vec(5000, 100, -5000), 2), storage, n, &r);
+        check_model(model_random(400, 5, 1, 3), storage, n, &r);
+        check_model(model_ball(4, 3, 0.1f, vec(0, 0, 0), 4), storage, n, &r);
     }
     for (uint32_t k = 0; k < KIND_COUNT; k++) {
         print_message("%s: %u touch, %u do not\n", kind_names[k], r.hit[k], r.miss[k]);

@@ -75,7 +75,7 @@ static bool surely_touches(const model *m, uint32_t triangle, tl_aabb box, test_
     return false;
 }
 
-static uint32_t check_box_search(const model *m, const tl_soup *soup, bool splits, uint64_t seed)
+static uint32_t check_box_search(const model *m, const tl_soup *soup, bool has_copies, uint64_t seed)
 {
     test_random random = { seed };
     tl_aabb bounds = tl_soup_bounds(soup);
@@ -99,7 +99,7 @@ static uint32_t check_box_search(const model *m, const tl_soup *soup, bool split
                 own = tl_aabb_add_point(own, m->vertices[m->indices[3 * (size_t)k + c]]);
             }
             TEST_CHECK(tl_aabb_overlaps(own, box) || !set.seen[k]);
-            TEST_CHECK(splits || tl_aabb_overlaps(own, box) == (set.seen[k] != 0));
+            TEST_CHECK(has_copies || tl_aabb_overlaps(own, box) == (set.seen[k] != 0));
             if (surely_touches(m, k, box, &random)) {
                 TEST_CHECK(set.seen[k]);
                 touching++;
@@ -169,14 +169,13 @@ static void check_tree_boxes(const tl_soup *soup)
     TEST_CHECK(!tl_soup_tree_boxes(soup, UINT32_MAX, visit_box, &ended) && ended.count == 2);
 }
 
-static uint32_t check_all(model m, float split_budget)
+static uint32_t check_all(model m, model_storage storage)
 {
-    tl_soup_def def = tl_default_soup_def();
-    def.split_budget = split_budget;
+    tl_soup_def def = model_soup_def(storage);
     tl_soup *soup = model_soup(&m, &def);
     TEST_RESULT(tl_soup_check(soup, tl_soup_size(soup)), TL_OK);
     check_enumeration(&m, soup);
-    uint32_t touching = check_box_search(&m, soup, split_budget > 0, 1);
+    uint32_t touching = check_box_search(&m, soup, storage != MODEL_BOXES, 1);
     check_tree_boxes(soup);
     tl_blob_free(soup, NULL);
     model_free(&m);
@@ -187,15 +186,14 @@ static void test_models(void **state)
 {
     (void)state;
     uint32_t touching = 0;
-    for (uint32_t splits = 0; splits < 2; splits++) {
-        float budget = splits == 0 ? 0.0f : 0.5f;
-        touching += check_all(model_random(1, 5, 1, 1), budget);
-        touching += check_all(model_random(300, 5, 2, 2), budget);
-        touching += check_all(model_terrain(16, 2, tl_vec3_make(0, 0, 0), 3), budget);
-        touching += check_all(model_terrain(16, 2, tl_vec3_make(5000, 100, -5000), 4), budget);
-        touching += check_all(model_ball(3, 1e-6f, 0.1f, tl_vec3_make(0, 0, 0), 5), budget);
-        touching += check_all(model_random(100, 1e11f, 1e11f, 6), budget);
-        touching += check_all(model_random(100, 1e-36f, 1e-37f, 7), budget);
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+        touching += check_all(model_random(1, 5, 1, 1), storage);
+        touching += check_all(model_random(300, 5, 2, 2), storage);
+        touching += check_all(model_terrain(16, 2, tl_vec3_make(0, 0, 0), 3), storage);
+        touching += check_all(model_terrain(16, 2, tl_vec3_make(5000, 100, -5000), 4), storage);
+        touching += check_all(model_ball(3, 1e-6f, 0.1f, tl_vec3_make(0, 0, 0), 5), storage);
+        touching += check_all(model_random(100, 1e11f, 1e11f, 6), storage);
+        touching += check_all(model_random(100, 1e-36f, 1e-37f, 7), storage);
     }
     TEST_CHECK(touching > 1000);
 }

@@ -43,10 +43,9 @@ static uint32_t compare(const tl_soup *moved, const tl_soup *built, uint64_t see
     return hits;
 }
 
-static void check_model(model m, float split_budget, uint32_t *hits)
+static void check_model(model m, model_storage storage, uint32_t *hits)
 {
-    tl_soup_def def = tl_default_soup_def();
-    def.split_budget = split_budget;
+    tl_soup_def def = model_soup_def(storage);
     tl_soup *moved = model_soup(&m, &def);
     for (uint32_t step = 0; step < 3; step++) {
         move_all(&m, 0.5f * (float)step + 0.1f, 0.4f);
@@ -65,12 +64,11 @@ static void test_like_built_anew(void **state)
 {
     (void)state;
     uint32_t hits = 0;
-    for (uint32_t splits = 0; splits < 2; splits++) {
-        float budget = splits == 0 ? 0.0f : 0.5f;
-        check_model(model_random(301, 5, 2, 2), budget, &hits);
-        check_model(model_terrain(16, 2, vec(0, 0, 0), 3), budget, &hits);
-        check_model(model_terrain(16, 2, vec(5000, 100, -5000), 4), budget, &hits);
-        check_model(model_ball(4, 3, 0.1f, vec(0, 0, 0), 5), budget, &hits);
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+        check_model(model_random(301, 5, 2, 2), storage, &hits);
+        check_model(model_terrain(16, 2, vec(0, 0, 0), 3), storage, &hits);
+        check_model(model_terrain(16, 2, vec(5000, 100, -5000), 4), storage, &hits);
+        check_model(model_ball(4, 3, 0.1f, vec(0, 0, 0), 5), storage, &hits);
     }
     TEST_CHECK(hits > 20000);
 }

@@ -202,11 +202,10 @@ static void check_cast(const model *m, const tl_soup *soup, moving *shape, tl_tr
     TEST_CHECK(oracle_distance(&point, &triangle) <= doubt);
 }
 
-static void check_model(model m, float split_budget, uint32_t count, float length, regimes *r)
+static void check_model(model m, model_storage storage, uint32_t count, float length, regimes *r)
 {
     test_random random = { m.triangle_count + 7 };
-    tl_soup_def def = tl_default_soup_def();
-    def.split_budget = split_budget;
+    tl_soup_def def = model_soup_def(storage);
     tl_soup *soup = model_soup(&m, &def);
     tl_aabb bounds = tl_soup_bounds(soup);
     test_body hull;
@@ -236,11 +235,10 @@ static void test_against_steps(void **state)
     (void)state;
     regimes r = { 0 };
     uint32_t n = cast_count / 6;
-    for (uint32_t splits = 0; splits < 2; splits++) {
-        float budget = splits == 0 ? 0.0f : 0.5f;
-        check_model(model_terrain(12, 2, vec(0, 0, 0), 1), budget, n, 6, &r);
-        check_model(model_random(60, 4, 1, 3), budget, n, 6, &r);
-        check_model(model_ball(3, 3, 0.1f, vec(0, 0, 0), 4), budget, n, 6, &r);
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+        check_model(model_terrain(12, 2, vec(0, 0, 0), 1), storage, n, 6, &r);
+        check_model(model_random(60, 4, 1, 3), storage, n, 6, &r);
+        check_model(model_ball(3, 3, 0.1f, vec(0, 0, 0), 4), storage, n, 6, &r);
     }
     for (uint32_t k = 0; k < KIND_COUNT; k++) {
         print_message("%s: %u hit, %u free\n", kind_names[k], r.hit[k], r.free_way[k]);
@@ -255,8 +253,8 @@ static void test_large_level(void **state)
 {
     (void)state;
     regimes r = { 0 };
-    check_model(model_terrain(158, 2, vec(0, 0, 0), 1), 0, cast_count / 20, 10, &r);
-    check_model(model_terrain(158, 2, vec(5000, 0, -5000), 1), 0, cast_count / 40, 10, &r);
+    check_model(model_terrain(158, 2, vec(0, 0, 0), 1), MODEL_BOXES, cast_count / 20, 10, &r);
+    check_model(model_terrain(158, 2, vec(5000, 0, -5000), 1), MODEL_BOXES, cast_count / 40, 10, &r);
     uint32_t hits = 0;
     for (uint32_t k = 0; k < KIND_COUNT; k++) {
         hits += r.hit[k];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// tree_build.c with tree_split.c: every pair is in a leaf, every box holds what is below it, and the tree pays.
+// tree_build.c with tree_split.c, and kd_build.c: every pair is in a leaf, every box holds what is below it, and the
+// tree pays.
 
 #include "soup/soup_build.h"
 #include "soup/soup_layout.h"
@@ -12,12 +13,24 @@ typedef struct walk {
     const tl_tree *tree;
     uint32_t *seen; // references to each pair
     uint32_t references, leaves, depth;
-    double cost; // surface of all nodes' boxes over the root's, leaves only
+    uint32_t inner, overlapping; // nodes, and those whose children share more than a plane
+    double cost;                 // surface of all nodes' boxes over the root's, leaves only
 } walk;
 
 static bool holds(tl_aabb outer, tl_aabb inner)
 {
     return tl_aabb_contains(outer, inner.min) && tl_aabb_contains(outer, inner.max);
+}
+
+// Cuts are rounded outward, so even boxes that a plane parts share a sliver.
+static bool share_space(tl_aabb a, tl_aabb b)
+{
+    tl_aabb both = tl_aabb_intersection(a, b);
+    if (tl_aabb_is_empty(both)) {
+        return false;
+    }
+    tl_vec3 size = tl_aabb_size(both), whole = tl_aabb_size(tl_aabb_union(a, b));
+    return size.x > 1e-5f * whole.x && size.y > 1e-5f * whole.y && size.z > 1e-5f * whole.z;
 }
 
 static void check_node(walk *w, uint32_t index, uint32_t depth)
@@ -27,6 +40,8 @@ static void check_node(walk *w, uint32_t index, uint32_t depth)
     if (node->count == 0) {
         TEST_CHECK(holds(node->box, w->tree->nodes[node->left].box));
         TEST_CHECK(holds(node->box, w->tree->nodes[node->right].box));
+        w->inner++;
+        w->overlapping += share_space(w->tree->nodes[node->left].box, w->tree->nodes[node->right].box);
         check_node(w, node->left, depth + 1);
         check_node(w, node->right, depth + 1);
         return;
@@ -43,7 +58,7 @@ static void check_node(walk *w, uint32_t index, uint32_t depth)
     w->cost += (double)tl_aabb_half_area(node->box);
 }
 
-static walk check_tree(const model *m, float split_budget)
+static walk check_tree(const model *m, tl_soup_partition partition, float split_budget)
 {
     tl_mesh_view view = model_view(m);
     tl_mesh_def mesh_def = tl_default_mesh_def();
@@ -57,15 +72,16 @@ static walk check_tree(const model *m, float split_budget)
     TEST_RESULT(tl_pair_triangles(&mesh, true, &arena, pairs, &count), TL_OK);
     tl_soup_def def = tl_default_soup_def();
     def.split_budget = split_budget;
+    bool kd = partition == TL_SOUP_KD;
     tl_tree tree;
-    TEST_RESULT(tl_tree_build(&mesh, pairs, count, &def, &arena, &tree), TL_OK);
-    walk w = { &mesh, pairs, &tree, TL_PUSH_ZERO(&arena, uint32_t, count), 0, 0, 0, 0 };
+    TEST_RESULT((kd ? tl_kd_build : tl_tree_build)(&mesh, pairs, count, &def, &arena, &tree), TL_OK);
+    walk w = { &mesh, pairs, &tree, TL_PUSH_ZERO(&arena, uint32_t, count), 0, 0, 0, 0, 0, 0 };
     check_node(&w, tree.root, 1);
     for (uint32_t i = 0; i < count; i++) {
-        TEST_CHECK(w.seen[i] >= 1 && (split_budget > 0 || w.seen[i] == 1));
+        TEST_CHECK(w.seen[i] >= 1 && (kd || split_budget > 0 || w.seen[i] == 1));
     }
     TEST_CHECK(w.references == tree.ref_count && w.depth <= TL_SOUP_MAX_DEPTH);
-    TEST_CHECK(w.references <= (uint32_t)((float)count * (1 + split_budget)) + 1);
+    TEST_CHECK(kd || w.references <= (uint32_t)((float)count * (1 + split_budget)) + 1);
     w.cost /= (double)tl_aabb_half_area(tree.nodes[tree.root].box);
     tl_arena_free(&arena);
     tl_mesh_free(&mesh, NULL);
@@ -77,14 +93,15 @@ static void test_shapes(void **state)
     (void)state;
     for (uint32_t count = 1; count < 60; count++) {
         model m = model_random(count, 5, 1, count);
-        check_tree(&m, 0);
-        check_tree(&m, 0.5f);
+        check_tree(&m, TL_SOUP_BOXES, 0);
+        check_tree(&m, TL_SOUP_BOXES, 0.5f);
+        check_tree(&m, TL_SOUP_KD, 0);
         model_free(&m);
     }
     model m = model_random(3000, 10, 3, 1);
-    walk plain = check_tree(&m, 0);
+    walk plain = check_tree(&m, TL_SOUP_BOXES, 0);
     TEST_CHECK(plain.leaves > 3000 / 4 && plain.depth < 40);
-    check_tree(&m, 0.3f);
+    check_tree(&m, TL_SOUP_BOXES, 0.3f);
     model_free(&m);
 }
 
@@ -99,7 +116,8 @@ static void test_coinciding_triangles(void **state)
         model_vertex(&m, 0, 1, 0);
         model_triangle(&m, a, a + 1, a + 2);
     }
-    TEST_CHECK(check_tree(&m, 0.2f).depth < 20);
+    TEST_CHECK(check_tree(&m, TL_SOUP_BOXES, 0.2f).depth < 20);
+    TEST_CHECK(check_tree(&m, TL_SOUP_KD, 0).depth < 20);
     model_free(&m);
 }
 
@@ -115,8 +133,10 @@ static void test_depth_is_bounded(void **state)
         model_vertex(&m, size, size, size * 0.5f);
         model_triangle(&m, a, a + 1, a + 2);
     }
-    walk w = check_tree(&m, 0.2f);
+    walk w = check_tree(&m, TL_SOUP_BOXES, 0.2f);
     TEST_CHECK(w.depth > 30);
+    w = check_tree(&m, TL_SOUP_KD, 0);
+    TEST_CHECK(w.depth < 40);
     model_free(&m);
 }
 
@@ -124,20 +144,33 @@ static void test_tree_pays(void **state)
 {
     (void)state;
     model m = model_terrain(60, 3, tl_vec3_make(0, 0, 0), 1);
-    walk w = check_tree(&m, 0);
+    walk w = check_tree(&m, TL_SOUP_BOXES, 0);
     print_message("terrain: %u leaves, depth %u, leaf surface %.2f of the root's\n", w.leaves, w.depth, w.cost);
     // One leaf of all pairs would cost 1 a block: over a thousand blocks.
     TEST_CHECK(w.cost < 40);
     model_free(&m);
 }
 
+// Large triangles, all across each other: boxes overlap, cells do not.
+static void test_cells_part_space(void **state)
+{
+    (void)state;
+    model m = model_random(3000, 10, 3, 1);
+    walk boxes = check_tree(&m, TL_SOUP_BOXES, 0), cells = check_tree(&m, TL_SOUP_KD, 0);
+    print_message("children share space in %u of %u nodes, in cells in %u of %u; %u and %u references\n",
+                  boxes.overlapping, boxes.inner, cells.overlapping, cells.inner, boxes.references, cells.references);
+    TEST_CHECK(boxes.overlapping > boxes.inner / 2 && cells.references > boxes.references);
+    // Only where more pairs meet than a leaf holds are they shared out by count.
+    TEST_CHECK(cells.overlapping < cells.inner / 2);
+    model_free(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_shapes),
-        cmocka_unit_test(test_coinciding_triangles),
-        cmocka_unit_test(test_depth_is_bounded),
-        cmocka_unit_test(test_tree_pays),
+        cmocka_unit_test(test_shapes),           cmocka_unit_test(test_coinciding_triangles),
+        cmocka_unit_test(test_depth_is_bounded), cmocka_unit_test(test_tree_pays),
+        cmocka_unit_test(test_cells_part_space),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -46,12 +46,21 @@ typedef struct tl_soup tl_soup;
 /// Most triangles of one view: their index shares a 32-bit word with four bits of the pair.
 #define TL_MAX_SOUP_TRIANGLES 0x0fffffffu
 
+/// How triangles are parted among the leaves of a soup. Answers are the same, bit for bit.
+typedef enum tl_soup_partition {
+    TL_SOUP_BOXES, ///< a tree of boxes: each pair lies in one leaf (but for split_budget). The faster one.
+    /// A k-d tree: planes part space, and what they cut is stored on both sides. Two to four times the memory. Kept
+    /// because the text stands on it, so that its claims can be measured.
+    TL_SOUP_KD
+} tl_soup_partition;
+
 /// How a soup is built.
 typedef struct tl_soup_def {
     bool pair_triangles; ///< false keeps every triangle single, to measure what pairs are worth
+    tl_soup_partition partition;
     /// [0, 1]: share of extra references that spatial splits may add. A pair that straddles a split plane is then
     /// stored on both sides, so that large triangles do not make the boxes around small ones fat. It costs build time
-    /// and memory, and pays only where sizes differ much. 0: none.
+    /// and memory, and pays only where sizes differ much. 0: none. TL_SOUP_KD does not look at it.
     float split_budget;
     tl_host host;
 } tl_soup_def;
@@ -72,7 +81,7 @@ TL_API tl_soup_def tl_default_soup_def(void);
 ///
 /// Nothing is required of the triangles: they may intersect, repeat, be loose, or share an edge by the dozen. Corners
 /// at equal positions count as shared, so the view need not be welded. The bytes depend on nothing but the view and the
-/// def's first two fields. `def` may be NULL: defaults. On failure `*soup_out` is NULL. `report_out` may be NULL.
+/// def's fields before `host`. `def` may be NULL: defaults. On failure `*soup_out` is NULL. `report_out` may be NULL.
 /// Free the soup with `tl_blob_free(soup, allocator)`.
 /// Errors, each with its element in `report_out->base`: TL_ERR_EMPTY (no triangles), TL_ERR_INDEX (triangle),
 /// TL_ERR_NOT_FINITE (vertex), TL_ERR_RANGE (vertex beyond TL_MAX_COORDINATE), TL_ERR_DEGENERATE (no triangle has

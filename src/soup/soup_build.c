@@ -12,7 +12,7 @@
 
 tl_soup_def tl_default_soup_def(void)
 {
-    tl_soup_def def = { true, 0.0f, { NULL, NULL, NULL } };
+    tl_soup_def def = { true, TL_SOUP_BOXES, 0.0f, { NULL, NULL, NULL } };
     return def;
 }
 
@@ -20,6 +20,9 @@ static tl_result check_input(const tl_mesh_view *view, const tl_soup_def *def, t
 {
     if (!(def->split_budget >= 0.0f && def->split_budget <= 1.0f)) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "split_budget", 0, "give a share from 0 to 1");
+    }
+    if (def->partition != TL_SOUP_BOXES && def->partition != TL_SOUP_KD) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "partition", 0, "give TL_SOUP_BOXES or TL_SOUP_KD");
     }
     if (view->triangle_count > TL_MAX_SOUP_TRIANGLES) {
         return tl_report_fail(report, TL_ERR_LIMIT, "triangle", TL_MAX_SOUP_TRIANGLES,
@@ -62,7 +65,8 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh *mesh, const tl_s
     report->base.stage = "build tree";
     TL_TRY(tl_progress_update(host, "build tree", 0, 1));
     tl_tree tree;
-    TL_TRY(tl_tree_build(mesh, pairs, pair_count, def, arena, &tree));
+    TL_TRY(def->partition == TL_SOUP_KD ? tl_kd_build(mesh, pairs, pair_count, def, arena, &tree)
+                                        : tl_tree_build(mesh, pairs, pair_count, def, arena, &tree));
     TL_TRY(tl_progress_update(host, "build tree", 1, 1));
 
     report->base.stage = "bake soup";

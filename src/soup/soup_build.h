@@ -30,6 +30,17 @@ typedef struct tl_tree_ref {
     uint32_t unused;
 } tl_tree_ref;
 
+/// A whole pair.
+static inline tl_tree_ref tl_tree_reference(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair)
+{
+    tl_aabb box = tl_aabb_empty();
+    for (uint32_t k = 0; k < 4; k++) {
+        box = tl_aabb_add_point(box, mesh->vertices[pairs[pair].corner[k]]);
+    }
+    tl_tree_ref ref = { box.min, pair, box.max, 0 };
+    return ref;
+}
+
 /// A binary tree node. Inner: children; leaf: references [first, first + count).
 typedef struct tl_tree_node {
     tl_aabb box;
@@ -49,6 +60,11 @@ typedef struct tl_tree {
 /// Builds the binary tree that the wide one is cut from. Leaves hold 1 .. TL_SOUP_LEAF_PAIRS references.
 tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
                         tl_arena *arena, tl_tree *tree_out);
+
+/// The same tree by planes that part space (TL_SOUP_KD): leaves may share pairs, and no two nodes' boxes overlap but
+/// where pairs lie in too many planes to be parted.
+tl_result tl_kd_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
+                      tl_arena *arena, tl_tree *tree_out);
 
 /// Cuts the binary tree into wide nodes and writes the blob.
 tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count,

@@ -154,12 +154,8 @@ static tl_tree_range make_references(const tl_mesh *mesh, const tl_pair *pairs, 
 {
     tl_tree_range range = { tl_aabb_empty(), 0, pair_count, pair_count, 0 };
     for (uint32_t i = 0; i < pair_count; i++) {
-        tl_aabb box = tl_aabb_empty();
-        for (uint32_t k = 0; k < 4; k++) {
-            box = tl_aabb_add_point(box, mesh->vertices[pairs[i].corner[k]]);
-        }
-        tl_tree_ref ref = { box.min, i, box.max, 0 };
-        refs[i] = ref;
+        refs[i] = tl_tree_reference(mesh, pairs, i);
+        tl_aabb box = { refs[i].min, refs[i].max };
         range.box = tl_aabb_union(range.box, box);
     }
     return range;

@@ -43,6 +43,11 @@ tl_tree_split tl_tree_find_split(const tl_tree_splitter *splitter, const tl_tree
 void tl_tree_improve_by_spatial_split(const tl_tree_splitter *splitter, const tl_tree_range *range,
                                       tl_tree_split *split);
 
+/// Boxes of the two parts of a reference that a plane cuts, each whole and within the reference's own box. A part may
+/// turn out to be empty. Of the splitter mesh and pairs are read.
+void tl_tree_cut_reference(const tl_tree_splitter *splitter, const tl_tree_ref *ref, uint32_t axis, float position,
+                           tl_aabb *left_out, tl_aabb *right_out);
+
 /// Cuts and sorts the range's references: left ones, then right ones. False, and nothing changed, when the plane does
 /// not part them or there is no room.
 bool tl_tree_apply_spatial_split(const tl_tree_splitter *splitter, const tl_tree_range *range,
@@ -56,6 +61,17 @@ void tl_tree_apply_split(const tl_tree_splitter *splitter, const tl_tree_range *
 static inline float tl_component(tl_vec3 v, uint32_t axis)
 {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+
+static inline void tl_set_component(tl_vec3 *v, uint32_t axis, float value)
+{
+    if (axis == 0) {
+        v->x = value;
+    } else if (axis == 1) {
+        v->y = value;
+    } else {
+        v->z = value;
+    }
 }
 
 /// What a side of so many references costs to test.

@@ -26,17 +26,6 @@ typedef struct spatial_bins {
     uint32_t end[SPATIAL_BINS];   // references whose last bin this is
 } spatial_bins;
 
-static inline void set_component(tl_vec3 *v, uint32_t axis, float value)
-{
-    if (axis == 0) {
-        v->x = value;
-    } else if (axis == 1) {
-        v->y = value;
-    } else {
-        v->z = value;
-    }
-}
-
 static inline float round_down(double value)
 {
     float f = (float)value;
@@ -62,9 +51,8 @@ static tl_aabb crossing_box(tl_vec3 a, tl_vec3 b, uint32_t axis, float position)
     return box;
 }
 
-// Boxes of the two parts of a reference. A part may turn out to be empty.
-static void cut_reference(const tl_tree_splitter *splitter, const tl_tree_ref *ref, uint32_t axis, float position,
-                          tl_aabb *left_out, tl_aabb *right_out)
+void tl_tree_cut_reference(const tl_tree_splitter *splitter, const tl_tree_ref *ref, uint32_t axis, float position,
+                           tl_aabb *left_out, tl_aabb *right_out)
 {
     // The pair's edges: around a, b, c, d, and the diagonal a, c. A single has d == a, whose edges repeat.
     static const uint8_t edges[5][2] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 2 } };
@@ -91,8 +79,8 @@ static void cut_reference(const tl_tree_splitter *splitter, const tl_tree_ref *r
         }
     }
     tl_aabb whole = { ref->min, ref->max };
-    set_component(&left.max, axis, tl_minf(tl_component(left.max, axis), position));
-    set_component(&right.min, axis, tl_maxf(tl_component(right.min, axis), position));
+    tl_set_component(&left.max, axis, tl_minf(tl_component(left.max, axis), position));
+    tl_set_component(&right.min, axis, tl_maxf(tl_component(right.min, axis), position));
     *left_out = tl_aabb_intersection(left, whole);
     *right_out = tl_aabb_intersection(right, whole);
 }
@@ -124,7 +112,7 @@ static void fill_bins(const tl_tree_splitter *splitter, const tl_tree_range *ran
         bins->end[last]++;
         for (uint32_t bin = first; bin < last; bin++) {
             tl_aabb left, right;
-            cut_reference(splitter, &rest, axis, plane_at(base, width, bin + 1), &left, &right);
+            tl_tree_cut_reference(splitter, &rest, axis, plane_at(base, width, bin + 1), &left, &right);
             bins->box[bin] = tl_aabb_union(bins->box[bin], left);
             rest.min = right.min;
             rest.max = right.max;
@@ -201,7 +189,7 @@ static uint32_t parts_of(const tl_tree_splitter *splitter, const tl_tree_ref *re
     if (tl_component(ref->min, split->axis) >= split->position) {
         return 2;
     }
-    cut_reference(splitter, ref, split->axis, split->position, left, right);
+    tl_tree_cut_reference(splitter, ref, split->axis, split->position, left, right);
     return (tl_aabb_is_empty(*left) ? 0u : 1u) | (tl_aabb_is_empty(*right) ? 0u : 2u);
 }
 
