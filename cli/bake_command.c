@@ -156,6 +156,7 @@ static void print_summary(const bake_result *r)
     if (r->settings->nav && bake->walkable) {
         printf("navmesh  %u polygons, %.1f m2, %u of %u tiles\n", bake->nav_report.polygon_count, bake->nav_area,
                bake->tiles.tile_count, bake->tiles.tiles_x * bake->tiles.tiles_z);
+        tl_area_sums_print(&bake->areas);
     } else if (r->settings->nav) {
         printf("navmesh  empty: nothing is walkable for this agent; check --scale and --up, or the agent's size\n");
     }
@@ -216,6 +217,7 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
                                       "area", tl_json_double(bake->nav_area), "regions", (json_int_t)nav->region_count,
                                       "repaired_contours", (json_int_t)nav->repaired_contours, "bytes",
                                       (json_int_t)tile_bytes(bake)));
+        json_object_set_new(json_object_get(object, "navmesh"), "areas", tl_area_sums_json(&bake->areas));
     }
     return object;
 }
@@ -302,6 +304,7 @@ const tl_command tl_bake_command = {
     "same level and options give the same bytes on every machine. A level of which nothing is walkable\n"
     "is baked without a navmesh, and the command says so.",
     "talus bake courtyard.obj -o courtyard.talus\n"
+    "talus bake park.obj -o park.talus --area 'water*=0' --area grass=5 --areas doors.txt\n"
     "talus bake city.glb -o city.talus --tile-size 64 --agent-radius 0.4 --threads 8\n"
     "talus bake map.fbx -o map.talus --up z --scale 0.01 --no-nav --json",
     run,

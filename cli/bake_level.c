@@ -71,6 +71,16 @@ void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS])
           "how far heights may be off, in cell heights", NULL, 0, 1e4f, 0, 0 },
         { "bounds", 0, TL_OPTION_TEXT, &settings->bounds, "X,Y,Z,X,Y,Z",
           "metres: lowest and highest corner of what is built (the level's own)", NULL, 0, 0, 0, 0 },
+        { "area", 0, TL_OPTION_TEXTS, &settings->areas.words, "NAME=ID",
+          "triangles of the material NAME (* and ? stand for others) get area ID, 0 to 255; 0 is not walkable, 63 is "
+          "what "
+          "all have else; may be given again",
+          NULL, 0, 0, 0, 0 },
+        { "areas", 0, TL_OPTION_TEXT, &settings->areas.path, "FILE",
+          "lines 'material ID NAME', 'box ID x y z x y z', 'cylinder ID x y z radius height', 'prism ID low high x z x "
+          "z "
+          "x z ...'",
+          NULL, 0, 0, 0, 0 },
         { "no-filter-low-hanging-obstacles", 0, TL_OPTION_UNFLAG, &d->filter_low_hanging_obstacles, NULL,
           "kerbs and steps stay obstacles", NULL, 0, 0, 0, 0 },
         { "no-filter-ledge-spans", 0, TL_OPTION_UNFLAG, &d->filter_ledge_spans, NULL, "ledges stay walkable", NULL, 0,
@@ -148,13 +158,18 @@ static bool bake_hull(tl_cli *cli, const tl_level *level, tl_bake *bake, tl_exit
 static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
                      tl_exit *exit_out)
 {
-    tl_nav_input input;
-    memset(&input, 0, sizeof(input));
-    input.mesh = tl_mesh_as_view(&level->mesh);
+    tl_level_areas areas;
+    if (!tl_level_areas_make(cli, level, &settings->areas, &areas, exit_out)) {
+        tl_level_areas_free(&areas);
+        return false;
+    }
+    const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
+    const tl_nav_input input = tl_level_areas_input(&areas, &mesh);
     bake->nav_def = tl_bake_nav_def(settings);
     bake->nav_def.host = cli->host;
     bake->nav_bounds = tl_aabb_is_empty(bake->nav_def.bounds) ? level->mesh.bounds : bake->nav_def.bounds;
     tl_result result = tl_nav_build(&bake->nav_def, &input, &bake->tiles, &bake->nav_report);
+    tl_level_areas_free(&areas);
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(cli, level->path, result, &bake->nav_report.base);
         return false;
@@ -162,6 +177,7 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
     bake->walkable = bake->tiles.tile_count > 0;
     for (uint32_t i = 0; i < bake->tiles.tile_count; ++i) {
         bake->nav_area += bake->tiles.tiles[i]->area;
+        tl_area_sums_add(&bake->areas, bake->tiles.tiles[i]);
     }
     return true;
 }

@@ -5,7 +5,8 @@
 #ifndef TALUS_CLI_BAKE_LEVEL_H
 #define TALUS_CLI_BAKE_LEVEL_H
 
-#include "cli/load_level.h"
+#include "cli/area_sums.h"
+#include "cli/level_areas.h"
 
 #include <talus/hull.h>
 #include <talus/nav_build.h>
@@ -20,16 +21,17 @@ typedef struct tl_bake_settings {
     int partition;      ///< a tl_nav_partition
     int polygon_method; ///< a tl_partition_method
     const char *bounds; ///< "x,y,z,x,y,z", or NULL: the level's own
+    tl_area_settings areas;
 } tl_bake_settings;
 
-enum { TL_NAV_OPTIONS = 21, TL_PART_OPTIONS = 4 };
+enum { TL_NAV_OPTIONS = 23, TL_PART_OPTIONS = 4 };
 
 /// Soup and navmesh, no hull; Recast's defaults.
 tl_bake_settings tl_default_bake_settings(void);
-/// Options for the navmesh's def, named as its fields.
 /// The def with what the options chose.
 tl_nav_def tl_bake_nav_def(const tl_bake_settings *settings);
 
+/// Options for the navmesh's def, named as its fields, and for areas.
 void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS]);
 /// Reads the text of --bounds into the def. False: it was refused.
 bool tl_bake_take_bounds(tl_cli *cli, tl_bake_settings *settings, tl_exit *exit_out);
@@ -48,6 +50,7 @@ typedef struct tl_bake {
     bool walkable;      ///< there is at least one navmesh polygon
     tl_aabb nav_bounds; ///< what the navmesh was built over
     double nav_area;    ///< square metres in the plane
+    tl_area_sums areas; ///< the same by area
 } tl_bake;
 
 /// False: the failure was reported, and `*exit_out` says how to end. Free with tl_bake_free, also then.

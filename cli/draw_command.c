@@ -14,8 +14,9 @@
 #include <string.h>
 
 // The order is that of the pipeline.
-static const char *const STAGE_NAMES[] = { "soup",          "spans",   "areas",     "distance", "regions", "contours",
-                                           "triangulation", "merging", "triangles", "polygons", "detail",  "path" };
+static const char *const STAGE_NAMES[] = { "soup",     "spans",         "areas",   "distance",  "regions",
+                                           "contours", "triangulation", "merging", "triangles", "polygons",
+                                           "detail",   "navmesh",       "path" };
 enum {
     STAGE_SOUP,
     STAGE_SPANS,
@@ -28,6 +29,7 @@ enum {
     STAGE_TRIANGLES,
     STAGE_POLYGONS,
     STAGE_DETAIL,
+    STAGE_NAVMESH,
     STAGE_PATH,
     STAGE_COUNT
 };
@@ -80,7 +82,7 @@ static bool choose_stages(tl_cli *cli, draw_settings *settings, tl_exit *exit_ou
             *exit_out =
                 tl_cli_fail(cli, TL_EXIT_USAGE,
                             "--stage: there is no stage '%.*s'; there are soup, spans, areas, distance, regions, "
-                            "contours, triangulation, merging, triangles, polygons, detail, path, and all",
+                            "contours, triangulation, merging, triangles, polygons, detail, navmesh, path, and all",
                             (int)length, word);
             return false;
         }
@@ -135,7 +137,7 @@ static bool output_path(const draw_settings *settings, int stage, char *path, si
 static bool is_drawable(const draw_source *source, int stage)
 {
     return source->is_contours ? stage >= STAGE_CONTOURS && stage <= STAGE_POLYGONS
-           : source->is_bare   ? stage == STAGE_POLYGONS || stage == STAGE_PATH
+           : source->is_bare   ? stage == STAGE_POLYGONS || stage >= STAGE_NAVMESH
                                : true;
 }
 
@@ -242,7 +244,7 @@ static bool make_scene(draw_source *source, const draw_settings *settings, int s
     if (stage == STAGE_PATH) {
         return draw_route_add(source, settings->has_ends ? &settings->ends : NULL, scene, exit_out);
     }
-    if (source->is_bare) {
+    if (source->is_bare || stage == STAGE_NAVMESH) {
         return add_navmesh(source, scene, exit_out);
     }
     return stage == STAGE_CONTOURS || stage == STAGE_TRIANGLES || source->is_contours
@@ -330,7 +332,7 @@ static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *s
         bool can = is_drawable(&source, stage);
         if (settings->stages[stage] && !can && !settings->all) {
             code = tl_cli_fail(cli, TL_EXIT_USAGE, "%s holds %s show%s", path,
-                               source.is_bare ? "a navmesh and no triangles: --stage polygons and path"
+                               source.is_bare ? "a navmesh and no triangles: --stage polygons, navmesh and path"
                                               : "contours: --stage contours, triangulation, merging, triangles and "
                                                 "polygons",
                                source.is_bare ? " it" : " them");
@@ -398,8 +400,8 @@ const tl_command tl_draw_command = {
     "draw the stages of a level or a baked file as PNG or SVG",
     "FILE -o OUT.png|OUT.svg [--stage NAME,...] [--view both|top|oblique]",
     "FILE is a level, a baked file, or contours ('navcontours 1'). Stages, in the order of the pipeline: soup,\n"
-    "spans, areas, distance, regions, contours, triangulation, merging, triangles, polygons, detail, path; or\n"
-    "all. Several stages go to several files: OUT-STAGE.png. A top view and an oblique view, both to scale.\n"
+    "spans, areas, distance, regions, contours, triangulation, merging, triangles, polygons, detail, navmesh,\n"
+    "path; or all. Several stages go to several files: OUT-STAGE.png. A top view and an oblique view, both to scale.\n"
     "Where the level hides a part of what lies on it, that part is drawn faintly. triangulation and merging\n"
     "show one contour being divided, step by step.",
     "talus draw courtyard.obj -o courtyard.png --stage all\n"

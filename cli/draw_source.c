@@ -128,7 +128,7 @@ bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *set
     }
     source_out->mesh = tl_mesh_as_view(&source_out->input.level.mesh);
     source_out->bounds = source_out->input.level.mesh.bounds;
-    return true;
+    return tl_level_areas_make(cli, &source_out->input.level, &settings->areas, &source_out->areas, exit_out);
 }
 
 void draw_source_close(draw_source *source)
@@ -137,6 +137,7 @@ void draw_source_close(draw_source *source)
         tl_contour_text_free(&source->text);
     }
     tl_nav_stages_free(&source->stages, NULL);
+    tl_level_areas_free(&source->areas);
     tl_blob_free(source->baked_soup, NULL);
     free(source->corners);
     free(source->indices);
@@ -174,7 +175,7 @@ bool draw_need_stages(draw_source *source, tl_exit *exit_out)
     tl_result result = tl_nav_config_make(&def, source->bounds, 0, 0, &config, &report.base);
     tl_nav_tile *tile = NULL;
     if (result == TL_OK) {
-        tl_nav_input input = { source->mesh, NULL, NULL, 0 };
+        const tl_nav_input input = tl_level_areas_input(&source->areas, &source->mesh);
         result = tl_nav_tile_build(&config, &input, &source->cli->host, &source->stages, &tile, &report);
     }
     tl_blob_free(tile, NULL);
@@ -200,7 +201,7 @@ static tl_result load_tiles(draw_source *source, tl_report *report)
     }
     tl_nav_def def = source->nav_def;
     def.host = source->cli->host;
-    tl_nav_input input = { source->mesh, NULL, NULL, 0 };
+    const tl_nav_input input = tl_level_areas_input(&source->areas, &source->mesh);
     tl_nav_build_report build;
     tl_result result = tl_nav_build(&def, &input, &source->input.bake.tiles, &build);
     *report = build.base;

@@ -14,8 +14,9 @@ typedef struct draw_source {
     tl_input input;
     tl_nav_def nav_def; ///< of the options, or of the baked file
     tl_mesh_view mesh;  ///< the level's triangles
-    tl_aabb bounds;     ///< of the triangles
-    tl_vec3 *corners;   ///< what `mesh` points into for a baked file
+    tl_level_areas areas;
+    tl_aabb bounds;   ///< of the triangles
+    tl_vec3 *corners; ///< what `mesh` points into for a baked file
     uint32_t *indices;
     tl_soup *baked_soup; ///< made here
     const tl_soup *soup; ///< after draw_need_soup

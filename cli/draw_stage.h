@@ -11,6 +11,12 @@
 #include <talus/nav_query.h>
 #include <talus/soup.h>
 
+/// The colour of what is walkable by its slope, and of an area; neighbours' shades differ a little by `shade`, 0 or 1.
+#define DRAW_WALKABLE 0x7fb3d5u
+draw_colour draw_colour_of_area(uint8_t area, uint32_t shade);
+/// A legend entry for each area that is in use, the walkable one first; of more than fit the last says how many.
+void draw_add_area_legends(draw_scene *scene, const bool used[TL_NAV_MAX_AREA + 1]);
+
 /// Pairs in two shades of a hue, singles apart, and the boxes of the tree at `depth`.
 void draw_stage_soup(draw_scene *scene, const tl_soup *soup, uint32_t depth);
 
@@ -31,7 +37,7 @@ void draw_stage_polygons(draw_scene *scene, const tl_polygon_mesh *polygons, con
 
 void draw_stage_detail(draw_scene *scene, const tl_nav_detail *detail);
 
-/// The navmesh of a baked file, its polygons in plain colours.
+/// The baked tiles, their polygons coloured by area.
 void draw_stage_navmesh(draw_scene *scene, const tl_navmesh *navmesh);
 
 /// A route over the navmesh: the polygons of the corridor, the straight path, start and goal.

@@ -90,21 +90,23 @@ void draw_stage_navmesh(draw_scene *scene, const tl_navmesh *navmesh)
 {
     uint32_t polygons = 0;
     double area = 0.0;
+    bool used[TL_NAV_MAX_AREA + 1] = { false };
     for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
         const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
         if (tile == NULL) {
             continue;
         }
         for (uint32_t p = 0; p < tile->polygon_count; p++) {
-            add_tile_polygon(scene, tile, p, p % 2 == 0 ? 0x8fc1dd : 0x7fb3d5);
+            add_tile_polygon(scene, tile, p, draw_colour_of_area(tl_nav_tile_area(tile, p), p % 2));
+            used[tl_nav_tile_area(tile, p)] = true;
         }
         polygons += tile->polygon_count;
         area += tile->area;
     }
     snprintf(scene->subtitle, sizeof scene->subtitle, "%u polygons in %u tiles, %.1f square metres", polygons,
              tl_navmesh_tile_count(navmesh), area);
-    draw_add_legend(scene, 0x7fb3d5, "walkable");
     draw_add_legend(scene, WALL, "wall or ledge");
+    draw_add_area_legends(scene, used);
 }
 
 void draw_stage_route(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav_route *route,
@@ -112,6 +114,9 @@ void draw_stage_route(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav
 {
     const draw_colour corridor = 0xf2c14e;
     const draw_colour line = 0xc0392b;
+    draw_add_legend(scene, corridor, "polygons of the path");
+    draw_add_legend(scene, line, "shortest line through them");
+    draw_add_legend(scene, 0x1e8449, "start");
     draw_stage_navmesh(scene, navmesh);
     uint32_t shown =
         route->path.polygon_count < buffers->polygon_capacity ? route->path.polygon_count : buffers->polygon_capacity;
@@ -140,7 +145,4 @@ void draw_stage_route(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav
     snprintf(scene->subtitle, sizeof scene->subtitle, "path %s: %.2f m, %u corners, %u polygons",
              tl_nav_path_status_name(route->path.status), (double)route->length, route->corner_count,
              route->path.polygon_count);
-    draw_add_legend(scene, corridor, "polygons of the path");
-    draw_add_legend(scene, line, "shortest line through them");
-    draw_add_legend(scene, 0x1e8449, "start");
 }

@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-static const draw_colour WALKABLE = 0x7fb3d5;
+static const draw_colour CLOSED = 0xb9a89c;
 static const draw_colour SOLID = 0xcfc8bb;
 
 typedef struct lattice {
@@ -70,6 +70,7 @@ void draw_stage_spans(draw_scene *scene, const tl_nav_heightfield *field)
     const lattice grid = { field->bounds.min, field->cell_size, field->cell_height };
     scene->overlay_alpha = 1.0f;
     uint32_t walkable = 0;
+    bool used[TL_NAV_MAX_AREA + 1] = { false };
     for (uint32_t z = 0; z < field->height; z++) {
         for (uint32_t x = 0; x < field->width; x++) {
             size_t column = (size_t)z * field->width + x;
@@ -77,7 +78,9 @@ void draw_stage_spans(draw_scene *scene, const tl_nav_heightfield *field)
                 const tl_nav_span *span = &field->spans[i];
                 bool floor = span->area != TL_NAV_NULL_AREA;
                 walkable += floor;
-                add_square(scene, &grid, x, (float)span->max, z, floor ? WALKABLE : SOLID);
+                add_square(scene, &grid, x, (float)span->max, z,
+                           floor ? draw_colour_of_area((uint8_t)span->area, 0) : SOLID);
+                used[span->area] = true;
                 add_open_sides(scene, field, &grid, x, z, span);
             }
         }
@@ -85,15 +88,15 @@ void draw_stage_spans(draw_scene *scene, const tl_nav_heightfield *field)
     snprintf(scene->subtitle, sizeof scene->subtitle,
              "%u x %u columns of %g m, %u solid spans, %u of them walkable on top", field->width, field->height,
              (double)field->cell_size, field->span_count, walkable);
-    draw_add_legend(scene, WALKABLE, "walkable");
     draw_add_legend(scene, SOLID, "solid");
+    draw_add_area_legends(scene, used);
 }
 
 static draw_colour floor_colour(const tl_nav_compact *compact, uint32_t span, draw_floor_colour kind)
 {
     uint8_t area = compact->area[span];
     if (area == TL_NAV_NULL_AREA) {
-        return 0xb9a89c;
+        return CLOSED;
     }
     if (kind == DRAW_FLOOR_DISTANCE && compact->distance != NULL) {
         float t = compact->max_distance > 0 ? (float)compact->distance[span] / (float)compact->max_distance : 0.0f;
@@ -104,7 +107,7 @@ static draw_colour floor_colour(const tl_nav_compact *compact, uint32_t span, dr
         return (compact->region[span] & TL_NAV_BORDER_REGION) != 0 ? 0x606060
                                                                    : draw_colour_of_id(compact->region[span]);
     }
-    return area == TL_NAV_WALKABLE_AREA ? WALKABLE : draw_colour_of_id(area);
+    return draw_colour_of_area(area, 0);
 }
 
 static void name_floors(draw_scene *scene, const tl_nav_compact *compact, draw_floor_colour kind)
@@ -113,8 +116,12 @@ static void name_floors(draw_scene *scene, const tl_nav_compact *compact, draw_f
     size_t size = sizeof scene->subtitle;
     if (kind == DRAW_FLOOR_AREA) {
         snprintf(text, size, "%u open floors after erosion by the agent's radius", compact->span_count);
-        draw_add_legend(scene, WALKABLE, "walkable");
-        draw_add_legend(scene, 0xb9a89c, "not walkable: steep, too low, at a ledge, or too near a wall");
+        bool used[TL_NAV_MAX_AREA + 1] = { false };
+        for (uint32_t i = 0; i < compact->span_count; i++) {
+            used[compact->area[i]] = true;
+        }
+        draw_add_legend(scene, CLOSED, "not walkable: steep, too low, at a ledge, or too near a wall");
+        draw_add_area_legends(scene, used);
     } else if (kind == DRAW_FLOOR_DISTANCE) {
         snprintf(text, size, "distance of each floor to the nearest wall or ledge, at most %.1f m",
                  0.5 * (double)compact->max_distance * (double)compact->cell_size);
@@ -126,7 +133,7 @@ static void name_floors(draw_scene *scene, const tl_nav_compact *compact, draw_f
                  compact->region_count > 0 ? compact->region_count - 1 : 0);
         draw_add_legend(scene, draw_colour_of_id(1), "a region each colour");
         draw_add_legend(scene, 0x9a9a9a, "no region: too small");
-        draw_add_legend(scene, 0xb9a89c, "not walkable");
+        draw_add_legend(scene, CLOSED, "not walkable");
     }
 }
 

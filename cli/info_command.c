@@ -32,6 +32,7 @@ typedef struct nav_sums {
     uint32_t tiles;
     uint64_t polygons, vertices, detail_triangles, bytes;
     double area;
+    tl_area_sums areas;
     const tl_nav_tile *first;
 } nav_sums;
 
@@ -55,6 +56,7 @@ static tl_result sum_tiles(const tl_pack *pack, nav_sums *sums_out, tl_report *r
         sums_out->detail_triangles += tile->detail_triangle_count;
         sums_out->bytes += chunk.size;
         sums_out->area += tile->area;
+        tl_area_sums_add(&sums_out->areas, tile);
     }
     return TL_OK;
 }
@@ -124,6 +126,7 @@ static void print_navmesh(const baked_info *info)
         printf("navmesh    %llu polygons, %llu vertices, %llu detail triangles, %.1f m2, %u tiles\n",
                (unsigned long long)info->nav.polygons, (unsigned long long)info->nav.vertices,
                (unsigned long long)info->nav.detail_triangles, info->nav.area, info->nav.tiles);
+        tl_area_sums_print(&info->nav.areas);
     }
     printf("agent      height %g m, radius %g m, climbs %g m, slopes up to %g degrees\n", (double)n->agent_height,
            (double)n->agent_radius, (double)n->agent_max_climb, (double)n->agent_max_slope);
@@ -232,6 +235,7 @@ static json_t *navmesh_json(const baked_info *info)
                                   "partition", partition_word(n->partition), "polygon_method",
                                   polygons_word(n->polygon_method), "tile_size", (json_int_t)n->tile_size,
                                   "max_verts_per_poly", (json_int_t)n->max_verts_per_poly));
+    json_object_set_new(object, "areas", tl_area_sums_json(&info->nav.areas));
     return object;
 }
 
@@ -305,6 +309,28 @@ static double surface_area(const tl_mesh *mesh)
     return sum;
 }
 
+// What --area may name; number 0 is what has no material.
+static void print_materials(const tl_name_table *names)
+{
+    printf("materials  %u", names->count - 1);
+    for (uint32_t id = 1; id < names->count; id++) {
+        tl_text text = { NULL, 0, 0, false };
+        tl_text_add_safe(&text, tl_name_table_get(names, id));
+        printf("%s '%.*s'", id == 1 ? ":" : ",", (int)text.size, text.size > 0 ? text.bytes : "");
+        tl_text_free(&text);
+    }
+    printf("\n");
+}
+
+static json_t *materials_json(const tl_name_table *names)
+{
+    json_t *array = json_array();
+    for (uint32_t id = 1; id < names->count; id++) {
+        json_array_append_new(array, tl_json_text(tl_name_table_get(names, id)));
+    }
+    return array;
+}
+
 static void print_mesh(const tl_level *level, const tl_adjacency *adjacency)
 {
     const tl_imported_mesh *m = &level->imported;
@@ -312,7 +338,7 @@ static void print_mesh(const tl_level *level, const tl_adjacency *adjacency)
     printf("faces      %u, %u of them polygons, %u triangles in all\n", m->face_count, m->polygon_count,
            m->triangle_count);
     printf("vertices   %u, %u apart\n", m->vertex_count, level->mesh.vertex_count);
-    printf("materials  %u\n", m->names.count);
+    print_materials(&m->names);
     print_bounds(level->mesh.bounds);
     printf("area       %.9g m2\n", surface_area(&level->mesh));
     printf("edges      %u between two triangles, %u open, %u shared otherwise\n", adjacency->paired_edges,
@@ -329,15 +355,15 @@ static void print_mesh(const tl_level *level, const tl_adjacency *adjacency)
 static json_t *mesh_json(const tl_level *level, const tl_adjacency *adjacency)
 {
     const tl_imported_mesh *m = &level->imported;
-    return json_pack("{so ss ss sI sI sI sI sI sI sI sI sI sI sI so so}", "file", tl_json_text(level->path), "kind",
+    return json_pack("{so ss ss sI sI sI sI sI sI sI sI sI sI sI so so so}", "file", tl_json_text(level->path), "kind",
                      "mesh", "format", m->format, "bytes", (json_int_t)m->source_bytes, "faces",
                      (json_int_t)m->face_count, "polygons", (json_int_t)m->polygon_count, "triangles",
                      (json_int_t)m->triangle_count, "vertices", (json_int_t)m->vertex_count, "distinct_vertices",
-                     (json_int_t)level->mesh.vertex_count, "materials", (json_int_t)m->names.count,
+                     (json_int_t)level->mesh.vertex_count, "materials", (json_int_t)m->names.count - 1,
                      "degenerate_triangles", (json_int_t)level->report.degenerate_triangles, "duplicate_triangles",
                      (json_int_t)level->report.duplicate_triangles, "paired_edges", (json_int_t)adjacency->paired_edges,
-                     "open_edges", (json_int_t)adjacency->border_edges, "area",
-                     tl_json_double(surface_area(&level->mesh)), "bounds", tl_json_bounds(level->mesh.bounds));
+                     "open_edges", (json_int_t)adjacency->border_edges, "material_names", materials_json(&m->names),
+                     "area", tl_json_double(surface_area(&level->mesh)), "bounds", tl_json_bounds(level->mesh.bounds));
 }
 
 static tl_exit info_of_mesh(tl_cli *cli, const char *path, const tl_level_settings *settings)

@@ -160,6 +160,16 @@ static bool set_choice(tl_arguments *arguments, const tl_option *option, const c
     return refuse(arguments, option, value, list);
 }
 
+static bool add_text(tl_arguments *arguments, const tl_option *option, const char *value)
+{
+    tl_option_texts *texts = option->target;
+    if (texts->count == TL_MAX_OPTION_TEXTS) {
+        return refuse(arguments, option, value, "is one too many; put them into a file");
+    }
+    texts->words[texts->count++] = skip_marker(value);
+    return true;
+}
+
 static bool set_value(tl_arguments *arguments, const tl_option *option, const char *value)
 {
     uint64_t number = 0;
@@ -185,6 +195,8 @@ static bool set_value(tl_arguments *arguments, const tl_option *option, const ch
         return true;
     case TL_OPTION_CHOICE:
         return set_choice(arguments, option, value);
+    case TL_OPTION_TEXTS:
+        return add_text(arguments, option, value);
     default:
         *(const char **)option->target = skip_marker(value);
         return true;

@@ -16,8 +16,17 @@ typedef enum tl_option_kind {
     TL_OPTION_NEEDED_COUNT, ///< uint32_t without a default: UINT32_MAX when it is not given
     TL_OPTION_NUMBER,       ///< uint64_t
     TL_OPTION_TEXT,         ///< const char *; points into the command line
+    TL_OPTION_TEXTS,        ///< tl_option_texts; the option may be given again and again
     TL_OPTION_CHOICE        ///< int; the index of the word in `words`
 } tl_option_kind;
+
+enum { TL_MAX_OPTION_TEXTS = 256 };
+
+/// The values of an option that may be given several times, in order.
+typedef struct tl_option_texts {
+    const char *words[TL_MAX_OPTION_TEXTS];
+    uint32_t count;
+} tl_option_texts;
 
 /// One option. The target's value before parsing is the default that the help shows.
 typedef struct tl_option {

@@ -39,6 +39,14 @@ void tl_text_add(tl_text *text, const char *words)
     add(text, words, strlen(words));
 }
 
+void tl_text_add_safe(tl_text *text, const char *words)
+{
+    for (; *words != '\0'; words++) {
+        const char letter[2] = { (unsigned char)*words >= ' ' && *words != 0x7f ? *words : '?', '\0' };
+        tl_text_add(text, letter);
+    }
+}
+
 void tl_text_add_float(tl_text *text, float value)
 {
     char digits[TL_FLOAT_TEXT_BYTES];

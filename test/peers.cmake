@@ -28,7 +28,7 @@ set(talus_test_hash_needs talus_peer_xxhash)
 
 # The io library's tests.
 foreach(stem assimp_process atomic_write file_map format_float mesh_import name_table obj_reader obj_write parse_float
-        point_cloud split_polygon contour_text polygon_levels)
+        point_cloud split_polygon contour_text polygon_levels area_marks)
     set(talus_test_${stem}_needs talus_io)
 endforeach()
 
@@ -41,7 +41,7 @@ set(talus_test_thread_pool_needs talus_cli)
 set(talus_test_ray_decide_needs talus_peer_gmp)
 set(talus_test_soup_build_libraries pthread)
 set(talus_test_soup_batch_libraries pthread)
-foreach(stem frame bake ray soup_queries path hull polygonize draw detour bad_input)
+foreach(stem frame bake areas ray soup_queries path hull polygonize draw detour bad_input)
     set(talus_test_cli_${stem}_needs talus_command_path)
 endforeach()
 set(talus_test_hull_qhull_needs talus_peer_qhull)

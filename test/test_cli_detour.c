@@ -39,9 +39,9 @@ static void test_out_and_in_again(void **state)
     }
     // A file without triangles: its navmesh and paths can be drawn.
     json_t *list = cli_json(0, "draw back.talus -o back.png --stage all --size 240 --json");
-    assert_int_equal(json_array_size(list), 2);
+    assert_int_equal(json_array_size(list), 3);
     json_decref(list);
-    TEST_CHECK(cli_exists("back-polygons.png") && cli_exists("back-path.png"));
+    TEST_CHECK(cli_exists("back-polygons.png") && cli_exists("back-navmesh.png") && cli_exists("back-path.png"));
 }
 
 static void test_refusals(void **state)

@@ -31,8 +31,9 @@ static void make_files(void)
 static void test_every_stage(void **state)
 {
     (void)state;
-    static const char *const stages[] = { "soup",          "spans",   "areas",     "distance", "regions", "contours",
-                                          "triangulation", "merging", "triangles", "polygons", "detail",  "path" };
+    static const char *const stages[] = { "soup",     "spans",         "areas",   "distance",  "regions",
+                                          "contours", "triangulation", "merging", "triangles", "polygons",
+                                          "detail",   "navmesh",       "path" };
     enum { STAGES = sizeof(stages) / sizeof(stages[0]) };
     make_files();
     static const char *const inputs[] = { "yard.obj", "yard.talus" };

@@ -307,6 +307,11 @@ typedef struct tl_nav_input {
     uint32_t volume_count;
 } tl_nav_input;
 
+/// Fills tl_nav_input.areas of a mesh from its materials: areas_out[i] is material_areas[material of triangle i], and
+/// TL_NAV_WALKABLE_AREA where that has no entry. `areas_out` has room for mesh->triangle_count.
+TL_API void tl_nav_areas_of_materials(const tl_mesh_view *mesh, const uint8_t *material_areas, uint32_t material_count,
+                                      uint8_t *areas_out);
+
 /// The intermediate data of one tile, kept for drawing and debugging. Zero before the call; free with
 /// tl_nav_stages_free.
 typedef struct tl_nav_stages {

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+//
+// How much of a navmesh each area has.
+
+#ifndef TALUS_CLI_AREA_SUMS_H
+#define TALUS_CLI_AREA_SUMS_H
+
+#include <jansson.h>
+#include <talus/nav_tile.h>
+
+/// Polygons and square metres in the plane. Zero is none.
+typedef struct tl_area_sums {
+    uint64_t polygons[TL_NAV_MAX_AREA + 1];
+    double square_metres[TL_NAV_MAX_AREA + 1];
+} tl_area_sums;
+
+void tl_area_sums_add(tl_area_sums *sums, const tl_nav_tile *tile);
+
+/// A line for each area that has polygons; nothing when all have the area that slope gives.
+void tl_area_sums_print(const tl_area_sums *sums);
+
+/// [{"area": 63, "polygons": 12, "square_metres": 3.5}, ...]
+json_t *tl_area_sums_json(const tl_area_sums *sums);
+
+#endif
