@@ -264,6 +264,25 @@ static void check_path(graph *g, const tl_nav_location *start, const tl_nav_loca
     TEST_CHECK(path->lower_bound <= path->length && path->lower_bound >= path->length * (1.0 - 1e-5) - 1e-5);
 }
 
+// The funnel over the polygons of a shortest path finds that path.
+static void check_funnel(graph *g, tl_nav_query *query, const tl_nav_location *start, const tl_nav_location *goal,
+                         double length)
+{
+    static tl_nav_corner corners[1024];
+    static tl_nav_ref polygons[4096];
+    tl_nav_path path;
+    uint32_t count = 0;
+    TEST_RESULT(tl_nav_query_find_path(query, g->navmesh, NULL, start, goal, polygons, 4096, &path), TL_OK);
+    TEST_RESULT(tl_navmesh_straight_path(g->navmesh, polygons, path.polygon_count, start->point, goal->point, corners,
+                                         1024, &count, NULL),
+                TL_OK);
+    double sum = 0.0;
+    for (uint32_t i = 1; i < count; i++) {
+        sum += plan(corners[i - 1].point, corners[i].point);
+    }
+    TEST_CHECK(fabs(sum - length) <= 2e-5 + same + 1e-5 * length);
+}
+
 static void check_pair(graph *g, tl_nav_query *query, const tl_nav_location *start, const tl_nav_location *goal,
                        tally *t)
 {
@@ -289,6 +308,7 @@ static void check_pair(graph *g, tl_nav_query *query, const tl_nav_location *sta
     check_path(g, start, goal, &path, corners, polygons);
     TEST_RESULT(tl_nav_query_find_shortest_path(query, g->navmesh, NULL, goal, start, NULL, 0, NULL, 0, &back), TL_OK);
     TEST_CHECK(fabs(path.length - back.length) <= 2e-5 + same + 1e-5 * expected);
+    check_funnel(g, query, start, goal, path.length);
     t->complete++;
     t->straight += path.corner_count == 2;
     t->turning += path.corner_count > 3;
@@ -486,6 +506,38 @@ static void test_filter(void **state)
     TEST_CHECK(complete > 200 && longer > 40);
 }
 
+// A path along a wall, around its end and straight back, to a place below the wall's other end.
+static void test_straight_back(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "0r1", "00#" };
+    fixture_level level = fixture_make(rows, 2);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    tl_nav_query *query = NULL;
+    tl_nav_query_def def = tl_default_nav_query_def();
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    tl_nav_location start, goal;
+    tl_vec3 near_by = tl_vec3_make(0.01f, 0.5f, 0.01f);
+    TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(11.0f, 2.5f, 4.0f), near_by, &start), TL_OK);
+    TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(8.0f, 0.0f, 4.0f), near_by, &goal), TL_OK);
+    tl_nav_corner corners[4];
+    tl_nav_shortest_path path;
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, corners, 4, NULL, 0, &path),
+                TL_OK);
+    TEST_CHECK(path.corner_count == 3 && fabs(path.length - 11.0) < 1e-6);
+    TEST_CHECK(corners[1].point.x == 4.0f && corners[1].point.z == 4.0f && corners[1].flags == TL_NAV_CORNER_LEFT);
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &goal, &start, corners, 4, NULL, 0, &path),
+                TL_OK);
+    TEST_CHECK(path.corner_count == 3 && fabs(path.length - 11.0) < 1e-6);
+    TEST_CHECK(corners[1].flags == TL_NAV_CORNER_RIGHT);
+    graph g = make_graph(navmesh);
+    check_funnel(&g, query, &start, &goal, 11.0);
+    check_funnel(&g, query, &goal, &start, 11.0);
+    free_graph(&g);
+    tl_nav_query_free(query);
+    tl_navmesh_free(navmesh);
+}
+
 static void test_buffers(void **state)
 {
     (void)state;
@@ -544,8 +596,8 @@ int main(int argc, char **argv)
         g_all_levels = true;
     }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_fixtures), cmocka_unit_test(test_baked),   cmocka_unit_test(test_data_levels),
-        cmocka_unit_test(test_filter),   cmocka_unit_test(test_buffers),
+        cmocka_unit_test(test_fixtures), cmocka_unit_test(test_baked),         cmocka_unit_test(test_data_levels),
+        cmocka_unit_test(test_filter),   cmocka_unit_test(test_straight_back), cmocka_unit_test(test_buffers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -77,13 +77,14 @@ typedef struct funnel {
     tl_vec3 apex;
     wedge_side left, right; // at the apex: open, no portal has narrowed it yet
     uint32_t portal;        // the one to look at
+    uint32_t last_portal;   // the end itself
     corner_list list;
 } funnel;
 
 // Portal i leads from polygon i to i + 1; the last one is the end itself.
 static tl_result portal_at(const funnel *f, uint32_t i, tl_vec3 *left_out, tl_vec3 *right_out)
 {
-    if (i + 1 == f->polygon_count) {
+    if (i == f->last_portal) {
         *left_out = f->end;
         *right_out = f->end;
         return TL_OK;
@@ -126,7 +127,7 @@ static bool closes(const funnel *f, const wedge_side *other, int hand, tl_vec3 p
         return false;
     }
     // The end of the path is both ends of its portal, and closes nothing by itself.
-    if (f->portal + 1 == f->polygon_count && other->portal == f->portal) {
+    if (f->portal == f->last_portal && other->portal == f->portal) {
         return false;
     }
     int side = hand * tl_nav_side_of(f->apex, other->point, point);
@@ -164,12 +165,47 @@ static bool narrow(funnel *f, wedge_side *own, const wedge_side *other, int hand
     return true;
 }
 
+// Whether a point lies on a portal, or by rounding beyond it: `hand` 1 means on its far side, -1 on the near one.
+static bool lies_on(tl_vec3 left, tl_vec3 right, tl_vec3 point, int hand)
+{
+    if (hand * tl_nav_side_of(right, left, point) < 0) {
+        return false;
+    }
+    double x = (double)left.x - (double)right.x;
+    double z = (double)left.z - (double)right.z;
+    double along = x * ((double)point.x - (double)right.x) + z * ((double)point.z - (double)right.z);
+    return along >= 0.0 && along <= x * x + z * z;
+}
+
+// A start that lies beyond its portal by rounding would see it from behind. So portals that the start lies on are
+// passed already, and those that the end lies on need not be.
+static tl_result pass_ends(funnel *f)
+{
+    tl_vec3 left, right;
+    f->last_portal = f->polygon_count - 1;
+    while (f->portal < f->last_portal) {
+        TL_TRY(portal_at(f, f->portal, &left, &right));
+        if (!lies_on(left, right, f->start, 1)) {
+            break;
+        }
+        f->portal++;
+    }
+    while (f->last_portal > f->portal) {
+        TL_TRY(portal_at(f, f->last_portal - 1, &left, &right));
+        if (!lies_on(left, right, f->end, -1)) {
+            break;
+        }
+        f->last_portal--;
+    }
+    return TL_OK;
+}
+
 static tl_result pull(funnel *f)
 {
-    while (f->portal < f->polygon_count) {
+    while (f->portal <= f->last_portal) {
         tl_vec3 left, right;
         TL_TRY(portal_at(f, f->portal, &left, &right));
-        if (f->portal + 1 == f->polygon_count && same_place(f->end, f->apex)) {
+        if (f->portal == f->last_portal && same_place(f->end, f->apex)) {
             return TL_OK;
         }
         if (!narrow(f, &f->right, &f->left, 1, right) && !narrow(f, &f->left, &f->right, -1, left)) {
@@ -212,6 +248,7 @@ tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *
     f.list.corners = corners_out;
     f.list.capacity = capacity;
     add_corner(&f.list, f.start, polygons[0], TL_NAV_CORNER_START);
+    TL_TRY(pass_ends(&f));
     TL_TRY(pull(&f));
     add_corner(&f.list, f.end, polygons[polygon_count - 1], TL_NAV_CORNER_END);
     *count_out = f.list.count;

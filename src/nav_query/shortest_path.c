@@ -15,8 +15,10 @@ static bool turns(const tl_nav_wedge *wedge, const tl_nav_wedge *parent)
     return wedge->root_x != parent->root_x || wedge->root_z != parent->root_z;
 }
 
-// Where a wedge's root lies: a vertex of its parent's polygon.
-static tl_vec3 root_point(const tl_navmesh *navmesh, const tl_nav_wedge *wedge, const tl_nav_wedge *parent)
+// Where a wedge's root lies: a vertex of its parent's polygon. `*is_left_out`: it is the left end of the edge by which
+// that one was entered.
+static tl_vec3 root_point(const tl_navmesh *navmesh, const tl_nav_wedge *wedge, const tl_nav_wedge *parent,
+                          bool *is_left_out)
 {
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, parent->slot, parent->polygon, &count);
@@ -24,6 +26,7 @@ static tl_vec3 root_point(const tl_navmesh *navmesh, const tl_nav_wedge *wedge, 
     while (i + 1 < count && (ring[i].x != wedge->root_x || ring[i].z != wedge->root_z)) {
         i++;
     }
+    *is_left_out = i == parent->edge;
     return tl_vec3_make(wedge->root_x, ring[i].y, wedge->root_z);
 }
 
@@ -34,11 +37,17 @@ static double plan_distance(tl_vec3 a, tl_vec3 b)
     return sqrt(x * x + z * z);
 }
 
-// > 0: the path turns right at b.
-static double turn_at(tl_vec3 a, tl_vec3 b, tl_vec3 c)
+// > 0: the path turns right at b. 0: it goes straight on, or straight back: around the end of a wall between two floors
+// to a place above or below the one that it came from.
+static double turn_at(tl_vec3 a, tl_vec3 b, tl_vec3 c, bool is_left)
 {
-    return ((double)b.x - (double)a.x) * ((double)c.z - (double)b.z) -
-           ((double)b.z - (double)a.z) * ((double)c.x - (double)b.x);
+    double x = (double)b.x - (double)a.x;
+    double z = (double)b.z - (double)a.z;
+    double on_x = (double)c.x - (double)b.x;
+    double on_z = (double)c.z - (double)b.z;
+    double turn = x * on_z - z * on_x;
+    bool is_back = turn == 0.0 && x * on_x + z * on_z < 0.0;
+    return !is_back ? turn : is_left ? -1.0 : 1.0;
 }
 
 // Corners are met from the goal back to the start. One that is met is held until the next one says how it turns.
@@ -74,10 +83,11 @@ static uint32_t walk_corners(const tl_nav_shortest_search *search, corner_walk *
             continue;
         }
         // The vertex is the parent's, and through its polygon the path goes on.
-        tl_nav_corner corner = { root_point(search->navmesh, &wedges[i], parent),
+        bool is_left = false;
+        tl_nav_corner corner = { root_point(search->navmesh, &wedges[i], parent, &is_left),
                                  tl_nav_make_ref(search->navmesh, parent->slot, parent->polygon), 0 };
         tl_vec3 before = { parent->root_x, 0.0f, parent->root_z };
-        double turn = turn_at(before, corner.point, walk->held.point);
+        double turn = turn_at(before, corner.point, walk->held.point, is_left);
         if (turn == 0.0) {
             continue;
         }
