@@ -25,7 +25,8 @@ typedef struct tl_navmesh tl_navmesh;
 
 /// A polygon in a navmesh: a slot of the table (20 bits), the polygon in its tile (28 bits), and the slot's salt
 /// (16 bits), which changes whenever a tile leaves the slot. A slot whose salts are used up is never used again, so
-/// that a reference to a removed tile stays invalid for ever.
+/// that a reference to a removed tile stays invalid for ever. A reference without a salt names an off-mesh link
+/// (tl_nav_is_offmesh).
 typedef uint64_t tl_nav_ref;
 
 #define TL_NAV_NO_REF 0u
@@ -62,7 +63,8 @@ TL_API uint32_t tl_navmesh_tile_count(const tl_navmesh *navmesh);
 /// To iterate over all tiles: slots below tl_navmesh_slot_count hold a tile or NULL.
 TL_API uint32_t tl_navmesh_slot_count(const tl_navmesh *navmesh);
 TL_API const tl_nav_tile *tl_navmesh_slot_tile(const tl_navmesh *navmesh, uint32_t slot);
-/// Ways to step from a polygon into another, over all tiles. A search has at most two nodes more than that.
+/// Ways to step from a polygon into another, over all tiles and anchored off-mesh links. A search has at most two nodes
+/// more than that.
 TL_API uint64_t tl_navmesh_link_count(const tl_navmesh *navmesh);
 
 /// The reference of a polygon in the tile of a slot, or TL_NAV_NO_REF when there is none.
@@ -71,8 +73,8 @@ TL_API tl_nav_ref tl_navmesh_polygon_ref(const tl_navmesh *navmesh, uint32_t slo
 TL_API tl_result tl_navmesh_resolve(const tl_navmesh *navmesh, tl_nav_ref ref, const tl_nav_tile **tile_out,
                                     uint32_t *polygon_out);
 
-/// A way from a polygon into a neighbour: the stretch of edge that both share. Seen from inside the polygon, looking
-/// out, `left` is the end on the left.
+/// A way from a polygon into a neighbour (off-mesh links are not among them): the stretch of edge that both share. Seen
+/// from inside the polygon, looking out, `left` is the end on the left.
 typedef struct tl_nav_link {
     tl_nav_ref to;
     uint32_t edge; ///< of the polygon that is left
@@ -85,10 +87,88 @@ typedef struct tl_nav_link {
 TL_API tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_link *links_out, uint32_t capacity,
                                   uint32_t *count_out);
 
-/// The island of a polygon: all that hangs together over tiles and links, whatever flags say. Two polygons have a path
-/// between them, for a filter that refuses none on the way, exactly when their islands are the same. Numbers hold until
-/// a tile is added or removed. TL_ERR_NOT_FOUND for a stale reference. O(1); O(log tiles) where tiles came in last.
+/// The island of a polygon: all that hangs together over tiles and anchored off-mesh links, whatever flags say and
+/// whichever way links lead. Between two islands there is no path, for any filter. Within one there is, both ways, for
+/// a filter that refuses nothing on the way, unless it takes a link against its direction: where links lead one way
+/// only, a search has the last word. Numbers hold until a tile or a link is added or removed. TL_ERR_NOT_FOUND for a
+/// stale reference. O(1); O(log tiles) where tiles or links came in last.
 TL_API tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *island_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Off-mesh links: ways that lead over no polygon. Jumps, drops, ladders, doors, lifts, teleporters.
+
+/// A link from a point to a point, of any length, over any number of tiles. Fill it from tl_default_nav_offmesh.
+typedef struct tl_nav_offmesh {
+    tl_vec3 start, end;
+    /// Metres, >= 0: an end is anchored to the polygon's point that is nearest to it in the box of this half size
+    /// around it (tl_navmesh_find_nearest without a filter).
+    float radius;
+    /// The link counts as fixed_cost + cost_factor * its length in metres, both >= 0. Below its length it is a short
+    /// cut through space, and searches lose sight of their goal near it: prefer 1 and more where there is a choice.
+    float cost_factor, fixed_cost;
+    uint64_t flags; ///< for filters, as a polygon's
+    uint64_t user;  ///< the caller's own
+    uint8_t area;   ///< what it counts is multiplied with this area's cost
+    bool both_ways;
+} tl_nav_offmesh;
+
+/// Radius 0.5, costs its length, flags 1, area 63 (TL_NAV_WALKABLE_AREA), one way.
+TL_API tl_nav_offmesh tl_default_nav_offmesh(void);
+
+#define TL_NAV_MAX_OFFMESH (1u << 24) ///< off-mesh links of one navmesh
+
+/// Adds an off-mesh link, and anchors its ends where there are polygons near them now.
+///
+/// Ends follow the tiles: whenever one is added or removed, ends near it are anchored anew, to what is nearest then, so
+/// that anchors depend on the tiles that are there and not on their history. A link of which an end has no polygon is
+/// kept, and no path uses it until there is one. `*link_out` names it for ever; names are not used again.
+/// Changing links is changing the navmesh: no query may run meanwhile. O(1), but for the two nearest-polygon searches
+/// and the growth of the table. From then on each change of a tile looks at each link's box once.
+/// TL_ERR_NOT_FINITE, TL_ERR_ARGUMENT (radius, costs, no flags), TL_ERR_LIMIT (TL_NAV_MAX_OFFMESH),
+/// TL_ERR_MEMORY.
+TL_API tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh, tl_nav_ref *link_out);
+
+/// Takes an off-mesh link out. O(1); where it led from one shore to another (its ends do not hang together over
+/// polygons), islands are joined anew, which takes what removing a tile takes. TL_ERR_NOT_FOUND: no such link.
+TL_API tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link);
+
+/// Paths and corners set this bit in a link's reference where they take it from its end to its start.
+#define TL_NAV_OFFMESH_BACKWARD ((tl_nav_ref)1 << 47)
+
+/// Whether a reference names an off-mesh link (that may be gone) and not a polygon.
+static inline bool tl_nav_is_offmesh(tl_nav_ref ref)
+{
+    return ref != TL_NAV_NO_REF && ref >> 48 == 0;
+}
+
+/// A point on the surface of a polygon.
+typedef struct tl_nav_location {
+    tl_nav_ref polygon;
+    tl_vec3 point;
+} tl_nav_location;
+
+/// How an off-mesh link stands.
+typedef struct tl_nav_offmesh_state {
+    tl_nav_offmesh offmesh;  ///< as it was added
+    tl_nav_location ends[2]; ///< where its start and its end are anchored; polygon TL_NAV_NO_REF: nowhere now
+    bool anchored;           ///< both ends are: paths may use it
+    float length;            ///< metres from anchor to anchor, straight in space; 0 unless anchored
+    float cost;              ///< metres that it counts as, before its area's cost
+} tl_nav_offmesh_state;
+
+/// TL_ERR_NOT_FOUND: no such link.
+TL_API tl_result tl_navmesh_offmesh_state(const tl_navmesh *navmesh, tl_nav_ref link, tl_nav_offmesh_state *state_out);
+
+TL_API uint32_t tl_navmesh_offmesh_count(const tl_navmesh *navmesh);
+/// Goes through all off-mesh links. Start with `*cursor` 0; false at the end.
+TL_API bool tl_navmesh_next_offmesh(const tl_navmesh *navmesh, uint32_t *cursor, tl_nav_ref *link_out);
+
+/// The off-mesh links by which a polygon can be left: they are anchored, and begin there or lead both ways and end
+/// there (TL_NAV_OFFMESH_BACKWARD is then set). In no order.
+/// Writes the first `capacity`; `*count_out` is the true count. TL_ERR_CAPACITY when that is more, TL_ERR_NOT_FOUND
+/// for a stale reference.
+TL_API tl_result tl_navmesh_offmesh_from(const tl_navmesh *navmesh, tl_nav_ref polygon, tl_nav_ref *links_out,
+                                         uint32_t capacity, uint32_t *count_out);
 
 // ---------------------------------------------------------------------------------------------------------
 // Which polygons count, and what they cost.
@@ -121,12 +201,6 @@ TL_API bool tl_nav_filter_passes(const tl_nav_filter *filter, const tl_nav_tile 
 
 // ---------------------------------------------------------------------------------------------------------
 // Points and polygons.
-
-/// A point on the surface of a polygon.
-typedef struct tl_nav_location {
-    tl_nav_ref polygon;
-    tl_vec3 point;
-} tl_nav_location;
 
 /// The polygon nearest to `center` among those that come into the box center +- half_extents, and its point.
 ///
@@ -191,7 +265,8 @@ typedef struct tl_nav_path {
     uint32_t node_count;    ///< nodes that the search used
 } tl_nav_path;
 
-/// The polygons of a path, the start's first; each shares an edge with the one before.
+/// The polygons of a path, the start's first; each shares an edge with the one before, or an off-mesh link stands
+/// between the two (tl_nav_is_offmesh) that leads from one to the other.
 ///
 /// Where every metre costs the same the path is the shortest there is in the plane (tl_nav_query_find_shortest_path),
 /// and the straight path through its polygons has that length. Where costs differ, and where that search is out of
@@ -236,20 +311,23 @@ TL_API tl_result tl_nav_query_step_path(tl_nav_query *query, uint32_t max_steps,
 TL_API tl_result tl_nav_query_write_path(tl_nav_query *query, tl_nav_ref *polygons_out, uint32_t capacity,
                                          tl_nav_path *path_out);
 
-#define TL_NAV_CORNER_START 1u ///< the path's start
-#define TL_NAV_CORNER_END   2u ///< the path's end
-#define TL_NAV_CORNER_LEFT  4u ///< the path turns left around it
-#define TL_NAV_CORNER_RIGHT 8u ///< the path turns right around it
+#define TL_NAV_CORNER_START 1u  ///< the path's start
+#define TL_NAV_CORNER_END   2u  ///< the path's end
+#define TL_NAV_CORNER_LEFT  4u  ///< the path turns left around it
+#define TL_NAV_CORNER_RIGHT 8u  ///< the path turns right around it
+#define TL_NAV_CORNER_LINK  16u ///< the path goes from here to the next corner by an off-mesh link
 
 /// A corner of a straight path.
 typedef struct tl_nav_corner {
     tl_vec3 point;
     tl_nav_ref polygon; ///< entered at this corner: the path goes on in it
     uint32_t flags;     ///< TL_NAV_CORNER_...
+    tl_nav_ref link;    ///< TL_NAV_CORNER_LINK: which; else TL_NAV_NO_REF
 } tl_nav_corner;
 
 /// The shortest line in the plane from start to end through a corridor of polygons, each a neighbour of the one before.
 ///
+/// Off-mesh links in the corridor, as tl_nav_query_find_path writes them, cut it into pieces from anchor to anchor.
 /// start and end are first moved to the closest point of the first and last polygon. Two corners at least (start, end).
 /// `*length_out` (may be NULL) is the sum of the straight distances in space. TL_ERR_CAPACITY: the first `capacity`
 /// corners were written, count and length are true. TL_ERR_ARGUMENT: no polygon, or two that are not neighbours.
@@ -263,14 +341,14 @@ typedef struct tl_nav_shortest_path {
     tl_nav_path_status status;
     uint32_t corner_count; ///< of the whole path, though the buffers may hold fewer
     uint32_t polygon_count;
-    double length;         ///< metres in the plane, of the corners
+    double length;         ///< metres in the plane, of the corners; off-mesh links count what they cost
     double lower_bound;    ///< metres in the plane: no path is shorter; below length by rounding only
     double surface_length; ///< metres in space, straight from corner to corner
     uint32_t node_count;   ///< nodes that the search used
 } tl_nav_shortest_path;
 
 /// The shortest path in the plane from point to point, over tiles, seams and floors that lie over one another, with its
-/// corners and its polygons, and a proof.
+/// corners and its polygons, and a proof. Off-mesh links are used where that is shorter.
 ///
 /// Lengths are measured in x and z, where "straight" means the same on every floor; heights follow from the surface.
 /// Area costs are not looked at, the filter's flags are. Corners are the start, the vertices where the path turns, and
@@ -297,7 +375,8 @@ typedef struct tl_nav_ray_hit {
     uint32_t polygon_count; ///< crossed, the first and last included
 } tl_nav_ray_hit;
 
-/// Walks from start straight towards `end` (its x and z) until a wall, or a polygon that the filter refuses, is met.
+/// Walks from start straight towards `end` (its x and z) until a wall, or a polygon that the filter refuses, is met. It
+/// takes no off-mesh links.
 ///
 /// A ray that only touches a wall or corner passes it. `polygons_out` (may be NULL with capacity 0) gets the polygons
 /// crossed; TL_ERR_CAPACITY: only the first were written, the hit is whole. TL_ERR_NOT_FOUND: a stale reference.

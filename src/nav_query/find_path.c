@@ -25,6 +25,8 @@
 // Keys of the two nodes that are no ways. A slot is below 2^20, so no way has them.
 #define START_KEY UINT64_MAX
 #define GOAL_KEY  (UINT64_MAX - 1u)
+// Off-mesh links that were crossed: | the number of the end that was left.
+#define CROSSED_KEY ((uint64_t)1 << 62)
 
 // Offers a way to reach a node. `from` is TL_NAV_NO_NODE for the start.
 static void relax(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost,
@@ -46,7 +48,7 @@ static void relax(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32
     node->polygon = polygon;
     node->point = point;
     node->cost = cost;
-    node->total = cost + search->least_cost * tl_distance(point, search->goal);
+    node->total = cost + search->least_cost * fminf(tl_distance(point, search->goal), search->detour);
     node->parent = from;
     tl_nav_heap_improve(search->query, index);
 }
@@ -75,6 +77,47 @@ static tl_vec3 crossing_point(tl_vec3 from, tl_vec3 goal, const tl_nav_way *way)
     return along >= length_sq ? way->left : tl_lerp(way->right, way->left, (float)(along / length_sq));
 }
 
+// Crosses the off-mesh links that can be taken from a node's polygon.
+static void cross_links(tl_nav_way_search *search, uint32_t index)
+{
+    const tl_navmesh *navmesh = search->navmesh;
+    const tl_nav_node node = search->query->nodes[index];
+    const tl_nav_tile *tile = navmesh->slots[node.slot].tile;
+    for (uint32_t end = tl_nav_first_anchor(navmesh, node.slot, node.polygon); end != TL_NAV_NO_END;) {
+        const tl_nav_offmesh_entry *link = &navmesh->offmesh.entries[end / 2];
+        const tl_nav_anchor *from = &link->ends[end % 2];
+        const tl_nav_anchor *to = &link->ends[1 - end % 2];
+        if (from->slot == node.slot && from->polygon == node.polygon &&
+            tl_nav_may_cross(link, end % 2, search->filter) &&
+            tl_nav_passes(search->filter, navmesh->slots[to->slot].tile, to->polygon)) {
+            float factor = search->filter != NULL ? search->filter->area_cost[link->offmesh.area] : 1.0f;
+            float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, from->point);
+            relax(search, CROSSED_KEY | end, to->slot, to->polygon, to->point,
+                  node.cost + cost + factor * (float)link->cost, index);
+        }
+        end = from->next;
+    }
+}
+
+static bool is_crossing(const tl_nav_node *node)
+{
+    return node->key >> 62 == CROSSED_KEY >> 62;
+}
+
+// A path that takes a short cut has the way from its end to the goal before it still.
+static float shortest_detour(const tl_nav_way_search *search)
+{
+    const tl_nav_offmesh_table *table = &search->navmesh->offmesh;
+    float least = INFINITY;
+    for (uint32_t i = 0; i < table->short_count; i++) {
+        const tl_nav_offmesh_entry *link = &table->entries[table->short_cuts[i]];
+        for (int end = link->offmesh.both_ways ? 0 : 1; end < 2; end++) {
+            least = fminf(least, tl_distance(link->ends[end].point, search->goal));
+        }
+    }
+    return least;
+}
+
 static void expand(tl_nav_way_search *search, uint32_t index)
 {
     const tl_nav_node node = search->query->nodes[index];
@@ -83,7 +126,9 @@ static void expand(tl_nav_way_search *search, uint32_t index)
         float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, search->goal);
         relax(search, GOAL_KEY, node.slot, node.polygon, search->goal, node.cost + cost, index);
     }
-    const tl_nav_node *parent = node.parent != TL_NAV_NO_NODE ? &search->query->nodes[node.parent] : NULL;
+    cross_links(search, index);
+    bool walked_in = node.parent != TL_NAV_NO_NODE && !is_crossing(&node);
+    const tl_nav_node *parent = walked_in ? &search->query->nodes[node.parent] : NULL;
     tl_nav_ways ways = tl_nav_ways_of(search->navmesh, node.slot, node.polygon);
     tl_nav_way way;
     while (tl_nav_ways_next(&ways, &way)) {
@@ -123,6 +168,7 @@ static tl_nav_path_status step_by_ways(tl_nav_way_search *search, uint64_t *step
 static void begin_by_ways(tl_nav_path_run *run)
 {
     tl_nav_way_search *search = &run->ways;
+    search->detour = shortest_detour(search);
     tl_nav_pool_reset(search->query);
     relax(search, START_KEY, run->exact.start_slot, run->exact.start_polygon, run->start.point, 0.0f, TL_NAV_NO_NODE);
     run->stage = TL_NAV_RUN_WAYS;
@@ -207,13 +253,16 @@ static void write_ways(const tl_nav_way_search *search, uint32_t last, tl_nav_re
     uint32_t end = nodes[last].key == GOAL_KEY ? nodes[last].parent : last;
     uint32_t count = 0;
     for (uint32_t i = end; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
-        count++;
+        count += is_crossing(&nodes[i]) ? 2 : 1;
     }
     uint32_t at = count;
     for (uint32_t i = end; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
         at--;
         if (at < capacity) {
             polygons_out[at] = tl_nav_make_ref(search->navmesh, nodes[i].slot, nodes[i].polygon);
+        }
+        if (is_crossing(&nodes[i]) && --at < capacity) {
+            polygons_out[at] = tl_nav_offmesh_ref(&search->navmesh->offmesh, (uint32_t)nodes[i].key);
         }
     }
     path_out->polygon_count = count;
@@ -285,7 +334,8 @@ tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const
         return TL_ERR_ARGUMENT;
     }
     tl_nav_way_search ways = {
-        query, navmesh, filter, least, run->exact.goal_slot, run->exact.goal_polygon, goal->point, false, TL_NAV_NO_NODE
+        query,       navmesh,  filter, least,         run->exact.goal_slot, run->exact.goal_polygon,
+        goal->point, INFINITY, false,  TL_NAV_NO_NODE
     };
     run->ways = ways;
     run->start = *start;

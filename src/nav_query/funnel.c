@@ -9,6 +9,7 @@
 // turns back along a line, as it does around the end of a wall on the seam of two tiles.
 // Where a corridor leaves a polygon by the very edge by which it came in (to another of two polygons that lie over one
 // another there), the line is inside the corridor but need not be the shortest.
+// Off-mesh links cut a corridor into pieces, each pulled by itself from anchor to anchor.
 // A corner is remembered with the last portal that has it, so each restart begins behind the one before: at most
 // n(n + 1)/2 portals are looked at, and about 2n on real corridors.
 // Source: Mikko Mononen, Simple Stupid Funnel Algorithm, 2010; Lee and Preparata, Euclidean Shortest Paths in the
@@ -24,16 +25,17 @@
 typedef struct corner_list {
     tl_nav_corner *corners;
     uint32_t capacity, count;
+    uint32_t fixed;       // the first ones, up to where the current piece begins
     tl_vec3 last, before; // the last two points
     double length, length_before;
 } corner_list;
 
-static void set_last(corner_list *list, tl_vec3 point, tl_nav_ref polygon, uint32_t flags)
+static void set_last(corner_list *list, tl_vec3 point, tl_nav_ref polygon, uint32_t flags, tl_nav_ref link)
 {
     list->last = point;
     list->length = list->length_before + (list->count > 1 ? (double)tl_distance(list->before, point) : 0.0);
     if (list->count <= list->capacity) {
-        tl_nav_corner corner = { point, polygon, flags };
+        tl_nav_corner corner = { point, polygon, flags, link };
         list->corners[list->count - 1] = corner;
     }
 }
@@ -52,15 +54,16 @@ static bool is_straight(tl_vec3 a, tl_vec3 b, tl_vec3 c)
 }
 
 // Adds a corner; one before it that is no bend, or the same place, gives way to it.
-static void add_corner(corner_list *list, tl_vec3 point, tl_nav_ref polygon, uint32_t flags)
+static void add_corner(corner_list *list, tl_vec3 point, tl_nav_ref polygon, uint32_t flags, tl_nav_ref link)
 {
-    bool replaces = list->count > 1 && (same_place(list->last, point) || is_straight(list->before, list->last, point));
+    bool replaces =
+        list->count > list->fixed && (same_place(list->last, point) || is_straight(list->before, list->last, point));
     if (!replaces) {
         list->before = list->last;
         list->length_before = list->length;
         list->count++;
     }
-    set_last(list, point, polygon, flags);
+    set_last(list, point, polygon, flags, link);
 }
 
 // One side of the wedge: where it is, and the portal that put it there.
@@ -71,7 +74,7 @@ typedef struct wedge_side {
 
 typedef struct funnel {
     const tl_navmesh *navmesh;
-    const tl_nav_ref *polygons;
+    const tl_nav_ref *polygons; // of a piece
     uint32_t polygon_count;
     tl_vec3 start, end;
     tl_vec3 apex;
@@ -102,8 +105,8 @@ static tl_result portal_at(const funnel *f, uint32_t i, tl_vec3 *left_out, tl_ve
 static void turn_at(funnel *f, const wedge_side *side, uint32_t flags)
 {
     // A corner in the start's own place is no corner; add_corner sees to all others.
-    if (f->list.count > 1 || !same_place(side->point, f->start)) {
-        add_corner(&f->list, side->point, f->polygons[side->portal + 1], flags);
+    if (f->list.count > f->list.fixed || !same_place(side->point, f->start)) {
+        add_corner(&f->list, side->point, f->polygons[side->portal + 1], flags, TL_NAV_NO_REF);
     }
     f->apex = side->point;
     f->portal = side->portal + 1;
@@ -215,6 +218,55 @@ static tl_result pull(funnel *f)
     return TL_OK;
 }
 
+// The two anchors of the link that leads from one polygon of a corridor to the next.
+static tl_result find_link(const tl_navmesh *navmesh, const tl_nav_ref *corridor, tl_vec3 ends_out[2])
+{
+    tl_nav_offmesh_state link;
+    TL_TRY(tl_navmesh_offmesh_state(navmesh, corridor[1], &link));
+    int from = (corridor[1] & TL_NAV_OFFMESH_BACKWARD) != 0 ? 1 : 0;
+    ends_out[0] = link.ends[from].point;
+    ends_out[1] = link.ends[1 - from].point;
+    bool leads = link.anchored && (from == 0 || link.offmesh.both_ways) && link.ends[from].polygon == corridor[0] &&
+                 link.ends[1 - from].polygon == corridor[2];
+    return leads ? TL_OK : TL_ERR_ARGUMENT;
+}
+
+// From link to link, and from the last one to the end. A piece's first corner stays whatever comes.
+static tl_result pull_pieces(funnel *f, const tl_nav_ref *polygons, uint32_t polygon_count, tl_vec3 start, tl_vec3 end)
+{
+    for (uint32_t begin = 0; begin < polygon_count;) {
+        uint32_t next = begin;
+        while (next < polygon_count && !tl_nav_is_offmesh(polygons[next])) {
+            next++;
+        }
+        bool is_last = next == polygon_count;
+        tl_vec3 link[2] = { end, end };
+        if (next == begin || next + 1 == polygon_count) {
+            return TL_ERR_ARGUMENT;
+        }
+        if (!is_last) {
+            TL_TRY(find_link(f->navmesh, &polygons[next - 1], link));
+        }
+        f->polygons = &polygons[begin];
+        f->polygon_count = next - begin;
+        f->start = begin == 0 ? start : f->end;
+        f->end = link[0];
+        f->apex = f->start;
+        f->left.point = f->start;
+        f->right.point = f->start;
+        f->portal = 0;
+        f->list.fixed = f->list.count + 1;
+        add_corner(&f->list, f->start, f->polygons[0], begin == 0 ? TL_NAV_CORNER_START : 0, TL_NAV_NO_REF);
+        TL_TRY(pass_ends(f));
+        TL_TRY(pull(f));
+        add_corner(&f->list, f->end, f->polygons[f->polygon_count - 1],
+                   is_last ? TL_NAV_CORNER_END : TL_NAV_CORNER_LINK, is_last ? TL_NAV_NO_REF : polygons[next]);
+        f->end = link[1];
+        begin = next + 1;
+    }
+    return TL_OK;
+}
+
 tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
                                    tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
                                    uint32_t *count_out, float *length_out)
@@ -238,19 +290,11 @@ tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *
     funnel f;
     memset(&f, 0, sizeof f);
     f.navmesh = navmesh;
-    f.polygons = polygons;
-    f.polygon_count = polygon_count;
-    f.start = tl_nav_clamp_to_polygon(navmesh->slots[slots[0]].tile, ends[0], start, &inside);
-    f.end = tl_nav_clamp_to_polygon(navmesh->slots[slots[1]].tile, ends[1], end, &inside);
-    f.apex = f.start;
-    f.left.point = f.start;
-    f.right.point = f.start;
     f.list.corners = corners_out;
     f.list.capacity = capacity;
-    add_corner(&f.list, f.start, polygons[0], TL_NAV_CORNER_START);
-    TL_TRY(pass_ends(&f));
-    TL_TRY(pull(&f));
-    add_corner(&f.list, f.end, polygons[polygon_count - 1], TL_NAV_CORNER_END);
+    tl_vec3 first = tl_nav_clamp_to_polygon(navmesh->slots[slots[0]].tile, ends[0], start, &inside);
+    tl_vec3 last = tl_nav_clamp_to_polygon(navmesh->slots[slots[1]].tile, ends[1], end, &inside);
+    TL_TRY(pull_pieces(&f, polygons, polygon_count, first, last));
     *count_out = f.list.count;
     if (length_out != NULL) {
         *length_out = (float)f.list.length;

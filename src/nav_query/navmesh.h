@@ -5,9 +5,8 @@
 #ifndef TALUS_SRC_NAV_QUERY_NAVMESH_H
 #define TALUS_SRC_NAV_QUERY_NAVMESH_H
 
+#include "nav_query/offmesh.h"
 #include "nav_query/rings.h"
-
-#define TL_NAV_NO_SLOT UINT32_MAX
 
 /// A way across a tile's border.
 typedef struct tl_nav_seam_link {
@@ -36,6 +35,7 @@ typedef struct tl_nav_slot {
     tl_nav_edit last_edit;   ///< that changed what a search sees here
     uint64_t inner_links;    ///< ways between polygons of the tile
     tl_nav_tile_ownership ownership;
+    uint32_t anchor_count; ///< ends of off-mesh links on its polygons
     tl_nav_side_links sides[4];
     tl_nav_rings rings;
 } tl_nav_slot;
@@ -56,9 +56,11 @@ struct tl_navmesh {
     uint32_t tile_count;
     uint64_t link_count;
     uint64_t polygon_count;
-    tl_nav_edit edit; ///< the last one
-    tl_nav_island *islands;
+    tl_nav_edit edit;       ///< the last one
+    tl_nav_island *islands; ///< over seams and off-mesh links
+    tl_nav_island *shores;  ///< over seams alone; the same nodes
     uint32_t island_count, island_capacity;
+    tl_nav_offmesh_table offmesh;
     uint32_t last_fan;  ///< the last number that fans.c gave
     uint64_t all_flags; ///< that every polygon of every tile so far has
     uint64_t any_flags; ///< that some polygon of some tile so far has
@@ -103,6 +105,15 @@ static inline bool tl_nav_all_pass(const tl_navmesh *navmesh, const tl_nav_filte
 /// Slot and polygon of a reference; false when it is stale.
 bool tl_nav_split_ref(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *slot_out, uint32_t *polygon_out);
 
+/// The first end of a link that is anchored in a slot, TL_NAV_NO_END when there is none; then the next one in its
+/// bucket. Others than this polygon's are among them.
+static inline uint32_t tl_nav_first_anchor(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_offmesh_table *table = &navmesh->offmesh;
+    return navmesh->slots[slot].anchor_count > 0 ? table->buckets[tl_nav_anchor_bucket(table, slot, polygon)]
+                                                 : TL_NAV_NO_END;
+}
+
 /// The slot of the tile at a place, or TL_NAV_NO_SLOT.
 uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t tile_z);
 
@@ -117,11 +128,23 @@ void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot);
 
 /// Room for `count` more labels of tiles. TL_ERR_MEMORY, TL_ERR_LIMIT.
 tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count);
+void tl_nav_free_islands(tl_navmesh *navmesh);
 /// Joins a new slot's labels, for which there is room, to its neighbours'.
 void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot);
 /// Joins all labels anew, after a tile has left.
 void tl_nav_rebuild_islands(tl_navmesh *navmesh);
 uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);
+/// Joins the islands of a link's two anchors.
+void tl_nav_join_anchors(tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry);
+/// Whether a link's anchors hang together without any off-mesh link.
+bool tl_nav_is_on_one_shore(const tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry);
+
+/// Anchors the ends of off-mesh links near a slot anew, after its tile has come, or for those that stood on it, before
+/// it is freed but after it can be found no more. Returns whether an end has left a polygon: then islands may split.
+bool tl_nav_anchor_near(tl_navmesh *navmesh, uint32_t slot, bool tile_leaves);
+/// Adds the flags of all off-mesh links to those that a filter may meet.
+void tl_nav_note_offmesh_flags(tl_navmesh *navmesh);
+void tl_nav_free_offmesh(tl_navmesh *navmesh);
 
 // ---------------------------------------------------------------------------------------------------------
 // Walking over the ways out of a polygon, edge by edge.

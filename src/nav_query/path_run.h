@@ -15,6 +15,7 @@ typedef struct tl_nav_way_search {
     float least_cost; ///< of a metre
     uint32_t goal_slot, goal_polygon;
     tl_vec3 goal;
+    float detour; ///< metres at least from the nearest end of a short cut to the goal; INFINITY: there is none
     bool out_of_nodes;
     uint32_t last; ///< the goal's node, once it is found
 } tl_nav_way_search;

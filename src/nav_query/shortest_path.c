@@ -55,8 +55,8 @@ typedef struct corner_walk {
     tl_nav_corner *corners; // NULL: only counted
     uint32_t capacity;
     uint32_t at; // the place of the corner that was written last, from the end of the whole path
-    tl_vec3 next;
     tl_nav_corner held;
+    uint32_t count; // of corners so far
     tl_nav_shortest_path *path;
 } corner_walk;
 
@@ -68,40 +68,64 @@ static void write_corner(corner_walk *walk, const tl_nav_corner *corner)
     }
 }
 
+// Takes up the corner before the one that is held: it is written, and the way between them counted.
+static void hold_corner(corner_walk *walk, const tl_nav_corner *corner, double length)
+{
+    write_corner(walk, &walk->held);
+    walk->path->length += length;
+    walk->path->surface_length += (double)tl_distance(corner->point, walk->held.point);
+    walk->held = *corner;
+    walk->count++;
+}
+
+// The two ends of the link by which a wedge has come, from the far one back.
+static void walk_link(const tl_nav_shortest_search *search, const tl_nav_wedge *wedge, corner_walk *walk)
+{
+    const tl_nav_offmesh_table *table = &search->navmesh->offmesh;
+    uint32_t end = wedge->edge & ~TL_NAV_WEDGE_LANDS;
+    const tl_nav_offmesh_entry *link = &table->entries[end / 2];
+    const tl_nav_anchor *from = &link->ends[end % 2];
+    const tl_nav_anchor *to = &link->ends[1 - end % 2];
+    tl_nav_corner landing = { to->point, tl_nav_make_ref(search->navmesh, to->slot, to->polygon), 0, TL_NAV_NO_REF };
+    tl_nav_corner leaving = { from->point, tl_nav_make_ref(search->navmesh, from->slot, from->polygon),
+                              TL_NAV_CORNER_LINK, tl_nav_offmesh_ref(table, end) };
+    hold_corner(walk, &landing, plan_distance(landing.point, walk->held.point));
+    hold_corner(walk, &leaving, link->cost);
+}
+
 // Goes through the corners behind the start; returns how many there are. A vertex that the path only passes is none.
 static uint32_t walk_corners(const tl_nav_shortest_search *search, corner_walk *walk)
 {
     const tl_nav_wedge *wedges = search->query->wedges;
     tl_nav_ref goal_ref = tl_nav_make_ref(search->navmesh, search->goal_slot, search->goal_polygon);
-    tl_nav_corner goal = { search->goal, goal_ref, TL_NAV_CORNER_END };
-    walk->next = search->goal;
+    tl_nav_corner goal = { search->goal, goal_ref, TL_NAV_CORNER_END, TL_NAV_NO_REF };
     walk->held = goal;
-    uint32_t count = 1;
+    walk->count = 1;
     for (uint32_t i = search->last; wedges[i].parent != TL_NAV_NO_NODE; i = wedges[i].parent) {
         const tl_nav_wedge *parent = &wedges[wedges[i].parent];
+        if (tl_nav_wedge_lands(&wedges[i])) {
+            walk_link(search, &wedges[i], walk);
+            continue;
+        }
         if (!turns(&wedges[i], parent)) {
             continue;
         }
         // The vertex is the parent's, and through its polygon the path goes on.
         bool is_left = false;
         tl_nav_corner corner = { root_point(search->navmesh, &wedges[i], parent, &is_left),
-                                 tl_nav_make_ref(search->navmesh, parent->slot, parent->polygon), 0 };
+                                 tl_nav_make_ref(search->navmesh, parent->slot, parent->polygon), 0, TL_NAV_NO_REF };
         tl_vec3 before = { parent->root_x, 0.0f, parent->root_z };
         double turn = turn_at(before, corner.point, walk->held.point, is_left);
         if (turn == 0.0) {
             continue;
         }
         corner.flags = turn < 0.0 ? TL_NAV_CORNER_LEFT : TL_NAV_CORNER_RIGHT;
-        write_corner(walk, &walk->held);
-        walk->path->length += plan_distance(corner.point, walk->held.point);
-        walk->path->surface_length += (double)tl_distance(corner.point, walk->held.point);
-        walk->held = corner;
-        count++;
+        hold_corner(walk, &corner, plan_distance(corner.point, walk->held.point));
     }
     write_corner(walk, &walk->held);
     walk->path->length += plan_distance(search->start, walk->held.point);
     walk->path->surface_length += (double)tl_distance(search->start, walk->held.point);
-    return count;
+    return walk->count;
 }
 
 static void write_corners(const tl_nav_shortest_search *search, tl_nav_corner *corners, uint32_t capacity,
@@ -121,7 +145,7 @@ static void write_corners(const tl_nav_shortest_search *search, tl_nav_corner *c
         walk_corners(search, &walk);
         tl_nav_corner start = { search->start,
                                 tl_nav_make_ref(search->navmesh, search->start_slot, search->start_polygon),
-                                TL_NAV_CORNER_START };
+                                TL_NAV_CORNER_START, TL_NAV_NO_REF };
         corners[0] = start;
     }
 }
@@ -132,29 +156,28 @@ double tl_nav_shortest_length(const tl_nav_shortest_search *search)
     return last->cost + plan_distance(tl_vec3_make(last->root_x, 0.0f, last->root_z), search->goal);
 }
 
-// The wedge before that entered another polygon. A turn within a polygon has a wedge of its own there.
-static uint32_t before(const tl_nav_wedge *wedges, uint32_t wedge)
+// Whether the path enters a polygon by a wedge. A turn within a polygon has a wedge of its own there.
+static bool enters(const tl_nav_wedge *wedges, uint32_t wedge)
 {
-    uint32_t at = wedges[wedge].parent;
-    while (at != TL_NAV_NO_NODE && wedges[at].slot == wedges[wedge].slot &&
-           wedges[at].polygon == wedges[wedge].polygon) {
-        at = wedges[at].parent;
-    }
-    return at;
+    uint32_t parent = wedges[wedge].parent;
+    return parent == TL_NAV_NO_NODE || tl_nav_wedge_lands(&wedges[wedge]) ||
+           wedges[parent].slot != wedges[wedge].slot || wedges[parent].polygon != wedges[wedge].polygon;
 }
 
 uint32_t tl_nav_write_wedges(const tl_nav_shortest_search *search, tl_nav_ref *polygons, uint32_t capacity)
 {
     const tl_nav_wedge *wedges = search->query->wedges;
     uint32_t count = 0;
-    for (uint32_t i = search->last; i != TL_NAV_NO_NODE; i = before(wedges, i)) {
-        count++;
+    for (uint32_t i = search->last; i != TL_NAV_NO_NODE; i = wedges[i].parent) {
+        count += !enters(wedges, i) ? 0 : tl_nav_wedge_lands(&wedges[i]) ? 2 : 1;
     }
     uint32_t at = count;
-    for (uint32_t i = search->last; i != TL_NAV_NO_NODE && capacity > 0; i = before(wedges, i)) {
-        at--;
-        if (at < capacity) {
+    for (uint32_t i = search->last; i != TL_NAV_NO_NODE && capacity > 0; i = wedges[i].parent) {
+        if (enters(wedges, i) && --at < capacity) {
             polygons[at] = tl_nav_make_ref(search->navmesh, wedges[i].slot, wedges[i].polygon);
+        }
+        if (tl_nav_wedge_lands(&wedges[i]) && --at < capacity) {
+            polygons[at] = tl_nav_offmesh_ref(&search->navmesh->offmesh, wedges[i].edge & ~TL_NAV_WEDGE_LANDS);
         }
     }
     return count;

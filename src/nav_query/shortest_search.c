@@ -14,96 +14,16 @@
 // (walls and doors in line, on a lattice the rule) are gone along to their nearer vertex. Dead ends are left out,
 // vertices that no shortest path turns at are known beforehand (fans.c), and the best wedge of a step goes on at once
 // without a turn in the heap.
+//
+// The end of an off-mesh link is gone to as if it were the goal, and its other end is a root from which all is open
+// (wedge_links.h). A link costs no less than the straight way, so estimates hold. Where one does, a short cut, an
+// estimate is at most the way to the goal from the nearest end of a short cut. A wedge in the goal's polygon is then
+// taken up twice: for what lies behind it, and for its own true length.
 // Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh, IJCAI 2017.
 
 #include "nav_query/shortest_search.h"
 
-#include "math/tolerance.h"
-#include "nav_query/filter.h"
-#include "nav_query/ring_step.h"
-#include "nav_query/root_table.h"
-#include "nav_query/wedge_heap.h"
-#include "nav_query/wedge_sight.h"
-
-#include <math.h>
-
-// A vertex counts as on a line when it is no farther from it than rounding its coordinates to float may have moved the
-// three points, as a share of the largest coordinate.
-#define EDGE_ON_ERROR ((double)TL_FLOAT_GAMMA(6))
-
-typedef struct wedge_search {
-    tl_nav_shortest_search *in;
-    tl_nav_query *query;
-    const tl_navmesh *navmesh;
-    double goal_x, goal_z;
-    double rounding;           // metres
-    uint32_t dead_ends[2];     // that may be entered: of the goal's slot, of the start's
-    tl_nav_search_end trouble; // FOUND: none
-    uint32_t only;             // wedge of the current step, while it is the only one
-    seen_edge only_edge;       // that it looks through
-    uint32_t best;             // the best of several, kept out of the heap
-    float best_total;
-} wedge_search;
-
-// Metres from the root through the part of the edge between two directions to the goal, at least.
-static double estimate(const wedge_search *s, float root_x, float root_z, const seen_edge *edge, tl_nav_direction left,
-                       tl_nav_direction right)
-{
-    tl_nav_direction goal = { s->goal_x - (double)root_x, s->goal_z - (double)root_z };
-    tl_nav_direction along = { edge->left.x - edge->right.x, edge->left.z - edge->right.z };
-    tl_nav_direction from_edge = { goal.x - edge->right.x, goal.z - edge->right.z };
-    double beyond = cross(along, from_edge); // > 0: on the far side, right of the edge from its right end to its left
-    if (beyond < 0.0) {
-        double scale = 2.0 * beyond / (along.x * along.x + along.z * along.z);
-        goal.x += scale * along.z;
-        goal.z -= scale * along.x;
-    }
-    bool is_left_of = cross(left, goal) < 0.0;
-    if (!is_left_of && !(cross(right, goal) > 0.0)) {
-        return length_of(goal);
-    }
-    tl_nav_direction limit = is_left_of ? left : right;
-    tl_nav_direction vertex = is_left_of ? edge->left : edge->right;
-    tl_nav_direction via = limit.x == vertex.x && limit.z == vertex.z ? vertex : meet(limit, edge->right, edge->left);
-    tl_nav_direction rest = { goal.x - via.x, goal.z - via.z };
-    return length_of(via) + length_of(rest);
-}
-
-static bool may_enter(const wedge_search *s, uint32_t slot, uint32_t polygon)
-{
-    const tl_nav_shortest_search *in = s->in;
-    uint32_t dead_end = s->navmesh->slots[slot].rings.cells[polygon].dead_end;
-    if (dead_end != 0 && !(slot == in->goal_slot && dead_end == s->dead_ends[0]) &&
-        !(slot == in->start_slot && dead_end == s->dead_ends[1])) {
-        return false;
-    }
-    return in->filter == NULL || tl_nav_passes(in->filter, s->navmesh->slots[slot].tile, polygon);
-}
-
-static uint32_t new_wedge(wedge_search *s)
-{
-    tl_nav_query *query = s->query;
-    if (query->wedge_count == query->max_nodes) {
-        s->trouble = TL_NAV_SEARCH_OUT_OF_NODES;
-        return TL_NAV_NO_NODE;
-    }
-    return query->wedge_count++;
-}
-
-// Gives a wedge to the heap, or keeps it at hand when it is the best of its step; then the one before goes there.
-static void offer(wedge_search *s, uint32_t wedge, float total)
-{
-    if (s->best == TL_NAV_NO_NODE) {
-        s->best = wedge;
-        s->best_total = total;
-    } else if (total < s->best_total) {
-        tl_nav_wedge_push(s->query, s->best_total, s->best);
-        s->best = wedge;
-        s->best_total = total;
-    } else {
-        tl_nav_wedge_push(s->query, total, wedge);
-    }
-}
+#include "nav_query/wedge_links.h"
 
 // What a step goes on from.
 typedef struct step_from {
@@ -116,7 +36,8 @@ typedef struct step_from {
 // The least length of a path through a wedge.
 static float total_of(const wedge_search *s, const tl_nav_wedge *wedge, const seen_edge *edge)
 {
-    return (float)(wedge->cost + estimate(s, wedge->root_x, wedge->root_z, edge, wedge->left, wedge->right));
+    double rest = estimate(s, wedge->root_x, wedge->root_z, edge, wedge->left, wedge->right);
+    return (float)(wedge->cost + (rest < s->detour ? rest : s->detour));
 }
 
 // A wedge through edge i of the polygon. `root_*`, `cost`: its root. The first one of a step is kept as it is: where it
@@ -264,21 +185,6 @@ static bool has_walls_on(const wedge_search *s, const step_from *from, uint32_t 
     return true;
 }
 
-// A wedge that is never taken up: a turn on the way to another one, for whoever reads the path.
-static uint32_t add_turn(wedge_search *s, uint32_t parent, float root_x, float root_z, double cost)
-{
-    uint32_t index = new_wedge(s);
-    if (index != TL_NAV_NO_NODE) {
-        tl_nav_wedge *wedge = &s->query->wedges[index];
-        *wedge = s->query->wedges[parent];
-        wedge->root_x = root_x;
-        wedge->root_z = root_z;
-        wedge->cost = cost;
-        wedge->parent = parent;
-    }
-    return index;
-}
-
 // The edges that are reached by turning at a vertex of the edge of entry: `hand` is 1 for the left one, -1 for the
 // right one. They lie beyond the wedge's `limit` on that hand, in the part of the ring from `begin` to `end` (counted
 // from the edge of entry).
@@ -336,6 +242,9 @@ static void expand(wedge_search *s, uint32_t index)
 {
     const tl_nav_wedge wedge = s->query->wedges[index];
     const wedge_view view = make_view(&wedge);
+    if (s->navmesh->slots[wedge.slot].anchor_count > 0) {
+        cross_links(s, index);
+    }
     step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
     from.ring = tl_nav_ring_at(s->navmesh, wedge.slot, wedge.polygon, &from.count);
     uint32_t first_seen = from.count; // the first way that ends left of the wedge's right side
@@ -384,7 +293,8 @@ static void expand(wedge_search *s, uint32_t index)
 }
 
 // ---------------------------------------------------------------------------------------------------------
-// The start: all polygons that hold it, on an edge or in a vertex several, one found from another.
+// A root from which all is open, the start or where a link lands: all polygons that hold it, on an edge or in a vertex
+// several, one found from another.
 
 enum { MAX_AROUND = 64 };
 
@@ -398,58 +308,102 @@ static bool is_within(const wedge_search *s, const seen_edge *edge)
     return along >= -slack && along <= x * x + z * z + slack;
 }
 
-static void add_start(wedge_search *s, uint32_t slot, uint32_t polygon, uint32_t parent)
+// The wedges that hold a root: `first`, and others that follow one another.
+typedef struct root_holders {
+    uint32_t first, others;
+    uint32_t count;
+} root_holders;
+
+static uint32_t holder_at(const root_holders *holders, uint32_t i)
 {
-    const tl_nav_shortest_search *in = s->in;
-    for (uint32_t i = 0; i < s->query->wedge_count; i++) {
-        if (s->query->wedges[i].slot == slot && s->query->wedges[i].polygon == polygon) {
+    return i == 0 ? holders->first : holders->others + i - 1;
+}
+
+static void add_holder(wedge_search *s, root_holders *holders, uint32_t slot, uint32_t polygon, uint32_t parent)
+{
+    for (uint32_t i = 0; i < holders->count; i++) {
+        const tl_nav_wedge *wedge = &s->query->wedges[holder_at(holders, i)];
+        if (wedge->slot == slot && wedge->polygon == polygon) {
             return;
         }
     }
-    uint32_t index = s->query->wedge_count < MAX_AROUND ? new_wedge(s) : TL_NAV_NO_NODE;
+    uint32_t index = holders->count < MAX_AROUND ? new_wedge(s) : TL_NAV_NO_NODE;
     if (index != TL_NAV_NO_NODE) {
-        tl_nav_wedge wedge = { { 0.0, 0.0 }, { 0.0, 0.0 }, 0.0,        in->start.x, in->start.z,
-                               slot,         polygon,      UINT32_MAX, parent };
-        s->query->wedges[index] = wedge;
+        s->query->wedges[index] = s->query->wedges[parent];
+        s->query->wedges[index].slot = slot;
+        s->query->wedges[index].polygon = polygon;
+        s->query->wedges[index].edge = TL_NAV_WEDGE_HOLDS;
+        s->query->wedges[index].parent = parent;
+        holders->count++;
     }
 }
 
-// Looks from the start through all edges around it. Returns the wedge of a polygon that holds the goal too.
-static uint32_t begin(wedge_search *s)
+// Goes through the edges of a polygon that holds the root: adds the polygons behind those it lies on, or else looks
+// through all others.
+static void look_out(wedge_search *s, uint32_t index, root_holders *gathered)
 {
-    const tl_nav_shortest_search *in = s->in;
-    add_start(s, in->start_slot, in->start_polygon, TL_NAV_NO_NODE);
-    // Wedges that are added to the pool by the walk over the first polygon stand behind those that hold the start, so
-    // the polygons are gathered first.
-    for (uint32_t pass = 0; pass < 2; pass++) {
-        uint32_t around = s->query->wedge_count;
-        for (uint32_t w = 0; w < (pass == 0 ? s->query->wedge_count : around); w++) {
-            step_from from = { w, s->query->wedges[w].slot, s->query->wedges[w].polygon, NULL, 0 };
-            if (from.slot == in->goal_slot && from.polygon == in->goal_polygon) {
-                return w;
+    const tl_nav_wedge wedge = s->query->wedges[index];
+    step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
+    from.ring = tl_nav_ring_at(s->navmesh, from.slot, from.polygon, &from.count);
+    for (uint32_t i = 0; i < from.count; i++) {
+        if (!tl_nav_ring_is_open(&from.ring[i])) {
+            continue;
+        }
+        seen_edge edge = see(&from, i, wedge.root_x, wedge.root_z);
+        edge_view v = view_of(s, &edge);
+        bool on_edge = v.edge_on && is_within(s, &edge);
+        if (gathered != NULL && on_edge) {
+            tl_nav_ring_seam to = tl_nav_ring_across(s->navmesh, from.slot, from.ring[i].to);
+            if (may_enter(s, to.slot, to.polygon)) {
+                add_holder(s, gathered, to.slot, to.polygon, index);
             }
-            from.ring = tl_nav_ring_at(s->navmesh, from.slot, from.polygon, &from.count);
-            for (uint32_t i = 0; i < from.count; i++) {
-                if (!tl_nav_ring_is_open(&from.ring[i])) {
-                    continue;
-                }
-                seen_edge edge = see(&from, i, in->start.x, in->start.z);
-                edge_view v = view_of(s, &edge);
-                bool on_edge = v.edge_on && is_within(s, &edge);
-                if (pass == 0 && on_edge) {
-                    tl_nav_ring_seam to = tl_nav_ring_across(s->navmesh, from.slot, from.ring[i].to);
-                    if (may_enter(s, to.slot, to.polygon)) {
-                        add_start(s, to.slot, to.polygon, w);
-                    }
-                } else if (pass == 1 && !on_edge && v.edge_on) {
-                    add_edge_on(s, &from, i, in->start.x, in->start.z, 0.0, &edge);
-                } else if (pass == 1 && !on_edge && v.facing) {
-                    add_wedge(s, &from, i, in->start.x, in->start.z, 0.0, &edge, edge.left, edge.right);
-                }
-            }
+        } else if (gathered == NULL && !on_edge && v.edge_on) {
+            add_edge_on(s, &from, i, wedge.root_x, wedge.root_z, wedge.cost, &edge);
+        } else if (gathered == NULL && !on_edge && v.facing) {
+            add_wedge(s, &from, i, wedge.root_x, wedge.root_z, wedge.cost, &edge, edge.left, edge.right);
         }
     }
+}
+
+// Looks from the root of wedge `first`, which lies in its polygon, through all edges around it. Where a polygon that
+// holds it holds the goal too, and no short cut beats the straight way, that wedge is returned, and there is nothing
+// else to look for.
+static uint32_t look_around(wedge_search *s, uint32_t first)
+{
+    root_holders holders = { first, s->query->wedge_count, 1 };
+    for (uint32_t i = 0; i < holders.count; i++) {
+        look_out(s, holder_at(&holders, i), &holders);
+    }
+    for (uint32_t i = 0; i < holders.count; i++) {
+        const tl_nav_wedge *wedge = &s->query->wedges[holder_at(&holders, i)];
+        if (wedge->slot == s->in->goal_slot && wedge->polygon == s->in->goal_polygon) {
+            double straight = way_to(s, wedge, s->goal_x, s->goal_z).length;
+            if (straight <= s->detour) {
+                return holder_at(&holders, i);
+            }
+            offer(s, holder_at(&holders, i), (float)(wedge->cost + straight));
+        }
+    }
+    for (uint32_t i = 0; i < holders.count; i++) {
+        const tl_nav_wedge *wedge = &s->query->wedges[holder_at(&holders, i)];
+        if (s->navmesh->slots[wedge->slot].anchor_count > 0) {
+            cross_links(s, holder_at(&holders, i));
+        }
+    }
+    for (uint32_t i = 0; i < holders.count; i++) {
+        look_out(s, holder_at(&holders, i), NULL);
+    }
     return TL_NAV_NO_NODE;
+}
+
+// From where a link lands. A way straight to the goal is one among others here.
+static void land(wedge_search *s, uint32_t index)
+{
+    uint32_t last = look_around(s, index);
+    if (last != TL_NAV_NO_NODE) {
+        const tl_nav_wedge *wedge = &s->query->wedges[last];
+        offer(s, last, (float)(wedge->cost + way_to(s, wedge, s->goal_x, s->goal_z).length));
+    }
 }
 
 // The wedge to go on with: the only one of the step before, or the best of all.
@@ -492,23 +446,29 @@ static double bound_of(float total)
 // leads to the goal in a way that is straight, and this one came first by rounding only.
 static uint32_t end_in(wedge_search *s, uint32_t entered)
 {
-    const tl_nav_wedge *wedge = &s->query->wedges[entered];
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(s->navmesh, wedge->slot, wedge->polygon, &count);
-    tl_nav_direction goal = { s->goal_x - (double)wedge->root_x, s->goal_z - (double)wedge->root_z };
-    // A goal on the wedge's border, as one on the edge of entry may be, lies beside it by rounding only.
-    double left_slack = s->rounding * (fabs(wedge->left.x) + fabs(wedge->left.z));
-    double right_slack = s->rounding * (fabs(wedge->right.x) + fabs(wedge->right.z));
-    bool is_left_of = cross(wedge->left, goal) < -left_slack;
-    if (!is_left_of && !(cross(wedge->right, goal) > right_slack)) {
-        return entered;
+    wedge_way way = way_to(s, &s->query->wedges[entered], s->goal_x, s->goal_z);
+    return way.reaches ? turn_on(s, entered, &way) : TL_NAV_NO_NODE;
+}
+
+// Where there are short cuts: takes up what lies behind a wedge in the goal's polygon, unless its total is its true
+// one.
+static bool goes_on(wedge_search *s, uint32_t index, float total)
+{
+    const tl_nav_wedge *wedge = &s->query->wedges[index];
+    wedge_way way = way_to(s, wedge, s->goal_x, s->goal_z);
+    float true_total = (float)(wedge->cost + way.length);
+    if (way.reaches && total >= true_total) {
+        return false;
     }
-    tl_nav_direction limit = is_left_of ? wedge->left : wedge->right;
-    const tl_nav_ring_edge *vertex = &ring[is_left_of ? wedge->edge : wedge->edge + 1 < count ? wedge->edge + 1 : 0];
-    if (limit.x != (double)vertex->x - (double)wedge->root_x || limit.z != (double)vertex->z - (double)wedge->root_z) {
-        return TL_NAV_NO_NODE;
+    if (wedge->edge >= TL_NAV_WEDGE_LANDS) {
+        land(s, index);
+        return true;
     }
-    return add_turn(s, entered, vertex->x, vertex->z, wedge->cost + length_of(limit));
+    if (way.reaches) {
+        offer(s, index, true_total);
+    }
+    expand(s, index);
+    return true;
 }
 
 // Takes up wedges, the least total first, until one has entered the goal's polygon or the steps are used up.
@@ -522,6 +482,9 @@ static tl_nav_search_end run(wedge_search *s, uint64_t *steps)
         }
         const tl_nav_wedge *wedge = &s->query->wedges[next];
         if (wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot) {
+            if (s->detour != (double)INFINITY && goes_on(s, next, total)) {
+                continue;
+            }
             s->in->lower_bound = s->in->lower_bound > 0.0 ? s->in->lower_bound : bound_of(total);
             s->in->last = end_in(s, next);
             if (s->in->last == TL_NAV_NO_NODE) {
@@ -529,7 +492,11 @@ static tl_nav_search_end run(wedge_search *s, uint64_t *steps)
             }
             return TL_NAV_SEARCH_FOUND;
         }
-        expand(s, next);
+        if (wedge->edge >= TL_NAV_WEDGE_LANDS) {
+            land(s, next);
+        } else {
+            expand(s, next);
+        }
     }
     return s->trouble != TL_NAV_SEARCH_FOUND ? s->trouble : TL_NAV_SEARCH_PAUSED;
 }
@@ -549,6 +516,7 @@ static wedge_search take_up(tl_nav_shortest_search *search)
                        (double)search->goal.x,
                        (double)search->goal.z,
                        0.0,
+                       (double)INFINITY,
                        { navmesh->slots[search->goal_slot].rings.cells[search->goal_polygon].dead_end,
                          navmesh->slots[search->start_slot].rings.cells[search->start_polygon].dead_end },
                        TL_NAV_SEARCH_FOUND,
@@ -558,6 +526,7 @@ static wedge_search take_up(tl_nav_shortest_search *search)
                        search->best_total };
     double start_size = largest_of((double)search->start.x, (double)search->start.z);
     s.rounding = EDGE_ON_ERROR * largest_of(start_size, largest_of(s.goal_x, s.goal_z));
+    s.detour = shortest_detour(&s);
     return s;
 }
 
@@ -572,13 +541,19 @@ static void lay_down(const wedge_search *s, tl_nav_shortest_search *search)
 
 tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search)
 {
-    search->query->wedge_count = 0;
-    search->query->open_count = 0;
-    tl_nav_next_generation(search->query);
+    tl_nav_query *query = search->query;
+    query->wedge_count = 0;
+    query->open_count = 0;
+    tl_nav_next_generation(query);
     search->only = TL_NAV_NO_NODE;
     search->best = TL_NAV_NO_NODE;
     wedge_search s = take_up(search);
-    search->last = begin(&s);
+    tl_nav_wedge start = { { 0.0, 0.0 },          { 0.0, 0.0 },       0.0,
+                           search->start.x,       search->start.z,    search->start_slot,
+                           search->start_polygon, TL_NAV_WEDGE_HOLDS, TL_NAV_NO_NODE };
+    uint32_t first = new_wedge(&s);
+    query->wedges[first] = start;
+    search->last = look_around(&s, first);
     lay_down(&s, search);
     if (search->last != TL_NAV_NO_NODE) {
         search->lower_bound = tl_nav_shortest_length(search);

@@ -19,9 +19,18 @@ typedef struct tl_nav_wedge {
     double cost;                  ///< metres from the start to the root
     float root_x, root_z;
     uint32_t slot, polygon; ///< that is entered
-    uint32_t edge;          ///< by which, of its ring; UINT32_MAX: it holds the start
+    uint32_t edge;          ///< by which, of its ring; or TL_NAV_WEDGE_...: it holds its root
     uint32_t parent;
 } tl_nav_wedge;
+
+// Values of tl_nav_wedge.edge beside edges. From such a wedge all is open.
+#define TL_NAV_WEDGE_LANDS 0x80000000u ///< | the end by which an off-mesh link was left; the root is its other end
+#define TL_NAV_WEDGE_HOLDS UINT32_MAX  ///< the start is here, or the root of the wedge's parent
+
+static inline bool tl_nav_wedge_lands(const tl_nav_wedge *wedge)
+{
+    return wedge->edge >= TL_NAV_WEDGE_LANDS && wedge->edge != TL_NAV_WEDGE_HOLDS;
+}
 
 typedef enum tl_nav_search_end {
     TL_NAV_SEARCH_FOUND,

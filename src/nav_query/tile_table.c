@@ -69,7 +69,8 @@ void tl_navmesh_free(tl_navmesh *navmesh)
     tl_allocator allocator = navmesh->allocator;
     tl_release_array(&allocator, navmesh->slots, navmesh->slot_capacity, sizeof *navmesh->slots);
     tl_release_array(&allocator, navmesh->buckets, navmesh->bucket_count, sizeof *navmesh->buckets);
-    tl_release_array(&allocator, navmesh->islands, navmesh->island_capacity, sizeof *navmesh->islands);
+    tl_nav_free_islands(navmesh);
+    tl_nav_free_offmesh(navmesh);
     tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
 }
 
@@ -279,6 +280,7 @@ static void note_flags(tl_navmesh *navmesh, const tl_nav_tile *tile)
     if (navmesh->tile_count == 0) {
         navmesh->all_flags = UINT64_MAX;
         navmesh->any_flags = 0;
+        tl_nav_note_offmesh_flags(navmesh);
     }
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         navmesh->all_flags &= tl_nav_tile_flags(tile, p);
@@ -328,6 +330,9 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     navmesh->tile_count++;
     navmesh->link_count += slot->inner_links;
     navmesh->polygon_count += tile->polygon_count;
+    if (tl_nav_anchor_near(navmesh, index, false)) {
+        tl_nav_rebuild_islands(navmesh);
+    }
     return TL_OK;
 }
 
@@ -358,6 +363,7 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
     navmesh->link_count -= slot->inner_links;
     navmesh->polygon_count -= slot->tile->polygon_count;
     free_slot_content(navmesh, slot);
+    tl_nav_anchor_near(navmesh, index, true);
     tl_nav_rebuild_islands(navmesh);
     number_fans(navmesh, TL_NAV_NO_SLOT, neighbours);
     if (slot->salt < LAST_SALT) {

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+//
+// The state of an exact search, and how a wedge comes into it.
+
+#ifndef TALUS_SRC_NAV_QUERY_WEDGE_SEARCH_H
+#define TALUS_SRC_NAV_QUERY_WEDGE_SEARCH_H
+
+#include "math/tolerance.h"
+#include "nav_query/filter.h"
+#include "nav_query/ring_step.h"
+#include "nav_query/root_table.h"
+#include "nav_query/wedge_heap.h"
+#include "nav_query/wedge_sight.h"
+
+// A vertex counts as on a line when it is no farther from it than rounding its coordinates to float may have moved the
+// three points, as a share of the largest coordinate.
+#define EDGE_ON_ERROR ((double)TL_FLOAT_GAMMA(6))
+
+typedef struct wedge_search {
+    tl_nav_shortest_search *in;
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    double goal_x, goal_z;
+    double rounding;           // metres
+    double detour;             // metres at least from the end of a short cut to the goal; INFINITY: there is none
+    uint32_t dead_ends[2];     // that may be entered: of the goal's slot, of the start's
+    tl_nav_search_end trouble; // FOUND: none
+    uint32_t only;             // wedge of the current step, while it is the only one
+    seen_edge only_edge;       // that it looks through
+    uint32_t best;             // the best of several, kept out of the heap
+    float best_total;
+} wedge_search;
+
+// Metres from the root through the part of the edge between two directions to the goal, at least.
+static inline double estimate(const wedge_search *s, float root_x, float root_z, const seen_edge *edge,
+                              tl_nav_direction left, tl_nav_direction right)
+{
+    tl_nav_direction goal = { s->goal_x - (double)root_x, s->goal_z - (double)root_z };
+    tl_nav_direction along = { edge->left.x - edge->right.x, edge->left.z - edge->right.z };
+    tl_nav_direction from_edge = { goal.x - edge->right.x, goal.z - edge->right.z };
+    double beyond = cross(along, from_edge); // > 0: on the far side, right of the edge from its right end to its left
+    if (beyond < 0.0) {
+        double scale = 2.0 * beyond / (along.x * along.x + along.z * along.z);
+        goal.x += scale * along.z;
+        goal.z -= scale * along.x;
+    }
+    bool is_left_of = cross(left, goal) < 0.0;
+    if (!is_left_of && !(cross(right, goal) > 0.0)) {
+        return length_of(goal);
+    }
+    tl_nav_direction limit = is_left_of ? left : right;
+    tl_nav_direction vertex = is_left_of ? edge->left : edge->right;
+    tl_nav_direction via = limit.x == vertex.x && limit.z == vertex.z ? vertex : meet(limit, edge->right, edge->left);
+    tl_nav_direction rest = { goal.x - via.x, goal.z - via.z };
+    return length_of(via) + length_of(rest);
+}
+
+static inline bool may_enter(const wedge_search *s, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_shortest_search *in = s->in;
+    uint32_t dead_end = s->navmesh->slots[slot].rings.cells[polygon].dead_end;
+    if (dead_end != 0 && !(slot == in->goal_slot && dead_end == s->dead_ends[0]) &&
+        !(slot == in->start_slot && dead_end == s->dead_ends[1]) && s->navmesh->slots[slot].anchor_count == 0) {
+        return false;
+    }
+    return in->filter == NULL || tl_nav_passes(in->filter, s->navmesh->slots[slot].tile, polygon);
+}
+
+static inline uint32_t new_wedge(wedge_search *s)
+{
+    tl_nav_query *query = s->query;
+    if (query->wedge_count == query->max_nodes) {
+        s->trouble = TL_NAV_SEARCH_OUT_OF_NODES;
+        return TL_NAV_NO_NODE;
+    }
+    return query->wedge_count++;
+}
+
+// Gives a wedge to the heap, or keeps it at hand when it is the best of its step; then the one before goes there.
+static inline void offer(wedge_search *s, uint32_t wedge, float total)
+{
+    if (s->best == TL_NAV_NO_NODE) {
+        s->best = wedge;
+        s->best_total = total;
+    } else if (total < s->best_total) {
+        tl_nav_wedge_push(s->query, s->best_total, s->best);
+        s->best = wedge;
+        s->best_total = total;
+    } else {
+        tl_nav_wedge_push(s->query, total, wedge);
+    }
+}
+
+// A wedge that is never taken up: a turn on the way to another one, for whoever reads the path.
+static inline uint32_t add_turn(wedge_search *s, uint32_t parent, float root_x, float root_z, double cost)
+{
+    uint32_t index = new_wedge(s);
+    if (index != TL_NAV_NO_NODE) {
+        tl_nav_wedge *wedge = &s->query->wedges[index];
+        *wedge = s->query->wedges[parent];
+        wedge->root_x = root_x;
+        wedge->root_z = root_z;
+        wedge->cost = cost;
+        wedge->parent = parent;
+    }
+    return index;
+}
+
+#endif
