@@ -10,6 +10,7 @@
 #include <talus/halfedge.h>
 #include <talus/hull.h>
 #include <talus/mesh.h>
+#include <talus/nav_around.h>
 #include <talus/nav_build.h>
 #include <talus/nav_detour.h>
 #include <talus/nav_obstacles.h>

@@ -38,6 +38,7 @@ typedef struct tl_nav_slot {
     uint32_t anchor_count; ///< ends of off-mesh links on its polygons
     tl_nav_side_links sides[4];
     tl_nav_rings rings;
+    uint64_t *areas; ///< of the tile's polygons, summed up (area_table.h)
 } tl_nav_slot;
 
 /// A node of the union-find over the tiles' components (islands.c).
@@ -57,6 +58,7 @@ struct tl_navmesh {
     uint64_t link_count;
     uint64_t polygon_count;
     tl_nav_edit edit;       ///< the last one
+    uint64_t *area_table;   ///< [slot_capacity + 1], of the slots' areas
     tl_nav_island *islands; ///< over seams and off-mesh links
     tl_nav_island *shores;  ///< over seams alone; the same nodes
     uint32_t island_count, island_capacity;

@@ -9,6 +9,7 @@
 #include "nav_query/filter.h"
 #include "nav_query/navmesh.h"
 #include "nav_query/surface.h"
+#include "nav_query/tile_walk.h"
 
 typedef struct nearest_search {
     const tl_navmesh *navmesh;
@@ -110,45 +111,11 @@ static void search_tile(nearest_search *search, uint32_t slot)
     }
 }
 
-// Tiles along one axis that an interval touches, one cell of margin on each side for rounding.
-static void tile_range(double low, double high, double origin, const tl_navmesh *navmesh, int64_t *first_out,
-                       int64_t *last_out)
-{
-    double cell = (double)navmesh->cell_size;
-    double size = cell * (double)navmesh->tile_size;
-    double limit = (double)TL_NAV_MAX_TILE_INDEX;
-    double first = floor((low - origin - cell) / size);
-    double last = floor((high - origin + cell) / size);
-    *first_out = (int64_t)(first < -limit ? -limit : first > limit ? limit : first);
-    *last_out = (int64_t)(last < -limit ? -limit : last > limit ? limit : last);
-}
-
 static void search_tiles(nearest_search *search)
 {
-    const tl_navmesh *navmesh = search->navmesh;
-    if (navmesh->tile_size > 0) {
-        int64_t first_x, last_x, first_z, last_z;
-        tile_range((double)search->box.min.x, (double)search->box.max.x, (double)navmesh->origin.x, navmesh, &first_x,
-                   &last_x);
-        tile_range((double)search->box.min.z, (double)search->box.max.z, (double)navmesh->origin.z, navmesh, &first_z,
-                   &last_z);
-        // Places are below 2^25 an axis: the product fits 64 bits.
-        if ((last_x - first_x + 1) * (last_z - first_z + 1) <= (int64_t)navmesh->slot_count) {
-            for (int64_t z = first_z; z <= last_z; z++) {
-                for (int64_t x = first_x; x <= last_x; x++) {
-                    uint32_t slot = tl_nav_find_slot(navmesh, x, z);
-                    if (slot != TL_NAV_NO_SLOT) {
-                        search_tile(search, slot);
-                    }
-                }
-            }
-            return;
-        }
-    }
-    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
-        if (navmesh->slots[slot].tile != NULL) {
-            search_tile(search, slot);
-        }
+    tl_nav_tile_walk walk = tl_nav_tiles_over(search->navmesh, search->box);
+    for (uint32_t slot = 0; (slot = tl_nav_next_tile(&walk)) != TL_NAV_NO_SLOT;) {
+        search_tile(search, slot);
     }
 }
 

@@ -8,7 +8,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/hash.h"
-#include "nav_query/navmesh.h"
+#include "nav_query/area_table.h"
 
 #include <string.h>
 
@@ -47,6 +47,8 @@ static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
         tl_nav_free_side(&navmesh->allocator, &slot->sides[side]);
     }
     tl_nav_rings_free(&navmesh->allocator, &slot->rings);
+    tl_nav_areas_free(&navmesh->allocator, slot->areas, slot->tile);
+    slot->areas = NULL;
     if (slot->ownership == TL_NAV_TILE_OWNED && slot->tile != NULL) {
         // The navmesh was given the blob to free; const only says that queries never write to it.
         union {
@@ -71,6 +73,8 @@ void tl_navmesh_free(tl_navmesh *navmesh)
     tl_release_array(&allocator, navmesh->buckets, navmesh->bucket_count, sizeof *navmesh->buckets);
     tl_nav_free_islands(navmesh);
     tl_nav_free_offmesh(navmesh);
+    tl_release_array(&allocator, navmesh->area_table, (uint64_t)navmesh->slot_capacity + 1,
+                     sizeof *navmesh->area_table);
     tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
 }
 
@@ -118,7 +122,9 @@ static tl_result grow(tl_navmesh *navmesh)
     uint32_t capacity = navmesh->slot_capacity > 0 ? 2 * navmesh->slot_capacity : FIRST_CAPACITY;
     tl_nav_slot *slots = tl_allocate_array(&navmesh->allocator, capacity, sizeof *slots);
     uint32_t *buckets = tl_allocate_array(&navmesh->allocator, 2 * (uint64_t)capacity, sizeof *buckets);
-    if (slots == NULL || buckets == NULL) {
+    uint64_t *area_table = tl_allocate_array(&navmesh->allocator, (uint64_t)capacity + 1, sizeof *area_table);
+    if (slots == NULL || buckets == NULL || area_table == NULL) {
+        tl_release_array(&navmesh->allocator, area_table, (uint64_t)capacity + 1, sizeof *area_table);
         tl_release_array(&navmesh->allocator, slots, capacity, sizeof *slots);
         tl_release_array(&navmesh->allocator, buckets, 2 * (uint64_t)capacity, sizeof *buckets);
         return TL_ERR_MEMORY;
@@ -127,8 +133,12 @@ static tl_result grow(tl_navmesh *navmesh)
     if (navmesh->slot_count > 0) {
         memcpy(slots, navmesh->slots, navmesh->slot_count * sizeof *slots);
     }
+    tl_nav_area_table_fill(area_table, capacity, slots, navmesh->slot_count);
+    tl_release_array(&navmesh->allocator, navmesh->area_table, (uint64_t)navmesh->slot_capacity + 1,
+                     sizeof *area_table);
     tl_release_array(&navmesh->allocator, navmesh->slots, navmesh->slot_capacity, sizeof *slots);
     tl_release_array(&navmesh->allocator, navmesh->buckets, navmesh->bucket_count, sizeof *buckets);
+    navmesh->area_table = area_table;
     navmesh->slots = slots;
     navmesh->slot_capacity = capacity;
     navmesh->buckets = buckets;
@@ -169,15 +179,16 @@ static uint64_t count_inner_links(const tl_nav_tile *tile)
     return count;
 }
 
-// What a new tile brings: links of its sides and of its neighbours' facing ones, its own rings and theirs. All made
-// before anything is changed.
+// What a new tile brings: links of its sides and of its neighbours' facing ones, its own rings and theirs, areas. All
+// made before anything is changed.
 typedef struct seam_set {
     uint32_t neighbours[4];
     tl_nav_side_links own[4], facing[4];
     tl_nav_rings rings, neighbour_rings[4];
+    uint64_t *areas;
 } seam_set;
 
-static void free_seams(const tl_navmesh *navmesh, seam_set *seams)
+static void free_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
 {
     for (uint32_t side = 0; side < 4; side++) {
         tl_nav_free_side(&navmesh->allocator, &seams->own[side]);
@@ -185,6 +196,7 @@ static void free_seams(const tl_navmesh *navmesh, seam_set *seams)
         tl_nav_rings_free(&navmesh->allocator, &seams->neighbour_rings[side]);
     }
     tl_nav_rings_free(&navmesh->allocator, &seams->rings);
+    tl_nav_areas_free(&navmesh->allocator, seams->areas, tile);
 }
 
 static tl_result make_links(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)
@@ -224,8 +236,12 @@ static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
     if (result == TL_OK) {
         result = make_rings(navmesh, tile, seams);
     }
+    if (result == TL_OK) {
+        seams->areas = tl_nav_areas_make(&navmesh->allocator, tile);
+        result = seams->areas != NULL ? TL_OK : TL_ERR_MEMORY;
+    }
     if (result != TL_OK) {
-        free_seams(navmesh, seams);
+        free_seams(navmesh, tile, seams);
     }
     return result;
 }
@@ -233,6 +249,8 @@ static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
 static void install_seams(tl_navmesh *navmesh, uint32_t slot, const seam_set *seams)
 {
     navmesh->slots[slot].rings = seams->rings;
+    navmesh->slots[slot].areas = seams->areas;
+    tl_nav_area_table_change(navmesh, slot, 1);
     tl_nav_note_edit(navmesh, slot);
     for (uint32_t side = 0; side < 4; side++) {
         if (seams->neighbours[side] == TL_NAV_NO_SLOT) {
@@ -303,7 +321,7 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     TL_TRY(make_seams(navmesh, tile, index, &seams));
     tl_result reserved = tl_nav_reserve_islands(navmesh, seams.rings.component_count);
     if (reserved != TL_OK) {
-        free_seams(navmesh, &seams);
+        free_seams(navmesh, tile, &seams);
         return reserved;
     }
 
@@ -362,6 +380,7 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
     navmesh->tile_count--;
     navmesh->link_count -= slot->inner_links;
     navmesh->polygon_count -= slot->tile->polygon_count;
+    tl_nav_area_table_change(navmesh, index, -1);
     free_slot_content(navmesh, slot);
     tl_nav_anchor_near(navmesh, index, true);
     tl_nav_rebuild_islands(navmesh);

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+//
+// Fields of costs: a flood, written out in the order of references, so that a polygon is found by bisection and its
+// path by following parents, without a search and without a table beside the caller's entries.
+
+#include "base/assert.h"
+#include "base/radix_sort.h"
+#include "nav_query/filter.h"
+#include "nav_query/flood.h"
+#include "nav_query/shortest_search.h"
+#include "nav_query/surface.h"
+
+// Nodes in the order of their references; each node's heap_at, which nothing needs any more, becomes its place. The
+// room is that of the wedges, which a flood does not use.
+static const tl_sort_item *order_nodes(tl_nav_query *query)
+{
+    _Static_assert(sizeof(tl_nav_wedge) >= 2 * sizeof(tl_sort_item), "wedges hold items and their scratch");
+    tl_sort_item *items = (tl_sort_item *)(void *)query->wedges;
+    for (uint32_t i = 0; i < query->node_count; i++) {
+        items[i].key = query->nodes[i].key;
+        items[i].value = i;
+        items[i].extra = 0;
+    }
+    tl_radix_sort(items, items + query->max_nodes, query->node_count);
+    for (uint32_t i = 0; i < query->node_count; i++) {
+        query->nodes[items[i].value].heap_at = i;
+    }
+    return items;
+}
+
+static void write_entries(tl_nav_query *query, tl_nav_field_entry *entries, uint32_t capacity)
+{
+    const tl_sort_item *items = order_nodes(query);
+    for (uint32_t i = 0; i < query->node_count && i < capacity; i++) {
+        const tl_nav_node *node = &query->nodes[items[i].value];
+        entries[i].polygon = node->key;
+        entries[i].parent = node->parent == TL_NAV_NO_NODE ? UINT32_MAX : query->nodes[node->parent].heap_at;
+        entries[i].cost = node->cost;
+        entries[i].point = node->point;
+    }
+    // The places stand where the pool looks for open nodes: none is left.
+    query->heap_count = 0;
+}
+
+tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                             const tl_nav_location *start, const tl_nav_field_def *def, tl_nav_field_entry *entries_out,
+                             uint32_t capacity, uint32_t *count_out)
+{
+    *count_out = 0;
+    float least = 1.0f;
+    bool is_uniform = true;
+    tl_nav_zone_test zone;
+    if (!tl_nav_is_finite(start->point)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (!(def->max_cost >= 0.0f) || (filter != NULL && !tl_nav_filter_costs(filter, &least, &is_uniform))) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (def->zone != NULL) {
+        TL_TRY(tl_nav_zone_begin(def->zone, &zone));
+    }
+    tl_nav_flood flood = { query, navmesh, filter, false, def->max_cost, def->zone != NULL ? &zone : NULL, false };
+    if (!tl_nav_flood_run(&flood, start)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    *count_out = query->node_count;
+    write_entries(query, entries_out, capacity);
+    if (flood.out_of_nodes) {
+        return TL_ERR_LIMIT;
+    }
+    return *count_out <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}
+
+uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t count, tl_nav_ref polygon)
+{
+    uint32_t low = 0;
+    uint32_t high = count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (entries[middle].polygon < polygon) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < count && entries[low].polygon == polygon ? low : UINT32_MAX;
+}
+
+tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t count, uint32_t entry, tl_nav_ref *polygons_out,
+                            uint32_t capacity, uint32_t *count_out)
+{
+    *count_out = 0;
+    uint32_t length = 0;
+    for (uint32_t i = entry; i != UINT32_MAX; i = entries[i].parent) {
+        if (i >= count || length == count) {
+            return TL_ERR_NOT_FOUND;
+        }
+        length++;
+    }
+    if (length == 0) {
+        return TL_ERR_NOT_FOUND;
+    }
+    *count_out = length;
+    for (uint32_t i = entry, at = length; i != UINT32_MAX; i = entries[i].parent) {
+        at--;
+        if (at < capacity) {
+            polygons_out[at] = entries[i].polygon;
+        }
+    }
+    return length <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}

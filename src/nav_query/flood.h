@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+//
+// Polygons around a start in the order of what it costs to enter them, in a query's node pool.
+
+#ifndef TALUS_SRC_NAV_QUERY_FLOOD_H
+#define TALUS_SRC_NAV_QUERY_FLOOD_H
+
+#include "nav_query/node_pool.h"
+#include "nav_query/zone.h"
+
+typedef struct tl_nav_flood {
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter;
+    bool in_metres; ///< costs are metres, whatever the filter says
+    float max_cost;
+    const tl_nav_zone_test *zone; ///< NULL: everywhere
+    bool out_of_nodes;
+} tl_nav_flood;
+
+/// Floods from a point of a polygon. Afterwards the query's nodes [0, node_count) are the polygons, the start's first;
+/// their keys are references. False: the reference is stale.
+bool tl_nav_flood_run(tl_nav_flood *flood, const tl_nav_location *start);
+
+#endif

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+//
+// Fields against a flood without heap, hash table and order; paths out of them; zones; random reachable points.
+
+#include "nav_fixture.h"
+
+#include <math.h>
+#include <talus/nav_around.h>
+
+enum { MOST = 2048 };
+
+typedef struct twin_entry {
+    tl_vec3 point;
+    float cost;
+    bool open, closed;
+} twin_entry;
+
+static float metre_of(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref ref)
+{
+    const tl_nav_tile *tile = NULL;
+    uint32_t polygon = 0;
+    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, &tile, &polygon), TL_OK);
+    return filter == NULL ? 1.0f : filter->area_cost[tl_nav_tile_area(tile, polygon)];
+}
+
+// With the operations of the flood itself, for equal bits.
+static tl_vec3 nearest_on(tl_vec3 a, tl_vec3 b, tl_vec3 p)
+{
+    double dx = (double)b.x - (double)a.x, dz = (double)b.z - (double)a.z;
+    double along = dx * ((double)p.x - (double)a.x) + dz * ((double)p.z - (double)a.z), length_sq = dx * dx + dz * dz;
+    if (!(along > 0.0)) {
+        return a;
+    }
+    return along >= length_sq ? b
+                              : tl_min(tl_max(tl_lerp(a, b, (float)(along / length_sq)), tl_min(a, b)), tl_max(a, b));
+}
+
+static double distance_to_circle(const tl_nav_zone *zone, tl_vec3 a, tl_vec3 b)
+{
+    tl_vec3 p = nearest_on(a, b, zone->center);
+    return hypot((double)p.x - (double)zone->center.x, (double)p.z - (double)zone->center.z) - (double)zone->radius;
+}
+
+// All entries by scanning for the cheapest open one each time. `*close_call` is set where a zone's answer hangs on
+// rounding.
+static twin_entry *twin_flood(const tl_navmesh *navmesh, const fixture_refs *all, const tl_nav_filter *filter,
+                              const tl_nav_location *start, float max_cost, const tl_nav_zone *zone, bool *close_call)
+{
+    twin_entry *entries = calloc(all->count, sizeof *entries);
+    uint32_t first = fixture_index_of(all, start->polygon);
+    entries[first].open = true;
+    entries[first].point = start->point;
+    for (;;) {
+        uint32_t at = UINT32_MAX;
+        for (uint32_t i = 0; i < all->count; i++) {
+            bool better = at == UINT32_MAX || entries[i].cost < entries[at].cost;
+            at = entries[i].open && !entries[i].closed && better ? i : at;
+        }
+        if (at == UINT32_MAX) {
+            return entries;
+        }
+        entries[at].closed = true;
+        tl_nav_link links[64];
+        uint32_t count = 0;
+        TEST_RESULT(tl_navmesh_links(navmesh, all->refs[at], links, 64, &count), TL_OK);
+        for (uint32_t k = 0; k < count; k++) {
+            if (zone != NULL) {
+                double beyond = distance_to_circle(zone, links[k].right, links[k].left);
+                *close_call = *close_call || fabs(beyond) < 1e-5;
+                if (beyond > 0.0) {
+                    continue;
+                }
+            }
+            uint32_t to = fixture_index_of(all, links[k].to);
+            tl_vec3 point = nearest_on(links[k].right, links[k].left, entries[at].point);
+            float cost =
+                entries[at].cost + metre_of(navmesh, filter, all->refs[at]) * tl_distance(entries[at].point, point);
+            if (!entries[to].closed && cost <= max_cost && (!entries[to].open || cost < entries[to].cost)) {
+                entries[to].open = true;
+                entries[to].cost = cost;
+                entries[to].point = point;
+            }
+        }
+    }
+}
+
+static void check_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_field_entry *entries,
+                       uint32_t count, uint32_t entry, const tl_nav_location *start, double *ratio_sum)
+{
+    tl_nav_ref polygons[MOST];
+    tl_nav_corner corners[MOST];
+    uint32_t length = 0, corner_count = 0;
+    float metres = 0.0f;
+    TEST_RESULT(tl_nav_field_path(entries, count, entry, polygons, MOST, &length), TL_OK);
+    TEST_CHECK(polygons[0] == start->polygon && polygons[length - 1] == entries[entry].polygon);
+    TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, length, start->point, entries[entry].point, corners, MOST,
+                                         &corner_count, &metres),
+                TL_OK);
+    tl_nav_location goal = { entries[entry].polygon, entries[entry].point };
+    tl_nav_shortest_path shortest;
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, start, &goal, NULL, 0, NULL, 0, &shortest),
+                TL_OK);
+    TEST_CHECK(shortest.status == TL_NAV_PATH_COMPLETE);
+    *ratio_sum += shortest.length > 1.0 ? (double)metres / shortest.surface_length : 1.0;
+    // Too little room: the first ones, and the true count.
+    tl_nav_ref few[2] = { 0, 0 };
+    uint32_t same = 0;
+    tl_result expected = length <= 1 ? TL_OK : TL_ERR_CAPACITY;
+    TEST_RESULT(tl_nav_field_path(entries, count, entry, few, 1, &same), expected);
+    TEST_CHECK(same == length && few[0] == start->polygon && few[1] == 0);
+}
+
+static void test_fields(void **state)
+{
+    (void)state;
+    test_random random = { 81 };
+    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query *query = NULL;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    uint32_t inside = 0, outside = 0, paths = 0, in_zones = 0;
+    double ratios = 0.0;
+    for (uint32_t round = 0; round < 36; round++) {
+        fixture_level level = fixture_random(&random, round % 6, 8);
+        level.tile_cells = round % 4 == 0 ? 0 : 3;
+        level.area_count = 4;
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        fixture_refs all = fixture_all_refs(navmesh);
+        for (uint32_t i = 0; i < 6; i++) {
+            tl_nav_location start = fixture_random_location(navmesh, &all, &random);
+            tl_nav_filter filter = tl_default_nav_filter();
+            for (int area = 0; area <= TL_NAV_MAX_AREA; area++) {
+                filter.area_cost[area] = 1.0f + (float)(area % 4);
+            }
+            const tl_nav_filter *used = i % 2 == 0 ? NULL : &filter;
+            tl_nav_zone zone = tl_nav_circle(start.point, test_random_range(&random, 1.0f, 12.0f));
+            tl_nav_field_def field = { i < 2 ? INFINITY : test_random_range(&random, 2.0f, 40.0f),
+                                       i >= 4 ? &zone : NULL };
+            bool close_call = false;
+            twin_entry *twin = twin_flood(navmesh, &all, used, &start, field.max_cost, field.zone, &close_call);
+            tl_nav_field_entry entries[MOST];
+            uint32_t count = 0, expected = 0;
+            TEST_RESULT(tl_nav_query_flood(query, navmesh, used, &start, &field, entries, MOST, &count), TL_OK);
+            for (uint32_t k = 1; k < count; k++) {
+                TEST_CHECK(entries[k - 1].polygon < entries[k].polygon);
+            }
+            for (uint32_t k = 0; k < all.count && !close_call; k++) {
+                uint32_t at = tl_nav_field_find(entries, count, all.refs[k]);
+                TEST_CHECK((at != UINT32_MAX) == twin[k].closed);
+                expected += twin[k].closed;
+                if (at != UINT32_MAX) {
+                    TEST_CHECK(entries[at].cost == twin[k].cost);
+                    inside++;
+                    in_zones += field.zone != NULL;
+                } else {
+                    outside++;
+                }
+            }
+            TEST_CHECK(close_call || expected == count);
+            for (uint32_t k = 0; k < 10; k++) {
+                check_path(query, navmesh, entries, count, test_random_below(&random, count), &start, &ratios);
+                paths++;
+            }
+            free(twin);
+        }
+        free(all.refs);
+        tl_navmesh_free(navmesh);
+    }
+    tl_nav_query_free(query);
+    TEST_CHECK(inside > 5000 && outside > 3000 && in_zones > 300);
+    // Straight paths out of fields are a few percent longer than the shortest ones on average.
+    TEST_CHECK(ratios / paths >= 0.9999 && ratios / paths < 1.05);
+}
+
+// Weighs what a draw must look like by drawing all over the level and keeping what lies within.
+static void test_reachable(void **state)
+{
+    (void)state;
+    test_random random = { 82 };
+    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query *query = NULL;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    enum { DRAWS = 4000, SECTORS = 8 };
+    uint32_t cut = 0, compared = 0;
+    for (uint32_t round = 0; round < 12; round++) {
+        fixture_level level = fixture_random(&random, round % 6, 7);
+        level.tile_cells = round % 2 == 0 ? 0 : 3;
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        fixture_refs all = fixture_all_refs(navmesh);
+        tl_nav_location center = fixture_random_location(navmesh, &all, &random);
+        float radius = test_random_range(&random, 1.5f, 9.0f);
+        tl_nav_zone zone = tl_nav_circle(center.point, radius);
+        tl_nav_field_def field = { radius, &zone };
+        tl_nav_field_entry entries[MOST];
+        uint32_t count = 0, kept = 0, expected[SECTORS] = { 0 }, met[SECTORS] = { 0 };
+        TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &center, &field, entries, MOST, &count), TL_OK);
+        for (uint32_t i = 0; i < 40 * DRAWS && kept < DRAWS; i++) {
+            const uint64_t bits[2] = { test_random_u64(&random), test_random_u64(&random) };
+            tl_nav_location at;
+            TEST_RESULT(tl_navmesh_random_point(navmesh, NULL, bits, &at), TL_OK);
+            float x = at.point.x - center.point.x, z = at.point.z - center.point.z;
+            if (x * x + z * z <= radius * radius && tl_nav_field_find(entries, count, at.polygon) != UINT32_MAX) {
+                expected[(x < 0.0f ? 1 : 0) + (z < 0.0f ? 2 : 0) + (fabsf(x) < fabsf(z) ? 4 : 0)]++;
+                kept++;
+            }
+        }
+        for (uint32_t i = 0; i < kept; i++) {
+            const uint64_t bits[2] = { test_random_u64(&random), test_random_u64(&random) };
+            tl_nav_location at;
+            TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &center, radius, bits, &at), TL_OK);
+            float x = at.point.x - center.point.x, z = at.point.z - center.point.z;
+            TEST_CHECK(x * x + z * z <= radius * radius * 1.00001f);
+            TEST_CHECK(tl_nav_field_find(entries, count, at.polygon) != UINT32_MAX);
+            met[(x < 0.0f ? 1 : 0) + (z < 0.0f ? 2 : 0) + (fabsf(x) < fabsf(z) ? 4 : 0)]++;
+        }
+        for (uint32_t k = 0; k < SECTORS && kept == DRAWS; k++) {
+            // Five deviations of two counts, and what the 32 sides leave out.
+            double slack = 5.0 * sqrt(2.0 * (double)expected[k] + 4.0) + 0.01 * DRAWS;
+            TEST_CHECK(fabs((double)met[k] - (double)expected[k]) < slack);
+            compared++;
+        }
+        cut += count < all.count;
+        free(all.refs);
+        tl_navmesh_free(navmesh);
+    }
+    tl_nav_query_free(query);
+    TEST_CHECK(cut > 5 && compared > 40);
+}
+
+static void test_arguments(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "000", "0#0", "000" };
+    fixture_level level = fixture_make(rows, 3);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    tl_nav_query_def def = { 3, NULL };
+    tl_nav_query *query = NULL;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } }, at;
+    tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
+    tl_nav_field_def field = { INFINITY, NULL }, below = { -1.0f, NULL };
+    tl_nav_field_entry entries[8];
+    uint32_t count = 0;
+    const uint64_t bits[2] = { 1, 2 };
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &stale, &field, entries, 8, &count), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &nan, &field, entries, 8, &count), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &below, entries, 8, &count), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &field, entries, 8, &count), TL_ERR_LIMIT);
+    TEST_CHECK(count == 3);
+    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &start, 20.0f, bits, &at), TL_ERR_LIMIT);
+    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &start, -1.0f, bits, &at), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &start, 0.0f, bits, &at), TL_OK);
+    TEST_CHECK(at.polygon == start.polygon && at.point.x == 2.0f && at.point.z == 2.0f);
+    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &stale, 1.0f, bits, &at), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &nan, 1.0f, bits, &at), TL_ERR_NOT_FINITE);
+    tl_nav_query_free(query);
+    def.max_nodes = 64;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &field, entries, 2, &count), TL_ERR_CAPACITY);
+    TEST_CHECK(count == 8 && entries[0].polygon == start.polygon);
+    uint32_t length = 0;
+    TEST_RESULT(tl_nav_field_path(entries, 2, 7, NULL, 0, &length), TL_ERR_NOT_FOUND);
+    TEST_CHECK(tl_nav_field_find(entries, 2, 1) == UINT32_MAX);
+    tl_nav_query_free(query);
+    tl_navmesh_free(navmesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_fields), cmocka_unit_test(test_reachable),
+                                        cmocka_unit_test(test_arguments) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
