@@ -226,6 +226,51 @@ static void test_reachable(void **state)
     TEST_CHECK(cut > 5 && compared > 40);
 }
 
+// Over a gap by an off-mesh link, one way.
+static void test_links(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "00##00" };
+    fixture_level level = fixture_make(rows, 1);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    tl_nav_query_def def = { 64, NULL };
+    tl_nav_query *query = NULL;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    tl_nav_offmesh jump = tl_default_nav_offmesh();
+    jump.start = tl_vec3_make(7.5f, 0, 2);
+    jump.end = tl_vec3_make(16.5f, 0, 2);
+    jump.fixed_cost = 3.0f;
+    tl_nav_ref link = TL_NAV_NO_REF;
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, &link), TL_OK);
+    tl_vec3 extents = { 1, 1, 1 };
+    tl_nav_location start, goal;
+    TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2, 0, 2), extents, &start), TL_OK);
+    TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(22, 0, 2), extents, &goal), TL_OK);
+    tl_nav_field_def everywhere = { INFINITY, NULL };
+    tl_nav_field_entry entries[8];
+    tl_nav_ref polygons[8], expected[8];
+    uint32_t count = 0, length = 0;
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &everywhere, entries, 8, &count), TL_OK);
+    TEST_CHECK(count == 4);
+    uint32_t at = tl_nav_field_find(entries, count, goal.polygon);
+    // 5.5 m to the link, 9 m and 3 for it, 3.5 m to the last edge.
+    TEST_CHECK(at != UINT32_MAX && fabsf(entries[at].cost - 21.0f) < 1e-4f);
+    TEST_RESULT(tl_nav_field_path(entries, count, at, polygons, 8, &length), TL_OK);
+    tl_nav_path path;
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, expected, 8, &path), TL_OK);
+    TEST_CHECK(length == 5 && path.polygon_count == 5 && memcmp(polygons, expected, 5 * sizeof expected[0]) == 0);
+    TEST_CHECK(polygons[2] == link);
+    // Not backward, and not where its landing lies outside the zone.
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &goal, &everywhere, entries, 8, &count), TL_OK);
+    TEST_CHECK(count == 2);
+    tl_nav_zone zone = tl_nav_circle(start.point, 10.0f);
+    tl_nav_field_def near_start = { INFINITY, &zone };
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &near_start, entries, 8, &count), TL_OK);
+    TEST_CHECK(count == 2);
+    tl_nav_query_free(query);
+    tl_navmesh_free(navmesh);
+}
+
 static void test_arguments(void **state)
 {
     (void)state;
@@ -267,6 +312,6 @@ static void test_arguments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_fields), cmocka_unit_test(test_reachable),
-                                        cmocka_unit_test(test_arguments) };
+                                        cmocka_unit_test(test_links), cmocka_unit_test(test_arguments) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,6 +43,7 @@ TL_API tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_na
 /// A polygon that a path leads to.
 typedef struct tl_nav_field_entry {
     tl_nav_ref polygon;
+    tl_nav_ref link; ///< the off-mesh link by which the path enters it; TL_NAV_NO_REF: over an edge
     uint32_t parent; ///< the entry that the path comes from; UINT32_MAX at the start
     float cost;      ///< of the path to `point`: metres times area costs, or what the filter's function says
     tl_vec3 point;   ///< where the path enters the polygon; the start in its own
@@ -51,7 +52,8 @@ typedef struct tl_nav_field_entry {
 /// How far a field reaches.
 typedef struct tl_nav_field_def {
     float max_cost;          ///< polygons that are entered at a higher cost do not belong to it; INFINITY: all do
-    const tl_nav_zone *zone; ///< NULL: everywhere; else only ways from polygon to polygon that come into it are gone
+    const tl_nav_zone *zone; ///< NULL: everywhere; else only ways from polygon to polygon that come into it are gone,
+                             ///< and off-mesh links that land in it
 } tl_nav_field_def;
 
 /// Floods the polygons around a start, the cheapest first: those that hang together with it within the field's reach,
@@ -70,9 +72,10 @@ TL_API tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navme
 /// The entry of a polygon, or UINT32_MAX. O(log count).
 TL_API uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t count, tl_nav_ref polygon);
 
-/// The polygons of the path from the field's start to an entry's polygon, for tl_navmesh_straight_path; read backwards
-/// they lead to the start, where every way can be gone both ways. No search. TL_ERR_CAPACITY: only the first were
-/// written. TL_ERR_NOT_FOUND: there is no such entry, or a field that was cut off lacks one on the way.
+/// The path from the field's start to an entry's polygon, as tl_nav_query_find_path writes it, for
+/// tl_navmesh_straight_path. Without off-mesh links, read backwards, it leads to the start. No search. TL_ERR_CAPACITY:
+/// only the first were written. TL_ERR_NOT_FOUND: there is no such entry, or a field that was cut off lacks one on the
+/// way.
 TL_API tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t count, uint32_t entry,
                                    tl_nav_ref *polygons_out, uint32_t capacity, uint32_t *count_out);
 

@@ -7,7 +7,6 @@
 #include "base/radix_sort.h"
 #include "nav_query/filter.h"
 #include "nav_query/flood.h"
-#include "nav_query/shortest_search.h"
 #include "nav_query/surface.h"
 
 // Nodes in the order of their references; each node's heap_at, which nothing needs any more, becomes its place. The
@@ -17,9 +16,11 @@ static const tl_sort_item *order_nodes(tl_nav_query *query)
     _Static_assert(sizeof(tl_nav_wedge) >= 2 * sizeof(tl_sort_item), "wedges hold items and their scratch");
     tl_sort_item *items = (tl_sort_item *)(void *)query->wedges;
     for (uint32_t i = 0; i < query->node_count; i++) {
+        // An item is smaller than a wedge: it never lies beyond the one whose end is read.
+        uint32_t end = *tl_nav_flood_end(query, i);
         items[i].key = query->nodes[i].key;
         items[i].value = i;
-        items[i].extra = 0;
+        items[i].extra = end;
     }
     tl_radix_sort(items, items + query->max_nodes, query->node_count);
     for (uint32_t i = 0; i < query->node_count; i++) {
@@ -28,12 +29,15 @@ static const tl_sort_item *order_nodes(tl_nav_query *query)
     return items;
 }
 
-static void write_entries(tl_nav_query *query, tl_nav_field_entry *entries, uint32_t capacity)
+static void write_entries(tl_nav_query *query, const tl_navmesh *navmesh, tl_nav_field_entry *entries,
+                          uint32_t capacity)
 {
     const tl_sort_item *items = order_nodes(query);
     for (uint32_t i = 0; i < query->node_count && i < capacity; i++) {
         const tl_nav_node *node = &query->nodes[items[i].value];
         entries[i].polygon = node->key;
+        entries[i].link =
+            items[i].extra == TL_NAV_NO_END ? TL_NAV_NO_REF : tl_nav_offmesh_ref(&navmesh->offmesh, items[i].extra);
         entries[i].parent = node->parent == TL_NAV_NO_NODE ? UINT32_MAX : query->nodes[node->parent].heap_at;
         entries[i].cost = node->cost;
         entries[i].point = node->point;
@@ -64,7 +68,7 @@ tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, con
         return TL_ERR_NOT_FOUND;
     }
     *count_out = query->node_count;
-    write_entries(query, entries_out, capacity);
+    write_entries(query, navmesh, entries_out, capacity);
     if (flood.out_of_nodes) {
         return TL_ERR_LIMIT;
     }
@@ -91,20 +95,24 @@ tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t count, u
 {
     *count_out = 0;
     uint32_t length = 0;
+    uint32_t steps = 0;
     for (uint32_t i = entry; i != UINT32_MAX; i = entries[i].parent) {
-        if (i >= count || length == count) {
+        if (i >= count || steps == count) {
             return TL_ERR_NOT_FOUND;
         }
-        length++;
+        steps++;
+        length += entries[i].link == TL_NAV_NO_REF ? 1 : 2;
     }
     if (length == 0) {
         return TL_ERR_NOT_FOUND;
     }
     *count_out = length;
     for (uint32_t i = entry, at = length; i != UINT32_MAX; i = entries[i].parent) {
-        at--;
-        if (at < capacity) {
+        if (--at < capacity) {
             polygons_out[at] = entries[i].polygon;
+        }
+        if (entries[i].link != TL_NAV_NO_REF && --at < capacity) {
+            polygons_out[at] = entries[i].link;
         }
     }
     return length <= capacity ? TL_OK : TL_ERR_CAPACITY;

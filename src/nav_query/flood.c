@@ -7,12 +7,13 @@
 #include "nav_query/flood.h"
 
 #include "nav_query/filter.h"
-#include "nav_query/navmesh.h"
 #include "nav_query/surface.h"
 
-static void enter(tl_nav_flood *flood, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost, uint32_t from)
+// Offers a way into a polygon: `end` is the one of an off-mesh link that was left, or TL_NAV_NO_END.
+static void enter(tl_nav_flood *flood, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost, uint32_t from,
+                  uint32_t end)
 {
-    if (!(cost <= flood->max_cost)) {
+    if (!(cost <= flood->max_cost) || !(cost < INFINITY)) {
         return;
     }
     uint32_t index = tl_nav_pool_get(flood->query, tl_nav_make_ref(flood->navmesh, slot, polygon));
@@ -30,13 +31,41 @@ static void enter(tl_nav_flood *flood, uint32_t slot, uint32_t polygon, tl_vec3 
     node->cost = cost;
     node->total = cost;
     node->parent = from;
+    *tl_nav_flood_end(flood->query, index) = end;
     tl_nav_heap_improve(flood->query, index);
+}
+
+static float cost_between(const tl_nav_flood *flood, const tl_nav_node *node, tl_vec3 to)
+{
+    const tl_nav_tile *tile = flood->navmesh->slots[node->slot].tile;
+    return flood->in_metres ? tl_distance(node->point, to)
+                            : tl_nav_cost_between(flood->filter, tile, node->polygon, node->point, to);
+}
+
+static void cross_links(tl_nav_flood *flood, const tl_nav_node *node, uint32_t index)
+{
+    const tl_navmesh *navmesh = flood->navmesh;
+    for (uint32_t end = tl_nav_first_anchor(navmesh, node->slot, node->polygon); end != TL_NAV_NO_END;) {
+        const tl_nav_offmesh_entry *link = &navmesh->offmesh.entries[end / 2];
+        const tl_nav_anchor *from = &link->ends[end % 2];
+        const tl_nav_anchor *to = &link->ends[1 - end % 2];
+        if (from->slot == node->slot && from->polygon == node->polygon &&
+            tl_nav_may_cross(link, end % 2, flood->filter) &&
+            tl_nav_passes(flood->filter, navmesh->slots[to->slot].tile, to->polygon) &&
+            (flood->zone == NULL || tl_nav_zone_meets_segment(flood->zone, to->point, to->point))) {
+            bool priced = flood->filter != NULL && !flood->in_metres;
+            float factor = priced ? flood->filter->area_cost[link->offmesh.area] : 1.0f;
+            float cost = cost_between(flood, node, from->point) + factor * (float)link->cost;
+            enter(flood, to->slot, to->polygon, to->point, node->cost + cost, index, end);
+        }
+        end = from->next;
+    }
 }
 
 static void go_on(tl_nav_flood *flood, uint32_t index)
 {
     const tl_nav_node node = flood->query->nodes[index];
-    const tl_nav_tile *tile = flood->navmesh->slots[node.slot].tile;
+    cross_links(flood, &node, index);
     tl_nav_ways ways = tl_nav_ways_of(flood->navmesh, node.slot, node.polygon);
     tl_nav_way way;
     while (tl_nav_ways_next(&ways, &way)) {
@@ -45,11 +74,8 @@ static void go_on(tl_nav_flood *flood, uint32_t index)
             continue;
         }
         tl_vec3 point = tl_nav_closest_on_edge(way.right, way.left, node.point);
-        float cost = flood->in_metres ? tl_distance(node.point, point)
-                                      : tl_nav_cost_between(flood->filter, tile, node.polygon, node.point, point);
-        if (cost < INFINITY) {
-            enter(flood, way.slot, way.polygon, point, node.cost + cost, index);
-        }
+        float cost = cost_between(flood, &node, point);
+        enter(flood, way.slot, way.polygon, point, node.cost + cost, index, TL_NAV_NO_END);
     }
 }
 
@@ -62,7 +88,7 @@ bool tl_nav_flood_run(tl_nav_flood *flood, const tl_nav_location *start)
     }
     flood->out_of_nodes = false;
     tl_nav_pool_reset(flood->query);
-    enter(flood, slot, polygon, start->point, 0.0f, TL_NAV_NO_NODE);
+    enter(flood, slot, polygon, start->point, 0.0f, TL_NAV_NO_NODE, TL_NAV_NO_END);
     for (uint32_t index = 0; (index = tl_nav_heap_pop(flood->query)) != TL_NAV_NO_NODE;) {
         go_on(flood, index);
     }

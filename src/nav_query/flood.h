@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_FLOOD_H
 #define TALUS_SRC_NAV_QUERY_FLOOD_H
 
-#include "nav_query/node_pool.h"
+#include "nav_query/shortest_search.h"
 #include "nav_query/zone.h"
 
 typedef struct tl_nav_flood {
@@ -17,6 +17,13 @@ typedef struct tl_nav_flood {
     const tl_nav_zone_test *zone; ///< NULL: everywhere
     bool out_of_nodes;
 } tl_nav_flood;
+
+/// By which end of an off-mesh link a node was left for, or TL_NAV_NO_END: kept among the wedges, which a flood does
+/// not use.
+static inline uint32_t *tl_nav_flood_end(tl_nav_query *query, uint32_t node)
+{
+    return &query->wedges[node].edge;
+}
 
 /// Floods from a point of a polygon. Afterwards the query's nodes [0, node_count) are the polygons, the start's first;
 /// their keys are references. False: the reference is stale.
