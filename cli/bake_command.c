@@ -70,7 +70,7 @@ typedef struct stage_count {
     uint64_t bytes;
 } stage_count;
 
-enum { STAGE_COUNTS = 16 };
+enum { STAGE_COUNTS = 17 };
 
 static uint32_t collect_counts(const bake_result *r, stage_count out[STAGE_COUNTS])
 {
@@ -90,6 +90,7 @@ static uint32_t collect_counts(const bake_result *r, stage_count out[STAGE_COUNT
         { "detail", "triangles", nav->detail_triangle_count, 0 },
         { "tile", "polygons", nav->polygon_count, tile_bytes(r->bake) },
         { "tiles", "tiles", nav->tile_count, tile_bytes(r->bake) },
+        { "prune", "islands", r->bake->pruned.island_count, 0 },
         { "write", "", 0, r->file_bytes },
     };
     memcpy(out, counts, sizeof(counts));
@@ -141,6 +142,33 @@ static void print_table(const tl_cli *cli, const bake_result *r)
     tl_table_print(&table);
 }
 
+static void print_pruned(const tl_nav_pruned *pruned, const char *why)
+{
+    if (pruned->islands > 0) {
+        printf("left out %u islands, %llu polygons, %.1f m2: %s\n", pruned->islands,
+               (unsigned long long)pruned->polygons, pruned->area, why);
+    }
+}
+
+// What was walkable and is not in the navmesh.
+static void print_left_out(const tl_bake *bake)
+{
+    const tl_nav_build_report *nav = &bake->nav_report;
+    if (nav->filtered_regions > 0) {
+        printf("left out %u islands, %llu floors, %.1f m2: less than --region-min-size squared\n",
+               nav->filtered_regions, (unsigned long long)nav->filtered_spans, nav->filtered_area);
+    }
+    print_pruned(&bake->pruned.inside, "inside solids");
+    print_pruned(&bake->pruned.unreachable, "not --reachable-from any place");
+    print_pruned(&bake->pruned.small, "less than --island-min-area");
+    if (nav->unbridged_holes > 0) {
+        printf("holes    %u became floor, since no bridge to their outline was found\n", nav->unbridged_holes);
+    }
+    if (nav->limited_patches > 0) {
+        printf("detail   %u polygons are too large to be as exact as asked\n", nav->limited_patches);
+    }
+}
+
 static void print_summary(const bake_result *r)
 {
     const tl_bake *bake = r->bake;
@@ -154,9 +182,10 @@ static void print_summary(const bake_result *r)
         printf("hull     %u vertices, %u faces\n", bake->hull->vertex_count, bake->hull->face_count);
     }
     if (r->settings->nav && bake->walkable) {
-        printf("navmesh  %u polygons, %.1f m2, %u of %u tiles\n", bake->nav_report.polygon_count, bake->nav_area,
+        printf("navmesh  %u polygons, %.1f m2, %u of %u tiles\n", (unsigned)bake->nav_polygons, bake->nav_area,
                bake->tiles.tile_count, bake->tiles.tiles_x * bake->tiles.tiles_z);
         tl_area_sums_print(&bake->areas);
+        print_left_out(bake);
     } else if (r->settings->nav) {
         printf("navmesh  empty: nothing is walkable for this agent; check --scale and --up, or the agent's size\n");
     }
@@ -181,6 +210,24 @@ static json_t *stages_json(const tl_cli *cli, const bake_result *r)
         json_array_append_new(array, object);
     }
     return array;
+}
+
+static json_t *pruned_json(const tl_nav_pruned *pruned)
+{
+    return json_pack("{sI sI so}", "islands", (json_int_t)pruned->islands, "polygons", (json_int_t)pruned->polygons,
+                     "square_metres", tl_json_double(pruned->area));
+}
+
+static json_t *left_out_json(const tl_bake *bake)
+{
+    const tl_nav_build_report *nav = &bake->nav_report;
+    return json_pack("{so so so so sI sI sI}", "small_regions",
+                     json_pack("{sI sI so}", "islands", (json_int_t)nav->filtered_regions, "floors",
+                               (json_int_t)nav->filtered_spans, "square_metres", tl_json_double(nav->filtered_area)),
+                     "inside_solids", pruned_json(&bake->pruned.inside), "unreachable",
+                     pruned_json(&bake->pruned.unreachable), "small_islands", pruned_json(&bake->pruned.small),
+                     "unbridged_holes", (json_int_t)nav->unbridged_holes, "slit_outlines",
+                     (json_int_t)nav->slit_outlines, "limited_patches", (json_int_t)nav->limited_patches);
 }
 
 static json_t *result_json(const tl_cli *cli, const bake_result *r)
@@ -213,11 +260,12 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
         const tl_nav_build_report *nav = &bake->nav_report;
         json_object_set_new(object, "navmesh",
                             json_pack("{sb sI sI so sI sI sI}", "walkable", (int)bake->walkable, "tiles",
-                                      (json_int_t)bake->tiles.tile_count, "polygons", (json_int_t)nav->polygon_count,
+                                      (json_int_t)bake->tiles.tile_count, "polygons", (json_int_t)bake->nav_polygons,
                                       "area", tl_json_double(bake->nav_area), "regions", (json_int_t)nav->region_count,
                                       "repaired_contours", (json_int_t)nav->repaired_contours, "bytes",
                                       (json_int_t)tile_bytes(bake)));
         json_object_set_new(json_object_get(object, "navmesh"), "areas", tl_area_sums_json(&bake->areas));
+        json_object_set_new(json_object_get(object, "navmesh"), "left_out", left_out_json(bake));
     }
     return object;
 }

@@ -81,6 +81,12 @@ void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS])
           "z "
           "x z ...'",
           NULL, 0, 0, 0, 0 },
+        { "reachable-from", 0, TL_OPTION_TEXTS, &settings->seeds, "X,Y,Z",
+          "a place where agents are: islands without one are left out; may be given again", NULL, 0, 0, 0, 0 },
+        { "drop-inside-solids", 0, TL_OPTION_FLAG, &settings->drop_inside, NULL,
+          "islands inside closed parts of the level are left out", NULL, 0, 0, 0, 0 },
+        { "island-min-area", 0, TL_OPTION_FLOAT, &settings->min_island_area, "M2",
+          "square metres: smaller islands, over all tiles, are left out", NULL, 0, huge, 0, 0 },
         { "no-filter-low-hanging-obstacles", 0, TL_OPTION_UNFLAG, &d->filter_low_hanging_obstacles, NULL,
           "kerbs and steps stay obstacles", NULL, 0, 0, 0, 0 },
         { "no-filter-ledge-spans", 0, TL_OPTION_UNFLAG, &d->filter_ledge_spans, NULL, "ledges stay walkable", NULL, 0,
@@ -155,6 +161,46 @@ static bool bake_hull(tl_cli *cli, const tl_level *level, tl_bake *bake, tl_exit
     }
 }
 
+static bool fail_prune(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings,
+                       const tl_nav_prune_def *def, tl_result result, const tl_report *report, tl_exit *exit_out)
+{
+    if (result == TL_ERR_NOT_FOUND && report->element_index < settings->seeds.count) {
+        const tl_vec3 e = def->seed_extents;
+        *exit_out = tl_cli_fail(cli, TL_EXIT_DATA,
+                                "%s: --reachable-from %s: there is no navmesh within %g m, and %g m up or down",
+                                level->path, settings->seeds.words[report->element_index], (double)e.x, (double)e.y);
+    } else {
+        *exit_out = tl_cli_fail_result(cli, level->path, result, report);
+    }
+    return false;
+}
+
+static bool prune_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
+                      tl_exit *exit_out)
+{
+    tl_vec3 seeds[TL_MAX_OPTION_TEXTS];
+    for (uint32_t i = 0; i < settings->seeds.count; i++) {
+        const char *word = settings->seeds.words[i], *reason = tl_parse_point_value(word, &seeds[i]);
+        if (reason != NULL) {
+            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--reachable-from: '%s' %s; give x,y,z", word, reason);
+            return false;
+        }
+    }
+    const bool asked = settings->seeds.count > 0 || settings->drop_inside || settings->min_island_area > 0.0f;
+    if (!asked || bake->tiles.tile_count == 0) {
+        return true;
+    }
+    const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
+    tl_nav_prune_def def = tl_default_nav_prune_def();
+    def.seeds = seeds;
+    def.seed_count = settings->seeds.count;
+    def.solids = settings->drop_inside ? &mesh : NULL;
+    def.min_area = (double)settings->min_island_area;
+    def.host = cli->host;
+    const tl_result result = tl_nav_prune(&def, &bake->tiles, &bake->pruned);
+    return result == TL_OK || fail_prune(cli, level, settings, &def, result, &bake->pruned.base, exit_out);
+}
+
 static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
                      tl_exit *exit_out)
 {
@@ -174,9 +220,13 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
         *exit_out = tl_cli_fail_result(cli, level->path, result, &bake->nav_report.base);
         return false;
     }
+    if (!prune_nav(cli, level, settings, bake, exit_out)) {
+        return false;
+    }
     bake->walkable = bake->tiles.tile_count > 0;
     for (uint32_t i = 0; i < bake->tiles.tile_count; ++i) {
         bake->nav_area += bake->tiles.tiles[i]->area;
+        bake->nav_polygons += bake->tiles.tiles[i]->polygon_count;
         tl_area_sums_add(&bake->areas, bake->tiles.tiles[i]);
     }
     return true;

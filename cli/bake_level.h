@@ -10,6 +10,7 @@
 
 #include <talus/hull.h>
 #include <talus/nav_build.h>
+#include <talus/nav_prune.h>
 #include <talus/nav_query.h>
 #include <talus/soup.h>
 
@@ -22,16 +23,19 @@ typedef struct tl_bake_settings {
     int polygon_method; ///< a tl_partition_method
     const char *bounds; ///< "x,y,z,x,y,z", or NULL: the level's own
     tl_area_settings areas;
+    tl_option_texts seeds; ///< "x,y,z" each: islands without one are left out
+    bool drop_inside;      ///< islands inside solids are left out
+    float min_island_area; ///< square metres: smaller islands are left out
 } tl_bake_settings;
 
-enum { TL_NAV_OPTIONS = 23, TL_PART_OPTIONS = 4 };
+enum { TL_NAV_OPTIONS = 26, TL_PART_OPTIONS = 4 };
 
 /// Soup and navmesh, no hull; Recast's defaults.
 tl_bake_settings tl_default_bake_settings(void);
 /// The def with what the options chose.
 tl_nav_def tl_bake_nav_def(const tl_bake_settings *settings);
 
-/// Options for the navmesh's def, named as its fields, and for areas.
+/// Options for the navmesh's def, named as its fields, for areas and for pruning.
 void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS]);
 /// Reads the text of --bounds into the def. False: it was refused.
 bool tl_bake_take_bounds(tl_cli *cli, tl_bake_settings *settings, tl_exit *exit_out);
@@ -47,10 +51,12 @@ typedef struct tl_bake {
     tl_nav_tiles tiles;
     tl_nav_def nav_def; ///< as it was used
     tl_nav_build_report nav_report;
-    bool walkable;      ///< there is at least one navmesh polygon
-    tl_aabb nav_bounds; ///< what the navmesh was built over
-    double nav_area;    ///< square metres in the plane
-    tl_area_sums areas; ///< the same by area
+    tl_nav_prune_report pruned; ///< zero when nothing was asked for
+    bool walkable;              ///< there is at least one navmesh polygon
+    tl_aabb nav_bounds;         ///< what the navmesh was built over
+    double nav_area;            ///< square metres in the plane
+    tl_area_sums areas;         ///< the same by area
+    uint64_t nav_polygons;
 } tl_bake;
 
 /// False: the failure was reported, and `*exit_out` says how to end. Free with tl_bake_free, also then.

@@ -115,6 +115,7 @@ bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *set
 {
     memset(source_out, 0, sizeof *source_out);
     source_out->cli = cli;
+    source_out->settings = settings;
     source_out->nav_def = tl_bake_nav_def(settings);
     if (tl_input_is_baked(path)) {
         return open_baked(source_out, path, exit_out);
@@ -194,39 +195,33 @@ bool draw_need_contours(draw_source *source, tl_exit *exit_out)
     return source->contours != NULL;
 }
 
-static tl_result load_tiles(draw_source *source, tl_report *report)
+// A level's tiles, as bake makes them.
+static bool bake_tiles(draw_source *source, tl_exit *exit_out)
 {
-    if (source->input.baked) {
-        return tl_pack_load_navmesh(&source->input.pack, NULL, &source->input.navmesh, report);
+    tl_bake_settings only_nav = *source->settings;
+    only_nav.soup = false;
+    only_nav.nav = true;
+    only_nav.hull = false;
+    return tl_bake_level(source->cli, &source->input.level, &only_nav, &source->input.bake, exit_out) &&
+           tl_input_assemble_navmesh(source->cli, &source->input, exit_out);
+}
+
+static bool load_tiles(draw_source *source, tl_exit *exit_out)
+{
+    tl_report report;
+    memset(&report, 0, sizeof report);
+    report.element_index = TL_NO_ELEMENT;
+    const tl_result result = tl_pack_load_navmesh(&source->input.pack, NULL, &source->input.navmesh, &report);
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, &report);
     }
-    tl_nav_def def = source->nav_def;
-    def.host = source->cli->host;
-    const tl_nav_input input = tl_level_areas_input(&source->areas, &source->mesh);
-    tl_nav_build_report build;
-    tl_result result = tl_nav_build(&def, &input, &source->input.bake.tiles, &build);
-    *report = build.base;
-    if (result == TL_OK) {
-        result = tl_navmesh_create(NULL, &source->input.navmesh);
-    }
-    const tl_nav_tiles *tiles = &source->input.bake.tiles;
-    for (uint32_t i = 0; result == TL_OK && i < tiles->tile_count; i++) {
-        result = tl_navmesh_add_tile(source->input.navmesh, tiles->tiles[i], TL_NAV_TILE_BORROWED);
-    }
-    return result;
+    return result == TL_OK;
 }
 
 bool draw_need_navmesh(draw_source *source, tl_exit *exit_out)
 {
-    if (source->has_navmesh) {
-        return true;
-    }
-    tl_report report;
-    memset(&report, 0, sizeof report);
-    report.element_index = TL_NO_ELEMENT;
-    tl_result result = load_tiles(source, &report);
-    source->has_navmesh = result == TL_OK;
-    if (result != TL_OK) {
-        *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, &report);
+    if (!source->has_navmesh) {
+        source->has_navmesh = source->input.baked ? load_tiles(source, exit_out) : bake_tiles(source, exit_out);
     }
     return source->has_navmesh;
 }

@@ -12,6 +12,7 @@
 typedef struct draw_source {
     tl_cli *cli;
     tl_input input;
+    const tl_bake_settings *settings;
     tl_nav_def nav_def; ///< of the options, or of the baked file
     tl_mesh_view mesh;  ///< the level's triangles
     tl_level_areas areas;
@@ -29,8 +30,8 @@ typedef struct draw_source {
     bool has_navmesh;               ///< after draw_need_navmesh: input.navmesh
 } draw_source;
 
-/// Opens FILE; of a contour file, set number `set`. False: reported, and `*exit_out` says how to end. Close it then
-/// too.
+/// Opens FILE; of a contour file, set number `set`. `settings` must outlive the source. False: reported, and
+/// `*exit_out` says how to end. Close it then too.
 bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *settings, uint32_t set,
                       draw_source *source_out, tl_exit *exit_out);
 void draw_source_close(draw_source *source);

@@ -106,7 +106,7 @@ static bool nothing_walkable(tl_cli *cli, const char *path, tl_exit *exit_out)
     return false;
 }
 
-static bool assemble_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out)
+bool tl_input_assemble_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out)
 {
     tl_result result = tl_navmesh_create(NULL, &input->navmesh);
     for (uint32_t i = 0; result == TL_OK && i < input->bake.tiles.tile_count; ++i) {
@@ -152,7 +152,7 @@ bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings
     if (ok && !input_out->bake.walkable) {
         return nothing_walkable(cli, path, exit_out);
     }
-    return ok && assemble_navmesh(cli, input_out, exit_out);
+    return ok && tl_input_assemble_navmesh(cli, input_out, exit_out);
 }
 
 void tl_input_close(tl_input *input)

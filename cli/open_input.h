@@ -34,6 +34,8 @@ bool tl_input_open_soup(tl_cli *cli, const char *path, const tl_bake_settings *s
                         tl_exit *exit_out);
 bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings *settings, tl_input *input_out,
                            tl_exit *exit_out);
+/// Puts the tiles of `bake` into a navmesh. False: reported.
+bool tl_input_assemble_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out);
 void tl_input_close(tl_input *input);
 
 /// The blob of the only chunk of a type, after `check` found it sound; NULL when there is none (`*result_out` is

@@ -103,6 +103,25 @@ TL_API tl_result tl_adjacency_build(const tl_mesh_view *view, const tl_host *hos
 
 TL_API void tl_adjacency_free(tl_adjacency *adjacency, const tl_allocator *allocator);
 
+#define TL_NO_PART UINT32_MAX
+
+/// The closed parts of a mesh: surfaces that enclose a space.
+typedef struct tl_closed_parts {
+    uint32_t *part_of; ///< [triangle_count]: the closed part, numbered in the order of first triangles, or TL_NO_PART
+    double *volumes;   ///< [part_count] cubic metres; negative for a part that faces inwards, such as a room
+    uint32_t part_count;
+    uint32_t open_part_count; ///< parts with a rim
+    uint32_t triangle_count;
+} tl_closed_parts;
+
+/// Finds which triangles belong to closed parts. Triangles hang together across an edge that as many of them run one
+/// way as the other; a part is closed when its own triangles do so on every edge. So crates side by side are closed,
+/// whose touching faces share edges, and a crate is that shares an edge with an open floor.
+/// Corners are told by their index: weld the mesh first. O(triangles). Indices are trusted. Errors: TL_ERR_LIMIT (over
+/// TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*parts_out` is zeroed then. `host` may be NULL.
+TL_API tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl_closed_parts *parts_out);
+TL_API void tl_closed_parts_free(tl_closed_parts *parts, const tl_allocator *allocator);
+
 #ifdef __cplusplus
 }
 #endif

@@ -332,12 +332,16 @@ typedef struct tl_nav_build_report {
     uint32_t region_count;
     uint32_t filtered_regions; ///< islands of fewer than region_min_size squared columns, which were dropped
     uint64_t filtered_spans;   ///< floors that these held
+    double filtered_area;      ///< square metres of these
     uint32_t contour_count;
+    uint32_t unbridged_holes;   ///< holes that became floor (tl_nav_contours.unbridged_count)
+    uint32_t slit_outlines;     ///< outlines without area, left out (tl_nav_contours.slit_count)
     uint32_t repaired_contours; ///< outlines that could not be simplified or triangulated as they were, and were mended
     uint32_t polygon_count;
     uint32_t vertex_count;
     uint32_t detail_triangle_count;
-    uint32_t tile_count; ///< tiles with at least one polygon
+    uint32_t limited_patches; ///< of the detail mesh, with larger errors than asked (tl_nav_detail.limited_patches)
+    uint32_t tile_count;      ///< tiles with at least one polygon
 } tl_nav_build_report;
 
 /// All stages for one tile. `*tile_out` is NULL with TL_OK when nothing in it is walkable.

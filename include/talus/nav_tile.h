@@ -161,6 +161,12 @@ typedef struct tl_nav_tile_source {
 TL_API tl_result tl_nav_tile_create(const tl_nav_tile_source *source, const tl_allocator *allocator,
                                     tl_nav_tile **tile_out, tl_report *report_out);
 
+/// Bakes a tile of some polygons of another: those with keep[p] != 0, in the same order. Links to the others become
+/// walls. All of them give the same bytes again. TL_ERR_EMPTY: none is kept; else as tl_nav_tile_create. `tile` is
+/// trusted.
+TL_API tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep, const tl_allocator *allocator,
+                                    tl_nav_tile **tile_out, tl_report *report_out);
+
 /// Whether bytes from anywhere are a whole tile that every query can be trusted with. Safe on any bytes.
 ///
 /// `bytes` must be 8-byte aligned (TL_ERR_ARGUMENT). TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION; TL_ERR_CORRUPT for

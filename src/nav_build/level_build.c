@@ -51,11 +51,15 @@ static void add_counts(tl_nav_build_report *sum, const tl_nav_build_report *part
     sum->region_count += part->region_count;
     sum->filtered_regions += part->filtered_regions;
     sum->filtered_spans += part->filtered_spans;
+    sum->filtered_area += part->filtered_area;
     sum->contour_count += part->contour_count;
+    sum->unbridged_holes += part->unbridged_holes;
+    sum->slit_outlines += part->slit_outlines;
     sum->repaired_contours += part->repaired_contours;
     sum->polygon_count += part->polygon_count;
     sum->vertex_count += part->vertex_count;
     sum->detail_triangle_count += part->detail_triangle_count;
+    sum->limited_patches += part->limited_patches;
     sum->tile_count += part->tile_count;
 }
 

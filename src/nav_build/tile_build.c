@@ -112,6 +112,8 @@ static tl_result build_regions(tile_job *job)
     job->report->region_count += compact->region_count > 0 ? compact->region_count - 1 : 0;
     job->report->filtered_regions += compact->region_stats.filtered_regions;
     job->report->filtered_spans += compact->region_stats.filtered_spans;
+    job->report->filtered_area +=
+        (double)compact->region_stats.filtered_spans * (double)compact->cell_size * (double)compact->cell_size;
     return TL_OK;
 }
 
@@ -120,6 +122,8 @@ static tl_result build_contours(tile_job *job)
     tl_nav_contours *contours = &job->stages->contours;
     TL_TRY(tl_nav_build_contours(job->config, &job->stages->compact, &job->host, contours, &job->report->base));
     job->report->contour_count += contours->set.contour_count;
+    job->report->unbridged_holes += contours->unbridged_count;
+    job->report->slit_outlines += contours->slit_count;
     return TL_OK;
 }
 
@@ -148,6 +152,7 @@ static tl_result build_detail(tile_job *job)
     TL_TRY(tl_nav_build_detail(job->config, &job->stages->compact, &job->stages->polygons, &job->host, detail,
                                &job->report->base));
     job->report->detail_triangle_count += detail->triangle_count;
+    job->report->limited_patches += detail->limited_patches;
     if (!job->keep) {
         tl_nav_compact_free(&job->stages->compact);
     }

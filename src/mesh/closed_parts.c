@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+//
+// The closed parts of a mesh. Directed edges are sorted by their undirected name; a group of equal names that as many
+// run one way as the other hangs its triangles together (union-find), any other hangs none, so that an open floor does
+// not open the crate that stands on its edge. Then each group is summed part by part: a part is closed when all its
+// sums are 0, which is to say that it has no border.
+//
+// A part's volume is that of the tetrahedra between its triangles and one of its corners.
+// Sources: the border of a chain, Hatcher, Algebraic Topology, 2002, chapter 2.1; Tarjan, Efficiency of a Good But Not
+// Linear Set Union Algorithm, 1975.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+#include "base/radix_sort.h"
+
+#include <string.h>
+#include <talus/mesh.h>
+
+typedef struct search {
+    const tl_mesh_view *view;
+    tl_sort_item *edges; // value: the triangle, extra: 1 when it runs from the lower vertex to the higher
+    uint32_t edge_count;
+    uint32_t *parent; // [triangle_count] of the union-find; roots have the lowest index
+    int32_t *balance; // [triangle_count] of the root at hand
+    uint8_t *has_rim; // [triangle_count] of the root
+} search;
+
+static tl_result sort_edges(search *s, tl_arena *arena)
+{
+    const tl_mesh_view *view = s->view;
+    tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, 3 * (uint64_t)view->triangle_count);
+    s->edges = TL_PUSH(arena, tl_sort_item, 3 * (uint64_t)view->triangle_count);
+    if (s->edges == NULL || scratch == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < 3 * view->triangle_count; i++) {
+        const uint32_t from = view->indices[i], to = view->indices[i - i % 3 + (i + 1) % 3];
+        const uint32_t low = from < to ? from : to, high = from < to ? to : from;
+        const tl_sort_item item = { (uint64_t)low << 32 | high, i / 3, from < to };
+        s->edges[s->edge_count] = item;
+        s->edge_count += from != to; // an edge without length runs both ways
+    }
+    tl_radix_sort(s->edges, scratch, s->edge_count);
+    return TL_OK;
+}
+
+static uint32_t group_end(const search *s, uint32_t begin)
+{
+    uint32_t end = begin + 1;
+    while (end < s->edge_count && s->edges[end].key == s->edges[begin].key) {
+        end++;
+    }
+    return end;
+}
+
+static int32_t direction_of(const tl_sort_item *edge)
+{
+    return edge->extra != 0 ? 1 : -1;
+}
+
+static uint32_t root_of(search *s, uint32_t triangle)
+{
+    while (s->parent[triangle] != triangle) {
+        s->parent[triangle] = s->parent[s->parent[triangle]];
+        triangle = s->parent[triangle];
+    }
+    return triangle;
+}
+
+static void join_groups(search *s)
+{
+    for (uint32_t begin = 0; begin < s->edge_count;) {
+        const uint32_t end = group_end(s, begin);
+        int64_t sum = 0;
+        for (uint32_t i = begin; i < end; i++) {
+            sum += direction_of(&s->edges[i]);
+        }
+        for (uint32_t i = begin + 1; sum == 0 && i < end; i++) {
+            const uint32_t a = root_of(s, s->edges[begin].value), b = root_of(s, s->edges[i].value);
+            s->parent[a > b ? a : b] = a < b ? a : b;
+        }
+        begin = end;
+    }
+}
+
+static void find_rims(search *s)
+{
+    for (uint32_t begin = 0; begin < s->edge_count;) {
+        const uint32_t end = group_end(s, begin);
+        for (uint32_t i = begin; i < end; i++) {
+            s->balance[root_of(s, s->edges[i].value)] += direction_of(&s->edges[i]);
+        }
+        for (uint32_t i = begin; i < end; i++) {
+            const uint32_t root = root_of(s, s->edges[i].value);
+            s->has_rim[root] |= s->balance[root] != 0;
+        }
+        for (uint32_t i = begin; i < end; i++) {
+            s->balance[root_of(s, s->edges[i].value)] = 0;
+        }
+        begin = end;
+    }
+}
+
+// Numbers the closed roots. A root comes before all others of its part.
+static void number_parts(search *s, tl_closed_parts *parts)
+{
+    for (uint32_t t = 0; t < parts->triangle_count; t++) {
+        const uint32_t root = root_of(s, t);
+        parts->part_of[t] = TL_NO_PART;
+        if (s->has_rim[root]) {
+            parts->open_part_count += root == t;
+        } else {
+            parts->part_of[t] = root == t ? parts->part_count++ : parts->part_of[root];
+        }
+    }
+}
+
+static double signed_volume(tl_vec3 apex, tl_vec3 a, tl_vec3 b, tl_vec3 c)
+{
+    const double ax = (double)a.x - (double)apex.x, ay = (double)a.y - (double)apex.y,
+                 az = (double)a.z - (double)apex.z;
+    const double bx = (double)b.x - (double)apex.x, by = (double)b.y - (double)apex.y,
+                 bz = (double)b.z - (double)apex.z;
+    const double cx = (double)c.x - (double)apex.x, cy = (double)c.y - (double)apex.y,
+                 cz = (double)c.z - (double)apex.z;
+    return (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)) / 6.0;
+}
+
+static void measure_parts(search *s, tl_closed_parts *parts)
+{
+    for (uint32_t t = 0; t < parts->triangle_count; t++) {
+        if (parts->part_of[t] != TL_NO_PART) {
+            const uint32_t *corner = s->view->indices + 3 * (size_t)t;
+            const tl_vec3 *vertices = s->view->vertices;
+            const tl_vec3 apex = vertices[s->view->indices[3 * (size_t)root_of(s, t)]];
+            parts->volumes[parts->part_of[t]] +=
+                signed_volume(apex, vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]);
+        }
+    }
+}
+
+static tl_result find(const tl_mesh_view *view, tl_arena *arena, const tl_allocator *allocator, tl_closed_parts *parts)
+{
+    search s;
+    memset(&s, 0, sizeof s);
+    s.view = view;
+    const uint32_t count = view->triangle_count;
+    TL_TRY(sort_edges(&s, arena));
+    s.parent = TL_PUSH(arena, uint32_t, count);
+    s.balance = TL_PUSH_ZERO(arena, int32_t, count);
+    s.has_rim = TL_PUSH_ZERO(arena, uint8_t, count);
+    parts->part_of = tl_allocate_array(allocator, count, sizeof *parts->part_of);
+    if (s.parent == NULL || s.balance == NULL || s.has_rim == NULL || parts->part_of == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t t = 0; t < count; t++) {
+        s.parent[t] = t;
+    }
+    join_groups(&s);
+    find_rims(&s);
+    number_parts(&s, parts);
+    parts->volumes = tl_allocate_array(allocator, parts->part_count, sizeof *parts->volumes);
+    if (parts->volumes == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(parts->volumes, 0, parts->part_count * sizeof *parts->volumes);
+    measure_parts(&s, parts);
+    return TL_OK;
+}
+
+tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl_closed_parts *parts_out)
+{
+    const tl_allocator *allocator = host != NULL ? host->allocator : NULL;
+    memset(parts_out, 0, sizeof *parts_out);
+    if (view->triangle_count > TL_MAX_MESH_TRIANGLES) {
+        return TL_ERR_LIMIT;
+    }
+    parts_out->triangle_count = view->triangle_count;
+    tl_arena arena;
+    tl_arena_init(&arena, allocator);
+    const tl_result result = find(view, &arena, allocator, parts_out);
+    tl_arena_free(&arena);
+    if (result != TL_OK) {
+        tl_closed_parts_free(parts_out, allocator);
+    }
+    return result;
+}
+
+void tl_closed_parts_free(tl_closed_parts *parts, const tl_allocator *allocator)
+{
+    tl_release_array(allocator, parts->part_of, parts->triangle_count, sizeof *parts->part_of);
+    tl_release_array(allocator, parts->volumes, parts->part_count, sizeof *parts->volumes);
+    memset(parts, 0, sizeof *parts);
+}

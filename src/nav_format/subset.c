@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+//
+// A tile of some of a tile's polygons: its arrays, read back as what it was baked from, with the others left out.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+
+#include <string.h>
+#include <talus/nav_tile.h>
+
+typedef struct subset {
+    const tl_nav_tile *tile;
+    const uint8_t *keep;
+    tl_polygon_mesh mesh;
+    tl_nav_detail detail;
+    uint64_t *flags;
+    uint32_t *number;        // [polygons of the tile]: its number among those kept, or TL_NO_POLYGON
+    uint32_t *vertex_number; // [vertices of the tile]: the same, in the tile's order
+} subset;
+
+static tl_result make_room(subset *s, tl_arena *arena)
+{
+    const tl_nav_tile *tile = s->tile;
+    tl_polygon_mesh *mesh = &s->mesh;
+    s->number = TL_PUSH(arena, uint32_t, tile->polygon_count);
+    s->vertex_number = TL_PUSH_ZERO(arena, uint32_t, tile->vertex_count);
+    s->flags = TL_PUSH(arena, uint64_t, tile->polygon_count);
+    s->detail.patches = TL_PUSH(arena, tl_nav_detail_patch, tile->polygon_count);
+    mesh->vertices = TL_PUSH(arena, int32_t, 3 * (uint64_t)tile->vertex_count);
+    mesh->first = TL_PUSH(arena, uint32_t, (uint64_t)tile->polygon_count + 1);
+    mesh->indices = TL_PUSH(arena, uint32_t, tile->corner_count);
+    mesh->neighbours = TL_PUSH(arena, uint32_t, tile->corner_count);
+    mesh->areas = TL_PUSH(arena, uint32_t, tile->polygon_count);
+    return s->number != NULL && s->vertex_number != NULL && s->flags != NULL && s->detail.patches != NULL &&
+                   mesh->vertices != NULL && mesh->first != NULL && mesh->indices != NULL && mesh->neighbours != NULL &&
+                   mesh->areas != NULL
+               ? TL_OK
+               : TL_ERR_MEMORY;
+}
+
+static void number_what_is_kept(subset *s)
+{
+    const tl_nav_tile *tile = s->tile;
+    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
+    const uint32_t *vertex = tl_nav_tile_at(tile, tile->corner_vertices);
+    const int32_t *lattice = tl_nav_tile_at(tile, tile->vertices);
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        s->number[p] = s->keep[p] ? s->mesh.polygon_count++ : TL_NO_POLYGON;
+        for (uint32_t k = first[p]; s->keep[p] && k < first[p + 1]; k++) {
+            s->vertex_number[vertex[k]] = 1;
+        }
+    }
+    for (uint32_t v = 0; v < tile->vertex_count; v++) {
+        if (s->vertex_number[v] != 0) {
+            memcpy(s->mesh.vertices + 3 * (size_t)s->mesh.vertex_count, lattice + 3 * (size_t)v, 3 * sizeof *lattice);
+            s->vertex_number[v] = s->mesh.vertex_count++;
+        }
+    }
+}
+
+static void copy_polygon(subset *s, uint32_t p)
+{
+    const tl_nav_tile *tile = s->tile;
+    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
+    const uint32_t *vertex = tl_nav_tile_at(tile, tile->corner_vertices);
+    const uint32_t *first_vertex = tl_nav_tile_at(tile, tile->detail_first_vertex);
+    const uint32_t *first_triangle = tl_nav_tile_at(tile, tile->detail_first_triangle);
+    const uint32_t to = s->number[p];
+    tl_polygon_mesh *mesh = &s->mesh;
+    mesh->first[to] = mesh->index_count;
+    mesh->areas[to] = tl_nav_tile_area(tile, p);
+    s->flags[to] = tl_nav_tile_flags(tile, p);
+    for (uint32_t k = first[p]; k < first[p + 1]; k++) {
+        const uint32_t across = tl_nav_tile_neighbour(tile, p, k - first[p]);
+        mesh->neighbours[mesh->index_count] = across < tile->polygon_count ? s->number[across] : across;
+        mesh->indices[mesh->index_count++] = s->vertex_number[vertex[k]];
+    }
+    const tl_nav_detail_patch patch = { first_vertex[p], first_vertex[p + 1] - first_vertex[p], first_triangle[p],
+                                        first_triangle[p + 1] - first_triangle[p] };
+    s->detail.patches[to] = patch;
+}
+
+// The source's arrays are read only; its structs have no const because builds own theirs.
+static void borrow_surface(const tl_nav_tile *tile, tl_nav_detail *detail)
+{
+    union {
+        const void *from;
+        void *to;
+    } vertices, triangles;
+    vertices.from = tl_nav_tile_at(tile, tile->detail_vertices);
+    triangles.from = tl_nav_tile_at(tile, tile->detail_triangles);
+    detail->vertices = vertices.to;
+    detail->triangles = triangles.to;
+    detail->vertex_count = tile->detail_vertex_count;
+    detail->triangle_count = tile->detail_triangle_count;
+}
+
+static tl_result bake(subset *s, const tl_allocator *allocator, tl_nav_tile **tile_out, tl_report *report)
+{
+    const tl_nav_tile *tile = s->tile;
+    s->mesh.cell_size = tile->cell_size;
+    s->mesh.cell_height = tile->cell_height;
+    s->mesh.max_verts_per_poly = TL_NAV_MAX_CORNERS;
+    s->mesh.bounds.min = tl_vec3_make(
+        tl_nav_tile_position(tile->origin.x, tile->tile_x, tile->tile_size, 0, tile->cell_size), tile->origin.y,
+        tl_nav_tile_position(tile->origin.z, tile->tile_z, tile->tile_size, 0, tile->cell_size));
+    s->detail.patch_count = s->mesh.polygon_count;
+    borrow_surface(tile, &s->detail);
+    tl_nav_tile_source source;
+    memset(&source, 0, sizeof source);
+    source.polygons = &s->mesh;
+    source.detail = &s->detail;
+    source.tile_x = tile->tile_x;
+    source.tile_z = tile->tile_z;
+    source.tile_size = tile->tile_size;
+    source.origin = tile->origin;
+    source.agent_height = tile->agent_height;
+    source.agent_radius = tile->agent_radius;
+    source.agent_max_climb = tile->agent_max_climb;
+    source.flags = s->flags;
+    return tl_nav_tile_create(&source, allocator, tile_out, report);
+}
+
+static tl_result make_subset(subset *s, tl_arena *arena, const tl_allocator *allocator, tl_nav_tile **tile_out,
+                             tl_report *report)
+{
+    TL_TRY(make_room(s, arena));
+    number_what_is_kept(s);
+    for (uint32_t p = 0; p < s->tile->polygon_count; p++) {
+        if (s->keep[p]) {
+            copy_polygon(s, p);
+        }
+    }
+    s->mesh.first[s->mesh.polygon_count] = s->mesh.index_count;
+    return bake(s, allocator, tile_out, report);
+}
+
+tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep, const tl_allocator *allocator,
+                             tl_nav_tile **tile_out, tl_report *report_out)
+{
+    *tile_out = NULL;
+    subset s;
+    memset(&s, 0, sizeof s);
+    s.tile = tile;
+    s.keep = keep;
+    tl_arena arena;
+    tl_arena_init(&arena, allocator);
+    const tl_result result = make_subset(&s, &arena, allocator, tile_out, report_out);
+    tl_arena_free(&arena);
+    return result;
+}

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+//
+// Pruning by islands: all tiles go into a navmesh, which knows what hangs together; each island is kept or left out as
+// a whole; the tiles that lose polygons are baked again without them. No link is cut, since links never leave an
+// island.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+#include "nav_prune/solids.h"
+
+#include <math.h>
+#include <string.h>
+#include <talus/nav_prune.h>
+#include <talus/nav_query.h>
+
+typedef enum verdict { KEPT, INSIDE, UNREACHABLE, SMALL } verdict;
+
+typedef struct island {
+    uint64_t polygons;
+    double area;
+    bool has_seed;
+    bool is_free; ///< the middle of some polygon is not inside a solid
+    uint8_t verdict;
+} island;
+
+typedef struct prune_job {
+    const tl_nav_prune_def *def;
+    tl_nav_tiles *tiles;
+    tl_navmesh *navmesh;
+    island *islands; ///< by the navmesh's numbers, not all of which are in use
+    uint64_t island_capacity;
+    tl_nav_tile **remade; ///< [tiles->tile_count] in place of those that change; NULL: as it is, or `gone`
+    uint8_t *gone;        ///< [tiles->tile_count]
+    tl_nav_prune_report *report;
+} prune_job;
+
+tl_nav_prune_def tl_default_nav_prune_def(void)
+{
+    tl_nav_prune_def def;
+    memset(&def, 0, sizeof def);
+    def.seed_extents = tl_vec3_make(2.0f, 4.0f, 2.0f);
+    return def;
+}
+
+static tl_result check_def(const tl_nav_prune_def *def, tl_report *report)
+{
+    const tl_vec3 e = def->seed_extents;
+    if (!(e.x >= 0.0f && e.y >= 0.0f && e.z >= 0.0f) || !tl_is_finite(e)) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "seed_extents", TL_NO_ELEMENT, "give metres, 0 or more");
+    }
+    if (!(def->min_area >= 0.0) || !isfinite(def->min_area)) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "min_area", TL_NO_ELEMENT, "give square metres, 0 or more");
+    }
+    return TL_OK;
+}
+
+// ---- Islands ---------------------------------------------------------------------------------------------------
+
+static uint32_t island_number(const prune_job *job, uint32_t tile, uint32_t polygon)
+{
+    uint32_t number = 0;
+    tl_navmesh_island(job->navmesh, tl_navmesh_polygon_ref(job->navmesh, tile, polygon), &number);
+    return number;
+}
+
+static tl_result assemble(prune_job *job, tl_report *report)
+{
+    TL_TRY(tl_navmesh_create(job->def->host.allocator, &job->navmesh));
+    for (uint32_t i = 0; i < job->tiles->tile_count; i++) {
+        const tl_result result = tl_navmesh_add_tile(job->navmesh, job->tiles->tiles[i], TL_NAV_TILE_BORROWED);
+        if (result != TL_OK) {
+            return tl_report_fail(report, result, "tile", i, "give all tiles of one navmesh, each once");
+        }
+        TL_ASSERT(tl_navmesh_slot_tile(job->navmesh, i) == job->tiles->tiles[i]);
+    }
+    return TL_OK;
+}
+
+static tl_result measure_islands(prune_job *job)
+{
+    uint32_t greatest = 0;
+    for (uint32_t t = 0; t < job->tiles->tile_count; t++) {
+        for (uint32_t p = 0; p < job->tiles->tiles[t]->polygon_count; p++) {
+            const uint32_t number = island_number(job, t, p);
+            greatest = number > greatest ? number : greatest;
+        }
+    }
+    job->islands = tl_allocate_array(job->def->host.allocator, (uint64_t)greatest + 1, sizeof *job->islands);
+    if (job->islands == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    job->island_capacity = (uint64_t)greatest + 1;
+    memset(job->islands, 0, (size_t)job->island_capacity * sizeof *job->islands);
+    for (uint32_t t = 0; t < job->tiles->tile_count; t++) {
+        for (uint32_t p = 0; p < job->tiles->tiles[t]->polygon_count; p++) {
+            island *i = &job->islands[island_number(job, t, p)];
+            job->report->island_count += i->polygons == 0;
+            i->polygons++;
+            i->area += tl_nav_tile_polygon_area(job->tiles->tiles[t], p);
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result plant_seeds(prune_job *job, tl_report *report)
+{
+    for (uint32_t s = 0; s < job->def->seed_count; s++) {
+        tl_nav_location location;
+        const tl_result result =
+            tl_navmesh_find_nearest(job->navmesh, NULL, job->def->seeds[s], job->def->seed_extents, &location);
+        if (result != TL_OK) {
+            return tl_report_fail(report, result, "seed", s,
+                                  "give a point on the navmesh, or larger extents to look for it");
+        }
+        uint32_t number = 0;
+        tl_navmesh_island(job->navmesh, location.polygon, &number);
+        job->islands[number].has_seed = true;
+    }
+    return TL_OK;
+}
+
+// ---- Solids ----------------------------------------------------------------------------------------------------
+
+// Over the mean of the corners, which lies in the polygon.
+static tl_vec3 middle_of(const prune_job *job, uint32_t tile, uint32_t polygon)
+{
+    const tl_nav_tile *t = job->tiles->tiles[tile];
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(t, polygon, &count);
+    double x = 0.0, z = 0.0;
+    for (uint32_t k = 0; k < count; k++) {
+        x += (double)corners[k].x / (double)count;
+        z += (double)corners[k].z / (double)count;
+    }
+    tl_vec3 middle = tl_vec3_make((float)x, corners[0].y, (float)z);
+    tl_navmesh_height(job->navmesh, tl_navmesh_polygon_ref(job->navmesh, tile, polygon), middle.x, middle.z, &middle.y);
+    middle.y += 0.5f * t->agent_height;
+    return middle;
+}
+
+static tl_result look_inside(prune_job *job, tl_solids *solids)
+{
+    for (uint32_t t = 0; t < job->tiles->tile_count; t++) {
+        TL_TRY(tl_progress_update(&job->def->host, "prune", t, job->tiles->tile_count));
+        for (uint32_t p = 0; p < job->tiles->tiles[t]->polygon_count; p++) {
+            island *i = &job->islands[island_number(job, t, p)];
+            bool inside = false;
+            if (!i->has_seed && !i->is_free) {
+                TL_TRY(tl_solids_hold(solids, middle_of(job, t, p), &inside));
+            }
+            i->is_free = !inside;
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result find_insides(prune_job *job, tl_report *report)
+{
+    tl_solids solids;
+    tl_result result = tl_solids_make(job->def->solids, &job->def->host, &solids, report);
+    job->report->solid_count = solids.outward_count;
+    if (result == TL_OK) {
+        result = look_inside(job, &solids);
+    }
+    tl_solids_free(&solids);
+    return result;
+}
+
+// ---- Tiles -----------------------------------------------------------------------------------------------------
+
+static void judge(prune_job *job)
+{
+    tl_nav_pruned *sums[] = { NULL, &job->report->inside, &job->report->unreachable, &job->report->small };
+    for (uint64_t n = 0; n < job->island_capacity; n++) {
+        island *i = &job->islands[n];
+        if (i->polygons == 0 || i->has_seed) {
+            continue;
+        }
+        const bool inside = job->def->solids != NULL && !i->is_free;
+        i->verdict = inside                         ? INSIDE
+                     : job->def->seed_count > 0     ? UNREACHABLE
+                     : i->area < job->def->min_area ? SMALL
+                                                    : KEPT;
+        if (i->verdict != KEPT) {
+            tl_nav_pruned *sum = sums[i->verdict];
+            sum->islands++;
+            sum->polygons += i->polygons;
+            sum->area += i->area;
+        }
+    }
+}
+
+static tl_result remake_tile(prune_job *job, uint32_t t, uint8_t *keep, tl_report *report)
+{
+    const tl_nav_tile *tile = job->tiles->tiles[t];
+    uint32_t kept = 0;
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        keep[p] = job->islands[island_number(job, t, p)].verdict == KEPT;
+        kept += keep[p];
+    }
+    job->gone[t] = kept == 0;
+    if (kept == 0 || kept == tile->polygon_count) {
+        return TL_OK;
+    }
+    return tl_nav_tile_subset(tile, keep, job->def->host.allocator, &job->remade[t], report);
+}
+
+static tl_result remake_tiles(prune_job *job, tl_report *report)
+{
+    const tl_allocator *allocator = job->def->host.allocator;
+    const uint32_t count = job->tiles->tile_count;
+    uint32_t most = 0;
+    for (uint32_t t = 0; t < count; t++) {
+        most = job->tiles->tiles[t]->polygon_count > most ? job->tiles->tiles[t]->polygon_count : most;
+    }
+    job->remade = tl_allocate_array(allocator, count, sizeof(*job->remade));
+    job->gone = tl_allocate_array(allocator, count, sizeof *job->gone);
+    uint8_t *keep = tl_allocate_array(allocator, most, sizeof *keep);
+    tl_result result = job->remade != NULL && job->gone != NULL && keep != NULL ? TL_OK : TL_ERR_MEMORY;
+    if (job->remade != NULL) {
+        memset(job->remade, 0, count * sizeof(*job->remade));
+    }
+    for (uint32_t t = 0; result == TL_OK && t < count; t++) {
+        result = remake_tile(job, t, keep, report);
+    }
+    tl_release_array(allocator, keep, most, sizeof *keep);
+    return result;
+}
+
+// The array of tiles is made as long as their new number, which tl_nav_tiles_free rests on.
+static tl_result replace_tiles(prune_job *job)
+{
+    const tl_allocator *allocator = job->def->host.allocator;
+    tl_nav_tiles *tiles = job->tiles;
+    for (uint32_t t = 0; t < tiles->tile_count; t++) {
+        job->report->removed_tiles += job->gone[t];
+        job->report->changed_tiles += job->remade[t] != NULL;
+    }
+    tl_nav_tile **left = tl_allocate_array(allocator, tiles->tile_count - job->report->removed_tiles, sizeof(*left));
+    if (left == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t count = 0;
+    for (uint32_t t = 0; t < tiles->tile_count; t++) {
+        tl_nav_tile *tile = tiles->tiles[t];
+        if (job->gone[t] || job->remade[t] != NULL) {
+            tl_blob_free(tile, allocator);
+            tile = job->remade[t];
+            job->remade[t] = NULL;
+        }
+        if (tile != NULL) {
+            left[count++] = tile;
+        }
+    }
+    tl_release_array(allocator, tiles->tiles, tiles->tile_count, sizeof(*left));
+    tiles->tiles = left;
+    tiles->tile_count = count;
+    return TL_OK;
+}
+
+static tl_result prune(prune_job *job, tl_report *report)
+{
+    TL_TRY(check_def(job->def, report));
+    TL_TRY(assemble(job, report));
+    TL_TRY(measure_islands(job));
+    TL_TRY(plant_seeds(job, report));
+    if (job->def->solids != NULL) {
+        TL_TRY(find_insides(job, report));
+    }
+    judge(job);
+    tl_report_begin(report, "prune");
+    TL_TRY(remake_tiles(job, report));
+    TL_TRY(tl_progress_update(&job->def->host, "prune", job->tiles->tile_count, job->tiles->tile_count));
+    return replace_tiles(job);
+}
+
+tl_result tl_nav_prune(const tl_nav_prune_def *def, tl_nav_tiles *tiles, tl_nav_prune_report *report_out)
+{
+    tl_nav_prune_report report;
+    memset(&report, 0, sizeof report);
+    tl_report_begin(&report.base, "prune");
+    prune_job job;
+    memset(&job, 0, sizeof job);
+    job.def = def;
+    job.tiles = tiles;
+    job.report = &report;
+    const uint32_t count = tiles->tile_count;
+    const tl_result result = prune(&job, &report.base);
+    for (uint32_t t = 0; job.remade != NULL && t < count; t++) {
+        tl_blob_free(job.remade[t], def->host.allocator);
+    }
+    tl_release_array(def->host.allocator, job.remade, count, sizeof(*job.remade));
+    tl_release_array(def->host.allocator, job.gone, count, sizeof *job.gone);
+    tl_release_array(def->host.allocator, job.islands, job.island_capacity, sizeof *job.islands);
+    tl_navmesh_free(job.navmesh);
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    return result;
+}
