@@ -16,10 +16,21 @@ static inline tl_f64x4 tl_f64x4_all(double value)
     return _mm256_set1_pd(value);
 }
 
-/// Four floats as doubles.
-static inline tl_f64x4 tl_f64x4_make(float x, float y, float z, float w)
+/// Floats 0, stride and 2 * stride as doubles; the fourth lane is 0.
+static inline tl_f64x4 tl_f64x4_gather_three(const float *first, uint32_t stride)
 {
-    return _mm256_cvtps_pd(_mm_setr_ps(x, y, z, w));
+    __m128 xyz = _mm_insert_ps(_mm_load_ss(first), _mm_load_ss(first + stride), 0x10);
+    return _mm256_cvtps_pd(_mm_insert_ps(xyz, _mm_load_ss(first + 2 * (size_t)stride), 0x20));
+}
+
+static inline tl_f64x4 tl_f64x4_from_floats(const float *four)
+{
+    return _mm256_cvtps_pd(_mm_loadu_ps(four));
+}
+
+static inline void tl_f64x4_store_floats(float *four, tl_f64x4 a)
+{
+    _mm_storeu_ps(four, _mm256_cvtpd_ps(a));
 }
 
 static inline tl_f64x4 tl_f64x4_sub(tl_f64x4 a, tl_f64x4 b)
@@ -38,10 +49,28 @@ static inline tl_f64x4 tl_f64x4_rotate_three(tl_f64x4 a)
     return _mm256_permute4x64_pd(a, _MM_SHUFFLE(3, 0, 2, 1));
 }
 
-/// Lane 0 in all lanes.
-static inline tl_f64x4 tl_f64x4_first(tl_f64x4 a)
+/// Of each vector (lane 0 + lane 1) + (lane 2 + lane 3).
+static inline tl_f64x4 tl_f64x4_sums(tl_f64x4 a, tl_f64x4 b, tl_f64x4 c, tl_f64x4 d)
 {
-    return _mm256_broadcastsd_pd(_mm256_castpd256_pd128(a));
+    __m256d ab = _mm256_hadd_pd(a, b), cd = _mm256_hadd_pd(c, d);
+    return _mm256_add_pd(_mm256_permute2f128_pd(ab, cd, 0x20), _mm256_permute2f128_pd(ab, cd, 0x31));
+}
+
+/// (lane 0 + lane 1) + (lane 2 + lane 3).
+static inline double tl_f64x4_sum(tl_f64x4 a)
+{
+    __m128d pairs = _mm_hadd_pd(_mm256_castpd256_pd128(a), _mm256_extractf128_pd(a, 1));
+    return _mm_cvtsd_f64(_mm_add_sd(pairs, _mm_unpackhi_pd(pairs, pairs)));
+}
+
+static inline double tl_f64x4_get_x(tl_f64x4 a)
+{
+    return _mm256_cvtsd_f64(a);
+}
+
+static inline double tl_f64x4_get_y(tl_f64x4 a)
+{
+    return _mm_cvtsd_f64(_mm_unpackhi_pd(_mm256_castpd256_pd128(a), _mm256_castpd256_pd128(a)));
 }
 
 static inline void tl_f64x4_store(double *four, tl_f64x4 a)
@@ -61,10 +90,23 @@ static inline tl_f64x4 tl_f64x4_all(double value)
     return r;
 }
 
-static inline tl_f64x4 tl_f64x4_make(float x, float y, float z, float w)
+static inline tl_f64x4 tl_f64x4_gather_three(const float *first, uint32_t stride)
 {
-    tl_f64x4 r = { { (double)x, (double)y, (double)z, (double)w } };
+    tl_f64x4 r = { { (double)first[0], (double)first[stride], (double)first[2 * (size_t)stride], 0.0 } };
     return r;
+}
+
+static inline tl_f64x4 tl_f64x4_from_floats(const float *four)
+{
+    tl_f64x4 r = { { (double)four[0], (double)four[1], (double)four[2], (double)four[3] } };
+    return r;
+}
+
+static inline void tl_f64x4_store_floats(float *four, tl_f64x4 a)
+{
+    for (int i = 0; i < 4; i++) {
+        four[i] = (float)a.v[i];
+    }
 }
 
 static inline tl_f64x4 tl_f64x4_sub(tl_f64x4 a, tl_f64x4 b)
@@ -91,9 +133,29 @@ static inline tl_f64x4 tl_f64x4_rotate_three(tl_f64x4 a)
     return r;
 }
 
-static inline tl_f64x4 tl_f64x4_first(tl_f64x4 a)
+static inline tl_f64x4 tl_f64x4_sums(tl_f64x4 a, tl_f64x4 b, tl_f64x4 c, tl_f64x4 d)
 {
-    return tl_f64x4_all(a.v[0]);
+    const tl_f64x4 v[4] = { a, b, c, d };
+    tl_f64x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = (v[i].v[0] + v[i].v[1]) + (v[i].v[2] + v[i].v[3]);
+    }
+    return r;
+}
+
+static inline double tl_f64x4_sum(tl_f64x4 a)
+{
+    return (a.v[0] + a.v[1]) + (a.v[2] + a.v[3]);
+}
+
+static inline double tl_f64x4_get_x(tl_f64x4 a)
+{
+    return a.v[0];
+}
+
+static inline double tl_f64x4_get_y(tl_f64x4 a)
+{
+    return a.v[1];
 }
 
 static inline void tl_f64x4_store(double *four, tl_f64x4 a)
@@ -102,5 +164,13 @@ static inline void tl_f64x4_store(double *four, tl_f64x4 a)
 }
 
 #endif
+
+/// Lanes 0 to 2 of a x b; the fourth is 0 where those of a and b are numbers.
+static inline tl_f64x4 tl_f64x4_cross(tl_f64x4 a, tl_f64x4 b)
+{
+    // z, x, y of the product.
+    tl_f64x4 turned = tl_f64x4_sub(tl_f64x4_mul(a, tl_f64x4_rotate_three(b)), tl_f64x4_mul(tl_f64x4_rotate_three(a), b));
+    return tl_f64x4_rotate_three(turned);
+}
 
 #endif

@@ -54,7 +54,7 @@ typedef struct tl_ray_job {
     uint32_t triangle; ///< UINT32_MAX: none
     const tl_soup_leaf *leaf;
     uint32_t lane;
-    double weight[3]; ///< of the view's corners; not normalized
+    float u, v;
     bool back;
 } tl_ray_job;
 
@@ -65,9 +65,6 @@ bool tl_ray_prepare(tl_ray_job *job, tl_vec3 origin, tl_vec3 target);
 /// The rare rest of it, with origin and target set: directions that need scaling, and origins too far away for float
 /// filters.
 bool tl_ray_prepare_unusual(tl_ray_job *job);
-
-/// Share of t that errors of the weights may move it: an eighth of an ulp of float.
-#define TL_RAY_T_WEIGHT_ERROR 7.450580596923828e-9 // 2^-27
 
 /// Decides one lane of a leaf. If it is hit, and better than the best so far, it becomes the best.
 bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane);

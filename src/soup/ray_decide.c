@@ -11,29 +11,25 @@
 // after the shear: corners are off by at most 8 u M (ray_prepare.h), so E by at most 4 (8 u M) m + 2 (8 u M)^2, and its
 // own two products and difference add 4 u m^2.
 //
-// Error of t = sum(E_i t_i) / sum(E_i): errors e of the weights move it by at most 3 e (max t_i - min t_i) / |sum E|;
-// the rest is rounding, some 11 u max |t_i|, taken as 16.
+// t, u and v are those of ray_measure.h, from the plane. Where a grazing ray leaves them in doubt, t is a quotient of two
+// exact sums, each rounded once or twice: right to 8 u of itself, and so is its sign.
 //
 // Sources: Christer Ericson, Real-Time Collision Detection, 2005, section 5.3.4; Woop, Benthin, Wald, Watertight
 // Ray/Triangle Intersection, JCGT 2013.
 
-#include "soup/ray.h"
+#include "soup/ray_measure.h"
 
 #include "math/predicates.h"
-#include "math/tolerance.h"
+#include "math/vec3d.h"
 #include "soup/filter.h"
 
 #include <float.h>
 
-// A t is recomputed exactly when its weights may have moved it by more than TL_RAY_T_WEIGHT_ERROR of itself, or more
-// than this share of the farthest corner's t: 2^-46.
-#define T_ROUNDING_ERROR 1.4210854715202004e-14
-
 typedef struct triangle_test {
     tl_leaf_view leaf;
     uint32_t lane;
-    double depth[3];  // t at which the ray passes each corner
     double weight[3]; // E of the edge across from each corner
+    double reach;     // the largest distance along an axis from the origin to a corner
     double error;     // bound of a weight's error
     int sign;         // of the weights that are not zero
 } triangle_test;
@@ -75,7 +71,8 @@ static void prepare_exact(tl_ray_job *job)
 static bool meets_line(const tl_ray_job *job, triangle_test *test)
 {
     double x[3], y[3];
-    double reach = 0.0, size = 0.0;
+    double size = 0.0;
+    test->reach = 0.0;
     double origin_x = (double)job->origin.lane[job->axis_x];
     double origin_y = (double)job->origin.lane[job->axis_y];
     double origin_z = (double)job->origin.lane[job->axis_z];
@@ -89,10 +86,10 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
         double dz = (double)corner[job->axis_z * stride] - origin_z;
         x[k] = dx - job->exact_shear[0] * dz;
         y[k] = dy - job->exact_shear[1] * dz;
-        test->depth[k] = dz * job->inverse_z;
-        reach = larger(reach, larger(larger(fabs(dx), fabs(dy)), fabs(dz)));
+        test->reach = larger(test->reach, larger(larger(fabs(dx), fabs(dy)), fabs(dz)));
         size = larger(size, larger(fabs(x[k]), fabs(y[k])));
     }
+    double reach = test->reach;
     test->error =
         TL_DOUBLE_ROUNDING * (33.0 * reach * size + 5.0 * size * size + 256.0 * TL_DOUBLE_ROUNDING * reach * reach);
     bool positive = false, negative = false;
@@ -136,42 +133,52 @@ static int exact_order(const tl_ray_job *job, const triangle_test *test, tl_vec3
     return across * along;
 }
 
-// The reported t; false when the hit lies before the ray's start or a segment's end.
-static bool find_t(const tl_ray_job *job, const triangle_test *test, float *t_out)
+// The largest side of a triangle along an axis, from its first corner.
+static double width_of(const triangle_test *test)
 {
-    double sum = test->weight[0] + test->weight[1] + test->weight[2];
-    const double *depth = test->depth;
-    double t = (test->weight[0] * depth[0] + test->weight[1] * depth[1] + test->weight[2] * depth[2]) / sum;
-    double low = depth[0] < depth[1] ? depth[0] : depth[1];
-    double high = larger(depth[0], depth[1]);
-    low = low < depth[2] ? low : depth[2];
-    high = larger(high, depth[2]);
-    double farthest = larger(fabs(low), fabs(high));
-    double rounding = 16.0 * TL_DOUBLE_ROUNDING * farthest;
-    double error = 3.0 * test->error * (high - low) / fabs(sum);
-    // Written so that NaN, from a sum of zero, takes the exact way too.
-    if (!(error <= TL_RAY_T_WEIGHT_ERROR * fabs(t) || error <= T_ROUNDING_ERROR * farthest)) {
-        t = exact_t(job, test);
-        error = 8.0 * TL_DOUBLE_ROUNDING * fabs(t);
+    tl_vec3 v[3];
+    tl_leaf_corners(&test->leaf, test->lane, v);
+    double width = 0.0;
+    for (int k = 1; k < 3; k++) {
+        tl_vec3d side = tl_vec3d_sub(tl_vec3d_from(v[k]), tl_vec3d_from(v[0]));
+        width = larger(width, larger(larger(fabs(side.x), fabs(side.y)), fabs(side.z)));
     }
-    error += rounding;
-    if (t < -error) {
+    return width;
+}
+
+// t, right to TL_RAY_T_ERROR of itself and so in its sign, and u and v.
+static double find_place(const tl_ray_job *job, const triangle_test *test, float *u_out, float *v_out)
+{
+    tl_ray_crossing crossing = tl_ray_cross_plane(job, &test->leaf, test->lane);
+    if (tl_ray_t_is_safe(tl_f64x4_get_y(crossing.sums), width_of(test), test->reach)) {
+        double place[4];
+        tl_f64x4_store(place, tl_f64x4_mul(crossing.sums, tl_f64x4_all(1.0 / tl_f64x4_get_x(crossing.sums))));
+        *u_out = (float)place[2];
+        *v_out = -(float)place[3];
+        return place[1];
+    }
+    double sum = test->weight[0] + test->weight[1] + test->weight[2];
+    // A needle seen edge-on may have weights that all vanish in double: then the hit is anywhere on it.
+    double scale = sum != 0.0 ? 1.0 / sum : 0.0;
+    *u_out = (float)(test->weight[1] * scale);
+    *v_out = (float)(test->weight[2] * scale);
+    return exact_t(job, test);
+}
+
+// The reported t; false when the hit lies before the ray's start or beyond a segment's end.
+static bool round_t(const tl_ray_job *job, const triangle_test *test, double t, float *t_out)
+{
+    if (t < 0.0) {
         return false;
     }
-    if (t <= error && low < 0.0) {
-        int order = exact_order(job, test, job->origin.point);
-        if (order < 0) {
-            return false;
-        }
-        t = order == 0 || t < 0.0 ? 0.0 : t;
-    }
-    if (job->is_segment && t >= 1.0 - error && high > 1.0 - rounding) {
-        int order = t > 1.0 + error ? 1 : exact_order(job, test, job->target.point);
+    if (job->is_segment && t >= 1.0 - TL_RAY_T_ERROR) {
+        int order = t > 1.0 + 2.0 * TL_RAY_T_ERROR ? 1 : exact_order(job, test, job->target.point);
         if (order > 0) {
             return false;
         }
         t = order == 0 || t > 1.0 ? 1.0 : t;
     }
+    // Not t >= 0: a zero has no sign.
     t = t > 0.0 ? t : 0.0;
     *t_out = t < (double)FLT_MAX ? (float)t : FLT_MAX;
     return true;
@@ -186,8 +193,12 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
     test.leaf = tl_view_leaf(leaf);
     test.lane = lane;
     uint32_t triangle = test.leaf.ids[lane] & TL_ID_INDEX;
-    float t;
-    if (!meets_line(job, &test) || !find_t(job, &test, &t)) {
+    if (!meets_line(job, &test)) {
+        return false;
+    }
+    float t, u, v;
+    double exact = find_place(job, &test, &u, &v);
+    if (!round_t(job, &test, exact, &t)) {
         return false;
     }
     if (!(t < job->t || (t == job->t && triangle < job->triangle))) {
@@ -205,8 +216,7 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
     job->leaf = leaf;
     job->lane = lane;
     job->back = back;
-    for (int k = 0; k < 3; k++) {
-        job->weight[k] = test.weight[k];
-    }
+    job->u = u;
+    job->v = v;
     return true;
 }
