@@ -73,7 +73,7 @@ static void check_corner(const tl_ray_job *job, tl_vec3 p, regimes *seen)
     for (uint32_t i = 0; i < 3; i++) {
         direction[i] = component(job->target.point, i) - (job->is_segment ? component(job->origin.point, i) : 0.0L);
     }
-    uint32_t x = job->axis_x, y = job->axis_y, z = job->axis_z;
+    uint32_t x = job->axes[0], y = job->axes[1], z = job->axes[2];
     TEST_CHECK(x != y && y != z && z != x);
     TEST_CHECK(fabsl(direction[z]) >= fabsl(direction[x]) && fabsl(direction[z]) >= fabsl(direction[y]));
     float depth = point[z] - origin[z];

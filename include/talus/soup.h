@@ -175,8 +175,7 @@ typedef struct tl_ray_hit {
 
 /// The closest hit of a ray; false and an untouched `hit_out` when there is none. `filter` may be NULL.
 ///
-/// t is within 3/4 ulp of the exact value, plus 2^-45 of the t at which the ray passes the triangle's farthest corner
-/// (which matters only when that is thousands of times farther than the hit).
+/// t is within 5/8 ulp of the exact value, however the ray grazes the triangle.
 TL_API bool tl_soup_cast_ray(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter, tl_ray_hit *hit_out);
 
 /// Whether a ray hits anything. Agrees with tl_soup_cast_ray, and is faster. `filter` may be NULL.

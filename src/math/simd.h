@@ -33,8 +33,10 @@
 /// A kernel's values must stay in registers over its parts.
 #if defined(__GNUC__)
 #define TL_ALWAYS_INLINE inline __attribute__((always_inline))
+#define TL_NOINLINE      __attribute__((noinline))
 #else
 #define TL_ALWAYS_INLINE inline
+#define TL_NOINLINE
 #endif
 
 // ----------------------------------------------------------------------------------------------- four floats
@@ -58,7 +60,7 @@ static inline tl_f32x4 tl_f32x4_load(const float *four)
     return _mm_loadu_ps(four);
 }
 
-/// The fourth lane is 0.
+/// The fourth lane is 0. Two loads: one of 16 bytes would wait for what a caller has stored in smaller pieces just now.
 static inline tl_f32x4 tl_f32x4_load_three(const float *three)
 {
     __m128 xy = _mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(const void *)three));
@@ -119,6 +121,41 @@ static inline tl_f32x4 tl_f32x4_max(tl_f32x4 a, tl_f32x4 b)
     return _mm_max_ps(a, b);
 }
 
+static inline tl_f32x4 tl_f32x4_or(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_or_ps(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_neg(tl_f32x4 a)
+{
+    return _mm_xor_ps(_mm_set1_ps(-0.0f), a);
+}
+
+static inline tl_f32x4 tl_f32x4_mul_add(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c)
+{
+#if TL_SIMD_LEVEL >= 2
+    return _mm_fmadd_ps(a, b, c);
+#else
+    return _mm_add_ps(_mm_mul_ps(a, b), c);
+#endif
+}
+
+/// c - a b.
+static inline tl_f32x4 tl_f32x4_mul_sub_from(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c)
+{
+#if TL_SIMD_LEVEL >= 2
+    return _mm_fnmadd_ps(a, b, c);
+#else
+    return _mm_sub_ps(c, _mm_mul_ps(a, b));
+#endif
+}
+
+/// Lane i: b[i] where signs[i] has its sign bit set, a[i] elsewhere.
+static inline tl_f32x4 tl_f32x4_choose(tl_f32x4 signs, tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_blendv_ps(a, b, signs);
+}
+
 static inline tl_f32x4 tl_f32x4_abs(tl_f32x4 a)
 {
     return _mm_andnot_ps(_mm_set1_ps(-0.0f), a);
@@ -134,6 +171,12 @@ static inline tl_f32x4 tl_f32x4_if_less(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f
 static inline uint32_t tl_f32x4_less_equal(tl_f32x4 a, tl_f32x4 b)
 {
     return (uint32_t)_mm_movemask_ps(_mm_cmple_ps(a, b));
+}
+
+/// Bit i: a[i] <= b[i] and b[i] <= c[i], so false for NaN.
+static inline uint32_t tl_f32x4_ascending(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c)
+{
+    return (uint32_t)_mm_movemask_ps(_mm_and_ps(_mm_cmple_ps(a, b), _mm_cmple_ps(b, c)));
 }
 
 /// Bit i: a[i] has its sign bit set.
@@ -154,6 +197,14 @@ static inline tl_f32x4 tl_f32x4_max_of_three(tl_f32x4 a)
     __m128 z = _mm_shuffle_ps(a, a, _MM_SHUFFLE(2, 2, 2, 2));
     __m128 m = _mm_max_ps(_mm_max_ps(a, y), z);
     return _mm_shuffle_ps(m, m, _MM_SHUFFLE(0, 0, 0, 0));
+}
+
+/// The smallest of the first three lanes.
+static inline float tl_f32x4_least_of_three(tl_f32x4 a)
+{
+    __m128 y = _mm_shuffle_ps(a, a, _MM_SHUFFLE(1, 1, 1, 1));
+    __m128 z = _mm_shuffle_ps(a, a, _MM_SHUFFLE(2, 2, 2, 2));
+    return _mm_cvtss_f32(_mm_min_ss(_mm_min_ss(a, y), z));
 }
 
 #else
@@ -232,6 +283,47 @@ static inline tl_f32x4 tl_f32x4_max(tl_f32x4 a, tl_f32x4 b)
     return r;
 }
 
+static inline uint32_t tl_f32_bits(float a)
+{
+    uint32_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    return bits;
+}
+
+static inline tl_f32x4 tl_f32x4_or(tl_f32x4 a, tl_f32x4 b)
+{
+    tl_f32x4 r;
+    for (int i = 0; i < 4; i++) {
+        uint32_t bits = tl_f32_bits(a.v[i]) | tl_f32_bits(b.v[i]);
+        memcpy(&r.v[i], &bits, sizeof bits);
+    }
+    return r;
+}
+
+static inline tl_f32x4 tl_f32x4_neg(tl_f32x4 a)
+{
+    return tl_f32x4_make(-a.v[0], -a.v[1], -a.v[2], -a.v[3]);
+}
+
+static inline tl_f32x4 tl_f32x4_mul_add(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c)
+{
+    return tl_f32x4_add(tl_f32x4_mul(a, b), c);
+}
+
+static inline tl_f32x4 tl_f32x4_mul_sub_from(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c)
+{
+    return tl_f32x4_sub(c, tl_f32x4_mul(a, b));
+}
+
+static inline tl_f32x4 tl_f32x4_choose(tl_f32x4 signs, tl_f32x4 a, tl_f32x4 b)
+{
+    tl_f32x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = tl_f32_bits(signs.v[i]) >> 31 ? b.v[i] : a.v[i];
+    }
+    return r;
+}
+
 static inline tl_f32x4 tl_f32x4_abs(tl_f32x4 a)
 {
     tl_f32x4 r;
@@ -262,6 +354,11 @@ static inline uint32_t tl_f32x4_less_equal(tl_f32x4 a, tl_f32x4 b)
     return mask;
 }
 
+static inline uint32_t tl_f32x4_ascending(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c)
+{
+    return tl_f32x4_less_equal(a, b) & tl_f32x4_less_equal(b, c);
+}
+
 static inline uint32_t tl_f32x4_signs(tl_f32x4 a)
 {
     uint32_t mask = 0;
@@ -282,6 +379,12 @@ static inline tl_f32x4 tl_f32x4_max_of_three(tl_f32x4 a)
 {
     float xy = a.v[0] > a.v[1] ? a.v[0] : a.v[1];
     return tl_f32x4_all(xy > a.v[2] ? xy : a.v[2]);
+}
+
+static inline float tl_f32x4_least_of_three(tl_f32x4 a)
+{
+    float xy = a.v[0] < a.v[1] ? a.v[0] : a.v[1];
+    return xy < a.v[2] ? xy : a.v[2];
 }
 
 #endif

@@ -169,7 +169,8 @@ static inline void tl_f64x4_store(double *four, tl_f64x4 a)
 static inline tl_f64x4 tl_f64x4_cross(tl_f64x4 a, tl_f64x4 b)
 {
     // z, x, y of the product.
-    tl_f64x4 turned = tl_f64x4_sub(tl_f64x4_mul(a, tl_f64x4_rotate_three(b)), tl_f64x4_mul(tl_f64x4_rotate_three(a), b));
+    tl_f64x4 turned =
+        tl_f64x4_sub(tl_f64x4_mul(a, tl_f64x4_rotate_three(b)), tl_f64x4_mul(tl_f64x4_rotate_three(a), b));
     return tl_f64x4_rotate_three(turned);
 }
 

@@ -33,21 +33,22 @@ typedef struct tl_ray_job {
     float near_base[4];
     float far_base[4];
     uint32_t backward; ///< bit i: the ray runs down along axis i, so it enters a box by its max plane
+    uint32_t outside;  ///< bit i: along axis i the ray begins outside the soup's box
     float box_scale;   ///< power of two: box t = t * box_scale
     float box_limit;   ///< boxes that begin beyond it are skipped
 
-    // Leaves: origin moved to zero, then sheared so that the ray runs along axis_z.
-    float per_depth;                   ///< box t a metre along axis_z
-    _Alignas(16) float leaf_origin[4]; ///< along axis_x, axis_y, axis_z
-    float shear[4];                    ///< direction by its component along axis_z, in the same order
-    uint32_t axis_x, axis_y, axis_z;
+    // Leaves: origin moved to zero, then sheared so that the ray runs along the last of the axes.
+    float per_depth;                   ///< box t a metre along that axis
+    _Alignas(16) float leaf_origin[4]; ///< along the axes
+    float shear[4];                    ///< direction by its component along the last axis
+    const uint32_t *axes;              ///< three, in the order of x, y, z
     float reach;        ///< metres: the largest distance along an axis from the origin to a corner of the soup's box
     float corner_error; ///< metres: bound of the error of a sheared corner
 
     // The exact part, filled when the first lane is decided.
     double direction[3];
     double exact_shear[2];
-    double inverse_z; ///< 1 / direction[axis_z]
+    double inverse_z; ///< 1 / direction along the last axis
 
     // The best so far. t begins as tmax, so the first hit at tmax itself still wins by its index.
     float t;
@@ -72,15 +73,14 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane);
 /// Describes the best hit.
 void tl_ray_describe(const tl_ray_job *job, tl_ray_hit *hit_out);
 
-/// Prepares a ray and walks the tree, once per instruction set. Without `hit_out` it returns at the first hit. True:
-/// something was hit.
-typedef bool tl_ray_walk_fn(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out);
+/// Prepares a ray and walks the tree, once per instruction set. `target` is a direction, or a segment's end. Without
+/// `hit_out` it returns at the first hit. True: something was hit.
+typedef bool tl_ray_walk_fn(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *target, float tmax,
+                            bool is_segment, const tl_ray_filter *filter, tl_ray_hit *hit_out);
 
-bool tl_ray_walk_scalar(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out);
+tl_ray_walk_fn tl_ray_walk_scalar;
 #if defined(__x86_64__)
-bool tl_ray_walk_sse42(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out);
-bool tl_ray_walk_avx2(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out);
-bool tl_ray_walk_avx512(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out);
+tl_ray_walk_fn tl_ray_walk_sse42, tl_ray_walk_avx2, tl_ray_walk_avx512;
 #endif
 
 /// Instruction sets, ascending.

@@ -11,8 +11,8 @@
 // after the shear: corners are off by at most 8 u M (ray_prepare.h), so E by at most 4 (8 u M) m + 2 (8 u M)^2, and its
 // own two products and difference add 4 u m^2.
 //
-// t, u and v are those of ray_measure.h, from the plane. Where a grazing ray leaves them in doubt, t is a quotient of two
-// exact sums, each rounded once or twice: right to 8 u of itself, and so is its sign.
+// t, u and v are those of ray_measure.h, from the plane. Where a grazing ray leaves them in doubt, t is a quotient of
+// two exact sums, each rounded once or twice: right to 8 u of itself, and so is its sign.
 //
 // Sources: Christer Ericson, Real-Time Collision Detection, 2005, section 5.3.4; Woop, Benthin, Wald, Watertight
 // Ray/Triangle Intersection, JCGT 2013.
@@ -52,7 +52,7 @@ static int exact_side(const tl_ray_job *job, const triangle_test *test, int k)
     tl_vec3 a = v[(k + 1) % 3], b = v[(k + 2) % 3];
     int side = job->is_segment ? tl_orient3d(job->origin.point, job->target.point, a, b)
                                : tl_line_side(job->origin.point, job->target.point, a, b);
-    return job->direction[job->axis_z] > 0.0 ? side : -side;
+    return job->direction[job->axes[2]] > 0.0 ? side : -side;
 }
 
 static void prepare_exact(tl_ray_job *job)
@@ -61,9 +61,9 @@ static void prepare_exact(tl_ray_job *job)
         double from = job->is_segment ? (double)job->origin.lane[i] : 0.0;
         job->direction[i] = (double)job->target.lane[i] - from;
     }
-    job->inverse_z = 1.0 / job->direction[job->axis_z];
-    job->exact_shear[0] = job->direction[job->axis_x] * job->inverse_z;
-    job->exact_shear[1] = job->direction[job->axis_y] * job->inverse_z;
+    job->inverse_z = 1.0 / job->direction[job->axes[2]];
+    job->exact_shear[0] = job->direction[job->axes[0]] * job->inverse_z;
+    job->exact_shear[1] = job->direction[job->axes[1]] * job->inverse_z;
     job->is_exact = true;
 }
 
@@ -73,17 +73,17 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
     double x[3], y[3];
     double size = 0.0;
     test->reach = 0.0;
-    double origin_x = (double)job->origin.lane[job->axis_x];
-    double origin_y = (double)job->origin.lane[job->axis_y];
-    double origin_z = (double)job->origin.lane[job->axis_z];
+    double origin_x = (double)job->origin.lane[job->axes[0]];
+    double origin_y = (double)job->origin.lane[job->axes[1]];
+    double origin_z = (double)job->origin.lane[job->axes[2]];
     const float *corners[3];
     tl_leaf_find_corners(&test->leaf, test->lane, corners);
     uint32_t stride = tl_leaf_stride(&test->leaf);
     for (int k = 0; k < 3; k++) {
         const float *corner = corners[k];
-        double dx = (double)corner[job->axis_x * stride] - origin_x;
-        double dy = (double)corner[job->axis_y * stride] - origin_y;
-        double dz = (double)corner[job->axis_z * stride] - origin_z;
+        double dx = (double)corner[job->axes[0] * stride] - origin_x;
+        double dy = (double)corner[job->axes[1] * stride] - origin_y;
+        double dz = (double)corner[job->axes[2] * stride] - origin_z;
         x[k] = dx - job->exact_shear[0] * dz;
         y[k] = dy - job->exact_shear[1] * dz;
         test->reach = larger(test->reach, larger(larger(fabs(dx), fabs(dy)), fabs(dz)));
@@ -129,7 +129,7 @@ static int exact_order(const tl_ray_job *job, const triangle_test *test, tl_vec3
     tl_leaf_corners(&test->leaf, test->lane, v);
     // normal . (corner - at) over normal . direction; the latter's sign is that of the weights along the axis.
     int across = -tl_orient3d(v[0], v[1], v[2], at);
-    int along = job->direction[job->axis_z] > 0.0 ? test->sign : -test->sign;
+    int along = job->direction[job->axes[2]] > 0.0 ? test->sign : -test->sign;
     return across * along;
 }
 
@@ -149,12 +149,15 @@ static double width_of(const triangle_test *test)
 // t, right to TL_RAY_T_ERROR of itself and so in its sign, and u and v.
 static double find_place(const tl_ray_job *job, const triangle_test *test, float *u_out, float *v_out)
 {
-    tl_ray_crossing crossing = tl_ray_cross_plane(job, &test->leaf, test->lane);
+    const float *corners[3];
+    tl_leaf_find_corners(&test->leaf, test->lane, corners);
+    tl_ray_crossing crossing = tl_ray_cross_plane(job, corners, tl_leaf_stride(&test->leaf));
     if (tl_ray_t_is_safe(tl_f64x4_get_y(crossing.sums), width_of(test), test->reach)) {
         double place[4];
         tl_f64x4_store(place, tl_f64x4_mul(crossing.sums, tl_f64x4_all(1.0 / tl_f64x4_get_x(crossing.sums))));
         *u_out = (float)place[2];
         *v_out = -(float)place[3];
+        tl_ray_keep_inside(u_out, v_out);
         return place[1];
     }
     double sum = test->weight[0] + test->weight[1] + test->weight[2];
@@ -205,7 +208,7 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
         return false;
     }
     // normal . direction > 0: the ray runs with the normal, so it came from behind.
-    bool back = (job->direction[job->axis_z] > 0.0) == (test.sign > 0);
+    bool back = (job->direction[job->axes[2]] > 0.0) == (test.sign > 0);
     if (!tl_filter_passes(job->soup, job->filter, triangle, back ? TL_SEEN_BACK : TL_SEEN_FRONT)) {
         return false;
     }

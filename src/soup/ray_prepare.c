@@ -25,6 +25,7 @@ static void pass_everything(tl_ray_job *job)
         job->shear[i] = 0.0f;
     }
     job->backward = 0;
+    job->outside = 0;
     job->corner_error = INFINITY;
 }
 

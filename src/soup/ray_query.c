@@ -72,42 +72,31 @@ tl_ray_filter tl_default_ray_filter(void)
     return filter;
 }
 
-static inline bool run(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *target,
-                       float tmax, bool is_segment, const tl_ray_filter *filter, tl_ray_hit *hit_out)
-{
-    TL_ASSERT(soup != NULL);
-    tl_ray_job job;
-    job.soup = soup;
-    job.filter = filter;
-    job.is_segment = is_segment;
-    job.t = tmax;
-    return walk(&job, origin, target, hit_out);
-}
-
 bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,
                            tl_ray_hit *hit_out)
 {
-    TL_ASSERT(ray != NULL && hit_out != NULL);
-    return run(walk, soup, &ray->origin, &ray->direction, ray->tmax, false, filter, hit_out);
+    TL_ASSERT(soup != NULL && ray != NULL && hit_out != NULL);
+    return walk(soup, &ray->origin, &ray->direction, ray->tmax, false, filter, hit_out);
 }
 
 bool tl_soup_occluded_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter)
 {
-    TL_ASSERT(ray != NULL);
-    return run(walk, soup, &ray->origin, &ray->direction, ray->tmax, false, filter, NULL);
+    TL_ASSERT(soup != NULL && ray != NULL);
+    return walk(soup, &ray->origin, &ray->direction, ray->tmax, false, filter, NULL);
 }
 
 bool tl_soup_cast_segment_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b,
                                const tl_ray_filter *filter, tl_ray_hit *hit_out)
 {
-    TL_ASSERT(hit_out != NULL);
-    return run(walk, soup, &a, &b, 1.0f, true, filter, hit_out);
+    TL_ASSERT(soup != NULL && hit_out != NULL);
+    return walk(soup, &a, &b, 1.0f, true, filter, hit_out);
 }
 
 bool tl_soup_line_of_sight_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b,
                                 const tl_ray_filter *filter)
 {
-    return !run(walk, soup, &a, &b, 1.0f, true, filter, NULL);
+    TL_ASSERT(soup != NULL);
+    return !walk(soup, &a, &b, 1.0f, true, filter, NULL);
 }
 
 bool tl_soup_cast_ray(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter, tl_ray_hit *hit_out)

@@ -21,11 +21,11 @@
 // Lanes that pass get an interval of t, so that most of what is left is settled without ray_decide.c: triangles behind
 // the ray or beyond the best are dropped, and one that is surely hit, surely in front of the best, only waits: it is
 // decided when another comes too near to tell them apart, or measured at the end (ray_measure.h). With D = sum(E) and
-// depths z_i, at most Z, t = sum(E_i z_i) / D times per_depth. Let the line meet the triangle. Then no corner is
-// farther away than Z + L, so the bound e above holds with Z + L in the place of M. True weights have one sign, so
-// errors of the weights move the quotient by at most sum(e |z_i - z|) / |D| <= 3 e L / |D|, since depths differ by L at
-// most. With |D| >= 64 e, roundings of depths, products, sums and the quotient add 18 u Z, per_depth (two of its own)
-// and its product 3 u Z. Taken as 4 e L / |D| + 26 u Z.
+// depths z_i, t = sum(E_i z_i) / D times per_depth. Let the line meet the triangle. Depths differ by L at most, so all
+// are within Z = |z_a| + L, and no corner is farther away than Z + L: the bound e above holds with that in the place of
+// M. True weights have one sign, so errors of the weights move the quotient by at most sum(e |z_i - z|) / |D|
+// <= 3 e L / |D|. With |D| >= 64 e, roundings of depths, products, sums and the quotient add 18 u Z, per_depth (two of
+// its own) and its product 3 u Z. Taken as 4 e L / |D| + 26 u Z.
 
 #include "base/lowest_bit.h"
 #include "math/simd16.h"
@@ -48,9 +48,16 @@
 // Each node on the way down leaves at most fifteen siblings behind; tl_u32x16_compress_pairs may write sixteen.
 enum { WALK_STACK_SIZE = (TL_SOUP_WIDTH - 1) * TL_SOUP_MAX_DEPTH + TL_SOUP_WIDTH };
 
+// Where in a node the planes are by which a ray enters, by its bits `backward`: bytes. It leaves by those of ~backward.
+static const uint32_t walk_rows[8][4] = { { 0, 128, 256, 0 },  { 64, 128, 256, 0 }, { 0, 192, 256, 0 },
+                                          { 64, 192, 256, 0 }, { 0, 128, 320, 0 },  { 64, 128, 320, 0 },
+                                          { 0, 192, 320, 0 },  { 64, 192, 320, 0 } };
+static_assert(sizeof(((tl_soup_node *)0)->plane[0]) == 64, "rows of walk_rows");
+
 // What a visit needs beside the job.
 typedef struct walk_ray {
-    uint32_t near_row[3]; // of tl_soup_node.plane: the ray enters by it and leaves by its neighbour
+    const uint32_t *near_rows;
+    const uint32_t *far_rows;
     const char *nodes;
     const char *leaves;
 } walk_ray;
@@ -90,6 +97,11 @@ static inline walk_entry farther(walk_entry a, walk_entry b)
     return a < b ? b : a;
 }
 
+static inline const float *plane_row(const tl_soup_node *node, uint32_t row)
+{
+    return (const float *)(const void *)((const char *)node + row);
+}
+
 // Which children the ray enters, and where.
 static TL_ALWAYS_INLINE uint32_t enter_children(const tl_ray_job *job, const walk_ray *ray, const tl_soup_node *node,
                                                 float limit, uint32_t *t_bits)
@@ -97,8 +109,8 @@ static TL_ALWAYS_INLINE uint32_t enter_children(const tl_ray_job *job, const wal
     tl_f32x16 enter[3], leave[3];
     for (uint32_t i = 0; i < 3; i++) {
         tl_f32x16 scale = tl_f32x16_all(job->plane_scale[i]);
-        tl_f32x16 near_plane = tl_f32x16_load(node->plane[ray->near_row[i]]);
-        tl_f32x16 far_plane = tl_f32x16_load(node->plane[ray->near_row[i] ^ 1u]);
+        tl_f32x16 near_plane = tl_f32x16_load(plane_row(node, ray->near_rows[i]));
+        tl_f32x16 far_plane = tl_f32x16_load(plane_row(node, ray->far_rows[i]));
         enter[i] = tl_f32x16_mul_add(near_plane, scale, tl_f32x16_all(job->near_base[i]));
         leave[i] = tl_f32x16_mul_add(far_plane, scale, tl_f32x16_all(job->far_base[i]));
     }
@@ -186,8 +198,8 @@ static TL_ALWAYS_INLINE void test_leaf(const tl_ray_job *job, const tl_soup_leaf
 {
     const float *floats = (const float *)(const void *)((const uint32_t *)(const void *)(leaf + 1) + 2 * (size_t)n);
     size_t stride = 4 * (size_t)n;
-    const float *x = floats + job->axis_x * stride, *y = floats + job->axis_y * stride;
-    const float *z = floats + job->axis_z * stride;
+    const float *x = floats + job->axes[0] * stride, *y = floats + job->axes[1] * stride;
+    const float *z = floats + job->axes[2] * stride;
     tl_f32x8 origin_x = tl_f32x8_all(job->leaf_origin[0]), origin_y = tl_f32x8_all(job->leaf_origin[1]);
     tl_f32x8 origin_z = tl_f32x8_all(job->leaf_origin[2]);
     tl_f32x8 shear_x = tl_f32x8_all(job->shear[0]), shear_y = tl_f32x8_all(job->shear[1]);
@@ -230,44 +242,79 @@ static TL_ALWAYS_INLINE void test_leaf(const tl_ray_job *job, const tl_soup_leaf
 
 // What is known of the hit so far.
 typedef struct walk_best {
-    float limit;              // what surely begins beyond this t is no better
-    float ahead;              // what surely ends before this t is better
-    const tl_soup_leaf *leaf; // a triangle that is surely hit, the best so far and not decided yet; NULL: none
-    uint32_t lane;
+    float limit;    // what surely begins beyond this t is no better
+    float ahead;    // what surely ends before this t is better
+    uint32_t child; // leaf of a triangle that is surely hit, the best so far and not decided yet; 0: none
+    uint32_t bit;   // its bit in leaf_lanes
 } walk_best;
 
-static inline void decide_lane(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane, walk_best *best)
+static inline uint32_t lane_of_bit(uint32_t bit, uint32_t n)
 {
-    if (best->leaf != NULL) {
-        (void)tl_ray_decide(job, best->leaf, best->lane);
-        best->leaf = NULL;
+    return bit < 4 ? bit : n + bit - 4;
+}
+
+static inline const tl_soup_leaf *leaf_of(const tl_soup *soup, uint32_t child)
+{
+    return tl_soup_leaf_at(soup, tl_child_leaf_offset(child));
+}
+
+// The lanes of a leaf that may be hit, as far as floats can tell.
+typedef struct walk_lanes {
+    uint32_t maybe; // bits
+    uint32_t sure;  // bits: hit, and in front of the origin
+    uint32_t clear; // bits: t is within the bounds
+    float low[8], high[8];
+} walk_lanes;
+
+// Takes or decides lanes one by one.
+static TL_NOINLINE walk_best settle_each(tl_ray_job *job, const walk_lanes *lanes, uint32_t child, walk_best best)
+{
+    const tl_soup_leaf *leaf = leaf_of(job->soup, child);
+    const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
+    uint32_t n = tl_child_pair_count(child);
+    for (uint32_t maybe = lanes->maybe; maybe != 0; maybe &= maybe - 1) {
+        uint32_t bit = tl_lowest_bit(maybe), lane = lane_of_bit(bit, n);
+        if ((lanes->sure >> bit & 1u) && lanes->high[bit] < best.ahead) {
+            walk_best waiting = { lanes->high[bit], lanes->low[bit], child, bit };
+            best = waiting;
+            continue;
+        }
+        if (ids[lane] == TL_ID_NONE || ((lanes->clear >> bit & 1u) && lanes->low[bit] > best.limit)) {
+            continue;
+        }
+        if (best.child != 0) {
+            (void)tl_ray_decide(job, leaf_of(job->soup, best.child),
+                                lane_of_bit(best.bit, tl_child_pair_count(best.child)));
+            best.child = 0;
+        }
+        (void)tl_ray_decide(job, leaf, lane);
+        best.limit = job->box_limit;
+        best.ahead = job->t * (1.0f - T_MARGIN);
     }
-    (void)tl_ray_decide(job, leaf, lane);
-    best->limit = job->box_limit;
-    best->ahead = job->t * (1.0f - T_MARGIN);
+    return best;
 }
 
 // Settles the lanes of a leaf that may be hit. True: any hit will do, and there is one.
-static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, const tl_soup_leaf *leaf, uint32_t n,
-                                          bool any, walk_best *best)
+static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, uint32_t child, bool any,
+                                          walk_best *best)
 {
-    tl_f32x8 per_depth = tl_f32x8_all(job->per_depth);
+    float per_depth = job->per_depth, extent = v->extent;
+    float size = fabsf(per_depth);
     tl_f32x8 sum = tl_f32x8_add(tl_f32x8_add(v->ae, v->ec), v->ca);
+    tl_f32x8 inverse = tl_f32x8_div(tl_f32x8_all(1.0f), sum);
     tl_f32x8 weighted =
         tl_f32x8_add(tl_f32x8_add(tl_f32x8_mul(v->ae, v->cz), tl_f32x8_mul(v->ec, v->az)), tl_f32x8_mul(v->ca, v->ez));
-    tl_f32x8 inverse = tl_f32x8_div(tl_f32x8_all(1.0f), sum);
-    tl_f32x8 t = tl_f32x8_mul(tl_f32x8_mul(weighted, inverse), per_depth);
-    tl_f32x8 depth =
-        tl_f32x8_max_bits(tl_f32x8_max_bits(tl_f32x8_abs(v->az), tl_f32x8_abs(v->cz)), tl_f32x8_abs(v->ez));
-    tl_f32x8 corner_error = tl_f32x8_mul_add(tl_f32x8_add(depth, tl_f32x8_all(v->extent)),
-                                             tl_f32x8_all(TL_RAY_CORNER_ERROR), tl_f32x8_all(FLT_MIN));
+    tl_f32x8 t = tl_f32x8_mul(tl_f32x8_mul(weighted, tl_f32x8_all(per_depth)), inverse);
+    tl_f32x8 depth = tl_f32x8_abs(v->az);
+    tl_f32x8 corner_error = tl_f32x8_mul_add(depth, tl_f32x8_all(TL_RAY_CORNER_ERROR),
+                                             tl_f32x8_all(2.0f * TL_RAY_CORNER_ERROR * extent + FLT_MIN));
     tl_f32x8 error =
-        tl_f32x8_mul_add(corner_error, tl_f32x8_all(LEAF_ERROR_TERM), tl_f32x8_all(LEAF_EXTENT_TERM * v->extent));
+        tl_f32x8_mul_add(corner_error, tl_f32x8_all(LEAF_ERROR_TERM), tl_f32x8_all(LEAF_EXTENT_TERM * extent));
     error = tl_f32x8_mul_add(error, corner_error, tl_f32x8_all(FLT_MIN));
     tl_f32x8 ratio = tl_f32x8_abs(tl_f32x8_mul(error, inverse));
-    tl_f32x8 spread =
-        tl_f32x8_mul_add(ratio, tl_f32x8_all(T_RATIO_TERM * v->extent), tl_f32x8_mul(depth, tl_f32x8_all(T_ROUNDING)));
-    spread = tl_f32x8_mul(spread, tl_f32x8_abs(per_depth));
+    float rounding = T_ROUNDING * size;
+    tl_f32x8 spread = tl_f32x8_mul_add(depth, tl_f32x8_all(rounding), tl_f32x8_all(rounding * extent));
+    spread = tl_f32x8_mul_add(ratio, tl_f32x8_all(T_RATIO_TERM * extent * size), spread);
     tl_f32x8 low = tl_f32x8_sub(t, spread), high = tl_f32x8_add(t, spread);
     uint32_t clear = tl_f32x8_less(ratio, tl_f32x8_all(1.0f / LANE_MIN_RATIO)) & (job->is_usual ? 0xffu : 0u);
     uint32_t gone = tl_f32x8_less(high, tl_f32x8_all(0.0f)) | tl_f32x8_less(tl_f32x8_all(best->limit), low);
@@ -277,54 +324,44 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, 
     }
     uint32_t sure =
         tl_f32x8_signs(v->sure) & tl_f32x8_less(tl_f32x8_all(0.0f), low) & clear & (job->filter == NULL ? 0xffu : 0u);
-    float lows[8], highs[8];
-    tl_f32x8_store(lows, low);
-    tl_f32x8_store(highs, high);
-    const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
-    do {
-        uint32_t bit = tl_lowest_bit(maybe);
-        uint32_t lane = bit < 4 ? bit : n + bit - 4;
-        maybe &= maybe - 1;
-        if ((sure >> bit & 1u) && highs[bit] < best->ahead) {
-            if (any) {
-                return true;
-            }
-            best->leaf = leaf;
-            best->lane = lane;
-            best->ahead = lows[bit];
-            best->limit = highs[bit];
-            continue;
-        }
-        if (ids[lane] == TL_ID_NONE || ((clear >> bit & 1u) && lows[bit] > best->limit)) {
-            continue;
-        }
-        decide_lane(job, leaf, lane, best);
-        if (any && job->triangle != UINT32_MAX) {
-            return true;
-        }
-    } while (maybe != 0);
-    return false;
+    uint32_t better = maybe & sure & tl_f32x8_less(high, tl_f32x8_all(best->ahead));
+    if (any && better != 0) {
+        return true;
+    }
+    walk_lanes lanes;
+    tl_f32x8_store(lanes.low, low);
+    tl_f32x8_store(lanes.high, high);
+    if (better == maybe && (maybe & (maybe - 1)) == 0) {
+        best->bit = tl_lowest_bit(maybe);
+        best->child = child;
+        best->ahead = lanes.low[best->bit];
+        best->limit = lanes.high[best->bit];
+        return false;
+    }
+    lanes.maybe = maybe;
+    lanes.sure = sure;
+    lanes.clear = clear;
+    *best = settle_each(job, &lanes, child, *best);
+    return any && job->triangle != UINT32_MAX;
 }
 
 static TL_ALWAYS_INLINE bool visit_leaf(tl_ray_job *job, const walk_ray *ray, uint32_t child, bool any, walk_best *best)
 {
     const tl_soup_leaf *leaf = (const tl_soup_leaf *)(const void *)(ray->leaves + tl_child_leaf_offset(child));
-    uint32_t n = tl_child_pair_count(child);
     leaf_lanes lanes;
-    test_leaf(job, leaf, n, &lanes);
-    return lanes.maybe != 0 && settle_lanes(job, &lanes, leaf, n, any, best);
+    test_leaf(job, leaf, tl_child_pair_count(child), &lanes);
+    return lanes.maybe != 0 && settle_lanes(job, &lanes, child, any, best);
 }
 
 // The end of a walk: false when nothing was hit. Any hit would have ended it before, if it was sure.
-static TL_ALWAYS_INLINE bool report(tl_ray_job *job, const walk_best *best, tl_ray_hit *hit)
+static TL_ALWAYS_INLINE bool report(tl_ray_job *job, walk_best best, tl_ray_hit *hit)
 {
-    if (best->leaf != NULL) {
-        job->leaf = best->leaf;
-        job->lane = best->lane;
-        if (hit != NULL && tl_ray_measure(job, hit)) {
+    if (best.child != 0) {
+        if (hit != NULL && tl_ray_measure(job, best.child, best.bit, hit)) {
             return true;
         }
-        (void)tl_ray_decide(job, best->leaf, best->lane);
+        (void)tl_ray_decide(job, leaf_of(job->soup, best.child),
+                            lane_of_bit(best.bit, tl_child_pair_count(best.child)));
     }
     if (hit != NULL && job->triangle != UINT32_MAX) {
         tl_ray_describe(job, hit);
@@ -332,22 +369,18 @@ static TL_ALWAYS_INLINE bool report(tl_ray_job *job, const walk_best *best, tl_r
     return job->triangle != UINT32_MAX;
 }
 
-static TL_ALWAYS_INLINE bool walk(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit)
+static TL_ALWAYS_INLINE bool walk(tl_ray_job *job, tl_ray_hit *hit)
 {
     const bool any = hit == NULL;
-    if (!tl_ray_prepare_inline(job, origin, target)) {
-        return false;
-    }
     walk_ray ray;
-    for (uint32_t i = 0; i < 3; i++) {
-        ray.near_row[i] = 2 * i + (job->backward >> i & 1u);
-    }
+    ray.near_rows = walk_rows[job->backward];
+    ray.far_rows = walk_rows[job->backward ^ 7u];
     ray.nodes = (const char *)tl_soup_nodes(job->soup);
     ray.leaves = (const char *)job->soup + job->soup->leaf_offset;
     walk_entry stack[WALK_STACK_SIZE];
     uint32_t stack_count = 0;
     uint32_t child = 0;
-    walk_best best = { job->box_limit, job->t * (1.0f - T_MARGIN), NULL, 0 };
+    walk_best best = { job->box_limit, job->t * (1.0f - T_MARGIN), 0, 0 };
     for (;;) {
         if ((child & TL_CHILD_LEAF) == 0) {
             const tl_soup_node *node = (const tl_soup_node *)(const void *)(ray.nodes + child * sizeof(tl_soup_node));
@@ -365,7 +398,7 @@ static TL_ALWAYS_INLINE bool walk(tl_ray_job *job, const tl_vec3 *origin, const 
         walk_entry limit = (uint64_t)limit_bits << 32 | UINT32_MAX;
         do {
             if (stack_count == 0) {
-                return report(job, &best, hit);
+                return report(job, best, hit);
             }
             stack_count--;
         } while (stack[stack_count] > limit);
@@ -373,7 +406,16 @@ static TL_ALWAYS_INLINE bool walk(tl_ray_job *job, const tl_vec3 *origin, const 
     }
 }
 
-bool TL_RAY_WALK(tl_ray_job *job, const tl_vec3 *origin, const tl_vec3 *target, tl_ray_hit *hit_out)
+bool TL_RAY_WALK(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *target, float tmax, bool is_segment,
+                 const tl_ray_filter *filter, tl_ray_hit *hit_out)
 {
-    return hit_out == NULL ? walk(job, origin, target, NULL) : walk(job, origin, target, hit_out);
+    tl_ray_job job;
+    job.soup = soup;
+    job.filter = filter;
+    job.is_segment = is_segment;
+    job.t = tmax;
+    if (!tl_ray_prepare_inline(&job, origin, target) || (job.outside != 0 && tl_ray_passes_bounds(&job))) {
+        return false;
+    }
+    return hit_out == NULL ? walk(&job, NULL) : walk(&job, hit_out);
 }
