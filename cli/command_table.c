@@ -10,6 +10,7 @@
     COMMAND(bake) \
     COMMAND(info) \
     COMMAND(check) \
+    COMMAND(audit) \
     COMMAND(ray) \
     COMMAND(nearest) \
     COMMAND(overlap) \

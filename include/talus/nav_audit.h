@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+//
+// Audit: a navmesh held against the triangles that it was made from.
+//
+//   tl_nav_audit_run   walks a probe of the agent along paths, polygons and portals through the soup, and looks for
+//                      floor that the navmesh lacks: every place where one says free and the other says blocked
+//   tl_nav_why         the stage and the parameter that made one point not walkable, and the value that would make it
+//   so
+//
+// What free promises. The probe is the agent less what voxels, a simplified outline and a coarse surface may cost; the
+// header says how much that is, and docs/audit.md derives it. Where even the probe does not fit, the navmesh is wrong.
+
+#ifndef TALUS_NAV_AUDIT_H
+#define TALUS_NAV_AUDIT_H
+
+#include <talus/nav_build.h>
+#include <talus/nav_query.h>
+#include <talus/soup.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+// ---------------------------------------------------------------------------------------------------------
+// The audit.
+
+/// The part of an agent that must be free wherever the navmesh says so. Metres.
+typedef struct tl_nav_probe {
+    float radius;  ///< of the capsule
+    float step;    ///< the capsule begins so high above the floor: what is lower can be climbed
+    float height;  ///< and ends here
+    float surface; ///< how far the navmesh's surface may lie above or below the floor, a step not counted
+    float gap;     ///< holes narrower than twice this do not show in voxels
+} tl_nav_probe;
+
+/// The probe of a navmesh that was built with `config`.
+///
+/// radius: the agent's less one cell, or less what the outline may be moved by (max_simplification_error) where that is
+/// more, and at least a quarter of a cell; step: walkable_climb and one voxel more; height: walkable_height in metres,
+/// less one voxel.
+TL_API tl_nav_probe tl_nav_probe_make(const tl_nav_config *config);
+
+typedef struct tl_nav_audit_def {
+    tl_nav_def nav;      ///< what the navmesh was built with; `bounds` empty: those of the soup. Its host is not used
+    uint32_t path_count; ///< random shortest paths. Default 2000
+    uint64_t seed;       ///< of those paths. Default 1
+    float probe_radius;  ///< metres; negative (the default): that of tl_nav_probe_make
+    float min_missing_area; ///< square metres: smaller missing floors are not reported. Negative (the default): that of
+                            ///< the smallest island that a build keeps (region_min_size)
+    tl_host host;           ///< tasks, progress ("audit polygons", "audit paths", "audit floors") and memory
+} tl_nav_audit_def;
+
+TL_API tl_nav_audit_def tl_default_nav_audit_def(void);
+
+typedef enum tl_nav_finding_kind {
+    TL_NAV_FINDING_BLOCKED,  ///< the probe is stopped by a triangle
+    TL_NAV_FINDING_STEP,     ///< the floor rises or falls by more than a step between two points a cell apart
+    TL_NAV_FINDING_NO_FLOOR, ///< nothing to stand on within a step of the navmesh
+    TL_NAV_FINDING_MISSING   ///< floor with room for the agent all around, and no navmesh
+} tl_nav_finding_kind;
+
+/// "blocked", "step", "no floor", "missing".
+TL_API const char *tl_nav_finding_name(tl_nav_finding_kind kind);
+
+/// One place that is wrong, however many paths met it.
+typedef struct tl_nav_finding {
+    tl_nav_finding_kind kind;
+    uint32_t triangle;  ///< that stops the probe, or that the missing floor lies on; else TL_NO_TRIANGLE
+    tl_nav_ref polygon; ///< of the navmesh; TL_NAV_NO_REF for missing floor
+    tl_vec3 point;      ///< on the floor, or on the navmesh where there is none: the worst place of all
+    tl_vec3 contact;    ///< on the triangle
+    /// Metres. Blocked: how deep the probe overlaps the triangle; step: its height; no floor: how deep one falls,
+    /// INFINITY when for ever; missing: 0.
+    float depth;
+    uint32_t count; ///< places a cell apart that were drawn together
+    tl_aabb bounds; ///< of those places
+    float area;     ///< square metres, of missing floor; else 0
+} tl_nav_finding;
+
+/// What an audit found, and what it did. Free with tl_nav_audit_free.
+typedef struct tl_nav_audit {
+    tl_nav_finding *findings; ///< by kind, then from worst to least: depth or area
+    uint32_t finding_count;
+    tl_nav_probe probe;      ///< as it was used
+    uint64_t path_count;     ///< random paths walked
+    double path_metres;      ///< their length in all
+    uint64_t polygon_count;  ///< polygons whose outline and middle were walked
+    uint64_t portal_count;   ///< links between polygons that were crossed
+    uint64_t step_count;     ///< sweeps of the probe
+    uint64_t contradictions; ///< places a cell wide before they were drawn together to findings
+    uint64_t floor_samples;  ///< points of the soup that were held against the navmesh
+    float sample_spacing;    ///< metres between these
+    double missing_area;     ///< square metres, of the findings
+    const tl_allocator *allocator;
+} tl_nav_audit;
+
+/// Holds a navmesh against a soup.
+///
+/// Each polygon's outline, its lines from the middle to its neighbours' middles, and random shortest paths are walked
+/// in steps of a cell: the floor under the path is looked up in the soup, and the probe is swept from floor to floor.
+/// Then the floors of the soup themselves are sampled, every two cells (on levels wider than 4096 samples: sparser, and
+/// `sample_spacing` says so): a walkable triangle with nothing within the agent's reach and the voxels' rounding, and
+/// no navmesh within a cell, is missing. The same result for any number of workers. Links that leave the surface are
+/// not walked.
+///
+/// `navmesh` may be empty or NULL: then all floor is missing. Errors: TL_ERR_ARGUMENT and TL_ERR_LIMIT as of
+/// tl_nav_config_make, TL_ERR_MEMORY, TL_ERR_CANCELLED; `*audit_out` is zeroed then. `report_out` may be NULL.
+TL_API tl_result tl_nav_audit_run(const tl_nav_audit_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
+                                  tl_nav_audit *audit_out, tl_report *report_out);
+/// A zeroed audit is allowed.
+TL_API void tl_nav_audit_free(tl_nav_audit *audit);
+
+// ---------------------------------------------------------------------------------------------------------
+// Why a point is not walkable.
+
+/// The first stage that took a point away.
+typedef enum tl_nav_cause {
+    TL_NAV_CAUSE_NONE,       ///< the point is walkable
+    TL_NAV_CAUSE_OUTSIDE,    ///< beyond the bounds of what was built, or on their rim
+    TL_NAV_CAUSE_NO_FLOOR,   ///< no triangle within a step of the point
+    TL_NAV_CAUSE_SLOPE,      ///< the floor is too steep, or faces down
+    TL_NAV_CAUSE_AREA_INPUT, ///< the triangle's own area is 0
+    TL_NAV_CAUSE_LEDGE,      ///< beside a drop, or on too steep a stair
+    TL_NAV_CAUSE_CEILING,    ///< too little height above
+    TL_NAV_CAUSE_RADIUS,     ///< too near to a wall or a ledge
+    TL_NAV_CAUSE_VOLUME,     ///< a volume marked it as not walkable
+    TL_NAV_CAUSE_ISLAND,     ///< of an island smaller than region_min_size squared
+    TL_NAV_CAUSE_OUTLINE,    ///< the simplified outline cut it off
+    TL_NAV_CAUSE_CHANGED     ///< these triangles and settings give navmesh here, but the one asked about has none
+} tl_nav_cause;
+
+/// A word or two, such as "low ceiling".
+TL_API const char *tl_nav_cause_name(tl_nav_cause cause);
+/// A sentence.
+TL_API const char *tl_nav_cause_text(tl_nav_cause cause);
+
+/// One cause, and the setting that removes it.
+typedef struct tl_nav_reason {
+    tl_nav_cause cause;
+    const char *stage;     ///< static; as builds name it
+    const char *parameter; ///< static; a field of tl_nav_def, or NULL when none helps
+    float value;           ///< of that field now
+    float needed;          ///< the nearest value with which this cause is gone
+    /// What was found at the point. Slope: degrees; ledge: metres of the drop or stair; ceiling: metres of free height;
+    /// radius: metres kept; island: columns; no floor: metres to the nearest floor below, INFINITY when there is none.
+    float measured;
+    uint32_t triangle; ///< of the view that is the floor, or TL_NO_TRIANGLE
+} tl_nav_reason;
+
+enum { TL_NAV_MAX_REASONS = 6 };
+
+/// The answer to "why?".
+typedef struct tl_nav_why_answer {
+    bool walkable; ///< nothing to explain: a polygon lies at the point
+    tl_vec3 floor; ///< the floor that was meant: the one nearest to the point
+    /// The first is why the point is not walkable. Each other one is what would stand in the way once the ones before
+    /// are removed.
+    tl_nav_reason reasons[TL_NAV_MAX_REASONS];
+    uint32_t reason_count;
+    bool proven;             ///< the tile was built with all the needed values, and the point lies on its navmesh
+    tl_nav_def needed;       ///< the def with those values
+    uint32_t tile_x, tile_z; ///< the tile that was built
+    uint32_t build_count;    ///< tiles that were built to find out
+    bool apart;              ///< walkable, but on another island than most of the navmesh: no path leads there
+    float island_area, largest_island_area; ///< square metres; 0 without a navmesh
+} tl_nav_why_answer;
+
+/// Builds the tile around a point, stage by stage, until one takes the point away; finds the nearest value of the
+/// setting to blame with which it does not, and goes on until the point is walkable or nothing helps.
+///
+/// `def`, `input`: what the navmesh was built with. `navmesh` may be NULL: then a fresh build is asked about.
+/// `def->host` lends memory; tasks and progress of a build are used too. Builds up to some 30 tiles.
+/// Errors: those of tl_nav_tile_build; TL_ERR_NOT_FINITE for the point. `report_out` may be NULL.
+TL_API tl_result tl_nav_why(const tl_nav_def *def, const tl_nav_input *input, const tl_navmesh *navmesh, tl_vec3 point,
+                            tl_nav_why_answer *answer_out, tl_report *report_out);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+//
+// The audit's table of contents: polygons, paths, floors; then what they met, drawn together to findings.
+//
+// Work is cut into shares that do not depend on the number of workers, and what shares hand over is added up in their
+// order: so the result is the same for any host.
+
+#include "nav_audit/audit.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+
+#include <math.h>
+#include <string.h>
+
+// Shares that are open at one time; between two such batches the host hears of the progress.
+enum { SHARES_PER_WORKER = 8 };
+
+tl_nav_audit_def tl_default_nav_audit_def(void)
+{
+    tl_nav_audit_def def;
+    memset(&def, 0, sizeof def);
+    def.nav = tl_default_nav_def();
+    def.path_count = 2000;
+    def.seed = 1;
+    def.probe_radius = -1.0f;
+    def.min_missing_area = -1.0f;
+    return def;
+}
+
+const char *tl_nav_finding_name(tl_nav_finding_kind kind)
+{
+    static const char *const names[] = { "blocked", "step", "no floor", "missing" };
+    return (unsigned)kind < TL_COUNT_OF(names) ? names[kind] : "unknown";
+}
+
+void tl_nav_audit_free(tl_nav_audit *audit)
+{
+    if (audit != NULL) {
+        tl_release_array(audit->allocator, audit->findings, audit->finding_count, sizeof *audit->findings);
+        memset(audit, 0, sizeof *audit);
+    }
+}
+
+// ---- Shares ------------------------------------------------------------------------------------------------
+
+typedef struct batch {
+    tl_audit_job *job;
+    tl_audit_task *task;
+    void *user;
+    tl_audit_share *shares;
+    uint32_t first;
+} batch;
+
+static void run_share(uint32_t index, uint32_t worker, void *user)
+{
+    const batch *b = user;
+    tl_audit_share *share = &b->shares[index];
+    b->task(b->job, b->first + index, worker, share, b->user);
+    if (share->result == TL_OK && share->records.count > 0) {
+        share->result = tl_audit_records_thin(&share->records);
+    }
+}
+
+static tl_result add_share(tl_audit_job *job, const tl_audit_share *share)
+{
+    TL_TRY(share->result);
+    job->audit->step_count += share->sweeps;
+    job->audit->path_count += share->paths;
+    job->audit->path_metres += share->metres;
+    job->audit->portal_count += share->portals;
+    job->audit->floor_samples += share->samples;
+    return tl_audit_records_append(&job->records, &share->records);
+}
+
+tl_result tl_audit_run_shares(tl_audit_job *job, const char *stage, uint32_t count, tl_audit_task *task, void *user)
+{
+    const tl_allocator *allocator = job->host->allocator;
+    const uint32_t open = SHARES_PER_WORKER * tl_worker_count(job->host);
+    batch b = { job, task, user, tl_allocate_array(allocator, open, sizeof *b.shares), 0 };
+    tl_result result = b.shares != NULL ? TL_OK : TL_ERR_MEMORY;
+    for (; b.first < count && result == TL_OK; b.first += open) {
+        const uint32_t size = count - b.first < open ? count - b.first : open;
+        result = tl_progress_update(job->host, stage, b.first, count);
+        if (result != TL_OK) {
+            break;
+        }
+        memset(b.shares, 0, open * sizeof *b.shares);
+        for (uint32_t i = 0; i < size; i++) {
+            b.shares[i].records.allocator = allocator;
+        }
+        tl_run_tasks(job->host, run_share, size, &b);
+        for (uint32_t i = 0; i < size; i++) {
+            result = result == TL_OK ? add_share(job, &b.shares[i]) : result;
+            tl_audit_records_free(&b.shares[i].records);
+        }
+    }
+    tl_release_array(allocator, b.shares, open, sizeof *b.shares);
+    return result == TL_OK ? tl_progress_update(job->host, stage, count, count) : result;
+}
+
+// ---- Findings ----------------------------------------------------------------------------------------------
+
+static bool is_worse(const tl_nav_finding *a, const tl_nav_finding *b)
+{
+    if (a->kind != b->kind) {
+        return a->kind < b->kind;
+    }
+    return a->area != b->area ? a->area > b->area : a->depth > b->depth;
+}
+
+static void swap_findings(tl_nav_finding *a, tl_nav_finding *b)
+{
+    const tl_nav_finding kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+static void sift_down(tl_nav_finding *findings, uint32_t root, uint32_t count)
+{
+    for (uint32_t child; (child = 2 * root + 1) < count; root = child) {
+        child += child + 1 < count && is_worse(&findings[child], &findings[child + 1]);
+        if (!is_worse(&findings[root], &findings[child])) {
+            return;
+        }
+        swap_findings(&findings[root], &findings[child]);
+    }
+}
+
+// Heap sort: worst first. It moves equals about, but the same way each time.
+static void sort_findings(tl_nav_finding *findings, uint32_t count)
+{
+    for (uint32_t i = count / 2; i-- > 0;) {
+        sift_down(findings, i, count);
+    }
+    for (uint32_t end = count; end-- > 1;) {
+        swap_findings(&findings[0], &findings[end]);
+        sift_down(findings, 0, end);
+    }
+}
+
+// Areas of missing floors; those too small are left out.
+static uint32_t measure_missing(const tl_audit_job *job, tl_nav_finding *findings, uint32_t count)
+{
+    const float spacing = job->audit->sample_spacing, cell = job->scene.config.cell_size;
+    const float least = job->def->min_missing_area >= 0.0f
+                            ? job->def->min_missing_area
+                            : tl_maxf((float)job->scene.config.min_region_area, 1.0f) * cell * cell;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_finding finding = findings[i];
+        if (finding.kind == TL_NAV_FINDING_MISSING) {
+            finding.area = (float)finding.count * spacing * spacing;
+            if (finding.area < least) {
+                continue;
+            }
+            job->audit->missing_area += (double)finding.area;
+        }
+        findings[kept++] = finding;
+    }
+    return kept;
+}
+
+// Places of one kind are drawn together when they lie within an agent's width. `from` is where they begin in the list.
+static tl_result add_findings(tl_audit_job *job, uint32_t reach)
+{
+    tl_nav_audit *audit = job->audit;
+    const tl_allocator *allocator = job->host->allocator;
+    tl_nav_finding *findings;
+    uint32_t found;
+    TL_TRY(tl_audit_records_thin(&job->records));
+    audit->contradictions += job->records.count;
+    TL_TRY(tl_audit_records_cluster(&job->records, reach, &findings, &found));
+    const uint32_t kept = measure_missing(job, findings, found);
+    const uint32_t count = audit->finding_count + kept;
+    tl_nav_finding *all = tl_allocate_array(allocator, count, sizeof *all);
+    if (all != NULL) {
+        if (audit->finding_count > 0) {
+            memcpy(all, audit->findings, audit->finding_count * sizeof *all);
+        }
+        if (kept > 0) {
+            memcpy(all + audit->finding_count, findings, kept * sizeof *all);
+        }
+        sort_findings(all, count);
+        tl_release_array(allocator, audit->findings, audit->finding_count, sizeof *all);
+        audit->findings = all;
+        audit->finding_count = count;
+    }
+    tl_release_array(allocator, findings, found, sizeof *findings);
+    tl_audit_records_free(&job->records);
+    return all != NULL ? TL_OK : TL_ERR_MEMORY;
+}
+
+// ---- All of it ---------------------------------------------------------------------------------------------
+
+// The level's lattice in one piece, without the limits that a piece has when it is built.
+static tl_result make_config(const tl_nav_def *def, tl_aabb soup_bounds, tl_nav_config *config, tl_report *report)
+{
+    uint32_t tiles_x, tiles_z;
+    TL_TRY(tl_nav_tile_grid(def, soup_bounds, &tiles_x, &tiles_z, report));
+    TL_TRY(tl_nav_config_make(def, soup_bounds, 0, 0, config, report));
+    if (def->tile_size > 0) {
+        const tl_aabb bounds = tl_aabb_is_empty(def->bounds) ? soup_bounds : def->bounds;
+        config->width = tiles_x * def->tile_size;
+        config->height = tiles_z * def->tile_size;
+        config->border_size = 0;
+        config->lattice.first_x = config->lattice.first_z = 0;
+        config->bounds.min = bounds.min;
+        config->bounds.max = bounds.max;
+    }
+    return TL_OK;
+}
+
+static tl_result make_scene(tl_audit_job *job, const tl_navmesh *navmesh, const tl_soup *soup, tl_report *report)
+{
+    tl_audit_scene *scene = &job->scene;
+    scene->navmesh = navmesh;
+    scene->soup = soup;
+    TL_TRY(make_config(&job->def->nav, tl_soup_bounds(soup), &scene->config, report));
+    scene->stride = scene->config.cell_size;
+    scene->probe = tl_nav_probe_make(&scene->config);
+    if (job->def->probe_radius >= 0.0f) {
+        scene->probe.radius = job->def->probe_radius;
+    }
+    // A capsule is no thicker than it is high.
+    scene->probe.radius = tl_minf(scene->probe.radius, 0.5f * (scene->probe.height - scene->probe.step));
+    scene->probe.radius = tl_maxf(scene->probe.radius, 0.0f);
+    job->audit->probe = scene->probe;
+    return TL_OK;
+}
+
+static tl_result run(tl_audit_job *job)
+{
+    const uint32_t agent = 2 * (job->scene.config.walkable_radius + 1);
+    TL_TRY(tl_audit_list_polygons(job->scene.navmesh, job->host->allocator, &job->polygons));
+    TL_TRY(tl_audit_polygons(job));
+    TL_TRY(tl_audit_paths(job));
+    TL_TRY(add_findings(job, agent));
+    TL_TRY(tl_audit_floors(job));
+    return add_findings(job, 1);
+}
+
+tl_result tl_nav_audit_run(const tl_nav_audit_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
+                           tl_nav_audit *audit_out, tl_report *report_out)
+{
+    TL_ASSERT(def != NULL && soup != NULL && audit_out != NULL);
+    tl_audit_job job;
+    memset(&job, 0, sizeof job);
+    memset(audit_out, 0, sizeof *audit_out);
+    audit_out->allocator = def->host.allocator;
+    job.def = def;
+    job.host = &def->host;
+    job.records.allocator = def->host.allocator;
+    job.audit = audit_out;
+    tl_report_begin(report_out, "audit");
+    tl_result result = make_scene(&job, navmesh, soup, report_out);
+    if (result == TL_OK) {
+        result = run(&job);
+    }
+    tl_audit_records_free(&job.records);
+    tl_audit_polygons_free(&job.polygons);
+    if (result != TL_OK) {
+        tl_nav_audit_free(audit_out);
+    }
+    return result;
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+//
+// What the three parts of an audit share.
+
+#ifndef TALUS_SRC_NAV_AUDIT_AUDIT_H
+#define TALUS_SRC_NAV_AUDIT_AUDIT_H
+
+#include "nav_audit/polygon_list.h"
+#include "nav_audit/probe.h"
+
+typedef struct tl_audit_job {
+    const tl_nav_audit_def *def;
+    const tl_host *host;
+    tl_audit_scene scene;
+    tl_audit_polygon_list polygons;
+    tl_audit_records records;
+    tl_nav_audit *audit;
+} tl_audit_job;
+
+/// What a task hands over.
+typedef struct tl_audit_share {
+    tl_audit_records records;
+    tl_result result;
+    uint64_t sweeps, paths, portals, samples;
+    double metres;
+} tl_audit_share;
+
+/// Does share number `index`; several run at once.
+typedef void tl_audit_task(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user);
+
+/// Runs `count` shares on the host's tasks, some at a time, and adds them up in order. Their records are thinned.
+tl_result tl_audit_run_shares(tl_audit_job *job, const char *stage, uint32_t count, tl_audit_task *task, void *user);
+
+/// Each polygon's outline, and the lines across portals.
+tl_result tl_audit_polygons(tl_audit_job *job);
+/// Random shortest paths.
+tl_result tl_audit_paths(tl_audit_job *job);
+/// Floors of the soup that the navmesh lacks.
+tl_result tl_audit_floors(tl_audit_job *job);
+
+#endif

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+//
+// Random shortest paths: what an agent really does, around corners and along walls. Both ends are uniform by area, the
+// goal on the start's island. Path number i depends on the seed and i alone, so that tasks may take them in any order.
+
+#include "nav_audit/audit.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/hash.h"
+#include "base/host.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { PATHS_PER_SHARE = 32 };
+
+// A point counts as on a polygon when it lies within this share of a cell from it in the plane: corners are rounded to
+// floats, and points between them once more.
+#define ON_POLYGON_CELLS 0.001f
+
+typedef struct searcher {
+    tl_nav_query *query;
+    tl_nav_corner *corners;
+    tl_nav_ref *polygons;
+    uint32_t corner_capacity, polygon_capacity;
+} searcher;
+
+typedef struct path_job {
+    searcher *searchers; ///< one a worker
+    const tl_allocator *allocator;
+} path_job;
+
+// ---- Random places -----------------------------------------------------------------------------------------
+
+// [0, 1), from the state's 53 high bits. Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014.
+static double next_unit(uint64_t *state)
+{
+    *state += 0x9e3779b97f4a7c15u;
+    return (double)(tl_hash_mix(*state) >> 11) * (1.0 / 9007199254740992.0);
+}
+
+// The last polygon in [low, high) that begins at or before an area.
+static uint32_t polygon_at(const tl_audit_polygon *polygons, uint32_t low, uint32_t high, double area)
+{
+    while (high - low > 1) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (polygons[middle].area_before <= area) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static double fan_area(const tl_vec3 *c, uint32_t k)
+{
+    return fabs(((double)c[k].x - (double)c[0].x) * ((double)c[k + 1].z - (double)c[0].z) -
+                ((double)c[k].z - (double)c[0].z) * ((double)c[k + 1].x - (double)c[0].x));
+}
+
+// Uniform over the polygon: a triangle of its fan by area, then a point of it.
+static tl_vec3 point_in(const tl_audit_polygon *at, uint64_t *state)
+{
+    uint32_t count;
+    const tl_vec3 *c = tl_nav_tile_corners(at->tile, at->polygon, &count);
+    double area = 0.0;
+    for (uint32_t k = 1; k + 1 < count; k++) {
+        area += fan_area(c, k);
+    }
+    double left = area * next_unit(state);
+    uint32_t k = 1;
+    for (; k + 2 < count && left >= fan_area(c, k); k++) {
+        left -= fan_area(c, k);
+    }
+    const float root = (float)sqrt(next_unit(state)), share = (float)next_unit(state);
+    return tl_lerp(c[0], tl_lerp(c[k], c[k + 1], share), root);
+}
+
+static tl_nav_location location_in(const tl_audit_job *job, uint32_t index, uint64_t *state)
+{
+    tl_nav_location location = { job->polygons.polygons[index].ref, point_in(&job->polygons.polygons[index], state) };
+    return location;
+}
+
+static void random_ends(const tl_audit_job *job, uint64_t number, tl_nav_location *start, tl_nav_location *goal)
+{
+    const tl_audit_polygon_list *list = &job->polygons;
+    uint64_t state = tl_hash_mix(job->def->seed + number * 0x9e3779b97f4a7c15u);
+    const uint32_t from = polygon_at(list->polygons, 0, list->count, list->area * next_unit(&state));
+    uint32_t low;
+    const uint32_t high = tl_audit_island_around(list, from, &low);
+    const double begin = tl_audit_area_before(list, low), area = tl_audit_area_before(list, high) - begin;
+    const uint32_t to = polygon_at(list->polygons, low, high, begin + area * next_unit(&state));
+    *start = location_in(job, from, &state);
+    *goal = location_in(job, to, &state);
+}
+
+// ---- Walking a path ----------------------------------------------------------------------------------------
+
+// The polygon of the path, from number `at` on, on which a point lies; the nearest one when rounding left it beside
+// all.
+static uint32_t polygon_under(const tl_audit_scene *scene, const tl_nav_ref *polygons, uint32_t count, uint32_t at,
+                              tl_vec3 point)
+{
+    const float close = ON_POLYGON_CELLS * scene->config.cell_size;
+    float nearest = INFINITY;
+    uint32_t best = at;
+    for (uint32_t i = at; i < count; i++) {
+        tl_vec3 closest;
+        bool inside = false;
+        if (tl_navmesh_closest_point(scene->navmesh, polygons[i], point, &closest, &inside) != TL_OK) {
+            continue;
+        }
+        const float dx = closest.x - point.x, dz = closest.z - point.z, distance = dx * dx + dz * dz;
+        if (inside || distance <= close * close) {
+            return i;
+        }
+        if (distance < nearest) {
+            nearest = distance;
+            best = i;
+        }
+    }
+    return best;
+}
+
+static bool walk_path(tl_audit_walker *walker, const searcher *s, const tl_nav_shortest_path *path)
+{
+    const tl_audit_scene *scene = walker->scene;
+    uint32_t at = 0;
+    tl_audit_walk_begin(walker);
+    for (uint32_t i = 0; i + 1 < path->corner_count; i++) {
+        const tl_vec3 from = s->corners[i].point, to = s->corners[i + 1].point;
+        const float dx = to.x - from.x, dz = to.z - from.z;
+        const float strides = ceilf(sqrtf(dx * dx + dz * dz) / scene->stride);
+        const uint32_t count = strides >= 1.0f ? (uint32_t)strides : 1;
+        for (uint32_t k = 0; k <= count; k++) {
+            const tl_vec3 point = tl_lerp(from, to, (float)k / (float)count);
+            at = polygon_under(scene, s->polygons, path->polygon_count, at, point);
+            if (!tl_audit_walk_to(walker, s->polygons[at], point.x, point.z)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static tl_result find_path(const tl_audit_job *job, const path_job *paths, searcher *s, const tl_nav_location *start,
+                           const tl_nav_location *goal, tl_nav_shortest_path *path)
+{
+    tl_result result = TL_ERR_CAPACITY;
+    for (int trial = 0; trial < 2 && result == TL_ERR_CAPACITY; trial++) {
+        result = tl_nav_query_find_shortest_path(s->query, job->scene.navmesh, NULL, start, goal, s->corners,
+                                                 s->corner_capacity, s->polygons, s->polygon_capacity, path);
+        if (result != TL_ERR_CAPACITY) {
+            break;
+        }
+        tl_release_array(paths->allocator, s->corners, s->corner_capacity, sizeof *s->corners);
+        tl_release_array(paths->allocator, s->polygons, s->polygon_capacity, sizeof *s->polygons);
+        s->corner_capacity = path->corner_count;
+        s->polygon_capacity = path->polygon_count;
+        s->corners = tl_allocate_array(paths->allocator, s->corner_capacity, sizeof *s->corners);
+        s->polygons = tl_allocate_array(paths->allocator, s->polygon_capacity, sizeof *s->polygons);
+        if (s->corners == NULL || s->polygons == NULL) {
+            return TL_ERR_MEMORY;
+        }
+    }
+    return result;
+}
+
+static void walk_paths(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user)
+{
+    const path_job *paths = user;
+    searcher *s = &paths->searchers[worker];
+    tl_audit_walker walker = { &job->scene, &share->records, 0, false, { 0.0f, 0.0f, 0.0f } };
+    const uint32_t begin = index * PATHS_PER_SHARE, left = job->def->path_count - begin;
+    const uint32_t end = begin + (left < PATHS_PER_SHARE ? left : PATHS_PER_SHARE);
+    for (uint32_t i = begin; i < end && share->result == TL_OK; i++) {
+        tl_nav_location start, goal;
+        tl_nav_shortest_path path;
+        random_ends(job, i, &start, &goal);
+        share->result = find_path(job, paths, s, &start, &goal, &path);
+        if (share->result == TL_OK && path.status == TL_NAV_PATH_COMPLETE) {
+            share->paths++;
+            share->metres += path.length;
+            share->result = walk_path(&walker, s, &path) ? TL_OK : TL_ERR_MEMORY;
+        }
+    }
+    share->sweeps = walker.sweeps;
+}
+
+static tl_result create_searcher(const tl_audit_job *job, const path_job *paths, searcher *s)
+{
+    enum { FIRST_ROOM = 256 };
+    tl_nav_query_def def = tl_default_nav_query_def();
+    const uint64_t nodes = tl_navmesh_link_count(job->scene.navmesh) + 2;
+    def.max_nodes = nodes > def.max_nodes ? (nodes < UINT32_MAX / 2 ? (uint32_t)nodes : UINT32_MAX / 2) : def.max_nodes;
+    def.allocator = paths->allocator;
+    s->corner_capacity = s->polygon_capacity = FIRST_ROOM;
+    s->corners = tl_allocate_array(paths->allocator, FIRST_ROOM, sizeof *s->corners);
+    s->polygons = tl_allocate_array(paths->allocator, FIRST_ROOM, sizeof *s->polygons);
+    TL_TRY(tl_nav_query_create(&def, &s->query));
+    return s->corners != NULL && s->polygons != NULL ? TL_OK : TL_ERR_MEMORY;
+}
+
+static void free_searcher(const path_job *paths, searcher *s)
+{
+    tl_nav_query_free(s->query);
+    tl_release_array(paths->allocator, s->corners, s->corner_capacity, sizeof *s->corners);
+    tl_release_array(paths->allocator, s->polygons, s->polygon_capacity, sizeof *s->polygons);
+}
+
+tl_result tl_audit_paths(tl_audit_job *job)
+{
+    if (job->polygons.count == 0 || job->def->path_count == 0) {
+        return TL_OK;
+    }
+    const uint32_t workers = tl_worker_count(job->host);
+    path_job paths = { NULL, job->host->allocator };
+    paths.searchers = tl_allocate_array(paths.allocator, workers, sizeof *paths.searchers);
+    if (paths.searchers == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(paths.searchers, 0, workers * sizeof *paths.searchers);
+    tl_result result = TL_OK;
+    for (uint32_t i = 0; i < workers && result == TL_OK; i++) {
+        result = create_searcher(job, &paths, &paths.searchers[i]);
+    }
+    if (result == TL_OK) {
+        const uint32_t shares = (job->def->path_count - 1) / PATHS_PER_SHARE + 1;
+        result = tl_audit_run_shares(job, "audit paths", shares, walk_paths, &paths);
+    }
+    for (uint32_t i = 0; i < workers; i++) {
+        free_searcher(&paths, &paths.searchers[i]);
+    }
+    tl_release_array(paths.allocator, paths.searchers, workers, sizeof *paths.searchers);
+    return result;
+}

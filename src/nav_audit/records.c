@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+//
+// From thousands of places to a few findings. A fault in a level is met by every path that comes by, a cell further
+// each time; what a person wants to see is the fault once, its worst place, and how far it reaches.
+//
+// Places are kept once a cube. Then cubes are made coarser and those that touch are joined (union-find over sorted
+// cubes, neighbours by binary search). Rejected: joining whatever lies within a distance, which needs the pairs; and
+// one finding a triangle, because a wall is many triangles and a ground triangle can hold many faults.
+
+#include "nav_audit/records.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/radix_sort.h"
+
+#include <string.h>
+
+enum { FIRST_CAPACITY = 64 };
+
+#define MOST_RECORDS 0x7fffffffu
+
+void tl_audit_records_free(tl_audit_records *list)
+{
+    tl_release_array(list->allocator, list->records, list->capacity, sizeof *list->records);
+    list->records = NULL;
+    list->count = list->capacity = 0;
+}
+
+static tl_result make_room(tl_audit_records *list, uint32_t more)
+{
+    if (more <= list->capacity - list->count) {
+        return TL_OK;
+    }
+    if (more > MOST_RECORDS - list->count) {
+        return TL_ERR_LIMIT;
+    }
+    const uint64_t wanted = (uint64_t)list->count + more, doubled = 2 * (uint64_t)list->capacity;
+    uint64_t capacity = wanted > doubled ? wanted : doubled;
+    capacity = capacity > FIRST_CAPACITY ? capacity : FIRST_CAPACITY;
+    capacity = capacity < MOST_RECORDS ? capacity : MOST_RECORDS;
+    tl_audit_record *records = tl_allocate_array(list->allocator, capacity, sizeof *records);
+    if (records == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    if (list->count > 0) {
+        memcpy(records, list->records, list->count * sizeof *records);
+    }
+    tl_release_array(list->allocator, list->records, list->capacity, sizeof *records);
+    list->records = records;
+    list->capacity = (uint32_t)capacity;
+    return TL_OK;
+}
+
+tl_result tl_audit_records_add(tl_audit_records *list, const tl_audit_record *record)
+{
+    TL_TRY(make_room(list, 1));
+    list->records[list->count++] = *record;
+    return TL_OK;
+}
+
+tl_result tl_audit_records_append(tl_audit_records *list, const tl_audit_records *more)
+{
+    TL_TRY(make_room(list, more->count));
+    if (more->count > 0) {
+        memcpy(list->records + list->count, more->records, more->count * sizeof *more->records);
+    }
+    list->count += more->count;
+    return TL_OK;
+}
+
+// ---- Cubes in order ----------------------------------------------------------------------------------------
+
+// A kind and a cube, as two words that sort by kind, z, x, y.
+typedef struct cube_key {
+    uint64_t high, low;
+} cube_key;
+
+static uint32_t ordered(int64_t coordinate)
+{
+    return (uint32_t)(coordinate + ((int64_t)1 << 31));
+}
+
+static int64_t floor_divide(int64_t a, int64_t b)
+{
+    return a >= 0 ? a / b : -((-a + b - 1) / b);
+}
+
+// The key of the coarse cube of a record, moved by some coarse cubes.
+static cube_key key_of(const tl_audit_record *record, uint32_t reach, const int32_t moved[3])
+{
+    uint32_t place[3];
+    for (int i = 0; i < 3; i++) {
+        place[i] = ordered(floor_divide(record->cube[i], reach) + moved[i]);
+    }
+    cube_key key = { (uint64_t)record->kind << 32 | place[2], (uint64_t)place[0] << 32 | place[1] };
+    return key;
+}
+
+static int compare_keys(cube_key a, cube_key b)
+{
+    return a.high != b.high ? (a.high < b.high ? -1 : 1) : a.low != b.low ? (a.low < b.low ? -1 : 1) : 0;
+}
+
+static const int32_t NOT_MOVED[3] = { 0, 0, 0 };
+
+// The order of the records by their coarse cubes; stable. items: room for 2 * count.
+static void sort_by_cube(const tl_audit_records *list, uint32_t reach, tl_sort_item *items)
+{
+    for (int word = 0; word < 2; word++) {
+        for (uint32_t i = 0; i < list->count; i++) {
+            const uint32_t value = word == 0 ? i : items[i].value;
+            const cube_key key = key_of(&list->records[value], reach, NOT_MOVED);
+            items[i].key = word == 0 ? key.low : key.high;
+            items[i].value = value;
+            items[i].extra = 0;
+        }
+        tl_radix_sort(items, items + list->count, list->count);
+    }
+}
+
+tl_result tl_audit_records_thin(tl_audit_records *list)
+{
+    const uint64_t room = 2 * (uint64_t)list->count;
+    tl_sort_item *items = tl_allocate_array(list->allocator, room, sizeof *items);
+    tl_audit_record *kept = tl_allocate_array(list->allocator, list->count, sizeof *kept);
+    const uint32_t capacity = list->count;
+    tl_result result = items != NULL && kept != NULL ? TL_OK : TL_ERR_MEMORY;
+    if (result == TL_OK) {
+        sort_by_cube(list, 1, items);
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < list->count; i++) {
+            const tl_audit_record *record = &list->records[items[i].value];
+            const bool same =
+                count > 0 && compare_keys(key_of(&kept[count - 1], 1, NOT_MOVED), key_of(record, 1, NOT_MOVED)) == 0;
+            if (!same) {
+                kept[count++] = *record;
+            } else if (record->depth > kept[count - 1].depth) {
+                kept[count - 1] = *record;
+            }
+        }
+        tl_audit_record *old = list->records;
+        tl_release_array(list->allocator, old, list->capacity, sizeof *old);
+        list->records = kept;
+        list->count = count;
+        list->capacity = capacity;
+    } else {
+        tl_release_array(list->allocator, kept, capacity, sizeof *kept);
+    }
+    tl_release_array(list->allocator, items, room, sizeof *items);
+    return result;
+}
+
+// ---- Groups ------------------------------------------------------------------------------------------------
+
+// The records in the order of their coarse cubes; `parent` points from each to another one of its group, a root to
+// itself.
+typedef struct grouping {
+    const tl_audit_records *list;
+    uint32_t reach;
+    tl_sort_item *order; // [2 * count]
+    uint32_t *parent;    // [count], by place in the order
+} grouping;
+
+static uint32_t root_of(const grouping *g, uint32_t at)
+{
+    while (g->parent[at] != at) {
+        g->parent[at] = g->parent[g->parent[at]];
+        at = g->parent[at];
+    }
+    return at;
+}
+
+// The lower root stays: groups are numbered by their first record.
+static void join(const grouping *g, uint32_t a, uint32_t b)
+{
+    const uint32_t root_a = root_of(g, a), root_b = root_of(g, b);
+    if (root_a < root_b) {
+        g->parent[root_b] = root_a;
+    } else {
+        g->parent[root_a] = root_b;
+    }
+}
+
+static cube_key key_at(const grouping *g, uint32_t at)
+{
+    return key_of(&g->list->records[g->order[at].value], g->reach, NOT_MOVED);
+}
+
+// The first record of a cube, or count.
+static uint32_t find_cube(const grouping *g, cube_key key)
+{
+    uint32_t low = 0, high = g->list->count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (compare_keys(key_at(g, middle), key) < 0) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < g->list->count && compare_keys(key_at(g, low), key) == 0 ? low : g->list->count;
+}
+
+// Each cube with the 13 of its neighbours that come before it in the order.
+static void join_cubes(const grouping *g)
+{
+    for (uint32_t i = 0; i < g->list->count; i++) {
+        if (i > 0 && compare_keys(key_at(g, i - 1), key_at(g, i)) == 0) {
+            join(g, i - 1, i);
+            continue;
+        }
+        for (int32_t neighbour = 0; neighbour < 13; neighbour++) {
+            const int32_t moved[3] = { neighbour / 3 % 3 - 1, neighbour % 3 - 1, neighbour / 9 - 1 };
+            const uint32_t other = find_cube(g, key_of(&g->list->records[g->order[i].value], g->reach, moved));
+            if (other < g->list->count) {
+                join(g, other, i);
+            }
+        }
+    }
+}
+
+static void take_record(tl_nav_finding *finding, const tl_audit_record *record)
+{
+    finding->triangle = record->triangle;
+    finding->polygon = record->polygon;
+    finding->point = record->point;
+    finding->contact = record->contact;
+    finding->depth = record->depth;
+}
+
+static void add_record(tl_nav_finding *finding, const tl_audit_record *record)
+{
+    if (finding->count == 0) {
+        memset(finding, 0, sizeof *finding);
+        finding->kind = record->kind;
+        finding->bounds = tl_aabb_empty();
+        take_record(finding, record);
+    } else if (record->depth > finding->depth) {
+        take_record(finding, record);
+    }
+    finding->count++;
+    finding->bounds = tl_aabb_add_point(finding->bounds, record->point);
+}
+
+// Missing floors have no depth: the record nearest to the middle of the box speaks for them.
+static void move_to_middle(tl_nav_finding *finding, const tl_audit_record *record)
+{
+    const tl_vec3 middle = tl_aabb_center(finding->bounds);
+    if (finding->depth == 0.0f && tl_distance_sq(record->point, middle) < tl_distance_sq(finding->point, middle)) {
+        take_record(finding, record);
+    }
+}
+
+static uint32_t number_groups(const grouping *g)
+{
+    uint32_t groups = 0;
+    for (uint32_t i = 0; i < g->list->count; i++) {
+        g->order[i].extra = root_of(g, i) == i ? groups++ : g->order[root_of(g, i)].extra;
+    }
+    return groups;
+}
+
+tl_result tl_audit_records_cluster(const tl_audit_records *list, uint32_t reach, tl_nav_finding **findings_out,
+                                   uint32_t *count_out)
+{
+    const uint64_t room = 2 * (uint64_t)list->count;
+    grouping g = { list, reach, tl_allocate_array(list->allocator, room, sizeof *g.order),
+                   tl_allocate_array(list->allocator, list->count, sizeof *g.parent) };
+    *findings_out = NULL;
+    *count_out = 0;
+    if (g.order != NULL && g.parent != NULL) {
+        sort_by_cube(list, reach, g.order);
+        for (uint32_t i = 0; i < list->count; i++) {
+            g.parent[i] = i;
+        }
+        join_cubes(&g);
+        const uint32_t groups = number_groups(&g);
+        tl_nav_finding *findings = tl_allocate_array(list->allocator, groups, sizeof *findings);
+        if (findings != NULL) {
+            memset(findings, 0, groups * sizeof *findings);
+            for (uint32_t i = 0; i < list->count; i++) {
+                add_record(&findings[g.order[i].extra], &list->records[g.order[i].value]);
+            }
+            for (uint32_t i = 0; i < list->count; i++) {
+                move_to_middle(&findings[g.order[i].extra], &list->records[g.order[i].value]);
+            }
+            *findings_out = findings;
+            *count_out = groups;
+        }
+    }
+    tl_release_array(list->allocator, g.order, room, sizeof *g.order);
+    tl_release_array(list->allocator, g.parent, list->count, sizeof *g.parent);
+    return *findings_out != NULL ? TL_OK : TL_ERR_MEMORY;
+}
