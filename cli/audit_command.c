@@ -27,29 +27,6 @@ enum { MOST_EXPLAINED = 32 };
 
 static const draw_colour COLOURS[] = { 0xc0392b, 0xd35400, 0x8e44ad, 0x2471a3 };
 
-// The soup counts the triangles of the source, as all commands do.
-static bool open_soup(draw_source *source, tl_exit *exit_out)
-{
-    if (source->is_bare) {
-        *exit_out =
-            tl_cli_fail(source->cli, TL_EXIT_DATA, "%s: holds no soup; bake it without --no-soup", source->input.path);
-        return false;
-    }
-    if (source->soup != NULL) {
-        return true;
-    }
-    tl_soup_def def = tl_default_soup_def();
-    def.host = source->cli->host;
-    const tl_mesh_view view = tl_level_source_view(&source->input.level);
-    tl_soup_report report;
-    tl_result result = tl_soup_build(&view, &def, &source->baked_soup, &report);
-    if (result != TL_OK) {
-        *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, &report.base);
-    }
-    source->soup = source->baked_soup;
-    return result == TL_OK;
-}
-
 // ---- What was found, as text -------------------------------------------------------------------------------
 
 static void print_reason(const tl_nav_why_answer *why)
@@ -211,7 +188,7 @@ static bool draw(draw_source *source, const audit_settings *settings, const tl_n
 static tl_exit explain(draw_source *source, const tl_nav_audit *audit, uint32_t first, tl_nav_why_answer *whys,
                        uint32_t *count)
 {
-    const tl_nav_input input = { source->mesh, NULL, NULL, 0 };
+    const tl_nav_input input = tl_level_areas_input(&source->areas, &source->mesh);
     tl_nav_def def = source->nav_def;
     def.host.allocator = source->cli->host.allocator;
     *count = 0;
@@ -256,9 +233,17 @@ static tl_exit report(draw_source *source, const audit_settings *settings, const
 static tl_exit audit_source(draw_source *source, audit_settings *settings)
 {
     tl_exit code = TL_EXIT_OK;
-    if (!open_soup(source, &code) || !draw_need_navmesh(source, &code)) {
+    if (source->is_bare) {
+        return tl_cli_fail(source->cli, TL_EXIT_DATA, "%s: holds no soup; bake it without --no-soup",
+                           source->input.path);
+    }
+    if (!draw_need_soup(source, &code) || !draw_need_navmesh(source, &code)) {
         return code;
     }
+    const tl_nav_input input = tl_level_areas_input(&source->areas, &source->mesh);
+    settings->def.areas = input.areas;
+    settings->def.volumes = input.volumes;
+    settings->def.volume_count = input.volume_count;
     settings->def.nav = source->nav_def;
     settings->def.path_count = settings->paths;
     settings->def.seed = settings->seed;
@@ -271,6 +256,9 @@ static tl_exit audit_source(draw_source *source, audit_settings *settings)
     tl_result result = tl_nav_audit_run(&settings->def, source->input.navmesh, source->soup, &audit, &failure);
     if (result != TL_OK) {
         return tl_cli_fail_result(source->cli, source->input.path, result, &failure);
+    }
+    for (uint32_t i = 0; i < audit.finding_count; i++) {
+        audit.findings[i].triangle = draw_soup_triangle(source, audit.findings[i].triangle);
     }
     code = report(source, settings, &audit);
     if (code == TL_EXIT_OK && settings->picture != NULL) {

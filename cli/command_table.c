@@ -11,6 +11,7 @@
     COMMAND(info) \
     COMMAND(check) \
     COMMAND(audit) \
+    COMMAND(why) \
     COMMAND(ray) \
     COMMAND(nearest) \
     COMMAND(overlap) \

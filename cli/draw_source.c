@@ -20,7 +20,8 @@ static bool triangles_of_soup(draw_source *source, tl_exit *exit_out)
     size_t corner_count = 3 * (size_t)stats.triangle_count;
     source->corners = malloc(corner_count * sizeof *source->corners);
     source->indices = malloc(corner_count * sizeof *source->indices);
-    if (source->corners == NULL || source->indices == NULL) {
+    source->numbers = malloc(stats.triangle_count * sizeof *source->numbers);
+    if (source->corners == NULL || source->indices == NULL || source->numbers == NULL) {
         return fail_memory(source, exit_out);
     }
     uint64_t cursor = 0;
@@ -31,7 +32,7 @@ static bool triangles_of_soup(draw_source *source, tl_exit *exit_out)
             source->corners[3 * (size_t)count + k] = triangle.corners[k];
             source->indices[3 * (size_t)count + k] = 3 * count + k;
         }
-        count++;
+        source->numbers[count++] = triangle.triangle;
     }
     tl_mesh_view view = { source->corners, 3 * count, source->indices, count, NULL };
     source->mesh = view;
@@ -142,8 +143,21 @@ void draw_source_close(draw_source *source)
     tl_blob_free(source->baked_soup, NULL);
     free(source->corners);
     free(source->indices);
+    free(source->numbers);
     tl_input_close(&source->input);
     memset(source, 0, sizeof *source);
+}
+
+uint32_t draw_soup_triangle(const draw_source *source, uint32_t triangle)
+{
+    const bool cleaned = !source->input.baked && triangle != TL_NO_TRIANGLE;
+    return cleaned ? source->input.level.mesh.source_triangles[triangle] : triangle;
+}
+
+uint32_t draw_mesh_triangle(const draw_source *source, uint32_t triangle)
+{
+    const bool read_back = source->numbers != NULL && triangle != TL_NO_TRIANGLE;
+    return read_back ? source->numbers[triangle] : draw_soup_triangle(source, triangle);
 }
 
 bool draw_need_soup(draw_source *source, tl_exit *exit_out)

@@ -19,6 +19,7 @@ typedef struct draw_source {
     tl_aabb bounds;   ///< of the triangles
     tl_vec3 *corners; ///< what `mesh` points into for a baked file
     uint32_t *indices;
+    uint32_t *numbers;   ///< the same: each triangle's number in the source
     tl_soup *baked_soup; ///< made here
     const tl_soup *soup; ///< after draw_need_soup
     tl_nav_stages stages;
@@ -35,6 +36,10 @@ typedef struct draw_source {
 bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *settings, uint32_t set,
                       draw_source *source_out, tl_exit *exit_out);
 void draw_source_close(draw_source *source);
+
+/// The number in the source's file of a triangle of `mesh`, or of `soup`; TL_NO_TRIANGLE stays what it is.
+uint32_t draw_mesh_triangle(const draw_source *source, uint32_t triangle);
+uint32_t draw_soup_triangle(const draw_source *source, uint32_t triangle);
 
 bool draw_need_soup(draw_source *source, tl_exit *exit_out);
 /// The navmesh pipeline over the whole level in one tile, all intermediate data kept.

@@ -35,16 +35,18 @@ typedef struct tl_nav_probe {
 
 /// The probe of a navmesh that was built with `config`.
 ///
-/// radius: the agent's less one cell, or less what the outline may be moved by (max_simplification_error) where that is
-/// more, and at least a quarter of a cell; step: walkable_climb and one voxel more; height: walkable_height in metres,
-/// less one voxel.
+/// radius: the agent's less one cell, at least a quarter of a cell; step: walkable_climb and one voxel more; height:
+/// walkable_height in metres, less one voxel. An audit makes the radius no larger than half of what is between.
 TL_API tl_nav_probe tl_nav_probe_make(const tl_nav_config *config);
 
 typedef struct tl_nav_audit_def {
-    tl_nav_def nav;      ///< what the navmesh was built with; `bounds` empty: those of the soup. Its host is not used
-    uint32_t path_count; ///< random shortest paths. Default 2000
-    uint64_t seed;       ///< of those paths. Default 1
-    float probe_radius;  ///< metres; negative (the default): that of tl_nav_probe_make
+    tl_nav_def nav;       ///< what the navmesh was built with; `bounds` empty: those of the soup. Its host is not used
+    uint32_t path_count;  ///< random shortest paths. Default 2000
+    uint64_t seed;        ///< of those paths. Default 1
+    float probe_radius;   ///< metres; negative (the default): that of tl_nav_probe_make
+    const uint8_t *areas; ///< as in tl_nav_input, by the soup's triangles, or NULL: floor of area 0 is not missing
+    const tl_nav_volume *volumes; ///< the same for volumes of area 0
+    uint32_t volume_count;
     float min_missing_area; ///< square metres: smaller missing floors are not reported. Negative (the default): that of
                             ///< the smallest island that a build keeps (region_min_size)
     tl_host host;           ///< tasks, progress ("audit polygons", "audit paths", "audit floors") and memory

@@ -299,6 +299,9 @@ typedef struct tl_nav_volume {
     float radius, height;  ///< CYLINDER
 } tl_nav_volume;
 
+/// tl_nav_mark_box, tl_nav_mark_polygon or tl_nav_mark_cylinder, by kind.
+TL_API void tl_nav_mark_volume(tl_nav_compact *compact, const tl_nav_volume *volume);
+
 /// What the pipeline works on.
 typedef struct tl_nav_input {
     tl_mesh_view mesh;

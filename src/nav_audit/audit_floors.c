@@ -48,6 +48,45 @@ static bool has_navmesh(const tl_audit_job *job, const floor_job *floors, tl_vec
            tl_navmesh_find_nearest(job->scene.navmesh, NULL, point, extents, &location) == TL_OK;
 }
 
+// Whether floor of a triangle, or at a place, was said to be not walkable.
+static bool is_marked(const tl_audit_job *job, uint32_t triangle)
+{
+    return job->def->areas != NULL && job->def->areas[triangle] == TL_NAV_NULL_AREA;
+}
+
+static tl_aabb volume_box(const tl_nav_volume *volume)
+{
+    tl_aabb box = volume->box;
+    if (volume->kind == TL_NAV_VOLUME_CYLINDER) {
+        const tl_vec3 reach = { volume->radius, 0.0f, volume->radius };
+        box.min = tl_sub(volume->base, reach);
+        box.max = tl_add(volume->base, reach);
+        box.max.y += volume->height;
+    }
+    for (uint32_t i = 0; volume->kind == TL_NAV_VOLUME_POLYGON && i < volume->point_count; i++) {
+        const tl_vec3 p = volume->points[i];
+        box.min.x = i == 0 ? p.x : tl_minf(box.min.x, p.x);
+        box.min.z = i == 0 ? p.z : tl_minf(box.min.z, p.z);
+        box.max.x = i == 0 ? p.x : tl_maxf(box.max.x, p.x);
+        box.max.z = i == 0 ? p.z : tl_maxf(box.max.z, p.z);
+    }
+    return box;
+}
+
+// Whether a volume of area 0 comes near: then it is to blame.
+static bool is_near_volume(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
+{
+    const tl_vec3 reach = { floors->room, floors->slack, floors->room };
+    const tl_aabb around = { tl_sub(point, reach), tl_add(point, reach) };
+    for (uint32_t i = 0; i < job->def->volume_count; i++) {
+        const tl_nav_volume *volume = &job->def->volumes[i];
+        if (volume->area == TL_NAV_NULL_AREA && tl_aabb_overlaps(volume_box(volume), around)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 // The capsule of the room around a point, from a step above it to above the agent's head.
 static bool has_room(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
 {
@@ -79,7 +118,7 @@ static bool goes_on(const tl_audit_job *job, const floor_job *floors, tl_vec3 po
         const tl_ray down = { above, { 0.0f, -1.0f, 0.0f }, 2.0f * climb };
         tl_ray_hit hit;
         if (!(climb > 0.0f) || !tl_soup_cast_ray(job->scene.soup, &down, NULL, &hit) || hit.back ||
-            !(hit.normal.y > config->walkable_slope_cos)) {
+            is_marked(job, hit.triangle) || !(hit.normal.y > config->walkable_slope_cos)) {
             return false;
         }
         y = above.y - hit.t;
@@ -102,7 +141,8 @@ static bool is_inside(const tl_audit_job *job, const floor_job *floors, tl_vec3 
 
 static bool is_missing(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
 {
-    if (!is_inside(job, floors, point) || has_navmesh(job, floors, point) || !has_room(job, floors, point)) {
+    if (!is_inside(job, floors, point) || is_near_volume(job, floors, point) || has_navmesh(job, floors, point) ||
+        !has_room(job, floors, point)) {
         return false;
     }
     for (int direction = 0; direction < DIRECTIONS; direction++) {
@@ -160,7 +200,8 @@ static tl_result sample_column(tl_audit_job *job, const floor_job *floors, int32
     TL_TRY(cast_all(job, &ray, buffer, &count));
     for (uint32_t i = 0; i < count; i++) {
         const tl_ray_hit *hit = &buffer->hits[i];
-        if (hit->back || !(hit->normal.y > config->walkable_slope_cos) || (i > 0 && hit->t == hit[-1].t)) {
+        if (hit->back || is_marked(job, hit->triangle) || !(hit->normal.y > config->walkable_slope_cos) ||
+            (i > 0 && hit->t == hit[-1].t)) {
             continue;
         }
         share->samples++;

@@ -132,3 +132,19 @@ void tl_nav_mark_cylinder(tl_nav_compact *compact, tl_vec3 base, float radius, f
         }
     }
 }
+
+void tl_nav_mark_volume(tl_nav_compact *compact, const tl_nav_volume *volume)
+{
+    switch (volume->kind) {
+    case TL_NAV_VOLUME_BOX:
+        tl_nav_mark_box(compact, volume->box, volume->area);
+        break;
+    case TL_NAV_VOLUME_POLYGON:
+        tl_nav_mark_polygon(compact, volume->points, volume->point_count, volume->box.min.y, volume->box.max.y,
+                            volume->area);
+        break;
+    case TL_NAV_VOLUME_CYLINDER:
+        tl_nav_mark_cylinder(compact, volume->base, volume->radius, volume->height, volume->area);
+        break;
+    }
+}

@@ -75,29 +75,13 @@ static tl_result erode(tile_job *job)
     return tl_nav_erode(job->config, &job->host, &job->stages->compact);
 }
 
-static void mark_volume(const tl_nav_volume *volume, tl_nav_compact *compact)
-{
-    switch (volume->kind) {
-    case TL_NAV_VOLUME_BOX:
-        tl_nav_mark_box(compact, volume->box, volume->area);
-        break;
-    case TL_NAV_VOLUME_POLYGON:
-        tl_nav_mark_polygon(compact, volume->points, volume->point_count, volume->box.min.y, volume->box.max.y,
-                            volume->area);
-        break;
-    case TL_NAV_VOLUME_CYLINDER:
-        tl_nav_mark_cylinder(compact, volume->base, volume->radius, volume->height, volume->area);
-        break;
-    }
-}
-
 static tl_result mark_areas(tile_job *job)
 {
     const tl_nav_input *input = job->input;
     tl_report_begin(&job->report->base, "areas");
     for (uint32_t i = 0; i < input->volume_count; i++) {
         TL_TRY(tl_progress_update(&job->host, "areas", i, input->volume_count));
-        mark_volume(&input->volumes[i], &job->stages->compact);
+        tl_nav_mark_volume(&job->stages->compact, &input->volumes[i]);
     }
     return tl_progress_update(&job->host, "areas", input->volume_count, input->volume_count);
 }
