@@ -3,8 +3,9 @@
 // What every command shares: help, usage errors, version, JSON, exit codes.
 #include "cli_run.h"
 
-static const char *const commands[] = { "sample",  "bake",     "info",       "check",  "ray",    "path", "hull",
-                                        "support", "distance", "polygonize", "export", "import", "draw" };
+static const char *const commands[] = { "sample",   "bake",       "info",   "check",  "audit",
+                                        "why",      "ray",        "path",   "hull",   "support",
+                                        "distance", "polygonize", "export", "import", "draw" };
 enum { COMMANDS = sizeof(commands) / sizeof(commands[0]) };
 
 static void test_global_help(void **state)

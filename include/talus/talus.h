@@ -11,6 +11,7 @@
 #include <talus/hull.h>
 #include <talus/mesh.h>
 #include <talus/nav_around.h>
+#include <talus/nav_audit.h>
 #include <talus/nav_build.h>
 #include <talus/nav_detour.h>
 #include <talus/nav_obstacles.h>

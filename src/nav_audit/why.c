@@ -10,11 +10,15 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "math/cos_degrees.h"
+#include "math/tolerance.h"
 #include "nav_audit/polygon_list.h"
 #include "nav_audit/why_stages.h"
 
 #include <math.h>
 #include <string.h>
+
+// A normal from differences, products and a root in float; the build rounds it otherwise.
+#define NORMAL_ERROR TL_FLOAT_GAMMA(8)
 
 enum { SLOPE_STEPS = 40, ERROR_STEPS = 5 };
 
@@ -99,6 +103,7 @@ static tl_result blame_bounds(search *s, const tl_nav_def *def, tl_why_finding *
 // The least slope, in degrees, of which a triangle with this normal is less steep; 90 when there is none.
 static float slope_for(float normal_y, float from, float *measured_out)
 {
+    normal_y -= normal_y * NORMAL_ERROR;
     float low = 0.0f, high = 90.0f;
     for (int i = 0; i < SLOPE_STEPS; i++) {
         const float middle = low + 0.5f * (high - low);

@@ -25,17 +25,17 @@ typedef struct window {
     tl_report *report;
 } window;
 
-static float reach_of(const tl_nav_config *config)
+// How far the navmesh's surface may lie from the voxels' floor; but not as far as the next floor.
+static float surface_reach(const tl_nav_config *config)
 {
-    const tl_nav_probe probe = tl_nav_probe_make(config);
-    return probe.step + probe.surface;
+    return tl_minf(tl_nav_probe_make(config).surface, 0.5f * config->agent_height);
 }
 
 bool tl_why_on_navmesh(const tl_navmesh *navmesh, const tl_nav_config *config, tl_vec3 floor,
                        tl_nav_location *location_out)
 {
     // A polygon's point is its closest one in the plane, so a box without width holds it only right below.
-    const tl_vec3 extents = { 0.0f, reach_of(config), 0.0f };
+    const tl_vec3 extents = { 0.0f, surface_reach(config), 0.0f };
     return navmesh != NULL && tl_navmesh_find_nearest(navmesh, NULL, floor, extents, location_out) == TL_OK;
 }
 
@@ -101,19 +101,26 @@ static float height_of(const tl_nav_config *config, uint32_t voxels)
     return tl_nav_lattice_to_world(config->lattice.origin.y, voxels, config->cell_height);
 }
 
-// The span whose top is nearest to the point, within reach of it.
+static uint32_t clearance_of(const window *w, uint32_t span)
+{
+    const uint32_t column = w->z * w->field.width + w->x, end = w->field.first_span[column + 1];
+    return span + 1 < end ? (uint32_t)w->field.spans[span + 1].min - w->field.spans[span].max : UINT32_MAX;
+}
+
+// The span whose top is nearest to the point, within a step of it; one with room for the agent before one without: who
+// asks inside a kerb means the kerb's top.
 static bool choose_span(window *w)
 {
     const uint32_t column = w->z * w->field.width + w->x;
-    const float y = w->question->point.y;
-    float nearest = reach_of(&w->config);
-    bool found = false;
+    const float y = w->question->point.y, step = tl_nav_probe_make(&w->config).step;
+    float nearest = INFINITY;
     w->finding->drop = INFINITY;
     for (uint32_t i = w->field.first_span[column]; i < w->field.first_span[column + 1]; i++) {
         const float top = height_of(&w->config, w->field.spans[i].max), away = fabsf(top - y);
-        if (away <= nearest) {
-            nearest = away;
-            found = true;
+        // The penalty is more than any distance that counts.
+        const float rank = clearance_of(w, i) >= w->config.walkable_height ? away : away + step;
+        if (away <= step && rank < nearest) {
+            nearest = rank;
             w->span = i;
             w->top = w->field.spans[i].max;
             w->finding->floor.y = top;
@@ -122,8 +129,8 @@ static bool choose_span(window *w)
             w->finding->drop = y - top; // spans rise: the last one is the highest
         }
     }
-    w->finding->has_floor = found;
-    return found;
+    w->finding->has_floor = nearest < INFINITY;
+    return w->finding->has_floor;
 }
 
 // Of the triangles over the column whose highest point there may be the floor's: the one that is least steep.
@@ -201,12 +208,6 @@ static tl_result filter_ledges(window *w)
     return result;
 }
 
-static uint32_t clearance_of(const window *w)
-{
-    const uint32_t column = w->z * w->field.width + w->x, end = w->field.first_span[column + 1];
-    return w->span + 1 < end ? (uint32_t)w->field.spans[w->span + 1].min - w->field.spans[w->span].max : UINT32_MAX;
-}
-
 // The filters one by one, in the pipeline's order, until one takes the floor.
 static tl_result filter(window *w)
 {
@@ -228,7 +229,7 @@ static tl_result filter(window *w)
         tl_nav_filter_walkable_low_height_spans(config, &w->field);
         if (!is_walkable(w)) {
             w->finding->cause = TL_NAV_CAUSE_CEILING;
-            w->finding->clearance = clearance_of(w);
+            w->finding->clearance = clearance_of(w, w->span);
         }
     }
     return TL_OK;

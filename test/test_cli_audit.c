@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+//
+// talus audit and talus why.
+#include "cli_run.h"
+
+#include <math.h>
+
+static void test_a_sound_level(void **state)
+{
+    (void)state;
+    cli_write_floor("wall.obj", 20, true);
+    cli_do(0, "bake wall.obj -o wall.talus");
+    cli_result baked = cli_expect(0, "audit wall.talus --paths 200");
+    cli_check_part(baked.out, "200 paths");
+    cli_check_part(baked.out, "the navmesh and the triangles agree");
+    cli_result level = cli_expect(0, "audit wall.obj --paths 200 --threads 1");
+    assert_string_equal(baked.out, level.out);
+    cli_free(&baked);
+    cli_free(&level);
+    json_t *json = cli_json(0, "audit wall.talus --paths 50 --json");
+    assert_true(json_is_true(json_object_get(json, "clean")));
+    TEST_CHECK(cli_number(json, "paths") == 50.0 && cli_number(json, "findings") == 0.0);
+    TEST_CHECK(cli_number(json, "sweeps") > 500.0 && cli_number(json, "probe.radius") > 0.29);
+    TEST_CHECK(json_object_get(json_object_get(json, "seconds"), "audit paths") != NULL);
+    json_decref(json);
+}
+
+// A volume takes a square out of the navmesh. The level's file tells the audit so; a baked file does not.
+static void test_missing_navmesh(void **state)
+{
+    (void)state;
+    cli_write_floor("floor.obj", 20, false);
+    cli_write_text("areas.txt", "box 0 -4 -1 -4 4 1 4\n");
+    cli_do(0, "bake floor.obj --areas areas.txt -o hole.talus");
+    cli_do(0, "audit floor.obj --areas areas.txt --paths 50");
+    cli_result result = cli_expect(1, "audit hole.talus --paths 50 --draw hole.png --size 200");
+    cli_check_part(result.out, "missing   at ");
+    cli_check_part(result.out, "m2");
+    cli_check_part(result.out, "changed");
+    cli_free(&result);
+    assert_true(cli_exists("hole.png"));
+    json_t *json = cli_json(1, "audit hole.talus --paths 50 --json");
+    assert_true(json_is_false(json_object_get(json, "clean")));
+    TEST_CHECK(cli_number(json, "findings") == 1.0 && fabs(cli_number(json, "missing_area") - 49.0) < 16.0);
+    const json_t *finding = json_array_get(json_object_get(json, "list"), 0);
+    assert_string_equal(json_string_value(json_object_get(finding, "kind")), "missing");
+    assert_string_equal(json_string_value(json_object_get(finding, "cause")), "changed");
+    json_decref(json);
+    cli_do(0, "audit hole.talus --paths 50 --min-area 100");
+}
+
+static void test_why(void **state)
+{
+    (void)state;
+    cli_write_floor("wall.obj", 20, true);
+    cli_do(0, "bake wall.obj -o wall.talus");
+    cli_result result = cli_expect(0, "why wall.talus 5,0,0");
+    cli_check_part(result.out, "walkable");
+    cli_free(&result);
+    result = cli_expect(1, "why wall.talus 0.75,0,0");
+    cli_check_part(result.out, "radius (stage erode)");
+    cli_check_part(result.out, "agent_radius 0.6 -> 0.3");
+    cli_check_part(result.out, "proven");
+    cli_free(&result);
+    json_t *json = cli_json(1, "why wall.obj 0.75,0,0 --json");
+    assert_true(json_is_true(json_object_get(json, "proven")));
+    const json_t *reason = json_array_get(json_object_get(json, "reasons"), 0);
+    assert_string_equal(json_string_value(json_object_get(reason, "parameter")), "agent_radius");
+    char line[128];
+    snprintf(line, sizeof line, "why wall.obj 0.75,0,0 --agent-radius %.9g",
+             json_number_value(json_object_get(reason, "needed")));
+    json_decref(json);
+    cli_do(0, line); // the value does what it promises
+    json = cli_json(1, "why wall.obj 5,9,0 --json");
+    assert_false(json_is_true(json_object_get(json, "proven")));
+    assert_null(json_object_get(json_array_get(json_object_get(json, "reasons"), 0), "parameter"));
+    json_decref(json);
+}
+
+static void test_bad_input(void **state)
+{
+    (void)state;
+    cli_write_floor("floor.obj", 20, false);
+    cli_do(0, "bake floor.obj --no-soup -o bare.talus");
+    cli_check_error(3, "audit bare.talus", "holds no soup", "--no-soup");
+    cli_check_error(3, "why bare.talus 0,0,0", "holds no soup", "--no-soup");
+    cli_check_error(2, "why floor.obj 0,0", "point", "X,Y,Z");
+    cli_check_error(4, "audit nothing.talus", "nothing.talus", "");
+    cli_check_error(2, "audit floor.obj --cell-size x", "--cell-size", "number");
+    cli_check_error(4, "audit floor.obj --paths 5 --draw none/x.png", "none/x.png", "");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_sound_level),
+        cmocka_unit_test(test_missing_navmesh),
+        cmocka_unit_test(test_why),
+        cmocka_unit_test(test_bad_input),
+    };
+    return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
+}
