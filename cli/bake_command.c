@@ -13,7 +13,7 @@
 
 static tl_result make_content(const tl_level *level, const tl_bake *bake, bool nav, tl_pack_content *content)
 {
-    tl_result result = tl_pack_content_make(bake->tiles.tile_count + 4, content);
+    tl_result result = tl_pack_content_make(bake->tiles.tile_count + 5, content);
     if (result != TL_OK) {
         return result;
     }
@@ -33,6 +33,7 @@ static tl_result make_content(const tl_level *level, const tl_bake *bake, bool n
     for (uint32_t i = 0; i < bake->tiles.tile_count; ++i) {
         tl_pack_content_add(content, TL_PACK_NAVT, i, bake->tiles.tiles[i]);
     }
+    tl_pack_content_add(content, TL_PACK_LINK, 0, bake->links);
     return TL_OK;
 }
 
@@ -70,7 +71,7 @@ typedef struct stage_count {
     uint64_t bytes;
 } stage_count;
 
-enum { STAGE_COUNTS = 17 };
+enum { STAGE_COUNTS = 19 };
 
 static uint32_t collect_counts(const bake_result *r, stage_count out[STAGE_COUNTS])
 {
@@ -91,6 +92,8 @@ static uint32_t collect_counts(const bake_result *r, stage_count out[STAGE_COUNT
         { "tile", "polygons", nav->polygon_count, tile_bytes(r->bake) },
         { "tiles", "tiles", nav->tile_count, tile_bytes(r->bake) },
         { "prune", "islands", r->bake->pruned.island_count, 0 },
+        { "ledges", "places", r->bake->links_report.sample_count, 0 },
+        { "selection", "links", r->bake->links != NULL ? r->bake->links->link_count : 0, blob_bytes(r->bake->links) },
         { "write", "", 0, r->file_bytes },
     };
     memcpy(out, counts, sizeof(counts));
@@ -189,6 +192,10 @@ static void print_summary(const bake_result *r)
     } else if (r->settings->nav) {
         printf("navmesh  empty: nothing is walkable for this agent; check --scale and --up, or the agent's size\n");
     }
+    if (bake->links != NULL) {
+        printf("links    %u drops, %u jumps, %u climbs\n", bake->links->kind_counts[TL_NAV_LINK_DROP],
+               bake->links->kind_counts[TL_NAV_LINK_JUMP], bake->links->kind_counts[TL_NAV_LINK_CLIMB]);
+    }
     printf("wrote    %s\n", r->output);
 }
 
@@ -267,6 +274,9 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
         json_object_set_new(json_object_get(object, "navmesh"), "areas", tl_area_sums_json(&bake->areas));
         json_object_set_new(json_object_get(object, "navmesh"), "left_out", left_out_json(bake));
     }
+    if (bake->links != NULL) {
+        json_object_set_new(object, "links", tl_level_links_json(&bake->links_report));
+    }
     return object;
 }
 
@@ -316,14 +326,15 @@ static tl_exit run(tl_cli *cli)
     tl_option part_options[TL_PART_OPTIONS];
     tl_option level_options[TL_LEVEL_OPTIONS];
     tl_option nav_options[TL_NAV_OPTIONS];
+    tl_option link_options[TL_LINK_OPTIONS];
     tl_part_options(&settings, part_options);
+    tl_link_options(&settings.links_def, link_options);
     tl_level_options(&settings.level, level_options);
     tl_nav_options(&settings, nav_options);
-    const tl_option_group groups[] = { { "Options:", options },
-                                       { "What is baked:", part_options },
-                                       { "How the level is read:", level_options },
-                                       { "Navmesh:", nav_options },
-                                       { NULL, NULL } };
+    const tl_option_group groups[] = {
+        { "Options:", options },     { "What is baked:", part_options }, { "How the level is read:", level_options },
+        { "Navmesh:", nav_options }, { "With --links:", link_options },  { NULL, NULL }
+    };
     tl_exit code;
     if (!tl_cli_parse(cli, groups, 1, 1, &code) || !tl_bake_take_bounds(cli, &settings, &code)) {
         return code;
@@ -333,6 +344,9 @@ static tl_exit run(tl_cli *cli)
     }
     if (!settings.soup && !settings.nav && !settings.hull) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "--no-soup and --no-nav leave nothing to bake; add --hull");
+    }
+    if (settings.links && !(settings.soup && settings.nav)) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "--links needs both soup and navmesh: leave out --no-soup and --no-nav");
     }
     double began = tl_clock_seconds();
     tl_level level;
@@ -353,6 +367,7 @@ const tl_command tl_bake_command = {
     "is baked without a navmesh, and the command says so.",
     "talus bake courtyard.obj -o courtyard.talus\n"
     "talus bake park.obj -o park.talus --area 'water*=0' --area grass=5 --areas doors.txt\n"
+    "talus bake castle.obj -o castle.talus --links --drop 5 --jump 2.5\n"
     "talus bake city.glb -o city.talus --tile-size 64 --agent-radius 0.4 --threads 8\n"
     "talus bake map.fbx -o map.talus --up z --scale 0.01 --no-nav --json",
     run,

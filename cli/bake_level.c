@@ -18,6 +18,7 @@ tl_bake_settings tl_default_bake_settings(void)
     settings.soup = true;
     settings.nav = true;
     settings.nav_def = tl_default_nav_def();
+    settings.links_def = tl_default_nav_links_def();
     settings.partition = (int)settings.nav_def.partition;
     settings.polygon_method = (int)settings.nav_def.polygon_method;
     return settings;
@@ -104,6 +105,8 @@ void tl_part_options(tl_bake_settings *settings, tl_option table[TL_PART_OPTIONS
         { "no-soup", 0, TL_OPTION_UNFLAG, &settings->soup, NULL, "leave out what rays need", NULL, 0, 0, 0, 0 },
         { "no-nav", 0, TL_OPTION_UNFLAG, &settings->nav, NULL, "leave out the navmesh", NULL, 0, 0, 0, 0 },
         { "hull", 0, TL_OPTION_FLAG, &settings->hull, NULL, "add the convex hull of all vertices", NULL, 0, 0, 0, 0 },
+        { "links", 0, TL_OPTION_FLAG, &settings->links, NULL, "add drops, jumps and climbs to the navmesh", NULL, 0, 0,
+          0, 0 },
         TL_OPTION_TABLE_END,
     };
     memcpy(table, options, sizeof(options));
@@ -232,19 +235,40 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
     return true;
 }
 
+static bool bake_links(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
+                       tl_exit *exit_out)
+{
+    tl_navmesh *navmesh;
+    tl_result result = tl_navmesh_create(NULL, &navmesh);
+    for (uint32_t i = 0; i < bake->tiles.tile_count && result == TL_OK; ++i) {
+        result = tl_navmesh_add_tile(navmesh, bake->tiles.tiles[i], TL_NAV_TILE_BORROWED);
+    }
+    bool ok = result == TL_OK;
+    if (!ok) {
+        *exit_out = tl_cli_fail_result(cli, level->path, result, NULL);
+    }
+    ok = ok && tl_level_links_find(cli, level->path, &settings->links_def, navmesh, bake->soup, &bake->links,
+                                   &bake->links_report, exit_out);
+    tl_navmesh_free(navmesh);
+    return ok;
+}
+
 bool tl_bake_level(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake_out,
                    tl_exit *exit_out)
 {
     memset(bake_out, 0, sizeof(*bake_out));
     return (!settings->soup || bake_soup(cli, level, bake_out, exit_out)) &&
            (!settings->hull || bake_hull(cli, level, bake_out, exit_out)) &&
-           (!settings->nav || bake_nav(cli, level, settings, bake_out, exit_out));
+           (!settings->nav || bake_nav(cli, level, settings, bake_out, exit_out)) &&
+           (!settings->links || !settings->soup || !bake_out->walkable ||
+            bake_links(cli, level, settings, bake_out, exit_out));
 }
 
 void tl_bake_free(tl_bake *bake)
 {
     tl_blob_free(bake->soup, NULL);
     tl_blob_free(bake->hull, NULL);
+    tl_blob_free(bake->links, NULL);
     tl_nav_tiles_free(&bake->tiles, NULL);
     memset(bake, 0, sizeof(*bake));
 }

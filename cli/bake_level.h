@@ -7,6 +7,7 @@
 
 #include "cli/area_sums.h"
 #include "cli/level_areas.h"
+#include "cli/level_links.h"
 
 #include <talus/hull.h>
 #include <talus/nav_build.h>
@@ -18,6 +19,8 @@
 typedef struct tl_bake_settings {
     tl_level_settings level;
     bool soup, nav, hull;
+    bool links; ///< needs soup and nav
+    tl_nav_links_def links_def;
     tl_nav_def nav_def; ///< the host is set when baking
     int partition;      ///< a tl_nav_partition
     int polygon_method; ///< a tl_partition_method
@@ -28,7 +31,7 @@ typedef struct tl_bake_settings {
     float min_island_area; ///< square metres: smaller islands are left out
 } tl_bake_settings;
 
-enum { TL_NAV_OPTIONS = 26, TL_PART_OPTIONS = 4 };
+enum { TL_NAV_OPTIONS = 26, TL_PART_OPTIONS = 5 };
 
 /// Soup and navmesh, no hull; Recast's defaults.
 tl_bake_settings tl_default_bake_settings(void);
@@ -57,6 +60,8 @@ typedef struct tl_bake {
     double nav_area;            ///< square metres in the plane
     tl_area_sums areas;         ///< the same by area
     uint64_t nav_polygons;
+    tl_nav_links *links;
+    tl_nav_links_report links_report;
 } tl_bake;
 
 /// False: the failure was reported, and `*exit_out` says how to end. Free with tl_bake_free, also then.

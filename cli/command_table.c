@@ -17,6 +17,7 @@
     COMMAND(overlap) \
     COMMAND(sweep) \
     COMMAND(path) \
+    COMMAND(links) \
     COMMAND(hull) \
     COMMAND(support) \
     COMMAND(distance) \

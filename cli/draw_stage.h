@@ -8,6 +8,7 @@
 #include "draw_scene.h"
 
 #include <talus/nav_build.h>
+#include <talus/nav_links.h>
 #include <talus/nav_query.h>
 #include <talus/soup.h>
 
@@ -39,6 +40,9 @@ void draw_stage_detail(draw_scene *scene, const tl_nav_detail *detail);
 
 /// The baked tiles, their polygons coloured by area.
 void draw_stage_navmesh(draw_scene *scene, const tl_navmesh *navmesh);
+
+/// The baked tiles, and the ways of links over them.
+void draw_stage_links(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav_links *links);
 
 /// A route over the navmesh: the polygons of the corridor, the straight path, start and goal.
 void draw_stage_route(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav_route *route,

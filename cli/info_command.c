@@ -66,6 +66,7 @@ typedef struct baked_info {
     const tl_soup *soup;
     const tl_hull *hull;
     const tl_pack_navmesh *navmesh;
+    const tl_nav_links *links;
     nav_sums nav;
 } baked_info;
 
@@ -84,18 +85,20 @@ static bool take_chunk(tl_cli *cli, const tl_input *input, uint32_t type, tl_res
 
 static bool collect(tl_cli *cli, const tl_input *input, baked_info *info_out, tl_exit *exit_out)
 {
-    const void *chunk[4];
+    const void *chunk[5];
     memset(info_out, 0, sizeof(*info_out));
     if (!take_chunk(cli, input, TL_PACK_META, tl_pack_meta_check, &chunk[0], exit_out) ||
         !take_chunk(cli, input, TL_PACK_SOUP, tl_soup_check, &chunk[1], exit_out) ||
         !take_chunk(cli, input, TL_PACK_HULL, tl_hull_check, &chunk[2], exit_out) ||
-        !take_chunk(cli, input, TL_PACK_NAVM, tl_pack_navmesh_check, &chunk[3], exit_out)) {
+        !take_chunk(cli, input, TL_PACK_NAVM, tl_pack_navmesh_check, &chunk[3], exit_out) ||
+        !take_chunk(cli, input, TL_PACK_LINK, tl_nav_links_check, &chunk[4], exit_out)) {
         return false;
     }
     info_out->meta = chunk[0];
     info_out->soup = chunk[1];
     info_out->hull = chunk[2];
     info_out->navmesh = chunk[3];
+    info_out->links = chunk[4];
     tl_report report;
     memset(&report, 0, sizeof(report));
     report.element_index = TL_NO_ELEMENT;
@@ -204,6 +207,10 @@ static void print_baked(const tl_input *input, const baked_info *info)
     }
     if (info->navmesh != NULL) {
         print_navmesh(info);
+    }
+    if (info->links != NULL) {
+        printf("links      %u drops, %u jumps, %u climbs\n", info->links->kind_counts[TL_NAV_LINK_DROP],
+               info->links->kind_counts[TL_NAV_LINK_JUMP], info->links->kind_counts[TL_NAV_LINK_CLIMB]);
     }
     print_chunks(input, &info->nav);
 }

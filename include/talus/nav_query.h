@@ -128,6 +128,9 @@ TL_API tl_nav_offmesh tl_default_nav_offmesh(void);
 /// TL_ERR_MEMORY.
 TL_API tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh, tl_nav_ref *link_out);
 
+/// Makes room for `count` more links, so that adding them takes no memory. TL_ERR_LIMIT, TL_ERR_MEMORY.
+TL_API tl_result tl_navmesh_reserve_offmesh(tl_navmesh *navmesh, uint32_t count);
+
 /// Takes an off-mesh link out. O(1); where it led from one shore to another (its ends do not hang together over
 /// polygons), islands are joined anew, which takes what removing a tile takes. TL_ERR_NOT_FOUND: no such link.
 TL_API tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link);

@@ -10,6 +10,7 @@
 
 #include <talus/base.h>
 #include <talus/nav_build.h>
+#include <talus/nav_links.h>
 #include <talus/nav_query.h>
 
 #ifdef __cplusplus
@@ -26,6 +27,7 @@ extern "C" {
 #define TL_PACK_HULL             TL_PACK_TYPE('H', 'U', 'L', 'L') ///< tl_hull
 #define TL_PACK_NAVM             TL_PACK_TYPE('N', 'A', 'V', 'M') ///< tl_pack_navmesh: what the tiles were built with
 #define TL_PACK_NAVT             TL_PACK_TYPE('N', 'A', 'V', 'T') ///< tl_nav_tile; the id numbers the tiles
+#define TL_PACK_LINK             TL_PACK_TYPE('L', 'I', 'N', 'K') ///< tl_nav_links: drops, jumps and climbs
 
 /// One chunk to be written. The pair (type, id) is its name and must be unique in the file.
 typedef struct tl_pack_item {
@@ -132,9 +134,10 @@ TL_API tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size);
 /// The def that a navmesh was built with, host empty; its bounds are those it was built over.
 TL_API tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh);
 
-/// Checks every NAVT chunk and puts the tiles, borrowed, into a fresh navmesh: the pack's bytes must outlive it.
-/// TL_ERR_NOT_FOUND: there is no navmesh in the file. Else what tl_nav_tile_check and tl_navmesh_add_tile return, with
-/// the chunk's index in the report (which may be NULL).
+/// Checks every NAVT chunk and puts the tiles, borrowed, into a fresh navmesh: the pack's bytes must outlive it. Links
+/// of LINK chunks are added to it, as tl_nav_links_add does.
+/// TL_ERR_NOT_FOUND: there is no navmesh in the file. Else what tl_nav_tile_check, tl_navmesh_add_tile,
+/// tl_nav_links_check and tl_nav_links_add return, with the chunk's index in the report (which may be NULL).
 TL_API tl_result tl_pack_load_navmesh(const tl_pack *pack, const tl_allocator *allocator, tl_navmesh **navmesh_out,
                                       tl_report *report_out);
 

@@ -14,6 +14,7 @@
 #include <talus/nav_audit.h>
 #include <talus/nav_build.h>
 #include <talus/nav_detour.h>
+#include <talus/nav_links.h>
 #include <talus/nav_obstacles.h>
 #include <talus/nav_prune.h>
 #include <talus/nav_query.h>

@@ -67,6 +67,14 @@ static tl_result grow(tl_navmesh *navmesh)
     return TL_OK;
 }
 
+tl_result tl_navmesh_reserve_offmesh(tl_navmesh *navmesh, uint32_t count)
+{
+    while ((uint64_t)navmesh->offmesh.used + count > navmesh->offmesh.capacity) {
+        TL_TRY(grow(navmesh));
+    }
+    return TL_OK;
+}
+
 static tl_result check(const tl_nav_offmesh *offmesh)
 {
     if (!tl_nav_is_finite(offmesh->start) || !tl_nav_is_finite(offmesh->end) || !isfinite(offmesh->radius) ||

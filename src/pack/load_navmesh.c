@@ -1,23 +1,30 @@
 // SPDX-License-Identifier: MIT
 //
-// From an open container to a navmesh that reads its tiles in place.
+// From an open container to a navmesh that reads its tiles in place, with its links.
 
 #include "base/assert.h"
 #include "base/host.h"
 
 #include <talus/pack.h>
 
-static tl_result add_tiles(const tl_pack *pack, tl_navmesh *navmesh, tl_report *report)
+static tl_result add_chunk(const tl_pack_chunk *chunk, tl_navmesh *navmesh, tl_report *report)
+{
+    if (chunk->type == TL_PACK_NAVT) {
+        TL_TRY(tl_nav_tile_check(chunk->bytes, chunk->size, report));
+        return tl_navmesh_add_tile(navmesh, chunk->bytes, TL_NAV_TILE_BORROWED);
+    }
+    if (chunk->type == TL_PACK_LINK) {
+        TL_TRY(tl_nav_links_check(chunk->bytes, chunk->size));
+        return tl_nav_links_add(chunk->bytes, NULL, navmesh);
+    }
+    return TL_OK;
+}
+
+static tl_result add_chunks(const tl_pack *pack, tl_navmesh *navmesh, tl_report *report)
 {
     for (uint32_t i = 0; i < pack->chunk_count; i++) {
         tl_pack_chunk chunk = tl_pack_chunk_at(pack, i);
-        if (chunk.type != TL_PACK_NAVT) {
-            continue;
-        }
-        tl_result result = tl_nav_tile_check(chunk.bytes, chunk.size, report);
-        if (result == TL_OK) {
-            result = tl_navmesh_add_tile(navmesh, chunk.bytes, TL_NAV_TILE_BORROWED);
-        }
+        tl_result result = add_chunk(&chunk, navmesh, report);
         if (result != TL_OK) {
             return tl_report_fail(report, result, "chunk", i, "bake the level again");
         }
@@ -35,7 +42,7 @@ tl_result tl_pack_load_navmesh(const tl_pack *pack, const tl_allocator *allocato
     }
     tl_navmesh *navmesh = NULL;
     TL_TRY(tl_navmesh_create(allocator, &navmesh));
-    tl_result result = add_tiles(pack, navmesh, report_out);
+    tl_result result = add_chunks(pack, navmesh, report_out);
     if (result != TL_OK) {
         tl_navmesh_free(navmesh);
         return result;

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+//
+// Where ways from a ledge land. Down: over the edge, then onto the first floor that a ray meets, where that is
+// walkable. Across: the first walkable place straight ahead, or to the left or right of it, that a straight walk does
+// not lead to.
+
+#include "nav_links/ledges.h"
+
+#include <math.h>
+
+// The navmesh ends one radius before the ledge, and below begins one radius from the wall: two radii are the least way
+// over the edge; voxels make that some cells more.
+enum { CELLS_BEYOND = 5 };
+
+// Both ends of a way, as paths will have them.
+static void set_ends(tl_nav_way_try *way, tl_vec3 start, tl_vec3 end, float off_middle)
+{
+    way->link.start = start;
+    way->link.end = end;
+    way->cost = tl_distance(start, end);
+    // Short ways before long ones, and of two alike the one in the middle of its ledge.
+    way->rank = way->cost + off_middle / 16.0f;
+}
+
+// The walkable floor under a place that is at most `down` metres lower.
+static bool find_floor(const tl_nav_landing_search *search, tl_vec3 from, float down, tl_vec3 *point_out)
+{
+    tl_ray ray = { tl_vec3_make(from.x, from.y + search->lift, from.z), tl_vec3_make(0.0f, -1.0f, 0.0f),
+                   down + search->lift };
+    tl_ray_hit hit;
+    if (!tl_soup_cast_ray(search->walker.soup, &ray, NULL, &hit)) {
+        return false;
+    }
+    tl_nav_location floor;
+    tl_vec3 center = tl_vec3_make(from.x, ray.origin.y - hit.t, from.z);
+    tl_vec3 half = tl_vec3_make(search->cell, search->lift, search->cell);
+    if (tl_navmesh_find_nearest(search->navmesh, NULL, center, half, &floor) != TL_OK) {
+        return false;
+    }
+    *point_out = floor.point;
+    return true;
+}
+
+static void try_down(const tl_nav_landing_search *search, const tl_nav_ledge_point *place, tl_nav_way_try *way)
+{
+    float reach = fmaxf(search->def->max_drop, search->def->max_climb);
+    way->fate = TL_NAV_WAY_NONE;
+    way->link.kind = TL_NAV_LINK_DROP;
+    for (int i = 1; i <= CELLS_BEYOND && way->fate != TL_NAV_WAY_FREE; i++) {
+        tl_vec3 beyond = tl_add(place->point, tl_scale(place->out, 2.0f * search->radius + (float)i * search->cell));
+        tl_vec3 floor;
+        if (!find_floor(search, beyond, reach, &floor)) {
+            continue;
+        }
+        float height = place->point.y - floor.y;
+        bool climbs = height <= search->def->max_climb;
+        if (height <= search->lift || (!climbs && height > search->def->max_drop)) {
+            continue;
+        }
+        way->link.kind = climbs ? TL_NAV_LINK_CLIMB : TL_NAV_LINK_DROP;
+        way->link.both_ways = climbs ? 1 : 0;
+        set_ends(way, place->point, floor, place->off_middle);
+        way->fate = tl_nav_way_is_free(&search->walker, &way->link) ? TL_NAV_WAY_FREE : TL_NAV_WAY_BLOCKED;
+    }
+}
+
+// The lowest jump that is slow enough and free.
+static tl_nav_way_fate prove_jump(const tl_nav_landing_search *search, tl_nav_found_link *link)
+{
+    const tl_nav_links_def *def = search->def;
+    static const float SHARES[] = { 0.25f, 0.5f, 1.0f };
+    float up = link->end.y - link->start.y;
+    tl_vec3 across = tl_sub(link->end, link->start);
+    double length = sqrt((double)across.x * (double)across.x + (double)across.z * (double)across.z);
+    tl_nav_way_fate fate = TL_NAV_WAY_TOO_FAST;
+    for (int i = 0; i < 3; i++) {
+        link->apex = SHARES[i] * def->jump_height;
+        if (link->apex < up) {
+            continue;
+        }
+        // It falls by gravity * seconds^2 / 2.
+        double seconds = sqrt(2.0 * (double)tl_nav_parabola_of(up, link->apex).fall / (double)def->gravity);
+        if (length > (double)def->max_speed * seconds) {
+            continue;
+        }
+        link->both_ways = link->apex - up <= def->jump_height && up <= def->max_drop ? 1 : 0;
+        fate = TL_NAV_WAY_BLOCKED;
+        if (tl_nav_way_is_free(&search->walker, link)) {
+            return TL_NAV_WAY_FREE;
+        }
+    }
+    return fate;
+}
+
+static void try_jump(const tl_nav_landing_search *search, const tl_nav_ledge_point *place, tl_vec3 direction,
+                     tl_nav_way_try *way)
+{
+    const tl_nav_links_def *def = search->def;
+    // From the deepest landing to the highest.
+    float middle = (def->jump_height - def->max_drop) / 2.0f;
+    tl_vec3 half = tl_vec3_make(search->cell, (def->jump_height + def->max_drop) / 2.0f, search->cell);
+    way->fate = TL_NAV_WAY_NONE;
+    way->link.kind = TL_NAV_LINK_JUMP;
+    for (float out = 2.0f * search->cell; out <= def->max_jump; out += 2.0f * search->cell) {
+        tl_vec3 center = tl_add(place->point, tl_scale(direction, out));
+        center.y += middle;
+        tl_nav_location target;
+        if (tl_navmesh_find_nearest(search->navmesh, NULL, center, half, &target) != TL_OK) {
+            continue;
+        }
+        set_ends(way, place->point, target.point, place->off_middle);
+        way->fate = prove_jump(search, &way->link);
+        return;
+    }
+}
+
+void tl_nav_try_ways(const tl_nav_landing_search *search, const tl_nav_ledge_point *place,
+                     tl_nav_way_try tries[TL_NAV_WAYS_A_PLACE])
+{
+    static const tl_nav_way_try NOTHING;
+    for (uint32_t i = 0; i < TL_NAV_WAYS_A_PLACE; i++) {
+        tries[i] = NOTHING;
+    }
+    if (search->def->max_drop > 0.0f || search->def->max_climb > 0.0f) {
+        try_down(search, place, &tries[0]);
+    }
+    // Ahead, and by the angles of a triangle of sides 3, 4, 5 to both hands.
+    static const float TURNS[3][2] = { { 1.0f, 0.0f }, { 0.8f, 0.6f }, { 0.8f, -0.6f } };
+    for (uint32_t i = 0; i < 3 && search->def->max_jump > 0.0f && search->def->jump_height > 0.0f; i++) {
+        tl_vec3 out = place->out;
+        tl_vec3 direction =
+            tl_vec3_make(TURNS[i][0] * out.x - TURNS[i][1] * out.z, 0.0f, TURNS[i][1] * out.x + TURNS[i][0] * out.z);
+        try_jump(search, place, direction, &tries[1 + i]);
+    }
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+//
+// Places along borders: wherever a polygon's edge has no other polygon behind it, a ledge or the foot of a wall. Which
+// of the two it is the sweeps find out; the navmesh does not know.
+
+#include "nav_links/ledges.h"
+
+#include <math.h>
+
+enum { MOST_LINKS = 256 };
+
+typedef struct ledge_walk {
+    const tl_navmesh *navmesh;
+    float spacing;
+    tl_nav_ledge_point *points;
+    uint64_t capacity, count, edges;
+    tl_nav_link links[MOST_LINKS]; // of the polygon at hand
+    uint32_t link_count;
+} ledge_walk;
+
+// Whether another polygon lies behind an edge at a point of it.
+static bool is_open_at(const ledge_walk *walk, uint32_t edge, tl_vec3 a, tl_vec3 b, tl_vec3 point)
+{
+    float x = b.x - a.x;
+    float z = b.z - a.z;
+    float at = (point.x - a.x) * x + (point.z - a.z) * z;
+    for (uint32_t i = 0; i < walk->link_count; i++) {
+        const tl_nav_link *link = &walk->links[i];
+        float right = (link->right.x - a.x) * x + (link->right.z - a.z) * z;
+        float left = (link->left.x - a.x) * x + (link->left.z - a.z) * z;
+        if (link->edge == edge && at >= right && at <= left) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void sample_edge(ledge_walk *walk, tl_nav_ref polygon, uint32_t edge, tl_vec3 a, tl_vec3 b)
+{
+    float x = b.x - a.x;
+    float z = b.z - a.z;
+    float length = sqrtf(x * x + z * z);
+    if (!(length > 0.0f)) {
+        return;
+    }
+    // Outward is right of the way from a to b: polygons run counter-clockwise as seen from above.
+    tl_vec3 out = tl_vec3_make(-z / length, 0.0f, x / length);
+    double steps = ceil((double)length / (double)walk->spacing);
+    uint32_t count = steps < (double)(UINT32_MAX / 2) ? (uint32_t)steps : UINT32_MAX / 2;
+    bool is_border = false;
+    for (uint32_t i = 0; i < count; i++) {
+        float t = ((float)i + 0.5f) / (float)count;
+        tl_vec3 point = tl_lerp(a, b, t);
+        if (is_open_at(walk, edge, a, b, point)) {
+            continue;
+        }
+        is_border = true;
+        if (walk->count < walk->capacity) {
+            tl_nav_ledge_point place = { polygon, point, out, fabsf(t - 0.5f) * length };
+            tl_navmesh_height(walk->navmesh, polygon, point.x, point.z, &place.point.y);
+            walk->points[walk->count] = place;
+        }
+        walk->count++;
+    }
+    walk->edges += is_border ? 1 : 0;
+}
+
+static void sample_polygon(ledge_walk *walk, const tl_nav_tile *tile, uint32_t slot, uint32_t polygon)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
+    const uint32_t *links = tl_nav_tile_links(tile, polygon);
+    tl_nav_ref ref = tl_navmesh_polygon_ref(walk->navmesh, slot, polygon);
+    tl_result result = tl_navmesh_links(walk->navmesh, ref, walk->links, MOST_LINKS, &walk->link_count);
+    // Of more links the rest count as borders: ways over those are walkable, and found to be so.
+    walk->link_count = result == TL_OK ? walk->link_count : MOST_LINKS;
+    for (uint32_t k = 0; k < count; k++) {
+        bool may_be_border = links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) != 0;
+        if (may_be_border) {
+            sample_edge(walk, ref, k, corners[k], corners[k + 1 < count ? k + 1 : 0]);
+        }
+    }
+}
+
+uint64_t tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_nav_ledge_point *points, uint64_t capacity,
+                              uint64_t *edge_count_out)
+{
+    ledge_walk walk;
+    walk.navmesh = navmesh;
+    walk.spacing = spacing;
+    walk.points = points;
+    walk.capacity = capacity;
+    walk.count = 0;
+    walk.edges = 0;
+    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
+        for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++) {
+            sample_polygon(&walk, tile, slot, p);
+        }
+    }
+    *edge_count_out = walk.edges;
+    return walk.count;
+}
