@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Paths against Detour's: on the very same polygons, which tests the queries alone, and on each one's own bake of the
-// same level.
+// same level. An argument sets the cell size of all levels: test_path_detour 0.1.
 
 #include "detour_mesh.hpp"
 
@@ -23,6 +23,7 @@ tl_nav_def make_def(const level &l, uint32_t tile_size)
 {
     tl_nav_def def = tl_default_nav_def();
     def.cell_size = l.cell_size;
+    def.agent_max_slope = l.max_slope;
     def.tile_size = tile_size;
     return def;
 }
@@ -158,7 +159,8 @@ enum { PAIRS = 10000 };
 void paths_agree(void **)
 {
     uint64_t complete = 0, unreachable = 0;
-    for (const level &l : all_levels(8000, { "nav_test", "dungeon", "undulating", "proto-level" })) {
+    for (const level &l :
+         all_levels(8000, { "nav_test", "dungeon", "undulating", "proto-level", "collision_mesh_01", "test_map01" })) {
         for (uint32_t tile_size : { 0u, 48u }) {
             tl_nav_def def = make_def(l, tile_size);
             detour_level detour;
@@ -237,8 +239,9 @@ void recorded_paths_agree(void **)
 
 } // namespace
 
-int main()
+int main(int argc, char **argv)
 {
+    wanted_cell_size = argc > 1 ? std::strtof(argv[1], nullptr) : 0.0f;
     const struct CMUnitTest tests[] = { cmocka_unit_test(paths_agree), cmocka_unit_test(recorded_paths_agree) };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

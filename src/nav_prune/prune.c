@@ -272,6 +272,8 @@ static tl_result prune(prune_job *job, tl_report *report)
     tl_report_begin(report, "prune");
     TL_TRY(remake_tiles(job, report));
     TL_TRY(tl_progress_update(&job->def->host, "prune", job->tiles->tile_count, job->tiles->tile_count));
+    tl_navmesh_free(job->navmesh); // it looks at its tiles to the last
+    job->navmesh = NULL;
     return replace_tiles(job);
 }
 
