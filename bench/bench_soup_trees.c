@@ -15,9 +15,10 @@
 #include <string.h>
 #include <talus/soup.h>
 
-enum { ROWS = 4 };
+enum { ROWS = 5 };
 
-static const char *const row_names[ROWS] = { "boxes, pairs", "boxes, singles", "k-d, pairs", "k-d, singles" };
+static const char *const row_names[ROWS] = { "boxes, pairs", "boxes, singles", "k-d, pairs", "k-d, singles",
+                                             "compact, pairs" };
 
 typedef struct row {
     tl_soup *soup;
@@ -37,7 +38,8 @@ static bool build_rows(const bench_level *level, row rows[ROWS])
     for (uint32_t k = 0; k < ROWS; k++) {
         tl_soup_def def = tl_default_soup_def();
         def.pair_triangles = k % 2 == 0;
-        def.partition = k < 2 ? TL_SOUP_BOXES : TL_SOUP_KD;
+        def.partition = k / 2 == 1 ? TL_SOUP_KD : TL_SOUP_BOXES;
+        def.layout = k == 4 ? TL_SOUP_COMPACT : TL_SOUP_FAST;
         double start = bench_thread_now();
         built = tl_soup_build(&level->view, &def, &rows[k].soup, NULL) == TL_OK && built;
         rows[k].build = bench_thread_now() - start;
@@ -170,6 +172,7 @@ int main(int argc, char **argv)
                              exp((all.bytes[2] - all.bytes[3]) / all.levels), 1.0);
         bench_report_at_most(report, "k-d: incoherent ray, pairs over singles",
                              exp((all.incoherent[2] - all.incoherent[3]) / all.levels), 1.0);
+        bench_report_at_most(report, "compact: bytes a triangle", exp(all.bytes[4] / all.levels), 20.0);
         bench_report_print_claims(report);
     }
     free(camera);

@@ -101,7 +101,10 @@ void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS])
 
 void tl_part_options(tl_bake_settings *settings, tl_option table[TL_PART_OPTIONS])
 {
+    static const char *const layouts[] = { "fast", "compact", NULL };
     const tl_option options[TL_PART_OPTIONS] = {
+        { "soup-layout", 0, TL_OPTION_CHOICE, &settings->soup_layout, NULL,
+          "what rays need: fast, or in half of the memory; the same answers", layouts, 0, 0, 0, 0 },
         { "no-soup", 0, TL_OPTION_UNFLAG, &settings->soup, NULL, "leave out what rays need", NULL, 0, 0, 0, 0 },
         { "no-nav", 0, TL_OPTION_UNFLAG, &settings->nav, NULL, "leave out the navmesh", NULL, 0, 0, 0, 0 },
         { "hull", 0, TL_OPTION_FLAG, &settings->hull, NULL, "add the convex hull of all vertices", NULL, 0, 0, 0, 0 },
@@ -131,10 +134,12 @@ bool tl_bake_take_bounds(tl_cli *cli, tl_bake_settings *settings, tl_exit *exit_
     return true;
 }
 
-static bool bake_soup(tl_cli *cli, const tl_level *level, tl_bake *bake, tl_exit *exit_out)
+static bool bake_soup(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
+                      tl_exit *exit_out)
 {
     tl_mesh_view view = tl_level_source_view(level);
     tl_soup_def def = tl_default_soup_def();
+    def.layout = (tl_soup_layout)settings->soup_layout;
     def.host = cli->host;
     tl_result result = tl_soup_build(&view, &def, &bake->soup, &bake->soup_report);
     if (result != TL_OK) {
@@ -257,7 +262,7 @@ bool tl_bake_level(tl_cli *cli, const tl_level *level, const tl_bake_settings *s
                    tl_exit *exit_out)
 {
     memset(bake_out, 0, sizeof(*bake_out));
-    return (!settings->soup || bake_soup(cli, level, bake_out, exit_out)) &&
+    return (!settings->soup || bake_soup(cli, level, settings, bake_out, exit_out)) &&
            (!settings->hull || bake_hull(cli, level, bake_out, exit_out)) &&
            (!settings->nav || bake_nav(cli, level, settings, bake_out, exit_out)) &&
            (!settings->links || !settings->soup || !bake_out->walkable ||

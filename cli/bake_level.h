@@ -21,6 +21,7 @@ typedef struct tl_bake_settings {
     bool soup, nav, hull;
     bool links; ///< needs soup and nav
     tl_nav_links_def links_def;
+    int soup_layout;    ///< a tl_soup_layout
     tl_nav_def nav_def; ///< the host is set when baking
     int partition;      ///< a tl_nav_partition
     int polygon_method; ///< a tl_partition_method
@@ -31,7 +32,7 @@ typedef struct tl_bake_settings {
     float min_island_area; ///< square metres: smaller islands are left out
 } tl_bake_settings;
 
-enum { TL_NAV_OPTIONS = 26, TL_PART_OPTIONS = 5 };
+enum { TL_NAV_OPTIONS = 26, TL_PART_OPTIONS = 6 };
 
 /// Soup and navmesh, no hull; Recast's defaults.
 tl_bake_settings tl_default_bake_settings(void);

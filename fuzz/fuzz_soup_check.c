@@ -3,7 +3,8 @@
 // Untrusted bytes as a soup: what tl_soup_check accepts can be queried, ends, and agrees with itself.
 //
 // Raw mutations of a valid file rarely get past the counts, so an input is a list of edits (offset, byte) to a soup
-// that is built here; an input that begins with 0xff is taken as the soup's bytes themselves.
+// that is built here, in the layout that the first byte's lowest bit names; an input that begins with 0xff is taken as
+// the soup's bytes themselves.
 
 #define _POSIX_C_SOURCE 200112L
 
@@ -14,7 +15,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-static tl_soup *build_sample(void)
+static tl_soup *build_sample(tl_soup_layout layout)
 {
     // A fan around one edge, a strip, and loose triangles: pairs, singles, several leaves and nodes.
     tl_vec3 vertices[120];
@@ -34,8 +35,10 @@ static tl_soup *build_sample(void)
         indices[3 * i + 2] = i < 40 ? i + 2 : i + 30;
     }
     tl_mesh_view view = { vertices, 120, indices, 80, NULL };
+    tl_soup_def def = tl_default_soup_def();
+    def.layout = layout;
     tl_soup *soup = NULL;
-    return tl_soup_build(&view, NULL, &soup, NULL) == TL_OK ? soup : NULL;
+    return tl_soup_build(&view, &def, &soup, NULL) == TL_OK ? soup : NULL;
 }
 
 static bool count_triangle(const tl_soup_triangle *triangle, void *user)
@@ -94,11 +97,13 @@ static void use_soup(const tl_soup *soup)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static tl_soup *sample; // built once; a fuzz target is no library
-    if (sample == NULL) {
-        sample = build_sample();
-        require(sample != NULL);
+    static tl_soup *samples[2]; // built once; a fuzz target is no library
+    tl_soup_layout layout = size > 0 && (data[0] & 1) != 0 ? TL_SOUP_COMPACT : TL_SOUP_FAST;
+    if (samples[layout] == NULL) {
+        samples[layout] = build_sample(layout);
+        require(samples[layout] != NULL);
     }
+    const tl_soup *sample = samples[layout];
     bool raw = size > 0 && data[0] == 0xff;
     size_t bytes = raw ? size - 1 : (size_t)tl_soup_size(sample);
     uint8_t *block = NULL;

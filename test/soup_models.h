@@ -56,13 +56,21 @@ static inline tl_mesh_view model_view(const model *m)
 }
 
 /// The ways to store a model: answers must not tell them apart.
-typedef enum model_storage { MODEL_BOXES, MODEL_SPLITS, MODEL_KD, MODEL_STORAGES } model_storage;
+typedef enum model_storage {
+    MODEL_BOXES,
+    MODEL_SPLITS,
+    MODEL_KD,
+    MODEL_COMPACT,
+    MODEL_COMPACT_SPLITS,
+    MODEL_STORAGES
+} model_storage;
 
 static inline tl_soup_def model_soup_def(model_storage storage)
 {
     tl_soup_def def = tl_default_soup_def();
-    def.split_budget = storage == MODEL_SPLITS ? 0.5f : 0.0f;
+    def.split_budget = storage == MODEL_SPLITS || storage == MODEL_COMPACT_SPLITS ? 0.5f : 0.0f;
     def.partition = storage == MODEL_KD ? TL_SOUP_KD : TL_SOUP_BOXES;
+    def.layout = storage >= MODEL_COMPACT ? TL_SOUP_COMPACT : TL_SOUP_FAST;
     return def;
 }
 

@@ -144,12 +144,12 @@ static void check_model(const model *m, uint32_t ray_count, uint64_t seed, regim
     test_random random = { seed };
     tl_soup_def def = tl_default_soup_def();
     tl_soup *soup = model_soup(m, &def);
-    // The same answers from other layouts: cut references, cells of space, and no pairs.
-    enum { OTHERS = 4 };
+    // The same answers however it is stored, with pairs and without.
+    enum { OTHERS = 2 * MODEL_STORAGES };
     tl_soup *others[OTHERS];
     for (uint32_t k = 0; k < OTHERS; k++) {
-        def = model_soup_def(k % 2 == 0 ? MODEL_SPLITS : MODEL_KD);
-        def.pair_triangles = k < 2;
+        def = model_soup_def((model_storage)(k / 2));
+        def.pair_triangles = k % 2 == 0;
         others[k] = model_soup(m, &def);
     }
     tl_aabb bounds = tl_soup_bounds(soup);
@@ -159,7 +159,9 @@ static void check_model(const model *m, uint32_t ray_count, uint64_t seed, regim
         bool found = cast_with_all(soup, &ray, &hit);
         for (uint32_t k = 0; k < OTHERS; k++) {
             tl_ray_hit other = { 0 };
-            TEST_CHECK(tl_soup_cast_ray(others[k], &ray, NULL, &other) == found);
+            bool same = k / 2 == MODEL_COMPACT ? cast_with_all(others[k], &ray, &other)
+                                               : tl_soup_cast_ray(others[k], &ray, NULL, &other);
+            TEST_CHECK(same == found);
             TEST_CHECK(!found || memcmp(&hit, &other, sizeof hit) == 0);
             TEST_CHECK(tl_soup_occluded(others[k], &ray, NULL) == found);
         }
@@ -182,7 +184,7 @@ static void check_model(const model *m, uint32_t ray_count, uint64_t seed, regim
         seen->miss += !found;
         seen->axis_parallel += i % 4 == 2;
     }
-    seen->cut += tl_soup_get_stats(others[0]).reference_count > tl_soup_get_stats(soup).reference_count;
+    seen->cut += tl_soup_get_stats(others[2 * MODEL_SPLITS]).reference_count > tl_soup_get_stats(soup).reference_count;
     tl_blob_free(soup, NULL);
     for (uint32_t k = 0; k < OTHERS; k++) {
         tl_blob_free(others[k], NULL);

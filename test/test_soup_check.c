@@ -8,7 +8,7 @@
 
 #include "soup_models.h"
 
-static tl_soup *sample_soup(uint32_t *size_out)
+static tl_soup *sample_soup(tl_soup_layout layout, uint32_t *size_out)
 {
     model m = model_random(60, 4, 1, 1);
     model flat = model_terrain(3, 1, tl_vec3_make(0, 0, 0), 2);
@@ -25,8 +25,10 @@ static tl_soup *sample_soup(uint32_t *size_out)
     materials[5] = 40000;
     tl_mesh_view view = model_view(&m);
     view.materials = materials;
+    tl_soup_def def = tl_default_soup_def();
+    def.layout = layout;
     tl_soup *soup;
-    TEST_RESULT(tl_soup_build(&view, NULL, &soup, NULL), TL_OK);
+    TEST_RESULT(tl_soup_build(&view, &def, &soup, NULL), TL_OK);
     tl_soup_stats stats = tl_soup_get_stats(soup);
     TEST_CHECK(stats.node_count > 1 && stats.pair_count > 5 && stats.single_count > 5);
     *size_out = (uint32_t)tl_soup_size(soup);
@@ -80,11 +82,10 @@ static void use_soup(const tl_soup *soup, test_random *random)
     tl_soup_tree_boxes(soup, UINT32_MAX, count_box, &count);
 }
 
-static void test_sound_soup_passes(void **state)
+static void check_sound_soup_passes(tl_soup_layout layout)
 {
-    (void)state;
     uint32_t size;
-    tl_soup *soup = sample_soup(&size);
+    tl_soup *soup = sample_soup(layout, &size);
     TEST_RESULT(tl_soup_check(soup, size), TL_OK);
     TEST_RESULT(tl_soup_check(soup, size + 1000), TL_OK); // more bytes may follow
     TEST_RESULT(tl_soup_check(NULL, size), TL_ERR_TRUNCATED);
@@ -98,11 +99,10 @@ static void test_sound_soup_passes(void **state)
     tl_blob_free(soup, NULL);
 }
 
-static void test_every_prefix_is_refused(void **state)
+static void check_every_prefix_is_refused(tl_soup_layout layout)
 {
-    (void)state;
     uint32_t size;
-    tl_soup *soup = sample_soup(&size);
+    tl_soup *soup = sample_soup(layout, &size);
     for (uint32_t prefix = 0; prefix < size; prefix++) {
         void *bytes = NULL;
         TEST_CHECK(posix_memalign(&bytes, TL_BLOB_ALIGNMENT, prefix + (prefix == 0)) == 0);
@@ -117,12 +117,11 @@ static void test_every_prefix_is_refused(void **state)
     tl_blob_free(soup, NULL);
 }
 
-static void test_flipped_bits_are_refused_or_harmless(void **state)
+static void check_flipped_bits_are_refused_or_harmless(tl_soup_layout layout)
 {
-    (void)state;
     test_random random = { 3 };
     uint32_t size;
-    tl_soup *soup = sample_soup(&size);
+    tl_soup *soup = sample_soup(layout, &size);
     tl_soup *damaged = NULL;
     TEST_CHECK(posix_memalign((void **)&damaged, TL_BLOB_ALIGNMENT, size) == 0);
     uint32_t refused = 0, accepted = 0;
@@ -160,6 +159,27 @@ static void test_random_bytes_are_refused(void **state)
         memcpy(bytes, &head, i % 3 == 0 ? 0 : sizeof head);
         TEST_CHECK(tl_soup_check(bytes, sizeof bytes) != TL_OK);
     }
+}
+
+static void test_sound_soup_passes(void **state)
+{
+    (void)state;
+    check_sound_soup_passes(TL_SOUP_FAST);
+    check_sound_soup_passes(TL_SOUP_COMPACT);
+}
+
+static void test_every_prefix_is_refused(void **state)
+{
+    (void)state;
+    check_every_prefix_is_refused(TL_SOUP_FAST);
+    check_every_prefix_is_refused(TL_SOUP_COMPACT);
+}
+
+static void test_flipped_bits_are_refused_or_harmless(void **state)
+{
+    (void)state;
+    check_flipped_bits_are_refused_or_harmless(TL_SOUP_FAST);
+    check_flipped_bits_are_refused_or_harmless(TL_SOUP_COMPACT);
 }
 
 int main(void)

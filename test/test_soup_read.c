@@ -121,6 +121,7 @@ static uint32_t check_box_search(const model *m, const tl_soup *soup, bool has_c
 
 typedef struct box_walk {
     uint32_t count, leaves, deepest, limit;
+    bool is_compact;
     tl_aabb path[128];
     tl_aabb leaf_union;
 } box_walk;
@@ -132,11 +133,12 @@ static bool visit_box(tl_aabb box, uint32_t depth, bool leaf, void *user)
     if (depth == 0) {
         walk->leaf_union = tl_aabb_empty();
     } else {
-        // A child's grid box may stand out of its parent's by a step of the grid and a rounding, no more.
+        // A box of bytes may stand out of its parent's by a step, which is below 2 / 255 of the parent's, or FLT_MIN;
+        // and cuts are rounded outward.
         tl_aabb parent = walk->path[depth - 1];
-        tl_vec3 size = tl_aabb_size(walk->path[0]);
-        tl_vec3 far_corner = tl_max(tl_abs(walk->path[0].min), tl_abs(walk->path[0].max));
-        tl_vec3 step = tl_mul_add(tl_scale(size, 2.0f / 65535.0f), far_corner, 4 * FLT_EPSILON);
+        tl_vec3 far_corner = tl_max(tl_abs(parent.min), tl_abs(parent.max));
+        tl_vec3 step = tl_scale(tl_aabb_size(parent), walk->is_compact ? 2.0f / 255.0f : 0.0f);
+        step = tl_mul_add(step, far_corner, 4 * FLT_EPSILON);
         step = tl_add(step, tl_vec3_make(2 * FLT_MIN, 2 * FLT_MIN, 2 * FLT_MIN));
         tl_aabb loose = { tl_sub(parent.min, step), tl_add(parent.max, step) };
         TEST_CHECK(tl_aabb_contains(loose, box.min) && tl_aabb_contains(loose, box.max));
@@ -154,18 +156,19 @@ static bool visit_box(tl_aabb box, uint32_t depth, bool leaf, void *user)
 static void check_tree_boxes(const tl_soup *soup)
 {
     tl_soup_stats stats = tl_soup_get_stats(soup);
-    box_walk walk = { 0 };
+    bool is_compact = stats.layout == TL_SOUP_COMPACT;
+    box_walk walk = { .is_compact = is_compact };
     TEST_CHECK(tl_soup_tree_boxes(soup, UINT32_MAX, visit_box, &walk));
     TEST_CHECK(walk.count == stats.node_count + stats.leaf_count && walk.leaves == stats.leaf_count);
     TEST_CHECK(walk.deepest == stats.depth);
     TEST_CHECK(tl_aabb_contains(walk.leaf_union, tl_soup_bounds(soup).min));
     TEST_CHECK(tl_aabb_contains(walk.leaf_union, tl_soup_bounds(soup).max));
-    box_walk shallow = { 0 };
+    box_walk shallow = { .is_compact = is_compact };
     TEST_CHECK(tl_soup_tree_boxes(soup, 1, visit_box, &shallow));
     TEST_CHECK(shallow.count <= 17 && shallow.deepest == 1);
-    box_walk root = { 0 };
+    box_walk root = { .is_compact = is_compact };
     TEST_CHECK(tl_soup_tree_boxes(soup, 0, visit_box, &root) && root.count == 1);
-    box_walk ended = { .limit = 2 };
+    box_walk ended = { .is_compact = is_compact, .limit = 2 };
     TEST_CHECK(!tl_soup_tree_boxes(soup, UINT32_MAX, visit_box, &ended) && ended.count == 2);
 }
 

@@ -64,7 +64,7 @@ static void test_like_built_anew(void **state)
 {
     (void)state;
     uint32_t hits = 0;
-    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_COMPACT; storage++) {
         check_model(model_random(301, 5, 2, 2), storage, &hits);
         check_model(model_terrain(16, 2, vec(0, 0, 0), 3), storage, &hits);
         check_model(model_terrain(16, 2, vec(5000, 100, -5000), 4), storage, &hits);

@@ -41,7 +41,7 @@ typedef struct tl_soup tl_soup;
 
 /// "tlsp" in memory.
 #define TL_SOUP_MAGIC   0x70736c74u
-#define TL_SOUP_VERSION 2u
+#define TL_SOUP_VERSION 3u
 
 /// Most triangles of one view: their index shares a 32-bit word with four bits of the pair.
 #define TL_MAX_SOUP_TRIANGLES 0x0fffffffu
@@ -54,10 +54,17 @@ typedef enum tl_soup_partition {
     TL_SOUP_KD
 } tl_soup_partition;
 
+/// How a soup is stored. Answers are the same, bit for bit.
+typedef enum tl_soup_layout {
+    TL_SOUP_FAST,   ///< 36 to 42 bytes a triangle
+    TL_SOUP_COMPACT ///< 16 to 20: shared vertices, boxes of bytes; it cannot be refitted
+} tl_soup_layout;
+
 /// How a soup is built.
 typedef struct tl_soup_def {
     bool pair_triangles; ///< false keeps every triangle single, to measure what pairs are worth
     tl_soup_partition partition;
+    tl_soup_layout layout;
     /// [0, 1]: share of extra references that spatial splits may add. A pair that straddles a split plane is then
     /// stored on both sides, so that large triangles do not make the boxes around small ones fat. It costs build time
     /// and memory, and pays only where sizes differ much. 0: none. TL_SOUP_KD does not look at it.
@@ -98,7 +105,8 @@ TL_API tl_result tl_soup_build(const tl_mesh_view *view, const tl_soup_def *def,
 /// those that had none when the soup was built stay away. Vertices at equal positions then must have equal positions
 /// now. The soup must be writable (not a mapped file), and no query may run meanwhile: move a second soup while the
 /// first is asked.
-/// TL_ERR_ARGUMENT (another number of triangles, or a triangle that came apart from its pair), TL_ERR_INDEX (triangle),
+/// TL_ERR_ARGUMENT (another number of triangles, or a triangle that came apart from its pair), TL_ERR_UNSUPPORTED (the
+/// compact layout: its vertices are shared by triangles that may come apart), TL_ERR_INDEX (triangle),
 /// TL_ERR_NOT_FINITE, TL_ERR_RANGE (vertex), with the element in `report_out`, which may be NULL; the soup is then
 /// unchanged.
 TL_API tl_result tl_soup_refit(tl_soup *soup, const tl_mesh_view *moved, tl_report *report_out);
@@ -125,9 +133,11 @@ typedef struct tl_soup_stats {
     uint32_t reference_count;       ///< pairs and singles in leaves; more than distinct ones where splits repeat them
     uint32_t leaf_count;
     uint32_t node_count;
+    tl_soup_layout layout;
     uint32_t depth;          ///< nodes on the longest way from the root to a leaf
     uint64_t node_bytes;     ///< of size: the tree
     uint64_t leaf_bytes;     ///< of size: corners and triangle indices
+    uint64_t vertex_bytes;   ///< of size: shared vertices of the compact layout
     uint64_t material_bytes; ///< of size: 0 when all materials are the same
 } tl_soup_stats;
 

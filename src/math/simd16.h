@@ -22,6 +22,11 @@ static inline tl_f32x16 tl_f32x16_load(const float *sixteen)
     return _mm512_loadu_ps(sixteen);
 }
 
+static inline tl_f32x16 tl_f32x16_from_bytes(const uint8_t *sixteen)
+{
+    return _mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)(const void *)sixteen)));
+}
+
 static inline tl_f32x16 tl_f32x16_mul_add(tl_f32x16 a, tl_f32x16 b, tl_f32x16 c)
 {
     return _mm512_fmadd_ps(a, b, c);
@@ -65,6 +70,12 @@ static inline tl_f32x16 tl_f32x16_all(float value)
 static inline tl_f32x16 tl_f32x16_load(const float *sixteen)
 {
     tl_f32x16 r = { tl_f32x8_load(sixteen), tl_f32x8_load(sixteen + 8) };
+    return r;
+}
+
+static inline tl_f32x16 tl_f32x16_from_bytes(const uint8_t *sixteen)
+{
+    tl_f32x16 r = { tl_f32x8_from_bytes(sixteen), tl_f32x8_from_bytes(sixteen + 8) };
     return r;
 }
 

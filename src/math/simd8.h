@@ -24,6 +24,11 @@ static inline tl_f32x8 tl_f32x8_load(const float *eight)
     return _mm256_loadu_ps(eight);
 }
 
+static inline tl_f32x8 tl_f32x8_from_bytes(const uint8_t *eight)
+{
+    return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)(const void *)eight)));
+}
+
 /// The first lane.
 static inline float tl_f32x8_first(tl_f32x8 a)
 {
@@ -47,6 +52,27 @@ static inline tl_f32x8 tl_f32x8_load_twice(const float *four)
 static inline tl_f32x8 tl_f32x8_load_halves(const float *low, const float *high)
 {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(low)), _mm_loadu_ps(high), 1);
+}
+
+static inline tl_f32x8 tl_f32x8_swap_halves(tl_f32x8 a)
+{
+    return _mm256_permute2f128_ps(a, a, 1);
+}
+
+/// In each half, lane i of vector k becomes lane k of vector i.
+static inline void tl_f32x8_transpose(tl_f32x8 rows[4])
+{
+    __m256 a = _mm256_unpacklo_ps(rows[0], rows[1]), b = _mm256_unpacklo_ps(rows[2], rows[3]);
+    __m256 c = _mm256_unpackhi_ps(rows[0], rows[1]), d = _mm256_unpackhi_ps(rows[2], rows[3]);
+    rows[0] = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 1, 0));
+    rows[1] = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(3, 2, 3, 2));
+    rows[2] = _mm256_shuffle_ps(c, d, _MM_SHUFFLE(1, 0, 1, 0));
+    rows[3] = _mm256_shuffle_ps(c, d, _MM_SHUFFLE(3, 2, 3, 2));
+}
+
+static inline tl_f32x8 tl_f32x8_min(tl_f32x8 a, tl_f32x8 b)
+{
+    return _mm256_min_ps(a, b);
 }
 
 static inline tl_f32x8 tl_f32x8_sub(tl_f32x8 a, tl_f32x8 b)
@@ -168,6 +194,18 @@ static inline tl_f32x8 tl_f32x8_load(const float *eight)
     return tl_f32x8_make(_mm_loadu_ps(eight), _mm_loadu_ps(eight + 4));
 }
 
+static inline __m128 tl_f32x4_from_bytes(const uint8_t *four)
+{
+    int32_t bytes;
+    memcpy(&bytes, four, sizeof bytes);
+    return _mm_cvtepi32_ps(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(bytes)));
+}
+
+static inline tl_f32x8 tl_f32x8_from_bytes(const uint8_t *eight)
+{
+    return tl_f32x8_make(tl_f32x4_from_bytes(eight), tl_f32x4_from_bytes(eight + 4));
+}
+
 static inline float tl_f32x8_first(tl_f32x8 a)
 {
     return _mm_cvtss_f32(a.low);
@@ -190,6 +228,22 @@ static inline tl_f32x8 tl_f32x8_load_twice(const float *four)
 static inline tl_f32x8 tl_f32x8_load_halves(const float *low, const float *high)
 {
     return tl_f32x8_make(_mm_loadu_ps(low), _mm_loadu_ps(high));
+}
+
+static inline tl_f32x8 tl_f32x8_swap_halves(tl_f32x8 a)
+{
+    return tl_f32x8_make(a.high, a.low);
+}
+
+static inline void tl_f32x8_transpose(tl_f32x8 rows[4])
+{
+    _MM_TRANSPOSE4_PS(rows[0].low, rows[1].low, rows[2].low, rows[3].low);
+    _MM_TRANSPOSE4_PS(rows[0].high, rows[1].high, rows[2].high, rows[3].high);
+}
+
+static inline tl_f32x8 tl_f32x8_min(tl_f32x8 a, tl_f32x8 b)
+{
+    return tl_f32x8_make(_mm_min_ps(a.low, b.low), _mm_min_ps(a.high, b.high));
 }
 
 static inline tl_f32x8 tl_f32x8_sub(tl_f32x8 a, tl_f32x8 b)
@@ -324,6 +378,15 @@ static inline tl_f32x8 tl_f32x8_load(const float *eight)
     return r;
 }
 
+static inline tl_f32x8 tl_f32x8_from_bytes(const uint8_t *eight)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = (float)eight[i];
+    }
+    return r;
+}
+
 static inline float tl_f32x8_first(tl_f32x8 a)
 {
     return a.v[0];
@@ -351,6 +414,33 @@ static inline tl_f32x8 tl_f32x8_load_halves(const float *low, const float *high)
 static inline tl_f32x8 tl_f32x8_load_twice(const float *four)
 {
     return tl_f32x8_load_halves(four, four);
+}
+
+static inline tl_f32x8 tl_f32x8_swap_halves(tl_f32x8 a)
+{
+    return tl_f32x8_load_halves(a.v + 4, a.v);
+}
+
+static inline void tl_f32x8_transpose(tl_f32x8 rows[4])
+{
+    for (int half = 0; half < 8; half += 4) {
+        for (int i = 0; i < 4; i++) {
+            for (int k = 0; k < i; k++) {
+                float swap = rows[i].v[half + k];
+                rows[i].v[half + k] = rows[k].v[half + i];
+                rows[k].v[half + i] = swap;
+            }
+        }
+    }
+}
+
+static inline tl_f32x8 tl_f32x8_min(tl_f32x8 a, tl_f32x8 b)
+{
+    tl_f32x8 r;
+    for (int i = 0; i < 8; i++) {
+        r.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
+    }
+    return r;
 }
 
 static inline tl_f32x8 tl_f32x8_sub(tl_f32x8 a, tl_f32x8 b)

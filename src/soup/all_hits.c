@@ -71,7 +71,7 @@ static bool belongs(const tl_walk_triangle *triangle, void *user)
     // As if nothing had been hit yet.
     c->job.t = c->tmax;
     c->job.triangle = UINT32_MAX;
-    return tl_ray_decide(&c->job, tl_walk_leaf(c->job.soup, triangle->child), triangle->lane) &&
+    return tl_ray_decide(&c->job, triangle->leaf->leaf, triangle->lane) &&
            (c->rule == TL_HITS_TOUCHED || tl_moved_line_crosses(c->origin, c->direction, triangle->corners));
 }
 

@@ -67,9 +67,11 @@ static void set_limit(search *s, double limit_sq)
 
 static void visit_leaf(search *s, uint32_t child)
 {
+    tl_walk_leaf leaf;
+    tl_walk_open_leaf(s->soup, child, &leaf);
     tl_walk_triangle triangle;
-    for (uint32_t lane = 0; lane < tl_walk_lane_count(child); lane++) {
-        if (!tl_walk_read_triangle(s->soup, child, lane, &triangle)) {
+    for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
+        if (!tl_walk_read_triangle(&leaf, lane, &triangle)) {
             continue;
         }
         tl_aabb own = tl_walk_triangle_box(&triangle);

@@ -9,7 +9,7 @@
 #ifndef TALUS_SRC_SOUP_RAY_H
 #define TALUS_SRC_SOUP_RAY_H
 
-#include "soup/soup_layout.h"
+#include "soup/compact_layout.h"
 
 /// Three coordinates and a lane to spare: stored as one vector, read one by one.
 typedef union tl_ray_point {
@@ -49,6 +49,8 @@ typedef struct tl_ray_job {
     double direction[3];
     double exact_shear[2];
     double inverse_z; ///< 1 / direction along the last axis
+
+    tl_leaf_room *rooms; ///< of the walk, for leaves of a compact soup; NULL: leaves are read where they are
 
     // The best so far. t begins as tmax, so the first hit at tmax itself still wins by its index.
     float t;

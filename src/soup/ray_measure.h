@@ -84,12 +84,12 @@ static inline void tl_ray_keep_inside(float *u, float *v)
 }
 
 // Describes the triangle that waits, which the filters have proven to be hit: the first or second of pair (bit & 3) of
-// a leaf. False, and nothing done, when its t must be found exactly. What is known of all triangles of the leaf bounds
-// this one's coordinates from above.
-static TL_ALWAYS_INLINE bool tl_ray_measure(const tl_ray_job *job, uint32_t child, uint32_t bit, tl_ray_hit *hit)
+// a leaf of n. False, and nothing done, when its t must be found exactly. What is known of all triangles of the leaf
+// bounds this one's coordinates from above.
+static TL_ALWAYS_INLINE bool tl_ray_measure(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit,
+                                            tl_ray_hit *hit)
 {
-    const tl_soup_leaf *leaf = tl_soup_leaf_at(job->soup, tl_child_leaf_offset(child));
-    uint32_t n = tl_child_pair_count(child), pair = bit & 3u, second = bit >> 2;
+    uint32_t pair = bit & 3u, second = bit >> 2;
     const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
     uint32_t id = ids[pair + (second != 0 ? n : 0)];
     const float *floats = (const float *)(const void *)(ids + 2 * (size_t)n);

@@ -29,6 +29,7 @@
 
 #include "base/lowest_bit.h"
 #include "math/simd16.h"
+#include "soup/compact_layout.h"
 #include "soup/ray_measure.h"
 #include "soup/ray_prepare.h"
 
@@ -48,7 +49,8 @@
 // Each node on the way down leaves at most fifteen siblings behind; tl_u32x16_compress_pairs may write sixteen.
 enum { WALK_STACK_SIZE = (TL_SOUP_WIDTH - 1) * TL_SOUP_MAX_DEPTH + TL_SOUP_WIDTH };
 
-// Where in a node the planes are by which a ray enters, by its bits `backward`: bytes. It leaves by those of ~backward.
+// Where in a plain node the planes are by which a ray enters, by its bits `backward`: bytes. It leaves by those of
+// ~backward.
 static const uint32_t walk_rows[8][4] = { { 0, 128, 256, 0 },  { 64, 128, 256, 0 }, { 0, 192, 256, 0 },
                                           { 64, 192, 256, 0 }, { 0, 128, 320, 0 },  { 64, 128, 320, 0 },
                                           { 0, 192, 320, 0 },  { 64, 192, 320, 0 } };
@@ -58,6 +60,7 @@ static_assert(sizeof(((tl_soup_node *)0)->plane[0]) == 64, "rows of walk_rows");
 typedef struct walk_ray {
     const uint32_t *near_rows;
     const uint32_t *far_rows;
+    uint32_t node_size; // bytes
     const char *nodes;
     const char *leaves;
 } walk_ray;
@@ -66,9 +69,9 @@ typedef struct walk_ray {
 // bits have the order of their values, and one integer compare orders entries.
 typedef uint64_t walk_entry;
 
-static inline walk_entry make_entry(const uint32_t *t_bits, const tl_soup_node *node, uint32_t lane)
+static inline walk_entry make_entry(const uint32_t *t_bits, const uint32_t *children, uint32_t lane)
 {
-    return (uint64_t)t_bits[lane] << 32 | node->child[lane];
+    return (uint64_t)t_bits[lane] << 32 | children[lane];
 }
 
 // What waits on the stack is mostly visited soon, and its lines are then under way.
@@ -77,7 +80,7 @@ static inline void prefetch_child(const walk_ray *ray, uint32_t child)
 #if defined(__GNUC__)
     bool leaf = (child & TL_CHILD_LEAF) != 0;
     const char *base = leaf ? ray->leaves : ray->nodes;
-    const char *at = base + (leaf ? tl_child_leaf_offset(child) : (uint64_t)child * sizeof(tl_soup_node));
+    const char *at = base + (leaf ? tl_child_leaf_offset(child) : (uint64_t)child * ray->node_size);
     __builtin_prefetch(at);
     __builtin_prefetch(at + 64);
     __builtin_prefetch(at + 128);
@@ -102,35 +105,45 @@ static inline const float *plane_row(const tl_soup_node *node, uint32_t row)
     return (const float *)(const void *)((const char *)node + row);
 }
 
-// Which children the ray enters, and where.
-static TL_ALWAYS_INLINE uint32_t enter_children(const tl_ray_job *job, const walk_ray *ray, const tl_soup_node *node,
-                                                float limit, uint32_t *t_bits)
+// Where the ray enters boxes along an axis, and where it leaves them.
+typedef struct walk_slab {
+    tl_f32x16 enter, leave;
+} walk_slab;
+
+// Which of sixteen boxes the ray enters, and where.
+static TL_ALWAYS_INLINE uint32_t enter_boxes(const walk_slab slabs[3], float limit, uint32_t *t_bits)
 {
-    tl_f32x16 enter[3], leave[3];
-    for (uint32_t i = 0; i < 3; i++) {
-        tl_f32x16 scale = tl_f32x16_all(job->plane_scale[i]);
-        tl_f32x16 near_plane = tl_f32x16_load(plane_row(node, ray->near_rows[i]));
-        tl_f32x16 far_plane = tl_f32x16_load(plane_row(node, ray->far_rows[i]));
-        enter[i] = tl_f32x16_mul_add(near_plane, scale, tl_f32x16_all(job->near_base[i]));
-        leave[i] = tl_f32x16_mul_add(far_plane, scale, tl_f32x16_all(job->far_base[i]));
-    }
     // The last maximum leaves nothing negative. A negative minimum is below that whichever it is.
-    tl_f32x16 first =
-        tl_f32x16_max_bits(tl_f32x16_max_bits(enter[0], enter[1]), tl_f32x16_max_bits(enter[2], tl_f32x16_all(0.0f)));
-    tl_f32x16 last =
-        tl_f32x16_min_bits(tl_f32x16_min_bits(leave[0], leave[1]), tl_f32x16_min_bits(leave[2], tl_f32x16_all(limit)));
+    tl_f32x16 first = tl_f32x16_max_bits(tl_f32x16_max_bits(slabs[0].enter, slabs[1].enter),
+                                         tl_f32x16_max_bits(slabs[2].enter, tl_f32x16_all(0.0f)));
+    tl_f32x16 last = tl_f32x16_min_bits(tl_f32x16_min_bits(slabs[0].leave, slabs[1].leave),
+                                        tl_f32x16_min_bits(slabs[2].leave, tl_f32x16_all(limit)));
     tl_f32x16_store_bits(t_bits, first);
     return tl_f32x16_less_equal_bits(first, last);
 }
 
+static TL_ALWAYS_INLINE uint32_t enter_children(const tl_ray_job *job, const walk_ray *ray, const tl_soup_node *node,
+                                                float limit, uint32_t *t_bits)
+{
+    walk_slab slabs[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        tl_f32x16 scale = tl_f32x16_all(job->plane_scale[i]);
+        tl_f32x16 near_plane = tl_f32x16_load(plane_row(node, ray->near_rows[i]));
+        tl_f32x16 far_plane = tl_f32x16_load(plane_row(node, ray->far_rows[i]));
+        slabs[i].enter = tl_f32x16_mul_add(near_plane, scale, tl_f32x16_all(job->near_base[i]));
+        slabs[i].leave = tl_f32x16_mul_add(far_plane, scale, tl_f32x16_all(job->far_base[i]));
+    }
+    return enter_boxes(slabs, limit, t_bits);
+}
+
 // Puts all of some children on the stack but the nearest, which is returned; the next nearest lies on top.
-static inline uint32_t push_sorted(const uint32_t *t_bits, const tl_soup_node *node, uint32_t mask, walk_entry *stack,
+static inline uint32_t push_sorted(const uint32_t *t_bits, const uint32_t *children, uint32_t mask, walk_entry *stack,
                                    uint32_t *stack_count)
 {
     walk_entry *base = stack + *stack_count;
     uint32_t count = 0;
     do {
-        walk_entry entry = make_entry(t_bits, node, tl_lowest_bit(mask));
+        walk_entry entry = make_entry(t_bits, children, tl_lowest_bit(mask));
         mask &= mask - 1;
         uint32_t place = count++;
         for (; place > 0 && base[place - 1] < entry; place--) {
@@ -144,22 +157,22 @@ static inline uint32_t push_sorted(const uint32_t *t_bits, const tl_soup_node *n
 
 // The same, without branches for two and three children, which are most visits; `mask` is not empty. Any hit will do:
 // sorting costs more than it saves, and the lowest lane is as good as another.
-static TL_ALWAYS_INLINE uint32_t push_children(const walk_ray *ray, const uint32_t *t_bits, const tl_soup_node *node,
+static TL_ALWAYS_INLINE uint32_t push_children(const walk_ray *ray, const uint32_t *t_bits, const uint32_t *children,
                                                uint32_t mask, bool any, walk_entry *stack, uint32_t *stack_count)
 {
     uint32_t rest = mask & (mask - 1);
     uint32_t first = tl_lowest_bit(mask);
     if (rest == 0) {
-        return node->child[first];
+        return children[first];
     }
     walk_entry *top = stack + *stack_count;
     if (any) {
-        tl_u32x16_compress_pairs(top, rest, t_bits, node->child);
+        tl_u32x16_compress_pairs(top, rest, t_bits, children);
         *stack_count += tl_bit_count(rest);
-        return node->child[first];
+        return children[first];
     }
-    walk_entry a = make_entry(t_bits, node, first);
-    walk_entry b = make_entry(t_bits, node, tl_lowest_bit(rest));
+    walk_entry a = make_entry(t_bits, children, first);
+    walk_entry b = make_entry(t_bits, children, tl_lowest_bit(rest));
     rest &= rest - 1;
     if (rest == 0) {
         top[0] = farther(a, b);
@@ -168,9 +181,9 @@ static TL_ALWAYS_INLINE uint32_t push_children(const walk_ray *ray, const uint32
         return (uint32_t)nearer(a, b);
     }
     if ((rest & (rest - 1)) != 0) {
-        return push_sorted(t_bits, node, mask, stack, stack_count);
+        return push_sorted(t_bits, children, mask, stack, stack_count);
     }
-    walk_entry c = make_entry(t_bits, node, tl_lowest_bit(rest));
+    walk_entry c = make_entry(t_bits, children, tl_lowest_bit(rest));
     walk_entry low = nearer(a, b), high = farther(a, b);
     top[0] = farther(high, c);
     high = nearer(high, c);
@@ -253,9 +266,27 @@ static inline uint32_t lane_of_bit(uint32_t bit, uint32_t n)
     return bit < 4 ? bit : n + bit - 4;
 }
 
-static inline const tl_soup_leaf *leaf_of(const tl_soup *soup, uint32_t child)
+// Rooms of a job for the leaves of a compact soup.
+enum { ROOM_VISITED, ROOM_WAITING, ROOM_DECIDED, ROOM_COUNT };
+
+static inline const tl_soup_leaf *leaf_of(const tl_ray_job *job, uint32_t child, uint32_t room)
 {
-    return tl_soup_leaf_at(soup, tl_child_leaf_offset(child));
+    return job->rooms == NULL ? tl_soup_leaf_at(job->soup, tl_child_leaf_offset(child))
+                              : tl_open_leaf(job->soup, child, &job->rooms[room]);
+}
+
+// Decides a lane. A leaf that was expanded must stay as long as its triangle is the best.
+static inline void decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
+{
+    if (tl_ray_decide(job, leaf, lane) && job->rooms != NULL) {
+        memcpy(&job->rooms[ROOM_DECIDED], leaf, sizeof *job->rooms);
+        job->leaf = &job->rooms[ROOM_DECIDED].head;
+    }
+}
+
+static inline void decide_waiting(tl_ray_job *job, const walk_best *best)
+{
+    decide(job, leaf_of(job, best->child, ROOM_WAITING), lane_of_bit(best->bit, tl_child_pair_count(best->child)));
 }
 
 // The lanes of a leaf that may be hit, as far as floats can tell.
@@ -269,7 +300,7 @@ typedef struct walk_lanes {
 // Takes or decides lanes one by one.
 static TL_NOINLINE walk_best settle_each(tl_ray_job *job, const walk_lanes *lanes, uint32_t child, walk_best best)
 {
-    const tl_soup_leaf *leaf = leaf_of(job->soup, child);
+    const tl_soup_leaf *leaf = leaf_of(job, child, ROOM_VISITED);
     const uint32_t *ids = (const uint32_t *)(const void *)(leaf + 1);
     uint32_t n = tl_child_pair_count(child);
     for (uint32_t maybe = lanes->maybe; maybe != 0; maybe &= maybe - 1) {
@@ -283,11 +314,10 @@ static TL_NOINLINE walk_best settle_each(tl_ray_job *job, const walk_lanes *lane
             continue;
         }
         if (best.child != 0) {
-            (void)tl_ray_decide(job, leaf_of(job->soup, best.child),
-                                lane_of_bit(best.bit, tl_child_pair_count(best.child)));
+            decide_waiting(job, &best);
             best.child = 0;
         }
-        (void)tl_ray_decide(job, leaf, lane);
+        decide(job, leaf, lane);
         best.limit = job->box_limit;
         best.ahead = job->t * (1.0f - T_MARGIN);
     }
@@ -353,15 +383,26 @@ static TL_ALWAYS_INLINE bool visit_leaf(tl_ray_job *job, const walk_ray *ray, ui
     return lanes.maybe != 0 && settle_lanes(job, &lanes, child, any, best);
 }
 
+// Of a compact leaf the one pair is enough.
+static TL_ALWAYS_INLINE bool measure_waiting(const tl_ray_job *job, const walk_best *best, tl_ray_hit *hit)
+{
+    uint64_t offset = tl_child_leaf_offset(best->child);
+    if (job->rooms == NULL) {
+        return tl_ray_measure(job, tl_soup_leaf_at(job->soup, offset), tl_child_pair_count(best->child), best->bit,
+                              hit);
+    }
+    uint32_t pair = (uint32_t)(offset / sizeof(tl_compact_pair)) + (best->bit & 3u);
+    return tl_ray_measure(job, tl_expand_pairs(job->soup, pair, 1, &job->rooms[ROOM_WAITING]), 1, best->bit & 4u, hit);
+}
+
 // The end of a walk: false when nothing was hit. Any hit would have ended it before, if it was sure.
 static TL_ALWAYS_INLINE bool report(tl_ray_job *job, walk_best best, tl_ray_hit *hit)
 {
     if (best.child != 0) {
-        if (hit != NULL && tl_ray_measure(job, best.child, best.bit, hit)) {
+        if (hit != NULL && measure_waiting(job, &best, hit)) {
             return true;
         }
-        (void)tl_ray_decide(job, leaf_of(job->soup, best.child),
-                            lane_of_bit(best.bit, tl_child_pair_count(best.child)));
+        decide_waiting(job, &best);
     }
     if (hit != NULL && job->triangle != UINT32_MAX) {
         tl_ray_describe(job, hit);
@@ -369,42 +410,60 @@ static TL_ALWAYS_INLINE bool report(tl_ray_job *job, walk_best best, tl_ray_hit 
     return job->triangle != UINT32_MAX;
 }
 
+static TL_ALWAYS_INLINE void begin_walk(const tl_ray_job *job, uint32_t node_size, walk_ray *ray, walk_best *best)
+{
+    ray->near_rows = walk_rows[job->backward];
+    ray->far_rows = walk_rows[job->backward ^ 7u];
+    ray->node_size = node_size;
+    ray->nodes = (const char *)job->soup + job->soup->node_offset;
+    ray->leaves = (const char *)job->soup + job->soup->leaf_offset;
+    walk_best none = { job->box_limit, job->t * (1.0f - T_MARGIN), 0, 0 };
+    *best = none;
+}
+
+// The next child in front of the limit. False: none is left.
+static TL_ALWAYS_INLINE bool pop_child(const walk_entry *stack, uint32_t *stack_count, float limit, uint32_t *child)
+{
+    uint32_t limit_bits;
+    memcpy(&limit_bits, &limit, sizeof limit_bits);
+    walk_entry last = (uint64_t)limit_bits << 32 | UINT32_MAX;
+    do {
+        if (*stack_count == 0) {
+            return false;
+        }
+        --*stack_count;
+    } while (stack[*stack_count] > last);
+    *child = (uint32_t)stack[*stack_count];
+    return true;
+}
+
 static TL_ALWAYS_INLINE bool walk(tl_ray_job *job, tl_ray_hit *hit)
 {
     const bool any = hit == NULL;
     walk_ray ray;
-    ray.near_rows = walk_rows[job->backward];
-    ray.far_rows = walk_rows[job->backward ^ 7u];
-    ray.nodes = (const char *)tl_soup_nodes(job->soup);
-    ray.leaves = (const char *)job->soup + job->soup->leaf_offset;
+    walk_best best;
+    begin_walk(job, sizeof(tl_soup_node), &ray, &best);
     walk_entry stack[WALK_STACK_SIZE];
-    uint32_t stack_count = 0;
-    uint32_t child = 0;
-    walk_best best = { job->box_limit, job->t * (1.0f - T_MARGIN), 0, 0 };
+    uint32_t stack_count = 0, child = 0;
     for (;;) {
         if ((child & TL_CHILD_LEAF) == 0) {
             const tl_soup_node *node = (const tl_soup_node *)(const void *)(ray.nodes + child * sizeof(tl_soup_node));
             _Alignas(64) uint32_t t_bits[TL_SOUP_WIDTH]; // one line: a split store is not forwarded
             uint32_t mask = enter_children(job, &ray, node, best.limit, t_bits);
             if (mask != 0) {
-                child = push_children(&ray, t_bits, node, mask, any, stack, &stack_count);
+                child = push_children(&ray, t_bits, node->child, mask, any, stack, &stack_count);
                 continue;
             }
         } else if (visit_leaf(job, &ray, child, any, &best)) {
             return true;
         }
-        uint32_t limit_bits;
-        memcpy(&limit_bits, &best.limit, sizeof limit_bits);
-        walk_entry limit = (uint64_t)limit_bits << 32 | UINT32_MAX;
-        do {
-            if (stack_count == 0) {
-                return report(job, best, hit);
-            }
-            stack_count--;
-        } while (stack[stack_count] > limit);
-        child = (uint32_t)stack[stack_count];
+        if (!pop_child(stack, &stack_count, best.limit, &child)) {
+            return report(job, best, hit);
+        }
     }
 }
+
+#include "soup/ray_walk_compact.h"
 
 bool TL_RAY_WALK(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *target, float tmax, bool is_segment,
                  const tl_ray_filter *filter, tl_ray_hit *hit_out)
@@ -414,8 +473,12 @@ bool TL_RAY_WALK(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *targ
     job.filter = filter;
     job.is_segment = is_segment;
     job.t = tmax;
+    job.rooms = NULL;
     if (!tl_ray_prepare_inline(&job, origin, target) || (job.outside != 0 && tl_ray_passes_bounds(&job))) {
         return false;
+    }
+    if (soup->layout == TL_SOUP_COMPACT) {
+        return walk_compact(&job, hit_out);
     }
     return hit_out == NULL ? walk(&job, NULL) : walk(&job, hit_out);
 }

@@ -82,6 +82,10 @@ static tl_result check_leaf(const tl_mesh_view *view, const tl_leaf_view *leaf, 
 
 static tl_result check_view(const tl_soup *soup, const tl_mesh_view *view, tl_report *report)
 {
+    if (soup->layout != TL_SOUP_FAST) {
+        return tl_report_fail(report, TL_ERR_UNSUPPORTED, "soup", TL_NO_ELEMENT,
+                              "build soups that move in the plain layout");
+    }
     if (view->triangle_count != soup->source_triangle_count) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "triangle", view->triangle_count,
                               "give the triangles that the soup was built from");

@@ -26,9 +26,10 @@ uint32_t tl_region_enter_box(const tl_walk_boxes *boxes, const void *region)
 
 static bool leaf_has(const tl_soup *soup, uint32_t child, uint32_t triangle)
 {
-    tl_walk_triangle other;
-    for (uint32_t lane = 0; lane < tl_walk_lane_count(child); lane++) {
-        if (tl_walk_read_triangle(soup, child, lane, &other) && other.triangle == triangle) {
+    tl_walk_leaf leaf;
+    tl_walk_open_leaf(soup, child, &leaf);
+    for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
+        if (leaf.view.ids[lane] != TL_ID_NONE && (leaf.view.ids[lane] & TL_ID_INDEX) == triangle) {
             return true;
         }
     }
@@ -51,15 +52,17 @@ static bool is_first_copy(const tl_soup *soup, const tl_region *region, const tl
             first = child;
         }
     }
-    return triangle->child == first;
+    return triangle->leaf->child == first;
 }
 
 static bool report_leaf(const tl_soup *soup, const tl_region *region, uint32_t child)
 {
     bool has_copies = tl_walk_has_copies(soup);
+    tl_walk_leaf leaf;
+    tl_walk_open_leaf(soup, child, &leaf);
     tl_walk_triangle triangle;
-    for (uint32_t lane = 0; lane < tl_walk_lane_count(child); lane++) {
-        if (tl_walk_read_triangle(soup, child, lane, &triangle) && region->belongs(&triangle, region->user) &&
+    for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
+        if (tl_walk_read_triangle(&leaf, lane, &triangle) && region->belongs(&triangle, region->user) &&
             (!has_copies || is_first_copy(soup, region, &triangle)) && !region->found(&triangle, region->user)) {
             return false;
         }

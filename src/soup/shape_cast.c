@@ -191,9 +191,11 @@ tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_tra
             enter_node(&s, &walk, child);
             continue;
         }
+        tl_walk_leaf leaf;
+        tl_walk_open_leaf(soup, child, &leaf);
         tl_walk_triangle triangle;
-        for (uint32_t lane = 0; lane < tl_walk_lane_count(child); lane++) {
-            if (tl_walk_read_triangle(soup, child, lane, &triangle)) {
+        for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
+            if (tl_walk_read_triangle(&leaf, lane, &triangle)) {
                 visit_triangle(&s, &triangle);
             }
         }

@@ -2,31 +2,15 @@
 //
 // From the binary tree to the blob: wide nodes are cut from it (tree_cut.c), and pairs are written into leaves.
 
+#include "soup/soup_bake.h"
 #include "base/assert.h"
 #include "soup/soup_build.h"
-#include "soup/soup_layout.h"
-#include "soup/tree_cut.h"
 
 #include <float.h>
 #include <string.h>
 
-typedef struct baker {
-    const tl_mesh_view *view;
-    const tl_mesh *mesh;
-    const tl_pair *pairs;
-    uint32_t pair_count;
-    const tl_tree *tree;
-    tl_tree_cut cut;
-    uint32_t *roots;  // binary node of each wide node, in breadth-first order
-    uint8_t *written; // pairs that have been written once
-    uint32_t node_count;
-    uint32_t leaf_count;
-    uint32_t depth;
-    uint64_t leaf_bytes;
-} baker;
-
 // Finds the wide nodes breadth first, and with them all sizes.
-static void cut_tree(baker *b)
+static void cut_tree(tl_baker *b)
 {
     b->roots[0] = b->tree->root;
     b->node_count = 1;
@@ -43,7 +27,8 @@ static void cut_tree(baker *b)
             const tl_tree_node *child = &b->tree->nodes[children[k]];
             if (child->count > 0) {
                 b->leaf_count++;
-                b->leaf_bytes += tl_leaf_size(child->count);
+                b->leaf_bytes +=
+                    b->layout == TL_SOUP_COMPACT ? child->count * sizeof(tl_compact_pair) : tl_leaf_size(child->count);
             } else {
                 b->roots[b->node_count++] = children[k];
             }
@@ -72,7 +57,15 @@ static void write_corner(float *const *arrays, uint32_t i, tl_vec3 corner)
     arrays[2][i] = corner.z;
 }
 
-static void write_leaf(baker *b, const tl_tree_node *node, tl_soup_leaf *leaf)
+uint32_t tl_bake_id(const tl_baker *b, const tl_pair *pair, uint32_t k, bool is_copy)
+{
+    if (pair->triangle[k] == TL_NO_TRIANGLE) {
+        return TL_ID_NONE;
+    }
+    return b->mesh->source_triangles[pair->triangle[k]] | (is_copy ? TL_ID_COPY : 0) | (uint32_t)pair->order[k] << 29;
+}
+
+static void write_leaf(tl_baker *b, const tl_tree_node *node, tl_soup_leaf *leaf)
 {
     uint32_t n = node->count;
     leaf->tagged_count = TL_LEAF_TAG | n;
@@ -87,7 +80,7 @@ static void write_leaf(baker *b, const tl_tree_node *node, tl_soup_leaf *leaf)
     for (uint32_t i = 0; i < n; i++) {
         uint32_t index = b->tree->refs[node->first + i].pair;
         const tl_pair *pair = &b->pairs[index];
-        uint32_t copy = b->written[index] ? TL_ID_COPY : 0;
+        bool is_copy = b->written[index];
         b->written[index] = 1;
         tl_vec3 corner[4];
         for (uint32_t k = 0; k < 4; k++) {
@@ -98,16 +91,14 @@ static void write_leaf(baker *b, const tl_tree_node *node, tl_soup_leaf *leaf)
         write_corner(c, i, corner[2]);
         write_corner(e, n + i, corner[3]);
         for (uint32_t k = 0; k < 2; k++) {
-            ids[k * n + i] = pair->triangle[k] == TL_NO_TRIANGLE
-                                 ? TL_ID_NONE
-                                 : b->mesh->source_triangles[pair->triangle[k]] | copy | (uint32_t)pair->order[k] << 29;
+            ids[k * n + i] = tl_bake_id(b, pair, k, is_copy);
         }
         leaf->extent = tl_maxf(leaf->extent, tl_maxf(triangle_extent(corner[0], corner[1], corner[2]),
                                                      triangle_extent(corner[0], corner[2], corner[3])));
     }
 }
 
-static void write_tree(baker *b, tl_soup *soup)
+static void write_tree(tl_baker *b, tl_soup *soup)
 {
     tl_soup_node *nodes = (tl_soup_node *)(void *)((char *)soup + soup->node_offset);
     uint32_t next_node = 1;
@@ -146,8 +137,13 @@ static bool needs_material_table(const tl_mesh_view *view, uint32_t *uniform_out
     return false;
 }
 
-static void fill_head(const baker *b, tl_soup *soup)
+static void fill_head(const tl_baker *b, const tl_compact_plan *plan, tl_soup *soup)
 {
+    memset(soup, 0, sizeof *soup);
+    soup->has_materials = needs_material_table(b->view, &soup->uniform_material);
+    soup->layout = b->layout;
+    soup->leaf_bytes = b->leaf_bytes;
+    soup->vertex_count = plan->vertex_count;
     soup->source_triangle_count = b->view->triangle_count;
     soup->triangle_count = b->mesh->triangle_count;
     soup->pair_count = b->mesh->triangle_count - b->pair_count;
@@ -162,9 +158,10 @@ static void fill_head(const baker *b, tl_soup *soup)
 }
 
 tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count,
-                       const tl_tree *tree, const tl_allocator *allocator, tl_arena *arena, tl_soup **soup_out)
+                       const tl_tree *tree, const tl_soup_def *def, tl_arena *arena, tl_soup **soup_out)
 {
-    baker b = { .view = view, .mesh = mesh, .pairs = pairs, .pair_count = pair_count, .tree = tree };
+    tl_baker b = { .view = view, .mesh = mesh, .pairs = pairs, .pair_count = pair_count, .tree = tree };
+    b.layout = def->layout;
     // A wide node stands for a binary inner node, of which there are fewer than references; or for a lone leaf.
     b.roots = TL_PUSH(arena, uint32_t, tree->ref_count);
     b.written = TL_PUSH_ZERO(arena, uint8_t, pair_count);
@@ -176,26 +173,25 @@ tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_p
     if (b.leaf_bytes / TL_SOUP_LEAF_ALIGN > TL_MAX_LEAF_UNITS) {
         return TL_ERR_LIMIT;
     }
-    uint32_t uniform_material;
-    bool has_materials = needs_material_table(view, &uniform_material);
-    uint64_t node_offset = sizeof(tl_soup);
-    uint64_t leaf_offset = node_offset + (uint64_t)b.node_count * sizeof(tl_soup_node);
-    uint64_t material_offset = leaf_offset + b.leaf_bytes + TL_SOUP_TAIL_BYTES;
-    uint64_t size = material_offset + (has_materials ? (uint64_t)view->triangle_count * sizeof(uint16_t) : 0);
-    tl_soup *soup = tl_blob_allocate(allocator, TL_SOUP_MAGIC, TL_SOUP_VERSION, size);
+    tl_compact_plan plan = { 0 };
+    if (def->layout == TL_SOUP_COMPACT) {
+        TL_TRY(tl_compact_plan_vertices(&b, arena, &plan));
+    }
+    tl_soup head;
+    fill_head(&b, &plan, &head);
+    tl_soup *soup = tl_blob_allocate(def->host.allocator, TL_SOUP_MAGIC, TL_SOUP_VERSION, tl_soup_place_arrays(&head));
     if (soup == NULL) {
         return TL_ERR_MEMORY;
     }
-    fill_head(&b, soup);
-    soup->uniform_material = uniform_material;
-    soup->has_materials = has_materials;
-    soup->node_offset = node_offset;
-    soup->leaf_offset = leaf_offset;
-    soup->leaf_bytes = b.leaf_bytes;
-    soup->material_offset = material_offset;
-    write_tree(&b, soup);
-    if (has_materials) {
-        memcpy((char *)soup + material_offset, view->materials, (size_t)view->triangle_count * sizeof(uint16_t));
+    head.blob = soup->blob;
+    *soup = head;
+    if (def->layout == TL_SOUP_COMPACT) {
+        tl_compact_write(&b, &plan, soup);
+    } else {
+        write_tree(&b, soup);
+    }
+    if (soup->has_materials) {
+        memcpy((char *)soup + soup->material_offset, view->materials, (size_t)view->triangle_count * sizeof(uint16_t));
     }
     *soup_out = soup;
     return TL_OK;

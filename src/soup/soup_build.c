@@ -12,7 +12,7 @@
 
 tl_soup_def tl_default_soup_def(void)
 {
-    tl_soup_def def = { true, TL_SOUP_BOXES, 0.0f, { NULL, NULL, NULL } };
+    tl_soup_def def = { true, TL_SOUP_BOXES, TL_SOUP_FAST, 0.0f, { NULL, NULL, NULL } };
     return def;
 }
 
@@ -23,6 +23,9 @@ static tl_result check_input(const tl_mesh_view *view, const tl_soup_def *def, t
     }
     if (def->partition != TL_SOUP_BOXES && def->partition != TL_SOUP_KD) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "partition", 0, "give TL_SOUP_BOXES or TL_SOUP_KD");
+    }
+    if (def->layout != TL_SOUP_FAST && def->layout != TL_SOUP_COMPACT) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "layout", 0, "give TL_SOUP_FAST or TL_SOUP_COMPACT");
     }
     if (view->triangle_count > TL_MAX_SOUP_TRIANGLES) {
         return tl_report_fail(report, TL_ERR_LIMIT, "triangle", TL_MAX_SOUP_TRIANGLES,
@@ -71,7 +74,7 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh *mesh, const tl_s
 
     report->base.stage = "bake soup";
     TL_TRY(tl_progress_update(host, "bake soup", 0, 1));
-    TL_TRY(tl_soup_bake(view, mesh, pairs, pair_count, &tree, host->allocator, arena, soup_out));
+    TL_TRY(tl_soup_bake(view, mesh, pairs, pair_count, &tree, def, arena, soup_out));
     report->triangle_count = (*soup_out)->triangle_count;
     report->pair_count = (*soup_out)->pair_count;
     report->single_count = (*soup_out)->single_count;

@@ -68,6 +68,6 @@ tl_result tl_kd_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_c
 
 /// Cuts the binary tree into wide nodes and writes the blob.
 tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count,
-                       const tl_tree *tree, const tl_allocator *allocator, tl_arena *arena, tl_soup **soup_out);
+                       const tl_tree *tree, const tl_soup_def *def, tl_arena *arena, tl_soup **soup_out);
 
 #endif

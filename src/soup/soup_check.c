@@ -4,8 +4,9 @@
 // numbered breadth first and leaves lie in the order in which nodes name them. Each child word is then forced, so two
 // counters prove that the nodes form a tree, that every query ends, and that nothing lies outside.
 
-#include "soup/soup_layout.h"
+#include "soup/compact_layout.h"
 
+#include <float.h>
 #include <string.h>
 
 typedef struct checker {
@@ -38,17 +39,25 @@ static bool extent_in_range(float extent)
 static bool head_is_sound(const tl_soup *soup)
 {
     uint64_t size = soup->blob.size;
-    if (soup->node_count == 0 || soup->has_materials > 1 || soup->uniform_material > UINT16_MAX ||
-        soup->source_triangle_count > TL_MAX_SOUP_TRIANGLES || soup->leaf_bytes > size) {
+    if (soup->layout > TL_SOUP_COMPACT || soup->node_count == 0 || soup->has_materials > 1 ||
+        soup->uniform_material > UINT16_MAX || soup->source_triangle_count > TL_MAX_SOUP_TRIANGLES ||
+        soup->leaf_bytes > size ||
+        (soup->layout == TL_SOUP_COMPACT ? soup->leaf_bytes != soup->reference_count * sizeof(tl_compact_pair)
+                                         : soup->vertex_count != 0)) {
         return false;
     }
-    uint64_t nodes = sizeof(tl_soup);
-    uint64_t leaves = nodes + (uint64_t)soup->node_count * sizeof(tl_soup_node);
-    uint64_t materials = leaves + soup->leaf_bytes + TL_SOUP_TAIL_BYTES;
-    uint64_t end = materials + (soup->has_materials ? (uint64_t)soup->source_triangle_count * sizeof(uint16_t) : 0);
-    if (soup->node_offset != nodes || soup->leaf_offset != leaves || soup->material_offset != materials ||
+    tl_soup placed = *soup;
+    uint64_t end = tl_soup_place_arrays(&placed);
+    if (soup->node_offset != placed.node_offset || soup->leaf_offset != placed.leaf_offset ||
+        soup->group_offset != placed.group_offset || soup->vertex_offset != placed.vertex_offset ||
+        soup->material_offset != placed.material_offset ||
         ((end + TL_BLOB_ALIGNMENT - 1) & ~(uint64_t)(TL_BLOB_ALIGNMENT - 1)) != size) {
         return false;
+    }
+    for (uint32_t i = 0; i < sizeof soup->reserved / sizeof soup->reserved[0]; i++) {
+        if (soup->reserved[i] != 0) {
+            return false;
+        }
     }
     return vec_in_range(soup->bounds_min) && vec_in_range(soup->bounds_max) && !tl_aabb_is_empty(tl_soup_bounds(soup));
 }
@@ -59,18 +68,38 @@ static bool id_is_sound(const checker *c, uint32_t id)
     return (id & TL_ID_INDEX) < c->soup->source_triangle_count && order >= 1 && order <= 6;
 }
 
+static bool vertices_are_there(const tl_soup *soup, uint64_t first, uint32_t count)
+{
+    for (uint64_t i = first; i < first + count; i++) {
+        const tl_compact_pair *pair = &tl_compact_pairs(soup)[i];
+        uint32_t base = tl_compact_groups(soup)[i / TL_COMPACT_GROUP];
+        for (uint32_t k = 0; k < 4; k++) {
+            if ((uint64_t)base + pair->corner[k] >= soup->vertex_count) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 static bool check_leaf(checker *c, uint32_t child)
 {
     uint32_t pairs = tl_child_pair_count(child);
     uint64_t offset = tl_child_leaf_offset(child);
+    bool compact = c->soup->layout == TL_SOUP_COMPACT;
+    uint64_t size = compact ? pairs * sizeof(tl_compact_pair) : tl_leaf_size(pairs);
     // leaf_bytes is within the blob; next_leaf never passes it.
-    if (offset != c->next_leaf || tl_leaf_size(pairs) > c->soup->leaf_bytes - offset) {
+    if (offset != c->next_leaf || size > c->soup->leaf_bytes - offset) {
         return false;
     }
-    c->next_leaf += tl_leaf_size(pairs);
+    c->next_leaf += size;
     c->leaf_count++;
     c->reference_count += pairs;
-    const tl_soup_leaf *leaf = tl_soup_leaf_at(c->soup, offset);
+    if (compact && !vertices_are_there(c->soup, offset / sizeof(tl_compact_pair), pairs)) {
+        return false;
+    }
+    tl_leaf_room room;
+    const tl_soup_leaf *leaf = tl_open_leaf(c->soup, child, &room);
     if (leaf->tagged_count != (TL_LEAF_TAG | pairs) || !extent_in_range(leaf->extent)) {
         return false;
     }
@@ -101,20 +130,45 @@ static bool check_leaf(checker *c, uint32_t child)
 
 // The walks do not look at child words to tell lanes apart, so a lane without a child must have the box that no ray
 // enters.
-static bool box_is_sound(const tl_soup_node *node, uint32_t lane)
+static bool boxes_are_sound(const tl_soup_node *node)
 {
-    for (uint32_t i = 0; i < 6; i++) {
-        float plane = node->plane[i][lane];
-        if (node->child[lane] != 0 ? !in_range(plane) : plane != (i % 2 == 0 ? INFINITY : -INFINITY)) {
-            return false;
+    for (uint32_t lane = 0; lane < TL_SOUP_WIDTH; lane++) {
+        for (uint32_t i = 0; i < 6; i++) {
+            float plane = node->plane[i][lane];
+            if (node->child[lane] != 0 ? !in_range(plane) : plane != (i % 2 == 0 ? INFINITY : -INFINITY)) {
+                return false;
+            }
         }
     }
     return true;
 }
 
+static bool is_power_of_two(float value)
+{
+    int exponent;
+    return value >= FLT_MIN && value <= TL_MAX_COORDINATE && frexpf(value, &exponent) == 0.5f;
+}
+
+// Here the mask tells.
+static bool compact_boxes_are_sound(const tl_compact_node *node)
+{
+    uint32_t children = 0;
+    for (uint32_t lane = 0; lane < TL_SOUP_WIDTH; lane++) {
+        children |= (uint32_t)(node->child[lane] != 0) << lane;
+    }
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        // The last step may lie beyond the range, planes that are used not.
+        if (!in_range(node->origin[axis]) || !is_power_of_two(node->scale[axis])) {
+            return false;
+        }
+    }
+    return node->mask == children && node->zero == 0;
+}
+
 static bool check_nodes(checker *c)
 {
-    const tl_soup_node *nodes = tl_soup_nodes(c->soup);
+    const tl_soup *soup = c->soup;
+    bool compact = soup->layout == TL_SOUP_COMPACT;
     c->next_node = 1;
     c->depth = 1;
     uint32_t level_end = 1;
@@ -126,11 +180,13 @@ static bool check_nodes(checker *c)
             level_end = c->next_node;
             c->depth++;
         }
+        if (compact ? !compact_boxes_are_sound(&tl_compact_nodes(soup)[i])
+                    : !boxes_are_sound(&tl_soup_nodes(soup)[i])) {
+            return false;
+        }
+        const uint32_t *children = compact ? tl_compact_nodes(soup)[i].child : tl_soup_nodes(soup)[i].child;
         for (uint32_t k = 0; k < TL_SOUP_WIDTH; k++) {
-            uint32_t child = nodes[i].child[k];
-            if (!box_is_sound(&nodes[i], k)) {
-                return false;
-            }
+            uint32_t child = children[k];
             if ((child & TL_CHILD_LEAF) != 0) {
                 if (!check_leaf(c, child)) {
                     return false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The soup's bytes: a head, 16-wide nodes, leaves of one to four pairs, materials.
+// The soup's plain bytes (compact_layout.h has the others): a head, 16-wide nodes, leaves of one to four pairs,
+// materials.
 //
 //   tl_soup | tl_soup_node[node_count] | leaves, each 16-byte aligned | 64 zero bytes | uint16 materials[] | zeros
 //
@@ -56,7 +57,11 @@ struct tl_soup {
     uint64_t leaf_offset;
     uint64_t leaf_bytes;
     uint64_t material_offset;
-    uint64_t reserved[9]; ///< zero
+    uint32_t layout;        ///< tl_soup_layout
+    uint32_t vertex_count;  ///< compact_layout.h; these three are 0 in the plain layout
+    uint64_t group_offset;  ///< uint32_t, one each TL_COMPACT_GROUP pairs
+    uint64_t vertex_offset; ///< tl_vec3
+    uint64_t reserved[6];   ///< zero
 };
 
 static_assert(sizeof(tl_soup) == 192, "no padding holes in the head");

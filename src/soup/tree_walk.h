@@ -17,7 +17,7 @@
 #define TALUS_SRC_SOUP_TREE_WALK_H
 
 #include "math/tolerance.h"
-#include "soup/soup_layout.h"
+#include "soup/compact_layout.h"
 
 #include <float.h>
 #include <string.h>
@@ -72,9 +72,27 @@ static inline bool tl_walk_next(tl_walk *walk, float limit, uint32_t *child_out)
     return false;
 }
 
+static inline void tl_walk_read_compact_boxes(const tl_compact_node *node, tl_walk_boxes *boxes)
+{
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        for (uint32_t lane = 0; lane < TL_WALK_WIDTH; lane++) {
+            bool is_child = (node->mask >> lane & 1u) != 0;
+            boxes->min[axis][lane] = is_child ? tl_compact_plane(node, axis, node->plane[2 * axis][lane]) : INFINITY;
+            boxes->max[axis][lane] =
+                is_child ? tl_compact_plane(node, axis, node->plane[2 * axis + 1][lane]) : -INFINITY;
+        }
+    }
+    memcpy(boxes->child, node->child, sizeof boxes->child);
+    boxes->mask = node->mask;
+}
+
 /// The boxes of a node's children.
 static inline void tl_walk_read_boxes(const tl_walk *walk, uint32_t node_index, tl_walk_boxes *boxes)
 {
+    if (walk->soup->layout == TL_SOUP_COMPACT) {
+        tl_walk_read_compact_boxes(&tl_compact_nodes(walk->soup)[node_index], boxes);
+        return;
+    }
     const tl_soup_node *node = &tl_soup_nodes(walk->soup)[node_index];
     for (uint32_t axis = 0; axis < 3; axis++) {
         memcpy(boxes->min[axis], node->plane[2 * axis], sizeof boxes->min[axis]);
@@ -117,34 +135,40 @@ static inline void tl_walk_enter(tl_walk *walk, const tl_walk_boxes *boxes, uint
     walk->count += count;
 }
 
+/// A leaf that is being read.
+typedef struct tl_walk_leaf {
+    const tl_soup_leaf *leaf; ///< in the soup, or in `room`
+    tl_leaf_view view;
+    uint32_t child;      ///< its word
+    uint32_t lane_count; ///< of which some may hold no triangle
+    tl_leaf_room room;
+} tl_walk_leaf;
+
 /// One triangle of a leaf.
 typedef struct tl_walk_triangle {
     tl_vec3 corners[3]; ///< as in the view
     uint32_t triangle;
-    uint32_t child; ///< the leaf's word
-    uint32_t lane;  ///< its place in the leaf
+    const tl_walk_leaf *leaf;
+    uint32_t lane; ///< its place in the leaf
 } tl_walk_triangle;
 
-static inline const tl_soup_leaf *tl_walk_leaf(const tl_soup *soup, uint32_t child)
+static inline void tl_walk_open_leaf(const tl_soup *soup, uint32_t child, tl_walk_leaf *leaf)
 {
-    return tl_soup_leaf_at(soup, tl_child_leaf_offset(child));
-}
-
-static inline uint32_t tl_walk_lane_count(uint32_t child)
-{
-    return 2 * tl_child_pair_count(child);
+    leaf->leaf = tl_open_leaf(soup, child, &leaf->room);
+    leaf->view = tl_view_leaf(leaf->leaf);
+    leaf->child = child;
+    leaf->lane_count = 2 * leaf->view.pair_count;
 }
 
 /// False when the lane holds no triangle.
-static inline bool tl_walk_read_triangle(const tl_soup *soup, uint32_t child, uint32_t lane, tl_walk_triangle *triangle)
+static inline bool tl_walk_read_triangle(const tl_walk_leaf *leaf, uint32_t lane, tl_walk_triangle *triangle)
 {
-    tl_leaf_view leaf = tl_view_leaf(tl_walk_leaf(soup, child));
-    if (leaf.ids[lane] == TL_ID_NONE) {
+    if (leaf->view.ids[lane] == TL_ID_NONE) {
         return false;
     }
-    tl_leaf_corners(&leaf, lane, triangle->corners);
-    triangle->triangle = leaf.ids[lane] & TL_ID_INDEX;
-    triangle->child = child;
+    tl_leaf_corners(&leaf->view, lane, triangle->corners);
+    triangle->triangle = leaf->view.ids[lane] & TL_ID_INDEX;
+    triangle->leaf = leaf;
     triangle->lane = lane;
     return true;
 }

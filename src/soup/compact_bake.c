@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+//
+// Writes the compact layout (compact_layout.h).
+
+#include "soup/soup_bake.h"
+
+#include "base/assert.h"
+
+#include <float.h>
+#include <string.h>
+
+// ---------------------------------------------------------------------------------------------------------
+// Vertices.
+
+typedef struct numbering {
+    const tl_baker *baker;
+    tl_compact_plan *plan;
+    uint32_t *latest; // number that a vertex of the mesh has got last, UINT32_MAX: none
+    uint32_t pair_count;
+} numbering;
+
+// A group begins so far back that all of its own new vertices are within reach too.
+static void begin_group(numbering *n)
+{
+    uint32_t reach = TL_COMPACT_WINDOW - 4 * TL_COMPACT_GROUP, count = n->plan->vertex_count;
+    n->plan->groups[n->pair_count / TL_COMPACT_GROUP] = count > reach ? count - reach : 0;
+}
+
+static void number_pair(numbering *n, const tl_pair *pair)
+{
+    static const uint8_t order[4] = { 0, 2, 1, 3 }; // a, c, b, d
+    tl_compact_plan *plan = n->plan;
+    if (n->pair_count % TL_COMPACT_GROUP == 0) {
+        begin_group(n);
+    }
+    uint32_t base = plan->groups[n->pair_count / TL_COMPACT_GROUP];
+    for (uint32_t k = 0; k < 4; k++) {
+        uint32_t vertex = pair->corner[order[k]];
+        if (n->latest[vertex] == UINT32_MAX || n->latest[vertex] < base) {
+            n->latest[vertex] = plan->vertex_count;
+            plan->vertices[plan->vertex_count++] = vertex;
+        }
+        plan->corners[n->pair_count][k] = (uint16_t)(n->latest[vertex] - base);
+    }
+    n->pair_count++;
+}
+
+tl_result tl_compact_plan_vertices(const tl_baker *baker, tl_arena *arena, tl_compact_plan *plan)
+{
+    uint32_t pairs = baker->tree->ref_count;
+    memset(plan, 0, sizeof *plan);
+    // Each pair names at most four new vertices.
+    if (pairs > UINT32_MAX / 4) {
+        return TL_ERR_LIMIT;
+    }
+    numbering n = { baker, plan, TL_PUSH(arena, uint32_t, baker->mesh->vertex_count), 0 };
+    plan->corners = tl_arena_push(arena, pairs, sizeof *plan->corners);
+    plan->groups = TL_PUSH(arena, uint32_t, tl_compact_group_count(pairs));
+    plan->vertices = TL_PUSH(arena, uint32_t, 4 * (uint64_t)pairs);
+    if (n.latest == NULL || plan->corners == NULL || plan->groups == NULL || plan->vertices == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(n.latest, 0xff, baker->mesh->vertex_count * sizeof *n.latest);
+    for (uint32_t i = 0; i < baker->node_count; i++) {
+        uint32_t children[TL_SOUP_WIDTH];
+        uint32_t count = tl_tree_cut_children(&baker->cut, baker->roots[i], children);
+        for (uint32_t k = 0; k < count; k++) {
+            const tl_tree_node *child = &baker->tree->nodes[children[k]];
+            for (uint32_t r = 0; r < child->count; r++) {
+                number_pair(&n, &baker->pairs[baker->tree->refs[child->first + r].pair]);
+            }
+        }
+    }
+    TL_ASSERT(n.pair_count == pairs);
+    return TL_OK;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Nodes.
+
+static tl_aabb box_of_children(const tl_baker *b, const uint32_t *children, uint32_t count)
+{
+    tl_aabb box = tl_aabb_empty();
+    for (uint32_t k = 0; k < count; k++) {
+        box = tl_aabb_union(box, b->tree->nodes[children[k]].box);
+    }
+    return box;
+}
+
+// The smallest power of two whose steps, as they round, reach from `low` to `high`.
+static float choose_scale(float low, float high)
+{
+    float scale = FLT_MIN;
+    while (low + (float)TL_COMPACT_STEPS * scale < high) {
+        scale *= 2.0f;
+    }
+    return scale;
+}
+
+// The largest step whose plane is at most `at`, or the smallest whose plane is at least that.
+static uint8_t step_below(const tl_compact_node *node, uint32_t axis, float at)
+{
+    float guess = (at - node->origin[axis]) / node->scale[axis];
+    uint32_t step = guess < (float)TL_COMPACT_STEPS ? (uint32_t)guess : TL_COMPACT_STEPS;
+    while (step > 0 && tl_compact_plane(node, axis, (uint8_t)step) > at) {
+        step--;
+    }
+    return (uint8_t)step;
+}
+
+static uint8_t step_above(const tl_compact_node *node, uint32_t axis, float at)
+{
+    uint32_t step = step_below(node, axis, at);
+    while (step < TL_COMPACT_STEPS && tl_compact_plane(node, axis, (uint8_t)step) < at) {
+        step++;
+    }
+    return (uint8_t)step;
+}
+
+static void write_boxes(const tl_baker *b, const uint32_t *children, uint32_t count, tl_compact_node *node)
+{
+    tl_aabb all = box_of_children(b, children, count);
+    const float low[3] = { all.min.x, all.min.y, all.min.z }, high[3] = { all.max.x, all.max.y, all.max.z };
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        node->origin[axis] = low[axis];
+        node->scale[axis] = choose_scale(low[axis], high[axis]);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        tl_aabb box = b->tree->nodes[children[k]].box;
+        const float min[3] = { box.min.x, box.min.y, box.min.z }, max[3] = { box.max.x, box.max.y, box.max.z };
+        for (uint32_t axis = 0; axis < 3; axis++) {
+            node->plane[2 * axis][k] = step_below(node, axis, min[axis]);
+            node->plane[2 * axis + 1][k] = step_above(node, axis, max[axis]);
+            TL_ASSERT(tl_compact_plane(node, axis, node->plane[2 * axis][k]) <= min[axis] &&
+                      tl_compact_plane(node, axis, node->plane[2 * axis + 1][k]) >= max[axis]);
+        }
+    }
+    node->mask = (1u << count) - 1u;
+}
+
+static void write_pairs(tl_baker *b, const tl_compact_plan *plan, const tl_tree_node *leaf, uint32_t first,
+                        tl_compact_pair *out)
+{
+    for (uint32_t i = 0; i < leaf->count; i++) {
+        uint32_t index = b->tree->refs[leaf->first + i].pair;
+        bool is_copy = b->written[index];
+        b->written[index] = 1;
+        for (uint32_t k = 0; k < 2; k++) {
+            out[first + i].ids[k] = tl_bake_id(b, &b->pairs[index], k, is_copy);
+        }
+        memcpy(out[first + i].corner, plan->corners[first + i], sizeof out->corner);
+    }
+}
+
+void tl_compact_write(tl_baker *b, const tl_compact_plan *plan, tl_soup *soup)
+{
+    tl_compact_node *nodes = (tl_compact_node *)(void *)((char *)soup + soup->node_offset);
+    tl_compact_pair *pairs = (tl_compact_pair *)(void *)((char *)soup + soup->leaf_offset);
+    uint32_t next_node = 1, next_pair = 0;
+    for (uint32_t i = 0; i < b->node_count; i++) {
+        uint32_t children[TL_SOUP_WIDTH];
+        uint32_t count = tl_tree_cut_children(&b->cut, b->roots[i], children);
+        write_boxes(b, children, count, &nodes[i]);
+        for (uint32_t k = 0; k < count; k++) {
+            const tl_tree_node *child = &b->tree->nodes[children[k]];
+            if (child->count > 0) {
+                nodes[i].child[k] = tl_child_of_leaf(next_pair * sizeof *pairs, child->count);
+                write_pairs(b, plan, child, next_pair, pairs);
+                next_pair += child->count;
+            } else {
+                nodes[i].child[k] = next_node++;
+            }
+        }
+    }
+    TL_ASSERT(next_node == b->node_count && next_pair == b->tree->ref_count);
+    memcpy((char *)soup + soup->group_offset, plan->groups, tl_compact_group_count(next_pair) * sizeof(uint32_t));
+    tl_vec3 *vertices = (tl_vec3 *)(void *)((char *)soup + soup->vertex_offset);
+    for (uint32_t i = 0; i < plan->vertex_count; i++) {
+        vertices[i] = b->mesh->vertices[plan->vertices[i]];
+    }
+}
