@@ -6,16 +6,13 @@
 //
 //   bench_soup_queries [--json FILE] [repetitions [queries]]
 
-#define _POSIX_C_SOURCE 200809L
-
-#include "cli/sample_level.h"
 #include "report.h"
+#include "soup_levels.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <talus/soup.h>
-#include <time.h>
 
 enum { MAX_TRIANGLES = 256, BATCH_SHARE = 20 };
 
@@ -37,41 +34,6 @@ typedef enum kind {
 static const char *const names[KINDS] = { "ray, single call", "ray, batch",  "nearest point",     "sphere overlap",
                                           "capsule overlap",  "box overlap", "sphere sweep, 4 m", "capsule sweep, 4 m",
                                           "rotated box, 4 m", "all hits",    "inside or outside" };
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static uint64_t random_state = 1;
-
-static float unit(void)
-{
-    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (float)((z ^ (z >> 31)) >> 40) * (1.0f / 16777216.0f);
-}
-
-static tl_vec3 point_in(tl_aabb box)
-{
-    tl_vec3 size = tl_aabb_size(box);
-    float x = unit(), y = unit(), z = unit();
-    return tl_vec3_make(box.min.x + x * size.x, box.min.y + y * size.y, box.min.z + z * size.z);
-}
-
-static tl_vec3 direction(void)
-{
-    for (;;) {
-        tl_vec3 d = tl_vec3_make(2 * unit() - 1, 2 * unit() - 1, 2 * unit() - 1);
-        float l = tl_length_sq(d);
-        if (l > 0.01f && l <= 1) {
-            return tl_normalize(d);
-        }
-    }
-}
 
 // Places where a character may be: at most some metres above a triangle. And where it goes.
 typedef struct workload {
@@ -97,18 +59,19 @@ static void make_workload(workload *w, const tl_soup *soup, uint32_t count)
     w->places = malloc(count * sizeof *w->places);
     w->motions = malloc(count * sizeof *w->motions);
     tl_aabb bounds = tl_soup_bounds(soup);
+    uint64_t random = 1;
     for (uint32_t i = 0; i < w->ray_count; i++) {
-        tl_ray ray = { point_in(bounds), direction(), INFINITY };
+        tl_ray ray = { bench_point_in(&random, bounds), bench_direction(&random), INFINITY };
         w->rays[i] = ray;
     }
     for (uint32_t i = 0; i < count; i++) {
-        tl_vec3 above = point_in(bounds);
+        tl_vec3 above = bench_point_in(&random, bounds);
         above.y = bounds.max.y + 1;
         tl_ray down = { above, { 0, -1, 0 }, INFINITY };
         tl_ray_hit hit;
         float y = tl_soup_cast_ray(soup, &down, NULL, &hit) ? above.y - hit.t : bounds.min.y;
-        w->places[i] = tl_vec3_make(above.x, y + 0.3f + 2 * unit(), above.z);
-        w->motions[i] = tl_scale(direction(), 4);
+        w->places[i] = tl_vec3_make(above.x, y + 0.3f + 2 * bench_unit(&random), above.z);
+        w->motions[i] = tl_scale(bench_direction(&random), 4);
     }
 }
 
@@ -240,32 +203,31 @@ static void print_level(bench_report *report, const char *name, uint32_t triangl
     bench_report_at_least(report, claim, best[SINGLE] / best[BATCH], 1.3);
 }
 
-static void bench_level(bench_report *report, const char *name, uint32_t triangles, uint32_t repetitions,
-                        uint32_t queries)
+static void run_level(bench_report *report, const char *name, uint32_t triangles, uint32_t repetitions,
+                      uint32_t queries)
 {
-    tl_sample_mesh mesh;
-    if (tl_sample_build_level(tl_sample_find_level(name), triangles, 1, &mesh) != TL_OK) {
+    bench_level level;
+    if (!bench_make_sample(name, triangles, &level)) {
         return;
     }
-    tl_mesh_view view = tl_sample_mesh_as_view(&mesh);
     tl_soup *soup;
-    if (tl_soup_build(&view, NULL, &soup, NULL) == TL_OK) {
+    if (tl_soup_build(&level.view, NULL, &soup, NULL) == TL_OK) {
         workload w;
         make_workload(&w, soup, queries);
         double best[KINDS];
         for (uint32_t r = 0; r < repetitions; r++) {
             for (uint32_t k = 0; k < KINDS; k++) {
-                double start = now();
+                double start = bench_thread_now();
                 w.found[k] = run(&w, (kind)k);
-                double time = now() - start;
+                double time = bench_thread_now() - start;
                 best[k] = r == 0 || time < best[k] ? time : best[k];
             }
         }
-        print_level(report, name, view.triangle_count, &w, best);
+        print_level(report, name, level.view.triangle_count, &w, best);
         free_workload(&w);
         tl_blob_free(soup, NULL);
     }
-    tl_sample_mesh_free(&mesh);
+    bench_free_levels(&level, 1);
 }
 
 int main(int argc, char **argv)
@@ -274,10 +236,10 @@ int main(int argc, char **argv)
     bench_report *report = bench_report_new("Soup queries", "ns", NULL);
     uint32_t repetitions = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 5;
     uint32_t queries = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 10000;
-    bench_level(report, "dungeon", 50000, repetitions, queries);
-    bench_level(report, "terrain", 100000, repetitions, queries);
-    bench_level(report, "city", 100000, repetitions, queries);
-    bench_level(report, "city", 1000000, repetitions, queries);
+    run_level(report, "dungeon", 50000, repetitions, queries);
+    run_level(report, "terrain", 100000, repetitions, queries);
+    run_level(report, "city", 100000, repetitions, queries);
+    run_level(report, "city", 1000000, repetitions, queries);
     bench_report_print_claims(report);
     return bench_report_close(report, path);
 }
