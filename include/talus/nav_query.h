@@ -339,6 +339,33 @@ TL_API tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_na
                                           tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
                                           uint32_t *count_out, float *length_out);
 
+// More flags, of the points of a traced path.
+#define TL_NAV_CORNER_CROSSING 32u ///< it crosses into another polygon here
+#define TL_NAV_CORNER_AREA     64u ///< which has another area
+
+/// A point of a path: a corner, or where it crosses from a polygon into the next.
+typedef struct tl_nav_trace_point {
+    tl_vec3 point;
+    tl_nav_ref polygon; ///< the path goes on in it
+    uint32_t flags;     ///< TL_NAV_CORNER_...
+    float cost;   ///< of the path up to here: metres in space times area costs, or what the filter's function says
+    float length; ///< of the path up to here, metres in space
+} tl_nav_trace_point;
+
+/// Follows a straight path through its polygons: what it costs, and where it crosses into them.
+///
+/// Polygons and corners are those of one path: of tl_navmesh_straight_path, of tl_nav_query_find_shortest_path, or of
+/// tl_navmesh_cast_ray, whose corners are its start and its end. All corners are written, and those crossings that
+/// have a flag of `keep`: 0, TL_NAV_CORNER_AREA or TL_NAV_CORNER_CROSSING; a crossing in the place of a corner is one
+/// with it. Heights of crossings are those of the polygons' edges. `*cost_out` (may be NULL) is the whole cost,
+/// infinite where the filter's function says so; whether polygons pass is not asked.
+/// TL_ERR_CAPACITY: only the first were written; count and cost are true. TL_ERR_ARGUMENT: no path: fewer than two
+/// corners, neighbours that are none, a corner in none of the polygons. TL_ERR_NOT_FOUND: a stale reference.
+TL_API tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                       const tl_nav_ref *polygons, uint32_t polygon_count, const tl_nav_corner *corners,
+                                       uint32_t corner_count, uint32_t keep, tl_nav_trace_point *points_out,
+                                       uint32_t capacity, uint32_t *count_out, float *cost_out);
+
 /// The shortest path and its certificate.
 typedef struct tl_nav_shortest_path {
     tl_nav_path_status status;
