@@ -13,6 +13,7 @@
 #include <talus/nav_around.h>
 #include <talus/nav_audit.h>
 #include <talus/nav_build.h>
+#include <talus/nav_corridor.h>
 #include <talus/nav_detour.h>
 #include <talus/nav_links.h>
 #include <talus/nav_obstacles.h>

@@ -15,6 +15,8 @@
 // Source: Mikko Mononen, Simple Stupid Funnel Algorithm, 2010; Lee and Preparata, Euclidean Shortest Paths in the
 // Presence of Rectilinear Barriers, 1984.
 
+#include "nav_query/funnel.h"
+
 #include "base/assert.h"
 #include "nav_query/portal_between.h"
 #include "nav_query/side.h"
@@ -81,6 +83,7 @@ typedef struct funnel {
     wedge_side left, right; // at the apex: open, no portal has narrowed it yet
     uint32_t portal;        // the one to look at
     uint32_t last_portal;   // the end itself
+    bool only_first;        // corners that there is room for are enough
     corner_list list;
 } funnel;
 
@@ -203,9 +206,15 @@ static tl_result pass_ends(funnel *f)
     return TL_OK;
 }
 
+// Whether all corners that are wanted are there: of those that were added only the last one may change still.
+static bool is_enough(const funnel *f)
+{
+    return f->only_first && f->list.count > f->list.capacity;
+}
+
 static tl_result pull(funnel *f)
 {
-    while (f->portal <= f->last_portal) {
+    while (f->portal <= f->last_portal && !is_enough(f)) {
         tl_vec3 left, right;
         TL_TRY(portal_at(f, f->portal, &left, &right));
         if (f->portal == f->last_portal && same_place(f->end, f->apex)) {
@@ -218,8 +227,7 @@ static tl_result pull(funnel *f)
     return TL_OK;
 }
 
-// The two anchors of the link that leads from one polygon of a corridor to the next.
-static tl_result find_link(const tl_navmesh *navmesh, const tl_nav_ref *corridor, tl_vec3 ends_out[2])
+tl_result tl_nav_find_link(const tl_navmesh *navmesh, const tl_nav_ref *corridor, tl_vec3 ends_out[2])
 {
     tl_nav_offmesh_state link;
     TL_TRY(tl_navmesh_offmesh_state(navmesh, corridor[1], &link));
@@ -234,7 +242,7 @@ static tl_result find_link(const tl_navmesh *navmesh, const tl_nav_ref *corridor
 // From link to link, and from the last one to the end. A piece's first corner stays whatever comes.
 static tl_result pull_pieces(funnel *f, const tl_nav_ref *polygons, uint32_t polygon_count, tl_vec3 start, tl_vec3 end)
 {
-    for (uint32_t begin = 0; begin < polygon_count;) {
+    for (uint32_t begin = 0; begin < polygon_count && !is_enough(f);) {
         uint32_t next = begin;
         while (next < polygon_count && !tl_nav_is_offmesh(polygons[next])) {
             next++;
@@ -245,7 +253,7 @@ static tl_result pull_pieces(funnel *f, const tl_nav_ref *polygons, uint32_t pol
             return TL_ERR_ARGUMENT;
         }
         if (!is_last) {
-            TL_TRY(find_link(f->navmesh, &polygons[next - 1], link));
+            TL_TRY(tl_nav_find_link(f->navmesh, &polygons[next - 1], link));
         }
         f->polygons = &polygons[begin];
         f->polygon_count = next - begin;
@@ -267,14 +275,9 @@ static tl_result pull_pieces(funnel *f, const tl_nav_ref *polygons, uint32_t pol
     return TL_OK;
 }
 
-tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
-                                   tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
-                                   uint32_t *count_out, float *length_out)
+static tl_result pull_path(funnel *f, const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
+                           tl_vec3 start, tl_vec3 end, tl_nav_corner *corners, uint32_t capacity)
 {
-    *count_out = 0;
-    if (length_out != NULL) {
-        *length_out = 0.0f;
-    }
     if (polygon_count == 0) {
         return TL_ERR_ARGUMENT;
     }
@@ -287,14 +290,38 @@ tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *
         return TL_ERR_NOT_FOUND;
     }
     bool inside = false;
-    funnel f;
-    memset(&f, 0, sizeof f);
-    f.navmesh = navmesh;
-    f.list.corners = corners_out;
-    f.list.capacity = capacity;
+    f->navmesh = navmesh;
+    f->list.corners = corners;
+    f->list.capacity = capacity;
     tl_vec3 first = tl_nav_clamp_to_polygon(navmesh->slots[slots[0]].tile, ends[0], start, &inside);
     tl_vec3 last = tl_nav_clamp_to_polygon(navmesh->slots[slots[1]].tile, ends[1], end, &inside);
-    TL_TRY(pull_pieces(&f, polygons, polygon_count, first, last));
+    return pull_pieces(f, polygons, polygon_count, first, last);
+}
+
+tl_result tl_nav_first_corners(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
+                               tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
+                               uint32_t *count_out)
+{
+    *count_out = 0;
+    funnel f;
+    memset(&f, 0, sizeof f);
+    f.only_first = true;
+    TL_TRY(pull_path(&f, navmesh, polygons, polygon_count, start, end, corners_out, capacity));
+    *count_out = f.list.count <= capacity ? f.list.count : capacity;
+    return f.list.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}
+
+tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
+                                   tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
+                                   uint32_t *count_out, float *length_out)
+{
+    *count_out = 0;
+    if (length_out != NULL) {
+        *length_out = 0.0f;
+    }
+    funnel f;
+    memset(&f, 0, sizeof f);
+    TL_TRY(pull_path(&f, navmesh, polygons, polygon_count, start, end, corners_out, capacity));
     *count_out = f.list.count;
     if (length_out != NULL) {
         *length_out = (float)f.list.length;
