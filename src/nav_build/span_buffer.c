@@ -4,8 +4,8 @@
 //
 // Recast inserts each span into its column's linked list as it comes: an allocation and a walk per span, and a result
 // that depends on the order of the triangles, since the area of a merged span is decided pair by pair. Here an item is
-// one 64-bit word, a band's items are counting-sorted by column and then by height, and merged by a rule that knows no
-// order:
+// one 64-bit word, written to chunks that never move; a band's items are counting-sorted by column and then by height,
+// and merged by a rule that knows no order:
 //
 //   Spans of a column that touch or overlap become their union. Its area is the largest among those of its parts whose
 //   top lies at most walkable_climb below the top of the union.
@@ -25,68 +25,104 @@
 _Static_assert(sizeof(tl_nav_span) == sizeof(tl_span_item), "spans are written over the items they were made of");
 
 enum {
-    FIRST_ITEMS_PER_COLUMN = 4,
-    // A buffer grows without being reduced up to here: in real levels so many triangles a column are seldom redundant.
-    GROWING_ITEMS_PER_COLUMN = 16,
+    MIN_CHUNK = 64, // items; else one a column of the band, so that little is taken and not used
+    // Items are held without being reduced up to here: in real levels so many triangles a column are seldom redundant.
+    MOST_ITEMS_PER_COLUMN = 16,
     INSERTION_SORT_MAX = 24,
     SORTED_MAX = 10, // items of a column that are sorted rather than drawn
     DRAWN_VOXELS = 4096,
     VOXELS_PER_DRAWN_ITEM = 32 // a drawing's cost is about an item's a machine word
 };
 
-static void release_sorted(tl_span_buffer *buffer)
+struct tl_span_chunk {
+    tl_span_chunk *next;
+    uint32_t count, capacity;
+    tl_span_item items[];
+};
+
+static uint64_t chunk_size(uint32_t capacity)
 {
-    tl_release_array(buffer->allocator, buffer->sorted, buffer->sorted_capacity, sizeof *buffer->sorted);
-    buffer->sorted = NULL;
-    buffer->sorted_capacity = 0;
+    return sizeof(tl_span_chunk) + (uint64_t)capacity * sizeof(tl_span_item);
 }
 
-static tl_result grow(tl_span_buffer *buffer, uint64_t capacity)
+static void free_chunks(tl_span_chunk *chunk, const tl_allocator *allocator)
 {
-    // Positions inside a band are 32 bits wide.
-    if (capacity > UINT32_MAX) {
-        return TL_ERR_LIMIT;
+    while (chunk != NULL) {
+        tl_span_chunk *next = chunk->next;
+        tl_release_array(allocator, chunk, chunk_size(chunk->capacity), 1);
+        chunk = next;
     }
-    release_sorted(buffer); // made anew when it is needed again
-    tl_span_item *items = tl_allocate_array(buffer->allocator, capacity, sizeof *items);
-    if (items == NULL) {
-        return TL_ERR_MEMORY;
+}
+
+// The next chunk to be filled, with room for `count` items.
+static tl_result take_chunk(tl_span_buffer *buffer, uint32_t count)
+{
+    tl_span_chunk *chunk = buffer->spare;
+    if (chunk != NULL && chunk->capacity >= count) {
+        buffer->spare = chunk->next;
+    } else {
+        uint32_t capacity = buffer->column_count > MIN_CHUNK ? buffer->column_count : MIN_CHUNK;
+        capacity = capacity > count ? capacity : count;
+        chunk = tl_allocate_array(buffer->allocator, chunk_size(capacity), 1);
+        if (chunk == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        chunk->capacity = capacity;
     }
-    if (buffer->capacity > 0) {
-        memcpy(items, buffer->items, buffer->count * sizeof *items);
-        tl_release_array(buffer->allocator, buffer->items, buffer->capacity, sizeof *items);
+    if (buffer->used != NULL) {
+        buffer->used->count = buffer->count;
+        buffer->full_count += buffer->count;
     }
-    buffer->items = items;
-    buffer->capacity = capacity;
+    chunk->next = buffer->used;
+    buffer->used = chunk;
+    buffer->items = chunk->items;
+    buffer->count = 0;
+    buffer->capacity = chunk->capacity;
     return TL_OK;
+}
+
+// No chunk is in use any more.
+static void empty(tl_span_buffer *buffer)
+{
+    while (buffer->used != NULL) {
+        tl_span_chunk *chunk = buffer->used;
+        buffer->used = chunk->next;
+        chunk->next = buffer->spare;
+        buffer->spare = chunk;
+    }
+    buffer->count = buffer->capacity = 0;
+    buffer->full_count = 0;
 }
 
 tl_result tl_span_buffer_begin(tl_span_buffer *buffer, uint32_t column_count)
 {
-    TL_ASSERT(column_count <= TL_SPAN_ITEM_MAX_COLUMNS);
-    buffer->count = 0;
+    TL_ASSERT(column_count > 0 && column_count <= TL_SPAN_ITEM_MAX_COLUMNS);
+    empty(buffer);
     buffer->column_count = column_count;
+    buffer->most_items = (uint64_t)column_count * MOST_ITEMS_PER_COLUMN;
     if (buffer->end_capacity < column_count) {
-        tl_release_array(buffer->allocator, buffer->ends, buffer->end_capacity, sizeof *buffer->ends);
+        tl_release_array(buffer->allocator, buffer->column_ends, buffer->end_capacity, sizeof *buffer->column_ends);
         buffer->end_capacity = 0;
-        buffer->ends = tl_allocate_array(buffer->allocator, column_count, sizeof *buffer->ends);
-        if (buffer->ends == NULL) {
+        buffer->column_ends = tl_allocate_array(buffer->allocator, column_count, sizeof *buffer->column_ends);
+        if (buffer->column_ends == NULL) {
             return TL_ERR_MEMORY;
         }
         buffer->end_capacity = column_count;
     }
-    uint64_t wanted = (uint64_t)column_count * FIRST_ITEMS_PER_COLUMN;
-    return buffer->capacity < wanted ? grow(buffer, wanted) : TL_OK;
+    memset(buffer->column_ends, 0, column_count * sizeof *buffer->column_ends);
+    return TL_OK;
 }
 
 void tl_span_buffer_free(tl_span_buffer *buffer)
 {
-    release_sorted(buffer);
-    tl_release_array(buffer->allocator, buffer->items, buffer->capacity, sizeof *buffer->items);
-    tl_release_array(buffer->allocator, buffer->ends, buffer->end_capacity, sizeof *buffer->ends);
-    buffer->items = NULL;
-    buffer->ends = NULL;
-    buffer->count = buffer->capacity = 0;
+    empty(buffer);
+    free_chunks(buffer->spare, buffer->allocator);
+    tl_release_array(buffer->allocator, buffer->sorted, buffer->sorted_capacity, sizeof *buffer->sorted);
+    tl_release_array(buffer->allocator, buffer->column_ends, buffer->end_capacity, sizeof *buffer->column_ends);
+    buffer->spare = NULL;
+    buffer->sorted = NULL;
+    buffer->column_ends = NULL;
+    buffer->sorted_capacity = 0;
     buffer->end_capacity = 0;
 }
 
@@ -159,34 +195,38 @@ static void sort_column(tl_span_item *items, uint32_t count)
     }
 }
 
-// Leaves all items in `sorted`, column by column; ends[c] is where column c ends.
-static tl_result group_by_column(tl_span_buffer *buffer)
+static void scatter(const tl_span_item *items, uint32_t count, uint32_t *ends, tl_span_item *sorted)
 {
-    if (buffer->sorted == NULL || buffer->sorted_capacity < buffer->count) {
-        release_sorted(buffer);
-        buffer->sorted = tl_allocate_array(buffer->allocator, buffer->count, sizeof *buffer->sorted);
-        if (buffer->sorted == NULL) {
-            return TL_ERR_MEMORY;
-        }
-        buffer->sorted_capacity = buffer->count;
-    }
-    uint32_t *ends = buffer->ends;
-    const tl_span_item *items = buffer->items;
-    tl_span_item *sorted = buffer->sorted;
-    const uint32_t count = (uint32_t)buffer->count, column_count = buffer->column_count;
-    memset(ends, 0, column_count * sizeof *ends);
-    for (uint32_t i = 0; i < count; i++) {
-        ends[tl_span_item_column(items[i])]++;
-    }
-    uint32_t position = 0;
-    for (uint32_t c = 0; c < column_count; c++) {
-        uint32_t in_column = ends[c];
-        ends[c] = position;
-        position += in_column;
-    }
     for (uint32_t i = 0; i < count; i++) {
         sorted[ends[tl_span_item_column(items[i])]++] = items[i];
     }
+}
+
+// Leaves all items in `sorted`, column by column; column_ends[c] is where column c ends. No chunk is in use afterwards.
+static tl_result group_by_column(tl_span_buffer *buffer)
+{
+    const uint64_t count = buffer->full_count + buffer->count;
+    if (buffer->sorted == NULL || buffer->sorted_capacity < count) {
+        tl_release_array(buffer->allocator, buffer->sorted, buffer->sorted_capacity, sizeof *buffer->sorted);
+        buffer->sorted_capacity = 0;
+        buffer->sorted = tl_allocate_array(buffer->allocator, count, sizeof *buffer->sorted);
+        if (buffer->sorted == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        buffer->sorted_capacity = count;
+    }
+    uint32_t *ends = buffer->column_ends, position = 0;
+    for (uint32_t c = 0; c < buffer->column_count; c++) {
+        const uint32_t in_column = ends[c];
+        ends[c] = position;
+        position += in_column;
+    }
+    scatter(buffer->items, buffer->count, ends, buffer->sorted);
+    for (const tl_span_chunk *full = buffer->used != NULL ? buffer->used->next : NULL; full != NULL;
+         full = full->next) {
+        scatter(full->items, full->count, ends, buffer->sorted);
+    }
+    empty(buffer);
     return TL_OK;
 }
 
@@ -236,33 +276,37 @@ static uint32_t reduce_union(const tl_span_item *items, uint32_t count, uint32_t
 static tl_result reduce(tl_span_buffer *buffer)
 {
     TL_TRY(group_by_column(buffer));
-    uint64_t kept = 0;
     uint32_t begin = 0;
     for (uint32_t c = 0; c < buffer->column_count; c++) {
-        uint32_t end = buffer->ends[c];
-        sort_column(buffer->sorted + begin, end - begin);
+        const uint32_t end = buffer->column_ends[c], in_column = end - begin;
+        uint32_t kept = 0;
+        sort_column(buffer->sorted + begin, in_column);
+        TL_TRY(buffer->capacity - buffer->count >= in_column ? TL_OK : take_chunk(buffer, in_column));
         while (begin < end) {
             uint32_t max;
-            uint32_t next = union_end(buffer->sorted, begin, end, &max);
-            kept += reduce_union(buffer->sorted + begin, next - begin, max, buffer->items + kept);
+            const uint32_t next = union_end(buffer->sorted, begin, end, &max);
+            kept += reduce_union(buffer->sorted + begin, next - begin, max, buffer->items + buffer->count + kept);
             begin = next;
         }
+        buffer->count += kept;
+        buffer->column_ends[c] = kept;
     }
-    buffer->count = kept;
     return TL_OK;
 }
 
 tl_result tl_span_buffer_make_room(tl_span_buffer *buffer, uint32_t count)
 {
-    uint64_t growing = (uint64_t)buffer->column_count * GROWING_ITEMS_PER_COLUMN;
-    if (buffer->capacity >= growing) {
+    if (buffer->full_count + buffer->count + count > buffer->most_items) {
         TL_TRY(reduce(buffer));
-        if (buffer->count <= buffer->capacity / 2 && buffer->capacity - buffer->count >= count) {
-            return TL_OK;
+        while (2 * (buffer->full_count + buffer->count) + count > buffer->most_items) {
+            buffer->most_items *= 2;
+        }
+        // Positions inside a band are 32 bits wide.
+        if (buffer->most_items > UINT32_MAX) {
+            return TL_ERR_LIMIT;
         }
     }
-    uint64_t doubled = 2 * buffer->capacity, needed = buffer->count + count;
-    return grow(buffer, doubled > needed ? doubled : needed);
+    return buffer->capacity - buffer->count >= count ? TL_OK : take_chunk(buffer, count);
 }
 
 // ---- Merging -----------------------------------------------------------------------------------------------
@@ -367,17 +411,35 @@ static uint32_t merge_column(tl_span_item *items, uint32_t count, uint32_t walka
     return merge_sorted(items, count, walkable_climb, spans);
 }
 
+// The unions of two items, as most columns hold.
+static inline uint32_t merge_two(tl_span_item a, tl_span_item b, uint32_t walkable_climb, tl_nav_span *spans)
+{
+    order(&a, &b);
+    const tl_span_item both[2] = { a, b };
+    const uint32_t max_a = tl_span_item_max(a), max_b = tl_span_item_max(b);
+    if (tl_span_item_min(b) <= max_a) {
+        spans[0] = merge_union(both, 2, max_a > max_b ? max_a : max_b, walkable_climb);
+        return 1;
+    }
+    spans[0] = merge_union(both, 1, max_a, walkable_climb);
+    spans[1] = merge_union(both + 1, 1, max_b, walkable_climb);
+    return 2;
+}
+
 tl_result tl_span_buffer_merge(tl_span_buffer *buffer, uint32_t *first_span_out, const tl_nav_span **spans_out)
 {
     TL_TRY(group_by_column(buffer));
-    // The ungrouped items are no longer needed: the spans take their place.
-    tl_nav_span *spans = (tl_nav_span *)(void *)buffer->items;
+    // No column has more spans than items: spans take the place of items that were read.
+    tl_nav_span *spans = (tl_nav_span *)(void *)buffer->sorted;
     uint32_t span_count = 0, begin = 0;
     for (uint32_t c = 0; c < buffer->column_count; c++) {
-        uint32_t end = buffer->ends[c];
+        const uint32_t end = buffer->column_ends[c];
+        tl_span_item *items = buffer->sorted + begin;
         first_span_out[c] = span_count;
-        if (end > begin) {
-            span_count += merge_column(buffer->sorted + begin, end - begin, buffer->walkable_climb, spans + span_count);
+        if (end - begin == 2) {
+            span_count += merge_two(items[0], items[1], buffer->walkable_climb, spans + span_count);
+        } else if (end > begin) {
+            span_count += merge_column(items, end - begin, buffer->walkable_climb, spans + span_count);
         }
         begin = end;
     }

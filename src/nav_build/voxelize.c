@@ -138,13 +138,25 @@ static bool lies_in_one_layer(double low, double high, uint32_t height_voxels)
 typedef struct walk {
     const tl_voxel_band *band;
     uint32_t area;
-    bool level; ///< all cells have the span [level_min, level_max)
+    bool level;  ///< all cells have the span [level_min, level_max)
+    bool inside; ///< all heights lie inside the field
     uint32_t level_min, level_max;
     double *low, *high;           ///< of the row at hand
     double *next_low, *next_high; ///< of the row after it
     double left, right;           ///< of the piece in the row at hand
     double next_left, next_right;
 } walk;
+
+static const tl_span_item NEXT_COLUMN = (tl_span_item)1 << 40;
+
+// Adds the span of a column, for which there is room, if it is not outside the field.
+static inline void add_heights(const walk *w, double low, double high, uint32_t column)
+{
+    uint32_t min, max;
+    if (span_of_heights(low, high, w->band->height_voxels, &min, &max)) {
+        tl_span_buffer_add(w->band->buffer, tl_span_item_make(column, min, max, w->area));
+    }
+}
 
 static tl_result add_level_row(const walk *w, uint32_t row, int32_t first, int32_t last)
 {
@@ -154,32 +166,56 @@ static tl_result add_level_row(const walk *w, uint32_t row, int32_t first, int32
     const uint32_t column = (row - w->band->first_row) * w->band->width + (uint32_t)first;
     tl_span_item item = tl_span_item_make(column, w->level_min, w->level_max, w->area);
     tl_span_item *items = buffer->items + buffer->count;
-    const tl_span_item next_column = tl_span_item_make(1, 0, 0, 0);
     for (uint32_t i = 0; i < count; i++) {
         items[i] = item;
-        item += next_column;
+        item += NEXT_COLUMN;
     }
-    buffer->count += count;
+    tl_span_buffer_add_run(buffer, column, count);
     return TL_OK;
+}
+
+static inline uint64_t bits_of(double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+// The items of heights that all lie inside the field: what span_of_heights does, without a branch. One that takes no
+// height still has a voxel: its top is at least a subdivision above its bottom.
+static void pack_items(const double *restrict low, const double *restrict high, uint32_t count, tl_span_item item,
+                       tl_span_item *restrict items)
+{
+    const uint64_t min_mask = tl_span_item_make(0, 0xffff, 0, 0), max_mask = tl_span_item_make(0, 0, 0xffff, 0);
+    for (uint32_t i = 0; i < count; i++) {
+        const double bottom = low[i] + WHOLE_ROUNDER, top = max_of(high[i] + WHOLE_ROUNDER, bottom + 1.0);
+        const uint64_t min = bits_of(bottom) << (24 - SUBDIVISION_BITS);
+        const uint64_t max = bits_of(top + (SUBDIVISIONS - 1)) >> (SUBDIVISION_BITS - 8);
+        items[i] = item | (min & min_mask) | (max & max_mask);
+        item += NEXT_COLUMN;
+    }
 }
 
 // Adds the spans that lie in low and high for the cells first..last of a row, and clears those.
 static tl_result add_row(const walk *w, uint32_t row, int32_t first, int32_t last)
 {
     tl_span_buffer *buffer = w->band->buffer;
-    TL_TRY(tl_span_buffer_reserve(buffer, (uint32_t)(last - first + 1)));
-    const uint32_t row_start = (row - w->band->first_row) * w->band->width;
-    double *low = w->low, *high = w->high;
-    tl_span_item *items = buffer->items + buffer->count;
-    for (int32_t i = first; i <= last; i++) {
-        uint32_t min, max;
-        if (span_of_heights(low[i], high[i], w->band->height_voxels, &min, &max)) {
-            *items++ = tl_span_item_make(row_start + (uint32_t)i, min, max, w->area);
+    const uint32_t count = (uint32_t)(last - first + 1);
+    TL_TRY(tl_span_buffer_reserve(buffer, count));
+    const uint32_t column = (row - w->band->first_row) * w->band->width + (uint32_t)first;
+    double *low = w->low + first, *high = w->high + first;
+    if (w->inside) {
+        pack_items(low, high, count, tl_span_item_make(column, 0, 0, w->area), buffer->items + buffer->count);
+        tl_span_buffer_add_run(buffer, column, count);
+    } else {
+        for (uint32_t i = 0; i < count; i++) {
+            add_heights(w, low[i], high[i], column + i);
         }
+    }
+    for (uint32_t i = 0; i < count; i++) {
         low[i] = NO_LOW;
         high[i] = NO_HIGH;
     }
-    buffer->count = (uint64_t)(items - buffer->items);
     return TL_OK;
 }
 
@@ -399,13 +435,11 @@ static tl_result walk_one_column(walk *w, const tl_lattice_point *a, const tl_la
     const tl_voxel_band *band = w->band;
     tl_span_buffer *buffer = band->buffer;
     TL_TRY(tl_span_buffer_reserve(buffer, (uint32_t)(last - first + 1)));
-    tl_span_item *items = buffer->items + buffer->count;
     uint32_t cell = (uint32_t)first * band->width + column;
     if (w->level) {
         for (int32_t i = first; i <= last; i++, cell += band->width) {
-            *items++ = tl_span_item_make(cell, w->level_min, w->level_max, w->area);
+            tl_span_buffer_add(buffer, tl_span_item_make(cell, w->level_min, w->level_max, w->area));
         }
-        buffer->count = (uint64_t)(items - buffer->items);
         return TL_OK;
     }
     const double origin = (double)band->first_row;
@@ -415,10 +449,7 @@ static tl_result walk_one_column(walk *w, const tl_lattice_point *a, const tl_la
     walk_profile(p, q, band->row_count, heights, heights, false);
     walk_profile(q, r, band->row_count, heights, heights, false);
     for (int32_t i = first; i <= last; i++, cell += band->width) {
-        uint32_t min, max;
-        if (span_of_heights(w->low[i], w->high[i], band->height_voxels, &min, &max)) {
-            *items++ = tl_span_item_make(cell, min, max, w->area);
-        }
+        add_heights(w, w->low[i], w->high[i], cell);
         w->low[i] = NO_LOW;
         w->high[i] = NO_HIGH;
     }
@@ -426,7 +457,6 @@ static tl_result walk_one_column(walk *w, const tl_lattice_point *a, const tl_la
         w->low[last + 1] = NO_LOW;
         w->high[last + 1] = NO_HIGH;
     }
-    buffer->count = (uint64_t)(items - buffer->items);
     return TL_OK;
 }
 
@@ -478,7 +508,9 @@ tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_lattice_point a, tl
     b.y *= SUBDIVISIONS;
     c.y *= SUBDIVISIONS;
     const size_t line = band->line;
-    walk w = { band, area, false, 0, 0, band->heights, band->heights + line, NULL, NULL, 0, 0, 0, 0 };
+    const double limit = (double)band->height_voxels * SUBDIVISIONS;
+    const bool inside = min_y >= 0.0 && max_y * SUBDIVISIONS <= limit;
+    walk w = { band, area, false, inside, 0, 0, band->heights, band->heights + line, NULL, NULL, 0, 0, 0, 0 };
     w.next_low = w.high + line;
     w.next_high = w.next_low + line;
     if (lies_in_one_layer(min_y * SUBDIVISIONS, max_y * SUBDIVISIONS, band->height_voxels)) {
@@ -491,8 +523,8 @@ tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_lattice_point a, tl
         return walk_one_row(&w, &a, &b, &c, (uint32_t)first + band->first_row);
     }
     if (is_in_one_cell(min_x, max_x, &cell)) {
-        const bool inside = cell >= 0.0 && cell < (double)band->width;
-        return inside ? walk_one_column(&w, &a, &b, &c, (uint32_t)cell, first, last) : TL_OK;
+        const bool in_field = cell >= 0.0 && cell < (double)band->width;
+        return in_field ? walk_one_column(&w, &a, &b, &c, (uint32_t)cell, first, last) : TL_OK;
     }
     return walk_rows(&w, &a, &b, &c, first + (int32_t)band->first_row, last + (int32_t)band->first_row);
 }
