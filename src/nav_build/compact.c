@@ -46,7 +46,7 @@ static tl_result open_rows(open_job *job, const tl_span_rows *rows, uint32_t beg
     worker->span_count += spans;
     worker->scratch.allocator = job->allocator;
     tl_floors all;
-    TL_TRY(tl_floors_allocate(&all, spans, job->allocator));
+    TL_TRY(tl_floors_allocate(&all, spans + 1, job->allocator));
     tl_result result = tl_open_rows(job->config, rows, begin, end, &worker->scratch, &all,
                                     job->compact->first_span + (size_t)begin * width + 1);
     if (job->task_count == 1) {
@@ -109,7 +109,8 @@ static void free_pieces(open_job *job)
     job->pieces = NULL;
 }
 
-// All pieces in the order of the rows; counts become positions. Each piece is freed when it has been copied.
+// All pieces in the order of the rows; positions in pieces become positions in the field. Each piece is freed when it
+// has been copied.
 static tl_result join_pieces(open_job *job)
 {
     tl_nav_compact *compact = job->compact;
@@ -128,14 +129,18 @@ static tl_result join_pieces(open_job *job)
         return TL_ERR_MEMORY;
     }
     tl_floors all = { compact->floor, compact->clearance, compact->area, 0, compact->span_count };
+    const uint64_t columns = (uint64_t)compact->width * compact->height;
+    const uint64_t columns_per_task = (uint64_t)compact->width * job->rows_per_task;
+    compact->first_span[0] = 0;
     for (uint32_t k = 0; k < job->task_count; k++) {
+        const uint64_t first = k * columns_per_task, left = columns - first;
+        const uint64_t count_of_piece = left < columns_per_task ? left : columns_per_task;
+        uint32_t *ends = compact->first_span + first + 1;
+        for (uint64_t c = 0; c < count_of_piece && k > 0; c++) {
+            ends[c] += all.count;
+        }
         tl_floors_append(&all, &job->pieces[k]);
         tl_floors_release(&job->pieces[k], job->allocator);
-    }
-    const uint64_t columns = (uint64_t)compact->width * compact->height;
-    compact->first_span[0] = 0;
-    for (uint64_t c = 0; c < columns; c++) {
-        compact->first_span[c + 1] += compact->first_span[c];
     }
     return TL_OK;
 }

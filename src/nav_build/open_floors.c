@@ -64,7 +64,7 @@ typedef struct sweep {
     bool low_hanging, low_height;
     tl_open_scratch *scratch;
     tl_floors *floors;
-    uint32_t *counts;
+    uint32_t *ends;
 } sweep;
 
 tl_result tl_floors_allocate(tl_floors *floors, uint32_t capacity, const tl_allocator *allocator)
@@ -210,21 +210,28 @@ static void copy_column(const tl_open_row *row, const block *from, uint32_t from
     }
 }
 
-// What follows from the floors and ceilings of a layer.
+// What follows from the floors and ceilings of a layer. In short loops over constants, which compilers make eight
+// columns wide.
 static void finish_layer(const sweep *s, layer *l)
 {
-    const int16_t room = (int16_t)s->room, climb = (int16_t)s->climb; // both are below 2^15
-    biased least = HIGHEST, greatest = LOWEST;
-    uint8_t any = 0;
+    const biased room = (biased)s->room, climb = (biased)s->climb; // both are below 2^15
+    const biased least_ceiling = (biased)(LOWEST + room), least_step = (biased)(LOWEST + climb);
+    const biased *restrict floors = l->floor, *restrict ceilings = l->ceiling;
+    biased *restrict tops = l->top, *restrict downs = l->down;
     for (uint32_t i = 0; i < STRIDE; i++) {
-        const biased floor = l->floor[i], ceiling = l->ceiling[i];
-        const biased lowered = ceiling >= (biased)(LOWEST + room) ? (biased)(ceiling - room) : LOWEST;
-        const biased top = ceiling == HIGHEST ? HIGHEST : lowered;
-        l->top[i] = top;
-        l->down[i] = floor >= (biased)(LOWEST + climb) ? (biased)(floor - climb) : LOWEST;
-        least = floor < least ? floor : least;
-        greatest = top > greatest ? top : greatest;
+        const biased ceiling = ceilings[i] > least_ceiling ? ceilings[i] : least_ceiling;
+        tops[i] = ceilings[i] == HIGHEST ? HIGHEST : (biased)(ceiling - room);
     }
+    for (uint32_t i = 0; i < STRIDE; i++) {
+        const biased floor = floors[i] > least_step ? floors[i] : least_step;
+        downs[i] = (biased)(floor - climb);
+    }
+    biased least = HIGHEST, greatest = LOWEST;
+    for (uint32_t i = 0; i < STRIDE; i++) {
+        least = floors[i] < least ? floors[i] : least;
+        greatest = tops[i] > greatest ? tops[i] : greatest;
+    }
+    uint8_t any = 0;
     for (uint32_t i = 0; i < STRIDE; i++) {
         any |= l->area[i];
     }
@@ -280,18 +287,27 @@ static void look_at_layer(layer *restrict own, const layer *beside, uint32_t shi
     for (uint32_t i = 0; i < BLOCK; i++) {
         const biased f = floor[i], g = beside_floor[i];
         const biased ceiling = top[i] < beside_top[i] ? top[i] : beside_top[i], bottom = f > g ? f : g;
-        biased reached = ceiling >= bottom ? g : f;
-        reached = beside_down[i] <= f ? reached : f;
+        const biased reached = (ceiling >= bottom) & (beside_down[i] <= f) ? g : f;
         own->lowest[i] = reached < own->lowest[i] ? reached : own->lowest[i];
         own->highest[i] = reached > own->highest[i] ? reached : own->highest[i];
     }
 }
 
-static void look_under(layer *own, const biased *under)
+// The highest floor beside each column from which one falls under the column's neighbours.
+static void join_under(const block *b, const block *above, const block *below, biased *restrict under)
 {
+    const biased *left = b->under, *right = b->under + 2, *up = above->under + 1, *down = below->under + 1;
     for (uint32_t i = 0; i < BLOCK; i++) {
-        const biased floor = own->floor[i + 1], top = own->top[i + 1] < under[i] ? own->top[i + 1] : under[i];
-        own->lowest[i] = top >= floor ? LOWEST : own->lowest[i];
+        const biased along = left[i] > right[i] ? left[i] : right[i], across = up[i] > down[i] ? up[i] : down[i];
+        under[i] = along > across ? along : across;
+    }
+}
+
+static void look_under(layer *restrict own, const biased *restrict under)
+{
+    const biased *restrict floor = own->floor + 1, *restrict top = own->top + 1;
+    for (uint32_t i = 0; i < BLOCK; i++) {
+        own->lowest[i] = (top[i] >= floor[i]) & (under[i] >= floor[i]) ? LOWEST : floor[i];
     }
 }
 
@@ -307,7 +323,6 @@ static void drop_ledges(const sweep *s, layer *l)
 
 static void look_at_block(layer *own, const tl_open_row *row, const block *beside, uint32_t shift)
 {
-    look_under(own, beside->under + shift);
     for (uint32_t k = 0; k < beside->layer_count; k++) {
         const layer *l = &row->layers[beside->first_layer + k];
         if (l->greatest_top >= own->least_floor && own->greatest_top >= l->least_floor) {
@@ -323,12 +338,14 @@ static void filter_ledges(const sweep *s, uint32_t z)
                       *below = &s->scratch->rows[(z + 1) % ROWS];
     for (uint32_t k = 0; k < s->block_count; k++) {
         const block *b = &row->blocks[k];
+        biased under[BLOCK];
+        join_under(b, &above->blocks[k], &below->blocks[k], under);
         for (uint32_t j = 0; j < b->layer_count; j++) {
             layer *l = &row->layers[b->first_layer + j];
             if (!l->has_floors) {
                 continue;
             }
-            memcpy(l->lowest, l->floor + 1, sizeof l->lowest);
+            look_under(l, under);
             memcpy(l->highest, l->floor + 1, sizeof l->highest);
             look_at_block(l, row, b, 0);
             look_at_block(l, row, b, 2);
@@ -341,20 +358,24 @@ static void filter_ledges(const sweep *s, uint32_t z)
 
 // ---- Floors ------------------------------------------------------------------------------------------------
 
-// Appends the floors of a column that are left.
-static inline void append_column(tl_floors *floors, const layer *layers, uint32_t count, uint32_t at)
+// Appends the floors of a block's columns that are left; the next one takes the place of what was written for one that
+// is not.
+static void append_block(tl_floors *floors, const block *b, const layer *layers, uint32_t columns, uint32_t *ends)
 {
-    for (uint32_t k = 0; k < count; k++) {
-        const layer *l = &layers[k];
-        const uint32_t to = floors->count;
-        if (l->area[at] != TL_NAV_NULL_AREA) {
+    uint16_t *restrict floor_out = floors->floor, *restrict clearance_out = floors->clearance;
+    uint8_t *restrict area_out = floors->area;
+    uint32_t to = floors->count;
+    for (uint32_t at = 1; at <= columns; at++) {
+        for (const layer *l = layers; l < layers + b->count[at]; l++) {
             const int32_t floor = l->floor[at], ceiling = l->ceiling[at];
-            floors->floor[to] = (uint16_t)(floor + 0x8000);
-            floors->clearance[to] = (uint16_t)(ceiling == HIGHEST ? 0xffff : ceiling - floor);
-            floors->area[to] = l->area[at];
-            floors->count = to + 1;
+            floor_out[to] = (uint16_t)(floor + 0x8000);
+            clearance_out[to] = (uint16_t)(ceiling == HIGHEST ? 0xffff : ceiling - floor);
+            area_out[to] = l->area[at];
+            to += l->area[at] != TL_NAV_NULL_AREA;
         }
+        ends[at - 1] = to;
     }
+    floors->count = to;
 }
 
 // Beyond the field nothing is known: its rim counts as a ledge.
@@ -382,19 +403,14 @@ static void append_row(sweep *s, uint32_t z)
     }
     for (uint32_t k = 0; k < s->block_count; k++) {
         const block *b = &row->blocks[k];
-        const layer *layers = row->layers + b->first_layer;
         const uint32_t left = width - k * BLOCK, columns = left < BLOCK ? left : BLOCK;
-        for (uint32_t at = 1; at <= columns; at++) {
-            const uint32_t before = s->floors->count;
-            append_column(s->floors, layers, b->count[at], at);
-            s->counts[at - 1] = s->floors->count - before;
-        }
-        s->counts += columns;
+        append_block(s->floors, b, row->layers + b->first_layer, columns, s->ends);
+        s->ends += columns;
     }
 }
 
 tl_result tl_open_rows(const tl_nav_config *config, const tl_span_rows *rows, uint32_t begin, uint32_t end,
-                       tl_open_scratch *scratch, tl_floors *floors, uint32_t *counts_out)
+                       tl_open_scratch *scratch, tl_floors *floors, uint32_t *ends_out)
 {
     sweep s;
     memset(&s, 0, sizeof s);
@@ -407,7 +423,7 @@ tl_result tl_open_rows(const tl_nav_config *config, const tl_span_rows *rows, ui
     s.low_height = config->filter_walkable_low_height_spans;
     s.scratch = scratch;
     s.floors = floors;
-    s.counts = counts_out;
+    s.ends = ends_out;
     const bool ledges = config->filter_ledge_spans;
     const uint32_t first = ledges && begin > 0 ? begin - 1 : begin;
     const uint32_t last = ledges && end < rows->field_height ? end : end - 1;

@@ -38,9 +38,9 @@ typedef struct tl_open_scratch {
 void tl_open_scratch_free(tl_open_scratch *scratch);
 
 /// Applies config's filters to the spans of the rows [begin, end) and appends the floors that are left: `floors` has
-/// room for all spans of those rows, counts_out[column] says how many each column got. Where the ledge filter is on,
-/// `rows` holds one row more on each side that is inside the field; of those only heights matter.
+/// room for all spans of those rows and one more, ends_out[column] is how many there are after each column. Where the
+/// ledge filter is on, `rows` holds one row more on each side that is inside the field; of those only heights matter.
 tl_result tl_open_rows(const tl_nav_config *config, const tl_span_rows *rows, uint32_t begin, uint32_t end,
-                       tl_open_scratch *scratch, tl_floors *floors, uint32_t *counts_out);
+                       tl_open_scratch *scratch, tl_floors *floors, uint32_t *ends_out);
 
 #endif
