@@ -253,7 +253,7 @@ static void piles_stay_small(void **state)
     tl_host host = { &memory.allocator, NULL, NULL };
     TEST_RESULT(tl_nav_rasterize(&config, &mesh, NULL, &host, &pile, NULL), TL_OK);
     TEST_CHECK(test_same_heightfield(&one, &pile));
-    TEST_CHECK(memory.calls < 24);
+    TEST_CHECK(memory.calls < 32); // items are reduced when there are 16 chunks of an item a column
     tl_nav_heightfield_free(&one);
     tl_nav_heightfield_free(&pile);
     TEST_CHECK(memory.live_blocks == 0);

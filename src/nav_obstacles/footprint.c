@@ -9,8 +9,14 @@
 #include "nav_obstacles/footprint.h"
 
 #include "base/host.h"
+#include "math/tolerance.h"
 
 #include <math.h>
+
+/// Corners are floats, each coordinate rounded once, and a difference has two. So the cross product of two differences
+/// is off by at most this share of the largest coordinate times the sum of their components, all without signs. What
+/// is lost in double is far below that.
+#define CORNER_NOISE ((double)TL_FLOAT_GAMMA(2))
 
 // The outline in its own frame: local = turn(world - base). A box is a polygon of four corners.
 typedef struct footprint {
@@ -131,22 +137,32 @@ static bool reaches(const footprint *foot, double world_x, double world_z)
 
 // ---------------------------------------------------------------------------------------------------------
 
+static double largest_coordinate(const footprint *foot)
+{
+    double largest = 0.0;
+    for (uint32_t i = 0; i < foot->count; i++) {
+        largest = fmax(largest, fmax(fabs(foot->x[i]), fabs(foot->z[i])));
+    }
+    return largest;
+}
+
+// A corner may lie beyond another's edge line by rounding alone.
 static bool is_convex(const tl_nav_obstacle *obstacle)
 {
     footprint foot;
     make_outline(obstacle, &foot);
-    double area = twice_area(&foot);
+    const double noise = CORNER_NOISE * largest_coordinate(&foot);
     for (uint32_t i = 0; i < foot.count; i++) {
         uint32_t next = (i + 1) % foot.count;
         double ux = foot.x[next] - foot.x[i], uz = foot.z[next] - foot.z[i];
         for (uint32_t k = 0; k < foot.count; k++) {
-            // A corner may lie on another's edge line by rounding, not beyond it.
-            if (ux * (foot.z[k] - foot.z[i]) - uz * (foot.x[k] - foot.x[i]) < -1e-9 * area) {
+            double vx = foot.x[k] - foot.x[i], vz = foot.z[k] - foot.z[i];
+            if (ux * vz - uz * vx < -noise * (fabs(ux) + fabs(uz) + fabs(vx) + fabs(vz))) {
                 return false;
             }
         }
     }
-    return area > 0.0;
+    return twice_area(&foot) > 0.0;
 }
 
 static tl_result check_prism(const tl_nav_obstacle *obstacle, tl_report *report)
@@ -196,17 +212,16 @@ static void round_outward(double low, double high, float *min, float *max)
     *max = nextafterf((float)high, INFINITY);
 }
 
-tl_aabb tl_obstacle_box(const tl_nav_obstacle *obstacle, float agent_radius, float agent_height)
+static tl_aabb box_of(const footprint *foot)
 {
-    footprint foot = make_footprint(obstacle, agent_radius, agent_height);
-    double grow = foot.grow > 0.0 ? foot.grow : 0.0;
-    double min_x = -foot.radius, max_x = foot.radius, min_z = -foot.radius, max_z = foot.radius;
-    if (!foot.round) {
+    double grow = foot->grow > 0.0 ? foot->grow : 0.0;
+    double min_x = -foot->radius, max_x = foot->radius, min_z = -foot->radius, max_z = foot->radius;
+    if (!foot->round) {
         min_x = min_z = (double)INFINITY;
         max_x = max_z = -(double)INFINITY;
-        for (uint32_t i = 0; i < foot.count; i++) {
-            double x = foot.x[i] * foot.cosine + foot.z[i] * foot.sine;
-            double z = foot.z[i] * foot.cosine - foot.x[i] * foot.sine;
+        for (uint32_t i = 0; i < foot->count; i++) {
+            double x = foot->x[i] * foot->cosine + foot->z[i] * foot->sine;
+            double z = foot->z[i] * foot->cosine - foot->x[i] * foot->sine;
             min_x = x < min_x ? x : min_x;
             max_x = x > max_x ? x : max_x;
             min_z = z < min_z ? z : min_z;
@@ -214,10 +229,16 @@ tl_aabb tl_obstacle_box(const tl_nav_obstacle *obstacle, float agent_radius, flo
         }
     }
     tl_aabb box;
-    round_outward(foot.base_x + min_x - grow, foot.base_x + max_x + grow, &box.min.x, &box.max.x);
-    round_outward(foot.low, foot.high, &box.min.y, &box.max.y);
-    round_outward(foot.base_z + min_z - grow, foot.base_z + max_z + grow, &box.min.z, &box.max.z);
+    round_outward(foot->base_x + min_x - grow, foot->base_x + max_x + grow, &box.min.x, &box.max.x);
+    round_outward(foot->low, foot->high, &box.min.y, &box.max.y);
+    round_outward(foot->base_z + min_z - grow, foot->base_z + max_z + grow, &box.min.z, &box.max.z);
     return box;
+}
+
+tl_aabb tl_obstacle_box(const tl_nav_obstacle *obstacle, float agent_radius, float agent_height)
+{
+    const footprint foot = make_footprint(obstacle, agent_radius, agent_height);
+    return box_of(&foot);
 }
 
 // Columns [*first, *end) of `count` whose centres can lie in [min, max], metres.
@@ -247,8 +268,8 @@ static void mark_column(const footprint *foot, uint8_t area, uint32_t column, tl
 void tl_obstacle_mark(const tl_nav_obstacle *obstacle, float agent_radius, float agent_height, tl_nav_compact *compact)
 {
     const tl_nav_lattice *lattice = &compact->lattice;
-    footprint foot = make_footprint(obstacle, agent_radius, agent_height);
-    tl_aabb box = tl_obstacle_box(obstacle, agent_radius, agent_height);
+    const footprint foot = make_footprint(obstacle, agent_radius, agent_height);
+    const tl_aabb box = box_of(&foot);
     uint32_t first_x, end_x, first_z, end_z;
     column_range(box.min.x, box.max.x, lattice->origin.x, compact->cell_size, lattice->first_x, compact->width,
                  &first_x, &end_x);
