@@ -56,50 +56,93 @@ static tl_aabb triangle_box(const tl_mesh *mesh, uint32_t triangle)
 // Surface of the common box over the surfaces of both boxes; 0.5 for two equal boxes. Flat boxes of zero surface
 // (a triangle is never a line, so its box has surface) do not occur; underflow of tiny ones gives NaN, which sorts
 // last.
-static float link_cost(const tl_mesh *mesh, const link *l)
+static float link_cost(const tl_aabb *boxes, const link *l)
 {
-    tl_aabb first = triangle_box(mesh, l->triangle[0]);
-    tl_aabb second = triangle_box(mesh, l->triangle[1]);
+    tl_aabb first = boxes[l->triangle[0]], second = boxes[l->triangle[1]];
     return tl_aabb_half_area(tl_aabb_union(first, second)) / (tl_aabb_half_area(first) + tl_aabb_half_area(second));
 }
 
-// Every edge of every triangle, sorted by its two vertices: runs of equal keys are triangles around one edge.
+static inline tl_sort_item edge_item(const tl_mesh *mesh, uint32_t edge)
+{
+    uint32_t from = mesh->indices[edge];
+    uint32_t to = mesh->indices[edge % 3 == 2 ? edge - 2 : edge + 1];
+    tl_sort_item item = { from < to ? (uint64_t)from << 32 | to : (uint64_t)to << 32 | from, edge, 0 };
+    return item;
+}
+
+static void add_link(matcher *m, uint32_t first_edge, uint32_t second_edge)
+{
+    link *l = &m->links[m->link_count++];
+    const uint32_t edges[2] = { first_edge, second_edge };
+    for (uint32_t side = 0; side < 2; side++) {
+        l->triangle[side] = edges[side] / 3;
+        l->edge_k[side] = (uint8_t)(edges[side] % 3);
+    }
+}
+
+// Every edge of every triangle, sorted by its two vertices: runs of equal keys are triangles around one edge. The lower
+// vertex has few edges, so one scatter by it leaves little to sort.
 static tl_result find_links(matcher *m, tl_arena *arena)
 {
     uint32_t edge_count = 3 * m->mesh->triangle_count;
     m->links = TL_PUSH(arena, link, edge_count);
-    m->order = TL_PUSH(arena, uint32_t, edge_count);
     tl_arena_mark mark = tl_arena_get_mark(arena);
+    uint32_t *ends = TL_PUSH_ZERO(arena, uint32_t, (uint64_t)m->mesh->vertex_count + 1);
     tl_sort_item *edges = TL_PUSH(arena, tl_sort_item, edge_count);
-    tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, edge_count);
-    if (m->links == NULL || m->order == NULL || edges == NULL || scratch == NULL) {
+    if (m->links == NULL || ends == NULL || edges == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < edge_count; i++) {
-        uint32_t from = m->mesh->indices[i];
-        uint32_t to = m->mesh->indices[i % 3 == 2 ? i - 2 : i + 1];
-        edges[i].key = from < to ? (uint64_t)from << 32 | to : (uint64_t)to << 32 | from;
-        edges[i].value = i;
+        ends[(edge_item(m->mesh, i).key >> 32) + 1]++;
     }
-    tl_radix_sort(edges, scratch, edge_count);
+    uint32_t most = 0;
+    for (uint32_t i = 1; i <= m->mesh->vertex_count; i++) {
+        most = ends[i] > most ? ends[i] : most;
+        ends[i] += ends[i - 1];
+    }
+    tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, most);
+    if (scratch == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    // Each vertex' beginning moves on to its end.
+    for (uint32_t i = 0; i < edge_count; i++) {
+        tl_sort_item item = edge_item(m->mesh, i);
+        edges[ends[item.key >> 32]++] = item;
+    }
     m->link_count = 0;
-    for (uint32_t i = 1; i < edge_count; i++) {
-        if (edges[i].key == edges[i - 1].key) {
-            link *l = &m->links[m->link_count++];
-            for (uint32_t side = 0; side < 2; side++) {
-                uint32_t edge = edges[i - 1 + side].value;
-                l->triangle[side] = edge / 3;
-                l->edge_k[side] = (uint8_t)(edge % 3);
+    for (uint32_t vertex = 0, begin = 0; vertex < m->mesh->vertex_count; begin = ends[vertex++]) {
+        tl_radix_sort(edges + begin, scratch, ends[vertex] - begin);
+        for (uint32_t i = begin + 1; i < ends[vertex]; i++) {
+            if (edges[i].key == edges[i - 1].key) {
+                add_link(m, edges[i - 1].value, edges[i].value);
             }
         }
     }
-    for (uint32_t i = 0; i < m->link_count; i++) {
-        edges[i].key = tl_float_sort_key(link_cost(m->mesh, &m->links[i]));
-        edges[i].value = i;
+    tl_arena_rollback(arena, mark);
+    return TL_OK;
+}
+
+// Links by cost, to seven bits of it: more would cost more time than better pairs gain.
+static tl_result order_links(matcher *m, tl_arena *arena)
+{
+    m->order = TL_PUSH(arena, uint32_t, m->link_count);
+    tl_arena_mark mark = tl_arena_get_mark(arena);
+    tl_aabb *boxes = TL_PUSH(arena, tl_aabb, m->mesh->triangle_count);
+    tl_sort_item *items = TL_PUSH(arena, tl_sort_item, m->link_count);
+    tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, m->link_count);
+    if (m->order == NULL || boxes == NULL || items == NULL || scratch == NULL) {
+        return TL_ERR_MEMORY;
     }
-    tl_radix_sort(edges, scratch, m->link_count);
+    for (uint32_t i = 0; i < m->mesh->triangle_count; i++) {
+        boxes[i] = triangle_box(m->mesh, i);
+    }
     for (uint32_t i = 0; i < m->link_count; i++) {
-        m->order[i] = edges[i].value;
+        items[i].key = tl_float_sort_key(link_cost(boxes, &m->links[i])) >> 16;
+        items[i].value = i;
+    }
+    tl_radix_sort(items, scratch, m->link_count);
+    for (uint32_t i = 0; i < m->link_count; i++) {
+        m->order[i] = items[i].value;
     }
     tl_arena_rollback(arena, mark);
     return TL_OK;
@@ -233,6 +276,7 @@ tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, tl_arena *are
     matcher m = { .mesh = mesh };
     if (allow_pairs) {
         TL_TRY(find_links(&m, arena));
+        TL_TRY(order_links(&m, arena));
         TL_TRY(index_links(&m, arena));
         match_all(&m);
     }

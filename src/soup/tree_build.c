@@ -150,17 +150,6 @@ static void build_subtree(uint32_t index, uint32_t worker, void *user)
     *b->subtrees[index].parent_link = build_range(b, b->subtrees[index].range);
 }
 
-static tl_tree_range make_references(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, tl_tree_ref *refs)
-{
-    tl_tree_range range = { tl_aabb_empty(), 0, pair_count, pair_count, 0 };
-    for (uint32_t i = 0; i < pair_count; i++) {
-        refs[i] = tl_tree_reference(mesh, pairs, i);
-        tl_aabb box = { refs[i].min, refs[i].max };
-        range.box = tl_aabb_union(range.box, box);
-    }
-    return range;
-}
-
 static uint32_t count_references(const tl_tree_node *nodes, uint32_t root)
 {
     uint32_t stack[TL_SOUP_MAX_DEPTH + 1];
@@ -192,8 +181,10 @@ tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair
     if (refs == NULL || b.nodes == NULL || b.subtrees == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_tree_range whole = make_references(mesh, pairs, pair_count, refs);
-    whole.capacity = capacity;
+    for (uint32_t i = 0; i < pair_count; i++) {
+        refs[i] = tl_tree_reference(mesh, pairs, i);
+    }
+    tl_tree_range whole = tl_tree_measure_range(refs, 0, pair_count, capacity, 0);
     b.splitter.mesh = mesh;
     b.splitter.pairs = pairs;
     b.splitter.refs = refs;

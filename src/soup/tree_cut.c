@@ -21,8 +21,10 @@
 // What a wide node costs unvisited, in mean surfaces of a binary leaf.
 #define NODE_PRICE 1.0f
 
-// How one binary node is shared out. Index 0 is for the node as a wide node, index i for up to i children.
+// How one binary node is shared out. Index 0 is for the node as a wide node, index i for up to i children. There are at
+// most as many children as leaves: what lies above is not filled.
 typedef struct tl_tree_plan {
+    uint32_t width; // leaves, 15 at most
     float cost[TL_SOUP_WIDTH];
     uint8_t left[TL_SOUP_WIDTH]; // children that come from the left subtree; 0: it is one child
     uint8_t right[TL_SOUP_WIDTH];
@@ -36,23 +38,41 @@ typedef struct planner {
     float node_price;
 } planner;
 
-// C(n, i), i from 1; a leaf costs nothing here.
-static inline float cost_of(const planner *p, uint32_t node, uint32_t i)
+static inline uint32_t least(uint32_t a, uint32_t b)
 {
-    return p->tree->nodes[node].count > 0 ? 0.0f : p->plans[p->plan_of[node]].cost[i];
+    return a < b ? a : b;
 }
 
-// The best way to get `count` children from both subtrees.
-static float share_out(const planner *p, const tl_tree_node *node, uint32_t count, uint8_t *left_out,
-                       uint8_t *right_out)
+// What a subtree offers its parent: C(n, i), i from 1 to width.
+typedef struct offer {
+    const float *cost;
+    uint32_t width;
+} offer;
+
+static offer offer_of(const planner *p, uint32_t node)
+{
+    // A leaf costs nothing here.
+    static const float leaf[2] = { 0.0f, 0.0f };
+    offer o = { leaf, 1 };
+    if (p->tree->nodes[node].count == 0) {
+        const tl_tree_plan *plan = &p->plans[p->plan_of[node]];
+        o.cost = plan->cost;
+        o.width = plan->width;
+    }
+    return o;
+}
+
+// The best way to get up to `count` children from both subtrees, which have that many.
+static float share_out(offer left, offer right, uint32_t count, uint8_t *left_out, uint8_t *right_out)
 {
     float best = FLT_MAX;
-    for (uint32_t left = 1; left < count; left++) {
-        float cost = cost_of(p, node->left, left) + cost_of(p, node->right, count - left);
+    uint32_t end = least(left.width, count - 1);
+    for (uint32_t i = count > right.width ? count - right.width : 1; i <= end; i++) {
+        float cost = left.cost[i] + right.cost[count - i];
         if (cost < best) {
             best = cost;
-            *left_out = (uint8_t)left;
-            *right_out = (uint8_t)(count - left);
+            *left_out = (uint8_t)i;
+            *right_out = (uint8_t)(count - i);
         }
     }
     return best;
@@ -68,13 +88,16 @@ static void plan_node(planner *p, uint32_t index)
     plan_node(p, node->right);
     p->plan_of[index] = p->plan_count;
     tl_tree_plan *plan = &p->plans[p->plan_count++];
-    float below = share_out(p, node, TL_SOUP_WIDTH, &plan->left[0], &plan->right[0]);
+    offer left = offer_of(p, node->left), right = offer_of(p, node->right);
+    uint32_t leaves = left.width + right.width;
+    plan->width = least(leaves, TL_SOUP_WIDTH - 1);
+    float below = share_out(left, right, least(leaves, TL_SOUP_WIDTH), &plan->left[0], &plan->right[0]);
     plan->cost[0] = below;
     plan->cost[1] = tl_aabb_half_area(node->box) + p->node_price + below;
     plan->left[1] = 0;
     plan->right[1] = 0;
-    for (uint32_t i = 2; i < TL_SOUP_WIDTH; i++) {
-        plan->cost[i] = share_out(p, node, i, &plan->left[i], &plan->right[i]);
+    for (uint32_t i = 2; i <= plan->width; i++) {
+        plan->cost[i] = share_out(left, right, i, &plan->left[i], &plan->right[i]);
         if (plan->cost[i] >= plan->cost[i - 1]) {
             plan->cost[i] = plan->cost[i - 1];
             plan->left[i] = plan->left[i - 1];
@@ -125,6 +148,7 @@ static void collect(const tl_tree_cut *cut, uint32_t index, uint32_t room, uint3
     const tl_tree_node *node = &cut->tree->nodes[index];
     if (node->count == 0) {
         const tl_tree_plan *plan = &cut->plans[cut->plan_of[index]];
+        room = least(room, plan->width);
         if (plan->left[room] > 0) {
             collect(cut, node->left, plan->left[room], children, count);
             collect(cut, node->right, plan->right[room], children, count);

