@@ -72,7 +72,7 @@ static void within_error(void **state)
                         double z = low[2] + (double)(high[2] - low[2]) * m / steps;
                         int32_t fallback = (int32_t)(low[1] + (int64_t)(high[1] - low[1]) * m / steps);
                         int32_t floor_y = tl_detail_floor_at(&floors, (int64_t)floor(x) + compact.border_size,
-                                                             (int64_t)floor(z) + compact.border_size, fallback);
+                                                             (int64_t)floor(z) + compact.border_size, false, fallback);
                         double line = last_y + (double)(y - last_y) * (m - last_step) / (step - last_step);
                         TEST_CHECK(fabs(line - floor_y) <= work.max_error + 1e-9);
                         TEST_CHECK(m < step || y == floor_y);

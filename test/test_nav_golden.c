@@ -100,7 +100,7 @@ static void built_in_levels(void **state)
         const char *name;
         uint64_t hash;
     } golden[] = { { "courtyard", 0x169e20c7d23686ff },
-                   { "dungeon", 0xa260d28f0a4acaad },
+                   { "dungeon", 0x730af8b47efc841a },
                    { "terrain", 0x1f5bc1f4a2b6d8d1 },
                    { "city", 0x7a9ce523b58b41a5 } };
     const tl_tasks two = { run_on_two_threads, 2, NULL };

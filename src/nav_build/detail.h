@@ -36,6 +36,9 @@ typedef struct tl_detail_floors {
     const tl_nav_compact *compact;
     uint32_t region; ///< of the polygon; 0: none was found, heights are the fallback
     uint32_t reach;  ///< columns: how far to look for a floor of the region
+    bool several;    ///< the polygon lies on other regions too
+    uint32_t anchor; ///< the region's floor nearest to the polygon's middle, or TL_NAV_NO_SPAN
+    int64_t anchor_x, anchor_z;
 } tl_detail_floors;
 
 /// The floors of a polygon of `region` within bounds of columns, border included. For a polygon of several regions (0)
@@ -43,8 +46,10 @@ typedef struct tl_detail_floors {
 tl_detail_floors tl_detail_floors_make(const tl_nav_compact *compact, uint32_t region, uint32_t reach, int64_t x,
                                        int64_t z, int32_t height);
 
-/// The floor's height in a column: that of the region, or of what one walks on from there to the column.
-int32_t tl_detail_floor_at(const tl_detail_floors *floors, int64_t x, int64_t z, int32_t fallback);
+/// The floor's height in a column: that of the region, or of what one walks on from there to the column. `inner`: the
+/// column lies well inside the polygon, so that a floor of its region is one of its storey. `expected`: the answer
+/// where there is no floor at all, and what decides between two storeys.
+int32_t tl_detail_floor_at(const tl_detail_floors *floors, int64_t x, int64_t z, bool inner, int32_t expected);
 
 // ---------------------------------------------------------------------------------------------------------
 // Edges: detail_edges.c

@@ -73,7 +73,7 @@ static void sample_heights(const tl_detail_floors *floors, const int32_t *low, c
         int64_t x = low[0] * one + dx * k * (one / steps), z = low[2] * one + dz * k * (one / steps);
         int32_t straight = (int32_t)(low[1] + dy * k / steps);
         heights[k] = tl_detail_floor_at(floors, (x >> TL_DETAIL_FRACTION_BITS) + border,
-                                        (z >> TL_DETAIL_FRACTION_BITS) + border, straight);
+                                        (z >> TL_DETAIL_FRACTION_BITS) + border, false, straight);
     }
 }
 

@@ -6,10 +6,18 @@
 // the polygon overhangs its region there, by the simplification of its outline: the nearest floor of the region is
 // looked for ring by ring, and from it one walks over linked floors towards the column. So the height is always one
 // that can be walked to from the region, never that of a floor above or below.
+//
+// But a region may climb a stair and come back over the floors beside it. Beyond the polygon's outline a column may so
+// hold the region's floor of another storey. Where a column has several floors one therefore walks to it from the
+// polygon's middle, straight, inside the polygon; what is reached is of its storey. The same where the walk from the
+// nearest floor of the region ended before the column: that floor may be of another storey too.
 // Idea: Mononen, Recast (heights flooded from the region). Why it is faster: Recast copies and floods the whole
 // bounding box of each polygon; here only columns that are sampled are looked at, one of some tens.
 
 #include "nav_build/detail.h"
+
+// Columns, squared: as far as an outline is moved from its region by the usual edge_max_error, rounded up.
+#define BESIDE_SQ 8
 
 typedef struct column_range {
     uint32_t begin, end;
@@ -108,19 +116,75 @@ static uint32_t walk_on(const tl_nav_compact *compact, found_floor from, int64_t
     return first.span;
 }
 
-int32_t tl_detail_floor_at(const tl_detail_floors *floors, int64_t x, int64_t z, int32_t fallback)
+// Walks over links straight towards a column, as a line is drawn, around where a link is missing.
+static void walk_straight(const tl_nav_compact *compact, found_floor *at, int64_t x, int64_t z)
+{
+    const int64_t length_x = x > at->x ? x - at->x : at->x - x, length_z = z > at->z ? z - at->z : at->z - z;
+    while (at->x != x || at->z != z) {
+        const int64_t dx = x - at->x, dz = z - at->z, step_x = (dx > 0) - (dx < 0), step_z = (dz > 0) - (dz < 0);
+        // The axis along which more of its own way is left; the other one when there is no link.
+        const bool along_x = dz == 0 || (dx != 0 && step_x * dx * length_z >= step_z * dz * length_x);
+        const int64_t before_x = at->x, before_z = at->z;
+        walk_towards(compact, at, before_x + (along_x ? step_x : 0), before_z + (along_x ? 0 : step_z), along_x);
+        if (at->x == before_x && at->z == before_z) {
+            walk_towards(compact, at, before_x + (along_x ? 0 : step_x), before_z + (along_x ? step_z : 0), !along_x);
+        }
+        if (at->x == before_x && at->z == before_z) {
+            break;
+        }
+    }
+    at->distance_sq = (x - at->x) * (x - at->x) + (z - at->z) * (z - at->z);
+}
+
+// Whether a column holds this floor and no other.
+static bool is_only_floor(const tl_nav_compact *compact, int64_t x, int64_t z, uint32_t span)
+{
+    if (x < 0 || z < 0 || x >= (int64_t)compact->width || z >= (int64_t)compact->height) {
+        return false;
+    }
+    const column_range range = column_at(compact, x, z);
+    return range.end - range.begin == 1 && range.begin == span;
+}
+
+// Whether one walks from a floor straight to the polygon's middle.
+static bool leads_to_middle(const tl_detail_floors *floors, uint32_t span, int64_t x, int64_t z)
+{
+    found_floor at = { span, x, z, 0 };
+    walk_straight(floors->compact, &at, floors->anchor_x, floors->anchor_z);
+    return at.span == floors->anchor;
+}
+
+// The floor to which one walks from the polygon's middle. Where something is in the way just before the column: the
+// floor before it, or the other one that was found, whichever is nearer to the height that is expected.
+static uint32_t walk_from_middle(const tl_detail_floors *floors, int64_t x, int64_t z, uint32_t other, int32_t expected)
+{
+    const uint16_t *floor = floors->compact->floor;
+    found_floor walked = { floors->anchor, floors->anchor_x, floors->anchor_z, 0 };
+    walk_straight(floors->compact, &walked, x, z);
+    const int32_t off_walked = (int32_t)floor[walked.span] - expected, off_other = (int32_t)floor[other] - expected;
+    const bool nearer = (off_walked < 0 ? -off_walked : off_walked) < (off_other < 0 ? -off_other : off_other);
+    return walked.distance_sq == 0 || (walked.distance_sq <= BESIDE_SQ && nearer) ? walked.span : other;
+}
+
+int32_t tl_detail_floor_at(const tl_detail_floors *floors, int64_t x, int64_t z, bool inner, int32_t expected)
 {
     const tl_nav_compact *compact = floors->compact;
     if (floors->region == 0) {
-        return fallback;
+        return expected;
     }
     uint32_t span = floor_of_region(compact, floors->region, x, z);
-    if (span == TL_NAV_NO_SPAN) {
+    const bool own = span != TL_NAV_NO_SPAN;
+    if (!own) {
         found_floor nearest = find_nearest(floors, x, z);
         if (nearest.span == TL_NAV_NO_SPAN) {
-            return fallback;
+            return expected;
         }
         span = walk_on(compact, nearest, x, z);
+    }
+    const bool sure =
+        (own && inner && !floors->several) || is_only_floor(compact, x, z, span) || floors->anchor == TL_NAV_NO_SPAN;
+    if (!sure && !(own && leads_to_middle(floors, span, x, z))) {
+        span = walk_from_middle(floors, x, z, span, expected);
     }
     return compact->floor[span];
 }
@@ -147,7 +211,7 @@ static uint32_t region_near(const tl_nav_compact *compact, int64_t x, int64_t z,
 tl_detail_floors tl_detail_floors_make(const tl_nav_compact *compact, uint32_t region, uint32_t reach, int64_t x,
                                        int64_t z, int32_t height)
 {
-    tl_detail_floors floors = { compact, region, reach };
+    tl_detail_floors floors = { compact, region, reach, region == TL_SEVERAL_REGIONS, TL_NAV_NO_SPAN, x, z };
     for (int64_t r = 0; floors.region == TL_SEVERAL_REGIONS && r <= (int64_t)reach; r++) {
         for (int64_t dz = -r; floors.region == TL_SEVERAL_REGIONS && dz <= r; dz++) {
             int64_t step = dz == -r || dz == r ? 1 : 2 * r; // the ring only
@@ -155,6 +219,13 @@ tl_detail_floors tl_detail_floors_make(const tl_nav_compact *compact, uint32_t r
                 floors.region = region_near(compact, x + dx, z + dz, height);
             }
         }
+    }
+    floors.anchor = floor_of_region(compact, floors.region, x, z);
+    if (floors.anchor == TL_NAV_NO_SPAN) {
+        const found_floor nearest = find_nearest(&floors, x, z);
+        floors.anchor = nearest.span;
+        floors.anchor_x = nearest.x;
+        floors.anchor_z = nearest.z;
     }
     return floors;
 }

@@ -84,7 +84,7 @@ uint32_t tl_detail_sample_inside(const tl_detail_work *work, uint32_t polygon, t
             tl_detail_point *s = &samples[count++];
             s->x = (int32_t)(x - e.min_x) * TL_DETAIL_ONE + TL_DETAIL_ONE / 2;
             s->z = (int32_t)(z - e.min_z) * TL_DETAIL_ONE + TL_DETAIL_ONE / 2;
-            s->y = tl_detail_floor_at(&floors, x + border, z + border, fallback);
+            s->y = tl_detail_floor_at(&floors, x + border, z + border, true, fallback);
         }
     }
     (void)capacity;
