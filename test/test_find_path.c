@@ -524,7 +524,7 @@ static void test_memory(void **state)
         TEST_CHECK(query == NULL && failing.live_blocks == 0);
         failures++;
     }
-    TEST_CHECK(failures == 8);
+    TEST_CHECK(failures == 9);
 }
 
 int main(void)

@@ -234,7 +234,7 @@ static double oracle(graph *g, const tl_nav_location *start, const tl_nav_locati
 }
 
 typedef struct tally {
-    uint64_t pairs, complete, unreachable, straight, turning, edge_starts;
+    uint64_t pairs, complete, unreachable, straight, turning, edge_starts, prepared;
 } tally;
 
 // The path that is found is one: corners follow one another in sight, and their lengths sum up.
@@ -330,16 +330,23 @@ static tl_nav_location pick(const graph *g, test_random *random, tally *t)
     return location;
 }
 
-static void check_level(const tl_navmesh *navmesh, uint32_t pairs, uint64_t seed, tally *t)
+// By the search over polygons, then by the one over roads.
+static void check_level(tl_navmesh *navmesh, uint32_t pairs, uint64_t seed, tally *t)
 {
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     graph g = make_graph(navmesh);
-    test_random random = { seed };
-    for (uint32_t i = 0; i < pairs; i++) {
-        tl_nav_location start = pick(&g, &random, t), goal = pick(&g, &random, t);
-        check_pair(&g, query, &start, &goal, t);
+    for (uint32_t prepared = 0; prepared < 2; prepared++) {
+        test_random random = { seed };
+        if (prepared == 1) {
+            TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+            t->prepared += tl_navmesh_is_prepared(navmesh);
+        }
+        for (uint32_t i = 0; i < pairs; i++) {
+            tl_nav_location start = pick(&g, &random, t), goal = pick(&g, &random, t);
+            check_pair(&g, query, &start, &goal, t);
+        }
     }
     free_graph(&g);
     tl_nav_query_free(query);
@@ -363,7 +370,7 @@ static void test_fixtures(void **state)
 {
     (void)state;
     test_random random = { 71 };
-    tally t = { 0, 0, 0, 0, 0, 0 };
+    tally t = { 0, 0, 0, 0, 0, 0, 0 };
     uint64_t stacked = 0, tiled = 0;
     for (uint32_t round = 0; round < 24; round++) {
         fixture_level level = fixture_random(&random, round % 6, 8);
@@ -406,7 +413,7 @@ static void test_baked(void **state)
     (void)state;
     static test_level level;
     test_level_make(&level, tl_vec3_make(3.3f, 0, -7.7f));
-    tally t = { 0, 0, 0, 0, 0, 0 };
+    tally t = { 0, 0, 0, 0, 0, 0, 0 };
     for (uint32_t tile_size = 0; tile_size <= 24; tile_size += 12) {
         tl_navmesh *navmesh = bake(&level.mesh, 0.3f, tile_size);
         check_level(navmesh, 2 * g_pairs, 7, &t);
@@ -428,7 +435,7 @@ static void test_data_levels(void **state)
         }
         tl_mesh_view view = tl_imported_mesh_as_view(&mesh);
         for (uint32_t tile_size = 0; tile_size <= 48; tile_size += 48) {
-            tally t = { 0, 0, 0, 0, 0, 0 };
+            tally t = { 0, 0, 0, 0, 0, 0, 0 };
             tl_navmesh *navmesh = bake(&view, 0.3f, tile_size);
             check_level(navmesh, g_pairs, 9, &t);
             printf("%s, tiles of %u: %llu pairs equal the oracle, %llu without a path\n", names[i], tile_size,

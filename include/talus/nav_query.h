@@ -94,6 +94,18 @@ TL_API tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_
 /// stale reference. O(1); O(log tiles) where tiles or links came in last.
 TL_API tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *island_out);
 
+/// Makes path searches in large worlds fast: finds all straight ways ("roads") between vertices at which shortest paths
+/// turn.
+///
+/// Answers stay the same. Roads serve where all polygons pass and cost the same, while there are no off-mesh links, and
+/// until a tile or link is added or removed; then searches are as before until this is called again. Where floors fork
+/// at a seam (a polygon is linked to two others over the same stretch) there are none. O(what all such vertices see):
+/// 0.6 s and 15 MB for a city of 26,000 polygons, 1 ms for a level of 200. Changes the navmesh: no query may run
+/// meanwhile. On failure nothing is changed: TL_ERR_MEMORY, TL_ERR_LIMIT.
+TL_API tl_result tl_navmesh_prepare(tl_navmesh *navmesh);
+/// Whether searches use roads now.
+TL_API bool tl_navmesh_is_prepared(const tl_navmesh *navmesh);
+
 // ---------------------------------------------------------------------------------------------------------
 // Off-mesh links: ways that lead over no polygon. Jumps, drops, ladders, doors, lifts, teleporters.
 

@@ -14,12 +14,9 @@
 
 #include "math/tolerance.h"
 
-// More polygons around a vertex than any bake makes. Beyond it the fan counts as one to turn at.
-enum { MAX_FAN = 64 };
-
 typedef struct fan {
-    tl_nav_ring_edge *members[MAX_FAN];
-    tl_nav_ring_walls *walls[MAX_FAN]; // of the members
+    tl_nav_ring_edge *members[TL_NAV_MAX_FAN];
+    tl_nav_ring_walls *walls[TL_NAV_MAX_FAN]; // of the members
     uint32_t count;
     double x, z;             // the vertex
     double first_x, first_z; // along the first edge
@@ -90,9 +87,9 @@ static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, fan *f)
         f->walls[f->count++] = walls_of(navmesh, at);
         uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;
         widen(f, &ring[before]);
-        f->is_odd =
-            f->is_odd || f->count == MAX_FAN || forks_at(&navmesh->slots[at.slot].rings, ring, count, f->x, f->z);
-        if (f->count == MAX_FAN || !tl_nav_ring_is_open(&ring[before])) {
+        f->is_odd = f->is_odd || f->count == TL_NAV_MAX_FAN ||
+                    forks_at(&navmesh->slots[at.slot].rings, ring, count, f->x, f->z);
+        if (f->count == TL_NAV_MAX_FAN || !tl_nav_ring_is_open(&ring[before])) {
             return true;
         }
         at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, ring, count, before);
@@ -122,7 +119,7 @@ static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
 bool tl_nav_find_fan(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ring_place *at)
 {
     const tl_nav_ring_place from = *at;
-    for (uint32_t i = 0; i < MAX_FAN; i++) {
+    for (uint32_t i = 0; i < TL_NAV_MAX_FAN; i++) {
         uint32_t count = 0;
         const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, at->slot, at->polygon, &count);
         if (!tl_nav_ring_is_open(&ring[at->edge])) {

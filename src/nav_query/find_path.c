@@ -18,6 +18,7 @@
 #include "nav_query/navmesh.h"
 #include "nav_query/node_pool.h"
 #include "nav_query/path_run.h"
+#include "nav_query/roads.h"
 #include "nav_query/surface.h"
 
 #include <string.h>
@@ -323,14 +324,15 @@ static void note_exact_end(tl_nav_path_run *run, tl_nav_search_end end)
     }
 }
 
-tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                           const tl_nav_location *start, const tl_nav_location *goal, tl_nav_path_run *run)
+static tl_result set_up(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                        const tl_nav_location *start, const tl_nav_location *goal, tl_nav_path_run *run,
+                        bool *is_uniform_out)
 {
     float least = 1.0f;
-    bool is_uniform = true;
+    *is_uniform_out = true;
     run->stage = TL_NAV_RUN_NONE;
     TL_TRY(tl_nav_prepare_shortest(query, navmesh, filter, start, goal, &run->exact));
-    if (filter != NULL && !tl_nav_filter_costs(filter, &least, &is_uniform)) {
+    if (filter != NULL && !tl_nav_filter_costs(filter, &least, is_uniform_out)) {
         return TL_ERR_ARGUMENT;
     }
     tl_nav_way_search ways = {
@@ -342,6 +344,11 @@ tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const
     run->goal = *goal;
     run->status = TL_NAV_PATH_UNFINISHED;
     run->edits = navmesh->edit.number;
+    return TL_OK;
+}
+
+static void begin_run(tl_nav_path_run *run, bool is_uniform)
+{
     if (tl_nav_is_cut_off(&run->exact)) {
         run->stage = TL_NAV_RUN_CUT_OFF;
         run->status = TL_NAV_PATH_UNREACHABLE;
@@ -351,6 +358,14 @@ tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const
     } else {
         begin_by_ways(run);
     }
+}
+
+tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                           const tl_nav_location *start, const tl_nav_location *goal, tl_nav_path_run *run)
+{
+    bool is_uniform = true;
+    TL_TRY(set_up(query, navmesh, filter, start, goal, run, &is_uniform));
+    begin_run(run, is_uniform);
     return TL_OK;
 }
 
@@ -364,6 +379,25 @@ void tl_nav_run_step(tl_nav_path_run *run, uint64_t *steps)
     }
 }
 
+// The path over roads, where there are any.
+static bool find_over_roads(tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
+{
+    const tl_nav_roads *roads = tl_nav_roads_for(&run->exact);
+    const tl_nav_path_room room = { NULL, 0, polygons_out, capacity };
+    tl_nav_shortest_path path;
+    memset(&path, 0, sizeof path);
+    if (roads == NULL || !tl_nav_search_roads(&run->exact, roads) ||
+        !tl_nav_write_roads(&run->exact, roads, &room, &path)) {
+        return false;
+    }
+    path_out->status = TL_NAV_PATH_COMPLETE;
+    path_out->end = run->goal;
+    path_out->cost = run->ways.least_cost * (float)path.length;
+    path_out->node_count = path.node_count;
+    path_out->polygon_count = path.polygon_count;
+    return true;
+}
+
 tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                  const tl_nav_location *start, const tl_nav_location *goal, tl_nav_ref *polygons_out,
                                  uint32_t capacity, tl_nav_path *path_out)
@@ -371,7 +405,12 @@ tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh,
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
     tl_nav_path_run run;
-    TL_TRY(tl_nav_run_begin(query, navmesh, filter, start, goal, &run));
+    bool is_uniform = true;
+    TL_TRY(set_up(query, navmesh, filter, start, goal, &run, &is_uniform));
+    if (is_uniform && !tl_nav_is_cut_off(&run.exact) && find_over_roads(&run, polygons_out, capacity, path_out)) {
+        return path_out->polygon_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    }
+    begin_run(&run, is_uniform);
     uint64_t steps = UINT64_MAX;
     tl_nav_run_step(&run, &steps);
     return tl_nav_run_write(&run, polygons_out, capacity, path_out);

@@ -41,6 +41,8 @@ typedef struct tl_nav_slot {
     uint64_t *areas; ///< of the tile's polygons, summed up (area_table.h)
 } tl_nav_slot;
 
+typedef struct tl_nav_roads tl_nav_roads; // roads.h
+
 /// A node of the union-find over the tiles' components (islands.c).
 typedef struct tl_nav_island {
     uint32_t parent; ///< itself: the node names an island
@@ -63,9 +65,10 @@ struct tl_navmesh {
     tl_nav_island *shores;  ///< over seams alone; the same nodes
     uint32_t island_count, island_capacity;
     tl_nav_offmesh_table offmesh;
-    uint32_t last_fan;  ///< the last number that fans.c gave
-    uint64_t all_flags; ///< that every polygon of every tile so far has
-    uint64_t any_flags; ///< that some polygon of some tile so far has
+    tl_nav_roads *roads; ///< NULL, or of the edit that they tell (roads.c)
+    uint32_t last_fan;   ///< the last number that fans.c gave
+    uint64_t all_flags;  ///< that every polygon of every tile so far has
+    uint64_t any_flags;  ///< that some polygon of some tile so far has
     // Of all tiles; valid while tile_count > 0.
     tl_vec3 origin;
     float cell_size, cell_height;

@@ -51,6 +51,7 @@ tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_
     // At most one new root a wedge: the table stays half empty.
     query->root_mask = 2 * query->bucket_count - 1;
     query->wedges = tl_allocate_array(def->allocator, query->max_nodes, sizeof *query->wedges);
+    query->stops = tl_allocate_array(def->allocator, query->max_nodes, sizeof *query->stops);
     query->wedge_heap = tl_allocate_array(def->allocator, query->max_nodes, sizeof *query->wedge_heap);
     query->roots = tl_allocate_array(def->allocator, (uint64_t)query->root_mask + 1, sizeof *query->roots);
     query->run = tl_allocate_array(def->allocator, 1, sizeof *query->run);
@@ -74,6 +75,7 @@ void tl_nav_query_free(tl_nav_query *query)
     tl_allocator allocator = query->allocator;
     tl_release_array(&allocator, query->nodes, query->max_nodes, sizeof *query->nodes);
     tl_release_array(&allocator, query->heap, query->max_nodes, sizeof *query->heap);
+    tl_release_array(&allocator, query->stops, query->max_nodes, sizeof *query->stops);
     tl_release_array(&allocator, query->wedges, query->max_nodes, sizeof *query->wedges);
     tl_release_array(&allocator, query->wedge_heap, query->max_nodes, sizeof *query->wedge_heap);
     tl_release_array(&allocator, query->roots, (uint64_t)query->root_mask + 1, sizeof *query->roots);

@@ -33,19 +33,36 @@ typedef struct tl_nav_heap_entry {
     uint32_t wedge;
 } tl_nav_heap_entry;
 
+/// A bend that a search over roads has come to (road_search.c).
+typedef struct tl_nav_stop {
+    double cost;    ///< metres from the start
+    double to_goal; ///< metres straight to the goal, where that may be seen; < 0: it is not
+    float total;    ///< cost and guess
+    float guess;    ///< metres to the goal, at least; < 0: not asked for yet
+    uint32_t bend;
+    uint32_t parent; ///< stop; TL_NAV_NO_NODE: the start
+    bool is_start;   ///< not the bend's own: whether the start sees it is not known yet
+    bool is_guessed; ///< landmarks were asked
+} tl_nav_stop;
+
 /// A vertex where an exact search has turned (root_table.h).
 typedef struct tl_nav_root {
     uint64_t number;
     uint32_t generation; ///< of the search that wrote the entry
-    float cost;          ///< metres from the start
+    union {
+        float cost;    ///< metres from the start
+        uint32_t stop; ///< of a bend
+    };
 } tl_nav_root;
 
 struct tl_nav_query {
     tl_allocator allocator;
-    tl_nav_wedge *wedges;          ///< [max_nodes]
-    tl_nav_heap_entry *wedge_heap; ///< [max_nodes]
-    tl_nav_root *roots;            ///< [root_mask + 1], more than wedges
+    tl_nav_wedge *wedges; ///< [max_nodes]
+    uint64_t *wedge_heap; ///< [max_nodes] (wedge_heap.h)
+    tl_nav_stop *stops;   ///< [max_nodes]
+    tl_nav_root *roots;   ///< [root_mask + 1], more than wedges
     uint32_t root_mask;
+    uint32_t stop_count;
     uint32_t wedge_count, open_count; ///< of wedges, and of entries of wedge_heap
     uint32_t generation;
     tl_nav_node *nodes;

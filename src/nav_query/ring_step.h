@@ -7,6 +7,9 @@
 
 #include "nav_query/navmesh.h"
 
+/// More polygons around a vertex than any bake makes.
+enum { TL_NAV_MAX_FAN = 64 };
+
 /// An edge of a polygon's ring.
 typedef struct tl_nav_ring_place {
     uint32_t slot, polygon;

@@ -4,6 +4,7 @@
 
 #include "nav_query/filter.h"
 #include "nav_query/ring_step.h"
+#include "nav_query/roads.h"
 #include "nav_query/shortest_search.h"
 #include "nav_query/surface.h"
 
@@ -214,6 +215,13 @@ bool tl_nav_is_cut_off(const tl_nav_shortest_search *search)
            tl_nav_island_of(search->navmesh, search->goal_slot, search->goal_polygon);
 }
 
+static tl_result fits(const tl_nav_shortest_path *path, uint32_t corner_capacity, uint32_t polygon_capacity)
+{
+    bool all = (corner_capacity == 0 || path->corner_count <= corner_capacity) &&
+               (polygon_capacity == 0 || path->polygon_count <= polygon_capacity);
+    return all ? TL_OK : TL_ERR_CAPACITY;
+}
+
 tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                           const tl_nav_location *start, const tl_nav_location *goal,
                                           tl_nav_corner *corners_out, uint32_t corner_capacity,
@@ -227,6 +235,12 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
     if (result != TL_OK || tl_nav_is_cut_off(&search)) {
         return result;
     }
+    const tl_nav_roads *roads = tl_nav_roads_for(&search);
+    const tl_nav_path_room room = { corners_out, corner_capacity, polygons_out, polygon_capacity };
+    if (roads != NULL && tl_nav_search_roads(&search, roads) && tl_nav_write_roads(&search, roads, &room, path_out)) {
+        return fits(path_out, corner_capacity, polygon_capacity);
+    }
+    path_out->status = TL_NAV_PATH_UNREACHABLE;
     tl_nav_search_end end = tl_nav_search_shortest(&search);
     path_out->node_count = query->wedge_count;
     if (end != TL_NAV_SEARCH_FOUND) {
@@ -237,7 +251,5 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
     write_corners(&search, corners_out, corner_capacity, path_out);
     path_out->polygon_count = tl_nav_write_wedges(&search, polygons_out, polygon_capacity);
     path_out->lower_bound = fmin(search.lower_bound, path_out->length);
-    bool fits = (corner_capacity == 0 || path_out->corner_count <= corner_capacity) &&
-                (polygon_capacity == 0 || path_out->polygon_count <= polygon_capacity);
-    return fits ? TL_OK : TL_ERR_CAPACITY;
+    return fits(path_out, corner_capacity, polygon_capacity);
 }

@@ -25,6 +25,8 @@
 
 #include "nav_query/wedge_links.h"
 
+#include <string.h>
+
 // What a step goes on from.
 typedef struct step_from {
     uint32_t wedge; // that is taken up
@@ -36,7 +38,8 @@ typedef struct step_from {
 // The least length of a path through a wedge.
 static float total_of(const wedge_search *s, const tl_nav_wedge *wedge, const seen_edge *edge)
 {
-    double rest = estimate(s, wedge->root_x, wedge->root_z, edge, wedge->left, wedge->right);
+    tl_nav_direction goal = { s->goal_x - (double)wedge->root_x, s->goal_z - (double)wedge->root_z };
+    double rest = least_through(edge, wedge->left, wedge->right, goal);
     return (float)(wedge->cost + (rest < s->detour ? rest : s->detour));
 }
 
@@ -63,6 +66,9 @@ static void add_wedge(wedge_search *s, const step_from *from, uint32_t i, float 
     wedge->polygon = twin.polygon;
     wedge->edge = twin.edge;
     wedge->parent = from->wedge;
+    if (s->sight != NULL) {
+        return;
+    }
     if (s->only == TL_NAV_NO_NODE && s->best == TL_NAV_NO_NODE) {
         s->only = index;
         s->only_edge = *edge;
@@ -134,12 +140,23 @@ static bool may_turn_on(wedge_search *s, const step_from *from, uint32_t vertex,
            tl_nav_root_is_first(s->query, TURNING_NUMBER | corner_number(s, from->slot, from->polygon, vertex), cost);
 }
 
+static void note_bend(const wedge_search *s, uint64_t turn)
+{
+    if (turn != 0) {
+        s->sight->note(s->sight->user, (uint32_t)turn);
+    }
+}
+
 // Turns at a vertex of edge i into the polygon behind. `to_vertex` leads there from the root.
 static void turn_into(wedge_search *s, const step_from *from, uint32_t i, uint32_t vertex, double cost,
                       tl_nav_direction to_vertex)
 {
     const tl_nav_direction open = { 0.0, 0.0 };
     uint64_t turn = turn_of(s, from, vertex);
+    if (s->sight != NULL) {
+        note_bend(s, turn);
+        return;
+    }
     cost += length_of(to_vertex);
     if (turn != 0 && tl_nav_root_improves(s->query, turn, cost)) {
         float x = from->ring[vertex].x;
@@ -167,22 +184,12 @@ static void add_edge_on(wedge_search *s, const step_from *from, uint32_t i, floa
     turn_into(s, from, i, next, cost, edge->left);
 }
 
-// Whether a path that comes along `limit` to a vertex has its walls on one hand, so that a shortest one may turn to
-// that hand there. Directions of walls are floats.
+// Whether a path that comes along `limit` to a vertex may turn there to one hand.
 static bool has_walls_on(const wedge_search *s, const step_from *from, uint32_t vertex, tl_nav_direction limit,
                          int hand)
 {
     const tl_nav_rings *rings = &s->navmesh->slots[from->slot].rings;
-    const tl_nav_ring_walls *walls = &rings->walls[rings->cells[from->polygon].first + vertex];
-    const float ends[2][2] = { { walls->first_x, walls->first_z }, { walls->last_x, walls->last_z } };
-    for (int i = 0; i < 2; i++) {
-        tl_nav_direction wall = { (double)ends[i][0], (double)ends[i][1] };
-        double size = fabs(limit.x) + fabs(limit.z) + fabs(wall.x) + fabs(wall.z);
-        if (hand * cross(limit, wall) > 2.0 * s->rounding * size) {
-            return false;
-        }
-    }
-    return true;
+    return may_turn(&rings->walls[rings->cells[from->polygon].first + vertex], limit, hand, s->rounding);
 }
 
 // The edges that are reached by turning at a vertex of the edge of entry: `hand` is 1 for the left one, -1 for the
@@ -195,6 +202,10 @@ static void turn_at(wedge_search *s, const step_from *from, const tl_nav_wedge *
     tl_nav_direction limit = hand > 0 ? wedge->left : wedge->right;
     uint64_t turn = turn_of(s, from, vertex);
     if (turn == 0 || (s->in->filter == NULL && !has_walls_on(s, from, vertex, limit, hand))) {
+        return;
+    }
+    if (s->sight != NULL) {
+        note_bend(s, turn);
         return;
     }
     float x = from->ring[vertex].x;
@@ -425,9 +436,9 @@ static uint32_t next_wedge(wedge_search *s, float *total_out)
             return TL_NAV_NO_NODE;
         }
         next = tl_nav_wedge_pop(query);
-    } else if (query->open_count > 0 && tl_nav_wedge_before(query->wedge_heap[0], next)) {
-        tl_nav_heap_entry top = query->wedge_heap[0];
-        tl_nav_wedge_sink(query, next);
+    } else if (query->open_count > 0 && query->wedge_heap[0] < tl_nav_heap_key(next.total, next.wedge)) {
+        tl_nav_heap_entry top = tl_nav_heap_entry_of(query->wedge_heap[0]);
+        tl_nav_wedge_sink(query, tl_nav_heap_key(next.total, next.wedge));
         next = top;
     }
     s->best = TL_NAV_NO_NODE;
@@ -523,9 +534,10 @@ static wedge_search take_up(tl_nav_shortest_search *search)
                        search->only,
                        { search->only_right, search->only_left },
                        search->best,
-                       search->best_total };
+                       search->best_total,
+                       NULL };
     double start_size = largest_of((double)search->start.x, (double)search->start.z);
-    s.rounding = EDGE_ON_ERROR * largest_of(start_size, largest_of(s.goal_x, s.goal_z));
+    s.rounding = TL_NAV_ON_LINE * largest_of(start_size, largest_of(s.goal_x, s.goal_z));
     s.detour = shortest_detour(&s);
     return s;
 }
@@ -539,6 +551,18 @@ static void lay_down(const wedge_search *s, tl_nav_shortest_search *search)
     search->best_total = s->best_total;
 }
 
+// The wedge of the start's polygon. There is always room for the first.
+static uint32_t add_start(wedge_search *s)
+{
+    const tl_nav_shortest_search *in = s->in;
+    tl_nav_wedge start = { { 0.0, 0.0 },      { 0.0, 0.0 },       0.0,
+                           in->start.x,       in->start.z,        in->start_slot,
+                           in->start_polygon, TL_NAV_WEDGE_HOLDS, TL_NAV_NO_NODE };
+    uint32_t first = new_wedge(s);
+    s->query->wedges[first] = start;
+    return first;
+}
+
 tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search)
 {
     tl_nav_query *query = search->query;
@@ -548,12 +572,7 @@ tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search)
     search->only = TL_NAV_NO_NODE;
     search->best = TL_NAV_NO_NODE;
     wedge_search s = take_up(search);
-    tl_nav_wedge start = { { 0.0, 0.0 },          { 0.0, 0.0 },       0.0,
-                           search->start.x,       search->start.z,    search->start_slot,
-                           search->start_polygon, TL_NAV_WEDGE_HOLDS, TL_NAV_NO_NODE };
-    uint32_t first = new_wedge(&s);
-    query->wedges[first] = start;
-    search->last = look_around(&s, first);
+    search->last = look_around(&s, add_start(&s));
     lay_down(&s, search);
     if (search->last != TL_NAV_NO_NODE) {
         search->lower_bound = tl_nav_shortest_length(search);
@@ -575,4 +594,27 @@ tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
     uint64_t steps = UINT64_MAX;
     tl_nav_search_end end = tl_nav_begin_shortest(search);
     return end == TL_NAV_SEARCH_PAUSED ? tl_nav_step_shortest(search, &steps) : end;
+}
+
+bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight)
+{
+    wedge_search s;
+    memset(&s, 0, sizeof s);
+    s.in = from;
+    s.query = from->query;
+    s.navmesh = from->navmesh;
+    s.trouble = TL_NAV_SEARCH_FOUND;
+    s.sight = sight;
+    s.detour = (double)INFINITY;
+    s.rounding = TL_NAV_ON_LINE * largest_of((double)from->start.x, (double)from->start.z);
+    from->goal_slot = TL_NAV_NO_SLOT; // no polygon ends it
+    s.query->wedge_count = 0;
+    tl_nav_next_generation(s.query);
+    look_around(&s, add_start(&s));
+    for (uint32_t i = 0; i < s.query->wedge_count && s.trouble == TL_NAV_SEARCH_FOUND; i++) {
+        if (s.query->wedges[i].edge < TL_NAV_WEDGE_LANDS) {
+            expand(&s, i);
+        }
+    }
+    return s.trouble == TL_NAV_SEARCH_FOUND;
 }

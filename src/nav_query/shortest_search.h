@@ -64,6 +64,16 @@ tl_nav_search_end tl_nav_step_shortest(tl_nav_shortest_search *search, uint64_t 
 /// Both, to the end.
 tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search);
 
+/// Who wants to know what can be seen from a point.
+typedef struct tl_nav_sight {
+    void (*note)(void *user, uint32_t turn); ///< a vertex is seen at which a path that comes straight to it may turn
+    void *user;
+} tl_nav_sight;
+
+/// Looks from the start of `from` all around, as far as walls let; of its other members query and navmesh count, and
+/// the filter is NULL. Afterwards the query's wedges hold the polygons that are seen. False: out of nodes.
+bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight);
+
 /// Fills in what a search needs from a caller's words: points are moved onto their polygons. Errors as those of
 /// tl_nav_query_find_shortest_path.
 tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,

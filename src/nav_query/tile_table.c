@@ -9,6 +9,7 @@
 #include "base/assert.h"
 #include "base/hash.h"
 #include "nav_query/area_table.h"
+#include "nav_query/roads.h"
 
 #include <string.h>
 
@@ -75,6 +76,7 @@ void tl_navmesh_free(tl_navmesh *navmesh)
     tl_nav_free_offmesh(navmesh);
     tl_release_array(&allocator, navmesh->area_table, (uint64_t)navmesh->slot_capacity + 1,
                      sizeof *navmesh->area_table);
+    tl_nav_free_roads(&allocator, navmesh->roads);
     tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
 }
 

@@ -85,6 +85,9 @@ static inline void cross_links(wedge_search *s, uint32_t index)
     const tl_navmesh *navmesh = s->navmesh;
     uint32_t slot = s->query->wedges[index].slot;
     uint32_t polygon = s->query->wedges[index].polygon;
+    if (s->sight != NULL) {
+        return;
+    }
     for (uint32_t end = tl_nav_first_anchor(navmesh, slot, polygon); end != TL_NAV_NO_END;) {
         const tl_nav_offmesh_entry *link = &navmesh->offmesh.entries[end / 2];
         const tl_nav_anchor *from = &link->ends[end % 2];

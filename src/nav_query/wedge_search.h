@@ -12,10 +12,6 @@
 #include "nav_query/wedge_heap.h"
 #include "nav_query/wedge_sight.h"
 
-// A vertex counts as on a line when it is no farther from it than rounding its coordinates to float may have moved the
-// three points, as a share of the largest coordinate.
-#define EDGE_ON_ERROR ((double)TL_FLOAT_GAMMA(6))
-
 typedef struct wedge_search {
     tl_nav_shortest_search *in;
     tl_nav_query *query;
@@ -29,35 +25,15 @@ typedef struct wedge_search {
     seen_edge only_edge;       // that it looks through
     uint32_t best;             // the best of several, kept out of the heap
     float best_total;
+    const tl_nav_sight *sight; // NULL: a search; else all that is seen from the start is looked for, and no turn taken
 } wedge_search;
-
-// Metres from the root through the part of the edge between two directions to the goal, at least.
-static inline double estimate(const wedge_search *s, float root_x, float root_z, const seen_edge *edge,
-                              tl_nav_direction left, tl_nav_direction right)
-{
-    tl_nav_direction goal = { s->goal_x - (double)root_x, s->goal_z - (double)root_z };
-    tl_nav_direction along = { edge->left.x - edge->right.x, edge->left.z - edge->right.z };
-    tl_nav_direction from_edge = { goal.x - edge->right.x, goal.z - edge->right.z };
-    double beyond = cross(along, from_edge); // > 0: on the far side, right of the edge from its right end to its left
-    if (beyond < 0.0) {
-        double scale = 2.0 * beyond / (along.x * along.x + along.z * along.z);
-        goal.x += scale * along.z;
-        goal.z -= scale * along.x;
-    }
-    bool is_left_of = cross(left, goal) < 0.0;
-    if (!is_left_of && !(cross(right, goal) > 0.0)) {
-        return length_of(goal);
-    }
-    tl_nav_direction limit = is_left_of ? left : right;
-    tl_nav_direction vertex = is_left_of ? edge->left : edge->right;
-    tl_nav_direction via = limit.x == vertex.x && limit.z == vertex.z ? vertex : meet(limit, edge->right, edge->left);
-    tl_nav_direction rest = { goal.x - via.x, goal.z - via.z };
-    return length_of(via) + length_of(rest);
-}
 
 static inline bool may_enter(const wedge_search *s, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_shortest_search *in = s->in;
+    if (s->sight != NULL) {
+        return true;
+    }
     uint32_t dead_end = s->navmesh->slots[slot].rings.cells[polygon].dead_end;
     if (dead_end != 0 && !(slot == in->goal_slot && dead_end == s->dead_ends[0]) &&
         !(slot == in->start_slot && dead_end == s->dead_ends[1]) && s->navmesh->slots[slot].anchor_count == 0) {

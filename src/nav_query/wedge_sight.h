@@ -12,6 +12,10 @@
 
 #include <math.h>
 
+// A vertex counts as on a line when it is no farther from it than rounding its coordinates to float may have moved the
+// three points, as a share of the largest coordinate.
+#define TL_NAV_ON_LINE ((double)TL_FLOAT_GAMMA(6))
+
 // An edge as it is seen from a root: its ends relative to it.
 typedef struct seen_edge {
     tl_nav_direction right, left;
@@ -49,6 +53,40 @@ static inline tl_nav_direction meet(tl_nav_direction d, tl_nav_direction a, tl_n
     double t = across != 0.0 ? cross(a, e) / across : 0.0;
     tl_nav_direction point = { t * d.x, t * d.z };
     return point;
+}
+
+// Metres from the root through the part of the edge between two directions to the goal, at least.
+static inline double least_through(const seen_edge *edge, tl_nav_direction left, tl_nav_direction right,
+                                   tl_nav_direction goal)
+{
+    tl_nav_direction along = { edge->left.x - edge->right.x, edge->left.z - edge->right.z };
+    tl_nav_direction from_edge = { goal.x - edge->right.x, goal.z - edge->right.z };
+    double beyond = cross(along, from_edge); // > 0: on the far side, right of the edge from its right end to its left
+    if (beyond < 0.0) {
+        double scale = 2.0 * beyond / (along.x * along.x + along.z * along.z);
+        goal.x += scale * along.z;
+        goal.z -= scale * along.x;
+    }
+    bool is_left_of = cross(left, goal) < 0.0;
+    if (!is_left_of && !(cross(right, goal) > 0.0)) {
+        return length_of(goal);
+    }
+    tl_nav_direction limit = is_left_of ? left : right;
+    tl_nav_direction vertex = is_left_of ? edge->left : edge->right;
+    tl_nav_direction via = limit.x == vertex.x && limit.z == vertex.z ? vertex : meet(limit, edge->right, edge->left);
+    tl_nav_direction rest = { goal.x - via.x, goal.z - via.z };
+    return length_of(via) + length_of(rest);
+}
+
+// Whether a path that comes along `d` to a vertex has its walls on one hand (1 left, -1 right), so that a shortest one
+// may turn to that hand there. Directions of walls are floats. `rounding`: TL_NAV_ON_LINE times the largest coordinate.
+static inline bool may_turn(const tl_nav_ring_walls *walls, tl_nav_direction d, int hand, double rounding)
+{
+    const tl_nav_direction first = { (double)walls->first_x, (double)walls->first_z };
+    const tl_nav_direction last = { (double)walls->last_x, (double)walls->last_z };
+    double size = fabs(d.x) + fabs(d.z);
+    return hand * cross(d, first) <= 2.0 * rounding * (size + fabs(first.x) + fabs(first.z)) &&
+           hand * cross(d, last) <= 2.0 * rounding * (size + fabs(last.x) + fabs(last.z));
 }
 
 // A vertex as a wedge sees it.

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+//
+// Prepared navmeshes: the same lengths as without roads, whatever tiles and links come and go; memory.
+// That these are the shortest of all is tested beside the search over polygons (test_shortest_path.c).
+
+#include "nav_fixture.h"
+
+#include <math.h>
+
+static tl_nav_query *make_query(uint32_t max_nodes)
+{
+    tl_nav_query_def def = tl_default_nav_query_def();
+    tl_nav_query *query = NULL;
+    def.max_nodes = max_nodes;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    return query;
+}
+
+// Random pairs on two navmeshes of the same tiles; returns how many had a path that turns.
+static uint32_t compare(const tl_navmesh *prepared, const tl_navmesh *plain, test_random *random, uint32_t pairs)
+{
+    tl_nav_query *query = make_query(4096);
+    fixture_refs all = fixture_all_refs(plain);
+    uint32_t turning = 0;
+    for (uint32_t i = 0; i < pairs && all.count > 0; i++) {
+        tl_nav_location start = fixture_random_location(plain, &all, random);
+        tl_nav_location goal = fixture_random_location(plain, &all, random);
+        tl_nav_shortest_path a, b;
+        tl_nav_path path;
+        tl_nav_ref polygons[512];
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, prepared, NULL, &start, &goal, NULL, 0, NULL, 0, &a), TL_OK);
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, plain, NULL, &start, &goal, NULL, 0, NULL, 0, &b), TL_OK);
+        TEST_RESULT(tl_nav_query_find_path(query, prepared, NULL, &start, &goal, polygons, 512, &path), TL_OK);
+        TEST_CHECK(a.status == b.status && path.status == a.status);
+        TEST_CHECK(fabs(a.length - b.length) <= 1e-5 * (1.0 + b.length));
+        if (a.status == TL_NAV_PATH_COMPLETE) {
+            TEST_CHECK(fabs((double)path.cost - b.length) <= 1e-5 * (1.0 + b.length));
+            TEST_CHECK(polygons[0] == start.polygon && polygons[path.polygon_count - 1] == goal.polygon);
+            TEST_CHECK(a.lower_bound <= a.length && a.lower_bound >= a.length * (1.0 - 1e-5) - 1e-5);
+        }
+        turning += a.status == TL_NAV_PATH_COMPLETE && a.corner_count > 2;
+    }
+    free(all.refs);
+    tl_nav_query_free(query);
+    return turning;
+}
+
+// Each edit ends the roads, and preparing brings them back.
+static void test_edits(void **state)
+{
+    (void)state;
+    test_random random = { 5 };
+    uint32_t turning = 0;
+    for (uint32_t round = 0; round < 12; round++) {
+        fixture_level level = fixture_random(&random, round % 6, 9);
+        level.tile_cells = 3;
+        tl_navmesh *navmesh = fixture_build(&level, NULL), *twin = fixture_build(&level, NULL);
+        for (uint32_t edit = 0; edit < 8; edit++) {
+            int32_t x = (int32_t)test_random_below(&random, 3), z = (int32_t)test_random_below(&random, 3);
+            TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+            turning += compare(navmesh, twin, &random, 12);
+            bool was_prepared = tl_navmesh_is_prepared(navmesh);
+            TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+            TEST_CHECK(tl_navmesh_is_prepared(navmesh) == was_prepared);
+            if (tl_navmesh_remove_tile(navmesh, x, z) == TL_OK) {
+                TEST_RESULT(tl_navmesh_remove_tile(twin, x, z), TL_OK);
+            } else {
+                tl_nav_tile *tile = fixture_build_tile(&level, x, z, NULL);
+                tl_nav_tile *copy = fixture_build_tile(&level, x, z, NULL);
+                if (tile == NULL) {
+                    continue;
+                }
+                TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+                TEST_RESULT(tl_navmesh_add_tile(twin, copy, TL_NAV_TILE_OWNED), TL_OK);
+            }
+            TEST_CHECK(!tl_navmesh_is_prepared(navmesh));
+            turning += compare(navmesh, twin, &random, 4);
+        }
+        tl_navmesh_free(navmesh);
+        tl_navmesh_free(twin);
+    }
+    TEST_CHECK(turning > 300);
+}
+
+// Too few nodes for the roads, and for the polygons too.
+static void test_nodes(void **state)
+{
+    (void)state;
+    test_random random = { 6 };
+    fixture_level level = fixture_random(&random, 4, 12);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+    TEST_CHECK(tl_navmesh_is_prepared(navmesh));
+    fixture_refs all = fixture_all_refs(navmesh);
+    tl_nav_query *large = make_query(4096);
+    uint32_t gave_up = 0, complete = 0;
+    for (uint32_t max_nodes = 2; max_nodes < 60; max_nodes++) {
+        tl_nav_query *small = make_query(max_nodes);
+        tl_nav_location start = fixture_random_location(navmesh, &all, &random);
+        tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
+        tl_nav_shortest_path found, expected;
+        TEST_RESULT(tl_nav_query_find_shortest_path(small, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &found),
+                    TL_OK);
+        TEST_RESULT(tl_nav_query_find_shortest_path(large, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &expected),
+                    TL_OK);
+        TEST_CHECK(found.node_count <= max_nodes);
+        TEST_CHECK(found.status == expected.status || found.status == TL_NAV_PATH_OUT_OF_NODES);
+        TEST_CHECK(found.status != TL_NAV_PATH_COMPLETE || fabs(found.length - expected.length) < 1e-4);
+        gave_up += found.status == TL_NAV_PATH_OUT_OF_NODES;
+        complete += found.status == TL_NAV_PATH_COMPLETE;
+        tl_nav_query_free(small);
+    }
+    TEST_CHECK(gave_up > 3 && complete > 20);
+    tl_nav_query_free(large);
+    free(all.refs);
+    tl_navmesh_free(navmesh);
+}
+
+// A link is a way that roads do not know.
+static void test_links(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "0#0", "0#0", "000" };
+    fixture_level level = fixture_make(rows, 3);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    tl_nav_query *query = make_query(1000);
+    tl_nav_location start, goal;
+    tl_vec3 near_by = tl_vec3_make(0.5f, 1.0f, 0.5f);
+    TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+    TEST_CHECK(tl_navmesh_is_prepared(navmesh));
+    TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2, 0, 2), near_by, &start), TL_OK);
+    TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(10, 0, 2), near_by, &goal), TL_OK);
+    tl_nav_offmesh link;
+    memset(&link, 0, sizeof link);
+    link = tl_default_nav_offmesh();
+    link.start = tl_vec3_make(3.5f, 0, 2);
+    link.end = tl_vec3_make(8.5f, 0, 2);
+    tl_nav_ref added = TL_NAV_NO_REF;
+    tl_nav_shortest_path path;
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path), TL_OK);
+    TEST_CHECK(path.length > 12.0);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &link, &added), TL_OK);
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path), TL_OK);
+    TEST_CHECK(path.length < 9.0);
+    TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, added), TL_OK);
+    TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path), TL_OK);
+    TEST_CHECK(path.length > 12.0);
+    tl_nav_query_free(query);
+    tl_navmesh_free(navmesh);
+}
+
+static void test_memory(void **state)
+{
+    (void)state;
+    test_random random = { 7 };
+    fixture_level level = fixture_random(&random, 1, 8);
+    level.tile_cells = 4;
+    test_allocator failing;
+    test_allocator_init(&failing, 0);
+    tl_navmesh *navmesh = fixture_build(&level, &failing.allocator);
+    uint64_t before = failing.live_blocks, failures = 0;
+    tl_result result = TL_ERR_MEMORY;
+    for (uint64_t k = 1; result != TL_OK; k++) {
+        failing.calls = 0;
+        failing.fail_at = k;
+        result = tl_navmesh_prepare(navmesh);
+        TEST_CHECK(result == TL_OK || (result == TL_ERR_MEMORY && failing.live_blocks == before));
+        TEST_CHECK(tl_navmesh_is_prepared(navmesh) == (result == TL_OK));
+        failures += result != TL_OK;
+    }
+    TEST_CHECK(failures > 20);
+    failing.fail_at = 0;
+    tl_navmesh_free(navmesh);
+    TEST_CHECK(failing.live_blocks == 0);
+    // Nothing to prepare.
+    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+    TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+    tl_navmesh_free(navmesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_edits),
+        cmocka_unit_test(test_nodes),
+        cmocka_unit_test(test_links),
+        cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
