@@ -24,6 +24,7 @@ struct level {
     std::string name;
     float cell_size;
     float max_slope; // degrees
+    float margin;    // metres by which the bounds are wider than the mesh on x and z
     std::vector<tl_vec3> vertices;
     std::vector<uint32_t> indices;
 
@@ -38,6 +39,10 @@ struct level {
         for (uint32_t i : indices) {
             box = tl_aabb_add_point(box, vertices[i]);
         }
+        box.min.x -= margin;
+        box.min.z -= margin;
+        box.max.x += margin;
+        box.max.z += margin;
         return box;
     }
 };
@@ -50,6 +55,7 @@ inline level copy_level(const std::string &name, float cell_size, const tl_mesh_
     return { name,
              wanted_cell_size > 0.0f ? wanted_cell_size : cell_size,
              45.0f,
+             0.0f,
              { view.vertices, view.vertices + view.vertex_count },
              { view.indices, view.indices + 3 * (size_t)view.triangle_count } };
 }
@@ -84,6 +90,9 @@ inline std::vector<level> all_levels(uint32_t most_triangles, const std::vector<
             samples[i].default_triangles < most_triangles ? samples[i].default_triangles : most_triangles;
         TEST_RESULT(tl_sample_build_level(&samples[i], triangles, 1, &mesh), TL_OK);
         levels.push_back(copy_level(samples[i].name, 0.25f, tl_sample_mesh_as_view(&mesh)));
+        // They are modelled in decimetres. Half of one aside no wall lies on a line between cells, where the noise of
+        // Recast's lattice decides to which side it goes.
+        levels.back().margin = wanted_cell_size > 0.0f ? 0.05f : 0.0f;
         tl_sample_mesh_free(&mesh);
     }
     for (const std::string &name : files) {
