@@ -34,7 +34,7 @@ enum {
     STAGE_COUNT
 };
 
-enum { MOST_PATH_BYTES = 4096 };
+enum { MOST_PATH_BYTES = 4096, OVERVIEW_COLUMNS = 4 };
 
 typedef struct draw_settings {
     tl_bake_settings bake;
@@ -46,7 +46,8 @@ typedef struct draw_settings {
     uint32_t depth;
     uint32_t contour; // UINT32_MAX: one worth a look
     uint32_t set;
-    bool all; // what of it FILE can show
+    bool all;      // what of it FILE can show
+    bool overview; // all in one picture
     bool stages[STAGE_COUNT];
     uint32_t stage_count;
     bool has_ends;
@@ -74,7 +75,7 @@ static bool choose_stages(tl_cli *cli, draw_settings *settings, tl_exit *exit_ou
 {
     const char *text = settings->stages_text;
     if (text == NULL) {
-        text = settings->has_ends ? "path" : "polygons";
+        text = settings->overview ? "all" : settings->has_ends ? "path" : "polygons";
     }
     for (const char *word = text; *word != '\0';) {
         size_t length = strcspn(word, ",");
@@ -322,13 +323,66 @@ static bool draw_one(draw_source *source, const draw_settings *settings, int sta
     return true;
 }
 
+static bool add_to_overview(draw_source *source, const draw_settings *settings, int stage, draw_overview *overview,
+                            tl_exit *exit_out)
+{
+    draw_scene scene;
+    bool done = make_scene(source, settings, stage, &scene, exit_out);
+    if (done) {
+        const draw_options options = { settings->view != 2, settings->view == 2, settings->size / 2 };
+        tl_io_error error;
+        memset(&error, 0, sizeof error);
+        done = draw_overview_add(overview, &scene, &options, settings->output, &source->cli->host, &error) == TL_OK;
+        if (!done) {
+            *exit_out = tl_cli_fail_io(source->cli, &error);
+        }
+    }
+    draw_scene_free(&scene);
+    return done;
+}
+
+// The stages that are a scene each, in one picture; the steps of a contour are sheets of their own.
+static bool draw_all_in_one(draw_source *source, const draw_settings *settings, json_t *list, tl_exit *exit_out)
+{
+    draw_overview overview;
+    memset(&overview, 0, sizeof overview);
+    bool going = true;
+    for (int stage = 0; going && stage < STAGE_COUNT; stage++) {
+        const bool steps = stage == STAGE_TRIANGULATION || stage == STAGE_MERGING;
+        if (settings->stages[stage] && !steps && is_drawable(source, stage)) {
+            going = add_to_overview(source, settings, stage, &overview, exit_out);
+        }
+    }
+    tl_io_error error;
+    memset(&error, 0, sizeof error);
+    if (going && overview.count == 0) {
+        *exit_out = tl_cli_fail(source->cli, TL_EXIT_USAGE, "--overview: none of these stages has a place in it");
+        going = false;
+    } else if (going && draw_overview_write(&overview, OVERVIEW_COLUMNS, settings->output, &error) != TL_OK) {
+        *exit_out = tl_cli_fail_io(source->cli, &error);
+        going = false;
+    }
+    if (going && list != NULL) {
+        json_array_append_new(list, json_pack("{sssssi}", "stage", "overview", "output", settings->output, "stages",
+                                              (int)overview.count));
+    } else if (going) {
+        tl_progress_end(&source->cli->progress);
+        printf("%s: %u stages\n", settings->output, overview.count);
+    }
+    draw_overview_free(&overview);
+    return going;
+}
+
 static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *settings)
 {
     draw_source source;
     tl_exit code = TL_EXIT_OK;
     json_t *list = cli->json ? json_array() : NULL;
     bool going = draw_source_open(cli, path, &settings->bake, settings->set, &source, &code);
-    for (int stage = 0; going && stage < STAGE_COUNT; stage++) {
+    if (going && settings->overview) {
+        going = draw_all_in_one(&source, settings, list, &code);
+    }
+    for (int stage = 0; going && !settings->overview && stage < STAGE_COUNT; stage++) {
         bool can = is_drawable(&source, stage);
         if (settings->stages[stage] && !can && !settings->all) {
             code = tl_cli_fail(cli, TL_EXIT_USAGE, "%s holds %s show%s", path,
@@ -363,6 +417,9 @@ static tl_exit run(tl_cli *cli)
         { "output", 'o', TL_OPTION_TEXT, &settings.output, "FILE", "where to write: .png or .svg", NULL, 0, 0, 0, 0 },
         { "stage", 's', TL_OPTION_TEXT, &settings.stages_text, "NAME,...", "what to draw (polygons)", NULL, 0, 0, 0,
           0 },
+        { "overview", 0, TL_OPTION_FLAG, &settings.overview, NULL,
+          "the stages side by side in one picture, half as large, from above unless --view says otherwise", NULL, 0, 0,
+          0, 0 },
         { "view", 0, TL_OPTION_CHOICE, &settings.view, NULL, "from where", views, 0, 0, 0, 0 },
         { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "longer side of each view", NULL, 0, 0, 200, 8000 },
         { "depth", 0, TL_OPTION_COUNT, &settings.depth, "N", "soup: boxes of the tree are shown down to this depth",
@@ -385,8 +442,8 @@ static tl_exit run(tl_cli *cli)
                                        { "Navmesh (a baked file brings its own):", nav_options },
                                        { NULL, NULL } };
     tl_exit code = TL_EXIT_OK;
-    if (!tl_cli_parse(cli, groups, 1, 1, &code) || !read_ends(cli, &settings, &code) ||
-        !choose_stages(cli, &settings, &code)) {
+    if (!tl_cli_parse(cli, groups, 1, 1, &code) || !tl_bake_take_bounds(cli, &settings.bake, &code) ||
+        !read_ends(cli, &settings, &code) || !choose_stages(cli, &settings, &code)) {
         return code;
     }
     if (settings.output == NULL) {
@@ -405,6 +462,7 @@ const tl_command tl_draw_command = {
     "Where the level hides a part of what lies on it, that part is drawn faintly. triangulation and merging\n"
     "show one contour being divided, step by step.",
     "talus draw courtyard.obj -o courtyard.png --stage all\n"
+    "talus draw courtyard.obj -o courtyard.png --overview\n"
     "talus draw courtyard.talus -o way.svg --from 2,0,20 --to 38,0,20 --view top\n"
     "talus draw courtyard.obj -o steps.png --stage triangulation,merging --contour 0",
     run,

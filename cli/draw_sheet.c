@@ -169,9 +169,18 @@ static tl_result render_panels(draw_sheet *sheet, const draw_options *options, c
     return TL_OK;
 }
 
-tl_result draw_sheet_write(const draw_scene *scene, const draw_options *options, const char *path, const tl_host *host,
-                           tl_io_error *error_out)
+static void free_sheet(draw_sheet *sheet)
 {
+    for (uint32_t i = 0; i < sheet->panel_count; i++) {
+        cairo_surface_destroy(sheet->images[i]);
+    }
+    draw_soups_free(&sheet->soups);
+}
+
+static tl_result make_sheet(const draw_scene *scene, const draw_options *options, const char *path, const tl_host *host,
+                            draw_sheet *sheet, tl_io_error *error_out)
+{
+    memset(sheet, 0, sizeof *sheet);
     if (scene->out_of_memory) {
         return tl_io_fail(error_out, TL_ERR_MEMORY, path, 0, NULL, "out of memory for the picture");
     }
@@ -179,21 +188,100 @@ tl_result draw_sheet_write(const draw_scene *scene, const draw_options *options,
         return tl_io_fail(error_out, TL_ERR_EMPTY, path, 0, "try another --stage",
                           "there is nothing to draw in this stage");
     }
-    draw_sheet sheet;
-    memset(&sheet, 0, sizeof sheet);
-    sheet.scene = scene;
-    tl_result result = draw_soups_build(scene, host, &sheet.soups);
+    sheet->scene = scene;
+    tl_result result = draw_soups_build(scene, host, &sheet->soups);
     if (result == TL_OK) {
-        result = render_panels(&sheet, options, host);
+        result = render_panels(sheet, options, host);
     }
-    if (result != TL_OK) {
-        tl_io_fail(error_out, result, path, 0, NULL, "%s", tl_result_text(result));
-    } else {
+    return result == TL_OK ? TL_OK : tl_io_fail(error_out, result, path, 0, NULL, "%s", tl_result_text(result));
+}
+
+tl_result draw_sheet_write(const draw_scene *scene, const draw_options *options, const char *path, const tl_host *host,
+                           tl_io_error *error_out)
+{
+    draw_sheet sheet;
+    tl_result result = make_sheet(scene, options, path, host, &sheet, error_out);
+    if (result == TL_OK) {
         result = draw_paper_write(path, sheet.width, sheet.height, paint_sheet, &sheet, error_out);
     }
-    for (uint32_t i = 0; i < sheet.panel_count; i++) {
-        cairo_surface_destroy(sheet.images[i]);
-    }
-    draw_soups_free(&sheet.soups);
+    free_sheet(&sheet);
     return result;
+}
+
+// ---- Several sheets --------------------------------------------------------------------------------------------
+
+tl_result draw_overview_add(draw_overview *overview, const draw_scene *scene, const draw_options *options,
+                            const char *path, const tl_host *host, tl_io_error *error_out)
+{
+    if (overview->count == DRAW_MOST_SHEETS) {
+        return tl_io_fail(error_out, TL_ERR_LIMIT, path, 0, "draw fewer stages", "too many pictures for one sheet");
+    }
+    draw_sheet sheet;
+    tl_result result = make_sheet(scene, options, path, host, &sheet, error_out);
+    if (result == TL_OK) {
+        cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)sheet.width, (int)sheet.height);
+        cairo_t *cairo = cairo_create(image);
+        paint_sheet(cairo, &sheet);
+        const bool painted = cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
+        cairo_destroy(cairo);
+        overview->sheets[overview->count++] = image;
+        result = painted ? TL_OK : tl_io_fail(error_out, TL_ERR_MEMORY, path, 0, NULL, "out of memory");
+    }
+    free_sheet(&sheet);
+    return result;
+}
+
+typedef struct overview_grid {
+    const draw_overview *overview;
+    uint32_t columns, rows;
+    uint32_t x[DRAW_MOST_SHEETS + 1], y[DRAW_MOST_SHEETS + 1]; // where columns and rows begin
+} overview_grid;
+
+static overview_grid lay_out(const draw_overview *overview, uint32_t columns)
+{
+    overview_grid grid;
+    memset(&grid, 0, sizeof grid);
+    grid.overview = overview;
+    grid.columns = columns < overview->count ? columns : overview->count;
+    grid.rows = (overview->count + columns - 1) / columns;
+    for (uint32_t i = 0; i < overview->count; i++) {
+        const uint32_t width = (uint32_t)cairo_image_surface_get_width(overview->sheets[i]);
+        const uint32_t height = (uint32_t)cairo_image_surface_get_height(overview->sheets[i]);
+        uint32_t *x = &grid.x[i % columns + 1], *y = &grid.y[i / columns + 1];
+        *x = *x < width ? width : *x;
+        *y = *y < height ? height : *y;
+    }
+    for (uint32_t i = 0; i < grid.columns; i++) {
+        grid.x[i + 1] += grid.x[i];
+    }
+    for (uint32_t i = 0; i < grid.rows; i++) {
+        grid.y[i + 1] += grid.y[i];
+    }
+    return grid;
+}
+
+static void paint_overview(cairo_t *cairo, const void *user)
+{
+    const overview_grid *grid = user;
+    draw_set_colour(cairo, DRAW_PAPER, 1.0);
+    cairo_paint(cairo);
+    for (uint32_t i = 0; i < grid->overview->count; i++) {
+        cairo_set_source_surface(cairo, grid->overview->sheets[i], grid->x[i % grid->columns],
+                                 grid->y[i / grid->columns]);
+        cairo_paint(cairo);
+    }
+}
+
+tl_result draw_overview_write(const draw_overview *overview, uint32_t columns, const char *path, tl_io_error *error_out)
+{
+    const overview_grid grid = lay_out(overview, columns);
+    return draw_paper_write(path, grid.x[grid.columns], grid.y[grid.rows], paint_overview, &grid, error_out);
+}
+
+void draw_overview_free(draw_overview *overview)
+{
+    for (uint32_t i = 0; i < overview->count; i++) {
+        cairo_surface_destroy(overview->sheets[i]);
+    }
+    memset(overview, 0, sizeof *overview);
 }

@@ -61,6 +61,28 @@ static void test_every_stage(void **state)
     }
 }
 
+// All stages in one picture, of a level, a baked file and contours; and only those that are asked for.
+static void test_overview(void **state)
+{
+    (void)state;
+    make_files();
+    static const char *const lines[] = { "draw yard.obj -o all.png --overview --size 400 --json",
+                                         "draw yard.talus -o all.png --overview --size 400 --view oblique --json",
+                                         "draw yard.obj -o some.png --overview --size 400 --stage soup,path --json" };
+    for (int i = 0; i < 3; i++) {
+        json_t *list = cli_json(0, lines[i]);
+        assert_int_equal(json_array_size(list), 1);
+        TEST_CHECK(cli_number(json_array_get(list, 0), "stages") == (i < 2 ? 11.0 : 2.0));
+        json_decref(list);
+    }
+    uint32_t width, height;
+    check_png("all.png", &width, &height);
+    TEST_CHECK(width > 4 * 150 && width < 4 * 260 && height > 3 * 150);
+    check_png("some.png", &width, &height);
+    TEST_CHECK(width > 2 * 150 && width < 2 * 260 && height < 2 * 260 + 150);
+    cli_check_error(2, "draw yard.obj -o none.png --overview --stage merging", "--overview", "none");
+}
+
 // The same picture from the same level, with one thread or more; and not the same of another stage.
 static void test_same_bytes(void **state)
 {
@@ -186,9 +208,9 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_stage),        cmocka_unit_test(test_same_bytes),
-        cmocka_unit_test(test_path_svg_and_views), cmocka_unit_test(test_steps_of_a_contour),
-        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_every_stage),        cmocka_unit_test(test_overview),
+        cmocka_unit_test(test_same_bytes),         cmocka_unit_test(test_path_svg_and_views),
+        cmocka_unit_test(test_steps_of_a_contour), cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }
