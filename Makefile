@@ -18,7 +18,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test bench sanitize tsan fuzz format lint install clean
+.PHONY: all demo test benchmarks bench sanitize tsan fuzz format lint install clean
 
 all:
 	tools/setup tools
@@ -34,10 +34,12 @@ test:
 	cmake --build $(BUILD) --parallel $(JOBS)
 	ctest --test-dir $(BUILD) --parallel $(JOBS) --output-on-failure $(TEST_FLAGS)
 
-bench:
+benchmarks:
 	tools/setup tools tests bench
 	$(CONFIGURE) -DTALUS_BENCH=ON
 	cmake --build $(BUILD) --parallel $(JOBS)
+
+bench: benchmarks
 	tools/bench $(BUILD)/bench
 
 bench-%:
