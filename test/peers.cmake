@@ -65,7 +65,7 @@ set(talus_test_nav_links_proof_needs talus_sample talus_io)
 
 # The same bytes from any order, thread count and compiler.
 set(talus_test_nav_golden_needs talus_sample talus_io)
-foreach(stem nav_golden nav_obstacles_thread)
+foreach(stem nav_golden nav_obstacles_thread nav_links_thread)
     set(talus_test_${stem}_libraries pthread)
 endforeach()
 

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+//
+// A jump in use: two roofs with a gap between them. Links are found and proven, a path takes one, and an agent goes
+// along it: on foot from corner to corner, through the air where a link says so.
+
+#include <talus/nav_build.h>
+#include <talus/nav_links.h>
+
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST = 64, AIR_STEPS = 4 };
+
+// Two roofs, 2 m apart, the second one half a metre lower.
+static const tl_vec3 VERTICES[] = { { 0, 0, 0 },      { 0, 0, 10 },      { 8, 0, 10 },      { 8, 0, 0 },
+                                    { 10, -0.5f, 0 }, { 10, -0.5f, 10 }, { 18, -0.5f, 10 }, { 18, -0.5f, 0 } };
+static const uint32_t INDICES[] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7 };
+
+typedef struct roofs {
+    tl_nav_tiles tiles;
+    tl_navmesh *navmesh;
+    tl_soup *soup;
+    tl_nav_links *links;
+    tl_nav_query *query;
+} roofs;
+
+static tl_result bake(roofs *r)
+{
+    tl_mesh_view mesh = { VERTICES, 8, INDICES, 4, NULL };
+    tl_nav_input input = { mesh, NULL, NULL, 0 };
+    tl_nav_def def = tl_default_nav_def();
+    def.agent_radius = 0.4f;
+    tl_result result = tl_nav_build(&def, &input, &r->tiles, NULL);
+    result = result == TL_OK ? tl_soup_build(&mesh, NULL, &r->soup, NULL) : result;
+    result = result == TL_OK ? tl_navmesh_create(NULL, &r->navmesh) : result;
+    for (uint32_t i = 0; i < r->tiles.tile_count && result == TL_OK; i++) {
+        result = tl_navmesh_add_tile(r->navmesh, r->tiles.tiles[i], TL_NAV_TILE_BORROWED);
+    }
+    tl_nav_query_def query_def = tl_default_nav_query_def();
+    return result == TL_OK ? tl_nav_query_create(&query_def, &r->query) : result;
+}
+
+static tl_result find_links(roofs *r)
+{
+    tl_nav_links_def def = tl_default_nav_links_def();
+    def.max_jump = 4.0f;
+    tl_result result = tl_nav_links_find(&def, r->navmesh, r->soup, &r->links, NULL);
+    if (result == TL_OK) {
+        printf("%u links, %u of them jumps\n", r->links->link_count, r->links->kind_counts[TL_NAV_LINK_JUMP]);
+        result = tl_nav_links_add(r->links, NULL, r->navmesh);
+    }
+    return result;
+}
+
+static void walk(const roofs *r, const tl_nav_corner *corners, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        printf("  at %5.2f %5.2f %5.2f\n", (double)corners[i].point.x, (double)corners[i].point.y,
+               (double)corners[i].point.z);
+        if ((corners[i].flags & TL_NAV_CORNER_LINK) == 0) {
+            continue;
+        }
+        // The link's number in the set is what it was added with.
+        tl_nav_offmesh_state state;
+        if (tl_navmesh_offmesh_state(r->navmesh, corners[i].link, &state) == TL_OK) {
+            const tl_nav_found_link *link = &tl_nav_links_at(r->links)[state.offmesh.user];
+            bool backward = (corners[i].link & TL_NAV_OFFMESH_BACKWARD) != 0;
+            for (int step = 1; step < AIR_STEPS; step++) {
+                float t = (float)step / (float)AIR_STEPS;
+                tl_vec3 p = tl_nav_found_link_point(link, backward ? 1.0f - t : t);
+                printf("    %s %5.2f %5.2f %5.2f\n", tl_nav_link_kind_name((tl_nav_link_kind)link->kind), (double)p.x,
+                       (double)p.y, (double)p.z);
+            }
+        }
+    }
+}
+
+// Links on the way from one roof to the other, or -1 when there is no way.
+static int go(const roofs *r)
+{
+    tl_nav_ref polygons[MOST];
+    tl_nav_corner corners[MOST];
+    tl_nav_route_buffers buffers = { polygons, MOST, corners, MOST };
+    tl_nav_route route;
+    tl_result result = tl_nav_query_find_route(r->query, r->navmesh, NULL, tl_vec3_make(2, 0, 2),
+                                               tl_vec3_make(16, -0.5f, 8), tl_vec3_make(1, 1, 1), &buffers, &route);
+    if (result != TL_OK || route.path.status != TL_NAV_PATH_COMPLETE) {
+        printf("no way\n");
+        return -1;
+    }
+    printf("%g m:\n", (double)route.length);
+    walk(r, corners, route.corner_count);
+    int links = 0;
+    for (uint32_t i = 0; i < route.corner_count; i++) {
+        links += (corners[i].flags & TL_NAV_CORNER_LINK) != 0;
+    }
+    return links;
+}
+
+int main(void)
+{
+    roofs r;
+    memset(&r, 0, sizeof r);
+    int before = 0;
+    int after = 0;
+    tl_result result = bake(&r);
+    if (result == TL_OK) {
+        before = go(&r);
+        result = find_links(&r);
+    }
+    if (result == TL_OK) {
+        after = go(&r);
+    }
+    tl_nav_query_free(r.query);
+    tl_blob_free(r.links, NULL);
+    tl_navmesh_free(r.navmesh);
+    tl_nav_tiles_free(&r.tiles, NULL);
+    tl_blob_free(r.soup, NULL);
+    if (result != TL_OK) {
+        fprintf(stderr, "talus: %s\n", tl_result_text(result));
+        return 1;
+    }
+    return before == -1 && after == 1 ? 0 : 1;
+}

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: MIT
+//
+// A level that changes under readers: 1,000 random edits of obstacles, tiles and off-mesh links, each under a writer's
+// lock. After each the islands and anchors are those of a navmesh that was built afresh from the tiles and links that
+// are there; and every path that a reader is given, over links too, is whole.
+
+#define _POSIX_C_SOURCE 200809L // read-write locks
+
+#include "nav_level.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <talus/nav_obstacles.h>
+
+enum { EDITS = 1000, READERS = 2, MOST_OBSTACLES = 10, MOST_LINKS = 20, MOST = 256, MOST_POLYGONS = 4096 };
+
+typedef struct shared_world {
+    tl_navmesh *navmesh;
+    pthread_rwlock_t lock;
+    atomic_bool done, writer_waits; // the lock itself prefers readers, and would starve the writer
+    atomic_uint paths, complete, over_links, faults;
+} shared_world;
+
+// What only the writer knows.
+typedef struct editor {
+    shared_world *world;
+    tl_nav_obstacles *obstacles;
+    tl_nav_obstacle_id crates[MOST_OBSTACLES];
+    tl_nav_offmesh offmesh[MOST_LINKS];
+    tl_nav_ref links[MOST_LINKS];
+    uint32_t crate_count, link_count;
+    test_random random;
+    uint64_t anchored, waiting, islands;
+} editor;
+
+static tl_nav_def make_def(void)
+{
+    tl_nav_def def = tl_default_nav_def();
+    def.tile_size = 20;
+    def.bounds.min = tl_vec3_make(-1, -3, -1);
+    def.bounds.max = tl_vec3_make(26, 9, 20);
+    return def;
+}
+
+static bool are_neighbours(const tl_navmesh *navmesh, tl_nav_ref a, tl_nav_ref b)
+{
+    tl_nav_link links[64];
+    uint32_t count = 0;
+    bool found = false;
+    if (tl_navmesh_links(navmesh, a, links, 64, &count) == TL_OK) {
+        for (uint32_t i = 0; i < count; i++) {
+            found = found || links[i].to == b;
+        }
+    }
+    return found;
+}
+
+static bool leads(const tl_navmesh *navmesh, tl_nav_ref from, tl_nav_ref link, tl_nav_ref to)
+{
+    tl_nav_offmesh_state state;
+    int end = (link & TL_NAV_OFFMESH_BACKWARD) != 0 ? 1 : 0;
+    return tl_navmesh_offmesh_state(navmesh, link, &state) == TL_OK && state.anchored &&
+           (end == 0 || state.offmesh.both_ways) && state.ends[end].polygon == from &&
+           state.ends[1 - end].polygon == to;
+}
+
+// What a reader is given must fit the navmesh as it is under the lock: each polygon beside the last, or behind a link.
+static bool path_is_whole(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t count, uint32_t *links)
+{
+    *links = 0;
+    for (uint32_t i = 0; i + 1 < count;) {
+        bool crosses = tl_nav_is_offmesh(polygons[i + 1]);
+        bool fits = crosses ? i + 2 < count && leads(navmesh, polygons[i], polygons[i + 1], polygons[i + 2])
+                            : are_neighbours(navmesh, polygons[i], polygons[i + 1]);
+        if (!fits) {
+            return false;
+        }
+        *links += crosses;
+        i += crosses ? 2 : 1;
+    }
+    return count > 0 && tl_navmesh_resolve(navmesh, polygons[count - 1], NULL, NULL) == TL_OK;
+}
+
+static void *read_paths(void *user)
+{
+    shared_world *world = user;
+    tl_nav_query *query = NULL;
+    const tl_nav_query_def query_def = tl_default_nav_query_def();
+    test_random random = { 77 };
+    if (tl_nav_query_create(&query_def, &query) != TL_OK) {
+        atomic_fetch_add(&world->faults, 1);
+        return NULL;
+    }
+    while (!atomic_load(&world->done)) {
+        tl_vec3 from = test_random_point(&random, tl_vec3_make(1, 0, 1), tl_vec3_make(24, 1, 15));
+        tl_vec3 to = test_random_point(&random, tl_vec3_make(1, 0, 1), tl_vec3_make(24, 4, 15));
+        tl_nav_ref polygons[MOST];
+        tl_nav_corner corners[MOST];
+        tl_nav_route_buffers buffers = { polygons, MOST, corners, MOST };
+        tl_nav_route route;
+        uint32_t links = 0;
+        while (atomic_load(&world->writer_waits)) {
+            sched_yield();
+        }
+        pthread_rwlock_rdlock(&world->lock);
+        tl_result result =
+            tl_nav_query_find_route(query, world->navmesh, NULL, from, to, tl_vec3_make(3, 5, 3), &buffers, &route);
+        bool whole = result == TL_ERR_NOT_FOUND ||
+                     (result == TL_OK && path_is_whole(world->navmesh, polygons, route.path.polygon_count, &links));
+        pthread_rwlock_unlock(&world->lock);
+        atomic_fetch_add(&world->faults, !whole);
+        atomic_fetch_add(&world->paths, result == TL_OK);
+        atomic_fetch_add(&world->complete, result == TL_OK && route.path.status == TL_NAV_PATH_COMPLETE);
+        atomic_fetch_add(&world->over_links, links > 0);
+    }
+    tl_nav_query_free(query);
+    return NULL;
+}
+
+static void begin_write(shared_world *world)
+{
+    atomic_store(&world->writer_waits, true);
+    pthread_rwlock_wrlock(&world->lock);
+    atomic_store(&world->writer_waits, false);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Edits. Tiles are made without the lock; only the swap has it.
+
+static void settle(editor *e)
+{
+    shared_world *world = e->world;
+    while (tl_nav_obstacles_waiting(e->obstacles) > 0) {
+        tl_nav_remade_tile remade;
+        TEST_RESULT(tl_nav_obstacles_build_next(e->obstacles, &remade, NULL), TL_OK);
+        begin_write(world);
+        (void)tl_navmesh_remove_tile(world->navmesh, remade.tile_x, remade.tile_z);
+        if (remade.tile != NULL) {
+            TEST_RESULT(tl_navmesh_add_tile(world->navmesh, remade.tile, TL_NAV_TILE_OWNED), TL_OK);
+        }
+        pthread_rwlock_unlock(&world->lock);
+    }
+}
+
+static void edit_crates(editor *e)
+{
+    tl_nav_obstacle crate;
+    memset(&crate, 0, sizeof crate);
+    crate.shape = TL_NAV_OBSTACLE_BOX;
+    crate.area = TL_NAV_NULL_AREA;
+    crate.base = test_random_point(&e->random, tl_vec3_make(0, -0.1f, 0), tl_vec3_make(24, 3.5f, 16));
+    crate.half_x = test_random_range(&e->random, 0.2f, 2.5f);
+    crate.half_z = test_random_range(&e->random, 0.2f, 2.5f);
+    crate.height = 1.5f;
+    uint32_t which = e->crate_count > 0 ? test_random_below(&e->random, e->crate_count) : 0;
+    if (e->crate_count < MOST_OBSTACLES && test_random_below(&e->random, 2) == 0) {
+        TEST_RESULT(tl_nav_obstacles_add(e->obstacles, &crate, &e->crates[e->crate_count++]), TL_OK);
+    } else if (e->crate_count > 0) {
+        TEST_RESULT(tl_nav_obstacles_remove(e->obstacles, e->crates[which]), TL_OK);
+        e->crates[which] = e->crates[--e->crate_count];
+    }
+    settle(e);
+}
+
+// A tile is taken out; the next change of an obstacle on it, or the end, brings it back.
+static void drop_tile(editor *e)
+{
+    begin_write(e->world);
+    (void)tl_navmesh_remove_tile(e->world->navmesh, (int32_t)test_random_below(&e->random, 5),
+                                 (int32_t)test_random_below(&e->random, 4));
+    pthread_rwlock_unlock(&e->world->lock);
+}
+
+static void edit_links(editor *e)
+{
+    begin_write(e->world);
+    if (e->link_count < MOST_LINKS && (e->link_count < 8 || test_random_below(&e->random, 2) == 0)) {
+        tl_nav_offmesh *link = &e->offmesh[e->link_count];
+        *link = tl_default_nav_offmesh();
+        link->start = test_random_point(&e->random, tl_vec3_make(0, -0.1f, 0), tl_vec3_make(25, 4, 16));
+        link->end = test_random_point(&e->random, tl_vec3_make(0, -0.1f, 0), tl_vec3_make(25, 4, 16));
+        link->radius = 2.0f;
+        link->both_ways = test_random_below(&e->random, 2) == 0;
+        link->cost_factor = test_random_below(&e->random, 4) == 0 ? 0.25f : 1.0f;
+        TEST_RESULT(tl_navmesh_add_offmesh(e->world->navmesh, link, &e->links[e->link_count++]), TL_OK);
+    } else {
+        uint32_t which = test_random_below(&e->random, e->link_count);
+        TEST_RESULT(tl_navmesh_remove_offmesh(e->world->navmesh, e->links[which]), TL_OK);
+        e->links[which] = e->links[--e->link_count];
+        e->offmesh[which] = e->offmesh[e->link_count];
+    }
+    pthread_rwlock_unlock(&e->world->lock);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// After each edit: the same as afresh. Only the writer changes anything, so it looks without the lock.
+
+static tl_navmesh *build_afresh(const editor *e, tl_nav_ref links_out[MOST_LINKS])
+{
+    const tl_navmesh *navmesh = e->world->navmesh;
+    tl_navmesh *fresh;
+    TEST_RESULT(tl_navmesh_create(NULL, &fresh), TL_OK);
+    for (int32_t z = 0; z < 8; z++) {
+        for (int32_t x = 0; x < 8; x++) {
+            const tl_nav_tile *tile = tl_navmesh_find_tile(navmesh, x, z);
+            if (tile != NULL) {
+                TEST_RESULT(tl_navmesh_add_tile(fresh, tile, TL_NAV_TILE_BORROWED), TL_OK);
+            }
+        }
+    }
+    TEST_CHECK(tl_navmesh_tile_count(fresh) == tl_navmesh_tile_count(navmesh));
+    for (uint32_t i = 0; i < e->link_count; i++) {
+        TEST_RESULT(tl_navmesh_add_offmesh(fresh, &e->offmesh[i], &links_out[i]), TL_OK);
+    }
+    return fresh;
+}
+
+// Islands by tile place and polygon.
+static uint32_t list_islands(const tl_navmesh *navmesh, uint32_t islands[MOST_POLYGONS])
+{
+    uint32_t count = 0;
+    for (int32_t z = 0; z < 8; z++) {
+        for (int32_t x = 0; x < 8; x++) {
+            const tl_nav_tile *tile = tl_navmesh_find_tile(navmesh, x, z);
+            uint32_t slot = 0;
+            while (tile != NULL && tl_navmesh_slot_tile(navmesh, slot) != tile) {
+                slot++;
+            }
+            for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++) {
+                TEST_CHECK(count < MOST_POLYGONS);
+                TEST_RESULT(tl_navmesh_island(navmesh, tl_navmesh_polygon_ref(navmesh, slot, p), &islands[count++]),
+                            TL_OK);
+            }
+        }
+    }
+    return count;
+}
+
+static void check_afresh(editor *e)
+{
+    static uint32_t own[MOST_POLYGONS], expected[MOST_POLYGONS];
+    tl_nav_ref links[MOST_LINKS];
+    tl_navmesh *fresh = build_afresh(e, links);
+    uint32_t count = list_islands(e->world->navmesh, own);
+    TEST_CHECK(list_islands(fresh, expected) == count);
+    // Numbers differ, what hangs together does not: each names the first polygon of its island.
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t first = 0, first_expected = 0;
+        while (own[first] != own[i]) {
+            first++;
+        }
+        while (expected[first_expected] != expected[i]) {
+            first_expected++;
+        }
+        TEST_CHECK(first == first_expected);
+        e->islands += first == i;
+    }
+    for (uint32_t i = 0; i < e->link_count; i++) {
+        tl_nav_offmesh_state state, state_expected;
+        TEST_RESULT(tl_navmesh_offmesh_state(e->world->navmesh, e->links[i], &state), TL_OK);
+        TEST_RESULT(tl_navmesh_offmesh_state(fresh, links[i], &state_expected), TL_OK);
+        TEST_CHECK(state.anchored == state_expected.anchored && state.cost == state_expected.cost);
+        for (int end = 0; end < 2; end++) {
+            TEST_CHECK(tl_distance(state.ends[end].point, state_expected.ends[end].point) == 0.0f);
+        }
+        e->anchored += state.anchored;
+        e->waiting += !state.anchored;
+    }
+    tl_navmesh_free(fresh);
+}
+
+static void test_edits_under_readers(void **state)
+{
+    (void)state;
+    static test_level level;
+    static editor e;
+    static shared_world world;
+    test_level_make(&level, tl_vec3_make(0, 0, 0));
+    tl_nav_def def = make_def();
+    tl_nav_input input = { level.mesh, NULL, NULL, 0 };
+    memset(&e, 0, sizeof e);
+    memset(&world, 0, sizeof world);
+    e.world = &world;
+    e.random.state = 5;
+    TEST_RESULT(tl_nav_obstacles_bake(&def, &input, &e.obstacles, NULL, NULL), TL_OK);
+    TEST_CHECK(pthread_rwlock_init(&world.lock, NULL) == 0);
+    TEST_RESULT(tl_navmesh_create(NULL, &world.navmesh), TL_OK);
+    settle(&e);
+    pthread_t readers[READERS];
+    for (int i = 0; i < READERS; i++) {
+        TEST_CHECK(pthread_create(&readers[i], NULL, read_paths, &world) == 0);
+    }
+    uint64_t kinds[3] = { 0, 0, 0 };
+    for (int edit = 0; edit < EDITS || atomic_load(&world.paths) < EDITS; edit++) {
+        uint32_t roll = test_random_below(&e.random, 10);
+        uint32_t kind = roll < 4 ? 0 : roll < 5 ? 1 : 2;
+        (kind == 0 ? edit_crates : kind == 1 ? drop_tile : edit_links)(&e);
+        kinds[kind]++;
+        if (edit < EDITS) {
+            check_afresh(&e);
+        }
+    }
+    atomic_store(&world.done, true);
+    for (int i = 0; i < READERS; i++) {
+        pthread_join(readers[i], NULL);
+    }
+    print_message("%llu edits of obstacles, %llu of tiles, %llu of links; %llu links anchored, %llu waiting; "
+                  "%u paths, %u over links\n",
+                  (unsigned long long)kinds[0], (unsigned long long)kinds[1], (unsigned long long)kinds[2],
+                  (unsigned long long)e.anchored, (unsigned long long)e.waiting, atomic_load(&world.paths),
+                  atomic_load(&world.over_links));
+    TEST_CHECK(atomic_load(&world.faults) == 0 && atomic_load(&world.complete) > EDITS / 10);
+    TEST_CHECK(kinds[0] > 100 && kinds[1] > 50 && kinds[2] > 100 && e.anchored > EDITS && e.waiting > EDITS);
+    TEST_CHECK(e.islands > EDITS && atomic_load(&world.over_links) > 0);
+    tl_navmesh_free(world.navmesh);
+    tl_nav_obstacles_free(e.obstacles);
+    pthread_rwlock_destroy(&world.lock);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_edits_under_readers) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
