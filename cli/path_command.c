@@ -87,6 +87,20 @@ static void write_corners(tl_text *text, const searcher *s, const tl_nav_route *
     }
 }
 
+// The corners at which an off-mesh link is taken, where there are any.
+static void write_json_links(tl_text *text, const searcher *s, const tl_nav_route *route)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < route->corner_count; ++i) {
+        if ((s->buffers.corners[i].flags & TL_NAV_CORNER_LINK) != 0) {
+            tl_text_add(text, any ? "," : ",\"links_at\":[");
+            tl_text_add_count(text, i);
+            any = true;
+        }
+    }
+    tl_text_add(text, any ? "]" : "");
+}
+
 static void write_json_route(tl_text *text, const searcher *s, const tl_nav_route *route, tl_result result)
 {
     if (result == TL_ERR_NOT_FOUND) {
@@ -102,7 +116,9 @@ static void write_json_route(tl_text *text, const searcher *s, const tl_nav_rout
     tl_text_add_count(text, route->path.polygon_count);
     tl_text_add(text, ",\"corners\":[");
     write_corners(text, s, route, true);
-    tl_text_add(text, "]}\n");
+    tl_text_add(text, "]");
+    write_json_links(text, s, route);
+    tl_text_add(text, "}\n");
 }
 
 static void write_route(tl_text *text, const searcher *s, const tl_nav_route *route, tl_result result, bool partial)
