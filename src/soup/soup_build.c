@@ -10,6 +10,9 @@
 
 #include <string.h>
 
+// A triangle's share of the largest stage, measured: pairs, and edges with their links.
+enum { STAGE_BYTES = 128 };
+
 tl_soup_def tl_default_soup_def(void)
 {
     tl_soup_def def = { true, TL_SOUP_BOXES, TL_SOUP_FAST, 0.0f, { NULL, NULL, NULL } };
@@ -57,6 +60,10 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh *mesh, const tl_s
     const tl_host *host = &def->host;
     report->base.stage = "pair triangles";
     TL_TRY(tl_progress_update(host, "pair triangles", 0, 1));
+    // One block for what the stages need at once, so that each uses the pages of the one before it.
+    if (!tl_arena_reserve(arena, (uint64_t)mesh->triangle_count * STAGE_BYTES)) {
+        return TL_ERR_MEMORY;
+    }
     tl_pair *pairs = TL_PUSH(arena, tl_pair, mesh->triangle_count);
     if (pairs == NULL) {
         return TL_ERR_MEMORY;
