@@ -19,8 +19,13 @@ static inline tl_f64x4 tl_f64x4_all(double value)
 /// Floats 0, stride and 2 * stride as doubles; the fourth lane is 0.
 static inline tl_f64x4 tl_f64x4_gather_three(const float *first, uint32_t stride)
 {
-    __m128 xyz = _mm_insert_ps(_mm_load_ss(first), _mm_load_ss(first + stride), 0x10);
-    return _mm256_cvtps_pd(_mm_insert_ps(xyz, _mm_load_ss(first + 2 * (size_t)stride), 0x20));
+    // As integers: compilers make two shuffles of a float that is loaded to be inserted.
+    int32_t x, y, z;
+    memcpy(&x, first, sizeof x);
+    memcpy(&y, first + stride, sizeof y);
+    memcpy(&z, first + 2 * (size_t)stride, sizeof z);
+    __m128i xyz = _mm_insert_epi32(_mm_insert_epi32(_mm_cvtsi32_si128(x), y, 1), z, 2);
+    return _mm256_cvtps_pd(_mm_castsi128_ps(xyz));
 }
 
 static inline tl_f64x4 tl_f64x4_from_floats(const float *four)
