@@ -406,6 +406,63 @@ TL_API tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_n
                                                  uint32_t corner_capacity, tl_nav_ref *polygons_out,
                                                  uint32_t polygon_capacity, tl_nav_shortest_path *path_out);
 
+// ---------------------------------------------------------------------------------------------------------
+// Paths for wider agents, on the same mesh.
+
+/// How the search for a wide path ended.
+typedef enum tl_nav_wide_status {
+    TL_NAV_WIDE_COMPLETE,      ///< the path leads to the goal
+    TL_NAV_WIDE_UNREACHABLE,   ///< proven: nothing as wide gets to the goal
+    TL_NAV_WIDE_OUT_OF_NODES,  ///< gave up: the query has too few nodes
+    TL_NAV_WIDE_START_BLOCKED, ///< the start is too near to a wall for the agent to stand there
+    TL_NAV_WIDE_GOAL_BLOCKED   ///< the goal is
+} tl_nav_wide_status;
+
+/// A phrase for a status: "complete", "unreachable", "out of nodes", "no room at start", "no room at goal".
+TL_API const char *tl_nav_wide_status_name(tl_nav_wide_status status);
+
+typedef struct tl_nav_wide_path {
+    tl_nav_wide_status status;
+    uint32_t corner_count; ///< of the whole path, though the buffer may hold fewer
+    double wall_distance;  ///< metres in the plane: no place of the path is nearer to a wall of the mesh
+    double length;         ///< metres in the plane, of the corners
+    double surface_length; ///< metres in space, straight from corner to corner
+    uint32_t node_count;   ///< nodes that the search used
+} tl_nav_wide_path;
+
+/// A path for an agent of any radius from the mesh's own upwards, over tiles, seams and floors over one another.
+///
+/// A mesh has its own agent's radius taken off around all walls already. A wider agent's centre keeps the difference,
+/// radius - agent_radius of the start's tile, from the walls that are left: edges with nothing across them, and
+/// polygons that the filter refuses. Whether there is such a way is decided exactly, up to the rounding of coordinates:
+/// a gap as wide as the agent lets it through. The path found is taut: no way that passes the same obstacles on the
+/// same hands is shorter, but one that passes others may be. Turns are rounded by chords of a 32nd of a circle, so the
+/// path keeps 0.995 of the difference; `wall_distance` is that figure. Area costs are not looked at.
+/// Without a difference the path is that of tl_nav_query_find_shortest_path.
+/// start and goal must lie on their polygons; tl_nav_query_find_wide_place moves them to where there is room. Corners
+/// are the start, places where the path turns, and the goal; a corner's polygon holds it, and the path goes on there.
+/// TL_OK for every status; corner_count is 0 without a path. TL_ERR_CAPACITY: the first corners were written, counts
+/// and lengths are true. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
+/// Sources: docs/paths.md.
+TL_API tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *navmesh,
+                                             const tl_nav_filter *filter, float radius, const tl_nav_location *start,
+                                             const tl_nav_location *goal, tl_nav_corner *corners_out, uint32_t capacity,
+                                             tl_nav_wide_path *path_out);
+
+/// The place nearest to `near` in the plane where an agent of this radius may stand, among the polygons that hang
+/// together with its own within `max_distance` metres of it. TL_ERR_NOT_FOUND: there is none, or a stale reference.
+/// TL_ERR_LIMIT: the query was out of nodes. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius or distance.
+TL_API tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *navmesh,
+                                              const tl_nav_filter *filter, float radius, const tl_nav_location *near,
+                                              float max_distance, tl_nav_location *place_out);
+
+/// How near a path of straight lines over the surface comes to a wall, in the plane: metres, or max_distance when no
+/// wall is nearer. Each corner must lie on its polygon. TL_ERR_LIMIT: the query was out of nodes. TL_ERR_NOT_FOUND: a
+/// stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: no corner, or a negative distance.
+TL_API tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *navmesh,
+                                             const tl_nav_filter *filter, const tl_nav_corner *corners, uint32_t count,
+                                             float max_distance, float *clearance_out);
+
 /// A ray along the surface.
 typedef struct tl_nav_ray_hit {
     bool hit;               ///< false: the end was reached, t is 1

@@ -11,9 +11,10 @@
 // are 0.4% shorter, and 6 to 12% shorter at the best hundredth. What is given up is the proof: a point depends on the
 // path that led there, so a node that is closed may have been reachable by a slightly cheaper one. Source: Hart,
 // Nilsson, Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968. The crossing is
-// Heron's: reflect the goal in the portal's line and go straight.
+// Heron's (crossing.h).
 
 #include "base/assert.h"
+#include "nav_query/crossing.h"
 #include "nav_query/filter.h"
 #include "nav_query/navmesh.h"
 #include "nav_query/node_pool.h"
@@ -54,28 +55,16 @@ static void relax(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32
     tl_nav_heap_improve(search->query, index);
 }
 
-// Where the shortest way from `from` over the portal to `goal` crosses it, in the plane. With both on the line of the
-// portal that is the point of it nearest to the goal.
+static tl_nav_spot spot_of(tl_vec3 point)
+{
+    return tl_nav_spot_make((double)point.x, (double)point.z);
+}
+
 static tl_vec3 crossing_point(tl_vec3 from, tl_vec3 goal, const tl_nav_way *way)
 {
-    double ux = (double)way->left.x - (double)way->right.x;
-    double uz = (double)way->left.z - (double)way->right.z;
-    double from_x = (double)from.x - (double)way->right.x;
-    double from_z = (double)from.z - (double)way->right.z;
-    double goal_x = (double)goal.x - (double)way->right.x;
-    double goal_z = (double)goal.z - (double)way->right.z;
-    // Places along the portal and distances from its line, all times its length.
-    double from_along = from_x * ux + from_z * uz;
-    double goal_along = goal_x * ux + goal_z * uz;
-    double from_off = fabs(from_x * uz - from_z * ux);
-    double goal_off = fabs(goal_x * uz - goal_z * ux);
-    double off = from_off + goal_off;
-    double along = off > 0.0 ? from_along + (goal_along - from_along) * (from_off / off) : goal_along;
-    double length_sq = ux * ux + uz * uz;
-    if (!(along > 0.0)) {
-        return way->right;
-    }
-    return along >= length_sq ? way->left : tl_lerp(way->right, way->left, (float)(along / length_sq));
+    tl_nav_segment portal = { spot_of(way->right), spot_of(way->left) };
+    double share = tl_nav_crossing_share(spot_of(from), spot_of(goal), portal);
+    return tl_lerp(way->right, way->left, (float)share);
 }
 
 // Crosses the off-mesh links that can be taken from a node's polygon.

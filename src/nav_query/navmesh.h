@@ -69,6 +69,7 @@ struct tl_navmesh {
     uint32_t last_fan;   ///< the last number that fans.c gave
     uint64_t all_flags;  ///< that every polygon of every tile so far has
     uint64_t any_flags;  ///< that some polygon of some tile so far has
+    float extent;        ///< metres: the largest |x| or |z| of any tile so far
     // Of all tiles; valid while tile_count > 0.
     tl_vec3 origin;
     float cell_size, cell_height;

@@ -295,13 +295,18 @@ static void number_fans(tl_navmesh *navmesh, uint32_t slot, const uint32_t neigh
     }
 }
 
-static void note_flags(tl_navmesh *navmesh, const tl_nav_tile *tile)
+// What is known of all tiles so far.
+static void note_tile(tl_navmesh *navmesh, const tl_nav_tile *tile)
 {
     if (navmesh->tile_count == 0) {
         navmesh->all_flags = UINT64_MAX;
         navmesh->any_flags = 0;
         tl_nav_note_offmesh_flags(navmesh);
+        navmesh->extent = 0.0f;
     }
+    const tl_aabb *box = &tile->bounds;
+    navmesh->extent = tl_maxf(navmesh->extent, tl_maxf(fabsf(box->min.x), fabsf(box->max.x)));
+    navmesh->extent = tl_maxf(navmesh->extent, tl_maxf(fabsf(box->min.z), fabsf(box->max.z)));
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         navmesh->all_flags &= tl_nav_tile_flags(tile, p);
         navmesh->any_flags |= tl_nav_tile_flags(tile, p);
@@ -342,7 +347,7 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     install_seams(navmesh, index, &seams);
     tl_nav_join_islands(navmesh, index);
     number_fans(navmesh, index, seams.neighbours);
-    note_flags(navmesh, tile);
+    note_tile(navmesh, tile);
     navmesh->origin = tile->origin;
     navmesh->cell_size = tile->cell_size;
     navmesh->cell_height = tile->cell_height;

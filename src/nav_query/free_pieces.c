@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+//
+// Where the centre of a wide agent may cross the outline of a convex polygon, and which of these places hang together
+// inside. Exact: no sampling, no search.
+//
+// What a wall forbids is the stadium of all spots nearer to it than the reach: convex, so it takes one interval off
+// each edge. Intervals that overlap make an arc; the free pieces lie between arcs. Inside the polygon two free pieces
+// are parted exactly when some connected part of what is forbidden touches the outline on both sides between them.
+// Stadiums whose intervals overlap are connected. So are two that overlap only inside: then all of their overlap lies
+// inside, and with it the middle between the two spots where the walls come nearest to each other. No other pair is. As
+// every wall lies outside or on the outline, every connected part reaches it, and its arcs tell all. Parts do not cross
+// one another. So the piece before an arc is bounded, inside, by the arc's part, and that leads to the piece behind the
+// arc which the same part touched last: one pass over the arcs joins all pieces that hang together (Kreweras'
+// complement of a partition without crossings). The widths of portals that others keep (Demyen and Buro, Efficient
+// Triangulation-Based Pathfinding, 2006; Kallmann, Dynamic and Robust Local Clearance Triangulations, 2014) hold for
+// triangles whose corners are all walls; polygons of a navmesh have corners on nothing, and walls of other polygons
+// reach in through several portals. Source: Kreweras, Sur les partitions non croisees d'un cycle, 1972.
+
+#include "nav_query/clearance.h"
+
+#include "base/assert.h"
+
+#include <string.h>
+
+// A forbidden stretch of the outline: places are edge + [0, 1]. Before it is merged, that of one wall.
+typedef struct arc {
+    double from, to;
+    uint32_t wall; // one of its part
+} arc;
+
+typedef struct outline_cut {
+    const tl_nav_spot *corners;
+    uint32_t count;
+    const tl_nav_near_walls *near;
+    double reach;
+    uint32_t *parts; // [wall_count]: union-find over walls
+    arc *arcs;       // [wall_count * count]
+    uint32_t arc_count;
+    uint32_t *faces; // [arc_count]: union-find over the pieces behind arcs
+} outline_cut;
+
+static uint32_t root_of(uint32_t *parents, uint32_t i)
+{
+    while (parents[i] != i) {
+        parents[i] = parents[parents[i]];
+        i = parents[i];
+    }
+    return i;
+}
+
+static void unite(uint32_t *parents, uint32_t i, uint32_t k)
+{
+    uint32_t a = root_of(parents, i);
+    uint32_t b = root_of(parents, k);
+    parents[a > b ? a : b] = a < b ? a : b;
+}
+
+static void widen(double from, double to, double *low, double *high)
+{
+    *low = from < *low ? from : *low;
+    *high = to > *high ? to : *high;
+}
+
+// The part of the line p + t d that lies in a disc.
+static void cut_by_disc(tl_nav_spot p, tl_nav_spot d, tl_nav_spot center, double reach, double *low, double *high)
+{
+    double x = p.x - center.x;
+    double z = p.z - center.z;
+    double a = d.x * d.x + d.z * d.z;
+    double b = x * d.x + z * d.z;
+    double c = x * x + z * z - reach * reach;
+    double root = b * b - a * c;
+    if (root > 0.0) {
+        root = sqrt(root);
+        widen((-b - root) / a, (-b + root) / a, low, high);
+    }
+}
+
+// Takes off [*low, *high] all t for which p + t d is not between two parallel lines. False: none is left.
+static bool clip_by_band(double at, double step, double from, double to, double *low, double *high)
+{
+    if (step == 0.0) {
+        return at > from && at < to;
+    }
+    double first = (from - at) / step;
+    double last = (to - at) / step;
+    *low = fmax(*low, fmin(first, last));
+    *high = fmin(*high, fmax(first, last));
+    return *low < *high;
+}
+
+// The stretch of an edge, as shares of it, that a wall forbids. False: none.
+static bool forbidden_stretch(tl_nav_spot p, tl_nav_spot q, tl_nav_segment wall, double reach, double *from_out,
+                              double *to_out)
+{
+    double low = (double)INFINITY;
+    double high = -(double)INFINITY;
+    tl_nav_spot d = { q.x - p.x, q.z - p.z };
+    cut_by_disc(p, d, wall.a, reach, &low, &high);
+    cut_by_disc(p, d, wall.b, reach, &low, &high);
+    // The rectangle between the two discs.
+    double wx = wall.b.x - wall.a.x;
+    double wz = wall.b.z - wall.a.z;
+    double length = sqrt(wx * wx + wz * wz);
+    double first = -(double)INFINITY;
+    double last = (double)INFINITY;
+    double along = (p.x - wall.a.x) * wx + (p.z - wall.a.z) * wz;
+    double aside = (p.z - wall.a.z) * wx - (p.x - wall.a.x) * wz;
+    if (length > 0.0 && clip_by_band(along, d.x * wx + d.z * wz, 0.0, length * length, &first, &last) &&
+        clip_by_band(aside, d.z * wx - d.x * wz, -reach * length, reach * length, &first, &last)) {
+        widen(first, last, &low, &high);
+    }
+    *from_out = fmax(low, 0.0);
+    *to_out = fmin(high, 1.0);
+    return low < 1.0 && high > 0.0 && *from_out < *to_out;
+}
+
+// Cuts one edge; its stretches follow those of the edges before, and arcs that overlap become one.
+static void cut_edge(outline_cut *cut, uint32_t edge)
+{
+    arc *own = cut->arcs + cut->arc_count;
+    uint32_t count = 0;
+    tl_nav_spot p = cut->corners[edge];
+    tl_nav_spot q = cut->corners[edge + 1 < cut->count ? edge + 1 : 0];
+    for (uint32_t i = 0; i < cut->near->wall_count; i++) {
+        arc stretch = { 0.0, 0.0, i };
+        if (!forbidden_stretch(p, q, cut->near->walls[i], cut->reach, &stretch.from, &stretch.to)) {
+            continue;
+        }
+        stretch.from += (double)edge;
+        stretch.to += (double)edge;
+        // By insertion: a polygon has a dozen walls around it, and a pass over all pairs of them follows.
+        uint32_t at = count++;
+        for (; at > 0 && own[at - 1].from > stretch.from; at--) {
+            own[at] = own[at - 1];
+        }
+        own[at] = stretch;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        arc *last = cut->arc_count > 0 ? &cut->arcs[cut->arc_count - 1] : NULL;
+        if (last != NULL && own[i].from <= last->to) {
+            last->to = fmax(last->to, own[i].to);
+            unite(cut->parts, last->wall, own[i].wall);
+        } else {
+            cut->arcs[cut->arc_count++] = own[i];
+        }
+    }
+}
+
+// The arc over the first corner was cut in two.
+static void close_outline(outline_cut *cut)
+{
+    arc *last = cut->arc_count > 1 ? &cut->arcs[cut->arc_count - 1] : NULL;
+    if (last != NULL && cut->arcs[0].from <= 0.0 && last->to >= (double)cut->count) {
+        unite(cut->parts, cut->arcs[0].wall, last->wall);
+        cut->arcs[0].from = last->from - (double)cut->count;
+        cut->arc_count--;
+    }
+}
+
+// Stadiums that overlap inside the outline alone.
+static void join_inside(outline_cut *cut)
+{
+    const tl_nav_segment *walls = cut->near->walls;
+    double both = 4.0 * cut->reach * cut->reach;
+    for (uint32_t i = 0; i < cut->near->wall_count && cut->arc_count > 1; i++) {
+        for (uint32_t k = i + 1; k < cut->near->wall_count; k++) {
+            tl_nav_spot middle;
+            if (root_of(cut->parts, i) != root_of(cut->parts, k) &&
+                tl_nav_between_segments(walls[i], walls[k], &middle) < both &&
+                tl_nav_outside_by(cut->corners, cut->count, middle) <= 0.0) {
+                unite(cut->parts, i, k);
+            }
+        }
+    }
+}
+
+// Joins the pieces around each part. `last` holds wall_count numbers.
+static void join_faces(outline_cut *cut, uint32_t *last)
+{
+    uint32_t count = cut->arc_count;
+    for (uint32_t i = 0; i < count; i++) {
+        cut->faces[i] = i;
+        last[root_of(cut->parts, cut->arcs[i].wall)] = i;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t part = root_of(cut->parts, cut->arcs[i].wall);
+        unite(cut->faces, i > 0 ? i - 1 : count - 1, last[part]);
+        last[part] = i;
+    }
+}
+
+// Writes the free stretch between two places of the outline, edge by edge; the second may be a lap ahead.
+static void add_pieces(const outline_cut *cut, double from, double to, uint32_t face, tl_nav_pieces *pieces)
+{
+    uint32_t edge = (uint32_t)from;
+    double lap = 0.0;
+    while ((double)edge + lap < to) {
+        double start = (double)edge + lap;
+        tl_nav_piece piece = { fmax(from - start, 0.0), fmin(to - start, 1.0), edge, face };
+        if (piece.from < piece.to) {
+            pieces->pieces[pieces->count++] = piece;
+        }
+        if (++edge == cut->count) {
+            edge = 0;
+            lap += (double)cut->count;
+        }
+    }
+}
+
+bool tl_nav_cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners, uint32_t count,
+                        const tl_nav_near_walls *near, tl_nav_pieces *pieces_out)
+{
+    outline_cut cut = { corners, count, near, clearance->reach, NULL, NULL, 0, NULL };
+    memset(pieces_out, 0, sizeof *pieces_out);
+    uint64_t stretches = (uint64_t)near->wall_count * count;
+    // Each stretch is followed by at most one free piece, and each corner cuts one more.
+    pieces_out->pieces = tl_nav_take(clearance, stretches + count, sizeof *pieces_out->pieces);
+    tl_nav_room room = clearance->room;
+    cut.parts = tl_nav_take(clearance, near->wall_count, sizeof *cut.parts);
+    uint32_t *last = tl_nav_take(clearance, near->wall_count, sizeof *last);
+    cut.arcs = tl_nav_take(clearance, stretches, sizeof *cut.arcs);
+    cut.faces = tl_nav_take(clearance, stretches, sizeof *cut.faces);
+    if (clearance->is_full) {
+        return false;
+    }
+    for (uint32_t i = 0; i < near->wall_count; i++) {
+        cut.parts[i] = i;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        cut_edge(&cut, i);
+    }
+    close_outline(&cut);
+    join_inside(&cut);
+    join_faces(&cut, last);
+    if (cut.arc_count == 0) {
+        add_pieces(&cut, 0.0, (double)count, 0, pieces_out);
+    }
+    for (uint32_t i = 0; i < cut.arc_count; i++) {
+        bool laps = i + 1 == cut.arc_count;
+        double to = laps ? cut.arcs[0].from + (double)count : cut.arcs[i + 1].from;
+        // The arc that was closed over the first corner begins before it.
+        double from = cut.arcs[i].to;
+        add_pieces(&cut, from, to, root_of(cut.faces, i), pieces_out);
+    }
+    pieces_out->face_count = cut.arc_count > 0 ? cut.arc_count : 1;
+    TL_ASSERT(pieces_out->count <= stretches + count);
+    clearance->room = room;
+    return true;
+}
+
+const tl_nav_piece *tl_nav_piece_at(const tl_nav_pieces *pieces, const tl_nav_spot *corners, uint32_t count,
+                                    tl_nav_spot spot, double slack)
+{
+    const tl_nav_piece *best = NULL;
+    double best_sq = slack * slack;
+    for (uint32_t i = 0; i < pieces->count; i++) {
+        const tl_nav_piece *piece = &pieces->pieces[i];
+        tl_nav_spot p = corners[piece->edge];
+        tl_nav_spot q = corners[piece->edge + 1 < count ? piece->edge + 1 : 0];
+        tl_nav_segment stretch = { tl_nav_spot_lerp(p, q, piece->from), tl_nav_spot_lerp(p, q, piece->to) };
+        tl_nav_spot nearest;
+        double distance_sq = tl_nav_nearest_of_segment(stretch, spot, &nearest);
+        if (distance_sq <= best_sq) {
+            best_sq = distance_sq;
+            best = piece;
+        }
+    }
+    return best;
+}

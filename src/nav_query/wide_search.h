@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// A wide path is made in three steps: which portals' pieces it passes (wide_search.c), how it goes from one to the
+// next within each polygon (wide_detour.c), and how short it gets when it is pulled (wide_pull.c).
+
+#ifndef TALUS_SRC_NAV_QUERY_WIDE_SEARCH_H
+#define TALUS_SRC_NAV_QUERY_WIDE_SEARCH_H
+
+#include "nav_query/clearance.h"
+
+/// A place of a path. Paths are lists, so that they may be changed in the middle.
+typedef struct tl_nav_bend {
+    tl_nav_spot spot;
+    uint32_t slot, polygon; ///< the path goes on in it
+    uint32_t before, next;  ///< TL_NAV_NO_NODE at the ends
+} tl_nav_bend;
+
+typedef struct tl_nav_bends {
+    tl_nav_bend *bends; ///< [0]: the path's start
+    uint32_t count, capacity;
+    uint32_t last; ///< the path's end
+} tl_nav_bends;
+
+/// A new bend behind another (TL_NAV_NO_NODE: the first of all); its number, or TL_NAV_NO_NODE: no room.
+uint32_t tl_nav_bend_add(tl_nav_bends *path, uint32_t behind, tl_nav_spot spot, uint32_t slot, uint32_t polygon);
+
+typedef struct tl_nav_wide_end {
+    tl_nav_spot spot;
+    uint32_t slot, polygon;
+    uint32_t face; ///< of its polygon's pieces; TL_NAV_NO_FACE: it can leave by none
+} tl_nav_wide_end;
+
+typedef struct tl_nav_wide_search {
+    tl_nav_clearance *clearance;
+    tl_nav_wide_end start, goal;
+    bool is_joined; ///< there is a free way from start to goal within their polygon
+    uint32_t last;  ///< node of the goal, when found
+} tl_nav_wide_search;
+
+/// Looks where an end stands. False: nearer to a wall than the reach, or out of room (is_full).
+bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end);
+
+/// Finds the pieces of portals that lead to the goal: nodes of the query, from `last` over their parents to the
+/// start's. False: there are none, or the query is out of nodes or room (is_full).
+bool tl_nav_wide_run(tl_nav_wide_search *search);
+
+/// Adds the bends of a free way, the shortest there is, between two that stand in one polygon, `behind` and its next.
+/// False: out of room (is_full).
+bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_t behind);
+
+/// Pulls a free path taut. False: out of room (is_full); the path is free all the same.
+bool tl_nav_wide_pull(tl_nav_clearance *clearance, tl_nav_bends *path);
+
+/// The corners of the polygon with 32 of them that is written into the circle around a wall's end.
+#define TL_NAV_CAP_CORNERS 32u
+tl_nav_spot tl_nav_cap_corner(tl_nav_spot center, double radius, uint32_t index);
+
+#endif
