@@ -16,13 +16,20 @@ void tl_area_sums_add(tl_area_sums *sums, const tl_nav_tile *tile)
     }
 }
 
+bool tl_area_sums_has_others(const tl_area_sums *sums)
+{
+    for (int area = 0; area <= TL_NAV_MAX_AREA; area++) {
+        if (area != TL_NAV_WALKABLE_AREA && sums->polygons[area] > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void tl_area_sums_print(const tl_area_sums *sums)
 {
-    uint32_t others = 0;
-    for (int area = 0; area <= TL_NAV_MAX_AREA; area++) {
-        others += area != TL_NAV_WALKABLE_AREA && sums->polygons[area] > 0;
-    }
-    for (int area = 0; others > 0 && area <= TL_NAV_MAX_AREA; area++) {
+    const bool others = tl_area_sums_has_others(sums);
+    for (int area = 0; others && area <= TL_NAV_MAX_AREA; area++) {
         if (sums->polygons[area] > 0) {
             printf("area %-4d  %llu polygons, %.1f m2\n", area, (unsigned long long)sums->polygons[area],
                    sums->square_metres[area]);

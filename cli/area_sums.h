@@ -16,7 +16,10 @@ typedef struct tl_area_sums {
 
 void tl_area_sums_add(tl_area_sums *sums, const tl_nav_tile *tile);
 
-/// A line for each area that has polygons; nothing when all have the area that slope gives.
+/// Whether there is an area beside the one that slope gives.
+bool tl_area_sums_has_others(const tl_area_sums *sums);
+
+/// A line for each area that has polygons; nothing when there are no others.
 void tl_area_sums_print(const tl_area_sums *sums);
 
 /// [{"area": 63, "polygons": 12, "square_metres": 3.5}, ...]

@@ -176,11 +176,32 @@ bool draw_need_soup(draw_source *source, tl_exit *exit_out)
     return result == TL_OK;
 }
 
+// A baked file keeps what came of areas, in its tiles, and not where they came from.
+static void warn_of_areas(const draw_source *source)
+{
+    tl_area_sums sums;
+    memset(&sums, 0, sizeof sums);
+    const tl_pack *pack = &source->input.pack;
+    for (uint32_t i = 0; source->input.baked && i < pack->chunk_count; i++) {
+        const tl_pack_chunk chunk = tl_pack_chunk_at(pack, i);
+        if (chunk.type == TL_PACK_NAVT && tl_nav_tile_check(chunk.bytes, chunk.size, NULL) == TL_OK) {
+            tl_area_sums_add(&sums, chunk.bytes);
+        }
+    }
+    if (tl_area_sums_has_others(&sums)) {
+        tl_cli_warn(source->cli,
+                    "%s was baked with areas; the stages before navmesh are made again without them: draw "
+                    "the level with the same --area and --areas to see them",
+                    source->input.path);
+    }
+}
+
 bool draw_need_stages(draw_source *source, tl_exit *exit_out)
 {
     if (source->has_stages) {
         return true;
     }
+    warn_of_areas(source);
     tl_nav_def def = source->nav_def;
     def.tile_size = 0;
     def.host = source->cli->host;

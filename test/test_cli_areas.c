@@ -77,6 +77,12 @@ static void test_marks(void **state)
     cli_check_part(drawn.out, "park-areas.png");
     cli_check_part(drawn.out, "park-navmesh.png");
     cli_free(&drawn);
+    drawn = cli_expect(0, "draw park.talus -o baked.png --stage areas,navmesh --size 240");
+    cli_check_part(drawn.err, "was baked with areas");
+    cli_free(&drawn);
+    drawn = cli_expect(0, "draw park.talus -o baked.png --stage navmesh --size 240");
+    TEST_CHECK(drawn.err[0] == '\0');
+    cli_free(&drawn);
     cli_result info = cli_expect(0, "info park.talus");
     cli_check_part(info.out, "area 9 ");
     cli_check_part(info.out, "area 63 ");

@@ -14,12 +14,13 @@
 #include <talus/nav_query.h>
 
 #include <stdio.h>
+#include <string.h>
 
 static uint32_t settings_a_level = 12;
 
 typedef struct sweep_counts {
     uint32_t tiles, polygons, tiled, solo, repaired;
-    uint32_t partitions[3], methods[3];
+    uint32_t partitions[3], methods[3], with_areas;
     uint64_t links, filtered_spans;
 } sweep_counts;
 
@@ -44,14 +45,13 @@ static tl_nav_def random_def(test_random *random)
     return def;
 }
 
-static void check_tile(const tl_nav_config *config, const tl_mesh_view *mesh, const char *name, tl_navmesh *navmesh,
+static void check_tile(const tl_nav_config *config, const tl_nav_input *input, const char *name, tl_navmesh *navmesh,
                        sweep_counts *counts)
 {
-    const tl_nav_input input = { *mesh, NULL, NULL, 0 };
     tl_host host = { NULL, NULL, NULL };
     tl_nav_stages stages = { 0 };
     tl_nav_tile *tile;
-    TEST_RESULT(tl_nav_tile_build(config, &input, &host, &stages, &tile, NULL), TL_OK);
+    TEST_RESULT(tl_nav_tile_build(config, input, &host, &stages, &tile, NULL), TL_OK);
     tl_polygon_check_report report;
     if (tl_polygon_mesh_check(&stages.polygons, &stages.contours.set, NULL, &report) != TL_OK) {
         fail_msg("%s, tile %u, %u of cells of %g m: %s", name, config->tile_x, config->tile_z,
@@ -100,11 +100,31 @@ static void check_links(const tl_navmesh *navmesh, const char *name, sweep_count
     }
 }
 
+// An area for every few triangles, and one for what lies in a cylinder in the middle.
+static uint8_t *make_areas(const tl_mesh *mesh, tl_nav_volume *volume)
+{
+    uint8_t *areas = malloc(mesh->triangle_count);
+    for (uint32_t t = 0; t < mesh->triangle_count; t++) {
+        areas[t] = (uint8_t)(t / 61 % 256);
+    }
+    const tl_vec3 middle = tl_aabb_center(mesh->bounds), size = tl_aabb_size(mesh->bounds);
+    memset(volume, 0, sizeof *volume);
+    volume->kind = TL_NAV_VOLUME_CYLINDER;
+    volume->area = 255;
+    volume->base = tl_vec3_make(middle.x, mesh->bounds.min.y, middle.z);
+    volume->radius = 0.2f * size.x;
+    volume->height = size.y;
+    return areas;
+}
+
 static void sweep_level(const tl_mesh_view *view, const char *name, uint64_t seed, sweep_counts *counts)
 {
     tl_mesh mesh;
     TEST_RESULT(tl_mesh_build(view, NULL, &mesh, NULL), TL_OK);
-    tl_mesh_view clean = tl_mesh_as_view(&mesh);
+    tl_nav_volume volume;
+    uint8_t *areas = make_areas(&mesh, &volume);
+    const tl_nav_input plain = { tl_mesh_as_view(&mesh), NULL, NULL, 0 };
+    const tl_nav_input marked = { plain.mesh, areas, &volume, 1 };
     test_random random = { seed };
     for (uint32_t i = 0; i < settings_a_level; i++) {
         tl_nav_def def = random_def(&random);
@@ -116,23 +136,25 @@ static void sweep_level(const tl_mesh_view *view, const char *name, uint64_t see
         for (uint32_t t = 0; t < tiles_x * tiles_z; t++) {
             tl_nav_config config;
             TEST_RESULT(tl_nav_config_make(&def, mesh.bounds, t % tiles_x, t / tiles_x, &config, NULL), TL_OK);
-            check_tile(&config, &clean, name, navmesh, counts);
+            check_tile(&config, i % 3 == 2 ? &marked : &plain, name, navmesh, counts);
         }
         check_links(navmesh, name, counts);
         tl_navmesh_free(navmesh);
         *(def.tile_size == 0 ? &counts->solo : &counts->tiled) += 1;
         counts->partitions[def.partition]++;
+        counts->with_areas += i % 3 == 2;
         counts->methods[def.polygon_method]++;
     }
+    free(areas);
     tl_mesh_free(&mesh, NULL);
 }
 
 static void print_counts(const sweep_counts *counts)
 {
     print_message("%u tiles, %u polygons, %llu links, %u repaired contours, %llu floors of small islands dropped; "
-                  "%u settings in one tile, %u in tiles\n",
+                  "%u settings in one tile, %u in tiles, %u with areas\n",
                   counts->tiles, counts->polygons, (unsigned long long)counts->links, counts->repaired,
-                  (unsigned long long)counts->filtered_spans, counts->solo, counts->tiled);
+                  (unsigned long long)counts->filtered_spans, counts->solo, counts->tiled, counts->with_areas);
 }
 
 static void built_in_levels(void **state)
