@@ -28,11 +28,12 @@ static tl_vec3 nearest_on(tl_vec3 a, tl_vec3 b, tl_vec3 p)
 {
     double dx = (double)b.x - (double)a.x, dz = (double)b.z - (double)a.z;
     double along = dx * ((double)p.x - (double)a.x) + dz * ((double)p.z - (double)a.z), length_sq = dx * dx + dz * dz;
-    if (!(along > 0.0)) {
-        return a;
+    double t = along > 0.0 && length_sq > 0.0 ? along < length_sq ? along / length_sq : 1.0 : 0.0;
+    if (t <= 0.0 || t >= 1.0) {
+        return t <= 0.0 ? a : b;
     }
-    return along >= length_sq ? b
-                              : tl_min(tl_max(tl_lerp(a, b, (float)(along / length_sq)), tl_min(a, b)), tl_max(a, b));
+    return tl_vec3_make((float)((double)a.x + t * dx), (float)((double)a.y + t * ((double)b.y - (double)a.y)),
+                        (float)((double)a.z + t * dz));
 }
 
 static double distance_to_circle(const tl_nav_zone *zone, tl_vec3 a, tl_vec3 b)
@@ -134,7 +135,7 @@ static void test_fields(void **state)
             const tl_nav_filter *used = i % 2 == 0 ? NULL : &filter;
             tl_nav_zone zone = tl_nav_circle(start.point, test_random_range(&random, 1.0f, 12.0f));
             tl_nav_field_def field = { i < 2 ? INFINITY : test_random_range(&random, 2.0f, 40.0f),
-                                       i >= 4 ? &zone : NULL };
+                                       i >= 4 ? &zone : NULL, true };
             bool close_call = false;
             twin_entry *twin = twin_flood(navmesh, &all, used, &start, field.max_cost, field.zone, &close_call);
             tl_nav_field_entry entries[MOST];
@@ -156,6 +157,17 @@ static void test_fields(void **state)
                 }
             }
             TEST_CHECK(close_call || expected == count);
+            // As they were found: the same ones, the start's first.
+            tl_nav_field_entry found[MOST];
+            uint32_t found_count = 0;
+            field.by_reference = false;
+            TEST_RESULT(tl_nav_query_flood(query, navmesh, used, &start, &field, found, MOST, &found_count), TL_OK);
+            TEST_CHECK(found_count == count && found[0].polygon == start.polygon && found[0].parent == UINT32_MAX);
+            for (uint32_t k = 0; k < count; k++) {
+                uint32_t at = tl_nav_field_find(entries, count, found[k].polygon);
+                TEST_CHECK(at != UINT32_MAX && entries[at].cost == found[k].cost);
+                TEST_CHECK(k == 0 || found[found[k].parent].polygon == entries[entries[at].parent].polygon);
+            }
             for (uint32_t k = 0; k < 10; k++) {
                 check_path(query, navmesh, entries, count, test_random_below(&random, count), &start, &ratios);
                 paths++;
@@ -189,7 +201,7 @@ static void test_reachable(void **state)
         tl_nav_location center = fixture_random_location(navmesh, &all, &random);
         float radius = test_random_range(&random, 1.5f, 9.0f);
         tl_nav_zone zone = tl_nav_circle(center.point, radius);
-        tl_nav_field_def field = { radius, &zone };
+        tl_nav_field_def field = { radius, &zone, true };
         tl_nav_field_entry entries[MOST];
         uint32_t count = 0, kept = 0, expected[SECTORS] = { 0 }, met[SECTORS] = { 0 };
         TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &center, &field, entries, MOST, &count), TL_OK);
@@ -246,7 +258,7 @@ static void test_links(void **state)
     tl_nav_location start, goal;
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2, 0, 2), extents, &start), TL_OK);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(22, 0, 2), extents, &goal), TL_OK);
-    tl_nav_field_def everywhere = { INFINITY, NULL };
+    tl_nav_field_def everywhere = { INFINITY, NULL, true };
     tl_nav_field_entry entries[8];
     tl_nav_ref polygons[8], expected[8];
     uint32_t count = 0, length = 0;
@@ -264,7 +276,7 @@ static void test_links(void **state)
     TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &goal, &everywhere, entries, 8, &count), TL_OK);
     TEST_CHECK(count == 2);
     tl_nav_zone zone = tl_nav_circle(start.point, 10.0f);
-    tl_nav_field_def near_start = { INFINITY, &zone };
+    tl_nav_field_def near_start = { INFINITY, &zone, true };
     TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &near_start, entries, 8, &count), TL_OK);
     TEST_CHECK(count == 2);
     tl_nav_query_free(query);
@@ -282,7 +294,7 @@ static void test_arguments(void **state)
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } }, at;
     tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
-    tl_nav_field_def field = { INFINITY, NULL }, below = { -1.0f, NULL };
+    tl_nav_field_def field = { INFINITY, NULL, true }, below = { -1.0f, NULL, true };
     tl_nav_field_entry entries[8];
     uint32_t count = 0;
     const uint64_t bits[2] = { 1, 2 };

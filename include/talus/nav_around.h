@@ -54,22 +54,24 @@ typedef struct tl_nav_field_def {
     float max_cost;          ///< polygons that are entered at a higher cost do not belong to it; INFINITY: all do
     const tl_nav_zone *zone; ///< NULL: everywhere; else only ways from polygon to polygon that come into it are gone,
                              ///< and off-mesh links that land in it
+    bool by_reference;       ///< entries stand in the order of references, for tl_nav_field_find; false: in the order
+                             ///< in which they were found, the start's first, which takes less time
 } tl_nav_field_def;
 
 /// Floods the polygons around a start, the cheapest first: those that hang together with it within the field's reach,
 /// what a path costs there, and from where it comes.
 ///
 /// Paths go from polygon to polygon over the point of the way that is nearest to the one before: they are no shortest
-/// ones, but lie near them; tl_navmesh_straight_path makes them short. Entries are ordered by reference, for
-/// tl_nav_field_find. `*count_out` is the true number. TL_ERR_CAPACITY: only the first were written, and parents may
-/// name others. TL_ERR_LIMIT: the query was out of nodes; those that were found are written, and costs may be too
-/// high. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: the zone, a cost, max_cost below 0.
-/// O(polygons log polygons). Source: Dijkstra 1959.
+/// ones, but lie near them; tl_navmesh_straight_path makes them short. `*count_out` is the true number.
+/// TL_ERR_CAPACITY: only the first were written, and parents may name others. TL_ERR_LIMIT: the query was out of nodes;
+/// those that were found are written, and costs may be too high. TL_ERR_NOT_FOUND: a stale reference.
+/// TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: the zone, a cost, max_cost below 0. O(polygons log polygons). Source: Dijkstra
+/// 1959.
 TL_API tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                     const tl_nav_location *start, const tl_nav_field_def *def,
                                     tl_nav_field_entry *entries_out, uint32_t capacity, uint32_t *count_out);
 
-/// The entry of a polygon, or UINT32_MAX. O(log count).
+/// The entry of a polygon in a field by reference, or UINT32_MAX. O(log count).
 TL_API uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t count, tl_nav_ref polygon);
 
 /// The path from the field's start to an entry's polygon, as tl_nav_query_find_path writes it, for

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Fields of costs: a flood, written out in the order of references, so that a polygon is found by bisection and its
-// path by following parents, without a search and without a table beside the caller's entries.
+// Fields of costs: a flood, written out. In the order of references a polygon is found by bisection, without a search
+// and without a table beside the caller's entries, and its path by following parents.
 
 #include "base/assert.h"
 #include "base/radix_sort.h"
@@ -16,11 +16,9 @@ static const tl_sort_item *order_nodes(tl_nav_query *query)
     _Static_assert(sizeof(tl_nav_wedge) >= 2 * sizeof(tl_sort_item), "wedges hold items and their scratch");
     tl_sort_item *items = (tl_sort_item *)(void *)query->wedges;
     for (uint32_t i = 0; i < query->node_count; i++) {
-        // An item is smaller than a wedge: it never lies beyond the one whose end is read.
-        uint32_t end = *tl_nav_flood_end(query, i);
         items[i].key = query->nodes[i].key;
         items[i].value = i;
-        items[i].extra = end;
+        items[i].extra = *tl_nav_flood_end(query, i);
     }
     tl_radix_sort(items, items + query->max_nodes, query->node_count);
     for (uint32_t i = 0; i < query->node_count; i++) {
@@ -29,21 +27,35 @@ static const tl_sort_item *order_nodes(tl_nav_query *query)
     return items;
 }
 
-static void write_entries(tl_nav_query *query, const tl_navmesh *navmesh, tl_nav_field_entry *entries,
-                          uint32_t capacity)
+// `end`: by which the way into the node began; `parent`: the place of the entry that it comes from.
+static void write_entry(const tl_navmesh *navmesh, const tl_nav_node *node, uint32_t end, uint32_t parent,
+                        tl_nav_field_entry *entry)
+{
+    entry->polygon = node->key;
+    entry->link = end == TL_NAV_NO_END ? TL_NAV_NO_REF : tl_nav_offmesh_ref(&navmesh->offmesh, end);
+    entry->parent = parent;
+    entry->cost = node->cost;
+    entry->point = node->point;
+}
+
+static void write_as_found(tl_nav_query *query, const tl_navmesh *navmesh, tl_nav_field_entry *entries,
+                           uint32_t capacity)
+{
+    for (uint32_t i = 0; i < query->node_count && i < capacity; i++) {
+        const tl_nav_node *node = &query->nodes[i];
+        write_entry(navmesh, node, *tl_nav_flood_end(query, i), node->parent, &entries[i]);
+    }
+}
+
+static void write_by_reference(tl_nav_query *query, const tl_navmesh *navmesh, tl_nav_field_entry *entries,
+                               uint32_t capacity)
 {
     const tl_sort_item *items = order_nodes(query);
     for (uint32_t i = 0; i < query->node_count && i < capacity; i++) {
         const tl_nav_node *node = &query->nodes[items[i].value];
-        entries[i].polygon = node->key;
-        entries[i].link =
-            items[i].extra == TL_NAV_NO_END ? TL_NAV_NO_REF : tl_nav_offmesh_ref(&navmesh->offmesh, items[i].extra);
-        entries[i].parent = node->parent == TL_NAV_NO_NODE ? UINT32_MAX : query->nodes[node->parent].heap_at;
-        entries[i].cost = node->cost;
-        entries[i].point = node->point;
+        uint32_t parent = node->parent == TL_NAV_NO_NODE ? UINT32_MAX : query->nodes[node->parent].heap_at;
+        write_entry(navmesh, node, items[i].extra, parent, &entries[i]);
     }
-    // The places stand where the pool looks for open nodes: none is left.
-    query->heap_count = 0;
 }
 
 tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
@@ -63,12 +75,18 @@ tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, con
     if (def->zone != NULL) {
         TL_TRY(tl_nav_zone_begin(def->zone, &zone));
     }
-    tl_nav_flood flood = { query, navmesh, filter, false, def->max_cost, def->zone != NULL ? &zone : NULL, false };
+    tl_nav_flood flood = {
+        query, navmesh, filter, false, def->max_cost, def->zone != NULL ? &zone : NULL, false, false
+    };
     if (!tl_nav_flood_run(&flood, start)) {
         return TL_ERR_NOT_FOUND;
     }
     *count_out = query->node_count;
-    write_entries(query, navmesh, entries_out, capacity);
+    if (def->by_reference) {
+        write_by_reference(query, navmesh, entries_out, capacity);
+    } else {
+        write_as_found(query, navmesh, entries_out, capacity);
+    }
     if (flood.out_of_nodes) {
         return TL_ERR_LIMIT;
     }

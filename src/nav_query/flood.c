@@ -7,6 +7,8 @@
 #include "nav_query/flood.h"
 
 #include "nav_query/filter.h"
+#include "nav_query/plan.h"
+#include "nav_query/ring_step.h"
 #include "nav_query/surface.h"
 
 // Offers a way into a polygon: `end` is the one of an off-mesh link that was left, or TL_NAV_NO_END.
@@ -37,9 +39,11 @@ static void enter(tl_nav_flood *flood, uint32_t slot, uint32_t polygon, tl_vec3 
 
 static float cost_between(const tl_nav_flood *flood, const tl_nav_node *node, tl_vec3 to)
 {
+    if (flood->in_metres || flood->filter == NULL) {
+        return tl_distance(node->point, to);
+    }
     const tl_nav_tile *tile = flood->navmesh->slots[node->slot].tile;
-    return flood->in_metres ? tl_distance(node->point, to)
-                            : tl_nav_cost_between(flood->filter, tile, node->polygon, node->point, to);
+    return tl_nav_cost_between(flood->filter, tile, node->polygon, node->point, to);
 }
 
 static void cross_links(tl_nav_flood *flood, const tl_nav_node *node, uint32_t index)
@@ -65,17 +69,32 @@ static void cross_links(tl_nav_flood *flood, const tl_nav_node *node, uint32_t i
 static void go_on(tl_nav_flood *flood, uint32_t index)
 {
     const tl_nav_node node = flood->query->nodes[index];
-    cross_links(flood, &node, index);
-    tl_nav_ways ways = tl_nav_ways_of(flood->navmesh, node.slot, node.polygon);
-    tl_nav_way way;
-    while (tl_nav_ways_next(&ways, &way)) {
-        if (!tl_nav_passes(flood->filter, flood->navmesh->slots[way.slot].tile, way.polygon) ||
-            (flood->zone != NULL && !tl_nav_zone_meets_segment(flood->zone, way.right, way.left))) {
+    const tl_nav_node *parent = node.parent != TL_NAV_NO_NODE ? &flood->query->nodes[node.parent] : NULL;
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(flood->navmesh, node.slot, node.polygon, &count);
+    const bool all_pass = flood->all_pass;
+    if (flood->navmesh->slots[node.slot].anchor_count > 0) {
+        cross_links(flood, &node, index);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (!tl_nav_ring_is_open(&ring[i])) {
             continue;
         }
-        tl_vec3 point = tl_nav_closest_on_edge(way.right, way.left, node.point);
+        tl_nav_ring_seam to = tl_nav_ring_across(flood->navmesh, node.slot, ring[i].to);
+        if (parent != NULL && to.polygon == parent->polygon && to.slot == parent->slot) {
+            continue; // closed already
+        }
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        tl_vec3 right = { ring[i].x, ring[i].y, ring[i].z };
+        tl_vec3 left = { end->x, end->y, end->z };
+        if ((flood->zone != NULL && !tl_nav_zone_meets_segment(flood->zone, right, left)) ||
+            (!all_pass && !tl_nav_passes(flood->filter, flood->navmesh->slots[to.slot].tile, to.polygon))) {
+            continue;
+        }
+        double t = tl_nav_nearest_on_edge(&ring[i], end, (double)node.point.x, (double)node.point.z).t;
+        tl_vec3 point = tl_nav_point_on_edge(&ring[i], end, t);
         float cost = cost_between(flood, &node, point);
-        enter(flood, way.slot, way.polygon, point, node.cost + cost, index, TL_NAV_NO_END);
+        enter(flood, to.slot, to.polygon, point, node.cost + cost, index, TL_NAV_NO_END);
     }
 }
 
@@ -87,6 +106,7 @@ bool tl_nav_flood_run(tl_nav_flood *flood, const tl_nav_location *start)
         return false;
     }
     flood->out_of_nodes = false;
+    flood->all_pass = tl_nav_all_pass(flood->navmesh, flood->filter);
     tl_nav_pool_reset(flood->query);
     enter(flood, slot, polygon, start->point, 0.0f, TL_NAV_NO_NODE, TL_NAV_NO_END);
     for (uint32_t index = 0; (index = tl_nav_heap_pop(flood->query)) != TL_NAV_NO_NODE;) {

@@ -16,13 +16,14 @@ typedef struct tl_nav_flood {
     float max_cost;
     const tl_nav_zone_test *zone; ///< NULL: everywhere
     bool out_of_nodes;
+    bool all_pass; ///< the filter refuses nothing
 } tl_nav_flood;
 
-/// By which end of an off-mesh link a node was left for, or TL_NAV_NO_END: kept among the wedges, which a flood does
-/// not use.
+/// The end of an off-mesh link by which the way into a node was begun, or TL_NAV_NO_END: kept in the heap of wedges,
+/// which a flood does not use.
 static inline uint32_t *tl_nav_flood_end(tl_nav_query *query, uint32_t node)
 {
-    return &query->wedges[node].edge;
+    return &query->wedge_heap[node].wedge;
 }
 
 /// Floods from a point of a polygon. Afterwards the query's nodes [0, node_count) are the polygons, the start's first;

@@ -57,6 +57,15 @@ static double inside_of(clip_point a, clip_point b, clip_point p)
     return (b.x - a.x) * (p.z - a.z) - (b.z - a.z) * (p.x - a.x);
 }
 
+static bool comes_outside(const clip_polygon *polygon, clip_point a, clip_point b)
+{
+    uint32_t i = 0;
+    while (i < polygon->count && inside_of(a, b, polygon->points[i]) >= 0.0) {
+        i++;
+    }
+    return i < polygon->count;
+}
+
 static void clip_to_side(const clip_polygon *in, clip_point a, clip_point b, clip_polygon *out)
 {
     out->count = 0;
@@ -92,11 +101,16 @@ static void clip(const tl_nav_flood *flood, const tl_nav_node *node, double radi
         double z = out->points[i].z;
         is_within = is_within && x * x + z * z <= middle * middle;
     }
+    clip_point from = circle_corner(0, radius);
     for (uint32_t side = 0; side < SIDES && !is_within && out->count > 0; side++) {
-        clip_polygon cut;
-        clip_to_side(out, circle_corner(side, radius), circle_corner(side + 1, radius), &cut);
-        out->count = cut.count;
-        memcpy(out->points, cut.points, cut.count * sizeof *cut.points);
+        clip_point to = circle_corner(side + 1, radius);
+        if (comes_outside(out, from, to)) {
+            clip_polygon cut;
+            clip_to_side(out, from, to, &cut);
+            out->count = cut.count;
+            memcpy(out->points, cut.points, cut.count * sizeof *cut.points);
+        }
+        from = to;
     }
 }
 
@@ -117,22 +131,34 @@ static double area_of(const clip_polygon *polygon)
     return area;
 }
 
-// Goes over the parts of all polygons up to area `at`; returns the sum of those before. With INFINITY: of all.
-static double sum_areas(const tl_nav_flood *flood, double radius, double at, uint32_t *node_out, clip_polygon *part)
+// The area of the part of each polygon, kept among the wedges, which a flood does not use; returns the sum.
+static double sum_areas(const tl_nav_flood *flood, double radius)
 {
+    tl_nav_query *query = flood->query;
     double sum = 0.0;
-    for (uint32_t i = 0; i < flood->query->node_count; i++) {
-        clip(flood, &flood->query->nodes[i], radius, part);
-        double area = area_of(part);
-        if (area > 0.0) {
-            *node_out = i; // the last one, when rounding has led past all of them
-        }
-        if (at < sum + area) {
-            return sum;
-        }
-        sum += area;
+    for (uint32_t i = 0; i < query->node_count; i++) {
+        clip_polygon part;
+        clip(flood, &query->nodes[i], radius, &part);
+        query->wedges[i].cost = area_of(&part);
+        sum += query->wedges[i].cost;
     }
     return sum;
+}
+
+// The node in whose part area `*at` lies, which becomes that within the part. Where rounding has led past all parts it
+// is the last one.
+static uint32_t find_part(const tl_nav_query *query, double *at)
+{
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < query->node_count; i++) {
+        double area = query->wedges[i].cost;
+        found = area > 0.0 ? i : found;
+        if (*at < area) {
+            break;
+        }
+        *at -= area;
+    }
+    return found;
 }
 
 static tl_vec3 point_in(const tl_nav_flood *flood, const clip_polygon *part, double at, uint64_t bits)
@@ -162,20 +188,18 @@ tl_result tl_nav_query_random_reachable(tl_nav_query *query, const tl_navmesh *n
     if (!tl_nav_is_finite(center->point)) {
         return TL_ERR_NOT_FINITE;
     }
-    tl_nav_flood flood = { query, navmesh, filter, true, radius, &test, false };
+    tl_nav_flood flood = { query, navmesh, filter, true, radius, &test, false, false };
     if (!tl_nav_flood_run(&flood, center)) {
         return TL_ERR_NOT_FOUND;
     }
     location_out->polygon = center->polygon;
-    clip_polygon part;
-    uint32_t index = TL_NAV_NO_NODE;
-    double sum = radius > 0.0f ? sum_areas(&flood, (double)radius, (double)INFINITY, &index, &part) : 0.0;
+    double sum = radius > 0.0f ? sum_areas(&flood, (double)radius) : 0.0;
     if (!(sum > 0.0)) {
         return tl_navmesh_closest_point(navmesh, location_out->polygon, center->point, &location_out->point, NULL);
     }
     double at = (double)(random[0] >> 11) * (1.0 / 9007199254740992.0) * sum;
-    at -= sum_areas(&flood, (double)radius, at, &index, &part);
-    const tl_nav_node *node = &query->nodes[index];
+    const tl_nav_node *node = &query->nodes[find_part(query, &at)];
+    clip_polygon part;
     clip(&flood, node, (double)radius, &part);
     bool inside = false;
     location_out->polygon = node->key;

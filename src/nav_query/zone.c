@@ -82,20 +82,6 @@ tl_result tl_nav_zone_begin(const tl_nav_zone *zone, tl_nav_zone_test *test_out)
     return zone->radius >= 0.0f ? TL_OK : TL_ERR_ARGUMENT;
 }
 
-static double distance_sq_to_segment(tl_vec3 p, tl_vec3 a, tl_vec3 b)
-{
-    double ex = (double)b.x - (double)a.x;
-    double ez = (double)b.z - (double)a.z;
-    double px = (double)p.x - (double)a.x;
-    double pz = (double)p.z - (double)a.z;
-    double along = ex * px + ez * pz;
-    double length_sq = ex * ex + ez * ez;
-    double t = !(along > 0.0) ? 0.0 : along < length_sq ? along / length_sq : 1.0;
-    px -= t * ex;
-    pz -= t * ez;
-    return px * px + pz * pz;
-}
-
 // Whether the line of an edge of `a`, whose inside is on the side `hand` of it, has all of `b` beyond it.
 static bool parts(const tl_vec3 *a, uint32_t a_count, int hand, const tl_vec3 *b, uint32_t b_count)
 {
@@ -113,11 +99,8 @@ static bool parts(const tl_vec3 *a, uint32_t a_count, int hand, const tl_vec3 *b
     return false;
 }
 
-bool tl_nav_zone_meets_segment(const tl_nav_zone_test *test, tl_vec3 a, tl_vec3 b)
+bool tl_nav_outline_meets_segment(const tl_nav_zone_test *test, tl_vec3 a, tl_vec3 b)
 {
-    if (test->points == NULL) {
-        return distance_sq_to_segment(test->center, a, b) <= test->radius_sq;
-    }
     const tl_vec3 ends[2] = { a, b };
     return !parts(test->points, test->point_count, test->hand, ends, 2) &&
            !parts(ends, 2, 1, test->points, test->point_count);
@@ -133,7 +116,7 @@ bool tl_nav_zone_meets_polygon(const tl_nav_zone_test *test, const tl_vec3 *corn
     for (uint32_t i = 0; i < count; i++) {
         tl_vec3 a = corners[i];
         tl_vec3 b = corners[i + 1 < count ? i + 1 : 0];
-        if (distance_sq_to_segment(test->center, a, b) <= test->radius_sq) {
+        if (tl_nav_comes_near(test, a, b)) {
             return true;
         }
         is_over = is_over && tl_nav_side_of(a, b, test->center) <= 0;
