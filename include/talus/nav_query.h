@@ -300,7 +300,8 @@ TL_API tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *n
 
 /// The same search in slices, for long paths over many frames: begin, step until the status is not
 /// TL_NAV_PATH_UNFINISHED, write. tl_nav_query_find_path is one long step: however a search is cut, the path is the
-/// same, bit by bit.
+/// same, bit by bit. (On a prepared navmesh that one goes over roads; then its path may be another one of the same
+/// length.)
 ///
 /// One search a query is under way. Another one, or any question that needs the query, ends it. The filter is copied;
 /// its functions and their `user` must stay. Tiles may come and go between steps: where one that the search has looked

@@ -18,7 +18,7 @@ static const tl_sort_item *order_nodes(tl_nav_query *query)
     for (uint32_t i = 0; i < query->node_count; i++) {
         items[i].key = query->nodes[i].key;
         items[i].value = i;
-        items[i].extra = *tl_nav_flood_end(query, i);
+        items[i].extra = (uint32_t)*tl_nav_flood_end(query, i);
     }
     tl_radix_sort(items, items + query->max_nodes, query->node_count);
     for (uint32_t i = 0; i < query->node_count; i++) {
@@ -43,7 +43,7 @@ static void write_as_found(tl_nav_query *query, const tl_navmesh *navmesh, tl_na
 {
     for (uint32_t i = 0; i < query->node_count && i < capacity; i++) {
         const tl_nav_node *node = &query->nodes[i];
-        write_entry(navmesh, node, *tl_nav_flood_end(query, i), node->parent, &entries[i]);
+        write_entry(navmesh, node, (uint32_t)*tl_nav_flood_end(query, i), node->parent, &entries[i]);
     }
 }
 

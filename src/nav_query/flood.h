@@ -21,9 +21,9 @@ typedef struct tl_nav_flood {
 
 /// The end of an off-mesh link by which the way into a node was begun, or TL_NAV_NO_END: kept in the heap of wedges,
 /// which a flood does not use.
-static inline uint32_t *tl_nav_flood_end(tl_nav_query *query, uint32_t node)
+static inline uint64_t *tl_nav_flood_end(tl_nav_query *query, uint32_t node)
 {
-    return &query->wedge_heap[node].wedge;
+    return &query->wedge_heap[node];
 }
 
 /// Floods from a point of a polygon. Afterwards the query's nodes [0, node_count) are the polygons, the start's first;
