@@ -60,7 +60,8 @@ static void warn(tl_cli *cli, const char *path, const tl_detour_report *report)
                     report->one_way_links);
     }
     if (report->off_mesh_links > 0) {
-        tl_cli_warn(cli, "%s: %u off-mesh connections were left out", path, report->off_mesh_links);
+        tl_cli_warn(cli, "%s: %u off-mesh connections were left out: a baked file keeps links that talus links found",
+                    path, report->off_mesh_links);
     }
     if (report->plain_patches > 0) {
         tl_cli_warn(cli, "%s: %u polygons have no usable height detail; their corners' surface is taken", path,

@@ -52,7 +52,7 @@ set(talus_test_nav_recast_needs talus_peer_recast talus_sample talus_io)
 
 # Detour: the queries to compare with.
 include(${PROJECT_SOURCE_DIR}/cmake/TalusPeerDetour.cmake)
-foreach(stem path_detour detour_exchange)
+foreach(stem path_detour detour_exchange detour_off_mesh)
     set(talus_test_${stem}_needs talus_peer_detour talus_sample talus_io)
 endforeach()
 

@@ -34,7 +34,7 @@ typedef struct tl_detour_report {
                                ///< polygon; written with the surface of their corners. Reading: with unusable detail
     uint32_t dropped_polygons; ///< reading: without area or not convex once on the lattice; left out, their links walls
     uint32_t one_way_links;    ///< reading: links to a polygon that does not link back; made walls
-    uint32_t off_mesh_links;   ///< reading: off-mesh connections, which tiles do not keep; left out
+    uint32_t off_mesh_links;   ///< reading: off-mesh connections, which tiles do not keep: tl_detour_read_off_mesh
     uint32_t area_zeros;       ///< reading: polygons of area 0, which became Recast's walkable area
 } tl_detour_report;
 
@@ -80,6 +80,23 @@ TL_API tl_detour_read_def tl_default_detour_read_def(void);
 TL_API tl_result tl_detour_read(const void *bytes, uint64_t size, const tl_detour_read_def *def,
                                 tl_detour_tiles *tiles_out, tl_detour_report *report_out);
 TL_API void tl_detour_tiles_free(tl_detour_tiles *tiles, const tl_allocator *allocator);
+
+/// An off-mesh connection, with what tl_navmesh_add_offmesh (nav_query.h) takes.
+typedef struct tl_detour_off_mesh {
+    tl_vec3 start, end;
+    float radius;
+    uint32_t user_id;
+    uint16_t flags;
+    uint8_t area;
+    bool both_ways;
+} tl_detour_off_mesh;
+
+/// Reads the off-mesh connections of a set or a single tile, in order. Safe on any bytes; nothing is allocated.
+///
+/// Writes the first `capacity`; `*count_out` is the true count, TL_ERR_CAPACITY when that is more. TL_ERR_CORRUPT,
+/// TL_ERR_NOT_FINITE name the connection; TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED and others as tl_detour_read.
+TL_API tl_result tl_detour_read_off_mesh(const void *bytes, uint64_t size, tl_detour_off_mesh *links_out,
+                                         uint32_t capacity, uint32_t *count_out, tl_detour_report *report_out);
 
 #ifdef __cplusplus
 }

@@ -10,8 +10,7 @@ static_assert(sizeof(tl_detour_patch) == 12, "dtPolyDetail");
 static_assert(sizeof(tl_detour_node) == 16, "dtBVNode");
 static_assert(sizeof(tl_detour_set_header) == 40, "the set's header");
 
-// dtOffMeshConnection.
-#define OFF_MESH_BYTES 36
+_Static_assert(sizeof(tl_detour_connection) == 36, "no hidden padding");
 
 tl_detour_offsets tl_detour_offsets_of(const tl_detour_header *header, tl_detour_refs refs)
 {
@@ -24,6 +23,6 @@ tl_detour_offsets tl_detour_offsets_of(const tl_detour_header *header, tl_detour
     at.detail_triangles = at.detail_vertices + 12 * (uint64_t)header->detail_vertex_count;
     at.nodes = at.detail_triangles + 4 * (uint64_t)header->detail_triangle_count;
     at.off_mesh = at.nodes + sizeof(tl_detour_node) * (uint64_t)header->node_count;
-    at.end = at.off_mesh + OFF_MESH_BYTES * (uint64_t)header->off_mesh_count;
+    at.end = at.off_mesh + sizeof(tl_detour_connection) * (uint64_t)header->off_mesh_count;
     return at;
 }

@@ -14,6 +14,7 @@
 #define TL_DETOUR_SET_VERSION  1
 #define TL_DETOUR_EXTERNAL     0x8000u // in neighbours: across the tile's border; the low bits name the side
 #define TL_DETOUR_EDGE_OUTLINE 1u      // in the flags of a detail triangle, two bits an edge
+#define TL_DETOUR_BOTH_WAYS    1u      // in the flags of a connection
 #define TL_DETOUR_GROUND       0u      // type of a polygon; the other is an off-mesh connection
 
 typedef struct tl_detour_header {
@@ -48,6 +49,15 @@ typedef struct tl_detour_node {
     uint16_t min[3], max[3]; // cells from the tile's corner, on y too
     int32_t index;           // a polygon, or minus the nodes to skip
 } tl_detour_node;
+
+typedef struct tl_detour_connection {
+    float ends[2][3];
+    float radius;
+    uint16_t polygon; // that stands for it, with its flags and area
+    uint8_t flags;    // TL_DETOUR_BOTH_WAYS
+    uint8_t side;
+    uint32_t user_id;
+} tl_detour_connection;
 
 typedef struct tl_detour_params {
     float origin[3];

@@ -169,3 +169,82 @@ void tl_detour_tiles_free(tl_detour_tiles *tiles, const tl_allocator *allocator)
     tl_release_array(&own, tiles->tiles, tiles->tile_count, sizeof *tiles->tiles);
     memset(tiles, 0, sizeof *tiles);
 }
+
+// ---------------------------------------------------------------------------------------------------------
+// Off-mesh connections.
+
+typedef struct connection_list {
+    tl_detour_off_mesh *links;
+    uint32_t capacity, count;
+} connection_list;
+
+static tl_result read_connection(const tl_detour_tile_bytes *tile, uint32_t index, connection_list *list,
+                                 tl_detour_report *report)
+{
+    tl_detour_connection from;
+    tl_detour_polygon polygon;
+    memcpy(&from, tile->bytes + tile->at.off_mesh + (uint64_t)index * sizeof from, sizeof from);
+    if (from.polygon >= (uint32_t)tile->header.polygon_count) {
+        return tl_report_fail(&report->base, TL_ERR_CORRUPT, "connection", list->count, "its polygon is out of range");
+    }
+    if (!tl_detour_is_finite(from.ends[0]) || !tl_detour_is_finite(from.ends[1]) || !isfinite(from.radius)) {
+        return tl_report_fail(&report->base, TL_ERR_NOT_FINITE, "connection", list->count, NULL);
+    }
+    memcpy(&polygon, tile->bytes + tile->at.polygons + (uint64_t)from.polygon * sizeof polygon, sizeof polygon);
+    if (list->count < list->capacity) {
+        tl_detour_off_mesh *link = &list->links[list->count];
+        memset(link, 0, sizeof *link);
+        link->start = tl_vec3_make(from.ends[0][0], from.ends[0][1], from.ends[0][2]);
+        link->end = tl_vec3_make(from.ends[1][0], from.ends[1][1], from.ends[1][2]);
+        link->radius = from.radius;
+        link->user_id = from.user_id;
+        link->flags = polygon.flags;
+        link->area = polygon.area_and_type & 0x3f;
+        link->both_ways = (from.flags & TL_DETOUR_BOTH_WAYS) != 0;
+    }
+    list->count++;
+    return TL_OK;
+}
+
+static tl_result read_connections(const tl_detour_tile_bytes *tile, connection_list *list, tl_detour_report *report)
+{
+    for (uint32_t i = 0; i < (uint32_t)tile->header.off_mesh_count; i++) {
+        TL_TRY(read_connection(tile, i, list, report));
+    }
+    return TL_OK;
+}
+
+static tl_result read_all_connections(set_reader *set, connection_list *list, tl_detour_report *report)
+{
+    tl_detour_tile_bytes tile;
+    memset(&tile, 0, sizeof tile);
+    if (word_at(set, 0) != TL_DETOUR_SET_MAGIC) {
+        TL_TRY(tl_detour_open_tile(set->bytes, set->size, &tile, report));
+        return read_connections(&tile, list, report);
+    }
+    TL_TRY(open_set(set, report));
+    for (uint32_t i = 0; i < (uint32_t)set->header.tile_count; i++) {
+        TL_TRY(next_tile(set, i, &tile, report));
+        TL_TRY(read_connections(&tile, list, report));
+    }
+    return TL_OK;
+}
+
+tl_result tl_detour_read_off_mesh(const void *bytes, uint64_t size, tl_detour_off_mesh *links_out, uint32_t capacity,
+                                  uint32_t *count_out, tl_detour_report *report_out)
+{
+    tl_detour_report report;
+    memset(&report, 0, sizeof report);
+    tl_report_begin(&report.base, "read detour");
+    set_reader set;
+    memset(&set, 0, sizeof set);
+    set.bytes = bytes;
+    set.size = size;
+    connection_list list = { links_out, capacity, 0 };
+    tl_result result = read_all_connections(&set, &list, &report);
+    *count_out = result == TL_OK ? list.count : 0;
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    return result == TL_OK && list.count > capacity ? TL_ERR_CAPACITY : result;
+}

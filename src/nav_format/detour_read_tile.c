@@ -37,8 +37,9 @@ static tl_result check_counts(const tl_detour_header *h, tl_detour_report *repor
 {
     bool right = h->polygon_count >= 0 && h->vertex_count >= 0 && h->max_link_count >= 0 && h->detail_mesh_count >= 0 &&
                  h->detail_vertex_count >= 0 && h->detail_triangle_count >= 0 && h->node_count >= 0 &&
-                 h->off_mesh_count >= 0 && h->detail_mesh_count <= h->polygon_count &&
-                 h->polygon_count <= TL_DETOUR_MAX_POLYGONS + 1 && h->vertex_count <= TL_DETOUR_MAX_VERTICES + 1;
+                 h->off_mesh_count >= 0 && h->off_mesh_count <= h->vertex_count / 2 &&
+                 h->detail_mesh_count <= h->polygon_count && h->polygon_count <= TL_DETOUR_MAX_POLYGONS + 1 &&
+                 h->vertex_count <= TL_DETOUR_MAX_VERTICES + 1;
     return right
                ? TL_OK
                : tl_report_fail(&report->base, TL_ERR_CORRUPT, "tile", TL_NO_ELEMENT, "a count in its header is wrong");
@@ -91,7 +92,8 @@ tl_result tl_detour_open_tile(const uint8_t *bytes, uint64_t size, tl_detour_til
 static tl_result read_vertices(reading *r)
 {
     const tl_detour_tile_bytes *tile = &r->tile;
-    uint32_t count = (uint32_t)tile->header.vertex_count;
+    // The last ones are ends of off-mesh connections, which lie anywhere.
+    uint32_t count = (uint32_t)(tile->header.vertex_count - 2 * tile->header.off_mesh_count);
     int32_t *out = TL_PUSH(r->arena, int32_t, 3 * (uint64_t)count);
     if (out == NULL) {
         return TL_ERR_MEMORY;
