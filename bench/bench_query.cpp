@@ -278,34 +278,57 @@ std::vector<size_t> all_indices(const arena &a)
     return all;
 }
 
-void bench_paths(arena &a, double bar)
+// `how` tells the rows of a prepared navmesh from the others.
+void bench_paths(arena &a, double bar, const std::string &how)
 {
     auto detour = [&](size_t i) {
         bool complete;
         a.checksum += (uint64_t)a.detour_path(a.pairs[i], &complete);
     };
-    compare("path + straight path", bar, a.complete, detour, [&](size_t i) { a.checksum += a.talus_path(a.pairs[i]); });
-    compare("exact", 1.0, a.complete, detour, [&](size_t i) {
+    compare(("path + straight" + how).c_str(), bar, a.complete, detour,
+            [&](size_t i) { a.checksum += a.talus_path(a.pairs[i]); });
+    compare(("exact" + how).c_str(), 1.0, a.complete, detour, [&](size_t i) {
         uint32_t count;
         a.shortest_path(a.pairs[i], &count);
         a.checksum += count;
     });
-    compare("unreachable", 1.0, a.incomplete, detour, [&](size_t i) { a.checksum += a.talus_path(a.pairs[i]); });
     std::vector<double> lengths;
     for (size_t i : a.complete) {
         uint32_t count = a.talus_path(a.pairs[i]);
         lengths.push_back(
             count == 0 ? -1.0 : plan_length(&a.corners[0].point.x, count, sizeof(tl_nav_corner) / sizeof(float)));
     }
-    compare_lengths(a, "lengths, path", lengths);
+    compare_lengths(a, ("lengths, path" + how).c_str(), lengths);
     lengths.clear();
-    uint64_t nodes = 0;
     for (size_t i : a.complete) {
         uint32_t count;
         lengths.push_back(a.shortest_path(a.pairs[i], &count));
     }
-    (void)nodes;
-    compare_lengths(a, "lengths, exact", lengths);
+    compare_lengths(a, ("lengths, exact" + how).c_str(), lengths);
+}
+
+// Islands make these instant; a prepared navmesh has no part in it.
+void bench_unreachable(arena &a)
+{
+    compare(
+        "unreachable", 1.0, a.incomplete,
+        [&](size_t i) {
+            bool complete;
+            a.checksum += (uint64_t)a.detour_path(a.pairs[i], &complete);
+        },
+        [&](size_t i) { a.checksum += a.talus_path(a.pairs[i]); });
+}
+
+// The searches again, over roads.
+void bench_prepared(arena &a, double bar)
+{
+    double begin = now_seconds();
+    if (tl_navmesh_prepare(a.level.twin.get()) != TL_OK || !tl_navmesh_is_prepared(a.navmesh())) {
+        std::printf("  prepared               no roads\n");
+        return;
+    }
+    std::printf("  prepared               in %.2f ms\n", 1e3 * (now_seconds() - begin));
+    bench_paths(a, bar, ", prepared");
 }
 
 void bench_places(arena &a)
@@ -412,7 +435,9 @@ void bench_arena(arena &a, const std::vector<question> &questions, double path_b
         return;
     }
     current = a.name;
-    bench_paths(a, path_bar);
+    bench_paths(a, path_bar, "");
+    bench_unreachable(a);
+    bench_prepared(a, path_bar);
     bench_places(a);
     compare_places(a);
 }

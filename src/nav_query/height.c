@@ -24,12 +24,15 @@ static void divide(tl_vec3 a, tl_vec3 b, tl_vec3 c, double x, double z, double p
     parts[2] = ax * bz - az * bx;
 }
 
-// Whether a triangle with area holds the point: what weigh would find, without its divisions.
+// Whether a triangle with area holds the point: what weigh would find, without its divisions. Most triangles of a patch
+// do not, in no order that a processor could foresee: one branch.
 static bool holds(const double parts[3])
 {
-    double sum = parts[0] + parts[1] + parts[2];
-    return (parts[0] >= 0.0 && parts[1] >= 0.0 && parts[2] >= 0.0 && sum > 0.0) ||
-           (parts[0] <= 0.0 && parts[1] <= 0.0 && parts[2] <= 0.0 && sum < 0.0);
+    double low = parts[0] < parts[1] ? parts[0] : parts[1];
+    double high = parts[0] < parts[1] ? parts[1] : parts[0];
+    low = parts[2] < low ? parts[2] : low;
+    high = parts[2] > high ? parts[2] : high;
+    return ((low >= 0.0) & (high > 0.0)) | ((high <= 0.0) & (low < 0.0));
 }
 
 // False for a triangle without area in the plane.
