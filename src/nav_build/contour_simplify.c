@@ -97,16 +97,23 @@ static double distance_sq(const tl_contour_vertex *p, const tl_contour_vertex *a
 
 uint32_t tl_contours_farthest(const tl_contour_work *work, uint32_t begin, uint32_t end, double *distance_sq_out)
 {
-    const tl_contour_vertex *a = &work->vertices[begin], *b = &work->vertices[end];
-    bool forward = is_left_below(a, b);
-    uint32_t from = forward ? begin : end, to = forward ? end : begin, farthest = from;
+    const tl_contour_loop *loop = &work->loops[work->loop_of[begin]];
+    const uint32_t first = loop->first, last = loop->first + loop->count - 1;
+    const bool forward = is_left_below(&work->vertices[begin], &work->vertices[end]);
+    const uint32_t from = forward ? begin : end, to = forward ? end : begin;
+    const tl_contour_vertex a = work->vertices[from], b = work->vertices[to];
+    uint32_t farthest = from;
     double largest = 0;
     for (uint32_t k = from;;) {
-        k = forward ? tl_contour_next(work, k) : tl_contour_previous(work, k);
+        if (forward) {
+            k = k == last ? first : k + 1;
+        } else {
+            k = k == first ? last : k - 1;
+        }
         if (k == to) {
             break;
         }
-        double d = distance_sq(&work->vertices[k], &work->vertices[from], &work->vertices[to]);
+        double d = distance_sq(&work->vertices[k], &a, &b);
         if (d > largest && !work->keep[k]) {
             largest = d;
             farthest = k;

@@ -70,6 +70,7 @@ static void mark_outlines(tracer *t)
 {
     const tl_nav_compact *compact = t->work->compact;
     const uint32_t *regions = compact->region;
+    uint8_t *restrict outline = t->outline; // what pointers lead to would else be read again after each byte
     for (uint32_t i = 0; i < compact->span_count; i++) {
         const uint32_t region = regions[i];
         if (!is_traced(region)) {
@@ -80,7 +81,7 @@ static void mark_outlines(tracer *t)
         for (uint32_t d = 0; d < 4; d++) {
             mask |= (uint32_t)(links.to[d] == TL_NAV_NO_SPAN || regions[links.to[d]] != region) << d;
         }
-        t->outline[i] = (uint8_t)mask;
+        outline[i] = (uint8_t)mask;
     }
 }
 
@@ -93,8 +94,9 @@ static uint64_t number_edges(tracer *t)
         t->first_edge[i / 8] = (uint32_t)edge_count;
         edge_count += count_edges(eight_outlines(t, i));
     }
+    uint8_t *outline = t->outline;
     for (uint32_t i = 0; i < count; i++) {
-        t->outline[i] = (uint8_t)(t->outline[i] * 0x11);
+        outline[i] = (uint8_t)(outline[i] * 0x11);
     }
     return edge_count;
 }
@@ -270,9 +272,16 @@ static uint32_t column_of(const uint32_t *row, uint32_t width, uint32_t floor)
 static tl_result walk_all(tracer *t)
 {
     const tl_nav_compact *compact = t->work->compact;
-    for (uint32_t z = 0; z < compact->height; z++) {
-        const uint32_t *row = compact->first_span + (size_t)z * compact->width;
-        for (uint32_t i = row[0]; i < row[compact->width]; i++) {
+    const uint32_t count = compact->span_count;
+    const uint32_t *row = compact->first_span;
+    for (uint32_t eight = 0, z = 0; eight < count; eight += 8) {
+        if ((eight_outlines(t, eight) & UINT64_C(0xf0f0f0f0f0f0f0f0)) == 0) {
+            continue;
+        }
+        for (uint32_t i = eight; i < count && i < eight + 8; i++) {
+            for (; i >= row[compact->width]; row += compact->width) {
+                z++;
+            }
             while (t->outline[i] >> 4 != 0) { // few floors begin a walk, so columns are looked up and not counted along
                 TL_TRY(walk_loop(t, i, column_of(row, compact->width, i), z));
             }

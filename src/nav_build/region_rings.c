@@ -96,12 +96,17 @@ tl_result tl_region_rings_make(const tl_region_work *work, tl_region_rings *ring
         rings_out->head[r] = TL_NO_RING;
     }
     ring_walk walk = { work, rings_out, 0, 4 * (uint64_t)compact->span_count };
-    for (uint32_t i = 0; i < compact->span_count; i++) {
-        uint32_t region = work->region[i];
+    // Floors that follow one another are mostly of one region: they are counted a run at a time.
+    for (uint32_t i = 0, end; i < compact->span_count; i = end) {
+        const uint32_t region = work->region[i];
+        for (end = i + 1; end < compact->span_count && work->region[end] == region; end++) {
+        }
         if (region == 0 || tl_region_is_border(region)) {
             continue;
         }
-        if (rings_out->span_count[region]++ == 0) {
+        const bool is_first = rings_out->span_count[region] == 0;
+        rings_out->span_count[region] += end - i;
+        if (is_first) {
             rings_out->area[region] = compact->area[i];
             if (region_across(work, i, 0) == region) {
                 return TL_ERR_CORRUPT;
