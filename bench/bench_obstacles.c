@@ -73,8 +73,13 @@ static void measure_rebuilds(const tl_nav_def *def, const tl_nav_input *input, b
     bench_report_at_most(report, "a changed box baked again, ms", median, 20.0);
 }
 
-static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, const char *name, bench_report *report)
+static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_partition partition, uint32_t tile_size,
+                              bench_report *report)
 {
+    char name[64];
+    snprintf(name, sizeof name, "%s, tiles of %u", partition == TL_NAV_WATERSHED ? "watershed" : "monotone", tile_size);
+    def.partition = partition;
+    def.tile_size = tile_size;
     tl_nav_obstacles *obstacles;
     tl_navmesh *navmesh;
     double began = now();
@@ -110,7 +115,7 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, const c
     }
     double add_median = quantile(add, EDITS, 0.5), tile_median = quantile(tile, made, 0.5);
     double swap_median = quantile(swap, made, 0.5);
-    printf("%-9s baked in %.2f s, floors of %u tiles kept in %.1f MB; a cylinder added: median %.2f us, 99%% %.2f; a "
+    printf("%s: baked in %.2f s, floors of %u tiles kept in %.1f MB; a cylinder added: median %.2f us, 99%% %.2f; a "
            "tile made: median %.0f us, 90%% %.0f, 99%% %.0f; swapped in the navmesh: median %.0f us\n",
            name, bake, tiles, (double)tl_nav_obstacles_bytes(obstacles) * 1e-6, add_median, quantile(add, EDITS, 0.99),
            tile_median, quantile(tile, made, 0.9), quantile(tile, made, 0.99), swap_median);
@@ -147,11 +152,13 @@ int main(int argc, char **argv)
         def.bounds = tl_aabb_add_point(def.bounds, input.mesh.vertices[i]);
     }
     bench_report *report = bench_report_new("obstacles", "us", NULL);
-    printf("city of %u triangles, tiles of 64 cells\n", input.mesh.triangle_count);
+    printf("city of %u triangles\n", input.mesh.triangle_count);
     measure_rebuilds(&def, &input, report);
-    measure_obstacles(def, &input, "watershed", report);
-    def.partition = TL_NAV_MONOTONE;
-    measure_obstacles(def, &input, "monotone", report);
+    static const uint32_t tile_sizes[] = { 64, 48, 32 };
+    for (size_t i = 0; i < sizeof tile_sizes / sizeof *tile_sizes; i++) {
+        measure_obstacles(def, &input, TL_NAV_WATERSHED, tile_sizes[i], report);
+        measure_obstacles(def, &input, TL_NAV_MONOTONE, tile_sizes[i], report);
+    }
     bench_report_print_claims(report);
     tl_sample_mesh_free(&mesh);
     return bench_report_close(report, json_path);

@@ -17,7 +17,7 @@
 #include <string.h>
 
 enum {
-    BAND_COLUMNS = 8192, // with 4 items each, of 8 bytes, and as much to sort them: 512 KB
+    BAND_COLUMNS = 6144, // with 4 items each, of 8 bytes, and as much to sort them: 384 KB
     BANDS_PER_WORKER = 4 // between two calls of the progress hook
 };
 
