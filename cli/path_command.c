@@ -16,6 +16,7 @@ typedef struct path_settings {
     const char *pairs;
     const char *extents_text;
     tl_vec3 extents;
+    float radius; // metres; 0: the mesh's own agent
     bool partial;
     bool json;
 } path_settings;
@@ -56,6 +57,41 @@ static bool grow(searcher *s, uint32_t polygons, uint32_t corners)
     return true;
 }
 
+// The way of an agent wider than the mesh's own, between the places with room that are nearest to the ends.
+static tl_result find_wide_route(const path_queries *queries, searcher *s, tl_vec3 start, tl_vec3 goal,
+                                 tl_nav_route *route)
+{
+    const tl_vec3 *ends[2] = { &start, &goal };
+    tl_nav_location *places[2] = { &route->start, &route->goal };
+    const tl_vec3 extents = queries->settings->extents;
+    float radius = queries->settings->radius;
+    for (int i = 0; i < 2; ++i) {
+        tl_nav_location near;
+        tl_result result = tl_navmesh_find_nearest(queries->navmesh, NULL, *ends[i], extents, &near);
+        if (result == TL_OK) {
+            result = tl_nav_query_find_wide_place(s->query, queries->navmesh, NULL, radius, &near,
+                                                  tl_minf(extents.x, extents.z), places[i]);
+        }
+        if (result != TL_OK) {
+            return result;
+        }
+    }
+    tl_nav_wide_path path;
+    tl_result result = tl_nav_query_find_wide_path(s->query, queries->navmesh, NULL, radius, &route->start,
+                                                   &route->goal, s->buffers.corners, s->buffers.corner_capacity, &path);
+    route->path.status = path.status == TL_NAV_WIDE_COMPLETE       ? TL_NAV_PATH_COMPLETE
+                         : path.status == TL_NAV_WIDE_OUT_OF_NODES ? TL_NAV_PATH_OUT_OF_NODES
+                                                                   : TL_NAV_PATH_UNREACHABLE;
+    route->corner_count = path.corner_count;
+    route->length = (float)path.surface_length;
+    if (path.corner_count == 0) {
+        const tl_nav_corner stay = { route->start.point, route->start.polygon, TL_NAV_CORNER_START, TL_NAV_NO_REF };
+        s->buffers.corners[0] = stay;
+        route->corner_count = 1;
+    }
+    return result;
+}
+
 // A route's corners may outnumber its polygons by the two ends; a second growth happens when only the first count was
 // known.
 static tl_result find_route(const path_queries *queries, searcher *s, const float *n, tl_nav_route *route)
@@ -65,8 +101,10 @@ static tl_result find_route(const path_queries *queries, searcher *s, const floa
     tl_result result = TL_ERR_CAPACITY;
     for (unsigned trial = 0; trial < 3 && result == TL_ERR_CAPACITY; ++trial) {
         memset(route, 0, sizeof(*route));
-        result = tl_nav_query_find_route(s->query, queries->navmesh, NULL, start, goal, queries->settings->extents,
-                                         &s->buffers, route);
+        result = queries->settings->radius > 0.0f
+                     ? find_wide_route(queries, s, start, goal, route)
+                     : tl_nav_query_find_route(s->query, queries->navmesh, NULL, start, goal,
+                                               queries->settings->extents, &s->buffers, route);
         if (result == TL_ERR_CAPACITY && !grow(s, route->path.polygon_count, route->corner_count + 2)) {
             return TL_ERR_MEMORY;
         }
@@ -253,6 +291,8 @@ static tl_exit run(tl_cli *cli)
           "find the paths of FILE, a pair a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "extents", 0, TL_OPTION_TEXT, &settings.extents_text, "X,Y,Z",
           "metres: how far from a point its navmesh polygon may lie (2,4,2)", NULL, 0, 0, 0, 0 },
+        { "radius", 'r', TL_OPTION_FLOAT, &settings.radius, "M",
+          "metres: for an agent wider than the navmesh was baked for (0: that one)", NULL, 0, 1e6f, 0, 0 },
         { "partial", 0, TL_OPTION_FLAG, &settings.partial, NULL,
           "print the way as near to the goal as it leads, as: partial length points", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
@@ -284,6 +324,7 @@ const tl_command tl_path_command = {
     "x,y,z ..., or none: reason. A single path that does not exist ends with exit code 1.",
     "talus path courtyard.talus 2,0,20 38,0,20\n"
     "talus path courtyard.obj 2,0,20 38,0,20 --agent-radius 0.4 --json\n"
+    "talus path courtyard.talus 2,0,20 38,0,20 --radius 1.2\n"
     "talus path courtyard.talus --pairs pairs.txt",
     run,
 };
