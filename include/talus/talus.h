@@ -19,6 +19,7 @@
 #include <talus/nav_obstacles.h>
 #include <talus/nav_prune.h>
 #include <talus/nav_query.h>
+#include <talus/nav_sight.h>
 #include <talus/nav_tile.h>
 #include <talus/pack.h>
 #include <talus/polygon.h>

@@ -1,0 +1,360 @@
+// SPDX-License-Identifier: MIT
+//
+// Which polygons see which, as a bit for each pair.
+//
+// Samples are laid out polygon by polygon first; then each task takes a row and casts from its polygon's samples to
+// those of all later polygons until one line is free. Rows are mirrored at the end, so that no two tasks write one
+// word. Rejected: to look from one point a polygon, which is blind in every polygon that bends around a pillar; and
+// potentially visible sets by portals (Teller, Sequin 1991), which a navmesh's portals are not: one sees over walls,
+// through windows.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+
+#include <talus/nav_sight.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { ROWS_AT_ONCE = 256 };
+
+typedef struct sight_job {
+    const tl_nav_sight_def *def;
+    const tl_navmesh *navmesh;
+    const tl_soup *soup;
+    tl_nav_sight *sight;
+    uint32_t *first_sample; // [polygons + 1]
+    tl_vec3 *samples;
+    uint64_t sample_count;
+    uint32_t first_row;
+} sight_job;
+
+tl_nav_sight_def tl_default_nav_sight_def(void)
+{
+    tl_nav_sight_def def;
+    memset(&def, 0, sizeof def);
+    def.eye_height = 1.6f;
+    def.max_distance = INFINITY;
+    return def;
+}
+
+static uint32_t *first_of(tl_nav_sight *sight)
+{
+    return (uint32_t *)(void *)((char *)sight + sight->first);
+}
+
+static const uint32_t *read_first(const tl_nav_sight *sight)
+{
+    return (const uint32_t *)(const void *)((const char *)sight + sight->first);
+}
+
+static uint64_t *row_of(tl_nav_sight *sight, uint32_t polygon)
+{
+    return (uint64_t *)(void *)((char *)sight + sight->rows) + (uint64_t)polygon * sight->words;
+}
+
+static const uint64_t *read_row(const tl_nav_sight *sight, uint32_t polygon)
+{
+    return (const uint64_t *)(const void *)((const char *)sight + sight->rows) + (uint64_t)polygon * sight->words;
+}
+
+static bool get_bit(const uint64_t *row, uint32_t bit)
+{
+    return (row[bit / 64] >> (bit % 64) & 1u) != 0;
+}
+
+static void set_bit(uint64_t *row, uint32_t bit)
+{
+    row[bit / 64] |= (uint64_t)1 << (bit % 64);
+}
+
+// ---- Samples -----------------------------------------------------------------------------------------------
+
+static tl_vec3 eye_over(const sight_job *job, tl_nav_ref ref, tl_vec3 place)
+{
+    (void)tl_navmesh_height(job->navmesh, ref, place.x, place.z, &place.y);
+    place.y += job->def->eye_height;
+    return place;
+}
+
+// The middle, and half way from there to each corner.
+static void sample_polygon(const sight_job *job, const tl_nav_tile *tile, uint32_t polygon, tl_nav_ref ref,
+                           tl_vec3 *samples)
+{
+    uint32_t count;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
+    tl_vec3 sum = { 0.0f, 0.0f, 0.0f };
+    for (uint32_t i = 0; i < count; i++) {
+        sum = tl_add(sum, tl_sub(corners[i], corners[0]));
+    }
+    const tl_vec3 middle = tl_mul_add(corners[0], sum, 1.0f / (float)count);
+    samples[0] = eye_over(job, ref, middle);
+    for (uint32_t i = 0; i < count; i++) {
+        samples[i + 1] = eye_over(job, ref, tl_lerp(middle, corners[i], 0.5f));
+    }
+}
+
+// Where each slot's polygons and each polygon's samples begin. NULL arrays: only counted.
+static void lay_out(const sight_job *job, uint32_t *first, uint32_t *first_sample, uint64_t *polygons,
+                    uint64_t *samples)
+{
+    const uint32_t slots = tl_navmesh_slot_count(job->navmesh);
+    *polygons = *samples = 0;
+    for (uint32_t slot = 0; slot < slots; slot++) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(job->navmesh, slot);
+        if (first != NULL) {
+            first[slot] = (uint32_t)*polygons;
+        }
+        for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++, ++*polygons) {
+            uint32_t corners;
+            (void)tl_nav_tile_corners(tile, p, &corners);
+            if (first_sample != NULL) {
+                first_sample[*polygons] = (uint32_t)*samples;
+            }
+            *samples += corners + 1;
+        }
+    }
+    if (first != NULL) {
+        first[slots] = (uint32_t)*polygons;
+    }
+    if (first_sample != NULL) {
+        first_sample[*polygons] = (uint32_t)*samples;
+    }
+}
+
+static void take_samples(const sight_job *job)
+{
+    uint32_t at = 0;
+    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(job->navmesh); slot++) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(job->navmesh, slot);
+        for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++, at++) {
+            sample_polygon(job, tile, p, tl_navmesh_polygon_ref(job->navmesh, slot, p),
+                           job->samples + job->first_sample[at]);
+        }
+    }
+}
+
+// ---- Rows --------------------------------------------------------------------------------------------------
+
+static bool sees(const sight_job *job, uint32_t a, uint32_t b)
+{
+    const float far_sq = job->def->max_distance * job->def->max_distance;
+    for (uint32_t i = job->first_sample[a]; i < job->first_sample[a + 1]; i++) {
+        for (uint32_t k = job->first_sample[b]; k < job->first_sample[b + 1]; k++) {
+            if (tl_distance_sq(job->samples[i], job->samples[k]) <= far_sq &&
+                tl_soup_line_of_sight(job->soup, job->samples[i], job->samples[k], job->def->filter)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static void make_row(uint32_t index, uint32_t worker, void *user)
+{
+    const sight_job *job = user;
+    const uint32_t a = job->first_row + index;
+    uint64_t *row = row_of(job->sight, a);
+    (void)worker;
+    set_bit(row, a);
+    for (uint32_t b = a + 1; b < job->sight->polygon_count; b++) {
+        if (sees(job, a, b)) {
+            set_bit(row, b);
+        }
+    }
+}
+
+static tl_result make_rows(sight_job *job)
+{
+    const uint32_t count = job->sight->polygon_count;
+    for (; job->first_row < count; job->first_row += ROWS_AT_ONCE) {
+        const uint32_t left = count - job->first_row;
+        TL_TRY(tl_progress_update(&job->def->host, "sight", job->first_row, count));
+        tl_run_tasks(&job->def->host, make_row, left < ROWS_AT_ONCE ? left : ROWS_AT_ONCE, job);
+    }
+    for (uint32_t a = 0; a < count; a++) {
+        for (uint32_t b = a + 1; b < count; b++) {
+            if (get_bit(row_of(job->sight, a), b)) {
+                set_bit(row_of(job->sight, b), a);
+                job->sight->pair_count++;
+            }
+        }
+    }
+    return tl_progress_update(&job->def->host, "sight", count, count);
+}
+
+// ---- The table ---------------------------------------------------------------------------------------------
+
+static uint64_t round_up(uint64_t bytes)
+{
+    return (bytes + TL_BLOB_ALIGNMENT - 1) / TL_BLOB_ALIGNMENT * TL_BLOB_ALIGNMENT;
+}
+
+static uint64_t first_offset(void)
+{
+    return round_up(sizeof(tl_nav_sight));
+}
+
+static uint64_t rows_offset(uint64_t slots)
+{
+    return first_offset() + round_up((slots + 1) * sizeof(uint32_t));
+}
+
+static uint64_t words_of(uint64_t polygons)
+{
+    return (polygons + 63) / 64;
+}
+
+static tl_result allocate(sight_job *job)
+{
+    const tl_allocator *allocator = job->def->host.allocator;
+    const uint32_t slots = tl_navmesh_slot_count(job->navmesh);
+    uint64_t polygons, samples;
+    lay_out(job, NULL, NULL, &polygons, &samples);
+    if (polygons == 0) {
+        return TL_ERR_EMPTY;
+    }
+    if (polygons > TL_NAV_SIGHT_MAX_POLYGONS) {
+        return TL_ERR_LIMIT;
+    }
+    const uint64_t size = rows_offset(slots) + polygons * words_of(polygons) * sizeof(uint64_t);
+    tl_nav_sight *sight = tl_blob_allocate(allocator, TL_NAV_SIGHT_MAGIC, TL_NAV_SIGHT_VERSION, size);
+    job->sight = sight;
+    job->sample_count = samples;
+    job->first_sample = tl_allocate_array(allocator, polygons + 1, sizeof *job->first_sample);
+    job->samples = tl_allocate_array(allocator, samples, sizeof *job->samples);
+    if (sight == NULL || job->first_sample == NULL || job->samples == NULL) {
+        tl_release_array(allocator, job->first_sample, polygons + 1, sizeof *job->first_sample);
+        job->first_sample = NULL;
+        return TL_ERR_MEMORY;
+    }
+    sight->slot_count = slots;
+    sight->polygon_count = (uint32_t)polygons;
+    sight->words = (uint32_t)words_of(polygons);
+    sight->eye_height = job->def->eye_height;
+    sight->first = first_offset();
+    sight->rows = rows_offset(slots);
+    lay_out(job, first_of(sight), job->first_sample, &polygons, &samples);
+    return TL_OK;
+}
+
+static void release(sight_job *job)
+{
+    const tl_allocator *allocator = job->def->host.allocator;
+    if (job->first_sample != NULL) {
+        tl_release_array(allocator, job->first_sample, (uint64_t)job->sight->polygon_count + 1,
+                         sizeof *job->first_sample);
+    }
+    tl_release_array(allocator, job->samples, job->sample_count, sizeof *job->samples);
+}
+
+tl_result tl_nav_sight_build(const tl_nav_sight_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
+                             tl_nav_sight **sight_out, tl_report *report_out)
+{
+    TL_ASSERT(def != NULL && navmesh != NULL && soup != NULL && sight_out != NULL);
+    *sight_out = NULL;
+    tl_report_begin(report_out, "sight");
+    if (!isfinite(def->eye_height) || !(def->max_distance >= 0.0f)) {
+        return tl_report_fail(report_out, TL_ERR_ARGUMENT, isfinite(def->eye_height) ? "max_distance" : "eye_height",
+                              TL_NO_ELEMENT, "give metres");
+    }
+    sight_job job = { def, navmesh, soup, NULL, NULL, NULL, 0, 0 };
+    tl_result result = allocate(&job);
+    if (result == TL_OK) {
+        take_samples(&job);
+        result = make_rows(&job);
+    }
+    release(&job);
+    if (result != TL_OK) {
+        tl_blob_free(job.sight, def->host.allocator);
+        return tl_report_fail(report_out, result, NULL, TL_NO_ELEMENT,
+                              result == TL_ERR_LIMIT ? "ask line by line instead" : NULL);
+    }
+    *sight_out = job.sight;
+    return TL_OK;
+}
+
+tl_result tl_nav_sight_check(const void *bytes, uint64_t size)
+{
+    const tl_nav_sight *sight = bytes;
+    if (bytes == NULL || (uintptr_t)bytes % 8 != 0) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (size < sizeof *sight) {
+        return TL_ERR_TRUNCATED;
+    }
+    if (sight->blob.magic != TL_NAV_SIGHT_MAGIC) {
+        return TL_ERR_MAGIC;
+    }
+    if (sight->blob.version != TL_NAV_SIGHT_VERSION) {
+        return TL_ERR_VERSION;
+    }
+    const uint64_t polygons = sight->polygon_count, slots = sight->slot_count;
+    if (polygons == 0 || polygons > TL_NAV_SIGHT_MAX_POLYGONS || slots > TL_NAV_MAX_TILES ||
+        sight->words != words_of(polygons) || sight->first != first_offset() || sight->rows != rows_offset(slots) ||
+        sight->blob.size != round_up(sight->rows + polygons * sight->words * sizeof(uint64_t))) {
+        return TL_ERR_CORRUPT;
+    }
+    if (size < sight->blob.size) {
+        return TL_ERR_TRUNCATED;
+    }
+    const uint32_t *first = read_first(sight);
+    bool rises = first[0] == 0 && first[slots] == polygons;
+    for (uint64_t slot = 0; slot < slots; slot++) {
+        rises = rises && first[slot] <= first[slot + 1];
+    }
+    return rises ? TL_OK : TL_ERR_CORRUPT;
+}
+
+// ---- Asking ------------------------------------------------------------------------------------------------
+
+// A reference holds its slot above the polygon's 28 bits (nav_query.h); that it does is checked by making it again.
+static tl_result number_of(const tl_nav_sight *sight, const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *number_out)
+{
+    enum { POLYGON_BITS = 28, SLOT_BITS = 20 };
+    const tl_nav_tile *tile;
+    uint32_t polygon;
+    TL_TRY(tl_navmesh_resolve(navmesh, ref, &tile, &polygon));
+    const uint32_t slot = (uint32_t)(ref >> POLYGON_BITS) & ((1u << SLOT_BITS) - 1), *first = read_first(sight);
+    if (slot >= sight->slot_count || first[slot + 1] - first[slot] != tile->polygon_count ||
+        tl_navmesh_polygon_ref(navmesh, slot, polygon) != ref) {
+        return TL_ERR_ARGUMENT;
+    }
+    *number_out = first[slot] + polygon;
+    return TL_OK;
+}
+
+tl_result tl_nav_sight_between(const tl_nav_sight *sight, const tl_navmesh *navmesh, tl_nav_ref a, tl_nav_ref b,
+                               bool *seen_out)
+{
+    uint32_t from, to;
+    TL_ASSERT(sight != NULL && navmesh != NULL && seen_out != NULL);
+    TL_TRY(number_of(sight, navmesh, a, &from));
+    TL_TRY(number_of(sight, navmesh, b, &to));
+    *seen_out = get_bit(read_row(sight, from), to);
+    return TL_OK;
+}
+
+tl_result tl_nav_sight_seen_from(const tl_nav_sight *sight, const tl_navmesh *navmesh, tl_nav_ref from,
+                                 tl_nav_ref *polygons_out, uint32_t capacity, uint32_t *count_out)
+{
+    uint32_t number, count = 0;
+    TL_ASSERT(sight != NULL && navmesh != NULL && count_out != NULL && (polygons_out != NULL || capacity == 0));
+    *count_out = 0;
+    TL_TRY(number_of(sight, navmesh, from, &number));
+    const uint64_t *row = read_row(sight, number);
+    const uint32_t *first = read_first(sight);
+    for (uint32_t slot = 0; slot < sight->slot_count; slot++) {
+        for (uint32_t at = first[slot]; at < first[slot + 1]; at++) {
+            if (get_bit(row, at)) {
+                if (count < capacity) {
+                    polygons_out[count] = tl_navmesh_polygon_ref(navmesh, slot, at - first[slot]);
+                }
+                count++;
+            }
+        }
+    }
+    *count_out = count;
+    return count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+//
+// Cover against a search through all places of the grid.
+
+#include "nav_audit_level.h"
+
+#include <math.h>
+#include <string.h>
+#include <talus/nav_sight.h>
+
+typedef struct yard {
+    test_level level;
+    tl_navmesh *navmesh;
+    tl_soup *soup;
+    tl_nav_query *query;
+} yard;
+
+static void set_up(yard *y, test_random *random, uint32_t tile_size)
+{
+    memset(y, 0, sizeof *y);
+    audit_floor(&y->level, 0, 0, 30, 30, 0);
+    audit_block(&y->level, 20, 2.6f, 4, 28, 2.9f, 12);   // a roof to walk on and under, on which nobody comes
+    test_level_box(&y->level, 12, 0, 5, 20, 0, 9, 2.9f); // but up this ramp
+    for (int i = 0; i < 8; i++) {
+        const float x = test_random_range(random, 1, 26), z = test_random_range(random, 13, 26);
+        const float wide = test_random_range(random, 0.5f, 4), deep = test_random_range(random, 0.5f, 4);
+        audit_block(&y->level, x, 0, z, x + wide, i % 3 == 0 ? 1.2f : 3.0f, z + deep);
+    }
+    tl_nav_def def = tl_default_nav_def();
+    def.tile_size = tile_size;
+    const tl_nav_input input = { y->level.mesh, NULL, NULL, 0 };
+    y->navmesh = audit_bake(&def, &input);
+    y->soup = audit_soup(&y->level);
+    const tl_nav_query_def query_def = tl_default_nav_query_def();
+    TEST_RESULT(tl_nav_query_create(&query_def, &y->query), TL_OK);
+}
+
+static void tear_down(yard *y)
+{
+    tl_nav_query_free(y->query);
+    tl_navmesh_free(y->navmesh);
+    tl_blob_free(y->soup, NULL);
+}
+
+static bool is_hidden(const yard *y, const tl_nav_cover_def *def, tl_vec3 place)
+{
+    bool hidden = true;
+    for (uint32_t i = 0; i < def->height_count; i++) {
+        const tl_vec3 part = { place.x, place.y + def->heights[i], place.z };
+        hidden = hidden && !tl_soup_line_of_sight(y->soup, def->threat, part, NULL);
+    }
+    return hidden;
+}
+
+// The length of the way to a place if it is hidden and near enough, else INFINITY.
+static float rate(const yard *y, const tl_nav_location *agent, const tl_nav_cover_def *def,
+                  const tl_nav_location *place)
+{
+    tl_nav_shortest_path path;
+    if (!is_hidden(y, def, place->point)) {
+        return INFINITY;
+    }
+    TEST_RESULT(tl_nav_query_find_shortest_path(y->query, y->navmesh, NULL, agent, place, NULL, 0, NULL, 0, &path),
+                TL_OK);
+    const bool near = path.status == TL_NAV_PATH_COMPLETE && (float)path.length <= def->max_length;
+    return near ? (float)path.length : INFINITY;
+}
+
+static void insert(float *lengths, uint32_t capacity, float length)
+{
+    for (uint32_t i = 0; i < capacity; i++) {
+        if (length < lengths[i]) {
+            const float moved = lengths[i];
+            lengths[i] = length;
+            length = moved;
+        }
+    }
+}
+
+enum { MOST = 5 };
+
+// The lengths of the nearest places, by looking at every place of the grid, low and high.
+static uint32_t search_all(const yard *y, const tl_nav_location *agent, const tl_nav_cover_def *def, float *lengths,
+                           uint32_t *upstairs)
+{
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < MOST; i++) {
+        lengths[i] = INFINITY;
+    }
+    insert(lengths, MOST, rate(y, agent, def, agent));
+    for (int x = 0; x <= (int)(30.0f / def->spacing); x++) {
+        for (int z = 0; z <= (int)(30.0f / def->spacing); z++) {
+            for (int floor = 0; floor < 2; floor++) {
+                const tl_vec3 at = { (float)x * def->spacing, floor == 0 ? 0.2f : 3.0f, (float)z * def->spacing };
+                tl_nav_location place;
+                // The ramp's surface lies in between: half of the height belongs to either.
+                const tl_vec3 half = { 0.0f, 1.4f, 0.0f };
+                if (tl_navmesh_find_nearest(y->navmesh, NULL, at, half, &place) == TL_OK &&
+                    (floor == 0) == (place.point.y < 1.6f)) {
+                    const float length = rate(y, agent, def, &place);
+                    insert(lengths, MOST, length);
+                    *upstairs += floor == 1 && length < INFINITY;
+                }
+            }
+        }
+    }
+    while (found < MOST && lengths[found] < INFINITY) {
+        found++;
+    }
+    return found;
+}
+
+static void the_nearest_places_are_found(void **state)
+{
+    (void)state;
+    test_random random = { 31 };
+    uint32_t found = 0, none = 0, at_once = 0, upstairs = 0;
+    for (int round = 0; round < 30; round++) {
+        yard y;
+        set_up(&y, &random, round % 2 == 0 ? 0 : 24);
+        for (int k = 0; k < 6; k++) {
+            const tl_vec3 wish = { test_random_range(&random, 1, 29), 0.2f, test_random_range(&random, 1, 29) };
+            tl_nav_location agent;
+            if (tl_navmesh_find_nearest(y.navmesh, NULL, wish, tl_vec3_make(2, 1, 2), &agent) != TL_OK) {
+                continue;
+            }
+            tl_nav_cover_def def = tl_default_nav_cover_def(
+                test_random_point(&random, tl_vec3_make(0, 1.5f, 0), tl_vec3_make(30, k % 3 == 0 ? 8.0f : 2.0f, 30)));
+            def.spacing = test_random_range(&random, 1.1f, 2.5f);
+            def.max_length = k == 5 ? 3.0f : 25.0f;
+            float lengths[MOST];
+            tl_nav_cover covers[MOST];
+            uint32_t count;
+            const uint32_t expected = search_all(&y, &agent, &def, lengths, &upstairs);
+            TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, covers, MOST, &count),
+                        TL_OK);
+            assert_int_equal(count, expected);
+            for (uint32_t i = 0; i < count; i++) {
+                TEST_CHECK(covers[i].length == lengths[i]);
+                TEST_CHECK(rate(&y, &agent, &def, &covers[i].location) == covers[i].length);
+            }
+            found += count;
+            none += count == 0;
+            at_once += count > 0 && covers[0].length == 0.0f;
+        }
+        tear_down(&y);
+    }
+    TEST_CHECK(found > 200 && none > 0 && at_once > 5 && upstairs > 50);
+}
+
+static void bad_arguments(void **state)
+{
+    (void)state;
+    test_random random = { 5 };
+    yard y;
+    set_up(&y, &random, 0);
+    tl_nav_location agent;
+    TEST_RESULT(tl_navmesh_find_nearest(y.navmesh, NULL, tl_vec3_make(3, 0, 3), tl_vec3_make(2, 1, 2), &agent), TL_OK);
+    tl_nav_cover cover;
+    uint32_t count;
+    tl_nav_cover_def def = tl_default_nav_cover_def(tl_vec3_make(15, 2, 15));
+    TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, NULL, 0, &count), TL_OK);
+    def.spacing = 0.0f;
+    TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, &cover, 1, &count),
+                TL_ERR_ARGUMENT);
+    def.spacing = 1.0f;
+    def.height_count = TL_NAV_MAX_COVER_HEIGHTS + 1;
+    TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, &cover, 1, &count),
+                TL_ERR_ARGUMENT);
+    def.height_count = 1;
+    def.threat.x = NAN;
+    TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, &cover, 1, &count),
+                TL_ERR_NOT_FINITE);
+    def.threat.x = 0.0f;
+    agent.polygon = 77;
+    TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, &cover, 1, &count),
+                TL_ERR_NOT_FOUND);
+    tear_down(&y);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_nearest_places_are_found),
+        cmocka_unit_test(bad_arguments),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
