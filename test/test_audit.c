@@ -253,6 +253,36 @@ static void without_a_navmesh_all_floor_is_missing(void **state)
     tear_down(&h);
 }
 
+// A wall parts the hall, and a link leads through it: paths take it, and it is no contradiction.
+static void links_are_not_walked(void **state)
+{
+    (void)state;
+    hall h;
+    memset(&h, 0, sizeof h);
+    make_hall(&h.level);
+    make_hall(&h.change);
+    audit_block(&h.level, 9.5f, -1, -1, 10.5f, 4, 13);
+    audit_block(&h.change, 9.5f, -1, -1, 10.5f, 4, 13);
+    h.def = tl_default_nav_audit_def();
+    h.def.path_count = 100;
+    const tl_nav_input input = { h.level.mesh, NULL, NULL, 0 };
+    h.navmesh = audit_bake(&h.def.nav, &input);
+    run(&h, NOWHERE);
+    const double without = h.audit.path_metres;
+    tl_nav_audit_free(&h.audit);
+    tl_nav_offmesh link = tl_default_nav_offmesh();
+    link.start = tl_vec3_make(8, 0, 6);
+    link.end = tl_vec3_make(12, 0, 6);
+    link.both_ways = true;
+    tl_nav_ref ref;
+    TEST_RESULT(tl_navmesh_add_offmesh(h.navmesh, &link, &ref), TL_OK);
+    run(&h, NOWHERE);
+    assert_int_equal(h.audit.finding_count, 0);
+    assert_int_equal(h.audit.path_count, 100);
+    TEST_CHECK(h.audit.path_metres > 1.2 * without); // they go over to the other half
+    tear_down(&h);
+}
+
 // Tasks from last to first, by three workers.
 static void run_backwards(tl_task_fn *task, uint32_t count, void *task_user, void *user)
 {
@@ -354,6 +384,7 @@ int main(void)
         cmocka_unit_test(a_floor_that_fell_is_a_step),
         cmocka_unit_test(missing_navmesh_is_measured),
         cmocka_unit_test(without_a_navmesh_all_floor_is_missing),
+        cmocka_unit_test(links_are_not_walked),
         cmocka_unit_test(any_host_gives_the_same),
         cmocka_unit_test(failures_leave_nothing),
         cmocka_unit_test(it_can_be_stopped),

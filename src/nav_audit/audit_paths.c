@@ -107,7 +107,7 @@ static uint32_t polygon_under(const tl_audit_scene *scene, const tl_nav_ref *pol
     const float close = ON_POLYGON_CELLS * scene->config.cell_size;
     float nearest = INFINITY;
     uint32_t best = at;
-    for (uint32_t i = at; i < count; i++) {
+    for (uint32_t i = at; i < count && !tl_nav_is_offmesh(polygons[i]); i++) {
         tl_vec3 closest;
         bool inside = false;
         if (tl_navmesh_closest_point(scene->navmesh, polygons[i], point, &closest, &inside) != TL_OK) {
@@ -125,22 +125,43 @@ static uint32_t polygon_under(const tl_audit_scene *scene, const tl_nav_ref *pol
     return best;
 }
 
-static bool walk_path(tl_audit_walker *walker, const searcher *s, const tl_nav_shortest_path *path)
+// The place in the path behind its next off-mesh link.
+static uint32_t behind_link(const tl_nav_ref *polygons, uint32_t count, uint32_t at)
+{
+    while (at + 1 < count && !tl_nav_is_offmesh(polygons[at])) {
+        at++;
+    }
+    return at + 1 < count ? at + 1 : at;
+}
+
+static bool walk_to_corner(tl_audit_walker *walker, const searcher *s, uint32_t polygon_count, tl_vec3 from, tl_vec3 to,
+                           uint32_t *at)
 {
     const tl_audit_scene *scene = walker->scene;
+    const float dx = to.x - from.x, dz = to.z - from.z;
+    const float strides = ceilf(sqrtf(dx * dx + dz * dz) / scene->stride);
+    const uint32_t count = strides >= 1.0f ? (uint32_t)strides : 1;
+    for (uint32_t k = 0; k <= count; k++) {
+        const tl_vec3 point = tl_lerp(from, to, (float)k / (float)count);
+        *at = polygon_under(scene, s->polygons, polygon_count, *at, point);
+        if (!tl_audit_walk_to(walker, s->polygons[*at], point.x, point.z)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Off-mesh links leave the surface, so they are not walked: the walk begins anew behind each.
+static bool walk_path(tl_audit_walker *walker, const searcher *s, const tl_nav_shortest_path *path)
+{
     uint32_t at = 0;
     tl_audit_walk_begin(walker);
     for (uint32_t i = 0; i + 1 < path->corner_count; i++) {
-        const tl_vec3 from = s->corners[i].point, to = s->corners[i + 1].point;
-        const float dx = to.x - from.x, dz = to.z - from.z;
-        const float strides = ceilf(sqrtf(dx * dx + dz * dz) / scene->stride);
-        const uint32_t count = strides >= 1.0f ? (uint32_t)strides : 1;
-        for (uint32_t k = 0; k <= count; k++) {
-            const tl_vec3 point = tl_lerp(from, to, (float)k / (float)count);
-            at = polygon_under(scene, s->polygons, path->polygon_count, at, point);
-            if (!tl_audit_walk_to(walker, s->polygons[at], point.x, point.z)) {
-                return false;
-            }
+        if ((s->corners[i].flags & TL_NAV_CORNER_LINK) != 0) {
+            at = behind_link(s->polygons, path->polygon_count, at);
+            tl_audit_walk_begin(walker);
+        } else if (!walk_to_corner(walker, s, path->polygon_count, s->corners[i].point, s->corners[i + 1].point, &at)) {
+            return false;
         }
     }
     return true;
