@@ -35,8 +35,9 @@ typedef struct tl_nav_probe {
 
 /// The probe of a navmesh that was built with `config`.
 ///
-/// radius: the agent's less one cell, at least a quarter of a cell; step: walkable_climb and one voxel more; height:
-/// walkable_height in metres, less one voxel. An audit makes the radius no larger than half of what is between.
+/// radius: what erosion leaves at least less max_simplification_error, and no less than half of the agent's; step:
+/// walkable_climb and one voxel more; height: walkable_height in metres, less one voxel. An audit makes the radius no
+/// larger than half of what is between.
 TL_API tl_nav_probe tl_nav_probe_make(const tl_nav_config *config);
 
 typedef struct tl_nav_audit_def {

@@ -12,7 +12,8 @@
 // - Radius. Erosion leaves at least (2 R - 1) / sqrt 5 columns between a wall and the traced outline, R being the
 // radius
 //   in columns: it counts a diagonal step as 1.5 columns, and starts at columns that have no neighbour, not at the
-//   wall. That is the radius less one column for R <= 5 (and the outline is made straight afterwards).
+//   wall. The outline is then made straight, which may move it by max_simplification_error. Both seldom meet; in coarse
+//   voxels nothing would be left to sweep, so at least half of the agent's radius must be free.
 // - Step. Two floors a climb apart in voxels are up to a voxel more apart in truth, since both are rounded.
 // - Height. A floor is rounded up and a ceiling down, so a column keeps its promise; but the floor under the path is
 // one
@@ -28,8 +29,8 @@
 #include <math.h>
 #include <string.h>
 
-// Shares of a cell and of the agent below which there is no probe worth sweeping.
-#define LEAST_RADIUS_CELLS 0.25f
+#define SQRT_2 1.41421356f
+#define SQRT_5 2.23606798f
 
 // How far beneath the navmesh a floor is looked for to say how deep one falls, in heights of the agent.
 #define FALL_HEIGHTS 1000.0f
@@ -44,9 +45,10 @@ static float steepest_rise(const tl_nav_config *config)
 tl_nav_probe tl_nav_probe_make(const tl_nav_config *config)
 {
     const float cell = config->cell_size, voxel = config->cell_height;
-    const float across = cell * 1.41421356f + 0.5f * config->detail_sample_dist;
+    const float across = cell * SQRT_2 + 0.5f * config->detail_sample_dist;
+    const float kept = (2.0f * (float)config->walkable_radius - 1.0f) / SQRT_5 - config->max_simplification_error;
     tl_nav_probe probe;
-    probe.radius = tl_maxf(config->agent_radius - cell, LEAST_RADIUS_CELLS * cell);
+    probe.radius = tl_maxf(tl_minf(kept * cell, config->agent_radius), 0.5f * config->agent_radius);
     probe.step = voxel * (float)(config->walkable_climb + 1);
     probe.height = voxel * (float)(config->walkable_height > 1 ? config->walkable_height - 1 : 1);
     probe.surface = voxel + config->detail_sample_max_error + steepest_rise(config) * across;
