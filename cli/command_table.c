@@ -17,6 +17,7 @@
     COMMAND(overlap) \
     COMMAND(sweep) \
     COMMAND(path) \
+    COMMAND(around) \
     COMMAND(links) \
     COMMAND(hull) \
     COMMAND(support) \
