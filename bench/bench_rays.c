@@ -12,9 +12,9 @@
 
 #define _POSIX_C_SOURCE 200809L
 
-#include "cli/sample_level.h"
 #include "report.h"
 #include "soup/ray.h"
+#include "soup_levels.h"
 
 #include <embree3/rtcore.h>
 #include <float.h>
@@ -23,32 +23,17 @@
 #include <string.h>
 #include <time.h>
 
-enum { KINDS = 5, MAX_LEVELS = 32, SLICE_RAYS = 500, MAX_SLICES = 4096 };
-enum { TALUS, TALUS_AVX2, TALUS_AVX512, FAST, QUADS, ROBUST, SYSTEMS };
+enum { KINDS = 5, SLICE_RAYS = 500, MAX_SLICES = 4096 };
+enum { TALUS, TALUS_AVX2, TALUS_AVX512, COMPACT, FAST, QUADS, ROBUST, SYSTEMS };
 
 static const char *const kind_names[KINDS] = { "camera", "incoherent", "sight", "segment", "down" };
-static const char *const system_names[SYSTEMS] = { "talus",       "talus avx2",   "talus avx512",
+static const char *const system_names[SYSTEMS] = { "talus",       "talus avx2",   "talus avx512", "talus compact",
                                                    "Embree fast", "Embree quads", "Embree robust" };
-
-typedef struct level {
-    char name[64];
-    tl_vec3 *vertices;
-    uint32_t vertex_count;
-    uint32_t *indices;
-    uint32_t triangle_count;
-} level;
 
 typedef struct query {
     tl_vec3 origin, target; // target: direction, or end for sight and segment
     float tmax;
 } query;
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 // What the process has worked: builds are too long to find a slice without a disturbance.
 static double worked(void)
@@ -60,107 +45,6 @@ static double worked(void)
 
 static uint64_t random_state = 1;
 
-static float unit(void)
-{
-    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (float)((z ^ (z >> 31)) >> 40) * (1.0f / 16777216.0f);
-}
-
-static tl_vec3 point_in(tl_aabb box)
-{
-    tl_vec3 size = tl_aabb_size(box);
-    float x = unit(), y = unit(), z = unit();
-    return tl_vec3_make(box.min.x + x * size.x, box.min.y + y * size.y, box.min.z + z * size.z);
-}
-
-static tl_vec3 direction(void)
-{
-    for (;;) {
-        tl_vec3 d = tl_vec3_make(2 * unit() - 1, 2 * unit() - 1, 2 * unit() - 1);
-        float l = tl_length_sq(d);
-        if (l > 0.01f && l <= 1) {
-            return tl_normalize(d);
-        }
-    }
-}
-
-// ----------------------------------------------------------------------------------------------------- levels
-
-static bool load_obj(const char *path, level *l)
-{
-    FILE *file = fopen(path, "r");
-    if (file == NULL) {
-        return false;
-    }
-    char line[512];
-    uint32_t vertex_room = 0, index_room = 0;
-    while (fgets(line, sizeof line, file) != NULL) {
-        tl_vec3 v;
-        unsigned a, b, c;
-        if (sscanf(line, "v %f %f %f", &v.x, &v.y, &v.z) == 3) {
-            if (l->vertex_count == vertex_room) {
-                vertex_room = vertex_room * 2 + 1024;
-                l->vertices = realloc(l->vertices, vertex_room * sizeof *l->vertices);
-            }
-            l->vertices[l->vertex_count++] = v;
-        } else if (sscanf(line, "f %u %u %u", &a, &b, &c) == 3) {
-            if (l->triangle_count == index_room) {
-                index_room = index_room * 2 + 1024;
-                l->indices = realloc(l->indices, (size_t)index_room * 3 * sizeof *l->indices);
-            }
-            uint32_t *index = l->indices + 3 * (size_t)l->triangle_count++;
-            index[0] = a - 1;
-            index[1] = b - 1;
-            index[2] = c - 1;
-        }
-    }
-    fclose(file);
-    return l->triangle_count > 0;
-}
-
-static uint32_t load_levels(level *levels, const char *only)
-{
-    static const char *const files[] = { "nav_test",    "dungeon",           "undulating",
-                                         "proto-level", "collision_mesh_01", "test_map01" };
-    static const struct {
-        const char *name;
-        uint32_t triangles;
-    } samples[] = { { "dungeon", 8000 }, { "dungeon", 50000 }, { "dungeon", 200000 },
-                    { "city", 8000 },    { "city", 100000 },   { "city", 1000000 } };
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < sizeof files / sizeof files[0]; i++) {
-        level *l = &levels[count];
-        memset(l, 0, sizeof *l);
-        char path[1024];
-        snprintf(path, sizeof path, "%s/levels/%s.obj", TALUS_DATA_DIR, files[i]);
-        snprintf(l->name, sizeof l->name, "%s", files[i]);
-        count += (only == NULL || strstr(l->name, only) != NULL) && load_obj(path, l);
-    }
-    for (uint32_t i = 0; i < sizeof samples / sizeof samples[0]; i++) {
-        level *l = &levels[count];
-        memset(l, 0, sizeof *l);
-        snprintf(l->name, sizeof l->name, "sample %s %uk", samples[i].name, samples[i].triangles / 1000);
-        if (only != NULL && strstr(l->name, only) == NULL) {
-            continue;
-        }
-        tl_sample_mesh mesh;
-        if (tl_sample_build_level(tl_sample_find_level(samples[i].name), samples[i].triangles, 1, &mesh) == TL_OK) {
-            tl_mesh_view view = tl_sample_mesh_as_view(&mesh);
-            l->vertex_count = view.vertex_count;
-            l->triangle_count = view.triangle_count;
-            l->vertices = malloc(view.vertex_count * sizeof *l->vertices);
-            l->indices = malloc((size_t)view.triangle_count * 3 * sizeof *l->indices);
-            memcpy(l->vertices, view.vertices, view.vertex_count * sizeof *l->vertices);
-            memcpy(l->indices, view.indices, (size_t)view.triangle_count * 3 * sizeof *l->indices);
-            count++;
-        }
-        tl_sample_mesh_free(&mesh);
-    }
-    return count;
-}
-
 // ---------------------------------------------------------------------------------------------------- queries
 
 // Four cameras at random places look at random places, scanline by scanline.
@@ -171,8 +55,8 @@ static void make_camera(query *queries, uint32_t count, tl_aabb inner)
         width++;
     }
     for (uint32_t i = 0, camera = 0; i < count; camera++) {
-        tl_vec3 eye = point_in(inner);
-        tl_vec3 forward = tl_normalize(tl_sub(point_in(inner), eye));
+        tl_vec3 eye = bench_point_in(&random_state, inner);
+        tl_vec3 forward = tl_normalize(tl_sub(bench_point_in(&random_state, inner), eye));
         tl_vec3 side = tl_normalize(tl_cross(forward, tl_vec3_make(0.01f, 1, 0.02f)));
         tl_vec3 up = tl_cross(side, forward);
         for (uint32_t p = 0; p < width * width && i < count; p++, i++) {
@@ -196,11 +80,11 @@ static void make_queries(query *queries, uint32_t count, uint32_t kind, tl_aabb 
         return;
     }
     for (uint32_t i = 0; i < count; i++) {
-        query q = { point_in(inner), direction(), INFINITY };
+        query q = { bench_point_in(&random_state, inner), bench_direction(&random_state), INFINITY };
         if (kind == 2) {
-            q.target = point_in(inner);
+            q.target = bench_point_in(&random_state, inner);
         } else if (kind == 3) {
-            q.target = tl_mul_add(q.origin, q.target, diagonal * (0.02f + 0.1f * unit()));
+            q.target = tl_mul_add(q.origin, q.target, diagonal * (0.02f + 0.1f * bench_unit(&random_state)));
         } else if (kind == 4) {
             q.target = tl_vec3_make(0, -1, 0);
         }
@@ -290,8 +174,8 @@ static bool count_memory(void *user, ssize_t bytes, bool post)
 }
 
 // Two triangles that share the edge c-a as one quad a, b, c, d; a lone triangle as a quad with d == c.
-static RTCScene make_scene(RTCDevice device, const level *l, const tl_soup *soup, bool quads, enum RTCSceneFlags flags,
-                           enum RTCBuildQuality quality)
+static RTCScene make_scene(RTCDevice device, const bench_level *l, const tl_soup *soup, bool quads,
+                           enum RTCSceneFlags flags, enum RTCBuildQuality quality)
 {
     RTCScene scene = rtcNewScene(device);
     rtcSetSceneFlags(scene, flags);
@@ -316,11 +200,12 @@ static RTCScene make_scene(RTCDevice device, const level *l, const tl_soup *soup
             }
         }
     } else {
-        float *v = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, l->vertex_count);
+        float *v =
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, l->view.vertex_count);
         uint32_t *f =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, l->triangle_count);
-        memcpy(v, l->vertices, 12 * (size_t)l->vertex_count);
-        memcpy(f, l->indices, 12 * (size_t)l->triangle_count);
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, l->view.triangle_count);
+        memcpy(v, l->view.vertices, 12 * (size_t)l->view.vertex_count);
+        memcpy(f, l->view.indices, 12 * (size_t)l->view.triangle_count);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene, geometry);
@@ -335,13 +220,13 @@ static RTCScene make_scene(RTCDevice device, const level *l, const tl_soup *soup
 typedef struct result {
     double rate[KINDS][SYSTEMS]; // rays a second
     double miss_ns[SYSTEMS];     // a call whose ray misses the root
-    double bytes;                // a triangle
+    double bytes, compact_bytes; // a triangle
     double build_share;          // of Embree's time at MEDIUM, and with spatial splits of that at HIGH
     double quality_build_share;
 } result;
 
 typedef struct scenes {
-    const tl_soup *soup;
+    const tl_soup *soup, *compact;
     RTCScene embree[SYSTEMS];
 } scenes;
 
@@ -354,6 +239,8 @@ static answer run_system(const scenes *s, uint32_t system, const query *queries,
         return run_talus(tl_ray_walk_for(TL_RAY_AVX2), s->soup, queries, count, kind);
     case TALUS_AVX512:
         return run_talus(tl_ray_walk_for(TL_RAY_AVX512), s->soup, queries, count, kind);
+    case COMPACT:
+        return run_talus(NULL, s->compact, queries, count, kind);
     default:
         return run_embree(s->embree[system], queries, count, kind);
     }
@@ -366,9 +253,9 @@ static answer run_slices(const scenes *s, uint32_t system, const query *queries,
     answer sum = { 0, 0 };
     for (uint32_t first = 0, slice = 0; first < count; first += SLICE_RAYS, slice++) {
         uint32_t rest = count - first < SLICE_RAYS ? count - first : SLICE_RAYS;
-        double start = now();
+        double start = bench_now();
         answer a = run_system(s, system, queries + first, rest, kind);
-        double t = now() - start;
+        double t = bench_now() - start;
         best[slice] = t < best[slice] ? t : best[slice];
         sum.hits += a.hits;
         sum.t_sum += a.t_sum;
@@ -401,9 +288,10 @@ static void time_systems(const scenes *s, const query *queries, uint32_t count, 
     }
 }
 
-static double build_soup(const tl_mesh_view *view, float split_budget, tl_soup **soup_out)
+static double build_soup(const tl_mesh_view *view, tl_soup_layout layout, float split_budget, tl_soup **soup_out)
 {
     tl_soup_def def = tl_default_soup_def();
+    def.layout = layout;
     def.split_budget = split_budget;
     double start = worked();
     tl_result code = tl_soup_build(view, &def, soup_out, NULL);
@@ -415,7 +303,7 @@ static double build_soup(const tl_mesh_view *view, float split_budget, tl_soup *
     return seconds;
 }
 
-static double build_scene(RTCDevice device, const level *l, enum RTCBuildQuality quality, RTCScene *scene_out)
+static double build_scene(RTCDevice device, const bench_level *l, enum RTCBuildQuality quality, RTCScene *scene_out)
 {
     embree_bytes = 0;
     double start = worked();
@@ -429,22 +317,22 @@ typedef struct build_times {
     double split_bytes, high_bytes;
 } build_times;
 
-static void build_level(RTCDevice device, const level *l, scenes *s, tl_soup **soup_out, build_times *best)
+static void build_level(RTCDevice device, const bench_level *l, scenes *s, tl_soup **soup_out, tl_soup **compact_out,
+                        build_times *best)
 {
-    tl_mesh_view view = { l->vertices, l->vertex_count, l->indices, l->triangle_count, NULL };
     build_times none = { 1e30, 1e30, 1e30, 1e30, 0, 0 };
     *best = none;
-    uint32_t rounds = l->triangle_count < 10000 ? 20 : l->triangle_count < 300000 ? 5 : 2;
+    uint32_t rounds = l->view.triangle_count < 10000 ? 20 : l->view.triangle_count < 300000 ? 5 : 2;
     for (uint32_t round = 0; round < rounds; round++) {
         tl_soup *split = NULL;
-        best->split = fmin(best->split, build_soup(&view, 0.1f, &split));
+        best->split = fmin(best->split, build_soup(&l->view, TL_SOUP_FAST, 0.1f, &split));
         best->split_bytes = (double)tl_soup_size(split);
         tl_blob_free(split, NULL);
         RTCScene scene;
         best->medium = fmin(best->medium, build_scene(device, l, RTC_BUILD_QUALITY_MEDIUM, &scene));
         rtcReleaseScene(scene);
         bool last = round == rounds - 1;
-        best->plain = fmin(best->plain, build_soup(&view, 0.0f, soup_out));
+        best->plain = fmin(best->plain, build_soup(&l->view, TL_SOUP_FAST, 0.0f, soup_out));
         best->high = fmin(best->high, build_scene(device, l, RTC_BUILD_QUALITY_HIGH, &s->embree[FAST]));
         best->high_bytes = embree_bytes;
         if (!last) {
@@ -452,12 +340,14 @@ static void build_level(RTCDevice device, const level *l, scenes *s, tl_soup **s
             rtcReleaseScene(s->embree[FAST]);
         }
     }
+    (void)build_soup(&l->view, TL_SOUP_COMPACT, 0.0f, compact_out);
     s->soup = *soup_out;
+    s->compact = *compact_out;
     s->embree[QUADS] = make_scene(device, l, s->soup, true, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
     s->embree[ROBUST] = make_scene(device, l, s->soup, false, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
 }
 
-static void print_build(const level *l, const tl_soup *soup, const build_times *best, result *r)
+static void print_build(const bench_level *l, const tl_soup *soup, const build_times *best, result *r)
 {
     tl_soup_stats stats = tl_soup_get_stats(soup);
     double n = (double)stats.triangle_count;
@@ -474,14 +364,15 @@ static void print_build(const level *l, const tl_soup *soup, const build_times *
         1e6 * best->high / n);
 }
 
-static void bench_level(RTCDevice device, const level *l, uint32_t repetitions, uint32_t ray_count,
-                        bench_report *report, result *r)
+static void run_level(RTCDevice device, const bench_level *l, uint32_t repetitions, uint32_t ray_count,
+                      bench_report *report, result *r)
 {
     scenes s;
-    tl_soup *soup = NULL;
+    tl_soup *soup = NULL, *compact = NULL;
     build_times best_builds;
-    build_level(device, l, &s, &soup, &best_builds);
+    build_level(device, l, &s, &soup, &compact, &best_builds);
     print_build(l, soup, &best_builds, r);
+    r->compact_bytes = (double)tl_soup_size(compact) / tl_soup_get_stats(compact).triangle_count;
     query *queries = malloc(ray_count * sizeof *queries);
     double best[SYSTEMS];
     answer a[SYSTEMS];
@@ -502,7 +393,8 @@ static void bench_level(RTCDevice device, const level *l, uint32_t repetitions, 
     // Straight up, from above the level.
     tl_aabb bounds = tl_soup_bounds(soup);
     for (uint32_t i = 0; i < ray_count; i++) {
-        query q = { point_in(bounds), tl_vec3_make(0.1f * unit(), 1, 0.1f * unit()), INFINITY };
+        query q = { bench_point_in(&random_state, bounds),
+                    tl_vec3_make(0.1f * bench_unit(&random_state), 1, 0.1f * bench_unit(&random_state)), INFINITY };
         q.origin.y = bounds.max.y + 1;
         queries[i] = q;
     }
@@ -519,6 +411,7 @@ static void bench_level(RTCDevice device, const level *l, uint32_t repetitions, 
     rtcReleaseScene(s.embree[QUADS]);
     rtcReleaseScene(s.embree[ROBUST]);
     tl_blob_free(soup, NULL);
+    tl_blob_free(compact, NULL);
 }
 
 // ----------------------------------------------------------------------------------------------------- claims
@@ -560,11 +453,15 @@ static void claim_rates(bench_report *report, const result *results, uint32_t co
         snprintf(text, sizeof text, "%s: talus with AVX2 to the better of Embree fast", kind_names[kind]);
         bench_report_at_least(report, text, mean_to_fast(results, count, kind, TALUS_AVX2), avx2_to_fast[kind]);
     }
+    for (uint32_t kind = 0; kind < KINDS; kind++) {
+        snprintf(text, sizeof text, "%s: compact to the better of Embree fast", kind_names[kind]);
+        bench_report_at_least(report, text, mean_to_fast(results, count, kind, COMPACT), 0.7);
+    }
 }
 
 static void claim_others(bench_report *report, const result *results, uint32_t count)
 {
-    double worst = 1e30, miss = 0, bytes = 0, build = 0, quality = 0;
+    double worst = 1e30, miss = 0, bytes = 0, compact = 0, build = 0, quality = 0;
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t kind = 0; kind < KINDS; kind++) {
             double ratio = results[i].rate[kind][TALUS] / fast_rate(&results[i], kind);
@@ -572,12 +469,14 @@ static void claim_others(bench_report *report, const result *results, uint32_t c
         }
         miss += log(results[i].miss_ns[TALUS]);
         bytes = results[i].bytes > bytes ? results[i].bytes : bytes;
+        compact = results[i].compact_bytes > compact ? results[i].compact_bytes : compact;
         build += log(results[i].build_share);
         quality += log(results[i].quality_build_share);
     }
     bench_report_at_least(report, "worst level and kind: talus to the better of Embree fast", worst, 0.95);
     bench_report_at_most(report, "a call that misses the root, ns", exp(miss / count), 14);
     bench_report_at_most(report, "most bytes a triangle", bytes, 40);
+    bench_report_at_most(report, "most bytes a triangle, compact", compact, 20);
     bench_report_at_most(report, "build time to Embree medium", exp(build / count), 1);
     bench_report_at_most(report, "build time with spatial splits to Embree high", exp(quality / count), 1);
 }
@@ -591,14 +490,13 @@ int main(int argc, char **argv)
     bench_report *report = bench_report_new("rays", "Mray/s", NULL);
     RTCDevice device = rtcNewDevice("threads=1");
     rtcSetDeviceMemoryMonitorFunction(device, count_memory, NULL);
-    static level levels[MAX_LEVELS];
-    static result results[MAX_LEVELS];
-    uint32_t count = load_levels(levels, argc > 3 ? argv[3] : NULL);
+    static bench_level levels[BENCH_MAX_LEVELS];
+    static result results[BENCH_MAX_LEVELS];
+    uint32_t count = bench_load_levels(levels, argc > 3 ? argv[3] : NULL);
     for (uint32_t i = 0; i < count; i++) {
-        bench_level(device, &levels[i], repetitions, ray_count, report, &results[i]);
-        free(levels[i].vertices);
-        free(levels[i].indices);
+        run_level(device, &levels[i], repetitions, ray_count, report, &results[i]);
     }
+    bench_free_levels(levels, count);
     if (count > 0) {
         claim_rates(report, results, count);
         claim_others(report, results, count);
