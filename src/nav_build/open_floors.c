@@ -287,7 +287,7 @@ static void look_at_layer(layer *restrict own, const layer *beside, uint32_t shi
     for (uint32_t i = 0; i < BLOCK; i++) {
         const biased f = floor[i], g = beside_floor[i];
         const biased ceiling = top[i] < beside_top[i] ? top[i] : beside_top[i], bottom = f > g ? f : g;
-        const biased reached = (ceiling >= bottom) & (beside_down[i] <= f) ? g : f;
+        const biased reached = ((ceiling >= bottom) & (beside_down[i] <= f)) ? g : f;
         own->lowest[i] = reached < own->lowest[i] ? reached : own->lowest[i];
         own->highest[i] = reached > own->highest[i] ? reached : own->highest[i];
     }
@@ -307,7 +307,7 @@ static void look_under(layer *restrict own, const biased *restrict under)
 {
     const biased *restrict floor = own->floor + 1, *restrict top = own->top + 1;
     for (uint32_t i = 0; i < BLOCK; i++) {
-        own->lowest[i] = (top[i] >= floor[i]) & (under[i] >= floor[i]) ? LOWEST : floor[i];
+        own->lowest[i] = ((top[i] >= floor[i]) & (under[i] >= floor[i])) ? LOWEST : floor[i];
     }
 }
 
