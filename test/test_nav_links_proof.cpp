@@ -163,7 +163,7 @@ void test_levels(void **)
         prove_level(l, kinds);
     }
     TEST_CHECK(!files.empty() ||
-               (kinds[TL_NAV_LINK_DROP] > 40 && kinds[TL_NAV_LINK_JUMP] > 20 && kinds[TL_NAV_LINK_CLIMB] > 0));
+               (kinds[TL_NAV_LINK_DROP] > 30 && kinds[TL_NAV_LINK_JUMP] > 20 && kinds[TL_NAV_LINK_CLIMB] > 0));
 }
 
 } // namespace

@@ -206,7 +206,7 @@ static void what_is_wrong_is_named(void **state)
     def.seed_count = 0;
     def.min_area = -1.0;
     TEST_RESULT(tl_nav_prune(&def, &tiles, &report), TL_ERR_ARGUMENT);
-    def.min_area = NAN;
+    def.min_area = (double)NAN;
     TEST_RESULT(tl_nav_prune(&def, &tiles, NULL), TL_ERR_ARGUMENT);
     def.min_area = 0.0;
     def.seed_extents.y = -1.0f;
