@@ -132,7 +132,10 @@ static void test_two_floors(void **state)
             tl_nav_ray_hit hit;
             TEST_RESULT(tl_navmesh_cast_ray(navmesh, NULL, &start, end, polygons, 256, &hit), TL_OK);
             check_crossed(navmesh, polygons, hit.polygon_count);
-            climbed += fabsf(hit.point.y - start.point.y) > 2.0f;
+            float height;
+            TEST_RESULT(tl_navmesh_height(navmesh, hit.polygon, hit.point.x, hit.point.z, &height), TL_OK);
+            TEST_CHECK(fabsf(hit.point.y - (start.point.y + (end.y - start.point.y) * hit.t)) <= 1e-4f);
+            climbed += fabsf(height - start.point.y) > 2.0f;
             crossed += hit.polygon_count > 3;
         }
         free(all.refs);

@@ -468,7 +468,7 @@ TL_API tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navme
 typedef struct tl_nav_ray_hit {
     bool hit;               ///< false: the end was reached, t is 1
     float t;                ///< [0, 1] of the way in the plane
-    tl_vec3 point;          ///< where it ended, on the surface
+    tl_vec3 point;          ///< where it ended; y is that of the straight line (tl_navmesh_height gives the surface's)
     tl_vec3 normal;         ///< of the wall, unit, in the plane, towards the walkable side; 0 without a hit
     tl_nav_ref polygon;     ///< where it ended
     uint32_t edge;          ///< of that polygon, that was hit

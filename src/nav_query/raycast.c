@@ -488,14 +488,11 @@ static void describe(const surface_ray *ray, const ray_walk *end, tl_nav_ray_hit
     hit_out->t = (float)end->t;
     hit_out->polygon = tl_nav_make_ref(ray->navmesh, end->slot, end->polygon);
     hit_out->polygon_count = end->polygon_count;
-    if (end->has_point) {
-        hit_out->point = end->point;
-        hit_out->point.y = tl_nav_surface_height(tile, end->polygon, end->point.x, end->point.z);
-    } else {
-        tl_vec3 point = end->hit ? tl_lerp(ray->start, ray->end, (float)end->t) : ray->end;
-        bool inside = false;
-        hit_out->point = tl_nav_closest_on_surface(tile, end->polygon, point, &inside);
-    }
+    tl_vec3 along = tl_lerp(ray->start, ray->end, (float)end->t);
+    bool inside = false;
+    hit_out->point =
+        end->has_point ? end->point : tl_nav_clamp_to_polygon(tile, end->polygon, end->hit ? along : ray->end, &inside);
+    hit_out->point.y = along.y;
     if (end->hit) {
         uint32_t count = 0;
         const tl_vec3 *corners = tl_nav_tile_corners(tile, end->polygon, &count);
