@@ -8,6 +8,7 @@
 // Source: Sutherland and Hodgman, Reentrant Polygon Clipping, 1974.
 
 #include "base/assert.h"
+#include "nav_query/circle_corners.h"
 #include "nav_query/filter.h"
 #include "nav_query/flood.h"
 #include "nav_query/navmesh.h"
@@ -16,48 +17,23 @@
 
 #include <string.h>
 
-enum { SIDES = 32, MOST_CLIPPED = TL_NAV_MAX_CORNERS + SIDES };
-
-// Cosines of the first quarter's corners, from 0 in steps of 360 / 32 degrees.
-static const double COSINE[SIDES / 4 + 1] = { 1.0,
-                                              0.98078528040323044913,
-                                              0.92387953251128675613,
-                                              0.83146961230254523708,
-                                              0.70710678118654752440,
-                                              0.55557023301960222474,
-                                              0.38268343236508977173,
-                                              0.19509032201612826785,
-                                              0.0 };
+enum { SIDES = TL_NAV_CIRCLE_CORNERS, MOST_CLIPPED = TL_NAV_MAX_CORNERS + SIDES };
 
 // Points no farther from the centre than this share of the radius lie within all sides: cos(180 / 32 degrees) = 0.9951.
 #define SAFE_SHARE 0.995
 
-typedef struct clip_point {
-    double x, z; // from the centre
-} clip_point;
-
 typedef struct clip_polygon {
-    clip_point points[MOST_CLIPPED];
+    tl_nav_spot points[MOST_CLIPPED]; // from the centre
     uint32_t count;
 } clip_polygon;
 
-static clip_point circle_corner(uint32_t i, double radius)
-{
-    uint32_t quarter = (i / (SIDES / 4)) % 4;
-    uint32_t k = i % (SIDES / 4);
-    double c = radius * COSINE[k];
-    double s = radius * COSINE[SIDES / 4 - k];
-    clip_point turned[4] = { { c, s }, { -s, c }, { -c, -s }, { s, -c } };
-    return turned[quarter];
-}
-
 // How far a point lies within the side from a to b of the circle's polygon, times the side's length.
-static double inside_of(clip_point a, clip_point b, clip_point p)
+static double inside_of(tl_nav_spot a, tl_nav_spot b, tl_nav_spot p)
 {
     return (b.x - a.x) * (p.z - a.z) - (b.z - a.z) * (p.x - a.x);
 }
 
-static bool comes_outside(const clip_polygon *polygon, clip_point a, clip_point b)
+static bool comes_outside(const clip_polygon *polygon, tl_nav_spot a, tl_nav_spot b)
 {
     uint32_t i = 0;
     while (i < polygon->count && inside_of(a, b, polygon->points[i]) >= 0.0) {
@@ -66,12 +42,12 @@ static bool comes_outside(const clip_polygon *polygon, clip_point a, clip_point 
     return i < polygon->count;
 }
 
-static void clip_to_side(const clip_polygon *in, clip_point a, clip_point b, clip_polygon *out)
+static void clip_to_side(const clip_polygon *in, tl_nav_spot a, tl_nav_spot b, clip_polygon *out)
 {
     out->count = 0;
     for (uint32_t i = 0; i < in->count; i++) {
-        clip_point from = in->points[i];
-        clip_point to = in->points[i + 1 < in->count ? i + 1 : 0];
+        tl_nav_spot from = in->points[i];
+        tl_nav_spot to = in->points[i + 1 < in->count ? i + 1 : 0];
         double from_inside = inside_of(a, b, from);
         double to_inside = inside_of(a, b, to);
         if (from_inside >= 0.0) {
@@ -79,7 +55,7 @@ static void clip_to_side(const clip_polygon *in, clip_point a, clip_point b, cli
         }
         if ((from_inside > 0.0 && to_inside < 0.0) || (from_inside < 0.0 && to_inside > 0.0)) {
             double t = from_inside / (from_inside - to_inside);
-            clip_point crossing = { from.x + t * (to.x - from.x), from.z + t * (to.z - from.z) };
+            tl_nav_spot crossing = { from.x + t * (to.x - from.x), from.z + t * (to.z - from.z) };
             out->points[out->count++] = crossing;
         }
     }
@@ -101,9 +77,10 @@ static void clip(const tl_nav_flood *flood, const tl_nav_node *node, double radi
         double z = out->points[i].z;
         is_within = is_within && x * x + z * z <= middle * middle;
     }
-    clip_point from = circle_corner(0, radius);
+    const tl_nav_spot center = { 0.0, 0.0 };
+    tl_nav_spot from = tl_nav_circle_corner(center, radius, 0);
     for (uint32_t side = 0; side < SIDES && !is_within && out->count > 0; side++) {
-        clip_point to = circle_corner(side + 1, radius);
+        tl_nav_spot to = tl_nav_circle_corner(center, radius, side + 1);
         if (comes_outside(out, from, to)) {
             clip_polygon cut;
             clip_to_side(out, from, to, &cut);
@@ -117,7 +94,7 @@ static void clip(const tl_nav_flood *flood, const tl_nav_node *node, double radi
 // Twice the area of triangle i of the polygon's fan; seen from above in x and z it winds clockwise.
 static double triangle_area(const clip_polygon *polygon, uint32_t i)
 {
-    const clip_point *p = polygon->points;
+    const tl_nav_spot *p = polygon->points;
     double area = (p[i + 1].x - p[0].x) * (p[i].z - p[0].z) - (p[i + 1].z - p[0].z) * (p[i].x - p[0].x);
     return area > 0.0 ? area : 0.0;
 }
@@ -170,7 +147,7 @@ static tl_vec3 point_in(const tl_nav_flood *flood, const clip_polygon *part, dou
     double second = 0.0;
     double third = 0.0;
     tl_nav_random_in_triangle(bits, &second, &third);
-    const clip_point *p = part->points;
+    const tl_nav_spot *p = part->points;
     double x = p[0].x + second * (p[i].x - p[0].x) + third * (p[i + 1].x - p[0].x);
     double z = p[0].z + second * (p[i].z - p[0].z) + third * (p[i + 1].z - p[0].z);
     return tl_vec3_make((float)((double)flood->zone->center.x + x), 0.0f, (float)((double)flood->zone->center.z + z));

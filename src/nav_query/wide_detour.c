@@ -11,36 +11,9 @@
 
 #include "nav_query/wide_search.h"
 
+#include "nav_query/circle_corners.h"
+
 #include <string.h>
-
-// Unit vectors at 0, 1/32, ... 8/32 of a turn; the rest by symmetry.
-static const double QUARTER[TL_NAV_CAP_CORNERS / 4 + 1] = { 1.0,
-                                                            0.98078528040323044913,
-                                                            0.92387953251128675613,
-                                                            0.83146961230254523708,
-                                                            0.70710678118654752440,
-                                                            0.55557023301960222474,
-                                                            0.38268343236508977173,
-                                                            0.19509032201612826785,
-                                                            0.0 };
-
-tl_nav_spot tl_nav_cap_corner(tl_nav_spot center, double radius, uint32_t index)
-{
-    uint32_t quarter = TL_NAV_CAP_CORNERS / 4;
-    uint32_t step = index % quarter;
-    double along = radius * QUARTER[step];
-    double aside = radius * QUARTER[quarter - step];
-    switch (index / quarter % 4) {
-    case 0:
-        return tl_nav_spot_make(center.x + along, center.z + aside);
-    case 1:
-        return tl_nav_spot_make(center.x - aside, center.z + along);
-    case 2:
-        return tl_nav_spot_make(center.x - along, center.z - aside);
-    default:
-        return tl_nav_spot_make(center.x + aside, center.z - along);
-    }
-}
 
 // A place where a way may bend.
 typedef struct stop {
@@ -82,8 +55,8 @@ static void add_caps(const tl_nav_clearance *clearance, const tl_nav_spot *corne
             if (is_known(near, i, ends[e])) {
                 continue;
             }
-            for (uint32_t k = 0; k < TL_NAV_CAP_CORNERS; k++) {
-                tl_nav_spot spot = tl_nav_cap_corner(ends[e], clearance->reach, k);
+            for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS; k++) {
+                tl_nav_spot spot = tl_nav_circle_corner(ends[e], clearance->reach, k);
                 if (tl_nav_outside_by(corners, count, spot) <= clearance->slack &&
                     tl_nav_is_clear(near, spot, spot, clearance->least)) {
                     add_stop(all, spot);
@@ -156,7 +129,7 @@ bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_
         return false;
     }
     stops all = { NULL, 0 };
-    all.at = tl_nav_take(clearance, 2 + 2 * (uint64_t)near.wall_count * TL_NAV_CAP_CORNERS, sizeof *all.at);
+    all.at = tl_nav_take(clearance, 2 + 2 * (uint64_t)near.wall_count * TL_NAV_CIRCLE_CORNERS, sizeof *all.at);
     if (all.at == NULL) {
         return false;
     }

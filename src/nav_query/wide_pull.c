@@ -10,6 +10,8 @@
 
 #include "nav_query/wide_search.h"
 
+#include "nav_query/circle_corners.h"
+
 #include "math/tolerance.h"
 
 #include <string.h>
@@ -48,14 +50,14 @@ static bool holds(const triangle *t, tl_nav_spot spot)
 
 static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
 {
-    t->corners = tl_nav_take(clearance, 2 * (uint64_t)t->near.wall_count * TL_NAV_CAP_CORNERS, sizeof *t->corners);
+    t->corners = tl_nav_take(clearance, 2 * (uint64_t)t->near.wall_count * TL_NAV_CIRCLE_CORNERS, sizeof *t->corners);
     if (t->corners == NULL) {
         return false;
     }
     for (uint32_t i = 0; i < 2 * t->near.wall_count; i++) {
         const tl_nav_segment *wall = &t->near.walls[i / 2];
-        for (uint32_t k = 0; k < TL_NAV_CAP_CORNERS; k++) {
-            tl_nav_spot spot = tl_nav_cap_corner(i % 2 == 0 ? wall->a : wall->b, clearance->reach, k);
+        for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS; k++) {
+            tl_nav_spot spot = tl_nav_circle_corner(i % 2 == 0 ? wall->a : wall->b, clearance->reach, k);
             if (holds(t, spot)) {
                 t->corners[t->count++] = spot;
             }

@@ -51,8 +51,4 @@ bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_
 /// Pulls a free path taut. False: out of room (is_full); the path is free all the same.
 bool tl_nav_wide_pull(tl_nav_clearance *clearance, tl_nav_bends *path);
 
-/// The corners of the polygon with 32 of them that is written into the circle around a wall's end.
-#define TL_NAV_CAP_CORNERS 32u
-tl_nav_spot tl_nav_cap_corner(tl_nav_spot center, double radius, uint32_t index);
-
 #endif
