@@ -431,6 +431,8 @@ static tl_exit run(tl_cli *cli)
         { "from", 0, TL_OPTION_TEXT, &settings.from_text, "X,Y,Z", "path: where it starts", NULL, 0, 0, 0, 0 },
         { "to", 0, TL_OPTION_TEXT, &settings.to_text, "X,Y,Z", "path: where it leads (without ends: across the level)",
           NULL, 0, 0, 0, 0 },
+        { "radius", 0, TL_OPTION_FLOAT, &settings.ends.radius, "M",
+          "path: for an agent wider than the navmesh was made for", NULL, 0, 1e6f, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     tl_option level_options[TL_LEVEL_OPTIONS];

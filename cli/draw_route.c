@@ -5,9 +5,13 @@
 #include "draw_route.h"
 
 #include "draw_stage.h"
+#include "wide_route.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+// Corners of a wide path around the end of a wall.
+enum { HALF_CIRCLE = 17 };
 
 // A route over the navmesh: what is needed to draw it.
 typedef struct draw_route {
@@ -28,16 +32,18 @@ static tl_result make_route_room(const tl_navmesh *navmesh, draw_route *route)
 {
     memset(route, 0, sizeof *route);
     uint64_t links = tl_navmesh_link_count(navmesh) + 2;
-    if (links > UINT32_MAX / 2) {
+    if (links > UINT32_MAX / (2 * HALF_CIRCLE)) {
         return TL_ERR_LIMIT;
     }
     tl_nav_query_def def = tl_default_nav_query_def();
-    def.max_nodes = (uint32_t)links;
-    // A path enters each polygon at most once, by one link; a straight path has a corner a portal, and two ends.
+    // A path that keeps away from walls needs room for those near it, however few polygons there are.
+    def.max_nodes = links > def.max_nodes ? (uint32_t)links : def.max_nodes;
+    // A path enters each polygon at most once, by one link; a straight path has a corner a portal, and two ends; one
+    // that keeps away from walls has half a circle more a portal, at most.
     route->buffers.polygon_capacity = (uint32_t)links;
-    route->buffers.corner_capacity = (uint32_t)links + 2;
+    route->buffers.corner_capacity = HALF_CIRCLE * ((uint32_t)links + 2);
     route->buffers.polygons = malloc(links * sizeof *route->buffers.polygons);
-    route->buffers.corners = malloc((links + 2) * sizeof *route->buffers.corners);
+    route->buffers.corners = malloc(route->buffers.corner_capacity * sizeof *route->buffers.corners);
     if (route->buffers.polygons == NULL || route->buffers.corners == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -50,6 +56,16 @@ static tl_result find_route(const tl_navmesh *navmesh, draw_route *route, tl_vec
         tl_nav_query_find_route(route->query, navmesh, NULL, from, to, extents, &route->buffers, &route->route);
     route->found = result == TL_OK;
     return result;
+}
+
+static tl_result find_given_route(const tl_navmesh *navmesh, const draw_route_ends *ends, draw_route *route)
+{
+    const tl_vec3 near = { 2.0f, 4.0f, 2.0f };
+    if (ends->radius <= 0.0f) {
+        return find_route(navmesh, route, ends->from, ends->to, near);
+    }
+    return tl_find_wide_route(route->query, navmesh, ends->radius, ends->from, ends->to, near, &route->buffers,
+                              &route->route);
 }
 
 // Without ends given: across the level, the longer one of its two diagonals that leads all the way, at the height of
@@ -94,9 +110,7 @@ bool draw_route_add(draw_source *source, const draw_route_ends *ends, draw_scene
     draw_route route;
     tl_result result = make_route_room(navmesh, &route);
     if (result == TL_OK) {
-        const tl_vec3 near = { 2.0f, 4.0f, 2.0f };
-        result =
-            ends != NULL ? find_route(navmesh, &route, ends->from, ends->to, near) : find_longest_route(source, &route);
+        result = ends != NULL ? find_given_route(navmesh, ends, &route) : find_longest_route(source, &route);
     }
     if (result == TL_OK) {
         draw_stage_route(scene, navmesh, &route.route, &route.buffers);

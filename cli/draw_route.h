@@ -8,6 +8,7 @@
 
 typedef struct draw_route_ends {
     tl_vec3 from, to;
+    float radius; ///< metres, of an agent wider than the navmesh's own; 0: that one
 } draw_route_ends;
 
 /// Adds the navmesh and a route over it; `ends` NULL: across the level. Ends without navmesh near them are a warning.

@@ -6,6 +6,7 @@
 #include "cli/json_out.h"
 #include "cli/open_input.h"
 #include "cli/parse_value.h"
+#include "cli/wide_route.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,41 +58,6 @@ static bool grow(searcher *s, uint32_t polygons, uint32_t corners)
     return true;
 }
 
-// The way of an agent wider than the mesh's own, between the places with room that are nearest to the ends.
-static tl_result find_wide_route(const path_queries *queries, searcher *s, tl_vec3 start, tl_vec3 goal,
-                                 tl_nav_route *route)
-{
-    const tl_vec3 *ends[2] = { &start, &goal };
-    tl_nav_location *places[2] = { &route->start, &route->goal };
-    const tl_vec3 extents = queries->settings->extents;
-    float radius = queries->settings->radius;
-    for (int i = 0; i < 2; ++i) {
-        tl_nav_location near;
-        tl_result result = tl_navmesh_find_nearest(queries->navmesh, NULL, *ends[i], extents, &near);
-        if (result == TL_OK) {
-            result = tl_nav_query_find_wide_place(s->query, queries->navmesh, NULL, radius, &near,
-                                                  tl_minf(extents.x, extents.z), places[i]);
-        }
-        if (result != TL_OK) {
-            return result;
-        }
-    }
-    tl_nav_wide_path path;
-    tl_result result = tl_nav_query_find_wide_path(s->query, queries->navmesh, NULL, radius, &route->start,
-                                                   &route->goal, s->buffers.corners, s->buffers.corner_capacity, &path);
-    route->path.status = path.status == TL_NAV_WIDE_COMPLETE       ? TL_NAV_PATH_COMPLETE
-                         : path.status == TL_NAV_WIDE_OUT_OF_NODES ? TL_NAV_PATH_OUT_OF_NODES
-                                                                   : TL_NAV_PATH_UNREACHABLE;
-    route->corner_count = path.corner_count;
-    route->length = (float)path.surface_length;
-    if (path.corner_count == 0) {
-        const tl_nav_corner stay = { route->start.point, route->start.polygon, TL_NAV_CORNER_START, TL_NAV_NO_REF };
-        s->buffers.corners[0] = stay;
-        route->corner_count = 1;
-    }
-    return result;
-}
-
 // A route's corners may outnumber its polygons by the two ends; a second growth happens when only the first count was
 // known.
 static tl_result find_route(const path_queries *queries, searcher *s, const float *n, tl_nav_route *route)
@@ -102,7 +68,8 @@ static tl_result find_route(const path_queries *queries, searcher *s, const floa
     for (unsigned trial = 0; trial < 3 && result == TL_ERR_CAPACITY; ++trial) {
         memset(route, 0, sizeof(*route));
         result = queries->settings->radius > 0.0f
-                     ? find_wide_route(queries, s, start, goal, route)
+                     ? tl_find_wide_route(s->query, queries->navmesh, queries->settings->radius, start, goal,
+                                          queries->settings->extents, &s->buffers, route)
                      : tl_nav_query_find_route(s->query, queries->navmesh, NULL, start, goal,
                                                queries->settings->extents, &s->buffers, route);
         if (result == TL_ERR_CAPACITY && !grow(s, route->path.polygon_count, route->corner_count + 2)) {
@@ -226,6 +193,8 @@ static bool make_searchers(path_queries *queries, uint32_t count)
 {
     tl_nav_query_def def = tl_default_nav_query_def();
     uint64_t nodes = tl_navmesh_link_count(queries->navmesh) + 2;
+    // A path that keeps away from walls needs room for those near it, however few polygons there are.
+    nodes = queries->settings->radius > 0.0f && nodes < def.max_nodes ? def.max_nodes : nodes;
     def.max_nodes = nodes < UINT32_MAX ? (uint32_t)nodes : UINT32_MAX;
     queries->searchers = calloc(count, sizeof(*queries->searchers));
     if (queries->searchers == NULL) {

@@ -45,10 +45,10 @@ uint64_t *tl_nav_areas_make(const tl_allocator *allocator, const tl_nav_tile *ti
     return areas;
 }
 
-void tl_nav_areas_free(const tl_allocator *allocator, uint64_t *areas, const tl_nav_tile *tile)
+void tl_nav_areas_free(const tl_allocator *allocator, uint64_t *areas, uint32_t polygon_count)
 {
     if (areas != NULL) {
-        tl_release_array(allocator, areas, (uint64_t)tile->polygon_count + 1, sizeof *areas);
+        tl_release_array(allocator, areas, (uint64_t)polygon_count + 1, sizeof *areas);
     }
 }
 

@@ -10,7 +10,7 @@
 /// The areas of a tile's polygons, twice, in squares of the lattice: [i] is the sum of those before polygon i, the last
 /// one that of all. Freed with tl_nav_areas_free. NULL: out of memory.
 uint64_t *tl_nav_areas_make(const tl_allocator *allocator, const tl_nav_tile *tile);
-void tl_nav_areas_free(const tl_allocator *allocator, uint64_t *areas, const tl_nav_tile *tile);
+void tl_nav_areas_free(const tl_allocator *allocator, uint64_t *areas, uint32_t polygon_count);
 
 /// Sums up all slots anew; the table has room for capacity + 1 numbers.
 void tl_nav_area_table_fill(uint64_t *table, uint32_t capacity, const tl_nav_slot *slots, uint32_t slot_count);

@@ -47,8 +47,9 @@ static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
     for (int side = 0; side < 4; side++) {
         tl_nav_free_side(&navmesh->allocator, &slot->sides[side]);
     }
+    // A borrowed tile may be gone by now: its counts are not asked of it.
+    tl_nav_areas_free(&navmesh->allocator, slot->areas, slot->rings.polygon_count);
     tl_nav_rings_free(&navmesh->allocator, &slot->rings);
-    tl_nav_areas_free(&navmesh->allocator, slot->areas, slot->tile);
     slot->areas = NULL;
     if (slot->ownership == TL_NAV_TILE_OWNED && slot->tile != NULL) {
         // The navmesh was given the blob to free; const only says that queries never write to it.
@@ -198,7 +199,7 @@ static void free_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_
         tl_nav_rings_free(&navmesh->allocator, &seams->neighbour_rings[side]);
     }
     tl_nav_rings_free(&navmesh->allocator, &seams->rings);
-    tl_nav_areas_free(&navmesh->allocator, seams->areas, tile);
+    tl_nav_areas_free(&navmesh->allocator, seams->areas, tile->polygon_count);
 }
 
 static tl_result make_links(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)

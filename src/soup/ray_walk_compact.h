@@ -9,7 +9,7 @@
 // A byte for each float of a plain node.
 static inline const uint8_t *byte_row(const tl_compact_node *node, uint32_t row)
 {
-    return node->plane[0] + row / sizeof(float);
+    return (const uint8_t *)(const void *)node->plane + row / sizeof(float);
 }
 
 // A product with a power of two is exact, so a plane is the very float that the builder had, and the bounds of
