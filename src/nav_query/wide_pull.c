@@ -48,6 +48,14 @@ static bool holds(const triangle *t, tl_nav_spot spot)
            t->hand * tl_nav_spot_turn(t->b, t->a, spot) >= 0.0 && !is_same(spot, t->a) && !is_same(spot, t->c);
 }
 
+// Whether the way bends around a cap of which the bend itself is a corner. A cap on the other hand of the bend touches
+// the triangle there and is no reason to stay: the way is free, so a cap lies on one hand or the other.
+static bool bends_around(const triangle *t, tl_nav_spot center)
+{
+    return t->hand * tl_nav_spot_turn(t->c, t->b, center) >= 0.0 &&
+           t->hand * tl_nav_spot_turn(t->b, t->a, center) >= 0.0;
+}
+
 static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
 {
     t->corners = tl_nav_take(clearance, 2 * (uint64_t)t->near.wall_count * TL_NAV_CIRCLE_CORNERS, sizeof *t->corners);
@@ -56,9 +64,10 @@ static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
     }
     for (uint32_t i = 0; i < 2 * t->near.wall_count; i++) {
         const tl_nav_segment *wall = &t->near.walls[i / 2];
+        tl_nav_spot center = i % 2 == 0 ? wall->a : wall->b;
         for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS; k++) {
-            tl_nav_spot spot = tl_nav_circle_corner(i % 2 == 0 ? wall->a : wall->b, clearance->reach, k);
-            if (holds(t, spot)) {
+            tl_nav_spot spot = tl_nav_circle_corner(center, clearance->reach, k);
+            if (holds(t, spot) && (!is_same(spot, t->b) || bends_around(t, center))) {
                 t->corners[t->count++] = spot;
             }
         }
