@@ -3,8 +3,8 @@
 // talus around: what lies around a place on the navmesh: walls, what can be reached, random points.
 
 #include "cli/batch.h"
+#include "cli/navmesh_query.h"
 #include "cli/open_input.h"
-#include "cli/parse_value.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -160,12 +160,9 @@ static bool answer_place(const float *n, uint32_t count, tl_text *text, uint32_t
     return true;
 }
 
-// Nodes for every polygon, so that no search gives up.
 static bool make_queries(around_queries *all, uint32_t count)
 {
-    tl_nav_query_def def = tl_default_nav_query_def();
-    uint64_t nodes = tl_navmesh_link_count(all->navmesh) + 2;
-    def.max_nodes = nodes < UINT32_MAX ? (uint32_t)nodes : UINT32_MAX;
+    const tl_nav_query_def def = tl_whole_query_def(all->navmesh);
     all->queries = calloc(count, sizeof(*all->queries));
     for (uint32_t i = 0; all->queries != NULL && i < count; ++i) {
         all->count = i + 1;
@@ -199,16 +196,8 @@ static tl_exit answer(tl_cli *cli, const around_settings *settings, const float 
 
 static bool parse_words(tl_cli *cli, around_settings *settings, float numbers[3], tl_exit *exit_out)
 {
-    if (settings->extents_text != NULL) {
-        const char *reason = tl_parse_point_value(settings->extents_text, &settings->extents);
-        if (reason == NULL && (settings->extents.x < 0 || settings->extents.y < 0 || settings->extents.z < 0)) {
-            reason = "is negative";
-        }
-        if (reason != NULL) {
-            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--extents: '%s' %s; write it as X,Y,Z", settings->extents_text,
-                                    reason);
-            return false;
-        }
+    if (!tl_extents_read(cli, settings->extents_text, &settings->extents, exit_out)) {
+        return false;
     }
     bool has_place = cli->arguments.count > 1;
     settings->everywhere = !has_place && settings->places == NULL && settings->random > 0;

@@ -4,8 +4,8 @@
 
 #include "cli/batch.h"
 #include "cli/json_out.h"
+#include "cli/navmesh_query.h"
 #include "cli/open_input.h"
-#include "cli/parse_value.h"
 #include "cli/wide_route.h"
 
 #include <stdio.h>
@@ -188,14 +188,12 @@ static void free_searchers(path_queries *queries)
     free(queries->searchers);
 }
 
-// Nodes for every link there is, so that no search gives up.
 static bool make_searchers(path_queries *queries, uint32_t count)
 {
-    tl_nav_query_def def = tl_default_nav_query_def();
-    uint64_t nodes = tl_navmesh_link_count(queries->navmesh) + 2;
+    tl_nav_query_def def = tl_whole_query_def(queries->navmesh);
+    const uint32_t usual = tl_default_nav_query_def().max_nodes;
     // A path that keeps away from walls needs room for those near it, however few polygons there are.
-    nodes = queries->settings->radius > 0.0f && nodes < def.max_nodes ? def.max_nodes : nodes;
-    def.max_nodes = nodes < UINT32_MAX ? (uint32_t)nodes : UINT32_MAX;
+    def.max_nodes = queries->settings->radius > 0.0f && def.max_nodes < usual ? usual : def.max_nodes;
     queries->searchers = calloc(count, sizeof(*queries->searchers));
     if (queries->searchers == NULL) {
         return false;
@@ -230,16 +228,8 @@ static tl_exit find(tl_cli *cli, const path_settings *settings, const float *num
 
 static bool parse_words(tl_cli *cli, path_settings *settings, float numbers[6], tl_exit *exit_out)
 {
-    if (settings->extents_text != NULL) {
-        const char *reason = tl_parse_point_value(settings->extents_text, &settings->extents);
-        if (reason == NULL && (settings->extents.x < 0 || settings->extents.y < 0 || settings->extents.z < 0)) {
-            reason = "is negative";
-        }
-        if (reason != NULL) {
-            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--extents: '%s' %s; write it as X,Y,Z", settings->extents_text,
-                                    reason);
-            return false;
-        }
+    if (!tl_extents_read(cli, settings->extents_text, &settings->extents, exit_out)) {
+        return false;
     }
     if ((settings->pairs != NULL) == (cli->arguments.count > 1) || cli->arguments.count == 2) {
         *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "give start and goal behind FILE, or many pairs with --pairs");

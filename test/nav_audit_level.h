@@ -6,6 +6,7 @@
 #ifndef TALUS_TEST_NAV_AUDIT_LEVEL_H
 #define TALUS_TEST_NAV_AUDIT_LEVEL_H
 
+#include "nav_bake.h"
 #include "nav_level.h"
 
 #include <talus/nav_query.h>
@@ -33,20 +34,6 @@ static inline void audit_move(test_level *level, tl_vec3 offset)
     for (uint32_t i = 0; i < level->mesh.vertex_count; i++) {
         level->vertices[i] = tl_add(level->vertices[i], offset);
     }
-}
-
-static inline tl_navmesh *audit_bake(const tl_nav_def *def, const tl_nav_input *input)
-{
-    tl_navmesh *navmesh;
-    tl_nav_tiles tiles;
-    TEST_RESULT(tl_nav_build(def, input, &tiles, NULL), TL_OK);
-    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
-    for (uint32_t i = 0; i < tiles.tile_count; i++) {
-        TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED), TL_OK);
-        tiles.tiles[i] = NULL;
-    }
-    tl_nav_tiles_free(&tiles, NULL);
-    return navmesh;
 }
 
 static inline tl_soup *audit_soup(const test_level *level)

@@ -439,4 +439,34 @@ static inline tl_nav_location fixture_random_location(const tl_navmesh *navmesh,
     return location;
 }
 
+/// Takes the tile at a place out, or puts it in where there is floor; `present` follows.
+static inline void fixture_toggle_tile(const fixture_level *level, tl_navmesh *navmesh, uint32_t x, uint32_t z,
+                                       bool *present)
+{
+    if (*present) {
+        TEST_RESULT(tl_navmesh_remove_tile(navmesh, (int32_t)x, (int32_t)z), TL_OK);
+        *present = false;
+        return;
+    }
+    tl_nav_tile *tile = fixture_build_tile(level, (int32_t)x, (int32_t)z, NULL);
+    if (tile != NULL) {
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
+        *present = true;
+    }
+}
+
+/// Two floors of two cells with a gap of two between them, and a link over it, one way. Free it with tl_navmesh_free.
+static inline tl_navmesh *fixture_gap(tl_nav_ref *link_out)
+{
+    const char *const rows[] = { "00##00" };
+    fixture_level level = fixture_make(rows, 1);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    tl_nav_offmesh jump = tl_default_nav_offmesh();
+    jump.start = tl_vec3_make(7.5f, 0, 2);
+    jump.end = tl_vec3_make(16.5f, 0, 2);
+    jump.fixed_cost = 3.0f;
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, link_out), TL_OK);
+    return navmesh;
+}
+
 #endif

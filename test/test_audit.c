@@ -41,7 +41,7 @@ static void set_up(hall *h, uint32_t tile_size, tl_vec3 offset)
     h->def.nav.bounds = test_level_bounds(&h->level);
     h->def.path_count = 100;
     const tl_nav_input input = { h->level.mesh, NULL, NULL, 0 };
-    h->navmesh = audit_bake(&h->def.nav, &input);
+    h->navmesh = test_nav_bake(&h->def.nav, &input);
 }
 
 static void run(hall *h, tl_vec3 offset)
@@ -99,7 +99,7 @@ static void a_sound_level_has_no_findings(void **state)
     tl_nav_audit_def def = tl_default_nav_audit_def();
     def.path_count = 300;
     const tl_nav_input input = { level.mesh, NULL, NULL, 0 };
-    tl_navmesh *navmesh = audit_bake(&def.nav, &input);
+    tl_navmesh *navmesh = test_nav_bake(&def.nav, &input);
     tl_soup *soup = audit_soup(&level);
     tl_nav_audit audit;
     TEST_RESULT(tl_nav_audit_run(&def, navmesh, soup, &audit, NULL), TL_OK);
@@ -210,7 +210,7 @@ static void missing_navmesh_is_measured(void **state)
     hole.box.max = tl_vec3_make(16, 1, 10);
     const tl_nav_input input = { h.level.mesh, NULL, &hole, 1 };
     tl_navmesh_free(h.navmesh);
-    h.navmesh = audit_bake(&h.def.nav, &input);
+    h.navmesh = test_nav_bake(&h.def.nav, &input);
     run(&h, NOWHERE);
     assert_int_equal(h.audit.finding_count, 1);
     const tl_nav_finding *f = &h.audit.findings[0];
@@ -266,7 +266,7 @@ static void links_are_not_walked(void **state)
     h.def = tl_default_nav_audit_def();
     h.def.path_count = 100;
     const tl_nav_input input = { h.level.mesh, NULL, NULL, 0 };
-    h.navmesh = audit_bake(&h.def.nav, &input);
+    h.navmesh = test_nav_bake(&h.def.nav, &input);
     run(&h, NOWHERE);
     const double without = h.audit.path_metres;
     tl_nav_audit_free(&h.audit);

@@ -29,7 +29,7 @@ static void set_up(yard *y, test_random *random, uint32_t tile_size)
     tl_nav_def def = tl_default_nav_def();
     def.tile_size = tile_size;
     const tl_nav_input input = { y->level.mesh, NULL, NULL, 0 };
-    y->navmesh = audit_bake(&def, &input);
+    y->navmesh = test_nav_bake(&def, &input);
     y->soup = audit_soup(&y->level);
     const tl_nav_query_def query_def = tl_default_nav_query_def();
     TEST_RESULT(tl_nav_query_create(&query_def, &y->query), TL_OK);

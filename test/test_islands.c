@@ -15,20 +15,6 @@ typedef struct edited {
     bool present[TILES][TILES];
 } edited;
 
-static void toggle(edited *e, uint32_t x, uint32_t z)
-{
-    if (e->present[z][x]) {
-        TEST_RESULT(tl_navmesh_remove_tile(e->navmesh, (int32_t)x, (int32_t)z), TL_OK);
-        e->present[z][x] = false;
-        return;
-    }
-    tl_nav_tile *tile = fixture_build_tile(&e->level, (int32_t)x, (int32_t)z, NULL);
-    if (tile != NULL) {
-        TEST_RESULT(tl_navmesh_add_tile(e->navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
-        e->present[z][x] = true;
-    }
-}
-
 // Tiles in row order.
 static tl_navmesh *build_afresh(const edited *e)
 {
@@ -126,7 +112,7 @@ static void test_edits(void **state)
             // Grow first, then come and go.
             uint32_t x = test_random_below(&random, TILES), z = test_random_below(&random, TILES);
             if (edit >= 30 || !e.present[z][x]) {
-                toggle(&e, x, z);
+                fixture_toggle_tile(&e.level, e.navmesh, x, z, &e.present[z][x]);
             }
             check_islands(e.navmesh, &same, &apart);
             if (edit % 8 == 7) {

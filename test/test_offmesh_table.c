@@ -22,20 +22,6 @@ typedef struct coverage {
     uint64_t anchored, waiting, joined, apart;
 } coverage;
 
-static void toggle_tile(edited *e, uint32_t x, uint32_t z)
-{
-    if (e->present[z][x]) {
-        TEST_RESULT(tl_navmesh_remove_tile(e->navmesh, (int32_t)x, (int32_t)z), TL_OK);
-        e->present[z][x] = false;
-        return;
-    }
-    tl_nav_tile *tile = fixture_build_tile(&e->level, (int32_t)x, (int32_t)z, NULL);
-    if (tile != NULL) {
-        TEST_RESULT(tl_navmesh_add_tile(e->navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
-        e->present[z][x] = true;
-    }
-}
-
 static tl_nav_offmesh random_link(const edited *e, test_random *random)
 {
     float side = (float)(TILES * e->level.tile_cells * FIXTURE_STEP) * e->level.cell_size;
@@ -179,7 +165,7 @@ static void test_edits(void **state)
                 // Tiles go less often than they come.
                 uint32_t x = test_random_below(&random, TILES), z = test_random_below(&random, TILES);
                 if (!e.present[z][x] || test_random_below(&random, 3) == 0) {
-                    toggle_tile(&e, x, z);
+                    fixture_toggle_tile(&e.level, e.navmesh, x, z, &e.present[z][x]);
                 }
             }
             check_links(&e, &seen);

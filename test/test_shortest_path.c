@@ -5,6 +5,7 @@
 //
 //   test_shortest_path [pairs a level]   with a number also the levels of the data folder
 
+#include "nav_bake.h"
 #include "nav_fixture.h"
 #include "nav_level.h"
 
@@ -395,16 +396,7 @@ static tl_navmesh *bake(const tl_mesh_view *mesh, float cell_size, uint32_t tile
     tl_nav_input input;
     memset(&input, 0, sizeof input);
     input.mesh = *mesh;
-    tl_nav_tiles tiles;
-    tl_navmesh *navmesh = NULL;
-    TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
-    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
-    for (uint32_t i = 0; i < tiles.tile_count; i++) {
-        TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED), TL_OK);
-        tiles.tiles[i] = NULL; // the navmesh's now
-    }
-    tl_nav_tiles_free(&tiles, NULL);
-    return navmesh;
+    return test_nav_bake(&def, &input);
 }
 
 // A baked level with a bridge over the floor, whole and in tiles.

@@ -166,18 +166,12 @@ static void test_paths(void **state)
 static void test_link_and_arguments(void **state)
 {
     (void)state;
-    const char *const rows[] = { "00##00" };
-    fixture_level level = fixture_make(rows, 1);
-    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    tl_nav_ref link = TL_NAV_NO_REF;
+    tl_navmesh *navmesh = fixture_gap(&link);
     tl_nav_query_def def = { 64, NULL };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
-    tl_nav_offmesh jump = tl_default_nav_offmesh();
-    jump.start = tl_vec3_make(7.5f, 0, 2);
-    jump.end = tl_vec3_make(16.5f, 0, 2);
-    jump.fixed_cost = 3.0f;
-    tl_nav_ref link = TL_NAV_NO_REF, polygons[8];
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, &link), TL_OK);
+    tl_nav_ref polygons[8];
     tl_vec3 extents = { 1, 1, 1 };
     tl_nav_location start, goal;
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2, 0, 2), extents, &start), TL_OK);

@@ -27,7 +27,7 @@ static void begin(question *q)
 // `within`: how far the surface may lie above or below the floor's voxel.
 static bool is_walkable(const tl_nav_def *def, const tl_nav_input *input, tl_vec3 floor, float within)
 {
-    tl_navmesh *navmesh = audit_bake(def, input);
+    tl_navmesh *navmesh = test_nav_bake(def, input);
     tl_nav_location location;
     const bool there = tl_navmesh_find_nearest(navmesh, NULL, floor, tl_vec3_make(0, within, 0), &location) == TL_OK;
     tl_navmesh_free(navmesh);
@@ -81,7 +81,7 @@ static void a_walkable_point_has_no_cause(void **state)
         TEST_RESULT(tl_nav_why(&q.def, &q.input, NULL, tl_vec3_make(15, 0, 10), &q.answer, NULL), TL_OK);
         TEST_CHECK(q.answer.walkable && q.answer.reason_count == 0 && q.answer.proven);
         TEST_CHECK(tile_size == 0 || (q.answer.tile_x == 1 && q.answer.tile_z == 1));
-        tl_navmesh *navmesh = audit_bake(&q.def, &q.input);
+        tl_navmesh *navmesh = test_nav_bake(&q.def, &q.input);
         TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, tl_vec3_make(15, 0, 10), &q.answer, NULL), TL_OK);
         TEST_CHECK(q.answer.walkable && !q.answer.apart && q.answer.island_area > 400.0f);
         tl_navmesh_free(navmesh);
@@ -242,7 +242,7 @@ static void changed(void **state)
     audit_block(&before.level, 10, 0, 5, 16, 1.5f, 12); // too low to stand in
     prepare(&before);
     prepare(&now);
-    tl_navmesh *navmesh = audit_bake(&before.def, &before.input);
+    tl_navmesh *navmesh = test_nav_bake(&before.def, &before.input);
     TEST_RESULT(tl_nav_why(&now.def, &now.input, navmesh, tl_vec3_make(13, 0, 9), &now.answer, NULL), TL_OK);
     TEST_CHECK(!now.answer.walkable && now.answer.reason_count == 1);
     assert_int_equal(now.answer.reasons[0].cause, TL_NAV_CAUSE_CHANGED);
@@ -256,7 +256,7 @@ static void another_island(void **state)
     begin(&q);
     audit_block(&q.level, 10, 0, 5, 18, 4, 15);
     prepare(&q);
-    tl_navmesh *navmesh = audit_bake(&q.def, &q.input);
+    tl_navmesh *navmesh = test_nav_bake(&q.def, &q.input);
     TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, tl_vec3_make(14, 4, 10), &q.answer, NULL), TL_OK);
     TEST_CHECK(q.answer.walkable && q.answer.apart && q.answer.island_area < q.answer.largest_island_area);
     TEST_CHECK(q.answer.island_area > 30.0f && q.answer.island_area < 80.0f);
@@ -310,7 +310,7 @@ static void failures_leave_nothing(void **state)
     begin(&q);
     audit_block(&q.level, 15, 0, 0, 16, 4, 20);
     prepare(&q);
-    tl_navmesh *navmesh = audit_bake(&q.def, &q.input);
+    tl_navmesh *navmesh = test_nav_bake(&q.def, &q.input);
     tl_result result = TL_ERR_MEMORY;
     for (uint64_t k = 1; result == TL_ERR_MEMORY; k++) {
         test_allocator failing;

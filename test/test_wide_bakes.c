@@ -12,6 +12,7 @@
 
 #include "cli/sample_level.h"
 #include "io/mesh_import.h"
+#include "nav_bake.h"
 #include "nav_level.h"
 
 #include <math.h>
@@ -34,16 +35,7 @@ static tl_navmesh *bake(const tl_mesh_view *mesh, float radius, uint32_t tile_si
     tl_nav_input input;
     memset(&input, 0, sizeof input);
     input.mesh = *mesh;
-    tl_nav_tiles tiles;
-    tl_navmesh *navmesh = NULL;
-    TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
-    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
-    for (uint32_t i = 0; i < tiles.tile_count; i++) {
-        TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED), TL_OK);
-        tiles.tiles[i] = NULL;
-    }
-    tl_nav_tiles_free(&tiles, NULL);
-    return navmesh;
+    return test_nav_bake(&def, &input);
 }
 
 // Places on a navmesh, uniform by area.

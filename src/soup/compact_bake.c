@@ -13,7 +13,6 @@
 // Vertices.
 
 typedef struct numbering {
-    const tl_baker *baker;
     tl_compact_plan *plan;
     uint32_t *latest; // number that a vertex of the mesh has got last, UINT32_MAX: none
     uint32_t pair_count;
@@ -53,7 +52,7 @@ tl_result tl_compact_plan_vertices(const tl_baker *baker, tl_arena *arena, tl_co
     if (pairs > UINT32_MAX / 4) {
         return TL_ERR_LIMIT;
     }
-    numbering n = { baker, plan, TL_PUSH(arena, uint32_t, baker->mesh->vertex_count), 0 };
+    numbering n = { plan, TL_PUSH(arena, uint32_t, baker->mesh->vertex_count), 0 };
     plan->corners = tl_arena_push(arena, pairs, sizeof *plan->corners);
     plan->groups = TL_PUSH(arena, uint32_t, tl_compact_group_count(pairs));
     plan->vertices = TL_PUSH(arena, uint32_t, 4 * (uint64_t)pairs);

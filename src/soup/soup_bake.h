@@ -38,7 +38,7 @@ tl_result tl_compact_plan_vertices(const tl_baker *baker, tl_arena *arena, tl_co
 /// Writes nodes, pairs, groups and vertices; the soup's head is filled.
 void tl_compact_write(tl_baker *baker, const tl_compact_plan *plan, tl_soup *soup);
 
-/// The id word of a pair's first or second triangle; the pair counts as written from then on when `k` is 1.
+/// The id word of a pair's first (k 0) or second (k 1) triangle; TL_ID_NONE where it has no second one.
 uint32_t tl_bake_id(const tl_baker *baker, const tl_pair *pair, uint32_t k, bool is_copy);
 
 #endif
