@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// Islands, and the rings that searches run on, under edits: tiles come and go at random, and after each the islands are
-// those of a flood over the links, and paths those of a navmesh that was built afresh.
+// Islands, and the rings that searches run on, under edits: tiles and off-mesh links come and go at random, and after
+// each the islands are those of a flood over the links, and paths those of a navmesh that was built afresh. A number
+// makes that many times as many edits.
 
 #include "nav_fixture.h"
 
 #include <math.h>
+#include <stdlib.h>
 
-enum { TILES = 5 };
+enum { TILES = 5, MOST_LINKS = 12 };
+
+static uint32_t times = 1;
 
 typedef struct edited {
     fixture_level level;
     tl_navmesh *navmesh;
     bool present[TILES][TILES];
+    tl_nav_ref links[MOST_LINKS];
+    uint32_t link_count;
 } edited;
 
 // Tiles in row order.
@@ -31,6 +37,29 @@ static tl_navmesh *build_afresh(const edited *e)
     return navmesh;
 }
 
+static bool sink(uint32_t *label, uint32_t i, uint32_t j)
+{
+    bool changes = label[i] != label[j];
+    label[i] = label[j] = label[i] < label[j] ? label[i] : label[j];
+    return changes;
+}
+
+static bool sink_over_links(const tl_navmesh *navmesh, const fixture_refs *all, uint32_t *label)
+{
+    bool changed = false;
+    tl_nav_ref link;
+    for (uint32_t cursor = 0; tl_navmesh_next_offmesh(navmesh, &cursor, &link);) {
+        tl_nav_offmesh_state state;
+        TEST_RESULT(tl_navmesh_offmesh_state(navmesh, link, &state), TL_OK);
+        if (state.anchored) {
+            bool sinks =
+                sink(label, fixture_index_of(all, state.ends[0].polygon), fixture_index_of(all, state.ends[1].polygon));
+            changed = changed || sinks;
+        }
+    }
+    return changed;
+}
+
 // Labels of what hangs together, by sinking until neighbours agree.
 static uint32_t *flood(const tl_navmesh *navmesh, const fixture_refs *all)
 {
@@ -39,16 +68,14 @@ static uint32_t *flood(const tl_navmesh *navmesh, const fixture_refs *all)
         label[i] = i;
     }
     for (bool changed = true; changed;) {
-        changed = false;
+        changed = sink_over_links(navmesh, all, label);
         for (uint32_t i = 0; i < all->count; i++) {
             tl_nav_link links[64];
             uint32_t count = 0;
             TEST_RESULT(tl_navmesh_links(navmesh, all->refs[i], links, 64, &count), TL_OK);
             for (uint32_t k = 0; k < count; k++) {
-                uint32_t j = fixture_index_of(all, links[k].to);
-                uint32_t least = label[i] < label[j] ? label[i] : label[j];
-                changed = changed || label[i] != label[j];
-                label[i] = label[j] = least;
+                bool sinks = sink(label, i, fixture_index_of(all, links[k].to));
+                changed = changed || sinks;
             }
         }
     }
@@ -94,6 +121,57 @@ static void check_paths(const edited *e, tl_nav_query *query, test_random *rando
     tl_navmesh_free(fresh);
 }
 
+// A link between two random places, or away with one. Some ends stand on nothing until a tile comes.
+static void toggle_link(edited *e, test_random *random)
+{
+    if (e->link_count == MOST_LINKS || (e->link_count > 0 && test_random_below(random, 2) == 0)) {
+        uint32_t i = test_random_below(random, e->link_count);
+        TEST_RESULT(tl_navmesh_remove_offmesh(e->navmesh, e->links[i]), TL_OK);
+        e->links[i] = e->links[--e->link_count];
+        return;
+    }
+    float side = (float)(TILES * e->level.tile_cells * FIXTURE_STEP) * e->level.cell_size;
+    tl_vec3 low = tl_sub(e->level.origin, tl_vec3_make(0, 1, 0));
+    tl_vec3 high = tl_add(e->level.origin, tl_vec3_make(side, 3, side));
+    tl_nav_offmesh link = tl_default_nav_offmesh();
+    link.start = test_random_point(random, low, high);
+    link.end = test_random_point(random, low, high);
+    link.radius = test_random_range(random, 0.5f, 4.0f);
+    link.both_ways = test_random_below(random, 2) == 0;
+    TEST_RESULT(tl_navmesh_add_offmesh(e->navmesh, &link, &e->links[e->link_count++]), TL_OK);
+}
+
+static void test_edits_with_links(void **state)
+{
+    (void)state;
+    test_random random = { 82 };
+    uint64_t same = 0, apart = 0, anchored = 0;
+    for (uint32_t round = 0; round < 12; round++) {
+        edited e;
+        memset(&e, 0, sizeof e);
+        // Many small parts, so that links join what seams do not.
+        e.level = fixture_random(&random, round % 2 == 0 ? 1 : 4, TILES * 2);
+        e.level.tile_cells = 2;
+        TEST_RESULT(tl_navmesh_create(NULL, &e.navmesh), TL_OK);
+        for (uint32_t edit = 0; edit < 200 * times; edit++) {
+            uint32_t x = test_random_below(&random, TILES), z = test_random_below(&random, TILES);
+            if (test_random_below(&random, 2) == 0) {
+                toggle_link(&e, &random);
+            } else if (edit >= 40 || !e.present[z][x]) {
+                fixture_toggle_tile(&e.level, e.navmesh, x, z, &e.present[z][x]);
+            }
+            check_islands(e.navmesh, &same, &apart);
+            for (uint32_t i = 0; i < e.link_count; i++) {
+                tl_nav_offmesh_state link;
+                TEST_RESULT(tl_navmesh_offmesh_state(e.navmesh, e.links[i], &link), TL_OK);
+                anchored += link.anchored;
+            }
+        }
+        tl_navmesh_free(e.navmesh);
+    }
+    TEST_CHECK(same > 10000 && apart > 10000 && anchored > 1000);
+}
+
 static void test_edits(void **state)
 {
     (void)state;
@@ -108,7 +186,7 @@ static void test_edits(void **state)
         e.level = fixture_random(&random, round, TILES * 2);
         e.level.tile_cells = 2;
         TEST_RESULT(tl_navmesh_create(NULL, &e.navmesh), TL_OK);
-        for (uint32_t edit = 0; edit < 120; edit++) {
+        for (uint32_t edit = 0; edit < 120 * times; edit++) {
             // Grow first, then come and go.
             uint32_t x = test_random_below(&random, TILES), z = test_random_below(&random, TILES);
             if (edit >= 30 || !e.present[z][x]) {
@@ -153,8 +231,10 @@ static void test_cut_off(void **state)
     tl_navmesh_free(navmesh);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_edits), cmocka_unit_test(test_cut_off) };
+    times = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 1;
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_edits), cmocka_unit_test(test_edits_with_links),
+                                        cmocka_unit_test(test_cut_off) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

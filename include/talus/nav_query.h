@@ -53,7 +53,8 @@ TL_API void tl_navmesh_free(tl_navmesh *navmesh);
 TL_API tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership);
 
 /// Takes a tile out, and the links to it. TL_ERR_NOT_FOUND when there is none. Never fails otherwise.
-/// O(corners of the neighbours), and all tiles' seam links for the islands.
+/// O(corners of the neighbours). Islands cost what lies between the neighbours, some tiles as a rule; where the tile
+/// was all that held two parts of an island together, the smaller part's tiles.
 TL_API tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
 
 /// The tile at a place, or NULL.
@@ -91,7 +92,7 @@ TL_API tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_
 /// whichever way links lead. Between two islands there is no path, for any filter. Within one there is, both ways, for
 /// a filter that refuses nothing on the way, unless it takes a link against its direction: where links lead one way
 /// only, a search has the last word. Numbers hold until a tile or a link is added or removed. TL_ERR_NOT_FOUND for a
-/// stale reference. O(1); O(log tiles) where tiles or links came in last.
+/// stale reference. O(log tiles), almost always O(1).
 TL_API tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *island_out);
 
 /// Makes path searches in large worlds fast: finds all straight ways ("roads") between vertices at which shortest paths

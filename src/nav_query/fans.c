@@ -139,21 +139,63 @@ bool tl_nav_find_fan(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_
     return true;
 }
 
-void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot)
+static void number_fans_of(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_rings *rings = &navmesh->slots[slot].rings;
-    for (uint32_t p = 0; p < rings->polygon_count; p++) {
-        uint32_t count = 0;
-        const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, p, &count);
-        for (uint32_t i = 0; i < count; i++) {
-            tl_nav_ring_place place = { slot, p, i };
-            if (!tl_nav_ring_is_open(&ring[i])) {
-                number_fan(navmesh, place);
-            } else if ((ring[i].to & TL_NAV_RING_SEAM) != 0 || rings->has_back) {
-                // The fan comes in over a seam: it may begin in a tile that is not looked at.
-                tl_nav_find_fan(navmesh, NULL, &place);
-                number_fan(navmesh, place);
-            }
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_ring_place place = { slot, polygon, i };
+        if (!tl_nav_ring_is_open(&ring[i])) {
+            number_fan(navmesh, place);
+        } else if ((ring[i].to & TL_NAV_RING_SEAM) != 0 || rings->has_back) {
+            // The fan comes in over a seam: it may begin in a tile that is not looked at.
+            tl_nav_find_fan(navmesh, NULL, &place);
+            number_fan(navmesh, place);
         }
+    }
+}
+
+void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot)
+{
+    for (uint32_t p = 0; p < navmesh->slots[slot].rings.polygon_count; p++) {
+        number_fans_of(navmesh, slot, p);
+    }
+}
+
+// From where a portal begins in its polygon's ring to where it ends, both included: all of the ring where links of two
+// floors run back and forth.
+static void number_fans_of_portal(tl_navmesh *navmesh, uint32_t slot, const tl_nav_portal *portal)
+{
+    const tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    uint32_t corner_count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, portal->polygon, &corner_count);
+    uint32_t corner = portal->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[portal->polygon];
+    const tl_vec3 begin = corners[corner];
+    const tl_vec3 end = corners[corner + 1 < corner_count ? corner + 1 : 0];
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, portal->polygon, &count);
+    uint32_t first = 0;
+    while (first + 1 < count && (ring[first].x != begin.x || ring[first].z != begin.z)) {
+        first++;
+    }
+    for (uint32_t i = 0, at = first; i < count; i++, at = at + 1 < count ? at + 1 : 0) {
+        tl_nav_ring_place place = { slot, portal->polygon, at };
+        bool is_last = ring[at].x == end.x && ring[at].z == end.z && !rings->has_back;
+        tl_nav_find_fan(navmesh, NULL, &place);
+        number_fan(navmesh, place);
+        if (is_last) {
+            break;
+        }
+    }
+}
+
+void tl_nav_number_fans_on_side(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    const tl_nav_portal *portals = tl_nav_tile_portals(tile);
+    for (uint32_t i = tile->side_first[side]; i < tile->side_first[side + 1]; i++) {
+        number_fans_of_portal(navmesh, slot, &portals[i]);
     }
 }

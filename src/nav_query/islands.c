@@ -1,179 +1,245 @@
 // SPDX-License-Identifier: MIT
 //
 // Islands: what hangs together over all tiles and off-mesh links. Two polygons on two islands have no path between
-// them, whatever the filter, and two array reads per polygon say so.
+// them, whatever the filter, and a few array reads per polygon say so.
 //
-// Within a tile polygons are labelled once (rings.c). Labels of tiles are joined over seams by union-find: a tile that
-// comes in joins its labels to its neighbours', in time in proportion to its own seams. A tile that leaves may split an
-// island, which union-find cannot undo: all labels (not polygons) are joined anew.
-// Off-mesh links join as if they led both ways: what is apart then is apart for certain. A second forest, without them,
-// knows the shores: a link from a shore to itself joins nothing, and nothing needs to be joined anew when it goes.
-// Unions go by size, so that a reader finds a root in log2(labels) steps without writing; a rebuild flattens to one.
+// Within a tile polygons are labelled once (rings.c); those components are the nodes. A node has a label, and labels
+// are joined by union-find: a tile that comes in joins its own to its neighbours', in time in proportion to its seams.
+// Nodes point to labels, never to one another, so that a part that is cut off gets a label of its own and all others
+// keep theirs (island_split.c). Labels are handed out once; when they run out, the roots are named anew.
+// Off-mesh links join as if they led both ways: what is apart then is apart for certain. A second set of labels, over
+// seams alone, knows the shores: a link from a shore to itself joins nothing, and when it goes nothing is looked at.
+// Unions go by size, so that a reader finds a root in log2(labels) steps without writing.
 // Source: Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm, 1975.
 
+#include "nav_query/islands.h"
+
 #include "base/arena.h"
-#include "nav_query/ring_step.h"
+#include "nav_query/navmesh.h"
 
 #include <string.h>
 
-static uint32_t root_of(const tl_navmesh *navmesh, const tl_nav_island *forest, uint32_t slot, uint32_t polygon)
+static uint32_t node_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_rings *rings = &navmesh->slots[slot].rings;
-    uint32_t node = rings->island[rings->component[polygon]];
-    while (forest[node].parent != node) {
-        node = forest[node].parent;
-    }
-    return node;
+    return rings->island[rings->component[polygon]];
+}
+
+static uint32_t root_of(const tl_navmesh *navmesh, tl_nav_island_kind kind, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_islands *islands = &navmesh->islands;
+    return tl_nav_label_root(islands->labels[kind], islands->nodes[node_of(navmesh, slot, polygon)].labels[kind]);
 }
 
 uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {
-    return root_of(navmesh, navmesh->islands, slot, polygon);
+    return root_of(navmesh, TL_NAV_ISLANDS, slot, polygon);
 }
 
 bool tl_nav_is_on_one_shore(const tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry)
 {
-    return root_of(navmesh, navmesh->shores, entry->ends[0].slot, entry->ends[0].polygon) ==
-           root_of(navmesh, navmesh->shores, entry->ends[1].slot, entry->ends[1].polygon);
+    return root_of(navmesh, TL_NAV_SHORES, entry->ends[0].slot, entry->ends[0].polygon) ==
+           root_of(navmesh, TL_NAV_SHORES, entry->ends[1].slot, entry->ends[1].polygon);
 }
 
-tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
+static void free_arrays(const tl_allocator *allocator, tl_nav_islands *islands)
 {
-    uint64_t needed = (uint64_t)navmesh->island_count + count;
-    if (needed <= navmesh->island_capacity) {
-        return TL_OK;
-    }
-    uint64_t capacity = 2 * needed;
-    if (capacity > UINT32_MAX) {
-        return TL_ERR_LIMIT;
-    }
-    // Both forests stand in one block.
-    tl_nav_island *grown = tl_allocate_array(&navmesh->allocator, 2 * capacity, sizeof *grown);
-    if (grown == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    if (navmesh->island_count > 0) {
-        memcpy(grown, navmesh->islands, navmesh->island_count * sizeof *grown);
-        memcpy(grown + capacity, navmesh->shores, navmesh->island_count * sizeof *grown);
-    }
-    tl_nav_free_islands(navmesh);
-    navmesh->islands = grown;
-    navmesh->shores = grown + capacity;
-    navmesh->island_capacity = (uint32_t)capacity;
-    return TL_OK;
+    const uint64_t capacity = islands->capacity;
+    tl_release_array(allocator, islands->nodes, capacity, sizeof *islands->nodes);
+    tl_release_array(allocator, islands->pieces, capacity, sizeof *islands->pieces);
+    tl_release_array(allocator, islands->seeds, capacity, sizeof *islands->seeds);
+    tl_release_array(allocator, islands->labels[0], TL_NAV_ISLAND_KINDS * 2 * capacity, sizeof **islands->labels);
 }
 
 void tl_nav_free_islands(tl_navmesh *navmesh)
 {
-    tl_release_array(&navmesh->allocator, navmesh->islands, 2 * (uint64_t)navmesh->island_capacity,
-                     sizeof *navmesh->islands);
+    free_arrays(&navmesh->allocator, &navmesh->islands);
+    memset(&navmesh->islands, 0, sizeof navmesh->islands);
 }
 
-static void join(tl_nav_island *forest, uint32_t a, uint32_t b)
+tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
 {
+    const tl_nav_islands *old = &navmesh->islands;
+    const tl_allocator *allocator = &navmesh->allocator;
+    const uint64_t needed = (uint64_t)old->used - old->free_count + count;
+    if (needed <= old->capacity) {
+        return TL_OK;
+    }
+    const uint64_t capacity = 2 * needed;
+    if (2 * capacity > UINT32_MAX) {
+        return TL_ERR_LIMIT;
+    }
+    tl_nav_islands grown = *old;
+    grown.capacity = (uint32_t)capacity;
+    grown.nodes = tl_allocate_array(allocator, capacity, sizeof *grown.nodes);
+    grown.pieces = tl_allocate_array(allocator, capacity, sizeof *grown.pieces);
+    grown.seeds = tl_allocate_array(allocator, capacity, sizeof *grown.seeds);
+    grown.labels[0] = tl_allocate_array(allocator, TL_NAV_ISLAND_KINDS * 2 * capacity, sizeof **grown.labels);
+    if (grown.nodes == NULL || grown.pieces == NULL || grown.seeds == NULL || grown.labels[0] == NULL) {
+        free_arrays(allocator, &grown);
+        return TL_ERR_MEMORY;
+    }
+    grown.labels[1] = grown.labels[0] + 2 * capacity;
+    if (old->capacity > 0) {
+        memcpy(grown.nodes, old->nodes, old->used * sizeof *grown.nodes);
+        for (int kind = 0; kind < TL_NAV_ISLAND_KINDS; kind++) {
+            memcpy(grown.labels[kind], old->labels[kind], old->label_count[kind] * sizeof **grown.labels);
+        }
+    } else {
+        grown.free = TL_NAV_NO_ISLAND;
+    }
+    free_arrays(allocator, &navmesh->islands);
+    navmesh->islands = grown;
+    return TL_OK;
+}
+
+// Each node gets its root for a label, and the roots new numbers in the nodes' order.
+static void name_anew(tl_nav_islands *islands, tl_nav_island_kind kind)
+{
+    tl_nav_island_label *labels = islands->labels[kind];
+    for (uint32_t i = 0; i < islands->label_count[kind]; i++) {
+        labels[i].parent = tl_nav_label_root(labels, i);
+        labels[i].size = UINT32_MAX;
+    }
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < islands->used; i++) {
+        tl_nav_island_node *node = &islands->nodes[i];
+        if (node->slot != TL_NAV_NO_SLOT) {
+            tl_nav_island_label *root = &labels[labels[node->labels[kind]].parent];
+            root->size = root->size == UINT32_MAX ? count++ : root->size;
+            node->labels[kind] = root->size;
+        }
+    }
+    islands->label_count[kind] = 0;
+    while (islands->label_count[kind] < count) {
+        tl_nav_new_label(islands, kind);
+    }
+}
+
+void tl_nav_reserve_labels(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t count)
+{
+    // There are no more roots in use than nodes, and `count` is no more than nodes either: half of the room.
+    if ((uint64_t)islands->label_count[kind] + count > 2 * (uint64_t)islands->capacity) {
+        name_anew(islands, kind);
+    }
+}
+
+uint32_t tl_nav_new_label(tl_nav_islands *islands, tl_nav_island_kind kind)
+{
+    uint32_t index = islands->label_count[kind]++;
+    tl_nav_island_label label = { index, 1, 0, 0 };
+    islands->labels[kind][index] = label;
+    return index;
+}
+
+// The root, with every second label on the way hung higher; for the writer, who may.
+static uint32_t find_root(tl_nav_island_label *labels, uint32_t label)
+{
+    while (labels[label].parent != label) {
+        labels[label].parent = labels[labels[label].parent].parent;
+        label = labels[label].parent;
+    }
+    return label;
+}
+
+static void join(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t node_a, uint32_t node_b)
+{
+    tl_nav_island_label *labels = islands->labels[kind];
+    uint32_t a = find_root(labels, islands->nodes[node_a].labels[kind]);
+    uint32_t b = find_root(labels, islands->nodes[node_b].labels[kind]);
     if (a == b) {
         return;
     }
     // The larger one stays; of two alike the elder.
-    bool a_stays = forest[a].size != forest[b].size ? forest[a].size > forest[b].size : a < b;
+    bool a_stays = labels[a].size != labels[b].size ? labels[a].size > labels[b].size : a < b;
     uint32_t root = a_stays ? a : b;
     uint32_t child = a_stays ? b : a;
-    forest[child].parent = root;
-    forest[root].size += forest[child].size;
+    labels[child].parent = root;
+    labels[root].size += labels[child].size;
 }
 
 static void make_nodes(tl_navmesh *navmesh, uint32_t slot)
 {
+    tl_nav_islands *islands = &navmesh->islands;
     tl_nav_rings *rings = &navmesh->slots[slot].rings;
-    for (uint32_t c = 0; c < rings->component_count; c++) {
-        tl_nav_island node = { navmesh->island_count, 1 };
-        rings->island[c] = navmesh->island_count;
-        navmesh->islands[navmesh->island_count] = node;
-        navmesh->shores[navmesh->island_count++] = node;
+    for (uint32_t kind = 0; kind < TL_NAV_ISLAND_KINDS; kind++) {
+        tl_nav_reserve_labels(islands, (tl_nav_island_kind)kind, rings->component_count);
     }
-}
-
-// The root, with every second node on the way hung higher; for the writer, who may.
-static uint32_t find_root(const tl_navmesh *navmesh, tl_nav_island *forest, uint32_t slot, uint32_t polygon)
-{
-    const tl_nav_rings *rings = &navmesh->slots[slot].rings;
-    uint32_t node = rings->island[rings->component[polygon]];
-    while (forest[node].parent != node) {
-        forest[node].parent = forest[forest[node].parent].parent;
-        node = forest[node].parent;
-    }
-    return node;
-}
-
-// Over the sides from `first_side` on: links are mutual, so a seam may be looked at from one of its tiles.
-static void join_over_seams(tl_navmesh *navmesh, tl_nav_island *forest, uint32_t slot, uint32_t first_side,
-                            uint32_t side_count)
-{
-    const tl_nav_slot *own = &navmesh->slots[slot];
-    for (uint32_t side = first_side; side < first_side + side_count; side++) {
-        const tl_nav_side_links *links = &own->sides[side];
-        const tl_nav_portal *portals = tl_nav_tile_portals(own->tile) + own->tile->side_first[side];
-        for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
-            for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
-                const tl_nav_seam_link *link = &links->links[k];
-                join(forest, find_root(navmesh, forest, slot, portals[i].polygon),
-                     find_root(navmesh, forest, link->slot, link->polygon));
-            }
+    uint32_t made = 0; // components are numbered in the order of their first polygons
+    for (uint32_t p = 0; p < rings->polygon_count && made < rings->component_count; p++) {
+        if (rings->component[p] != made) {
+            continue;
         }
+        uint32_t index = islands->free;
+        if (index != TL_NAV_NO_ISLAND) {
+            islands->free = islands->nodes[index].next;
+            islands->free_count--;
+        } else {
+            index = islands->used++;
+        }
+        tl_nav_island_node node = { slot,
+                                    p,
+                                    { tl_nav_new_label(islands, TL_NAV_SHORES),
+                                      tl_nav_new_label(islands, TL_NAV_ISLANDS) },
+                                    TL_NAV_NO_ISLAND,
+                                    TL_NAV_NO_ISLAND };
+        islands->nodes[index] = node;
+        rings->island[made++] = index;
     }
 }
 
 void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot)
 {
     make_nodes(navmesh, slot);
-    join_over_seams(navmesh, navmesh->shores, slot, 0, 4);
-    join_over_seams(navmesh, navmesh->islands, slot, 0, 4);
+    const tl_nav_slot *own = &navmesh->slots[slot];
+    for (uint32_t side = 0; side < 4; side++) {
+        const tl_nav_side_links *links = &own->sides[side];
+        const tl_nav_portal *portals = tl_nav_tile_portals(own->tile) + own->tile->side_first[side];
+        for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
+            for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
+                uint32_t node = node_of(navmesh, slot, portals[i].polygon);
+                uint32_t neighbour = node_of(navmesh, links->links[k].slot, links->links[k].polygon);
+                join(&navmesh->islands, TL_NAV_SHORES, node, neighbour);
+                join(&navmesh->islands, TL_NAV_ISLANDS, node, neighbour);
+            }
+        }
+    }
 }
 
 void tl_nav_join_anchors(tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry)
 {
-    uint32_t roots[2];
-    for (int i = 0; i < 2; i++) {
-        roots[i] = find_root(navmesh, navmesh->islands, entry->ends[i].slot, entry->ends[i].polygon);
-    }
-    join(navmesh->islands, roots[0], roots[1]);
+    join(&navmesh->islands, TL_NAV_ISLANDS, node_of(navmesh, entry->ends[0].slot, entry->ends[0].polygon),
+         node_of(navmesh, entry->ends[1].slot, entry->ends[1].polygon));
 }
 
-static void flatten(tl_nav_island *forest, uint32_t count)
+void tl_nav_seed_island(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {
-    for (uint32_t node = 0; node < count; node++) {
-        uint32_t root = node;
-        while (forest[root].parent != root) {
-            root = forest[root].parent;
-        }
-        forest[node].parent = root;
+    tl_nav_islands *islands = &navmesh->islands;
+    uint32_t index = node_of(navmesh, slot, polygon);
+    // Until the search begins a seed is known by any piece's number.
+    if (islands->nodes[index].piece == TL_NAV_NO_ISLAND) {
+        islands->nodes[index].piece = 0;
+        islands->seeds[islands->seed_count++] = index;
     }
 }
 
-void tl_nav_rebuild_islands(tl_navmesh *navmesh)
+void tl_nav_leave_islands(tl_navmesh *navmesh, uint32_t slot)
 {
-    navmesh->island_count = 0;
-    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
-        if (navmesh->slots[slot].tile != NULL) {
-            make_nodes(navmesh, slot);
+    tl_nav_islands *islands = &navmesh->islands;
+    const tl_nav_slot *own = &navmesh->slots[slot];
+    for (uint32_t side = 0; side < 4; side++) {
+        for (uint32_t k = 0; k < own->sides[side].link_count; k++) {
+            tl_nav_seed_island(navmesh, own->sides[side].links[k].slot, own->sides[side].links[k].polygon);
         }
     }
-    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
-        if (navmesh->slots[slot].tile != NULL) {
-            join_over_seams(navmesh, navmesh->shores, slot, 0, 2);
-        }
+    islands->shore_seed_count = islands->seed_count;
+    for (uint32_t c = 0; c < own->rings.component_count; c++) {
+        tl_nav_island_node *node = &islands->nodes[own->rings.island[c]];
+        node->slot = TL_NAV_NO_SLOT;
+        node->next = islands->free;
+        islands->free = own->rings.island[c];
+        islands->free_count++;
     }
-    flatten(navmesh->shores, navmesh->island_count);
-    if (navmesh->island_count > 0) {
-        memcpy(navmesh->islands, navmesh->shores, navmesh->island_count * sizeof *navmesh->islands);
-    }
-    for (uint32_t i = 0; i < navmesh->offmesh.used; i++) {
-        const tl_nav_offmesh_entry *entry = &navmesh->offmesh.entries[i];
-        if (entry->is_used && tl_nav_is_anchored(entry)) {
-            tl_nav_join_anchors(navmesh, entry);
-        }
-    }
-    flatten(navmesh->islands, navmesh->island_count);
 }
 
 tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *island_out)

@@ -5,6 +5,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_NAVMESH_H
 #define TALUS_SRC_NAV_QUERY_NAVMESH_H
 
+#include "nav_query/islands.h"
 #include "nav_query/offmesh.h"
 #include "nav_query/rings.h"
 
@@ -43,12 +44,6 @@ typedef struct tl_nav_slot {
 
 typedef struct tl_nav_roads tl_nav_roads; // roads.h
 
-/// A node of the union-find over the tiles' components (islands.c).
-typedef struct tl_nav_island {
-    uint32_t parent; ///< itself: the node names an island
-    uint32_t size;   ///< nodes, of an island
-} tl_nav_island;
-
 struct tl_navmesh {
     tl_allocator allocator;
     tl_nav_slot *slots;
@@ -59,11 +54,9 @@ struct tl_navmesh {
     uint32_t tile_count;
     uint64_t link_count;
     uint64_t polygon_count;
-    tl_nav_edit edit;       ///< the last one
-    uint64_t *area_table;   ///< [slot_capacity + 1], of the slots' areas
-    tl_nav_island *islands; ///< over seams and off-mesh links
-    tl_nav_island *shores;  ///< over seams alone; the same nodes
-    uint32_t island_count, island_capacity;
+    tl_nav_edit edit;     ///< the last one
+    uint64_t *area_table; ///< [slot_capacity + 1], of the slots' areas
+    tl_nav_islands islands;
     tl_nav_offmesh_table offmesh;
     tl_nav_roads *roads; ///< NULL, or of the edit that they tell (roads.c)
     uint32_t last_fan;   ///< the last number that fans.c gave
@@ -131,23 +124,17 @@ void tl_nav_free_side(const tl_allocator *allocator, tl_nav_side_links *side);
 
 /// Numbers the turning vertices of all fans that touch a slot's polygons (fans.c).
 void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot);
+/// The same for the fans that touch one side of a slot's tile: those that change when a tile comes or goes there.
+void tl_nav_number_fans_on_side(tl_navmesh *navmesh, uint32_t slot, uint32_t side);
 
-/// Room for `count` more labels of tiles. TL_ERR_MEMORY, TL_ERR_LIMIT.
-tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count);
-void tl_nav_free_islands(tl_navmesh *navmesh);
-/// Joins a new slot's labels, for which there is room, to its neighbours'.
-void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot);
-/// Joins all labels anew, after a tile has left.
-void tl_nav_rebuild_islands(tl_navmesh *navmesh);
-uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);
 /// Joins the islands of a link's two anchors.
 void tl_nav_join_anchors(tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry);
 /// Whether a link's anchors hang together without any off-mesh link.
 bool tl_nav_is_on_one_shore(const tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry);
 
 /// Anchors the ends of off-mesh links near a slot anew, after its tile has come, or for those that stood on it, before
-/// it is freed but after it can be found no more. Returns whether an end has left a polygon: then islands may split.
-bool tl_nav_anchor_near(tl_navmesh *navmesh, uint32_t slot, bool tile_leaves);
+/// it is freed but after it can be found no more. Seeds the islands where a link was lost.
+void tl_nav_anchor_near(tl_navmesh *navmesh, uint32_t slot, bool tile_leaves);
 /// Adds the flags of all off-mesh links to those that a filter may meet.
 void tl_nav_note_offmesh_flags(tl_navmesh *navmesh);
 void tl_nav_free_offmesh(tl_navmesh *navmesh);

@@ -142,25 +142,38 @@ static bool reaches(const tl_nav_offmesh_entry *entry, uint32_t end, const tl_na
     return tl_aabb_overlaps(box, tile->bounds);
 }
 
-bool tl_nav_anchor_near(tl_navmesh *navmesh, uint32_t slot, bool tile_leaves)
+// After an end has left its polygon: what the link joined may hang together no more.
+static void seed_ends(tl_navmesh *navmesh, const tl_nav_anchor *before, const tl_nav_anchor *other)
+{
+    const tl_nav_anchor *ends[2] = { before, other };
+    for (int i = 0; i < 2; i++) {
+        if (navmesh->slots[ends[i]->slot].tile != NULL) {
+            tl_nav_seed_island(navmesh, ends[i]->slot, ends[i]->polygon);
+        }
+    }
+}
+
+void tl_nav_anchor_near(tl_navmesh *navmesh, uint32_t slot, bool tile_leaves)
 {
     const tl_nav_offmesh_table *table = &navmesh->offmesh;
-    bool has_moved = false;
     for (uint32_t end = 0; end < 2 * table->used; end++) {
         const tl_nav_offmesh_entry *entry = &table->entries[end / 2];
-        const tl_nav_anchor before = entry->ends[end % 2];
+        const tl_nav_anchor *anchor = &entry->ends[end % 2];
+        const tl_nav_anchor *other = &entry->ends[1 - end % 2];
+        const tl_nav_anchor before = *anchor;
         bool touched = tile_leaves ? before.slot == slot : reaches(entry, end % 2, navmesh->slots[slot].tile);
         if (!entry->is_used || !touched) {
             continue;
         }
+        bool was_anchored = tl_nav_is_anchored(entry);
         release(navmesh, end);
         anchor_end(navmesh, end);
-        // While a tile leaves, the other end may still stand on it; all islands are joined anew then.
-        if (!tile_leaves && tl_nav_is_anchored(entry)) {
+        if (was_anchored && (anchor->slot != before.slot || anchor->polygon != before.polygon)) {
+            seed_ends(navmesh, &before, other);
+        }
+        // While a tile leaves, the other end may still stand on it; its turn comes.
+        if (tl_nav_is_anchored(entry) && navmesh->slots[other->slot].tile != NULL) {
             tl_nav_join_anchors(navmesh, entry);
         }
-        has_moved = has_moved || (before.slot != TL_NAV_NO_SLOT && (entry->ends[end % 2].slot != before.slot ||
-                                                                    entry->ends[end % 2].polygon != before.polygon));
     }
-    return has_moved;
 }

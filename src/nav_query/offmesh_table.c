@@ -140,7 +140,10 @@ tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link)
     if (entry == NULL) {
         return TL_ERR_NOT_FOUND;
     }
-    bool may_split = tl_nav_is_anchored(entry) && !tl_nav_is_on_one_shore(navmesh, entry);
+    if (tl_nav_is_anchored(entry) && !tl_nav_is_on_one_shore(navmesh, entry)) {
+        tl_nav_seed_island(navmesh, entry->ends[0].slot, entry->ends[0].polygon);
+        tl_nav_seed_island(navmesh, entry->ends[1].slot, entry->ends[1].polygon);
+    }
     uint32_t index = (uint32_t)(entry - table->entries);
     tl_nav_release_anchors(navmesh, index);
     entry->is_used = false;
@@ -150,9 +153,7 @@ tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link)
         entry->next = table->free;
         table->free = index;
     }
-    if (may_split) {
-        tl_nav_rebuild_islands(navmesh);
-    }
+    tl_nav_split_islands(navmesh);
     return TL_OK;
 }
 

@@ -81,28 +81,62 @@ static void add_polygon(ring_writer *writer, const tl_nav_tile *tile, const tl_n
     }
 }
 
-// Within a tile: where each edge stands in the ring across it.
-static void find_twins(tl_nav_rings *rings)
+// Vertices that a polygon had before keep their turns.
+static void copy_turns(ring_writer *writer, const tl_nav_rings *old, uint32_t polygon)
 {
-    for (uint32_t p = 0; p < rings->polygon_count; p++) {
-        uint32_t count = 0;
-        tl_nav_ring_edge *ring = rings->edges + rings->cells[p].first;
-        tl_nav_ring_of(rings, p, &count);
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
+    tl_nav_rings *rings = writer->rings;
+    for (uint32_t k = rings->cells[polygon].first; k < writer->edge_count; k++) {
         for (uint32_t i = 0; i < count; i++) {
-            if (ring[i].to >= TL_NAV_RING_SEAM) {
-                continue;
+            if (same_place(&ring[i], tl_vec3_make(rings->edges[k].x, 0.0f, rings->edges[k].z))) {
+                rings->edges[k].turn = ring[i].turn;
+                rings->walls[k] = old->walls[old->cells[polygon].first + i];
             }
-            const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-            uint32_t across_count = 0;
-            const tl_nav_ring_edge *across = tl_nav_ring_of(rings, ring[i].to, &across_count);
-            uint32_t k = 0;
-            while (k + 1 < across_count &&
-                   (across[k].to != p || !same_place(&across[k], tl_vec3_make(end->x, 0.0f, end->z)))) {
-                k++;
-            }
-            TL_ASSERT(across[k].to == p);
-            ring[i].twin = k;
         }
+    }
+}
+
+// A polygon whose edges stay as they were; only its seams get new places.
+static void copy_polygon(ring_writer *writer, const tl_nav_rings *old, uint32_t polygon)
+{
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
+    tl_nav_rings *rings = writer->rings;
+    memcpy(rings->walls + writer->edge_count, old->walls + (ring - old->edges), count * sizeof *rings->walls);
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_ring_edge edge = ring[i];
+        if (tl_nav_ring_is_open(&edge) && (edge.to & TL_NAV_RING_SEAM) != 0) {
+            rings->seams[writer->seam_count] = old->seams[edge.to & ~TL_NAV_RING_SEAM];
+            edge.to = TL_NAV_RING_SEAM | writer->seam_count++;
+        }
+        rings->has_back = rings->has_back || edge.to == TL_NAV_RING_BACK;
+        rings->edges[writer->edge_count++] = edge;
+    }
+}
+
+// Within a tile: where each edge of a polygon stands in the ring across it, and that one in this.
+static void find_twins(tl_nav_rings *rings, uint32_t polygon)
+{
+    uint32_t count = 0;
+    tl_nav_ring_edge *ring = rings->edges + rings->cells[polygon].first;
+    tl_nav_ring_of(rings, polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (ring[i].to >= TL_NAV_RING_SEAM) {
+            continue;
+        }
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        uint32_t across_count = 0;
+        tl_nav_ring_edge *across = rings->edges + rings->cells[ring[i].to].first;
+        tl_nav_ring_of(rings, ring[i].to, &across_count);
+        uint32_t k = 0;
+        while (k + 1 < across_count &&
+               (across[k].to != polygon || !same_place(&across[k], tl_vec3_make(end->x, 0.0f, end->z)))) {
+            k++;
+        }
+        TL_ASSERT(across[k].to == polygon);
+        ring[i].twin = k;
+        across[k].twin = i;
     }
 }
 
@@ -118,6 +152,7 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
         uint32_t depth = 0;
         stack[depth++] = p;
         rings->component[p] = label;
+        rings->next_member[p] = p;
         while (depth > 0) {
             uint32_t count = 0;
             const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, stack[--depth], &count);
@@ -125,6 +160,8 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
                 uint32_t to = ring[i].to;
                 if (to < TL_NAV_RING_SEAM && rings->component[to] == UINT32_MAX) {
                     rings->component[to] = label;
+                    rings->next_member[to] = rings->next_member[p];
+                    rings->next_member[p] = to;
                     stack[depth++] = to;
                 }
             }
@@ -137,7 +174,7 @@ static bool allocate(const tl_allocator *allocator, uint64_t polygons, uint64_t 
                      tl_nav_rings *rings)
 {
     uint64_t size = edges * (sizeof(tl_nav_ring_edge) + sizeof(tl_nav_ring_walls)) + seams * sizeof(tl_nav_ring_seam) +
-                    (polygons + 1) * sizeof(tl_nav_ring_cell) + 2 * polygons * sizeof(uint32_t);
+                    (polygons + 1) * sizeof(tl_nav_ring_cell) + 3 * polygons * sizeof(uint32_t);
     char *at = tl_allocate_array(allocator, size, 1);
     if (at == NULL) {
         return false;
@@ -154,19 +191,65 @@ static bool allocate(const tl_allocator *allocator, uint64_t polygons, uint64_t 
     at += (polygons + 1) * sizeof(tl_nav_ring_cell);
     rings->component = (uint32_t *)(void *)at;
     rings->island = rings->component + polygons;
+    rings->next_member = rings->island + polygons;
     return true;
 }
 
+// The polygons whose rings are to be made: those on a side, or without rings from before all.
+static void mark_changed(const tl_nav_tile *tile, uint32_t side, const tl_nav_rings *old, uint32_t *is_changed)
+{
+    const tl_nav_portal *portals = tl_nav_tile_portals(tile);
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        is_changed[p] = old == NULL;
+    }
+    for (uint32_t i = tile->side_first[side]; i < tile->side_first[side + 1]; i++) {
+        is_changed[portals[i].polygon] = true;
+    }
+}
+
+static void fill(const tl_nav_tile *tile, const tl_nav_side_links *sides[4], const uint32_t *is_changed,
+                 const tl_nav_rings *old, tl_nav_rings *rings)
+{
+    ring_writer writer = { rings, 0, 0 };
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        rings->cells[p].first = writer.edge_count;
+        if (is_changed[p]) {
+            add_polygon(&writer, tile, sides, p);
+            if (old != NULL) {
+                copy_turns(&writer, old, p);
+            }
+        } else {
+            copy_polygon(&writer, old, p);
+        }
+    }
+    rings->cells[tile->polygon_count].first = writer.edge_count;
+    rings->cells[tile->polygon_count].dead_end = 0;
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        if (is_changed[p]) {
+            find_twins(rings, p);
+        }
+    }
+}
+
+// Components do not depend on seams.
+static void copy_components(const tl_nav_rings *old, tl_nav_rings *rings)
+{
+    memcpy(rings->component, old->component, rings->polygon_count * sizeof *rings->component);
+    memcpy(rings->island, old->island, old->component_count * sizeof *rings->island);
+    memcpy(rings->next_member, old->next_member, rings->polygon_count * sizeof *rings->next_member);
+    rings->component_count = old->component_count;
+}
+
 tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile, const tl_nav_side_links *sides[4],
-                            tl_nav_rings *rings_out)
+                            const tl_nav_rings *old, uint32_t changed_side, tl_nav_rings *rings_out)
 {
     memset(rings_out, 0, sizeof *rings_out);
     uint64_t seams = 0;
     for (uint32_t side = 0; side < 4; side++) {
         seams += sides[side]->link_count;
     }
-    // A link adds itself and a gap before it.
-    uint64_t edges = tile->corner_count + 2 * seams;
+    // A link adds itself and a gap before it. Edges that are copied keep the cuts of links that are gone.
+    uint64_t edges = (old != NULL ? old->cells[old->polygon_count].first : tile->corner_count) + 2 * seams;
     if (edges > UINT32_MAX || seams >= TL_NAV_RING_BACK - TL_NAV_RING_SEAM) {
         return TL_ERR_LIMIT;
     }
@@ -179,16 +262,14 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
     }
     rings.polygon_count = tile->polygon_count;
     memset(rings.walls, 0, edges * sizeof *rings.walls);
-    ring_writer writer = { &rings, 0, 0 };
-    for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        rings.cells[p].first = writer.edge_count;
-        add_polygon(&writer, tile, sides, p);
+    mark_changed(tile, changed_side, old, scratch);
+    fill(tile, sides, scratch, old, &rings);
+    TL_ASSERT(rings.cells[tile->polygon_count].first <= edges);
+    if (old != NULL) {
+        copy_components(old, &rings);
+    } else {
+        label_components(&rings, scratch);
     }
-    rings.cells[tile->polygon_count].first = writer.edge_count;
-    rings.cells[tile->polygon_count].dead_end = 0;
-    TL_ASSERT(writer.edge_count <= edges);
-    find_twins(&rings);
-    label_components(&rings, scratch);
     tl_nav_mark_dead_ends(&rings, scratch);
     tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
     *rings_out = rings;

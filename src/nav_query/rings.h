@@ -46,8 +46,9 @@ typedef struct tl_nav_rings {
     tl_nav_ring_edge *edges;
     tl_nav_ring_walls *walls; ///< by edge: of the vertex where it starts, when its turn is not 0
     tl_nav_ring_seam *seams;
-    uint32_t *component; ///< by polygon: what hangs together within the tile, counted from 0
-    uint32_t *island;    ///< by component: a node of the navmesh's islands (islands.c)
+    uint32_t *component;   ///< by polygon: what hangs together within the tile, counted from 0
+    uint32_t *island;      ///< by component: a node of the navmesh's islands (islands.c)
+    uint32_t *next_member; ///< by polygon: the next one of its component, around
     uint32_t polygon_count, component_count;
     bool has_back; ///< some edge is a TL_NAV_RING_BACK
     void *block;   ///< that all arrays stand in
@@ -56,9 +57,10 @@ typedef struct tl_nav_rings {
 
 typedef struct tl_nav_side_links tl_nav_side_links;
 
-/// Rings of a tile with these links on its four sides. TL_ERR_MEMORY.
+/// Rings of a tile with these links on its four sides. `old`: its rings from before the links of one side changed, from
+/// which all but the polygons on that side are copied, or NULL. TL_ERR_MEMORY.
 tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile, const tl_nav_side_links *sides[4],
-                            tl_nav_rings *rings_out);
+                            const tl_nav_rings *old, uint32_t changed_side, tl_nav_rings *rings_out);
 void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings);
 
 /// Makes walls of all ways to a slot. The cuts in the edges stay.

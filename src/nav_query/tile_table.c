@@ -219,14 +219,15 @@ static tl_result make_links(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
 static tl_result make_rings(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
 {
     const tl_nav_side_links *sides[4] = { &seams->own[0], &seams->own[1], &seams->own[2], &seams->own[3] };
-    TL_TRY(tl_nav_rings_make(&navmesh->allocator, tile, sides, &seams->rings));
+    TL_TRY(tl_nav_rings_make(&navmesh->allocator, tile, sides, NULL, 0, &seams->rings));
     for (uint32_t side = 0; side < 4; side++) {
         if (seams->neighbours[side] != TL_NAV_NO_SLOT) {
             const tl_nav_slot *slot = &navmesh->slots[seams->neighbours[side]];
             for (uint32_t i = 0; i < 4; i++) {
                 sides[i] = i == opposite(side) ? &seams->facing[side] : &slot->sides[i];
             }
-            TL_TRY(tl_nav_rings_make(&navmesh->allocator, slot->tile, sides, &seams->neighbour_rings[side]));
+            TL_TRY(tl_nav_rings_make(&navmesh->allocator, slot->tile, sides, &slot->rings, opposite(side),
+                                     &seams->neighbour_rings[side]));
         }
     }
     return TL_OK;
@@ -265,16 +266,14 @@ static void install_seams(tl_navmesh *navmesh, uint32_t slot, const seam_set *se
         navmesh->slots[slot].sides[side] = seams->own[side];
         neighbour->sides[opposite(side)] = seams->facing[side];
         navmesh->link_count += (uint64_t)seams->own[side].link_count + seams->facing[side].link_count;
-        // Labels within a tile do not depend on its seams.
-        memcpy(seams->neighbour_rings[side].island, neighbour->rings.island,
-               neighbour->rings.component_count * sizeof *neighbour->rings.island);
         tl_nav_rings_free(&navmesh->allocator, &neighbour->rings);
         neighbour->rings = seams->neighbour_rings[side];
         tl_nav_note_edit(navmesh, seams->neighbours[side]);
     }
 }
 
-// Gives numbers to the turning vertices around a slot. Numbers are handed out once; before they run out, all anew.
+// Gives numbers to the turning vertices of a slot that is new, or TL_NAV_NO_SLOT, and of its neighbours' sides that
+// face it. Numbers are handed out once; before they run out, all anew.
 static void number_fans(tl_navmesh *navmesh, uint32_t slot, const uint32_t neighbours[4])
 {
     if (navmesh->last_fan > UINT32_MAX / 2) {
@@ -291,7 +290,7 @@ static void number_fans(tl_navmesh *navmesh, uint32_t slot, const uint32_t neigh
     }
     for (uint32_t side = 0; side < 4; side++) {
         if (neighbours[side] != TL_NAV_NO_SLOT) {
-            tl_nav_number_fans(navmesh, neighbours[side]);
+            tl_nav_number_fans_on_side(navmesh, neighbours[side], opposite(side));
         }
     }
 }
@@ -356,9 +355,8 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     navmesh->tile_count++;
     navmesh->link_count += slot->inner_links;
     navmesh->polygon_count += tile->polygon_count;
-    if (tl_nav_anchor_near(navmesh, index, false)) {
-        tl_nav_rebuild_islands(navmesh);
-    }
+    tl_nav_anchor_near(navmesh, index, false);
+    tl_nav_split_islands(navmesh);
     return TL_OK;
 }
 
@@ -372,6 +370,7 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
     uint32_t neighbours[4];
     tl_nav_begin_edit(navmesh, tile_x, tile_z);
     tl_nav_note_edit(navmesh, index);
+    tl_nav_leave_islands(navmesh, index);
     for (uint32_t side = 0; side < 4; side++) {
         uint32_t neighbour =
             tl_nav_find_slot(navmesh, (int64_t)tile_x + SIDE_STEP[side][0], (int64_t)tile_z + SIDE_STEP[side][1]);
@@ -391,7 +390,7 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
     tl_nav_area_table_change(navmesh, index, -1);
     free_slot_content(navmesh, slot);
     tl_nav_anchor_near(navmesh, index, true);
-    tl_nav_rebuild_islands(navmesh);
+    tl_nav_split_islands(navmesh);
     number_fans(navmesh, TL_NAV_NO_SLOT, neighbours);
     if (slot->salt < LAST_SALT) {
         slot->salt++;

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+//
+// Islands: what hangs together over all tiles, as labels of the tiles' components (islands.c, island_split.c).
+
+#ifndef TALUS_SRC_NAV_QUERY_ISLANDS_H
+#define TALUS_SRC_NAV_QUERY_ISLANDS_H
+
+#include <talus/nav_query.h>
+
+/// No node, no piece.
+#define TL_NAV_NO_ISLAND UINT32_MAX
+
+/// Over what components hang together.
+typedef enum tl_nav_island_kind {
+    TL_NAV_SHORES,  ///< seams alone
+    TL_NAV_ISLANDS, ///< seams and off-mesh links
+    TL_NAV_ISLAND_KINDS
+} tl_nav_island_kind;
+
+/// A component of a tile: what hangs together within it.
+typedef struct tl_nav_island_node {
+    uint32_t slot, polygon; ///< one of its polygons
+    uint32_t labels[TL_NAV_ISLAND_KINDS];
+    uint32_t piece; ///< of the search under way: that has found it, or TL_NAV_NO_ISLAND
+    uint32_t next;  ///< of that piece; of a free node: the next free one
+} tl_nav_island_node;
+
+/// A name that nodes have; names that came to be one form a tree, and its root is the name.
+typedef struct tl_nav_island_label {
+    uint32_t parent; ///< itself: the root
+    uint32_t size;   ///< labels, of a root
+    uint32_t groups; ///< of the search under way, else 0: groups of pieces under this root
+    uint32_t open;   ///< those of them that are not gone through
+} tl_nav_island_label;
+
+/// What a search has found from one seed. Pieces that have met are a group, named by the first of them.
+typedef struct tl_nav_island_piece {
+    uint32_t parent;      ///< in the group's tree; itself: the root
+    uint32_t first, last; ///< nodes found
+    uint32_t head;        ///< the first of them that is not gone through, or TL_NAV_NO_ISLAND
+    uint32_t open;        ///< of a root: pieces with such nodes
+    uint32_t label;       ///< root of the nodes' labels
+    uint32_t new_label;   ///< of a root: for a group that is cut off, or TL_NAV_NO_ISLAND
+} tl_nav_island_piece;
+
+typedef struct tl_nav_islands {
+    tl_nav_island_node *nodes;                        ///< [capacity]
+    tl_nav_island_piece *pieces;                      ///< [capacity]
+    uint32_t *seeds;                                  ///< [capacity]: nodes that have lost a way
+    tl_nav_island_label *labels[TL_NAV_ISLAND_KINDS]; ///< [2 * capacity]
+    uint32_t capacity;
+    uint32_t used;       ///< nodes below have been used once
+    uint32_t free;       ///< head of the chain of free nodes
+    uint32_t free_count; ///< of them
+    uint32_t label_count[TL_NAV_ISLAND_KINDS];
+    uint32_t seed_count;
+    uint32_t shore_seed_count; ///< the first ones, which have lost a way over a seam
+} tl_nav_islands;
+
+/// Room for `count` more components. TL_ERR_MEMORY, TL_ERR_LIMIT.
+tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count);
+void tl_nav_free_islands(tl_navmesh *navmesh);
+
+/// Names a new slot's components, for which there is room, and joins them to its neighbours'.
+void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot);
+/// Frees the nodes of a slot whose tile leaves, and seeds what it hangs together with over seams. Its links are still
+/// there; tl_nav_split_islands is called when they are gone.
+void tl_nav_leave_islands(tl_navmesh *navmesh, uint32_t slot);
+/// Notes that a polygon has lost an off-mesh link. The other end is noted too, unless it has left.
+void tl_nav_seed_island(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);
+/// Gives new names to what no longer hangs together, after ways have gone: each of their ends has been seeded.
+void tl_nav_split_islands(tl_navmesh *navmesh);
+
+uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);
+
+/// Makes room for `count` new labels, by naming all roots anew where there is none.
+void tl_nav_reserve_labels(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t count);
+/// A label of its own; there is room.
+uint32_t tl_nav_new_label(tl_nav_islands *islands, tl_nav_island_kind kind);
+
+/// The root of a label.
+static inline uint32_t tl_nav_label_root(const tl_nav_island_label *labels, uint32_t label)
+{
+    while (labels[label].parent != label) {
+        label = labels[label].parent;
+    }
+    return label;
+}
+
+#endif
