@@ -5,6 +5,7 @@
 #include "io/atomic_write.h"
 
 #include <cairo-svg.h>
+#include <stdio.h>
 #include <string.h>
 
 void draw_set_colour(cairo_t *cairo, draw_colour colour, double alpha)
@@ -13,14 +14,44 @@ void draw_set_colour(cairo_t *cairo, draw_colour colour, double alpha)
                           alpha);
 }
 
-void draw_text(cairo_t *cairo, double x, double y, double size, bool bold, const char *words)
+void draw_choose_font(cairo_t *cairo, double size, bool bold)
 {
     cairo_select_font_face(cairo, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
                            bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cairo, size);
+}
+
+void draw_text(cairo_t *cairo, double x, double y, double size, bool bold, const char *words)
+{
+    draw_choose_font(cairo, size, bold);
     cairo_move_to(cairo, x, y);
     cairo_show_text(cairo, words);
     cairo_new_path(cairo);
+}
+
+// Back or on to where a character of UTF-8 begins.
+static size_t character_at(const char *words, size_t at, int step)
+{
+    while (at > 0 && ((unsigned char)words[at] & 0xC0) == 0x80) {
+        at += (size_t)(ptrdiff_t)step;
+    }
+    return at;
+}
+
+void draw_text_within(cairo_t *cairo, double x, double y, double size, bool bold, const char *words, double width)
+{
+    enum { MOST_BYTES = 512 };
+    const size_t length = strlen(words);
+    char shorter[MOST_BYTES];
+    snprintf(shorter, sizeof shorter, "%s", words);
+    draw_choose_font(cairo, size, bold);
+    for (size_t kept = length < MOST_BYTES - 4 ? length : MOST_BYTES - 4;
+         kept > 2 && draw_text_width(cairo, shorter) > width; kept--) {
+        size_t head = character_at(words, kept / 2, -1);
+        size_t tail = character_at(words, length - kept / 2, 1);
+        snprintf(shorter, sizeof shorter, "%.*s\xE2\x80\xA6%s", (int)head, words, words + tail);
+    }
+    draw_text(cairo, x, y, size, bold, shorter);
 }
 
 double draw_text_width(cairo_t *cairo, const char *words)

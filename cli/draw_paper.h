@@ -20,8 +20,11 @@ tl_result draw_paper_write(const char *path, uint32_t width, uint32_t height, dr
                            tl_io_error *error_out);
 
 void draw_set_colour(cairo_t *cairo, draw_colour colour, double alpha);
+void draw_choose_font(cairo_t *cairo, double size, bool bold);
 void draw_text(cairo_t *cairo, double x, double y, double size, bool bold, const char *words);
-/// Pixels, in the font that draw_text was last called with.
+/// The same in at most `width` pixels: words that need more lose their middle, for "…".
+void draw_text_within(cairo_t *cairo, double x, double y, double size, bool bold, const char *words, double width);
+/// Pixels, in the font that was chosen last.
 double draw_text_width(cairo_t *cairo, const char *words);
 
 #endif

@@ -13,7 +13,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEAD_PIXELS = 64, FOOT_PIXELS = 62, GAP_PIXELS = 12, MOST_PANELS = 2 };
+enum {
+    HEAD_PIXELS = 64,
+    FOOT_PIXELS = 62, // scale bar and one row of the legend
+    GAP_PIXELS = 12,
+    MARGIN_PIXELS = 20,
+    LEGEND_PIXELS = 22,
+    LEGEND_SIZE = 13,
+    LEAST_WIDTH = 420, // pixels: a sheet's words need room beside a narrow level too
+    MOST_PANELS = 2
+};
 
 typedef struct draw_sheet {
     const draw_scene *scene;
@@ -22,6 +31,7 @@ typedef struct draw_sheet {
     cairo_surface_t *images[MOST_PANELS];
     uint32_t panel_count;
     uint32_t width, height;
+    uint32_t legend_y; // of its first row
 } draw_sheet;
 
 // A stretch of a line: hidden ones are drawn faintly, so that one sees where they go on.
@@ -102,18 +112,38 @@ static void draw_scale_bar(cairo_t *cairo, const draw_camera *camera, double rig
     draw_text(cairo, right - length + 6, y - 5, 12, false, words);
 }
 
-static void draw_legend_row(cairo_t *cairo, const draw_scene *scene, double y)
+// In as many rows as the width asks for, the first at `y`; returns how many. Paints only if `paints`.
+static uint32_t draw_legends(cairo_t *cairo, const draw_scene *scene, double width, double y, bool paints)
 {
-    double x = 20;
+    double x = MARGIN_PIXELS;
+    uint32_t rows = 1;
     for (uint32_t i = 0; i < scene->legend_count; i++) {
         const draw_legend *legend = &scene->legends[i];
-        draw_set_colour(cairo, legend->colour, 1.0);
-        cairo_rectangle(cairo, x, y - 11, 14, 14);
-        cairo_fill(cairo);
-        draw_set_colour(cairo, DRAW_INK, 1.0);
-        draw_text(cairo, x + 20, y, 13, false, legend->text);
-        x += 20 + draw_text_width(cairo, legend->text) + 24;
+        draw_choose_font(cairo, LEGEND_SIZE, false);
+        double taken = 20 + draw_text_width(cairo, legend->text);
+        if (x > MARGIN_PIXELS && x + taken > width - MARGIN_PIXELS) {
+            x = MARGIN_PIXELS;
+            y += LEGEND_PIXELS;
+            rows++;
+        }
+        if (paints) {
+            draw_set_colour(cairo, legend->colour, 1.0);
+            cairo_rectangle(cairo, x, y - 11, 14, 14);
+            cairo_fill(cairo);
+            draw_set_colour(cairo, DRAW_INK, 1.0);
+            draw_text(cairo, x + 20, y, LEGEND_SIZE, false, legend->text);
+        }
+        x += taken + 24;
     }
+    return rows;
+}
+
+static uint32_t legend_rows(const draw_sheet *sheet)
+{
+    cairo_t *cairo = cairo_create(sheet->images[0]);
+    uint32_t rows = draw_legends(cairo, sheet->scene, sheet->width, 0, false);
+    cairo_destroy(cairo);
+    return rows;
 }
 
 static void paint_sheet(cairo_t *cairo, const void *user)
@@ -134,10 +164,11 @@ static void paint_sheet(cairo_t *cairo, const void *user)
         x += camera->width + GAP_PIXELS;
     }
     draw_set_colour(cairo, DRAW_INK, 1.0);
-    draw_text(cairo, 20, 30, 20, true, sheet->scene->title);
+    const double width = sheet->width - 2.0 * MARGIN_PIXELS;
+    draw_text_within(cairo, MARGIN_PIXELS, 30, 20, true, sheet->scene->title, width);
     draw_set_colour(cairo, 0x6a6a72, 1.0);
-    draw_text(cairo, 20, 52, 13, false, sheet->scene->subtitle);
-    draw_legend_row(cairo, sheet->scene, sheet->height - 18);
+    draw_text_within(cairo, MARGIN_PIXELS, 52, 13, false, sheet->scene->subtitle, width);
+    (void)draw_legends(cairo, sheet->scene, sheet->width, sheet->legend_y, true);
 }
 
 static tl_result render_panels(draw_sheet *sheet, const draw_options *options, const tl_host *host)
@@ -166,6 +197,9 @@ static tl_result render_panels(draw_sheet *sheet, const draw_options *options, c
         uint32_t height = camera->height + HEAD_PIXELS + FOOT_PIXELS;
         sheet->height = sheet->height < height ? height : sheet->height;
     }
+    sheet->width = sheet->width < LEAST_WIDTH ? LEAST_WIDTH : sheet->width;
+    sheet->legend_y = sheet->height - 18;
+    sheet->height += (legend_rows(sheet) - 1) * LEGEND_PIXELS;
     return TL_OK;
 }
 

@@ -51,15 +51,21 @@ static bool begins_with(const char *bytes, size_t size, const char *text)
     return size >= length && memcmp(bytes, text, length) == 0;
 }
 
-static bool contains(const char *bytes, size_t size, const char *text)
+// Where a text begins; `size` when it is not there.
+static size_t find(const char *bytes, size_t size, const char *text)
 {
     size_t length = strlen(text);
     for (size_t i = 0; i + length <= size; i++) {
         if (memcmp(bytes + i, text, length) == 0) {
-            return true;
+            return i;
         }
     }
-    return false;
+    return size;
+}
+
+static bool contains(const char *bytes, size_t size, const char *text)
+{
+    return find(bytes, size, text) < size;
 }
 
 // A binary STL file says nothing but its triangle count.
@@ -130,13 +136,24 @@ static bool sniff_obj(const char *bytes, size_t size)
     return false;
 }
 
-// Assimp 5 looks for the end of a PLY header beyond the end of the file, until its time is over. A header is short
-// text; comments may make it longer, but not without end.
-static bool is_cut_ply(const char *bytes, size_t size)
+// Assimp 5 looks for the end of a PLY header beyond the end of the file, until its time is over; and of triangle strips
+// it reads the first triangle and leaves out the others. A header is short text; comments may make it longer, but not
+// without end.
+static tl_result check_ply(const char *bytes, size_t size, const char *name, tl_io_error *error)
 {
-    size_t head = size < LONGEST_PLY_HEADER ? size : LONGEST_PLY_HEADER;
-    return begins_with(bytes, size, "ply") && !contains(bytes, head, "end_header\n") &&
-           !contains(bytes, head, "end_header\r");
+    if (!begins_with(bytes, size, "ply")) {
+        return TL_OK;
+    }
+    size_t most = size < LONGEST_PLY_HEADER ? size : LONGEST_PLY_HEADER;
+    size_t head = find(bytes, most, "end_header");
+    if (!contains(bytes + head, most - head, "end_header\n") && !contains(bytes + head, most - head, "end_header\r")) {
+        return tl_io_fail(error, TL_ERR_FORMAT, name, 0, "the file is cut short", "a PLY file without an end_header");
+    }
+    if (contains(bytes, head, "element tristrips")) {
+        return tl_io_fail(error, TL_ERR_UNSUPPORTED, name, 0, "export it with faces (element face)",
+                          "a PLY file of triangle strips");
+    }
+    return TL_OK;
 }
 
 bool tl_import_is_mesh_name(const char *path)
@@ -160,8 +177,9 @@ static tl_result read_mesh(const void *bytes, size_t size, const char *path, con
     }
     const char *other = sniff_other(bytes, size);
     bool named_obj = strcmp(extension, ".obj") == 0;
-    if (is_cut_ply(bytes, size)) {
-        return tl_io_fail(error, TL_ERR_FORMAT, name, 0, "the file is cut short", "a PLY file without an end_header");
+    tl_result result = check_ply(bytes, size, name, error);
+    if (result != TL_OK) {
+        return result;
     }
     if (named_obj && other == NULL) {
         return tl_obj_read(bytes, size, name, allow, host, mesh, error);

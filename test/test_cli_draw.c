@@ -52,7 +52,7 @@ static void test_every_stage(void **state)
             uint32_t height;
             check_png(path, &width, &height);
             if (strstr(path, "triangulation") == NULL && strstr(path, "merging") == NULL) {
-                TEST_CHECK(width >= 2 * 200 && width <= 2 * 240 + 40 && height >= 200 && height <= 240 + 140);
+                TEST_CHECK(width >= 2 * 200 && width <= 2 * 240 + 40 && height >= 200 && height <= 240 + 140 + 3 * 22);
             } else {
                 TEST_CHECK(width >= 3 * 80 && height >= 80); // panels of a third of the size, at least three
             }
@@ -66,9 +66,9 @@ static void test_overview(void **state)
 {
     (void)state;
     make_files();
-    static const char *const lines[] = { "draw yard.obj -o all.png --overview --size 400 --json",
-                                         "draw yard.talus -o all.png --overview --size 400 --view oblique --json",
-                                         "draw yard.obj -o some.png --overview --size 400 --stage soup,path --json" };
+    static const char *const lines[] = { "draw yard.obj -o all.png --overview --size 1000 --json",
+                                         "draw yard.talus -o all.png --overview --size 1000 --view oblique --json",
+                                         "draw yard.obj -o some.png --overview --size 1000 --stage soup,path --json" };
     for (int i = 0; i < 3; i++) {
         json_t *list = cli_json(0, lines[i]);
         assert_int_equal(json_array_size(list), 1);
@@ -77,9 +77,9 @@ static void test_overview(void **state)
     }
     uint32_t width, height;
     check_png("all.png", &width, &height);
-    TEST_CHECK(width > 4 * 150 && width < 4 * 260 && height > 3 * 150);
+    TEST_CHECK(width > 4 * 420 && width < 4 * 620 && height > 3 * 300);
     check_png("some.png", &width, &height);
-    TEST_CHECK(width > 2 * 150 && width < 2 * 260 && height < 2 * 260 + 150);
+    TEST_CHECK(width > 2 * 420 && width < 2 * 620 && height < 620 + 150);
     cli_check_error(2, "draw yard.obj -o none.png --overview --stage merging", "--overview", "none");
 }
 
@@ -120,11 +120,15 @@ static void test_path_svg_and_views(void **state)
     free(svg);
     uint32_t width[2];
     uint32_t height[2];
-    cli_do(0, "draw yard.obj -o top.png --view top --size 300");
-    cli_do(0, "draw yard.obj -o both.png --size 300");
+    cli_do(0, "draw yard.obj -o top.png --view top --size 500");
+    cli_do(0, "draw yard.obj -o both.png --size 500");
     check_png("top.png", &width[0], &height[0]);
     check_png("both.png", &width[1], &height[1]);
-    TEST_CHECK(width[0] < 340 && width[1] > 500);
+    TEST_CHECK(width[0] < 540 && width[1] > 800);
+    // Words need room beside a narrow view too.
+    cli_do(0, "draw yard.obj -o small.png --view top --stage spans --size 200");
+    check_png("small.png", &width[0], &height[0]);
+    TEST_CHECK(width[0] == 420 && height[0] > 200);
     // No navmesh near an end: said, and the picture is made all the same.
     drawn = cli_expect(0, "draw yard.talus -o far.png --from 500,0,500 --to 38,0,20 --size 200");
     cli_check_part(drawn.err, "no navmesh near the start");

@@ -95,6 +95,9 @@ static void check_triangle(const tl_imported_mesh *mesh)
 #define PLY_TEXT                                                                                                       \
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"                  \
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 2 0\n3 0 1 2\n"
+#define PLY_STRIPS                                                                                                     \
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"                  \
+    "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 2 0\n1 2 0\n4 0 1 2 3\n"
 #define STL_TEXT                                                                                                       \
     "solid level\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 2 0\nendloop\nendfacet\n"       \
     "endsolid level\n"
@@ -281,6 +284,7 @@ static void test_bad_files(void **state)
         { "a.glb", "glTF\2\0\0\0", TL_ERR_FORMAT },
         { "a.fbx", "Kaydara FBX Binary  and no more", TL_ERR_FORMAT },
         { "a.ply", "ply\nformat ascii 1.0\n", TL_ERR_FORMAT },
+        { "a.ply", PLY_STRIPS, TL_ERR_UNSUPPORTED },
         { "a.dae", "<COLLADA>", TL_ERR_FORMAT },
         { "a.stl", "nothing of the kind", TL_ERR_FORMAT },
         { "level", "hello world", TL_ERR_UNSUPPORTED },

@@ -7,7 +7,7 @@
 // as high as the agent, which newer versions of Recast let pass and Debian's does not. So counts are compared, with
 // narrow bounds. The built-in levels are modelled in decimetres and full of walls on borders: they are compared with
 // cells of a quarter metre, whose lattice is exact in floats, so that the noise plays no part. An argument sets another
-// size for all: test_nav_recast 0.1.
+// size for all, and files behind it take the place of all levels: test_nav_recast 0.1 [LEVEL ...].
 
 #include "recast_pipeline.hpp"
 
@@ -113,9 +113,9 @@ void spans_and_floors_agree(void **)
         double floors = (double)walkable / (double)recast_walkable - 1;
         std::printf("%-18s columns equal %.3f%%, within a voxel %.3f%%; spans %+.3f%%; eroded floors %+.3f%%\n",
                     l.name.c_str(), 100 * equal, 100 * close, 100 * more, 100 * floors);
-        TEST_CHECK(equal > 0.98 && close > 0.985);
-        TEST_CHECK(std::fabs(more) < 0.005);
-        TEST_CHECK(std::fabs(floors) < 0.01);
+        // Whoever brings a level may have modelled it on the lines between cells: its figures are only printed.
+        TEST_CHECK(!wanted_files.empty() || (equal > 0.98 && close > 0.985));
+        TEST_CHECK(!wanted_files.empty() || (std::fabs(more) < 0.005 && std::fabs(floors) < 0.01));
         tl_nav_compact_free(&compact);
         tl_nav_heightfield_free(&field);
     }
@@ -173,8 +173,9 @@ void polygons_agree(void **)
                         l.name.c_str(), partition == TL_NAV_WATERSHED ? "watershed" : "monotone",
                         stages.polygons.polygon_count, recast.polygons->npolys, area, 100 * (recast_area / area - 1),
                         report.repaired_contours);
-            TEST_CHECK(tile != nullptr && stages.polygons.polygon_count > 0);
-            TEST_CHECK(std::fabs(area / recast_area - 1) < 0.01);
+            TEST_CHECK((tile != nullptr) == (recast.polygons->npolys > 0));
+            TEST_CHECK(std::fabs(area - recast_area) <= 0.01 * recast_area);
+            TEST_CHECK(tile != nullptr || !wanted_files.empty());
             for (uint32_t p = 0; p < stages.polygons.polygon_count; p++) {
                 TEST_CHECK(is_strictly_convex(stages.polygons, p));
             }
@@ -188,7 +189,7 @@ void polygons_agree(void **)
 
 int main(int argc, char **argv)
 {
-    wanted_cell_size = argc > 1 ? std::strtof(argv[1], nullptr) : 0.0f;
+    take_level_arguments(argc, argv);
     const struct CMUnitTest tests[] = { cmocka_unit_test(lattice_is_recasts), cmocka_unit_test(spans_and_floors_agree),
                                         cmocka_unit_test(polygons_agree) };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -2,7 +2,7 @@
 //
 // Paths against Detour's: on the very same polygons, which tests the queries alone, and on each one's own bake of the
 // same level; and against the floors, which say what hangs together before polygons are made. An argument sets the cell
-// size of all levels: test_path_detour 0.1.
+// size of all levels, and files behind it take their place: test_path_detour 0.1 [LEVEL ...].
 
 #include "detour_mesh.hpp"
 
@@ -304,7 +304,7 @@ void paths_agree(void **)
             unreachable += own_bake.pairs - own_bake.complete;
         }
     }
-    TEST_CHECK(complete > 40000 && unreachable > 10000);
+    TEST_CHECK(!wanted_files.empty() || (complete > 40000 && unreachable > 10000));
 }
 
 // Pairs with the answers of a newer Detour on its own bake, as text: a header, then a line a pair, start and end in the
@@ -352,7 +352,7 @@ void recorded_paths_agree(void **)
 
 int main(int argc, char **argv)
 {
-    wanted_cell_size = argc > 1 ? std::strtof(argv[1], nullptr) : 0.0f;
+    take_level_arguments(argc, argv);
     const struct CMUnitTest tests[] = { cmocka_unit_test(paths_agree), cmocka_unit_test(recorded_paths_agree) };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

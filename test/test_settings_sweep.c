@@ -3,7 +3,8 @@
 // Random settings on the built-in levels, and on real ones where they are: every tile's polygons pass the validator
 // (convex, simple, disjoint, covering their contours, linked both ways), every baked tile passes its check, and all
 // tiles of a level go into one navmesh, where each way from polygon to polygon, over seams too, has one back.
-// An argument raises the number of settings a level: test_settings_sweep 500.
+// An argument sets the number of settings a level, and files behind it take the place of the real levels:
+// test_settings_sweep 500 [LEVEL ...].
 
 #include "talus_test.h"
 
@@ -17,6 +18,7 @@
 #include <string.h>
 
 static uint32_t settings_a_level = 12;
+static char **wanted_files; // ends with NULL
 
 typedef struct sweep_counts {
     uint32_t tiles, polygons, tiled, solo, repaired;
@@ -176,20 +178,32 @@ static void built_in_levels(void **state)
     TEST_CHECK(counts.methods[0] > 5 && counts.methods[1] > 5 && counts.methods[2] > 5 && counts.links > 2000);
 }
 
+static bool sweep_file(const char *path, const char *name, uint32_t seed, sweep_counts *counts)
+{
+    tl_imported_mesh mesh;
+    if (tl_import_mesh(path, NULL, &mesh, NULL) != TL_OK) {
+        return false;
+    }
+    tl_mesh_view view = tl_imported_mesh_as_view(&mesh);
+    sweep_level(&view, name, seed, counts);
+    tl_imported_mesh_free(&mesh);
+    return true;
+}
+
 static void real_levels(void **state)
 {
     (void)state;
     static const char *const names[] = { "nav_test",    "dungeon",    "collision_mesh_01",
                                          "proto-level", "undulating", "test_map01" };
     sweep_counts counts = { 0 };
-    for (uint32_t i = 0; i < 6; i++) {
+    for (uint32_t i = 0; i < 6 && *wanted_files == NULL; i++) {
         char path[1024];
         snprintf(path, sizeof path, "%s/levels/%s.obj", TALUS_DATA_DIR, names[i]);
-        tl_imported_mesh mesh;
-        if (tl_import_mesh(path, NULL, &mesh, NULL) == TL_OK) {
-            tl_mesh_view view = tl_imported_mesh_as_view(&mesh);
-            sweep_level(&view, names[i], i, &counts);
-            tl_imported_mesh_free(&mesh);
+        (void)sweep_file(path, names[i], i, &counts);
+    }
+    for (uint32_t i = 0; wanted_files[i] != NULL; i++) {
+        if (!sweep_file(wanted_files[i], wanted_files[i], i, &counts)) {
+            fail_msg("%s cannot be read", wanted_files[i]);
         }
     }
     print_counts(&counts);
@@ -200,6 +214,7 @@ int main(int argc, char **argv)
     if (argc > 1) {
         settings_a_level = (uint32_t)strtoul(argv[1], NULL, 10);
     }
+    wanted_files = argv + (argc < 2 ? argc : 2);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(built_in_levels),
         cmocka_unit_test(real_levels),
