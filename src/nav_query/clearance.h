@@ -26,6 +26,7 @@ typedef struct tl_nav_clearance {
     double reach;                ///< metres that the centre keeps from walls, less `slack`
     double least;                ///< metres that its path keeps: a share of reach, as corners are rounded by chords
     double slack;                ///< metres: what rounding may do to a place
+    double touch;                ///< metres, squared: what lies no farther apart touches
     tl_nav_room room;            ///< what is left of the query's memory
     bool is_full;                ///< it was not enough
 } tl_nav_clearance;
@@ -38,6 +39,10 @@ typedef struct tl_nav_clearance {
 void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter, double reach,
                             tl_nav_clearance *clearance_out);
 
+/// How near two places of a navmesh touch, in metres, squared. It follows from the least power of two above all
+/// coordinates: so it changes hardly ever as tiles come in, and what was found before holds.
+double tl_nav_touch_of(const tl_navmesh *navmesh);
+
 /// Room for `count` elements, or NULL when it is used up; then is_full is set.
 void *tl_nav_take(tl_nav_clearance *clearance, uint64_t count, uint64_t size);
 
@@ -46,9 +51,23 @@ typedef struct tl_nav_met {
     uint32_t slot, polygon;
 } tl_nav_met;
 
+/// A wall near a shape.
+typedef struct tl_nav_near_wall {
+    /// Metres, squared: how far from the shape one must look to see it. No less than the distance from the shape to the
+    /// part of the wall that is seen from it, nor than that to any edge that it is seen through.
+    float distance_sq;
+    float a_x, a_z, b_x, b_z;
+} tl_nav_near_wall;
+
+static inline tl_nav_segment tl_nav_wall_segment(const tl_nav_near_wall *wall)
+{
+    tl_nav_segment segment = { { (double)wall->a_x, (double)wall->a_z }, { (double)wall->b_x, (double)wall->b_z } };
+    return segment;
+}
+
 /// The walls near a convex shape, and the polygons that it touches.
 typedef struct tl_nav_near_walls {
-    tl_nav_segment *walls;
+    const tl_nav_near_wall *walls; ///< the nearest first, ties by coordinates: the same wherever they come from
     uint32_t wall_count;
     tl_nav_met *met; ///< met[-i]: they grow downwards
     uint32_t met_count;
@@ -56,7 +75,7 @@ typedef struct tl_nav_near_walls {
 
 /// Finds the walls that can be walked to straight, within `distance`, from some spot of a convex shape (1 corner: a
 /// spot, 2: a segment, at most 64) that lies in one polygon; the polygons that are met are left out. What the filter
-/// refuses is wall.
+/// refuses is wall. Those within a lesser distance are the first ones of the list.
 /// False: out of room, and is_full is set. The list lies in the room; the caller puts `room` back when done.
 bool tl_nav_find_walls_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *corners,
                           uint32_t count, double distance, tl_nav_near_walls *near_out);
@@ -74,6 +93,9 @@ bool tl_nav_is_clear(const tl_nav_near_walls *near, tl_nav_spot a, tl_nav_spot b
 /// How far a spot lies outside a convex outline, at least; 0 inside.
 double tl_nav_outside_by(const tl_nav_spot *corners, uint32_t count, tl_nav_spot spot);
 
+/// How many of a list's first walls are nearer than a distance.
+uint32_t tl_nav_count_within(const tl_nav_near_wall *walls, uint32_t count, double distance);
+
 /// A polygon's corners in the plane; returns their number.
 uint32_t tl_nav_corner_spots(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon,
                              tl_nav_spot corners[TL_NAV_MAX_CORNERS]);
@@ -83,6 +105,48 @@ static inline double tl_nav_extra_reach(const tl_nav_tile *tile, float radius)
 {
     return fmax((double)radius - (double)tile->agent_radius, 0.0);
 }
+
+// ---------------------------------------------------------------------------------------------------------
+// Polygons with the walls around them, kept or gathered (prepared_walls.c).
+
+/// A wall that comes near to a side of a polygon's outline.
+typedef struct tl_nav_wall_hit {
+    float distance_sq; ///< metres, squared, rounded down: it takes nothing off the side for a lesser reach
+    uint32_t wall;     ///< of the polygon's
+} tl_nav_wall_hit;
+
+/// Two walls with the middle between them inside the outline.
+typedef struct tl_nav_wall_pair {
+    double distance_sq; ///< metres between them, squared
+    uint32_t a, b;      ///< a < b
+} tl_nav_wall_pair;
+
+/// A polygon and the walls near it.
+typedef struct tl_nav_wall_cell {
+    tl_nav_spot corners[TL_NAV_MAX_CORNERS];
+    uint32_t count;
+    tl_nav_near_walls near; ///< of the polygon's outline
+    /// What is known beforehand; NULL and 0: nothing is.
+    const uint32_t *side_first; ///< [count + 1]: where each side's hits begin
+    const tl_nav_wall_hit *hits; ///< the nearest first
+    const tl_nav_wall_pair *pairs; ///< the nearest first; those that meet in a corner of the outline are left out
+    uint32_t pair_count;
+    double distance; ///< metres: all walls within it
+    bool is_kept;
+} tl_nav_wall_cell;
+
+/// The distance of two walls of a list. Whether the middle between the spots where they come nearest to each other lies
+/// in the outline.
+bool tl_nav_pair_walls(const tl_nav_spot *corners, uint32_t count, const tl_nav_near_wall *walls, uint32_t a, uint32_t b,
+                       tl_nav_wall_pair *pair_out);
+
+/// A polygon with all walls within `distance`: those that are kept with the navmesh, or else gathered. False: out of
+/// room, and is_full is set. What was gathered lies in the room; the caller puts `room` back when done.
+bool tl_nav_wall_cell_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, double distance,
+                         tl_nav_wall_cell *cell_out);
+/// The same, gathered.
+bool tl_nav_gather_cell(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, double distance,
+                        tl_nav_wall_cell *cell_out);
 
 // ---------------------------------------------------------------------------------------------------------
 // Free pieces of a convex outline (free_pieces.c).
@@ -102,7 +166,10 @@ typedef struct tl_nav_pieces {
     uint32_t face_count; ///< faces are below it
 } tl_nav_pieces;
 
-/// Cuts a convex outline into free pieces. False: out of room.
+/// Cuts a polygon's outline into free pieces. False: out of room.
+bool tl_nav_cut_cell(tl_nav_clearance *clearance, const tl_nav_wall_cell *cell, tl_nav_pieces *pieces_out);
+
+/// The same for any convex outline.
 bool tl_nav_cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners, uint32_t count,
                         const tl_nav_near_walls *near, tl_nav_pieces *pieces_out);
 

@@ -32,12 +32,24 @@ typedef struct outline_cut {
     const tl_nav_spot *corners;
     uint32_t count;
     const tl_nav_near_walls *near;
+    const tl_nav_wall_cell *kept; // what is known beforehand, or NULL
     double reach;
     uint32_t *parts; // [wall_count]: union-find over walls
     arc *arcs;       // [wall_count * count]
     uint32_t arc_count;
     uint32_t *faces; // [arc_count]: union-find over the pieces behind arcs
 } outline_cut;
+
+bool tl_nav_pair_walls(const tl_nav_spot *corners, uint32_t count, const tl_nav_near_wall *walls, uint32_t a, uint32_t b,
+                       tl_nav_wall_pair *pair_out)
+{
+    tl_nav_spot middle;
+    tl_nav_wall_pair pair = { 0.0, a, b };
+    pair.distance_sq =
+        tl_nav_between_segments(tl_nav_wall_segment(&walls[a]), tl_nav_wall_segment(&walls[b]), &middle);
+    *pair_out = pair;
+    return tl_nav_outside_by(corners, count, middle) <= 0.0;
+}
 
 static uint32_t root_of(uint32_t *parents, uint32_t i)
 {
@@ -115,26 +127,42 @@ static bool forbidden_stretch(tl_nav_spot p, tl_nav_spot q, tl_nav_segment wall,
     return low < 1.0 && high > 0.0 && *from_out < *to_out;
 }
 
+// Adds what a wall takes off an edge to the `count` stretches of it at `own`; returns their number.
+static uint32_t add_stretch(const outline_cut *cut, uint32_t edge, uint32_t wall, arc *own, uint32_t count)
+{
+    tl_nav_spot p = cut->corners[edge];
+    tl_nav_spot q = cut->corners[edge + 1 < cut->count ? edge + 1 : 0];
+    arc stretch = { 0.0, 0.0, wall };
+    if (!forbidden_stretch(p, q, tl_nav_wall_segment(&cut->near->walls[wall]), cut->reach, &stretch.from,
+                           &stretch.to)) {
+        return count;
+    }
+    stretch.from += (double)edge;
+    stretch.to += (double)edge;
+    // By insertion: a polygon has a dozen walls around it, and a pass over all pairs of them follows.
+    uint32_t at = count;
+    for (; at > 0 && own[at - 1].from > stretch.from; at--) {
+        own[at] = own[at - 1];
+    }
+    own[at] = stretch;
+    return count + 1;
+}
+
 // Cuts one edge; its stretches follow those of the edges before, and arcs that overlap become one.
 static void cut_edge(outline_cut *cut, uint32_t edge)
 {
     arc *own = cut->arcs + cut->arc_count;
     uint32_t count = 0;
-    tl_nav_spot p = cut->corners[edge];
-    tl_nav_spot q = cut->corners[edge + 1 < cut->count ? edge + 1 : 0];
-    for (uint32_t i = 0; i < cut->near->wall_count; i++) {
-        arc stretch = { 0.0, 0.0, i };
-        if (!forbidden_stretch(p, q, cut->near->walls[i], cut->reach, &stretch.from, &stretch.to)) {
-            continue;
+    if (cut->kept != NULL) {
+        const tl_nav_wall_hit *hit = cut->kept->hits + cut->kept->side_first[edge];
+        const tl_nav_wall_hit *end = cut->kept->hits + cut->kept->side_first[edge + 1];
+        for (; hit < end && (double)hit->distance_sq < cut->kept->distance * cut->kept->distance; hit++) {
+            count = add_stretch(cut, edge, hit->wall, own, count);
         }
-        stretch.from += (double)edge;
-        stretch.to += (double)edge;
-        // By insertion: a polygon has a dozen walls around it, and a pass over all pairs of them follows.
-        uint32_t at = count++;
-        for (; at > 0 && own[at - 1].from > stretch.from; at--) {
-            own[at] = own[at - 1];
+    } else {
+        for (uint32_t i = 0; i < cut->near->wall_count; i++) {
+            count = add_stretch(cut, edge, i, own, count);
         }
-        own[at] = stretch;
     }
     for (uint32_t i = 0; i < count; i++) {
         arc *last = cut->arc_count > 0 ? &cut->arcs[cut->arc_count - 1] : NULL;
@@ -161,14 +189,22 @@ static void close_outline(outline_cut *cut)
 // Stadiums that overlap inside the outline alone.
 static void join_inside(outline_cut *cut)
 {
-    const tl_nav_segment *walls = cut->near->walls;
     double both = 4.0 * cut->reach * cut->reach;
+    if (cut->kept != NULL) {
+        const tl_nav_wall_pair *pairs = cut->kept->pairs;
+        for (uint32_t i = 0; i < cut->kept->pair_count && pairs[i].distance_sq < both; i++) {
+            if (pairs[i].b < cut->near->wall_count) {
+                unite(cut->parts, pairs[i].a, pairs[i].b);
+            }
+        }
+        return;
+    }
     for (uint32_t i = 0; i < cut->near->wall_count && cut->arc_count > 1; i++) {
         for (uint32_t k = i + 1; k < cut->near->wall_count; k++) {
-            tl_nav_spot middle;
+            tl_nav_wall_pair pair;
             if (root_of(cut->parts, i) != root_of(cut->parts, k) &&
-                tl_nav_between_segments(walls[i], walls[k], &middle) < both &&
-                tl_nav_outside_by(cut->corners, cut->count, middle) <= 0.0) {
+                tl_nav_pair_walls(cut->corners, cut->count, cut->near->walls, i, k, &pair) &&
+                pair.distance_sq < both) {
                 unite(cut->parts, i, k);
             }
         }
@@ -208,12 +244,13 @@ static void add_pieces(const outline_cut *cut, double from, double to, uint32_t 
     }
 }
 
-bool tl_nav_cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners, uint32_t count,
-                        const tl_nav_near_walls *near, tl_nav_pieces *pieces_out)
+// `kept` may be NULL.
+static bool cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners, uint32_t count,
+                        const tl_nav_near_walls *near, const tl_nav_wall_cell *kept, tl_nav_pieces *pieces_out)
 {
-    outline_cut cut = { corners, count, near, clearance->reach, NULL, NULL, 0, NULL };
+    outline_cut cut = { corners, count, near, kept, clearance->reach, NULL, NULL, 0, NULL };
     memset(pieces_out, 0, sizeof *pieces_out);
-    uint64_t stretches = (uint64_t)near->wall_count * count;
+    uint64_t stretches = kept != NULL ? kept->side_first[count] - kept->side_first[0] : (uint64_t)near->wall_count * count;
     // Each stretch is followed by at most one free piece, and each corner cuts one more.
     pieces_out->pieces = tl_nav_take(clearance, stretches + count, sizeof *pieces_out->pieces);
     tl_nav_room room = clearance->room;
@@ -247,6 +284,17 @@ bool tl_nav_cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners,
     TL_ASSERT(pieces_out->count <= stretches + count);
     clearance->room = room;
     return true;
+}
+
+bool tl_nav_cut_cell(tl_nav_clearance *clearance, const tl_nav_wall_cell *cell, tl_nav_pieces *pieces_out)
+{
+    return cut_outline(clearance, cell->corners, cell->count, &cell->near, cell->is_kept ? cell : NULL, pieces_out);
+}
+
+bool tl_nav_cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners, uint32_t count,
+                        const tl_nav_near_walls *near, tl_nav_pieces *pieces_out)
+{
+    return cut_outline(clearance, corners, count, near, NULL, pieces_out);
 }
 
 const tl_nav_piece *tl_nav_piece_at(const tl_nav_pieces *pieces, const tl_nav_spot *corners, uint32_t count,

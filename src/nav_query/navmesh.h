@@ -29,6 +29,8 @@ typedef struct tl_nav_edit {
     int32_t tile_x, tile_z;
 } tl_nav_edit;
 
+typedef struct tl_nav_kept_walls tl_nav_kept_walls; // prepared_walls.h
+
 typedef struct tl_nav_slot {
     const tl_nav_tile *tile; ///< NULL: free
     uint32_t salt;           ///< 1 to 65535
@@ -40,6 +42,7 @@ typedef struct tl_nav_slot {
     tl_nav_side_links sides[4];
     tl_nav_rings rings;
     uint64_t *areas; ///< of the tile's polygons, summed up (area_table.h)
+    tl_nav_kept_walls *kept_walls; ///< NULL: not prepared, or dropped by an edit
 } tl_nav_slot;
 
 typedef struct tl_nav_roads tl_nav_roads; // roads.h
@@ -63,6 +66,9 @@ struct tl_navmesh {
     uint64_t all_flags;  ///< that every polygon of every tile so far has
     uint64_t any_flags;  ///< that some polygon of some tile so far has
     float extent;        ///< metres: the largest |x| or |z| of any tile so far
+    double kept_reach;   ///< metres: slots' kept walls lie within it
+    double kept_touch;   ///< what touched when they were found (clearance.h)
+    uint64_t kept_bytes; ///< of them
     // Of all tiles; valid while tile_count > 0.
     tl_vec3 origin;
     float cell_size, cell_height;
@@ -100,6 +106,11 @@ static inline bool tl_nav_all_pass(const tl_navmesh *navmesh, const tl_nav_filte
     return (navmesh->all_flags & filter->include_flags) != 0 && (navmesh->any_flags & filter->exclude_flags) == 0 &&
            filter->pass == NULL;
 }
+
+/// Drops the kept walls that an edit of the tile at a place may change (prepared_walls.c).
+void tl_nav_spoil_walls(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
+/// Drops all.
+void tl_nav_drop_walls(tl_navmesh *navmesh);
 
 /// Slot and polygon of a reference; false when it is stale.
 bool tl_nav_split_ref(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *slot_out, uint32_t *polygon_out);

@@ -9,17 +9,28 @@
 // does. A beam's sides are the outermost directions, and lines through the ends of its last edge: a little more than
 // what is seen, never less. So no wall is missed; and one too many, hidden behind another, forbids nothing more than
 // that does.
+// Each wall is kept with the distance within which a walk must look to find it, and the list is sorted by that: so the
+// walls within a lesser distance are its first ones, the very same list as a walk that looks no farther would make
+// (prepared_walls.c stands on this).
 
-#include "nav_query/clearance.h"
+#include "nav_query/near_shape.h"
 
+#include "base/assert.h"
 #include "nav_query/filter.h"
 #include "nav_query/local_search.h"
-#include "nav_query/surface.h"
 
 #include <string.h>
 
 // The chord between two neighbours of 32 points on a circle comes this near to its middle: cos(pi / 32).
 static const double CHORD_SHARE = 0.99518472667219688;
+
+double tl_nav_touch_of(const tl_navmesh *navmesh)
+{
+    int exponent = 0;
+    frexp((double)navmesh->extent, &exponent);
+    double touch = TL_NAV_PLACE_ROUNDINGS * (double)TL_FLOAT_ROUNDING * ldexp(1.0, exponent);
+    return touch * touch;
+}
 
 void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter, double reach,
                             tl_nav_clearance *clearance_out)
@@ -30,6 +41,7 @@ void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, cons
     clearance_out->navmesh = navmesh;
     clearance_out->filter = tl_nav_all_pass(navmesh, filter) ? NULL : filter != NULL ? filter : &any;
     clearance_out->slack = TL_NAV_PLACE_ROUNDINGS * (double)TL_FLOAT_ROUNDING * ((double)navmesh->extent + reach);
+    clearance_out->touch = tl_nav_touch_of(navmesh);
     clearance_out->reach = fmax(reach - clearance_out->slack, 0.0);
     clearance_out->least = fmax(CHORD_SHARE * clearance_out->reach - clearance_out->slack, 0.0);
     clearance_out->room.low = (char *)query->wedges;
@@ -75,52 +87,11 @@ bool tl_nav_is_clear(const tl_nav_near_walls *near, tl_nav_spot a, tl_nav_spot b
 {
     tl_nav_segment segment = { a, b };
     for (uint32_t i = 0; i < near->wall_count; i++) {
-        if (tl_nav_segments_distance_sq(segment, near->walls[i]) < distance * distance) {
+        if (tl_nav_segments_distance_sq(segment, tl_nav_wall_segment(&near->walls[i])) < distance * distance) {
             return false;
         }
     }
     return true;
-}
-
-// A convex shape and its box, grown by the distance.
-typedef struct shape_reach {
-    const tl_nav_spot *corners;
-    uint32_t count;
-    double distance_sq;
-    double slack_sq;
-    double low_x, low_z, high_x, high_z;
-} shape_reach;
-
-static shape_reach reach_of(const tl_nav_spot *corners, uint32_t count, double distance, double slack)
-{
-    shape_reach reach = { corners,      count,        distance * distance, slack * slack,
-                          corners[0].x, corners[0].z, corners[0].x,        corners[0].z };
-    for (uint32_t i = 1; i < count; i++) {
-        reach.low_x = fmin(reach.low_x, corners[i].x);
-        reach.low_z = fmin(reach.low_z, corners[i].z);
-        reach.high_x = fmax(reach.high_x, corners[i].x);
-        reach.high_z = fmax(reach.high_z, corners[i].z);
-    }
-    reach.low_x -= distance;
-    reach.low_z -= distance;
-    reach.high_x += distance;
-    reach.high_z += distance;
-    return reach;
-}
-
-// The squared distance from a shape to a segment that does not lie inside of it; infinite when it is surely too far.
-static double distance_sq_to(const shape_reach *reach, tl_nav_segment segment)
-{
-    double best_sq = (double)INFINITY;
-    if (fmax(segment.a.x, segment.b.x) < reach->low_x || fmin(segment.a.x, segment.b.x) > reach->high_x ||
-        fmax(segment.a.z, segment.b.z) < reach->low_z || fmin(segment.a.z, segment.b.z) > reach->high_z) {
-        return best_sq;
-    }
-    for (uint32_t i = 0; i < (reach->count > 2 ? reach->count : 1); i++) {
-        tl_nav_segment side = { reach->corners[i], reach->corners[i + 1 < reach->count ? i + 1 : 0] };
-        best_sq = fmin(best_sq, tl_nav_segments_distance_sq(side, segment));
-    }
-    return best_sq;
 }
 
 // What is seen of the surface from a shape through a window: an edge, or the part of it that earlier ones let see.
@@ -128,13 +99,15 @@ typedef struct beam {
     tl_nav_met from, at;                 // polygons before and behind the window
     tl_nav_spot left, right;             // its ends, seen looking out
     tl_nav_spot left_ahead, right_ahead; // the outermost directions
+    float distance_sq;                   // of the farthest window on the way, this one included
 } beam;
 
 // Where a walk over beams keeps what it has found. Walls grow upwards in the room, beams that wait grow downwards.
 typedef struct wall_walk {
     tl_nav_clearance *clearance;
-    const shape_reach *reach;
-    tl_nav_near_walls *near;
+    const tl_nav_shape *reach;
+    tl_nav_near_wall *walls;
+    uint32_t count;
     beam *top; // of the beams that wait
 } wall_walk;
 
@@ -150,7 +123,7 @@ static tl_nav_spot minus(tl_nav_spot a, tl_nav_spot b)
 
 // The outermost direction from the shape through an end of a window, on the end's side; `along` leads along the window
 // to that end. `hand` is 1 for the left end, -1 for the right one.
-static tl_nav_spot outermost(const shape_reach *reach, tl_nav_spot end, tl_nav_spot along, double hand)
+static tl_nav_spot outermost(const tl_nav_shape *reach, tl_nav_spot end, tl_nav_spot along, double hand)
 {
     // Of each ray, how far it leads along the window and out of it. Of two the first is the outer one when
     // along / out is larger.
@@ -205,38 +178,42 @@ static bool narrow(beam *next, const beam *before, tl_nav_spot along)
 }
 
 // Adds the beam behind a window. `before` is the beam that sees it, NULL from the polygon of the shape itself.
-static bool add_beam(wall_walk *walk, const beam *before, beam next, double distance_sq)
+static bool add_beam(wall_walk *walk, const beam *before, beam next)
 {
     tl_nav_spot along = minus(next.left, next.right);
     next.left_ahead = along;
     next.right_ahead = tl_nav_spot_make(-along.x, -along.z);
-    if (distance_sq > walk->reach->slack_sq) {
+    if ((double)next.distance_sq > walk->clearance->touch) {
         next.left_ahead = outermost(walk->reach, next.left, next.left_ahead, 1.0);
         next.right_ahead = outermost(walk->reach, next.right, next.right_ahead, -1.0);
     }
     if (before != NULL && !narrow(&next, before, along)) {
         return true;
     }
-    if ((char *)(walk->top - 1) < (char *)(walk->near->walls + walk->near->wall_count)) {
+    if ((char *)(walk->top - 1) < (char *)(walk->walls + walk->count)) {
         return false;
     }
     *--walk->top = next;
     return true;
 }
 
-// A wall is known by its place in its tile's rings; each is taken once.
-static bool add_wall(wall_walk *walk, uint32_t slot, const tl_nav_ring_edge *edge, tl_nav_segment wall, bool is_end)
+// A wall is known by its place in its tile's rings. Each is taken once, at the least distance by which a beam sees it.
+static bool add_wall(wall_walk *walk, uint32_t slot, const tl_nav_ring_edge *edge, tl_nav_segment wall, bool is_end,
+                     float distance_sq)
 {
-    tl_nav_near_walls *near = walk->near;
     bool found = false;
     uint64_t place = (uint64_t)(edge - walk->clearance->navmesh->slots[slot].rings.edges);
-    if (near->wall_count == walk->clearance->query->max_nodes ||
-        (char *)(near->walls + near->wall_count + 1) > (char *)walk->top) {
+    if (walk->count == walk->clearance->query->max_nodes || (char *)(walk->walls + walk->count + 1) > (char *)walk->top) {
         return false;
     }
-    tl_nav_find_root(walk->clearance->query, (uint64_t)is_end << 62 | (uint64_t)slot << 32 | place, &found);
+    tl_nav_root *known =
+        tl_nav_find_root(walk->clearance->query, (uint64_t)is_end << 62 | (uint64_t)slot << 32 | place, &found);
     if (!found) {
-        near->walls[near->wall_count++] = wall;
+        tl_nav_near_wall fresh = { distance_sq, (float)wall.a.x, (float)wall.a.z, (float)wall.b.x, (float)wall.b.z };
+        known->stop = walk->count;
+        walk->walls[walk->count++] = fresh;
+    } else if (distance_sq < walk->walls[known->stop].distance_sq) {
+        walk->walls[known->stop].distance_sq = distance_sq;
     }
     return true;
 }
@@ -285,11 +262,15 @@ static bool add_winding_end(wall_walk *walk, const tl_nav_ring_place *place, con
     tl_nav_segment end = { spot, spot };
     tl_nav_ring_place fan = *place;
     if (edge->turn == 0 || walls->first_x != 0.0f || walls->first_z != 0.0f ||
-        (seen != NULL && !is_in_beam(seen, spot)) || !(distance_sq_to(walk->reach, end) < walk->reach->distance_sq) ||
+        (seen != NULL && !is_in_beam(seen, spot))) {
+        return true;
+    }
+    float distance_sq = (float)tl_nav_shape_distance_sq(walk->reach, end);
+    if (!((double)distance_sq < walk->reach->distance_sq) ||
         !tl_nav_find_fan(clearance->navmesh, clearance->filter, &fan)) {
         return true;
     }
-    return add_wall(walk, place->slot, edge, end, true);
+    return add_wall(walk, place->slot, edge, end, true, tl_maxf(distance_sq, seen != NULL ? seen->distance_sq : 0.0f));
 }
 
 // Looks at the edges of a polygon: of the one behind a beam, or, without one, of one that the shape touches.
@@ -309,12 +290,14 @@ static bool look_around(wall_walk *walk, tl_nav_met at, const beam *seen)
         if (ring[i].to == TL_NAV_RING_BACK || (seen != NULL && !cut_to_beam(seen, &window))) {
             continue;
         }
-        double distance_sq = distance_sq_to(walk->reach, window);
-        if (!(distance_sq < walk->reach->distance_sq)) {
+        // As floats, so that it means the same when it is kept.
+        float distance_sq = (float)tl_nav_shape_distance_sq(walk->reach, window);
+        if (!((double)distance_sq < walk->reach->distance_sq)) {
             continue;
         }
+        distance_sq = tl_maxf(distance_sq, seen != NULL ? seen->distance_sq : 0.0f);
         bool is_open = tl_nav_ring_is_open(&ring[i]);
-        beam next = { at, { 0, 0 }, window.b, window.a, { 0.0, 0.0 }, { 0.0, 0.0 } };
+        beam next = { at, { 0, 0 }, window.b, window.a, { 0.0, 0.0 }, { 0.0, 0.0 }, distance_sq };
         if (is_open) {
             tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, at.slot, ring[i].to);
             next.at.slot = to.slot;
@@ -326,188 +309,88 @@ static bool look_around(wall_walk *walk, tl_nav_met at, const beam *seen)
         bool is_back =
             seen != NULL && is_open && next.at.slot == seen->from.slot && next.at.polygon == seen->from.polygon;
         if (!is_back &&
-            !(is_open ? add_beam(walk, seen, next, distance_sq) : add_wall(walk, at.slot, &ring[i], edge, false))) {
+            !(is_open ? add_beam(walk, seen, next) : add_wall(walk, at.slot, &ring[i], edge, false, distance_sq))) {
             return false;
         }
     }
     return true;
 }
 
-// Adds the walls around a shape that lies in a polygon. False: out of room.
-static bool look_from(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
+bool tl_nav_look_from(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
                       double distance, tl_nav_near_walls *near)
 {
-    shape_reach reach = reach_of(shape, count, distance, clearance->slack);
+    tl_nav_shape reach = tl_nav_shape_make(shape, count, distance, clearance->slack);
     beam *bottom = (beam *)(void *)clearance->room.high;
-    wall_walk walk = { clearance, &reach, near, bottom };
+    wall_walk walk = { clearance, &reach, (tl_nav_near_wall *)(void *)clearance->room.low, near->wall_count, bottom };
     bool fits = look_around(&walk, at, NULL);
     while (fits && walk.top < bottom) {
         const beam next = *walk.top++;
         fits = look_around(&walk, next.at, &next);
     }
+    near->wall_count = walk.count;
     clearance->is_full = clearance->is_full || !fits;
     return fits;
 }
 
-static void begin_walls(tl_nav_clearance *clearance, tl_nav_near_walls *near)
+void tl_nav_begin_walls(tl_nav_clearance *clearance, tl_nav_near_walls *near)
 {
     memset(near, 0, sizeof *near);
-    near->walls = (tl_nav_segment *)(void *)clearance->room.low;
+    near->walls = (tl_nav_near_wall *)(void *)clearance->room.low;
     near->met = (tl_nav_met *)(void *)clearance->room.high - 1;
     tl_nav_next_generation(clearance->query);
+}
+
+static bool is_before(const tl_nav_near_wall *a, const tl_nav_near_wall *b)
+{
+    const float keys[2][5] = { { a->distance_sq, a->a_x, a->a_z, a->b_x, a->b_z },
+                               { b->distance_sq, b->a_x, b->a_z, b->b_x, b->b_z } };
+    for (int i = 0; i < 5; i++) {
+        if (keys[0][i] != keys[1][i]) {
+            return keys[0][i] < keys[1][i];
+        }
+    }
+    return false;
+}
+
+void tl_nav_end_walls(tl_nav_clearance *clearance, const tl_nav_near_walls *near)
+{
+    // Shell's sort: a polygon has a dozen walls around it, a wide shape a few hundred. Equal walls are the same bytes.
+    tl_nav_near_wall *walls = (tl_nav_near_wall *)(void *)clearance->room.low;
+    static const uint32_t GAPS[] = { 701, 301, 132, 57, 23, 10, 4, 1 };
+    for (uint32_t g = 0; g < TL_COUNT_OF(GAPS); g++) {
+        uint32_t gap = GAPS[g];
+        for (uint32_t i = gap; i < near->wall_count; i++) {
+            const tl_nav_near_wall wall = walls[i];
+            uint32_t at = i;
+            for (; at >= gap && is_before(&wall, &walls[at - gap]); at -= gap) {
+                walls[at] = walls[at - gap];
+            }
+            walls[at] = wall;
+        }
+    }
+    tl_nav_take(clearance, near->wall_count, sizeof *walls);
 }
 
 bool tl_nav_find_walls_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *corners,
                           uint32_t count, double distance, tl_nav_near_walls *near_out)
 {
     tl_nav_met at = { slot, polygon };
-    begin_walls(clearance, near_out);
-    bool fits = look_from(clearance, at, corners, count, distance, near_out);
-    clearance->room.low = (char *)(near_out->walls + near_out->wall_count);
+    tl_nav_begin_walls(clearance, near_out);
+    bool fits = tl_nav_look_from(clearance, at, corners, count, distance, near_out);
+    tl_nav_end_walls(clearance, near_out);
     return fits;
 }
 
-// ---------------------------------------------------------------------------------------------------------
-// Shapes that lie over several polygons.
-
-// Adds a polygon that was not met yet: met polygons grow downwards.
-static bool meet(tl_nav_clearance *clearance, tl_nav_near_walls *near, uint32_t slot, uint32_t polygon)
+uint32_t tl_nav_count_within(const tl_nav_near_wall *walls, uint32_t count, double distance)
 {
-    bool found = false;
-    if (near->met_count == clearance->query->max_nodes || (char *)(near->met - near->met_count) < clearance->room.low) {
-        return false;
-    }
-    tl_nav_find_root(clearance->query, (uint64_t)1 << 63 | (uint64_t)slot << 32 | polygon, &found);
-    if (!found) {
-        tl_nav_met met = { slot, polygon };
-        *(near->met - near->met_count++) = met;
-    }
-    return true;
-}
-
-static bool holds(const tl_nav_spot *corners, uint32_t count, tl_nav_spot spot)
-{
-    bool left = false;
-    bool right = false;
-    for (uint32_t i = 0; i < count; i++) {
-        double turn = tl_nav_spot_turn(corners[i], corners[i + 1 < count ? i + 1 : 0], spot);
-        left = left || turn < 0.0;
-        right = right || turn > 0.0;
-    }
-    return !(left && right);
-}
-
-// Whether some of the shape lies beyond an edge's line: if none does, a polygon across has no part in it.
-static bool leads_on(const shape_reach *touch, tl_nav_segment edge)
-{
-    double least = sqrt(touch->slack_sq * tl_nav_spot_distance_sq(edge.a, edge.b));
-    for (uint32_t i = 0; i < touch->count; i++) {
-        if (tl_nav_spot_turn(edge.a, edge.b, touch->corners[i]) > least) {
-            return true;
+    uint32_t low = 0;
+    while (low < count) {
+        uint32_t middle = low + (count - low) / 2;
+        if ((double)walls[middle].distance_sq < distance * distance) {
+            low = middle + 1;
+        } else {
+            count = middle;
         }
     }
-    return false;
-}
-
-// Meets all polygons that the shape touches, from the first on.
-static bool meet_touched(tl_nav_clearance *clearance, const shape_reach *touch, tl_nav_near_walls *near)
-{
-    bool fits = true;
-    for (uint32_t at = 0; fits && at < near->met_count; at++) {
-        tl_nav_met met = *(near->met - at);
-        uint32_t count = 0;
-        const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, met.slot, met.polygon, &count);
-        for (uint32_t i = 0; fits && i < count; i++) {
-            const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
-            tl_nav_segment edge = { { (double)ring[i].x, (double)ring[i].z }, { (double)end->x, (double)end->z } };
-            bool touches = distance_sq_to(touch, edge) <= touch->distance_sq ||
-                           (touch->count > 2 && holds(touch->corners, touch->count, edge.a));
-            if (!tl_nav_ring_is_open(&ring[i]) || !touches || !leads_on(touch, edge)) {
-                continue;
-            }
-            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, met.slot, ring[i].to);
-            if (clearance->filter == NULL ||
-                tl_nav_passes(clearance->filter, clearance->navmesh->slots[to.slot].tile, to.polygon)) {
-                fits = meet(clearance, near, to.slot, to.polygon);
-            }
-        }
-    }
-    return fits;
-}
-
-// The part of a convex shape in a polygon, its outline included with some slack; `cut` holds both their corners.
-static uint32_t cut_shape(const tl_navmesh *navmesh, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
-                          double slack, tl_nav_spot cut[2 * TL_NAV_MAX_CORNERS])
-{
-    tl_nav_spot sides[TL_NAV_MAX_CORNERS];
-    tl_nav_spot old[2 * TL_NAV_MAX_CORNERS];
-    uint32_t side_count = tl_nav_corner_spots(navmesh, at.slot, at.polygon, sides);
-    memcpy(cut, shape, count * sizeof *shape);
-    for (uint32_t s = 0; s < side_count && count > 0; s++) {
-        tl_nav_spot p = sides[s];
-        tl_nav_spot q = sides[s + 1 < side_count ? s + 1 : 0];
-        double room = slack * sqrt(tl_nav_spot_distance_sq(p, q));
-        uint32_t old_count = count;
-        memcpy(old, cut, count * sizeof *cut);
-        count = 0;
-        for (uint32_t i = 0; i < old_count; i++) {
-            tl_nav_spot a = old[i];
-            tl_nav_spot b = old[i + 1 < old_count ? i + 1 : 0];
-            double own = tl_nav_spot_turn(p, q, a) - room;
-            double next = tl_nav_spot_turn(p, q, b) - room;
-            if (own <= 0.0) {
-                cut[count++] = a;
-            }
-            if (old_count > 1 && ((own < 0.0 && next > 0.0) || (own > 0.0 && next < 0.0))) {
-                cut[count++] = tl_nav_spot_lerp(a, b, own / (own - next));
-            }
-        }
-    }
-    return count;
-}
-
-bool tl_nav_find_near_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *shape,
-                            uint32_t count, double distance, tl_nav_near_walls *near_out)
-{
-    shape_reach touch = reach_of(shape, count, clearance->slack, clearance->slack);
-    begin_walls(clearance, near_out);
-    bool fits = meet(clearance, near_out, slot, polygon) && meet_touched(clearance, &touch, near_out);
-    clearance->room.high = (char *)(near_out->met - near_out->met_count + 1);
-    clearance->is_full = clearance->is_full || !fits;
-    for (uint32_t i = 0; fits && i < near_out->met_count; i++) {
-        tl_nav_met at = *(near_out->met - i);
-        tl_nav_spot part[2 * TL_NAV_MAX_CORNERS];
-        uint32_t part_count = cut_shape(clearance->navmesh, at, shape, count, clearance->slack, part);
-        fits = part_count == 0 || look_from(clearance, at, part, part_count, distance, near_out);
-    }
-    clearance->room.low = (char *)(near_out->walls + near_out->wall_count);
-    return fits;
-}
-
-tl_nav_location tl_nav_settle(tl_nav_clearance *clearance, tl_nav_met home, tl_nav_spot spot)
-{
-    const tl_navmesh *navmesh = clearance->navmesh;
-    tl_nav_location at = { TL_NAV_NO_REF, { (float)spot.x, 0.0f, (float)spot.z } };
-    tl_nav_room room = clearance->room;
-    tl_nav_near_walls near;
-    // All polygons of a small square around it.
-    double half = 4.0 * clearance->slack;
-    tl_nav_spot square[4] = { { spot.x - half, spot.z - half },
-                              { spot.x - half, spot.z + half },
-                              { spot.x + half, spot.z + half },
-                              { spot.x + half, spot.z - half } };
-    shape_reach touch = reach_of(square, 4, clearance->slack, clearance->slack);
-    if (!tl_nav_is_over(navmesh->slots[home.slot].tile, home.polygon, at.point)) {
-        begin_walls(clearance, &near);
-        if (meet(clearance, &near, home.slot, home.polygon) && meet_touched(clearance, &touch, &near)) {
-            for (uint32_t i = 0; i < near.met_count; i++) {
-                tl_nav_met met = *(near.met - i);
-                home = tl_nav_is_over(navmesh->slots[met.slot].tile, met.polygon, at.point) ? met : home;
-            }
-        }
-    }
-    clearance->room = room;
-    at.polygon = tl_nav_make_ref(navmesh, home.slot, home.polygon);
-    at.point.y = tl_nav_surface_height(navmesh->slots[home.slot].tile, home.polygon, at.point.x, at.point.z);
-    return at;
+    return low;
 }

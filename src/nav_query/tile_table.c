@@ -67,6 +67,7 @@ void tl_navmesh_free(tl_navmesh *navmesh)
     if (navmesh == NULL) {
         return;
     }
+    tl_nav_drop_walls(navmesh);
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
         free_slot_content(navmesh, &navmesh->slots[i]);
     }
@@ -333,6 +334,7 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     }
 
     tl_nav_begin_edit(navmesh, tile->tile_x, tile->tile_z);
+    tl_nav_spoil_walls(navmesh, tile->tile_x, tile->tile_z);
     tl_nav_slot *slot = &navmesh->slots[index];
     if (index == navmesh->free_slots) {
         navmesh->free_slots = slot->next;
@@ -369,6 +371,7 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
     tl_nav_slot *slot = &navmesh->slots[index];
     uint32_t neighbours[4];
     tl_nav_begin_edit(navmesh, tile_x, tile_z);
+    tl_nav_spoil_walls(navmesh, tile_x, tile_z);
     tl_nav_note_edit(navmesh, index);
     tl_nav_leave_islands(navmesh, index);
     for (uint32_t side = 0; side < 4; side++) {

@@ -5,9 +5,10 @@
 // A cap is the polygon of 32 corners written into the circle around a wall's end; the hull of a wall's two caps stands
 // for what the wall forbids. It holds all that is nearer to the wall than 0.995 of the reach, and is held by all that
 // is nearer than the reach: so where there is a free way at the reach there is one around the hulls, it bends at
-// corners of caps only, and no place of it is nearer to a wall than 0.995 of the reach. It is found by A* over the
-// corners in the polygon; which see which is asked of the walls themselves. There are few: ways between pieces are
-// nearly always straight, and this is asked of the path alone.
+// corners of caps only, and no place of it is nearer to a wall than 0.995 of the reach.
+// Few walls are in the way. So the shortest way is found around none at first, by A* over the corners of caps in the
+// polygon, then around those that it has met, until it meets no other. Around fewer walls no way is longer: the one
+// that is free of all is the shortest around all of them.
 
 #include "nav_query/wide_search.h"
 
@@ -17,86 +18,107 @@
 
 // A place where a way may bend.
 typedef struct stop {
-    tl_nav_spot spot;
+    tl_nav_spot spot, center;
     double cost, total; // metres from the first stop, and with those that are left at least
     uint32_t before;
-    bool is_closed;
+    bool is_closed, is_dead; // dead: a wall that was met later forbids it
 } stop;
 
-typedef struct stops {
-    stop *at; // [0] and [1]: the ends
+typedef struct detour {
+    tl_nav_clearance *clearance;
+    const tl_nav_wall_cell *cell;
+    tl_nav_near_wall *met; // [cell->near.wall_count]: walls in the way
+    uint32_t met_count;
+    stop *stops; // [0] and [1]: the ends
     uint32_t count;
-} stops;
+} detour;
 
-static bool is_known(const tl_nav_near_walls *near, uint32_t wall, tl_nav_spot end)
+static bool is_met_end(const detour *d, tl_nav_spot end)
 {
-    for (uint32_t i = 0; i < wall; i++) {
-        const tl_nav_segment *other = &near->walls[i];
-        if ((other->a.x == end.x && other->a.z == end.z) || (other->b.x == end.x && other->b.z == end.z)) {
+    for (uint32_t i = 0; i < d->met_count; i++) {
+        tl_nav_segment other = tl_nav_wall_segment(&d->met[i]);
+        if ((other.a.x == end.x && other.a.z == end.z) || (other.b.x == end.x && other.b.z == end.z)) {
             return true;
         }
     }
     return false;
 }
 
-static void add_stop(stops *all, tl_nav_spot spot)
+static bool add_stop(detour *d, tl_nav_spot spot, tl_nav_spot center)
 {
-    stop fresh = { spot, (double)INFINITY, (double)INFINITY, UINT32_MAX, false };
-    all->at[all->count++] = fresh;
+    // Stops follow one another in the room, as nothing else is taken meanwhile.
+    stop *fresh = tl_nav_take(d->clearance, 1, sizeof *fresh);
+    if (fresh == NULL) {
+        return false;
+    }
+    memset(fresh, 0, sizeof *fresh);
+    fresh->spot = spot;
+    fresh->center = center;
+    d->count++;
+    return true;
 }
 
-// The corners of all caps that are free and in the polygon.
-static void add_caps(const tl_nav_clearance *clearance, const tl_nav_spot *corners, uint32_t count,
-                     const tl_nav_near_walls *near, stops *all)
+static bool is_free_of_met(const detour *d, tl_nav_spot a, tl_nav_spot b)
 {
-    for (uint32_t i = 0; i < near->wall_count; i++) {
-        tl_nav_spot ends[2] = { near->walls[i].a, near->walls[i].b };
-        for (int e = 0; e < 2; e++) {
-            if (is_known(near, i, ends[e])) {
-                continue;
-            }
-            for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS; k++) {
-                tl_nav_spot spot = tl_nav_circle_corner(ends[e], clearance->reach, k);
-                if (tl_nav_outside_by(corners, count, spot) <= clearance->slack &&
-                    tl_nav_is_clear(near, spot, spot, clearance->least)) {
-                    add_stop(all, spot);
-                }
+    tl_nav_near_walls met = { d->met, d->met_count, NULL, 0 };
+    return tl_nav_is_clear(&met, a, b, d->clearance->least);
+}
+
+// Adds a wall with the corners of its caps that are free and in the polygon. False: out of room.
+static bool meet_wall(detour *d, const tl_nav_near_wall *wall)
+{
+    const tl_nav_segment segment = tl_nav_wall_segment(wall);
+    const tl_nav_spot ends[2] = { segment.a, segment.b };
+    const bool is_known[2] = { is_met_end(d, ends[0]),
+                               is_met_end(d, ends[1]) || (ends[0].x == ends[1].x && ends[0].z == ends[1].z) };
+    d->met[d->met_count++] = *wall;
+    for (uint32_t i = 2; i < d->count; i++) {
+        d->stops[i].is_dead = d->stops[i].is_dead || !is_free_of_met(d, d->stops[i].spot, d->stops[i].spot);
+    }
+    for (int e = 0; e < 2; e++) {
+        for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS && !is_known[e]; k++) {
+            tl_nav_spot spot = tl_nav_circle_corner(ends[e], d->clearance->reach, k);
+            if (tl_nav_outside_by(d->cell->corners, d->cell->count, spot) <= d->clearance->slack &&
+                is_free_of_met(d, spot, spot) && !add_stop(d, spot, ends[e])) {
+                return false;
             }
         }
     }
+    return true;
 }
 
-static uint32_t cheapest(const stops *all)
+static uint32_t cheapest(const detour *d)
 {
     uint32_t best = UINT32_MAX;
     double total = (double)INFINITY;
-    for (uint32_t i = 0; i < all->count; i++) {
-        if (!all->at[i].is_closed && all->at[i].total < total) {
+    for (uint32_t i = 0; i < d->count; i++) {
+        if (!d->stops[i].is_closed && d->stops[i].total < total) {
             best = i;
-            total = all->at[i].total;
+            total = d->stops[i].total;
         }
     }
     return best;
 }
 
-// A* from stop 0 to stop 1, sight asked for only where it would pay. False: there is no way, which rounding alone can
-// do.
-static bool connect(const stops *all, const tl_nav_near_walls *near, double least)
+// A* from stop 0 to stop 1 around the walls that were met. False: there is no way, which rounding alone can do.
+static bool connect(detour *d)
 {
-    all->at[0].cost = 0.0;
-    all->at[0].total = 0.0;
-    for (uint32_t i = cheapest(all); i != UINT32_MAX; i = cheapest(all)) {
-        stop *from = &all->at[i];
+    for (uint32_t i = 0; i < d->count; i++) {
+        d->stops[i].is_closed = d->stops[i].is_dead;
+        d->stops[i].cost = d->stops[i].total = i == 0 ? 0.0 : (double)INFINITY;
+    }
+    for (uint32_t i = cheapest(d); i != UINT32_MAX; i = cheapest(d)) {
+        stop *from = &d->stops[i];
         from->is_closed = true;
         if (i == 1) {
             return true;
         }
-        for (uint32_t k = 1; k < all->count; k++) {
-            stop *to = &all->at[k];
+        for (uint32_t k = 1; k < d->count; k++) {
+            stop *to = &d->stops[k];
             double cost = from->cost + sqrt(tl_nav_spot_distance_sq(from->spot, to->spot));
-            if (!to->is_closed && cost < to->cost && tl_nav_is_clear(near, from->spot, to->spot, least)) {
+            if (!to->is_closed && cost < to->cost && is_free_of_met(d, from->spot, to->spot)) {
                 to->cost = cost;
-                to->total = cost + sqrt(tl_nav_spot_distance_sq(to->spot, all->at[1].spot));
+                to->total = cost + sqrt(tl_nav_spot_distance_sq(to->spot, d->stops[1].spot));
                 to->before = i;
             }
         }
@@ -104,42 +126,74 @@ static bool connect(const stops *all, const tl_nav_near_walls *near, double leas
     return false;
 }
 
-static bool is_straight(tl_nav_clearance *clearance, const tl_nav_bend *from, const tl_nav_bend *to)
+// A wall that the way found comes too near to, or NULL.
+static const tl_nav_near_wall *wall_in_the_way(const detour *d)
 {
-    tl_nav_near_walls near;
-    tl_nav_room room = clearance->room;
-    tl_nav_spot ends[2] = { from->spot, to->spot };
-    bool fits = tl_nav_find_near_walls(clearance, from->slot, from->polygon, ends, 2, clearance->least, &near);
-    clearance->room = room;
-    return fits && near.wall_count == 0;
+    for (uint32_t i = 1; i != 0; i = d->stops[i].before) {
+        tl_nav_segment leg = { d->stops[d->stops[i].before].spot, d->stops[i].spot };
+        for (uint32_t w = 0; w < d->cell->near.wall_count; w++) {
+            const tl_nav_near_wall *wall = &d->cell->near.walls[w];
+            if (tl_nav_segments_distance_sq(leg, tl_nav_wall_segment(wall)) <
+                d->clearance->least * d->clearance->least) {
+                return wall;
+            }
+        }
+    }
+    return NULL;
+}
+
+static bool is_met(const detour *d, const tl_nav_near_wall *wall)
+{
+    for (uint32_t i = 0; i < d->met_count; i++) {
+        if (memcmp(&d->met[i], wall, sizeof *wall) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Finds the way. `*found_out` is false when there is none. False: out of room.
+static bool find_way(detour *d, bool *found_out)
+{
+    for (;;) {
+        *found_out = connect(d);
+        const tl_nav_near_wall *wall = *found_out ? wall_in_the_way(d) : NULL;
+        // What stands too near to an end by a rounding cannot be gone around.
+        *found_out = *found_out && (wall == NULL || !is_met(d, wall));
+        if (wall == NULL || !*found_out) {
+            return true;
+        }
+        if (!meet_wall(d, wall)) {
+            return false;
+        }
+    }
 }
 
 bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_t behind)
 {
     const tl_nav_bend from = path->bends[behind];
     const tl_nav_bend to = path->bends[from.next];
-    if (is_straight(clearance, &from, &to)) {
+    tl_nav_room room = clearance->room;
+    tl_nav_wall_cell cell;
+    if (!tl_nav_wall_cell_of(clearance, from.slot, from.polygon, clearance->reach, &cell)) {
+        return false;
+    }
+    if (tl_nav_is_clear(&cell.near, from.spot, to.spot, clearance->least)) {
+        clearance->room = room;
         return true;
     }
-    tl_nav_room room = clearance->room;
-    tl_nav_spot corners[TL_NAV_MAX_CORNERS];
-    tl_nav_near_walls near;
-    uint32_t count = tl_nav_corner_spots(clearance->navmesh, from.slot, from.polygon, corners);
-    if (!tl_nav_find_walls_of(clearance, from.slot, from.polygon, corners, count, clearance->reach, &near)) {
-        return false;
-    }
-    stops all = { NULL, 0 };
-    all.at = tl_nav_take(clearance, 2 + 2 * (uint64_t)near.wall_count * TL_NAV_CIRCLE_CORNERS, sizeof *all.at);
-    if (all.at == NULL) {
-        return false;
-    }
-    add_stop(&all, from.spot);
-    add_stop(&all, to.spot);
-    add_caps(clearance, corners, count, &near, &all);
-    bool fits = true;
-    if (connect(&all, &near, clearance->least)) {
-        for (uint32_t i = all.at[1].before; i != 0 && fits; i = all.at[i].before) {
-            fits = tl_nav_bend_add(path, behind, all.at[i].spot, from.slot, from.polygon) != TL_NAV_NO_NODE;
+    detour d = { clearance, &cell, NULL, 0, NULL, 0 };
+    d.met = tl_nav_take(clearance, cell.near.wall_count, sizeof *d.met);
+    d.stops = (stop *)(void *)clearance->room.low;
+    bool is_found = false;
+    bool fits = d.met != NULL && add_stop(&d, from.spot, from.spot) && add_stop(&d, to.spot, to.spot) &&
+                find_way(&d, &is_found);
+    for (uint32_t i = is_found ? d.stops[1].before : 0; i != 0 && fits; i = d.stops[i].before) {
+        uint32_t bend = tl_nav_bend_add(path, behind, d.stops[i].spot, from.slot, from.polygon);
+        fits = bend != TL_NAV_NO_NODE;
+        if (fits) {
+            path->bends[bend].is_cap = true;
+            path->bends[bend].center = d.stops[i].center;
         }
     }
     clearance->room = room;

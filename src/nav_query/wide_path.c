@@ -179,7 +179,7 @@ static bool segment_clearance(tl_nav_clearance *clearance, const tl_nav_corner *
     bool fits = tl_nav_find_near_walls(clearance, slot, polygon, &segment.a, 2, sqrt(*least_sq), &near);
     clearance->room = room;
     for (uint32_t i = 0; fits && i < near.wall_count; i++) {
-        *least_sq = fmin(*least_sq, tl_nav_segments_distance_sq(segment, near.walls[i]));
+        *least_sq = fmin(*least_sq, tl_nav_segments_distance_sq(segment, tl_nav_wall_segment(&near.walls[i])));
     }
     return fits;
 }

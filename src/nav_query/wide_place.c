@@ -23,9 +23,7 @@ typedef struct place_search {
     double reach; // between the exact one and the one with slack: what is found stands rounding
     // The polygon that is looked at.
     uint32_t slot, polygon;
-    tl_nav_spot corners[TL_NAV_MAX_CORNERS];
-    uint32_t count;
-    tl_nav_near_walls near;
+    tl_nav_wall_cell cell;
     // The nearest so far.
     double best_sq;
     tl_nav_spot best;
@@ -39,8 +37,8 @@ static void offer(place_search *search, tl_nav_spot exact)
     tl_nav_spot spot = { (double)(float)exact.x, (double)(float)exact.z };
     double distance_sq = tl_nav_spot_distance_sq(spot, search->spot);
     if ((distance_sq < search->best_sq || (!search->is_found && distance_sq == search->best_sq)) &&
-        tl_nav_outside_by(search->corners, search->count, spot) <= search->clearance->slack &&
-        tl_nav_is_clear(&search->near, spot, spot, search->clearance->reach)) {
+        tl_nav_outside_by(search->cell.corners, search->cell.count, spot) <= search->clearance->slack &&
+        tl_nav_is_clear(&search->cell.near, spot, spot, search->clearance->reach)) {
         search->best_sq = distance_sq;
         search->best = spot;
         search->best_slot = search->slot;
@@ -138,15 +136,15 @@ static void offer_crossings(place_search *search, const border *a, const border 
 
 static void offer_borders(place_search *search)
 {
-    for (uint32_t i = 0; i < search->near.wall_count; i++) {
+    for (uint32_t i = 0; i < search->cell.near.wall_count; i++) {
         border own[4];
-        uint32_t own_count = borders_of(search->near.walls[i], search->reach, own);
+        uint32_t own_count = borders_of(tl_nav_wall_segment(&search->cell.near.walls[i]), search->reach, own);
         for (uint32_t b = 0; b < own_count; b++) {
             offer_nearest(search, &own[b]);
         }
         for (uint32_t k = 0; k < i; k++) {
             border other[4];
-            uint32_t other_count = borders_of(search->near.walls[k], search->reach, other);
+            uint32_t other_count = borders_of(tl_nav_wall_segment(&search->cell.near.walls[k]), search->reach, other);
             for (uint32_t pair = 0; pair < own_count * other_count; pair++) {
                 offer_crossings(search, &own[pair / other_count], &other[pair % other_count]);
             }
@@ -160,17 +158,15 @@ static bool look_into(place_search *search)
     tl_nav_clearance *clearance = search->clearance;
     tl_nav_room room = clearance->room;
     tl_nav_pieces pieces;
-    search->count = tl_nav_corner_spots(clearance->navmesh, search->slot, search->polygon, search->corners);
-    if (!tl_nav_find_walls_of(clearance, search->slot, search->polygon, search->corners, search->count, search->reach,
-                              &search->near) ||
-        !tl_nav_cut_outline(clearance, search->corners, search->count, &search->near, &pieces)) {
+    if (!tl_nav_wall_cell_of(clearance, search->slot, search->polygon, search->reach, &search->cell) ||
+        !tl_nav_cut_cell(clearance, &search->cell, &pieces)) {
         return false;
     }
     offer(search, search->spot);
     for (uint32_t i = 0; i < pieces.count; i++) {
         const tl_nav_piece *piece = &pieces.pieces[i];
-        tl_nav_spot p = search->corners[piece->edge];
-        tl_nav_spot q = search->corners[piece->edge + 1 < search->count ? piece->edge + 1 : 0];
+        tl_nav_spot p = search->cell.corners[piece->edge];
+        tl_nav_spot q = search->cell.corners[piece->edge + 1 < search->cell.count ? piece->edge + 1 : 0];
         tl_nav_segment stretch = { tl_nav_spot_lerp(p, q, piece->from), tl_nav_spot_lerp(p, q, piece->to) };
         tl_nav_spot nearest;
         tl_nav_nearest_of_segment(stretch, search->spot, &nearest);

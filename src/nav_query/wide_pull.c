@@ -63,8 +63,8 @@ static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
         return false;
     }
     for (uint32_t i = 0; i < 2 * t->near.wall_count; i++) {
-        const tl_nav_segment *wall = &t->near.walls[i / 2];
-        tl_nav_spot center = i % 2 == 0 ? wall->a : wall->b;
+        tl_nav_segment wall = tl_nav_wall_segment(&t->near.walls[i / 2]);
+        tl_nav_spot center = i % 2 == 0 ? wall.a : wall.b;
         for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS; k++) {
             tl_nav_spot spot = tl_nav_circle_corner(center, clearance->reach, k);
             if (holds(t, spot) && (!is_same(spot, t->b) || bends_around(t, center))) {

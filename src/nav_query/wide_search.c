@@ -25,19 +25,16 @@
 // Bits of a key for a piece's number on its edge.
 enum { ORDINAL_BITS = 12 };
 
-// A polygon as an outline, with its free pieces.
+// A polygon with its free pieces.
 typedef struct cut_polygon {
-    tl_nav_spot corners[TL_NAV_MAX_CORNERS];
-    uint32_t count;
-    tl_nav_near_walls near;
+    tl_nav_wall_cell cell;
     tl_nav_pieces pieces;
 } cut_polygon;
 
 static bool cut_polygon_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, cut_polygon *out)
 {
-    out->count = tl_nav_corner_spots(clearance->navmesh, slot, polygon, out->corners);
-    return tl_nav_find_walls_of(clearance, slot, polygon, out->corners, out->count, clearance->reach, &out->near) &&
-           tl_nav_cut_outline(clearance, out->corners, out->count, &out->near, &out->pieces);
+    return tl_nav_wall_cell_of(clearance, slot, polygon, clearance->reach, &out->cell) &&
+           tl_nav_cut_cell(clearance, &out->cell, &out->pieces);
 }
 
 bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end)
@@ -48,8 +45,8 @@ bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end)
     bool is_same = search->start.slot == search->goal.slot && search->start.polygon == search->goal.polygon;
     tl_nav_spot other = !is_same ? end->spot : end == &search->start ? search->goal.spot : search->start.spot;
     bool stands = cut_polygon_of(clearance, end->slot, end->polygon, &cut) &&
-                  tl_nav_is_clear(&cut.near, end->spot, end->spot, clearance->reach - clearance->slack) &&
-                  tl_nav_face_of(clearance, cut.corners, cut.count, &cut.near, &cut.pieces, end->spot, other,
+                  tl_nav_is_clear(&cut.cell.near, end->spot, end->spot, clearance->reach - clearance->slack) &&
+                  tl_nav_face_of(clearance, cut.cell.corners, cut.cell.count, &cut.cell.near, &cut.pieces, end->spot, other,
                                  &end->face, &search->is_joined);
     search->is_joined = search->is_joined && is_same;
     clearance->room = room;
@@ -107,8 +104,8 @@ static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_pol
         return;
     }
     tl_nav_met to = { across.slot, across.polygon };
-    tl_nav_spot p = cut->corners[side];
-    tl_nav_spot q = cut->corners[side + 1 < cut->count ? side + 1 : 0];
+    tl_nav_spot p = cut->cell.corners[side];
+    tl_nav_spot q = cut->cell.corners[side + 1 < cut->cell.count ? side + 1 : 0];
     double first = share_of(p, q, edge);
     double last = share_of(p, q, end);
     uint64_t place = (uint64_t)(edge - clearance->navmesh->slots[node.slot].rings.edges);
@@ -150,7 +147,7 @@ static void expand(tl_nav_wide_search *search, uint32_t index)
     uint32_t face = search->start.face;
     if (node->key != START_KEY) {
         const tl_nav_piece *piece =
-            tl_nav_piece_at(&cut.pieces, cut.corners, cut.count, spot_of(node), clearance->slack);
+            tl_nav_piece_at(&cut.pieces, cut.cell.corners, cut.cell.count, spot_of(node), clearance->slack);
         face = piece != NULL ? piece->face : TL_NAV_NO_FACE;
     }
     bool is_goals = node->slot == search->goal.slot && node->polygon == search->goal.polygon;
@@ -164,8 +161,8 @@ static void expand(tl_nav_wide_search *search, uint32_t index)
     for (uint32_t i = 0; i < count && face != TL_NAV_NO_FACE; i++) {
         const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
         // A ring's edge starts at the outline's next corner when that side is done; an edge that runs back is not.
-        if (i > 0 && side + 1 < cut.count && ring[i].to != TL_NAV_RING_BACK &&
-            (double)ring[i].x == cut.corners[side + 1].x && (double)ring[i].z == cut.corners[side + 1].z) {
+        if (i > 0 && side + 1 < cut.cell.count && ring[i].to != TL_NAV_RING_BACK &&
+            (double)ring[i].x == cut.cell.corners[side + 1].x && (double)ring[i].z == cut.cell.corners[side + 1].z) {
             side++;
         }
         if (tl_nav_ring_is_open(&ring[i])) {
@@ -201,7 +198,7 @@ uint32_t tl_nav_bend_add(tl_nav_bends *path, uint32_t behind, tl_nav_spot spot, 
         return TL_NAV_NO_NODE;
     }
     uint32_t next = behind == TL_NAV_NO_NODE ? TL_NAV_NO_NODE : path->bends[behind].next;
-    tl_nav_bend bend = { spot, slot, polygon, behind, next };
+    tl_nav_bend bend = { spot, { 0.0, 0.0 }, false, slot, polygon, behind, next };
     uint32_t index = path->count++;
     path->bends[index] = bend;
     if (behind != TL_NAV_NO_NODE) {

@@ -11,6 +11,8 @@
 /// A place of a path. Paths are lists, so that they may be changed in the middle.
 typedef struct tl_nav_bend {
     tl_nav_spot spot;
+    tl_nav_spot center;     ///< the spot is a corner of the cap around it, if is_cap
+    bool is_cap;
     uint32_t slot, polygon; ///< the path goes on in it
     uint32_t before, next;  ///< TL_NAV_NO_NODE at the ends
 } tl_nav_bend;
@@ -21,7 +23,8 @@ typedef struct tl_nav_bends {
     uint32_t last; ///< the path's end
 } tl_nav_bends;
 
-/// A new bend behind another (TL_NAV_NO_NODE: the first of all); its number, or TL_NAV_NO_NODE: no room.
+/// A new bend behind another (TL_NAV_NO_NODE: the first of all), no corner of a cap; its number, or TL_NAV_NO_NODE: no
+/// room.
 uint32_t tl_nav_bend_add(tl_nav_bends *path, uint32_t behind, tl_nav_spot spot, uint32_t slot, uint32_t polygon);
 
 typedef struct tl_nav_wide_end {

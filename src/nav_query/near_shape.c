@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+//
+// The walls near a convex shape that may lie over several polygons: those near its part in each.
+
+#include "nav_query/near_shape.h"
+
+#include "nav_query/filter.h"
+#include "nav_query/local_search.h"
+#include "nav_query/surface.h"
+
+#include <string.h>
+
+// Adds a polygon that was not met yet: met polygons grow downwards.
+static bool meet(tl_nav_clearance *clearance, tl_nav_near_walls *near, uint32_t slot, uint32_t polygon)
+{
+    bool found = false;
+    if (near->met_count == clearance->query->max_nodes || (char *)(near->met - near->met_count) < clearance->room.low) {
+        return false;
+    }
+    tl_nav_find_root(clearance->query, (uint64_t)1 << 63 | (uint64_t)slot << 32 | polygon, &found);
+    if (!found) {
+        tl_nav_met met = { slot, polygon };
+        *(near->met - near->met_count++) = met;
+    }
+    return true;
+}
+
+static bool holds(const tl_nav_spot *corners, uint32_t count, tl_nav_spot spot)
+{
+    bool left = false;
+    bool right = false;
+    for (uint32_t i = 0; i < count; i++) {
+        double turn = tl_nav_spot_turn(corners[i], corners[i + 1 < count ? i + 1 : 0], spot);
+        left = left || turn < 0.0;
+        right = right || turn > 0.0;
+    }
+    return !(left && right);
+}
+
+// Whether some of the shape lies beyond an edge's line: if none does, a polygon across has no part in it.
+static bool leads_on(const tl_nav_shape *touch, tl_nav_segment edge)
+{
+    double least = sqrt(touch->distance_sq * tl_nav_spot_distance_sq(edge.a, edge.b));
+    for (uint32_t i = 0; i < touch->count; i++) {
+        if (tl_nav_spot_turn(edge.a, edge.b, touch->corners[i]) > least) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Meets all polygons that the shape touches, from the first on.
+static bool meet_touched(tl_nav_clearance *clearance, const tl_nav_shape *touch, tl_nav_near_walls *near)
+{
+    bool fits = true;
+    for (uint32_t at = 0; fits && at < near->met_count; at++) {
+        tl_nav_met met = *(near->met - at);
+        uint32_t count = 0;
+        const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, met.slot, met.polygon, &count);
+        for (uint32_t i = 0; fits && i < count; i++) {
+            const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+            tl_nav_segment edge = { { (double)ring[i].x, (double)ring[i].z }, { (double)end->x, (double)end->z } };
+            bool touches = tl_nav_shape_distance_sq(touch, edge) <= touch->distance_sq ||
+                           (touch->count > 2 && holds(touch->corners, touch->count, edge.a));
+            if (!tl_nav_ring_is_open(&ring[i]) || !touches || !leads_on(touch, edge)) {
+                continue;
+            }
+            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, met.slot, ring[i].to);
+            if (clearance->filter == NULL ||
+                tl_nav_passes(clearance->filter, clearance->navmesh->slots[to.slot].tile, to.polygon)) {
+                fits = meet(clearance, near, to.slot, to.polygon);
+            }
+        }
+    }
+    return fits;
+}
+
+// The part of a convex shape in a polygon, its outline included with some slack; `cut` holds both their corners.
+static uint32_t cut_shape(const tl_navmesh *navmesh, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
+                          double slack, tl_nav_spot cut[2 * TL_NAV_MAX_CORNERS])
+{
+    tl_nav_spot sides[TL_NAV_MAX_CORNERS];
+    tl_nav_spot old[2 * TL_NAV_MAX_CORNERS];
+    uint32_t side_count = tl_nav_corner_spots(navmesh, at.slot, at.polygon, sides);
+    memcpy(cut, shape, count * sizeof *shape);
+    for (uint32_t s = 0; s < side_count && count > 0; s++) {
+        tl_nav_spot p = sides[s];
+        tl_nav_spot q = sides[s + 1 < side_count ? s + 1 : 0];
+        double room = slack * sqrt(tl_nav_spot_distance_sq(p, q));
+        uint32_t old_count = count;
+        memcpy(old, cut, count * sizeof *cut);
+        count = 0;
+        for (uint32_t i = 0; i < old_count; i++) {
+            tl_nav_spot a = old[i];
+            tl_nav_spot b = old[i + 1 < old_count ? i + 1 : 0];
+            double own = tl_nav_spot_turn(p, q, a) - room;
+            double next = tl_nav_spot_turn(p, q, b) - room;
+            if (own <= 0.0) {
+                cut[count++] = a;
+            }
+            if (old_count > 1 && ((own < 0.0 && next > 0.0) || (own > 0.0 && next < 0.0))) {
+                cut[count++] = tl_nav_spot_lerp(a, b, own / (own - next));
+            }
+        }
+    }
+    return count;
+}
+
+bool tl_nav_find_near_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *shape,
+                            uint32_t count, double distance, tl_nav_near_walls *near_out)
+{
+    tl_nav_shape touch = tl_nav_shape_make(shape, count, clearance->slack, clearance->slack);
+    tl_nav_begin_walls(clearance, near_out);
+    bool fits = meet(clearance, near_out, slot, polygon) && meet_touched(clearance, &touch, near_out);
+    clearance->room.high = (char *)(near_out->met - near_out->met_count + 1);
+    clearance->is_full = clearance->is_full || !fits;
+    for (uint32_t i = 0; fits && i < near_out->met_count; i++) {
+        tl_nav_met at = *(near_out->met - i);
+        tl_nav_spot part[2 * TL_NAV_MAX_CORNERS];
+        uint32_t part_count = cut_shape(clearance->navmesh, at, shape, count, clearance->slack, part);
+        fits = part_count == 0 || tl_nav_look_from(clearance, at, part, part_count, distance, near_out);
+    }
+    tl_nav_end_walls(clearance, near_out);
+    return fits;
+}
+
+tl_nav_location tl_nav_settle(tl_nav_clearance *clearance, tl_nav_met home, tl_nav_spot spot)
+{
+    const tl_navmesh *navmesh = clearance->navmesh;
+    tl_nav_location at = { TL_NAV_NO_REF, { (float)spot.x, 0.0f, (float)spot.z } };
+    tl_nav_room room = clearance->room;
+    tl_nav_near_walls near;
+    // All polygons of a small square around it.
+    double half = 4.0 * clearance->slack;
+    tl_nav_spot square[4] = { { spot.x - half, spot.z - half },
+                              { spot.x - half, spot.z + half },
+                              { spot.x + half, spot.z + half },
+                              { spot.x + half, spot.z - half } };
+    tl_nav_shape touch = tl_nav_shape_make(square, 4, clearance->slack, clearance->slack);
+    if (!tl_nav_is_over(navmesh->slots[home.slot].tile, home.polygon, at.point)) {
+        tl_nav_begin_walls(clearance, &near);
+        if (meet(clearance, &near, home.slot, home.polygon) && meet_touched(clearance, &touch, &near)) {
+            for (uint32_t i = 0; i < near.met_count; i++) {
+                tl_nav_met met = *(near.met - i);
+                home = tl_nav_is_over(navmesh->slots[met.slot].tile, met.polygon, at.point) ? met : home;
+            }
+        }
+    }
+    clearance->room = room;
+    at.polygon = tl_nav_make_ref(navmesh, home.slot, home.polygon);
+    at.point.y = tl_nav_surface_height(navmesh->slots[home.slot].tile, home.polygon, at.point.x, at.point.z);
+    return at;
+}
