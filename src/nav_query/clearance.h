@@ -84,6 +84,12 @@ bool tl_nav_find_walls_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t p
 bool tl_nav_find_near_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *shape,
                             uint32_t count, double distance, tl_nav_near_walls *near_out);
 
+/// The walls near a shape that may lie over several polygons and touches this one, within the reach of it and of a
+/// polygon that it touches; in no order. It takes what is kept, and one wall too many where that is seen from elsewhere
+/// in such a polygon.
+bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *shape,
+                            uint32_t count, tl_nav_near_walls *near_out);
+
 /// A spot as floats, on the surface: in `home`, or where rounding has put it beside that, in the polygon that holds it.
 tl_nav_location tl_nav_settle(tl_nav_clearance *clearance, tl_nav_met home, tl_nav_spot spot);
 

@@ -124,6 +124,51 @@ bool tl_nav_find_near_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
     return fits;
 }
 
+static bool is_known(const tl_nav_near_wall *walls, uint32_t count, const tl_nav_near_wall *wall)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (walls[i].a_x == wall->a_x && walls[i].a_z == wall->a_z && walls[i].b_x == wall->b_x &&
+            walls[i].b_z == wall->b_z) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *shape,
+                            uint32_t count, tl_nav_near_walls *near_out)
+{
+    tl_nav_shape touch = tl_nav_shape_make(shape, count, clearance->slack, clearance->slack);
+    tl_nav_shape reach = tl_nav_shape_make(shape, count, clearance->reach, clearance->slack);
+    tl_nav_begin_walls(clearance, near_out);
+    bool fits = meet(clearance, near_out, slot, polygon) && meet_touched(clearance, &touch, near_out);
+    clearance->room.high = (char *)(near_out->met - near_out->met_count + 1);
+    tl_nav_near_wall *walls = (tl_nav_near_wall *)(void *)clearance->room.low;
+    for (uint32_t i = 0; fits && i < near_out->met_count; i++) {
+        tl_nav_met at = *(near_out->met - i);
+        tl_nav_room room = clearance->room;
+        tl_nav_wall_cell cell;
+        fits = tl_nav_take(clearance, near_out->wall_count, sizeof *walls) != NULL &&
+               tl_nav_wall_cell_of(clearance, at.slot, at.polygon, clearance->reach, &cell);
+        clearance->room = room;
+        for (uint32_t k = 0; fits && k < cell.near.wall_count; k++) {
+            // What was gathered lies behind the list, and moves to its end.
+            const tl_nav_near_wall wall = cell.near.walls[k];
+            tl_nav_segment segment = tl_nav_wall_segment(&wall);
+            bool is_near = tl_nav_shape_distance_sq(&reach, segment) < reach.distance_sq ||
+                           (count > 2 && holds(shape, count, segment.a));
+            if (is_near && !is_known(walls, near_out->wall_count, &wall)) {
+                fits = (char *)(walls + near_out->wall_count + 1) <= clearance->room.high;
+                if (fits) {
+                    walls[near_out->wall_count++] = wall;
+                }
+            }
+        }
+    }
+    clearance->is_full = clearance->is_full || !fits;
+    return fits && tl_nav_take(clearance, near_out->wall_count, sizeof *walls) != NULL;
+}
+
 tl_nav_location tl_nav_settle(tl_nav_clearance *clearance, tl_nav_met home, tl_nav_spot spot)
 {
     const tl_navmesh *navmesh = clearance->navmesh;

@@ -16,33 +16,6 @@ static tl_nav_spot spot_of(tl_vec3 point)
     return tl_nav_spot_make((double)point.x, (double)point.z);
 }
 
-// The bends of the nodes from the start to the goal, with the detours between them.
-static bool write_bends(const tl_nav_wide_search *search, tl_nav_bends *path)
-{
-    const tl_nav_node *nodes = search->clearance->query->nodes;
-    // From the goal back: each is put behind the start.
-    uint32_t first =
-        tl_nav_bend_add(path, TL_NAV_NO_NODE, search->start.spot, search->start.slot, search->start.polygon);
-    if (first == TL_NAV_NO_NODE ||
-        tl_nav_bend_add(path, first, search->goal.spot, search->goal.slot, search->goal.polygon) == TL_NAV_NO_NODE) {
-        return false;
-    }
-    for (uint32_t i = nodes[search->last].parent; nodes[i].parent != TL_NAV_NO_NODE; i = nodes[i].parent) {
-        tl_nav_spot spot = { (double)nodes[i].point.x, (double)nodes[i].point.z };
-        if (tl_nav_bend_add(path, first, spot, nodes[i].slot, nodes[i].polygon) == TL_NAV_NO_NODE) {
-            return false;
-        }
-    }
-    for (uint32_t at = first; at != path->last;) {
-        uint32_t next = path->bends[at].next;
-        if (!tl_nav_wide_detour(search->clearance, path, at)) {
-            return false;
-        }
-        at = next;
-    }
-    return true;
-}
-
 static tl_nav_corner corner_of(tl_nav_clearance *clearance, const tl_nav_bend *bend)
 {
     tl_nav_met home = { bend->slot, bend->polygon };
@@ -101,7 +74,8 @@ static tl_result find_wide(tl_nav_wide_search *search, tl_nav_corner *corners_ou
                            tl_nav_wide_path *path_out)
 {
     tl_nav_clearance *clearance = search->clearance;
-    // Bends get a quarter of the room: each one is smaller than what is gathered around it.
+    search->portals = tl_nav_take(clearance, clearance->query->max_nodes, sizeof *search->portals);
+    // Bends get a quarter of what is left: each one is smaller than what is gathered around it.
     tl_nav_bends path = { NULL, 0, 0, TL_NAV_NO_NODE };
     path.capacity = (uint32_t)((uint64_t)(clearance->room.high - clearance->room.low) / 4 / sizeof *path.bends);
     path.bends = tl_nav_take(clearance, path.capacity, sizeof *path.bends);
@@ -119,7 +93,7 @@ static tl_result find_wide(tl_nav_wide_search *search, tl_nav_corner *corners_ou
     if (!is_found && !clearance->is_full) {
         path_out->status = TL_NAV_WIDE_UNREACHABLE;
     }
-    if (is_found && write_bends(search, &path) && tl_nav_wide_pull(clearance, &path)) {
+    if (is_found && tl_nav_wide_straighten(search, &path) && tl_nav_wide_pull(clearance, &path)) {
         path_out->status = TL_NAV_WIDE_COMPLETE;
         write_corners(clearance, &path, corners_out, capacity, path_out);
     }
@@ -157,6 +131,7 @@ tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *nav
     tl_nav_wide_search search = { &clearance,
                                   { spot_of(ends.start), ends.start_slot, ends.start_polygon, TL_NAV_NO_FACE },
                                   { spot_of(ends.goal), ends.goal_slot, ends.goal_polygon, TL_NAV_NO_FACE },
+                                  NULL,
                                   false,
                                   TL_NAV_NO_NODE };
     return find_wide(&search, corners_out, capacity, path_out);

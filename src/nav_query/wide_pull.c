@@ -22,12 +22,17 @@ enum { MAX_SWEEPS = 64 };
 // Share of its length that a step must gain: many roundings, so that steps cannot go around in a circle.
 static const double LEAST_GAIN = 1024.0 * TL_DOUBLE_ROUNDING;
 
+// A corner of the cap around a wall's end.
+typedef struct cap_corner {
+    tl_nav_spot spot, center;
+} cap_corner;
+
 // The triangle over a bend, and the new way.
 typedef struct triangle {
     tl_nav_spot a, b, c;
     double hand; // the sign of the turn from a over c to b
     tl_nav_near_walls near;
-    tl_nav_spot *corners; // of caps, in the triangle
+    cap_corner *corners; // in the triangle
     uint32_t count;
 } triangle;
 
@@ -56,6 +61,19 @@ static bool bends_around(const triangle *t, tl_nav_spot center)
            t->hand * tl_nav_spot_turn(t->b, t->a, center) >= 0.0;
 }
 
+// Whether a circle has a part on the inner side of all sides of the triangle.
+static bool may_hold(const triangle *t, tl_nav_spot center, double radius)
+{
+    const tl_nav_spot ring[4] = { t->a, t->c, t->b, t->a };
+    for (int i = 0; i < 3; i++) {
+        double turn = t->hand * tl_nav_spot_turn(ring[i], ring[i + 1], center);
+        if (turn < 0.0 && turn * turn > radius * radius * tl_nav_spot_distance_sq(ring[i], ring[i + 1])) {
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
 {
     t->corners = tl_nav_take(clearance, 2 * (uint64_t)t->near.wall_count * TL_NAV_CIRCLE_CORNERS, sizeof *t->corners);
@@ -65,10 +83,10 @@ static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
     for (uint32_t i = 0; i < 2 * t->near.wall_count; i++) {
         tl_nav_segment wall = tl_nav_wall_segment(&t->near.walls[i / 2]);
         tl_nav_spot center = i % 2 == 0 ? wall.a : wall.b;
-        for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS; k++) {
-            tl_nav_spot spot = tl_nav_circle_corner(center, clearance->reach, k);
-            if (holds(t, spot) && (!is_same(spot, t->b) || bends_around(t, center))) {
-                t->corners[t->count++] = spot;
+        for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS && may_hold(t, center, clearance->reach + clearance->slack); k++) {
+            cap_corner corner = { tl_nav_circle_corner(center, clearance->reach, k), center };
+            if (holds(t, corner.spot) && (!is_same(corner.spot, t->b) || bends_around(t, center))) {
+                t->corners[t->count++] = corner;
             }
         }
     }
@@ -76,15 +94,15 @@ static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
 }
 
 // The next corner of the hull behind `at`: the one with all others on its inner side, the farthest of those in line.
-static tl_nav_spot next_of_hull(const triangle *t, tl_nav_spot at)
+static cap_corner next_of_hull(const triangle *t, tl_nav_spot at)
 {
-    tl_nav_spot best = t->c;
+    cap_corner best = { t->c, t->c };
     for (uint32_t i = 0; i < t->count; i++) {
-        tl_nav_spot spot = t->corners[i];
-        double turn = t->hand * tl_nav_spot_turn(at, best, spot);
-        bool is_farther = tl_nav_spot_distance_sq(at, spot) > tl_nav_spot_distance_sq(at, best);
-        if (!is_same(spot, at) && (turn > 0.0 || (turn == 0.0 && is_farther && !is_same(best, t->c)))) {
-            best = spot;
+        tl_nav_spot spot = t->corners[i].spot;
+        double turn = t->hand * tl_nav_spot_turn(at, best.spot, spot);
+        bool is_farther = tl_nav_spot_distance_sq(at, spot) > tl_nav_spot_distance_sq(at, best.spot);
+        if (!is_same(spot, at) && (turn > 0.0 || (turn == 0.0 && is_farther && !is_same(best.spot, t->c)))) {
+            best = t->corners[i];
         }
     }
     return best;
@@ -114,14 +132,14 @@ static bool hull_is_better(const triangle *t, double least)
     double sum = 0.0;
     tl_nav_spot at = t->a;
     for (uint32_t i = 0; i <= t->count && !is_same(at, t->c); i++) {
-        tl_nav_spot next = next_of_hull(t, at);
+        tl_nav_spot next = next_of_hull(t, at).spot;
         sum += length(at, next);
         if (!tl_nav_is_clear(&t->near, at, next, least)) {
             return false;
         }
         at = next;
     }
-    bool is_straight = is_same(next_of_hull(t, t->a), t->c);
+    bool is_straight = is_same(next_of_hull(t, t->a).spot, t->c);
     return is_same(at, t->c) && (is_straight || sum < (length(t->a, t->b) + length(t->b, t->c)) * (1.0 - LEAST_GAIN));
 }
 
@@ -129,6 +147,8 @@ static bool hull_is_better(const triangle *t, double least)
 static void drop(tl_nav_bends *path, uint32_t bend)
 {
     const tl_nav_bend *b = &path->bends[bend];
+    path->bends[b->before].is_taut = false;
+    path->bends[b->next].is_taut = false;
     path->bends[b->before].next = b->next;
     path->bends[b->next].before = b->before;
 }
@@ -138,12 +158,14 @@ static bool put_hull(const tl_nav_clearance *clearance, const triangle *t, tl_na
 {
     uint32_t behind = path->bends[bend].before;
     bool is_used = false;
-    for (tl_nav_spot at = next_of_hull(t, t->a); !is_same(at, t->c); at = next_of_hull(t, at)) {
-        tl_nav_met home = home_of(clearance, &t->near, at);
+    path->bends[behind].is_taut = false;
+    path->bends[path->bends[bend].next].is_taut = false;
+    for (cap_corner at = next_of_hull(t, t->a); !is_same(at.spot, t->c); at = next_of_hull(t, at.spot)) {
+        tl_nav_met home = home_of(clearance, &t->near, at.spot);
         if (is_used) {
-            behind = tl_nav_bend_add(path, behind, at, home.slot, home.polygon);
+            behind = tl_nav_bend_add(path, behind, at.spot, home.slot, home.polygon);
         } else {
-            path->bends[bend].spot = at;
+            path->bends[bend].spot = at.spot;
             path->bends[bend].slot = home.slot;
             path->bends[bend].polygon = home.polygon;
             is_used = true;
@@ -152,6 +174,9 @@ static bool put_hull(const tl_nav_clearance *clearance, const triangle *t, tl_na
         if (behind == TL_NAV_NO_NODE) {
             return false;
         }
+        path->bends[behind].is_cap = true;
+        path->bends[behind].is_taut = false;
+        path->bends[behind].center = at.center;
     }
     if (!is_used) {
         drop(path, bend);
@@ -175,9 +200,13 @@ static bool pull_bend(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_t 
     }
     double turn = tl_nav_spot_turn(t.a, t.c, t.b);
     t.hand = turn < 0.0 ? -1.0 : 1.0;
+    if (b->is_taut || (b->is_cap && bends_around(&t, b->center))) {
+        return true;
+    }
+    path->bends[bend].is_taut = true;
     tl_nav_room room = clearance->room;
     tl_nav_spot shape[3] = { t.a, t.b, t.c };
-    bool fits = tl_nav_find_near_walls(clearance, b->slot, b->polygon, shape, 3, clearance->reach, &t.near) &&
+    bool fits = tl_nav_find_cell_walls(clearance, b->slot, b->polygon, shape, 3, &t.near) &&
                 gather_caps(clearance, &t);
     if (fits && hull_is_better(&t, clearance->least)) {
         *moved_out = true;

@@ -53,7 +53,8 @@ bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end)
     return stands;
 }
 
-static void relax(tl_nav_wide_search *search, uint64_t key, tl_nav_met to, tl_nav_spot spot, float cost, uint32_t from)
+static void relax(tl_nav_wide_search *search, uint64_t key, tl_nav_met to, tl_nav_segment portal, tl_nav_spot spot,
+                  float cost, uint32_t from)
 {
     tl_nav_query *query = search->clearance->query;
     uint32_t index = tl_nav_pool_get(query, key);
@@ -71,6 +72,8 @@ static void relax(tl_nav_wide_search *search, uint64_t key, tl_nav_met to, tl_na
     node->cost = cost;
     node->total = cost + (float)sqrt(tl_nav_spot_distance_sq(spot, search->goal.spot));
     node->parent = from;
+    tl_nav_wide_portal piece = { (float)portal.a.x, (float)portal.a.z, (float)portal.b.x, (float)portal.b.z };
+    search->portals[index] = piece;
     tl_nav_heap_improve(query, index);
 }
 
@@ -130,7 +133,7 @@ static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_pol
             tl_nav_segment portal = { tl_nav_spot_lerp(p, q, from), tl_nav_spot_lerp(p, q, until) };
             double share = tl_nav_crossing_share(spot_of(&node), search->goal.spot, portal);
             tl_nav_spot spot = tl_nav_spot_lerp(portal.a, portal.b, share);
-            relax(search, key, to, spot, step_cost(&node, spot), index);
+            relax(search, key, to, portal, spot, step_cost(&node, spot), index);
         }
     }
 }
@@ -153,7 +156,8 @@ static void expand(tl_nav_wide_search *search, uint32_t index)
     bool is_goals = node->slot == search->goal.slot && node->polygon == search->goal.polygon;
     if (is_goals && face != TL_NAV_NO_FACE && face == search->goal.face) {
         tl_nav_met at = { node->slot, node->polygon };
-        relax(search, GOAL_KEY, at, search->goal.spot, step_cost(node, search->goal.spot), index);
+        tl_nav_segment spot = { search->goal.spot, search->goal.spot };
+        relax(search, GOAL_KEY, at, spot, search->goal.spot, step_cost(node, search->goal.spot), index);
     }
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, node->slot, node->polygon, &count);
@@ -177,10 +181,12 @@ bool tl_nav_wide_run(tl_nav_wide_search *search)
     tl_nav_query *query = search->clearance->query;
     tl_nav_met start = { search->start.slot, search->start.polygon };
     tl_nav_pool_reset(query);
-    relax(search, START_KEY, start, search->start.spot, 0.0f, TL_NAV_NO_NODE);
+    tl_nav_segment from = { search->start.spot, search->start.spot };
+    relax(search, START_KEY, start, from, search->start.spot, 0.0f, TL_NAV_NO_NODE);
     if (search->is_joined) {
         tl_nav_met goal = { search->goal.slot, search->goal.polygon };
-        relax(search, GOAL_KEY, goal, search->goal.spot, step_cost(&query->nodes[0], search->goal.spot), 0);
+        tl_nav_segment to = { search->goal.spot, search->goal.spot };
+        relax(search, GOAL_KEY, goal, to, search->goal.spot, step_cost(&query->nodes[0], search->goal.spot), 0);
     }
     while (!search->clearance->is_full) {
         search->last = tl_nav_heap_pop(query);
@@ -198,7 +204,7 @@ uint32_t tl_nav_bend_add(tl_nav_bends *path, uint32_t behind, tl_nav_spot spot, 
         return TL_NAV_NO_NODE;
     }
     uint32_t next = behind == TL_NAV_NO_NODE ? TL_NAV_NO_NODE : path->bends[behind].next;
-    tl_nav_bend bend = { spot, { 0.0, 0.0 }, false, slot, polygon, behind, next };
+    tl_nav_bend bend = { spot, { 0.0, 0.0 }, false, false, slot, polygon, behind, next };
     uint32_t index = path->count++;
     path->bends[index] = bend;
     if (behind != TL_NAV_NO_NODE) {

@@ -13,6 +13,7 @@ typedef struct tl_nav_bend {
     tl_nav_spot spot;
     tl_nav_spot center;     ///< the spot is a corner of the cap around it, if is_cap
     bool is_cap;
+    bool is_taut; ///< pulled in vain, and since then it has the same neighbours
     uint32_t slot, polygon; ///< the path goes on in it
     uint32_t before, next;  ///< TL_NAV_NO_NODE at the ends
 } tl_nav_bend;
@@ -33,11 +34,17 @@ typedef struct tl_nav_wide_end {
     uint32_t face; ///< of its polygon's pieces; TL_NAV_NO_FACE: it can leave by none
 } tl_nav_wide_end;
 
+/// A stretch of a portal, from its right end to its left one.
+typedef struct tl_nav_wide_portal {
+    float right_x, right_z, left_x, left_z;
+} tl_nav_wide_portal;
+
 typedef struct tl_nav_wide_search {
     tl_nav_clearance *clearance;
     tl_nav_wide_end start, goal;
-    bool is_joined; ///< there is a free way from start to goal within their polygon
-    uint32_t last;  ///< node of the goal, when found
+    tl_nav_wide_portal *portals; ///< [max_nodes]: the piece that each node crosses
+    bool is_joined;              ///< there is a free way from start to goal within their polygon
+    uint32_t last;               ///< node of the goal, when found
 } tl_nav_wide_search;
 
 /// Looks where an end stands. False: nearer to a wall than the reach, or out of room (is_full).
@@ -46,6 +53,10 @@ bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end);
 /// Finds the pieces of portals that lead to the goal: nodes of the query, from `last` over their parents to the
 /// start's. False: there are none, or the query is out of nodes or room (is_full).
 bool tl_nav_wide_run(tl_nav_wide_search *search);
+
+/// Writes the path that was found: pulled straight through its portals, with detours where a wall is too near to that.
+/// False: out of room (is_full).
+bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_bends *path);
 
 /// Adds the bends of a free way, the shortest there is, between two that stand in one polygon, `behind` and its next.
 /// False: out of room (is_full).

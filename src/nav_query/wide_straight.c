@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+//
+// From the portals that a wide path passes to its first bends: the shortest way through the free pieces of the portals,
+// by a funnel, and a detour within each polygon where that comes too near to a wall. Most polygons need none, and their
+// places on the portals are no bends. What is left for pulling taut (wide_pull.c) is little.
+// Source: Lee, Preparata, Euclidean Shortest Paths in the Presence of Rectilinear Barriers, 1984.
+
+#include "nav_query/wide_search.h"
+
+#include "nav_query/crossing.h"
+
+// The way over one portal, into a polygon.
+typedef struct pass {
+    tl_nav_spot right, left;
+    tl_nav_spot spot; // where the path crosses
+    uint32_t slot, polygon;
+    bool is_corner;  // the path turns here
+    bool is_blocked; // a wall is too near to the straight way that leads here
+} pass;
+
+typedef struct passes {
+    pass *at; // [0]: the start, [count - 1]: the goal; both without width
+    uint32_t count;
+} passes;
+
+static tl_nav_spot spot_of(float x, float z)
+{
+    return tl_nav_spot_make((double)x, (double)z);
+}
+
+static bool list_passes(const tl_nav_wide_search *search, passes *all)
+{
+    const tl_nav_node *nodes = search->clearance->query->nodes;
+    for (uint32_t i = search->last; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
+        all->count++;
+    }
+    all->at = tl_nav_take(search->clearance, all->count, sizeof *all->at);
+    if (all->at == NULL) {
+        return false;
+    }
+    uint32_t at = all->count;
+    for (uint32_t i = search->last; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
+        const tl_nav_wide_portal *portal = &search->portals[i];
+        pass *p = &all->at[--at];
+        p->right = spot_of(portal->right_x, portal->right_z);
+        p->left = spot_of(portal->left_x, portal->left_z);
+        p->slot = nodes[i].slot;
+        p->polygon = nodes[i].polygon;
+        p->is_corner = false;
+        p->is_blocked = false;
+    }
+    pass *ends[2] = { &all->at[0], &all->at[all->count - 1] };
+    const tl_nav_wide_end *known[2] = { &search->start, &search->goal };
+    for (int e = 0; e < 2; e++) {
+        ends[e]->right = ends[e]->left = ends[e]->spot = known[e]->spot;
+        ends[e]->is_corner = true;
+    }
+    return true;
+}
+
+// The path turns at `to`; between that and the corner before, `from`, it is straight.
+static void put_corner(passes *all, uint32_t from, uint32_t to, tl_nav_spot spot)
+{
+    all->at[to].spot = spot;
+    all->at[to].is_corner = true;
+    for (uint32_t i = from + 1; i < to; i++) {
+        tl_nav_segment portal = { all->at[i].right, all->at[i].left };
+        double share = tl_nav_crossing_share(all->at[from].spot, spot, portal);
+        all->at[i].spot = tl_nav_spot_lerp(portal.a, portal.b, share);
+    }
+}
+
+static bool is_same(tl_nav_spot a, tl_nav_spot b)
+{
+    return a.x == b.x && a.z == b.z;
+}
+
+static void pull_through(passes *all)
+{
+    uint32_t apex = 0;
+    while (apex + 1 < all->count) {
+        tl_nav_spot from = all->at[apex].spot;
+        uint32_t left = apex;
+        uint32_t right = apex;
+        tl_nav_spot left_spot = from;
+        tl_nav_spot right_spot = from;
+        uint32_t corner = all->count - 1;
+        tl_nav_spot corner_spot = all->at[corner].spot;
+        for (uint32_t i = apex + 1; i < all->count; i++) {
+            const pass *p = &all->at[i];
+            if (is_same(from, right_spot) || tl_nav_spot_turn(from, right_spot, p->right) <= 0.0) {
+                if (!is_same(from, left_spot) && tl_nav_spot_turn(from, left_spot, p->right) < 0.0) {
+                    corner = left;
+                    corner_spot = left_spot;
+                    break;
+                }
+                right = i;
+                right_spot = p->right;
+            }
+            if (is_same(from, left_spot) || tl_nav_spot_turn(from, left_spot, p->left) >= 0.0) {
+                if (!is_same(from, right_spot) && tl_nav_spot_turn(from, right_spot, p->left) > 0.0) {
+                    corner = right;
+                    corner_spot = right_spot;
+                    break;
+                }
+                left = i;
+                left_spot = p->left;
+            }
+        }
+        put_corner(all, apex, corner, corner_spot);
+        apex = corner;
+    }
+}
+
+// The way to pass i leads through the polygon behind the one before.
+static bool note_blocked(tl_nav_clearance *clearance, passes *all)
+{
+    bool fits = true;
+    for (uint32_t i = 1; i < all->count && fits; i++) {
+        tl_nav_room room = clearance->room;
+        tl_nav_wall_cell cell;
+        fits = tl_nav_wall_cell_of(clearance, all->at[i - 1].slot, all->at[i - 1].polygon, clearance->reach, &cell);
+        all->at[i].is_blocked =
+            fits && !tl_nav_is_clear(&cell.near, all->at[i - 1].spot, all->at[i].spot, clearance->least);
+        clearance->room = room;
+    }
+    return fits;
+}
+
+bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_bends *path)
+{
+    tl_nav_clearance *clearance = search->clearance;
+    passes all = { NULL, 0 };
+    tl_nav_room room = clearance->room;
+    if (!list_passes(search, &all)) {
+        return false;
+    }
+    pull_through(&all);
+    bool fits = note_blocked(clearance, &all);
+    uint32_t behind = TL_NAV_NO_NODE;
+    for (uint32_t i = 0; i < all.count && fits; i++) {
+        const pass *p = &all.at[i];
+        if (p->is_corner || p->is_blocked || all.at[i + 1].is_blocked) {
+            uint32_t before = behind;
+            behind = tl_nav_bend_add(path, behind, p->spot, p->slot, p->polygon);
+            fits = behind != TL_NAV_NO_NODE && (!p->is_blocked || tl_nav_wide_detour(clearance, path, before));
+        }
+    }
+    clearance->room = room;
+    clearance->is_full = clearance->is_full || !fits;
+    return fits;
+}
