@@ -96,8 +96,8 @@ static bool clip_by_band(double at, double step, double from, double to, double 
     }
     double first = (from - at) / step;
     double last = (to - at) / step;
-    *low = fmax(*low, fmin(first, last));
-    *high = fmin(*high, fmax(first, last));
+    *low = tl_nav_most(*low, tl_nav_least(first, last));
+    *high = tl_nav_least(*high, tl_nav_most(first, last));
     return *low < *high;
 }
 
@@ -105,6 +105,12 @@ static bool clip_by_band(double at, double step, double from, double to, double 
 static bool forbidden_stretch(tl_nav_spot p, tl_nav_spot q, tl_nav_segment wall, double reach, double *from_out,
                               double *to_out)
 {
+    // The edge is the wall itself.
+    if (wall.a.x == p.x && wall.a.z == p.z && wall.b.x == q.x && wall.b.z == q.z) {
+        *from_out = 0.0;
+        *to_out = 1.0;
+        return reach > 0.0;
+    }
     double low = (double)INFINITY;
     double high = -(double)INFINITY;
     tl_nav_spot d = { q.x - p.x, q.z - p.z };
@@ -122,8 +128,8 @@ static bool forbidden_stretch(tl_nav_spot p, tl_nav_spot q, tl_nav_segment wall,
         clip_by_band(aside, d.z * wx - d.x * wz, -reach * length, reach * length, &first, &last)) {
         widen(first, last, &low, &high);
     }
-    *from_out = fmax(low, 0.0);
-    *to_out = fmin(high, 1.0);
+    *from_out = tl_nav_most(low, 0.0);
+    *to_out = tl_nav_least(high, 1.0);
     return low < 1.0 && high > 0.0 && *from_out < *to_out;
 }
 
@@ -167,7 +173,7 @@ static void cut_edge(outline_cut *cut, uint32_t edge)
     for (uint32_t i = 0; i < count; i++) {
         arc *last = cut->arc_count > 0 ? &cut->arcs[cut->arc_count - 1] : NULL;
         if (last != NULL && own[i].from <= last->to) {
-            last->to = fmax(last->to, own[i].to);
+            last->to = tl_nav_most(last->to, own[i].to);
             unite(cut->parts, last->wall, own[i].wall);
         } else {
             cut->arcs[cut->arc_count++] = own[i];
@@ -233,7 +239,7 @@ static void add_pieces(const outline_cut *cut, double from, double to, uint32_t 
     double lap = 0.0;
     while ((double)edge + lap < to) {
         double start = (double)edge + lap;
-        tl_nav_piece piece = { fmax(from - start, 0.0), fmin(to - start, 1.0), edge, face };
+        tl_nav_piece piece = { tl_nav_most(from - start, 0.0), tl_nav_least(to - start, 1.0), edge, face };
         if (piece.from < piece.to) {
             pieces->pieces[pieces->count++] = piece;
         }

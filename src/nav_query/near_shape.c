@@ -135,6 +135,21 @@ static bool is_known(const tl_nav_near_wall *walls, uint32_t count, const tl_nav
     return false;
 }
 
+// Whether a segment comes nearer to the shape than its distance.
+static bool is_near(const tl_nav_shape *reach, tl_nav_segment segment)
+{
+    if (tl_nav_shape_is_far(reach, segment)) {
+        return false;
+    }
+    for (uint32_t i = 0; i < (reach->count > 2 ? reach->count : 1); i++) {
+        tl_nav_segment side = { reach->corners[i], reach->corners[i + 1 < reach->count ? i + 1 : 0] };
+        if (tl_nav_segments_distance_sq(side, segment) < reach->distance_sq) {
+            return true;
+        }
+    }
+    return reach->count > 2 && holds(reach->corners, reach->count, segment.a);
+}
+
 bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *shape,
                             uint32_t count, tl_nav_near_walls *near_out)
 {
@@ -155,9 +170,7 @@ bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
             // What was gathered lies behind the list, and moves to its end.
             const tl_nav_near_wall wall = cell.near.walls[k];
             tl_nav_segment segment = tl_nav_wall_segment(&wall);
-            bool is_near = tl_nav_shape_distance_sq(&reach, segment) < reach.distance_sq ||
-                           (count > 2 && holds(shape, count, segment.a));
-            if (is_near && !is_known(walls, near_out->wall_count, &wall)) {
+            if (!is_known(walls, near_out->wall_count, &wall) && is_near(&reach, segment)) {
                 fits = (char *)(walls + near_out->wall_count + 1) <= clearance->room.high;
                 if (fits) {
                     walls[near_out->wall_count++] = wall;

@@ -20,10 +20,10 @@ static inline tl_nav_shape tl_nav_shape_make(const tl_nav_spot *corners, uint32_
     tl_nav_shape reach = { corners,      count,        distance * distance,
                           corners[0].x, corners[0].z, corners[0].x,        corners[0].z };
     for (uint32_t i = 1; i < count; i++) {
-        reach.low_x = fmin(reach.low_x, corners[i].x);
-        reach.low_z = fmin(reach.low_z, corners[i].z);
-        reach.high_x = fmax(reach.high_x, corners[i].x);
-        reach.high_z = fmax(reach.high_z, corners[i].z);
+        reach.low_x = tl_nav_least(reach.low_x, corners[i].x);
+        reach.low_z = tl_nav_least(reach.low_z, corners[i].z);
+        reach.high_x = tl_nav_most(reach.high_x, corners[i].x);
+        reach.high_z = tl_nav_most(reach.high_z, corners[i].z);
     }
     reach.low_x -= distance + slack;
     reach.low_z -= distance + slack;
@@ -32,17 +32,23 @@ static inline tl_nav_shape tl_nav_shape_make(const tl_nav_spot *corners, uint32_
     return reach;
 }
 
+/// Whether a segment lies outside of the box.
+static inline bool tl_nav_shape_is_far(const tl_nav_shape *reach, tl_nav_segment segment)
+{
+    return tl_nav_most(segment.a.x, segment.b.x) < reach->low_x || tl_nav_least(segment.a.x, segment.b.x) > reach->high_x ||
+           tl_nav_most(segment.a.z, segment.b.z) < reach->low_z || tl_nav_least(segment.a.z, segment.b.z) > reach->high_z;
+}
+
 /// The squared distance from a shape to a segment that does not lie inside of it; infinite when it is surely too far.
 static inline double tl_nav_shape_distance_sq(const tl_nav_shape *reach, tl_nav_segment segment)
 {
     double best_sq = (double)INFINITY;
-    if (fmax(segment.a.x, segment.b.x) < reach->low_x || fmin(segment.a.x, segment.b.x) > reach->high_x ||
-        fmax(segment.a.z, segment.b.z) < reach->low_z || fmin(segment.a.z, segment.b.z) > reach->high_z) {
+    if (tl_nav_shape_is_far(reach, segment)) {
         return best_sq;
     }
     for (uint32_t i = 0; i < (reach->count > 2 ? reach->count : 1); i++) {
         tl_nav_segment side = { reach->corners[i], reach->corners[i + 1 < reach->count ? i + 1 : 0] };
-        best_sq = fmin(best_sq, tl_nav_segments_distance_sq(side, segment));
+        best_sq = tl_nav_least(best_sq, tl_nav_segments_distance_sq(side, segment));
     }
     return best_sq;
 }

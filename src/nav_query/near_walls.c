@@ -42,8 +42,8 @@ void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, cons
     clearance_out->filter = tl_nav_all_pass(navmesh, filter) ? NULL : filter != NULL ? filter : &any;
     clearance_out->slack = TL_NAV_PLACE_ROUNDINGS * (double)TL_FLOAT_ROUNDING * ((double)navmesh->extent + reach);
     clearance_out->touch = tl_nav_touch_of(navmesh);
-    clearance_out->reach = fmax(reach - clearance_out->slack, 0.0);
-    clearance_out->least = fmax(CHORD_SHARE * clearance_out->reach - clearance_out->slack, 0.0);
+    clearance_out->reach = tl_nav_most(reach - clearance_out->slack, 0.0);
+    clearance_out->least = tl_nav_most(CHORD_SHARE * clearance_out->reach - clearance_out->slack, 0.0);
     clearance_out->room.low = (char *)query->wedges;
     clearance_out->room.high = (char *)(query->wedges + query->max_nodes);
 }
@@ -78,7 +78,7 @@ double tl_nav_outside_by(const tl_nav_spot *corners, uint32_t count, tl_nav_spot
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_spot p = corners[i];
         tl_nav_spot q = corners[i + 1 < count ? i + 1 : 0];
-        most = fmax(most, tl_nav_spot_turn(p, q, spot) / sqrt(tl_nav_spot_distance_sq(p, q)));
+        most = tl_nav_most(most, tl_nav_spot_turn(p, q, spot) / sqrt(tl_nav_spot_distance_sq(p, q)));
     }
     return most;
 }
@@ -233,9 +233,9 @@ static bool cut_to_beam(const beam *b, tl_nav_segment *segment)
             return false;
         }
         if (from < 0.0) {
-            first = fmax(first, from / (from - to));
+            first = tl_nav_most(first, from / (from - to));
         } else if (to < 0.0) {
-            last = fmin(last, from / (from - to));
+            last = tl_nav_least(last, from / (from - to));
         }
     }
     tl_nav_segment whole = *segment;

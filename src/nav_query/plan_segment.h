@@ -8,6 +8,18 @@
 #include <math.h>
 #include <stdbool.h>
 
+// fmin and fmax are calls, for the sake of what is not a number.
+
+static inline double tl_nav_least(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double tl_nav_most(double a, double b)
+{
+    return a > b ? a : b;
+}
+
 typedef struct tl_nav_spot {
     double x, z;
 } tl_nav_spot;

@@ -24,14 +24,42 @@ typedef struct stop {
     bool is_closed, is_dead; // dead: a wall that was met later forbids it
 } stop;
 
+// The line of a side of the polygon: unit, outward.
+typedef struct side_line {
+    double x, z, offset;
+} side_line;
+
 typedef struct detour {
     tl_nav_clearance *clearance;
     const tl_nav_wall_cell *cell;
+    side_line sides[TL_NAV_MAX_CORNERS];
     tl_nav_near_wall *met; // [cell->near.wall_count]: walls in the way
     uint32_t met_count;
     stop *stops; // [0] and [1]: the ends
     uint32_t count;
 } detour;
+
+static void draw_sides(detour *d)
+{
+    for (uint32_t i = 0; i < d->cell->count; i++) {
+        tl_nav_spot p = d->cell->corners[i];
+        tl_nav_spot q = d->cell->corners[i + 1 < d->cell->count ? i + 1 : 0];
+        double length = sqrt(tl_nav_spot_distance_sq(p, q));
+        side_line side = { -(q.z - p.z) / length, (q.x - p.x) / length, 0.0 };
+        side.offset = side.x * p.x + side.z * p.z;
+        d->sides[i] = side;
+    }
+}
+
+static bool is_inside(const detour *d, tl_nav_spot spot)
+{
+    for (uint32_t i = 0; i < d->cell->count; i++) {
+        if (d->sides[i].x * spot.x + d->sides[i].z * spot.z - d->sides[i].offset > d->clearance->slack) {
+            return false;
+        }
+    }
+    return true;
+}
 
 static bool is_met_end(const detour *d, tl_nav_spot end)
 {
@@ -78,8 +106,7 @@ static bool meet_wall(detour *d, const tl_nav_near_wall *wall)
     for (int e = 0; e < 2; e++) {
         for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS && !is_known[e]; k++) {
             tl_nav_spot spot = tl_nav_circle_corner(ends[e], d->clearance->reach, k);
-            if (tl_nav_outside_by(d->cell->corners, d->cell->count, spot) <= d->clearance->slack &&
-                is_free_of_met(d, spot, spot) && !add_stop(d, spot, ends[e])) {
+            if (is_inside(d, spot) && is_free_of_met(d, spot, spot) && !add_stop(d, spot, ends[e])) {
                 return false;
             }
         }
@@ -182,7 +209,11 @@ bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_
         clearance->room = room;
         return true;
     }
-    detour d = { clearance, &cell, NULL, 0, NULL, 0 };
+    detour d;
+    memset(&d, 0, sizeof d);
+    d.clearance = clearance;
+    d.cell = &cell;
+    draw_sides(&d);
     d.met = tl_nav_take(clearance, cell.near.wall_count, sizeof *d.met);
     d.stops = (stop *)(void *)clearance->room.low;
     bool is_found = false;

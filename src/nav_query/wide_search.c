@@ -37,6 +37,21 @@ static bool cut_polygon_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t 
            tl_nav_cut_cell(clearance, &out->cell, &out->pieces);
 }
 
+// The face of a piece that a straight free way leads to, as it mostly does, or TL_NAV_NO_FACE.
+static uint32_t straight_face(const tl_nav_clearance *clearance, const cut_polygon *cut, tl_nav_spot spot)
+{
+    for (uint32_t i = 0; i < cut->pieces.count; i++) {
+        const tl_nav_piece *piece = &cut->pieces.pieces[i];
+        tl_nav_spot p = cut->cell.corners[piece->edge];
+        tl_nav_spot q = cut->cell.corners[piece->edge + 1 < cut->cell.count ? piece->edge + 1 : 0];
+        tl_nav_spot middle = tl_nav_spot_lerp(p, q, 0.5 * (piece->from + piece->to));
+        if (tl_nav_is_clear(&cut->cell.near, spot, middle, clearance->reach)) {
+            return piece->face;
+        }
+    }
+    return TL_NAV_NO_FACE;
+}
+
 bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end)
 {
     tl_nav_clearance *clearance = search->clearance;
@@ -45,10 +60,14 @@ bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end)
     bool is_same = search->start.slot == search->goal.slot && search->start.polygon == search->goal.polygon;
     tl_nav_spot other = !is_same ? end->spot : end == &search->start ? search->goal.spot : search->start.spot;
     bool stands = cut_polygon_of(clearance, end->slot, end->polygon, &cut) &&
-                  tl_nav_is_clear(&cut.cell.near, end->spot, end->spot, clearance->reach - clearance->slack) &&
-                  tl_nav_face_of(clearance, cut.cell.corners, cut.cell.count, &cut.cell.near, &cut.pieces, end->spot, other,
-                                 &end->face, &search->is_joined);
-    search->is_joined = search->is_joined && is_same;
+                  tl_nav_is_clear(&cut.cell.near, end->spot, end->spot, clearance->reach - clearance->slack);
+    end->face = stands ? straight_face(clearance, &cut, end->spot) : TL_NAV_NO_FACE;
+    if (stands && end->face == TL_NAV_NO_FACE) {
+        bool joined = false;
+        stands = tl_nav_face_of(clearance, cut.cell.corners, cut.cell.count, &cut.cell.near, &cut.pieces, end->spot,
+                                other, &end->face, &joined);
+        search->is_joined = search->is_joined || (joined && is_same);
+    }
     clearance->room = room;
     return stands;
 }
@@ -87,20 +106,35 @@ static float step_cost(const tl_nav_node *node, tl_nav_spot to)
     return node->cost + (float)sqrt(tl_nav_spot_distance_sq(spot_of(node), to));
 }
 
-// The share of an outline's edge from p to q at which a ring's edge starts, which may be cut from it at a seam.
-static double share_of(tl_nav_spot p, tl_nav_spot q, const tl_nav_ring_edge *at)
+// The share of an outline's edge from p to q at which a spot lies.
+static double share_of(tl_nav_spot p, tl_nav_spot q, tl_nav_spot at)
 {
     double x = q.x - p.x;
     double z = q.z - p.z;
-    return (((double)at->x - p.x) * x + ((double)at->z - p.z) * z) / (x * x + z * z);
+    return ((at.x - p.x) * x + (at.z - p.z) * z) / (x * x + z * z);
 }
 
-// Goes over an edge of the ring, which lies on the outline's edge `side`, by all pieces of a face.
-static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_polygon *cut, uint32_t face, uint32_t side,
-                       const tl_nav_ring_edge *edge, const tl_nav_ring_edge *end)
+// Whether a polygon is the one that the way to a node came from.
+static bool leads_back(const tl_nav_wide_search *search, const tl_nav_node *node, tl_nav_ring_seam across)
+{
+    const tl_nav_node *before = &search->clearance->query->nodes[node->parent];
+    return before->slot == across.slot && before->polygon == across.polygon;
+}
+
+// A way out of a polygon: an edge of its ring, which lies on the outline's edge `side`.
+typedef struct way_out {
+    const tl_nav_ring_edge *edge, *end;
+    uint32_t side;
+} way_out;
+
+// Goes over an edge of the ring by all pieces of a face. `entry` is the piece by which the polygon was entered, or NULL.
+static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_polygon *cut, uint32_t face,
+                       const tl_nav_piece *entry, const way_out *way)
 {
     const tl_nav_clearance *clearance = search->clearance;
     const tl_nav_node node = clearance->query->nodes[index];
+    const tl_nav_ring_edge *edge = way->edge;
+    uint32_t side = way->side;
     tl_nav_ring_seam across = tl_nav_ring_across(clearance->navmesh, node.slot, edge->to);
     if (clearance->filter != NULL &&
         !tl_nav_passes(clearance->filter, clearance->navmesh->slots[across.slot].tile, across.polygon)) {
@@ -109,14 +143,17 @@ static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_pol
     tl_nav_met to = { across.slot, across.polygon };
     tl_nav_spot p = cut->cell.corners[side];
     tl_nav_spot q = cut->cell.corners[side + 1 < cut->cell.count ? side + 1 : 0];
-    double first = share_of(p, q, edge);
-    double last = share_of(p, q, end);
+    // It may be cut from the outline's edge at a seam.
+    double first = share_of(p, q, tl_nav_spot_make((double)edge->x, (double)edge->z));
+    double last = share_of(p, q, tl_nav_spot_make((double)way->end->x, (double)way->end->z));
+    bool is_back = entry != NULL && entry->edge == side && leads_back(search, &node, across);
+    double entry_share = is_back ? share_of(p, q, spot_of(&node)) : 0.0;
     uint64_t place = (uint64_t)(edge - clearance->navmesh->slots[node.slot].rings.edges);
     uint64_t ordinal = 0;
     for (uint32_t i = 0; i < cut->pieces.count; i++) {
         const tl_nav_piece *piece = &cut->pieces.pieces[i];
-        double from = fmax(piece->from, first);
-        double until = fmin(piece->to, last);
+        double from = tl_nav_most(piece->from, first);
+        double until = tl_nav_least(piece->to, last);
         if (piece->edge != side || !(from < until)) {
             continue;
         }
@@ -125,9 +162,11 @@ static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_pol
             return;
         }
         uint64_t key = ((uint64_t)node.slot << 32 | place) << ORDINAL_BITS | ordinal++;
-        if (piece->face == face) {
+        // Back by the piece that the way came by leads to nothing but what hangs together with it there: no shorter.
+        bool is_entry = is_back && piece == entry && from <= entry_share && entry_share <= until;
+        if (piece->face == face && !is_entry) {
             // The polygon across may see the piece's ends otherwise, by a rounding.
-            double margin = fmin(0.25 * (until - from), clearance->slack / sqrt(tl_nav_spot_distance_sq(p, q)));
+            double margin = tl_nav_least(0.25 * (until - from), clearance->slack / sqrt(tl_nav_spot_distance_sq(p, q)));
             from += margin;
             until -= margin;
             tl_nav_segment portal = { tl_nav_spot_lerp(p, q, from), tl_nav_spot_lerp(p, q, until) };
@@ -148,10 +187,10 @@ static void expand(tl_nav_wide_search *search, uint32_t index)
         return;
     }
     uint32_t face = search->start.face;
+    const tl_nav_piece *entry = NULL;
     if (node->key != START_KEY) {
-        const tl_nav_piece *piece =
-            tl_nav_piece_at(&cut.pieces, cut.cell.corners, cut.cell.count, spot_of(node), clearance->slack);
-        face = piece != NULL ? piece->face : TL_NAV_NO_FACE;
+        entry = tl_nav_piece_at(&cut.pieces, cut.cell.corners, cut.cell.count, spot_of(node), clearance->slack);
+        face = entry != NULL ? entry->face : TL_NAV_NO_FACE;
     }
     bool is_goals = node->slot == search->goal.slot && node->polygon == search->goal.polygon;
     if (is_goals && face != TL_NAV_NO_FACE && face == search->goal.face) {
@@ -170,7 +209,8 @@ static void expand(tl_nav_wide_search *search, uint32_t index)
             side++;
         }
         if (tl_nav_ring_is_open(&ring[i])) {
-            cross_edge(search, index, &cut, face, side, &ring[i], end);
+            way_out way = { &ring[i], end, side };
+            cross_edge(search, index, &cut, face, entry, &way);
         }
     }
     clearance->room = room;

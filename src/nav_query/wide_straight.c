@@ -14,6 +14,7 @@ typedef struct pass {
     tl_nav_spot right, left;
     tl_nav_spot spot; // where the path crosses
     uint32_t slot, polygon;
+    uint32_t bend;   // or TL_NAV_NO_NODE
     bool is_corner;  // the path turns here
     bool is_blocked; // a wall is too near to the straight way that leads here
 } pass;
@@ -46,6 +47,7 @@ static bool list_passes(const tl_nav_wide_search *search, passes *all)
         p->left = spot_of(portal->left_x, portal->left_z);
         p->slot = nodes[i].slot;
         p->polygon = nodes[i].polygon;
+        p->bend = TL_NAV_NO_NODE;
         p->is_corner = false;
         p->is_blocked = false;
     }
@@ -127,6 +129,47 @@ static bool note_blocked(tl_nav_clearance *clearance, passes *all)
     return fits;
 }
 
+static bool is_clear_in(tl_nav_clearance *clearance, const pass *in, tl_nav_spot from, tl_nav_spot to, bool *fits)
+{
+    tl_nav_room room = clearance->room;
+    tl_nav_wall_cell cell;
+    *fits = *fits && tl_nav_wall_cell_of(clearance, in->slot, in->polygon, clearance->reach, &cell);
+    bool is_clear = *fits && tl_nav_is_clear(&cell.near, from, to, clearance->least);
+    clearance->room = room;
+    return is_clear;
+}
+
+// Leaves out the bends on portals that a straight way from the bend before, in the polygon before, to the one behind, in
+// the polygon behind, does without. What forbids a place in a polygon reaches to its outline, and never to the piece
+// between the two places on the portal: so nothing lies between the old way and the new one.
+static bool leave_out(tl_nav_clearance *clearance, const passes *all, tl_nav_bends *path)
+{
+    bool fits = true;
+    for (uint32_t i = 1; i + 1 < all->count && fits; i++) {
+        const pass *before = &all->at[i - 1];
+        const pass *p = &all->at[i];
+        if (p->bend == TL_NAV_NO_NODE) {
+            continue;
+        }
+        const tl_nav_bend *a = &path->bends[path->bends[p->bend].before];
+        const tl_nav_bend *c = &path->bends[path->bends[p->bend].next];
+        bool is_local = a->slot == before->slot && a->polygon == before->polygon &&
+                        ((c->slot == p->slot && c->polygon == p->polygon) ||
+                         path->bends[p->bend].next == all->at[i + 1].bend);
+        double right = tl_nav_spot_turn(a->spot, c->spot, p->right);
+        double left = tl_nav_spot_turn(a->spot, c->spot, p->left);
+        if (!is_local || !(right > 0.0 && left < 0.0)) {
+            continue;
+        }
+        tl_nav_spot spot = tl_nav_spot_lerp(p->right, p->left, right / (right - left));
+        if (is_clear_in(clearance, before, a->spot, spot, &fits) && is_clear_in(clearance, p, spot, c->spot, &fits)) {
+            path->bends[path->bends[p->bend].before].next = path->bends[p->bend].next;
+            path->bends[path->bends[p->bend].next].before = path->bends[p->bend].before;
+        }
+    }
+    return fits;
+}
+
 bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_bends *path)
 {
     tl_nav_clearance *clearance = search->clearance;
@@ -139,13 +182,15 @@ bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_bends *path
     bool fits = note_blocked(clearance, &all);
     uint32_t behind = TL_NAV_NO_NODE;
     for (uint32_t i = 0; i < all.count && fits; i++) {
-        const pass *p = &all.at[i];
+        pass *p = &all.at[i];
         if (p->is_corner || p->is_blocked || all.at[i + 1].is_blocked) {
             uint32_t before = behind;
             behind = tl_nav_bend_add(path, behind, p->spot, p->slot, p->polygon);
+            p->bend = behind;
             fits = behind != TL_NAV_NO_NODE && (!p->is_blocked || tl_nav_wide_detour(clearance, path, before));
         }
     }
+    fits = fits && leave_out(clearance, &all, path);
     clearance->room = room;
     clearance->is_full = clearance->is_full || !fits;
     return fits;
