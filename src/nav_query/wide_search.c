@@ -121,6 +121,26 @@ static bool leads_back(const tl_nav_wide_search *search, const tl_nav_node *node
     return before->slot == across.slot && before->polygon == across.polygon;
 }
 
+// Whether a polygon belongs to a dead end in which neither the node nor the goal lies.
+static bool is_dead_end(const tl_nav_wide_search *search, const tl_nav_node *node, tl_nav_ring_seam across)
+{
+    const tl_nav_ring_cell *cells = search->clearance->navmesh->slots[across.slot].rings.cells;
+    uint32_t dead_end = cells[across.polygon].dead_end;
+    return dead_end != 0 && !(node->slot == across.slot && cells[node->polygon].dead_end == dead_end) &&
+           !(search->goal.slot == across.slot && cells[search->goal.polygon].dead_end == dead_end);
+}
+
+// How many pieces of an outline's edge lie between two shares of it.
+static uint32_t count_pieces(const tl_nav_pieces *pieces, uint32_t edge, double first, double last)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < pieces->count; i++) {
+        const tl_nav_piece *piece = &pieces->pieces[i];
+        count += piece->edge == edge && tl_nav_most(piece->from, first) < tl_nav_least(piece->to, last) ? 1 : 0;
+    }
+    return count;
+}
+
 // A way out of a polygon: an edge of its ring, which lies on the outline's edge `side`.
 typedef struct way_out {
     const tl_nav_ring_edge *edge, *end;
@@ -148,6 +168,10 @@ static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_pol
     double last = share_of(p, q, tl_nav_spot_make((double)way->end->x, (double)way->end->z));
     bool is_back = entry != NULL && entry->edge == side && leads_back(search, &node, across);
     double entry_share = is_back ? share_of(p, q, spot_of(&node)) : 0.0;
+    // A dead end hangs by this edge alone. One that has a single piece of it is left by the way that it was entered.
+    if (is_dead_end(search, &node, across) && count_pieces(&cut->pieces, side, first, last) < 2) {
+        return;
+    }
     uint64_t place = (uint64_t)(edge - clearance->navmesh->slots[node.slot].rings.edges);
     uint64_t ordinal = 0;
     for (uint32_t i = 0; i < cut->pieces.count; i++) {
@@ -244,7 +268,7 @@ uint32_t tl_nav_bend_add(tl_nav_bends *path, uint32_t behind, tl_nav_spot spot, 
         return TL_NAV_NO_NODE;
     }
     uint32_t next = behind == TL_NAV_NO_NODE ? TL_NAV_NO_NODE : path->bends[behind].next;
-    tl_nav_bend bend = { spot, { 0.0, 0.0 }, false, false, slot, polygon, behind, next };
+    tl_nav_bend bend = { spot, { 0.0, 0.0 }, false, false, slot, polygon, 0, behind, next };
     uint32_t index = path->count++;
     path->bends[index] = bend;
     if (behind != TL_NAV_NO_NODE) {

@@ -15,6 +15,7 @@ typedef struct tl_nav_bend {
     bool is_cap;
     bool is_taut; ///< pulled in vain, and since then it has the same neighbours
     uint32_t slot, polygon; ///< the path goes on in it
+    uint32_t pass;          ///< the caller's: how many portals it is behind (wide_straight.c)
     uint32_t before, next;  ///< TL_NAV_NO_NODE at the ends
 } tl_nav_bend;
 

@@ -139,32 +139,44 @@ static bool is_clear_in(tl_nav_clearance *clearance, const pass *in, tl_nav_spot
     return is_clear;
 }
 
-// Leaves out the bends on portals that a straight way from the bend before, in the polygon before, to the one behind, in
-// the polygon behind, does without. What forbids a place in a polygon reaches to its outline, and never to the piece
-// between the two places on the portal: so nothing lies between the old way and the new one.
+// Whether the straight way from a spot in the polygon behind pass `first` to one in that behind pass `last` leads over the
+// free pieces of all portals between, and is clear.
+static bool is_straight(tl_nav_clearance *clearance, const passes *all, tl_nav_spot from, uint32_t first, tl_nav_spot to,
+                        uint32_t last, bool *fits)
+{
+    tl_nav_spot at = from;
+    for (uint32_t i = first + 1; i <= last; i++) {
+        const pass *p = &all->at[i];
+        double right = tl_nav_spot_turn(from, to, p->right);
+        double left = tl_nav_spot_turn(from, to, p->left);
+        if (!(right > 0.0 && left < 0.0)) {
+            return false;
+        }
+        tl_nav_spot spot = tl_nav_spot_lerp(p->right, p->left, right / (right - left));
+        if (!is_clear_in(clearance, &all->at[i - 1], at, spot, fits)) {
+            return false;
+        }
+        at = spot;
+    }
+    return is_clear_in(clearance, &all->at[last], at, to, fits);
+}
+
+// Leaves out the bends on portals that a straight way over the same pieces does without. What forbids a place in a
+// polygon reaches to its outline, and never to a piece: so nothing lies between the old way and the new one.
 static bool leave_out(tl_nav_clearance *clearance, const passes *all, tl_nav_bends *path)
 {
     bool fits = true;
     for (uint32_t i = 1; i + 1 < all->count && fits; i++) {
-        const pass *before = &all->at[i - 1];
-        const pass *p = &all->at[i];
-        if (p->bend == TL_NAV_NO_NODE) {
+        if (all->at[i].bend == TL_NAV_NO_NODE) {
             continue;
         }
-        const tl_nav_bend *a = &path->bends[path->bends[p->bend].before];
-        const tl_nav_bend *c = &path->bends[path->bends[p->bend].next];
-        bool is_local = a->slot == before->slot && a->polygon == before->polygon &&
-                        ((c->slot == p->slot && c->polygon == p->polygon) ||
-                         path->bends[p->bend].next == all->at[i + 1].bend);
-        double right = tl_nav_spot_turn(a->spot, c->spot, p->right);
-        double left = tl_nav_spot_turn(a->spot, c->spot, p->left);
-        if (!is_local || !(right > 0.0 && left < 0.0)) {
-            continue;
-        }
-        tl_nav_spot spot = tl_nav_spot_lerp(p->right, p->left, right / (right - left));
-        if (is_clear_in(clearance, before, a->spot, spot, &fits) && is_clear_in(clearance, p, spot, c->spot, &fits)) {
-            path->bends[path->bends[p->bend].before].next = path->bends[p->bend].next;
-            path->bends[path->bends[p->bend].next].before = path->bends[p->bend].before;
+        const tl_nav_bend *b = &path->bends[all->at[i].bend];
+        tl_nav_bend *before = &path->bends[b->before];
+        tl_nav_bend *next = &path->bends[b->next];
+        uint32_t last = all->at[next->pass].bend == b->next ? next->pass - 1 : next->pass;
+        if (is_straight(clearance, all, before->spot, before->pass, next->spot, last, &fits)) {
+            before->next = b->next;
+            next->before = b->before;
         }
     }
     return fits;
@@ -188,6 +200,12 @@ bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_bends *path
             behind = tl_nav_bend_add(path, behind, p->spot, p->slot, p->polygon);
             p->bend = behind;
             fits = behind != TL_NAV_NO_NODE && (!p->is_blocked || tl_nav_wide_detour(clearance, path, before));
+            for (uint32_t k = before; fits && k != behind && k != TL_NAV_NO_NODE; k = path->bends[k].next) {
+                path->bends[k].pass = k == before ? path->bends[k].pass : i - 1;
+            }
+            if (fits) {
+                path->bends[behind].pass = i;
+            }
         }
     }
     fits = fits && leave_out(clearance, &all, path);
