@@ -81,7 +81,7 @@ struct byte_count {
 struct place_pair {
     dtPolyRef detour[2];
     float points[2][3];
-    tl_nav_location talus[2];      // on talus's own mesh, where there is room
+    tl_nav_location talus[2];       // on talus's own mesh, where there is room
     tl_nav_location talus_plain[2]; // nearest, for the path without a radius
     bool has_room;
 };
@@ -89,7 +89,7 @@ struct place_pair {
 struct answers {
     size_t both = 0, neither = 0, only_talus = 0, only_detour = 0, no_room = 0;
     double least_room = 1e30; // metres that a path's walls are farther than the radius says
-    double talus_length = 0.0, detour_length = 0.0;
+    double talus_length = 0.0, detour_length = 0.0, nodes = 0.0;
 };
 
 class arena
@@ -125,10 +125,17 @@ class arena
         }
         query.reset(made);
         tl_allocator allocator = bytes.allocator();
-        tl_nav_wide_def wide = { RADII[2] };
-        return copy_twin(nullptr, &navmesh) && copy_twin(&allocator, &prepared) &&
-               (prepared_in = now_seconds(), tl_navmesh_prepare_wide(prepared.get(), &wide, &kept) == TL_OK) &&
-               (prepared_in = now_seconds() - prepared_in, true);
+        return copy_twin(nullptr, &navmesh) && copy_twin(&allocator, &prepared) && prepare_wide();
+    }
+
+    bool prepare_wide()
+    {
+        tl_nav_wide_def def = tl_default_nav_wide_def();
+        def.max_radius = RADII[2];
+        double begin = now_seconds();
+        tl_result result = tl_navmesh_prepare_wide(prepared.get(), &def, &kept);
+        prepared_in = now_seconds() - begin;
+        return result == TL_OK;
     }
 
     bool copy_twin(const tl_allocator *allocator, std::unique_ptr<tl_navmesh, detour_deleter> *out)
@@ -195,13 +202,13 @@ class arena
     tl_nav_wide_path wide_path(const tl_navmesh *asked, const place_pair &p, float radius)
     {
         tl_nav_wide_path path;
-        tl_nav_query_find_wide_path(query.get(), asked, nullptr, radius, &p.talus[0], &p.talus[1],
-                                    corners.data(), MOST, &path);
+        tl_nav_query_find_wide_path(query.get(), asked, nullptr, radius, &p.talus[0], &p.talus[1], corners.data(), MOST,
+                                    &path);
         return path;
     }
 
     answers compare(const detour_level &baked, float radius);
-    double time(const std::function<void(const place_pair &)> &ask);
+    double time_once(const std::function<void(const place_pair &)> &ask);
 };
 
 answers arena::compare(const detour_level &baked, float radius)
@@ -215,6 +222,7 @@ answers arena::compare(const detour_level &baked, float radius)
         }
         tl_nav_wide_path path = wide_path(prepared.get(), p, radius);
         bool is_complete = path.status == TL_NAV_WIDE_COMPLETE;
+        found.nodes += path.node_count;
         found.both += is_complete && corner_count > 0;
         found.neither += !is_complete && corner_count == 0;
         found.only_talus += is_complete && corner_count == 0;
@@ -236,47 +244,72 @@ answers arena::compare(const detour_level &baked, float radius)
     return found;
 }
 
-// Microseconds a pair, the best of the runs; pairs without room on talus's mesh are left out for both.
-double arena::time(const std::function<void(const place_pair &)> &ask)
+// Microseconds a pair; pairs without room on talus's mesh are left out for both.
+double arena::time_once(const std::function<void(const place_pair &)> &ask)
 {
-    double best = 1e30;
-    for (int run = 0; run < runs; run++) {
-        size_t count = 0;
-        double begin = now_seconds();
-        for (const place_pair &p : pairs) {
-            if (p.has_room) {
-                ask(p);
-                count++;
-            }
+    size_t count = 0;
+    double begin = now_seconds();
+    for (const place_pair &p : pairs) {
+        if (p.has_room) {
+            ask(p);
+            count++;
         }
-        best = std::min(best, (now_seconds() - begin) * 1e6 / (double)std::max(count, (size_t)1));
     }
-    return best;
+    return (now_seconds() - begin) * 1e6 / (double)std::max(count, (size_t)1);
 }
 
 void arena::bench_radius(const detour_level &baked, float radius)
 {
     find_pairs(baked, radius);
     answers found = compare(baked, radius);
-    double plain = time([&](const place_pair &p) {
-        tl_nav_shortest_path path;
-        tl_nav_query_find_shortest_path(query.get(), navmesh.get(), nullptr, &p.talus_plain[0], &p.talus_plain[1],
-                                        corners.data(), MOST, nullptr, 0, &path);
-        checksum += path.corner_count;
-    });
-    double theirs = time([&](const place_pair &p) { checksum += (uint64_t)detour_path(baked, p); });
-    double gathered = 1.0;
-    double ours = time([&](const place_pair &p) { checksum += wide_path(prepared.get(), p, radius).corner_count; });
-    std::printf("  radius %.1f: Detour %8.2f us   gathered %8.2f  prepared %8.2f us   plain exact %8.2f us\n", (double)radius, theirs, gathered, ours,
-                plain);
-    double nodes = 0.0;
-    for (const place_pair &p : pairs) {
-        nodes += p.has_room ? wide_path(prepared.get(), p, radius).node_count : 0;
+    double theirs = 1e30, plain = 1e30, gathered = 1e30, ours = 1e30, asked = 1e30;
+    for (int run = 0; run < runs; run++) {
+        theirs = std::min(theirs, time_once([&](const place_pair &p) { checksum += (uint64_t)detour_path(baked, p); }));
+        plain =
+            std::min(plain, time_once([&](const place_pair &p) {
+                         tl_nav_shortest_path path;
+                         tl_nav_query_find_shortest_path(query.get(), navmesh.get(), nullptr, &p.talus_plain[0],
+                                                         &p.talus_plain[1], corners.data(), MOST, nullptr, 0, &path);
+                         checksum += path.corner_count;
+                     }));
+        gathered = std::min(gathered, time_once([&](const place_pair &p) {
+                                checksum += wide_path(navmesh.get(), p, radius).corner_count;
+                            }));
+        ours = std::min(ours, time_once([&](const place_pair &p) {
+                            checksum += wide_path(prepared.get(), p, radius).corner_count;
+                        }));
+        asked = std::min(asked, time_once([&](const place_pair &p) {
+                             tl_nav_wide_status status;
+                             tl_nav_query_is_wide_reachable(query.get(), prepared.get(), nullptr, radius, &p.talus[0],
+                                                            &p.talus[1], &status);
+                             checksum += (uint64_t)status;
+                         }));
     }
-    std::printf("     both %zu, neither %zu, only talus %zu, only Detour %zu, no room %zu; nearest to walls %+.4f m; nodes %.1f, "
-                "lengths %.4f of Detour's\n",
-                found.both, found.neither, found.only_talus, found.only_detour, found.no_room, found.least_room,
-                nodes / (double)pairs.size(), found.talus_length / found.detour_length);
+    size_t pairs_asked = found.both + found.neither + found.only_talus + found.only_detour;
+    std::printf("  radius %.1f, microseconds a pair:\n", (double)radius);
+    std::printf("    Detour on its own bake %8.2f   exact path without radius %8.2f\n", theirs, plain);
+    std::printf("    wide path              %8.2f   rate to Detour's %.2fx, %.1f times the exact path\n", ours,
+                theirs / ours, ours / plain);
+    std::printf("      not prepared         %8.2f   %.1f times the prepared one\n", gathered, gathered / ours);
+    std::printf("      reachable or not     %8.2f   %.1f nodes\n", asked, found.nodes / (double)pairs_asked);
+    std::printf(
+        "    a way in both %zu, in neither %zu, talus's alone %zu, Detour's alone %zu, no room on talus's %zu\n",
+        found.both, found.neither, found.only_talus, found.only_detour, found.no_room);
+    std::printf("    nearest to a wall %+.4f m of the radius; paths are %.4f times as long as Detour's\n",
+                found.least_room, found.talus_length / found.detour_length);
+    char chart[128], claim[192];
+    std::snprintf(chart, sizeof chart, "%s, radius %.1f", name.c_str(), (double)radius);
+    bench_report_value(report, chart, "Detour", "path", theirs);
+    bench_report_value(report, chart, "talus", "path", ours);
+    bench_report_value(report, chart, "talus", "path, not prepared", gathered);
+    bench_report_value(report, chart, "talus", "reachable or not", asked);
+    bench_report_value(report, chart, "talus", "path without radius", plain);
+    std::snprintf(claim, sizeof claim, "%s: rate to Detour's", chart);
+    bench_report_at_least(report, claim, theirs / ours, 1.0);
+    std::snprintf(claim, sizeof claim, "%s: share of pairs as in the bake", chart);
+    bench_report_at_least(report, claim, (double)(found.both + found.neither) / (double)pairs_asked, 0.99);
+    std::snprintf(claim, sizeof claim, "%s: metres nearer to a wall than the radius", chart);
+    bench_report_at_most(report, claim, -found.least_room, (double)CELL);
 }
 
 void bench_level(const std::string &name, const tl_mesh_view &view, uint32_t tile_size)
@@ -306,7 +339,13 @@ void bench_level(const std::string &name, const tl_mesh_view &view, uint32_t til
             a.bench_radius(baked, radius);
         }
     }
-    std::printf("  Detour's three meshes %zu KB, talus tiles %zu KB + navmesh %zu KB, of it walls %zu KB, %.2f ms, %.1f walls\n", a.detour_bytes / 1024, a.tile_bytes / 1024, a.bytes.held / 1024, (size_t)a.kept.bytes/1024, a.prepared_in*1e3, (double)a.kept.wall_count);
+    std::printf("  memory: Detour's meshes for three radii %zu KB; talus for all up to %.1f m %zu KB: tiles %zu KB, "
+                "navmesh %zu "
+                "KB, walls kept %zu KB, prepared in %.2f ms\n",
+                a.detour_bytes / 1024, (double)RADII[2], (a.tile_bytes + a.bytes.held) / 1024, a.tile_bytes / 1024,
+                (a.bytes.held - a.kept.bytes) / 1024, (size_t)a.kept.bytes / 1024, a.prepared_in * 1e3);
+    bench_report_at_most(report, (a.name + ": memory, of Detour's for three radii").c_str(),
+                         (double)(a.tile_bytes + a.bytes.held) / (double)a.detour_bytes, 1.0);
 }
 
 void bench_file(const std::string &name, uint32_t tile_size)

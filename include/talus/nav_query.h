@@ -451,6 +451,12 @@ TL_API tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navme
                                              const tl_nav_location *goal, tl_nav_corner *corners_out, uint32_t capacity,
                                              tl_nav_wide_path *path_out);
 
+/// Whether there is such a path: its status, as tl_nav_query_find_wide_path would give it, without the path. Errors as
+/// there.
+TL_API tl_result tl_nav_query_is_wide_reachable(tl_nav_query *query, const tl_navmesh *navmesh,
+                                                const tl_nav_filter *filter, float radius, const tl_nav_location *start,
+                                                const tl_nav_location *goal, tl_nav_wide_status *status_out);
+
 /// How much is known beforehand. Fill it from tl_default_nav_wide_def.
 typedef struct tl_nav_wide_def {
     float max_radius; ///< metres, >= 0: of the widest agent that is served so
@@ -469,10 +475,10 @@ typedef struct tl_nav_wide_report {
 /// Makes wide paths and places fast: finds the walls around each polygon once, as far as an agent of `max_radius` asks.
 ///
 /// Answers stay the same, bit by bit. It serves radii up to `max_radius` and filters that refuse no polygon; others go
-/// as before. When a tile is added or removed, tiles within the radius and one tile around it are dropped; the next call
-/// makes those anew, and no others unless the radius changes. Radius 0 gives the memory back.
-/// O(polygons, and the pairs of walls around each). Changes the navmesh: no query may run meanwhile. `report_out` may be
-/// NULL. TL_ERR_MEMORY, TL_ERR_LIMIT: what was made stays. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
+/// as before. When a tile is added or removed, tiles within the radius and one tile around it are dropped; the next
+/// call makes those anew, and no others unless the radius changes. Radius 0 gives the memory back. O(polygons, and the
+/// pairs of walls around each). Changes the navmesh: no query may run meanwhile. `report_out` may be NULL.
+/// TL_ERR_MEMORY, TL_ERR_LIMIT: what was made stays. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
 TL_API tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *def,
                                          tl_nav_wide_report *report_out);
 

@@ -133,8 +133,8 @@ typedef struct tl_nav_wall_cell {
     uint32_t count;
     tl_nav_near_walls near; ///< of the polygon's outline
     /// What is known beforehand; NULL and 0: nothing is.
-    const uint32_t *side_first; ///< [count + 1]: where each side's hits begin
-    const tl_nav_wall_hit *hits; ///< the nearest first
+    const uint32_t *side_first;    ///< [count + 1]: where each side's hits begin
+    const tl_nav_wall_hit *hits;   ///< the nearest first
     const tl_nav_wall_pair *pairs; ///< the nearest first; those that meet in a corner of the outline are left out
     uint32_t pair_count;
     double distance; ///< metres: all walls within it
@@ -143,8 +143,8 @@ typedef struct tl_nav_wall_cell {
 
 /// The distance of two walls of a list. Whether the middle between the spots where they come nearest to each other lies
 /// in the outline.
-bool tl_nav_pair_walls(const tl_nav_spot *corners, uint32_t count, const tl_nav_near_wall *walls, uint32_t a, uint32_t b,
-                       tl_nav_wall_pair *pair_out);
+bool tl_nav_pair_walls(const tl_nav_spot *corners, uint32_t count, const tl_nav_near_wall *walls, uint32_t a,
+                       uint32_t b, tl_nav_wall_pair *pair_out);
 
 /// A polygon with all walls within `distance`: those that are kept with the navmesh, or else gathered. False: out of
 /// room, and is_full is set. What was gathered lies in the room; the caller puts `room` back when done.

@@ -40,13 +40,12 @@ typedef struct outline_cut {
     uint32_t *faces; // [arc_count]: union-find over the pieces behind arcs
 } outline_cut;
 
-bool tl_nav_pair_walls(const tl_nav_spot *corners, uint32_t count, const tl_nav_near_wall *walls, uint32_t a, uint32_t b,
-                       tl_nav_wall_pair *pair_out)
+bool tl_nav_pair_walls(const tl_nav_spot *corners, uint32_t count, const tl_nav_near_wall *walls, uint32_t a,
+                       uint32_t b, tl_nav_wall_pair *pair_out)
 {
     tl_nav_spot middle;
     tl_nav_wall_pair pair = { 0.0, a, b };
-    pair.distance_sq =
-        tl_nav_between_segments(tl_nav_wall_segment(&walls[a]), tl_nav_wall_segment(&walls[b]), &middle);
+    pair.distance_sq = tl_nav_between_segments(tl_nav_wall_segment(&walls[a]), tl_nav_wall_segment(&walls[b]), &middle);
     *pair_out = pair;
     return tl_nav_outside_by(corners, count, middle) <= 0.0;
 }
@@ -209,8 +208,7 @@ static void join_inside(outline_cut *cut)
         for (uint32_t k = i + 1; k < cut->near->wall_count; k++) {
             tl_nav_wall_pair pair;
             if (root_of(cut->parts, i) != root_of(cut->parts, k) &&
-                tl_nav_pair_walls(cut->corners, cut->count, cut->near->walls, i, k, &pair) &&
-                pair.distance_sq < both) {
+                tl_nav_pair_walls(cut->corners, cut->count, cut->near->walls, i, k, &pair) && pair.distance_sq < both) {
                 unite(cut->parts, i, k);
             }
         }
@@ -256,7 +254,8 @@ static bool cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners,
 {
     outline_cut cut = { corners, count, near, kept, clearance->reach, NULL, NULL, 0, NULL };
     memset(pieces_out, 0, sizeof *pieces_out);
-    uint64_t stretches = kept != NULL ? kept->side_first[count] - kept->side_first[0] : (uint64_t)near->wall_count * count;
+    uint64_t stretches =
+        kept != NULL ? kept->side_first[count] - kept->side_first[0] : (uint64_t)near->wall_count * count;
     // Each stretch is followed by at most one free piece, and each corner cuts one more.
     pieces_out->pieces = tl_nav_take(clearance, stretches + count, sizeof *pieces_out->pieces);
     tl_nav_room room = clearance->room;

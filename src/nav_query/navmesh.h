@@ -41,7 +41,7 @@ typedef struct tl_nav_slot {
     uint32_t anchor_count; ///< ends of off-mesh links on its polygons
     tl_nav_side_links sides[4];
     tl_nav_rings rings;
-    uint64_t *areas; ///< of the tile's polygons, summed up (area_table.h)
+    uint64_t *areas;               ///< of the tile's polygons, summed up (area_table.h)
     tl_nav_kept_walls *kept_walls; ///< NULL: not prepared, or dropped by an edit
 } tl_nav_slot;
 

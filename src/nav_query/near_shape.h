@@ -17,8 +17,9 @@ typedef struct tl_nav_shape {
 
 static inline tl_nav_shape tl_nav_shape_make(const tl_nav_spot *corners, uint32_t count, double distance, double slack)
 {
-    tl_nav_shape reach = { corners,      count,        distance * distance,
-                          corners[0].x, corners[0].z, corners[0].x,        corners[0].z };
+    tl_nav_shape reach = {
+        corners, count, distance * distance, corners[0].x, corners[0].z, corners[0].x, corners[0].z
+    };
     for (uint32_t i = 1; i < count; i++) {
         reach.low_x = tl_nav_least(reach.low_x, corners[i].x);
         reach.low_z = tl_nav_least(reach.low_z, corners[i].z);
@@ -35,8 +36,10 @@ static inline tl_nav_shape tl_nav_shape_make(const tl_nav_spot *corners, uint32_
 /// Whether a segment lies outside of the box.
 static inline bool tl_nav_shape_is_far(const tl_nav_shape *reach, tl_nav_segment segment)
 {
-    return tl_nav_most(segment.a.x, segment.b.x) < reach->low_x || tl_nav_least(segment.a.x, segment.b.x) > reach->high_x ||
-           tl_nav_most(segment.a.z, segment.b.z) < reach->low_z || tl_nav_least(segment.a.z, segment.b.z) > reach->high_z;
+    return tl_nav_most(segment.a.x, segment.b.x) < reach->low_x ||
+           tl_nav_least(segment.a.x, segment.b.x) > reach->high_x ||
+           tl_nav_most(segment.a.z, segment.b.z) < reach->low_z ||
+           tl_nav_least(segment.a.z, segment.b.z) > reach->high_z;
 }
 
 /// The squared distance from a shape to a segment that does not lie inside of it; infinite when it is surely too far.

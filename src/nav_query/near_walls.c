@@ -203,7 +203,8 @@ static bool add_wall(wall_walk *walk, uint32_t slot, const tl_nav_ring_edge *edg
 {
     bool found = false;
     uint64_t place = (uint64_t)(edge - walk->clearance->navmesh->slots[slot].rings.edges);
-    if (walk->count == walk->clearance->query->max_nodes || (char *)(walk->walls + walk->count + 1) > (char *)walk->top) {
+    if (walk->count == walk->clearance->query->max_nodes ||
+        (char *)(walk->walls + walk->count + 1) > (char *)walk->top) {
         return false;
     }
     tl_nav_root *known =

@@ -41,6 +41,7 @@ typedef struct builder {
     tl_nav_kept_cell *cells;
 } builder;
 
+// Room for `count` > 0 more. NULL: out of memory.
 static void *add(builder *b, list *l, uint64_t count)
 {
     if (l->count + count > l->capacity) {
@@ -167,26 +168,29 @@ static tl_result add_cell(builder *b, uint32_t slot, uint32_t polygon)
     TL_TRY(gather(b, slot, polygon, &cell));
     b->cells[polygon].wall = (uint32_t)b->walls.count;
     b->cells[polygon].pair = (uint32_t)b->pairs.count;
-    const uint32_t *first_corner = tl_nav_tile_at(b->navmesh->slots[slot].tile, b->navmesh->slots[slot].tile->first_corner);
+    const uint32_t *first_corner =
+        tl_nav_tile_at(b->navmesh->slots[slot].tile, b->navmesh->slots[slot].tile->first_corner);
     for (uint32_t side = 0; side < cell.count; side++) {
         b->side_first[first_corner[polygon] + side] = (uint32_t)b->hits.count;
         TL_TRY(add_hits(b, &cell, side));
     }
     TL_TRY(add_pairs(b, &cell));
-    void *walls = add(b, &b->walls, cell.near.wall_count);
-    if (walls == NULL && cell.near.wall_count > 0) {
-        return TL_ERR_MEMORY;
-    }
     if (cell.near.wall_count > 0) {
+        void *walls = add(b, &b->walls, cell.near.wall_count);
+        if (walls == NULL) {
+            return TL_ERR_MEMORY;
+        }
         memcpy(walls, cell.near.walls, cell.near.wall_count * sizeof *cell.near.walls);
     }
-    return b->walls.count > UINT32_MAX || b->hits.count > UINT32_MAX || b->pairs.count > UINT32_MAX ? TL_ERR_LIMIT : TL_OK;
+    return b->walls.count > UINT32_MAX || b->hits.count > UINT32_MAX || b->pairs.count > UINT32_MAX ? TL_ERR_LIMIT
+                                                                                                    : TL_OK;
 }
 
 // One block: the head and the arrays, those of doubles first.
 static tl_nav_kept_walls *pack(const builder *b, uint32_t polygons, uint32_t corners)
 {
-    uint64_t sizes[5] = { b->pairs.count * sizeof(tl_nav_wall_pair), ((uint64_t)polygons + 1) * sizeof(tl_nav_kept_cell),
+    uint64_t sizes[5] = { b->pairs.count * sizeof(tl_nav_wall_pair),
+                          ((uint64_t)polygons + 1) * sizeof(tl_nav_kept_cell),
                           ((uint64_t)corners + 1) * sizeof(uint32_t), b->walls.count * sizeof(tl_nav_near_wall),
                           b->hits.count * sizeof(tl_nav_wall_hit) };
     const void *from[5] = { b->pairs.at, b->cells, b->side_first, b->walls.at, b->hits.at };

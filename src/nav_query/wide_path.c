@@ -70,39 +70,44 @@ static tl_result find_narrow(tl_nav_query *query, const tl_navmesh *navmesh, con
     return path.corner_count > capacity && result == TL_OK ? TL_ERR_CAPACITY : result;
 }
 
-static tl_result find_wide(tl_nav_wide_search *search, tl_nav_corner *corners_out, uint32_t capacity,
-                           tl_nav_wide_path *path_out)
+// Looks for the pieces that lead to the goal. TL_NAV_WIDE_COMPLETE: there are.
+static tl_nav_wide_status search_pieces(tl_nav_wide_search *search)
 {
     tl_nav_clearance *clearance = search->clearance;
     search->portals = tl_nav_take(clearance, clearance->query->max_nodes, sizeof *search->portals);
-    // Bends get a quarter of what is left: each one is smaller than what is gathered around it.
+    if (search->portals == NULL) {
+        return TL_NAV_WIDE_OUT_OF_NODES;
+    }
+    if (!tl_nav_wide_stand(search, &search->start)) {
+        return clearance->is_full ? TL_NAV_WIDE_OUT_OF_NODES : TL_NAV_WIDE_START_BLOCKED;
+    }
+    if (!tl_nav_wide_stand(search, &search->goal)) {
+        return clearance->is_full ? TL_NAV_WIDE_OUT_OF_NODES : TL_NAV_WIDE_GOAL_BLOCKED;
+    }
+    bool is_found = tl_nav_wide_run(search);
+    return is_found ? TL_NAV_WIDE_COMPLETE : clearance->is_full ? TL_NAV_WIDE_OUT_OF_NODES : TL_NAV_WIDE_UNREACHABLE;
+}
+
+static tl_result write_path(tl_nav_wide_search *search, tl_nav_corner *corners_out, uint32_t capacity,
+                            tl_nav_wide_path *path_out)
+{
+    tl_nav_clearance *clearance = search->clearance;
+    // Bends get a quarter of the room that is left: each one is smaller than what is gathered around it.
     tl_nav_bends path = { NULL, 0, 0, TL_NAV_NO_NODE };
     path.capacity = (uint32_t)((uint64_t)(clearance->room.high - clearance->room.low) / 4 / sizeof *path.bends);
     path.bends = tl_nav_take(clearance, path.capacity, sizeof *path.bends);
-    path_out->status = TL_NAV_WIDE_OUT_OF_NODES;
-    if (!tl_nav_wide_stand(search, &search->start)) {
-        path_out->status = clearance->is_full ? TL_NAV_WIDE_OUT_OF_NODES : TL_NAV_WIDE_START_BLOCKED;
+    if (!tl_nav_wide_straighten(search, &path) || !tl_nav_wide_pull(clearance, &path)) {
+        path_out->status = TL_NAV_WIDE_OUT_OF_NODES;
         return TL_OK;
     }
-    if (!tl_nav_wide_stand(search, &search->goal)) {
-        path_out->status = clearance->is_full ? TL_NAV_WIDE_OUT_OF_NODES : TL_NAV_WIDE_GOAL_BLOCKED;
-        return TL_OK;
-    }
-    bool is_found = tl_nav_wide_run(search);
-    path_out->node_count = clearance->query->node_count;
-    if (!is_found && !clearance->is_full) {
-        path_out->status = TL_NAV_WIDE_UNREACHABLE;
-    }
-    if (is_found && tl_nav_wide_straighten(search, &path) && tl_nav_wide_pull(clearance, &path)) {
-        path_out->status = TL_NAV_WIDE_COMPLETE;
-        write_corners(clearance, &path, corners_out, capacity, path_out);
-    }
+    write_corners(clearance, &path, corners_out, capacity, path_out);
     return path_out->corner_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
 }
 
-tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                      float radius, const tl_nav_location *start, const tl_nav_location *goal,
-                                      tl_nav_corner *corners_out, uint32_t capacity, tl_nav_wide_path *path_out)
+// What a path and the question whether there is one have in common. `is_asked_only`: no corners are wanted.
+static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter, float radius,
+                           const tl_nav_location *start, const tl_nav_location *goal, bool is_asked_only,
+                           tl_nav_corner *corners_out, uint32_t capacity, tl_nav_wide_path *path_out)
 {
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_WIDE_UNREACHABLE;
@@ -134,7 +139,29 @@ tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *nav
                                   NULL,
                                   false,
                                   TL_NAV_NO_NODE };
-    return find_wide(&search, corners_out, capacity, path_out);
+    tl_nav_pool_reset(query);
+    path_out->status = search_pieces(&search);
+    path_out->node_count = query->node_count;
+    return is_asked_only || path_out->status != TL_NAV_WIDE_COMPLETE
+               ? TL_OK
+               : write_path(&search, corners_out, capacity, path_out);
+}
+
+tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                      float radius, const tl_nav_location *start, const tl_nav_location *goal,
+                                      tl_nav_corner *corners_out, uint32_t capacity, tl_nav_wide_path *path_out)
+{
+    return find_wide(query, navmesh, filter, radius, start, goal, false, corners_out, capacity, path_out);
+}
+
+tl_result tl_nav_query_is_wide_reachable(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                         float radius, const tl_nav_location *start, const tl_nav_location *goal,
+                                         tl_nav_wide_status *status_out)
+{
+    tl_nav_wide_path path;
+    tl_result result = find_wide(query, navmesh, filter, radius, start, goal, true, NULL, 0, &path);
+    *status_out = path.status;
+    return result == TL_ERR_CAPACITY ? TL_OK : result;
 }
 
 const char *tl_nav_wide_status_name(tl_nav_wide_status status)

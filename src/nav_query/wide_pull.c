@@ -83,7 +83,8 @@ static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
     for (uint32_t i = 0; i < 2 * t->near.wall_count; i++) {
         tl_nav_segment wall = tl_nav_wall_segment(&t->near.walls[i / 2]);
         tl_nav_spot center = i % 2 == 0 ? wall.a : wall.b;
-        for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS && may_hold(t, center, clearance->reach + clearance->slack); k++) {
+        for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS && may_hold(t, center, clearance->reach + clearance->slack);
+             k++) {
             cap_corner corner = { tl_nav_circle_corner(center, clearance->reach, k), center };
             if (holds(t, corner.spot) && (!is_same(corner.spot, t->b) || bends_around(t, center))) {
                 t->corners[t->count++] = corner;
@@ -206,8 +207,7 @@ static bool pull_bend(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_t 
     path->bends[bend].is_taut = true;
     tl_nav_room room = clearance->room;
     tl_nav_spot shape[3] = { t.a, t.b, t.c };
-    bool fits = tl_nav_find_cell_walls(clearance, b->slot, b->polygon, shape, 3, &t.near) &&
-                gather_caps(clearance, &t);
+    bool fits = tl_nav_find_cell_walls(clearance, b->slot, b->polygon, shape, 3, &t.near) && gather_caps(clearance, &t);
     if (fits && hull_is_better(&t, clearance->least)) {
         *moved_out = true;
         fits = put_hull(clearance, &t, path, bend);

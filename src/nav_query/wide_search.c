@@ -147,7 +147,8 @@ typedef struct way_out {
     uint32_t side;
 } way_out;
 
-// Goes over an edge of the ring by all pieces of a face. `entry` is the piece by which the polygon was entered, or NULL.
+// Goes over an edge of the ring by all pieces of a face. `entry` is the piece by which the polygon was entered, or
+// NULL.
 static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_polygon *cut, uint32_t face,
                        const tl_nav_piece *entry, const way_out *way)
 {
@@ -244,7 +245,6 @@ bool tl_nav_wide_run(tl_nav_wide_search *search)
 {
     tl_nav_query *query = search->clearance->query;
     tl_nav_met start = { search->start.slot, search->start.polygon };
-    tl_nav_pool_reset(query);
     tl_nav_segment from = { search->start.spot, search->start.spot };
     relax(search, START_KEY, start, from, search->start.spot, 0.0f, TL_NAV_NO_NODE);
     if (search->is_joined) {

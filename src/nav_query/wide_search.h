@@ -11,9 +11,9 @@
 /// A place of a path. Paths are lists, so that they may be changed in the middle.
 typedef struct tl_nav_bend {
     tl_nav_spot spot;
-    tl_nav_spot center;     ///< the spot is a corner of the cap around it, if is_cap
+    tl_nav_spot center; ///< the spot is a corner of the cap around it, if is_cap
     bool is_cap;
-    bool is_taut; ///< pulled in vain, and since then it has the same neighbours
+    bool is_taut;           ///< pulled in vain, and since then it has the same neighbours
     uint32_t slot, polygon; ///< the path goes on in it
     uint32_t pass;          ///< the caller's: how many portals it is behind (wide_straight.c)
     uint32_t before, next;  ///< TL_NAV_NO_NODE at the ends

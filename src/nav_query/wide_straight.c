@@ -139,10 +139,10 @@ static bool is_clear_in(tl_nav_clearance *clearance, const pass *in, tl_nav_spot
     return is_clear;
 }
 
-// Whether the straight way from a spot in the polygon behind pass `first` to one in that behind pass `last` leads over the
-// free pieces of all portals between, and is clear.
-static bool is_straight(tl_nav_clearance *clearance, const passes *all, tl_nav_spot from, uint32_t first, tl_nav_spot to,
-                        uint32_t last, bool *fits)
+// Whether the straight way from a spot in the polygon behind pass `first` to one in that behind pass `last` leads over
+// the free pieces of all portals between, and is clear.
+static bool is_straight(tl_nav_clearance *clearance, const passes *all, tl_nav_spot from, uint32_t first,
+                        tl_nav_spot to, uint32_t last, bool *fits)
 {
     tl_nav_spot at = from;
     for (uint32_t i = first + 1; i <= last; i++) {
