@@ -105,7 +105,9 @@ static bool make_polygons(const tl_nav_tile *tile, tile_polygons *out)
         m->areas[p] = tl_nav_tile_area(tile, p);
         m->contours[p] = p;
         for (uint32_t k = m->first[p]; k < m->first[p + 1]; ++k) {
-            m->neighbours[k] = tl_nav_tile_neighbour(tile, p, k - m->first[p]);
+            const uint32_t across = tl_nav_tile_neighbour(tile, p, k - m->first[p]);
+            // Beyond a cut lies another layer: here it is a wall.
+            m->neighbours[k] = across == (TL_PORTAL | TL_NAV_SIDE_CUT) ? TL_NO_POLYGON : across;
         }
     }
     return true;

@@ -104,7 +104,7 @@ static void count_links(const tl_nav_compact *compact, uint32_t side, seam *out)
 
 static void count_portals(const tl_nav_tile *tile, uint32_t side, seam *out)
 {
-    for (uint32_t p = tile->side_first[side]; p < tile->side_first[side + 1]; p++) {
+    for (uint32_t p = tl_nav_tile_side_first(tile, side); p < tl_nav_tile_side_first(tile, side + 1); p++) {
         const tl_nav_portal *portal = &tl_nav_tile_portals(tile)[p];
         for (int32_t i = portal->low; i < portal->high; i++) {
             TEST_CHECK(i >= 0 && i < (int32_t)tile->tile_size);

@@ -42,8 +42,8 @@ static void test_portals(void **state)
     tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, NULL);
     TEST_CHECK(tile->portal_count == 8); // 2 x 2 open cells: two a side
     for (uint32_t side = 0; side < 4; side++) {
-        TEST_CHECK(tile->side_first[side + 1] - tile->side_first[side] == 2);
-        const tl_nav_portal *portal = tl_nav_tile_portals(tile) + tile->side_first[side];
+        TEST_CHECK(tl_nav_tile_side_first(tile, side + 1) - tl_nav_tile_side_first(tile, side) == 2);
+        const tl_nav_portal *portal = tl_nav_tile_portals(tile) + tl_nav_tile_side_first(tile, side);
         TEST_CHECK(portal[0].low == 0 && portal[0].high == 16 && portal[1].low == 16 && portal[1].high == 32);
         uint32_t first = ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[portal->polygon];
         TEST_CHECK(tl_nav_tile_neighbour(tile, portal->polygon, portal->corner - first) == (TL_PORTAL | side));

@@ -274,7 +274,7 @@ static void test_load_navmesh(void **state)
     tl_navmesh_free(navmesh);
     free(sink.bytes);
 
-    tiles[2]->side_first[1]++; // hashes right, content wrong
+    tiles[2]->side_end[0]++; // hashes right, content wrong
     sink = write_items(items, 4);
     tl_report report;
     TEST_RESULT(tl_pack_open(sink.bytes, sink.size, &pack, NULL), TL_OK);

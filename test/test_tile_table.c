@@ -221,13 +221,13 @@ static void test_seam_oracle(void **state)
         tl_navmesh *navmesh = fixture_build(&level, NULL);
         const tl_nav_tile *a = tl_navmesh_find_tile(navmesh, 0, 0), *b = tl_navmesh_find_tile(navmesh, 1, 0);
         TEST_CHECK(a != NULL && b != NULL);
-        for (uint32_t i = a->side_first[2]; i < a->side_first[3]; i++) {
+        for (uint32_t i = tl_nav_tile_side_first(a, 2); i < tl_nav_tile_side_first(a, 3); i++) {
             const tl_nav_portal *p = &tl_nav_tile_portals(a)[i];
             tl_nav_link links[64];
             uint32_t count = 0;
             TEST_RESULT(tl_navmesh_links(navmesh, tl_navmesh_polygon_ref(navmesh, 0, p->polygon), links, 64, &count),
                         TL_OK);
-            for (uint32_t k = b->side_first[0]; k < b->side_first[1]; k++) {
+            for (uint32_t k = tl_nav_tile_side_first(b, 0); k < tl_nav_tile_side_first(b, 1); k++) {
                 const tl_nav_portal *q = &tl_nav_tile_portals(b)[k];
                 float height_p = ((const tl_vec3 *)tl_nav_tile_at(a, a->corners))[p->corner].y;
                 float height_q = ((const tl_vec3 *)tl_nav_tile_at(b, b->corners))[q->corner].y;

@@ -2,7 +2,8 @@
 //
 // Asking a navmesh: the table of tiles, nearest polygon, height, paths, straight paths, rays along the surface.
 //
-//   tl_navmesh    tiles side by side, linked across their seams. Adding and removing a tile needs it alone; all
+//   tl_navmesh    tiles side by side, and over one another where a place is divided into layers, linked across their
+//                 seams. Adding and removing a tile needs it alone; all
 //                 queries take it const and may run from any number of threads at once.
 //   tl_nav_query  the search state of one thread. Only the path search needs one.
 //
@@ -42,23 +43,29 @@ TL_API tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **n
 /// Frees the table and the tiles it owns. NULL: nothing happens.
 TL_API void tl_navmesh_free(tl_navmesh *navmesh);
 
-/// Puts a tile at its own (tile_x, tile_z) and links it with its four neighbours.
+/// Puts a tile at its own (tile_x, layer, tile_z) and links it with its neighbours: all layers of the four places beside
+/// it, over their common sides, and the other layers of its own place, over cuts with the same ends.
 ///
 /// The tile must be known to be whole: fresh from tl_nav_tile_create, or passed by tl_nav_tile_check; and it must not
 /// change while it is in (to change flags, take it out and put the changed one in). Two portals are
 /// linked where they overlap by more than a point and their heights come within agent_max_climb, the larger of both
 /// tiles', and one cell height of one another. On failure nothing is changed and the tile stays the caller's:
 /// TL_ERR_ARGUMENT (there is a tile already, or origin, cell sizes or tile_size differ from the other tiles'),
-/// TL_ERR_LIMIT (TL_NAV_MAX_TILES), TL_ERR_MEMORY. O(corners and links of the five tiles).
+/// TL_ERR_LIMIT (TL_NAV_MAX_TILES), TL_ERR_MEMORY. O(corners and links of the tiles of the five places).
 TL_API tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership);
 
-/// Takes a tile out, and the links to it. TL_ERR_NOT_FOUND when there is none. Never fails otherwise.
-/// O(corners of the neighbours). Islands cost what lies between the neighbours, some tiles as a rule; where the tile
-/// was all that held two parts of an island together, the smaller part's tiles.
+/// Takes the tile at a place out, all its layers where it is divided, and the links to them. TL_ERR_NOT_FOUND when there
+/// is none. Never fails otherwise. O(corners of the neighbours). Islands cost what lies between the neighbours, some tiles
+/// as a rule; where the tile was all that held two parts of an island together, the smaller part's tiles.
 TL_API tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
+/// The same with one layer.
+TL_API tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z);
 
-/// The tile at a place, or NULL.
+/// The tile at a place, or NULL; where it is divided the lowest layer that is there.
 TL_API const tl_nav_tile *tl_navmesh_find_tile(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
+/// One layer, or NULL.
+TL_API const tl_nav_tile *tl_navmesh_find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer,
+                                                int32_t tile_z);
 
 TL_API uint32_t tl_navmesh_tile_count(const tl_navmesh *navmesh);
 /// To iterate over all tiles: slots below tl_navmesh_slot_count hold a tile or NULL.

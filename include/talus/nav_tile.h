@@ -62,6 +62,7 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail, const tl_allocator *alloca
 #define TL_NAV_MAX_AREA          255        ///< areas are 1 to 255, 0 is not walkable
 #define TL_NAV_MAX_TILES         (1u << 20) ///< of one navmesh, so that a slot fits a reference (nav_query.h)
 #define TL_NAV_MAX_TILE_INDEX    (1 << 24)  ///< |tile_x| and |tile_z|
+#define TL_NAV_MAX_LAYER         0xffffu    ///< of the tiles at one place
 #define TL_NAV_MAX_TILE_DEPTH    40         ///< of the box tree: log2 of the polygons, and room
 
 // ---------------------------------------------------------------------------------------------------------
@@ -69,15 +70,21 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail, const tl_allocator *alloca
 // is zero. Read it through the functions below; the fields are public because a format has no secrets.
 
 #define TL_NAV_LINK_WALL   UINT32_MAX  ///< nothing lies across this edge
-#define TL_NAV_LINK_PORTAL 0x80000000u ///< | index of a tl_nav_portal: the edge lies on the tile's border
+#define TL_NAV_LINK_PORTAL 0x80000000u ///< | index of a tl_nav_portal: other tiles' polygons may lie across this edge
 
-/// An edge on the tile's border, across which other tiles' polygons may lie.
+/// The fifth side of a tile, beside those towards x-, z+, x+ and z-: edges that were cut when the floors of a place
+/// were divided into layers. What lies across is in another layer of the same place, and has the same two vertices.
+#define TL_NAV_SIDE_CUT   4u
+#define TL_NAV_SIDE_COUNT 5u
+
+/// An edge across which other tiles' polygons may lie: on the tile's border, or cut.
 typedef struct tl_nav_portal {
     uint32_t polygon;
     uint32_t corner;        ///< index in the corner arrays where the edge starts
-    int32_t low, high;      ///< lattice, low < high: its stretch along the side (z on sides 0 and 2, x on 1 and 3)
+    int32_t low, high;      ///< lattice, low < high: its stretch along the side (z on sides 0 and 2, x on 1 and 3). Of
+                            ///< a cut: the layer across, and what tells cuts with the same ends apart, 0 for the first
     uint32_t first_profile; ///< its heights, from low to high, both ends included
-    uint32_t profile_count; ///< >= 2
+    uint32_t profile_count; ///< >= 2; 0 for a cut, whose ends are the same in both tiles
 } tl_nav_portal;
 
 /// A height of the surface along a portal; straight between two of them.
@@ -97,7 +104,7 @@ typedef struct tl_nav_tile_node {
 typedef struct tl_nav_tile {
     tl_blob blob;
     int32_t tile_x, tile_z; ///< place in the grid of tiles
-    uint32_t tile_size;     ///< cells; 0: the tile is the whole navmesh
+    uint32_t tile_size;     ///< cells; 0: the only place is the whole navmesh
     uint32_t polygon_count;
     uint32_t vertex_count; ///< lattice vertices, shared
     uint32_t corner_count; ///< of all polygons
@@ -106,7 +113,9 @@ typedef struct tl_nav_tile {
     uint32_t node_count;
     uint32_t portal_count;
     uint32_t profile_count;
-    uint32_t side_first[5]; ///< portals of side s: [side_first[s], side_first[s + 1]), ascending by low, then polygon
+    uint32_t layer;       ///< tells the tiles at one place apart; 0 where they are not divided
+    uint32_t side_end[4]; ///< portals stand by side, and along it by low, then corner; cuts, behind side 3, by
+                          ///< the layer across, then tl_nav_cut_compare. Read them through tl_nav_tile_side_first
     double area;            ///< square metres in the plane, of all polygons
     tl_vec3 origin;         ///< metres: lattice point (0, 0, 0) of tile (0, 0); the same in all tiles of a navmesh
     float cell_size;        ///< metres
@@ -132,6 +141,13 @@ typedef struct tl_nav_tile {
 // ---------------------------------------------------------------------------------------------------------
 // Baking and checking.
 
+/// An edge of a polygon that was cut: across it lies a polygon of another layer.
+typedef struct tl_nav_cut {
+    uint32_t corner;  ///< index in the mesh's corner arrays where the edge starts; a wall there (TL_NO_POLYGON)
+    uint32_t layer;   ///< across
+    uint32_t ordinal; ///< among cuts with the same two ends, which only floors that lie upon each other have: 0, 1, ...
+} tl_nav_cut;
+
 /// What a tile is baked from. Nothing is kept or owned.
 typedef struct tl_nav_tile_source {
     /// Convex polygons with area, in the contours' winding, 3 to 64 corners each, areas 1 to 255. Its bounds, cell_size
@@ -149,12 +165,15 @@ typedef struct tl_nav_tile_source {
     float agent_radius;    ///< metres, >= 0
     float agent_max_climb; ///< metres, >= 0: tiles are linked where their seams differ by no more
     const uint64_t *flags; ///< one a polygon, or NULL: all 1
+    uint32_t layer;         ///< <= TL_NAV_MAX_LAYER; 0 where the place is not divided
+    const tl_nav_cut *cuts; ///< by rising corner
+    uint32_t cut_count;
 } tl_nav_tile_source;
 
 /// Bakes one tile. The same source gives the same bytes everywhere.
 ///
 /// `*tile_out` is freed with tl_blob_free(tile, allocator). On failure it is NULL, and the report (which may be NULL)
-/// names the element. Errors: TL_ERR_EMPTY (no polygon), TL_ERR_ARGUMENT (a setting, an area), TL_ERR_INDEX,
+/// names the element. Errors: TL_ERR_EMPTY (no polygon), TL_ERR_ARGUMENT (a setting, an area, a cut), TL_ERR_INDEX,
 /// TL_ERR_RANGE (a vertex), TL_ERR_NOT_FINITE, TL_ERR_DEGENERATE and TL_ERR_WINDING (a polygon without area, or not
 /// convex, or wound the wrong way), TL_ERR_NON_MANIFOLD (a neighbour that does not point back), TL_ERR_LIMIT,
 /// TL_ERR_MEMORY. O(n log n).
@@ -162,10 +181,28 @@ TL_API tl_result tl_nav_tile_create(const tl_nav_tile_source *source, const tl_a
                                     tl_nav_tile **tile_out, tl_report *report_out);
 
 /// Bakes a tile of some polygons of another: those with keep[p] != 0, in the same order. Links to the others become
-/// walls. All of them give the same bytes again. TL_ERR_EMPTY: none is kept; else as tl_nav_tile_create. `tile` is
+/// walls; cuts stay. All of them give the same bytes again. TL_ERR_EMPTY: none is kept; else as tl_nav_tile_create. `tile` is
 /// trusted.
 TL_API tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep, const tl_allocator *allocator,
                                     tl_nav_tile **tile_out, tl_report *report_out);
+
+/// The tiles of one place, by rising layer.
+typedef struct tl_nav_tile_stack {
+    tl_nav_tile **tiles;
+    uint32_t count;
+} tl_nav_tile_stack;
+
+TL_API void tl_nav_tile_stack_free(tl_nav_tile_stack *stack, const tl_allocator *allocator);
+
+/// Divides a tile into layers: polygon p goes into that of the number layers[p]. Together they have the tile's polygons,
+/// each layer its own in the same order, and in a navmesh the same links: an edge between two layers becomes a cut in
+/// both. A layer of the tile's own number that takes all polygons has the tile's bytes.
+///
+/// Errors: TL_ERR_ARGUMENT (the tile is a layer already: it has cuts, or a number of its own; a number above
+/// TL_NAV_MAX_LAYER), TL_ERR_LIMIT, TL_ERR_MEMORY; then `*stack_out` is zeroed. `tile` is trusted, and stays.
+/// O(polygons * layers).
+TL_API tl_result tl_nav_tile_divide(const tl_nav_tile *tile, const uint32_t *layers, const tl_allocator *allocator,
+                                    tl_nav_tile_stack *stack_out, tl_report *report_out);
 
 /// Whether bytes from anywhere are a whole tile that every query can be trusted with. Safe on any bytes.
 ///
@@ -197,6 +234,22 @@ static inline const tl_vec3 *tl_nav_tile_corners(const tl_nav_tile *tile, uint32
     const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + polygon;
     *count_out = first[1] - first[0];
     return (const tl_vec3 *)tl_nav_tile_at(tile, tile->corners) + first[0];
+}
+
+/// The first portal of a side; those of side s end where those of s + 1 begin. `side` <= TL_NAV_SIDE_COUNT.
+static inline uint32_t tl_nav_tile_side_first(const tl_nav_tile *tile, uint32_t side)
+{
+    return side == 0 ? 0 : side <= TL_NAV_SIDE_CUT ? tile->side_end[side - 1] : tile->portal_count;
+}
+
+/// The side that a portal is on.
+static inline uint32_t tl_nav_tile_side_of(const tl_nav_tile *tile, uint32_t portal)
+{
+    uint32_t side = 0;
+    while (side < TL_NAV_SIDE_CUT && portal >= tile->side_end[side]) {
+        side++;
+    }
+    return side;
 }
 
 /// The polygon's links, one an edge: a polygon of this tile, TL_NAV_LINK_WALL or TL_NAV_LINK_PORTAL | portal.
@@ -254,8 +307,46 @@ static inline const int32_t *tl_nav_tile_lattice(const tl_nav_tile *tile, uint32
     return (const int32_t *)tl_nav_tile_at(tile, tile->vertices) + 3 * (size_t)vertex[first[polygon] + corner];
 }
 
+/// Whether the ends a and b of a cut stand in the order that both tiles agree on: by x, then z, then y.
+static inline bool tl_nav_cut_rises(const int32_t *a, const int32_t *b)
+{
+    return a[0] != b[0] ? a[0] < b[0] : a[2] != b[2] ? a[2] < b[2] : a[1] <= b[1];
+}
+
+/// The ends of a cut in that order.
+static inline void tl_nav_cut_ends(const tl_nav_tile *tile, const tl_nav_portal *cut, const int32_t *ends_out[2])
+{
+    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + cut->polygon;
+    const uint32_t edge = cut->corner - first[0];
+    const int32_t *a = tl_nav_tile_lattice(tile, cut->polygon, edge);
+    const int32_t *b = tl_nav_tile_lattice(tile, cut->polygon, cut->corner + 1 < first[1] ? edge + 1 : 0);
+    const bool rises = tl_nav_cut_rises(a, b);
+    ends_out[0] = rises ? a : b;
+    ends_out[1] = rises ? b : a;
+}
+
+/// Orders cuts of one place, of the same tile or two, by their ends, then by what tells those with the same ends apart:
+/// < 0, 0 or > 0. The two sides of a cut compare as 0.
+static inline int tl_nav_cut_compare(const tl_nav_tile *tile_a, const tl_nav_portal *a, const tl_nav_tile *tile_b,
+                                     const tl_nav_portal *b)
+{
+    const int axes[3] = { 0, 2, 1 };
+    const int32_t *ends_a[2];
+    const int32_t *ends_b[2];
+    tl_nav_cut_ends(tile_a, a, ends_a);
+    tl_nav_cut_ends(tile_b, b, ends_b);
+    for (int i = 0; i < 6; i++) {
+        const int32_t at_a = ends_a[i / 3][axes[i % 3]];
+        const int32_t at_b = ends_b[i / 3][axes[i % 3]];
+        if (at_a != at_b) {
+            return at_a < at_b ? -1 : 1;
+        }
+    }
+    return (a->high > b->high) - (a->high < b->high);
+}
+
 /// What lies across an edge, in the words of tl_polygon_mesh: a polygon of this tile, TL_NO_POLYGON or
-/// TL_PORTAL | side.
+/// TL_PORTAL | side, TL_NAV_SIDE_CUT among them.
 TL_API uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon, uint32_t edge);
 
 /// Square metres of one polygon in the plane.

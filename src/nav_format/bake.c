@@ -30,7 +30,8 @@ static void bake_header(const tl_nav_tile_source *source, const tl_nav_portals *
     tile->node_count = 2 * polygons->polygon_count - 1; // a binary tree with one polygon a leaf
     tile->portal_count = portals->portal_count;
     tile->profile_count = portals->profile_count;
-    memcpy(tile->side_first, portals->side_first, sizeof tile->side_first);
+    memcpy(tile->side_end, portals->side_end, sizeof tile->side_end);
+    tile->layer = source->layer;
     // Without detail a polygon of n corners is a fan of n - 2 triangles.
     tile->detail_vertex_count = polygons->index_count;
     tile->detail_triangle_count = polygons->index_count - 2 * polygons->polygon_count;

@@ -54,9 +54,9 @@ static tl_result check_scalars(const tl_nav_tile *tile, tl_report *report)
                  tile->agent_radius >= 0.0f && isfinite(tile->agent_radius) && tile->agent_max_climb >= 0.0f &&
                  isfinite(tile->agent_max_climb) && isfinite(tile->origin.x) && isfinite(tile->origin.y) &&
                  isfinite(tile->origin.z);
-    bool sides = tile->side_first[0] == 0 && tile->side_first[4] == tile->portal_count;
-    for (int side = 0; side < 4; side++) {
-        sides = sides && tile->side_first[side] <= tile->side_first[side + 1];
+    bool sides = tile->layer <= TL_NAV_MAX_LAYER;
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        sides = sides && tl_nav_tile_side_first(tile, side) <= tl_nav_tile_side_first(tile, side + 1);
     }
     return counts && place && sizes && sides ? TL_OK : corrupt(report, "header", TL_NO_ELEMENT);
 }
@@ -224,16 +224,28 @@ static bool is_profile(const tl_nav_tile *tile, const tl_nav_portal *portal)
     return right;
 }
 
-static bool is_portal(const tl_nav_tile *tile, uint32_t index, uint32_t side)
+// Of a cut: the layer across is another one. Where it lies is its edge's business.
+static bool is_cut(const tl_nav_tile *tile, const tl_nav_portal *portal)
+{
+    return portal->low >= 0 && (uint32_t)portal->low <= TL_NAV_MAX_LAYER && (uint32_t)portal->low != tile->layer &&
+           portal->high >= 0 && portal->profile_count == 0;
+}
+
+// Whether a portal's edge is this portal's own, on whatever side.
+static bool is_own_edge(const tl_nav_tile *tile, uint32_t index)
 {
     const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
     const uint32_t *links = tl_nav_tile_at(tile, tile->links);
     const tl_nav_portal *portal = &tl_nav_tile_portals(tile)[index];
     uint32_t p = portal->polygon;
-    if (p >= tile->polygon_count || portal->corner < first[p] || portal->corner >= first[p + 1] ||
-        links[portal->corner] != (TL_NAV_LINK_PORTAL | index)) {
-        return false;
-    }
+    return p < tile->polygon_count && portal->corner >= first[p] && portal->corner < first[p + 1] &&
+           links[portal->corner] == (TL_NAV_LINK_PORTAL | index);
+}
+
+static bool is_on_border(const tl_nav_tile *tile, const tl_nav_portal *portal, uint32_t side)
+{
+    const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
+    uint32_t p = portal->polygon;
     uint32_t edge = portal->corner - first[p];
     uint32_t next = portal->corner + 1 < first[p + 1] ? edge + 1 : 0;
     const int32_t *a = tl_nav_tile_lattice(tile, p, edge);
@@ -243,15 +255,27 @@ static bool is_portal(const tl_nav_tile *tile, uint32_t index, uint32_t side)
            portal->high == (a[axis] < b[axis] ? b[axis] : a[axis]) && is_profile(tile, portal);
 }
 
+// Whether the portal before stands before this one of the same side. Both are edges of their own.
+static bool is_ordered(const tl_nav_tile *tile, uint32_t side, const tl_nav_portal *before, const tl_nav_portal *portal)
+{
+    if (before->low != portal->low) {
+        return before->low < portal->low;
+    }
+    return side == TL_NAV_SIDE_CUT ? tl_nav_cut_compare(tile, before, tile, portal) < 0
+                                   : before->corner < portal->corner;
+}
+
 static tl_result check_portals(const tl_nav_tile *tile, tl_report *report)
 {
     const tl_nav_portal *portals = tl_nav_tile_portals(tile);
     uint32_t profile_end = 0;
-    for (uint32_t side = 0; side < 4; side++) {
-        for (uint32_t i = tile->side_first[side]; i < tile->side_first[side + 1]; i++) {
-            bool ordered = i == tile->side_first[side] || portals[i - 1].low < portals[i].low ||
-                           (portals[i - 1].low == portals[i].low && portals[i - 1].corner < portals[i].corner);
-            if (!ordered || portals[i].first_profile != profile_end || !is_portal(tile, i, side)) {
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        const uint32_t begin = tl_nav_tile_side_first(tile, side);
+        for (uint32_t i = begin; i < tl_nav_tile_side_first(tile, side + 1); i++) {
+            const tl_nav_portal *portal = &portals[i];
+            if (portal->first_profile != profile_end || !is_own_edge(tile, i) ||
+                !(side == TL_NAV_SIDE_CUT ? is_cut(tile, portal) : is_on_border(tile, portal, side)) ||
+                (i > begin && !is_ordered(tile, side, portal - 1, portal))) {
                 return corrupt(report, "portal", i);
             }
             profile_end += portals[i].profile_count;

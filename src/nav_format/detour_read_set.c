@@ -78,9 +78,8 @@ static tl_result next_tile(set_reader *set, uint32_t index, tl_detour_tile_bytes
     if (off > TL_DETOUR_ON_LATTICE || size <= 0 || size == INT32_MAX || params->tile_width != params->tile_height) {
         return tl_report_fail(&report->base, TL_ERR_RANGE, "tile", index, "tiles are squares of whole cells");
     }
-    if (tile->header.layer != 0) {
-        return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", index,
-                              "tiles that lie over one another cannot be read");
+    if (tile->header.layer < 0 || (uint32_t)tile->header.layer > TL_NAV_MAX_LAYER) {
+        return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", index, "layers are 0 to 65535");
     }
     tile->tile_size = (uint32_t)size;
     return TL_OK;

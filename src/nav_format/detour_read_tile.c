@@ -371,6 +371,7 @@ static tl_result make_tile(reading *r, const tl_allocator *allocator, tl_nav_til
     source.tile_x = tile->tile_size != 0 ? tile->header.x : 0;
     source.tile_z = tile->tile_size != 0 ? tile->header.y : 0;
     source.tile_size = tile->tile_size;
+    source.layer = tile->tile_size != 0 ? (uint32_t)tile->header.layer : 0;
     source.origin = tile->origin;
     source.agent_height = at_least(tile->header.walkable_height, r->cell_height);
     source.agent_radius = at_least(tile->header.walkable_radius, 0.0f);

@@ -70,11 +70,16 @@ static tl_result make_header(const tl_nav_tile *tile, tl_detour_header *header, 
         return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", TL_NO_ELEMENT,
                               "it has more polygons or vertices than Detour counts in 16 bits; bake smaller tiles");
     }
+    if (tl_nav_tile_side_first(tile, TL_NAV_SIDE_CUT) < tile->portal_count) {
+        return tl_report_fail(&report->base, TL_ERR_LIMIT, "layer", tile->layer,
+                              "Detour links layers of a place over edges along the axes only; bake with tile_height 0");
+    }
     memset(header, 0, sizeof *header);
     header->magic = (int32_t)TL_DETOUR_TILE_MAGIC;
     header->version = TL_DETOUR_TILE_VERSION;
     header->x = tile->tile_x;
     header->y = tile->tile_z;
+    header->layer = (int32_t)tile->layer;
     header->polygon_count = header->detail_mesh_count = header->off_mesh_base = (int32_t)tile->polygon_count;
     header->vertex_count = (int32_t)tile->vertex_count;
     // One link an edge, and two more for each edge on the border, which several polygons may adjoin.

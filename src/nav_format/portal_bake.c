@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Portals: the edges on a tile's border, sorted by side and place, each with the profile of the surface along it.
+// Portals: the edges on a tile's border, sorted by side and place, each with the profile of the surface along it; then
+// the edges that were cut between layers, by the layer across and by their ends.
 //
 // Two tiles are linked where their borders meet in height. A polygon's edge is straight from corner to corner, while
 // the floor under it may rise and fall by more than a step; and the neighbour tile may have put its corners elsewhere.
@@ -9,11 +10,13 @@
 
 #include "nav_format/portal_bake.h"
 
+#include "base/assert.h"
 #include "base/host.h"
 #include "base/radix_sort.h"
 #include "nav_format/lattice.h"
 
 #include <math.h>
+#include <string.h>
 
 // A detail vertex belongs to the border when it is no farther from it than this. Vertices on the edge are off by
 // float rounding only; vertices inside a polygon lie on cell centres or sample points, at least half a cell away.
@@ -119,30 +122,83 @@ static void bake_profile(const tl_nav_tile_source *source, uint32_t side, tl_nav
     portal->profile_count = portals->profile_count - portal->first_profile;
 }
 
-// Orders portals by side, then low, then corner. The corner is the sort's input order, which it keeps.
-static bool sort_portals(tl_nav_portal *portals, uint8_t *sides, uint32_t count, tl_arena *arena,
-                         tl_nav_portals *portals_out)
+// An integer as one that sorts alike without a sign.
+static uint64_t biased(int32_t value)
+{
+    return (uint32_t)value ^ 0x80000000u;
+}
+
+// What cuts are sorted by after their layer, the least word first: ends as tl_nav_cut_ends has them, then the ordinal.
+enum { CUT_WORDS = 4 };
+
+static void cut_words(const tl_polygon_mesh *polygons, const tl_nav_portal *cut, uint64_t words_out[CUT_WORDS])
+{
+    const uint32_t *first = polygons->first + cut->polygon;
+    uint32_t next = cut->corner + 1 < first[1] ? cut->corner + 1 : first[0];
+    const int32_t *a = polygons->vertices + 3 * (size_t)polygons->indices[cut->corner];
+    const int32_t *b = polygons->vertices + 3 * (size_t)polygons->indices[next];
+    bool rises = tl_nav_cut_rises(a, b);
+    const int32_t *low = rises ? a : b;
+    const int32_t *high = rises ? b : a;
+    words_out[0] = (uint32_t)cut->high;
+    words_out[1] = biased(high[2]) << 32 | biased(high[1]);
+    words_out[2] = biased(low[1]) << 32 | biased(high[0]);
+    words_out[3] = biased(low[0]) << 32 | biased(low[2]);
+}
+
+// Brings cuts, which stand behind `border_count` other portals, into the order of their words.
+static tl_result sort_cuts(const tl_polygon_mesh *polygons, tl_nav_portal *portals, uint32_t border_count,
+                           uint32_t count, tl_sort_item *items, tl_sort_item *scratch, tl_report *report)
+{
+    uint64_t words[CUT_WORDS], before[CUT_WORDS];
+    for (uint32_t word = 0; word < CUT_WORDS; word++) {
+        for (uint32_t i = border_count; i < count; i++) {
+            cut_words(polygons, &portals[items[i].value], words);
+            items[i].key = words[word];
+        }
+        tl_radix_sort(items + border_count, scratch, count - border_count);
+    }
+    for (uint32_t i = border_count + 1; i < count; i++) {
+        const tl_nav_portal *cut = &portals[items[i].value], *other = &portals[items[i - 1].value];
+        cut_words(polygons, cut, words);
+        cut_words(polygons, other, before);
+        if (cut->low == other->low && memcmp(words, before, sizeof words) == 0) {
+            return tl_report_fail(report, TL_ERR_ARGUMENT, "cut", TL_NO_ELEMENT,
+                                  "give cuts with the same ends ordinals of their own");
+        }
+    }
+    return TL_OK;
+}
+
+// Orders portals by side, then low, then corner: the sort's input order, which it keeps. Cuts, which come last, are by
+// their words before.
+static tl_result sort_portals(const tl_nav_tile_source *source, tl_nav_portal *portals, const uint8_t *sides,
+                              uint32_t count, tl_arena *arena, tl_nav_portals *portals_out, tl_report *report)
 {
     tl_sort_item *items = TL_PUSH(arena, tl_sort_item, count);
     tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, count);
     portals_out->portals = TL_PUSH(arena, tl_nav_portal, count);
     if (items == NULL || scratch == NULL || portals_out->portals == NULL) {
-        return false;
+        return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t biased_low = (uint32_t)portals[i].low ^ 0x80000000u;
-        tl_sort_item item = { (uint64_t)sides[i] << 32 | biased_low, i, 0 };
+        tl_sort_item item = { 0, i, 0 };
         items[i] = item;
-        for (uint32_t side = sides[i] + 1u; side < 5; side++) {
-            portals_out->side_first[side]++;
+        for (uint32_t side = sides[i]; side < TL_NAV_SIDE_CUT; side++) {
+            portals_out->side_end[side]++;
         }
+    }
+    TL_TRY(sort_cuts(source->polygons, portals, count - source->cut_count, count, items, scratch, report));
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t portal = items[i].value;
+        items[i].key = (uint64_t)sides[portal] << 32 | biased(portals[portal].low);
     }
     tl_radix_sort(items, scratch, count);
     for (uint32_t i = 0; i < count; i++) {
         portals_out->portals[i] = portals[items[i].value];
     }
     portals_out->portal_count = count;
-    return true;
+    return TL_OK;
 }
 
 static tl_nav_portal make_portal(const tl_polygon_mesh *polygons, uint32_t p, uint32_t k, uint32_t side)
@@ -155,13 +211,27 @@ static tl_nav_portal make_portal(const tl_polygon_mesh *polygons, uint32_t p, ui
     return portal;
 }
 
+static void gather_cuts(const tl_nav_tile_source *source, uint32_t made, tl_nav_portal *portals, uint8_t *sides)
+{
+    uint32_t p = 0;
+    for (uint32_t i = 0; i < source->cut_count; i++) {
+        const tl_nav_cut *cut = &source->cuts[i];
+        while (cut->corner >= source->polygons->first[p + 1]) {
+            p++;
+        }
+        tl_nav_portal portal = { p, cut->corner, (int32_t)cut->layer, (int32_t)cut->ordinal, 0, 0 };
+        sides[made + i] = TL_NAV_SIDE_CUT;
+        portals[made + i] = portal;
+    }
+}
+
 tl_result tl_nav_bake_portals(const tl_nav_tile_source *source, tl_arena *arena, tl_nav_portals *portals_out,
                               tl_report *report)
 {
     const tl_polygon_mesh *polygons = source->polygons;
     tl_nav_portals zero = { 0 };
     *portals_out = zero;
-    uint32_t count = 0;
+    uint32_t count = source->cut_count;
     uint32_t largest_patch = 0;
     uint64_t profile_capacity = 0;
     for (uint32_t p = 0; p < polygons->polygon_count; p++) {
@@ -195,14 +265,17 @@ tl_result tl_nav_bake_portals(const tl_nav_tile_source *source, tl_arena *arena,
             }
         }
     }
-    if (!sort_portals(found, sides, count, arena, portals_out)) {
-        return TL_ERR_MEMORY;
-    }
+    gather_cuts(source, made, found, sides);
+    TL_TRY(sort_portals(source, found, sides, count, arena, portals_out, report));
     for (uint32_t i = 0, side = 0; i < count; i++) {
-        while (i >= portals_out->side_first[side + 1]) {
+        while (side < TL_NAV_SIDE_CUT && i >= portals_out->side_end[side]) {
             side++;
         }
-        bake_profile(source, side, &portals_out->portals[i], items, scratch, portals_out);
+        if (side == TL_NAV_SIDE_CUT) {
+            portals_out->portals[i].first_profile = portals_out->profile_count;
+        } else {
+            bake_profile(source, side, &portals_out->portals[i], items, scratch, portals_out);
+        }
     }
     return TL_OK;
 }

@@ -10,12 +10,7 @@ uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon, uint32
     if (link == TL_NAV_LINK_WALL || (link & TL_NAV_LINK_PORTAL) == 0) {
         return link == TL_NAV_LINK_WALL ? TL_NO_POLYGON : link;
     }
-    uint32_t portal = link & ~TL_NAV_LINK_PORTAL;
-    uint32_t side = 0;
-    while (side < 3 && portal >= tile->side_first[side + 1]) {
-        side++;
-    }
-    return TL_PORTAL | side;
+    return TL_PORTAL | tl_nav_tile_side_of(tile, link & ~TL_NAV_LINK_PORTAL);
 }
 
 double tl_nav_tile_polygon_area(const tl_nav_tile *tile, uint32_t polygon)

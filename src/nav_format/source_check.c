@@ -36,6 +36,9 @@ static tl_result check_settings(const tl_nav_tile_source *source, tl_report *rep
         return tl_report_fail(report, TL_ERR_ARGUMENT, "tile_x", TL_NO_ELEMENT,
                               "the place of a tile is beyond the grid; without a tile_size it is (0, 0)");
     }
+    if (source->layer > TL_NAV_MAX_LAYER) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "layer", TL_NO_ELEMENT, "layers are 0 to 65535");
+    }
     return TL_OK;
 }
 
@@ -202,6 +205,22 @@ static tl_result check_detail(const tl_nav_tile_source *source, tl_report *repor
     return TL_OK;
 }
 
+static tl_result check_cuts(const tl_nav_tile_source *source, tl_report *report)
+{
+    const tl_polygon_mesh *polygons = source->polygons;
+    for (uint32_t i = 0; i < source->cut_count; i++) {
+        const tl_nav_cut *cut = &source->cuts[i];
+        if (cut->corner >= polygons->index_count || (i > 0 && cut->corner <= source->cuts[i - 1].corner)) {
+            return tl_report_fail(report, TL_ERR_INDEX, "cut", i, "cuts stand by rising corner");
+        }
+        if (polygons->neighbours[cut->corner] != TL_NO_POLYGON || cut->layer > TL_NAV_MAX_LAYER ||
+            cut->layer == source->layer || cut->ordinal > INT32_MAX) {
+            return tl_report_fail(report, TL_ERR_ARGUMENT, "cut", i, "it is a wall here, and leads to another layer");
+        }
+    }
+    return TL_OK;
+}
+
 tl_result tl_nav_tile_check_source(const tl_nav_tile_source *source, tl_report *report)
 {
     const tl_polygon_mesh *polygons = source->polygons;
@@ -226,5 +245,6 @@ tl_result tl_nav_tile_check_source(const tl_nav_tile_source *source, tl_report *
     for (uint32_t p = 0; p < polygons->polygon_count; p++) {
         TL_TRY(check_neighbours(polygons, p, report));
     }
+    TL_TRY(check_cuts(source, report));
     return check_detail(source, report);
 }

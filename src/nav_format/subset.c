@@ -2,22 +2,32 @@
 //
 // A tile of some of a tile's polygons: its arrays, read back as what it was baked from, with the others left out.
 
+#include "nav_format/subset.h"
+
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
 
 #include <string.h>
-#include <talus/nav_tile.h>
 
 typedef struct subset {
     const tl_nav_tile *tile;
     const uint8_t *keep;
+    tl_nav_cut *cuts;
+    uint32_t cut_count;
+    const tl_nav_layering *layering; // NULL: `keep` says what is kept
+    uint32_t layer;                  // of what is made
     tl_polygon_mesh mesh;
     tl_nav_detail detail;
     uint64_t *flags;
     uint32_t *number;        // [polygons of the tile]: its number among those kept, or TL_NO_POLYGON
     uint32_t *vertex_number; // [vertices of the tile]: the same, in the tile's order
 } subset;
+
+static bool keeps(const subset *s, uint32_t p)
+{
+    return s->layering != NULL ? s->layering->layers[p] == s->layer : s->keep[p] != 0;
+}
 
 static tl_result make_room(subset *s, tl_arena *arena)
 {
@@ -32,7 +42,8 @@ static tl_result make_room(subset *s, tl_arena *arena)
     mesh->indices = TL_PUSH(arena, uint32_t, tile->corner_count);
     mesh->neighbours = TL_PUSH(arena, uint32_t, tile->corner_count);
     mesh->areas = TL_PUSH(arena, uint32_t, tile->polygon_count);
-    return s->number != NULL && s->vertex_number != NULL && s->flags != NULL && s->detail.patches != NULL &&
+    s->cuts = TL_PUSH(arena, tl_nav_cut, tile->corner_count);
+    return s->cuts != NULL && s->number != NULL && s->vertex_number != NULL && s->flags != NULL && s->detail.patches != NULL &&
                    mesh->vertices != NULL && mesh->first != NULL && mesh->indices != NULL && mesh->neighbours != NULL &&
                    mesh->areas != NULL
                ? TL_OK
@@ -46,8 +57,8 @@ static void number_what_is_kept(subset *s)
     const uint32_t *vertex = tl_nav_tile_at(tile, tile->corner_vertices);
     const int32_t *lattice = tl_nav_tile_at(tile, tile->vertices);
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        s->number[p] = s->keep[p] ? s->mesh.polygon_count++ : TL_NO_POLYGON;
-        for (uint32_t k = first[p]; s->keep[p] && k < first[p + 1]; k++) {
+        s->number[p] = keeps(s, p) ? s->mesh.polygon_count++ : TL_NO_POLYGON;
+        for (uint32_t k = first[p]; s->number[p] != TL_NO_POLYGON && k < first[p + 1]; k++) {
             s->vertex_number[vertex[k]] = 1;
         }
     }
@@ -57,6 +68,32 @@ static void number_what_is_kept(subset *s)
             s->vertex_number[v] = s->mesh.vertex_count++;
         }
     }
+}
+
+static void add_cut(subset *s, uint32_t layer, uint32_t ordinal)
+{
+    const tl_nav_cut cut = { s->mesh.index_count, layer, ordinal };
+    s->cuts[s->cut_count++] = cut;
+}
+
+// What lies across a corner's edge in the mesh that is made; a cut is noted.
+static uint32_t across_edge(subset *s, uint32_t p, uint32_t k, uint32_t edge)
+{
+    const tl_nav_tile *tile = s->tile;
+    const uint32_t across = tl_nav_tile_neighbour(tile, p, edge);
+    if (across == (TL_PORTAL | TL_NAV_SIDE_CUT)) {
+        const uint32_t link = tl_nav_tile_links(tile, p)[edge];
+        const tl_nav_portal *portal = tl_nav_tile_portals(tile) + (link & ~TL_NAV_LINK_PORTAL);
+        add_cut(s, (uint32_t)portal->low, (uint32_t)portal->high);
+        return TL_NO_POLYGON;
+    }
+    if (across >= tile->polygon_count) {
+        return across;
+    }
+    if (s->layering != NULL && s->number[across] == TL_NO_POLYGON) {
+        add_cut(s, s->layering->layers[across], s->layering->ordinals[k]);
+    }
+    return s->number[across];
 }
 
 static void copy_polygon(subset *s, uint32_t p)
@@ -72,8 +109,7 @@ static void copy_polygon(subset *s, uint32_t p)
     mesh->areas[to] = tl_nav_tile_area(tile, p);
     s->flags[to] = tl_nav_tile_flags(tile, p);
     for (uint32_t k = first[p]; k < first[p + 1]; k++) {
-        const uint32_t across = tl_nav_tile_neighbour(tile, p, k - first[p]);
-        mesh->neighbours[mesh->index_count] = across < tile->polygon_count ? s->number[across] : across;
+        mesh->neighbours[mesh->index_count] = across_edge(s, p, k, k - first[p]);
         mesh->indices[mesh->index_count++] = s->vertex_number[vertex[k]];
     }
     const tl_nav_detail_patch patch = { first_vertex[p], first_vertex[p + 1] - first_vertex[p], first_triangle[p],
@@ -119,6 +155,9 @@ static tl_result bake(subset *s, const tl_allocator *allocator, tl_nav_tile **ti
     source.agent_radius = tile->agent_radius;
     source.agent_max_climb = tile->agent_max_climb;
     source.flags = s->flags;
+    source.layer = s->layer;
+    source.cuts = s->cuts;
+    source.cut_count = s->cut_count;
     return tl_nav_tile_create(&source, allocator, tile_out, report);
 }
 
@@ -128,7 +167,7 @@ static tl_result make_subset(subset *s, tl_arena *arena, const tl_allocator *all
     TL_TRY(make_room(s, arena));
     number_what_is_kept(s);
     for (uint32_t p = 0; p < s->tile->polygon_count; p++) {
-        if (s->keep[p]) {
+        if (s->number[p] != TL_NO_POLYGON) {
             copy_polygon(s, p);
         }
     }
@@ -136,17 +175,34 @@ static tl_result make_subset(subset *s, tl_arena *arena, const tl_allocator *all
     return bake(s, allocator, tile_out, report);
 }
 
+static tl_result run(subset *s, const tl_allocator *allocator, tl_nav_tile **tile_out, tl_report *report)
+{
+    tl_arena arena;
+    tl_arena_init(&arena, allocator);
+    *tile_out = NULL;
+    const tl_result result = make_subset(s, &arena, allocator, tile_out, report);
+    tl_arena_free(&arena);
+    return result;
+}
+
+tl_result tl_nav_tile_layer(const tl_nav_tile *tile, const tl_nav_layering *layering, uint32_t layer,
+                            const tl_allocator *allocator, tl_nav_tile **tile_out, tl_report *report)
+{
+    subset s;
+    memset(&s, 0, sizeof s);
+    s.tile = tile;
+    s.layering = layering;
+    s.layer = layer;
+    return run(&s, allocator, tile_out, report);
+}
+
 tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep, const tl_allocator *allocator,
                              tl_nav_tile **tile_out, tl_report *report_out)
 {
-    *tile_out = NULL;
     subset s;
     memset(&s, 0, sizeof s);
     s.tile = tile;
     s.keep = keep;
-    tl_arena arena;
-    tl_arena_init(&arena, allocator);
-    const tl_result result = make_subset(&s, &arena, allocator, tile_out, report_out);
-    tl_arena_free(&arena);
-    return result;
+    s.layer = tile->layer;
+    return run(&s, allocator, tile_out, report_out);
 }

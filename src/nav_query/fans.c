@@ -195,7 +195,7 @@ void tl_nav_number_fans_on_side(tl_navmesh *navmesh, uint32_t slot, uint32_t sid
 {
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
     const tl_nav_portal *portals = tl_nav_tile_portals(tile);
-    for (uint32_t i = tile->side_first[side]; i < tile->side_first[side + 1]; i++) {
+    for (uint32_t i = tl_nav_tile_side_first(tile, side); i < tl_nav_tile_side_first(tile, side + 1); i++) {
         number_fans_of_portal(navmesh, slot, &portals[i]);
     }
 }

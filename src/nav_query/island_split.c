@@ -73,9 +73,9 @@ static void reach_over_seams(splitter *s, uint32_t piece, const tl_nav_island_no
 {
     const tl_nav_slot *slot = &s->navmesh->slots[node->slot];
     uint32_t component = slot->rings.component[node->polygon];
-    for (uint32_t side = 0; side < 4; side++) {
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         const tl_nav_side_links *links = &slot->sides[side];
-        const tl_nav_portal *portals = tl_nav_tile_portals(slot->tile) + slot->tile->side_first[side];
+        const tl_nav_portal *portals = tl_nav_tile_portals(slot->tile) + tl_nav_tile_side_first(slot->tile, side);
         for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
             if (slot->rings.component[portals[i].polygon] == component) {
                 for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {

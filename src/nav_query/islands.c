@@ -192,9 +192,9 @@ void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot)
 {
     make_nodes(navmesh, slot);
     const tl_nav_slot *own = &navmesh->slots[slot];
-    for (uint32_t side = 0; side < 4; side++) {
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         const tl_nav_side_links *links = &own->sides[side];
-        const tl_nav_portal *portals = tl_nav_tile_portals(own->tile) + own->tile->side_first[side];
+        const tl_nav_portal *portals = tl_nav_tile_portals(own->tile) + tl_nav_tile_side_first(own->tile, side);
         for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
             for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
                 uint32_t node = node_of(navmesh, slot, portals[i].polygon);
@@ -227,7 +227,7 @@ void tl_nav_leave_islands(tl_navmesh *navmesh, uint32_t slot)
 {
     tl_nav_islands *islands = &navmesh->islands;
     const tl_nav_slot *own = &navmesh->slots[slot];
-    for (uint32_t side = 0; side < 4; side++) {
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         for (uint32_t k = 0; k < own->sides[side].link_count; k++) {
             tl_nav_seed_island(navmesh, own->sides[side].links[k].slot, own->sides[side].links[k].polygon);
         }

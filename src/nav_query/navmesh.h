@@ -9,18 +9,20 @@
 #include "nav_query/offmesh.h"
 #include "nav_query/rings.h"
 
-/// A way across a tile's border.
+/// A way into another tile, across the border or a cut.
 typedef struct tl_nav_seam_link {
     uint32_t slot, polygon; ///< where it leads
+    int32_t low;            ///< of the portal across
+    uint32_t layer;         ///< of the tile across; a portal's links stand by low, then layer
     tl_vec3 left, right;    ///< seen looking out
 } tl_nav_seam_link;
 
-/// The links of one side of a tile; portal i of the side has [first[i], first[i + 1]). NULL without a neighbour.
+/// The links of one side of a tile; portal i of the side has [first[i], first[i + 1]). NULL without links.
 struct tl_nav_side_links {
     uint32_t *first;
     tl_nav_seam_link *links;
     uint32_t portal_count;
-    uint32_t link_count;
+    uint32_t link_count, link_capacity;
 };
 
 /// A change of the navmesh: which one it was, counted from 1, and of which tile.
@@ -39,7 +41,7 @@ typedef struct tl_nav_slot {
     uint64_t inner_links;    ///< ways between polygons of the tile
     tl_nav_tile_ownership ownership;
     uint32_t anchor_count; ///< ends of off-mesh links on its polygons
-    tl_nav_side_links sides[4];
+    tl_nav_side_links sides[TL_NAV_SIDE_COUNT];
     tl_nav_rings rings;
     uint64_t *areas;               ///< of the tile's polygons, summed up (area_table.h)
     tl_nav_kept_walls *kept_walls; ///< NULL: not prepared, or dropped by an edit
@@ -124,13 +126,25 @@ static inline uint32_t tl_nav_first_anchor(const tl_navmesh *navmesh, uint32_t s
                                                  : TL_NAV_NO_END;
 }
 
-/// The slot of the tile at a place, or TL_NAV_NO_SLOT.
-uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t tile_z);
+/// The side of a neighbour that faces a tile's side.
+static inline uint32_t tl_nav_facing_side(uint32_t side)
+{
+    return side == TL_NAV_SIDE_CUT ? side : side ^ 2u;
+}
 
-/// Links side `side` of tile a with the opposite side of tile b, both ways. Both outputs are fresh, or on
-/// TL_ERR_MEMORY untouched.
+/// The first slot of the tiles at a place, then the next one, or TL_NAV_NO_SLOT. In no order.
+uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t tile_z);
+uint32_t tl_nav_next_slot(const tl_navmesh *navmesh, uint32_t slot);
+
+/// Links side `side` of tile a with the side of tile b that faces it, both ways. Both outputs are fresh, or on
+/// TL_ERR_MEMORY untouched; zero when there are no links.
 tl_result tl_nav_link_sides(const tl_allocator *allocator, const tl_nav_tile *a, uint32_t slot_a, uint32_t side,
                             const tl_nav_tile *b, uint32_t slot_b, tl_nav_side_links *a_out, tl_nav_side_links *b_out);
+/// The links of both, which lead to different tiles from the same side. The output is fresh. TL_ERR_MEMORY.
+tl_result tl_nav_join_sides(const tl_allocator *allocator, const tl_nav_side_links *a, const tl_nav_side_links *b,
+                            tl_nav_side_links *out);
+/// Drops the links that lead to a slot; returns how many.
+uint32_t tl_nav_drop_links(const tl_allocator *allocator, tl_nav_side_links *side, uint32_t slot);
 void tl_nav_free_side(const tl_allocator *allocator, tl_nav_side_links *side);
 
 /// Numbers the turning vertices of all fans that touch a slot's polygons (fans.c).
@@ -193,16 +207,12 @@ static inline tl_nav_ways tl_nav_ways_of(const tl_navmesh *navmesh, uint32_t slo
 static inline void tl_nav_seam_range(const tl_nav_slot *slot, uint32_t portal, const tl_nav_seam_link **begin_out,
                                      const tl_nav_seam_link **end_out, uint64_t *key_out)
 {
-    const tl_nav_tile *tile = slot->tile;
-    uint32_t side = 0;
-    while (side < 3 && portal >= tile->side_first[side + 1]) {
-        side++;
-    }
+    uint32_t side = tl_nav_tile_side_of(slot->tile, portal);
     const tl_nav_side_links *links = &slot->sides[side];
     *begin_out = NULL;
     *end_out = NULL;
     if (links->first != NULL) {
-        uint32_t at = portal - tile->side_first[side];
+        uint32_t at = portal - tl_nav_tile_side_first(slot->tile, side);
         *begin_out = links->links + links->first[at];
         *end_out = links->links + links->first[at + 1];
         *key_out = (uint64_t)1 << 35 | (uint64_t)side << 32 | links->first[at];

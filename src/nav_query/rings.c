@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Making rings: a tile's corners and links, with border edges cut at the ends of their seam links.
+// Making rings: a tile's corners and links, with border edges parted at the ends of their seam links.
 
 #include "nav_query/rings.h"
 
@@ -56,8 +56,8 @@ static void add_seam_edge(ring_writer *writer, tl_vec3 start, tl_vec3 end, const
     add_gap(writer, at, end, ahead);
 }
 
-static void add_polygon(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[4],
-                        uint32_t polygon)
+static void add_polygon(ring_writer *writer, const tl_nav_tile *tile,
+                        const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], uint32_t polygon)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
@@ -68,11 +68,8 @@ static void add_polygon(ring_writer *writer, const tl_nav_tile *tile, const tl_n
             continue;
         }
         uint32_t portal = links[k] & ~TL_NAV_LINK_PORTAL;
-        uint32_t side = 0;
-        while (side < 3 && portal >= tile->side_first[side + 1]) {
-            side++;
-        }
-        uint32_t at = portal - tile->side_first[side];
+        uint32_t side = tl_nav_tile_side_of(tile, portal);
+        uint32_t at = portal - tl_nav_tile_side_first(tile, side);
         if (sides[side]->first == NULL || sides[side]->first[at] == sides[side]->first[at + 1]) {
             add_edge(writer, corners[k], TL_NAV_RING_WALL);
         } else {
@@ -202,12 +199,12 @@ static void mark_changed(const tl_nav_tile *tile, uint32_t side, const tl_nav_ri
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         is_changed[p] = old == NULL;
     }
-    for (uint32_t i = tile->side_first[side]; i < tile->side_first[side + 1]; i++) {
+    for (uint32_t i = tl_nav_tile_side_first(tile, side); i < tl_nav_tile_side_first(tile, side + 1); i++) {
         is_changed[portals[i].polygon] = true;
     }
 }
 
-static void fill(const tl_nav_tile *tile, const tl_nav_side_links *sides[4], const uint32_t *is_changed,
+static void fill(const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const uint32_t *is_changed,
                  const tl_nav_rings *old, tl_nav_rings *rings)
 {
     ring_writer writer = { rings, 0, 0 };
@@ -240,12 +237,12 @@ static void copy_components(const tl_nav_rings *old, tl_nav_rings *rings)
     rings->component_count = old->component_count;
 }
 
-tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile, const tl_nav_side_links *sides[4],
+tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
                             const tl_nav_rings *old, uint32_t changed_side, tl_nav_rings *rings_out)
 {
     memset(rings_out, 0, sizeof *rings_out);
     uint64_t seams = 0;
-    for (uint32_t side = 0; side < 4; side++) {
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         seams += sides[side]->link_count;
     }
     // A link adds itself and a gap before it. Edges that are copied keep the cuts of links that are gone.

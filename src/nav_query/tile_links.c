@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Links across the seam of two tiles: portals of facing sides that overlap and whose heights meet.
+// Links across the seam of two tiles: portals of facing sides that overlap and whose heights meet; between two layers of
+// a place, cuts with the same ends.
 //
 // Overlaps are exact: both tiles count lattice steps from one origin. Heights are compared along the baked profiles of
 // the surface, at every bend of either one, so that a hill on the seam neither hides a link nor fakes one.
@@ -89,11 +90,12 @@ static double height_tolerance(const tl_nav_tile *a, const tl_nav_tile *b)
 
 static seam make_seam(const tl_nav_tile *a, uint32_t slot_a, uint32_t side, const tl_nav_tile *b, uint32_t slot_b)
 {
-    seam s = { { a, b }, { slot_a, slot_b }, { side, side ^ 2u }, { NULL, NULL }, { 0, 0 }, height_tolerance(a, b) };
+    seam s = { { a, b },     { slot_a, slot_b }, { side, tl_nav_facing_side(side) },
+               { NULL, NULL }, { 0, 0 },           height_tolerance(a, b) };
     for (int i = 0; i < 2; i++) {
-        const uint32_t *first = s.tiles[i]->side_first;
-        s.portals[i] = tl_nav_tile_portals(s.tiles[i]) + first[s.sides[i]];
-        s.counts[i] = first[s.sides[i] + 1] - first[s.sides[i]];
+        const uint32_t first = tl_nav_tile_side_first(s.tiles[i], s.sides[i]);
+        s.portals[i] = tl_nav_tile_portals(s.tiles[i]) + first;
+        s.counts[i] = tl_nav_tile_side_first(s.tiles[i], s.sides[i] + 1) - first;
     }
     return s;
 }
@@ -101,7 +103,7 @@ static seam make_seam(const tl_nav_tile *a, uint32_t slot_a, uint32_t side, cons
 // Portals of a side are sorted by low. Calls back for every pair that is to be linked, by a's order, then b's.
 typedef void pair_fn(const seam *s, uint32_t i, uint32_t j, int32_t low, int32_t high, void *user);
 
-static void for_each_pair(const seam *s, pair_fn *pair, void *user)
+static void for_each_overlap(const seam *s, pair_fn *pair, void *user)
 {
     uint32_t begin = 0;
     for (uint32_t i = 0; i < s->counts[0]; i++) {
@@ -118,6 +120,47 @@ static void for_each_pair(const seam *s, pair_fn *pair, void *user)
                 pair(s, i, j, low, high, user);
             }
         }
+    }
+}
+
+// Whether the edge of a cut runs from the first of its ends to the second.
+static bool runs_up(const tl_nav_tile *tile, const tl_nav_portal *cut)
+{
+    const uint32_t *first = (const uint32_t *)tl_nav_tile_at(tile, tile->first_corner) + cut->polygon;
+    const int32_t *ends[2];
+    tl_nav_cut_ends(tile, cut, ends);
+    return ends[0] == tl_nav_tile_lattice(tile, cut->polygon, cut->corner - first[0]);
+}
+
+// The cuts of one tile that lead to the other's layer: both stand in the same order.
+static void for_each_cut(const seam *s, pair_fn *pair, void *user)
+{
+    uint32_t at[2], end[2];
+    for (int i = 0; i < 2; i++) {
+        const int32_t layer = (int32_t)s->tiles[1 - i]->layer;
+        for (at[i] = 0; at[i] < s->counts[i] && s->portals[i][at[i]].low < layer; at[i]++) {
+        }
+        for (end[i] = at[i]; end[i] < s->counts[i] && s->portals[i][end[i]].low == layer; end[i]++) {
+        }
+    }
+    while (at[0] < end[0] && at[1] < end[1]) {
+        const tl_nav_portal *a = &s->portals[0][at[0]];
+        const tl_nav_portal *b = &s->portals[1][at[1]];
+        const int order = tl_nav_cut_compare(s->tiles[0], a, s->tiles[1], b);
+        if (order == 0 && runs_up(s->tiles[0], a) != runs_up(s->tiles[1], b)) {
+            pair(s, at[0], at[1], 0, 0, user);
+        }
+        at[0] += order <= 0;
+        at[1] += order >= 0;
+    }
+}
+
+static void for_each_pair(const seam *s, pair_fn *pair, void *user)
+{
+    if (s->sides[0] == TL_NAV_SIDE_CUT) {
+        for_each_cut(s, pair, user);
+    } else {
+        for_each_overlap(s, pair, user);
     }
 }
 
@@ -162,13 +205,25 @@ static void add_link(const seam *s, int from, uint32_t portal, uint32_t other, i
                      tl_nav_side_links *out)
 {
     const tl_nav_portal *own = &s->portals[from][portal];
+    const tl_nav_portal *across = &s->portals[1 - from][other];
     uint32_t side = s->sides[from];
+    if (side == TL_NAV_SIDE_CUT) {
+        uint32_t count = 0;
+        const tl_nav_tile *tile = s->tiles[from];
+        const tl_vec3 *corners = tl_nav_tile_corners(tile, own->polygon, &count);
+        uint32_t edge = own->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[own->polygon];
+        tl_nav_seam_link link = { s->slots[1 - from],           across->polygon,
+                                  across->low,                  s->tiles[1 - from]->layer,
+                                  corners[(edge + 1) % count], corners[edge] };
+        out->links[out->first[portal]++] = link;
+        return;
+    }
     tl_vec3 at_low = edge_point(s->tiles[from], own, side, low);
     tl_vec3 at_high = edge_point(s->tiles[from], own, side, high);
     bool rising = side < 2;
     // An edge runs from its right end to its left end, seen looking out.
-    tl_nav_seam_link link = { s->slots[1 - from], s->portals[1 - from][other].polygon, rising ? at_high : at_low,
-                              rising ? at_low : at_high };
+    tl_nav_seam_link link = { s->slots[1 - from],         across->polygon,           across->low,
+                              s->tiles[1 - from]->layer, rising ? at_high : at_low, rising ? at_low : at_high };
     out->links[out->first[portal]++] = link;
 }
 
@@ -182,7 +237,7 @@ static void fill_pair(const seam *s, uint32_t i, uint32_t j, int32_t low, int32_
 void tl_nav_free_side(const tl_allocator *allocator, tl_nav_side_links *side)
 {
     tl_release_array(allocator, side->first, (uint64_t)side->portal_count + 1, sizeof *side->first);
-    tl_release_array(allocator, side->links, side->link_count, sizeof *side->links);
+    tl_release_array(allocator, side->links, side->link_capacity, sizeof *side->links);
     memset(side, 0, sizeof *side);
 }
 
@@ -220,7 +275,7 @@ tl_result tl_nav_link_sides(const tl_allocator *allocator, const tl_nav_tile *a,
         for_each_pair(&s, count_pair, out);
         for (int i = 0; i < 2; i++) {
             sum_counts(&out[i]);
-            out[i].link_count = out[i].first[out[i].portal_count];
+            out[i].link_count = out[i].link_capacity = out[i].first[out[i].portal_count];
             out[i].links = tl_allocate_array(allocator, out[i].link_count, sizeof *out[i].links);
             fits = fits && out[i].links != NULL;
         }
@@ -231,9 +286,67 @@ tl_result tl_nav_link_sides(const tl_allocator *allocator, const tl_nav_tile *a,
         return TL_ERR_MEMORY;
     }
     for_each_pair(&s, fill_pair, out);
-    restore_first(&out[0]);
-    restore_first(&out[1]);
+    for (int i = 0; i < 2; i++) {
+        restore_first(&out[i]);
+        if (out[i].link_count == 0) {
+            tl_nav_free_side(allocator, &out[i]);
+        }
+    }
     *a_out = out[0];
     *b_out = out[1];
     return TL_OK;
+}
+
+static bool stands_before(const tl_nav_seam_link *a, const tl_nav_seam_link *b)
+{
+    return a->low != b->low ? a->low < b->low : a->layer < b->layer;
+}
+
+tl_result tl_nav_join_sides(const tl_allocator *allocator, const tl_nav_side_links *a, const tl_nav_side_links *b,
+                            tl_nav_side_links *out)
+{
+    tl_nav_side_links side = { NULL, NULL, a->portal_count, a->link_count + b->link_count,
+                               a->link_count + b->link_count };
+    side.first = tl_allocate_array(allocator, (uint64_t)side.portal_count + 1, sizeof *side.first);
+    side.links = tl_allocate_array(allocator, side.link_capacity, sizeof *side.links);
+    if (side.first == NULL || side.links == NULL) {
+        tl_nav_free_side(allocator, &side);
+        return TL_ERR_MEMORY;
+    }
+    uint32_t count = 0;
+    for (uint32_t portal = 0; portal < side.portal_count; portal++) {
+        uint32_t i = a->first[portal], k = b->first[portal];
+        side.first[portal] = count;
+        while (i < a->first[portal + 1] || k < b->first[portal + 1]) {
+            const bool takes_b = i == a->first[portal + 1] ||
+                                 (k < b->first[portal + 1] && stands_before(&b->links[k], &a->links[i]));
+            side.links[count++] = takes_b ? b->links[k++] : a->links[i++];
+        }
+    }
+    side.first[side.portal_count] = count;
+    *out = side;
+    return TL_OK;
+}
+
+uint32_t tl_nav_drop_links(const tl_allocator *allocator, tl_nav_side_links *side, uint32_t slot)
+{
+    uint32_t kept = 0;
+    for (uint32_t portal = 0; side->first != NULL && portal < side->portal_count; portal++) {
+        const uint32_t begin = kept;
+        for (uint32_t i = side->first[portal]; i < side->first[portal + 1]; i++) {
+            if (side->links[i].slot != slot) {
+                side->links[kept++] = side->links[i];
+            }
+        }
+        side->first[portal] = begin;
+    }
+    const uint32_t dropped = side->link_count - kept;
+    if (side->first != NULL) {
+        side->first[side->portal_count] = kept;
+        side->link_count = kept;
+    }
+    if (kept == 0) {
+        tl_nav_free_side(allocator, side);
+    }
+    return dropped;
 }

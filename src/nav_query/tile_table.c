@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The table of tiles: slots with salts, found by their place through a chained hash.
+// The table of tiles: slots with salts, found by their place through a chained hash; the layers of a place stand in one
+// chain.
 //
 // A slot's salt changes when its tile leaves, so that an old reference to the slot is recognized. When the salts of a
 // slot are used up the slot is retired: a reference never comes to mean another polygon.
@@ -15,12 +16,7 @@
 
 enum { FIRST_CAPACITY = 16, LAST_SALT = 0xffff };
 
-static const int32_t SIDE_STEP[4][2] = { { -1, 0 }, { 0, 1 }, { 1, 0 }, { 0, -1 } };
-
-static uint32_t opposite(uint32_t side)
-{
-    return side ^ 2u;
-}
+static const int32_t SIDE_STEP[TL_NAV_SIDE_COUNT][2] = { { -1, 0 }, { 0, 1 }, { 1, 0 }, { 0, -1 }, { 0, 0 } };
 
 static uint32_t bucket_of(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
 {
@@ -44,7 +40,7 @@ tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_
 
 static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
 {
-    for (int side = 0; side < 4; side++) {
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         tl_nav_free_side(&navmesh->allocator, &slot->sides[side]);
     }
     // A borrowed tile may be gone by now: its counts are not asked of it.
@@ -82,21 +78,39 @@ void tl_navmesh_free(tl_navmesh *navmesh)
     tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
 }
 
+// The first slot from `slot` on in its chain whose tile is at a place.
+static uint32_t first_in_chain(const tl_navmesh *navmesh, uint32_t slot, int64_t tile_x, int64_t tile_z)
+{
+    while (slot != TL_NAV_NO_SLOT &&
+           (navmesh->slots[slot].tile->tile_x != tile_x || navmesh->slots[slot].tile->tile_z != tile_z)) {
+        slot = navmesh->slots[slot].next;
+    }
+    return slot;
+}
+
 uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t tile_z)
 {
     if (navmesh->bucket_count == 0 || tile_x < INT32_MIN || tile_x > INT32_MAX || tile_z < INT32_MIN ||
         tile_z > INT32_MAX) {
         return TL_NAV_NO_SLOT;
     }
-    uint32_t slot = navmesh->buckets[bucket_of(navmesh, (int32_t)tile_x, (int32_t)tile_z)];
-    while (slot != TL_NAV_NO_SLOT) {
-        const tl_nav_tile *tile = navmesh->slots[slot].tile;
-        if (tile->tile_x == tile_x && tile->tile_z == tile_z) {
-            return slot;
-        }
-        slot = navmesh->slots[slot].next;
+    return first_in_chain(navmesh, navmesh->buckets[bucket_of(navmesh, (int32_t)tile_x, (int32_t)tile_z)], tile_x,
+                          tile_z);
+}
+
+uint32_t tl_nav_next_slot(const tl_navmesh *navmesh, uint32_t slot)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    return first_in_chain(navmesh, navmesh->slots[slot].next, tile->tile_x, tile->tile_z);
+}
+
+static uint32_t find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
+{
+    uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z);
+    while (slot != TL_NAV_NO_SLOT && navmesh->slots[slot].tile->layer != layer) {
+        slot = tl_nav_next_slot(navmesh, slot);
     }
-    return TL_NAV_NO_SLOT;
+    return slot;
 }
 
 static void chain_slot(tl_navmesh *navmesh, uint32_t slot)
@@ -183,35 +197,107 @@ static uint64_t count_inner_links(const tl_nav_tile *tile)
     return count;
 }
 
+// A tile around a new one that gets links to it: what becomes of its facing side and its rings.
+typedef struct seam_neighbour {
+    uint32_t slot, side; // the new tile's side
+    uint32_t added;      // links
+    tl_nav_side_links facing;
+    tl_nav_rings rings;
+} seam_neighbour;
+
 // What a new tile brings: links of its sides and of its neighbours' facing ones, its own rings and theirs, areas. All
 // made before anything is changed.
 typedef struct seam_set {
-    uint32_t neighbours[4];
-    tl_nav_side_links own[4], facing[4];
-    tl_nav_rings rings, neighbour_rings[4];
+    seam_neighbour *neighbours; // [capacity]
+    uint32_t neighbour_count, neighbour_capacity;
+    tl_nav_side_links own[TL_NAV_SIDE_COUNT];
+    tl_nav_rings rings;
     uint64_t *areas;
 } seam_set;
 
+// Of the tiles that a side faces: the first one's slot; tl_nav_next_slot gives the others. Beyond a cut lies the place
+// itself.
+static uint32_t first_facing(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, uint32_t side)
+{
+    return tl_nav_find_slot(navmesh, (int64_t)tile_x + SIDE_STEP[side][0], (int64_t)tile_z + SIDE_STEP[side][1]);
+}
+
 static void free_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
 {
-    for (uint32_t side = 0; side < 4; side++) {
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
         tl_nav_free_side(&navmesh->allocator, &seams->own[side]);
-        tl_nav_free_side(&navmesh->allocator, &seams->facing[side]);
-        tl_nav_rings_free(&navmesh->allocator, &seams->neighbour_rings[side]);
     }
+    for (uint32_t i = 0; i < seams->neighbour_count; i++) {
+        tl_nav_free_side(&navmesh->allocator, &seams->neighbours[i].facing);
+        tl_nav_rings_free(&navmesh->allocator, &seams->neighbours[i].rings);
+    }
+    tl_release_array(&navmesh->allocator, seams->neighbours, seams->neighbour_capacity, sizeof *seams->neighbours);
     tl_nav_rings_free(&navmesh->allocator, &seams->rings);
     tl_nav_areas_free(&navmesh->allocator, seams->areas, tile->polygon_count);
 }
 
+// Adds fresh links to those of a side, which may have none yet. Takes the fresh ones over, also on failure.
+static tl_result extend_side(const tl_allocator *allocator, const tl_nav_side_links *side, tl_nav_side_links *fresh,
+                             tl_nav_side_links *out)
+{
+    if (side->first == NULL) {
+        *out = *fresh;
+        return TL_OK;
+    }
+    const tl_result result = tl_nav_join_sides(allocator, side, fresh, out);
+    tl_nav_free_side(allocator, fresh);
+    return result;
+}
+
+// Links the new tile with one that a side of it faces, if there is anything to link.
+static tl_result make_link(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, uint32_t side,
+                           uint32_t facing_slot, seam_set *seams)
+{
+    const tl_allocator *allocator = &navmesh->allocator;
+    tl_nav_side_links own, facing, joined;
+    TL_TRY(tl_nav_link_sides(allocator, tile, slot, side, navmesh->slots[facing_slot].tile, facing_slot, &own,
+                             &facing));
+    if (own.link_count == 0) {
+        return TL_OK;
+    }
+    tl_result result = extend_side(allocator, &seams->own[side], &own, &joined);
+    if (result != TL_OK) {
+        tl_nav_free_side(allocator, &facing);
+        return result;
+    }
+    if (joined.first != own.first) {
+        tl_nav_free_side(allocator, &seams->own[side]);
+    }
+    seams->own[side] = joined;
+    seam_neighbour *neighbour = &seams->neighbours[seams->neighbour_count];
+    memset(neighbour, 0, sizeof *neighbour);
+    neighbour->slot = facing_slot;
+    neighbour->side = side;
+    neighbour->added = facing.link_count;
+    TL_TRY(extend_side(allocator, &navmesh->slots[facing_slot].sides[tl_nav_facing_side(side)], &facing,
+                       &neighbour->facing));
+    seams->neighbour_count++;
+    return TL_OK;
+}
+
 static tl_result make_links(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)
 {
-    for (uint32_t side = 0; side < 4; side++) {
-        uint32_t neighbour = tl_nav_find_slot(navmesh, (int64_t)tile->tile_x + SIDE_STEP[side][0],
-                                              (int64_t)tile->tile_z + SIDE_STEP[side][1]);
-        seams->neighbours[side] = neighbour;
-        if (neighbour != TL_NAV_NO_SLOT) {
-            TL_TRY(tl_nav_link_sides(&navmesh->allocator, tile, slot, side, navmesh->slots[neighbour].tile, neighbour,
-                                     &seams->own[side], &seams->facing[side]));
+    uint32_t count = 0;
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        for (uint32_t facing = first_facing(navmesh, tile->tile_x, tile->tile_z, side); facing != TL_NAV_NO_SLOT;
+             facing = tl_nav_next_slot(navmesh, facing)) {
+            count++;
+        }
+    }
+    seams->neighbours = tl_allocate_array(&navmesh->allocator, count, sizeof *seams->neighbours);
+    if (seams->neighbours == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    seams->neighbour_capacity = count;
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        for (uint32_t facing = first_facing(navmesh, tile->tile_x, tile->tile_z, side); facing != TL_NAV_NO_SLOT;
+             facing = tl_nav_next_slot(navmesh, facing)) {
+            TL_TRY(make_link(navmesh, tile, slot, side, facing, seams));
         }
     }
     return TL_OK;
@@ -219,17 +305,19 @@ static tl_result make_links(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
 
 static tl_result make_rings(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
 {
-    const tl_nav_side_links *sides[4] = { &seams->own[0], &seams->own[1], &seams->own[2], &seams->own[3] };
+    const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT];
+    for (uint32_t i = 0; i < TL_NAV_SIDE_COUNT; i++) {
+        sides[i] = &seams->own[i];
+    }
     TL_TRY(tl_nav_rings_make(&navmesh->allocator, tile, sides, NULL, 0, &seams->rings));
-    for (uint32_t side = 0; side < 4; side++) {
-        if (seams->neighbours[side] != TL_NAV_NO_SLOT) {
-            const tl_nav_slot *slot = &navmesh->slots[seams->neighbours[side]];
-            for (uint32_t i = 0; i < 4; i++) {
-                sides[i] = i == opposite(side) ? &seams->facing[side] : &slot->sides[i];
-            }
-            TL_TRY(tl_nav_rings_make(&navmesh->allocator, slot->tile, sides, &slot->rings, opposite(side),
-                                     &seams->neighbour_rings[side]));
+    for (uint32_t n = 0; n < seams->neighbour_count; n++) {
+        seam_neighbour *neighbour = &seams->neighbours[n];
+        const tl_nav_slot *slot = &navmesh->slots[neighbour->slot];
+        for (uint32_t i = 0; i < TL_NAV_SIDE_COUNT; i++) {
+            sides[i] = i == tl_nav_facing_side(neighbour->side) ? &neighbour->facing : &slot->sides[i];
         }
+        TL_TRY(tl_nav_rings_make(&navmesh->allocator, slot->tile, sides, &slot->rings,
+                                 tl_nav_facing_side(neighbour->side), &neighbour->rings));
     }
     return TL_OK;
 }
@@ -251,31 +339,32 @@ static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, 
     return result;
 }
 
-static void install_seams(tl_navmesh *navmesh, uint32_t slot, const seam_set *seams)
+static void install_seams(tl_navmesh *navmesh, uint32_t slot, seam_set *seams)
 {
     navmesh->slots[slot].rings = seams->rings;
     navmesh->slots[slot].areas = seams->areas;
+    memcpy(navmesh->slots[slot].sides, seams->own, sizeof seams->own);
     tl_nav_area_table_change(navmesh, slot, 1);
     tl_nav_note_edit(navmesh, slot);
-    for (uint32_t side = 0; side < 4; side++) {
-        if (seams->neighbours[side] == TL_NAV_NO_SLOT) {
-            continue;
-        }
-        tl_nav_slot *neighbour = &navmesh->slots[seams->neighbours[side]];
-        // The facing side had no links: there was no tile here.
-        TL_ASSERT(neighbour->sides[opposite(side)].first == NULL);
-        navmesh->slots[slot].sides[side] = seams->own[side];
-        neighbour->sides[opposite(side)] = seams->facing[side];
-        navmesh->link_count += (uint64_t)seams->own[side].link_count + seams->facing[side].link_count;
-        tl_nav_rings_free(&navmesh->allocator, &neighbour->rings);
-        neighbour->rings = seams->neighbour_rings[side];
-        tl_nav_note_edit(navmesh, seams->neighbours[side]);
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        navmesh->link_count += seams->own[side].link_count;
     }
+    for (uint32_t n = 0; n < seams->neighbour_count; n++) {
+        seam_neighbour *made = &seams->neighbours[n];
+        tl_nav_slot *neighbour = &navmesh->slots[made->slot];
+        tl_nav_free_side(&navmesh->allocator, &neighbour->sides[tl_nav_facing_side(made->side)]);
+        neighbour->sides[tl_nav_facing_side(made->side)] = made->facing;
+        navmesh->link_count += made->added;
+        tl_nav_rings_free(&navmesh->allocator, &neighbour->rings);
+        neighbour->rings = made->rings;
+        tl_nav_note_edit(navmesh, made->slot);
+    }
+    tl_release_array(&navmesh->allocator, seams->neighbours, seams->neighbour_capacity, sizeof *seams->neighbours);
 }
 
-// Gives numbers to the turning vertices of a slot that is new, or TL_NAV_NO_SLOT, and of its neighbours' sides that
-// face it. Numbers are handed out once; before they run out, all anew.
-static void number_fans(tl_navmesh *navmesh, uint32_t slot, const uint32_t neighbours[4])
+// Gives numbers to the turning vertices of a slot that is new, or TL_NAV_NO_SLOT, and of the sides that face its place in
+// the tiles that changed since an edit began. Numbers are handed out once; before they run out, all anew.
+static void number_fans(tl_navmesh *navmesh, uint32_t new_slot, int32_t tile_x, int32_t tile_z, uint64_t edit)
 {
     if (navmesh->last_fan > UINT32_MAX / 2) {
         navmesh->last_fan = 0;
@@ -286,12 +375,15 @@ static void number_fans(tl_navmesh *navmesh, uint32_t slot, const uint32_t neigh
         }
         return;
     }
-    if (slot != TL_NAV_NO_SLOT) {
-        tl_nav_number_fans(navmesh, slot);
+    if (new_slot != TL_NAV_NO_SLOT) {
+        tl_nav_number_fans(navmesh, new_slot);
     }
-    for (uint32_t side = 0; side < 4; side++) {
-        if (neighbours[side] != TL_NAV_NO_SLOT) {
-            tl_nav_number_fans_on_side(navmesh, neighbours[side], opposite(side));
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        for (uint32_t slot = first_facing(navmesh, tile_x, tile_z, side); slot != TL_NAV_NO_SLOT;
+             slot = tl_nav_next_slot(navmesh, slot)) {
+            if (slot != new_slot && navmesh->slots[slot].last_edit.number >= edit) {
+                tl_nav_number_fans_on_side(navmesh, slot, tl_nav_facing_side(side));
+            }
         }
     }
 }
@@ -316,11 +408,10 @@ static void note_tile(tl_navmesh *navmesh, const tl_nav_tile *tile)
 
 tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership)
 {
-    bool alone = tile->tile_size == 0;
-    if (navmesh->tile_count > 0 && (alone || !same_lattice(navmesh, tile))) {
+    if (navmesh->tile_count > 0 && !same_lattice(navmesh, tile)) {
         return TL_ERR_ARGUMENT;
     }
-    if (tl_nav_find_slot(navmesh, tile->tile_x, tile->tile_z) != TL_NAV_NO_SLOT) {
+    if (find_layer(navmesh, tile->tile_x, tile->layer, tile->tile_z) != TL_NAV_NO_SLOT) {
         return TL_ERR_ARGUMENT;
     }
     uint32_t index = 0;
@@ -334,6 +425,7 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     }
 
     tl_nav_begin_edit(navmesh, tile->tile_x, tile->tile_z);
+    const uint64_t edit = navmesh->edit.number;
     tl_nav_spoil_walls(navmesh, tile->tile_x, tile->tile_z);
     tl_nav_slot *slot = &navmesh->slots[index];
     if (index == navmesh->free_slots) {
@@ -348,7 +440,7 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     chain_slot(navmesh, index);
     install_seams(navmesh, index, &seams);
     tl_nav_join_islands(navmesh, index);
-    number_fans(navmesh, index, seams.neighbours);
+    number_fans(navmesh, index, tile->tile_x, tile->tile_z, edit);
     note_tile(navmesh, tile);
     navmesh->origin = tile->origin;
     navmesh->cell_size = tile->cell_size;
@@ -362,30 +454,37 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
     return TL_OK;
 }
 
-tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+// Takes the links to a slot out of the tiles around it.
+static void unlink_slot(tl_navmesh *navmesh, uint32_t index)
 {
-    uint32_t index = tl_nav_find_slot(navmesh, tile_x, tile_z);
-    if (index == TL_NAV_NO_SLOT) {
-        return TL_ERR_NOT_FOUND;
+    const tl_nav_slot *slot = &navmesh->slots[index];
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        navmesh->link_count -= slot->sides[side].link_count;
+        for (uint32_t facing = first_facing(navmesh, slot->tile->tile_x, slot->tile->tile_z, side);
+             facing != TL_NAV_NO_SLOT; facing = tl_nav_next_slot(navmesh, facing)) {
+            uint32_t dropped = facing == index
+                                   ? 0
+                                   : tl_nav_drop_links(&navmesh->allocator,
+                                                       &navmesh->slots[facing].sides[tl_nav_facing_side(side)], index);
+            if (dropped > 0) {
+                navmesh->link_count -= dropped;
+                tl_nav_rings_close(&navmesh->slots[facing].rings, index);
+                tl_nav_note_edit(navmesh, facing);
+            }
+        }
     }
+}
+
+static void remove_slot(tl_navmesh *navmesh, uint32_t index)
+{
     tl_nav_slot *slot = &navmesh->slots[index];
-    uint32_t neighbours[4];
+    const int32_t tile_x = slot->tile->tile_x, tile_z = slot->tile->tile_z;
     tl_nav_begin_edit(navmesh, tile_x, tile_z);
+    const uint64_t edit = navmesh->edit.number;
     tl_nav_spoil_walls(navmesh, tile_x, tile_z);
     tl_nav_note_edit(navmesh, index);
     tl_nav_leave_islands(navmesh, index);
-    for (uint32_t side = 0; side < 4; side++) {
-        uint32_t neighbour =
-            tl_nav_find_slot(navmesh, (int64_t)tile_x + SIDE_STEP[side][0], (int64_t)tile_z + SIDE_STEP[side][1]);
-        neighbours[side] = neighbour;
-        if (neighbour != TL_NAV_NO_SLOT) {
-            tl_nav_side_links *facing = &navmesh->slots[neighbour].sides[opposite(side)];
-            navmesh->link_count -= (uint64_t)slot->sides[side].link_count + facing->link_count;
-            tl_nav_free_side(&navmesh->allocator, facing);
-            tl_nav_rings_close(&navmesh->slots[neighbour].rings, index);
-            tl_nav_note_edit(navmesh, neighbour);
-        }
-    }
+    unlink_slot(navmesh, index);
     unchain_slot(navmesh, index);
     navmesh->tile_count--;
     navmesh->link_count -= slot->inner_links;
@@ -394,19 +493,51 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
     free_slot_content(navmesh, slot);
     tl_nav_anchor_near(navmesh, index, true);
     tl_nav_split_islands(navmesh);
-    number_fans(navmesh, TL_NAV_NO_SLOT, neighbours);
+    number_fans(navmesh, TL_NAV_NO_SLOT, tile_x, tile_z, edit);
     if (slot->salt < LAST_SALT) {
         slot->salt++;
         slot->next = navmesh->free_slots;
         navmesh->free_slots = index;
     }
+}
+
+tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
+{
+    uint32_t index = find_layer(navmesh, tile_x, layer, tile_z);
+    if (index == TL_NAV_NO_SLOT) {
+        return TL_ERR_NOT_FOUND;
+    }
+    remove_slot(navmesh, index);
     return TL_OK;
+}
+
+tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    uint32_t index = tl_nav_find_slot(navmesh, tile_x, tile_z);
+    if (index == TL_NAV_NO_SLOT) {
+        return TL_ERR_NOT_FOUND;
+    }
+    for (; index != TL_NAV_NO_SLOT; index = tl_nav_find_slot(navmesh, tile_x, tile_z)) {
+        remove_slot(navmesh, index);
+    }
+    return TL_OK;
+}
+
+const tl_nav_tile *tl_navmesh_find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
+{
+    uint32_t slot = find_layer(navmesh, tile_x, layer, tile_z);
+    return slot != TL_NAV_NO_SLOT ? navmesh->slots[slot].tile : NULL;
 }
 
 const tl_nav_tile *tl_navmesh_find_tile(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
 {
-    uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z);
-    return slot != TL_NAV_NO_SLOT ? navmesh->slots[slot].tile : NULL;
+    const tl_nav_tile *lowest = NULL;
+    for (uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z); slot != TL_NAV_NO_SLOT;
+         slot = tl_nav_next_slot(navmesh, slot)) {
+        const tl_nav_tile *tile = navmesh->slots[slot].tile;
+        lowest = lowest == NULL || tile->layer < lowest->layer ? tile : lowest;
+    }
+    return lowest;
 }
 
 uint32_t tl_navmesh_tile_count(const tl_navmesh *navmesh)

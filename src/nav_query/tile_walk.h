@@ -14,6 +14,7 @@ typedef struct tl_nav_tile_walk {
     uint32_t slot; // the next one to look at
     int64_t first_x, last_x, last_z;
     int64_t x, z; // the next place to look at
+    uint32_t next; // at the same place, or TL_NAV_NO_SLOT
 } tl_nav_tile_walk;
 
 // Tiles along one axis that an interval touches, one cell of margin on each side for rounding.
@@ -31,7 +32,7 @@ static inline void tl_nav_tile_range(double low, double high, double origin, con
 
 static inline tl_nav_tile_walk tl_nav_tiles_over(const tl_navmesh *navmesh, tl_aabb box)
 {
-    tl_nav_tile_walk walk = { navmesh, false, 0, 0, 0, 0, 0, 0 };
+    tl_nav_tile_walk walk = { navmesh, false, 0, 0, 0, 0, 0, 0, TL_NAV_NO_SLOT };
     if (navmesh->tile_size > 0) {
         tl_nav_tile_range((double)box.min.x, (double)box.max.x, (double)navmesh->origin.x, navmesh, &walk.first_x,
                           &walk.last_x);
@@ -47,12 +48,16 @@ static inline tl_nav_tile_walk tl_nav_tiles_over(const tl_navmesh *navmesh, tl_a
 /// The slot of the next tile, or TL_NAV_NO_SLOT.
 static inline uint32_t tl_nav_next_tile(tl_nav_tile_walk *walk)
 {
-    while (walk->by_place && walk->z <= walk->last_z) {
-        uint32_t slot = tl_nav_find_slot(walk->navmesh, walk->x, walk->z);
-        bool ends_row = walk->x == walk->last_x;
-        walk->x = ends_row ? walk->first_x : walk->x + 1;
-        walk->z += ends_row ? 1 : 0;
+    while (walk->by_place && (walk->next != TL_NAV_NO_SLOT || walk->z <= walk->last_z)) {
+        uint32_t slot = walk->next;
+        if (slot == TL_NAV_NO_SLOT) {
+            slot = tl_nav_find_slot(walk->navmesh, walk->x, walk->z);
+            bool ends_row = walk->x == walk->last_x;
+            walk->x = ends_row ? walk->first_x : walk->x + 1;
+            walk->z += ends_row ? 1 : 0;
+        }
         if (slot != TL_NAV_NO_SLOT) {
+            walk->next = tl_nav_next_slot(walk->navmesh, slot);
             return slot;
         }
     }
