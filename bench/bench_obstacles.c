@@ -107,8 +107,7 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
             began = now();
             must(tl_nav_obstacles_build_next(obstacles, &remade, NULL), "build");
             double built = now();
-            (void)tl_navmesh_remove_tile(navmesh, remade.tile_x, remade.tile_z);
-            must(remade.tile != NULL ? tl_navmesh_add_tile(navmesh, remade.tile, TL_NAV_TILE_OWNED) : TL_OK, "swap");
+            must(tl_navmesh_replace_tiles(navmesh, remade.tile_x, remade.tile_z, &remade.stack), "swap");
             swap[made] = (now() - built) * 1e6;
             tile[made++] = (built - began) * 1e6;
         }

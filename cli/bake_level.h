@@ -32,7 +32,7 @@ typedef struct tl_bake_settings {
     float min_island_area; ///< square metres: smaller islands are left out
 } tl_bake_settings;
 
-enum { TL_NAV_OPTIONS = 26, TL_PART_OPTIONS = 6 };
+enum { TL_NAV_OPTIONS = 27, TL_PART_OPTIONS = 6 };
 
 /// Soup and navmesh, no hull; Recast's defaults.
 tl_bake_settings tl_default_bake_settings(void);

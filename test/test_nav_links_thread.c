@@ -135,10 +135,7 @@ static void settle(editor *e)
         tl_nav_remade_tile remade;
         TEST_RESULT(tl_nav_obstacles_build_next(e->obstacles, &remade, NULL), TL_OK);
         begin_write(world);
-        (void)tl_navmesh_remove_tile(world->navmesh, remade.tile_x, remade.tile_z);
-        if (remade.tile != NULL) {
-            TEST_RESULT(tl_navmesh_add_tile(world->navmesh, remade.tile, TL_NAV_TILE_OWNED), TL_OK);
-        }
+        TEST_RESULT(tl_navmesh_replace_tiles(world->navmesh, remade.tile_x, remade.tile_z, &remade.stack), TL_OK);
         pthread_rwlock_unlock(&world->lock);
     }
 }

@@ -12,10 +12,13 @@
 
 enum { CELLS = 20 };
 
+static float tile_height; // of all tests, 0 at first
+
 static tl_nav_def make_def(void)
 {
     tl_nav_def def = tl_default_nav_def();
     def.tile_size = CELLS;
+    def.tile_height = tile_height;
     def.bounds.min = tl_vec3_make(-1, -3, -1);
     def.bounds.max = tl_vec3_make(26, 9, 20);
     return def;
@@ -76,11 +79,15 @@ static void check_against_bake(const world *w, const tl_nav_volume *volumes, uin
     tl_nav_tile_block block;
     TEST_RESULT(tl_nav_tile_grid(&w->def, w->def.bounds, &all.count_x, &all.count_z, NULL), TL_OK);
     TEST_RESULT(tl_nav_build_range(&w->def, &input, all, NULL, &block, NULL), TL_OK);
+    uint32_t count = 0;
     for (uint32_t i = 0; i < all.count_x * all.count_z; i++) {
-        const tl_nav_tile *now =
-            tl_navmesh_find_tile(w->navmesh, (int32_t)(i % all.count_x), (int32_t)(i / all.count_x));
-        TEST_CHECK(same_tile(now, block.tiles[i]));
+        const int32_t x = (int32_t)(i % all.count_x), z = (int32_t)(i / all.count_x);
+        for (uint32_t k = 0; k < block.stacks[i].count; k++, count++) {
+            const tl_nav_tile *tile = block.stacks[i].tiles[k];
+            TEST_CHECK(same_tile(tl_navmesh_find_layer(w->navmesh, x, tile->layer, z), tile));
+        }
     }
+    TEST_CHECK(count == tl_navmesh_tile_count(w->navmesh));
     tl_nav_tile_block_free(&block, w->def.host.allocator);
 }
 
@@ -332,7 +339,7 @@ static void test_random_edits(void **state)
         for (uint32_t slot = 0; slot < tl_navmesh_slot_count(w.navmesh); slot++) {
             const tl_nav_tile *tile = tl_navmesh_slot_tile(w.navmesh, slot);
             if (tile != NULL) {
-                TEST_CHECK(same_tile(tile, tl_navmesh_find_tile(other.navmesh, tile->tile_x, tile->tile_z)));
+                TEST_CHECK(same_tile(tile, tl_navmesh_find_layer(other.navmesh, tile->tile_x, tile->layer, tile->tile_z)));
                 TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
                 compared++;
             }
@@ -514,12 +521,12 @@ static void test_out_of_memory(void **state)
             uint64_t blocks = counting.live_blocks;
             tl_result result = tl_nav_obstacles_build_next(obstacles, &remade, NULL);
             if (result == TL_OK) {
-                TEST_CHECK(counting.live_blocks == blocks + (remade.tile != NULL));
-                tl_blob_free(remade.tile, &counting.allocator);
+                TEST_CHECK(counting.live_blocks == blocks + (remade.stack.count > 0 ? remade.stack.count + 1 : 0));
+                tl_nav_tile_stack_free(&remade.stack, &counting.allocator);
                 break;
             }
             TEST_RESULT(result, TL_ERR_MEMORY);
-            TEST_CHECK(counting.live_blocks == blocks && remade.tile == NULL);
+            TEST_CHECK(counting.live_blocks == blocks && remade.stack.count == 0);
             TEST_CHECK(tl_nav_obstacles_waiting(obstacles) == waiting);
             failures[2]++;
         }
@@ -531,12 +538,22 @@ static void test_out_of_memory(void **state)
     TEST_CHECK(counting.live_blocks == 0);
 }
 
+// The same with floors in layers of two metres.
+static int divide(void **state)
+{
+    (void)state;
+    tile_height = 2.0f;
+    return 0;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_volumes),          cmocka_unit_test(test_marks),    cmocka_unit_test(test_random_edits),
         cmocka_unit_test(test_rebake),           cmocka_unit_test(test_refusals), cmocka_unit_test(test_out_of_memory),
         cmocka_unit_test(test_corners_on_sides),
+        cmocka_unit_test_setup(test_volumes, divide), cmocka_unit_test_setup(test_random_edits, divide),
+        cmocka_unit_test_setup(test_rebake, divide), cmocka_unit_test_setup(test_out_of_memory, divide),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

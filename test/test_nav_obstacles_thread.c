@@ -21,10 +21,13 @@ typedef struct shared_world {
     atomic_uint paths, complete, faults;
 } shared_world;
 
+static float tile_height; // 0 at first
+
 static tl_nav_def make_def(void)
 {
     tl_nav_def def = tl_default_nav_def();
     def.tile_size = 20;
+    def.tile_height = tile_height;
     def.bounds.min = tl_vec3_make(-1, -3, -1);
     def.bounds.max = tl_vec3_make(26, 9, 20);
     return def;
@@ -99,10 +102,7 @@ static void settle(tl_nav_obstacles *obstacles, shared_world *world)
         atomic_store(&world->writer_waits, true);
         pthread_rwlock_wrlock(&world->lock);
         atomic_store(&world->writer_waits, false);
-        (void)tl_navmesh_remove_tile(world->navmesh, remade.tile_x, remade.tile_z);
-        if (remade.tile != NULL) {
-            TEST_RESULT(tl_navmesh_add_tile(world->navmesh, remade.tile, TL_NAV_TILE_OWNED), TL_OK);
-        }
+        TEST_RESULT(tl_navmesh_replace_tiles(world->navmesh, remade.tile_x, remade.tile_z, &remade.stack), TL_OK);
         pthread_rwlock_unlock(&world->lock);
     }
 }
@@ -168,8 +168,10 @@ static void test_edits_under_readers(void **state)
     TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
     TEST_CHECK(tiles.tile_count == tl_navmesh_tile_count(world.navmesh));
     for (uint32_t i = 0; i < tiles.tile_count; i++) {
-        const tl_nav_tile *tile = tl_navmesh_find_tile(world.navmesh, tiles.tiles[i]->tile_x, tiles.tiles[i]->tile_z);
-        TEST_CHECK(tile != NULL && memcmp(tile, tiles.tiles[i], tile->blob.size) == 0);
+        const tl_nav_tile *expected = tiles.tiles[i];
+        const tl_nav_tile *tile =
+            tl_navmesh_find_layer(world.navmesh, expected->tile_x, expected->layer, expected->tile_z);
+        TEST_CHECK(tile != NULL && memcmp(tile, expected, tile->blob.size) == 0);
     }
     tl_nav_tiles_free(&tiles, NULL);
     tl_navmesh_free(world.navmesh);
@@ -177,8 +179,17 @@ static void test_edits_under_readers(void **state)
     pthread_rwlock_destroy(&world.lock);
 }
 
+// The same with floors in layers of two metres.
+static int divide(void **state)
+{
+    (void)state;
+    tile_height = 2.0f;
+    return 0;
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_edits_under_readers) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_edits_under_readers),
+                                        cmocka_unit_test_setup(test_edits_under_readers, divide) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

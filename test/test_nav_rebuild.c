@@ -9,10 +9,13 @@
 
 enum { EDITS = 60 };
 
+static float tile_height; // of all tests, 0 at first
+
 static tl_nav_def make_def(uint32_t tile_size)
 {
     tl_nav_def def = tl_default_nav_def();
     def.tile_size = tile_size;
+    def.tile_height = tile_height;
     def.bounds.min = tl_vec3_make(-1, -3, -1);
     def.bounds.max = tl_vec3_make(26, 9, 20);
     return def;
@@ -20,8 +23,17 @@ static tl_nav_def make_def(uint32_t tile_size)
 
 static bool same_tile(const tl_nav_tile *a, const tl_nav_tile *b)
 {
-    return (a == NULL) == (b == NULL) &&
-           (a == NULL || (a->blob.size == b->blob.size && memcmp(a, b, a->blob.size) == 0));
+    return a->blob.size == b->blob.size && memcmp(a, b, a->blob.size) == 0;
+}
+
+static bool same_stack(const tl_nav_tile_stack *a, const tl_nav_tile_stack *b)
+{
+    bool same = a->count == b->count;
+    for (uint32_t i = 0; same && i < a->count; i++) {
+        same = same_tile(a->tiles[i], b->tiles[i]) && a->tiles[i]->layer == b->tiles[i]->layer &&
+               (i == 0 || a->tiles[i - 1]->layer < a->tiles[i]->layer);
+    }
+    return same;
 }
 
 static tl_nav_tile_block build_all(const tl_nav_def *def, const tl_nav_input *input)
@@ -46,8 +58,8 @@ static void test_whole_range(void **state)
     TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
     uint32_t next = 0;
     for (uint32_t t = 0; t < block.range.count_x * block.range.count_z; t++) {
-        if (block.tiles[t] != NULL) {
-            TEST_CHECK(next < tiles.tile_count && same_tile(block.tiles[t], tiles.tiles[next]));
+        for (uint32_t i = 0; i < block.stacks[t].count; i++) {
+            TEST_CHECK(next < tiles.tile_count && same_tile(block.stacks[t].tiles[i], tiles.tiles[next]));
             next++;
         }
     }
@@ -86,20 +98,21 @@ static void test_edits(void **state)
             TEST_RESULT(tl_nav_rebuild(&def, &input, tl_aabb_union(before, after), &part, &report), TL_OK);
             for (uint32_t z = 0; z < now.range.count_z; z++) {
                 for (uint32_t x = 0; x < now.range.count_x; x++) {
-                    tl_nav_tile **tile = &now.tiles[z * now.range.count_x + x];
+                    tl_nav_tile_stack *stack = &now.stacks[z * now.range.count_x + x];
                     bool inside = x >= part.range.x && x < part.range.x + part.range.count_x && z >= part.range.z &&
                                   z < part.range.z + part.range.count_z;
                     if (inside) {
-                        tl_nav_tile **baked = &part.tiles[(z - part.range.z) * part.range.count_x + (x - part.range.x)];
-                        changed += !same_tile(*tile, *baked);
-                        emptied += *tile != NULL && *baked == NULL;
-                        tl_blob_free(*tile, NULL);
-                        *tile = *baked;
-                        *baked = NULL;
+                        tl_nav_tile_stack *baked =
+                            &part.stacks[(z - part.range.z) * part.range.count_x + (x - part.range.x)];
+                        changed += !same_stack(stack, baked);
+                        emptied += stack->count > baked->count;
+                        tl_nav_tile_stack_free(stack, NULL);
+                        *stack = *baked;
+                        memset(baked, 0, sizeof *baked);
                     } else {
                         kept++;
                     }
-                    TEST_CHECK(same_tile(*tile, fresh.tiles[z * now.range.count_x + x]));
+                    TEST_CHECK(same_stack(stack, &fresh.stacks[z * now.range.count_x + x]));
                 }
             }
             tl_nav_tile_block_free(&fresh, NULL);
@@ -201,9 +214,19 @@ static void test_refusals(void **state)
     TEST_CHECK(failures > 10);
 }
 
+// The same with floors in layers of two metres.
+static int divide(void **state)
+{
+    (void)state;
+    tile_height = 2.0f;
+    return 0;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_whole_range), cmocka_unit_test(test_edits),
-                                        cmocka_unit_test(test_sink), cmocka_unit_test(test_refusals) };
+                                        cmocka_unit_test(test_sink), cmocka_unit_test(test_refusals),
+                                        cmocka_unit_test_setup(test_whole_range, divide),
+                                        cmocka_unit_test_setup(test_edits, divide) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

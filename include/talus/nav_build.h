@@ -52,6 +52,8 @@ typedef struct tl_nav_def {
     bool filter_ledge_spans;               ///< Default true
     bool filter_walkable_low_height_spans; ///< Default true
     uint32_t tile_size;                    ///< cells, 0: the whole level is one tile. Default 0
+    float tile_height; ///< metres, rounded down to voxels: floors of one place are divided into layers of that height,
+                       ///< which are tiles of their own. 0: they are one tile. Default 0
     tl_aabb bounds;                        ///< metres; what to build. Empty (the default): the bounds of the mesh
     tl_host host;
 } tl_nav_def;
@@ -97,6 +99,7 @@ typedef struct tl_nav_config {
     tl_partition_method polygon_method;
     bool filter_low_hanging_obstacles, filter_ledge_spans, filter_walkable_low_height_spans;
     uint32_t tile_x, tile_z;                           ///< this tile's place in the grid of tiles
+    uint32_t layer_height;                             ///< voxels, 0: a place is one tile
     float agent_height, agent_radius, agent_max_climb; ///< metres, as given; kept in the tile for queries
 } tl_nav_config;
 
@@ -347,20 +350,27 @@ typedef struct tl_nav_build_report {
     uint32_t tile_count;      ///< tiles with at least one polygon
 } tl_nav_build_report;
 
-/// All stages for one tile. `*tile_out` is NULL with TL_OK when nothing in it is walkable.
+/// The layer of each polygon of a place: the number of the config's layer_height below the lowest corner of its region
+/// there (of itself, where it is of several regions). So a storey stays whole, on a hill too, and a ramp belongs where it
+/// begins. layers_out has room for polygons->polygon_count; all 0 when layer_height is. TL_ERR_MEMORY.
+TL_API tl_result tl_nav_assign_layers(const tl_nav_config *config, const tl_polygon_mesh *polygons,
+                                      const tl_allocator *allocator, uint32_t *layers_out);
+
+/// All stages for one place, as one tile: layer_height is not looked at (tl_nav_tile_divide divides it). `*tile_out` is
+/// NULL with TL_OK when nothing in it is walkable.
 /// `stages_out` NULL: intermediate data is freed as soon as its last reader is done.
 TL_API tl_result tl_nav_tile_build(const tl_nav_config *config, const tl_nav_input *input, const tl_host *host,
                                    tl_nav_stages *stages_out, tl_nav_tile **tile_out, tl_nav_build_report *report_out);
 
 /// The stages from regions to the tile, on floors that are there: walkable areas final, eroded and marked. The field's
 /// `distance` and `region` are made anew and left freed; nothing else of it is changed. For obstacles that come and go
-/// without a look at the triangles.
+/// without a look at the triangles. `*stack_out`: the tile, or its layers; empty where nothing is walkable.
 TL_API tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
-                                         tl_nav_tile **tile_out, tl_nav_build_report *report_out);
+                                         tl_nav_tile_stack *stack_out, tl_nav_build_report *report_out);
 
 /// All tiles of a level, in parallel where def->host has tasks; the same bytes for any number of workers.
 typedef struct tl_nav_tiles {
-    tl_nav_tile **tiles; ///< only those that hold polygons, row-major by (tile_z, tile_x)
+    tl_nav_tile **tiles; ///< only those that hold polygons, row-major by (tile_z, tile_x), of a place by rising layer
     uint32_t tile_count;
     uint32_t tiles_x, tiles_z;
 } tl_nav_tiles;
@@ -390,10 +400,10 @@ typedef struct tl_nav_stage_sink {
     void *user;
 } tl_nav_stage_sink;
 
-/// The tiles of a range, row-major; NULL where nothing is walkable.
+/// The tiles of a range.
 typedef struct tl_nav_tile_block {
     tl_nav_tile_range range;
-    tl_nav_tile **tiles; ///< [range.count_x * range.count_z]
+    tl_nav_tile_stack *stacks; ///< [range.count_x * range.count_z] by place, row-major; empty where nothing is walkable
 } tl_nav_tile_block;
 
 /// Bakes a range of tiles: the same bytes as in tl_nav_build of the whole. `sink` may be NULL. A caller whose mesh
@@ -404,7 +414,7 @@ TL_API tl_result tl_nav_build_range(const tl_nav_def *def, const tl_nav_input *i
 
 /// Bakes again what a change inside `changed` can have touched (cover both what was there and what is there now): the
 /// same bytes as a bake of the whole level. def->bounds must be given, and the same as when the others were baked
-/// (TL_ERR_ARGUMENT). Replace or remove each tile of the block in the navmesh.
+/// (TL_ERR_ARGUMENT). Hand each stack of the block to tl_navmesh_replace_tiles.
 TL_API tl_result tl_nav_rebuild(const tl_nav_def *def, const tl_nav_input *input, tl_aabb changed,
                                 tl_nav_tile_block *block_out, tl_nav_build_report *report_out);
 TL_API void tl_nav_tile_block_free(tl_nav_tile_block *block, const tl_allocator *allocator);

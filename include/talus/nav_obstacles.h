@@ -11,8 +11,8 @@
 //   tl_nav_obstacles_update(obstacles, navmesh, 4, &waiting, NULL);   each frame, until nothing is waiting
 //
 // One thread at a time uses an obstacles object. Queries on the navmesh may go on while tl_nav_obstacles_build_next
-// works, which does not know it; a navmesh is changed only by tl_nav_obstacles_update and by tl_navmesh_remove_tile and
-// tl_navmesh_add_tile, during which nobody else may use it.
+// works, which does not know it; a navmesh is changed only by tl_nav_obstacles_update and by tl_navmesh_replace_tiles,
+// tl_navmesh_remove_tile and tl_navmesh_add_tile, during which nobody else may use it.
 
 #ifndef TALUS_NAV_OBSTACLES_H
 #define TALUS_NAV_OBSTACLES_H
@@ -87,20 +87,21 @@ TL_API uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles);
 TL_API tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_input *input, tl_aabb changed,
                                          tl_nav_build_report *report_out);
 
-/// A tile made again.
+/// A tile made again: all layers of its place, where it is divided.
 typedef struct tl_nav_remade_tile {
     int32_t tile_x, tile_z;
-    tl_nav_tile *tile; ///< the caller's, from the def's allocator; NULL: nothing is walkable there now
+    tl_nav_tile_stack stack; ///< the caller's, from the def's allocator; empty: nothing is walkable there now
 } tl_nav_remade_tile;
 
-/// Makes the tile that has waited longest. TL_ERR_NOT_FOUND: none waits. On another failure it goes on waiting.
+/// Makes the tile that has waited longest. Hand its stack to tl_navmesh_replace_tiles, or free it. TL_ERR_NOT_FOUND: none waits. On another failure it goes on waiting.
 TL_API tl_result tl_nav_obstacles_build_next(tl_nav_obstacles *obstacles, tl_nav_remade_tile *remade_out,
                                              tl_nav_build_report *report_out);
 
-/// Makes up to `most_tiles` waiting tiles and puts them into the navmesh in the place of the old ones. The navmesh
-/// takes them over, so it must have been created with the def's allocator.
+/// Makes up to `most_tiles` waiting tiles and puts them into the navmesh in the place of the old ones, as
+/// tl_navmesh_replace_tiles does: a tile or layer whose bytes are the same stays. The navmesh takes them over, so it must
+/// have been created with the def's allocator.
 /// `*waiting_out` (may be NULL): how many wait still. On failure the tile at hand goes on waiting, and the navmesh has
-/// the old one or, out of memory in between, none there.
+/// the old one or, out of memory in between, none or some of its layers there.
 TL_API tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t most_tiles,
                                          uint32_t *waiting_out, tl_nav_build_report *report_out);
 

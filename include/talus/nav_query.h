@@ -61,6 +61,15 @@ TL_API tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int
 /// The same with one layer.
 TL_API tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z);
 
+/// Makes the tiles at a place these: takes out those that are not among them byte for byte, adds those that are new, and
+/// leaves what stays the same as it is, references too. An empty stack empties the place.
+///
+/// The navmesh takes the tiles and their array over, so they come from an allocator like its own; afterwards the stack
+/// is empty, on failure too. Errors: TL_ERR_ARGUMENT (a tile is of another place; nothing is changed), and those of
+/// tl_navmesh_add_tile; then some of the tiles may be missing. TL_ERR_MEMORY.
+TL_API tl_result tl_navmesh_replace_tiles(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z,
+                                          tl_nav_tile_stack *stack);
+
 /// The tile at a place, or NULL; where it is divided the lowest layer that is there.
 TL_API const tl_nav_tile *tl_navmesh_find_tile(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
 /// One layer, or NULL.

@@ -122,7 +122,8 @@ typedef struct tl_pack_navmesh {
     uint32_t tile_count;     ///< NAVT chunks
     tl_aabb bounds;          ///< metres; bounds.min is the origin of the lattice
     uint32_t polygon_method; ///< a tl_partition_method
-    uint32_t reserved[6];
+    float tile_height;       ///< metres, 0: places are not divided into layers
+    uint32_t reserved[5];
 } tl_pack_navmesh;
 
 TL_API tl_result tl_pack_navmesh_create(const tl_nav_def *def, tl_aabb bounds, uint32_t tiles_x, uint32_t tiles_z,

@@ -82,6 +82,7 @@ static tl_result check_fields(const tl_nav_def *def, tl_report *report)
         { "region_merge_size", def->region_merge_size, 0, 65535, false, false, "use a number of cells, 0 to 65535" },
         { "edge_max_len", def->edge_max_len, 0, max, false, false, "use metres, or 0 for edges of any length" },
         { "edge_max_error", def->edge_max_error, 0, 65535, false, false, "use cells, 1.1 to 1.5 in most cases" },
+        { "tile_height", def->tile_height, 0, max, false, false, "use the height of a storey in metres, or 0" },
         { "detail_sample_dist", def->detail_sample_dist, 0, 65535, false, false,
           "use cells, or 0 for a detail mesh without samples" },
         { "detail_sample_max_error", def->detail_sample_max_error, 0, 65535, false, false,
@@ -138,6 +139,7 @@ typedef struct level_lattice {
     uint32_t tiles_x, tiles_z;
     uint32_t walkable_height, walkable_climb, walkable_radius;
     uint32_t border_size;
+    uint32_t layer_height;
 } level_lattice;
 
 // Rounded to the nearest whole column: less than half a column at the far side is left out, as Recast's users know it.
@@ -192,6 +194,13 @@ static tl_result level_columns(const tl_nav_def *def, level_lattice *level, tl_r
 
 static tl_result level_tiles(const tl_nav_def *def, level_lattice *level, tl_report *report)
 {
+    // Higher than any level is as good as infinitely high: layer 0 only.
+    double layer = floor(quotient((double)def->tile_height, def->cell_height));
+    if (def->tile_height > 0.0f && layer < 1.0) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "tile_height", TL_NO_ELEMENT,
+                              "use the height of a storey in metres, at least cell_height, or 0");
+    }
+    level->layer_height = layer < (double)UINT16_MAX ? (uint32_t)layer : UINT16_MAX;
     level->tiles_x = level->tiles_z = 1;
     uint64_t width = level->columns_x, height = level->columns_z;
     if (def->tile_size > 0) {
@@ -306,6 +315,7 @@ tl_result tl_nav_config_make(const tl_nav_def *def, tl_aabb level_bounds, uint32
     config->filter_low_hanging_obstacles = def->filter_low_hanging_obstacles;
     config->filter_ledge_spans = def->filter_ledge_spans;
     config->filter_walkable_low_height_spans = def->filter_walkable_low_height_spans;
+    config->layer_height = level.layer_height;
     config->agent_height = def->agent_height;
     config->agent_radius = def->agent_radius;
     config->agent_max_climb = def->agent_max_climb;

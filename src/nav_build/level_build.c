@@ -34,7 +34,7 @@ typedef struct level_job {
     uint32_t tiles_x, tiles_z; ///< of the level
     tl_nav_tile_range range;   ///< what is built
     tl_triangle_bins bins;
-    tl_nav_tile **tiles;   ///< [range.count_x * range.count_z]
+    tl_nav_tile_stack *stacks; ///< [range.count_x * range.count_z]
     level_worker *workers; ///< [worker_count]
     uint32_t worker_count;
 } level_job;
@@ -72,7 +72,7 @@ static tl_result run_tile(const level_job *job, uint64_t tile, tl_triangle_list 
     TL_TRY(tl_nav_config_make(job->def, job->bounds, job->range.x + (uint32_t)(tile % job->range.count_x),
                               job->range.z + (uint32_t)(tile / job->range.count_x), &config, &counts->base));
     const bool keep = job->sink != NULL;
-    tl_result result = tl_nav_tile_run(&config, job->input, list, host, keep, &stages, &job->tiles[tile], counts);
+    tl_result result = tl_nav_tile_run(&config, job->input, list, host, keep, &stages, &job->stacks[tile], counts);
     if (keep) {
         tl_nav_stages_hand_over(&stages, job->def->host.allocator);
         if (result == TL_OK) {
@@ -177,11 +177,11 @@ static tl_result take_range(level_job *job, const tl_nav_tile_range *range, tl_r
 static tl_result make_room(level_job *job)
 {
     const uint64_t count = tile_count_of(job);
-    job->tiles = tl_allocate_array(job->host.allocator, count, sizeof *job->tiles);
-    if (job->tiles == NULL) {
+    job->stacks = tl_allocate_array(job->host.allocator, count, sizeof *job->stacks);
+    if (job->stacks == NULL) {
         return TL_ERR_MEMORY;
     }
-    memset(job->tiles, 0, count * sizeof *job->tiles);
+    memset(job->stacks, 0, count * sizeof *job->stacks);
     return TL_OK;
 }
 
@@ -207,10 +207,10 @@ static void end_job(level_job *job, tl_memory_meter *meter, const tl_nav_build_r
                     tl_nav_build_report *report_out)
 {
     const uint64_t count = tile_count_of(job);
-    for (uint64_t t = 0; job->tiles != NULL && t < count; t++) {
-        tl_blob_free(job->tiles[t], job->host.allocator);
+    for (uint64_t t = 0; job->stacks != NULL && t < count; t++) {
+        tl_nav_tile_stack_free(&job->stacks[t], job->host.allocator);
     }
-    tl_release_array(job->host.allocator, job->tiles, count, sizeof *job->tiles);
+    tl_release_array(job->host.allocator, job->stacks, count, sizeof *job->stacks);
     tl_release_array(job->host.allocator, job->workers, job->worker_count, sizeof *job->workers);
     tl_triangle_bins_free(&job->bins);
     if (report_out != NULL) {
@@ -228,9 +228,9 @@ static tl_result keep_tiles(level_job *job, uint32_t tile_count, tl_nav_tiles *t
         return TL_ERR_MEMORY;
     }
     for (uint64_t t = 0; t < count; t++) {
-        if (job->tiles[t] != NULL) {
-            tiles_out->tiles[tiles_out->tile_count++] = job->tiles[t];
-            job->tiles[t] = NULL;
+        for (uint32_t i = 0; i < job->stacks[t].count; i++) {
+            tiles_out->tiles[tiles_out->tile_count++] = job->stacks[t].tiles[i];
+            job->stacks[t].tiles[i] = NULL;
         }
     }
     tiles_out->tiles_x = job->tiles_x;
@@ -309,8 +309,8 @@ tl_result tl_nav_build_range(const tl_nav_def *def, const tl_nav_input *input, t
     tl_result result = part ? build_part(&job, &range, &report) : build_range(&job, &range, &report);
     if (result == TL_OK) {
         block_out->range = job.range;
-        block_out->tiles = job.tiles;
-        job.tiles = NULL;
+        block_out->stacks = job.stacks;
+        job.stacks = NULL;
     }
     end_job(&job, &meter, &report, report_out);
     return result;
@@ -319,10 +319,10 @@ tl_result tl_nav_build_range(const tl_nav_def *def, const tl_nav_input *input, t
 void tl_nav_tile_block_free(tl_nav_tile_block *block, const tl_allocator *allocator)
 {
     const uint64_t count = (uint64_t)block->range.count_x * block->range.count_z;
-    for (uint64_t t = 0; block->tiles != NULL && t < count; t++) {
-        tl_blob_free(block->tiles[t], allocator);
+    for (uint64_t t = 0; block->stacks != NULL && t < count; t++) {
+        tl_nav_tile_stack_free(&block->stacks[t], allocator);
     }
-    tl_release_array(allocator, block->tiles, count, sizeof *block->tiles);
+    tl_release_array(allocator, block->stacks, count, sizeof *block->stacks);
     memset(block, 0, sizeof *block);
 }
 

@@ -24,7 +24,8 @@ typedef struct tile_job {
     tl_host host;
     bool keep;
     tl_nav_stages *stages;
-    tl_nav_tile *tile;
+    tl_nav_tile *tile;       // until it is in the stack
+    tl_nav_tile_stack stack; // it alone, or its layers
     tl_nav_build_report *report;
 } tile_job;
 
@@ -143,6 +144,60 @@ static tl_result build_detail(tile_job *job)
     return TL_OK;
 }
 
+// The tile as it is, in the layer that all its polygons belong to.
+static tl_result stack_whole(tile_job *job, uint32_t layer)
+{
+    job->stack.tiles = tl_allocate_array(job->host.allocator, 1, sizeof *job->stack.tiles);
+    if (job->stack.tiles == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    job->tile->layer = layer;
+    job->stack.tiles[0] = job->tile;
+    job->stack.count = 1;
+    job->tile = NULL;
+    return TL_OK;
+}
+
+static tl_result divide(tile_job *job, uint32_t *layers)
+{
+    const tl_polygon_mesh *polygons = &job->stages->polygons;
+    TL_TRY(tl_nav_assign_layers(job->config, polygons, job->host.allocator, layers));
+    bool is_whole = true;
+    for (uint32_t p = 1; p < polygons->polygon_count; p++) {
+        is_whole = is_whole && layers[p] == layers[0];
+    }
+    if (is_whole) {
+        return stack_whole(job, layers[0]);
+    }
+    TL_TRY(tl_nav_tile_divide(job->tile, layers, job->host.allocator, &job->stack, &job->report->base));
+    tl_blob_free(job->tile, job->host.allocator);
+    job->tile = NULL;
+    return TL_OK;
+}
+
+static tl_result stack_tile(tile_job *job)
+{
+    if (job->config->layer_height == 0) {
+        return stack_whole(job, 0);
+    }
+    const uint32_t count = job->stages->polygons.polygon_count;
+    uint32_t *layers = tl_allocate_array(job->host.allocator, count, sizeof *layers);
+    const tl_result result = layers != NULL ? divide(job, layers) : TL_ERR_MEMORY;
+    tl_release_array(job->host.allocator, layers, count, sizeof *layers);
+    return result;
+}
+
+// What was made, or nothing of it.
+static tl_result hand_over(tile_job *job, tl_result result, tl_nav_tile_stack *stack_out)
+{
+    tl_blob_free(job->tile, job->host.allocator);
+    if (result != TL_OK) {
+        tl_nav_tile_stack_free(&job->stack, job->host.allocator);
+    }
+    *stack_out = job->stack;
+    return result;
+}
+
 static tl_result bake_tile(tile_job *job)
 {
     const tl_nav_config *config = job->config;
@@ -160,7 +215,8 @@ static tl_result bake_tile(tile_job *job)
     source.agent_radius = config->agent_radius;
     source.agent_max_climb = config->agent_max_climb;
     TL_TRY(tl_nav_tile_create(&source, job->host.allocator, &job->tile, &job->report->base));
-    job->report->tile_count++;
+    TL_TRY(stack_tile(job));
+    job->report->tile_count += job->stack.count;
     return tl_progress_update(&job->host, "tile", 1, 1);
 }
 
@@ -182,7 +238,7 @@ static tl_result build_tile(tile_job *job)
 }
 
 tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input, tl_triangle_list list,
-                          const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile **tile_out,
+                          const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile_stack *stack_out,
                           tl_nav_build_report *report)
 {
     tile_job job;
@@ -194,17 +250,11 @@ tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input
     job.keep = keep_stages;
     job.stages = stages;
     job.report = report;
-    *tile_out = NULL;
-    tl_result result = build_tile(&job);
-    if (result != TL_OK) {
-        tl_blob_free(job.tile, host->allocator);
-        job.tile = NULL;
-    }
+    const tl_result result = build_tile(&job);
     if (!keep_stages) {
         tl_nav_stages_free(stages, host->allocator);
     }
-    *tile_out = job.tile;
-    return result;
+    return hand_over(&job, result, stack_out);
 }
 
 void tl_nav_stages_hand_over(tl_nav_stages *stages, const tl_allocator *allocator)
@@ -230,7 +280,12 @@ tl_result tl_nav_tile_build(const tl_nav_config *config, const tl_nav_input *inp
     tl_result result = tl_nav_input_check(input, NULL, &report.base);
     if (result == TL_OK) {
         tl_triangle_list all = { NULL, input->mesh.triangle_count };
-        result = tl_nav_tile_run(config, input, all, &metered, stages_out != NULL, &stages, tile_out, &report);
+        tl_nav_config whole = *config;
+        tl_nav_tile_stack stack;
+        whole.layer_height = 0;
+        result = tl_nav_tile_run(&whole, input, all, &metered, stages_out != NULL, &stages, &stack, &report);
+        *tile_out = stack.count > 0 ? stack.tiles[0] : NULL;
+        tl_release_array(&meter.allocator, stack.tiles, stack.count, sizeof *stack.tiles);
     }
     if (result == TL_OK && stages_out != NULL) {
         tl_nav_stages_hand_over(&stages, allocator);
@@ -246,7 +301,7 @@ tl_result tl_nav_tile_build(const tl_nav_config *config, const tl_nav_input *inp
 }
 
 tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
-                                  tl_nav_tile **tile_out, tl_nav_build_report *report_out)
+                                  tl_nav_tile_stack *stack_out, tl_nav_build_report *report_out)
 {
     static const tl_host plain = { NULL, NULL, NULL };
     tl_nav_build_report report;
@@ -261,11 +316,7 @@ tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *c
     job.keep = true; // the floors are the caller's
     job.stages = &stages;
     job.report = &report;
-    tl_result result = finish_tile(&job);
-    if (result != TL_OK) {
-        tl_blob_free(job.tile, job.host.allocator);
-        job.tile = NULL;
-    }
+    const tl_result result = finish_tile(&job);
     const tl_nav_compact *worked = &stages.compact;
     tl_release_array(compact->allocator, worked->distance, worked->span_count, sizeof *worked->distance);
     tl_release_array(compact->allocator, worked->region, worked->span_count, sizeof *worked->region);
@@ -273,9 +324,8 @@ tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *c
     compact->region = NULL;
     memset(&stages.compact, 0, sizeof stages.compact);
     tl_nav_stages_free(&stages, job.host.allocator);
-    *tile_out = job.tile;
     if (report_out != NULL) {
         *report_out = report;
     }
-    return result;
+    return hand_over(&job, result, stack_out);
 }

@@ -14,7 +14,7 @@ tl_result tl_nav_input_check(const tl_nav_input *input, tl_aabb *bounds_out, tl_
 /// the last stage, or what failed, in its base. `stages` is not NULL and zero; with `keep_stages` it holds all
 /// intermediate data afterwards, also on failure, else nothing.
 tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input, tl_triangle_list list,
-                          const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile **tile_out,
+                          const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile_stack *stack_out,
                           tl_nav_build_report *report);
 
 /// The stages were built through a meter, which ends with the build; what holds an allocator gets the host's.

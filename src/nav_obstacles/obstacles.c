@@ -468,7 +468,7 @@ tl_result tl_nav_obstacles_build_next(tl_nav_obstacles *obstacles, tl_nav_remade
         memcpy(tile->compact.area, tile->base_area, tile->compact.span_count);
         mark_obstacles(o, x, z, &tile->compact);
         const tl_host host = { &o->allocator, NULL, NULL };
-        TL_TRY(tl_nav_tile_from_floors(&config, &tile->compact, &host, &remade_out->tile, report_out));
+        TL_TRY(tl_nav_tile_from_floors(&config, &tile->compact, &host, &remade_out->stack, report_out));
     }
     end_wait(o);
     return TL_OK;
@@ -486,10 +486,8 @@ tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navme
         if (result != TL_OK) {
             break;
         }
-        (void)tl_navmesh_remove_tile(navmesh, remade.tile_x, remade.tile_z); // there may be none
-        result = remade.tile != NULL ? tl_navmesh_add_tile(navmesh, remade.tile, TL_NAV_TILE_OWNED) : TL_OK;
+        result = tl_navmesh_replace_tiles(navmesh, remade.tile_x, remade.tile_z, &remade.stack);
         if (result != TL_OK) {
-            tl_blob_free(remade.tile, &o->allocator);
             let_wait(o, &(tl_nav_tile_range){ index % o->tiles_x, index / o->tiles_x, 1, 1 });
         }
     }

@@ -108,6 +108,7 @@ tl_result tl_pack_navmesh_create(const tl_nav_def *def, tl_aabb bounds, uint32_t
     navmesh->filters = (def->filter_low_hanging_obstacles ? 1u : 0u) | (def->filter_ledge_spans ? 2u : 0u) |
                        (def->filter_walkable_low_height_spans ? 4u : 0u);
     navmesh->tile_size = def->tile_size;
+    navmesh->tile_height = def->tile_height;
     navmesh->tiles_x = tiles_x;
     navmesh->tiles_z = tiles_z;
     navmesh->tile_count = tile_count;
@@ -138,6 +139,7 @@ tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh)
     def.filter_ledge_spans = (navmesh->filters & 2u) != 0;
     def.filter_walkable_low_height_spans = (navmesh->filters & 4u) != 0;
     def.tile_size = navmesh->tile_size;
+    def.tile_height = navmesh->tile_height;
     def.bounds = navmesh->bounds;
     return def;
 }
@@ -158,6 +160,8 @@ tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size)
                 isfinite(navmesh->cell_height) && navmesh->partition <= TL_NAV_LAYERS &&
                 navmesh->polygon_method <= TL_PARTITION_DELAUNAY && navmesh->filters <= 7 &&
                 navmesh->max_verts_per_poly <= MAX_MAX_VERTS &&
-                navmesh->tile_count <= (uint64_t)navmesh->tiles_x * navmesh->tiles_z;
+                navmesh->tile_height >= 0.0f && isfinite(navmesh->tile_height) &&
+                (navmesh->tile_height > 0.0f ||
+                 navmesh->tile_count <= (uint64_t)navmesh->tiles_x * navmesh->tiles_z);
     return zero && sane ? TL_OK : TL_ERR_CORRUPT;
 }
