@@ -339,7 +339,8 @@ static void test_random_edits(void **state)
         for (uint32_t slot = 0; slot < tl_navmesh_slot_count(w.navmesh); slot++) {
             const tl_nav_tile *tile = tl_navmesh_slot_tile(w.navmesh, slot);
             if (tile != NULL) {
-                TEST_CHECK(same_tile(tile, tl_navmesh_find_layer(other.navmesh, tile->tile_x, tile->layer, tile->tile_z)));
+                TEST_CHECK(
+                    same_tile(tile, tl_navmesh_find_layer(other.navmesh, tile->tile_x, tile->layer, tile->tile_z)));
                 TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
                 compared++;
             }
@@ -549,11 +550,17 @@ static int divide(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_volumes),          cmocka_unit_test(test_marks),    cmocka_unit_test(test_random_edits),
-        cmocka_unit_test(test_rebake),           cmocka_unit_test(test_refusals), cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_volumes),
+        cmocka_unit_test(test_marks),
+        cmocka_unit_test(test_random_edits),
+        cmocka_unit_test(test_rebake),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_out_of_memory),
         cmocka_unit_test(test_corners_on_sides),
-        cmocka_unit_test_setup(test_volumes, divide), cmocka_unit_test_setup(test_random_edits, divide),
-        cmocka_unit_test_setup(test_rebake, divide), cmocka_unit_test_setup(test_out_of_memory, divide),
+        cmocka_unit_test_setup(test_volumes, divide),
+        cmocka_unit_test_setup(test_random_edits, divide),
+        cmocka_unit_test_setup(test_rebake, divide),
+        cmocka_unit_test_setup(test_out_of_memory, divide),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -224,8 +224,10 @@ static int divide(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_whole_range), cmocka_unit_test(test_edits),
-                                        cmocka_unit_test(test_sink), cmocka_unit_test(test_refusals),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_whole_range),
+                                        cmocka_unit_test(test_edits),
+                                        cmocka_unit_test(test_sink),
+                                        cmocka_unit_test(test_refusals),
                                         cmocka_unit_test_setup(test_whole_range, divide),
                                         cmocka_unit_test_setup(test_edits, divide) };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -54,7 +54,7 @@ typedef struct tl_nav_def {
     uint32_t tile_size;                    ///< cells, 0: the whole level is one tile. Default 0
     float tile_height; ///< metres, rounded down to voxels: floors of one place are divided into layers of that height,
                        ///< which are tiles of their own. 0: they are one tile. Default 0
-    tl_aabb bounds;                        ///< metres; what to build. Empty (the default): the bounds of the mesh
+    tl_aabb bounds;    ///< metres; what to build. Empty (the default): the bounds of the mesh
     tl_host host;
 } tl_nav_def;
 
@@ -350,9 +350,10 @@ typedef struct tl_nav_build_report {
     uint32_t tile_count;      ///< tiles with at least one polygon
 } tl_nav_build_report;
 
-/// The layer of each polygon of a place: the number of the config's layer_height below the lowest corner of its region
-/// there (of itself, where it is of several regions). So a storey stays whole, on a hill too, and a ramp belongs where it
-/// begins. layers_out has room for polygons->polygon_count; all 0 when layer_height is. TL_ERR_MEMORY.
+/// The layer of each polygon of a place: that in which most of its region's area is there. So a storey stays whole,
+/// with the stairs that its region takes along. A polygon of several regions goes by itself; its height is the mean of
+/// its corners. Layer k holds heights from k * layer_height on, in voxels above the origin. layers_out has room for
+/// polygons->polygon_count; all 0 when layer_height is. TL_ERR_MEMORY.
 TL_API tl_result tl_nav_assign_layers(const tl_nav_config *config, const tl_polygon_mesh *polygons,
                                       const tl_allocator *allocator, uint32_t *layers_out);
 

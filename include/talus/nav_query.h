@@ -43,8 +43,8 @@ TL_API tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **n
 /// Frees the table and the tiles it owns. NULL: nothing happens.
 TL_API void tl_navmesh_free(tl_navmesh *navmesh);
 
-/// Puts a tile at its own (tile_x, layer, tile_z) and links it with its neighbours: all layers of the four places beside
-/// it, over their common sides, and the other layers of its own place, over cuts with the same ends.
+/// Puts a tile at its own (tile_x, layer, tile_z) and links it with its neighbours: all layers of the four places
+/// beside it, over their common sides, and the other layers of its own place, over cuts with the same ends.
 ///
 /// The tile must be known to be whole: fresh from tl_nav_tile_create, or passed by tl_nav_tile_check; and it must not
 /// change while it is in (to change flags, take it out and put the changed one in). Two portals are
@@ -54,15 +54,15 @@ TL_API void tl_navmesh_free(tl_navmesh *navmesh);
 /// TL_ERR_LIMIT (TL_NAV_MAX_TILES), TL_ERR_MEMORY. O(corners and links of the tiles of the five places).
 TL_API tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership);
 
-/// Takes the tile at a place out, all its layers where it is divided, and the links to them. TL_ERR_NOT_FOUND when there
-/// is none. Never fails otherwise. O(corners of the neighbours). Islands cost what lies between the neighbours, some tiles
-/// as a rule; where the tile was all that held two parts of an island together, the smaller part's tiles.
+/// Takes the tile at a place out, all its layers where it is divided, and the links to them. TL_ERR_NOT_FOUND when
+/// there is none. Never fails otherwise. O(corners of the neighbours). Islands cost what lies between the neighbours,
+/// some tiles as a rule; where the tile was all that held two parts of an island together, the smaller part's tiles.
 TL_API tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
 /// The same with one layer.
 TL_API tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z);
 
-/// Makes the tiles at a place these: takes out those that are not among them byte for byte, adds those that are new, and
-/// leaves what stays the same as it is, references too. An empty stack empties the place.
+/// Makes the tiles at a place these: takes out those that are not among them byte for byte, adds those that are new,
+/// and leaves what stays the same as it is, references too. An empty stack empties the place.
 ///
 /// The navmesh takes the tiles and their array over, so they come from an allocator like its own; afterwards the stack
 /// is empty, on failure too. Errors: TL_ERR_ARGUMENT (a tile is of another place; nothing is changed), and those of

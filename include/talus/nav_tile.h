@@ -116,10 +116,10 @@ typedef struct tl_nav_tile {
     uint32_t layer;       ///< tells the tiles at one place apart; 0 where they are not divided
     uint32_t side_end[4]; ///< portals stand by side, and along it by low, then corner; cuts, behind side 3, by
                           ///< the layer across, then tl_nav_cut_compare. Read them through tl_nav_tile_side_first
-    double area;            ///< square metres in the plane, of all polygons
-    tl_vec3 origin;         ///< metres: lattice point (0, 0, 0) of tile (0, 0); the same in all tiles of a navmesh
-    float cell_size;        ///< metres
-    float cell_height;      ///< metres
+    double area;          ///< square metres in the plane, of all polygons
+    tl_vec3 origin;       ///< metres: lattice point (0, 0, 0) of tile (0, 0); the same in all tiles of a navmesh
+    float cell_size;      ///< metres
+    float cell_height;    ///< metres
     float agent_height, agent_radius, agent_max_climb; ///< metres
     tl_aabb bounds;                                    ///< metres, of the surface
     uint64_t first_corner;                             ///< uint32_t [polygon_count + 1]
@@ -161,10 +161,10 @@ typedef struct tl_nav_tile_source {
     /// Metres: where lattice point (0, 0, 0) of tile (0, 0) lies. The same bits for all tiles of a navmesh. It must
     /// agree with polygons->bounds.min to a quarter of a cell; with one tile it is polygons->bounds.min.
     tl_vec3 origin;
-    float agent_height;    ///< metres, > 0
-    float agent_radius;    ///< metres, >= 0
-    float agent_max_climb; ///< metres, >= 0: tiles are linked where their seams differ by no more
-    const uint64_t *flags; ///< one a polygon, or NULL: all 1
+    float agent_height;     ///< metres, > 0
+    float agent_radius;     ///< metres, >= 0
+    float agent_max_climb;  ///< metres, >= 0: tiles are linked where their seams differ by no more
+    const uint64_t *flags;  ///< one a polygon, or NULL: all 1
     uint32_t layer;         ///< <= TL_NAV_MAX_LAYER; 0 where the place is not divided
     const tl_nav_cut *cuts; ///< by rising corner
     uint32_t cut_count;
@@ -181,8 +181,8 @@ TL_API tl_result tl_nav_tile_create(const tl_nav_tile_source *source, const tl_a
                                     tl_nav_tile **tile_out, tl_report *report_out);
 
 /// Bakes a tile of some polygons of another: those with keep[p] != 0, in the same order. Links to the others become
-/// walls; cuts stay. All of them give the same bytes again. TL_ERR_EMPTY: none is kept; else as tl_nav_tile_create. `tile` is
-/// trusted.
+/// walls; cuts stay. All of them give the same bytes again. TL_ERR_EMPTY: none is kept; else as tl_nav_tile_create.
+/// `tile` is trusted.
 TL_API tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep, const tl_allocator *allocator,
                                     tl_nav_tile **tile_out, tl_report *report_out);
 
@@ -194,9 +194,9 @@ typedef struct tl_nav_tile_stack {
 
 TL_API void tl_nav_tile_stack_free(tl_nav_tile_stack *stack, const tl_allocator *allocator);
 
-/// Divides a tile into layers: polygon p goes into that of the number layers[p]. Together they have the tile's polygons,
-/// each layer its own in the same order, and in a navmesh the same links: an edge between two layers becomes a cut in
-/// both. A layer of the tile's own number that takes all polygons has the tile's bytes.
+/// Divides a tile into layers: polygon p goes into that of the number layers[p]. Together they have the tile's
+/// polygons, each layer its own in the same order, and in a navmesh the same links: an edge between two layers becomes
+/// a cut in both. A layer of the tile's own number that takes all polygons has the tile's bytes.
 ///
 /// Errors: TL_ERR_ARGUMENT (the tile is a layer already: it has cuts, or a number of its own; a number above
 /// TL_NAV_MAX_LAYER), TL_ERR_LIMIT, TL_ERR_MEMORY; then `*stack_out` is zeroed. `tile` is trusted, and stays.

@@ -35,7 +35,7 @@ typedef struct level_job {
     tl_nav_tile_range range;   ///< what is built
     tl_triangle_bins bins;
     tl_nav_tile_stack *stacks; ///< [range.count_x * range.count_z]
-    level_worker *workers; ///< [worker_count]
+    level_worker *workers;     ///< [worker_count]
     uint32_t worker_count;
 } level_job;
 

@@ -2,10 +2,10 @@
 //
 // A tile divided into layers: tiles of some of its polygons each, with cuts where they were linked.
 //
-// Layers are made from the finished tile, so that contours, polygons and detail are those of the whole place: nothing is
-// cut that was not an edge before, and the two sides of a cut have the same two vertices. To divide the floors before
-// (heightfield layers, as others do) simplifies both sides of each cut by themselves, and has to mend what then no
-// longer fits.
+// Layers are made from the finished tile, so that contours, polygons and detail are those of the whole place: nothing
+// is cut that was not an edge before, and the two sides of a cut have the same two vertices. To divide the floors
+// before (heightfield layers, as others do) simplifies both sides of each cut by themselves, and has to mend what then
+// no longer fits.
 
 #include "nav_format/subset.h"
 

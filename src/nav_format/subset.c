@@ -43,9 +43,9 @@ static tl_result make_room(subset *s, tl_arena *arena)
     mesh->neighbours = TL_PUSH(arena, uint32_t, tile->corner_count);
     mesh->areas = TL_PUSH(arena, uint32_t, tile->polygon_count);
     s->cuts = TL_PUSH(arena, tl_nav_cut, tile->corner_count);
-    return s->cuts != NULL && s->number != NULL && s->vertex_number != NULL && s->flags != NULL && s->detail.patches != NULL &&
-                   mesh->vertices != NULL && mesh->first != NULL && mesh->indices != NULL && mesh->neighbours != NULL &&
-                   mesh->areas != NULL
+    return s->cuts != NULL && s->number != NULL && s->vertex_number != NULL && s->flags != NULL &&
+                   s->detail.patches != NULL && mesh->vertices != NULL && mesh->first != NULL &&
+                   mesh->indices != NULL && mesh->neighbours != NULL && mesh->areas != NULL
                ? TL_OK
                : TL_ERR_MEMORY;
 }

@@ -56,8 +56,8 @@ static void add_seam_edge(ring_writer *writer, tl_vec3 start, tl_vec3 end, const
     add_gap(writer, at, end, ahead);
 }
 
-static void add_polygon(ring_writer *writer, const tl_nav_tile *tile,
-                        const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], uint32_t polygon)
+static void add_polygon(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
+                        uint32_t polygon)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
@@ -237,8 +237,9 @@ static void copy_components(const tl_nav_rings *old, tl_nav_rings *rings)
     rings->component_count = old->component_count;
 }
 
-tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
-                            const tl_nav_rings *old, uint32_t changed_side, tl_nav_rings *rings_out)
+tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile,
+                            const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const tl_nav_rings *old,
+                            uint32_t changed_side, tl_nav_rings *rings_out)
 {
     memset(rings_out, 0, sizeof *rings_out);
     uint64_t seams = 0;

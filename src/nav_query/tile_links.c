@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Links across the seam of two tiles: portals of facing sides that overlap and whose heights meet; between two layers of
-// a place, cuts with the same ends.
+// Links across the seam of two tiles: portals of facing sides that overlap and whose heights meet; between two layers
+// of a place, cuts with the same ends.
 //
 // Overlaps are exact: both tiles count lattice steps from one origin. Heights are compared along the baked profiles of
 // the surface, at every bend of either one, so that a hill on the seam neither hides a link nor fakes one.
@@ -90,7 +90,7 @@ static double height_tolerance(const tl_nav_tile *a, const tl_nav_tile *b)
 
 static seam make_seam(const tl_nav_tile *a, uint32_t slot_a, uint32_t side, const tl_nav_tile *b, uint32_t slot_b)
 {
-    seam s = { { a, b },     { slot_a, slot_b }, { side, tl_nav_facing_side(side) },
+    seam s = { { a, b },       { slot_a, slot_b }, { side, tl_nav_facing_side(side) },
                { NULL, NULL }, { 0, 0 },           height_tolerance(a, b) };
     for (int i = 0; i < 2; i++) {
         const uint32_t first = tl_nav_tile_side_first(s.tiles[i], s.sides[i]);
@@ -212,8 +212,7 @@ static void add_link(const seam *s, int from, uint32_t portal, uint32_t other, i
         const tl_nav_tile *tile = s->tiles[from];
         const tl_vec3 *corners = tl_nav_tile_corners(tile, own->polygon, &count);
         uint32_t edge = own->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[own->polygon];
-        tl_nav_seam_link link = { s->slots[1 - from],           across->polygon,
-                                  across->low,                  s->tiles[1 - from]->layer,
+        tl_nav_seam_link link = { s->slots[1 - from],          across->polygon, across->low, s->tiles[1 - from]->layer,
                                   corners[(edge + 1) % count], corners[edge] };
         out->links[out->first[portal]++] = link;
         return;
@@ -222,7 +221,7 @@ static void add_link(const seam *s, int from, uint32_t portal, uint32_t other, i
     tl_vec3 at_high = edge_point(s->tiles[from], own, side, high);
     bool rising = side < 2;
     // An edge runs from its right end to its left end, seen looking out.
-    tl_nav_seam_link link = { s->slots[1 - from],         across->polygon,           across->low,
+    tl_nav_seam_link link = { s->slots[1 - from],        across->polygon,           across->low,
                               s->tiles[1 - from]->layer, rising ? at_high : at_low, rising ? at_low : at_high };
     out->links[out->first[portal]++] = link;
 }
@@ -318,8 +317,8 @@ tl_result tl_nav_join_sides(const tl_allocator *allocator, const tl_nav_side_lin
         uint32_t i = a->first[portal], k = b->first[portal];
         side.first[portal] = count;
         while (i < a->first[portal + 1] || k < b->first[portal + 1]) {
-            const bool takes_b = i == a->first[portal + 1] ||
-                                 (k < b->first[portal + 1] && stands_before(&b->links[k], &a->links[i]));
+            const bool takes_b =
+                i == a->first[portal + 1] || (k < b->first[portal + 1] && stands_before(&b->links[k], &a->links[i]));
             side.links[count++] = takes_b ? b->links[k++] : a->links[i++];
         }
     }

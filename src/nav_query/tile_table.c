@@ -255,8 +255,8 @@ static tl_result make_link(const tl_navmesh *navmesh, const tl_nav_tile *tile, u
 {
     const tl_allocator *allocator = &navmesh->allocator;
     tl_nav_side_links own, facing, joined;
-    TL_TRY(tl_nav_link_sides(allocator, tile, slot, side, navmesh->slots[facing_slot].tile, facing_slot, &own,
-                             &facing));
+    TL_TRY(
+        tl_nav_link_sides(allocator, tile, slot, side, navmesh->slots[facing_slot].tile, facing_slot, &own, &facing));
     if (own.link_count == 0) {
         return TL_OK;
     }
@@ -362,8 +362,8 @@ static void install_seams(tl_navmesh *navmesh, uint32_t slot, seam_set *seams)
     tl_release_array(&navmesh->allocator, seams->neighbours, seams->neighbour_capacity, sizeof *seams->neighbours);
 }
 
-// Gives numbers to the turning vertices of a slot that is new, or TL_NAV_NO_SLOT, and of the sides that face its place in
-// the tiles that changed since an edit began. Numbers are handed out once; before they run out, all anew.
+// Gives numbers to the turning vertices of a slot that is new, or TL_NAV_NO_SLOT, and of the sides that face its place
+// in the tiles that changed since an edit began. Numbers are handed out once; before they run out, all anew.
 static void number_fans(tl_navmesh *navmesh, uint32_t new_slot, int32_t tile_x, int32_t tile_z, uint64_t edit)
 {
     if (navmesh->last_fan > UINT32_MAX / 2) {

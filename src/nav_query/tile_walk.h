@@ -13,7 +13,7 @@ typedef struct tl_nav_tile_walk {
     bool by_place;
     uint32_t slot; // the next one to look at
     int64_t first_x, last_x, last_z;
-    int64_t x, z; // the next place to look at
+    int64_t x, z;  // the next place to look at
     uint32_t next; // at the same place, or TL_NAV_NO_SLOT
 } tl_nav_tile_walk;
 

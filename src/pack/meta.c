@@ -159,9 +159,8 @@ tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size)
     bool sane = navmesh->cell_size > 0.0f && isfinite(navmesh->cell_size) && navmesh->cell_height > 0.0f &&
                 isfinite(navmesh->cell_height) && navmesh->partition <= TL_NAV_LAYERS &&
                 navmesh->polygon_method <= TL_PARTITION_DELAUNAY && navmesh->filters <= 7 &&
-                navmesh->max_verts_per_poly <= MAX_MAX_VERTS &&
-                navmesh->tile_height >= 0.0f && isfinite(navmesh->tile_height) &&
-                (navmesh->tile_height > 0.0f ||
-                 navmesh->tile_count <= (uint64_t)navmesh->tiles_x * navmesh->tiles_z);
+                navmesh->max_verts_per_poly <= MAX_MAX_VERTS && navmesh->tile_height >= 0.0f &&
+                isfinite(navmesh->tile_height) &&
+                (navmesh->tile_height > 0.0f || navmesh->tile_count <= (uint64_t)navmesh->tiles_x * navmesh->tiles_z);
     return zero && sane ? TL_OK : TL_ERR_CORRUPT;
 }
