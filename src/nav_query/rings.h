@@ -57,8 +57,8 @@ typedef struct tl_nav_rings {
 
 typedef struct tl_nav_side_links tl_nav_side_links;
 
-/// Rings of a tile with these links on its sides. `old`: its rings from before the links of one side changed, from which
-/// all but the polygons on that side are copied, or NULL. TL_ERR_MEMORY.
+/// Rings of a tile with these links on its sides. `old`: its rings from before the links of one side changed, from
+/// which all but the polygons on that side are copied, or NULL. TL_ERR_MEMORY.
 tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile,
                             const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const tl_nav_rings *old,
                             uint32_t changed_side, tl_nav_rings *rings_out);
