@@ -56,6 +56,15 @@ static inline tl_aabb tl_box4_to_aabb(tl_box4 a)
     return r;
 }
 
+/// tl_aabb_half_area, to the bit.
+static inline float tl_box4_half_area(tl_box4 a)
+{
+    __m128 size = _mm_sub_ps(a.max, a.min);
+    __m128 sides = _mm_mul_ps(size, _mm_shuffle_ps(size, size, _MM_SHUFFLE(3, 0, 2, 1)));
+    __m128 two = _mm_add_ss(sides, _mm_shuffle_ps(sides, sides, _MM_SHUFFLE(1, 1, 1, 1)));
+    return _mm_cvtss_f32(_mm_add_ss(two, _mm_shuffle_ps(sides, sides, _MM_SHUFFLE(2, 2, 2, 2))));
+}
+
 /// Lane i of (a.min - base) * scale, cut to 0 .. last, without its fraction.
 static inline void tl_box4_cells(tl_box4 a, const float base[4], const float scale[4], float last, int32_t cells[4])
 {
@@ -99,6 +108,11 @@ static inline tl_box4 tl_box4_middle(tl_box4 a)
 static inline tl_aabb tl_box4_to_aabb(tl_box4 a)
 {
     return a.box;
+}
+
+static inline float tl_box4_half_area(tl_box4 a)
+{
+    return tl_aabb_half_area(a.box);
 }
 
 static inline void tl_box4_cells(tl_box4 a, const float base[4], const float scale[4], float last, int32_t cells[4])

@@ -98,7 +98,8 @@ static bool leaf_is_better(const tl_tree_range *range, const tl_tree_split *spli
 
 static uint32_t build_range(builder *b, tl_tree_range range)
 {
-    tl_tree_split split = { 0 };
+    tl_tree_split split;
+    split.found = false;
     if (range.count > 1 && range.depth < HEURISTIC_DEPTH) {
         split = tl_tree_find_split(&b->splitter, &range);
     }
@@ -128,7 +129,8 @@ static void build_top(builder *b, tl_tree_range range, uint32_t *parent_link)
         }
         return;
     }
-    tl_tree_split split = { 0 };
+    tl_tree_split split;
+    split.found = false;
     if (range.depth < HEURISTIC_DEPTH) {
         split = tl_tree_find_split(&b->splitter, &range);
     }
@@ -176,9 +178,10 @@ tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair
     memset(&b, 0, sizeof b);
     tl_tree_ref *refs = TL_PUSH(arena, tl_tree_ref, capacity);
     b.nodes = TL_PUSH(arena, tl_tree_node, 2 * (uint64_t)capacity);
+    b.splitter.scratch = TL_PUSH(arena, tl_tree_ref, capacity);
     b.subtree_capacity = 2 * TASK_SHARE * SMALL_SHARE;
     b.subtrees = TL_PUSH(arena, subtree, b.subtree_capacity);
-    if (refs == NULL || b.nodes == NULL || b.subtrees == NULL) {
+    if (refs == NULL || b.splitter.scratch == NULL || b.nodes == NULL || b.subtrees == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < pair_count; i++) {

@@ -5,6 +5,7 @@
 #ifndef TALUS_SRC_SOUP_TREE_SPLIT_H
 #define TALUS_SRC_SOUP_TREE_SPLIT_H
 
+#include "math/box4.h"
 #include "soup/soup_build.h"
 
 /// References [first, first + count), with room up to first + capacity.
@@ -23,16 +24,53 @@ typedef struct tl_tree_split {
     uint32_t axis;
     uint32_t bin;   ///< object splits: centroids of bins below it go left
     float position; ///< spatial splits: the plane
-    float overlap;  ///< half area of what both sides' boxes share
     float cost;     ///< sum over both sides of half area times blocks of TL_SOUP_LEAF_PAIRS
+    tl_box4 box[2]; ///< object splits: of the left and the right side
 } tl_tree_split;
 
 typedef struct tl_tree_splitter {
     const tl_mesh *mesh;
     const tl_pair *pairs;
     tl_tree_ref *refs;
+    tl_tree_ref *scratch; ///< as many as refs
     float root_half_area;
 } tl_tree_splitter;
+
+enum { TL_TREE_BINS = 16 };
+
+/// Where the bins of an axis begin, and bins a metre of doubled middle; 0 where no plane parts the references.
+typedef struct tl_tree_grid {
+    float base[4], scale[4];
+    uint32_t count; ///< bins of an axis, up to TL_TREE_BINS
+} tl_tree_grid;
+
+/// What falls into each bin of each axis. Bins of parts of a range add up to those of the whole, in any order.
+typedef struct tl_tree_bins {
+    struct {
+        tl_box4 box;
+        uint32_t count;
+    } bin[3][TL_TREE_BINS];
+} tl_tree_bins;
+
+tl_tree_grid tl_tree_make_grid(const tl_tree_range *range);
+void tl_tree_fill_bins(const tl_tree_ref *refs, uint32_t count, const tl_tree_grid *grid, tl_tree_bins *bins_out);
+void tl_tree_add_bins(const tl_tree_bins *part, const tl_tree_grid *grid, tl_tree_bins *sum);
+
+/// The cheapest plane between bins.
+tl_tree_split tl_tree_choose_plane(const tl_tree_bins *bins, const tl_tree_grid *grid);
+
+/// How many of the references in the bins an object split puts to the left.
+uint32_t tl_tree_count_left(const tl_tree_bins *bins, const tl_tree_split *split);
+
+/// Writes references of an object split's left side to `left`, which may be `refs`, and the others to `right`, in their
+/// order, and grows the sides' boxes of doubled middles. Returns how many went left. Beyond the ends one reference may
+/// be overwritten by what `refs` has there, or by nothing of use where the other side's begin: see tree_top.c.
+uint32_t tl_tree_part(const tl_tree_ref *refs, uint32_t count, const tl_tree_grid *grid, const tl_tree_split *split,
+                      tl_tree_ref *left, tl_tree_ref *right, tl_box4 middles[2]);
+
+/// The two parts of a range, of so many references, with the room that is spare shared out. Boxes are left empty.
+void tl_tree_share_range(const tl_tree_range *range, uint32_t left_count, uint32_t right_count, tl_tree_range *left_out,
+                         tl_tree_range *right_out);
 
 /// A range and its boxes, from its references.
 tl_tree_range tl_tree_measure_range(const tl_tree_ref *refs, uint32_t first, uint32_t count, uint32_t capacity,

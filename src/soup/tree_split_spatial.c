@@ -162,8 +162,12 @@ static void evaluate_bins(const spatial_bins *bins, const tl_tree_range *range, 
 void tl_tree_improve_by_spatial_split(const tl_tree_splitter *splitter, const tl_tree_range *range,
                                       tl_tree_split *split)
 {
-    if (!split->found || range->capacity == range->count || range->depth > MAX_SPATIAL_DEPTH ||
-        split->overlap <= splitter->root_half_area * WORTHWHILE_OVERLAP) {
+    if (!split->found || range->capacity == range->count || range->depth > MAX_SPATIAL_DEPTH) {
+        return;
+    }
+    tl_aabb shared = tl_aabb_intersection(tl_box4_to_aabb(split->box[0]), tl_box4_to_aabb(split->box[1]));
+    float overlap = tl_aabb_is_empty(shared) ? 0.0f : tl_aabb_half_area(shared);
+    if (overlap <= splitter->root_half_area * WORTHWHILE_OVERLAP) {
         return;
     }
     for (uint32_t axis = 0; axis < 3; axis++) {
