@@ -88,13 +88,20 @@ void tl_release_array(const tl_allocator *allocator, void *array, uint64_t count
 
 void *tl_blob_allocate(const tl_allocator *allocator, uint32_t magic, uint32_t version, uint64_t size)
 {
+    return tl_blob_allocate_part(allocator, magic, version, size, size, size);
+}
+
+void *tl_blob_allocate_part(const tl_allocator *allocator, uint32_t magic, uint32_t version, uint64_t size,
+                            uint64_t unset_begin, uint64_t unset_end)
+{
     if (size > SIZE_MAX - TL_BLOB_ALIGNMENT) {
         return NULL;
     }
     size_t rounded = round_up((size_t)size, TL_BLOB_ALIGNMENT);
     tl_blob *blob = tl_allocate(allocator, rounded, TL_BLOB_ALIGNMENT);
     if (blob != NULL) {
-        memset(blob, 0, rounded);
+        memset(blob, 0, (size_t)unset_begin);
+        memset((char *)blob + unset_end, 0, rounded - (size_t)unset_end);
         blob->magic = magic;
         blob->version = version;
         blob->size = rounded;

@@ -37,6 +37,11 @@ void tl_release_array(const tl_allocator *allocator, void *array, uint64_t count
 /// A zeroed blob of at least `size` bytes, rounded up to TL_BLOB_ALIGNMENT, its head filled; NULL when memory is out.
 void *tl_blob_allocate(const tl_allocator *allocator, uint32_t magic, uint32_t version, uint64_t size);
 
+/// The same, but bytes [unset_begin, unset_end) hold anything: the caller writes them all. sizeof(tl_blob) <=
+/// unset_begin <= unset_end <= size.
+void *tl_blob_allocate_part(const tl_allocator *allocator, uint32_t magic, uint32_t version, uint64_t size,
+                            uint64_t unset_begin, uint64_t unset_end);
+
 /// NULL allocator: malloc. Takes no memory yet.
 void tl_arena_init(tl_arena *arena, const tl_allocator *allocator);
 void tl_arena_free(tl_arena *arena);

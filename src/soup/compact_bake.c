@@ -5,6 +5,7 @@
 #include "soup/soup_bake.h"
 
 #include "base/assert.h"
+#include "base/host.h"
 
 #include <float.h>
 #include <string.h>
@@ -61,10 +62,9 @@ tl_result tl_compact_plan_vertices(const tl_baker *baker, tl_arena *arena, tl_co
     }
     memset(n.latest, 0xff, baker->mesh->vertex_count * sizeof *n.latest);
     for (uint32_t i = 0; i < baker->node_count; i++) {
-        uint32_t children[TL_SOUP_WIDTH];
-        uint32_t count = tl_tree_cut_children(&baker->cut, baker->roots[i], children);
-        for (uint32_t k = 0; k < count; k++) {
-            const tl_tree_node *child = &baker->tree->nodes[children[k]];
+        const tl_wide_node *wide = &baker->wide[i];
+        for (uint32_t k = 0; k < wide->child_count; k++) {
+            const tl_tree_node *child = &baker->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
             for (uint32_t r = 0; r < child->count; r++) {
                 number_pair(&n, &baker->pairs[baker->tree->refs[child->first + r].pair]);
             }
@@ -77,13 +77,9 @@ tl_result tl_compact_plan_vertices(const tl_baker *baker, tl_arena *arena, tl_co
 // ---------------------------------------------------------------------------------------------------------
 // Nodes.
 
-static tl_aabb box_of_children(const tl_baker *b, const uint32_t *children, uint32_t count)
+static tl_aabb box_of_child(const tl_baker *b, const tl_wide_node *wide, uint32_t k)
 {
-    tl_aabb box = tl_aabb_empty();
-    for (uint32_t k = 0; k < count; k++) {
-        box = tl_aabb_union(box, b->tree->nodes[children[k]].box);
-    }
-    return box;
+    return b->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF].box;
 }
 
 // The smallest power of two whose steps, as they round, reach from `low` to `high`.
@@ -116,16 +112,19 @@ static uint8_t step_above(const tl_compact_node *node, uint32_t axis, float at)
     return (uint8_t)step;
 }
 
-static void write_boxes(const tl_baker *b, const uint32_t *children, uint32_t count, tl_compact_node *node)
+static void write_boxes(const tl_baker *b, const tl_wide_node *wide, tl_compact_node *node)
 {
-    tl_aabb all = box_of_children(b, children, count);
+    tl_aabb all = tl_aabb_empty();
+    for (uint32_t k = 0; k < wide->child_count; k++) {
+        all = tl_aabb_union(all, box_of_child(b, wide, k));
+    }
     const float low[3] = { all.min.x, all.min.y, all.min.z }, high[3] = { all.max.x, all.max.y, all.max.z };
     for (uint32_t axis = 0; axis < 3; axis++) {
         node->origin[axis] = low[axis];
         node->scale[axis] = choose_scale(low[axis], high[axis]);
     }
-    for (uint32_t k = 0; k < count; k++) {
-        tl_aabb box = b->tree->nodes[children[k]].box;
+    for (uint32_t k = 0; k < wide->child_count; k++) {
+        tl_aabb box = box_of_child(b, wide, k);
         const float min[3] = { box.min.x, box.min.y, box.min.z }, max[3] = { box.max.x, box.max.y, box.max.z };
         for (uint32_t axis = 0; axis < 3; axis++) {
             node->plane[2 * axis][k] = step_below(node, axis, min[axis]);
@@ -134,47 +133,58 @@ static void write_boxes(const tl_baker *b, const uint32_t *children, uint32_t co
                       tl_compact_plane(node, axis, node->plane[2 * axis + 1][k]) >= max[axis]);
         }
     }
-    node->mask = (1u << count) - 1u;
+    node->mask = (1u << wide->child_count) - 1u;
 }
 
-static void write_pairs(tl_baker *b, const tl_compact_plan *plan, const tl_tree_node *leaf, uint32_t first,
-                        tl_compact_pair *out)
+static void write_pairs(const tl_baker *b, const tl_tree_node *leaf, uint32_t first, tl_compact_pair *out)
 {
     for (uint32_t i = 0; i < leaf->count; i++) {
-        uint32_t index = b->tree->refs[leaf->first + i].pair;
-        bool is_copy = b->written[index];
-        b->written[index] = 1;
         for (uint32_t k = 0; k < 2; k++) {
-            out[first + i].ids[k] = tl_bake_id(b, &b->pairs[index], k, is_copy);
+            out[first + i].ids[k] = tl_bake_id(b, &b->tree->refs[leaf->first + i], k);
         }
-        memcpy(out[first + i].corner, plan->corners[first + i], sizeof out->corner);
+        memcpy(out[first + i].corner, b->plan->corners[first + i], sizeof out->corner);
     }
 }
 
-void tl_compact_write(tl_baker *b, const tl_compact_plan *plan, tl_soup *soup)
+void tl_compact_write_node(const tl_baker *b, uint32_t index)
 {
-    tl_compact_node *nodes = (tl_compact_node *)(void *)((char *)soup + soup->node_offset);
-    tl_compact_pair *pairs = (tl_compact_pair *)(void *)((char *)soup + soup->leaf_offset);
-    uint32_t next_node = 1, next_pair = 0;
-    for (uint32_t i = 0; i < b->node_count; i++) {
-        uint32_t children[TL_SOUP_WIDTH];
-        uint32_t count = tl_tree_cut_children(&b->cut, b->roots[i], children);
-        write_boxes(b, children, count, &nodes[i]);
-        for (uint32_t k = 0; k < count; k++) {
-            const tl_tree_node *child = &b->tree->nodes[children[k]];
-            if (child->count > 0) {
-                nodes[i].child[k] = tl_child_of_leaf(next_pair * sizeof *pairs, child->count);
-                write_pairs(b, plan, child, next_pair, pairs);
-                next_pair += child->count;
-            } else {
-                nodes[i].child[k] = next_node++;
-            }
+    const tl_wide_node *wide = &b->wide[index];
+    tl_compact_node *node = (tl_compact_node *)(void *)((char *)b->soup + b->soup->node_offset) + index;
+    tl_compact_pair *pairs = (tl_compact_pair *)(void *)((char *)b->soup + b->soup->leaf_offset);
+    uint32_t next_node = wide->first_inner, next_pair = (uint32_t)(wide->leaf_offset / sizeof *pairs);
+    memset(node, 0, sizeof *node);
+    write_boxes(b, wide, node);
+    for (uint32_t k = 0; k < wide->child_count; k++) {
+        if ((wide->child[k] & TL_WIDE_LEAF) != 0) {
+            const tl_tree_node *leaf = &b->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
+            node->child[k] = tl_child_of_leaf(next_pair * sizeof *pairs, leaf->count);
+            write_pairs(b, leaf, next_pair, pairs);
+            next_pair += leaf->count;
+        } else {
+            node->child[k] = next_node++;
         }
     }
-    TL_ASSERT(next_node == b->node_count && next_pair == b->tree->ref_count);
-    memcpy((char *)soup + soup->group_offset, plan->groups, tl_compact_group_count(next_pair) * sizeof(uint32_t));
-    tl_vec3 *vertices = (tl_vec3 *)(void *)((char *)soup + soup->vertex_offset);
-    for (uint32_t i = 0; i < plan->vertex_count; i++) {
-        vertices[i] = b->mesh->vertices[plan->vertices[i]];
+}
+
+enum { BLOCK_VERTICES = 1 << 14 };
+
+static void write_block_of_vertices(uint32_t block, uint32_t worker, void *user)
+{
+    (void)worker;
+    const tl_baker *b = user;
+    tl_vec3 *vertices = (tl_vec3 *)(void *)((char *)b->soup + b->soup->vertex_offset);
+    uint32_t first = block * BLOCK_VERTICES, rest = b->plan->vertex_count - first;
+    uint32_t end = rest < BLOCK_VERTICES ? first + rest : first + BLOCK_VERTICES;
+    for (uint32_t i = first; i < end; i++) {
+        vertices[i] = b->mesh->vertices[b->plan->vertices[i]];
     }
+}
+
+void tl_compact_write_vertices(const tl_baker *b, const tl_host *host)
+{
+    uint32_t groups = tl_compact_group_count(b->tree->ref_count);
+    memcpy((char *)b->soup + b->soup->group_offset, b->plan->groups, groups * sizeof(uint32_t));
+    uint32_t count = b->plan->vertex_count;
+    tl_run_tasks(host, write_block_of_vertices, count / BLOCK_VERTICES + (count % BLOCK_VERTICES != 0),
+                 (void *)(uintptr_t)b);
 }

@@ -369,7 +369,7 @@ static uint32_t depth_limit(uint32_t count)
 // What was built goes to the arena, so that a soup's build has one way to end.
 static tl_result hand_over(const kd_builder *b, uint32_t root, tl_arena *arena, tl_tree *tree)
 {
-    if (b->out.count > UINT32_MAX || b->node_count > UINT32_MAX) {
+    if (b->out.count > UINT32_MAX || b->node_count > TL_TREE_MAX_NODES) {
         return TL_ERR_LIMIT;
     }
     tree->refs = TL_PUSH(arena, tl_tree_ref, b->out.count);
@@ -379,7 +379,8 @@ static tl_result hand_over(const kd_builder *b, uint32_t root, tl_arena *arena, 
     }
     memcpy(tree->refs, b->out.refs, b->out.count * sizeof *tree->refs);
     memcpy(tree->nodes, b->nodes, b->node_count * sizeof *tree->nodes);
-    tree->node_capacity = (uint32_t)b->node_count;
+    tree->parts = NULL;
+    tree->part_count = 0;
     tree->root = root;
     tree->ref_count = (uint32_t)b->out.count;
     return TL_OK;

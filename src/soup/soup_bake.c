@@ -1,39 +1,111 @@
 // SPDX-License-Identifier: MIT
 //
-// From the binary tree to the blob: wide nodes are cut from it (tree_cut.c), and pairs are written into leaves.
+// From the binary tree to the blob: wide nodes are cut from it (tree_cut.c) level by level, which gives every node and
+// leaf its place; then they are written, in any order, by the host's tasks. The blob is not zeroed first: a task writes
+// all bytes of its own nodes and leaves, and touches their pages.
 
 #include "soup/soup_bake.h"
+
 #include "base/assert.h"
-#include "soup/soup_build.h"
+#include "base/host.h"
 
 #include <float.h>
 #include <string.h>
 
-// Finds the wide nodes breadth first, and with them all sizes.
-static void cut_tree(tl_baker *b)
+// Wide nodes a task.
+enum { BLOCK_NODES = 64 };
+
+static uint32_t block_count(uint32_t nodes)
 {
-    b->roots[0] = b->tree->root;
-    b->node_count = 1;
-    uint32_t level_end = 1;
-    b->depth = 1;
-    for (uint32_t i = 0; i < b->node_count; i++) {
-        if (i == level_end) {
-            level_end = b->node_count;
-            b->depth++;
+    return nodes / BLOCK_NODES + (nodes % BLOCK_NODES != 0);
+}
+
+// What tasks go over: nodes from `first` to below `end`.
+typedef struct node_range {
+    tl_baker *baker;
+    uint32_t first, end;
+} node_range;
+
+static node_range block_of(const node_range *range, uint32_t block)
+{
+    node_range r = { range->baker, range->first + block * BLOCK_NODES, range->end };
+    r.end = r.end - r.first < BLOCK_NODES ? r.end : r.first + BLOCK_NODES;
+    return r;
+}
+
+static void find_children(const tl_baker *b, tl_wide_node *wide)
+{
+    wide->child_count = tl_tree_cut_children(&b->cut, wide->root, wide->child);
+    wide->leaf_count = 0;
+    wide->leaf_bytes = 0;
+    for (uint32_t k = 0; k < wide->child_count; k++) {
+        uint32_t pairs = b->tree->nodes[wide->child[k]].count;
+        if (pairs > 0) {
+            wide->child[k] |= TL_WIDE_LEAF;
+            wide->leaf_count++;
+            wide->leaf_bytes += b->layout == TL_SOUP_COMPACT ? pairs * (uint32_t)sizeof(tl_compact_pair)
+                                                             : (uint32_t)tl_leaf_size(pairs);
         }
-        uint32_t children[TL_SOUP_WIDTH];
-        uint32_t count = tl_tree_cut_children(&b->cut, b->roots[i], children);
-        for (uint32_t k = 0; k < count; k++) {
-            const tl_tree_node *child = &b->tree->nodes[children[k]];
-            if (child->count > 0) {
-                b->leaf_count++;
-                b->leaf_bytes +=
-                    b->layout == TL_SOUP_COMPACT ? child->count * sizeof(tl_compact_pair) : tl_leaf_size(child->count);
-            } else {
-                b->roots[b->node_count++] = children[k];
+    }
+    wide->inner_count = wide->child_count - wide->leaf_count;
+}
+
+static void find_children_of_block(uint32_t block, uint32_t worker, void *user)
+{
+    (void)worker;
+    node_range range = block_of(user, block);
+    for (uint32_t i = range.first; i < range.end; i++) {
+        find_children(range.baker, &range.baker->wide[i]);
+    }
+}
+
+// Gives what a node names its place: behind all that the nodes before it name.
+static void place_children(tl_baker *b, tl_wide_node *wide)
+{
+    wide->first_inner = b->node_count;
+    wide->leaf_offset = b->leaf_bytes;
+    b->leaf_bytes += wide->leaf_bytes;
+    b->leaf_count += wide->leaf_count;
+    for (uint32_t k = 0; k < wide->child_count; k++) {
+        if ((wide->child[k] & TL_WIDE_LEAF) == 0) {
+            b->wide[b->node_count++].root = wide->child[k];
+        }
+    }
+}
+
+// Finds the wide nodes breadth first, and with them all sizes.
+static void cut_tree(tl_baker *b, const tl_host *host)
+{
+    b->wide[0].root = b->tree->root;
+    b->node_count = 1;
+    for (node_range level = { b, 0, 1 }; level.first < level.end; level.first = level.end, level.end = b->node_count) {
+        b->depth++;
+        tl_run_tasks(host, find_children_of_block, block_count(level.end - level.first), &level);
+        for (uint32_t i = level.first; i < level.end; i++) {
+            place_children(b, &b->wide[i]);
+        }
+    }
+}
+
+// Marks all but the first reference to a pair, in the order of the leaves.
+static tl_result mark_copies(const tl_baker *b, tl_arena *arena)
+{
+    uint8_t *met = TL_PUSH_ZERO(arena, uint8_t, b->pair_count);
+    if (met == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < b->node_count; i++) {
+        const tl_wide_node *wide = &b->wide[i];
+        for (uint32_t k = 0; k < wide->child_count; k++) {
+            const tl_tree_node *leaf = &b->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
+            for (uint32_t r = 0; r < leaf->count; r++) {
+                tl_tree_ref *ref = &b->tree->refs[leaf->first + r];
+                ref->is_copy = met[ref->pair];
+                met[ref->pair] = 1;
             }
         }
     }
+    return TL_OK;
 }
 
 static void write_box(tl_aabb box, uint32_t lane, tl_soup_node *node)
@@ -57,17 +129,20 @@ static void write_corner(float *const *arrays, uint32_t i, tl_vec3 corner)
     arrays[2][i] = corner.z;
 }
 
-uint32_t tl_bake_id(const tl_baker *b, const tl_pair *pair, uint32_t k, bool is_copy)
+uint32_t tl_bake_id(const tl_baker *b, const tl_tree_ref *ref, uint32_t k)
 {
+    const tl_pair *pair = &b->pairs[ref->pair];
     if (pair->triangle[k] == TL_NO_TRIANGLE) {
         return TL_ID_NONE;
     }
-    return b->mesh->source_triangles[pair->triangle[k]] | (is_copy ? TL_ID_COPY : 0) | (uint32_t)pair->order[k] << 29;
+    return b->mesh->source_triangles[pair->triangle[k]] | (ref->is_copy ? TL_ID_COPY : 0) |
+           (uint32_t)pair->order[k] << 29;
 }
 
-static void write_leaf(tl_baker *b, const tl_tree_node *node, tl_soup_leaf *leaf)
+static void write_leaf(const tl_baker *b, const tl_tree_node *node, tl_soup_leaf *leaf)
 {
     uint32_t n = node->count;
+    memset(leaf, 0, tl_leaf_size(n));
     leaf->tagged_count = TL_LEAF_TAG | n;
     uint32_t *ids = (uint32_t *)(void *)(leaf + 1);
     float *floats = (float *)(void *)(ids + 2 * (size_t)n);
@@ -78,10 +153,8 @@ static void write_leaf(tl_baker *b, const tl_tree_node *node, tl_soup_leaf *leaf
         e[axis] = c[axis] + n;
     }
     for (uint32_t i = 0; i < n; i++) {
-        uint32_t index = b->tree->refs[node->first + i].pair;
-        const tl_pair *pair = &b->pairs[index];
-        bool is_copy = b->written[index];
-        b->written[index] = 1;
+        const tl_tree_ref *ref = &b->tree->refs[node->first + i];
+        const tl_pair *pair = &b->pairs[ref->pair];
         tl_vec3 corner[4];
         for (uint32_t k = 0; k < 4; k++) {
             corner[k] = b->mesh->vertices[pair->corner[k]];
@@ -91,37 +164,47 @@ static void write_leaf(tl_baker *b, const tl_tree_node *node, tl_soup_leaf *leaf
         write_corner(c, i, corner[2]);
         write_corner(e, n + i, corner[3]);
         for (uint32_t k = 0; k < 2; k++) {
-            ids[k * n + i] = tl_bake_id(b, pair, k, is_copy);
+            ids[k * n + i] = tl_bake_id(b, ref, k);
         }
         leaf->extent = tl_maxf(leaf->extent, tl_maxf(triangle_extent(corner[0], corner[1], corner[2]),
                                                      triangle_extent(corner[0], corner[2], corner[3])));
     }
 }
 
-static void write_tree(tl_baker *b, tl_soup *soup)
+static void write_node(const tl_baker *b, uint32_t index)
 {
-    tl_soup_node *nodes = (tl_soup_node *)(void *)((char *)soup + soup->node_offset);
-    uint32_t next_node = 1;
-    uint64_t leaf_offset = 0;
-    for (uint32_t i = 0; i < b->node_count; i++) {
-        uint32_t children[TL_SOUP_WIDTH];
-        uint32_t count = tl_tree_cut_children(&b->cut, b->roots[i], children);
-        for (uint32_t k = 0; k < count; k++) {
-            const tl_tree_node *child = &b->tree->nodes[children[k]];
-            write_box(child->box, k, &nodes[i]);
-            if (child->count > 0) {
-                nodes[i].child[k] = tl_child_of_leaf(leaf_offset, child->count);
-                write_leaf(b, child, (tl_soup_leaf *)(void *)((char *)soup + soup->leaf_offset + leaf_offset));
-                leaf_offset += tl_leaf_size(child->count);
-            } else {
-                nodes[i].child[k] = next_node++;
-            }
-        }
-        for (uint32_t k = count; k < TL_SOUP_WIDTH; k++) {
-            write_box(tl_aabb_empty(), k, &nodes[i]);
+    const tl_wide_node *wide = &b->wide[index];
+    tl_soup_node *node = (tl_soup_node *)(void *)((char *)b->soup + b->soup->node_offset) + index;
+    uint32_t next_node = wide->first_inner;
+    uint64_t leaf_offset = wide->leaf_offset;
+    memset(node, 0, sizeof *node);
+    for (uint32_t k = 0; k < wide->child_count; k++) {
+        const tl_tree_node *child = &b->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
+        write_box(child->box, k, node);
+        if ((wide->child[k] & TL_WIDE_LEAF) != 0) {
+            node->child[k] = tl_child_of_leaf(leaf_offset, child->count);
+            write_leaf(b, child, (tl_soup_leaf *)(void *)((char *)b->soup + b->soup->leaf_offset + leaf_offset));
+            leaf_offset += tl_leaf_size(child->count);
+        } else {
+            node->child[k] = next_node++;
         }
     }
-    TL_ASSERT(next_node == b->node_count && leaf_offset == b->leaf_bytes);
+    for (uint32_t k = wide->child_count; k < TL_SOUP_WIDTH; k++) {
+        write_box(tl_aabb_empty(), k, node);
+    }
+}
+
+static void write_block(uint32_t block, uint32_t worker, void *user)
+{
+    (void)worker;
+    node_range range = block_of(user, block);
+    for (uint32_t i = range.first; i < range.end; i++) {
+        if (range.baker->layout == TL_SOUP_COMPACT) {
+            tl_compact_write_node(range.baker, i);
+        } else {
+            write_node(range.baker, i);
+        }
+    }
 }
 
 // The material of all triangles, or whether they need a table.
@@ -137,13 +220,13 @@ static bool needs_material_table(const tl_mesh_view *view, uint32_t *uniform_out
     return false;
 }
 
-static void fill_head(const tl_baker *b, const tl_compact_plan *plan, tl_soup *soup)
+static void fill_head(const tl_baker *b, tl_soup *soup)
 {
     memset(soup, 0, sizeof *soup);
     soup->has_materials = needs_material_table(b->view, &soup->uniform_material);
     soup->layout = b->layout;
     soup->leaf_bytes = b->leaf_bytes;
-    soup->vertex_count = plan->vertex_count;
+    soup->vertex_count = b->plan->vertex_count;
     soup->source_triangle_count = b->view->triangle_count;
     soup->triangle_count = b->mesh->triangle_count;
     soup->pair_count = b->mesh->triangle_count - b->pair_count;
@@ -157,38 +240,51 @@ static void fill_head(const tl_baker *b, const tl_compact_plan *plan, tl_soup *s
     soup->bounds_max = bounds.max;
 }
 
+// The blob with its head. Nodes and leaves are left as they are; all else is zero.
+static tl_soup *allocate_soup(tl_soup *head, const tl_allocator *allocator)
+{
+    tl_soup *soup = tl_blob_allocate_part(allocator, TL_SOUP_MAGIC, TL_SOUP_VERSION, tl_soup_place_arrays(head),
+                                          sizeof(tl_soup), head->leaf_offset + head->leaf_bytes);
+    if (soup != NULL) {
+        head->blob = soup->blob;
+        *soup = *head;
+    }
+    return soup;
+}
+
 tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count,
                        const tl_tree *tree, const tl_soup_def *def, tl_arena *arena, tl_soup **soup_out)
 {
     tl_baker b = { .view = view, .mesh = mesh, .pairs = pairs, .pair_count = pair_count, .tree = tree };
     b.layout = def->layout;
-    // A wide node stands for a binary inner node, of which there are fewer than references; or for a lone leaf.
-    b.roots = TL_PUSH(arena, uint32_t, tree->ref_count);
-    b.written = TL_PUSH_ZERO(arena, uint8_t, pair_count);
-    if (b.roots == NULL || b.written == NULL) {
+    TL_TRY(tl_tree_cut_plan(tree, &def->host, arena, &b.cut));
+    b.wide = TL_PUSH(arena, tl_wide_node, (uint64_t)b.cut.inner_count + 1);
+    if (b.wide == NULL) {
         return TL_ERR_MEMORY;
     }
-    TL_TRY(tl_tree_cut_plan(tree, arena, &b.cut));
-    cut_tree(&b);
+    cut_tree(&b, &def->host);
     if (b.leaf_bytes / TL_SOUP_LEAF_ALIGN > TL_MAX_LEAF_UNITS) {
         return TL_ERR_LIMIT;
+    }
+    if (tree->ref_count != pair_count) {
+        TL_TRY(mark_copies(&b, arena));
     }
     tl_compact_plan plan = { 0 };
     if (def->layout == TL_SOUP_COMPACT) {
         TL_TRY(tl_compact_plan_vertices(&b, arena, &plan));
     }
+    b.plan = &plan;
     tl_soup head;
-    fill_head(&b, &plan, &head);
-    tl_soup *soup = tl_blob_allocate(def->host.allocator, TL_SOUP_MAGIC, TL_SOUP_VERSION, tl_soup_place_arrays(&head));
+    fill_head(&b, &head);
+    tl_soup *soup = allocate_soup(&head, def->host.allocator);
     if (soup == NULL) {
         return TL_ERR_MEMORY;
     }
-    head.blob = soup->blob;
-    *soup = head;
+    b.soup = soup;
+    node_range all = { &b, 0, b.node_count };
+    tl_run_tasks(&def->host, write_block, block_count(b.node_count), &all);
     if (def->layout == TL_SOUP_COMPACT) {
-        tl_compact_write(&b, &plan, soup);
-    } else {
-        write_tree(&b, soup);
+        tl_compact_write_vertices(&b, &def->host);
     }
     if (soup->has_materials) {
         memcpy((char *)soup + soup->material_offset, view->materials, (size_t)view->triangle_count * sizeof(uint16_t));

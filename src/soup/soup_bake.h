@@ -9,6 +9,21 @@
 #include "soup/soup_build.h"
 #include "soup/tree_cut.h"
 
+/// A child of a wide node that is a leaf, by this bit of its binary node's index.
+#define TL_WIDE_LEAF TL_TREE_MAX_NODES
+
+/// A wide node, and where what it names goes.
+typedef struct tl_wide_node {
+    uint32_t root; ///< binary node
+    uint32_t child_count;
+    uint32_t child[TL_SOUP_WIDTH]; ///< binary nodes
+    uint32_t inner_count;          ///< children that are no leaves
+    uint32_t leaf_count;
+    uint32_t first_inner; ///< number of the first of them: they follow each other
+    uint32_t leaf_bytes;
+    uint64_t leaf_offset; ///< of its first leaf: they follow each other
+} tl_wide_node;
+
 typedef struct tl_baker {
     const tl_mesh_view *view;
     const tl_mesh *mesh;
@@ -17,12 +32,13 @@ typedef struct tl_baker {
     const tl_tree *tree;
     tl_soup_layout layout;
     tl_tree_cut cut;
-    uint32_t *roots;  // binary node of each wide node, in breadth-first order
-    uint8_t *written; // pairs that have been written once
+    tl_wide_node *wide; // in breadth-first order
     uint32_t node_count;
     uint32_t leaf_count;
     uint32_t depth;
     uint64_t leaf_bytes;
+    const struct tl_compact_plan *plan;
+    tl_soup *soup;
 } tl_baker;
 
 /// The vertices of the compact layout, numbered in the order of the leaves.
@@ -35,10 +51,13 @@ typedef struct tl_compact_plan {
 
 tl_result tl_compact_plan_vertices(const tl_baker *baker, tl_arena *arena, tl_compact_plan *plan);
 
-/// Writes nodes, pairs, groups and vertices; the soup's head is filled.
-void tl_compact_write(tl_baker *baker, const tl_compact_plan *plan, tl_soup *soup);
+/// Writes a node and its pairs.
+void tl_compact_write_node(const tl_baker *baker, uint32_t node);
 
-/// The id word of a pair's first (k 0) or second (k 1) triangle; TL_ID_NONE where it has no second one.
-uint32_t tl_bake_id(const tl_baker *baker, const tl_pair *pair, uint32_t k, bool is_copy);
+/// Writes groups and vertices.
+void tl_compact_write_vertices(const tl_baker *baker, const tl_host *host);
+
+/// The id word of a reference's first (k 0) or second (k 1) triangle; TL_ID_NONE where it has no second one.
+uint32_t tl_bake_id(const tl_baker *baker, const tl_tree_ref *ref, uint32_t k);
 
 #endif

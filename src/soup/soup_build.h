@@ -27,7 +27,7 @@ typedef struct tl_tree_ref {
     tl_vec3 min;
     uint32_t pair;
     tl_vec3 max;
-    uint32_t unused;
+    uint32_t is_copy; ///< 1: an earlier leaf holds the pair too; for the bake
 } tl_tree_ref;
 
 /// A whole pair.
@@ -45,15 +45,20 @@ static inline tl_tree_ref tl_tree_reference(const tl_mesh *mesh, const tl_pair *
 typedef struct tl_tree_node {
     tl_aabb box;
     uint32_t left, right; ///< inner: indices of nodes
-    uint32_t first;
-    uint32_t count; ///< 0: inner
+    uint32_t first;       ///< inner: its plan (tree_cut.c)
+    uint32_t count;       ///< 0: inner
 } tl_tree_node;
+
+/// Indices of nodes are below it, so that the bake has a bit to spare.
+#define TL_TREE_MAX_NODES 0x80000000u
 
 typedef struct tl_tree {
     tl_tree_ref *refs;
     tl_tree_node *nodes;
-    uint32_t node_capacity; ///< indices of nodes are below it
     uint32_t root;
+    const uint32_t
+        *parts; ///< nodes, from left to right, whose subtrees may be worked on at once; no part holds another
+    uint32_t part_count;
     uint32_t ref_count; ///< in leaves
 } tl_tree;
 

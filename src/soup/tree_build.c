@@ -197,8 +197,9 @@ tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair
     tl_run_tasks(&def->host, build_subtree, b.subtree_count, &b);
     tree_out->refs = refs;
     tree_out->nodes = b.nodes;
-    tree_out->node_capacity = 2 * capacity;
     tree_out->root = b.root;
+    tree_out->parts = NULL;
+    tree_out->part_count = 0;
     tree_out->ref_count = count_references(b.nodes, b.root);
     return TL_OK;
 }

@@ -15,6 +15,8 @@
 
 #include "soup/tree_cut.h"
 
+#include "base/host.h"
+
 #include <float.h>
 #include <string.h>
 
@@ -30,12 +32,21 @@ typedef struct tl_tree_plan {
     uint8_t right[TL_SOUP_WIDTH];
 } tl_tree_plan;
 
+// What is known of a subtree before it is planned.
+typedef struct subtree_sum {
+    uint32_t inner_count, leaf_count;
+    double surface; // of leaves
+} subtree_sum;
+
+// The parts of a tree are planned by tasks, and what is above them afterwards: each node's plan needs its children's.
 typedef struct planner {
     const tl_tree *tree;
     tl_tree_plan *plans;
-    uint32_t *plan_of;
     uint32_t plan_count;
+    uint32_t next_part, part_count; // parts that the walk of all that is above them has not come to yet
     float node_price;
+    subtree_sum *sums;     // of each part
+    uint32_t *first_plans; // of each part
 } planner;
 
 static inline uint32_t least(uint32_t a, uint32_t b)
@@ -55,7 +66,7 @@ static offer offer_of(const planner *p, uint32_t node)
     static const float leaf[2] = { 0.0f, 0.0f };
     offer o = { leaf, 1 };
     if (p->tree->nodes[node].count == 0) {
-        const tl_tree_plan *plan = &p->plans[p->plan_of[node]];
+        const tl_tree_plan *plan = &p->plans[p->tree->nodes[node].first];
         o.cost = plan->cost;
         o.width = plan->width;
     }
@@ -78,15 +89,22 @@ static float share_out(offer left, offer right, uint32_t count, uint8_t *left_ou
     return best;
 }
 
+static bool is_next_part(planner *p, uint32_t index)
+{
+    bool is_part = p->next_part < p->part_count && p->tree->parts[p->next_part] == index;
+    p->next_part += is_part;
+    return is_part;
+}
+
 static void plan_node(planner *p, uint32_t index)
 {
-    const tl_tree_node *node = &p->tree->nodes[index];
-    if (node->count > 0) {
+    tl_tree_node *node = &p->tree->nodes[index];
+    if (is_next_part(p, index) || node->count > 0) {
         return;
     }
     plan_node(p, node->left);
     plan_node(p, node->right);
-    p->plan_of[index] = p->plan_count;
+    node->first = p->plan_count;
     tl_tree_plan *plan = &p->plans[p->plan_count++];
     offer left = offer_of(p, node->left), right = offer_of(p, node->right);
     uint32_t leaves = left.width + right.width;
@@ -106,39 +124,69 @@ static void plan_node(planner *p, uint32_t index)
     }
 }
 
-typedef struct leaf_sum {
-    uint32_t inner_count, leaf_count;
-    double surface;
-} leaf_sum;
-
-static void sum_leaves(const tl_tree *tree, uint32_t index, leaf_sum *sum)
+static void sum_subtree(planner *p, uint32_t index, subtree_sum *sum)
 {
-    const tl_tree_node *node = &tree->nodes[index];
+    if (is_next_part(p, index)) {
+        const subtree_sum *part = &p->sums[p->next_part - 1];
+        p->first_plans[p->next_part - 1] = p->plan_count;
+        p->plan_count += part->inner_count;
+        sum->inner_count += part->inner_count;
+        sum->leaf_count += part->leaf_count;
+        sum->surface += part->surface;
+        return;
+    }
+    const tl_tree_node *node = &p->tree->nodes[index];
     if (node->count > 0) {
         sum->leaf_count++;
         sum->surface += (double)tl_aabb_half_area(node->box);
         return;
     }
     sum->inner_count++;
-    sum_leaves(tree, node->left, sum);
-    sum_leaves(tree, node->right, sum);
+    sum_subtree(p, node->left, sum);
+    sum_subtree(p, node->right, sum);
 }
 
-tl_result tl_tree_cut_plan(const tl_tree *tree, tl_arena *arena, tl_tree_cut *cut_out)
+static void sum_part(uint32_t part, uint32_t worker, void *user)
 {
-    leaf_sum sum = { 0, 0, 0.0 };
-    sum_leaves(tree, tree->root, &sum);
-    planner p = { .tree = tree };
-    p.plans = TL_PUSH(arena, tl_tree_plan, sum.inner_count + 1);
-    p.plan_of = TL_PUSH(arena, uint32_t, tree->node_capacity);
-    if (p.plans == NULL || p.plan_of == NULL) {
+    (void)worker;
+    const planner *whole = user;
+    planner p = { .tree = whole->tree };
+    subtree_sum sum = { 0, 0, 0.0 };
+    sum_subtree(&p, whole->tree->parts[part], &sum);
+    whole->sums[part] = sum;
+}
+
+static void plan_part(uint32_t part, uint32_t worker, void *user)
+{
+    (void)worker;
+    const planner *whole = user;
+    planner p = { .tree = whole->tree, .plans = whole->plans, .node_price = whole->node_price };
+    p.plan_count = whole->first_plans[part];
+    plan_node(&p, whole->tree->parts[part]);
+}
+
+tl_result tl_tree_cut_plan(const tl_tree *tree, const tl_host *host, tl_arena *arena, tl_tree_cut *cut_out)
+{
+    planner p = { .tree = tree, .part_count = tree->part_count };
+    p.sums = TL_PUSH(arena, subtree_sum, tree->part_count);
+    p.first_plans = TL_PUSH(arena, uint32_t, tree->part_count);
+    if (p.sums == NULL || p.first_plans == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_run_tasks(host, sum_part, tree->part_count, &p);
+    subtree_sum sum = { 0, 0, 0.0 };
+    sum_subtree(&p, tree->root, &sum);
+    p.plans = TL_PUSH(arena, tl_tree_plan, sum.inner_count);
+    if (p.plans == NULL) {
         return TL_ERR_MEMORY;
     }
     p.node_price = (float)(sum.surface / sum.leaf_count) * NODE_PRICE;
+    tl_run_tasks(host, plan_part, tree->part_count, &p);
+    p.next_part = 0;
     plan_node(&p, tree->root);
     cut_out->tree = tree;
     cut_out->plans = p.plans;
-    cut_out->plan_of = p.plan_of;
+    cut_out->inner_count = sum.inner_count;
     return TL_OK;
 }
 
@@ -147,7 +195,7 @@ static void collect(const tl_tree_cut *cut, uint32_t index, uint32_t room, uint3
 {
     const tl_tree_node *node = &cut->tree->nodes[index];
     if (node->count == 0) {
-        const tl_tree_plan *plan = &cut->plans[cut->plan_of[index]];
+        const tl_tree_plan *plan = &cut->plans[node->first];
         room = least(room, plan->width);
         if (plan->left[room] > 0) {
             collect(cut, node->left, plan->left[room], children, count);
@@ -166,7 +214,7 @@ uint32_t tl_tree_cut_children(const tl_tree_cut *cut, uint32_t root, uint32_t ch
         children[count++] = root;
         return count;
     }
-    const tl_tree_plan *plan = &cut->plans[cut->plan_of[root]];
+    const tl_tree_plan *plan = &cut->plans[node->first];
     collect(cut, node->left, plan->left[0], children, &count);
     collect(cut, node->right, plan->right[0], children, &count);
     return count;

@@ -11,11 +11,12 @@
 typedef struct tl_tree_cut {
     const tl_tree *tree;
     const struct tl_tree_plan *plans;
-    const uint32_t *plan_of; ///< by binary node
+    uint32_t inner_count; ///< binary nodes that are no leaves; there are no more wide nodes, but for a lone leaf's
 } tl_tree_cut;
 
-/// Plans the cut of a tree. Memory is the arena's.
-tl_result tl_tree_cut_plan(const tl_tree *tree, tl_arena *arena, tl_tree_cut *cut_out);
+/// Plans the cut of a tree on the host's tasks, and writes into its inner nodes which plan is theirs. Memory is the
+/// arena's.
+tl_result tl_tree_cut_plan(const tl_tree *tree, const tl_host *host, tl_arena *arena, tl_tree_cut *cut_out);
 
 /// The children of the wide node that stands for the binary node `root`, from left to right; returns how many.
 uint32_t tl_tree_cut_children(const tl_tree_cut *cut, uint32_t root, uint32_t children[TL_SOUP_WIDTH]);
