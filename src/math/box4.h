@@ -27,6 +27,13 @@ static inline tl_box4 tl_box4_load(const float *min, const float *max)
     return r;
 }
 
+static inline tl_box4 tl_box4_of(tl_aabb box)
+{
+    tl_box4 r = { _mm_setr_ps(box.min.x, box.min.y, box.min.z, 0.0f),
+                  _mm_setr_ps(box.max.x, box.max.y, box.max.z, 0.0f) };
+    return r;
+}
+
 static inline tl_box4 tl_box4_empty(void)
 {
     tl_box4 r = { _mm_set1_ps(INFINITY), _mm_set1_ps(-INFINITY) };
@@ -83,6 +90,12 @@ typedef struct tl_box4 {
 static inline tl_box4 tl_box4_load(const float *min, const float *max)
 {
     tl_box4 r = { { tl_vec3_make(min[0], min[1], min[2]), tl_vec3_make(max[0], max[1], max[2]) } };
+    return r;
+}
+
+static inline tl_box4 tl_box4_of(tl_aabb box)
+{
+    tl_box4 r = { box };
     return r;
 }
 

@@ -139,9 +139,8 @@ tl_tree_split tl_tree_find_split(const tl_tree_splitter *splitter, const tl_tree
     return best;
 }
 
-// Each reference is written to both sides, and one of them moves on: which it is cannot be foretold, and a missed
-// branch costs more than to write. The order within a side stays, and with it the neighbours in memory that the mesh
-// had.
+// Without branches: which side it is cannot be foretold. The order within a side stays, and with it the neighbours in
+// memory that the mesh had.
 uint32_t tl_tree_part(const tl_tree_ref *refs, uint32_t count, const tl_tree_grid *grid, const tl_tree_split *split,
                       tl_tree_ref *left, tl_tree_ref *right, tl_box4 middles[2])
 {
@@ -152,8 +151,7 @@ uint32_t tl_tree_part(const tl_tree_ref *refs, uint32_t count, const tl_tree_gri
         int32_t cells[4];
         find_cells(grid, box, cells);
         uint32_t side = (uint32_t)(cells[split->axis] >= (int32_t)split->bin);
-        left[left_count] = ref;
-        right[i - left_count] = ref;
+        *(side == 0 ? left + left_count : right + (i - left_count)) = ref;
         left_count += 1 - side;
         middles[side] = tl_box4_union(middles[side], tl_box4_middle(box));
     }

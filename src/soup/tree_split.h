@@ -63,8 +63,7 @@ tl_tree_split tl_tree_choose_plane(const tl_tree_bins *bins, const tl_tree_grid 
 uint32_t tl_tree_count_left(const tl_tree_bins *bins, const tl_tree_split *split);
 
 /// Writes references of an object split's left side to `left`, which may be `refs`, and the others to `right`, in their
-/// order, and grows the sides' boxes of doubled middles. Returns how many went left. Beyond the ends one reference may
-/// be overwritten by what `refs` has there, or by nothing of use where the other side's begin: see tree_top.c.
+/// order, and grows the sides' boxes of doubled middles. Returns how many went left.
 uint32_t tl_tree_part(const tl_tree_ref *refs, uint32_t count, const tl_tree_grid *grid, const tl_tree_split *split,
                       tl_tree_ref *left, tl_tree_ref *right, tl_box4 middles[2]);
 
