@@ -122,7 +122,7 @@ tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair
     top.splitter.pairs = pairs;
     top.splitter.refs = TL_PUSH(arena, tl_tree_ref, capacity);
     top.nodes = TL_PUSH(arena, tl_tree_node, 2 * (uint64_t)capacity);
-    uint32_t *parts = TL_PUSH(arena, uint32_t, TL_TREE_MAX_SUBTREES);
+    uint32_t *parts = TL_PUSH(arena, uint32_t, tl_tree_max_subtrees(pair_count));
     tl_arena_mark mark = tl_arena_get_mark(arena);
     top.splitter.scratch = TL_PUSH(arena, tl_tree_ref, capacity);
     if (top.splitter.refs == NULL || top.nodes == NULL || parts == NULL || top.splitter.scratch == NULL) {

@@ -144,18 +144,17 @@ tl_tree_split tl_tree_find_split(const tl_tree_splitter *splitter, const tl_tree
 uint32_t tl_tree_part(const tl_tree_ref *refs, uint32_t count, const tl_tree_grid *grid, const tl_tree_split *split,
                       tl_tree_ref *left, tl_tree_ref *right, tl_box4 middles[2])
 {
-    uint32_t left_count = 0;
+    tl_tree_ref *next[2] = { left, right };
     for (uint32_t i = 0; i < count; i++) {
         tl_tree_ref ref = refs[i];
         tl_box4 box = box_of(&ref);
         int32_t cells[4];
         find_cells(grid, box, cells);
         uint32_t side = (uint32_t)(cells[split->axis] >= (int32_t)split->bin);
-        *(side == 0 ? left + left_count : right + (i - left_count)) = ref;
-        left_count += 1 - side;
+        *next[side]++ = ref;
         middles[side] = tl_box4_union(middles[side], tl_box4_middle(box));
     }
-    return left_count;
+    return (uint32_t)(next[0] - left);
 }
 
 tl_tree_range tl_tree_measure_range(const tl_tree_ref *refs, uint32_t first, uint32_t count, uint32_t capacity,

@@ -18,10 +18,11 @@
 static_assert(TL_TREE_HEURISTIC_DEPTH + 32 <= TL_SOUP_MAX_DEPTH,
               "a range of 2^32 references ends within the depth limit");
 
-// The top ends where a range is a 64th of the whole. Spatial splits may double the references, so there are never more
-// than LEVEL_RANGES larger ones. A level makes two of each; when there could be
-// too many subtrees, the top ends early.
-enum { TASK_SHARE = 64, MIN_TASK_REFS = 512, LEVEL_RANGES = 2 * TASK_SHARE };
+// The top ends where a range is a 64th of the whole.
+enum { TASK_SHARE = 64, MIN_TASK_REFS = 512 };
+
+// Spatial splits may double the references.
+enum { MAX_LEVEL_RANGES = 2 * TASK_SHARE };
 
 enum { BLOCK_REFS = 4096 };
 
@@ -186,7 +187,7 @@ static void split_level(builder *b, uint32_t task_refs, const tl_host *host)
     tl_run_tasks(host, fill_bins, b->block_count, b);
     tl_run_tasks(host, choose_split, b->range_count, b);
     tl_run_tasks(host, part_block, b->block_count, b);
-    tl_subtree next[LEVEL_RANGES];
+    tl_subtree next[MAX_LEVEL_RANGES];
     uint32_t next_count = 0;
     for (uint32_t i = 0; i < b->range_count; i++) {
         tl_subtree sides[2];
@@ -222,49 +223,59 @@ static tl_tree_range measure_all(builder *b, uint32_t pair_count, uint32_t capac
     return whole;
 }
 
+static uint32_t task_size(uint32_t pair_count)
+{
+    return pair_count / TASK_SHARE > MIN_TASK_REFS ? pair_count / TASK_SHARE : MIN_TASK_REFS;
+}
+
 // From left to right: by where they begin.
-static void sort_subtrees(tl_tree_top *top, tl_sort_item *items, tl_subtree *sorted)
+static void sort_subtrees(tl_tree_top *top, tl_sort_item *items, tl_sort_item *scratch, tl_subtree *sorted)
 {
     for (uint32_t i = 0; i < top->subtree_count; i++) {
         tl_sort_item item = { top->subtrees[i].range.first, i, 0 };
         items[i] = item;
     }
-    tl_radix_sort(items, items + TL_TREE_MAX_SUBTREES, top->subtree_count);
+    tl_radix_sort(items, scratch, top->subtree_count);
     for (uint32_t i = 0; i < top->subtree_count; i++) {
         sorted[i] = top->subtrees[items[i].value];
     }
     top->subtrees = sorted;
 }
 
+uint32_t tl_tree_max_subtrees(uint32_t pair_count)
+{
+    return 16 * (pair_count / task_size(pair_count) + 1);
+}
+
 tl_result tl_tree_build_top(tl_tree_top *top, uint32_t pair_count, uint32_t capacity, const tl_host *host,
                             tl_arena *arena)
 {
+    uint32_t task_refs = task_size(pair_count), max_subtrees = tl_tree_max_subtrees(pair_count);
+    uint32_t max_ranges = capacity / task_refs + 1;
     builder b = { .top = top };
-    tl_subtree *sorted = TL_PUSH(arena, tl_subtree, TL_TREE_MAX_SUBTREES);
+    tl_subtree *sorted = TL_PUSH(arena, tl_subtree, max_subtrees);
     tl_arena_mark mark = tl_arena_get_mark(arena);
-    top->subtrees = TL_PUSH(arena, tl_subtree, TL_TREE_MAX_SUBTREES);
-    tl_sort_item *items = TL_PUSH(arena, tl_sort_item, 2 * TL_TREE_MAX_SUBTREES);
-    b.ranges = TL_PUSH(arena, top_range, LEVEL_RANGES);
-    b.blocks = TL_PUSH(arena, top_block, (uint64_t)capacity / BLOCK_REFS + LEVEL_RANGES);
+    top->subtrees = TL_PUSH(arena, tl_subtree, max_subtrees);
+    tl_sort_item *items = TL_PUSH(arena, tl_sort_item, 2 * max_subtrees);
+    b.ranges = TL_PUSH(arena, top_range, max_ranges);
+    b.blocks = TL_PUSH(arena, top_block, (uint64_t)capacity / BLOCK_REFS + max_ranges);
     if (sorted == NULL || top->subtrees == NULL || items == NULL || b.ranges == NULL || b.blocks == NULL) {
         return TL_ERR_MEMORY;
     }
     tl_subtree whole = { measure_all(&b, pair_count, capacity, host), &top->root, false };
     top->splitter.root_half_area = tl_aabb_half_area(whole.range.box);
-    uint32_t task_refs = pair_count / TASK_SHARE > MIN_TASK_REFS ? pair_count / TASK_SHARE : MIN_TASK_REFS;
     top->subtree_count = 0;
     b.ranges[0].subtree = whole;
-    b.range_count = pair_count > task_refs;
-    if (b.range_count == 0) {
-        top->subtrees[top->subtree_count++] = whole;
-    }
-    while (b.range_count > 0 && top->subtree_count + 2 * b.range_count <= TL_TREE_MAX_SUBTREES - LEVEL_RANGES) {
+    b.range_count = 1;
+    // Early, when there could be too many subtrees.
+    while (b.range_count > 0 && b.ranges[0].subtree.range.count > task_refs &&
+           top->subtree_count + 2 * b.range_count <= max_subtrees) {
         split_level(&b, task_refs, host);
     }
     for (uint32_t i = 0; i < b.range_count; i++) {
         top->subtrees[top->subtree_count++] = b.ranges[i].subtree;
     }
-    sort_subtrees(top, items, sorted);
+    sort_subtrees(top, items, items + max_subtrees, sorted);
     tl_arena_rollback(arena, mark);
     return TL_OK;
 }

@@ -10,8 +10,6 @@
 /// Below this depth ranges are halved by count, which ends within 29 levels more: at most TL_SOUP_MAX_DEPTH in all.
 enum { TL_TREE_HEURISTIC_DEPTH = 60 };
 
-enum { TL_TREE_MAX_SUBTREES = 1024 };
-
 /// A subtree that is still to be built.
 typedef struct tl_subtree {
     tl_tree_range range;
@@ -26,6 +24,9 @@ typedef struct tl_tree_top {
     tl_subtree *subtrees; ///< from left to right
     uint32_t subtree_count;
 } tl_tree_top;
+
+/// More than these there never are.
+uint32_t tl_tree_max_subtrees(uint32_t pair_count);
 
 /// Makes the references of all pairs, and splits them on the host's tasks until no range is much more than a 64th of
 /// the whole. The caller has set splitter (but root_half_area) and nodes; `capacity` is that of both arrays of
