@@ -69,7 +69,7 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh *mesh, const tl_s
         return TL_ERR_MEMORY;
     }
     uint32_t pair_count = 0;
-    TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, arena, pairs, &pair_count));
+    TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, host, arena, pairs, &pair_count));
     TL_TRY(tl_progress_update(host, "pair triangles", 1, 1));
 
     report->base.stage = "build tree";
