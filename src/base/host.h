@@ -10,6 +10,19 @@
 /// Runs task(i, worker, task_user) for each i below count, on the host's tasks or here in order.
 void tl_run_tasks(const tl_host *host, tl_task_fn *task, uint32_t count, void *task_user);
 
+/// How many blocks of `size` items make up `count`; each block may be a task.
+static inline uint32_t tl_block_count(uint32_t count, uint32_t size)
+{
+    return count / size + (count % size != 0);
+}
+
+/// Behind the last item of a block, which begins at block * size.
+static inline uint32_t tl_block_end(uint32_t block, uint32_t size, uint32_t count)
+{
+    uint32_t first = block * size;
+    return count - first < size ? count : first + size;
+}
+
 /// How many workers tl_run_tasks may use at once: >= 1.
 uint32_t tl_worker_count(const tl_host *host);
 

@@ -110,24 +110,63 @@ static bool repeats_earlier(triangle_set *set, const tl_mesh_view *view, const u
     }
 }
 
-tl_result tl_clean_triangles(const tl_mesh_view *view, const uint32_t *representative, bool keep_duplicates,
-                             tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out, tl_mesh_report *report)
+static bool is_degenerate(const tl_mesh_view *view, const uint32_t corners[3])
 {
+    return corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0] ||
+           !has_area(view->vertices[corners[0]], view->vertices[corners[1]], view->vertices[corners[2]]);
+}
+
+// Tasks drop degenerate triangles from blocks; what is left of these moves together afterwards.
+enum { BLOCK_TRIANGLES = 1 << 14 };
+
+typedef struct cleaner {
+    const tl_mesh_view *view;
+    const uint32_t *representative;
+    uint32_t *kept;   // each block's from where its triangles begin
+    uint32_t *counts; // kept, of each block
+} cleaner;
+
+static void clean_block(uint32_t block, uint32_t worker, void *user)
+{
+    (void)worker;
+    const cleaner *c = user;
+    uint32_t end = tl_block_end(block, BLOCK_TRIANGLES, c->view->triangle_count), first = block * BLOCK_TRIANGLES;
+    uint32_t count = 0;
+    for (uint32_t triangle = first; triangle < end; triangle++) {
+        uint32_t corners[3];
+        canonical_corners(c->view, c->representative, triangle, corners);
+        if (!is_degenerate(c->view, corners)) {
+            c->kept[first + count++] = triangle;
+        }
+    }
+    c->counts[block] = count;
+}
+
+tl_result tl_clean_triangles(const tl_mesh_view *view, const uint32_t *representative, bool keep_duplicates,
+                             const tl_host *host, tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out,
+                             tl_mesh_report *report)
+{
+    uint32_t blocks = tl_block_count(view->triangle_count, BLOCK_TRIANGLES);
+    cleaner c = { view, representative, kept, TL_PUSH(arena, uint32_t, blocks) };
     triangle_set set = { NULL, 0 };
-    if (!keep_duplicates && !triangle_set_make(&set, view->triangle_count, arena)) {
+    if (c.counts == NULL || (!keep_duplicates && !triangle_set_make(&set, view->triangle_count, arena))) {
         return TL_ERR_MEMORY;
     }
-    uint32_t count = 0;
-    for (uint32_t triangle = 0; triangle < view->triangle_count; triangle++) {
+    tl_run_tasks(host, clean_block, blocks, &c);
+    uint32_t sound = 0;
+    for (uint32_t block = 0; block < blocks; block++) {
+        memmove(kept + sound, kept + (size_t)block * BLOCK_TRIANGLES, c.counts[block] * sizeof *kept);
+        sound += c.counts[block];
+    }
+    report->degenerate_triangles += view->triangle_count - sound;
+    uint32_t count = keep_duplicates ? sound : 0;
+    for (uint32_t i = 0; i < sound && !keep_duplicates; i++) {
         uint32_t corners[3];
-        canonical_corners(view, representative, triangle, corners);
-        if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0] ||
-            !has_area(view->vertices[corners[0]], view->vertices[corners[1]], view->vertices[corners[2]])) {
-            report->degenerate_triangles++;
-        } else if (!keep_duplicates && repeats_earlier(&set, view, representative, triangle, corners)) {
+        canonical_corners(view, representative, kept[i], corners);
+        if (repeats_earlier(&set, view, representative, kept[i], corners)) {
             report->duplicate_triangles++;
         } else {
-            kept[count++] = triangle;
+            kept[count++] = kept[i];
         }
     }
     *kept_count_out = count;

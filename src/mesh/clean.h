@@ -13,8 +13,9 @@ tl_result tl_check_triangles(const tl_mesh_view *view, uint32_t *used, tl_report
 
 /// Writes the indices of the triangles to keep, ascending, into `kept` (room for all): those whose three representative
 /// corners differ and span an area, and which repeat no earlier triangle unless `keep_duplicates`.
-/// Counts the others in `report`. Errors: TL_ERR_MEMORY. O(triangles).
+/// Counts the others in `report`. Errors: TL_ERR_MEMORY. O(triangles), on the host's tasks where duplicates are kept.
 tl_result tl_clean_triangles(const tl_mesh_view *view, const uint32_t *representative, bool keep_duplicates,
-                             tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out, tl_mesh_report *report);
+                             const tl_host *host, tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out,
+                             tl_mesh_report *report);
 
 #endif

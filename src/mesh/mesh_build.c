@@ -75,36 +75,72 @@ static uint32_t number_vertices(const tl_mesh_view *view, const uint32_t *repres
     return count;
 }
 
-static void fill_mesh(const tl_mesh_view *view, const uint32_t *representative, const uint32_t *kept,
-                      const uint32_t *number, tl_mesh *mesh)
+// What tasks fill the mesh from, block by block.
+enum { BLOCK_ITEMS = 1 << 14 };
+
+typedef struct filler {
+    const tl_mesh_view *view;
+    const uint32_t *representative;
+    const uint32_t *kept;
+    const uint32_t *number;
+    tl_mesh *mesh;
+    struct block_sum {
+        tl_aabb bounds;
+        uint32_t welded, unused;
+    } * sums; // of blocks of vertices
+} filler;
+
+static void fill_vertices(uint32_t block, uint32_t worker, void *user)
 {
-    mesh->bounds = tl_aabb_empty();
-    for (uint32_t vertex = 0; vertex < view->vertex_count; vertex++) {
-        if (number[vertex] != UINT32_MAX) {
-            mesh->vertices[number[vertex]] = view->vertices[vertex];
-            mesh->bounds = tl_aabb_add_point(mesh->bounds, view->vertices[vertex]);
+    (void)worker;
+    const filler *f = user;
+    struct block_sum sum = { tl_aabb_empty(), 0, 0 };
+    uint32_t end = tl_block_end(block, BLOCK_ITEMS, f->view->vertex_count);
+    for (uint32_t vertex = block * BLOCK_ITEMS; vertex < end; vertex++) {
+        if (f->number[vertex] != UINT32_MAX) {
+            f->mesh->vertices[f->number[vertex]] = f->view->vertices[vertex];
+            sum.bounds = tl_aabb_add_point(sum.bounds, f->view->vertices[vertex]);
+        } else if (f->representative[vertex] != TL_WELD_UNUSED && f->representative[vertex] != vertex) {
+            sum.welded++;
+        } else {
+            sum.unused++;
         }
     }
-    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
-        uint32_t triangle = kept[i];
+    f->sums[block] = sum;
+}
+
+static void fill_triangles(uint32_t block, uint32_t worker, void *user)
+{
+    (void)worker;
+    const filler *f = user;
+    uint32_t end = tl_block_end(block, BLOCK_ITEMS, f->mesh->triangle_count);
+    for (uint32_t i = block * BLOCK_ITEMS; i < end; i++) {
+        uint32_t triangle = f->kept[i];
         for (uint32_t k = 0; k < 3; k++) {
-            mesh->indices[3 * (size_t)i + k] = number[representative[view->indices[3 * (size_t)triangle + k]]];
+            f->mesh->indices[3 * (size_t)i + k] =
+                f->number[f->representative[f->view->indices[3 * (size_t)triangle + k]]];
         }
-        mesh->source_triangles[i] = triangle;
-        mesh->materials[i] = view->materials != NULL ? view->materials[triangle] : 0;
+        f->mesh->source_triangles[i] = triangle;
+        f->mesh->materials[i] = f->view->materials != NULL ? f->view->materials[triangle] : 0;
     }
 }
 
-static void count_vertices(const tl_mesh_view *view, const uint32_t *representative, const uint32_t *number,
-                           tl_mesh_report *report)
+static tl_result fill_mesh(filler *f, const tl_host *host, tl_arena *arena, tl_mesh_report *report)
 {
-    for (uint32_t vertex = 0; vertex < view->vertex_count; vertex++) {
-        if (representative[vertex] != TL_WELD_UNUSED && representative[vertex] != vertex) {
-            report->welded_vertices++;
-        } else if (number[vertex] == UINT32_MAX) {
-            report->unused_vertices++;
-        }
+    uint32_t blocks = tl_block_count(f->view->vertex_count, BLOCK_ITEMS);
+    f->sums = TL_PUSH(arena, struct block_sum, blocks);
+    if (f->sums == NULL) {
+        return TL_ERR_MEMORY;
     }
+    tl_run_tasks(host, fill_vertices, blocks, f);
+    tl_run_tasks(host, fill_triangles, tl_block_count(f->mesh->triangle_count, BLOCK_ITEMS), f);
+    f->mesh->bounds = tl_aabb_empty();
+    for (uint32_t block = 0; block < blocks; block++) {
+        f->mesh->bounds = tl_aabb_union(f->mesh->bounds, f->sums[block].bounds);
+        report->welded_vertices += f->sums[block].welded;
+        report->unused_vertices += f->sums[block].unused;
+    }
+    return TL_OK;
 }
 
 static tl_result build(const tl_mesh_view *view, const tl_mesh_def *def, tl_arena *arena, tl_mesh *mesh,
@@ -121,21 +157,22 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh_def *def, tl_aren
 
     report->base.stage = "weld";
     TL_TRY(tl_progress_update(host, "weld", 0, view->vertex_count));
-    TL_TRY(tl_weld(view, def->weld_tolerance, arena, representative));
+    TL_TRY(def->weld_tolerance > 0.0f ? tl_weld(view, def->weld_tolerance, arena, representative)
+                                      : tl_weld_points(view, host, arena, representative));
     TL_TRY(tl_progress_update(host, "weld", view->vertex_count, view->vertex_count));
 
     report->base.stage = "clean";
     TL_TRY(tl_progress_update(host, "clean", 0, view->triangle_count));
     uint32_t kept_count = 0;
-    TL_TRY(tl_clean_triangles(view, representative, def->keep_duplicates, arena, kept, &kept_count, report));
+    TL_TRY(tl_clean_triangles(view, representative, def->keep_duplicates, host, arena, kept, &kept_count, report));
     if (kept_count == 0) {
         return tl_report_fail(&report->base, TL_ERR_EMPTY, NULL, TL_NO_ELEMENT,
                               "all triangles are degenerate: check the unit and the weld tolerance");
     }
     uint32_t vertex_count = number_vertices(view, representative, kept, kept_count, number);
     TL_TRY(allocate_mesh(vertex_count, kept_count, def->host.allocator, mesh));
-    fill_mesh(view, representative, kept, number, mesh);
-    count_vertices(view, representative, number, report);
+    filler f = { view, representative, kept, number, mesh, NULL };
+    TL_TRY(fill_mesh(&f, host, arena, report));
     return tl_progress_update(host, "clean", view->triangle_count, view->triangle_count);
 }
 

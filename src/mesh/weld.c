@@ -6,7 +6,7 @@
 // into the 27 cells around it for the earliest kept vertex within the tolerance. Kept vertices lie more than a
 // tolerance apart, so that a cell holds a bounded number of them and the whole is linear. Rejected: joining
 // transitively (union-find), by which a finely tessellated curve collapses into one point; sorting along an axis,
-// quadratic on a flat wall. With tolerance 0 a cell is a point, and only one cell is looked at.
+// quadratic on a flat wall. With tolerance 0 see weld_points.c.
 
 #include "mesh/weld.h"
 
@@ -31,14 +31,9 @@ typedef struct weld_cell {
 
 static weld_cell cell_of(const weld_grid *grid, tl_vec3 p)
 {
-    if (grid->tolerance > 0.0) {
-        weld_cell cell = { floor((double)p.x / grid->tolerance), floor((double)p.y / grid->tolerance),
-                           floor((double)p.z / grid->tolerance) };
-        return cell;
-    }
-    // The sum makes +0 of -0.
-    weld_cell point = { (double)p.x + 0.0, (double)p.y + 0.0, (double)p.z + 0.0 };
-    return point;
+    weld_cell cell = { floor((double)p.x / grid->tolerance), floor((double)p.y / grid->tolerance),
+                       floor((double)p.z / grid->tolerance) };
+    return cell;
 }
 
 static uint64_t bits_of(double value)
@@ -77,9 +72,6 @@ static uint32_t earliest_in_slot(const weld_grid *grid, uint32_t slot, uint32_t 
 
 static uint32_t find_earliest(const weld_grid *grid, uint32_t vertex, weld_cell cell)
 {
-    if (grid->tolerance == 0.0) {
-        return earliest_in_slot(grid, slot_of(grid, cell), vertex, TL_WELD_UNUSED);
-    }
     uint32_t best = TL_WELD_UNUSED;
     for (int i = 0; i < 27; i++) {
         weld_cell near = { cell.x + (i % 3 - 1), cell.y + (i / 3 % 3 - 1), cell.z + (i / 9 - 1) };

@@ -9,8 +9,11 @@
 
 /// Marks in `representative[v]` the vertex that each used vertex becomes: itself, or an earlier one.
 /// On entry representative[v] is TL_WELD_UNUSED for vertices that take no part; they stay so. Used vertices are finite.
-/// Scratch comes from `arena`. Errors: TL_ERR_MEMORY. O(vertices).
+/// `tolerance` > 0. Scratch comes from `arena`. Errors: TL_ERR_MEMORY. O(vertices).
 tl_result tl_weld(const tl_mesh_view *view, float tolerance, tl_arena *arena, uint32_t *representative);
+
+/// The same with tolerance 0, on the host's tasks, which may be NULL.
+tl_result tl_weld_points(const tl_mesh_view *view, const tl_host *host, tl_arena *arena, uint32_t *representative);
 
 #define TL_WELD_UNUSED  UINT32_MAX
 #define TL_WELD_PENDING (UINT32_MAX - 1u) ///< on entry: this vertex takes part

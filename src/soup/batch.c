@@ -149,5 +149,5 @@ void tl_soup_cast_rays(const tl_soup *soup, const tl_ray *rays, uint32_t count, 
     float largest = tl_maxf(size.x, tl_maxf(size.y, size.z));
     batch b = { soup, rays, count, filter, scratch, hits_out, (float)(1 << CELL_BITS) / largest };
     tl_host alone = { NULL, NULL, NULL };
-    tl_run_tasks(host != NULL ? host : &alone, cast_slice, count / SLICE_RAYS + (count % SLICE_RAYS != 0), &b);
+    tl_run_tasks(host != NULL ? host : &alone, cast_slice, tl_block_count(count, SLICE_RAYS), &b);
 }

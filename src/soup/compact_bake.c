@@ -173,9 +173,8 @@ static void write_block_of_vertices(uint32_t block, uint32_t worker, void *user)
     (void)worker;
     const tl_baker *b = user;
     tl_vec3 *vertices = (tl_vec3 *)(void *)((char *)b->soup + b->soup->vertex_offset);
-    uint32_t first = block * BLOCK_VERTICES, rest = b->plan->vertex_count - first;
-    uint32_t end = rest < BLOCK_VERTICES ? first + rest : first + BLOCK_VERTICES;
-    for (uint32_t i = first; i < end; i++) {
+    uint32_t end = tl_block_end(block, BLOCK_VERTICES, b->plan->vertex_count);
+    for (uint32_t i = block * BLOCK_VERTICES; i < end; i++) {
         vertices[i] = b->mesh->vertices[b->plan->vertices[i]];
     }
 }
@@ -184,7 +183,6 @@ void tl_compact_write_vertices(const tl_baker *b, const tl_host *host)
 {
     uint32_t groups = tl_compact_group_count(b->tree->ref_count);
     memcpy((char *)b->soup + b->soup->group_offset, b->plan->groups, groups * sizeof(uint32_t));
-    uint32_t count = b->plan->vertex_count;
-    tl_run_tasks(host, write_block_of_vertices, count / BLOCK_VERTICES + (count % BLOCK_VERTICES != 0),
+    tl_run_tasks(host, write_block_of_vertices, tl_block_count(b->plan->vertex_count, BLOCK_VERTICES),
                  (void *)(uintptr_t)b);
 }

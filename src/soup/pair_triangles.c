@@ -37,14 +37,13 @@ typedef struct pairing {
 static void lay_chunks(pairing *p)
 {
     uint32_t count = p->mesh->triangle_count;
-    p->chunk_count = count / CHUNK_TRIANGLES + (count % CHUNK_TRIANGLES != 0);
-    p->chunk_size = count / p->chunk_count + (count % p->chunk_count != 0);
+    p->chunk_size = tl_block_count(count, tl_block_count(count, CHUNK_TRIANGLES));
+    p->chunk_count = tl_block_count(count, p->chunk_size);
 }
 
 static uint32_t chunk_end(const pairing *p, uint32_t chunk)
 {
-    uint32_t end = (chunk + 1) * p->chunk_size;
-    return end < p->mesh->triangle_count ? end : p->mesh->triangle_count;
+    return tl_block_end(chunk, p->chunk_size, p->mesh->triangle_count);
 }
 
 static void match_chunk(uint32_t chunk, uint32_t worker, void *user)
@@ -56,7 +55,7 @@ static void match_chunk(uint32_t chunk, uint32_t worker, void *user)
 
 static tl_result match_chunks(pairing *p, const tl_host *host, tl_arena *arena)
 {
-    uint32_t workers = tl_worker_count(host);
+    uint32_t workers = p->chunk_count > 1 ? tl_worker_count(host) : 1;
     tl_arena_mark mark = tl_arena_get_mark(arena);
     p->matchers = TL_PUSH(arena, tl_pair_matcher *, workers);
     if (p->matchers == NULL) {
@@ -164,11 +163,10 @@ static void write_pairs(uint32_t chunk, uint32_t worker, void *user)
     }
 }
 
-tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena, tl_pair *pairs,
-                            uint32_t *pair_count_out)
+tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena,
+                            tl_pair **pairs_out, uint32_t *pair_count_out)
 {
-    tl_arena_mark mark = tl_arena_get_mark(arena);
-    pairing p = { .mesh = mesh, .pairs = pairs };
+    pairing p = { .mesh = mesh };
     lay_chunks(&p);
     p.mates = TL_PUSH(arena, uint32_t, mesh->triangle_count);
     p.ends = TL_PUSH(arena, uint32_t, p.chunk_count);
@@ -185,8 +183,12 @@ tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host
     for (uint32_t i = 1; i < p.chunk_count; i++) {
         p.ends[i] += p.ends[i - 1];
     }
-    tl_run_tasks(host, write_pairs, p.chunk_count, &p);
     *pair_count_out = p.ends[p.chunk_count - 1];
-    tl_arena_rollback(arena, mark);
+    p.pairs = TL_PUSH(arena, tl_pair, *pair_count_out);
+    if (p.pairs == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_run_tasks(host, write_pairs, p.chunk_count, &p);
+    *pairs_out = p.pairs;
     return TL_OK;
 }

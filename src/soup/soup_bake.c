@@ -15,11 +15,6 @@
 // Wide nodes a task.
 enum { BLOCK_NODES = 64 };
 
-static uint32_t block_count(uint32_t nodes)
-{
-    return nodes / BLOCK_NODES + (nodes % BLOCK_NODES != 0);
-}
-
 // What tasks go over: nodes from `first` to below `end`.
 typedef struct node_range {
     tl_baker *baker;
@@ -28,8 +23,8 @@ typedef struct node_range {
 
 static node_range block_of(const node_range *range, uint32_t block)
 {
-    node_range r = { range->baker, range->first + block * BLOCK_NODES, range->end };
-    r.end = r.end - r.first < BLOCK_NODES ? r.end : r.first + BLOCK_NODES;
+    node_range r = { range->baker, range->first + block * BLOCK_NODES,
+                     range->first + tl_block_end(block, BLOCK_NODES, range->end - range->first) };
     return r;
 }
 
@@ -80,7 +75,7 @@ static void cut_tree(tl_baker *b, const tl_host *host)
     b->node_count = 1;
     for (node_range level = { b, 0, 1 }; level.first < level.end; level.first = level.end, level.end = b->node_count) {
         b->depth++;
-        tl_run_tasks(host, find_children_of_block, block_count(level.end - level.first), &level);
+        tl_run_tasks(host, find_children_of_block, tl_block_count(level.end - level.first, BLOCK_NODES), &level);
         for (uint32_t i = level.first; i < level.end; i++) {
             place_children(b, &b->wide[i]);
         }
@@ -282,7 +277,7 @@ tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_p
     }
     b.soup = soup;
     node_range all = { &b, 0, b.node_count };
-    tl_run_tasks(&def->host, write_block, block_count(b.node_count), &all);
+    tl_run_tasks(&def->host, write_block, tl_block_count(b.node_count, BLOCK_NODES), &all);
     if (def->layout == TL_SOUP_COMPACT) {
         tl_compact_write_vertices(&b, &def->host);
     }

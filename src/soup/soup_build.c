@@ -10,8 +10,8 @@
 
 #include <string.h>
 
-// A triangle's share of the largest stage, measured: pairs, and edges with their links.
-enum { STAGE_BYTES = 128 };
+// A triangle's share of the largest stage, measured: a matching of all triangles, or the tree.
+enum { STAGE_BYTES = 136 };
 
 tl_soup_def tl_default_soup_def(void)
 {
@@ -64,12 +64,9 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh *mesh, const tl_s
     if (!tl_arena_reserve(arena, (uint64_t)mesh->triangle_count * STAGE_BYTES)) {
         return TL_ERR_MEMORY;
     }
-    tl_pair *pairs = TL_PUSH(arena, tl_pair, mesh->triangle_count);
-    if (pairs == NULL) {
-        return TL_ERR_MEMORY;
-    }
+    tl_pair *pairs = NULL;
     uint32_t pair_count = 0;
-    TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, host, arena, pairs, &pair_count));
+    TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, host, arena, &pairs, &pair_count));
     TL_TRY(tl_progress_update(host, "pair triangles", 1, 1));
 
     report->base.stage = "build tree";

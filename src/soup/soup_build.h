@@ -18,9 +18,9 @@ typedef struct tl_pair {
     uint8_t order[2];
 } tl_pair;
 
-/// Matches triangles over shared edges. `pairs` has room for triangle_count. Scratch goes to the arena.
-tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena, tl_pair *pairs,
-                            uint32_t *pair_count_out);
+/// Matches triangles over shared edges, on the host's tasks. Pairs and scratch are the arena's.
+tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena,
+                            tl_pair **pairs_out, uint32_t *pair_count_out);
 
 /// A pair's box, or the part of it that a spatial split left. 32 bytes, so that two fill a cache line.
 typedef struct tl_tree_ref {
