@@ -153,12 +153,12 @@ static void test_cancel_at_every_call(void **state)
     model_free(&m);
 }
 
-// A job system of a few threads that take items from the far end first.
+// A job system of a few threads that take items in an order of its own: from the far end, or as a seed has it.
 typedef struct pool {
     tl_task_fn *task;
     void *task_user;
-    uint32_t next;
-    uint32_t workers;
+    uint32_t count, left, step;
+    uint32_t workers, seed;
     pthread_mutex_t lock;
 } pool;
 
@@ -170,16 +170,22 @@ typedef struct pool_worker {
 static void *pool_run(void *argument)
 {
     pool_worker *worker = argument;
+    pool *p = worker->p;
     for (;;) {
-        pthread_mutex_lock(&worker->p->lock);
-        uint32_t left = worker->p->next;
-        worker->p->next -= left > 0;
-        pthread_mutex_unlock(&worker->p->lock);
+        pthread_mutex_lock(&p->lock);
+        uint32_t left = p->left;
+        p->left -= left > 0;
+        pthread_mutex_unlock(&p->lock);
         if (left == 0) {
             return NULL;
         }
-        worker->p->task(left - 1, worker->index, worker->p->task_user);
+        p->task((uint32_t)((uint64_t)left * p->step % p->count), worker->index, p->task_user);
     }
+}
+
+static uint32_t common_divisor(uint32_t a, uint32_t b)
+{
+    return b == 0 ? a : common_divisor(b, a % b);
 }
 
 static void run_on_threads(tl_task_fn *task, uint32_t count, void *task_user, void *user)
@@ -187,7 +193,12 @@ static void run_on_threads(tl_task_fn *task, uint32_t count, void *task_user, vo
     pool *p = user;
     p->task = task;
     p->task_user = task_user;
-    p->next = count;
+    p->count = count;
+    p->left = count;
+    // Any step without a common divisor takes all items once.
+    p->seed = p->seed * 1664525u + 1013904223u;
+    for (p->step = 1 + p->seed % count; common_divisor(p->step, count) != 1; p->step++) {
+    }
     pthread_t threads[8];
     pool_worker workers[8];
     for (uint32_t i = 0; i < p->workers; i++) {
@@ -200,31 +211,58 @@ static void run_on_threads(tl_task_fn *task, uint32_t count, void *task_user, vo
     }
 }
 
+static void check_threads(const model *m, tl_soup_def def)
+{
+    tl_mesh_view view = model_view(m);
+    tl_soup *alone = NULL;
+    TEST_RESULT(tl_soup_build(&view, &def, &alone, NULL), TL_OK);
+    for (uint32_t workers = 1; workers <= 4; workers++) {
+        pool p = { .workers = workers, .seed = workers };
+        pthread_mutex_init(&p.lock, NULL);
+        tl_tasks tasks = { run_on_threads, workers, &p };
+        def.host.tasks = &tasks;
+        tl_soup *together = NULL;
+        TEST_RESULT(tl_soup_build(&view, &def, &together, NULL), TL_OK);
+        TEST_CHECK(tl_soup_size(alone) == tl_soup_size(together));
+        TEST_CHECK(memcmp(alone, together, tl_soup_size(alone)) == 0);
+        tl_blob_free(together, NULL);
+        pthread_mutex_destroy(&p.lock);
+    }
+    tl_blob_free(alone, NULL);
+}
+
 static void test_threads_give_the_same_bytes(void **state)
 {
     (void)state;
-    model m = model_terrain(120, 3, tl_vec3_make(0, 0, 0), 9); // some 30,000 triangles: many subtrees
-    tl_mesh_view view = model_view(&m);
-    for (uint32_t budget = 0; budget < 2; budget++) {
-        tl_soup_def def = tl_default_soup_def();
-        def.split_budget = budget == 0 ? 0.0f : 0.3f;
-        tl_soup *alone = NULL;
-        TEST_RESULT(tl_soup_build(&view, &def, &alone, NULL), TL_OK);
-        for (uint32_t workers = 1; workers <= 4; workers++) {
-            pool p = { .workers = workers };
-            pthread_mutex_init(&p.lock, NULL);
-            tl_tasks tasks = { run_on_threads, workers, &p };
-            def.host.tasks = &tasks;
-            tl_soup *together = NULL;
-            TEST_RESULT(tl_soup_build(&view, &def, &together, NULL), TL_OK);
-            TEST_CHECK(tl_soup_size(alone) == tl_soup_size(together));
-            TEST_CHECK(memcmp(alone, together, tl_soup_size(alone)) == 0);
-            tl_blob_free(together, NULL);
-            pthread_mutex_destroy(&p.lock);
+    // Some 30,000 triangles: many subtrees, several chunks of pairs.
+    model terrain = model_terrain(120, 3, tl_vec3_make(0, 0, 0), 9);
+    for (uint32_t layout = 0; layout < 2; layout++) {
+        for (uint32_t budget = 0; budget < 2; budget++) {
+            tl_soup_def def = tl_default_soup_def();
+            def.layout = (tl_soup_layout)layout;
+            def.split_budget = budget == 0 ? 0.0f : 0.3f;
+            check_threads(&terrain, def);
         }
-        tl_blob_free(alone, NULL);
     }
-    model_free(&m);
+    // In no order: most pairs lie over the borders of chunks.
+    test_random random = { 5 };
+    for (uint32_t i = terrain.triangle_count - 1; i > 0; i--) {
+        uint32_t other = test_random_below(&random, i + 1);
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t swap = terrain.indices[3 * i + k];
+            terrain.indices[3 * i + k] = terrain.indices[3 * other + k];
+            terrain.indices[3 * other + k] = swap;
+        }
+    }
+    tl_soup_def planes = tl_default_soup_def();
+    planes.partition = TL_SOUP_KD;
+    check_threads(&terrain, planes);
+    check_threads(&terrain, tl_default_soup_def());
+    tl_soup_report report;
+    tl_mesh_view view = model_view(&terrain);
+    TEST_RESULT(build(&view, NULL, &report), TL_OK);
+    TEST_CHECK(report.single_count < report.triangle_count / 50);
+    model_free(&terrain);
 }
 
 // Input that is never read must not matter: unused vertices, and the padding of nothing.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // Pairing: tasks match the triangles of one chunk each (pair_match.c), which lie near each other in most meshes, and so
-// does their memory. What is left single then is matched once more, over the chunks' borders. Chunks are a matter of
-// the mesh alone, so the pairs do not depend on how many tasks run. One matching of all triangles at once takes twice
-// as long on a mesh larger than the caches, and one thread.
+// does their memory. What is left single then is matched once more, over the chunks' borders. Where borders turn out to
+// be everywhere, because the mesh is in no order, all is matched at once: that takes twice as long on a mesh larger
+// than the caches, and one thread. Chunks are a matter of the mesh alone, so the pairs do not depend on how many tasks
+// run.
 //
 // The text's pair A B C, A C D is stored with the order in which each triangle really runs.
 //
@@ -23,6 +24,9 @@ const uint8_t tl_soup_corner_slots[8][3] = { { 0, 1, 2 }, { 0, 1, 2 }, { 1, 2, 0
 
 // Most triangles of a chunk: its arrays are some 1.5 MB.
 enum { CHUNK_TRIANGLES = 1 << 14 };
+
+// A mesh of which more than this share is paired over borders is in no order.
+enum { BORDER_SHARE = 32 };
 
 typedef struct pairing {
     const tl_mesh *mesh;
@@ -55,7 +59,7 @@ static void match_chunk(uint32_t chunk, uint32_t worker, void *user)
 
 static tl_result match_chunks(pairing *p, const tl_host *host, tl_arena *arena)
 {
-    uint32_t workers = p->chunk_count > 1 ? tl_worker_count(host) : 1;
+    uint32_t workers = tl_worker_count(host);
     tl_arena_mark mark = tl_arena_get_mark(arena);
     p->matchers = TL_PUSH(arena, tl_pair_matcher *, workers);
     if (p->matchers == NULL) {
@@ -72,18 +76,25 @@ static tl_result match_chunks(pairing *p, const tl_host *host, tl_arena *arena)
     return TL_OK;
 }
 
-static tl_result match_rest(pairing *p, tl_arena *arena)
+static uint32_t count_free(const pairing *p)
 {
-    uint32_t count = 0, rest = 0;
+    uint32_t count = 0;
     for (uint32_t i = 0; i < p->mesh->triangle_count; i++) {
         count += p->mates[i] == TL_NO_EDGE;
     }
+    return count;
+}
+
+// Matches what the chunks left free.
+static tl_result match_rest(pairing *p, uint32_t count, tl_arena *arena)
+{
     tl_arena_mark mark = tl_arena_get_mark(arena);
     uint32_t *list = TL_PUSH(arena, uint32_t, count);
     tl_pair_matcher *matcher = tl_pair_matcher_make(p->mesh, count, arena);
     if (list == NULL || matcher == NULL) {
         return TL_ERR_MEMORY;
     }
+    uint32_t rest = 0;
     for (uint32_t i = 0; i < p->mesh->triangle_count; i++) {
         if (p->mates[i] == TL_NO_EDGE) {
             list[rest++] = i;
@@ -92,6 +103,30 @@ static tl_result match_rest(pairing *p, tl_arena *arena)
     tl_pair_match(matcher, list, 0, count, p->mates);
     tl_arena_rollback(arena, mark);
     return TL_OK;
+}
+
+static tl_result match_at_once(pairing *p, tl_arena *arena)
+{
+    tl_arena_mark mark = tl_arena_get_mark(arena);
+    tl_pair_matcher *matcher = tl_pair_matcher_make(p->mesh, p->mesh->triangle_count, arena);
+    if (matcher == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_pair_match(matcher, NULL, 0, p->mesh->triangle_count, p->mates);
+    tl_arena_rollback(arena, mark);
+    return TL_OK;
+}
+
+static tl_result match_all(pairing *p, const tl_host *host, tl_arena *arena)
+{
+    if (p->chunk_count == 1) {
+        return match_at_once(p, arena);
+    }
+    TL_TRY(match_chunks(p, host, arena));
+    uint32_t count = count_free(p);
+    TL_TRY(match_rest(p, count, arena));
+    uint32_t over_borders = count - count_free(p);
+    return over_borders > p->mesh->triangle_count / BORDER_SHARE ? match_at_once(p, arena) : TL_OK;
 }
 
 // The row of tl_soup_corner_slots by which a triangle's corners lie in slots a, e, c.
@@ -174,8 +209,7 @@ tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host
         return TL_ERR_MEMORY;
     }
     if (allow_pairs) {
-        TL_TRY(match_chunks(&p, host, arena));
-        TL_TRY(match_rest(&p, arena));
+        TL_TRY(match_all(&p, host, arena));
     } else {
         memset(p.mates, 0xff, (size_t)mesh->triangle_count * sizeof *p.mates);
     }

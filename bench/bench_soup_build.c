@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+//
+// Builds of the soup: against Embree 3 on one thread (the default against quality MEDIUM, with spatial splits against
+// HIGH), and two threads against one. Every round runs all of them in turn and the best round counts: CPU time against
+// Embree, wall time for threads. Two threads need two processors with nothing else to do.
+//
+//   bench_soup_build [--json FILE] [rounds [only [triangles]]]
+//
+// `only` is a part of a level's name, "" takes all; with `triangles` the level is a sample of that name and size.
+
+#define _POSIX_C_SOURCE 200809L
+
+#include "cli/thread_pool.h"
+#include "report.h"
+#include "soup_levels.h"
+
+#include <embree3/rtcore.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <talus/soup.h>
+#include <time.h>
+
+enum { MAX_STAGES = 8, THREADED_TRIANGLES = 50000 - 100 };
+
+// Small levels get more rounds.
+enum { MORE_ROUNDS = 5, FEW_TRIANGLES = 100000 };
+
+typedef enum system { PLAIN, SPLIT, MEDIUM, HIGH, ONE_THREAD, TWO_THREADS, SYSTEMS } system_kind;
+
+static const char *const system_names[SYSTEMS] = { "talus",       "talus, splits", "Embree medium",
+                                                   "Embree high", "one thread",    "two threads" };
+
+typedef struct stage {
+    const char *name;
+    double began, best; // seconds
+} stage;
+
+typedef struct level_result {
+    double best[SYSTEMS]; // seconds
+    stage stages[MAX_STAGES];
+    uint32_t stage_count;
+    double peak_bytes, bytes;
+} level_result;
+
+static double worked(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static bool time_stage(const char *name, uint64_t done, uint64_t total, void *user)
+{
+    level_result *r = user;
+    uint32_t i = 0;
+    while (i < r->stage_count && strcmp(r->stages[i].name, name) != 0) {
+        i++;
+    }
+    if (i == r->stage_count && i < MAX_STAGES) {
+        r->stages[r->stage_count++] = (stage){ name, 0, 1e30 };
+    }
+    if (i < MAX_STAGES && done == 0) {
+        r->stages[i].began = worked();
+    }
+    if (i < MAX_STAGES && done == total) {
+        double seconds = worked() - r->stages[i].began;
+        r->stages[i].best = seconds < r->stages[i].best ? seconds : r->stages[i].best;
+    }
+    return true;
+}
+
+static void build_soup(const tl_mesh_view *view, float split_budget, const tl_tasks *tasks, level_result *staged,
+                       level_result *r)
+{
+    tl_progress progress = { time_stage, staged };
+    tl_soup_def def = tl_default_soup_def();
+    def.split_budget = split_budget;
+    def.host.tasks = tasks;
+    def.host.progress = staged != NULL ? &progress : NULL;
+    tl_soup *soup = NULL;
+    tl_soup_report report;
+    tl_result code = tl_soup_build(view, &def, &soup, &report);
+    if (code != TL_OK) {
+        fprintf(stderr, "%s\n", tl_result_text(code));
+        exit(1);
+    }
+    r->peak_bytes = (double)report.base.peak_bytes;
+    r->bytes = (double)tl_soup_size(soup);
+    tl_blob_free(soup, NULL);
+}
+
+static void build_scene(RTCDevice device, const tl_mesh_view *view, enum RTCBuildQuality quality)
+{
+    RTCScene scene = rtcNewScene(device);
+    rtcSetSceneBuildQuality(scene, quality);
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetGeometryBuildQuality(geometry, quality);
+    memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, view->vertex_count),
+           view->vertices, 12 * (size_t)view->vertex_count);
+    memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, view->triangle_count),
+           view->indices, 12 * (size_t)view->triangle_count);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene);
+    rtcReleaseScene(scene);
+}
+
+static void run_system(system_kind system, const tl_mesh_view *view, RTCDevice device, const tl_tasks *two,
+                       level_result *r)
+{
+    switch (system) {
+    case SPLIT:
+        build_soup(view, 0.1f, NULL, NULL, r);
+        return;
+    case MEDIUM:
+        build_scene(device, view, RTC_BUILD_QUALITY_MEDIUM);
+        return;
+    case HIGH:
+        build_scene(device, view, RTC_BUILD_QUALITY_HIGH);
+        return;
+    default:
+        build_soup(view, 0.0f, system == TWO_THREADS ? two : NULL, system == PLAIN ? r : NULL, r);
+        return;
+    }
+}
+
+static void run_level(const bench_level *l, uint32_t rounds, RTCDevice device, const tl_tasks *two,
+                      bench_report *report, level_result *r)
+{
+    uint32_t triangles = l->view.triangle_count;
+    memset(r, 0, sizeof *r);
+    for (uint32_t system = 0; system < SYSTEMS; system++) {
+        r->best[system] = 1e30;
+    }
+    uint32_t more = triangles < FEW_TRIANGLES ? MORE_ROUNDS : 1;
+    for (uint32_t round = 0; round < rounds * more; round++) {
+        for (uint32_t system = 0; system < SYSTEMS; system++) {
+            double start = system < ONE_THREAD ? worked() : bench_now();
+            run_system((system_kind)system, &l->view, device, two, r);
+            double seconds = (system < ONE_THREAD ? worked() : bench_now()) - start;
+            r->best[system] = seconds < r->best[system] ? seconds : r->best[system];
+        }
+    }
+    double ns = 1e9 / triangles;
+    printf("%-20s %8u triangles, ns each:", l->name, triangles);
+    for (uint32_t system = 0; system < SYSTEMS; system++) {
+        printf("  %s %.0f", system_names[system], ns * r->best[system]);
+        bench_report_value(report, "build, ns a triangle", system_names[system], l->name, ns * r->best[system]);
+    }
+    printf("\n    stages:");
+    for (uint32_t i = 0; i < r->stage_count; i++) {
+        printf("  %s %.0f", r->stages[i].name, ns * r->stages[i].best);
+    }
+    printf("; %.1f bytes a triangle, at most %.0f held; two threads %.2f\n", r->bytes / triangles,
+           r->peak_bytes / triangles, r->best[ONE_THREAD] / r->best[TWO_THREADS]);
+    fflush(stdout);
+}
+
+// The geometric mean of one system's time to another's, over levels of so many triangles or more.
+static double mean_ratio(const level_result *results, const bench_level *levels, uint32_t count, system_kind a,
+                         system_kind b, uint32_t least_triangles)
+{
+    double sum = 0;
+    uint32_t taken = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (levels[i].view.triangle_count >= least_triangles) {
+            sum += log(results[i].best[a] / results[i].best[b]);
+            taken++;
+        }
+    }
+    return taken > 0 ? exp(sum / taken) : 0;
+}
+
+int main(int argc, char **argv)
+{
+    const char *path = bench_report_path(&argc, argv);
+    uint32_t rounds = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 5;
+    const char *only = argc > 2 && argv[2][0] != '\0' ? argv[2] : NULL;
+    uint32_t triangles = argc > 3 ? (uint32_t)strtoul(argv[3], NULL, 10) : 0;
+    bench_report *report = bench_report_new("Soup builds", "ns", NULL);
+    RTCDevice device = rtcNewDevice("threads=1");
+    tl_thread_pool *pool = tl_thread_pool_create(2);
+    static bench_level levels[BENCH_MAX_LEVELS];
+    static level_result results[BENCH_MAX_LEVELS];
+    uint32_t count = triangles > 0 ? bench_make_sample(only, triangles, &levels[0]) : bench_load_levels(levels, only);
+    for (uint32_t i = 0; i < count; i++) {
+        run_level(&levels[i], rounds, device, tl_thread_pool_tasks(pool), report, &results[i]);
+    }
+    if (count > 0) {
+        bench_report_at_most(report, "build time to Embree medium",
+                             mean_ratio(results, levels, count, PLAIN, MEDIUM, 0), 1.0);
+        bench_report_at_most(report, "build time with spatial splits to Embree high",
+                             mean_ratio(results, levels, count, SPLIT, HIGH, 0), 1.0);
+        bench_report_at_least(report, "two threads, of one thread's speed, 50k triangles and more",
+                              mean_ratio(results, levels, count, ONE_THREAD, TWO_THREADS, THREADED_TRIANGLES), 1.7);
+    }
+    bench_report_print_claims(report);
+    bench_free_levels(levels, count);
+    tl_thread_pool_free(pool);
+    rtcReleaseDevice(device);
+    return bench_report_close(report, path);
+}
