@@ -84,16 +84,15 @@ typedef struct filler {
     const uint32_t *kept;
     const uint32_t *number;
     tl_mesh *mesh;
+    uint32_t vertex_blocks;
     struct block_sum {
         tl_aabb bounds;
         uint32_t welded, unused;
     } * sums; // of blocks of vertices
 } filler;
 
-static void fill_vertices(uint32_t block, uint32_t worker, void *user)
+static void fill_vertices(const filler *f, uint32_t block)
 {
-    (void)worker;
-    const filler *f = user;
     struct block_sum sum = { tl_aabb_empty(), 0, 0 };
     uint32_t end = tl_block_end(block, BLOCK_ITEMS, f->view->vertex_count);
     for (uint32_t vertex = block * BLOCK_ITEMS; vertex < end; vertex++) {
@@ -109,10 +108,8 @@ static void fill_vertices(uint32_t block, uint32_t worker, void *user)
     f->sums[block] = sum;
 }
 
-static void fill_triangles(uint32_t block, uint32_t worker, void *user)
+static void fill_triangles(const filler *f, uint32_t block)
 {
-    (void)worker;
-    const filler *f = user;
     uint32_t end = tl_block_end(block, BLOCK_ITEMS, f->mesh->triangle_count);
     for (uint32_t i = block * BLOCK_ITEMS; i < end; i++) {
         uint32_t triangle = f->kept[i];
@@ -125,17 +122,27 @@ static void fill_triangles(uint32_t block, uint32_t worker, void *user)
     }
 }
 
+static void fill_block(uint32_t block, uint32_t worker, void *user)
+{
+    (void)worker;
+    const filler *f = user;
+    if (block < f->vertex_blocks) {
+        fill_vertices(f, block);
+    } else {
+        fill_triangles(f, block - f->vertex_blocks);
+    }
+}
+
 static tl_result fill_mesh(filler *f, const tl_host *host, tl_arena *arena, tl_mesh_report *report)
 {
-    uint32_t blocks = tl_block_count(f->view->vertex_count, BLOCK_ITEMS);
-    f->sums = TL_PUSH(arena, struct block_sum, blocks);
+    f->vertex_blocks = tl_block_count(f->view->vertex_count, BLOCK_ITEMS);
+    f->sums = TL_PUSH(arena, struct block_sum, f->vertex_blocks);
     if (f->sums == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_run_tasks(host, fill_vertices, blocks, f);
-    tl_run_tasks(host, fill_triangles, tl_block_count(f->mesh->triangle_count, BLOCK_ITEMS), f);
+    tl_run_tasks(host, fill_block, f->vertex_blocks + tl_block_count(f->mesh->triangle_count, BLOCK_ITEMS), f);
     f->mesh->bounds = tl_aabb_empty();
-    for (uint32_t block = 0; block < blocks; block++) {
+    for (uint32_t block = 0; block < f->vertex_blocks; block++) {
         f->mesh->bounds = tl_aabb_union(f->mesh->bounds, f->sums[block].bounds);
         report->welded_vertices += f->sums[block].welded;
         report->unused_vertices += f->sums[block].unused;
@@ -171,7 +178,7 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh_def *def, tl_aren
     }
     uint32_t vertex_count = number_vertices(view, representative, kept, kept_count, number);
     TL_TRY(allocate_mesh(vertex_count, kept_count, def->host.allocator, mesh));
-    filler f = { view, representative, kept, number, mesh, NULL };
+    filler f = { view, representative, kept, number, mesh, 0, NULL };
     TL_TRY(fill_mesh(&f, host, arena, report));
     return tl_progress_update(host, "clean", view->triangle_count, view->triangle_count);
 }

@@ -49,6 +49,14 @@ typedef struct tl_tree_node {
     uint32_t count;       ///< 0: inner
 } tl_tree_node;
 
+/// A subtree that may be worked on at once with the others, and what is known of it.
+typedef struct tl_tree_part {
+    uint32_t root;
+    uint32_t inner_count, leaf_count; ///< nodes
+    uint32_t ref_count;               ///< in leaves
+    double leaf_surface;              ///< sum of half areas of leaves
+} tl_tree_part;
+
 /// Indices of nodes are below it, so that the bake has a bit to spare.
 #define TL_TREE_MAX_NODES 0x80000000u
 
@@ -56,8 +64,7 @@ typedef struct tl_tree {
     tl_tree_ref *refs;
     tl_tree_node *nodes;
     uint32_t root;
-    const uint32_t
-        *parts; ///< nodes, from left to right, whose subtrees may be worked on at once; no part holds another
+    const tl_tree_part *parts; ///< from left to right; no part holds another
     uint32_t part_count;
     uint32_t ref_count; ///< in leaves
 } tl_tree;

@@ -16,6 +16,7 @@
 #include "base/host.h"
 #include "soup/soup_build.h"
 #include "soup/soup_layout.h"
+#include "soup/tree_cut.h"
 #include "soup/tree_top.h"
 
 #include <string.h>
@@ -82,10 +83,16 @@ static uint32_t build_range(const tl_tree_top *top, tl_tree_range range)
     return index;
 }
 
+typedef struct subtree_tasks {
+    const tl_tree_top *top;
+    tl_tree_part *parts;
+} subtree_tasks;
+
 static void build_subtree(uint32_t index, uint32_t worker, void *user)
 {
     (void)worker;
-    const tl_tree_top *top = user;
+    const subtree_tasks *tasks = user;
+    const tl_tree_top *top = tasks->top;
     const tl_subtree *subtree = &top->subtrees[index];
     const tl_tree_range *range = &subtree->range;
     if (subtree->in_scratch) {
@@ -93,23 +100,7 @@ static void build_subtree(uint32_t index, uint32_t worker, void *user)
                (size_t)range->count * sizeof(tl_tree_ref));
     }
     *subtree->link = build_range(top, *range);
-}
-
-static uint32_t count_references(const tl_tree_node *nodes, uint32_t root)
-{
-    uint32_t stack[TL_SOUP_MAX_DEPTH + 1];
-    uint32_t stack_count = 0;
-    uint32_t count = 0;
-    stack[stack_count++] = root;
-    while (stack_count > 0) {
-        const tl_tree_node *node = &nodes[stack[--stack_count]];
-        count += node->count;
-        if (node->count == 0) {
-            stack[stack_count++] = node->right;
-            stack[stack_count++] = node->left;
-        }
-    }
-    return count;
+    tasks->parts[index] = tl_tree_sum_part(top->nodes, *subtree->link);
 }
 
 tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
@@ -122,16 +113,18 @@ tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair
     top.splitter.pairs = pairs;
     top.splitter.refs = TL_PUSH(arena, tl_tree_ref, capacity);
     top.nodes = TL_PUSH(arena, tl_tree_node, 2 * (uint64_t)capacity);
-    uint32_t *parts = TL_PUSH(arena, uint32_t, tl_tree_max_subtrees(pair_count));
+    tl_tree_part *parts = TL_PUSH(arena, tl_tree_part, tl_tree_max_subtrees(pair_count));
     tl_arena_mark mark = tl_arena_get_mark(arena);
     top.splitter.scratch = TL_PUSH(arena, tl_tree_ref, capacity);
     if (top.splitter.refs == NULL || top.nodes == NULL || parts == NULL || top.splitter.scratch == NULL) {
         return TL_ERR_MEMORY;
     }
     TL_TRY(tl_tree_build_top(&top, pair_count, capacity, &def->host, arena));
-    tl_run_tasks(&def->host, build_subtree, top.subtree_count, &top);
+    subtree_tasks tasks = { &top, parts };
+    tl_run_tasks(&def->host, build_subtree, top.subtree_count, &tasks);
+    tree_out->ref_count = 0;
     for (uint32_t i = 0; i < top.subtree_count; i++) {
-        parts[i] = *top.subtrees[i].link;
+        tree_out->ref_count += parts[i].ref_count;
     }
     tree_out->refs = top.splitter.refs;
     tree_out->nodes = top.nodes;
@@ -139,6 +132,5 @@ tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair
     tree_out->parts = parts;
     tree_out->part_count = top.subtree_count;
     tl_arena_rollback(arena, mark);
-    tree_out->ref_count = def->split_budget > 0.0f ? count_references(top.nodes, top.root) : pair_count;
     return TL_OK;
 }

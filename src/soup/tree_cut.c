@@ -32,12 +32,6 @@ typedef struct tl_tree_plan {
     uint8_t right[TL_SOUP_WIDTH];
 } tl_tree_plan;
 
-// What is known of a subtree before it is planned.
-typedef struct subtree_sum {
-    uint32_t inner_count, leaf_count;
-    double surface; // of leaves
-} subtree_sum;
-
 // The parts of a tree are planned by tasks, and what is above them afterwards: each node's plan needs its children's.
 typedef struct planner {
     const tl_tree *tree;
@@ -45,7 +39,6 @@ typedef struct planner {
     uint32_t plan_count;
     uint32_t next_part, part_count; // parts that the walk of all that is above them has not come to yet
     float node_price;
-    subtree_sum *sums;     // of each part
     uint32_t *first_plans; // of each part
 } planner;
 
@@ -91,7 +84,7 @@ static float share_out(offer left, offer right, uint32_t count, uint8_t *left_ou
 
 static bool is_next_part(planner *p, uint32_t index)
 {
-    bool is_part = p->next_part < p->part_count && p->tree->parts[p->next_part] == index;
+    bool is_part = p->next_part < p->part_count && p->tree->parts[p->next_part].root == index;
     p->next_part += is_part;
     return is_part;
 }
@@ -124,36 +117,56 @@ static void plan_node(planner *p, uint32_t index)
     }
 }
 
-static void sum_subtree(planner *p, uint32_t index, subtree_sum *sum)
+static void add_part(tl_tree_part *sum, const tl_tree_part *part)
 {
-    if (is_next_part(p, index)) {
-        const subtree_sum *part = &p->sums[p->next_part - 1];
-        p->first_plans[p->next_part - 1] = p->plan_count;
-        p->plan_count += part->inner_count;
-        sum->inner_count += part->inner_count;
-        sum->leaf_count += part->leaf_count;
-        sum->surface += part->surface;
-        return;
-    }
-    const tl_tree_node *node = &p->tree->nodes[index];
+    sum->inner_count += part->inner_count;
+    sum->leaf_count += part->leaf_count;
+    sum->ref_count += part->ref_count;
+    sum->leaf_surface += part->leaf_surface;
+}
+
+static void add_leaf(tl_tree_part *sum, const tl_tree_node *leaf)
+{
+    sum->leaf_count++;
+    sum->ref_count += leaf->count;
+    sum->leaf_surface += (double)tl_aabb_half_area(leaf->box);
+}
+
+static void sum_nodes(const tl_tree_node *nodes, uint32_t index, tl_tree_part *sum)
+{
+    const tl_tree_node *node = &nodes[index];
     if (node->count > 0) {
-        sum->leaf_count++;
-        sum->surface += (double)tl_aabb_half_area(node->box);
+        add_leaf(sum, node);
         return;
     }
     sum->inner_count++;
-    sum_subtree(p, node->left, sum);
-    sum_subtree(p, node->right, sum);
+    sum_nodes(nodes, node->left, sum);
+    sum_nodes(nodes, node->right, sum);
 }
 
-static void sum_part(uint32_t part, uint32_t worker, void *user)
+tl_tree_part tl_tree_sum_part(const tl_tree_node *nodes, uint32_t root)
 {
-    (void)worker;
-    const planner *whole = user;
-    planner p = { .tree = whole->tree };
-    subtree_sum sum = { 0, 0, 0.0 };
-    sum_subtree(&p, whole->tree->parts[part], &sum);
-    whole->sums[part] = sum;
+    tl_tree_part sum = { root, 0, 0, 0, 0.0 };
+    sum_nodes(nodes, root, &sum);
+    return sum;
+}
+
+// The sum of the whole tree, with what is known of its parts; their plans lie one behind the other.
+static void sum_tree(planner *p, uint32_t index, tl_tree_part *sum)
+{
+    const tl_tree_node *node = &p->tree->nodes[index];
+    if (is_next_part(p, index)) {
+        const tl_tree_part *part = &p->tree->parts[p->next_part - 1];
+        p->first_plans[p->next_part - 1] = p->plan_count;
+        p->plan_count += part->inner_count;
+        add_part(sum, part);
+    } else if (node->count > 0) {
+        add_leaf(sum, node);
+    } else {
+        sum->inner_count++;
+        sum_tree(p, node->left, sum);
+        sum_tree(p, node->right, sum);
+    }
 }
 
 static void plan_part(uint32_t part, uint32_t worker, void *user)
@@ -162,25 +175,23 @@ static void plan_part(uint32_t part, uint32_t worker, void *user)
     const planner *whole = user;
     planner p = { .tree = whole->tree, .plans = whole->plans, .node_price = whole->node_price };
     p.plan_count = whole->first_plans[part];
-    plan_node(&p, whole->tree->parts[part]);
+    plan_node(&p, whole->tree->parts[part].root);
 }
 
 tl_result tl_tree_cut_plan(const tl_tree *tree, const tl_host *host, tl_arena *arena, tl_tree_cut *cut_out)
 {
     planner p = { .tree = tree, .part_count = tree->part_count };
-    p.sums = TL_PUSH(arena, subtree_sum, tree->part_count);
     p.first_plans = TL_PUSH(arena, uint32_t, tree->part_count);
-    if (p.sums == NULL || p.first_plans == NULL) {
+    if (p.first_plans == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_run_tasks(host, sum_part, tree->part_count, &p);
-    subtree_sum sum = { 0, 0, 0.0 };
-    sum_subtree(&p, tree->root, &sum);
+    tl_tree_part sum = { tree->root, 0, 0, 0, 0.0 };
+    sum_tree(&p, tree->root, &sum);
     p.plans = TL_PUSH(arena, tl_tree_plan, sum.inner_count);
     if (p.plans == NULL) {
         return TL_ERR_MEMORY;
     }
-    p.node_price = (float)(sum.surface / sum.leaf_count) * NODE_PRICE;
+    p.node_price = (float)(sum.leaf_surface / sum.leaf_count) * NODE_PRICE;
     tl_run_tasks(host, plan_part, tree->part_count, &p);
     p.next_part = 0;
     plan_node(&p, tree->root);

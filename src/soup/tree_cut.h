@@ -14,6 +14,9 @@ typedef struct tl_tree_cut {
     uint32_t inner_count; ///< binary nodes that are no leaves; there are no more wide nodes, but for a lone leaf's
 } tl_tree_cut;
 
+/// A whole subtree as a part.
+tl_tree_part tl_tree_sum_part(const tl_tree_node *nodes, uint32_t root);
+
 /// Plans the cut of a tree on the host's tasks, and writes into its inner nodes which plan is theirs. Memory is the
 /// arena's.
 tl_result tl_tree_cut_plan(const tl_tree *tree, const tl_host *host, tl_arena *arena, tl_tree_cut *cut_out);

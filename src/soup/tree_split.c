@@ -141,8 +141,8 @@ tl_tree_split tl_tree_find_split(const tl_tree_splitter *splitter, const tl_tree
 
 // Without branches: which side it is cannot be foretold. The order within a side stays, and with it the neighbours in
 // memory that the mesh had.
-uint32_t tl_tree_part(const tl_tree_ref *refs, uint32_t count, const tl_tree_grid *grid, const tl_tree_split *split,
-                      tl_tree_ref *left, tl_tree_ref *right, tl_box4 middles[2])
+uint32_t tl_tree_divide(const tl_tree_ref *refs, uint32_t count, const tl_tree_grid *grid, const tl_tree_split *split,
+                        tl_tree_ref *left, tl_tree_ref *right, tl_box4 middles[2])
 {
     tl_tree_ref *next[2] = { left, right };
     for (uint32_t i = 0; i < count; i++) {
@@ -193,7 +193,7 @@ void tl_tree_apply_split(const tl_tree_splitter *splitter, const tl_tree_range *
         tl_tree_ref *right = splitter->scratch + range->first;
         tl_tree_grid grid = tl_tree_make_grid(range);
         tl_box4 middles[2] = { tl_box4_empty(), tl_box4_empty() };
-        uint32_t left_count = tl_tree_part(refs, range->count, &grid, split, refs, right, middles);
+        uint32_t left_count = tl_tree_divide(refs, range->count, &grid, split, refs, right, middles);
         tl_tree_share_range(range, left_count, range->count - left_count, left_out, right_out);
         memcpy(splitter->refs + right_out->first, right, (size_t)right_out->count * sizeof *refs);
         left_out->box = tl_box4_to_aabb(split->box[0]);

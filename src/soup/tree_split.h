@@ -64,8 +64,8 @@ uint32_t tl_tree_count_left(const tl_tree_bins *bins, const tl_tree_split *split
 
 /// Writes references of an object split's left side to `left`, which may be `refs`, and the others to `right`, in their
 /// order, and grows the sides' boxes of doubled middles. Returns how many went left.
-uint32_t tl_tree_part(const tl_tree_ref *refs, uint32_t count, const tl_tree_grid *grid, const tl_tree_split *split,
-                      tl_tree_ref *left, tl_tree_ref *right, tl_box4 middles[2]);
+uint32_t tl_tree_divide(const tl_tree_ref *refs, uint32_t count, const tl_tree_grid *grid, const tl_tree_split *split,
+                        tl_tree_ref *left, tl_tree_ref *right, tl_box4 middles[2]);
 
 /// The two parts of a range, of so many references, with the room that is spare shared out. Boxes are left empty.
 void tl_tree_share_range(const tl_tree_range *range, uint32_t left_count, uint32_t right_count, tl_tree_range *left_out,

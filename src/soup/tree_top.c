@@ -19,7 +19,7 @@ static_assert(TL_TREE_HEURISTIC_DEPTH + 32 <= TL_SOUP_MAX_DEPTH,
               "a range of 2^32 references ends within the depth limit");
 
 // The top ends where a range is a 64th of the whole.
-enum { TASK_SHARE = 64, MIN_TASK_REFS = 512 };
+enum { TASK_SHARE = 64, MIN_TASK_REFS = 1024 };
 
 // Spatial splits may double the references.
 enum { MAX_LEVEL_RANGES = 2 * TASK_SHARE };
@@ -141,8 +141,8 @@ static void part_block(uint32_t index, uint32_t worker, void *user)
     if (r->split.found && !r->split.spatial) {
         block->middles[0] = tl_box4_empty();
         block->middles[1] = tl_box4_empty();
-        tl_tree_part(s.refs + block->first, block->count, &r->grid, &r->split, s.scratch + block->left_first,
-                     s.scratch + block->right_first, block->middles);
+        tl_tree_divide(s.refs + block->first, block->count, &r->grid, &r->split, s.scratch + block->left_first,
+                       s.scratch + block->right_first, block->middles);
     } else if (index == r->first_block) {
         tl_tree_apply_split(&s, &r->subtree.range, &r->split, &r->left, &r->right);
     }
@@ -185,7 +185,9 @@ static void split_level(builder *b, uint32_t task_refs, const tl_host *host)
     }
     lay_blocks(b);
     tl_run_tasks(host, fill_bins, b->block_count, b);
-    tl_run_tasks(host, choose_split, b->range_count, b);
+    // Without spatial splits this is too little to hand out.
+    tl_run_tasks(b->ranges[0].subtree.range.capacity > b->ranges[0].subtree.range.count ? host : NULL, choose_split,
+                 b->range_count, b);
     tl_run_tasks(host, part_block, b->block_count, b);
     tl_subtree next[MAX_LEVEL_RANGES];
     uint32_t next_count = 0;
