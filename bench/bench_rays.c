@@ -10,8 +10,6 @@
 //
 // `only` is a part of a level's name. Pin it to a core (taskset -c 1) and keep the machine quiet.
 
-#define _POSIX_C_SOURCE 200809L
-
 #include "report.h"
 #include "soup/ray.h"
 #include "soup_levels.h"
@@ -21,7 +19,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { KINDS = 5, SLICE_RAYS = 500, MAX_SLICES = 4096 };
 enum { TALUS, TALUS_AVX2, TALUS_AVX512, COMPACT, FAST, QUADS, ROBUST, SYSTEMS };
@@ -34,14 +31,6 @@ typedef struct query {
     tl_vec3 origin, target; // target: direction, or end for sight and segment
     float tmax;
 } query;
-
-// What the process has worked: builds are too long to find a slice without a disturbance.
-static double worked(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static uint64_t random_state = 1;
 
@@ -221,12 +210,10 @@ typedef struct result {
     double rate[KINDS][SYSTEMS]; // rays a second
     double miss_ns[SYSTEMS];     // a call whose ray misses the root
     double bytes, compact_bytes; // a triangle
-    double build_share;          // of Embree's time at MEDIUM, and with spatial splits of that at HIGH
-    double quality_build_share;
 } result;
 
 typedef struct scenes {
-    const tl_soup *soup, *compact;
+    tl_soup *soup, *compact;
     RTCScene embree[SYSTEMS];
 } scenes;
 
@@ -288,96 +275,54 @@ static void time_systems(const scenes *s, const query *queries, uint32_t count, 
     }
 }
 
-static double build_soup(const tl_mesh_view *view, tl_soup_layout layout, float split_budget, tl_soup **soup_out)
+static tl_soup *build_soup(const tl_mesh_view *view, tl_soup_layout layout, float split_budget)
 {
     tl_soup_def def = tl_default_soup_def();
     def.layout = layout;
     def.split_budget = split_budget;
-    double start = worked();
-    tl_result code = tl_soup_build(view, &def, soup_out, NULL);
-    double seconds = worked() - start;
+    tl_soup *soup = NULL;
+    tl_result code = tl_soup_build(view, &def, &soup, NULL);
     if (code != TL_OK) {
         fprintf(stderr, "%s\n", tl_result_text(code));
         exit(1);
     }
-    return seconds;
+    return soup;
 }
 
-static double build_scene(RTCDevice device, const bench_level *l, enum RTCBuildQuality quality, RTCScene *scene_out)
+static void build_level(RTCDevice device, const bench_level *l, scenes *s, result *r)
 {
+    s->soup = build_soup(&l->view, TL_SOUP_FAST, 0.0f);
+    s->compact = build_soup(&l->view, TL_SOUP_COMPACT, 0.0f);
+    tl_soup *split = build_soup(&l->view, TL_SOUP_FAST, 0.1f);
     embree_bytes = 0;
-    double start = worked();
-    *scene_out = make_scene(device, l, NULL, false, RTC_SCENE_FLAG_NONE, quality);
-    return worked() - start;
-}
-
-// The best of some builds of each kind, in turn.
-typedef struct build_times {
-    double plain, split, medium, high; // seconds
-    double split_bytes, high_bytes;
-} build_times;
-
-static void build_level(RTCDevice device, const bench_level *l, scenes *s, tl_soup **soup_out, tl_soup **compact_out,
-                        build_times *best)
-{
-    build_times none = { 1e30, 1e30, 1e30, 1e30, 0, 0 };
-    *best = none;
-    uint32_t rounds = l->view.triangle_count < 10000 ? 20 : l->view.triangle_count < 300000 ? 5 : 2;
-    for (uint32_t round = 0; round < rounds; round++) {
-        tl_soup *split = NULL;
-        best->split = fmin(best->split, build_soup(&l->view, TL_SOUP_FAST, 0.1f, &split));
-        best->split_bytes = (double)tl_soup_size(split);
-        tl_blob_free(split, NULL);
-        RTCScene scene;
-        best->medium = fmin(best->medium, build_scene(device, l, RTC_BUILD_QUALITY_MEDIUM, &scene));
-        rtcReleaseScene(scene);
-        bool last = round == rounds - 1;
-        best->plain = fmin(best->plain, build_soup(&l->view, TL_SOUP_FAST, 0.0f, soup_out));
-        best->high = fmin(best->high, build_scene(device, l, RTC_BUILD_QUALITY_HIGH, &s->embree[FAST]));
-        best->high_bytes = embree_bytes;
-        if (!last) {
-            tl_blob_free(*soup_out, NULL);
-            rtcReleaseScene(s->embree[FAST]);
-        }
-    }
-    (void)build_soup(&l->view, TL_SOUP_COMPACT, 0.0f, compact_out);
-    s->soup = *soup_out;
-    s->compact = *compact_out;
+    s->embree[FAST] = make_scene(device, l, NULL, false, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
+    double high_bytes = embree_bytes;
     s->embree[QUADS] = make_scene(device, l, s->soup, true, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
     s->embree[ROBUST] = make_scene(device, l, s->soup, false, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
-}
-
-static void print_build(const bench_level *l, const tl_soup *soup, const build_times *best, result *r)
-{
-    tl_soup_stats stats = tl_soup_get_stats(soup);
+    tl_soup_stats stats = tl_soup_get_stats(s->soup);
     double n = (double)stats.triangle_count;
     r->bytes = (double)stats.size / n;
-    r->build_share = best->plain / best->medium;
-    r->quality_build_share = best->split / best->high;
+    r->compact_bytes = (double)tl_soup_size(s->compact) / n;
     printf(
         "%-20s %7u triangles, %.1f%% paired, leaf fill %.2f, node fill %.1f, %.1f bytes a triangle (with splits %.1f, "
-        "Embree %.1f); build %.2f us a triangle (Embree medium %.2f; with splits %.2f, Embree high %.2f)\n",
+        "Embree %.1f)\n",
         l->name, stats.triangle_count, 200.0 * (double)stats.pair_count / n,
         (double)stats.reference_count / (double)stats.leaf_count,
-        (double)(stats.node_count + stats.leaf_count - 1) / (double)stats.node_count, r->bytes, best->split_bytes / n,
-        best->high_bytes / n, 1e6 * best->plain / n, 1e6 * best->medium / n, 1e6 * best->split / n,
-        1e6 * best->high / n);
+        (double)(stats.node_count + stats.leaf_count - 1) / (double)stats.node_count, r->bytes,
+        (double)tl_soup_size(split) / n, high_bytes / n);
+    tl_blob_free(split, NULL);
 }
 
 static void run_level(RTCDevice device, const bench_level *l, uint32_t repetitions, uint32_t ray_count,
                       bench_report *report, result *r)
 {
     scenes s;
-    tl_soup *soup = NULL, *compact = NULL;
-    build_times best_builds;
-    build_level(device, l, &s, &soup, &compact, &best_builds);
-    print_build(l, soup, &best_builds, r);
-    r->compact_bytes = (double)tl_soup_size(compact) / tl_soup_get_stats(compact).triangle_count;
+    build_level(device, l, &s, r);
     query *queries = malloc(ray_count * sizeof *queries);
     double best[SYSTEMS];
     answer a[SYSTEMS];
     for (uint32_t kind = 0; kind < KINDS; kind++) {
-        make_queries(queries, ray_count, kind, tl_soup_bounds(soup));
+        make_queries(queries, ray_count, kind, tl_soup_bounds(s.soup));
         time_systems(&s, queries, ray_count, kind, repetitions, best, a);
         char chart[64];
         snprintf(chart, sizeof chart, "%s, Mray/s", kind_names[kind]);
@@ -391,7 +336,7 @@ static void run_level(RTCDevice device, const bench_level *l, uint32_t repetitio
                (int)(a[FAST].hits - a[TALUS].hits), (int)(a[ROBUST].hits - a[TALUS].hits));
     }
     // Straight up, from above the level.
-    tl_aabb bounds = tl_soup_bounds(soup);
+    tl_aabb bounds = tl_soup_bounds(s.soup);
     for (uint32_t i = 0; i < ray_count; i++) {
         query q = { bench_point_in(&random_state, bounds),
                     tl_vec3_make(0.1f * bench_unit(&random_state), 1, 0.1f * bench_unit(&random_state)), INFINITY };
@@ -410,8 +355,8 @@ static void run_level(RTCDevice device, const bench_level *l, uint32_t repetitio
     rtcReleaseScene(s.embree[FAST]);
     rtcReleaseScene(s.embree[QUADS]);
     rtcReleaseScene(s.embree[ROBUST]);
-    tl_blob_free(soup, NULL);
-    tl_blob_free(compact, NULL);
+    tl_blob_free(s.soup, NULL);
+    tl_blob_free(s.compact, NULL);
 }
 
 // ----------------------------------------------------------------------------------------------------- claims
@@ -461,7 +406,7 @@ static void claim_rates(bench_report *report, const result *results, uint32_t co
 
 static void claim_others(bench_report *report, const result *results, uint32_t count)
 {
-    double worst = 1e30, miss = 0, bytes = 0, compact = 0, build = 0, quality = 0;
+    double worst = 1e30, miss = 0, bytes = 0, compact = 0;
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t kind = 0; kind < KINDS; kind++) {
             double ratio = results[i].rate[kind][TALUS] / fast_rate(&results[i], kind);
@@ -470,15 +415,11 @@ static void claim_others(bench_report *report, const result *results, uint32_t c
         miss += log(results[i].miss_ns[TALUS]);
         bytes = results[i].bytes > bytes ? results[i].bytes : bytes;
         compact = results[i].compact_bytes > compact ? results[i].compact_bytes : compact;
-        build += log(results[i].build_share);
-        quality += log(results[i].quality_build_share);
     }
     bench_report_at_least(report, "worst level and kind: talus to the better of Embree fast", worst, 0.95);
     bench_report_at_most(report, "a call that misses the root, ns", exp(miss / count), 14);
     bench_report_at_most(report, "most bytes a triangle", bytes, 40);
     bench_report_at_most(report, "most bytes a triangle, compact", compact, 20);
-    bench_report_at_most(report, "build time to Embree medium", exp(build / count), 1);
-    bench_report_at_most(report, "build time with spatial splits to Embree high", exp(quality / count), 1);
 }
 
 int main(int argc, char **argv)
