@@ -67,9 +67,9 @@ static walk check_tree(const model *m, tl_soup_partition partition, float split_
     TEST_RESULT(tl_mesh_build(&view, &mesh_def, &mesh, NULL), TL_OK);
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    tl_pair *pairs = TL_PUSH(&arena, tl_pair, mesh.triangle_count);
+    tl_pair *pairs = NULL;
     uint32_t count;
-    TEST_RESULT(tl_pair_triangles(&mesh, true, &arena, pairs, &count), TL_OK);
+    TEST_RESULT(tl_pair_triangles(&mesh, true, NULL, &arena, &pairs, &count), TL_OK);
     tl_soup_def def = tl_default_soup_def();
     def.split_budget = split_budget;
     bool kd = partition == TL_SOUP_KD;
@@ -80,6 +80,11 @@ static walk check_tree(const model *m, tl_soup_partition partition, float split_
     for (uint32_t i = 0; i < count; i++) {
         TEST_CHECK(w.seen[i] >= 1 && (kd || split_budget > 0 || w.seen[i] == 1));
     }
+    uint32_t in_parts = 0;
+    for (uint32_t i = 0; i < tree.part_count; i++) {
+        in_parts += tree.parts[i].ref_count;
+    }
+    TEST_CHECK(in_parts == (kd ? 0 : tree.ref_count));
     TEST_CHECK(w.references == tree.ref_count && w.depth <= TL_SOUP_MAX_DEPTH);
     TEST_CHECK(kd || w.references <= (uint32_t)((float)count * (1 + split_budget)) + 1);
     w.cost /= (double)tl_aabb_half_area(tree.nodes[tree.root].box);
