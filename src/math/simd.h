@@ -30,13 +30,17 @@
 #include <immintrin.h>
 #endif
 
-/// A kernel's values must stay in registers over its parts.
+/// TL_ALWAYS_INLINE: a kernel's values must stay in registers over its parts. TL_KEEP_BRANCH behind an assignment to
+/// `value`: the branch that leads there stays one. Compilers like to make a conditional move of it, which waits for the
+/// condition where a branch is foretold.
 #if defined(__GNUC__)
-#define TL_ALWAYS_INLINE inline __attribute__((always_inline))
-#define TL_NOINLINE      __attribute__((noinline))
+#define TL_ALWAYS_INLINE      inline __attribute__((always_inline))
+#define TL_NOINLINE           __attribute__((noinline))
+#define TL_KEEP_BRANCH(value) __asm__ volatile("" : "+r"(value))
 #else
 #define TL_ALWAYS_INLINE inline
 #define TL_NOINLINE
+#define TL_KEEP_BRANCH(value) ((void)(value))
 #endif
 
 // ----------------------------------------------------------------------------------------------- four floats

@@ -161,19 +161,19 @@ static inline uint32_t push_sorted(const uint32_t *t_bits, const uint32_t *child
 }
 
 // The same, without branches for two and three children, which are most visits; `mask` is not empty. Any hit will do:
-// sorting costs more than it saves, and the lowest lane is as good as another.
+// sorting costs more than it saves, the lowest lane is as good as another, and one child is no case of its own.
 static TL_ALWAYS_INLINE uint32_t push_children(const walk_ray *ray, const uint32_t *t_bits, const uint32_t *children,
                                                uint32_t mask, bool any, walk_entry *stack, uint32_t *stack_count)
 {
     uint32_t rest = mask & (mask - 1);
     uint32_t first = tl_lowest_bit(mask);
-    if (rest == 0) {
-        return children[first];
-    }
     walk_entry *top = stack + *stack_count;
     if (any) {
         tl_u32x16_compress_pairs(top, rest, t_bits, children);
         *stack_count += tl_bit_count(rest);
+        return children[first];
+    }
+    if (rest == 0) {
         return children[first];
     }
     walk_entry a = make_entry(t_bits, children, first);
@@ -309,6 +309,8 @@ typedef struct walk_lanes {
     float low[8], high[8];
 } walk_lanes;
 
+enum { NO_LANE = 8 };
+
 // Takes or decides lanes one by one.
 static TL_NOINLINE walk_best settle_each(tl_ray_job *job, const walk_lanes *lanes, uint32_t child, walk_best best)
 {
@@ -342,6 +344,23 @@ static TL_ALWAYS_INLINE tl_f32x8 farthest_across(const leaf_lanes *v)
     tl_f32x8 c = tl_f32x8_max_bits(tl_f32x8_abs(v->cx), tl_f32x8_abs(v->cy));
     tl_f32x8 e = tl_f32x8_max_bits(tl_f32x8_abs(v->ex), tl_f32x8_abs(v->ey));
     return tl_f32x8_max_bits(tl_f32x8_max_bits(a, c), e);
+}
+
+// The lane of `better` whose interval ends first, or NO_LANE; `maybe` holds all of them, and was known long before. By
+// branches, which the processor foretells: what is done with the lane then begins before the division above has told
+// which it is.
+static TL_ALWAYS_INLINE uint32_t nearest_lane(const walk_lanes *lanes, uint32_t maybe, uint32_t better)
+{
+    uint32_t nearest = NO_LANE;
+    do {
+        uint32_t bit = tl_lowest_bit(maybe);
+        if ((better >> bit & 1u) != 0 && (nearest == NO_LANE || lanes->high[bit] < lanes->high[nearest])) {
+            nearest = bit;
+            TL_KEEP_BRANCH(nearest);
+        }
+        maybe &= maybe - 1;
+    } while (maybe != 0);
+    return nearest;
 }
 
 // Settles the lanes of a leaf that may be hit. True: any hit will do, and there is one.
@@ -381,12 +400,14 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, 
     walk_lanes lanes;
     tl_f32x8_store(lanes.low, low);
     tl_f32x8_store(lanes.high, high);
-    if (better == maybe && (maybe & (maybe - 1)) == 0) {
-        best->bit = tl_lowest_bit(maybe);
-        best->child = child;
-        best->ahead = lanes.low[best->bit];
-        best->limit = lanes.high[best->bit];
-        return false;
+    uint32_t nearest = nearest_lane(&lanes, v->maybe, better);
+    if (nearest != NO_LANE) {
+        uint32_t behind = clear & tl_f32x8_less(tl_f32x8_all(lanes.high[nearest]), low);
+        if ((maybe & ~behind & ~(1u << nearest)) == 0) {
+            walk_best waiting = { lanes.high[nearest], lanes.low[nearest], child, nearest };
+            *best = waiting;
+            return false;
+        }
     }
     lanes.maybe = maybe;
     lanes.sure = sure;
