@@ -16,6 +16,7 @@
 #include "soup/tree_cut.h"
 
 #include "base/host.h"
+#include "soup/tree_order.h"
 
 #include <float.h>
 #include <string.h>
@@ -198,7 +199,7 @@ tl_result tl_tree_cut_plan(const tl_tree *tree, const tl_host *host, tl_arena *a
     cut_out->tree = tree;
     cut_out->plans = p.plans;
     cut_out->inner_count = sum.inner_count;
-    return TL_OK;
+    return tl_tree_order_plan(tree, arena, &cut_out->chance);
 }
 
 // Appends up to `room` children from a subtree.
@@ -228,5 +229,6 @@ uint32_t tl_tree_cut_children(const tl_tree_cut *cut, uint32_t root, uint32_t ch
     const tl_tree_plan *plan = &cut->plans[node->first];
     collect(cut, node->left, plan->left[0], children, &count);
     collect(cut, node->right, plan->right[0], children, &count);
+    tl_tree_order_children(cut->chance, children, count);
     return count;
 }
