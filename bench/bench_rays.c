@@ -4,13 +4,16 @@
 // ones. Each repetition runs every system on the same rays in turn, twice, and the best second runs count: the best of
 // each slice of rays, so that a slice during which the machine did something else is made up for by another repetition.
 // Each repetition begins with the next system, and every other one goes through them backwards, so that none always has
-// the same place or the same neighbour.
+// the same place or the same neighbour. Embree asks the system to back its data with huge pages, so a large soup is
+// put into such pages too, as a host may do; they are asked for, not promised.
 // Rows are million rays a second; claims are ratios, as geometric means over levels, to Embree robust and to the better
 // of Embree's fast triangles and quads, all built at quality HIGH.
 //
 //   bench_rays [--json FILE] [repetitions [rays [only]]]
 //
 // `only` is a part of a level's name. Pin it to a core (taskset -c 1) and keep the machine quiet.
+
+#define _DEFAULT_SOURCE // madvise
 
 #include "report.h"
 #include "soup/ray.h"
@@ -21,6 +24,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 
 enum { KINDS = 5, SLICE_RAYS = 500, MAX_SLICES = 4096 };
 enum { TALUS, TALUS_AVX2, TALUS_AVX512, COMPACT, FAST, QUADS, ROBUST, SYSTEMS };
@@ -292,10 +296,25 @@ static tl_soup *build_soup(const tl_mesh_view *view, tl_soup_layout layout, floa
     return soup;
 }
 
+// A copy in memory that malloc's free takes back; large ones in huge pages, where the system has them to give.
+static tl_soup *lay_out(tl_soup *soup)
+{
+    enum { HUGE_PAGE = 2 << 20 };
+    size_t size = (size_t)tl_soup_size(soup), room = (size + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
+    if (size < HUGE_PAGE) {
+        return soup;
+    }
+    tl_soup *copy = aligned_alloc(HUGE_PAGE, room);
+    (void)madvise(copy, room, MADV_HUGEPAGE);
+    memcpy(copy, soup, size);
+    tl_blob_free(soup, NULL);
+    return copy;
+}
+
 static void build_level(RTCDevice device, const bench_level *l, scenes *s, result *r)
 {
-    s->soup = build_soup(&l->view, TL_SOUP_FAST, 0.0f);
-    s->compact = build_soup(&l->view, TL_SOUP_COMPACT, 0.0f);
+    s->soup = lay_out(build_soup(&l->view, TL_SOUP_FAST, 0.0f));
+    s->compact = lay_out(build_soup(&l->view, TL_SOUP_COMPACT, 0.0f));
     tl_soup *split = build_soup(&l->view, TL_SOUP_FAST, 0.1f);
     embree_bytes = 0;
     s->embree[FAST] = make_scene(device, l, NULL, false, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
