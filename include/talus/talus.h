@@ -23,6 +23,7 @@
 #include <talus/nav_tile.h>
 #include <talus/pack.h>
 #include <talus/polygon.h>
+#include <talus/scene.h>
 #include <talus/soup.h>
 #include <talus/vec.h>
 

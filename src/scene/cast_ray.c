@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+//
+// Rays and lines of sight through a scene: each item that the walk meets is asked for itself, in its own space.
+//
+// A soup gets the best t so far as the ray's end, which cuts its own walk short and changes no answer: a hit's t does
+// not depend on where the ray ends, and ends count. A shape's t does, by a rounding, so shapes get the whole ray.
+
+#include "base/assert.h"
+#include "math/tolerance.h"
+#include "scene/scene_walk.h"
+
+#include <string.h>
+
+// Share of its ends' coordinates by which a segment may be elsewhere in an item's space.
+#define SIGHT_ERROR (4.0 * (double)TL_FLOAT_ROUNDING)
+
+typedef struct search {
+    const tl_scene_item *items;
+    const tl_scene_record *records;
+    const tl_scene_filter *filter;
+    const tl_ray_filter *triangles;
+    tl_ray ray;
+    tl_vec3 to;        // of a line of sight: from ray.origin to it
+    float tmax;        // of the best
+    tl_scene_hit *hit; // NULL: any will do
+    uint32_t item;     // TL_NO_ITEM: none yet
+} search;
+
+static void begin(search *s, const tl_scene *scene, const tl_scene_item *items, const tl_scene_filter *filter)
+{
+    memset(s, 0, sizeof *s);
+    s->items = items;
+    s->records = tl_scene_records(scene);
+    s->filter = filter;
+    s->triangles = filter != NULL ? filter->triangles : NULL;
+    s->item = TL_NO_ITEM;
+}
+
+static uint32_t mask_of(const tl_scene_filter *filter)
+{
+    return filter != NULL ? filter->mask : UINT32_MAX;
+}
+
+static bool cast_at_soup(const search *s, uint32_t item, tl_scene_hit *hit)
+{
+    const tl_scene_record *record = &s->records[item];
+    tl_ray ray = { tl_scene_point_to_item(record, s->ray.origin), tl_scene_direction_to_item(record, s->ray.direction),
+                   s->tmax };
+    if (s->hit == NULL) {
+        return tl_soup_occluded(s->items[item].soup, &ray, s->triangles);
+    }
+    if (!tl_soup_cast_ray(s->items[item].soup, &ray, s->triangles, &hit->hit)) {
+        return false;
+    }
+    hit->inside = false;
+    hit->status = TL_CONVEX_CONVERGED;
+    return true;
+}
+
+static bool cast_at_shape(const search *s, uint32_t item, tl_scene_hit *hit)
+{
+    tl_convex_hit found;
+    if (!tl_convex_cast_ray(s->items[item].shape, s->records[item].pose, s->ray.origin, s->ray.direction, s->ray.tmax,
+                            &found)) {
+        return false;
+    }
+    memset(hit, 0, sizeof *hit);
+    hit->hit.t = found.t;
+    hit->hit.triangle = TL_NO_TRIANGLE;
+    hit->hit.normal = found.normal;
+    hit->inside = found.initial_overlap;
+    hit->status = found.status;
+    return true;
+}
+
+static bool visit_by_ray(tl_scene_line *line, uint32_t item)
+{
+    search *s = line->user;
+    if (!tl_scene_accepts(s->filter, item)) {
+        return true;
+    }
+    tl_scene_hit hit;
+    bool is_soup = s->items[item].soup != NULL;
+    bool met = is_soup ? cast_at_soup(s, item, &hit) : s->items[item].shape != NULL && cast_at_shape(s, item, &hit);
+    if (!met) {
+        return true;
+    }
+    if (s->hit == NULL) {
+        s->item = item;
+        return false;
+    }
+    if (hit.hit.t < s->tmax || (hit.hit.t == s->tmax && item < s->item)) {
+        hit.item = item;
+        *s->hit = hit;
+        s->tmax = hit.hit.t;
+        s->item = item;
+        tl_scene_line_shorten(line, (double)hit.hit.t);
+    }
+    return true;
+}
+
+static bool is_castable(const tl_ray *ray)
+{
+    tl_vec3 d = ray->direction;
+    return tl_is_finite(ray->origin) && tl_is_finite(d) && (d.x != 0.0f || d.y != 0.0f || d.z != 0.0f) &&
+           ray->tmax >= 0.0f;
+}
+
+bool tl_scene_cast_ray_with(tl_scene_walk_fn *walk, const tl_scene *scene, const tl_scene_item *items,
+                            const tl_ray *ray, const tl_scene_filter *filter, tl_scene_hit *hit_out)
+{
+    TL_ASSERT(scene != NULL && ray != NULL && (items != NULL || scene->item_count == 0));
+    if (!is_castable(ray)) {
+        return false;
+    }
+    search s;
+    begin(&s, scene, items, filter);
+    s.ray = *ray;
+    s.tmax = ray->tmax;
+    tl_scene_hit hit;
+    s.hit = hit_out != NULL ? &hit : NULL;
+    tl_scene_line line = { .visit = visit_by_ray, .user = &s, .any = hit_out == NULL };
+    tl_scene_line_make(&line, scene, mask_of(filter), ray->origin, ray->direction, tl_vec3d_make(0.0, 0.0, 0.0),
+                       (double)ray->tmax);
+    line.walk = walk != NULL ? walk : line.walk;
+    tl_scene_line_walk(&line);
+    if (s.item == TL_NO_ITEM) {
+        return false;
+    }
+    if (hit_out != NULL) {
+        hit.hit.normal = hit.hit.triangle != TL_NO_TRIANGLE
+                             ? tl_scene_direction_to_world(&s.records[s.item], hit.hit.normal)
+                             : hit.hit.normal;
+        *hit_out = hit;
+    }
+    return true;
+}
+
+bool tl_scene_cast_ray(const tl_scene *scene, const tl_scene_item *items, const tl_ray *ray,
+                       const tl_scene_filter *filter, tl_scene_hit *hit_out)
+{
+    TL_ASSERT(hit_out != NULL);
+    return tl_scene_cast_ray_with(NULL, scene, items, ray, filter, hit_out);
+}
+
+bool tl_scene_occluded(const tl_scene *scene, const tl_scene_item *items, const tl_ray *ray,
+                       const tl_scene_filter *filter)
+{
+    return tl_scene_cast_ray_with(NULL, scene, items, ray, filter, NULL);
+}
+
+// An order of two points that does not know which one looks.
+static bool is_before(tl_vec3 a, tl_vec3 b)
+{
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+// A shape stops the view where the segment touches it.
+static bool hides(const search *s, uint32_t item)
+{
+    const tl_scene_record *record = &s->records[item];
+    const tl_scene_item *it = &s->items[item];
+    if (it->soup != NULL) {
+        return !tl_soup_line_of_sight(it->soup, tl_scene_point_to_item(record, s->ray.origin),
+                                      tl_scene_point_to_item(record, s->to), s->triangles);
+    }
+    if (it->shape == NULL) {
+        return false;
+    }
+    bool turned = is_before(s->to, s->ray.origin);
+    tl_convex segment = tl_convex_capsule(turned ? s->to : s->ray.origin, turned ? s->ray.origin : s->to, 0.0f);
+    return tl_convex_overlap(it->shape, record->pose, &segment, tl_transform_identity(), NULL);
+}
+
+static bool visit_by_sight(tl_scene_line *line, uint32_t item)
+{
+    search *s = line->user;
+    if (tl_scene_accepts(s->filter, item) && hides(s, item)) {
+        s->item = item;
+        return false;
+    }
+    return true;
+}
+
+bool tl_scene_line_of_sight(const tl_scene *scene, const tl_scene_item *items, tl_vec3 a, tl_vec3 b,
+                            const tl_scene_filter *filter)
+{
+    TL_ASSERT(scene != NULL && (items != NULL || scene->item_count == 0));
+    if (!tl_is_finite(a) || !tl_is_finite(b)) {
+        return false;
+    }
+    search s;
+    begin(&s, scene, items, filter);
+    s.ray.origin = a;
+    s.to = b;
+    tl_scene_line line = { .visit = visit_by_sight, .user = &s, .any = true };
+    // Both ends move by roundings of their own, and the difference rounds.
+    double wide = SIGHT_ERROR * (tl_vec3d_size(tl_vec3d_from(a)) + tl_vec3d_size(tl_vec3d_from(b)));
+    tl_scene_line_make(&line, scene, mask_of(filter), a, tl_sub(b, a), tl_vec3d_make(wide, wide, wide), 1.0);
+    tl_scene_line_walk(&line);
+    return s.item == TL_NO_ITEM;
+}

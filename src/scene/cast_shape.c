@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+//
+// A moving shape through a scene: each item that its box may meet is asked for itself.
+//
+// What counts as touching is a share of coordinates, since these are what was rounded; and where the shape stands is
+// written in the world's coordinates. A prop's own coordinates are small, and so is what its soup takes for touching: a
+// character that stands on it, a kilometre from the origin, would be caught. So a start that is no deeper in an item
+// than what the world's coordinates explain is moved out, by that depth, and the way begins there.
+
+#include "base/assert.h"
+#include "math/tolerance.h"
+#include "scene/moved_shape.h"
+
+#include <string.h>
+
+// As of soups: a position and a corner round by half an ulp each, along three axes.
+#define TOUCH_SHARE (4.0 * (double)TL_FLOAT_ROUNDING)
+
+// A corner has three faces to be moved out of; each step out of one may lead a little into another.
+enum { MOST_STEPS_OUT = 4 };
+
+typedef struct search {
+    const tl_scene_item *items;
+    const tl_scene_record *records;
+    const tl_scene_filter *filter;
+    const tl_moved_shape *shape;
+    tl_vec3 motion;
+    tl_scene_shape_hit *hit;
+    uint32_t item; // TL_NO_ITEM: none yet
+} search;
+
+// The way of a shape, as an item sees it.
+typedef struct way {
+    tl_transform item; // of a shape
+    tl_transform pose;
+    tl_vec3 motion;
+    bool in_world;
+} way;
+
+static bool cast_at_soup(const search *s, uint32_t item, const way *w, tl_shape_hit *hit)
+{
+    const tl_ray_filter *triangles = s->filter != NULL ? s->filter->triangles : NULL;
+    return tl_soup_cast_shape(s->items[item].soup, s->shape->convex, w->pose, w->motion, triangles, hit) == TL_OK;
+}
+
+static bool cast_at_shape(const search *s, uint32_t item, const way *w, tl_shape_hit *hit)
+{
+    const tl_convex *other = s->items[item].shape;
+    tl_convex_hit met;
+    if (!tl_convex_cast(other, w->item, s->shape->convex, w->pose, w->motion, &met)) {
+        return false;
+    }
+    memset(hit, 0, sizeof *hit);
+    hit->t = met.t;
+    hit->triangle = TL_NO_TRIANGLE;
+    hit->point = met.point;
+    hit->normal = met.normal;
+    hit->status = met.status;
+    if (met.initial_overlap) {
+        tl_penetration in;
+        tl_convex_penetration(other, w->item, s->shape->convex, w->pose, NULL, &in);
+        hit->initial_overlap = true;
+        hit->depth = in.depth;
+        hit->point = in.point_a;
+        hit->normal = in.normal;
+        hit->status = in.status;
+    }
+    hit->face_normal = hit->normal;
+    return true;
+}
+
+static way in_space_of(const search *s, uint32_t item)
+{
+    const tl_scene_record *record = &s->records[item];
+    way w = { tl_transform_identity(), tl_scene_pose_to_item(record, s->shape->pose),
+              tl_scene_direction_to_item(record, s->motion), false };
+    return w;
+}
+
+// Moves the start out of what it stands on.
+static void step_out(way *w, const tl_shape_hit *hit)
+{
+    tl_vec3d at = tl_vec3d_from(w->pose.position);
+    double by = (double)hit->depth + 2.0 * (double)TL_FLOAT_ROUNDING * tl_vec3d_size(at);
+    w->pose.position = tl_vec3d_to_float(tl_vec3d_mul_add(at, tl_vec3d_from(hit->normal), by));
+}
+
+static bool cast_at_item(const search *s, uint32_t item, tl_shape_hit *hit)
+{
+    const tl_scene_record *record = &s->records[item];
+    const tl_scene_item *it = &s->items[item];
+    if (it->soup == NULL && it->shape == NULL) {
+        return false;
+    }
+    way w = { record->pose, s->shape->pose, s->motion, true };
+    if (it->soup != NULL) {
+        w = in_space_of(s, item);
+    }
+    double touch = TOUCH_SHARE * s->shape->reach;
+    for (uint32_t step = 0;; step++) {
+        bool met = it->soup != NULL ? cast_at_soup(s, item, &w, hit) : cast_at_shape(s, item, &w, hit);
+        if (!met) {
+            return false;
+        }
+        bool stands_on = hit->initial_overlap && (double)hit->depth <= touch;
+        if (!stands_on || step == MOST_STEPS_OUT || (it->soup != NULL && tl_scene_is_at_home(record))) {
+            break;
+        }
+        if (w.in_world) {
+            // The world's coordinates may be too coarse for so small a step.
+            w = in_space_of(s, item);
+            continue;
+        }
+        touch -= (double)hit->depth;
+        step_out(&w, hit);
+    }
+    if (!w.in_world) {
+        hit->point = tl_scene_point_to_world(record, hit->point);
+        hit->normal = tl_scene_direction_to_world(record, hit->normal);
+        hit->face_normal = tl_scene_direction_to_world(record, hit->face_normal);
+    }
+    return true;
+}
+
+// Earlier wins; of overlaps the deeper one; then the lower item.
+static bool is_better(const search *s, const tl_shape_hit *hit, uint32_t item)
+{
+    const tl_shape_hit *best = &s->hit->hit;
+    if (s->item == TL_NO_ITEM || hit->t != best->t) {
+        return s->item == TL_NO_ITEM || hit->t < best->t;
+    }
+    if (hit->initial_overlap != best->initial_overlap) {
+        return hit->initial_overlap;
+    }
+    return hit->depth != best->depth ? hit->depth > best->depth : item < s->item;
+}
+
+static bool visit(tl_scene_line *line, uint32_t item)
+{
+    search *s = line->user;
+    tl_shape_hit hit;
+    if (tl_scene_accepts(s->filter, item) && cast_at_item(s, item, &hit) && is_better(s, &hit, item)) {
+        s->hit->hit = hit;
+        s->item = item;
+        tl_scene_line_shorten(line, (double)hit.t);
+    }
+    return true;
+}
+
+tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_item *items, const tl_convex *shape,
+                              tl_transform pose, tl_vec3 motion, const tl_scene_filter *filter,
+                              tl_scene_shape_hit *hit_out)
+{
+    TL_ASSERT(scene != NULL && shape != NULL && hit_out != NULL && (items != NULL || scene->item_count == 0));
+    tl_moved_shape moved;
+    TL_TRY(tl_moved_shape_make(shape, pose, motion, &moved));
+    tl_scene_shape_hit hit;
+    search s = { items, tl_scene_records(scene), filter, &moved, motion, &hit, TL_NO_ITEM };
+    tl_scene_line line = { .visit = visit, .user = &s };
+    tl_scene_line_make(&line, scene, filter != NULL ? filter->mask : UINT32_MAX, moved.middle, motion, moved.half, 1.0);
+    tl_scene_line_walk(&line);
+    if (s.item == TL_NO_ITEM) {
+        return TL_ERR_NOT_FOUND;
+    }
+    hit.item = s.item;
+    *hit_out = hit;
+    return TL_OK;
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+//
+// Shapes in items' spaces: the box that is walked through the tree, and poses.
+//
+// In an item's space the shape's position is off as a ray's origin is, its motion as a direction, and its rotation by
+// four roundings: each of its points by 4 u of its distance from the shape's own origin, at most 4 u (|middle| + |half|
+// + |position|). What a cast may stop early, 16 u (|half|), is on top. So the box is widened by 32 u of all of these,
+// and half extents are rounded with them.
+
+#include "scene/moved_shape.h"
+
+#include "math/tolerance.h"
+#include "scene/item_box.h"
+
+#include <float.h>
+
+static double farther(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+tl_result tl_moved_shape_make(const tl_convex *convex, tl_transform pose, tl_vec3 motion, tl_moved_shape *shape_out)
+{
+    tl_quat q = pose.rotation;
+    if (!tl_is_finite(motion) || !tl_is_finite(pose.position) || !isfinite(q.x) || !isfinite(q.y) || !isfinite(q.z) ||
+        !isfinite(q.w)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (!(convex->radius >= 0.0f)) {
+        return TL_ERR_ARGUMENT;
+    }
+    tl_aabb bounds = tl_convex_bounds(convex, pose);
+    if (!tl_is_finite(bounds.min) || !tl_is_finite(bounds.max)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    shape_out->convex = convex;
+    shape_out->pose = pose;
+    shape_out->bounds = bounds;
+    tl_vec3d low = tl_vec3d_from(bounds.min), high = tl_vec3d_from(bounds.max), step = tl_vec3d_from(motion);
+    shape_out->middle = tl_vec3d_to_float(tl_vec3d_scale(tl_vec3d_add(low, high), 0.5));
+    tl_vec3d half = tl_vec3d_scale(tl_vec3d_sub(high, low), 0.5);
+    double size = tl_scene_size(shape_out->middle) + tl_vec3d_size(half) + tl_scene_size(pose.position);
+    double wider = (double)TL_SCENE_WIDEN * (size + tl_vec3d_size(step)) + (double)FLT_MIN;
+    shape_out->half = tl_vec3d_add(half, tl_vec3d_make(wider, wider, wider));
+    double x = farther(fabs(low.x), fabs(high.x)) + fabs(step.x);
+    double y = farther(fabs(low.y), fabs(high.y)) + fabs(step.y);
+    double z = farther(fabs(low.z), fabs(high.z)) + fabs(step.z);
+    shape_out->reach = farther(x, farther(y, z));
+    return TL_OK;
+}
+
+tl_transform tl_scene_pose_to_item(const tl_scene_record *record, tl_transform pose)
+{
+    tl_transform seen = { pose.rotation, tl_scene_point_to_item(record, pose.position) };
+    if (tl_scene_is_turned(record)) {
+        tl_quatd q = tl_quatd_between(tl_quatd_from(record->pose.rotation), tl_quatd_from(pose.rotation));
+        double scale = 1.0 / sqrt(q.length_sq);
+        tl_quat rotation = { (float)(q.x * scale), (float)(q.y * scale), (float)(q.z * scale), (float)(q.w * scale) };
+        seen.rotation = rotation;
+    }
+    return seen;
+}

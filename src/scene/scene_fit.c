@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+//
+// Fitting the tree to items that moved: records and boxes of those that did, then all inner boxes from the last node
+// to the first, since children lie behind their parents.
+//
+// An item that stands as it stood, by the bits of its pose and of its own box, keeps its record: most things in a game
+// stand still in most frames.
+//
+// The cost is the surface area heuristic's: a random ray through a box enters one inside of it with the probability of
+// their surfaces' ratio. Source: Goldsmith, Salmon, Automatic Creation of Object Hierarchies for Ray Tracing, 1987.
+
+#include "scene/scene_fit.h"
+
+#include "base/assert.h"
+#include "base/host.h"
+#include "scene/item_box.h"
+
+#include <string.h>
+
+static tl_scene_node *nodes_of(tl_scene *scene)
+{
+    return (tl_scene_node *)(void *)((char *)scene + scene->nodes);
+}
+
+void tl_scene_set_lane(tl_scene *scene, uint32_t lane, tl_aabb box, uint32_t mask)
+{
+    tl_scene_node *node = &nodes_of(scene)[lane / TL_SCENE_WIDTH];
+    uint32_t i = lane % TL_SCENE_WIDTH;
+    node->plane[0][i] = box.min.x;
+    node->plane[1][i] = box.max.x;
+    node->plane[2][i] = box.min.y;
+    node->plane[3][i] = box.max.y;
+    node->plane[4][i] = box.min.z;
+    node->plane[5][i] = box.max.z;
+    node->mask[i] = mask;
+}
+
+static float least(const float *eight)
+{
+    float a = tl_minf(tl_minf(eight[0], eight[1]), tl_minf(eight[2], eight[3]));
+    return tl_minf(a, tl_minf(tl_minf(eight[4], eight[5]), tl_minf(eight[6], eight[7])));
+}
+
+static float largest(const float *eight)
+{
+    float a = tl_maxf(tl_maxf(eight[0], eight[1]), tl_maxf(eight[2], eight[3]));
+    return tl_maxf(a, tl_maxf(tl_maxf(eight[4], eight[5]), tl_maxf(eight[6], eight[7])));
+}
+
+// Around all children.
+static tl_aabb box_of(const tl_scene_node *node, uint32_t *mask_out)
+{
+    tl_aabb box = { { least(node->plane[0]), least(node->plane[2]), least(node->plane[4]) },
+                    { largest(node->plane[1]), largest(node->plane[3]), largest(node->plane[5]) } };
+    *mask_out = 0;
+    for (uint32_t i = 0; i < TL_SCENE_WIDTH; i++) {
+        *mask_out |= node->mask[i];
+    }
+    return box;
+}
+
+// In double: boxes may be 1e12 m wide. Of an empty box 0.
+static double half_area(tl_aabb box)
+{
+    if (tl_aabb_is_empty(box)) {
+        return 0.0;
+    }
+    tl_vec3d size = tl_vec3d_sub(tl_vec3d_from(box.max), tl_vec3d_from(box.min));
+    return size.x * size.y + size.y * size.z + size.z * size.x;
+}
+
+void tl_scene_fit_nodes(tl_scene *scene)
+{
+    tl_scene_node *nodes = nodes_of(scene);
+    double below = 0.0;
+    for (uint32_t n = scene->node_count; n-- > 0;) {
+        for (uint32_t i = 0; i < TL_SCENE_WIDTH; i++) {
+            uint32_t child = nodes[n].child[i], mask;
+            if (child != 0 && (child & TL_CHILD_ITEM) == 0) {
+                tl_aabb box = box_of(&nodes[child], &mask);
+                tl_scene_set_lane(scene, n * TL_SCENE_WIDTH + i, box, mask);
+                below += half_area(box);
+            }
+        }
+    }
+    uint32_t all;
+    scene->bounds = box_of(&nodes[0], &all);
+    double whole = half_area(scene->bounds);
+    scene->cost = 1.0 + (whole > 0.0 ? below / whole : 0.0);
+}
+
+tl_result tl_scene_refuse_item(tl_report *report, tl_result result, uint32_t item)
+{
+    const char *advice = result == TL_ERR_NOT_FINITE   ? "make its pose and its shape's corners finite"
+                         : result == TL_ERR_DEGENERATE ? "give it a rotation; the identity is (0, 0, 0, 1)"
+                         : result == TL_ERR_RANGE      ? "keep its position and box within TL_MAX_COORDINATE"
+                                                       : "give it a soup or a shape, with a radius of at least 0";
+    return tl_report_fail(report, result, "item", item, advice);
+}
+
+static bool is_same(const tl_scene_record *record, const tl_transform *pose, const tl_aabb *local)
+{
+    return memcmp(&record->pose, pose, sizeof *pose) == 0 && memcmp(&record->local, local, sizeof *local) == 0;
+}
+
+tl_result tl_scene_refit(tl_scene *scene, const tl_scene_item *items, uint32_t count, float *growth_out,
+                         tl_report *report_out)
+{
+    TL_ASSERT(scene != NULL && (items != NULL || count == 0));
+    tl_report_begin(report_out, "refit scene");
+    if (count != scene->item_count) {
+        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "item", TL_NO_ELEMENT,
+                              "build the scene anew for another number of items");
+    }
+    tl_aabb local;
+    for (uint32_t i = 0; i < count; i++) {
+        tl_result result = tl_scene_read_item(&items[i], &local);
+        if (result != TL_OK) {
+            return tl_scene_refuse_item(report_out, result, i);
+        }
+    }
+    tl_scene_record *records = (tl_scene_record *)(void *)((char *)scene + scene->records);
+    for (uint32_t i = 0; i < count; i++) {
+        (void)tl_scene_read_item(&items[i], &local);
+        tl_scene_record *record = &records[i];
+        if (is_same(record, &items[i].pose, &local)) {
+            nodes_of(scene)[record->lane / TL_SCENE_WIDTH].mask[record->lane % TL_SCENE_WIDTH] = items[i].mask;
+            continue;
+        }
+        tl_scene_place_item(record, items[i].pose, local);
+        tl_scene_set_lane(scene, record->lane, tl_scene_world_box(record), items[i].mask);
+    }
+    tl_scene_fit_nodes(scene);
+    if (growth_out != NULL) {
+        *growth_out = (float)(scene->cost / scene->built_cost);
+    }
+    return TL_OK;
+}
+
+tl_aabb tl_scene_bounds(const tl_scene *scene)
+{
+    TL_ASSERT(scene != NULL);
+    return scene->bounds;
+}
+
+tl_scene_stats tl_scene_get_stats(const tl_scene *scene)
+{
+    TL_ASSERT(scene != NULL);
+    tl_scene_stats stats = { scene->blob.size, scene->item_count, scene->node_count, scene->depth, scene->cost };
+    return stats;
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+//
+// Fitting a scene's boxes to its items.
+
+#ifndef TALUS_SRC_SCENE_SCENE_FIT_H
+#define TALUS_SRC_SCENE_SCENE_FIT_H
+
+#include "scene/scene_layout.h"
+
+/// Puts an item's box and mask into its lane.
+void tl_scene_set_lane(tl_scene *scene, uint32_t lane, tl_aabb box, uint32_t mask);
+
+/// Fits the inner boxes to the items', and measures the scene. O(nodes).
+void tl_scene_fit_nodes(tl_scene *scene);
+
+/// Reports an item that tl_scene_read_item refused.
+tl_result tl_scene_refuse_item(tl_report *report, tl_result result, uint32_t item);
+
+#endif

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+//
+// What is computed once a line, and the choice of the walk: by a look at the processor's features, as in the soup's ray
+// query, so that there is no state.
+
+#include "scene/scene_walk.h"
+
+#include "base/assert.h"
+#include "math/tolerance.h"
+
+#include <float.h>
+
+#define LINE_ERROR (12.0 * (double)TL_FLOAT_ROUNDING * 1.001)
+
+// Products of what is farther away could overflow.
+#define FARTHEST 1e15
+
+// Shorter directions are denormal in an item's space, where a rounding is no share of them any more.
+#define SHORTEST        1e-30
+
+#define LARGEST_INVERSE 1180591620717411303424.0 // 2^70
+
+// A limit in double, times a scale, to float: a rounding each.
+#define LIMIT_ERROR (1.0 + 4.0 * (double)TL_FLOAT_ROUNDING)
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+tl_scene_walk_fn *tl_scene_walk_for(int level)
+{
+    switch (level) {
+    case 0:
+        return tl_scene_walk_scalar;
+    case 1:
+        return __builtin_cpu_supports("sse4.2") ? tl_scene_walk_sse42 : NULL;
+    case 2:
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi")
+                   ? tl_scene_walk_avx2
+                   : NULL;
+    default:
+        return NULL;
+    }
+}
+
+#else
+
+tl_scene_walk_fn *tl_scene_walk_for(int level)
+{
+    return level == 0 ? tl_scene_walk_scalar : NULL;
+}
+
+#endif
+
+// From a point to the farther of two planes.
+static double reach(float min, float max, double at)
+{
+    double below = fabs((double)min - at), above = fabs((double)max - at);
+    return below > above ? below : above;
+}
+
+void tl_scene_line_make(tl_scene_line *line, const tl_scene *scene, uint32_t mask, tl_vec3 from, tl_vec3 direction,
+                        tl_vec3d half, double limit)
+{
+    line->scene = scene;
+    line->mask = mask;
+    line->walk = NULL;
+    for (int level = 2; line->walk == NULL; level--) {
+        line->walk = tl_scene_walk_for(level);
+    }
+    const double at[3] = { (double)from.x, (double)from.y, (double)from.z };
+    const double along[3] = { (double)direction.x, (double)direction.y, (double)direction.z };
+    const double wide[3] = { half.x, half.y, half.z };
+    double largest = fmax(fmax(fabs(along[0]), fabs(along[1])), fabs(along[2]));
+    bool stands = largest == 0.0;
+    double size = fabs(at[0]) + fabs(at[1]) + fabs(at[2]);
+    // A difference of points may overflow, too.
+    line->every = size + tl_vec3d_size(half) > FARTHEST || (!stands && largest < SHORTEST) || isinf(largest);
+    line->per_t = stands ? 1.0 : largest;
+    tl_scene_line_shorten(line, limit);
+    if (line->every) {
+        return;
+    }
+    const tl_aabb *bounds = &scene->bounds;
+    double farthest = fmax(fmax(reach(bounds->min.x, bounds->max.x, at[0]), reach(bounds->min.y, bounds->max.y, at[1])),
+                           reach(bounds->min.z, bounds->max.z, at[2]));
+    double error = LINE_ERROR * (size + (tl_aabb_is_empty(*bounds) ? 0.0 : farthest)) + (double)FLT_MIN;
+    line->backward = 0;
+    for (uint32_t i = 0; i < 3; i++) {
+        double inverse = line->per_t / along[i];
+        inverse = fabs(inverse) <= LARGEST_INVERSE ? inverse : along[i] < 0.0 ? -LARGEST_INVERSE : LARGEST_INVERSE;
+        double pad = fabs(inverse) * (wide[i] + error);
+        line->scale[i] = (float)inverse;
+        line->near_base[i] = (float)(-at[i] * inverse - pad);
+        line->far_base[i] = (float)(-at[i] * inverse + pad);
+        line->backward |= (uint32_t)(inverse < 0.0) << i;
+    }
+}
+
+void tl_scene_line_shorten(tl_scene_line *line, double t)
+{
+    line->limit = (float)(t * line->per_t * LIMIT_ERROR + (double)FLT_MIN);
+}
+
+bool tl_scene_line_walk(tl_scene_line *line)
+{
+    if (!line->every) {
+        return line->walk(line);
+    }
+    for (uint32_t i = 0; i < line->scene->item_count; i++) {
+        const tl_scene_record *record = &tl_scene_records(line->scene)[i];
+        uint32_t mask = tl_scene_nodes(line->scene)[record->lane / TL_SCENE_WIDTH].mask[record->lane % TL_SCENE_WIDTH];
+        if ((mask & line->mask) != 0 && !line->visit(line, i)) {
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+//
+// The walk for SSE4.2: boxes by four.
+
+#if defined(__x86_64__)
+#define TL_SCENE_WALK tl_scene_walk_sse42
+#include "scene/scene_walk_kernel.h"
+#endif

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+//
+// Scenes for tests: soups and shapes at random poses, and the way of a question into an item's space.
+
+#ifndef TALUS_TEST_SCENE_MODELS_H
+#define TALUS_TEST_SCENE_MODELS_H
+
+#include "math/vec3d.h"
+#include "soup_models.h"
+
+#include <talus/scene.h>
+
+enum { SCENE_SOUPS = 5, SCENE_SHAPES = 7 };
+
+/// What items are made of.
+typedef struct scene_parts {
+    model models[SCENE_SOUPS];
+    tl_soup *soups[SCENE_SOUPS];
+    tl_hull *hulls[2];
+    tl_vec3 points[9];
+    tl_convex shapes[SCENE_SHAPES];
+} scene_parts;
+
+static inline tl_hull *scene_hull(uint32_t count, float size, uint64_t seed)
+{
+    test_random random = { seed };
+    tl_vec3 points[64];
+    for (uint32_t i = 0; i < count; i++) {
+        points[i] = tl_scale(test_random_direction(&random), size);
+    }
+    tl_hull *hull = NULL;
+    TEST_RESULT(tl_hull_build(points, count, NULL, &hull, NULL), TL_OK);
+    return hull;
+}
+
+/// Soups of about `size` metres; one lies far from its own origin, one is flat.
+static inline void scene_parts_make(scene_parts *parts, float size)
+{
+    memset(parts, 0, sizeof *parts);
+    parts->models[0] = model_ball(2, size, 0.1f, tl_vec3_make(0, 0, 0), 1);
+    parts->models[1] = model_random(60, size, 0.3f * size, 2);
+    parts->models[2] = model_ball(1, 0.3f * size, 0.0f, tl_vec3_make(40 * size, -7 * size, 3 * size), 3);
+    parts->models[3] = model_terrain(6, 1, tl_vec3_make(-3, 0, -3), 4);
+    model flat = { 0 };
+    model_vertex(&flat, -size, 0, -size);
+    model_vertex(&flat, size, 0, -size);
+    model_vertex(&flat, size, 0, size);
+    model_vertex(&flat, -size, 0, size);
+    model_triangle(&flat, 0, 2, 1);
+    model_triangle(&flat, 0, 3, 2);
+    parts->models[4] = flat;
+    for (uint32_t i = 0; i < SCENE_SOUPS; i++) {
+        tl_soup_def def = model_soup_def(i == 1 ? MODEL_COMPACT : MODEL_BOXES);
+        parts->soups[i] = model_soup(&parts->models[i], &def);
+    }
+    parts->hulls[0] = scene_hull(12, size, 5);
+    parts->hulls[1] = scene_hull(60, size, 6);
+    test_random random = { 7 };
+    for (uint32_t i = 0; i < 9; i++) {
+        parts->points[i] =
+            test_random_point(&random, tl_vec3_make(-size, -size, -size), tl_vec3_make(size, size, size));
+    }
+    tl_vec3 zero = tl_vec3_make(0, 0, 0), up = tl_vec3_make(0, size, 0);
+    parts->shapes[0] = tl_convex_from_hull(parts->hulls[0], 0);
+    parts->shapes[1] = tl_convex_from_hull(parts->hulls[1], 0.1f * size);
+    parts->shapes[2] = tl_convex_box(up, tl_vec3_make(size, 0.5f * size, 0.2f * size), 0);
+    parts->shapes[3] = tl_convex_sphere(up, size);
+    parts->shapes[4] = tl_convex_capsule(zero, up, 0.3f * size);
+    parts->shapes[5] = tl_convex_from_points(parts->points, 9, 0);
+    parts->shapes[6] = tl_convex_cylinder(zero, up, 0.5f * size, 0);
+}
+
+static inline void scene_parts_free(scene_parts *parts)
+{
+    for (uint32_t i = 0; i < SCENE_SOUPS; i++) {
+        tl_blob_free(parts->soups[i], NULL);
+        model_free(&parts->models[i]);
+    }
+    tl_blob_free(parts->hulls[0], NULL);
+    tl_blob_free(parts->hulls[1], NULL);
+}
+
+static inline tl_quat scene_rotation(test_random *random)
+{
+    tl_quat q = { test_random_range(random, -1, 1), test_random_range(random, -1, 1), test_random_range(random, -1, 1),
+                  test_random_range(random, -1, 1) };
+    return q; // of any length
+}
+
+/// A random item within `range` of `center`: a soup or a shape, turned, moved only, or nothing at all.
+static inline tl_scene_item scene_item(const scene_parts *parts, test_random *random, tl_vec3 center, float range)
+{
+    tl_scene_item item = { NULL, NULL, tl_transform_identity(), 1u << test_random_below(random, 4) };
+    uint32_t what = test_random_below(random, 20);
+    if (what < 12) {
+        item.soup = parts->soups[what % SCENE_SOUPS];
+    } else if (what < 19) {
+        item.shape = &parts->shapes[what - 12];
+    }
+    tl_vec3 wide = tl_vec3_make(range, range, range);
+    item.pose.position = test_random_point(random, tl_sub(center, wide), tl_add(center, wide));
+    if (test_random_below(random, 5) != 0) {
+        item.pose.rotation = scene_rotation(random);
+    }
+    return item;
+}
+
+static inline tl_scene *scene_build(const tl_scene_item *items, uint32_t count)
+{
+    tl_scene *scene = NULL;
+    TEST_RESULT(tl_scene_build(items, count, NULL, &scene, NULL), TL_OK);
+    return scene;
+}
+
+static inline bool scene_is_turned(const tl_scene_item *item)
+{
+    tl_quat q = item->pose.rotation;
+    return q.x != 0 || q.y != 0 || q.z != 0;
+}
+
+/// In the item's space, as scene.h says: in double, rounded once.
+static inline tl_vec3 scene_direction_in(const tl_scene_item *item, tl_vec3 v)
+{
+    tl_frame frame = tl_frame_from(item->pose);
+    return scene_is_turned(item) ? tl_vec3d_to_float(tl_frame_rotate_back(&frame, tl_vec3d_from(v))) : v;
+}
+
+static inline tl_vec3 scene_point_in(const tl_scene_item *item, tl_vec3 p)
+{
+    tl_frame frame = tl_frame_from(item->pose);
+    tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(p), frame.origin);
+    return tl_vec3d_to_float(scene_is_turned(item) ? tl_frame_rotate_back(&frame, v) : v);
+}
+
+/// And back.
+static inline tl_vec3 scene_direction_out(const tl_scene_item *item, tl_vec3 v)
+{
+    tl_frame frame = tl_frame_from(item->pose);
+    return scene_is_turned(item) ? tl_vec3d_to_float(tl_frame_rotate(&frame, tl_vec3d_from(v))) : v;
+}
+
+static inline tl_vec3 scene_point_out(const tl_scene_item *item, tl_vec3 p)
+{
+    tl_frame frame = tl_frame_from(item->pose);
+    return tl_vec3d_to_float(tl_frame_point(&frame, tl_vec3d_from(p)));
+}
+
+static inline bool scene_passes(const tl_scene_filter *filter, const tl_scene_item *items, uint32_t item)
+{
+    return filter == NULL || ((items[item].mask & filter->mask) != 0 && item != filter->without &&
+                              (filter->accept == NULL || filter->accept(item, filter->accept_user)));
+}
+
+static inline bool scene_accept_thirds(uint32_t item, void *user)
+{
+    (void)user;
+    return item % 3 != 0;
+}
+
+/// A random filter, or NULL.
+static inline const tl_scene_filter *scene_filter(test_random *random, uint32_t count, tl_scene_filter *filter)
+{
+    *filter = tl_default_scene_filter();
+    switch (test_random_below(random, 6)) {
+    case 0:
+        filter->mask = 1 + test_random_below(random, 15);
+        return filter;
+    case 1:
+        filter->without = test_random_below(random, count + 1);
+        return filter;
+    case 2:
+        filter->accept = scene_accept_thirds;
+        return filter;
+    default:
+        return NULL;
+    }
+}
+
+#endif
