@@ -56,7 +56,7 @@ typedef struct tl_scene_item {
     const tl_soup *soup;    ///< NULL: not a soup
     const tl_convex *shape; ///< NULL: not a shape. With neither nothing is here, and nothing is found
     tl_transform pose;      ///< from the item's space to the world; the rotation is normalized before use
-    uint32_t mask;          ///< kinds of the caller's; queries choose among them
+    uint32_t mask;          ///< kinds of the caller's; queries choose among them. 0: nothing finds it
 } tl_scene_item;
 
 /// Builds a scene of `count` items, of which there may be none.
@@ -106,7 +106,7 @@ typedef struct tl_scene_filter {
     const tl_ray_filter *triangles; ///< what is passed by in soups; shapes do not look at it. NULL: nothing
 } tl_scene_filter;
 
-/// All items: every bit of the mask (so an item with the mask 0 is never found by it), TL_NO_ITEM and NULLs.
+/// Every bit of the mask, TL_NO_ITEM and NULLs: what a NULL filter is.
 TL_API tl_scene_filter tl_default_scene_filter(void);
 
 /// Where a ray met the scene.

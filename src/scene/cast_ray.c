@@ -26,14 +26,11 @@ typedef struct search {
     uint32_t item;     // TL_NO_ITEM: none yet
 } search;
 
-static void begin(search *s, const tl_scene *scene, const tl_scene_item *items, const tl_scene_filter *filter)
+static search begin(const tl_scene *scene, const tl_scene_item *items, const tl_scene_filter *filter)
 {
-    memset(s, 0, sizeof *s);
-    s->items = items;
-    s->records = tl_scene_records(scene);
-    s->filter = filter;
-    s->triangles = filter != NULL ? filter->triangles : NULL;
-    s->item = TL_NO_ITEM;
+    search s = { .items = items, .records = tl_scene_records(scene), .filter = filter, .item = TL_NO_ITEM };
+    s.triangles = filter != NULL ? filter->triangles : NULL;
+    return s;
 }
 
 static uint32_t mask_of(const tl_scene_filter *filter)
@@ -99,11 +96,11 @@ static bool visit_by_ray(tl_scene_line *line, uint32_t item)
     return true;
 }
 
+// Sums in double are finite when their terms are.
 static bool is_castable(const tl_ray *ray)
 {
-    tl_vec3 d = ray->direction;
-    return tl_is_finite(ray->origin) && tl_is_finite(d) && (d.x != 0.0f || d.y != 0.0f || d.z != 0.0f) &&
-           ray->tmax >= 0.0f;
+    double from = tl_vec3d_size(tl_vec3d_from(ray->origin)), along = tl_vec3d_size(tl_vec3d_from(ray->direction));
+    return (from < (double)INFINITY) & (along > 0.0) & (along < (double)INFINITY) & (ray->tmax >= 0.0f);
 }
 
 bool tl_scene_cast_ray_with(tl_scene_walk_fn *walk, const tl_scene *scene, const tl_scene_item *items,
@@ -113,13 +110,12 @@ bool tl_scene_cast_ray_with(tl_scene_walk_fn *walk, const tl_scene *scene, const
     if (!is_castable(ray)) {
         return false;
     }
-    search s;
-    begin(&s, scene, items, filter);
+    search s = begin(scene, items, filter);
     s.ray = *ray;
     s.tmax = ray->tmax;
     tl_scene_hit hit;
     s.hit = hit_out != NULL ? &hit : NULL;
-    tl_scene_line line = { .visit = visit_by_ray, .user = &s, .any = hit_out == NULL };
+    tl_scene_line line = { .items = items, .visit = visit_by_ray, .user = &s, .any = hit_out == NULL };
     tl_scene_line_make(&line, scene, mask_of(filter), ray->origin, ray->direction, tl_vec3d_make(0.0, 0.0, 0.0),
                        (double)ray->tmax);
     line.walk = walk != NULL ? walk : line.walk;
@@ -189,11 +185,10 @@ bool tl_scene_line_of_sight(const tl_scene *scene, const tl_scene_item *items, t
     if (!tl_is_finite(a) || !tl_is_finite(b)) {
         return false;
     }
-    search s;
-    begin(&s, scene, items, filter);
+    search s = begin(scene, items, filter);
     s.ray.origin = a;
     s.to = b;
-    tl_scene_line line = { .visit = visit_by_sight, .user = &s, .any = true };
+    tl_scene_line line = { .items = items, .visit = visit_by_sight, .user = &s, .any = true };
     // Both ends move by roundings of their own, and the difference rounds.
     double wide = SIGHT_ERROR * (tl_vec3d_size(tl_vec3d_from(a)) + tl_vec3d_size(tl_vec3d_from(b)));
     tl_scene_line_make(&line, scene, mask_of(filter), a, tl_sub(b, a), tl_vec3d_make(wide, wide, wide), 1.0);

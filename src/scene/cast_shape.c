@@ -156,7 +156,7 @@ tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_item *items,
     TL_TRY(tl_moved_shape_make(shape, pose, motion, &moved));
     tl_scene_shape_hit hit;
     search s = { items, tl_scene_records(scene), filter, &moved, motion, &hit, TL_NO_ITEM };
-    tl_scene_line line = { .visit = visit, .user = &s };
+    tl_scene_line line = { .items = items, .visit = visit, .user = &s };
     tl_scene_line_make(&line, scene, filter != NULL ? filter->mask : UINT32_MAX, moved.middle, motion, moved.half, 1.0);
     tl_scene_line_walk(&line);
     if (s.item == TL_NO_ITEM) {

@@ -102,7 +102,7 @@ static uint32_t mask_of(const tl_scene_filter *filter)
 
 static bool walk(search *s, const tl_scene *scene, tl_scene_visit_fn *visit)
 {
-    tl_scene_line line = { .visit = visit, .user = s, .any = true };
+    tl_scene_line line = { .items = s->items, .visit = visit, .user = s, .any = true };
     tl_scene_line_make(&line, scene, mask_of(s->filter), s->shape->middle, nowhere(), s->shape->half, 1.0);
     return tl_scene_line_walk(&line);
 }

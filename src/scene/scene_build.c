@@ -3,10 +3,10 @@
 // The tree over the items: top down, cut where the surface area heuristic is least among planes between bins of
 // middles, eight children a node.
 //
-// A node's range of items is split, and of its parts the one with the largest surface again, until there are eight. A
-// range of eight or less is a node as it is, so the last three of a binary tree's levels, half of its work, are never
-// built. Trees over Morton codes would be built in half the time; things in levels lie in clusters and differ in size
-// by a hundred, and there they cost rays more than a build saves.
+// A node's range of items is split, and of its parts the one with the largest surface again, until there are eight, or
+// none holds more than eight items. What fits into lanes that are left is put there item by item. So the last three of
+// a binary tree's levels, half of its work, are never built, and nodes are full: a visit costs the same for two boxes
+// as for eight.
 //
 // Below a depth that costs never reach in practice the largest part is halved instead, so that a walk's stack is small
 // whatever the items are.
@@ -177,13 +177,14 @@ static void split(const build *b, build_range *range, build_range *other)
     range->half_area = best.half_areas[0];
 }
 
-// The part to be split next; `count` when all are single.
-static uint32_t choose_part(const build_range *parts, uint32_t count, bool by_cost)
+// The part with the largest surface (or, not by cost, the most items) of those that hold `least` items to `most`;
+// `count` when there is none.
+static uint32_t choose_part(const build_range *parts, uint32_t count, uint32_t least, uint32_t most, bool by_cost)
 {
     uint32_t chosen = count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t size = parts[i].end - parts[i].begin;
-        if (size < 2) {
+        if (size < least || size > most) {
             continue;
         }
         bool larger = chosen == count || (by_cost ? parts[i].half_area > parts[chosen].half_area
@@ -193,28 +194,37 @@ static uint32_t choose_part(const build_range *parts, uint32_t count, bool by_co
     return chosen;
 }
 
+// Puts a part's items into lanes of their own; returns how many parts there are now.
+static uint32_t dissolve(build_range *parts, uint32_t count, uint32_t chosen)
+{
+    build_range whole = parts[chosen];
+    parts[chosen].end = whole.begin + 1;
+    for (uint32_t i = whole.begin + 1; i < whole.end; i++) {
+        build_range one = { i, i + 1, 0.0f };
+        parts[count++] = one;
+    }
+    return count;
+}
+
+// What the node's lanes hold.
 static uint32_t part_node(const build *b, const build_node *node, build_range parts[TL_SCENE_WIDTH])
 {
-    uint32_t size = node->end - node->begin;
-    if (size <= TL_SCENE_WIDTH) {
-        for (uint32_t i = 0; i < size; i++) {
-            build_range one = { node->begin + i, node->begin + i + 1, 0.0f };
-            parts[i] = one;
-        }
-        return size;
-    }
     build_range whole = { node->begin, node->end, 0.0f };
     parts[0] = whole;
-    uint32_t count = 1;
+    uint32_t count = node->end > node->begin;
     bool by_cost = node->depth < TL_SCENE_COST_DEPTH;
-    while (count < TL_SCENE_WIDTH) {
-        uint32_t chosen = choose_part(parts, count, by_cost);
+    uint32_t chosen;
+    while (count < TL_SCENE_WIDTH &&
+           (chosen = choose_part(parts, count, TL_SCENE_WIDTH + 1, UINT32_MAX, by_cost)) < count) {
         if (by_cost) {
             split(b, &parts[chosen], &parts[count]);
         } else {
             halve(&parts[chosen], &parts[count]);
         }
         count++;
+    }
+    while ((chosen = choose_part(parts, count, 2, TL_SCENE_WIDTH + 1 - count, true)) < count) {
+        count = dissolve(parts, count, chosen);
     }
     return count;
 }

@@ -26,6 +26,7 @@ void tl_scene_set_lane(tl_scene *scene, uint32_t lane, tl_aabb box, uint32_t mas
 {
     tl_scene_node *node = &nodes_of(scene)[lane / TL_SCENE_WIDTH];
     uint32_t i = lane % TL_SCENE_WIDTH;
+    box = mask != 0 ? box : tl_aabb_empty();
     node->plane[0][i] = box.min.x;
     node->plane[1][i] = box.max.x;
     node->plane[2][i] = box.min.y;
@@ -98,9 +99,10 @@ tl_result tl_scene_refuse_item(tl_report *report, tl_result result, uint32_t ite
     return tl_report_fail(report, result, "item", item, advice);
 }
 
-static bool is_same(const tl_scene_record *record, const tl_transform *pose, const tl_aabb *local)
+static bool is_same(const tl_scene_record *record, const tl_scene_item *item, const tl_aabb *local, uint32_t mask)
 {
-    return memcmp(&record->pose, pose, sizeof *pose) == 0 && memcmp(&record->local, local, sizeof *local) == 0;
+    return memcmp(&record->pose, &item->pose, sizeof item->pose) == 0 &&
+           memcmp(&record->local, local, sizeof *local) == 0 && (mask != 0) == (item->mask != 0);
 }
 
 tl_result tl_scene_refit(tl_scene *scene, const tl_scene_item *items, uint32_t count, float *growth_out,
@@ -123,8 +125,9 @@ tl_result tl_scene_refit(tl_scene *scene, const tl_scene_item *items, uint32_t c
     for (uint32_t i = 0; i < count; i++) {
         (void)tl_scene_read_item(&items[i], &local);
         tl_scene_record *record = &records[i];
-        if (is_same(record, &items[i].pose, &local)) {
-            nodes_of(scene)[record->lane / TL_SCENE_WIDTH].mask[record->lane % TL_SCENE_WIDTH] = items[i].mask;
+        uint32_t *mask = &nodes_of(scene)[record->lane / TL_SCENE_WIDTH].mask[record->lane % TL_SCENE_WIDTH];
+        if (is_same(record, &items[i], &local, *mask)) {
+            *mask = items[i].mask;
             continue;
         }
         tl_scene_place_item(record, items[i].pose, local);

@@ -50,11 +50,22 @@ tl_scene_walk_fn *tl_scene_walk_for(int level)
 
 #endif
 
-// From a point to the farther of two planes.
-static double reach(float min, float max, double at)
+static inline tl_scene_walk_fn *best_walk(void)
 {
-    double below = fabs((double)min - at), above = fabs((double)max - at);
-    return below > above ? below : above;
+    tl_scene_walk_fn *best = tl_scene_walk_for(2);
+    best = best != NULL ? best : tl_scene_walk_for(1);
+    return best != NULL ? best : tl_scene_walk_scalar;
+}
+
+static inline double larger(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+// From a point to the farther of two planes.
+static inline double reach(float min, float max, double at)
+{
+    return larger(fabs((double)min - at), fabs((double)max - at));
 }
 
 void tl_scene_line_make(tl_scene_line *line, const tl_scene *scene, uint32_t mask, tl_vec3 from, tl_vec3 direction,
@@ -62,35 +73,33 @@ void tl_scene_line_make(tl_scene_line *line, const tl_scene *scene, uint32_t mas
 {
     line->scene = scene;
     line->mask = mask;
-    line->walk = NULL;
-    for (int level = 2; line->walk == NULL; level--) {
-        line->walk = tl_scene_walk_for(level);
-    }
+    line->walk = best_walk();
     const double at[3] = { (double)from.x, (double)from.y, (double)from.z };
     const double along[3] = { (double)direction.x, (double)direction.y, (double)direction.z };
     const double wide[3] = { half.x, half.y, half.z };
-    double largest = fmax(fmax(fabs(along[0]), fabs(along[1])), fabs(along[2]));
+    double largest = larger(larger(fabs(along[0]), fabs(along[1])), fabs(along[2]));
     bool stands = largest == 0.0;
-    double size = fabs(at[0]) + fabs(at[1]) + fabs(at[2]);
-    // A difference of points may overflow, too.
-    line->every = size + tl_vec3d_size(half) > FARTHEST || (!stands && largest < SHORTEST) || isinf(largest);
     line->per_t = stands ? 1.0 : largest;
     tl_scene_line_shorten(line, limit);
+    double size = fabs(at[0]) + fabs(at[1]) + fabs(at[2]);
+    tl_vec3 low = scene->bounds.min, high = scene->bounds.max;
+    double farthest =
+        larger(larger(reach(low.x, high.x, at[0]), reach(low.y, high.y, at[1])), reach(low.z, high.z, at[2]));
+    // An empty scene's box is infinite, and a difference of points may be.
+    line->every = (larger(size + tl_vec3d_size(half), farthest) > FARTHEST) | (!stands & (largest < SHORTEST)) |
+                  (largest == (double)INFINITY);
     if (line->every) {
         return;
     }
-    const tl_aabb *bounds = &scene->bounds;
-    double farthest = fmax(fmax(reach(bounds->min.x, bounds->max.x, at[0]), reach(bounds->min.y, bounds->max.y, at[1])),
-                           reach(bounds->min.z, bounds->max.z, at[2]));
-    double error = LINE_ERROR * (size + (tl_aabb_is_empty(*bounds) ? 0.0 : farthest)) + (double)FLT_MIN;
+    double error = LINE_ERROR * (size + farthest) + (double)FLT_MIN;
     line->backward = 0;
     for (uint32_t i = 0; i < 3; i++) {
         double inverse = line->per_t / along[i];
         inverse = fabs(inverse) <= LARGEST_INVERSE ? inverse : along[i] < 0.0 ? -LARGEST_INVERSE : LARGEST_INVERSE;
-        double pad = fabs(inverse) * (wide[i] + error);
+        double pad = fabs(inverse) * (wide[i] + error), base = at[i] * inverse;
         line->scale[i] = (float)inverse;
-        line->near_base[i] = (float)(-at[i] * inverse - pad);
-        line->far_base[i] = (float)(-at[i] * inverse + pad);
+        line->near_base[i] = (float)(-base - pad);
+        line->far_base[i] = (float)(pad - base);
         line->backward |= (uint32_t)(inverse < 0.0) << i;
     }
 }

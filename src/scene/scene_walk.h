@@ -29,6 +29,7 @@ typedef bool tl_scene_walk_fn(tl_scene_line *line);
 
 struct tl_scene_line {
     const tl_scene *scene;
+    const tl_scene_item *items;
     tl_scene_walk_fn *walk;
     tl_scene_visit_fn *visit;
     void *user;
@@ -46,7 +47,7 @@ struct tl_scene_line {
 };
 
 /// Fills the line of `from + t * direction`, all finite, and `half` extents around it, for t up to `limit`. `user` and
-/// `any` are the caller's. A direction of zero stands still.
+/// `any` are the caller's, and so are `visit` and `items`. A direction of zero stands still.
 void tl_scene_line_make(tl_scene_line *line, const tl_scene *scene, uint32_t mask, tl_vec3 from, tl_vec3 direction,
                         tl_vec3d half, double limit);
 

@@ -13,23 +13,61 @@
 // have the order of their values.
 typedef uint64_t walk_entry;
 
+// Where things are; of a node's planes those by which the line enters boxes, and those by which it leaves them: bytes.
+typedef struct walk_place {
+    const tl_scene_node *nodes;
+    const tl_scene_record *records;
+    uint32_t near_row[3], far_row[3];
+} walk_place;
+
+static inline tl_f32x8 load_row(const tl_scene_node *node, uint32_t row)
+{
+    return tl_f32x8_load((const float *)(const void *)((const char *)node + row));
+}
+
 // Which boxes the line enters before its end, and when.
-static TL_ALWAYS_INLINE uint32_t enter_boxes(const tl_scene_line *line, const tl_scene_node *node, float *times)
+static TL_ALWAYS_INLINE uint32_t enter_boxes(const tl_scene_line *line, const walk_place *place,
+                                             const tl_scene_node *node, float *times)
 {
     tl_f32x8 first = tl_f32x8_all(0.0f), last = tl_f32x8_all(line->limit);
     for (uint32_t i = 0; i < 3; i++) {
-        uint32_t backward = line->backward >> i & 1u;
         tl_f32x8 scale = tl_f32x8_all(line->scale[i]);
-        tl_f32x8 enter =
-            tl_f32x8_mul_add(tl_f32x8_load(node->plane[2 * i + backward]), scale, tl_f32x8_all(line->near_base[i]));
-        tl_f32x8 leave =
-            tl_f32x8_mul_add(tl_f32x8_load(node->plane[2 * i + 1 - backward]), scale, tl_f32x8_all(line->far_base[i]));
+        tl_f32x8 enter = tl_f32x8_mul_add(load_row(node, place->near_row[i]), scale, tl_f32x8_all(line->near_base[i]));
+        tl_f32x8 leave = tl_f32x8_mul_add(load_row(node, place->far_row[i]), scale, tl_f32x8_all(line->far_base[i]));
         first = tl_f32x8_max_bits(first, enter);
         last = tl_f32x8_min_bits(last, leave);
     }
     tl_f32x8_store(times, first);
     // A negative minimum is below 0, whichever of several it is.
     return ~tl_f32x8_less_bits(last, first) & 0xffu;
+}
+
+// Those of some children that hold items that count.
+static TL_NOINLINE uint32_t choose_kinds(const tl_scene_node *node, uint32_t entered, uint32_t kinds)
+{
+    uint32_t chosen = 0;
+    for (uint32_t rest = entered; rest != 0; rest &= rest - 1) {
+        chosen |= (node->mask[tl_lowest_bit(rest)] & kinds) != 0 ? rest & (0u - rest) : 0;
+    }
+    return chosen;
+}
+
+// What waits is mostly visited soon, and its lines are then under way.
+static inline void prefetch_child(const tl_scene_line *line, const walk_place *place, uint32_t child)
+{
+#if defined(__GNUC__)
+    uint32_t item = child & ~TL_CHILD_ITEM;
+    bool is_item = item != child;
+    const char *at = is_item ? (const char *)&place->records[item] : (const char *)&place->nodes[child];
+    const char *other = is_item ? (const char *)&line->items[item] : at + 128;
+    __builtin_prefetch(at);
+    __builtin_prefetch(at + 64);
+    __builtin_prefetch(other);
+#else
+    (void)line;
+    (void)place;
+    (void)child;
+#endif
 }
 
 static inline walk_entry entry_of(const tl_scene_node *node, const float *times, uint32_t lane)
@@ -39,26 +77,43 @@ static inline walk_entry entry_of(const tl_scene_node *node, const float *times,
     return (uint64_t)bits << 32 | node->child[lane];
 }
 
+static inline walk_entry nearer(walk_entry a, walk_entry b)
+{
+    return a < b ? a : b;
+}
+
+static inline walk_entry farther(walk_entry a, walk_entry b)
+{
+    return a < b ? b : a;
+}
+
 // Puts all that is entered on the stack but the nearest, which is returned; the next nearest lies on top. The mask is
-// not empty. Any order will do for any hit.
-static TL_ALWAYS_INLINE walk_entry push_children(const tl_scene_node *node, const float *times, uint32_t mask, bool any,
+// not empty. Any order will do for any hit. Without branches for two children and for three, which are most visits.
+static TL_ALWAYS_INLINE walk_entry push_children(const tl_scene_line *line, const walk_place *place,
+                                                 const tl_scene_node *node, const float *times, uint32_t mask,
                                                  walk_entry *stack, uint32_t *stack_count)
 {
     walk_entry *base = stack + *stack_count;
     walk_entry nearest = entry_of(node, times, tl_lowest_bit(mask));
-    uint32_t count = 0;
+    mask &= mask - 1;
+    if (mask == 0) {
+        return nearest;
+    }
+    walk_entry second = entry_of(node, times, tl_lowest_bit(mask));
+    base[0] = farther(nearest, second);
+    nearest = nearer(nearest, second);
+    prefetch_child(line, place, (uint32_t)base[0]);
+    uint32_t count = 1;
     while ((mask &= mask - 1) != 0) {
         walk_entry entry = entry_of(node, times, tl_lowest_bit(mask));
-        uint32_t place = count++;
-        if (!any) {
-            walk_entry later = entry < nearest ? nearest : entry;
-            nearest = entry < nearest ? entry : nearest;
-            entry = later;
-            for (; place > 0 && base[place - 1] < entry; place--) {
-                base[place] = base[place - 1];
-            }
+        uint32_t at = count++;
+        walk_entry later = farther(entry, nearest);
+        nearest = nearer(entry, nearest);
+        prefetch_child(line, place, (uint32_t)later);
+        for (; !line->any && at > 0 && base[at - 1] < later; at--) {
+            base[at] = base[at - 1];
         }
-        base[place] = entry;
+        base[at] = later;
     }
     *stack_count += count;
     return nearest;
@@ -66,25 +121,32 @@ static TL_ALWAYS_INLINE walk_entry push_children(const tl_scene_node *node, cons
 
 bool TL_SCENE_WALK(tl_scene_line *line)
 {
-    const tl_scene_node *nodes = tl_scene_nodes(line->scene);
+    walk_place place;
+    place.nodes = tl_scene_nodes(line->scene);
+    place.records = tl_scene_records(line->scene);
+    for (uint32_t i = 0; i < 3; i++) {
+        uint32_t backward = line->backward >> i & 1u, row = (uint32_t)sizeof place.nodes->plane[0];
+        place.near_row[i] = row * (2 * i + backward);
+        place.far_row[i] = row * (2 * i + 1 - backward);
+    }
     walk_entry stack[TL_SCENE_STACK_SIZE];
     uint32_t stack_count = 0;
     walk_entry entry = 0;
     for (;;) {
-        uint32_t child = (uint32_t)entry, entered = 0;
+        uint32_t child = (uint32_t)entry;
         if ((child & TL_CHILD_ITEM) != 0) {
             if (!line->visit(line, child & ~TL_CHILD_ITEM)) {
                 return false;
             }
         } else {
-            const tl_scene_node *node = &nodes[child];
+            const tl_scene_node *node = &place.nodes[child];
             float times[TL_SCENE_WIDTH];
-            for (uint32_t mask = enter_boxes(line, node, times); mask != 0; mask &= mask - 1) {
-                uint32_t bit = mask & (0u - mask);
-                entered |= (node->mask[tl_lowest_bit(mask)] & line->mask) != 0 ? bit : 0;
+            uint32_t entered = enter_boxes(line, &place, node, times);
+            if (line->mask != UINT32_MAX) {
+                entered = choose_kinds(node, entered, line->mask);
             }
             if (entered != 0) {
-                entry = push_children(node, times, entered, line->any, stack, &stack_count);
+                entry = push_children(line, &place, node, times, entered, stack, &stack_count);
                 continue;
             }
         }
