@@ -4,8 +4,12 @@
 //
 // What counts as touching is a share of coordinates, since these are what was rounded; and where the shape stands is
 // written in the world's coordinates. A prop's own coordinates are small, and so is what its soup takes for touching: a
-// character that stands on it, a kilometre from the origin, would be caught. So a start that is no deeper in an item
+// character that stands on it, a kilometre from the origin, would be caught. So a start that is no deeper in a soup
 // than what the world's coordinates explain is moved out, by that depth, and the way begins there.
+//
+// What slides along a convex item is met by it again and again, as a rounded shape's normal is known no better than the
+// root of the gap. Whether it ever comes deeper than touching is asked once more: the way is cast again, moved out by
+// as much as touching is, and where that is free the shape passes.
 
 #include "base/assert.h"
 #include "math/tolerance.h"
@@ -25,29 +29,49 @@ typedef struct search {
     const tl_scene_filter *filter;
     const tl_moved_shape *shape;
     tl_vec3 motion;
+    double touch; // metres
     tl_scene_shape_hit *hit;
     uint32_t item; // TL_NO_ITEM: none yet
 } search;
 
-// The way of a shape, as an item sees it.
-typedef struct way {
-    tl_transform item; // of a shape
-    tl_transform pose;
-    tl_vec3 motion;
-    bool in_world;
-} way;
-
-static bool cast_at_soup(const search *s, uint32_t item, const way *w, tl_shape_hit *hit)
+static tl_transform move_out(tl_transform pose, tl_vec3 normal, double by)
 {
-    const tl_ray_filter *triangles = s->filter != NULL ? s->filter->triangles : NULL;
-    return tl_soup_cast_shape(s->items[item].soup, s->shape->convex, w->pose, w->motion, triangles, hit) == TL_OK;
+    tl_vec3d at = tl_vec3d_mul_add(tl_vec3d_from(pose.position), tl_vec3d_from(normal), by);
+    pose.position = tl_vec3d_to_float(at);
+    return pose;
 }
 
-static bool cast_at_shape(const search *s, uint32_t item, const way *w, tl_shape_hit *hit)
+static bool cast_at_soup(const search *s, uint32_t item, tl_shape_hit *hit)
+{
+    const tl_scene_record *record = &s->records[item];
+    const tl_ray_filter *triangles = s->filter != NULL ? s->filter->triangles : NULL;
+    tl_transform pose = tl_scene_pose_to_item(record, s->shape->pose);
+    tl_vec3 motion = tl_scene_direction_to_item(record, s->motion);
+    double touch = s->touch;
+    for (uint32_t step = 0;; step++) {
+        if (tl_soup_cast_shape(s->items[item].soup, s->shape->convex, pose, motion, triangles, hit) != TL_OK) {
+            return false;
+        }
+        bool stands_on = hit->initial_overlap && (double)hit->depth <= touch;
+        if (!stands_on || step == MOST_STEPS_OUT || tl_scene_is_at_home(record)) {
+            break;
+        }
+        touch -= (double)hit->depth;
+        double rounding = 2.0 * (double)TL_FLOAT_ROUNDING * tl_vec3d_size(tl_vec3d_from(pose.position));
+        pose = move_out(pose, hit->normal, (double)hit->depth + rounding);
+    }
+    hit->point = tl_scene_point_to_world(record, hit->point);
+    hit->normal = tl_scene_direction_to_world(record, hit->normal);
+    hit->face_normal = tl_scene_direction_to_world(record, hit->face_normal);
+    return true;
+}
+
+static bool cast_at_shape(const search *s, uint32_t item, tl_shape_hit *hit)
 {
     const tl_convex *other = s->items[item].shape;
+    tl_transform at = s->records[item].pose;
     tl_convex_hit met;
-    if (!tl_convex_cast(other, w->item, s->shape->convex, w->pose, w->motion, &met)) {
+    if (!tl_convex_cast(other, at, s->shape->convex, s->shape->pose, s->motion, &met)) {
         return false;
     }
     memset(hit, 0, sizeof *hit);
@@ -58,68 +82,25 @@ static bool cast_at_shape(const search *s, uint32_t item, const way *w, tl_shape
     hit->status = met.status;
     if (met.initial_overlap) {
         tl_penetration in;
-        tl_convex_penetration(other, w->item, s->shape->convex, w->pose, NULL, &in);
-        hit->initial_overlap = true;
-        hit->depth = in.depth;
+        tl_convex_penetration(other, at, s->shape->convex, s->shape->pose, NULL, &in);
+        hit->initial_overlap = (double)in.depth > s->touch;
+        hit->depth = hit->initial_overlap ? in.depth : 0.0f;
         hit->point = in.point_a;
         hit->normal = in.normal;
         hit->status = in.status;
     }
     hit->face_normal = hit->normal;
-    return true;
-}
-
-static way in_space_of(const search *s, uint32_t item)
-{
-    const tl_scene_record *record = &s->records[item];
-    way w = { tl_transform_identity(), tl_scene_pose_to_item(record, s->shape->pose),
-              tl_scene_direction_to_item(record, s->motion), false };
-    return w;
-}
-
-// Moves the start out of what it stands on.
-static void step_out(way *w, const tl_shape_hit *hit)
-{
-    tl_vec3d at = tl_vec3d_from(w->pose.position);
-    double by = (double)hit->depth + 2.0 * (double)TL_FLOAT_ROUNDING * tl_vec3d_size(at);
-    w->pose.position = tl_vec3d_to_float(tl_vec3d_mul_add(at, tl_vec3d_from(hit->normal), by));
+    if (hit->initial_overlap) {
+        return true;
+    }
+    tl_transform outside = move_out(s->shape->pose, hit->normal, s->touch);
+    return tl_convex_cast(other, at, s->shape->convex, outside, s->motion, &met);
 }
 
 static bool cast_at_item(const search *s, uint32_t item, tl_shape_hit *hit)
 {
-    const tl_scene_record *record = &s->records[item];
-    const tl_scene_item *it = &s->items[item];
-    if (it->soup == NULL && it->shape == NULL) {
-        return false;
-    }
-    way w = { record->pose, s->shape->pose, s->motion, true };
-    if (it->soup != NULL) {
-        w = in_space_of(s, item);
-    }
-    double touch = TOUCH_SHARE * s->shape->reach;
-    for (uint32_t step = 0;; step++) {
-        bool met = it->soup != NULL ? cast_at_soup(s, item, &w, hit) : cast_at_shape(s, item, &w, hit);
-        if (!met) {
-            return false;
-        }
-        bool stands_on = hit->initial_overlap && (double)hit->depth <= touch;
-        if (!stands_on || step == MOST_STEPS_OUT || (it->soup != NULL && tl_scene_is_at_home(record))) {
-            break;
-        }
-        if (w.in_world) {
-            // The world's coordinates may be too coarse for so small a step.
-            w = in_space_of(s, item);
-            continue;
-        }
-        touch -= (double)hit->depth;
-        step_out(&w, hit);
-    }
-    if (!w.in_world) {
-        hit->point = tl_scene_point_to_world(record, hit->point);
-        hit->normal = tl_scene_direction_to_world(record, hit->normal);
-        hit->face_normal = tl_scene_direction_to_world(record, hit->face_normal);
-    }
-    return true;
+    return s->items[item].soup != NULL ? cast_at_soup(s, item, hit)
+                                       : s->items[item].shape != NULL && cast_at_shape(s, item, hit);
 }
 
 // Earlier wins; of overlaps the deeper one; then the lower item.
@@ -155,7 +136,7 @@ tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_item *items,
     tl_moved_shape moved;
     TL_TRY(tl_moved_shape_make(shape, pose, motion, &moved));
     tl_scene_shape_hit hit;
-    search s = { items, tl_scene_records(scene), filter, &moved, motion, &hit, TL_NO_ITEM };
+    search s = { items, tl_scene_records(scene), filter, &moved, motion, TOUCH_SHARE * moved.reach, &hit, TL_NO_ITEM };
     tl_scene_line line = { .items = items, .visit = visit, .user = &s };
     tl_scene_line_make(&line, scene, filter != NULL ? filter->mask : UINT32_MAX, moved.middle, motion, moved.half, 1.0);
     tl_scene_line_walk(&line);

@@ -9,8 +9,9 @@
 #include "math/simd8.h"
 #include "scene/scene_walk.h"
 
-// A child that the line enters: the bits of the time above the child word. Such times are never negative, so their bits
-// have the order of their values.
+// A child that the line enters, with the bits of its key above the child word: the time when, or, where any hit will
+// do, how short the line's part inside is, since a long one is the likelier to end there. Keys are never negative, so
+// their bits have the order of their values.
 typedef uint64_t walk_entry;
 
 // Where things are; of a node's planes those by which the line enters boxes, and those by which it leaves them: bytes.
@@ -25,9 +26,9 @@ static inline tl_f32x8 load_row(const tl_scene_node *node, uint32_t row)
     return tl_f32x8_load((const float *)(const void *)((const char *)node + row));
 }
 
-// Which boxes the line enters before its end, and when.
+// Which boxes the line enters before its end; and when, or for how long where any hit will do.
 static TL_ALWAYS_INLINE uint32_t enter_boxes(const tl_scene_line *line, const walk_place *place,
-                                             const tl_scene_node *node, float *times)
+                                             const tl_scene_node *node, float *keys)
 {
     tl_f32x8 first = tl_f32x8_all(0.0f), last = tl_f32x8_all(line->limit);
     for (uint32_t i = 0; i < 3; i++) {
@@ -37,7 +38,7 @@ static TL_ALWAYS_INLINE uint32_t enter_boxes(const tl_scene_line *line, const wa
         first = tl_f32x8_max_bits(first, enter);
         last = tl_f32x8_min_bits(last, leave);
     }
-    tl_f32x8_store(times, first);
+    tl_f32x8_store(keys, line->any ? tl_f32x8_sub(last, first) : first);
     // A negative minimum is below 0, whichever of several it is.
     return ~tl_f32x8_less_bits(last, first) & 0xffu;
 }
@@ -70,10 +71,12 @@ static inline void prefetch_child(const tl_scene_line *line, const walk_place *p
 #endif
 }
 
-static inline walk_entry entry_of(const tl_scene_node *node, const float *times, uint32_t lane)
+static inline walk_entry entry_of(const tl_scene_line *line, const tl_scene_node *node, const float *keys,
+                                  uint32_t lane)
 {
     uint32_t bits;
-    memcpy(&bits, &times[lane], sizeof bits);
+    memcpy(&bits, &keys[lane], sizeof bits);
+    bits ^= line->any ? INT32_MAX : 0; // the longest first
     return (uint64_t)bits << 32 | node->child[lane];
 }
 
@@ -87,30 +90,30 @@ static inline walk_entry farther(walk_entry a, walk_entry b)
     return a < b ? b : a;
 }
 
-// Puts all that is entered on the stack but the nearest, which is returned; the next nearest lies on top. The mask is
-// not empty. Any order will do for any hit. Without branches for two children and for three, which are most visits.
+// Puts all that is entered on the stack but the first by key, which is returned; the next lies on top. The mask is not
+// empty.
 static TL_ALWAYS_INLINE walk_entry push_children(const tl_scene_line *line, const walk_place *place,
-                                                 const tl_scene_node *node, const float *times, uint32_t mask,
+                                                 const tl_scene_node *node, const float *keys, uint32_t mask,
                                                  walk_entry *stack, uint32_t *stack_count)
 {
     walk_entry *base = stack + *stack_count;
-    walk_entry nearest = entry_of(node, times, tl_lowest_bit(mask));
+    walk_entry nearest = entry_of(line, node, keys, tl_lowest_bit(mask));
     mask &= mask - 1;
     if (mask == 0) {
         return nearest;
     }
-    walk_entry second = entry_of(node, times, tl_lowest_bit(mask));
+    walk_entry second = entry_of(line, node, keys, tl_lowest_bit(mask));
     base[0] = farther(nearest, second);
     nearest = nearer(nearest, second);
     prefetch_child(line, place, (uint32_t)base[0]);
     uint32_t count = 1;
     while ((mask &= mask - 1) != 0) {
-        walk_entry entry = entry_of(node, times, tl_lowest_bit(mask));
+        walk_entry entry = entry_of(line, node, keys, tl_lowest_bit(mask));
         uint32_t at = count++;
         walk_entry later = farther(entry, nearest);
         nearest = nearer(entry, nearest);
         prefetch_child(line, place, (uint32_t)later);
-        for (; !line->any && at > 0 && base[at - 1] < later; at--) {
+        for (; at > 0 && base[at - 1] < later; at--) {
             base[at] = base[at - 1];
         }
         base[at] = later;
@@ -140,13 +143,13 @@ bool TL_SCENE_WALK(tl_scene_line *line)
             }
         } else {
             const tl_scene_node *node = &place.nodes[child];
-            float times[TL_SCENE_WIDTH];
-            uint32_t entered = enter_boxes(line, &place, node, times);
+            float keys[TL_SCENE_WIDTH];
+            uint32_t entered = enter_boxes(line, &place, node, keys);
             if (line->mask != UINT32_MAX) {
                 entered = choose_kinds(node, entered, line->mask);
             }
             if (entered != 0) {
-                entry = push_children(line, &place, node, times, entered, stack, &stack_count);
+                entry = push_children(line, &place, node, keys, entered, stack, &stack_count);
                 continue;
             }
         }
@@ -158,6 +161,6 @@ bool TL_SCENE_WALK(tl_scene_line *line)
                 return true;
             }
             entry = stack[--stack_count];
-        } while (entry >> 32 > limit);
+        } while (!line->any && entry >> 32 > limit);
     }
 }
