@@ -51,7 +51,9 @@ static void add_soup(search *s, uint32_t item)
     tl_result result =
         tl_soup_find_overlaps(s->items[item].soup, s->shape->convex, pose, triangles_of(s), indices, room_size, &count);
     if (result == TL_OK || result == TL_ERR_CAPACITY) {
-        spread(room, room_size, count < room_size ? count : room_size, item);
+        if (room != NULL) {
+            spread(room, room_size, count < room_size ? count : room_size, item);
+        }
         s->count = count > UINT32_MAX - s->count ? UINT32_MAX : s->count + count;
     }
 }

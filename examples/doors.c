@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+//
+// A guard, a thief, and a door between them: the level, the door and the thief are items of one scene. The door swings
+// open, the scene is refitted, and the guard sees, shoots and walks through.
+
+#include <talus/scene.h>
+
+#include <stdio.h>
+
+enum { LEVEL, DOOR, THIEF, ITEMS };
+enum { STATIC = 1, DOORS = 2, PEOPLE = 4 };
+
+// Two walls across z = 0 that leave a doorway from x = 0 to x = 1, 2 m high, and a floor, 20 m square.
+static const tl_vec3 vertices[12] = { { -10, 0, 0 },  { 0, 0, 0 },   { 0, 2, 0 },    { -10, 2, 0 },
+                                      { 1, 0, 0 },    { 10, 0, 0 },  { 10, 2, 0 },   { 1, 2, 0 },
+                                      { -10, 0, 10 }, { 10, 0, 10 }, { 10, 0, -10 }, { -10, 0, -10 } };
+static const uint32_t indices[18] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 8, 9, 10, 8, 10, 11 };
+
+// What the guard sees of the thief: nothing but the thief may be in the way of it.
+static bool sees(const tl_scene *scene, const tl_scene_item *items, tl_vec3 eye, tl_vec3 target)
+{
+    tl_scene_filter filter = tl_default_scene_filter();
+    filter.without = THIEF;
+    return tl_scene_line_of_sight(scene, items, eye, target, &filter);
+}
+
+int main(void)
+{
+    tl_mesh_view view = { vertices, 12, indices, 6, NULL };
+    tl_soup *level = NULL;
+    tl_scene *scene = NULL;
+    if (tl_soup_build(&view, NULL, &level, NULL) != TL_OK) {
+        return 1;
+    }
+    // The door hangs at its hinge, which is its own origin.
+    tl_convex door = tl_convex_box(tl_vec3_make(0.5f, 1, 0), tl_vec3_make(0.5f, 1, 0.03f), 0);
+    tl_convex body = tl_convex_capsule(tl_vec3_make(0, 0.3f, 0), tl_vec3_make(0, 1.5f, 0), 0.3f);
+    tl_scene_item items[ITEMS] = { { level, NULL, tl_transform_identity(), STATIC },
+                                   { NULL, &door, tl_transform_identity(), DOORS },
+                                   { NULL, &body, tl_transform_identity(), PEOPLE } };
+    items[THIEF].pose.position = tl_vec3_make(0.5f, 0, 4);
+    if (tl_scene_build(items, ITEMS, NULL, &scene, NULL) != TL_OK) {
+        return 1;
+    }
+    tl_vec3 eye = tl_vec3_make(0.5f, 1.6f, -4), chest = tl_vec3_make(0.5f, 1.2f, 4);
+    bool before = sees(scene, items, eye, chest);
+    printf("door shut: the guard %s the thief\n", before ? "sees" : "does not see");
+
+    // A quarter turn about y, and a bit more.
+    tl_quat open = { 0, 0.75f, 0, 0.66f };
+    items[DOOR].pose.rotation = open;
+    if (tl_scene_refit(scene, items, ITEMS, NULL, NULL) != TL_OK) {
+        return 1;
+    }
+    bool after = sees(scene, items, eye, chest);
+    printf("door open: the guard %s the thief\n", after ? "sees" : "does not see");
+
+    tl_ray shot = { eye, tl_sub(chest, eye), INFINITY };
+    tl_scene_hit hit = { .item = TL_NO_ITEM };
+    (void)tl_scene_cast_ray(scene, items, &shot, NULL, &hit);
+    printf("a shot meets item %u after %.2f of the way\n", hit.item, (double)hit.hit.t);
+
+    tl_transform guard = tl_transform_identity();
+    guard.position = tl_vec3_make(0.5f, 0, -4);
+    tl_scene_shape_hit met = { .item = TL_NO_ITEM };
+    (void)tl_scene_cast_shape(scene, items, &body, guard, tl_vec3_make(0, 0, 10), NULL, &met);
+    printf("the guard runs into item %u after %.2f m\n", met.item, 10 * (double)met.hit.t);
+
+    tl_blob_free(scene, NULL);
+    tl_blob_free(level, NULL);
+    bool right = !before && after && hit.item == THIEF && met.item == THIEF && fabsf(met.hit.t - 0.74f) < 1e-4f;
+    return right ? 0 : 1;
+}
