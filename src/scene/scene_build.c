@@ -22,7 +22,8 @@
 
 #include <string.h>
 
-enum { BINS = 16, AXES = 3 };
+// Fewer bins where there are few items: most of a small split's work is to look at bins.
+enum { BINS = 16, FEW_BINS = 8, FEW_ITEMS = 64, AXES = 3 };
 
 // An item's box, and its index in `item`; the other fourth number is zero.
 typedef struct build_ref {
@@ -65,6 +66,7 @@ typedef struct bins {
     tl_box4 box[AXES][BINS];
     uint32_t count[AXES][BINS];
     float base[4], scale[4]; // of doubled middles
+    uint32_t used;           // bins of each axis
 } bins;
 
 // Where a range is cut: items whose bin along the axis is below `bin` go to the left.
@@ -84,10 +86,11 @@ static void fill_bins(const build *b, const build_range *range, bins *s)
     tl_vec3 size = tl_aabb_size(spread);
     const float low[3] = { spread.min.x, spread.min.y, spread.min.z }, width[3] = { size.x, size.y, size.z };
     memset(s->count, 0, sizeof s->count);
+    s->used = range->end - range->begin < FEW_ITEMS ? FEW_BINS : BINS;
     for (uint32_t axis = 0; axis < AXES; axis++) {
         s->base[axis] = low[axis];
-        s->scale[axis] = width[axis] > 0.0f ? (float)BINS / width[axis] : 0.0f;
-        for (uint32_t k = 0; k < BINS; k++) {
+        s->scale[axis] = width[axis] > 0.0f ? (float)s->used / width[axis] : 0.0f;
+        for (uint32_t k = 0; k < s->used; k++) {
             s->box[axis][k] = tl_box4_empty();
         }
     }
@@ -95,7 +98,7 @@ static void fill_bins(const build *b, const build_range *range, bins *s)
     for (uint32_t i = range->begin; i < range->end; i++) {
         tl_box4 box = load(&b->refs[i]);
         int32_t cells[4];
-        tl_box4_cells(tl_box4_middle(box), s->base, s->scale, (float)(BINS - 1), cells);
+        tl_box4_cells(tl_box4_middle(box), s->base, s->scale, (float)(s->used - 1), cells);
         for (uint32_t axis = 0; axis < AXES; axis++) {
             s->box[axis][cells[axis]] = tl_box4_union(s->box[axis][cells[axis]], box);
             s->count[axis][cells[axis]]++;
@@ -107,13 +110,13 @@ static void try_axis(const bins *s, uint32_t axis, uint32_t total, cut *best)
 {
     float right_area[BINS];
     tl_box4 box = tl_box4_empty();
-    for (uint32_t k = BINS; k-- > 1;) {
+    for (uint32_t k = s->used; k-- > 1;) {
         box = tl_box4_union(box, s->box[axis][k]);
         right_area[k] = half_area(box);
     }
     box = tl_box4_empty();
     uint32_t left = 0;
-    for (uint32_t k = 1; k < BINS; k++) {
+    for (uint32_t k = 1; k < s->used; k++) {
         box = tl_box4_union(box, s->box[axis][k - 1]);
         left += s->count[axis][k - 1];
         if (left == 0 || left == total) {
@@ -134,7 +137,7 @@ static uint32_t part(const build *b, const build_range *range, const bins *s, co
     uint32_t low = range->begin, high = range->end;
     while (low < high) {
         int32_t cells[4];
-        tl_box4_cells(tl_box4_middle(load(&b->refs[low])), s->base, s->scale, (float)(BINS - 1), cells);
+        tl_box4_cells(tl_box4_middle(load(&b->refs[low])), s->base, s->scale, (float)(s->used - 1), cells);
         if ((uint32_t)cells[c->axis] < c->bin) {
             low++;
         } else {
@@ -331,8 +334,8 @@ tl_result tl_scene_build(const tl_scene_item *items, uint32_t count, const tl_ho
     const tl_allocator *allocator = host != NULL ? host->allocator : NULL;
     tl_arena arena;
     tl_arena_init(&arena, allocator);
-    // With I nodes of eight parts and L of two to eight items, I + L - 1 + count lanes are filled, 8 I + 2 L or more.
-    uint64_t most_nodes = (uint64_t)count / 2 + count / 7 + 1;
+    // By induction a range of s >= 2 items takes s / 2 + (s - 2) / 14 nodes at most: the worst are eight parts of two.
+    uint64_t most_nodes = (uint64_t)count / 2 + count / 14 + 1;
     build b = { TL_PUSH(&arena, build_ref, count), TL_PUSH(&arena, tl_scene_record, count),
                 TL_PUSH(&arena, build_node, most_nodes), 0, 0 };
     tl_result result = TL_ERR_MEMORY;
