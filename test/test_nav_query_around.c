@@ -52,37 +52,34 @@ static double distance_to(tl_vec3 p, const stretch *s, tl_vec3 *point_out)
     return hypot(px - t * ex, pz - t * ez);
 }
 
-// Adds the nearest stretch of all polygons reached so far, again and again, until that is a wall.
-static double nearest_wall(const tl_navmesh *navmesh, const fixture_refs *all, uint32_t start, tl_vec3 p, double radius)
+// Whether a place on the surface can be walked to straight.
+static bool is_straight(const tl_navmesh *navmesh, const tl_nav_location *start, tl_vec3 point)
 {
-    bool *reached = calloc(all->count, sizeof *reached);
-    reached[start] = true;
-    double answer = -1.0;
-    while (answer < 0.0) {
-        double best = radius;
-        uint32_t to = 0;
-        bool found = false;
-        for (uint32_t i = 0; i < all->count; i++) {
-            stretch s[64];
-            uint32_t count = reached[i] ? stretches_of(navmesh, all, i, s) : 0;
-            for (uint32_t k = 0; k < count; k++) {
-                tl_vec3 point;
-                double d = distance_to(p, &s[k], &point);
-                if (d < best && (s[k].to == UINT32_MAX || !reached[s[k].to])) {
-                    best = d;
-                    to = s[k].to;
-                    found = true;
-                }
+    tl_nav_ray_hit hit;
+    float height = 0.0f;
+    tl_vec3 away = tl_sub(point, start->point);
+    TEST_RESULT(tl_navmesh_cast_ray(navmesh, NULL, start, point, NULL, 0, &hit), TL_OK);
+    TEST_RESULT(tl_navmesh_height(navmesh, hit.polygon, point.x, point.z, &height), TL_OK);
+    return (1.0f - hit.t) * hypotf(away.x, away.z) < 1e-4f && fabsf(height - point.y) < 1.0f;
+}
+
+// All walls, however far.
+static double nearest_wall(const tl_navmesh *navmesh, const fixture_refs *all, const tl_nav_location *start,
+                           double radius)
+{
+    double best = radius;
+    for (uint32_t i = 0; i < all->count; i++) {
+        stretch s[64];
+        uint32_t count = stretches_of(navmesh, all, i, s);
+        for (uint32_t k = 0; k < count; k++) {
+            tl_vec3 point;
+            double d = distance_to(start->point, &s[k], &point);
+            if (s[k].to == UINT32_MAX && d < best && is_straight(navmesh, start, point)) {
+                best = d;
             }
         }
-        if (!found || to == UINT32_MAX) {
-            answer = best;
-        } else {
-            reached[to] = true;
-        }
     }
-    free(reached);
-    return answer;
+    return best;
 }
 
 static bool is_over(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 p)
@@ -122,6 +119,40 @@ static double best_slide(const tl_navmesh *navmesh, const fixture_refs *all, uin
     return best;
 }
 
+// A ramp beside a wall leads to a floor over the place. Its foot begins where the wall ends, as far away as the wall
+// is; walls of the upper floor are nearer in the plane.
+static void test_floors_over_one_another(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "1....1", "1....1", "0....r", "0....1" };
+    uint32_t ties = 0;
+    fixture_level level = fixture_make(rows, 4);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    tl_nav_query_def def = tl_default_nav_query_def();
+    tl_nav_query *query = NULL;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    fixture_refs all = fixture_all_refs(navmesh);
+    const float step = FIXTURE_STEP * level.cell_size / 4.0f;
+    for (uint32_t k = 0; k < 24 * 16; k++) {
+        tl_vec3 at = tl_vec3_make(step * (float)(k % 24), 0.0f, step * (float)(k / 24));
+        tl_nav_location start;
+        for (int floor = 0; floor < 2; floor++) {
+            at.y = (float)(floor * FIXTURE_FLOOR_HEIGHT) * level.cell_height;
+            if (tl_navmesh_find_nearest(navmesh, NULL, at, tl_vec3_make(0.01f, 0.5f, 0.01f), &start) == TL_OK) {
+                tl_nav_wall wall;
+                TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &start, 30.0f, &wall), TL_OK);
+                TEST_CHECK(wall.hit);
+                TEST_CHECK(is_straight(navmesh, &start, wall.point));
+                ties += wall.distance > 0.0f;
+            }
+        }
+    }
+    TEST_CHECK(ties > 100);
+    free(all.refs);
+    tl_nav_query_free(query);
+    tl_navmesh_free(navmesh);
+}
+
 static void test_around(void **state)
 {
     (void)state;
@@ -141,9 +172,10 @@ static void test_around(void **state)
             float radius = test_random_range(&random, 0.1f, 8.0f);
             tl_nav_wall wall;
             TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &start, radius, &wall), TL_OK);
-            double expected = nearest_wall(navmesh, &all, index, start.point, (double)radius);
+            double expected = nearest_wall(navmesh, &all, &start, (double)radius);
             TEST_CHECK(fabs((double)wall.distance - expected) < 1e-4);
             if (wall.hit) {
+                TEST_CHECK(is_straight(navmesh, &start, wall.point));
                 double dx = (double)wall.point.x - (double)start.point.x,
                        dz = (double)wall.point.z - (double)start.point.z;
                 TEST_CHECK(fabs(hypot(dx, dz) - expected) < 1e-4);
@@ -217,6 +249,7 @@ static void test_arguments(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_around), cmocka_unit_test(test_arguments) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_around), cmocka_unit_test(test_floors_over_one_another),
+                                        cmocka_unit_test(test_arguments) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -559,9 +559,10 @@ typedef struct tl_nav_wall {
     tl_nav_ref polygon; ///< that the wall belongs to; the centre's without a hit
 } tl_nav_wall;
 
-/// Finds the wall nearest to `center` among the polygons that hang together with its own within `max_radius` metres.
-/// What the filter refuses is wall. TL_ERR_LIMIT: the query was out of nodes; the wall is the nearest that was seen.
-/// TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
+/// Finds the wall nearest to `center` within `max_radius` metres, of those that can be walked to straight: what lies on
+/// a floor above or below does not count. What the filter refuses is wall. TL_ERR_LIMIT: the query was out of nodes;
+/// the wall is the nearest that was seen. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a
+/// negative radius.
 TL_API tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                         const tl_nav_location *center, float max_radius, tl_nav_wall *wall_out);
 

@@ -7,14 +7,39 @@
 #include "nav_query/side.h"
 #include "nav_query/surface.h"
 
+// A corner seen from a point.
+typedef struct seen_corner {
+    double x, z;
+} seen_corner;
+
+static inline seen_corner see(tl_vec3 corner, tl_vec3 point)
+{
+    seen_corner seen = { (double)corner.x - (double)point.x, (double)corner.z - (double)point.z };
+    return seen;
+}
+
+// Whether a point lies beyond the edge from a to b of a polygon, exactly: tl_nav_side_of > 0, with what is common to
+// two edges that follow one another computed once.
+static inline bool is_beyond(tl_vec3 a, tl_vec3 b, tl_vec3 point, seen_corner seen_a, seen_corner seen_b)
+{
+    double left = seen_a.x * seen_b.z;
+    double right = seen_a.z * seen_b.x;
+    double bound = TL_CROSS_ERROR * (fabs(left) + fabs(right));
+    return left - right > bound || (!(right - left > bound) && tl_nav_side_of(a, b, point) > 0);
+}
+
 bool tl_nav_is_over(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
+    seen_corner seen_a = see(corners[0], point);
     for (uint32_t i = 0; i < count; i++) {
-        if (tl_nav_side_of(corners[i], corners[i + 1 < count ? i + 1 : 0], point) > 0) {
+        const tl_vec3 *b = &corners[i + 1 < count ? i + 1 : 0];
+        seen_corner seen_b = see(*b, point);
+        if (is_beyond(corners[i], *b, point, seen_a, seen_b)) {
             return false;
         }
+        seen_a = seen_b;
     }
     return true;
 }
@@ -35,23 +60,29 @@ tl_vec3 tl_nav_closest_on_edge(tl_vec3 a, tl_vec3 b, tl_vec3 point)
     return tl_min(tl_max(on_edge, tl_min(a, b)), tl_max(a, b));
 }
 
+// The closest point lies on an edge that the point is beyond: others are not looked at.
 tl_vec3 tl_nav_clamp_to_polygon(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point, bool *inside_out)
 {
-    *inside_out = tl_nav_is_over(tile, polygon, point);
-    if (*inside_out) {
-        return point;
-    }
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
-    tl_vec3 closest = corners[0];
+    tl_vec3 closest = point;
     double closest_sq = (double)INFINITY;
+    seen_corner seen_a = see(corners[0], point);
+    *inside_out = true;
     for (uint32_t i = 0; i < count; i++) {
-        tl_vec3 candidate = tl_nav_closest_on_edge(corners[i], corners[i + 1 < count ? i + 1 : 0], point);
-        double dx = (double)candidate.x - (double)point.x;
-        double dz = (double)candidate.z - (double)point.z;
-        if (dx * dx + dz * dz < closest_sq) {
-            closest_sq = dx * dx + dz * dz;
-            closest = candidate;
+        const tl_vec3 *b = &corners[i + 1 < count ? i + 1 : 0];
+        seen_corner seen_b = see(*b, point);
+        bool beyond = is_beyond(corners[i], *b, point, seen_a, seen_b);
+        seen_a = seen_b;
+        if (beyond) {
+            tl_vec3 candidate = tl_nav_closest_on_edge(corners[i], *b, point);
+            double dx = (double)candidate.x - (double)point.x;
+            double dz = (double)candidate.z - (double)point.z;
+            *inside_out = false;
+            if (dx * dx + dz * dz < closest_sq) {
+                closest_sq = dx * dx + dz * dz;
+                closest = candidate;
+            }
         }
     }
     return closest;

@@ -9,8 +9,7 @@
 #include "nav_query/surface.h"
 
 typedef struct triangle_weights {
-    double w[3];  // parts of the area, sum 1
-    double worst; // the smallest of them; >= 0: the triangle holds the point
+    double w[3]; // parts of the area, sum 1
 } triangle_weights;
 
 // Twice the areas of the parts into which a point divides a triangle.
@@ -45,8 +44,6 @@ static bool weigh(const double parts[3], triangle_weights *out)
     out->w[0] = parts[0] / sum;
     out->w[1] = parts[1] / sum;
     out->w[2] = parts[2] / sum;
-    out->worst = out->w[0] < out->w[1] ? out->w[0] : out->w[1];
-    out->worst = out->w[2] < out->worst ? out->w[2] : out->worst;
     return true;
 }
 
@@ -84,37 +81,81 @@ static float nearest_vertex_height(const tl_nav_surface *surface, double x, doub
     return height;
 }
 
+static void corners_of(const tl_nav_surface *surface, uint32_t triangle, const tl_vec3 *corners_out[3])
+{
+    for (int k = 0; k < 3; k++) {
+        corners_out[k] = &surface->vertices[surface->triangles[triangle].corner[k]];
+    }
+}
+
+// The smallest weight that a point has in a triangle: that of the part which is least in the triangle's own winding.
+static double worst_weight(const double parts[3])
+{
+    double sum = parts[0] + parts[1] + parts[2];
+    double low = parts[0] < parts[1] ? parts[0] : parts[1];
+    double high = parts[0] < parts[1] ? parts[1] : parts[0];
+    low = parts[2] < low ? parts[2] : low;
+    high = parts[2] > high ? parts[2] : high;
+    return sum > 0.0 ? low / sum : sum < 0.0 ? high / sum : -(double)INFINITY;
+}
+
 // The height where no triangle holds the point.
 static float height_beside(const tl_nav_surface *surface, double x, double z)
 {
-    const tl_vec3 *best[3] = { NULL, NULL, NULL };
-    triangle_weights best_weights = { { 0.0, 0.0, 0.0 }, -(double)INFINITY };
+    const tl_vec3 *corners[3];
+    double parts[3];
+    double worst = -(double)INFINITY;
+    uint32_t best = UINT32_MAX;
     for (uint32_t i = 0; i < surface->triangle_count; i++) {
-        const uint16_t *corner = surface->triangles[i].corner;
-        const tl_vec3 *v = surface->vertices;
-        double parts[3];
-        triangle_weights weights;
-        divide(v[corner[0]], v[corner[1]], v[corner[2]], x, z, parts);
-        if (weigh(parts, &weights) && weights.worst > best_weights.worst) {
-            best_weights = weights;
-            best[0] = &v[corner[0]];
-            best[1] = &v[corner[1]];
-            best[2] = &v[corner[2]];
+        corners_of(surface, i, corners);
+        divide(*corners[0], *corners[1], *corners[2], x, z, parts);
+        double weight = worst_weight(parts);
+        if (weight > worst) {
+            worst = weight;
+            best = i;
         }
     }
     // Only a patch that is one vertical wall has no triangle with area in the plane.
-    return best[0] != NULL ? mix_heights(best, &best_weights) : nearest_vertex_height(surface, x, z);
+    if (best == UINT32_MAX) {
+        return nearest_vertex_height(surface, x, z);
+    }
+    triangle_weights weights;
+    corners_of(surface, best, corners);
+    divide(*corners[0], *corners[1], *corners[2], x, z, parts);
+    weigh(parts, &weights);
+    return mix_heights(corners, &weights);
+}
+
+enum { MOST_CODES = 256, FEW_TRIANGLES = 8 };
+
+// On which sides of a point vertices lie, a bit a side: none of a triangle whose corners have one in common holds it.
+// In a patch of many triangles that leaves one or two to look at.
+static bool code_vertices(const tl_nav_surface *surface, float x, float z, uint8_t codes[MOST_CODES])
+{
+    if (surface->triangle_count < FEW_TRIANGLES || surface->vertex_count > MOST_CODES) {
+        return false;
+    }
+    for (uint32_t i = 0; i < surface->vertex_count; i++) {
+        const tl_vec3 *v = &surface->vertices[i];
+        codes[i] = (uint8_t)((v->x < x ? 1 : 0) | (v->x > x ? 2 : 0) | (v->z < z ? 4 : 0) | (v->z > z ? 8 : 0));
+    }
+    return true;
 }
 
 float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z)
 {
     tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
+    uint8_t codes[MOST_CODES];
+    bool has_codes = code_vertices(&surface, x, z, codes);
     for (uint32_t i = 0; i < surface.triangle_count; i++) {
-        const tl_nav_detail_triangle *triangle = &surface.triangles[i];
-        const tl_vec3 *corners[3] = { &surface.vertices[triangle->corner[0]], &surface.vertices[triangle->corner[1]],
-                                      &surface.vertices[triangle->corner[2]] };
+        const uint16_t *at = surface.triangles[i].corner;
+        if (has_codes && (codes[at[0]] & codes[at[1]] & codes[at[2]]) != 0) {
+            continue;
+        }
+        const tl_vec3 *corners[3];
         double parts[3];
         triangle_weights weights;
+        corners_of(&surface, i, corners);
         divide(*corners[0], *corners[1], *corners[2], (double)x, (double)z, parts);
         if (holds(parts) && weigh(parts, &weights)) {
             return mix_heights(corners, &weights);

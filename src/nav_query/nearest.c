@@ -62,7 +62,13 @@ static void try_polygon(nearest_search *search, uint32_t slot, uint32_t polygon)
         return;
     }
     bool inside = false;
-    tl_vec3 point = tl_nav_closest_on_surface(tile, polygon, search->center, &inside);
+    tl_vec3 point = tl_nav_clamp_to_polygon(tile, polygon, search->center, &inside);
+    float dx = point.x - search->center.x;
+    float dz = point.z - search->center.z;
+    if (dx * dx + dz * dz > search->best) {
+        return; // whatever its height
+    }
+    point.y = tl_nav_surface_height(tile, polygon, point.x, point.z);
     if (!search->on_island && !tl_aabb_contains(search->box, point)) {
         return;
     }
