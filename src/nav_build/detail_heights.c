@@ -60,22 +60,38 @@ static void consider(const tl_detail_floors *floors, int64_t x, int64_t z, int64
     }
 }
 
+// The columns of row z + dz from x - r to x + r. Their floors are one stretch of memory: mostly none is of the region, and
+// then no column is looked at.
+static void consider_row(const tl_detail_floors *floors, int64_t x, int64_t z, int64_t r, int64_t dz, found_floor *best)
+{
+    const tl_nav_compact *compact = floors->compact;
+    const int64_t row = z + dz, low = x - r > 0 ? x - r : 0, last = (int64_t)compact->width - 1;
+    const int64_t high = x + r < last ? x + r : last;
+    if (row < 0 || row >= (int64_t)compact->height || low > high) {
+        return;
+    }
+    const uint32_t *first = compact->first_span + row * compact->width;
+    uint32_t i = first[low];
+    while (i < first[high + 1] && compact->region[i] != floors->region) {
+        i++;
+    }
+    for (int64_t dx = low - x; i < first[high + 1] && dx <= high - x; dx++) {
+        consider(floors, x, z, dx, dz, best);
+    }
+}
+
 // The nearest column of the region; ties go to the lower z, then x.
 static found_floor find_nearest(const tl_detail_floors *floors, int64_t x, int64_t z)
 {
     found_floor best = { TL_NAV_NO_SPAN, 0, 0, INT64_MAX };
     // A ring at distance r holds nothing nearer than r.
     for (int64_t r = 1; r <= (int64_t)floors->reach && r * r < best.distance_sq; r++) {
-        for (int64_t dx = -r; dx <= r; dx++) {
-            consider(floors, x, z, dx, -r, &best);
-        }
+        consider_row(floors, x, z, r, -r, &best);
         for (int64_t dz = 1 - r; dz < r; dz++) {
             consider(floors, x, z, -r, dz, &best);
             consider(floors, x, z, r, dz, &best);
         }
-        for (int64_t dx = -r; dx <= r; dx++) {
-            consider(floors, x, z, dx, r, &best);
-        }
+        consider_row(floors, x, z, r, r, &best);
     }
     return best;
 }
@@ -119,21 +135,27 @@ static uint32_t walk_on(const tl_nav_compact *compact, found_floor from, int64_t
 // Walks over links straight towards a column, as a line is drawn, around where a link is missing.
 static void walk_straight(const tl_nav_compact *compact, found_floor *at, int64_t x, int64_t z)
 {
-    const int64_t length_x = x > at->x ? x - at->x : at->x - x, length_z = z > at->z ? z - at->z : at->z - z;
-    while (at->x != x || at->z != z) {
-        const int64_t dx = x - at->x, dz = z - at->z, step_x = (dx > 0) - (dx < 0), step_z = (dz > 0) - (dz < 0);
+    const uint32_t toward_x = x > at->x ? 2 : 0, toward_z = z > at->z ? 1 : 3;
+    int64_t left_x = x > at->x ? x - at->x : at->x - x, left_z = z > at->z ? z - at->z : at->z - z;
+    const int64_t length_x = left_x, length_z = left_z;
+    while (left_x > 0 || left_z > 0) {
         // The axis along which more of its own way is left; the other one when there is no link.
-        const bool along_x = dz == 0 || (dx != 0 && step_x * dx * length_z >= step_z * dz * length_x);
-        const int64_t before_x = at->x, before_z = at->z;
-        walk_towards(compact, at, before_x + (along_x ? step_x : 0), before_z + (along_x ? 0 : step_z), along_x);
-        if (at->x == before_x && at->z == before_z) {
-            walk_towards(compact, at, before_x + (along_x ? 0 : step_x), before_z + (along_x ? step_z : 0), !along_x);
+        bool along_x = left_z == 0 || (left_x != 0 && left_x * length_z >= left_z * length_x);
+        uint32_t next = tl_nav_beside(compact, at->span, along_x ? toward_x : toward_z);
+        if (next == TL_NAV_NO_SPAN && left_x > 0 && left_z > 0) {
+            along_x = !along_x;
+            next = tl_nav_beside(compact, at->span, along_x ? toward_x : toward_z);
         }
-        if (at->x == before_x && at->z == before_z) {
+        if (next == TL_NAV_NO_SPAN) {
             break;
         }
+        at->span = next;
+        left_x -= along_x;
+        left_z -= !along_x;
     }
-    at->distance_sq = (x - at->x) * (x - at->x) + (z - at->z) * (z - at->z);
+    at->x = toward_x == 2 ? x - left_x : x + left_x;
+    at->z = toward_z == 1 ? z - left_z : z + left_z;
+    at->distance_sq = left_x * left_x + left_z * left_z;
 }
 
 // Whether a column holds this floor and no other.

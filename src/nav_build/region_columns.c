@@ -2,25 +2,83 @@
 //
 // Columns with several floors, by region: a counting sort.
 //
+// Which regions lie over one another changes seldom from column to column: under a roof all columns hold the same two
+// regions. So a column that repeats the regions of the one before it is left out, and what is left are the columns at
+// the regions' rims.
+//
 // Rejected: a set of overlapping regions for each region, as Recast keeps. It has a pair for each two floors of a
 // column, and has to be merged and renamed with the regions; a list of columns stays true under any renaming.
 
 #include "nav_build/region_columns.h"
 
+#include "base/assert.h"
+
+#include <string.h>
+
+// Whether the `count` floors from a and from b on have the same regions.
+static inline bool same_regions(const uint32_t *region, uint32_t a, uint32_t b, uint32_t count)
+{
+    uint32_t k = 0;
+    while (k < count && region[a + k] == region[b + k]) {
+        k++;
+    }
+    return k == count;
+}
+
+static tl_result append(const tl_region_work *work, tl_stacked_columns *stacked, uint32_t *capacity, uint32_t column)
+{
+    if (stacked->count == *capacity) {
+        const uint32_t grown = *capacity > 0 ? 2 * *capacity : 256; // no more than columns, so below 2^31
+        uint32_t *columns = TL_PUSH(work->arena, uint32_t, grown);
+        if (columns == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        if (stacked->count > 0) {
+            memcpy(columns, stacked->columns, stacked->count * sizeof *columns);
+        }
+        stacked->columns = columns;
+        *capacity = grown;
+    }
+    stacked->columns[stacked->count++] = column;
+    return TL_OK;
+}
+
+tl_result tl_stacked_columns_make(const tl_region_work *work, tl_stacked_columns *stacked_out)
+{
+    const tl_nav_compact *compact = work->compact;
+    const uint32_t *region = work->region, *first = compact->first_span;
+    const uint32_t column_count = compact->width * compact->height;
+    uint32_t capacity = 0, before = 0, before_count = 0; // the floors of the column of several floors before this one
+    *stacked_out = (tl_stacked_columns){ NULL, 0 };
+    for (uint32_t c = 0; c < column_count; c++) {
+        const uint32_t begin = first[c], count = first[c + 1] - begin;
+        if (count <= 1) {
+            continue;
+        }
+        if (count != before_count || !same_regions(region, before, begin, count)) {
+            TL_TRY(append(work, stacked_out, &capacity, c));
+        }
+        before = begin;
+        before_count = count;
+    }
+    return TL_OK;
+}
+
 tl_result tl_region_columns_make(const tl_region_work *work, tl_region_columns *columns_out)
 {
     const tl_nav_compact *compact = work->compact;
     const uint32_t *region = work->region;
-    size_t column_count = (size_t)compact->width * compact->height;
+    tl_stacked_columns stacked;
+    TL_TRY(tl_stacked_columns_make(work, &stacked));
     uint32_t *first = TL_PUSH_ZERO(work->arena, uint32_t, (uint64_t)work->region_count + 2);
     if (first == NULL) {
         return TL_ERR_MEMORY;
     }
     // next[r + 1] counts region r, then is where r begins, then where it ends: first[r + 1].
     uint32_t *next = first + 1;
-    for (size_t c = 0; c < column_count; c++) {
-        uint32_t begin = compact->first_span[c], end = compact->first_span[c + 1];
-        for (uint32_t i = begin; end - begin > 1 && i < end; i++) {
+    for (uint32_t k = 0; k < stacked.count; k++) {
+        const uint32_t c = stacked.columns[k];
+        for (uint32_t i = compact->first_span[c]; i < compact->first_span[c + 1]; i++) {
             if (region[i] != 0 && !tl_region_is_border(region[i])) {
                 next[region[i] + 1]++;
             }
@@ -33,11 +91,11 @@ tl_result tl_region_columns_make(const tl_region_work *work, tl_region_columns *
     if (column == NULL) {
         return TL_ERR_MEMORY;
     }
-    for (size_t c = 0; c < column_count; c++) {
-        uint32_t begin = compact->first_span[c], end = compact->first_span[c + 1];
-        for (uint32_t i = begin; end - begin > 1 && i < end; i++) {
+    for (uint32_t k = 0; k < stacked.count; k++) {
+        const uint32_t c = stacked.columns[k];
+        for (uint32_t i = compact->first_span[c]; i < compact->first_span[c + 1]; i++) {
             if (region[i] != 0 && !tl_region_is_border(region[i])) {
-                column[next[region[i]]++] = (uint32_t)c;
+                column[next[region[i]]++] = c;
             }
         }
     }

@@ -8,7 +8,17 @@
 
 #include "nav_build/regions.h"
 
-/// Region r has the columns column[first[r]] .. column[first[r + 1] - 1], one entry a floor, ascending.
+/// The columns of several floors that a question about overlaps has to look at: one whose floors have the same regions
+/// as those of the column of several floors before it, one by one, tells nothing new and is left out.
+typedef struct tl_stacked_columns {
+    uint32_t *columns; ///< ascending
+    uint32_t count;
+} tl_stacked_columns;
+
+tl_result tl_stacked_columns_make(const tl_region_work *work, tl_stacked_columns *stacked_out);
+
+/// Region r has the columns column[first[r]] .. column[first[r + 1] - 1], one entry a floor, ascending; of those in
+/// tl_stacked_columns only.
 typedef struct tl_region_columns {
     const tl_nav_compact *compact;
     const uint32_t *region;

@@ -7,9 +7,10 @@
 // is flooded again, breadth first from its lowest index, and the flood stays out of columns that it already holds.
 // What is left becomes further regions. Regions that do not overlap are not touched.
 
+#include "base/assert.h"
 #include "nav_build/column.h"
 #include "nav_build/links.h"
-#include "nav_build/regions.h"
+#include "nav_build/region_columns.h"
 
 #include <string.h>
 
@@ -23,14 +24,17 @@ typedef struct splitter {
     placed_floor *queue; // room for all floors of regions that overlap
 } splitter;
 
-// Marks the regions that have two floors in a column, and returns their number. `last_column` is zeroed.
-static uint32_t find_overlaps(const tl_region_work *work, uint32_t *last_column, uint8_t *overlaps)
+// Marks the regions that have two floors in a column, and counts them. `last_column` is zeroed.
+static tl_result find_overlaps(const tl_region_work *work, uint32_t *last_column, uint8_t *overlaps,
+                               uint32_t *found_out)
 {
     const tl_nav_compact *compact = work->compact;
-    uint32_t column_count = compact->width * compact->height, found = 0;
-    for (uint32_t c = 0; c < column_count; c++) {
-        uint32_t begin = compact->first_span[c], end = compact->first_span[c + 1];
-        for (uint32_t i = begin; end - begin > 1 && i < end; i++) {
+    tl_stacked_columns stacked;
+    TL_TRY(tl_stacked_columns_make(work, &stacked));
+    uint32_t found = 0;
+    for (uint32_t k = 0; k < stacked.count; k++) {
+        const uint32_t c = stacked.columns[k];
+        for (uint32_t i = compact->first_span[c]; i < compact->first_span[c + 1]; i++) {
             uint32_t region = work->region[i];
             if (region == 0 || tl_region_is_border(region)) {
                 continue;
@@ -42,7 +46,8 @@ static uint32_t find_overlaps(const tl_region_work *work, uint32_t *last_column,
             last_column[region] = c + 1;
         }
     }
-    return found;
+    *found_out = found;
+    return TL_OK;
 }
 
 static bool column_holds(const splitter *s, uint32_t column, uint32_t region)
@@ -103,6 +108,6 @@ tl_result tl_regions_split_overlaps(tl_region_work *work)
     if (last_column == NULL || overlaps == NULL) {
         return TL_ERR_MEMORY;
     }
-    work->stats.split = find_overlaps(work, last_column, overlaps);
+    TL_TRY(find_overlaps(work, last_column, overlaps, &work->stats.split));
     return work->stats.split > 0 ? split(work, overlaps) : TL_OK;
 }
