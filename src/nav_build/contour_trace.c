@@ -17,6 +17,11 @@
 
 #include <string.h>
 
+enum {
+    LEAST_RUN = 8, // of floors that are worth a loop of their own
+    LONGEST_RUN = 64
+};
+
 typedef struct tracer {
     tl_contour_work *work;
     uint8_t *outline;      // [span_count + 8] bit d: edge d is on an outline; bit d + 4: and was not walked yet
@@ -42,14 +47,13 @@ static inline uint32_t count_edges(uint64_t outlines)
     return (uint32_t)((bits * 0x0101010101010101u) >> 56);
 }
 
-// The outlines of the eight floors from `first` on, the lowest byte first on any machine.
+// The outlines of the eight floors from `first` on, the lowest byte first on any machine. Compilers know this form as
+// one load; not so a loop.
 static inline uint64_t eight_outlines(const tracer *t, uint32_t first)
 {
-    uint64_t outlines = 0;
-    for (uint32_t k = 8; k-- > 0;) {
-        outlines = outlines << 8 | t->outline[first + k];
-    }
-    return outlines;
+    const uint8_t *o = t->outline + first;
+    return (uint64_t)o[0] | (uint64_t)o[1] << 8 | (uint64_t)o[2] << 16 | (uint64_t)o[3] << 24 | (uint64_t)o[4] << 32 |
+           (uint64_t)o[5] << 40 | (uint64_t)o[6] << 48 | (uint64_t)o[7] << 56;
 }
 
 // Edges are numbered by floor, then by direction; a number for each eighth floor says where to begin counting.
@@ -65,23 +69,66 @@ static inline bool is_open(const tracer *t, uint32_t floor, uint32_t direction)
     return (t->outline[floor] >> (direction + 4) & 1) != 0;
 }
 
-// Marks the outline edges of each floor: those beyond which there is no floor, or one of another region.
+// The outline edges of one floor: those beyond which there is no floor, or one of another region.
+static inline uint32_t outline_of(const tl_nav_compact *compact, uint32_t floor)
+{
+    const uint32_t region = compact->region[floor];
+    if (!is_traced(region)) {
+        return 0; // nobody asks for its edges
+    }
+    const tl_links links = tl_nav_links(compact, floor);
+    uint32_t mask = 0;
+    for (uint32_t d = 0; d < 4; d++) {
+        mask |= (uint32_t)(links.to[d] == TL_NAV_NO_SPAN || compact->region[links.to[d]] != region) << d;
+    }
+    return mask;
+}
+
+// Adds a bit to those floors of a run that have another region than what lies beside them.
+static inline void add_where_differs(const uint32_t *own, const uint32_t *beside, uint32_t count, uint32_t bit,
+                                     uint32_t *restrict mask)
+{
+    for (uint32_t k = 0; k < count; k++) {
+        mask[k] |= own[k] != beside[k] ? bit : 0;
+    }
+}
+
+// The same of a run of floors that all step alike: their neighbours too follow one another in memory.
+static void outlines_of_run(const tl_nav_compact *compact, uint32_t first, uint32_t count, uint8_t *restrict outline)
+{
+    const uint32_t *own = compact->region + first;
+    const int16_t *step = compact->step + 4 * (size_t)first;
+    uint32_t mask[LONGEST_RUN], always = 0;
+    for (uint32_t d = 0; d < 4; d++) {
+        always |= (uint32_t)(step[d] == 0) << d; // nothing lies beside; and a floor does not differ from itself
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        mask[k] = always;
+    }
+    add_where_differs(own, own + step[0], count, 1, mask);
+    add_where_differs(own, own + step[1], count, 2, mask);
+    add_where_differs(own, own + step[2], count, 4, mask);
+    add_where_differs(own, own + step[3], count, 8, mask);
+    for (uint32_t k = 0; k < count; k++) {
+        outline[k] = (uint8_t)(is_traced(own[k]) ? mask[k] : 0);
+    }
+}
+
 static void mark_outlines(tracer *t)
 {
     const tl_nav_compact *compact = t->work->compact;
-    const uint32_t *regions = compact->region;
+    const uint32_t count = compact->span_count;
     uint8_t *restrict outline = t->outline; // what pointers lead to would else be read again after each byte
-    for (uint32_t i = 0; i < compact->span_count; i++) {
-        const uint32_t region = regions[i];
-        if (!is_traced(region)) {
-            continue; // nobody asks for its edges
+    for (uint32_t i = 0, alike; i < count; i += alike) {
+        const uint32_t most = count - i < LONGEST_RUN ? count - i : LONGEST_RUN;
+        alike = compact->step != NULL ? tl_nav_steps_alike(compact, i, most) : 1;
+        if (alike >= LEAST_RUN) {
+            outlines_of_run(compact, i, alike, outline + i);
+        } else {
+            for (uint32_t k = i; k < i + alike; k++) {
+                outline[k] = (uint8_t)outline_of(compact, k);
+            }
         }
-        const tl_links links = tl_nav_links(compact, i);
-        uint32_t mask = 0;
-        for (uint32_t d = 0; d < 4; d++) {
-            mask |= (uint32_t)(links.to[d] == TL_NAV_NO_SPAN || regions[links.to[d]] != region) << d;
-        }
-        outline[i] = (uint8_t)mask;
     }
 }
 
