@@ -79,7 +79,7 @@ TL_API tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obs
 TL_API uint32_t tl_nav_obstacles_count(const tl_nav_obstacles *obstacles);
 /// Tiles that wait to be made again.
 TL_API uint32_t tl_nav_obstacles_waiting(const tl_nav_obstacles *obstacles);
-/// Bytes that the kept floors and the list of obstacles take.
+/// Bytes that the kept floors, what tiles that were made again keep of themselves, and the list of obstacles take.
 TL_API uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles);
 
 /// Bakes again, from triangles, what a change of the level inside `changed` can have touched, and lets those tiles

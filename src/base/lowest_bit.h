@@ -22,6 +22,20 @@ static inline uint32_t tl_lowest_bit(uint64_t mask)
 #endif
 }
 
+// Index of the highest set bit; the mask is not zero.
+static inline uint32_t tl_highest_bit(uint64_t mask)
+{
+#if defined(__GNUC__)
+    return 63u - (uint32_t)__builtin_clzll(mask);
+#else
+    uint32_t index = 0;
+    while ((mask >>= 1) != 0) {
+        index++;
+    }
+    return index;
+#endif
+}
+
 // How many bits are set.
 static inline uint32_t tl_bit_count(uint32_t mask)
 {

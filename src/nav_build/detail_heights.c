@@ -60,8 +60,8 @@ static void consider(const tl_detail_floors *floors, int64_t x, int64_t z, int64
     }
 }
 
-// The columns of row z + dz from x - r to x + r. Their floors are one stretch of memory: mostly none is of the region, and
-// then no column is looked at.
+// The columns of row z + dz from x - r to x + r. Their floors are one stretch of memory: mostly none is of the region,
+// and then no column is looked at.
 static void consider_row(const tl_detail_floors *floors, int64_t x, int64_t z, int64_t r, int64_t dz, found_floor *best)
 {
     const tl_nav_compact *compact = floors->compact;

@@ -22,7 +22,9 @@ typedef struct tile_job {
     const tl_nav_input *input;
     tl_triangle_list list;
     tl_host host;
-    bool keep;
+    bool keep;          // all intermediate data
+    bool keep_distance; // the distance field at least
+    bool has_distance;  // the floors come with one
     tl_nav_stages *stages;
     tl_nav_tile *tile;       // until it is in the stack
     tl_nav_tile_stack stack; // it alone, or its layers
@@ -90,10 +92,10 @@ static tl_result mark_areas(tile_job *job)
 static tl_result build_regions(tile_job *job)
 {
     tl_nav_compact *compact = &job->stages->compact;
-    if (job->config->partition == TL_NAV_WATERSHED) {
+    if (job->config->partition == TL_NAV_WATERSHED && !job->has_distance) {
         TL_TRY(tl_nav_distance_field(&job->host, compact, &job->report->base));
     }
-    TL_TRY(tl_nav_divide_regions(job->config, &job->host, compact, job->keep, &job->report->base));
+    TL_TRY(tl_nav_divide_regions(job->config, &job->host, compact, job->keep_distance, &job->report->base));
     job->report->region_count += compact->region_count > 0 ? compact->region_count - 1 : 0;
     job->report->filtered_regions += compact->region_stats.filtered_regions;
     job->report->filtered_spans += compact->region_stats.filtered_spans;
@@ -247,7 +249,7 @@ tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input
     job.input = input;
     job.list = list;
     job.host = *host;
-    job.keep = keep_stages;
+    job.keep = job.keep_distance = keep_stages;
     job.stages = stages;
     job.report = report;
     const tl_result result = build_tile(&job);
@@ -300,8 +302,8 @@ tl_result tl_nav_tile_build(const tl_nav_config *config, const tl_nav_input *inp
     return result;
 }
 
-tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
-                                  tl_nav_tile_stack *stack_out, tl_nav_build_report *report_out)
+tl_result tl_nav_tile_from_distance(const tl_nav_config *config, tl_nav_compact *compact, bool has_distance,
+                                    const tl_host *host, tl_nav_tile_stack *stack_out, tl_nav_build_report *report_out)
 {
     static const tl_host plain = { NULL, NULL, NULL };
     tl_nav_build_report report;
@@ -314,6 +316,7 @@ tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *c
     job.config = config;
     job.host = host != NULL ? *host : plain;
     job.keep = true; // the floors are the caller's
+    job.has_distance = has_distance;
     job.stages = &stages;
     job.report = &report;
     const tl_result result = finish_tile(&job);
@@ -328,4 +331,10 @@ tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *c
         *report_out = report;
     }
     return hand_over(&job, result, stack_out);
+}
+
+tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
+                                  tl_nav_tile_stack *stack_out, tl_nav_build_report *report_out)
+{
+    return tl_nav_tile_from_distance(config, compact, false, host, stack_out, report_out);
 }

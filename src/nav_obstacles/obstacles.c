@@ -18,7 +18,8 @@
 typedef struct tile_floors {
     tl_nav_compact compact;
     uint8_t *base_area;
-    uint32_t next_waiting; // in the queue, while it waits
+    tl_nav_tile_memo *memo; // NULL until the tile is first made again
+    uint32_t next_waiting;  // in the queue, while it waits
     bool is_there, waits;
 } tile_floors;
 
@@ -91,9 +92,11 @@ static void end_wait(tl_nav_obstacles *o)
 static void free_floors(tl_nav_obstacles *o, tile_floors *tile)
 {
     tl_release_array(&o->allocator, tile->base_area, tile->compact.span_count, sizeof *tile->base_area);
+    tl_nav_tile_memo_free(tile->memo);
     tl_nav_compact_free(&tile->compact);
     memset(&tile->compact, 0, sizeof tile->compact);
     tile->base_area = NULL;
+    tile->memo = NULL;
 }
 
 // Where a bake puts the floors that it makes: beside those that are there until all is well.
@@ -113,8 +116,10 @@ static void take_floors(const tl_nav_config *config, tl_nav_stages *stages, void
     fresh->allocator = &taker->obstacles->allocator;
     tl_release_array(fresh->allocator, fresh->distance, fresh->span_count, sizeof *fresh->distance);
     tl_release_array(fresh->allocator, fresh->region, fresh->span_count, sizeof *fresh->region);
+    tl_release_array(fresh->allocator, fresh->clearance, fresh->span_count, sizeof *fresh->clearance);
     fresh->distance = NULL;
     fresh->region = NULL;
+    fresh->clearance = NULL; // links were its last reader
 }
 
 // The bake's areas become the base; both or nothing.
@@ -468,7 +473,8 @@ tl_result tl_nav_obstacles_build_next(tl_nav_obstacles *obstacles, tl_nav_remade
         memcpy(tile->compact.area, tile->base_area, tile->compact.span_count);
         mark_obstacles(o, x, z, &tile->compact);
         const tl_host host = { &o->allocator, NULL, NULL };
-        TL_TRY(tl_nav_tile_from_floors(&config, &tile->compact, &host, &remade_out->stack, report_out));
+        TL_TRY(tl_nav_tile_remake(&config, &tile->compact, tile->base_area, &tile->memo, &host, &remade_out->stack,
+                                  report_out));
     }
     end_wait(o);
     return TL_OK;
@@ -505,7 +511,8 @@ uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles)
         const tl_nav_compact *compact = &o->tiles[i].compact;
         const uint64_t spans = compact->span_count;
         bytes += ((uint64_t)compact->width * compact->height + 1) * sizeof *compact->first_span;
-        bytes += spans * (sizeof *compact->floor + sizeof *compact->clearance + 2 * sizeof *compact->area);
+        bytes += spans * (sizeof *compact->floor + 2 * sizeof *compact->area);
+        bytes += tl_nav_tile_memo_bytes(o->tiles[i].memo);
         bytes += spans * 4 * (compact->step != NULL ? sizeof *compact->step : sizeof *compact->neighbour);
     }
     return bytes;
