@@ -16,8 +16,35 @@ typedef struct tl_links {
 static inline tl_links tl_nav_links(const tl_nav_compact *compact, uint32_t span)
 {
     tl_links links;
-    for (uint32_t d = 0; d < 4; d++) {
-        links.to[d] = tl_nav_beside(compact, span, d);
+    if (compact->step != NULL) { // asked once, and not for each direction
+        const int16_t *step = compact->step + 4 * (size_t)span;
+        for (uint32_t d = 0; d < 4; d++) {
+            const int32_t to = step[d];
+            links.to[d] = to != 0 ? span + (uint32_t)to : TL_NAV_NO_SPAN;
+        }
+    } else {
+        for (uint32_t d = 0; d < 4; d++) {
+            links.to[d] = compact->neighbour[4 * (size_t)span + d];
+        }
+    }
+    return links;
+}
+
+/// The same with the span itself where nothing lies beside it: for questions that a span answers with no of itself.
+static inline tl_links tl_nav_links_or_self(const tl_nav_compact *compact, uint32_t span)
+{
+    tl_links links;
+    if (compact->step != NULL) {
+        const int16_t *step = compact->step + 4 * (size_t)span;
+        for (uint32_t d = 0; d < 4; d++) {
+            const int32_t to = step[d];
+            links.to[d] = span + (uint32_t)to;
+        }
+    } else {
+        for (uint32_t d = 0; d < 4; d++) {
+            const uint32_t beside = compact->neighbour[4 * (size_t)span + d];
+            links.to[d] = beside != TL_NAV_NO_SPAN ? beside : span;
+        }
     }
     return links;
 }

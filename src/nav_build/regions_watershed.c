@@ -82,25 +82,26 @@ static inline bool is_interior(uint32_t region)
 }
 
 // A waiting floor beside a region of its area will join it: the one whose core is nearest; ties go to the lower
-// direction.
-static void look_for_region(watershed *w, uint32_t floor)
+// direction. Returns whether it does.
+static inline bool look_for_region(watershed *w, uint32_t floor)
 {
-    const tl_links links = tl_nav_links(w->compact, floor);
-    uint8_t area = w->compact->area[floor];
+    const tl_links links = tl_nav_links_or_self(w->compact, floor); // it has no region itself
+    const uint8_t *area = w->compact->area;
     uint32_t nearest = UINT32_MAX, region = 0;
     for (int d = 0; d < 4; d++) {
-        uint32_t beside = links.to[d];
-        if (beside != TL_NAV_NO_SPAN && is_interior(w->region[beside]) && w->compact->area[beside] == area &&
-            w->reach[beside] < nearest) {
+        const uint32_t beside = links.to[d];
+        if (is_interior(w->region[beside]) && area[beside] == area[floor] && w->reach[beside] < nearest) {
             nearest = w->reach[beside];
             region = w->region[beside];
         }
     }
-    if (region != 0) {
-        w->reach[floor] = (uint16_t)(nearest < FARTHEST ? nearest + 1 : FARTHEST);
-        w->region[floor] = JOINING | region;
-        w->joining.floors[w->joining.count++] = floor;
+    if (region == 0) {
+        return false;
     }
+    w->reach[floor] = (uint16_t)(nearest < FARTHEST ? nearest + 1 : FARTHEST);
+    w->region[floor] = JOINING | region;
+    w->joining.floors[w->joining.count++] = floor;
+    return true;
 }
 
 // All that were found in this step join at once, so the result does not depend on the order of looking.
@@ -115,63 +116,87 @@ static void join(watershed *w)
     w->joining.count = 0;
 }
 
+// Looks at the waiting floors beside those that joined in the last step.
 static tl_result look_beside_frontier(watershed *w, uint32_t level)
 {
     const uint64_t most = w->compact->span_count, beside_all = 4 * (uint64_t)w->frontier.count;
     TL_TRY(reserve(w, &w->joining, beside_all < most ? beside_all : most));
     for (uint32_t k = 0; k < w->frontier.count; k++) {
         uint32_t floor = w->frontier.floors[k];
-        const tl_links links = tl_nav_links(w->compact, floor);
+        const tl_links links = tl_nav_links_or_self(w->compact, floor);
         uint8_t area = w->compact->area[floor];
         for (int d = 0; d < 4; d++) {
             uint32_t beside = links.to[d];
-            if (beside != TL_NAV_NO_SPAN && w->region[beside] == 0 && w->compact->distance[beside] >= level &&
-                w->compact->area[beside] == area) {
-                look_for_region(w, beside);
+            if (w->region[beside] == 0 && w->compact->distance[beside] >= level && w->compact->area[beside] == area) {
+                (void)look_for_region(w, beside);
             }
         }
     }
     return TL_OK;
 }
 
-// Grows the regions over the waiting floors: order[begin, end), all at `level` or above it.
-static tl_result grow(watershed *w, uint32_t begin, uint32_t end, uint32_t level)
+// Looks at those of order[*begin, end) that still wait, from the end on; they stay, in order, and the others make room.
+static tl_result look_at_waiting(watershed *w, uint32_t *begin, uint32_t end)
 {
-    w->joining.count = w->frontier.count = 0;
-    for (uint32_t k = begin; k < end; k++) {
+    uint32_t kept = end;
+    for (uint32_t k = end; k-- > *begin;) {
+        const uint32_t floor = w->order.floors[k];
         if (w->joining.count == w->joining.capacity) {
             TL_TRY(reserve(w, &w->joining, (uint64_t)w->joining.count + 1024));
         }
-        if (w->region[w->order.floors[k]] == 0) {
-            look_for_region(w, w->order.floors[k]);
+        if (w->region[floor] == 0 && !look_for_region(w, floor)) {
+            w->order.floors[--kept] = floor;
         }
     }
+    *begin = kept;
+    return TL_OK;
+}
+
+// Grows the regions over the waiting floors: order[*begin, end), all at `level` or above it. Those that still wait in
+// the end are among order[*begin, end) then, in order. The first step settles most, so few are left to be looked at;
+// where they are many, only those beside the last step's are.
+static tl_result grow(watershed *w, uint32_t *begin, uint32_t end, uint32_t level)
+{
+    w->joining.count = w->frontier.count = 0;
+    TL_TRY(look_at_waiting(w, begin, end));
     // Terminates: each step takes at least one floor from those that wait.
     for (uint32_t step = 1; w->joining.count > 0; step++) {
         join(w);
-        if (level == 0 || step < GROWTH_STEPS) {
+        if (level != 0 && step >= GROWTH_STEPS) {
+            continue;
+        }
+        if (end - *begin <= w->frontier.count) {
+            TL_TRY(look_at_waiting(w, begin, end));
+        } else {
             TL_TRY(look_beside_frontier(w, level));
         }
     }
     return TL_OK;
 }
 
+// Whether a floor is of another region than `own`.
+static inline bool is_of_other(const watershed *w, uint32_t floor, uint8_t area, uint32_t own)
+{
+    const uint32_t region = w->region[floor];
+    return is_interior(region) && region != own && w->compact->area[floor] == area;
+}
+
 // Whether another region than `own` lies beside the floor, or round a corner from it.
 static bool touches_other_region(const watershed *w, uint32_t floor, uint32_t own)
 {
     const tl_nav_compact *compact = w->compact;
-    uint8_t area = compact->area[floor];
+    const uint8_t area = compact->area[floor];
+    const tl_links links = tl_nav_links_or_self(compact, floor); // it is of its own region itself
     for (uint32_t d = 0; d < 4; d++) {
-        uint32_t beside = tl_nav_beside(compact, floor, d);
-        if (beside == TL_NAV_NO_SPAN || compact->area[beside] != area || tl_region_is_border(w->region[beside])) {
-            continue;
-        }
-        if (w->region[beside] != 0 && w->region[beside] != own) {
+        const uint32_t beside = links.to[d];
+        if (is_of_other(w, beside, area, own)) {
             return true;
         }
-        uint32_t diagonal = tl_nav_beside(compact, beside, (d + 1) & 3);
-        if (diagonal != TL_NAV_NO_SPAN && compact->area[diagonal] == area && w->region[diagonal] != 0 &&
-            w->region[diagonal] != own && !tl_region_is_border(w->region[diagonal])) {
+        if (compact->area[beside] != area || tl_region_is_border(w->region[beside])) {
+            continue;
+        }
+        const uint32_t diagonal = tl_nav_beside(compact, beside, (d + 1) & 3);
+        if (diagonal != TL_NAV_NO_SPAN && is_of_other(w, diagonal, area, own)) {
             return true;
         }
     }
@@ -200,10 +225,10 @@ static tl_result flood(watershed *w, uint32_t seed, uint32_t level, uint32_t *ta
         if (stack->capacity - stack->count < 4 && stack->capacity < compact->span_count) {
             TL_TRY(reserve(w, stack, (uint64_t)stack->capacity + 4));
         }
-        const tl_links links = tl_nav_links(compact, floor);
+        const tl_links links = tl_nav_links_or_self(compact, floor); // it has a region itself
         for (int d = 0; d < 4; d++) {
             uint32_t beside = links.to[d];
-            if (beside != TL_NAV_NO_SPAN && w->region[beside] == 0 && compact->distance[beside] >= level &&
+            if (w->region[beside] == 0 && compact->distance[beside] >= level &&
                 compact->area[beside] == compact->area[floor]) {
                 w->region[beside] = own;
                 stack->floors[stack->count++] = beside;
@@ -311,7 +336,7 @@ static tl_result run_level(watershed *w, uint32_t *begin, uint32_t k)
 {
     const uint32_t level = 2 * (w->level_count - 1 - k), flood_level = level >= 2 ? level - 2 : 0;
     const uint32_t end = w->level_end[k];
-    TL_TRY(grow(w, *begin, end, level));
+    TL_TRY(grow(w, begin, end, level));
     for (uint32_t j = *begin; j < end; j++) {
         uint32_t taken = 0;
         if (w->region[w->order.floors[j]] == 0) {
@@ -337,7 +362,8 @@ static tl_result run_levels(watershed *w)
             memmove(w->order.floors, w->order.floors + begin, w->order.count * sizeof *w->order.floors);
         }
     }
-    return grow(w, 0, w->order.count, 0);
+    uint32_t begin = 0;
+    return grow(w, &begin, w->order.count, 0);
 }
 
 static void free_list(const watershed *w, floor_list *list)
