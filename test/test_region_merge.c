@@ -44,7 +44,9 @@ static void run_case(merge_case *m, const char *const *rows, uint32_t row_count,
     m->compact = fixture_from_rows(plain_rows, row_count, 0);
     regions_from_rows(rows, &m->compact, m->region);
     tl_arena_init(&m->arena, NULL);
-    tl_region_work work = { &m->compact, &m->arena, m->region, largest + 1, { 0, 0, 0, 0 }, NULL };
+    tl_region_work work = {
+        .compact = &m->compact, .arena = &m->arena, .region = m->region, .region_count = largest + 1
+    };
     m->work = work;
     TEST_RESULT(tl_regions_filter_and_merge(&m->work, min_area, merge_area), TL_OK);
 }
@@ -178,7 +180,9 @@ static void fixed_point(void **state)
         check_regions(&compact, compact.region, compact.region_count);
         tl_arena arena;
         tl_arena_init(&arena, NULL);
-        tl_region_work work = { &compact, &arena, compact.region, compact.region_count, { 0, 0, 0, 0 }, NULL };
+        tl_region_work work = {
+            .compact = &compact, .arena = &arena, .region = compact.region, .region_count = compact.region_count
+        };
         tl_region_rings rings;
         TEST_RESULT(tl_region_rings_make(&work, &rings), TL_OK);
         for (uint32_t r = 1; r < compact.region_count; r++) {

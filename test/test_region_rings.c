@@ -15,7 +15,7 @@ static void example(void **state)
     uint32_t region[9] = { 1, 1, 2, 1, 1, 2, 3, 3, 3 };
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    tl_region_work work = { &compact, &arena, region, 4, { 0, 0, 0, 0 }, NULL };
+    tl_region_work work = { .compact = &compact, .arena = &arena, .region = region, .region_count = 4 };
     tl_region_rings rings;
     TEST_RESULT(tl_region_rings_make(&work, &rings), TL_OK);
     // From the first floor's x- edge, clockwise: wall, then 3 below, 2 to the right; the wall above is the first again.
@@ -42,7 +42,7 @@ static void against_scan(void **state)
         tl_arena arena;
         tl_arena_init(&arena, NULL);
         uint32_t *region = calloc(compact.span_count + 1, sizeof *region);
-        tl_region_work work = { &compact, &arena, region, 1, { 0, 0, 0, 0 }, NULL };
+        tl_region_work work = { .compact = &compact, .arena = &arena, .region = region, .region_count = 1 };
         TEST_RESULT(tl_regions_monotone(&work), TL_OK); // no region has a hole
         uint32_t count = work.region_count;
         uint8_t *touches = calloc((size_t)count * count, 1), *named = calloc((size_t)count * count, 1);

@@ -17,7 +17,7 @@ static void partition_only(const tl_nav_compact *compact, tl_arena *arena, tl_re
             region[i] = compact->area[i] != TL_NAV_NULL_AREA ? TL_NAV_BORDER_REGION | 1 : 0;
         }
     }
-    tl_region_work made = { compact, arena, region, 0, { 0, 0, 0, 0 }, NULL };
+    tl_region_work made = { .compact = compact, .arena = arena, .region = region };
     TEST_RESULT(tl_regions_monotone(&made), TL_OK);
     *work = made;
 }

@@ -10,7 +10,7 @@ static void run(const tl_nav_compact *compact, uint32_t *region, uint32_t region
 {
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    tl_region_work work = { compact, &arena, region, region_count, { 0, 0, 0, 0 }, NULL };
+    tl_region_work work = { .compact = compact, .arena = &arena, .region = region, .region_count = region_count };
     TEST_RESULT(tl_regions_split_overlaps(&work), TL_OK);
     tl_arena_free(&arena);
     *work_out = work;

@@ -177,7 +177,7 @@ static void against_twin(void **state)
         twin_watershed(&t);
         tl_arena arena;
         tl_arena_init(&arena, NULL);
-        tl_region_work work = { &compact, &arena, region, 1, { 0, 0, 0, 0 }, NULL };
+        tl_region_work work = { .compact = &compact, .arena = &arena, .region = region, .region_count = 1 };
         TEST_RESULT(tl_regions_watershed(&work), TL_OK);
         TEST_CHECK(work.region_count == t.region_count);
         assert_memory_equal(region, t.region, count * sizeof *region);

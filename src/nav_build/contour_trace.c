@@ -179,11 +179,16 @@ static corner find_corner(const tl_nav_compact *compact, uint32_t floor, uint32_
 // or changes its neighbour on the tile's border. It is removed after merging, so that both tiles have the same edge.
 static bool is_border_vertex(const tl_nav_compact *compact, const corner *c)
 {
-    uint32_t region[4], area[4];
+    uint32_t region[4], area[4], any = 0;
     for (int k = 0; k < 4; k++) {
-        bool present = c->floors[k] != TL_NAV_NO_SPAN;
-        region[k] = present ? compact->region[c->floors[k]] : 0;
-        area[k] = present ? compact->area[c->floors[k]] : 0;
+        region[k] = c->floors[k] != TL_NAV_NO_SPAN ? compact->region[c->floors[k]] : 0;
+        any |= region[k];
+    }
+    if ((any & TL_NAV_BORDER_REGION) == 0) {
+        return false; // as most
+    }
+    for (int k = 0; k < 4; k++) {
+        area[k] = c->floors[k] != TL_NAV_NO_SPAN ? compact->area[c->floors[k]] : 0;
         if (region[k] == 0 && area[k] == 0) {
             return false;
         }

@@ -25,8 +25,9 @@ static inline bool same_regions(const uint32_t *region, uint32_t a, uint32_t b, 
     return k == count;
 }
 
-static tl_result append(const tl_region_work *work, tl_stacked_columns *stacked, uint32_t *capacity, uint32_t column)
+static tl_result append(tl_region_work *work, uint32_t *capacity, uint32_t column)
 {
+    tl_stacked_columns *stacked = &work->stacked;
     if (stacked->count == *capacity) {
         const uint32_t grown = *capacity > 0 ? 2 * *capacity : 256; // no more than columns, so below 2^31
         uint32_t *columns = TL_PUSH(work->arena, uint32_t, grown);
@@ -43,33 +44,37 @@ static tl_result append(const tl_region_work *work, tl_stacked_columns *stacked,
     return TL_OK;
 }
 
-tl_result tl_stacked_columns_make(const tl_region_work *work, tl_stacked_columns *stacked_out)
+tl_result tl_stacked_columns_find(tl_region_work *work)
 {
     const tl_nav_compact *compact = work->compact;
     const uint32_t *region = work->region, *first = compact->first_span;
     const uint32_t column_count = compact->width * compact->height;
     uint32_t capacity = 0, before = 0, before_count = 0; // the floors of the column of several floors before this one
-    *stacked_out = (tl_stacked_columns){ NULL, 0 };
+    if (work->stacked.are_known) {
+        return TL_OK;
+    }
+    work->stacked = (tl_stacked_columns){ NULL, 0, false };
     for (uint32_t c = 0; c < column_count; c++) {
         const uint32_t begin = first[c], count = first[c + 1] - begin;
         if (count <= 1) {
             continue;
         }
         if (count != before_count || !same_regions(region, before, begin, count)) {
-            TL_TRY(append(work, stacked_out, &capacity, c));
+            TL_TRY(append(work, &capacity, c));
         }
         before = begin;
         before_count = count;
     }
+    work->stacked.are_known = true;
     return TL_OK;
 }
 
-tl_result tl_region_columns_make(const tl_region_work *work, tl_region_columns *columns_out)
+tl_result tl_region_columns_make(tl_region_work *work, tl_region_columns *columns_out)
 {
     const tl_nav_compact *compact = work->compact;
     const uint32_t *region = work->region;
-    tl_stacked_columns stacked;
-    TL_TRY(tl_stacked_columns_make(work, &stacked));
+    TL_TRY(tl_stacked_columns_find(work));
+    const tl_stacked_columns stacked = work->stacked;
     uint32_t *first = TL_PUSH_ZERO(work->arena, uint32_t, (uint64_t)work->region_count + 2);
     if (first == NULL) {
         return TL_ERR_MEMORY;

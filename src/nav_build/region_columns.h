@@ -8,17 +8,11 @@
 
 #include "nav_build/regions.h"
 
-/// The columns of several floors that a question about overlaps has to look at: one whose floors have the same regions
-/// as those of the column of several floors before it, one by one, tells nothing new and is left out.
-typedef struct tl_stacked_columns {
-    uint32_t *columns; ///< ascending
-    uint32_t count;
-} tl_stacked_columns;
+/// Finds work->stacked, unless it is known.
+tl_result tl_stacked_columns_find(tl_region_work *work);
 
-tl_result tl_stacked_columns_make(const tl_region_work *work, tl_stacked_columns *stacked_out);
-
-/// Region r has the columns column[first[r]] .. column[first[r + 1] - 1], one entry a floor, ascending; of those in
-/// tl_stacked_columns only.
+/// Region r has the columns column[first[r]] .. column[first[r + 1] - 1], one entry a floor, ascending; of
+/// work->stacked only.
 typedef struct tl_region_columns {
     const tl_nav_compact *compact;
     const uint32_t *region;
@@ -26,6 +20,6 @@ typedef struct tl_region_columns {
     uint32_t *column;
 } tl_region_columns;
 
-tl_result tl_region_columns_make(const tl_region_work *work, tl_region_columns *columns_out);
+tl_result tl_region_columns_make(tl_region_work *work, tl_region_columns *columns_out);
 
 #endif

@@ -39,7 +39,9 @@ static tl_result divide_by_watershed(tl_region_work *work)
     TL_TRY(tl_regions_watershed(work));
     tl_arena_rollback(work->arena, mark);
     TL_TRY(tl_regions_split_overlaps(work));
-    tl_arena_rollback(work->arena, mark);
+    if (!work->stacked.are_known) {
+        tl_arena_rollback(work->arena, mark);
+    }
     return TL_OK;
 }
 
@@ -87,7 +89,11 @@ tl_result tl_nav_divide_regions(const tl_nav_config *config, const tl_host *host
     }
     tl_arena arena;
     tl_arena_init(&arena, host != NULL ? host->allocator : NULL);
-    tl_region_work work = { compact, &arena, region, 1, { 0, 0, 0, 0 }, keep_distance ? NULL : compact->distance };
+    tl_region_work work = { .compact = compact,
+                            .arena = &arena,
+                            .region = region,
+                            .region_count = 1,
+                            .scrap = keep_distance ? NULL : compact->distance };
     tl_result result = partition(config, &work);
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + (uint64_t)compact->span_count * sizeof *region;

@@ -10,6 +10,14 @@
 
 #include "base/arena.h"
 
+/// The columns of several floors that a question about overlaps has to look at: one whose floors have the same regions
+/// as those of the column of several floors before it, one by one, tells nothing new and is left out.
+typedef struct tl_stacked_columns {
+    uint32_t *columns; ///< ascending
+    uint32_t count;
+    bool are_known; ///< for the regions as they are
+} tl_stacked_columns;
+
 typedef struct tl_region_work {
     const tl_nav_compact *compact;
     tl_arena *arena;
@@ -17,6 +25,7 @@ typedef struct tl_region_work {
     uint32_t region_count; ///< largest id without the border's + 1
     tl_nav_region_stats stats;
     uint16_t *scrap; ///< compact->distance where it may be overwritten, else NULL
+    tl_stacked_columns stacked;
 } tl_region_work;
 
 /// tl_nav_build_regions that frees the distance field as soon as it is no longer needed: with `keep_distance` false it

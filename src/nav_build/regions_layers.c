@@ -126,6 +126,7 @@ tl_result tl_regions_layers(tl_region_work *work)
             work->region[i] = layer_of[work->region[i]];
         }
     }
+    work->stacked.are_known = false;
     work->region_count = layer_count;
     return TL_OK;
 }

@@ -9,12 +9,14 @@
 // Why it is fast here: the floors of a row are one stretch of the arrays, and the counts of what a row touches are
 // cleared by walking what was touched. (Recast clears one for each region so far, at each row.)
 
+#include "nav_build/links.h"
 #include "nav_build/regions.h"
 
 #include <string.h>
 
 typedef struct sweep {
-    uint32_t above; // the one region that the run touches in the row before; 0 none, MANY several
+    uint32_t first; // the region that the run touches first in the row before; 0: none
+    uint32_t above; // the one region that it touches there; 0 none, MANY several
     uint32_t links; // floors through which it does
     uint32_t region;
 } sweep;
@@ -29,34 +31,34 @@ typedef struct monotone {
     uint32_t region_count; // largest id + 1
 } monotone;
 
-// The region beside a floor in a direction, or 0 when there is none of its area. Border floors are none.
-static inline uint32_t region_beside(const monotone *m, uint32_t floor, uint32_t direction)
+// The region of what lies beside a floor, or of the floor itself where nothing does; 0 when it has another area or is
+// the border's.
+static inline uint32_t region_if_same(const monotone *m, uint32_t beside, uint8_t area)
 {
-    uint32_t beside = tl_nav_beside(m->compact, floor, direction);
-    if (beside == TL_NAV_NO_SPAN || m->compact->area[beside] != m->compact->area[floor] ||
-        tl_region_is_border(m->region[beside])) {
-        return 0;
-    }
-    return m->region[beside];
+    const uint32_t region = m->region[beside];
+    return m->compact->area[beside] == area && !tl_region_is_border(region) ? region : 0;
 }
 
-// Labels the row's floors with runs 1 .. and returns their number + 1.
+// Labels the row's floors with runs 1 .. and returns their number + 1. They have no region before.
 static uint32_t make_runs(monotone *m, uint32_t begin, uint32_t end)
 {
     uint32_t next = 1;
     for (uint32_t i = begin; i < end; i++) {
-        if (m->compact->area[i] == TL_NAV_NULL_AREA) {
+        const uint8_t area = m->compact->area[i];
+        if (area == TL_NAV_NULL_AREA) {
             continue;
         }
-        uint32_t run = region_beside(m, i, 0);
+        const tl_links links = tl_nav_links_or_self(m->compact, i);
+        uint32_t run = region_if_same(m, links.to[0], area);
+        const uint32_t above = region_if_same(m, links.to[3], area);
         if (run == 0) {
             run = next++;
-            memset(&m->sweeps[run], 0, sizeof m->sweeps[run]);
+            m->sweeps[run] = (sweep){ above, 0, 0, 0 };
         }
-        uint32_t above = region_beside(m, i, 3);
         if (above != 0) {
             // Past its first region a run counts nowhere: that one may still go on in another run.
             sweep *s = &m->sweeps[run];
+            s->first = s->first != 0 ? s->first : above;
             bool same = s->above == 0 || s->above == above;
             s->above = same ? above : MANY;
             s->links += same;
@@ -75,12 +77,12 @@ static void name_runs(monotone *m, uint32_t begin, uint32_t end, uint32_t run_co
         bool continues = s->above != 0 && s->above != MANY && m->touched[s->above] == s->links;
         s->region = continues ? s->above : m->region_count++;
     }
+    for (uint32_t k = 1; k < run_count; k++) {
+        m->touched[m->sweeps[k].first] = 0;
+    }
+    m->sweeps[0].region = 0; // of floors that are not walkable
     for (uint32_t i = begin; i < end; i++) {
-        if (m->compact->area[i] != TL_NAV_NULL_AREA) {
-            uint32_t above = region_beside(m, i, 3);
-            m->touched[above] = 0;
-            m->region[i] = m->sweeps[m->region[i]].region;
-        }
+        m->region[i] = m->sweeps[m->region[i]].region;
     }
 }
 

@@ -25,12 +25,11 @@ typedef struct splitter {
 } splitter;
 
 // Marks the regions that have two floors in a column, and counts them. `last_column` is zeroed.
-static tl_result find_overlaps(const tl_region_work *work, uint32_t *last_column, uint8_t *overlaps,
-                               uint32_t *found_out)
+static tl_result find_overlaps(tl_region_work *work, uint32_t *last_column, uint8_t *overlaps, uint32_t *found_out)
 {
     const tl_nav_compact *compact = work->compact;
-    tl_stacked_columns stacked;
-    TL_TRY(tl_stacked_columns_make(work, &stacked));
+    TL_TRY(tl_stacked_columns_find(work));
+    const tl_stacked_columns stacked = work->stacked;
     uint32_t found = 0;
     for (uint32_t k = 0; k < stacked.count; k++) {
         const uint32_t c = stacked.columns[k];
@@ -109,5 +108,9 @@ tl_result tl_regions_split_overlaps(tl_region_work *work)
         return TL_ERR_MEMORY;
     }
     TL_TRY(find_overlaps(work, last_column, overlaps, &work->stats.split));
-    return work->stats.split > 0 ? split(work, overlaps) : TL_OK;
+    if (work->stats.split == 0) {
+        return TL_OK;
+    }
+    work->stacked.are_known = false;
+    return split(work, overlaps);
 }
