@@ -24,11 +24,9 @@ enum {
 
 typedef struct tracer {
     tl_contour_work *work;
-    uint8_t *outline;      // [span_count + 8] bit d: edge d is on an outline; bit d + 4: and was not walked yet
-    uint32_t *first_edge;  // [span_count / 8 + 1] outline edges of the floors before each eighth one
-    uint32_t *vertex_of;   // [outline edges] the raw vertex where that edge starts
-    uint32_t *floor_of;    // [raw vertices] and its floor
-    uint8_t *direction_of; // [raw vertices] and its direction
+    uint8_t *outline;     // [span_count + 8] bit d: edge d is on an outline; bit d + 4: and was not walked yet
+    uint32_t *first_edge; // [span_count / 8 + 1] outline edges of the floors before each eighth one
+    uint32_t *vertex_of;  // [outline edges] the raw vertex where that edge starts, once it was walked
     uint32_t loop_capacity;
     uint64_t steps_left; // a walk leaves each pair (floor, direction) once: 4 a floor
 } tracer;
@@ -215,6 +213,19 @@ static uint32_t region_flags(uint32_t across)
     return (across & TL_NAV_BORDER_REGION) != 0 ? id | 0x8000u : id;
 }
 
+// Links an edge with the same one as the floor across it has it, if that one is an outline and was walked already: of
+// the two the later one finds the earlier.
+static inline void link_twin(tracer *t, uint32_t vertex, uint32_t beside, uint32_t back)
+{
+    tl_contour_work *work = t->work;
+    work->twin[vertex] = TL_NO_TWIN;
+    if (beside != TL_NAV_NO_SPAN && (t->outline[beside] & (1u << back)) != 0 && !is_open(t, beside, back)) {
+        const uint32_t twin = t->vertex_of[edge_index(t, beside, back)];
+        work->twin[vertex] = twin;
+        work->twin[twin] = vertex;
+    }
+}
+
 // Writes what belongs to the edge at its start vertex, and what belongs to its end vertex one place further.
 static void emit_edge(tracer *t, uint32_t vertex, uint32_t floor, uint32_t direction, uint32_t x, uint32_t z)
 {
@@ -226,8 +237,7 @@ static void emit_edge(tracer *t, uint32_t vertex, uint32_t floor, uint32_t direc
     work->across[vertex] = across;
     work->vertices[vertex].flags |= region_flags(across) | (area_border ? TL_CONTOUR_AREA_BORDER : 0);
     t->vertex_of[edge_index(t, floor, direction)] = vertex;
-    t->floor_of[vertex] = floor;
-    t->direction_of[vertex] = (uint8_t)direction;
+    link_twin(t, vertex, beside, direction ^ 2);
 
     corner c = find_corner(compact, floor, direction);
     tl_contour_vertex *end = &work->vertices[vertex + 1];
@@ -342,17 +352,6 @@ static tl_result walk_all(tracer *t)
     return TL_OK;
 }
 
-static void find_twins(tracer *t)
-{
-    tl_contour_work *work = t->work;
-    for (uint32_t k = 0; k < work->vertex_count; k++) {
-        uint32_t direction = t->direction_of[k];
-        uint32_t beside = tl_nav_beside(work->compact, t->floor_of[k], direction);
-        bool has_twin = beside != TL_NAV_NO_SPAN && (t->outline[beside] & (1u << (direction ^ 2))) != 0;
-        work->twin[k] = has_twin ? t->vertex_of[edge_index(t, beside, direction ^ 2)] : TL_NO_TWIN;
-    }
-}
-
 // What only the walk needs, in the scratch arena; what stays, in the work's.
 static tl_result prepare(tracer *t, tl_arena *scratch)
 {
@@ -369,16 +368,11 @@ static tl_result prepare(tracer *t, tl_arena *scratch)
         return TL_ERR_LIMIT;
     }
     t->vertex_of = TL_PUSH(scratch, uint32_t, edge_count);
-    t->floor_of = TL_PUSH(scratch, uint32_t, edge_count);
-    t->direction_of = TL_PUSH(scratch, uint8_t, edge_count);
     work->vertices = TL_PUSH(work->arena, tl_contour_vertex, edge_count + 1); // one ahead while a loop is open
     work->across = TL_PUSH(work->arena, uint32_t, edge_count);
     work->twin = TL_PUSH(work->arena, uint32_t, edge_count);
     work->loop_of = TL_PUSH(work->arena, uint32_t, edge_count);
-    return t->vertex_of && t->floor_of && t->direction_of && work->vertices && work->across && work->twin &&
-                   work->loop_of
-               ? TL_OK
-               : TL_ERR_MEMORY;
+    return t->vertex_of && work->vertices && work->across && work->twin && work->loop_of ? TL_OK : TL_ERR_MEMORY;
 }
 
 tl_result tl_contours_trace(tl_contour_work *work)
@@ -388,9 +382,6 @@ tl_result tl_contours_trace(tl_contour_work *work)
     tl_arena_init(&scratch, &work->arena->allocator);
     tl_result result = prepare(&t, &scratch);
     result = result == TL_OK ? walk_all(&t) : result;
-    if (result == TL_OK) {
-        find_twins(&t);
-    }
     tl_arena_free(&scratch);
     return result;
 }
