@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Distance field against a twin by relaxation: the chamfer distance is the fixed point of its steps.
+// Distance field against a twin by relaxation: the chamfer distance is the fixed point of its steps; and its update
+// after marks against a whole field.
 
 #include "nav_compact_fixture.h"
+
+#include "nav_build/distance_update.h"
 
 static bool twin_is_border(const tl_nav_compact *compact, uint32_t i)
 {
@@ -102,6 +105,66 @@ static void twin_by_relaxation(void **state)
     TEST_CHECK(inner > 500 && multi > 20);
 }
 
+// Marks discs and lone floors, as obstacles do, with areas new or known; some of them not walkable.
+static void mark_some(test_random *random, tl_nav_compact *compact)
+{
+    for (uint32_t marks = 1 + test_random_below(random, 4); marks > 0; marks--) {
+        const uint32_t x = test_random_below(random, compact->width), z = test_random_below(random, compact->height);
+        const uint32_t size = test_random_below(random, 5);
+        static const uint8_t areas[3] = { TL_NAV_NULL_AREA, 7, TL_NAV_WALKABLE_AREA };
+        const uint8_t area = areas[test_random_below(random, 3)];
+        for (uint32_t row = z; row < compact->height && row <= z + size; row++) {
+            for (uint32_t column = x; column < compact->width && column <= x + size; column++) {
+                const uint32_t *first = compact->first_span + (size_t)row * compact->width + column;
+                for (uint32_t i = first[0]; i < first[1]; i++) {
+                    compact->area[i] = area;
+                }
+            }
+        }
+    }
+}
+
+// The field after marks, from that before them, is a whole field made anew: on maps and where a stair winds round.
+static void update_is_a_whole_field(void **state)
+{
+    (void)state;
+    test_random random = { 29 };
+    uint32_t nearer = 0, farther = 0, spirals = 0;
+    for (int round = 0; round < 120; round++) {
+        const uint32_t width = 1 + test_random_below(&random, 60), height = 1 + test_random_below(&random, 60);
+        const bool spiral = round % 4 == 3;
+        tl_nav_compact compact = spiral
+                                     ? fixture_spiral(12 + (uint32_t)round / 8, 2, 1 + round % 3)
+                                     : fixture_random(&random, width, height, 1 + round % 3, (uint32_t)(round % 4), 0);
+        spirals += spiral;
+        uint8_t *before = calloc(compact.span_count + 1, 1);
+        memcpy(before, compact.area, compact.span_count);
+        tl_distance_stages stages;
+        TEST_RESULT(tl_distance_stages_make(&compact, NULL, &stages), TL_OK);
+        for (int edit = 0; edit < 6; edit++) {
+            memcpy(compact.area, before, compact.span_count);
+            mark_some(&random, &compact);
+            TEST_RESULT(tl_distance_field_update(before, &stages, NULL, &compact), TL_OK);
+            uint16_t *updated = compact.distance, most = compact.max_distance;
+            compact.distance = NULL;
+            TEST_RESULT(tl_nav_distance_field(NULL, &compact, NULL), TL_OK);
+            TEST_CHECK(memcmp(updated, compact.distance, compact.span_count * sizeof *updated) == 0);
+            TEST_CHECK(most == compact.max_distance);
+            for (uint32_t i = 0; i < compact.span_count; i++) {
+                nearer += updated[i] < stages.blurred[i];
+                farther += updated[i] > stages.blurred[i];
+            }
+            tl_release_array(NULL, updated, compact.span_count, sizeof *updated);
+            tl_release_array(NULL, compact.distance, compact.span_count, sizeof *updated);
+            compact.distance = NULL;
+        }
+        tl_distance_stages_free(&stages, compact.span_count, NULL);
+        free(before);
+        fixture_compact_free(&compact);
+    }
+    TEST_CHECK(nearer > 5000 && farther > 500 && spirals == 30);
+}
+
 static void fails_at_each_allocation(void **state)
 {
     (void)state;
@@ -149,6 +212,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(example_corridor),
         cmocka_unit_test(twin_by_relaxation),
+        cmocka_unit_test(update_is_a_whole_field),
         cmocka_unit_test(fails_at_each_allocation),
         cmocka_unit_test(empty_field),
     };
