@@ -375,8 +375,7 @@ static bool find_over_roads(tl_nav_path_run *run, tl_nav_ref *polygons_out, uint
     const tl_nav_path_room room = { NULL, 0, polygons_out, capacity };
     tl_nav_shortest_path path;
     memset(&path, 0, sizeof path);
-    if (roads == NULL || !tl_nav_search_roads(&run->exact, roads) ||
-        !tl_nav_write_roads(&run->exact, roads, &room, &path)) {
+    if (roads == NULL || !tl_nav_find_over_roads(&run->exact, roads, &room, &path)) {
         return false;
     }
     path_out->status = TL_NAV_PATH_COMPLETE;

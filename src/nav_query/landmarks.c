@@ -8,99 +8,23 @@
 // in each part that hangs together, each as far as possible from those before it.
 // Source: Goldberg and Harrelson, Computing the Shortest Path: A* Search Meets Graph Theory, 2005.
 
-#include "nav_query/roads.h"
+#include "nav_query/road_lengths.h"
 
 #include "base/arena.h"
+#include "base/assert.h"
 #include "math/tolerance.h"
 
 #include <math.h>
 #include <string.h>
 
-typedef struct open_bend {
-    double length;
-    uint32_t bend;
-} open_bend;
-
 typedef struct spread {
     const tl_nav_roads *roads;
+    tl_nav_road_lengths lengths;
     uint32_t *part;   // by bend: what hangs together
     uint32_t *source; // by part: the place in the set at hand
     uint32_t part_count;
-    double *length;  // by bend
     double *nearest; // by bend: length to any set so far
-    open_bend *heap; // [road_count + bend_count]: an entry each time a length falls
-    uint32_t heap_count;
 } spread;
-
-static bool is_before(open_bend a, open_bend b)
-{
-    return a.length < b.length || (a.length == b.length && a.bend < b.bend);
-}
-
-static void push(spread *s, double length, uint32_t bend)
-{
-    open_bend entry = { length, bend };
-    uint32_t at = s->heap_count++;
-    for (; at > 0 && is_before(entry, s->heap[(at - 1) / 2]); at = (at - 1) / 2) {
-        s->heap[at] = s->heap[(at - 1) / 2];
-    }
-    s->heap[at] = entry;
-}
-
-static open_bend pop(spread *s)
-{
-    open_bend top = s->heap[0];
-    open_bend last = s->heap[--s->heap_count];
-    uint32_t at = 0;
-    for (;;) {
-        uint32_t child = 2 * at + 1;
-        if (child >= s->heap_count) {
-            break;
-        }
-        child += child + 1 < s->heap_count && is_before(s->heap[child + 1], s->heap[child]) ? 1 : 0;
-        if (!is_before(s->heap[child], last)) {
-            break;
-        }
-        s->heap[at] = s->heap[child];
-        at = child;
-    }
-    s->heap[at] = last;
-    return top;
-}
-
-static double road_length(const tl_nav_bend *from, const tl_nav_road *road)
-{
-    double x = (double)road->x - (double)from->x;
-    double z = (double)road->z - (double)from->z;
-    return sqrt(x * x + z * z);
-}
-
-// Lengths from the sources to all bends: Dijkstra.
-static void measure(spread *s)
-{
-    for (uint32_t i = 0; i < s->roads->bend_count; i++) {
-        s->length[i] = (double)INFINITY;
-    }
-    for (uint32_t part = 0; part < s->part_count; part++) {
-        s->length[s->source[part]] = 0.0;
-        push(s, 0.0, s->source[part]);
-    }
-    while (s->heap_count > 0) {
-        open_bend next = pop(s);
-        if (next.length > s->length[next.bend]) {
-            continue;
-        }
-        const tl_nav_bend *bend = &s->roads->bends[next.bend];
-        for (uint32_t k = bend[0].first_road; k < bend[1].first_road; k++) {
-            const tl_nav_road *road = &s->roads->roads[k];
-            double length = next.length + road_length(bend, road);
-            if (length < s->length[road->to]) {
-                s->length[road->to] = length;
-                push(s, length, road->to);
-            }
-        }
-    }
-}
 
 // Labels parts; the first source of each is its first bend.
 static void find_parts(spread *s, uint32_t *stack)
@@ -140,16 +64,16 @@ static void mark(spread *s, tl_nav_roads *roads, uint32_t *stack)
 {
     double longest = 0.0;
     find_parts(s, stack);
-    measure(s);
-    memcpy(s->nearest, s->length, roads->bend_count * sizeof *s->nearest);
+    tl_nav_measure_roads(&s->lengths, s->source, s->part_count);
+    memcpy(s->nearest, s->lengths.length, roads->bend_count * sizeof *s->nearest);
     for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
         choose_sources(s);
-        measure(s);
+        tl_nav_measure_roads(&s->lengths, s->source, s->part_count);
         for (uint32_t i = 0; i < roads->bend_count; i++) {
-            roads->marks[i][k] = (float)s->length[i];
-            longest = fmax(longest, s->length[i]);
+            roads->marks[i][k] = (float)s->lengths.length[i];
+            longest = fmax(longest, s->lengths.length[i]);
             // The first set was chosen for its distance from some bend, which is no place of a set.
-            s->nearest[i] = k == 0 ? s->length[i] : fmin(s->nearest[i], s->length[i]);
+            s->nearest[i] = k == 0 ? s->lengths.length[i] : fmin(s->nearest[i], s->lengths.length[i]);
         }
     }
     // Two marks are rounded, and their difference.
@@ -161,23 +85,19 @@ tl_result tl_nav_mark_roads(const tl_allocator *allocator, tl_nav_roads *roads)
     spread s;
     memset(&s, 0, sizeof s);
     s.roads = roads;
-    uint64_t heap_size = (uint64_t)roads->bend_count + roads->road_count;
+    TL_TRY(tl_nav_road_lengths_make(allocator, roads, &s.lengths));
     uint32_t *stack = tl_allocate_array(allocator, roads->bend_count, sizeof *stack);
     s.part = tl_allocate_array(allocator, roads->bend_count, sizeof *s.part);
     s.source = tl_allocate_array(allocator, roads->bend_count, sizeof *s.source);
-    s.length = tl_allocate_array(allocator, roads->bend_count, sizeof *s.length);
     s.nearest = tl_allocate_array(allocator, roads->bend_count, sizeof *s.nearest);
-    s.heap = tl_allocate_array(allocator, heap_size, sizeof *s.heap);
-    bool fits =
-        stack != NULL && s.part != NULL && s.source != NULL && s.length != NULL && s.nearest != NULL && s.heap != NULL;
+    bool fits = stack != NULL && s.part != NULL && s.source != NULL && s.nearest != NULL;
     if (fits) {
         mark(&s, roads, stack);
     }
+    tl_nav_road_lengths_free(allocator, &s.lengths);
     tl_release_array(allocator, stack, roads->bend_count, sizeof *stack);
     tl_release_array(allocator, s.part, roads->bend_count, sizeof *s.part);
     tl_release_array(allocator, s.source, roads->bend_count, sizeof *s.source);
-    tl_release_array(allocator, s.length, roads->bend_count, sizeof *s.length);
     tl_release_array(allocator, s.nearest, roads->bend_count, sizeof *s.nearest);
-    tl_release_array(allocator, s.heap, heap_size, sizeof *s.heap);
     return fits ? TL_OK : TL_ERR_MEMORY;
 }

@@ -55,8 +55,8 @@ tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_
     query->wedge_heap = tl_allocate_array(def->allocator, query->max_nodes, sizeof *query->wedge_heap);
     query->roots = tl_allocate_array(def->allocator, (uint64_t)query->root_mask + 1, sizeof *query->roots);
     query->run = tl_allocate_array(def->allocator, 1, sizeof *query->run);
-    if (query->run == NULL || query->wedges == NULL || query->wedge_heap == NULL || query->roots == NULL ||
-        query->nodes == NULL || query->heap == NULL || query->buckets == NULL) {
+    if (query->run == NULL || query->wedges == NULL || query->stops == NULL || query->wedge_heap == NULL ||
+        query->roots == NULL || query->nodes == NULL || query->heap == NULL || query->buckets == NULL) {
         tl_nav_query_free(query);
         return TL_ERR_MEMORY;
     }

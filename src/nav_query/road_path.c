@@ -173,26 +173,19 @@ static bool add_leg(road_path *p, const tl_nav_bend *from, const tl_nav_bend *to
     return tl_nav_walk_line(&line, slot, polygon, &p->trail) == TL_NAV_LINE_ARRIVES;
 }
 
-bool tl_nav_write_roads(const tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
-                        tl_nav_shortest_path *path_out)
+uint32_t tl_nav_write_roads(const tl_nav_shortest_search *search, const tl_nav_roads *roads, const uint64_t *bends,
+                            uint32_t bend_count, const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
 {
     const tl_navmesh *navmesh = search->navmesh;
-    tl_nav_query *query = search->query;
+    memset(path_out, 0, sizeof *path_out);
     road_path p = { search, roads, room, path_out, { room->polygons, room->polygon_capacity, 0, 0, 0 }, search->start };
     add_corner(&p, search->start, tl_nav_make_ref(navmesh, search->start_slot, search->start_polygon),
                TL_NAV_CORNER_START);
-    // The search is over: the room of its heap holds the bends, the last one first.
-    uint32_t count = 0;
-    uint32_t stop = search->last != TL_NAV_NO_NODE ? query->stops[search->last].parent : TL_NAV_NO_NODE;
-    for (; stop != TL_NAV_NO_NODE; stop = query->stops[stop].parent) {
-        query->wedge_heap[count++] = query->stops[stop].bend;
-    }
     const tl_nav_bend *from = NULL;
-    for (uint32_t i = 0; i <= count; i++) {
-        const tl_nav_bend *to = i < count ? &roads->bends[query->wedge_heap[count - 1 - i]] : NULL;
+    for (uint32_t i = 0; i <= bend_count; i++) {
+        const tl_nav_bend *to = i < bend_count ? &roads->bends[bends[bend_count - 1 - i]] : NULL;
         if (!add_leg(&p, from, to)) {
-            memset(path_out, 0, sizeof *path_out);
-            return false;
+            return i;
         }
         from = to;
     }
@@ -200,6 +193,5 @@ bool tl_nav_write_roads(const tl_nav_shortest_search *search, const tl_nav_roads
     path_out->status = TL_NAV_PATH_COMPLETE;
     path_out->polygon_count = p.trail.count;
     path_out->lower_bound = fmin(search->lower_bound, path_out->length);
-    path_out->node_count = query->stop_count;
-    return true;
+    return UINT32_MAX;
 }

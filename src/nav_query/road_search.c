@@ -2,9 +2,8 @@
 //
 // Shortest paths over roads: A*, from the start's bends to the goal's.
 //
-// Which bends the start and the goal really see is found out late: all that see something of their polygons are taken
-// for seen, with the straight distance, which is never too long; when one is taken up the line is walked. What is
-// offered first is then seen or crossed out. A road is gone only where the path turns around the bend's walls.
+// Views (bend_views.c) tell which bends the start and the goal see, but for rounding: when one is taken up the line is
+// walked, and what is not seen is crossed out. A road is gone only where the path turns around the bend's walls.
 // Estimates are the straight line and landmarks (landmarks.c). Measured on a city of 25,000 polygons: 340 bends are
 // taken up where the search over polygons takes up 10,000 wedges.
 // Source: Hart, Nilsson, Raphael 1968; Goldberg and Harrelson 2005; Oh and Leong, Edge N-Level Sparse Visibility
@@ -131,13 +130,6 @@ static uint32_t relax(road_search *s, uint32_t bend, float x, float z, double co
     return index;
 }
 
-static const uint32_t *seen_from(const tl_nav_roads *roads, uint32_t slot, uint32_t polygon, uint32_t *count_out)
-{
-    const uint32_t *first = roads->seen_first + roads->slot_first[slot] + polygon;
-    *count_out = first[1] - first[0];
-    return roads->seen + first[0];
-}
-
 static tl_nav_line make_line(const road_search *s, double x, double z, double to_x, double to_z)
 {
     const tl_nav_shortest_search *in = s->in;
@@ -156,48 +148,43 @@ static bool sees(road_search *s, const tl_nav_line *line, uint32_t slot, uint32_
 static void prepare_goal(road_search *s)
 {
     const tl_nav_shortest_search *in = s->in;
-    uint32_t count = 0;
-    const uint32_t *seen = seen_from(s->roads, in->goal_slot, in->goal_polygon, &count);
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_bend *bend = &s->roads->bends[seen[i]];
-        double x = (double)bend->x - s->goal_x;
-        double z = (double)bend->z - s->goal_z;
-        if (tl_nav_hands_at(bend, x, z, s->rounding) == 0) {
-            continue;
-        }
-        uint32_t stop = stop_at(s, seen[i]);
-        if (stop == TL_NAV_NO_NODE) {
-            return;
-        }
+    tl_nav_query *query = s->query;
+    uint32_t count = tl_nav_bends_in_view(s->roads, in->goal_slot, in->goal_polygon, in->goal.x, in->goal.z,
+                                          query->stops, query->max_nodes);
+    s->is_unclear = count == TL_NAV_NO_NODE;
+    for (uint32_t i = 0; i < count && !s->is_unclear; i++) {
+        // A bend that comes a second time takes no stop: what is read lies ahead of what is written.
+        uint32_t bend = query->stops[i].bend;
+        double x = (double)s->roads->bends[bend].x - s->goal_x;
+        double z = (double)s->roads->bends[bend].z - s->goal_z;
+        uint32_t stop = stop_at(s, bend);
         double length = sqrt(x * x + z * z);
-        s->query->stops[stop].to_goal = length;
-        s->query->stops[stop].guess = (float)length * (1.0f - TL_FLOAT_GAMMA(2));
+        query->stops[stop].to_goal = length;
+        query->stops[stop].guess = (float)length * (1.0f - TL_FLOAT_GAMMA(2));
     }
-    s->goal_stops = s->query->stop_count;
+    s->goal_stops = query->stop_count;
 }
 
 static void open_start(road_search *s)
 {
     const tl_nav_shortest_search *in = s->in;
-    uint32_t count = 0;
-    const uint32_t *seen = seen_from(s->roads, in->start_slot, in->start_polygon, &count);
+    tl_nav_query *query = s->query;
+    uint32_t first = query->stop_count;
+    uint32_t count = tl_nav_bends_in_view(s->roads, in->start_slot, in->start_polygon, in->start.x, in->start.z,
+                                          query->stops + first, query->max_nodes - first);
+    s->is_unclear = s->is_unclear || count == TL_NAV_NO_NODE;
     for (uint32_t i = 0; i < count && !s->is_unclear; i++) {
-        const tl_nav_bend *bend = &s->roads->bends[seen[i]];
+        // Not the bend's own stop: whether it is seen is not known for certain yet.
+        uint32_t index = new_stop(s, query->stops[first + i].bend);
+        tl_nav_stop *stop = &query->stops[index];
+        const tl_nav_bend *bend = &s->roads->bends[stop->bend];
         double x = (double)bend->x - s->start_x;
         double z = (double)bend->z - s->start_z;
-        if (tl_nav_hands_at(bend, x, z, s->rounding) == 0) {
-            continue;
-        }
-        // Not the bend's own stop: whether it is seen is not known yet.
-        uint32_t index = new_stop(s, seen[i]);
-        if (index != TL_NAV_NO_NODE) {
-            tl_nav_stop *stop = &s->query->stops[index];
-            stop->cost = sqrt(x * x + z * z);
-            stop->guess = guess_straight(s, bend->x, bend->z);
-            stop->is_start = true;
-            stop->total = (float)(stop->cost + (double)stop->guess);
-            open_stop(s, index);
-        }
+        stop->cost = sqrt(x * x + z * z);
+        stop->guess = guess_straight(s, bend->x, bend->z);
+        stop->is_start = true;
+        stop->total = (float)(stop->cost + (double)stop->guess);
+        open_stop(s, index);
     }
 }
 
@@ -314,11 +301,13 @@ static uint32_t run(road_search *s)
     return TL_NAV_NO_NODE;
 }
 
-bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads)
+bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
+                         tl_nav_shortest_path *path_out)
 {
     road_search s;
+    tl_nav_query *query = search->query;
     s.in = search;
-    s.query = search->query;
+    s.query = query;
     s.roads = roads;
     s.start_x = (double)search->start.x;
     s.start_z = (double)search->start.z;
@@ -327,28 +316,23 @@ bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roa
     s.is_unclear = false;
     s.is_marked = false;
     s.goal_stops = 0;
-    double largest = fmax(fmax(fabs(s.start_x), fabs(s.start_z)), fmax(fabs(s.goal_x), fabs(s.goal_z)));
-    s.rounding = fmax(roads->rounding, TL_NAV_ON_LINE * largest);
-    s.query->stop_count = 0;
-    s.query->open_count = 0;
-    search->last = TL_NAV_NO_NODE;
-    bool is_one_polygon = search->start_slot == search->goal_slot && search->start_polygon == search->goal_polygon;
-    tl_nav_line line = make_line(&s, s.start_x, s.start_z, s.goal_x, s.goal_z);
-    if (is_one_polygon || sees(&s, &line, search->start_slot, search->start_polygon)) {
-        search->lower_bound = (double)INFINITY; // the straight line
-        return true;
-    }
-    // Two polygons may hold the same place, and no line leads from one to the other.
-    if (s.is_unclear || (line.on_x == 0.0 && line.on_z == 0.0)) {
-        return false;
-    }
-    tl_nav_next_generation(s.query);
+    s.rounding = tl_nav_line_rounding(search, roads);
+    query->stop_count = 0;
+    query->open_count = 0;
+    tl_nav_next_generation(query);
     prepare_goal(&s);
     open_start(&s);
-    search->last = run(&s);
-    if (search->last == TL_NAV_NO_NODE || s.is_unclear) {
+    uint32_t last = run(&s);
+    if (last == TL_NAV_NO_NODE || s.is_unclear) {
         return false;
     }
-    search->lower_bound = (double)s.query->stops[search->last].total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
-    return true;
+    search->lower_bound = (double)query->stops[last].total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
+    // The search is over: the room of its heap holds the bends, the last one first.
+    uint32_t count = 0;
+    for (uint32_t stop = query->stops[last].parent; stop != TL_NAV_NO_NODE; stop = query->stops[stop].parent) {
+        query->wedge_heap[count++] = query->stops[stop].bend;
+    }
+    bool is_written = tl_nav_write_roads(search, roads, query->wedge_heap, count, room, path_out) == UINT32_MAX;
+    path_out->node_count = query->stop_count;
+    return is_written;
 }

@@ -20,39 +20,37 @@
 // Wedges that one look around may need at first. It is doubled where that is too few.
 enum { FIRST_WEDGES = 4096 };
 
+// Twice the room for a list that is full. NULL: there is none; the list is as it was.
+static void *grow(const tl_allocator *allocator, void *items, uint64_t *capacity, size_t size)
+{
+    uint64_t more = *capacity > 0 ? 2 * *capacity : 1024;
+    void *grown = tl_allocate_array(allocator, more, size);
+    if (grown != NULL) {
+        if (*capacity > 0) {
+            memcpy(grown, items, *capacity * size);
+        }
+        tl_release_array(allocator, items, *capacity, size);
+        *capacity = more;
+    }
+    return grown;
+}
+
 // Pairs of numbers, as many as come.
 typedef struct pair_list {
-    const tl_allocator *allocator;
     uint64_t *pairs; // key << 32 | value
     uint64_t count, capacity;
-    tl_result result;
 } pair_list;
 
-static void add_pair(pair_list *list, uint32_t key, uint32_t value)
-{
-    if (list->count == list->capacity && list->result == TL_OK) {
-        uint64_t capacity = list->capacity > 0 ? 2 * list->capacity : 1024;
-        uint64_t *grown = tl_allocate_array(list->allocator, capacity, sizeof *grown);
-        if (grown == NULL) {
-            list->result = TL_ERR_MEMORY;
-            return;
-        }
-        if (list->count > 0) {
-            memcpy(grown, list->pairs, list->count * sizeof *grown);
-        }
-        tl_release_array(list->allocator, list->pairs, list->capacity, sizeof *grown);
-        list->pairs = grown;
-        list->capacity = capacity;
-    }
-    if (list->result == TL_OK) {
-        list->pairs[list->count++] = (uint64_t)key << 32 | value;
-    }
-}
+// Views and their polygons, the same.
+typedef struct polygon_view {
+    uint32_t polygon;
+    tl_nav_view view;
+} polygon_view;
 
-static void free_pairs(pair_list *list)
-{
-    tl_release_array(list->allocator, list->pairs, list->capacity, sizeof *list->pairs);
-}
+typedef struct view_list {
+    polygon_view *views;
+    uint64_t count, capacity;
+} view_list;
 
 typedef struct builder {
     tl_navmesh *navmesh;
@@ -60,11 +58,41 @@ typedef struct builder {
     tl_nav_roads *roads;
     uint32_t *bend_of; // [last_fan + 1], by number; UINT32_MAX: none
     uint32_t fan_count;
-    uint32_t *last_from; // by polygon: 1 + the bend that saw it last
     tl_nav_query *query;
-    pair_list seen, sights; // polygon and bend, bend and bend
-    uint32_t bend;          // that looks
+    pair_list sights; // bend and bend
+    view_list views;
+    uint32_t bend;    // that looks
+    tl_result result; // of the lists
 } builder;
+
+static void add_pair(builder *b, uint32_t key, uint32_t value)
+{
+    pair_list *list = &b->sights;
+    if (list->count == list->capacity) {
+        uint64_t *grown = grow(&b->allocator, list->pairs, &list->capacity, sizeof *grown);
+        if (grown == NULL) {
+            b->result = TL_ERR_MEMORY;
+            return;
+        }
+        list->pairs = grown;
+    }
+    list->pairs[list->count++] = (uint64_t)key << 32 | value;
+}
+
+static void add_view(builder *b, uint32_t polygon, const tl_nav_view *view)
+{
+    view_list *list = &b->views;
+    if (list->count == list->capacity) {
+        polygon_view *grown = grow(&b->allocator, list->views, &list->capacity, sizeof *grown);
+        if (grown == NULL) {
+            b->result = TL_ERR_MEMORY;
+            return;
+        }
+        list->views = grown;
+    }
+    list->views[list->count].polygon = polygon;
+    list->views[list->count++].view = *view;
+}
 
 static uint32_t count_bends(builder *b)
 {
@@ -127,8 +155,8 @@ static void note_sight(void *user, uint32_t turn)
     if (seen != b->bend && (x != 0.0 || z != 0.0) && tl_nav_hands_at(from, -x, -z, b->roads->rounding) != 0 &&
         tl_nav_hands_at(to, x, z, b->roads->rounding) != 0) {
         // Each end may have missed the other by rounding.
-        add_pair(&b->sights, b->bend, seen);
-        add_pair(&b->sights, seen, b->bend);
+        add_pair(b, b->bend, seen);
+        add_pair(b, seen, b->bend);
     }
 }
 
@@ -139,32 +167,16 @@ static tl_result make_query(builder *b, uint32_t max_nodes)
     return tl_nav_query_create(&def, &b->query);
 }
 
-// Whether a path from somewhere in a polygon to a bend may turn there: not when all its corners see a wall of the bend
-// on one hand and, or another one, on the other.
-static bool may_lead_from(const builder *b, uint32_t slot, uint32_t polygon, const tl_nav_bend *bend)
+static void note_views(builder *b, const tl_nav_wedge *wedge)
 {
-    uint32_t count = 0;
-    const tl_nav_ring_edge *ring = tl_nav_ring_at(b->navmesh, slot, polygon, &count);
-    const double walls[2][2] = { { (double)bend->walls.first_x, (double)bend->walls.first_z },
-                                 { (double)bend->walls.last_x, (double)bend->walls.last_z } };
-    bool left = true;
-    bool right = true;
-    for (int w = 0; w < 2; w++) {
-        bool any_left = false;
-        bool any_right = false;
-        for (uint32_t i = 0; i < count; i++) {
-            double x = (double)bend->x - (double)ring[i].x;
-            double z = (double)bend->z - (double)ring[i].z;
-            double turn = x * walls[w][1] - z * walls[w][0];
-            double size = fabs(x) + fabs(z) + fabs(walls[w][0]) + fabs(walls[w][1]);
-            double slack = 4.0 * b->roads->rounding * size;
-            any_left = any_left || turn <= slack;
-            any_right = any_right || turn >= -slack;
+    const tl_nav_bend *from = &b->roads->bends[b->bend];
+    for (int hand = -1; hand <= 1; hand += 2) {
+        tl_nav_view view;
+        view.bend = b->bend;
+        if (tl_nav_view_from(wedge, &from->walls, hand, b->roads->rounding, &view)) {
+            add_view(b, b->roads->slot_first[wedge->slot] + wedge->polygon, &view);
         }
-        left = left && any_left;
-        right = right && any_right;
     }
-    return left || right;
 }
 
 static tl_result look_from(builder *b, uint32_t bend)
@@ -187,16 +199,9 @@ static tl_result look_from(builder *b, uint32_t bend)
         start.query = b->query;
     }
     for (uint32_t i = 0; i < b->query->wedge_count; i++) {
-        const tl_nav_wedge *wedge = &b->query->wedges[i];
-        uint32_t polygon = b->roads->slot_first[wedge->slot] + wedge->polygon;
-        if (b->last_from[polygon] != bend + 1) {
-            b->last_from[polygon] = bend + 1;
-            if (may_lead_from(b, wedge->slot, wedge->polygon, from)) {
-                add_pair(&b->seen, polygon, bend);
-            }
-        }
+        note_views(b, &b->query->wedges[i]);
     }
-    return b->seen.result != TL_OK ? b->seen.result : b->sights.result;
+    return b->result;
 }
 
 // Sums counts up and leaves the pairs' values by key: those of key k at [first[k], first[k + 1]).
@@ -268,19 +273,32 @@ static tl_result make_roads(builder *b)
     return roads->roads != NULL ? TL_OK : TL_ERR_MEMORY;
 }
 
-static tl_result list_seen(builder *b)
+static tl_result list_views(builder *b)
 {
     tl_nav_roads *roads = b->roads;
-    if (b->seen.count > UINT32_MAX) {
+    if (b->views.count > UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
-    roads->seen_count = (uint32_t)b->seen.count;
-    roads->seen_first = tl_allocate_array(&b->allocator, (uint64_t)roads->polygon_count + 1, sizeof *roads->seen_first);
-    roads->seen = tl_allocate_array(&b->allocator, roads->seen_count, sizeof *roads->seen);
-    if (roads->seen_first == NULL || roads->seen == NULL) {
+    uint32_t count = (uint32_t)b->views.count;
+    uint32_t *first = tl_allocate_array(&b->allocator, (uint64_t)roads->polygon_count + 1, sizeof *first);
+    tl_nav_view *views = tl_allocate_array(&b->allocator, count, sizeof *views);
+    roads->view_count = count;
+    roads->view_first = first;
+    roads->views = views;
+    if (first == NULL || views == NULL) {
         return TL_ERR_MEMORY;
     }
-    group(&b->seen, roads->polygon_count, roads->seen_first, roads->seen);
+    memset(first, 0, ((size_t)roads->polygon_count + 1) * sizeof *first);
+    for (uint32_t i = 0; i < count; i++) {
+        first[b->views.views[i].polygon]++;
+    }
+    for (uint32_t p = 1; p <= roads->polygon_count; p++) {
+        first[p] += first[p - 1];
+    }
+    for (uint32_t i = count; i > 0; i--) {
+        const polygon_view *last = &b->views.views[i - 1];
+        views[--first[last->polygon]] = last->view;
+    }
     return TL_OK;
 }
 
@@ -297,12 +315,10 @@ static tl_result find_bends(builder *b)
     roads->bends = tl_allocate_array(&b->allocator, (uint64_t)roads->bend_count + 1, sizeof *roads->bends);
     roads->marks = tl_allocate_array(&b->allocator, roads->bend_count, sizeof *roads->marks);
     roads->slot_first = tl_allocate_array(&b->allocator, roads->slot_count, sizeof *roads->slot_first);
-    b->last_from = tl_allocate_array(&b->allocator, b->navmesh->polygon_count, sizeof *b->last_from);
-    if (roads->bends == NULL || roads->marks == NULL || roads->slot_first == NULL || b->last_from == NULL) {
+    if (roads->bends == NULL || roads->marks == NULL || roads->slot_first == NULL) {
         return TL_ERR_MEMORY;
     }
     memset(roads->bends, 0, ((size_t)roads->bend_count + 1) * sizeof *roads->bends);
-    memset(b->last_from, 0, b->navmesh->polygon_count * sizeof *b->last_from);
     fill_bends(b);
     return TL_OK;
 }
@@ -318,8 +334,9 @@ static tl_result build(builder *b)
         return TL_ERR_LIMIT;
     }
     TL_TRY(make_roads(b));
-    TL_TRY(list_seen(b));
-    return tl_nav_mark_roads(&b->allocator, b->roads);
+    TL_TRY(list_views(b));
+    TL_TRY(tl_nav_mark_roads(&b->allocator, b->roads));
+    return tl_nav_bend_table_size(b->roads) <= 32u << 20 ? tl_nav_make_bend_table(&b->allocator, b->roads) : TL_OK;
 }
 
 void tl_nav_free_roads(const tl_allocator *allocator, tl_nav_roads *roads)
@@ -329,8 +346,11 @@ void tl_nav_free_roads(const tl_allocator *allocator, tl_nav_roads *roads)
         tl_release_array(allocator, roads->marks, roads->bend_count, sizeof *roads->marks);
         tl_release_array(allocator, roads->roads, roads->road_count, sizeof *roads->roads);
         tl_release_array(allocator, roads->slot_first, roads->slot_count, sizeof *roads->slot_first);
-        tl_release_array(allocator, roads->seen_first, (uint64_t)roads->polygon_count + 1, sizeof *roads->seen_first);
-        tl_release_array(allocator, roads->seen, roads->seen_count, sizeof *roads->seen);
+        tl_release_array(allocator, roads->view_first, (uint64_t)roads->polygon_count + 1, sizeof *roads->view_first);
+        tl_release_array(allocator, roads->views, roads->view_count, sizeof *roads->views);
+        uint64_t pairs = (uint64_t)roads->bend_count * roads->bend_count;
+        tl_release_array(allocator, roads->table, pairs, sizeof *roads->table);
+        tl_release_array(allocator, roads->table_way, pairs, sizeof *roads->table_way);
         tl_release_array(allocator, roads, 1, sizeof *roads);
     }
 }
@@ -359,8 +379,6 @@ tl_result tl_navmesh_prepare(tl_navmesh *navmesh)
     memset(&b, 0, sizeof b);
     b.navmesh = navmesh;
     b.allocator = navmesh->allocator;
-    b.seen.allocator = &b.allocator;
-    b.sights.allocator = &b.allocator;
     b.roads = tl_allocate_array(&b.allocator, 1, sizeof *b.roads);
     if (b.roads == NULL) {
         return TL_ERR_MEMORY;
@@ -368,10 +386,9 @@ tl_result tl_navmesh_prepare(tl_navmesh *navmesh)
     memset(b.roads, 0, sizeof *b.roads);
     tl_result result = build(&b);
     tl_nav_query_free(b.query);
-    free_pairs(&b.seen);
-    free_pairs(&b.sights);
+    tl_release_array(&b.allocator, b.sights.pairs, b.sights.capacity, sizeof *b.sights.pairs);
+    tl_release_array(&b.allocator, b.views.views, b.views.capacity, sizeof *b.views.views);
     tl_release_array(&b.allocator, b.bend_of, b.fan_count, sizeof *b.bend_of);
-    tl_release_array(&b.allocator, b.last_from, navmesh->polygon_count, sizeof *b.last_from);
     if (result != TL_OK) {
         tl_nav_free_roads(&b.allocator, b.roads);
         return result;

@@ -12,6 +12,7 @@
 #include "nav_query/ring_step.h"
 #include "nav_query/shortest_search.h"
 #include "nav_query/straight_line.h"
+#include "nav_query/wedge_sight.h"
 
 #include <math.h>
 
@@ -29,6 +30,13 @@ typedef struct tl_nav_bend {
     tl_nav_ring_place place; ///< in the ring where its fan begins
 } tl_nav_bend;
 
+/// From where in a polygon a path may go straight to a bend and turn there (bend_views.c): the cone between two
+/// directions from the bend.
+typedef struct tl_nav_view {
+    float right_x, right_z, left_x, left_z;
+    uint32_t bend;
+} tl_nav_view;
+
 typedef struct tl_nav_road {
     uint32_t to;   ///< bend
     float x, z;    ///< where that is
@@ -39,13 +47,15 @@ struct tl_nav_roads {
     tl_nav_bend *bends; ///< [bend_count + 1]
     tl_nav_road *roads;
     float (*marks)[TL_NAV_LANDMARKS]; ///< by bend
-    uint32_t *slot_first;             ///< by slot: where its polygons begin in seen_first
-    uint32_t *seen_first;             ///< [polygon_count + 1]
-    uint32_t *seen;                   ///< bends, by polygon
-    uint32_t bend_count, road_count, polygon_count, seen_count, slot_count;
-    double rounding;  ///< metres within which a point is on a line
-    float mark_error; ///< metres by which a difference of two marks may be wrong
-    uint64_t edit;    ///< of the navmesh for which they hold
+    uint32_t *slot_first;             ///< by slot: where its polygons begin in view_first
+    uint32_t *view_first;             ///< [polygon_count + 1]
+    tl_nav_view *views;               ///< by polygon
+    uint32_t bend_count, road_count, polygon_count, view_count, slot_count;
+    float *table;        ///< metres by bend and bend, or NULL (bend_table.c)
+    uint16_t *table_way; ///< the same: the next bend on the way from the second to the first
+    uint64_t edit;       ///< of the navmesh for which they hold
+    double rounding;     ///< metres within which a point is on a line
+    float mark_error;    ///< metres by which a difference of two marks may be wrong
 };
 
 /// The hands to which a path that comes along (x, z) to a bend may turn there: those on which its walls are.
@@ -85,9 +95,30 @@ static inline const tl_nav_roads *tl_nav_roads_for(const tl_nav_shortest_search 
     return is_prepared && search->filter == NULL ? search->navmesh->roads : NULL;
 }
 
-/// The shortest path of a search that has roads. False: out of nodes, or a line that touches too much to tell where it
-/// goes; the search over polygons will do it. Then nothing is written.
-bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads);
+/// What a wedge of sight from a bend with these walls leaves of a view for turns to one hand (1 left, -1 right); all
+/// but the bend's number is filled in. False: nothing.
+bool tl_nav_view_from(const tl_nav_wedge *wedge, const tl_nav_ring_walls *walls, int hand, double rounding,
+                      tl_nav_view *view_out);
+/// The bends to which a path may go straight from a point of a polygon, as far as views tell, each perhaps more than
+/// once: `bend`, and `cost` as the metres there. Returns how many; TL_NAV_NO_NODE: more than there is room for.
+uint32_t tl_nav_bends_in_view(const tl_nav_roads *roads, uint32_t slot, uint32_t polygon, float x, float z,
+                              tl_nav_stop *stops_out, uint32_t capacity);
+
+/// What a table of all bends takes. Bytes.
+uint64_t tl_nav_bend_table_size(const tl_nav_roads *roads);
+/// Fills in the table. TL_ERR_MEMORY.
+tl_result tl_nav_make_bend_table(const tl_allocator *allocator, tl_nav_roads *roads);
+/// The shortest way from a start to a goal over the table: which of their bends. Metres, INFINITY: none.
+float tl_nav_best_by_table(const tl_nav_roads *roads, const tl_nav_stop *starts, uint32_t start_count,
+                           const tl_nav_stop *goals, uint32_t goal_count, uint32_t *start_out, uint32_t *goal_out);
+
+/// Metres within which a vertex is on a line between two places of a search.
+static inline double tl_nav_line_rounding(const tl_nav_shortest_search *search, const tl_nav_roads *roads)
+{
+    double start = fmax(fabs((double)search->start.x), fabs((double)search->start.z));
+    double goal = fmax(fabs((double)search->goal.x), fabs((double)search->goal.z));
+    return fmax(roads->rounding, TL_NAV_ON_LINE * fmax(start, goal));
+}
 
 /// What there is room for.
 typedef struct tl_nav_path_room {
@@ -97,9 +128,20 @@ typedef struct tl_nav_path_room {
     uint32_t polygon_capacity;
 } tl_nav_path_room;
 
-/// Writes the path that was found: the first of its corners and polygons, their true numbers and lengths. False: as
-/// above.
-bool tl_nav_write_roads(const tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
-                        tl_nav_shortest_path *path_out);
+/// The shortest path of a search that has roads. False: out of nodes, or a line that touches too much to tell where it
+/// goes; the search over polygons will do it. Then nothing of `path_out` counts.
+bool tl_nav_find_over_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
+                            tl_nav_shortest_path *path_out);
+/// The same for a start and a goal that do not see one another: by the table, and by search.
+bool tl_nav_find_by_table(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
+                          tl_nav_shortest_path *path_out);
+bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
+                         tl_nav_shortest_path *path_out);
+
+/// Writes the path that goes over bends [0, bend_count), of which the query's heap holds the last one first: the first
+/// of its corners and polygons, their true numbers and lengths. Returns UINT32_MAX, or which leg cannot be gone
+/// straight: 0 is from the start.
+uint32_t tl_nav_write_roads(const tl_nav_shortest_search *search, const tl_nav_roads *roads, const uint64_t *bends,
+                            uint32_t bend_count, const tl_nav_path_room *room, tl_nav_shortest_path *path_out);
 
 #endif

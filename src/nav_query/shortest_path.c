@@ -237,9 +237,10 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
     }
     const tl_nav_roads *roads = tl_nav_roads_for(&search);
     const tl_nav_path_room room = { corners_out, corner_capacity, polygons_out, polygon_capacity };
-    if (roads != NULL && tl_nav_search_roads(&search, roads) && tl_nav_write_roads(&search, roads, &room, path_out)) {
+    if (roads != NULL && tl_nav_find_over_roads(&search, roads, &room, path_out)) {
         return fits(path_out, corner_capacity, polygon_capacity);
     }
+    memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
     tl_nav_search_end end = tl_nav_search_shortest(&search);
     path_out->node_count = query->wedge_count;
