@@ -86,6 +86,20 @@ void tl_release_array(const tl_allocator *allocator, void *array, uint64_t count
     tl_release(allocator, array, array_bytes(count, size));
 }
 
+void *tl_grow_array(const tl_allocator *allocator, void *items, uint64_t *capacity, size_t size)
+{
+    uint64_t more = *capacity > 0 ? 2 * *capacity : 1024;
+    void *grown = tl_allocate_array(allocator, more, size);
+    if (grown != NULL) {
+        if (*capacity > 0) {
+            memcpy(grown, items, (size_t)*capacity * size);
+        }
+        tl_release_array(allocator, items, *capacity, size);
+        *capacity = more;
+    }
+    return grown;
+}
+
 void *tl_blob_allocate(const tl_allocator *allocator, uint32_t magic, uint32_t version, uint64_t size)
 {
     return tl_blob_allocate_part(allocator, magic, version, size, size, size);

@@ -40,19 +40,58 @@ tl_result tl_nav_make_bend_table(const tl_allocator *allocator, tl_nav_roads *ro
     return fits ? TL_OK : TL_ERR_MEMORY;
 }
 
-float tl_nav_best_by_table(const tl_nav_roads *roads, const tl_nav_stop *starts, uint32_t start_count,
-                           const tl_nav_stop *goals, uint32_t goal_count, uint32_t *start_out, uint32_t *goal_out)
+static void swap(tl_nav_bend_leg *a, tl_nav_bend_leg *b)
 {
+    tl_nav_bend_leg kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+// Moves the goals over which a way may be shorter than `best` to the front; returns how many they are.
+static uint32_t drop_far_goals(tl_nav_bend_leg *goals, uint32_t count, float best)
+{
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        if (goals[k].total < best) {
+            swap(&goals[k], &goals[kept++]);
+        }
+    }
+    return kept;
+}
+
+float tl_nav_best_by_table(const tl_nav_roads *roads, tl_nav_ends *ends, tl_nav_bend_leg **start_out,
+                           tl_nav_bend_leg **goal_out)
+{
+    // The most promising one first: it bounds what is worth a look. A total may be too long by its roundings.
+    const float margin = 1.0f + TL_FLOAT_GAMMA(16);
+    uint32_t goal_count = ends->goal_count;
     float best = INFINITY;
-    for (uint32_t i = 0; i < start_count; i++) {
-        const float *row = roads->table + (uint64_t)starts[i].bend * roads->bend_count;
-        float to_start = (float)starts[i].cost;
+    for (uint32_t i = 1; i < ends->start_count; i++) {
+        if (ends->starts[i].total < ends->starts[0].total) {
+            swap(&ends->starts[i], &ends->starts[0]);
+        }
+    }
+    for (uint32_t i = 0; i < ends->start_count; i++) {
+        tl_nav_bend_leg *start = &ends->starts[i];
+        if (!(start->total < best * margin)) {
+            continue;
+        }
+        const float *row = roads->table + (uint64_t)start->bend * roads->bend_count;
+        tl_nav_bend_leg *nearest = NULL;
         for (uint32_t k = 0; k < goal_count; k++) {
-            float length = to_start + row[goals[k].bend] + (float)goals[k].cost;
+            float length = start->length + row[ends->goals[k].bend] + ends->goals[k].length;
             if (length < best) {
                 best = length;
-                *start_out = i;
-                *goal_out = k;
+                nearest = &ends->goals[k];
+            }
+        }
+        if (nearest != NULL) {
+            tl_nav_bend_leg goal = *nearest;
+            goal_count = drop_far_goals(ends->goals, goal_count, best * margin);
+            *start_out = start;
+            *goal_out = ends->goals;
+            while ((*goal_out)->bend != goal.bend) {
+                ++*goal_out;
             }
         }
     }

@@ -29,44 +29,32 @@ static uint32_t unpack(const tl_nav_roads *roads, uint32_t first, uint32_t last,
     }
 }
 
-bool tl_nav_find_by_table(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
-                          tl_nav_shortest_path *path_out)
+static bool find_by_table(tl_nav_shortest_search *search, const tl_nav_roads *roads, tl_nav_ends *ends,
+                          const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
 {
     tl_nav_query *query = search->query;
-    tl_nav_stop *starts = query->stops;
-    uint32_t start_count = tl_nav_bends_in_view(roads, search->start_slot, search->start_polygon, search->start.x,
-                                                search->start.z, starts, query->max_nodes);
-    if (start_count == TL_NAV_NO_NODE) {
-        return false;
-    }
-    tl_nav_stop *goals = starts + start_count;
-    uint32_t goal_count = tl_nav_bends_in_view(roads, search->goal_slot, search->goal_polygon, search->goal.x,
-                                               search->goal.z, goals, query->max_nodes - start_count);
-    if (goal_count == TL_NAV_NO_NODE) {
-        return false;
-    }
-    for (uint32_t tries = 0; tries < start_count + goal_count; tries++) {
-        uint32_t start = 0;
-        uint32_t goal = 0;
-        float length = tl_nav_best_by_table(roads, starts, start_count, goals, goal_count, &start, &goal);
+    for (uint32_t tries = 0; tries < ends->start_count + ends->goal_count; tries++) {
+        tl_nav_bend_leg *start = NULL;
+        tl_nav_bend_leg *goal = NULL;
+        float length = tl_nav_best_by_table(roads, ends, &start, &goal);
         if (length == INFINITY) {
             return false;
         }
-        uint32_t count = unpack(roads, starts[start].bend, goals[goal].bend, query->wedge_heap, query->max_nodes);
+        uint32_t count = unpack(roads, start->bend, goal->bend, query->wedge_heap, query->max_nodes);
         if (count == UINT32_MAX) {
             return false;
         }
-        // Five roundings: the two ends, what the table holds, and two sums.
-        search->lower_bound = (double)length * (1.0 - (double)TL_FLOAT_GAMMA(6));
+        // Five roundings a distance, one of what the table holds, two of sums.
+        search->lower_bound = (double)length * (1.0 - (double)TL_FLOAT_GAMMA(8));
         uint32_t blocked = tl_nav_write_roads(search, roads, query->wedge_heap, count, room, path_out);
         if (blocked == UINT32_MAX) {
-            path_out->node_count = start_count + goal_count;
+            path_out->node_count = ends->start_count + ends->goal_count;
             return true;
         }
         if (blocked != 0 && blocked != count) {
             return false;
         }
-        *(blocked == 0 ? &starts[start].cost : &goals[goal].cost) = (double)INFINITY;
+        *(blocked == 0 ? start : goal) = (tl_nav_bend_leg){ 0, INFINITY, INFINITY };
     }
     return false;
 }
@@ -127,6 +115,8 @@ bool tl_nav_find_over_roads(tl_nav_shortest_search *search, const tl_nav_roads *
     if (is_unclear) {
         return false;
     }
-    return (roads->table != NULL && tl_nav_find_by_table(search, roads, room, path_out)) ||
-           tl_nav_search_roads(search, roads, room, path_out);
+    tl_nav_ends ends;
+    return tl_nav_find_ends(search, roads, &ends) &&
+           ((roads->table != NULL && find_by_table(search, roads, &ends, room, path_out)) ||
+            (tl_nav_find_ends(search, roads, &ends) && tl_nav_search_roads(search, roads, &ends, room, path_out)));
 }

@@ -145,46 +145,38 @@ static bool sees(road_search *s, const tl_nav_line *line, uint32_t slot, uint32_
 }
 
 // The bends from which the last leg may go, each with its length.
-static void prepare_goal(road_search *s)
+static void prepare_goal(road_search *s, const tl_nav_ends *ends)
 {
-    const tl_nav_shortest_search *in = s->in;
-    tl_nav_query *query = s->query;
-    uint32_t count = tl_nav_bends_in_view(s->roads, in->goal_slot, in->goal_polygon, in->goal.x, in->goal.z,
-                                          query->stops, query->max_nodes);
-    s->is_unclear = count == TL_NAV_NO_NODE;
-    for (uint32_t i = 0; i < count && !s->is_unclear; i++) {
-        // A bend that comes a second time takes no stop: what is read lies ahead of what is written.
-        uint32_t bend = query->stops[i].bend;
-        double x = (double)s->roads->bends[bend].x - s->goal_x;
-        double z = (double)s->roads->bends[bend].z - s->goal_z;
-        uint32_t stop = stop_at(s, bend);
-        double length = sqrt(x * x + z * z);
-        query->stops[stop].to_goal = length;
-        query->stops[stop].guess = (float)length * (1.0f - TL_FLOAT_GAMMA(2));
+    for (uint32_t i = 0; i < ends->goal_count && !s->is_unclear; i++) {
+        const tl_nav_bend *bend = &s->roads->bends[ends->goals[i].bend];
+        uint32_t stop = stop_at(s, ends->goals[i].bend);
+        if (stop != TL_NAV_NO_NODE) {
+            double x = (double)bend->x - s->goal_x;
+            double z = (double)bend->z - s->goal_z;
+            double length = sqrt(x * x + z * z);
+            s->query->stops[stop].to_goal = length;
+            s->query->stops[stop].guess = (float)length * (1.0f - TL_FLOAT_GAMMA(2));
+        }
     }
-    s->goal_stops = query->stop_count;
+    s->goal_stops = s->query->stop_count;
 }
 
-static void open_start(road_search *s)
+static void open_start(road_search *s, const tl_nav_ends *ends)
 {
-    const tl_nav_shortest_search *in = s->in;
-    tl_nav_query *query = s->query;
-    uint32_t first = query->stop_count;
-    uint32_t count = tl_nav_bends_in_view(s->roads, in->start_slot, in->start_polygon, in->start.x, in->start.z,
-                                          query->stops + first, query->max_nodes - first);
-    s->is_unclear = s->is_unclear || count == TL_NAV_NO_NODE;
-    for (uint32_t i = 0; i < count && !s->is_unclear; i++) {
+    for (uint32_t i = 0; i < ends->start_count && !s->is_unclear; i++) {
+        const tl_nav_bend *bend = &s->roads->bends[ends->starts[i].bend];
         // Not the bend's own stop: whether it is seen is not known for certain yet.
-        uint32_t index = new_stop(s, query->stops[first + i].bend);
-        tl_nav_stop *stop = &query->stops[index];
-        const tl_nav_bend *bend = &s->roads->bends[stop->bend];
-        double x = (double)bend->x - s->start_x;
-        double z = (double)bend->z - s->start_z;
-        stop->cost = sqrt(x * x + z * z);
-        stop->guess = guess_straight(s, bend->x, bend->z);
-        stop->is_start = true;
-        stop->total = (float)(stop->cost + (double)stop->guess);
-        open_stop(s, index);
+        uint32_t index = new_stop(s, ends->starts[i].bend);
+        if (index != TL_NAV_NO_NODE) {
+            tl_nav_stop *stop = &s->query->stops[index];
+            double x = (double)bend->x - s->start_x;
+            double z = (double)bend->z - s->start_z;
+            stop->cost = sqrt(x * x + z * z);
+            stop->guess = guess_straight(s, bend->x, bend->z);
+            stop->is_start = true;
+            stop->total = (float)(stop->cost + (double)stop->guess);
+            open_stop(s, index);
+        }
     }
 }
 
@@ -301,8 +293,8 @@ static uint32_t run(road_search *s)
     return TL_NAV_NO_NODE;
 }
 
-bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
-                         tl_nav_shortest_path *path_out)
+bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_ends *ends,
+                         const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
 {
     road_search s;
     tl_nav_query *query = search->query;
@@ -320,8 +312,8 @@ bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roa
     query->stop_count = 0;
     query->open_count = 0;
     tl_nav_next_generation(query);
-    prepare_goal(&s);
-    open_start(&s);
+    prepare_goal(&s, ends);
+    open_start(&s, ends);
     uint32_t last = run(&s);
     if (last == TL_NAV_NO_NODE || s.is_unclear) {
         return false;

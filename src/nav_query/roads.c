@@ -20,37 +20,11 @@
 // Wedges that one look around may need at first. It is doubled where that is too few.
 enum { FIRST_WEDGES = 4096 };
 
-// Twice the room for a list that is full. NULL: there is none; the list is as it was.
-static void *grow(const tl_allocator *allocator, void *items, uint64_t *capacity, size_t size)
-{
-    uint64_t more = *capacity > 0 ? 2 * *capacity : 1024;
-    void *grown = tl_allocate_array(allocator, more, size);
-    if (grown != NULL) {
-        if (*capacity > 0) {
-            memcpy(grown, items, *capacity * size);
-        }
-        tl_release_array(allocator, items, *capacity, size);
-        *capacity = more;
-    }
-    return grown;
-}
-
 // Pairs of numbers, as many as come.
 typedef struct pair_list {
     uint64_t *pairs; // key << 32 | value
     uint64_t count, capacity;
 } pair_list;
-
-// Views and their polygons, the same.
-typedef struct polygon_view {
-    uint32_t polygon;
-    tl_nav_view view;
-} polygon_view;
-
-typedef struct view_list {
-    polygon_view *views;
-    uint64_t count, capacity;
-} view_list;
 
 typedef struct builder {
     tl_navmesh *navmesh;
@@ -60,7 +34,7 @@ typedef struct builder {
     uint32_t fan_count;
     tl_nav_query *query;
     pair_list sights; // bend and bend
-    view_list views;
+    tl_nav_view_list views;
     uint32_t bend;    // that looks
     tl_result result; // of the lists
 } builder;
@@ -69,7 +43,7 @@ static void add_pair(builder *b, uint32_t key, uint32_t value)
 {
     pair_list *list = &b->sights;
     if (list->count == list->capacity) {
-        uint64_t *grown = grow(&b->allocator, list->pairs, &list->capacity, sizeof *grown);
+        uint64_t *grown = tl_grow_array(&b->allocator, list->pairs, &list->capacity, sizeof *grown);
         if (grown == NULL) {
             b->result = TL_ERR_MEMORY;
             return;
@@ -77,21 +51,6 @@ static void add_pair(builder *b, uint32_t key, uint32_t value)
         list->pairs = grown;
     }
     list->pairs[list->count++] = (uint64_t)key << 32 | value;
-}
-
-static void add_view(builder *b, uint32_t polygon, const tl_nav_view *view)
-{
-    view_list *list = &b->views;
-    if (list->count == list->capacity) {
-        polygon_view *grown = grow(&b->allocator, list->views, &list->capacity, sizeof *grown);
-        if (grown == NULL) {
-            b->result = TL_ERR_MEMORY;
-            return;
-        }
-        list->views = grown;
-    }
-    list->views[list->count].polygon = polygon;
-    list->views[list->count++].view = *view;
 }
 
 static uint32_t count_bends(builder *b)
@@ -167,18 +126,6 @@ static tl_result make_query(builder *b, uint32_t max_nodes)
     return tl_nav_query_create(&def, &b->query);
 }
 
-static void note_views(builder *b, const tl_nav_wedge *wedge)
-{
-    const tl_nav_bend *from = &b->roads->bends[b->bend];
-    for (int hand = -1; hand <= 1; hand += 2) {
-        tl_nav_view view;
-        view.bend = b->bend;
-        if (tl_nav_view_from(wedge, &from->walls, hand, b->roads->rounding, &view)) {
-            add_view(b, b->roads->slot_first[wedge->slot] + wedge->polygon, &view);
-        }
-    }
-}
-
 static tl_result look_from(builder *b, uint32_t bend)
 {
     const tl_nav_bend *from = &b->roads->bends[bend];
@@ -199,7 +146,7 @@ static tl_result look_from(builder *b, uint32_t bend)
         start.query = b->query;
     }
     for (uint32_t i = 0; i < b->query->wedge_count; i++) {
-        note_views(b, &b->query->wedges[i]);
+        TL_TRY(tl_nav_note_views(&b->views, b->roads, bend, &b->query->wedges[i]));
     }
     return b->result;
 }
@@ -273,35 +220,6 @@ static tl_result make_roads(builder *b)
     return roads->roads != NULL ? TL_OK : TL_ERR_MEMORY;
 }
 
-static tl_result list_views(builder *b)
-{
-    tl_nav_roads *roads = b->roads;
-    if (b->views.count > UINT32_MAX) {
-        return TL_ERR_LIMIT;
-    }
-    uint32_t count = (uint32_t)b->views.count;
-    uint32_t *first = tl_allocate_array(&b->allocator, (uint64_t)roads->polygon_count + 1, sizeof *first);
-    tl_nav_view *views = tl_allocate_array(&b->allocator, count, sizeof *views);
-    roads->view_count = count;
-    roads->view_first = first;
-    roads->views = views;
-    if (first == NULL || views == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    memset(first, 0, ((size_t)roads->polygon_count + 1) * sizeof *first);
-    for (uint32_t i = 0; i < count; i++) {
-        first[b->views.views[i].polygon]++;
-    }
-    for (uint32_t p = 1; p <= roads->polygon_count; p++) {
-        first[p] += first[p - 1];
-    }
-    for (uint32_t i = count; i > 0; i--) {
-        const polygon_view *last = &b->views.views[i - 1];
-        views[--first[last->polygon]] = last->view;
-    }
-    return TL_OK;
-}
-
 static tl_result find_bends(builder *b)
 {
     tl_nav_roads *roads = b->roads;
@@ -334,7 +252,7 @@ static tl_result build(builder *b)
         return TL_ERR_LIMIT;
     }
     TL_TRY(make_roads(b));
-    TL_TRY(list_views(b));
+    TL_TRY(tl_nav_group_views(&b->views, b->navmesh, b->roads));
     TL_TRY(tl_nav_mark_roads(&b->allocator, b->roads));
     return tl_nav_bend_table_size(b->roads) <= 32u << 20 ? tl_nav_make_bend_table(&b->allocator, b->roads) : TL_OK;
 }
@@ -346,8 +264,7 @@ void tl_nav_free_roads(const tl_allocator *allocator, tl_nav_roads *roads)
         tl_release_array(allocator, roads->marks, roads->bend_count, sizeof *roads->marks);
         tl_release_array(allocator, roads->roads, roads->road_count, sizeof *roads->roads);
         tl_release_array(allocator, roads->slot_first, roads->slot_count, sizeof *roads->slot_first);
-        tl_release_array(allocator, roads->view_first, (uint64_t)roads->polygon_count + 1, sizeof *roads->view_first);
-        tl_release_array(allocator, roads->views, roads->view_count, sizeof *roads->views);
+        tl_nav_free_views(allocator, roads);
         uint64_t pairs = (uint64_t)roads->bend_count * roads->bend_count;
         tl_release_array(allocator, roads->table, pairs, sizeof *roads->table);
         tl_release_array(allocator, roads->table_way, pairs, sizeof *roads->table_way);
@@ -379,6 +296,7 @@ tl_result tl_navmesh_prepare(tl_navmesh *navmesh)
     memset(&b, 0, sizeof b);
     b.navmesh = navmesh;
     b.allocator = navmesh->allocator;
+    b.views.allocator = &b.allocator;
     b.roads = tl_allocate_array(&b.allocator, 1, sizeof *b.roads);
     if (b.roads == NULL) {
         return TL_ERR_MEMORY;

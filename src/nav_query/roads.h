@@ -30,12 +30,27 @@ typedef struct tl_nav_bend {
     tl_nav_ring_place place; ///< in the ring where its fan begins
 } tl_nav_bend;
 
-/// From where in a polygon a path may go straight to a bend and turn there (bend_views.c): the cone between two
-/// directions from the bend.
-typedef struct tl_nav_view {
-    float right_x, right_z, left_x, left_z;
+enum { TL_NAV_VIEWS_AT_ONCE = 8 };
+
+/// From where in a polygon a path may go straight to a bend and turn there (bend_views.c). Point (x, z) is in view i
+/// when left_x * z - left_z * x >= left_least, and the same on the right. Behind the last view there is room to read
+/// on.
+typedef struct tl_nav_views {
+    uint32_t *first; ///< [polygon_count + 1]
+    float *left_x, *left_z, *left_least;
+    float *right_x, *right_z, *right_least;
+    uint32_t *bend;
+    uint32_t count;
+    uint64_t size; ///< of the block, in floats
+    float *block;  ///< that all arrays but the first stand in
+} tl_nav_views;
+
+/// A straight way between a place and a bend.
+typedef struct tl_nav_bend_leg {
     uint32_t bend;
-} tl_nav_view;
+    float length; ///< metres in the plane
+    float total;  ///< and straight on to the other end of the path
+} tl_nav_bend_leg;
 
 typedef struct tl_nav_road {
     uint32_t to;   ///< bend
@@ -47,10 +62,9 @@ struct tl_nav_roads {
     tl_nav_bend *bends; ///< [bend_count + 1]
     tl_nav_road *roads;
     float (*marks)[TL_NAV_LANDMARKS]; ///< by bend
-    uint32_t *slot_first;             ///< by slot: where its polygons begin in view_first
-    uint32_t *view_first;             ///< [polygon_count + 1]
-    tl_nav_view *views;               ///< by polygon
-    uint32_t bend_count, road_count, polygon_count, view_count, slot_count;
+    uint32_t *slot_first;             ///< by slot: where its polygons begin in the views
+    uint32_t bend_count, road_count, polygon_count, slot_count;
+    tl_nav_views views;
     float *table;        ///< metres by bend and bend, or NULL (bend_table.c)
     uint16_t *table_way; ///< the same: the next bend on the way from the second to the first
     uint64_t edit;       ///< of the navmesh for which they hold
@@ -95,22 +109,45 @@ static inline const tl_nav_roads *tl_nav_roads_for(const tl_nav_shortest_search 
     return is_prepared && search->filter == NULL ? search->navmesh->roads : NULL;
 }
 
-/// What a wedge of sight from a bend with these walls leaves of a view for turns to one hand (1 left, -1 right); all
-/// but the bend's number is filled in. False: nothing.
-bool tl_nav_view_from(const tl_nav_wedge *wedge, const tl_nav_ring_walls *walls, int hand, double rounding,
-                      tl_nav_view *view_out);
-/// The bends to which a path may go straight from a point of a polygon, as far as views tell, each perhaps more than
-/// once: `bend`, and `cost` as the metres there. Returns how many; TL_NAV_NO_NODE: more than there is room for.
-uint32_t tl_nav_bends_in_view(const tl_nav_roads *roads, uint32_t slot, uint32_t polygon, float x, float z,
-                              tl_nav_stop *stops_out, uint32_t capacity);
+/// A view as it was found: the cone between two directions from a bend.
+typedef struct tl_nav_view {
+    uint32_t slot, polygon;
+    uint32_t bend;
+    int hand; ///< of the turn: 1 left, -1 right
+    float right_x, right_z, left_x, left_z;
+} tl_nav_view;
+
+typedef struct tl_nav_view_list {
+    const tl_allocator *allocator;
+    tl_nav_view *views;
+    uint64_t count, capacity;
+} tl_nav_view_list;
+
+/// Adds the views that a wedge of sight from a bend makes. TL_ERR_MEMORY.
+tl_result tl_nav_note_views(tl_nav_view_list *list, const tl_nav_roads *roads, uint32_t bend,
+                            const tl_nav_wedge *wedge);
+/// Makes the views of roads. TL_ERR_MEMORY, TL_ERR_LIMIT; what was made is freed by tl_nav_free_views.
+tl_result tl_nav_group_views(tl_nav_view_list *list, const tl_navmesh *navmesh, tl_nav_roads *roads);
+void tl_nav_free_views(const tl_allocator *allocator, tl_nav_roads *roads);
+
+/// The bends to which a path may go straight from its two ends, as far as views tell, each perhaps more than once; in
+/// the query's memory for wedges.
+typedef struct tl_nav_ends {
+    tl_nav_bend_leg *starts, *goals;
+    uint32_t start_count, goal_count;
+} tl_nav_ends;
+
+/// False: there is no room for them.
+bool tl_nav_find_ends(const tl_nav_shortest_search *search, const tl_nav_roads *roads, tl_nav_ends *ends_out);
 
 /// What a table of all bends takes. Bytes.
 uint64_t tl_nav_bend_table_size(const tl_nav_roads *roads);
 /// Fills in the table. TL_ERR_MEMORY.
 tl_result tl_nav_make_bend_table(const tl_allocator *allocator, tl_nav_roads *roads);
-/// The shortest way from a start to a goal over the table: which of their bends. Metres, INFINITY: none.
-float tl_nav_best_by_table(const tl_nav_roads *roads, const tl_nav_stop *starts, uint32_t start_count,
-                           const tl_nav_stop *goals, uint32_t goal_count, uint32_t *start_out, uint32_t *goal_out);
+/// The shortest way from a start to a goal over the table: which of their bends. Metres, INFINITY: none. Reorders the
+/// goals.
+float tl_nav_best_by_table(const tl_nav_roads *roads, tl_nav_ends *ends, tl_nav_bend_leg **start_out,
+                           tl_nav_bend_leg **goal_out);
 
 /// Metres within which a vertex is on a line between two places of a search.
 static inline double tl_nav_line_rounding(const tl_nav_shortest_search *search, const tl_nav_roads *roads)
@@ -132,11 +169,9 @@ typedef struct tl_nav_path_room {
 /// goes; the search over polygons will do it. Then nothing of `path_out` counts.
 bool tl_nav_find_over_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
                             tl_nav_shortest_path *path_out);
-/// The same for a start and a goal that do not see one another: by the table, and by search.
-bool tl_nav_find_by_table(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
-                          tl_nav_shortest_path *path_out);
-bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
-                         tl_nav_shortest_path *path_out);
+/// The same by search, for a start and a goal that do not see one another.
+bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_ends *ends,
+                         const tl_nav_path_room *room, tl_nav_shortest_path *path_out);
 
 /// Writes the path that goes over bends [0, bend_count), of which the query's heap holds the last one first: the first
 /// of its corners and polygons, their true numbers and lengths. Returns UINT32_MAX, or which leg cannot be gone
