@@ -57,10 +57,10 @@ static void test_edits(void **state)
         tl_navmesh *navmesh = fixture_build(&level, NULL), *twin = fixture_build(&level, NULL);
         for (uint32_t edit = 0; edit < 8; edit++) {
             int32_t x = (int32_t)test_random_below(&random, 3), z = (int32_t)test_random_below(&random, 3);
-            TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+            TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, NULL), TL_OK);
             turning += compare(navmesh, twin, &random, 12);
             bool was_prepared = tl_navmesh_is_prepared(navmesh);
-            TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+            TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, NULL), TL_OK);
             TEST_CHECK(tl_navmesh_is_prepared(navmesh) == was_prepared);
             if (tl_navmesh_remove_tile(navmesh, x, z) == TL_OK) {
                 TEST_RESULT(tl_navmesh_remove_tile(twin, x, z), TL_OK);
@@ -89,7 +89,7 @@ static void test_nodes(void **state)
     test_random random = { 6 };
     fixture_level level = fixture_random(&random, 4, 12);
     tl_navmesh *navmesh = fixture_build(&level, NULL);
-    TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+    TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, NULL), TL_OK);
     TEST_CHECK(tl_navmesh_is_prepared(navmesh));
     fixture_refs all = fixture_all_refs(navmesh);
     tl_nav_query *large = make_query(4096);
@@ -116,6 +116,34 @@ static void test_nodes(void **state)
     tl_navmesh_free(navmesh);
 }
 
+// A budget that is too small is named, and what is left finds the same paths.
+static void test_budgets(void **state)
+{
+    (void)state;
+    test_random random = { 8 };
+    fixture_level level = fixture_random(&random, 4, 12);
+    tl_navmesh *navmesh = fixture_build(&level, NULL), *twin = fixture_build(&level, NULL);
+    tl_nav_prepared made, none;
+    tl_nav_prepare_def def = tl_default_nav_prepare_def();
+    TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, &made), TL_OK);
+    TEST_CHECK(made.kind == TL_NAV_PREPARED_TABLE && made.bend_count > 10 && made.road_count >= made.bend_count);
+    TEST_CHECK(made.table_bytes == 6ull * made.bend_count * made.bend_count && made.bytes > made.table_bytes);
+    TEST_CHECK(compare(navmesh, twin, &random, 40) > 4);
+    // The roads stay where the table goes and comes.
+    for (uint32_t i = 0; i < 4; i++) {
+        def.table_bytes = made.table_bytes - (i % 2 == 0 ? 1 : 0);
+        TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &none), TL_OK);
+        TEST_CHECK(none.kind == (i % 2 == 0 ? TL_NAV_PREPARED_ROADS : TL_NAV_PREPARED_TABLE));
+        TEST_CHECK(none.table_bytes == made.table_bytes && none.road_count == made.road_count);
+        TEST_CHECK(none.bytes == made.bytes - (i % 2 == 0 ? made.table_bytes : 0));
+        TEST_CHECK(tl_navmesh_is_prepared(navmesh) && compare(navmesh, twin, &random, 40) > 4);
+    }
+    TEST_CHECK(strcmp(tl_nav_prepared_kind_name(TL_NAV_PREPARED_TABLE), "table") == 0);
+    TEST_CHECK(strcmp(tl_nav_prepared_kind_name((tl_nav_prepared_kind)77), "unknown") == 0);
+    tl_navmesh_free(navmesh);
+    tl_navmesh_free(twin);
+}
+
 // A link is a way that roads do not know.
 static void test_links(void **state)
 {
@@ -126,7 +154,7 @@ static void test_links(void **state)
     tl_nav_query *query = make_query(1000);
     tl_nav_location start, goal;
     tl_vec3 near_by = tl_vec3_make(0.5f, 1.0f, 0.5f);
-    TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+    TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, NULL), TL_OK);
     TEST_CHECK(tl_navmesh_is_prepared(navmesh));
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2, 0, 2), near_by, &start), TL_OK);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(10, 0, 2), near_by, &goal), TL_OK);
@@ -143,7 +171,7 @@ static void test_links(void **state)
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path), TL_OK);
     TEST_CHECK(path.length < 9.0);
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, added), TL_OK);
-    TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+    TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, NULL), TL_OK);
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path), TL_OK);
     TEST_CHECK(path.length > 12.0);
     tl_nav_query_free(query);
@@ -164,7 +192,7 @@ static void test_memory(void **state)
     for (uint64_t k = 1; result != TL_OK; k++) {
         failing.calls = 0;
         failing.fail_at = k;
-        result = tl_navmesh_prepare(navmesh);
+        result = tl_navmesh_prepare(navmesh, NULL, NULL);
         TEST_CHECK(result == TL_OK || (result == TL_ERR_MEMORY && failing.live_blocks == before));
         TEST_CHECK(tl_navmesh_is_prepared(navmesh) == (result == TL_OK));
         failures += result != TL_OK;
@@ -174,18 +202,18 @@ static void test_memory(void **state)
     tl_navmesh_free(navmesh);
     TEST_CHECK(failing.live_blocks == 0);
     // Nothing to prepare.
+    tl_nav_prepared made;
     TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
-    TEST_RESULT(tl_navmesh_prepare(navmesh), TL_OK);
+    TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, &made), TL_OK);
+    TEST_CHECK(made.bend_count == 0 && made.road_count == 0 && made.table_bytes == 0);
     tl_navmesh_free(navmesh);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edits),
-        cmocka_unit_test(test_nodes),
-        cmocka_unit_test(test_links),
-        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_edits), cmocka_unit_test(test_nodes),  cmocka_unit_test(test_budgets),
+        cmocka_unit_test(test_links), cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -40,6 +40,15 @@ tl_result tl_nav_make_bend_table(const tl_allocator *allocator, tl_nav_roads *ro
     return fits ? TL_OK : TL_ERR_MEMORY;
 }
 
+void tl_nav_free_bend_table(const tl_allocator *allocator, tl_nav_roads *roads)
+{
+    uint64_t pairs = (uint64_t)roads->bend_count * roads->bend_count;
+    tl_release_array(allocator, roads->table, pairs, sizeof *roads->table);
+    tl_release_array(allocator, roads->table_way, pairs, sizeof *roads->table_way);
+    roads->table = NULL;
+    roads->table_way = NULL;
+}
+
 static void swap(tl_nav_bend_leg *a, tl_nav_bend_leg *b)
 {
     tl_nav_bend_leg kept = *a;

@@ -253,8 +253,17 @@ static tl_result build(builder *b)
     }
     TL_TRY(make_roads(b));
     TL_TRY(tl_nav_group_views(&b->views, b->navmesh, b->roads));
-    TL_TRY(tl_nav_mark_roads(&b->allocator, b->roads));
-    return tl_nav_bend_table_size(b->roads) <= 32u << 20 ? tl_nav_make_bend_table(&b->allocator, b->roads) : TL_OK;
+    return tl_nav_mark_roads(&b->allocator, b->roads);
+}
+
+uint64_t tl_nav_roads_size(const tl_nav_roads *roads)
+{
+    const uint64_t bend_size = sizeof *roads->bends + sizeof *roads->marks;
+    return sizeof *roads + (uint64_t)roads->bend_count * bend_size + sizeof *roads->bends +
+           (uint64_t)roads->road_count * sizeof *roads->roads +
+           (uint64_t)roads->slot_count * sizeof *roads->slot_first +
+           ((uint64_t)roads->polygon_count + 1) * sizeof *roads->views.first +
+           roads->views.size * sizeof *roads->views.block;
 }
 
 void tl_nav_free_roads(const tl_allocator *allocator, tl_nav_roads *roads)
@@ -265,33 +274,13 @@ void tl_nav_free_roads(const tl_allocator *allocator, tl_nav_roads *roads)
         tl_release_array(allocator, roads->roads, roads->road_count, sizeof *roads->roads);
         tl_release_array(allocator, roads->slot_first, roads->slot_count, sizeof *roads->slot_first);
         tl_nav_free_views(allocator, roads);
-        uint64_t pairs = (uint64_t)roads->bend_count * roads->bend_count;
-        tl_release_array(allocator, roads->table, pairs, sizeof *roads->table);
-        tl_release_array(allocator, roads->table_way, pairs, sizeof *roads->table_way);
+        tl_nav_free_bend_table(allocator, roads);
         tl_release_array(allocator, roads, 1, sizeof *roads);
     }
 }
 
-static bool floors_fork(const tl_navmesh *navmesh)
+tl_result tl_nav_make_roads(tl_navmesh *navmesh, tl_nav_roads **roads_out)
 {
-    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
-        if (navmesh->slots[slot].tile != NULL && navmesh->slots[slot].rings.has_back) {
-            return true;
-        }
-    }
-    return false;
-}
-
-tl_result tl_navmesh_prepare(tl_navmesh *navmesh)
-{
-    if (tl_nav_roads_hold(navmesh)) {
-        return TL_OK;
-    }
-    tl_nav_free_roads(&navmesh->allocator, navmesh->roads);
-    navmesh->roads = NULL;
-    if (floors_fork(navmesh)) {
-        return TL_OK;
-    }
     builder b;
     memset(&b, 0, sizeof b);
     b.navmesh = navmesh;
@@ -312,11 +301,6 @@ tl_result tl_navmesh_prepare(tl_navmesh *navmesh)
         return result;
     }
     b.roads->edit = navmesh->edit.number;
-    navmesh->roads = b.roads;
+    *roads_out = b.roads;
     return TL_OK;
-}
-
-bool tl_navmesh_is_prepared(const tl_navmesh *navmesh)
-{
-    return tl_nav_roads_hold(navmesh) && navmesh->offmesh.count == 0;
 }

@@ -94,6 +94,10 @@ bool tl_nav_line_enters(const tl_nav_line *line, const tl_nav_ring_place *place)
 /// Fills in the marks. TL_ERR_MEMORY.
 tl_result tl_nav_mark_roads(const tl_allocator *allocator, tl_nav_roads *roads);
 
+/// Finds the roads of a navmesh whose floors do not fork. TL_ERR_MEMORY, TL_ERR_LIMIT.
+tl_result tl_nav_make_roads(tl_navmesh *navmesh, tl_nav_roads **roads_out);
+/// Bytes that roads take, but for a table.
+uint64_t tl_nav_roads_size(const tl_nav_roads *roads);
 void tl_nav_free_roads(const tl_allocator *allocator, tl_nav_roads *roads);
 
 /// Whether the navmesh has roads, and they are those of its tiles.
@@ -144,6 +148,7 @@ bool tl_nav_find_ends(const tl_nav_shortest_search *search, const tl_nav_roads *
 uint64_t tl_nav_bend_table_size(const tl_nav_roads *roads);
 /// Fills in the table. TL_ERR_MEMORY.
 tl_result tl_nav_make_bend_table(const tl_allocator *allocator, tl_nav_roads *roads);
+void tl_nav_free_bend_table(const tl_allocator *allocator, tl_nav_roads *roads);
 /// The shortest way from a start to a goal over the table: which of their bends. Metres, INFINITY: none. Reorders the
 /// goals.
 float tl_nav_best_by_table(const tl_nav_roads *roads, tl_nav_ends *ends, tl_nav_bend_leg **start_out,
