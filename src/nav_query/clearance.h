@@ -117,8 +117,10 @@ static inline double tl_nav_extra_reach(const tl_nav_tile *tile, float radius)
 
 /// A wall that comes near to a side of a polygon's outline.
 typedef struct tl_nav_wall_hit {
-    float distance_sq; ///< metres, squared, rounded down: it takes nothing off the side for a lesser reach
-    uint32_t wall;     ///< of the polygon's
+    /// Metres, squared, rounded down: it takes nothing off the side for a lesser reach. Where the side is itself a wall:
+    /// tl_nav_side_distance_sq, and -1 for that wall.
+    float distance_sq;
+    uint32_t wall; ///< of the polygon's
 } tl_nav_wall_hit;
 
 /// Two walls with the middle between them inside the outline.
@@ -145,6 +147,11 @@ typedef struct tl_nav_wall_cell {
 /// in the outline.
 bool tl_nav_pair_walls(const tl_nav_spot *corners, uint32_t count, const tl_nav_near_wall *walls, uint32_t a,
                        uint32_t b, tl_nav_wall_pair *pair_out);
+
+/// Whether a wall is a side of an outline, from end to end.
+bool tl_nav_is_side(const tl_nav_spot *corners, uint32_t count, uint32_t side, const tl_nav_near_wall *wall);
+/// How near it comes to one: metres, squared.
+float tl_nav_side_distance_sq(const tl_nav_spot *corners, uint32_t count, uint32_t side, const tl_nav_near_wall *wall);
 
 /// A polygon with all walls within `distance`: those that are kept with the navmesh, or else gathered. False: out of
 /// room, and is_full is set. What was gathered lies in the room; the caller puts `room` back when done.

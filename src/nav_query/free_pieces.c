@@ -83,7 +83,8 @@ static void cut_by_disc(tl_nav_spot p, tl_nav_spot d, tl_nav_spot center, double
     double root = b * b - a * c;
     if (root > 0.0) {
         root = sqrt(root);
-        widen((-b - root) / a, (-b + root) / a, low, high);
+        double inverse = 1.0 / a;
+        widen((-b - root) * inverse, (-b + root) * inverse, low, high);
     }
 }
 
@@ -104,17 +105,16 @@ static bool clip_by_band(double at, double step, double from, double to, double 
 static bool forbidden_stretch(tl_nav_spot p, tl_nav_spot q, tl_nav_segment wall, double reach, double *from_out,
                               double *to_out)
 {
-    // The edge is the wall itself.
-    if (wall.a.x == p.x && wall.a.z == p.z && wall.b.x == q.x && wall.b.z == q.z) {
-        *from_out = 0.0;
-        *to_out = 1.0;
-        return reach > 0.0;
-    }
     double low = (double)INFINITY;
     double high = -(double)INFINITY;
     tl_nav_spot d = { q.x - p.x, q.z - p.z };
     cut_by_disc(p, d, wall.a, reach, &low, &high);
     cut_by_disc(p, d, wall.b, reach, &low, &high);
+    if (low <= 0.0 && high >= 1.0) {
+        *from_out = 0.0;
+        *to_out = 1.0;
+        return true;
+    }
     // The rectangle between the two discs.
     double wx = wall.b.x - wall.a.x;
     double wz = wall.b.z - wall.a.z;
@@ -153,9 +153,80 @@ static uint32_t add_stretch(const outline_cut *cut, uint32_t edge, uint32_t wall
     return count + 1;
 }
 
+// Adds a forbidden stretch behind all before it: stretches that overlap become one arc.
+static void add_arc(outline_cut *cut, const arc *stretch)
+{
+    arc *last = cut->arc_count > 0 ? &cut->arcs[cut->arc_count - 1] : NULL;
+    if (last != NULL && stretch->from <= last->to) {
+        last->to = tl_nav_most(last->to, stretch->to);
+        unite(cut->parts, last->wall, stretch->wall);
+    } else {
+        cut->arcs[cut->arc_count++] = *stretch;
+    }
+}
+
+bool tl_nav_is_side(const tl_nav_spot *corners, uint32_t count, uint32_t side, const tl_nav_near_wall *wall)
+{
+    tl_nav_spot p = corners[side];
+    tl_nav_spot q = corners[side + 1 < count ? side + 1 : 0];
+    tl_nav_segment w = tl_nav_wall_segment(wall);
+    return w.a.x == p.x && w.a.z == p.z && w.b.x == q.x && w.b.z == q.z;
+}
+
+float tl_nav_side_distance_sq(const tl_nav_spot *corners, uint32_t count, uint32_t side, const tl_nav_near_wall *wall)
+{
+    tl_nav_segment segment = { corners[side], corners[side + 1 < count ? side + 1 : 0] };
+    return (float)tl_nav_segments_distance_sq(segment, tl_nav_wall_segment(wall));
+}
+
+// A side that is a wall is forbidden as a whole. What comes near to it hangs together with it, wherever it does.
+static void close_edge(outline_cut *cut, uint32_t edge, uint32_t wall)
+{
+    double reach_sq = cut->reach * cut->reach;
+    arc whole = { (double)edge, (double)edge + 1.0, wall };
+    add_arc(cut, &whole);
+    if (cut->kept != NULL) {
+        const tl_nav_wall_hit *hit = cut->kept->hits + cut->kept->side_first[edge];
+        const tl_nav_wall_hit *end = cut->kept->hits + cut->kept->side_first[edge + 1];
+        for (; hit < end && (double)hit->distance_sq < reach_sq; hit++) {
+            if (hit->wall < cut->near->wall_count) {
+                unite(cut->parts, wall, hit->wall);
+            }
+        }
+        return;
+    }
+    for (uint32_t i = 0; i < cut->near->wall_count; i++) {
+        if (i != wall &&
+            (double)tl_nav_side_distance_sq(cut->corners, cut->count, edge, &cut->near->walls[i]) < reach_sq) {
+            unite(cut->parts, wall, i);
+        }
+    }
+}
+
+// The wall that a side is, or wall_count.
+static uint32_t wall_of_side(const outline_cut *cut, uint32_t edge)
+{
+    uint32_t count = cut->near->wall_count;
+    if (cut->kept != NULL) {
+        const tl_nav_wall_hit *hit = cut->kept->hits + cut->kept->side_first[edge];
+        const tl_nav_wall_hit *end = cut->kept->hits + cut->kept->side_first[edge + 1];
+        return hit < end && hit->distance_sq < 0.0f ? hit->wall : count;
+    }
+    uint32_t i = 0;
+    while (i < count && !tl_nav_is_side(cut->corners, cut->count, edge, &cut->near->walls[i])) {
+        i++;
+    }
+    return i;
+}
+
 // Cuts one edge; its stretches follow those of the edges before, and arcs that overlap become one.
 static void cut_edge(outline_cut *cut, uint32_t edge)
 {
+    uint32_t side_wall = wall_of_side(cut, edge);
+    if (side_wall < cut->near->wall_count) {
+        close_edge(cut, edge, side_wall);
+        return;
+    }
     arc *own = cut->arcs + cut->arc_count;
     uint32_t count = 0;
     if (cut->kept != NULL) {
@@ -170,13 +241,9 @@ static void cut_edge(outline_cut *cut, uint32_t edge)
         }
     }
     for (uint32_t i = 0; i < count; i++) {
-        arc *last = cut->arc_count > 0 ? &cut->arcs[cut->arc_count - 1] : NULL;
-        if (last != NULL && own[i].from <= last->to) {
-            last->to = tl_nav_most(last->to, own[i].to);
-            unite(cut->parts, last->wall, own[i].wall);
-        } else {
-            cut->arcs[cut->arc_count++] = own[i];
-        }
+        // It may be put into its own place, or one before.
+        const arc stretch = own[i];
+        add_arc(cut, &stretch);
     }
 }
 

@@ -63,24 +63,30 @@ static void *add(builder *b, list *l, uint64_t count)
     return at;
 }
 
-static tl_nav_segment side_of(const tl_nav_wall_cell *cell, uint32_t side)
+// What is kept of a wall near a side (clearance.h).
+static float hit_distance_sq(const tl_nav_wall_cell *cell, uint32_t side, bool is_closed, const tl_nav_near_wall *wall)
 {
-    tl_nav_segment segment = { cell->corners[side], cell->corners[side + 1 < cell->count ? side + 1 : 0] };
-    return segment;
+    float distance_sq = tl_nav_side_distance_sq(cell->corners, cell->count, side, wall);
+    if (is_closed) {
+        return tl_nav_is_side(cell->corners, cell->count, side, wall) ? -1.0f : distance_sq;
+    }
+    // A wall that is seen from afar only is none for a lesser reach, as near as its hidden part may be.
+    return tl_maxf((float)((double)distance_sq * ROUND_DOWN), wall->distance_sq);
 }
 
 // Sorted in by their distance: a side has a few.
 static tl_result add_hits(builder *b, const tl_nav_wall_cell *cell, uint32_t side)
 {
     uint64_t first = b->hits.count;
+    bool is_closed = false;
+    for (uint32_t i = 0; i < cell->near.wall_count && !is_closed; i++) {
+        is_closed = tl_nav_is_side(cell->corners, cell->count, side, &cell->near.walls[i]);
+    }
     for (uint32_t i = 0; i < cell->near.wall_count; i++) {
-        const tl_nav_near_wall *wall = &cell->near.walls[i];
-        double distance_sq = tl_nav_segments_distance_sq(side_of(cell, side), tl_nav_wall_segment(wall)) * ROUND_DOWN;
-        if (!(distance_sq < b->reach * b->reach)) {
+        tl_nav_wall_hit hit = { hit_distance_sq(cell, side, is_closed, &cell->near.walls[i]), i };
+        if (!((double)hit.distance_sq < b->reach * b->reach)) {
             continue;
         }
-        // A wall that is seen from afar only is none for a lesser reach, as near as its hidden part may be.
-        tl_nav_wall_hit hit = { tl_maxf((float)distance_sq, wall->distance_sq), i };
         if (add(b, &b->hits, 1) == NULL) {
             return TL_ERR_MEMORY;
         }
