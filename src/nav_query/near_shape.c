@@ -37,21 +37,76 @@ static bool holds(const tl_nav_spot *corners, uint32_t count, tl_nav_spot spot)
     return !(left && right);
 }
 
-// Whether some of the shape lies beyond an edge's line: if none does, a polygon across has no part in it.
-static bool leads_on(const tl_nav_shape *touch, tl_nav_segment edge)
+// The lines of a shape's sides: unit, outward. None of a shape with more sides, or without an inside.
+enum { MOST_SIDES = 4 };
+
+typedef struct side_lines {
+    double x[MOST_SIDES], z[MOST_SIDES], offset[MOST_SIDES];
+    uint32_t count;
+} side_lines;
+
+static side_lines lines_of(const tl_nav_shape *shape)
 {
-    double least = sqrt(touch->distance_sq * tl_nav_spot_distance_sq(edge.a, edge.b));
-    for (uint32_t i = 0; i < touch->count; i++) {
-        if (tl_nav_spot_turn(edge.a, edge.b, touch->corners[i]) > least) {
+    side_lines lines;
+    lines.count = 0;
+    double area = shape->count >= 3 ? tl_nav_spot_turn(shape->corners[0], shape->corners[1], shape->corners[2]) : 0.0;
+    for (uint32_t i = 0; i < shape->count && shape->count <= MOST_SIDES && area != 0.0; i++) {
+        tl_nav_spot p = shape->corners[i];
+        tl_nav_spot q = shape->corners[i + 1 < shape->count ? i + 1 : 0];
+        double length = area > 0.0 ? sqrt(tl_nav_spot_distance_sq(p, q)) : -sqrt(tl_nav_spot_distance_sq(p, q));
+        if (length != 0.0) {
+            lines.x[lines.count] = (q.z - p.z) / length;
+            lines.z[lines.count] = -(q.x - p.x) / length;
+            lines.offset[lines.count] = lines.x[lines.count] * p.x + lines.z[lines.count] * p.z;
+            lines.count++;
+        }
+    }
+    return lines;
+}
+
+// Whether a segment lies farther than a distance beyond one of the lines: then it is farther from the shape.
+static bool is_beyond(const side_lines *lines, tl_nav_segment segment, double distance)
+{
+    for (uint32_t i = 0; i < lines->count; i++) {
+        double room = distance + lines->offset[i];
+        if ((lines->x[i] * segment.a.x + lines->z[i] * segment.a.z > room) &
+            (lines->x[i] * segment.b.x + lines->z[i] * segment.b.z > room)) {
             return true;
         }
     }
     return false;
 }
 
+// Whether some of the shape lies beyond an edge's line: if none does, a polygon across has no part in it. And whether
+// all of it does.
+static bool leads_on(const tl_nav_shape *touch, tl_nav_segment edge, bool *all_out)
+{
+    double least_sq = touch->distance_sq * tl_nav_spot_distance_sq(edge.a, edge.b);
+    bool some = false;
+    *all_out = true;
+    for (uint32_t i = 0; i < touch->count; i++) {
+        double turn = tl_nav_spot_turn(edge.a, edge.b, touch->corners[i]);
+        bool is_over = turn > 0.0 && turn * turn > least_sq;
+        some = some || is_over;
+        *all_out = *all_out && is_over;
+    }
+    return some;
+}
+
+// Whether the shape has a part beyond an edge. Near its corners a little more than that; a polygon more does no harm.
+static bool reaches_over(const tl_nav_shape *touch, const side_lines *lines, double slack, tl_nav_segment edge)
+{
+    bool all = false;
+    if (tl_nav_shape_is_far(touch, edge) || is_beyond(lines, edge, slack) || !leads_on(touch, edge, &all)) {
+        return false;
+    }
+    return lines->count > 0 ? !all : tl_nav_shape_distance_sq(touch, edge) <= touch->distance_sq;
+}
+
 // Meets all polygons that the shape touches, from the first on.
 static bool meet_touched(tl_nav_clearance *clearance, const tl_nav_shape *touch, tl_nav_near_walls *near)
 {
+    const side_lines lines = lines_of(touch);
     bool fits = true;
     for (uint32_t at = 0; fits && at < near->met_count; at++) {
         tl_nav_met met = *(near->met - at);
@@ -60,9 +115,7 @@ static bool meet_touched(tl_nav_clearance *clearance, const tl_nav_shape *touch,
         for (uint32_t i = 0; fits && i < count; i++) {
             const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
             tl_nav_segment edge = { { (double)ring[i].x, (double)ring[i].z }, { (double)end->x, (double)end->z } };
-            bool touches = tl_nav_shape_distance_sq(touch, edge) <= touch->distance_sq ||
-                           (touch->count > 2 && holds(touch->corners, touch->count, edge.a));
-            if (!tl_nav_ring_is_open(&ring[i]) || !touches || !leads_on(touch, edge)) {
+            if (!tl_nav_ring_is_open(&ring[i]) || !reaches_over(touch, &lines, clearance->slack, edge)) {
                 continue;
             }
             tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, met.slot, ring[i].to);
@@ -136,9 +189,9 @@ static bool is_known(const tl_nav_near_wall *walls, uint32_t count, const tl_nav
 }
 
 // Whether a segment comes nearer to the shape than its distance.
-static bool is_near(const tl_nav_shape *reach, tl_nav_segment segment)
+static bool is_near(const tl_nav_shape *reach, const side_lines *lines, double distance, tl_nav_segment segment)
 {
-    if (tl_nav_shape_is_far(reach, segment)) {
+    if (tl_nav_shape_is_far(reach, segment) || is_beyond(lines, segment, distance)) {
         return false;
     }
     for (uint32_t i = 0; i < (reach->count > 2 ? reach->count : 1); i++) {
@@ -159,6 +212,7 @@ bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
     bool fits = meet(clearance, near_out, slot, polygon) && meet_touched(clearance, &touch, near_out);
     clearance->room.high = (char *)(near_out->met - near_out->met_count + 1);
     tl_nav_near_wall *walls = (tl_nav_near_wall *)(void *)clearance->room.low;
+    const side_lines lines = lines_of(&reach);
     for (uint32_t i = 0; fits && i < near_out->met_count; i++) {
         tl_nav_met at = *(near_out->met - i);
         tl_nav_room room = clearance->room;
@@ -170,7 +224,7 @@ bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
             // What was gathered lies behind the list, and moves to its end.
             const tl_nav_near_wall wall = cell.near.walls[k];
             tl_nav_segment segment = tl_nav_wall_segment(&wall);
-            if (!is_known(walls, near_out->wall_count, &wall) && is_near(&reach, segment)) {
+            if (!is_known(walls, near_out->wall_count, &wall) && is_near(&reach, &lines, clearance->reach + clearance->slack, segment)) {
                 fits = (char *)(walls + near_out->wall_count + 1) <= clearance->room.high;
                 if (fits) {
                     walls[near_out->wall_count++] = wall;

@@ -6,9 +6,9 @@
 // for what the wall forbids. It holds all that is nearer to the wall than 0.995 of the reach, and is held by all that
 // is nearer than the reach: so where there is a free way at the reach there is one around the hulls, it bends at
 // corners of caps only, and no place of it is nearer to a wall than 0.995 of the reach.
-// Few walls are in the way. So the shortest way is found around none at first, by A* over the corners of caps in the
-// polygon, then around those that it has met, until it meets no other. Around fewer walls no way is longer: the one
-// that is free of all is the shortest around all of them.
+// Few walls are in the way, and mostly by an end alone. So the shortest way is found around none at first, by A* over the
+// corners of caps in the polygon, then around those ends and walls that it has met, until it meets no other. Around
+// fewer obstacles no way is longer: the one that is free of all is the shortest around all of them.
 
 #include "nav_query/wide_search.h"
 
@@ -29,11 +29,17 @@ typedef struct side_line {
     double x, z, offset;
 } side_line;
 
+// A wall in the way, or an end of one: then a and b are the same.
+typedef struct obstacle {
+    tl_nav_segment wall;
+    bool is_end;
+} obstacle;
+
 typedef struct detour {
     tl_nav_clearance *clearance;
     const tl_nav_wall_cell *cell;
     side_line sides[TL_NAV_MAX_CORNERS];
-    tl_nav_near_wall *met; // [cell->near.wall_count]: walls in the way
+    obstacle *met; // [3 * cell->near.wall_count]: each wall and its ends
     uint32_t met_count;
     stop *stops; // [0] and [1]: the ends
     uint32_t count;
@@ -64,7 +70,7 @@ static bool is_inside(const detour *d, tl_nav_spot spot)
 static bool is_met_end(const detour *d, tl_nav_spot end)
 {
     for (uint32_t i = 0; i < d->met_count; i++) {
-        tl_nav_segment other = tl_nav_wall_segment(&d->met[i]);
+        tl_nav_segment other = d->met[i].wall;
         if ((other.a.x == end.x && other.a.z == end.z) || (other.b.x == end.x && other.b.z == end.z)) {
             return true;
         }
@@ -88,18 +94,24 @@ static bool add_stop(detour *d, tl_nav_spot spot, tl_nav_spot center)
 
 static bool is_free_of_met(const detour *d, tl_nav_spot a, tl_nav_spot b)
 {
-    tl_nav_near_walls met = { d->met, d->met_count, NULL, 0 };
-    return tl_nav_is_clear(&met, a, b, d->clearance->least);
+    const tl_nav_segment leg = { a, b };
+    for (uint32_t i = 0; i < d->met_count; i++) {
+        tl_nav_spot nearest;
+        double distance_sq = d->met[i].is_end ? tl_nav_nearest_of_segment(leg, d->met[i].wall.a, &nearest)
+                                              : tl_nav_segments_distance_sq(leg, d->met[i].wall);
+        if (distance_sq < d->clearance->least * d->clearance->least) {
+            return false;
+        }
+    }
+    return true;
 }
 
-// Adds a wall with the corners of its caps that are free and in the polygon. False: out of room.
-static bool meet_wall(detour *d, const tl_nav_near_wall *wall)
+// Adds an obstacle with the corners of its caps that are free and in the polygon. False: out of room.
+static bool meet_obstacle(detour *d, const obstacle *met)
 {
-    const tl_nav_segment segment = tl_nav_wall_segment(wall);
-    const tl_nav_spot ends[2] = { segment.a, segment.b };
-    const bool is_known[2] = { is_met_end(d, ends[0]),
-                               is_met_end(d, ends[1]) || (ends[0].x == ends[1].x && ends[0].z == ends[1].z) };
-    d->met[d->met_count++] = *wall;
+    const tl_nav_spot ends[2] = { met->wall.a, met->wall.b };
+    const bool is_known[2] = { is_met_end(d, ends[0]), met->is_end || is_met_end(d, ends[1]) };
+    d->met[d->met_count++] = *met;
     for (uint32_t i = 2; i < d->count; i++) {
         d->stops[i].is_dead = d->stops[i].is_dead || !is_free_of_met(d, d->stops[i].spot, d->stops[i].spot);
     }
@@ -153,26 +165,45 @@ static bool connect(detour *d)
     return false;
 }
 
-// A wall that the way found comes too near to, or NULL.
-static const tl_nav_near_wall *wall_in_the_way(const detour *d)
+// What a leg comes too near to of a wall: the end that is nearest to it, or all of it where that is no end. False: nothing.
+static bool is_in_the_way(tl_nav_segment leg, tl_nav_segment wall, double least, obstacle *out)
+{
+    tl_nav_spot nearest;
+    double distance_sq = tl_nav_segments_distance_sq(leg, wall);
+    if (!(distance_sq < least * least)) {
+        return false;
+    }
+    obstacle met = { wall, true };
+    if (tl_nav_nearest_of_segment(leg, wall.a, &nearest) == distance_sq) {
+        met.wall.b = wall.a;
+    } else if (tl_nav_nearest_of_segment(leg, wall.b, &nearest) == distance_sq) {
+        met.wall.a = wall.b;
+    } else {
+        met.is_end = false;
+    }
+    *out = met;
+    return true;
+}
+
+// What the way found comes too near to. False: nothing.
+static bool find_obstacle(const detour *d, obstacle *out)
 {
     for (uint32_t i = 1; i != 0; i = d->stops[i].before) {
         tl_nav_segment leg = { d->stops[d->stops[i].before].spot, d->stops[i].spot };
         for (uint32_t w = 0; w < d->cell->near.wall_count; w++) {
-            const tl_nav_near_wall *wall = &d->cell->near.walls[w];
-            if (tl_nav_segments_distance_sq(leg, tl_nav_wall_segment(wall)) <
-                d->clearance->least * d->clearance->least) {
-                return wall;
+            if (is_in_the_way(leg, tl_nav_wall_segment(&d->cell->near.walls[w]), d->clearance->least, out)) {
+                return true;
             }
         }
     }
-    return NULL;
+    return false;
 }
 
-static bool is_met(const detour *d, const tl_nav_near_wall *wall)
+static bool is_met(const detour *d, const obstacle *o)
 {
     for (uint32_t i = 0; i < d->met_count; i++) {
-        if (memcmp(&d->met[i], wall, sizeof *wall) == 0) {
+        tl_nav_segment met = d->met[i].wall;
+        if (met.a.x == o->wall.a.x && met.a.z == o->wall.a.z && met.b.x == o->wall.b.x && met.b.z == o->wall.b.z) {
             return true;
         }
     }
@@ -184,13 +215,14 @@ static bool find_way(detour *d, bool *found_out)
 {
     for (;;) {
         *found_out = connect(d);
-        const tl_nav_near_wall *wall = *found_out ? wall_in_the_way(d) : NULL;
+        obstacle next;
+        bool is_blocked = *found_out && find_obstacle(d, &next);
         // What stands too near to an end by a rounding cannot be gone around.
-        *found_out = *found_out && (wall == NULL || !is_met(d, wall));
-        if (wall == NULL || !*found_out) {
+        *found_out = *found_out && !(is_blocked && is_met(d, &next));
+        if (!is_blocked || !*found_out) {
             return true;
         }
-        if (!meet_wall(d, wall)) {
+        if (!meet_obstacle(d, &next)) {
             return false;
         }
     }
@@ -214,7 +246,7 @@ bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_
     d.clearance = clearance;
     d.cell = &cell;
     draw_sides(&d);
-    d.met = tl_nav_take(clearance, cell.near.wall_count, sizeof *d.met);
+    d.met = tl_nav_take(clearance, 3 * (uint64_t)cell.near.wall_count, sizeof *d.met);
     d.stops = (stop *)(void *)clearance->room.low;
     bool is_found = false;
     bool fits = d.met != NULL && add_stop(&d, from.spot, from.spot) && add_stop(&d, to.spot, to.spot) &&
