@@ -117,8 +117,8 @@ static inline double tl_nav_extra_reach(const tl_nav_tile *tile, float radius)
 
 /// A wall that comes near to a side of a polygon's outline.
 typedef struct tl_nav_wall_hit {
-    /// Metres, squared, rounded down: it takes nothing off the side for a lesser reach. Where the side is itself a wall:
-    /// tl_nav_side_distance_sq, and -1 for that wall.
+    /// Metres, squared, rounded down: it takes nothing off the side for a lesser reach. Where the side is itself a
+    /// wall: tl_nav_side_distance_sq, and -1 for that wall.
     float distance_sq;
     uint32_t wall; ///< of the polygon's
 } tl_nav_wall_hit;

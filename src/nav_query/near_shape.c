@@ -224,7 +224,8 @@ bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
             // What was gathered lies behind the list, and moves to its end.
             const tl_nav_near_wall wall = cell.near.walls[k];
             tl_nav_segment segment = tl_nav_wall_segment(&wall);
-            if (!is_known(walls, near_out->wall_count, &wall) && is_near(&reach, &lines, clearance->reach + clearance->slack, segment)) {
+            if (!is_known(walls, near_out->wall_count, &wall) &&
+                is_near(&reach, &lines, clearance->reach + clearance->slack, segment)) {
                 fits = (char *)(walls + near_out->wall_count + 1) <= clearance->room.high;
                 if (fits) {
                     walls[near_out->wall_count++] = wall;

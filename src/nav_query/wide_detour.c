@@ -6,8 +6,8 @@
 // for what the wall forbids. It holds all that is nearer to the wall than 0.995 of the reach, and is held by all that
 // is nearer than the reach: so where there is a free way at the reach there is one around the hulls, it bends at
 // corners of caps only, and no place of it is nearer to a wall than 0.995 of the reach.
-// Few walls are in the way, and mostly by an end alone. So the shortest way is found around none at first, by A* over the
-// corners of caps in the polygon, then around those ends and walls that it has met, until it meets no other. Around
+// Few walls are in the way, and mostly by an end alone. So the shortest way is found around none at first, by A* over
+// the corners of caps in the polygon, then around those ends and walls that it has met, until it meets no other. Around
 // fewer obstacles no way is longer: the one that is free of all is the shortest around all of them.
 
 #include "nav_query/wide_search.h"
@@ -165,7 +165,8 @@ static bool connect(detour *d)
     return false;
 }
 
-// What a leg comes too near to of a wall: the end that is nearest to it, or all of it where that is no end. False: nothing.
+// What a leg comes too near to of a wall: the end that is nearest to it, or all of it where that is no end. False:
+// nothing.
 static bool is_in_the_way(tl_nav_segment leg, tl_nav_segment wall, double least, obstacle *out)
 {
     tl_nav_spot nearest;
