@@ -69,8 +69,8 @@ static bool is_beyond(const side_lines *lines, tl_nav_segment segment, double di
 {
     for (uint32_t i = 0; i < lines->count; i++) {
         double room = distance + lines->offset[i];
-        if ((lines->x[i] * segment.a.x + lines->z[i] * segment.a.z > room) &
-            (lines->x[i] * segment.b.x + lines->z[i] * segment.b.z > room)) {
+        if (lines->x[i] * segment.a.x + lines->z[i] * segment.a.z > room &&
+            lines->x[i] * segment.b.x + lines->z[i] * segment.b.z > room) {
             return true;
         }
     }

@@ -85,18 +85,12 @@ double tl_nav_outside_by(const tl_nav_spot *corners, uint32_t count, tl_nav_spot
 
 bool tl_nav_is_clear(const tl_nav_near_walls *near, tl_nav_spot a, tl_nav_spot b, double distance)
 {
-    // A wall whose box lies beyond that of the segment, grown by a little more than the distance, is surely too far.
+    const tl_nav_spot ends[2] = { a, b };
     tl_nav_segment segment = { a, b };
-    double more = distance * (1.0 + 4.0 * (double)TL_FLOAT_ROUNDING);
-    double low_x = tl_nav_least(a.x, b.x) - more;
-    double low_z = tl_nav_least(a.z, b.z) - more;
-    double high_x = tl_nav_most(a.x, b.x) + more;
-    double high_z = tl_nav_most(a.z, b.z) + more;
+    tl_nav_shape reach = tl_nav_shape_make(ends, 2, distance, distance * (double)TL_FLOAT_ROUNDING);
     for (uint32_t i = 0; i < near->wall_count; i++) {
         tl_nav_segment wall = tl_nav_wall_segment(&near->walls[i]);
-        bool is_far = (tl_nav_most(wall.a.x, wall.b.x) < low_x) | (tl_nav_least(wall.a.x, wall.b.x) > high_x) |
-                      (tl_nav_most(wall.a.z, wall.b.z) < low_z) | (tl_nav_least(wall.a.z, wall.b.z) > high_z);
-        if (!is_far && tl_nav_segments_distance_sq(segment, wall) < distance * distance) {
+        if (!tl_nav_shape_is_far(&reach, wall) && tl_nav_segments_distance_sq(segment, wall) < reach.distance_sq) {
             return false;
         }
     }
