@@ -18,6 +18,7 @@
 #include <ctime>
 #include <functional>
 #include <string>
+#include <talus/nav_wide.h>
 
 extern "C" {
 #include "cli/sample_level.h"

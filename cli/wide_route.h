@@ -5,7 +5,7 @@
 #ifndef TALUS_CLI_WIDE_ROUTE_H
 #define TALUS_CLI_WIDE_ROUTE_H
 
-#include <talus/nav_query.h>
+#include <talus/nav_wide.h>
 
 /// tl_nav_query_find_route for a radius: between the places with room that are nearest to the ends. The route has
 /// corners and no polygons. TL_ERR_CAPACITY: route_out->corner_count says how much room is needed.

@@ -309,7 +309,7 @@ static void check_level(const level_source *source, const uint32_t *sizes, uint3
         check_islands(&p);
         check_queries(&p, query, bounds, sum);
         for (int side = 0; side < 2; side++) {
-            TEST_RESULT(tl_navmesh_prepare(p.mesh[side]), TL_OK);
+            TEST_RESULT(tl_navmesh_prepare(p.mesh[side], NULL, NULL), TL_OK);
         }
         TEST_CHECK(tl_navmesh_is_prepared(p.mesh[0]) == tl_navmesh_is_prepared(p.mesh[1]));
         check_queries(&p, query, bounds, sum);

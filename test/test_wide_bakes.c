@@ -18,7 +18,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <talus/nav_query.h>
+#include <talus/nav_wide.h>
 
 enum { CAPACITY = 4096 };
 

@@ -6,6 +6,8 @@
 
 #include "nav_fixture.h"
 
+#include <talus/nav_wide.h>
+
 #include <math.h>
 #include <stdlib.h>
 

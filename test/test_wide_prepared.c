@@ -5,6 +5,8 @@
 
 #include "nav_fixture.h"
 
+#include <talus/nav_wide.h>
+
 #include <math.h>
 
 enum { CAPACITY = 1024 };

@@ -7,6 +7,8 @@
 
 #include "nav_query/clearance.h"
 
+#include <talus/nav_wide.h>
+
 /// Where a polygon's walls and pairs begin; they end where the next one's do.
 typedef struct tl_nav_kept_cell {
     uint32_t wall, pair;

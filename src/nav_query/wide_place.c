@@ -15,6 +15,8 @@
 
 #include "math/tolerance.h"
 
+#include <talus/nav_wide.h>
+
 #include <string.h>
 
 typedef struct place_search {

@@ -8,6 +8,8 @@
 
 #include "nav_query/clearance.h"
 
+#include <talus/nav_wide.h>
+
 /// A place of a path. Paths are lists, so that they may be changed in the middle.
 typedef struct tl_nav_bend {
     tl_nav_spot spot;

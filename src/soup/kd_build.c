@@ -379,6 +379,7 @@ static tl_result hand_over(const kd_builder *b, uint32_t root, tl_arena *arena, 
     }
     memcpy(tree->refs, b->out.refs, b->out.count * sizeof *tree->refs);
     memcpy(tree->nodes, b->nodes, b->node_count * sizeof *tree->nodes);
+    tree->node_capacity = b->node_count;
     tree->parts = NULL;
     tree->part_count = 0;
     tree->root = root;

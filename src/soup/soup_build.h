@@ -63,6 +63,7 @@ typedef struct tl_tree_part {
 typedef struct tl_tree {
     tl_tree_ref *refs;
     tl_tree_node *nodes;
+    uint64_t node_capacity; ///< indices of nodes are below it
     uint32_t root;
     const tl_tree_part *parts; ///< from left to right; no part holds another
     uint32_t part_count;

@@ -128,6 +128,7 @@ tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair
     }
     tree_out->refs = top.splitter.refs;
     tree_out->nodes = top.nodes;
+    tree_out->node_capacity = 2 * (uint64_t)capacity;
     tree_out->root = top.root;
     tree_out->parts = parts;
     tree_out->part_count = top.subtree_count;
