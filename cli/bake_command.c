@@ -185,8 +185,11 @@ static void print_summary(const bake_result *r)
         printf("hull     %u vertices, %u faces\n", bake->hull->vertex_count, bake->hull->face_count);
     }
     if (r->settings->nav && bake->walkable) {
-        printf("navmesh  %u polygons, %.1f m2, %u of %u tiles\n", (unsigned)bake->nav_polygons, bake->nav_area,
-               bake->tiles.tile_count, bake->tiles.tiles_x * bake->tiles.tiles_z);
+        const bool layered = bake->nav_def.tile_height > 0.0f; // then a place may hold several
+        printf(layered ? "navmesh  %u polygons, %.1f m2, %u tiles in layers at %u places\n"
+                       : "navmesh  %u polygons, %.1f m2, %u of %u tiles\n",
+               (unsigned)bake->nav_polygons, bake->nav_area, bake->tiles.tile_count,
+               bake->tiles.tiles_x * bake->tiles.tiles_z);
         tl_area_sums_print(&bake->areas);
         print_left_out(bake);
     } else if (r->settings->nav) {

@@ -138,6 +138,9 @@ static void print_navmesh(const baked_info *info)
     if (n->tile_size > 0) {
         printf(", tiles of %u cells in a grid of %u x %u", n->tile_size, n->tiles_x, n->tiles_z);
     }
+    if (n->tile_height > 0.0f) {
+        printf(", in layers of %g m", (double)n->tile_height);
+    }
     printf("\n");
 }
 
@@ -235,15 +238,15 @@ static json_t *navmesh_json(const baked_info *info)
                                (json_int_t)info->nav.polygons, "vertices", (json_int_t)info->nav.vertices,
                                "detail_triangles", (json_int_t)info->nav.detail_triangles, "area",
                                tl_json_double(info->nav.area), "bytes", (json_int_t)info->nav.bytes);
-    json_object_set_new(object, "settings",
-                        json_pack("{so so so so so so so ss ss sI sI}", "cell_size", tl_json_float(n->cell_size),
-                                  "cell_height", tl_json_float(n->cell_height), "agent_height",
-                                  tl_json_float(n->agent_height), "agent_radius", tl_json_float(n->agent_radius),
-                                  "agent_max_climb", tl_json_float(n->agent_max_climb), "agent_max_slope",
-                                  tl_json_float(n->agent_max_slope), "edge_max_error", tl_json_float(n->edge_max_error),
-                                  "partition", partition_word(n->partition), "polygon_method",
-                                  polygons_word(n->polygon_method), "tile_size", (json_int_t)n->tile_size,
-                                  "max_verts_per_poly", (json_int_t)n->max_verts_per_poly));
+    json_object_set_new(
+        object, "settings",
+        json_pack("{so so so so so so so ss ss sI so sI}", "cell_size", tl_json_float(n->cell_size), "cell_height",
+                  tl_json_float(n->cell_height), "agent_height", tl_json_float(n->agent_height), "agent_radius",
+                  tl_json_float(n->agent_radius), "agent_max_climb", tl_json_float(n->agent_max_climb),
+                  "agent_max_slope", tl_json_float(n->agent_max_slope), "edge_max_error",
+                  tl_json_float(n->edge_max_error), "partition", partition_word(n->partition), "polygon_method",
+                  polygons_word(n->polygon_method), "tile_size", (json_int_t)n->tile_size, "tile_height",
+                  tl_json_float(n->tile_height), "max_verts_per_poly", (json_int_t)n->max_verts_per_poly));
     json_object_set_new(object, "areas", tl_area_sums_json(&info->nav.areas));
     return object;
 }

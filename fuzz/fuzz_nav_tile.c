@@ -139,25 +139,45 @@ static void use_tile(const tl_nav_tile *tile, const tl_nav_tile *neighbour)
     tl_navmesh_free(navmesh);
 }
 
+// The sample as two layers of a checkerboard: every inner edge is cut.
+static tl_nav_tile *bake_layer(uint32_t layer)
+{
+    uint32_t layers[POLYGONS];
+    for (uint32_t p = 0; p < POLYGONS; p++) {
+        layers[p] = (p % SIDE + p / SIDE) % 2;
+    }
+    tl_nav_tile *whole = bake_sample();
+    tl_nav_tile_stack stack;
+    require(tl_nav_tile_divide(whole, layers, NULL, &stack, NULL) == TL_OK && stack.count == 2);
+    tl_nav_tile *tile = stack.tiles[layer];
+    stack.tiles[layer] = NULL;
+    tl_nav_tile_stack_free(&stack, NULL);
+    tl_blob_free(whole, NULL);
+    return tile;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static tl_nav_tile *sample;
-    if (sample == NULL) {
-        sample = bake_sample();
+    static tl_nav_tile *samples[2];
+    if (samples[0] == NULL) {
+        samples[0] = bake_sample();
+        samples[1] = bake_layer(1);
     }
+    const bool layered = size > 0 && data[0] == 0xfe;
+    const tl_nav_tile *sample = samples[layered ? 1 : 0];
     bool raw = size > 0 && data[0] == 0xff;
     size_t byte_count = raw ? size - 1 : (size_t)sample->blob.size;
     uint8_t *bytes = aligned_alloc(64, (byte_count + 63) / 64 * 64 + 64);
     require(bytes != NULL);
     memcpy(bytes, raw ? data + 1 : (const uint8_t *)sample, byte_count);
-    for (size_t i = 0; !raw && i + 3 <= size; i += 3) {
+    for (size_t i = layered ? 1 : 0; !raw && i + 3 <= size; i += 3) {
         bytes[(data[i] | (size_t)data[i + 1] << 8) % byte_count] = data[i + 2];
     }
     const tl_nav_tile *tile = (const tl_nav_tile *)(const void *)bytes;
     if (tl_nav_tile_check(bytes, byte_count, NULL) == TL_OK) {
-        tl_nav_tile *neighbour = bake_sample();
-        neighbour->tile_x = tile->tile_x + 1;
-        neighbour->tile_z = tile->tile_z;
+        tl_nav_tile *neighbour = layered ? bake_layer(0) : bake_sample();
+        neighbour->tile_x = layered ? 0 : tile->tile_x + 1;
+        neighbour->tile_z = layered ? 0 : tile->tile_z;
         use_tile(tile, neighbour);
         tl_blob_free(neighbour, NULL);
     }

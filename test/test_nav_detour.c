@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <talus/nav_detour.h>
+#include <talus/nav_query.h>
 
 static tl_nav_tiles bake(uint32_t tile_size, tl_vec3 offset)
 {
@@ -274,12 +275,106 @@ static void test_out_of_memory(void **state)
     tl_nav_tiles_free(&tiles, NULL);
 }
 
+// What hangs together within a tile, as layers: nothing is cut.
+static tl_nav_tiles divide(const tl_nav_tiles *whole)
+{
+    tl_nav_tiles out;
+    memset(&out, 0, sizeof out);
+    out.tiles = calloc(4096, sizeof *out.tiles);
+    for (uint32_t t = 0; t < whole->tile_count; t++) {
+        const tl_nav_tile *tile = whole->tiles[t];
+        uint32_t *layers = malloc(tile->polygon_count * sizeof *layers);
+        for (uint32_t p = 0; p < tile->polygon_count; p++) {
+            layers[p] = p;
+        }
+        for (bool again = true; again;) {
+            again = false;
+            for (uint32_t p = 0; p < tile->polygon_count; p++) {
+                uint32_t count;
+                tl_nav_tile_corners(tile, p, &count);
+                for (uint32_t k = 0; k < count; k++) {
+                    const uint32_t across = tl_nav_tile_neighbour(tile, p, k);
+                    if (across < tile->polygon_count && layers[across] < layers[p]) {
+                        layers[p] = layers[across];
+                        again = true;
+                    }
+                }
+            }
+        }
+        tl_nav_tile_stack stack;
+        TEST_RESULT(tl_nav_tile_divide(tile, layers, NULL, &stack, NULL), TL_OK);
+        for (uint32_t i = 0; i < stack.count; i++) {
+            TEST_CHECK(out.tile_count < 4096);
+            out.tiles[out.tile_count++] = stack.tiles[i];
+            stack.tiles[i] = NULL;
+        }
+        tl_nav_tile_stack_free(&stack, NULL);
+        free(layers);
+    }
+    out.tiles = realloc(out.tiles, out.tile_count * sizeof *out.tiles);
+    return out;
+}
+
+static uint64_t count_links(tl_nav_tile *const *tiles, uint32_t count)
+{
+    tl_navmesh *navmesh;
+    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+    for (uint32_t i = 0; i < count; i++) {
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles[i], TL_NAV_TILE_BORROWED), TL_OK);
+    }
+    const uint64_t links = tl_navmesh_link_count(navmesh);
+    tl_navmesh_free(navmesh);
+    return links;
+}
+
+// Several layers at one place: written and read where nothing is cut between them, else refused by name.
+static void test_layers(void **state)
+{
+    (void)state;
+    tl_nav_tiles whole = bake(20, tl_vec3_make(0, 0, 0)), tiles = divide(&whole);
+    TEST_CHECK(tiles.tile_count > whole.tile_count);
+    byte_list set = write_set(&tiles, TL_DETOUR_REFS_64);
+    tl_detour_tiles back;
+    TEST_RESULT(tl_detour_read(set.bytes, set.size, NULL, &back, NULL), TL_OK);
+    TEST_CHECK(back.tile_count == tiles.tile_count);
+    for (uint32_t t = 0; t < back.tile_count; t++) {
+        TEST_CHECK(back.tiles[t]->layer == tiles.tiles[t]->layer);
+        check_same(tiles.tiles[t], back.tiles[t]);
+    }
+    TEST_CHECK(count_links(back.tiles, back.tile_count) == count_links(whole.tiles, whole.tile_count));
+    tl_detour_tiles_free(&back, NULL);
+    free(set.bytes);
+
+    tl_nav_tile_stack stack;
+    tl_nav_tile *tile = whole.tiles[0];
+    for (uint32_t t = 1; t < whole.tile_count; t++) {
+        tile = whole.tiles[t]->polygon_count > tile->polygon_count ? whole.tiles[t] : tile;
+    }
+    uint32_t *layers = malloc(tile->polygon_count * sizeof *layers);
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        layers[p] = 1 + p % 2;
+    }
+    TEST_RESULT(tl_nav_tile_divide(tile, layers, NULL, &stack, NULL), TL_OK);
+    const tl_nav_tile *const *list = (const tl_nav_tile *const *)stack.tiles;
+    TEST_CHECK(stack.count == 2 && tl_detour_set_size(list, 2, TL_DETOUR_REFS_32) == 0);
+    unsigned char room[8];
+    tl_detour_report report;
+    TEST_RESULT(tl_detour_tile_write(list[0], TL_DETOUR_REFS_32, room, sizeof room, &report), TL_ERR_LIMIT);
+    TEST_CHECK(strcmp(report.base.element, "layer") == 0 && report.base.element_index == 1);
+    TEST_RESULT(tl_detour_set_write(list, 2, TL_DETOUR_REFS_32, NULL, 0, &report), TL_ERR_LIMIT);
+    TEST_CHECK(strcmp(report.base.element, "layer") == 0);
+    tl_nav_tile_stack_free(&stack, NULL);
+    free(layers);
+    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&whole, NULL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_there_and_back),         cmocka_unit_test(test_single_tile),
         cmocka_unit_test(test_what_cannot_be_written), cmocka_unit_test(test_bytes_from_anywhere),
-        cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_out_of_memory),          cmocka_unit_test(test_layers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

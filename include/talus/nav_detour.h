@@ -76,7 +76,8 @@ TL_API tl_detour_read_def tl_default_detour_read_def(void);
 /// The corners must lie on a lattice of the cell size that the tile's bounding volume factor tells, as those that
 /// Recast makes do (TL_ERR_RANGE names the vertex of another). Errors: TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED,
 /// TL_ERR_CORRUPT (a count or an index is wrong), TL_ERR_EMPTY (no polygon left), TL_ERR_NOT_FINITE, TL_ERR_RANGE,
-/// TL_ERR_LIMIT (several layers at one place), TL_ERR_MEMORY. `tiles_out` is cleared unless TL_OK.
+/// TL_ERR_LIMIT (a layer above 65,535), TL_ERR_MEMORY. Tiles of several layers at one place are read; edges inside the
+/// tile over which Detour links them are walls here. `tiles_out` is cleared unless TL_OK.
 TL_API tl_result tl_detour_read(const void *bytes, uint64_t size, const tl_detour_read_def *def,
                                 tl_detour_tiles *tiles_out, tl_detour_report *report_out);
 TL_API void tl_detour_tiles_free(tl_detour_tiles *tiles, const tl_allocator *allocator);

@@ -274,6 +274,22 @@ static tl_result check_grid(const tl_nav_tile *const *tiles, uint32_t tile_count
     return TL_OK;
 }
 
+// What cannot be written is said before there is any room, which its size is not known without.
+static tl_result check_tiles(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_report *report)
+{
+    for (uint32_t i = 0; i < tile_count; i++) {
+        tl_detour_header header;
+        tl_detour_report probe;
+        memset(&probe, 0, sizeof probe);
+        const tl_result result = make_header(tiles[i], &header, &probe);
+        if (result != TL_OK) {
+            *report = probe.base;
+            return result;
+        }
+    }
+    return TL_OK;
+}
+
 static void make_set_header(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_set_header *header)
 {
     const tl_nav_tile *model = tiles[0];
@@ -286,12 +302,12 @@ static void make_set_header(const tl_nav_tile *const *tiles, uint32_t tile_count
     params->origin[1] = model->origin.y;
     params->origin[2] = model->origin.z;
     params->tile_width = params->tile_height = (float)model->tile_size * model->cell_size;
-    if (model->tile_size == 0) {
-        params->tile_width = model->bounds.max.x - model->origin.x;
-        params->tile_height = model->bounds.max.z - model->origin.z;
-    }
     params->max_tiles = (int32_t)tile_count;
     for (uint32_t i = 0; i < tile_count; i++) {
+        if (model->tile_size == 0) { // the only place, wide enough for all its layers
+            params->tile_width = fmaxf(params->tile_width, tiles[i]->bounds.max.x - model->origin.x);
+            params->tile_height = fmaxf(params->tile_height, tiles[i]->bounds.max.z - model->origin.z);
+        }
         int32_t count = (int32_t)tiles[i]->polygon_count;
         params->max_polygons = count > params->max_polygons ? count : params->max_polygons;
     }
@@ -317,6 +333,7 @@ static tl_result write_set(const tl_nav_tile *const *tiles, uint32_t tile_count,
         return tl_report_fail(&report->base, TL_ERR_EMPTY, "tile", TL_NO_ELEMENT, NULL);
     }
     TL_TRY(check_grid(tiles, tile_count, &report->base));
+    TL_TRY(check_tiles(tiles, tile_count, &report->base));
     tl_detour_set_header header;
     make_set_header(tiles, tile_count, &header);
     uint32_t tile_bits = bits_for(tile_count), polygon_bits = bits_for((uint32_t)header.params.max_polygons);
