@@ -98,11 +98,11 @@ static void built_in_levels(void **state)
     (void)state;
     static const struct {
         const char *name;
-        uint64_t hash;
-    } golden[] = { { "courtyard", 0x169e20c7d23686ff },
-                   { "dungeon", 0x730af8b47efc841a },
-                   { "terrain", 0x1f5bc1f4a2b6d8d1 },
-                   { "city", 0x7a9ce523b58b41a5 } };
+        uint64_t hash, layered_hash;
+    } golden[] = { { "courtyard", 0x169e20c7d23686ff, 0x9a4b313e9944e3a8 },
+                   { "dungeon", 0x730af8b47efc841a, 0x8035deb9dba43ad5 },
+                   { "terrain", 0x1f5bc1f4a2b6d8d1, 0x68ee4509b2d82f31 },
+                   { "city", 0x7a9ce523b58b41a5, 0xbf30351f3530bb30 } };
     const tl_tasks two = { run_on_two_threads, 2, NULL };
     bool equal = true;
     for (size_t i = 0; i < 4; i++) {
@@ -115,6 +115,16 @@ static void built_in_levels(void **state)
         }
         equal = equal && hash == golden[i].hash;
         TEST_CHECK(hash == hash_of_level(&view, &two));
+        tl_nav_def layered = tl_default_nav_def();
+        layered.tile_size = 48;
+        layered.tile_height = 2.0f;
+        const uint64_t layered_hash = hash_of_build(&layered, &view, 0);
+        if (layered_hash != golden[i].layered_hash) {
+            print_error("%s in layers: 0x%016llx\n", golden[i].name, (unsigned long long)layered_hash);
+        }
+        equal = equal && layered_hash == golden[i].layered_hash;
+        layered.host.tasks = &two;
+        TEST_CHECK(layered_hash == hash_of_build(&layered, &view, 0));
         shuffle_triangles(&mesh, view.triangle_count);
         TEST_CHECK(hash == hash_of_level(&view, NULL));
         tl_sample_mesh_free(&mesh);

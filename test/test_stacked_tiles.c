@@ -237,7 +237,7 @@ static bool random_place(const pair_of_meshes *p, test_random *random, tl_aabb b
 }
 
 typedef struct tally {
-    uint64_t cuts, paths, equal_bits, rays, slides, over_layers;
+    uint64_t cuts, paths, equal_bits, rays, slides, over_layers, wide, wide_equal;
     double worst;
 } tally;
 
@@ -256,6 +256,30 @@ static double check_path(const pair_of_meshes *p, tl_nav_query *query, const tl_
     return path[0].length > 0 ? fabs(path[0].length - path[1].length) / path[0].length : 0.0;
 }
 
+// Whether an agent wider than the mesh's own gets there, from places where it has room.
+static void check_wide(const pair_of_meshes *p, tl_nav_query *query, const tl_nav_location from[2],
+                       const tl_nav_location to[2], tally *sum)
+{
+    tl_nav_location ends[2][2];
+    if (tl_nav_query_find_wide_place(query, p->mesh[0], NULL, 0.9f, &from[0], 2.0f, &ends[0][0]) != TL_OK ||
+        tl_nav_query_find_wide_place(query, p->mesh[0], NULL, 0.9f, &to[0], 2.0f, &ends[0][1]) != TL_OK) {
+        return;
+    }
+    tl_nav_wide_path path[2];
+    for (int side = 0; side < 2; side++) {
+        for (int i = 0; i < 2; i++) {
+            ends[1][i].polygon = twin_ref(p, 0, ends[0][i].polygon);
+            ends[1][i].point = ends[0][i].point;
+        }
+        TEST_RESULT(tl_nav_query_find_wide_path(query, p->mesh[side], NULL, 0.9f, &ends[side][0], &ends[side][1], NULL,
+                                                0, &path[side]),
+                    path[side].corner_count > 0 ? TL_ERR_CAPACITY : TL_OK);
+    }
+    TEST_CHECK(path[0].status == path[1].status);
+    sum->wide += path[0].status == TL_NAV_WIDE_COMPLETE;
+    sum->wide_equal += path[0].status == TL_NAV_WIDE_COMPLETE && path[0].length == path[1].length;
+}
+
 static void check_queries(const pair_of_meshes *p, tl_nav_query *query, tl_aabb bounds, tally *sum)
 {
     test_random random = { 11 };
@@ -268,6 +292,7 @@ static void check_queries(const pair_of_meshes *p, tl_nav_query *query, tl_aabb 
         sum->worst = off > sum->worst ? off : sum->worst;
         sum->over_layers += id_of(p->mesh[0], from[0].polygon).slot == id_of(p->mesh[0], to[0].polygon).slot &&
                             id_of(p->mesh[1], from[1].polygon).slot != id_of(p->mesh[1], to[1].polygon).slot;
+        check_wide(p, query, from, to, sum);
         tl_nav_ray_hit hit[2];
         tl_nav_location end[2];
         for (int side = 0; side < 2; side++) {
@@ -308,7 +333,9 @@ static void check_level(const level_source *source, const uint32_t *sizes, uint3
         sum->cuts += check_links(&p);
         check_islands(&p);
         check_queries(&p, query, bounds, sum);
+        const tl_nav_wide_def wide = tl_default_nav_wide_def();
         for (int side = 0; side < 2; side++) {
+            TEST_RESULT(tl_navmesh_prepare_wide(p.mesh[side], &wide, NULL), TL_OK);
             TEST_RESULT(tl_navmesh_prepare(p.mesh[side], NULL, NULL), TL_OK);
         }
         TEST_CHECK(tl_navmesh_is_prepared(p.mesh[0]) == tl_navmesh_is_prepared(p.mesh[1]));
@@ -328,20 +355,24 @@ static void test_same_as_undivided(void **state)
     tl_nav_query *query;
     const tl_nav_query_def def = tl_default_nav_query_def();
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
-    tally all = { 0, 0, 0, 0, 0, 0, 0.0 };
+    tally all = { 0, 0, 0, 0, 0, 0, 0, 0, 0.0 };
     for (size_t i = 0; i < sizeof STACKED_LEVELS / sizeof *STACKED_LEVELS; i++) {
-        tally sum = { 0, 0, 0, 0, 0, 0, 0.0 };
+        tally sum = { 0, 0, 0, 0, 0, 0, 0, 0, 0.0 };
         check_level(&STACKED_LEVELS[i], sizes, 3, query, &sum);
-        printf("%-10s %5llu links over cuts, %5llu paths (%llu equal to the bit, the others to %.1e), %5llu rays\n",
+        printf("%-10s %5llu links over cuts, %5llu paths (%llu equal to the bit, the others to %.1e), %5llu rays, %llu "
+               "wide paths (%llu "
+               "equal)\n",
                STACKED_LEVELS[i].name, (unsigned long long)sum.cuts, (unsigned long long)sum.paths,
-               (unsigned long long)sum.equal_bits, sum.worst, (unsigned long long)sum.rays);
+               (unsigned long long)sum.equal_bits, sum.worst, (unsigned long long)sum.rays,
+               (unsigned long long)sum.wide, (unsigned long long)sum.wide_equal);
         TEST_CHECK(sum.worst < 1e-6);
         all.cuts += sum.cuts;
         all.paths += sum.paths;
+        all.wide += sum.wide;
         all.over_layers += sum.over_layers;
         all.worst = sum.worst > all.worst ? sum.worst : all.worst;
     }
-    TEST_CHECK(all.cuts > 1000 && all.paths > 1000 && all.over_layers > 100);
+    TEST_CHECK(all.cuts > 1000 && all.paths > 1000 && all.over_layers > 100 && all.wide > 1000);
     tl_nav_query_free(query);
 }
 
