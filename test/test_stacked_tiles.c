@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <talus/nav_build.h>
-#include <talus/nav_query.h>
+#include <talus/nav_wide.h>
 
 enum { MOST_LINKS = 256, PAIRS = 60 };
 
