@@ -208,13 +208,23 @@ static bool make_searchers(path_queries *queries, uint32_t count)
     return true;
 }
 
+// Many wide paths pay for a look around each polygon. False: out of memory.
+static bool prepare(tl_navmesh *navmesh, const path_settings *settings)
+{
+    tl_nav_wide_def def = tl_default_nav_wide_def();
+    def.max_radius = settings->radius;
+    return settings->pairs == NULL || settings->radius <= 0.0f ||
+           tl_navmesh_prepare_wide(navmesh, &def, NULL) != TL_ERR_MEMORY;
+}
+
 static tl_exit find(tl_cli *cli, const path_settings *settings, const float *numbers)
 {
     tl_input input;
     tl_exit code;
     if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
         path_queries queries = { input.navmesh, settings, NULL, 0 };
-        if (!make_searchers(&queries, settings->pairs != NULL ? cli->host.tasks->worker_count : 1)) {
+        if (!prepare(input.navmesh, settings) ||
+            !make_searchers(&queries, settings->pairs != NULL ? cli->host.tasks->worker_count : 1)) {
             code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
         } else {
             const tl_batch batch = { settings->pairs, "ax ay az bx by bz", 6, 6, answer_line, &queries };
