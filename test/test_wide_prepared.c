@@ -3,7 +3,9 @@
 // Navmeshes with walls kept for wide agents beside twins without: the same bits, whatever tiles come and go, whatever
 // the radius and the filter; an edit drops the tiles near it and no others; memory.
 
+#include "nav_bake.h"
 #include "nav_fixture.h"
+#include "stacked_levels.h"
 
 #include <talus/nav_wide.h>
 
@@ -154,6 +156,60 @@ static void test_edits(void **state)
     tl_nav_query_free(query);
 }
 
+// Places that are divided into layers, which come and go one by one.
+static void test_layers(void **state)
+{
+    (void)state;
+    test_random random = { 44 };
+    tl_sample_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    build_spiral(&mesh);
+    tl_nav_def def = tl_default_nav_def();
+    def.cell_size = 0.25f;
+    def.agent_radius = 0.5f;
+    def.tile_size = 24;
+    def.tile_height = 2.9f;
+    tl_nav_input input;
+    memset(&input, 0, sizeof input);
+    input.mesh = tl_sample_mesh_as_view(&mesh);
+    tl_nav_tiles tiles;
+    TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
+    tl_navmesh *navmeshes[2] = { NULL, NULL };
+    for (int i = 0; i < 2; i++) {
+        TEST_RESULT(tl_navmesh_create(NULL, &navmeshes[i]), TL_OK);
+        for (uint32_t k = 0; k < tiles.tile_count; k++) {
+            TEST_RESULT(tl_navmesh_add_tile(navmeshes[i], tiles.tiles[k], TL_NAV_TILE_BORROWED), TL_OK);
+        }
+    }
+    tl_nav_query *query = make_query();
+    tl_nav_wide_def wide = tl_default_nav_wide_def();
+    wide.max_radius = MAX_RADIUS;
+    coverage seen = { 0 };
+    uint32_t layers = 0;
+    for (uint32_t edit = 0; edit < 40; edit++) {
+        const tl_nav_tile *tile = tiles.tiles[test_random_below(&random, tiles.tile_count)];
+        TEST_RESULT(tl_navmesh_prepare_wide(navmeshes[0], &wide, NULL), TL_OK);
+        compare(query, navmeshes[0], navmeshes[1], &random, 6, &seen);
+        for (int i = 0; i < 2; i++) {
+            if (tl_navmesh_find_layer(navmeshes[i], tile->tile_x, tile->layer, tile->tile_z) != NULL) {
+                TEST_RESULT(tl_navmesh_remove_layer(navmeshes[i], tile->tile_x, tile->layer, tile->tile_z), TL_OK);
+            } else {
+                TEST_RESULT(tl_navmesh_add_tile(navmeshes[i], tile, TL_NAV_TILE_BORROWED), TL_OK);
+            }
+        }
+        layers += tile->layer > 0;
+        compare(query, navmeshes[0], navmeshes[1], &random, 6, &seen);
+    }
+    print_message("%u tiles; complete %u (bent %u), unreachable %u; %u edits of upper layers\n", tiles.tile_count,
+                  seen.complete, seen.bent, seen.unreachable, layers);
+    TEST_CHECK(seen.complete > 50 && seen.bent > 30 && layers > 10);
+    tl_nav_query_free(query);
+    tl_navmesh_free(navmeshes[0]);
+    tl_navmesh_free(navmeshes[1]);
+    tl_nav_tiles_free(&tiles, NULL);
+    tl_sample_mesh_free(&mesh);
+}
+
 static void test_arguments(void **state)
 {
     (void)state;
@@ -231,6 +287,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_edits),
+        cmocka_unit_test(test_layers),
         cmocka_unit_test(test_arguments),
         cmocka_unit_test(test_memory),
     };
