@@ -29,13 +29,8 @@ typedef struct search {
 static search begin(const tl_scene *scene, const tl_scene_item *items, const tl_scene_filter *filter)
 {
     search s = { .items = items, .records = tl_scene_records(scene), .filter = filter, .item = TL_NO_ITEM };
-    s.triangles = filter != NULL ? filter->triangles : NULL;
+    s.triangles = tl_scene_triangles(filter);
     return s;
-}
-
-static uint32_t mask_of(const tl_scene_filter *filter)
-{
-    return filter != NULL ? filter->mask : UINT32_MAX;
 }
 
 static bool cast_at_soup(const search *s, uint32_t item, tl_scene_hit *hit)
@@ -116,7 +111,7 @@ bool tl_scene_cast_ray_with(tl_scene_walk_fn *walk, const tl_scene *scene, const
     tl_scene_hit hit;
     s.hit = hit_out != NULL ? &hit : NULL;
     tl_scene_line line = { .items = items, .visit = visit_by_ray, .user = &s, .any = hit_out == NULL };
-    tl_scene_line_make(&line, scene, mask_of(filter), ray->origin, ray->direction, tl_vec3d_make(0.0, 0.0, 0.0),
+    tl_scene_line_make(&line, scene, tl_scene_kinds(filter), ray->origin, ray->direction, tl_vec3d_make(0.0, 0.0, 0.0),
                        (double)ray->tmax);
     line.walk = walk != NULL ? walk : line.walk;
     tl_scene_line_walk(&line);
@@ -191,7 +186,7 @@ bool tl_scene_line_of_sight(const tl_scene *scene, const tl_scene_item *items, t
     tl_scene_line line = { .items = items, .visit = visit_by_sight, .user = &s, .any = true };
     // Both ends move by roundings of their own, and the difference rounds.
     double wide = SIGHT_ERROR * (tl_vec3d_size(tl_vec3d_from(a)) + tl_vec3d_size(tl_vec3d_from(b)));
-    tl_scene_line_make(&line, scene, mask_of(filter), a, tl_sub(b, a), tl_vec3d_make(wide, wide, wide), 1.0);
+    tl_scene_line_make(&line, scene, tl_scene_kinds(filter), a, tl_sub(b, a), tl_vec3d_make(wide, wide, wide), 1.0);
     tl_scene_line_walk(&line);
     return s.item == TL_NO_ITEM;
 }

@@ -44,12 +44,12 @@ static tl_transform move_out(tl_transform pose, tl_vec3 normal, double by)
 static bool cast_at_soup(const search *s, uint32_t item, tl_shape_hit *hit)
 {
     const tl_scene_record *record = &s->records[item];
-    const tl_ray_filter *triangles = s->filter != NULL ? s->filter->triangles : NULL;
     tl_transform pose = tl_scene_pose_to_item(record, s->shape->pose);
     tl_vec3 motion = tl_scene_direction_to_item(record, s->motion);
     double touch = s->touch;
     for (uint32_t step = 0;; step++) {
-        if (tl_soup_cast_shape(s->items[item].soup, s->shape->convex, pose, motion, triangles, hit) != TL_OK) {
+        if (tl_soup_cast_shape(s->items[item].soup, s->shape->convex, pose, motion, tl_scene_triangles(s->filter),
+                               hit) != TL_OK) {
             return false;
         }
         bool stands_on = hit->initial_overlap && (double)hit->depth <= touch;
@@ -138,7 +138,7 @@ tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_item *items,
     tl_scene_shape_hit hit;
     search s = { items, tl_scene_records(scene), filter, &moved, motion, TOUCH_SHARE * moved.reach, &hit, TL_NO_ITEM };
     tl_scene_line line = { .items = items, .visit = visit, .user = &s };
-    tl_scene_line_make(&line, scene, filter != NULL ? filter->mask : UINT32_MAX, moved.middle, motion, moved.half, 1.0);
+    tl_scene_line_make(&line, scene, tl_scene_kinds(filter), moved.middle, motion, moved.half, 1.0);
     tl_scene_line_walk(&line);
     if (s.item == TL_NO_ITEM) {
         return TL_ERR_NOT_FOUND;

@@ -28,7 +28,7 @@ bool tl_scene_items_in_box(const tl_scene *scene, tl_aabb box, const tl_scene_fi
                            void *user)
 {
     TL_ASSERT(scene != NULL && found != NULL);
-    uint32_t kinds = filter != NULL ? filter->mask : UINT32_MAX;
+    uint32_t kinds = tl_scene_kinds(filter);
     uint32_t stack[TL_SCENE_STACK_SIZE];
     uint32_t count = 1;
     stack[0] = 0;

@@ -58,9 +58,8 @@ static bool ask_soup(const search *s, uint32_t item, tl_soup_point *found)
 {
     const tl_scene_record *record = &s->records[item];
     float reach = tl_minf(nextafterf(s->limit, INFINITY), s->max_distance);
-    const tl_ray_filter *triangles = s->filter != NULL ? s->filter->triangles : NULL;
-    return tl_soup_nearest(s->items[item].soup, tl_scene_point_to_item(record, s->at), reach, triangles, found) ==
-           TL_OK;
+    return tl_soup_nearest(s->items[item].soup, tl_scene_point_to_item(record, s->at), reach,
+                           tl_scene_triangles(s->filter), found) == TL_OK;
 }
 
 static bool ask_shape(const search *s, uint32_t item, tl_soup_point *found)
@@ -98,7 +97,7 @@ static void visit(search *s, uint32_t item)
 static uint32_t enter(const search *s, const tl_scene_node *node, uint64_t *stack, uint32_t count)
 {
     uint64_t *base = stack + count;
-    uint32_t added = 0, mask = s->filter != NULL ? s->filter->mask : UINT32_MAX;
+    uint32_t added = 0, mask = tl_scene_kinds(s->filter);
     float keys[TL_SCENE_WIDTH];
     measure(s, node, keys);
     for (uint32_t lane = 0; lane < TL_SCENE_WIDTH; lane++) {

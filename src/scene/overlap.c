@@ -22,11 +22,6 @@ typedef struct search {
 
 static_assert(sizeof(tl_scene_overlap) == 2 * sizeof(uint32_t), "an overlap is two words");
 
-static const tl_ray_filter *triangles_of(const search *s)
-{
-    return s->filter != NULL ? s->filter->triangles : NULL;
-}
-
 static bool touches_shape(const search *s, uint32_t item)
 {
     return tl_convex_overlap(s->items[item].shape, s->records[item].pose, s->shape->convex, s->shape->pose, NULL);
@@ -48,8 +43,8 @@ static void add_soup(search *s, uint32_t item)
     tl_scene_overlap *room = room_size > 0 ? s->overlaps + s->count : NULL;
     uint32_t *indices = room_size > 0 ? (uint32_t *)(void *)room + room_size : NULL;
     tl_transform pose = tl_scene_pose_to_item(&s->records[item], s->shape->pose);
-    tl_result result =
-        tl_soup_find_overlaps(s->items[item].soup, s->shape->convex, pose, triangles_of(s), indices, room_size, &count);
+    tl_result result = tl_soup_find_overlaps(s->items[item].soup, s->shape->convex, pose, tl_scene_triangles(s->filter),
+                                             indices, room_size, &count);
     if (result == TL_OK || result == TL_ERR_CAPACITY) {
         if (room != NULL) {
             spread(room, room_size, count < room_size ? count : room_size, item);
@@ -85,7 +80,7 @@ static bool visit_any(tl_scene_line *line, uint32_t item)
     bool touches = false;
     if (s->items[item].soup != NULL) {
         tl_transform pose = tl_scene_pose_to_item(&s->records[item], s->shape->pose);
-        (void)tl_soup_overlaps(s->items[item].soup, s->shape->convex, pose, triangles_of(s), &touches);
+        (void)tl_soup_overlaps(s->items[item].soup, s->shape->convex, pose, tl_scene_triangles(s->filter), &touches);
     } else if (s->items[item].shape != NULL) {
         touches = touches_shape(s, item);
     }
@@ -97,15 +92,10 @@ static tl_vec3 nowhere(void)
     return tl_vec3_make(0.0f, 0.0f, 0.0f);
 }
 
-static uint32_t mask_of(const tl_scene_filter *filter)
-{
-    return filter != NULL ? filter->mask : UINT32_MAX;
-}
-
 static bool walk(search *s, const tl_scene *scene, tl_scene_visit_fn *visit)
 {
     tl_scene_line line = { .items = s->items, .visit = visit, .user = s, .any = true };
-    tl_scene_line_make(&line, scene, mask_of(s->filter), s->shape->middle, nowhere(), s->shape->half, 1.0);
+    tl_scene_line_make(&line, scene, tl_scene_kinds(s->filter), s->shape->middle, nowhere(), s->shape->half, 1.0);
     return tl_scene_line_walk(&line);
 }
 

@@ -118,6 +118,17 @@ static inline tl_vec3 tl_scene_point_to_world(const tl_scene_record *record, tl_
     return tl_vec3d_to_float(tl_vec3d_add(v, tl_vec3d_from(record->pose.position)));
 }
 
+/// What a filter, which may be NULL, says of kinds and of triangles.
+static inline uint32_t tl_scene_kinds(const tl_scene_filter *filter)
+{
+    return filter != NULL ? filter->mask : UINT32_MAX;
+}
+
+static inline const tl_ray_filter *tl_scene_triangles(const tl_scene_filter *filter)
+{
+    return filter != NULL ? filter->triangles : NULL;
+}
+
 /// Whether a filter lets an item count, its mask aside.
 static inline bool tl_scene_accepts(const tl_scene_filter *filter, uint32_t item)
 {

@@ -5,6 +5,7 @@
 // A visit tests eight child boxes, keeps the nearest that is entered at hand, and puts the others on the stack, sorted
 // by distance. Items wait there among nodes: what an item finds shortens the line for all behind it.
 
+#include "base/assert.h"
 #include "base/lowest_bit.h"
 #include "math/simd8.h"
 #include "scene/scene_walk.h"
@@ -14,11 +15,16 @@
 // their bits have the order of their values.
 typedef uint64_t walk_entry;
 
-// Where things are; of a node's planes those by which the line enters boxes, and those by which it leaves them: bytes.
+// Where in a node the planes are by which a line enters boxes, by its bits `backward`: bytes. It leaves by those of
+// ~backward.
+static const uint32_t walk_rows[8][3] = { { 0, 64, 128 }, { 32, 64, 128 }, { 0, 96, 128 }, { 32, 96, 128 },
+                                          { 0, 64, 160 }, { 32, 64, 160 }, { 0, 96, 160 }, { 32, 96, 160 } };
+static_assert(sizeof(((tl_scene_node *)0)->plane[0]) == 32, "rows of walk_rows");
+
 typedef struct walk_place {
     const tl_scene_node *nodes;
     const tl_scene_record *records;
-    uint32_t near_row[3], far_row[3];
+    const uint32_t *near_rows, *far_rows;
 } walk_place;
 
 static inline tl_f32x8 load_row(const tl_scene_node *node, uint32_t row)
@@ -33,8 +39,8 @@ static TL_ALWAYS_INLINE uint32_t enter_boxes(const tl_scene_line *line, const wa
     tl_f32x8 first = tl_f32x8_all(0.0f), last = tl_f32x8_all(line->limit);
     for (uint32_t i = 0; i < 3; i++) {
         tl_f32x8 scale = tl_f32x8_all(line->scale[i]);
-        tl_f32x8 enter = tl_f32x8_mul_add(load_row(node, place->near_row[i]), scale, tl_f32x8_all(line->near_base[i]));
-        tl_f32x8 leave = tl_f32x8_mul_add(load_row(node, place->far_row[i]), scale, tl_f32x8_all(line->far_base[i]));
+        tl_f32x8 enter = tl_f32x8_mul_add(load_row(node, place->near_rows[i]), scale, tl_f32x8_all(line->near_base[i]));
+        tl_f32x8 leave = tl_f32x8_mul_add(load_row(node, place->far_rows[i]), scale, tl_f32x8_all(line->far_base[i]));
         first = tl_f32x8_max_bits(first, enter);
         last = tl_f32x8_min_bits(last, leave);
     }
@@ -127,11 +133,8 @@ bool TL_SCENE_WALK(tl_scene_line *line)
     walk_place place;
     place.nodes = tl_scene_nodes(line->scene);
     place.records = tl_scene_records(line->scene);
-    for (uint32_t i = 0; i < 3; i++) {
-        uint32_t backward = line->backward >> i & 1u, row = (uint32_t)sizeof place.nodes->plane[0];
-        place.near_row[i] = row * (2 * i + backward);
-        place.far_row[i] = row * (2 * i + 1 - backward);
-    }
+    place.near_rows = walk_rows[line->backward];
+    place.far_rows = walk_rows[~line->backward & 7u];
     walk_entry stack[TL_SCENE_STACK_SIZE];
     uint32_t stack_count = 0;
     walk_entry entry = 0;
