@@ -8,19 +8,18 @@
 // The caller keeps the items. A scene is a tree over their boxes, with their poses and masks as they were when it was
 // built or refitted last; it holds no pointer, so every query takes the items again and finds soups and shapes there.
 // Answers are those of the last build or refit: who moves items meanwhile moves nothing in the scene, and the soups and
-// shapes must be the ones that were there then.
+// shapes must be there still, as they were then.
 //
 // What the answers promise:
 //
 // - They are defined by the items alone: asking each in turn and taking the first, the nearest, the lowest gives the
 //   same, bit for bit. The tree only leaves out items whose boxes are proven to be out of the question.
-// - An item whose pose is the identity answers with the very bits of its soup or shape alone. So does one that is only
-//   moved, for what is asked in its own space.
-// - A soup elsewhere is asked in its own space: origin and ends are brought there in double, R^T (p - position), and
-//   each coordinate is rounded to float once. With u = 2^-24 the point at t of a ray lies within u (|o| + t |d|) (and a
-//   share of 2^-28 of that) of where it should, o and d the origin and direction in the item's space; a pose of a shape
-//   is turned by at most 4 u besides. There the answer is exact as in soup.h. All triangles of an item see the same
-//   ray, so nothing slips through between two of them.
+// - A soup whose pose is the identity answers with the very bits that it has alone.
+// - A soup elsewhere is asked in its own space: points are brought there in double, R^T (p - position), and each
+//   coordinate is rounded to float once. With u = 2^-24 the point at t of a ray lies within u (|o| + t |d|) (and a
+//   share of 2^-20 of that) of where it should, o and d the origin and direction in the item's space: o rounds to
+//   within u |o|, d to within u |d|. A pose of a shape is turned by at most 4 u besides. There the answer is exact as
+//   in soup.h. All triangles of an item see the same ray, so nothing slips through between two of them.
 // - t, shares of motions and distances mean the same in every item, because poses are rigid.
 // - Shapes are asked in double where they stand (convex.h).
 // - Points and normals are in the world: from an item's space in double, rounded once.
@@ -131,8 +130,8 @@ TL_API bool tl_scene_occluded(const tl_scene *scene, const tl_scene_item *items,
                               const tl_scene_filter *filter);
 
 /// Whether nothing meets the closed segment from a to b: the same as from b to a, always (but for culling). Both ends
-/// are exact in each item's space. A point sees whatever is not there: equal ends meet shapes only. False when a
-/// coordinate is not finite. `filter` may be NULL.
+/// are exact in each item's space. Equal ends meet shapes only, and ends that are not finite nothing. `filter` may be
+/// NULL.
 TL_API bool tl_scene_line_of_sight(const tl_scene *scene, const tl_scene_item *items, tl_vec3 a, tl_vec3 b,
                                    const tl_scene_filter *filter);
 

@@ -178,7 +178,7 @@ bool tl_scene_line_of_sight(const tl_scene *scene, const tl_scene_item *items, t
 {
     TL_ASSERT(scene != NULL && (items != NULL || scene->item_count == 0));
     if (!tl_is_finite(a) || !tl_is_finite(b)) {
-        return false;
+        return true;
     }
     search s = begin(scene, items, filter);
     s.ray.origin = a;

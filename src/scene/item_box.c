@@ -11,7 +11,8 @@
 // - Asking in the item's space moves a point there by u times its distance from the item's origin. So a ray at the t of
 //   its hit is off by u (|o'| + t |d'|), where |o'| <= |o| + |p| and t |d'| <= |o'| + r: by u (2 |o| + 2 |p| + r).
 // - A cast at a shape may stop early, by up to 8 u of the shapes' diameters: 16 u r of this one.
-// - Planes are rounded to float: u (|p| + r). Frames and sums in double are off by 2^-28 of that.
+// - Planes are rounded to float: u (|p| + r). Frames and sums in double, of some forty roundings, are off by 2^-23 of
+//   that.
 //
 // So the box is widened by 32 u (|p| + r), which takes the item's part; the part of |o| widens what is asked.
 
@@ -56,15 +57,16 @@ tl_result tl_scene_read_item(const tl_scene_item *item, tl_aabb *local_out)
         return TL_ERR_RANGE;
     }
     const tl_convex *shape = item->shape;
-    if (shape == NULL) {
-        *local_out = item->soup != NULL ? tl_soup_bounds(item->soup) : tl_aabb_empty();
+    if (shape == NULL && item->soup == NULL) {
+        *local_out = tl_aabb_empty();
         return TL_OK;
     }
-    if (item->soup != NULL || !(shape->radius >= 0.0f)) {
+    if (shape != NULL && (item->soup != NULL || !(shape->radius >= 0.0f))) {
         return TL_ERR_ARGUMENT;
     }
-    *local_out = shape->kind == TL_CONVEX_HULL ? hull_box(shape->hull, shape->radius)
-                                               : tl_convex_bounds(shape, tl_transform_identity());
+    *local_out = shape == NULL                   ? tl_soup_bounds(item->soup)
+                 : shape->kind == TL_CONVEX_HULL ? hull_box(shape->hull, shape->radius)
+                                                 : tl_convex_bounds(shape, tl_transform_identity());
     if (!tl_is_finite(local_out->min) || !tl_is_finite(local_out->max)) {
         return TL_ERR_NOT_FINITE;
     }
