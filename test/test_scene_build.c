@@ -5,6 +5,7 @@
 
 #include "scene_models.h"
 
+#include "base/hash.h"
 #include "scene/scene_layout.h"
 
 static tl_vec3 vec(float x, float y, float z)
@@ -215,6 +216,30 @@ static void test_bad_items(void **state)
     scene_parts_free(&parts);
 }
 
+// The bytes are those of any compiler and machine.
+static void test_same_bytes(void **state)
+{
+    (void)state;
+    scene_parts parts;
+    scene_parts_make(&parts, 1);
+    test_random random = { 31 };
+    tl_scene_item items[1000];
+    for (uint32_t i = 0; i < 1000; i++) {
+        items[i] = scene_item(&parts, &random, vec(100, 0, -30), 40);
+    }
+    tl_scene *scene = scene_build(items, 1000);
+    uint64_t built = tl_hash_bytes(scene, tl_scene_get_stats(scene).size, 0);
+    for (uint32_t i = 0; i < 1000; i += 3) {
+        items[i].pose.position.x += 1;
+    }
+    TEST_RESULT(tl_scene_refit(scene, items, 1000, NULL, NULL), TL_OK);
+    uint64_t moved = tl_hash_bytes(scene, tl_scene_get_stats(scene).size, 0);
+    print_message("%016llx %016llx\n", (unsigned long long)built, (unsigned long long)moved);
+    TEST_CHECK(built == 0x28f8381c5cb0c6f5u && moved == 0xb1bca51c6ae9b549u);
+    tl_blob_free(scene, NULL);
+    scene_parts_free(&parts);
+}
+
 static void test_failing_memory(void **state)
 {
     (void)state;
@@ -246,10 +271,8 @@ static void test_failing_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_trees),
-        cmocka_unit_test(test_depth),
-        cmocka_unit_test(test_bad_items),
-        cmocka_unit_test(test_failing_memory),
+        cmocka_unit_test(test_trees),      cmocka_unit_test(test_depth),          cmocka_unit_test(test_bad_items),
+        cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_failing_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
