@@ -27,7 +27,8 @@ namespace
 
 constexpr float RADIUS = 8.0f;
 constexpr int MOST = 4096;
-constexpr int SLICE = 64; // nodes
+constexpr int SLICE = 64;       // nodes
+constexpr uint32_t POINTS = 64; // a call
 
 uint64_t random_state = 11;
 
@@ -169,6 +170,25 @@ void bench_random(arena &a)
             tl_nav_location at;
             tl_nav_query_random_reachable(a.query.get(), navmesh, nullptr, &p.talus, RADIUS, bits, &at);
             a.checksum += at.polygon;
+        });
+    compare(
+        a, "64 random reachable",
+        [&](const place &p) {
+            for (uint32_t i = 0; i < POINTS; i++) {
+                dtPolyRef ref;
+                float point[3];
+                a.detour->findRandomPointAroundCircle(p.detour, p.point, RADIUS, &a.filter, random_unit, &ref, point);
+                a.checksum += ref;
+            }
+        },
+        [&](const place &p) {
+            uint64_t bits[2 * POINTS];
+            for (uint64_t &number : bits) {
+                number = random_bits();
+            }
+            tl_nav_location at[POINTS];
+            tl_nav_query_random_reachable_points(a.query.get(), navmesh, nullptr, &p.talus, RADIUS, bits, POINTS, at);
+            a.checksum += at[0].polygon;
         });
 }
 

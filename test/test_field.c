@@ -183,6 +183,100 @@ static void test_fields(void **state)
     TEST_CHECK(ratios / paths >= 0.9999 && ratios / paths < 1.05);
 }
 
+// The area of a polygon's part within 32 sides, cut off one after the other.
+static double area_in_circle(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 center, double radius)
+{
+    const tl_nav_tile *tile = NULL;
+    uint32_t polygon = 0, corner_count = 0, count = 0;
+    double p[128][2], cut[128][2];
+    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, &tile, &polygon), TL_OK);
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &corner_count);
+    for (; count < corner_count; count++) {
+        p[count][0] = (double)corners[count].x - (double)center.x;
+        p[count][1] = (double)corners[count].z - (double)center.z;
+    }
+    for (int side = 0; side < 32; side++) {
+        double angle = (side + 0.5) * acos(-1.0) / 16.0, reach = radius * cos(acos(-1.0) / 32.0);
+        uint32_t kept = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            const double *a = p[i], *b = p[(i + 1) % count];
+            double da = reach - a[0] * cos(angle) - a[1] * sin(angle);
+            double db = reach - b[0] * cos(angle) - b[1] * sin(angle);
+            if (da >= 0.0) {
+                memcpy(cut[kept++], a, sizeof cut[0]);
+            }
+            if ((da > 0.0 && db < 0.0) || (da < 0.0 && db > 0.0)) {
+                cut[kept][0] = a[0] + da / (da - db) * (b[0] - a[0]);
+                cut[kept++][1] = a[1] + da / (da - db) * (b[1] - a[1]);
+            }
+        }
+        memcpy(p, cut, sizeof p);
+        count = kept;
+    }
+    double area = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        area += 0.5 * (p[(i + 1) % count][0] * p[i][1] - p[i][0] * p[(i + 1) % count][1]);
+    }
+    return area;
+}
+
+// As many first numbers, evenly spaced, as a polygon has of them by its area; and the same points one by one.
+static void test_reachable_areas(void **state)
+{
+    (void)state;
+    enum { POINTS = 2000 };
+    test_random random = { 83 };
+    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query *query = NULL;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    static uint64_t bits[2 * POINTS];
+    static tl_nav_location points[POINTS];
+    static tl_nav_field_entry entries[MOST];
+    uint32_t partial = 0, whole = 0;
+    for (uint32_t round = 0; round < 60; round++) {
+        fixture_level level = fixture_random(&random, round % 6, 7);
+        level.tile_cells = round % 2 == 0 ? 0 : 3;
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        fixture_refs all = fixture_all_refs(navmesh);
+        tl_nav_location center = fixture_random_location(navmesh, &all, &random);
+        float radius = test_random_range(&random, 0.2f, 9.0f);
+        tl_nav_zone zone = tl_nav_circle(center.point, radius);
+        tl_nav_field_def field = { radius, &zone, true };
+        uint32_t count = 0;
+        TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &center, &field, entries, MOST, &count), TL_OK);
+        for (uint32_t i = 0; i < POINTS; i++) {
+            bits[2 * i] = (uint64_t)i * (UINT64_MAX / POINTS);
+            bits[2 * i + 1] = test_random_u64(&random);
+        }
+        TEST_RESULT(tl_nav_query_random_reachable_points(query, navmesh, NULL, &center, radius, bits, POINTS, points),
+                    TL_OK);
+        double sum = 0.0;
+        for (uint32_t k = 0; k < count; k++) {
+            sum += area_in_circle(navmesh, entries[k].polygon, center.point, (double)radius);
+        }
+        for (uint32_t k = 0; k < count; k++) {
+            double area = area_in_circle(navmesh, entries[k].polygon, center.point, (double)radius);
+            uint32_t met = 0;
+            for (uint32_t i = 0; i < POINTS; i++) {
+                met += points[i].polygon == entries[k].polygon;
+            }
+            TEST_CHECK(fabs((double)met - POINTS * area / sum) <= 1.01);
+            partial += area > 0.0 && area < area_in_circle(navmesh, entries[k].polygon, center.point, 1000.0) * 0.999;
+            whole += area > 0.0;
+        }
+        for (uint32_t i = 0; i < POINTS; i += 97) {
+            tl_nav_location one;
+            TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &center, radius, bits + 2 * i, &one),
+                        TL_OK);
+            TEST_CHECK(memcmp(&one.point, &points[i].point, sizeof one.point) == 0 && one.polygon == points[i].polygon);
+        }
+        free(all.refs);
+        tl_navmesh_free(navmesh);
+    }
+    tl_nav_query_free(query);
+    TEST_CHECK(partial > 100 && whole > partial);
+}
+
 // Weighs what a draw must look like by drawing all over the level and keeping what lies within.
 static void test_reachable(void **state)
 {
@@ -317,6 +411,7 @@ static void test_arguments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_fields), cmocka_unit_test(test_reachable),
-                                        cmocka_unit_test(test_links), cmocka_unit_test(test_arguments) };
+                                        cmocka_unit_test(test_reachable_areas), cmocka_unit_test(test_links),
+                                        cmocka_unit_test(test_arguments) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -123,6 +123,11 @@ TL_API tl_result tl_navmesh_random_point(const tl_navmesh *navmesh, const tl_nav
 TL_API tl_result tl_nav_query_random_reachable(tl_nav_query *query, const tl_navmesh *navmesh,
                                                const tl_nav_filter *filter, const tl_nav_location *center, float radius,
                                                const uint64_t random[2], tl_nav_location *location_out);
+/// The same `count` times, for one flood: random[2 * i] and random[2 * i + 1] choose locations_out[i].
+TL_API tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_navmesh *navmesh,
+                                                      const tl_nav_filter *filter, const tl_nav_location *center,
+                                                      float radius, const uint64_t *random, uint32_t count,
+                                                      tl_nav_location *locations_out);
 
 #ifdef __cplusplus
 }

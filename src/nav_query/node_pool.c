@@ -9,6 +9,7 @@
 
 #include "base/arena.h"
 #include "base/hash.h"
+#include "nav_query/navmesh.h"
 #include "nav_query/path_run.h"
 
 #include <string.h>
@@ -84,9 +85,12 @@ void tl_nav_query_free(tl_nav_query *query)
     tl_release_array(&allocator, query, 1, sizeof *query);
 }
 
+// Keys of one tile follow one another, and so do their buckets: a search in a few tiles stays in a few lines of memory,
+// however large the pool.
 static uint32_t *bucket_of(tl_nav_query *query, uint64_t key)
 {
-    return &query->buckets[(uint32_t)tl_hash_mix(key) & (query->bucket_count - 1)];
+    uint32_t tile = (uint32_t)tl_hash_mix(key >> TL_NAV_REF_POLYGON_BITS);
+    return &query->buckets[(tile + (uint32_t)key) & (query->bucket_count - 1)];
 }
 
 void tl_nav_pool_reset(tl_nav_query *query)
