@@ -13,7 +13,7 @@
 
 static tl_result make_content(const tl_level *level, const tl_bake *bake, bool nav, tl_pack_content *content)
 {
-    tl_result result = tl_pack_content_make(bake->tiles.tile_count + 5, content);
+    tl_result result = tl_pack_content_make(bake->tiles.tile_count + 6, content);
     if (result != TL_OK) {
         return result;
     }
@@ -34,6 +34,7 @@ static tl_result make_content(const tl_level *level, const tl_bake *bake, bool n
         tl_pack_content_add(content, TL_PACK_NAVT, i, bake->tiles.tiles[i]);
     }
     tl_pack_content_add(content, TL_PACK_LINK, 0, bake->links);
+    tl_pack_content_add(content, TL_PACK_MARK, 0, bake->marks);
     return TL_OK;
 }
 

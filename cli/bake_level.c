@@ -226,6 +226,9 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
     bake->nav_def.host = cli->host;
     bake->nav_bounds = tl_aabb_is_empty(bake->nav_def.bounds) ? level->mesh.bounds : bake->nav_def.bounds;
     tl_result result = tl_nav_build(&bake->nav_def, &input, &bake->tiles, &bake->nav_report);
+    if (result == TL_OK && input.volume_count > 0) {
+        result = tl_pack_marks_create(input.volumes, input.volume_count, NULL, &bake->marks);
+    }
     tl_level_areas_free(&areas);
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(cli, level->path, result, &bake->nav_report.base);
@@ -277,6 +280,7 @@ void tl_bake_free(tl_bake *bake)
     tl_blob_free(bake->soup, NULL);
     tl_blob_free(bake->hull, NULL);
     tl_blob_free(bake->links, NULL);
+    tl_blob_free(bake->marks, NULL);
     tl_nav_tiles_free(&bake->tiles, NULL);
     memset(bake, 0, sizeof(*bake));
 }

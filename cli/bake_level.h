@@ -13,6 +13,7 @@
 #include <talus/nav_build.h>
 #include <talus/nav_prune.h>
 #include <talus/nav_query.h>
+#include <talus/pack.h>
 #include <talus/soup.h>
 
 /// What to bake, and how.
@@ -61,6 +62,7 @@ typedef struct tl_bake {
     double nav_area;            ///< square metres in the plane
     tl_area_sums areas;         ///< the same by area
     uint64_t nav_polygons;
+    tl_pack_marks *marks; ///< NULL: no volumes were given
     tl_nav_links *links;
     tl_nav_links_report links_report;
 } tl_bake;

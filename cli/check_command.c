@@ -179,6 +179,9 @@ static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
     case TL_PACK_LINK:
         find_result(f, part, tl_nav_links_check(chunk.bytes, chunk.size), NULL);
         break;
+    case TL_PACK_MARK:
+        find_result(f, part, tl_pack_marks_check(chunk.bytes, chunk.size), NULL);
+        break;
     default: // a later version may have more kinds; their bytes are covered by the file's hashes
         break;
     }

@@ -58,6 +58,14 @@ static bool open_baked(draw_source *source, const char *path, tl_exit *exit_out)
         source->nav_def = tl_pack_navmesh_def(parameters);
         source->bounds = parameters->bounds;
     }
+    const tl_pack_marks *marks = tl_input_checked_chunk(&source->input, TL_PACK_MARK, tl_pack_marks_check, &result);
+    if (marks != NULL) {
+        result = tl_level_areas_of_marks(marks, &source->areas);
+    }
+    if (result != TL_OK && result != TL_ERR_NOT_FOUND) {
+        *exit_out = tl_cli_fail_result(source->cli, path, result, NULL);
+        return false;
+    }
     return source->is_bare || triangles_of_soup(source, exit_out);
 }
 
@@ -176,7 +184,7 @@ bool draw_need_soup(draw_source *source, tl_exit *exit_out)
     return result == TL_OK;
 }
 
-// A baked file keeps what came of areas, in its tiles, and not where they came from.
+// A baked file keeps volumes, and of materials only what came of them, in its tiles.
 static void warn_of_areas(const draw_source *source)
 {
     tl_area_sums sums;
@@ -188,7 +196,7 @@ static void warn_of_areas(const draw_source *source)
             tl_area_sums_add(&sums, chunk.bytes);
         }
     }
-    if (tl_area_sums_has_others(&sums)) {
+    if (source->areas.marks.volume_count == 0 && tl_area_sums_has_others(&sums)) {
         tl_cli_warn(source->cli,
                     "%s was baked with areas; the stages before navmesh are made again without them: draw "
                     "the level with the same --area and --areas to see them",

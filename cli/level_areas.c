@@ -8,6 +8,7 @@
 #include "cli/closest_word.h"
 #include "cli/parse_value.h"
 #include "cli/text_buffer.h"
+#include "io/growable.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -156,6 +157,25 @@ bool tl_level_areas_make(tl_cli *cli, const tl_level *level, const tl_area_setti
         }
     }
     return mark_triangles(cli, level, settings->path, areas_out, exit_out);
+}
+
+tl_result tl_level_areas_of_marks(const tl_pack_marks *marks, tl_level_areas *areas_out)
+{
+    memset(areas_out, 0, sizeof(*areas_out));
+    if (marks->count == 0) {
+        return TL_OK;
+    }
+    const tl_allocator allocator = tl_io_allocator_or_default(NULL);
+    areas_out->marks.volumes = tl_io_allocate(&allocator, marks->count * sizeof(tl_nav_volume));
+    if (areas_out->marks.volumes == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    areas_out->marks.volume_capacity = marks->count;
+    areas_out->marks.volume_count = marks->count;
+    for (uint32_t i = 0; i < marks->count; i++) {
+        areas_out->marks.volumes[i] = tl_pack_marks_volume(marks, i);
+    }
+    return TL_OK;
 }
 
 void tl_level_areas_free(tl_level_areas *areas)

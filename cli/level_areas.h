@@ -9,6 +9,8 @@
 #include "cli/load_level.h"
 #include "io/area_marks.h"
 
+#include <talus/pack.h>
+
 /// What the options say.
 typedef struct tl_area_settings {
     tl_option_texts words; ///< NAME=ID, each
@@ -24,6 +26,8 @@ typedef struct tl_level_areas {
 /// False: reported; `*exit_out` says how to end. Free also then.
 bool tl_level_areas_make(tl_cli *cli, const tl_level *level, const tl_area_settings *settings,
                          tl_level_areas *areas_out, tl_exit *exit_out);
+/// The volumes of a baked file; `marks`, which are checked, must outlive the areas. TL_ERR_MEMORY.
+tl_result tl_level_areas_of_marks(const tl_pack_marks *marks, tl_level_areas *areas_out);
 void tl_level_areas_free(tl_level_areas *areas);
 
 /// What the navmesh is built from: the cleaned mesh with its marks. Valid while they live.

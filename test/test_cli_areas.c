@@ -77,7 +77,12 @@ static void test_marks(void **state)
     cli_check_part(drawn.out, "park-areas.png");
     cli_check_part(drawn.out, "park-navmesh.png");
     cli_free(&drawn);
+    // Volumes are kept in the file, areas of materials are not.
     drawn = cli_expect(0, "draw park.talus -o baked.png --stage areas,navmesh --size 240");
+    TEST_CHECK(drawn.err[0] == '\0');
+    cli_free(&drawn);
+    cli_do(0, "bake park.obj -o grass.talus --area grass=5");
+    drawn = cli_expect(0, "draw grass.talus -o baked.png --stage areas,navmesh --size 240");
     cli_check_part(drawn.err, "was baked with areas");
     cli_free(&drawn);
     drawn = cli_expect(0, "draw park.talus -o baked.png --stage navmesh --size 240");

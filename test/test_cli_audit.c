@@ -29,10 +29,10 @@ static void test_a_sound_level(void **state)
 static void test_missing_navmesh(void **state)
 {
     (void)state;
-    cli_write_floor("floor.obj", 20, false);
-    cli_write_text("areas.txt", "box 0 -4 -1 -4 4 1 4\n");
-    cli_do(0, "bake floor.obj --areas areas.txt -o hole.talus");
-    cli_do(0, "audit floor.obj --areas areas.txt --paths 50");
+    // Of two floors one was left out when baking.
+    cli_write_text("floors.obj", "v -10 0 -10\nv -10 0 10\nv 10 0 10\nv 10 0 -10\nf 1 2 3 4\n"
+                                 "v 12 0 0\nv 12 0 9\nv 21 0 9\nv 21 0 0\nf 5 6 7 8\n");
+    cli_do(0, "bake floors.obj --reachable-from 0,0,0 -o hole.talus");
     cli_result result = cli_expect(1, "audit hole.talus --paths 50 --draw hole.png --size 200");
     cli_check_part(result.out, "missing   at ");
     cli_check_part(result.out, "m2");
@@ -47,6 +47,23 @@ static void test_missing_navmesh(void **state)
     assert_string_equal(json_string_value(json_object_get(finding, "cause")), "changed");
     json_decref(json);
     cli_do(0, "audit hole.talus --paths 50 --min-area 100");
+}
+
+// A file keeps the volumes that it was baked with: where one cut the floor away nothing is missing, and why names it.
+static void test_volumes_are_kept(void **state)
+{
+    (void)state;
+    cli_write_floor("floor.obj", 20, false);
+    cli_write_text("areas.txt", "box 0 -4 -1 -4 0 1 4\nprism 0 -1 1 0 -4 0 4 4 4 4 -4\ncylinder 5 7 -1 7 1 2\n");
+    cli_do(0, "bake floor.obj --areas areas.txt -o volumes.talus");
+    cli_do(0, "check volumes.talus");
+    cli_do(0, "audit floor.obj --areas areas.txt --paths 50");
+    cli_do(0, "audit volumes.talus --paths 50");
+    for (int i = 0; i < 2; i++) {
+        cli_result result = cli_expect(1, i == 0 ? "why volumes.talus -2,0,0" : "why volumes.talus 2,0,0");
+        cli_check_part(result.out, "volume");
+        cli_free(&result);
+    }
 }
 
 static void test_why(void **state)
@@ -93,9 +110,8 @@ static void test_bad_input(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_sound_level),
-        cmocka_unit_test(test_missing_navmesh),
-        cmocka_unit_test(test_why),
+        cmocka_unit_test(test_a_sound_level),    cmocka_unit_test(test_missing_navmesh),
+        cmocka_unit_test(test_volumes_are_kept), cmocka_unit_test(test_why),
         cmocka_unit_test(test_bad_input),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);

@@ -251,6 +251,64 @@ static void test_navmesh_settings(void **state)
     tl_blob_free(settings, NULL);
 }
 
+static void test_marks(void **state)
+{
+    (void)state;
+    const tl_vec3 outline[] = { { 0, 9, 0 }, { 0, 8, 4 }, { 4, 7, 4 } };
+    tl_nav_volume volumes[3];
+    memset(volumes, 0, sizeof volumes);
+    volumes[0].kind = TL_NAV_VOLUME_BOX;
+    volumes[0].box.max = tl_vec3_make(1, 2, 3);
+    volumes[1].kind = TL_NAV_VOLUME_POLYGON;
+    volumes[1].area = 7;
+    volumes[1].box.max.y = 5;
+    volumes[1].points = outline;
+    volumes[1].point_count = 3;
+    volumes[2].kind = TL_NAV_VOLUME_CYLINDER;
+    volumes[2].area = 255;
+    volumes[2].radius = 2;
+    volumes[2].height = 1;
+    tl_pack_marks *marks = NULL;
+    TEST_RESULT(tl_pack_marks_create(volumes, 3, NULL, &marks), TL_OK);
+    const uint64_t size = marks->blob.size;
+    TEST_RESULT(tl_pack_marks_check(marks, size), TL_OK);
+    for (uint32_t i = 0; i < 3; i++) {
+        const tl_nav_volume volume = tl_pack_marks_volume(marks, i);
+        TEST_CHECK(volume.kind == volumes[i].kind && volume.area == volumes[i].area &&
+                   volume.radius == volumes[i].radius && volume.point_count == volumes[i].point_count &&
+                   memcmp(&volume.box, &volumes[i].box, sizeof volume.box) == 0);
+    }
+    const tl_nav_volume prism = tl_pack_marks_volume(marks, 1);
+    TEST_CHECK(prism.points[2].x == 4.0f && prism.points[2].y == 0.0f && prism.points[2].z == 4.0f);
+    for (uint64_t cut = 0; cut < size; cut++) {
+        TEST_CHECK(tl_pack_marks_check(marks, cut) != TL_OK);
+    }
+    // Any byte altered: refused, or marks that can be read whole.
+    uint8_t *bytes = (uint8_t *)marks;
+    uint32_t refused = 0;
+    for (uint64_t i = 0; i < size; i++) {
+        for (int bit = 0; bit < 8; bit++) {
+            bytes[i] ^= (uint8_t)(1 << bit);
+            const bool ok = tl_pack_marks_check(bytes, size) == TL_OK;
+            for (uint32_t k = 0; ok && k < marks->count; k++) {
+                const tl_nav_volume volume = tl_pack_marks_volume(marks, k);
+                for (uint32_t p = 0; p < volume.point_count; p++) {
+                    TEST_CHECK(isfinite(volume.points[p].x) && volume.points[p].y == 0.0f);
+                }
+            }
+            refused += !ok;
+            bytes[i] ^= (uint8_t)(1 << bit);
+        }
+    }
+    TEST_CHECK(refused > 1000 && refused < size * 8);
+    tl_blob_free(marks, NULL);
+    volumes[2].radius = NAN;
+    TEST_RESULT(tl_pack_marks_create(volumes, 3, NULL, &marks), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_pack_marks_create(NULL, 0, NULL, &marks), TL_OK);
+    TEST_RESULT(tl_pack_marks_check(marks, marks->blob.size), TL_OK);
+    tl_blob_free(marks, NULL);
+}
+
 static void test_load_navmesh(void **state)
 {
     (void)state;
@@ -289,9 +347,10 @@ static void test_load_navmesh(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_layout),           cmocka_unit_test(test_empty),
-        cmocka_unit_test(test_prefixes),   cmocka_unit_test(test_altered),          cmocka_unit_test(test_bad_items),
-        cmocka_unit_test(test_meta),       cmocka_unit_test(test_navmesh_settings), cmocka_unit_test(test_load_navmesh),
+        cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_layout),           cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_prefixes),     cmocka_unit_test(test_altered),          cmocka_unit_test(test_bad_items),
+        cmocka_unit_test(test_meta),         cmocka_unit_test(test_navmesh_settings), cmocka_unit_test(test_marks),
+        cmocka_unit_test(test_load_navmesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -28,6 +28,7 @@ extern "C" {
 #define TL_PACK_NAVM             TL_PACK_TYPE('N', 'A', 'V', 'M') ///< tl_pack_navmesh: what the tiles were built with
 #define TL_PACK_NAVT             TL_PACK_TYPE('N', 'A', 'V', 'T') ///< tl_nav_tile; the id numbers the tiles
 #define TL_PACK_LINK             TL_PACK_TYPE('L', 'I', 'N', 'K') ///< tl_nav_links: drops, jumps and climbs
+#define TL_PACK_MARK             TL_PACK_TYPE('M', 'A', 'R', 'K') ///< tl_pack_marks: volumes that the tiles were built with
 
 /// One chunk to be written. The pair (type, id) is its name and must be unique in the file.
 typedef struct tl_pack_item {
@@ -87,6 +88,8 @@ TL_API uint32_t tl_pack_count(const tl_pack *pack, uint32_t type);
 #define TL_PACK_META_VERSION    1u
 #define TL_PACK_NAVMESH_MAGIC   TL_PACK_NAVM
 #define TL_PACK_NAVMESH_VERSION 1u
+#define TL_PACK_MARKS_MAGIC     TL_PACK_MARK
+#define TL_PACK_MARKS_VERSION   1u
 
 /// Where the geometry came from. A blob; the name follows it.
 typedef struct tl_pack_meta {
@@ -134,6 +137,33 @@ TL_API tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size);
 
 /// The def that a navmesh was built with, host empty; its bounds are those it was built over.
 TL_API tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh);
+
+/// A volume that gives floors an area. What its kind does not use is zero.
+typedef struct tl_pack_mark {
+    uint32_t kind; ///< a tl_nav_volume_kind
+    uint32_t area; ///< 0: floors are cut away
+    tl_aabb box;   ///< metres: of a box; the heights of a polygon
+    tl_vec3 base;  ///< metres: of a cylinder
+    float radius, height;
+    uint32_t first_point, point_count; ///< of a polygon; marks' points follow one another
+    uint32_t reserved;
+} tl_pack_mark;
+
+/// The volumes with which a navmesh was built. A blob; `count` marks follow it, then `point_count` points of three
+/// floats, whose y is zero.
+typedef struct tl_pack_marks {
+    tl_blob blob;
+    uint32_t count, point_count;
+    uint32_t reserved[10];
+} tl_pack_marks;
+
+/// TL_ERR_NOT_FINITE: a coordinate that is not, or a kind that there is not. TL_ERR_LIMIT: 2^32 points. TL_ERR_MEMORY.
+TL_API tl_result tl_pack_marks_create(const tl_nav_volume *volumes, uint32_t count, const tl_allocator *allocator,
+                                      tl_pack_marks **marks_out);
+/// Safe on any 8-byte aligned bytes. O(size).
+TL_API tl_result tl_pack_marks_check(const void *bytes, uint64_t size);
+/// Volume `index` < count of checked marks; its points lie in them.
+TL_API tl_nav_volume tl_pack_marks_volume(const tl_pack_marks *marks, uint32_t index);
 
 /// Checks every NAVT chunk and puts the tiles, borrowed, into a fresh navmesh: the pack's bytes must outlive it. Links
 /// of LINK chunks are added to it, as tl_nav_links_add does.

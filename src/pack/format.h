@@ -33,6 +33,9 @@ typedef struct tl_pack_entry {
 
 _Static_assert(sizeof(tl_pack_header) == 64 && sizeof(tl_pack_entry) == 32, "no hidden padding");
 
+/// The head of a blob of at least `least` bytes; safe on any bytes.
+tl_result tl_pack_check_head(const void *bytes, uint64_t size, uint32_t magic, uint32_t version, uint64_t least);
+
 static inline uint64_t tl_pack_align(uint64_t offset)
 {
     return (offset + TL_PACK_ALIGNMENT - 1) & ~(uint64_t)(TL_PACK_ALIGNMENT - 1);

@@ -4,10 +4,10 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "pack/format.h"
 
 #include <math.h>
 #include <string.h>
-#include <talus/pack.h>
 
 _Static_assert(sizeof(tl_pack_meta) == 64 && sizeof(tl_pack_navmesh) == 144, "no hidden padding");
 
@@ -36,8 +36,7 @@ tl_result tl_pack_meta_create(const char *source_name, uint64_t source_vertices,
     return TL_OK;
 }
 
-// The head of a blob of at least `least` bytes.
-static tl_result check_head(const void *bytes, uint64_t size, uint32_t magic, uint32_t version, uint64_t least)
+tl_result tl_pack_check_head(const void *bytes, uint64_t size, uint32_t magic, uint32_t version, uint64_t least)
 {
     if ((uintptr_t)bytes % 8 != 0) {
         return TL_ERR_ARGUMENT;
@@ -60,7 +59,7 @@ static tl_result check_head(const void *bytes, uint64_t size, uint32_t magic, ui
 
 tl_result tl_pack_meta_check(const void *bytes, uint64_t size)
 {
-    TL_TRY(check_head(bytes, size, TL_PACK_META_MAGIC, TL_PACK_META_VERSION, sizeof(tl_pack_meta)));
+    TL_TRY(tl_pack_check_head(bytes, size, TL_PACK_META_MAGIC, TL_PACK_META_VERSION, sizeof(tl_pack_meta)));
     const tl_pack_meta *meta = bytes;
     uint64_t room = size - sizeof *meta;
     if (meta->name_size > MAX_NAME_BYTES || meta->name_size >= room || meta->reserved != 0) {
@@ -146,7 +145,7 @@ tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh)
 
 tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size)
 {
-    TL_TRY(check_head(bytes, size, TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVMESH_VERSION, sizeof(tl_pack_navmesh)));
+    TL_TRY(tl_pack_check_head(bytes, size, TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVMESH_VERSION, sizeof(tl_pack_navmesh)));
     const tl_pack_navmesh *navmesh = bytes;
     const uint8_t *behind = (const uint8_t *)(navmesh + 1);
     bool zero = true;
