@@ -41,7 +41,6 @@ typedef struct workload {
     uint32_t ray_count, count;
     tl_ray *rays;
     tl_ray_hit *hits, *batch_hits;
-    uint64_t *scratch;
     tl_vec3 *places, *motions;
     uint64_t found[KINDS];
 } workload;
@@ -55,7 +54,6 @@ static void make_workload(workload *w, const tl_soup *soup, uint32_t count)
     w->rays = malloc(w->ray_count * sizeof *w->rays);
     w->hits = calloc(w->ray_count, sizeof *w->hits);
     w->batch_hits = calloc(w->ray_count, sizeof *w->batch_hits);
-    w->scratch = malloc(2 * (size_t)w->ray_count * sizeof *w->scratch);
     w->places = malloc(count * sizeof *w->places);
     w->motions = malloc(count * sizeof *w->motions);
     tl_aabb bounds = tl_soup_bounds(soup);
@@ -80,7 +78,6 @@ static void free_workload(workload *w)
     free(w->rays);
     free(w->hits);
     free(w->batch_hits);
-    free(w->scratch);
     free(w->places);
     free(w->motions);
 }
@@ -96,7 +93,7 @@ static uint64_t cast_single(workload *w)
 
 static uint64_t cast_batch(workload *w)
 {
-    tl_soup_cast_rays(w->soup, w->rays, w->ray_count, NULL, NULL, w->scratch, w->batch_hits);
+    tl_soup_cast_rays(w->soup, w->rays, w->ray_count, NULL, NULL, w->batch_hits);
     return w->ray_count;
 }
 
@@ -236,6 +233,7 @@ int main(int argc, char **argv)
     bench_report *report = bench_report_new("Soup queries", "ns", NULL);
     uint32_t repetitions = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 5;
     uint32_t queries = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 10000;
+    run_level(report, "dungeon", 8000, repetitions, queries);
     run_level(report, "dungeon", 50000, repetitions, queries);
     run_level(report, "terrain", 100000, repetitions, queries);
     run_level(report, "city", 100000, repetitions, queries);

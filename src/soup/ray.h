@@ -11,6 +11,9 @@
 
 #include "soup/compact_layout.h"
 
+#include <math.h>
+#include <string.h>
+
 /// Three coordinates and a lane to spare: stored as one vector, read one by one.
 typedef union tl_ray_point {
     tl_vec3 point;
@@ -85,11 +88,41 @@ tl_ray_walk_fn tl_ray_walk_scalar;
 tl_ray_walk_fn tl_ray_walk_sse42, tl_ray_walk_avx2, tl_ray_walk_avx512;
 #endif
 
+/// Rays whose closest hits are asked for together.
+typedef struct tl_ray_batch {
+    const tl_soup *soup; ///< of the plain layout
+    const tl_ray *rays;
+    uint32_t count;
+    const tl_ray_filter *filter;
+    tl_ray_hit *hits;
+} tl_ray_batch;
+
+/// Some rays under way at once, once per instruction set (ray_walk_interleaved.h).
+typedef void tl_ray_walk_many_fn(const tl_ray_batch *batch);
+
+tl_ray_walk_many_fn tl_ray_walk_many_scalar;
+#if defined(__x86_64__)
+tl_ray_walk_many_fn tl_ray_walk_many_sse42, tl_ray_walk_many_avx2, tl_ray_walk_many_avx512;
+#endif
+
+/// What a batch says of a ray that hits nothing.
+static inline void tl_ray_miss(tl_ray_hit *hit)
+{
+    memset(hit, 0, sizeof *hit);
+    hit->t = INFINITY;
+    hit->triangle = TL_NO_TRIANGLE;
+}
+
 /// Instruction sets, ascending.
 typedef enum tl_ray_isa { TL_RAY_SCALAR, TL_RAY_SSE42, TL_RAY_AVX2, TL_RAY_AVX512, TL_RAY_ISA_COUNT } tl_ray_isa;
 
 /// The walk for an instruction set, or NULL where this machine or build lacks it.
 tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa);
+
+tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa);
+
+/// The instruction set that the public queries use on this machine.
+tl_ray_isa tl_ray_best_isa(void);
 
 /// The public queries with a walk of the caller's choice.
 bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,

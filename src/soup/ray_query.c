@@ -42,6 +42,13 @@ tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
     }
 }
 
+tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa)
+{
+    static tl_ray_walk_many_fn *const walks[TL_RAY_ISA_COUNT] = { tl_ray_walk_many_scalar, tl_ray_walk_many_sse42,
+                                                                  tl_ray_walk_many_avx2, tl_ray_walk_many_avx512 };
+    return tl_ray_walk_for(isa) != NULL ? walks[isa] : NULL;
+}
+
 // AVX-512 on AMD's processors only. Those that have it (Zen 4 and later) take a ray 5 to 15 per cent faster with it. On
 // Intel's Sapphire Rapids it saves instructions and no time: 2 to 8 per cent slower, so AVX2 there, as on what nobody
 // has measured (bench_rays has a row for each). A machine with AVX-512 always has AVX2.
@@ -60,12 +67,26 @@ tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
     return isa == TL_RAY_SCALAR ? tl_ray_walk_scalar : NULL;
 }
 
+tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa)
+{
+    return isa == TL_RAY_SCALAR ? tl_ray_walk_many_scalar : NULL;
+}
+
 static inline tl_ray_walk_fn *best_walk(void)
 {
     return tl_ray_walk_scalar;
 }
 
 #endif
+
+tl_ray_isa tl_ray_best_isa(void)
+{
+    tl_ray_isa isa = TL_RAY_SCALAR;
+    while (tl_ray_walk_for(isa) != best_walk()) {
+        isa++;
+    }
+    return isa;
+}
 
 tl_ray_filter tl_default_ray_filter(void)
 {
