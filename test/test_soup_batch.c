@@ -110,6 +110,7 @@ static void check_batch(const tl_soup *soup, uint32_t count, const tl_ray_filter
 static void test_same_bits(void **state)
 {
     (void)state;
+    // Larger than what has many rays under way, and smaller.
     model large = model_terrain(360, 4, vec(0, 0, 0), 1), small = model_terrain(20, 4, vec(900, 0, 0), 2);
     tl_soup_def compact = tl_default_soup_def();
     compact.layout = TL_SOUP_COMPACT;

@@ -203,9 +203,9 @@ TL_API bool tl_soup_line_of_sight(const tl_soup *soup, tl_vec3 a, tl_vec3 b, con
 /// The closest hits of many rays: for each what tl_soup_cast_ray gives, bit for bit; triangle TL_NO_TRIANGLE and t
 /// INFINITY where it hits nothing. `filter` and `host` may be NULL.
 ///
-/// Runs on the host's tasks, 16,384 rays each, and on each thread casts some rays at once, so that one goes on while
-/// another waits for memory: rays without any order of their own are answered some 1.1 times as fast as by single calls
-/// in soups that fit a core's caches, 1.2 to 1.7 times in larger ones. Soups of the compact layout gain nothing.
+/// Runs on the host's tasks, 16,384 rays each. In soups larger than a core's own cache (over 2 MB) a thread casts some
+/// rays at once, so that one goes on while another waits for memory: rays in no order are answered 1.2 to 1.6 times as
+/// fast as by single calls. Smaller soups, and those of the compact layout, gain nothing.
 TL_API void tl_soup_cast_rays(const tl_soup *soup, const tl_ray *rays, uint32_t count, const tl_ray_filter *filter,
                               const tl_host *host, tl_ray_hit *hits_out);
 
