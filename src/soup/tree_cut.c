@@ -37,6 +37,7 @@ typedef struct tl_tree_plan {
 typedef struct planner {
     const tl_tree *tree;
     tl_tree_plan *plans;
+    float *chance; // by node (tree_order.h)
     uint32_t plan_count;
     uint32_t next_part, part_count; // parts that the walk of all that is above them has not come to yet
     float node_price;
@@ -93,11 +94,16 @@ static bool is_next_part(planner *p, uint32_t index)
 static void plan_node(planner *p, uint32_t index)
 {
     tl_tree_node *node = &p->tree->nodes[index];
-    if (is_next_part(p, index) || node->count > 0) {
+    if (is_next_part(p, index)) {
+        return;
+    }
+    if (node->count > 0) {
+        tl_tree_order_node(p->tree, index, p->chance);
         return;
     }
     plan_node(p, node->left);
     plan_node(p, node->right);
+    tl_tree_order_node(p->tree, index, p->chance);
     node->first = p->plan_count;
     tl_tree_plan *plan = &p->plans[p->plan_count++];
     offer left = offer_of(p, node->left), right = offer_of(p, node->right);
@@ -174,7 +180,8 @@ static void plan_part(uint32_t part, uint32_t worker, void *user)
 {
     (void)worker;
     const planner *whole = user;
-    planner p = { .tree = whole->tree, .plans = whole->plans, .node_price = whole->node_price };
+    planner p = { .tree = whole->tree, .plans = whole->plans, .chance = whole->chance };
+    p.node_price = whole->node_price;
     p.plan_count = whole->first_plans[part];
     plan_node(&p, whole->tree->parts[part].root);
 }
@@ -189,7 +196,8 @@ tl_result tl_tree_cut_plan(const tl_tree *tree, const tl_host *host, tl_arena *a
     tl_tree_part sum = { tree->root, 0, 0, 0, 0.0 };
     sum_tree(&p, tree->root, &sum);
     p.plans = TL_PUSH(arena, tl_tree_plan, sum.inner_count);
-    if (p.plans == NULL) {
+    p.chance = TL_PUSH(arena, float, tree->node_capacity);
+    if (p.plans == NULL || p.chance == NULL) {
         return TL_ERR_MEMORY;
     }
     p.node_price = (float)(sum.leaf_surface / sum.leaf_count) * NODE_PRICE;
@@ -199,7 +207,8 @@ tl_result tl_tree_cut_plan(const tl_tree *tree, const tl_host *host, tl_arena *a
     cut_out->tree = tree;
     cut_out->plans = p.plans;
     cut_out->inner_count = sum.inner_count;
-    return tl_tree_order_plan(tree, arena, &cut_out->chance);
+    cut_out->chance = p.chance;
+    return TL_OK;
 }
 
 // Appends up to `room` children from a subtree.

@@ -16,56 +16,36 @@
 
 #include "soup/tree_order.h"
 
-typedef struct chance_planner {
-    const tl_tree *tree;
-    float *chance;
-} chance_planner;
-
 // The chance that a ray that enters the outer box enters the inner one.
 static float share(float inner_half_area, float outer_half_area)
 {
     return inner_half_area < outer_half_area ? inner_half_area / outer_half_area : 1.0f;
 }
 
-static float leaf_chance(const chance_planner *p, const tl_tree_node *node, float half_area)
+static float leaf_chance(const tl_tree *tree, const tl_tree_node *node)
 {
     float sum = 0.0f;
     for (uint32_t i = 0; i < node->count; i++) {
-        const tl_tree_ref *ref = &p->tree->refs[node->first + i];
+        const tl_tree_ref *ref = &tree->refs[node->first + i];
         tl_aabb box = { ref->min, ref->max };
         sum += tl_aabb_half_area(box);
     }
-    return share(sum, half_area);
+    return share(sum, tl_aabb_half_area(node->box));
 }
 
-static float plan_chance(const chance_planner *p, uint32_t index)
+void tl_tree_order_node(const tl_tree *tree, uint32_t index, float *chance)
 {
-    const tl_tree_node *node = &p->tree->nodes[index];
-    float half_area = tl_aabb_half_area(node->box), chance;
+    const tl_tree_node *node = &tree->nodes[index];
     if (node->count > 0) {
-        chance = leaf_chance(p, node, half_area);
-    } else {
-        float pass = 1.0f;
-        const uint32_t halves[2] = { node->left, node->right };
-        for (uint32_t k = 0; k < 2; k++) {
-            float stop = plan_chance(p, halves[k]);
-            pass *= 1.0f - stop * share(tl_aabb_half_area(p->tree->nodes[halves[k]].box), half_area);
-        }
-        chance = 1.0f - pass;
+        chance[index] = leaf_chance(tree, node);
+        return;
     }
-    p->chance[index] = chance;
-    return chance;
-}
-
-tl_result tl_tree_order_plan(const tl_tree *tree, tl_arena *arena, const float **chance_out)
-{
-    chance_planner p = { tree, TL_PUSH(arena, float, tree->node_capacity) };
-    if (p.chance == NULL) {
-        return TL_ERR_MEMORY;
+    float pass = 1.0f, half_area = tl_aabb_half_area(node->box);
+    const uint32_t halves[2] = { node->left, node->right };
+    for (uint32_t k = 0; k < 2; k++) {
+        pass *= 1.0f - chance[halves[k]] * share(tl_aabb_half_area(tree->nodes[halves[k]].box), half_area);
     }
-    (void)plan_chance(&p, tree->root);
-    *chance_out = p.chance;
-    return TL_OK;
+    chance[index] = 1.0f - pass;
 }
 
 void tl_tree_order_children(const float *chance, uint32_t *children, uint32_t count)

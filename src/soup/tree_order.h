@@ -7,8 +7,8 @@
 
 #include "soup/soup_build.h"
 
-/// For each binary node the chance that it stops a ray which enters its box. Memory is the arena's.
-tl_result tl_tree_order_plan(const tl_tree *tree, tl_arena *arena, const float **chance_out);
+/// Writes the chance that a binary node stops a ray which enters its box; those of its children are known.
+void tl_tree_order_node(const tl_tree *tree, uint32_t index, float *chance);
 
 /// The most likely first; of equal ones, as they were.
 void tl_tree_order_children(const float *chance, uint32_t *children, uint32_t count);
