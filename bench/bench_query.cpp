@@ -324,8 +324,10 @@ void bench_unreachable(arena &a)
 void bench_prepared(arena &a, double bar)
 {
     double begin = now_seconds();
+    tl_nav_prepare_def def = tl_default_nav_prepare_def();
+    def.label_bytes = 256u << 20;
     tl_nav_prepared made;
-    if (tl_navmesh_prepare(a.level.twin.get(), nullptr, &made) != TL_OK || !tl_navmesh_is_prepared(a.navmesh())) {
+    if (tl_navmesh_prepare(a.level.twin.get(), &def, &made) != TL_OK || !tl_navmesh_is_prepared(a.navmesh())) {
         std::printf("  prepared               no roads\n");
         return;
     }
@@ -438,11 +440,11 @@ void bench_arena(arena &a, const std::vector<question> &questions, double path_b
         return;
     }
     current = a.name;
-    bench_paths(a, 1.0, "");
+    if (getenv("PREP") == nullptr) bench_paths(a, 1.0, "");
     bench_unreachable(a);
     bench_prepared(a, path_bar);
-    bench_places(a);
-    compare_places(a);
+    if (getenv("PREP") == nullptr) bench_places(a);
+    if (getenv("PREP") == nullptr) compare_places(a);
 }
 
 tl_aabb bounds_of(const tl_mesh_view &mesh)

@@ -138,6 +138,18 @@ static void test_budgets(void **state)
         TEST_CHECK(none.bytes == made.bytes - (i % 2 == 0 ? made.table_bytes : 0));
         TEST_CHECK(tl_navmesh_is_prepared(navmesh) && compare(navmesh, twin, &random, 40) > 4);
     }
+    // Labels: as many bytes as they take are enough, and one less is not.
+    def.table_bytes = 0;
+    def.label_bytes = UINT64_MAX;
+    TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &made), TL_OK);
+    TEST_CHECK(made.kind == TL_NAV_PREPARED_LABELS && made.bytes > none.bytes - none.table_bytes);
+    uint64_t label_bytes = made.bytes - (none.bytes - none.table_bytes);
+    for (uint32_t i = 0; i < 4; i++) {
+        def.label_bytes = label_bytes - (i % 2 == 0 ? 1 : 0);
+        TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &made), TL_OK);
+        TEST_CHECK(made.kind == (i % 2 == 0 ? TL_NAV_PREPARED_ROADS : TL_NAV_PREPARED_LABELS));
+        TEST_CHECK(tl_navmesh_is_prepared(navmesh) && compare(navmesh, twin, &random, 40) > 4);
+    }
     TEST_CHECK(strcmp(tl_nav_prepared_kind_name(TL_NAV_PREPARED_TABLE), "table") == 0);
     TEST_CHECK(strcmp(tl_nav_prepared_kind_name((tl_nav_prepared_kind)77), "unknown") == 0);
     tl_navmesh_free(navmesh);
@@ -188,16 +200,28 @@ static void test_memory(void **state)
     test_allocator_init(&failing, 0);
     tl_navmesh *navmesh = fixture_build(&level, &failing.allocator);
     uint64_t before = failing.live_blocks, failures = 0;
-    tl_result result = TL_ERR_MEMORY;
-    for (uint64_t k = 1; result != TL_OK; k++) {
+    const tl_nav_prepare_def defs[2] = { { UINT64_MAX - 1, 0 }, { 0, UINT64_MAX } };
+    for (uint32_t i = 0; i < 2; i++) {
+        tl_result result = TL_ERR_MEMORY;
+        for (uint64_t k = 1; result != TL_OK; k++) {
+            failing.calls = 0;
+            failing.fail_at = k;
+            result = tl_navmesh_prepare(navmesh, &defs[i], NULL);
+            TEST_CHECK(result == TL_OK || (result == TL_ERR_MEMORY && failing.live_blocks == before));
+            TEST_CHECK(tl_navmesh_is_prepared(navmesh) == (result == TL_OK));
+            failures += result != TL_OK;
+        }
+        // An edit ends what was prepared; it is freed by the next call, or here by one that fails.
+        failing.fail_at = 0;
+        tl_nav_tile *tile = fixture_build_tile(&level, 0, 0, &failing.allocator);
+        TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_OK);
+        TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
         failing.calls = 0;
-        failing.fail_at = k;
-        result = tl_navmesh_prepare(navmesh, NULL, NULL);
-        TEST_CHECK(result == TL_OK || (result == TL_ERR_MEMORY && failing.live_blocks == before));
-        TEST_CHECK(tl_navmesh_is_prepared(navmesh) == (result == TL_OK));
-        failures += result != TL_OK;
+        failing.fail_at = 1;
+        TEST_RESULT(tl_navmesh_prepare(navmesh, &defs[i], NULL), TL_ERR_MEMORY);
+        before = failing.live_blocks;
     }
-    TEST_CHECK(failures > 20);
+    TEST_CHECK(failures > 60);
     failing.fail_at = 0;
     tl_navmesh_free(navmesh);
     TEST_CHECK(failing.live_blocks == 0);

@@ -68,13 +68,12 @@ static uint32_t drop_far_goals(tl_nav_bend_leg *goals, uint32_t count, float bes
     return kept;
 }
 
-float tl_nav_best_by_table(const tl_nav_roads *roads, tl_nav_ends *ends, tl_nav_bend_leg **start_out,
-                           tl_nav_bend_leg **goal_out)
+tl_nav_meeting tl_nav_best_by_table(const tl_nav_roads *roads, tl_nav_ends *ends)
 {
     // The most promising one first: it bounds what is worth a look. A total may be too long by its roundings.
     const float margin = 1.0f + TL_FLOAT_GAMMA(16);
     uint32_t goal_count = ends->goal_count;
-    float best = INFINITY;
+    tl_nav_meeting best = { INFINITY, NULL, NULL, 0 };
     for (uint32_t i = 1; i < ends->start_count; i++) {
         if (ends->starts[i].total < ends->starts[0].total) {
             swap(&ends->starts[i], &ends->starts[0]);
@@ -82,25 +81,25 @@ float tl_nav_best_by_table(const tl_nav_roads *roads, tl_nav_ends *ends, tl_nav_
     }
     for (uint32_t i = 0; i < ends->start_count; i++) {
         tl_nav_bend_leg *start = &ends->starts[i];
-        if (!(start->total < best * margin)) {
+        if (!(start->total < best.length * margin)) {
             continue;
         }
         const float *row = roads->table + (uint64_t)start->bend * roads->bend_count;
         tl_nav_bend_leg *nearest = NULL;
         for (uint32_t k = 0; k < goal_count; k++) {
             float length = start->length + row[ends->goals[k].bend] + ends->goals[k].length;
-            if (length < best) {
-                best = length;
+            if (length < best.length) {
+                best.length = length;
                 nearest = &ends->goals[k];
             }
         }
         if (nearest != NULL) {
             tl_nav_bend_leg goal = *nearest;
-            goal_count = drop_far_goals(ends->goals, goal_count, best * margin);
-            *start_out = start;
-            *goal_out = ends->goals;
-            while ((*goal_out)->bend != goal.bend) {
-                ++*goal_out;
+            goal_count = drop_far_goals(ends->goals, goal_count, best.length * margin);
+            best.start = start;
+            best.goal = ends->goals;
+            while (best.goal->bend != goal.bend) {
+                best.goal++;
             }
         }
     }

@@ -2,12 +2,12 @@
 //
 // The shortest path on a prepared navmesh: the straight line where it arrives, else over bends.
 //
-// With a table of all lengths between bends nothing is searched: of the bends that the start and the goal have in view,
-// the pair with the shortest way is the path. It is read off by walking along its legs; a first or last leg that was in
-// view by rounding only is struck out, and the next best pair taken. What is offered is never too long, so the first
-// path that can be walked is the shortest of all.
-// Source: Shen, Cheema, Harabor, Stuckey, Euclidean Pathfinding with Compressed Path Databases, IJCAI 2020 (bends in
-// view of both ends, and lengths between them that are known).
+// With a table of all lengths between bends, or labels, nothing is searched: of the bends that the start and the goal
+// have in view, the pair with the shortest way is the path. It is read off by walking along its legs; a first or last
+// leg that was in view by rounding only is struck out, and the next best pair taken. What is offered is never too long,
+// so the first path that can be walked is the shortest of all. Source: Shen, Cheema, Harabor, Stuckey, Euclidean
+// Pathfinding with Compressed Path Databases, IJCAI 2020 (bends in view of both ends, and lengths between them that are
+// known).
 
 #include "nav_query/roads.h"
 
@@ -29,23 +29,36 @@ static uint32_t unpack(const tl_nav_roads *roads, uint32_t first, uint32_t last,
     }
 }
 
-static bool find_by_table(tl_nav_shortest_search *search, const tl_nav_roads *roads, tl_nav_ends *ends,
-                          const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
+// The best pair, and the bends on its way. The query's heaps are free: one is scratch, the other holds the bends.
+static tl_nav_meeting best_pair(tl_nav_query *query, const tl_nav_roads *roads, tl_nav_ends *ends, uint32_t *count_out)
+{
+    tl_nav_meeting best;
+    if (roads->table != NULL) {
+        best = tl_nav_best_by_table(roads, ends);
+        *count_out = best.start != NULL
+                         ? unpack(roads, best.start->bend, best.goal->bend, query->wedge_heap, query->max_nodes)
+                         : UINT32_MAX;
+    } else {
+        best = tl_nav_best_by_labels(roads, ends, (float *)(void *)query->heap);
+        *count_out =
+            best.start != NULL ? tl_nav_unpack_meeting(roads, &best, query->wedge_heap, query->max_nodes) : UINT32_MAX;
+    }
+    return best;
+}
+
+// By what is known of all lengths. False: no pair can be walked, or there is no room.
+static bool find_by_lengths(tl_nav_shortest_search *search, const tl_nav_roads *roads, tl_nav_ends *ends,
+                            const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
 {
     tl_nav_query *query = search->query;
     for (uint32_t tries = 0; tries < ends->start_count + ends->goal_count; tries++) {
-        tl_nav_bend_leg *start = NULL;
-        tl_nav_bend_leg *goal = NULL;
-        float length = tl_nav_best_by_table(roads, ends, &start, &goal);
-        if (length == INFINITY) {
-            return false;
-        }
-        uint32_t count = unpack(roads, start->bend, goal->bend, query->wedge_heap, query->max_nodes);
+        uint32_t count = 0;
+        tl_nav_meeting best = best_pair(query, roads, ends, &count);
         if (count == UINT32_MAX) {
             return false;
         }
-        // Five roundings a distance, one of what the table holds, two of sums.
-        search->lower_bound = (double)length * (1.0 - (double)TL_FLOAT_GAMMA(8));
+        // Five roundings a leg, three of what is known, three of sums.
+        search->lower_bound = (double)best.length * (1.0 - (double)TL_FLOAT_GAMMA(11));
         uint32_t blocked = tl_nav_write_roads(search, roads, query->wedge_heap, count, room, path_out);
         if (blocked == UINT32_MAX) {
             path_out->node_count = ends->start_count + ends->goal_count;
@@ -54,9 +67,15 @@ static bool find_by_table(tl_nav_shortest_search *search, const tl_nav_roads *ro
         if (blocked != 0 && blocked != count) {
             return false;
         }
-        *(blocked == 0 ? start : goal) = (tl_nav_bend_leg){ 0, INFINITY, INFINITY };
+        *(blocked == 0 ? best.start : best.goal) = (tl_nav_bend_leg){ 0, INFINITY, INFINITY };
     }
     return false;
+}
+
+// Whether lengths are known, and the query has room to make use of them.
+static bool knows_lengths(const tl_nav_query *query, const tl_nav_roads *roads)
+{
+    return roads->table != NULL || (roads->labels.first != NULL && roads->bend_count <= query->max_nodes);
 }
 
 // Whether the goal is seen from the start; the path is then written. `*is_unclear_out`: it cannot be told.
@@ -117,6 +136,6 @@ bool tl_nav_find_over_roads(tl_nav_shortest_search *search, const tl_nav_roads *
     }
     tl_nav_ends ends;
     return tl_nav_find_ends(search, roads, &ends) &&
-           ((roads->table != NULL && find_by_table(search, roads, &ends, room, path_out)) ||
+           ((knows_lengths(search->query, roads) && find_by_lengths(search, roads, &ends, room, path_out)) ||
             (tl_nav_find_ends(search, roads, &ends) && tl_nav_search_roads(search, roads, &ends, room, path_out)));
 }

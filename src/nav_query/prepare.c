@@ -10,13 +10,13 @@
 
 tl_nav_prepare_def tl_default_nav_prepare_def(void)
 {
-    tl_nav_prepare_def def = { 32u << 20 };
+    tl_nav_prepare_def def = { 32u << 20, 0 };
     return def;
 }
 
 const char *tl_nav_prepared_kind_name(tl_nav_prepared_kind kind)
 {
-    static const char *const NAMES[] = { "none", "roads", "table" };
+    static const char *const NAMES[] = { "none", "roads", "table", "labels" };
     return (unsigned)kind < TL_COUNT_OF(NAMES) ? NAMES[kind] : "unknown";
 }
 
@@ -40,12 +40,19 @@ static tl_result prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def)
         }
         TL_TRY(tl_nav_make_roads(navmesh, &navmesh->roads));
     }
+    const tl_allocator *allocator = &navmesh->allocator;
     tl_nav_roads *roads = navmesh->roads;
-    bool fits = tl_nav_bend_table_size(roads) <= def->table_bytes;
-    if (!fits) {
-        tl_nav_free_bend_table(&navmesh->allocator, roads);
+    if (tl_nav_bend_table_size(roads) <= def->table_bytes) {
+        tl_nav_free_hub_labels(allocator, roads);
+        return roads->table == NULL ? tl_nav_make_bend_table(allocator, roads) : TL_OK;
     }
-    return fits && roads->table == NULL ? tl_nav_make_bend_table(&navmesh->allocator, roads) : TL_OK;
+    tl_nav_free_bend_table(allocator, roads);
+    if (roads->labels.first != NULL && tl_nav_hub_labels_size(roads) <= def->label_bytes) {
+        return TL_OK;
+    }
+    tl_nav_free_hub_labels(allocator, roads);
+    tl_result result = def->label_bytes > 0 ? tl_nav_make_hub_labels(allocator, roads, def->label_bytes) : TL_OK;
+    return result == TL_ERR_LIMIT ? TL_OK : result; // the roads serve without
 }
 
 static tl_nav_prepared report(const tl_navmesh *navmesh)
@@ -53,11 +60,14 @@ static tl_nav_prepared report(const tl_navmesh *navmesh)
     const tl_nav_roads *roads = navmesh->roads;
     tl_nav_prepared made = { TL_NAV_PREPARED_NONE, 0, 0, 0, 0 };
     if (roads != NULL) {
-        made.kind = roads->table != NULL ? TL_NAV_PREPARED_TABLE : TL_NAV_PREPARED_ROADS;
+        made.kind = roads->table != NULL          ? TL_NAV_PREPARED_TABLE
+                    : roads->labels.first != NULL ? TL_NAV_PREPARED_LABELS
+                                                  : TL_NAV_PREPARED_ROADS;
         made.bend_count = roads->bend_count;
         made.road_count = roads->road_count;
         made.table_bytes = tl_nav_bend_table_size(roads);
-        made.bytes = tl_nav_roads_size(roads) + (roads->table != NULL ? made.table_bytes : 0);
+        made.bytes = tl_nav_roads_size(roads) + (roads->table != NULL ? made.table_bytes : 0) +
+                     (roads->labels.first != NULL ? tl_nav_hub_labels_size(roads) : 0);
     }
     return made;
 }

@@ -11,42 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-static bool is_before(tl_nav_open_bend a, tl_nav_open_bend b)
-{
-    return a.length < b.length || (a.length == b.length && a.bend < b.bend);
-}
-
-static void push(tl_nav_road_lengths *s, double length, uint32_t bend)
-{
-    tl_nav_open_bend entry = { length, bend };
-    uint32_t at = s->heap_count++;
-    for (; at > 0 && is_before(entry, s->heap[(at - 1) / 2]); at = (at - 1) / 2) {
-        s->heap[at] = s->heap[(at - 1) / 2];
-    }
-    s->heap[at] = entry;
-}
-
-static tl_nav_open_bend pop(tl_nav_road_lengths *s)
-{
-    tl_nav_open_bend top = s->heap[0];
-    tl_nav_open_bend last = s->heap[--s->heap_count];
-    uint32_t at = 0;
-    for (;;) {
-        uint32_t child = 2 * at + 1;
-        if (child >= s->heap_count) {
-            break;
-        }
-        child += child + 1 < s->heap_count && is_before(s->heap[child + 1], s->heap[child]) ? 1 : 0;
-        if (!is_before(s->heap[child], last)) {
-            break;
-        }
-        s->heap[at] = s->heap[child];
-        at = child;
-    }
-    s->heap[at] = last;
-    return top;
-}
-
 tl_result tl_nav_road_lengths_make(const tl_allocator *allocator, const tl_nav_roads *roads,
                                    tl_nav_road_lengths *lengths_out)
 {
@@ -56,7 +20,9 @@ tl_result tl_nav_road_lengths_make(const tl_allocator *allocator, const tl_nav_r
     lengths_out->before = tl_allocate_array(allocator, roads->bend_count, sizeof *lengths_out->before);
     lengths_out->heap =
         tl_allocate_array(allocator, (uint64_t)roads->bend_count + roads->road_count, sizeof *lengths_out->heap);
-    if (lengths_out->length == NULL || lengths_out->before == NULL || lengths_out->heap == NULL) {
+    lengths_out->settled = tl_allocate_array(allocator, roads->bend_count, sizeof *lengths_out->settled);
+    if (lengths_out->length == NULL || lengths_out->before == NULL || lengths_out->settled == NULL ||
+        lengths_out->heap == NULL) {
         tl_nav_road_lengths_free(allocator, lengths_out);
         return TL_ERR_MEMORY;
     }
@@ -68,6 +34,7 @@ void tl_nav_road_lengths_free(const tl_allocator *allocator, tl_nav_road_lengths
     const tl_nav_roads *roads = lengths->roads;
     tl_release_array(allocator, lengths->length, roads->bend_count, sizeof *lengths->length);
     tl_release_array(allocator, lengths->before, roads->bend_count, sizeof *lengths->before);
+    tl_release_array(allocator, lengths->settled, roads->bend_count, sizeof *lengths->settled);
     tl_release_array(allocator, lengths->heap, (uint64_t)roads->bend_count + roads->road_count, sizeof *lengths->heap);
 }
 
@@ -80,23 +47,23 @@ void tl_nav_measure_roads(tl_nav_road_lengths *lengths, const uint32_t *sources,
     for (uint32_t i = 0; i < source_count; i++) {
         lengths->length[sources[i]] = 0.0;
         lengths->before[sources[i]] = sources[i];
-        push(lengths, 0.0, sources[i]);
+        tl_nav_push_bend(lengths, 0.0, sources[i]);
     }
+    lengths->settled_count = 0;
     while (lengths->heap_count > 0) {
-        tl_nav_open_bend next = pop(lengths);
+        tl_nav_open_bend next = tl_nav_pop_bend(lengths);
         if (next.length > lengths->length[next.bend]) {
             continue;
         }
+        lengths->settled[lengths->settled_count++] = next.bend;
         const tl_nav_bend *bend = &roads->bends[next.bend];
         for (uint32_t k = bend[0].first_road; k < bend[1].first_road; k++) {
             const tl_nav_road *road = &roads->roads[k];
-            double x = (double)road->x - (double)bend->x;
-            double z = (double)road->z - (double)bend->z;
-            double length = next.length + sqrt(x * x + z * z);
+            double length = next.length + tl_nav_road_length(bend, road);
             if (length < lengths->length[road->to]) {
                 lengths->length[road->to] = length;
                 lengths->before[road->to] = next.bend;
-                push(lengths, length, road->to);
+                tl_nav_push_bend(lengths, length, road->to);
             }
         }
     }

@@ -275,6 +275,7 @@ void tl_nav_free_roads(const tl_allocator *allocator, tl_nav_roads *roads)
         tl_release_array(allocator, roads->slot_first, roads->slot_count, sizeof *roads->slot_first);
         tl_nav_free_views(allocator, roads);
         tl_nav_free_bend_table(allocator, roads);
+        tl_nav_free_hub_labels(allocator, roads);
         tl_release_array(allocator, roads, 1, sizeof *roads);
     }
 }

@@ -58,6 +58,32 @@ typedef struct tl_nav_road {
     uint32_t hand; ///< TL_NAV_ROAD_...
 } tl_nav_road;
 
+/// The rank of a hub and the first road of a shortest way there, counted from its bend's first, in one number.
+enum { TL_NAV_HUB_ROAD_BITS = 12 };
+
+typedef struct tl_nav_hub {
+    uint32_t rank_and_road;
+    float length; ///< metres
+} tl_nav_hub;
+
+static inline uint32_t tl_nav_hub_rank(const tl_nav_hub *hub)
+{
+    return hub->rank_and_road >> TL_NAV_HUB_ROAD_BITS;
+}
+
+static inline uint32_t tl_nav_hub_road(const tl_nav_hub *hub)
+{
+    return hub->rank_and_road & ((1u << TL_NAV_HUB_ROAD_BITS) - 1);
+}
+
+/// The hubs of all bends (hub_labels.c).
+typedef struct tl_nav_hub_labels {
+    uint64_t *first;  ///< [bend_count + 1]; NULL: there are none
+    tl_nav_hub *hubs; ///< by bend, ascending by rank
+    uint64_t count;
+    uint32_t *bend; ///< by rank
+} tl_nav_hub_labels;
+
 struct tl_nav_roads {
     tl_nav_bend *bends; ///< [bend_count + 1]
     tl_nav_road *roads;
@@ -67,9 +93,10 @@ struct tl_nav_roads {
     tl_nav_views views;
     float *table;        ///< metres by bend and bend, or NULL (bend_table.c)
     uint16_t *table_way; ///< the same: the next bend on the way from the second to the first
-    uint64_t edit;       ///< of the navmesh for which they hold
-    double rounding;     ///< metres within which a point is on a line
-    float mark_error;    ///< metres by which a difference of two marks may be wrong
+    tl_nav_hub_labels labels;
+    uint64_t edit;    ///< of the navmesh for which they hold
+    double rounding;  ///< metres within which a point is on a line
+    float mark_error; ///< metres by which a difference of two marks may be wrong
 };
 
 /// The hands to which a path that comes along (x, z) to a bend may turn there: those on which its walls are.
@@ -149,10 +176,26 @@ uint64_t tl_nav_bend_table_size(const tl_nav_roads *roads);
 /// Fills in the table. TL_ERR_MEMORY.
 tl_result tl_nav_make_bend_table(const tl_allocator *allocator, tl_nav_roads *roads);
 void tl_nav_free_bend_table(const tl_allocator *allocator, tl_nav_roads *roads);
-/// The shortest way from a start to a goal over the table: which of their bends. Metres, INFINITY: none. Reorders the
-/// goals.
-float tl_nav_best_by_table(const tl_nav_roads *roads, tl_nav_ends *ends, tl_nav_bend_leg **start_out,
-                           tl_nav_bend_leg **goal_out);
+/// Fills in the labels. TL_ERR_LIMIT: they take more bytes than that, or bends have too many roads; TL_ERR_MEMORY.
+tl_result tl_nav_make_hub_labels(const tl_allocator *allocator, tl_nav_roads *roads, uint64_t budget);
+/// Bytes that they take.
+uint64_t tl_nav_hub_labels_size(const tl_nav_roads *roads);
+void tl_nav_free_hub_labels(const tl_allocator *allocator, tl_nav_roads *roads);
+
+/// The shortest way from a start to a goal, and the hub that it passes.
+typedef struct tl_nav_meeting {
+    float length; ///< metres; INFINITY: there is none
+    tl_nav_bend_leg *start, *goal;
+    uint32_t hub;
+} tl_nav_meeting;
+
+/// By the table; `hub` says nothing. Reorders the goals.
+tl_nav_meeting tl_nav_best_by_table(const tl_nav_roads *roads, tl_nav_ends *ends);
+/// By labels; `to_hub` is scratch for as many as there are bends.
+tl_nav_meeting tl_nav_best_by_labels(const tl_nav_roads *roads, const tl_nav_ends *ends, float *to_hub);
+/// The bends on that way, the last one first; returns their number, UINT32_MAX: there is no room for them.
+uint32_t tl_nav_unpack_meeting(const tl_nav_roads *roads, const tl_nav_meeting *meeting, uint64_t *bends,
+                               uint32_t capacity);
 
 /// Metres within which a vertex is on a line between two places of a search.
 static inline double tl_nav_line_rounding(const tl_nav_shortest_search *search, const tl_nav_roads *roads)
