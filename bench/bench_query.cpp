@@ -3,6 +3,7 @@
 // Navmesh queries beside Detour's: on the very same polygons, in one process, runs taking turns.
 //
 //   bench_query [--city TRIANGLES (1000000)] [--pairs MOST (10000)] [--runs RUNS (5)] [--only NAME]
+//               [--prepared 1 (searches on prepared navmeshes alone)]
 //
 // Pairs: the recorded ones of the data folder, and 10,000 seeded ones on the built-in city in tiles. The polygons are
 // Recast's, so that both sides search the same mesh. CPU time of one thread, the best run of each side. Lengths are
@@ -194,6 +195,7 @@ struct arena {
 };
 
 int runs = 5;
+bool prepared_only = false; // so that a large level need not be searched polygon by polygon
 bench_report *report;
 std::string current; // the level at hand
 
@@ -440,11 +442,13 @@ void bench_arena(arena &a, const std::vector<question> &questions, double path_b
         return;
     }
     current = a.name;
-    if (getenv("PREP") == nullptr) bench_paths(a, 1.0, "");
-    bench_unreachable(a);
+    if (!prepared_only) {
+        bench_paths(a, 1.0, "");
+        bench_unreachable(a);
+        bench_places(a);
+        compare_places(a);
+    }
     bench_prepared(a, path_bar);
-    if (getenv("PREP") == nullptr) bench_places(a);
-    if (getenv("PREP") == nullptr) compare_places(a);
 }
 
 tl_aabb bounds_of(const tl_mesh_view &mesh)
@@ -555,6 +559,8 @@ int main(int argc, char **argv)
             pairs = std::strtoul(argv[i + 1], nullptr, 10);
         } else if (option == "--runs") {
             runs = std::atoi(argv[i + 1]);
+        } else if (option == "--prepared") {
+            prepared_only = std::atoi(argv[i + 1]) != 0;
         } else if (option == "--only") {
             only = argv[i + 1];
         } else {

@@ -116,6 +116,15 @@ static tl_result add_label(labeller *l, uint32_t bend, uint32_t rank, double len
     return TL_OK;
 }
 
+static void prefetch(const void *at)
+{
+#if defined(__GNUC__)
+    __builtin_prefetch(at);
+#else
+    (void)at;
+#endif
+}
+
 // Labels all bends to which the shortest ways from the bend of a rank lead, and which no hub before it is on.
 static tl_result label_from(labeller *l, uint32_t rank)
 {
@@ -148,6 +157,7 @@ static tl_result label_from(labeller *l, uint32_t rank)
                 s->length[road->to] = length;
                 s->before[road->to] = next.bend;
                 tl_nav_push_bend(s, length, road->to);
+                prefetch(l->labels[road->to].hubs); // each is in a place of its own, and asked for soon
             }
         }
     }
@@ -311,7 +321,19 @@ static const tl_nav_hub *find_hub(const tl_nav_hub_labels *labels, uint32_t bend
     return NULL;
 }
 
-tl_nav_meeting tl_nav_best_by_labels(const tl_nav_roads *roads, const tl_nav_ends *ends, float *to_hub)
+// What a way over each leg takes at least, by landmarks, where that says more than the straight line.
+static void raise_totals(const tl_nav_roads *roads, tl_nav_bend_leg *legs, uint32_t count,
+                         const tl_nav_bend_leg *others, uint32_t other_count)
+{
+    tl_nav_end_marks other;
+    tl_nav_mark_end(roads, others, other_count, &other);
+    for (uint32_t i = 0; i < count; i++) {
+        float total = legs[i].length + tl_nav_least_by_marks(roads, &other, legs[i].bend);
+        legs[i].total = total > legs[i].total ? total : legs[i].total;
+    }
+}
+
+tl_nav_meeting tl_nav_best_by_labels(const tl_nav_roads *roads, tl_nav_ends *ends, float *to_hub)
 {
     const tl_nav_hub_labels *labels = &roads->labels;
     const float margin = 1.0f + TL_FLOAT_GAMMA(16);
@@ -322,6 +344,8 @@ tl_nav_meeting tl_nav_best_by_labels(const tl_nav_roads *roads, const tl_nav_end
     for (uint32_t i = 0; i < roads->bend_count; i++) {
         to_hub[i] = INFINITY;
     }
+    raise_totals(roads, ends->starts, ends->start_count, ends->goals, ends->goal_count);
+    raise_totals(roads, ends->goals, ends->goal_count, ends->starts, ends->start_count);
     // The most promising start first: it bounds what is worth a look. A total may be too long by its roundings.
     uint32_t nearest = 0;
     for (uint32_t i = 1; i < ends->start_count; i++) {

@@ -101,3 +101,38 @@ tl_result tl_nav_mark_roads(const tl_allocator *allocator, tl_nav_roads *roads)
     tl_release_array(allocator, s.nearest, roads->bend_count, sizeof *s.nearest);
     return fits ? TL_OK : TL_ERR_MEMORY;
 }
+
+void tl_nav_mark_end(const tl_nav_roads *roads, const tl_nav_bend_leg *legs, uint32_t count,
+                     tl_nav_end_marks *marks_out)
+{
+    for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+        marks_out->least[k] = INFINITY;
+        marks_out->most[k] = -INFINITY;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const float *marks = roads->marks[legs[i].bend];
+        for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+            float up = marks[k] + legs[i].length;
+            float down = marks[k] - legs[i].length;
+            marks_out->least[k] = up < marks_out->least[k] ? up : marks_out->least[k];
+            marks_out->most[k] = down > marks_out->most[k] ? down : marks_out->most[k];
+        }
+    }
+}
+
+float tl_nav_least_by_marks(const tl_nav_roads *roads, const tl_nav_end_marks *end, uint32_t bend)
+{
+    const float *marks = roads->marks[bend];
+    float bounds[TL_NAV_LANDMARKS];
+    for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
+        float down = marks[k] - end->most[k];
+        float up = end->least[k] - marks[k];
+        bounds[k] = down > up ? down : up;
+    }
+    for (uint32_t half = TL_NAV_LANDMARKS / 2; half > 0; half /= 2) {
+        for (uint32_t k = 0; k < half; k++) {
+            bounds[k] = bounds[k] > bounds[k + half] ? bounds[k] : bounds[k + half];
+        }
+    }
+    return bounds[0] - roads->mark_error;
+}

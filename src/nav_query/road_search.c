@@ -24,52 +24,20 @@ typedef struct road_search {
     const tl_nav_roads *roads;
     double start_x, start_z, goal_x, goal_z;
     double rounding;
-    uint32_t goal_stops;                                   // the first stops are of bends that may see the goal
-    float least[TL_NAV_LANDMARKS], most[TL_NAV_LANDMARKS]; // what a mark of the goal would be
-    bool is_marked;                                        // these are known
+    const tl_nav_ends *ends;
+    tl_nav_end_marks goal_marks;
+    bool is_marked; // these are known
     bool is_unclear;
 } road_search;
-
-// What the marks of the goal would be, from those of the bends that may see it.
-static void mark_goal(road_search *s)
-{
-    for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
-        s->least[k] = INFINITY;
-        s->most[k] = -INFINITY;
-    }
-    for (uint32_t i = 0; i < s->goal_stops; i++) {
-        const tl_nav_stop *stop = &s->query->stops[i];
-        const float *marks = s->roads->marks[stop->bend];
-        float length = (float)stop->to_goal;
-        for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
-            float up = marks[k] + length;
-            float down = marks[k] - length;
-            s->least[k] = up < s->least[k] ? up : s->least[k];
-            s->most[k] = down > s->most[k] ? down : s->most[k];
-        }
-    }
-    s->is_marked = true;
-}
 
 // Metres from a bend to the goal, at least, by landmarks.
 static float guess_by_marks(road_search *s, uint32_t bend)
 {
     if (!s->is_marked) {
-        mark_goal(s);
+        tl_nav_mark_end(s->roads, s->ends->goals, s->ends->goal_count, &s->goal_marks);
+        s->is_marked = true;
     }
-    const float *marks = s->roads->marks[bend];
-    float bounds[TL_NAV_LANDMARKS];
-    for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
-        float down = marks[k] - s->most[k];
-        float up = s->least[k] - marks[k];
-        bounds[k] = down > up ? down : up;
-    }
-    for (uint32_t half = TL_NAV_LANDMARKS / 2; half > 0; half /= 2) {
-        for (uint32_t k = 0; k < half; k++) {
-            bounds[k] = bounds[k] > bounds[k + half] ? bounds[k] : bounds[k + half];
-        }
-    }
-    return bounds[0] - s->roads->mark_error;
+    return tl_nav_least_by_marks(s->roads, &s->goal_marks, bend);
 }
 
 // The same by the straight line, from where the bend is.
@@ -145,11 +113,11 @@ static bool sees(road_search *s, const tl_nav_line *line, uint32_t slot, uint32_
 }
 
 // The bends from which the last leg may go, each with its length.
-static void prepare_goal(road_search *s, const tl_nav_ends *ends)
+static void prepare_goal(road_search *s)
 {
-    for (uint32_t i = 0; i < ends->goal_count && !s->is_unclear; i++) {
-        const tl_nav_bend *bend = &s->roads->bends[ends->goals[i].bend];
-        uint32_t stop = stop_at(s, ends->goals[i].bend);
+    for (uint32_t i = 0; i < s->ends->goal_count && !s->is_unclear; i++) {
+        const tl_nav_bend *bend = &s->roads->bends[s->ends->goals[i].bend];
+        uint32_t stop = stop_at(s, s->ends->goals[i].bend);
         if (stop != TL_NAV_NO_NODE) {
             double x = (double)bend->x - s->goal_x;
             double z = (double)bend->z - s->goal_z;
@@ -158,15 +126,14 @@ static void prepare_goal(road_search *s, const tl_nav_ends *ends)
             s->query->stops[stop].guess = (float)length * (1.0f - TL_FLOAT_GAMMA(2));
         }
     }
-    s->goal_stops = s->query->stop_count;
 }
 
-static void open_start(road_search *s, const tl_nav_ends *ends)
+static void open_start(road_search *s)
 {
-    for (uint32_t i = 0; i < ends->start_count && !s->is_unclear; i++) {
-        const tl_nav_bend *bend = &s->roads->bends[ends->starts[i].bend];
+    for (uint32_t i = 0; i < s->ends->start_count && !s->is_unclear; i++) {
+        const tl_nav_bend *bend = &s->roads->bends[s->ends->starts[i].bend];
         // Not the bend's own stop: whether it is seen is not known for certain yet.
-        uint32_t index = new_stop(s, ends->starts[i].bend);
+        uint32_t index = new_stop(s, s->ends->starts[i].bend);
         if (index != TL_NAV_NO_NODE) {
             tl_nav_stop *stop = &s->query->stops[index];
             double x = (double)bend->x - s->start_x;
@@ -307,13 +274,13 @@ bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roa
     s.goal_z = (double)search->goal.z;
     s.is_unclear = false;
     s.is_marked = false;
-    s.goal_stops = 0;
+    s.ends = ends;
     s.rounding = tl_nav_line_rounding(search, roads);
     query->stop_count = 0;
     query->open_count = 0;
     tl_nav_next_generation(query);
-    prepare_goal(&s, ends);
-    open_start(&s, ends);
+    prepare_goal(&s);
+    open_start(&s);
     uint32_t last = run(&s);
     if (last == TL_NAV_NO_NODE || s.is_unclear) {
         return false;

@@ -171,6 +171,16 @@ typedef struct tl_nav_ends {
 /// False: there is no room for them.
 bool tl_nav_find_ends(const tl_nav_shortest_search *search, const tl_nav_roads *roads, tl_nav_ends *ends_out);
 
+/// What the marks of an end of a path would be, at most and at least as the bends tell to which it has a leg.
+typedef struct tl_nav_end_marks {
+    float least[TL_NAV_LANDMARKS], most[TL_NAV_LANDMARKS];
+} tl_nav_end_marks;
+
+void tl_nav_mark_end(const tl_nav_roads *roads, const tl_nav_bend_leg *legs, uint32_t count,
+                     tl_nav_end_marks *marks_out);
+/// Metres from a bend to that end, at least.
+float tl_nav_least_by_marks(const tl_nav_roads *roads, const tl_nav_end_marks *end, uint32_t bend);
+
 /// What a table of all bends takes. Bytes.
 uint64_t tl_nav_bend_table_size(const tl_nav_roads *roads);
 /// Fills in the table. TL_ERR_MEMORY.
@@ -191,8 +201,8 @@ typedef struct tl_nav_meeting {
 
 /// By the table; `hub` says nothing. Reorders the goals.
 tl_nav_meeting tl_nav_best_by_table(const tl_nav_roads *roads, tl_nav_ends *ends);
-/// By labels; `to_hub` is scratch for as many as there are bends.
-tl_nav_meeting tl_nav_best_by_labels(const tl_nav_roads *roads, const tl_nav_ends *ends, float *to_hub);
+/// By labels; raises totals by landmarks. `to_hub` is scratch for as many as there are bends.
+tl_nav_meeting tl_nav_best_by_labels(const tl_nav_roads *roads, tl_nav_ends *ends, float *to_hub);
 /// The bends on that way, the last one first; returns their number, UINT32_MAX: there is no room for them.
 uint32_t tl_nav_unpack_meeting(const tl_nav_roads *roads, const tl_nav_meeting *meeting, uint64_t *bends,
                                uint32_t capacity);
