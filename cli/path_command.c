@@ -19,6 +19,7 @@ typedef struct path_settings {
     tl_vec3 extents;
     float radius; // metres; 0: the mesh's own agent
     bool partial;
+    bool prepared;
     bool json;
 } path_settings;
 
@@ -208,9 +209,12 @@ static bool make_searchers(path_queries *queries, uint32_t count)
     return true;
 }
 
-// Many wide paths pay for a look around each polygon. False: out of memory.
+// Many wide paths pay for a look around each polygon; for the others that is the user's to say. False: out of memory.
 static bool prepare(tl_navmesh *navmesh, const path_settings *settings)
 {
+    if (settings->prepared && tl_navmesh_prepare(navmesh, NULL, NULL) == TL_ERR_MEMORY) {
+        return false;
+    }
     tl_nav_wide_def def = tl_default_nav_wide_def();
     def.max_radius = settings->radius;
     return settings->pairs == NULL || settings->radius <= 0.0f ||
@@ -264,6 +268,8 @@ static tl_exit run(tl_cli *cli)
           "metres: for an agent wider than the navmesh was baked for (0: that one)", NULL, 0, 1e6f, 0, 0 },
         { "partial", 0, TL_OPTION_FLAG, &settings.partial, NULL,
           "print the way as near to the goal as it leads, as: partial length points", NULL, 0, 0, 0, 0 },
+        { "prepared", 0, TL_OPTION_FLAG, &settings.prepared, NULL,
+          "find all roads of the navmesh first: pays for some hundred pairs and more", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     tl_option level_options[TL_LEVEL_OPTIONS];
@@ -294,6 +300,6 @@ const tl_command tl_path_command = {
     "talus path courtyard.talus 2,0,20 38,0,20\n"
     "talus path courtyard.obj 2,0,20 38,0,20 --agent-radius 0.4 --json\n"
     "talus path courtyard.talus 2,0,20 38,0,20 --radius 1.2\n"
-    "talus path courtyard.talus --pairs pairs.txt",
+    "talus path courtyard.talus --pairs pairs.txt --prepared",
     run,
 };

@@ -98,7 +98,10 @@ static void test_many(void **state)
     fclose(back);
     cli_result one = cli_expect(0, "path level.talus --pairs there.txt --threads 1");
     cli_result two = cli_expect(0, "path level.talus --pairs there.txt --threads 2");
-    cli_result reverse = cli_expect(0, "path level.talus --pairs back.txt");
+    cli_result reverse = cli_expect(0, "path level.talus --pairs back.txt --prepared");
+    cli_result plain = cli_expect(0, "path level.talus --pairs back.txt");
+    TEST_CHECK(strlen(plain.out) > 1000 && strncmp(plain.out, reverse.out, 4) == 0);
+    cli_free(&plain);
     assert_string_equal(one.out, two.out);
     char *rest = NULL, *reverse_rest = NULL;
     char *line = strtok_r(one.out, "\n", &rest);
