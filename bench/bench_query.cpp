@@ -20,6 +20,7 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <talus/nav_prepare.h>
 
 extern "C" {
 #include "cli/sample_level.h"

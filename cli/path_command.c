@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <talus/nav_prepare.h>
 
 typedef struct path_settings {
     tl_bake_settings bake;

@@ -6,6 +6,7 @@
 #include "nav_fixture.h"
 
 #include <math.h>
+#include <talus/nav_prepare.h>
 
 static tl_nav_query *make_query(uint32_t max_nodes)
 {

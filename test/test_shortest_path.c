@@ -13,6 +13,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <talus/nav_prepare.h>
 
 static uint32_t g_pairs = 60;
 static bool g_all_levels = false;

@@ -9,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <talus/nav_build.h>
+#include <talus/nav_prepare.h>
 #include <talus/nav_wide.h>
 
 enum { MOST_LINKS = 256, PAIRS = 60 };

@@ -17,6 +17,7 @@
 #include <talus/nav_detour.h>
 #include <talus/nav_links.h>
 #include <talus/nav_obstacles.h>
+#include <talus/nav_prepare.h>
 #include <talus/nav_prune.h>
 #include <talus/nav_query.h>
 #include <talus/nav_sight.h>

@@ -15,6 +15,7 @@
 #include "nav_query/wedge_sight.h"
 
 #include <math.h>
+#include <talus/nav_prepare.h>
 
 /// Lengths to so many sets of places are kept for each bend (landmarks.c). 16 floats are a cache line.
 enum { TL_NAV_LANDMARKS = 16 };
