@@ -17,7 +17,7 @@ typedef struct tl_nav_prepare_def {
     /// enough for 2,364 bends; 0: no table.
     uint64_t table_bytes;
     /// Bytes that hub labels may take where a table is too large: for each bend the lengths to some hundred others.
-    /// They cost time, on a city of 25,000 bends 20 s for 75 MB, and are given up when the bytes are used up.
+    /// They cost time, on a city of 25,000 bends 20 s for 78 MB, and are given up when the bytes are used up.
     /// A query needs as many nodes as there are bends to use them. Default 0: none are made.
     uint64_t label_bytes;
 } tl_nav_prepare_def;
