@@ -157,6 +157,33 @@ static void test_budgets(void **state)
     tl_navmesh_free(twin);
 }
 
+// A path by whatever was prepared ends a search in slices that its query has under way.
+static void test_slices(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "000", "0#0", "000" };
+    fixture_level level = fixture_make(rows, 3);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    const tl_nav_prepare_def defs[3] = { { UINT64_MAX - 1, 0 }, { 0, UINT64_MAX }, { 0, 0 } };
+    tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } };
+    tl_nav_location goal = { tl_navmesh_polygon_ref(navmesh, 0, 7), { 10, 0, 10 } };
+    tl_nav_query *query = make_query(1000);
+    for (uint32_t i = 0; i < 3; i++) {
+        tl_nav_path_progress progress;
+        tl_nav_shortest_path path;
+        TEST_RESULT(tl_navmesh_prepare(navmesh, &defs[i], NULL), TL_OK);
+        TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &start, &goal), TL_OK);
+        TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_OK);
+        TEST_CHECK(progress.status == TL_NAV_PATH_UNFINISHED);
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &goal, &start, NULL, 0, NULL, 0, &path),
+                    TL_OK);
+        TEST_CHECK(path.corner_count == 3);
+        TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_ERR_NOT_FOUND);
+    }
+    tl_nav_query_free(query);
+    tl_navmesh_free(navmesh);
+}
+
 // A link is a way that roads do not know.
 static void test_links(void **state)
 {
@@ -237,8 +264,8 @@ static void test_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_edits), cmocka_unit_test(test_nodes),  cmocka_unit_test(test_budgets),
-        cmocka_unit_test(test_links), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_edits),  cmocka_unit_test(test_nodes), cmocka_unit_test(test_budgets),
+        cmocka_unit_test(test_slices), cmocka_unit_test(test_links), cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,6 +10,7 @@
 // known).
 
 #include "nav_query/roads.h"
+#include "nav_query/root_table.h"
 
 #include <string.h>
 
@@ -134,6 +135,8 @@ bool tl_nav_find_over_roads(tl_nav_shortest_search *search, const tl_nav_roads *
     if (is_unclear) {
         return false;
     }
+    // From here on the query's memory is used: a search in slices that was under way is no more.
+    tl_nav_next_generation(search->query);
     tl_nav_ends ends;
     return tl_nav_find_ends(search, roads, &ends) &&
            ((knows_lengths(search->query, roads) && find_by_lengths(search, roads, &ends, room, path_out)) ||

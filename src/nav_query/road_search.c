@@ -278,7 +278,6 @@ bool tl_nav_search_roads(tl_nav_shortest_search *search, const tl_nav_roads *roa
     s.rounding = tl_nav_line_rounding(search, roads);
     query->stop_count = 0;
     query->open_count = 0;
-    tl_nav_next_generation(query);
     prepare_goal(&s);
     open_start(&s);
     uint32_t last = run(&s);
