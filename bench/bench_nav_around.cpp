@@ -7,6 +7,7 @@
 // The polygons are Recast's, so that both sides ask the same mesh. CPU time of one thread, the best run of each side.
 
 #include "../test/detour_mesh.hpp"
+#include "bench_options.hpp"
 #include "io/mesh_import.h"
 #include "report.h"
 
@@ -341,32 +342,19 @@ int main(int argc, char **argv)
 {
     const char *json_path = bench_report_path(&argc, argv);
     report = bench_report_new("nav_around", "us", nullptr);
-    size_t places = 2000;
-    uint32_t city_triangles = 200000;
-    std::string only;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        std::string option = argv[i];
-        if (option == "--city") {
-            city_triangles = (uint32_t)std::strtoul(argv[i + 1], nullptr, 10);
-        } else if (option == "--places") {
-            places = std::strtoul(argv[i + 1], nullptr, 10);
-        } else if (option == "--runs") {
-            runs = std::atoi(argv[i + 1]);
-        } else if (option == "--only") {
-            only = argv[i + 1];
-        } else {
-            std::fprintf(stderr, "unknown option %s\n", argv[i]);
-            return 2;
-        }
+    bench_options options{ 2000, 200000, 5, "", false };
+    if (!options.take(argc, argv, "--places")) {
+        return 2;
     }
+    runs = options.runs;
     for (const char *name : { "nav_test", "dungeon", "undulating" }) {
-        if (std::string(name).find(only) != std::string::npos) {
-            bench_file(name, 0, places);
-            bench_file(name, 48, places);
+        if (options.wants(name)) {
+            bench_file(name, 0, options.count);
+            bench_file(name, 48, options.count);
         }
     }
-    if (city_triangles > 0 && std::string("city").find(only) != std::string::npos) {
-        bench_sample("city", city_triangles, 64, places);
+    if (options.wants("city")) {
+        bench_sample("city", options.city_triangles, 64, options.count);
     }
     std::printf("\n");
     bench_report_print_claims(report);

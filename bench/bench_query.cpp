@@ -10,6 +10,7 @@
 // compared in the plan (x and z), in which both sides pull their paths straight.
 
 #include "../test/detour_mesh.hpp"
+#include "bench_options.hpp"
 #include "io/mesh_import.h"
 #include "report.h"
 
@@ -549,35 +550,21 @@ int main(int argc, char **argv)
 {
     const char *json_path = bench_report_path(&argc, argv);
     report = bench_report_new("query", "us", nullptr);
-    size_t pairs = 10000;
-    uint32_t city_triangles = 1000000;
-    std::string only;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        std::string option = argv[i];
-        if (option == "--city") {
-            city_triangles = (uint32_t)std::strtoul(argv[i + 1], nullptr, 10);
-        } else if (option == "--pairs") {
-            pairs = std::strtoul(argv[i + 1], nullptr, 10);
-        } else if (option == "--runs") {
-            runs = std::atoi(argv[i + 1]);
-        } else if (option == "--prepared") {
-            prepared_only = std::atoi(argv[i + 1]) != 0;
-        } else if (option == "--only") {
-            only = argv[i + 1];
-        } else {
-            std::fprintf(stderr, "unknown option %s\n", argv[i]);
-            return 2;
-        }
+    bench_options options{ 10000, 1000000, 5, "", false };
+    if (!options.take(argc, argv, "--pairs")) {
+        return 2;
     }
+    runs = options.runs;
+    prepared_only = options.prepared_only;
     const char *files[] = { "nav_test_cs0.3_w_solo", "nav_test_cs0.3_w_t48",    "dungeon_cs0.3_w_solo",
                             "dungeon_cs0.3_w_t48",   "undulating_cs0.3_w_solo", "undulating_cs0.3_w_t48" };
     for (const char *file : files) {
-        if (std::string(file).find(only) != std::string::npos) {
-            bench_recorded(file, pairs);
+        if (options.wants(file)) {
+            bench_recorded(file, options.count);
         }
     }
-    if (city_triangles > 0 && std::string("city").find(only) != std::string::npos) {
-        bench_sample("city", city_triangles, 0.3f, 64, pairs, 5.0);
+    if (options.wants("city")) {
+        bench_sample("city", options.city_triangles, 0.3f, 64, options.count, 5.0);
     }
     std::printf("\n");
     bench_report_print_claims(report);

@@ -8,6 +8,7 @@
 
 #include "talus_test.h"
 
+#include <math.h>
 #include <string.h>
 #include <talus/nav_query.h>
 
@@ -453,6 +454,40 @@ static inline void fixture_toggle_tile(const fixture_level *level, tl_navmesh *n
         TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
         *present = true;
     }
+}
+
+/// Eight cells around a closed one, and what tests of arguments ask them with.
+typedef struct fixture_ring {
+    tl_navmesh *navmesh;
+    tl_nav_query *few_nodes, *many_nodes; ///< 2, 64
+    tl_nav_location start;                ///< in the first cell
+    tl_nav_location stale, nan;           ///< that a query refuses
+} fixture_ring;
+
+static inline fixture_ring fixture_make_ring(void)
+{
+    const char *const rows[] = { "000", "0#0", "000" };
+    fixture_level level = fixture_make(rows, 3);
+    tl_nav_query_def def = { 2, NULL };
+    fixture_ring ring;
+    memset(&ring, 0, sizeof ring);
+    ring.navmesh = fixture_build(&level, NULL);
+    TEST_RESULT(tl_nav_query_create(&def, &ring.few_nodes), TL_OK);
+    def.max_nodes = 64;
+    TEST_RESULT(tl_nav_query_create(&def, &ring.many_nodes), TL_OK);
+    ring.start.polygon = tl_navmesh_polygon_ref(ring.navmesh, 0, 0);
+    ring.start.point = tl_vec3_make(2, 0, 2);
+    ring.stale.polygon = 77;
+    ring.nan.polygon = ring.start.polygon;
+    ring.nan.point.x = NAN;
+    return ring;
+}
+
+static inline void fixture_free_ring(fixture_ring *ring)
+{
+    tl_nav_query_free(ring->few_nodes);
+    tl_nav_query_free(ring->many_nodes);
+    tl_navmesh_free(ring->navmesh);
 }
 
 /// Two floors of two cells with a gap of two between them, and a link over it, one way. Free it with tl_navmesh_free.

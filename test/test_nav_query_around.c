@@ -217,14 +217,11 @@ static void test_around(void **state)
 static void test_arguments(void **state)
 {
     (void)state;
-    const char *const rows[] = { "000", "0#0", "000" };
-    fixture_level level = fixture_make(rows, 3);
-    tl_navmesh *navmesh = fixture_build(&level, NULL);
-    tl_nav_query_def def = { 2, NULL };
-    tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
-    tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } }, end;
-    tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
+    fixture_ring ring = fixture_make_ring();
+    const tl_navmesh *navmesh = ring.navmesh;
+    const tl_nav_location start = ring.start, stale = ring.stale, nan = ring.nan;
+    tl_nav_query *query = ring.few_nodes;
+    tl_nav_location end;
     tl_nav_wall wall;
     uint32_t count = 0;
     tl_nav_ref polygons[1];
@@ -238,13 +235,10 @@ static void test_arguments(void **state)
     TEST_RESULT(tl_nav_query_slide(query, navmesh, NULL, &nan, there, NULL, 0, &count, &end), TL_ERR_NOT_FINITE);
     // Two nodes do not suffice.
     TEST_RESULT(tl_nav_query_slide(query, navmesh, NULL, &start, there, NULL, 0, &count, &end), TL_ERR_LIMIT);
-    tl_nav_query_free(query);
-    def.max_nodes = 64;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    query = ring.many_nodes;
     TEST_RESULT(tl_nav_query_slide(query, navmesh, NULL, &start, there, polygons, 1, &count, &end), TL_ERR_CAPACITY);
     TEST_CHECK(count == 3 && polygons[0] == start.polygon && end.point.x == 10.0f);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    fixture_free_ring(&ring);
 }
 
 int main(void)

@@ -173,14 +173,10 @@ static void test_walls(void **state)
 static void test_arguments(void **state)
 {
     (void)state;
-    const char *const rows[] = { "000", "0#0", "000" };
-    fixture_level level = fixture_make(rows, 3);
-    tl_navmesh *navmesh = fixture_build(&level, NULL);
-    tl_nav_query_def def = { 2, NULL };
-    tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
-    tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } };
-    tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
+    fixture_ring ring = fixture_make_ring();
+    const tl_navmesh *navmesh = ring.navmesh;
+    const tl_nav_location start = ring.start, stale = ring.stale, nan = ring.nan;
+    tl_nav_query *query = ring.few_nodes;
     tl_nav_wall_segment segments[4];
     uint32_t count = 0;
     TEST_RESULT(tl_navmesh_polygon_walls(navmesh, NULL, 77, segments, 4, &count), TL_ERR_NOT_FOUND);
@@ -188,13 +184,10 @@ static void test_arguments(void **state)
     TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &nan, 1.0f, segments, 4, &count), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &start, -1.0f, segments, 4, &count), TL_ERR_ARGUMENT);
     TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &start, 20.0f, segments, 4, &count), TL_ERR_LIMIT);
-    tl_nav_query_free(query);
-    def.max_nodes = 64;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    query = ring.many_nodes;
     TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &start, 2.5f, NULL, 0, &count), TL_ERR_CAPACITY);
     TEST_CHECK(count == 2);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    fixture_free_ring(&ring);
 }
 
 int main(void)
