@@ -26,31 +26,32 @@ static void test_chances_by_hand(void **state)
     tl_tree_ref refs[2] = { { wall.min, 0, wall.max, 0 }, { square.min, 1, square.max, 0 } };
     tl_tree_node nodes[3] = { { .box = room, .left = 1, .right = 2 }, leaf_of(wall, 0, 1), leaf_of(room, 1, 1) };
     tl_tree tree = { .refs = refs, .nodes = nodes, .node_capacity = 3, .root = 0, .ref_count = 2 };
-    tl_arena arena;
-    tl_arena_init(&arena, NULL);
-    const float *chance = NULL;
-    TEST_RESULT(tl_tree_order_plan(&tree, &arena, &chance), TL_OK);
+    float chance[3];
+    for (uint32_t i = 3; i-- > 0;) {
+        tl_tree_order_node(&tree, i, chance);
+    }
     // Half areas: wall 8, room 48, square 4.
     TEST_CHECK(chance[1] == 1.0f);
     TEST_CHECK(fabs((double)chance[2] - 4.0 / 48.0) < 1e-6);
     TEST_CHECK(fabs((double)chance[0] - (1.0 - (1.0 - 8.0 / 48.0) * (1.0 - 4.0 / 48.0))) < 1e-6);
-    tl_arena_free(&arena);
 }
 
 // A node stops no fewer rays than either of its halves does.
-static uint32_t check_node(const tl_tree *tree, const float *chance, uint32_t index)
+static uint32_t check_node(const tl_tree *tree, float *chance, uint32_t index)
 {
     const tl_tree_node *node = &tree->nodes[index];
-    TEST_CHECK(chance[index] >= 0.0f && chance[index] <= 1.0f);
     if (node->count > 0) {
+        tl_tree_order_node(tree, index, chance);
+        TEST_CHECK(chance[index] >= 0.0f && chance[index] <= 1.0f);
         return 1;
     }
     const uint32_t halves[2] = { node->left, node->right };
-    uint32_t checked = 1;
+    uint32_t checked = 1 + check_node(tree, chance, node->left) + check_node(tree, chance, node->right);
+    tl_tree_order_node(tree, index, chance);
+    TEST_CHECK(chance[index] >= 0.0f && chance[index] <= 1.0f);
     for (uint32_t k = 0; k < 2; k++) {
         float share = tl_aabb_half_area(tree->nodes[halves[k]].box) / tl_aabb_half_area(node->box);
         TEST_CHECK(chance[index] >= share * chance[halves[k]] - 1e-5f);
-        checked += check_node(tree, chance, halves[k]);
     }
     return checked;
 }
@@ -72,8 +73,8 @@ static void test_random_trees(void **state)
         tl_soup_def def = tl_default_soup_def();
         tl_tree tree;
         TEST_RESULT(tl_tree_build(&mesh, pairs, count, &def, &arena, &tree), TL_OK);
-        const float *chance = NULL;
-        TEST_RESULT(tl_tree_order_plan(&tree, &arena, &chance), TL_OK);
+        float *chance = TL_PUSH(&arena, float, tree.node_capacity);
+        TEST_CHECK(chance != NULL);
         checked += check_node(&tree, chance, tree.root);
         tl_arena_free(&arena);
         tl_mesh_free(&mesh, NULL);
