@@ -231,8 +231,8 @@ static bool find_way(detour *d, bool *found_out)
 
 bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_t behind)
 {
-    const tl_nav_bend from = path->bends[behind];
-    const tl_nav_bend to = path->bends[from.next];
+    const tl_nav_wide_bend from = path->bends[behind];
+    const tl_nav_wide_bend to = path->bends[from.next];
     tl_nav_room room = clearance->room;
     tl_nav_wall_cell cell;
     if (!tl_nav_wall_cell_of(clearance, from.slot, from.polygon, clearance->reach, &cell)) {

@@ -16,7 +16,7 @@ static tl_nav_spot spot_of(tl_vec3 point)
     return tl_nav_spot_make((double)point.x, (double)point.z);
 }
 
-static tl_nav_corner corner_of(tl_nav_clearance *clearance, const tl_nav_bend *bend)
+static tl_nav_corner corner_of(tl_nav_clearance *clearance, const tl_nav_wide_bend *bend)
 {
     tl_nav_met home = { bend->slot, bend->polygon };
     tl_nav_location at = tl_nav_settle(clearance, home, bend->spot);
@@ -29,12 +29,12 @@ static void write_corners(tl_nav_clearance *clearance, const tl_nav_bends *path,
 {
     tl_vec3 last = { 0.0f, 0.0f, 0.0f };
     for (uint32_t i = 0; i != TL_NAV_NO_NODE; i = path->bends[i].next) {
-        const tl_nav_bend *bend = &path->bends[i];
+        const tl_nav_wide_bend *bend = &path->bends[i];
         tl_nav_corner corner = corner_of(clearance, bend);
         if (bend->before == TL_NAV_NO_NODE) {
             corner.flags = TL_NAV_CORNER_START;
         } else {
-            const tl_nav_bend *before = &path->bends[bend->before];
+            const tl_nav_wide_bend *before = &path->bends[bend->before];
             out->length += sqrt(tl_nav_spot_distance_sq(before->spot, bend->spot));
             out->surface_length += (double)tl_distance(last, corner.point);
             if (bend->next == TL_NAV_NO_NODE) {

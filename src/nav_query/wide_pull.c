@@ -147,7 +147,7 @@ static bool hull_is_better(const triangle *t, double least)
 // Takes a bend out of the list; its memory stays unused.
 static void drop(tl_nav_bends *path, uint32_t bend)
 {
-    const tl_nav_bend *b = &path->bends[bend];
+    const tl_nav_wide_bend *b = &path->bends[bend];
     path->bends[b->before].is_taut = false;
     path->bends[b->next].is_taut = false;
     path->bends[b->before].next = b->next;
@@ -188,7 +188,7 @@ static bool put_hull(const tl_nav_clearance *clearance, const triangle *t, tl_na
 // Empties the triangle over a bend. `*moved_out` is set when that has changed the path.
 static bool pull_bend(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_t bend, bool *moved_out)
 {
-    const tl_nav_bend *b = &path->bends[bend];
+    const tl_nav_wide_bend *b = &path->bends[bend];
     triangle t;
     memset(&t, 0, sizeof t);
     t.a = path->bends[b->before].spot;

@@ -268,7 +268,7 @@ uint32_t tl_nav_bend_add(tl_nav_bends *path, uint32_t behind, tl_nav_spot spot, 
         return TL_NAV_NO_NODE;
     }
     uint32_t next = behind == TL_NAV_NO_NODE ? TL_NAV_NO_NODE : path->bends[behind].next;
-    tl_nav_bend bend = { spot, { 0.0, 0.0 }, false, false, slot, polygon, 0, behind, next };
+    tl_nav_wide_bend bend = { spot, { 0.0, 0.0 }, false, false, slot, polygon, 0, behind, next };
     uint32_t index = path->count++;
     path->bends[index] = bend;
     if (behind != TL_NAV_NO_NODE) {

@@ -11,7 +11,7 @@
 #include <talus/nav_wide.h>
 
 /// A place of a path. Paths are lists, so that they may be changed in the middle.
-typedef struct tl_nav_bend {
+typedef struct tl_nav_wide_bend {
     tl_nav_spot spot;
     tl_nav_spot center; ///< the spot is a corner of the cap around it, if is_cap
     bool is_cap;
@@ -19,10 +19,10 @@ typedef struct tl_nav_bend {
     uint32_t slot, polygon; ///< the path goes on in it
     uint32_t pass;          ///< the caller's: how many portals it is behind (wide_straight.c)
     uint32_t before, next;  ///< TL_NAV_NO_NODE at the ends
-} tl_nav_bend;
+} tl_nav_wide_bend;
 
 typedef struct tl_nav_bends {
-    tl_nav_bend *bends; ///< [0]: the path's start
+    tl_nav_wide_bend *bends; ///< [0]: the path's start
     uint32_t count, capacity;
     uint32_t last; ///< the path's end
 } tl_nav_bends;

@@ -170,9 +170,9 @@ static bool leave_out(tl_nav_clearance *clearance, const passes *all, tl_nav_ben
         if (all->at[i].bend == TL_NAV_NO_NODE) {
             continue;
         }
-        const tl_nav_bend *b = &path->bends[all->at[i].bend];
-        tl_nav_bend *before = &path->bends[b->before];
-        tl_nav_bend *next = &path->bends[b->next];
+        const tl_nav_wide_bend *b = &path->bends[all->at[i].bend];
+        tl_nav_wide_bend *before = &path->bends[b->before];
+        tl_nav_wide_bend *next = &path->bends[b->next];
         uint32_t last = all->at[next->pass].bend == b->next ? next->pass - 1 : next->pass;
         if (is_straight(clearance, all, before->spot, before->pass, next->spot, last, &fits)) {
             before->next = b->next;
