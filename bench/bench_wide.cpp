@@ -9,6 +9,7 @@
 // asked from the nearest places with room on its mesh. CPU time of one thread, the best run of each side.
 
 #include "../test/detour_mesh.hpp"
+#include "bench_options.hpp"
 #include "io/mesh_import.h"
 #include "report.h"
 
@@ -48,8 +49,7 @@ double now_seconds()
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
 }
 
-int runs = 5;
-size_t pair_count = 1000;
+bench_options options{ 1000, 100000, 5, "", false };
 bench_report *report;
 
 // Bytes that a navmesh holds beside its tiles.
@@ -177,7 +177,7 @@ class arena
     void find_pairs(const detour_level &baked, float radius)
     {
         pairs.clear();
-        for (size_t i = 0; i < pair_count; i++) {
+        for (size_t i = 0; i < options.count; i++) {
             place_pair p = {};
             p.has_room = true;
             for (int end = 0; end < 2; end++) {
@@ -264,7 +264,7 @@ void arena::bench_radius(const detour_level &baked, float radius)
     find_pairs(baked, radius);
     answers found = compare(baked, radius);
     double theirs = 1e30, plain = 1e30, gathered = 1e30, ours = 1e30, asked = 1e30;
-    for (int run = 0; run < runs; run++) {
+    for (int run = 0; run < options.runs; run++) {
         theirs = std::min(theirs, time_once([&](const place_pair &p) { checksum += (uint64_t)detour_path(baked, p); }));
         plain =
             std::min(plain, time_once([&](const place_pair &p) {
@@ -330,7 +330,7 @@ void bench_level(const std::string &name, const tl_mesh_view &view, uint32_t til
         std::printf("\n%s: left out, Recast made no mesh of it that both sides know\n", a.name.c_str());
         return;
     }
-    std::printf("\n%s: %u tiles, %zu pairs\n", a.name.c_str(), tl_navmesh_tile_count(a.navmesh.get()), pair_count);
+    std::printf("\n%s: %u tiles, %zu pairs\n", a.name.c_str(), tl_navmesh_tile_count(a.navmesh.get()), options.count);
     a.detour_bytes = arena::detour_size(*a.level.mesh);
     for (float radius : { RADII[1], RADII[2] }) {
         detour_level baked;
@@ -375,34 +375,20 @@ int main(int argc, char **argv)
 {
     const char *json_path = bench_report_path(&argc, argv);
     report = bench_report_new("wide", "us", nullptr);
-    uint32_t city_triangles = 100000;
-    std::string only;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        std::string option = argv[i];
-        if (option == "--pairs") {
-            pair_count = std::strtoul(argv[i + 1], nullptr, 10);
-        } else if (option == "--runs") {
-            runs = std::atoi(argv[i + 1]);
-        } else if (option == "--only") {
-            only = argv[i + 1];
-        } else if (option == "--city") {
-            city_triangles = (uint32_t)std::strtoul(argv[i + 1], nullptr, 10);
-        } else {
-            std::fprintf(stderr, "unknown option %s\n", argv[i]);
-            return 2;
-        }
+    if (!options.take(argc, argv, "--pairs")) {
+        return 2;
     }
     for (const char *name : { "nav_test", "dungeon", "undulating" }) {
-        if (std::string(name).find(only) != std::string::npos) {
+        if (options.wants(name)) {
             bench_file(name, 0);
             bench_file(name, 128);
         }
     }
-    if (std::string("courtyard").find(only) != std::string::npos) {
+    if (options.wants("courtyard")) {
         bench_sample("courtyard", 20000, 128);
     }
-    if (city_triangles > 0 && std::string("city").find(only) != std::string::npos) {
-        bench_sample("city", city_triangles, 128);
+    if (options.wants("city")) {
+        bench_sample("city", options.city_triangles, 128);
     }
     std::printf("\n");
     bench_report_print_claims(report);
