@@ -53,6 +53,8 @@ typedef struct tl_nav_root {
         float cost;    ///< metres from the start
         uint32_t stop; ///< of a bend
     };
+    // Of a corner that is turned at: what `cost` lost when it was rounded, and the root from which that way came.
+    float cost_rest, from_x, from_z;
 } tl_nav_root;
 
 struct tl_nav_query {
@@ -62,6 +64,7 @@ struct tl_nav_query {
     tl_nav_stop *stops;   ///< [max_nodes]
     tl_nav_root *roots;   ///< [root_mask + 1], more than wedges
     uint32_t root_mask;
+    uint32_t repeat_count; ///< entries of this generation that are corners turned at, at most half as many as nodes
     uint32_t stop_count;
     uint32_t wedge_count, open_count; ///< of wedges, and of entries of wedge_heap
     uint32_t generation;

@@ -13,6 +13,7 @@
 /// Forgets all entries. Those of a table whose generations have run out would look like new ones: they are cleared.
 static inline void tl_nav_next_generation(tl_nav_query *query)
 {
+    query->repeat_count = 0;
     if (++query->generation == 0) {
         for (uint32_t i = 0; i <= query->root_mask; i++) {
             query->roots[i].generation = 0;
@@ -37,17 +38,24 @@ static inline tl_nav_root *tl_nav_find_root(tl_nav_query *query, uint64_t number
     }
 }
 
-/// Whether `cost` is no worse than any known way to the vertex of this number, within the rounding of the float in
-/// which it is kept; it is then the cheapest known.
-static inline bool tl_nav_root_improves(tl_nav_query *query, uint64_t number, double cost)
+typedef enum tl_nav_root_rank {
+    TL_NAV_ROOT_WORSE,
+    TL_NAV_ROOT_AS_CHEAP, ///< as another way, within the rounding of the float in which costs are kept
+    TL_NAV_ROOT_CHEAPEST
+} tl_nav_root_rank;
+
+/// How a way to the vertex of this number compares with those that are known; it is then one of them.
+static inline tl_nav_root_rank tl_nav_root_rank_of(tl_nav_query *query, uint64_t number, double cost)
 {
     bool found = false;
     tl_nav_root *root = tl_nav_find_root(query, number, &found);
-    if (found && cost > (double)root->cost * (1.0 + 2.0 * (double)TL_FLOAT_ROUNDING)) {
-        return false;
+    const double slack = 2.0 * (double)TL_FLOAT_ROUNDING;
+    if (found && cost > (double)root->cost * (1.0 + slack)) {
+        return TL_NAV_ROOT_WORSE;
     }
+    bool is_as_cheap = found && cost >= (double)root->cost * (1.0 - slack);
     root->cost = found && root->cost < (float)cost ? root->cost : (float)cost;
-    return true;
+    return is_as_cheap ? TL_NAV_ROOT_AS_CHEAP : TL_NAV_ROOT_CHEAPEST;
 }
 
 /// Whether no way as cheap, within that rounding, has come to this number yet.

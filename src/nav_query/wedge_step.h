@@ -128,6 +128,37 @@ static inline void note_bend(const wedge_search *s, uint64_t turn)
     }
 }
 
+// Relative error of the length of a path of a thousand legs, each of four roundings, summed in double, twice.
+#define SUM_ROUNDING TL_DOUBLE_GAMMA(8192)
+
+// Whether a way to a vertex that is as cheap as another shows nothing new: one as cheap has turned at this corner to
+// this hand, and came in farther from the wall. In a city of equal blocks there are two ways around each, as long as
+// one another; the searches behind their ends would be the same, and twice as many at each block.
+static inline bool is_repeated(wedge_search *s, const step_from *from, uint32_t vertex, int hand, double cost,
+                               float from_x, float from_z)
+{
+    if (s->query->repeat_count >= s->query->max_nodes / 2) {
+        return false; // the table has room for others
+    }
+    uint64_t number = TURNING_NUMBER >> (hand > 0 ? 1 : 2) | corner_number(s, from->slot, from->polygon, vertex);
+    bool found = false;
+    tl_nav_root *root = tl_nav_find_root(s->query, number, &found);
+    double x = (double)from->ring[vertex].x, z = (double)from->ring[vertex].z;
+    tl_nav_direction known = { x - (double)root->from_x, z - (double)root->from_z };
+    tl_nav_direction limit = { x - (double)from_x, z - (double)from_z };
+    double known_cost = (double)root->cost + (double)root->cost_rest;
+    if (found && cost >= known_cost * (1.0 - SUM_ROUNDING) &&
+        (hand > 0 ? side(known, limit) <= 0.0 : side(known, limit) >= 0.0)) {
+        return true;
+    }
+    s->query->repeat_count += !found;
+    root->cost = (float)cost;
+    root->cost_rest = (float)(cost - (double)root->cost);
+    root->from_x = from_x;
+    root->from_z = from_z;
+    return false;
+}
+
 // Turns at a vertex of edge i into the polygon behind. `to_vertex` leads there from the root.
 static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i, uint32_t vertex, double cost,
                              tl_nav_direction to_vertex)
@@ -139,7 +170,7 @@ static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i,
         return;
     }
     cost += length_of(to_vertex);
-    if (turn != 0 && tl_nav_root_improves(s->query, turn, cost)) {
+    if (turn != 0 && tl_nav_root_rank_of(s->query, turn, cost) != TL_NAV_ROOT_WORSE) {
         float x = from->ring[vertex].x;
         float z = from->ring[vertex].z;
         seen_edge edge = see(from, i, x, z);
@@ -211,8 +242,12 @@ static inline void turn_at(wedge_search *s, const step_from *from, const tl_nav_
         if (!(is_beyond && v.facing) && !touches) {
             continue;
         }
-        if (is_new && !tl_nav_root_improves(s->query, turn, cost)) {
-            return;
+        if (is_new) {
+            tl_nav_root_rank rank = tl_nav_root_rank_of(s->query, turn, cost);
+            if (rank == TL_NAV_ROOT_WORSE || (rank == TL_NAV_ROOT_AS_CHEAP &&
+                                              is_repeated(s, from, vertex, hand, cost, wedge->root_x, wedge->root_z))) {
+                return;
+            }
         }
         is_new = false;
         if (touches) {
