@@ -325,6 +325,43 @@ static void test_straight_back(void **state)
     tl_navmesh_free(navmesh);
 }
 
+// A city of equal blocks: two ways around each are as long as one another, within rounding. What lies behind must not
+// be searched twice as often at each block.
+static void test_equal_blocks(void **state)
+{
+    (void)state;
+    fixture_level level = fixture_make((const char *const[]){ "0" }, 1);
+    level.width = level.height = 61;
+    for (uint32_t z = 0; z < level.height; z++) {
+        for (uint32_t x = 0; x < level.width; x++) {
+            level.cells[z][x] = x % 3 != 0 && z % 3 != 0 ? '#' : '0';
+        }
+    }
+    level.cell_size = 0.3f; // far from the origin no two blocks' floats are quite the same
+    level.origin = tl_vec3_make(517.3f, 0, 803.7f);
+    tl_navmesh *navmesh = fixture_build(&level, NULL);
+    fixture_refs all = fixture_all_refs(navmesh);
+    tl_nav_query *query = NULL;
+    tl_nav_query_def def = tl_default_nav_query_def();
+    def.max_nodes = 16 * all.count;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    test_random random = { 5 };
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < 200; i++) {
+        tl_nav_location start = fixture_random_location(navmesh, &all, &random);
+        tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
+        tl_nav_shortest_path path;
+        TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path),
+                    TL_OK);
+        TEST_CHECK(path.status == TL_NAV_PATH_COMPLETE);
+        most = path.node_count > most ? path.node_count : most;
+    }
+    print_message("%u polygons, at most %u nodes\n", (unsigned)all.count, most);
+    free(all.refs);
+    tl_nav_query_free(query);
+    tl_navmesh_free(navmesh);
+}
+
 static void test_buffers(void **state)
 {
     (void)state;
@@ -384,7 +421,8 @@ int main(int argc, char **argv)
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_fixtures), cmocka_unit_test(test_baked),         cmocka_unit_test(test_data_levels),
-        cmocka_unit_test(test_filter),   cmocka_unit_test(test_straight_back), cmocka_unit_test(test_buffers),
+        cmocka_unit_test(test_filter),   cmocka_unit_test(test_straight_back), cmocka_unit_test(test_equal_blocks),
+        cmocka_unit_test(test_buffers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
