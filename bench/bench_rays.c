@@ -15,11 +15,11 @@
 
 #define _DEFAULT_SOURCE // madvise
 
+#include "embree_scene.h"
 #include "report.h"
 #include "soup/ray.h"
 #include "soup_levels.h"
 
-#include <embree3/rtcore.h>
 #include <float.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -169,44 +169,25 @@ static bool count_memory(void *user, ssize_t bytes, bool post)
 }
 
 // Two triangles that share the edge c-a as one quad a, b, c, d; a lone triangle as a quad with d == c.
-static RTCScene make_scene(RTCDevice device, const bench_level *l, const tl_soup *soup, bool quads,
-                           enum RTCSceneFlags flags, enum RTCBuildQuality quality)
+static RTCScene make_quads(RTCDevice device, const tl_soup *soup)
 {
-    RTCScene scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, flags);
-    rtcSetSceneBuildQuality(scene, quality);
-    RTCGeometry geometry = rtcNewGeometry(device, quads ? RTC_GEOMETRY_TYPE_QUAD : RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetGeometryBuildQuality(geometry, quality);
-    if (quads) {
-        tl_soup_stats stats = tl_soup_get_stats(soup);
-        uint32_t count = stats.pair_count + stats.single_count;
-        float *v =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 4 * (size_t)count);
-        uint32_t *f = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 16, count);
-        uint64_t cursor = 0;
-        tl_soup_pair pair;
-        for (uint32_t i = 0; tl_soup_next_pair(soup, &cursor, &pair); i++) {
-            // Embree splits a quad along its second and fourth corner.
-            static const uint32_t order[4] = { 1, 2, 3, 0 };
-            bool single = pair.triangles[1] == TL_NO_TRIANGLE;
-            for (uint32_t k = 0; k < 4; k++) {
-                memcpy(v + 12 * (size_t)i + 3 * k, &pair.corners[single && k == 3 ? 2 : single ? k : order[k]], 12);
-                f[4 * (size_t)i + k] = 4 * i + k;
-            }
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_QUAD);
+    tl_soup_stats stats = tl_soup_get_stats(soup);
+    uint32_t count = stats.pair_count + stats.single_count;
+    float *v = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, 4 * (size_t)count);
+    uint32_t *f = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4, 16, count);
+    uint64_t cursor = 0;
+    tl_soup_pair pair;
+    for (uint32_t i = 0; tl_soup_next_pair(soup, &cursor, &pair); i++) {
+        // Embree splits a quad along its second and fourth corner.
+        static const uint32_t order[4] = { 1, 2, 3, 0 };
+        bool single = pair.triangles[1] == TL_NO_TRIANGLE;
+        for (uint32_t k = 0; k < 4; k++) {
+            memcpy(v + 12 * (size_t)i + 3 * k, &pair.corners[single && k == 3 ? 2 : single ? k : order[k]], 12);
+            f[4 * (size_t)i + k] = 4 * i + k;
         }
-    } else {
-        float *v =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, l->view.vertex_count);
-        uint32_t *f =
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, l->view.triangle_count);
-        memcpy(v, l->view.vertices, 12 * (size_t)l->view.vertex_count);
-        memcpy(f, l->view.indices, 12 * (size_t)l->view.triangle_count);
     }
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-    return scene;
+    return bench_embree_scene(device, geometry, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
 }
 
 // ------------------------------------------------------------------------------------------------------- runs
@@ -317,10 +298,10 @@ static void build_level(RTCDevice device, const bench_level *l, scenes *s, resul
     s->compact = lay_out(build_soup(&l->view, TL_SOUP_COMPACT, 0.0f));
     tl_soup *split = build_soup(&l->view, TL_SOUP_FAST, 0.1f);
     embree_bytes = 0;
-    s->embree[FAST] = make_scene(device, l, NULL, false, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
+    s->embree[FAST] = bench_embree_triangles(device, &l->view, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
     double high_bytes = embree_bytes;
-    s->embree[QUADS] = make_scene(device, l, s->soup, true, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
-    s->embree[ROBUST] = make_scene(device, l, s->soup, false, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
+    s->embree[QUADS] = make_quads(device, s->soup);
+    s->embree[ROBUST] = bench_embree_triangles(device, &l->view, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
     tl_soup_stats stats = tl_soup_get_stats(s->soup);
     double n = (double)stats.triangle_count;
     r->bytes = (double)stats.size / n;

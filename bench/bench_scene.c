@@ -11,10 +11,10 @@
 //
 // Pin it to a core (taskset -c 1) and keep the machine quiet.
 
+#include "embree_scene.h"
 #include "report.h"
 #include "soup_levels.h"
 
-#include <embree3/rtcore.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -89,26 +89,6 @@ typedef struct world {
     RTCScene embree[SYSTEMS];
     RTCGeometry instances[SYSTEMS][MAX_ITEMS];
 } world;
-
-static RTCScene make_object(RTCDevice device, const bench_level *l, enum RTCSceneFlags flags)
-{
-    RTCScene scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, flags);
-    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-    float *v =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, l->view.vertex_count);
-    uint32_t *f =
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, l->view.triangle_count);
-    memcpy(v, l->view.vertices, 12 * (size_t)l->view.vertex_count);
-    memcpy(f, l->view.indices, 12 * (size_t)l->view.triangle_count);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-    return scene;
-}
 
 static void set_matrix(RTCGeometry instance, tl_transform pose)
 {
@@ -466,8 +446,10 @@ int main(int argc, char **argv)
         if (tl_soup_build(&models[i].level.view, NULL, &models[i].soup, NULL) != TL_OK) {
             return 1;
         }
-        models[i].embree[ROBUST] = make_object(device, &models[i].level, RTC_SCENE_FLAG_ROBUST);
-        models[i].embree[FAST] = make_object(device, &models[i].level, RTC_SCENE_FLAG_NONE);
+        models[i].embree[ROBUST] =
+            bench_embree_triangles(device, &models[i].level.view, RTC_SCENE_FLAG_ROBUST, RTC_BUILD_QUALITY_HIGH);
+        models[i].embree[FAST] =
+            bench_embree_triangles(device, &models[i].level.view, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH);
         printf("%s: %u triangles; ", models[i].level.name, models[i].level.view.triangle_count);
     }
     printf("\n");

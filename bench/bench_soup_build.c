@@ -11,10 +11,10 @@
 #define _POSIX_C_SOURCE 200809L
 
 #include "cli/thread_pool.h"
+#include "embree_scene.h"
 #include "report.h"
 #include "soup_levels.h"
 
-#include <embree3/rtcore.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -90,23 +90,6 @@ static void build_soup(const tl_mesh_view *view, float split_budget, const tl_ta
     tl_blob_free(soup, NULL);
 }
 
-static void build_scene(RTCDevice device, const tl_mesh_view *view, enum RTCBuildQuality quality)
-{
-    RTCScene scene = rtcNewScene(device);
-    rtcSetSceneBuildQuality(scene, quality);
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetGeometryBuildQuality(geometry, quality);
-    memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 12, view->vertex_count),
-           view->vertices, 12 * (size_t)view->vertex_count);
-    memcpy(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 12, view->triangle_count),
-           view->indices, 12 * (size_t)view->triangle_count);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(scene);
-    rtcReleaseScene(scene);
-}
-
 static void run_system(system_kind system, const tl_mesh_view *view, RTCDevice device, const tl_tasks *two,
                        level_result *r)
 {
@@ -115,10 +98,10 @@ static void run_system(system_kind system, const tl_mesh_view *view, RTCDevice d
         build_soup(view, 0.1f, NULL, NULL, r);
         return;
     case MEDIUM:
-        build_scene(device, view, RTC_BUILD_QUALITY_MEDIUM);
+        rtcReleaseScene(bench_embree_triangles(device, view, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_MEDIUM));
         return;
     case HIGH:
-        build_scene(device, view, RTC_BUILD_QUALITY_HIGH);
+        rtcReleaseScene(bench_embree_triangles(device, view, RTC_SCENE_FLAG_NONE, RTC_BUILD_QUALITY_HIGH));
         return;
     default:
         build_soup(view, 0.0f, system == TWO_THREADS ? two : NULL, system == PLAIN ? r : NULL, r);

@@ -17,6 +17,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/prefetch.h"
 #include "base/radix_sort.h"
 #include "math/tolerance.h"
 
@@ -116,15 +117,6 @@ static tl_result add_label(labeller *l, uint32_t bend, uint32_t rank, double len
     return TL_OK;
 }
 
-static void prefetch(const void *at)
-{
-#if defined(__GNUC__)
-    __builtin_prefetch(at);
-#else
-    (void)at;
-#endif
-}
-
 // Labels all bends to which the shortest ways from the bend of a rank lead, and which no hub before it is on.
 static tl_result label_from(labeller *l, uint32_t rank)
 {
@@ -157,7 +149,7 @@ static tl_result label_from(labeller *l, uint32_t rank)
                 s->length[road->to] = length;
                 s->before[road->to] = next.bend;
                 tl_nav_push_bend(s, length, road->to);
-                prefetch(l->labels[road->to].hubs); // each is in a place of its own, and asked for soon
+                tl_prefetch(l->labels[road->to].hubs); // each is in a place of its own, and asked for soon
             }
         }
     }

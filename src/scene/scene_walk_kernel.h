@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "base/lowest_bit.h"
+#include "base/prefetch.h"
 #include "math/simd8.h"
 #include "scene/scene_walk.h"
 
@@ -62,19 +63,12 @@ static TL_NOINLINE uint32_t choose_kinds(const tl_scene_node *node, uint32_t ent
 // What waits is mostly visited soon, and its lines are then under way.
 static inline void prefetch_child(const tl_scene_line *line, const walk_place *place, uint32_t child)
 {
-#if defined(__GNUC__)
     uint32_t item = child & ~TL_CHILD_ITEM;
     bool is_item = item != child;
     const char *at = is_item ? (const char *)&place->records[item] : (const char *)&place->nodes[child];
-    const char *other = is_item ? (const char *)&line->items[item] : at + 128;
-    __builtin_prefetch(at);
-    __builtin_prefetch(at + 64);
-    __builtin_prefetch(other);
-#else
-    (void)line;
-    (void)place;
-    (void)child;
-#endif
+    tl_prefetch(at);
+    tl_prefetch(at + 64);
+    tl_prefetch(is_item ? (const char *)&line->items[item] : at + 128);
 }
 
 static inline walk_entry entry_of(const tl_scene_line *line, const tl_scene_node *node, const float *keys,

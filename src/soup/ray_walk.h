@@ -31,6 +31,7 @@
 // 26 u Z.
 
 #include "base/lowest_bit.h"
+#include "base/prefetch.h"
 #include "math/simd16.h"
 #include "soup/compact_layout.h"
 #include "soup/ray_measure.h"
@@ -82,17 +83,12 @@ static inline walk_entry make_entry(const uint32_t *t_bits, const uint32_t *chil
 // What waits on the stack is mostly visited soon, and its lines are then under way.
 static inline void prefetch_child(const walk_ray *ray, uint32_t child)
 {
-#if defined(__GNUC__)
     bool leaf = (child & TL_CHILD_LEAF) != 0;
     const char *base = leaf ? ray->leaves : ray->nodes;
     const char *at = base + (leaf ? tl_child_leaf_offset(child) : (uint64_t)child * ray->node_size);
-    __builtin_prefetch(at);
-    __builtin_prefetch(at + 64);
-    __builtin_prefetch(at + 128);
-#else
-    (void)ray;
-    (void)child;
-#endif
+    tl_prefetch(at);
+    tl_prefetch(at + 64);
+    tl_prefetch(at + 128);
 }
 
 static inline walk_entry nearer(walk_entry a, walk_entry b)
