@@ -105,6 +105,15 @@ static inline tl_scene_item scene_item(const scene_parts *parts, test_random *ra
     return item;
 }
 
+/// So many of them, one after the other.
+static inline void scene_fill(const scene_parts *parts, test_random *random, tl_vec3 center, float range,
+                              tl_scene_item *items, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        items[i] = scene_item(parts, random, center, range);
+    }
+}
+
 static inline tl_scene *scene_build(const tl_scene_item *items, uint32_t count)
 {
     tl_scene *scene = NULL;

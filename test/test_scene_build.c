@@ -224,9 +224,7 @@ static void test_same_bytes(void **state)
     scene_parts_make(&parts, 1);
     test_random random = { 31 };
     tl_scene_item items[1000];
-    for (uint32_t i = 0; i < 1000; i++) {
-        items[i] = scene_item(&parts, &random, vec(100, 0, -30), 40);
-    }
+    scene_fill(&parts, &random, vec(100, 0, -30), 40, items, 1000);
     tl_scene *scene = scene_build(items, 1000);
     uint64_t built = tl_hash_bytes(scene, tl_scene_get_stats(scene).size, 0);
     for (uint32_t i = 0; i < 1000; i += 3) {
@@ -247,9 +245,7 @@ static void test_failing_memory(void **state)
     scene_parts_make(&parts, 1);
     test_random random = { 1 };
     tl_scene_item items[500];
-    for (uint32_t i = 0; i < 500; i++) {
-        items[i] = scene_item(&parts, &random, vec(0, 0, 0), 10);
-    }
+    scene_fill(&parts, &random, vec(0, 0, 0), 10, items, 500);
     tl_result result = TL_ERR_MEMORY;
     uint32_t failures = 0;
     for (uint64_t at = 1; result != TL_OK; at++) {

@@ -218,9 +218,7 @@ static void test_far_and_tiny_rays(void **state)
     scene_parts_make(&parts, 1);
     test_random random = { 3 };
     tl_scene_item items[20];
-    for (uint32_t i = 0; i < 20; i++) {
-        items[i] = scene_item(&parts, &random, vec(0, 0, 0), 3);
-    }
+    scene_fill(&parts, &random, vec(0, 0, 0), 3, items, 20);
     tl_scene *scene = scene_build(items, 20);
     uint32_t hits = 0;
     for (uint32_t k = 0; k < 400; k++) {

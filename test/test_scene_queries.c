@@ -430,9 +430,7 @@ static void test_threads(void **state)
     scene_parts_make(&parts, 1);
     test_random random = { 8 };
     tl_scene_item items[100];
-    for (uint32_t i = 0; i < 100; i++) {
-        items[i] = scene_item(&parts, &random, vec(0, 0, 0), 10);
-    }
+    scene_fill(&parts, &random, vec(0, 0, 0), 10, items, 100);
     tl_scene *scene = scene_build(items, 100);
     asked each[4];
     pthread_t threads[4];
