@@ -53,7 +53,7 @@ sanitize:
 	    CMAKE_FLAGS="-DTALUS_SANITIZE=address,undefined -DTALUS_VALIDATE=ON $(CHECKED_FLAGS)"
 
 tsan:
-	$(MAKE) test CC=clang BUILD=build/tsan TEST_FLAGS="-R 'thread|soup_build|soup_batch|scene_queries|nav_golden|cli_bake|cli_path|cli_ray'" \
+	$(MAKE) test CC=clang BUILD=build/tsan TEST_FLAGS="-L threads" \
 	    CMAKE_FLAGS="-DTALUS_SANITIZE=thread $(CHECKED_FLAGS)"
 
 fuzz:

@@ -13,7 +13,7 @@
 #include "report.h"
 
 #ifdef TALUS_HAVE_RECAST
-#include "../test/recast_pipeline.hpp"
+#include "recast_pipeline.hpp"
 #include <recastnavigation/RecastAlloc.h>
 #endif
 

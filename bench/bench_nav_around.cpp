@@ -6,9 +6,9 @@
 //
 // The polygons are Recast's, so that both sides ask the same mesh. CPU time of one thread, the best run of each side.
 
-#include "../test/detour_mesh.hpp"
 #include "bench_options.hpp"
-#include "io/mesh_import.h"
+#include "detour_mesh.hpp"
+#include "io/mesh/mesh_import.h"
 #include "report.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 #include <talus/nav_around.h>
 
 extern "C" {
-#include "cli/sample_level.h"
+#include "cli/sample/sample_level.h"
 }
 
 namespace

@@ -5,7 +5,7 @@
 #ifndef TALUS_BENCH_NAV_LEVELS_HPP
 #define TALUS_BENCH_NAV_LEVELS_HPP
 
-#include "io/mesh_import.h"
+#include "io/mesh/mesh_import.h"
 
 #include <cstdio>
 #include <string>
@@ -14,7 +14,7 @@
 #include <vector>
 
 extern "C" {
-#include "cli/sample_level.h"
+#include "cli/sample/sample_level.h"
 }
 
 struct bench_mesh {

@@ -8,10 +8,10 @@
 
 #define _GNU_SOURCE
 
-#include "io/atomic_write.h"
-#include "io/file_map.h"
-#include "io/mesh_import.h"
-#include "io/obj_reader.h"
+#include "io/files/atomic_write.h"
+#include "io/files/file_map.h"
+#include "io/mesh/mesh_import.h"
+#include "io/mesh/obj_reader.h"
 #include "report.h"
 
 #include <assimp/cimport.h>

@@ -5,7 +5,7 @@
 //
 //   bench_obstacles [triangles] [--json FILE]
 
-#include "cli/sample_level.h"
+#include "cli/sample/sample_level.h"
 #include "report.h"
 
 #include <talus/nav_obstacles.h>

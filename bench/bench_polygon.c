@@ -7,10 +7,10 @@
 //   bench_polygon [CONTOURS.txt... | families]
 
 #include "bench_polygon_recast.h"
-#include "io/contour_text.h"
-#include "io/file_map.h"
+#include "io/files/file_map.h"
+#include "io/text/contour_text.h"
+#include "polygon_shapes.h"
 #include "report.h"
-#include "test/polygon_shapes.h"
 
 #include <dirent.h>
 #include <stdio.h>

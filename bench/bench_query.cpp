@@ -9,9 +9,9 @@
 // Recast's, so that both sides search the same mesh. CPU time of one thread, the best run of each side. Lengths are
 // compared in the plan (x and z), in which both sides pull their paths straight.
 
-#include "../test/detour_mesh.hpp"
 #include "bench_options.hpp"
-#include "io/mesh_import.h"
+#include "detour_mesh.hpp"
+#include "io/mesh/mesh_import.h"
 #include "report.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@
 #include <talus/nav_prepare.h>
 
 extern "C" {
-#include "cli/sample_level.h"
+#include "cli/sample/sample_level.h"
 }
 
 namespace

@@ -10,7 +10,7 @@
 
 #define _POSIX_C_SOURCE 200809L
 
-#include "cli/thread_pool.h"
+#include "cli/shared/thread_pool.h"
 #include "embree_scene.h"
 #include "report.h"
 #include "soup_levels.h"

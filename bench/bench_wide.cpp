@@ -8,9 +8,9 @@
 // and findStraightPath on the mesh that was baked for the radius. Places are Detour's own random ones there; talus is
 // asked from the nearest places with room on its mesh. CPU time of one thread, the best run of each side.
 
-#include "../test/detour_mesh.hpp"
 #include "bench_options.hpp"
-#include "io/mesh_import.h"
+#include "detour_mesh.hpp"
+#include "io/mesh/mesh_import.h"
 #include "report.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@
 #include <talus/nav_wide.h>
 
 extern "C" {
-#include "cli/sample_level.h"
+#include "cli/sample/sample_level.h"
 }
 
 namespace

@@ -4,8 +4,8 @@
 
 #include "soup_levels.h"
 
-#include "cli/sample_level.h"
-#include "io/mesh_import.h"
+#include "cli/sample/sample_level.h"
+#include "io/mesh/mesh_import.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 //
 // Any bytes as OBJ: a whole and valid mesh, or a named error; and the same bytes give the same mesh.
 
-#include "io/obj_reader.h"
+#include "io/mesh/obj_reader.h"
 
 #include <assert.h>
 #include <stdlib.h>

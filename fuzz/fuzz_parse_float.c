@@ -2,7 +2,7 @@
 //
 // Any text as a number: the same bits and the same end as strtof, by both readers.
 
-#include "io/parse_float.h"
+#include "io/text/parse_float.h"
 
 #include <assert.h>
 #include <stdlib.h>

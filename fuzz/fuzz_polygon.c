@@ -3,7 +3,7 @@
 // Any contours, as many and as tangled as the bytes make them: the build ends well or with a named error, and what it
 // builds passes the validator. The second half of the inputs is read as text.
 
-#include "io/contour_text.h"
+#include "io/text/contour_text.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+//
+// talus distance: how far two hulls are apart, and where they are nearest.
+
+#include "cli/level/open_hull.h"
+#include "cli/shared/batch.h"
+#include "cli/shared/json_out.h"
+#include "cli/shared/parse_value.h"
+
+#include <talus/convex.h>
+
+#include <string.h>
+
+typedef struct distance_settings {
+    tl_hull_settings hull_a, hull_b;
+    const char *pose_a, *pose_b;
+    const char *poses;
+    float radius_a, radius_b;
+} distance_settings;
+
+typedef struct distance_query {
+    tl_convex a, b;
+    tl_transform pose_a, pose_b;
+    bool json;
+} distance_query;
+
+// px,py,pz or px,py,pz,qx,qy,qz,qw.
+static const char *pose_from(const float *v, uint32_t count, tl_transform *pose_out)
+{
+    *pose_out = tl_transform_identity();
+    if (count != 3 && count != 7) {
+        return "needs 3 numbers (position) or 7 (position, then quaternion x, y, z, w)";
+    }
+    pose_out->position = tl_vec3_make(v[0], v[1], v[2]);
+    if (count == 7) {
+        tl_quat q = { v[3], v[4], v[5], v[6] };
+        if (q.x == 0.0f && q.y == 0.0f && q.z == 0.0f && q.w == 0.0f) {
+            return "has the quaternion 0,0,0,0, which is no rotation";
+        }
+        pose_out->rotation = q; // normalized by the query
+    }
+    return NULL;
+}
+
+static bool parse_pose(tl_cli *cli, const char *option, const char *text, tl_transform *pose_out, tl_exit *exit_out)
+{
+    *pose_out = tl_transform_identity();
+    if (text == NULL) {
+        return true;
+    }
+    float values[7];
+    uint32_t count = 0;
+    const char *reason = tl_parse_float_list(text, values, 3, 7, &count);
+    if (reason == NULL) {
+        reason = pose_from(values, count, pose_out);
+    }
+    if (reason != NULL) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--%s: '%s' %s", option, text, reason);
+    }
+    return reason == NULL;
+}
+
+static const char *status_word(tl_convex_status status)
+{
+    return status == TL_CONVEX_CONVERGED ? "converged" : status == TL_CONVEX_ITERATIONS ? "iterations" : "degenerate";
+}
+
+static void write_json(tl_text *text, const tl_separation *s)
+{
+    tl_text_add(text, s->overlap ? "{\"overlap\":true,\"distance\":" : "{\"overlap\":false,\"distance\":");
+    tl_text_add_json_float(text, s->distance);
+    tl_text_add(text, ",\"lower_bound\":");
+    tl_text_add_json_float(text, s->lower_bound);
+    tl_text_add(text, ",\"point_a\":");
+    tl_text_add_json_point(text, s->point_a);
+    tl_text_add(text, ",\"point_b\":");
+    tl_text_add_json_point(text, s->point_b);
+    tl_text_add(text, ",\"normal\":");
+    tl_text_add_json_point(text, s->normal);
+    tl_text_add(text, ",\"status\":\"");
+    tl_text_add(text, status_word(s->status));
+    tl_text_add(text, "\",\"iterations\":");
+    tl_text_add_count(text, s->iterations);
+    tl_text_add(text, "}\n");
+}
+
+static void write_line(tl_text *text, const tl_separation *s)
+{
+    if (s->overlap) {
+        tl_text_add(text, "overlap\n");
+        return;
+    }
+    tl_text_add_float(text, s->distance);
+    tl_text_add(text, " ");
+    tl_text_add_point(text, s->point_a, ',');
+    tl_text_add(text, " ");
+    tl_text_add_point(text, s->point_b, ',');
+    tl_text_add(text, " ");
+    tl_text_add_point(text, s->normal, ',');
+    tl_text_add(text, "\n");
+}
+
+static void answer_pose(const distance_query *query, tl_transform pose_b, tl_text *text)
+{
+    tl_separation separation;
+    tl_convex_distance(&query->a, query->pose_a, &query->b, pose_b, NULL, &separation);
+    if (query->json) {
+        write_json(text, &separation);
+    } else {
+        write_line(text, &separation);
+    }
+}
+
+static bool answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
+{
+    tl_transform pose;
+    (void)worker;
+    const char *reason = pose_from(numbers, count, &pose);
+    if (reason == NULL) {
+        answer_pose(user, pose, text);
+    } else {
+        const distance_query *query = user;
+        tl_text_add(text, query->json ? "{\"error\":\"a pose " : "none: a pose ");
+        tl_text_add(text, reason);
+        tl_text_add(text, query->json ? "\"}\n" : "\n");
+    }
+    return true;
+}
+
+// The pose that the options gave.
+static bool answer_given(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
+{
+    const distance_query *query = user;
+    (void)numbers;
+    (void)count;
+    (void)worker;
+    answer_pose(query, query->pose_b, text);
+    return true;
+}
+
+static tl_exit answer(tl_cli *cli, distance_query *query, const char *poses)
+{
+    const tl_batch batch = { poses, "px py pz [qx qy qz qw]", 3, 7, poses != NULL ? answer_line : answer_given, query };
+    return tl_batch_run(cli, &batch, NULL);
+}
+
+static tl_exit run(tl_cli *cli)
+{
+    distance_settings s;
+    memset(&s, 0, sizeof(s));
+    s.hull_a = tl_default_hull_settings();
+    s.hull_b = tl_default_hull_settings();
+    const tl_option options[] = {
+        { "pose", 0, TL_OPTION_TEXT, &s.pose_b, "POSE", "where B is: px,py,pz[,qx,qy,qz,qw]", NULL, 0, 0, 0, 0 },
+        { "pose-a", 0, TL_OPTION_TEXT, &s.pose_a, "POSE", "where A is", NULL, 0, 0, 0, 0 },
+        { "pose-b", 0, TL_OPTION_TEXT, &s.pose_b, "POSE", "the same as --pose", NULL, 0, 0, 0, 0 },
+        { "poses", 0, TL_OPTION_TEXT, &s.poses, "FILE",
+          "answer for the poses of B in FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
+        { "radius-a", 0, TL_OPTION_FLOAT, &s.radius_a, "M", "metres: A is rounded by a ball of it", NULL, 0, 1e6f, 0,
+          0 },
+        { "radius-b", 0, TL_OPTION_FLOAT, &s.radius_b, "M", "metres: B is rounded by a ball of it", NULL, 0, 1e6f, 0,
+          0 },
+        { "index-a", 0, TL_OPTION_NEEDED_COUNT, &s.hull_a.index, "I", "which cloud of A's file, from 0", NULL, 0, 0, 0,
+          0 },
+        { "index-b", 0, TL_OPTION_NEEDED_COUNT, &s.hull_b.index, "I", "which cloud of B's file, from 0", NULL, 0, 0, 0,
+          0 },
+        TL_OPTION_TABLE_END,
+    };
+    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
+    tl_exit code;
+    distance_query query;
+    memset(&query, 0, sizeof(query));
+    if (!tl_cli_parse(cli, groups, 2, 2, &code) || !parse_pose(cli, "pose-a", s.pose_a, &query.pose_a, &code) ||
+        !parse_pose(cli, "pose", s.pose_b, &query.pose_b, &code)) {
+        return code;
+    }
+    tl_hull_input a, b;
+    memset(&b, 0, sizeof(b));
+    if (tl_hull_open(cli, cli->arguments.words[0], &s.hull_a, &a, &code) &&
+        tl_hull_open(cli, cli->arguments.words[1], &s.hull_b, &b, &code)) {
+        query.a = tl_convex_from_hull(a.hull, s.radius_a);
+        query.b = tl_convex_from_hull(b.hull, s.radius_b);
+        query.json = cli->json;
+        code = answer(cli, &query, s.poses);
+    }
+    tl_hull_input_close(&a);
+    tl_hull_input_close(&b);
+    return code;
+}
+
+const tl_command tl_distance_command = {
+    "distance",
+    "measure how far two hulls are apart",
+    "HULL_A HULL_B [--pose POSE] [options]",
+    "HULL_A and HULL_B are meshes, points, or baked files that hold a hull. A pose is a position, or a\n"
+    "position and a rotation as a quaternion x,y,z,w. Prints: distance point-on-A point-on-B normal, the\n"
+    "normal from A to B; or overlap.",
+    "talus distance rock.obj crate.obj --pose 3,0,0\n"
+    "talus distance rock.obj crate.obj --pose 3,0,0,0,0.707107,0,0.707107 --json\n"
+    "talus distance rock.obj crate.obj --poses poses.txt",
+    run,
+};

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+//
+// talus export: the navmesh as a set of Detour tiles, the file that RecastDemo saves and loads.
+
+#include "cli/level/open_input.h"
+#include "cli/shared/json_out.h"
+#include "io/files/atomic_write.h"
+
+#include <talus/nav_detour.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static tl_exit print_report(tl_cli *cli, const char *output, uint64_t size, const tl_detour_report *report)
+{
+    if (report->plain_patches > 0) {
+        tl_cli_warn(cli, "%u polygons have more height detail than Detour's 255 vertices or triangles: written flat",
+                    report->plain_patches);
+    }
+    if (cli->json) {
+        return tl_cli_print_json(cli, json_pack("{so sI sI sI sI}", "output", tl_json_text(output), "bytes",
+                                                (json_int_t)size, "tiles", (json_int_t)report->tile_count, "polygons",
+                                                (json_int_t)report->polygon_count, "plain_patches",
+                                                (json_int_t)report->plain_patches));
+    }
+    printf("%s: %u tiles, %u polygons, %llu bytes\n", output, report->tile_count, report->polygon_count,
+           (unsigned long long)size);
+    return TL_EXIT_OK;
+}
+
+static tl_exit export_navmesh(tl_cli *cli, const tl_input *input, tl_detour_refs refs, const char *output)
+{
+    uint32_t slots = tl_navmesh_slot_count(input->navmesh), count = 0;
+    const tl_nav_tile **tiles = calloc((size_t)slots + 1, sizeof *tiles);
+    if (tiles == NULL) {
+        return tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
+    }
+    for (uint32_t slot = 0; slot < slots; slot++) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(input->navmesh, slot);
+        if (tile != NULL) {
+            tiles[count++] = tile;
+        }
+    }
+    // Without room the first run only says what is wrong; else it says CAPACITY.
+    uint64_t size = tl_detour_set_size(tiles, count, refs);
+    void *bytes = size > 0 ? malloc(size) : NULL;
+    tl_detour_report report;
+    tl_result result =
+        size > 0 && bytes == NULL ? TL_ERR_MEMORY : tl_detour_set_write(tiles, count, refs, bytes, size, &report);
+    tl_exit code;
+    tl_io_error error;
+    if (result != TL_OK) {
+        code = tl_cli_fail_result(cli, input->path, result, result == TL_ERR_MEMORY ? NULL : &report.base);
+    } else if (tl_atomic_write(output, bytes, size, &error) != TL_OK) {
+        code = tl_cli_fail_io(cli, &error);
+    } else {
+        code = print_report(cli, output, size, &report);
+    }
+    free(bytes);
+    free(tiles);
+    return code;
+}
+
+static tl_exit run(tl_cli *cli)
+{
+    const char *output = NULL;
+    int refs = 0;
+    static const char *const widths[] = { "32", "64", NULL };
+    tl_bake_settings settings = tl_default_bake_settings();
+    const tl_option options[] = {
+        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; needed", NULL, 0, 0, 0, 0 },
+        { "refs", 0, TL_OPTION_CHOICE, &refs, "BITS", "how Detour was compiled: 64 with DT_POLYREF64", widths, 0, 0, 0,
+          0 },
+        TL_OPTION_TABLE_END,
+    };
+    tl_option level_options[TL_LEVEL_OPTIONS];
+    tl_option nav_options[TL_NAV_OPTIONS];
+    tl_level_options(&settings.level, level_options);
+    tl_nav_options(&settings, nav_options);
+    const tl_option_group groups[] = { { "Options:", options },
+                                       { "Reading the level:", level_options },
+                                       { "Navmesh (a baked file brings its own):", nav_options },
+                                       { NULL, NULL } };
+    tl_exit code;
+    if (!tl_cli_parse(cli, groups, 1, 1, &code) || !tl_bake_take_bounds(cli, &settings, &code)) {
+        return code;
+    }
+    if (output == NULL) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "say where to write with -o FILE.bin");
+    }
+    tl_input input;
+    if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings, &input, &code)) {
+        tl_progress_end(&cli->progress);
+        code = export_navmesh(cli, &input, (tl_detour_refs)refs, output);
+    }
+    tl_input_close(&input);
+    return code;
+}
+
+const tl_command tl_export_command = {
+    "export",
+    "write the navmesh as Detour tiles",
+    "FILE -o OUT.bin [--refs 32|64]",
+    "FILE is a baked file, or a level, which is baked now. OUT is a set of Detour tiles (\"MSET\", tiles of\n"
+    "version 7), the file that RecastDemo loads. Detour's polygons have at most 6 corners and 16 flags.",
+    "talus export courtyard.talus -o courtyard.bin\n"
+    "talus export city.obj -o city.bin --tile-size 64 --refs 64",
+    run,
+};

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+//
+// talus COMMAND ...: finds the command and hands over.
+
+#include "cli/shared/closest_word.h"
+#include "cli/shared/command.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void print_commands(FILE *out)
+{
+    uint32_t count;
+    const tl_command *const *commands = tl_command_table(&count);
+    fprintf(out, "Usage: talus COMMAND ...\n\n"
+                 "A level's loose triangles in; rays, convex shapes and paths out.\n\nCommands:\n");
+    for (uint32_t i = 0; i < count; ++i) {
+        fprintf(out, "  %-12s%s\n", commands[i]->name, commands[i]->summary);
+    }
+    fprintf(out, "\n'talus COMMAND --help' explains a command, with an example. Start with:\n"
+                 "  talus sample courtyard -o courtyard.obj\n"
+                 "  talus bake courtyard.obj -o courtyard.talus\n"
+                 "  talus path courtyard.talus 2,0,20 38,0,20\n");
+}
+
+static int unknown_command(const char *word)
+{
+    uint32_t count;
+    const tl_command *const *commands = tl_command_table(&count);
+    const char *nearest = NULL;
+    unsigned best = ~0u;
+    for (uint32_t i = 0; i < count; ++i) {
+        unsigned distance = tl_word_distance(word, commands[i]->name);
+        if (distance < best && tl_word_is_near(word, distance)) {
+            best = distance;
+            nearest = commands[i]->name;
+        }
+    }
+    if (nearest != NULL) {
+        fprintf(stderr, "talus: '%s' is no command; did you mean '%s'?\n", word, nearest);
+    } else {
+        fprintf(stderr, "talus: '%s' is no command; 'talus --help' lists them\n", word);
+    }
+    return TL_EXIT_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc < 2) {
+        print_commands(stderr);
+        return TL_EXIT_USAGE;
+    }
+    bool help = strcmp(argv[1], "help") == 0;
+    if ((help && argc == 2) || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
+        print_commands(stdout);
+        return TL_EXIT_OK;
+    }
+    if (strcmp(argv[1], "--version") == 0) {
+        printf("talus %s\n", tl_version());
+        return TL_EXIT_OK;
+    }
+    const char *name = help ? argv[2] : argv[1];
+    uint32_t count;
+    const tl_command *const *commands = tl_command_table(&count);
+    for (uint32_t i = 0; i < count; ++i) {
+        if (strcmp(commands[i]->name, name) == 0) {
+            const char *const ask_help[] = { name, "--help", NULL };
+            return (int)(help ? tl_command_run(commands[i], 2, ask_help)
+                              : tl_command_run(commands[i], argc - 1, (const char *const *)(argv + 1)));
+        }
+    }
+    return unknown_command(name);
+}

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+//
+// talus overlap: which triangles a ball, capsule or box touches.
+
+#include "cli/level/open_input.h"
+#include "cli/level/shape_option.h"
+#include "cli/shared/batch.h"
+#include "cli/shared/json_out.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct overlap_settings {
+    tl_bake_settings bake;
+    tl_shape_option shape;
+    const char *points;
+    bool any;
+    bool json;
+} overlap_settings;
+
+typedef struct overlap_query {
+    const tl_soup *soup;
+    const overlap_settings *settings;
+} overlap_query;
+
+static void write_list(tl_text *text, const uint32_t *triangles, uint32_t count, bool json)
+{
+    tl_text_add(text, json ? "{\"count\":" : "");
+    tl_text_add_count(text, count);
+    tl_text_add(text, json ? ",\"triangles\":[" : "");
+    for (uint32_t i = 0; i < count; ++i) {
+        tl_text_add(text, !json ? " " : i > 0 ? "," : "");
+        tl_text_add_count(text, triangles[i]);
+    }
+    tl_text_add(text, json ? "]}\n" : "\n");
+}
+
+// Answers one point; returns whether anything is touched.
+static bool answer_point(const float *n, uint32_t number_count, tl_text *text, uint32_t worker, void *user)
+{
+    enum { FEW = 256 };
+    const overlap_query *query = user;
+    (void)number_count;
+    (void)worker;
+    const overlap_settings *settings = query->settings;
+    tl_transform pose = tl_transform_identity();
+    pose.position = tl_vec3_make(n[0], n[1], n[2]);
+    if (settings->any) {
+        bool touches = false;
+        (void)tl_soup_overlaps(query->soup, &settings->shape.shape, pose, NULL, &touches);
+        tl_text_add(text, settings->json ? touches ? "{\"overlaps\":true}\n" : "{\"overlaps\":false}\n"
+                          : touches      ? "touches\n"
+                                         : "free\n");
+        return touches;
+    }
+    uint32_t few[FEW], *triangles = few, count = 0;
+    tl_result result = tl_soup_find_overlaps(query->soup, &settings->shape.shape, pose, NULL, few, FEW, &count);
+    if (result == TL_ERR_CAPACITY) {
+        triangles = malloc(count * sizeof(*triangles));
+        if (triangles == NULL) {
+            text->failed = true;
+            return true;
+        }
+        (void)tl_soup_find_overlaps(query->soup, &settings->shape.shape, pose, NULL, triangles, count, &count);
+    }
+    write_list(text, triangles, count, settings->json);
+    if (triangles != few) {
+        free(triangles);
+    }
+    return count > 0;
+}
+
+static tl_exit run(tl_cli *cli)
+{
+    overlap_settings settings;
+    memset(&settings, 0, sizeof(settings));
+    settings.bake = tl_default_bake_settings();
+    settings.shape = tl_default_shape_option();
+    const tl_option options[] = {
+        { "points", 'p', TL_OPTION_TEXT, &settings.points, "FILE",
+          "put the shape at the points of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
+        { "any", 0, TL_OPTION_FLAG, &settings.any, NULL, "say only touches or free, which is faster", NULL, 0, 0, 0,
+          0 },
+        TL_OPTION_TABLE_END,
+    };
+    tl_option level_options[TL_LEVEL_OPTIONS], shape_options[TL_SHAPE_OPTIONS];
+    tl_level_options(&settings.bake.level, level_options);
+    tl_shape_options(&settings.shape, shape_options);
+    const tl_option_group groups[] = {
+        { "Options:", options }, { "Shape:", shape_options }, { "When FILE is a level:", level_options }, { NULL, NULL }
+    };
+    tl_exit code;
+    float numbers[3] = { 0 };
+    if (!tl_cli_parse(cli, groups, 1, 2, &code) || !tl_shape_option_read(cli, &settings.shape, &code)) {
+        return code;
+    }
+    settings.json = cli->json;
+    if ((settings.points != NULL) == (cli->arguments.count > 1)) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "give a point behind FILE, or many with --points");
+    }
+    if (settings.points == NULL && !tl_cli_read_triple(cli, 1, "point", numbers, &code)) {
+        return code;
+    }
+    tl_input input;
+    if (tl_input_open_soup(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
+        overlap_query query = { input.soup, &settings };
+        tl_batch batch = { settings.points, "x y z", 3, 3, answer_point, &query };
+        code = tl_batch_run(cli, &batch, numbers);
+    }
+    tl_input_close(&input);
+    return code;
+}
+
+const tl_command tl_overlap_command = {
+    "overlap",
+    "what a ball, capsule or box touches in a baked file or a level",
+    "FILE X,Y,Z [options]\nFILE --points POINTS|- [options]",
+    "Lists the triangles that a shape touches which stands still. FILE is a baked file, or a level, which is\n"
+    "then baked in memory.\n\n"
+    "POINTS holds a line each: x y z. The answer is a line each, in order: how many triangles, and their\n"
+    "numbers, which count the source's triangles from 0; with --any: touches or free. A single shape that\n"
+    "is free ends with exit code 1.",
+    "talus overlap courtyard.talus 20,5,20 --radius 0.4\n"
+    "talus overlap courtyard.talus 20,5.1,20 --radius 0.4 --height 1.8 --any\n"
+    "echo '20 5 20' | talus overlap courtyard.obj --points - --half 1,1,1 --json",
+    run,
+};

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+//
+// talus support: the point of a hull that lies farthest along a direction.
+
+#include "cli/level/open_hull.h"
+#include "cli/shared/batch.h"
+
+#include <string.h>
+
+typedef struct support_query {
+    const tl_hull *hull;
+    bool json;
+} support_query;
+
+// The dot product of the floats, in double, so that an oracle can be compared with it.
+static bool answer_direction(const float *n, uint32_t count, tl_text *text, uint32_t worker, void *user)
+{
+    const support_query *query = user;
+    (void)count;
+    (void)worker;
+    uint32_t vertex = tl_hull_support(query->hull, tl_vec3_make(n[0], n[1], n[2]), TL_NO_VERTEX);
+    tl_vec3 p = tl_hull_vertices(query->hull)[vertex];
+    uint32_t source = tl_hull_sources(query->hull)[vertex];
+    float dot = (float)((double)p.x * (double)n[0] + (double)p.y * (double)n[1] + (double)p.z * (double)n[2]);
+    if (query->json) {
+        tl_text_add(text, "{\"vertex\":");
+        tl_text_add_count(text, source);
+        tl_text_add(text, ",\"point\":");
+        tl_text_add_json_point(text, p);
+        tl_text_add(text, ",\"dot\":");
+        tl_text_add_json_float(text, dot);
+        tl_text_add(text, "}\n");
+    } else {
+        tl_text_add_count(text, source);
+        tl_text_add(text, " ");
+        tl_text_add_point(text, p, ' ');
+        tl_text_add(text, " ");
+        tl_text_add_float(text, dot);
+        tl_text_add(text, "\n");
+    }
+    return true;
+}
+
+static tl_exit run(tl_cli *cli)
+{
+    const char *directions = NULL;
+    tl_hull_settings settings = tl_default_hull_settings();
+    const tl_option options[] = {
+        { "directions", 'd', TL_OPTION_TEXT, &directions, "FILE", "answer the directions of FILE; - is standard input",
+          NULL, 0, 0, 0, 0 },
+        TL_OPTION_TABLE_END,
+    };
+    tl_option hull_options[TL_HULL_OPTIONS];
+    tl_hull_options(&settings, hull_options);
+    const tl_option_group groups[] = { { "Options:", options }, { "Hull:", hull_options }, { NULL, NULL } };
+    tl_exit code;
+    if (!tl_cli_parse(cli, groups, 1, 2, &code)) {
+        return code;
+    }
+    if ((directions != NULL) == (cli->arguments.count > 1)) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "give one direction behind HULL, or many with --directions");
+    }
+    tl_hull_input input;
+    if (tl_hull_open(cli, cli->arguments.words[0], &settings, &input, &code)) {
+        support_query query = { input.hull, cli->json };
+        const tl_batch batch = { directions, "dx dy dz", 3, 3, answer_direction, &query };
+        float numbers[3] = { 0 };
+        if (directions != NULL || tl_cli_read_triple(cli, 1, "direction", numbers, &code)) {
+            code = tl_batch_run(cli, &batch, numbers);
+        }
+    }
+    tl_hull_input_close(&input);
+    return code;
+}
+
+const tl_command tl_support_command = {
+    "support",
+    "find a hull's farthest vertex along directions",
+    "HULL DX,DY,DZ [options]\nHULL --directions FILE|- [options]",
+    "HULL is a mesh, points, or a baked file that holds a hull. FILE holds a direction a line: dx dy dz;\n"
+    "directions need not have length 1. The answer is a line a direction, in order: vertex x y z dot. The\n"
+    "vertex is the point's number in the file that the hull was built from, counted from 0; of several\n"
+    "that are equally far it is the first. dot is its product with the direction as given.",
+    "talus support rock.obj 0,1,0\n"
+    "talus support hull.talus --directions directions.txt",
+    run,
+};

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+//
+// talus sweep: what a moving ball, capsule or box meets first.
+
+#include "cli/level/open_input.h"
+#include "cli/level/shape_option.h"
+#include "cli/shared/batch.h"
+#include "cli/shared/json_out.h"
+
+#include <string.h>
+
+typedef struct sweep_settings {
+    tl_bake_settings bake;
+    tl_shape_option shape;
+    const char *sweeps;
+    int cull; ///< a tl_ray_cull
+    bool json;
+} sweep_settings;
+
+typedef struct sweep_query {
+    const tl_soup *soup;
+    tl_ray_filter filter;
+    const sweep_settings *settings;
+} sweep_query;
+
+// Zero has no sign here: -0 would only puzzle a reader.
+static tl_vec3 without_negative_zero(tl_vec3 v)
+{
+    return tl_add(v, tl_vec3_make(0.0f, 0.0f, 0.0f));
+}
+
+static void write_hit(tl_text *text, const tl_shape_hit *hit)
+{
+    const float floats[7] = { hit->point.x,  hit->point.y,  hit->point.z, hit->normal.x,
+                              hit->normal.y, hit->normal.z, hit->depth };
+    tl_text_add_float(text, hit->t);
+    tl_text_add(text, " ");
+    tl_text_add_count(text, hit->triangle);
+    for (uint32_t i = 0; i < (hit->initial_overlap ? 7u : 6u); ++i) {
+        tl_text_add(text, " ");
+        tl_text_add_float(text, floats[i]);
+    }
+    tl_text_add(text, "\n");
+}
+
+static void write_json_hit(tl_text *text, const tl_shape_hit *hit)
+{
+    tl_text_add(text, "{\"hit\":true,\"t\":");
+    tl_text_add_json_float(text, hit->t);
+    tl_text_add(text, ",\"triangle\":");
+    tl_text_add_count(text, hit->triangle);
+    tl_text_add(text, ",\"point\":");
+    tl_text_add_json_point(text, hit->point);
+    tl_text_add(text, ",\"normal\":");
+    tl_text_add_json_point(text, hit->normal);
+    tl_text_add(text, ",\"face_normal\":");
+    tl_text_add_json_point(text, hit->face_normal);
+    tl_text_add(text, hit->back ? ",\"back\":true" : ",\"back\":false");
+    tl_text_add(text, hit->initial_overlap ? ",\"overlap\":true,\"depth\":" : ",\"overlap\":false,\"depth\":");
+    tl_text_add_json_float(text, hit->depth);
+    tl_text_add(text, "}\n");
+}
+
+// Answers one sweep; returns whether something was hit.
+static bool answer_sweep(const float *n, uint32_t count, tl_text *text, uint32_t worker, void *user)
+{
+    const sweep_query *query = user;
+    (void)count;
+    (void)worker;
+    tl_transform pose = tl_transform_identity();
+    pose.position = tl_vec3_make(n[0], n[1], n[2]);
+    tl_shape_hit hit;
+    tl_result result = tl_soup_cast_shape(query->soup, &query->settings->shape.shape, pose,
+                                          tl_vec3_make(n[3], n[4], n[5]), &query->filter, &hit);
+    if (result != TL_OK) {
+        tl_text_add(text, query->settings->json ? "{\"hit\":false}\n" : "free\n");
+        return false;
+    }
+    hit.point = without_negative_zero(hit.point);
+    hit.normal = without_negative_zero(hit.normal);
+    hit.face_normal = without_negative_zero(hit.face_normal);
+    if (query->settings->json) {
+        write_json_hit(text, &hit);
+    } else {
+        write_hit(text, &hit);
+    }
+    return true;
+}
+
+static tl_exit sweep(tl_cli *cli, const sweep_settings *settings, const float *numbers)
+{
+    tl_input input;
+    tl_exit code;
+    if (tl_input_open_soup(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
+        sweep_query query = { input.soup, tl_default_ray_filter(), settings };
+        query.filter.cull = (tl_ray_cull)settings->cull;
+        tl_batch batch = { settings->sweeps, "x y z dx dy dz", 6, 6, answer_sweep, &query };
+        code = tl_batch_run(cli, &batch, numbers);
+    }
+    tl_input_close(&input);
+    return code;
+}
+
+static tl_exit run(tl_cli *cli)
+{
+    static const char *const culls[] = { "none", "back", "front", NULL };
+    sweep_settings settings;
+    memset(&settings, 0, sizeof(settings));
+    settings.bake = tl_default_bake_settings();
+    settings.shape = tl_default_shape_option();
+    const tl_option options[] = {
+        { "sweeps", 's', TL_OPTION_TEXT, &settings.sweeps, "FILE",
+          "move along the lines of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
+        { "cull", 0, TL_OPTION_CHOICE, &settings.cull, NULL, "sides of triangles that the shape passes through", culls,
+          0, 0, 0, 0 },
+        TL_OPTION_TABLE_END,
+    };
+    tl_option level_options[TL_LEVEL_OPTIONS], shape_options[TL_SHAPE_OPTIONS];
+    tl_level_options(&settings.bake.level, level_options);
+    tl_shape_options(&settings.shape, shape_options);
+    const tl_option_group groups[] = {
+        { "Options:", options }, { "Shape:", shape_options }, { "When FILE is a level:", level_options }, { NULL, NULL }
+    };
+    tl_exit code;
+    float numbers[6] = { 0 };
+    if (!tl_cli_parse(cli, groups, 1, 3, &code) || !tl_shape_option_read(cli, &settings.shape, &code)) {
+        return code;
+    }
+    settings.json = cli->json;
+    if ((settings.sweeps != NULL) == (cli->arguments.count > 1) || cli->arguments.count == 2) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "give a point and a motion behind FILE, or many with --sweeps");
+    }
+    if (settings.sweeps == NULL && (!tl_cli_read_triple(cli, 1, "point", numbers, &code) ||
+                                    !tl_cli_read_triple(cli, 2, "motion", numbers + 3, &code))) {
+        return code;
+    }
+    return sweep(cli, &settings, numbers);
+}
+
+const tl_command tl_sweep_command = {
+    "sweep",
+    "move a ball, capsule or box through a baked file or a level",
+    "FILE X,Y,Z DX,DY,DZ [options]\nFILE --sweeps SWEEPS|- [options]",
+    "Moves a shape from a point by a motion, and finds the first triangle that it meets. FILE is a baked\n"
+    "file, or a level, which is then baked in memory.\n\n"
+    "SWEEPS holds a line each: x y z dx dy dz. The answer is a line each, in order: t triangle x y z nx ny\n"
+    "nz, or free; t is the share of the motion that is free, then come the point of contact and the normal\n"
+    "towards the shape. A shape that overlaps the level at the start has t 0 and one number more: how far\n"
+    "it must be moved along the normal. A single sweep that is free ends with exit code 1.",
+    "talus sweep courtyard.talus 20,10,20 0,-10,0 --radius 0.4\n"
+    "talus sweep courtyard.talus 2,5.5,20 36,0,0 --radius 0.4 --height 1.8 --json\n"
+    "echo '20 10 20 0 -10 0' | talus sweep courtyard.obj --sweeps - --half 0.5,0.5,0.5",
+    run,
+};

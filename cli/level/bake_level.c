@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+//
+// The soup takes the source's triangles, so that rays report the source's indices; navmesh and hull take the cleaned
+// mesh.
+
+#include "cli/level/bake_level.h"
+
+#include "cli/level/polygonize_compare.h"
+#include "cli/shared/parse_value.h"
+
+#include <string.h>
+
+tl_bake_settings tl_default_bake_settings(void)
+{
+    tl_bake_settings settings;
+    memset(&settings, 0, sizeof(settings));
+    settings.level = tl_default_level_settings();
+    settings.soup = true;
+    settings.nav = true;
+    settings.nav_def = tl_default_nav_def();
+    settings.links_def = tl_default_nav_links_def();
+    settings.partition = (int)settings.nav_def.partition;
+    settings.polygon_method = (int)settings.nav_def.polygon_method;
+    return settings;
+}
+
+tl_nav_def tl_bake_nav_def(const tl_bake_settings *settings)
+{
+    tl_nav_def def = settings->nav_def;
+    def.partition = (tl_nav_partition)settings->partition;
+    def.polygon_method = (tl_partition_method)settings->polygon_method;
+    return def;
+}
+
+void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS])
+{
+    static const char *const partitions[] = { "watershed", "monotone", "layers", NULL };
+    tl_nav_def *d = &settings->nav_def;
+    const float huge = 1e6f;
+    const tl_option options[TL_NAV_OPTIONS] = {
+        { "cell-size", 0, TL_OPTION_FLOAT, &d->cell_size, "M", "metres: edge of a voxel on x and z", NULL, 1e-6f, huge,
+          0, 0 },
+        { "cell-height", 0, TL_OPTION_FLOAT, &d->cell_height, "M", "metres: height of a voxel", NULL, 1e-6f, huge, 0,
+          0 },
+        { "agent-height", 0, TL_OPTION_FLOAT, &d->agent_height, "M", "metres: free height that an agent needs", NULL,
+          1e-6f, huge, 0, 0 },
+        { "agent-radius", 0, TL_OPTION_FLOAT, &d->agent_radius, "M", "metres: distance kept from walls", NULL, 0, huge,
+          0, 0 },
+        { "agent-max-climb", 0, TL_OPTION_FLOAT, &d->agent_max_climb, "M", "metres: highest step", NULL, 0, huge, 0,
+          0 },
+        { "agent-max-slope", 0, TL_OPTION_FLOAT, &d->agent_max_slope, "DEG", "degrees: steepest walkable slope", NULL,
+          0, 89.9f, 0, 0 },
+        { "partition", 0, TL_OPTION_CHOICE, &settings->partition, NULL, "how floors are divided into regions",
+          partitions, 0, 0, 0, 0 },
+        { "polygons", 0, TL_OPTION_CHOICE, &settings->polygon_method, NULL, "how contours are divided into polygons",
+          tl_partition_method_names, 0, 0, 0, 0 },
+        { "tile-size", 0, TL_OPTION_COUNT, &d->tile_size, "CELLS",
+          "bake in square tiles of that many cells, on all threads; 0: one tile", NULL, 0, 0, 0, 1u << 20 },
+        { "tile-height", 0, TL_OPTION_FLOAT, &d->tile_height, "M",
+          "metres: floors of a tile are divided into layers of that height, tiles of their own; 0: they are not", NULL,
+          0, huge, 0, 0 },
+        { "region-min-size", 0, TL_OPTION_FLOAT, &d->region_min_size, "CELLS",
+          "islands of less than its square are dropped", NULL, 0, 1e4f, 0, 0 },
+        { "region-merge-size", 0, TL_OPTION_FLOAT, &d->region_merge_size, "CELLS",
+          "regions of less than its square are merged", NULL, 0, 1e4f, 0, 0 },
+        { "edge-max-len", 0, TL_OPTION_FLOAT, &d->edge_max_len, "M", "metres: longest edge along a wall; 0: any", NULL,
+          0, huge, 0, 0 },
+        { "edge-max-error", 0, TL_OPTION_FLOAT, &d->edge_max_error, "CELLS", "how far a contour may be straightened",
+          NULL, 0, 1e3f, 0, 0 },
+        { "max-verts-per-poly", 0, TL_OPTION_COUNT, &d->max_verts_per_poly, "N", "corners of a polygon at most", NULL,
+          0, 0, 3, 64 },
+        { "detail-sample-dist", 0, TL_OPTION_FLOAT, &d->detail_sample_dist, "CELLS",
+          "spacing of height samples; below 0.9: none", NULL, 0, 1e4f, 0, 0 },
+        { "detail-sample-max-error", 0, TL_OPTION_FLOAT, &d->detail_sample_max_error, "VOXELS",
+          "how far heights may be off, in cell heights", NULL, 0, 1e4f, 0, 0 },
+        { "bounds", 0, TL_OPTION_TEXT, &settings->bounds, "X,Y,Z,X,Y,Z",
+          "metres: lowest and highest corner of what is built (the level's own)", NULL, 0, 0, 0, 0 },
+        { "area", 0, TL_OPTION_TEXTS, &settings->areas.words, "NAME=ID",
+          "triangles of the material NAME (* and ? stand for others) get area ID, 0 to 255; 0 is not walkable, 63 is "
+          "what "
+          "all have else; may be given again",
+          NULL, 0, 0, 0, 0 },
+        { "areas", 0, TL_OPTION_TEXT, &settings->areas.path, "FILE",
+          "lines 'material ID NAME', 'box ID x y z x y z', 'cylinder ID x y z radius height', 'prism ID low high x z x "
+          "z "
+          "x z ...'",
+          NULL, 0, 0, 0, 0 },
+        { "reachable-from", 0, TL_OPTION_TEXTS, &settings->seeds, "X,Y,Z",
+          "a place where agents are: islands without one are left out; may be given again", NULL, 0, 0, 0, 0 },
+        { "drop-inside-solids", 0, TL_OPTION_FLAG, &settings->drop_inside, NULL,
+          "islands inside closed parts of the level are left out", NULL, 0, 0, 0, 0 },
+        { "island-min-area", 0, TL_OPTION_FLOAT, &settings->min_island_area, "M2",
+          "square metres: smaller islands, over all tiles, are left out", NULL, 0, huge, 0, 0 },
+        { "no-filter-low-hanging-obstacles", 0, TL_OPTION_UNFLAG, &d->filter_low_hanging_obstacles, NULL,
+          "kerbs and steps stay obstacles", NULL, 0, 0, 0, 0 },
+        { "no-filter-ledge-spans", 0, TL_OPTION_UNFLAG, &d->filter_ledge_spans, NULL, "ledges stay walkable", NULL, 0,
+          0, 0, 0 },
+        { "no-filter-walkable-low-height-spans", 0, TL_OPTION_UNFLAG, &d->filter_walkable_low_height_spans, NULL,
+          "low places stay walkable", NULL, 0, 0, 0, 0 },
+        TL_OPTION_TABLE_END,
+    };
+    memcpy(table, options, sizeof(options));
+}
+
+void tl_part_options(tl_bake_settings *settings, tl_option table[TL_PART_OPTIONS])
+{
+    static const char *const layouts[] = { "fast", "compact", NULL };
+    const tl_option options[TL_PART_OPTIONS] = {
+        { "soup-layout", 0, TL_OPTION_CHOICE, &settings->soup_layout, NULL,
+          "what rays need: fast, or in half of the memory; the same answers", layouts, 0, 0, 0, 0 },
+        { "no-soup", 0, TL_OPTION_UNFLAG, &settings->soup, NULL, "leave out what rays need", NULL, 0, 0, 0, 0 },
+        { "no-nav", 0, TL_OPTION_UNFLAG, &settings->nav, NULL, "leave out the navmesh", NULL, 0, 0, 0, 0 },
+        { "hull", 0, TL_OPTION_FLAG, &settings->hull, NULL, "add the convex hull of all vertices", NULL, 0, 0, 0, 0 },
+        { "links", 0, TL_OPTION_FLAG, &settings->links, NULL, "add drops, jumps and climbs to the navmesh", NULL, 0, 0,
+          0, 0 },
+        TL_OPTION_TABLE_END,
+    };
+    memcpy(table, options, sizeof(options));
+}
+
+bool tl_bake_take_bounds(tl_cli *cli, tl_bake_settings *settings, tl_exit *exit_out)
+{
+    if (settings->bounds == NULL) {
+        return true;
+    }
+    float v[6];
+    const char *reason = tl_parse_float_list(settings->bounds, v, 6, 6, NULL);
+    if (reason == NULL && !(v[0] < v[3] && v[1] < v[4] && v[2] < v[5])) {
+        reason = "is empty: give the lowest corner first";
+    }
+    if (reason != NULL) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--bounds: '%s' %s", settings->bounds, reason);
+        return false;
+    }
+    settings->nav_def.bounds.min = tl_vec3_make(v[0], v[1], v[2]);
+    settings->nav_def.bounds.max = tl_vec3_make(v[3], v[4], v[5]);
+    return true;
+}
+
+static bool bake_soup(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
+                      tl_exit *exit_out)
+{
+    tl_mesh_view view = tl_level_source_view(level);
+    tl_soup_def def = tl_default_soup_def();
+    def.layout = (tl_soup_layout)settings->soup_layout;
+    def.host = cli->host;
+    tl_result result = tl_soup_build(&view, &def, &bake->soup, &bake->soup_report);
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(cli, level->path, result, &bake->soup_report.base);
+    }
+    return result == TL_OK;
+}
+
+// A flat level has no hull, which is worth a word but no reason to give up the rest.
+static bool bake_hull(tl_cli *cli, const tl_level *level, tl_bake *bake, tl_exit *exit_out)
+{
+    tl_hull_def def = tl_default_hull_def();
+    tl_hull_report report;
+    def.host = cli->host;
+    bake->hull_result = tl_hull_build(level->mesh.vertices, level->mesh.vertex_count, &def, &bake->hull, &report);
+    switch (bake->hull_result) {
+    case TL_OK:
+        return true;
+    case TL_ERR_COINCIDENT:
+    case TL_ERR_COLLINEAR:
+    case TL_ERR_COPLANAR:
+        tl_cli_warn(cli, "%s: no hull: %s", level->path, tl_result_text(bake->hull_result));
+        return true;
+    default:
+        *exit_out = tl_cli_fail_result(cli, level->path, bake->hull_result, &report.base);
+        return false;
+    }
+}
+
+static bool fail_prune(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings,
+                       const tl_nav_prune_def *def, tl_result result, const tl_report *report, tl_exit *exit_out)
+{
+    if (result == TL_ERR_NOT_FOUND && report->element_index < settings->seeds.count) {
+        const tl_vec3 e = def->seed_extents;
+        *exit_out = tl_cli_fail(cli, TL_EXIT_DATA,
+                                "%s: --reachable-from %s: there is no navmesh within %g m, and %g m up or down",
+                                level->path, settings->seeds.words[report->element_index], (double)e.x, (double)e.y);
+    } else {
+        *exit_out = tl_cli_fail_result(cli, level->path, result, report);
+    }
+    return false;
+}
+
+static bool prune_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
+                      tl_exit *exit_out)
+{
+    tl_vec3 seeds[TL_MAX_OPTION_TEXTS];
+    for (uint32_t i = 0; i < settings->seeds.count; i++) {
+        const char *word = settings->seeds.words[i], *reason = tl_parse_point_value(word, &seeds[i]);
+        if (reason != NULL) {
+            *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--reachable-from: '%s' %s; give x,y,z", word, reason);
+            return false;
+        }
+    }
+    const bool asked = settings->seeds.count > 0 || settings->drop_inside || settings->min_island_area > 0.0f;
+    if (!asked || bake->tiles.tile_count == 0) {
+        return true;
+    }
+    const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
+    tl_nav_prune_def def = tl_default_nav_prune_def();
+    def.seeds = seeds;
+    def.seed_count = settings->seeds.count;
+    def.solids = settings->drop_inside ? &mesh : NULL;
+    def.min_area = (double)settings->min_island_area;
+    def.host = cli->host;
+    const tl_result result = tl_nav_prune(&def, &bake->tiles, &bake->pruned);
+    return result == TL_OK || fail_prune(cli, level, settings, &def, result, &bake->pruned.base, exit_out);
+}
+
+static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
+                     tl_exit *exit_out)
+{
+    tl_level_areas areas;
+    if (!tl_level_areas_make(cli, level, &settings->areas, &areas, exit_out)) {
+        tl_level_areas_free(&areas);
+        return false;
+    }
+    const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
+    const tl_nav_input input = tl_level_areas_input(&areas, &mesh);
+    bake->nav_def = tl_bake_nav_def(settings);
+    bake->nav_def.host = cli->host;
+    bake->nav_bounds = tl_aabb_is_empty(bake->nav_def.bounds) ? level->mesh.bounds : bake->nav_def.bounds;
+    tl_result result = tl_nav_build(&bake->nav_def, &input, &bake->tiles, &bake->nav_report);
+    if (result == TL_OK && input.volume_count > 0) {
+        result = tl_pack_marks_create(input.volumes, input.volume_count, NULL, &bake->marks);
+    }
+    tl_level_areas_free(&areas);
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(cli, level->path, result, &bake->nav_report.base);
+        return false;
+    }
+    if (!prune_nav(cli, level, settings, bake, exit_out)) {
+        return false;
+    }
+    bake->walkable = bake->tiles.tile_count > 0;
+    for (uint32_t i = 0; i < bake->tiles.tile_count; ++i) {
+        bake->nav_area += bake->tiles.tiles[i]->area;
+        bake->nav_polygons += bake->tiles.tiles[i]->polygon_count;
+        tl_area_sums_add(&bake->areas, bake->tiles.tiles[i]);
+    }
+    return true;
+}
+
+static bool bake_links(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
+                       tl_exit *exit_out)
+{
+    tl_navmesh *navmesh;
+    tl_result result = tl_navmesh_create(NULL, &navmesh);
+    for (uint32_t i = 0; i < bake->tiles.tile_count && result == TL_OK; ++i) {
+        result = tl_navmesh_add_tile(navmesh, bake->tiles.tiles[i], TL_NAV_TILE_BORROWED);
+    }
+    bool ok = result == TL_OK;
+    if (!ok) {
+        *exit_out = tl_cli_fail_result(cli, level->path, result, NULL);
+    }
+    ok = ok && tl_level_links_find(cli, level->path, &settings->links_def, navmesh, bake->soup, &bake->links,
+                                   &bake->links_report, exit_out);
+    tl_navmesh_free(navmesh);
+    return ok;
+}
+
+bool tl_bake_level(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake_out,
+                   tl_exit *exit_out)
+{
+    memset(bake_out, 0, sizeof(*bake_out));
+    return (!settings->soup || bake_soup(cli, level, settings, bake_out, exit_out)) &&
+           (!settings->hull || bake_hull(cli, level, bake_out, exit_out)) &&
+           (!settings->nav || bake_nav(cli, level, settings, bake_out, exit_out)) &&
+           (!settings->links || !settings->soup || !bake_out->walkable ||
+            bake_links(cli, level, settings, bake_out, exit_out));
+}
+
+void tl_bake_free(tl_bake *bake)
+{
+    tl_blob_free(bake->soup, NULL);
+    tl_blob_free(bake->hull, NULL);
+    tl_blob_free(bake->links, NULL);
+    tl_blob_free(bake->marks, NULL);
+    tl_nav_tiles_free(&bake->tiles, NULL);
+    memset(bake, 0, sizeof(*bake));
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+//
+// Two views of one level: the cleaned mesh, which the navmesh is built from, and the source's own triangle list, whose
+// indices rays must report. Without welding the second is the file as read; with it, the welded vertices are put back
+// under the source's triangles.
+
+#include "cli/level/load_level.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+tl_level_settings tl_default_level_settings(void)
+{
+    tl_level_settings settings = { TL_UP_Y, 1.0f, 0.0f };
+    return settings;
+}
+
+void tl_level_options(tl_level_settings *settings, tl_option table[TL_LEVEL_OPTIONS])
+{
+    static const char *const axes[] = { "y", "z", NULL };
+    const tl_option options[TL_LEVEL_OPTIONS] = {
+        { "up", 0, TL_OPTION_CHOICE, &settings->up, NULL, "the file's axis that points up; z is turned to y", axes, 0,
+          0, 0, 0 },
+        { "scale", 0, TL_OPTION_FLOAT, &settings->scale, "S", "metres a file unit: 0.01 for centimetres", NULL, 1e-9f,
+          1e9f, 0, 0 },
+        { "weld", 0, TL_OPTION_FLOAT, &settings->weld, "M", "metres: vertices this close become one", NULL, 0.0f, 1e6f,
+          0, 0 },
+        TL_OPTION_TABLE_END,
+    };
+    memcpy(table, options, sizeof(options));
+}
+
+tl_import_options tl_level_import_options(const tl_cli *cli, const tl_level_settings *settings)
+{
+    tl_import_options options = tl_default_import_options();
+    options.up_axis = (tl_up_axis)settings->up;
+    options.unit_scale = settings->scale;
+    options.host = cli->host;
+    return options;
+}
+
+// The mesh report names elements of the import; a vertex or triangle is easier found by its line.
+static tl_exit fail_mesh(tl_cli *cli, const tl_level *level, tl_result result)
+{
+    const tl_report *report = &level->report.base;
+    const tl_imported_mesh *imported = &level->imported;
+    bool triangle = report->element != NULL && strcmp(report->element, "triangle") == 0 &&
+                    report->element_index < imported->triangle_count;
+    if (triangle && imported->source_lines != NULL && imported->source_lines[report->element_index] > 0) {
+        char place[TL_IO_PATH_BYTES + 16];
+        snprintf(place, sizeof(place), "%s:%u", level->path, imported->source_lines[report->element_index]);
+        return tl_cli_fail_result(cli, place, result, report);
+    }
+    if (result == TL_ERR_EMPTY) {
+        return tl_cli_fail(
+            cli, TL_EXIT_DATA,
+            "%s: none of the %u triangles has area, so there is nothing to stand on or to hit; check the "
+            "export, or its --scale",
+            level->path, imported->triangle_count);
+    }
+    return tl_cli_fail_result(cli, level->path, result, report);
+}
+
+static bool restore_source(tl_level *level)
+{
+    const tl_mesh *mesh = &level->mesh;
+    size_t corners = 3 * (size_t)level->imported.triangle_count;
+    level->source_indices = calloc(corners, sizeof(uint32_t));
+    if (level->source_indices == NULL) {
+        return false;
+    }
+    for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
+        memcpy(level->source_indices + 3 * (size_t)mesh->source_triangles[i], mesh->indices + 3 * (size_t)i,
+               3 * sizeof(uint32_t));
+    }
+    return true;
+}
+
+bool tl_level_load(tl_cli *cli, const char *path, const tl_level_settings *settings, tl_level *level_out,
+                   tl_exit *exit_out)
+{
+    memset(level_out, 0, sizeof(*level_out));
+    level_out->path = path;
+    tl_io_error error;
+    memset(&error, 0, sizeof(error));
+    tl_import_options options = tl_level_import_options(cli, settings);
+    if (tl_import_mesh(path, &options, &level_out->imported, &error) != TL_OK) {
+        *exit_out = tl_cli_fail_io(cli, &error);
+        return false;
+    }
+    tl_mesh_view view = tl_imported_mesh_as_view(&level_out->imported);
+    tl_mesh_def def = tl_default_mesh_def();
+    def.weld_tolerance = settings->weld;
+    def.host = cli->host;
+    tl_result result = tl_mesh_build(&view, &def, &level_out->mesh, &level_out->report);
+    if (result != TL_OK) {
+        *exit_out = fail_mesh(cli, level_out, result);
+        return false;
+    }
+    if (settings->weld > 0.0f && !restore_source(level_out)) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_MEMORY, "%s: out of memory", path);
+        return false;
+    }
+    return true;
+}
+
+void tl_level_free(tl_level *level)
+{
+    tl_imported_mesh_free(&level->imported);
+    tl_mesh_free(&level->mesh, NULL);
+    free(level->source_indices);
+    memset(level, 0, sizeof(*level));
+}
+
+tl_mesh_view tl_level_source_view(const tl_level *level)
+{
+    tl_mesh_view view = tl_imported_mesh_as_view(&level->imported);
+    if (level->source_indices != NULL) {
+        view.vertices = level->mesh.vertices;
+        view.vertex_count = level->mesh.vertex_count;
+        view.indices = level->source_indices;
+    }
+    return view;
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// A level from a file: imported, welded, cleaned, and counted.
+
+#ifndef TALUS_CLI_LOAD_LEVEL_H
+#define TALUS_CLI_LOAD_LEVEL_H
+
+#include "cli/shared/command.h"
+#include "io/mesh/mesh_import.h"
+
+#include <talus/mesh.h>
+
+/// How a level is to be read: the options that all commands share which take one.
+typedef struct tl_level_settings {
+    int up; ///< a tl_up_axis
+    float scale;
+    float weld;
+} tl_level_settings;
+
+enum { TL_LEVEL_OPTIONS = 4 };
+
+tl_level_settings tl_default_level_settings(void);
+/// Fills a table with the options that set `settings`.
+void tl_level_options(tl_level_settings *settings, tl_option table[TL_LEVEL_OPTIONS]);
+
+typedef struct tl_level {
+    const char *path;
+    tl_imported_mesh imported; ///< as it stands in the file
+    tl_mesh mesh;              ///< welded and cleaned
+    tl_mesh_report report;
+    uint32_t *source_indices; ///< with welding: the corners of every source triangle, 0 0 0 for those dropped
+} tl_level;
+
+/// False: the failure was reported, and `*exit_out` is the exit code. Free with tl_level_free, also then.
+bool tl_level_load(tl_cli *cli, const char *path, const tl_level_settings *settings, tl_level *level_out,
+                   tl_exit *exit_out);
+void tl_level_free(tl_level *level);
+
+/// All triangles of the file in the file's order, so that a triangle's index is its index in the source. Welded when
+/// the settings asked for it.
+tl_mesh_view tl_level_source_view(const tl_level *level);
+
+tl_import_options tl_level_import_options(const tl_cli *cli, const tl_level_settings *settings);
+
+#endif

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+//
+// A baked file is recognised by its name or its head; a damaged one must be refused as what it is, and never be tried
+// as a mesh.
+
+#include "cli/level/open_input.h"
+
+#include <string.h>
+
+enum { PROBE_BYTES = 4096 };
+
+static bool ends_with(const char *text, const char *end)
+{
+    size_t text_length = strlen(text);
+    size_t end_length = strlen(end);
+    return text_length >= end_length && strcmp(text + text_length - end_length, end) == 0;
+}
+
+bool tl_input_is_baked(const char *path)
+{
+    if (strcmp(path, "-") == 0) {
+        return false; // a stream can be read only once
+    }
+    if (ends_with(path, ".talus")) {
+        return true;
+    }
+    tl_file_map map;
+    tl_pack pack;
+    if (tl_file_map_open(path, 0, &map, NULL) != TL_OK) {
+        return false;
+    }
+    // An empty file has no magic either, but it is no baked file until its name says so.
+    bool baked = map.size >= sizeof(tl_blob) && tl_pack_open(map.bytes, map.size, &pack, NULL) != TL_ERR_MAGIC;
+    tl_file_map_close(&map);
+    return baked;
+}
+
+bool tl_input_open_baked(tl_cli *cli, const char *path, tl_input *input_out, tl_exit *exit_out)
+{
+    tl_io_error error;
+    memset(&error, 0, sizeof(error));
+    memset(input_out, 0, sizeof(*input_out));
+    input_out->path = path;
+    input_out->baked = true;
+    if (tl_file_map_open(path, 0, &input_out->map, &error) != TL_OK) {
+        *exit_out = tl_cli_fail_io(cli, &error);
+        return false;
+    }
+    tl_report report;
+    memset(&report, 0, sizeof(report));
+    report.element_index = TL_NO_ELEMENT;
+    tl_result result = tl_pack_open(input_out->map.bytes, input_out->map.size, &input_out->pack, &report);
+    if (result != TL_OK) {
+        report.advice =
+            result == TL_ERR_MAGIC ? "this is no file of 'talus bake'" : "copy it again, or bake the level again";
+        *exit_out = tl_cli_fail_result(cli, path, result, &report);
+    }
+    return result == TL_OK;
+}
+
+const void *tl_input_checked_chunk(const tl_input *input, uint32_t type, tl_result (*check)(const void *, uint64_t),
+                                   tl_result *result_out)
+{
+    tl_pack_chunk chunk;
+    *result_out = tl_pack_find(&input->pack, type, 0, &chunk);
+    if (*result_out == TL_OK) {
+        *result_out = check(chunk.bytes, chunk.size);
+    }
+    return *result_out == TL_OK ? chunk.bytes : NULL;
+}
+
+bool tl_input_open_soup(tl_cli *cli, const char *path, const tl_bake_settings *settings, tl_input *input_out,
+                        tl_exit *exit_out)
+{
+    if (tl_input_is_baked(path)) {
+        if (!tl_input_open_baked(cli, path, input_out, exit_out)) {
+            return false;
+        }
+        tl_result result;
+        input_out->soup = tl_input_checked_chunk(input_out, TL_PACK_SOUP, tl_soup_check, &result);
+        if (result == TL_ERR_NOT_FOUND) {
+            *exit_out =
+                tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no soup to cast rays at; bake it without --no-soup", path);
+        } else if (result != TL_OK) {
+            *exit_out = tl_cli_fail_result(cli, path, result, NULL);
+        }
+        return input_out->soup != NULL;
+    }
+    memset(input_out, 0, sizeof(*input_out));
+    input_out->path = path;
+    tl_bake_settings only_soup = *settings;
+    only_soup.soup = true;
+    only_soup.nav = false;
+    only_soup.hull = false;
+    bool ok = tl_level_load(cli, path, &settings->level, &input_out->level, exit_out) &&
+              tl_bake_level(cli, &input_out->level, &only_soup, &input_out->bake, exit_out);
+    input_out->soup = input_out->bake.soup;
+    tl_progress_end(&cli->progress);
+    return ok;
+}
+
+static bool nothing_walkable(tl_cli *cli, const char *path, tl_exit *exit_out)
+{
+    *exit_out = tl_cli_fail(
+        cli, TL_EXIT_DATA, "%s: nothing is walkable for this agent; check --scale and --up, or the agent's size", path);
+    return false;
+}
+
+bool tl_input_assemble_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out)
+{
+    tl_result result = tl_navmesh_create(NULL, &input->navmesh);
+    for (uint32_t i = 0; result == TL_OK && i < input->bake.tiles.tile_count; ++i) {
+        result = tl_navmesh_add_tile(input->navmesh, input->bake.tiles.tiles[i], TL_NAV_TILE_BORROWED);
+    }
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(cli, input->path, result, NULL);
+    }
+    return result == TL_OK;
+}
+
+static bool load_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out)
+{
+    tl_report report;
+    memset(&report, 0, sizeof(report));
+    report.element_index = TL_NO_ELEMENT;
+    tl_result result = tl_pack_load_navmesh(&input->pack, NULL, &input->navmesh, &report);
+    if (result == TL_ERR_NOT_FOUND) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no navmesh; bake it without --no-nav", input->path);
+    } else if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(cli, input->path, result, &report);
+    } else if (tl_navmesh_tile_count(input->navmesh) == 0) {
+        return nothing_walkable(cli, input->path, exit_out);
+    }
+    return result == TL_OK;
+}
+
+bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings *settings, tl_input *input_out,
+                           tl_exit *exit_out)
+{
+    if (tl_input_is_baked(path)) {
+        return tl_input_open_baked(cli, path, input_out, exit_out) && load_navmesh(cli, input_out, exit_out);
+    }
+    memset(input_out, 0, sizeof(*input_out));
+    input_out->path = path;
+    tl_bake_settings only_nav = *settings;
+    only_nav.soup = false;
+    only_nav.nav = true;
+    only_nav.hull = false;
+    bool ok = tl_level_load(cli, path, &settings->level, &input_out->level, exit_out) &&
+              tl_bake_level(cli, &input_out->level, &only_nav, &input_out->bake, exit_out);
+    tl_progress_end(&cli->progress);
+    if (ok && !input_out->bake.walkable) {
+        return nothing_walkable(cli, path, exit_out);
+    }
+    return ok && tl_input_assemble_navmesh(cli, input_out, exit_out);
+}
+
+void tl_input_close(tl_input *input)
+{
+    tl_navmesh_free(input->navmesh);
+    tl_bake_free(&input->bake);
+    tl_level_free(&input->level);
+    tl_file_map_close(&input->map);
+    memset(input, 0, sizeof(*input));
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+
+#include "cli/level/wide_route.h"
+
+#include <string.h>
+
+static tl_nav_path_status status_of(tl_nav_wide_status status)
+{
+    return status == TL_NAV_WIDE_COMPLETE       ? TL_NAV_PATH_COMPLETE
+           : status == TL_NAV_WIDE_OUT_OF_NODES ? TL_NAV_PATH_OUT_OF_NODES
+                                                : TL_NAV_PATH_UNREACHABLE;
+}
+
+tl_result tl_find_wide_route(tl_nav_query *query, const tl_navmesh *navmesh, float radius, tl_vec3 start, tl_vec3 goal,
+                             tl_vec3 half_extents, const tl_nav_route_buffers *buffers, tl_nav_route *route_out)
+{
+    const tl_vec3 ends[2] = { start, goal };
+    tl_nav_location *places[2] = { &route_out->start, &route_out->goal };
+    memset(route_out, 0, sizeof *route_out);
+    for (int i = 0; i < 2; i++) {
+        tl_nav_location near;
+        tl_result result = tl_navmesh_find_nearest(navmesh, NULL, ends[i], half_extents, &near);
+        if (result == TL_OK) {
+            result = tl_nav_query_find_wide_place(query, navmesh, NULL, radius, &near,
+                                                  tl_minf(half_extents.x, half_extents.z), places[i]);
+        }
+        if (result != TL_OK) {
+            return result;
+        }
+    }
+    tl_nav_wide_path path;
+    tl_result result = tl_nav_query_find_wide_path(query, navmesh, NULL, radius, &route_out->start, &route_out->goal,
+                                                   buffers->corners, buffers->corner_capacity, &path);
+    route_out->path.status = status_of(path.status);
+    route_out->corner_count = path.corner_count;
+    route_out->length = (float)path.surface_length;
+    if (path.corner_count == 0 && buffers->corner_capacity > 0) {
+        const tl_nav_corner stay = { route_out->start.point, route_out->start.polygon, TL_NAV_CORNER_START,
+                                     TL_NAV_NO_REF };
+        buffers->corners[0] = stay;
+        route_out->corner_count = 1;
+    }
+    return result;
+}

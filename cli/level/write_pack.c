@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+
+#include "cli/level/write_pack.h"
+
+#include "io/files/atomic_write.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+tl_result tl_pack_content_make(uint32_t most, tl_pack_content *content_out)
+{
+    memset(content_out, 0, sizeof(*content_out));
+    content_out->items = calloc(most, sizeof(*content_out->items));
+    return content_out->items != NULL ? TL_OK : TL_ERR_MEMORY;
+}
+
+void tl_pack_content_free(tl_pack_content *content)
+{
+    tl_blob_free(content->meta, NULL);
+    tl_blob_free(content->navmesh, NULL);
+    free(content->items);
+    memset(content, 0, sizeof(*content));
+}
+
+void tl_pack_content_add(tl_pack_content *content, uint32_t type, uint32_t id, const void *blob)
+{
+    if (blob != NULL) {
+        tl_pack_item item = { type, id, blob, ((const tl_blob *)blob)->size };
+        content->items[content->count++] = item;
+    }
+}
+
+const char *tl_pack_source_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash != NULL ? slash + 1 : path;
+}
+
+typedef struct file_sink {
+    tl_cli *cli;
+    tl_atomic_file *file;
+    tl_io_error error;
+    uint64_t total;
+} file_sink;
+
+static tl_result write_bytes(const void *bytes, size_t size, void *user)
+{
+    file_sink *sink = user;
+    tl_result result = tl_atomic_file_write(sink->file, bytes, size, &sink->error);
+    const tl_progress *progress = sink->cli->host.progress;
+    uint64_t done = tl_atomic_file_size(sink->file);
+    // The last step is left to the commit, which flushes to disk.
+    if (result == TL_OK &&
+        !progress->update("write", done < sink->total ? done : sink->total, sink->total + 1, progress->user)) {
+        result = TL_ERR_CANCELLED;
+    }
+    return result;
+}
+
+tl_exit tl_pack_content_write(tl_cli *cli, const char *output, const tl_pack_content *content, uint64_t *size_out)
+{
+    file_sink sink;
+    memset(&sink, 0, sizeof(sink));
+    sink.cli = cli;
+    sink.total = tl_pack_size(content->items, content->count);
+    *size_out = sink.total;
+    if (tl_atomic_file_open(output, &sink.file, &sink.error) != TL_OK) {
+        return tl_cli_fail_io(cli, &sink.error);
+    }
+    tl_result result = tl_pack_write(content->items, content->count, NULL, write_bytes, &sink, NULL);
+    if (result != TL_OK) {
+        tl_atomic_file_abort(sink.file);
+        return sink.error.result != TL_OK ? tl_cli_fail_io(cli, &sink.error)
+                                          : tl_cli_fail_result(cli, output, result, NULL);
+    }
+    if (tl_atomic_file_commit(sink.file, &sink.error) != TL_OK) {
+        return tl_cli_fail_io(cli, &sink.error);
+    }
+    const tl_progress *progress = cli->host.progress;
+    progress->update("write", sink.total + 1, sink.total + 1, progress->user);
+    return TL_EXIT_OK;
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+//
+// Blocks of lines: parsed in order, answered in chunks that each fill a text of their own, printed chunk by chunk.
+
+#include "cli/shared/batch.h"
+
+#include "cli/shared/interrupt.h"
+#include "cli/shared/line_input.h"
+#include "cli/shared/parse_value.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CHUNK_LINES = 128, BLOCK_CHUNKS = 64, BLOCK_LINES = CHUNK_LINES * BLOCK_CHUNKS };
+
+typedef struct question {
+    float numbers[TL_MAX_LINE_NUMBERS];
+    uint32_t count;
+} question;
+
+typedef struct block {
+    const tl_batch *batch;
+    uint32_t count;
+    question questions[BLOCK_LINES];
+    tl_text answers[BLOCK_CHUNKS];
+} block;
+
+static void answer_chunk(uint32_t index, uint32_t worker, void *user)
+{
+    block *b = user;
+    uint32_t end = (index + 1) * CHUNK_LINES < b->count ? (index + 1) * CHUNK_LINES : b->count;
+    for (uint32_t i = index * CHUNK_LINES; i < end; ++i) {
+        b->batch->answer(b->questions[i].numbers, b->questions[i].count, &b->answers[index], worker, b->batch->user);
+    }
+}
+
+// Answers and prints what the block holds, and empties it.
+static tl_exit answer_block(tl_cli *cli, block *b)
+{
+    uint32_t chunks = (b->count + CHUNK_LINES - 1) / CHUNK_LINES;
+    cli->host.tasks->run(answer_chunk, chunks, b, cli->host.tasks->user);
+    for (uint32_t i = 0; i < chunks; ++i) {
+        if (b->answers[i].failed) {
+            return tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
+        }
+        if (fwrite(b->answers[i].bytes, 1, b->answers[i].size, stdout) != b->answers[i].size) {
+            return tl_cli_fail(cli, TL_EXIT_IO, "cannot write standard output: %s", strerror(errno));
+        }
+        b->answers[i].size = 0;
+    }
+    b->count = 0;
+    return TL_EXIT_OK;
+}
+
+// Takes one line into the block. Comments and empty lines are none.
+static tl_exit take_line(tl_cli *cli, block *b, const tl_line_input *input, const char *line)
+{
+    const char *text = line + strspn(line, " \t");
+    if (*text == '\0' || *text == '#') {
+        return TL_EXIT_OK;
+    }
+    question *q = &b->questions[b->count];
+    const char *bad = NULL;
+    const char *reason = tl_parse_float_words(text, q->numbers, TL_MAX_LINE_NUMBERS, &q->count, &bad);
+    if (reason == NULL && q->count >= b->batch->least && q->count <= b->batch->most) {
+        b->count++;
+        return TL_EXIT_OK;
+    }
+    tl_exit code = answer_block(cli, b);
+    if (code != TL_EXIT_OK) {
+        return code;
+    }
+    if (reason != NULL) {
+        return tl_cli_fail(cli, TL_EXIT_DATA, "%s:%llu: '%.*s' %s; a line holds: %s", input->path,
+                           (unsigned long long)input->line, (int)strcspn(bad, " \t,"), bad, reason, b->batch->wanted);
+    }
+    return tl_cli_fail(cli, TL_EXIT_DATA, "%s:%llu: %u numbers found; a line holds: %s", input->path,
+                       (unsigned long long)input->line, q->count, b->batch->wanted);
+}
+
+static tl_exit run_lines(tl_cli *cli, block *b, tl_line_input *input)
+{
+    for (;;) {
+        if (tl_interrupted()) {
+            return tl_cli_fail(cli, TL_EXIT_CANCELLED, "cancelled");
+        }
+        tl_exit code = TL_EXIT_OK;
+        if (b->count == BLOCK_LINES) {
+            code = answer_block(cli, b);
+        } else if (tl_line_input_would_wait(input)) {
+            code = answer_block(cli, b);
+            fflush(stdout);
+        }
+        if (code != TL_EXIT_OK) {
+            return code;
+        }
+        char *line;
+        tl_io_error error;
+        memset(&error, 0, sizeof(error));
+        tl_result result = tl_line_input_next(input, &line, &error);
+        if (result == TL_ERR_NOT_FOUND) {
+            return answer_block(cli, b);
+        }
+        if (result != TL_OK) {
+            code = answer_block(cli, b);
+            return code != TL_EXIT_OK ? code : tl_cli_fail_io(cli, &error);
+        }
+        code = take_line(cli, b, input, line);
+        if (code != TL_EXIT_OK) {
+            return code;
+        }
+    }
+}
+
+static tl_exit answer_one(tl_cli *cli, const tl_batch *batch, const float *numbers)
+{
+    tl_text text;
+    memset(&text, 0, sizeof(text));
+    const bool yes = batch->answer(numbers, batch->least, &text, 0, batch->user);
+    const tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory")
+                         : yes       ? TL_EXIT_OK
+                                     : TL_EXIT_NEGATIVE;
+    fwrite(text.bytes, 1, text.size, stdout);
+    tl_text_free(&text);
+    return code;
+}
+
+static tl_exit answer_lines(tl_cli *cli, const tl_batch *batch)
+{
+    tl_io_error error;
+    memset(&error, 0, sizeof(error));
+    tl_line_input input;
+    if (tl_line_input_open(batch->path, &input, &error) != TL_OK) {
+        return tl_cli_fail_io(cli, &error);
+    }
+    tl_exit code = TL_EXIT_MEMORY;
+    block *b = calloc(1, sizeof(*b));
+    if (b != NULL) {
+        b->batch = batch;
+        tl_progress_end(&cli->progress);
+        code = run_lines(cli, b, &input);
+        for (uint32_t i = 0; i < BLOCK_CHUNKS; ++i) {
+            tl_text_free(&b->answers[i]);
+        }
+        free(b);
+    } else {
+        tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
+    }
+    tl_line_input_close(&input);
+    return code;
+}
+
+tl_exit tl_batch_run(tl_cli *cli, const tl_batch *batch, const float *numbers)
+{
+    return batch->path != NULL ? answer_lines(cli, batch) : answer_one(cli, batch, numbers);
+}

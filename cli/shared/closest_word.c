@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+//
+// Optimal string alignment: Levenshtein's table with one more move for two letters in the wrong order, the most common
+// slip of all. Source: Damerau, A Technique for Computer Detection and Correction of Spelling Errors, CACM 1964.
+
+#include "cli/shared/closest_word.h"
+
+#include <string.h>
+
+static unsigned smaller(unsigned a, unsigned b)
+{
+    return a < b ? a : b;
+}
+
+unsigned tl_word_distance(const char *a, const char *b)
+{
+    size_t a_length = strnlen(a, TL_MAX_WORD_BYTES);
+    size_t b_length = strnlen(b, TL_MAX_WORD_BYTES);
+    unsigned rows[3][TL_MAX_WORD_BYTES + 1]; // row i of the table is rows[i % 3]
+    for (size_t j = 0; j <= b_length; ++j) {
+        rows[0][j] = (unsigned)j;
+    }
+    for (size_t i = 1; i <= a_length; ++i) {
+        unsigned *row = rows[i % 3];
+        const unsigned *above = rows[(i + 2) % 3];
+        const unsigned *two_above = rows[(i + 1) % 3];
+        row[0] = (unsigned)i;
+        for (size_t j = 1; j <= b_length; ++j) {
+            unsigned exchanged = above[j - 1] + (a[i - 1] != b[j - 1]);
+            row[j] = smaller(exchanged, smaller(above[j], row[j - 1]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                row[j] = smaller(row[j], two_above[j - 2] + 1);
+            }
+        }
+    }
+    return rows[a_length % 3][b_length];
+}
+
+int tl_word_is_near(const char *word, unsigned distance)
+{
+    return distance <= 1 + strlen(word) / 5;
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+//
+// What every subcommand shares: its entry in the table, the common options, the host it lends to builds, the form of
+// its errors, and the exit codes.
+//
+// A command is one file that defines `const tl_command tl_NAME_command`, and one line in command_table.c.
+
+#ifndef TALUS_CLI_COMMAND_H
+#define TALUS_CLI_COMMAND_H
+
+#include "cli/shared/options.h"
+#include "cli/shared/progress.h"
+#include "cli/shared/thread_pool.h"
+#include "io/files/io_error.h"
+
+#include <talus/base.h>
+
+/// How the program ends. Documented in docs/command.md.
+typedef enum tl_exit {
+    TL_EXIT_OK = 0,
+    TL_EXIT_NEGATIVE = 1,   ///< the answer is no: check found faults; a single ray misses; a single path does not exist
+    TL_EXIT_USAGE = 2,      ///< the command line is wrong
+    TL_EXIT_DATA = 3,       ///< the input's content is wrong
+    TL_EXIT_IO = 4,         ///< a file cannot be found, read or written
+    TL_EXIT_MEMORY = 5,     ///< out of memory
+    TL_EXIT_CANCELLED = 130 ///< Ctrl-C; nothing was written
+} tl_exit;
+
+typedef struct tl_cli tl_cli;
+
+typedef struct tl_command {
+    const char *name;
+    const char *summary;  ///< one line of `talus --help`
+    const char *usage;    ///< words after the command's name; alternatives on lines of their own
+    const char *text;     ///< what it does, formats included; ends without line end
+    const char *examples; ///< lines that can be typed, one each
+    tl_exit (*run)(tl_cli *cli);
+} tl_command;
+
+/// All commands, `count_out` of them.
+const tl_command *const *tl_command_table(uint32_t *count_out);
+
+/// What a running command has at hand.
+struct tl_cli {
+    const tl_command *command;
+    int argc; ///< from the command's name on
+    const char *const *argv;
+    bool json;              ///< --json
+    tl_arguments arguments; ///< the words that are no options
+    tl_progress_display progress;
+    uint32_t threads; ///< --threads
+    tl_thread_pool *pool;
+    tl_host host; ///< for builds: tasks and progress
+};
+
+/// Runs a command from its name on: argv[0] is the name. Sets up, runs, cleans up, and makes sure that standard output
+/// was taken.
+tl_exit tl_command_run(const tl_command *command, int argc, const char *const *argv);
+
+/// Parses the command line with the command's own groups (NULL-ended, may be NULL) and the common options, and sets up
+/// host and progress. False: `*exit_out` says how to end (help was printed, or an error). Between `least` and `most`
+/// words must be there.
+bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t least, uint32_t most, tl_exit *exit_out);
+
+/// Ends the progress line, prints "talus NAME: message" to standard error, and returns `code`.
+tl_exit tl_cli_fail(tl_cli *cli, tl_exit code, const char *format, ...) TL_IO_PRINTF(3, 4);
+/// The same for a message that is not the end.
+void tl_cli_warn(tl_cli *cli, const char *format, ...) TL_IO_PRINTF(2, 3);
+
+/// A failure of io: "file:line: message; advice".
+tl_exit tl_cli_fail_io(tl_cli *cli, const tl_io_error *error);
+/// A failure of a build or check: "path: element index: text; advice". `path` may be NULL; `report` too.
+tl_exit tl_cli_fail_result(tl_cli *cli, const char *path, tl_result result, const tl_report *report);
+tl_exit tl_exit_of(tl_result result);
+
+/// Reads word number `word` as X,Y,Z. False: reported; `what` names it ("point", "goal").
+bool tl_cli_read_triple(tl_cli *cli, uint32_t word, const char *what, float numbers_out[3], tl_exit *exit_out);
+
+#endif

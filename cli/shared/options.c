@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+//
+// popt splits the command line into options and words; every value is read here as text, so that messages name the
+// option, the value and the range. The help is printed from the same tables, because popt's own shows no defaults of
+// values that it does not parse.
+
+#include "cli/shared/options.h"
+
+#include "cli/shared/closest_word.h"
+#include "cli/shared/parse_value.h"
+
+#include <popt.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_OPTIONS = 96, HELP_VALUE = MAX_OPTIONS + 1, HELP_COLUMN = 34, HELP_WIDTH = 104 };
+
+// What parsed words and texts point into.
+typedef struct storage {
+    poptContext context;
+    const char **argv;
+    char **copies; // words that were changed before popt saw them
+    int copy_count;
+    char **values;
+    int value_count;
+} storage;
+
+// "-1,2,3" and "-.5" are values; no option begins with a digit. A leading blank hides them from popt, and number
+// parsing skips it.
+static bool is_negative_number(const char *word)
+{
+    return word[0] == '-' && ((word[1] >= '0' && word[1] <= '9') || (word[1] == '.' && word[2] != '\0'));
+}
+
+static storage *make_storage(int argc, const char *const *argv)
+{
+    storage *s = calloc(1, sizeof(*s));
+    if (s == NULL) {
+        return NULL;
+    }
+    s->argv = calloc((size_t)argc + 1, sizeof(*s->argv));
+    s->copies = calloc((size_t)argc + 1, sizeof(*s->copies));
+    s->values = calloc((size_t)argc + 1, sizeof(*s->values));
+    if (s->argv == NULL || s->copies == NULL || s->values == NULL) {
+        return s;
+    }
+    for (int i = 0; i < argc; ++i) {
+        s->argv[i] = argv[i];
+        if (i > 0 && is_negative_number(argv[i])) {
+            size_t length = strlen(argv[i]);
+            char *copy = malloc(length + 2);
+            if (copy != NULL) {
+                copy[0] = ' ';
+                memcpy(copy + 1, argv[i], length + 1);
+                s->copies[s->copy_count++] = copy;
+                s->argv[i] = copy;
+            }
+        }
+    }
+    return s;
+}
+
+void tl_arguments_free(tl_arguments *arguments)
+{
+    storage *s = arguments->storage;
+    if (s == NULL) {
+        return;
+    }
+    poptFreeContext(s->context);
+    for (int i = 0; i < s->copy_count; ++i) {
+        free(s->copies[i]);
+    }
+    for (int i = 0; i < s->value_count; ++i) {
+        free(s->values[i]);
+    }
+    free(s->argv);
+    free(s->copies);
+    free(s->values);
+    free(s);
+    arguments->storage = NULL;
+}
+
+// Flattens the groups; popt's table and `flat` run in step.
+static int flatten(const tl_option_group *groups, const tl_option **flat, struct poptOption *table)
+{
+    int count = 0;
+    for (; groups->title != NULL; ++groups) {
+        for (const tl_option *option = groups->options; option->name != NULL && count < MAX_OPTIONS; ++option) {
+            bool flag = option->kind == TL_OPTION_FLAG || option->kind == TL_OPTION_UNFLAG;
+            struct poptOption entry = { option->name, option->letter, flag ? POPT_ARG_NONE : POPT_ARG_STRING,
+                                        NULL,         count + 1,      NULL,
+                                        NULL };
+            flat[count] = option;
+            table[count++] = entry;
+        }
+    }
+    struct poptOption help = { "help", 'h', POPT_ARG_NONE, NULL, HELP_VALUE, NULL, NULL };
+    struct poptOption end = POPT_TABLEEND;
+    table[count] = help;
+    table[count + 1] = end;
+    return count;
+}
+
+static const char *skip_marker(const char *value)
+{
+    return value[0] == ' ' && is_negative_number(value + 1) ? value + 1 : value;
+}
+
+static bool refuse(tl_arguments *arguments, const tl_option *option, const char *value, const char *reason)
+{
+    snprintf(arguments->message, sizeof(arguments->message), "--%s: '%s' %s", option->name, skip_marker(value), reason);
+    return false;
+}
+
+static bool set_float(tl_arguments *arguments, const tl_option *option, const char *value)
+{
+    float number = 0.0f;
+    const char *reason = tl_parse_float_value(value, &number);
+    if (reason != NULL) {
+        return refuse(arguments, option, value, reason);
+    }
+    if (number < option->min || number > option->max) {
+        char range[96];
+        snprintf(range, sizeof(range), "is out of range; use %.9g to %.9g", (double)option->min, (double)option->max);
+        return refuse(arguments, option, value, range);
+    }
+    *(float *)option->target = number;
+    return true;
+}
+
+static bool set_count(tl_arguments *arguments, const tl_option *option, const char *value)
+{
+    uint32_t most = option->most != 0 ? option->most : UINT32_MAX - 1;
+    uint64_t number = 0;
+    const char *reason = tl_parse_count_value(value, most, &number);
+    if (reason == NULL && number < option->least) {
+        reason = "is too small";
+    }
+    if (reason != NULL) {
+        char range[96];
+        snprintf(range, sizeof(range), "%s; use %u to %u", reason, option->least, most);
+        return refuse(arguments, option, value, range);
+    }
+    *(uint32_t *)option->target = (uint32_t)number;
+    return true;
+}
+
+static bool set_choice(tl_arguments *arguments, const tl_option *option, const char *value)
+{
+    char list[256] = "is not one of";
+    for (int i = 0; option->words[i] != NULL; ++i) {
+        if (strcmp(option->words[i], value) == 0) {
+            *(int *)option->target = i;
+            return true;
+        }
+        size_t used = strlen(list);
+        snprintf(list + used, sizeof(list) - used, "%s %s", i > 0 ? "," : "", option->words[i]);
+    }
+    return refuse(arguments, option, value, list);
+}
+
+static bool add_text(tl_arguments *arguments, const tl_option *option, const char *value)
+{
+    tl_option_texts *texts = option->target;
+    if (texts->count == TL_MAX_OPTION_TEXTS) {
+        return refuse(arguments, option, value, "is one too many; put them into a file");
+    }
+    texts->words[texts->count++] = skip_marker(value);
+    return true;
+}
+
+static bool set_value(tl_arguments *arguments, const tl_option *option, const char *value)
+{
+    uint64_t number = 0;
+    const char *reason;
+    switch (option->kind) {
+    case TL_OPTION_FLAG:
+        *(bool *)option->target = true;
+        return true;
+    case TL_OPTION_UNFLAG:
+        *(bool *)option->target = false;
+        return true;
+    case TL_OPTION_FLOAT:
+        return set_float(arguments, option, value);
+    case TL_OPTION_COUNT:
+    case TL_OPTION_NEEDED_COUNT:
+        return set_count(arguments, option, value);
+    case TL_OPTION_NUMBER:
+        reason = tl_parse_count_value(value, UINT64_MAX, &number);
+        if (reason != NULL) {
+            return refuse(arguments, option, value, reason);
+        }
+        *(uint64_t *)option->target = number;
+        return true;
+    case TL_OPTION_CHOICE:
+        return set_choice(arguments, option, value);
+    case TL_OPTION_TEXTS:
+        return add_text(arguments, option, value);
+    default:
+        *(const char **)option->target = skip_marker(value);
+        return true;
+    }
+}
+
+static void explain_bad_option(tl_arguments *arguments, const storage *s, int code, const tl_option *const *flat,
+                               int count)
+{
+    const char *bad = poptBadOption(s->context, POPT_BADOPTION_NOALIAS);
+    const tl_option *nearest = NULL;
+    unsigned best = ~0u;
+    for (int i = 0; code == POPT_ERROR_BADOPT && i < count; ++i) {
+        const char *word = bad + strspn(bad, "-");
+        unsigned distance = tl_word_distance(word, flat[i]->name);
+        if (distance < best && tl_word_is_near(word, distance)) {
+            best = distance;
+            nearest = flat[i];
+        }
+    }
+    if (nearest != NULL) {
+        snprintf(arguments->message, sizeof(arguments->message), "%s is no option; did you mean --%s?", bad,
+                 nearest->name);
+    } else if (code == POPT_ERROR_BADOPT) {
+        snprintf(arguments->message, sizeof(arguments->message), "%s is no option", bad);
+    } else {
+        snprintf(arguments->message, sizeof(arguments->message), "%s: %s", bad, poptStrerror(code));
+    }
+}
+
+static bool take_words(tl_arguments *arguments, const storage *s)
+{
+    for (const char *word; (word = poptGetArg(s->context)) != NULL;) {
+        if (arguments->count == TL_MAX_ARGUMENTS) {
+            snprintf(arguments->message, sizeof(arguments->message), "more than %d words", TL_MAX_ARGUMENTS);
+            return false;
+        }
+        arguments->words[arguments->count++] = skip_marker(word);
+    }
+    return true;
+}
+
+tl_parse_outcome tl_options_parse(const tl_option_group *groups, int argc, const char *const *argv,
+                                  tl_arguments *arguments_out)
+{
+    const tl_option *flat[MAX_OPTIONS];
+    struct poptOption table[MAX_OPTIONS + 2];
+    memset(arguments_out, 0, sizeof(*arguments_out));
+    int count = flatten(groups, flat, table);
+    storage *s = make_storage(argc, argv);
+    arguments_out->storage = s;
+    if (s != NULL && s->values != NULL && s->argv != NULL && s->copies != NULL) {
+        s->context = poptGetContext(NULL, argc, s->argv, table, 0);
+    }
+    if (s == NULL || s->context == NULL) {
+        snprintf(arguments_out->message, sizeof(arguments_out->message), "out of memory");
+        return TL_PARSE_ERROR;
+    }
+    int code;
+    while ((code = poptGetNextOpt(s->context)) > 0) {
+        if (code == HELP_VALUE) {
+            return TL_PARSE_HELP;
+        }
+        char *value = poptGetOptArg(s->context);
+        if (value != NULL) {
+            s->values[s->value_count++] = value;
+        }
+        if (!set_value(arguments_out, flat[code - 1], value != NULL ? value : "")) {
+            return TL_PARSE_ERROR;
+        }
+    }
+    if (code < -1) {
+        explain_bad_option(arguments_out, s, code, flat, count);
+        return TL_PARSE_ERROR;
+    }
+    return take_words(arguments_out, s) ? TL_PARSE_OK : TL_PARSE_ERROR;
+}
+
+// The help's words behind the name column, broken at blanks.
+static void print_wrapped(const char *text)
+{
+    int column = HELP_COLUMN;
+    while (*text != '\0') {
+        size_t length = strcspn(text, " ");
+        if (column > HELP_COLUMN && column + (int)length + 1 > HELP_WIDTH) {
+            printf("\n%*s", HELP_COLUMN, "");
+            column = HELP_COLUMN;
+        } else if (column > HELP_COLUMN) {
+            putchar(' ');
+            column++;
+        }
+        printf("%.*s", (int)length, text);
+        column += (int)length;
+        text += length + (text[length] == ' ');
+    }
+    putchar('\n');
+}
+
+static void default_text(const tl_option *option, char *text, size_t capacity)
+{
+    const char *word = NULL;
+    text[0] = '\0';
+    switch (option->kind) {
+    case TL_OPTION_FLOAT:
+        snprintf(text, capacity, " [%.6g]", (double)*(const float *)option->target);
+        break;
+    case TL_OPTION_COUNT:
+        snprintf(text, capacity, " [%u]", *(const uint32_t *)option->target);
+        break;
+    case TL_OPTION_NUMBER:
+        snprintf(text, capacity, " [%llu]", (unsigned long long)*(const uint64_t *)option->target);
+        break;
+    case TL_OPTION_CHOICE:
+        word = option->words[*(const int *)option->target];
+        break;
+    case TL_OPTION_TEXT:
+        word = *(const char *const *)option->target;
+        break;
+    default:
+        break;
+    }
+    if (word != NULL) {
+        snprintf(text, capacity, " [%s]", word);
+    }
+}
+
+static void print_option(const tl_option *option)
+{
+    char name[96];
+    char value[256] = "";
+    char text[512];
+    char preset[96];
+    if (option->kind == TL_OPTION_CHOICE) {
+        for (int i = 0; option->words[i] != NULL; ++i) {
+            size_t used = strlen(value);
+            snprintf(value + used, sizeof(value) - used, "%c%s", i > 0 ? '|' : ' ', option->words[i]);
+        }
+    } else if (option->metavar != NULL) {
+        snprintf(value, sizeof(value), " %s", option->metavar);
+    }
+    if (option->letter != 0) {
+        snprintf(name, sizeof(name), "  -%c, --%s%.60s", option->letter, option->name, value);
+    } else {
+        snprintf(name, sizeof(name), "      --%s%.60s", option->name, value);
+    }
+    default_text(option, preset, sizeof(preset));
+    snprintf(text, sizeof(text), "%s%s", option->help, preset);
+    if ((int)strlen(name) >= HELP_COLUMN) {
+        printf("%s\n%*s", name, HELP_COLUMN, "");
+    } else {
+        printf("%-*s", HELP_COLUMN, name);
+    }
+    print_wrapped(text);
+}
+
+void tl_options_print(const tl_option_group *groups)
+{
+    for (; groups->title != NULL; ++groups) {
+        printf("\n%s\n", groups->title);
+        for (const tl_option *option = groups->options; option->name != NULL; ++option) {
+            print_option(option);
+        }
+    }
+}

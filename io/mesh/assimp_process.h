@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+//
+// Assimp in a process of its own.
+//
+// Assimp 5 answers some damaged files with a failed assertion (a PLY whose face list is cut), an endless loop (a PLY
+// whose header is cut) or a wild pointer. A level that cannot be read must not take the program down that asked for it,
+// so the file is read by a child process with a limit on its time, and what it found comes back through a pipe. The
+// copy costs a few milliseconds for a million triangles; Assimp needs seconds.
+
+#ifndef TALUS_IO_ASSIMP_PROCESS_H
+#define TALUS_IO_ASSIMP_PROCESS_H
+
+#include "io/files/io_error.h"
+#include "io/mesh/imported_mesh.h"
+
+#include <stddef.h>
+
+/// tl_assimp_read, but TL_ERR_FORMAT when Assimp crashes, TL_ERR_LIMIT when it takes more processor time than 10
+/// seconds and one more for each MB. The host's progress hook is called four times a second and can cancel. Thread
+/// safe; where the system refuses a process: TL_ERR_IO.
+tl_result tl_assimp_read_isolated(const char *path, const void *bytes, size_t size, const char *hint,
+                                  bool allow_no_triangles, const tl_host *host, tl_imported_mesh *mesh_out,
+                                  tl_io_error *error_out);
+
+#endif

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+//
+// A scene of Assimp's to one list of triangles.
+//
+// The node tree is walked here, not by aiProcess_PreTransformVertices: that one leaves mirrored nodes wound inside out,
+// joins what has no need to be joined, and reorders triangles. Nor are polygons split by aiProcess_Triangulate, which
+// asserts on faces without corners; they are treated as those of OBJ files are (split_polygon.h). Matrices are
+// multiplied in double, so that a level deep in a tree of nodes is placed as exactly as its vertices are stored. The
+// walk keeps its own stack: a hostile file's depth of nesting must not become ours.
+
+#include "io/mesh/assimp_reader.h"
+
+#include "io/files/growable.h"
+#include "io/mesh/split_polygon.h"
+
+#include <assimp/cimport.h>
+#include <assimp/material.h>
+#include <assimp/scene.h>
+#include <string.h>
+
+// Rows of an affine map.
+typedef struct affine {
+    double row[3][4];
+} affine;
+
+// A node still to be visited, and its parent's map to the world.
+typedef struct pending_node {
+    const struct aiNode *node;
+    affine parent;
+} pending_node;
+
+typedef struct scene_reader {
+    const struct aiScene *scene;
+    tl_imported_mesh *mesh;
+    const char *path;
+    tl_io_error *error;
+    pending_node *stack;
+    uint64_t stack_count;
+    uint64_t stack_capacity;
+    tl_split_corner *scratch; // TL_MAX_SPLIT_CORNERS of each, once there is a polygon
+    uint32_t *corners;
+} scene_reader;
+
+static affine affine_of(const struct aiMatrix4x4 *m)
+{
+    affine result = { { { (double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4 },
+                        { (double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4 },
+                        { (double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4 } } };
+    return result;
+}
+
+// First b, then a.
+static affine affine_multiply(const affine *a, const affine *b)
+{
+    affine result;
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 4; k++) {
+            result.row[i][k] = a->row[i][0] * b->row[0][k] + a->row[i][1] * b->row[1][k] + a->row[i][2] * b->row[2][k] +
+                               (k == 3 ? a->row[i][3] : 0.0);
+        }
+    }
+    return result;
+}
+
+static tl_vec3 affine_apply(const affine *a, struct aiVector3D p)
+{
+    double x = (double)p.x;
+    double y = (double)p.y;
+    double z = (double)p.z;
+    return tl_vec3_make((float)(a->row[0][0] * x + a->row[0][1] * y + a->row[0][2] * z + a->row[0][3]),
+                        (float)(a->row[1][0] * x + a->row[1][1] * y + a->row[1][2] * z + a->row[1][3]),
+                        (float)(a->row[2][0] * x + a->row[2][1] * y + a->row[2][2] * z + a->row[2][3]));
+}
+
+static bool affine_mirrors(const affine *a)
+{
+    double x = a->row[1][1] * a->row[2][2] - a->row[1][2] * a->row[2][1];
+    double y = a->row[1][2] * a->row[2][0] - a->row[1][0] * a->row[2][2];
+    double z = a->row[1][0] * a->row[2][1] - a->row[1][1] * a->row[2][0];
+    return a->row[0][0] * x + a->row[0][1] * y + a->row[0][2] * z < 0.0;
+}
+
+static tl_result fail_memory(scene_reader *reader)
+{
+    return tl_io_fail(reader->error, TL_ERR_MEMORY, reader->path, 0, NULL, "out of memory");
+}
+
+static tl_result fail_reserve(scene_reader *reader, tl_result result, const char *what)
+{
+    if (result == TL_ERR_MEMORY) {
+        return fail_memory(reader);
+    }
+    return tl_io_fail(reader->error, result, reader->path, 0, "cut the level into parts",
+                      "more %s than one mesh may have", what);
+}
+
+static tl_result find_material(scene_reader *reader, unsigned index, uint32_t *id_out)
+{
+    struct aiString name;
+    memset(&name, 0, sizeof name);
+    *id_out = 0;
+    if (index >= reader->scene->mNumMaterials ||
+        aiGetMaterialString(reader->scene->mMaterials[index], AI_MATKEY_NAME, &name) != aiReturn_SUCCESS ||
+        strcmp(name.data, AI_DEFAULT_MATERIAL_NAME) == 0) {
+        return TL_OK;
+    }
+    tl_result result = tl_name_table_add(&reader->mesh->names, &reader->mesh->allocator, name.data, strlen(name.data),
+                                         TL_MAX_IMPORTED_MATERIALS, id_out);
+    if (result == TL_ERR_LIMIT) {
+        return tl_io_fail(reader->error, result, reader->path, 0, "join materials",
+                          "more than 65535 different materials");
+    }
+    return result == TL_OK ? TL_OK : fail_memory(reader);
+}
+
+static tl_result add_vertices(scene_reader *reader, const struct aiMesh *part, const affine *to_world)
+{
+    tl_imported_mesh *mesh = reader->mesh;
+    tl_result result = tl_imported_mesh_reserve_vertices(mesh, part->mNumVertices);
+    if (result != TL_OK) {
+        return fail_reserve(reader, result, "vertices");
+    }
+    for (unsigned i = 0; i < part->mNumVertices; i++) {
+        struct aiVector3D source = part->mVertices[i];
+        tl_vec3 vertex = affine_apply(to_world, source);
+        if (!tl_is_finite(vertex)) {
+            bool was_finite = tl_is_finite(tl_vec3_make(source.x, source.y, source.z));
+            result = was_finite ? TL_ERR_RANGE : TL_ERR_NOT_FINITE;
+            tl_io_fail(reader->error, result, reader->path, 0,
+                       was_finite ? "check the scale of its nodes"
+                                  : "remove the broken vertex in the tool that wrote it",
+                       "vertex %u of mesh '%s' %s", i, part->mName.data,
+                       was_finite ? "is placed beyond the largest float" : "is not finite");
+            return tl_io_blame(reader->error, result, "vertex", mesh->vertex_count);
+        }
+        mesh->vertices[mesh->vertex_count++] = vertex;
+    }
+    return TL_OK;
+}
+
+// The fan of a face of three corners or more, wound the other way when mirrored.
+static tl_result add_fan(scene_reader *reader, const struct aiFace *face, uint32_t first_vertex, bool mirrored,
+                         uint32_t material)
+{
+    tl_imported_mesh *mesh = reader->mesh;
+    tl_result result = tl_imported_mesh_reserve_triangles(mesh, (uint64_t)face->mNumIndices - 2);
+    if (result != TL_OK) {
+        return fail_reserve(reader, result, "triangles");
+    }
+    for (unsigned k = 1; k + 1 < face->mNumIndices; k++) {
+        uint32_t *indices = mesh->indices + (size_t)mesh->triangle_count * 3;
+        indices[0] = first_vertex + face->mIndices[0];
+        indices[1] = first_vertex + face->mIndices[mirrored ? k + 1 : k];
+        indices[2] = first_vertex + face->mIndices[mirrored ? k : k + 1];
+        mesh->materials[mesh->triangle_count] = (uint16_t)material;
+        mesh->source_lines[mesh->triangle_count] = 0;
+        mesh->triangle_count++;
+    }
+    mesh->face_count++;
+    return TL_OK;
+}
+
+// Splits the polygon whose fan was added last.
+static tl_result split_last(scene_reader *reader, const struct aiFace *face, uint32_t first_vertex, bool mirrored)
+{
+    tl_imported_mesh *mesh = reader->mesh;
+    uint32_t count = face->mNumIndices;
+    mesh->polygon_count++;
+    if (count > TL_MAX_SPLIT_CORNERS) {
+        mesh->crooked_count++;
+        return TL_OK;
+    }
+    if (reader->scratch == NULL) {
+        reader->scratch = tl_io_allocate(&mesh->allocator, TL_MAX_SPLIT_CORNERS * sizeof *reader->scratch);
+    }
+    if (reader->corners == NULL) {
+        reader->corners = tl_io_allocate(&mesh->allocator, TL_MAX_SPLIT_CORNERS * sizeof *reader->corners);
+    }
+    if (reader->scratch == NULL || reader->corners == NULL) {
+        return fail_memory(reader);
+    }
+    for (uint32_t k = 0; k < count; k++) {
+        reader->corners[k] = first_vertex + face->mIndices[mirrored && k > 0 ? count - k : k];
+    }
+    uint32_t *triangles = mesh->indices + (size_t)(mesh->triangle_count - (count - 2)) * 3;
+    tl_split split = tl_split_polygon(mesh->vertices, reader->corners, count, reader->scratch, triangles);
+    mesh->clipped_count += split == TL_SPLIT_EARS;
+    mesh->crooked_count += split == TL_SPLIT_GAVE_UP;
+    return TL_OK;
+}
+
+static tl_result check_face(scene_reader *reader, const struct aiMesh *part, unsigned index)
+{
+    const struct aiFace *face = &part->mFaces[index];
+    for (unsigned k = 0; k < face->mNumIndices; k++) {
+        if (face->mIndices[k] >= part->mNumVertices) {
+            tl_io_fail(reader->error, TL_ERR_INDEX, reader->path, 0, "export the file again",
+                       "face %u of mesh '%s' names vertex %u of %u", index, part->mName.data, face->mIndices[k],
+                       part->mNumVertices);
+            return tl_io_blame(reader->error, TL_ERR_INDEX, "face", reader->mesh->face_count);
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result add_faces(scene_reader *reader, const struct aiMesh *part, uint32_t first_vertex, bool mirrored)
+{
+    uint32_t material;
+    tl_result result = find_material(reader, part->mMaterialIndex, &material);
+    for (unsigned i = 0; i < part->mNumFaces && result == TL_OK; i++) {
+        const struct aiFace *face = &part->mFaces[i];
+        reader->mesh->ignored_points += face->mNumIndices == 1;
+        reader->mesh->ignored_lines += face->mNumIndices == 2;
+        if (face->mNumIndices < 3) {
+            continue;
+        }
+        result = check_face(reader, part, i);
+        if (result == TL_OK) {
+            result = add_fan(reader, face, first_vertex, mirrored, material);
+        }
+        if (result == TL_OK && face->mNumIndices > 3) {
+            result = split_last(reader, face, first_vertex, mirrored);
+        }
+    }
+    return result;
+}
+
+static tl_result add_node(scene_reader *reader, const struct aiNode *node, const affine *to_world)
+{
+    bool mirrored = affine_mirrors(to_world);
+    reader->mesh->mirrored_nodes += mirrored && node->mNumMeshes > 0;
+    for (unsigned i = 0; i < node->mNumMeshes; i++) {
+        if (node->mMeshes[i] >= reader->scene->mNumMeshes) {
+            tl_io_fail(reader->error, TL_ERR_INDEX, reader->path, 0, "export the file again",
+                       "node '%s' names mesh %u of %u", node->mName.data, node->mMeshes[i], reader->scene->mNumMeshes);
+            return tl_io_blame(reader->error, TL_ERR_INDEX, "node", TL_NO_ELEMENT);
+        }
+        const struct aiMesh *part = reader->scene->mMeshes[node->mMeshes[i]];
+        uint32_t first_vertex = reader->mesh->vertex_count;
+        tl_result result = add_vertices(reader, part, to_world);
+        if (result == TL_OK) {
+            result = add_faces(reader, part, first_vertex, mirrored);
+        }
+        if (result != TL_OK) {
+            return result;
+        }
+    }
+    return TL_OK;
+}
+
+static bool push_node(scene_reader *reader, const struct aiNode *node, const affine *parent)
+{
+    if (!tl_io_grow(&reader->mesh->allocator, (void **)&reader->stack, &reader->stack_capacity, reader->stack_count,
+                    reader->stack_count + 1, sizeof *reader->stack)) {
+        return false;
+    }
+    reader->stack[reader->stack_count].node = node;
+    reader->stack[reader->stack_count].parent = *parent;
+    reader->stack_count++;
+    return true;
+}
+
+// Depth first, children in their order.
+static tl_result walk_nodes(scene_reader *reader)
+{
+    static const affine identity = { { { 1.0, 0.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0, 0.0 } } };
+    if (!push_node(reader, reader->scene->mRootNode, &identity)) {
+        return fail_memory(reader);
+    }
+    while (reader->stack_count > 0) {
+        pending_node pending = reader->stack[--reader->stack_count];
+        affine local = affine_of(&pending.node->mTransformation);
+        affine to_world = affine_multiply(&pending.parent, &local);
+        tl_result result = add_node(reader, pending.node, &to_world);
+        if (result != TL_OK) {
+            return result;
+        }
+        for (unsigned i = pending.node->mNumChildren; i-- > 0;) {
+            if (!push_node(reader, pending.node->mChildren[i], &to_world)) {
+                return fail_memory(reader);
+            }
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result read_scene(scene_reader *reader, bool allow_no_triangles)
+{
+    tl_imported_mesh *mesh = reader->mesh;
+    uint32_t nameless;
+    if (tl_name_table_add(&mesh->names, &mesh->allocator, "", 0, 1, &nameless) != TL_OK) {
+        return fail_memory(reader);
+    }
+    tl_result result = walk_nodes(reader);
+    tl_io_release(&mesh->allocator, reader->stack, reader->stack_capacity * sizeof *reader->stack);
+    tl_io_release(&mesh->allocator, reader->scratch, TL_MAX_SPLIT_CORNERS * sizeof *reader->scratch);
+    tl_io_release(&mesh->allocator, reader->corners, TL_MAX_SPLIT_CORNERS * sizeof *reader->corners);
+    if (result != TL_OK) {
+        return result;
+    }
+    if (mesh->vertex_count == 0 || (mesh->triangle_count == 0 && !allow_no_triangles)) {
+        return tl_io_fail(reader->error, TL_ERR_EMPTY, reader->path, 0, "export the level with its meshes", "%s",
+                          mesh->vertex_count == 0 ? "no vertices" : "no triangles");
+    }
+    return TL_OK;
+}
+
+bool tl_assimp_knows(const char *extension)
+{
+    return aiIsExtensionSupported(extension) == AI_TRUE;
+}
+
+tl_result tl_assimp_read(const char *path, const void *bytes, size_t size, const char *hint, bool allow_no_triangles,
+                         const tl_allocator *allocator, tl_imported_mesh *mesh_out, tl_io_error *error_out)
+{
+    memset(mesh_out, 0, sizeof *mesh_out);
+    if (hint != NULL && size > UINT32_MAX) {
+        return tl_io_fail(error_out, TL_ERR_LIMIT, path, 0, "give it a name with an extension, and read it from there",
+                          "more than 4 GiB in memory");
+    }
+    const struct aiScene *scene =
+        hint != NULL ? aiImportFileFromMemory(bytes, (unsigned)size, 0, hint) : aiImportFile(path, 0);
+    if (scene == NULL || scene->mRootNode == NULL) {
+        const char *reason = aiGetErrorString();
+        tl_io_fail(error_out, TL_ERR_FORMAT, path, 0, "open it in a modelling tool and export it again", "%s",
+                   reason != NULL && reason[0] != '\0' ? reason : "not readable");
+        aiReleaseImport(scene);
+        return TL_ERR_FORMAT;
+    }
+    tl_imported_mesh_init(mesh_out, allocator);
+    mesh_out->format = "Assimp";
+    mesh_out->source_bytes = size;
+    scene_reader reader = { scene, mesh_out, path, error_out, NULL, 0, 0, NULL, NULL };
+    tl_result result = read_scene(&reader, allow_no_triangles);
+    if (result != TL_OK) {
+        tl_imported_mesh_free(mesh_out);
+    }
+    aiReleaseImport(scene);
+    return result;
+}

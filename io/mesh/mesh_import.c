@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: MIT
+//
+// Which reader a mesh file is for; then its axes and its unit.
+
+#include "io/mesh/mesh_import.h"
+
+#include "io/files/file_map.h"
+#include "io/mesh/assimp_process.h"
+#include "io/mesh/assimp_reader.h"
+#include "io/mesh/obj_reader.h"
+
+#include <string.h>
+
+enum {
+    EXTENSION_BYTES = 16,
+    SNIFF_BYTES = 4096,
+    STL_HEAD_BYTES = 84,
+    STL_TRIANGLE_BYTES = 50,
+    LONGEST_PLY_HEADER = 1 << 20
+};
+
+static const char known_kinds[] = "OBJ, glTF, GLB, FBX, STL, PLY and DAE are known";
+
+tl_import_options tl_default_import_options(void)
+{
+    tl_import_options options;
+    memset(&options, 0, sizeof options);
+    options.unit_scale = 1.0f;
+    return options;
+}
+
+// The extension with its point in lower case, or "".
+static void find_extension(const char *path, char extension[EXTENSION_BYTES])
+{
+    const char *slash = strrchr(path, '/');
+    const char *point = strrchr(slash != NULL ? slash : path, '.');
+    extension[0] = '\0';
+    if (point == NULL || strlen(point) >= EXTENSION_BYTES) {
+        return;
+    }
+    size_t i = 0;
+    for (; point[i] != '\0'; i++) {
+        extension[i] = point[i] >= 'A' && point[i] <= 'Z' ? (char)(point[i] - 'A' + 'a') : point[i];
+    }
+    extension[i] = '\0';
+}
+
+static bool begins_with(const char *bytes, size_t size, const char *text)
+{
+    size_t length = strlen(text);
+    return size >= length && memcmp(bytes, text, length) == 0;
+}
+
+// Where a text begins; `size` when it is not there.
+static size_t find(const char *bytes, size_t size, const char *text)
+{
+    size_t length = strlen(text);
+    for (size_t i = 0; i + length <= size; i++) {
+        if (memcmp(bytes + i, text, length) == 0) {
+            return i;
+        }
+    }
+    return size;
+}
+
+static bool contains(const char *bytes, size_t size, const char *text)
+{
+    return find(bytes, size, text) < size;
+}
+
+// A binary STL file says nothing but its triangle count.
+static bool is_binary_stl(const unsigned char *bytes, size_t size)
+{
+    if (size < STL_HEAD_BYTES) {
+        return false;
+    }
+    const unsigned char *c = bytes + STL_HEAD_BYTES - 4;
+    uint64_t count = (uint64_t)c[0] | (uint64_t)c[1] << 8 | (uint64_t)c[2] << 16 | (uint64_t)c[3] << 24;
+    return count > 0 && size == STL_HEAD_BYTES + count * STL_TRIANGLE_BYTES;
+}
+
+// What the leading bytes say by a mark that OBJ text cannot have: an extension that Assimp knows, or NULL.
+static const char *sniff_other(const char *bytes, size_t size)
+{
+    size_t head = size < SNIFF_BYTES ? size : SNIFF_BYTES;
+    size_t blanks = 0;
+    while (blanks < head &&
+           (bytes[blanks] == ' ' || bytes[blanks] == '\t' || bytes[blanks] == '\r' || bytes[blanks] == '\n')) {
+        blanks++;
+    }
+    if (begins_with(bytes, size, "glTF")) {
+        return "glb";
+    }
+    if (begins_with(bytes, size, "Kaydara FBX Binary") || begins_with(bytes, size, "; FBX")) {
+        return "fbx";
+    }
+    if (begins_with(bytes, size, "ply\n") || begins_with(bytes, size, "ply\r")) {
+        return "ply";
+    }
+    if (blanks < head && bytes[blanks] == '{' && contains(bytes, head, "\"asset\"")) {
+        return "gltf";
+    }
+    if (blanks < head && bytes[blanks] == '<' && contains(bytes, head, "<COLLADA")) {
+        return "dae";
+    }
+    if (is_binary_stl((const unsigned char *)bytes, size) ||
+        (begins_with(bytes, size, "solid") && contains(bytes, head, "facet"))) {
+        return "stl";
+    }
+    return NULL;
+}
+
+// Whether the first line that is not empty or a comment begins as OBJ lines do.
+static bool sniff_obj(const char *bytes, size_t size)
+{
+    static const char *const keywords[] = { "v ",  "v\t", "vn ", "vt ",     "o ",      "g ",
+                                            "g\n", "s ",  "f ",  "mtllib ", "usemtl ", "\xef\xbb\xbf" };
+    size_t at = 0;
+    while (at < size) {
+        while (at < size && (bytes[at] == ' ' || bytes[at] == '\t' || bytes[at] == '\r' || bytes[at] == '\n')) {
+            at++;
+        }
+        if (at < size && bytes[at] == '#') {
+            while (at < size && bytes[at] != '\n' && bytes[at] != '\r') {
+                at++;
+            }
+            continue;
+        }
+        for (size_t i = 0; i < sizeof keywords / sizeof keywords[0]; i++) {
+            if (begins_with(bytes + at, size - at, keywords[i])) {
+                return true;
+            }
+        }
+        return false;
+    }
+    return false;
+}
+
+// Assimp 5 looks for the end of a PLY header beyond the end of the file, until its time is over; and of triangle strips
+// it reads the first triangle and leaves out the others. A header is short text; comments may make it longer, but not
+// without end.
+static tl_result check_ply(const char *bytes, size_t size, const char *name, tl_io_error *error)
+{
+    if (!begins_with(bytes, size, "ply")) {
+        return TL_OK;
+    }
+    size_t most = size < LONGEST_PLY_HEADER ? size : LONGEST_PLY_HEADER;
+    size_t head = find(bytes, most, "end_header");
+    if (!contains(bytes + head, most - head, "end_header\n") && !contains(bytes + head, most - head, "end_header\r")) {
+        return tl_io_fail(error, TL_ERR_FORMAT, name, 0, "the file is cut short", "a PLY file without an end_header");
+    }
+    if (contains(bytes, head, "element tristrips")) {
+        return tl_io_fail(error, TL_ERR_UNSUPPORTED, name, 0, "export it with faces (element face)",
+                          "a PLY file of triangle strips");
+    }
+    return TL_OK;
+}
+
+bool tl_import_is_mesh_name(const char *path)
+{
+    char extension[EXTENSION_BYTES];
+    find_extension(path, extension);
+    return strcmp(extension, ".obj") == 0 || (extension[0] != '\0' && tl_assimp_knows(extension));
+}
+
+static tl_result read_mesh(const void *bytes, size_t size, const char *path, const tl_import_options *options,
+                           tl_imported_mesh *mesh, tl_io_error *error)
+{
+    const tl_host *host = &options->host;
+    bool allow = options->allow_no_triangles;
+    bool stream = strcmp(path, "-") == 0;
+    const char *name = stream ? "standard input" : path;
+    char extension[EXTENSION_BYTES];
+    find_extension(path, extension);
+    if (size == 0) {
+        return tl_io_fail(error, TL_ERR_EMPTY, name, 0, "export the level again", "the file is empty");
+    }
+    const char *other = sniff_other(bytes, size);
+    bool named_obj = strcmp(extension, ".obj") == 0;
+    tl_result result = check_ply(bytes, size, name, error);
+    if (result != TL_OK) {
+        return result;
+    }
+    if (named_obj && other == NULL) {
+        return tl_obj_read(bytes, size, name, allow, host, mesh, error);
+    }
+    if (!named_obj && !stream && tl_import_is_mesh_name(path)) {
+        return tl_assimp_read_isolated(path, NULL, size, NULL, allow, host, mesh, error);
+    }
+    if (other != NULL) {
+        return tl_assimp_read_isolated(name, bytes, size, other, allow, host, mesh, error);
+    }
+    if (sniff_obj(bytes, size)) {
+        return tl_obj_read(bytes, size, name, allow, host, mesh, error);
+    }
+    return tl_io_fail(error, TL_ERR_UNSUPPORTED, name, 0, known_kinds, "neither its name nor its content is a mesh's");
+}
+
+tl_result tl_import_place_vertices(const tl_import_options *options, const char *path, tl_vec3 *vertices,
+                                   uint32_t count, tl_io_error *error_out)
+{
+    float scale = options->unit_scale;
+    if (options->up_axis == TL_UP_Y && scale == 1.0f) {
+        return TL_OK;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        tl_vec3 vertex = vertices[i];
+        if (options->up_axis == TL_UP_Z) {
+            vertex = tl_vec3_make(vertex.x, vertex.z, 0.0f - vertex.y); // no -0 from a 0
+        }
+        vertex = tl_scale(vertex, scale);
+        if (!tl_is_finite(vertex)) {
+            tl_io_fail(error_out, TL_ERR_RANGE, path, 0, "check the unit scale",
+                       "vertex %u times the unit scale is beyond the largest float", (unsigned)i);
+            return tl_io_blame(error_out, TL_ERR_RANGE, "vertex", i);
+        }
+        vertices[i] = vertex;
+    }
+    return TL_OK;
+}
+
+tl_result tl_import_options_check(const tl_import_options *options, const char *path, tl_io_error *error_out)
+{
+    if (!(options->unit_scale > 0.0f && isfinite(options->unit_scale))) {
+        return tl_io_fail(error_out, TL_ERR_ARGUMENT, path, 0, "give metres a file unit, such as 0.01 for centimetres",
+                          "the unit scale is not a positive number");
+    }
+    if (options->up_axis != TL_UP_Y && options->up_axis != TL_UP_Z) {
+        return tl_io_fail(error_out, TL_ERR_ARGUMENT, path, 0, "y or z", "the up axis is not known");
+    }
+    return TL_OK;
+}
+
+tl_result tl_import_mesh_bytes(const void *bytes, size_t size, const char *path, const tl_import_options *options,
+                               tl_imported_mesh *mesh_out, tl_io_error *error_out)
+{
+    tl_import_options used = options != NULL ? *options : tl_default_import_options();
+    memset(mesh_out, 0, sizeof *mesh_out);
+    tl_result result = tl_import_options_check(&used, path, error_out);
+    if (result == TL_OK) {
+        result = read_mesh(bytes, size, path, &used, mesh_out, error_out);
+    }
+    if (result == TL_OK) {
+        result = tl_import_place_vertices(&used, path, mesh_out->vertices, mesh_out->vertex_count, error_out);
+    }
+    if (result != TL_OK) {
+        tl_imported_mesh_free(mesh_out);
+    }
+    return result;
+}
+
+tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_imported_mesh *mesh_out,
+                         tl_io_error *error_out)
+{
+    memset(mesh_out, 0, sizeof *mesh_out);
+    tl_file_map map;
+    tl_result result = tl_file_map_open(path, options != NULL ? options->max_file_bytes : 0, &map, error_out);
+    if (result == TL_OK) {
+        result = tl_import_mesh_bytes(map.bytes, map.size, path, options, mesh_out, error_out);
+        tl_file_map_close(&map);
+    }
+    return result;
+}

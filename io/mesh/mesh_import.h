@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// Any mesh file to triangles, by one call.
+//
+// OBJ goes to our own reader (obj_reader.h); glTF, GLB, FBX, STL, PLY, DAE and whatever else it knows goes through
+// Assimp. The file's name decides, then its first bytes: a file without a known extension, or standard input ("-"),
+// is recognised by its content.
+
+#ifndef TALUS_IO_MESH_IMPORT_H
+#define TALUS_IO_MESH_IMPORT_H
+
+#include "io/files/io_error.h"
+#include "io/mesh/imported_mesh.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Which axis of the file points up. talus has y up and is right-handed.
+typedef enum tl_up_axis {
+    TL_UP_Y, ///< taken as it is
+    TL_UP_Z, ///< turned by -90 degrees about x: (x, y, z) becomes (x, z, -y), as exporters of z-up tools do
+} tl_up_axis;
+
+typedef struct tl_import_options {
+    tl_up_axis up_axis;
+    float unit_scale;        ///< metres a file unit, finite and > 0; 0.01 for a file in centimetres
+    bool allow_no_triangles; ///< a file with vertices only is no error (point clouds)
+    uint64_t max_file_bytes; ///< 0: no limit
+    tl_host host;            ///< allocator, and progress (stage "read mesh", done and total in bytes)
+} tl_import_options;
+
+/// y up, metres, triangles needed, no size limit.
+tl_import_options tl_default_import_options(void);
+
+/// Reads the mesh file `path`.
+///
+/// Node transforms are applied (a mesh that several nodes show is there several times); triangles of a mirrored node
+/// are re-wound, so they face the way their author saw; polygons are split; points and lines are counted and left out.
+/// Triangles keep the file's order, so the same file gives the same mesh. `options` NULL: the defaults.
+///
+/// Errors, each with file, place and advice in `error_out` (may be NULL): TL_ERR_NOT_FOUND, TL_ERR_IO, TL_ERR_FORMAT,
+/// TL_ERR_UNSUPPORTED (a kind of file that is not known), TL_ERR_EMPTY (no triangles), TL_ERR_NOT_FINITE,
+/// TL_ERR_RANGE (a coordinate does not fit a float), TL_ERR_INDEX, TL_ERR_LIMIT, TL_ERR_ARGUMENT, TL_ERR_MEMORY,
+/// TL_ERR_CANCELLED. On failure `*mesh_out` is zeroed. Assimp runs in a child process, so that a file that makes it
+/// crash or run for ever is an error too (assimp_process.h); its own memory is not the host's allocator's.
+tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_imported_mesh *mesh_out,
+                         tl_io_error *error_out);
+
+/// The same of a file that is in memory already. `path` names it, and is where files beside it are looked for; "-" is
+/// standard input, of which nothing more is read.
+tl_result tl_import_mesh_bytes(const void *bytes, size_t size, const char *path, const tl_import_options *options,
+                               tl_imported_mesh *mesh_out, tl_io_error *error_out);
+
+/// For readers of other kinds: checks the options' values, and turns and scales vertices as they say.
+tl_result tl_import_options_check(const tl_import_options *options, const char *path, tl_io_error *error_out);
+tl_result tl_import_place_vertices(const tl_import_options *options, const char *path, tl_vec3 *vertices,
+                                   uint32_t count, tl_io_error *error_out);
+
+/// For readers of other kinds: whether the path's extension names a kind of mesh file.
+bool tl_import_is_mesh_name(const char *path);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+
+#include "io/text/area_marks.h"
+
+#include "io/files/file_map.h"
+#include "io/files/growable.h"
+#include "io/text/line_words.h"
+
+#include <string.h>
+
+typedef struct parse {
+    tl_area_marks *marks;
+    tl_allocator allocator;
+    tl_contour_reader reader;
+    tl_io_error *error;
+} parse;
+
+static tl_result fail(const parse *p, tl_result result, const char *message)
+{
+    return tl_io_fail(p->error, result, p->reader.path, p->reader.line, "'talus bake --help' shows the lines", "%s",
+                      message);
+}
+
+static tl_result fail_memory(const parse *p)
+{
+    return tl_io_fail(p->error, TL_ERR_MEMORY, p->reader.path, p->reader.line, NULL, "out of memory");
+}
+
+// ---- Room ----------------------------------------------------------------------------------------------------
+
+static tl_nav_volume *push_volume(const tl_allocator *allocator, tl_area_marks *marks)
+{
+    void *volumes = marks->volumes;
+    bool fits = tl_io_grow(allocator, &volumes, &marks->volume_capacity, marks->volume_count,
+                           (uint64_t)marks->volume_count + 1, sizeof *marks->volumes);
+    marks->volumes = volumes;
+    if (!fits) {
+        return NULL;
+    }
+    tl_nav_volume *volume = &marks->volumes[marks->volume_count++];
+    memset(volume, 0, sizeof *volume);
+    return volume;
+}
+
+static bool push_point(const tl_allocator *allocator, tl_area_marks *marks, tl_vec3 point)
+{
+    void *points = marks->points;
+    bool fits = tl_io_grow(allocator, &points, &marks->point_capacity, marks->point_count, marks->point_count + 1,
+                           sizeof *marks->points);
+    marks->points = points;
+    if (fits) {
+        marks->points[marks->point_count++] = point;
+    }
+    return fits;
+}
+
+// The points moved while they grew in number; volumes hold theirs one after another.
+static void point_volumes(tl_area_marks *marks)
+{
+    uint64_t first = 0;
+    for (uint32_t i = 0; i < marks->volume_count; i++) {
+        tl_nav_volume *volume = &marks->volumes[i];
+        volume->points = volume->point_count > 0 ? marks->points + first : NULL;
+        first += volume->point_count;
+    }
+}
+
+tl_result tl_area_marks_add_rule(tl_area_marks *marks, const char *name, size_t name_size, uint64_t line, uint8_t area)
+{
+    const tl_allocator allocator = tl_io_allocator_or_default(NULL);
+    if (marks->rule_count == UINT32_MAX) {
+        return TL_ERR_LIMIT;
+    }
+    void *rules = marks->rules, *text = marks->text;
+    bool fits = tl_io_grow(&allocator, &rules, &marks->rule_capacity, marks->rule_count,
+                           (uint64_t)marks->rule_count + 1, sizeof *marks->rules);
+    marks->rules = rules;
+    fits = fits &&
+           tl_io_grow(&allocator, &text, &marks->text_capacity, marks->text_size, marks->text_size + name_size + 1, 1);
+    marks->text = text;
+    if (!fits) {
+        return TL_ERR_MEMORY;
+    }
+    const tl_area_rule rule = { marks->text_size, name_size, line, area };
+    memcpy(marks->text + marks->text_size, name, name_size);
+    marks->text[marks->text_size + name_size] = '\0';
+    marks->text_size += name_size + 1;
+    marks->rules[marks->rule_count++] = rule;
+    return TL_OK;
+}
+
+void tl_area_marks_free(tl_area_marks *marks)
+{
+    const tl_allocator allocator = tl_io_allocator_or_default(NULL);
+    tl_io_release(&allocator, marks->volumes, marks->volume_capacity * sizeof *marks->volumes);
+    tl_io_release(&allocator, marks->rules, marks->rule_capacity * sizeof *marks->rules);
+    tl_io_release(&allocator, marks->points, marks->point_capacity * sizeof *marks->points);
+    tl_io_release(&allocator, marks->text, marks->text_capacity);
+    memset(marks, 0, sizeof *marks);
+}
+
+// ---- Lines ---------------------------------------------------------------------------------------------------
+
+static bool take_point(tl_line *line, tl_vec3 *point)
+{
+    return tl_take_float(line, &point->x) && tl_take_float(line, &point->y) && tl_take_float(line, &point->z);
+}
+
+static tl_result read_material(parse *p, tl_line *line, uint8_t area)
+{
+    while (line->at < line->end && (*line->at == ' ' || *line->at == '\t')) {
+        line->at++;
+    }
+    while (line->end > line->at && strchr(" \t\r", line->end[-1]) != NULL) {
+        line->end--;
+    }
+    if (line->at == line->end) {
+        return fail(p, TL_ERR_FORMAT, "expected a material's name");
+    }
+    tl_result result = tl_area_marks_add_rule(p->marks, line->at, (size_t)(line->end - line->at), p->reader.line, area);
+    return result != TL_OK ? fail_memory(p) : TL_OK;
+}
+
+static tl_result read_box(parse *p, tl_line *line, tl_nav_volume *volume)
+{
+    volume->kind = TL_NAV_VOLUME_BOX;
+    if (!take_point(line, &volume->box.min) || !take_point(line, &volume->box.max) || !tl_line_is_done(line)) {
+        return fail(p, TL_ERR_FORMAT, "expected box AREA x y z x y z");
+    }
+    return tl_aabb_is_empty(volume->box) ? fail(p, TL_ERR_RANGE, "the box is empty: give the lowest corner first")
+                                         : TL_OK;
+}
+
+static tl_result read_cylinder(parse *p, tl_line *line, tl_nav_volume *volume)
+{
+    volume->kind = TL_NAV_VOLUME_CYLINDER;
+    if (!take_point(line, &volume->base) || !tl_take_float(line, &volume->radius) ||
+        !tl_take_float(line, &volume->height) || !tl_line_is_done(line)) {
+        return fail(p, TL_ERR_FORMAT, "expected cylinder AREA x y z radius height");
+    }
+    return !(volume->radius > 0.0f && volume->height >= 0.0f)
+               ? fail(p, TL_ERR_RANGE, "a cylinder needs a radius above 0 and a height of 0 or more")
+               : TL_OK;
+}
+
+static tl_result read_prism(parse *p, tl_line *line, tl_nav_volume *volume)
+{
+    volume->kind = TL_NAV_VOLUME_POLYGON;
+    bool good = tl_take_float(line, &volume->box.min.y) && tl_take_float(line, &volume->box.max.y);
+    while (good && !tl_line_is_done(line)) {
+        tl_vec3 point = { 0.0f, 0.0f, 0.0f };
+        good = tl_take_float(line, &point.x) && tl_take_float(line, &point.z) && volume->point_count < UINT32_MAX;
+        if (good && !push_point(&p->allocator, p->marks, point)) {
+            return fail_memory(p);
+        }
+        volume->point_count += good;
+    }
+    if (!good || volume->point_count < 3) {
+        return fail(p, TL_ERR_FORMAT, "expected prism AREA low high x z x z x z, and more corners if wanted");
+    }
+    return volume->box.min.y > volume->box.max.y ? fail(p, TL_ERR_RANGE, "the prism is empty: give the low end first")
+                                                 : TL_OK;
+}
+
+static tl_result read_volume(parse *p, tl_line *line, const char *kind, uint8_t area)
+{
+    tl_nav_volume *volume = p->marks->volume_count < UINT32_MAX ? push_volume(&p->allocator, p->marks) : NULL;
+    if (volume == NULL) {
+        return fail_memory(p);
+    }
+    volume->area = area;
+    return kind[0] == 'b'   ? read_box(p, line, volume)
+           : kind[0] == 'c' ? read_cylinder(p, line, volume)
+                            : read_prism(p, line, volume);
+}
+
+static tl_result read_line(parse *p, tl_line line)
+{
+    static const char *const kinds[] = { "material", "box", "cylinder", "prism" };
+    for (int i = 0; i < 4; i++) {
+        if (tl_take_word(&line, kinds[i])) {
+            int64_t area;
+            if (!tl_take_integer(&line, 0, TL_NAV_MAX_AREA, &area)) {
+                return fail(p, TL_ERR_FORMAT, "expected an area of 0 to 255 behind the line's first word");
+            }
+            return i == 0 ? read_material(p, &line, (uint8_t)area) : read_volume(p, &line, kinds[i], (uint8_t)area);
+        }
+    }
+    return fail(p, TL_ERR_FORMAT, "expected material, box, cylinder or prism");
+}
+
+tl_result tl_area_marks_parse(tl_area_marks *marks, const char *text, size_t size, const char *path,
+                              tl_io_error *error_out)
+{
+    parse p;
+    memset(&p, 0, sizeof p);
+    p.marks = marks;
+    p.allocator = tl_io_allocator_or_default(NULL);
+    p.reader.bytes = text;
+    p.reader.size = size;
+    p.reader.path = path;
+    p.error = error_out;
+    tl_result result = TL_OK;
+    tl_line line;
+    while (result == TL_OK && tl_next_line(&p.reader, &line)) {
+        result = *line.at != '#' ? read_line(&p, line) : TL_OK;
+    }
+    point_volumes(marks);
+    return result;
+}
+
+tl_result tl_area_marks_read(tl_area_marks *marks, const char *path, tl_io_error *error_out)
+{
+    tl_file_map map;
+    tl_result result = tl_file_map_open(path, 0, &map, error_out);
+    if (result == TL_OK) {
+        result = tl_area_marks_parse(marks, map.bytes, map.size, path, error_out);
+        tl_file_map_close(&map);
+    }
+    return result;
+}
+
+// ---- Names ---------------------------------------------------------------------------------------------------
+
+bool tl_area_rule_is_exact(const tl_area_marks *marks, const tl_area_rule *rule, const char *material)
+{
+    return strcmp(marks->text + rule->name, material) == 0;
+}
+
+// Goes back to the last * only: a match of what came before it is never worth more. At most pattern times text steps.
+bool tl_area_rule_matches(const tl_area_marks *marks, const tl_area_rule *rule, const char *material)
+{
+    const char *pattern = marks->text + rule->name, *star = NULL, *tried = NULL;
+    while (*material != '\0') {
+        if (*pattern == '*') {
+            star = pattern++;
+            tried = material;
+        } else if (*pattern == '?' || *pattern == *material) {
+            pattern++;
+            material++;
+        } else if (star != NULL) {
+            pattern = star + 1;
+            material = ++tried;
+        } else {
+            return false;
+        }
+    }
+    while (*pattern == '*') {
+        pattern++;
+    }
+    return *pattern == '\0';
+}

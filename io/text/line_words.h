@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+//
+// Line-based text taken word by word, with errors that name the line.
+
+#ifndef TALUS_IO_LINE_WORDS_H
+#define TALUS_IO_LINE_WORDS_H
+
+#include "io/text/contour_text.h"
+
+/// One line: what is left of it.
+typedef struct tl_line {
+    const char *at;
+    const char *end;
+} tl_line;
+
+/// Moves to the next line that is not blank. False: there is none.
+bool tl_next_line(tl_contour_reader *reader, tl_line *line_out);
+
+/// The next word of the line, [*begin, *end). False: none is left.
+bool tl_next_word(tl_line *line, const char **begin, const char **end);
+
+/// Whether the line's next word is `word`; then it is taken.
+bool tl_take_word(tl_line *line, const char *word);
+
+/// A whole number within [low, high].
+bool tl_take_integer(tl_line *line, int64_t low, int64_t high, int64_t *value_out);
+/// A finite number.
+bool tl_take_float(tl_line *line, float *value_out);
+/// Whether nothing is left.
+bool tl_line_is_done(const tl_line *line);
+/// The rest of the line without blanks at its ends, cut at `capacity` - 1 bytes.
+void tl_take_rest(tl_line *line, char *text, size_t capacity);
+
+/// Reads "WORD VALUE" lines' failure: "expected ..." at the reader's line.
+tl_result tl_line_fail(const tl_contour_reader *reader, tl_io_error *error, const char *expected);
+/// The text ends too early.
+tl_result tl_line_missing(const tl_contour_reader *reader, tl_io_error *error, const char *expected);
+
+#endif

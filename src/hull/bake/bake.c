@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+//
+// The polygons of a finished hull, laid out as one block: topology and planes for whoever reads them, and for the
+// support query the rows of the scan, or the blocks of the climb and the direction table.
+
+#include "hull/bake/quickhull.h"
+#include "hull/support/support.h"
+#include "math/predicates.h"
+#include "math/tolerance.h"
+#include "math/vec3d.h"
+
+#include <string.h>
+
+// A plane's normal is right to this share of its length: 2^-45, which is what tl_area2d promises. At the far end of a
+// face as large as the hull the plane is then off by some 3e-14 of the size.
+#define TL_NORMAL_ERROR 2.8421709430404007e-14
+
+static uint32_t count_blocks(const tl_hull_polygons *polygons, uint32_t *degrees)
+{
+    uint32_t blocks = 0;
+    for (uint32_t h = 0; h < polygons->half_edge_count; h++) {
+        degrees[polygons->half_edges[h].origin]++;
+    }
+    for (uint32_t v = 0; v < polygons->vertex_count; v++) {
+        blocks += tl_hull_blocks_of(degrees[v]);
+    }
+    return blocks;
+}
+
+static void write_topology(tl_hull *hull, const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies)
+{
+    char *bytes = (char *)hull;
+    tl_vec3 *vertices = (tl_vec3 *)(void *)(bytes + hull->vertices);
+    uint32_t *sources = (uint32_t *)(void *)(bytes + hull->sources);
+    uint32_t *vertex_edges = (uint32_t *)(void *)(bytes + hull->vertex_edges);
+    tl_hull_half_edge *half_edges = (tl_hull_half_edge *)(void *)(bytes + hull->half_edges);
+    tl_hull_face *faces = (tl_hull_face *)(void *)(bytes + hull->faces);
+    hull->bounds = tl_aabb_empty();
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        vertices[v] = points[polygons->points[v]];
+        sources[v] = polygons->points[v] / copies;
+        vertex_edges[v] = TL_NONE;
+        hull->bounds = tl_aabb_add_point(hull->bounds, vertices[v]);
+    }
+    for (uint32_t h = 0; h < hull->half_edge_count; h++) {
+        half_edges[h] = polygons->half_edges[h];
+        if (vertex_edges[half_edges[h].origin] == TL_NONE) {
+            vertex_edges[half_edges[h].origin] = h;
+        }
+    }
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        faces[f] = polygons->faces[f];
+    }
+}
+
+static tl_vec3 corner(const tl_hull *hull, uint32_t half_edge)
+{
+    return tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin];
+}
+
+// Twice the area's vector of a triangle, (b - a) x (c - a), to within TL_NORMAL_ERROR of its length. A face may be
+// thinner than double rounding: then the digits are summed exactly.
+static tl_vec3d normal_of(tl_vec3 a, tl_vec3 b, tl_vec3 c)
+{
+    tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(b), tl_vec3d_from(a));
+    tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(c), tl_vec3d_from(a));
+    tl_vec3d n = tl_vec3d_cross(u, v);
+    double products =
+        fabs(u.y * v.z) + fabs(u.z * v.y) + fabs(u.z * v.x) + fabs(u.x * v.z) + fabs(u.x * v.y) + fabs(u.y * v.x);
+    if (TL_CROSS_ERROR * products <= TL_NORMAL_ERROR * (fabs(n.x) + fabs(n.y) + fabs(n.z))) {
+        return n;
+    }
+    return tl_vec3d_make(tl_area2d(a.y, a.z, b.y, b.z, c.y, c.z), tl_area2d(a.z, a.x, b.z, b.x, c.z, c.x),
+                         tl_area2d(a.x, a.y, b.x, b.y, c.x, c.y));
+}
+
+// The fan triangle with the largest area spans the plane best.
+static tl_hull_plane fit_plane(const tl_hull *hull, tl_hull_face face)
+{
+    tl_vec3 a = corner(hull, face.first);
+    uint32_t best = 1;
+    double best_area = 0.0;
+    for (uint32_t k = 1; k + 1 < face.count && face.count > 3; k++) {
+        tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(corner(hull, face.first + k)), tl_vec3d_from(a));
+        tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(corner(hull, face.first + k + 1)), tl_vec3d_from(a));
+        tl_vec3d normal = tl_vec3d_cross(u, v);
+        double area = tl_vec3d_dot(normal, normal);
+        if (area > best_area) {
+            best_area = area;
+            best = k;
+        }
+    }
+    tl_vec3 b = corner(hull, face.first + best), c = corner(hull, face.first + best + 1);
+    tl_vec3d n = normal_of(a, b, c);
+    double length = tl_vec3d_length(n);
+    tl_hull_plane plane = { { n.x / length, n.y / length, n.z / length }, -(double)INFINITY };
+    for (uint32_t k = 0; k < face.count; k++) {
+        tl_vec3 p = corner(hull, face.first + k);
+        double offset = plane.normal[0] * (double)p.x + plane.normal[1] * (double)p.y + plane.normal[2] * (double)p.z;
+        plane.offset = offset > plane.offset ? offset : plane.offset;
+    }
+    return plane;
+}
+
+static void write_planes(tl_hull *hull)
+{
+    tl_hull_plane_block *blocks = (tl_hull_plane_block *)(void *)((char *)hull + hull->planes);
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        tl_hull_plane plane = fit_plane(hull, tl_hull_faces(hull)[f]);
+        tl_hull_plane_block *block = &blocks[f / 8];
+        block->x[f % 8] = plane.normal[0];
+        block->y[f % 8] = plane.normal[1];
+        block->z[f % 8] = plane.normal[2];
+        block->offset[f % 8] = plane.offset;
+    }
+}
+
+static void write_scan(tl_hull *hull)
+{
+    float *rows = (float *)(uintptr_t)tl_hull_scan_rows(hull);
+    for (uint32_t i = 0; i < hull->scan_count; i++) {
+        tl_vec3 r = tl_hull_scan_point(hull, i);
+        rows[i] = r.x;
+        rows[hull->scan_count + i] = r.y;
+        rows[2 * hull->scan_count + i] = r.z;
+    }
+    hull->scan_error = tl_hull_scan_error(hull);
+}
+
+static void write_blocks(tl_hull *hull, const uint32_t *degrees)
+{
+    tl_climb_block *blocks = (tl_climb_block *)(uintptr_t)tl_hull_blocks(hull);
+    uint32_t behind = hull->vertex_count;
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        uint32_t edge = tl_hull_vertex_edges(hull)[v], left = degrees[v], at = v;
+        for (;;) {
+            bool more = left > TL_CLIMB_LANES;
+            tl_hull_fill_block(hull, v, &edge, more ? TL_CLIMB_LANES - 1 : left, &blocks[at]);
+            if (!more) {
+                break;
+            }
+            left -= TL_CLIMB_LANES - 1;
+            blocks[at].link[TL_CLIMB_LANES - 1] = TL_CLIMB_MORE | behind;
+            at = behind++;
+        }
+    }
+}
+
+tl_result tl_hull_bake(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
+                       tl_hull **hull_out)
+{
+    uint32_t *degrees = TL_PUSH_ZERO(arena, uint32_t, polygons->vertex_count);
+    if (degrees == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_hull head;
+    memset(&head, 0, sizeof head); // padding too: blobs are the same byte for byte
+    uint64_t size;
+    head.vertex_count = polygons->vertex_count;
+    head.face_count = polygons->face_count;
+    head.half_edge_count = polygons->half_edge_count;
+    head.block_count = count_blocks(polygons, degrees);
+    tl_hull_count_rings(&head, polygons->faces);
+    size = tl_hull_lay_out(&head);
+    tl_hull *hull = tl_blob_allocate(&arena->allocator, TL_HULL_MAGIC, TL_HULL_VERSION, size);
+    if (hull == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    head.blob = hull->blob;
+    memcpy(hull, &head, sizeof head);
+    write_topology(hull, polygons, points, copies);
+    write_planes(hull);
+    tl_hull_measure_mass(hull);
+    hull->table_scale = tl_hull_table_scale(hull);
+    write_blocks(hull, degrees);
+    tl_result result = TL_OK;
+    if (hull->scan_count > 0) {
+        write_scan(hull);
+    } else {
+        result = tl_hull_fill_table(hull, arena);
+    }
+    if (result != TL_OK) {
+        tl_blob_free(hull, &arena->allocator);
+        return result;
+    }
+    *hull_out = hull;
+    return TL_OK;
+}

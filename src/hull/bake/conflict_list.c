@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+//
+// Conflict lists: each point that is still outside is filed under one face that it lies strictly in front of.
+//
+// When faces are replaced by a cone, their points are asked of the cone's faces only. That is enough: a point that saw
+// a removed face and still sees a kept one sees, walking from one to the other inside its visible region, both faces at
+// some horizon edge, and the new face there lies between the two.
+// The newest face is refined first: the step after it works on the same few faces and points, which are in the cache,
+// and a point is refiled half as often as when faces wait in a ring.
+// Clarkson, Shor, Applications of Random Sampling in Computational Geometry, 1989, keep all conflicts; one is enough.
+
+#include "hull/bake/quickhull.h"
+
+#include "base/assert.h"
+
+#include <string.h>
+
+static void file_under(tl_quickhull *hull, uint32_t face, uint32_t point, double value)
+{
+    tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
+    hull->local[point].next = conflicts->first;
+    conflicts->first = point;
+    if (conflicts->farthest == TL_NONE || value > conflicts->farthest_value ||
+        (value == conflicts->farthest_value && point < conflicts->farthest)) {
+        conflicts->farthest = point;
+        conflicts->farthest_value = value;
+    }
+}
+
+void tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
+{
+    for (uint32_t p = 0; p < hull->point_count; p++) {
+        if (p == seed[0] || p == seed[1] || p == seed[2] || p == seed[3]) {
+            continue;
+        }
+        for (uint32_t f = 0; f < 4; f++) {
+            double value;
+            if (tl_quickhull_side(hull, &hull->faces[f], hull->local[p].position, &value) > 0) {
+                file_under(hull, f, p, value);
+                hull->waiting++;
+                break;
+            }
+        }
+    }
+}
+
+void tl_quickhull_refile(tl_quickhull *hull)
+{
+    // The new point lies in the planes of all created faces: it need not be asked, and asking would be the costly case.
+    uint32_t eye = hull->faces[hull->created[0]].vertex[2];
+    for (uint32_t i = 0; i < hull->visible_count; i++) {
+        uint32_t p = hull->conflicts[hull->visible[i]].first;
+        while (p != TL_NONE) {
+            uint32_t next = hull->local[p].next;
+            tl_vec3 position = hull->local[p].position;
+            uint32_t k = p != eye ? 0 : hull->created_count;
+            for (; k < hull->created_count; k++) {
+                uint32_t face = hull->created[k];
+                double value;
+                if (tl_quickhull_side(hull, &hull->faces[face], position, &value) > 0) {
+                    file_under(hull, face, p, value);
+                    break;
+                }
+            }
+            hull->waiting -= k == hull->created_count; // inside, or on the surface
+            p = next;
+        }
+    }
+    for (uint32_t i = 0; i < hull->visible_count; i++) {
+        tl_quickhull_free_face(hull, hull->visible[i]);
+    }
+}
+
+// A larger distance first; on ties the lower point, so that the order does not depend on the heap's shape.
+static bool comes_before(const tl_quickhull_entry *a, const tl_quickhull_entry *b)
+{
+    if (a->distance != b->distance) {
+        return a->distance > b->distance;
+    }
+    return a->point != b->point ? a->point < b->point : a->face < b->face;
+}
+
+static tl_result push_heap(tl_quickhull *hull, uint32_t face)
+{
+    if (hull->heap_count == hull->heap_capacity) {
+        uint32_t capacity = hull->heap_capacity < 64 ? 64 : hull->heap_capacity * 2;
+        tl_quickhull_entry *heap = TL_PUSH(hull->arena, tl_quickhull_entry, capacity);
+        if (heap == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        if (hull->heap_count > 0) {
+            memcpy(heap, hull->heap, hull->heap_count * sizeof *heap);
+        }
+        hull->heap = heap;
+        hull->heap_capacity = capacity;
+    }
+    const tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
+    tl_quickhull_entry entry = { conflicts->farthest_value / tl_side_plane_length(&hull->faces[face].plane), face,
+                                 conflicts->farthest };
+    uint32_t at = hull->heap_count++;
+    while (at > 0 && comes_before(&entry, &hull->heap[(at - 1) / 2])) {
+        hull->heap[at] = hull->heap[(at - 1) / 2];
+        at = (at - 1) / 2;
+    }
+    hull->heap[at] = entry;
+    return TL_OK;
+}
+
+static tl_quickhull_entry pop_heap(tl_quickhull *hull)
+{
+    tl_quickhull_entry top = hull->heap[0];
+    tl_quickhull_entry last = hull->heap[--hull->heap_count];
+    uint32_t at = 0;
+    for (;;) {
+        uint32_t child = 2 * at + 1;
+        if (child >= hull->heap_count) {
+            break;
+        }
+        if (child + 1 < hull->heap_count && comes_before(&hull->heap[child + 1], &hull->heap[child])) {
+            child++;
+        }
+        if (!comes_before(&hull->heap[child], &last)) {
+            break;
+        }
+        hull->heap[at] = hull->heap[child];
+        at = child;
+    }
+    hull->heap[at] = last;
+    return top;
+}
+
+tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face)
+{
+    tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
+    if (conflicts->first == TL_NONE) {
+        return TL_OK;
+    }
+    if (hull->farthest_first) {
+        return push_heap(hull, face);
+    }
+    conflicts->newer = TL_NONE;
+    conflicts->older = hull->newest;
+    if (hull->newest != TL_NONE) {
+        hull->conflicts[hull->newest].newer = face;
+    }
+    hull->newest = face;
+    return TL_OK;
+}
+
+void tl_quickhull_unqueue(tl_quickhull *hull, uint32_t face)
+{
+    const tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
+    if (hull->farthest_first || conflicts->first == TL_NONE) {
+        return;
+    }
+    if (conflicts->newer != TL_NONE) {
+        hull->conflicts[conflicts->newer].older = conflicts->older;
+    } else {
+        hull->newest = conflicts->older;
+    }
+    if (conflicts->older != TL_NONE) {
+        hull->conflicts[conflicts->older].newer = conflicts->newer;
+    }
+}
+
+uint32_t tl_quickhull_dequeue(tl_quickhull *hull)
+{
+    if (!hull->farthest_first) {
+        return hull->newest; // it leaves the list when it dies, for its farthest point sees it
+    }
+    while (hull->heap_count > 0) {
+        tl_quickhull_entry entry = pop_heap(hull);
+        const tl_quickhull_conflicts *conflicts = &hull->conflicts[entry.face];
+        // An entry of a face that is gone, or whose place another one took, is dropped.
+        if (conflicts->live && conflicts->first != TL_NONE && conflicts->farthest == entry.point) {
+            return entry.face;
+        }
+    }
+    return TL_NONE;
+}

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+//
+// Quickhull: from a tetrahedron outward, each step adds the farthest point of some face, until no point is outside.
+// Source: Barber, Dobkin, Huhdanpaa, The Quickhull Algorithm for Convex Hulls, ACM TOMS 22, 1996.
+//
+// Where it differs: the paper bounds rounding by thick facets and merges what becomes concave; here every side test is
+// exact, so nothing can become concave. A face is visible only when the point is strictly in front of it. The visible
+// faces then are those that a point just inside of the new one would see, hence a disk with a simple horizon; and a new
+// triangle is never degenerate, since a point on the line of a horizon edge lies in the plane of the visible face
+// there. Coplanar triangles are merged once, at the end: merging on the way saves no predicate.
+
+#include "hull/bake/quickhull.h"
+
+#include "base/assert.h"
+#include "base/host.h"
+
+#include <string.h>
+
+// Steps between two calls of the progress hook.
+#define PROGRESS_STEPS 4096u
+
+// Room for faces: a first block, then each as large as all that may come, within this factor.
+#define FACES_A_STEP 64u
+#define FACE_GROWTH  8u
+
+tl_hull_def tl_default_hull_def(void)
+{
+    tl_hull_def def;
+    memset(&def, 0, sizeof def);
+    def.flatness = 8.0f;
+    return def;
+}
+
+uint32_t tl_quickhull_new_face(tl_quickhull *hull, uint32_t a, uint32_t b, uint32_t c)
+{
+    uint32_t index = hull->free_face;
+    if (index != TL_NONE) {
+        hull->free_face = hull->faces[index].vertex[0];
+    } else {
+        TL_ASSERT(hull->face_count < hull->face_capacity);
+        index = hull->face_count++;
+        hull->conflicts[index].seen = 0;
+    }
+    tl_quickhull_face *face = &hull->faces[index];
+    face->vertex[0] = a;
+    face->vertex[1] = b;
+    face->vertex[2] = c;
+    face->across[0] = face->across[1] = face->across[2] = TL_NONE;
+    const tl_quickhull_point *local = hull->local;
+    face->plane = tl_side_plane_make(local[a].position, local[b].position, local[c].position, hull->reach);
+    tl_quickhull_conflicts *conflicts = &hull->conflicts[index];
+    conflicts->first = TL_NONE;
+    conflicts->farthest = TL_NONE;
+    conflicts->farthest_value = 0.0;
+    conflicts->live = true;
+    hull->live_faces++;
+    return index;
+}
+
+void tl_quickhull_free_face(tl_quickhull *hull, uint32_t index)
+{
+    tl_quickhull_unqueue(hull, index);
+    hull->conflicts[index].live = false;
+    hull->conflicts[index].first = TL_NONE;
+    hull->faces[index].vertex[0] = hull->free_face;
+    hull->free_face = index;
+    hull->live_faces--;
+}
+
+tl_result tl_quickhull_reserve(tl_quickhull *hull, uint32_t more)
+{
+    uint32_t needed = hull->live_faces + more;
+    if (needed <= hull->face_capacity) {
+        return TL_OK;
+    }
+    // As many as there will be if every point that waits becomes a corner (Euler), and some for a step; but no more
+    // than some times what it has come to, for of a solid cloud few do.
+    uint64_t most = (uint64_t)hull->live_faces + 2 * (uint64_t)hull->waiting + FACES_A_STEP;
+    uint64_t growth = FACE_GROWTH * (uint64_t)needed;
+    uint32_t capacity = (uint32_t)(most < growth ? most : growth);
+    capacity = capacity < needed ? needed : capacity;
+    tl_quickhull_face *faces = TL_PUSH(hull->arena, tl_quickhull_face, capacity);
+    tl_quickhull_conflicts *conflicts = TL_PUSH(hull->arena, tl_quickhull_conflicts, capacity);
+    uint32_t *visible = TL_PUSH(hull->arena, uint32_t, capacity);
+    // A disk of n triangles has at most n + 2 border edges.
+    uint32_t *horizon = TL_PUSH(hull->arena, uint32_t, (uint64_t)capacity + 2);
+    uint32_t *created = TL_PUSH(hull->arena, uint32_t, (uint64_t)capacity + 2);
+    if (faces == NULL || conflicts == NULL || visible == NULL || horizon == NULL || created == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    if (hull->face_count > 0) {
+        memcpy(faces, hull->faces, hull->face_count * sizeof *faces);
+        memcpy(conflicts, hull->conflicts, hull->face_count * sizeof *conflicts);
+        memcpy(visible, hull->visible, hull->visible_count * sizeof *visible);
+        memcpy(horizon, hull->horizon, hull->horizon_count * sizeof *horizon);
+    }
+    hull->faces = faces;
+    hull->conflicts = conflicts;
+    hull->visible = visible;
+    hull->horizon = horizon;
+    hull->created = created;
+    hull->face_capacity = capacity;
+    return TL_OK;
+}
+
+static tl_result check_points(const tl_vec3 *points, uint32_t count, tl_report *report)
+{
+    if (count == 0) {
+        return tl_report_fail(report, TL_ERR_EMPTY, NULL, TL_NO_ELEMENT, "give at least four points");
+    }
+    if (count >= TL_MAX_HULL_POINTS) {
+        return tl_report_fail(report, TL_ERR_LIMIT, NULL, TL_NO_ELEMENT,
+                              "build hulls of parts, then of their vertices");
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (!tl_is_finite(points[i])) {
+            return tl_report_fail(report, TL_ERR_NOT_FINITE, "point", i, "remove or repair this point");
+        }
+        tl_vec3 size = tl_abs(points[i]);
+        if (tl_maxf(size.x, tl_maxf(size.y, size.z)) > TL_MAX_HULL_COORDINATE) {
+            return tl_report_fail(report, TL_ERR_RANGE, "point", i, "use a larger unit");
+        }
+    }
+    return TL_OK;
+}
+
+static void measure(tl_quickhull *hull)
+{
+    hull->box = tl_aabb_empty();
+    for (uint32_t i = 0; i < hull->point_count; i++) {
+        hull->box = tl_aabb_add_point(hull->box, hull->points[i]);
+    }
+}
+
+// Moves the points near the origin, where the bounds of side tests are tight. No coordinate is rounded, so the hull is
+// the same.
+static tl_result make_local(tl_quickhull *hull)
+{
+    hull->local = TL_PUSH(hull->arena, tl_quickhull_point, hull->point_count);
+    if (hull->local == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_vec3 low = hull->box.min, high = hull->box.max;
+    tl_vec3 origin =
+        tl_vec3_make(tl_side_origin(low.x, high.x), tl_side_origin(low.y, high.y), tl_side_origin(low.z, high.z));
+    tl_vec3 reach = tl_max(tl_abs(tl_sub(low, origin)), tl_abs(tl_sub(high, origin)));
+    hull->reach[0] = (double)reach.x;
+    hull->reach[1] = (double)reach.y;
+    hull->reach[2] = (double)reach.z;
+    for (uint32_t i = 0; i < hull->point_count; i++) {
+        hull->local[i].position = tl_sub(hull->points[i], origin);
+    }
+    return TL_OK;
+}
+
+// Links the four faces of the tetrahedron, turned outward.
+static tl_result make_tetrahedron(tl_quickhull *hull, const uint32_t seed[4])
+{
+    uint32_t a = seed[0], b = seed[1], c = seed[2], d = seed[3];
+    if (tl_orient3d(hull->points[a], hull->points[b], hull->points[c], hull->points[d]) > 0) {
+        uint32_t swap = b;
+        b = c;
+        c = swap;
+    }
+    TL_TRY(tl_quickhull_reserve(hull, 4));
+    tl_quickhull_new_face(hull, a, b, c);
+    tl_quickhull_new_face(hull, a, d, b);
+    tl_quickhull_new_face(hull, b, d, c);
+    tl_quickhull_new_face(hull, c, d, a);
+    // Loops of 3: half-edge i % 3 of face i / 3.
+    for (uint32_t i = 0; i < 12; i++) {
+        uint32_t from = hull->faces[i / 3].vertex[i % 3];
+        uint32_t to = hull->faces[i / 3].vertex[(i + 1) % 3];
+        for (uint32_t j = 0; j < 12; j++) {
+            if (hull->faces[j / 3].vertex[j % 3] == to && hull->faces[j / 3].vertex[(j + 1) % 3] == from) {
+                hull->faces[i / 3].across[i % 3] = 4 * (j / 3) + j % 3;
+            }
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result expand(tl_quickhull *hull, const tl_hull_def *def)
+{
+    for (uint32_t step = 0;; step++) {
+        // A triangulated sphere of F faces has F / 2 + 2 vertices.
+        if (def->max_vertices != 0 && hull->live_faces / 2 + 2 >= def->max_vertices) {
+            return TL_OK;
+        }
+        uint32_t face = tl_quickhull_dequeue(hull);
+        if (face == TL_NONE) {
+            return TL_OK;
+        }
+        if (step % PROGRESS_STEPS == 0) {
+            TL_TRY(tl_progress_update(&def->host, "hull", step, hull->point_count));
+        }
+        TL_TRY(tl_quickhull_add_point(hull, face));
+        tl_quickhull_refile(hull);
+        for (uint32_t i = 0; i < hull->created_count; i++) {
+            TL_TRY(tl_quickhull_enqueue(hull, hull->created[i]));
+        }
+    }
+}
+
+static void report_left_out(const tl_quickhull *hull, tl_hull_report *report)
+{
+    if (report == NULL) {
+        return;
+    }
+    report->triangle_count = hull->live_faces;
+    report->points_left_out = hull->waiting;
+    for (uint32_t i = 0; i < hull->face_count; i++) {
+        const tl_quickhull_conflicts *conflicts = &hull->conflicts[i];
+        if (!conflicts->live || conflicts->first == TL_NONE) {
+            continue;
+        }
+        double distance = conflicts->farthest_value / tl_side_plane_length(&hull->faces[i].plane);
+        report->max_outside = distance > report->max_outside ? distance : report->max_outside;
+    }
+}
+
+static tl_result fail_without_volume(tl_report *report, tl_result result)
+{
+    return tl_report_fail(report, result, NULL, TL_NO_ELEMENT,
+                          "the points have no volume: set a thickness, or use them as a point cloud");
+}
+
+static tl_result build(tl_quickhull *hull, const tl_hull_def *def, tl_hull **hull_out, tl_hull_report *report)
+{
+    tl_report *base = report != NULL ? &report->base : NULL;
+    uint32_t seed[4], rank, copies = 1;
+    measure(hull);
+    tl_result result = tl_quickhull_seed(hull, (double)def->flatness, seed, &rank);
+    if (result != TL_OK && def->thickness > 0.0f) {
+        TL_TRY(tl_quickhull_thicken(hull, seed, rank, def->thickness, &copies));
+        measure(hull);
+        result = tl_quickhull_seed(hull, 0.0, seed, &rank);
+    }
+    if (result != TL_OK) {
+        return fail_without_volume(base, result);
+    }
+    hull->cone_face = TL_PUSH(hull->arena, uint32_t, hull->point_count);
+    if (hull->cone_face == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    TL_TRY(make_local(hull));
+    TL_TRY(make_tetrahedron(hull, seed));
+    tl_quickhull_file_all(hull, seed);
+    for (uint32_t i = 0; i < 4; i++) {
+        TL_TRY(tl_quickhull_enqueue(hull, i));
+    }
+    TL_TRY(expand(hull, def));
+    report_left_out(hull, report);
+    tl_hull_polygons polygons;
+    TL_TRY(tl_quickhull_merge_faces(hull, &polygons));
+    TL_TRY(tl_hull_bake(&polygons, hull->points, copies, hull->arena, hull_out));
+    if (report != NULL) {
+        report->thickened = copies > 1;
+    }
+    return TL_OK;
+}
+
+tl_result tl_hull_build(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
+                        tl_hull_report *report_out)
+{
+    TL_ASSERT(hull_out != NULL);
+    const tl_hull_def defaults = tl_default_hull_def();
+    def = def != NULL ? def : &defaults;
+    *hull_out = NULL;
+    tl_report *base = NULL;
+    if (report_out != NULL) {
+        memset(report_out, 0, sizeof *report_out);
+        base = &report_out->base;
+    }
+    tl_report_begin(base, "hull");
+    if ((def->max_vertices != 0 && def->max_vertices < 4) || !(def->thickness >= 0.0f) || !isfinite(def->thickness) ||
+        !(def->flatness >= 0.0f)) {
+        return tl_report_fail(base, TL_ERR_ARGUMENT, NULL, TL_NO_ELEMENT,
+                              "max_vertices is 0 or at least 4, thickness and flatness are at least 0");
+    }
+    TL_TRY(check_points(points, count, base));
+    tl_arena arena;
+    tl_arena_init(&arena, def->host.allocator);
+    tl_quickhull hull;
+    memset(&hull, 0, sizeof hull);
+    hull.arena = &arena;
+    hull.points = points;
+    hull.point_count = count;
+    hull.free_face = TL_NONE;
+    hull.newest = TL_NONE;
+    hull.farthest_first = def->max_vertices != 0;
+    tl_result result = build(&hull, def, hull_out, report_out);
+    if (base != NULL) {
+        base->peak_bytes = arena.peak_bytes + (*hull_out != NULL ? (*hull_out)->blob.size : 0);
+    }
+    tl_arena_free(&arena);
+    return result;
+}

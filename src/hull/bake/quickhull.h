@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+//
+// The working form of the hull build: triangles over the input points, each with the points that lie outside of it.
+//
+// Invariant after each step: the live triangles bound a convex body, weakly (neighbours may be coplanar), and every
+// point that is not on its surface or inside is filed under a triangle that it lies strictly in front of.
+
+#ifndef TALUS_SRC_HULL_QUICKHULL_H
+#define TALUS_SRC_HULL_QUICKHULL_H
+
+#include "base/arena.h"
+#include "hull/bake/side_plane.h"
+
+#include <talus/hull.h>
+
+#define TL_NONE UINT32_MAX
+
+// Half-edge k of triangle f is 4 * f + k and runs from vertex k to vertex (k + 1) % 3. What a step asks of a face is
+// one cache line; what it keeps for it lies beside, in tl_quickhull_conflicts.
+typedef struct tl_quickhull_face {
+    tl_side_plane plane;
+    uint32_t vertex[3];
+    uint32_t across[3]; // the twin of each half-edge
+} tl_quickhull_face;
+
+typedef struct tl_quickhull_conflicts {
+    double farthest_value; // height of the farthest point times the normal's length
+    uint32_t first;        // head of a list linked by tl_quickhull_point.next
+    uint32_t farthest;     // its point with the largest value; lowest index on ties
+    uint32_t seen;         // twice the step that last asked whether the face is visible, plus 1 when it is
+    uint32_t newer, older; // neighbours among the faces that wait
+    bool live;
+} tl_quickhull_conflicts;
+
+// An input point, moved by tl_quickhull.origin.
+typedef struct tl_quickhull_point {
+    tl_vec3 position;
+    uint32_t next; // in its face's list
+} tl_quickhull_point;
+
+// Farthest-first order, when the number of vertices is limited.
+typedef struct tl_quickhull_entry {
+    double distance;
+    uint32_t face;
+    uint32_t point;
+} tl_quickhull_entry;
+
+typedef struct tl_quickhull {
+    tl_arena *arena;
+    const tl_vec3 *points;
+    uint32_t point_count;
+    uint32_t waiting; // points that are filed under a face
+    tl_aabb box;
+    tl_quickhull_point *local; // [point_count] the points near the origin, exactly moved
+    double reach[3];           // the largest absolute local coordinates
+
+    tl_quickhull_face *faces;
+    tl_quickhull_conflicts *conflicts; // [face_capacity]
+    uint32_t face_count;               // used entries, dead ones included
+    uint32_t face_capacity;
+    uint32_t live_faces;
+    uint32_t free_face; // list of dead faces linked by vertex[0]
+
+    uint32_t *cone_face; // [point_count] the new face whose horizon edge starts at this vertex
+
+    // One step's scratch, grown with the faces.
+    uint32_t *visible; // faces that see the new point
+    uint32_t visible_count;
+    uint32_t *horizon; // half-edges of visible faces whose twins are not visible
+    uint32_t horizon_count;
+    uint32_t *created;
+    uint32_t created_count;
+    uint32_t step;
+
+    // Faces that wait: the newest first, or a heap when farthest_first.
+    uint32_t newest;
+    bool farthest_first;
+    tl_quickhull_entry *heap;
+    uint32_t heap_count, heap_capacity;
+} tl_quickhull;
+
+// The hull as polygons, in final numbering, before it is baked.
+typedef struct tl_hull_polygons {
+    uint32_t vertex_count, face_count, half_edge_count;
+    uint32_t *points; // [vertex_count] ascending
+    tl_hull_half_edge *half_edges;
+    tl_hull_face *faces;
+} tl_hull_polygons;
+
+static inline uint32_t tl_half_edge_face(uint32_t half_edge)
+{
+    return half_edge >> 2;
+}
+
+static inline uint32_t tl_half_edge_corner(uint32_t half_edge)
+{
+    return half_edge & 3u;
+}
+
+static inline uint32_t tl_half_edge_next(uint32_t half_edge)
+{
+    return tl_half_edge_corner(half_edge) == 2 ? half_edge - 2 : half_edge + 1;
+}
+
+// 1 when a point, given by its local position, is in front of a face, 0 in its plane, -1 behind; exact. `height_out`
+// gets its approximate height times the normal's length.
+static inline int tl_quickhull_side(const tl_quickhull *hull, const tl_quickhull_face *face, tl_vec3 p,
+                                    double *height_out)
+{
+    *height_out = tl_side_plane_height(&face->plane, p);
+    int sign = tl_side_plane_sign(&face->plane, *height_out);
+    if (sign != 0) {
+        return sign;
+    }
+    const tl_quickhull_point *local = hull->local;
+    return tl_orient3d(local[face->vertex[0]].position, local[face->vertex[1]].position,
+                       local[face->vertex[2]].position, p);
+}
+
+// quickhull.c
+// A live face without neighbours; the caller has made room by tl_quickhull_reserve.
+uint32_t tl_quickhull_new_face(tl_quickhull *hull, uint32_t a, uint32_t b, uint32_t c);
+void tl_quickhull_free_face(tl_quickhull *hull, uint32_t face);
+// Room for `more` new faces, here and in the scratch.
+tl_result tl_quickhull_reserve(tl_quickhull *hull, uint32_t more);
+
+// seed.c: the first tetrahedron, and the named result of input without volume.
+tl_result tl_quickhull_seed(tl_quickhull *hull, double flatness, uint32_t seed_out[4], uint32_t *rank_out);
+
+// conflict_list.c
+void tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4]);
+// Files the points of the visible faces under the created ones.
+void tl_quickhull_refile(tl_quickhull *hull);
+// Lets a new face wait for its turn, if it has points.
+tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face);
+// Takes a face that is about to die out of the waiting ones.
+void tl_quickhull_unqueue(tl_quickhull *hull, uint32_t face);
+// The next face with a point outside, or TL_NONE.
+uint32_t tl_quickhull_dequeue(tl_quickhull *hull);
+
+// horizon.c: replaces all that is visible from the face's farthest point by a cone. Leaves `visible` for the refiling.
+tl_result tl_quickhull_add_point(tl_quickhull *hull, uint32_t face);
+
+// face_merge.c
+tl_result tl_quickhull_merge_faces(tl_quickhull *hull, tl_hull_polygons *polygons_out);
+
+// thicken.c: copies of the points moved to both sides along the directions that they lack.
+tl_result tl_quickhull_thicken(tl_quickhull *hull, const uint32_t seed[4], uint32_t rank, float thickness,
+                               uint32_t *copies_out);
+
+// bake.c
+tl_result tl_hull_bake(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
+                       tl_hull **hull_out);
+
+#endif

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// Ray against a hull: the ray is clipped by every plane; what is left is the part inside. The kernel is in
+// ray_planes.h, chosen as in the soup's ray query: by a look at the processor's features, so that there is no state.
+// Source: Cyrus, Beck, Generalized Two- and Three-Dimensional Clipping, 1978. In double, so that neither the hull's
+// distance from the origin nor the ray's length costs precision that a float result could show.
+
+#include "hull/ray/ray.h"
+
+#include "base/assert.h"
+#include "math/predicates.h"
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+tl_ray_planes_fn *tl_ray_planes_for(int level)
+{
+    switch (level) {
+    case 0:
+        return tl_ray_planes_scalar;
+    case 1:
+        return __builtin_cpu_supports("sse4.2") ? tl_ray_planes_sse42 : NULL;
+    case 2:
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? tl_ray_planes_avx2 : NULL;
+    case 3:
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq")
+                   ? tl_ray_planes_avx512
+                   : NULL;
+    default:
+        return NULL;
+    }
+}
+
+#else
+
+tl_ray_planes_fn *tl_ray_planes_for(int level)
+{
+    return level == 0 ? tl_ray_planes_scalar : NULL;
+}
+
+#endif
+
+bool tl_hull_clip_ray(const tl_hull *hull, const double origin[3], const double direction[3], double max_t,
+                      double *t_out, uint32_t *face_out)
+{
+    tl_ray_planes_fn *best = NULL;
+    for (int level = 3; best == NULL; level--) {
+        best = tl_ray_planes_for(level);
+    }
+    return best(hull, origin, direction, max_t, t_out, face_out);
+}
+
+bool tl_hull_cast_ray(const tl_hull *hull, tl_vec3 origin, tl_vec3 direction, float max_t, tl_hull_hit *hit_out)
+{
+    const double from[3] = { (double)origin.x, (double)origin.y, (double)origin.z };
+    const double along[3] = { (double)direction.x, (double)direction.y, (double)direction.z };
+    double t;
+    uint32_t face;
+    if (!tl_hull_clip_ray(hull, from, along, (double)max_t, &t, &face)) {
+        return false;
+    }
+    if (hit_out != NULL) {
+        hit_out->t = (float)t;
+        hit_out->face = face;
+        hit_out->normal = tl_vec3_make(0.0f, 0.0f, 0.0f);
+        if (face != TL_NO_VERTEX) {
+            tl_hull_plane plane = tl_hull_face_plane(hull, face);
+            hit_out->normal = tl_vec3_make((float)plane.normal[0], (float)plane.normal[1], (float)plane.normal[2]);
+        }
+    }
+    return true;
+}
+
+bool tl_hull_contains(const tl_hull *hull, tl_vec3 point)
+{
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        // Corners of a face are strict, so any three in a row span its plane.
+        const tl_hull_half_edge *h = &half_edges[tl_hull_faces(hull)[f].first];
+        if (tl_orient3d(vertices[h[0].origin], vertices[h[1].origin], vertices[h[2].origin], point) > 0) {
+            return false;
+        }
+    }
+    return true;
+}

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+//
+// A ray against a hull's planes, for SSE4.2.
+
+#if defined(__x86_64__) && defined(__GNUC__)
+#define TL_RAY_PLANES tl_ray_planes_sse42
+#include "hull/ray/ray_planes.h"
+#endif

@@ -1,8 +1,0 @@
-// SPDX-License-Identifier: MIT
-//
-// A ray against a hull's planes, for AVX2.
-
-#if defined(__x86_64__) && defined(__GNUC__)
-#define TL_RAY_PLANES tl_ray_planes_avx2
-#include "hull/ray_planes.h"
-#endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+//
+// Where a climb starts: the vertex that is farthest for the middle of the direction's cell.
+//
+// The direction is scaled by the hull's box first: the support of a stretched body in direction d is that of the body
+// in the stretched direction, so this makes a needle's table as even as a ball's. (Other long bodies are better off
+// without, which is decided by how their faces' normals spread.) Then it is projected to the octahedron
+// |x| + |y| + |z| = 1, each half of which (z < 0, z >= 0) turned by 45 degrees is a square: no branch, no fold, and no
+// cell is wasted, unlike with a grid over the cube's volume.
+// Near: Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3, 2014.
+//
+// A large face is what this map is bad at: the directions of its vertices are wedges that meet in its normal, and no
+// square cell is small enough there. A cell among wedges names the face's ring instead: cells by the angle in the
+// face's plane.
+
+#ifndef TALUS_SRC_HULL_DIRECTION_TABLE_H
+#define TALUS_SRC_HULL_DIRECTION_TABLE_H
+
+#include "hull/support/support.h"
+
+#include <float.h>
+#include <string.h>
+
+// Moves 1.0 a little inward, so that cells at the rim need no clamping: more than the roundings of the quotient, less
+// than a cell's width would notice.
+#define TL_TABLE_INWARD (1.0f - 9.5367432e-7f) // 1 - 2^-20
+
+// A body or face thinner than this share of its largest extent gains nothing from more stretching: tables only say
+// where a climb starts.
+#define TL_LEAST_RELATIVE_EXTENT 1e-6
+
+// An extent over the largest one, so that no product with a direction in range under- or overflows.
+static inline double tl_relative_extent(double extent, double largest)
+{
+    double share = extent / largest;
+    return share > TL_LEAST_RELATIVE_EXTENT ? share : TL_LEAST_RELATIVE_EXTENT;
+}
+
+static inline uint32_t tl_table_cell(tl_vec3 scaled, uint32_t side)
+{
+    float size = fabsf(scaled.x) + fabsf(scaled.y) + fabsf(scaled.z);
+    float half = 0.5f * (float)side, inverse = half * TL_TABLE_INWARD / size;
+    uint32_t row = (uint32_t)(int32_t)((scaled.x - scaled.y) * inverse + half);
+    uint32_t column = (uint32_t)(int32_t)((scaled.x + scaled.y) * inverse + half);
+    uint32_t sign;
+    memcpy(&sign, &scaled.z, sizeof sign);
+    return ((sign >> 31) * side + row) * side + column;
+}
+
+static inline uint32_t tl_ring_cell(const tl_face_ring *ring, tl_vec3 d)
+{
+    float a = ring->u[0] * d.x + ring->u[1] * d.y + ring->u[2] * d.z;
+    float b = ring->v[0] * d.x + ring->v[1] * d.y + ring->v[2] * d.z;
+    float t = b / tl_maxf(fabsf(a) + fabsf(b), FLT_MIN);
+    // 0 .. 4 once around: a diamond's perimeter instead of the angle.
+    float around = 2.0f - copysignf(1.0f - t, a);
+    return (uint32_t)(int32_t)(around * (0.25f * TL_TABLE_INWARD * (float)ring->cell_count));
+}
+
+static inline uint32_t tl_ring_start(const tl_hull *hull, uint32_t index, tl_vec3 direction)
+{
+    const tl_face_ring *ring = &tl_hull_rings(hull)[index];
+    return tl_hull_table(hull)[ring->first + tl_ring_cell(ring, direction)];
+}
+
+// For a direction in the range of support.h.
+static inline uint32_t tl_hull_table_start(const tl_hull *hull, tl_vec3 direction)
+{
+    uint32_t cell = tl_table_cell(tl_mul(direction, hull->table_scale), hull->table_side);
+    uint32_t start = tl_hull_table(hull)[cell];
+    return (start & TL_TABLE_RING) == 0 ? start : tl_ring_start(hull, start & ~TL_TABLE_RING, direction);
+}
+
+#endif

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+//
+// Fills the rings of large faces: for the direction of each cell's middle in the face's plane, the farthest vertex of
+// the polygon. Both go around once, so this is linear (rotating calipers: Shamos, Computational Geometry, 1978).
+
+#include "hull/support/face_ring.h"
+
+#include "hull/support/direction_table.h"
+#include "math/vec3d.h"
+
+static tl_vec3d corner_of(const tl_hull *hull, uint32_t half_edge)
+{
+    return tl_vec3d_from(tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin]);
+}
+
+// The plane's axes, right-handed with its normal, of unit length; any turn about the normal will do.
+static void plane_axes(const tl_hull *hull, uint32_t face, tl_vec3d axes[2])
+{
+    tl_hull_plane plane = tl_hull_face_plane(hull, face);
+    tl_vec3d normal = tl_vec3d_make(plane.normal[0], plane.normal[1], plane.normal[2]);
+    axes[1] = tl_vec3d_perpendicular(normal);
+    axes[0] = tl_vec3d_cross(axes[1], normal);
+}
+
+static void extents_along(const tl_hull *hull, uint32_t face, const tl_vec3d axes[2], double extent[2])
+{
+    tl_hull_face f = tl_hull_faces(hull)[face];
+    tl_vec3d origin = corner_of(hull, f.first);
+    for (int i = 0; i < 2; i++) {
+        double low = 0.0, high = 0.0;
+        for (uint32_t k = 1; k < f.count; k++) {
+            double at = tl_vec3d_dot(axes[i], tl_vec3d_sub(corner_of(hull, f.first + k), origin));
+            low = at < low ? at : low;
+            high = at > high ? at : high;
+        }
+        extent[i] = high - low;
+    }
+    double largest = extent[0] > extent[1] ? extent[0] : extent[1];
+    for (int i = 0; i < 2; i++) {
+        extent[i] = tl_relative_extent(extent[i], largest);
+    }
+}
+
+tl_face_ring tl_face_ring_make(const tl_hull *hull, uint32_t face, uint32_t first)
+{
+    tl_vec3d axes[2];
+    double extent[2];
+    plane_axes(hull, face, axes);
+    extents_along(hull, face, axes, extent);
+    tl_vec3 u = tl_vec3d_to_float(tl_vec3d_scale(axes[0], extent[0]));
+    tl_vec3 v = tl_vec3d_to_float(tl_vec3d_scale(axes[1], extent[1]));
+    uint32_t cells = tl_face_ring_cells(tl_hull_faces(hull)[face].count);
+    tl_face_ring ring = { { u.x, u.y, u.z }, { v.x, v.y, v.z }, first, cells };
+    return ring;
+}
+
+// Of the middle of a cell, in space.
+static tl_vec3d cell_direction(const tl_vec3d axes[2], const double extent[2], uint32_t cell, uint32_t cell_count)
+{
+    double around = 4.0 * ((double)cell + 0.5) / (double)cell_count;
+    double t = around < 2.0 ? around - 1.0 : 3.0 - around;
+    double a = around < 2.0 ? 1.0 - fabs(t) : fabs(t) - 1.0;
+    return tl_vec3d_add(tl_vec3d_scale(axes[0], a / extent[0]), tl_vec3d_scale(axes[1], t / extent[1]));
+}
+
+static void fill_ring(const tl_hull *hull, uint32_t face, const tl_face_ring *ring, uint32_t *table)
+{
+    tl_vec3d axes[2];
+    double extent[2];
+    plane_axes(hull, face, axes);
+    extents_along(hull, face, axes, extent);
+    tl_hull_face f = tl_hull_faces(hull)[face];
+    uint32_t best = 0;
+    for (uint32_t cell = 0; cell < ring->cell_count; cell++) {
+        tl_vec3d d = cell_direction(axes, extent, cell, ring->cell_count);
+        // The first cell looks at all corners; from then on the farthest one only moves forward, along the loop.
+        for (uint32_t k = 1, at = best; k < f.count; k++) {
+            at = at + 1 < f.count ? at + 1 : 0;
+            tl_vec3d ahead = tl_vec3d_sub(corner_of(hull, f.first + at), corner_of(hull, f.first + best));
+            if (tl_vec3d_dot(d, ahead) > 0.0) {
+                best = at;
+            } else if (cell > 0) {
+                break;
+            }
+        }
+        table[ring->first + cell] = tl_hull_half_edges(hull)[f.first + best].origin;
+    }
+}
+
+void tl_hull_fill_rings(tl_hull *hull, uint32_t *table, uint32_t *rings_of_vertices)
+{
+    tl_face_ring *rings = (tl_face_ring *)(uintptr_t)tl_hull_rings(hull);
+    const tl_hull_face *faces = tl_hull_faces(hull);
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        rings_of_vertices[v] = TL_NO_RING;
+    }
+    uint32_t count = 0, first = 2 * hull->table_side * hull->table_side;
+    for (uint32_t face = 0; face < hull->face_count; face++) {
+        if (!tl_face_has_ring(faces[face].count)) {
+            continue;
+        }
+        rings[count] = tl_face_ring_make(hull, face, first);
+        fill_ring(hull, face, &rings[count], table);
+        for (uint32_t k = 0; k < faces[face].count; k++) {
+            uint32_t *of = &rings_of_vertices[tl_hull_half_edges(hull)[faces[face].first + k].origin];
+            if (*of == TL_NO_RING || rings[*of].cell_count < rings[count].cell_count) {
+                *of = count;
+            }
+        }
+        first += rings[count].cell_count;
+        count++;
+    }
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+//
+// Rings of cells for large faces: see direction_table.h.
+
+#ifndef TALUS_SRC_HULL_FACE_RING_H
+#define TALUS_SRC_HULL_FACE_RING_H
+
+#include "hull/support/support.h"
+
+#define TL_NO_RING UINT32_MAX
+
+// Whether a face of so many vertices has a ring.
+static inline bool tl_face_has_ring(uint32_t vertex_count)
+{
+    return vertex_count >= 12;
+}
+
+// Cells of its ring.
+static inline uint32_t tl_face_ring_cells(uint32_t vertex_count)
+{
+    return 4 * vertex_count;
+}
+
+// The axes of a face's ring; `first` is copied.
+tl_face_ring tl_face_ring_make(const tl_hull *hull, uint32_t face, uint32_t first);
+
+// Writes all rings and their cells, and for each vertex the ring of the largest face that it belongs to, or TL_NO_RING.
+void tl_hull_fill_rings(tl_hull *hull, uint32_t *table, uint32_t *rings_of_vertices);
+
+#endif

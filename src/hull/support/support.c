@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+//
+// The support query's front: which instruction set, and directions of unusual length.
+//
+// The choice reads the processor's features as the C runtime found them at program start (__builtin_cpu_supports): one
+// load and a branch, no state of our own, and the baked hull has the same bytes on every machine.
+
+#include "hull/support/support.h"
+
+#include <string.h>
+
+#if defined(__x86_64__) && defined(__GNUC__)
+
+static inline bool has_avx2(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+}
+
+static inline bool has_sse42(void)
+{
+    return __builtin_cpu_supports("sse4.2");
+}
+
+#else
+
+// Never called.
+#define tl_hull_support_avx2  tl_hull_support_scalar
+#define tl_hull_climb_avx2    tl_hull_climb_scalar
+#define tl_hull_march_avx2    tl_hull_march_scalar
+#define tl_hull_support_sse42 tl_hull_support_scalar
+#define tl_hull_climb_sse42   tl_hull_climb_scalar
+#define tl_hull_march_sse42   tl_hull_march_scalar
+
+static inline bool has_avx2(void)
+{
+    return false;
+}
+
+static inline bool has_sse42(void)
+{
+    return false;
+}
+
+#endif
+
+bool tl_support_kernel_for(tl_support_isa isa, tl_support_kernel *kernel_out)
+{
+    const tl_support_kernel kernels[TL_SUPPORT_ISA_COUNT] = {
+        { tl_hull_support_scalar, tl_hull_climb_scalar, tl_hull_march_scalar },
+        { tl_hull_support_sse42, tl_hull_climb_sse42, tl_hull_march_sse42 },
+        { tl_hull_support_avx2, tl_hull_climb_avx2, tl_hull_march_avx2 },
+    };
+    *kernel_out = kernels[isa];
+    return isa == TL_SUPPORT_SCALAR || (isa == TL_SUPPORT_SSE42 && has_sse42()) ||
+           (isa == TL_SUPPORT_AVX2 && has_avx2());
+}
+
+tl_support_kernel tl_support_kernel_best(void)
+{
+    tl_support_kernel kernel;
+    tl_support_kernel_for(has_avx2() ? TL_SUPPORT_AVX2 : has_sse42() ? TL_SUPPORT_SSE42 : TL_SUPPORT_SCALAR, &kernel);
+    return kernel;
+}
+
+uint32_t tl_hull_support(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
+{
+    if (has_avx2()) {
+        return tl_hull_support_avx2(hull, direction, hint);
+    }
+    return has_sse42() ? tl_hull_support_sse42(hull, direction, hint) : tl_hull_support_scalar(hull, direction, hint);
+}
+
+// 2^-exponent(size) as a double, for a float size > 0: exact, and never a denormal.
+static double reciprocal_power(float size)
+{
+    double wide = (double)size;
+    uint64_t bits;
+    memcpy(&bits, &wide, sizeof bits);
+    bits = (uint64_t)(2046u - (bits >> 52)) << 52;
+    double result;
+    memcpy(&result, &bits, sizeof result);
+    return result;
+}
+
+uint32_t tl_hull_support_unusual(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
+{
+    tl_vec3 size = tl_abs(direction);
+    float largest = tl_maxf(size.x, tl_maxf(size.y, size.z));
+    if (!(largest > 0.0f) || !tl_is_finite(direction)) {
+        return 0;
+    }
+    double scale = reciprocal_power(largest);
+    double x = (double)direction.x * scale, y = (double)direction.y * scale, z = (double)direction.z * scale;
+    tl_vec3 scaled = tl_vec3_make((float)x, (float)y, (float)z);
+    if ((double)scaled.x == x && (double)scaled.y == y && (double)scaled.z == z) {
+        return tl_hull_support(hull, scaled, hint); // now its largest component lies in [1, 2)
+    }
+    // Components too far apart for one float scale.
+    return tl_hull_climb_exact(hull, direction, hint < hull->vertex_count ? hint : 0);
+}

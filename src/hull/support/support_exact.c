@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+//
+// What float arithmetic leaves open, by exact comparisons.
+//
+// Hill climbing on the half-edges: the text's function with its defects mended.
+// Source: Allen Chou, Game Physics: Implementing Support Function for Polyhedrons using Half Edges, 2013.
+//
+// A vertex of a convex body that no neighbour exceeds is a farthest one, and all farthest vertices are those of one
+// corner, edge or face. Each step strictly gains, so there are at most V steps.
+
+#include "hull/support/support.h"
+
+#include "base/lowest_bit.h"
+#include "math/predicates.h"
+
+// The lowest vertex of the whole loop of a face.
+static uint32_t lowest_of_face(const tl_hull *hull, uint32_t half_edge)
+{
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    // A face's loop begins with its lowest vertex.
+    return half_edges[tl_hull_faces(hull)[half_edges[half_edge].face].first].origin;
+}
+
+uint32_t tl_hull_climb_exact(const tl_hull *hull, tl_vec3 direction, uint32_t vertex)
+{
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    for (;;) {
+        uint32_t start = tl_hull_vertex_edges(hull)[vertex];
+        uint32_t edge = start, better = vertex, lowest = vertex;
+        do {
+            uint32_t next = half_edges[edge].next;
+            uint32_t other = half_edges[next].origin;
+            int order = tl_compare_along(direction, vertices[other], vertices[better]);
+            if (order > 0) {
+                better = other;
+            } else if (order == 0 && better == vertex) {
+                // The edge is level; when the edge after it is too, so is the face.
+                uint32_t after = half_edges[half_edges[next].next].origin;
+                bool level_face = tl_compare_along(direction, vertices[after], vertices[vertex]) == 0;
+                uint32_t candidate = level_face ? lowest_of_face(hull, edge) : other;
+                lowest = candidate < lowest ? candidate : lowest;
+            }
+            edge = half_edges[half_edges[edge].twin].next;
+        } while (edge != start);
+        if (better == vertex) {
+            return lowest;
+        }
+        vertex = better;
+    }
+}
+
+uint32_t tl_hull_decide_exact(const tl_hull *hull, tl_vec3 direction, uint64_t candidates)
+{
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    uint32_t vertex = tl_lowest_bit(candidates);
+    for (uint64_t left = candidates & (candidates - 1); left != 0; left &= left - 1) {
+        uint32_t other = tl_lowest_bit(left);
+        // The rows of a scan are padded with the last vertex, whose own bit is lower.
+        if (other < hull->vertex_count && tl_compare_along(direction, vertices[other], vertices[vertex]) > 0) {
+            vertex = other;
+        }
+    }
+    return vertex;
+}

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+//
+// The support query: one source, compiled once for each instruction set by a file that defines TL_SUPPORT_QUERY,
+// TL_SUPPORT_CLIMB and TL_SUPPORT_MARCH.
+//
+// First the caller's hint. Then a scan of a small hull, or a start from the direction table. The start is right nearly
+// always, so the processor goes on with it while its neighbours are still being asked: the proof costs arithmetic, but
+// no waiting.
+//
+// Float arithmetic decides whenever its error bound allows; what it leaves open is settled exactly. So the answer is a
+// true maximiser, and does not depend on the hint, on the way it was found, or on the instruction set.
+
+#include "hull/support/direction_table.h"
+#include "hull/support/support_climb.h"
+#include "hull/support/support_march.h"
+#include "hull/support/support_scan.h"
+#include "math/predicates.h"
+
+typedef enum climb_end { END_FARTHEST, END_LEVEL, END_HIGHER } climb_end;
+
+// Compares exactly what rounding left open around a vertex: nothing is as far; something is exactly as far; or
+// something is farther, and `vertex` becomes that.
+static inline climb_end settle(const tl_hull *hull, tl_vec3 direction, const tl_climber *climber, uint32_t *vertex)
+{
+    const tl_climb_block *blocks = tl_hull_blocks(hull);
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    climb_end end = END_FARTHEST;
+    for (uint32_t at = *vertex; at != TL_NO_VERTEX; at = tl_climb_block_after(&blocks[at])) {
+        // The last lane of all blocks but a vertex's last one is no neighbour, and repeats the first.
+        uint32_t lanes = tl_climb_block_after(&blocks[at]) != TL_NO_VERTEX ? 0x7fu : 0xffu;
+        uint32_t open = tl_climber_open(tl_climber_ask(climber, &blocks[at])) & lanes;
+        for (; open != 0; open &= open - 1) {
+            uint32_t other = blocks[at].link[tl_lowest_bit(open)];
+            int order = tl_compare_along(direction, vertices[other], vertices[*vertex]);
+            if (order > 0) {
+                *vertex = other;
+                return END_HIGHER;
+            }
+            end = order == 0 ? END_LEVEL : end;
+        }
+    }
+    return end;
+}
+
+// Not inlined, so that the query itself needs little stack.
+TL_NOINLINE uint32_t TL_SUPPORT_CLIMB(const tl_hull *hull, tl_vec3 direction, uint32_t vertex)
+{
+    tl_climber climber = tl_climber_make(direction);
+    for (;;) {
+        if (tl_hull_climb_blocks(hull, &climber, &vertex)) {
+            return vertex;
+        }
+        climb_end end = settle(hull, direction, &climber, &vertex);
+        if (end != END_HIGHER) {
+            return end == END_LEVEL ? tl_hull_climb_exact(hull, direction, vertex) : vertex;
+        }
+    }
+}
+
+uint32_t TL_SUPPORT_MARCH(const tl_hull *hull, tl_vec3 from, tl_vec3 step, uint32_t count, uint32_t vertex,
+                          uint32_t *cells)
+{
+    return tl_hull_march_blocks(hull, from, step, count, vertex, cells);
+}
+
+uint32_t TL_SUPPORT_QUERY(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
+{
+    tl_climber climber = tl_climber_make(direction);
+    float size = fabsf(direction.x) + fabsf(direction.y) + fabsf(direction.z);
+    if (!(size >= TL_SUPPORT_DIRECTION_MIN && size <= TL_SUPPORT_DIRECTION_MAX)) {
+        return tl_hull_support_unusual(hull, direction, hint);
+    }
+    if (hint < hull->vertex_count && tl_hull_is_farthest(hull, &climber, hint)) {
+        return hint;
+    }
+    if (hull->scan_count > 0) {
+        return tl_hull_scan(hull, direction, &climber, size);
+    }
+    uint32_t start = tl_hull_table_start(hull, direction);
+    if (tl_hull_is_farthest(hull, &climber, start)) {
+        return start;
+    }
+    return TL_SUPPORT_CLIMB(hull, direction, start);
+}

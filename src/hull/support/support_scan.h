@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// Support by scan: all dot products of a small hull, eight at a time.
+//
+// The first pass keeps only the maximum, so it has no index to carry; the second compares the kept products, raised by
+// twice their error bound, with it. Raised, and not the maximum lowered: that would be one more step after the last
+// one. Nearly always one vertex remains; else the remaining ones are compared exactly.
+
+#ifndef TALUS_SRC_HULL_SUPPORT_SCAN_H
+#define TALUS_SRC_HULL_SUPPORT_SCAN_H
+
+#include "hull/support/support_climb.h"
+
+static inline tl_f32x8 scan_dot(const tl_climber *c, const float *x, uint32_t count)
+{
+    return tl_f32x8_add(
+        tl_f32x8_add(tl_f32x8_mul(c->x, tl_f32x8_load(x)), tl_f32x8_mul(c->y, tl_f32x8_load(x + count))),
+        tl_f32x8_mul(c->z, tl_f32x8_load(x + 2 * count)));
+}
+
+// The candidates among up to eight vertices, which need not leave the registers.
+static inline uint64_t scan_eight(const tl_climber *c, const float *rows, tl_f32x8 slack)
+{
+    tl_f32x8 dot = scan_dot(c, rows, TL_CLIMB_LANES);
+    return tl_f32x8_not_less(tl_f32x8_add(dot, slack), tl_f32x8_largest(dot));
+}
+
+static inline tl_f32x8 scan_step(const tl_climber *c, const float *rows, uint32_t count, tl_f32x8 slack, float *raised)
+{
+    tl_f32x8 dot = scan_dot(c, rows, count);
+    tl_f32x8_store(raised, tl_f32x8_add(dot, slack));
+    return dot;
+}
+
+// Those among more, whose rows come in pairs of eight: two strands, for a maximum waits for the one before it.
+static inline uint64_t scan_pairs(const tl_climber *c, const float *rows, uint32_t count, tl_f32x8 slack)
+{
+    enum { LANES = TL_CLIMB_LANES, PAIR = TL_SCAN_PAIR };
+    _Static_assert(TL_HULL_SCAN_LIMIT <= 64 && TL_HULL_SCAN_LIMIT % PAIR == 0, "the candidates are one word");
+    _Alignas(32) float raised[TL_HULL_SCAN_LIMIT];
+    tl_f32x8 best = scan_step(c, rows, count, slack, raised);
+    tl_f32x8 second = scan_step(c, rows + LANES, count, slack, raised + LANES);
+    for (uint32_t i = PAIR; i < count; i += PAIR) {
+        best = tl_f32x8_max(best, scan_step(c, rows + i, count, slack, raised + i));
+        second = tl_f32x8_max(second, scan_step(c, rows + i + LANES, count, slack, raised + i + LANES));
+    }
+    best = tl_f32x8_largest(tl_f32x8_max(best, second));
+    uint64_t mask = 0;
+    for (uint32_t i = 0; i < count; i += PAIR) {
+        uint32_t a = tl_f32x8_not_less(tl_f32x8_load(raised + i), best);
+        uint32_t b = tl_f32x8_not_less(tl_f32x8_load(raised + i + LANES), best);
+        mask |= (uint64_t)(a | b << LANES) << i;
+    }
+    return mask;
+}
+
+// `size` is |x| + |y| + |z| of the direction.
+static inline uint32_t tl_hull_scan(const tl_hull *hull, tl_vec3 direction, const tl_climber *c, float size)
+{
+    const float *rows = tl_hull_scan_rows(hull);
+    uint32_t count = hull->scan_count;
+    tl_f32x8 slack = tl_f32x8_all(2.0f * (hull->scan_error * size + TL_SUPPORT_UNDERFLOW));
+    uint64_t mask = count == TL_CLIMB_LANES ? scan_eight(c, rows, slack) : scan_pairs(c, rows, count, slack);
+    return (mask & (mask - 1)) == 0 ? tl_lowest_bit(mask) : tl_hull_decide_exact(hull, direction, mask);
+}
+
+#endif

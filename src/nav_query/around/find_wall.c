@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+//
+// The nearest wall: polygons are looked at in the order in which their edges come near, until none nearer than the
+// nearest wall is left. Dijkstra's order without his sums: the distance to an edge needs no path.
+//
+// Up to the nearest wall there is none, so all that lies nearer can be walked to straight, and is met in that order:
+// what is entered at a distance has nothing that is nearer. Where it seems to, the way there has turned around the end
+// of a wall and come back over or under the place, as a ramp to the next floor does: that does not count.
+
+#include "nav_query/exact/wedge_heap.h"
+#include "nav_query/navmesh/plan.h"
+#include "nav_query/navmesh/surface.h"
+#include "nav_query/search/local_search.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct wall_search {
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter;
+    double x, z;
+    double best_sq;
+    double best_t;
+    const tl_nav_ring_edge *start, *end; // of the nearest wall; NULL: none yet
+    uint32_t slot, polygon;              // that it belongs to
+    bool full;
+    bool all_pass;   // the filter refuses nothing
+    double rounding; // metres in the plane by which two edges over one place may differ
+} wall_search;
+
+// Offers a way into a polygon at a distance: it is looked at again where it is nearer than all before.
+static void offer(wall_search *search, tl_nav_ring_seam to, double distance_sq)
+{
+    tl_nav_query *query = search->query;
+    bool found = false;
+    tl_nav_root *root = tl_nav_find_root(query, (uint64_t)1 << 63 | (uint64_t)to.slot << 32 | to.polygon, &found);
+    if (found && (float)distance_sq >= root->cost) {
+        return;
+    }
+    if (query->wedge_count == query->max_nodes) {
+        search->full = true;
+        return;
+    }
+    root->cost = (float)distance_sq;
+    tl_nav_wedge *node = &query->wedges[query->wedge_count];
+    node->slot = to.slot;
+    node->polygon = to.polygon;
+    node->cost = distance_sq;
+    tl_nav_wedge_push(query, root->cost, query->wedge_count++);
+}
+
+static void look_around(wall_search *search, uint32_t node)
+{
+    uint32_t slot = search->query->wedges[node].slot;
+    uint32_t polygon = search->query->wedges[node].polygon;
+    double entry = sqrt(search->query->wedges[node].cost) - search->rounding;
+    double least_sq = entry > 0.0 ? entry * entry : 0.0;
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, slot, polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        tl_nav_plan_point nearest = tl_nav_nearest_on_edge(&ring[i], end, search->x, search->z);
+        if (nearest.distance_sq >= search->best_sq || nearest.distance_sq < least_sq ||
+            ring[i].to == TL_NAV_RING_BACK) {
+            continue;
+        }
+        if (ring[i].to != TL_NAV_RING_WALL) {
+            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring[i].to);
+            if (search->all_pass || tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
+                offer(search, to, nearest.distance_sq);
+                continue;
+            }
+        }
+        search->best_sq = nearest.distance_sq;
+        search->best_t = nearest.t;
+        search->start = &ring[i];
+        search->end = end;
+        search->slot = slot;
+        search->polygon = polygon;
+    }
+}
+
+tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                 const tl_nav_location *center, float max_radius, tl_nav_wall *wall_out)
+{
+    memset(wall_out, 0, sizeof *wall_out);
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    if (!tl_nav_is_finite(center->point) || !isfinite(max_radius)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (max_radius < 0.0f) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (!tl_nav_split_ref(navmesh, center->polygon, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    double radius_sq = (double)max_radius * (double)max_radius;
+    wall_search search = { query,
+                           navmesh,
+                           filter,
+                           (double)center->point.x,
+                           (double)center->point.z,
+                           radius_sq,
+                           0.0,
+                           NULL,
+                           NULL,
+                           slot,
+                           polygon,
+                           false,
+                           tl_nav_all_pass(navmesh, filter),
+                           0.0 };
+    search.rounding = (double)TL_FLOAT_GAMMA(6) * (fabs(search.x) + fabs(search.z) + (double)max_radius);
+    tl_nav_local_begin(query);
+    tl_nav_ring_seam home = { slot, polygon };
+    offer(&search, home, 0.0);
+    while (query->open_count > 0) {
+        tl_nav_heap_entry next = tl_nav_wedge_pop(query);
+        // Keys are rounded: one more polygon may be looked at than need be, never one less.
+        if ((double)next.total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING) >= search.best_sq) {
+            break;
+        }
+        look_around(&search, next.wedge);
+    }
+    wall_out->distance = max_radius;
+    wall_out->polygon = tl_nav_make_ref(navmesh, search.slot, search.polygon);
+    if (search.start != NULL) {
+        wall_out->hit = true;
+        wall_out->distance = (float)sqrt(search.best_sq);
+        wall_out->point = tl_nav_point_on_edge(search.start, search.end, search.best_t);
+        // Towards the inside, which is left of the edge.
+        wall_out->normal =
+            tl_normalize(tl_vec3_make(search.end->z - search.start->z, 0.0f, search.start->x - search.end->x));
+    }
+    return search.full ? TL_ERR_LIMIT : TL_OK;
+}

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+//
+// Dijkstra over polygons: each is entered where the way into it is nearest to the point where the one before was, and
+// once, by the cheapest way. A path needs less than that for its polygons, and its length is the funnel's affair.
+// Source: Dijkstra, A Note on Two Problems in Connexion with Graphs, 1959.
+
+#include "nav_query/around/flood.h"
+
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/plan.h"
+#include "nav_query/navmesh/ring_step.h"
+#include "nav_query/navmesh/surface.h"
+
+// Offers a way into a polygon: `end` is the one of an off-mesh link that was left, or TL_NAV_NO_END.
+static void enter(tl_nav_flood *flood, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost, uint32_t from,
+                  uint32_t end)
+{
+    if (!(cost <= flood->max_cost) || !(cost < INFINITY)) {
+        return;
+    }
+    uint32_t index = tl_nav_pool_get(flood->query, tl_nav_make_ref(flood->navmesh, slot, polygon));
+    if (index == TL_NAV_NO_NODE) {
+        flood->out_of_nodes = true;
+        return;
+    }
+    tl_nav_node *node = &flood->query->nodes[index];
+    if (node->heap_at == TL_NAV_NODE_CLOSED || (node->heap_at != TL_NAV_NODE_NEW && cost >= node->cost)) {
+        return;
+    }
+    node->slot = slot;
+    node->polygon = polygon;
+    node->point = point;
+    node->cost = cost;
+    node->total = cost;
+    node->parent = from;
+    *tl_nav_flood_end(flood->query, index) = end;
+    tl_nav_heap_improve(flood->query, index);
+}
+
+static float cost_between(const tl_nav_flood *flood, const tl_nav_node *node, tl_vec3 to)
+{
+    if (flood->in_metres || flood->filter == NULL) {
+        return tl_distance(node->point, to);
+    }
+    const tl_nav_tile *tile = flood->navmesh->slots[node->slot].tile;
+    return tl_nav_cost_between(flood->filter, tile, node->polygon, node->point, to);
+}
+
+static void cross_links(tl_nav_flood *flood, const tl_nav_node *node, uint32_t index)
+{
+    const tl_navmesh *navmesh = flood->navmesh;
+    for (uint32_t end = tl_nav_first_anchor(navmesh, node->slot, node->polygon); end != TL_NAV_NO_END;) {
+        const tl_nav_offmesh_entry *link = &navmesh->offmesh.entries[end / 2];
+        const tl_nav_anchor *from = &link->ends[end % 2];
+        const tl_nav_anchor *to = &link->ends[1 - end % 2];
+        if (from->slot == node->slot && from->polygon == node->polygon &&
+            tl_nav_may_cross(link, end % 2, flood->filter) &&
+            tl_nav_passes(flood->filter, navmesh->slots[to->slot].tile, to->polygon) &&
+            (flood->zone == NULL || tl_nav_zone_meets_segment(flood->zone, to->point, to->point))) {
+            bool priced = flood->filter != NULL && !flood->in_metres;
+            float factor = priced ? flood->filter->area_cost[link->offmesh.area] : 1.0f;
+            float cost = cost_between(flood, node, from->point) + factor * (float)link->cost;
+            enter(flood, to->slot, to->polygon, to->point, node->cost + cost, index, end);
+        }
+        end = from->next;
+    }
+}
+
+static void go_on(tl_nav_flood *flood, uint32_t index)
+{
+    const tl_nav_node node = flood->query->nodes[index];
+    const tl_nav_node *parent = node.parent != TL_NAV_NO_NODE ? &flood->query->nodes[node.parent] : NULL;
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(flood->navmesh, node.slot, node.polygon, &count);
+    const bool all_pass = flood->all_pass;
+    if (flood->navmesh->slots[node.slot].anchor_count > 0) {
+        cross_links(flood, &node, index);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        if (!tl_nav_ring_is_open(&ring[i])) {
+            continue;
+        }
+        tl_nav_ring_seam to = tl_nav_ring_across(flood->navmesh, node.slot, ring[i].to);
+        if (parent != NULL && to.polygon == parent->polygon && to.slot == parent->slot) {
+            continue; // closed already
+        }
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        tl_vec3 right = { ring[i].x, ring[i].y, ring[i].z };
+        tl_vec3 left = { end->x, end->y, end->z };
+        if ((flood->zone != NULL && !tl_nav_zone_meets_segment(flood->zone, right, left)) ||
+            (!all_pass && !tl_nav_passes(flood->filter, flood->navmesh->slots[to.slot].tile, to.polygon))) {
+            continue;
+        }
+        double t = tl_nav_nearest_on_edge(&ring[i], end, (double)node.point.x, (double)node.point.z).t;
+        tl_vec3 point = tl_nav_point_on_edge(&ring[i], end, t);
+        float cost = cost_between(flood, &node, point);
+        enter(flood, to.slot, to.polygon, point, node.cost + cost, index, TL_NAV_NO_END);
+    }
+}
+
+bool tl_nav_flood_run(tl_nav_flood *flood, const tl_nav_location *start)
+{
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    if (!tl_nav_split_ref(flood->navmesh, start->polygon, &slot, &polygon)) {
+        return false;
+    }
+    flood->out_of_nodes = false;
+    flood->all_pass = tl_nav_all_pass(flood->navmesh, flood->filter);
+    tl_nav_pool_reset(flood->query);
+    enter(flood, slot, polygon, start->point, 0.0f, TL_NAV_NO_NODE, TL_NAV_NO_END);
+    for (uint32_t index = 0; (index = tl_nav_heap_pop(flood->query)) != TL_NAV_NO_NODE;) {
+        go_on(flood, index);
+    }
+    return true;
+}

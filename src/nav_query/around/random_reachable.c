@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+//
+// A random point that can be reached: flood the circle, clip each polygon to it, pick among what is left by area.
+//
+// Detour picks among whole polygons, so its points may lie far outside the circle, and asks no length of the path. The
+// circle here is a polygon of 32 sides within it, so that clipping makes polygons, whose areas and points need no
+// rejection: two random numbers always suffice.
+// Clipping goes once around the polygon (Weiler and Atherton 1977, for two convex ones); cutting by one side after the
+// other (Sutherland and Hodgman 1974) takes five times as long.
+
+#include "base/assert.h"
+#include "nav_query/around/flood.h"
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/navmesh.h"
+#include "nav_query/navmesh/surface.h"
+#include "nav_query/plane/circle_corners.h"
+#include "nav_query/plane/point_of_random.h"
+
+#include <string.h>
+
+// An edge of the polygon adds three points at most: where it begins, comes in, goes out.
+enum { SIDES = TL_NAV_CIRCLE_CORNERS, MOST_CLIPPED = 3 * TL_NAV_MAX_CORNERS + 2 * SIDES };
+
+// Points no farther from the centre than this share of the radius lie within all sides: cos(180 / 32 degrees) = 0.9951.
+#define SAFE_SHARE 0.995
+// Crossings that lie nearer to one another than this share of the radius are in one place: some thousand times what
+// rounding moves them.
+#define SAME_PLACE 1e-12
+
+typedef struct clip_polygon {
+    tl_nav_spot points[MOST_CLIPPED]; // from the centre
+    uint32_t count;
+} clip_polygon;
+
+// The circle as a polygon around its centre.
+typedef struct circle {
+    double within_sq; // points no farther from the centre than this lie within all sides
+    tl_nav_spot corners[SIDES + 1];
+} circle;
+
+static circle make_circle(double radius)
+{
+    circle c;
+    double within = radius * SAFE_SHARE;
+    c.within_sq = within * within;
+    for (uint32_t i = 0; i <= SIDES; i++) {
+        c.corners[i] = tl_nav_circle_corner(tl_nav_spot_make(0.0, 0.0), radius, i);
+    }
+    return c;
+}
+
+// How far a point lies within the side from a to b of the circle's polygon, times the side's length.
+static double inside_of(tl_nav_spot a, tl_nav_spot b, tl_nav_spot p)
+{
+    return (b.x - a.x) * (p.z - a.z) - (b.z - a.z) * (p.x - a.x);
+}
+
+// The side that a ray from the centre through a point crosses: by its quarter, then by bisection.
+static uint32_t side_towards(const circle *c, tl_nav_spot p)
+{
+    uint32_t quarter = p.z >= 0.0 ? (p.x > 0.0 ? 0 : 1) : (p.x < 0.0 ? 2 : 3);
+    uint32_t side = quarter * (SIDES / 4);
+    for (uint32_t step = SIDES / 8; step > 0; step /= 2) {
+        const tl_nav_spot *corner = &c->corners[side + step];
+        side += corner->x * p.z - corner->z * p.x >= 0.0 ? step : 0;
+    }
+    return side;
+}
+
+static bool is_inside(const circle *c, tl_nav_spot p)
+{
+    if (p.x * p.x + p.z * p.z <= c->within_sq) {
+        return true;
+    }
+    uint32_t side = side_towards(c, p);
+    return inside_of(c->corners[side], c->corners[side + 1], p) >= 0.0;
+}
+
+// Where a line goes over the circle's outline.
+typedef struct crossing {
+    tl_nav_spot at;
+    uint32_t side;
+    double t; // along the line
+} crossing;
+
+static tl_nav_spot spot_along(tl_nav_spot a, tl_nav_spot along, double t)
+{
+    return tl_nav_spot_make(a.x + t * along.x, a.z + t * along.z);
+}
+
+// From where the line crosses the round circle to the side that lies there, or to one beside it. False: between two
+// sides the line passes by a corner.
+static bool find_crossing(const circle *c, tl_nav_spot a, tl_nav_spot along, double t, crossing *out)
+{
+    out->t = t;
+    out->at = spot_along(a, along, t);
+    out->side = side_towards(c, out->at);
+    for (int tries = 0; tries < 3; tries++) {
+        tl_nav_spot from = c->corners[out->side];
+        tl_nav_spot to = c->corners[out->side + 1];
+        double inward = (to.x - from.x) * along.z - (to.z - from.z) * along.x;
+        if (inward == 0.0) {
+            return false;
+        }
+        out->t = -inside_of(from, to, a) / inward;
+        out->at = spot_along(a, along, out->t);
+        uint32_t side = side_towards(c, out->at);
+        if (side == out->side) {
+            return true;
+        }
+        out->side = side;
+    }
+    return false;
+}
+
+static void add_point(clip_polygon *polygon, tl_nav_spot p)
+{
+    TL_ASSERT(polygon->count < MOST_CLIPPED);
+    polygon->points[polygon->count] = p;
+    polygon->count += polygon->count + 1 < MOST_CLIPPED ? 1 : 0;
+}
+
+// The circle's corners between where the polygon's outline left it and where it comes in again. Two crossings in one
+// place may be in either order.
+static void add_corners(const circle *c, const crossing *out, const crossing *in, clip_polygon *polygon)
+{
+    double dx = in->at.x - out->at.x;
+    double dz = in->at.z - out->at.z;
+    if (dx * dx + dz * dz > SAME_PLACE * SAME_PLACE * c->within_sq) {
+        for (uint32_t side = out->side; side != in->side; side = side > 0 ? side - 1 : SIDES - 1) {
+            add_point(polygon, c->corners[side]);
+        }
+    }
+}
+
+// An outline on its way through the circle.
+typedef struct clip_walk {
+    const circle *c;
+    clip_polygon *polygon; // what is written
+    crossing first, last;  // in, before any out; out
+    bool has_first, is_out;
+} clip_walk;
+
+static void go_in(clip_walk *walk, const crossing *in)
+{
+    if (walk->is_out) {
+        add_corners(walk->c, &walk->last, in, walk->polygon);
+    } else {
+        walk->first = *in;
+        walk->has_first = true;
+    }
+    add_point(walk->polygon, in->at);
+}
+
+static void go_out(clip_walk *walk, const crossing *out)
+{
+    add_point(walk->polygon, out->at);
+    walk->last = *out;
+    walk->is_out = true;
+}
+
+// The edge from a to b, one of which is outside at least.
+static void cross_edge(clip_walk *walk, tl_nav_spot a, bool a_inside, tl_nav_spot b, bool b_inside)
+{
+    const double radius_sq = walk->c->corners[0].x * walk->c->corners[0].x;
+    tl_nav_spot along = { b.x - a.x, b.z - a.z };
+    double length_sq = along.x * along.x + along.z * along.z;
+    double middle = -(a.x * along.x + a.z * along.z);
+    double half_sq = middle * middle - length_sq * (a.x * a.x + a.z * a.z - radius_sq);
+    double half = half_sq > 0.0 ? sqrt(half_sq) : 0.0;
+    crossing in, out;
+    // Outside on both ends: over the round circle twice, or not at all.
+    bool passes = half > 0.0 && middle + half > 0.0 && middle - half < length_sq;
+    if (!a_inside && !b_inside && !passes) {
+        return;
+    }
+    bool has_in = !a_inside && find_crossing(walk->c, a, along, (middle - half) / length_sq, &in);
+    bool has_out = !b_inside && find_crossing(walk->c, a, along, (middle + half) / length_sq, &out);
+    if (!a_inside && !b_inside && !(has_in && has_out && in.t < out.t && in.t < 1.0 && out.t > 0.0)) {
+        return;
+    }
+    if (!a_inside) {
+        go_in(walk, &in);
+    }
+    if (!b_inside) {
+        go_out(walk, &out);
+    }
+}
+
+// The part of a polygon within the circle; `count` 0 when there is none. The outline is gone along once: what of it is
+// inside is kept, and between where it leaves and where it comes back lie corners of the circle.
+static void clip(const tl_nav_flood *flood, const tl_nav_node *node, const circle *c, clip_polygon *out)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(flood->navmesh->slots[node->slot].tile, node->polygon, &count);
+    const tl_vec3 center = flood->zone->center;
+    clip_walk walk;
+    memset(&walk, 0, sizeof walk);
+    walk.c = c;
+    walk.polygon = out;
+    out->count = 0;
+    bool holds_center = true;
+    tl_nav_spot a = { (double)corners[0].x - (double)center.x, (double)corners[0].z - (double)center.z };
+    bool a_inside = is_inside(c, a);
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_vec3 *corner = &corners[i + 1 < count ? i + 1 : 0];
+        tl_nav_spot b = { (double)corner->x - (double)center.x, (double)corner->z - (double)center.z };
+        bool b_inside = is_inside(c, b);
+        holds_center = holds_center && a.x * b.z - a.z * b.x <= 0.0;
+        if (a_inside) {
+            add_point(out, a);
+        }
+        if (!a_inside || !b_inside) {
+            cross_edge(&walk, a, a_inside, b, b_inside);
+        }
+        a = b;
+        a_inside = b_inside;
+    }
+    if (walk.is_out && walk.has_first) {
+        add_corners(c, &walk.last, &walk.first, out);
+    }
+    for (uint32_t i = SIDES; i > 0 && out->count == 0 && holds_center; i--) {
+        out->points[SIDES - i] = c->corners[i];
+    }
+    out->count = out->count == 0 && holds_center ? SIDES : out->count;
+}
+
+// Twice the area of triangle i of the polygon's fan; seen from above in x and z it winds clockwise.
+static double triangle_area(const clip_polygon *polygon, uint32_t i)
+{
+    const tl_nav_spot *p = polygon->points;
+    double area = (p[i + 1].x - p[0].x) * (p[i].z - p[0].z) - (p[i + 1].z - p[0].z) * (p[i].x - p[0].x);
+    return area > 0.0 ? area : 0.0;
+}
+
+static double area_of(const clip_polygon *polygon)
+{
+    double area = 0.0;
+    for (uint32_t i = 1; i + 1 < polygon->count; i++) {
+        area += triangle_area(polygon, i);
+    }
+    return area;
+}
+
+// The areas of the polygons' parts, summed up among the wedges, which a flood does not use; returns the sum of all.
+static double sum_areas(const tl_nav_flood *flood, const circle *c)
+{
+    tl_nav_query *query = flood->query;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < query->node_count; i++) {
+        clip_polygon part;
+        clip(flood, &query->nodes[i], c, &part);
+        sum += area_of(&part);
+        query->wedges[i].cost = sum;
+    }
+    return sum;
+}
+
+// The node in whose part area `*at`, below the sum of all, lies; it becomes that within the part.
+static uint32_t find_part(const tl_nav_query *query, double *at)
+{
+    uint32_t low = 0;
+    uint32_t high = query->node_count - 1;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        if (*at < query->wedges[middle].cost) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    *at -= low > 0 ? query->wedges[low - 1].cost : 0.0;
+    return low;
+}
+
+static tl_vec3 point_in(const tl_nav_flood *flood, const clip_polygon *part, double at, uint64_t bits)
+{
+    uint32_t i = 1;
+    for (; i + 2 < part->count && at >= triangle_area(part, i); i++) {
+        at -= triangle_area(part, i);
+    }
+    double second = 0.0;
+    double third = 0.0;
+    tl_nav_random_in_triangle(bits, &second, &third);
+    const tl_nav_spot *p = part->points;
+    double x = p[0].x + second * (p[i].x - p[0].x) + third * (p[i + 1].x - p[0].x);
+    double z = p[0].z + second * (p[i].z - p[0].z) + third * (p[i + 1].z - p[0].z);
+    return tl_vec3_make((float)((double)flood->zone->center.x + x), 0.0f, (float)((double)flood->zone->center.z + z));
+}
+
+tl_result tl_nav_query_random_reachable(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                        const tl_nav_location *center, float radius, const uint64_t random[2],
+                                        tl_nav_location *location_out)
+{
+    return tl_nav_query_random_reachable_points(query, navmesh, filter, center, radius, random, 1, location_out);
+}
+
+tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_navmesh *navmesh,
+                                               const tl_nav_filter *filter, const tl_nav_location *center, float radius,
+                                               const uint64_t *random, uint32_t count, tl_nav_location *locations_out)
+{
+    const tl_nav_location none = { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } };
+    for (uint32_t i = 0; i < count; i++) {
+        locations_out[i] = none;
+    }
+    tl_nav_zone zone = tl_nav_circle(center->point, radius);
+    tl_nav_zone_test test;
+    TL_TRY(tl_nav_zone_begin(&zone, &test));
+    if (!tl_nav_is_finite(center->point)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    tl_nav_flood flood = { query, navmesh, filter, true, radius, &test, false, false };
+    if (!tl_nav_flood_run(&flood, center)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    const circle c = make_circle((double)radius);
+    const double sum = radius > 0.0f ? sum_areas(&flood, &c) : 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_location *out = &locations_out[i];
+        if (!(sum > 0.0)) {
+            out->polygon = center->polygon;
+            TL_TRY(tl_navmesh_closest_point(navmesh, center->polygon, center->point, &out->point, NULL));
+            continue;
+        }
+        // Below 1, so that the product is below the sum.
+        double at = (double)(random[2 * i] >> 11) * (1.0 / 9007199254740992.0) * sum;
+        const tl_nav_node *node = &query->nodes[find_part(query, &at)];
+        clip_polygon part;
+        bool inside = false;
+        clip(&flood, node, &c, &part);
+        out->polygon = node->key;
+        out->point = tl_nav_closest_on_surface(navmesh->slots[node->slot].tile, node->polygon,
+                                               point_in(&flood, &part, at, random[2 * i + 1]), &inside);
+    }
+    return flood.out_of_nodes ? TL_ERR_LIMIT : TL_OK;
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+//
+// Moving along the surface: to the target, or to the point nearest to it that lies on a wall around the way there.
+//
+// Polygons are gone through breadth first from the start, over edges that come into the circle whose diameter is the
+// way to the target. So a short step slides along walls and around their corners, and never slips through to a place
+// that is near by but a long way off. Almost all steps end in the first polygon or the second.
+// Source: Mikko Mononen, Detour, dtNavMeshQuery::moveAlongSurface, for the circle.
+
+#include "nav_query/navmesh/plan.h"
+#include "nav_query/navmesh/surface.h"
+#include "nav_query/search/local_search.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct slide_search {
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter;
+    double x, z;               // the target
+    double middle_x, middle_z; // of the way there
+    double reach_sq;           // of the circle around it
+    double best_sq;
+    double best_t;
+    const tl_nav_ring_edge *start, *end; // of the nearest wall
+    uint32_t best;                       // node
+    bool full;
+    bool all_pass; // the filter refuses nothing
+} slide_search;
+
+// Whether the target lies over a ring, its outline included.
+static bool holds(const tl_nav_ring_edge *ring, uint32_t count, double x, double z)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        double p = ((double)end->x - (double)ring[i].x) * (z - (double)ring[i].z);
+        double q = ((double)end->z - (double)ring[i].z) * (x - (double)ring[i].x);
+        if (p - q > TL_CROSS_ERROR * (fabs(p) + fabs(q)) && ring[i].to != TL_NAV_RING_BACK) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Looks at a polygon's edges; true when it holds the target.
+static bool look_around(slide_search *search, uint32_t node)
+{
+    uint32_t slot = search->query->wedges[node].slot;
+    uint32_t polygon = search->query->wedges[node].polygon;
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, slot, polygon, &count);
+    if (holds(ring, count, search->x, search->z)) {
+        search->start = NULL;
+        search->best = node;
+        return true;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        if (ring[i].to == TL_NAV_RING_BACK) {
+            continue;
+        }
+        if (ring[i].to != TL_NAV_RING_WALL) {
+            tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring[i].to);
+            if (search->all_pass || tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
+                if (tl_nav_nearest_on_edge(&ring[i], end, search->middle_x, search->middle_z).distance_sq <=
+                    search->reach_sq) {
+                    tl_nav_local_add(search->query, to.slot, to.polygon, node, &search->full);
+                }
+                continue;
+            }
+        }
+        tl_nav_plan_point nearest = tl_nav_nearest_on_edge(&ring[i], end, search->x, search->z);
+        if (nearest.distance_sq < search->best_sq) {
+            search->best_sq = nearest.distance_sq;
+            search->best_t = nearest.t;
+            search->start = &ring[i];
+            search->end = end;
+            search->best = node;
+        }
+    }
+    return false;
+}
+
+// The polygons from the start's to the one where the move ends; returns how many there are.
+static uint32_t write_way(const slide_search *search, tl_nav_ref *polygons, uint32_t capacity)
+{
+    const tl_nav_wedge *nodes = search->query->wedges;
+    uint32_t count = 0;
+    for (uint32_t i = search->best; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
+        count++;
+    }
+    uint32_t at = count;
+    for (uint32_t i = search->best; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
+        at--;
+        if (at < capacity) {
+            polygons[at] = tl_nav_make_ref(search->navmesh, nodes[i].slot, nodes[i].polygon);
+        }
+    }
+    return count;
+}
+
+tl_result tl_nav_query_slide(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                             const tl_nav_location *start, tl_vec3 target, tl_nav_ref *polygons_out, uint32_t capacity,
+                             uint32_t *count_out, tl_nav_location *end_out)
+{
+    *end_out = *start;
+    *count_out = 0;
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    if (!tl_nav_is_finite(start->point) || !tl_nav_is_finite(target)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (!tl_nav_split_ref(navmesh, start->polygon, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    double dx = (double)target.x - (double)start->point.x;
+    double dz = (double)target.z - (double)start->point.z;
+    // A start on an edge must not lose its neighbour to rounding.
+    double size =
+        fabs((double)target.x) + fabs((double)target.z) + fabs((double)start->point.x) + fabs((double)start->point.z);
+    double reach = 0.5 * sqrt(dx * dx + dz * dz) + (double)TL_FLOAT_GAMMA(6) * size;
+    slide_search search = { query,
+                            navmesh,
+                            filter,
+                            (double)target.x,
+                            (double)target.z,
+                            (double)start->point.x + 0.5 * dx,
+                            (double)start->point.z + 0.5 * dz,
+                            reach * reach,
+                            (double)INFINITY,
+                            0.0,
+                            NULL,
+                            NULL,
+                            TL_NAV_NO_NODE,
+                            false,
+                            tl_nav_all_pass(navmesh, filter) };
+    tl_nav_local_begin(query);
+    tl_nav_local_add(query, slot, polygon, TL_NAV_NO_NODE, &search.full);
+    for (uint32_t node = 0; node < query->wedge_count && !look_around(&search, node); node++) {
+    }
+    if (search.best != TL_NAV_NO_NODE) {
+        const tl_nav_wedge *last = &query->wedges[search.best];
+        tl_vec3 point = search.start == NULL ? target : tl_nav_point_on_edge(search.start, search.end, search.best_t);
+        end_out->polygon = tl_nav_make_ref(navmesh, last->slot, last->polygon);
+        end_out->point = point;
+        *count_out = write_way(&search, polygons_out, capacity);
+    }
+    if (search.full) {
+        return TL_ERR_LIMIT;
+    }
+    return *count_out <= capacity || capacity == 0 ? TL_OK : TL_ERR_CAPACITY;
+}

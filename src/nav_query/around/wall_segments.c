@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+//
+// Walls as pieces: of one polygon, and of all that hang together around a place, the nearest first.
+//
+// Rings know them: their edges are cut where links begin and end, so that each piece is wall or way as a whole. The
+// caller's buffer is kept in order as pieces come; it is short where this is asked often (what an agent steers by), and
+// what is farther than its last piece costs one comparison.
+
+#include "nav_query/navmesh/plan.h"
+#include "nav_query/navmesh/surface.h"
+#include "nav_query/search/local_search.h"
+
+#include <math.h>
+#include <talus/nav_around.h>
+
+// Whether a ring's edge is wall; then what the filter refuses behind it.
+static bool is_wall(const tl_navmesh *navmesh, const tl_nav_filter *filter, uint32_t slot, const tl_nav_ring_edge *edge,
+                    tl_nav_ring_seam *to_out, bool *has_polygon_out)
+{
+    *has_polygon_out = tl_nav_ring_is_open(edge);
+    if (!*has_polygon_out) {
+        return edge->to == TL_NAV_RING_WALL;
+    }
+    *to_out = tl_nav_ring_across(navmesh, slot, edge->to);
+    return !tl_nav_passes(filter, navmesh->slots[to_out->slot].tile, to_out->polygon);
+}
+
+static tl_nav_wall_segment make_segment(const tl_navmesh *navmesh, const tl_nav_ring_edge *start,
+                                        const tl_nav_ring_edge *end, tl_nav_ref polygon, tl_nav_ring_seam to,
+                                        bool has_polygon)
+{
+    tl_nav_wall_segment segment = { { start->x, start->y, start->z },
+                                    { end->x, end->y, end->z },
+                                    polygon,
+                                    has_polygon ? tl_nav_make_ref(navmesh, to.slot, to.polygon) : TL_NAV_NO_REF,
+                                    0.0f };
+    return segment;
+}
+
+tl_result tl_navmesh_polygon_walls(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref polygon,
+                                   tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out)
+{
+    *count_out = 0;
+    uint32_t slot = 0;
+    uint32_t local = 0;
+    if (!tl_nav_split_ref(navmesh, polygon, &slot, &local)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    uint32_t edge_count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, slot, local, &edge_count);
+    for (uint32_t i = 0; i < edge_count; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < edge_count ? i + 1 : 0];
+        tl_nav_ring_seam to = { 0, 0 };
+        bool has_polygon = false;
+        if (is_wall(navmesh, filter, slot, &ring[i], &to, &has_polygon)) {
+            if (*count_out < capacity) {
+                segments_out[*count_out] = make_segment(navmesh, &ring[i], end, polygon, to, has_polygon);
+            }
+            ++*count_out;
+        }
+    }
+    return *count_out <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}
+
+typedef struct wall_gathering {
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter;
+    double x, z, radius_sq;
+    tl_nav_wall_segment *segments;
+    uint32_t capacity, count;
+    bool full; // the pool
+} wall_gathering;
+
+// Puts a piece in its place among the nearest; ties stay in the order in which they came.
+static void insert(wall_gathering *walls, const tl_nav_wall_segment *segment)
+{
+    uint32_t kept = walls->count < walls->capacity ? walls->count : walls->capacity;
+    walls->count++;
+    if (kept == walls->capacity && (kept == 0 || segment->distance >= walls->segments[kept - 1].distance)) {
+        return;
+    }
+    uint32_t at = kept < walls->capacity ? kept : kept - 1;
+    for (; at > 0 && walls->segments[at - 1].distance > segment->distance; at--) {
+        walls->segments[at] = walls->segments[at - 1];
+    }
+    walls->segments[at] = *segment;
+}
+
+static void look_around(wall_gathering *walls, uint32_t node)
+{
+    uint32_t slot = walls->query->wedges[node].slot;
+    uint32_t polygon = walls->query->wedges[node].polygon;
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(walls->navmesh, slot, polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        double distance_sq = tl_nav_nearest_on_edge(&ring[i], end, walls->x, walls->z).distance_sq;
+        if (distance_sq > walls->radius_sq) {
+            continue;
+        }
+        tl_nav_ring_seam to = { 0, 0 };
+        bool has_polygon = false;
+        if (is_wall(walls->navmesh, walls->filter, slot, &ring[i], &to, &has_polygon)) {
+            tl_nav_wall_segment segment = make_segment(walls->navmesh, &ring[i], end,
+                                                       tl_nav_make_ref(walls->navmesh, slot, polygon), to, has_polygon);
+            segment.distance = (float)sqrt(distance_sq);
+            insert(walls, &segment);
+        } else if (has_polygon) {
+            tl_nav_local_add(walls->query, to.slot, to.polygon, node, &walls->full);
+        }
+    }
+}
+
+tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                  const tl_nav_location *center, float radius, tl_nav_wall_segment *segments_out,
+                                  uint32_t capacity, uint32_t *count_out)
+{
+    *count_out = 0;
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    if (!tl_nav_is_finite(center->point) || !isfinite(radius)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (radius < 0.0f) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (!tl_nav_split_ref(navmesh, center->polygon, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    wall_gathering walls = { query,
+                             navmesh,
+                             filter,
+                             (double)center->point.x,
+                             (double)center->point.z,
+                             (double)radius * (double)radius,
+                             segments_out,
+                             capacity,
+                             0,
+                             false };
+    tl_nav_local_begin(query);
+    tl_nav_local_add(query, slot, polygon, TL_NAV_NO_NODE, &walls.full);
+    for (uint32_t node = 0; node < query->wedge_count; node++) {
+        look_around(&walls, node);
+    }
+    *count_out = walls.count;
+    if (walls.full) {
+        return TL_ERR_LIMIT;
+    }
+    return walls.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}

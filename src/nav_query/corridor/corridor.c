@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+//
+// Corridors: a path that follows its agent.
+//
+// A move tells which polygons it went through. Where the corridor and they meet last, the corridor goes on as it was;
+// before that it is the way back over the polygons of the move. So a step forward drops polygons, a step aside adds
+// them, and nothing is searched. The target's end is kept in the same way.
+// Source: Mikko Mononen, Detour, dtPathCorridor, for the idea.
+
+#include "nav_query/corridor/corridor_path.h"
+
+#include "base/assert.h"
+#include "math/tolerance.h"
+#include "nav_query/navmesh/surface.h"
+#include "nav_query/path/funnel.h"
+#include "nav_query/search/portal_between.h"
+
+#include <string.h>
+
+tl_nav_corridor tl_nav_corridor_make(tl_nav_ref *room, uint32_t capacity)
+{
+    tl_nav_corridor corridor;
+    memset(&corridor, 0, sizeof corridor);
+    corridor.path = room;
+    corridor.capacity = capacity;
+    return corridor;
+}
+
+void tl_nav_corridor_reset(tl_nav_corridor *corridor, const tl_nav_location *at)
+{
+    corridor->path[0] = at->polygon;
+    corridor->count = 1;
+    corridor->position = at->point;
+    corridor->target = at->point;
+    corridor->goal = at->point;
+    corridor->reaches = true;
+}
+
+// Ends the corridor after `count` entries, or before: not in a link. The target is then that polygon's point nearest to
+// the goal.
+static void cut(tl_nav_corridor *corridor, const tl_navmesh *navmesh, uint32_t count)
+{
+    corridor->count = count;
+    while (corridor->count > 1 && tl_nav_is_offmesh(corridor->path[corridor->count - 1])) {
+        corridor->count--;
+    }
+    corridor->reaches = false;
+    tl_vec3 nearest;
+    tl_nav_ref last = corridor->path[corridor->count - 1];
+    // A stale polygon has no points: the corridor ends where the agent is, until it is repaired.
+    bool exists = tl_navmesh_closest_point(navmesh, last, corridor->goal, &nearest, NULL) == TL_OK;
+    corridor->target = exists ? nearest : corridor->position;
+}
+
+void tl_nav_corridor_replace(tl_nav_corridor *corridor, const tl_navmesh *navmesh, const tl_nav_ref *entries,
+                             uint32_t count, uint32_t replaced)
+{
+    uint32_t kept = corridor->count - replaced;
+    uint32_t begin = count < corridor->capacity ? count : corridor->capacity;
+    uint32_t fits = kept < corridor->capacity - begin ? kept : corridor->capacity - begin;
+    memmove(corridor->path + begin, corridor->path + replaced, fits * sizeof *corridor->path);
+    if (begin > 0) {
+        memcpy(corridor->path, entries, begin * sizeof *corridor->path);
+    }
+    corridor->count = begin + fits;
+    if (begin < count || fits < kept) {
+        cut(corridor, navmesh, corridor->count);
+    }
+}
+
+uint32_t tl_nav_corridor_before_link(const tl_nav_corridor *corridor)
+{
+    uint32_t count = 0;
+    while (count < corridor->count && !tl_nav_is_offmesh(corridor->path[count])) {
+        count++;
+    }
+    return count;
+}
+
+tl_result tl_nav_corridor_find(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
+                               const tl_nav_filter *filter, const tl_nav_location *goal, tl_nav_path *path_out)
+{
+    memset(path_out, 0, sizeof *path_out);
+    path_out->status = TL_NAV_PATH_UNREACHABLE;
+    if (corridor->count == 0) {
+        return TL_ERR_NOT_FOUND;
+    }
+    tl_nav_location start = { corridor->path[0], corridor->position };
+    tl_result result =
+        tl_nav_query_find_path(query, navmesh, filter, &start, goal, corridor->path, corridor->capacity, path_out);
+    if (result != TL_OK && result != TL_ERR_CAPACITY) {
+        return result;
+    }
+    corridor->goal = goal->point;
+    corridor->target = path_out->end.point;
+    corridor->reaches = path_out->status == TL_NAV_PATH_COMPLETE;
+    corridor->count = path_out->polygon_count;
+    if (result == TL_ERR_CAPACITY) {
+        cut(corridor, navmesh, corridor->capacity);
+    }
+    return TL_OK;
+}
+
+tl_result tl_nav_corridor_set_path(tl_nav_corridor *corridor, const tl_navmesh *navmesh, const tl_nav_ref *path,
+                                   uint32_t count, tl_vec3 target)
+{
+    if (!tl_nav_is_finite(target)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (count == 0 || corridor->count == 0 || path[0] != corridor->path[0]) {
+        return TL_ERR_ARGUMENT;
+    }
+    corridor->target = target;
+    corridor->goal = target;
+    corridor->reaches = true;
+    tl_nav_corridor_replace(corridor, navmesh, path, count, corridor->count);
+    return TL_OK;
+}
+
+tl_result tl_nav_corridor_corners(const tl_nav_corridor *corridor, const tl_navmesh *navmesh,
+                                  tl_nav_corner *corners_out, uint32_t capacity, uint32_t *count_out)
+{
+    return tl_nav_first_corners(navmesh, corridor->path, corridor->count, corridor->position, corridor->target,
+                                corners_out, capacity, count_out);
+}
+
+// Slides one of the corridor's ends; the polygons gone through, the end's first.
+static tl_result slide(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
+                       const tl_nav_filter *filter, const tl_nav_location *from, tl_vec3 to, tl_nav_ref *polygons,
+                       uint32_t *count_out, tl_vec3 *point_out)
+{
+    tl_nav_location end;
+    if (corridor->count == 0) {
+        return TL_ERR_NOT_FOUND;
+    }
+    tl_result result =
+        tl_nav_query_slide(query, navmesh, filter, from, to, polygons, TL_NAV_CORRIDOR_STEP, count_out, &end);
+    if (result != TL_OK) {
+        return result == TL_ERR_CAPACITY ? TL_ERR_LIMIT : result;
+    }
+    *point_out = end.point;
+    return tl_navmesh_height(navmesh, end.polygon, end.point.x, end.point.z, &point_out->y);
+}
+
+// A coordinate of a position on a portal and those of its ends are rounded to float: as a share of the largest one.
+#define ON_PORTAL_ERROR ((double)TL_FLOAT_GAMMA(6))
+
+static bool lies_on(tl_vec3 point, tl_vec3 left, tl_vec3 right)
+{
+    tl_vec3 nearest = tl_nav_closest_on_edge(right, left, point);
+    double x = (double)nearest.x - (double)point.x;
+    double z = (double)nearest.z - (double)point.z;
+    double size = fabs((double)point.x) + fabs((double)point.z);
+    return fabs(x) + fabs(z) <= ON_PORTAL_ERROR * size;
+}
+
+// The last polygon that the corridor enters in the very place where the agent stands. Where the way goes along the edge
+// of a polygon that it has left, as beside a ramp, a move from that polygon would stay in it.
+static uint32_t entered(const tl_nav_corridor *corridor, const tl_navmesh *navmesh)
+{
+    uint32_t at = 0;
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    tl_vec3 left, right;
+    while (at + 1 < corridor->count && tl_nav_split_ref(navmesh, corridor->path[at + 1], &slot, &polygon) &&
+           tl_nav_portal_between(navmesh, corridor->path[at], slot, polygon, &left, &right) &&
+           lies_on(corridor->position, left, right)) {
+        at++;
+    }
+    return at;
+}
+
+tl_result tl_nav_corridor_move(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
+                               const tl_nav_filter *filter, tl_vec3 to)
+{
+    tl_nav_ref gone[TL_NAV_CORRIDOR_STEP];
+    tl_nav_ref back[TL_NAV_CORRIDOR_STEP];
+    uint32_t gone_count = 0;
+    uint32_t begin = entered(corridor, navmesh);
+    tl_nav_location from = { corridor->count > 0 ? corridor->path[begin] : TL_NAV_NO_REF, corridor->position };
+    tl_vec3 point;
+    TL_TRY(slide(corridor, query, navmesh, filter, &from, to, gone, &gone_count, &point));
+    // Where the move and the corridor meet last: at their common begin if nowhere else.
+    uint32_t last_in_path = begin;
+    uint32_t last_in_move = 0;
+    for (uint32_t i = begin; i < corridor->count; i++) {
+        for (uint32_t k = 0; k < gone_count; k++) {
+            if (corridor->path[i] == gone[k]) {
+                last_in_path = i;
+                last_in_move = k;
+            }
+        }
+    }
+    uint32_t back_count = 0;
+    for (uint32_t k = gone_count; k > last_in_move; k--) {
+        back[back_count++] = gone[k - 1];
+    }
+    corridor->position = point;
+    tl_nav_corridor_replace(corridor, navmesh, back, back_count, last_in_path + 1);
+    return TL_OK;
+}
+
+tl_result tl_nav_corridor_move_target(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
+                                      const tl_nav_filter *filter, tl_vec3 to)
+{
+    tl_nav_ref gone[TL_NAV_CORRIDOR_STEP];
+    uint32_t gone_count = 0;
+    tl_nav_location from = { corridor->count > 0 ? corridor->path[corridor->count - 1] : TL_NAV_NO_REF,
+                             corridor->target };
+    tl_vec3 point;
+    TL_TRY(slide(corridor, query, navmesh, filter, &from, to, gone, &gone_count, &point));
+    uint32_t first_in_path = corridor->count - 1;
+    uint32_t last_in_move = 0;
+    for (uint32_t i = corridor->count; i > 0; i--) {
+        for (uint32_t k = 0; k < gone_count; k++) {
+            if (corridor->path[i - 1] == gone[k]) {
+                first_in_path = i - 1;
+                last_in_move = k;
+            }
+        }
+    }
+    uint32_t added = gone_count - 1 - last_in_move;
+    uint32_t room = corridor->capacity - (first_in_path + 1);
+    uint32_t fits = added < room ? added : room;
+    memcpy(corridor->path + first_in_path + 1, gone + last_in_move + 1, fits * sizeof *corridor->path);
+    corridor->count = first_in_path + 1 + fits;
+    corridor->target = point;
+    corridor->goal = point;
+    if (fits < added) {
+        cut(corridor, navmesh, corridor->count);
+    }
+    return TL_OK;
+}
+
+tl_result tl_nav_corridor_pass_link(tl_nav_corridor *corridor, const tl_navmesh *navmesh, tl_nav_location ends_out[2],
+                                    tl_nav_ref *link_out)
+{
+    uint32_t at = tl_nav_corridor_before_link(corridor);
+    tl_vec3 ends[2];
+    if (at == 0 || at + 1 >= corridor->count || tl_nav_find_link(navmesh, &corridor->path[at - 1], ends) != TL_OK) {
+        return TL_ERR_NOT_FOUND;
+    }
+    for (int i = 0; i < 2 && ends_out != NULL; i++) {
+        ends_out[i].polygon = corridor->path[i == 0 ? at - 1 : at + 1];
+        ends_out[i].point = ends[i];
+    }
+    if (link_out != NULL) {
+        *link_out = corridor->path[at];
+    }
+    corridor->position = ends[1];
+    tl_nav_corridor_replace(corridor, navmesh, NULL, 0, at + 1);
+    return TL_OK;
+}

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+//
+// Exact shortest paths in the plane, over polygons, tiles and floors: Polyanya.
+//
+// A node is a wedge: a root (the start, or a vertex where the path has turned) and what is seen from it through the
+// edge by which a polygon is entered. To go on from a polygon, each of its edges takes its part of the wedge; where the
+// wedge ends in a vertex of a wall, the parts beyond become wedges of that vertex, for a path that turns there. The
+// estimate to the goal is the shortest way through the wedge's opening, with the goal mirrored where it lies on the
+// near side: a lower bound, so the first wedge that is taken up in the goal's polygon has the shortest path of all.
+//
+// What is our own: an end of a wedge is not the point where a ray crosses an edge, which would be rounded from edge to
+// edge, but the direction from the root to a vertex, the same doubles all the way. Two wedges side by side share their
+// border bit by bit, a vertex on it belongs to both, and no path slips through between. Edges that are seen edge-on
+// (walls and doors in line, on a lattice the rule) are gone along to their nearer vertex. Dead ends are left out,
+// vertices that no shortest path turns at are known beforehand (fans.c), and the best wedge of a step goes on at once
+// without a turn in the heap.
+//
+// The end of an off-mesh link is gone to as if it were the goal, and its other end is a root from which all is open
+// (wedge_links.h). A link costs no less than the straight way, so estimates hold. Where one does, a short cut, an
+// estimate is at most the way to the goal from the nearest end of a short cut. A wedge in the goal's polygon is then
+// taken up twice: for what lies behind it, and for its own true length.
+// Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh, IJCAI 2017.
+
+#include "nav_query/exact/shortest_search.h"
+
+#include "nav_query/exact/wedge_root.h"
+
+#include <string.h>
+
+// From where a link lands. A way straight to the goal is one among others here.
+static void land(wedge_search *s, uint32_t index)
+{
+    uint32_t last = look_around(s, index);
+    if (last != TL_NAV_NO_NODE) {
+        const tl_nav_wedge *wedge = &s->query->wedges[last];
+        offer(s, last, (float)(wedge->cost + way_to(s, wedge, s->goal_x, s->goal_z).length));
+    }
+}
+
+// The wedge to go on with: the only one of the step before, or the best of all.
+static uint32_t next_wedge(wedge_search *s, float *total_out)
+{
+    tl_nav_query *query = s->query;
+    uint32_t only = s->only;
+    s->only = TL_NAV_NO_NODE;
+    if (only != TL_NAV_NO_NODE) {
+        const tl_nav_wedge *wedge = &query->wedges[only];
+        if (wedge->polygon != s->in->goal_polygon || wedge->slot != s->in->goal_slot) {
+            return only;
+        }
+        offer(s, only, total_of(s, wedge, &s->only_edge));
+    }
+    tl_nav_heap_entry next = { s->best_total, s->best };
+    if (s->best == TL_NAV_NO_NODE) {
+        if (query->open_count == 0) {
+            return TL_NAV_NO_NODE;
+        }
+        next = tl_nav_wedge_pop(query);
+    } else if (query->open_count > 0 && query->wedge_heap[0] < tl_nav_heap_key(next.total, next.wedge)) {
+        tl_nav_heap_entry top = tl_nav_heap_entry_of(query->wedge_heap[0]);
+        tl_nav_wedge_sink(query, tl_nav_heap_key(next.total, next.wedge));
+        next = top;
+    }
+    s->best = TL_NAV_NO_NODE;
+    *total_out = next.total;
+    return next.wedge;
+}
+
+// What a total that was rounded to float says for certain.
+static double bound_of(float total)
+{
+    return (double)total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
+}
+
+// The wedge that holds the goal: the one that entered its polygon, or, where the goal lies beside that wedge's end in a
+// vertex, one that turns there. TL_NAV_NO_NODE where that end is no vertex: then another wedge lies beside it, which
+// leads to the goal in a way that is straight, and this one came first by rounding only.
+static uint32_t end_in(wedge_search *s, uint32_t entered)
+{
+    wedge_way way = way_to(s, &s->query->wedges[entered], s->goal_x, s->goal_z);
+    return way.reaches ? turn_on(s, entered, &way) : TL_NAV_NO_NODE;
+}
+
+// Where there are short cuts: takes up what lies behind a wedge in the goal's polygon, unless its total is its true
+// one.
+static bool goes_on(wedge_search *s, uint32_t index, float total)
+{
+    const tl_nav_wedge *wedge = &s->query->wedges[index];
+    wedge_way way = way_to(s, wedge, s->goal_x, s->goal_z);
+    float true_total = (float)(wedge->cost + way.length);
+    if (way.reaches && total >= true_total) {
+        return false;
+    }
+    if (wedge->edge >= TL_NAV_WEDGE_LANDS) {
+        land(s, index);
+        return true;
+    }
+    if (way.reaches) {
+        offer(s, index, true_total);
+    }
+    expand(s, index);
+    return true;
+}
+
+// Takes up wedges, the least total first, until one has entered the goal's polygon or the steps are used up.
+static tl_nav_search_end run(wedge_search *s, uint64_t *steps)
+{
+    float total = 0.0f;
+    for (; *steps > 0; --*steps) {
+        uint32_t next = next_wedge(s, &total);
+        if (s->trouble != TL_NAV_SEARCH_FOUND || next == TL_NAV_NO_NODE) {
+            return s->trouble != TL_NAV_SEARCH_FOUND ? s->trouble : TL_NAV_SEARCH_EXHAUSTED;
+        }
+        const tl_nav_wedge *wedge = &s->query->wedges[next];
+        if (wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot) {
+            if (s->detour != (double)INFINITY && goes_on(s, next, total)) {
+                continue;
+            }
+            s->in->lower_bound = s->in->lower_bound > 0.0 ? s->in->lower_bound : bound_of(total);
+            s->in->last = end_in(s, next);
+            if (s->in->last == TL_NAV_NO_NODE) {
+                continue;
+            }
+            return TL_NAV_SEARCH_FOUND;
+        }
+        if (wedge->edge >= TL_NAV_WEDGE_LANDS) {
+            land(s, next);
+        } else {
+            expand(s, next);
+        }
+    }
+    return s->trouble != TL_NAV_SEARCH_FOUND ? s->trouble : TL_NAV_SEARCH_PAUSED;
+}
+
+static double largest_of(double a, double b)
+{
+    return fabs(a) > fabs(b) ? fabs(a) : fabs(b);
+}
+
+// The search as its last step left it.
+static wedge_search take_up(tl_nav_shortest_search *search)
+{
+    const tl_navmesh *navmesh = search->navmesh;
+    wedge_search s = { search,
+                       search->query,
+                       navmesh,
+                       (double)search->goal.x,
+                       (double)search->goal.z,
+                       0.0,
+                       (double)INFINITY,
+                       { navmesh->slots[search->goal_slot].rings.cells[search->goal_polygon].dead_end,
+                         navmesh->slots[search->start_slot].rings.cells[search->start_polygon].dead_end },
+                       TL_NAV_SEARCH_FOUND,
+                       search->only,
+                       { search->only_right, search->only_left },
+                       search->best,
+                       search->best_total,
+                       NULL };
+    double start_size = largest_of((double)search->start.x, (double)search->start.z);
+    s.rounding = TL_NAV_ON_LINE * largest_of(start_size, largest_of(s.goal_x, s.goal_z));
+    s.detour = shortest_detour(&s);
+    return s;
+}
+
+static void lay_down(const wedge_search *s, tl_nav_shortest_search *search)
+{
+    search->only = s->only;
+    search->only_right = s->only_edge.right;
+    search->only_left = s->only_edge.left;
+    search->best = s->best;
+    search->best_total = s->best_total;
+}
+
+// The wedge of the start's polygon. There is always room for the first.
+static uint32_t add_start(wedge_search *s)
+{
+    const tl_nav_shortest_search *in = s->in;
+    tl_nav_wedge start = { { 0.0, 0.0 },      { 0.0, 0.0 },       0.0,
+                           in->start.x,       in->start.z,        in->start_slot,
+                           in->start_polygon, TL_NAV_WEDGE_HOLDS, TL_NAV_NO_NODE };
+    uint32_t first = new_wedge(s);
+    s->query->wedges[first] = start;
+    return first;
+}
+
+tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search)
+{
+    tl_nav_query *query = search->query;
+    query->wedge_count = 0;
+    query->open_count = 0;
+    tl_nav_next_generation(query);
+    search->only = TL_NAV_NO_NODE;
+    search->best = TL_NAV_NO_NODE;
+    wedge_search s = take_up(search);
+    search->last = look_around(&s, add_start(&s));
+    lay_down(&s, search);
+    if (search->last != TL_NAV_NO_NODE) {
+        search->lower_bound = tl_nav_shortest_length(search);
+        return TL_NAV_SEARCH_FOUND;
+    }
+    return s.trouble != TL_NAV_SEARCH_FOUND ? s.trouble : TL_NAV_SEARCH_PAUSED;
+}
+
+tl_nav_search_end tl_nav_step_shortest(tl_nav_shortest_search *search, uint64_t *steps)
+{
+    wedge_search s = take_up(search);
+    tl_nav_search_end end = run(&s, steps);
+    lay_down(&s, search);
+    return end;
+}
+
+tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search)
+{
+    uint64_t steps = UINT64_MAX;
+    tl_nav_search_end end = tl_nav_begin_shortest(search);
+    return end == TL_NAV_SEARCH_PAUSED ? tl_nav_step_shortest(search, &steps) : end;
+}
+
+bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight)
+{
+    wedge_search s;
+    memset(&s, 0, sizeof s);
+    s.in = from;
+    s.query = from->query;
+    s.navmesh = from->navmesh;
+    s.trouble = TL_NAV_SEARCH_FOUND;
+    s.sight = sight;
+    s.detour = (double)INFINITY;
+    s.rounding = TL_NAV_ON_LINE * largest_of((double)from->start.x, (double)from->start.z);
+    from->goal_slot = TL_NAV_NO_SLOT; // no polygon ends it
+    s.query->wedge_count = 0;
+    tl_nav_next_generation(s.query);
+    look_around(&s, add_start(&s));
+    for (uint32_t i = 0; i < s.query->wedge_count && s.trouble == TL_NAV_SEARCH_FOUND; i++) {
+        if (s.query->wedges[i].edge < TL_NAV_WEDGE_LANDS) {
+            expand(&s, i);
+        }
+    }
+    return s.trouble == TL_NAV_SEARCH_FOUND;
+}

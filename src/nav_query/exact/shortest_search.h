@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+//
+// The exact shortest path in the plane, from point to point over rings (shortest_search.c).
+
+#ifndef TALUS_SRC_NAV_QUERY_SHORTEST_SEARCH_H
+#define TALUS_SRC_NAV_QUERY_SHORTEST_SEARCH_H
+
+#include "nav_query/navmesh/navmesh.h"
+#include "nav_query/search/node_pool.h"
+
+/// Seen from a root: a direction in the plane. Both 0: open, nothing lies beyond it.
+typedef struct tl_nav_direction {
+    double x, z;
+} tl_nav_direction;
+
+/// A node of the search: what can be seen from a root through an edge by which a polygon is entered.
+typedef struct tl_nav_wedge {
+    tl_nav_direction left, right; ///< from the root, the ends of what is seen
+    double cost;                  ///< metres from the start to the root
+    float root_x, root_z;
+    uint32_t slot, polygon; ///< that is entered
+    uint32_t edge;          ///< by which, of its ring; or TL_NAV_WEDGE_...: it holds its root
+    uint32_t parent;
+} tl_nav_wedge;
+
+// Values of tl_nav_wedge.edge beside edges. From such a wedge all is open.
+#define TL_NAV_WEDGE_LANDS 0x80000000u ///< | the end by which an off-mesh link was left; the root is its other end
+#define TL_NAV_WEDGE_HOLDS UINT32_MAX  ///< the start is here, or the root of the wedge's parent
+
+static inline bool tl_nav_wedge_lands(const tl_nav_wedge *wedge)
+{
+    return wedge->edge >= TL_NAV_WEDGE_LANDS && wedge->edge != TL_NAV_WEDGE_HOLDS;
+}
+
+typedef enum tl_nav_search_end {
+    TL_NAV_SEARCH_FOUND,
+    TL_NAV_SEARCH_EXHAUSTED,
+    TL_NAV_SEARCH_OUT_OF_NODES,
+    TL_NAV_SEARCH_PAUSED ///< its steps are used up; it may go on
+} tl_nav_search_end;
+
+typedef struct tl_nav_shortest_search {
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter; ///< NULL: all polygons pass
+    uint32_t start_slot, start_polygon;
+    uint32_t goal_slot, goal_polygon;
+    tl_vec3 start, goal; ///< on their polygons
+    // Found:
+    uint32_t last;      ///< wedge, in the goal's polygon
+    double lower_bound; ///< no path is shorter
+    // Between two steps:
+    uint32_t only;                          ///< wedge to go on with, or TL_NAV_NO_NODE
+    tl_nav_direction only_right, only_left; ///< ends of the edge that it looks through
+    uint32_t best;                          ///< else the best wedge that is not in the heap, or TL_NAV_NO_NODE
+    float best_total;
+} tl_nav_shortest_search;
+
+/// Begins the search and, when start and goal see one another at once, ends it.
+tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search);
+/// Goes on for at most `*steps` wedges, which are counted down. Where a search is cut into steps changes nothing but
+/// the time. Once it is found the wedges, from `last` over parents to the start's, are the path.
+tl_nav_search_end tl_nav_step_shortest(tl_nav_shortest_search *search, uint64_t *steps);
+/// Both, to the end.
+tl_nav_search_end tl_nav_search_shortest(tl_nav_shortest_search *search);
+
+/// Who wants to know what can be seen from a point.
+typedef struct tl_nav_sight {
+    void (*note)(void *user, uint32_t turn); ///< a vertex is seen at which a path that comes straight to it may turn
+    void *user;
+} tl_nav_sight;
+
+/// Looks from the start of `from` all around, as far as walls let; of its other members query and navmesh count, and
+/// the filter is NULL. Afterwards the query's wedges hold the polygons that are seen. False: out of nodes.
+bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight);
+
+/// Fills in what a search needs from a caller's words: points are moved onto their polygons. Errors as those of
+/// tl_nav_query_find_shortest_path.
+tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                  const tl_nav_location *start, const tl_nav_location *goal,
+                                  tl_nav_shortest_search *search_out);
+/// Metres in the plane of a path that was found.
+double tl_nav_shortest_length(const tl_nav_shortest_search *search);
+/// Whether start and goal lie on two islands.
+bool tl_nav_is_cut_off(const tl_nav_shortest_search *search);
+/// The polygons of a path that was found; returns their number.
+uint32_t tl_nav_write_wedges(const tl_nav_shortest_search *search, tl_nav_ref *polygons, uint32_t capacity);
+
+#endif

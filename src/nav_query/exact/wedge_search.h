@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+//
+// The state of an exact search, and how a wedge comes into it.
+
+#ifndef TALUS_SRC_NAV_QUERY_WEDGE_SEARCH_H
+#define TALUS_SRC_NAV_QUERY_WEDGE_SEARCH_H
+
+#include "math/tolerance.h"
+#include "nav_query/exact/wedge_heap.h"
+#include "nav_query/exact/wedge_sight.h"
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/ring_step.h"
+#include "nav_query/search/root_table.h"
+
+typedef struct wedge_search {
+    tl_nav_shortest_search *in;
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    double goal_x, goal_z;
+    double rounding;           // metres
+    double detour;             // metres at least from the end of a short cut to the goal; INFINITY: there is none
+    uint32_t dead_ends[2];     // that may be entered: of the goal's slot, of the start's
+    tl_nav_search_end trouble; // FOUND: none
+    uint32_t only;             // wedge of the current step, while it is the only one
+    seen_edge only_edge;       // that it looks through
+    uint32_t best;             // the best of several, kept out of the heap
+    float best_total;
+    const tl_nav_sight *sight; // NULL: a search; else all that is seen from the start is looked for, and no turn taken
+} wedge_search;
+
+static inline bool may_enter(const wedge_search *s, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_shortest_search *in = s->in;
+    if (s->sight != NULL) {
+        return true;
+    }
+    uint32_t dead_end = s->navmesh->slots[slot].rings.cells[polygon].dead_end;
+    if (dead_end != 0 && !(slot == in->goal_slot && dead_end == s->dead_ends[0]) &&
+        !(slot == in->start_slot && dead_end == s->dead_ends[1]) && s->navmesh->slots[slot].anchor_count == 0) {
+        return false;
+    }
+    return in->filter == NULL || tl_nav_passes(in->filter, s->navmesh->slots[slot].tile, polygon);
+}
+
+static inline uint32_t new_wedge(wedge_search *s)
+{
+    tl_nav_query *query = s->query;
+    if (query->wedge_count == query->max_nodes) {
+        s->trouble = TL_NAV_SEARCH_OUT_OF_NODES;
+        return TL_NAV_NO_NODE;
+    }
+    return query->wedge_count++;
+}
+
+// Gives a wedge to the heap, or keeps it at hand when it is the best of its step; then the one before goes there.
+static inline void offer(wedge_search *s, uint32_t wedge, float total)
+{
+    if (s->best == TL_NAV_NO_NODE) {
+        s->best = wedge;
+        s->best_total = total;
+    } else if (total < s->best_total) {
+        tl_nav_wedge_push(s->query, s->best_total, s->best);
+        s->best = wedge;
+        s->best_total = total;
+    } else {
+        tl_nav_wedge_push(s->query, total, wedge);
+    }
+}
+
+// A wedge that is never taken up: a turn on the way to another one, for whoever reads the path.
+static inline uint32_t add_turn(wedge_search *s, uint32_t parent, float root_x, float root_z, double cost)
+{
+    uint32_t index = new_wedge(s);
+    if (index != TL_NAV_NO_NODE) {
+        tl_nav_wedge *wedge = &s->query->wedges[index];
+        *wedge = s->query->wedges[parent];
+        wedge->root_x = root_x;
+        wedge->root_z = root_z;
+        wedge->cost = cost;
+        wedge->parent = parent;
+    }
+    return index;
+}
+
+#endif

@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: MIT
+//
+// One step of the exact search: a wedge goes on through a polygon, over its edges and around the ends of its edge of
+// entry.
+
+#ifndef TALUS_SRC_NAV_QUERY_WEDGE_STEP_H
+#define TALUS_SRC_NAV_QUERY_WEDGE_STEP_H
+
+#include "nav_query/exact/wedge_links.h"
+
+// What a step goes on from.
+typedef struct step_from {
+    uint32_t wedge; // that is taken up
+    uint32_t slot, polygon;
+    const tl_nav_ring_edge *ring;
+    uint32_t count;
+} step_from;
+
+// The least length of a path through a wedge.
+static inline float total_of(const wedge_search *s, const tl_nav_wedge *wedge, const seen_edge *edge)
+{
+    tl_nav_direction goal = { s->goal_x - (double)wedge->root_x, s->goal_z - (double)wedge->root_z };
+    double rest = least_through(edge, wedge->left, wedge->right, goal);
+    return (float)(wedge->cost + (rest < s->detour ? rest : s->detour));
+}
+
+// A wedge through edge i of the polygon. `root_*`, `cost`: its root. The first one of a step is kept as it is: where it
+// stays the only one the search goes on with it at once, and its total is not asked for.
+static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i, float root_x, float root_z,
+                             double cost, const seen_edge *edge, tl_nav_direction left, tl_nav_direction right)
+{
+    tl_nav_ring_place twin = tl_nav_ring_twin(s->navmesh, from->slot, from->polygon, from->ring, from->count, i);
+    if (!may_enter(s, twin.slot, twin.polygon)) {
+        return;
+    }
+    uint32_t index = new_wedge(s);
+    if (index == TL_NAV_NO_NODE) {
+        return;
+    }
+    tl_nav_wedge *wedge = &s->query->wedges[index];
+    wedge->left = left;
+    wedge->right = right;
+    wedge->cost = cost;
+    wedge->root_x = root_x;
+    wedge->root_z = root_z;
+    wedge->slot = twin.slot;
+    wedge->polygon = twin.polygon;
+    wedge->edge = twin.edge;
+    wedge->parent = from->wedge;
+    if (s->sight != NULL) {
+        return;
+    }
+    if (s->only == TL_NAV_NO_NODE && s->best == TL_NAV_NO_NODE) {
+        s->only = index;
+        s->only_edge = *edge;
+        return;
+    }
+    if (s->only != TL_NAV_NO_NODE) {
+        uint32_t first = s->only;
+        s->only = TL_NAV_NO_NODE;
+        offer(s, first, total_of(s, &s->query->wedges[first], &s->only_edge));
+    }
+    offer(s, index, total_of(s, wedge, edge));
+}
+
+static inline seen_edge see(const step_from *from, uint32_t i, float root_x, float root_z)
+{
+    const tl_nav_ring_edge *a = &from->ring[i];
+    const tl_nav_ring_edge *b = &from->ring[i + 1 < from->count ? i + 1 : 0];
+    seen_edge edge = { { (double)a->x - (double)root_x, (double)a->z - (double)root_z },
+                       { (double)b->x - (double)root_x, (double)b->z - (double)root_z } };
+    return edge;
+}
+
+// How an edge is seen: whether it shows its inner side, and whether edge-on, as far as rounding can tell.
+typedef struct edge_view {
+    bool facing, edge_on;
+} edge_view;
+
+static inline edge_view view_of(const wedge_search *s, const seen_edge *edge)
+{
+    double area = cross(edge->right, edge->left);
+    double size = fabs(edge->left.x - edge->right.x) + fabs(edge->left.z - edge->right.z);
+    edge_view v = { area < 0.0, fabs(area) <= s->rounding * size };
+    return v;
+}
+
+// Numbers of corners of polygons, beside those of fans.
+#define CORNER_NUMBER  ((uint64_t)1 << 63)
+#define TURNING_NUMBER ((uint64_t)1 << 62)
+
+static inline uint64_t corner_number(const wedge_search *s, uint32_t slot, uint32_t polygon, uint32_t vertex)
+{
+    const tl_nav_rings *rings = &s->navmesh->slots[slot].rings;
+    return CORNER_NUMBER | (uint64_t)slot << 32 | (rings->cells[polygon].first + vertex);
+}
+
+// The number of a vertex of the ring in this search, or 0 when no shortest path turns there.
+static inline uint64_t turn_of(const wedge_search *s, const step_from *from, uint32_t vertex)
+{
+    if (s->in->filter == NULL) {
+        return from->ring[vertex].turn;
+    }
+    // Walls are where the filter says, so the fan is sought anew. Where floors fork each corner stands for itself.
+    tl_nav_ring_place place = { from->slot, from->polygon, vertex };
+    bool is_walled = tl_nav_find_fan(s->navmesh, s->in->filter, &place);
+    if (!is_walled && !s->navmesh->slots[from->slot].rings.has_back) {
+        return 0;
+    }
+    return corner_number(s, place.slot, place.polygon, place.edge);
+}
+
+// Whether a wedge that turns around a vertex of edge i may go on over the edge: where there is no wall to end it, only
+// once.
+static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t vertex, double cost)
+{
+    const tl_nav_rings *rings = &s->navmesh->slots[from->slot].rings;
+    const tl_nav_ring_walls *walls = &rings->walls[rings->cells[from->polygon].first + vertex];
+    bool is_walled = walls->first_x != 0.0f || walls->first_z != 0.0f;
+    return (is_walled && s->in->filter == NULL) ||
+           tl_nav_root_is_first(s->query, TURNING_NUMBER | corner_number(s, from->slot, from->polygon, vertex), cost);
+}
+
+static inline void note_bend(const wedge_search *s, uint64_t turn)
+{
+    if (turn != 0) {
+        s->sight->note(s->sight->user, (uint32_t)turn);
+    }
+}
+
+// Relative error of the length of a path of a thousand legs, each of four roundings, summed in double, twice.
+#define SUM_ROUNDING TL_DOUBLE_GAMMA(8192)
+
+// Whether a way to a vertex that is as cheap as another shows nothing new: one as cheap has turned at this corner to
+// this hand, and came in farther from the wall. In a city of equal blocks there are two ways around each, as long as
+// one another; the searches behind their ends would be the same, and twice as many at each block.
+static inline bool is_repeated(wedge_search *s, const step_from *from, uint32_t vertex, int hand, double cost,
+                               float from_x, float from_z)
+{
+    if (s->query->repeat_count >= s->query->max_nodes / 2) {
+        return false; // the table has room for others
+    }
+    uint64_t number = TURNING_NUMBER >> (hand > 0 ? 1 : 2) | corner_number(s, from->slot, from->polygon, vertex);
+    bool found = false;
+    tl_nav_root *root = tl_nav_find_root(s->query, number, &found);
+    double x = (double)from->ring[vertex].x, z = (double)from->ring[vertex].z;
+    tl_nav_direction known = { x - (double)root->from_x, z - (double)root->from_z };
+    tl_nav_direction limit = { x - (double)from_x, z - (double)from_z };
+    double known_cost = (double)root->cost + (double)root->cost_rest;
+    if (found && cost >= known_cost * (1.0 - SUM_ROUNDING) &&
+        (hand > 0 ? side(known, limit) <= 0.0 : side(known, limit) >= 0.0)) {
+        return true;
+    }
+    s->query->repeat_count += !found;
+    root->cost = (float)cost;
+    root->cost_rest = (float)(cost - (double)root->cost);
+    root->from_x = from_x;
+    root->from_z = from_z;
+    return false;
+}
+
+// Turns at a vertex of edge i into the polygon behind. `to_vertex` leads there from the root.
+static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i, uint32_t vertex, double cost,
+                             tl_nav_direction to_vertex)
+{
+    const tl_nav_direction open = { 0.0, 0.0 };
+    uint64_t turn = turn_of(s, from, vertex);
+    if (s->sight != NULL) {
+        note_bend(s, turn);
+        return;
+    }
+    cost += length_of(to_vertex);
+    if (turn != 0 && tl_nav_root_rank_of(s->query, turn, cost) != TL_NAV_ROOT_WORSE) {
+        float x = from->ring[vertex].x;
+        float z = from->ring[vertex].z;
+        seen_edge edge = see(from, i, x, z);
+        add_wedge(s, from, i, x, z, cost, &edge, open, open);
+    }
+}
+
+// Goes along edge i, which is seen edge-on from the root, to its vertices, and turns there into the polygon behind. A
+// root that is a vertex of the edge sees all of that polygon.
+static inline void add_edge_on(wedge_search *s, const step_from *from, uint32_t i, float root_x, float root_z,
+                               double cost, const seen_edge *edge)
+{
+    uint32_t next = i + 1 < from->count ? i + 1 : 0;
+    if (is_open(edge->left) || is_open(edge->right)) {
+        const tl_nav_direction open = { 0.0, 0.0 };
+        if (!may_turn_on(s, from, is_open(edge->left) ? next : i, cost)) {
+            return;
+        }
+        add_wedge(s, from, i, root_x, root_z, cost, edge, open, open);
+        return;
+    }
+    turn_into(s, from, i, i, cost, edge->right);
+    turn_into(s, from, i, next, cost, edge->left);
+}
+
+// Whether a path that comes along `limit` to a vertex may turn there to one hand.
+static inline bool has_walls_on(const wedge_search *s, const step_from *from, uint32_t vertex, tl_nav_direction limit,
+                                int hand)
+{
+    const tl_nav_rings *rings = &s->navmesh->slots[from->slot].rings;
+    return may_turn(&rings->walls[rings->cells[from->polygon].first + vertex], limit, hand, s->rounding);
+}
+
+// The edges that are reached by turning at a vertex of the edge of entry: `hand` is 1 for the left one, -1 for the
+// right one. They lie beyond the wedge's `limit` on that hand, in the part of the ring from `begin` to `end` (counted
+// from the edge of entry).
+static inline void turn_at(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge, int hand, uint32_t begin,
+                           uint32_t end)
+{
+    uint32_t vertex = hand > 0 ? wedge->edge : wedge->edge + 1 < from->count ? wedge->edge + 1 : 0;
+    tl_nav_direction limit = hand > 0 ? wedge->left : wedge->right;
+    uint64_t turn = turn_of(s, from, vertex);
+    if (turn == 0 || (s->in->filter == NULL && !has_walls_on(s, from, vertex, limit, hand))) {
+        return;
+    }
+    if (s->sight != NULL) {
+        note_bend(s, turn);
+        return;
+    }
+    float x = from->ring[vertex].x;
+    float z = from->ring[vertex].z;
+    double cost = wedge->cost + length_of(limit); // the limit leads to the vertex
+    bool is_new = true;
+    for (uint32_t k = begin; k < end; k++) {
+        uint32_t i = wedge->edge + k < from->count ? wedge->edge + k : wedge->edge + k - from->count;
+        if (!tl_nav_ring_is_open(&from->ring[i])) {
+            continue;
+        }
+        seen_edge edge = see(from, i, x, z);
+        double left = side(limit, edge.left);
+        double right = side(limit, edge.right);
+        bool is_beyond = hand > 0 ? left < 0.0 : right > 0.0;
+        bool is_near = hand > 0 ? right <= 0.0 : left >= 0.0;
+        if (!is_beyond && !is_near) {
+            continue;
+        }
+        edge_view v = view_of(s, &edge);
+        bool touches = v.edge_on && is_near;
+        if (!(is_beyond && v.facing) && !touches) {
+            continue;
+        }
+        if (is_new) {
+            tl_nav_root_rank rank = tl_nav_root_rank_of(s->query, turn, cost);
+            if (rank == TL_NAV_ROOT_WORSE || (rank == TL_NAV_ROOT_AS_CHEAP &&
+                                              is_repeated(s, from, vertex, hand, cost, wedge->root_x, wedge->root_z))) {
+                return;
+            }
+        }
+        is_new = false;
+        if (touches) {
+            // It may turn a second time at once, at the end of the edge: the first turn needs a wedge of its own.
+            step_from turned = *from;
+            turned.wedge = add_turn(s, from->wedge, x, z, cost);
+            add_edge_on(s, &turned, i, x, z, cost, &edge);
+        } else if (hand > 0) {
+            add_wedge(s, from, i, x, z, cost, &edge, edge.left, right > 0.0 ? limit : edge.right);
+        } else {
+            add_wedge(s, from, i, x, z, cost, &edge, left < 0.0 ? limit : edge.left, edge.right);
+        }
+    }
+}
+
+// Goes around the ring from the right end of the edge of entry to its left end, which is from right to left as it is
+// seen from the root. Edges right of the wedge are reached by turning right, those left of it by turning left.
+static inline void expand(wedge_search *s, uint32_t index)
+{
+    const tl_nav_wedge wedge = s->query->wedges[index];
+    const wedge_view view = make_view(&wedge);
+    if (s->navmesh->slots[wedge.slot].anchor_count > 0) {
+        cross_links(s, index);
+    }
+    step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
+    from.ring = tl_nav_ring_at(s->navmesh, wedge.slot, wedge.polygon, &from.count);
+    uint32_t first_seen = from.count; // the first way that ends left of the wedge's right side
+    uint32_t last_seen = 1;           // the last one that begins right of its left side
+    uint32_t i = wedge.edge;
+    seen_vertex right, left;
+    uint32_t left_is = UINT32_MAX; // the vertex that was looked at last
+    for (uint32_t k = 1; k < from.count; k++) {
+        i = i + 1 < from.count ? i + 1 : 0;
+        if (!tl_nav_ring_is_open(&from.ring[i])) {
+            continue;
+        }
+        uint32_t next = i + 1 < from.count ? i + 1 : 0;
+        right = left_is == i ? left : look_at(&view, &from.ring[i]);
+        if (right.left_of_left) {
+            break; // and so are all that follow
+        }
+        left = look_at(&view, &from.ring[next]);
+        left_is = next;
+        if (left.right_of_right) {
+            continue;
+        }
+        last_seen = right.right_of_left ? k : last_seen;
+        first_seen = left.left_of_right && k < first_seen ? k : first_seen;
+        seen_edge edge = { right.at, left.at };
+        edge_view v = view_of(s, &edge);
+        if (v.facing && right.right_of_left && left.left_of_right) {
+            add_wedge(s, &from, i, wedge.root_x, wedge.root_z, wedge.cost, &edge,
+                      left.left_of_left ? wedge.left : left.at, right.right_of_right ? wedge.right : right.at);
+        }
+        if (v.edge_on) {
+            add_edge_on(s, &from, i, wedge.root_x, wedge.root_z, wedge.cost, &edge);
+        }
+    }
+    // Looking in, the edge of entry starts at its left end.
+    const tl_nav_ring_edge *entry_left = &from.ring[wedge.edge];
+    const tl_nav_ring_edge *entry_right = &from.ring[wedge.edge + 1 < from.count ? wedge.edge + 1 : 0];
+    if (!view.left_open && wedge.left.x == (double)entry_left->x - view.root_x &&
+        wedge.left.z == (double)entry_left->z - view.root_z) {
+        turn_at(s, &from, &wedge, 1, last_seen, from.count);
+    }
+    if (!view.right_open && wedge.right.x == (double)entry_right->x - view.root_x &&
+        wedge.right.z == (double)entry_right->z - view.root_z) {
+        turn_at(s, &from, &wedge, -1, 1, first_seen < from.count ? first_seen + 1 : from.count);
+    }
+}
+
+#endif

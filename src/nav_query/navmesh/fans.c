@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+//
+// Vertices at which a shortest path may turn: those of walls, where the free way around is wider than a half plane.
+//
+// From a wall the polygons around a vertex are gone through one by one, over seams too, up to the next wall: a fan. Its
+// vertices in all those rings get one number, so that a search knows them for one place; two fans that touch in a point
+// (on two floors, or on two sides of a wall) have two. All other vertices have none. A fan is wider than a half plane
+// when one of its edges lies beyond the first one's line, which takes signs only.
+// Where a polygon is linked to two floors over the same stretch of a seam, the ways around its ends fork. All vertices
+// there count as places to turn at, walls or not.
+
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/ring_step.h"
+
+#include "math/tolerance.h"
+
+typedef struct fan {
+    tl_nav_ring_edge *members[TL_NAV_MAX_FAN];
+    tl_nav_ring_walls *walls[TL_NAV_MAX_FAN]; // of the members
+    uint32_t count;
+    double x, z;             // the vertex
+    double first_x, first_z; // along the first edge
+    double last_x, last_z;   // along the last one
+    bool is_wide;
+    bool is_odd; // walls do not tell on which hand to turn: ways fork, or go more than once around, or too many
+} fan;
+
+static tl_nav_ring_edge *ring_at(tl_navmesh *navmesh, tl_nav_ring_place place, uint32_t *count_out)
+{
+    tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
+    tl_nav_ring_of(rings, place.polygon, count_out);
+    return rings->edges + rings->cells[place.polygon].first;
+}
+
+static tl_nav_ring_walls *walls_of(tl_navmesh *navmesh, tl_nav_ring_place place)
+{
+    tl_nav_rings *rings = &navmesh->slots[place.slot].rings;
+    return rings->walls + rings->cells[place.polygon].first + place.edge;
+}
+
+// A fan turns left from its first edge: while it is no wider than a half plane nothing lies on the right.
+static void widen(fan *f, const tl_nav_ring_edge *end)
+{
+    double dx = (double)end->x - f->x;
+    double dz = (double)end->z - f->z;
+    f->last_x = dx;
+    f->last_z = dz;
+    double ahead = f->first_x * dz;
+    double aside = f->first_z * dx;
+    double error = TL_CROSS_ERROR * (fabs(ahead) + fabs(aside));
+    // Once past the line and back on its left side: the fan winds up a spiral stair, more than once around.
+    f->is_odd = f->is_odd || (f->is_wide && ahead - aside < -error);
+    f->is_wide = f->is_wide || ahead - aside > error;
+}
+
+// Whether a ring runs back at a vertex: links lie over one another there.
+static bool forks_at(const tl_nav_rings *rings, const tl_nav_ring_edge *ring, uint32_t count, double x, double z)
+{
+    for (uint32_t i = 0; i < count && rings->has_back; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        bool touches =
+            ((double)ring[i].x == x && (double)ring[i].z == z) || ((double)end->x == x && (double)end->z == z);
+        if (ring[i].to == TL_NAV_RING_BACK && touches) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Gathers the fan that begins with the edge at `begin`, over the edges that end in its vertex; false when it is closed.
+static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, fan *f)
+{
+    uint32_t count = 0;
+    tl_nav_ring_edge *ring = ring_at(navmesh, begin, &count);
+    const tl_nav_ring_edge *first_end = &ring[begin.edge + 1 < count ? begin.edge + 1 : 0];
+    f->count = 0;
+    f->x = (double)ring[begin.edge].x;
+    f->z = (double)ring[begin.edge].z;
+    f->first_x = (double)first_end->x - f->x;
+    f->first_z = (double)first_end->z - f->z;
+    f->is_wide = false;
+    f->is_odd = false;
+    tl_nav_ring_place at = begin;
+    for (;;) {
+        tl_nav_note_edit(navmesh, at.slot);
+        f->members[f->count] = &ring[at.edge];
+        f->walls[f->count++] = walls_of(navmesh, at);
+        uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;
+        widen(f, &ring[before]);
+        f->is_odd = f->is_odd || f->count == TL_NAV_MAX_FAN ||
+                    forks_at(&navmesh->slots[at.slot].rings, ring, count, f->x, f->z);
+        if (f->count == TL_NAV_MAX_FAN || !tl_nav_ring_is_open(&ring[before])) {
+            return true;
+        }
+        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, ring, count, before);
+        if (at.slot == begin.slot && at.polygon == begin.polygon && at.edge == begin.edge) {
+            return false;
+        }
+        ring = ring_at(navmesh, at, &count);
+    }
+}
+
+static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
+{
+    fan f;
+    bool is_walled = gather_fan(navmesh, begin, &f);
+    uint32_t number = (is_walled && f.is_wide) || f.is_odd ? ++navmesh->last_fan : 0;
+    tl_nav_ring_walls walls = { 0.0f, 0.0f, 0.0f, 0.0f };
+    if (!f.is_odd) {
+        tl_nav_ring_walls known = { (float)f.first_x, (float)f.first_z, (float)f.last_x, (float)f.last_z };
+        walls = known;
+    }
+    for (uint32_t i = 0; i < f.count; i++) {
+        f.members[i]->turn = number;
+        *f.walls[i] = walls;
+    }
+}
+
+bool tl_nav_find_fan(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ring_place *at)
+{
+    const tl_nav_ring_place from = *at;
+    for (uint32_t i = 0; i < TL_NAV_MAX_FAN; i++) {
+        uint32_t count = 0;
+        const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, at->slot, at->polygon, &count);
+        if (!tl_nav_ring_is_open(&ring[at->edge])) {
+            return true;
+        }
+        tl_nav_ring_place next = tl_nav_ring_twin(navmesh, at->slot, at->polygon, ring, count, at->edge);
+        if (filter != NULL && !tl_nav_passes(filter, navmesh->slots[next.slot].tile, next.polygon)) {
+            return true;
+        }
+        *at = next;
+        tl_nav_ring_at(navmesh, at->slot, at->polygon, &count);
+        at->edge = at->edge + 1 < count ? at->edge + 1 : 0;
+        if (at->slot == from.slot && at->polygon == from.polygon && at->edge == from.edge) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void number_fans_of(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_ring_place place = { slot, polygon, i };
+        if (!tl_nav_ring_is_open(&ring[i])) {
+            number_fan(navmesh, place);
+        } else if ((ring[i].to & TL_NAV_RING_SEAM) != 0 || rings->has_back) {
+            // The fan comes in over a seam: it may begin in a tile that is not looked at.
+            tl_nav_find_fan(navmesh, NULL, &place);
+            number_fan(navmesh, place);
+        }
+    }
+}
+
+void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot)
+{
+    for (uint32_t p = 0; p < navmesh->slots[slot].rings.polygon_count; p++) {
+        number_fans_of(navmesh, slot, p);
+    }
+}
+
+// From where a portal begins in its polygon's ring to where it ends, both included: all of the ring where links of two
+// floors run back and forth.
+static void number_fans_of_portal(tl_navmesh *navmesh, uint32_t slot, const tl_nav_portal *portal)
+{
+    const tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    uint32_t corner_count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, portal->polygon, &corner_count);
+    uint32_t corner = portal->corner - ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[portal->polygon];
+    const tl_vec3 begin = corners[corner];
+    const tl_vec3 end = corners[corner + 1 < corner_count ? corner + 1 : 0];
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, portal->polygon, &count);
+    uint32_t first = 0;
+    while (first + 1 < count && (ring[first].x != begin.x || ring[first].z != begin.z)) {
+        first++;
+    }
+    for (uint32_t i = 0, at = first; i < count; i++, at = at + 1 < count ? at + 1 : 0) {
+        tl_nav_ring_place place = { slot, portal->polygon, at };
+        bool is_last = ring[at].x == end.x && ring[at].z == end.z && !rings->has_back;
+        tl_nav_find_fan(navmesh, NULL, &place);
+        number_fan(navmesh, place);
+        if (is_last) {
+            break;
+        }
+    }
+}
+
+void tl_nav_number_fans_on_side(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    const tl_nav_portal *portals = tl_nav_tile_portals(tile);
+    for (uint32_t i = tl_nav_tile_side_first(tile, side); i < tl_nav_tile_side_first(tile, side + 1); i++) {
+        number_fans_of_portal(navmesh, slot, &portals[i]);
+    }
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// Filters: which polygons count, and what a metre in them costs.
+
+#include "nav_query/navmesh/filter.h"
+
+#include <string.h>
+
+tl_nav_filter tl_default_nav_filter(void)
+{
+    tl_nav_filter filter;
+    filter.include_flags = UINT64_MAX;
+    filter.exclude_flags = 0;
+    for (int area = 0; area <= TL_NAV_MAX_AREA; area++) {
+        filter.area_cost[area] = 1.0f;
+    }
+    filter.pass = NULL;
+    filter.cost = NULL;
+    filter.user = NULL;
+    return filter;
+}
+
+bool tl_nav_filter_passes(const tl_nav_filter *filter, const tl_nav_tile *tile, uint32_t polygon)
+{
+    return tl_nav_passes(filter, tile, polygon);
+}
+
+// Floats above 0 are ordered as their bits are. What is not above 0 has bits that are none or negative, infinity and
+// NaN have those from INFINITY_BITS on. So the least and the most of the bits say all, without a branch: a search asks
+// this of 256 costs before it begins.
+bool tl_nav_filter_costs(const tl_nav_filter *filter, float *least_out, bool *uniform_out)
+{
+    enum { INFINITY_BITS = 0x7f800000 };
+    int32_t least = INT32_MAX;
+    int32_t most = INT32_MIN;
+    for (int area = 0; area <= TL_NAV_MAX_AREA; area++) {
+        int32_t bits;
+        memcpy(&bits, &filter->area_cost[area], sizeof bits);
+        least = bits < least ? bits : least;
+        most = bits > most ? bits : most;
+    }
+    memcpy(least_out, &least, sizeof least);
+    *uniform_out = least == most && filter->cost == NULL;
+    return least > 0 && most < INFINITY_BITS;
+}

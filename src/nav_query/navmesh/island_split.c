@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+//
+// What a tile or a link that leaves cuts off: searches from all that hung on it, which take turns until they have met.
+//
+// Each part that comes off holds a node that has lost a way: a seed. From the seeds the components around are gone
+// through in turns, one each. Two searches that meet are a group, and go on as one. As soon as one group is left, as
+// almost always after a few steps around the place, nothing has come off. A group that ends before it has met the
+// others is cut off, and what it has found gets a new label; the last one, however large, is not gone through and
+// keeps the old label. So the time goes with what lies between the seeds, or with the smaller parts, not with the
+// world. Seeds that had different labels before never meet and do not wait for one another.
+//
+// Shores come first. For islands one seed of each shore is enough, and where there is but one shore, none is.
+// Rejected: joining all tiles anew (the time of a swap grew with the world); the forests of Holm, de Lichtenberg and
+// Thorup (2001), which bound the worst case, a long and narrow world cut in the middle over and over, by many times
+// the code and memory; blocks of tiles joined in two levels, which cost a block each time, off-mesh links at the top.
+
+#include "nav_query/navmesh/islands.h"
+
+#include "base/assert.h"
+#include "nav_query/navmesh/navmesh.h"
+
+typedef struct splitter {
+    const tl_navmesh *navmesh;
+    tl_nav_islands *islands;
+    tl_nav_island_kind kind;
+    tl_nav_island_label *labels;
+} splitter;
+
+static uint32_t group_of(tl_nav_island_piece *pieces, uint32_t piece)
+{
+    while (pieces[piece].parent != piece) {
+        pieces[piece].parent = pieces[pieces[piece].parent].parent;
+        piece = pieces[piece].parent;
+    }
+    return piece;
+}
+
+static void meet(splitter *s, uint32_t piece_a, uint32_t piece_b)
+{
+    tl_nav_island_piece *pieces = s->islands->pieces;
+    uint32_t a = group_of(pieces, piece_a);
+    uint32_t b = group_of(pieces, piece_b);
+    if (a == b) {
+        return;
+    }
+    TL_ASSERT(pieces[a].label == pieces[b].label);
+    uint32_t root = a < b ? a : b;
+    uint32_t child = a < b ? b : a;
+    tl_nav_island_label *label = &s->labels[pieces[root].label];
+    label->groups--;
+    label->open -= pieces[a].open > 0 && pieces[b].open > 0 ? 1 : 0;
+    pieces[child].parent = root;
+    pieces[root].open += pieces[child].open;
+}
+
+static void reach(splitter *s, uint32_t piece, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_rings *rings = &s->navmesh->slots[slot].rings;
+    uint32_t index = rings->island[rings->component[polygon]];
+    tl_nav_island_node *node = &s->islands->nodes[index];
+    if (node->piece != TL_NAV_NO_ISLAND) {
+        meet(s, piece, node->piece);
+        return;
+    }
+    tl_nav_island_piece *finder = &s->islands->pieces[piece];
+    node->piece = piece;
+    node->next = TL_NAV_NO_ISLAND;
+    s->islands->nodes[finder->last].next = index;
+    finder->last = index;
+}
+
+static void reach_over_seams(splitter *s, uint32_t piece, const tl_nav_island_node *node)
+{
+    const tl_nav_slot *slot = &s->navmesh->slots[node->slot];
+    uint32_t component = slot->rings.component[node->polygon];
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        const tl_nav_side_links *links = &slot->sides[side];
+        const tl_nav_portal *portals = tl_nav_tile_portals(slot->tile) + tl_nav_tile_side_first(slot->tile, side);
+        for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
+            if (slot->rings.component[portals[i].polygon] == component) {
+                for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
+                    reach(s, piece, links->links[k].slot, links->links[k].polygon);
+                }
+            }
+        }
+    }
+}
+
+static void reach_over_links(splitter *s, uint32_t piece, const tl_nav_island_node *node)
+{
+    const uint32_t *next_member = s->navmesh->slots[node->slot].rings.next_member;
+    uint32_t polygon = node->polygon;
+    do {
+        for (uint32_t end = tl_nav_first_anchor(s->navmesh, node->slot, polygon); end != TL_NAV_NO_END;) {
+            const tl_nav_offmesh_entry *entry = &s->navmesh->offmesh.entries[end / 2];
+            const tl_nav_anchor *own = &entry->ends[end % 2];
+            const tl_nav_anchor *other = &entry->ends[1 - end % 2];
+            if (own->slot == node->slot && own->polygon == polygon && other->slot != TL_NAV_NO_SLOT) {
+                reach(s, piece, other->slot, other->polygon);
+            }
+            end = own->next;
+        }
+        polygon = next_member[polygon];
+    } while (polygon != node->polygon);
+}
+
+// Goes through one node of a piece.
+static void step(splitter *s, uint32_t index)
+{
+    tl_nav_island_piece *piece = &s->islands->pieces[index];
+    const tl_nav_island_node *node = &s->islands->nodes[piece->head];
+    reach_over_seams(s, index, node);
+    if (s->kind == TL_NAV_ISLANDS && s->navmesh->slots[node->slot].anchor_count > 0) {
+        reach_over_links(s, index, node);
+    }
+    piece->head = node->next;
+    if (piece->head == TL_NAV_NO_ISLAND) {
+        tl_nav_island_piece *group = &s->islands->pieces[group_of(s->islands->pieces, index)];
+        group->open--;
+        s->labels[piece->label].open -= group->open == 0 ? 1 : 0;
+    }
+}
+
+static void start(splitter *s, const uint32_t *seeds, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_island_node *node = &s->islands->nodes[seeds[i]];
+        uint32_t root = tl_nav_label_root(s->labels, node->labels[s->kind]);
+        tl_nav_island_piece piece = { i, seeds[i], seeds[i], seeds[i], 1, root, TL_NAV_NO_ISLAND };
+        s->islands->pieces[i] = piece;
+        s->labels[root].groups++;
+        s->labels[root].open++;
+        node->piece = i;
+        node->next = TL_NAV_NO_ISLAND;
+    }
+}
+
+// Names the groups that were cut off, and forgets the search.
+static void finish(splitter *s, uint32_t count)
+{
+    tl_nav_island_piece *pieces = s->islands->pieces;
+    tl_nav_island_node *nodes = s->islands->nodes;
+    for (uint32_t i = 0; i < count; i++) {
+        bool is_cut_off = pieces[i].parent == i && pieces[i].open == 0 && s->labels[pieces[i].label].groups > 1;
+        pieces[i].new_label = is_cut_off ? tl_nav_new_label(s->islands, s->kind) : TL_NAV_NO_ISLAND;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t new_label = pieces[group_of(pieces, i)].new_label;
+        for (uint32_t index = pieces[i].first; index != TL_NAV_NO_ISLAND; index = nodes[index].next) {
+            nodes[index].piece = TL_NAV_NO_ISLAND;
+            nodes[index].labels[s->kind] = new_label != TL_NAV_NO_ISLAND ? new_label : nodes[index].labels[s->kind];
+        }
+        s->labels[pieces[i].label].groups = 0;
+        s->labels[pieces[i].label].open = 0;
+    }
+}
+
+static void split(tl_navmesh *navmesh, tl_nav_island_kind kind, const uint32_t *seeds, uint32_t count)
+{
+    tl_nav_islands *islands = &navmesh->islands;
+    tl_nav_reserve_labels(islands, kind, count);
+    splitter s = { navmesh, islands, kind, islands->labels[kind] };
+    start(&s, seeds, count);
+    for (bool goes_on = true; goes_on;) {
+        goes_on = false;
+        for (uint32_t i = 0; i < count; i++) {
+            const tl_nav_island_piece *piece = &islands->pieces[i];
+            if (piece->head != TL_NAV_NO_ISLAND && s.labels[piece->label].open > 1) {
+                step(&s, i);
+                goes_on = true;
+            }
+        }
+    }
+    finish(&s, count);
+}
+
+// Leaves one seed of each shore.
+static uint32_t thin_out(tl_nav_islands *islands, uint32_t *seeds, uint32_t count)
+{
+    tl_nav_island_label *shores = islands->labels[TL_NAV_SHORES];
+    uint32_t left = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_island_label *shore = &shores[tl_nav_label_root(shores, islands->nodes[seeds[i]].labels[TL_NAV_SHORES])];
+        if (shore->groups == 0) {
+            shore->groups = 1;
+            seeds[left++] = seeds[i];
+        }
+    }
+    for (uint32_t i = 0; i < left; i++) {
+        shores[tl_nav_label_root(shores, islands->nodes[seeds[i]].labels[TL_NAV_SHORES])].groups = 0;
+    }
+    return left;
+}
+
+void tl_nav_split_islands(tl_navmesh *navmesh)
+{
+    tl_nav_islands *islands = &navmesh->islands;
+    for (uint32_t i = 0; i < islands->seed_count; i++) {
+        islands->nodes[islands->seeds[i]].piece = TL_NAV_NO_ISLAND;
+    }
+    split(navmesh, TL_NAV_SHORES, islands->seeds, islands->shore_seed_count);
+    split(navmesh, TL_NAV_ISLANDS, islands->seeds, thin_out(islands, islands->seeds, islands->seed_count));
+    islands->seed_count = 0;
+    islands->shore_seed_count = 0;
+}

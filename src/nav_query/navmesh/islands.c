@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT
+//
+// Islands: what hangs together over all tiles and off-mesh links. Two polygons on two islands have no path between
+// them, whatever the filter, and a few array reads per polygon say so.
+//
+// Within a tile polygons are labelled once (rings.c); those components are the nodes. A node has a label, and labels
+// are joined by union-find: a tile that comes in joins its own to its neighbours', in time in proportion to its seams.
+// Nodes point to labels, never to one another, so that a part that is cut off gets a label of its own and all others
+// keep theirs (island_split.c). Labels are handed out once; when they run out, the roots are named anew.
+// Off-mesh links join as if they led both ways: what is apart then is apart for certain. A second set of labels, over
+// seams alone, knows the shores: a link from a shore to itself joins nothing, and when it goes nothing is looked at.
+// Unions go by size, so that a reader finds a root in log2(labels) steps without writing.
+// Source: Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm, 1975.
+
+#include "nav_query/navmesh/islands.h"
+
+#include "base/arena.h"
+#include "nav_query/navmesh/navmesh.h"
+
+#include <string.h>
+
+static uint32_t node_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    return rings->island[rings->component[polygon]];
+}
+
+static uint32_t root_of(const tl_navmesh *navmesh, tl_nav_island_kind kind, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_islands *islands = &navmesh->islands;
+    return tl_nav_label_root(islands->labels[kind], islands->nodes[node_of(navmesh, slot, polygon)].labels[kind]);
+}
+
+uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    return root_of(navmesh, TL_NAV_ISLANDS, slot, polygon);
+}
+
+bool tl_nav_is_on_one_shore(const tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry)
+{
+    return root_of(navmesh, TL_NAV_SHORES, entry->ends[0].slot, entry->ends[0].polygon) ==
+           root_of(navmesh, TL_NAV_SHORES, entry->ends[1].slot, entry->ends[1].polygon);
+}
+
+static void free_arrays(const tl_allocator *allocator, tl_nav_islands *islands)
+{
+    const uint64_t capacity = islands->capacity;
+    tl_release_array(allocator, islands->nodes, capacity, sizeof *islands->nodes);
+    tl_release_array(allocator, islands->pieces, capacity, sizeof *islands->pieces);
+    tl_release_array(allocator, islands->seeds, capacity, sizeof *islands->seeds);
+    tl_release_array(allocator, islands->labels[0], TL_NAV_ISLAND_KINDS * 2 * capacity, sizeof **islands->labels);
+}
+
+void tl_nav_free_islands(tl_navmesh *navmesh)
+{
+    free_arrays(&navmesh->allocator, &navmesh->islands);
+    memset(&navmesh->islands, 0, sizeof navmesh->islands);
+}
+
+tl_result tl_nav_reserve_islands(tl_navmesh *navmesh, uint32_t count)
+{
+    const tl_nav_islands *old = &navmesh->islands;
+    const tl_allocator *allocator = &navmesh->allocator;
+    const uint64_t needed = (uint64_t)old->used - old->free_count + count;
+    if (needed <= old->capacity) {
+        return TL_OK;
+    }
+    const uint64_t capacity = 2 * needed;
+    if (2 * capacity > UINT32_MAX) {
+        return TL_ERR_LIMIT;
+    }
+    tl_nav_islands grown = *old;
+    grown.capacity = (uint32_t)capacity;
+    grown.nodes = tl_allocate_array(allocator, capacity, sizeof *grown.nodes);
+    grown.pieces = tl_allocate_array(allocator, capacity, sizeof *grown.pieces);
+    grown.seeds = tl_allocate_array(allocator, capacity, sizeof *grown.seeds);
+    grown.labels[0] = tl_allocate_array(allocator, TL_NAV_ISLAND_KINDS * 2 * capacity, sizeof **grown.labels);
+    if (grown.nodes == NULL || grown.pieces == NULL || grown.seeds == NULL || grown.labels[0] == NULL) {
+        free_arrays(allocator, &grown);
+        return TL_ERR_MEMORY;
+    }
+    grown.labels[1] = grown.labels[0] + 2 * capacity;
+    if (old->capacity > 0) {
+        memcpy(grown.nodes, old->nodes, old->used * sizeof *grown.nodes);
+        for (int kind = 0; kind < TL_NAV_ISLAND_KINDS; kind++) {
+            memcpy(grown.labels[kind], old->labels[kind], old->label_count[kind] * sizeof **grown.labels);
+        }
+    } else {
+        grown.free = TL_NAV_NO_ISLAND;
+    }
+    free_arrays(allocator, &navmesh->islands);
+    navmesh->islands = grown;
+    return TL_OK;
+}
+
+// Each node gets its root for a label, and the roots new numbers in the nodes' order.
+static void name_anew(tl_nav_islands *islands, tl_nav_island_kind kind)
+{
+    tl_nav_island_label *labels = islands->labels[kind];
+    for (uint32_t i = 0; i < islands->label_count[kind]; i++) {
+        labels[i].parent = tl_nav_label_root(labels, i);
+        labels[i].size = UINT32_MAX;
+    }
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < islands->used; i++) {
+        tl_nav_island_node *node = &islands->nodes[i];
+        if (node->slot != TL_NAV_NO_SLOT) {
+            tl_nav_island_label *root = &labels[labels[node->labels[kind]].parent];
+            root->size = root->size == UINT32_MAX ? count++ : root->size;
+            node->labels[kind] = root->size;
+        }
+    }
+    islands->label_count[kind] = 0;
+    while (islands->label_count[kind] < count) {
+        tl_nav_new_label(islands, kind);
+    }
+}
+
+void tl_nav_reserve_labels(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t count)
+{
+    // There are no more roots in use than nodes, and `count` is no more than nodes either: half of the room.
+    if ((uint64_t)islands->label_count[kind] + count > 2 * (uint64_t)islands->capacity) {
+        name_anew(islands, kind);
+    }
+}
+
+uint32_t tl_nav_new_label(tl_nav_islands *islands, tl_nav_island_kind kind)
+{
+    uint32_t index = islands->label_count[kind]++;
+    tl_nav_island_label label = { index, 1, 0, 0 };
+    islands->labels[kind][index] = label;
+    return index;
+}
+
+// The root, with every second label on the way hung higher; for the writer, who may.
+static uint32_t find_root(tl_nav_island_label *labels, uint32_t label)
+{
+    while (labels[label].parent != label) {
+        labels[label].parent = labels[labels[label].parent].parent;
+        label = labels[label].parent;
+    }
+    return label;
+}
+
+static void join(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t node_a, uint32_t node_b)
+{
+    tl_nav_island_label *labels = islands->labels[kind];
+    uint32_t a = find_root(labels, islands->nodes[node_a].labels[kind]);
+    uint32_t b = find_root(labels, islands->nodes[node_b].labels[kind]);
+    if (a == b) {
+        return;
+    }
+    // The larger one stays; of two alike the elder.
+    bool a_stays = labels[a].size != labels[b].size ? labels[a].size > labels[b].size : a < b;
+    uint32_t root = a_stays ? a : b;
+    uint32_t child = a_stays ? b : a;
+    labels[child].parent = root;
+    labels[root].size += labels[child].size;
+}
+
+static void make_nodes(tl_navmesh *navmesh, uint32_t slot)
+{
+    tl_nav_islands *islands = &navmesh->islands;
+    tl_nav_rings *rings = &navmesh->slots[slot].rings;
+    for (uint32_t kind = 0; kind < TL_NAV_ISLAND_KINDS; kind++) {
+        tl_nav_reserve_labels(islands, (tl_nav_island_kind)kind, rings->component_count);
+    }
+    uint32_t made = 0; // components are numbered in the order of their first polygons
+    for (uint32_t p = 0; p < rings->polygon_count && made < rings->component_count; p++) {
+        if (rings->component[p] != made) {
+            continue;
+        }
+        uint32_t index = islands->free;
+        if (index != TL_NAV_NO_ISLAND) {
+            islands->free = islands->nodes[index].next;
+            islands->free_count--;
+        } else {
+            index = islands->used++;
+        }
+        tl_nav_island_node node = { slot,
+                                    p,
+                                    { tl_nav_new_label(islands, TL_NAV_SHORES),
+                                      tl_nav_new_label(islands, TL_NAV_ISLANDS) },
+                                    TL_NAV_NO_ISLAND,
+                                    TL_NAV_NO_ISLAND };
+        islands->nodes[index] = node;
+        rings->island[made++] = index;
+    }
+}
+
+void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot)
+{
+    make_nodes(navmesh, slot);
+    const tl_nav_slot *own = &navmesh->slots[slot];
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        const tl_nav_side_links *links = &own->sides[side];
+        const tl_nav_portal *portals = tl_nav_tile_portals(own->tile) + tl_nav_tile_side_first(own->tile, side);
+        for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
+            for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
+                uint32_t node = node_of(navmesh, slot, portals[i].polygon);
+                uint32_t neighbour = node_of(navmesh, links->links[k].slot, links->links[k].polygon);
+                join(&navmesh->islands, TL_NAV_SHORES, node, neighbour);
+                join(&navmesh->islands, TL_NAV_ISLANDS, node, neighbour);
+            }
+        }
+    }
+}
+
+void tl_nav_join_anchors(tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry)
+{
+    join(&navmesh->islands, TL_NAV_ISLANDS, node_of(navmesh, entry->ends[0].slot, entry->ends[0].polygon),
+         node_of(navmesh, entry->ends[1].slot, entry->ends[1].polygon));
+}
+
+void tl_nav_seed_island(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    tl_nav_islands *islands = &navmesh->islands;
+    uint32_t index = node_of(navmesh, slot, polygon);
+    // Until the search begins a seed is known by any piece's number.
+    if (islands->nodes[index].piece == TL_NAV_NO_ISLAND) {
+        islands->nodes[index].piece = 0;
+        islands->seeds[islands->seed_count++] = index;
+    }
+}
+
+void tl_nav_leave_islands(tl_navmesh *navmesh, uint32_t slot)
+{
+    tl_nav_islands *islands = &navmesh->islands;
+    const tl_nav_slot *own = &navmesh->slots[slot];
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        for (uint32_t k = 0; k < own->sides[side].link_count; k++) {
+            tl_nav_seed_island(navmesh, own->sides[side].links[k].slot, own->sides[side].links[k].polygon);
+        }
+    }
+    islands->shore_seed_count = islands->seed_count;
+    for (uint32_t c = 0; c < own->rings.component_count; c++) {
+        tl_nav_island_node *node = &islands->nodes[own->rings.island[c]];
+        node->slot = TL_NAV_NO_SLOT;
+        node->next = islands->free;
+        islands->free = own->rings.island[c];
+        islands->free_count++;
+    }
+}
+
+tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *island_out)
+{
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    *island_out = 0;
+    if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    *island_out = tl_nav_island_of(navmesh, slot, polygon);
+    return TL_OK;
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+//
+// Distances in the plane from a point to the edges of rings.
+
+#ifndef TALUS_SRC_NAV_QUERY_PLAN_H
+#define TALUS_SRC_NAV_QUERY_PLAN_H
+
+#include "nav_query/navmesh/rings.h"
+
+/// Where an edge comes nearest to a point.
+typedef struct tl_nav_plan_point {
+    double t; ///< [0, 1] of the way from the edge's start to its end
+    double distance_sq;
+} tl_nav_plan_point;
+
+static inline tl_nav_plan_point tl_nav_nearest_on_edge(const tl_nav_ring_edge *start, const tl_nav_ring_edge *end,
+                                                       double x, double z)
+{
+    double ex = (double)end->x - (double)start->x;
+    double ez = (double)end->z - (double)start->z;
+    double px = x - (double)start->x;
+    double pz = z - (double)start->z;
+    double along = ex * px + ez * pz;
+    double length_sq = ex * ex + ez * ez;
+    tl_nav_plan_point nearest = { 0.0, 0.0 };
+    if (along > 0.0 && length_sq > 0.0) {
+        nearest.t = along < length_sq ? along / length_sq : 1.0;
+    }
+    px -= nearest.t * ex;
+    pz -= nearest.t * ez;
+    nearest.distance_sq = px * px + pz * pz;
+    return nearest;
+}
+
+/// The point of an edge at t: its ends' own bits at 0 and 1.
+static inline tl_vec3 tl_nav_point_on_edge(const tl_nav_ring_edge *start, const tl_nav_ring_edge *end, double t)
+{
+    if (t <= 0.0) {
+        return tl_vec3_make(start->x, start->y, start->z);
+    }
+    if (t >= 1.0) {
+        return tl_vec3_make(end->x, end->y, end->z);
+    }
+    return tl_vec3_make((float)((double)start->x + t * ((double)end->x - (double)start->x)),
+                        (float)((double)start->y + t * ((double)end->y - (double)start->y)),
+                        (float)((double)start->z + t * ((double)end->z - (double)start->z)));
+}
+
+#endif

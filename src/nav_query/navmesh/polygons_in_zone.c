@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+//
+// All polygons that come into a zone: down the box trees of the tiles around it, then exactly.
+
+#include "base/assert.h"
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/tile_walk.h"
+#include "nav_query/plane/zone.h"
+
+typedef struct zone_search {
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter;
+    const tl_nav_zone_test *zone;
+    tl_aabb box;
+    tl_nav_ref *polygons;
+    uint32_t capacity, count;
+} zone_search;
+
+static void try_polygon(zone_search *search, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
+    uint32_t corner_count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &corner_count);
+    if (!tl_nav_passes(search->filter, tile, polygon) ||
+        !tl_nav_zone_meets_polygon(search->zone, corners, corner_count)) {
+        return;
+    }
+    if (search->count < search->capacity) {
+        search->polygons[search->count] = tl_nav_make_ref(search->navmesh, slot, polygon);
+    }
+    search->count++;
+}
+
+static void search_tile(zone_search *search, uint32_t slot)
+{
+    const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
+    const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
+    if (!tl_aabb_overlaps(tile->bounds, search->box)) {
+        return;
+    }
+    for (uint32_t i = 0; i < tile->node_count;) {
+        bool overlaps = tl_aabb_overlaps(nodes[i].box, search->box);
+        if (overlaps && nodes[i].polygon != TL_NO_POLYGON) {
+            try_polygon(search, slot, nodes[i].polygon);
+        }
+        i = overlaps ? i + 1 : nodes[i].skip;
+    }
+}
+
+tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_nav_filter *filter, const tl_nav_zone *zone,
+                                   float min_y, float max_y, tl_nav_ref *polygons_out, uint32_t capacity,
+                                   uint32_t *count_out)
+{
+    *count_out = 0;
+    tl_nav_zone_test test;
+    TL_TRY(tl_nav_zone_begin(zone, &test));
+    if (isnan(min_y) || isnan(max_y)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    tl_aabb box = { { test.min_x, min_y, test.min_z }, { test.max_x, max_y, test.max_z } };
+    zone_search search = { navmesh, filter, &test, box, polygons_out, capacity, 0 };
+    tl_nav_tile_walk walk = tl_nav_tiles_over(navmesh, box);
+    for (uint32_t slot = 0; (slot = tl_nav_next_tile(&walk)) != TL_NAV_NO_SLOT;) {
+        search_tile(&search, slot);
+    }
+    *count_out = search.count;
+    return search.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+//
+// From a ring into the one across an edge.
+
+#ifndef TALUS_SRC_NAV_QUERY_RING_STEP_H
+#define TALUS_SRC_NAV_QUERY_RING_STEP_H
+
+#include "nav_query/navmesh/navmesh.h"
+
+/// More polygons around a vertex than any bake makes.
+enum { TL_NAV_MAX_FAN = 64 };
+
+/// An edge of a polygon's ring.
+typedef struct tl_nav_ring_place {
+    uint32_t slot, polygon;
+    uint32_t edge;
+} tl_nav_ring_place;
+
+static inline const tl_nav_ring_edge *tl_nav_ring_at(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon,
+                                                     uint32_t *count_out)
+{
+    return tl_nav_ring_of(&navmesh->slots[slot].rings, polygon, count_out);
+}
+
+/// The polygon across an open edge of a slot's rings.
+static inline tl_nav_ring_seam tl_nav_ring_across(const tl_navmesh *navmesh, uint32_t slot, uint32_t to)
+{
+    tl_nav_ring_seam target = { slot, to };
+    return (to & TL_NAV_RING_SEAM) == 0 ? target : navmesh->slots[slot].rings.seams[to & ~TL_NAV_RING_SEAM];
+}
+
+/// The same edge as the polygon across it has it. `edge` stands in polygon's ring, which has `count` of them.
+static inline tl_nav_ring_place tl_nav_ring_twin(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon,
+                                                 const tl_nav_ring_edge *ring, uint32_t count, uint32_t edge)
+{
+    tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring[edge].to);
+    tl_nav_ring_place twin = { to.slot, to.polygon, ring[edge].twin };
+    if ((ring[edge].to & TL_NAV_RING_SEAM) != 0) {
+        // Rings of other tiles change as tiles come and go. A seam's ends have the same bits in both.
+        const tl_nav_ring_edge *end = &ring[edge + 1 < count ? edge + 1 : 0];
+        uint32_t across_count = 0;
+        const tl_nav_ring_edge *across = tl_nav_ring_at(navmesh, to.slot, to.polygon, &across_count);
+        for (uint32_t k = 0; k < across_count; k++) {
+            if (across[k].x != end->x || across[k].z != end->z || !tl_nav_ring_is_open(&across[k])) {
+                continue;
+            }
+            tl_nav_ring_seam back = tl_nav_ring_across(navmesh, to.slot, across[k].to);
+            if (back.slot == slot && back.polygon == polygon) {
+                twin.edge = k;
+                break;
+            }
+        }
+    }
+    return twin;
+}
+
+/// Goes around the vertex where the edge at `at` starts to the wall where its fan begins; what the filter (NULL: none)
+/// refuses is wall. False: there is none, and `at` is where it was.
+bool tl_nav_find_fan(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ring_place *at);
+
+#endif

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+//
+// Making rings: a tile's corners and links, with border edges parted at the ends of their seam links.
+
+#include "nav_query/navmesh/rings.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "nav_query/navmesh/navmesh.h"
+
+#include <string.h>
+
+static bool same_place(const tl_nav_ring_edge *edge, tl_vec3 point)
+{
+    return edge->x == point.x && edge->z == point.z;
+}
+
+// Appends edges; the last one's end is where the next one starts.
+typedef struct ring_writer {
+    tl_nav_rings *rings;
+    uint32_t edge_count, seam_count;
+} ring_writer;
+
+static void add_edge(ring_writer *writer, tl_vec3 start, uint32_t to)
+{
+    tl_nav_ring_edge edge = { start.x, start.y, start.z, to, 0, 0 };
+    writer->rings->edges[writer->edge_count++] = edge;
+}
+
+// An edge without a way from `at` to `point`, unless they are one. `ahead` is the edge's direction.
+static void add_gap(ring_writer *writer, tl_vec3 at, tl_vec3 point, tl_vec3 ahead)
+{
+    if (at.x != point.x || at.z != point.z) {
+        bool forward = tl_dot(tl_sub(point, at), ahead) > 0.0f;
+        add_edge(writer, at, forward ? TL_NAV_RING_WALL : TL_NAV_RING_BACK);
+        writer->rings->has_back = writer->rings->has_back || !forward;
+    }
+}
+
+// The pieces of a border edge from `start` to `end`. The links ascend along the side, the edge does on sides 0 and 1.
+static void add_seam_edge(ring_writer *writer, tl_vec3 start, tl_vec3 end, const tl_nav_side_links *side,
+                          uint32_t portal, bool rising)
+{
+    uint32_t begin = side->first[portal];
+    uint32_t count = side->first[portal + 1] - begin;
+    tl_vec3 ahead = tl_sub(end, start);
+    tl_vec3 at = start;
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_seam_link *link = &side->links[begin + (rising ? i : count - 1 - i)];
+        tl_nav_ring_seam seam = { link->slot, link->polygon };
+        add_gap(writer, at, link->right, ahead);
+        add_edge(writer, link->right, TL_NAV_RING_SEAM | writer->seam_count);
+        writer->rings->seams[writer->seam_count++] = seam;
+        at = link->left;
+    }
+    add_gap(writer, at, end, ahead);
+}
+
+static void add_polygon(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
+                        uint32_t polygon)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
+    const uint32_t *links = tl_nav_tile_links(tile, polygon);
+    for (uint32_t k = 0; k < count; k++) {
+        if (links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) == 0) {
+            add_edge(writer, corners[k], links[k] == TL_NAV_LINK_WALL ? TL_NAV_RING_WALL : links[k]);
+            continue;
+        }
+        uint32_t portal = links[k] & ~TL_NAV_LINK_PORTAL;
+        uint32_t side = tl_nav_tile_side_of(tile, portal);
+        uint32_t at = portal - tl_nav_tile_side_first(tile, side);
+        if (sides[side]->first == NULL || sides[side]->first[at] == sides[side]->first[at + 1]) {
+            add_edge(writer, corners[k], TL_NAV_RING_WALL);
+        } else {
+            add_seam_edge(writer, corners[k], corners[k + 1 < count ? k + 1 : 0], sides[side], at, side < 2);
+        }
+    }
+}
+
+// Vertices that a polygon had before keep their turns.
+static void copy_turns(ring_writer *writer, const tl_nav_rings *old, uint32_t polygon)
+{
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
+    tl_nav_rings *rings = writer->rings;
+    for (uint32_t k = rings->cells[polygon].first; k < writer->edge_count; k++) {
+        for (uint32_t i = 0; i < count; i++) {
+            if (same_place(&ring[i], tl_vec3_make(rings->edges[k].x, 0.0f, rings->edges[k].z))) {
+                rings->edges[k].turn = ring[i].turn;
+                rings->walls[k] = old->walls[old->cells[polygon].first + i];
+            }
+        }
+    }
+}
+
+// A polygon whose edges stay as they were; only its seams get new places.
+static void copy_polygon(ring_writer *writer, const tl_nav_rings *old, uint32_t polygon)
+{
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
+    tl_nav_rings *rings = writer->rings;
+    memcpy(rings->walls + writer->edge_count, old->walls + (ring - old->edges), count * sizeof *rings->walls);
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_ring_edge edge = ring[i];
+        if (tl_nav_ring_is_open(&edge) && (edge.to & TL_NAV_RING_SEAM) != 0) {
+            rings->seams[writer->seam_count] = old->seams[edge.to & ~TL_NAV_RING_SEAM];
+            edge.to = TL_NAV_RING_SEAM | writer->seam_count++;
+        }
+        rings->has_back = rings->has_back || edge.to == TL_NAV_RING_BACK;
+        rings->edges[writer->edge_count++] = edge;
+    }
+}
+
+// Within a tile: where each edge of a polygon stands in the ring across it, and that one in this.
+static void find_twins(tl_nav_rings *rings, uint32_t polygon)
+{
+    uint32_t count = 0;
+    tl_nav_ring_edge *ring = rings->edges + rings->cells[polygon].first;
+    tl_nav_ring_of(rings, polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (ring[i].to >= TL_NAV_RING_SEAM) {
+            continue;
+        }
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        uint32_t across_count = 0;
+        tl_nav_ring_edge *across = rings->edges + rings->cells[ring[i].to].first;
+        tl_nav_ring_of(rings, ring[i].to, &across_count);
+        uint32_t k = 0;
+        while (k + 1 < across_count &&
+               (across[k].to != polygon || !same_place(&across[k], tl_vec3_make(end->x, 0.0f, end->z)))) {
+            k++;
+        }
+        TL_ASSERT(across[k].to == polygon);
+        ring[i].twin = k;
+        across[k].twin = i;
+    }
+}
+
+// Labels what hangs together within the tile. `stack` holds polygon_count numbers.
+static void label_components(tl_nav_rings *rings, uint32_t *stack)
+{
+    memset(rings->component, 0xff, rings->polygon_count * sizeof *rings->component);
+    for (uint32_t p = 0; p < rings->polygon_count; p++) {
+        if (rings->component[p] != UINT32_MAX) {
+            continue;
+        }
+        uint32_t label = rings->component_count++;
+        uint32_t depth = 0;
+        stack[depth++] = p;
+        rings->component[p] = label;
+        rings->next_member[p] = p;
+        while (depth > 0) {
+            uint32_t count = 0;
+            const tl_nav_ring_edge *ring = tl_nav_ring_of(rings, stack[--depth], &count);
+            for (uint32_t i = 0; i < count; i++) {
+                uint32_t to = ring[i].to;
+                if (to < TL_NAV_RING_SEAM && rings->component[to] == UINT32_MAX) {
+                    rings->component[to] = label;
+                    rings->next_member[to] = rings->next_member[p];
+                    rings->next_member[p] = to;
+                    stack[depth++] = to;
+                }
+            }
+        }
+    }
+}
+
+// Room for the arrays, one behind the other: the widest alignment any of them needs is that of their numbers.
+static bool allocate(const tl_allocator *allocator, uint64_t polygons, uint64_t edges, uint64_t seams,
+                     tl_nav_rings *rings)
+{
+    uint64_t size = edges * (sizeof(tl_nav_ring_edge) + sizeof(tl_nav_ring_walls)) + seams * sizeof(tl_nav_ring_seam) +
+                    (polygons + 1) * sizeof(tl_nav_ring_cell) + 3 * polygons * sizeof(uint32_t);
+    char *at = tl_allocate_array(allocator, size, 1);
+    if (at == NULL) {
+        return false;
+    }
+    rings->block = at;
+    rings->block_size = size;
+    rings->edges = (tl_nav_ring_edge *)(void *)at;
+    at += edges * sizeof(tl_nav_ring_edge);
+    rings->walls = (tl_nav_ring_walls *)(void *)at;
+    at += edges * sizeof(tl_nav_ring_walls);
+    rings->seams = (tl_nav_ring_seam *)(void *)at;
+    at += seams * sizeof(tl_nav_ring_seam);
+    rings->cells = (tl_nav_ring_cell *)(void *)at;
+    at += (polygons + 1) * sizeof(tl_nav_ring_cell);
+    rings->component = (uint32_t *)(void *)at;
+    rings->island = rings->component + polygons;
+    rings->next_member = rings->island + polygons;
+    return true;
+}
+
+// The polygons whose rings are to be made: those on a side, or without rings from before all.
+static void mark_changed(const tl_nav_tile *tile, uint32_t side, const tl_nav_rings *old, uint32_t *is_changed)
+{
+    const tl_nav_portal *portals = tl_nav_tile_portals(tile);
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        is_changed[p] = old == NULL;
+    }
+    for (uint32_t i = tl_nav_tile_side_first(tile, side); i < tl_nav_tile_side_first(tile, side + 1); i++) {
+        is_changed[portals[i].polygon] = true;
+    }
+}
+
+static void fill(const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const uint32_t *is_changed,
+                 const tl_nav_rings *old, tl_nav_rings *rings)
+{
+    ring_writer writer = { rings, 0, 0 };
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        rings->cells[p].first = writer.edge_count;
+        if (is_changed[p]) {
+            add_polygon(&writer, tile, sides, p);
+            if (old != NULL) {
+                copy_turns(&writer, old, p);
+            }
+        } else {
+            copy_polygon(&writer, old, p);
+        }
+    }
+    rings->cells[tile->polygon_count].first = writer.edge_count;
+    rings->cells[tile->polygon_count].dead_end = 0;
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        if (is_changed[p]) {
+            find_twins(rings, p);
+        }
+    }
+}
+
+// Components do not depend on seams.
+static void copy_components(const tl_nav_rings *old, tl_nav_rings *rings)
+{
+    memcpy(rings->component, old->component, rings->polygon_count * sizeof *rings->component);
+    memcpy(rings->island, old->island, old->component_count * sizeof *rings->island);
+    memcpy(rings->next_member, old->next_member, rings->polygon_count * sizeof *rings->next_member);
+    rings->component_count = old->component_count;
+}
+
+tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *tile,
+                            const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const tl_nav_rings *old,
+                            uint32_t changed_side, tl_nav_rings *rings_out)
+{
+    memset(rings_out, 0, sizeof *rings_out);
+    uint64_t seams = 0;
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        seams += sides[side]->link_count;
+    }
+    // A link adds itself and a gap before it. Edges that are copied keep the cuts of links that are gone.
+    uint64_t edges = (old != NULL ? old->cells[old->polygon_count].first : tile->corner_count) + 2 * seams;
+    if (edges > UINT32_MAX || seams >= TL_NAV_RING_BACK - TL_NAV_RING_SEAM) {
+        return TL_ERR_LIMIT;
+    }
+    tl_nav_rings rings;
+    memset(&rings, 0, sizeof rings);
+    uint32_t *scratch = tl_allocate_array(allocator, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
+    if (scratch == NULL || !allocate(allocator, tile->polygon_count, edges, seams, &rings)) {
+        tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
+        return TL_ERR_MEMORY;
+    }
+    rings.polygon_count = tile->polygon_count;
+    memset(rings.walls, 0, edges * sizeof *rings.walls);
+    mark_changed(tile, changed_side, old, scratch);
+    fill(tile, sides, scratch, old, &rings);
+    TL_ASSERT(rings.cells[tile->polygon_count].first <= edges);
+    if (old != NULL) {
+        copy_components(old, &rings);
+    } else {
+        label_components(&rings, scratch);
+    }
+    tl_nav_mark_dead_ends(&rings, scratch);
+    tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
+    *rings_out = rings;
+    return TL_OK;
+}
+
+void tl_nav_rings_free(const tl_allocator *allocator, tl_nav_rings *rings)
+{
+    tl_release_array(allocator, rings->block, rings->block_size, 1);
+    memset(rings, 0, sizeof *rings);
+}
+
+void tl_nav_rings_close(tl_nav_rings *rings, uint32_t slot)
+{
+    for (uint32_t i = 0; i < rings->cells[rings->polygon_count].first; i++) {
+        tl_nav_ring_edge *edge = &rings->edges[i];
+        if (tl_nav_ring_is_open(edge) && (edge->to & TL_NAV_RING_SEAM) != 0 &&
+            rings->seams[edge->to & ~TL_NAV_RING_SEAM].slot == slot) {
+            edge->to = TL_NAV_RING_WALL;
+        }
+    }
+}

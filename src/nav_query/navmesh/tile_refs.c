@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+//
+// What a reader asks of the table of tiles: slots, references into them, and where a polygon leads.
+
+#include "nav_query/navmesh/navmesh.h"
+
+uint32_t tl_navmesh_tile_count(const tl_navmesh *navmesh)
+{
+    return navmesh->tile_count;
+}
+
+uint32_t tl_navmesh_slot_count(const tl_navmesh *navmesh)
+{
+    return navmesh->slot_count;
+}
+
+const tl_nav_tile *tl_navmesh_slot_tile(const tl_navmesh *navmesh, uint32_t slot)
+{
+    return slot < navmesh->slot_count ? navmesh->slots[slot].tile : NULL;
+}
+
+uint64_t tl_navmesh_link_count(const tl_navmesh *navmesh)
+{
+    return navmesh->link_count;
+}
+
+tl_nav_ref tl_navmesh_polygon_ref(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
+{
+    const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
+    return tile != NULL && polygon < tile->polygon_count ? tl_nav_make_ref(navmesh, slot, polygon) : TL_NAV_NO_REF;
+}
+
+bool tl_nav_split_ref(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *slot_out, uint32_t *polygon_out)
+{
+    uint32_t polygon = (uint32_t)(ref & ((1u << TL_NAV_REF_POLYGON_BITS) - 1));
+    uint32_t slot = (uint32_t)(ref >> TL_NAV_REF_POLYGON_BITS) & ((1u << TL_NAV_REF_SLOT_BITS) - 1);
+    uint32_t salt = (uint32_t)(ref >> (TL_NAV_REF_POLYGON_BITS + TL_NAV_REF_SLOT_BITS));
+    if (slot >= navmesh->slot_count || navmesh->slots[slot].tile == NULL || navmesh->slots[slot].salt != salt ||
+        polygon >= navmesh->slots[slot].tile->polygon_count) {
+        return false;
+    }
+    *slot_out = slot;
+    *polygon_out = polygon;
+    return true;
+}
+
+tl_result tl_navmesh_resolve(const tl_navmesh *navmesh, tl_nav_ref ref, const tl_nav_tile **tile_out,
+                             uint32_t *polygon_out)
+{
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    if (tile_out != NULL) {
+        *tile_out = navmesh->slots[slot].tile;
+    }
+    if (polygon_out != NULL) {
+        *polygon_out = polygon;
+    }
+    return TL_OK;
+}
+
+tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_link *links_out, uint32_t capacity,
+                           uint32_t *count_out)
+{
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    *count_out = 0;
+    if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    tl_nav_ways ways = tl_nav_ways_of(navmesh, slot, polygon);
+    tl_nav_way way;
+    while (tl_nav_ways_next(&ways, &way)) {
+        if (*count_out < capacity) {
+            tl_nav_link link = { tl_nav_make_ref(navmesh, way.slot, way.polygon), way.edge, way.left, way.right };
+            links_out[*count_out] = link;
+        }
+        (*count_out)++;
+    }
+    return *count_out <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}

@@ -1,0 +1,541 @@
+// SPDX-License-Identifier: MIT
+//
+// The table of tiles: slots with salts, found by their place through a chained hash; the layers of a place stand in one
+// chain.
+//
+// A slot's salt changes when its tile leaves, so that an old reference to the slot is recognized. When the salts of a
+// slot are used up the slot is retired: a reference never comes to mean another polygon.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/hash.h"
+#include "nav_query/navmesh/area_table.h"
+#include "nav_query/prepared/roads.h"
+
+#include <string.h>
+
+enum { FIRST_CAPACITY = 16, LAST_SALT = 0xffff };
+
+static const int32_t SIDE_STEP[TL_NAV_SIDE_COUNT][2] = { { -1, 0 }, { 0, 1 }, { 1, 0 }, { 0, -1 }, { 0, 0 } };
+
+static uint32_t bucket_of(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    uint64_t place = (uint64_t)(uint32_t)tile_x << 32 | (uint32_t)tile_z;
+    return (uint32_t)tl_hash_mix(place) & (navmesh->bucket_count - 1);
+}
+
+tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_out)
+{
+    *navmesh_out = NULL;
+    tl_navmesh *navmesh = tl_allocate_array(allocator, 1, sizeof *navmesh);
+    if (navmesh == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(navmesh, 0, sizeof *navmesh);
+    navmesh->allocator = tl_allocator_or_default(allocator);
+    navmesh->free_slots = TL_NAV_NO_SLOT;
+    *navmesh_out = navmesh;
+    return TL_OK;
+}
+
+static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
+{
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        tl_nav_free_side(&navmesh->allocator, &slot->sides[side]);
+    }
+    // A borrowed tile may be gone by now: its counts are not asked of it.
+    tl_nav_areas_free(&navmesh->allocator, slot->areas, slot->rings.polygon_count);
+    tl_nav_rings_free(&navmesh->allocator, &slot->rings);
+    slot->areas = NULL;
+    if (slot->ownership == TL_NAV_TILE_OWNED && slot->tile != NULL) {
+        // The navmesh was given the blob to free; const only says that queries never write to it.
+        union {
+            const tl_nav_tile *read;
+            tl_nav_tile *write;
+        } tile = { slot->tile };
+        tl_blob_free(tile.write, &navmesh->allocator);
+    }
+    slot->tile = NULL;
+}
+
+void tl_navmesh_free(tl_navmesh *navmesh)
+{
+    if (navmesh == NULL) {
+        return;
+    }
+    tl_nav_drop_walls(navmesh);
+    for (uint32_t i = 0; i < navmesh->slot_count; i++) {
+        free_slot_content(navmesh, &navmesh->slots[i]);
+    }
+    tl_allocator allocator = navmesh->allocator;
+    tl_release_array(&allocator, navmesh->slots, navmesh->slot_capacity, sizeof *navmesh->slots);
+    tl_release_array(&allocator, navmesh->buckets, navmesh->bucket_count, sizeof *navmesh->buckets);
+    tl_nav_free_islands(navmesh);
+    tl_nav_free_offmesh(navmesh);
+    tl_release_array(&allocator, navmesh->area_table, (uint64_t)navmesh->slot_capacity + 1,
+                     sizeof *navmesh->area_table);
+    tl_nav_free_roads(&allocator, navmesh->roads);
+    tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
+}
+
+// The first slot from `slot` on in its chain whose tile is at a place.
+static uint32_t first_in_chain(const tl_navmesh *navmesh, uint32_t slot, int64_t tile_x, int64_t tile_z)
+{
+    while (slot != TL_NAV_NO_SLOT &&
+           (navmesh->slots[slot].tile->tile_x != tile_x || navmesh->slots[slot].tile->tile_z != tile_z)) {
+        slot = navmesh->slots[slot].next;
+    }
+    return slot;
+}
+
+uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t tile_z)
+{
+    if (navmesh->bucket_count == 0 || tile_x < INT32_MIN || tile_x > INT32_MAX || tile_z < INT32_MIN ||
+        tile_z > INT32_MAX) {
+        return TL_NAV_NO_SLOT;
+    }
+    return first_in_chain(navmesh, navmesh->buckets[bucket_of(navmesh, (int32_t)tile_x, (int32_t)tile_z)], tile_x,
+                          tile_z);
+}
+
+uint32_t tl_nav_next_slot(const tl_navmesh *navmesh, uint32_t slot)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    return first_in_chain(navmesh, navmesh->slots[slot].next, tile->tile_x, tile->tile_z);
+}
+
+static uint32_t find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
+{
+    uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z);
+    while (slot != TL_NAV_NO_SLOT && navmesh->slots[slot].tile->layer != layer) {
+        slot = tl_nav_next_slot(navmesh, slot);
+    }
+    return slot;
+}
+
+static void chain_slot(tl_navmesh *navmesh, uint32_t slot)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    uint32_t bucket = bucket_of(navmesh, tile->tile_x, tile->tile_z);
+    navmesh->slots[slot].next = navmesh->buckets[bucket];
+    navmesh->buckets[bucket] = slot;
+}
+
+static void unchain_slot(tl_navmesh *navmesh, uint32_t slot)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    uint32_t *at = &navmesh->buckets[bucket_of(navmesh, tile->tile_x, tile->tile_z)];
+    while (*at != slot) {
+        at = &navmesh->slots[*at].next;
+    }
+    *at = navmesh->slots[slot].next;
+}
+
+// Doubles the room for slots; two buckets a slot.
+static tl_result grow(tl_navmesh *navmesh)
+{
+    if (navmesh->slot_count >= TL_NAV_MAX_TILES) {
+        return TL_ERR_LIMIT;
+    }
+    uint32_t capacity = navmesh->slot_capacity > 0 ? 2 * navmesh->slot_capacity : FIRST_CAPACITY;
+    tl_nav_slot *slots = tl_allocate_array(&navmesh->allocator, capacity, sizeof *slots);
+    uint32_t *buckets = tl_allocate_array(&navmesh->allocator, 2 * (uint64_t)capacity, sizeof *buckets);
+    uint64_t *area_table = tl_allocate_array(&navmesh->allocator, (uint64_t)capacity + 1, sizeof *area_table);
+    if (slots == NULL || buckets == NULL || area_table == NULL) {
+        tl_release_array(&navmesh->allocator, area_table, (uint64_t)capacity + 1, sizeof *area_table);
+        tl_release_array(&navmesh->allocator, slots, capacity, sizeof *slots);
+        tl_release_array(&navmesh->allocator, buckets, 2 * (uint64_t)capacity, sizeof *buckets);
+        return TL_ERR_MEMORY;
+    }
+    memset(slots, 0, capacity * sizeof *slots);
+    if (navmesh->slot_count > 0) {
+        memcpy(slots, navmesh->slots, navmesh->slot_count * sizeof *slots);
+    }
+    tl_nav_area_table_fill(area_table, capacity, slots, navmesh->slot_count);
+    tl_release_array(&navmesh->allocator, navmesh->area_table, (uint64_t)navmesh->slot_capacity + 1,
+                     sizeof *area_table);
+    tl_release_array(&navmesh->allocator, navmesh->slots, navmesh->slot_capacity, sizeof *slots);
+    tl_release_array(&navmesh->allocator, navmesh->buckets, navmesh->bucket_count, sizeof *buckets);
+    navmesh->area_table = area_table;
+    navmesh->slots = slots;
+    navmesh->slot_capacity = capacity;
+    navmesh->buckets = buckets;
+    navmesh->bucket_count = 2 * capacity;
+    memset(buckets, 0xff, navmesh->bucket_count * sizeof *buckets);
+    for (uint32_t i = 0; i < navmesh->slot_count; i++) {
+        if (slots[i].tile != NULL) {
+            chain_slot(navmesh, i);
+        }
+    }
+    return TL_OK;
+}
+
+// The slot that the next tile will get.
+static tl_result reserve_slot(tl_navmesh *navmesh, uint32_t *slot_out)
+{
+    if (navmesh->free_slots == TL_NAV_NO_SLOT && navmesh->slot_count == navmesh->slot_capacity) {
+        TL_TRY(grow(navmesh));
+    }
+    *slot_out = navmesh->free_slots != TL_NAV_NO_SLOT ? navmesh->free_slots : navmesh->slot_count;
+    return TL_OK;
+}
+
+static bool same_lattice(const tl_navmesh *navmesh, const tl_nav_tile *tile)
+{
+    return navmesh->origin.x == tile->origin.x && navmesh->origin.y == tile->origin.y &&
+           navmesh->origin.z == tile->origin.z && navmesh->cell_size == tile->cell_size &&
+           navmesh->cell_height == tile->cell_height && navmesh->tile_size == tile->tile_size;
+}
+
+static uint64_t count_inner_links(const tl_nav_tile *tile)
+{
+    const uint32_t *links = tl_nav_tile_at(tile, tile->links);
+    uint64_t count = 0;
+    for (uint32_t k = 0; k < tile->corner_count; k++) {
+        count += links[k] < TL_NAV_LINK_PORTAL ? 1 : 0;
+    }
+    return count;
+}
+
+// A tile around a new one that gets links to it: what becomes of its facing side and its rings.
+typedef struct seam_neighbour {
+    uint32_t slot, side; // the new tile's side
+    uint32_t added;      // links
+    tl_nav_side_links facing;
+    tl_nav_rings rings;
+} seam_neighbour;
+
+// What a new tile brings: links of its sides and of its neighbours' facing ones, its own rings and theirs, areas. All
+// made before anything is changed.
+typedef struct seam_set {
+    seam_neighbour *neighbours; // [capacity]
+    uint32_t neighbour_count, neighbour_capacity;
+    tl_nav_side_links own[TL_NAV_SIDE_COUNT];
+    tl_nav_rings rings;
+    uint64_t *areas;
+} seam_set;
+
+// Of the tiles that a side faces: the first one's slot; tl_nav_next_slot gives the others. Beyond a cut lies the place
+// itself.
+static uint32_t first_facing(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, uint32_t side)
+{
+    return tl_nav_find_slot(navmesh, (int64_t)tile_x + SIDE_STEP[side][0], (int64_t)tile_z + SIDE_STEP[side][1]);
+}
+
+static void free_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
+{
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        tl_nav_free_side(&navmesh->allocator, &seams->own[side]);
+    }
+    for (uint32_t i = 0; i < seams->neighbour_count; i++) {
+        tl_nav_free_side(&navmesh->allocator, &seams->neighbours[i].facing);
+        tl_nav_rings_free(&navmesh->allocator, &seams->neighbours[i].rings);
+    }
+    tl_release_array(&navmesh->allocator, seams->neighbours, seams->neighbour_capacity, sizeof *seams->neighbours);
+    tl_nav_rings_free(&navmesh->allocator, &seams->rings);
+    tl_nav_areas_free(&navmesh->allocator, seams->areas, tile->polygon_count);
+}
+
+// Adds fresh links to those of a side, which may have none yet. Takes the fresh ones over, also on failure.
+static tl_result extend_side(const tl_allocator *allocator, const tl_nav_side_links *side, tl_nav_side_links *fresh,
+                             tl_nav_side_links *out)
+{
+    if (side->first == NULL) {
+        *out = *fresh;
+        return TL_OK;
+    }
+    const tl_result result = tl_nav_join_sides(allocator, side, fresh, out);
+    tl_nav_free_side(allocator, fresh);
+    return result;
+}
+
+// Links the new tile with one that a side of it faces, if there is anything to link.
+static tl_result make_link(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, uint32_t side,
+                           uint32_t facing_slot, seam_set *seams)
+{
+    const tl_allocator *allocator = &navmesh->allocator;
+    tl_nav_side_links own, facing, joined;
+    TL_TRY(
+        tl_nav_link_sides(allocator, tile, slot, side, navmesh->slots[facing_slot].tile, facing_slot, &own, &facing));
+    if (own.link_count == 0) {
+        return TL_OK;
+    }
+    tl_result result = extend_side(allocator, &seams->own[side], &own, &joined);
+    if (result != TL_OK) {
+        tl_nav_free_side(allocator, &facing);
+        return result;
+    }
+    if (joined.first != own.first) {
+        tl_nav_free_side(allocator, &seams->own[side]);
+    }
+    seams->own[side] = joined;
+    seam_neighbour *neighbour = &seams->neighbours[seams->neighbour_count];
+    memset(neighbour, 0, sizeof *neighbour);
+    neighbour->slot = facing_slot;
+    neighbour->side = side;
+    neighbour->added = facing.link_count;
+    TL_TRY(extend_side(allocator, &navmesh->slots[facing_slot].sides[tl_nav_facing_side(side)], &facing,
+                       &neighbour->facing));
+    seams->neighbour_count++;
+    return TL_OK;
+}
+
+static tl_result make_links(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)
+{
+    uint32_t count = 0;
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        for (uint32_t facing = first_facing(navmesh, tile->tile_x, tile->tile_z, side); facing != TL_NAV_NO_SLOT;
+             facing = tl_nav_next_slot(navmesh, facing)) {
+            count++;
+        }
+    }
+    seams->neighbours = tl_allocate_array(&navmesh->allocator, count, sizeof *seams->neighbours);
+    if (seams->neighbours == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    seams->neighbour_capacity = count;
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        for (uint32_t facing = first_facing(navmesh, tile->tile_x, tile->tile_z, side); facing != TL_NAV_NO_SLOT;
+             facing = tl_nav_next_slot(navmesh, facing)) {
+            TL_TRY(make_link(navmesh, tile, slot, side, facing, seams));
+        }
+    }
+    return TL_OK;
+}
+
+static tl_result make_rings(const tl_navmesh *navmesh, const tl_nav_tile *tile, seam_set *seams)
+{
+    const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT];
+    for (uint32_t i = 0; i < TL_NAV_SIDE_COUNT; i++) {
+        sides[i] = &seams->own[i];
+    }
+    TL_TRY(tl_nav_rings_make(&navmesh->allocator, tile, sides, NULL, 0, &seams->rings));
+    for (uint32_t n = 0; n < seams->neighbour_count; n++) {
+        seam_neighbour *neighbour = &seams->neighbours[n];
+        const tl_nav_slot *slot = &navmesh->slots[neighbour->slot];
+        for (uint32_t i = 0; i < TL_NAV_SIDE_COUNT; i++) {
+            sides[i] = i == tl_nav_facing_side(neighbour->side) ? &neighbour->facing : &slot->sides[i];
+        }
+        TL_TRY(tl_nav_rings_make(&navmesh->allocator, slot->tile, sides, &slot->rings,
+                                 tl_nav_facing_side(neighbour->side), &neighbour->rings));
+    }
+    return TL_OK;
+}
+
+static tl_result make_seams(const tl_navmesh *navmesh, const tl_nav_tile *tile, uint32_t slot, seam_set *seams)
+{
+    memset(seams, 0, sizeof *seams);
+    tl_result result = make_links(navmesh, tile, slot, seams);
+    if (result == TL_OK) {
+        result = make_rings(navmesh, tile, seams);
+    }
+    if (result == TL_OK) {
+        seams->areas = tl_nav_areas_make(&navmesh->allocator, tile);
+        result = seams->areas != NULL ? TL_OK : TL_ERR_MEMORY;
+    }
+    if (result != TL_OK) {
+        free_seams(navmesh, tile, seams);
+    }
+    return result;
+}
+
+static void install_seams(tl_navmesh *navmesh, uint32_t slot, seam_set *seams)
+{
+    navmesh->slots[slot].rings = seams->rings;
+    navmesh->slots[slot].areas = seams->areas;
+    memcpy(navmesh->slots[slot].sides, seams->own, sizeof seams->own);
+    tl_nav_area_table_change(navmesh, slot, 1);
+    tl_nav_note_edit(navmesh, slot);
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        navmesh->link_count += seams->own[side].link_count;
+    }
+    for (uint32_t n = 0; n < seams->neighbour_count; n++) {
+        seam_neighbour *made = &seams->neighbours[n];
+        tl_nav_slot *neighbour = &navmesh->slots[made->slot];
+        tl_nav_free_side(&navmesh->allocator, &neighbour->sides[tl_nav_facing_side(made->side)]);
+        neighbour->sides[tl_nav_facing_side(made->side)] = made->facing;
+        navmesh->link_count += made->added;
+        tl_nav_rings_free(&navmesh->allocator, &neighbour->rings);
+        neighbour->rings = made->rings;
+        tl_nav_note_edit(navmesh, made->slot);
+    }
+    tl_release_array(&navmesh->allocator, seams->neighbours, seams->neighbour_capacity, sizeof *seams->neighbours);
+}
+
+// Gives numbers to the turning vertices of a slot that is new, or TL_NAV_NO_SLOT, and of the sides that face its place
+// in the tiles that changed since an edit began. Numbers are handed out once; before they run out, all anew.
+static void number_fans(tl_navmesh *navmesh, uint32_t new_slot, int32_t tile_x, int32_t tile_z, uint64_t edit)
+{
+    if (navmesh->last_fan > UINT32_MAX / 2) {
+        navmesh->last_fan = 0;
+        for (uint32_t i = 0; i < navmesh->slot_count; i++) {
+            if (navmesh->slots[i].tile != NULL) {
+                tl_nav_number_fans(navmesh, i);
+            }
+        }
+        return;
+    }
+    if (new_slot != TL_NAV_NO_SLOT) {
+        tl_nav_number_fans(navmesh, new_slot);
+    }
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        for (uint32_t slot = first_facing(navmesh, tile_x, tile_z, side); slot != TL_NAV_NO_SLOT;
+             slot = tl_nav_next_slot(navmesh, slot)) {
+            if (slot != new_slot && navmesh->slots[slot].last_edit.number >= edit) {
+                tl_nav_number_fans_on_side(navmesh, slot, tl_nav_facing_side(side));
+            }
+        }
+    }
+}
+
+// What is known of all tiles so far.
+static void note_tile(tl_navmesh *navmesh, const tl_nav_tile *tile)
+{
+    if (navmesh->tile_count == 0) {
+        navmesh->all_flags = UINT64_MAX;
+        navmesh->any_flags = 0;
+        tl_nav_note_offmesh_flags(navmesh);
+        navmesh->extent = 0.0f;
+    }
+    const tl_aabb *box = &tile->bounds;
+    navmesh->extent = tl_maxf(navmesh->extent, tl_maxf(fabsf(box->min.x), fabsf(box->max.x)));
+    navmesh->extent = tl_maxf(navmesh->extent, tl_maxf(fabsf(box->min.z), fabsf(box->max.z)));
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        navmesh->all_flags &= tl_nav_tile_flags(tile, p);
+        navmesh->any_flags |= tl_nav_tile_flags(tile, p);
+    }
+}
+
+tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership)
+{
+    if (navmesh->tile_count > 0 && !same_lattice(navmesh, tile)) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (find_layer(navmesh, tile->tile_x, tile->layer, tile->tile_z) != TL_NAV_NO_SLOT) {
+        return TL_ERR_ARGUMENT;
+    }
+    uint32_t index = 0;
+    seam_set seams;
+    TL_TRY(reserve_slot(navmesh, &index));
+    TL_TRY(make_seams(navmesh, tile, index, &seams));
+    tl_result reserved = tl_nav_reserve_islands(navmesh, seams.rings.component_count);
+    if (reserved != TL_OK) {
+        free_seams(navmesh, tile, &seams);
+        return reserved;
+    }
+
+    tl_nav_begin_edit(navmesh, tile->tile_x, tile->tile_z);
+    const uint64_t edit = navmesh->edit.number;
+    tl_nav_spoil_walls(navmesh, tile->tile_x, tile->tile_z);
+    tl_nav_slot *slot = &navmesh->slots[index];
+    if (index == navmesh->free_slots) {
+        navmesh->free_slots = slot->next;
+    } else {
+        navmesh->slot_count++;
+        slot->salt = 1;
+    }
+    slot->tile = tile;
+    slot->ownership = ownership;
+    slot->inner_links = count_inner_links(tile);
+    chain_slot(navmesh, index);
+    install_seams(navmesh, index, &seams);
+    tl_nav_join_islands(navmesh, index);
+    number_fans(navmesh, index, tile->tile_x, tile->tile_z, edit);
+    note_tile(navmesh, tile);
+    navmesh->origin = tile->origin;
+    navmesh->cell_size = tile->cell_size;
+    navmesh->cell_height = tile->cell_height;
+    navmesh->tile_size = tile->tile_size;
+    navmesh->tile_count++;
+    navmesh->link_count += slot->inner_links;
+    navmesh->polygon_count += tile->polygon_count;
+    tl_nav_anchor_near(navmesh, index, false);
+    tl_nav_split_islands(navmesh);
+    return TL_OK;
+}
+
+// Takes the links to a slot out of the tiles around it.
+static void unlink_slot(tl_navmesh *navmesh, uint32_t index)
+{
+    const tl_nav_slot *slot = &navmesh->slots[index];
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        navmesh->link_count -= slot->sides[side].link_count;
+        for (uint32_t facing = first_facing(navmesh, slot->tile->tile_x, slot->tile->tile_z, side);
+             facing != TL_NAV_NO_SLOT; facing = tl_nav_next_slot(navmesh, facing)) {
+            uint32_t dropped = facing == index
+                                   ? 0
+                                   : tl_nav_drop_links(&navmesh->allocator,
+                                                       &navmesh->slots[facing].sides[tl_nav_facing_side(side)], index);
+            if (dropped > 0) {
+                navmesh->link_count -= dropped;
+                tl_nav_rings_close(&navmesh->slots[facing].rings, index);
+                tl_nav_note_edit(navmesh, facing);
+            }
+        }
+    }
+}
+
+static void remove_slot(tl_navmesh *navmesh, uint32_t index)
+{
+    tl_nav_slot *slot = &navmesh->slots[index];
+    const int32_t tile_x = slot->tile->tile_x, tile_z = slot->tile->tile_z;
+    tl_nav_begin_edit(navmesh, tile_x, tile_z);
+    const uint64_t edit = navmesh->edit.number;
+    tl_nav_spoil_walls(navmesh, tile_x, tile_z);
+    tl_nav_note_edit(navmesh, index);
+    tl_nav_leave_islands(navmesh, index);
+    unlink_slot(navmesh, index);
+    unchain_slot(navmesh, index);
+    navmesh->tile_count--;
+    navmesh->link_count -= slot->inner_links;
+    navmesh->polygon_count -= slot->tile->polygon_count;
+    tl_nav_area_table_change(navmesh, index, -1);
+    free_slot_content(navmesh, slot);
+    tl_nav_anchor_near(navmesh, index, true);
+    tl_nav_split_islands(navmesh);
+    number_fans(navmesh, TL_NAV_NO_SLOT, tile_x, tile_z, edit);
+    if (slot->salt < LAST_SALT) {
+        slot->salt++;
+        slot->next = navmesh->free_slots;
+        navmesh->free_slots = index;
+    }
+}
+
+tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
+{
+    uint32_t index = find_layer(navmesh, tile_x, layer, tile_z);
+    if (index == TL_NAV_NO_SLOT) {
+        return TL_ERR_NOT_FOUND;
+    }
+    remove_slot(navmesh, index);
+    return TL_OK;
+}
+
+tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    uint32_t index = tl_nav_find_slot(navmesh, tile_x, tile_z);
+    if (index == TL_NAV_NO_SLOT) {
+        return TL_ERR_NOT_FOUND;
+    }
+    for (; index != TL_NAV_NO_SLOT; index = tl_nav_find_slot(navmesh, tile_x, tile_z)) {
+        remove_slot(navmesh, index);
+    }
+    return TL_OK;
+}
+
+const tl_nav_tile *tl_navmesh_find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
+{
+    uint32_t slot = find_layer(navmesh, tile_x, layer, tile_z);
+    return slot != TL_NAV_NO_SLOT ? navmesh->slots[slot].tile : NULL;
+}
+
+const tl_nav_tile *tl_navmesh_find_tile(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    const tl_nav_tile *lowest = NULL;
+    for (uint32_t slot = tl_nav_find_slot(navmesh, tile_x, tile_z); slot != TL_NAV_NO_SLOT;
+         slot = tl_nav_next_slot(navmesh, slot)) {
+        const tl_nav_tile *tile = navmesh->slots[slot].tile;
+        lowest = lowest == NULL || tile->layer < lowest->layer ? tile : lowest;
+    }
+    return lowest;
+}

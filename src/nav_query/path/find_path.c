@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: MIT
+//
+// Paths as polygons: the shortest where every metre costs the same (shortest_search.c), else A* over the ways into
+// polygons.
+//
+// A node is a way into a polygon (a portal, crossed in one direction), not a polygon: where a polygon is entered
+// decides what crossing it costs. A portal is entered where the way from the point before, over the portal, to the goal
+// is shortest. The middle of the portal is the usual choice; it makes the graph fixed and the path provably the
+// cheapest in it, but that graph knows little of real lengths where polygons are large. Measured on eight levels
+// against Detour, which takes the middles too: paths through middles are 0.05% longer on average than Detour's, these
+// are 0.4% shorter, and 6 to 12% shorter at the best hundredth. What is given up is the proof: a point depends on the
+// path that led there, so a node that is closed may have been reachable by a slightly cheaper one. Source: Hart,
+// Nilsson, Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968. The crossing is
+// Heron's (crossing.h).
+
+#include "base/assert.h"
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/navmesh.h"
+#include "nav_query/navmesh/surface.h"
+#include "nav_query/path/path_run.h"
+#include "nav_query/plane/crossing.h"
+#include "nav_query/prepared/roads.h"
+#include "nav_query/search/node_pool.h"
+
+#include <string.h>
+
+// Keys of the two nodes that are no ways. A slot is below 2^20, so no way has them.
+#define START_KEY UINT64_MAX
+#define GOAL_KEY  (UINT64_MAX - 1u)
+// Off-mesh links that were crossed: | the number of the end that was left.
+#define CROSSED_KEY ((uint64_t)1 << 62)
+
+// Offers a way to reach a node. `from` is TL_NAV_NO_NODE for the start.
+static void relax(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost,
+                  uint32_t from)
+{
+    if (cost == INFINITY) {
+        return; // it cannot be gone
+    }
+    uint32_t index = tl_nav_pool_get(search->query, key);
+    if (index == TL_NAV_NO_NODE) {
+        search->out_of_nodes = true;
+        return;
+    }
+    tl_nav_node *node = &search->query->nodes[index];
+    if (node->heap_at == TL_NAV_NODE_CLOSED || (node->heap_at != TL_NAV_NODE_NEW && cost >= node->cost)) {
+        return;
+    }
+    node->slot = slot;
+    node->polygon = polygon;
+    node->point = point;
+    node->cost = cost;
+    node->total = cost + search->least_cost * fminf(tl_distance(point, search->goal), search->detour);
+    node->parent = from;
+    tl_nav_heap_improve(search->query, index);
+}
+
+static tl_nav_spot spot_of(tl_vec3 point)
+{
+    return tl_nav_spot_make((double)point.x, (double)point.z);
+}
+
+static tl_vec3 crossing_point(tl_vec3 from, tl_vec3 goal, const tl_nav_way *way)
+{
+    tl_nav_segment portal = { spot_of(way->right), spot_of(way->left) };
+    double share = tl_nav_crossing_share(spot_of(from), spot_of(goal), portal);
+    return tl_lerp(way->right, way->left, (float)share);
+}
+
+// Crosses the off-mesh links that can be taken from a node's polygon.
+static void cross_links(tl_nav_way_search *search, uint32_t index)
+{
+    const tl_navmesh *navmesh = search->navmesh;
+    const tl_nav_node node = search->query->nodes[index];
+    const tl_nav_tile *tile = navmesh->slots[node.slot].tile;
+    for (uint32_t end = tl_nav_first_anchor(navmesh, node.slot, node.polygon); end != TL_NAV_NO_END;) {
+        const tl_nav_offmesh_entry *link = &navmesh->offmesh.entries[end / 2];
+        const tl_nav_anchor *from = &link->ends[end % 2];
+        const tl_nav_anchor *to = &link->ends[1 - end % 2];
+        if (from->slot == node.slot && from->polygon == node.polygon &&
+            tl_nav_may_cross(link, end % 2, search->filter) &&
+            tl_nav_passes(search->filter, navmesh->slots[to->slot].tile, to->polygon)) {
+            float factor = search->filter != NULL ? search->filter->area_cost[link->offmesh.area] : 1.0f;
+            float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, from->point);
+            relax(search, CROSSED_KEY | end, to->slot, to->polygon, to->point,
+                  node.cost + cost + factor * (float)link->cost, index);
+        }
+        end = from->next;
+    }
+}
+
+static bool is_crossing(const tl_nav_node *node)
+{
+    return node->key >> 62 == CROSSED_KEY >> 62;
+}
+
+// A path that takes a short cut has the way from its end to the goal before it still.
+static float shortest_detour(const tl_nav_way_search *search)
+{
+    const tl_nav_offmesh_table *table = &search->navmesh->offmesh;
+    float least = INFINITY;
+    for (uint32_t i = 0; i < table->short_count; i++) {
+        const tl_nav_offmesh_entry *link = &table->entries[table->short_cuts[i]];
+        for (int end = link->offmesh.both_ways ? 0 : 1; end < 2; end++) {
+            least = fminf(least, tl_distance(link->ends[end].point, search->goal));
+        }
+    }
+    return least;
+}
+
+static void expand(tl_nav_way_search *search, uint32_t index)
+{
+    const tl_nav_node node = search->query->nodes[index];
+    const tl_nav_tile *tile = search->navmesh->slots[node.slot].tile;
+    if (node.slot == search->goal_slot && node.polygon == search->goal_polygon) {
+        float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, search->goal);
+        relax(search, GOAL_KEY, node.slot, node.polygon, search->goal, node.cost + cost, index);
+    }
+    cross_links(search, index);
+    bool walked_in = node.parent != TL_NAV_NO_NODE && !is_crossing(&node);
+    const tl_nav_node *parent = walked_in ? &search->query->nodes[node.parent] : NULL;
+    tl_nav_ways ways = tl_nav_ways_of(search->navmesh, node.slot, node.polygon);
+    tl_nav_way way;
+    while (tl_nav_ways_next(&ways, &way)) {
+        // Polygons are convex: to go back to the one we come from never pays.
+        if (parent != NULL && way.polygon == parent->polygon && way.slot == parent->slot) {
+            continue;
+        }
+        if (!tl_nav_passes(search->filter, search->navmesh->slots[way.slot].tile, way.polygon)) {
+            continue;
+        }
+        tl_vec3 point = crossing_point(node.point, search->goal, &way);
+        float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, point);
+        relax(search, way.key, way.slot, way.polygon, point, node.cost + cost, index);
+    }
+}
+
+// Goes on until the goal's node is taken up, or nothing is open, or the pool or the steps are used up.
+static tl_nav_path_status step_by_ways(tl_nav_way_search *search, uint64_t *steps)
+{
+    for (; *steps > 0; --*steps) {
+        uint32_t index = tl_nav_heap_pop(search->query);
+        if (index == TL_NAV_NO_NODE) {
+            return TL_NAV_PATH_UNREACHABLE;
+        }
+        if (search->query->nodes[index].key == GOAL_KEY) {
+            search->last = index;
+            return TL_NAV_PATH_COMPLETE;
+        }
+        expand(search, index);
+        if (search->out_of_nodes) {
+            return TL_NAV_PATH_OUT_OF_NODES;
+        }
+    }
+    return TL_NAV_PATH_UNFINISHED;
+}
+
+static void begin_by_ways(tl_nav_path_run *run)
+{
+    tl_nav_way_search *search = &run->ways;
+    search->detour = shortest_detour(search);
+    tl_nav_pool_reset(search->query);
+    relax(search, START_KEY, run->exact.start_slot, run->exact.start_polygon, run->start.point, 0.0f, TL_NAV_NO_NODE);
+    run->stage = TL_NAV_RUN_WAYS;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// As near to the goal as a search has come: the nodes of either kind, by number.
+
+typedef struct seen_polygon {
+    uint32_t slot, polygon;
+    double cost; // metres times area costs from the start, at least
+} seen_polygon;
+
+static seen_polygon seen_at(const tl_nav_path_run *run, uint32_t i)
+{
+    const tl_nav_query *query = run->ways.query;
+    seen_polygon seen;
+    if (run->stage == TL_NAV_RUN_EXACT) {
+        seen.slot = query->wedges[i].slot;
+        seen.polygon = query->wedges[i].polygon;
+        seen.cost = query->wedges[i].cost;
+    } else {
+        seen.slot = query->nodes[i].slot;
+        seen.polygon = query->nodes[i].polygon;
+        seen.cost = (double)query->nodes[i].cost;
+    }
+    return seen;
+}
+
+// The squared distance in the plane from the goal to the box of a polygon's corners.
+static float bound_to_goal(const tl_nav_path_run *run, const seen_polygon *seen)
+{
+    uint32_t count = 0;
+    const tl_vec3 *corners = tl_nav_tile_corners(run->ways.navmesh->slots[seen->slot].tile, seen->polygon, &count);
+    tl_aabb box = { corners[0], corners[0] };
+    for (uint32_t i = 1; i < count; i++) {
+        box = tl_aabb_add_point(box, corners[i]);
+    }
+    tl_vec3 gap = tl_sub(tl_min(tl_max(run->goal.point, box.min), box.max), run->goal.point);
+    return gap.x * gap.x + gap.z * gap.z;
+}
+
+// The node whose polygon comes nearest to the goal, by the distance to its closest point; ties to the cheaper one, then
+// to the lower index.
+static uint32_t nearest_to_goal(const tl_nav_path_run *run, tl_vec3 *point_out)
+{
+    const tl_nav_query *query = run->ways.query;
+    uint32_t count = run->stage == TL_NAV_RUN_EXACT ? query->wedge_count : query->node_count;
+    uint32_t best = 0;
+    float best_sq = INFINITY;
+    for (uint32_t i = 0; i < count; i++) {
+        seen_polygon seen = seen_at(run, i);
+        seen_polygon best_seen = seen_at(run, best);
+        if (i > 0 && seen.slot == best_seen.slot && seen.polygon == best_seen.polygon) {
+            best = seen.cost < best_seen.cost ? i : best;
+            continue;
+        }
+        if (bound_to_goal(run, &seen) > best_sq) {
+            continue;
+        }
+        bool inside = false;
+        tl_vec3 point =
+            tl_nav_closest_on_surface(run->ways.navmesh->slots[seen.slot].tile, seen.polygon, run->goal.point, &inside);
+        float distance_sq = tl_distance_sq(point, run->goal.point);
+        if (distance_sq < best_sq || (distance_sq == best_sq && seen.cost < best_seen.cost)) {
+            best = i;
+            best_sq = distance_sq;
+            *point_out = point;
+        }
+    }
+    return best;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// What the caller gets.
+
+static void write_ways(const tl_nav_way_search *search, uint32_t last, tl_nav_ref *polygons_out, uint32_t capacity,
+                       tl_nav_path *path_out)
+{
+    const tl_nav_node *nodes = search->query->nodes;
+    // The goal's node stands in the polygon of its parent.
+    uint32_t end = nodes[last].key == GOAL_KEY ? nodes[last].parent : last;
+    uint32_t count = 0;
+    for (uint32_t i = end; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
+        count += is_crossing(&nodes[i]) ? 2 : 1;
+    }
+    uint32_t at = count;
+    for (uint32_t i = end; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
+        at--;
+        if (at < capacity) {
+            polygons_out[at] = tl_nav_make_ref(search->navmesh, nodes[i].slot, nodes[i].polygon);
+        }
+        if (is_crossing(&nodes[i]) && --at < capacity) {
+            polygons_out[at] = tl_nav_offmesh_ref(&search->navmesh->offmesh, (uint32_t)nodes[i].key);
+        }
+    }
+    path_out->polygon_count = count;
+    path_out->cost = nodes[last].cost;
+    path_out->end.polygon = tl_nav_make_ref(search->navmesh, nodes[end].slot, nodes[end].polygon);
+    path_out->node_count = search->query->node_count;
+}
+
+static void write_exact(const tl_nav_path_run *run, uint32_t last, tl_nav_ref *polygons_out, uint32_t capacity,
+                        tl_nav_path *path_out)
+{
+    tl_nav_shortest_search search = run->exact;
+    const tl_nav_wedge *wedge = &search.query->wedges[last];
+    if (run->status != TL_NAV_PATH_COMPLETE) {
+        // As if the root saw the point: no path there is shorter.
+        search.last = last;
+        search.goal = path_out->end.point;
+        path_out->end.polygon = tl_nav_make_ref(search.navmesh, wedge->slot, wedge->polygon);
+    }
+    path_out->cost = run->ways.least_cost * (float)tl_nav_shortest_length(&search);
+    path_out->node_count = search.query->wedge_count;
+    path_out->polygon_count = tl_nav_write_wedges(&search, polygons_out, capacity);
+}
+
+tl_result tl_nav_run_write(const tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity,
+                           tl_nav_path *path_out)
+{
+    path_out->status = run->status;
+    path_out->end = run->goal;
+    if (run->stage == TL_NAV_RUN_CUT_OFF) {
+        path_out->polygon_count = 1;
+        path_out->end = run->start;
+        if (capacity > 0) {
+            polygons_out[0] = run->start.polygon;
+        }
+    } else if (run->stage == TL_NAV_RUN_EXACT) {
+        bool found = run->status == TL_NAV_PATH_COMPLETE;
+        uint32_t last = found ? run->exact.last : nearest_to_goal(run, &path_out->end.point);
+        write_exact(run, last, polygons_out, capacity, path_out);
+    } else {
+        bool found = run->status == TL_NAV_PATH_COMPLETE;
+        uint32_t last = found ? run->ways.last : nearest_to_goal(run, &path_out->end.point);
+        write_ways(&run->ways, last, polygons_out, capacity, path_out);
+    }
+    return path_out->polygon_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// The run: the shortest path where every metre costs the same. Then, or where that has found none (the flags forbid it,
+// and A* tells how far they let go; or it was out of nodes, of which A* needs fewer), A*.
+
+static void note_exact_end(tl_nav_path_run *run, tl_nav_search_end end)
+{
+    if (end == TL_NAV_SEARCH_FOUND) {
+        run->status = TL_NAV_PATH_COMPLETE;
+    } else if (end != TL_NAV_SEARCH_PAUSED) {
+        begin_by_ways(run);
+    }
+}
+
+static tl_result set_up(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                        const tl_nav_location *start, const tl_nav_location *goal, tl_nav_path_run *run,
+                        bool *is_uniform_out)
+{
+    float least = 1.0f;
+    *is_uniform_out = true;
+    run->stage = TL_NAV_RUN_NONE;
+    TL_TRY(tl_nav_prepare_shortest(query, navmesh, filter, start, goal, &run->exact));
+    if (filter != NULL && !tl_nav_filter_costs(filter, &least, is_uniform_out)) {
+        return TL_ERR_ARGUMENT;
+    }
+    tl_nav_way_search ways = {
+        query,       navmesh,  filter, least,         run->exact.goal_slot, run->exact.goal_polygon,
+        goal->point, INFINITY, false,  TL_NAV_NO_NODE
+    };
+    run->ways = ways;
+    run->start = *start;
+    run->goal = *goal;
+    run->status = TL_NAV_PATH_UNFINISHED;
+    run->edits = navmesh->edit.number;
+    return TL_OK;
+}
+
+static void begin_run(tl_nav_path_run *run, bool is_uniform)
+{
+    if (tl_nav_is_cut_off(&run->exact)) {
+        run->stage = TL_NAV_RUN_CUT_OFF;
+        run->status = TL_NAV_PATH_UNREACHABLE;
+    } else if (is_uniform) {
+        run->stage = TL_NAV_RUN_EXACT;
+        note_exact_end(run, tl_nav_begin_shortest(&run->exact));
+    } else {
+        begin_by_ways(run);
+    }
+}
+
+tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                           const tl_nav_location *start, const tl_nav_location *goal, tl_nav_path_run *run)
+{
+    bool is_uniform = true;
+    TL_TRY(set_up(query, navmesh, filter, start, goal, run, &is_uniform));
+    begin_run(run, is_uniform);
+    return TL_OK;
+}
+
+void tl_nav_run_step(tl_nav_path_run *run, uint64_t *steps)
+{
+    if (run->status == TL_NAV_PATH_UNFINISHED && run->stage == TL_NAV_RUN_EXACT) {
+        note_exact_end(run, tl_nav_step_shortest(&run->exact, steps));
+    }
+    if (run->status == TL_NAV_PATH_UNFINISHED && run->stage == TL_NAV_RUN_WAYS) {
+        run->status = step_by_ways(&run->ways, steps);
+    }
+}
+
+// The path over roads, where there are any.
+static bool find_over_roads(tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
+{
+    const tl_nav_roads *roads = tl_nav_roads_for(&run->exact);
+    const tl_nav_path_room room = { NULL, 0, polygons_out, capacity };
+    tl_nav_shortest_path path;
+    memset(&path, 0, sizeof path);
+    if (roads == NULL || !tl_nav_find_over_roads(&run->exact, roads, &room, &path)) {
+        return false;
+    }
+    path_out->status = TL_NAV_PATH_COMPLETE;
+    path_out->end = run->goal;
+    path_out->cost = run->ways.least_cost * (float)path.length;
+    path_out->node_count = path.node_count;
+    path_out->polygon_count = path.polygon_count;
+    return true;
+}
+
+tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                 const tl_nav_location *start, const tl_nav_location *goal, tl_nav_ref *polygons_out,
+                                 uint32_t capacity, tl_nav_path *path_out)
+{
+    memset(path_out, 0, sizeof *path_out);
+    path_out->status = TL_NAV_PATH_UNREACHABLE;
+    tl_nav_path_run run;
+    bool is_uniform = true;
+    TL_TRY(set_up(query, navmesh, filter, start, goal, &run, &is_uniform));
+    if (is_uniform && !tl_nav_is_cut_off(&run.exact) && find_over_roads(&run, polygons_out, capacity, path_out)) {
+        return path_out->polygon_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    }
+    begin_run(&run, is_uniform);
+    uint64_t steps = UINT64_MAX;
+    tl_nav_run_step(&run, &steps);
+    return tl_nav_run_write(&run, polygons_out, capacity, path_out);
+}
+
+const char *tl_nav_path_status_name(tl_nav_path_status status)
+{
+    static const char *const NAMES[] = { "complete", "unreachable", "out of nodes", "unfinished", "stale" };
+    return (unsigned)status < TL_COUNT_OF(NAMES) ? NAMES[status] : "unknown";
+}

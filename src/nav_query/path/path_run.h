@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+//
+// A path search under way: what find_path.c runs to its end and sliced_path.c runs in slices.
+
+#ifndef TALUS_SRC_NAV_QUERY_PATH_RUN_H
+#define TALUS_SRC_NAV_QUERY_PATH_RUN_H
+
+#include "nav_query/exact/shortest_search.h"
+
+/// A* over ways into polygons.
+typedef struct tl_nav_way_search {
+    tl_nav_query *query;
+    const tl_navmesh *navmesh;
+    const tl_nav_filter *filter;
+    float least_cost; ///< of a metre
+    uint32_t goal_slot, goal_polygon;
+    tl_vec3 goal;
+    float detour; ///< metres at least from the nearest end of a short cut to the goal; INFINITY: there is none
+    bool out_of_nodes;
+    uint32_t last; ///< the goal's node, once it is found
+} tl_nav_way_search;
+
+typedef enum tl_nav_run_stage {
+    TL_NAV_RUN_NONE,    ///< nothing was begun
+    TL_NAV_RUN_CUT_OFF, ///< start and goal lie on two islands
+    TL_NAV_RUN_EXACT,   ///< the shortest path is sought
+    TL_NAV_RUN_WAYS     ///< A* runs
+} tl_nav_run_stage;
+
+typedef struct tl_nav_path_run {
+    tl_nav_run_stage stage;
+    tl_nav_path_status status; ///< TL_NAV_PATH_UNFINISHED while there is more to do
+    tl_nav_location start, goal;
+    tl_nav_shortest_search exact;
+    tl_nav_way_search ways;
+    // Of a run in slices:
+    tl_nav_filter filter;     ///< the caller's, copied
+    int32_t stale_x, stale_z; ///< TL_NAV_PATH_STALE: the tile
+    uint64_t edits;           ///< of the navmesh, up to which all nodes are known to be whole
+    uint32_t generation;      ///< of the query's wedges,
+    uint64_t pool_generation; ///< and of its nodes: another search since would have taken them
+} tl_nav_path_run;
+
+/// Begins. Errors as those of tl_nav_query_find_path; then nothing runs. `filter` must outlive the run.
+tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                           const tl_nav_location *start, const tl_nav_location *goal, tl_nav_path_run *run);
+/// Goes on for at most `*steps` nodes, which are counted down.
+void tl_nav_run_step(tl_nav_path_run *run, uint64_t *steps);
+/// The path as far as it is known.
+tl_result tl_nav_run_write(const tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity,
+                           tl_nav_path *path_out);
+
+#endif

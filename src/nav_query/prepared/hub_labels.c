@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+//
+// Hub labels: for each bend the lengths to a few hundred hubs, so chosen that of any two bends a shortest way passes a
+// hub of both.
+//
+// Where a table of all bends is too large, on a city of 25,000 bends 3.6 GB, labels take a hundredth or less. They are
+// found by a Dijkstra a bend, the most travelled bends first, that goes no farther than where the labels so far know a
+// way as short. How much a bend is travelled is counted on shortest path trees of a sample. The first road to its hub
+// stands in each label, so that the bends of a way are read off.
+// A query adds the legs of the start's bends to their labels, hub by hub, and looks the goal's up there.
+// Rejected: an elimination tree (Ouyang et al. 2018) needs no hub's number, but sight along streets makes its
+// separators wide: 1,900 lengths a bend on that city.
+// Source: Akiba, Iwata, Yoshida, Fast Exact Shortest-Path Distance Queries on Large Networks by Pruned Landmark
+// Labeling, SIGMOD 2013; Du, Shen, Cheema, Ultrafast Euclidean Shortest Path Computation Using Hub Labeling, AAAI 2023.
+
+#include "nav_query/prepared/road_lengths.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/prefetch.h"
+#include "base/radix_sort.h"
+#include "math/tolerance.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SAMPLES = 128, FIRST_LABELS = 8 };
+
+// The labels of a bend while they are found.
+typedef struct growing_label {
+    tl_nav_hub *hubs;
+    uint32_t count, capacity;
+} growing_label;
+
+typedef struct labeller {
+    const tl_allocator *allocator;
+    tl_nav_roads *roads;
+    tl_nav_road_lengths lengths;
+    growing_label *labels; // by bend
+    tl_sort_item *order;   // [2 * bend_count] bends by rank, the keys the lower the more travelled; then scratch
+    float *to_root;        // by rank: metres from the bend at hand, INFINITY: it does not know the hub
+    uint64_t count, limit;
+} labeller;
+
+// Orders bends by how many bends lie behind them on shortest path trees, the most first.
+static void order_bends(labeller *l, uint32_t *behind)
+{
+    uint32_t n = l->roads->bend_count;
+    uint32_t samples = n < SAMPLES ? n : SAMPLES;
+    for (uint32_t i = 0; i < n; i++) {
+        tl_sort_item item = { UINT64_MAX, i, 0 };
+        l->order[i] = item;
+    }
+    for (uint32_t k = 0; k < samples; k++) {
+        // Bends are numbered tile by tile, so these are spread over the world.
+        uint32_t root = (uint32_t)((uint64_t)k * n / samples);
+        tl_nav_measure_roads(&l->lengths, &root, 1);
+        for (uint32_t i = 0; i < n; i++) {
+            behind[i] = 1;
+        }
+        for (uint32_t i = l->lengths.settled_count; i > 0; i--) {
+            uint32_t bend = l->lengths.settled[i - 1];
+            l->order[bend].key -= behind[bend];
+            behind[l->lengths.before[bend]] += bend != root ? behind[bend] : 0;
+        }
+    }
+    tl_radix_sort(l->order, l->order + n, n);
+}
+
+// Whether labels know a way from the root at hand to a bend that is as short, within their rounding.
+static bool is_known(const labeller *l, uint32_t bend, double length)
+{
+    const growing_label *label = &l->labels[bend];
+    float limit = (float)(length * (1.0 + (double)TL_FLOAT_GAMMA(3)));
+    for (uint32_t i = 0; i < label->count; i++) {
+        if (l->to_root[tl_nav_hub_rank(&label->hubs[i])] + label->hubs[i].length <= limit) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static uint32_t road_between(const tl_nav_roads *roads, uint32_t from, uint32_t to)
+{
+    const tl_nav_bend *bend = &roads->bends[from];
+    for (uint32_t k = bend[0].first_road; k < bend[1].first_road; k++) {
+        if (roads->roads[k].to == to) {
+            return k - bend[0].first_road;
+        }
+    }
+    return 0; // a bend's label of itself
+}
+
+static tl_result add_label(labeller *l, uint32_t bend, uint32_t rank, double length)
+{
+    growing_label *label = &l->labels[bend];
+    if (l->count == l->limit) {
+        return TL_ERR_LIMIT;
+    }
+    if (label->count == label->capacity) {
+        uint32_t more = label->capacity > 0 ? 2 * label->capacity : FIRST_LABELS;
+        tl_nav_hub *grown = tl_allocate_array(l->allocator, more, sizeof *grown);
+        if (grown == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        if (label->count > 0) {
+            memcpy(grown, label->hubs, label->count * sizeof *grown);
+        }
+        tl_release_array(l->allocator, label->hubs, label->capacity, sizeof *grown);
+        label->hubs = grown;
+        label->capacity = more;
+    }
+    uint32_t road = road_between(l->roads, bend, l->lengths.before[bend]);
+    tl_nav_hub hub = { rank << TL_NAV_HUB_ROAD_BITS | road, (float)length };
+    label->hubs[label->count++] = hub;
+    l->count++;
+    return TL_OK;
+}
+
+// Labels all bends to which the shortest ways from the bend of a rank lead, and which no hub before it is on.
+static tl_result label_from(labeller *l, uint32_t rank)
+{
+    tl_nav_road_lengths *s = &l->lengths;
+    uint32_t root = l->order[rank].value;
+    const growing_label *own = &l->labels[root];
+    for (uint32_t i = 0; i < own->count; i++) {
+        l->to_root[tl_nav_hub_rank(&own->hubs[i])] = own->hubs[i].length;
+    }
+    tl_result result = TL_OK;
+    uint32_t touched = 0;
+    s->length[root] = 0.0;
+    s->before[root] = root;
+    s->settled[touched++] = root;
+    tl_nav_push_bend(s, 0.0, root);
+    while (s->heap_count > 0 && result == TL_OK) {
+        tl_nav_open_bend next = tl_nav_pop_bend(s);
+        if (next.length > s->length[next.bend] || is_known(l, next.bend, next.length)) {
+            continue;
+        }
+        result = add_label(l, next.bend, rank, next.length);
+        const tl_nav_bend *bend = &l->roads->bends[next.bend];
+        for (uint32_t k = bend[0].first_road; k < bend[1].first_road; k++) {
+            const tl_nav_road *road = &l->roads->roads[k];
+            double length = next.length + tl_nav_road_length(bend, road);
+            if (length < s->length[road->to]) {
+                if (s->length[road->to] == (double)INFINITY) {
+                    s->settled[touched++] = road->to;
+                }
+                s->length[road->to] = length;
+                s->before[road->to] = next.bend;
+                tl_nav_push_bend(s, length, road->to);
+                tl_prefetch(l->labels[road->to].hubs); // each is in a place of its own, and asked for soon
+            }
+        }
+    }
+    s->heap_count = 0;
+    for (uint32_t i = 0; i < touched; i++) {
+        s->length[s->settled[i]] = (double)INFINITY;
+    }
+    own = &l->labels[root];
+    for (uint32_t i = 0; i < own->count; i++) {
+        l->to_root[tl_nav_hub_rank(&own->hubs[i])] = INFINITY;
+    }
+    return result;
+}
+
+static tl_result label_all(labeller *l, uint32_t *behind)
+{
+    uint32_t n = l->roads->bend_count;
+    memset(l->labels, 0, n * sizeof *l->labels);
+    order_bends(l, behind);
+    for (uint32_t i = 0; i < n; i++) {
+        l->to_root[i] = INFINITY;
+        l->lengths.length[i] = (double)INFINITY;
+    }
+    for (uint32_t rank = 0; rank < n; rank++) {
+        TL_TRY(label_from(l, rank));
+    }
+    return TL_OK;
+}
+
+// Puts all labels into one array.
+static tl_result gather(labeller *l)
+{
+    tl_nav_hub_labels *labels = &l->roads->labels;
+    uint32_t n = l->roads->bend_count;
+    labels->count = l->count;
+    labels->first = tl_allocate_array(l->allocator, (uint64_t)n + 1, sizeof *labels->first);
+    labels->hubs = tl_allocate_array(l->allocator, l->count, sizeof *labels->hubs);
+    labels->bend = tl_allocate_array(l->allocator, n, sizeof *labels->bend);
+    if (labels->first == NULL || labels->hubs == NULL || labels->bend == NULL) {
+        tl_nav_free_hub_labels(l->allocator, l->roads);
+        return TL_ERR_MEMORY;
+    }
+    uint64_t at = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        labels->bend[i] = l->order[i].value;
+        labels->first[i] = at;
+        memcpy(labels->hubs + at, l->labels[i].hubs, l->labels[i].count * sizeof *labels->hubs);
+        at += l->labels[i].count;
+    }
+    labels->first[n] = at;
+    return TL_OK;
+}
+
+// More roads from a bend than a label can tell apart, or more bends.
+static bool is_too_large(const tl_nav_roads *roads)
+{
+    uint32_t most = 0;
+    for (uint32_t i = 0; i < roads->bend_count; i++) {
+        uint32_t count = roads->bends[i + 1].first_road - roads->bends[i].first_road;
+        most = count > most ? count : most;
+    }
+    return most > 1u << TL_NAV_HUB_ROAD_BITS || roads->bend_count > UINT32_MAX >> TL_NAV_HUB_ROAD_BITS;
+}
+
+tl_result tl_nav_make_hub_labels(const tl_allocator *allocator, tl_nav_roads *roads, uint64_t budget)
+{
+    uint64_t fixed = tl_nav_hub_labels_size(roads);
+    if (is_too_large(roads) || budget < fixed) {
+        return TL_ERR_LIMIT;
+    }
+    labeller l;
+    memset(&l, 0, sizeof l);
+    l.allocator = allocator;
+    l.roads = roads;
+    l.limit = (budget - fixed) / sizeof(tl_nav_hub);
+    TL_TRY(tl_nav_road_lengths_make(allocator, roads, &l.lengths));
+    uint32_t n = roads->bend_count;
+    uint32_t *behind = tl_allocate_array(allocator, n, sizeof *behind);
+    l.labels = tl_allocate_array(allocator, n, sizeof *l.labels);
+    l.order = tl_allocate_array(allocator, 2 * (uint64_t)n, sizeof *l.order);
+    l.to_root = tl_allocate_array(allocator, n, sizeof *l.to_root);
+    tl_result result = TL_ERR_MEMORY;
+    if (behind != NULL && l.labels != NULL && l.order != NULL && l.to_root != NULL) {
+        result = label_all(&l, behind);
+        result = result == TL_OK ? gather(&l) : result;
+        for (uint32_t i = 0; i < n; i++) {
+            tl_release_array(allocator, l.labels[i].hubs, l.labels[i].capacity, sizeof(tl_nav_hub));
+        }
+    }
+    tl_nav_road_lengths_free(allocator, &l.lengths);
+    tl_release_array(allocator, behind, n, sizeof *behind);
+    tl_release_array(allocator, l.labels, n, sizeof *l.labels);
+    tl_release_array(allocator, l.order, 2 * (uint64_t)n, sizeof *l.order);
+    tl_release_array(allocator, l.to_root, n, sizeof *l.to_root);
+    return result;
+}
+
+uint64_t tl_nav_hub_labels_size(const tl_nav_roads *roads)
+{
+    const tl_nav_hub_labels *labels = &roads->labels;
+    return ((uint64_t)roads->bend_count + 1) * sizeof *labels->first +
+           (uint64_t)roads->bend_count * sizeof *labels->bend + labels->count * sizeof *labels->hubs;
+}
+
+void tl_nav_free_hub_labels(const tl_allocator *allocator, tl_nav_roads *roads)
+{
+    tl_nav_hub_labels *labels = &roads->labels;
+    tl_release_array(allocator, labels->first, (uint64_t)roads->bend_count + 1, sizeof *labels->first);
+    tl_release_array(allocator, labels->hubs, labels->count, sizeof *labels->hubs);
+    tl_release_array(allocator, labels->bend, roads->bend_count, sizeof *labels->bend);
+    memset(labels, 0, sizeof *labels);
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Asking.
+
+// Metres from any start to each hub of this one, if it is nearer.
+static void reach_hubs(const tl_nav_hub_labels *labels, const tl_nav_bend_leg *start, float *to_hub)
+{
+    for (uint64_t i = labels->first[start->bend]; i < labels->first[start->bend + 1]; i++) {
+        uint32_t rank = tl_nav_hub_rank(&labels->hubs[i]);
+        float length = start->length + labels->hubs[i].length;
+        to_hub[rank] = length < to_hub[rank] ? length : to_hub[rank];
+    }
+}
+
+static void meet_goals(const tl_nav_hub_labels *labels, const tl_nav_ends *ends, const float *to_hub, float margin,
+                       tl_nav_meeting *best)
+{
+    for (uint32_t k = 0; k < ends->goal_count; k++) {
+        tl_nav_bend_leg *goal = &ends->goals[k];
+        if (!(goal->total < best->length * margin)) {
+            continue;
+        }
+        for (uint64_t i = labels->first[goal->bend]; i < labels->first[goal->bend + 1]; i++) {
+            uint32_t rank = tl_nav_hub_rank(&labels->hubs[i]);
+            float length = to_hub[rank] + labels->hubs[i].length + goal->length;
+            if (length < best->length) {
+                best->length = length;
+                best->goal = goal;
+                best->hub = rank;
+            }
+        }
+    }
+}
+
+// The label of a bend for a hub, NULL: it has none.
+static const tl_nav_hub *find_hub(const tl_nav_hub_labels *labels, uint32_t bend, uint32_t rank)
+{
+    uint64_t first = labels->first[bend];
+    uint64_t end = labels->first[bend + 1];
+    while (first < end) {
+        uint64_t middle = first + (end - first) / 2;
+        uint32_t at = tl_nav_hub_rank(&labels->hubs[middle]);
+        if (at == rank) {
+            return &labels->hubs[middle];
+        }
+        first = at < rank ? middle + 1 : first;
+        end = at < rank ? end : middle;
+    }
+    return NULL;
+}
+
+// What a way over each leg takes at least, by landmarks, where that says more than the straight line.
+static void raise_totals(const tl_nav_roads *roads, tl_nav_bend_leg *legs, uint32_t count,
+                         const tl_nav_bend_leg *others, uint32_t other_count)
+{
+    tl_nav_end_marks other;
+    tl_nav_mark_end(roads, others, other_count, &other);
+    for (uint32_t i = 0; i < count; i++) {
+        float total = legs[i].length + tl_nav_least_by_marks(roads, &other, legs[i].bend);
+        legs[i].total = total > legs[i].total ? total : legs[i].total;
+    }
+}
+
+tl_nav_meeting tl_nav_best_by_labels(const tl_nav_roads *roads, tl_nav_ends *ends, float *to_hub)
+{
+    const tl_nav_hub_labels *labels = &roads->labels;
+    const float margin = 1.0f + TL_FLOAT_GAMMA(16);
+    tl_nav_meeting best = { INFINITY, NULL, NULL, 0 };
+    if (ends->start_count == 0) {
+        return best;
+    }
+    for (uint32_t i = 0; i < roads->bend_count; i++) {
+        to_hub[i] = INFINITY;
+    }
+    raise_totals(roads, ends->starts, ends->start_count, ends->goals, ends->goal_count);
+    raise_totals(roads, ends->goals, ends->goal_count, ends->starts, ends->start_count);
+    // The most promising start first: it bounds what is worth a look. A total may be too long by its roundings.
+    uint32_t nearest = 0;
+    for (uint32_t i = 1; i < ends->start_count; i++) {
+        nearest = ends->starts[i].total < ends->starts[nearest].total ? i : nearest;
+    }
+    reach_hubs(labels, &ends->starts[nearest], to_hub);
+    meet_goals(labels, ends, to_hub, margin, &best);
+    for (uint32_t i = 0; i < ends->start_count; i++) {
+        if (i != nearest && ends->starts[i].total < best.length * margin) {
+            reach_hubs(labels, &ends->starts[i], to_hub);
+        }
+    }
+    meet_goals(labels, ends, to_hub, margin, &best);
+    for (uint32_t i = 0; i < ends->start_count && best.length < INFINITY; i++) {
+        const tl_nav_hub *hub = find_hub(labels, ends->starts[i].bend, best.hub);
+        if (hub != NULL && ends->starts[i].length + hub->length == to_hub[best.hub]) {
+            best.start = &ends->starts[i];
+            break;
+        }
+    }
+    return best;
+}
+
+// The bends from one to a hub, both among them; returns their number, UINT32_MAX: there is no room.
+static uint32_t walk_to_hub(const tl_nav_roads *roads, uint32_t bend, uint32_t rank, uint64_t *bends, uint32_t capacity)
+{
+    uint32_t count = 0;
+    for (uint32_t at = bend;;) {
+        const tl_nav_hub *hub = find_hub(&roads->labels, at, rank);
+        if (count == capacity || hub == NULL) {
+            return UINT32_MAX;
+        }
+        bends[count++] = at;
+        if (at == roads->labels.bend[rank]) {
+            return count;
+        }
+        at = roads->roads[roads->bends[at].first_road + tl_nav_hub_road(hub)].to;
+    }
+}
+
+uint32_t tl_nav_unpack_meeting(const tl_nav_roads *roads, const tl_nav_meeting *meeting, uint64_t *bends,
+                               uint32_t capacity)
+{
+    uint32_t count = walk_to_hub(roads, meeting->goal->bend, meeting->hub, bends, capacity);
+    if (count == UINT32_MAX) {
+        return count;
+    }
+    // The hub comes from both sides.
+    uint64_t *rest = bends + count - 1;
+    uint32_t more = walk_to_hub(roads, meeting->start->bend, meeting->hub, rest, capacity - count + 1);
+    if (more == UINT32_MAX) {
+        return more;
+    }
+    for (uint32_t i = 0; i < more / 2; i++) {
+        uint64_t kept = rest[i];
+        rest[i] = rest[more - 1 - i];
+        rest[more - 1 - i] = kept;
+    }
+    return count - 1 + more;
+}

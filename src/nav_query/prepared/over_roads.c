@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+//
+// The shortest path on a prepared navmesh: the straight line where it arrives, else over bends.
+//
+// With a table of all lengths between bends, or labels, nothing is searched: of the bends that the start and the goal
+// have in view, the pair with the shortest way is the path. It is read off by walking along its legs; a first or last
+// leg that was in view by rounding only is struck out, and the next best pair taken. What is offered is never too long,
+// so the first path that can be walked is the shortest of all. Source: Shen, Cheema, Harabor, Stuckey, Euclidean
+// Pathfinding with Compressed Path Databases, IJCAI 2020 (bends in view of both ends, and lengths between them that are
+// known).
+
+#include "nav_query/prepared/roads.h"
+#include "nav_query/search/root_table.h"
+
+#include <string.h>
+
+// The bends on the way of a pair, the last one first; UINT32_MAX: more than there is room for.
+static uint32_t unpack(const tl_nav_roads *roads, uint32_t first, uint32_t last, uint64_t *bends, uint32_t capacity)
+{
+    const uint16_t *way = roads->table_way + (uint64_t)first * roads->bend_count;
+    uint32_t count = 0;
+    for (uint32_t at = last;; at = way[at]) {
+        if (count == capacity) {
+            return UINT32_MAX;
+        }
+        bends[count++] = at;
+        if (at == first) {
+            return count;
+        }
+    }
+}
+
+// The best pair, and the bends on its way. The query's heaps are free: one is scratch, the other holds the bends.
+static tl_nav_meeting best_pair(tl_nav_query *query, const tl_nav_roads *roads, tl_nav_ends *ends, uint32_t *count_out)
+{
+    tl_nav_meeting best;
+    if (roads->table != NULL) {
+        best = tl_nav_best_by_table(roads, ends);
+        *count_out = best.start != NULL
+                         ? unpack(roads, best.start->bend, best.goal->bend, query->wedge_heap, query->max_nodes)
+                         : UINT32_MAX;
+    } else {
+        best = tl_nav_best_by_labels(roads, ends, (float *)(void *)query->heap);
+        *count_out =
+            best.start != NULL ? tl_nav_unpack_meeting(roads, &best, query->wedge_heap, query->max_nodes) : UINT32_MAX;
+    }
+    return best;
+}
+
+// By what is known of all lengths. False: no pair can be walked, or there is no room.
+static bool find_by_lengths(tl_nav_shortest_search *search, const tl_nav_roads *roads, tl_nav_ends *ends,
+                            const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
+{
+    tl_nav_query *query = search->query;
+    for (uint32_t tries = 0; tries < ends->start_count + ends->goal_count; tries++) {
+        uint32_t count = 0;
+        tl_nav_meeting best = best_pair(query, roads, ends, &count);
+        if (count == UINT32_MAX) {
+            return false;
+        }
+        // Five roundings a leg, three of what is known, three of sums.
+        search->lower_bound = (double)best.length * (1.0 - (double)TL_FLOAT_GAMMA(11));
+        uint32_t blocked = tl_nav_write_roads(search, roads, query->wedge_heap, count, room, path_out);
+        if (blocked == UINT32_MAX) {
+            path_out->node_count = ends->start_count + ends->goal_count;
+            return true;
+        }
+        if (blocked != 0 && blocked != count) {
+            return false;
+        }
+        *(blocked == 0 ? best.start : best.goal) = (tl_nav_bend_leg){ 0, INFINITY, INFINITY };
+    }
+    return false;
+}
+
+// Whether lengths are known, and the query has room to make use of them.
+static bool knows_lengths(const tl_nav_query *query, const tl_nav_roads *roads)
+{
+    return roads->table != NULL || (roads->labels.first != NULL && roads->bend_count <= query->max_nodes);
+}
+
+// Whether the goal is seen from the start; the path is then written. `*is_unclear_out`: it cannot be told.
+static bool write_straight(const tl_nav_shortest_search *search, const tl_nav_line *line, const tl_nav_path_room *room,
+                           tl_nav_shortest_path *path_out, bool *is_unclear_out)
+{
+    const tl_navmesh *navmesh = search->navmesh;
+    tl_nav_trail trail = { room->polygons, room->polygon_capacity, 0, 0, 0 };
+    bool is_one_polygon = search->start_slot == search->goal_slot && search->start_polygon == search->goal_polygon;
+    if (is_one_polygon) {
+        tl_nav_add_to_trail(&trail, navmesh, search->goal_slot, search->goal_polygon);
+    } else {
+        tl_nav_line_end end = tl_nav_walk_line(line, search->start_slot, search->start_polygon, &trail);
+        // Two polygons may hold the same place, and no line leads from one to the other.
+        *is_unclear_out = end == TL_NAV_LINE_UNCLEAR || (line->on_x == 0.0 && line->on_z == 0.0);
+        if (end != TL_NAV_LINE_ARRIVES) {
+            return false;
+        }
+    }
+    const tl_nav_corner corners[2] = {
+        { search->start, tl_nav_make_ref(navmesh, search->start_slot, search->start_polygon), TL_NAV_CORNER_START,
+          TL_NAV_NO_REF },
+        { search->goal, tl_nav_make_ref(navmesh, search->goal_slot, search->goal_polygon), TL_NAV_CORNER_END,
+          TL_NAV_NO_REF },
+    };
+    for (uint32_t i = 0; i < 2 && i < room->corner_capacity; i++) {
+        room->corners[i] = corners[i];
+    }
+    path_out->status = TL_NAV_PATH_COMPLETE;
+    path_out->corner_count = 2;
+    path_out->polygon_count = trail.count;
+    path_out->length = sqrt(line->on_x * line->on_x + line->on_z * line->on_z);
+    path_out->lower_bound = path_out->length;
+    path_out->surface_length = (double)tl_distance(search->start, search->goal);
+    return true;
+}
+
+bool tl_nav_find_over_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
+                            tl_nav_shortest_path *path_out)
+{
+    double x = (double)search->start.x;
+    double z = (double)search->start.z;
+    tl_nav_line line = { search->navmesh,
+                         x,
+                         z,
+                         (double)search->goal.x - x,
+                         (double)search->goal.z - z,
+                         0,
+                         search->goal_slot,
+                         search->goal_polygon,
+                         tl_nav_line_rounding(search, roads) };
+    bool is_unclear = false;
+    if (write_straight(search, &line, room, path_out, &is_unclear)) {
+        return true;
+    }
+    if (is_unclear) {
+        return false;
+    }
+    // From here on the query's memory is used: a search in slices that was under way is no more.
+    tl_nav_next_generation(search->query);
+    tl_nav_ends ends;
+    return tl_nav_find_ends(search, roads, &ends) &&
+           ((knows_lengths(search->query, roads) && find_by_lengths(search, roads, &ends, room, path_out)) ||
+            (tl_nav_find_ends(search, roads, &ends) && tl_nav_search_roads(search, roads, &ends, room, path_out)));
+}

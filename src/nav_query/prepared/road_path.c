@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+//
+// A path over roads as its caller wants it: its corners, and the polygons along each leg.
+//
+// A leg ends in one of the polygons around a bend and the next one begins in another: the polygons between them, on the
+// side away from the walls, belong to the path too.
+
+#include "nav_query/prepared/roads.h"
+
+#include <math.h>
+#include <string.h>
+
+uint32_t tl_nav_fan_of(const tl_navmesh *navmesh, const tl_nav_bend *bend, tl_nav_ring_place *fan_out)
+{
+    tl_nav_ring_place at = bend->place;
+    for (uint32_t i = 0; i < TL_NAV_MAX_FAN; i++) {
+        uint32_t count = 0;
+        const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, at.slot, at.polygon, &count);
+        uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;
+        fan_out[i] = at;
+        if (!tl_nav_ring_is_open(&ring[before])) {
+            return i + 1;
+        }
+        at = tl_nav_ring_twin(navmesh, at.slot, at.polygon, ring, count, before);
+    }
+    return TL_NAV_MAX_FAN;
+}
+
+static bool is_ahead(const tl_nav_line *line, const tl_nav_ring_edge *vertex)
+{
+    return line->on_x * ((double)vertex->x - line->x) + line->on_z * ((double)vertex->z - line->z) > 0.0;
+}
+
+bool tl_nav_line_enters(const tl_nav_line *line, const tl_nav_ring_place *place)
+{
+    if (line->on_x == 0.0 && line->on_z == 0.0) {
+        return place->slot == line->slot && place->polygon == line->polygon; // the goal is in the vertex
+    }
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(line->navmesh, place->slot, place->polygon, &count);
+    const tl_nav_ring_edge *right = &ring[place->edge + 1 < count ? place->edge + 1 : 0];
+    const tl_nav_ring_edge *left = &ring[place->edge > 0 ? place->edge - 1 : count - 1];
+    double slack = line->rounding * (fabs(line->on_x) + fabs(line->on_z));
+    double to_right = tl_nav_right_of_line(line, right);
+    double to_left = tl_nav_right_of_line(line, left);
+    if (to_right > slack && to_left < -slack) {
+        return true;
+    }
+    return (fabs(to_right) <= slack && is_ahead(line, right)) || (fabs(to_left) <= slack && is_ahead(line, left));
+}
+
+typedef struct road_path {
+    const tl_nav_shortest_search *search;
+    const tl_nav_roads *roads;
+    const tl_nav_path_room *room;
+    tl_nav_shortest_path *path;
+    tl_nav_trail trail;
+    tl_vec3 last; // corner
+} road_path;
+
+static double plan_distance(tl_vec3 a, tl_vec3 b)
+{
+    double x = (double)b.x - (double)a.x;
+    double z = (double)b.z - (double)a.z;
+    return sqrt(x * x + z * z);
+}
+
+static void add_corner(road_path *p, tl_vec3 point, tl_nav_ref polygon, uint32_t flags)
+{
+    if (p->path->corner_count > 0) {
+        p->path->length += plan_distance(p->last, point);
+        p->path->surface_length += (double)tl_distance(p->last, point);
+    }
+    if (p->path->corner_count < p->room->corner_capacity) {
+        tl_nav_corner corner = { point, polygon, flags, TL_NAV_NO_REF };
+        p->room->corners[p->path->corner_count] = corner;
+    }
+    p->path->corner_count++;
+    p->last = point;
+}
+
+// Adds a bend as a corner, unless the path goes straight on there.
+static void add_bend(road_path *p, tl_vec3 point, tl_vec3 next, tl_nav_ref polygon, bool is_left)
+{
+    double x = (double)point.x - (double)p->last.x;
+    double z = (double)point.z - (double)p->last.z;
+    double on_x = (double)next.x - (double)point.x;
+    double on_z = (double)next.z - (double)point.z;
+    double turn = x * on_z - z * on_x;
+    if (turn != 0.0) {
+        is_left = turn < 0.0;
+    } else if (x * on_x + z * on_z >= 0.0) {
+        return;
+    }
+    add_corner(p, point, polygon, is_left ? TL_NAV_CORNER_LEFT : TL_NAV_CORNER_RIGHT);
+}
+
+// Polygons along a line behind a place of a fan, and around the fan to that place.
+static uint32_t count_on_line(const tl_nav_line *line, const tl_nav_ring_place *place, uint32_t from, uint32_t at)
+{
+    tl_nav_trail trail = { NULL, 0, 0, 0, 0 };
+    bool arrives = tl_nav_walk_line(line, place->slot, place->polygon, &trail) == TL_NAV_LINE_ARRIVES;
+    return arrives ? trail.count + (at > from ? at - from : from - at) : UINT32_MAX - 1;
+}
+
+// The place of a fan into which a line leads; `count` when there is none. A fan may wind more than once around, and a
+// line along an edge leads into two polygons: then the way over the fewest polygons is taken.
+static uint32_t next_in_fan(const tl_nav_ring_place *fan, uint32_t count, uint32_t from, const tl_nav_line *line)
+{
+    uint32_t best = count;
+    uint32_t least = UINT32_MAX; // of polygons to the best; UINT32_MAX: not counted
+    for (uint32_t i = 0; i < count; i++) {
+        if (!tl_nav_line_enters(line, &fan[i])) {
+            continue;
+        }
+        if (best == count) {
+            best = i;
+            continue;
+        }
+        if (least == UINT32_MAX) {
+            least = count_on_line(line, &fan[best], from, best);
+        }
+        uint32_t steps = count_on_line(line, &fan[i], from, i);
+        best = steps < least ? i : best;
+        least = steps < least ? steps : least;
+    }
+    return best;
+}
+
+// Goes around a bend from the last polygon to the one into which the next leg leads.
+static bool turn_at(road_path *p, const tl_nav_bend *bend, const tl_nav_line *line, tl_vec3 next)
+{
+    const tl_navmesh *navmesh = p->search->navmesh;
+    tl_nav_ring_place fan[TL_NAV_MAX_FAN];
+    uint32_t count = tl_nav_fan_of(navmesh, bend, fan);
+    uint32_t from = 0;
+    while (from < count && (fan[from].slot != p->trail.slot || fan[from].polygon != p->trail.polygon)) {
+        from++;
+    }
+    uint32_t to = next_in_fan(fan, count, from, line);
+    if (from == count || to == count) {
+        return false;
+    }
+    for (uint32_t i = from; i != to; i += to > from ? 1u : UINT32_MAX) {
+        tl_nav_add_to_trail(&p->trail, navmesh, fan[i].slot, fan[i].polygon);
+    }
+    tl_nav_add_to_trail(&p->trail, navmesh, fan[to].slot, fan[to].polygon);
+    add_bend(p, tl_vec3_make(bend->x, bend->y, bend->z), next, tl_nav_make_ref(navmesh, fan[to].slot, fan[to].polygon),
+             to > from);
+    return true;
+}
+
+// The leg from a bend (NULL: the start) to another (NULL: the goal).
+static bool add_leg(road_path *p, const tl_nav_bend *from, const tl_nav_bend *to)
+{
+    const tl_nav_shortest_search *search = p->search;
+    tl_vec3 point = from != NULL ? tl_vec3_make(from->x, from->y, from->z) : search->start;
+    tl_vec3 next = to != NULL ? tl_vec3_make(to->x, to->y, to->z) : search->goal;
+    tl_nav_line line = { search->navmesh,
+                         (double)point.x,
+                         (double)point.z,
+                         (double)next.x - (double)point.x,
+                         (double)next.z - (double)point.z,
+                         to != NULL ? to->turn : 0,
+                         search->goal_slot,
+                         search->goal_polygon,
+                         p->roads->rounding };
+    if (from != NULL && !turn_at(p, from, &line, next)) {
+        return false;
+    }
+    uint32_t slot = from != NULL ? p->trail.slot : search->start_slot;
+    uint32_t polygon = from != NULL ? p->trail.polygon : search->start_polygon;
+    return tl_nav_walk_line(&line, slot, polygon, &p->trail) == TL_NAV_LINE_ARRIVES;
+}
+
+uint32_t tl_nav_write_roads(const tl_nav_shortest_search *search, const tl_nav_roads *roads, const uint64_t *bends,
+                            uint32_t bend_count, const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
+{
+    const tl_navmesh *navmesh = search->navmesh;
+    memset(path_out, 0, sizeof *path_out);
+    road_path p = { search, roads, room, path_out, { room->polygons, room->polygon_capacity, 0, 0, 0 }, search->start };
+    add_corner(&p, search->start, tl_nav_make_ref(navmesh, search->start_slot, search->start_polygon),
+               TL_NAV_CORNER_START);
+    const tl_nav_bend *from = NULL;
+    for (uint32_t i = 0; i <= bend_count; i++) {
+        const tl_nav_bend *to = i < bend_count ? &roads->bends[bends[bend_count - 1 - i]] : NULL;
+        if (!add_leg(&p, from, to)) {
+            return i;
+        }
+        from = to;
+    }
+    add_corner(&p, search->goal, tl_nav_make_ref(navmesh, search->goal_slot, search->goal_polygon), TL_NAV_CORNER_END);
+    path_out->status = TL_NAV_PATH_COMPLETE;
+    path_out->polygon_count = p.trail.count;
+    path_out->lower_bound = fmin(search->lower_bound, path_out->length);
+    return UINT32_MAX;
+}

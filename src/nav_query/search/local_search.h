@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+//
+// Polygons around a place, in a query's own pool: which were met, and from which. No allocation, nothing to clear.
+
+#ifndef TALUS_SRC_NAV_QUERY_LOCAL_SEARCH_H
+#define TALUS_SRC_NAV_QUERY_LOCAL_SEARCH_H
+
+#include "nav_query/exact/shortest_search.h"
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/ring_step.h"
+#include "nav_query/search/root_table.h"
+
+/// Forgets what the query knew.
+static inline void tl_nav_local_begin(tl_nav_query *query)
+{
+    query->wedge_count = 0;
+    query->open_count = 0;
+    tl_nav_next_generation(query);
+}
+
+/// A node for a polygon that was not met before; TL_NAV_NO_NODE when it was, or when the pool is used up: then
+/// `*full_out` is set.
+static inline uint32_t tl_nav_local_add(tl_nav_query *query, uint32_t slot, uint32_t polygon, uint32_t parent,
+                                        bool *full_out)
+{
+    bool found = false;
+    tl_nav_find_root(query, (uint64_t)1 << 63 | (uint64_t)slot << 32 | polygon, &found);
+    if (found) {
+        return TL_NAV_NO_NODE;
+    }
+    if (query->wedge_count == query->max_nodes) {
+        *full_out = true;
+        return TL_NAV_NO_NODE;
+    }
+    uint32_t index = query->wedge_count++;
+    tl_nav_wedge *node = &query->wedges[index];
+    node->slot = slot;
+    node->polygon = polygon;
+    node->parent = parent;
+    return index;
+}
+
+#endif

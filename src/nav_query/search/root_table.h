@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+//
+// The cheapest way known to each vertex where an exact search has turned: a hash table with linear probing. Entries of
+// earlier searches are told by their generation, so nothing is ever cleared.
+
+#ifndef TALUS_SRC_NAV_QUERY_ROOT_TABLE_H
+#define TALUS_SRC_NAV_QUERY_ROOT_TABLE_H
+
+#include "base/hash.h"
+#include "math/tolerance.h"
+#include "nav_query/search/node_pool.h"
+
+/// Forgets all entries. Those of a table whose generations have run out would look like new ones: they are cleared.
+static inline void tl_nav_next_generation(tl_nav_query *query)
+{
+    query->repeat_count = 0;
+    if (++query->generation == 0) {
+        for (uint32_t i = 0; i <= query->root_mask; i++) {
+            query->roots[i].generation = 0;
+        }
+        query->generation = 1;
+    }
+}
+
+/// The entry of a number; `*found_out` says whether it is there already.
+static inline tl_nav_root *tl_nav_find_root(tl_nav_query *query, uint64_t number, bool *found_out)
+{
+    // Numbers of one tile follow one another, and so do their places. Those of corners have high bits.
+    uint64_t place = number < (uint64_t)1 << 32 ? number : tl_hash_mix(number);
+    for (;; place++) {
+        tl_nav_root *root = &query->roots[place & query->root_mask];
+        *found_out = root->generation == query->generation;
+        if (!*found_out || root->number == number) {
+            root->number = number;
+            root->generation = query->generation;
+            return root;
+        }
+    }
+}
+
+typedef enum tl_nav_root_rank {
+    TL_NAV_ROOT_WORSE,
+    TL_NAV_ROOT_AS_CHEAP, ///< as another way, within the rounding of the float in which costs are kept
+    TL_NAV_ROOT_CHEAPEST
+} tl_nav_root_rank;
+
+/// How a way to the vertex of this number compares with those that are known; it is then one of them.
+static inline tl_nav_root_rank tl_nav_root_rank_of(tl_nav_query *query, uint64_t number, double cost)
+{
+    bool found = false;
+    tl_nav_root *root = tl_nav_find_root(query, number, &found);
+    const double slack = 2.0 * (double)TL_FLOAT_ROUNDING;
+    if (found && cost > (double)root->cost * (1.0 + slack)) {
+        return TL_NAV_ROOT_WORSE;
+    }
+    bool is_as_cheap = found && cost >= (double)root->cost * (1.0 - slack);
+    root->cost = found && root->cost < (float)cost ? root->cost : (float)cost;
+    return is_as_cheap ? TL_NAV_ROOT_AS_CHEAP : TL_NAV_ROOT_CHEAPEST;
+}
+
+/// Whether no way as cheap, within that rounding, has come to this number yet.
+static inline bool tl_nav_root_is_first(tl_nav_query *query, uint64_t number, double cost)
+{
+    bool found = false;
+    tl_nav_root *root = tl_nav_find_root(query, number, &found);
+    if (found && cost >= (double)root->cost * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING)) {
+        return false;
+    }
+    root->cost = (float)cost;
+    return true;
+}
+
+#endif

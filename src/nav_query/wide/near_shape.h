@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// How far segments are from a convex shape, and the steps of finding the walls near it (near_walls.c, near_shape.c).
+
+#ifndef TALUS_SRC_NAV_QUERY_NEAR_SHAPE_H
+#define TALUS_SRC_NAV_QUERY_NEAR_SHAPE_H
+
+#include "nav_query/wide/clearance.h"
+
+/// A convex shape and its box, grown by the distance and some slack.
+typedef struct tl_nav_shape {
+    const tl_nav_spot *corners;
+    uint32_t count;
+    double distance_sq;
+    double low_x, low_z, high_x, high_z;
+} tl_nav_shape;
+
+static inline tl_nav_shape tl_nav_shape_make(const tl_nav_spot *corners, uint32_t count, double distance, double slack)
+{
+    tl_nav_shape reach = {
+        corners, count, distance * distance, corners[0].x, corners[0].z, corners[0].x, corners[0].z
+    };
+    for (uint32_t i = 1; i < count; i++) {
+        reach.low_x = tl_nav_least(reach.low_x, corners[i].x);
+        reach.low_z = tl_nav_least(reach.low_z, corners[i].z);
+        reach.high_x = tl_nav_most(reach.high_x, corners[i].x);
+        reach.high_z = tl_nav_most(reach.high_z, corners[i].z);
+    }
+    reach.low_x -= distance + slack;
+    reach.low_z -= distance + slack;
+    reach.high_x += distance + slack;
+    reach.high_z += distance + slack;
+    return reach;
+}
+
+/// Whether a segment lies outside of the box.
+static inline bool tl_nav_shape_is_far(const tl_nav_shape *reach, tl_nav_segment segment)
+{
+    return tl_nav_most(segment.a.x, segment.b.x) < reach->low_x ||
+           tl_nav_least(segment.a.x, segment.b.x) > reach->high_x ||
+           tl_nav_most(segment.a.z, segment.b.z) < reach->low_z ||
+           tl_nav_least(segment.a.z, segment.b.z) > reach->high_z;
+}
+
+/// The squared distance from a shape to a segment that does not lie inside of it; infinite when it is surely too far.
+static inline double tl_nav_shape_distance_sq(const tl_nav_shape *reach, tl_nav_segment segment)
+{
+    double best_sq = (double)INFINITY;
+    if (tl_nav_shape_is_far(reach, segment)) {
+        return best_sq;
+    }
+    for (uint32_t i = 0; i < (reach->count > 2 ? reach->count : 1); i++) {
+        tl_nav_segment side = { reach->corners[i], reach->corners[i + 1 < reach->count ? i + 1 : 0] };
+        best_sq = tl_nav_least(best_sq, tl_nav_segments_distance_sq(side, segment));
+    }
+    return best_sq;
+}
+
+/// Begins a list of walls in the room.
+void tl_nav_begin_walls(tl_nav_clearance *clearance, tl_nav_near_walls *near);
+/// Adds the walls around a shape that lies in a polygon. False: out of room.
+bool tl_nav_look_from(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
+                      double distance, tl_nav_near_walls *near);
+/// Sorts the list and takes its memory from the room.
+void tl_nav_end_walls(tl_nav_clearance *clearance, const tl_nav_near_walls *near);
+
+#endif

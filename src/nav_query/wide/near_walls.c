@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: MIT
+//
+// The walls near a convex shape, found by looking along straight lines over the surface.
+//
+// Only a wall that can be walked to straight from some spot of the shape, within the distance, counts: a floor above,
+// below, or behind another wall does not. So from each polygon that the shape touches beams go out through its open
+// edges, each as wide as the lines that pass all edges on its way may be. Straight lines never turn back, and so no
+// beam comes back over the floor that it came from by a stair beside it; a plain walk over all polygons near the shape
+// does. A beam's sides are the outermost directions, and lines through the ends of its last edge: a little more than
+// what is seen, never less. So no wall is missed; and one too many, hidden behind another, forbids nothing more than
+// that does.
+// Each wall is kept with the distance within which a walk must look to find it, and the list is sorted by that: so the
+// walls within a lesser distance are its first ones, the very same list as a walk that looks no farther would make
+// (prepared_walls.c stands on this).
+
+#include "nav_query/wide/near_shape.h"
+
+#include "base/assert.h"
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/search/local_search.h"
+
+#include <string.h>
+
+// The chord between two neighbours of 32 points on a circle comes this near to its middle: cos(pi / 32).
+static const double CHORD_SHARE = 0.99518472667219688;
+
+double tl_nav_touch_of(const tl_navmesh *navmesh)
+{
+    int exponent = 0;
+    frexp((double)navmesh->extent, &exponent);
+    double touch = TL_NAV_PLACE_ROUNDINGS * (double)TL_FLOAT_ROUNDING * ldexp(1.0, exponent);
+    return touch * touch;
+}
+
+void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter, double reach,
+                            tl_nav_clearance *clearance_out)
+{
+    static const tl_nav_filter any = { UINT64_MAX, 0, { 0 }, NULL, NULL, NULL };
+    memset(clearance_out, 0, sizeof *clearance_out);
+    clearance_out->query = query;
+    clearance_out->navmesh = navmesh;
+    clearance_out->filter = tl_nav_all_pass(navmesh, filter) ? NULL : filter != NULL ? filter : &any;
+    clearance_out->slack = TL_NAV_PLACE_ROUNDINGS * (double)TL_FLOAT_ROUNDING * ((double)navmesh->extent + reach);
+    clearance_out->touch = tl_nav_touch_of(navmesh);
+    clearance_out->reach = tl_nav_most(reach - clearance_out->slack, 0.0);
+    clearance_out->least = tl_nav_most(CHORD_SHARE * clearance_out->reach - clearance_out->slack, 0.0);
+    clearance_out->room.low = (char *)query->wedges;
+    clearance_out->room.high = (char *)(query->wedges + query->max_nodes);
+}
+
+void *tl_nav_take(tl_nav_clearance *clearance, uint64_t count, uint64_t size)
+{
+    uint64_t left = (uint64_t)(clearance->room.high - clearance->room.low);
+    uint64_t bytes = (count * size + 7) / 8 * 8;
+    if (bytes > left) {
+        clearance->is_full = true;
+        return NULL;
+    }
+    void *at = clearance->room.low;
+    clearance->room.low += bytes;
+    return at;
+}
+
+uint32_t tl_nav_corner_spots(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon,
+                             tl_nav_spot corners[TL_NAV_MAX_CORNERS])
+{
+    uint32_t count = 0;
+    const tl_vec3 *from = tl_nav_tile_corners(navmesh->slots[slot].tile, polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        corners[i] = tl_nav_spot_make((double)from[i].x, (double)from[i].z);
+    }
+    return count;
+}
+
+double tl_nav_outside_by(const tl_nav_spot *corners, uint32_t count, tl_nav_spot spot)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_spot p = corners[i];
+        tl_nav_spot q = corners[i + 1 < count ? i + 1 : 0];
+        most = tl_nav_most(most, tl_nav_spot_turn(p, q, spot) / sqrt(tl_nav_spot_distance_sq(p, q)));
+    }
+    return most;
+}
+
+bool tl_nav_is_clear(const tl_nav_near_walls *near, tl_nav_spot a, tl_nav_spot b, double distance)
+{
+    const tl_nav_spot ends[2] = { a, b };
+    tl_nav_segment segment = { a, b };
+    tl_nav_shape reach = tl_nav_shape_make(ends, 2, distance, distance * (double)TL_FLOAT_ROUNDING);
+    for (uint32_t i = 0; i < near->wall_count; i++) {
+        tl_nav_segment wall = tl_nav_wall_segment(&near->walls[i]);
+        if (!tl_nav_shape_is_far(&reach, wall) && tl_nav_segments_distance_sq(segment, wall) < reach.distance_sq) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// What is seen of the surface from a shape through a window: an edge, or the part of it that earlier ones let see.
+typedef struct beam {
+    tl_nav_met from, at;                 // polygons before and behind the window
+    tl_nav_spot left, right;             // its ends, seen looking out
+    tl_nav_spot left_ahead, right_ahead; // the outermost directions
+    float distance_sq;                   // of the farthest window on the way, this one included
+} beam;
+
+// Where a walk over beams keeps what it has found. Walls grow upwards in the room, beams that wait grow downwards.
+typedef struct wall_walk {
+    tl_nav_clearance *clearance;
+    const tl_nav_shape *reach;
+    tl_nav_near_wall *walls;
+    uint32_t count;
+    beam *top; // of the beams that wait
+} wall_walk;
+
+static double cross(tl_nav_spot a, tl_nav_spot b)
+{
+    return a.x * b.z - a.z * b.x;
+}
+
+static tl_nav_spot minus(tl_nav_spot a, tl_nav_spot b)
+{
+    return tl_nav_spot_make(a.x - b.x, a.z - b.z);
+}
+
+// The outermost direction from the shape through an end of a window, on the end's side; `along` leads along the window
+// to that end. `hand` is 1 for the left end, -1 for the right one.
+static tl_nav_spot outermost(const tl_nav_shape *reach, tl_nav_spot end, tl_nav_spot along, double hand)
+{
+    // Of each ray, how far it leads along the window and out of it. Of two the first is the outer one when
+    // along / out is larger.
+    tl_nav_spot best = along;
+    double best_along = 0.0;
+    double best_out = 0.0;
+    bool is_known = false;
+    for (uint32_t i = 0; i < reach->count; i++) {
+        tl_nav_spot ray = minus(end, reach->corners[i]);
+        tl_nav_spot next = minus(end, reach->corners[i + 1 < reach->count ? i + 1 : 0]);
+        double ray_along = ray.x * along.x + ray.z * along.z;
+        double ray_out = hand * cross(along, ray);
+        double next_along = next.x * along.x + next.z * along.z;
+        double next_out = hand * cross(along, next);
+        // Where the shape crosses the window's line, it sees the window edge-on: from behind its other end, or not.
+        bool crosses = (ray_out < 0.0 && next_out > 0.0) || (ray_out > 0.0 && next_out < 0.0);
+        if (crosses && ray_along * fabs(next_out) + next_along * fabs(ray_out) > 0.0) {
+            return along;
+        }
+        if (ray_out >= 0.0 && (!is_known || ray_along * best_out > best_along * ray_out)) {
+            best_along = ray_along;
+            best_out = ray_out;
+            best = ray;
+            is_known = true;
+        }
+    }
+    return best;
+}
+
+// Of the directions of a beam and of the one before, those of both. `along` leads along the window to its left end.
+// False: there are none.
+static bool narrow(beam *next, const beam *before, tl_nav_spot along)
+{
+    double left_out = cross(along, before->left_ahead);
+    double right_out = cross(along, before->right_ahead);
+    // A beam as wide as a half plane passes another window in line or parallel, if that leads on and not back.
+    bool leads_on = cross(before->left_ahead, before->right_ahead) == 0.0 &&
+                    along.x * before->left_ahead.x + along.z * before->left_ahead.z > 0.0;
+    if (left_out <= 0.0 && right_out <= 0.0 && !leads_on) {
+        return false;
+    }
+    // A side that does not come out of the window is none.
+    if (left_out > 0.0 && cross(next->left_ahead, before->left_ahead) > 0.0) {
+        next->left_ahead = before->left_ahead;
+    }
+    if (right_out > 0.0 && cross(next->right_ahead, before->right_ahead) < 0.0) {
+        next->right_ahead = before->right_ahead;
+    }
+    double width = cross(next->left_ahead, next->right_ahead);
+    double ahead = next->left_ahead.x * next->right_ahead.x + next->left_ahead.z * next->right_ahead.z;
+    return width > 0.0 || (width == 0.0 && ahead < 0.0);
+}
+
+// Adds the beam behind a window. `before` is the beam that sees it, NULL from the polygon of the shape itself.
+static bool add_beam(wall_walk *walk, const beam *before, beam next)
+{
+    tl_nav_spot along = minus(next.left, next.right);
+    next.left_ahead = along;
+    next.right_ahead = tl_nav_spot_make(-along.x, -along.z);
+    if ((double)next.distance_sq > walk->clearance->touch) {
+        next.left_ahead = outermost(walk->reach, next.left, next.left_ahead, 1.0);
+        next.right_ahead = outermost(walk->reach, next.right, next.right_ahead, -1.0);
+    }
+    if (before != NULL && !narrow(&next, before, along)) {
+        return true;
+    }
+    if ((char *)(walk->top - 1) < (char *)(walk->walls + walk->count)) {
+        return false;
+    }
+    *--walk->top = next;
+    return true;
+}
+
+// A wall is known by its place in its tile's rings. Each is taken once, at the least distance by which a beam sees it.
+static bool add_wall(wall_walk *walk, uint32_t slot, const tl_nav_ring_edge *edge, tl_nav_segment wall, bool is_end,
+                     float distance_sq)
+{
+    bool found = false;
+    uint64_t place = (uint64_t)(edge - walk->clearance->navmesh->slots[slot].rings.edges);
+    if (walk->count == walk->clearance->query->max_nodes ||
+        (char *)(walk->walls + walk->count + 1) > (char *)walk->top) {
+        return false;
+    }
+    tl_nav_root *known =
+        tl_nav_find_root(walk->clearance->query, (uint64_t)is_end << 62 | (uint64_t)slot << 32 | place, &found);
+    if (!found) {
+        tl_nav_near_wall fresh = { distance_sq, (float)wall.a.x, (float)wall.a.z, (float)wall.b.x, (float)wall.b.z };
+        known->stop = walk->count;
+        walk->walls[walk->count++] = fresh;
+    } else if (distance_sq < walk->walls[known->stop].distance_sq) {
+        walk->walls[known->stop].distance_sq = distance_sq;
+    }
+    return true;
+}
+
+// Cuts a segment to what lies between the two sides of a beam. False: nothing does.
+static bool cut_to_beam(const beam *b, tl_nav_segment *segment)
+{
+    double first = 0.0;
+    double last = 1.0;
+    const tl_nav_spot ends[2] = { b->left, b->right };
+    const tl_nav_spot aheads[2] = { b->left_ahead, b->right_ahead };
+    for (int side = 0; side < 2; side++) {
+        double hand = side == 0 ? 1.0 : -1.0;
+        double from = hand * cross(aheads[side], minus(segment->a, ends[side]));
+        double to = hand * cross(aheads[side], minus(segment->b, ends[side]));
+        if (from < 0.0 && to < 0.0) {
+            return false;
+        }
+        if (from < 0.0) {
+            first = tl_nav_most(first, from / (from - to));
+        } else if (to < 0.0) {
+            last = tl_nav_least(last, from / (from - to));
+        }
+    }
+    tl_nav_segment whole = *segment;
+    segment->a = first > 0.0 ? tl_nav_spot_lerp(whole.a, whole.b, first) : whole.a;
+    segment->b = last < 1.0 ? tl_nav_spot_lerp(whole.a, whole.b, last) : whole.b;
+    return first < last;
+}
+
+static bool is_in_beam(const beam *b, tl_nav_spot spot)
+{
+    return cross(b->left_ahead, minus(spot, b->left)) >= 0.0 && cross(b->right_ahead, minus(spot, b->right)) <= 0.0;
+}
+
+// Around most ends of walls less than a full turn is free, and one of the two walls there is seen whenever the end is.
+// Not so where a stair winds around it: its end is a wall by itself.
+static bool add_winding_end(wall_walk *walk, const tl_nav_ring_place *place, const beam *seen)
+{
+    const tl_nav_clearance *clearance = walk->clearance;
+    const tl_nav_rings *rings = &clearance->navmesh->slots[place->slot].rings;
+    uint32_t at = rings->cells[place->polygon].first + place->edge;
+    const tl_nav_ring_edge *edge = &rings->edges[at];
+    const tl_nav_ring_walls *walls = &rings->walls[at];
+    tl_nav_spot spot = { (double)edge->x, (double)edge->z };
+    tl_nav_segment end = { spot, spot };
+    tl_nav_ring_place fan = *place;
+    if (edge->turn == 0 || walls->first_x != 0.0f || walls->first_z != 0.0f ||
+        (seen != NULL && !is_in_beam(seen, spot))) {
+        return true;
+    }
+    float distance_sq = (float)tl_nav_shape_distance_sq(walk->reach, end);
+    if (!((double)distance_sq < walk->reach->distance_sq) ||
+        !tl_nav_find_fan(clearance->navmesh, clearance->filter, &fan)) {
+        return true;
+    }
+    return add_wall(walk, place->slot, edge, end, true, tl_maxf(distance_sq, seen != NULL ? seen->distance_sq : 0.0f));
+}
+
+// Looks at the edges of a polygon: of the one behind a beam, or, without one, of one that the shape touches.
+static bool look_around(wall_walk *walk, tl_nav_met at, const beam *seen)
+{
+    const tl_nav_clearance *clearance = walk->clearance;
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, at.slot, at.polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        tl_nav_segment edge = { { (double)ring[i].x, (double)ring[i].z }, { (double)end->x, (double)end->z } };
+        tl_nav_segment window = edge;
+        tl_nav_ring_place place = { at.slot, at.polygon, i };
+        if (!add_winding_end(walk, &place, seen)) {
+            return false;
+        }
+        if (ring[i].to == TL_NAV_RING_BACK || (seen != NULL && !cut_to_beam(seen, &window))) {
+            continue;
+        }
+        // As floats, so that it means the same when it is kept.
+        float distance_sq = (float)tl_nav_shape_distance_sq(walk->reach, window);
+        if (!((double)distance_sq < walk->reach->distance_sq)) {
+            continue;
+        }
+        distance_sq = tl_maxf(distance_sq, seen != NULL ? seen->distance_sq : 0.0f);
+        bool is_open = tl_nav_ring_is_open(&ring[i]);
+        beam next = { at, { 0, 0 }, window.b, window.a, { 0.0, 0.0 }, { 0.0, 0.0 }, distance_sq };
+        if (is_open) {
+            tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, at.slot, ring[i].to);
+            next.at.slot = to.slot;
+            next.at.polygon = to.polygon;
+            is_open = clearance->filter == NULL ||
+                      tl_nav_passes(clearance->filter, clearance->navmesh->slots[to.slot].tile, to.polygon);
+        }
+        // Two polygons share one line: what lies across it again is the window by which the beam came in.
+        bool is_back =
+            seen != NULL && is_open && next.at.slot == seen->from.slot && next.at.polygon == seen->from.polygon;
+        if (!is_back &&
+            !(is_open ? add_beam(walk, seen, next) : add_wall(walk, at.slot, &ring[i], edge, false, distance_sq))) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool tl_nav_look_from(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
+                      double distance, tl_nav_near_walls *near)
+{
+    tl_nav_shape reach = tl_nav_shape_make(shape, count, distance, clearance->slack);
+    beam *bottom = (beam *)(void *)clearance->room.high;
+    wall_walk walk = { clearance, &reach, (tl_nav_near_wall *)(void *)clearance->room.low, near->wall_count, bottom };
+    bool fits = look_around(&walk, at, NULL);
+    while (fits && walk.top < bottom) {
+        const beam next = *walk.top++;
+        fits = look_around(&walk, next.at, &next);
+    }
+    near->wall_count = walk.count;
+    clearance->is_full = clearance->is_full || !fits;
+    return fits;
+}
+
+void tl_nav_begin_walls(tl_nav_clearance *clearance, tl_nav_near_walls *near)
+{
+    memset(near, 0, sizeof *near);
+    near->walls = (tl_nav_near_wall *)(void *)clearance->room.low;
+    near->met = (tl_nav_met *)(void *)clearance->room.high - 1;
+    tl_nav_next_generation(clearance->query);
+}
+
+static bool is_before(const tl_nav_near_wall *a, const tl_nav_near_wall *b)
+{
+    const float keys[2][5] = { { a->distance_sq, a->a_x, a->a_z, a->b_x, a->b_z },
+                               { b->distance_sq, b->a_x, b->a_z, b->b_x, b->b_z } };
+    for (int i = 0; i < 5; i++) {
+        if (keys[0][i] != keys[1][i]) {
+            return keys[0][i] < keys[1][i];
+        }
+    }
+    return false;
+}
+
+void tl_nav_end_walls(tl_nav_clearance *clearance, const tl_nav_near_walls *near)
+{
+    // Shell's sort: a polygon has a dozen walls around it, a wide shape a few hundred. Equal walls are the same bytes.
+    tl_nav_near_wall *walls = (tl_nav_near_wall *)(void *)clearance->room.low;
+    static const uint32_t GAPS[] = { 701, 301, 132, 57, 23, 10, 4, 1 };
+    for (uint32_t g = 0; g < TL_COUNT_OF(GAPS); g++) {
+        uint32_t gap = GAPS[g];
+        for (uint32_t i = gap; i < near->wall_count; i++) {
+            const tl_nav_near_wall wall = walls[i];
+            uint32_t at = i;
+            for (; at >= gap && is_before(&wall, &walls[at - gap]); at -= gap) {
+                walls[at] = walls[at - gap];
+            }
+            walls[at] = wall;
+        }
+    }
+    tl_nav_take(clearance, near->wall_count, sizeof *walls);
+}
+
+bool tl_nav_find_walls_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *corners,
+                          uint32_t count, double distance, tl_nav_near_walls *near_out)
+{
+    tl_nav_met at = { slot, polygon };
+    tl_nav_begin_walls(clearance, near_out);
+    bool fits = tl_nav_look_from(clearance, at, corners, count, distance, near_out);
+    tl_nav_end_walls(clearance, near_out);
+    return fits;
+}
+
+uint32_t tl_nav_count_within(const tl_nav_near_wall *walls, uint32_t count, double distance)
+{
+    uint32_t low = 0;
+    while (low < count) {
+        uint32_t middle = low + (count - low) / 2;
+        if ((double)walls[middle].distance_sq < distance * distance) {
+            low = middle + 1;
+        } else {
+            count = middle;
+        }
+    }
+    return low;
+}

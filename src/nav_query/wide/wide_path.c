@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+//
+// Paths for agents wider than the one that the mesh was baked for, as their caller wants them.
+
+#include "nav_query/wide/wide_search.h"
+
+#include "base/assert.h"
+#include "nav_query/exact/shortest_search.h"
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/surface.h"
+
+#include <string.h>
+
+static tl_nav_spot spot_of(tl_vec3 point)
+{
+    return tl_nav_spot_make((double)point.x, (double)point.z);
+}
+
+static tl_nav_corner corner_of(tl_nav_clearance *clearance, const tl_nav_wide_bend *bend)
+{
+    tl_nav_met home = { bend->slot, bend->polygon };
+    tl_nav_location at = tl_nav_settle(clearance, home, bend->spot);
+    tl_nav_corner corner = { at.point, at.polygon, 0, TL_NAV_NO_REF };
+    return corner;
+}
+
+static void write_corners(tl_nav_clearance *clearance, const tl_nav_bends *path, tl_nav_corner *corners,
+                          uint32_t capacity, tl_nav_wide_path *out)
+{
+    tl_vec3 last = { 0.0f, 0.0f, 0.0f };
+    for (uint32_t i = 0; i != TL_NAV_NO_NODE; i = path->bends[i].next) {
+        const tl_nav_wide_bend *bend = &path->bends[i];
+        tl_nav_corner corner = corner_of(clearance, bend);
+        if (bend->before == TL_NAV_NO_NODE) {
+            corner.flags = TL_NAV_CORNER_START;
+        } else {
+            const tl_nav_wide_bend *before = &path->bends[bend->before];
+            out->length += sqrt(tl_nav_spot_distance_sq(before->spot, bend->spot));
+            out->surface_length += (double)tl_distance(last, corner.point);
+            if (bend->next == TL_NAV_NO_NODE) {
+                corner.flags = TL_NAV_CORNER_END;
+            } else {
+                double turn = tl_nav_spot_turn(before->spot, bend->spot, path->bends[bend->next].spot);
+                corner.flags = turn < 0.0 ? TL_NAV_CORNER_LEFT : TL_NAV_CORNER_RIGHT;
+            }
+        }
+        if (out->corner_count < capacity) {
+            corners[out->corner_count] = corner;
+        }
+        out->corner_count++;
+        last = corner.point;
+    }
+}
+
+// Without a wider agent the shortest path is the answer.
+static tl_result find_narrow(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                             const tl_nav_location *start, const tl_nav_location *goal, tl_nav_corner *corners_out,
+                             uint32_t capacity, tl_nav_wide_path *path_out)
+{
+    tl_nav_shortest_path path;
+    tl_result result =
+        tl_nav_query_find_shortest_path(query, navmesh, filter, start, goal, corners_out, capacity, NULL, 0, &path);
+    path_out->status = path.status == TL_NAV_PATH_COMPLETE       ? TL_NAV_WIDE_COMPLETE
+                       : path.status == TL_NAV_PATH_OUT_OF_NODES ? TL_NAV_WIDE_OUT_OF_NODES
+                                                                 : TL_NAV_WIDE_UNREACHABLE;
+    path_out->corner_count = path.corner_count;
+    path_out->length = path.length;
+    path_out->surface_length = path.surface_length;
+    path_out->node_count = path.node_count;
+    return path.corner_count > capacity && result == TL_OK ? TL_ERR_CAPACITY : result;
+}
+
+// Looks for the pieces that lead to the goal. TL_NAV_WIDE_COMPLETE: there are.
+static tl_nav_wide_status search_pieces(tl_nav_wide_search *search)
+{
+    tl_nav_clearance *clearance = search->clearance;
+    search->portals = tl_nav_take(clearance, clearance->query->max_nodes, sizeof *search->portals);
+    if (search->portals == NULL) {
+        return TL_NAV_WIDE_OUT_OF_NODES;
+    }
+    if (!tl_nav_wide_stand(search, &search->start)) {
+        return clearance->is_full ? TL_NAV_WIDE_OUT_OF_NODES : TL_NAV_WIDE_START_BLOCKED;
+    }
+    if (!tl_nav_wide_stand(search, &search->goal)) {
+        return clearance->is_full ? TL_NAV_WIDE_OUT_OF_NODES : TL_NAV_WIDE_GOAL_BLOCKED;
+    }
+    bool is_found = tl_nav_wide_run(search);
+    return is_found ? TL_NAV_WIDE_COMPLETE : clearance->is_full ? TL_NAV_WIDE_OUT_OF_NODES : TL_NAV_WIDE_UNREACHABLE;
+}
+
+static tl_result write_path(tl_nav_wide_search *search, tl_nav_corner *corners_out, uint32_t capacity,
+                            tl_nav_wide_path *path_out)
+{
+    tl_nav_clearance *clearance = search->clearance;
+    // Bends get a quarter of the room that is left: each one is smaller than what is gathered around it.
+    tl_nav_bends path = { NULL, 0, 0, TL_NAV_NO_NODE };
+    path.capacity = (uint32_t)((uint64_t)(clearance->room.high - clearance->room.low) / 4 / sizeof *path.bends);
+    path.bends = tl_nav_take(clearance, path.capacity, sizeof *path.bends);
+    if (!tl_nav_wide_straighten(search, &path) || !tl_nav_wide_pull(clearance, &path)) {
+        path_out->status = TL_NAV_WIDE_OUT_OF_NODES;
+        return TL_OK;
+    }
+    write_corners(clearance, &path, corners_out, capacity, path_out);
+    return path_out->corner_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+}
+
+// What a path and the question whether there is one have in common. `is_asked_only`: no corners are wanted.
+static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter, float radius,
+                           const tl_nav_location *start, const tl_nav_location *goal, bool is_asked_only,
+                           tl_nav_corner *corners_out, uint32_t capacity, tl_nav_wide_path *path_out)
+{
+    memset(path_out, 0, sizeof *path_out);
+    path_out->status = TL_NAV_WIDE_UNREACHABLE;
+    if (!isfinite(radius)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (radius < 0.0f) {
+        return TL_ERR_ARGUMENT;
+    }
+    tl_nav_shortest_search ends;
+    tl_result result = tl_nav_prepare_shortest(query, navmesh, filter, start, goal, &ends);
+    if (result != TL_OK) {
+        return result;
+    }
+    tl_nav_clearance clearance;
+    double reach = tl_nav_extra_reach(navmesh->slots[ends.start_slot].tile, radius);
+    tl_nav_clearance_begin(query, navmesh, filter, reach, &clearance);
+    // Corners are rounded to floats at the end.
+    path_out->wall_distance = fmax(clearance.least - clearance.slack, 0.0);
+    if (!(clearance.least > 0.0)) {
+        return find_narrow(query, navmesh, filter, start, goal, corners_out, capacity, path_out);
+    }
+    if (tl_nav_is_cut_off(&ends)) {
+        return TL_OK;
+    }
+    tl_nav_wide_search search = { &clearance,
+                                  { spot_of(ends.start), ends.start_slot, ends.start_polygon, TL_NAV_NO_FACE },
+                                  { spot_of(ends.goal), ends.goal_slot, ends.goal_polygon, TL_NAV_NO_FACE },
+                                  NULL,
+                                  false,
+                                  TL_NAV_NO_NODE };
+    tl_nav_pool_reset(query);
+    path_out->status = search_pieces(&search);
+    path_out->node_count = query->node_count;
+    return is_asked_only || path_out->status != TL_NAV_WIDE_COMPLETE
+               ? TL_OK
+               : write_path(&search, corners_out, capacity, path_out);
+}
+
+tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                      float radius, const tl_nav_location *start, const tl_nav_location *goal,
+                                      tl_nav_corner *corners_out, uint32_t capacity, tl_nav_wide_path *path_out)
+{
+    return find_wide(query, navmesh, filter, radius, start, goal, false, corners_out, capacity, path_out);
+}
+
+tl_result tl_nav_query_is_wide_reachable(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                         float radius, const tl_nav_location *start, const tl_nav_location *goal,
+                                         tl_nav_wide_status *status_out)
+{
+    tl_nav_wide_path path;
+    tl_result result = find_wide(query, navmesh, filter, radius, start, goal, true, NULL, 0, &path);
+    *status_out = path.status;
+    return result == TL_ERR_CAPACITY ? TL_OK : result;
+}
+
+const char *tl_nav_wide_status_name(tl_nav_wide_status status)
+{
+    static const char *const NAMES[] = { "complete", "unreachable", "out of nodes", "no room at start",
+                                         "no room at goal" };
+    return (unsigned)status < TL_COUNT_OF(NAMES) ? NAMES[status] : "unknown";
+}
+
+// The nearest wall to the segment from a corner to the next, or `most`.
+static bool segment_clearance(tl_nav_clearance *clearance, const tl_nav_corner *corners, uint32_t slot,
+                              uint32_t polygon, double *least_sq)
+{
+    tl_nav_segment segment = { spot_of(corners[0].point), spot_of(corners[1].point) };
+    tl_nav_near_walls near;
+    tl_nav_room room = clearance->room;
+    bool fits = tl_nav_find_near_walls(clearance, slot, polygon, &segment.a, 2, sqrt(*least_sq), &near);
+    clearance->room = room;
+    for (uint32_t i = 0; fits && i < near.wall_count; i++) {
+        *least_sq = fmin(*least_sq, tl_nav_segments_distance_sq(segment, tl_nav_wall_segment(&near.walls[i])));
+    }
+    return fits;
+}
+
+tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                      const tl_nav_corner *corners, uint32_t count, float max_distance,
+                                      float *clearance_out)
+{
+    *clearance_out = 0.0f;
+    if (!isfinite(max_distance)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (max_distance < 0.0f || count == 0) {
+        return TL_ERR_ARGUMENT;
+    }
+    tl_nav_clearance clearance;
+    tl_nav_clearance_begin(query, navmesh, filter, (double)max_distance, &clearance);
+    double least_sq = (double)max_distance * (double)max_distance;
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t slot = 0;
+        uint32_t polygon = 0;
+        const tl_nav_corner pair[2] = { corners[i], corners[i + 1 < count ? i + 1 : i] };
+        if (!tl_nav_is_finite(corners[i].point)) {
+            return TL_ERR_NOT_FINITE;
+        }
+        if (!tl_nav_split_ref(navmesh, corners[i].polygon, &slot, &polygon)) {
+            return TL_ERR_NOT_FOUND;
+        }
+        if (!segment_clearance(&clearance, pair, slot, polygon, &least_sq)) {
+            return TL_ERR_LIMIT;
+        }
+    }
+    *clearance_out = (float)sqrt(least_sq);
+    return TL_OK;
+}

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+//
+// The nearest place with room for a wide agent: polygons are looked at in the order in which they come near, and in
+// each of them all places that can be the nearest free one.
+//
+// Those are few. The nearest free place is the spot asked for itself, or lies on a free piece of the outline, or on the
+// border of what a wall forbids: there at the foot of the perpendicular on one of its two sides, at the end of its
+// circle away from the spot, or where it meets the border of another. Any of them that is free will do, the nearest is
+// taken.
+
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/ring_step.h"
+#include "nav_query/navmesh/surface.h"
+#include "nav_query/wide/clearance.h"
+
+#include "math/tolerance.h"
+
+#include <talus/nav_wide.h>
+
+#include <string.h>
+
+typedef struct place_search {
+    tl_nav_clearance *clearance;
+    tl_nav_spot spot;
+    double reach; // between the exact one and the one with slack: what is found stands rounding
+    // The polygon that is looked at.
+    uint32_t slot, polygon;
+    tl_nav_wall_cell cell;
+    // The nearest so far.
+    double best_sq;
+    tl_nav_spot best;
+    uint32_t best_slot, best_polygon;
+    bool is_found;
+} place_search;
+
+// As a float place it must be free.
+static void offer(place_search *search, tl_nav_spot exact)
+{
+    tl_nav_spot spot = { (double)(float)exact.x, (double)(float)exact.z };
+    double distance_sq = tl_nav_spot_distance_sq(spot, search->spot);
+    if ((distance_sq < search->best_sq || (!search->is_found && distance_sq == search->best_sq)) &&
+        tl_nav_outside_by(search->cell.corners, search->cell.count, spot) <= search->clearance->slack &&
+        tl_nav_is_clear(&search->cell.near, spot, spot, search->clearance->reach)) {
+        search->best_sq = distance_sq;
+        search->best = spot;
+        search->best_slot = search->slot;
+        search->best_polygon = search->polygon;
+        search->is_found = true;
+    }
+}
+
+// A border of what a wall forbids: the circle around an end, or the line along one side.
+typedef struct border {
+    tl_nav_spot at;    // the circle's middle, or a point of the line
+    tl_nav_spot ahead; // along the line, unit; both 0: a circle
+} border;
+
+static bool is_circle(const border *b)
+{
+    return b->ahead.x == 0.0 && b->ahead.z == 0.0;
+}
+
+// The borders of a wall; returns their number, 4, or 1 for a wall without length.
+static uint32_t borders_of(tl_nav_segment wall, double reach, border out[4])
+{
+    double x = wall.b.x - wall.a.x;
+    double z = wall.b.z - wall.a.z;
+    double length = sqrt(x * x + z * z);
+    memset(out, 0, 4 * sizeof *out);
+    out[0].at = wall.a;
+    if (!(length > 0.0)) {
+        return 1;
+    }
+    out[1].at = wall.b;
+    for (int side = 0; side < 2; side++) {
+        double aside = side == 0 ? reach / length : -reach / length;
+        out[2 + side].at = tl_nav_spot_make(wall.a.x + z * aside, wall.a.z - x * aside);
+        out[2 + side].ahead = tl_nav_spot_make(x / length, z / length);
+    }
+    return 4;
+}
+
+static void offer_on_line(place_search *search, const border *line, double along)
+{
+    offer(search, tl_nav_spot_make(line->at.x + along * line->ahead.x, line->at.z + along * line->ahead.z));
+}
+
+static void offer_nearest(place_search *search, const border *b)
+{
+    double x = search->spot.x - b->at.x;
+    double z = search->spot.z - b->at.z;
+    double distance = sqrt(x * x + z * z);
+    if (!is_circle(b)) {
+        offer_on_line(search, b, x * b->ahead.x + z * b->ahead.z);
+    } else if (distance > 0.0) {
+        offer(search,
+              tl_nav_spot_make(b->at.x + x * (search->reach / distance), b->at.z + z * (search->reach / distance)));
+    } else {
+        offer(search, tl_nav_spot_make(b->at.x + search->reach, b->at.z));
+    }
+}
+
+static void offer_crossings(place_search *search, const border *a, const border *b)
+{
+    if (is_circle(a) && !is_circle(b)) {
+        const border *swap = a;
+        a = b;
+        b = swap;
+    }
+    double x = b->at.x - a->at.x;
+    double z = b->at.z - a->at.z;
+    if (!is_circle(b)) {
+        double turn = a->ahead.x * b->ahead.z - a->ahead.z * b->ahead.x;
+        if (turn != 0.0) {
+            offer_on_line(search, a, (x * b->ahead.z - z * b->ahead.x) / turn);
+        }
+        return;
+    }
+    // Two circles of one size meet on the line midway, a line and a circle around its foot.
+    bool circles = is_circle(a);
+    double distance = circles ? sqrt(x * x + z * z) : 1.0;
+    double aside = circles ? 0.5 * distance : a->ahead.x * z - a->ahead.z * x;
+    double half = search->reach * search->reach - aside * aside;
+    if (!(half >= 0.0) || !(distance > 0.0)) {
+        return;
+    }
+    border line = *a;
+    double foot = 0.0;
+    if (circles) {
+        line.at = tl_nav_spot_lerp(a->at, b->at, 0.5);
+        line.ahead = tl_nav_spot_make(-z / distance, x / distance);
+    } else {
+        foot = x * a->ahead.x + z * a->ahead.z;
+    }
+    offer_on_line(search, &line, foot - sqrt(half));
+    offer_on_line(search, &line, foot + sqrt(half));
+}
+
+static void offer_borders(place_search *search)
+{
+    for (uint32_t i = 0; i < search->cell.near.wall_count; i++) {
+        border own[4];
+        uint32_t own_count = borders_of(tl_nav_wall_segment(&search->cell.near.walls[i]), search->reach, own);
+        for (uint32_t b = 0; b < own_count; b++) {
+            offer_nearest(search, &own[b]);
+        }
+        for (uint32_t k = 0; k < i; k++) {
+            border other[4];
+            uint32_t other_count = borders_of(tl_nav_wall_segment(&search->cell.near.walls[k]), search->reach, other);
+            for (uint32_t pair = 0; pair < own_count * other_count; pair++) {
+                offer_crossings(search, &own[pair / other_count], &other[pair % other_count]);
+            }
+        }
+    }
+}
+
+// All places of the polygon that may be the nearest. False: out of room.
+static bool look_into(place_search *search)
+{
+    tl_nav_clearance *clearance = search->clearance;
+    tl_nav_room room = clearance->room;
+    tl_nav_pieces pieces;
+    if (!tl_nav_wall_cell_of(clearance, search->slot, search->polygon, search->reach, &search->cell) ||
+        !tl_nav_cut_cell(clearance, &search->cell, &pieces)) {
+        return false;
+    }
+    offer(search, search->spot);
+    for (uint32_t i = 0; i < pieces.count; i++) {
+        const tl_nav_piece *piece = &pieces.pieces[i];
+        tl_nav_spot p = search->cell.corners[piece->edge];
+        tl_nav_spot q = search->cell.corners[piece->edge + 1 < search->cell.count ? piece->edge + 1 : 0];
+        tl_nav_segment stretch = { tl_nav_spot_lerp(p, q, piece->from), tl_nav_spot_lerp(p, q, piece->to) };
+        tl_nav_spot nearest;
+        tl_nav_nearest_of_segment(stretch, search->spot, &nearest);
+        offer(search, nearest);
+    }
+    offer_borders(search);
+    clearance->room = room;
+    return true;
+}
+
+static void relax(place_search *search, uint32_t slot, uint32_t polygon, double distance_sq)
+{
+    tl_nav_query *query = search->clearance->query;
+    uint32_t index = tl_nav_pool_get(query, (uint64_t)slot << 32 | polygon);
+    if (index == TL_NAV_NO_NODE) {
+        search->clearance->is_full = true;
+        return;
+    }
+    tl_nav_node *node = &query->nodes[index];
+    if (node->heap_at == TL_NAV_NODE_NEW || (node->heap_at != TL_NAV_NODE_CLOSED && (float)distance_sq < node->total)) {
+        node->slot = slot;
+        node->polygon = polygon;
+        node->total = (float)distance_sq;
+        tl_nav_heap_improve(query, index);
+    }
+}
+
+static void step_on(place_search *search)
+{
+    const tl_nav_clearance *clearance = search->clearance;
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, search->slot, search->polygon, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        if (!tl_nav_ring_is_open(&ring[i])) {
+            continue;
+        }
+        tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, search->slot, ring[i].to);
+        tl_nav_segment edge = { { (double)ring[i].x, (double)ring[i].z }, { (double)end->x, (double)end->z } };
+        tl_nav_spot nearest;
+        double distance_sq = tl_nav_nearest_of_segment(edge, search->spot, &nearest);
+        bool passes = clearance->filter == NULL ||
+                      tl_nav_passes(clearance->filter, clearance->navmesh->slots[to.slot].tile, to.polygon);
+        if (distance_sq <= search->best_sq && passes) {
+            relax(search, to.slot, to.polygon, distance_sq);
+        }
+    }
+}
+
+static void run(place_search *search)
+{
+    tl_nav_query *query = search->clearance->query;
+    tl_nav_pool_reset(query);
+    relax(search, search->slot, search->polygon, 0.0);
+    while (!search->clearance->is_full) {
+        uint32_t index = tl_nav_heap_pop(query);
+        // Keys are rounded: one more polygon may be looked at than need be, never one less.
+        if (index == TL_NAV_NO_NODE ||
+            (double)query->nodes[index].total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING) > search->best_sq) {
+            return;
+        }
+        search->slot = query->nodes[index].slot;
+        search->polygon = query->nodes[index].polygon;
+        if (!look_into(search)) {
+            return;
+        }
+        step_on(search);
+    }
+}
+
+tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                       float radius, const tl_nav_location *near, float max_distance,
+                                       tl_nav_location *place_out)
+{
+    memset(place_out, 0, sizeof *place_out);
+    uint32_t slot = 0;
+    uint32_t polygon = 0;
+    if (!tl_nav_is_finite(near->point) || !isfinite(radius) || !isfinite(max_distance)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (radius < 0.0f || max_distance < 0.0f) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (!tl_nav_split_ref(navmesh, near->polygon, &slot, &polygon)) {
+        return TL_ERR_NOT_FOUND;
+    }
+    tl_nav_clearance clearance;
+    tl_nav_clearance_begin(query, navmesh, filter, tl_nav_extra_reach(navmesh->slots[slot].tile, radius), &clearance);
+    place_search search;
+    memset(&search, 0, sizeof search);
+    search.clearance = &clearance;
+    search.spot = tl_nav_spot_make((double)near->point.x, (double)near->point.z);
+    search.reach = clearance.reach > 0.0 ? clearance.reach + 0.5 * clearance.slack : 0.0;
+    search.slot = slot;
+    search.polygon = polygon;
+    search.best_sq = (double)max_distance * (double)max_distance * (1.0 + TL_DOUBLE_GAMMA(4));
+    run(&search);
+    if (clearance.is_full) {
+        return TL_ERR_LIMIT;
+    }
+    if (!search.is_found) {
+        return TL_ERR_NOT_FOUND;
+    }
+    tl_nav_met home = { search.best_slot, search.best_polygon };
+    *place_out = tl_nav_settle(&clearance, home, search.best);
+    return TL_OK;
+}

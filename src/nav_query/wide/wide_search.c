@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+//
+// Paths for wide agents: A* over the free pieces of portals.
+//
+// A node is a piece of a portal, crossed in one direction. From it the search goes on to the pieces of the polygon
+// behind it that hang together with it there (free_pieces.c): not to all, as a polygon may be free on both sides of a
+// passage that is too narrow, and not only to those of other portals, as the way around may lead back over the same
+// one. So a goal is reached exactly when there is a free way to it. Pieces are entered where that is shortest
+// (crossing.h), and ways within polygons count as if they were straight: the path is near the shortest, which one is
+// not proven. Source: Hart, Nilsson, Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths,
+// 1968.
+
+#include "nav_query/wide/wide_search.h"
+
+#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/ring_step.h"
+#include "nav_query/plane/crossing.h"
+
+#include <string.h>
+
+// Keys of the two nodes that are no pieces. Edges of a slot are fewer than 2^32 - 1, so no piece has them.
+#define START_KEY UINT64_MAX
+#define GOAL_KEY  (UINT64_MAX - 1u)
+
+// Bits of a key for a piece's number on its edge.
+enum { ORDINAL_BITS = 12 };
+
+// A polygon with its free pieces.
+typedef struct cut_polygon {
+    tl_nav_wall_cell cell;
+    tl_nav_pieces pieces;
+} cut_polygon;
+
+static bool cut_polygon_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, cut_polygon *out)
+{
+    return tl_nav_wall_cell_of(clearance, slot, polygon, clearance->reach, &out->cell) &&
+           tl_nav_cut_cell(clearance, &out->cell, &out->pieces);
+}
+
+// The face of a piece that a straight free way leads to, as it mostly does, or TL_NAV_NO_FACE.
+static uint32_t straight_face(const tl_nav_clearance *clearance, const cut_polygon *cut, tl_nav_spot spot)
+{
+    for (uint32_t i = 0; i < cut->pieces.count; i++) {
+        const tl_nav_piece *piece = &cut->pieces.pieces[i];
+        tl_nav_spot p = cut->cell.corners[piece->edge];
+        tl_nav_spot q = cut->cell.corners[piece->edge + 1 < cut->cell.count ? piece->edge + 1 : 0];
+        tl_nav_spot middle = tl_nav_spot_lerp(p, q, 0.5 * (piece->from + piece->to));
+        if (tl_nav_is_clear(&cut->cell.near, spot, middle, clearance->reach)) {
+            return piece->face;
+        }
+    }
+    return TL_NAV_NO_FACE;
+}
+
+bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end)
+{
+    tl_nav_clearance *clearance = search->clearance;
+    tl_nav_room room = clearance->room;
+    cut_polygon cut;
+    bool is_same = search->start.slot == search->goal.slot && search->start.polygon == search->goal.polygon;
+    tl_nav_spot other = !is_same ? end->spot : end == &search->start ? search->goal.spot : search->start.spot;
+    bool stands = cut_polygon_of(clearance, end->slot, end->polygon, &cut) &&
+                  tl_nav_is_clear(&cut.cell.near, end->spot, end->spot, clearance->reach - clearance->slack);
+    end->face = stands ? straight_face(clearance, &cut, end->spot) : TL_NAV_NO_FACE;
+    if (stands && end->face == TL_NAV_NO_FACE) {
+        bool joined = false;
+        stands = tl_nav_face_of(clearance, cut.cell.corners, cut.cell.count, &cut.cell.near, &cut.pieces, end->spot,
+                                other, &end->face, &joined);
+        search->is_joined = search->is_joined || (joined && is_same);
+    }
+    clearance->room = room;
+    return stands;
+}
+
+static void relax(tl_nav_wide_search *search, uint64_t key, tl_nav_met to, tl_nav_segment portal, tl_nav_spot spot,
+                  float cost, uint32_t from)
+{
+    tl_nav_query *query = search->clearance->query;
+    uint32_t index = tl_nav_pool_get(query, key);
+    if (index == TL_NAV_NO_NODE) {
+        search->clearance->is_full = true;
+        return;
+    }
+    tl_nav_node *node = &query->nodes[index];
+    if (node->heap_at == TL_NAV_NODE_CLOSED || (node->heap_at != TL_NAV_NODE_NEW && cost >= node->cost)) {
+        return;
+    }
+    node->slot = to.slot;
+    node->polygon = to.polygon;
+    node->point = tl_vec3_make((float)spot.x, 0.0f, (float)spot.z);
+    node->cost = cost;
+    node->total = cost + (float)sqrt(tl_nav_spot_distance_sq(spot, search->goal.spot));
+    node->parent = from;
+    tl_nav_wide_portal piece = { (float)portal.a.x, (float)portal.a.z, (float)portal.b.x, (float)portal.b.z };
+    search->portals[index] = piece;
+    tl_nav_heap_improve(query, index);
+}
+
+static tl_nav_spot spot_of(const tl_nav_node *node)
+{
+    return tl_nav_spot_make((double)node->point.x, (double)node->point.z);
+}
+
+static float step_cost(const tl_nav_node *node, tl_nav_spot to)
+{
+    return node->cost + (float)sqrt(tl_nav_spot_distance_sq(spot_of(node), to));
+}
+
+// The share of an outline's edge from p to q at which a spot lies.
+static double share_of(tl_nav_spot p, tl_nav_spot q, tl_nav_spot at)
+{
+    double x = q.x - p.x;
+    double z = q.z - p.z;
+    return ((at.x - p.x) * x + (at.z - p.z) * z) / (x * x + z * z);
+}
+
+// Whether a polygon is the one that the way to a node came from.
+static bool leads_back(const tl_nav_wide_search *search, const tl_nav_node *node, tl_nav_ring_seam across)
+{
+    const tl_nav_node *before = &search->clearance->query->nodes[node->parent];
+    return before->slot == across.slot && before->polygon == across.polygon;
+}
+
+// Whether a polygon belongs to a dead end in which neither the node nor the goal lies.
+static bool is_dead_end(const tl_nav_wide_search *search, const tl_nav_node *node, tl_nav_ring_seam across)
+{
+    const tl_nav_ring_cell *cells = search->clearance->navmesh->slots[across.slot].rings.cells;
+    uint32_t dead_end = cells[across.polygon].dead_end;
+    return dead_end != 0 && !(node->slot == across.slot && cells[node->polygon].dead_end == dead_end) &&
+           !(search->goal.slot == across.slot && cells[search->goal.polygon].dead_end == dead_end);
+}
+
+// How many pieces of an outline's edge lie between two shares of it.
+static uint32_t count_pieces(const tl_nav_pieces *pieces, uint32_t edge, double first, double last)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < pieces->count; i++) {
+        const tl_nav_piece *piece = &pieces->pieces[i];
+        count += piece->edge == edge && tl_nav_most(piece->from, first) < tl_nav_least(piece->to, last) ? 1 : 0;
+    }
+    return count;
+}
+
+// A way out of a polygon: an edge of its ring, which lies on the outline's edge `side`.
+typedef struct way_out {
+    const tl_nav_ring_edge *edge, *end;
+    uint32_t side;
+} way_out;
+
+// Goes over an edge of the ring by all pieces of a face. `entry` is the piece by which the polygon was entered, or
+// NULL.
+static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_polygon *cut, uint32_t face,
+                       const tl_nav_piece *entry, const way_out *way)
+{
+    const tl_nav_clearance *clearance = search->clearance;
+    const tl_nav_node node = clearance->query->nodes[index];
+    const tl_nav_ring_edge *edge = way->edge;
+    uint32_t side = way->side;
+    tl_nav_ring_seam across = tl_nav_ring_across(clearance->navmesh, node.slot, edge->to);
+    if (clearance->filter != NULL &&
+        !tl_nav_passes(clearance->filter, clearance->navmesh->slots[across.slot].tile, across.polygon)) {
+        return;
+    }
+    tl_nav_met to = { across.slot, across.polygon };
+    tl_nav_spot p = cut->cell.corners[side];
+    tl_nav_spot q = cut->cell.corners[side + 1 < cut->cell.count ? side + 1 : 0];
+    // It may be cut from the outline's edge at a seam.
+    double first = share_of(p, q, tl_nav_spot_make((double)edge->x, (double)edge->z));
+    double last = share_of(p, q, tl_nav_spot_make((double)way->end->x, (double)way->end->z));
+    bool is_back = entry != NULL && entry->edge == side && leads_back(search, &node, across);
+    double entry_share = is_back ? share_of(p, q, spot_of(&node)) : 0.0;
+    // A dead end hangs by this edge alone. One that has a single piece of it is left by the way that it was entered.
+    if (is_dead_end(search, &node, across) && count_pieces(&cut->pieces, side, first, last) < 2) {
+        return;
+    }
+    uint64_t place = (uint64_t)(edge - clearance->navmesh->slots[node.slot].rings.edges);
+    uint64_t ordinal = 0;
+    for (uint32_t i = 0; i < cut->pieces.count; i++) {
+        const tl_nav_piece *piece = &cut->pieces.pieces[i];
+        double from = tl_nav_most(piece->from, first);
+        double until = tl_nav_least(piece->to, last);
+        if (piece->edge != side || !(from < until)) {
+            continue;
+        }
+        if (ordinal >> ORDINAL_BITS != 0) {
+            search->clearance->is_full = true;
+            return;
+        }
+        uint64_t key = ((uint64_t)node.slot << 32 | place) << ORDINAL_BITS | ordinal++;
+        // Back by the piece that the way came by leads to nothing but what hangs together with it there: no shorter.
+        bool is_entry = is_back && piece == entry && from <= entry_share && entry_share <= until;
+        if (piece->face == face && !is_entry) {
+            // The polygon across may see the piece's ends otherwise, by a rounding.
+            double margin = tl_nav_least(0.25 * (until - from), clearance->slack / sqrt(tl_nav_spot_distance_sq(p, q)));
+            from += margin;
+            until -= margin;
+            tl_nav_segment portal = { tl_nav_spot_lerp(p, q, from), tl_nav_spot_lerp(p, q, until) };
+            double share = tl_nav_crossing_share(spot_of(&node), search->goal.spot, portal);
+            tl_nav_spot spot = tl_nav_spot_lerp(portal.a, portal.b, share);
+            relax(search, key, to, portal, spot, step_cost(&node, spot), index);
+        }
+    }
+}
+
+static void expand(tl_nav_wide_search *search, uint32_t index)
+{
+    tl_nav_clearance *clearance = search->clearance;
+    const tl_nav_node *node = &clearance->query->nodes[index];
+    tl_nav_room room = clearance->room;
+    cut_polygon cut;
+    if (!cut_polygon_of(clearance, node->slot, node->polygon, &cut)) {
+        return;
+    }
+    uint32_t face = search->start.face;
+    const tl_nav_piece *entry = NULL;
+    if (node->key != START_KEY) {
+        entry = tl_nav_piece_at(&cut.pieces, cut.cell.corners, cut.cell.count, spot_of(node), clearance->slack);
+        face = entry != NULL ? entry->face : TL_NAV_NO_FACE;
+    }
+    bool is_goals = node->slot == search->goal.slot && node->polygon == search->goal.polygon;
+    if (is_goals && face != TL_NAV_NO_FACE && face == search->goal.face) {
+        tl_nav_met at = { node->slot, node->polygon };
+        tl_nav_segment spot = { search->goal.spot, search->goal.spot };
+        relax(search, GOAL_KEY, at, spot, search->goal.spot, step_cost(node, search->goal.spot), index);
+    }
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, node->slot, node->polygon, &count);
+    uint32_t side = 0;
+    for (uint32_t i = 0; i < count && face != TL_NAV_NO_FACE; i++) {
+        const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
+        // A ring's edge starts at the outline's next corner when that side is done; an edge that runs back is not.
+        if (i > 0 && side + 1 < cut.cell.count && ring[i].to != TL_NAV_RING_BACK &&
+            (double)ring[i].x == cut.cell.corners[side + 1].x && (double)ring[i].z == cut.cell.corners[side + 1].z) {
+            side++;
+        }
+        if (tl_nav_ring_is_open(&ring[i])) {
+            way_out way = { &ring[i], end, side };
+            cross_edge(search, index, &cut, face, entry, &way);
+        }
+    }
+    clearance->room = room;
+}
+
+bool tl_nav_wide_run(tl_nav_wide_search *search)
+{
+    tl_nav_query *query = search->clearance->query;
+    tl_nav_met start = { search->start.slot, search->start.polygon };
+    tl_nav_segment from = { search->start.spot, search->start.spot };
+    relax(search, START_KEY, start, from, search->start.spot, 0.0f, TL_NAV_NO_NODE);
+    if (search->is_joined) {
+        tl_nav_met goal = { search->goal.slot, search->goal.polygon };
+        tl_nav_segment to = { search->goal.spot, search->goal.spot };
+        relax(search, GOAL_KEY, goal, to, search->goal.spot, step_cost(&query->nodes[0], search->goal.spot), 0);
+    }
+    while (!search->clearance->is_full) {
+        search->last = tl_nav_heap_pop(query);
+        if (search->last == TL_NAV_NO_NODE || query->nodes[search->last].key == GOAL_KEY) {
+            return search->last != TL_NAV_NO_NODE;
+        }
+        expand(search, search->last);
+    }
+    return false;
+}
+
+uint32_t tl_nav_bend_add(tl_nav_bends *path, uint32_t behind, tl_nav_spot spot, uint32_t slot, uint32_t polygon)
+{
+    if (path->count == path->capacity) {
+        return TL_NAV_NO_NODE;
+    }
+    uint32_t next = behind == TL_NAV_NO_NODE ? TL_NAV_NO_NODE : path->bends[behind].next;
+    tl_nav_wide_bend bend = { spot, { 0.0, 0.0 }, false, false, slot, polygon, 0, behind, next };
+    uint32_t index = path->count++;
+    path->bends[index] = bend;
+    if (behind != TL_NAV_NO_NODE) {
+        path->bends[behind].next = index;
+    }
+    if (next != TL_NAV_NO_NODE) {
+        path->bends[next].before = index;
+    } else {
+        path->last = index;
+    }
+    return index;
+}

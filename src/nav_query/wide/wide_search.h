@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// A wide path is made in three steps: which portals' pieces it passes (wide_search.c), how it goes from one to the
+// next within each polygon (wide_detour.c), and how short it gets when it is pulled (wide_pull.c).
+
+#ifndef TALUS_SRC_NAV_QUERY_WIDE_SEARCH_H
+#define TALUS_SRC_NAV_QUERY_WIDE_SEARCH_H
+
+#include "nav_query/wide/clearance.h"
+
+#include <talus/nav_wide.h>
+
+/// A place of a path. Paths are lists, so that they may be changed in the middle.
+typedef struct tl_nav_wide_bend {
+    tl_nav_spot spot;
+    tl_nav_spot center; ///< the spot is a corner of the cap around it, if is_cap
+    bool is_cap;
+    bool is_taut;           ///< pulled in vain, and since then it has the same neighbours
+    uint32_t slot, polygon; ///< the path goes on in it
+    uint32_t pass;          ///< the caller's: how many portals it is behind (wide_straight.c)
+    uint32_t before, next;  ///< TL_NAV_NO_NODE at the ends
+} tl_nav_wide_bend;
+
+typedef struct tl_nav_bends {
+    tl_nav_wide_bend *bends; ///< [0]: the path's start
+    uint32_t count, capacity;
+    uint32_t last; ///< the path's end
+} tl_nav_bends;
+
+/// A new bend behind another (TL_NAV_NO_NODE: the first of all), no corner of a cap; its number, or TL_NAV_NO_NODE: no
+/// room.
+uint32_t tl_nav_bend_add(tl_nav_bends *path, uint32_t behind, tl_nav_spot spot, uint32_t slot, uint32_t polygon);
+
+typedef struct tl_nav_wide_end {
+    tl_nav_spot spot;
+    uint32_t slot, polygon;
+    uint32_t face; ///< of its polygon's pieces; TL_NAV_NO_FACE: it can leave by none
+} tl_nav_wide_end;
+
+/// A stretch of a portal, from its right end to its left one.
+typedef struct tl_nav_wide_portal {
+    float right_x, right_z, left_x, left_z;
+} tl_nav_wide_portal;
+
+typedef struct tl_nav_wide_search {
+    tl_nav_clearance *clearance;
+    tl_nav_wide_end start, goal;
+    tl_nav_wide_portal *portals; ///< [max_nodes]: the piece that each node crosses
+    bool is_joined;              ///< there is a free way from start to goal within their polygon
+    uint32_t last;               ///< node of the goal, when found
+} tl_nav_wide_search;
+
+/// Looks where an end stands. False: nearer to a wall than the reach, or out of room (is_full).
+bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end);
+
+/// Finds the pieces of portals that lead to the goal: nodes of the query, from `last` over their parents to the
+/// start's. False: there are none, or the query is out of nodes or room (is_full).
+bool tl_nav_wide_run(tl_nav_wide_search *search);
+
+/// Writes the path that was found: pulled straight through its portals, with detours where a wall is too near to that.
+/// False: out of room (is_full).
+bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_bends *path);
+
+/// Adds the bends of a free way, the shortest there is, between two that stand in one polygon, `behind` and its next.
+/// False: out of room (is_full).
+bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_t behind);
+
+/// Pulls a free path taut. False: out of room (is_full); the path is free all the same.
+bool tl_nav_wide_pull(tl_nav_clearance *clearance, tl_nav_bends *path);
+
+#endif

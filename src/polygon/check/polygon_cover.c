@@ -1,0 +1,462 @@
+// SPDX-License-Identifier: MIT
+//
+// The validator's second half: do the polygons of one contour cover it exactly?
+//
+// Overlap: two convex polygons are apart when one of them has an edge with all of the other on its outer side (the
+// separating axis theorem in the plane). Covering: disjoint polygons inside an outline whose area is the outline's.
+// That they are inside follows from their common outline: edges that no other polygon of the contour runs back along
+// must be just the edges of the contour, less its bridges.
+
+#include "polygon/check/polygon_check.h"
+
+#include "base/assert.h"
+#include "base/radix_sort.h"
+#include "polygon/outline/key_table.h"
+
+#include <string.h>
+
+// Polygons of one contour: a range of `order`. Those of several contours are parted into pieces that hang together by
+// edges: two pieces are different floors, which may lie over one another.
+typedef struct cover {
+    tl_polygon_checker *checker;
+    tl_sort_item *order; // polygons by group, then by their lowest x
+    tl_sort_item *vertices;
+    uint32_t first, end;
+} cover;
+
+typedef struct lattice_box {
+    int32_t min_x, max_x, min_z, max_z;
+} lattice_box;
+
+static lattice_box box_of(const tl_polygon_mesh *mesh, uint32_t p)
+{
+    tl_lattice_point a = tl_mesh_corner(mesh, mesh->first[p]);
+    lattice_box box = { a.x, a.x, a.z, a.z };
+    for (uint32_t k = mesh->first[p] + 1; k < mesh->first[p + 1]; k++) {
+        a = tl_mesh_corner(mesh, k);
+        box.min_x = a.x < box.min_x ? a.x : box.min_x;
+        box.max_x = a.x > box.max_x ? a.x : box.max_x;
+        box.min_z = a.z < box.min_z ? a.z : box.min_z;
+        box.max_z = a.z > box.max_z ? a.z : box.max_z;
+    }
+    return box;
+}
+
+static bool has_separating_edge(const tl_polygon_mesh *mesh, uint32_t p, uint32_t q)
+{
+    for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+        tl_lattice_point a = tl_mesh_corner(mesh, k);
+        tl_lattice_point b = tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k));
+        bool separates = true;
+        for (uint32_t j = mesh->first[q]; separates && j < mesh->first[q + 1]; j++) {
+            separates = tl_turn(a, b, tl_mesh_corner(mesh, j)) <= 0;
+        }
+        if (separates) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static uint32_t x_key(int32_t x)
+{
+    return (uint32_t)(x + TL_MAX_CONTOUR_COORDINATE);
+}
+
+// A key of `order`: x_key, at most 2 * TL_MAX_CONTOUR_COORDINATE = 2^30, under the 33 bits of the group.
+enum { GROUP_SHIFT = 31 };
+
+static uint32_t group_x(uint64_t key)
+{
+    return (uint32_t)(key & (((uint64_t)1 << GROUP_SHIFT) - 1));
+}
+
+typedef struct height_range {
+    int32_t low, high;
+} height_range;
+
+static height_range heights_of(const tl_polygon_mesh *mesh, uint32_t p)
+{
+    height_range range = { INT32_MAX, INT32_MIN };
+    for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+        int32_t y = mesh->vertices[3 * (size_t)mesh->indices[k] + 1];
+        range.low = y < range.low ? y : range.low;
+        range.high = y > range.high ? y : range.high;
+    }
+    return range;
+}
+
+// A stair or a spiral joins floors that lie over one another. One contour never holds both, but polygons of several
+// contours that hang together may; what tells such floors apart is that their heights do not meet.
+static bool are_floors_apart(const tl_polygon_mesh *mesh, uint32_t p, uint32_t q)
+{
+    if (mesh->contours[p] != TL_SEVERAL_CONTOURS) {
+        return false;
+    }
+    height_range a = heights_of(mesh, p), b = heights_of(mesh, q);
+    return a.high < b.low || b.high < a.low;
+}
+
+static bool is_vertex_apart(const tl_polygon_mesh *mesh, uint32_t p, uint32_t vertex)
+{
+    height_range range = heights_of(mesh, p);
+    int32_t y = mesh->vertices[3 * (size_t)vertex + 1];
+    return mesh->contours[p] == TL_SEVERAL_CONTOURS && (y < range.low || y > range.high);
+}
+
+static void check_overlaps(cover *c)
+{
+    const tl_polygon_mesh *mesh = c->checker->mesh;
+    for (uint32_t i = c->first; i < c->end; i++) {
+        lattice_box a = box_of(mesh, c->order[i].value);
+        for (uint32_t j = i + 1; j < c->end && group_x(c->order[j].key) < x_key(a.max_x); j++) {
+            lattice_box b = box_of(mesh, c->order[j].value);
+            if (a.min_z < b.max_z && b.min_z < a.max_z &&
+                !has_separating_edge(mesh, c->order[i].value, c->order[j].value) &&
+                !has_separating_edge(mesh, c->order[j].value, c->order[i].value) &&
+                !are_floors_apart(mesh, c->order[i].value, c->order[j].value)) {
+                tl_polygon_checker_note(c->checker, TL_POLYGON_FAULT_OVERLAP, "polygon", c->order[j].value);
+            }
+        }
+    }
+}
+
+static bool lies_inside_an_edge(const tl_polygon_mesh *mesh, uint32_t p, tl_lattice_point v)
+{
+    for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+        tl_lattice_point a = tl_mesh_corner(mesh, k);
+        tl_lattice_point b = tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k));
+        if (tl_turn(a, b, v) == 0 && tl_within_span(a, b, v) && !tl_same_point(a, v) && !tl_same_point(b, v)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The contour's vertices, sorted by x, against its polygons' edges.
+static void check_t_junctions(cover *c)
+{
+    const tl_polygon_mesh *mesh = c->checker->mesh;
+    uint32_t count = 0;
+    uint64_t last = UINT64_MAX;
+    uint32_t filled = 0;
+    for (uint32_t i = c->first; i < c->end; i++) {
+        uint32_t p = c->order[i].value;
+        for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+            tl_lattice_point v = tl_mesh_corner(mesh, k);
+            tl_sort_item item = { (uint64_t)x_key(v.x) << 32 | x_key(v.z), mesh->indices[k], 0 };
+            c->vertices[filled++] = item;
+        }
+    }
+    tl_radix_sort(c->vertices, c->vertices + filled, filled);
+    for (uint32_t i = 0; i < filled; i++) {
+        if (c->vertices[i].key != last) {
+            last = c->vertices[i].key;
+            c->vertices[count++] = c->vertices[i];
+        }
+    }
+    for (uint32_t i = c->first; i < c->end; i++) {
+        uint32_t p = c->order[i].value;
+        lattice_box box = box_of(mesh, p);
+        uint32_t low = 0;
+        for (uint32_t rest = count; rest > 0;) {
+            uint32_t half = rest / 2;
+            bool below = (uint32_t)(c->vertices[low + half].key >> 32) < x_key(box.min_x);
+            low = below ? low + half + 1 : low;
+            rest = below ? rest - half - 1 : half;
+        }
+        for (; low < count && (uint32_t)(c->vertices[low].key >> 32) <= x_key(box.max_x); low++) {
+            tl_lattice_point v = tl_mesh_point(mesh, c->vertices[low].value);
+            if (v.z >= box.min_z && v.z <= box.max_z && lies_inside_an_edge(mesh, p, v) &&
+                !is_vertex_apart(mesh, p, c->vertices[low].value)) {
+                tl_polygon_checker_note(c->checker, TL_POLYGON_FAULT_T_JUNCTION, "polygon", p);
+            }
+        }
+    }
+}
+
+static uint32_t find_root(uint32_t *parent, uint32_t p)
+{
+    while (parent[p] != p) {
+        parent[p] = parent[parent[p]];
+        p = parent[p];
+    }
+    return p;
+}
+
+// Joins neighbours of several contours; a piece is named by its lowest polygon.
+static uint32_t *join_pieces(const tl_polygon_mesh *mesh, tl_arena *arena)
+{
+    uint32_t *parent = TL_PUSH(arena, uint32_t, mesh->polygon_count);
+    for (uint32_t p = 0; parent != NULL && p < mesh->polygon_count; p++) {
+        parent[p] = p;
+    }
+    for (uint32_t p = 0; parent != NULL && p < mesh->polygon_count; p++) {
+        for (uint32_t k = mesh->first[p]; mesh->contours[p] == TL_SEVERAL_CONTOURS && k < mesh->first[p + 1]; k++) {
+            uint32_t beside = mesh->neighbours[k];
+            if (beside < mesh->polygon_count && mesh->contours[beside] == TL_SEVERAL_CONTOURS) {
+                uint32_t a = find_root(parent, p);
+                uint32_t b = find_root(parent, beside);
+                parent[a > b ? a : b] = a > b ? b : a;
+            }
+        }
+    }
+    return parent;
+}
+
+static tl_result sort_polygons(cover *c)
+{
+    const tl_polygon_mesh *mesh = c->checker->mesh;
+    tl_arena *arena = &c->checker->arena;
+    c->order = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)mesh->polygon_count);
+    c->vertices = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)mesh->index_count);
+    uint32_t *pieces = join_pieces(mesh, arena);
+    if (c->order == NULL || c->vertices == NULL || pieces == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t p = 0; p < mesh->polygon_count; p++) {
+        bool is_shared = mesh->contours[p] == TL_SEVERAL_CONTOURS;
+        uint64_t group = is_shared ? ((uint64_t)1 << 32) + find_root(pieces, p) : mesh->contours[p];
+        tl_sort_item item = { group << GROUP_SHIFT | x_key(box_of(mesh, p).min_x), p, 0 };
+        c->order[p] = item;
+    }
+    tl_radix_sort(c->order, c->order + mesh->polygon_count, mesh->polygon_count);
+    return TL_OK;
+}
+
+// Doubled area of the polygons of each contour; polygons of several contours go into *shared. Modulo 2^64: a mesh that
+// is wrong may have any number of polygons on one place.
+static uint64_t *sum_areas(tl_polygon_checker *checker, uint64_t *shared)
+{
+    const tl_polygon_mesh *mesh = checker->mesh;
+    uint64_t *areas = TL_PUSH_ZERO(&checker->arena, uint64_t, checker->contours->contour_count);
+    *shared = 0;
+    for (uint32_t p = 0; areas != NULL && p < mesh->polygon_count; p++) {
+        uint64_t *sum = mesh->contours[p] == TL_SEVERAL_CONTOURS ? shared : &areas[mesh->contours[p]];
+        for (uint32_t k = mesh->first[p] + 1; k + 1 < mesh->first[p + 1]; k++) {
+            *sum += (uint64_t)tl_turn(tl_mesh_corner(mesh, mesh->first[p]), tl_mesh_corner(mesh, k),
+                                      tl_mesh_corner(mesh, k + 1));
+        }
+    }
+    return areas;
+}
+
+static int64_t contour_area2(const tl_contour_set *set, uint32_t index)
+{
+    const tl_contour_vertex *v = set->vertices + set->contours[index].first_vertex;
+    uint64_t sum = 0;
+    for (uint32_t k = 1; k + 1 < set->contours[index].vertex_count; k++) {
+        tl_lattice_point a = { v[0].x, v[0].z }, b = { v[k].x, v[k].z }, d = { v[k + 1].x, v[k + 1].z };
+        sum += (uint64_t)tl_turn(a, b, d);
+    }
+    return (int64_t)sum;
+}
+
+// is_whole_out[i]: contour i is covered by polygons of its own alone and has no note.
+static tl_result check_areas(tl_polygon_checker *checker, uint8_t *is_whole)
+{
+    const tl_polygon_mesh *mesh = checker->mesh;
+    uint64_t shared;
+    uint64_t *areas = sum_areas(checker, &shared);
+    if (areas == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t note = 0;
+    uint64_t missing = 0;
+    for (uint32_t i = 0; i < checker->contours->contour_count; i++) {
+        int64_t expected = contour_area2(checker->contours, i);
+        is_whole[i] = 1;
+        for (; note < mesh->note_count && mesh->notes[note].contour <= i; note++) {
+            if (mesh->notes[note].contour == i) {
+                expected = mesh->notes[note].covered_area2;
+                is_whole[i] = 0;
+            }
+        }
+        // Polygons of several contours may hold the rest.
+        int64_t rest = (int64_t)((uint64_t)expected - areas[i]);
+        if (rest < 0 || (rest > 0 && shared == 0)) {
+            tl_polygon_checker_note(checker, TL_POLYGON_FAULT_AREA, "contour", i);
+        }
+        if (rest > 0) {
+            missing += (uint64_t)rest;
+            is_whole[i] = 0;
+        }
+    }
+    if (shared != 0 && missing != shared) {
+        tl_polygon_checker_note(checker, TL_POLYGON_FAULT_AREA, "contour", TL_NO_ELEMENT);
+    }
+    return TL_OK;
+}
+
+// Undirected edges with how much more often they were run along forward than backward.
+typedef struct edge_sums {
+    tl_key_table places; // of points
+    tl_key_table edges;
+    int32_t *sums;
+    uint32_t point_count, edge_count;
+} edge_sums;
+
+static uint32_t number_of(edge_sums *e, tl_lattice_point p)
+{
+    uint32_t *place = tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z));
+    if (*place == TL_NO_VALUE) {
+        *place = e->point_count++;
+    }
+    return *place;
+}
+
+static void add_edge(edge_sums *e, tl_lattice_point from, tl_lattice_point to, int32_t times)
+{
+    uint32_t a = number_of(e, from);
+    uint32_t b = number_of(e, to);
+    if (a == b) { // a run to a vertex that was passed over, and back
+        return;
+    }
+    uint32_t *place = tl_key_table_at(&e->edges, a < b ? tl_pair_key(a, b) : tl_pair_key(b, a));
+    if (*place == TL_NO_VALUE) {
+        *place = e->edge_count;
+        e->sums[e->edge_count++] = 0;
+    }
+    e->sums[*place] += a < b ? times : -times;
+}
+
+// Whether a polygon has this edge: those of the contour are numbered behind the polygons'.
+static bool has_edge(edge_sums *e, uint32_t polygon_edges, tl_lattice_point from, tl_lattice_point to)
+{
+    uint32_t a = *tl_key_table_at(&e->places, tl_pair_key((uint32_t)from.x, (uint32_t)from.z));
+    uint32_t b = *tl_key_table_at(&e->places, tl_pair_key((uint32_t)to.x, (uint32_t)to.z));
+    if (a == TL_NO_VALUE || b == TL_NO_VALUE) {
+        return false;
+    }
+    uint32_t edge = *tl_key_table_at(&e->edges, a < b ? tl_pair_key(a, b) : tl_pair_key(b, a));
+    return edge < polygon_edges; // not TL_NO_VALUE either
+}
+
+static tl_lattice_point point_of(const tl_contour_vertex *vertex)
+{
+    tl_lattice_point p = { vertex->x, vertex->z };
+    return p;
+}
+
+static bool is_in_mesh(edge_sums *e, const tl_contour_vertex *vertex)
+{
+    tl_lattice_point p = point_of(vertex);
+    return *tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z)) != TL_NO_VALUE;
+}
+
+static bool may_be_gone(const tl_contour_vertex *vertex)
+{
+    return (vertex->flags & TL_CONTOUR_BORDER_VERTEX) != 0;
+}
+
+// A vertex that is surely there: no border vertex, or one that a polygon's edge comes to from the vertex before it that
+// the mesh has. `count` when there is none.
+static uint32_t surely_kept(edge_sums *e, uint32_t polygon_edges, const tl_contour_vertex *vertices, uint32_t count)
+{
+    uint32_t last = count;
+    for (uint32_t k = 0; k < count; k++) {
+        if (is_in_mesh(e, &vertices[k])) {
+            last = k;
+            if (!may_be_gone(&vertices[k])) {
+                return k;
+            }
+        }
+    }
+    for (uint32_t k = 0; k < count && last < count; k++) {
+        if (is_in_mesh(e, &vertices[k])) {
+            if (has_edge(e, polygon_edges, point_of(&vertices[last]), point_of(&vertices[k]))) {
+                return k;
+            }
+            last = k;
+        }
+    }
+    return count;
+}
+
+// The contour's edges, -1 times each. Vertices that no polygon has (border vertices, and those in straight runs) are
+// passed over: where their removal changed the outline, other edges will not cancel. Of a border vertex that is asked
+// by its edge, which is never a bridge: the contour may come by the same place again on another floor.
+static void add_contour_backward(edge_sums *e, const tl_contour_vertex *vertices, uint32_t count)
+{
+    const uint32_t polygon_edges = e->edge_count;
+    const uint32_t start = surely_kept(e, polygon_edges, vertices, count);
+    if (start == count) {
+        return;
+    }
+    const tl_lattice_point first = point_of(&vertices[start]);
+    tl_lattice_point last = first;
+    for (uint32_t i = 1; i < count; i++) {
+        const tl_contour_vertex *vertex = &vertices[(start + i) % count];
+        tl_lattice_point p = point_of(vertex);
+        if (is_in_mesh(e, vertex) && (!may_be_gone(vertex) || has_edge(e, polygon_edges, last, p))) {
+            add_edge(e, last, p, -1);
+            last = p;
+        }
+    }
+    add_edge(e, last, first, -1);
+}
+
+// The polygons' edges, and the contour's backward, must cancel.
+static tl_result check_outline(cover *c, uint32_t contour_index)
+{
+    const tl_polygon_mesh *mesh = c->checker->mesh;
+    const tl_contour_set *set = c->checker->contours;
+    tl_arena *arena = &c->checker->arena;
+    const tl_contour *contour = &set->contours[contour_index];
+    uint64_t edges = contour->vertex_count;
+    for (uint32_t i = c->first; i < c->end; i++) {
+        edges += mesh->first[c->order[i].value + 1] - mesh->first[c->order[i].value];
+    }
+    edge_sums e;
+    memset(&e, 0, sizeof e);
+    e.sums = TL_PUSH(arena, int32_t, edges);
+    if (e.sums == NULL || !tl_key_table_init(&e.places, arena, edges) || !tl_key_table_init(&e.edges, arena, edges)) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = c->first; i < c->end; i++) {
+        uint32_t p = c->order[i].value;
+        for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
+            add_edge(&e, tl_mesh_corner(mesh, k), tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k)), 1);
+        }
+    }
+    add_contour_backward(&e, set->vertices + contour->first_vertex, contour->vertex_count);
+    for (uint32_t i = 0; i < e.edge_count; i++) {
+        if (e.sums[i] != 0) {
+            tl_polygon_checker_note(c->checker, TL_POLYGON_FAULT_OUTLINE, "contour", contour_index);
+            break;
+        }
+    }
+    return TL_OK;
+}
+
+tl_result tl_polygon_check_cover(tl_polygon_checker *checker)
+{
+    cover c;
+    memset(&c, 0, sizeof c);
+    c.checker = checker;
+    uint8_t *is_whole = NULL;
+    TL_TRY(sort_polygons(&c));
+    if (checker->contours != NULL) {
+        is_whole = TL_PUSH(&checker->arena, uint8_t, checker->contours->contour_count);
+        if (is_whole == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        TL_TRY(check_areas(checker, is_whole));
+    }
+    for (c.first = 0; c.first < checker->mesh->polygon_count; c.first = c.end) {
+        uint64_t group = c.order[c.first].key >> GROUP_SHIFT;
+        uint32_t contour = checker->mesh->contours[c.order[c.first].value];
+        c.end = c.first;
+        while (c.end < checker->mesh->polygon_count && c.order[c.end].key >> GROUP_SHIFT == group) {
+            c.end++;
+        }
+        check_overlaps(&c);
+        check_t_junctions(&c);
+        if (is_whole != NULL && contour != TL_SEVERAL_CONTOURS && is_whole[contour]) {
+            tl_arena_mark mark = tl_arena_get_mark(&checker->arena);
+            TL_TRY(check_outline(&c, contour));
+            tl_arena_rollback(&checker->arena, mark);
+        }
+    }
+    return TL_OK;
+}

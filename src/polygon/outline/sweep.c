@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+//
+// A line sweeps over the points by rising x, then z, and keeps the segments that it crosses in order. Two segments that
+// meet become neighbours before they do, so it is enough to test neighbours when they become such, and each point
+// against the segments around it.
+// Source: Shamos, Hoey, "Geometric intersection problems", 1976; the degenerate cases as in Bentley, Ottmann, 1979,
+// without crossing events, since the first contact ends the sweep.
+//
+// The order is kept in a treap whose priorities are hashes of the segments' numbers, threaded by a list, so that
+// neighbours are found at once. All tests are signs of turns, exact.
+
+#include "polygon/outline/sweep.h"
+
+#include "base/hash.h"
+#include "base/radix_sort.h"
+
+#define NONE UINT32_MAX
+
+// A segment on the sweep line.
+typedef struct sweep_item {
+    uint32_t child[2]; // below, above
+    uint32_t parent;
+    uint32_t neighbour[2];       // next below, next above
+    uint32_t from, to;           // points, `from` first on the sweep's way
+    tl_lattice_point begin, end; // where they are: on the way down the tree each item is looked at once
+} sweep_item;
+
+typedef struct sweep {
+    const tl_lattice_point *points;
+    sweep_item *items; // [segment]
+    uint32_t root;
+    uint32_t *first; // [points + 1] segments at each point
+    uint32_t *around;
+} sweep;
+
+static bool comes_first(tl_lattice_point a, tl_lattice_point b)
+{
+    return a.x != b.x ? a.x < b.x : a.z < b.z;
+}
+
+static uint64_t priority(uint32_t segment)
+{
+    return tl_hash_mix(segment);
+}
+
+static void replace_child(sweep *s, uint32_t parent, uint32_t old, uint32_t item)
+{
+    if (parent == NONE) {
+        s->root = item;
+    } else {
+        s->items[parent].child[s->items[parent].child[1] == old] = item;
+    }
+    if (item != NONE) {
+        s->items[item].parent = parent;
+    }
+}
+
+// Rotates an item above its parent.
+static void rotate_up(sweep *s, uint32_t item)
+{
+    uint32_t parent = s->items[item].parent;
+    int side = s->items[parent].child[1] == item;
+    uint32_t inner = s->items[item].child[!side];
+    replace_child(s, s->items[parent].parent, parent, item);
+    s->items[parent].child[side] = inner;
+    if (inner != NONE) {
+        s->items[inner].parent = parent;
+    }
+    s->items[item].child[!side] = parent;
+    s->items[parent].parent = item;
+}
+
+// Puts an item between two that are neighbours now, either of which may be missing.
+static void insert_between(sweep *s, uint32_t item, uint32_t below, uint32_t above)
+{
+    sweep_item *i = &s->items[item];
+    i->child[0] = i->child[1] = NONE;
+    i->neighbour[0] = below;
+    i->neighbour[1] = above;
+    if (below != NONE) {
+        s->items[below].neighbour[1] = item;
+    }
+    if (above != NONE) {
+        s->items[above].neighbour[0] = item;
+    }
+    // Of two neighbours one has no child towards the other.
+    if (below == NONE && above == NONE) {
+        s->root = item;
+        i->parent = NONE;
+        return;
+    }
+    int side = below != NONE && s->items[below].child[1] == NONE;
+    uint32_t parent = side ? below : above;
+    s->items[parent].child[side] = item;
+    i->parent = parent;
+    while (i->parent != NONE && priority(item) < priority(i->parent)) {
+        rotate_up(s, item);
+    }
+}
+
+static void take_out(sweep *s, uint32_t item)
+{
+    sweep_item *i = &s->items[item];
+    while (i->child[0] != NONE && i->child[1] != NONE) {
+        rotate_up(s, priority(i->child[0]) < priority(i->child[1]) ? i->child[0] : i->child[1]);
+    }
+    replace_child(s, i->parent, item, i->child[0] != NONE ? i->child[0] : i->child[1]);
+    if (i->neighbour[0] != NONE) {
+        s->items[i->neighbour[0]].neighbour[1] = i->neighbour[1];
+    }
+    if (i->neighbour[1] != NONE) {
+        s->items[i->neighbour[1]].neighbour[0] = i->neighbour[0];
+    }
+}
+
+// The segments next below and above where one from `point` to `target` begins (NONE: the point itself). False: one runs
+// through the point or along that segment.
+static bool locate(const sweep *s, uint32_t point, uint32_t target, uint32_t around[2])
+{
+    around[0] = around[1] = NONE;
+    tl_lattice_point p = s->points[point];
+    for (uint32_t item = s->root; item != NONE;) {
+        const sweep_item *i = &s->items[item];
+        int64_t turn = i->from == point ? tl_turn(p, i->end, s->points[target]) : tl_turn(i->begin, i->end, p);
+        if (turn == 0) {
+            return false;
+        }
+        // On the left lies what is above, so the segment is below.
+        around[turn < 0] = item;
+        item = i->child[turn > 0];
+    }
+    return true;
+}
+
+// Neighbours that do not share an end and meet.
+static bool clash(const sweep *s, uint32_t below, uint32_t above)
+{
+    if (below == NONE || above == NONE) {
+        return false;
+    }
+    const sweep_item *i = &s->items[below];
+    const sweep_item *j = &s->items[above];
+    if (i->from == j->from || i->from == j->to || i->to == j->from || i->to == j->to) {
+        // Should they overlap, an end of one lies inside the other and is found there.
+        return false;
+    }
+    tl_lattice_point a = i->begin, b = i->end, c = j->begin, d = j->end;
+    // Both are in order now; they meet when the one that ends first ends on the wrong side of the other, or on it.
+    return comes_first(b, d) ? tl_turn(c, d, b) >= 0 : tl_turn(a, b, d) <= 0;
+}
+
+// Takes out the segments that end in a point. Those next to the last one, after the others are gone, are next to the
+// point, unless a segment that runs through the point stood between them: then it is one of them. Returns how many.
+static uint32_t end_segments(sweep *s, uint32_t point, uint32_t around[2])
+{
+    uint32_t ended = 0;
+    for (uint32_t k = s->first[point]; k < s->first[point + 1]; k++) {
+        const sweep_item *i = &s->items[s->around[k]];
+        if (i->to == point) {
+            around[0] = i->neighbour[0];
+            around[1] = i->neighbour[1];
+            take_out(s, s->around[k]);
+            ended++;
+        }
+    }
+    return ended;
+}
+
+static bool runs_through(const sweep *s, uint32_t item, uint32_t point)
+{
+    return item != NONE && tl_turn(s->items[item].begin, s->items[item].end, s->points[point]) == 0;
+}
+
+// Where to put one of two segments that begin in a point, the other one being there. False: one runs along the other.
+static bool locate_beside(const sweep *s, uint32_t other, uint32_t item, uint32_t around[2])
+{
+    const sweep_item *o = &s->items[other];
+    int64_t turn = tl_turn(o->begin, o->end, s->items[item].end);
+    around[0] = turn > 0 ? other : o->neighbour[0];
+    around[1] = turn > 0 ? o->neighbour[1] : other;
+    return turn != 0;
+}
+
+// Puts in the segments that begin in a point; around[] is known where others ended there. False: a contact.
+static bool begin_segments(sweep *s, uint32_t point, uint32_t around[2], bool is_located)
+{
+    uint32_t begun = 0, first = NONE;
+    for (uint32_t k = s->first[point]; k < s->first[point + 1]; k++) {
+        uint32_t item = s->around[k];
+        if (s->items[item].from != point) {
+            continue;
+        }
+        bool apart = begun == 1                 ? locate_beside(s, first, item, around)
+                     : begun > 0 || !is_located ? locate(s, point, s->items[item].to, around)
+                                                : true;
+        if (!apart) {
+            return false;
+        }
+        insert_between(s, item, around[0], around[1]);
+        first = begun == 0 ? item : first;
+        begun++;
+    }
+    for (uint32_t k = s->first[point]; k < s->first[point + 1] && begun > 0; k++) {
+        uint32_t item = s->around[k];
+        if (s->items[item].from == point &&
+            (clash(s, s->items[item].neighbour[0], item) || clash(s, item, s->items[item].neighbour[1]))) {
+            return false;
+        }
+    }
+    return begun > 0 || !clash(s, around[0], around[1]);
+}
+
+// False: a contact at the point, or of segments that have become neighbours there. All points are ends of segments.
+static bool pass_point(sweep *s, uint32_t point)
+{
+    uint32_t around[2] = { NONE, NONE };
+    uint32_t ended = end_segments(s, point, around);
+    if (ended > 0 && (runs_through(s, around[0], point) || runs_through(s, around[1], point))) {
+        return false;
+    }
+    return begin_segments(s, point, around, ended > 0);
+}
+
+static bool gather(sweep *s, tl_arena *arena, uint32_t point_count, const tl_lattice_segment *segments, uint32_t count)
+{
+    s->items = TL_PUSH(arena, sweep_item, count);
+    s->around = TL_PUSH(arena, uint32_t, 2 * (uint64_t)count);
+    s->first = TL_PUSH_ZERO(arena, uint32_t, (uint64_t)point_count + 2);
+    if (s->items == NULL || s->around == NULL || s->first == NULL) {
+        return false;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        bool forward = comes_first(s->points[segments[i].a], s->points[segments[i].b]);
+        s->items[i].from = forward ? segments[i].a : segments[i].b;
+        s->items[i].to = forward ? segments[i].b : segments[i].a;
+        s->items[i].begin = s->points[s->items[i].from];
+        s->items[i].end = s->points[s->items[i].to];
+        s->first[segments[i].a + 2]++;
+        s->first[segments[i].b + 2]++;
+    }
+    // A counting sort by point; first[] is shifted by one while it is filled.
+    for (uint32_t p = 0; p < point_count; p++) {
+        s->first[p + 2] += s->first[p + 1];
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        s->around[s->first[segments[i].a + 1]++] = i;
+        s->around[s->first[segments[i].b + 1]++] = i;
+    }
+    s->root = NONE;
+    return true;
+}
+
+tl_result tl_sweep_segments(tl_arena *arena, const tl_lattice_point *points, uint32_t point_count,
+                            const tl_lattice_segment *segments, uint32_t segment_count, bool *apart_out)
+{
+    sweep s;
+    s.points = points;
+    tl_sort_item *order = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)point_count);
+    if (order == NULL || !gather(&s, arena, point_count, segments, segment_count)) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t p = 0; p < point_count; p++) {
+        // Flipping the sign bit makes the unsigned order the signed one.
+        uint64_t x = (uint32_t)points[p].x ^ 0x80000000u, z = (uint32_t)points[p].z ^ 0x80000000u;
+        tl_sort_item item = { x << 32 | z, p, 0 };
+        order[p] = item;
+    }
+    tl_radix_sort(order, order + point_count, point_count);
+    *apart_out = true;
+    for (uint32_t i = 1; i < point_count && *apart_out; i++) {
+        *apart_out = order[i].key != order[i - 1].key;
+    }
+    for (uint32_t i = 0; i < point_count && *apart_out; i++) {
+        *apart_out = pass_point(&s, order[i].value);
+    }
+    return TL_OK;
+}

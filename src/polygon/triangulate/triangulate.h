@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+//
+// Triangulation of one outline by cutting off corners, shortest partition edge first.
+
+#ifndef TALUS_SRC_POLYGON_TRIANGULATE_H
+#define TALUS_SRC_POLYGON_TRIANGULATE_H
+
+#include "base/arena.h"
+#include "polygon/outline/lattice.h"
+#include "polygon/outline/trace_steps.h"
+
+#define TL_NO_EDGE UINT32_MAX
+
+/// Cuts a weakly simple outline of `count` >= 3 points into count - 2 triangles, all of positive area.
+///
+/// Edges may coincide there and back (bridges to holes) and points may coincide, but no point lies inside an edge, no
+/// two edges cross, and no point is a spike's tip: what tl_outline_prepare hands out.
+/// Triangle t has the corners triangles_out[3t .. 3t + 2], indices of points, in the order (before, cut corner, after);
+/// triangles come in the order they were cut. twins_out[3t + k] is the number (3 * triangle + edge) of the same
+/// partition edge seen from the other triangle, or TL_NO_EDGE on the outline; edge k runs from corner k to corner k
+/// + 1. `tracer` may be NULL. TL_ERR_SELF_INTERSECTION: no valid partition was left, so the outline was not as
+/// described.
+tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint32_t count,
+                         const tl_step_tracer *tracer, uint32_t *triangles_out, uint32_t *twins_out);
+
+#endif

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: MIT
+//
+// The other way to part a soup: a k-d tree. Planes part space, not triangles: what a plane cuts is stored on both
+// sides, clipped to each, so cells never overlap and a ray meets them strictly one after the other. That is what the
+// text puts its pairs into; the wide nodes and the leaves are those of the box tree, so the two can be compared, and
+// every query runs on both.
+//
+// Planes are chosen by the surface area heuristic, from the top down. Costs of planes can only have their minimum
+// where a clipped reference begins or ends: in small cells all of those are tried in one sweep over sorted events, in
+// large ones the borders of bins, which cost a count instead of a sort and lose little. A cell at whose best plane
+// nothing is won (a fan around a corner, which no plane parts) is shared out among leaves by count.
+//
+// A triangle that lies in several leaves need not be remembered while a ray is under way (mailboxes): to find it twice
+// gives the same t twice, and what lies behind the best hit is dropped before it is decided.
+//
+// Sources: Ingo Wald, Vlastimil Havran, On building fast kd-Trees for Ray Tracing, and on doing that in O(N log N),
+// 2006 (costs, sweep, planar references, depth); Havran, Bittner, On Improving KD-Trees for Ray Shooting, 2002
+// (clipping).
+
+#include "base/host.h"
+#include "soup/bake/soup_build.h"
+#include "soup/bake/tree_split.h"
+#include "soup/layout/soup_layout.h"
+
+#include <float.h>
+#include <string.h>
+
+enum {
+    SWEEP_MAX = 64, // references of a cell that is swept
+    BINS = 64,
+    DEPTH_MAX = 60 // the share-out below ends within 29 levels more
+};
+static_assert(DEPTH_MAX + 32 <= TL_SOUP_MAX_DEPTH, "a cell of 2^32 references ends within the depth limit");
+
+// A child box costs this share of a leaf test to look at, as in the box tree.
+#define TRAVERSAL_COST 0.25f
+// A plane that cuts off empty space lets rays end early, which areas alone do not see (Wald and Havran, section 5.1).
+#define EMPTY_SPACE_SHARE 0.8f
+
+// An array that grows. References are pushed and popped in the order of the recursion.
+typedef struct ref_list {
+    tl_tree_ref *refs;
+    uint64_t count, capacity;
+} ref_list;
+
+typedef struct kd_builder {
+    tl_tree_splitter clipper;
+    const tl_host *host;
+    ref_list work; // references of the cells on the way down
+    ref_list out;  // references of leaves
+    tl_tree_node *nodes;
+    uint64_t node_count, node_capacity;
+    uint32_t depth_max;
+    bool out_of_memory;
+} kd_builder;
+
+typedef struct kd_cell {
+    tl_aabb box; // of the cell; references are clipped to it
+    uint64_t first;
+    uint32_t count;
+    uint32_t depth;
+} kd_cell;
+
+typedef struct kd_plane {
+    float cost; // sum over both sides of half area times blocks
+    float position;
+    uint32_t axis;
+    bool planar_left; // references that lie in the plane go left
+} kd_plane;
+
+// ---------------------------------------------------------------------------------------------------------
+// Memory.
+
+// Doubles an array, or gives up and says so once for all.
+static bool grow(kd_builder *b, void **array, uint64_t *capacity, uint64_t needed, size_t size)
+{
+    if (needed <= *capacity) {
+        return true;
+    }
+    uint64_t wanted = 2 * *capacity > needed ? 2 * *capacity : needed;
+    void *larger = b->out_of_memory ? NULL : tl_allocate_array(b->host->allocator, wanted, size);
+    if (larger == NULL) {
+        b->out_of_memory = true;
+        return false;
+    }
+    if (*capacity > 0) {
+        memcpy(larger, *array, *capacity * size);
+    }
+    tl_release_array(b->host->allocator, *array, *capacity, size);
+    *array = larger;
+    *capacity = wanted;
+    return true;
+}
+
+static bool push_ref(kd_builder *b, ref_list *list, const tl_tree_ref *ref)
+{
+    void *refs = list->refs;
+    if (!grow(b, &refs, &list->capacity, list->count + 1, sizeof *list->refs)) {
+        return false;
+    }
+    list->refs = refs;
+    list->refs[list->count++] = *ref;
+    return true;
+}
+
+static uint32_t push_node(kd_builder *b)
+{
+    void *nodes = b->nodes;
+    if (!grow(b, &nodes, &b->node_capacity, b->node_count + 1, sizeof *b->nodes)) {
+        return 0;
+    }
+    b->nodes = nodes;
+    memset(&b->nodes[b->node_count], 0, sizeof *b->nodes);
+    return (uint32_t)b->node_count++;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Leaves.
+
+static tl_aabb box_of(const tl_tree_ref *refs, uint32_t count)
+{
+    tl_aabb box = tl_aabb_empty();
+    for (uint32_t i = 0; i < count; i++) {
+        box.min = tl_min(box.min, refs[i].min);
+        box.max = tl_max(box.max, refs[i].max);
+    }
+    return box;
+}
+
+// Shares references out among leaves by count.
+static uint32_t make_leaves(kd_builder *b, uint64_t first, uint32_t count)
+{
+    uint32_t index = push_node(b);
+    if (b->out_of_memory) {
+        return 0;
+    }
+    b->nodes[index].box = box_of(b->work.refs + first, count);
+    if (count <= TL_SOUP_LEAF_PAIRS) {
+        b->nodes[index].first = (uint32_t)b->out.count;
+        b->nodes[index].count = count;
+        for (uint32_t i = 0; i < count; i++) {
+            tl_tree_ref ref = b->work.refs[first + i];
+            (void)push_ref(b, &b->out, &ref);
+        }
+        return index;
+    }
+    // Whole leaves on the left, so that only the last one of all may have room left.
+    uint32_t blocks = (count + TL_SOUP_LEAF_PAIRS - 1) / TL_SOUP_LEAF_PAIRS;
+    uint32_t left_count = blocks / 2 * TL_SOUP_LEAF_PAIRS;
+    uint32_t left = make_leaves(b, first, left_count);
+    uint32_t right = make_leaves(b, first + left_count, count - left_count);
+    if (!b->out_of_memory) {
+        b->nodes[index].left = left;
+        b->nodes[index].right = right;
+    }
+    return index;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Planes.
+
+static void part_box(tl_aabb box, uint32_t axis, float position, tl_aabb *left, tl_aabb *right)
+{
+    *left = box;
+    *right = box;
+    tl_set_component(&left->max, axis, position);
+    tl_set_component(&right->min, axis, position);
+}
+
+static void try_plane(const kd_cell *cell, uint32_t axis, float position, uint32_t left, uint32_t planar,
+                      uint32_t right, kd_plane *best)
+{
+    tl_aabb left_box, right_box;
+    part_box(cell->box, axis, position, &left_box, &right_box);
+    float left_area = tl_aabb_half_area(left_box), right_area = tl_aabb_half_area(right_box);
+    for (uint32_t side = 0; side < (planar > 0 ? 2u : 1u); side++) {
+        uint32_t on_left = left + (side == 0 ? planar : 0), on_right = right + (side == 0 ? 0 : planar);
+        float cost = left_area * tl_tree_blocks(on_left) + right_area * tl_tree_blocks(on_right);
+        cost *= on_left == 0 || on_right == 0 ? EMPTY_SPACE_SHARE : 1.0f;
+        if (cost < best->cost) {
+            kd_plane plane = { cost, position, axis, side == 0 };
+            *best = plane;
+        }
+    }
+}
+
+// At one position ends come before planar references, and these before beginnings.
+typedef enum kd_event_kind { EVENT_END, EVENT_PLANAR, EVENT_BEGIN } kd_event_kind;
+
+typedef struct kd_event {
+    float position;
+    kd_event_kind kind;
+} kd_event;
+
+static bool comes_before(kd_event a, kd_event b)
+{
+    return a.position < b.position || (a.position == b.position && a.kind < b.kind);
+}
+
+static void insert_event(kd_event *events, uint32_t *count, kd_event event)
+{
+    uint32_t place = (*count)++;
+    for (; place > 0 && comes_before(event, events[place - 1]); place--) {
+        events[place] = events[place - 1];
+    }
+    events[place] = event;
+}
+
+static uint32_t list_events(const tl_tree_ref *refs, uint32_t count, uint32_t axis, kd_event *events)
+{
+    uint32_t event_count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        float low = tl_component(refs[i].min, axis), high = tl_component(refs[i].max, axis);
+        kd_event begin = { low, low == high ? EVENT_PLANAR : EVENT_BEGIN }, end = { high, EVENT_END };
+        insert_event(events, &event_count, begin);
+        if (low != high) {
+            insert_event(events, &event_count, end);
+        }
+    }
+    return event_count;
+}
+
+static void sweep(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
+{
+    kd_event events[2 * SWEEP_MAX];
+    uint32_t event_count = list_events(b->work.refs + cell->first, cell->count, axis, events);
+    float low = tl_component(cell->box.min, axis), high = tl_component(cell->box.max, axis);
+    uint32_t left = 0, right = cell->count;
+    for (uint32_t i = 0; i < event_count;) {
+        float position = events[i].position;
+        uint32_t at[3] = { 0, 0, 0 };
+        for (; i < event_count && events[i].position == position; i++) {
+            at[events[i].kind]++;
+        }
+        right -= at[EVENT_END] + at[EVENT_PLANAR];
+        if (position > low && position < high) {
+            try_plane(cell, axis, position, left, at[EVENT_PLANAR], right, best);
+        }
+        left += at[EVENT_BEGIN] + at[EVENT_PLANAR];
+    }
+}
+
+static uint32_t bin_of(float place, float base, float per_metre)
+{
+    float bin = (place - base) * per_metre;
+    return bin <= 0.0f ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin;
+}
+
+// Counts are off for references that end on a border of bins; only the plane is chosen by them.
+static void try_bins(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
+{
+    float base = tl_component(cell->box.min, axis);
+    float width = (tl_component(cell->box.max, axis) - base) / BINS;
+    // Bins must be wider than the rounding of their borders.
+    if (!(width > 4.0f * FLT_EPSILON * fabsf(base) && width > FLT_MIN && 1.0f / width < FLT_MAX)) {
+        return;
+    }
+    uint32_t begin[BINS] = { 0 }, end[BINS] = { 0 };
+    const tl_tree_ref *refs = b->work.refs + cell->first;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        begin[bin_of(tl_component(refs[i].min, axis), base, 1.0f / width)]++;
+        end[bin_of(tl_component(refs[i].max, axis), base, 1.0f / width)]++;
+    }
+    uint32_t left = 0, right = cell->count;
+    for (uint32_t bin = 1; bin < BINS; bin++) {
+        left += begin[bin - 1];
+        right -= end[bin - 1];
+        try_plane(cell, axis, base + width * (float)bin, left, 0, right, best);
+    }
+}
+
+// False: to part the cell is no better than to test all of it.
+static bool find_plane(const kd_builder *b, const kd_cell *cell, kd_plane *best)
+{
+    float area = tl_aabb_half_area(cell->box);
+    best->cost = area * (tl_tree_blocks(cell->count) - TRAVERSAL_COST);
+    float limit = best->cost;
+    if (cell->count <= 1 || cell->depth >= b->depth_max) {
+        return false;
+    }
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        if (cell->count <= SWEEP_MAX) {
+            sweep(b, cell, axis, best);
+        } else {
+            try_bins(b, cell, axis, best);
+        }
+    }
+    return best->cost < limit;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// The tree.
+
+// Sorts a cell's references to both sides: right ones stay in the cell's place, left ones go behind all others.
+static bool part_references(kd_builder *b, const kd_cell *cell, const kd_plane *plane, kd_cell *left, kd_cell *right)
+{
+    left->first = b->work.count;
+    left->count = 0;
+    right->first = cell->first;
+    right->count = 0;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        tl_tree_ref ref = b->work.refs[cell->first + i];
+        float low = tl_component(ref.min, plane->axis), high = tl_component(ref.max, plane->axis);
+        bool planar = low == plane->position && high == plane->position;
+        tl_aabb on_left = { ref.min, ref.max }, on_right = on_left;
+        if (planar ? plane->planar_left : high <= plane->position) {
+            on_right = tl_aabb_empty();
+        } else if (planar || low >= plane->position) {
+            on_left = tl_aabb_empty();
+        } else {
+            tl_tree_cut_reference(&b->clipper, &ref, plane->axis, plane->position, &on_left, &on_right);
+        }
+        if (!tl_aabb_is_empty(on_left)) {
+            tl_tree_ref part = { on_left.min, ref.pair, on_left.max, 0 };
+            left->count++;
+            if (!push_ref(b, &b->work, &part)) {
+                return false;
+            }
+        }
+        if (!tl_aabb_is_empty(on_right)) {
+            tl_tree_ref part = { on_right.min, ref.pair, on_right.max, 0 };
+            b->work.refs[right->first + right->count++] = part;
+        }
+    }
+    return true;
+}
+
+static uint32_t build_cell(kd_builder *b, kd_cell cell)
+{
+    kd_plane plane = { 0 };
+    if (!find_plane(b, &cell, &plane)) {
+        return make_leaves(b, cell.first, cell.count);
+    }
+    kd_cell left = { .depth = cell.depth + 1 }, right = { .depth = cell.depth + 1 };
+    part_box(cell.box, plane.axis, plane.position, &left.box, &right.box);
+    if (!part_references(b, &cell, &plane, &left, &right)) {
+        return 0;
+    }
+    if (left.count == 0) {
+        return build_cell(b, right);
+    }
+    tl_aabb box =
+        tl_aabb_union(box_of(b->work.refs + left.first, left.count), box_of(b->work.refs + right.first, right.count));
+    uint32_t left_node = build_cell(b, left);
+    b->work.count = left.first;
+    if (right.count == 0 || b->out_of_memory) {
+        return left_node;
+    }
+    uint32_t right_node = build_cell(b, right);
+    uint32_t index = push_node(b);
+    if (!b->out_of_memory) {
+        tl_tree_node node = { box, left_node, right_node, 0, 0 };
+        b->nodes[index] = node;
+    }
+    return index;
+}
+
+// Wald and Havran's 8 + 1.3 log2 of the count: what is not parted by then is not worth it.
+static uint32_t depth_limit(uint32_t count)
+{
+    uint32_t log2 = 0;
+    while (count >> log2 > 1) {
+        log2++;
+    }
+    uint32_t depth = 8 + log2 * 13 / 10;
+    return depth < DEPTH_MAX ? depth : DEPTH_MAX;
+}
+
+// What was built goes to the arena, so that a soup's build has one way to end.
+static tl_result hand_over(const kd_builder *b, uint32_t root, tl_arena *arena, tl_tree *tree)
+{
+    if (b->out.count > UINT32_MAX || b->node_count > TL_TREE_MAX_NODES) {
+        return TL_ERR_LIMIT;
+    }
+    tree->refs = TL_PUSH(arena, tl_tree_ref, b->out.count);
+    tree->nodes = TL_PUSH(arena, tl_tree_node, b->node_count);
+    if (tree->refs == NULL || tree->nodes == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memcpy(tree->refs, b->out.refs, b->out.count * sizeof *tree->refs);
+    memcpy(tree->nodes, b->nodes, b->node_count * sizeof *tree->nodes);
+    tree->node_capacity = b->node_count;
+    tree->parts = NULL;
+    tree->part_count = 0;
+    tree->root = root;
+    tree->ref_count = (uint32_t)b->out.count;
+    return TL_OK;
+}
+
+tl_result tl_kd_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
+                      tl_arena *arena, tl_tree *tree_out)
+{
+    kd_builder b;
+    memset(&b, 0, sizeof b);
+    b.clipper.mesh = mesh;
+    b.clipper.pairs = pairs;
+    b.host = &def->host;
+    b.depth_max = depth_limit(pair_count);
+    kd_cell whole = { mesh->bounds, 0, pair_count, 0 };
+    for (uint32_t i = 0; i < pair_count; i++) {
+        tl_tree_ref ref = tl_tree_reference(mesh, pairs, i);
+        if (!push_ref(&b, &b.work, &ref)) {
+            break;
+        }
+    }
+    uint32_t root = b.out_of_memory ? 0 : build_cell(&b, whole);
+    tl_result result = b.out_of_memory ? TL_ERR_MEMORY : hand_over(&b, root, arena, tree_out);
+    tl_release_array(def->host.allocator, b.work.refs, b.work.capacity, sizeof *b.work.refs);
+    tl_release_array(def->host.allocator, b.out.refs, b.out.capacity, sizeof *b.out.refs);
+    tl_release_array(def->host.allocator, b.nodes, b.node_capacity, sizeof *b.nodes);
+    return result;
+}

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+//
+// Pairing: tasks match the triangles of one chunk each (pair_match.c), which lie near each other in most meshes, and so
+// does their memory. What is left single then is matched once more, over the chunks' borders. Where borders turn out to
+// be everywhere, because the mesh is in no order, all is matched at once: that takes twice as long on a mesh larger
+// than the caches, and one thread. Chunks are a matter of the mesh alone, so the pairs do not depend on how many tasks
+// run.
+//
+// The text's pair A B C, A C D is stored with the order in which each triangle really runs.
+//
+// Source: Christer Ericson, "Chunky triangle soup", 2009.
+
+#include "base/assert.h"
+#include "base/host.h"
+#include "soup/bake/pair_match.h"
+#include "soup/bake/soup_build.h"
+#include "soup/layout/soup_layout.h"
+
+#include <string.h>
+
+// Rows 1 to 6 are the six orders of three slots; rows 0 and 7 keep any three bits in range.
+const uint8_t tl_soup_corner_slots[8][3] = { { 0, 1, 2 }, { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
+                                             { 0, 2, 1 }, { 2, 1, 0 }, { 1, 0, 2 }, { 0, 1, 2 } };
+
+// Most triangles of a chunk: its arrays are some 1.5 MB.
+enum { CHUNK_TRIANGLES = 1 << 14 };
+
+// A mesh of which more than this share is paired over borders is in no order.
+enum { BORDER_SHARE = 32 };
+
+typedef struct pairing {
+    const tl_mesh *mesh;
+    uint32_t chunk_count, chunk_size;
+    tl_pair *pairs;
+    uint32_t *mates;            // of triangles, as tl_pair_match has them
+    uint32_t *ends;             // of chunks: pairs up to its end
+    tl_pair_matcher **matchers; // of workers
+} pairing;
+
+// Chunks of about the same size.
+static void lay_chunks(pairing *p)
+{
+    uint32_t count = p->mesh->triangle_count;
+    p->chunk_size = tl_block_count(count, tl_block_count(count, CHUNK_TRIANGLES));
+    p->chunk_count = tl_block_count(count, p->chunk_size);
+}
+
+static uint32_t chunk_end(const pairing *p, uint32_t chunk)
+{
+    return tl_block_end(chunk, p->chunk_size, p->mesh->triangle_count);
+}
+
+static void match_chunk(uint32_t chunk, uint32_t worker, void *user)
+{
+    const pairing *p = user;
+    uint32_t first = chunk * p->chunk_size;
+    tl_pair_match(p->matchers[worker], NULL, first, chunk_end(p, chunk) - first, p->mates);
+}
+
+static tl_result match_chunks(pairing *p, const tl_host *host, tl_arena *arena)
+{
+    uint32_t workers = tl_worker_count(host);
+    tl_arena_mark mark = tl_arena_get_mark(arena);
+    p->matchers = TL_PUSH(arena, tl_pair_matcher *, workers);
+    if (p->matchers == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t i = 0; i < workers; i++) {
+        p->matchers[i] = tl_pair_matcher_make(p->mesh, p->chunk_size, arena);
+        if (p->matchers[i] == NULL) {
+            return TL_ERR_MEMORY;
+        }
+    }
+    tl_run_tasks(host, match_chunk, p->chunk_count, p);
+    tl_arena_rollback(arena, mark);
+    return TL_OK;
+}
+
+static uint32_t count_free(const pairing *p)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < p->mesh->triangle_count; i++) {
+        count += p->mates[i] == TL_NO_EDGE;
+    }
+    return count;
+}
+
+// Matches what the chunks left free.
+static tl_result match_rest(pairing *p, uint32_t count, tl_arena *arena)
+{
+    tl_arena_mark mark = tl_arena_get_mark(arena);
+    uint32_t *list = TL_PUSH(arena, uint32_t, count);
+    tl_pair_matcher *matcher = tl_pair_matcher_make(p->mesh, count, arena);
+    if (list == NULL || matcher == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t rest = 0;
+    for (uint32_t i = 0; i < p->mesh->triangle_count; i++) {
+        if (p->mates[i] == TL_NO_EDGE) {
+            list[rest++] = i;
+        }
+    }
+    tl_pair_match(matcher, list, 0, count, p->mates);
+    tl_arena_rollback(arena, mark);
+    return TL_OK;
+}
+
+static tl_result match_at_once(pairing *p, tl_arena *arena)
+{
+    tl_arena_mark mark = tl_arena_get_mark(arena);
+    tl_pair_matcher *matcher = tl_pair_matcher_make(p->mesh, p->mesh->triangle_count, arena);
+    if (matcher == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_pair_match(matcher, NULL, 0, p->mesh->triangle_count, p->mates);
+    tl_arena_rollback(arena, mark);
+    return TL_OK;
+}
+
+static tl_result match_all(pairing *p, const tl_host *host, tl_arena *arena)
+{
+    if (p->chunk_count == 1) {
+        return match_at_once(p, arena);
+    }
+    TL_TRY(match_chunks(p, host, arena));
+    uint32_t count = count_free(p);
+    TL_TRY(match_rest(p, count, arena));
+    uint32_t over_borders = count - count_free(p);
+    return over_borders > p->mesh->triangle_count / BORDER_SHARE ? match_at_once(p, arena) : TL_OK;
+}
+
+// The row of tl_soup_corner_slots by which a triangle's corners lie in slots a, e, c.
+static uint8_t corner_order(const uint32_t *indices, uint32_t a, uint32_t e, uint32_t c)
+{
+    uint32_t slot[3] = { a, e, c };
+    for (uint8_t order = 1; order <= 6; order++) {
+        const uint8_t *row = tl_soup_corner_slots[order];
+        if (slot[row[0]] == indices[0] && slot[row[1]] == indices[1] && slot[row[2]] == indices[2]) {
+            return order;
+        }
+    }
+    TL_ASSERT(false);
+    return 1;
+}
+
+static tl_pair make_single(const tl_mesh *mesh, uint32_t triangle)
+{
+    const uint32_t *v = mesh->indices + 3 * (size_t)triangle;
+    tl_pair pair = { { v[0], v[1], v[2], v[0] }, { triangle, TL_NO_TRIANGLE }, { 1, 1 } };
+    return pair;
+}
+
+// The shared edge runs from c to a in the first triangle: it is a, b, c from the corner after the edge's first on.
+static tl_pair make_pair(const tl_mesh *mesh, uint32_t edge, uint32_t other_edge)
+{
+    const uint32_t triangles[2] = { edge / 3, other_edge / 3 };
+    const uint32_t *v = mesh->indices + 3 * (size_t)triangles[0];
+    const uint32_t *w = mesh->indices + 3 * (size_t)triangles[1];
+    uint32_t k = edge % 3;
+    uint32_t c = v[k];
+    uint32_t a = v[(k + 1) % 3];
+    uint32_t b = v[(k + 2) % 3];
+    uint32_t d = w[(other_edge + 2) % 3];
+    tl_pair pair = { { a, b, c, d },
+                     { triangles[0], triangles[1] },
+                     { corner_order(v, a, b, c), corner_order(w, a, d, c) } };
+    return pair;
+}
+
+// A pair belongs to the earlier of its triangles.
+static bool begins_pair(const pairing *p, uint32_t triangle)
+{
+    return p->mates[triangle] == TL_NO_EDGE || p->mates[triangle] / 3 > triangle;
+}
+
+static void count_pairs(uint32_t chunk, uint32_t worker, void *user)
+{
+    (void)worker;
+    const pairing *p = user;
+    uint32_t count = 0, end = chunk_end(p, chunk);
+    for (uint32_t i = chunk * p->chunk_size; i < end; i++) {
+        count += begins_pair(p, i);
+    }
+    p->ends[chunk] = count;
+}
+
+static void write_pairs(uint32_t chunk, uint32_t worker, void *user)
+{
+    (void)worker;
+    const pairing *p = user;
+    tl_pair *next = p->pairs + (chunk > 0 ? p->ends[chunk - 1] : 0);
+    uint32_t end = chunk_end(p, chunk);
+    for (uint32_t i = chunk * p->chunk_size; i < end; i++) {
+        if (begins_pair(p, i)) {
+            uint32_t mate = p->mates[i];
+            *next++ = mate == TL_NO_EDGE ? make_single(p->mesh, i) : make_pair(p->mesh, p->mates[mate / 3], mate);
+        }
+    }
+}
+
+tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena,
+                            tl_pair **pairs_out, uint32_t *pair_count_out)
+{
+    pairing p = { .mesh = mesh };
+    lay_chunks(&p);
+    p.mates = TL_PUSH(arena, uint32_t, mesh->triangle_count);
+    p.ends = TL_PUSH(arena, uint32_t, p.chunk_count);
+    if (p.mates == NULL || p.ends == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    if (allow_pairs) {
+        TL_TRY(match_all(&p, host, arena));
+    } else {
+        memset(p.mates, 0xff, (size_t)mesh->triangle_count * sizeof *p.mates);
+    }
+    tl_run_tasks(host, count_pairs, p.chunk_count, &p);
+    for (uint32_t i = 1; i < p.chunk_count; i++) {
+        p.ends[i] += p.ends[i - 1];
+    }
+    *pair_count_out = p.ends[p.chunk_count - 1];
+    p.pairs = TL_PUSH(arena, tl_pair, *pair_count_out);
+    if (p.pairs == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    tl_run_tasks(host, write_pairs, p.chunk_count, &p);
+    *pairs_out = p.pairs;
+    return TL_OK;
+}

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+//
+// Whether bytes are a sound soup. Offsets must be the ones that the baker computes from the counts; nodes must be
+// numbered breadth first and leaves lie in the order in which nodes name them. Each child word is then forced, so two
+// counters prove that the nodes form a tree, that every query ends, and that nothing lies outside.
+
+#include "soup/layout/compact_layout.h"
+
+#include <float.h>
+#include <string.h>
+
+typedef struct checker {
+    const tl_soup *soup;
+    uint32_t next_node;
+    uint64_t next_leaf; // offset
+    uint32_t leaf_count;
+    uint32_t reference_count;
+    uint32_t triangle_count;
+    uint32_t pair_count;
+    uint32_t single_count;
+    uint32_t depth;
+} checker;
+
+static bool in_range(float value)
+{
+    return fabsf(value) <= TL_MAX_COORDINATE; // false for NaN
+}
+
+static bool vec_in_range(tl_vec3 v)
+{
+    return in_range(v.x) && in_range(v.y) && in_range(v.z);
+}
+
+static bool extent_in_range(float extent)
+{
+    return extent >= 0.0f && extent <= 2.0f * TL_MAX_COORDINATE;
+}
+
+static bool head_is_sound(const tl_soup *soup)
+{
+    uint64_t size = soup->blob.size;
+    if (soup->layout > TL_SOUP_COMPACT || soup->node_count == 0 || soup->has_materials > 1 ||
+        soup->uniform_material > UINT16_MAX || soup->source_triangle_count > TL_MAX_SOUP_TRIANGLES ||
+        soup->leaf_bytes > size ||
+        (soup->layout == TL_SOUP_COMPACT ? soup->leaf_bytes != soup->reference_count * sizeof(tl_compact_pair)
+                                         : soup->vertex_count != 0)) {
+        return false;
+    }
+    tl_soup placed = *soup;
+    uint64_t end = tl_soup_place_arrays(&placed);
+    if (soup->node_offset != placed.node_offset || soup->leaf_offset != placed.leaf_offset ||
+        soup->group_offset != placed.group_offset || soup->vertex_offset != placed.vertex_offset ||
+        soup->material_offset != placed.material_offset ||
+        ((end + TL_BLOB_ALIGNMENT - 1) & ~(uint64_t)(TL_BLOB_ALIGNMENT - 1)) != size) {
+        return false;
+    }
+    for (uint32_t i = 0; i < sizeof soup->reserved / sizeof soup->reserved[0]; i++) {
+        if (soup->reserved[i] != 0) {
+            return false;
+        }
+    }
+    return vec_in_range(soup->bounds_min) && vec_in_range(soup->bounds_max) && !tl_aabb_is_empty(tl_soup_bounds(soup));
+}
+
+static bool id_is_sound(const checker *c, uint32_t id)
+{
+    uint32_t order = tl_id_order(id);
+    return (id & TL_ID_INDEX) < c->soup->source_triangle_count && order >= 1 && order <= 6;
+}
+
+static bool vertices_are_there(const tl_soup *soup, uint64_t first, uint32_t count)
+{
+    for (uint64_t i = first; i < first + count; i++) {
+        const tl_compact_pair *pair = &tl_compact_pairs(soup)[i];
+        uint32_t base = tl_compact_groups(soup)[i / TL_COMPACT_GROUP];
+        for (uint32_t k = 0; k < 4; k++) {
+            if ((uint64_t)base + pair->corner[k] >= soup->vertex_count) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool check_leaf(checker *c, uint32_t child)
+{
+    uint32_t pairs = tl_child_pair_count(child);
+    uint64_t offset = tl_child_leaf_offset(child);
+    bool compact = c->soup->layout == TL_SOUP_COMPACT;
+    uint64_t size = compact ? pairs * sizeof(tl_compact_pair) : tl_leaf_size(pairs);
+    // leaf_bytes is within the blob; next_leaf never passes it.
+    if (offset != c->next_leaf || size > c->soup->leaf_bytes - offset) {
+        return false;
+    }
+    c->next_leaf += size;
+    c->leaf_count++;
+    c->reference_count += pairs;
+    if (compact && !vertices_are_there(c->soup, offset / sizeof(tl_compact_pair), pairs)) {
+        return false;
+    }
+    tl_leaf_room room;
+    const tl_soup_leaf *leaf = tl_open_leaf(c->soup, child, &room);
+    if (leaf->tagged_count != (TL_LEAF_TAG | pairs) || !extent_in_range(leaf->extent)) {
+        return false;
+    }
+    tl_leaf_view view = tl_view_leaf(leaf);
+    for (uint32_t i = 0; i < pairs; i++) {
+        bool single = view.ids[pairs + i] == TL_ID_NONE;
+        bool copy = (view.ids[i] & TL_ID_COPY) != 0;
+        if (!id_is_sound(c, view.ids[i]) ||
+            (!single && (!id_is_sound(c, view.ids[pairs + i]) || copy != ((view.ids[pairs + i] & TL_ID_COPY) != 0)))) {
+            return false;
+        }
+        // A lane without a triangle has no area, so no ray can surely hit it.
+        tl_vec3 a = tl_leaf_slot(&view, i, 0), d = tl_leaf_slot(&view, pairs + i, 1);
+        if (single && !(a.x == d.x && a.y == d.y && a.z == d.z)) {
+            return false;
+        }
+        c->pair_count += !copy && !single;
+        c->single_count += !copy && single;
+        c->triangle_count += copy ? 0 : single ? 1 : 2;
+    }
+    for (uint32_t i = 0; i < 12 * pairs; i++) {
+        if (!in_range(view.floats[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The walks do not look at child words to tell lanes apart, so a lane without a child must have the box that no ray
+// enters.
+static bool boxes_are_sound(const tl_soup_node *node)
+{
+    for (uint32_t lane = 0; lane < TL_SOUP_WIDTH; lane++) {
+        for (uint32_t i = 0; i < 6; i++) {
+            float plane = node->plane[i][lane];
+            if (node->child[lane] != 0 ? !in_range(plane) : plane != (i % 2 == 0 ? INFINITY : -INFINITY)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static bool is_power_of_two(float value)
+{
+    int exponent;
+    return value >= FLT_MIN && value <= TL_MAX_COORDINATE && frexpf(value, &exponent) == 0.5f;
+}
+
+// Here the mask tells.
+static bool compact_boxes_are_sound(const tl_compact_node *node)
+{
+    uint32_t children = 0;
+    for (uint32_t lane = 0; lane < TL_SOUP_WIDTH; lane++) {
+        children |= (uint32_t)(node->child[lane] != 0) << lane;
+    }
+    for (uint32_t axis = 0; axis < 3; axis++) {
+        // The last step may lie beyond the range, planes that are used not.
+        if (!in_range(node->origin[axis]) || !is_power_of_two(node->scale[axis])) {
+            return false;
+        }
+    }
+    return node->mask == children && node->zero == 0;
+}
+
+static bool check_nodes(checker *c)
+{
+    const tl_soup *soup = c->soup;
+    bool compact = soup->layout == TL_SOUP_COMPACT;
+    c->next_node = 1;
+    c->depth = 1;
+    uint32_t level_end = 1;
+    for (uint32_t i = 0; i < c->soup->node_count; i++) {
+        if (i == level_end) {
+            if (level_end == c->next_node) {
+                return false; // nobody names node i
+            }
+            level_end = c->next_node;
+            c->depth++;
+        }
+        if (compact ? !compact_boxes_are_sound(&tl_compact_nodes(soup)[i])
+                    : !boxes_are_sound(&tl_soup_nodes(soup)[i])) {
+            return false;
+        }
+        const uint32_t *children = compact ? tl_compact_nodes(soup)[i].child : tl_soup_nodes(soup)[i].child;
+        for (uint32_t k = 0; k < TL_SOUP_WIDTH; k++) {
+            uint32_t child = children[k];
+            if ((child & TL_CHILD_LEAF) != 0) {
+                if (!check_leaf(c, child)) {
+                    return false;
+                }
+            } else if (child != 0 && (child != c->next_node++ || child >= c->soup->node_count)) {
+                return false;
+            }
+        }
+    }
+    return c->next_node == c->soup->node_count && c->next_leaf == c->soup->leaf_bytes;
+}
+
+tl_result tl_soup_check(const void *bytes, uint64_t size)
+{
+    if (bytes == NULL || size < sizeof(tl_soup)) {
+        return TL_ERR_TRUNCATED;
+    }
+    if ((uintptr_t)bytes % TL_BLOB_ALIGNMENT != 0) {
+        return TL_ERR_ARGUMENT;
+    }
+    const tl_soup *soup = bytes;
+    if (soup->blob.magic != TL_SOUP_MAGIC) {
+        return TL_ERR_MAGIC;
+    }
+    if (soup->blob.version != TL_SOUP_VERSION) {
+        return TL_ERR_VERSION;
+    }
+    if (soup->blob.size > size) {
+        return TL_ERR_TRUNCATED;
+    }
+    checker c;
+    memset(&c, 0, sizeof c);
+    c.soup = soup;
+    if (!head_is_sound(soup) || !check_nodes(&c)) {
+        return TL_ERR_CORRUPT;
+    }
+    bool counts = c.leaf_count == soup->leaf_count && c.reference_count == soup->reference_count &&
+                  c.triangle_count == soup->triangle_count && c.pair_count == soup->pair_count &&
+                  c.single_count == soup->single_count && c.depth == soup->depth && c.depth <= TL_SOUP_MAX_DEPTH;
+    return counts ? TL_OK : TL_ERR_CORRUPT;
+}

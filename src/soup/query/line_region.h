@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// The boxes and surfaces that a ray meets, for walks that go to its end.
+
+#ifndef TALUS_SRC_SOUP_LINE_REGION_H
+#define TALUS_SRC_SOUP_LINE_REGION_H
+
+#include "soup/query/region_walk.h"
+
+typedef struct tl_line_region {
+    double origin[3];
+    double inverse[3]; ///< 1 / direction, or 0 where the direction is 0
+    double end;        ///< t
+} tl_line_region;
+
+/// A finite ray whose direction is not zero; tmax >= 0 or INFINITY.
+void tl_line_region_make(const tl_ray *ray, tl_line_region *region_out);
+
+/// A tl_region_enter_fn: no box that holds a hit of the ray is left out.
+uint32_t tl_region_enter_line(const tl_walk_boxes *boxes, const void *line_region);
+
+/// TL_ERR_NOT_FINITE (origin or direction) or TL_ERR_ARGUMENT (a zero direction, a tmax that is negative or NaN).
+tl_result tl_ray_refuse(const tl_ray *ray);
+
+/// Whether the line passes through a triangle when it is moved aside by less than any number, so that it meets no edge
+/// (line_crossing.c). Only triangles that the line touches can be crossed.
+bool tl_moved_line_crosses(tl_vec3 origin, tl_vec3 direction, const tl_vec3 corners[3]);
+
+#endif

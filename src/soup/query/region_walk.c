@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+//
+// A walk through all leaves that a test on boxes lets in.
+//
+// Where spatial splits stored a triangle several times, it is reported in one of its leaves only: the one whose word is
+// smallest among those whose boxes meet both the region and the triangle's own box. To know it, a second walk looks for
+// them. (A leaf may hold a triangle that its box does not meet, because splits cut pairs.) That costs a short walk a
+// reported triangle, in soups with copies only, and needs no memory; marks or a table of what was seen would have to be
+// as large as the answer.
+
+#include "soup/query/region_walk.h"
+
+uint32_t tl_region_enter_box(const tl_walk_boxes *boxes, const void *region)
+{
+    const tl_aabb *box = region;
+    uint32_t mask = 0;
+    for (uint32_t lane = 0; lane < TL_WALK_WIDTH; lane++) {
+        uint32_t overlaps =
+            (uint32_t)(boxes->min[0][lane] <= box->max.x) & (uint32_t)(boxes->max[0][lane] >= box->min.x) &
+            (uint32_t)(boxes->min[1][lane] <= box->max.y) & (uint32_t)(boxes->max[1][lane] >= box->min.y) &
+            (uint32_t)(boxes->min[2][lane] <= box->max.z) & (uint32_t)(boxes->max[2][lane] >= box->min.z);
+        mask |= overlaps << lane;
+    }
+    return mask;
+}
+
+static bool leaf_has(const tl_soup *soup, uint32_t child, uint32_t triangle)
+{
+    tl_walk_leaf leaf;
+    tl_walk_open_leaf(soup, child, &leaf);
+    for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
+        if (leaf.view.ids[lane] != TL_ID_NONE && (leaf.view.ids[lane] & TL_ID_INDEX) == triangle) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool is_first_copy(const tl_soup *soup, const tl_region *region, const tl_walk_triangle *triangle)
+{
+    tl_aabb own = tl_walk_triangle_box(triangle);
+    tl_walk walk;
+    tl_walk_begin(&walk, soup);
+    uint32_t child, first = UINT32_MAX;
+    while (tl_walk_next(&walk, 0.0f, &child)) {
+        if (!tl_walk_is_leaf(child)) {
+            tl_walk_boxes boxes;
+            tl_walk_read_boxes(&walk, child, &boxes);
+            uint32_t mask = tl_region_enter_box(&boxes, &own) & region->enter(&boxes, region->region);
+            tl_walk_enter(&walk, &boxes, mask, NULL);
+        } else if (child < first && leaf_has(soup, child, triangle->triangle)) {
+            first = child;
+        }
+    }
+    return triangle->leaf->child == first;
+}
+
+static bool report_leaf(const tl_soup *soup, const tl_region *region, uint32_t child)
+{
+    bool has_copies = tl_walk_has_copies(soup);
+    tl_walk_leaf leaf;
+    tl_walk_open_leaf(soup, child, &leaf);
+    tl_walk_triangle triangle;
+    for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
+        if (tl_walk_read_triangle(&leaf, lane, &triangle) && region->belongs(&triangle, region->user) &&
+            (!has_copies || is_first_copy(soup, region, &triangle)) && !region->found(&triangle, region->user)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool tl_region_walk(const tl_soup *soup, const tl_region *region)
+{
+    tl_walk walk;
+    tl_walk_begin(&walk, soup);
+    uint32_t child;
+    while (tl_walk_next(&walk, 0.0f, &child)) {
+        if (!tl_walk_is_leaf(child)) {
+            tl_walk_boxes boxes;
+            tl_walk_read_boxes(&walk, child, &boxes);
+            tl_walk_enter(&walk, &boxes, region->enter(&boxes, region->region), NULL);
+        } else if (!report_leaf(soup, region, child)) {
+            return false;
+        }
+    }
+    return true;
+}

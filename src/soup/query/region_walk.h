@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+//
+// Going through the triangles of a region, each once.
+
+#ifndef TALUS_SRC_SOUP_REGION_WALK_H
+#define TALUS_SRC_SOUP_REGION_WALK_H
+
+#include "soup/query/tree_walk.h"
+
+/// Which children of a node may hold what is looked for: a bit a lane. Must answer the same for the same boxes.
+typedef uint32_t tl_region_enter_fn(const tl_walk_boxes *boxes, const void *region);
+
+/// Whether a triangle of an entered leaf belongs to the region: asked about copies too.
+typedef bool tl_region_belongs_fn(const tl_walk_triangle *triangle, void *user);
+
+/// Called once for each triangle that belongs and has a point in a box that is entered; false ends the walk.
+typedef bool tl_region_found_fn(const tl_walk_triangle *triangle, void *user);
+
+typedef struct tl_region {
+    tl_region_enter_fn *enter;
+    const void *region;
+    tl_region_belongs_fn *belongs; ///< geometry alone decides: the same answer for each copy of a triangle
+    tl_region_found_fn *found;
+    void *user;
+} tl_region;
+
+/// Returns false when `found` ended the walk. No order is promised but that it is always the same.
+bool tl_region_walk(const tl_soup *soup, const tl_region *region);
+
+/// Lanes whose boxes share a point with `box`.
+uint32_t tl_region_enter_box(const tl_walk_boxes *boxes, const void *box);
+
+#endif

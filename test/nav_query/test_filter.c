@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+//
+// Filters with functions: they answer as flags and area costs do where those can say the same.
+
+#include "nav_fixture.h"
+
+#include "nav_query/navmesh/filter.h"
+
+enum { MOST_POLYGONS = 512 };
+
+// Refuses polygons by their number, as flags cannot; counts its calls.
+typedef struct rule {
+    uint32_t calls;
+} rule;
+
+static bool pass_most(const tl_nav_tile *tile, uint32_t polygon, void *user)
+{
+    ((rule *)user)->calls++;
+    return fixture_hash((uint64_t)(uint32_t)(tile->tile_x * 64 + tile->tile_z), polygon) % 5 != 0;
+}
+
+static float cost_of_area(uint32_t area)
+{
+    return 1.0f + (float)(area % 3);
+}
+
+// What a filter's area costs would say.
+static float cost_by_area(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 from, tl_vec3 to, float cost, void *user)
+{
+    TEST_CHECK(cost == tl_distance(from, to));
+    ((rule *)user)->calls++;
+    return cost_of_area(tl_nav_tile_area(tile, polygon)) * tl_distance(from, to);
+}
+
+static float cost_or_refuse(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 from, tl_vec3 to, float cost, void *user)
+{
+    static const float no[] = { -1.0f, INFINITY, NAN };
+    (void)from;
+    (void)to;
+    return pass_most(tile, polygon, user) ? cost : no[polygon % 3];
+}
+
+// What hangs together over links, through polygons that pass_most lets through.
+static bool is_reachable(const tl_navmesh *navmesh, const fixture_refs *all, uint32_t from, uint32_t to, rule *r)
+{
+    bool *reached = calloc(all->count, sizeof *reached);
+    uint32_t *queue = calloc(all->count, sizeof *queue), count = 1;
+    queue[0] = from;
+    reached[from] = true;
+    for (uint32_t at = 0; at < count; at++) {
+        tl_nav_link links[64];
+        uint32_t n = 0;
+        TEST_RESULT(tl_navmesh_links(navmesh, all->refs[queue[at]], links, 64, &n), TL_OK);
+        for (uint32_t k = 0; k < n; k++) {
+            const tl_nav_tile *tile = NULL;
+            uint32_t polygon = 0, index = fixture_index_of(all, links[k].to);
+            TEST_RESULT(tl_navmesh_resolve(navmesh, links[k].to, &tile, &polygon), TL_OK);
+            if (!reached[index] && pass_most(tile, polygon, r)) {
+                reached[index] = true;
+                queue[count++] = index;
+            }
+        }
+    }
+    bool answer = reached[to];
+    free(reached);
+    free(queue);
+    return answer;
+}
+
+static void test_functions(void **state)
+{
+    (void)state;
+    test_random random = { 611 };
+    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query *query = NULL;
+    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    uint32_t complete = 0, refused = 0, twins = 0;
+    for (uint32_t round = 0; round < 18; round++) {
+        fixture_level level = fixture_random(&random, round % 6, 8);
+        level.area_count = 6;
+        level.tile_cells = round % 3 == 0 ? 0 : 3;
+        tl_navmesh *navmesh = fixture_build(&level, NULL);
+        fixture_refs all = fixture_all_refs(navmesh);
+        for (uint32_t i = 0; i < 10; i++) {
+            tl_nav_location start = fixture_random_location(navmesh, &all, &random);
+            tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
+            tl_nav_ref polygons[2][MOST_POLYGONS];
+            tl_nav_path path, twin;
+            rule r = { 0 };
+            tl_nav_filter filter = tl_default_nav_filter();
+            filter.user = &r;
+            // A function that refuses: over the flags' head, exact and by A*.
+            bool reachable = is_reachable(navmesh, &all, fixture_index_of(&all, start.polygon),
+                                          fixture_index_of(&all, goal.polygon), &r);
+            filter.pass = pass_most;
+            TEST_RESULT(
+                tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons[0], MOST_POLYGONS, &path),
+                TL_OK);
+            TEST_CHECK((path.status == TL_NAV_PATH_COMPLETE) == reachable);
+            for (uint32_t k = 1; k < path.polygon_count; k++) {
+                const tl_nav_tile *tile = NULL;
+                uint32_t polygon = 0;
+                TEST_RESULT(tl_navmesh_resolve(navmesh, polygons[0][k], &tile, &polygon), TL_OK);
+                TEST_CHECK(pass_most(tile, polygon, &r));
+            }
+            complete += reachable;
+            refused += !reachable;
+
+            // A function that knows the costs of areas, and a filter that does: the same bits.
+            filter.pass = NULL;
+            filter.cost = cost_by_area;
+            r.calls = 0;
+            TEST_RESULT(
+                tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons[0], MOST_POLYGONS, &path),
+                TL_OK);
+            TEST_CHECK(r.calls > 0 || path.node_count == 0);
+            filter.cost = NULL;
+            for (uint32_t area = 0; area <= TL_NAV_MAX_AREA; area++) {
+                filter.area_cost[area] = cost_of_area(area);
+            }
+            TEST_RESULT(
+                tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons[1], MOST_POLYGONS, &twin),
+                TL_OK);
+            TEST_CHECK(path.status == twin.status && path.cost == twin.cost && path.node_count == twin.node_count);
+            TEST_CHECK(path.polygon_count == twin.polygon_count &&
+                       memcmp(polygons[0], polygons[1], path.polygon_count * sizeof polygons[0][0]) == 0);
+            twins += path.status == TL_NAV_PATH_COMPLETE;
+
+            // What a function calls impossible is not gone.
+            filter.cost = cost_or_refuse;
+            bool start_passes = true;
+            const tl_nav_tile *tile = NULL;
+            uint32_t polygon = 0;
+            TEST_RESULT(tl_navmesh_resolve(navmesh, start.polygon, &tile, &polygon), TL_OK);
+            start_passes = pass_most(tile, polygon, &r);
+            TEST_RESULT(
+                tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons[1], MOST_POLYGONS, &twin),
+                TL_OK);
+            TEST_CHECK((twin.status == TL_NAV_PATH_COMPLETE) == (reachable && start_passes));
+        }
+        free(all.refs);
+        tl_navmesh_free(navmesh);
+    }
+    tl_nav_query_free(query);
+    TEST_CHECK(complete > 40 && refused > 40 && twins > 60);
+}
+
+static void test_plain(void **state)
+{
+    (void)state;
+    tl_nav_filter filter = tl_default_nav_filter();
+    float least = 0.0f;
+    bool is_uniform = false;
+    TEST_CHECK(filter.pass == NULL && filter.cost == NULL);
+    TEST_CHECK(tl_nav_filter_costs(&filter, &least, &is_uniform) && is_uniform && least == 1.0f);
+    filter.cost = cost_by_area;
+    TEST_CHECK(tl_nav_filter_costs(&filter, &least, &is_uniform) && !is_uniform);
+    filter.area_cost[3] = 0.0f;
+    TEST_CHECK(!tl_nav_filter_costs(&filter, &least, &is_uniform));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_functions), cmocka_unit_test(test_plain) };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

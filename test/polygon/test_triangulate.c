@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+
+#include "polygon/triangulate/triangulate.h"
+
+#include "polygon_shapes.h"
+
+enum { MAX_POINTS = 512 };
+
+typedef struct fixture {
+    oracle_point points[MAX_POINTS];
+    tl_lattice_point lattice[MAX_POINTS];
+    uint32_t triangles[3 * MAX_POINTS], twins[3 * MAX_POINTS], expected[3 * MAX_POINTS];
+} fixture;
+
+static fixture f;
+
+static tl_result run(uint32_t n)
+{
+    for (uint32_t i = 0; i < n; i++) {
+        f.lattice[i].x = (int32_t)f.points[i].x;
+        f.lattice[i].z = (int32_t)f.points[i].z;
+    }
+    tl_arena arena;
+    tl_arena_init(&arena, NULL);
+    tl_result result = tl_triangulate(&arena, f.lattice, n, NULL, f.triangles, f.twins);
+    tl_arena_free(&arena);
+    return result;
+}
+
+static void check_twins(uint32_t n)
+{
+    uint32_t open = 0;
+    for (uint32_t e = 0; e < 3 * (n - 2); e++) {
+        if (f.twins[e] == TL_NO_EDGE) {
+            open++;
+            continue;
+        }
+        uint32_t t = f.twins[e];
+        TEST_CHECK(t < 3 * (n - 2) && f.twins[t] == e && t / 3 != e / 3);
+        uint32_t next = e % 3 < 2 ? e + 1 : e - 2, twin_next = t % 3 < 2 ? t + 1 : t - 2;
+        TEST_CHECK(f.triangles[e] == f.triangles[twin_next] && f.triangles[next] == f.triangles[t]);
+    }
+    TEST_CHECK(open == n);
+}
+
+// The fast form against the plain one, triangle by triangle, in order.
+static void compare(uint32_t n)
+{
+    TEST_RESULT(run(n), TL_OK);
+    TEST_CHECK(oracle_triangulate(f.points, n, f.expected));
+    TEST_CHECK(memcmp(f.triangles, f.expected, 3 * (n - 2) * sizeof(uint32_t)) == 0);
+    check_twins(n);
+    int64_t area = 0;
+    for (uint32_t t = 0; t < n - 2; t++) {
+        const uint32_t *c = f.triangles + 3 * t;
+        int64_t part = -oracle_area2(f.points[c[0]], f.points[c[1]], f.points[c[2]]);
+        TEST_CHECK(part > 0);
+        area += part;
+    }
+    TEST_CHECK(area == oracle_contour_area2(f.points, n));
+}
+
+static void cuts_the_shortest_partition_first(void **state)
+{
+    (void)state;
+    // An L: the corner next to the notch has the shortest new edge.
+    const oracle_point points[6] = { { 0, 0 }, { 0, 4 }, { 2, 4 }, { 2, 2 }, { 6, 2 }, { 6, 0 } };
+    memcpy(f.points, points, sizeof points);
+    TEST_CHECK(oracle_contour_area2(f.points, 6) > 0);
+    compare(6);
+    // From (0, 4) to (2, 2), cutting off (2, 4), has length 8; all others have 8 or more, and none at a lower vertex.
+    TEST_CHECK(f.triangles[0] == 1 && f.triangles[1] == 2 && f.triangles[2] == 3);
+}
+
+static void one_triangle_stays_as_it_is(void **state)
+{
+    (void)state;
+    const oracle_point points[3] = { { 0, 0 }, { 0, 5 }, { 5, 0 } };
+    memcpy(f.points, points, sizeof points);
+    compare(3);
+    TEST_CHECK(f.triangles[0] == 0 && f.triangles[1] == 1 && f.triangles[2] == 2);
+}
+
+static void equals_the_plain_form_on_random_outlines(void **state)
+{
+    (void)state;
+    test_random random = { 1 };
+    uint32_t simple = 0, large = 0;
+    for (uint32_t round = 0; round < 3000; round++) {
+        uint32_t n = 3 + test_random_below(&random, round % 50 == 0 ? 70 : 20);
+        // A small lattice makes ties, straight runs and near misses.
+        uint32_t side = 4u << test_random_below(&random, 12);
+        if (shape_untangled(&random, f.points, n, side)) {
+            compare(n);
+            simple++;
+            large += n > 40;
+        }
+    }
+    TEST_CHECK(simple > 1500 && large > 10);
+}
+
+static void equals_the_plain_form_on_straight_runs(void **state)
+{
+    (void)state;
+    test_random random = { 2 };
+    uint32_t compared = 0;
+    for (uint32_t round = 0; round < 1500; round++) {
+        uint32_t cells = 3 + test_random_below(&random, 60);
+        uint32_t n = shape_cells(&random, 12, cells, f.points, 120);
+        if (n >= 4 && oracle_is_simple(f.points, n)) {
+            compare(n);
+            compared++;
+        }
+    }
+    TEST_CHECK(compared > 300);
+}
+
+static void equals_the_plain_form_on_bridged_holes(void **state)
+{
+    (void)state;
+    for (uint32_t columns = 1; columns <= 4; columns++) {
+        for (uint32_t rows = 1; rows <= 4; rows++) {
+            compare(shape_holes(f.points, columns, rows));
+        }
+    }
+}
+
+static void equals_the_plain_form_on_hard_families(void **state)
+{
+    (void)state;
+    for (uint32_t n = 8; n <= 120; n += 16) {
+        shape_star(f.points, n, 1000.0, 300.0);
+        compare(n);
+        shape_comb(f.points, n, 50);
+        compare(n);
+        shape_spiral(f.points, n);
+        TEST_CHECK(oracle_is_simple(f.points, n));
+        compare(n);
+    }
+}
+
+static void computes_exactly_at_the_limits(void **state)
+{
+    (void)state;
+    test_random random = { 3 };
+    uint32_t compared = 0;
+    const int64_t limit = TL_MAX_CONTOUR_COORDINATE;
+    for (uint32_t round = 0; round < 400; round++) {
+        uint32_t n = 4 + test_random_below(&random, 16);
+        if (!shape_untangled(&random, f.points, n, 20)) {
+            continue;
+        }
+        // Stretched to the whole range, then shaken by a unit: the oracle's sums stay below 2^62.
+        for (uint32_t i = 0; i < n; i++) {
+            f.points[i].x = f.points[i].x * (2 * limit / 20) - limit + test_random_below(&random, 2);
+            f.points[i].z = f.points[i].z * (2 * limit / 20) - limit + test_random_below(&random, 2);
+        }
+        if (oracle_is_simple(f.points, n) && oracle_contour_area2(f.points, n) > 0) {
+            compare(n);
+            compared++;
+        }
+    }
+    TEST_CHECK(compared > 100);
+}
+
+static void refuses_what_is_no_outline(void **state)
+{
+    (void)state;
+    const oracle_point inverted[4] = { { 0, 0 }, { 4, 0 }, { 4, 4 }, { 0, 4 } };
+    memcpy(f.points, inverted, sizeof inverted);
+    TEST_RESULT(run(4), TL_ERR_SELF_INTERSECTION);
+    const oracle_point flat[3] = { { 0, 0 }, { 4, 0 }, { 8, 0 } };
+    memcpy(f.points, flat, sizeof flat);
+    TEST_RESULT(run(3), TL_ERR_SELF_INTERSECTION);
+    // Scribbles end in some result, with triangles of positive area when it is TL_OK.
+    test_random random = { 4 };
+    for (uint32_t round = 0; round < 2000; round++) {
+        uint32_t n = 3 + test_random_below(&random, 12);
+        shape_random_points(&random, f.points, n, 6);
+        if (run(n) == TL_OK) {
+            for (uint32_t t = 0; t < n - 2; t++) {
+                const uint32_t *c = f.triangles + 3 * t;
+                TEST_CHECK(oracle_area2(f.points[c[0]], f.points[c[1]], f.points[c[2]]) < 0);
+            }
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cuts_the_shortest_partition_first),
+        cmocka_unit_test(one_triangle_stays_as_it_is),
+        cmocka_unit_test(equals_the_plain_form_on_random_outlines),
+        cmocka_unit_test(equals_the_plain_form_on_straight_runs),
+        cmocka_unit_test(equals_the_plain_form_on_bridged_holes),
+        cmocka_unit_test(equals_the_plain_form_on_hard_families),
+        cmocka_unit_test(computes_exactly_at_the_limits),
+        cmocka_unit_test(refuses_what_is_no_outline),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
