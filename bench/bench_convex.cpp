@@ -92,7 +92,7 @@ shape make_shape(int count)
     for (int i = 0; i < count; i++) {
         s.points.push_back(random_direction());
     }
-    if (tl_hull_build(s.points.data(), (uint32_t)count, nullptr, &s.hull, nullptr) != TL_OK) {
+    if (tl_hull_bake(s.points.data(), (uint32_t)count, nullptr, &s.hull, nullptr) != TL_OK) {
         std::fprintf(stderr, "no hull\n");
         std::exit(1);
     }
@@ -485,7 +485,7 @@ int main(int argc, char **argv)
             run(report, s, count, shapes);
         }
         for (shape &s : shapes) {
-            tl_blob_free(s.hull, nullptr);
+            tl_blob_free(s.hull);
 #ifdef TALUS_HAVE_BULLET
             delete s.bullet;
 #endif

@@ -105,23 +105,23 @@ static void must(bool fine)
 static volatile uint32_t sink;
 
 // One life of a mesh; lowers each figure to the best seen. The mesh keeps its memory from the life before.
-static void live(tl_halfedge *mesh, const torus *t, const uint32_t *vertices, double best[FIGURE_COUNT])
+static void live(tl_halfedge_mesh *mesh, const torus *t, const uint32_t *vertices, double best[FIGURE_COUNT])
 {
     double times[FIGURE_COUNT + 1];
     uint32_t found = 0, steps = 0;
-    tl_halfedge_clear(mesh);
+    tl_halfedge_mesh_clear(mesh);
     times[ADD_VERTEX] = now();
     for (uint32_t v = 0; v < t->vertex_count; v++) {
         uint32_t unused;
-        must(tl_halfedge_add_vertex(mesh, tl_vec3_make((float)v, 0.0f, 0.0f), &unused) == TL_OK);
+        must(tl_halfedge_mesh_add_vertex(mesh, tl_vec3_make((float)v, 0.0f, 0.0f), &unused) == TL_OK);
     }
     times[ADD_FACE] = now();
     for (uint32_t f = 0; f < t->face_count; f++) {
-        must(tl_halfedge_add_face(mesh, t->faces[f], 3, NULL) == TL_OK);
+        must(tl_halfedge_mesh_add_face(mesh, t->faces[f], 3, NULL) == TL_OK);
     }
     times[FIND_EDGE] = now();
     for (uint32_t f = 0; f < t->face_count; f++) {
-        found += tl_halfedge_find_edge(mesh, t->faces[f][0], t->faces[f][1]) != TL_HALFEDGE_NONE;
+        found += tl_halfedge_mesh_find_edge(mesh, t->faces[f][0], t->faces[f][1]) != TL_HALFEDGE_NONE;
     }
     times[RING_STEP] = now();
     for (uint32_t i = 0; i < t->vertex_count; i++) {
@@ -142,7 +142,7 @@ static void live(tl_halfedge *mesh, const torus *t, const uint32_t *vertices, do
     times[REMOVE_FACE] = now();
     must(mesh->boundary_count == 0 && found == t->face_count && steps == 3 * t->face_count);
     for (uint32_t f = 0; f < t->face_count; f++) {
-        must(tl_halfedge_remove_face(mesh, f) == TL_OK);
+        must(tl_halfedge_mesh_remove_face(mesh, f) == TL_OK);
     }
     times[FIGURE_COUNT] = now();
     must(mesh->half_edge_count == 0);
@@ -157,15 +157,15 @@ static void measure(uint32_t side, bool shuffled, double best[FIGURE_COUNT])
 {
     torus t = make_torus(side, shuffled);
     uint32_t *vertices = numbers(t.vertex_count, shuffled);
-    tl_halfedge mesh;
-    tl_halfedge_init(&mesh, NULL);
+    tl_halfedge_mesh mesh;
+    tl_halfedge_mesh_init(&mesh, NULL);
     for (int i = 0; i < FIGURE_COUNT; i++) {
         best[i] = 1e30;
     }
     for (uint32_t k = 0; k < REPETITIONS || k * t.face_count < LEAST_FACES_A_SIZE; k++) {
         live(&mesh, &t, vertices, best);
     }
-    tl_halfedge_free(&mesh);
+    tl_halfedge_mesh_destroy(&mesh);
     free(vertices);
     free(t.faces);
 }
@@ -173,24 +173,24 @@ static void measure(uint32_t side, bool shuffled, double best[FIGURE_COUNT])
 // A fan around one hub, added in order: the hub's degree grows with the fan, the cost of a face must not.
 static double star(uint32_t spokes)
 {
-    tl_halfedge mesh;
-    tl_halfedge_init(&mesh, NULL);
+    tl_halfedge_mesh mesh;
+    tl_halfedge_mesh_init(&mesh, NULL);
     uint32_t v;
     for (uint32_t i = 0; i <= spokes; i++) {
-        must(tl_halfedge_add_vertex(&mesh, tl_vec3_make((float)i, 0.0f, 0.0f), &v) == TL_OK);
+        must(tl_halfedge_mesh_add_vertex(&mesh, tl_vec3_make((float)i, 0.0f, 0.0f), &v) == TL_OK);
     }
     double best = 1e30;
     for (int k = 0; k < REPETITIONS; k++) {
         double start = now();
         for (uint32_t i = 1; i + 1 <= spokes; i++) {
-            must(tl_halfedge_add_triangle(&mesh, 0, i, i + 1, NULL) == TL_OK);
+            must(tl_halfedge_mesh_add_triangle(&mesh, 0, i, i + 1, NULL) == TL_OK);
         }
         for (uint32_t f = mesh.face_end; f-- > 0;) {
-            must(tl_halfedge_remove_face(&mesh, f) == TL_OK);
+            must(tl_halfedge_mesh_remove_face(&mesh, f) == TL_OK);
         }
         best = fmin(best, (now() - start) / spokes);
     }
-    tl_halfedge_free(&mesh);
+    tl_halfedge_mesh_destroy(&mesh);
     return best;
 }
 

@@ -66,12 +66,12 @@ static double run_talus(const tl_vec3 *points, uint32_t count, uint32_t *vertice
     tl_hull_def def = tl_default_hull_def();
     tl_hull *hull;
     double start = now();
-    if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
+    if (tl_hull_bake(points, count, &def, &hull, NULL) != TL_OK) {
         return 1e30;
     }
     double time = now() - start;
     *vertices_out = hull->vertex_count;
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
     return time;
 }
 
@@ -197,7 +197,7 @@ static void bench_rays(bench_report *report)
         static tl_vec3 points[512];
         tl_hull *hull;
         make_cloud(CLOUD_SPHERE, points, counts[c]);
-        if (tl_hull_build(points, counts[c], NULL, &hull, NULL) != TL_OK) {
+        if (tl_hull_bake(points, counts[c], NULL, &hull, NULL) != TL_OK) {
             continue;
         }
         for (int wait = 0; wait < 2; wait++) {
@@ -217,7 +217,7 @@ static void bench_rays(bench_report *report)
             }
             printf(" %6u\n", hits);
         }
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
 }
 

@@ -119,8 +119,8 @@ double talus_peak(const bench_part &part)
     input.mesh = part.mesh.view();
     tl_nav_tile *tile;
     meter::live = meter::peak = 0;
-    tl_nav_tile_build(&part.config, &input, &host, nullptr, &tile, nullptr);
-    tl_blob_free(tile, &allocator);
+    tl_nav_tile_bake(&part.config, &input, &host, nullptr, &tile, nullptr);
+    tl_blob_free(tile);
     return (double)meter::peak;
 }
 
@@ -133,8 +133,8 @@ bool time_whole(const bench_part &part, figures *sum)
     tl_nav_tile *tile;
     stopwatch watch{ sum, WHOLE };
     const bool done =
-        watch.time([&] { return !tl_nav_tile_build(&part.config, &input, nullptr, nullptr, &tile, nullptr); });
-    tl_blob_free(tile, nullptr);
+        watch.time([&] { return !tl_nav_tile_bake(&part.config, &input, nullptr, nullptr, &tile, nullptr); });
+    tl_blob_free(tile);
     return done;
 }
 
@@ -151,14 +151,14 @@ bool run_talus(const bench_part &part, figures *sum)
         watch.time([&] { return !tl_nav_open_floors(&config, &s.heightfield, nullptr, compact, nullptr); }) &&
         watch.time([&] { return !tl_nav_erode(&config, nullptr, compact); }) &&
         watch.time([&] { return !watershed || !tl_nav_distance_field(nullptr, compact, nullptr); }) &&
-        watch.time([&] { return !tl_nav_build_regions(&config, nullptr, compact, nullptr); }) &&
-        watch.time([&] { return !tl_nav_build_contours(&config, compact, nullptr, &s.contours, nullptr); }) &&
+        watch.time([&] { return !tl_nav_bake_regions(&config, nullptr, compact, nullptr); }) &&
+        watch.time([&] { return !tl_nav_bake_contours(&config, compact, nullptr, &s.contours, nullptr); }) &&
         watch.time([&] {
             tl_polygon_def def = tl_default_polygon_def();
             def.max_verts_per_poly = config.max_verts_per_poly;
-            return !tl_polygon_mesh_build(&s.contours.set, &def, &s.polygons, nullptr);
+            return !tl_polygon_mesh_bake(&s.contours.set, &def, &s.polygons, nullptr);
         }) &&
-        watch.time([&] { return !tl_nav_build_detail(&config, compact, &s.polygons, nullptr, &s.detail, nullptr); });
+        watch.time([&] { return !tl_nav_bake_detail(&config, compact, &s.polygons, nullptr, &s.detail, nullptr); });
     tl_nav_stages_free(&s, nullptr);
     return done && time_whole(part, sum);
 }
@@ -231,7 +231,7 @@ double wall_ms(const bench_level &level, tl_nav_def def, const tl_tasks *tasks)
     input.mesh = level.mesh.view();
     tl_nav_tiles tiles;
     const double begin = clock_ms(CLOCK_MONOTONIC);
-    const tl_result result = tl_nav_build(&def, &input, &tiles, nullptr);
+    const tl_result result = tl_nav_bake(&def, &input, &tiles, nullptr);
     const double ms = clock_ms(CLOCK_MONOTONIC) - begin;
     tl_nav_tiles_free(&tiles, nullptr);
     return result == TL_OK ? ms : 0;

@@ -205,7 +205,7 @@ void bench_around(arena &a)
             a.checksum += (uint64_t)count;
         },
         [&](const place &p) {
-            tl_nav_zone zone = tl_nav_circle(p.talus.point, RADIUS);
+            tl_nav_zone zone = tl_nav_zone_circle(p.talus.point, RADIUS);
             tl_nav_field_def field = { INFINITY, &zone, false };
             uint32_t count = 0;
             tl_nav_query_flood(a.query.get(), navmesh, nullptr, &p.talus, &field, a.entries.data(), MOST, &count);

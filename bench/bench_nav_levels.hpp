@@ -9,7 +9,7 @@
 
 #include <cstdio>
 #include <string>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <unordered_map>
 #include <vector>
 
@@ -83,7 +83,7 @@ inline bool add_tiles(const tl_nav_def &def, bench_level *level)
     std::vector<tl_nav_config> configs(tiles_x * tiles_z);
     std::vector<std::vector<uint32_t>> triangles(tiles_x * tiles_z);
     for (uint32_t t = 0; t < tiles_x * tiles_z; t++) {
-        tl_nav_config_make(&def, bounds, t % tiles_x, t / tiles_x, &configs[t], nullptr);
+        tl_nav_config_from_def(&def, bounds, t % tiles_x, t / tiles_x, &configs[t], nullptr);
     }
     for (uint32_t k = 0; k < level->mesh.indices.size() / 3; k++) {
         tl_aabb box = tl_aabb_empty();
@@ -126,7 +126,7 @@ inline void add_level(const std::string &name, const tl_mesh_view &view, const t
             std::to_string(level.parts.size()) + " tiles of " + std::to_string(def.tile_size) + " cells";
     } else {
         tl_nav_config config;
-        if (tl_nav_config_make(&def, bounds_of(level.mesh), 0, 0, &config, nullptr) != TL_OK) {
+        if (tl_nav_config_from_def(&def, bounds_of(level.mesh), 0, 0, &config, nullptr) != TL_OK) {
             std::printf("%s: no lattice\n", name.c_str());
             return;
         }

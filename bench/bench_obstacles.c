@@ -62,7 +62,7 @@ static void measure_rebuilds(const tl_nav_def *def, const tl_nav_input *input, b
         tl_aabb box = { { at.x, -100.0f, at.z }, { at.x + 3.0f, 100.0f, at.z + 3.0f } };
         tl_nav_tile_block block;
         double began = now();
-        must(tl_nav_rebuild(def, input, box, &block, NULL), "rebuild");
+        must(tl_nav_rebake(def, input, box, &block, NULL), "rebuild");
         times[i] = (now() - began) * 1e3;
         tiles += block.range.count_x * block.range.count_z;
         tl_nav_tile_block_free(&block, NULL);
@@ -87,7 +87,7 @@ static void make_tiles(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, edit_ti
     while (tl_nav_obstacles_waiting(obstacles) > 0 && times->swap_count < MOST_TILES) {
         tl_nav_remade_tile remade;
         double began = now();
-        must(tl_nav_obstacles_build_next(obstacles, &remade, NULL), "build");
+        must(tl_nav_obstacles_bake_next(obstacles, &remade, NULL), "build");
         double built = now();
         must(tl_navmesh_replace_tiles(navmesh, remade.tile_x, remade.tile_z, &remade.stack), "swap");
         times->swap[times->swap_count++] = (now() - built) * 1e6;
@@ -160,8 +160,8 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
     bench_report_value(report, "one obstacle in the city", "tile made, first time", name, first_median);
     bench_report_value(report, "one obstacle in the city", "tile made again", name, again_median);
     bench_report_value(report, "one obstacle in the city", "tile swapped", name, swap_median);
-    tl_navmesh_free(navmesh);
-    tl_nav_obstacles_free(obstacles);
+    tl_navmesh_destroy(navmesh);
+    tl_nav_obstacles_destroy(obstacles);
 }
 
 int main(int argc, char **argv)

@@ -62,7 +62,7 @@ static double run(int way, const tl_contour_set *set, uint32_t cap, uint32_t *po
     def.method = methods[way];
     tl_polygon_mesh mesh;
     double began = now();
-    tl_result result = tl_polygon_mesh_build(set, &def, &mesh, NULL);
+    tl_result result = tl_polygon_mesh_bake(set, &def, &mesh, NULL);
     double seconds = now() - began;
     if (result != TL_OK) {
         fprintf(stderr, "bench_polygon: %s\n", tl_result_text(result));

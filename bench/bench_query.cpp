@@ -370,8 +370,8 @@ void bench_places(arena &a)
             const located_pair &p = a.pairs[i];
             tl_nav_location end;
             uint32_t count;
-            tl_nav_query_slide(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, p.target, a.polygons.data(), 64,
-                               &count, &end);
+            tl_nav_query_move_along_surface(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, p.target,
+                                            a.polygons.data(), 64, &count, &end);
             a.checksum += count;
         });
     compare(
@@ -420,8 +420,8 @@ void compare_places(arena &a)
         tl_nav_wall wall;
         a.detour->moveAlongSurface(p.start.detour, p.start.detour_point, &p.target.x, &a.filter, end,
                                    a.detour_polygons.data(), &count, 64);
-        tl_nav_query_slide(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, p.target, nullptr, 0, &own_count,
-                           &own_end);
+        tl_nav_query_move_along_surface(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, p.target, nullptr, 0,
+                                        &own_count, &own_end);
         double theirs = plan_distance(end, p.target), ours = plan_distance(&own_end.point.x, p.target);
         slides += ours > theirs + 2e-3;
         a.detour->findDistanceToWall(p.start.detour, p.start.detour_point, WALL_RADIUS, &a.filter, &distance, point,

@@ -269,7 +269,7 @@ static tl_soup *build_soup(const tl_mesh_view *view, tl_soup_layout layout, floa
     def.layout = layout;
     def.split_budget = split_budget;
     tl_soup *soup = NULL;
-    tl_result code = tl_soup_build(view, &def, &soup, NULL);
+    tl_result code = tl_soup_bake(view, &def, &soup, NULL);
     if (code != TL_OK) {
         fprintf(stderr, "%s\n", tl_result_text(code));
         exit(1);
@@ -288,7 +288,7 @@ static tl_soup *lay_out(tl_soup *soup)
     tl_soup *copy = aligned_alloc(HUGE_PAGE, room);
     (void)madvise(copy, room, MADV_HUGEPAGE);
     memcpy(copy, soup, size);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     return copy;
 }
 
@@ -313,7 +313,7 @@ static void build_level(RTCDevice device, const bench_level *l, scenes *s, resul
         (double)stats.reference_count / (double)stats.leaf_count,
         (double)(stats.node_count + stats.leaf_count - 1) / (double)stats.node_count, r->bytes,
         (double)tl_soup_size(split) / n, high_bytes / n);
-    tl_blob_free(split, NULL);
+    tl_blob_free(split);
 }
 
 static void run_level(RTCDevice device, const bench_level *l, uint32_t repetitions, uint32_t ray_count,
@@ -358,8 +358,8 @@ static void run_level(RTCDevice device, const bench_level *l, uint32_t repetitio
     rtcReleaseScene(s.embree[FAST]);
     rtcReleaseScene(s.embree[QUADS]);
     rtcReleaseScene(s.embree[ROBUST]);
-    tl_blob_free(s.soup, NULL);
-    tl_blob_free(s.compact, NULL);
+    tl_blob_free(s.soup);
+    tl_blob_free(s.compact);
 }
 
 // ----------------------------------------------------------------------------------------------------- claims

@@ -325,9 +325,9 @@ static changes time_changes(RTCDevice device, world *w, const model *models, uin
     changes best = { 1e30, 1e30, 1e30, 1e30, 1e30, 1e30, 0 };
     for (uint32_t r = 0; r < 4 * repetitions; r++) {
         double begin = bench_thread_now();
-        tl_blob_free(w->scene, NULL);
+        tl_blob_free(w->scene);
         w->scene = NULL;
-        if (tl_scene_build(w->items, w->count, NULL, &w->scene, NULL) != TL_OK) {
+        if (tl_scene_bake(w->items, w->count, NULL, &w->scene, NULL) != TL_OK) {
             exit(1);
         }
         best.build = fmin(best.build, microseconds(begin));
@@ -369,8 +369,8 @@ static void run_size(RTCDevice device, const model *models, uint32_t count, uint
         "%s: build %.0f us (Embree medium %.0f), all moved %.1f (low %.0f), a tenth moved %.1f (%.0f), growth %.2f\n",
         label, step->build, step->embree_build, step->refit, step->embree_low, step->refit_tenth, step->embree_tenth,
         step->growth);
-    tl_blob_free(w.scene, NULL);
-    if (tl_scene_build(w.items, w.count, NULL, &w.scene, NULL) != TL_OK) {
+    tl_blob_free(w.scene);
+    if (tl_scene_bake(w.items, w.count, NULL, &w.scene, NULL) != TL_OK) {
         exit(1);
     }
     for (uint32_t system = 1; system < SYSTEMS; system++) {
@@ -401,7 +401,7 @@ static void run_size(RTCDevice device, const model *models, uint32_t count, uint
     free(queries);
     rtcReleaseScene(w.embree[ROBUST]);
     rtcReleaseScene(w.embree[FAST]);
-    tl_blob_free(w.scene, NULL);
+    tl_blob_free(w.scene);
     w.scene = NULL;
 }
 
@@ -443,7 +443,7 @@ int main(int argc, char **argv)
     make_small("city", 3000, 8, &models[6].level);
     make_small("terrain", 1000, 4, &models[7].level);
     for (uint32_t i = 0; i < MODELS; i++) {
-        if (tl_soup_build(&models[i].level.view, NULL, &models[i].soup, NULL) != TL_OK) {
+        if (tl_soup_bake(&models[i].level.view, NULL, &models[i].soup, NULL) != TL_OK) {
             return 1;
         }
         models[i].embree[ROBUST] =
@@ -463,7 +463,7 @@ int main(int argc, char **argv)
     for (uint32_t i = 0; i < MODELS; i++) {
         rtcReleaseScene(models[i].embree[ROBUST]);
         rtcReleaseScene(models[i].embree[FAST]);
-        tl_blob_free(models[i].soup, NULL);
+        tl_blob_free(models[i].soup);
         bench_free_levels(&models[i].level, 1);
     }
     rtcReleaseDevice(device);

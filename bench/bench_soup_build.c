@@ -80,14 +80,14 @@ static void build_soup(const tl_mesh_view *view, float split_budget, const tl_ta
     def.host.progress = staged != NULL ? &progress : NULL;
     tl_soup *soup = NULL;
     tl_soup_report report;
-    tl_result code = tl_soup_build(view, &def, &soup, &report);
+    tl_result code = tl_soup_bake(view, &def, &soup, &report);
     if (code != TL_OK) {
         fprintf(stderr, "%s\n", tl_result_text(code));
         exit(1);
     }
     r->peak_bytes = (double)report.base.peak_bytes;
     r->bytes = (double)tl_soup_size(soup);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
 }
 
 static void run_system(system_kind system, const tl_mesh_view *view, RTCDevice device, const tl_tasks *two,

@@ -128,7 +128,7 @@ static uint64_t ask_points(workload *w, kind k)
             tl_soup_point nearest;
             found += tl_soup_nearest(w->soup, w->places[i], INFINITY, NULL, &nearest) == TL_OK;
         } else if (k == LOCATE) {
-            tl_soup_place place;
+            tl_soup_location place;
             found += tl_soup_locate(w->soup, w->places[i], &place) == TL_OK && place.side == TL_SOUP_INSIDE;
         } else {
             tl_ray_hit hits[MAX_TRIANGLES];
@@ -208,7 +208,7 @@ static void run_level(bench_report *report, const char *name, uint32_t triangles
         return;
     }
     tl_soup *soup;
-    if (tl_soup_build(&level.view, NULL, &soup, NULL) == TL_OK) {
+    if (tl_soup_bake(&level.view, NULL, &soup, NULL) == TL_OK) {
         workload w;
         make_workload(&w, soup, queries);
         double best[KINDS];
@@ -222,7 +222,7 @@ static void run_level(bench_report *report, const char *name, uint32_t triangles
         }
         print_level(report, name, level.view.triangle_count, &w, best);
         free_workload(&w);
-        tl_blob_free(soup, NULL);
+        tl_blob_free(soup);
     }
     bench_free_levels(&level, 1);
 }

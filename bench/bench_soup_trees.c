@@ -41,7 +41,7 @@ static bool build_rows(const bench_level *level, row rows[ROWS])
         def.partition = k / 2 == 1 ? TL_SOUP_KD : TL_SOUP_BOXES;
         def.layout = k == 4 ? TL_SOUP_COMPACT : TL_SOUP_FAST;
         double start = bench_thread_now();
-        built = tl_soup_build(&level->view, &def, &rows[k].soup, NULL) == TL_OK && built;
+        built = tl_soup_bake(&level->view, &def, &rows[k].soup, NULL) == TL_OK && built;
         rows[k].build = bench_thread_now() - start;
     }
     return built;
@@ -158,7 +158,7 @@ int main(int argc, char **argv)
             sound = same;
         }
         for (uint32_t k = 0; k < ROWS; k++) {
-            tl_blob_free(rows[k].soup, NULL);
+            tl_blob_free(rows[k].soup);
         }
     }
     if (all.levels > 0) {

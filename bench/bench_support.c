@@ -93,7 +93,7 @@ static const tl_hull *build_hull(const tl_vec3 *points, uint32_t count)
 {
     tl_hull_def def = tl_default_hull_def();
     tl_hull *hull;
-    if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
+    if (tl_hull_bake(points, count, &def, &hull, NULL) != TL_OK) {
         fprintf(stderr, "a hull could not be built\n");
         exit(1);
     }
@@ -455,7 +455,7 @@ static void run_subject(bench_report *report, const char *name, shape kind, uint
         report_curves(report, name, (double)peer.count, &random, &turning);
     }
     peer_hull_free(&peer);
-    tl_blob_free((tl_hull *)(uintptr_t)hull, NULL);
+    tl_blob_free((tl_hull *)(uintptr_t)hull);
 }
 
 int main(int argc, char **argv)
@@ -499,6 +499,6 @@ int main(int argc, char **argv)
     }
     bench_report_print_claims(report);
     peer_hull_free(&yardstick_hull);
-    tl_blob_free((tl_hull *)(uintptr_t)yardstick, NULL);
+    tl_blob_free((tl_hull *)(uintptr_t)yardstick);
     return bench_report_close(report, path);
 }

@@ -202,19 +202,19 @@ uint32_t peer_text_climb_warm(peer_hull *peer, tl_vec3 d)
 // The text knows triangles only: a fan for each polygon. Half-edges are numbered as its AddFace would.
 static bool make_text_mesh(peer_hull *peer, const tl_hull *hull)
 {
-    tl_halfedge mesh;
-    tl_halfedge_init(&mesh, NULL);
+    tl_halfedge_mesh mesh;
+    tl_halfedge_mesh_init(&mesh, NULL);
     bool made = true;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         uint32_t unused;
-        made = made && tl_halfedge_add_vertex(&mesh, tl_hull_vertices(hull)[v], &unused) == TL_OK;
+        made = made && tl_halfedge_mesh_add_vertex(&mesh, tl_hull_vertices(hull)[v], &unused) == TL_OK;
     }
     const tl_hull_half_edge *h = tl_hull_half_edges(hull);
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_face face = tl_hull_faces(hull)[f];
         for (uint32_t k = 1; k + 1 < face.count; k++) {
-            made = made && tl_halfedge_add_triangle(&mesh, h[face.first].origin, h[face.first + k].origin,
-                                                    h[face.first + k + 1].origin, NULL) == TL_OK;
+            made = made && tl_halfedge_mesh_add_triangle(&mesh, h[face.first].origin, h[face.first + k].origin,
+                                                         h[face.first + k + 1].origin, NULL) == TL_OK;
         }
     }
     peer->text_verts = malloc(mesh.vertex_end * sizeof *peer->text_verts);
@@ -233,7 +233,7 @@ static bool make_text_mesh(peer_hull *peer, const tl_hull *hull)
         text_vert *origin = &peer->text_verts[mesh.edges[e ^ 1u].vertex];
         origin->edge = origin->edge < 0 ? (int)e : origin->edge;
     }
-    tl_halfedge_free(&mesh);
+    tl_halfedge_mesh_destroy(&mesh);
     return made;
 }
 

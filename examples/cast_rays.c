@@ -16,7 +16,7 @@ int main(void)
 
     tl_soup *soup;
     tl_soup_report report;
-    tl_result result = tl_soup_build(&level, NULL, &soup, &report);
+    tl_result result = tl_soup_bake(&level, NULL, &soup, &report);
     if (result != TL_OK) {
         fprintf(stderr, "bake: %s\n", tl_result_text(result));
         return 1;
@@ -43,6 +43,6 @@ int main(void)
     printf("the guard %s the thief and %s her friend\n", sees_thief ? "sees" : "does not see",
            sees_friend ? "sees" : "does not see");
 
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     return wall && hit.t == 4.0f && !sees_thief && sees_friend ? 0 : 1;
 }

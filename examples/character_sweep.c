@@ -30,7 +30,7 @@ int main(void)
 {
     tl_mesh_view view = { vertices, 8, indices, 4, NULL };
     tl_soup *soup;
-    if (tl_soup_build(&view, NULL, &soup, NULL) != TL_OK) {
+    if (tl_soup_bake(&view, NULL, &soup, NULL) != TL_OK) {
         return 1;
     }
     // 1.8 m tall, 0.3 m to each side; the position is at its feet.
@@ -50,6 +50,6 @@ int main(void)
     printf("its head is %.3f from triangle %u\n", (double)nearest.distance, nearest.triangle);
     bool right = result == TL_OK && fabsf(nearest.distance - 0.3f) < 1e-4f && fabsf(floor_height) < 1e-4f &&
                  fabsf(at.position.x - 3.7f) < 1e-4f && fabsf(at.position.z - 3.0f) < 1e-3f;
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     return right ? 0 : 1;
 }

@@ -29,7 +29,7 @@ int main(void)
     tl_mesh_view view = { vertices, 12, indices, 6, NULL };
     tl_soup *level = NULL;
     tl_scene *scene = NULL;
-    if (tl_soup_build(&view, NULL, &level, NULL) != TL_OK) {
+    if (tl_soup_bake(&view, NULL, &level, NULL) != TL_OK) {
         return 1;
     }
     // The door hangs at its hinge, which is its own origin.
@@ -39,7 +39,7 @@ int main(void)
                                    { NULL, &door, tl_transform_identity(), DOORS },
                                    { NULL, &body, tl_transform_identity(), PEOPLE } };
     items[THIEF].pose.position = tl_vec3_make(0.5f, 0, 4);
-    if (tl_scene_build(items, ITEMS, NULL, &scene, NULL) != TL_OK) {
+    if (tl_scene_bake(items, ITEMS, NULL, &scene, NULL) != TL_OK) {
         return 1;
     }
     tl_vec3 eye = tl_vec3_make(0.5f, 1.6f, -4), chest = tl_vec3_make(0.5f, 1.2f, 4);
@@ -66,8 +66,8 @@ int main(void)
     (void)tl_scene_cast_shape(scene, items, &body, guard, tl_vec3_make(0, 0, 10), NULL, &met);
     printf("the guard runs into item %u after %.2f m\n", met.item, 10 * (double)met.hit.t);
 
-    tl_blob_free(scene, NULL);
-    tl_blob_free(level, NULL);
+    tl_blob_free(scene);
+    tl_blob_free(level);
     bool right = !before && after && hit.item == THIEF && met.item == THIEF && fabsf(met.hit.t - 0.74f) < 1e-4f;
     return right ? 0 : 1;
 }

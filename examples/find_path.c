@@ -2,7 +2,7 @@
 //
 // From triangles to a path: bake a navmesh in memory, ask it for the way around a wall.
 
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_query.h>
 
 #include <math.h>
@@ -23,8 +23,8 @@ static tl_result bake(tl_navmesh *navmesh)
     tl_nav_def def = tl_default_nav_def();
     def.agent_radius = 0.4f;
     tl_nav_tiles tiles;
-    tl_nav_build_report report;
-    tl_result result = tl_nav_build(&def, &input, &tiles, &report);
+    tl_nav_bake_report report;
+    tl_result result = tl_nav_bake(&def, &input, &tiles, &report);
     if (result != TL_OK) {
         return result;
     }
@@ -60,7 +60,7 @@ static tl_result walk(const tl_navmesh *navmesh, float *length_out)
         }
         *length_out = route.length;
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     return result;
 }
 
@@ -75,7 +75,7 @@ int main(void)
     if (result == TL_OK) {
         result = walk(navmesh, &length);
     }
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     if (result != TL_OK) {
         fprintf(stderr, "talus: %s\n", tl_result_text(result));
         return 1;

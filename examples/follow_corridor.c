@@ -115,7 +115,7 @@ int main(int argc, char **argv)
     tl_nav_query *query = NULL;
     tl_nav_query_def query_def = tl_default_nav_query_def();
     tl_nav_ref room[ROOM];
-    tl_nav_corridor corridor = tl_nav_corridor_make(room, ROOM);
+    tl_nav_corridor corridor = tl_nav_corridor_init(room, ROOM);
     tl_nav_location start, goal;
     tl_nav_path path;
     uint32_t waiting = 0, steps = MOST_STEPS;
@@ -140,9 +140,9 @@ int main(int argc, char **argv)
         }
     }
     printf(steps < MOST_STEPS ? "there after %u steps\n" : "not there after %u steps\n", steps);
-    tl_nav_obstacles_free(obstacles);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_obstacles_destroy(obstacles);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
     // Straight through the first door it would be 96 steps; the way back and through the other one is longer.
     return steps > 110 && steps < 200 ? 0 : 1;
 }

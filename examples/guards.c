@@ -6,7 +6,7 @@
 //   example_guards              runs the chase and checks it
 //   example_guards chase.svg    and draws it: intruder blue, guard red, lines of sight grey
 
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_query.h>
 #include <talus/soup.h>
 
@@ -73,10 +73,10 @@ static tl_result make_world(const level *l, world *w)
     const tl_nav_input input = { l->mesh, NULL, NULL, 0 };
     tl_nav_tiles tiles;
     tl_nav_query_def query_def = tl_default_nav_query_def();
-    tl_result result = tl_soup_build(&l->mesh, NULL, &w->soup, NULL);
+    tl_result result = tl_soup_bake(&l->mesh, NULL, &w->soup, NULL);
     result = result == TL_OK ? tl_nav_query_create(&query_def, &w->query) : result;
     result = result == TL_OK ? tl_navmesh_create(NULL, &w->navmesh) : result;
-    if (result != TL_OK || (result = tl_nav_build(&def, &input, &tiles, NULL)) != TL_OK) {
+    if (result != TL_OK || (result = tl_nav_bake(&def, &input, &tiles, NULL)) != TL_OK) {
         return result;
     }
     for (uint32_t i = 0; i < tiles.tile_count && result == TL_OK; i++) {
@@ -206,9 +206,9 @@ int main(int count, char **words)
     if (result == TL_OK) {
         result = run(&w, &guard, &intruder, &c);
     }
-    tl_navmesh_free(w.navmesh);
-    tl_nav_query_free(w.query);
-    tl_blob_free(w.soup, NULL);
+    tl_navmesh_destroy(w.navmesh);
+    tl_nav_query_destroy(w.query);
+    tl_blob_free(w.soup);
     if (result != TL_OK) {
         fprintf(stderr, "talus: %s\n", tl_result_text(result));
         return 1;

@@ -14,7 +14,7 @@ int main(void)
     const tl_vec3 points[] = { { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 }, { -1, -1, 1 },
                                { 1, -1, 1 },   { 1, 1, 1 },   { -1, 1, 1 }, { 0, 0, 0 },   { 1, 0, 0 } };
     tl_hull *hull;
-    tl_result result = tl_hull_build(points, 10, NULL, &hull, NULL);
+    tl_result result = tl_hull_bake(points, 10, NULL, &hull, NULL);
     if (result != TL_OK) {
         fprintf(stderr, "hull: %s\n", tl_result_text(result));
         return 1;
@@ -41,6 +41,6 @@ int main(void)
     bool right = hull->vertex_count == 8 && hull->face_count == 6 && corner.x == 1 && corner.y == 1 && corner.z == 1 &&
                  fabsf(separation.distance - (4.0f - sqrtf(2.0f))) < 1e-5f && !separation.overlap &&
                  fabsf(a.x - 1.0f) < 1e-5f && fabsf(tl_distance(a, b) - separation.distance) < 1e-5f;
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
     return right ? 0 : 1;
 }

@@ -3,7 +3,7 @@
 // A jump in use: two roofs with a gap between them. Links are found and proven, a path takes one, and an agent goes
 // along it: on foot from corner to corner, through the air where a link says so.
 
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_links.h>
 
 #include <stdio.h>
@@ -30,8 +30,8 @@ static tl_result bake(roofs *r)
     tl_nav_input input = { mesh, NULL, NULL, 0 };
     tl_nav_def def = tl_default_nav_def();
     def.agent_radius = 0.4f;
-    tl_result result = tl_nav_build(&def, &input, &r->tiles, NULL);
-    result = result == TL_OK ? tl_soup_build(&mesh, NULL, &r->soup, NULL) : result;
+    tl_result result = tl_nav_bake(&def, &input, &r->tiles, NULL);
+    result = result == TL_OK ? tl_soup_bake(&mesh, NULL, &r->soup, NULL) : result;
     result = result == TL_OK ? tl_navmesh_create(NULL, &r->navmesh) : result;
     for (uint32_t i = 0; i < r->tiles.tile_count && result == TL_OK; i++) {
         result = tl_navmesh_add_tile(r->navmesh, r->tiles.tiles[i], TL_NAV_TILE_BORROWED);
@@ -111,11 +111,11 @@ int main(void)
     if (result == TL_OK) {
         after = go(&r);
     }
-    tl_nav_query_free(r.query);
-    tl_blob_free(r.links, NULL);
-    tl_navmesh_free(r.navmesh);
+    tl_nav_query_destroy(r.query);
+    tl_blob_free(r.links);
+    tl_navmesh_destroy(r.navmesh);
     tl_nav_tiles_free(&r.tiles, NULL);
-    tl_blob_free(r.soup, NULL);
+    tl_blob_free(r.soup);
     if (result != TL_OK) {
         fprintf(stderr, "talus: %s\n", tl_result_text(result));
         return 1;

@@ -13,26 +13,26 @@ enum { SIDES = 64 };
 
 // A custom shape: the mesh, and the last answer as the next hint.
 typedef struct climber {
-    const tl_halfedge *mesh;
+    const tl_halfedge_mesh *mesh;
     uint32_t hint;
 } climber;
 
 static tl_vec3 climb(tl_vec3 direction, void *user)
 {
     climber *c = (climber *)user;
-    c->hint = tl_halfedge_support(c->mesh, direction, c->hint);
+    c->hint = tl_halfedge_mesh_support(c->mesh, direction, c->hint);
     return c->mesh->vertices[c->hint].position;
 }
 
 // Even vertices below, odd ones above.
-static tl_result build_prism(tl_halfedge *mesh)
+static tl_result build_prism(tl_halfedge_mesh *mesh)
 {
     uint32_t vertices[2 * SIDES], bottom[SIDES], top[SIDES];
     tl_result result = TL_OK;
     for (uint32_t i = 0; i < 2 * SIDES && result == TL_OK; i++) {
         float angle = 6.2831853f * (float)(i / 2) / SIDES;
         tl_vec3 p = tl_vec3_make(cosf(angle), i % 2 ? 1.0f : 0.0f, sinf(angle));
-        result = tl_halfedge_add_vertex(mesh, p, &vertices[i]);
+        result = tl_halfedge_mesh_add_vertex(mesh, p, &vertices[i]);
     }
     for (uint32_t i = 0; i < SIDES; i++) {
         bottom[i] = vertices[2 * i];
@@ -41,20 +41,20 @@ static tl_result build_prism(tl_halfedge *mesh)
     for (uint32_t i = 0; i < SIDES && result == TL_OK; i++) {
         uint32_t next = (i + 1) % SIDES;
         uint32_t side[4] = { vertices[2 * i], vertices[2 * i + 1], vertices[2 * next + 1], vertices[2 * next] };
-        result = tl_halfedge_add_face(mesh, side, 4, NULL);
+        result = tl_halfedge_mesh_add_face(mesh, side, 4, NULL);
     }
-    result = result == TL_OK ? tl_halfedge_add_face(mesh, bottom, SIDES, NULL) : result;
-    return result == TL_OK ? tl_halfedge_add_face(mesh, top, SIDES, NULL) : result;
+    result = result == TL_OK ? tl_halfedge_mesh_add_face(mesh, bottom, SIDES, NULL) : result;
+    return result == TL_OK ? tl_halfedge_mesh_add_face(mesh, top, SIDES, NULL) : result;
 }
 
 int main(void)
 {
-    tl_halfedge mesh;
-    tl_halfedge_init(&mesh, NULL);
+    tl_halfedge_mesh mesh;
+    tl_halfedge_mesh_init(&mesh, NULL);
     tl_result result = build_prism(&mesh);
-    if (result != TL_OK || tl_halfedge_check(&mesh) != TL_OK) {
+    if (result != TL_OK || tl_halfedge_mesh_check(&mesh) != TL_OK) {
         fprintf(stderr, "mesh: %s\n", tl_result_text(result));
-        tl_halfedge_free(&mesh);
+        tl_halfedge_mesh_destroy(&mesh);
         return 1;
     }
 
@@ -64,7 +64,7 @@ int main(void)
     for (int degree = 0; degree < 360; degree++) {
         float angle = (float)degree * 0.017453293f;
         tl_vec3 direction = tl_vec3_make(cosf(angle), 0.25f, sinf(angle));
-        vertex = tl_halfedge_support(&mesh, direction, vertex);
+        vertex = tl_halfedge_mesh_support(&mesh, direction, vertex);
         float best = tl_dot(mesh.vertices[vertex].position, direction);
         for (uint32_t v = 0; v < 2 * SIDES; v++) {
             worst = fmaxf(worst, tl_dot(mesh.vertices[v].position, direction) - best);
@@ -82,6 +82,6 @@ int main(void)
     printf("the ball is %.4f above the prism\n", (double)separation.distance);
 
     bool right = mesh.face_count == SIDES + 2 && worst <= 1e-6f && fabsf(separation.distance - 1.5f) < 1e-5f;
-    tl_halfedge_free(&mesh);
+    tl_halfedge_mesh_destroy(&mesh);
     return right ? 0 : 1;
 }

@@ -76,7 +76,7 @@ static void make_body(body *body, bytes *b, float scale)
         body->curved = true;
         break;
     default:
-        if (kind % 8 == 5 || tl_hull_build(body->points, count, NULL, &body->hull, NULL) != TL_OK) {
+        if (kind % 8 == 5 || tl_hull_bake(body->points, count, NULL, &body->hull, NULL) != TL_OK) {
             body->shape = tl_convex_from_points(body->points, count, radius);
         } else {
             body->shape = tl_convex_from_hull(body->hull, radius);
@@ -152,7 +152,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     tl_transform pose_a = make_pose(&b, scale), pose_c = make_pose(&b, scale);
     check_pair(&a, pose_a, &c, pose_c, scale);
     check_cast(&a, pose_a, &c, pose_c, lattice_point(&b, 2.0f * scale), scale);
-    tl_blob_free(a.hull, NULL);
-    tl_blob_free(c.hull, NULL);
+    tl_blob_free(a.hull);
+    tl_blob_free(c.hull);
     return 0;
 }

@@ -38,7 +38,7 @@ static void transform(const tl_hull *hull, tl_vec3 scale, tl_vec3 turn, tl_vec3 
     if (tl_hull_transform(hull, scale, pose, NULL, &image, NULL) == TL_OK) {
         require(tl_hull_check(image, image->blob.size) == TL_OK);
         require(tl_hull_validate(image, NULL, 0, NULL) == TL_OK);
-        tl_blob_free(image, NULL);
+        tl_blob_free(image);
     }
 }
 
@@ -48,7 +48,7 @@ static void build(const tl_vec3 *points, uint32_t count, uint32_t limit)
     def.flatness = 0.0f;
     def.max_vertices = limit;
     tl_hull *hull;
-    if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
+    if (tl_hull_bake(points, count, &def, &hull, NULL) != TL_OK) {
         return;
     }
     require(tl_hull_check(hull, hull->blob.size) == TL_OK);
@@ -63,7 +63,7 @@ static void build(const tl_vec3 *points, uint32_t count, uint32_t limit)
         }
     }
     transform(hull, points[0], points[1], points[2]);
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

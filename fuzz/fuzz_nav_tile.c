@@ -90,7 +90,7 @@ static tl_nav_tile *bake_sample(void)
     source.agent_height = 2.0f;
     source.agent_max_climb = 1.0f;
     tl_nav_tile *tile = NULL;
-    require(tl_nav_tile_create(&source, NULL, &tile, NULL) == TL_OK);
+    require(tl_nav_tile_encode(&source, NULL, &tile, NULL) == TL_OK);
     return tile;
 }
 
@@ -102,7 +102,7 @@ static void ask(const tl_navmesh *navmesh, tl_nav_query *query, tl_vec3 from, tl
     tl_nav_route route;
     tl_vec3 extents = { 40.0f, 1e9f, 40.0f };
     tl_result result = tl_nav_query_find_route(query, navmesh, NULL, from, to, extents, &buffers, &route);
-    require(result == TL_OK || result == TL_ERR_NOT_FOUND || result == TL_ERR_CAPACITY);
+    require(result == TL_OK || result == TL_NOT_FOUND || result == TL_INCOMPLETE);
     if (result != TL_OK) {
         return;
     }
@@ -111,7 +111,7 @@ static void ask(const tl_navmesh *navmesh, tl_nav_query *query, tl_vec3 from, tl
     require(route.path.status != TL_NAV_PATH_COMPLETE || polygons[route.path.polygon_count - 1] == route.goal.polygon);
     tl_nav_ray_hit hit;
     result = tl_navmesh_cast_ray(navmesh, NULL, &route.start, to, polygons, 64, &hit);
-    require(result == TL_OK || result == TL_ERR_CAPACITY || result == TL_ERR_ITERATIONS);
+    require(result == TL_OK || result == TL_INCOMPLETE || result == TL_ERR_ITERATIONS);
     require(result == TL_ERR_ITERATIONS || (hit.t >= 0.0f && hit.t <= 1.0f && isfinite(hit.point.y)));
 }
 
@@ -135,8 +135,8 @@ static void use_tile(const tl_nav_tile *tile, const tl_nav_tile *neighbour)
         (void)tl_nav_tile_neighbour(tile, p, 0);
     }
     tl_navmesh_remove_tile(navmesh, tile->tile_x, tile->tile_z);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 // The sample as two layers of a checkerboard: every inner edge is cut.
@@ -152,7 +152,7 @@ static tl_nav_tile *bake_layer(uint32_t layer)
     tl_nav_tile *tile = stack.tiles[layer];
     stack.tiles[layer] = NULL;
     tl_nav_tile_stack_free(&stack, NULL);
-    tl_blob_free(whole, NULL);
+    tl_blob_free(whole);
     return tile;
 }
 
@@ -179,7 +179,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         neighbour->tile_x = layered ? 0 : tile->tile_x + 1;
         neighbour->tile_z = layered ? 0 : tile->tile_z;
         use_tile(tile, neighbour);
-        tl_blob_free(neighbour, NULL);
+        tl_blob_free(neighbour);
     }
     free(bytes);
     return 0;

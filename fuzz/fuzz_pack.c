@@ -58,10 +58,10 @@ static void read_all(const tl_pack *pack)
             require(strlen(tl_pack_meta_name(chunk.bytes)) == ((const tl_pack_meta *)chunk.bytes)->name_size);
         }
         (void)tl_pack_navmesh_check(chunk.bytes, chunk.size);
-        if (tl_pack_marks_check(chunk.bytes, chunk.size) == TL_OK) {
-            const tl_pack_marks *marks = chunk.bytes;
+        if (tl_pack_volumes_check(chunk.bytes, chunk.size) == TL_OK) {
+            const tl_pack_volumes *marks = chunk.bytes;
             for (uint32_t k = 0; k < marks->count; k++) {
-                const tl_nav_volume volume = tl_pack_marks_volume(marks, k);
+                const tl_nav_volume volume = tl_pack_volumes_at(marks, k);
                 for (uint32_t p = 0; p < volume.point_count; p++) {
                     require(volume.points[p].y == 0.0f);
                 }
@@ -70,7 +70,7 @@ static void read_all(const tl_pack *pack)
     }
     tl_navmesh *navmesh = NULL;
     if (tl_pack_load_navmesh(pack, NULL, &navmesh, NULL) == TL_OK) {
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
 }
 

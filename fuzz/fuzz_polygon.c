@@ -19,7 +19,7 @@ static void build_and_check(const tl_contour_set *set, uint32_t cap, uint32_t me
     def.merge_height = merge_height;
     tl_polygon_mesh mesh;
     tl_polygon_report report;
-    if (tl_polygon_mesh_build(set, &def, &mesh, &report) != TL_OK) {
+    if (tl_polygon_mesh_bake(set, &def, &mesh, &report) != TL_OK) {
         abort();
     }
     tl_polygon_check_report check;

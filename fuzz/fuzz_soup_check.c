@@ -38,7 +38,7 @@ static tl_soup *build_sample(tl_soup_layout layout)
     tl_soup_def def = tl_default_soup_def();
     def.layout = layout;
     tl_soup *soup = NULL;
-    return tl_soup_build(&view, &def, &soup, NULL) == TL_OK ? soup : NULL;
+    return tl_soup_bake(&view, &def, &soup, NULL) == TL_OK ? soup : NULL;
 }
 
 static bool count_triangle(const tl_soup_triangle *triangle, void *user)

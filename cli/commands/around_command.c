@@ -186,7 +186,7 @@ static tl_exit answer(tl_cli *cli, const around_settings *settings, const float 
             code = tl_batch_run(cli, &batch, numbers);
         }
         for (uint32_t i = 0; i < all.count; ++i) {
-            tl_nav_query_free(all.queries[i]);
+            tl_nav_query_destroy(all.queries[i]);
         }
         free(all.queries);
     }

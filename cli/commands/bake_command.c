@@ -17,10 +17,10 @@ static tl_result make_content(const tl_level *level, const tl_bake *bake, bool n
     if (result != TL_OK) {
         return result;
     }
-    result = tl_pack_meta_create(tl_pack_source_name(level->path), level->imported.vertex_count,
+    result = tl_pack_meta_encode(tl_pack_source_name(level->path), level->imported.vertex_count,
                                  level->imported.triangle_count, level->mesh.bounds, NULL, &content->meta);
     if (result == TL_OK && nav) {
-        result = tl_pack_navmesh_create(&bake->nav_def, bake->nav_bounds, bake->tiles.tiles_x, bake->tiles.tiles_z,
+        result = tl_pack_navmesh_encode(&bake->nav_def, bake->nav_bounds, bake->tiles.tiles_x, bake->tiles.tiles_z,
                                         bake->tiles.tile_count, NULL, &content->navmesh);
     }
     if (result != TL_OK) {
@@ -76,7 +76,7 @@ enum { STAGE_COUNTS = 19 };
 
 static uint32_t collect_counts(const bake_result *r, stage_count out[STAGE_COUNTS])
 {
-    const tl_nav_build_report *nav = &r->bake->nav_report;
+    const tl_nav_bake_report *nav = &r->bake->nav_report;
     const stage_count counts[STAGE_COUNTS] = {
         { "read mesh", "triangles", r->level->imported.triangle_count, r->level->imported.source_bytes },
         { "weld", "vertices", r->level->mesh.vertex_count, 0 },
@@ -157,7 +157,7 @@ static void print_pruned(const tl_nav_pruned *pruned, const char *why)
 // What was walkable and is not in the navmesh.
 static void print_left_out(const tl_bake *bake)
 {
-    const tl_nav_build_report *nav = &bake->nav_report;
+    const tl_nav_bake_report *nav = &bake->nav_report;
     if (nav->filtered_regions > 0) {
         printf("left out %u islands, %llu floors, %.1f m2: less than --region-min-size squared\n",
                nav->filtered_regions, (unsigned long long)nav->filtered_spans, nav->filtered_area);
@@ -231,7 +231,7 @@ static json_t *pruned_json(const tl_nav_pruned *pruned)
 
 static json_t *left_out_json(const tl_bake *bake)
 {
-    const tl_nav_build_report *nav = &bake->nav_report;
+    const tl_nav_bake_report *nav = &bake->nav_report;
     return json_pack("{so so so so sI sI sI}", "small_regions",
                      json_pack("{sI sI so}", "islands", (json_int_t)nav->filtered_regions, "floors",
                                (json_int_t)nav->filtered_spans, "square_metres", tl_json_double(nav->filtered_area)),
@@ -268,7 +268,7 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
                                       (json_int_t)bake->hull->face_count, "bytes", (json_int_t)bake->hull->blob.size));
     }
     if (r->settings->nav) {
-        const tl_nav_build_report *nav = &bake->nav_report;
+        const tl_nav_bake_report *nav = &bake->nav_report;
         json_object_set_new(object, "navmesh",
                             json_pack("{sb sI sI so sI sI sI}", "walkable", (int)bake->walkable, "tiles",
                                       (json_int_t)bake->tiles.tile_count, "polygons", (json_int_t)bake->nav_polygons,

@@ -180,7 +180,7 @@ static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
         find_result(f, part, tl_nav_links_check(chunk.bytes, chunk.size), NULL);
         break;
     case TL_PACK_MARK:
-        find_result(f, part, tl_pack_marks_check(chunk.bytes, chunk.size), NULL);
+        find_result(f, part, tl_pack_volumes_check(chunk.bytes, chunk.size), NULL);
         break;
     default: // a later version may have more kinds; their bytes are covered by the file's hashes
         break;
@@ -199,7 +199,7 @@ static tl_result check_navmesh(findings *f, const tl_pack *pack)
     memset(&report, 0, sizeof(report));
     report.element_index = TL_NO_ELEMENT;
     tl_result result = tl_pack_load_navmesh(pack, NULL, &navmesh, &report);
-    if (result == TL_ERR_NOT_FOUND) {
+    if (result == TL_NOT_FOUND) {
         return TL_OK;
     }
     if (result != TL_OK) {
@@ -210,7 +210,7 @@ static tl_result check_navmesh(findings *f, const tl_pack *pack)
         printf("ok     navmesh: %u tiles fit, %llu links\n", tl_navmesh_tile_count(navmesh),
                (unsigned long long)tl_navmesh_link_count(navmesh));
     }
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     return TL_OK;
 }
 
@@ -265,7 +265,7 @@ static tl_exit check_mesh(findings *f, const char *path, const tl_level_settings
     if (tl_level_load(f->cli, path, settings, &level, &code)) {
         tl_adjacency adjacency;
         tl_mesh_view view = tl_mesh_as_view(&level.mesh);
-        tl_result result = tl_adjacency_build(&view, &f->cli->host, &adjacency);
+        tl_result result = tl_adjacency_bake(&view, &f->cli->host, &adjacency);
         tl_progress_end(&f->cli->progress);
         code = TL_EXIT_OK;
         if (!out_of_memory(f, result, &code)) {

@@ -159,7 +159,7 @@ static bool add_polygons(draw_source *source, uint32_t max_verts_per_poly, const
     def.method = source->nav_def.polygon_method;
     def.host = source->cli->host;
     tl_polygon_mesh polygons;
-    tl_result result = tl_polygon_mesh_build(source->contours, &def, &polygons, NULL);
+    tl_result result = tl_polygon_mesh_bake(source->contours, &def, &polygons, NULL);
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, NULL);
         return false;

@@ -131,7 +131,7 @@ static tl_exit print_cloud(tl_cli *cli, const tl_hull_settings *settings, const 
     tl_hull *hull;
     tl_hull_report report;
     tl_point_cloud cloud = tl_point_clouds_get(clouds, index);
-    tl_result result = tl_hull_build_cloud(cli, settings, cloud, &hull, &report);
+    tl_result result = tl_hull_bake_cloud(cli, settings, cloud, &hull, &report);
     bool ok = true;
     if (result == TL_ERR_MEMORY || result == TL_ERR_CANCELLED) {
         return tl_cli_fail_result(cli, cli->arguments.words[0], result, &report.base);
@@ -149,7 +149,7 @@ static tl_exit print_cloud(tl_cli *cli, const tl_hull_settings *settings, const 
     } else {
         printf("%6u %8u %s\n", index, cloud.count, tl_result_text(result));
     }
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
     return ok ? TL_EXIT_OK : TL_EXIT_MEMORY;
 }
 

@@ -34,9 +34,9 @@ static tl_result make_content(const char *path, const tl_detour_tiles *tiles, tl
     def.agent_radius = model->agent_radius;
     def.agent_max_climb = model->agent_max_climb;
     def.tile_size = model->tile_size;
-    result = tl_pack_meta_create(tl_pack_source_name(path), 0, 0, bounds, NULL, &content->meta);
+    result = tl_pack_meta_encode(tl_pack_source_name(path), 0, 0, bounds, NULL, &content->meta);
     if (result == TL_OK) {
-        result = tl_pack_navmesh_create(&def, bounds, (uint32_t)most_x + 1, (uint32_t)most_z + 1, tiles->tile_count,
+        result = tl_pack_navmesh_encode(&def, bounds, (uint32_t)most_x + 1, (uint32_t)most_z + 1, tiles->tile_count,
                                         NULL, &content->navmesh);
     }
     if (result == TL_OK) {

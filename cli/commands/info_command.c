@@ -76,7 +76,7 @@ static bool take_chunk(tl_cli *cli, const tl_input *input, uint32_t type, tl_res
 {
     tl_result result;
     *chunk_out = tl_input_checked_chunk(input, type, check, &result);
-    if (result != TL_OK && result != TL_ERR_NOT_FOUND) {
+    if (result != TL_OK && result != TL_NOT_FOUND) {
         *exit_out = tl_cli_fail_result(cli, input->path, result, NULL);
         return false;
     }
@@ -385,7 +385,7 @@ static tl_exit info_of_mesh(tl_cli *cli, const char *path, const tl_level_settin
     if (tl_level_load(cli, path, settings, &level, &code)) {
         tl_adjacency adjacency;
         tl_mesh_view view = tl_mesh_as_view(&level.mesh);
-        tl_result result = tl_adjacency_build(&view, &cli->host, &adjacency);
+        tl_result result = tl_adjacency_bake(&view, &cli->host, &adjacency);
         tl_progress_end(&cli->progress);
         if (result != TL_OK) {
             code = tl_cli_fail_result(cli, path, result, NULL);

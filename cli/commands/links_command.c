@@ -113,7 +113,7 @@ static tl_exit find(tl_cli *cli, const links_settings *settings)
         code = code == TL_EXIT_OK && settings->picture != NULL ? draw(cli, &source, links, settings) : code;
         code = code == TL_EXIT_OK ? report(cli, links, &found, settings) : code;
     }
-    tl_blob_free(links, NULL);
+    tl_blob_free(links);
     draw_source_close(&source);
     return code;
 }

@@ -59,7 +59,7 @@ static void write_point(tl_text *text, const tl_soup_point *found)
 // Tells where the point is; returns whether it is inside or on the surface.
 static bool answer_inside(const nearest_query *query, tl_vec3 at, tl_text *text)
 {
-    tl_soup_place place;
+    tl_soup_location place;
     tl_result result = tl_soup_locate(query->soup, at, &place);
     const char *word = result != TL_OK                    ? "open"
                        : place.side == TL_SOUP_INSIDE     ? "inside"

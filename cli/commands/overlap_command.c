@@ -55,7 +55,7 @@ static bool answer_point(const float *n, uint32_t number_count, tl_text *text, u
     }
     uint32_t few[FEW], *triangles = few, count = 0;
     tl_result result = tl_soup_find_overlaps(query->soup, &settings->shape.shape, pose, NULL, few, FEW, &count);
-    if (result == TL_ERR_CAPACITY) {
+    if (result == TL_INCOMPLETE) {
         triangles = malloc(count * sizeof(*triangles));
         if (triangles == NULL) {
             text->failed = true;

@@ -66,15 +66,15 @@ static tl_result find_route(const path_queries *queries, searcher *s, const floa
 {
     tl_vec3 start = tl_vec3_make(n[0], n[1], n[2]);
     tl_vec3 goal = tl_vec3_make(n[3], n[4], n[5]);
-    tl_result result = TL_ERR_CAPACITY;
-    for (unsigned trial = 0; trial < 3 && result == TL_ERR_CAPACITY; ++trial) {
+    tl_result result = TL_INCOMPLETE;
+    for (unsigned trial = 0; trial < 3 && result == TL_INCOMPLETE; ++trial) {
         memset(route, 0, sizeof(*route));
         result = queries->settings->radius > 0.0f
                      ? tl_find_wide_route(s->query, queries->navmesh, queries->settings->radius, start, goal,
                                           queries->settings->extents, &s->buffers, route)
                      : tl_nav_query_find_route(s->query, queries->navmesh, NULL, start, goal,
                                                queries->settings->extents, &s->buffers, route);
-        if (result == TL_ERR_CAPACITY && !grow(s, route->path.polygon_count, route->corner_count + 2)) {
+        if (result == TL_INCOMPLETE && !grow(s, route->path.polygon_count, route->corner_count + 2)) {
             return TL_ERR_MEMORY;
         }
     }
@@ -110,7 +110,7 @@ static void write_json_links(tl_text *text, const searcher *s, const tl_nav_rout
 
 static void write_json_route(tl_text *text, const searcher *s, const tl_nav_route *route, tl_result result)
 {
-    if (result == TL_ERR_NOT_FOUND) {
+    if (result == TL_NOT_FOUND) {
         bool start = route->start.polygon == TL_NAV_NO_REF;
         tl_text_add(text, start ? "{\"status\":\"no navmesh at start\"}\n" : "{\"status\":\"no navmesh at goal\"}\n");
         return;
@@ -130,7 +130,7 @@ static void write_json_route(tl_text *text, const searcher *s, const tl_nav_rout
 
 static void write_route(tl_text *text, const searcher *s, const tl_nav_route *route, tl_result result, bool partial)
 {
-    if (result == TL_ERR_NOT_FOUND) {
+    if (result == TL_NOT_FOUND) {
         bool start = route->start.polygon == TL_NAV_NO_REF;
         tl_text_add(text, start ? "none: no navmesh at the start\n" : "none: no navmesh at the goal\n");
         return;
@@ -157,7 +157,7 @@ static bool answer_pair(const path_queries *queries, searcher *s, const float *n
 {
     tl_nav_route route;
     tl_result result = find_route(queries, s, numbers, &route);
-    if (result != TL_OK && result != TL_ERR_NOT_FOUND) {
+    if (result != TL_OK && result != TL_NOT_FOUND) {
         bool json = queries->settings->json;
         text->failed = text->failed || result == TL_ERR_MEMORY;
         tl_text_add(text, json ? "{\"status\":\"" : "none: ");
@@ -183,7 +183,7 @@ static bool answer_line(const float *numbers, uint32_t count, tl_text *text, uin
 static void free_searchers(path_queries *queries)
 {
     for (uint32_t i = 0; i < queries->searcher_count; ++i) {
-        tl_nav_query_free(queries->searchers[i].query);
+        tl_nav_query_destroy(queries->searchers[i].query);
         free(queries->searchers[i].buffers.polygons);
         free(queries->searchers[i].buffers.corners);
     }

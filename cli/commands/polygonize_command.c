@@ -166,7 +166,7 @@ static tl_exit run_set(job *j, const tl_contour_text *text)
     tl_polygon_mesh mesh;
     tl_polygon_report report;
     double began = tl_clock_seconds();
-    tl_result result = tl_polygon_mesh_build(&text->set, &def, &mesh, &report);
+    tl_result result = tl_polygon_mesh_bake(&text->set, &def, &mesh, &report);
     double seconds = tl_clock_seconds() - began;
     if (result != TL_OK) {
         return tl_cli_fail_result(j->cli, j->input, result, &report.base);

@@ -118,7 +118,7 @@ static bool answer_all(const ray_query *query, const float *n, float tmax, tl_te
     tl_ray_hit few[FEW], *hits = few;
     uint32_t count = 0; // stays 0 for a ray that leads nowhere
     tl_result result = tl_soup_cast_ray_all(query->soup, &ray, rule, &query->filter, few, FEW, &count);
-    if (result == TL_ERR_CAPACITY) {
+    if (result == TL_INCOMPLETE) {
         hits = malloc(count * sizeof(*hits));
         if (hits == NULL) {
             text->failed = true;

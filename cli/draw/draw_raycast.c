@@ -49,7 +49,7 @@ static tl_result build_layer(const draw_layer *layer, const tl_host *host, tl_so
     tl_soup_def def = tl_default_soup_def();
     // The picture has progress of its own; the layer's bake would only make it jump.
     def.host.tasks = host->tasks;
-    tl_result result = tl_soup_build(&view, &def, soup_out, NULL);
+    tl_result result = tl_soup_bake(&view, &def, soup_out, NULL);
     free(indices);
     // A layer without any area shows nothing: no error of the picture.
     return result == TL_ERR_DEGENERATE ? TL_OK : result;
@@ -70,8 +70,8 @@ tl_result draw_soups_build(const draw_scene *scene, const tl_host *host, draw_so
 
 void draw_soups_free(draw_soups *soups)
 {
-    tl_blob_free(soups->backdrop, NULL);
-    tl_blob_free(soups->overlay, NULL);
+    tl_blob_free(soups->backdrop);
+    tl_blob_free(soups->overlay);
     memset(soups, 0, sizeof *soups);
 }
 

@@ -23,7 +23,7 @@ typedef struct draw_route {
 
 static void free_route(draw_route *route)
 {
-    tl_nav_query_free(route->query);
+    tl_nav_query_destroy(route->query);
     free(route->buffers.polygons);
     free(route->buffers.corners);
 }
@@ -83,11 +83,11 @@ static tl_result find_longest_route(const draw_source *source, draw_route *route
     int best = 0;
     tl_vec3 from[2] = { bounds.min, { bounds.min.x, bounds.min.y, bounds.max.z } };
     tl_vec3 to[2] = { bounds.max, { bounds.max.x, bounds.min.y, bounds.min.z } };
-    tl_result result = TL_ERR_NOT_FOUND;
+    tl_result result = TL_NOT_FOUND;
     for (int i = 0; i < 3; i++) {
         int diagonal = i < 2 ? i : best;
         tl_result found = find_route(navmesh, route, from[diagonal], to[diagonal], size);
-        if (found != TL_OK && found != TL_ERR_NOT_FOUND) {
+        if (found != TL_OK && found != TL_NOT_FOUND) {
             return found;
         }
         bool complete = found == TL_OK && route->route.path.status == TL_NAV_PATH_COMPLETE;
@@ -114,7 +114,7 @@ bool draw_route_add(draw_source *source, const draw_route_ends *ends, draw_scene
     }
     if (result == TL_OK) {
         draw_stage_route(scene, navmesh, &route.route, &route.buffers);
-    } else if (result == TL_ERR_NOT_FOUND) {
+    } else if (result == TL_NOT_FOUND) {
         draw_stage_navmesh(scene, navmesh);
         tl_cli_warn(source->cli, "%s: there is no navmesh near %s; the picture shows no path", source->input.path,
                     route.route.start.polygon == TL_NAV_NO_REF ? "the start" : "the goal");
@@ -122,5 +122,5 @@ bool draw_route_add(draw_source *source, const draw_route_ends *ends, draw_scene
         *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, NULL);
     }
     free_route(&route);
-    return result == TL_OK || result == TL_ERR_NOT_FOUND;
+    return result == TL_OK || result == TL_NOT_FOUND;
 }

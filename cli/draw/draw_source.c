@@ -47,7 +47,7 @@ static bool open_baked(draw_source *source, const char *path, tl_exit *exit_out)
     }
     tl_result result;
     source->soup = tl_input_checked_chunk(&source->input, TL_PACK_SOUP, tl_soup_check, &result);
-    if (source->soup == NULL && result != TL_ERR_NOT_FOUND) {
+    if (source->soup == NULL && result != TL_NOT_FOUND) {
         *exit_out = tl_cli_fail_result(source->cli, path, result, NULL);
         return false;
     }
@@ -58,11 +58,11 @@ static bool open_baked(draw_source *source, const char *path, tl_exit *exit_out)
         source->nav_def = tl_pack_navmesh_def(parameters);
         source->bounds = parameters->bounds;
     }
-    const tl_pack_marks *marks = tl_input_checked_chunk(&source->input, TL_PACK_MARK, tl_pack_marks_check, &result);
+    const tl_pack_volumes *marks = tl_input_checked_chunk(&source->input, TL_PACK_MARK, tl_pack_volumes_check, &result);
     if (marks != NULL) {
         result = tl_level_areas_of_marks(marks, &source->areas);
     }
-    if (result != TL_OK && result != TL_ERR_NOT_FOUND) {
+    if (result != TL_OK && result != TL_NOT_FOUND) {
         *exit_out = tl_cli_fail_result(source->cli, path, result, NULL);
         return false;
     }
@@ -109,7 +109,7 @@ static bool open_contours(draw_source *source, const char *path, uint32_t set, t
         *exit_out = tl_cli_fail_io(source->cli, &error);
     } else if (at < set) {
         *exit_out = tl_cli_fail(source->cli, TL_EXIT_USAGE, "--set: %s holds %u sets, numbered from 0", path, at + 1);
-        result = TL_ERR_NOT_FOUND;
+        result = TL_NOT_FOUND;
     }
     source->contours = &source->text.set;
     source->bounds = source->text.set.bounds;
@@ -148,7 +148,7 @@ void draw_source_close(draw_source *source)
     }
     tl_nav_stages_free(&source->stages, NULL);
     tl_level_areas_free(&source->areas);
-    tl_blob_free(source->baked_soup, NULL);
+    tl_blob_free(source->baked_soup);
     free(source->corners);
     free(source->indices);
     free(source->numbers);
@@ -176,7 +176,7 @@ bool draw_need_soup(draw_source *source, tl_exit *exit_out)
     tl_soup_def def = tl_default_soup_def();
     def.host = source->cli->host;
     tl_soup_report report;
-    tl_result result = tl_soup_build(&source->mesh, &def, &source->baked_soup, &report);
+    tl_result result = tl_soup_bake(&source->mesh, &def, &source->baked_soup, &report);
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, &report.base);
     }
@@ -214,15 +214,15 @@ bool draw_need_stages(draw_source *source, tl_exit *exit_out)
     def.tile_size = 0;
     def.host = source->cli->host;
     tl_nav_config config;
-    tl_nav_build_report report;
+    tl_nav_bake_report report;
     memset(&report, 0, sizeof report);
-    tl_result result = tl_nav_config_make(&def, source->bounds, 0, 0, &config, &report.base);
+    tl_result result = tl_nav_config_from_def(&def, source->bounds, 0, 0, &config, &report.base);
     tl_nav_tile *tile = NULL;
     if (result == TL_OK) {
         const tl_nav_input input = tl_level_areas_input(&source->areas, &source->mesh);
-        result = tl_nav_tile_build(&config, &input, &source->cli->host, &source->stages, &tile, &report);
+        result = tl_nav_tile_bake(&config, &input, &source->cli->host, &source->stages, &tile, &report);
     }
-    tl_blob_free(tile, NULL);
+    tl_blob_free(tile);
     source->has_stages = result == TL_OK;
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, &report.base);

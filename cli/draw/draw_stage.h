@@ -7,7 +7,7 @@
 
 #include "cli/draw/draw_scene.h"
 
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_links.h>
 #include <talus/nav_query.h>
 #include <talus/soup.h>

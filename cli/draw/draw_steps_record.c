@@ -86,7 +86,7 @@ tl_result steps_record_make(const tl_contour_set *set, uint32_t contour, uint32_
     def.trace = &trace;
     def.host = *host;
     record_out->counting = true;
-    tl_result result = tl_polygon_mesh_build(&one, &def, &record_out->mesh, NULL);
+    tl_result result = tl_polygon_mesh_bake(&one, &def, &record_out->mesh, NULL);
     if (result == TL_OK) {
         result = choose_shown(&record_out->kinds[kind], most_shown);
     }
@@ -96,7 +96,7 @@ tl_result steps_record_make(const tl_contour_set *set, uint32_t contour, uint32_
     tl_polygon_mesh_free(&record_out->mesh, NULL);
     record_out->counting = false;
     record_out->kinds[0].count = record_out->kinds[1].count = 0;
-    result = tl_polygon_mesh_build(&one, &def, &record_out->mesh, NULL);
+    result = tl_polygon_mesh_bake(&one, &def, &record_out->mesh, NULL);
     return result == TL_OK && record_out->out_of_memory ? TL_ERR_MEMORY : result;
 }
 

@@ -5,7 +5,7 @@
 #include "cli/shared/json_out.h"
 
 #include <stdio.h>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 
 void tl_area_sums_add(tl_area_sums *sums, const tl_nav_tile *tile)
 {

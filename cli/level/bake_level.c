@@ -144,7 +144,7 @@ static bool bake_soup(tl_cli *cli, const tl_level *level, const tl_bake_settings
     tl_soup_def def = tl_default_soup_def();
     def.layout = (tl_soup_layout)settings->soup_layout;
     def.host = cli->host;
-    tl_result result = tl_soup_build(&view, &def, &bake->soup, &bake->soup_report);
+    tl_result result = tl_soup_bake(&view, &def, &bake->soup, &bake->soup_report);
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(cli, level->path, result, &bake->soup_report.base);
     }
@@ -157,7 +157,7 @@ static bool bake_hull(tl_cli *cli, const tl_level *level, tl_bake *bake, tl_exit
     tl_hull_def def = tl_default_hull_def();
     tl_hull_report report;
     def.host = cli->host;
-    bake->hull_result = tl_hull_build(level->mesh.vertices, level->mesh.vertex_count, &def, &bake->hull, &report);
+    bake->hull_result = tl_hull_bake(level->mesh.vertices, level->mesh.vertex_count, &def, &bake->hull, &report);
     switch (bake->hull_result) {
     case TL_OK:
         return true;
@@ -175,7 +175,7 @@ static bool bake_hull(tl_cli *cli, const tl_level *level, tl_bake *bake, tl_exit
 static bool fail_prune(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings,
                        const tl_nav_prune_def *def, tl_result result, const tl_report *report, tl_exit *exit_out)
 {
-    if (result == TL_ERR_NOT_FOUND && report->element_index < settings->seeds.count) {
+    if (result == TL_NOT_FOUND && report->element_index < settings->seeds.count) {
         const tl_vec3 e = def->seed_extents;
         *exit_out = tl_cli_fail(cli, TL_EXIT_DATA,
                                 "%s: --reachable-from %s: there is no navmesh within %g m, and %g m up or down",
@@ -225,9 +225,9 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
     bake->nav_def = tl_bake_nav_def(settings);
     bake->nav_def.host = cli->host;
     bake->nav_bounds = tl_aabb_is_empty(bake->nav_def.bounds) ? level->mesh.bounds : bake->nav_def.bounds;
-    tl_result result = tl_nav_build(&bake->nav_def, &input, &bake->tiles, &bake->nav_report);
+    tl_result result = tl_nav_bake(&bake->nav_def, &input, &bake->tiles, &bake->nav_report);
     if (result == TL_OK && input.volume_count > 0) {
-        result = tl_pack_marks_create(input.volumes, input.volume_count, NULL, &bake->marks);
+        result = tl_pack_volumes_encode(input.volumes, input.volume_count, NULL, &bake->marks);
     }
     tl_level_areas_free(&areas);
     if (result != TL_OK) {
@@ -260,7 +260,7 @@ static bool bake_links(tl_cli *cli, const tl_level *level, const tl_bake_setting
     }
     ok = ok && tl_level_links_find(cli, level->path, &settings->links_def, navmesh, bake->soup, &bake->links,
                                    &bake->links_report, exit_out);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     return ok;
 }
 
@@ -277,10 +277,10 @@ bool tl_bake_level(tl_cli *cli, const tl_level *level, const tl_bake_settings *s
 
 void tl_bake_free(tl_bake *bake)
 {
-    tl_blob_free(bake->soup, NULL);
-    tl_blob_free(bake->hull, NULL);
-    tl_blob_free(bake->links, NULL);
-    tl_blob_free(bake->marks, NULL);
+    tl_blob_free(bake->soup);
+    tl_blob_free(bake->hull);
+    tl_blob_free(bake->links);
+    tl_blob_free(bake->marks);
     tl_nav_tiles_free(&bake->tiles, NULL);
     memset(bake, 0, sizeof(*bake));
 }

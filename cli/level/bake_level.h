@@ -10,7 +10,7 @@
 #include "cli/level/level_links.h"
 
 #include <talus/hull.h>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_prune.h>
 #include <talus/nav_query.h>
 #include <talus/pack.h>
@@ -55,14 +55,14 @@ typedef struct tl_bake {
     tl_result hull_result; ///< not TL_OK: the level has no hull (flat), and why
     tl_nav_tiles tiles;
     tl_nav_def nav_def; ///< as it was used
-    tl_nav_build_report nav_report;
+    tl_nav_bake_report nav_report;
     tl_nav_prune_report pruned; ///< zero when nothing was asked for
     bool walkable;              ///< there is at least one navmesh polygon
     tl_aabb nav_bounds;         ///< what the navmesh was built over
     double nav_area;            ///< square metres in the plane
     tl_area_sums areas;         ///< the same by area
     uint64_t nav_polygons;
-    tl_pack_marks *marks; ///< NULL: no volumes were given
+    tl_pack_volumes *marks; ///< NULL: no volumes were given
     tl_nav_links *links;
     tl_nav_links_report links_report;
 } tl_bake;

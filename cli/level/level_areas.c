@@ -159,7 +159,7 @@ bool tl_level_areas_make(tl_cli *cli, const tl_level *level, const tl_area_setti
     return mark_triangles(cli, level, settings->path, areas_out, exit_out);
 }
 
-tl_result tl_level_areas_of_marks(const tl_pack_marks *marks, tl_level_areas *areas_out)
+tl_result tl_level_areas_of_marks(const tl_pack_volumes *marks, tl_level_areas *areas_out)
 {
     memset(areas_out, 0, sizeof(*areas_out));
     if (marks->count == 0) {
@@ -173,7 +173,7 @@ tl_result tl_level_areas_of_marks(const tl_pack_marks *marks, tl_level_areas *ar
     areas_out->marks.volume_capacity = marks->count;
     areas_out->marks.volume_count = marks->count;
     for (uint32_t i = 0; i < marks->count; i++) {
-        areas_out->marks.volumes[i] = tl_pack_marks_volume(marks, i);
+        areas_out->marks.volumes[i] = tl_pack_volumes_at(marks, i);
     }
     return TL_OK;
 }

@@ -27,7 +27,7 @@ typedef struct tl_level_areas {
 bool tl_level_areas_make(tl_cli *cli, const tl_level *level, const tl_area_settings *settings,
                          tl_level_areas *areas_out, tl_exit *exit_out);
 /// The volumes of a baked file; `marks`, which are checked, must outlive the areas. TL_ERR_MEMORY.
-tl_result tl_level_areas_of_marks(const tl_pack_marks *marks, tl_level_areas *areas_out);
+tl_result tl_level_areas_of_marks(const tl_pack_volumes *marks, tl_level_areas *areas_out);
 void tl_level_areas_free(tl_level_areas *areas);
 
 /// What the navmesh is built from: the cleaned mesh with its marks. Valid while they live.

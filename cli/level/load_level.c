@@ -93,7 +93,7 @@ bool tl_level_load(tl_cli *cli, const char *path, const tl_level_settings *setti
     tl_mesh_def def = tl_default_mesh_def();
     def.weld_tolerance = settings->weld;
     def.host = cli->host;
-    tl_result result = tl_mesh_build(&view, &def, &level_out->mesh, &level_out->report);
+    tl_result result = tl_mesh_bake(&view, &def, &level_out->mesh, &level_out->report);
     if (result != TL_OK) {
         *exit_out = fail_mesh(cli, level_out, result);
         return false;

@@ -32,14 +32,14 @@ void tl_hull_options(tl_hull_settings *settings, tl_option table[TL_HULL_OPTIONS
     memcpy(table, options, sizeof(options));
 }
 
-tl_result tl_hull_build_cloud(tl_cli *cli, const tl_hull_settings *settings, tl_point_cloud cloud, tl_hull **hull_out,
-                              tl_hull_report *report_out)
+tl_result tl_hull_bake_cloud(tl_cli *cli, const tl_hull_settings *settings, tl_point_cloud cloud, tl_hull **hull_out,
+                             tl_hull_report *report_out)
 {
     tl_hull_def def = tl_default_hull_def();
     def.max_vertices = settings->max_vertices;
     def.thickness = settings->thickness;
     def.host = cli->host;
-    return tl_hull_build(cloud.points, cloud.count, &def, hull_out, report_out);
+    return tl_hull_bake(cloud.points, cloud.count, &def, hull_out, report_out);
 }
 
 tl_exit tl_hull_fail(tl_cli *cli, const char *path, tl_result result, const tl_hull_report *report)
@@ -82,7 +82,7 @@ static bool open_baked(tl_cli *cli, const char *path, tl_hull_input *input, tl_e
     }
     tl_result result;
     input->hull = tl_input_checked_chunk(&input->baked, TL_PACK_HULL, tl_hull_check, &result);
-    if (result == TL_ERR_NOT_FOUND) {
+    if (result == TL_NOT_FOUND) {
         *exit_out = tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no hull; bake it with --hull", path);
     } else if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(cli, path, result, NULL);
@@ -108,7 +108,7 @@ bool tl_hull_open(tl_cli *cli, const char *path, const tl_hull_settings *setting
         return false;
     }
     tl_point_cloud cloud = tl_point_clouds_get(&clouds, settings->index == UINT32_MAX ? 0 : settings->index);
-    tl_result result = tl_hull_build_cloud(cli, settings, cloud, &input_out->built, &input_out->report);
+    tl_result result = tl_hull_bake_cloud(cli, settings, cloud, &input_out->built, &input_out->report);
     input_out->hull = input_out->built;
     input_out->points = cloud.count;
     tl_point_clouds_free(&clouds);
@@ -121,7 +121,7 @@ bool tl_hull_open(tl_cli *cli, const char *path, const tl_hull_settings *setting
 
 void tl_hull_input_close(tl_hull_input *input)
 {
-    tl_blob_free(input->built, NULL);
+    tl_blob_free(input->built);
     tl_input_close(&input->baked);
     memset(input, 0, sizeof(*input));
 }

@@ -31,9 +31,9 @@ typedef struct tl_hull_input {
 } tl_hull_input;
 
 /// The hull of a cloud. On failure `*hull_out` is NULL.
-tl_result tl_hull_build_cloud(tl_cli *cli, const tl_hull_settings *settings, tl_point_cloud cloud, tl_hull **hull_out,
-                              tl_hull_report *report_out);
-/// Reports a failure of tl_hull_build_cloud, with what to do.
+tl_result tl_hull_bake_cloud(tl_cli *cli, const tl_hull_settings *settings, tl_point_cloud cloud, tl_hull **hull_out,
+                             tl_hull_report *report_out);
+/// Reports a failure of tl_hull_bake_cloud, with what to do.
 tl_exit tl_hull_fail(tl_cli *cli, const char *path, tl_result result, const tl_hull_report *report);
 
 bool tl_read_clouds(tl_cli *cli, const char *path, const tl_hull_settings *settings, tl_point_clouds *clouds_out,

@@ -78,7 +78,7 @@ bool tl_input_open_soup(tl_cli *cli, const char *path, const tl_bake_settings *s
         }
         tl_result result;
         input_out->soup = tl_input_checked_chunk(input_out, TL_PACK_SOUP, tl_soup_check, &result);
-        if (result == TL_ERR_NOT_FOUND) {
+        if (result == TL_NOT_FOUND) {
             *exit_out =
                 tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no soup to cast rays at; bake it without --no-soup", path);
         } else if (result != TL_OK) {
@@ -124,7 +124,7 @@ static bool load_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out)
     memset(&report, 0, sizeof(report));
     report.element_index = TL_NO_ELEMENT;
     tl_result result = tl_pack_load_navmesh(&input->pack, NULL, &input->navmesh, &report);
-    if (result == TL_ERR_NOT_FOUND) {
+    if (result == TL_NOT_FOUND) {
         *exit_out = tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no navmesh; bake it without --no-nav", input->path);
     } else if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(cli, input->path, result, &report);
@@ -157,7 +157,7 @@ bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings
 
 void tl_input_close(tl_input *input)
 {
-    tl_navmesh_free(input->navmesh);
+    tl_navmesh_destroy(input->navmesh);
     tl_bake_free(&input->bake);
     tl_level_free(&input->level);
     tl_file_map_close(&input->map);

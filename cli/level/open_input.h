@@ -39,7 +39,7 @@ bool tl_input_assemble_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out);
 void tl_input_close(tl_input *input);
 
 /// The blob of the only chunk of a type, after `check` found it sound; NULL when there is none (`*result_out` is
-/// TL_ERR_NOT_FOUND) or it is damaged.
+/// TL_NOT_FOUND) or it is damaged.
 const void *tl_input_checked_chunk(const tl_input *input, uint32_t type, tl_result (*check)(const void *, uint64_t),
                                    tl_result *result_out);
 

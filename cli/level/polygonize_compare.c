@@ -28,7 +28,7 @@ static tl_exit run_method(tl_cli *cli, const char *input, const tl_contour_text 
 {
     tl_polygon_mesh mesh;
     double began = tl_clock_seconds();
-    tl_result result = tl_polygon_mesh_build(&text->set, def, &mesh, &r->report);
+    tl_result result = tl_polygon_mesh_bake(&text->set, def, &mesh, &r->report);
     r->seconds = tl_clock_seconds() - began;
     if (result != TL_OK) {
         return tl_cli_fail_result(cli, input, result, &r->report.base);

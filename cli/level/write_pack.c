@@ -16,8 +16,8 @@ tl_result tl_pack_content_make(uint32_t most, tl_pack_content *content_out)
 
 void tl_pack_content_free(tl_pack_content *content)
 {
-    tl_blob_free(content->meta, NULL);
-    tl_blob_free(content->navmesh, NULL);
+    tl_blob_free(content->meta);
+    tl_blob_free(content->navmesh);
     free(content->items);
     memset(content, 0, sizeof(*content));
 }

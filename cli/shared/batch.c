@@ -100,7 +100,7 @@ static tl_exit run_lines(tl_cli *cli, block *b, tl_line_input *input)
         tl_io_error error;
         memset(&error, 0, sizeof(error));
         tl_result result = tl_line_input_next(input, &line, &error);
-        if (result == TL_ERR_NOT_FOUND) {
+        if (result == TL_NOT_FOUND) {
             return answer_block(cli, b);
         }
         if (result != TL_OK) {

@@ -76,7 +76,7 @@ tl_result tl_line_input_next(tl_line_input *input, char **line_out, tl_io_error 
             break;
         }
         if (input->at_end) {
-            return TL_ERR_NOT_FOUND;
+            return TL_NOT_FOUND;
         }
         tl_result result = fill(input, error_out);
         if (result != TL_OK) {

@@ -23,7 +23,7 @@ typedef struct tl_line_input {
 tl_result tl_line_input_open(const char *path, tl_line_input *input_out, tl_io_error *error_out);
 void tl_line_input_close(tl_line_input *input);
 
-/// The next line, without its end, terminated; valid until the next call. TL_ERR_NOT_FOUND at the end of the input.
+/// The next line, without its end, terminated; valid until the next call. TL_NOT_FOUND at the end of the input.
 /// TL_ERR_IO, TL_ERR_FORMAT (a line too long, or with a zero byte), TL_ERR_CANCELLED (Ctrl-C while it waited).
 tl_result tl_line_input_next(tl_line_input *input, char **line_out, tl_io_error *error_out);
 

@@ -15,14 +15,14 @@ int main(void)
     tl_mesh_def def = tl_default_mesh_def();
     tl_mesh mesh;
     tl_mesh_report report;
-    tl_result result = tl_mesh_build(&view, &def, &mesh, &report);
+    tl_result result = tl_mesh_bake(&view, &def, &mesh, &report);
     if (result != TL_OK) {
         fprintf(stderr, "talus: %s\n", tl_result_text(result));
         return 1;
     }
     tl_adjacency adjacency;
     tl_mesh_view clean = tl_mesh_as_view(&mesh);
-    result = tl_adjacency_build(&clean, NULL, &adjacency);
+    result = tl_adjacency_bake(&clean, NULL, &adjacency);
     if (result == TL_OK) {
         printf("talus %s: %u vertices welded to %u, %u shared edge\n", tl_version(), view.vertex_count,
                mesh.vertex_count, adjacency.paired_edges);

@@ -34,9 +34,13 @@ extern "C" {
 #endif
 
 /// How a call ended. Every failure has a name of its own; `tl_result_text` has a sentence for each.
-/// Zero is success, so `if (result)` reads as "if it failed".
+///
+/// Zero is success. Two ordinary outcomes have names as well, since a caller usually does something about them; they
+/// are not failures (tl_is_error). All other results are.
 typedef enum tl_result {
     TL_OK = 0,
+    TL_NOT_FOUND,  ///< nothing is there: no hit, no polygon that near, no entry of that name
+    TL_INCOMPLETE, ///< the caller's buffer holds a part: what fitted was written, and the true count was returned
 
     // What the surroundings refused.
     TL_ERR_MEMORY,    ///< the allocator returned NULL; nothing leaked, the input is untouched
@@ -47,7 +51,7 @@ typedef enum tl_result {
     TL_ERR_ARGUMENT,    ///< a def holds a value outside its documented range
     TL_ERR_UNSUPPORTED, ///< well-formed, but of a kind this build cannot handle
     TL_ERR_LIMIT,       ///< a documented limit would be exceeded; nothing was cut silently
-    TL_ERR_NOT_FOUND,   ///< nothing of that name, or nothing there
+    TL_ERR_STALE,       ///< a reference to something that is no longer there, or never was
 
     // What was wrong with geometry.
     TL_ERR_EMPTY,             ///< no vertices, triangles, points or contours
@@ -73,10 +77,16 @@ typedef enum tl_result {
 
     // What a search could not finish. "Gave up" is never reported as "no".
     TL_ERR_ITERATIONS, ///< the iteration limit was reached before the answer was proven
-    TL_ERR_CAPACITY,   ///< the caller's buffer or node pool was too small; what fitted was written
+    TL_ERR_NODES,      ///< the query's node pool was too small; the answer is the best that was seen
 
     TL_RESULT_COUNT
 } tl_result;
+
+/// Whether a result is a failure: neither TL_OK nor one of the ordinary outcomes TL_NOT_FOUND and TL_INCOMPLETE.
+static inline bool tl_is_error(tl_result result)
+{
+    return result > TL_INCOMPLETE;
+}
 
 /// The enum's own word for a result, such as "TL_ERR_NOT_FINITE". Never NULL.
 TL_API const char *tl_result_name(tl_result result);
@@ -136,6 +146,7 @@ typedef struct tl_host {
 /// What a build says about itself, besides its result. A caller who does not want it passes NULL.
 typedef struct tl_report {
     const char *stage;      ///< static; the stage that failed, or the last one
+    const char *field;      ///< static; the def's field that was refused ("cell_size", "host.allocator"...), or NULL
     const char *element;    ///< static; kind of the offending element ("vertex", "triangle", "contour"...), or NULL
     uint64_t element_index; ///< its index in the caller's input, or TL_NO_ELEMENT
     const char *advice;     ///< static; what to do about a failure, or NULL
@@ -152,9 +163,10 @@ typedef struct tl_blob {
 
 #define TL_BLOB_ALIGNMENT 64
 
-/// Gives a blob back to the allocator it was built with. NULL blob: nothing happens.
-/// Every blob type begins with a tl_blob, so this serves them all.
-TL_API void tl_blob_free(void *blob, const tl_allocator *allocator);
+/// Gives a blob back to the allocator it was baked with, which it remembers beside its bytes. NULL blob: nothing
+/// happens. Every blob type begins with a tl_blob, so this serves them all. A blob that was mapped or copied from a
+/// file is not freed here but with its file or its copy.
+TL_API void tl_blob_free(void *blob);
 
 #ifdef __cplusplus
 }

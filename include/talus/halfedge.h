@@ -50,7 +50,7 @@ typedef struct tl_halfedge_face {
 
 /// The mesh. Read the fields freely, change them through the functions only. An index stays valid until its element is
 /// removed; then it is given to a new one. Not thread safe while it is changed.
-typedef struct tl_halfedge {
+typedef struct tl_halfedge_mesh {
     tl_halfedge_vertex *vertices;
     tl_halfedge_edge *edges;
     tl_halfedge_face *faces;
@@ -63,23 +63,23 @@ typedef struct tl_halfedge {
     uint32_t free_vertex, free_edge, free_face;
     uint32_t stamp;
     tl_allocator allocator;
-} tl_halfedge;
+} tl_halfedge_mesh;
 
 /// An empty mesh; takes no memory yet. `allocator` may be NULL: malloc.
-TL_API void tl_halfedge_init(tl_halfedge *mesh, const tl_allocator *allocator);
+TL_API void tl_halfedge_mesh_init(tl_halfedge_mesh *mesh, const tl_allocator *allocator);
 
-/// Gives all memory back; the mesh is as after tl_halfedge_init.
-TL_API void tl_halfedge_free(tl_halfedge *mesh);
+/// Gives all memory back; the mesh is as after tl_halfedge_mesh_init.
+TL_API void tl_halfedge_mesh_destroy(tl_halfedge_mesh *mesh);
 
 /// Removes everything, keeps the memory.
-TL_API void tl_halfedge_clear(tl_halfedge *mesh);
+TL_API void tl_halfedge_mesh_clear(tl_halfedge_mesh *mesh);
 
 /// Adds a vertex. Amortized O(1). Errors: TL_ERR_MEMORY, TL_ERR_LIMIT; the mesh is unchanged then.
-TL_API tl_result tl_halfedge_add_vertex(tl_halfedge *mesh, tl_vec3 position, uint32_t *vertex_out);
+TL_API tl_result tl_halfedge_mesh_add_vertex(tl_halfedge_mesh *mesh, tl_vec3 position, uint32_t *vertex_out);
 
 /// Removes a vertex and all its faces; the other vertices of these stay. O(sum of the faces' sizes).
 /// TL_ERR_INDEX: no such live vertex.
-TL_API tl_result tl_halfedge_remove_vertex(tl_halfedge *mesh, uint32_t vertex);
+TL_API tl_result tl_halfedge_mesh_remove_vertex(tl_halfedge_mesh *mesh, uint32_t vertex);
 
 /// Adds a face of `count` >= 3 vertices, counter-clockwise seen from outside.
 ///
@@ -89,44 +89,46 @@ TL_API tl_result tl_halfedge_remove_vertex(tl_halfedge *mesh, uint32_t vertex);
 /// TL_ERR_MEMORY, TL_ERR_LIMIT. `face_out` may be NULL.
 /// O(sum of the vertices' degrees); an edge is looked for at both of its ends at once, so a vertex of high degree with
 /// neighbours of low degree costs little unless the face touches it by the vertex only.
-TL_API tl_result tl_halfedge_add_face(tl_halfedge *mesh, const uint32_t *vertices, uint32_t count, uint32_t *face_out);
+TL_API tl_result tl_halfedge_mesh_add_face(tl_halfedge_mesh *mesh, const uint32_t *vertices, uint32_t count,
+                                           uint32_t *face_out);
 
-TL_API tl_result tl_halfedge_add_triangle(tl_halfedge *mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t *face_out);
+TL_API tl_result tl_halfedge_mesh_add_triangle(tl_halfedge_mesh *mesh, uint32_t a, uint32_t b, uint32_t c,
+                                               uint32_t *face_out);
 
 /// Removes a face, and those of its edges that no other face has; vertices stay. O(size of the face).
 /// TL_ERR_INDEX: no such live face.
-TL_API tl_result tl_halfedge_remove_face(tl_halfedge *mesh, uint32_t face);
+TL_API tl_result tl_halfedge_mesh_remove_face(tl_halfedge_mesh *mesh, uint32_t face);
 
 /// The half-edge from one vertex to another, or TL_HALFEDGE_NONE; also for indices that are not live.
 /// O(the smaller of the two degrees).
-TL_API uint32_t tl_halfedge_find_edge(const tl_halfedge *mesh, uint32_t from, uint32_t to);
+TL_API uint32_t tl_halfedge_mesh_find_edge(const tl_halfedge_mesh *mesh, uint32_t from, uint32_t to);
 
 /// The half-edges that start at a vertex, clockwise seen from outside. Returns how many there are and writes those that
 /// fit. 0 for a vertex that is isolated or not live.
-TL_API uint32_t tl_halfedge_vertex_edges(const tl_halfedge *mesh, uint32_t vertex, uint32_t *edges_out,
-                                         uint32_t capacity);
-
-/// The vertices that share an edge with a vertex, in the order of its ring. Returns and writes like
-/// tl_halfedge_vertex_edges.
-TL_API uint32_t tl_halfedge_vertex_neighbours(const tl_halfedge *mesh, uint32_t vertex, uint32_t *vertices_out,
+TL_API uint32_t tl_halfedge_mesh_vertex_edges(const tl_halfedge_mesh *mesh, uint32_t vertex, uint32_t *edges_out,
                                               uint32_t capacity);
 
+/// The vertices that share an edge with a vertex, in the order of its ring. Returns and writes like
+/// tl_halfedge_mesh_vertex_edges.
+TL_API uint32_t tl_halfedge_mesh_vertex_neighbours(const tl_halfedge_mesh *mesh, uint32_t vertex,
+                                                   uint32_t *vertices_out, uint32_t capacity);
+
 /// The faces at a vertex, in the order of its ring; gaps are left out. Returns and writes like
-/// tl_halfedge_vertex_edges.
-TL_API uint32_t tl_halfedge_vertex_faces(const tl_halfedge *mesh, uint32_t vertex, uint32_t *faces_out,
-                                         uint32_t capacity);
+/// tl_halfedge_mesh_vertex_edges.
+TL_API uint32_t tl_halfedge_mesh_vertex_faces(const tl_halfedge_mesh *mesh, uint32_t vertex, uint32_t *faces_out,
+                                              uint32_t capacity);
 
 /// The vertices of a face, in its order. Returns how many there are and writes those that fit; 0 when it is not live.
-TL_API uint32_t tl_halfedge_face_vertices(const tl_halfedge *mesh, uint32_t face, uint32_t *vertices_out,
-                                          uint32_t capacity);
+TL_API uint32_t tl_halfedge_mesh_face_vertices(const tl_halfedge_mesh *mesh, uint32_t face, uint32_t *vertices_out,
+                                               uint32_t capacity);
 
 /// The lowest boundary half-edge that is >= `from` and the lowest one of its loop: to walk all holes, begin with 0 and
 /// go on from the result + 1. TL_HALFEDGE_NONE when there is no more. O(size of the mesh and loops) for all calls.
-TL_API uint32_t tl_halfedge_next_boundary_loop(const tl_halfedge *mesh, uint32_t from);
+TL_API uint32_t tl_halfedge_mesh_next_boundary_loop(const tl_halfedge_mesh *mesh, uint32_t from);
 
 /// Whether every invariant holds: links, loops, rings, pools, free lists, counts. TL_ERR_CORRUPT if not. O(size), and
 /// takes one array of marks from the allocator: TL_ERR_MEMORY.
-TL_API tl_result tl_halfedge_check(const tl_halfedge *mesh);
+TL_API tl_result tl_halfedge_mesh_check(const tl_halfedge_mesh *mesh);
 
 /// The vertex of a closed convex mesh that is farthest along a direction, by hill climbing from `hint`: no vertex with
 /// a face has a larger dot product, exactly decided. Which of several equal ones is not specified.
@@ -135,19 +137,19 @@ TL_API tl_result tl_halfedge_check(const tl_halfedge *mesh);
 /// without vertices the answer is TL_HALFEDGE_NONE. Vertices within flat faces and edges are allowed; where a climb
 /// ends among nothing but equal ones all vertices are scanned, for this may be the minimum. On a mesh that is not
 /// convex the answer is a local maximum. Thread safe while the mesh is not changed.
-TL_API uint32_t tl_halfedge_support(const tl_halfedge *mesh, tl_vec3 direction, uint32_t hint);
+TL_API uint32_t tl_halfedge_mesh_support(const tl_halfedge_mesh *mesh, tl_vec3 direction, uint32_t hint);
 
-static inline bool tl_halfedge_is_vertex(const tl_halfedge *mesh, uint32_t vertex)
+static inline bool tl_halfedge_is_vertex(const tl_halfedge_mesh *mesh, uint32_t vertex)
 {
     return vertex < mesh->vertex_end && mesh->vertices[vertex].link == TL_HALFEDGE_LIVE;
 }
 
-static inline bool tl_halfedge_is_edge(const tl_halfedge *mesh, uint32_t edge)
+static inline bool tl_halfedge_is_edge(const tl_halfedge_mesh *mesh, uint32_t edge)
 {
     return edge < mesh->edge_end && mesh->edges[edge].vertex != TL_HALFEDGE_NONE;
 }
 
-static inline bool tl_halfedge_is_face(const tl_halfedge *mesh, uint32_t face)
+static inline bool tl_halfedge_is_face(const tl_halfedge_mesh *mesh, uint32_t face)
 {
     return face < mesh->face_end && mesh->faces[face].link == TL_HALFEDGE_LIVE;
 }
@@ -159,37 +161,37 @@ static inline uint32_t tl_halfedge_twin(uint32_t edge)
 }
 
 /// Where a half-edge points to.
-static inline uint32_t tl_halfedge_target(const tl_halfedge *mesh, uint32_t edge)
+static inline uint32_t tl_halfedge_target(const tl_halfedge_mesh *mesh, uint32_t edge)
 {
     return mesh->edges[edge].vertex;
 }
 
 /// Where a half-edge starts.
-static inline uint32_t tl_halfedge_origin(const tl_halfedge *mesh, uint32_t edge)
+static inline uint32_t tl_halfedge_origin(const tl_halfedge_mesh *mesh, uint32_t edge)
 {
     return mesh->edges[edge ^ 1u].vertex;
 }
 
 /// The face to the left of a half-edge, TL_HALFEDGE_NONE on the boundary; that of its twin is the edge's other face.
-static inline uint32_t tl_halfedge_left_face(const tl_halfedge *mesh, uint32_t edge)
+static inline uint32_t tl_halfedge_left_face(const tl_halfedge_mesh *mesh, uint32_t edge)
 {
     return mesh->edges[edge].face;
 }
 
 /// The next half-edge around the same face or hole.
-static inline uint32_t tl_halfedge_next(const tl_halfedge *mesh, uint32_t edge)
+static inline uint32_t tl_halfedge_next(const tl_halfedge_mesh *mesh, uint32_t edge)
 {
     return mesh->edges[edge].next;
 }
 
 /// The half-edge before it around the same face or hole.
-static inline uint32_t tl_halfedge_prev(const tl_halfedge *mesh, uint32_t edge)
+static inline uint32_t tl_halfedge_prev(const tl_halfedge_mesh *mesh, uint32_t edge)
 {
     return mesh->edges[edge].prev;
 }
 
 /// The next half-edge that starts at the same vertex, clockwise; after the last the first.
-static inline uint32_t tl_halfedge_around(const tl_halfedge *mesh, uint32_t edge)
+static inline uint32_t tl_halfedge_around(const tl_halfedge_mesh *mesh, uint32_t edge)
 {
     return mesh->edges[edge ^ 1u].next;
 }

@@ -43,7 +43,7 @@ typedef struct tl_hull_def {
     tl_host host;
 } tl_hull_def;
 
-/// What tl_hull_build did.
+/// What tl_hull_bake did.
 typedef struct tl_hull_report {
     tl_report base;
     uint32_t triangle_count; ///< of the hull before coplanar ones were merged
@@ -126,8 +126,8 @@ TL_API tl_hull_def tl_default_hull_def(void);
 /// TL_ERR_COLLINEAR, TL_ERR_COPLANAR (input without volume, see tl_hull_def; also when `thickness` is lost in
 /// rounding), TL_ERR_ARGUMENT, TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED. On failure `*hull_out` is NULL.
 /// `def` NULL: defaults. `report_out` may be NULL, and so may `points` when count is 0. Free with tl_blob_free.
-TL_API tl_result tl_hull_build(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
-                               tl_hull_report *report_out);
+TL_API tl_result tl_hull_bake(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
+                              tl_hull_report *report_out);
 
 /// A copy of a hull, scaled along its own axes, then turned and moved: p becomes rotation(scale * p) + position. A
 /// negative scale mirrors.
@@ -143,7 +143,7 @@ TL_API tl_result tl_hull_transform(const tl_hull *hull, tl_vec3 scale, tl_transf
 
 /// The hull as an editable mesh: vertices and faces have the hull's indices. `mesh` is initialized; what it held is
 /// removed. TL_ERR_MEMORY, TL_ERR_LIMIT: it is empty then. O(V), but for corners of many edges.
-TL_API tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge *mesh);
+TL_API tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge_mesh *mesh);
 
 /// Whether bytes of unknown origin are a hull that every query can be trusted with: head, offsets, indices, loops,
 /// twins, Euler's formula, finite values, and, exactly decided, that every face is flat and every edge convex. Safe on

@@ -2,7 +2,7 @@
 //
 // Triangle meshes: a view of the caller's arrays, and the welded, cleaned mesh that all bakes start from.
 //
-//   tl_mesh_view --tl_mesh_build (weld, clean)--> tl_mesh --tl_adjacency_build--> tl_adjacency
+//   tl_mesh_view --tl_mesh_bake (weld, clean)--> tl_mesh --tl_adjacency_bake--> tl_adjacency
 
 #ifndef TALUS_MESH_H
 #define TALUS_MESH_H
@@ -52,7 +52,7 @@ typedef struct tl_mesh {
     size_t block_size;
 } tl_mesh;
 
-/// What tl_mesh_build did.
+/// What tl_mesh_bake did.
 typedef struct tl_mesh_report {
     tl_report base;
     uint32_t welded_vertices;      ///< input vertices that became another one
@@ -70,8 +70,8 @@ TL_API tl_mesh_def tl_default_mesh_def(void);
 /// (vertex), TL_ERR_RANGE (vertex beyond TL_MAX_COORDINATE), TL_ERR_INDEX (triangle), TL_ERR_LIMIT, TL_ERR_ARGUMENT.
 /// An unused vertex may hold anything. On failure `*mesh_out` is zeroed. `def` NULL: defaults. `report_out` may be
 /// NULL.
-TL_API tl_result tl_mesh_build(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out,
-                               tl_mesh_report *report_out);
+TL_API tl_result tl_mesh_bake(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out,
+                              tl_mesh_report *report_out);
 
 /// Frees a mesh with the allocator of its def. A zeroed mesh is allowed.
 TL_API void tl_mesh_free(tl_mesh *mesh, const tl_allocator *allocator);
@@ -99,7 +99,7 @@ typedef struct tl_adjacency {
 /// in opposite directions. O(triangles). Indices are trusted: give a tl_mesh, or a checked view. Errors: TL_ERR_LIMIT
 /// (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*adjacency_out` is zeroed then. `host` may be NULL.
 /// A collapsed edge (both ends the same vertex) counts as non-manifold unless it stands alone.
-TL_API tl_result tl_adjacency_build(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out);
+TL_API tl_result tl_adjacency_bake(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out);
 
 TL_API void tl_adjacency_free(tl_adjacency *adjacency, const tl_allocator *allocator);
 

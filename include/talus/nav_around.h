@@ -26,12 +26,12 @@ typedef struct tl_nav_zone {
     uint32_t point_count;  ///< 3 to TL_NAV_MAX_ZONE_POINTS
 } tl_nav_zone;
 
-TL_API tl_nav_zone tl_nav_circle(tl_vec3 center, float radius);
-TL_API tl_nav_zone tl_nav_outline(const tl_vec3 *points, uint32_t point_count);
+TL_API tl_nav_zone tl_nav_zone_circle(tl_vec3 center, float radius);
+TL_API tl_nav_zone tl_nav_zone_polygon(const tl_vec3 *points, uint32_t point_count);
 
 /// All polygons that pass and come into a zone, whether a path leads there or not. Their order is that of the tiles'
 /// trees. Only those whose surface comes between min_y and max_y, as far as its box tells. `*count_out` is the true
-/// number. TL_ERR_CAPACITY: only the first were written. TL_ERR_ARGUMENT (a zone that is none), TL_ERR_NOT_FINITE
+/// number. TL_INCOMPLETE: only the first were written. TL_ERR_ARGUMENT (a zone that is none), TL_ERR_NOT_FINITE
 /// (heights may be infinite).
 TL_API tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                           const tl_nav_zone *zone, float min_y, float max_y, tl_nav_ref *polygons_out,
@@ -63,8 +63,8 @@ typedef struct tl_nav_field_def {
 ///
 /// Paths go from polygon to polygon over the point of the way that is nearest to the one before: they are no shortest
 /// ones, but lie near them; tl_navmesh_straight_path makes them short. `*count_out` is the true number.
-/// TL_ERR_CAPACITY: only the first were written, and parents may name others. TL_ERR_LIMIT: the query was out of nodes;
-/// those that were found are written, and costs may be too high. TL_ERR_NOT_FOUND: a stale reference.
+/// TL_INCOMPLETE: only the first were written, and parents may name others. TL_ERR_LIMIT: the query was out of nodes;
+/// those that were found are written, and costs may be too high. TL_NOT_FOUND: a stale reference.
 /// TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: the zone, a cost, max_cost below 0. O(polygons log polygons). Source: Dijkstra
 /// 1959.
 TL_API tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
@@ -75,8 +75,8 @@ TL_API tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navme
 TL_API uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t count, tl_nav_ref polygon);
 
 /// The path from the field's start to an entry's polygon, as tl_nav_query_find_path writes it, for
-/// tl_navmesh_straight_path. Without off-mesh links, read backwards, it leads to the start. No search. TL_ERR_CAPACITY:
-/// only the first were written. TL_ERR_NOT_FOUND: there is no such entry, or a field that was cut off lacks one on the
+/// tl_navmesh_straight_path. Without off-mesh links, read backwards, it leads to the start. No search. TL_INCOMPLETE:
+/// only the first were written. TL_NOT_FOUND: there is no such entry, or a field that was cut off lacks one on the
 /// way.
 TL_API tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t count, uint32_t entry,
                                    tl_nav_ref *polygons_out, uint32_t capacity, uint32_t *count_out);
@@ -93,13 +93,13 @@ typedef struct tl_nav_wall_segment {
 } tl_nav_wall_segment;
 
 /// The walls of a polygon, in the order of its edges. What the filter refuses is wall. `*count_out` is the true number.
-/// TL_ERR_CAPACITY: only the first were written. TL_ERR_NOT_FOUND: a stale reference.
+/// TL_INCOMPLETE: only the first were written. TL_NOT_FOUND: a stale reference.
 TL_API tl_result tl_navmesh_polygon_walls(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref polygon,
                                           tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out);
 
 /// The walls within `radius` metres in the plane of the polygons that hang together with the centre's within it: the
-/// nearest `capacity` of them, the nearest first, whole. `*count_out` is the true number. TL_ERR_CAPACITY: there are
-/// more. TL_ERR_LIMIT: the query was out of nodes. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
+/// nearest `capacity` of them, the nearest first, whole. `*count_out` is the true number. TL_INCOMPLETE: there are
+/// more. TL_ERR_LIMIT: the query was out of nodes. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
 /// TL_ERR_ARGUMENT: a negative radius.
 TL_API tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                          const tl_nav_location *center, float radius, tl_nav_wall_segment *segments_out,
@@ -110,7 +110,7 @@ TL_API tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *
 // everywhere.
 
 /// A point of the surface, each square of the lattice in the plane as likely as any other: areas are summed up in whole
-/// numbers. O(log polygons); O(polygons) with a filter that refuses some. TL_ERR_NOT_FOUND: none passes.
+/// numbers. O(log polygons); O(polygons) with a filter that refuses some. TL_NOT_FOUND: none passes.
 TL_API tl_result tl_navmesh_random_point(const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                          const uint64_t random[2], tl_nav_location *location_out);
 
@@ -119,7 +119,7 @@ TL_API tl_result tl_navmesh_random_point(const tl_navmesh *navmesh, const tl_nav
 /// into the circle. Paths and their lengths are those of tl_nav_query_flood with all area costs 1. The circle is
 /// a regular polygon with 32 sides within it, which leaves out the outmost 0.5% of the radius between its corners.
 /// A circle without area has its centre alone. TL_ERR_LIMIT: the query was out of nodes; the point lies on the polygons
-/// that were found. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
+/// that were found. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
 TL_API tl_result tl_nav_query_random_reachable(tl_nav_query *query, const tl_navmesh *navmesh,
                                                const tl_nav_filter *filter, const tl_nav_location *center, float radius,
                                                const uint64_t random[2], tl_nav_location *location_out);

@@ -13,7 +13,7 @@
 #ifndef TALUS_NAV_AUDIT_H
 #define TALUS_NAV_AUDIT_H
 
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_query.h>
 #include <talus/soup.h>
 
@@ -38,13 +38,13 @@ typedef struct tl_nav_probe {
 /// radius: what erosion leaves at least less max_simplification_error, and no less than half of the agent's; step:
 /// walkable_climb and one voxel more; height: walkable_height in metres, less one voxel. An audit makes the radius no
 /// larger than half of what is between.
-TL_API tl_nav_probe tl_nav_probe_make(const tl_nav_config *config);
+TL_API tl_nav_probe tl_nav_probe_from_config(const tl_nav_config *config);
 
 typedef struct tl_nav_audit_def {
     tl_nav_def nav;       ///< what the navmesh was built with; `bounds` empty: those of the soup. Its host is not used
     uint32_t path_count;  ///< random shortest paths. Default 2000
     uint64_t seed;        ///< of those paths. Default 1
-    float probe_radius;   ///< metres; negative (the default): that of tl_nav_probe_make
+    float probe_radius;   ///< metres; negative (the default): that of tl_nav_probe_from_config
     const uint8_t *areas; ///< as in tl_nav_input, by the soup's triangles, or NULL: floor of area 0 is not missing
     const tl_nav_volume *volumes; ///< the same for volumes of area 0
     uint32_t volume_count;
@@ -107,7 +107,7 @@ typedef struct tl_nav_audit {
 /// not walked.
 ///
 /// `navmesh` may be empty or NULL: then all floor is missing. Errors: TL_ERR_ARGUMENT and TL_ERR_LIMIT as of
-/// tl_nav_config_make, TL_ERR_MEMORY, TL_ERR_CANCELLED; `*audit_out` is zeroed then. `report_out` may be NULL.
+/// tl_nav_config_from_def, TL_ERR_MEMORY, TL_ERR_CANCELLED; `*audit_out` is zeroed then. `report_out` may be NULL.
 TL_API tl_result tl_nav_audit_run(const tl_nav_audit_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
                                   tl_nav_audit *audit_out, tl_report *report_out);
 /// A zeroed audit is allowed.
@@ -173,7 +173,7 @@ typedef struct tl_nav_why_answer {
 ///
 /// `def`, `input`: what the navmesh was built with. `navmesh` may be NULL: then a fresh build is asked about.
 /// `def->host` lends memory; tasks and progress of a build are used too. Builds up to some 30 tiles.
-/// Errors: those of tl_nav_tile_build; TL_ERR_NOT_FINITE for the point. `report_out` may be NULL.
+/// Errors: those of tl_nav_tile_bake; TL_ERR_NOT_FINITE for the point. `report_out` may be NULL.
 TL_API tl_result tl_nav_why(const tl_nav_def *def, const tl_nav_input *input, const tl_navmesh *navmesh, tl_vec3 point,
                             tl_nav_why_answer *answer_out, tl_report *report_out);
 

@@ -6,7 +6,7 @@
 // agent comes near:
 //
 //   tl_nav_ref room[256];
-//   tl_nav_corridor corridor = tl_nav_corridor_make(room, 256);
+//   tl_nav_corridor corridor = tl_nav_corridor_init(room, 256);
 //   tl_nav_corridor_reset(&corridor, &agent);
 //   tl_nav_corridor_find(&corridor, query, navmesh, NULL, &goal, &path);
 //   each frame:
@@ -41,15 +41,15 @@ typedef struct tl_nav_corridor {
 } tl_nav_corridor;
 
 /// An empty corridor.
-TL_API tl_nav_corridor tl_nav_corridor_make(tl_nav_ref *room, uint32_t capacity);
+TL_API tl_nav_corridor tl_nav_corridor_init(tl_nav_ref *room, uint32_t capacity);
 
 /// Puts agent and target in one place.
 TL_API void tl_nav_corridor_reset(tl_nav_corridor *corridor, const tl_nav_location *at);
 
 /// Searches the path from the agent to a goal, right into the corridor (tl_nav_query_find_path). A path that does not
 /// fit is cut where the room ends: the agent goes that far, and then the rest is asked for. A partial path leads to its
-/// own end. Errors as those of tl_nav_query_find_path, TL_ERR_CAPACITY excepted, and
-/// TL_ERR_NOT_FOUND for an empty corridor; then nothing is changed.
+/// own end. Errors as those of tl_nav_query_find_path, TL_INCOMPLETE excepted, and
+/// TL_NOT_FOUND for an empty corridor; then nothing is changed.
 TL_API tl_result tl_nav_corridor_find(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
                                       const tl_nav_filter *filter, const tl_nav_location *goal, tl_nav_path *path_out);
 
@@ -59,14 +59,14 @@ TL_API tl_result tl_nav_corridor_set_path(tl_nav_corridor *corridor, const tl_na
                                           uint32_t count, tl_vec3 target);
 
 /// The next corners of the straight path, corners[0] being the position. It looks no farther than it must: where
-/// TL_ERR_CAPACITY says that there are more, they were not counted. Errors as those of tl_navmesh_straight_path; after
-/// tiles have changed: TL_ERR_NOT_FOUND, TL_ERR_ARGUMENT: repair.
+/// TL_INCOMPLETE says that there are more, they were not counted. Errors as those of tl_navmesh_straight_path; after
+/// tiles have changed: TL_NOT_FOUND, TL_ERR_ARGUMENT: repair.
 TL_API tl_result tl_nav_corridor_corners(const tl_nav_corridor *corridor, const tl_navmesh *navmesh,
                                          tl_nav_corner *corners_out, uint32_t capacity, uint32_t *count_out);
 
-/// Moves the agent towards a point, along walls (tl_nav_query_slide), and the corridor's begin with it. The position
-/// gets the surface's height. TL_ERR_LIMIT: more than TL_NAV_CORRIDOR_STEP polygons in one move, or the query was out
-/// of nodes; nothing is changed. TL_ERR_NOT_FOUND: a stale polygon, or an empty corridor. TL_ERR_NOT_FINITE.
+/// Moves the agent towards a point, along walls (tl_nav_query_move_along_surface), and the corridor's begin with it.
+/// The position gets the surface's height. TL_ERR_LIMIT: more than TL_NAV_CORRIDOR_STEP polygons in one move, or the
+/// query was out of nodes; nothing is changed. TL_NOT_FOUND: a stale polygon, or an empty corridor. TL_ERR_NOT_FINITE.
 TL_API tl_result tl_nav_corridor_move(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
                                       const tl_nav_filter *filter, tl_vec3 to);
 
@@ -75,7 +75,7 @@ TL_API tl_result tl_nav_corridor_move_target(tl_nav_corridor *corridor, tl_nav_q
                                              const tl_nav_filter *filter, tl_vec3 to);
 
 /// Passes the off-mesh link that comes next: the corridor begins where it lands, and `ends_out` (may be NULL) is from
-/// where to where. Call it when the agent stands where a corner is flagged TL_NAV_CORNER_LINK. TL_ERR_NOT_FOUND: no
+/// where to where. Call it when the agent stands where a corner is flagged TL_NAV_CORNER_LINK. TL_NOT_FOUND: no
 /// link comes next (on the polygons up to it nothing else is asked for), or it is gone.
 TL_API tl_result tl_nav_corridor_pass_link(tl_nav_corridor *corridor, const tl_navmesh *navmesh,
                                            tl_nav_location ends_out[2], tl_nav_ref *link_out);
@@ -101,7 +101,7 @@ TL_API uint32_t tl_nav_corridor_check(const tl_nav_corridor *corridor, const tl_
 /// Makes the corridor whole after tiles have changed. Nothing is done to one that is (status TL_NAV_PATH_COMPLETE,
 /// node_count 0). Else agent and goal are put on the polygons nearest to them within `half_extents`, and the path is
 /// searched anew. Without a polygon near the goal the agent stays, and the status is TL_NAV_PATH_UNREACHABLE; the goal
-/// is kept, for tiles that come back. TL_ERR_NOT_FOUND: no polygon near the agent; nothing is changed. Else as
+/// is kept, for tiles that come back. TL_NOT_FOUND: no polygon near the agent; nothing is changed. Else as
 /// tl_nav_corridor_find.
 TL_API tl_result tl_nav_corridor_repair(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
                                         const tl_nav_filter *filter, tl_vec3 half_extents, tl_nav_path *path_out);

@@ -47,7 +47,7 @@ TL_API uint64_t tl_detour_set_size(const tl_nav_tile *const *tiles, uint32_t til
 ///
 /// Errors, with the polygon named: TL_ERR_LIMIT (more corners than 6, flags above the lowest 16, an area
 /// above 63, or a tile with more
-/// polygons, vertices or cells than 16 bits count), TL_ERR_CAPACITY. `report_out` may be NULL.
+/// polygons, vertices or cells than 16 bits count), TL_INCOMPLETE. `report_out` may be NULL.
 TL_API tl_result tl_detour_tile_write(const tl_nav_tile *tile, tl_detour_refs refs, void *bytes, uint64_t capacity,
                                       tl_detour_report *report_out);
 
@@ -94,7 +94,7 @@ typedef struct tl_detour_off_mesh {
 
 /// Reads the off-mesh connections of a set or a single tile, in order. Safe on any bytes; nothing is allocated.
 ///
-/// Writes the first `capacity`; `*count_out` is the true count, TL_ERR_CAPACITY when that is more. TL_ERR_CORRUPT,
+/// Writes the first `capacity`; `*count_out` is the true count, TL_INCOMPLETE when that is more. TL_ERR_CORRUPT,
 /// TL_ERR_NOT_FINITE name the connection; TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED and others as tl_detour_read.
 TL_API tl_result tl_detour_read_off_mesh(const void *bytes, uint64_t size, tl_detour_off_mesh *links_out,
                                          uint32_t capacity, uint32_t *count_out, tl_detour_report *report_out);

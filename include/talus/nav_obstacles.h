@@ -10,14 +10,14 @@
 //   tl_nav_obstacles_add(obstacles, &crate, &id);
 //   tl_nav_obstacles_update(obstacles, navmesh, 4, &waiting, NULL);   each frame, until nothing is waiting
 //
-// One thread at a time uses an obstacles object. Queries on the navmesh may go on while tl_nav_obstacles_build_next
+// One thread at a time uses an obstacles object. Queries on the navmesh may go on while tl_nav_obstacles_bake_next
 // works, which does not know it; a navmesh is changed only by tl_nav_obstacles_update and by tl_navmesh_replace_tiles,
 // tl_navmesh_remove_tile and tl_navmesh_add_tile, during which nobody else may use it.
 
 #ifndef TALUS_NAV_OBSTACLES_H
 #define TALUS_NAV_OBSTACLES_H
 
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_query.h>
 
 #ifdef __cplusplus
@@ -57,20 +57,20 @@ typedef uint64_t tl_nav_obstacle_id;
 /// Bakes a level in tiles and keeps their floors. `def` needs a tile_size and bounds. Its host is used now; later only
 /// a copy of its allocator.
 ///
-/// `block_out`: the tiles without obstacles, as tl_nav_build_range gives them. NULL: they are dropped, and all tiles
+/// `block_out`: the tiles without obstacles, as tl_nav_bake_range gives them. NULL: they are dropped, and all tiles
 /// wait to be made; the first updates fill the navmesh. Errors: TL_ERR_ARGUMENT (no tile_size, no bounds), and those of
-/// tl_nav_build; then `*obstacles_out` is NULL.
+/// tl_nav_bake; then `*obstacles_out` is NULL.
 TL_API tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input,
                                        tl_nav_obstacles **obstacles_out, tl_nav_tile_block *block_out,
-                                       tl_nav_build_report *report_out);
-TL_API void tl_nav_obstacles_free(tl_nav_obstacles *obstacles);
+                                       tl_nav_bake_report *report_out);
+TL_API void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles);
 
 /// Adds an obstacle; the tiles that it touches wait to be made again. Takes a microsecond or less, and memory only
 /// where the list of obstacles grows. TL_ERR_ARGUMENT (a size, the area, an outline that is not convex),
 /// TL_ERR_NOT_FINITE, TL_ERR_MEMORY.
 TL_API tl_result tl_nav_obstacles_add(tl_nav_obstacles *obstacles, const tl_nav_obstacle *obstacle,
                                       tl_nav_obstacle_id *id_out);
-/// Moves it, or makes it another: the tiles of its old and its new place wait. TL_ERR_NOT_FOUND for a name that is not
+/// Moves it, or makes it another: the tiles of its old and its new place wait. TL_NOT_FOUND for a name that is not
 /// in use; else as adding.
 TL_API tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id,
                                        const tl_nav_obstacle *obstacle);
@@ -83,9 +83,9 @@ TL_API uint32_t tl_nav_obstacles_waiting(const tl_nav_obstacles *obstacles);
 TL_API uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles);
 
 /// Bakes again, from triangles, what a change of the level inside `changed` can have touched, and lets those tiles
-/// wait. `input` is the level as it is now; the obstacles stay. Errors as tl_nav_rebuild; then nothing is changed.
+/// wait. `input` is the level as it is now; the obstacles stay. Errors as tl_nav_rebake; then nothing is changed.
 TL_API tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_input *input, tl_aabb changed,
-                                         tl_nav_build_report *report_out);
+                                         tl_nav_bake_report *report_out);
 
 /// A tile made again: all layers of its place, where it is divided.
 typedef struct tl_nav_remade_tile {
@@ -93,10 +93,10 @@ typedef struct tl_nav_remade_tile {
     tl_nav_tile_stack stack; ///< the caller's, from the def's allocator; empty: nothing is walkable there now
 } tl_nav_remade_tile;
 
-/// Makes the tile that has waited longest. Hand its stack to tl_navmesh_replace_tiles, or free it. TL_ERR_NOT_FOUND:
+/// Makes the tile that has waited longest. Hand its stack to tl_navmesh_replace_tiles, or free it. TL_NOT_FOUND:
 /// none waits. On another failure it goes on waiting.
-TL_API tl_result tl_nav_obstacles_build_next(tl_nav_obstacles *obstacles, tl_nav_remade_tile *remade_out,
-                                             tl_nav_build_report *report_out);
+TL_API tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_remade_tile *remade_out,
+                                            tl_nav_bake_report *report_out);
 
 /// Makes up to `most_tiles` waiting tiles and puts them into the navmesh in the place of the old ones, as
 /// tl_navmesh_replace_tiles does: a tile or layer whose bytes are the same stays. The navmesh takes them over, so it
@@ -104,7 +104,7 @@ TL_API tl_result tl_nav_obstacles_build_next(tl_nav_obstacles *obstacles, tl_nav
 /// `*waiting_out` (may be NULL): how many wait still. On failure the tile at hand goes on waiting, and the navmesh has
 /// the old one or, out of memory in between, none or some of its layers there.
 TL_API tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t most_tiles,
-                                         uint32_t *waiting_out, tl_nav_build_report *report_out);
+                                         uint32_t *waiting_out, tl_nav_bake_report *report_out);
 
 #ifdef __cplusplus
 }

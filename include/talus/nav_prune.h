@@ -8,7 +8,7 @@
 #define TALUS_NAV_PRUNE_H
 
 #include <talus/mesh.h>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -17,7 +17,7 @@ extern "C" {
 /// What is left out; by default nothing is.
 typedef struct tl_nav_prune_def {
     /// Metres: places where agents are. Islands without one are left out, unless seed_count is 0; those with one stay,
-    /// whatever the rules below say. Each must have a polygon within seed_extents (TL_ERR_NOT_FOUND names the seed).
+    /// whatever the rules below say. Each must have a polygon within seed_extents (TL_NOT_FOUND names the seed).
     const tl_vec3 *seeds;
     uint32_t seed_count;
     tl_vec3 seed_extents; ///< half extents; default (2, 4, 2)
@@ -54,7 +54,7 @@ typedef struct tl_nav_prune_report {
 /// Prunes all tiles of a navmesh. Tiles of which nothing is left go, those of which something goes are baked again
 /// (tl_nav_tile_subset), the others stay as they are. The same bytes for any number of workers.
 ///
-/// On failure the tiles are as before, and the report (which may be NULL) names the element. Errors: TL_ERR_NOT_FOUND
+/// On failure the tiles are as before, and the report (which may be NULL) names the element. Errors: TL_NOT_FOUND
 /// (a seed), TL_ERR_NOT_FINITE (a seed), TL_ERR_ARGUMENT (tiles that are no navmesh, extents or area below 0),
 /// TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
 TL_API tl_result tl_nav_prune(const tl_nav_prune_def *def, tl_nav_tiles *tiles, tl_nav_prune_report *report_out);

@@ -41,12 +41,12 @@ typedef enum tl_nav_tile_ownership {
 /// An empty navmesh. `allocator` is copied; NULL: malloc.
 TL_API tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_out);
 /// Frees the table and the tiles it owns. NULL: nothing happens.
-TL_API void tl_navmesh_free(tl_navmesh *navmesh);
+TL_API void tl_navmesh_destroy(tl_navmesh *navmesh);
 
 /// Puts a tile at its own (tile_x, layer, tile_z) and links it with its neighbours: all layers of the four places
 /// beside it, over their common sides, and the other layers of its own place, over cuts with the same ends.
 ///
-/// The tile must be known to be whole: fresh from tl_nav_tile_create, or passed by tl_nav_tile_check; and it must not
+/// The tile must be known to be whole: fresh from tl_nav_tile_encode, or passed by tl_nav_tile_check; and it must not
 /// change while it is in (to change flags, take it out and put the changed one in). Two portals are
 /// linked where they overlap by more than a point and their heights come within agent_max_climb, the larger of both
 /// tiles', and one cell height of one another. On failure nothing is changed and the tile stays the caller's:
@@ -54,7 +54,7 @@ TL_API void tl_navmesh_free(tl_navmesh *navmesh);
 /// TL_ERR_LIMIT (TL_NAV_MAX_TILES), TL_ERR_MEMORY. O(corners and links of the tiles of the five places).
 TL_API tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership);
 
-/// Takes the tile at a place out, all its layers where it is divided, and the links to them. TL_ERR_NOT_FOUND when
+/// Takes the tile at a place out, all its layers where it is divided, and the links to them. TL_NOT_FOUND when
 /// there is none. Never fails otherwise. O(corners of the neighbours). Islands cost what lies between the neighbours,
 /// some tiles as a rule; where the tile was all that held two parts of an island together, the smaller part's tiles.
 TL_API tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
@@ -86,7 +86,7 @@ TL_API uint64_t tl_navmesh_link_count(const tl_navmesh *navmesh);
 
 /// The reference of a polygon in the tile of a slot, or TL_NAV_NO_REF when there is none.
 TL_API tl_nav_ref tl_navmesh_polygon_ref(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);
-/// The tile and polygon that a reference names. TL_ERR_NOT_FOUND: it is stale or was never valid. Outputs may be NULL.
+/// The tile and polygon that a reference names. TL_NOT_FOUND: it is stale or was never valid. Outputs may be NULL.
 TL_API tl_result tl_navmesh_resolve(const tl_navmesh *navmesh, tl_nav_ref ref, const tl_nav_tile **tile_out,
                                     uint32_t *polygon_out);
 
@@ -99,7 +99,7 @@ typedef struct tl_nav_link {
 } tl_nav_link;
 
 /// A polygon's links in the order of its edges, and along a tile's side by ascending lattice coordinate.
-/// Writes the first `capacity`; `*count_out` is the true count. TL_ERR_CAPACITY when that is more, TL_ERR_NOT_FOUND
+/// Writes the first `capacity`; `*count_out` is the true count. TL_INCOMPLETE when that is more, TL_NOT_FOUND
 /// for a stale reference.
 TL_API tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_link *links_out, uint32_t capacity,
                                   uint32_t *count_out);
@@ -107,7 +107,7 @@ TL_API tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_
 /// The island of a polygon: all that hangs together over tiles and anchored off-mesh links, whatever flags say and
 /// whichever way links lead. Between two islands there is no path, for any filter. Within one there is, both ways, for
 /// a filter that refuses nothing on the way, unless it takes a link against its direction: where links lead one way
-/// only, a search has the last word. Numbers hold until a tile or a link is added or removed. TL_ERR_NOT_FOUND for a
+/// only, a search has the last word. Numbers hold until a tile or a link is added or removed. TL_NOT_FOUND for a
 /// stale reference. O(log tiles), almost always O(1).
 TL_API tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *island_out);
 
@@ -149,7 +149,7 @@ TL_API tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmes
 TL_API tl_result tl_navmesh_reserve_offmesh(tl_navmesh *navmesh, uint32_t count);
 
 /// Takes an off-mesh link out. O(1); where it led from one shore to another (its ends do not hang together over
-/// polygons), islands are joined anew, which takes what removing a tile takes. TL_ERR_NOT_FOUND: no such link.
+/// polygons), islands are joined anew, which takes what removing a tile takes. TL_NOT_FOUND: no such link.
 TL_API tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link);
 
 /// Paths and corners set this bit in a link's reference where they take it from its end to its start.
@@ -176,7 +176,7 @@ typedef struct tl_nav_offmesh_state {
     float cost;              ///< metres that it counts as, before its area's cost
 } tl_nav_offmesh_state;
 
-/// TL_ERR_NOT_FOUND: no such link.
+/// TL_NOT_FOUND: no such link.
 TL_API tl_result tl_navmesh_offmesh_state(const tl_navmesh *navmesh, tl_nav_ref link, tl_nav_offmesh_state *state_out);
 
 TL_API uint32_t tl_navmesh_offmesh_count(const tl_navmesh *navmesh);
@@ -185,7 +185,7 @@ TL_API bool tl_navmesh_next_offmesh(const tl_navmesh *navmesh, uint32_t *cursor,
 
 /// The off-mesh links by which a polygon can be left: they are anchored, and begin there or lead both ways and end
 /// there (TL_NAV_OFFMESH_BACKWARD is then set). In no order.
-/// Writes the first `capacity`; `*count_out` is the true count. TL_ERR_CAPACITY when that is more, TL_ERR_NOT_FOUND
+/// Writes the first `capacity`; `*count_out` is the true count. TL_INCOMPLETE when that is more, TL_NOT_FOUND
 /// for a stale reference.
 TL_API tl_result tl_navmesh_offmesh_from(const tl_navmesh *navmesh, tl_nav_ref polygon, tl_nav_ref *links_out,
                                          uint32_t capacity, uint32_t *count_out);
@@ -229,22 +229,22 @@ TL_API bool tl_nav_filter_passes(const tl_nav_filter *filter, const tl_nav_tile 
 /// farther by agent_height. So any point of an agent's body, from its soles to its crown, finds the floor that the
 /// agent stands on and not the one overhead, though that one may be nearer; unless it lies within agent_max_climb
 /// under the next floor. Ties go to the lower slot, then polygon.
-/// TL_ERR_NOT_FOUND: none is in the box. TL_ERR_NOT_FINITE, TL_ERR_ARGUMENT (negative extents).
+/// TL_NOT_FOUND: none is in the box. TL_ERR_NOT_FINITE, TL_ERR_ARGUMENT (negative extents).
 TL_API tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_vec3 center,
                                          tl_vec3 half_extents, tl_nav_location *location_out);
 
 /// The point nearest to `point` in space on the island of polygon `from`, on polygons that pass: where to go when the
-/// goal itself lies on another island. TL_ERR_NOT_FOUND: a stale reference, or no polygon passes. TL_ERR_NOT_FINITE.
+/// goal itself lies on another island. TL_NOT_FOUND: a stale reference, or no polygon passes. TL_ERR_NOT_FINITE.
 TL_API tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                                    tl_nav_ref from, tl_vec3 point, tl_nav_location *location_out);
 
 /// The polygon's point closest to `point` in the plane, lifted to the surface. A point over the polygon keeps its x
-/// and z bit by bit; `*inside_out` (may be NULL) says whether it was so. TL_ERR_NOT_FOUND for a stale reference.
+/// and z bit by bit; `*inside_out` (may be NULL) says whether it was so. TL_NOT_FOUND for a stale reference.
 TL_API tl_result tl_navmesh_closest_point(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 point,
                                           tl_vec3 *closest_out, bool *inside_out);
 
 /// The surface's height at x and z, from the detail mesh; outside the polygon, that of the closest point in the plane.
-/// TL_ERR_NOT_FOUND for a stale reference.
+/// TL_NOT_FOUND for a stale reference.
 TL_API tl_result tl_navmesh_height(const tl_navmesh *navmesh, tl_nav_ref ref, float x, float z, float *height_out);
 
 // ---------------------------------------------------------------------------------------------------------
@@ -263,7 +263,7 @@ TL_API tl_nav_query_def tl_default_nav_query_def(void);
 
 /// A search state for one thread at a time; it may serve any navmesh. TL_ERR_ARGUMENT, TL_ERR_MEMORY.
 TL_API tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_out);
-TL_API void tl_nav_query_free(tl_nav_query *query);
+TL_API void tl_nav_query_destroy(tl_nav_query *query);
 
 /// How a path search ended.
 typedef enum tl_nav_path_status {
@@ -296,7 +296,7 @@ typedef struct tl_nav_path {
 /// A goal on another island (tl_navmesh_island) is TL_NAV_PATH_UNREACHABLE at once, with no search, and the path is the
 /// start's polygon alone; tl_nav_query_find_route leads as near to such a goal as any path does.
 /// start and goal must lie on their polygons (tl_navmesh_find_nearest); the start's polygon need not pass the filter.
-/// TL_OK for every status. TL_ERR_CAPACITY: the first `capacity` polygons were written. TL_ERR_NOT_FOUND: a stale
+/// TL_OK for every status. TL_INCOMPLETE: the first `capacity` polygons were written. TL_NOT_FOUND: a stale
 /// reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: an area cost. NULL filter: the default one.
 /// Source: Hart, Nilsson, Raphael 1968.
 TL_API tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
@@ -322,13 +322,13 @@ typedef struct tl_nav_path_progress {
     int32_t tile_x, tile_z; ///< TL_NAV_PATH_STALE: the tile that came or went; else 0
 } tl_nav_path_progress;
 
-/// Goes on for at most `max_steps` nodes. 0 only looks whether tiles have changed. TL_ERR_NOT_FOUND: no search is under
+/// Goes on for at most `max_steps` nodes. 0 only looks whether tiles have changed. TL_NOT_FOUND: no search is under
 /// way.
 TL_API tl_result tl_nav_query_step_path(tl_nav_query *query, uint32_t max_steps, tl_nav_path_progress *progress_out);
 
 /// The path as far as it is known, at any time; the search may go on afterwards. While TL_NAV_PATH_UNFINISHED the cost
-/// is no more than a lower bound. TL_NAV_PATH_STALE: there is none, polygon_count is 0. TL_ERR_NOT_FOUND: no search is
-/// under way. TL_ERR_CAPACITY: the first `capacity` polygons were written. O(nodes used) before the goal is reached.
+/// is no more than a lower bound. TL_NAV_PATH_STALE: there is none, polygon_count is 0. TL_NOT_FOUND: no search is
+/// under way. TL_INCOMPLETE: the first `capacity` polygons were written. O(nodes used) before the goal is reached.
 TL_API tl_result tl_nav_query_write_path(tl_nav_query *query, tl_nav_ref *polygons_out, uint32_t capacity,
                                          tl_nav_path *path_out);
 
@@ -350,9 +350,9 @@ typedef struct tl_nav_corner {
 ///
 /// Off-mesh links in the corridor, as tl_nav_query_find_path writes them, cut it into pieces from anchor to anchor.
 /// start and end are first moved to the closest point of the first and last polygon. Two corners at least (start, end).
-/// `*length_out` (may be NULL) is the sum of the straight distances in space. TL_ERR_CAPACITY: the first `capacity`
+/// `*length_out` (may be NULL) is the sum of the straight distances in space. TL_INCOMPLETE: the first `capacity`
 /// corners were written, count and length are true. TL_ERR_ARGUMENT: no polygon, or two that are not neighbours.
-/// TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. Source: Mikko Mononen, Simple Stupid Funnel Algorithm, 2010.
+/// TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. Source: Mikko Mononen, Simple Stupid Funnel Algorithm, 2010.
 TL_API tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
                                           tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
                                           uint32_t *count_out, float *length_out);
@@ -377,8 +377,8 @@ typedef struct tl_nav_trace_point {
 /// have a flag of `keep`: 0, TL_NAV_CORNER_AREA or TL_NAV_CORNER_CROSSING; a crossing in the place of a corner is one
 /// with it. Heights of crossings are those of the polygons' edges. `*cost_out` (may be NULL) is the whole cost,
 /// infinite where the filter's function says so; whether polygons pass is not asked.
-/// TL_ERR_CAPACITY: only the first were written; count and cost are true. TL_ERR_ARGUMENT: no path: fewer than two
-/// corners, neighbours that are none, a corner in none of the polygons. TL_ERR_NOT_FOUND: a stale reference.
+/// TL_INCOMPLETE: only the first were written; count and cost are true. TL_ERR_ARGUMENT: no path: fewer than two
+/// corners, neighbours that are none, a corner in none of the polygons. TL_NOT_FOUND: a stale reference.
 TL_API tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                        const tl_nav_ref *polygons, uint32_t polygon_count, const tl_nav_corner *corners,
                                        uint32_t corner_count, uint32_t keep, tl_nav_trace_point *points_out,
@@ -403,8 +403,8 @@ typedef struct tl_nav_shortest_path {
 /// the goal. Start and goal are first moved onto their polygons, in the plane.
 /// TL_NAV_PATH_UNREACHABLE: proven, and for another island at once. TL_NAV_PATH_OUT_OF_NODES: gave up at max_nodes;
 /// lower_bound still holds. In both cases nothing is written and the counts are 0.
-/// TL_ERR_CAPACITY: the first corners and polygons were written, counts and lengths are true. Either buffer may be NULL
-/// with capacity 0: it is then left out. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
+/// TL_INCOMPLETE: the first corners and polygons were written, counts and lengths are true. Either buffer may be NULL
+/// with capacity 0: it is then left out. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
 /// Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh, IJCAI 2017.
 TL_API tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh *navmesh,
                                                  const tl_nav_filter *filter, const tl_nav_location *start,
@@ -427,7 +427,7 @@ typedef struct tl_nav_ray_hit {
 /// takes no off-mesh links.
 ///
 /// A ray that only touches a wall or corner passes it. `polygons_out` (may be NULL with capacity 0) gets the polygons
-/// crossed; TL_ERR_CAPACITY: only the first were written, the hit is whole. TL_ERR_NOT_FOUND: a stale reference.
+/// crossed; TL_INCOMPLETE: only the first were written, the hit is whole. TL_NOT_FOUND: a stale reference.
 /// TL_ERR_NOT_FINITE. TL_ERR_ITERATIONS: more steps than polygons, which only a damaged tile can cause.
 /// O(polygons crossed).
 TL_API tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *filter,
@@ -443,12 +443,13 @@ TL_API tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_fil
 /// their walls that is nearest to it. What the filter refuses is wall. The end is exact in x and z; its y is
 /// that of the target or of the wall (tl_navmesh_height gives the surface's).
 /// `polygons_out` (may be NULL with capacity 0) gets the polygons from the start's to the end's, neighbours in order;
-/// `*count_out` is their true number. TL_ERR_CAPACITY: only the first were written, the end is whole. TL_ERR_LIMIT: the
-/// query was out of nodes; the end is the best that was seen. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
+/// `*count_out` is their true number. TL_INCOMPLETE: only the first were written, the end is whole. TL_ERR_LIMIT: the
+/// query was out of nodes; the end is the best that was seen. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
 /// O(polygons that touch the circle).
-TL_API tl_result tl_nav_query_slide(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                    const tl_nav_location *start, tl_vec3 target, tl_nav_ref *polygons_out,
-                                    uint32_t capacity, uint32_t *count_out, tl_nav_location *end_out);
+TL_API tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh *navmesh,
+                                                 const tl_nav_filter *filter, const tl_nav_location *start,
+                                                 tl_vec3 target, tl_nav_ref *polygons_out, uint32_t capacity,
+                                                 uint32_t *count_out, tl_nav_location *end_out);
 
 /// The wall nearest to a place, in the plane.
 typedef struct tl_nav_wall {
@@ -461,7 +462,7 @@ typedef struct tl_nav_wall {
 
 /// Finds the wall nearest to `center` within `max_radius` metres, of those that can be walked to straight: what lies on
 /// a floor above or below does not count. What the filter refuses is wall. TL_ERR_LIMIT: the query was out of nodes;
-/// the wall is the nearest that was seen. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a
+/// the wall is the nearest that was seen. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a
 /// negative radius.
 TL_API tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                         const tl_nav_location *center, float max_radius, tl_nav_wall *wall_out);
@@ -487,8 +488,8 @@ typedef struct tl_nav_route {
 /// Nearest points to start and goal, path, straight path. Where there is no path, the corners lead to the point nearest
 /// to the goal that can be reached, and the status says so.
 ///
-/// TL_ERR_NOT_FOUND: no polygon near start (route_out->start.polygon is TL_NAV_NO_REF) or near goal
-/// (route_out->goal.polygon is). TL_ERR_CAPACITY: path.polygon_count and, when the polygons fitted, corner_count say
+/// TL_NOT_FOUND: no polygon near start (route_out->start.polygon is TL_NAV_NO_REF) or near goal
+/// (route_out->goal.polygon is). TL_INCOMPLETE: path.polygon_count and, when the polygons fitted, corner_count say
 /// how much room is needed. Other errors as those of the functions it calls.
 TL_API tl_result tl_nav_query_find_route(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                          tl_vec3 start, tl_vec3 goal, tl_vec3 half_extents,

@@ -55,19 +55,19 @@ typedef struct tl_nav_sight {
 /// Errors: TL_ERR_EMPTY (no polygon), TL_ERR_LIMIT (TL_NAV_SIGHT_MAX_POLYGONS), TL_ERR_ARGUMENT, TL_ERR_MEMORY,
 /// TL_ERR_CANCELLED; `*sight_out` is NULL then. Free with tl_blob_free. O(n^2) lines of sight; `max_distance` saves
 /// most.
-TL_API tl_result tl_nav_sight_build(const tl_nav_sight_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
-                                    tl_nav_sight **sight_out, tl_report *report_out);
+TL_API tl_result tl_nav_sight_bake(const tl_nav_sight_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
+                                   tl_nav_sight **sight_out, tl_report *report_out);
 
 /// Whether bytes from anywhere are a table that can be asked. `bytes` must be 8-byte aligned. TL_ERR_ARGUMENT,
 /// TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_CORRUPT.
 TL_API tl_result tl_nav_sight_check(const void *bytes, uint64_t size);
 
-/// Whether two polygons see each other. TL_ERR_NOT_FOUND: a stale reference; TL_ERR_ARGUMENT: the table was made from
+/// Whether two polygons see each other. TL_NOT_FOUND: a stale reference; TL_ERR_ARGUMENT: the table was made from
 /// another navmesh, as far as can be told. O(1).
 TL_API tl_result tl_nav_sight_between(const tl_nav_sight *sight, const tl_navmesh *navmesh, tl_nav_ref a, tl_nav_ref b,
                                       bool *seen_out);
 
-/// The polygons that one sees, itself among them, by slot and polygon. TL_ERR_CAPACITY: the first `capacity` were
+/// The polygons that one sees, itself among them, by slot and polygon. TL_INCOMPLETE: the first `capacity` were
 /// written, `*count_out` is the true number. Errors else as tl_nav_sight_between.
 TL_API tl_result tl_nav_sight_seen_from(const tl_nav_sight *sight, const tl_navmesh *navmesh, tl_nav_ref from,
                                         tl_nav_ref *polygons_out, uint32_t capacity, uint32_t *count_out);
@@ -101,7 +101,7 @@ typedef struct tl_nav_cover {
 /// within max_length up or down. The `capacity` nearest that are hidden are written; of equal ways the one tried first.
 /// The grid is gone through in growing squares and no farther than could matter. TL_OK with `*count_out` 0: there is no
 /// cover. TL_ERR_LIMIT: the query ran out of nodes for some place, which was left out; the others are right.
-/// TL_ERR_ARGUMENT, TL_ERR_NOT_FOUND (the agent's polygon is stale), TL_ERR_NOT_FINITE.
+/// TL_ERR_ARGUMENT, TL_NOT_FOUND (the agent's polygon is stale), TL_ERR_NOT_FINITE.
 TL_API tl_result tl_nav_query_find_cover(tl_nav_query *query, const tl_navmesh *navmesh, const tl_soup *soup,
                                          const tl_nav_filter *filter, const tl_nav_location *agent,
                                          const tl_nav_cover_def *def, tl_nav_cover *covers_out, uint32_t capacity,

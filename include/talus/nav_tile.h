@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The baked tile of a navmesh: what nav_build writes and nav_query reads. An immutable blob.
+// The baked tile of a navmesh: what nav_bake writes and nav_query reads. An immutable blob.
 // It has a header of its own because building and querying never include each other.
 //
 // A tile keeps two forms of every polygon corner: exact integers on the lattice, on which seams and convexity are
@@ -172,16 +172,16 @@ typedef struct tl_nav_tile_source {
 
 /// Bakes one tile. The same source gives the same bytes everywhere.
 ///
-/// `*tile_out` is freed with tl_blob_free(tile, allocator). On failure it is NULL, and the report (which may be NULL)
+/// `*tile_out` is freed with tl_blob_free(tile). On failure it is NULL, and the report (which may be NULL)
 /// names the element. Errors: TL_ERR_EMPTY (no polygon), TL_ERR_ARGUMENT (a setting, an area, a cut), TL_ERR_INDEX,
 /// TL_ERR_RANGE (a vertex), TL_ERR_NOT_FINITE, TL_ERR_DEGENERATE and TL_ERR_WINDING (a polygon without area, or not
 /// convex, or wound the wrong way), TL_ERR_NON_MANIFOLD (a neighbour that does not point back), TL_ERR_LIMIT,
 /// TL_ERR_MEMORY. O(n log n).
-TL_API tl_result tl_nav_tile_create(const tl_nav_tile_source *source, const tl_allocator *allocator,
+TL_API tl_result tl_nav_tile_encode(const tl_nav_tile_source *source, const tl_allocator *allocator,
                                     tl_nav_tile **tile_out, tl_report *report_out);
 
 /// Bakes a tile of some polygons of another: those with keep[p] != 0, in the same order. Links to the others become
-/// walls; cuts stay. All of them give the same bytes again. TL_ERR_EMPTY: none is kept; else as tl_nav_tile_create.
+/// walls; cuts stay. All of them give the same bytes again. TL_ERR_EMPTY: none is kept; else as tl_nav_tile_encode.
 /// `tile` is trusted.
 TL_API tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep, const tl_allocator *allocator,
                                     tl_nav_tile **tile_out, tl_report *report_out);

@@ -44,8 +44,8 @@ typedef struct tl_nav_wide_path {
 /// Without a difference the path is that of tl_nav_query_find_shortest_path.
 /// start and goal must lie on their polygons; tl_nav_query_find_wide_place moves them to where there is room. Corners
 /// are the start, places where the path turns, and the goal; a corner's polygon holds it, and the path goes on there.
-/// TL_OK for every status; corner_count is 0 without a path. TL_ERR_CAPACITY: the first corners were written, counts
-/// and lengths are true. TL_ERR_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
+/// TL_OK for every status; corner_count is 0 without a path. TL_INCOMPLETE: the first corners were written, counts
+/// and lengths are true. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
 /// Sources: docs/paths.md.
 TL_API tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *navmesh,
                                              const tl_nav_filter *filter, float radius, const tl_nav_location *start,
@@ -84,14 +84,14 @@ TL_API tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_
                                          tl_nav_wide_report *report_out);
 
 /// The place nearest to `near` in the plane where an agent of this radius may stand, among the polygons that hang
-/// together with its own within `max_distance` metres of it. TL_ERR_NOT_FOUND: there is none, or a stale reference.
+/// together with its own within `max_distance` metres of it. TL_NOT_FOUND: there is none, or a stale reference.
 /// TL_ERR_LIMIT: the query was out of nodes. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius or distance.
 TL_API tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *navmesh,
                                               const tl_nav_filter *filter, float radius, const tl_nav_location *near,
                                               float max_distance, tl_nav_location *place_out);
 
 /// How near a path of straight lines over the surface comes to a wall, in the plane: metres, or max_distance when no
-/// wall is nearer. Each corner must lie on its polygon. TL_ERR_LIMIT: the query was out of nodes. TL_ERR_NOT_FOUND: a
+/// wall is nearer. Each corner must lie on its polygon. TL_ERR_LIMIT: the query was out of nodes. TL_NOT_FOUND: a
 /// stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: no corner, or a negative distance.
 TL_API tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *navmesh,
                                              const tl_nav_filter *filter, const tl_nav_corner *corners, uint32_t count,

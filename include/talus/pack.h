@@ -9,7 +9,7 @@
 #define TALUS_PACK_H
 
 #include <talus/base.h>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_links.h>
 #include <talus/nav_query.h>
 
@@ -28,7 +28,7 @@ extern "C" {
 #define TL_PACK_NAVM             TL_PACK_TYPE('N', 'A', 'V', 'M') ///< tl_pack_navmesh: what the tiles were built with
 #define TL_PACK_NAVT             TL_PACK_TYPE('N', 'A', 'V', 'T') ///< tl_nav_tile; the id numbers the tiles
 #define TL_PACK_LINK             TL_PACK_TYPE('L', 'I', 'N', 'K') ///< tl_nav_links: drops, jumps and climbs
-#define TL_PACK_MARK             TL_PACK_TYPE('M', 'A', 'R', 'K') ///< tl_pack_marks: volumes that the tiles were built with
+#define TL_PACK_MARK             TL_PACK_TYPE('M', 'A', 'R', 'K') ///< tl_pack_volumes: volumes that the tiles were built with
 
 /// One chunk to be written. The pair (type, id) is its name and must be unique in the file.
 typedef struct tl_pack_item {
@@ -75,7 +75,7 @@ TL_API tl_result tl_pack_open(const void *bytes, uint64_t size, tl_pack *pack_ou
 /// Chunk number `index` < chunk_count, in file order.
 TL_API tl_pack_chunk tl_pack_chunk_at(const tl_pack *pack, uint32_t index);
 
-/// The chunk of that name. TL_ERR_NOT_FOUND.
+/// The chunk of that name. TL_NOT_FOUND.
 TL_API tl_result tl_pack_find(const tl_pack *pack, uint32_t type, uint32_t id, tl_pack_chunk *chunk_out);
 
 /// How many chunks have that type.
@@ -102,7 +102,7 @@ typedef struct tl_pack_meta {
 } tl_pack_meta;
 
 /// Makes a META blob; `source_name` is a zero-terminated string of at most 2^16 bytes (TL_ERR_LIMIT), or NULL.
-TL_API tl_result tl_pack_meta_create(const char *source_name, uint64_t source_vertices, uint64_t source_triangles,
+TL_API tl_result tl_pack_meta_encode(const char *source_name, uint64_t source_vertices, uint64_t source_triangles,
                                      tl_aabb bounds, const tl_allocator *allocator, tl_pack_meta **meta_out);
 /// Safe on any 8-byte aligned bytes.
 TL_API tl_result tl_pack_meta_check(const void *bytes, uint64_t size);
@@ -129,7 +129,7 @@ typedef struct tl_pack_navmesh {
     uint32_t reserved[5];
 } tl_pack_navmesh;
 
-TL_API tl_result tl_pack_navmesh_create(const tl_nav_def *def, tl_aabb bounds, uint32_t tiles_x, uint32_t tiles_z,
+TL_API tl_result tl_pack_navmesh_encode(const tl_nav_def *def, tl_aabb bounds, uint32_t tiles_x, uint32_t tiles_z,
                                         uint32_t tile_count, const tl_allocator *allocator,
                                         tl_pack_navmesh **navmesh_out);
 /// Safe on any 8-byte aligned bytes.
@@ -151,23 +151,23 @@ typedef struct tl_pack_mark {
 
 /// The volumes with which a navmesh was built. A blob; `count` marks follow it, then `point_count` points of three
 /// floats, whose y is zero.
-typedef struct tl_pack_marks {
+typedef struct tl_pack_volumes {
     tl_blob blob;
     uint32_t count, point_count;
     uint32_t reserved[10];
-} tl_pack_marks;
+} tl_pack_volumes;
 
 /// TL_ERR_NOT_FINITE: a coordinate that is not, or a kind that there is not. TL_ERR_LIMIT: 2^32 points. TL_ERR_MEMORY.
-TL_API tl_result tl_pack_marks_create(const tl_nav_volume *volumes, uint32_t count, const tl_allocator *allocator,
-                                      tl_pack_marks **marks_out);
+TL_API tl_result tl_pack_volumes_encode(const tl_nav_volume *volumes, uint32_t count, const tl_allocator *allocator,
+                                        tl_pack_volumes **marks_out);
 /// Safe on any 8-byte aligned bytes. O(size).
-TL_API tl_result tl_pack_marks_check(const void *bytes, uint64_t size);
+TL_API tl_result tl_pack_volumes_check(const void *bytes, uint64_t size);
 /// Volume `index` < count of checked marks; its points lie in them.
-TL_API tl_nav_volume tl_pack_marks_volume(const tl_pack_marks *marks, uint32_t index);
+TL_API tl_nav_volume tl_pack_volumes_at(const tl_pack_volumes *marks, uint32_t index);
 
 /// Checks every NAVT chunk and puts the tiles, borrowed, into a fresh navmesh: the pack's bytes must outlive it. Links
 /// of LINK chunks are added to it, as tl_nav_links_add does.
-/// TL_ERR_NOT_FOUND: there is no navmesh in the file. Else what tl_nav_tile_check, tl_navmesh_add_tile,
+/// TL_NOT_FOUND: there is no navmesh in the file. Else what tl_nav_tile_check, tl_navmesh_add_tile,
 /// tl_nav_links_check and tl_nav_links_add return, with the chunk's index in the report (which may be NULL).
 TL_API tl_result tl_pack_load_navmesh(const tl_pack *pack, const tl_allocator *allocator, tl_navmesh **navmesh_out,
                                       tl_report *report_out);

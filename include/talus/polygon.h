@@ -206,8 +206,8 @@ TL_API tl_polygon_def tl_default_polygon_def(void);
 /// free it with tl_polygon_mesh_free. `def` NULL: defaults. `report_out` may be NULL. Thread safe. Near-linear for
 /// outlines that do not cross themselves: O(n log n) with n vertices, for all but contrived ones. Errors:
 /// TL_ERR_ARGUMENT, TL_ERR_INDEX, TL_ERR_RANGE, TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
-TL_API tl_result tl_polygon_mesh_build(const tl_contour_set *contours, const tl_polygon_def *def,
-                                       tl_polygon_mesh *mesh_out, tl_polygon_report *report_out);
+TL_API tl_result tl_polygon_mesh_bake(const tl_contour_set *contours, const tl_polygon_def *def,
+                                      tl_polygon_mesh *mesh_out, tl_polygon_report *report_out);
 
 /// Gives the mesh back to the allocator it was built with (NULL: free) and clears it. A cleared mesh is allowed.
 TL_API void tl_polygon_mesh_free(tl_polygon_mesh *mesh, const tl_allocator *allocator);

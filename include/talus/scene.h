@@ -2,7 +2,7 @@
 //
 // A scene: many placed copies of soups and convex shapes, asked together. Doors, props, vehicles, other agents.
 //
-//   tl_scene_item [count] --tl_scene_build--> tl_scene --tl_scene_cast_ray, tl_scene_cast_shape ...--> item, triangle
+//   tl_scene_item [count] --tl_scene_bake--> tl_scene --tl_scene_cast_ray, tl_scene_cast_shape ...--> item, triangle
 //          moved          --tl_scene_refit------^
 //
 // The caller keeps the items. A scene is a tree over their boxes, with their poses and masks as they were when it was
@@ -66,15 +66,15 @@ typedef struct tl_scene_item {
 /// TL_ERR_DEGENERATE (a rotation of zero), TL_ERR_RANGE (a position, or a box in the item's space, beyond
 /// TL_MAX_COORDINATE), TL_ERR_ARGUMENT (both a soup and a shape; a radius that is negative or NaN; a box inside out),
 /// TL_ERR_LIMIT (more than TL_MAX_SCENE_ITEMS), TL_ERR_MEMORY.
-TL_API tl_result tl_scene_build(const tl_scene_item *items, uint32_t count, const tl_host *host, tl_scene **scene_out,
-                                tl_report *report_out);
+TL_API tl_result tl_scene_bake(const tl_scene_item *items, uint32_t count, const tl_host *host, tl_scene **scene_out,
+                               tl_report *report_out);
 
 /// Takes the items as they are now: other poses, masks, soups, shapes, or none. In place, O(n), no memory; an item that
 /// did not move costs next to nothing.
 ///
 /// Every query then answers as if the scene had been built anew. The tree stays as it was, however far items moved:
 /// `growth_out` (may be NULL) is the tree's cost (tl_scene_stats) to what it was when it was built; at 1.5 or so a
-/// build pays. No query may run meanwhile: refit a second scene while the first is asked. Errors as of tl_scene_build,
+/// build pays. No query may run meanwhile: refit a second scene while the first is asked. Errors as of tl_scene_bake,
 /// and TL_ERR_ARGUMENT for another number of items; the scene is then unchanged.
 TL_API tl_result tl_scene_refit(tl_scene *scene, const tl_scene_item *items, uint32_t count, float *growth_out,
                                 tl_report *report_out);
@@ -148,7 +148,7 @@ typedef struct tl_scene_shape_hit {
 /// Rules of tl_soup_cast_shape. What counts as touching is measured where the shape is: where it comes no deeper into
 /// an item at the start than 2.4e-7 of the largest coordinate that it reaches in the world, it is taken as standing on
 /// it, although an item's own coordinates may be smaller.
-/// TL_ERR_NOT_FOUND: the way is free; TL_ERR_NOT_FINITE: motion, pose or shape; TL_ERR_ARGUMENT: a radius is negative
+/// TL_NOT_FOUND: the way is free; TL_ERR_NOT_FINITE: motion, pose or shape; TL_ERR_ARGUMENT: a radius is negative
 /// or NaN. `hit_out` is then untouched.
 TL_API tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_item *items, const tl_convex *shape,
                                      tl_transform pose, tl_vec3 motion, const tl_scene_filter *filter,
@@ -165,7 +165,7 @@ TL_API tl_result tl_scene_overlaps(const tl_scene *scene, const tl_scene_item *i
                                    tl_transform pose, const tl_scene_filter *filter, bool *overlaps_out);
 
 /// What a shape touches, each triangle and shape once, in an order of the scene's own.
-/// Writes at most `capacity` of them, and to `*count_out` how many there are: TL_ERR_CAPACITY when that is more.
+/// Writes at most `capacity` of them, and to `*count_out` how many there are: TL_INCOMPLETE when that is more.
 TL_API tl_result tl_scene_find_overlaps(const tl_scene *scene, const tl_scene_item *items, const tl_convex *shape,
                                         tl_transform pose, const tl_scene_filter *filter,
                                         tl_scene_overlap *overlaps_out, uint32_t capacity, uint32_t *count_out);

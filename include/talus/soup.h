@@ -3,7 +3,7 @@
 // The chunky triangle soup: any triangle list, baked into pairs of triangles that share an edge under a wide tree of
 // boxes, and asked by rays, points and shapes.
 //
-//   tl_mesh_view --tl_soup_build (weld, pair, tree)--> tl_soup --tl_soup_cast_ray, tl_soup_occluded ...--> tl_ray_hit
+//   tl_mesh_view --tl_soup_bake (weld, pair, tree)--> tl_soup --tl_soup_cast_ray, tl_soup_occluded ...--> tl_ray_hit
 //
 // What a ray hits is defined by geometry alone, not by the tree, the pairing or the instruction set:
 //
@@ -72,7 +72,7 @@ typedef struct tl_soup_def {
     tl_host host;
 } tl_soup_def;
 
-/// What tl_soup_build did.
+/// What tl_soup_bake did.
 typedef struct tl_soup_report {
     tl_report base;
     uint32_t triangle_count;       ///< stored
@@ -89,13 +89,13 @@ TL_API tl_soup_def tl_default_soup_def(void);
 /// Nothing is required of the triangles: they may intersect, repeat, be loose, or share an edge by the dozen. Corners
 /// at equal positions count as shared, so the view need not be welded. The bytes depend on nothing but the view and the
 /// def's fields before `host`. `def` may be NULL: defaults. On failure `*soup_out` is NULL. `report_out` may be NULL.
-/// Free the soup with `tl_blob_free(soup, allocator)`.
+/// Free the soup with `tl_blob_free(soup)`.
 /// Errors, each with its element in `report_out->base`: TL_ERR_EMPTY (no triangles), TL_ERR_INDEX (triangle),
 /// TL_ERR_NOT_FINITE (vertex), TL_ERR_RANGE (vertex beyond TL_MAX_COORDINATE), TL_ERR_DEGENERATE (no triangle has
 /// area), TL_ERR_LIMIT (more than TL_MAX_SOUP_TRIANGLES), TL_ERR_ARGUMENT, TL_ERR_MEMORY, TL_ERR_CANCELLED. An unused
 /// vertex may hold anything. O(n log n).
-TL_API tl_result tl_soup_build(const tl_mesh_view *view, const tl_soup_def *def, tl_soup **soup_out,
-                               tl_soup_report *report_out);
+TL_API tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup **soup_out,
+                              tl_soup_report *report_out);
 
 /// Moves a soup's triangles to where their vertices are now: the same triangles, indices and number of vertices or not,
 /// other positions. In place, O(n), no memory.
@@ -222,7 +222,7 @@ typedef enum tl_hit_rule {
 
 /// All hits of a ray, sorted by t, of equal t by triangle; each triangle at most once. `filter` may be NULL.
 ///
-/// Writes the nearest `capacity` of them, and to `*count_out` how many there are: TL_ERR_CAPACITY when that is more.
+/// Writes the nearest `capacity` of them, and to `*count_out` how many there are: TL_INCOMPLETE when that is more.
 /// With TL_HITS_TOUCHED the first is the hit of tl_soup_cast_ray, bit for bit. TL_ERR_NOT_FINITE: origin or direction;
 /// TL_ERR_ARGUMENT: the direction is zero, or tmax negative or NaN.
 TL_API tl_result tl_soup_cast_ray_all(const tl_soup *soup, const tl_ray *ray, tl_hit_rule rule,
@@ -256,7 +256,7 @@ typedef struct tl_soup_point {
 /// Distances are computed in double from each triangle's own corners, relative error 1e-7 at most; of equal ones the
 /// lowest triangle index wins. So the answer does not depend on how the triangles are stored. A point in a triangle's
 /// plane counts as seen from both sides. `filter` may be NULL.
-/// TL_ERR_NOT_FOUND: nothing is that near; TL_ERR_NOT_FINITE: the point; TL_ERR_ARGUMENT: max_distance is negative or
+/// TL_NOT_FOUND: nothing is that near; TL_ERR_NOT_FINITE: the point; TL_ERR_ARGUMENT: max_distance is negative or
 /// NaN. `nearest_out` is then untouched.
 TL_API tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance, const tl_ray_filter *filter,
                                  tl_soup_point *nearest_out);
@@ -272,7 +272,7 @@ TL_API tl_result tl_soup_overlaps(const tl_soup *soup, const tl_convex *shape, t
 
 /// The triangles that a shape touches, each once, in an order of the soup's own. Rules and errors as in
 /// tl_soup_overlaps.
-/// Writes at most `capacity` of them, and to `*count_out` how many there are: TL_ERR_CAPACITY when that is more.
+/// Writes at most `capacity` of them, and to `*count_out` how many there are: TL_INCOMPLETE when that is more.
 TL_API tl_result tl_soup_find_overlaps(const tl_soup *soup, const tl_convex *shape, tl_transform pose,
                                        const tl_ray_filter *filter, uint32_t *triangles_out, uint32_t capacity,
                                        uint32_t *count_out);
@@ -303,7 +303,7 @@ typedef struct tl_shape_hit {
 /// Edges are not smoothed: at an inner edge of a floor that bends, `normal` is the edge's, and `face_normal` the
 /// floor's.
 ///
-/// TL_ERR_NOT_FOUND: the way is free; TL_ERR_NOT_FINITE: motion, pose or shape; TL_ERR_ARGUMENT: a radius is negative
+/// TL_NOT_FOUND: the way is free; TL_ERR_NOT_FINITE: motion, pose or shape; TL_ERR_ARGUMENT: a radius is negative
 /// or NaN. `hit_out` is then untouched.
 TL_API tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_transform pose, tl_vec3 motion,
                                     const tl_ray_filter *filter, tl_shape_hit *hit_out);
@@ -311,19 +311,19 @@ TL_API tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape,
 typedef enum tl_soup_side { TL_SOUP_OUTSIDE, TL_SOUP_INSIDE, TL_SOUP_ON_SURFACE } tl_soup_side;
 
 /// Where a point lies to a closed surface.
-typedef struct tl_soup_place {
+typedef struct tl_soup_location {
     tl_soup_side side; ///< inside: the winding number is not 0
     int32_t winding;   ///< how often the surface goes around the point: 1 in a solid, more where solids overlap, -1 in
                        ///< one that is inside out
     uint32_t triangle; ///< on the surface: the lowest that holds the point, else TL_NO_TRIANGLE
-} tl_soup_place;
+} tl_soup_location;
 
 /// Whether a point lies inside of a soup that is closed: exactly, whatever edges and corners its rays go through.
 ///
 /// TL_ERR_NOT_CLOSED, TL_ERR_WINDING: rays from the point to both sides contradict each other, so the surface has a
 /// hole or a rim, or triangles that face against their neighbours. Not every hole shows at every point;
 /// tl_soup_check_closed proves that there is none. TL_ERR_NOT_FINITE: the point. `place_out` is then untouched.
-TL_API tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_place *place_out);
+TL_API tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_location *place_out);
 
 /// Whether the triangles of a soup enclose a space: along every edge as many run one way as the other. They may
 /// intersect.

@@ -12,7 +12,7 @@
 #include <talus/mesh.h>
 #include <talus/nav_around.h>
 #include <talus/nav_audit.h>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_corridor.h>
 #include <talus/nav_detour.h>
 #include <talus/nav_links.h>

@@ -25,7 +25,7 @@ typedef struct tl_atomic_file tl_atomic_file;
 
 /// Starts to write `path`; its folder must exist. An existing file keeps its permissions, a symbolic link keeps
 /// pointing at the file that is replaced. "-" (standard output), devices and pipes cannot be replaced: what is written
-/// goes to them directly. Errors: TL_ERR_NOT_FOUND (the folder), TL_ERR_IO, TL_ERR_MEMORY; then `*file_out` is NULL.
+/// goes to them directly. Errors: TL_NOT_FOUND (the folder), TL_ERR_IO, TL_ERR_MEMORY; then `*file_out` is NULL.
 tl_result tl_atomic_file_open(const char *path, tl_atomic_file **file_out, tl_io_error *error_out);
 
 /// Appends. After a failure (disk full) every later write and the commit fail in the same way.

@@ -16,7 +16,7 @@ extern "C" {
 /// Largest number of material ids: they are stored in 16 bits.
 #define TL_MAX_IMPORTED_MATERIALS 65536u
 
-/// A mesh read from a file. Nothing is welded or cleaned: that is tl_mesh_build's part. Every coordinate is finite,
+/// A mesh read from a file. Nothing is welded or cleaned: that is tl_mesh_bake's part. Every coordinate is finite,
 /// every index below vertex_count. Free it with tl_imported_mesh_free. To be read only.
 typedef struct tl_imported_mesh {
     tl_vec3 *vertices;
@@ -41,7 +41,7 @@ typedef struct tl_imported_mesh {
     uint32_t triangle_capacity;
 } tl_imported_mesh;
 
-/// The triangles as tl_mesh_build takes them. Valid while the mesh lives.
+/// The triangles as tl_mesh_bake takes them. Valid while the mesh lives.
 tl_mesh_view tl_imported_mesh_as_view(const tl_imported_mesh *mesh);
 
 /// Frees all that the mesh holds and zeroes it. A zeroed mesh is allowed.

@@ -39,7 +39,7 @@ tl_import_options tl_default_import_options(void);
 /// are re-wound, so they face the way their author saw; polygons are split; points and lines are counted and left out.
 /// Triangles keep the file's order, so the same file gives the same mesh. `options` NULL: the defaults.
 ///
-/// Errors, each with file, place and advice in `error_out` (may be NULL): TL_ERR_NOT_FOUND, TL_ERR_IO, TL_ERR_FORMAT,
+/// Errors, each with file, place and advice in `error_out` (may be NULL): TL_NOT_FOUND, TL_ERR_IO, TL_ERR_FORMAT,
 /// TL_ERR_UNSUPPORTED (a kind of file that is not known), TL_ERR_EMPTY (no triangles), TL_ERR_NOT_FINITE,
 /// TL_ERR_RANGE (a coordinate does not fit a float), TL_ERR_INDEX, TL_ERR_LIMIT, TL_ERR_ARGUMENT, TL_ERR_MEMORY,
 /// TL_ERR_CANCELLED. On failure `*mesh_out` is zeroed. Assimp runs in a child process, so that a file that makes it

@@ -16,7 +16,7 @@
 
 #include "io/files/io_error.h"
 
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -100,6 +100,18 @@ void *tl_grow_array(const tl_allocator *allocator, void *items, uint64_t *capaci
     return grown;
 }
 
+// What stands before a blob in memory, and never in a file: whose it is. It keeps the blob on its alignment.
+typedef struct tl_blob_owner {
+    uint64_t magic;
+    size_t size; // of the whole block, this included
+    tl_allocator allocator;
+    char padding[TL_BLOB_ALIGNMENT - sizeof(uint64_t) - sizeof(size_t) - sizeof(tl_allocator)];
+} tl_blob_owner;
+
+_Static_assert(sizeof(tl_blob_owner) == TL_BLOB_ALIGNMENT, "a blob follows its owner and stays aligned");
+
+#define BLOB_OWNER_MAGIC 0x72656e776f6c6274u // "tblowner"
+
 void *tl_blob_allocate(const tl_allocator *allocator, uint32_t magic, uint32_t version, uint64_t size)
 {
     return tl_blob_allocate_part(allocator, magic, version, size, size, size);
@@ -108,12 +120,18 @@ void *tl_blob_allocate(const tl_allocator *allocator, uint32_t magic, uint32_t v
 void *tl_blob_allocate_part(const tl_allocator *allocator, uint32_t magic, uint32_t version, uint64_t size,
                             uint64_t unset_begin, uint64_t unset_end)
 {
-    if (size > SIZE_MAX - TL_BLOB_ALIGNMENT) {
+    if (size > SIZE_MAX - TL_BLOB_ALIGNMENT - sizeof(tl_blob_owner)) {
         return NULL;
     }
     size_t rounded = round_up((size_t)size, TL_BLOB_ALIGNMENT);
-    tl_blob *blob = tl_allocate(allocator, rounded, TL_BLOB_ALIGNMENT);
-    if (blob != NULL) {
+    tl_blob_owner *owner = tl_allocate(allocator, sizeof(tl_blob_owner) + rounded, TL_BLOB_ALIGNMENT);
+    tl_blob *blob = NULL;
+    if (owner != NULL) {
+        memset(owner, 0, sizeof *owner);
+        owner->magic = BLOB_OWNER_MAGIC;
+        owner->size = sizeof *owner + rounded;
+        owner->allocator = tl_allocator_or_default(allocator);
+        blob = (tl_blob *)(owner + 1);
         memset(blob, 0, (size_t)unset_begin);
         memset((char *)blob + unset_end, 0, rounded - (size_t)unset_end);
         blob->magic = magic;
@@ -123,10 +141,23 @@ void *tl_blob_allocate_part(const tl_allocator *allocator, uint32_t magic, uint3
     return blob;
 }
 
-void tl_blob_free(void *blob, const tl_allocator *allocator)
+void tl_blob_free(void *blob)
 {
     if (blob != NULL) {
-        tl_release(allocator, blob, (size_t)((const tl_blob *)blob)->size);
+        tl_blob_owner *owner = (tl_blob_owner *)blob - 1;
+        TL_ASSERT(owner->magic == BLOB_OWNER_MAGIC); // else it was mapped or copied, and is not the library's to free
+        tl_allocator allocator = owner->allocator;
+        owner->magic = 0;
+        allocator.release(owner, owner->size, allocator.user);
+    }
+}
+
+void tl_blob_hand_over(void *blob, const tl_allocator *allocator)
+{
+    if (blob != NULL) {
+        tl_blob_owner *owner = (tl_blob_owner *)blob - 1;
+        TL_ASSERT(owner->magic == BLOB_OWNER_MAGIC);
+        owner->allocator = tl_allocator_or_default(allocator);
     }
 }
 

@@ -46,6 +46,10 @@ void *tl_blob_allocate(const tl_allocator *allocator, uint32_t magic, uint32_t v
 void *tl_blob_allocate_part(const tl_allocator *allocator, uint32_t magic, uint32_t version, uint64_t size,
                             uint64_t unset_begin, uint64_t unset_end);
 
+/// From now on the blob is freed by another allocator, for the same memory: one that metered it hands it over to the
+/// host's own. NULL blob: nothing happens.
+void tl_blob_hand_over(void *blob, const tl_allocator *allocator);
+
 /// NULL allocator: malloc. Takes no memory yet.
 void tl_arena_init(tl_arena *arena, const tl_allocator *allocator);
 void tl_arena_free(tl_arena *arena);

@@ -40,6 +40,15 @@ tl_result tl_report_fail(tl_report *report, tl_result result, const char *elemen
     return result;
 }
 
+tl_result tl_report_field(tl_report *report, tl_result result, const char *field, const char *advice)
+{
+    if (report != NULL) {
+        report->field = field;
+        report->advice = advice;
+    }
+    return result;
+}
+
 void tl_report_begin(tl_report *report, const char *stage)
 {
     if (report != NULL) {

@@ -33,6 +33,9 @@ tl_result tl_progress_update(const tl_host *host, const char *stage, uint64_t do
 /// `return tl_report_fail(report, TL_ERR_INDEX, "triangle", i, "check the index buffer");`
 tl_result tl_report_fail(tl_report *report, tl_result result, const char *element, uint64_t index, const char *advice);
 
+/// The same for a field of a def: `return tl_report_field(report, TL_ERR_ARGUMENT, "cell_size", "make it > 0");`
+tl_result tl_report_field(tl_report *report, tl_result result, const char *field, const char *advice);
+
 /// Clears a report that may be NULL: no element, stage as given.
 void tl_report_begin(tl_report *report, const char *stage);
 

@@ -16,13 +16,15 @@ typedef struct result_words {
 
 static const result_words RESULTS[TL_RESULT_COUNT] = {
     WORDS(TL_OK, "success"),
+    WORDS(TL_NOT_FOUND, "nothing was found"),
+    WORDS(TL_INCOMPLETE, "the buffer holds only a part of the answer"),
     WORDS(TL_ERR_MEMORY, "out of memory"),
     WORDS(TL_ERR_CANCELLED, "cancelled"),
     WORDS(TL_ERR_IO, "the operating system refused to read or write"),
     WORDS(TL_ERR_ARGUMENT, "a setting is outside its range"),
     WORDS(TL_ERR_UNSUPPORTED, "well-formed, but of a kind that is not supported"),
     WORDS(TL_ERR_LIMIT, "a documented limit would be exceeded"),
-    WORDS(TL_ERR_NOT_FOUND, "nothing was found"),
+    WORDS(TL_ERR_STALE, "a reference to something that is no longer there"),
     WORDS(TL_ERR_EMPTY, "there is no geometry in it"),
     WORDS(TL_ERR_NOT_FINITE, "a coordinate is NaN or infinite"),
     WORDS(TL_ERR_RANGE, "a coordinate is too large"),
@@ -42,7 +44,7 @@ static const result_words RESULTS[TL_RESULT_COUNT] = {
     WORDS(TL_ERR_HASH, "its content was altered: the stored hash does not match"),
     WORDS(TL_ERR_CORRUPT, "it contradicts itself"),
     WORDS(TL_ERR_ITERATIONS, "the iteration limit was reached before an answer was proven"),
-    WORDS(TL_ERR_CAPACITY, "the buffer is too small for the answer"),
+    WORDS(TL_ERR_NODES, "the node pool of the query is too small"),
 };
 
 static bool is_result(tl_result result)

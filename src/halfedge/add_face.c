@@ -13,7 +13,7 @@
 #include "base/assert.h"
 
 // A boundary half-edge that points to the vertex, or none when it has no gap.
-static uint32_t find_gap(const tl_halfedge *mesh, uint32_t vertex)
+static uint32_t find_gap(const tl_halfedge_mesh *mesh, uint32_t vertex)
 {
     uint32_t start = mesh->vertices[vertex].edge, edge = start;
     do {
@@ -27,7 +27,7 @@ static uint32_t find_gap(const tl_halfedge *mesh, uint32_t vertex)
 }
 
 // The boundary half-edge into the corner at which the fan of the boundary half-edge `outgoing` begins.
-static uint32_t other_end_of_fan(const tl_halfedge *mesh, uint32_t outgoing)
+static uint32_t other_end_of_fan(const tl_halfedge_mesh *mesh, uint32_t outgoing)
 {
     uint32_t incoming = tl_halfedge_twin(outgoing);
     while (mesh->edges[incoming].face != TL_HALFEDGE_NONE) {
@@ -46,17 +46,17 @@ typedef struct new_face {
     uint32_t known[KNOWN_EDGES]; // the half-edge from each vertex to the next, or none
 } new_face;
 
-static uint32_t find_side(const tl_halfedge *mesh, const new_face *face, uint32_t i)
+static uint32_t find_side(const tl_halfedge_mesh *mesh, const new_face *face, uint32_t i)
 {
-    return tl_halfedge_find_edge(mesh, face->vertices[i], face->vertices[i + 1 < face->count ? i + 1 : 0]);
+    return tl_halfedge_mesh_find_edge(mesh, face->vertices[i], face->vertices[i + 1 < face->count ? i + 1 : 0]);
 }
 
-static uint32_t side(const tl_halfedge *mesh, const new_face *face, uint32_t i)
+static uint32_t side(const tl_halfedge_mesh *mesh, const new_face *face, uint32_t i)
 {
     return i < KNOWN_EDGES ? face->known[i] : find_side(mesh, face, i);
 }
 
-static tl_result check_vertices(tl_halfedge *mesh, const new_face *face)
+static tl_result check_vertices(tl_halfedge_mesh *mesh, const new_face *face)
 {
     if (face->count < 3) {
         return TL_ERR_ARGUMENT;
@@ -83,7 +83,7 @@ static tl_result check_vertices(tl_halfedge *mesh, const new_face *face)
 }
 
 // What the edges say; which are there.
-static tl_result check_edges(const tl_halfedge *mesh, new_face *face)
+static tl_result check_edges(const tl_halfedge_mesh *mesh, new_face *face)
 {
     face->missing = 0;
     for (uint32_t i = 0; i < face->count; i++) {
@@ -101,7 +101,7 @@ static tl_result check_edges(const tl_halfedge *mesh, new_face *face)
     return TL_OK;
 }
 
-static tl_result check_corner(const tl_halfedge *mesh, uint32_t vertex, uint32_t incoming, uint32_t outgoing)
+static tl_result check_corner(const tl_halfedge_mesh *mesh, uint32_t vertex, uint32_t incoming, uint32_t outgoing)
 {
     if (incoming == TL_HALFEDGE_NONE && outgoing == TL_HALFEDGE_NONE) {
         bool isolated = mesh->vertices[vertex].edge == TL_HALFEDGE_NONE;
@@ -114,7 +114,7 @@ static tl_result check_corner(const tl_halfedge *mesh, uint32_t vertex, uint32_t
     return TL_OK;
 }
 
-static tl_result check_corners(const tl_halfedge *mesh, const new_face *face)
+static tl_result check_corners(const tl_halfedge_mesh *mesh, const new_face *face)
 {
     uint32_t incoming = side(mesh, face, face->count - 1);
     for (uint32_t i = 0; i < face->count; i++) {
@@ -126,7 +126,7 @@ static tl_result check_corners(const tl_halfedge *mesh, const new_face *face)
 }
 
 // Brings `outgoing` right behind `incoming`: the fans between them go to the gap at the other end of outgoing's fan.
-static void close_up(tl_halfedge *mesh, uint32_t incoming, uint32_t outgoing)
+static void close_up(tl_halfedge_mesh *mesh, uint32_t incoming, uint32_t outgoing)
 {
     uint32_t first = mesh->edges[incoming].next, last = mesh->edges[outgoing].prev;
     if (first == outgoing) {
@@ -140,8 +140,8 @@ static void close_up(tl_halfedge *mesh, uint32_t incoming, uint32_t outgoing)
 }
 
 // Links the boundary around a corner whose edges have just been made where they were missing.
-static void link_corner(tl_halfedge *mesh, uint32_t vertex, uint32_t incoming, bool incoming_new, uint32_t outgoing,
-                        bool outgoing_new)
+static void link_corner(tl_halfedge_mesh *mesh, uint32_t vertex, uint32_t incoming, bool incoming_new,
+                        uint32_t outgoing, bool outgoing_new)
 {
     uint32_t in = tl_halfedge_twin(outgoing), out = tl_halfedge_twin(incoming); // the sides without the face
     if (incoming_new && outgoing_new) {
@@ -164,7 +164,7 @@ static void link_corner(tl_halfedge *mesh, uint32_t vertex, uint32_t incoming, b
     tl_halfedge_join(mesh, incoming, outgoing);
 }
 
-static uint32_t link_face(tl_halfedge *mesh, const new_face *face)
+static uint32_t link_face(tl_halfedge_mesh *mesh, const new_face *face)
 {
     uint32_t index = tl_halfedge_take_face(mesh), count = face->count;
     const uint32_t *vertices = face->vertices;
@@ -196,7 +196,8 @@ static uint32_t link_face(tl_halfedge *mesh, const new_face *face)
     return index;
 }
 
-tl_result tl_halfedge_add_face(tl_halfedge *mesh, const uint32_t *vertices, uint32_t count, uint32_t *face_out)
+tl_result tl_halfedge_mesh_add_face(tl_halfedge_mesh *mesh, const uint32_t *vertices, uint32_t count,
+                                    uint32_t *face_out)
 {
     new_face face;
     face.vertices = vertices;
@@ -212,8 +213,8 @@ tl_result tl_halfedge_add_face(tl_halfedge *mesh, const uint32_t *vertices, uint
     return TL_OK;
 }
 
-tl_result tl_halfedge_add_triangle(tl_halfedge *mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t *face_out)
+tl_result tl_halfedge_mesh_add_triangle(tl_halfedge_mesh *mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t *face_out)
 {
     uint32_t vertices[3] = { a, b, c };
-    return tl_halfedge_add_face(mesh, vertices, 3, face_out);
+    return tl_halfedge_mesh_add_face(mesh, vertices, 3, face_out);
 }

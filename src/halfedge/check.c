@@ -13,7 +13,7 @@ typedef struct census {
     uint32_t vertices, half_edges, faces, boundary;
 } census;
 
-static bool check_free_lists(const tl_halfedge *mesh, const census *live)
+static bool check_free_lists(const tl_halfedge_mesh *mesh, const census *live)
 {
     uint32_t count = 0, limit = mesh->vertex_end;
     for (uint32_t v = mesh->free_vertex; v != TL_HALFEDGE_NONE; v = mesh->vertices[v].link) {
@@ -43,7 +43,7 @@ static bool check_free_lists(const tl_halfedge *mesh, const census *live)
     return 2 * (uint64_t)count + live->half_edges == mesh->edge_end;
 }
 
-static bool check_edge(const tl_halfedge *mesh, uint32_t e)
+static bool check_edge(const tl_halfedge_mesh *mesh, uint32_t e)
 {
     const tl_halfedge_edge *edge = &mesh->edges[e], *twin = &mesh->edges[e ^ 1u];
     if (!tl_halfedge_is_vertex(mesh, edge->vertex) || !tl_halfedge_is_edge(mesh, e ^ 1u) ||
@@ -59,7 +59,7 @@ static bool check_edge(const tl_halfedge *mesh, uint32_t e)
 }
 
 // The face's loop, marking its half-edges; how many.
-static uint32_t walk_face(const tl_halfedge *mesh, uint32_t face, uint8_t *seen)
+static uint32_t walk_face(const tl_halfedge_mesh *mesh, uint32_t face, uint8_t *seen)
 {
     uint32_t start = mesh->faces[face].edge, edge = start, count = 0;
     if (!tl_halfedge_is_edge(mesh, start)) {
@@ -76,7 +76,7 @@ static uint32_t walk_face(const tl_halfedge *mesh, uint32_t face, uint8_t *seen)
     return count >= 3 ? count : 0;
 }
 
-static uint32_t walk_ring(const tl_halfedge *mesh, uint32_t vertex, uint8_t *seen)
+static uint32_t walk_ring(const tl_halfedge_mesh *mesh, uint32_t vertex, uint8_t *seen)
 {
     uint32_t start = mesh->vertices[vertex].edge, edge = start, count = 0;
     if (!tl_halfedge_is_edge(mesh, start)) {
@@ -93,7 +93,7 @@ static uint32_t walk_ring(const tl_halfedge *mesh, uint32_t vertex, uint8_t *see
     return count;
 }
 
-static bool check_links(const tl_halfedge *mesh, uint8_t *seen, census *live)
+static bool check_links(const tl_halfedge_mesh *mesh, uint8_t *seen, census *live)
 {
     for (uint32_t e = 0; e < mesh->edge_end; e++) {
         if (tl_halfedge_is_edge(mesh, e)) {
@@ -131,7 +131,7 @@ static bool check_links(const tl_halfedge *mesh, uint8_t *seen, census *live)
     return in_faces + live->boundary == live->half_edges && in_rings == live->half_edges;
 }
 
-tl_result tl_halfedge_check(const tl_halfedge *mesh)
+tl_result tl_halfedge_mesh_check(const tl_halfedge_mesh *mesh)
 {
     if (mesh->vertex_end > mesh->vertex_capacity || mesh->edge_end > mesh->edge_capacity ||
         mesh->face_end > mesh->face_capacity || mesh->edge_end % 2 != 0) {

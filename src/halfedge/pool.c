@@ -14,23 +14,23 @@
 
 #define FIRST_CAPACITY 32u
 
-void tl_halfedge_init(tl_halfedge *mesh, const tl_allocator *allocator)
+void tl_halfedge_mesh_init(tl_halfedge_mesh *mesh, const tl_allocator *allocator)
 {
     memset(mesh, 0, sizeof *mesh);
     mesh->allocator = tl_allocator_or_default(allocator);
     mesh->free_vertex = mesh->free_edge = mesh->free_face = TL_HALFEDGE_NONE;
 }
 
-void tl_halfedge_free(tl_halfedge *mesh)
+void tl_halfedge_mesh_destroy(tl_halfedge_mesh *mesh)
 {
     tl_release_array(&mesh->allocator, mesh->vertices, mesh->vertex_capacity, sizeof *mesh->vertices);
     tl_release_array(&mesh->allocator, mesh->edges, mesh->edge_capacity, sizeof *mesh->edges);
     tl_release_array(&mesh->allocator, mesh->faces, mesh->face_capacity, sizeof *mesh->faces);
     tl_allocator allocator = mesh->allocator;
-    tl_halfedge_init(mesh, &allocator);
+    tl_halfedge_mesh_init(mesh, &allocator);
 }
 
-void tl_halfedge_clear(tl_halfedge *mesh)
+void tl_halfedge_mesh_clear(tl_halfedge_mesh *mesh)
 {
     mesh->vertex_end = mesh->edge_end = mesh->face_end = 0;
     mesh->vertex_count = mesh->half_edge_count = mesh->face_count = mesh->boundary_count = 0;
@@ -38,7 +38,8 @@ void tl_halfedge_clear(tl_halfedge *mesh)
 }
 
 // Makes room for `more` entries behind `used`.
-static tl_result grow(tl_halfedge *mesh, void **array, uint32_t *capacity, uint32_t used, uint32_t more, size_t size)
+static tl_result grow(tl_halfedge_mesh *mesh, void **array, uint32_t *capacity, uint32_t used, uint32_t more,
+                      size_t size)
 {
     if (more <= *capacity - used) {
         return TL_OK;
@@ -63,7 +64,7 @@ static tl_result grow(tl_halfedge *mesh, void **array, uint32_t *capacity, uint3
     return TL_OK;
 }
 
-tl_result tl_halfedge_add_vertex(tl_halfedge *mesh, tl_vec3 position, uint32_t *vertex_out)
+tl_result tl_halfedge_mesh_add_vertex(tl_halfedge_mesh *mesh, tl_vec3 position, uint32_t *vertex_out)
 {
     uint32_t index = mesh->free_vertex;
     if (index != TL_HALFEDGE_NONE) {
@@ -84,7 +85,7 @@ tl_result tl_halfedge_add_vertex(tl_halfedge *mesh, tl_vec3 position, uint32_t *
     return TL_OK;
 }
 
-tl_result tl_halfedge_remove_vertex(tl_halfedge *mesh, uint32_t vertex)
+tl_result tl_halfedge_mesh_remove_vertex(tl_halfedge_mesh *mesh, uint32_t vertex)
 {
     if (!tl_halfedge_is_vertex(mesh, vertex)) {
         return TL_ERR_INDEX;
@@ -93,7 +94,7 @@ tl_result tl_halfedge_remove_vertex(tl_halfedge *mesh, uint32_t vertex)
     while (mesh->vertices[vertex].edge != TL_HALFEDGE_NONE) {
         uint32_t edge = mesh->vertices[vertex].edge;
         uint32_t face = mesh->edges[edge].face;
-        TL_TRY(tl_halfedge_remove_face(mesh, face != TL_HALFEDGE_NONE ? face : mesh->edges[edge ^ 1u].face));
+        TL_TRY(tl_halfedge_mesh_remove_face(mesh, face != TL_HALFEDGE_NONE ? face : mesh->edges[edge ^ 1u].face));
     }
     mesh->vertices[vertex].link = mesh->free_vertex;
     mesh->free_vertex = vertex;
@@ -101,7 +102,7 @@ tl_result tl_halfedge_remove_vertex(tl_halfedge *mesh, uint32_t vertex)
     return TL_OK;
 }
 
-tl_result tl_halfedge_reserve(tl_halfedge *mesh, uint32_t faces, uint32_t edges)
+tl_result tl_halfedge_reserve(tl_halfedge_mesh *mesh, uint32_t faces, uint32_t edges)
 {
     // One free pair or face may serve the first request; the others are counted in full.
     void *array = mesh->faces;
@@ -121,7 +122,7 @@ tl_result tl_halfedge_reserve(tl_halfedge *mesh, uint32_t faces, uint32_t edges)
     return TL_OK;
 }
 
-uint32_t tl_halfedge_take_face(tl_halfedge *mesh)
+uint32_t tl_halfedge_take_face(tl_halfedge_mesh *mesh)
 {
     uint32_t index = mesh->free_face;
     if (index != TL_HALFEDGE_NONE) {
@@ -135,7 +136,7 @@ uint32_t tl_halfedge_take_face(tl_halfedge *mesh)
     return index;
 }
 
-uint32_t tl_halfedge_take_edge(tl_halfedge *mesh, uint32_t from, uint32_t to)
+uint32_t tl_halfedge_take_edge(tl_halfedge_mesh *mesh, uint32_t from, uint32_t to)
 {
     uint32_t index = mesh->free_edge;
     if (index != TL_HALFEDGE_NONE) {
@@ -152,14 +153,14 @@ uint32_t tl_halfedge_take_edge(tl_halfedge *mesh, uint32_t from, uint32_t to)
     return index;
 }
 
-void tl_halfedge_give_face(tl_halfedge *mesh, uint32_t face)
+void tl_halfedge_give_face(tl_halfedge_mesh *mesh, uint32_t face)
 {
     mesh->faces[face].link = mesh->free_face;
     mesh->free_face = face;
     mesh->face_count--;
 }
 
-void tl_halfedge_give_edge(tl_halfedge *mesh, uint32_t edge)
+void tl_halfedge_give_edge(tl_halfedge_mesh *mesh, uint32_t edge)
 {
     edge &= ~1u;
     mesh->edges[edge].vertex = mesh->edges[edge + 1].vertex = TL_HALFEDGE_NONE;

@@ -5,7 +5,7 @@
 
 #include "halfedge/pool.h"
 
-static void remove_edge(tl_halfedge *mesh, uint32_t edge)
+static void remove_edge(tl_halfedge_mesh *mesh, uint32_t edge)
 {
     uint32_t twin = tl_halfedge_twin(edge);
     uint32_t from = mesh->edges[twin].vertex, to = mesh->edges[edge].vertex;
@@ -23,7 +23,7 @@ static void remove_edge(tl_halfedge *mesh, uint32_t edge)
     tl_halfedge_give_edge(mesh, edge);
 }
 
-tl_result tl_halfedge_remove_face(tl_halfedge *mesh, uint32_t face)
+tl_result tl_halfedge_mesh_remove_face(tl_halfedge_mesh *mesh, uint32_t face)
 {
     if (!tl_halfedge_is_face(mesh, face)) {
         return TL_ERR_INDEX;

@@ -4,7 +4,7 @@
 
 #include <talus/halfedge.h>
 
-uint32_t tl_halfedge_find_edge(const tl_halfedge *mesh, uint32_t from, uint32_t to)
+uint32_t tl_halfedge_mesh_find_edge(const tl_halfedge_mesh *mesh, uint32_t from, uint32_t to)
 {
     if (!tl_halfedge_is_vertex(mesh, from) || !tl_halfedge_is_vertex(mesh, to)) {
         return TL_HALFEDGE_NONE;
@@ -29,7 +29,8 @@ uint32_t tl_halfedge_find_edge(const tl_halfedge *mesh, uint32_t from, uint32_t 
     return TL_HALFEDGE_NONE;
 }
 
-uint32_t tl_halfedge_vertex_edges(const tl_halfedge *mesh, uint32_t vertex, uint32_t *edges_out, uint32_t capacity)
+uint32_t tl_halfedge_mesh_vertex_edges(const tl_halfedge_mesh *mesh, uint32_t vertex, uint32_t *edges_out,
+                                       uint32_t capacity)
 {
     if (!tl_halfedge_is_vertex(mesh, vertex) || mesh->vertices[vertex].edge == TL_HALFEDGE_NONE) {
         return 0;
@@ -45,17 +46,18 @@ uint32_t tl_halfedge_vertex_edges(const tl_halfedge *mesh, uint32_t vertex, uint
     return count;
 }
 
-uint32_t tl_halfedge_vertex_neighbours(const tl_halfedge *mesh, uint32_t vertex, uint32_t *vertices_out,
-                                       uint32_t capacity)
+uint32_t tl_halfedge_mesh_vertex_neighbours(const tl_halfedge_mesh *mesh, uint32_t vertex, uint32_t *vertices_out,
+                                            uint32_t capacity)
 {
-    uint32_t count = tl_halfedge_vertex_edges(mesh, vertex, vertices_out, capacity);
+    uint32_t count = tl_halfedge_mesh_vertex_edges(mesh, vertex, vertices_out, capacity);
     for (uint32_t i = 0; i < count && i < capacity; i++) {
         vertices_out[i] = tl_halfedge_target(mesh, vertices_out[i]);
     }
     return count;
 }
 
-uint32_t tl_halfedge_vertex_faces(const tl_halfedge *mesh, uint32_t vertex, uint32_t *faces_out, uint32_t capacity)
+uint32_t tl_halfedge_mesh_vertex_faces(const tl_halfedge_mesh *mesh, uint32_t vertex, uint32_t *faces_out,
+                                       uint32_t capacity)
 {
     if (!tl_halfedge_is_vertex(mesh, vertex) || mesh->vertices[vertex].edge == TL_HALFEDGE_NONE) {
         return 0;
@@ -72,7 +74,8 @@ uint32_t tl_halfedge_vertex_faces(const tl_halfedge *mesh, uint32_t vertex, uint
     return count;
 }
 
-uint32_t tl_halfedge_face_vertices(const tl_halfedge *mesh, uint32_t face, uint32_t *vertices_out, uint32_t capacity)
+uint32_t tl_halfedge_mesh_face_vertices(const tl_halfedge_mesh *mesh, uint32_t face, uint32_t *vertices_out,
+                                        uint32_t capacity)
 {
     if (!tl_halfedge_is_face(mesh, face)) {
         return 0;
@@ -89,7 +92,7 @@ uint32_t tl_halfedge_face_vertices(const tl_halfedge *mesh, uint32_t face, uint3
     return count;
 }
 
-uint32_t tl_halfedge_next_boundary_loop(const tl_halfedge *mesh, uint32_t from)
+uint32_t tl_halfedge_mesh_next_boundary_loop(const tl_halfedge_mesh *mesh, uint32_t from)
 {
     for (uint32_t start = from; start < mesh->edge_end; start++) {
         if (!tl_halfedge_is_edge(mesh, start) || mesh->edges[start].face != TL_HALFEDGE_NONE) {

@@ -11,7 +11,7 @@
 
 #include <talus/halfedge.h>
 
-static uint32_t scan(const tl_halfedge *mesh, tl_vec3 direction, bool with_edges)
+static uint32_t scan(const tl_halfedge_mesh *mesh, tl_vec3 direction, bool with_edges)
 {
     uint32_t best = TL_HALFEDGE_NONE;
     for (uint32_t v = 0; v < mesh->vertex_end; v++) {
@@ -28,7 +28,7 @@ static uint32_t scan(const tl_halfedge *mesh, tl_vec3 direction, bool with_edges
 }
 
 // Some vertex that has a face; there is one.
-static uint32_t any_vertex(const tl_halfedge *mesh)
+static uint32_t any_vertex(const tl_halfedge_mesh *mesh)
 {
     uint32_t face = 0;
     while (mesh->faces[face].link != TL_HALFEDGE_LIVE) {
@@ -37,7 +37,7 @@ static uint32_t any_vertex(const tl_halfedge *mesh)
     return mesh->edges[mesh->faces[face].edge].vertex;
 }
 
-uint32_t tl_halfedge_support(const tl_halfedge *mesh, tl_vec3 direction, uint32_t hint)
+uint32_t tl_halfedge_mesh_support(const tl_halfedge_mesh *mesh, tl_vec3 direction, uint32_t hint)
 {
     if (mesh->face_count == 0) {
         return scan(mesh, direction, false);

@@ -73,7 +73,7 @@ static tl_result link_edges(const tl_mesh_view *view, tl_arena *arena, tl_adjace
     return TL_OK;
 }
 
-tl_result tl_adjacency_build(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out)
+tl_result tl_adjacency_bake(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out)
 {
     TL_ASSERT(view != NULL && adjacency_out != NULL);
     memset(adjacency_out, 0, sizeof *adjacency_out);

@@ -183,7 +183,7 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh_def *def, tl_aren
     return tl_progress_update(host, "clean", view->triangle_count, view->triangle_count);
 }
 
-tl_result tl_mesh_build(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out, tl_mesh_report *report_out)
+tl_result tl_mesh_bake(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out, tl_mesh_report *report_out)
 {
     TL_ASSERT(view != NULL && mesh_out != NULL);
     const tl_mesh_def defaults = tl_default_mesh_def();

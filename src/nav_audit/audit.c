@@ -199,7 +199,7 @@ static tl_result make_config(const tl_nav_def *def, tl_aabb soup_bounds, tl_nav_
 {
     uint32_t tiles_x, tiles_z;
     TL_TRY(tl_nav_tile_grid(def, soup_bounds, &tiles_x, &tiles_z, report));
-    TL_TRY(tl_nav_config_make(def, soup_bounds, 0, 0, config, report));
+    TL_TRY(tl_nav_config_from_def(def, soup_bounds, 0, 0, config, report));
     if (def->tile_size > 0) {
         const tl_aabb bounds = tl_aabb_is_empty(def->bounds) ? soup_bounds : def->bounds;
         config->width = tiles_x * def->tile_size;
@@ -219,7 +219,7 @@ static tl_result make_scene(tl_audit_job *job, const tl_navmesh *navmesh, const 
     scene->soup = soup;
     TL_TRY(make_config(&job->def->nav, tl_soup_bounds(soup), &scene->config, report));
     scene->stride = scene->config.cell_size;
-    scene->probe = tl_nav_probe_make(&scene->config);
+    scene->probe = tl_nav_probe_from_config(&scene->config);
     if (job->def->probe_radius >= 0.0f) {
         scene->probe.radius = job->def->probe_radius;
     }

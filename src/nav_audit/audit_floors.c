@@ -173,7 +173,7 @@ static tl_result cast_all(const tl_audit_job *job, const tl_ray *ray, hit_buffer
 {
     const tl_allocator *allocator = job->host->allocator;
     if (buffer->hits != NULL && tl_soup_cast_ray_all(job->scene.soup, ray, TL_HITS_TOUCHED, NULL, buffer->hits,
-                                                     buffer->capacity, count_out) != TL_ERR_CAPACITY) {
+                                                     buffer->capacity, count_out) != TL_INCOMPLETE) {
         return TL_OK;
     }
     const uint32_t capacity = buffer->hits == NULL ? FIRST_HITS : *count_out;

@@ -170,11 +170,11 @@ static bool walk_path(tl_audit_walker *walker, const searcher *s, const tl_nav_s
 static tl_result find_path(const tl_audit_job *job, const path_job *paths, searcher *s, const tl_nav_location *start,
                            const tl_nav_location *goal, tl_nav_shortest_path *path)
 {
-    tl_result result = TL_ERR_CAPACITY;
-    for (int trial = 0; trial < 2 && result == TL_ERR_CAPACITY; trial++) {
+    tl_result result = TL_INCOMPLETE;
+    for (int trial = 0; trial < 2 && result == TL_INCOMPLETE; trial++) {
         result = tl_nav_query_find_shortest_path(s->query, job->scene.navmesh, NULL, start, goal, s->corners,
                                                  s->corner_capacity, s->polygons, s->polygon_capacity, path);
-        if (result != TL_ERR_CAPACITY) {
+        if (result != TL_INCOMPLETE) {
             break;
         }
         tl_release_array(paths->allocator, s->corners, s->corner_capacity, sizeof *s->corners);
@@ -227,7 +227,7 @@ static tl_result create_searcher(const tl_audit_job *job, const path_job *paths,
 
 static void free_searcher(const path_job *paths, searcher *s)
 {
-    tl_nav_query_free(s->query);
+    tl_nav_query_destroy(s->query);
     tl_release_array(paths->allocator, s->corners, s->corner_capacity, sizeof *s->corners);
     tl_release_array(paths->allocator, s->polygons, s->polygon_capacity, sizeof *s->polygons);
 }

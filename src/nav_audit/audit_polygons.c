@@ -67,7 +67,7 @@ static bool cross_portals(tl_audit_walker *walker, const tl_audit_polygon *at, t
     const tl_allocator *allocator = walker->records->allocator;
     tl_nav_link few[FEW_LINKS];
     uint32_t count = 0;
-    if (tl_navmesh_links(navmesh, at->ref, few, FEW_LINKS, &count) != TL_ERR_CAPACITY) {
+    if (tl_navmesh_links(navmesh, at->ref, few, FEW_LINKS, &count) != TL_INCOMPLETE) {
         return cross_all(walker, at, few, count, share);
     }
     const uint32_t room = count; // along the side of a tile there may be any number

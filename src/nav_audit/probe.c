@@ -42,7 +42,7 @@ static float steepest_rise(const tl_nav_config *config)
     return cosine > 0.0f ? sqrtf(1.0f - cosine * cosine) / cosine : 0.0f;
 }
 
-tl_nav_probe tl_nav_probe_make(const tl_nav_config *config)
+tl_nav_probe tl_nav_probe_from_config(const tl_nav_config *config)
 {
     const float cell = config->cell_size, voxel = config->cell_height;
     const float across = cell * SQRT_2 + 0.5f * config->detail_sample_dist;

@@ -337,7 +337,7 @@ static tl_result answer_why(search *s, const tl_nav_def *def, const tl_navmesh *
     TL_TRY(measure_mesh(s));
     TL_TRY(collect_reasons(s));
     tl_nav_config config;
-    TL_TRY(tl_nav_config_make(def, s->question.mesh_bounds, answer->tile_x, answer->tile_z, &config, s->report));
+    TL_TRY(tl_nav_config_from_def(def, s->question.mesh_bounds, answer->tile_x, answer->tile_z, &config, s->report));
     const bool fresh = answer->reason_count == 0;
     const bool there = navmesh != NULL && tl_why_on_navmesh(navmesh, &config, answer->floor, &location);
     answer->walkable = navmesh != NULL ? there : fresh;

@@ -28,7 +28,7 @@ typedef struct window {
 // How far the navmesh's surface may lie from the voxels' floor; but not as far as the next floor.
 static float surface_reach(const tl_nav_config *config)
 {
-    return tl_minf(tl_nav_probe_make(config).surface, 0.5f * config->agent_height);
+    return tl_minf(tl_nav_probe_from_config(config).surface, 0.5f * config->agent_height);
 }
 
 bool tl_why_on_navmesh(const tl_navmesh *navmesh, const tl_nav_config *config, tl_vec3 floor,
@@ -47,7 +47,7 @@ static tl_result find_tile(const tl_why_question *question, const tl_nav_def *de
 {
     uint32_t tiles[2], tile[2];
     TL_TRY(tl_nav_tile_grid(def, question->mesh_bounds, &tiles[0], &tiles[1], report));
-    TL_TRY(tl_nav_config_make(def, question->mesh_bounds, 0, 0, &finding->config, report));
+    TL_TRY(tl_nav_config_from_def(def, question->mesh_bounds, 0, 0, &finding->config, report));
     const tl_nav_config *config = &finding->config;
     const float origin[2] = { config->lattice.origin.x, config->lattice.origin.z };
     const float at[2] = { question->point.x, question->point.z };
@@ -64,7 +64,7 @@ static tl_result find_tile(const tl_why_question *question, const tl_nav_def *de
         tile[axis] = def->tile_size > 0 ? (uint32_t)(column[axis] / def->tile_size) : 0;
         *inside = *inside && place == clamped;
     }
-    return tl_nav_config_make(def, question->mesh_bounds, tile[0], tile[1], &finding->config, report);
+    return tl_nav_config_from_def(def, question->mesh_bounds, tile[0], tile[1], &finding->config, report);
 }
 
 // The columns around the point that the stages up to erosion look at, cut to those of the tile.
@@ -112,7 +112,7 @@ static uint32_t clearance_of(const window *w, uint32_t span)
 static bool choose_span(window *w)
 {
     const uint32_t column = w->z * w->field.width + w->x;
-    const float y = w->question->point.y, step = tl_nav_probe_make(&w->config).step;
+    const float y = w->question->point.y, step = tl_nav_probe_from_config(&w->config).step;
     float nearest = INFINITY;
     w->finding->drop = INFINITY;
     for (uint32_t i = w->field.first_span[column]; i < w->field.first_span[column + 1]; i++) {
@@ -255,7 +255,7 @@ static tl_result outlives(window *w, uint32_t radius, bool *outlives_out)
     tl_nav_config config = w->config;
     config.walkable_radius = radius;
     tl_nav_compact_free(&w->compact);
-    TL_TRY(tl_nav_compact_build(&config, &w->field, w->question->host, &w->compact, w->report));
+    TL_TRY(tl_nav_bake_compact(&config, &w->field, w->question->host, &w->compact, w->report));
     TL_TRY(tl_nav_erode(&config, w->question->host, &w->compact));
     const uint32_t at = find_open_floor(&w->compact, w->x, w->z, w->top);
     *outlives_out = at != TL_NAV_NO_SPAN && w->compact.area[at] != TL_NAV_NULL_AREA;
@@ -352,7 +352,7 @@ static tl_result is_on_tile(const tl_nav_tile *tile, const tl_nav_config *config
     TL_TRY(tl_navmesh_create(allocator, &navmesh));
     tl_result result = tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_BORROWED);
     *on_out = result == TL_OK && tl_why_on_navmesh(navmesh, config, floor, &location);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     return result;
 }
 
@@ -363,9 +363,9 @@ static tl_result look_at_tile(const window *w, const int64_t column[2], tl_why_f
     tl_nav_stages stages;
     memset(&stages, 0, sizeof stages);
     tl_nav_tile *tile = NULL;
-    tl_nav_build_report report;
+    tl_nav_bake_report report;
     memset(&report, 0, sizeof report);
-    tl_result result = tl_nav_tile_build(config, w->question->input, host, &stages, &tile, &report);
+    tl_result result = tl_nav_tile_bake(config, w->question->input, host, &stages, &tile, &report);
     if (result != TL_OK) {
         *w->report = report.base;
         return result;
@@ -380,7 +380,7 @@ static tl_result look_at_tile(const window *w, const int64_t column[2], tl_why_f
         finding->cause = dropped ? TL_NAV_CAUSE_ISLAND : TL_NAV_CAUSE_OUTLINE;
         result = dropped ? measure_island(&stages.compact, at, host, &finding->island) : TL_OK;
     }
-    tl_blob_free(tile, host->allocator);
+    tl_blob_free(tile);
     tl_nav_stages_free(&stages, host->allocator);
     return result;
 }

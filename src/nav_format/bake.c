@@ -154,9 +154,9 @@ static tl_result bake(const tl_nav_tile_source *source, const tl_allocator *allo
     bake_polygons(source, tile);
     bake_portals(&portals, tile);
     bake_surface(source, tile);
-    tl_result result = tl_nav_build_box_tree(tile, arena);
+    tl_result result = tl_nav_bake_box_tree(tile, arena);
     if (result != TL_OK) {
-        tl_blob_free(tile, allocator);
+        tl_blob_free(tile);
         return result;
     }
     tile->bounds = tl_nav_tile_nodes(tile)[0].box;
@@ -165,7 +165,7 @@ static tl_result bake(const tl_nav_tile_source *source, const tl_allocator *allo
     return TL_OK;
 }
 
-tl_result tl_nav_tile_create(const tl_nav_tile_source *source, const tl_allocator *allocator, tl_nav_tile **tile_out,
+tl_result tl_nav_tile_encode(const tl_nav_tile_source *source, const tl_allocator *allocator, tl_nav_tile **tile_out,
                              tl_report *report_out)
 {
     *tile_out = NULL;

@@ -90,7 +90,7 @@ static uint32_t build_range(tree_build *build, uint32_t node, uint32_t begin, ui
     return behind;
 }
 
-tl_result tl_nav_build_box_tree(tl_nav_tile *tile, tl_arena *arena)
+tl_result tl_nav_bake_box_tree(tl_nav_tile *tile, tl_arena *arena)
 {
     uint32_t count = tile->polygon_count;
     tl_aabb *boxes = TL_PUSH(arena, tl_aabb, count);

@@ -14,6 +14,6 @@ tl_aabb tl_nav_polygon_box(const tl_nav_tile *tile, uint32_t polygon);
 
 /// Fills the tile's nodes: 2 * polygon_count - 1 of them. The tile's corners and detail must be there.
 /// TL_ERR_MEMORY. O(n log n).
-tl_result tl_nav_build_box_tree(tl_nav_tile *tile, tl_arena *arena);
+tl_result tl_nav_bake_box_tree(tl_nav_tile *tile, tl_arena *arena);
 
 #endif

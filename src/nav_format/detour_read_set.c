@@ -163,7 +163,7 @@ void tl_detour_tiles_free(tl_detour_tiles *tiles, const tl_allocator *allocator)
 {
     tl_allocator own = tl_allocator_or_default(allocator);
     for (uint32_t i = 0; i < tiles->tile_count; i++) {
-        tl_blob_free(tiles->tiles[i], &own);
+        tl_blob_free(tiles->tiles[i]);
     }
     tl_release_array(&own, tiles->tiles, tiles->tile_count, sizeof *tiles->tiles);
     memset(tiles, 0, sizeof *tiles);
@@ -245,5 +245,5 @@ tl_result tl_detour_read_off_mesh(const void *bytes, uint64_t size, tl_detour_of
     if (report_out != NULL) {
         *report_out = report;
     }
-    return result == TL_OK && list.count > capacity ? TL_ERR_CAPACITY : result;
+    return result == TL_OK && list.count > capacity ? TL_INCOMPLETE : result;
 }

@@ -379,7 +379,7 @@ static tl_result make_tile(reading *r, const tl_allocator *allocator, tl_nav_til
     source.flags = r->flags;
     r->report->polygon_count += r->mesh.polygon_count;
     r->report->tile_count++;
-    return tl_nav_tile_create(&source, allocator, tile_out, &r->report->base);
+    return tl_nav_tile_encode(&source, allocator, tile_out, &r->report->base);
 }
 
 tl_result tl_detour_read_tile(const tl_detour_tile_bytes *tile, const tl_detour_read_def *def, tl_detour_report *report,

@@ -214,7 +214,7 @@ static tl_result write_tile(const tl_nav_tile *tile, tl_detour_refs refs, uint8_
     TL_TRY(make_header(tile, &header, report));
     tl_detour_offsets at = tl_detour_offsets_of(&header, refs);
     if (at.end > capacity) {
-        return TL_ERR_CAPACITY;
+        return TL_INCOMPLETE;
     }
     memcpy(bytes, &header, sizeof header);
     write_vertices(tile, bytes + at.vertices);
@@ -343,13 +343,13 @@ static tl_result write_set(const tl_nav_tile *const *tiles, uint32_t tile_count,
     }
     uint64_t entry = tl_detour_entry_bytes(refs), at = sizeof header;
     if (at > capacity) {
-        return TL_ERR_CAPACITY;
+        return TL_INCOMPLETE;
     }
     memcpy(bytes, &header, sizeof header);
     for (uint32_t i = 0; i < tile_count; i++) {
         uint64_t size = 0;
         tl_result result = at + entry > capacity
-                               ? TL_ERR_CAPACITY
+                               ? TL_INCOMPLETE
                                : write_tile(tiles[i], refs, bytes + at + entry, capacity - at - entry, &size, report);
         if (result != TL_OK) {
             return result;

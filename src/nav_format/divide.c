@@ -123,7 +123,7 @@ tl_result tl_nav_tile_divide(const tl_nav_tile *tile, const uint32_t *layers, co
 void tl_nav_tile_stack_free(tl_nav_tile_stack *stack, const tl_allocator *allocator)
 {
     for (uint32_t i = 0; i < stack->count; i++) {
-        tl_blob_free(stack->tiles[i], allocator);
+        tl_blob_free(stack->tiles[i]);
     }
     tl_release_array(allocator, stack->tiles, stack->count, sizeof(*stack->tiles));
     memset(stack, 0, sizeof *stack);

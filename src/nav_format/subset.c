@@ -158,7 +158,7 @@ static tl_result bake(subset *s, const tl_allocator *allocator, tl_nav_tile **ti
     source.layer = s->layer;
     source.cuts = s->cuts;
     source.cut_count = s->cut_count;
-    return tl_nav_tile_create(&source, allocator, tile_out, report);
+    return tl_nav_tile_encode(&source, allocator, tile_out, report);
 }
 
 static tl_result make_subset(subset *s, tl_arena *arena, const tl_allocator *allocator, tl_nav_tile **tile_out,

@@ -126,8 +126,8 @@ tl_result tl_nav_select_ways(const tl_nav_links_def *def, const tl_navmesh *navm
         sort_by_rank(ways, count, scratch);
         result = select(&s, ways, count, kept_out, report);
     }
-    tl_nav_query_free(s.query);
-    tl_navmesh_free(s.navmesh);
+    tl_nav_query_destroy(s.query);
+    tl_navmesh_destroy(s.navmesh);
     tl_release_array(allocator, scratch, count, sizeof *scratch);
     return result;
 }

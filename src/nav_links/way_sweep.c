@@ -31,7 +31,7 @@ static bool piece_is_free(const tl_nav_walker *walker, tl_vec3 from, tl_vec3 to)
     tl_transform pose = tl_transform_identity();
     pose.position = from;
     tl_shape_hit hit;
-    return tl_soup_cast_shape(walker->soup, &walker->body, pose, tl_sub(to, from), NULL, &hit) == TL_ERR_NOT_FOUND;
+    return tl_soup_cast_shape(walker->soup, &walker->body, pose, tl_sub(to, from), NULL, &hit) == TL_NOT_FOUND;
 }
 
 static uint32_t count_chords(const tl_nav_walker *walker, const tl_nav_found_link *link)

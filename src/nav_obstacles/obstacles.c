@@ -165,7 +165,7 @@ static void drop(const tl_nav_obstacles *o, const floors_taker *taker, uint8_t *
 
 // Bakes a range and keeps its floors; the tiles come back in `block`.
 static tl_result bake_range(tl_nav_obstacles *o, const tl_host *host, const tl_nav_input *input,
-                            tl_nav_tile_range range, tl_nav_tile_block *block, tl_nav_build_report *report_out)
+                            tl_nav_tile_range range, tl_nav_tile_block *block, tl_nav_bake_report *report_out)
 {
     const uint64_t count = (uint64_t)range.count_x * range.count_z;
     floors_taker taker = { o, range, tl_allocate_array(&o->allocator, count, sizeof *taker.fresh) };
@@ -178,7 +178,7 @@ static tl_result bake_range(tl_nav_obstacles *o, const tl_host *host, const tl_n
         tl_nav_def def = o->def;
         def.host = *host;
         def.host.allocator = &o->allocator;
-        result = tl_nav_build_range(&def, input, range, &sink, block, report_out);
+        result = tl_nav_bake_range(&def, input, range, &sink, block, report_out);
         if (result == TL_OK) {
             result = copy_areas(o, &taker, areas);
         }
@@ -238,7 +238,7 @@ static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report
 }
 
 tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input, tl_nav_obstacles **obstacles_out,
-                                tl_nav_tile_block *block_out, tl_nav_build_report *report_out)
+                                tl_nav_tile_block *block_out, tl_nav_bake_report *report_out)
 {
     tl_nav_obstacles *o = NULL;
     tl_nav_tile_block block;
@@ -247,7 +247,7 @@ tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input
     if (block_out != NULL) {
         *block_out = block;
     }
-    tl_nav_build_report report;
+    tl_nav_bake_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "obstacles");
     tl_result result = create(def, &o, &report.base);
@@ -259,7 +259,7 @@ tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input
         *report_out = report;
     }
     if (result != TL_OK) {
-        tl_nav_obstacles_free(o);
+        tl_nav_obstacles_destroy(o);
         return result;
     }
     if (block_out != NULL) {
@@ -273,13 +273,13 @@ tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input
 }
 
 tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_input *input, tl_aabb changed,
-                                  tl_nav_build_report *report_out)
+                                  tl_nav_bake_report *report_out)
 {
     static const tl_host alone = { NULL, NULL, NULL };
     tl_nav_obstacles *o = obstacles;
     tl_nav_tile_range range;
     tl_nav_tile_block block;
-    tl_nav_build_report report;
+    tl_nav_bake_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "rebake");
     tl_result result = tl_nav_tiles_in_box(&o->def, o->def.bounds, changed, &range, &report.base);
@@ -296,7 +296,7 @@ tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_inpu
     return result;
 }
 
-void tl_nav_obstacles_free(tl_nav_obstacles *obstacles)
+void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles)
 {
     tl_nav_obstacles *o = obstacles;
     if (o == NULL) {
@@ -382,7 +382,7 @@ tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id 
     obstacle_slot *slot = find(obstacles, id);
     tl_nav_tile_range range;
     if (slot == NULL) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     TL_TRY(range_of(obstacles, obstacle, &range));
     let_wait(obstacles, &slot->range);
@@ -396,7 +396,7 @@ tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obstacle_i
 {
     obstacle_slot *slot = find(obstacles, id);
     if (slot == NULL) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     let_wait(obstacles, &slot->range);
     slot->generation++;
@@ -454,13 +454,13 @@ static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl
     }
 }
 
-tl_result tl_nav_obstacles_build_next(tl_nav_obstacles *obstacles, tl_nav_remade_tile *remade_out,
-                                      tl_nav_build_report *report_out)
+tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_remade_tile *remade_out,
+                                     tl_nav_bake_report *report_out)
 {
     tl_nav_obstacles *o = obstacles;
     memset(remade_out, 0, sizeof *remade_out);
     if (o->first_waiting == NONE) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     tile_floors *tile = &o->tiles[o->first_waiting];
     const uint32_t x = o->first_waiting % o->tiles_x, z = o->first_waiting / o->tiles_x;
@@ -468,12 +468,12 @@ tl_result tl_nav_obstacles_build_next(tl_nav_obstacles *obstacles, tl_nav_remade
     remade_out->tile_z = (int32_t)z;
     if (tile->compact.span_count > 0) {
         tl_nav_config config;
-        TL_TRY(
-            tl_nav_config_make(&o->def, o->def.bounds, x, z, &config, report_out != NULL ? &report_out->base : NULL));
+        TL_TRY(tl_nav_config_from_def(&o->def, o->def.bounds, x, z, &config,
+                                      report_out != NULL ? &report_out->base : NULL));
         memcpy(tile->compact.area, tile->base_area, tile->compact.span_count);
         mark_obstacles(o, x, z, &tile->compact);
         const tl_host host = { &o->allocator, NULL, NULL };
-        TL_TRY(tl_nav_tile_remake(&config, &tile->compact, tile->base_area, &tile->memo, &host, &remade_out->stack,
+        TL_TRY(tl_nav_tile_rebake(&config, &tile->compact, tile->base_area, &tile->memo, &host, &remade_out->stack,
                                   report_out));
     }
     end_wait(o);
@@ -481,14 +481,14 @@ tl_result tl_nav_obstacles_build_next(tl_nav_obstacles *obstacles, tl_nav_remade
 }
 
 tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t most_tiles,
-                                  uint32_t *waiting_out, tl_nav_build_report *report_out)
+                                  uint32_t *waiting_out, tl_nav_bake_report *report_out)
 {
     tl_nav_obstacles *o = obstacles;
     tl_result result = TL_OK;
     for (uint32_t i = 0; i < most_tiles && result == TL_OK && o->first_waiting != NONE; i++) {
         const uint32_t index = o->first_waiting;
         tl_nav_remade_tile remade;
-        result = tl_nav_obstacles_build_next(o, &remade, report_out);
+        result = tl_nav_obstacles_bake_next(o, &remade, report_out);
         if (result != TL_OK) {
             break;
         }

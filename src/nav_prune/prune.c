@@ -245,7 +245,7 @@ static tl_result replace_tiles(prune_job *job)
     for (uint32_t t = 0; t < tiles->tile_count; t++) {
         tl_nav_tile *tile = tiles->tiles[t];
         if (job->gone[t] || job->remade[t] != NULL) {
-            tl_blob_free(tile, allocator);
+            tl_blob_free(tile);
             tile = job->remade[t];
             job->remade[t] = NULL;
         }
@@ -272,7 +272,7 @@ static tl_result prune(prune_job *job, tl_report *report)
     tl_report_begin(report, "prune");
     TL_TRY(remake_tiles(job, report));
     TL_TRY(tl_progress_update(&job->def->host, "prune", job->tiles->tile_count, job->tiles->tile_count));
-    tl_navmesh_free(job->navmesh); // it looks at its tiles to the last
+    tl_navmesh_destroy(job->navmesh); // it looks at its tiles to the last
     job->navmesh = NULL;
     return replace_tiles(job);
 }
@@ -290,12 +290,12 @@ tl_result tl_nav_prune(const tl_nav_prune_def *def, tl_nav_tiles *tiles, tl_nav_
     const uint32_t count = tiles->tile_count;
     const tl_result result = prune(&job, &report.base);
     for (uint32_t t = 0; job.remade != NULL && t < count; t++) {
-        tl_blob_free(job.remade[t], def->host.allocator);
+        tl_blob_free(job.remade[t]);
     }
     tl_release_array(def->host.allocator, job.remade, count, sizeof(*job.remade));
     tl_release_array(def->host.allocator, job.gone, count, sizeof *job.gone);
     tl_release_array(def->host.allocator, job.islands, job.island_capacity, sizeof *job.islands);
-    tl_navmesh_free(job.navmesh);
+    tl_navmesh_destroy(job.navmesh);
     if (report_out != NULL) {
         *report_out = report;
     }

@@ -60,7 +60,7 @@ tl_result tl_solids_make(const tl_mesh_view *mesh, const tl_host *host, tl_solid
     tl_soup_def def = tl_default_soup_def();
     def.host = *host;
     tl_soup_report soup_report;
-    const tl_result result = tl_soup_build(&closed, &def, &s->soup, &soup_report);
+    const tl_result result = tl_soup_bake(&closed, &def, &s->soup, &soup_report);
     if (result != TL_OK && report != NULL) {
         *report = soup_report.base;
     }
@@ -69,7 +69,7 @@ tl_result tl_solids_make(const tl_mesh_view *mesh, const tl_host *host, tl_solid
 
 void tl_solids_free(tl_solids *s)
 {
-    tl_blob_free(s->soup, s->allocator);
+    tl_blob_free(s->soup);
     tl_release_array(s->allocator, s->winding, s->parts.part_count, sizeof *s->winding);
     tl_release_array(s->allocator, s->part_of, s->index_count / 3, sizeof *s->part_of);
     tl_release_array(s->allocator, s->indices, s->index_count, sizeof *s->indices);
@@ -95,7 +95,7 @@ static tl_result cast_up(tl_solids *s, tl_vec3 point, uint32_t *count_out)
     const tl_ray ray = { point, tl_vec3_make(0.0f, 1.0f, 0.0f), INFINITY };
     tl_result result =
         tl_soup_cast_ray_all(s->soup, &ray, TL_HITS_CROSSED, NULL, s->hits, (uint32_t)s->hit_capacity, count_out);
-    if (result == TL_ERR_CAPACITY) {
+    if (result == TL_INCOMPLETE) {
         TL_TRY(make_room(s, *count_out));
         result =
             tl_soup_cast_ray_all(s->soup, &ray, TL_HITS_CROSSED, NULL, s->hits, (uint32_t)s->hit_capacity, count_out);

@@ -118,7 +118,7 @@ static tl_result try_column(search *s, float x, float z)
         const tl_vec3 center = { x, s->low + s->band * (float)i, z }, half = { 0.0f, half_band, 0.0f };
         tl_nav_location place;
         const tl_result result = tl_navmesh_find_nearest(s->navmesh, s->filter, center, half, &place);
-        if (result == TL_ERR_NOT_FOUND) {
+        if (result == TL_NOT_FOUND) {
             continue;
         }
         TL_TRY(result);

@@ -249,8 +249,8 @@ static void release(sight_job *job)
     tl_release_array(allocator, job->samples, job->sample_count, sizeof *job->samples);
 }
 
-tl_result tl_nav_sight_build(const tl_nav_sight_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
-                             tl_nav_sight **sight_out, tl_report *report_out)
+tl_result tl_nav_sight_bake(const tl_nav_sight_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
+                            tl_nav_sight **sight_out, tl_report *report_out)
 {
     TL_ASSERT(def != NULL && navmesh != NULL && soup != NULL && sight_out != NULL);
     *sight_out = NULL;
@@ -267,7 +267,7 @@ tl_result tl_nav_sight_build(const tl_nav_sight_def *def, const tl_navmesh *navm
     }
     release(&job);
     if (result != TL_OK) {
-        tl_blob_free(job.sight, def->host.allocator);
+        tl_blob_free(job.sight);
         return tl_report_fail(report_out, result, NULL, TL_NO_ELEMENT,
                               result == TL_ERR_LIMIT ? "ask line by line instead" : NULL);
     }
@@ -356,5 +356,5 @@ tl_result tl_nav_sight_seen_from(const tl_nav_sight *sight, const tl_navmesh *na
         }
     }
     *count_out = count;
-    return count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

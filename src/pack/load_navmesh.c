@@ -38,13 +38,13 @@ tl_result tl_pack_load_navmesh(const tl_pack *pack, const tl_allocator *allocato
     *navmesh_out = NULL;
     tl_report_begin(report_out, "load navmesh");
     if (tl_pack_count(pack, TL_PACK_NAVM) == 0 && tl_pack_count(pack, TL_PACK_NAVT) == 0) {
-        return tl_report_fail(report_out, TL_ERR_NOT_FOUND, "chunk", TL_NO_ELEMENT, "bake the file with a navmesh");
+        return tl_report_fail(report_out, TL_NOT_FOUND, "chunk", TL_NO_ELEMENT, "bake the file with a navmesh");
     }
     tl_navmesh *navmesh = NULL;
     TL_TRY(tl_navmesh_create(allocator, &navmesh));
     tl_result result = add_chunks(pack, navmesh, report_out);
     if (result != TL_OK) {
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
         return result;
     }
     *navmesh_out = navmesh;

@@ -10,14 +10,14 @@
 #include <math.h>
 #include <string.h>
 
-_Static_assert(sizeof(tl_pack_marks) == 64 && sizeof(tl_pack_mark) == 64, "no hidden padding");
+_Static_assert(sizeof(tl_pack_volumes) == 64 && sizeof(tl_pack_mark) == 64, "no hidden padding");
 
 static bool is_finite(tl_vec3 v)
 {
     return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
 
-static tl_vec3 *points_of(const tl_pack_marks *marks)
+static tl_vec3 *points_of(const tl_pack_volumes *marks)
 {
     union {
         const tl_pack_mark *read;
@@ -58,8 +58,8 @@ static tl_vec3 in_plan(tl_vec3 point)
     return tl_vec3_make(point.x, 0.0f, point.z);
 }
 
-tl_result tl_pack_marks_create(const tl_nav_volume *volumes, uint32_t count, const tl_allocator *allocator,
-                               tl_pack_marks **marks_out)
+tl_result tl_pack_volumes_encode(const tl_nav_volume *volumes, uint32_t count, const tl_allocator *allocator,
+                                 tl_pack_volumes **marks_out)
 {
     *marks_out = NULL;
     uint64_t point_count = 0;
@@ -78,7 +78,7 @@ tl_result tl_pack_marks_create(const tl_nav_volume *volumes, uint32_t count, con
     if (point_count > UINT32_MAX) {
         return TL_ERR_LIMIT;
     }
-    tl_pack_marks *marks =
+    tl_pack_volumes *marks =
         tl_blob_allocate(allocator, TL_PACK_MARKS_MAGIC, TL_PACK_MARKS_VERSION,
                          sizeof *marks + count * (uint64_t)sizeof(tl_pack_mark) + point_count * sizeof(tl_vec3));
     if (marks == NULL) {
@@ -99,10 +99,10 @@ tl_result tl_pack_marks_create(const tl_nav_volume *volumes, uint32_t count, con
     return TL_OK;
 }
 
-tl_result tl_pack_marks_check(const void *bytes, uint64_t size)
+tl_result tl_pack_volumes_check(const void *bytes, uint64_t size)
 {
-    TL_TRY(tl_pack_check_head(bytes, size, TL_PACK_MARKS_MAGIC, TL_PACK_MARKS_VERSION, sizeof(tl_pack_marks)));
-    const tl_pack_marks *marks = bytes;
+    TL_TRY(tl_pack_check_head(bytes, size, TL_PACK_MARKS_MAGIC, TL_PACK_MARKS_VERSION, sizeof(tl_pack_volumes)));
+    const tl_pack_volumes *marks = bytes;
     const uint64_t used =
         sizeof *marks + marks->count * (uint64_t)sizeof(tl_pack_mark) + marks->point_count * (uint64_t)sizeof(tl_vec3);
     if (size < used) {
@@ -130,7 +130,7 @@ tl_result tl_pack_marks_check(const void *bytes, uint64_t size)
     return sane ? TL_OK : TL_ERR_CORRUPT;
 }
 
-tl_nav_volume tl_pack_marks_volume(const tl_pack_marks *marks, uint32_t index)
+tl_nav_volume tl_pack_volumes_at(const tl_pack_volumes *marks, uint32_t index)
 {
     const tl_pack_mark *mark = (const tl_pack_mark *)(marks + 1) + index;
     tl_nav_volume volume;

@@ -13,7 +13,7 @@ _Static_assert(sizeof(tl_pack_meta) == 64 && sizeof(tl_pack_navmesh) == 144, "no
 
 enum { MAX_NAME_BYTES = 1 << 16, MAX_MAX_VERTS = 64 };
 
-tl_result tl_pack_meta_create(const char *source_name, uint64_t source_vertices, uint64_t source_triangles,
+tl_result tl_pack_meta_encode(const char *source_name, uint64_t source_vertices, uint64_t source_triangles,
                               tl_aabb bounds, const tl_allocator *allocator, tl_pack_meta **meta_out)
 {
     *meta_out = NULL;
@@ -80,7 +80,7 @@ const char *tl_pack_meta_name(const tl_pack_meta *meta)
     return (const char *)(meta + 1);
 }
 
-tl_result tl_pack_navmesh_create(const tl_nav_def *def, tl_aabb bounds, uint32_t tiles_x, uint32_t tiles_z,
+tl_result tl_pack_navmesh_encode(const tl_nav_def *def, tl_aabb bounds, uint32_t tiles_x, uint32_t tiles_z,
                                  uint32_t tile_count, const tl_allocator *allocator, tl_pack_navmesh **navmesh_out)
 {
     *navmesh_out = NULL;

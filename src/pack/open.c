@@ -136,7 +136,7 @@ tl_result tl_pack_find(const tl_pack *pack, uint32_t type, uint32_t id, tl_pack_
         }
     }
     memset(chunk_out, 0, sizeof *chunk_out);
-    return TL_ERR_NOT_FOUND;
+    return TL_NOT_FOUND;
 }
 
 uint32_t tl_pack_count(const tl_pack *pack, uint32_t type)

@@ -141,7 +141,7 @@ tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_item *items,
     tl_scene_line_make(&line, scene, tl_scene_kinds(filter), moved.middle, motion, moved.half, 1.0);
     tl_scene_line_walk(&line);
     if (s.item == TL_NO_ITEM) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     hit.item = s.item;
     *hit_out = hit;

@@ -154,7 +154,7 @@ tl_result tl_scene_nearest(const tl_scene *scene, const tl_scene_item *items, tl
     set_limit(&s, max_distance);
     walk(&s);
     if (s.item == TL_NO_ITEM) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     if (items[s.item].soup != NULL) {
         const tl_scene_record *record = &s.records[s.item];

@@ -45,7 +45,7 @@ static void add_soup(search *s, uint32_t item)
     tl_transform pose = tl_scene_pose_to_item(&s->records[item], s->shape->pose);
     tl_result result = tl_soup_find_overlaps(s->items[item].soup, s->shape->convex, pose, tl_scene_triangles(s->filter),
                                              indices, room_size, &count);
-    if (result == TL_OK || result == TL_ERR_CAPACITY) {
+    if (result == TL_OK || result == TL_INCOMPLETE) {
         if (room != NULL) {
             spread(room, room_size, count < room_size ? count : room_size, item);
         }
@@ -121,5 +121,5 @@ tl_result tl_scene_find_overlaps(const tl_scene *scene, const tl_scene_item *ite
     search s = { items, tl_scene_records(scene), filter, &moved, overlaps_out, capacity, 0 };
     (void)walk(&s, scene, visit_all);
     *count_out = s.count;
-    return s.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return s.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

@@ -322,8 +322,8 @@ static tl_result bake(const build *b, const tl_scene_item *items, uint32_t count
     return TL_OK;
 }
 
-tl_result tl_scene_build(const tl_scene_item *items, uint32_t count, const tl_host *host, tl_scene **scene_out,
-                         tl_report *report_out)
+tl_result tl_scene_bake(const tl_scene_item *items, uint32_t count, const tl_host *host, tl_scene **scene_out,
+                        tl_report *report_out)
 {
     TL_ASSERT(scene_out != NULL && (items != NULL || count == 0));
     *scene_out = NULL;

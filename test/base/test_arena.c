@@ -107,8 +107,8 @@ static void blobs_are_zeroed_and_counted(void **state)
     for (size_t i = sizeof(tl_blob); i < 128; i++) {
         TEST_CHECK(bytes[i] == 0);
     }
-    tl_blob_free(bytes, &test.allocator);
-    tl_blob_free(NULL, &test.allocator);
+    tl_blob_free(bytes);
+    tl_blob_free(NULL);
     TEST_CHECK(test.live_blocks == 0 && test.live_bytes == 0);
 }
 

@@ -21,7 +21,7 @@ static void test_boxes(void **state)
     static const tl_vec3 corners[] = { { -1, -1, -1 }, { 1, -1, -1 }, { 1, 1, -1 }, { -1, 1, -1 },
                                        { -1, -1, 1 },  { 1, -1, 1 },  { 1, 1, 1 },  { -1, 1, 1 } };
     tl_hull *hull;
-    TEST_RESULT(tl_hull_build(corners, 8, NULL, &hull, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(corners, 8, NULL, &hull, NULL), TL_OK);
     tl_convex shapes[2] = { tl_convex_from_hull(hull, 0.0f),
                             tl_convex_box(tl_vec3_make(0, 0, 0), tl_vec3_make(1, 1, 1), 0.0f) };
     for (int k = 0; k < 4; k++) {
@@ -64,7 +64,7 @@ static void test_boxes(void **state)
         TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, tilted, 0.1f, 0.001f, NULL, &m) == 2);
         TEST_CHECK(tl_convex_contacts(a, at(0, 0, 0), b, tilted, 0.1f, 0.05f, NULL, &m) == 4);
     }
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
 }
 
 static void test_a_triangle_carries_a_box(void **state)
@@ -189,7 +189,7 @@ static void add_cloud(tl_vec3 *points, uint32_t count, void *user)
 {
     cloud_bodies *all = user;
     test_body body;
-    if (all->count == all->capacity || tl_hull_build(points, count, NULL, &body.hull, NULL) != TL_OK) {
+    if (all->count == all->capacity || tl_hull_bake(points, count, NULL, &body.hull, NULL) != TL_OK) {
         return;
     }
     body.shape = tl_convex_from_hull(body.hull, 0.0f);
@@ -248,7 +248,7 @@ static void test_turned_boxes(void **state)
             corners[k] = tl_add(tl_rotate(turn, tl_mul(sign, half)), tl_vec3_make(3, 0, -2));
         }
         tl_hull *hull;
-        TEST_RESULT(tl_hull_build(corners, 8, NULL, &hull, NULL), TL_OK);
+        TEST_RESULT(tl_hull_bake(corners, 8, NULL, &hull, NULL), TL_OK);
         split += hull->face_count > 6;
         tl_convex box = tl_convex_from_hull(hull, 0.0f);
         // Turned back, it stands upright again.
@@ -264,7 +264,7 @@ static void test_turned_boxes(void **state)
                        fabsf(fabsf(m.contacts[c].point_b.z) - half.z) < 1e-5f);
             TEST_CHECK(fabsf(m.contacts[c].separation + 0.01f) < 1e-5f);
         }
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
     TEST_CHECK(split > 200);
 }

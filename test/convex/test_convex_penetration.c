@@ -205,7 +205,7 @@ static void test_concentric_balls(void **state)
         tl_convex shapes[2];
         for (int k = 0; k < 2; k++) {
             shape_make(SHAPE_SPHERE, &random, points, counts[i]);
-            TEST_RESULT(tl_hull_build(points, counts[i], NULL, &hulls[k], NULL), TL_OK);
+            TEST_RESULT(tl_hull_bake(points, counts[i], NULL, &hulls[k], NULL), TL_OK);
             shapes[k] = tl_convex_from_hull(hulls[k], 0.0f);
         }
         tl_transform pose_a = tl_transform_identity(), pose_b = { { 0.1f, 0.2f, 0.3f, 0.9f }, { 0, 0, 0 } };
@@ -224,8 +224,8 @@ static void test_concentric_balls(void **state)
             float along = tl_dot(d, end) + tl_dot(back, begin);
             TEST_CHECK(along >= p.lower_bound - 1e-6f && (k > 0 || fabsf(along - p.depth) < 1e-6f));
         }
-        tl_blob_free(hulls[0], NULL);
-        tl_blob_free(hulls[1], NULL);
+        tl_blob_free(hulls[0]);
+        tl_blob_free(hulls[1]);
     }
     free(points);
     TEST_CHECK(searched >= 3);

@@ -107,7 +107,7 @@ static tl_hull *make_polyhedron(bool cone, float radius, float h)
         points[count++] = tl_vec3_make(0, 0, h);
     }
     tl_hull *hull;
-    TEST_RESULT(tl_hull_build(points, count, NULL, &hull, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(points, count, NULL, &hull, NULL), TL_OK);
     return hull;
 }
 
@@ -157,8 +157,8 @@ static void test_pairs_against_polyhedra(void **state)
             overlaps += p.overlap;
             apart += !p.overlap;
         }
-        tl_blob_free(owned[0], NULL);
-        tl_blob_free(owned[1], NULL);
+        tl_blob_free(owned[0]);
+        tl_blob_free(owned[1]);
     }
     TEST_CHECK(overlaps > 200 && apart > 200);
 }

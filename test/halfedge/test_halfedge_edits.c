@@ -103,22 +103,22 @@ static tl_result model_add(model *m, const uint32_t *vertices, uint32_t count)
     return TL_OK;
 }
 
-static void model_compare(const model *m, const tl_halfedge *mesh)
+static void model_compare(const model *m, const tl_halfedge_mesh *mesh)
 {
-    TEST_RESULT(tl_halfedge_check(mesh), TL_OK);
+    TEST_RESULT(tl_halfedge_mesh_check(mesh), TL_OK);
     TEST_CHECK(mesh->face_count == m->face_count && mesh->vertex_count == m->vertex_count);
     uint32_t half_edges = 0, boundary = 0;
     for (uint32_t f = 0; f < m->face_count; f++) {
         const model_face *face = &m->faces[f];
         uint32_t loop[MODEL_CORNERS], shift = 0;
-        TEST_CHECK(tl_halfedge_face_vertices(mesh, face->index, loop, MODEL_CORNERS) == face->count);
+        TEST_CHECK(tl_halfedge_mesh_face_vertices(mesh, face->index, loop, MODEL_CORNERS) == face->count);
         while (shift < face->count && loop[shift] != face->vertices[0]) {
             shift++;
         }
         for (uint32_t i = 0; i < face->count; i++) {
             uint32_t a = face->vertices[i], b = face->vertices[(i + 1) % face->count];
             TEST_CHECK(loop[(i + shift) % face->count] == a);
-            uint32_t edge = tl_halfedge_find_edge(mesh, a, b);
+            uint32_t edge = tl_halfedge_mesh_find_edge(mesh, a, b);
             TEST_CHECK(edge != TL_HALFEDGE_NONE && mesh->edges[edge].face == face->index);
             bool open = faces_along(m, b, a) == 0;
             TEST_CHECK((mesh->edges[tl_halfedge_twin(edge)].face == TL_HALFEDGE_NONE) == open);
@@ -130,10 +130,10 @@ static void model_compare(const model *m, const tl_halfedge *mesh)
     // Rings hold as many edges as the model finds; loops of holes hold all boundary half-edges.
     uint32_t in_rings = 0, in_holes = 0;
     for (uint32_t v = 0; v < mesh->vertex_end; v++) {
-        in_rings += tl_halfedge_vertex_edges(mesh, v, NULL, 0);
+        in_rings += tl_halfedge_mesh_vertex_edges(mesh, v, NULL, 0);
     }
-    for (uint32_t e = tl_halfedge_next_boundary_loop(mesh, 0); e != TL_HALFEDGE_NONE;
-         e = tl_halfedge_next_boundary_loop(mesh, e + 1)) {
+    for (uint32_t e = tl_halfedge_mesh_next_boundary_loop(mesh, 0); e != TL_HALFEDGE_NONE;
+         e = tl_halfedge_mesh_next_boundary_loop(mesh, e + 1)) {
         uint32_t at = e;
         do {
             in_holes++;
@@ -148,7 +148,7 @@ typedef struct edit_counts {
     uint32_t removed_faces, removed_vertices, refused_removals, cleared;
 } edit_counts;
 
-static void edit_add_face(model *m, tl_halfedge *mesh, test_random *random, edit_counts *seen)
+static void edit_add_face(model *m, tl_halfedge_mesh *mesh, test_random *random, edit_counts *seen)
 {
     uint32_t vertices[MODEL_CORNERS], count = 3;
     if (test_random_below(random, 3) == 0) {
@@ -159,7 +159,7 @@ static void edit_add_face(model *m, tl_halfedge *mesh, test_random *random, edit
     }
     // Half of the faces grow from an open edge, so that fans close and holes are filled.
     if (mesh->boundary_count > 0 && test_random_below(random, 4) != 0) {
-        uint32_t e = tl_halfedge_next_boundary_loop(mesh, test_random_below(random, mesh->edge_end));
+        uint32_t e = tl_halfedge_mesh_next_boundary_loop(mesh, test_random_below(random, mesh->edge_end));
         if (e != TL_HALFEDGE_NONE) {
             for (uint32_t steps = test_random_below(random, 5); steps > 0; steps--) {
                 e = mesh->edges[e].next;
@@ -173,7 +173,7 @@ static void edit_add_face(model *m, tl_halfedge *mesh, test_random *random, edit
     }
     uint32_t face = TL_HALFEDGE_NONE;
     tl_result expected = model_add(m, vertices, count);
-    tl_result result = tl_halfedge_add_face(mesh, vertices, count, &face);
+    tl_result result = tl_halfedge_mesh_add_face(mesh, vertices, count, &face);
     TEST_RESULT(result, expected);
     seen->results[result]++;
     if (result == TL_OK) {
@@ -182,34 +182,34 @@ static void edit_add_face(model *m, tl_halfedge *mesh, test_random *random, edit
     }
 }
 
-static void edit_remove_face(model *m, tl_halfedge *mesh, test_random *random, edit_counts *seen)
+static void edit_remove_face(model *m, tl_halfedge_mesh *mesh, test_random *random, edit_counts *seen)
 {
     if (m->face_count == 0 || test_random_below(random, 10) == 0) {
         uint32_t index = test_random_below(random, 2 * MODEL_FACES);
         if (!tl_halfedge_is_face(mesh, index)) {
-            TEST_RESULT(tl_halfedge_remove_face(mesh, index), TL_ERR_INDEX);
+            TEST_RESULT(tl_halfedge_mesh_remove_face(mesh, index), TL_ERR_INDEX);
             seen->refused_removals++;
         }
         return;
     }
     uint32_t i = test_random_below(random, m->face_count);
-    TEST_RESULT(tl_halfedge_remove_face(mesh, m->faces[i].index), TL_OK);
+    TEST_RESULT(tl_halfedge_mesh_remove_face(mesh, m->faces[i].index), TL_OK);
     m->faces[i] = m->faces[--m->face_count];
     seen->removed_faces++;
 }
 
-static void edit_vertices(model *m, tl_halfedge *mesh, test_random *random, edit_counts *seen)
+static void edit_vertices(model *m, tl_halfedge_mesh *mesh, test_random *random, edit_counts *seen)
 {
     uint32_t v = test_random_below(random, MODEL_VERTICES);
     if (m->vertex_count < MODEL_VERTICES && test_random_below(random, 3) != 0) {
         uint32_t index;
-        TEST_RESULT(tl_halfedge_add_vertex(mesh, tl_vec3_make(0, 0, 0), &index), TL_OK);
+        TEST_RESULT(tl_halfedge_mesh_add_vertex(mesh, tl_vec3_make(0, 0, 0), &index), TL_OK);
         TEST_CHECK(index < MODEL_VERTICES && !m->live[index]);
         m->live[index] = true;
         m->vertex_count++;
         return;
     }
-    TEST_RESULT(tl_halfedge_remove_vertex(mesh, v), m->live[v] ? TL_OK : TL_ERR_INDEX);
+    TEST_RESULT(tl_halfedge_mesh_remove_vertex(mesh, v), m->live[v] ? TL_OK : TL_ERR_INDEX);
     if (!m->live[v]) {
         seen->refused_removals++;
         return;
@@ -233,8 +233,8 @@ static void test_a_million_edits(void **state)
     (void)state;
     test_allocator memory;
     test_allocator_init(&memory, 0);
-    tl_halfedge mesh;
-    tl_halfedge_init(&mesh, &memory.allocator);
+    tl_halfedge_mesh mesh;
+    tl_halfedge_mesh_init(&mesh, &memory.allocator);
     static model m;
     memset(&m, 0, sizeof m);
     edit_counts seen;
@@ -253,7 +253,7 @@ static void test_a_million_edits(void **state)
         if (i % 250 == 249) {
             model_compare(&m, &mesh);
             for (uint32_t v = 0; v < mesh.vertex_end; v++) {
-                uint32_t ring[64], count = tl_halfedge_vertex_edges(&mesh, v, ring, 64), open = 0;
+                uint32_t ring[64], count = tl_halfedge_mesh_vertex_edges(&mesh, v, ring, 64), open = 0;
                 for (uint32_t k = 0; k < count; k++) {
                     open += mesh.edges[ring[k]].face == TL_HALFEDGE_NONE;
                 }
@@ -261,7 +261,7 @@ static void test_a_million_edits(void **state)
             }
         }
         if (i % 100000 == 99999) {
-            tl_halfedge_clear(&mesh);
+            tl_halfedge_mesh_clear(&mesh);
             fan_refusals += m.fan_refusals;
             memset(&m, 0, sizeof m);
             seen.cleared++;
@@ -275,7 +275,7 @@ static void test_a_million_edits(void **state)
     print_message("%u closed fans seen, %u refused beside others\n", closed_fans, fan_refusals);
     TEST_CHECK(closed_fans > 1000 && fan_refusals > 1000);
     TEST_CHECK(seen.removed_faces > 100000 && seen.removed_vertices > 10000 && seen.refused_removals > 10000);
-    tl_halfedge_free(&mesh);
+    tl_halfedge_mesh_destroy(&mesh);
     TEST_CHECK(memory.live_blocks == 0);
 }
 

@@ -26,12 +26,12 @@ typedef struct coverage {
 
 // What a test mesh has beside its surface.
 typedef struct subject {
-    tl_halfedge mesh;
+    tl_halfedge_mesh mesh;
     uint32_t isolated, removed; // one of each; TL_HALFEDGE_NONE: there is none
 } subject;
 
 // The farthest of the vertices that have a face, and how many are as far.
-static uint32_t scan(const tl_halfedge *mesh, tl_vec3 d, uint32_t *count_out)
+static uint32_t scan(const tl_halfedge_mesh *mesh, tl_vec3 d, uint32_t *count_out)
 {
     uint32_t best = TL_HALFEDGE_NONE;
     *count_out = 0;
@@ -51,9 +51,9 @@ static uint32_t scan(const tl_halfedge *mesh, tl_vec3 d, uint32_t *count_out)
 // A vertex far outside that has no face, and one that was there and is no more.
 static void add_strays(subject *s, tl_vec3 outside)
 {
-    TEST_RESULT(tl_halfedge_add_vertex(&s->mesh, outside, &s->isolated), TL_OK);
-    TEST_RESULT(tl_halfedge_add_vertex(&s->mesh, tl_scale(outside, 2.0f), &s->removed), TL_OK);
-    TEST_RESULT(tl_halfedge_remove_vertex(&s->mesh, s->removed), TL_OK);
+    TEST_RESULT(tl_halfedge_mesh_add_vertex(&s->mesh, outside, &s->isolated), TL_OK);
+    TEST_RESULT(tl_halfedge_mesh_add_vertex(&s->mesh, tl_scale(outside, 2.0f), &s->removed), TL_OK);
+    TEST_RESULT(tl_halfedge_mesh_remove_vertex(&s->mesh, s->removed), TL_OK);
 }
 
 // A hull's surface: polygons as they are, or cut to fans of triangles. Some faces are removed and come back, so that
@@ -66,14 +66,14 @@ static bool make_hull_mesh(subject *s, shape_kind kind, uint32_t count, float si
     for (uint32_t i = 0; i < count; i++) {
         points[i] = tl_scale(points[i], size);
     }
-    if (tl_hull_build(points, count, NULL, &hull, NULL) != TL_OK) {
+    if (tl_hull_bake(points, count, NULL, &hull, NULL) != TL_OK) {
         return false;
     }
     bool fans = test_random_below(random, 2) != 0;
-    tl_halfedge_init(&s->mesh, NULL);
+    tl_halfedge_mesh_init(&s->mesh, NULL);
     uint32_t v, corners[300];
     for (uint32_t i = 0; i < hull->vertex_count; i++) {
-        TEST_RESULT(tl_halfedge_add_vertex(&s->mesh, tl_hull_vertices(hull)[i], &v), TL_OK);
+        TEST_RESULT(tl_halfedge_mesh_add_vertex(&s->mesh, tl_hull_vertices(hull)[i], &v), TL_OK);
     }
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_face face = tl_hull_faces(hull)[f];
@@ -83,18 +83,19 @@ static bool make_hull_mesh(subject *s, shape_kind kind, uint32_t count, float si
         }
         for (uint32_t k = 1; fans && k + 1 < face.count; k++) {
             uint32_t made;
-            TEST_RESULT(tl_halfedge_add_triangle(&s->mesh, corners[0], corners[k], corners[k + 1], &made), TL_OK);
+            TEST_RESULT(tl_halfedge_mesh_add_triangle(&s->mesh, corners[0], corners[k], corners[k + 1], &made), TL_OK);
             if (test_random_below(random, 4) == 0) {
-                TEST_RESULT(tl_halfedge_remove_face(&s->mesh, made), TL_OK);
-                TEST_RESULT(tl_halfedge_add_triangle(&s->mesh, corners[0], corners[k], corners[k + 1], NULL), TL_OK);
+                TEST_RESULT(tl_halfedge_mesh_remove_face(&s->mesh, made), TL_OK);
+                TEST_RESULT(tl_halfedge_mesh_add_triangle(&s->mesh, corners[0], corners[k], corners[k + 1], NULL),
+                            TL_OK);
             }
         }
         if (!fans) {
-            TEST_RESULT(tl_halfedge_add_face(&s->mesh, corners, face.count, NULL), TL_OK);
+            TEST_RESULT(tl_halfedge_mesh_add_face(&s->mesh, corners, face.count, NULL), TL_OK);
         }
     }
     add_strays(s, tl_scale(tl_sub(hull->bounds.max, hull->bounds.min), 2.0f));
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
     return true;
 }
 
@@ -103,13 +104,13 @@ static bool make_hull_mesh(subject *s, shape_kind kind, uint32_t count, float si
 static void make_plateaus(subject *s, uint32_t side, float unit)
 {
     uint32_t index[6][6][6], v;
-    tl_halfedge_init(&s->mesh, NULL);
+    tl_halfedge_mesh_init(&s->mesh, NULL);
     for (uint32_t i = 0; i < (side + 1) * (side + 1) * (side + 1); i++) {
         uint32_t x = i % (side + 1), y = i / (side + 1) % (side + 1), z = i / ((side + 1) * (side + 1));
         bool inside = x % side != 0 && y % side != 0 && z % side != 0;
         if (!inside) {
             tl_vec3 p = tl_vec3_make((float)x * unit, (float)y * unit, (float)z * unit);
-            TEST_RESULT(tl_halfedge_add_vertex(&s->mesh, p, &v), TL_OK);
+            TEST_RESULT(tl_halfedge_mesh_add_vertex(&s->mesh, p, &v), TL_OK);
             index[x][y][z] = v;
         }
     }
@@ -124,15 +125,15 @@ static void make_plateaus(subject *s, uint32_t side, float unit)
                             : face / 2 == 1 ? index[b][level][a]
                                             : index[a][b][level];
             }
-            TEST_RESULT(tl_halfedge_add_triangle(&s->mesh, corner[0], corner[1], corner[2], NULL), TL_OK);
-            TEST_RESULT(tl_halfedge_add_triangle(&s->mesh, corner[0], corner[2], corner[3], NULL), TL_OK);
+            TEST_RESULT(tl_halfedge_mesh_add_triangle(&s->mesh, corner[0], corner[1], corner[2], NULL), TL_OK);
+            TEST_RESULT(tl_halfedge_mesh_add_triangle(&s->mesh, corner[0], corner[2], corner[3], NULL), TL_OK);
         }
     }
     TEST_CHECK(s->mesh.boundary_count == 0);
     add_strays(s, tl_vec3_make(9 * unit, 8 * unit, -7 * unit));
 }
 
-static tl_vec3 make_direction(const tl_halfedge *mesh, test_random *random)
+static tl_vec3 make_direction(const tl_halfedge_mesh *mesh, test_random *random)
 {
     tl_vec3 d = test_random_direction(random);
     switch (test_random_below(random, 5)) {
@@ -167,7 +168,7 @@ static tl_vec3 make_direction(const tl_halfedge *mesh, test_random *random)
 
 static void query(const subject *s, test_random *random, uint64_t count, coverage *seen)
 {
-    const tl_halfedge *mesh = &s->mesh;
+    const tl_halfedge_mesh *mesh = &s->mesh;
     uint32_t answer = 0;
     for (uint64_t i = 0; i < count; i++) {
         hint_kind kind = (hint_kind)test_random_below(random, HINT_KINDS);
@@ -179,7 +180,7 @@ static void query(const subject *s, test_random *random, uint64_t count, coverag
                                                 : mesh->vertex_end + test_random_below(random, UINT32_MAX / 2);
         tl_vec3 d = make_direction(mesh, random);
         uint32_t tied, best = scan(mesh, d, &tied);
-        answer = tl_halfedge_support(mesh, d, hint);
+        answer = tl_halfedge_mesh_support(mesh, d, hint);
         bool right = tl_halfedge_is_vertex(mesh, answer) && mesh->vertices[answer].edge != TL_HALFEDGE_NONE &&
                      tl_compare_along(d, mesh->vertices[answer].position, mesh->vertices[best].position) == 0;
         seen->wrong += !right;
@@ -206,12 +207,12 @@ static void test_support_is_exact(void **state)
         for (int kind = 0; kind < SHAPE_COUNT; kind++) {
             if (make_hull_mesh(&s, (shape_kind)kind, 20 + 70 * (i / SIZES), sizes[i % SIZES], &random)) {
                 query(&s, &random, each, &seen);
-                tl_halfedge_free(&s.mesh);
+                tl_halfedge_mesh_destroy(&s.mesh);
             }
         }
         make_plateaus(&s, 2 + i / SIZES, ldexpf(1.0f, exponents[i % SIZES]));
         query(&s, &random, 4 * each, &seen);
-        tl_halfedge_free(&s.mesh);
+        tl_halfedge_mesh_destroy(&s.mesh);
     }
     print_message("%llu queries on %u meshes, %llu wrong; %llu with several farthest vertices\n",
                   (unsigned long long)seen.queries, seen.meshes, (unsigned long long)seen.wrong,

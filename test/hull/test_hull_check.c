@@ -20,7 +20,7 @@ static void test_prefixes_are_refused(void **state)
         shape_make(SHAPE_SPHERE, &random, points, count);
         tl_hull_def def = tl_default_hull_def();
         tl_hull *hull;
-        TEST_RESULT(tl_hull_build(points, count, &def, &hull, NULL), TL_OK);
+        TEST_RESULT(tl_hull_bake(points, count, &def, &hull, NULL), TL_OK);
         TEST_RESULT(tl_hull_check(hull, hull->blob.size), TL_OK);
         for (uint64_t size = 0; size < hull->blob.size; size += 4) {
             // A copy of just that size, so that a sanitizer sees any read beyond it.
@@ -29,7 +29,7 @@ static void test_prefixes_are_refused(void **state)
             TEST_RESULT(tl_hull_check(copy, size), TL_ERR_TRUNCATED);
             free(copy);
         }
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
 }
 
@@ -43,7 +43,7 @@ static void test_altered_hulls_are_refused_or_harmless(void **state)
         shape_make(SHAPE_SPHERE, &random, points, count);
         tl_hull_def def = tl_default_hull_def();
         tl_hull *hull;
-        TEST_RESULT(tl_hull_build(points, count, &def, &hull, NULL), TL_OK);
+        TEST_RESULT(tl_hull_bake(points, count, &def, &hull, NULL), TL_OK);
         uint64_t size = hull->blob.size;
         uint8_t *copy = aligned_alloc(64, size);
         for (uint32_t i = 0; i < 60000; i++) {
@@ -77,7 +77,7 @@ static void test_altered_hulls_are_refused_or_harmless(void **state)
             }
         }
         free(copy);
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
     // What passes differs in what nothing depends on for safety: sources, planes, mass, the table's choice of a start.
     TEST_CHECK(refused > 60000 && passed > 1000);
@@ -102,7 +102,7 @@ static tl_hull *bake_pyramid(const tl_hull *right, float height, float bottom, t
     memcpy(faces, tl_hull_faces(right), right->face_count * sizeof *faces);
     tl_hull_polygons polygons = { 9, right->face_count, right->half_edge_count, numbers, half_edges, faces };
     tl_hull *hull;
-    TEST_RESULT(tl_hull_bake(&polygons, corners, 1, arena, &hull), TL_OK);
+    TEST_RESULT(tl_hull_emit(&polygons, corners, 1, arena, &hull), TL_OK);
     return hull;
 }
 
@@ -115,7 +115,7 @@ static void test_dented_hulls_are_refused(void **state)
     }
     points[8] = tl_vec3_make(0.25f, 1.5f, 0.25f);
     tl_hull *right;
-    TEST_RESULT(tl_hull_build(points, 9, NULL, &right, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(points, 9, NULL, &right, NULL), TL_OK);
     TEST_CHECK(right->vertex_count == 9 && right->face_count == 9);
     tl_arena arena;
     tl_arena_init(&arena, NULL);
@@ -124,13 +124,13 @@ static void test_dented_hulls_are_refused(void **state)
     for (size_t i = 0; i < sizeof heights / sizeof *heights; i++) {
         tl_hull *hull = bake_pyramid(right, heights[i], -1.0f, &arena);
         TEST_RESULT(tl_hull_check(hull, hull->blob.size), heights[i] > 1.0f ? TL_OK : TL_ERR_CORRUPT);
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
     tl_hull *bent = bake_pyramid(right, 1.5f, nextafterf(-1.0f, -2.0f), &arena);
     TEST_RESULT(tl_hull_check(bent, bent->blob.size), TL_ERR_CORRUPT);
-    tl_blob_free(bent, NULL);
+    tl_blob_free(bent);
     tl_arena_free(&arena);
-    tl_blob_free(right, NULL);
+    tl_blob_free(right);
 }
 
 int main(void)

@@ -183,11 +183,11 @@ static tl_result ask(const input *in, const tl_vec3 *points, int way)
     def.thickness = way == 2 ? 0.25f * largest_size(points, in->count < MOST ? in->count : MOST) : 0.0f;
     tl_hull *hull;
     tl_hull_report report;
-    tl_result result = tl_hull_build(points, in->count, &def, &hull, &report);
+    tl_result result = tl_hull_bake(points, in->count, &def, &hull, &report);
     if (result == TL_OK) {
         TEST_CHECK(report.thickened == (in->results[0] != TL_OK && way == 2));
         prove(hull, points, in->count, report.thickened);
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     } else {
         TEST_CHECK(hull == NULL && report.base.advice != NULL);
         bool a_point = result == TL_ERR_NOT_FINITE || result == TL_ERR_RANGE;
@@ -198,7 +198,7 @@ static tl_result ask(const input *in, const tl_vec3 *points, int way)
 
 static char *read_doc(void)
 {
-    FILE *file = fopen(TALUS_TEST_DIR "/../docs/hull.md", "r");
+    FILE *file = fopen(TALUS_SOURCE_DIR "/docs/hull.md", "r");
     TEST_CHECK(file != NULL);
     char *text = calloc(1, 65536);
     TEST_CHECK(fread(text, 1, 65535, file) > 0);
@@ -237,7 +237,7 @@ static void test_a_thickness_lost_in_rounding_is_none(void **state)
     tl_hull_def def = tl_default_hull_def();
     def.thickness = 1e-20f;
     tl_hull *hull;
-    TEST_RESULT(tl_hull_build(points, 30, &def, &hull, NULL), TL_ERR_COPLANAR);
+    TEST_RESULT(tl_hull_bake(points, 30, &def, &hull, NULL), TL_ERR_COPLANAR);
 }
 
 int main(void)

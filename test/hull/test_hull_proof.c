@@ -52,7 +52,7 @@ static tl_hull *build_exactly(const tl_vec3 *points, uint32_t count)
     tl_hull_def def = tl_default_hull_def();
     def.flatness = 0.0f;
     tl_hull *hull;
-    tl_result result = tl_hull_build(points, count, &def, &hull, NULL);
+    tl_result result = tl_hull_bake(points, count, &def, &hull, NULL);
     TEST_CHECK(result == TL_OK || result == TL_ERR_COPLANAR || result == TL_ERR_COLLINEAR ||
                result == TL_ERR_COINCIDENT);
     return hull;
@@ -74,7 +74,7 @@ static bool is_same_scaled(const tl_hull *hull, const tl_vec3 *points, uint32_t 
         }
         tl_hull *other = build_exactly(scratch, count);
         same = same && other != NULL && same_faces(hull, other) && tl_hull_check(other, other->blob.size) == TL_OK;
-        tl_blob_free(other, NULL);
+        tl_blob_free(other);
     }
     return same;
 }
@@ -97,8 +97,8 @@ static void compare_moved(const tl_vec3 *points, uint32_t count, float size, tl_
     }
     tl_hull *near = build_exactly(scratch, count);
     r->same_moved += proven && near != NULL && same_faces(far, near);
-    tl_blob_free(near, NULL);
-    tl_blob_free(far, NULL);
+    tl_blob_free(near);
+    tl_blob_free(far);
 }
 
 static void visit(tl_vec3 *points, uint32_t count, void *user)
@@ -107,7 +107,7 @@ static void visit(tl_vec3 *points, uint32_t count, void *user)
     tl_hull *hull;
     r->clouds++;
     r->points += count;
-    if (tl_hull_build(points, count, NULL, &hull, NULL) != TL_OK) {
+    if (tl_hull_bake(points, count, NULL, &hull, NULL) != TL_OK) {
         r->flat++;
         return;
     }
@@ -125,7 +125,7 @@ static void visit(tl_vec3 *points, uint32_t count, void *user)
     r->same_scaled += is_same_scaled(hull, points, count, scratch);
     compare_moved(points, count, size, scratch, r);
     free(scratch);
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
 }
 
 static void test_generated_clouds(void **state)

@@ -60,7 +60,7 @@ static void compare(const tl_vec3 *points, uint32_t count, bool general, tally *
 {
     tl_hull_def def = tl_default_hull_def();
     tl_hull *hull;
-    if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
+    if (tl_hull_bake(points, count, &def, &hull, NULL) != TL_OK) {
         return;
     }
     qhull_result peer = run_qhull(points, count);
@@ -83,7 +83,7 @@ static void compare(const tl_vec3 *points, uint32_t count, bool general, tally *
         seen->same_vertices += same;
     }
     free(peer.is_vertex);
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
 }
 
 static void test_generated_clouds(void **state)

@@ -28,7 +28,7 @@ static void test_rays_agree_with_sidedness(void **state)
         }
         tl_hull_def def = tl_default_hull_def();
         tl_hull *hull;
-        TEST_RESULT(tl_hull_build(points, 60, &def, &hull, NULL), TL_OK);
+        TEST_RESULT(tl_hull_bake(points, 60, &def, &hull, NULL), TL_OK);
         tl_vec3 middle = tl_aabb_center(hull->bounds), size = tl_aabb_size(hull->bounds);
         const tl_vec3 *v = tl_hull_vertices(hull);
         const tl_hull_half_edge *h = tl_hull_half_edges(hull);
@@ -79,7 +79,7 @@ static void test_rays_agree_with_sidedness(void **state)
                 TEST_CHECK(entry == TL_NO_VERTEX || tl_hull_cast_ray(hull, origin, tl_neg(direction), 3e38f, NULL));
             }
         }
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
     TEST_CHECK(hits > 10000 && misses > 5000 && inside > 500 && grazing < 500);
 }
@@ -102,7 +102,7 @@ static void test_kernels_agree(void **state)
             points[i] = tl_scale(points[i], ldexpf(1.0f, exponents[c % 4]));
         }
         tl_hull *hull;
-        TEST_RESULT(tl_hull_build(points, count, NULL, &hull, NULL), TL_OK);
+        TEST_RESULT(tl_hull_bake(points, count, NULL, &hull, NULL), TL_OK);
         double size = (double)tl_maxf(hull->bounds.max.x, -hull->bounds.min.x);
         for (int i = 0; i < 4000; i++) {
             double o[3], d[3], t[4] = { 0.0 }, max_t = i % 5 == 0 ? (double)INFINITY : 1.0;
@@ -123,7 +123,7 @@ static void test_kernels_agree(void **state)
             hits += hit;
             misses += !hit;
         }
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
     print_message("%u kernels beside the scalar one\n", kernels);
     TEST_CHECK(hits > 30000 && misses > 30000 && inside > 1000);
@@ -139,7 +139,7 @@ static void test_posed_hulls_agree_with_clouds(void **state)
         test_random random = { (uint64_t)kind };
         shape_make((shape_kind)kind, &random, points, 40);
         tl_hull *hull;
-        TEST_RESULT(tl_hull_build(points, 40, NULL, &hull, NULL), TL_OK);
+        TEST_RESULT(tl_hull_bake(points, 40, NULL, &hull, NULL), TL_OK);
         tl_convex planes = tl_convex_from_hull(hull, 0.0f);
         tl_convex cloud = tl_convex_from_points(tl_hull_vertices(hull), hull->vertex_count, 0.0f);
         tl_vec3 size = tl_aabb_size(hull->bounds);
@@ -169,7 +169,7 @@ static void test_posed_hulls_agree_with_clouds(void **state)
             }
             misses += !hit && !near;
         }
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
     TEST_CHECK(hits > 1000 && misses > 500);
 }
@@ -183,14 +183,14 @@ static void test_contains_is_exact(void **state)
     }
     tl_hull_def def = tl_default_hull_def();
     tl_hull *hull;
-    TEST_RESULT(tl_hull_build(cube, 8, &def, &hull, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(cube, 8, &def, &hull, NULL), TL_OK);
     for (int i = 0; i < 8; i++) {
         TEST_CHECK(tl_hull_contains(hull, cube[i]));
     }
     TEST_CHECK(tl_hull_contains(hull, tl_vec3_make(0.1f, 1, 2)));
     TEST_CHECK(!tl_hull_contains(hull, tl_vec3_make(nextafterf(0.1f, 0), 1, 2)));
     TEST_CHECK(!tl_hull_contains(hull, tl_vec3_make(1, nextafterf(3.0f, 4), 2)));
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
 }
 
 static void test_mass_of_known_bodies(void **state)
@@ -202,7 +202,7 @@ static void test_mass_of_known_bodies(void **state)
     };
     tl_hull_def def = tl_default_hull_def();
     tl_hull *hull;
-    TEST_RESULT(tl_hull_build(corners, 4, &def, &hull, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(corners, 4, &def, &hull, NULL), TL_OK);
     TEST_CHECK(fabs(hull->mass.volume - 1.0 / 6.0) < 1e-15);
     for (int i = 0; i < 3; i++) {
         TEST_CHECK(fabs(hull->mass.center[i] - 1000000.25) < 1e-9);
@@ -210,7 +210,7 @@ static void test_mass_of_known_bodies(void **state)
         TEST_CHECK(fabs(hull->mass.inertia[i] - 2.0 / 160.0) < 1e-15);
         TEST_CHECK(fabs(hull->mass.inertia[i + 3] - 1.0 / 480.0) < 1e-15);
     }
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
 }
 
 int main(void)

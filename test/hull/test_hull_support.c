@@ -151,7 +151,7 @@ static void query_points(tl_vec3 *points, uint32_t count, uint32_t shape, uint32
     tl_hull_def def = tl_default_hull_def();
     def.flatness = 0.0f;
     tl_hull *hull;
-    if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
+    if (tl_hull_bake(points, count, &def, &hull, NULL) != TL_OK) {
         return; // too few places are left so far away
     }
     uint64_t before = seen->queries;
@@ -159,7 +159,7 @@ static void query_points(tl_vec3 *points, uint32_t count, uint32_t shape, uint32
     seen->shape[shape] += seen->queries - before;
     seen->size[size] += seen->queries - before;
     seen->offset[offset] += seen->queries - before;
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
 }
 
 static void query_shapes(coverage *seen)
@@ -268,7 +268,7 @@ static tl_hull *build_shape(shape_kind kind, uint32_t count)
     test_random random = { 3 };
     count = shape_make(kind, &random, points, count);
     tl_hull *hull;
-    TEST_RESULT(tl_hull_build(points, count, NULL, &hull, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(points, count, NULL, &hull, NULL), TL_OK);
     free(points);
     return hull;
 }
@@ -295,7 +295,7 @@ static void test_directions_without_a_size(void **state)
                 TEST_CHECK(ask(hull, d, (uint32_t)i % 7, isa) == scan(hull, d, &tied));
             }
         }
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
 }
 
@@ -315,7 +315,7 @@ static void test_starts_are_good(void **state)
             wrong += tl_hull_table_start(hull, d) != tl_hull_support(hull, d, TL_NO_VERTEX);
         }
         TEST_CHECK(wrong < 2500);
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
 }
 
@@ -343,7 +343,7 @@ static void test_marches_agree(void **state)
             TEST_CHECK(filled > 0 && filled <= COUNT);
             changes += cells[0][filled - 1] != start;
         }
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
     TEST_CHECK(changes > SHAPE_COUNT * 100);
 }

@@ -16,7 +16,7 @@ static tl_hull *build(shape_kind kind, uint32_t count, uint64_t seed)
     test_random random = { seed };
     shape_make(kind, &random, points, count);
     tl_hull *hull;
-    TEST_RESULT(tl_hull_build(points, count, NULL, &hull, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(points, count, NULL, &hull, NULL), TL_OK);
     return hull;
 }
 
@@ -54,9 +54,9 @@ static void test_exact_maps_keep_every_face(void **state)
             TEST_CHECK(memcmp(tl_hull_sources(out), tl_hull_sources(hull), hull->vertex_count * sizeof(uint32_t)) == 0);
             double cube = (double)s * (double)s * (double)s;
             TEST_CHECK(fabs(out->mass.volume / cube - hull->mass.volume) <= 1e-12 * hull->mass.volume);
-            tl_blob_free(out, NULL);
+            tl_blob_free(out);
         }
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
 }
 
@@ -73,10 +73,10 @@ static void test_mirrors_keep_the_outside_outside(void **state)
             // Twice is not at all.
             tl_hull *back = map(out, scale, tl_transform_identity());
             TEST_CHECK(back->blob.size == hull->blob.size && memcmp(back, hull, hull->blob.size) == 0);
-            tl_blob_free(back, NULL);
-            tl_blob_free(out, NULL);
+            tl_blob_free(back);
+            tl_blob_free(out);
         }
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
 }
 
@@ -107,8 +107,8 @@ static void test_any_map_gives_a_valid_hull(void **state)
             tl_vec3 image = tl_transform_point(pose, tl_mul(scale, tl_hull_vertices(hull)[w]));
             TEST_CHECK((double)tl_distance(image, tl_hull_vertices(out)[v]) <= 40.0 * shift);
         }
-        tl_blob_free(out, NULL);
-        tl_blob_free(hull, NULL);
+        tl_blob_free(out);
+        tl_blob_free(hull);
     }
     print_message("%u with more faces, %u with fewer corners\n", broken, dropped);
     TEST_CHECK(broken > 30 && dropped > 5);
@@ -118,8 +118,8 @@ static void test_any_map_gives_a_valid_hull(void **state)
     shift.position = tl_vec3_make(0.1f, -7.3f, 1e4f);
     tl_hull *out = map(box, tl_vec3_make(0.3f, 5.7f, -0.11f), shift);
     TEST_CHECK(out->vertex_count == 8 && out->face_count == 6);
-    tl_blob_free(out, NULL);
-    tl_blob_free(box, NULL);
+    tl_blob_free(out);
+    tl_blob_free(box);
 }
 
 static void test_nothing_solid_is_refused_by_name(void **state)
@@ -149,7 +149,7 @@ static void test_nothing_solid_is_refused_by_name(void **state)
         TEST_RESULT(tl_hull_transform(hull, table[i].scale, pose, NULL, &out, &report), table[i].expected);
         TEST_CHECK(out == NULL && report.base.advice != NULL);
     }
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
 }
 
 static void test_memory_runs_out(void **state)
@@ -167,7 +167,7 @@ static void test_memory_runs_out(void **state)
         tl_result result =
             tl_hull_transform(hull, tl_vec3_make(1.0f, 2.0f, 3.0f), tl_transform_identity(), &host, &out, NULL);
         if (result == TL_OK) {
-            tl_blob_free(out, &memory.allocator);
+            tl_blob_free(out);
             TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
             break;
         }
@@ -176,7 +176,7 @@ static void test_memory_runs_out(void **state)
         TEST_CHECK(out == NULL && memory.live_blocks == 0 && memory.live_bytes == 0);
     }
     TEST_CHECK(failures >= 3);
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
 }
 
 int main(void)

@@ -17,7 +17,7 @@ static tl_hull *build(const tl_vec3 *points, uint32_t count)
     tl_hull_def def = tl_default_hull_def();
     def.flatness = 0.0f;
     tl_hull *hull;
-    TEST_RESULT(tl_hull_build(points, count, &def, &hull, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(points, count, &def, &hull, NULL), TL_OK);
     return hull;
 }
 
@@ -57,7 +57,7 @@ static void test_hulls_are_proven_at_all_scales(void **state)
             tl_hull_def def = tl_default_hull_def();
             tl_hull *hull;
             def.flatness = 0.0f;
-            if (tl_hull_build(points, count, &def, &hull, NULL) != TL_OK) {
+            if (tl_hull_bake(points, count, &def, &hull, NULL) != TL_OK) {
                 // Lattices of few points and small prisms may be flat.
                 TEST_CHECK(count <= 8);
                 continue;
@@ -73,9 +73,9 @@ static void test_hulls_are_proven_at_all_scales(void **state)
                 tl_hull *other = build(scaled, count);
                 TEST_CHECK(same_topology(hull, other));
                 TEST_RESULT(tl_hull_check(other, other->blob.size), TL_OK);
-                tl_blob_free(other, NULL);
+                tl_blob_free(other);
             }
-            tl_blob_free(hull, NULL);
+            tl_blob_free(hull);
         }
     }
     TEST_CHECK(hulls > 70 && merged > 15);
@@ -99,7 +99,7 @@ static void test_hulls_far_from_the_origin(void **state)
             tl_hull_def def = tl_default_hull_def();
             def.flatness = 0.0f;
             tl_hull *hull;
-            if (tl_hull_build(moved, 500, &def, &hull, NULL) == TL_OK) {
+            if (tl_hull_bake(moved, 500, &def, &hull, NULL) == TL_OK) {
                 prove(hull, moved, 500);
                 // The same lattice points near the origin give the same hull.
                 tl_vec3 back[500];
@@ -109,8 +109,8 @@ static void test_hulls_far_from_the_origin(void **state)
                 tl_hull *near = build(back, 500);
                 TEST_CHECK(same_topology(hull, near));
                 TEST_CHECK(fabs(near->mass.volume - hull->mass.volume) <= 1e-6 * near->mass.volume);
-                tl_blob_free(near, NULL);
-                tl_blob_free(hull, NULL);
+                tl_blob_free(near);
+                tl_blob_free(hull);
             } else {
                 TEST_CHECK(k == 3);
             }
@@ -131,17 +131,17 @@ static void test_bad_points_and_defs_are_refused(void **state)
     for (int i = 0; i < 4; i++) {
         tl_vec3 kept = points[5];
         points[5].y = bad[i];
-        TEST_RESULT(tl_hull_build(points, 8, &def, &hull, &report), i < 3 ? TL_ERR_NOT_FINITE : TL_ERR_RANGE);
+        TEST_RESULT(tl_hull_bake(points, 8, &def, &hull, &report), i < 3 ? TL_ERR_NOT_FINITE : TL_ERR_RANGE);
         TEST_CHECK(report.base.element_index == 5 && strcmp(report.base.element, "point") == 0);
         points[5] = kept;
     }
     def.max_vertices = 3;
-    TEST_RESULT(tl_hull_build(points, 8, &def, &hull, &report), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_hull_bake(points, 8, &def, &hull, &report), TL_ERR_ARGUMENT);
     def = tl_default_hull_def();
     def.thickness = -1.0f;
-    TEST_RESULT(tl_hull_build(points, 8, &def, &hull, &report), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_hull_bake(points, 8, &def, &hull, &report), TL_ERR_ARGUMENT);
     def.thickness = NAN;
-    TEST_RESULT(tl_hull_build(points, 8, &def, &hull, &report), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_hull_bake(points, 8, &def, &hull, &report), TL_ERR_ARGUMENT);
 }
 
 static void test_a_cube_is_a_cube(void **state)
@@ -158,7 +158,7 @@ static void test_a_cube_is_a_cube(void **state)
         TEST_CHECK(fabs(hull->mass.inertia[i] - 8.0 / 12.0 * 8.0) < 1e-13);
         TEST_CHECK(fabs(hull->mass.inertia[i + 3]) < 1e-14);
     }
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
     // A lattice: its corners only.
     for (int i = 0; i < 343; i++) {
         points[i] = tl_vec3_make((float)(i % 7), (float)(i / 7 % 7), (float)(i / 49));
@@ -166,7 +166,7 @@ static void test_a_cube_is_a_cube(void **state)
     hull = build(points, 343);
     TEST_CHECK(hull->vertex_count == 8 && hull->face_count == 6);
     prove(hull, points, 343);
-    tl_blob_free(hull, NULL);
+    tl_blob_free(hull);
 }
 
 static void test_reduction_is_graceful(void **state)
@@ -184,7 +184,7 @@ static void test_reduction_is_graceful(void **state)
             def.max_vertices = limits[i];
             tl_hull *hull;
             tl_hull_report report;
-            TEST_RESULT(tl_hull_build(points, N, &def, &hull, &report), TL_OK);
+            TEST_RESULT(tl_hull_bake(points, N, &def, &hull, &report), TL_OK);
             TEST_CHECK(limits[i] == 0 || hull->vertex_count <= limits[i]);
             TEST_RESULT(tl_hull_validate(hull, NULL, 0, NULL), TL_OK);
             TEST_CHECK((report.points_left_out == 0) == (report.max_outside == 0.0));
@@ -196,7 +196,7 @@ static void test_reduction_is_graceful(void **state)
             TEST_CHECK(hull->mass.volume >= volume);
             outside = found.max_outside;
             volume = hull->mass.volume;
-            tl_blob_free(hull, NULL);
+            tl_blob_free(hull);
         }
         TEST_CHECK(outside == 0.0);
     }
@@ -212,8 +212,8 @@ static void test_same_points_same_bytes(void **state)
         shape_make((shape_kind)kind, &random, points, 400);
         tl_hull *a = build(points, 400), *b = build(points, 400);
         TEST_CHECK(a->blob.size == b->blob.size && memcmp(a, b, a->blob.size) == 0);
-        tl_blob_free(a, NULL);
-        tl_blob_free(b, NULL);
+        tl_blob_free(a);
+        tl_blob_free(b);
     }
 }
 
@@ -230,7 +230,7 @@ static void test_golden_hash(void **state)
         shape_make(kinds[i], &random, points, 300);
         tl_hull *hull = build(points, 300);
         hash = tl_hash_bytes(hull, hull->blob.size, hash);
-        tl_blob_free(hull, NULL);
+        tl_blob_free(hull);
     }
     TEST_CHECK(hash == 0x5425c5c14fe1fed4u);
 }
@@ -255,9 +255,9 @@ static void test_memory_runs_out(void **state)
             def.thickness = 0.1f;
             def.max_vertices = flat ? 100 : 0;
             tl_hull *hull;
-            tl_result result = tl_hull_build(points, N, &def, &hull, NULL);
+            tl_result result = tl_hull_bake(points, N, &def, &hull, NULL);
             if (result == TL_OK) {
-                tl_blob_free(hull, &memory.allocator);
+                tl_blob_free(hull);
                 TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
                 break;
             }
@@ -289,7 +289,7 @@ static void test_a_build_can_be_cancelled(void **state)
     tl_hull_def def = tl_default_hull_def();
     def.host.progress = &progress;
     tl_hull *hull;
-    TEST_RESULT(tl_hull_build(points, 100, &def, &hull, NULL), TL_ERR_CANCELLED);
+    TEST_RESULT(tl_hull_bake(points, 100, &def, &hull, NULL), TL_ERR_CANCELLED);
     TEST_CHECK(hull == NULL);
 }
 

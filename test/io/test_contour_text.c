@@ -107,7 +107,7 @@ static void meshes_come_back_as_written(void **state)
     set.border_size = 2;
     tl_polygon_def def = tl_default_polygon_def();
     tl_polygon_mesh mesh;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, NULL), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
     first.size = second.size = first.limit = second.limit = 0;
     TEST_RESULT(tl_polygon_text_write(&mesh, "a\nb", "talus", 3, 12.5, into_buffer, &first), TL_OK);
     tl_contour_reader reader = reader_of(first.bytes, first.size);
@@ -140,7 +140,7 @@ static void every_prefix_is_refused(void **state)
     tl_contour_set set = shape_as_set(points, n, vertices, &contour);
     tl_polygon_def def = tl_default_polygon_def();
     tl_polygon_mesh mesh;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, NULL), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
     first.size = first.limit = 0;
     TEST_RESULT(tl_polygon_text_write(&mesh, "a", "talus", 0, 0.0, into_buffer, &first), TL_OK);
     tl_polygon_mesh_free(&mesh, NULL);

@@ -32,7 +32,7 @@ static void equals_a_scan_over_all_edges(void **state)
         }
         tl_mesh_view view = { vertices, vertex_count, indices, TRIANGLES, NULL };
         tl_adjacency adjacency;
-        TEST_RESULT(tl_adjacency_build(&view, NULL, &adjacency), TL_OK);
+        TEST_RESULT(tl_adjacency_bake(&view, NULL, &adjacency), TL_OK);
         uint32_t counted[2] = { 0, 0 };
         for (uint32_t edge = 0; edge < EDGES; edge++) {
             uint32_t from;
@@ -80,7 +80,7 @@ static void a_fan_of_many_triangles_is_linear(void **state)
     }
     tl_mesh_view view = { NULL, TRIANGLES + 1, indices, TRIANGLES, NULL };
     tl_adjacency adjacency;
-    TEST_RESULT(tl_adjacency_build(&view, NULL, &adjacency), TL_OK);
+    TEST_RESULT(tl_adjacency_bake(&view, NULL, &adjacency), TL_OK);
     assert_int_equal(adjacency.border_edges, TRIANGLES);
     assert_int_equal(adjacency.paired_edges, TRIANGLES);
     assert_int_equal(adjacency.across[2], 3);
@@ -99,7 +99,7 @@ static void failing_memory_leaks_nothing(void **state)
         test_allocator_init(&test, fail_at);
         tl_host host = { &test.allocator, NULL, NULL };
         tl_adjacency adjacency;
-        tl_result result = tl_adjacency_build(&view, &host, &adjacency);
+        tl_result result = tl_adjacency_bake(&view, &host, &adjacency);
         if (result == TL_OK) {
             tl_adjacency_free(&adjacency, &test.allocator);
             TEST_CHECK(test.live_blocks == 0);
@@ -111,7 +111,7 @@ static void failing_memory_leaks_nothing(void **state)
     TEST_CHECK(fail_at >= 3);
     tl_mesh_view huge = { NULL, 4, indices, TL_MAX_MESH_TRIANGLES + 1u, NULL };
     tl_adjacency adjacency;
-    TEST_RESULT(tl_adjacency_build(&huge, NULL, &adjacency), TL_ERR_LIMIT);
+    TEST_RESULT(tl_adjacency_bake(&huge, NULL, &adjacency), TL_ERR_LIMIT);
 }
 
 int main(void)

@@ -27,7 +27,7 @@ static void a_loose_square_becomes_two_joined_triangles(void **state)
     tl_mesh_def def = tl_default_mesh_def();
     tl_mesh mesh;
     tl_mesh_report report;
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, &report), TL_OK);
     assert_int_equal(mesh.vertex_count, 4);
     assert_int_equal(mesh.triangle_count, 3); // the flipped twin of the first is another triangle
     assert_int_equal(report.duplicate_triangles, 2);
@@ -47,7 +47,7 @@ static void a_loose_square_becomes_two_joined_triangles(void **state)
     TEST_CHECK(mesh.vertices == NULL);
 
     def.keep_duplicates = true;
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, NULL), TL_OK);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, NULL), TL_OK);
     assert_int_equal(mesh.triangle_count, 5);
     tl_mesh_free(&mesh, NULL);
 }
@@ -69,7 +69,7 @@ static void area_is_decided_exactly(void **state)
     tl_mesh_def def = tl_default_mesh_def();
     tl_mesh mesh;
     tl_mesh_report report;
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, &report), TL_OK);
     assert_int_equal(report.degenerate_triangles, 1);
     assert_int_equal(mesh.triangle_count, 2);
     assert_int_equal(mesh.source_triangles[0], 1);
@@ -122,7 +122,7 @@ static void weld_equals_a_quadratic_scan(void **state)
         def.weld_tolerance = tolerance;
         def.keep_duplicates = true;
         tl_mesh mesh;
-        TEST_RESULT(tl_mesh_build(&view, &def, &mesh, NULL), TL_OK);
+        TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, NULL), TL_OK);
         for (uint32_t i = 0; i < mesh.triangle_count; i++) {
             for (uint32_t k = 0; k < 3; k++) {
                 tl_vec3 is = mesh.vertices[mesh.indices[3 * i + k]];
@@ -148,35 +148,35 @@ static void bad_input_is_named(void **state)
     tl_mesh mesh;
     tl_mesh_report report;
     tl_mesh_view view = view_of(v, 3, t, 0);
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, &report), TL_ERR_EMPTY);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, &report), TL_ERR_EMPTY);
     view = view_of(NULL, 0, t, 1);
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, &report), TL_ERR_EMPTY);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, &report), TL_ERR_EMPTY);
     view = view_of(v, 3, t, 2);
     t[4] = 3;
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, &report), TL_ERR_INDEX);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, &report), TL_ERR_INDEX);
     TEST_CHECK(report.base.element_index == 1 && strcmp(report.base.element, "triangle") == 0);
     t[4] = 1;
     const float bad[] = { NAN, INFINITY, -INFINITY, 1.1e12f };
     for (int i = 0; i < 4; i++) {
         v[1].z = bad[i];
-        TEST_RESULT(tl_mesh_build(&view, &def, &mesh, &report), i < 3 ? TL_ERR_NOT_FINITE : TL_ERR_RANGE);
+        TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, &report), i < 3 ? TL_ERR_NOT_FINITE : TL_ERR_RANGE);
         TEST_CHECK(report.base.element_index == 1 && strcmp(report.base.element, "vertex") == 0);
         TEST_CHECK(report.base.advice != NULL && mesh.block == NULL);
     }
     v[1] = tl_vec3_make(0, 0, 2);
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, &report), TL_ERR_EMPTY);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, &report), TL_ERR_EMPTY);
     assert_int_equal(report.degenerate_triangles, 2);
     v[1].x = 1.0f;
     const float tolerances[] = { -1.0f, NAN, INFINITY };
     for (int i = 0; i < 3; i++) {
         def.weld_tolerance = tolerances[i];
-        TEST_RESULT(tl_mesh_build(&view, &def, &mesh, &report), TL_ERR_ARGUMENT);
+        TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, &report), TL_ERR_ARGUMENT);
     }
     def.weld_tolerance = 10.0f;
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, &report), TL_ERR_EMPTY);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, &report), TL_ERR_EMPTY);
     def.weld_tolerance = 0.0f;
     view = view_of(v, TL_MAX_MESH_VERTICES + 1u, t, 2);
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, &report), TL_ERR_LIMIT);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, &report), TL_ERR_LIMIT);
 }
 
 static bool cancel_at_clean(const char *stage, uint64_t done, uint64_t total, void *user)
@@ -199,7 +199,7 @@ static void failing_memory_and_cancellation_leak_nothing(void **state)
         tl_mesh_def def = tl_default_mesh_def();
         def.host.allocator = &test.allocator;
         tl_mesh mesh;
-        tl_result result = tl_mesh_build(&view, &def, &mesh, NULL);
+        tl_result result = tl_mesh_bake(&view, &def, &mesh, NULL);
         if (result == TL_OK) {
             TEST_CHECK(test.live_blocks == 1);
             tl_mesh_free(&mesh, &test.allocator);
@@ -220,7 +220,7 @@ static void failing_memory_and_cancellation_leak_nothing(void **state)
     def.host.allocator = &test.allocator;
     def.host.progress = &progress;
     tl_mesh mesh;
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, NULL), TL_ERR_CANCELLED);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, NULL), TL_ERR_CANCELLED);
     TEST_CHECK(updates == 4 && test.live_blocks == 0);
 }
 

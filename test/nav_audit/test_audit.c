@@ -50,13 +50,13 @@ static void run(hall *h, tl_vec3 offset)
     tl_soup *soup = audit_soup(&h->change);
     tl_report report;
     TEST_RESULT(tl_nav_audit_run(&h->def, h->navmesh, soup, &h->audit, &report), TL_OK);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
 }
 
 static void tear_down(hall *h)
 {
     tl_nav_audit_free(&h->audit);
-    tl_navmesh_free(h->navmesh);
+    tl_navmesh_destroy(h->navmesh);
 }
 
 static uint32_t count_kind(const tl_nav_audit *audit, tl_nav_finding_kind kind)
@@ -106,8 +106,8 @@ static void a_sound_level_has_no_findings(void **state)
     assert_int_equal(audit.finding_count, 0);
     assert_int_equal(audit.path_count, 300);
     tl_nav_audit_free(&audit);
-    tl_blob_free(soup, NULL);
-    tl_navmesh_free(navmesh);
+    tl_blob_free(soup);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void a_pillar_that_was_not_baked_is_found(void **state)
@@ -209,7 +209,7 @@ static void missing_navmesh_is_measured(void **state)
     hole.box.min = tl_vec3_make(8, -1, 2);
     hole.box.max = tl_vec3_make(16, 1, 10);
     const tl_nav_input input = { h.level.mesh, NULL, &hole, 1 };
-    tl_navmesh_free(h.navmesh);
+    tl_navmesh_destroy(h.navmesh);
     h.navmesh = test_nav_bake(&h.def.nav, &input);
     run(&h, NOWHERE);
     assert_int_equal(h.audit.finding_count, 1);
@@ -240,7 +240,7 @@ static void without_a_navmesh_all_floor_is_missing(void **state)
     (void)state;
     hall h;
     set_up(&h, 0, NOWHERE);
-    tl_navmesh_free(h.navmesh);
+    tl_navmesh_destroy(h.navmesh);
     h.navmesh = NULL;
     run(&h, NOWHERE);
     assert_int_equal(count_kind(&h.audit, TL_NAV_FINDING_MISSING), 1);
@@ -347,7 +347,7 @@ static void failures_leave_nothing(void **state)
     tl_report report;
     TEST_RESULT(tl_nav_audit_run(&h.def, h.navmesh, soup, &h.audit, &report), TL_ERR_ARGUMENT);
     assert_string_equal(report.element, "cell_size");
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     tear_down(&h);
 }
 
@@ -369,7 +369,7 @@ static void it_can_be_stopped(void **state)
         h.def.host.progress = &progress;
         tl_soup *soup = audit_soup(&h.level);
         TEST_RESULT(tl_nav_audit_run(&h.def, h.navmesh, soup, &h.audit, NULL), TL_ERR_CANCELLED);
-        tl_blob_free(soup, NULL);
+        tl_blob_free(soup);
         tear_down(&h);
     }
 }

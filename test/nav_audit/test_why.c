@@ -30,7 +30,7 @@ static bool is_walkable(const tl_nav_def *def, const tl_nav_input *input, tl_vec
     tl_navmesh *navmesh = test_nav_bake(def, input);
     tl_nav_location location;
     const bool there = tl_navmesh_find_nearest(navmesh, NULL, floor, tl_vec3_make(0, within, 0), &location) == TL_OK;
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     return there;
 }
 
@@ -84,7 +84,7 @@ static void a_walkable_point_has_no_cause(void **state)
         tl_navmesh *navmesh = test_nav_bake(&q.def, &q.input);
         TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, tl_vec3_make(15, 0, 10), &q.answer, NULL), TL_OK);
         TEST_CHECK(q.answer.walkable && !q.answer.apart && q.answer.island_area > 400.0f);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
 }
 
@@ -246,7 +246,7 @@ static void changed(void **state)
     TEST_RESULT(tl_nav_why(&now.def, &now.input, navmesh, tl_vec3_make(13, 0, 9), &now.answer, NULL), TL_OK);
     TEST_CHECK(!now.answer.walkable && now.answer.reason_count == 1);
     assert_int_equal(now.answer.reasons[0].cause, TL_NAV_CAUSE_CHANGED);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void another_island(void **state)
@@ -260,7 +260,7 @@ static void another_island(void **state)
     TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, tl_vec3_make(14, 4, 10), &q.answer, NULL), TL_OK);
     TEST_CHECK(q.answer.walkable && q.answer.apart && q.answer.island_area < q.answer.largest_island_area);
     TEST_CHECK(q.answer.island_area > 30.0f && q.answer.island_area < 80.0f);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 // On a steep roof that is too small: first the slope, then the island.
@@ -326,7 +326,7 @@ static void failures_leave_nothing(void **state)
     tl_report report;
     TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, tl_vec3_make(1, 0, 10), &q.answer, &report), TL_ERR_INDEX);
     assert_int_equal(report.element_index, 1);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(void)

@@ -209,7 +209,7 @@ void talus_answers_in_detour(void **)
             tl_nav_input input = {};
             input.mesh = l.view();
             tl_nav_tiles tiles;
-            TEST_RESULT(tl_nav_build(&def, &input, &tiles, nullptr), TL_OK);
+            TEST_RESULT(tl_nav_bake(&def, &input, &tiles, nullptr), TL_OK);
             detour_side side;
             open_set(write_set(tiles.tiles, tiles.tile_count), &side);
             tl_navmesh *made = nullptr;

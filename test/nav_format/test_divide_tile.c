@@ -5,7 +5,7 @@
 #include "stacked_levels.h"
 
 #include <string.h>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_query.h>
 
 // A tile of the house with cuts, and the tile that it is a layer of.
@@ -14,11 +14,11 @@ static tl_nav_tile *make_house(const tl_sample_mesh *mesh, tl_nav_tiles *divided
     const tl_nav_input input = { tl_sample_mesh_as_view(mesh), NULL, NULL, 0 };
     tl_nav_def def = tl_default_nav_def();
     def.tile_height = 2.9f;
-    TEST_RESULT(tl_nav_build(&def, &input, divided, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake(&def, &input, divided, NULL), TL_OK);
     TEST_CHECK(divided->tile_count > 3);
     def.tile_height = 0.0f;
     tl_nav_tiles whole;
-    TEST_RESULT(tl_nav_build(&def, &input, &whole, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake(&def, &input, &whole, NULL), TL_OK);
     TEST_CHECK(whole.tile_count == 1);
     tl_nav_tile *tile = whole.tiles[0];
     whole.tiles[0] = NULL;
@@ -54,7 +54,7 @@ static void test_altered_bytes(void **state)
                 const tl_result result = tl_navmesh_add_tile(navmesh, tiles.tiles[t], TL_NAV_TILE_BORROWED);
                 TEST_CHECK(result == TL_OK || result == TL_ERR_ARGUMENT); // of a layer or lattice of another tile
             }
-            tl_navmesh_free(navmesh);
+            tl_navmesh_destroy(navmesh);
             taken++;
         }
         bytes[i] = was;
@@ -72,7 +72,7 @@ static void test_altered_bytes(void **state)
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_ERR_CORRUPT);
     cuts.write[0] = kept;
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
-    tl_blob_free(whole, NULL);
+    tl_blob_free(whole);
     tl_nav_tiles_free(&tiles, NULL);
     tl_sample_mesh_free(&mesh);
 }
@@ -102,7 +102,7 @@ static void test_divide(void **state)
     tl_nav_tile *again;
     TEST_RESULT(tl_nav_tile_subset(tiles.tiles[1], keep, NULL, &again, NULL), TL_OK);
     TEST_CHECK(again->blob.size == tiles.tiles[1]->blob.size && memcmp(again, tiles.tiles[1], again->blob.size) == 0);
-    tl_blob_free(again, NULL);
+    tl_blob_free(again);
     // Memory that fails.
     for (uint32_t p = 0; p < whole->polygon_count; p++) {
         layers[p] = p % 3;
@@ -124,7 +124,7 @@ static void test_divide(void **state)
     TEST_CHECK(failures > 10);
     free(keep);
     free(layers);
-    tl_blob_free(whole, NULL);
+    tl_blob_free(whole);
     tl_nav_tiles_free(&tiles, NULL);
     tl_sample_mesh_free(&mesh);
 }
@@ -186,14 +186,14 @@ static void test_replace(void **state)
             TEST_RESULT(result, TL_ERR_MEMORY);
             failures++;
         }
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
         TEST_CHECK(counting.live_blocks == 0);
         if (result == TL_OK) {
             break;
         }
     }
     TEST_CHECK(failures > 5);
-    tl_blob_free(whole, NULL);
+    tl_blob_free(whole);
     tl_nav_tiles_free(&tiles, NULL);
     tl_sample_mesh_free(&mesh);
 }

@@ -17,7 +17,7 @@ static tl_nav_tiles bake(uint32_t tile_size, tl_vec3 offset)
     def.tile_size = tile_size;
     tl_nav_input input = { level.mesh, NULL, NULL, 0 };
     tl_nav_tiles tiles;
-    TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake(&def, &input, &tiles, NULL), TL_OK);
     return tiles;
 }
 
@@ -36,7 +36,7 @@ static byte_list write_set(const tl_nav_tiles *tiles, tl_detour_refs refs)
     tl_detour_report report;
     TEST_RESULT(tl_detour_set_write(list, tiles->tile_count, refs, out.bytes, out.size, &report), TL_OK);
     TEST_CHECK(report.tile_count == tiles->tile_count);
-    TEST_RESULT(tl_detour_set_write(list, tiles->tile_count, refs, out.bytes, out.size - 1, &report), TL_ERR_CAPACITY);
+    TEST_RESULT(tl_detour_set_write(list, tiles->tile_count, refs, out.bytes, out.size - 1, &report), TL_INCOMPLETE);
     TEST_RESULT(tl_detour_set_write(list, tiles->tile_count, refs, out.bytes, out.size, NULL), TL_OK);
     return out;
 }
@@ -107,7 +107,7 @@ static void test_single_tile(void **state)
     uint64_t size = tl_detour_tile_size(tiles.tiles[0], TL_DETOUR_REFS_32);
     unsigned char *bytes = malloc(size);
     TEST_RESULT(tl_detour_tile_write(tiles.tiles[0], TL_DETOUR_REFS_32, bytes, size, NULL), TL_OK);
-    TEST_RESULT(tl_detour_tile_write(tiles.tiles[0], TL_DETOUR_REFS_32, bytes, size - 1, NULL), TL_ERR_CAPACITY);
+    TEST_RESULT(tl_detour_tile_write(tiles.tiles[0], TL_DETOUR_REFS_32, bytes, size - 1, NULL), TL_INCOMPLETE);
     tl_detour_tiles back;
     TEST_RESULT(tl_detour_read(bytes, size, NULL, &back, NULL), TL_OK);
     TEST_CHECK(back.tile_count == 1 && fabs(back.tiles[0]->area - tiles.tiles[0]->area) < 1e-3);
@@ -140,7 +140,7 @@ static tl_nav_tile *make_octagon(void)
     source.polygons = &mesh;
     source.agent_height = 2.0f;
     tl_nav_tile *tile;
-    TEST_RESULT(tl_nav_tile_create(&source, NULL, &tile, NULL), TL_OK);
+    TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
     return tile;
 }
 
@@ -153,7 +153,7 @@ static void test_what_cannot_be_written(void **state)
     TEST_RESULT(tl_detour_tile_write(octagon, TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_ERR_LIMIT);
     assert_string_equal(report.base.element, "polygon");
     TEST_CHECK(tl_detour_tile_size(octagon, TL_DETOUR_REFS_32) == 0);
-    tl_blob_free(octagon, NULL);
+    tl_blob_free(octagon);
 
     tl_nav_tiles tiles = bake(0, tl_vec3_make(0, 0, 0));
     uint64_t *flags = (uint64_t *)((char *)tiles.tiles[0] + tiles.tiles[0]->flags);
@@ -323,7 +323,7 @@ static uint64_t count_links(tl_nav_tile *const *tiles, uint32_t count)
         TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles[i], TL_NAV_TILE_BORROWED), TL_OK);
     }
     const uint64_t links = tl_navmesh_link_count(navmesh);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     return links;
 }
 

@@ -31,7 +31,7 @@ static void test_example(void **state)
     TEST_CHECK(tl_nav_tile_area(tile, 0) == TL_NAV_MAX_AREA && tl_nav_tile_flags(tile, 0) == 1);
     tl_nav_surface surface = tl_nav_tile_surface(tile, 0);
     TEST_CHECK(surface.vertex_count == 4 && surface.triangle_count == 2);
-    tl_blob_free(tile, NULL);
+    tl_blob_free(tile);
 }
 
 static void test_portals(void **state)
@@ -48,7 +48,7 @@ static void test_portals(void **state)
         uint32_t first = ((const uint32_t *)tl_nav_tile_at(tile, tile->first_corner))[portal->polygon];
         TEST_CHECK(tl_nav_tile_neighbour(tile, portal->polygon, portal->corner - first) == (TL_PORTAL | side));
     }
-    tl_blob_free(tile, NULL);
+    tl_blob_free(tile);
 }
 
 // A vertex of the detail mesh in the middle of a portal edge makes a bend in its profile.
@@ -63,12 +63,12 @@ static void test_profile(void **state)
     mesh.detail.vertices[4] = tl_vec3_make(0.0f, 3.0f, 1.0f); // on side 0, 4 lattice units along z
     tl_nav_tile_source source = fixture_source(&mesh);
     tl_nav_tile *tile = NULL;
-    TEST_RESULT(tl_nav_tile_create(&source, NULL, &tile, NULL), TL_OK);
+    TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
     const tl_nav_portal *portal = tl_nav_tile_portals(tile);
     const tl_nav_profile_point *profile = tl_nav_tile_at(tile, tile->profile);
     TEST_CHECK(portal[0].profile_count == 3 && portal[1].profile_count == 2);
     TEST_CHECK(profile[1].along == 4.0f && profile[1].height == 3.0f);
-    tl_blob_free(tile, NULL);
+    tl_blob_free(tile);
     fixture_free_mesh(&mesh);
 }
 
@@ -76,7 +76,7 @@ static void refuse(fixture_mesh *mesh, const tl_nav_tile_source *source, tl_resu
 {
     tl_nav_tile *tile = NULL;
     tl_report report;
-    TEST_RESULT(tl_nav_tile_create(source, NULL, &tile, &report), expected);
+    TEST_RESULT(tl_nav_tile_encode(source, NULL, &tile, &report), expected);
     TEST_CHECK(tile == NULL);
     TEST_CHECK(report.element != NULL && strcmp(report.element, element) == 0);
     fixture_free_mesh(mesh);
@@ -151,8 +151,8 @@ static void test_random_tiles(void **state)
                 }
             }
         }
-        tl_blob_free(a, NULL);
-        tl_blob_free(b, NULL);
+        tl_blob_free(a);
+        tl_blob_free(b);
     }
     TEST_CHECK(shared_vertices > 200);
 }
@@ -167,9 +167,9 @@ static void test_same_bytes(void **state)
     test_allocator_init(&counting, 0);
     tl_nav_tile *b = fixture_build_tile(&level, 0, 0, &counting.allocator);
     TEST_CHECK(a->blob.size == b->blob.size && memcmp(a, b, a->blob.size) == 0);
-    tl_blob_free(b, &counting.allocator);
+    tl_blob_free(b);
     TEST_CHECK(counting.live_blocks == 0);
-    tl_blob_free(a, NULL);
+    tl_blob_free(a);
 }
 
 static void test_memory(void **state)
@@ -186,9 +186,9 @@ static void test_memory(void **state)
         test_allocator failing;
         test_allocator_init(&failing, k);
         tl_nav_tile *tile = NULL;
-        tl_result result = tl_nav_tile_create(&source, &failing.allocator, &tile, NULL);
+        tl_result result = tl_nav_tile_encode(&source, &failing.allocator, &tile, NULL);
         if (result == TL_OK) {
-            tl_blob_free(tile, &failing.allocator);
+            tl_blob_free(tile);
             TEST_CHECK(failing.live_blocks == 0);
             break;
         }
@@ -213,7 +213,7 @@ static void test_truncated(void **state)
         TEST_RESULT(tl_nav_tile_check(copy, size, NULL), TL_ERR_TRUNCATED);
         free(copy);
     }
-    tl_blob_free(tile, NULL);
+    tl_blob_free(tile);
 }
 
 // A flipped bit is either refused, or it changed a value that may have any value; then every query must still be safe.
@@ -242,7 +242,7 @@ static void test_bit_flips(void **state)
                 TL_OK) {
                 TEST_RESULT(tl_navmesh_cast_ray(navmesh, NULL, &nearest, tl_vec3_make(11, 0, 8), NULL, 0, &hit), TL_OK);
             }
-            tl_navmesh_free(navmesh);
+            tl_navmesh_destroy(navmesh);
         } else {
             refused++;
         }
@@ -251,7 +251,7 @@ static void test_bit_flips(void **state)
     // Areas, flags, sizes of the agent, and within bounds the detail mesh are free; all else is tied down.
     TEST_CHECK(passed > 100 && refused > 4 * passed);
     free(copy);
-    tl_blob_free(tile, NULL);
+    tl_blob_free(tile);
 }
 
 static void test_other_bytes(void **state)
@@ -271,7 +271,7 @@ static void test_other_bytes(void **state)
     tile->polygon_count = UINT32_MAX;
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, &report), TL_ERR_CORRUPT);
     TEST_CHECK(strcmp(report.element, "header") == 0);
-    tl_blob_free(tile, NULL);
+    tl_blob_free(tile);
 }
 
 int main(void)

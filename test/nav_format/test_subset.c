@@ -15,7 +15,7 @@ static tl_nav_tiles bake(uint32_t tile_size)
     def.tile_size = tile_size;
     const tl_nav_input input = { LEVEL.mesh, NULL, NULL, 0 };
     tl_nav_tiles tiles;
-    TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake(&def, &input, &tiles, NULL), TL_OK);
     return tiles;
 }
 
@@ -31,7 +31,7 @@ static void all_polygons_give_the_same_bytes(void **state)
             TEST_RESULT(tl_nav_tile_subset(tiles.tiles[t], keep, NULL, &again, NULL), TL_OK);
             TEST_CHECK(again->blob.size == tiles.tiles[t]->blob.size);
             TEST_CHECK(memcmp(again, tiles.tiles[t], again->blob.size) == 0);
-            tl_blob_free(again, NULL);
+            tl_blob_free(again);
         }
         tl_nav_tiles_free(&tiles, NULL);
     }
@@ -93,7 +93,7 @@ static void some_polygons_stay_what_they_are(void **state)
             }
             portals += part->portal_count;
             cut += tile->polygon_count - kept;
-            tl_blob_free(part, NULL);
+            tl_blob_free(part);
         }
         tl_nav_tiles_free(&tiles, NULL);
     }
@@ -111,7 +111,7 @@ static void failing_memory_leaves_nothing(void **state)
         tl_nav_tile *part;
         const tl_result result = tl_nav_tile_subset(tiles.tiles[0], keep, &memory.allocator, &part, NULL);
         TEST_CHECK((result == TL_OK) == (part != NULL));
-        tl_blob_free(part, &memory.allocator);
+        tl_blob_free(part);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
         if (result == TL_OK) {
             TEST_CHECK(k > 2);

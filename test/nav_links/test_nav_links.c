@@ -8,7 +8,7 @@
 
 #include <math.h>
 #include <string.h>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_links.h>
 
 enum { MOST_BOXES = 8 };
@@ -59,19 +59,19 @@ static void make_level(linked_level *out)
     def.cell_size = 0.2f;
     def.agent_radius = 0.4f;
     def.agent_max_climb = 0.4f;
-    TEST_RESULT(tl_nav_build(&def, &input, &out->tiles, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake(&def, &input, &out->tiles, NULL), TL_OK);
     TEST_RESULT(tl_navmesh_create(NULL, &out->navmesh), TL_OK);
     for (uint32_t i = 0; i < out->tiles.tile_count; i++) {
         TEST_RESULT(tl_navmesh_add_tile(out->navmesh, out->tiles.tiles[i], TL_NAV_TILE_BORROWED), TL_OK);
     }
-    TEST_RESULT(tl_soup_build(&view, NULL, &out->soup, NULL), TL_OK);
+    TEST_RESULT(tl_soup_bake(&view, NULL, &out->soup, NULL), TL_OK);
 }
 
 static void free_level(linked_level *level)
 {
-    tl_navmesh_free(level->navmesh);
+    tl_navmesh_destroy(level->navmesh);
     tl_nav_tiles_free(&level->tiles, NULL);
-    tl_blob_free(level->soup, NULL);
+    tl_blob_free(level->soup);
 }
 
 static tl_nav_path_status ask(const linked_level *level, tl_vec3 from, tl_vec3 to, uint32_t *links_out)
@@ -90,7 +90,7 @@ static tl_nav_path_status ask(const linked_level *level, tl_vec3 from, tl_vec3 t
     for (uint32_t i = 0; i < route.corner_count; i++) {
         *links_out += (corners[i].flags & TL_NAV_CORNER_LINK) != 0;
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     return route.path.status;
 }
 
@@ -121,7 +121,7 @@ static void test_known_level(void **state)
     TEST_CHECK(ask(&level, west, island, &over) == TL_NAV_PATH_COMPLETE && over == 2);
     // Three metres are down only.
     TEST_CHECK(ask(&level, east, top, &over) == TL_NAV_PATH_UNREACHABLE);
-    tl_blob_free(links, NULL);
+    tl_blob_free(links);
     free_level(&level);
 }
 
@@ -139,7 +139,7 @@ static void test_limits(void **state)
         tl_nav_links *links;
         TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, NULL), TL_OK);
         TEST_CHECK(links->kind_counts[kind] == 0 && links->link_count > 0);
-        tl_blob_free(links, NULL);
+        tl_blob_free(links);
     }
     tl_nav_links *links;
     tl_nav_links_report report;
@@ -154,7 +154,7 @@ static void test_limits(void **state)
     TEST_RESULT(tl_navmesh_create(NULL, &empty), TL_OK);
     def = tl_default_nav_links_def();
     TEST_RESULT(tl_nav_links_find(&def, empty, level.soup, &links, &report), TL_ERR_EMPTY);
-    tl_navmesh_free(empty);
+    tl_navmesh_destroy(empty);
     free_level(&level);
 }
 
@@ -196,8 +196,8 @@ static void test_hosts(void **state)
         TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, NULL), TL_ERR_CANCELLED);
         TEST_CHECK(links == NULL);
     }
-    tl_blob_free(first, NULL);
-    tl_blob_free(second, NULL);
+    tl_blob_free(first);
+    tl_blob_free(second);
     free_level(&level);
 }
 
@@ -220,7 +220,7 @@ static void test_failing_memory(void **state)
         TEST_CHECK((result == TL_OK) == (links != NULL));
         TEST_CHECK(result == TL_OK || result == TL_ERR_MEMORY);
         refused += result != TL_OK;
-        tl_blob_free(links, &memory.allocator);
+        tl_blob_free(links);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
     }
     TEST_CHECK(refused > 10);
@@ -257,7 +257,7 @@ static void test_damage(void **state)
     TEST_RESULT(tl_nav_links_add(links, &like, level.navmesh), TL_ERR_ARGUMENT);
     TEST_CHECK(tl_navmesh_offmesh_count(level.navmesh) == 0);
     free(bytes);
-    tl_blob_free(links, NULL);
+    tl_blob_free(links);
     free_level(&level);
 }
 

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_links.h>
 
 namespace
@@ -109,14 +109,14 @@ void prove_level(const level &l, uint64_t kinds_out[TL_NAV_LINK_KINDS])
     tl_mesh_view view = l.view();
     tl_nav_input input = { view, nullptr, nullptr, 0 };
     tl_nav_tiles tiles;
-    TEST_RESULT(tl_nav_build(&def, &input, &tiles, nullptr), TL_OK);
+    TEST_RESULT(tl_nav_bake(&def, &input, &tiles, nullptr), TL_OK);
     tl_navmesh *navmesh;
     TEST_RESULT(tl_navmesh_create(nullptr, &navmesh), TL_OK);
     for (uint32_t i = 0; i < tiles.tile_count; i++) {
         TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_BORROWED), TL_OK);
     }
     tl_soup *soup;
-    TEST_RESULT(tl_soup_build(&view, nullptr, &soup, nullptr), TL_OK);
+    TEST_RESULT(tl_soup_bake(&view, nullptr, &soup, nullptr), TL_OK);
     tl_nav_links_def links_def = tl_default_nav_links_def();
     tl_nav_links *links;
     tl_nav_links_report report;
@@ -139,10 +139,10 @@ void prove_level(const level &l, uint64_t kinds_out[TL_NAV_LINK_KINDS])
     for (int kind = 0; kind < TL_NAV_LINK_KINDS; kind++) {
         kinds_out[kind] += links->kind_counts[kind];
     }
-    tl_nav_query_free(query);
-    tl_blob_free(links, nullptr);
-    tl_blob_free(soup, nullptr);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_blob_free(links);
+    tl_blob_free(soup);
+    tl_navmesh_destroy(navmesh);
     tl_nav_tiles_free(&tiles, nullptr);
 }
 

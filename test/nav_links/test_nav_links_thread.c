@@ -106,7 +106,7 @@ static void *read_paths(void *user)
         pthread_rwlock_rdlock(&world->lock);
         tl_result result =
             tl_nav_query_find_route(query, world->navmesh, NULL, from, to, tl_vec3_make(3, 5, 3), &buffers, &route);
-        bool whole = result == TL_ERR_NOT_FOUND ||
+        bool whole = result == TL_NOT_FOUND ||
                      (result == TL_OK && path_is_whole(world->navmesh, polygons, route.path.polygon_count, &links));
         pthread_rwlock_unlock(&world->lock);
         atomic_fetch_add(&world->faults, !whole);
@@ -114,7 +114,7 @@ static void *read_paths(void *user)
         atomic_fetch_add(&world->complete, result == TL_OK && route.path.status == TL_NAV_PATH_COMPLETE);
         atomic_fetch_add(&world->over_links, links > 0);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     return NULL;
 }
 
@@ -133,7 +133,7 @@ static void settle(editor *e)
     shared_world *world = e->world;
     while (tl_nav_obstacles_waiting(e->obstacles) > 0) {
         tl_nav_remade_tile remade;
-        TEST_RESULT(tl_nav_obstacles_build_next(e->obstacles, &remade, NULL), TL_OK);
+        TEST_RESULT(tl_nav_obstacles_bake_next(e->obstacles, &remade, NULL), TL_OK);
         begin_write(world);
         TEST_RESULT(tl_navmesh_replace_tiles(world->navmesh, remade.tile_x, remade.tile_z, &remade.stack), TL_OK);
         pthread_rwlock_unlock(&world->lock);
@@ -264,7 +264,7 @@ static void check_afresh(editor *e)
         e->anchored += state.anchored;
         e->waiting += !state.anchored;
     }
-    tl_navmesh_free(fresh);
+    tl_navmesh_destroy(fresh);
 }
 
 static void test_edits_under_readers(void **state)
@@ -310,8 +310,8 @@ static void test_edits_under_readers(void **state)
     TEST_CHECK(atomic_load(&world.faults) == 0 && atomic_load(&world.complete) > EDITS / 10);
     TEST_CHECK(kinds[0] > 100 && kinds[1] > 50 && kinds[2] > 100 && e.anchored > EDITS && e.waiting > EDITS);
     TEST_CHECK(e.islands > EDITS && atomic_load(&world.over_links) > 0);
-    tl_navmesh_free(world.navmesh);
-    tl_nav_obstacles_free(e.obstacles);
+    tl_navmesh_destroy(world.navmesh);
+    tl_nav_obstacles_destroy(e.obstacles);
     pthread_rwlock_destroy(&world.lock);
 }
 

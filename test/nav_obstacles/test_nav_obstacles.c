@@ -55,8 +55,8 @@ static void make_world(world *w, const tl_allocator *allocator)
 
 static void free_world(world *w)
 {
-    tl_navmesh_free(w->navmesh);
-    tl_nav_obstacles_free(w->obstacles);
+    tl_navmesh_destroy(w->navmesh);
+    tl_nav_obstacles_destroy(w->obstacles);
 }
 
 static void settle(world *w)
@@ -78,7 +78,7 @@ static void check_against_bake(const world *w, const tl_nav_volume *volumes, uin
     tl_nav_tile_range all = { 0, 0, 0, 0 };
     tl_nav_tile_block block;
     TEST_RESULT(tl_nav_tile_grid(&w->def, w->def.bounds, &all.count_x, &all.count_z, NULL), TL_OK);
-    TEST_RESULT(tl_nav_build_range(&w->def, &input, all, NULL, &block, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake_range(&w->def, &input, all, NULL, &block, NULL), TL_OK);
     uint32_t count = 0;
     for (uint32_t i = 0; i < all.count_x * all.count_z; i++) {
         const int32_t x = (int32_t)(i % all.count_x), z = (int32_t)(i / all.count_x);
@@ -163,8 +163,8 @@ static void test_volumes(void **state)
         TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, ids[i]), TL_OK);
         settle(&w);
         check_against_bake(&w, volumes, (uint32_t)i);
-        TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, ids[i]), TL_ERR_NOT_FOUND);
-        TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[i], &moved), TL_ERR_NOT_FOUND);
+        TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, ids[i]), TL_NOT_FOUND);
+        TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[i], &moved), TL_NOT_FOUND);
     }
     free_world(&w);
 }
@@ -248,8 +248,8 @@ static void test_marks(void **state)
     tl_nav_stages stages;
     memset(&stages, 0, sizeof stages);
     tl_nav_tile *tile;
-    TEST_RESULT(tl_nav_config_make(&def, def.bounds, 0, 0, &config, NULL), TL_OK);
-    TEST_RESULT(tl_nav_tile_build(&config, &input, NULL, &stages, &tile, NULL), TL_OK);
+    TEST_RESULT(tl_nav_config_from_def(&def, def.bounds, 0, 0, &config, NULL), TL_OK);
+    TEST_RESULT(tl_nav_tile_bake(&config, &input, NULL, &stages, &tile, NULL), TL_OK);
     tl_nav_compact *compact = &stages.compact;
     uint8_t *base = malloc(compact->span_count);
     memcpy(base, compact->area, compact->span_count);
@@ -286,7 +286,7 @@ static void test_marks(void **state)
     TEST_CHECK(marked[0] > 500 && marked[1] > 500 && marked[2] > 500);
     TEST_CHECK(left > 100000 && by_height > 500 && close > 100 && close < left / 50);
     free(base);
-    tl_blob_free(tile, NULL);
+    tl_blob_free(tile);
     tl_nav_stages_free(&stages, NULL);
 }
 
@@ -432,15 +432,15 @@ static void test_refusals(void **state)
         }
         TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &bad, &id), expected);
     }
-    TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, 0), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, UINT64_MAX), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, 0), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, UINT64_MAX), TL_NOT_FOUND);
     tl_nav_obstacle far_away = good;
     far_away.base.x = 1e6f;
     TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &far_away, &id), TL_OK);
     TEST_CHECK(tl_nav_obstacles_count(w.obstacles) == 1 && tl_nav_obstacles_waiting(w.obstacles) == 0);
     tl_nav_remade_tile remade;
-    TEST_RESULT(tl_nav_obstacles_build_next(w.obstacles, &remade, NULL), TL_ERR_NOT_FOUND);
-    tl_nav_build_report report;
+    TEST_RESULT(tl_nav_obstacles_bake_next(w.obstacles, &remade, NULL), TL_NOT_FOUND);
+    tl_nav_bake_report report;
     tl_nav_obstacles *none;
     tl_nav_def def = w.def;
     def.tile_size = 0;
@@ -520,7 +520,7 @@ static void test_out_of_memory(void **state)
             counting.calls = 0;
             counting.fail_at = k;
             uint64_t blocks = counting.live_blocks;
-            tl_result result = tl_nav_obstacles_build_next(obstacles, &remade, NULL);
+            tl_result result = tl_nav_obstacles_bake_next(obstacles, &remade, NULL);
             if (result == TL_OK) {
                 // And what the tile keeps of itself.
                 TEST_CHECK(counting.live_blocks >= blocks + (remade.stack.count > 0 ? remade.stack.count + 1 : 0));
@@ -536,7 +536,7 @@ static void test_out_of_memory(void **state)
     TEST_CHECK(failures[0] > 10 && failures[1] > 0 && failures[2] > 30);
     TEST_CHECK(tl_nav_obstacles_bytes(obstacles) > 1000);
     counting.fail_at = 0;
-    tl_nav_obstacles_free(obstacles);
+    tl_nav_obstacles_destroy(obstacles);
     TEST_CHECK(counting.live_blocks == 0);
 }
 

@@ -84,12 +84,12 @@ static void *read_paths(void *user)
             if (!path_is_whole(world->navmesh, polygons, route.path.polygon_count)) {
                 atomic_fetch_add(&world->faults, 1);
             }
-        } else if (result != TL_ERR_NOT_FOUND) {
+        } else if (result != TL_NOT_FOUND) {
             atomic_fetch_add(&world->faults, 1);
         }
         pthread_rwlock_unlock(&world->lock);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     return NULL;
 }
 
@@ -98,7 +98,7 @@ static void settle(tl_nav_obstacles *obstacles, shared_world *world)
 {
     while (tl_nav_obstacles_waiting(obstacles) > 0) {
         tl_nav_remade_tile remade;
-        TEST_RESULT(tl_nav_obstacles_build_next(obstacles, &remade, NULL), TL_OK);
+        TEST_RESULT(tl_nav_obstacles_bake_next(obstacles, &remade, NULL), TL_OK);
         atomic_store(&world->writer_waits, true);
         pthread_rwlock_wrlock(&world->lock);
         atomic_store(&world->writer_waits, false);
@@ -165,7 +165,7 @@ static void test_edits_under_readers(void **state)
     }
     settle(obstacles, &world);
     tl_nav_tiles tiles;
-    TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake(&def, &input, &tiles, NULL), TL_OK);
     TEST_CHECK(tiles.tile_count == tl_navmesh_tile_count(world.navmesh));
     for (uint32_t i = 0; i < tiles.tile_count; i++) {
         const tl_nav_tile *expected = tiles.tiles[i];
@@ -174,8 +174,8 @@ static void test_edits_under_readers(void **state)
         TEST_CHECK(tile != NULL && memcmp(tile, expected, tile->blob.size) == 0);
     }
     tl_nav_tiles_free(&tiles, NULL);
-    tl_navmesh_free(world.navmesh);
-    tl_nav_obstacles_free(obstacles);
+    tl_navmesh_destroy(world.navmesh);
+    tl_nav_obstacles_destroy(obstacles);
     pthread_rwlock_destroy(&world.lock);
 }
 

@@ -44,7 +44,7 @@ static void end_world(void)
 {
     W.level.mesh.vertices = W.level.vertices;
     W.level.mesh.indices = W.level.indices;
-    TEST_RESULT(tl_mesh_build(&W.level.mesh, NULL, &W.mesh, NULL), TL_OK);
+    TEST_RESULT(tl_mesh_bake(&W.level.mesh, NULL, &W.mesh, NULL), TL_OK);
 }
 
 static tl_nav_tiles bake(uint32_t tile_size, const tl_host *host)
@@ -59,7 +59,7 @@ static tl_nav_tiles bake(uint32_t tile_size, const tl_host *host)
     }
     const tl_nav_input input = { tl_mesh_as_view(&W.mesh), NULL, NULL, 0 };
     tl_nav_tiles tiles;
-    TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake(&def, &input, &tiles, NULL), TL_OK);
     return tiles;
 }
 
@@ -83,7 +83,7 @@ static bool has_floor(const tl_nav_tiles *tiles, float x, float y, float z)
     tl_nav_location location;
     const tl_result result =
         tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(x, y, z), tl_vec3_make(0.1f, 0.6f, 0.1f), &location);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     return result == TL_OK;
 }
 
@@ -200,7 +200,7 @@ static void what_is_wrong_is_named(void **state)
     tl_nav_prune_report report;
     def.seeds = seeds;
     def.seed_count = 2;
-    TEST_RESULT(tl_nav_prune(&def, &tiles, &report), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_prune(&def, &tiles, &report), TL_NOT_FOUND);
     TEST_CHECK(report.base.element_index == 1);
     assert_string_equal(report.base.element, "seed");
     def.seed_count = 0;

@@ -44,7 +44,7 @@ static float straight_length(const tl_nav_corridor *c, const tl_navmesh *navmesh
     // The first corners are those of the whole path.
     tl_nav_corner first[3];
     uint32_t first_count = 0;
-    tl_result expected = count > 3 ? TL_ERR_CAPACITY : TL_OK;
+    tl_result expected = count > 3 ? TL_INCOMPLETE : TL_OK;
     TEST_RESULT(tl_nav_corridor_corners(c, navmesh, first, 3, &first_count), expected);
     TEST_CHECK(first_count == (count < 3 ? count : 3));
     for (uint32_t i = 0; i < first_count; i++) {
@@ -60,7 +60,7 @@ static void step(tl_nav_corridor *c, tl_nav_query *query, const tl_navmesh *navm
     tl_nav_corner corners[2];
     uint32_t count = 0;
     tl_result result = tl_nav_corridor_corners(c, navmesh, corners, 2, &count);
-    TEST_CHECK((result == TL_OK || result == TL_ERR_CAPACITY) && count == 2);
+    TEST_CHECK((result == TL_OK || result == TL_INCOMPLETE) && count == 2);
     tl_vec3 way = tl_sub(corners[1].point, c->position);
     way.y = 0.0f;
     float length = tl_length(way);
@@ -85,7 +85,7 @@ static void test_walks(void **state)
             tl_nav_location start = fixture_random_location(navmesh, &all, &random);
             tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
             tl_nav_ref room[ROOM];
-            tl_nav_corridor c = tl_nav_corridor_make(room, ROOM);
+            tl_nav_corridor c = tl_nav_corridor_init(room, ROOM);
             tl_nav_path path;
             tl_nav_corridor_reset(&c, &start);
             TEST_RESULT(tl_nav_corridor_find(&c, query, navmesh, NULL, &goal, &path), TL_OK);
@@ -136,9 +136,9 @@ static void test_walks(void **state)
             }
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(arrived > 80 && straight > 40 && pushed > 200 && shortened > 10 && improved > 5 && shorter > 20);
     // On surfaces with bumps steps are longer than the corners' line.
     TEST_CHECK(walked_sum < 1.05 * shortest_sum);
@@ -158,7 +158,7 @@ static void test_targets(void **state)
         fixture_refs all = fixture_all_refs(navmesh);
         tl_nav_location at = fixture_random_location(navmesh, &all, &random);
         tl_nav_ref room[ROOM];
-        tl_nav_corridor c = tl_nav_corridor_make(room, round % 2 == 0 ? ROOM : 3);
+        tl_nav_corridor c = tl_nav_corridor_init(room, round % 2 == 0 ? ROOM : 3);
         tl_nav_corridor_reset(&c, &at);
         for (uint32_t i = 0; i < 60; i++) {
             tl_vec3 to = c.target;
@@ -192,9 +192,9 @@ static void test_targets(void **state)
             }
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(cuts > 50 && arrived > 8 && longest > 8);
 }
 
@@ -214,7 +214,7 @@ static void test_repair(void **state)
         tl_nav_location start = fixture_random_location(navmesh, &all, &random);
         tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
         tl_nav_ref room[ROOM];
-        tl_nav_corridor c = tl_nav_corridor_make(room, ROOM);
+        tl_nav_corridor c = tl_nav_corridor_init(room, ROOM);
         tl_nav_path path;
         tl_nav_corridor_reset(&c, &start);
         TEST_RESULT(tl_nav_corridor_find(&c, query, navmesh, NULL, &goal, &path), TL_OK);
@@ -258,9 +258,9 @@ static void test_repair(void **state)
         }
         arrived += c.reaches && c.count == 1;
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(broken > 60 && repaired > 25 && stranded > 10 && untouched > 500 && arrived > 10);
 }
 
@@ -278,13 +278,13 @@ static void test_own_tile(void **state)
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(7, 0, 2), extents, &start), TL_OK);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(14, 0, 14), extents, &goal), TL_OK);
     tl_nav_ref room[16];
-    tl_nav_corridor c = tl_nav_corridor_make(room, 16);
+    tl_nav_corridor c = tl_nav_corridor_init(room, 16);
     tl_nav_path path;
     tl_nav_corner corners[4];
     uint32_t count = 0;
-    TEST_RESULT(tl_nav_corridor_find(&c, query, navmesh, NULL, &goal, &path), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_nav_corridor_move(&c, query, navmesh, NULL, goal.point), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_nav_corridor_repair(&c, query, navmesh, NULL, extents, &path), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_corridor_find(&c, query, navmesh, NULL, &goal, &path), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_corridor_move(&c, query, navmesh, NULL, goal.point), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_corridor_repair(&c, query, navmesh, NULL, extents, &path), TL_NOT_FOUND);
     TEST_CHECK(tl_nav_corridor_check(&c, navmesh, NULL, 5) == 0);
     tl_nav_corridor_reset(&c, &start);
     TEST_RESULT(tl_nav_corridor_set_path(&c, navmesh, &goal.polygon, 1, goal.point), TL_ERR_ARGUMENT);
@@ -300,10 +300,10 @@ static void test_own_tile(void **state)
     TEST_RESULT(tl_nav_corridor_repair(&c, query, navmesh, NULL, extents, &path), TL_OK);
     TEST_CHECK(path.status == TL_NAV_PATH_UNREACHABLE && c.count == 1 && !c.reaches);
     TEST_RESULT(tl_navmesh_remove_tile(navmesh, 1, 0), TL_OK);
-    TEST_RESULT(tl_nav_corridor_repair(&c, query, navmesh, NULL, extents, &path), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_corridor_repair(&c, query, navmesh, NULL, extents, &path), TL_NOT_FOUND);
     TEST_CHECK(c.goal.x == 14.0f && c.goal.z == 14.0f);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 // Up to a link, over it, and on.
@@ -323,18 +323,18 @@ static void test_link(void **state)
     tl_nav_location start, goal, ends[2];
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2, 0, 6), extents, &start), TL_OK);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(26, 0, 6), extents, &goal), TL_OK);
-    tl_nav_corridor c = tl_nav_corridor_make(room, 16);
+    tl_nav_corridor c = tl_nav_corridor_init(room, 16);
     tl_nav_path path;
     tl_nav_corner corners[8];
     uint32_t count = 0, steps = 0;
     tl_nav_corridor_reset(&c, &start);
-    TEST_RESULT(tl_nav_corridor_pass_link(&c, navmesh, NULL, NULL), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_corridor_pass_link(&c, navmesh, NULL, NULL), TL_NOT_FOUND);
     TEST_RESULT(tl_nav_corridor_find(&c, query, navmesh, NULL, &goal, &path), TL_OK);
     TEST_CHECK(c.reaches);
     check_corridor(&c, navmesh, NULL);
     for (; steps < 100; steps++) {
         tl_result result = tl_nav_corridor_corners(&c, navmesh, corners, 2, &count);
-        TEST_CHECK(count == 2 && (result == TL_OK || result == TL_ERR_CAPACITY));
+        TEST_CHECK(count == 2 && (result == TL_OK || result == TL_INCOMPLETE));
         if ((corners[1].flags & TL_NAV_CORNER_LINK) != 0 && tl_distance(corners[1].point, c.position) < 1e-3f) {
             break;
         }
@@ -357,12 +357,12 @@ static void test_link(void **state)
     uint32_t whole = c.count;
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, link), TL_OK);
     TEST_CHECK(tl_nav_corridor_check(&c, navmesh, NULL, UINT32_MAX) < whole);
-    TEST_RESULT(tl_nav_corridor_pass_link(&c, navmesh, NULL, NULL), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_corridor_pass_link(&c, navmesh, NULL, NULL), TL_NOT_FOUND);
     TEST_RESULT(tl_nav_corridor_repair(&c, query, navmesh, NULL, extents, &path), TL_OK);
     TEST_CHECK(path.status == TL_NAV_PATH_UNREACHABLE && !c.reaches);
     check_corridor(&c, navmesh, NULL);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(void)

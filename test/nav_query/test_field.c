@@ -106,7 +106,7 @@ static void check_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_
     // Too little room: the first ones, and the true count.
     tl_nav_ref few[2] = { 0, 0 };
     uint32_t same = 0;
-    tl_result expected = length <= 1 ? TL_OK : TL_ERR_CAPACITY;
+    tl_result expected = length <= 1 ? TL_OK : TL_INCOMPLETE;
     TEST_RESULT(tl_nav_field_path(entries, count, entry, few, 1, &same), expected);
     TEST_CHECK(same == length && few[0] == start->polygon && few[1] == 0);
 }
@@ -133,7 +133,7 @@ static void test_fields(void **state)
                 filter.area_cost[area] = 1.0f + (float)(area % 4);
             }
             const tl_nav_filter *used = i % 2 == 0 ? NULL : &filter;
-            tl_nav_zone zone = tl_nav_circle(start.point, test_random_range(&random, 1.0f, 12.0f));
+            tl_nav_zone zone = tl_nav_zone_circle(start.point, test_random_range(&random, 1.0f, 12.0f));
             tl_nav_field_def field = { i < 2 ? INFINITY : test_random_range(&random, 2.0f, 40.0f),
                                        i >= 4 ? &zone : NULL, true };
             bool close_call = false;
@@ -175,9 +175,9 @@ static void test_fields(void **state)
             free(twin);
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(inside > 5000 && outside > 3000 && in_zones > 300);
     // Straight paths out of fields are a few percent longer than the shortest ones on average.
     TEST_CHECK(ratios / paths >= 0.9999 && ratios / paths < 1.05);
@@ -240,7 +240,7 @@ static void test_reachable_areas(void **state)
         fixture_refs all = fixture_all_refs(navmesh);
         tl_nav_location center = fixture_random_location(navmesh, &all, &random);
         float radius = test_random_range(&random, 0.2f, 9.0f);
-        tl_nav_zone zone = tl_nav_circle(center.point, radius);
+        tl_nav_zone zone = tl_nav_zone_circle(center.point, radius);
         tl_nav_field_def field = { radius, &zone, true };
         uint32_t count = 0;
         TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &center, &field, entries, MOST, &count), TL_OK);
@@ -271,9 +271,9 @@ static void test_reachable_areas(void **state)
             TEST_CHECK(memcmp(&one.point, &points[i].point, sizeof one.point) == 0 && one.polygon == points[i].polygon);
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(partial > 100 && whole > partial);
 }
 
@@ -294,7 +294,7 @@ static void test_reachable(void **state)
         fixture_refs all = fixture_all_refs(navmesh);
         tl_nav_location center = fixture_random_location(navmesh, &all, &random);
         float radius = test_random_range(&random, 1.5f, 9.0f);
-        tl_nav_zone zone = tl_nav_circle(center.point, radius);
+        tl_nav_zone zone = tl_nav_zone_circle(center.point, radius);
         tl_nav_field_def field = { radius, &zone, true };
         tl_nav_field_entry entries[MOST];
         uint32_t count = 0, kept = 0, expected[SECTORS] = { 0 }, met[SECTORS] = { 0 };
@@ -326,9 +326,9 @@ static void test_reachable(void **state)
         }
         cut += count < all.count;
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(cut > 5 && compared > 40);
 }
 
@@ -362,12 +362,12 @@ static void test_links(void **state)
     // Not backward, and not where its landing lies outside the zone.
     TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &goal, &everywhere, entries, 8, &count), TL_OK);
     TEST_CHECK(count == 2);
-    tl_nav_zone zone = tl_nav_circle(start.point, 10.0f);
+    tl_nav_zone zone = tl_nav_zone_circle(start.point, 10.0f);
     tl_nav_field_def near_start = { INFINITY, &zone, true };
     TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &near_start, entries, 8, &count), TL_OK);
     TEST_CHECK(count == 2);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void test_arguments(void **state)
@@ -385,7 +385,7 @@ static void test_arguments(void **state)
     tl_nav_field_entry entries[8];
     uint32_t count = 0;
     const uint64_t bits[2] = { 1, 2 };
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &stale, &field, entries, 8, &count), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &stale, &field, entries, 8, &count), TL_NOT_FOUND);
     TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &nan, &field, entries, 8, &count), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &below, entries, 8, &count), TL_ERR_ARGUMENT);
     TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &field, entries, 8, &count), TL_ERR_LIMIT);
@@ -394,18 +394,18 @@ static void test_arguments(void **state)
     TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &start, -1.0f, bits, &at), TL_ERR_ARGUMENT);
     TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &start, 0.0f, bits, &at), TL_OK);
     TEST_CHECK(at.polygon == start.polygon && at.point.x == 2.0f && at.point.z == 2.0f);
-    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &stale, 1.0f, bits, &at), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &stale, 1.0f, bits, &at), TL_NOT_FOUND);
     TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &nan, 1.0f, bits, &at), TL_ERR_NOT_FINITE);
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     def.max_nodes = 64;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &field, entries, 2, &count), TL_ERR_CAPACITY);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &field, entries, 2, &count), TL_INCOMPLETE);
     TEST_CHECK(count == 8 && entries[0].polygon == start.polygon);
     uint32_t length = 0;
-    TEST_RESULT(tl_nav_field_path(entries, 2, 7, NULL, 0, &length), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_field_path(entries, 2, 7, NULL, 0, &length), TL_NOT_FOUND);
     TEST_CHECK(tl_nav_field_find(entries, 2, 1) == UINT32_MAX);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(void)

@@ -139,9 +139,9 @@ static void test_functions(void **state)
             TEST_CHECK((twin.status == TL_NAV_PATH_COMPLETE) == (reachable && start_passes));
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(complete > 40 && refused > 40 && twins > 60);
 }
 

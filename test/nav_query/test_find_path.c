@@ -235,9 +235,9 @@ static void test_against_twin(void **state)
             }
         }
         free_graph(&g);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(complete > 200 && unreachable > 60 && alone >= 3 && longest > 30);
 }
 
@@ -323,9 +323,9 @@ static void test_length(void **state)
             paths++;
         }
         free_graph(&g);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(paths > 80 && exact == paths);
     TEST_CHECK(sum / paths < 1.00001 && worst < 1.0001);
 }
@@ -380,9 +380,9 @@ static void test_partial(void **state)
             partial++;
         }
         free_graph(&g);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(partial > 60 && routes > 50);
 }
 
@@ -412,11 +412,11 @@ static void test_out_of_nodes(void **state)
         TEST_CHECK(complete == 0 || path.status == TL_NAV_PATH_COMPLETE);
         gave_up += path.status == TL_NAV_PATH_OUT_OF_NODES;
         complete += path.status == TL_NAV_PATH_COMPLETE;
-        tl_nav_query_free(query);
+        tl_nav_query_destroy(query);
     }
     TEST_CHECK(gave_up > 20 && complete > 0);
     free(all.refs);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 // A query is as good after a thousand searches as before, and does not depend on them.
@@ -442,11 +442,11 @@ static void test_query_is_reusable(void **state)
         TEST_RESULT(tl_nav_query_find_path(fresh, navmesh, NULL, &start, &goal, b, 256, &path_b), TL_OK);
         TEST_CHECK(path_a.polygon_count == path_b.polygon_count && path_a.cost == path_b.cost);
         TEST_CHECK(memcmp(a, b, path_a.polygon_count * sizeof *a) == 0);
-        tl_nav_query_free(fresh);
+        tl_nav_query_destroy(fresh);
     }
-    tl_nav_query_free(used);
+    tl_nav_query_destroy(used);
     free(all.refs);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void test_arguments(void **state)
@@ -466,8 +466,8 @@ static void test_arguments(void **state)
     tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
     tl_nav_ref polygons[8] = { 0 };
     tl_nav_path path;
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &stale, &goal, polygons, 8, &path), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &stale, polygons, 8, &path), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &stale, &goal, polygons, 8, &path), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &stale, polygons, 8, &path), TL_NOT_FOUND);
     TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &nan, &goal, polygons, 8, &path), TL_ERR_NOT_FINITE);
     const float bad[8] = { 0.0f, -0.0f, -1.0f, -FLT_MIN, NAN, -NAN, INFINITY, -INFINITY };
     for (int i = 0; i < 16; i++) {
@@ -476,7 +476,7 @@ static void test_arguments(void **state)
         TEST_RESULT(tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons, 8, &path),
                     TL_ERR_ARGUMENT);
     }
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 3, &path), TL_ERR_CAPACITY);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 3, &path), TL_INCOMPLETE);
     TEST_CHECK(path.polygon_count == 5 && path.status == TL_NAV_PATH_COMPLETE);
     TEST_CHECK(polygons[0] == start.polygon && polygons[3] == 0);
     TEST_CHECK(strcmp(tl_nav_path_status_name(TL_NAV_PATH_OUT_OF_NODES), "out of nodes") == 0);
@@ -493,16 +493,16 @@ static void test_arguments(void **state)
     TEST_CHECK(route.corner_count == 3 && fabsf(route.length - 2.0f * sqrtf(4.0f + 36.0f)) < 1e-5f);
     TEST_RESULT(tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(2, 0, 2), tl_vec3_make(40, 0, 10), extents,
                                         &buffers, &route),
-                TL_ERR_NOT_FOUND);
+                TL_NOT_FOUND);
     TEST_CHECK(route.start.polygon != TL_NAV_NO_REF && route.goal.polygon == TL_NAV_NO_REF);
     buffers.corner_capacity = 2;
     TEST_RESULT(tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(2, 0, 2), tl_vec3_make(10, 0, 10), extents,
                                         &buffers, &route),
-                TL_ERR_CAPACITY);
+                TL_INCOMPLETE);
     TEST_CHECK(route.corner_count == 3);
-    tl_nav_query_free(query);
-    tl_nav_query_free(NULL);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_nav_query_destroy(NULL);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void test_memory(void **state)
@@ -516,7 +516,7 @@ static void test_memory(void **state)
         tl_nav_query *query = NULL;
         tl_result result = tl_nav_query_create(&def, &query);
         if (result == TL_OK) {
-            tl_nav_query_free(query);
+            tl_nav_query_destroy(query);
             TEST_CHECK(failing.live_blocks == 0);
             break;
         }

@@ -118,7 +118,7 @@ static void check_paths(const edited *e, tl_nav_query *query, test_random *rando
         *complete_out += found.status == TL_NAV_PATH_COMPLETE;
     }
     free(all.refs);
-    tl_navmesh_free(fresh);
+    tl_navmesh_destroy(fresh);
 }
 
 // A link between two random places, or away with one. Some ends stand on nothing until a tile comes.
@@ -167,7 +167,7 @@ static void test_edits_with_links(void **state)
                 anchored += link.anchored;
             }
         }
-        tl_navmesh_free(e.navmesh);
+        tl_navmesh_destroy(e.navmesh);
     }
     TEST_CHECK(same > 10000 && apart > 10000 && anchored > 1000);
 }
@@ -197,9 +197,9 @@ static void test_edits(void **state)
                 check_paths(&e, query, &random, &complete);
             }
         }
-        tl_navmesh_free(e.navmesh);
+        tl_navmesh_destroy(e.navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(same > 10000 && apart > 10000 && complete > 200);
 }
 
@@ -225,10 +225,10 @@ static void test_cut_off(void **state)
                 TL_OK);
     TEST_CHECK(shortest.status == TL_NAV_PATH_UNREACHABLE && shortest.node_count == 0);
     uint32_t island;
-    TEST_RESULT(tl_navmesh_island(navmesh, 77, &island), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_island(navmesh, 77, &island), TL_NOT_FOUND);
     free(all.refs);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(int argc, char **argv)

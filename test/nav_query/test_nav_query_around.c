@@ -149,8 +149,8 @@ static void test_floors_over_one_another(void **state)
     }
     TEST_CHECK(ties > 100);
     free(all.refs);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void test_around(void **state)
@@ -190,7 +190,9 @@ static void test_around(void **state)
             tl_nav_ref polygons[64];
             uint32_t count = 0;
             tl_nav_location end;
-            TEST_RESULT(tl_nav_query_slide(query, navmesh, NULL, &start, target, polygons, 64, &count, &end), TL_OK);
+            TEST_RESULT(
+                tl_nav_query_move_along_surface(query, navmesh, NULL, &start, target, polygons, 64, &count, &end),
+                TL_OK);
             double left = hypot((double)end.point.x - (double)target.x, (double)end.point.z - (double)target.z);
             TEST_CHECK(fabs(left - best_slide(navmesh, &all, index, start.point, target)) < 1e-4);
             TEST_CHECK(polygons[0] == start.polygon && polygons[count - 1] == end.polygon);
@@ -208,9 +210,9 @@ static void test_around(void **state)
             far_ways += count > 3;
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(hits > 100 && misses > 20 && arrived > 50 && stopped > 100 && far_ways > 20);
 }
 
@@ -225,18 +227,22 @@ static void test_arguments(void **state)
     tl_nav_wall wall;
     uint32_t count = 0;
     tl_nav_ref polygons[1];
-    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &stale, 1.0f, &wall), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &stale, 1.0f, &wall), TL_NOT_FOUND);
     TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &nan, 1.0f, &wall), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &start, -1.0f, &wall), TL_ERR_ARGUMENT);
     TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &start, 0.5f, &wall), TL_OK);
     TEST_CHECK(!wall.hit && wall.distance == 0.5f && wall.polygon == start.polygon);
     tl_vec3 there = { 10, 0, 2 };
-    TEST_RESULT(tl_nav_query_slide(query, navmesh, NULL, &stale, there, NULL, 0, &count, &end), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_slide(query, navmesh, NULL, &nan, there, NULL, 0, &count, &end), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, NULL, &stale, there, NULL, 0, &count, &end),
+                TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, NULL, &nan, there, NULL, 0, &count, &end),
+                TL_ERR_NOT_FINITE);
     // Two nodes do not suffice.
-    TEST_RESULT(tl_nav_query_slide(query, navmesh, NULL, &start, there, NULL, 0, &count, &end), TL_ERR_LIMIT);
+    TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, NULL, &start, there, NULL, 0, &count, &end),
+                TL_ERR_LIMIT);
     query = ring.many_nodes;
-    TEST_RESULT(tl_nav_query_slide(query, navmesh, NULL, &start, there, polygons, 1, &count, &end), TL_ERR_CAPACITY);
+    TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, NULL, &start, there, polygons, 1, &count, &end),
+                TL_INCOMPLETE);
     TEST_CHECK(count == 3 && polygons[0] == start.polygon && end.point.x == 10.0f);
     fixture_free_ring(&ring);
 }

@@ -63,7 +63,7 @@ static void test_closest_point(void **state)
             outsides += !inside;
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
     TEST_CHECK(insides > 100 && outsides > 1000);
 }
@@ -96,7 +96,7 @@ static void test_height(void **state)
         }
     }
     TEST_CHECK(checked > 200);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 // The documented measure, squared.
@@ -146,14 +146,14 @@ static void test_nearest_by_brute_force(void **state)
             }
             tl_nav_location nearest;
             tl_result result = tl_navmesh_find_nearest(navmesh, NULL, center, extents, &nearest);
-            TEST_RESULT(result, best != TL_NAV_NO_REF ? TL_OK : TL_ERR_NOT_FOUND);
+            TEST_RESULT(result, best != TL_NAV_NO_REF ? TL_OK : TL_NOT_FOUND);
             TEST_CHECK(nearest.polygon == best);
             found += result == TL_OK;
             none += result != TL_OK;
             outside += result == TL_OK && (nearest.point.x != center.x || nearest.point.z != center.z);
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
     TEST_CHECK(found > 2000 && none > 500 && outside > 500 && ties > 100);
 }
@@ -183,7 +183,7 @@ static void test_never_the_floor_overhead(void **state)
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(5, 1.5f, 6), tl_vec3_make(1, 1.2f, 1), &nearest),
                 TL_OK);
     TEST_CHECK(nearest.point.y == 2.5f);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void test_arguments(void **state)
@@ -195,8 +195,8 @@ static void test_arguments(void **state)
     tl_nav_location nearest;
     tl_vec3 p = { 1, 0, 1 }, extents = { 1, 1, 1 }, nan = { NAN, 0, 0 };
     TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
-    TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, p, extents, &nearest), TL_ERR_NOT_FOUND);
-    tl_navmesh_free(navmesh);
+    TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, p, extents, &nearest), TL_NOT_FOUND);
+    tl_navmesh_destroy(navmesh);
     navmesh = fixture_build(&level, NULL);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, nan, extents, &nearest), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, p, nan, &nearest), TL_ERR_NOT_FINITE);
@@ -204,7 +204,7 @@ static void test_arguments(void **state)
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, p, tl_vec3_make(1e30f, 1e30f, 1e30f), &nearest), TL_OK);
     tl_nav_filter filter = tl_default_nav_filter();
     filter.exclude_flags = 1;
-    TEST_RESULT(tl_navmesh_find_nearest(navmesh, &filter, p, extents, &nearest), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_find_nearest(navmesh, &filter, p, extents, &nearest), TL_NOT_FOUND);
     TEST_CHECK(nearest.polygon == TL_NAV_NO_REF);
     filter.exclude_flags = 0;
     filter.include_flags = 2;
@@ -212,9 +212,9 @@ static void test_arguments(void **state)
     filter.include_flags = 3;
     TEST_CHECK(tl_nav_filter_passes(&filter, tl_navmesh_slot_tile(navmesh, 0), 0));
     float height = 1.0f;
-    TEST_RESULT(tl_navmesh_height(navmesh, 12345, 0, 0, &height), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_height(navmesh, 12345, 0, 0, &height), TL_NOT_FOUND);
     TEST_RESULT(tl_navmesh_height(navmesh, tl_navmesh_polygon_ref(navmesh, 0, 0), NAN, 0, &height), TL_ERR_NOT_FINITE);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 // 100 million metres from the origin a float's step is 8 metres: nothing may break, everything stays finite.
@@ -233,7 +233,7 @@ static void test_far_from_the_origin(void **state)
             TEST_CHECK(isfinite(nearest.point.y) && tl_distance(nearest.point, a.point) <= 64.0f);
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
 }
 

@@ -47,7 +47,7 @@ static void edit_links(edited *e, test_random *random)
     uint32_t i = test_random_below(random, e->link_count);
     tl_nav_ref gone = e->links[i];
     TEST_RESULT(tl_navmesh_remove_offmesh(e->navmesh, gone), TL_OK);
-    TEST_RESULT(tl_navmesh_remove_offmesh(e->navmesh, gone), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_remove_offmesh(e->navmesh, gone), TL_NOT_FOUND);
     e->links[i] = e->links[--e->link_count];
     e->offmesh[i] = e->offmesh[e->link_count];
 }
@@ -95,7 +95,7 @@ static void check_links(const edited *e, coverage *seen)
         count++;
     }
     TEST_CHECK(count == e->link_count && link == TL_NAV_NO_REF);
-    tl_navmesh_free(fresh);
+    tl_navmesh_destroy(fresh);
 }
 
 static void lower(uint32_t *label, uint32_t i, uint32_t j, bool *changed)
@@ -171,7 +171,7 @@ static void test_edits(void **state)
             check_links(&e, &seen);
             check_islands(&e, &seen);
         }
-        tl_navmesh_free(e.navmesh);
+        tl_navmesh_destroy(e.navmesh);
     }
     TEST_CHECK(seen.anchored > 1000 && seen.waiting > 1000 && seen.joined > 10000 && seen.apart > 10000);
 }
@@ -193,20 +193,20 @@ static void test_arguments(void **state)
     TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link), TL_ERR_ARGUMENT);
     TEST_CHECK(link == TL_NAV_NO_REF && tl_navmesh_offmesh_count(navmesh) == 0);
     tl_nav_offmesh_state asked;
-    TEST_RESULT(tl_navmesh_offmesh_state(navmesh, 77, &asked), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, TL_NAV_NO_REF), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_offmesh_state(navmesh, 77, &asked), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, TL_NAV_NO_REF), TL_NOT_FOUND);
     // A reference is no polygon's, and names nothing any more once its link is gone, though the place is used again.
     offmesh = tl_default_nav_offmesh();
     TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link), TL_OK);
-    TEST_RESULT(tl_navmesh_resolve(navmesh, link, NULL, NULL), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, link, NULL, NULL), TL_NOT_FOUND);
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, link | TL_NAV_OFFMESH_BACKWARD), TL_OK);
     tl_nav_ref second;
     TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &second), TL_OK);
     TEST_CHECK(second != link);
-    TEST_RESULT(tl_navmesh_offmesh_state(navmesh, link, &asked), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_offmesh_state(navmesh, link, &asked), TL_NOT_FOUND);
     TEST_RESULT(tl_navmesh_offmesh_state(navmesh, second, &asked), TL_OK);
     TEST_CHECK(!asked.anchored && asked.offmesh.radius == offmesh.radius);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 // Out of memory at each allocation in turn: nothing is changed, nothing leaks.
@@ -238,11 +238,11 @@ static void test_failing_memory(void **state)
             TEST_CHECK(tl_navmesh_offmesh_count(navmesh) == i + (failed ? 0 : 1));
         }
         refused += failed;
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
     }
     TEST_CHECK(refused > 5);
-    tl_blob_free(tile, NULL);
+    tl_blob_free(tile);
 }
 
 int main(void)

@@ -37,7 +37,7 @@ std::unique_ptr<tl_navmesh, detour_deleter> bake(const level &l, const tl_nav_de
     input.mesh = l.view();
     tl_nav_tiles tiles;
     tl_navmesh *navmesh = nullptr;
-    TEST_RESULT(tl_nav_build(&def, &input, &tiles, nullptr), TL_OK);
+    TEST_RESULT(tl_nav_bake(&def, &input, &tiles, nullptr), TL_OK);
     TEST_RESULT(tl_navmesh_create(nullptr, &navmesh), TL_OK);
     for (uint32_t i = 0; i < tiles.tile_count; i++) {
         TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED), TL_OK);
@@ -89,7 +89,7 @@ found_path find_talus(const tl_navmesh *navmesh, tl_nav_query *query, tl_vec3 st
     tl_nav_route_buffers buffers = { polygons, 2048, corners, 2048 };
     tl_nav_route route;
     tl_result result = tl_nav_query_find_route(query, navmesh, nullptr, start, goal, EXTENTS, &buffers, &route);
-    if (result == TL_ERR_NOT_FOUND) {
+    if (result == TL_NOT_FOUND) {
         return { false, false, 0.0 };
     }
     TEST_RESULT(result, TL_OK);
@@ -124,9 +124,9 @@ class floor_flood
         input.mesh = l.view();
         tl_nav_stages stages = {};
         tl_nav_tile *tile = nullptr;
-        TEST_RESULT(tl_nav_config_make(&def, def.bounds, 0, 0, &config, nullptr), TL_OK);
-        TEST_RESULT(tl_nav_tile_build(&config, &input, nullptr, &stages, &tile, nullptr), TL_OK);
-        tl_blob_free(tile, nullptr);
+        TEST_RESULT(tl_nav_config_from_def(&def, def.bounds, 0, 0, &config, nullptr), TL_OK);
+        TEST_RESULT(tl_nav_tile_bake(&config, &input, nullptr, &stages, &tile, nullptr), TL_OK);
+        tl_blob_free(tile);
         compact = stages.compact;
         stages.compact = {};
         tl_nav_stages_free(&stages, nullptr);

@@ -80,10 +80,10 @@ static void test_zones(void **state)
             tl_nav_location at = fixture_random_location(navmesh, &all, &random);
             tl_vec3 points[8];
             uint32_t count = 0;
-            tl_nav_zone zone = tl_nav_circle(at.point, test_random_range(&random, 0.0f, 7.0f));
+            tl_nav_zone zone = tl_nav_zone_circle(at.point, test_random_range(&random, 0.0f, 7.0f));
             if (i % 2 == 0) {
                 count = random_outline(&random, at.point, points);
-                zone = tl_nav_outline(points, count);
+                zone = tl_nav_zone_polygon(points, count);
             }
             float low = i % 3 == 0 ? at.point.y - 0.3f : -INFINITY, high = i % 3 == 0 ? at.point.y + 0.3f : INFINITY;
             tl_nav_ref refs[1024];
@@ -123,7 +123,7 @@ static void test_zones(void **state)
             }
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
     TEST_CHECK(found > 1000 && left_out > 5000 && by_height > 50);
 }
@@ -141,23 +141,23 @@ static void test_arguments(void **state)
     const tl_vec3 bow[4] = { { 0, 0, 0 }, { 1, 0, 1 }, { 1, 0, 0 }, { 0, 0, 1 } };
     const tl_vec3 line[3] = { { 0, 0, 0 }, { 1, 0, 1 }, { 2, 0, 2 } };
     const tl_vec3 nan[3] = { { 0, 0, 0 }, { NAN, 0, 1 }, { 2, 0, 0 } };
-    tl_nav_zone zone = tl_nav_outline(square, 4);
+    tl_nav_zone zone = tl_nav_zone_polygon(square, 4);
     TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, -INFINITY, INFINITY, refs, 4, &count), TL_OK);
     TEST_CHECK(count == 4);
-    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, -INFINITY, INFINITY, refs, 1, &count), TL_ERR_CAPACITY);
+    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, -INFINITY, INFINITY, refs, 1, &count), TL_INCOMPLETE);
     TEST_CHECK(count == 4);
     TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, NAN, INFINITY, refs, 4, &count), TL_ERR_NOT_FINITE);
-    zone = tl_nav_outline(bow, 4);
+    zone = tl_nav_zone_polygon(bow, 4);
     TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, 0, 1, refs, 4, &count), TL_ERR_ARGUMENT);
-    zone = tl_nav_outline(line, 3);
+    zone = tl_nav_zone_polygon(line, 3);
     TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, 0, 1, refs, 4, &count), TL_ERR_ARGUMENT);
-    zone = tl_nav_outline(square, 2);
+    zone = tl_nav_zone_polygon(square, 2);
     TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, 0, 1, refs, 4, &count), TL_ERR_ARGUMENT);
-    zone = tl_nav_outline(nan, 3);
+    zone = tl_nav_zone_polygon(nan, 3);
     TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, 0, 1, refs, 4, &count), TL_ERR_NOT_FINITE);
-    zone = tl_nav_circle(square[0], -1.0f);
+    zone = tl_nav_zone_circle(square[0], -1.0f);
     TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, 0, 1, refs, 4, &count), TL_ERR_ARGUMENT);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(void)

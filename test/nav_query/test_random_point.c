@@ -59,7 +59,7 @@ static void test_every_square(void **state)
             const uint64_t bits[2] = { bits_of_square(k, total), test_random_u64(&random) };
             tl_nav_location at;
             if (filter.exclude_flags != 0) {
-                TEST_RESULT(tl_navmesh_random_point(navmesh, &filter, bits, &at), TL_ERR_NOT_FOUND);
+                TEST_RESULT(tl_navmesh_random_point(navmesh, &filter, bits, &at), TL_NOT_FOUND);
                 refused++;
                 break;
             }
@@ -77,7 +77,7 @@ static void test_every_square(void **state)
         }
         free(met);
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
     TEST_CHECK(removed > 10 && refused == 2);
 }
@@ -121,7 +121,7 @@ static void test_refusing(void **state)
     free(met);
     free(passes);
     free(all.refs);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 // One square: quarters of it are met alike.
@@ -146,12 +146,12 @@ static void test_within(void **state)
         // 2000 expected, 43 the deviation.
         TEST_CHECK(met[i] > 1800 && met[i] < 2200);
     }
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
     const uint64_t bits[2] = { 1, 2 };
     tl_nav_location at;
-    TEST_RESULT(tl_navmesh_random_point(navmesh, NULL, bits, &at), TL_ERR_NOT_FOUND);
-    tl_navmesh_free(navmesh);
+    TEST_RESULT(tl_navmesh_random_point(navmesh, NULL, bits, &at), TL_NOT_FOUND);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(void)

@@ -42,7 +42,7 @@ static uint32_t compare(const tl_navmesh *prepared, const tl_navmesh *plain, tes
         turning += a.status == TL_NAV_PATH_COMPLETE && a.corner_count > 2;
     }
     free(all.refs);
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     return turning;
 }
 
@@ -77,8 +77,8 @@ static void test_edits(void **state)
             TEST_CHECK(!tl_navmesh_is_prepared(navmesh));
             turning += compare(navmesh, twin, &random, 4);
         }
-        tl_navmesh_free(navmesh);
-        tl_navmesh_free(twin);
+        tl_navmesh_destroy(navmesh);
+        tl_navmesh_destroy(twin);
     }
     TEST_CHECK(turning > 300);
 }
@@ -109,12 +109,12 @@ static void test_nodes(void **state)
         TEST_CHECK(found.status != TL_NAV_PATH_COMPLETE || fabs(found.length - expected.length) < 1e-4);
         gave_up += found.status == TL_NAV_PATH_OUT_OF_NODES;
         complete += found.status == TL_NAV_PATH_COMPLETE;
-        tl_nav_query_free(small);
+        tl_nav_query_destroy(small);
     }
     TEST_CHECK(gave_up > 3 && complete > 20);
-    tl_nav_query_free(large);
+    tl_nav_query_destroy(large);
     free(all.refs);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 // A budget that is too small is named, and what is left finds the same paths.
@@ -153,8 +153,8 @@ static void test_budgets(void **state)
     }
     TEST_CHECK(strcmp(tl_nav_prepared_kind_name(TL_NAV_PREPARED_TABLE), "table") == 0);
     TEST_CHECK(strcmp(tl_nav_prepared_kind_name((tl_nav_prepared_kind)77), "unknown") == 0);
-    tl_navmesh_free(navmesh);
-    tl_navmesh_free(twin);
+    tl_navmesh_destroy(navmesh);
+    tl_navmesh_destroy(twin);
 }
 
 // A path by whatever was prepared ends a search in slices that its query has under way.
@@ -178,10 +178,10 @@ static void test_slices(void **state)
         TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &goal, &start, NULL, 0, NULL, 0, &path),
                     TL_OK);
         TEST_CHECK(path.corner_count == 3);
-        TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_ERR_NOT_FOUND);
+        TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
     }
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 // A link is a way that roads do not know.
@@ -214,8 +214,8 @@ static void test_links(void **state)
     TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, NULL), TL_OK);
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path), TL_OK);
     TEST_CHECK(path.length > 12.0);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void test_memory(void **state)
@@ -251,14 +251,14 @@ static void test_memory(void **state)
     }
     TEST_CHECK(failures > 60);
     failing.fail_at = 0;
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     TEST_CHECK(failing.live_blocks == 0);
     // Nothing to prepare.
     tl_nav_prepared made;
     TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
     TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, &made), TL_OK);
     TEST_CHECK(made.bend_count == 0 && made.road_count == 0 && made.table_bytes == 0);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(void)

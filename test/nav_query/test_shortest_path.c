@@ -138,7 +138,7 @@ static void check_level(tl_navmesh *navmesh, uint32_t pairs, uint64_t seed, tall
         }
     }
     free_graph(&g);
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
 }
 
 // Ramps stand free of seams: where a polygon of one tile is linked to two floors of the next over the same stretch, a
@@ -170,7 +170,7 @@ static void test_fixtures(void **state)
         check_level(navmesh, g_pairs, 100 + round, &t);
         stacked += round % 6 == 5;
         tiled += level.tile_cells != 0;
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
     TEST_CHECK(stacked >= 4 && tiled > 12);
     TEST_CHECK(t.complete > 600 && t.unreachable > 60 && t.straight > 100 && t.turning > 100 && t.edge_starts > 400);
@@ -197,7 +197,7 @@ static void test_baked(void **state)
     for (uint32_t tile_size = 0; tile_size <= 24; tile_size += 12) {
         tl_navmesh *navmesh = bake(&level.mesh, 0.3f, tile_size);
         check_level(navmesh, 2 * g_pairs, 7, &t);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
     TEST_CHECK(t.complete > 100 && t.turning > 30);
 }
@@ -220,7 +220,7 @@ static void test_data_levels(void **state)
             check_level(navmesh, g_pairs, 9, &t);
             printf("%s, tiles of %u: %llu pairs equal the oracle, %llu without a path\n", names[i], tile_size,
                    (unsigned long long)t.pairs, (unsigned long long)t.unreachable);
-            tl_navmesh_free(navmesh);
+            tl_navmesh_destroy(navmesh);
         }
         tl_imported_mesh_free(&mesh);
     }
@@ -286,10 +286,10 @@ static void test_filter(void **state)
             longer += found.length > free_way.length * 1.01;
         }
         free(rest.refs);
-        tl_navmesh_free(open);
-        tl_navmesh_free(closed);
+        tl_navmesh_destroy(open);
+        tl_navmesh_destroy(closed);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(complete > 200 && longer > 40);
 }
 
@@ -321,8 +321,8 @@ static void test_straight_back(void **state)
     check_funnel(&g, query, &start, &goal, 11.0);
     check_funnel(&g, query, &goal, &start, 11.0);
     free_graph(&g);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 // A city of equal blocks: two ways around each are as long as one another, within rounding. What lies behind must not
@@ -358,8 +358,8 @@ static void test_equal_blocks(void **state)
     }
     print_message("%u polygons, at most %u nodes\n", (unsigned)all.count, most);
     free(all.refs);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void test_buffers(void **state)
@@ -378,7 +378,7 @@ static void test_buffers(void **state)
     tl_nav_ref polygons[8] = { 0 };
     tl_nav_shortest_path path;
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &stale, &goal, corners, 4, polygons, 8, &path),
-                TL_ERR_NOT_FOUND);
+                TL_NOT_FOUND);
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &nan, corners, 4, polygons, 8, &path),
                 TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, corners, 4, polygons, 8, &path),
@@ -386,10 +386,10 @@ static void test_buffers(void **state)
     TEST_CHECK(path.corner_count == 3 && path.polygon_count == 5);
     TEST_CHECK(fabs(path.length - 2.0 * sqrt(4.0 + 36.0)) < 1e-6);
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, corners, 2, polygons, 8, &path),
-                TL_ERR_CAPACITY);
+                TL_INCOMPLETE);
     TEST_CHECK(path.corner_count == 3 && corners[0].flags == TL_NAV_CORNER_START && corners[1].flags != 0);
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, corners, 4, polygons, 3, &path),
-                TL_ERR_CAPACITY);
+                TL_INCOMPLETE);
     TEST_CHECK(path.polygon_count == 5 && polygons[0] == start.polygon);
     // Start and goal in one place, and in one polygon.
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &start, corners, 4, NULL, 0, &path),
@@ -406,11 +406,11 @@ static void test_buffers(void **state)
         gave_up += path.status == TL_NAV_PATH_OUT_OF_NODES;
         complete += path.status == TL_NAV_PATH_COMPLETE;
         TEST_CHECK(path.node_count <= max_nodes);
-        tl_nav_query_free(small);
+        tl_nav_query_destroy(small);
     }
     TEST_CHECK(gave_up > 2 && complete > 2 && gave_up + complete == 22);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(int argc, char **argv)

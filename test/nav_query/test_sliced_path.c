@@ -112,8 +112,8 @@ static void test_all_slices(void **state)
             }
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
-        tl_nav_query_free(query);
+        tl_navmesh_destroy(navmesh);
+        tl_nav_query_destroy(query);
     }
     TEST_CHECK(pieces > 10000 && partial > 1000 && nearer > 200);
     TEST_CHECK(by_status[TL_NAV_PATH_COMPLETE] > 80 && by_status[TL_NAV_PATH_UNREACHABLE] > 40 &&
@@ -182,10 +182,10 @@ static void test_edits(void **state)
             lived_through += edits > 0;
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
-    tl_nav_query_free(other);
+    tl_nav_query_destroy(query);
+    tl_nav_query_destroy(other);
     TEST_CHECK(stale > 40 && stale_near > 20 && lived > 20 && lived_through > 40);
 }
 
@@ -208,20 +208,20 @@ static void test_ended(void **state)
     tl_nav_path_progress progress;
     tl_nav_path path;
     tl_nav_ref polygons[8];
-    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_write_path(query, polygons, 8, &path), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &stale, &goal), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_write_path(query, polygons, 8, &path), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &stale, &goal), TL_NOT_FOUND);
     TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &nan, &goal), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
 
     TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &start, &goal), TL_OK);
     TEST_RESULT(tl_nav_query_step_path(query, 0, &progress), TL_OK);
     TEST_CHECK(progress.status == TL_NAV_PATH_UNFINISHED && progress.node_count > 0);
-    TEST_RESULT(tl_nav_query_write_path(query, NULL, 0, &path), TL_ERR_CAPACITY);
+    TEST_RESULT(tl_nav_query_write_path(query, NULL, 0, &path), TL_INCOMPLETE);
     // Another question takes the query's nodes.
     tl_nav_wall wall;
     TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &start, 2.0f, &wall), TL_OK);
-    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
 
     // The goal's tile goes; it is named.
     TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &start, &goal), TL_OK);
@@ -230,8 +230,8 @@ static void test_ended(void **state)
     TEST_CHECK(progress.status == TL_NAV_PATH_STALE && progress.tile_x == 2 && progress.tile_z == 2);
     TEST_RESULT(tl_nav_query_step_path(query, 100, &progress), TL_OK);
     TEST_CHECK(progress.status == TL_NAV_PATH_STALE && progress.tile_x == 2);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(void)

@@ -24,7 +24,7 @@ static void test_example(void **state)
     uint32_t count = 0;
     TEST_RESULT(tl_navmesh_links(navmesh, ref, links, 4, &count), TL_OK);
     TEST_CHECK(count == 3);
-    TEST_RESULT(tl_navmesh_links(navmesh, ref, links, 2, &count), TL_ERR_CAPACITY);
+    TEST_RESULT(tl_navmesh_links(navmesh, ref, links, 2, &count), TL_INCOMPLETE);
     TEST_CHECK(count == 3);
 
     const tl_nav_tile *tile = NULL;
@@ -33,19 +33,19 @@ static void test_example(void **state)
     TEST_CHECK(polygon == 1 && tile == tl_navmesh_slot_tile(navmesh, 0));
     TEST_CHECK(tl_navmesh_polygon_ref(navmesh, 0, 4) == TL_NAV_NO_REF);
     TEST_CHECK(tl_navmesh_polygon_ref(navmesh, 4, 0) == TL_NAV_NO_REF);
-    TEST_RESULT(tl_navmesh_resolve(navmesh, TL_NAV_NO_REF, NULL, NULL), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_navmesh_resolve(navmesh, UINT64_MAX, NULL, NULL), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, TL_NAV_NO_REF, NULL, NULL), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, UINT64_MAX, NULL, NULL), TL_NOT_FOUND);
 
     TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_OK);
-    TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, NULL, NULL), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, NULL, NULL), TL_NOT_FOUND);
     TEST_CHECK(tl_navmesh_link_count(navmesh) == 2 * 24 - 2 * 4 - 2 * 4);
     tl_nav_tile *again = fixture_build_tile(&level, 0, 0, NULL);
     TEST_RESULT(tl_navmesh_add_tile(navmesh, again, TL_NAV_TILE_OWNED), TL_OK);
     // The same tile in the same slot is not the same polygon.
-    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, NULL, NULL), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, NULL, NULL), TL_NOT_FOUND);
     TEST_CHECK(tl_navmesh_polygon_ref(navmesh, 0, 1) != ref);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void test_refused_tiles(void **state)
@@ -64,11 +64,11 @@ static void test_refused_tiles(void **state)
         tl_nav_tile *tile = fixture_build_tile(&others[i], 0, 0, NULL);
         tile->tile_x = place;
         TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_ERR_ARGUMENT);
-        tl_blob_free(tile, NULL);
+        tl_blob_free(tile);
     }
     TEST_CHECK(tl_navmesh_link_count(navmesh) == links && tl_navmesh_tile_count(navmesh) == 4);
-    tl_navmesh_free(navmesh);
-    tl_navmesh_free(NULL);
+    tl_navmesh_destroy(navmesh);
+    tl_navmesh_destroy(NULL);
 }
 
 // A link as seen from outside: places instead of references.
@@ -173,7 +173,7 @@ static void test_random_edits(void **state)
             }
             present[z][x] = !present[z][x];
             for (uint32_t i = 0; i < old_count; i++) {
-                TEST_RESULT(tl_navmesh_resolve(navmesh, old[i], NULL, NULL), TL_ERR_NOT_FOUND);
+                TEST_RESULT(tl_navmesh_resolve(navmesh, old[i], NULL, NULL), TL_NOT_FOUND);
                 stale++;
             }
             if (edit % 10 != 9) {
@@ -198,9 +198,9 @@ static void test_random_edits(void **state)
             }
             free(links);
             free(expected);
-            tl_navmesh_free(fresh);
+            tl_navmesh_destroy(fresh);
         }
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
         TEST_CHECK(counting.live_blocks == 0);
     }
     TEST_CHECK(seams > 300 && stale > 500 && partial_stretches > 30);
@@ -247,7 +247,7 @@ static void test_seam_oracle(void **state)
                 apart += low < high && !meet;
             }
         }
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
     TEST_CHECK(linked > 100 && apart > 30 && disjoint > 100);
 }
@@ -269,12 +269,12 @@ static uint64_t links_of_bent_seam(float height_a, float bend_a, float height_b,
         mesh.detail.vertices[4] = tl_vec3_make(4.0f, x == 0 ? bend_a : bend_b, x == 0 ? 1.5f : 2.5f);
         tl_nav_tile_source source = fixture_source(&mesh);
         tl_nav_tile *tile = NULL;
-        TEST_RESULT(tl_nav_tile_create(&source, NULL, &tile, NULL), TL_OK);
+        TEST_RESULT(tl_nav_tile_encode(&source, NULL, &tile, NULL), TL_OK);
         TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_OWNED), TL_OK);
         fixture_free_mesh(&mesh);
     }
     uint64_t count = tl_navmesh_link_count(navmesh);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     return count;
 }
 
@@ -331,9 +331,9 @@ static void test_memory(void **state)
         plain_link *links = collect(navmesh, &count);
         TEST_CHECK(check_symmetric(links, count) > 10);
         free(links);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
         for (uint32_t i = 0; i < 5; i++) {
-            tl_blob_free(tiles[i], NULL);
+            tl_blob_free(tiles[i]);
         }
         TEST_CHECK(failing.live_blocks == 0);
         if (!failed) {
@@ -363,9 +363,9 @@ static void test_salts_run_out(void **state)
     }
     TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_BORROWED), TL_OK);
     TEST_CHECK(tl_navmesh_slot_count(navmesh) == 2 && tl_navmesh_slot_tile(navmesh, 0) == NULL);
-    TEST_RESULT(tl_navmesh_resolve(navmesh, first, NULL, NULL), TL_ERR_NOT_FOUND);
-    tl_navmesh_free(navmesh);
-    tl_blob_free(tile, NULL);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, first, NULL, NULL), TL_NOT_FOUND);
+    tl_navmesh_destroy(navmesh);
+    tl_blob_free(tile);
 }
 
 int main(void)

@@ -67,7 +67,7 @@ static void check_outline(const tl_navmesh *navmesh, const tl_nav_filter *filter
     if (count > 0) {
         tl_nav_wall_segment one;
         uint32_t same = 0;
-        tl_result expected = count == 1 ? TL_OK : TL_ERR_CAPACITY;
+        tl_result expected = count == 1 ? TL_OK : TL_INCOMPLETE;
         TEST_RESULT(tl_navmesh_polygon_walls(navmesh, filter, ref, &one, 1, &same), expected);
         TEST_CHECK(same == count);
     }
@@ -156,7 +156,7 @@ static void test_walls(void **state)
             TEST_CHECK(!nearest.hit || nearest.distance >= segments[0].distance);
             equal += nearest.hit && nearest.distance == segments[0].distance;
             tl_result result = tl_nav_query_find_walls(query, navmesh, &filter, &center, radius, few, 3, &same);
-            TEST_CHECK(result == (count > 3 ? TL_ERR_CAPACITY : TL_OK) && same == count);
+            TEST_CHECK(result == (count > 3 ? TL_INCOMPLETE : TL_OK) && same == count);
             for (uint32_t k = 0; k < 3 && k < count; k++) {
                 TEST_CHECK(few[k].distance == segments[k].distance && few[k].polygon == segments[k].polygon);
             }
@@ -164,9 +164,9 @@ static void test_walls(void **state)
             cut += count > 3;
         }
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
     TEST_CHECK(walls > 1000 && refused > 200 && around > 2000 && cut > 200 && equal > 300);
 }
 
@@ -179,13 +179,13 @@ static void test_arguments(void **state)
     tl_nav_query *query = ring.few_nodes;
     tl_nav_wall_segment segments[4];
     uint32_t count = 0;
-    TEST_RESULT(tl_navmesh_polygon_walls(navmesh, NULL, 77, segments, 4, &count), TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &stale, 1.0f, segments, 4, &count), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_polygon_walls(navmesh, NULL, 77, segments, 4, &count), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &stale, 1.0f, segments, 4, &count), TL_NOT_FOUND);
     TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &nan, 1.0f, segments, 4, &count), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &start, -1.0f, segments, 4, &count), TL_ERR_ARGUMENT);
     TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &start, 20.0f, segments, 4, &count), TL_ERR_LIMIT);
     query = ring.many_nodes;
-    TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &start, 2.5f, NULL, 0, &count), TL_ERR_CAPACITY);
+    TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &start, 2.5f, NULL, 0, &count), TL_INCOMPLETE);
     TEST_CHECK(count == 2);
     fixture_free_ring(&ring);
 }

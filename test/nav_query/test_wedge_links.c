@@ -68,8 +68,8 @@ static void make_pair(linked_pair *p, const fixture_level *level, test_random *r
 
 static void free_pair(linked_pair *p)
 {
-    tl_navmesh_free(p->plain);
-    tl_navmesh_free(p->linked);
+    tl_navmesh_destroy(p->plain);
+    tl_navmesh_destroy(p->linked);
     free(p->all.refs);
 }
 
@@ -275,7 +275,7 @@ static void test_oracle(void **state)
         }
         free_pair(&p);
     }
-    tl_nav_query_free(p.query);
+    tl_nav_query_destroy(p.query);
     print_message(
         "%llu complete, %llu over one link, %llu over more, %llu over short cuts, %llu backward, %llu cut off, "
         "%llu stuck behind one way, %llu from a polygon to itself\n",
@@ -329,8 +329,8 @@ static void test_filter(void **state)
     // From the far side it leads nowhere.
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &goal, &start, NULL, 0, NULL, 0, &path), TL_OK);
     TEST_CHECK(path.length > 20.0);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(void)

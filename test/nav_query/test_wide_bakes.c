@@ -198,12 +198,12 @@ static void compare_level(const char *name, const tl_mesh_view *mesh, uint32_t t
                t.within[2], t.others, i > 0 ? t.least_room : 0.0);
         fflush(stdout);
         TEST_CHECK(100 * t.same >= 97 * t.pairs && 200 * t.others <= t.pairs);
-        tl_navmesh_free(baked);
+        tl_navmesh_destroy(baked);
     }
     free(area.refs);
     free(area.sums);
-    tl_nav_query_free(query);
-    tl_navmesh_free(own);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(own);
 }
 
 static void test_small_level(void **state)

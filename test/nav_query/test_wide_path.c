@@ -241,7 +241,7 @@ static void test_against_grid(void **state)
         fixture_refs all = fixture_all_refs(navmesh);
         if (forks(navmesh, &all)) {
             free(all.refs);
-            tl_navmesh_free(navmesh);
+            tl_navmesh_destroy(navmesh);
             continue;
         }
         grid g = make_grid(query, navmesh, &all, NULL, 4.0f);
@@ -255,13 +255,13 @@ static void test_against_grid(void **state)
         free(g.places);
         free(g.first);
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
     TEST_CHECK(seen.stacked > 0);
     TEST_CHECK(seen.reached > 400 && seen.bends > 100 && seen.tight > 100 && seen.refused > 200 && seen.blocked > 400);
     print_message("stacked %u reached %u (bent %u, tight %u), unreachable %u (near %u), blocked %u\n", seen.stacked,
                   seen.reached, seen.bends, seen.tight, seen.refused, seen.refused_near, seen.blocked);
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
 }
 
 // The nearest place with room: no place of the grid with a little more room is nearer, and one may stand there.
@@ -292,11 +292,11 @@ static void test_places(void **state)
                 TEST_CHECK(room_at(query, navmesh, NULL, &place, 4.0f, &room) >= reach - 1e-4f);
                 TEST_RESULT(
                     tl_nav_query_find_wide_path(query, navmesh, NULL, 0.5f + reach, &place, &place, NULL, 0, &path),
-                    TL_ERR_CAPACITY);
+                    TL_INCOMPLETE);
                 TEST_CHECK(path.status == TL_NAV_WIDE_COMPLETE && path.length == 0.0);
                 moved += distance > 0.0 ? 1u : 0u;
             } else {
-                TEST_RESULT(result, TL_ERR_NOT_FOUND);
+                TEST_RESULT(result, TL_NOT_FOUND);
                 none++;
             }
             for (uint32_t k = 0; k < g.count && level.tile_cells == 0; k++) {
@@ -310,11 +310,11 @@ static void test_places(void **state)
         free(g.places);
         free(g.first);
         free(all.refs);
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
     print_message("moved %u, none %u\n", moved, none);
     TEST_CHECK(moved > 100 && none > 0);
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
 }
 
 // Polygons that the filter refuses are walls.
@@ -362,10 +362,10 @@ static void test_filter(void **state)
     TEST_RESULT(tl_nav_query_find_wide_path(query, flagged, &filter, 2.0f, &start, &goal, corners, 256, &path), TL_OK);
     TEST_CHECK(path.status == TL_NAV_WIDE_COMPLETE && path.length > short_way + 10.0);
     walk(query, flagged, &filter, corners, path.corner_count, &path);
-    tl_navmesh_free(flagged);
-    tl_nav_query_free(query);
+    tl_navmesh_destroy(flagged);
+    tl_nav_query_destroy(query);
     free(all.refs);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void test_arguments(void **state)
@@ -398,16 +398,15 @@ static void test_arguments(void **state)
     double arc = 2.0 * acos(-1.0) - acos(-24.0 / 40.0) - 2.0 * acos(1.0 / sqrt(40.0));
     TEST_CHECK(fabs(path.length - (2.0 * tangent + arc)) < 0.005);
     TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 1.5f, &start, &goal, corners, 1, &again),
-                TL_ERR_CAPACITY);
+                TL_INCOMPLETE);
     TEST_CHECK(again.corner_count == path.corner_count && again.length == path.length);
     TEST_RESULT(tl_nav_query_find_wide_path(small, navmesh, NULL, 1.5f, &start, &goal, corners, 64, &path), TL_OK);
     TEST_CHECK(path.status == TL_NAV_WIDE_OUT_OF_NODES && path.corner_count == 0);
     TEST_RESULT(tl_nav_query_find_wide_place(small, navmesh, NULL, 1.5f, &start, 1.0f, &place), TL_ERR_LIMIT);
     bad = start;
     bad.polygon = TL_NAV_NO_REF;
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 1.5f, &bad, &goal, corners, 64, &path),
-                TL_ERR_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_find_wide_place(query, navmesh, NULL, 1.5f, &bad, 1.0f, &place), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 1.5f, &bad, &goal, corners, 64, &path), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_wide_place(query, navmesh, NULL, 1.5f, &bad, 1.0f, &place), TL_NOT_FOUND);
     bad = start;
     bad.point.x = NAN;
     TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 1.5f, &bad, &goal, corners, 64, &path),
@@ -422,9 +421,9 @@ static void test_arguments(void **state)
     for (int i = 0; i <= TL_NAV_WIDE_GOAL_BLOCKED + 1; i++) {
         TEST_CHECK(strlen(tl_nav_wide_status_name((tl_nav_wide_status)i)) > 3);
     }
-    tl_nav_query_free(query);
-    tl_nav_query_free(small);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_nav_query_destroy(small);
+    tl_navmesh_destroy(navmesh);
 }
 
 int main(void)

@@ -89,7 +89,7 @@ static void compare(tl_nav_query *query, const tl_navmesh *prepared, const tl_na
             for (int n = 0; n < 2; n++) {
                 results[n] = tl_nav_query_find_wide_place(query, navmeshes[n], asked, radius, &at, 3.0f, &places[n]);
             }
-            TEST_CHECK(results[0] == results[1] && (results[0] == TL_OK || results[0] == TL_ERR_NOT_FOUND));
+            TEST_CHECK(results[0] == results[1] && (results[0] == TL_OK || results[0] == TL_NOT_FOUND));
             TEST_CHECK(results[0] != TL_OK || same_location(&places[0], &places[1]));
             ends[e] = results[0] == TL_OK && i % 4 != 0 ? places[0] : at;
             seen->moved += results[0] == TL_OK && !same_location(&at, &places[0]);
@@ -144,8 +144,8 @@ static void test_edits(void **state)
             compare(query, navmeshes[0], navmeshes[1], &random, 12, &seen);
             kept++;
         }
-        tl_navmesh_free(navmeshes[0]);
-        tl_navmesh_free(navmeshes[1]);
+        tl_navmesh_destroy(navmeshes[0]);
+        tl_navmesh_destroy(navmeshes[1]);
     }
     print_message("complete %u (bent %u), unreachable %u, blocked %u, moved %u, wider than prepared %u, filtered %u; "
                   "%u edits, %u of them made anew in part\n",
@@ -153,7 +153,7 @@ static void test_edits(void **state)
                   kept, made_locally);
     TEST_CHECK(seen.complete > 400 && seen.bent > 200 && seen.unreachable > 200 && seen.blocked > 10);
     TEST_CHECK(seen.moved > 300 && seen.beyond > 40 && seen.filtered > 100 && made_locally > 20);
-    tl_nav_query_free(query);
+    tl_nav_query_destroy(query);
 }
 
 // Places that are divided into layers, which come and go one by one.
@@ -173,7 +173,7 @@ static void test_layers(void **state)
     memset(&input, 0, sizeof input);
     input.mesh = tl_sample_mesh_as_view(&mesh);
     tl_nav_tiles tiles;
-    TEST_RESULT(tl_nav_build(&def, &input, &tiles, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake(&def, &input, &tiles, NULL), TL_OK);
     tl_navmesh *navmeshes[2] = { NULL, NULL };
     for (int i = 0; i < 2; i++) {
         TEST_RESULT(tl_navmesh_create(NULL, &navmeshes[i]), TL_OK);
@@ -203,9 +203,9 @@ static void test_layers(void **state)
     print_message("%u tiles; complete %u (bent %u), unreachable %u; %u edits of upper layers\n", tiles.tile_count,
                   seen.complete, seen.bent, seen.unreachable, layers);
     TEST_CHECK(seen.complete > 50 && seen.bent > 30 && layers > 10);
-    tl_nav_query_free(query);
-    tl_navmesh_free(navmeshes[0]);
-    tl_navmesh_free(navmeshes[1]);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(navmeshes[0]);
+    tl_navmesh_destroy(navmeshes[1]);
     tl_nav_tiles_free(&tiles, NULL);
     tl_sample_mesh_free(&mesh);
 }
@@ -234,13 +234,13 @@ static void test_arguments(void **state)
     TEST_RESULT(tl_navmesh_prepare_wide(navmesh, &def, &again), TL_ERR_NOT_FINITE);
     def.max_radius = -1.0f;
     TEST_RESULT(tl_navmesh_prepare_wide(navmesh, &def, NULL), TL_ERR_ARGUMENT);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     // Nothing to prepare.
     def = tl_default_nav_wide_def();
     TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
     TEST_RESULT(tl_navmesh_prepare_wide(navmesh, &def, &report), TL_OK);
     TEST_CHECK(report.tile_count == 0 && report.bytes == 0);
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
 }
 
 static void test_memory(void **state)
@@ -277,9 +277,9 @@ static void test_memory(void **state)
     }
     TEST_CHECK(failures > 20);
     failing.fail_at = 0;
-    tl_nav_query_free(query);
-    tl_navmesh_free(plain);
-    tl_navmesh_free(navmesh);
+    tl_nav_query_destroy(query);
+    tl_navmesh_destroy(plain);
+    tl_navmesh_destroy(navmesh);
     TEST_CHECK(failing.live_blocks == 0);
 }
 

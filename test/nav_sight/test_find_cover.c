@@ -37,9 +37,9 @@ static void set_up(yard *y, test_random *random, uint32_t tile_size)
 
 static void tear_down(yard *y)
 {
-    tl_nav_query_free(y->query);
-    tl_navmesh_free(y->navmesh);
-    tl_blob_free(y->soup, NULL);
+    tl_nav_query_destroy(y->query);
+    tl_navmesh_destroy(y->navmesh);
+    tl_blob_free(y->soup);
 }
 
 static bool is_hidden(const yard *y, const tl_nav_cover_def *def, tl_vec3 place)
@@ -174,7 +174,7 @@ static void bad_arguments(void **state)
     def.threat.x = 0.0f;
     agent.polygon = 77;
     TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, &cover, 1, &count),
-                TL_ERR_NOT_FOUND);
+                TL_NOT_FOUND);
     tear_down(&y);
 }
 

@@ -65,7 +65,7 @@ static void test_round_trip(void **state)
     TEST_CHECK(chunk.size == 0);
     TEST_RESULT(tl_pack_find(&pack, TL_PACK_NAVT, 7, &chunk), TL_OK);
     TEST_CHECK(chunk.size == 1 && ((const char *)chunk.bytes)[0] == 'l');
-    TEST_RESULT(tl_pack_find(&pack, TL_PACK_NAVT, 0, &chunk), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_pack_find(&pack, TL_PACK_NAVT, 0, &chunk), TL_NOT_FOUND);
     TEST_CHECK(tl_pack_chunk_at(&pack, 2).id == 1);
     free(sink.bytes);
 }
@@ -92,7 +92,7 @@ static void test_empty(void **state)
     TEST_RESULT(tl_pack_open(sink.bytes, sink.size, &pack, NULL), TL_OK);
     TEST_CHECK(pack.chunk_count == 0);
     tl_navmesh *navmesh = NULL;
-    TEST_RESULT(tl_pack_load_navmesh(&pack, NULL, &navmesh, NULL), TL_ERR_NOT_FOUND);
+    TEST_RESULT(tl_pack_load_navmesh(&pack, NULL, &navmesh, NULL), TL_NOT_FOUND);
     free(sink.bytes);
 }
 
@@ -202,7 +202,7 @@ static void test_meta(void **state)
     (void)state;
     tl_aabb bounds = { { -1, -2, -3 }, { 4, 5, 6 } };
     tl_pack_meta *meta = NULL;
-    TEST_RESULT(tl_pack_meta_create("level.obj", 123, 456, bounds, NULL, &meta), TL_OK);
+    TEST_RESULT(tl_pack_meta_encode("level.obj", 123, 456, bounds, NULL, &meta), TL_OK);
     TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_OK);
     TEST_CHECK(strcmp(tl_pack_meta_name(meta), "level.obj") == 0 && meta->source_triangles == 456);
     TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size - 64), TL_ERR_TRUNCATED);
@@ -210,15 +210,15 @@ static void test_meta(void **state)
     TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_ERR_CORRUPT);
     meta->name_size = 8;
     TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_ERR_CORRUPT);
-    tl_blob_free(meta, NULL);
-    TEST_RESULT(tl_pack_meta_create(NULL, 0, 0, bounds, NULL, &meta), TL_OK);
+    tl_blob_free(meta);
+    TEST_RESULT(tl_pack_meta_encode(NULL, 0, 0, bounds, NULL, &meta), TL_OK);
     TEST_CHECK(tl_pack_meta_name(meta)[0] == 0);
     TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_OK);
-    tl_blob_free(meta, NULL);
+    tl_blob_free(meta);
     char *long_name = malloc(70000);
     memset(long_name, 'a', 69999);
     long_name[69999] = 0;
-    TEST_RESULT(tl_pack_meta_create(long_name, 0, 0, bounds, NULL, &meta), TL_ERR_LIMIT);
+    TEST_RESULT(tl_pack_meta_encode(long_name, 0, 0, bounds, NULL, &meta), TL_ERR_LIMIT);
     free(long_name);
 }
 
@@ -236,7 +236,7 @@ static void test_navmesh_settings(void **state)
     def.tile_size = 48;
     tl_aabb bounds = { { -1, -2, -3 }, { 4, 5, 6 } };
     tl_pack_navmesh *settings = NULL;
-    TEST_RESULT(tl_pack_navmesh_create(&def, bounds, 4, 3, 11, NULL, &settings), TL_OK);
+    TEST_RESULT(tl_pack_navmesh_encode(&def, bounds, 4, 3, 11, NULL, &settings), TL_OK);
     TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_OK);
     TEST_CHECK(settings->filters == 2 && settings->partition == TL_NAV_MONOTONE && settings->tile_size == 48);
     TEST_CHECK(tl_pack_navmesh_def(settings).polygon_method == TL_PARTITION_OPTIMAL);
@@ -248,7 +248,7 @@ static void test_navmesh_settings(void **state)
     settings->tile_count = 12;
     settings->cell_size = NAN;
     TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_ERR_CORRUPT);
-    tl_blob_free(settings, NULL);
+    tl_blob_free(settings);
 }
 
 static void test_marks(void **state)
@@ -268,20 +268,20 @@ static void test_marks(void **state)
     volumes[2].area = 255;
     volumes[2].radius = 2;
     volumes[2].height = 1;
-    tl_pack_marks *marks = NULL;
-    TEST_RESULT(tl_pack_marks_create(volumes, 3, NULL, &marks), TL_OK);
+    tl_pack_volumes *marks = NULL;
+    TEST_RESULT(tl_pack_volumes_encode(volumes, 3, NULL, &marks), TL_OK);
     const uint64_t size = marks->blob.size;
-    TEST_RESULT(tl_pack_marks_check(marks, size), TL_OK);
+    TEST_RESULT(tl_pack_volumes_check(marks, size), TL_OK);
     for (uint32_t i = 0; i < 3; i++) {
-        const tl_nav_volume volume = tl_pack_marks_volume(marks, i);
+        const tl_nav_volume volume = tl_pack_volumes_at(marks, i);
         TEST_CHECK(volume.kind == volumes[i].kind && volume.area == volumes[i].area &&
                    volume.radius == volumes[i].radius && volume.point_count == volumes[i].point_count &&
                    memcmp(&volume.box, &volumes[i].box, sizeof volume.box) == 0);
     }
-    const tl_nav_volume prism = tl_pack_marks_volume(marks, 1);
+    const tl_nav_volume prism = tl_pack_volumes_at(marks, 1);
     TEST_CHECK(prism.points[2].x == 4.0f && prism.points[2].y == 0.0f && prism.points[2].z == 4.0f);
     for (uint64_t cut = 0; cut < size; cut++) {
-        TEST_CHECK(tl_pack_marks_check(marks, cut) != TL_OK);
+        TEST_CHECK(tl_pack_volumes_check(marks, cut) != TL_OK);
     }
     // Any byte altered: refused, or marks that can be read whole.
     uint8_t *bytes = (uint8_t *)marks;
@@ -289,9 +289,9 @@ static void test_marks(void **state)
     for (uint64_t i = 0; i < size; i++) {
         for (int bit = 0; bit < 8; bit++) {
             bytes[i] ^= (uint8_t)(1 << bit);
-            const bool ok = tl_pack_marks_check(bytes, size) == TL_OK;
+            const bool ok = tl_pack_volumes_check(bytes, size) == TL_OK;
             for (uint32_t k = 0; ok && k < marks->count; k++) {
-                const tl_nav_volume volume = tl_pack_marks_volume(marks, k);
+                const tl_nav_volume volume = tl_pack_volumes_at(marks, k);
                 for (uint32_t p = 0; p < volume.point_count; p++) {
                     TEST_CHECK(isfinite(volume.points[p].x) && volume.points[p].y == 0.0f);
                 }
@@ -301,12 +301,12 @@ static void test_marks(void **state)
         }
     }
     TEST_CHECK(refused > 1000 && refused < size * 8);
-    tl_blob_free(marks, NULL);
+    tl_blob_free(marks);
     volumes[2].radius = NAN;
-    TEST_RESULT(tl_pack_marks_create(volumes, 3, NULL, &marks), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_pack_marks_create(NULL, 0, NULL, &marks), TL_OK);
-    TEST_RESULT(tl_pack_marks_check(marks, marks->blob.size), TL_OK);
-    tl_blob_free(marks, NULL);
+    TEST_RESULT(tl_pack_volumes_encode(volumes, 3, NULL, &marks), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_pack_volumes_encode(NULL, 0, NULL, &marks), TL_OK);
+    TEST_RESULT(tl_pack_volumes_check(marks, marks->blob.size), TL_OK);
+    tl_blob_free(marks);
 }
 
 static void test_load_navmesh(void **state)
@@ -329,7 +329,7 @@ static void test_load_navmesh(void **state)
     TEST_RESULT(tl_pack_load_navmesh(&pack, NULL, &navmesh, NULL), TL_OK);
     TEST_CHECK(tl_navmesh_tile_count(navmesh) == 4);
     TEST_CHECK(tl_navmesh_link_count(navmesh) == 48); // 24 inner edges of a grid of 4 x 4, both ways
-    tl_navmesh_free(navmesh);
+    tl_navmesh_destroy(navmesh);
     free(sink.bytes);
 
     tiles[2]->side_end[0]++; // hashes right, content wrong
@@ -340,7 +340,7 @@ static void test_load_navmesh(void **state)
     TEST_CHECK(navmesh == NULL && report.element_index == 2);
     free(sink.bytes);
     for (uint32_t i = 0; i < 4; i++) {
-        tl_blob_free(tiles[i], NULL);
+        tl_blob_free(tiles[i]);
     }
 }
 

@@ -32,7 +32,7 @@ static void border_vertices_go_where_the_border_is_straight(void **state)
     tl_polygon_def def = tl_default_polygon_def();
     tl_polygon_mesh mesh;
     tl_polygon_report report;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, &set);
     TEST_CHECK(report.border_vertices_gone == 1 && report.border_vertices_kept == 0 && mesh.vertex_count == 5);
     TEST_CHECK(report.portal_count == 3); // x == 0 is one edge now, z == 0 and z == 8
@@ -49,19 +49,19 @@ static void border_vertices_go_where_the_border_is_straight(void **state)
     }
     tl_polygon_mesh_free(&mesh, NULL);
     def.keep_border_vertices = true;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, &set);
     TEST_CHECK(mesh.vertex_count == 6 && mesh.polygon_count == 2 && report.border_vertices_kept == 0);
     tl_polygon_mesh_free(&mesh, NULL);
     def.keep_border_vertices = false;
     // A border that bends there keeps its vertex, and so do regions of different areas.
     contours[1].area = 1;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
     tl_polygon_mesh_free(&mesh, NULL);
     contours[1].area = 63;
     corners[1].x = corners[4].x = 1;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, &set);
     TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
     tl_polygon_mesh_free(&mesh, NULL);
@@ -99,7 +99,7 @@ static void border_vertices_go_one_after_another(void **state)
         def.max_verts_per_poly = cap;
         tl_polygon_mesh mesh;
         tl_polygon_report report;
-        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+        TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
         shape_check_mesh(&mesh, &set);
         TEST_CHECK(report.border_vertices_gone == STRIPS - 1 && report.portal_count == 3);
         tl_polygon_mesh_free(&mesh, NULL);
@@ -152,7 +152,7 @@ static void random_tiles_keep_their_floor(void **state)
         def.max_verts_per_poly = 3 + test_random_below(&random, 5);
         tl_polygon_mesh mesh;
         tl_polygon_report report;
-        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+        TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
         shape_check_mesh(&mesh, &set);
         gone += report.border_vertices_gone;
         kept += report.border_vertices_kept;

@@ -197,7 +197,7 @@ static void meshes_of_all_kinds_are_good(void **state)
         def.max_verts_per_poly = round % 3 == 0 ? 0 : 6;
         tl_polygon_mesh mesh;
         tl_polygon_report report;
-        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+        TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
         TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, NULL), TL_OK);
         TEST_CHECK(report.lower_bound <= report.polygon_count);
         good += mesh.polygon_count > 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Outlines of every size and kind through tl_polygon_mesh_build with TL_PARTITION_OPTIMAL.
+// Outlines of every size and kind through tl_polygon_mesh_bake with TL_PARTITION_OPTIMAL.
 
 #include "polygon_shapes.h"
 
@@ -24,12 +24,12 @@ static outcome build(uint32_t n, uint32_t cap)
     def.max_verts_per_poly = cap;
     tl_polygon_mesh mesh;
     outcome o;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &o.report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &o.report), TL_OK);
     o.classic = o.report.polygon_count;
     TEST_CHECK(o.report.lower_bound <= o.classic);
     tl_polygon_mesh_free(&mesh, NULL);
     def.method = TL_PARTITION_OPTIMAL;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &o.report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &o.report), TL_OK);
     shape_check_mesh(&mesh, &set);
     TEST_CHECK(o.report.lower_bound <= o.report.polygon_count && o.report.polygon_count <= o.classic);
     TEST_CHECK(o.report.lower_bound >= 1 || o.report.polygon_count == 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// tl_polygon_mesh_build with merge_contours.
+// tl_polygon_mesh_bake with merge_contours.
 
 #include "polygon_shapes.h"
 
@@ -32,7 +32,7 @@ static tl_polygon_report build(const tl_contour_set *set, uint32_t cap, bool mer
     def.max_verts_per_poly = cap;
     tl_polygon_mesh mesh;
     tl_polygon_report report;
-    TEST_RESULT(tl_polygon_mesh_build(set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, set);
     *first_contour = mesh.polygon_count > 0 ? mesh.contours[0] : 0;
     tl_polygon_mesh_free(&mesh, NULL);

@@ -210,7 +210,7 @@ static void three_hundred_thousand_polygons_are_linked_right(void **state)
     def.max_verts_per_poly = 3;
     tl_polygon_mesh mesh;
     tl_polygon_report report;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     TEST_CHECK(mesh.polygon_count == 2 * SQUARES && mesh.vertex_count == (ACROSS + 1) * (ACROSS + 1));
     TEST_CHECK(report.link_count == SQUARES + 2 * ACROSS * (ACROSS - 1) && report.crowded_edges == 0);
     for (uint32_t p = 0; p < mesh.polygon_count; p++) {

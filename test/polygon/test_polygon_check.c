@@ -25,7 +25,7 @@ static void build(fixture *f, const oracle_point *points, uint32_t n, uint32_t m
     f->set.border_size = 1;
     tl_polygon_def def = tl_default_polygon_def();
     def.max_verts_per_poly = max_verts;
-    TEST_RESULT(tl_polygon_mesh_build(&f->set, &def, &f->mesh, NULL), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&f->set, &def, &f->mesh, NULL), TL_OK);
     TEST_RESULT(tl_polygon_mesh_check(&f->mesh, &f->set, NULL, NULL), TL_OK);
 }
 
@@ -268,7 +268,7 @@ static void passes_over_border_vertices(void **state)
             set.cell_size = set.cell_height = 1.0f;
             tl_polygon_mesh mesh;
             tl_polygon_report report;
-            TEST_RESULT(tl_polygon_mesh_build(&set, NULL, &mesh, &report), TL_OK);
+            TEST_RESULT(tl_polygon_mesh_bake(&set, NULL, &mesh, &report), TL_OK);
             TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, NULL), TL_OK);
             gone += report.border_vertices_gone;
             kept += report.border_vertices_kept;
@@ -303,7 +303,7 @@ static void floors_that_hang_together_may_lie_over_each_other(void **state)
     set.width = set.height = 81;
     set.border_size = 4;
     tl_polygon_mesh mesh;
-    TEST_RESULT(tl_polygon_mesh_build(&set, NULL, &mesh, NULL), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, NULL, &mesh, NULL), TL_OK);
     TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, NULL), TL_OK);
     uint32_t several = 0;
     for (uint32_t p = 0; p < mesh.polygon_count; p++) {

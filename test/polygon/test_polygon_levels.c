@@ -130,7 +130,7 @@ static void compare_with_plain(const tl_contour_set *set, tl_polygon_def def, ro
 {
     tl_polygon_mesh mesh;
     def.keep_border_vertices = true;
-    TEST_RESULT(tl_polygon_mesh_build(set, &def, &mesh, NULL), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(set, &def, &mesh, NULL), TL_OK);
     uint32_t p = 0, note = 0;
     for (uint32_t i = 0; i < set->contour_count; i++) {
         while (p < mesh.polygon_count && mesh.contours[p] < i) {
@@ -156,7 +156,7 @@ static void compare_set(const tl_contour_text *text, tl_contour_reader *recast_r
     tl_polygon_mesh mesh;
     tl_polygon_report report;
     tl_polygon_check_report check;
-    TEST_RESULT(tl_polygon_mesh_build(&text->set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&text->set, &def, &mesh, &report), TL_OK);
     TEST_RESULT(tl_polygon_mesh_check(&mesh, &text->set, NULL, &check), TL_OK);
     r->contours += text->set.contour_count;
     r->vertices += text->set.vertex_count;

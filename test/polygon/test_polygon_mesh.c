@@ -27,7 +27,7 @@ static void two_contours_meet_in_links(void **state)
     tl_polygon_def def = tl_default_polygon_def();
     tl_polygon_mesh mesh;
     tl_polygon_report report;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, &set);
     TEST_CHECK(mesh.polygon_count == 2 && mesh.vertex_count == 6 && mesh.index_count == 8);
     TEST_CHECK(mesh.regions[0] == 1 && mesh.regions[1] == 2 && mesh.areas[0] == 10 && mesh.areas[1] == 20);
@@ -39,7 +39,7 @@ static void two_contours_meet_in_links(void **state)
     static const uint32_t heights[3] = { 0, 1, 2 }, expected_vertices[3] = { 8, 7, 6 }, expected_links[3] = { 0, 0, 1 };
     for (uint32_t i = 0; i < 3; i++) {
         def.merge_height = heights[i];
-        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+        TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
         shape_check_mesh(&mesh, &set);
         TEST_CHECK(mesh.vertex_count == expected_vertices[i] && report.link_count == expected_links[i]);
         tl_polygon_mesh_free(&mesh, NULL);
@@ -64,7 +64,7 @@ static void scribbles_give_good_meshes(void **state)
         def.max_verts_per_poly = 3 + test_random_below(&random, 6);
         tl_polygon_mesh mesh;
         tl_polygon_report report;
-        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+        TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
         shape_check_mesh(&mesh, &set);
         TEST_CHECK(report.refused_contours == 0);
         bool simple = oracle_is_simple(points, n) && oracle_contour_area2(points, n) > 0;
@@ -101,7 +101,7 @@ static void hard_families_pass_the_validator(void **state)
             def.max_verts_per_poly = caps[i];
             tl_polygon_mesh mesh;
             tl_polygon_report report;
-            TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+            TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
             TEST_CHECK(mesh.note_count == 0 && report.triangle_count == n - 2);
             shape_check_mesh(&mesh, &set);
             tl_polygon_mesh_free(&mesh, NULL);
@@ -124,7 +124,7 @@ static void floors_upon_each_other_are_counted(void **state)
     tl_polygon_def def = tl_default_polygon_def();
     tl_polygon_mesh mesh;
     tl_polygon_report report;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     TEST_CHECK(mesh.polygon_count == 2 && report.link_count == 0 && report.crowded_edges > 0);
     shape_check_mesh(&mesh, &set);
     tl_polygon_mesh_free(&mesh, NULL);
@@ -140,22 +140,22 @@ static void bad_arguments_are_named(void **state)
     tl_polygon_report report;
     tl_polygon_def def = tl_default_polygon_def();
     def.max_verts_per_poly = 2;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_ERR_ARGUMENT);
     def.max_verts_per_poly = 65;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_ERR_ARGUMENT);
     TEST_CHECK(strcmp(report.base.element, "max_verts_per_poly") == 0 && report.base.advice != NULL);
     def = tl_default_polygon_def();
     contour.vertex_count = 5;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_ERR_INDEX);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_ERR_INDEX);
     contour.vertex_count = 4;
     contour.first_vertex = UINT32_MAX;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_ERR_INDEX);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_ERR_INDEX);
     contour.first_vertex = 0;
     vertices[2].y = TL_MAX_CONTOUR_COORDINATE + 1;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_ERR_RANGE);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_ERR_RANGE);
     TEST_CHECK(strcmp(report.base.element, "contour") == 0 && report.base.element_index == 0);
     set.contour_count = 0;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     TEST_CHECK(mesh.polygon_count == 0 && mesh.first[0] == 0);
     shape_check_mesh(&mesh, &set);
     tl_polygon_mesh_free(&mesh, NULL);
@@ -184,7 +184,7 @@ static void a_build_can_be_cancelled(void **state)
     def.host.progress = &progress;
     def.host.allocator = &allocator.allocator;
     tl_polygon_mesh mesh;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, NULL), TL_ERR_CANCELLED);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_ERR_CANCELLED);
     TEST_CHECK(allocator.live_blocks == 0);
 }
 
@@ -207,7 +207,7 @@ static void every_allocation_may_fail(void **state)
         def.host.allocator = &allocator.allocator;
         tl_polygon_mesh mesh;
         memset(&mesh, 0, sizeof mesh);
-        result = tl_polygon_mesh_build(&set, &def, &mesh, NULL);
+        result = tl_polygon_mesh_bake(&set, &def, &mesh, NULL);
         TEST_CHECK(allocator.live_blocks == (result == TL_OK ? 1 : 0));
         TEST_CHECK(result == TL_OK || mesh.block == NULL);
         if (result == TL_OK) {
@@ -237,7 +237,7 @@ static void a_run_back_on_another_floor_is_a_wall(void **state)
         def.method = (tl_partition_method)method;
         tl_polygon_mesh mesh;
         tl_polygon_check_report check;
-        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, NULL), TL_OK);
+        TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
         TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, &check), TL_OK);
         uint32_t walls = 0;
         for (uint32_t p = 0; p < mesh.polygon_count; p++) {

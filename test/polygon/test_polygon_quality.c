@@ -15,7 +15,7 @@ static tl_polygon_quality measure(uint32_t n, uint32_t cap)
     tl_polygon_def def = tl_default_polygon_def();
     def.max_verts_per_poly = cap;
     tl_polygon_mesh mesh;
-    TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, NULL), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
     tl_polygon_quality quality = tl_polygon_mesh_measure(&mesh);
     tl_polygon_mesh_free(&mesh, NULL);
     return quality;

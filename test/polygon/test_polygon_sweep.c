@@ -262,7 +262,7 @@ static void divide(const tl_contour_set *set, const tl_polygon_def *def, uint32_
     tl_polygon_report report;
     uint64_t *faults = sums.faults[def->method];
     const uint64_t faults_before = count_faults(def->method);
-    TEST_RESULT(tl_polygon_mesh_build(set, def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(set, def, &mesh, &report), TL_OK);
     proof_count_faults(&mesh, faults);
     int64_t covered2 = 0;
     for (uint32_t p = 0; p < mesh.polygon_count; p++) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// tl_polygon_mesh_build with drop_straight_vertices.
+// tl_polygon_mesh_bake with drop_straight_vertices.
 
 #include "polygon_shapes.h"
 
@@ -17,7 +17,7 @@ static tl_polygon_report build(const tl_contour_set *set, bool drop, uint32_t *p
     def.drop_straight_vertices = drop;
     tl_polygon_mesh mesh;
     tl_polygon_report report;
-    TEST_RESULT(tl_polygon_mesh_build(set, &def, &mesh, &report), TL_OK);
+    TEST_RESULT(tl_polygon_mesh_bake(set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, set);
     *polygons = mesh.polygon_count;
     tl_polygon_mesh_free(&mesh, NULL);

@@ -185,10 +185,10 @@ static void steps_are_those_of_the_plain_method(void **state)
         def.max_verts_per_poly = caps[round % 4];
         def.trace = &trace;
         tl_polygon_mesh traced, mesh;
-        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &traced, NULL), TL_OK);
+        TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &traced, NULL), TL_OK);
         end(&f, &traced);
         def.trace = NULL;
-        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, NULL), TL_OK);
+        TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
         TEST_CHECK(mesh.block_size == traced.block_size && memcmp(mesh.block, traced.block, mesh.block_size) == 0);
         tl_polygon_mesh_free(&traced, NULL);
         tl_polygon_mesh_free(&mesh, NULL);
@@ -229,7 +229,7 @@ static void each_method_hands_out_its_steps(void **state)
         def.method = (tl_partition_method)method;
         def.trace = &trace;
         tl_polygon_mesh mesh;
-        TEST_RESULT(tl_polygon_mesh_build(&set, &def, &mesh, NULL), TL_OK);
+        TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
         TEST_CHECK(counts.cuts == 2 * (n - 2) && counts.last_contour == 1);
         TEST_CHECK(counts.merges == (method == TL_PARTITION_OPTIMAL ? 0 : counts.cuts - mesh.polygon_count));
         tl_polygon_mesh_free(&mesh, NULL);

@@ -108,7 +108,7 @@ static void check_count(const scene_parts *parts, uint32_t count, tl_vec3 center
     TEST_CHECK(count < 100 || growth > 1.2f); // all mixed
     if (count > 0) {
         // A bad item leaves everything as it was.
-        tl_blob_free(again, NULL);
+        tl_blob_free(again);
         again = scene_build(items, count);
         TEST_RESULT(tl_scene_refit(again, items, count, NULL, NULL), TL_OK);
         tl_scene *kept = malloc(before.size);
@@ -123,8 +123,8 @@ static void check_count(const scene_parts *parts, uint32_t count, tl_vec3 center
         free(kept);
     }
     TEST_RESULT(tl_scene_refit(scene, items, count + 1, NULL, NULL), TL_ERR_ARGUMENT);
-    tl_blob_free(scene, NULL);
-    tl_blob_free(again, NULL);
+    tl_blob_free(scene);
+    tl_blob_free(again);
     free(items);
 }
 
@@ -162,7 +162,7 @@ static void test_depth(void **state)
     check_tree(scene, items, COUNT);
     print_message("depth %u\n", tl_scene_get_stats(scene).depth);
     TEST_CHECK(tl_scene_get_stats(scene).depth >= 6);
-    tl_blob_free(scene, NULL);
+    tl_blob_free(scene);
     free(items);
     scene_parts_free(&parts);
 }
@@ -175,7 +175,7 @@ static void check_bad(tl_scene_item item, tl_result expected)
     items[2] = item;
     tl_scene *scene = NULL;
     tl_report report;
-    TEST_RESULT(tl_scene_build(items, 3, NULL, &scene, &report), expected);
+    TEST_RESULT(tl_scene_bake(items, 3, NULL, &scene, &report), expected);
     TEST_CHECK(scene == NULL && report.element_index == 2 && strcmp(report.element, "item") == 0);
     TEST_CHECK(report.advice != NULL);
 }
@@ -212,7 +212,7 @@ static void test_bad_items(void **state)
     shape = tl_convex_sphere(vec(0, 3e12f, 0), 1);
     check_bad(bad, TL_ERR_RANGE);
     tl_scene *scene = NULL;
-    TEST_RESULT(tl_scene_build(&good, TL_MAX_SCENE_ITEMS + 1u, NULL, &scene, NULL), TL_ERR_LIMIT);
+    TEST_RESULT(tl_scene_bake(&good, TL_MAX_SCENE_ITEMS + 1u, NULL, &scene, NULL), TL_ERR_LIMIT);
     scene_parts_free(&parts);
 }
 
@@ -234,7 +234,7 @@ static void test_same_bytes(void **state)
     uint64_t moved = tl_hash_bytes(scene, tl_scene_get_stats(scene).size, 0);
     print_message("%016llx %016llx\n", (unsigned long long)built, (unsigned long long)moved);
     TEST_CHECK(built == 0x28f8381c5cb0c6f5u && moved == 0xb1bca51c6ae9b549u);
-    tl_blob_free(scene, NULL);
+    tl_blob_free(scene);
     scene_parts_free(&parts);
 }
 
@@ -253,11 +253,11 @@ static void test_failing_memory(void **state)
         test_allocator_init(&memory, at);
         tl_host host = { &memory.allocator, NULL, NULL };
         tl_scene *scene = NULL;
-        result = tl_scene_build(items, 500, &host, &scene, NULL);
+        result = tl_scene_bake(items, 500, &host, &scene, NULL);
         TEST_CHECK(result == TL_OK || (result == TL_ERR_MEMORY && scene == NULL && memory.live_blocks == 0));
         failures += result != TL_OK;
         memory.fail_at = 0;
-        tl_blob_free(scene, &memory.allocator);
+        tl_blob_free(scene);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
     }
     TEST_CHECK(failures >= 2);

@@ -181,7 +181,7 @@ static void check_random_scene(const scene_parts *parts, uint32_t count, tl_vec3
     float growth;
     TEST_RESULT(tl_scene_refit(scene, items, count, &growth, NULL), TL_OK);
     check_scene(scene, items, count, rays, count + 1, r);
-    tl_blob_free(scene, NULL);
+    tl_blob_free(scene);
     free(items);
 }
 
@@ -246,7 +246,7 @@ static void test_far_and_tiny_rays(void **state)
     TEST_CHECK(tl_scene_line_of_sight(scene, items, vec(0, NAN, 0), vec(0, 0, 0), NULL));
     TEST_CHECK(tl_scene_line_of_sight(scene, items, vec(50, 0, 0), vec(50, 0, 0), NULL));
     TEST_CHECK(tl_scene_line_of_sight(scene, items, vec(3e38f, 3e38f, 0), vec(3e38f, -3e38f, 0), NULL));
-    tl_blob_free(scene, NULL);
+    tl_blob_free(scene);
     scene_parts_free(&parts);
 }
 
@@ -280,8 +280,8 @@ static void test_identity(void **state)
         }
     }
     TEST_CHECK(hits > 1000);
-    tl_blob_free(scene, NULL);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(scene);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -338,8 +338,8 @@ static void test_nothing_slips_through(void **state)
             TEST_CHECK(off <= bound);
             worst = off / bound > worst ? off / bound : worst;
         }
-        tl_blob_free(scene, NULL);
-        tl_blob_free(soup, NULL);
+        tl_blob_free(scene);
+        tl_blob_free(soup);
         model_free(&m);
     }
     print_message("%u rays at corners and edges from inside, none got out; worst error %.2f of its bound\n", rays,

@@ -2,7 +2,7 @@
 //
 // pair_triangles.c: a valid matching on any input, and nearly everything paired on manifold ones.
 
-#include "soup/bake/soup_build.h"
+#include "soup/bake/soup_bake.h"
 #include "soup/layout/soup_layout.h"
 #include "soup_models.h"
 
@@ -25,7 +25,7 @@ static paired check_pairing(const model *m, bool allow_pairs)
     tl_mesh_def def = tl_default_mesh_def();
     def.keep_duplicates = true;
     tl_mesh mesh;
-    TEST_RESULT(tl_mesh_build(&view, &def, &mesh, NULL), TL_OK);
+    TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, NULL), TL_OK);
     tl_arena arena;
     tl_arena_init(&arena, NULL);
     tl_pair *pairs = NULL;

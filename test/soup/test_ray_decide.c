@@ -132,7 +132,7 @@ static void compare(tl_vec3 origin, tl_vec3 target, bool is_segment, const tl_ve
     static const uint32_t indices[3] = { 0, 1, 2 };
     tl_mesh_view view = { corner, 3, indices, 1, NULL };
     tl_soup *soup;
-    tl_result result = tl_soup_build(&view, NULL, &soup, NULL);
+    tl_result result = tl_soup_bake(&view, NULL, &soup, NULL);
     if (result == TL_ERR_DEGENERATE) {
         return;
     }
@@ -164,7 +164,7 @@ static void compare(tl_vec3 origin, tl_vec3 target, bool is_segment, const tl_ve
     seen->coplanar += truth.coplanar;
     seen->behind += !truth.hit && truth.t < 0;
     seen->beyond += is_segment && !truth.hit && truth.t > 1;
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
 }
 
 static tl_vec3 random_vec(test_random *random, float size)

@@ -117,7 +117,7 @@ static void test_brackets(void **state)
                 check_corner(&job, m.vertices[test_random_below(&random, m.vertex_count)], &seen);
             }
         }
-        tl_blob_free(soup, NULL);
+        tl_blob_free(soup);
         model_free(&m);
     }
     TEST_CHECK(seen.planes > 300000 && seen.inclined > 200000 && seen.flat > 10000 && seen.corners > 100000);
@@ -138,7 +138,7 @@ static void test_refused(void **state)
     // So far away that float filters cannot work: everything passes on to the exact part.
     TEST_CHECK(prepare(&job, soup, tl_vec3_make(3e38f, 0, 0), one, false));
     TEST_CHECK(job.near_base[0] < 0 && job.far_base[0] > 1e38f && job.corner_error > FLT_MAX);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 

@@ -40,7 +40,7 @@ static void test_hit_describes_place(void **state)
     TEST_CHECK(hit.back && hit.material == 0);
     ray = make_ray(vec(1, -3, 2), vec(0, 1, 0), 10);
     TEST_CHECK(tl_soup_cast_ray(soup, &ray, NULL, &hit) && hit.t == 3 && !hit.back);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -79,7 +79,7 @@ static void test_ends_and_edges_are_inclusive(void **state)
     TEST_CHECK(hits(soup, vec(1, 1, 1), vec(-0.0f, -3e38f, 0), INFINITY));
     TEST_CHECK(hits(soup, vec(1, 3e38f, 1), down, INFINITY));       // far, far away
     TEST_CHECK(!hits(soup, vec(-1, 0, 1), vec(1, 0, 0), INFINITY)); // in the plane
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -98,7 +98,7 @@ static void test_what_hits_nothing(void **state)
     tl_ray_hit hit;
     TEST_CHECK(!tl_soup_cast_segment(soup, vec(1, 0, 1), vec(1, 0, 1), NULL, &hit));
     TEST_CHECK(tl_soup_line_of_sight(soup, vec(1, 0, 1), vec(1, 0, 1), NULL));
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -129,7 +129,7 @@ static void test_culling_and_folded_pair(void **state)
     TEST_CHECK(tl_soup_cast_ray(soup, &up, &filter, &hit) && hit.triangle == 1 && !hit.back);
     down.tmax = 4.75f;
     TEST_CHECK(!tl_soup_occluded(soup, &down, &filter) && tl_soup_occluded(soup, &down, NULL));
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -154,7 +154,7 @@ static void test_masks_filters_and_ties(void **state)
     tl_mesh_view view = model_view(&m);
     view.materials = materials;
     tl_soup *soup;
-    TEST_RESULT(tl_soup_build(&view, NULL, &soup, NULL), TL_OK);
+    TEST_RESULT(tl_soup_bake(&view, NULL, &soup, NULL), TL_OK);
     tl_ray ray = make_ray(vec(1, 9, 1), vec(0, -1, 0), INFINITY);
     tl_ray_filter filter = tl_default_ray_filter();
     tl_ray_hit hit;
@@ -179,7 +179,7 @@ static void test_masks_filters_and_ties(void **state)
     TEST_CHECK(tl_soup_cast_ray(soup, &ray, NULL, &hit) && hit.triangle == 4 && hit.t == 1);
     unwanted = 4;
     TEST_CHECK(tl_soup_cast_ray(soup, &ray, &filter, &hit) && hit.triangle == 5 && hit.t == 1);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -275,7 +275,7 @@ static void test_lattice_against_integers(void **state)
         }
         tl_mesh_view view = model_view(&m);
         tl_soup *soup;
-        tl_result result = tl_soup_build(&view, NULL, &soup, NULL);
+        tl_result result = tl_soup_bake(&view, NULL, &soup, NULL);
         TEST_CHECK(result == TL_OK || result == TL_ERR_DEGENERATE);
         for (uint32_t i = 0; result == TL_OK && i < 300; i++) {
             tl_vec3 from = lattice_point(&random, range + range / 2);
@@ -317,7 +317,7 @@ static void test_lattice_against_integers(void **state)
             seen.misses += !found;
         }
         if (result == TL_OK) {
-            tl_blob_free(soup, NULL);
+            tl_blob_free(soup);
         }
         model_free(&m);
     }
@@ -388,7 +388,7 @@ static void test_closed_surface_has_no_leak(void **state)
             }
             aim(soup, center, a, &seen.inside[AT_CORNER]);
         }
-        tl_blob_free(soup, NULL);
+        tl_blob_free(soup);
         model_free(&m);
     }
     print_message("leaks 0; aimed from inside at corners %u, middles of edges %u, edges %u; from 25 diagonals away %u, "
@@ -441,7 +441,7 @@ static void test_full_lines_cross_an_even_number_of_times(void **state)
         twice += set.count > 2;
     }
     TEST_CHECK(crossed > 10000 && twice > 1000);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -467,7 +467,7 @@ static void test_line_of_sight_is_symmetric(void **state)
         blocked += !sight;
     }
     TEST_CHECK(seen > 5000 && blocked > 5000);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 

@@ -185,9 +185,9 @@ static void check_model(const model *m, uint32_t ray_count, uint64_t seed, regim
         seen->axis_parallel += i % 4 == 2;
     }
     seen->cut += tl_soup_get_stats(others[2 * MODEL_SPLITS]).reference_count > tl_soup_get_stats(soup).reference_count;
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     for (uint32_t k = 0; k < OTHERS; k++) {
-        tl_blob_free(others[k], NULL);
+        tl_blob_free(others[k]);
     }
 }
 

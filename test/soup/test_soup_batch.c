@@ -121,7 +121,7 @@ static void test_same_bits(void **state)
         check_batch(soups[i], 70000, NULL, 1);
         check_batch(soups[i], 5000, &filter, 2);
         check_batch(soups[i], 0, NULL, 3);
-        tl_blob_free(soups[i], NULL);
+        tl_blob_free(soups[i]);
     }
     model_free(&large);
     model_free(&small);
@@ -171,7 +171,7 @@ static void check_walks(const model *m, uint32_t count, uint64_t seed)
     free(rays);
     free(single);
     free(hits);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
 }
 
 static void test_walks(void **state)

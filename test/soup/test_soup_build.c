@@ -9,9 +9,9 @@
 static tl_result build(const tl_mesh_view *view, const tl_soup_def *def, tl_soup_report *report)
 {
     tl_soup *soup = (tl_soup *)(uintptr_t)64;
-    tl_result result = tl_soup_build(view, def, &soup, report);
+    tl_result result = tl_soup_bake(view, def, &soup, report);
     TEST_CHECK((soup != NULL) == (result == TL_OK));
-    tl_blob_free(soup, def != NULL ? def->host.allocator : NULL);
+    tl_blob_free(soup);
     return result;
 }
 
@@ -215,20 +215,20 @@ static void check_threads(const model *m, tl_soup_def def)
 {
     tl_mesh_view view = model_view(m);
     tl_soup *alone = NULL;
-    TEST_RESULT(tl_soup_build(&view, &def, &alone, NULL), TL_OK);
+    TEST_RESULT(tl_soup_bake(&view, &def, &alone, NULL), TL_OK);
     for (uint32_t workers = 1; workers <= 4; workers++) {
         pool p = { .workers = workers, .seed = workers };
         pthread_mutex_init(&p.lock, NULL);
         tl_tasks tasks = { run_on_threads, workers, &p };
         def.host.tasks = &tasks;
         tl_soup *together = NULL;
-        TEST_RESULT(tl_soup_build(&view, &def, &together, NULL), TL_OK);
+        TEST_RESULT(tl_soup_bake(&view, &def, &together, NULL), TL_OK);
         TEST_CHECK(tl_soup_size(alone) == tl_soup_size(together));
         TEST_CHECK(memcmp(alone, together, tl_soup_size(alone)) == 0);
-        tl_blob_free(together, NULL);
+        tl_blob_free(together);
         pthread_mutex_destroy(&p.lock);
     }
-    tl_blob_free(alone, NULL);
+    tl_blob_free(alone);
 }
 
 static void test_threads_give_the_same_bytes(void **state)
@@ -274,8 +274,8 @@ static void test_unused_vertices_may_hold_anything(void **state)
     model_vertex(&m, NAN, INFINITY, 3e38f);
     tl_soup *dirty = model_soup(&m, NULL);
     TEST_CHECK(tl_soup_size(clean) == tl_soup_size(dirty) && memcmp(clean, dirty, tl_soup_size(clean)) == 0);
-    tl_blob_free(clean, NULL);
-    tl_blob_free(dirty, NULL);
+    tl_blob_free(clean);
+    tl_blob_free(dirty);
     model_free(&m);
 }
 

@@ -28,7 +28,7 @@ static tl_soup *sample_soup(tl_soup_layout layout, uint32_t *size_out)
     tl_soup_def def = tl_default_soup_def();
     def.layout = layout;
     tl_soup *soup;
-    TEST_RESULT(tl_soup_build(&view, &def, &soup, NULL), TL_OK);
+    TEST_RESULT(tl_soup_bake(&view, &def, &soup, NULL), TL_OK);
     tl_soup_stats stats = tl_soup_get_stats(soup);
     TEST_CHECK(stats.node_count > 1 && stats.pair_count > 5 && stats.single_count > 5);
     *size_out = (uint32_t)tl_soup_size(soup);
@@ -96,7 +96,7 @@ static void check_sound_soup_passes(tl_soup_layout layout)
     ((tl_blob *)soup)->version++;
     TEST_RESULT(tl_soup_check(soup, size), TL_ERR_VERSION);
     ((tl_blob *)soup)->version--;
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
 }
 
 static void check_every_prefix_is_refused(tl_soup_layout layout)
@@ -114,7 +114,7 @@ static void check_every_prefix_is_refused(tl_soup_layout layout)
         }
         free(bytes);
     }
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
 }
 
 static void check_flipped_bits_are_refused_or_harmless(tl_soup_layout layout)
@@ -143,7 +143,7 @@ static void check_flipped_bits_are_refused_or_harmless(tl_soup_layout layout)
     print_message("refused %u, accepted %u\n", refused, accepted);
     TEST_CHECK(refused > 10000 && accepted > 5000);
     free(damaged);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
 }
 
 static void test_random_bytes_are_refused(void **state)

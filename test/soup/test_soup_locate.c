@@ -55,7 +55,7 @@ static void test_boxes(void **state)
             tl_vec3 p = tl_scale(vec((float)(i % 17) - 2, (float)(i / 17 % 17) - 2, (float)(i / 289) - 2), 0.5f);
             bool first = in_open(p, 0, 4), second = in_open(p, 2, 6);
             bool surface = (in_closed(p, 0, 4) && !first) || (in_closed(p, 2, 6) && !second);
-            tl_soup_place place;
+            tl_soup_location place;
             TEST_RESULT(tl_soup_locate(soup, p, &place), TL_OK);
             TEST_CHECK((place.side == TL_SOUP_ON_SURFACE) == surface);
             TEST_CHECK((place.triangle != TL_NO_TRIANGLE) == surface);
@@ -68,7 +68,7 @@ static void test_boxes(void **state)
             windings[place.winding]++;
         }
         TEST_CHECK(windings[0] > 100 && windings[1] > 100 && windings[2] > 20 && on_surface > 100);
-        tl_blob_free(soup, NULL);
+        tl_blob_free(soup);
         model_free(&m);
     }
 }
@@ -113,7 +113,7 @@ static void test_against_solid_angles(void **state)
         for (uint32_t i = 0; i < 500; i++) {
             float reach = radius * test_random_range(&random, 0.5f, 1.4f);
             tl_vec3 p = tl_mul_add(center, test_random_direction(&random), reach);
-            tl_soup_place found;
+            tl_soup_location found;
             TEST_RESULT(tl_soup_locate(soup, p, &found), TL_OK);
             double angles = winding_by_angles(&m, p);
             TEST_CHECK(found.side != TL_SOUP_ON_SURFACE && fabs(angles - found.winding) < 1e-6);
@@ -123,11 +123,11 @@ static void test_against_solid_angles(void **state)
         }
         // Its own corners.
         for (uint32_t i = 0; i < m.triangle_count; i += 7) {
-            tl_soup_place found;
+            tl_soup_location found;
             TEST_RESULT(tl_soup_locate(soup, m.vertices[m.indices[3 * i]], &found), TL_OK);
             TEST_CHECK(found.side == TL_SOUP_ON_SURFACE && found.triangle <= i);
         }
-        tl_blob_free(soup, NULL);
+        tl_blob_free(soup);
         model_free(&m);
     }
     TEST_CHECK(inside > 500 && outside > 500);
@@ -156,14 +156,14 @@ static void test_not_closed_is_named(void **state)
     uint32_t told = 0, right = 0;
     for (uint32_t i = 0; i < 2000; i++) {
         tl_vec3 p = test_random_point(&random, vec(-5, -5, -5), vec(5, 5, 5));
-        tl_soup_place place;
+        tl_soup_location place;
         tl_result result = tl_soup_locate(soup, p, &place);
         told += result == TL_ERR_NOT_CLOSED;
         right += result == TL_OK;
         TEST_CHECK(result == TL_OK || result == TL_ERR_NOT_CLOSED);
     }
     TEST_CHECK(told > 0 && right > 1000);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     // The hole filled, but wound the wrong way.
     model_triangle(&m, corners[1], corners[0], corners[2]);
     soup = model_soup(&m, NULL);
@@ -171,22 +171,22 @@ static void test_not_closed_is_named(void **state)
     told = 0;
     for (uint32_t i = 0; i < 2000; i++) {
         tl_vec3 p = test_random_point(&random, vec(-5, -5, -5), vec(5, 5, 5));
-        tl_soup_place place;
+        tl_soup_location place;
         tl_result result = tl_soup_locate(soup, p, &place);
         told += result == TL_ERR_WINDING;
         TEST_CHECK(result == TL_OK || result == TL_ERR_WINDING);
     }
     TEST_CHECK(told > 0);
-    tl_soup_place place;
+    tl_soup_location place;
     TEST_RESULT(tl_soup_locate(soup, vec(0, NAN, 0), &place), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_soup_locate(soup, vec(0, 3e38f, 0), &place), TL_OK);
     TEST_CHECK(place.side == TL_SOUP_OUTSIDE);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
     m = model_terrain(8, 2, vec(0, 0, 0), 1);
     soup = model_soup(&m, NULL);
     TEST_RESULT(tl_soup_check_closed(soup, NULL, NULL), TL_ERR_NOT_CLOSED);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -207,7 +207,7 @@ static void test_failing_memory(void **state)
         }
         TEST_RESULT(result, TL_ERR_MEMORY);
     }
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 

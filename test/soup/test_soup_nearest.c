@@ -37,7 +37,7 @@ static void check_one(const tl_soup *soup, tl_vec3 at, tl_vec3 point, float dist
     float reach = distance == floorf(distance) ? distance : nextafterf(distance, INFINITY);
     TEST_RESULT(tl_soup_nearest(soup, at, reach, NULL, &found), TL_OK);
     if (distance > 0) {
-        TEST_RESULT(tl_soup_nearest(soup, at, nextafterf(distance, 0), NULL, &found), TL_ERR_NOT_FOUND);
+        TEST_RESULT(tl_soup_nearest(soup, at, nextafterf(distance, 0), NULL, &found), TL_NOT_FOUND);
     }
 }
 
@@ -62,7 +62,7 @@ static void test_examples(void **state)
     TEST_RESULT(tl_soup_nearest(soup, vec(0, 0, 0), NAN, NULL, &found), TL_ERR_ARGUMENT);
     TEST_RESULT(tl_soup_nearest(soup, vec(3e38f, 3e38f, -3e38f), INFINITY, NULL, &found), TL_OK);
     TEST_CHECK(found.feature == TL_TRIANGLE_CORNER_1);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -122,7 +122,7 @@ static void check_model(model m, model_storage storage, uint32_t count, regimes 
     view.materials = materials;
     tl_soup_def def = model_soup_def(storage);
     tl_soup *soup = NULL;
-    TEST_RESULT(tl_soup_build(&view, &def, &soup, NULL), TL_OK);
+    TEST_RESULT(tl_soup_bake(&view, &def, &soup, NULL), TL_OK);
     tl_aabb bounds = tl_soup_bounds(soup);
     tl_vec3 margin = tl_scale(tl_aabb_size(bounds), 0.2f);
     float diagonal = tl_length(tl_aabb_size(bounds));
@@ -143,7 +143,7 @@ static void check_model(model m, model_storage storage, uint32_t count, regimes 
         tl_soup_point found;
         tl_result result = tl_soup_nearest(soup, at, reach, used, &found);
         if (nearest == UINT32_MAX) {
-            TEST_RESULT(result, TL_ERR_NOT_FOUND);
+            TEST_RESULT(result, TL_NOT_FOUND);
             r->none++;
             continue;
         }
@@ -159,7 +159,7 @@ static void check_model(model m, model_storage storage, uint32_t count, regimes 
         r->filtered += used != NULL;
     }
     free(materials);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 

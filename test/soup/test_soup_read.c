@@ -180,7 +180,7 @@ static uint32_t check_all(model m, model_storage storage)
     check_enumeration(&m, soup);
     uint32_t touching = check_box_search(&m, soup, storage != MODEL_BOXES, 1);
     check_tree_boxes(soup);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
     return touching;
 }
@@ -214,14 +214,14 @@ static void test_materials_come_back(void **state)
     for (uint32_t mixed = 0; mixed < 2; mixed++) {
         materials[49] = mixed ? 65535 : 7;
         tl_soup *soup;
-        TEST_RESULT(tl_soup_build(&view, NULL, &soup, NULL), TL_OK);
+        TEST_RESULT(tl_soup_bake(&view, NULL, &soup, NULL), TL_OK);
         TEST_CHECK(tl_soup_get_stats(soup).material_bytes == (mixed ? 100u : 0u));
         uint64_t cursor = 0;
         tl_soup_triangle triangle;
         while (tl_soup_next_triangle(soup, &cursor, &triangle)) {
             TEST_CHECK(triangle.material == materials[triangle.triangle]);
         }
-        tl_blob_free(soup, NULL);
+        tl_blob_free(soup);
     }
     model_free(&m);
 }

@@ -54,9 +54,9 @@ static void check_model(model m, model_storage storage, uint32_t *hits)
         TEST_RESULT(tl_soup_check(moved, tl_soup_size(moved)), TL_OK);
         tl_soup *built = model_soup(&m, &def);
         *hits += compare(moved, built, step);
-        tl_blob_free(built, NULL);
+        tl_blob_free(built);
     }
-    tl_blob_free(moved, NULL);
+    tl_blob_free(moved);
     model_free(&m);
 }
 
@@ -82,8 +82,8 @@ static void test_nothing_moved(void **state)
     tl_mesh_view view = model_view(&m);
     TEST_RESULT(tl_soup_refit(soup, &view, NULL), TL_OK);
     TEST_CHECK(memcmp(soup, built, (size_t)tl_soup_size(soup)) == 0);
-    tl_blob_free(soup, NULL);
-    tl_blob_free(built, NULL);
+    tl_blob_free(soup);
+    tl_blob_free(built);
     model_free(&m);
 }
 
@@ -106,7 +106,7 @@ static void test_collapsed_triangle(void **state)
     tl_soup_point nearest;
     TEST_RESULT(tl_soup_nearest(soup, vec(1, 1, 0), INFINITY, NULL, &nearest), TL_OK);
     TEST_CHECK(nearest.distance == 1);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -151,8 +151,8 @@ static void test_refused_whole(void **state)
     m.indices[4] = 4;
     view.triangle_count = 1;
     check_refused(soup, before, &view, TL_ERR_ARGUMENT, "triangle", 1);
-    tl_blob_free(soup, NULL);
-    tl_blob_free(before, NULL);
+    tl_blob_free(soup);
+    tl_blob_free(before);
     model_free(&m);
 }
 

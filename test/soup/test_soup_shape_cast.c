@@ -130,9 +130,9 @@ static void make_shape(test_random *random, test_kind kind, tl_transform pose, c
             corners[k] = vec(k & 1 ? 0.3f : -0.3f, k & 2 ? 0.2f : -0.2f, k & 4 ? 0.4f : -0.4f);
         }
         tl_hull *box;
-        TEST_RESULT(tl_hull_build(corners, 8, NULL, &box, NULL), TL_OK);
+        TEST_RESULT(tl_hull_bake(corners, 8, NULL, &box, NULL), TL_OK);
         oracle_from_hull(&shape->body, box, pose);
-        tl_blob_free(box, NULL);
+        tl_blob_free(box);
         break;
     }
     default:
@@ -169,7 +169,7 @@ static void check_cast(const model *m, const tl_soup *soup, moving *shape, tl_tr
     oracle_times times = oracle_cast(m, shape, swept, doubt);
     tl_shape_hit hit;
     tl_result result = tl_soup_cast_shape(soup, &shape->shape, pose, step, NULL, &hit);
-    if (result == TL_ERR_NOT_FOUND) {
+    if (result == TL_NOT_FOUND) {
         if (!(times.late > 1.0)) {
             print_error("%s: lost, surely touched at %.9g\n", kind_names[kind], times.late);
             fail();
@@ -226,7 +226,7 @@ static void check_model(model m, model_storage storage, uint32_t count, float le
         check_cast(&m, soup, &shape, pose, step, kind, r);
     }
     test_body_free(&hull);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -303,7 +303,7 @@ static void test_examples(void **state)
     TEST_CHECK(fabsf(hit.normal.y - 1) < 1e-6f && hit.face_normal.y == 1 && fabsf(hit.point.y) < 1e-6f);
     TEST_RESULT(cast_at(soup, box, vec(2, 3, 2), vec(0, -6, 0), NULL, &hit), TL_OK);
     TEST_CHECK(fabsf(hit.t - 0.5f) < 1e-5f && hit.t <= 0.5f && fabsf(hit.normal.y - 1) < 1e-5f);
-    TEST_RESULT(cast_at(soup, capsule, vec(2, 3, 2), vec(0, -2.9f, 0), NULL, &hit), TL_ERR_NOT_FOUND);
+    TEST_RESULT(cast_at(soup, capsule, vec(2, 3, 2), vec(0, -2.9f, 0), NULL, &hit), TL_NOT_FOUND);
     TEST_RESULT(cast_at(soup, capsule, vec(2, -3, 2), vec(0, 6, 0), NULL, &hit), TL_OK);
     TEST_CHECK(hit.back && hit.normal.y < -0.999f && hit.face_normal.y == 1);
     // In the floor: the way out, and how far.
@@ -317,17 +317,17 @@ static void test_examples(void **state)
     tl_ray_filter filter = tl_default_ray_filter();
     filter.cull = TL_RAY_CULL_BACK;
     TEST_RESULT(cast_at(soup, capsule, vec(2, 3, 2), vec(0, -6, 0), &filter, &hit), TL_OK);
-    TEST_RESULT(cast_at(soup, capsule, vec(2, -3, 2), vec(0, 6, 0), &filter, &hit), TL_ERR_NOT_FOUND);
+    TEST_RESULT(cast_at(soup, capsule, vec(2, -3, 2), vec(0, 6, 0), &filter, &hit), TL_NOT_FOUND);
     filter = tl_default_ray_filter();
     filter.material_mask = 2;
-    TEST_RESULT(cast_at(soup, capsule, vec(2, 3, 2), vec(0, -6, 0), &filter, &hit), TL_ERR_NOT_FOUND);
+    TEST_RESULT(cast_at(soup, capsule, vec(2, 3, 2), vec(0, -6, 0), &filter, &hit), TL_NOT_FOUND);
     // By name.
     TEST_RESULT(cast_at(soup, capsule, vec(2, NAN, 2), vec(0, -6, 0), NULL, &hit), TL_ERR_NOT_FINITE);
     TEST_RESULT(cast_at(soup, capsule, vec(2, 3, 2), vec(0, NAN, 0), NULL, &hit), TL_ERR_NOT_FINITE);
     TEST_RESULT(cast_at(soup, capsule, vec(2, 3, 2), vec(0, INFINITY, 0), NULL, &hit), TL_ERR_NOT_FINITE);
     TEST_RESULT(cast_at(soup, tl_convex_sphere(vec(0, 0, 0), -1), vec(2, 3, 2), vec(0, 1, 0), NULL, &hit),
                 TL_ERR_ARGUMENT);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 
@@ -352,14 +352,14 @@ static void test_slides_over_inner_edges(void **state)
         TEST_CHECK(!hit.initial_overlap && hit.normal.y > 0.9999f);
         at = tl_mul_add(at, down, hit.t);
         tl_vec3 slide = vec(test_random_range(&random, -3, 3), 0, test_random_range(&random, -3, 3));
-        TEST_RESULT(cast_at(soup, shape, at, slide, NULL, &hit), TL_ERR_NOT_FOUND);
-        TEST_RESULT(cast_at(soup, shape, at, vec(0, 1, 0), NULL, &hit), TL_ERR_NOT_FOUND); // and up
-        TEST_RESULT(cast_at(soup, shape, at, vec(0, -1, 0), NULL, &hit), TL_OK);           // not down
+        TEST_RESULT(cast_at(soup, shape, at, slide, NULL, &hit), TL_NOT_FOUND);
+        TEST_RESULT(cast_at(soup, shape, at, vec(0, 1, 0), NULL, &hit), TL_NOT_FOUND); // and up
+        TEST_RESULT(cast_at(soup, shape, at, vec(0, -1, 0), NULL, &hit), TL_OK);       // not down
         TEST_CHECK(hit.t < 1e-4f);
         slid++;
     }
     TEST_CHECK(slid == 600);
-    tl_blob_free(soup, NULL);
+    tl_blob_free(soup);
     model_free(&m);
 }
 

@@ -3,7 +3,7 @@
 // tree_build.c with tree_split.c, and kd_build.c: every pair is in a leaf, every box holds what is below it, and the
 // tree pays.
 
-#include "soup/bake/soup_build.h"
+#include "soup/bake/soup_bake.h"
 #include "soup/layout/soup_layout.h"
 #include "soup_models.h"
 
@@ -64,7 +64,7 @@ static walk check_tree(const model *m, tl_soup_partition partition, float split_
     tl_mesh_def mesh_def = tl_default_mesh_def();
     mesh_def.keep_duplicates = true;
     tl_mesh mesh;
-    TEST_RESULT(tl_mesh_build(&view, &mesh_def, &mesh, NULL), TL_OK);
+    TEST_RESULT(tl_mesh_bake(&view, &mesh_def, &mesh, NULL), TL_OK);
     tl_arena arena;
     tl_arena_init(&arena, NULL);
     tl_pair *pairs = NULL;

@@ -64,7 +64,7 @@ static void test_random_trees(void **state)
         model m = model_random(50 * seed, 10, 2, seed);
         tl_mesh_view view = model_view(&m);
         tl_mesh mesh;
-        TEST_RESULT(tl_mesh_build(&view, NULL, &mesh, NULL), TL_OK);
+        TEST_RESULT(tl_mesh_bake(&view, NULL, &mesh, NULL), TL_OK);
         tl_arena arena;
         tl_arena_init(&arena, NULL);
         tl_pair *pairs = NULL;

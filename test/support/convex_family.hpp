@@ -55,11 +55,11 @@ struct cloud_list {
         auto *list = static_cast<cloud_list *>(user);
         tl_hull *hull = nullptr;
         if (list->clouds.size() < 500 && count <= 120 &&
-            tl_hull_build(points, count, nullptr, &hull, nullptr) == TL_OK) {
+            tl_hull_bake(points, count, nullptr, &hull, nullptr) == TL_OK) {
             if (hull->vertex_count <= 40) {
                 list->clouds.emplace_back(points, points + count);
             }
-            tl_blob_free(hull, nullptr);
+            tl_blob_free(hull);
         }
     }
 };
@@ -119,7 +119,7 @@ struct family_body {
     }
     ~family_body()
     {
-        tl_blob_free(hull, nullptr);
+        tl_blob_free(hull);
     }
     family_body(const family_body &) = delete;
     family_body &operator=(const family_body &) = delete;
@@ -132,7 +132,7 @@ struct family_body {
   private:
     void use_hull(std::vector<tl_vec3> &cloud)
     {
-        TEST_RESULT(tl_hull_build(cloud.data(), (uint32_t)cloud.size(), nullptr, &hull, nullptr), TL_OK);
+        TEST_RESULT(tl_hull_bake(cloud.data(), (uint32_t)cloud.size(), nullptr, &hull, nullptr), TL_OK);
         shape = tl_convex_from_hull(hull, 0);
         tl_vec3 extents = tl_aabb_size(hull->bounds);
         size = std::max(extents.x, std::max(extents.y, extents.z));

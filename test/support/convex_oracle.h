@@ -287,7 +287,7 @@ static inline void test_body_make(test_body *body, body_family family, uint64_t 
     }
     tl_hull_def def = tl_default_hull_def();
     def.thickness = 0.001f * scale;
-    TEST_RESULT(tl_hull_build(points, count, &def, &body->hull, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(points, count, &def, &body->hull, NULL), TL_OK);
     body->shape = tl_convex_from_hull(body->hull, 0.0f);
     tl_vec3 size = tl_aabb_size(body->hull->bounds);
     body->size = tl_maxf(size.x, tl_maxf(size.y, size.z));
@@ -295,7 +295,7 @@ static inline void test_body_make(test_body *body, body_family family, uint64_t 
 
 static inline void test_body_free(test_body *body)
 {
-    tl_blob_free(body->hull, NULL);
+    tl_blob_free(body->hull);
 }
 
 static inline void test_body_oracle(const test_body *body, tl_transform pose, oracle_body *out)

@@ -26,11 +26,11 @@ struct detour_deleter {
     }
     void operator()(tl_navmesh *navmesh) const
     {
-        tl_navmesh_free(navmesh);
+        tl_navmesh_destroy(navmesh);
     }
     void operator()(tl_nav_query *query) const
     {
-        tl_nav_query_free(query);
+        tl_nav_query_destroy(query);
     }
 };
 
@@ -133,7 +133,7 @@ inline tl_nav_tile *make_talus_tile(const recast_pipeline &recast, const tl_nav_
     source.agent_radius = config.agent_radius;
     source.agent_max_climb = config.agent_max_climb;
     tl_nav_tile *tile = nullptr;
-    tl_nav_tile_create(&source, nullptr, &tile, nullptr);
+    tl_nav_tile_encode(&source, nullptr, &tile, nullptr);
     return tile;
 }
 
@@ -184,7 +184,7 @@ struct detour_level {
     {
         tl_nav_config config;
         recast_pipeline recast;
-        if (tl_nav_config_make(&def, bounds, x, z, &config, nullptr) != TL_OK ||
+        if (tl_nav_config_from_def(&def, bounds, x, z, &config, nullptr) != TL_OK ||
             !recast.rasterize(config, view, def.agent_max_slope) || !recast.filter(config) ||
             !recast.build_compact(config) || !recast.erode(config) || !recast.distance_field() ||
             !recast.regions(config) || !recast.build_contours(config) || !recast.build_polygons(config) ||

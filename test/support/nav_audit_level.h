@@ -39,7 +39,7 @@ static inline void audit_move(test_level *level, tl_vec3 offset)
 static inline tl_soup *audit_soup(const test_level *level)
 {
     tl_soup *soup;
-    TEST_RESULT(tl_soup_build(&level->mesh, NULL, &soup, NULL), TL_OK);
+    TEST_RESULT(tl_soup_bake(&level->mesh, NULL, &soup, NULL), TL_OK);
     return soup;
 }
 

@@ -7,14 +7,14 @@
 
 #include "talus_test.h"
 
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <talus/nav_query.h>
 
 static inline tl_navmesh *test_nav_bake(const tl_nav_def *def, const tl_nav_input *input)
 {
     tl_navmesh *navmesh;
     tl_nav_tiles tiles;
-    TEST_RESULT(tl_nav_build(def, input, &tiles, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake(def, input, &tiles, NULL), TL_OK);
     TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
     for (uint32_t i = 0; i < tiles.tile_count; i++) {
         TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED), TL_OK);

@@ -7,7 +7,7 @@
 
 #include "talus_test.h"
 
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 
 #include "base/arena.h"
 

@@ -23,8 +23,8 @@ static inline int64_t contour_area2(const tl_contour_set *set, uint32_t contour)
 static inline void make_contours(tl_nav_compact *compact, const tl_nav_config *config, tl_nav_contours *contours)
 {
     TEST_RESULT(tl_nav_distance_field(NULL, compact, NULL), TL_OK);
-    TEST_RESULT(tl_nav_build_regions(config, NULL, compact, NULL), TL_OK);
-    TEST_RESULT(tl_nav_build_contours(config, compact, NULL, contours, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake_regions(config, NULL, compact, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake_contours(config, compact, NULL, contours, NULL), TL_OK);
 }
 
 static inline int64_t contour_orient(const tl_contour_vertex *a, const tl_contour_vertex *b, const tl_contour_vertex *c)

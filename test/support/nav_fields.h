@@ -9,7 +9,7 @@
 #include "talus_test.h"
 
 #include <string.h>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 
 /// One tile of width * height cells of 1 m, voxels of 1 m, agent 3 voxels high that steps 1.
 static inline tl_nav_config test_nav_config(uint32_t width, uint32_t height)

@@ -354,7 +354,7 @@ static inline tl_nav_tile *fixture_build_tile(const fixture_level *level, int32_
     if (mesh.mesh.polygon_count > 0) {
         tl_nav_tile_source source = fixture_source(&mesh);
         tl_report report;
-        TEST_RESULT(tl_nav_tile_create(&source, allocator, &tile, &report), TL_OK);
+        TEST_RESULT(tl_nav_tile_encode(&source, allocator, &tile, &report), TL_OK);
         TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, &report), TL_OK);
     }
     fixture_free_mesh(&mesh);
@@ -485,12 +485,13 @@ static inline fixture_ring fixture_make_ring(void)
 
 static inline void fixture_free_ring(fixture_ring *ring)
 {
-    tl_nav_query_free(ring->few_nodes);
-    tl_nav_query_free(ring->many_nodes);
-    tl_navmesh_free(ring->navmesh);
+    tl_nav_query_destroy(ring->few_nodes);
+    tl_nav_query_destroy(ring->many_nodes);
+    tl_navmesh_destroy(ring->navmesh);
 }
 
-/// Two floors of two cells with a gap of two between them, and a link over it, one way. Free it with tl_navmesh_free.
+/// Two floors of two cells with a gap of two between them, and a link over it, one way. Free it with
+/// tl_navmesh_destroy.
 static inline tl_navmesh *fixture_gap(tl_nav_ref *link_out)
 {
     const char *const rows[] = { "00##00" };

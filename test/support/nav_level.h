@@ -10,7 +10,7 @@
 
 #include <string.h>
 #include <talus/mesh.h>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 
 enum { TEST_LEVEL_MAX_VERTICES = 256, TEST_LEVEL_MAX_TRIANGLES = 256 };
 

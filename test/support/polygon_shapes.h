@@ -257,7 +257,7 @@ static inline uint64_t shape_check_failing_memory(const tl_contour_set *set, tl_
         def.host.allocator = &allocator.allocator;
         tl_polygon_mesh mesh;
         memset(&mesh, 0, sizeof mesh);
-        result = tl_polygon_mesh_build(set, &def, &mesh, NULL);
+        result = tl_polygon_mesh_bake(set, &def, &mesh, NULL);
         TEST_CHECK(allocator.live_blocks == (result == TL_OK ? 1 : 0));
         TEST_CHECK(result == TL_OK || mesh.block == NULL);
         tl_polygon_mesh_free(&mesh, &allocator.allocator);

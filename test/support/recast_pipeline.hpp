@@ -9,7 +9,7 @@
 
 #include <cmath>
 #include <cstdint>
-#include <talus/nav_build.h>
+#include <talus/nav_bake.h>
 #include <vector>
 
 struct recast_pipeline {

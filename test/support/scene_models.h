@@ -29,7 +29,7 @@ static inline tl_hull *scene_hull(uint32_t count, float size, uint64_t seed)
         points[i] = tl_scale(test_random_direction(&random), size);
     }
     tl_hull *hull = NULL;
-    TEST_RESULT(tl_hull_build(points, count, NULL, &hull, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(points, count, NULL, &hull, NULL), TL_OK);
     return hull;
 }
 
@@ -73,11 +73,11 @@ static inline void scene_parts_make(scene_parts *parts, float size)
 static inline void scene_parts_free(scene_parts *parts)
 {
     for (uint32_t i = 0; i < SCENE_SOUPS; i++) {
-        tl_blob_free(parts->soups[i], NULL);
+        tl_blob_free(parts->soups[i]);
         model_free(&parts->models[i]);
     }
-    tl_blob_free(parts->hulls[0], NULL);
-    tl_blob_free(parts->hulls[1], NULL);
+    tl_blob_free(parts->hulls[0]);
+    tl_blob_free(parts->hulls[1]);
 }
 
 static inline tl_quat scene_rotation(test_random *random)
@@ -117,7 +117,7 @@ static inline void scene_fill(const scene_parts *parts, test_random *random, tl_
 static inline tl_scene *scene_build(const tl_scene_item *items, uint32_t count)
 {
     tl_scene *scene = NULL;
-    TEST_RESULT(tl_scene_build(items, count, NULL, &scene, NULL), TL_OK);
+    TEST_RESULT(tl_scene_bake(items, count, NULL, &scene, NULL), TL_OK);
     return scene;
 }
 

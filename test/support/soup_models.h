@@ -78,7 +78,7 @@ static inline tl_soup *model_soup(const model *m, const tl_soup_def *def)
 {
     tl_mesh_view view = model_view(m);
     tl_soup *soup = NULL;
-    TEST_RESULT(tl_soup_build(&view, def, &soup, NULL), TL_OK);
+    TEST_RESULT(tl_soup_bake(&view, def, &soup, NULL), TL_OK);
     return soup;
 }
 

@@ -146,7 +146,7 @@ static void write_blocks(tl_hull *hull, const uint32_t *degrees)
     }
 }
 
-tl_result tl_hull_bake(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
+tl_result tl_hull_emit(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
                        tl_hull **hull_out)
 {
     uint32_t *degrees = TL_PUSH_ZERO(arena, uint32_t, polygons->vertex_count);
@@ -180,7 +180,7 @@ tl_result tl_hull_bake(const tl_hull_polygons *polygons, const tl_vec3 *points, 
         result = tl_hull_fill_table(hull, arena);
     }
     if (result != TL_OK) {
-        tl_blob_free(hull, &arena->allocator);
+        tl_blob_free(hull);
         return result;
     }
     *hull_out = hull;

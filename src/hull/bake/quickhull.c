@@ -253,15 +253,15 @@ static tl_result build(tl_quickhull *hull, const tl_hull_def *def, tl_hull **hul
     report_left_out(hull, report);
     tl_hull_polygons polygons;
     TL_TRY(tl_quickhull_merge_faces(hull, &polygons));
-    TL_TRY(tl_hull_bake(&polygons, hull->points, copies, hull->arena, hull_out));
+    TL_TRY(tl_hull_emit(&polygons, hull->points, copies, hull->arena, hull_out));
     if (report != NULL) {
         report->thickened = copies > 1;
     }
     return TL_OK;
 }
 
-tl_result tl_hull_build(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
-                        tl_hull_report *report_out)
+tl_result tl_hull_bake(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
+                       tl_hull_report *report_out)
 {
     TL_ASSERT(hull_out != NULL);
     const tl_hull_def defaults = tl_default_hull_def();

@@ -149,7 +149,7 @@ tl_result tl_quickhull_thicken(tl_quickhull *hull, const uint32_t seed[4], uint3
                                uint32_t *copies_out);
 
 // bake.c
-tl_result tl_hull_bake(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
+tl_result tl_hull_emit(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
                        tl_hull **hull_out);
 
 #endif

@@ -7,32 +7,32 @@
 
 #include <talus/hull.h>
 
-static tl_result add_vertices(const tl_hull *hull, tl_halfedge *mesh)
+static tl_result add_vertices(const tl_hull *hull, tl_halfedge_mesh *mesh)
 {
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         uint32_t index;
-        TL_TRY(tl_halfedge_add_vertex(mesh, tl_hull_vertices(hull)[v], &index));
+        TL_TRY(tl_halfedge_mesh_add_vertex(mesh, tl_hull_vertices(hull)[v], &index));
         TL_ASSERT(index == v); // an empty mesh hands its indices out in order
     }
     return TL_OK;
 }
 
 // A face's half-edges are consecutive.
-static tl_result add_faces(const tl_hull *hull, tl_halfedge *mesh, uint32_t *corners)
+static tl_result add_faces(const tl_hull *hull, tl_halfedge_mesh *mesh, uint32_t *corners)
 {
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_face face = tl_hull_faces(hull)[f];
         for (uint32_t k = 0; k < face.count; k++) {
             corners[k] = tl_hull_half_edges(hull)[face.first + k].origin;
         }
-        TL_TRY(tl_halfedge_add_face(mesh, corners, face.count, NULL));
+        TL_TRY(tl_halfedge_mesh_add_face(mesh, corners, face.count, NULL));
     }
     return TL_OK;
 }
 
-tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge *mesh)
+tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge_mesh *mesh)
 {
-    tl_halfedge_clear(mesh);
+    tl_halfedge_mesh_clear(mesh);
     uint32_t most = hull->vertex_count; // corners of a face
     uint32_t *corners = tl_allocate_array(&mesh->allocator, most, sizeof *corners);
     if (corners == NULL) {
@@ -42,7 +42,7 @@ tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge *mesh)
     result = result == TL_OK ? add_faces(hull, mesh, corners) : result;
     tl_release_array(&mesh->allocator, corners, most, sizeof *corners);
     if (result != TL_OK) {
-        tl_halfedge_clear(mesh);
+        tl_halfedge_mesh_clear(mesh);
     }
     return result;
 }

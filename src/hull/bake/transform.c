@@ -32,7 +32,7 @@ tl_result tl_hull_transform(const tl_hull *hull, tl_vec3 scale, tl_transform pos
         points[v] = tl_vec3d_to_float(tl_frame_point(&frame, scaled));
     }
     tl_hull *out;
-    tl_result result = tl_hull_build(points, hull->vertex_count, &def, &out, report_out);
+    tl_result result = tl_hull_bake(points, hull->vertex_count, &def, &out, report_out);
     tl_release_array(def.host.allocator, points, hull->vertex_count, sizeof *points);
     if (result == TL_OK) {
         uint32_t *sources = (uint32_t *)(void *)((char *)out + out->sources);

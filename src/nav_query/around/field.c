@@ -79,7 +79,7 @@ tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, con
         query, navmesh, filter, false, def->max_cost, def->zone != NULL ? &zone : NULL, false, false
     };
     if (!tl_nav_flood_run(&flood, start)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     *count_out = query->node_count;
     if (def->by_reference) {
@@ -90,7 +90,7 @@ tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, con
     if (flood.out_of_nodes) {
         return TL_ERR_LIMIT;
     }
-    return *count_out <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return *count_out <= capacity ? TL_OK : TL_INCOMPLETE;
 }
 
 uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t count, tl_nav_ref polygon)
@@ -116,13 +116,13 @@ tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t count, u
     uint32_t steps = 0;
     for (uint32_t i = entry; i != UINT32_MAX; i = entries[i].parent) {
         if (i >= count || steps == count) {
-            return TL_ERR_NOT_FOUND;
+            return TL_NOT_FOUND;
         }
         steps++;
         length += entries[i].link == TL_NAV_NO_REF ? 1 : 2;
     }
     if (length == 0) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     *count_out = length;
     for (uint32_t i = entry, at = length; i != UINT32_MAX; i = entries[i].parent) {
@@ -133,5 +133,5 @@ tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t count, u
             polygons_out[at] = entries[i].link;
         }
     }
-    return length <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return length <= capacity ? TL_OK : TL_INCOMPLETE;
 }

@@ -94,7 +94,7 @@ tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh,
         return TL_ERR_ARGUMENT;
     }
     if (!tl_nav_split_ref(navmesh, center->polygon, &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     double radius_sq = (double)max_radius * (double)max_radius;
     wall_search search = { query,

@@ -303,7 +303,7 @@ tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_nav
     for (uint32_t i = 0; i < count; i++) {
         locations_out[i] = none;
     }
-    tl_nav_zone zone = tl_nav_circle(center->point, radius);
+    tl_nav_zone zone = tl_nav_zone_circle(center->point, radius);
     tl_nav_zone_test test;
     TL_TRY(tl_nav_zone_begin(&zone, &test));
     if (!tl_nav_is_finite(center->point)) {
@@ -311,7 +311,7 @@ tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_nav
     }
     tl_nav_flood flood = { query, navmesh, filter, true, radius, &test, false, false };
     if (!tl_nav_flood_run(&flood, center)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     const circle c = make_circle((double)radius);
     const double sum = radius > 0.0f ? sum_areas(&flood, &c) : 0.0;

@@ -523,7 +523,7 @@ tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *fi
         return TL_ERR_NOT_FINITE;
     }
     if (!tl_nav_split_ref(navmesh, start->polygon, &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     ray_walk walk;
     memset(&walk, 0, sizeof walk);
@@ -549,5 +549,5 @@ tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *fi
         }
     }
     describe(&ray, &walk, hit_out);
-    return walk.polygon_count <= capacity || polygons_out == NULL ? TL_OK : TL_ERR_CAPACITY;
+    return walk.polygon_count <= capacity || polygons_out == NULL ? TL_OK : TL_INCOMPLETE;
 }

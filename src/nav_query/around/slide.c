@@ -100,9 +100,9 @@ static uint32_t write_way(const slide_search *search, tl_nav_ref *polygons, uint
     return count;
 }
 
-tl_result tl_nav_query_slide(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                             const tl_nav_location *start, tl_vec3 target, tl_nav_ref *polygons_out, uint32_t capacity,
-                             uint32_t *count_out, tl_nav_location *end_out)
+tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
+                                          const tl_nav_location *start, tl_vec3 target, tl_nav_ref *polygons_out,
+                                          uint32_t capacity, uint32_t *count_out, tl_nav_location *end_out)
 {
     *end_out = *start;
     *count_out = 0;
@@ -112,7 +112,7 @@ tl_result tl_nav_query_slide(tl_nav_query *query, const tl_navmesh *navmesh, con
         return TL_ERR_NOT_FINITE;
     }
     if (!tl_nav_split_ref(navmesh, start->polygon, &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     double dx = (double)target.x - (double)start->point.x;
     double dz = (double)target.z - (double)start->point.z;
@@ -149,5 +149,5 @@ tl_result tl_nav_query_slide(tl_nav_query *query, const tl_navmesh *navmesh, con
     if (search.full) {
         return TL_ERR_LIMIT;
     }
-    return *count_out <= capacity || capacity == 0 ? TL_OK : TL_ERR_CAPACITY;
+    return *count_out <= capacity || capacity == 0 ? TL_OK : TL_INCOMPLETE;
 }

@@ -44,7 +44,7 @@ tl_result tl_navmesh_polygon_walls(const tl_navmesh *navmesh, const tl_nav_filte
     uint32_t slot = 0;
     uint32_t local = 0;
     if (!tl_nav_split_ref(navmesh, polygon, &slot, &local)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     uint32_t edge_count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, slot, local, &edge_count);
@@ -59,7 +59,7 @@ tl_result tl_navmesh_polygon_walls(const tl_navmesh *navmesh, const tl_nav_filte
             ++*count_out;
         }
     }
-    return *count_out <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return *count_out <= capacity ? TL_OK : TL_INCOMPLETE;
 }
 
 typedef struct wall_gathering {
@@ -126,7 +126,7 @@ tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh
         return TL_ERR_ARGUMENT;
     }
     if (!tl_nav_split_ref(navmesh, center->polygon, &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     wall_gathering walls = { query,
                              navmesh,
@@ -147,5 +147,5 @@ tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh
     if (walls.full) {
         return TL_ERR_LIMIT;
     }
-    return walls.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return walls.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

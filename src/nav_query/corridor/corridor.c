@@ -17,7 +17,7 @@
 
 #include <string.h>
 
-tl_nav_corridor tl_nav_corridor_make(tl_nav_ref *room, uint32_t capacity)
+tl_nav_corridor tl_nav_corridor_init(tl_nav_ref *room, uint32_t capacity)
 {
     tl_nav_corridor corridor;
     memset(&corridor, 0, sizeof corridor);
@@ -83,19 +83,19 @@ tl_result tl_nav_corridor_find(tl_nav_corridor *corridor, tl_nav_query *query, c
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
     if (corridor->count == 0) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     tl_nav_location start = { corridor->path[0], corridor->position };
     tl_result result =
         tl_nav_query_find_path(query, navmesh, filter, &start, goal, corridor->path, corridor->capacity, path_out);
-    if (result != TL_OK && result != TL_ERR_CAPACITY) {
+    if (result != TL_OK && result != TL_INCOMPLETE) {
         return result;
     }
     corridor->goal = goal->point;
     corridor->target = path_out->end.point;
     corridor->reaches = path_out->status == TL_NAV_PATH_COMPLETE;
     corridor->count = path_out->polygon_count;
-    if (result == TL_ERR_CAPACITY) {
+    if (result == TL_INCOMPLETE) {
         cut(corridor, navmesh, corridor->capacity);
     }
     return TL_OK;
@@ -131,12 +131,12 @@ static tl_result slide(tl_nav_corridor *corridor, tl_nav_query *query, const tl_
 {
     tl_nav_location end;
     if (corridor->count == 0) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
-    tl_result result =
-        tl_nav_query_slide(query, navmesh, filter, from, to, polygons, TL_NAV_CORRIDOR_STEP, count_out, &end);
+    tl_result result = tl_nav_query_move_along_surface(query, navmesh, filter, from, to, polygons, TL_NAV_CORRIDOR_STEP,
+                                                       count_out, &end);
     if (result != TL_OK) {
-        return result == TL_ERR_CAPACITY ? TL_ERR_LIMIT : result;
+        return result == TL_INCOMPLETE ? TL_ERR_LIMIT : result;
     }
     *point_out = end.point;
     return tl_navmesh_height(navmesh, end.polygon, end.point.x, end.point.z, &point_out->y);
@@ -238,7 +238,7 @@ tl_result tl_nav_corridor_pass_link(tl_nav_corridor *corridor, const tl_navmesh 
     uint32_t at = tl_nav_corridor_before_link(corridor);
     tl_vec3 ends[2];
     if (at == 0 || at + 1 >= corridor->count || tl_nav_find_link(navmesh, &corridor->path[at - 1], ends) != TL_OK) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     for (int i = 0; i < 2 && ends_out != NULL; i++) {
         ends_out[i].polygon = corridor->path[i == 0 ? at - 1 : at + 1];

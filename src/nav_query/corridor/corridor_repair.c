@@ -59,7 +59,7 @@ tl_result tl_nav_corridor_repair(tl_nav_corridor *corridor, tl_nav_query *query,
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
     if (corridor->count == 0) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     if (tl_nav_corridor_check(corridor, navmesh, filter, UINT32_MAX) == corridor->count) {
         path_out->status = TL_NAV_PATH_COMPLETE;
@@ -75,7 +75,7 @@ tl_result tl_nav_corridor_repair(tl_nav_corridor *corridor, tl_nav_query *query,
     }
     tl_vec3 wanted = corridor->goal;
     tl_result result = tl_navmesh_find_nearest(navmesh, filter, wanted, half_extents, &goal);
-    if (result != TL_OK && result != TL_ERR_NOT_FOUND) {
+    if (result != TL_OK && result != TL_NOT_FOUND) {
         return result;
     }
     tl_nav_corridor_reset(corridor, &agent);

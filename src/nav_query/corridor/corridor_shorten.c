@@ -26,7 +26,7 @@ static tl_result look_ahead(const tl_nav_corridor *corridor, const tl_navmesh *n
 {
     ahead->count = 0;
     tl_result result = tl_nav_corridor_corners(corridor, navmesh, ahead->corners, MOST_CORNERS, &ahead->corner_count);
-    if (result != TL_OK && result != TL_ERR_CAPACITY) {
+    if (result != TL_OK && result != TL_INCOMPLETE) {
         return result;
     }
     uint32_t last = 1;
@@ -42,7 +42,7 @@ static tl_result look_ahead(const tl_nav_corridor *corridor, const tl_navmesh *n
     result = tl_navmesh_trace_path(navmesh, filter, corridor->path, polygon_count, ahead->corners, ahead->corner_count,
                                    TL_NAV_CORNER_CROSSING, ahead->points, MOST_POINTS, &ahead->count, NULL);
     ahead->count = ahead->count < MOST_POINTS ? ahead->count : MOST_POINTS;
-    return result == TL_ERR_CAPACITY ? TL_OK : result;
+    return result == TL_INCOMPLETE ? TL_OK : result;
 }
 
 // The place of a polygon in the corridor before its first link, or UINT32_MAX.
@@ -72,7 +72,7 @@ static tl_result try_sight(tl_nav_corridor *corridor, const tl_navmesh *navmesh,
     tl_nav_ray_hit hit;
     tl_result result = tl_navmesh_cast_ray(navmesh, filter, &from, to->point, polygons, TL_NAV_CORRIDOR_STEP, &hit);
     if (result != TL_OK || hit.hit) {
-        return result == TL_ERR_CAPACITY ? TL_OK : result;
+        return result == TL_INCOMPLETE ? TL_OK : result;
     }
     uint32_t place = place_of(corridor, hit.polygon);
     if (place == UINT32_MAX) {
@@ -83,7 +83,7 @@ static tl_result try_sight(tl_nav_corridor *corridor, const tl_navmesh *navmesh,
     uint32_t count = 0;
     float cost = 0.0f;
     result = tl_navmesh_trace_path(navmesh, filter, polygons, hit.polygon_count, ends, 2, 0, NULL, 0, &count, &cost);
-    if (result != TL_ERR_CAPACITY || !is_cheaper(cost, to->cost)) {
+    if (result != TL_INCOMPLETE || !is_cheaper(cost, to->cost)) {
         return TL_OK;
     }
     tl_nav_corridor_replace(corridor, navmesh, polygons, hit.polygon_count, place + 1);
@@ -148,7 +148,7 @@ static bool is_cheaper_way(const tl_nav_corridor *corridor, const tl_navmesh *na
     return tl_navmesh_straight_path(navmesh, polygons, polygon_count, corridor->position, to->point, corners,
                                     MOST_CORNERS, &corner_count, NULL) == TL_OK &&
            tl_navmesh_trace_path(navmesh, filter, polygons, polygon_count, corners, corner_count, 0, NULL, 0, &count,
-                                 &cost) == TL_ERR_CAPACITY &&
+                                 &cost) == TL_INCOMPLETE &&
            is_cheaper(cost, to->cost);
 }
 

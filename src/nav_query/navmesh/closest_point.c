@@ -109,7 +109,7 @@ tl_result tl_navmesh_closest_point(const tl_navmesh *navmesh, tl_nav_ref ref, tl
         return TL_ERR_NOT_FINITE;
     }
     if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     *closest_out = tl_nav_closest_on_surface(navmesh->slots[slot].tile, polygon, point, &inside);
     if (inside_out != NULL) {

@@ -248,7 +248,7 @@ tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t 
     uint32_t polygon = 0;
     *island_out = 0;
     if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     *island_out = tl_nav_island_of(navmesh, slot, polygon);
     return TL_OK;

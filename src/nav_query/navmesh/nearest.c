@@ -179,7 +179,7 @@ static void search_tiles(nearest_search *search)
 static tl_result write_nearest(const nearest_search *search, tl_nav_location *location_out)
 {
     if (search->best_slot == TL_NAV_NO_SLOT) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     location_out->polygon = tl_nav_make_ref(search->navmesh, search->best_slot, search->best_polygon);
     location_out->point = search->best_point;
@@ -216,7 +216,7 @@ tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_
         return TL_ERR_NOT_FINITE;
     }
     if (!tl_nav_split_ref(navmesh, from, &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     tl_aabb everywhere = { { -INFINITY, -INFINITY, -INFINITY }, { INFINITY, INFINITY, INFINITY } };
     nearest_search search = {

@@ -138,7 +138,7 @@ tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link)
     tl_nav_offmesh_table *table = &navmesh->offmesh;
     tl_nav_offmesh_entry *entry = tl_nav_find_offmesh(table, link);
     if (entry == NULL) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     if (tl_nav_is_anchored(entry) && !tl_nav_is_on_one_shore(navmesh, entry)) {
         tl_nav_seed_island(navmesh, entry->ends[0].slot, entry->ends[0].polygon);
@@ -162,7 +162,7 @@ tl_result tl_navmesh_offmesh_state(const tl_navmesh *navmesh, tl_nav_ref link, t
     memset(state_out, 0, sizeof *state_out);
     const tl_nav_offmesh_entry *entry = tl_nav_find_offmesh(&navmesh->offmesh, link);
     if (entry == NULL) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     state_out->offmesh = entry->offmesh;
     for (int i = 0; i < 2; i++) {
@@ -206,7 +206,7 @@ tl_result tl_navmesh_offmesh_from(const tl_navmesh *navmesh, tl_nav_ref polygon,
     uint32_t index = 0;
     *count_out = 0;
     if (!tl_nav_split_ref(navmesh, polygon, &slot, &index)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     for (uint32_t end = tl_nav_first_anchor(navmesh, slot, index); end != TL_NAV_NO_END;) {
         const tl_nav_offmesh_entry *entry = &navmesh->offmesh.entries[end / 2];
@@ -219,5 +219,5 @@ tl_result tl_navmesh_offmesh_from(const tl_navmesh *navmesh, tl_nav_ref polygon,
         }
         end = anchor->next;
     }
-    return *count_out <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return *count_out <= capacity ? TL_OK : TL_INCOMPLETE;
 }

@@ -64,5 +64,5 @@ tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_nav_filte
         search_tile(&search, slot);
     }
     *count_out = search.count;
-    return search.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return search.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

@@ -101,7 +101,7 @@ tl_result tl_navmesh_random_point(const tl_navmesh *navmesh, const tl_nav_filter
     uint64_t sum =
         all_pass ? tl_nav_area_table_sum(navmesh) : sum_passing(navmesh, filter, UINT64_MAX, &slot, &polygon);
     if (sum == 0) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     at = tl_nav_random_below(random[0], sum);
     if (all_pass) {

@@ -37,7 +37,7 @@ static void keep_same(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, tl_na
         const tl_nav_tile *tile = navmesh->slots[slot].tile;
         const uint32_t same = find_same(stack, tile);
         if (same < stack->count) {
-            tl_blob_free(stack->tiles[same], &navmesh->allocator);
+            tl_blob_free(stack->tiles[same]);
             stack->tiles[same] = NULL;
         } else {
             (void)tl_navmesh_remove_layer(navmesh, tile_x, tile->layer, tile_z);

@@ -50,7 +50,7 @@ tl_result tl_navmesh_resolve(const tl_navmesh *navmesh, tl_nav_ref ref, const tl
     uint32_t slot = 0;
     uint32_t polygon = 0;
     if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     if (tile_out != NULL) {
         *tile_out = navmesh->slots[slot].tile;
@@ -68,7 +68,7 @@ tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_lin
     uint32_t polygon = 0;
     *count_out = 0;
     if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     tl_nav_ways ways = tl_nav_ways_of(navmesh, slot, polygon);
     tl_nav_way way;
@@ -79,5 +79,5 @@ tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_lin
         }
         (*count_out)++;
     }
-    return *count_out <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return *count_out <= capacity ? TL_OK : TL_INCOMPLETE;
 }

@@ -53,12 +53,12 @@ static void free_slot_content(tl_navmesh *navmesh, tl_nav_slot *slot)
             const tl_nav_tile *read;
             tl_nav_tile *write;
         } tile = { slot->tile };
-        tl_blob_free(tile.write, &navmesh->allocator);
+        tl_blob_free(tile.write);
     }
     slot->tile = NULL;
 }
 
-void tl_navmesh_free(tl_navmesh *navmesh)
+void tl_navmesh_destroy(tl_navmesh *navmesh)
 {
     if (navmesh == NULL) {
         return;
@@ -505,7 +505,7 @@ tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t 
 {
     uint32_t index = find_layer(navmesh, tile_x, layer, tile_z);
     if (index == TL_NAV_NO_SLOT) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     remove_slot(navmesh, index);
     return TL_OK;
@@ -515,7 +515,7 @@ tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t ti
 {
     uint32_t index = tl_nav_find_slot(navmesh, tile_x, tile_z);
     if (index == TL_NAV_NO_SLOT) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     for (; index != TL_NAV_NO_SLOT; index = tl_nav_find_slot(navmesh, tile_x, tile_z)) {
         remove_slot(navmesh, index);

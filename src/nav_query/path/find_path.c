@@ -297,7 +297,7 @@ tl_result tl_nav_run_write(const tl_nav_path_run *run, tl_nav_ref *polygons_out,
         uint32_t last = found ? run->ways.last : nearest_to_goal(run, &path_out->end.point);
         write_ways(&run->ways, last, polygons_out, capacity, path_out);
     }
-    return path_out->polygon_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return path_out->polygon_count <= capacity ? TL_OK : TL_INCOMPLETE;
 }
 
 // ---------------------------------------------------------------------------------------------------------
@@ -396,7 +396,7 @@ tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh,
     bool is_uniform = true;
     TL_TRY(set_up(query, navmesh, filter, start, goal, &run, &is_uniform));
     if (is_uniform && !tl_nav_is_cut_off(&run.exact) && find_over_roads(&run, polygons_out, capacity, path_out)) {
-        return path_out->polygon_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+        return path_out->polygon_count <= capacity ? TL_OK : TL_INCOMPLETE;
     }
     begin_run(&run, is_uniform);
     uint64_t steps = UINT64_MAX;

@@ -28,7 +28,7 @@ static tl_result route_exactly(tl_nav_query *query, const tl_navmesh *navmesh, c
         route->corner_count = path.corner_count;
         route->length = (float)path.surface_length;
         bool fits = path.polygon_count <= buffers->polygon_capacity && path.corner_count <= buffers->corner_capacity;
-        result = result == TL_OK && !fits ? TL_ERR_CAPACITY : result;
+        result = result == TL_OK && !fits ? TL_INCOMPLETE : result;
     }
     return result;
 }

@@ -98,7 +98,7 @@ static tl_result portal_at(const funnel *f, uint32_t i, tl_vec3 *left_out, tl_ve
     uint32_t slot = 0;
     uint32_t polygon = 0;
     if (!tl_nav_split_ref(f->navmesh, f->polygons[i + 1], &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     return tl_nav_portal_between(f->navmesh, f->polygons[i], slot, polygon, left_out, right_out) ? TL_OK
                                                                                                  : TL_ERR_ARGUMENT;
@@ -287,7 +287,7 @@ static tl_result pull_path(funnel *f, const tl_navmesh *navmesh, const tl_nav_re
     uint32_t slots[2], ends[2];
     if (!tl_nav_split_ref(navmesh, polygons[0], &slots[0], &ends[0]) ||
         !tl_nav_split_ref(navmesh, polygons[polygon_count - 1], &slots[1], &ends[1])) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     bool inside = false;
     f->navmesh = navmesh;
@@ -308,7 +308,7 @@ tl_result tl_nav_first_corners(const tl_navmesh *navmesh, const tl_nav_ref *poly
     f.only_first = true;
     TL_TRY(pull_path(&f, navmesh, polygons, polygon_count, start, end, corners_out, capacity));
     *count_out = f.list.count <= capacity ? f.list.count : capacity;
-    return f.list.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return f.list.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }
 
 tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
@@ -326,5 +326,5 @@ tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *
     if (length_out != NULL) {
         *length_out = (float)f.list.length;
     }
-    return f.list.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return f.list.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

@@ -194,7 +194,7 @@ tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh
     }
     if (!tl_nav_split_ref(navmesh, start->polygon, &search_out->start_slot, &search_out->start_polygon) ||
         !tl_nav_split_ref(navmesh, goal->polygon, &search_out->goal_slot, &search_out->goal_polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     search_out->query = query;
     search_out->navmesh = navmesh;
@@ -219,7 +219,7 @@ static tl_result fits(const tl_nav_shortest_path *path, uint32_t corner_capacity
 {
     bool all = (corner_capacity == 0 || path->corner_count <= corner_capacity) &&
                (polygon_capacity == 0 || path->polygon_count <= polygon_capacity);
-    return all ? TL_OK : TL_ERR_CAPACITY;
+    return all ? TL_OK : TL_INCOMPLETE;
 }
 
 tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,

@@ -90,7 +90,7 @@ tl_result tl_nav_query_step_path(tl_nav_query *query, uint32_t max_steps, tl_nav
     tl_nav_path_run *run = query->run;
     memset(progress_out, 0, sizeof *progress_out);
     if (!is_under_way(query)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     uint64_t steps = max_steps;
     look_for_edits(run);
@@ -111,7 +111,7 @@ tl_result tl_nav_query_write_path(tl_nav_query *query, tl_nav_ref *polygons_out,
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
     if (!is_under_way(query)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     look_for_edits(query->run);
     if (query->run->status == TL_NAV_PATH_STALE) {

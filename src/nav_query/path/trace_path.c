@@ -58,7 +58,7 @@ static tl_result go_to(path_trace *trace, tl_vec3 point)
     uint32_t slot = 0;
     uint32_t polygon = 0;
     if (!tl_nav_split_ref(trace->navmesh, trace->polygons[trace->at], &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     const tl_nav_tile *tile = trace->navmesh->slots[slot].tile;
     trace->cost += (double)tl_nav_cost_between(trace->filter, tile, polygon, trace->point, point);
@@ -90,7 +90,7 @@ static tl_result cross_portal(path_trace *trace, tl_vec3 a, tl_vec3 b)
     }
     if (!tl_nav_split_ref(trace->navmesh, from[0], &slots[0], &polygons[0]) ||
         !tl_nav_split_ref(trace->navmesh, from[1], &slots[1], &polygons[1])) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     if (!tl_nav_portal_between(trace->navmesh, from[0], slots[1], polygons[1], &left, &right)) {
         return TL_ERR_ARGUMENT;
@@ -112,7 +112,7 @@ static tl_result follow(path_trace *trace, const tl_nav_corner *from, const tl_n
     if ((from->flags & TL_NAV_CORNER_LINK) != 0) {
         const tl_nav_offmesh_entry *link = tl_nav_find_offmesh(&trace->navmesh->offmesh, from->link);
         if (link == NULL) {
-            return TL_ERR_NOT_FOUND;
+            return TL_NOT_FOUND;
         }
         if (trace->at + 2 >= trace->polygon_count || trace->polygons[trace->at + 1] != from->link) {
             return TL_ERR_ARGUMENT;
@@ -161,5 +161,5 @@ tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_filter *
     if (cost_out != NULL) {
         *cost_out = (float)trace.cost;
     }
-    return trace.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return trace.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

@@ -9,13 +9,13 @@
 
 #include "nav_query/plane/side.h"
 
-tl_nav_zone tl_nav_circle(tl_vec3 center, float radius)
+tl_nav_zone tl_nav_zone_circle(tl_vec3 center, float radius)
 {
     tl_nav_zone zone = { center, radius, NULL, 0 };
     return zone;
 }
 
-tl_nav_zone tl_nav_outline(const tl_vec3 *points, uint32_t point_count)
+tl_nav_zone tl_nav_zone_polygon(const tl_vec3 *points, uint32_t point_count)
 {
     tl_nav_zone zone = { { 0.0f, 0.0f, 0.0f }, 0.0f, points, point_count };
     return zone;

@@ -121,7 +121,7 @@ static void note_sight(void *user, uint32_t turn)
 
 static tl_result make_query(builder *b, uint32_t max_nodes)
 {
-    tl_nav_query_free(b->query);
+    tl_nav_query_destroy(b->query);
     tl_nav_query_def def = { max_nodes, &b->allocator };
     return tl_nav_query_create(&def, &b->query);
 }
@@ -293,7 +293,7 @@ tl_result tl_nav_make_roads(tl_navmesh *navmesh, tl_nav_roads **roads_out)
     }
     memset(b.roads, 0, sizeof *b.roads);
     tl_result result = build(&b);
-    tl_nav_query_free(b.query);
+    tl_nav_query_destroy(b.query);
     tl_release_array(&b.allocator, b.sights.pairs, b.sights.capacity, sizeof *b.sights.pairs);
     tl_release_array(&b.allocator, b.views.views, b.views.capacity, sizeof *b.views.views);
     tl_release_array(&b.allocator, b.bend_of, b.fan_count, sizeof *b.bend_of);

@@ -58,7 +58,7 @@ tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_
     query->run = tl_allocate_array(def->allocator, 1, sizeof *query->run);
     if (query->run == NULL || query->wedges == NULL || query->stops == NULL || query->wedge_heap == NULL ||
         query->roots == NULL || query->nodes == NULL || query->heap == NULL || query->buckets == NULL) {
-        tl_nav_query_free(query);
+        tl_nav_query_destroy(query);
         return TL_ERR_MEMORY;
     }
     memset(query->run, 0, sizeof *query->run);
@@ -68,7 +68,7 @@ tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_
     return TL_OK;
 }
 
-void tl_nav_query_free(tl_nav_query *query)
+void tl_nav_query_destroy(tl_nav_query *query)
 {
     if (query == NULL) {
         return;

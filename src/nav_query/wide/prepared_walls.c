@@ -143,7 +143,7 @@ static tl_result add_pairs(builder *b, const tl_nav_wall_cell *cell)
 
 static tl_result make_query(builder *b, uint32_t nodes)
 {
-    tl_nav_query_free(b->query);
+    tl_nav_query_destroy(b->query);
     b->query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
     def.max_nodes = nodes;
@@ -350,7 +350,7 @@ tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *de
     b.pairs.size = sizeof(tl_nav_wall_pair);
     uint32_t made = 0;
     tl_result result = reach > 0.0 ? make_all(&b, navmesh, &made) : TL_OK;
-    tl_nav_query_free(b.query);
+    tl_nav_query_destroy(b.query);
     list *lists[3] = { &b.walls, &b.hits, &b.pairs };
     for (int i = 0; i < 3; i++) {
         tl_release_array(&navmesh->allocator, lists[i]->at, lists[i]->capacity, lists[i]->size);

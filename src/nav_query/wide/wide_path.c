@@ -67,7 +67,7 @@ static tl_result find_narrow(tl_nav_query *query, const tl_navmesh *navmesh, con
     path_out->length = path.length;
     path_out->surface_length = path.surface_length;
     path_out->node_count = path.node_count;
-    return path.corner_count > capacity && result == TL_OK ? TL_ERR_CAPACITY : result;
+    return path.corner_count > capacity && result == TL_OK ? TL_INCOMPLETE : result;
 }
 
 // Looks for the pieces that lead to the goal. TL_NAV_WIDE_COMPLETE: there are.
@@ -101,7 +101,7 @@ static tl_result write_path(tl_nav_wide_search *search, tl_nav_corner *corners_o
         return TL_OK;
     }
     write_corners(clearance, &path, corners_out, capacity, path_out);
-    return path_out->corner_count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return path_out->corner_count <= capacity ? TL_OK : TL_INCOMPLETE;
 }
 
 // What a path and the question whether there is one have in common. `is_asked_only`: no corners are wanted.
@@ -161,7 +161,7 @@ tl_result tl_nav_query_is_wide_reachable(tl_nav_query *query, const tl_navmesh *
     tl_nav_wide_path path;
     tl_result result = find_wide(query, navmesh, filter, radius, start, goal, true, NULL, 0, &path);
     *status_out = path.status;
-    return result == TL_ERR_CAPACITY ? TL_OK : result;
+    return result == TL_INCOMPLETE ? TL_OK : result;
 }
 
 const char *tl_nav_wide_status_name(tl_nav_wide_status status)
@@ -208,7 +208,7 @@ tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *nav
             return TL_ERR_NOT_FINITE;
         }
         if (!tl_nav_split_ref(navmesh, corners[i].polygon, &slot, &polygon)) {
-            return TL_ERR_NOT_FOUND;
+            return TL_NOT_FOUND;
         }
         if (!segment_clearance(&clearance, pair, slot, polygon, &least_sq)) {
             return TL_ERR_LIMIT;

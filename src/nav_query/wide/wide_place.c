@@ -253,7 +253,7 @@ tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *na
         return TL_ERR_ARGUMENT;
     }
     if (!tl_nav_split_ref(navmesh, near->polygon, &slot, &polygon)) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     tl_nav_clearance clearance;
     tl_nav_clearance_begin(query, navmesh, filter, tl_nav_extra_reach(navmesh->slots[slot].tile, radius), &clearance);
@@ -270,7 +270,7 @@ tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *na
         return TL_ERR_LIMIT;
     }
     if (!search.is_found) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     tl_nav_met home = { search.best_slot, search.best_polygon };
     *place_out = tl_nav_settle(&clearance, home, search.best);

@@ -299,8 +299,8 @@ static tl_result build(builder *b, tl_polygon_mesh *mesh_out)
     return write_mesh(b, mesh_out);
 }
 
-tl_result tl_polygon_mesh_build(const tl_contour_set *contours, const tl_polygon_def *def, tl_polygon_mesh *mesh_out,
-                                tl_polygon_report *report_out)
+tl_result tl_polygon_mesh_bake(const tl_contour_set *contours, const tl_polygon_def *def, tl_polygon_mesh *mesh_out,
+                               tl_polygon_report *report_out)
 {
     TL_ASSERT(contours != NULL && mesh_out != NULL);
     const tl_polygon_def defaults = tl_default_polygon_def();

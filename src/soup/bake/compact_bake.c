@@ -2,7 +2,7 @@
 //
 // Writes the compact layout (compact_layout.h).
 
-#include "soup/bake/soup_bake.h"
+#include "soup/bake/soup_emit.h"
 
 #include "base/assert.h"
 #include "base/host.h"

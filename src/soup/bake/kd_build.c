@@ -18,7 +18,7 @@
 // (clipping).
 
 #include "base/host.h"
-#include "soup/bake/soup_build.h"
+#include "soup/bake/soup_bake.h"
 #include "soup/bake/tree_split.h"
 #include "soup/layout/soup_layout.h"
 

@@ -13,7 +13,7 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "soup/bake/pair_match.h"
-#include "soup/bake/soup_build.h"
+#include "soup/bake/soup_bake.h"
 #include "soup/layout/soup_layout.h"
 
 #include <string.h>

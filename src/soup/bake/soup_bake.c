@@ -1,289 +1,124 @@
 // SPDX-License-Identifier: MIT
 //
-// From the binary tree to the blob: wide nodes are cut from it (tree_cut.c) level by level, which gives every node and
-// leaf its place; then they are written, in any order, by the host's tasks. The blob is not zeroed first: a task writes
-// all bytes of its own nodes and leaves, and touches their pages.
+// From a triangle list to a soup: weld, pair, build the tree, bake.
 
 #include "soup/bake/soup_bake.h"
 
 #include "base/assert.h"
 #include "base/host.h"
+#include "soup/layout/soup_layout.h"
 
-#include <float.h>
 #include <string.h>
 
-// Wide nodes a task.
-enum { BLOCK_NODES = 64 };
+// A triangle's share of the largest stage, measured: a matching of all triangles, or the tree.
+enum { STAGE_BYTES = 136 };
 
-// What tasks go over: nodes from `first` to below `end`.
-typedef struct node_range {
-    tl_baker *baker;
-    uint32_t first, end;
-} node_range;
-
-static node_range block_of(const node_range *range, uint32_t block)
+tl_soup_def tl_default_soup_def(void)
 {
-    node_range r = { range->baker, range->first + block * BLOCK_NODES,
-                     range->first + tl_block_end(block, BLOCK_NODES, range->end - range->first) };
-    return r;
+    tl_soup_def def = { true, TL_SOUP_BOXES, TL_SOUP_FAST, 0.0f, { NULL, NULL, NULL } };
+    return def;
 }
 
-static void find_children(const tl_baker *b, tl_wide_node *wide)
+static tl_result check_input(const tl_mesh_view *view, const tl_soup_def *def, tl_report *report)
 {
-    wide->child_count = tl_tree_cut_children(&b->cut, wide->root, wide->child);
-    wide->leaf_count = 0;
-    wide->leaf_bytes = 0;
-    for (uint32_t k = 0; k < wide->child_count; k++) {
-        uint32_t pairs = b->tree->nodes[wide->child[k]].count;
-        if (pairs > 0) {
-            wide->child[k] |= TL_WIDE_LEAF;
-            wide->leaf_count++;
-            wide->leaf_bytes += b->layout == TL_SOUP_COMPACT ? pairs * (uint32_t)sizeof(tl_compact_pair)
-                                                             : (uint32_t)tl_leaf_size(pairs);
-        }
+    if (!(def->split_budget >= 0.0f && def->split_budget <= 1.0f)) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "split_budget", 0, "give a share from 0 to 1");
     }
-    wide->inner_count = wide->child_count - wide->leaf_count;
-}
-
-static void find_children_of_block(uint32_t block, uint32_t worker, void *user)
-{
-    (void)worker;
-    node_range range = block_of(user, block);
-    for (uint32_t i = range.first; i < range.end; i++) {
-        find_children(range.baker, &range.baker->wide[i]);
+    if (def->partition != TL_SOUP_BOXES && def->partition != TL_SOUP_KD) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "partition", 0, "give TL_SOUP_BOXES or TL_SOUP_KD");
     }
-}
-
-// Gives what a node names its place: behind all that the nodes before it name.
-static void place_children(tl_baker *b, tl_wide_node *wide)
-{
-    wide->first_inner = b->node_count;
-    wide->leaf_offset = b->leaf_bytes;
-    b->leaf_bytes += wide->leaf_bytes;
-    b->leaf_count += wide->leaf_count;
-    for (uint32_t k = 0; k < wide->child_count; k++) {
-        if ((wide->child[k] & TL_WIDE_LEAF) == 0) {
-            b->wide[b->node_count++].root = wide->child[k];
-        }
+    if (def->layout != TL_SOUP_FAST && def->layout != TL_SOUP_COMPACT) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "layout", 0, "give TL_SOUP_FAST or TL_SOUP_COMPACT");
     }
-}
-
-// Finds the wide nodes breadth first, and with them all sizes.
-static void cut_tree(tl_baker *b, const tl_host *host)
-{
-    b->wide[0].root = b->tree->root;
-    b->node_count = 1;
-    for (node_range level = { b, 0, 1 }; level.first < level.end; level.first = level.end, level.end = b->node_count) {
-        b->depth++;
-        tl_run_tasks(host, find_children_of_block, tl_block_count(level.end - level.first, BLOCK_NODES), &level);
-        for (uint32_t i = level.first; i < level.end; i++) {
-            place_children(b, &b->wide[i]);
-        }
-    }
-}
-
-// Marks all but the first reference to a pair, in the order of the leaves.
-static tl_result mark_copies(const tl_baker *b, tl_arena *arena)
-{
-    uint8_t *met = TL_PUSH_ZERO(arena, uint8_t, b->pair_count);
-    if (met == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    for (uint32_t i = 0; i < b->node_count; i++) {
-        const tl_wide_node *wide = &b->wide[i];
-        for (uint32_t k = 0; k < wide->child_count; k++) {
-            const tl_tree_node *leaf = &b->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
-            for (uint32_t r = 0; r < leaf->count; r++) {
-                tl_tree_ref *ref = &b->tree->refs[leaf->first + r];
-                ref->is_copy = met[ref->pair];
-                met[ref->pair] = 1;
-            }
-        }
+    if (view->triangle_count > TL_MAX_SOUP_TRIANGLES) {
+        return tl_report_fail(report, TL_ERR_LIMIT, "triangle", TL_MAX_SOUP_TRIANGLES,
+                              "split the level into several soups");
     }
     return TL_OK;
 }
 
-static void write_box(tl_aabb box, uint32_t lane, tl_soup_node *node)
+// The welded mesh, which also checks every index and vertex. Duplicates stay: each is a triangle that can be hit.
+static tl_result weld(const tl_mesh_view *view, const tl_host *host, tl_mesh *mesh, tl_soup_report *report)
 {
-    const float planes[6] = { box.min.x, box.max.x, box.min.y, box.max.y, box.min.z, box.max.z };
-    for (uint32_t i = 0; i < 6; i++) {
-        node->plane[i][lane] = planes[i];
+    tl_mesh_def mesh_def = tl_default_mesh_def();
+    mesh_def.keep_duplicates = true;
+    mesh_def.host = *host;
+    tl_mesh_report mesh_report;
+    tl_result result = tl_mesh_bake(view, &mesh_def, mesh, &mesh_report);
+    report->base = mesh_report.base;
+    report->degenerate_triangles = mesh_report.degenerate_triangles;
+    if (result == TL_ERR_EMPTY && view->triangle_count > 0 && mesh_report.degenerate_triangles > 0) {
+        return tl_report_fail(&report->base, TL_ERR_DEGENERATE, NULL, TL_NO_ELEMENT,
+                              "no triangle has area: check the scale and the export of the level");
     }
+    return result;
 }
 
-static float triangle_extent(tl_vec3 a, tl_vec3 b, tl_vec3 c)
+static tl_result build(const tl_mesh_view *view, const tl_mesh *mesh, const tl_soup_def *def, tl_arena *arena,
+                       tl_soup **soup_out, tl_soup_report *report)
 {
-    tl_vec3 size = tl_sub(tl_max(tl_max(a, b), c), tl_min(tl_min(a, b), c));
-    return tl_maxf(tl_maxf(size.x, size.y), size.z);
-}
-
-static void write_corner(float *const *arrays, uint32_t i, tl_vec3 corner)
-{
-    arrays[0][i] = corner.x;
-    arrays[1][i] = corner.y;
-    arrays[2][i] = corner.z;
-}
-
-uint32_t tl_bake_id(const tl_baker *b, const tl_tree_ref *ref, uint32_t k)
-{
-    const tl_pair *pair = &b->pairs[ref->pair];
-    if (pair->triangle[k] == TL_NO_TRIANGLE) {
-        return TL_ID_NONE;
-    }
-    return b->mesh->source_triangles[pair->triangle[k]] | (ref->is_copy ? TL_ID_COPY : 0) |
-           (uint32_t)pair->order[k] << 29;
-}
-
-static void write_leaf(const tl_baker *b, const tl_tree_node *node, tl_soup_leaf *leaf)
-{
-    uint32_t n = node->count;
-    memset(leaf, 0, tl_leaf_size(n));
-    leaf->tagged_count = TL_LEAF_TAG | n;
-    uint32_t *ids = (uint32_t *)(void *)(leaf + 1);
-    float *floats = (float *)(void *)(ids + 2 * (size_t)n);
-    float *a[3], *c[3], *e[3];
-    for (uint32_t axis = 0; axis < 3; axis++) {
-        a[axis] = floats + (size_t)(4 * axis) * n;
-        c[axis] = a[axis] + n;
-        e[axis] = c[axis] + n;
-    }
-    for (uint32_t i = 0; i < n; i++) {
-        const tl_tree_ref *ref = &b->tree->refs[node->first + i];
-        const tl_pair *pair = &b->pairs[ref->pair];
-        tl_vec3 corner[4];
-        for (uint32_t k = 0; k < 4; k++) {
-            corner[k] = b->mesh->vertices[pair->corner[k]];
-        }
-        write_corner(a, i, corner[0]);
-        write_corner(e, i, corner[1]);
-        write_corner(c, i, corner[2]);
-        write_corner(e, n + i, corner[3]);
-        for (uint32_t k = 0; k < 2; k++) {
-            ids[k * n + i] = tl_bake_id(b, ref, k);
-        }
-        leaf->extent = tl_maxf(leaf->extent, tl_maxf(triangle_extent(corner[0], corner[1], corner[2]),
-                                                     triangle_extent(corner[0], corner[2], corner[3])));
-    }
-}
-
-static void write_node(const tl_baker *b, uint32_t index)
-{
-    const tl_wide_node *wide = &b->wide[index];
-    tl_soup_node *node = (tl_soup_node *)(void *)((char *)b->soup + b->soup->node_offset) + index;
-    uint32_t next_node = wide->first_inner;
-    uint64_t leaf_offset = wide->leaf_offset;
-    memset(node, 0, sizeof *node);
-    for (uint32_t k = 0; k < wide->child_count; k++) {
-        const tl_tree_node *child = &b->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
-        write_box(child->box, k, node);
-        if ((wide->child[k] & TL_WIDE_LEAF) != 0) {
-            node->child[k] = tl_child_of_leaf(leaf_offset, child->count);
-            write_leaf(b, child, (tl_soup_leaf *)(void *)((char *)b->soup + b->soup->leaf_offset + leaf_offset));
-            leaf_offset += tl_leaf_size(child->count);
-        } else {
-            node->child[k] = next_node++;
-        }
-    }
-    for (uint32_t k = wide->child_count; k < TL_SOUP_WIDTH; k++) {
-        write_box(tl_aabb_empty(), k, node);
-    }
-}
-
-static void write_block(uint32_t block, uint32_t worker, void *user)
-{
-    (void)worker;
-    node_range range = block_of(user, block);
-    for (uint32_t i = range.first; i < range.end; i++) {
-        if (range.baker->layout == TL_SOUP_COMPACT) {
-            tl_compact_write_node(range.baker, i);
-        } else {
-            write_node(range.baker, i);
-        }
-    }
-}
-
-// The material of all triangles, or whether they need a table.
-static bool needs_material_table(const tl_mesh_view *view, uint32_t *uniform_out)
-{
-    *uniform_out = view->materials != NULL ? view->materials[0] : 0;
-    for (uint32_t i = 1; view->materials != NULL && i < view->triangle_count; i++) {
-        if (view->materials[i] != view->materials[0]) {
-            *uniform_out = 0;
-            return true;
-        }
-    }
-    return false;
-}
-
-static void fill_head(const tl_baker *b, tl_soup *soup)
-{
-    memset(soup, 0, sizeof *soup);
-    soup->has_materials = needs_material_table(b->view, &soup->uniform_material);
-    soup->layout = b->layout;
-    soup->leaf_bytes = b->leaf_bytes;
-    soup->vertex_count = b->plan->vertex_count;
-    soup->source_triangle_count = b->view->triangle_count;
-    soup->triangle_count = b->mesh->triangle_count;
-    soup->pair_count = b->mesh->triangle_count - b->pair_count;
-    soup->single_count = b->pair_count - soup->pair_count;
-    soup->reference_count = b->tree->ref_count;
-    soup->leaf_count = b->leaf_count;
-    soup->node_count = b->node_count;
-    soup->depth = b->depth;
-    tl_aabb bounds = b->mesh->bounds;
-    soup->bounds_min = bounds.min;
-    soup->bounds_max = bounds.max;
-}
-
-// The blob with its head. Nodes and leaves are left as they are; all else is zero.
-static tl_soup *allocate_soup(tl_soup *head, const tl_allocator *allocator)
-{
-    tl_soup *soup = tl_blob_allocate_part(allocator, TL_SOUP_MAGIC, TL_SOUP_VERSION, tl_soup_place_arrays(head),
-                                          sizeof(tl_soup), head->leaf_offset + head->leaf_bytes);
-    if (soup != NULL) {
-        head->blob = soup->blob;
-        *soup = *head;
-    }
-    return soup;
-}
-
-tl_result tl_soup_bake(const tl_mesh_view *view, const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count,
-                       const tl_tree *tree, const tl_soup_def *def, tl_arena *arena, tl_soup **soup_out)
-{
-    tl_baker b = { .view = view, .mesh = mesh, .pairs = pairs, .pair_count = pair_count, .tree = tree };
-    b.layout = def->layout;
-    TL_TRY(tl_tree_cut_plan(tree, &def->host, arena, &b.cut));
-    b.wide = TL_PUSH(arena, tl_wide_node, (uint64_t)b.cut.inner_count + 1);
-    if (b.wide == NULL) {
+    const tl_host *host = &def->host;
+    report->base.stage = "pair triangles";
+    TL_TRY(tl_progress_update(host, "pair triangles", 0, 1));
+    // One block for what the stages need at once, so that each uses the pages of the one before it.
+    if (!tl_arena_reserve(arena, (uint64_t)mesh->triangle_count * STAGE_BYTES)) {
         return TL_ERR_MEMORY;
     }
-    cut_tree(&b, &def->host);
-    if (b.leaf_bytes / TL_SOUP_LEAF_ALIGN > TL_MAX_LEAF_UNITS) {
-        return TL_ERR_LIMIT;
-    }
-    if (tree->ref_count != pair_count) {
-        TL_TRY(mark_copies(&b, arena));
-    }
-    tl_compact_plan plan = { 0 };
-    if (def->layout == TL_SOUP_COMPACT) {
-        TL_TRY(tl_compact_plan_vertices(&b, arena, &plan));
-    }
-    b.plan = &plan;
-    tl_soup head;
-    fill_head(&b, &head);
-    tl_soup *soup = allocate_soup(&head, def->host.allocator);
-    if (soup == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    b.soup = soup;
-    node_range all = { &b, 0, b.node_count };
-    tl_run_tasks(&def->host, write_block, tl_block_count(b.node_count, BLOCK_NODES), &all);
-    if (def->layout == TL_SOUP_COMPACT) {
-        tl_compact_write_vertices(&b, &def->host);
-    }
-    if (soup->has_materials) {
-        memcpy((char *)soup + soup->material_offset, view->materials, (size_t)view->triangle_count * sizeof(uint16_t));
-    }
-    *soup_out = soup;
+    tl_pair *pairs = NULL;
+    uint32_t pair_count = 0;
+    TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, host, arena, &pairs, &pair_count));
+    TL_TRY(tl_progress_update(host, "pair triangles", 1, 1));
+
+    report->base.stage = "build tree";
+    TL_TRY(tl_progress_update(host, "build tree", 0, 1));
+    tl_tree tree;
+    TL_TRY(def->partition == TL_SOUP_KD ? tl_kd_build(mesh, pairs, pair_count, def, arena, &tree)
+                                        : tl_tree_build(mesh, pairs, pair_count, def, arena, &tree));
+    TL_TRY(tl_progress_update(host, "build tree", 1, 1));
+
+    report->base.stage = "bake soup";
+    TL_TRY(tl_progress_update(host, "bake soup", 0, 1));
+    TL_TRY(tl_soup_emit(view, mesh, pairs, pair_count, &tree, def, arena, soup_out));
+    report->triangle_count = (*soup_out)->triangle_count;
+    report->pair_count = (*soup_out)->pair_count;
+    report->single_count = (*soup_out)->single_count;
     return TL_OK;
+}
+
+tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup **soup_out, tl_soup_report *report_out)
+{
+    TL_ASSERT(view != NULL && soup_out != NULL);
+    tl_soup_def used = def != NULL ? *def : tl_default_soup_def();
+    tl_soup_report report;
+    memset(&report, 0, sizeof report);
+    tl_report_begin(&report.base, "weld");
+    *soup_out = NULL;
+    tl_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    tl_result result = check_input(view, &used, &report.base);
+    if (result == TL_OK) {
+        result = weld(view, &used.host, &mesh, &report);
+    }
+    if (result == TL_OK) {
+        tl_arena arena;
+        tl_arena_init(&arena, used.host.allocator);
+        result = build(view, &mesh, &used, &arena, soup_out, &report);
+        uint64_t soup_bytes = *soup_out != NULL ? (*soup_out)->blob.size : 0;
+        uint64_t held = mesh.block_size + arena.peak_bytes + soup_bytes;
+        report.base.peak_bytes = held > report.base.peak_bytes ? held : report.base.peak_bytes;
+        tl_arena_free(&arena);
+    }
+    tl_mesh_free(&mesh, used.host.allocator);
+    if (result == TL_OK) {
+        // The last word of progress may still be no.
+        result = tl_progress_update(&used.host, "bake soup", 1, 1);
+    }
+    if (result != TL_OK && *soup_out != NULL) {
+        tl_blob_free(*soup_out);
+        *soup_out = NULL;
+    }
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    return result;
 }

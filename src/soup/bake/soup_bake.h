@@ -1,63 +1,86 @@
 // SPDX-License-Identifier: MIT
 //
-// What both layouts are written from: the binary tree, cut into wide nodes in breadth-first order.
+// The stages of a soup's build and what they hand on.
 
-#ifndef TALUS_SRC_SOUP_SOUP_BAKE_H
-#define TALUS_SRC_SOUP_SOUP_BAKE_H
+#ifndef TALUS_SRC_SOUP_SOUP_BUILD_H
+#define TALUS_SRC_SOUP_SOUP_BUILD_H
 
-#include "soup/bake/soup_build.h"
-#include "soup/bake/tree_cut.h"
-#include "soup/layout/compact_layout.h"
+#include "base/arena.h"
 
-/// A child of a wide node that is a leaf, by this bit of its binary node's index.
-#define TL_WIDE_LEAF TL_TREE_MAX_NODES
+#include <talus/mesh.h>
+#include <talus/soup.h>
 
-/// A wide node, and where what it names goes.
-typedef struct tl_wide_node {
-    uint32_t root; ///< binary node
-    uint32_t child_count;
-    uint32_t child[TL_SOUP_WIDTH]; ///< binary nodes
-    uint32_t inner_count;          ///< children that are no leaves
-    uint32_t leaf_count;
-    uint32_t first_inner; ///< number of the first of them: they follow each other
-    uint32_t leaf_bytes;
-    uint64_t leaf_offset; ///< of its first leaf: they follow each other
-} tl_wide_node;
+/// Two triangles that share an edge, or one. Corners are vertices of the welded mesh: triangles a, b, c and a, c, d
+/// (as sets: the second may run against the first). Orders are rows of tl_soup_corner_slots.
+typedef struct tl_pair {
+    uint32_t corner[4];   ///< a, b, c, d; a single has d == a
+    uint32_t triangle[2]; ///< in the welded mesh; the second is TL_NO_TRIANGLE for a single
+    uint8_t order[2];
+} tl_pair;
 
-typedef struct tl_baker {
-    const tl_mesh_view *view;
-    const tl_mesh *mesh;
-    const tl_pair *pairs;
-    uint32_t pair_count;
-    const tl_tree *tree;
-    tl_soup_layout layout;
-    tl_tree_cut cut;
-    tl_wide_node *wide; // in breadth-first order
-    uint32_t node_count;
-    uint32_t leaf_count;
-    uint32_t depth;
-    uint64_t leaf_bytes;
-    const struct tl_compact_plan *plan;
-    tl_soup *soup;
-} tl_baker;
+/// Matches triangles over shared edges, on the host's tasks. Pairs and scratch are the arena's.
+tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena,
+                            tl_pair **pairs_out, uint32_t *pair_count_out);
 
-/// The vertices of the compact layout, numbered in the order of the leaves.
-typedef struct tl_compact_plan {
-    uint16_t (*corners)[4]; ///< of each pair in leaves
-    uint32_t *groups;
-    uint32_t *vertices; ///< of the mesh
-    uint32_t vertex_count;
-} tl_compact_plan;
+/// A pair's box, or the part of it that a spatial split left. 32 bytes, so that two fill a cache line.
+typedef struct tl_tree_ref {
+    tl_vec3 min;
+    uint32_t pair;
+    tl_vec3 max;
+    uint32_t is_copy; ///< 1: an earlier leaf holds the pair too; for the bake
+} tl_tree_ref;
 
-tl_result tl_compact_plan_vertices(const tl_baker *baker, tl_arena *arena, tl_compact_plan *plan);
+/// A whole pair.
+static inline tl_tree_ref tl_tree_reference(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair)
+{
+    tl_aabb box = tl_aabb_empty();
+    for (uint32_t k = 0; k < 4; k++) {
+        box = tl_aabb_add_point(box, mesh->vertices[pairs[pair].corner[k]]);
+    }
+    tl_tree_ref ref = { box.min, pair, box.max, 0 };
+    return ref;
+}
 
-/// Writes a node and its pairs.
-void tl_compact_write_node(const tl_baker *baker, uint32_t node);
+/// A binary tree node. Inner: children; leaf: references [first, first + count).
+typedef struct tl_tree_node {
+    tl_aabb box;
+    uint32_t left, right; ///< inner: indices of nodes
+    uint32_t first;       ///< inner: its plan (tree_cut.c)
+    uint32_t count;       ///< 0: inner
+} tl_tree_node;
 
-/// Writes groups and vertices.
-void tl_compact_write_vertices(const tl_baker *baker, const tl_host *host);
+/// A subtree that may be worked on at once with the others, and what is known of it.
+typedef struct tl_tree_part {
+    uint32_t root;
+    uint32_t inner_count, leaf_count; ///< nodes
+    uint32_t ref_count;               ///< in leaves
+    double leaf_surface;              ///< sum of half areas of leaves
+} tl_tree_part;
 
-/// The id word of a reference's first (k 0) or second (k 1) triangle; TL_ID_NONE where it has no second one.
-uint32_t tl_bake_id(const tl_baker *baker, const tl_tree_ref *ref, uint32_t k);
+/// Indices of nodes are below it, so that the bake has a bit to spare.
+#define TL_TREE_MAX_NODES 0x80000000u
+
+typedef struct tl_tree {
+    tl_tree_ref *refs;
+    tl_tree_node *nodes;
+    uint64_t node_capacity; ///< indices of nodes are below it
+    uint32_t root;
+    const tl_tree_part *parts; ///< from left to right; no part holds another
+    uint32_t part_count;
+    uint32_t ref_count; ///< in leaves
+} tl_tree;
+
+/// Builds the binary tree that the wide one is cut from. Leaves hold 1 .. TL_SOUP_LEAF_PAIRS references.
+tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
+                        tl_arena *arena, tl_tree *tree_out);
+
+/// The same tree by planes that part space (TL_SOUP_KD): leaves may share pairs, and no two nodes' boxes overlap but
+/// where pairs lie in too many planes to be parted.
+tl_result tl_kd_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
+                      tl_arena *arena, tl_tree *tree_out);
+
+/// Cuts the binary tree into wide nodes and writes the blob.
+tl_result tl_soup_emit(const tl_mesh_view *view, const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count,
+                       const tl_tree *tree, const tl_soup_def *def, tl_arena *arena, tl_soup **soup_out);
 
 #endif

@@ -14,7 +14,7 @@
 
 #include "base/assert.h"
 #include "base/host.h"
-#include "soup/bake/soup_build.h"
+#include "soup/bake/soup_bake.h"
 #include "soup/bake/tree_cut.h"
 #include "soup/bake/tree_top.h"
 #include "soup/layout/soup_layout.h"

@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_SOUP_TREE_CUT_H
 #define TALUS_SRC_SOUP_TREE_CUT_H
 
-#include "soup/bake/soup_build.h"
+#include "soup/bake/soup_bake.h"
 #include "soup/layout/soup_layout.h"
 
 typedef struct tl_tree_cut {

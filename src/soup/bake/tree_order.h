@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_SOUP_TREE_ORDER_H
 #define TALUS_SRC_SOUP_TREE_ORDER_H
 
-#include "soup/bake/soup_build.h"
+#include "soup/bake/soup_bake.h"
 
 /// Writes the chance that a binary node stops a ray which enters its box; those of its children are known.
 void tl_tree_order_node(const tl_tree *tree, uint32_t index, float *chance);

@@ -6,7 +6,7 @@
 #define TALUS_SRC_SOUP_TREE_SPLIT_H
 
 #include "math/box4.h"
-#include "soup/bake/soup_build.h"
+#include "soup/bake/soup_bake.h"
 
 /// References [first, first + count), with room up to first + capacity.
 typedef struct tl_tree_range {

@@ -116,5 +116,5 @@ tl_result tl_soup_cast_ray_all(const tl_soup *soup, const tl_ray *ray, tl_hit_ru
     }
     sort_heap(hits_out, c.count < capacity ? c.count : capacity);
     *count_out = c.count;
-    return c.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return c.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

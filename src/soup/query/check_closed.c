@@ -99,7 +99,7 @@ static tl_result check(const tl_soup *soup, const tl_host *host, tl_arena *arena
     tl_mesh_def def = tl_default_mesh_def();
     def.keep_duplicates = true;
     def.host = *host;
-    TL_TRY(tl_mesh_build(&view, &def, mesh, NULL));
+    TL_TRY(tl_mesh_bake(&view, &def, mesh, NULL));
     tl_sort_item *edges = sort_edges(mesh, arena);
     if (edges == NULL) {
         return TL_ERR_MEMORY;

@@ -114,13 +114,13 @@ static tl_vec3 choose_direction(const tl_soup *soup)
     return size.x <= size.z ? tl_vec3_make(1.0f, 0.0859375f, 0.0546875f) : tl_vec3_make(0.0859375f, 0.0546875f, 1.0f);
 }
 
-tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_place *place_out)
+tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_location *place_out)
 {
     TL_ASSERT(soup != NULL && place_out != NULL);
     if (!tl_is_finite(point)) {
         return TL_ERR_NOT_FINITE;
     }
-    tl_soup_place place = { TL_SOUP_OUTSIDE, 0, TL_NO_TRIANGLE };
+    tl_soup_location place = { TL_SOUP_OUTSIDE, 0, TL_NO_TRIANGLE };
     touch t = { point, TL_NO_TRIANGLE };
     tl_aabb at = { point, point };
     tl_region region = { tl_region_enter_box, &at, holds_point, keep_lowest, &t };

@@ -116,7 +116,7 @@ tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance
         }
     }
     if (s.triangle == UINT32_MAX) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     memset(nearest_out, 0, sizeof *nearest_out);
     nearest_out->point = tl_vec3d_to_float(s.best.point);

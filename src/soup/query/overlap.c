@@ -67,5 +67,5 @@ tl_result tl_soup_find_overlaps(const tl_soup *soup, const tl_convex *shape, tl_
     tl_region region = { tl_region_enter_box, &query.bounds, belongs, add, &s };
     tl_region_walk(soup, &region);
     *count_out = s.count;
-    return s.count <= capacity ? TL_OK : TL_ERR_CAPACITY;
+    return s.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

@@ -201,7 +201,7 @@ tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_tra
         }
     }
     if (s.triangle == UINT32_MAX) {
-        return TL_ERR_NOT_FOUND;
+        return TL_NOT_FOUND;
     }
     describe_hit(&s, hit_out);
     return TL_OK;

@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: MIT
+//
+// Building a navigation mesh: every stage of the classic voxel pipeline, callable alone, its data readable.
+//
+//   tl_nav_def --tl_nav_config_from_def--> tl_nav_config            metres become voxels, here and nowhere else
+//   triangles --rasterize, filters--> tl_nav_heightfield        solid spans of each column
+//             --compact--> tl_nav_compact                       open floors and their neighbours
+//             --erode, mark areas, distance field, regions-->   the same, with areas and regions
+//             --contours--> tl_contour_set (polygon.h) --polygons--> tl_polygon_mesh --detail--> tl_nav_detail
+//             --bake--> tl_nav_tile (nav_tile.h)
+//
+// Source of the pipeline: Mikko Mononen, Recast; Stephen Pratt, Critterai. Parameters carry Recast's names.
+// Lattice: x is a column's index along x, z its index along z (row), y a height in cell_height units above
+// bounds.min.y.
+
+#ifndef TALUS_NAV_BAKE_H
+#define TALUS_NAV_BAKE_H
+
+#include <talus/mesh.h>
+#include <talus/nav_tile.h>
+#include <talus/polygon.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// How floors are divided into regions.
+typedef enum tl_nav_partition {
+    TL_NAV_WATERSHED, ///< best shapes, slowest; the usual choice for levels that are baked ahead
+    TL_NAV_MONOTONE,  ///< fastest, no holes ever; long thin polygons
+    TL_NAV_LAYERS     ///< fast, no overlaps; good for tiles of middle size
+} tl_nav_partition;
+
+/// What to build, in metres. Fields have the names and defaults that users of Recast know.
+typedef struct tl_nav_def {
+    float cell_size;       ///< metres, > 0: edge of a voxel on x and z. Default 0.3
+    float cell_height;     ///< metres, > 0: height of a voxel. Default 0.2
+    float agent_height;    ///< metres, > 0: free height that an agent needs, rounded up to whole voxels. Default 2
+    float agent_radius;    ///< metres, >= 0: the walkable area is eroded by it, rounded up to whole cells. Default 0.6
+    float agent_max_climb; ///< metres, >= 0: highest step, rounded down to whole voxels. Default 0.9
+    float agent_max_slope; ///< degrees, [0, 90): floors less steep than this, and flat ones, are walkable. Default 45
+    float region_min_size; ///< cells: islands of less than its square are dropped. Default 8
+    float region_merge_size;       ///< cells: regions of less than its square are merged into a neighbour. Default 20
+    float edge_max_len;            ///< metres, >= 0: longest contour edge along a wall, 0: any. Default 12
+    float edge_max_error;          ///< cells, >= 0: how far a simplified contour may leave the traced one. Default 1.3
+    uint32_t max_verts_per_poly;   ///< [3, 64]. Default 6
+    float detail_sample_dist;      ///< cells: spacing of the detail mesh's height samples; < 0.9: no samples. Default 6
+    float detail_sample_max_error; ///< voxel heights: how far the detail mesh may leave the floor. Default 1
+    tl_nav_partition partition;    ///< Default TL_NAV_WATERSHED
+    tl_partition_method polygon_method;    ///< how contours are divided (polygon.h). Default TL_PARTITION_CLASSIC
+    bool filter_low_hanging_obstacles;     ///< Default true
+    bool filter_ledge_spans;               ///< Default true
+    bool filter_walkable_low_height_spans; ///< Default true
+    uint32_t tile_size;                    ///< cells, 0: the whole level is one tile. Default 0
+    float tile_height; ///< metres, rounded down to voxels: floors of one place are divided into layers of that height,
+                       ///< which are tiles of their own. 0: they are one tile. Default 0
+    tl_aabb bounds;    ///< metres; what to build. Empty (the default): the bounds of the mesh
+    tl_host host;
+} tl_nav_def;
+
+TL_API tl_nav_def tl_default_nav_def(void);
+
+/// Where a field lies in the level's lattice. All tiles of a level share one lattice: a tile's first column is an
+/// integer, so the same triangle falls into the same voxels, bit for bit, whichever tile looks at it.
+typedef struct tl_nav_lattice {
+    tl_vec3 origin;           ///< metres; the corner of column (0, 0) of the level, height 0
+    int32_t first_x, first_z; ///< the field's first column in the level's lattice, border included; may be negative
+} tl_nav_lattice;
+
+/// World coordinate of a lattice line: the one formula, so that two tiles that share a line agree on it bit for bit.
+/// `origin` is the lattice origin's coordinate on the axis, `line` counts from it, `size` is the cell's edge or height.
+static inline float tl_nav_lattice_to_world(float origin, int64_t line, float size)
+{
+    return (float)((double)origin + (double)line * (double)size);
+}
+
+/// The def in lattice units, for one tile.
+typedef struct tl_nav_config {
+    tl_nav_lattice lattice;         ///< where this tile's columns lie in the level's lattice
+    tl_aabb bounds;                 ///< metres; of this tile's columns, border included, rounded from the lattice
+    float cell_size;                ///< metres
+    float cell_height;              ///< metres
+    uint32_t width;                 ///< columns along x, border included
+    uint32_t height;                ///< columns along z, border included
+    uint32_t height_voxels;         ///< voxels from the bottom to the top of the bounds
+    uint32_t border_size;           ///< columns on each side that belong to the neighbour tiles
+    uint32_t walkable_height;       ///< voxels, >= 1
+    uint32_t walkable_climb;        ///< voxels
+    uint32_t walkable_radius;       ///< columns
+    float walkable_slope_cos;       ///< walkable triangles have a unit normal of larger y
+    uint32_t min_region_area;       ///< columns
+    uint32_t merge_region_area;     ///< columns
+    uint32_t max_edge_len;          ///< columns, 0: any
+    float max_simplification_error; ///< columns
+    uint32_t max_verts_per_poly;
+    float detail_sample_dist;      ///< metres, 0: no samples
+    float detail_sample_max_error; ///< metres
+    tl_nav_partition partition;
+    tl_partition_method polygon_method;
+    bool filter_low_hanging_obstacles, filter_ledge_spans, filter_walkable_low_height_spans;
+    uint32_t tile_x, tile_z;                           ///< this tile's place in the grid of tiles
+    uint32_t layer_height;                             ///< voxels, 0: a place is one tile
+    float agent_height, agent_radius, agent_max_climb; ///< metres, as given; kept in the tile for queries
+} tl_nav_config;
+
+/// Area 0 is not walkable. Areas 1 to 255 are free for the user; TL_NAV_WALKABLE_AREA, which is Recast's, is what
+/// triangles have that are given none.
+#define TL_NAV_NULL_AREA     0
+#define TL_NAV_WALKABLE_AREA 63
+
+// Limits, checked before any work is done:
+#define TL_NAV_MAX_HEIGHT  0xfffeu    ///< voxels from the bottom to the top of a level's bounds
+#define TL_NAV_MAX_COLUMNS (1u << 30) ///< width * height of one tile, border included
+#define TL_NAV_MAX_SIDE    (1u << 24) ///< columns along one side of a tile, border included
+#define TL_NAV_MAX_LATTICE (1u << 29) ///< columns along one side of the whole level
+#define TL_NAV_MAX_VOXELS  0x7fffu    ///< walkable_height, walkable_climb, walkable_radius
+
+/// The number of tiles along x and z that a def makes of a level. Both 1 when def->tile_size is 0.
+TL_API tl_result tl_nav_tile_grid(const tl_nav_def *def, tl_aabb level_bounds, uint32_t *tiles_x_out,
+                                  uint32_t *tiles_z_out, tl_report *report_out);
+
+/// Metres to voxels, for the tile (tile_x, tile_z). TL_ERR_ARGUMENT names the field in report_out->element and says
+/// in ->advice what to use instead; TL_ERR_LIMIT when the lattice would be too large.
+TL_API tl_result tl_nav_config_from_def(const tl_nav_def *def, tl_aabb level_bounds, uint32_t tile_x, uint32_t tile_z,
+                                        tl_nav_config *config_out, tl_report *report_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Heightfield: the solid space of each column.
+
+/// A solid stretch of one column. min < max, in voxels above the lattice's origin: it fills [min, max).
+typedef struct tl_nav_span {
+    uint16_t min;
+    uint16_t max;
+    uint16_t area; ///< of its top; TL_NAV_NULL_AREA: not walkable
+    uint16_t reserved;
+} tl_nav_span;
+
+/// Spans column by column, row-major (x fastest), bottom to top within a column; spans of a column neither touch nor
+/// overlap.
+typedef struct tl_nav_heightfield {
+    uint32_t width, height;
+    tl_nav_lattice lattice;
+    tl_aabb bounds;
+    float cell_size, cell_height;
+    uint32_t *first_span; ///< [width * height + 1]
+    tl_nav_span *spans;   ///< [span_count]
+    uint32_t span_count;
+    const tl_allocator *allocator;
+} tl_nav_heightfield;
+
+/// Voxelizes triangles conservatively and merges their spans. Triangles less steep than the agent's limit are given
+/// `areas[i]` (NULL: TL_NAV_WALKABLE_AREA), the others TL_NAV_NULL_AREA. Triangles outside the bounds are clipped.
+/// The result does not depend on the order of the triangles. Errors: TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
+TL_API tl_result tl_nav_rasterize(const tl_nav_config *config, const tl_mesh_view *mesh, const uint8_t *areas,
+                                  const tl_host *host, tl_nav_heightfield *heightfield_out, tl_report *report_out);
+TL_API void tl_nav_heightfield_free(tl_nav_heightfield *heightfield);
+
+/// A span that is not walkable but at most walkable_climb above a walkable one below it becomes walkable (kerbs,
+/// stairs).
+TL_API void tl_nav_filter_low_hanging_obstacles(const tl_nav_config *config, tl_nav_heightfield *heightfield);
+/// A span beside a drop of more than walkable_climb, or on too steep a staircase of neighbours, is not walkable.
+TL_API void tl_nav_filter_ledge_spans(const tl_nav_config *config, tl_nav_heightfield *heightfield);
+/// A span with less than walkable_height of free space above is not walkable.
+TL_API void tl_nav_filter_walkable_low_height_spans(const tl_nav_config *config, tl_nav_heightfield *heightfield);
+
+// ---------------------------------------------------------------------------------------------------------
+// Compact heightfield: the open space above walkable spans, and which floor lies beside which.
+
+#define TL_NAV_NO_SPAN       UINT32_MAX
+#define TL_NAV_BORDER_REGION 0x80000000u ///< flag of a region that paints a tile's border
+
+/// What the last region build did besides dividing. A walkable floor without a region belongs to a filtered island.
+typedef struct tl_nav_region_stats {
+    uint32_t split;            ///< regions that lay over themselves and were divided
+    uint32_t merged;           ///< regions that became part of a neighbour
+    uint32_t filtered_regions; ///< regions dropped with their island: fewer than min_region_area columns
+    uint32_t filtered_spans;   ///< floors that these held
+} tl_nav_region_stats;
+
+/// Neighbours are mutual: the span beside in direction d has this one in direction d ^ 2.
+/// Direction d steps (dx, dz): 0 (-1, 0), 1 (0, +1), 2 (+1, 0), 3 (0, -1).
+typedef struct tl_nav_compact {
+    uint32_t width, height;
+    uint32_t border_size;
+    uint32_t walkable_height, walkable_climb; ///< voxels, as the neighbours were made
+    tl_nav_lattice lattice;
+    tl_aabb bounds;
+    float cell_size, cell_height;
+    uint32_t span_count;
+    uint32_t *first_span; ///< [width * height + 1]: column c holds spans [first_span[c], first_span[c + 1])
+    uint16_t *floor;      ///< [span_count] voxels: where an agent stands
+    uint16_t *clearance;  ///< [span_count] voxels of free height above the floor, clamped to 0xffff
+    uint8_t *area;        ///< [span_count]
+    int16_t *step;        ///< [4 * span_count]: to the span beside, by direction, 0: none; mutual. See tl_nav_beside
+    uint32_t *neighbour; ///< instead of `step`, in fields too wide for it: the span beside or TL_NAV_NO_SPAN. Else NULL
+    uint16_t
+        *distance; ///< [span_count] twice the distance to the border in columns; after tl_nav_distance_field, else NULL
+    uint16_t max_distance; ///< no distance is larger
+    uint32_t *region;      ///< [span_count] 0: none; after a region build, else NULL
+    uint32_t region_count; ///< largest region id + 1
+    tl_nav_region_stats region_stats;
+    const tl_allocator *allocator;
+} tl_nav_compact;
+
+/// The span that lies beside another in a direction, or TL_NAV_NO_SPAN.
+static inline uint32_t tl_nav_beside(const tl_nav_compact *compact, uint32_t span, uint32_t direction)
+{
+    const size_t link = 4 * (size_t)span + direction;
+    if (compact->step == NULL) {
+        return compact->neighbour[link];
+    }
+    const int32_t step = compact->step[link];
+    return step != 0 ? span + (uint32_t)step : TL_NAV_NO_SPAN;
+}
+
+TL_API tl_result tl_nav_bake_compact(const tl_nav_config *config, const tl_nav_heightfield *heightfield,
+                                     const tl_host *host, tl_nav_compact *compact_out, tl_report *report_out);
+/// The filters that config names and tl_nav_bake_compact in one sweep over a heightfield that stays as it is: the same
+/// result in half the time.
+TL_API tl_result tl_nav_open_floors(const tl_nav_config *config, const tl_nav_heightfield *heightfield,
+                                    const tl_host *host, tl_nav_compact *compact_out, tl_report *report_out);
+TL_API void tl_nav_compact_free(tl_nav_compact *compact);
+
+/// Takes the walkable area back from walls and ledges by walkable_radius columns.
+TL_API tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact);
+
+/// A volume whose floors get an area: TL_NAV_NULL_AREA cuts a hole. Only walkable floors are marked.
+/// Floors are tested at the centre of their column, and by floor height within [min_y, max_y].
+TL_API void tl_nav_mark_box(tl_nav_compact *compact, tl_aabb box, uint8_t area);
+/// `points`: a simple polygon on xz (y ignored), either winding, convex or not; count >= 3.
+TL_API void tl_nav_mark_polygon(tl_nav_compact *compact, const tl_vec3 *points, uint32_t count, float min_y,
+                                float max_y, uint8_t area);
+/// An upright cylinder that stands on `base`.
+TL_API void tl_nav_mark_cylinder(tl_nav_compact *compact, tl_vec3 base, float radius, float height, uint8_t area);
+
+/// Distance of each floor to the nearest border of its area, blurred as the watershed wants it. Fills
+/// compact->distance.
+TL_API tl_result tl_nav_distance_field(const tl_host *host, tl_nav_compact *compact, tl_report *report_out);
+
+/// Divides the floors into regions as config->partition says (watershed needs the distance field). Fills
+/// compact->region.
+TL_API tl_result tl_nav_bake_regions(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact,
+                                     tl_report *report_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Contours and detail.
+
+/// Contours that own their arrays; `set` is the view that polygon.h takes. `raw` holds each contour before
+/// simplification.
+typedef struct tl_nav_contours {
+    tl_contour_set set;
+    /// The traced outlines, for drawing and checks. Its first set.contour_count contours are those of set, in the same
+    /// order, before simplification and without their holes. Holes follow, then what has no area.
+    tl_contour_set raw;
+    uint32_t hole_count;      ///< traced outlines that run round a hole
+    uint32_t unbridged_count; ///< holes left out of set, because no bridge to their outline was found
+    uint32_t slit_count; ///< traced outlines without area, between floors of one region that are not linked; left out
+    uint32_t repaired_count; ///< traced outlines that got vertices back, lest their simplified forms collapse or cross
+    const tl_allocator *allocator;
+    void *block;
+    size_t block_size;
+} tl_nav_contours;
+
+/// Traces each region's outline, simplifies it within max_simplification_error and max_edge_len, and bridges holes.
+///
+/// The origin of the set is the tile without its border. An edge between two regions has the same vertices on xz in
+/// both. Simplified outlines of a region neither cross themselves nor one another, and none with area is lost. The low
+/// 16 bits of a vertex's flags hold 0 for a wall, and for other edges a number in 1 .. 0x7fff made from the region
+/// across (for regions up to 0x7fff its id), | 0x8000 on the tile's border: information only, nothing rests on it.
+/// Needs regions (TL_ERR_ARGUMENT). Errors: TL_ERR_CORRUPT (neighbours are not mutual), TL_ERR_LIMIT, TL_ERR_MEMORY,
+/// TL_ERR_CANCELLED. On failure contours_out is zeroed.
+TL_API tl_result tl_nav_bake_contours(const tl_nav_config *config, const tl_nav_compact *compact, const tl_host *host,
+                                      tl_nav_contours *contours_out, tl_report *report_out);
+TL_API void tl_nav_contours_free(tl_nav_contours *contours);
+
+/// The detail mesh: heights inside the polygons, sampled from the floors (tl_nav_detail is in nav_tile.h).
+///
+/// Each patch is a Delaunay triangulation of its polygon, in the polygon's winding. Its vertices are the polygon's
+/// corners in order, then samples on edges, then inner ones; a height is that of a floor of the polygon's region, or of
+/// one that links to it. Linked polygons have the same vertices on their common edge. No sample (edges: at most
+/// detail_sample_dist apart; inside: at column centres, half of it from the edges) is farther than
+/// detail_sample_max_error above or below the surface, but in patches that `limited_patches` counts.
+/// `polygons` comes from contours of `compact`. Errors: TL_ERR_ARGUMENT (no regions), TL_ERR_LIMIT (a polygon more than
+/// 2^20 columns wide), TL_ERR_MEMORY, TL_ERR_CANCELLED. On failure detail_out is zeroed.
+TL_API tl_result tl_nav_bake_detail(const tl_nav_config *config, const tl_nav_compact *compact,
+                                    const tl_polygon_mesh *polygons, const tl_host *host, tl_nav_detail *detail_out,
+                                    tl_report *report_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// The whole pipeline.
+
+/// A volume that gives floors an area before regions are made.
+typedef enum tl_nav_volume_kind { TL_NAV_VOLUME_BOX, TL_NAV_VOLUME_POLYGON, TL_NAV_VOLUME_CYLINDER } tl_nav_volume_kind;
+
+typedef struct tl_nav_volume {
+    tl_nav_volume_kind kind;
+    uint8_t area;
+    tl_aabb box;           ///< BOX; for POLYGON its y range
+    const tl_vec3 *points; ///< POLYGON
+    uint32_t point_count;  ///< POLYGON
+    tl_vec3 base;          ///< CYLINDER
+    float radius, height;  ///< CYLINDER
+} tl_nav_volume;
+
+/// tl_nav_mark_box, tl_nav_mark_polygon or tl_nav_mark_cylinder, by kind.
+TL_API void tl_nav_mark_volume(tl_nav_compact *compact, const tl_nav_volume *volume);
+
+/// What the pipeline works on.
+typedef struct tl_nav_input {
+    tl_mesh_view mesh;
+    const uint8_t *areas; ///< one a triangle, or NULL: all TL_NAV_WALKABLE_AREA
+    const tl_nav_volume *volumes;
+    uint32_t volume_count;
+} tl_nav_input;
+
+/// Fills tl_nav_input.areas of a mesh from its materials: areas_out[i] is material_areas[material of triangle i], and
+/// TL_NAV_WALKABLE_AREA where that has no entry. `areas_out` has room for mesh->triangle_count.
+TL_API void tl_nav_areas_of_materials(const tl_mesh_view *mesh, const uint8_t *material_areas, uint32_t material_count,
+                                      uint8_t *areas_out);
+
+/// The intermediate data of one tile, kept for drawing and debugging. Zero before the call; free with
+/// tl_nav_stages_free.
+typedef struct tl_nav_stages {
+    tl_nav_heightfield heightfield; ///< after the filters
+    tl_nav_compact compact;         ///< after erosion, areas, distance, regions
+    tl_nav_contours contours;
+    tl_polygon_mesh polygons;
+    tl_nav_detail detail;
+} tl_nav_stages;
+
+TL_API void tl_nav_stages_free(tl_nav_stages *stages, const tl_allocator *allocator);
+
+/// Counts of a bake, summed over its tiles.
+typedef struct tl_nav_bake_report {
+    tl_report base;
+    uint64_t span_count;         ///< solid spans after rasterization
+    uint64_t compact_span_count; ///< open floors
+    uint32_t region_count;
+    uint32_t filtered_regions; ///< islands of fewer than region_min_size squared columns, which were dropped
+    uint64_t filtered_spans;   ///< floors that these held
+    double filtered_area;      ///< square metres of these
+    uint32_t contour_count;
+    uint32_t unbridged_holes;   ///< holes that became floor (tl_nav_contours.unbridged_count)
+    uint32_t slit_outlines;     ///< outlines without area, left out (tl_nav_contours.slit_count)
+    uint32_t repaired_contours; ///< outlines that could not be simplified or triangulated as they were, and were mended
+    uint32_t polygon_count;
+    uint32_t vertex_count;
+    uint32_t detail_triangle_count;
+    uint32_t limited_patches; ///< of the detail mesh, with larger errors than asked (tl_nav_detail.limited_patches)
+    uint32_t tile_count;      ///< tiles with at least one polygon
+} tl_nav_bake_report;
+
+/// The layer of each polygon of a place: that in which most of its region's area is there. So a storey stays whole,
+/// with the stairs that its region takes along. A polygon of several regions goes by itself; its height is the mean of
+/// its corners. Layer k holds heights from k * layer_height on, in voxels above the origin. layers_out has room for
+/// polygons->polygon_count; all 0 when layer_height is. TL_ERR_MEMORY.
+TL_API tl_result tl_nav_assign_layers(const tl_nav_config *config, const tl_polygon_mesh *polygons,
+                                      const tl_allocator *allocator, uint32_t *layers_out);
+
+/// All stages for one place, as one tile: layer_height is not looked at (tl_nav_tile_divide divides it). `*tile_out` is
+/// NULL with TL_OK when nothing in it is walkable.
+/// `stages_out` NULL: intermediate data is freed as soon as its last reader is done.
+TL_API tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_input *input, const tl_host *host,
+                                  tl_nav_stages *stages_out, tl_nav_tile **tile_out, tl_nav_bake_report *report_out);
+
+/// The stages from regions to the tile, on floors that are there: walkable areas final, eroded and marked. The field's
+/// `distance` and `region` are made anew and left freed; nothing else of it is changed. For obstacles that come and go
+/// without a look at the triangles. `*stack_out`: the tile, or its layers; empty where nothing is walkable.
+TL_API tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
+                                         tl_nav_tile_stack *stack_out, tl_nav_bake_report *report_out);
+
+/// What a tile that is made again and again keeps of itself from one time to the next: what does not depend on the
+/// floors that are marked. With watershed regions 6 bytes a floor, else next to nothing.
+typedef struct tl_nav_tile_memo tl_nav_tile_memo;
+
+/// tl_nav_tile_from_floors, the same bytes, for floors of which few have another area than in `base_area` [span_count].
+/// `*memo` is NULL at first: it is made when a floor is marked, and serves as long as the floors and `base_area` stay
+/// as they are. It takes its memory from the host's allocator. On failure it is as it was.
+TL_API tl_result tl_nav_tile_rebake(const tl_nav_config *config, tl_nav_compact *compact, const uint8_t *base_area,
+                                    tl_nav_tile_memo **memo, const tl_host *host, tl_nav_tile_stack *stack_out,
+                                    tl_nav_bake_report *report_out);
+TL_API void tl_nav_tile_memo_free(tl_nav_tile_memo *memo);
+TL_API uint64_t tl_nav_tile_memo_bytes(const tl_nav_tile_memo *memo);
+
+/// All tiles of a level, in parallel where def->host has tasks; the same bytes for any number of workers.
+typedef struct tl_nav_tiles {
+    tl_nav_tile **tiles; ///< only those that hold polygons, row-major by (tile_z, tile_x), of a place by rising layer
+    uint32_t tile_count;
+    uint32_t tiles_x, tiles_z;
+} tl_nav_tiles;
+
+TL_API tl_result tl_nav_bake(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tiles *tiles_out,
+                             tl_nav_bake_report *report_out);
+TL_API void tl_nav_tiles_free(tl_nav_tiles *tiles, const tl_allocator *allocator);
+
+// ---------------------------------------------------------------------------------------------------------
+// A part of the tiles: levels that change.
+
+/// The tiles [x, x + count_x) by [z, z + count_z) of the grid.
+typedef struct tl_nav_tile_range {
+    uint32_t x, z, count_x, count_z;
+} tl_nav_tile_range;
+
+/// The tiles that can differ when something inside `box` changes: those whose columns, border included, meet it. Empty
+/// (counts 0) beside the level. `level_bounds`: def->bounds where they are given, else those of the mesh. `box` must
+/// have min <= max (TL_ERR_ARGUMENT). Errors else as tl_nav_tile_grid.
+TL_API tl_result tl_nav_tiles_in_box(const tl_nav_def *def, tl_aabb level_bounds, tl_aabb box,
+                                     tl_nav_tile_range *range_out, tl_report *report_out);
+
+/// Is handed each tile's intermediate data as it is done, on the thread that built it; tiles without triangles are
+/// left out. What it takes out of `stages` (and zeroes there) is its own, in def->host.allocator.
+typedef struct tl_nav_stage_sink {
+    void (*take)(const tl_nav_config *config, tl_nav_stages *stages, void *user);
+    void *user;
+} tl_nav_stage_sink;
+
+/// The tiles of a range.
+typedef struct tl_nav_tile_block {
+    tl_nav_tile_range range;
+    tl_nav_tile_stack *stacks; ///< [range.count_x * range.count_z] by place, row-major; empty where nothing is walkable
+} tl_nav_tile_block;
+
+/// Bakes a range of tiles: the same bytes as in tl_nav_bake of the whole. `sink` may be NULL. A caller whose mesh
+/// changes gives def->bounds, so that the lattice stays where it is. TL_ERR_ARGUMENT: a range beyond the grid.
+TL_API tl_result tl_nav_bake_range(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tile_range range,
+                                   const tl_nav_stage_sink *sink, tl_nav_tile_block *block_out,
+                                   tl_nav_bake_report *report_out);
+
+/// Bakes again what a change inside `changed` can have touched (cover both what was there and what is there now): the
+/// same bytes as a bake of the whole level. def->bounds must be given, and the same as when the others were baked
+/// (TL_ERR_ARGUMENT). Hand each stack of the block to tl_navmesh_replace_tiles.
+TL_API tl_result tl_nav_rebake(const tl_nav_def *def, const tl_nav_input *input, tl_aabb changed,
+                               tl_nav_tile_block *block_out, tl_nav_bake_report *report_out);
+TL_API void tl_nav_tile_block_free(tl_nav_tile_block *block, const tl_allocator *allocator);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

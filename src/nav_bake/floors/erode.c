@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// The walkable area is taken back from walls and ledges by the agent's radius.
+// Source: Mikko Mononen, Recast (rcErodeWalkableArea); Gunilla Borgefors, Distance transformations in digital images,
+// 1986: two sweeps, a straight step counts 2, a diagonal 3.
+//
+// The sweeps run over the floors in their order of storage: a floor's neighbours at -x and -z come before it, those at
+// +x and +z after it.
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+#include "nav_bake/floors/links.h"
+
+#include <string.h>
+
+enum { STRAIGHT = 2, DIAGONAL = 3 };
+
+static inline uint32_t min_of(uint32_t a, uint32_t b)
+{
+    return a < b ? a : b;
+}
+
+// A floor that is not walkable, or lacks a walkable neighbour.
+static inline bool is_border(const tl_nav_compact *compact, uint32_t i, const tl_links *links)
+{
+    if (compact->area[i] == TL_NAV_NULL_AREA) {
+        return true;
+    }
+    for (uint32_t d = 0; d < 4; d++) {
+        if (links->to[d] == TL_NAV_NO_SPAN || compact->area[links->to[d]] == TL_NAV_NULL_AREA) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The least of `nearest` and what a floor beside, and the one beside that in `turn`, give.
+static inline uint32_t nearest_over(const tl_nav_compact *compact, const uint16_t *distance, uint32_t beside,
+                                    uint32_t turn, uint32_t nearest)
+{
+    nearest = min_of(nearest, (uint32_t)distance[beside] + STRAIGHT);
+    const uint32_t across = tl_nav_beside(compact, beside, turn);
+    return across != TL_NAV_NO_SPAN ? min_of(nearest, (uint32_t)distance[across] + DIAGONAL) : nearest;
+}
+
+// Borders get 0, all others the distance from what comes before them, at most `limit`. Those have all four neighbours.
+static void sweep_forward(const tl_nav_compact *compact, uint32_t limit, uint16_t *distance)
+{
+    for (uint32_t i = 0; i < compact->span_count; i++) {
+        const tl_links links = tl_nav_links(compact, i);
+        uint32_t nearest = 0;
+        if (!is_border(compact, i, &links)) {
+            nearest = nearest_over(compact, distance, links.to[0], 3, limit);
+            nearest = nearest_over(compact, distance, links.to[3], 2, nearest);
+        }
+        distance[i] = (uint16_t)nearest;
+    }
+}
+
+// The same from what comes after. Floors nearer than `limit` are no longer walkable.
+static void sweep_backward(tl_nav_compact *compact, uint32_t limit, uint16_t *distance)
+{
+    for (uint32_t i = compact->span_count; i-- > 0;) {
+        uint32_t nearest = distance[i];
+        if (nearest > 0) {
+            nearest = nearest_over(compact, distance, tl_nav_beside(compact, i, 2), 1, nearest);
+            nearest = nearest_over(compact, distance, tl_nav_beside(compact, i, 1), 0, nearest);
+            distance[i] = (uint16_t)nearest;
+        }
+        compact->area[i] = nearest < limit ? TL_NAV_NULL_AREA : compact->area[i];
+    }
+}
+
+tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact)
+{
+    TL_TRY(tl_progress_update(host, "erode", 0, 1));
+    if (config->walkable_radius > 0) {
+        // walkable_radius <= TL_NAV_MAX_VOXELS, so its double fits 16 bits; farther floors need no exact distance.
+        const uint32_t limit = config->walkable_radius * STRAIGHT;
+        const tl_allocator *allocator = host != NULL ? host->allocator : NULL;
+        uint16_t *distance = tl_allocate_array(allocator, compact->span_count, sizeof *distance);
+        if (distance == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        sweep_forward(compact, limit, distance);
+        sweep_backward(compact, limit, distance);
+        tl_release_array(allocator, distance, compact->span_count, sizeof *distance);
+    }
+    return tl_progress_update(host, "erode", 1, 1);
+}

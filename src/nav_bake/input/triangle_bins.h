@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// Which triangles lie in which part of a lattice: the bands of a field, the tiles of a level.
+
+#ifndef TALUS_SRC_NAV_BAKE_TRIANGLE_BINS_H
+#define TALUS_SRC_NAV_BAKE_TRIANGLE_BINS_H
+
+#include "nav_bake/voxels/voxelize.h"
+
+/// Some triangles of a mesh, by index; NULL indices: all.
+typedef struct tl_triangle_list {
+    const uint32_t *indices;
+    uint32_t count;
+} tl_triangle_list;
+
+static inline uint32_t tl_triangle_list_get(const tl_triangle_list *list, uint32_t i)
+{
+    return list->indices != NULL ? list->indices[i] : i;
+}
+
+/// A grid of bins over columns: bin (x, z) covers the columns [x * size_x - margin, (x + 1) * size_x + margin) of the
+/// map's lattice, and so on z.
+typedef struct tl_bin_grid {
+    uint32_t count_x, count_z;
+    uint32_t size_x, size_z; ///< columns, > 0
+    uint32_t margin;         ///< columns
+} tl_bin_grid;
+
+typedef struct tl_triangle_bins {
+    uint32_t *first;     ///< [bin_count + 1]
+    uint32_t *triangles; ///< ascending within each bin
+    uint64_t bin_count;
+    const tl_allocator *allocator;
+} tl_triangle_bins;
+
+/// Puts each triangle into every bin that its box overlaps. TL_ERR_LIMIT when that makes 2^32 entries or more.
+tl_result tl_triangle_bins_build(const tl_mesh_view *mesh, tl_triangle_list list, const tl_lattice_map *map,
+                                 const tl_bin_grid *grid, const tl_allocator *allocator, tl_triangle_bins *bins_out);
+void tl_triangle_bins_free(tl_triangle_bins *bins);
+
+static inline tl_triangle_list tl_triangle_bins_get(const tl_triangle_bins *bins, uint64_t bin)
+{
+    tl_triangle_list list = { bins->triangles + bins->first[bin], bins->first[bin + 1] - bins->first[bin] };
+    return list;
+}
+
+#endif

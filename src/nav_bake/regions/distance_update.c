@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+//
+// The distance field of floors of which few have changed their area.
+//
+// Each step of the field makes a floor's value from its own and its neighbours', in an order that is fixed. So what a
+// change reaches is found step by step: the floors whose input has changed wait in a set of bits, which is gone through
+// in the step's own order, and a floor whose value comes out otherwise puts those that read it into the set. Those come
+// later in the order. The values are the same as those of a whole field, on floors of any shape, since each is made by
+// the same function from the same values.
+//
+// Rejected: raising and lowering distances from the changed borders outward (dynamic Euclidean distance fields: Lau,
+// Sprunk, Burgard, 2013). It needs distances that are the nearest over all paths; two sweeps give them where floors lie
+// side by side as on a map, but not where a stair winds round on itself, and there the bytes would differ.
+
+#include "nav_bake/regions/distance_update.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/lowest_bit.h"
+#include "nav_bake/regions/distance_steps.h"
+
+#include <string.h>
+
+typedef struct updater {
+    const tl_nav_compact *compact;
+    const uint8_t *before;
+    uint32_t words;
+    uint64_t *first, *second; // floors that wait for this step, and for the next one
+    uint16_t *forward, *sharp, *blurred;
+} updater;
+
+static inline void add(uint64_t *set, uint32_t floor)
+{
+    if (floor != TL_NAV_NO_SPAN) {
+        set[floor / 64] |= UINT64_C(1) << (floor & 63);
+    }
+}
+
+static inline uint32_t step(const tl_nav_compact *compact, uint32_t floor, uint32_t direction)
+{
+    return floor != TL_NAV_NO_SPAN ? tl_nav_beside(compact, floor, direction) : TL_NAV_NO_SPAN;
+}
+
+// Puts the floors that may become borders, or cease to be, into the first set.
+static void find_changes(const updater *u)
+{
+    const tl_nav_compact *compact = u->compact;
+    for (uint32_t begin = 0; begin < compact->span_count; begin += 64) {
+        const uint32_t left = compact->span_count - begin, count = left < 64 ? left : 64;
+        if (memcmp(u->before + begin, compact->area + begin, count) == 0) {
+            continue;
+        }
+        for (uint32_t i = begin; i < begin + count; i++) {
+            if (u->before[i] != compact->area[i]) {
+                const tl_links links = tl_nav_links(compact, i);
+                add(u->first, i);
+                for (uint32_t d = 0; d < 4; d++) {
+                    add(u->first, links.to[d]);
+                }
+            }
+        }
+    }
+}
+
+static void update_forward(const updater *u)
+{
+    const tl_nav_compact *compact = u->compact;
+    for (uint32_t w = 0; w < u->words; w++) {
+        while (u->first[w] != 0) {
+            const uint32_t i = 64 * w + tl_lowest_bit(u->first[w]);
+            u->first[w] &= u->first[w] - 1;
+            const uint16_t value = tl_distance_forward(compact, u->forward, i);
+            if (value == u->forward[i]) {
+                continue;
+            }
+            u->forward[i] = value;
+            add(u->second, i);
+            const uint32_t right = tl_nav_beside(compact, i, 2), below = tl_nav_beside(compact, i, 1);
+            add(u->first, right); // all four come later
+            add(u->first, below);
+            add(u->first, step(compact, below, 2));
+            add(u->first, step(compact, tl_nav_beside(compact, i, 0), 1));
+        }
+    }
+}
+
+static void update_backward(const updater *u)
+{
+    const tl_nav_compact *compact = u->compact;
+    for (uint32_t w = u->words; w-- > 0;) {
+        while (u->second[w] != 0) {
+            const uint32_t bit = tl_highest_bit(u->second[w]), i = 64 * w + bit;
+            u->second[w] ^= UINT64_C(1) << bit;
+            const uint16_t value = tl_distance_backward(compact, u->sharp, i, u->forward[i]);
+            if (value == u->sharp[i]) {
+                continue;
+            }
+            u->sharp[i] = value;
+            add(u->first, i);
+            const tl_links links = tl_nav_links(compact, i);
+            add(u->second, links.to[0]); // all four come earlier
+            add(u->second, links.to[3]);
+            add(u->second, step(compact, links.to[3], 0));
+            add(u->second, step(compact, links.to[2], 3));
+            for (uint32_t d = 0; d < 4; d++) { // what the blur looks at in d, and then in the next direction
+                add(u->first, links.to[d]);
+                add(u->first, step(compact, links.to[d], (d + 3) & 3));
+            }
+        }
+    }
+}
+
+static void update_blur(const updater *u)
+{
+    for (uint32_t w = 0; w < u->words; w++) {
+        for (uint64_t bits = u->first[w]; bits != 0; bits &= bits - 1) {
+            const uint32_t i = 64 * w + tl_lowest_bit(bits);
+            u->blurred[i] = tl_distance_blurred(u->compact, u->sharp, i);
+        }
+    }
+}
+
+static void copy_values(uint16_t *to, const uint16_t *from, uint32_t count)
+{
+    memcpy(to, from, count * sizeof *to);
+}
+
+static uint16_t largest_of(const uint16_t *values, uint32_t count)
+{
+    uint16_t largest = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        largest = values[i] > largest ? values[i] : largest;
+    }
+    return largest;
+}
+
+tl_result tl_distance_field_update(const uint8_t *before, const tl_distance_stages *stages,
+                                   const tl_allocator *allocator, tl_nav_compact *compact)
+{
+    TL_ASSERT(compact->distance == NULL);
+    const uint32_t count = compact->span_count, words = (uint32_t)(((uint64_t)count + 63) / 64);
+    updater u = { .compact = compact, .before = before, .words = words };
+    u.first = tl_allocate_array(allocator, 2 * (uint64_t)words, sizeof *u.first);
+    u.forward = tl_allocate_array(allocator, 2 * (uint64_t)count, sizeof *u.forward);
+    u.blurred = tl_allocate_array(compact->allocator, count, sizeof *u.blurred);
+    const bool there = u.first != NULL && u.forward != NULL && u.blurred != NULL;
+    if (there) {
+        u.second = u.first + words;
+        u.sharp = u.forward + count;
+        memset(u.first, 0, 2 * (size_t)words * sizeof *u.first);
+        copy_values(u.forward, stages->forward, count);
+        copy_values(u.sharp, stages->sharp, count);
+        copy_values(u.blurred, stages->blurred, count);
+        find_changes(&u);
+        update_forward(&u);
+        update_backward(&u);
+        update_blur(&u);
+        compact->max_distance = largest_of(u.sharp, count);
+        compact->distance = u.blurred;
+    } else {
+        tl_release_array(compact->allocator, u.blurred, count, sizeof *u.blurred);
+    }
+    tl_release_array(allocator, u.first, 2 * (uint64_t)words, sizeof *u.first);
+    tl_release_array(allocator, u.forward, 2 * (uint64_t)count, sizeof *u.forward);
+    return there ? TL_OK : TL_ERR_MEMORY;
+}
+
+void tl_distance_stages_free(tl_distance_stages *stages, uint32_t span_count, const tl_allocator *allocator)
+{
+    tl_release_array(allocator, stages->forward, span_count, sizeof *stages->forward);
+    tl_release_array(allocator, stages->sharp, span_count, sizeof *stages->sharp);
+    tl_release_array(allocator, stages->blurred, span_count, sizeof *stages->blurred);
+    memset(stages, 0, sizeof *stages);
+}
+
+tl_result tl_distance_stages_make(const tl_nav_compact *compact, const tl_allocator *allocator,
+                                  tl_distance_stages *stages_out)
+{
+    const uint32_t count = compact->span_count;
+    tl_distance_stages stages;
+    stages.forward = tl_allocate_array(allocator, count, sizeof *stages.forward);
+    stages.sharp = tl_allocate_array(allocator, count, sizeof *stages.sharp);
+    stages.blurred = tl_allocate_array(allocator, count, sizeof *stages.blurred);
+    if (stages.forward == NULL || stages.sharp == NULL || stages.blurred == NULL) {
+        tl_distance_stages_free(&stages, count, allocator);
+        return TL_ERR_MEMORY;
+    }
+    tl_distance_sweep_forward(compact, stages.forward);
+    copy_values(stages.sharp, stages.forward, count);
+    tl_distance_sweep_backward(compact, stages.sharp);
+    tl_distance_blur(compact, stages.sharp, stages.blurred);
+    *stages_out = stages;
+    return TL_OK;
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+//
+// Columns with several floors, by region: a counting sort.
+//
+// Which regions lie over one another changes seldom from column to column: under a roof all columns hold the same two
+// regions. So a column that repeats the regions of the one before it is left out, and what is left are the columns at
+// the regions' rims.
+//
+// Rejected: a set of overlapping regions for each region, as Recast keeps. It has a pair for each two floors of a
+// column, and has to be merged and renamed with the regions; a list of columns stays true under any renaming.
+
+#include "nav_bake/regions/region_columns.h"
+
+#include "base/assert.h"
+
+#include <string.h>
+
+// Whether the `count` floors from a and from b on have the same regions.
+static inline bool same_regions(const uint32_t *region, uint32_t a, uint32_t b, uint32_t count)
+{
+    uint32_t k = 0;
+    while (k < count && region[a + k] == region[b + k]) {
+        k++;
+    }
+    return k == count;
+}
+
+static tl_result append(tl_region_work *work, uint32_t *capacity, uint32_t column)
+{
+    tl_stacked_columns *stacked = &work->stacked;
+    if (stacked->count == *capacity) {
+        const uint32_t grown = *capacity > 0 ? 2 * *capacity : 256; // no more than columns, so below 2^31
+        uint32_t *columns = TL_PUSH(work->arena, uint32_t, grown);
+        if (columns == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        if (stacked->count > 0) {
+            memcpy(columns, stacked->columns, stacked->count * sizeof *columns);
+        }
+        stacked->columns = columns;
+        *capacity = grown;
+    }
+    stacked->columns[stacked->count++] = column;
+    return TL_OK;
+}
+
+tl_result tl_stacked_columns_find(tl_region_work *work)
+{
+    const tl_nav_compact *compact = work->compact;
+    const uint32_t *region = work->region, *first = compact->first_span;
+    const uint32_t column_count = compact->width * compact->height;
+    uint32_t capacity = 0, before = 0, before_count = 0; // the floors of the column of several floors before this one
+    if (work->stacked.are_known) {
+        return TL_OK;
+    }
+    work->stacked = (tl_stacked_columns){ NULL, 0, false };
+    for (uint32_t c = 0; c < column_count; c++) {
+        const uint32_t begin = first[c], count = first[c + 1] - begin;
+        if (count <= 1) {
+            continue;
+        }
+        if (count != before_count || !same_regions(region, before, begin, count)) {
+            TL_TRY(append(work, &capacity, c));
+        }
+        before = begin;
+        before_count = count;
+    }
+    work->stacked.are_known = true;
+    return TL_OK;
+}
+
+tl_result tl_region_columns_make(tl_region_work *work, tl_region_columns *columns_out)
+{
+    const tl_nav_compact *compact = work->compact;
+    const uint32_t *region = work->region;
+    TL_TRY(tl_stacked_columns_find(work));
+    const tl_stacked_columns stacked = work->stacked;
+    uint32_t *first = TL_PUSH_ZERO(work->arena, uint32_t, (uint64_t)work->region_count + 2);
+    if (first == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    // next[r + 1] counts region r, then is where r begins, then where it ends: first[r + 1].
+    uint32_t *next = first + 1;
+    for (uint32_t k = 0; k < stacked.count; k++) {
+        const uint32_t c = stacked.columns[k];
+        for (uint32_t i = compact->first_span[c]; i < compact->first_span[c + 1]; i++) {
+            if (region[i] != 0 && !tl_region_is_border(region[i])) {
+                next[region[i] + 1]++;
+            }
+        }
+    }
+    for (uint32_t r = 1; r <= work->region_count; r++) {
+        next[r] += next[r - 1];
+    }
+    uint32_t *column = TL_PUSH(work->arena, uint32_t, next[work->region_count]);
+    if (column == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t k = 0; k < stacked.count; k++) {
+        const uint32_t c = stacked.columns[k];
+        for (uint32_t i = compact->first_span[c]; i < compact->first_span[c + 1]; i++) {
+            if (region[i] != 0 && !tl_region_is_border(region[i])) {
+                column[next[region[i]]++] = c;
+            }
+        }
+    }
+    columns_out->compact = compact;
+    columns_out->region = region;
+    columns_out->first = first;
+    columns_out->column = column;
+    return TL_OK;
+}

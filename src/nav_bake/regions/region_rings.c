@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+//
+// Rings: one walk round each region's outer outline.
+//
+// The walk keeps the region on its right hand: along an edge that leads out of the region it turns clockwise, through
+// one that does not it steps and turns back. Source: Mononen, Recast; Moore-neighbour tracing.
+//
+// A region's first floor by index has the least z, and of those the least x, so what lies beyond its -x edge is not of
+// the region: the walk that starts there goes round the outer outline and not round a hole.
+
+#include "nav_bake/regions/region_rings.h"
+
+#include "base/assert.h"
+
+#include <string.h>
+
+typedef struct ring_walk {
+    const tl_region_work *work;
+    tl_region_rings *rings;
+    uint32_t capacity;
+    uint64_t steps_left; // each step leaves a pair (floor, direction) for good, so there are at most 4 a floor
+} ring_walk;
+
+static inline uint32_t region_across(const tl_region_work *work, uint32_t floor, uint32_t direction)
+{
+    uint32_t beside = tl_nav_beside(work->compact, floor, direction);
+    return beside != TL_NAV_NO_SPAN ? work->region[beside] : 0;
+}
+
+// Entries are kept as a plain stretch while a ring is walked, and linked at its end.
+static tl_result append(ring_walk *walk, uint32_t region)
+{
+    tl_region_rings *rings = walk->rings;
+    if (rings->entry_count == walk->capacity) {
+        uint32_t capacity = walk->capacity > 0 ? 2 * walk->capacity : 256;
+        if (capacity <= walk->capacity) {
+            return TL_ERR_LIMIT;
+        }
+        tl_ring_entry *grown = TL_PUSH(walk->work->arena, tl_ring_entry, capacity);
+        if (grown == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        if (walk->capacity > 0) {
+            memcpy(grown, rings->entries, walk->capacity * sizeof *grown);
+        }
+        rings->entries = grown;
+        walk->capacity = capacity;
+    }
+    rings->entries[rings->entry_count].region = region;
+    rings->entries[rings->entry_count].next = rings->entry_count + 1;
+    rings->entry_count++;
+    return TL_OK;
+}
+
+static tl_result walk_ring(ring_walk *walk, uint32_t floor)
+{
+    const tl_region_work *work = walk->work;
+    tl_region_rings *rings = walk->rings;
+    uint32_t own = work->region[floor], start = floor, direction = 0, begin = rings->entry_count;
+    do {
+        if (walk->steps_left-- == 0) {
+            return TL_ERR_CORRUPT;
+        }
+        uint32_t across = region_across(work, floor, direction);
+        if (across != own) {
+            if (rings->entry_count == begin || rings->entries[rings->entry_count - 1].region != across) {
+                TL_TRY(append(walk, across));
+            }
+            direction = (direction + 1) & 3;
+        } else {
+            floor = tl_nav_beside(work->compact, floor, direction);
+            direction = (direction + 3) & 3;
+        }
+    } while (floor != start || direction != 0);
+    // The last stretch may continue into the first.
+    if (rings->entry_count - begin > 1 &&
+        rings->entries[rings->entry_count - 1].region == rings->entries[begin].region) {
+        rings->entry_count--;
+    }
+    rings->entries[rings->entry_count - 1].next = begin;
+    rings->head[own] = begin;
+    return TL_OK;
+}
+
+tl_result tl_region_rings_make(const tl_region_work *work, tl_region_rings *rings_out)
+{
+    const tl_nav_compact *compact = work->compact;
+    memset(rings_out, 0, sizeof *rings_out);
+    rings_out->head = TL_PUSH(work->arena, uint32_t, work->region_count);
+    rings_out->span_count = TL_PUSH_ZERO(work->arena, uint32_t, work->region_count);
+    rings_out->area = TL_PUSH_ZERO(work->arena, uint8_t, work->region_count);
+    if (rings_out->head == NULL || rings_out->span_count == NULL || rings_out->area == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t r = 0; r < work->region_count; r++) {
+        rings_out->head[r] = TL_NO_RING;
+    }
+    ring_walk walk = { work, rings_out, 0, 4 * (uint64_t)compact->span_count };
+    // Floors that follow one another are mostly of one region: they are counted a run at a time.
+    for (uint32_t i = 0, end; i < compact->span_count; i = end) {
+        const uint32_t region = work->region[i];
+        for (end = i + 1; end < compact->span_count && work->region[end] == region; end++) {
+        }
+        if (region == 0 || tl_region_is_border(region)) {
+            continue;
+        }
+        const bool is_first = rings_out->span_count[region] == 0;
+        rings_out->span_count[region] += end - i;
+        if (is_first) {
+            rings_out->area[region] = compact->area[i];
+            if (region_across(work, i, 0) == region) {
+                return TL_ERR_CORRUPT;
+            }
+            TL_TRY(walk_ring(&walk, i));
+        }
+    }
+    return TL_OK;
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+//
+// Monotone partition: each row's floors are cut into runs, and a run continues the region of the row before when it
+// touches no other there, and that one no other run first. One pass over the floors, two labels a run.
+//
+// A region then has at most one run a row, so it has no hole and does not lie over itself.
+// Source: Mononen, Recast, after the monotone partition of polygons.
+//
+// Why it is fast here: the floors of a row are one stretch of the arrays, and the counts of what a row touches are
+// cleared by walking what was touched. (Recast clears one for each region so far, at each row.)
+
+#include "nav_bake/floors/links.h"
+#include "nav_bake/regions/regions.h"
+
+#include <string.h>
+
+typedef struct sweep {
+    uint32_t first; // the region that the run touches first in the row before; 0: none
+    uint32_t above; // the one region that it touches there; 0 none, MANY several
+    uint32_t links; // floors through which it does
+    uint32_t region;
+} sweep;
+
+#define MANY UINT32_MAX
+
+typedef struct monotone {
+    const tl_nav_compact *compact;
+    uint32_t *region;
+    sweep *sweeps;         // [row_capacity + 1], from 1
+    uint32_t *touched;     // [touched_capacity] floors of this row that lie beside each region of the row before
+    uint32_t region_count; // largest id + 1
+} monotone;
+
+// The region of what lies beside a floor, or of the floor itself where nothing does; 0 when it has another area or is
+// the border's.
+static inline uint32_t region_if_same(const monotone *m, uint32_t beside, uint8_t area)
+{
+    const uint32_t region = m->region[beside];
+    return m->compact->area[beside] == area && !tl_region_is_border(region) ? region : 0;
+}
+
+// Labels the row's floors with runs 1 .. and returns their number + 1. They have no region before.
+static uint32_t make_runs(monotone *m, uint32_t begin, uint32_t end)
+{
+    uint32_t next = 1;
+    for (uint32_t i = begin; i < end; i++) {
+        const uint8_t area = m->compact->area[i];
+        if (area == TL_NAV_NULL_AREA) {
+            continue;
+        }
+        const tl_links links = tl_nav_links_or_self(m->compact, i);
+        uint32_t run = region_if_same(m, links.to[0], area);
+        const uint32_t above = region_if_same(m, links.to[3], area);
+        if (run == 0) {
+            run = next++;
+            m->sweeps[run] = (sweep){ above, 0, 0, 0 };
+        }
+        if (above != 0) {
+            // Past its first region a run counts nowhere: that one may still go on in another run.
+            sweep *s = &m->sweeps[run];
+            s->first = s->first != 0 ? s->first : above;
+            bool same = s->above == 0 || s->above == above;
+            s->above = same ? above : MANY;
+            s->links += same;
+            m->touched[above] += same;
+        }
+        m->region[i] = run;
+    }
+    return next;
+}
+
+// Turns runs into regions, and clears the counts.
+static void name_runs(monotone *m, uint32_t begin, uint32_t end, uint32_t run_count)
+{
+    for (uint32_t k = 1; k < run_count; k++) {
+        sweep *s = &m->sweeps[k];
+        bool continues = s->above != 0 && s->above != MANY && m->touched[s->above] == s->links;
+        s->region = continues ? s->above : m->region_count++;
+    }
+    for (uint32_t k = 1; k < run_count; k++) {
+        m->touched[m->sweeps[k].first] = 0;
+    }
+    m->sweeps[0].region = 0; // of floors that are not walkable
+    for (uint32_t i = begin; i < end; i++) {
+        m->region[i] = m->sweeps[m->region[i]].region;
+    }
+}
+
+static uint32_t largest_row(const tl_nav_compact *compact, uint32_t first_x, uint32_t end_x)
+{
+    uint32_t largest = 0;
+    for (uint32_t z = 0; z < compact->height; z++) {
+        const uint32_t *row = compact->first_span + (size_t)z * compact->width;
+        uint32_t count = row[end_x] - row[first_x];
+        largest = count > largest ? count : largest;
+    }
+    return largest;
+}
+
+tl_result tl_regions_monotone(tl_region_work *work)
+{
+    const tl_nav_compact *compact = work->compact;
+    uint32_t border = compact->border_size;
+    work->region_count = 1;
+    if (compact->width <= 2 * border || compact->height <= 2 * border) {
+        return TL_OK;
+    }
+    uint32_t first_x = border, end_x = compact->width - border;
+    uint32_t row_capacity = largest_row(compact, first_x, end_x);
+    monotone m = { compact, work->region, NULL, NULL, 1 };
+    m.sweeps = TL_PUSH(work->arena, sweep, (uint64_t)row_capacity + 1);
+    // A new region takes at least one floor, so ids stay within the floors.
+    m.touched = TL_PUSH_ZERO(work->arena, uint32_t, (uint64_t)compact->span_count + 1);
+    if (m.sweeps == NULL || m.touched == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t z = border; z < compact->height - border; z++) {
+        const uint32_t *row = compact->first_span + (size_t)z * compact->width;
+        uint32_t run_count = make_runs(&m, row[first_x], row[end_x]);
+        name_runs(&m, row[first_x], row[end_x], run_count);
+    }
+    work->region_count = m.region_count;
+    return TL_OK;
+}

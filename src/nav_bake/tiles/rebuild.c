@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+//
+// Which tiles a change can touch, and baking those again.
+//
+// A tile looks at its own columns and at a border of its neighbours'; nothing else reaches it. So the tiles that a box
+// can change are those whose columns with border meet it, and all others keep their bytes.
+
+#include "base/assert.h"
+#include "base/host.h"
+#include "nav_bake/tiles/tile_build.h"
+
+#include <math.h>
+
+// Tiles along one axis whose columns [t * size - border, (t + 1) * size + border) meet [min, max], metres. One column
+// more on each side pays for the rounding of the division.
+static void axis_range(float min, float max, float origin, float cell_size, uint32_t size, uint32_t border,
+                       uint32_t tiles, uint32_t *first_out, uint32_t *count_out)
+{
+    const double reach = (double)border + 1.0;
+    double first = floor((((double)min - (double)origin) / (double)cell_size - reach) / (double)size);
+    double last = floor((((double)max - (double)origin) / (double)cell_size + reach) / (double)size);
+    *first_out = *count_out = 0;
+    if (last >= 0.0 && first < (double)tiles) {
+        *first_out = first > 0.0 ? (uint32_t)first : 0;
+        *count_out = (last < (double)tiles - 1.0 ? (uint32_t)last : tiles - 1) - *first_out + 1;
+    }
+}
+
+tl_result tl_nav_tiles_in_box(const tl_nav_def *def, tl_aabb level_bounds, tl_aabb box, tl_nav_tile_range *range_out,
+                              tl_report *report_out)
+{
+    tl_nav_tile_range range = { 0, 0, 0, 0 };
+    *range_out = range;
+    if (!tl_is_finite(box.min) || !tl_is_finite(box.max)) {
+        return tl_report_fail(report_out, TL_ERR_NOT_FINITE, "box", TL_NO_ELEMENT, NULL);
+    }
+    if (tl_aabb_is_empty(box)) {
+        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "box", TL_NO_ELEMENT, "give a box with min <= max");
+    }
+    uint32_t tiles_x, tiles_z;
+    tl_nav_config config;
+    TL_TRY(tl_nav_tile_grid(def, level_bounds, &tiles_x, &tiles_z, report_out));
+    TL_TRY(tl_nav_config_from_def(def, level_bounds, 0, 0, &config, report_out));
+    if (def->tile_size == 0) {
+        range.count_x = range.count_z = 1;
+    } else {
+        axis_range(box.min.x, box.max.x, config.lattice.origin.x, config.cell_size, def->tile_size, config.border_size,
+                   tiles_x, &range.x, &range.count_x);
+        axis_range(box.min.z, box.max.z, config.lattice.origin.z, config.cell_size, def->tile_size, config.border_size,
+                   tiles_z, &range.z, &range.count_z);
+    }
+    if (range.count_x > 0 && range.count_z > 0) {
+        *range_out = range;
+    }
+    return TL_OK;
+}
+
+tl_result tl_nav_rebake(const tl_nav_def *def, const tl_nav_input *input, tl_aabb changed, tl_nav_tile_block *block_out,
+                        tl_nav_bake_report *report_out)
+{
+    tl_nav_bake_report report = { 0 };
+    tl_nav_tile_range range;
+    *block_out = (tl_nav_tile_block){ { 0, 0, 0, 0 }, NULL };
+    tl_report_begin(&report.base, "rebuild");
+    tl_result result = TL_OK;
+    if (tl_aabb_is_empty(def->bounds)) {
+        result = tl_report_fail(&report.base, TL_ERR_ARGUMENT, "bounds", TL_NO_ELEMENT,
+                                "give def->bounds, or the lattice moves when the mesh does");
+    }
+    if (result == TL_OK) {
+        result = tl_nav_tiles_in_box(def, def->bounds, changed, &range, &report.base);
+    }
+    if (result == TL_OK) {
+        return tl_nav_bake_range(def, input, range, NULL, block_out, report_out);
+    }
+    if (report_out != NULL) {
+        *report_out = report;
+    }
+    return result;
+}

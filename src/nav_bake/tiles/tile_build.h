@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+//
+// All stages for one tile, on input that was checked.
+
+#ifndef TALUS_SRC_NAV_BAKE_TILE_BUILD_H
+#define TALUS_SRC_NAV_BAKE_TILE_BUILD_H
+
+#include "nav_bake/input/triangle_bins.h"
+
+/// Checks mesh, areas and volumes, and measures the mesh's bounds.
+tl_result tl_nav_input_check(const tl_nav_input *input, tl_aabb *bounds_out, tl_report *report);
+
+/// tl_nav_tile_bake for the triangles of a list. Adds its counts to those in `report`, which is not NULL, and leaves
+/// the last stage, or what failed, in its base. `stages` is not NULL and zero; with `keep_stages` it holds all
+/// intermediate data afterwards, also on failure, else nothing.
+tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input, tl_triangle_list list,
+                          const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile_stack *stack_out,
+                          tl_nav_bake_report *report);
+
+/// tl_nav_tile_from_floors for floors that have their distance field already, with `has_distance`.
+tl_result tl_nav_tile_from_distance(const tl_nav_config *config, tl_nav_compact *compact, bool has_distance,
+                                    const tl_host *host, tl_nav_tile_stack *stack_out, tl_nav_bake_report *report_out);
+
+/// The stages were built through a meter, which ends with the build; what holds an allocator gets the host's.
+void tl_nav_stages_hand_over(tl_nav_stages *stages, const tl_allocator *allocator);
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+//
+// A tile that is made again and again, with few of its floors marked otherwise each time.
+//
+// What is kept is made once, for the floors without marks; what a marked floor changes in it is found and done anew. So
+// nothing depends on what was there before, and the tile has the bytes of one that is made at once.
+
+#include "nav_bake/tiles/tile_build.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "nav_bake/regions/distance_update.h"
+
+#include <string.h>
+
+struct tl_nav_tile_memo {
+    tl_allocator allocator;
+    uint32_t span_count;
+    tl_distance_stages distance; // of the base areas; none unless the regions are watershed
+};
+
+static tl_result make_memo(const tl_nav_config *config, const tl_nav_compact *compact, const uint8_t *base_area,
+                           const tl_allocator *allocator, tl_nav_tile_memo **memo_out)
+{
+    tl_nav_tile_memo *memo = tl_allocate_array(allocator, 1, sizeof *memo);
+    if (memo == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(memo, 0, sizeof *memo);
+    memo->allocator = *allocator;
+    memo->span_count = compact->span_count;
+    if (config->partition == TL_NAV_WATERSHED) {
+        tl_nav_compact bare = *compact;
+        bare.area = (uint8_t *)(uintptr_t)base_area; // is only read
+        if (tl_distance_stages_make(&bare, allocator, &memo->distance) != TL_OK) {
+            tl_nav_tile_memo_free(memo);
+            return TL_ERR_MEMORY;
+        }
+    }
+    *memo_out = memo;
+    return TL_OK;
+}
+
+static tl_result remake(const tl_nav_config *config, tl_nav_compact *compact, const uint8_t *base_area,
+                        const tl_nav_tile_memo *memo, const tl_host *host, tl_nav_tile_stack *stack_out,
+                        tl_nav_bake_report *report_out)
+{
+    const bool watershed = config->partition == TL_NAV_WATERSHED;
+    if (watershed) {
+        TL_TRY(tl_distance_field_update(base_area, &memo->distance, &memo->allocator, compact));
+    }
+    return tl_nav_tile_from_distance(config, compact, watershed, host, stack_out, report_out);
+}
+
+tl_result tl_nav_tile_rebake(const tl_nav_config *config, tl_nav_compact *compact, const uint8_t *base_area,
+                             tl_nav_tile_memo **memo, const tl_host *host, tl_nav_tile_stack *stack_out,
+                             tl_nav_bake_report *report_out)
+{
+    TL_ASSERT(*memo == NULL || (*memo)->span_count == compact->span_count);
+    const tl_allocator allocator = tl_allocator_or_default(host != NULL ? host->allocator : NULL);
+    const bool first_time = *memo == NULL;
+    memset(stack_out, 0, sizeof *stack_out);
+    if (first_time && memcmp(compact->area, base_area, compact->span_count) == 0) {
+        return tl_nav_tile_from_floors(config, compact, host, stack_out, report_out); // it may never be marked
+    }
+    if (first_time) {
+        TL_TRY(make_memo(config, compact, base_area, &allocator, memo));
+    }
+    const tl_result result = remake(config, compact, base_area, *memo, host, stack_out, report_out);
+    if (result != TL_OK && first_time) {
+        tl_nav_tile_memo_free(*memo);
+        *memo = NULL;
+    }
+    return result;
+}
+
+void tl_nav_tile_memo_free(tl_nav_tile_memo *memo)
+{
+    if (memo != NULL) {
+        const tl_allocator allocator = memo->allocator;
+        tl_distance_stages_free(&memo->distance, memo->span_count, &allocator);
+        tl_release_array(&allocator, memo, 1, sizeof *memo);
+    }
+}
+
+uint64_t tl_nav_tile_memo_bytes(const tl_nav_tile_memo *memo)
+{
+    if (memo == NULL) {
+        return 0;
+    }
+    const uint64_t a_floor = memo->distance.sharp != NULL ? 3 * sizeof *memo->distance.sharp : 0;
+    return sizeof *memo + a_floor * memo->span_count;
+}

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+//
+// Triangles to the solid spans of their columns, a band of rows at a time.
+//
+// A band has so few columns that its unsorted spans and its sort stay in the second-level cache; bands are independent,
+// so they may run as tasks and the bytes are the same. Its spans are merged by a rule without order (span_buffer.c).
+// Source of the voxelization: Mikko Mononen, Recast (rcRasterizeTriangles), by another method (voxelize.c).
+
+#include "nav_bake/voxels/rasterize.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "base/host.h"
+#include "nav_bake/input/level_mesh.h"
+#include "nav_bake/voxels/batches.h"
+
+#include <string.h>
+
+enum {
+    BAND_COLUMNS = 6144, // with 4 items each, of 8 bytes, and as much to sort them: 384 KB
+    BANDS_PER_WORKER = 4 // between two calls of the progress hook
+};
+
+struct tl_raster_worker {
+    tl_span_buffer buffer;
+    double *heights;      ///< [TL_VOXEL_HEIGHTS_PER_CELL * line]
+    uint32_t *first_span; ///< [first_capacity]
+    uint32_t first_capacity;
+};
+
+static tl_result prepare_worker(const tl_rasterizer *r, tl_raster_worker *worker, uint32_t columns)
+{
+    if (worker->heights == NULL) {
+        worker->buffer.allocator = r->allocator;
+        worker->buffer.walkable_climb = r->config->walkable_climb;
+        worker->heights =
+            tl_allocate_array(r->allocator, TL_VOXEL_HEIGHTS_PER_CELL * (uint64_t)r->line, sizeof(double));
+        if (worker->heights == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        tl_voxel_heights_init(worker->heights, r->line);
+    }
+    if (worker->first_capacity < columns + 1) {
+        tl_release_array(r->allocator, worker->first_span, worker->first_capacity, sizeof *worker->first_span);
+        worker->first_capacity = 0;
+        worker->first_span = tl_allocate_array(r->allocator, (uint64_t)columns + 1, sizeof *worker->first_span);
+        if (worker->first_span == NULL) {
+            return TL_ERR_MEMORY;
+        }
+        worker->first_capacity = columns + 1;
+    }
+    return tl_span_buffer_begin(&worker->buffer, columns);
+}
+
+static tl_result voxelize_list(const tl_rasterizer *r, const tl_voxel_band *band, tl_triangle_list list)
+{
+    const tl_nav_config *config = r->config;
+    const tl_mesh_view *mesh = r->mesh;
+    for (uint32_t i = 0; i < list.count; i++) {
+        uint32_t triangle = tl_triangle_list_get(&list, i);
+        const uint32_t *corner = mesh->indices + 3 * (size_t)triangle;
+        tl_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
+        uint32_t area = TL_NAV_NULL_AREA;
+        if (tl_triangle_is_walkable(a, b, c, config->walkable_slope_cos)) {
+            area = r->areas != NULL ? r->areas[triangle] : TL_NAV_WALKABLE_AREA;
+        }
+        TL_TRY(tl_voxelize_triangle(band, tl_lattice_map_point(&r->map, a), tl_lattice_map_point(&r->map, b),
+                                    tl_lattice_map_point(&r->map, c), area));
+    }
+    return TL_OK;
+}
+
+tl_result tl_rasterizer_run(tl_rasterizer *rasterizer, uint32_t band_index, uint32_t worker_index,
+                            tl_span_rows *rows_out)
+{
+    const tl_rasterizer *r = rasterizer;
+    const tl_nav_config *config = r->config;
+    tl_raster_worker *worker = &r->workers[worker_index];
+    uint32_t begin = band_index * r->rows_per_band;
+    uint32_t end = config->height - begin < r->rows_per_band ? config->height : begin + r->rows_per_band;
+    begin -= begin < r->margin ? begin : r->margin;
+    end += config->height - end < r->margin ? config->height - end : r->margin;
+    TL_TRY(prepare_worker(r, worker, config->width * (end - begin)));
+
+    tl_voxel_band band = {
+        config->width, begin,           end - begin,    config->height, config->height_voxels, config->border_size == 0,
+        r->line,       worker->heights, &worker->buffer
+    };
+    tl_triangle_list list = r->band_count > 1 ? tl_triangle_bins_get(&r->bins, band_index) : r->list;
+    TL_TRY(voxelize_list(r, &band, list));
+    const tl_nav_span *spans;
+    TL_TRY(tl_span_buffer_merge(&worker->buffer, worker->first_span, &spans));
+    *rows_out = (tl_span_rows){ spans, worker->first_span, config->width, config->height, begin };
+    return TL_OK;
+}
+
+static tl_result init(tl_rasterizer *r, const tl_host *host)
+{
+    const tl_nav_config *config = r->config;
+    // Bands of equal height, of about so many columns: a tile that is a little larger is not cut in two.
+    const uint64_t columns = (uint64_t)config->width * config->height;
+    const uint64_t wanted = (columns + BAND_COLUMNS / 2) / BAND_COLUMNS;
+    const uint32_t bands = wanted < 1 ? 1 : wanted < config->height ? (uint32_t)wanted : config->height;
+    r->rows_per_band = (config->height - 1) / bands + 1;
+    r->band_count = (config->height - 1) / r->rows_per_band + 1;
+    const uint64_t rows_seen = (uint64_t)r->rows_per_band + 2 * (uint64_t)r->margin;
+    r->line = rows_seen > config->width ? (uint32_t)rows_seen : config->width;
+    r->worker_count = tl_worker_count(host);
+    r->map = tl_lattice_map_make(&config->lattice, config->cell_size, config->cell_height);
+    r->workers = tl_allocate_array(r->allocator, r->worker_count, sizeof *r->workers);
+    if (r->workers == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(r->workers, 0, r->worker_count * sizeof *r->workers);
+    if (r->band_count > 1) {
+        tl_bin_grid grid = { 1, r->band_count, config->width, r->rows_per_band, r->margin };
+        return tl_triangle_bins_build(r->mesh, r->list, &r->map, &grid, r->allocator, &r->bins);
+    }
+    return TL_OK;
+}
+
+tl_result tl_rasterizer_init(tl_rasterizer *rasterizer, const tl_nav_config *config, const tl_mesh_view *mesh,
+                             const uint8_t *areas, tl_triangle_list list, uint32_t margin, const tl_host *host)
+{
+    tl_rasterizer *r = rasterizer;
+    memset(r, 0, sizeof *r);
+    r->config = config;
+    r->mesh = mesh;
+    r->areas = areas;
+    r->list = list;
+    r->margin = margin;
+    r->allocator = host != NULL ? host->allocator : NULL;
+    tl_result result = init(r, host);
+    if (result != TL_OK) {
+        tl_rasterizer_free(r);
+    }
+    return result;
+}
+
+void tl_rasterizer_free(tl_rasterizer *rasterizer)
+{
+    tl_rasterizer *r = rasterizer;
+    for (uint32_t w = 0; r->workers != NULL && w < r->worker_count; w++) {
+        tl_raster_worker *worker = &r->workers[w];
+        tl_span_buffer_free(&worker->buffer);
+        tl_release_array(r->allocator, worker->heights, TL_VOXEL_HEIGHTS_PER_CELL * (uint64_t)r->line, sizeof(double));
+        tl_release_array(r->allocator, worker->first_span, worker->first_capacity, sizeof *worker->first_span);
+    }
+    tl_release_array(r->allocator, r->workers, r->worker_count, sizeof *r->workers);
+    tl_triangle_bins_free(&r->bins);
+    memset(r, 0, sizeof *r);
+}
+
+// ---- The heightfield ---------------------------------------------------------------------------------------
+
+typedef struct band_spans {
+    tl_nav_span *spans;
+    uint32_t count;
+} band_spans;
+
+typedef struct field_job {
+    tl_rasterizer rasterizer;
+    tl_nav_heightfield *field;
+    band_spans *bands; ///< [band_count]
+} field_job;
+
+static tl_result rasterize_band(uint32_t index, uint32_t worker, void *user)
+{
+    field_job *job = user;
+    tl_span_rows rows;
+    TL_TRY(tl_rasterizer_run(&job->rasterizer, index, worker, &rows));
+    const uint32_t left = rows.field_height - rows.first_row;
+    const uint32_t height = left < job->rasterizer.rows_per_band ? left : job->rasterizer.rows_per_band;
+    const uint32_t columns = rows.width * height;
+    band_spans *band = &job->bands[index];
+    band->count = rows.first_span[columns];
+    band->spans = tl_allocate_array(job->field->allocator, band->count, sizeof *band->spans);
+    if (band->spans == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memcpy(band->spans, rows.spans, band->count * sizeof *band->spans);
+    memcpy(job->field->first_span + (size_t)rows.first_row * rows.width, rows.first_span,
+           columns * sizeof *rows.first_span);
+    return TL_OK;
+}
+
+// One array of all spans, in the order of the bands; positions within a band become positions in the field.
+static tl_result join_bands(field_job *job)
+{
+    tl_nav_heightfield *field = job->field;
+    const uint32_t band_count = job->rasterizer.band_count;
+    uint64_t total = 0;
+    for (uint32_t b = 0; b < band_count; b++) {
+        total += job->bands[b].count;
+    }
+    if (total >= UINT32_MAX) {
+        return TL_ERR_LIMIT;
+    }
+    field->span_count = (uint32_t)total;
+    const uint64_t columns = (uint64_t)field->width * field->height;
+    field->first_span[columns] = field->span_count;
+    if (band_count == 1) {
+        field->spans = job->bands[0].spans;
+        job->bands[0].spans = NULL;
+        return TL_OK;
+    }
+    field->spans = tl_allocate_array(field->allocator, total, sizeof *field->spans);
+    if (field->spans == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    const uint64_t columns_per_band = (uint64_t)field->width * job->rasterizer.rows_per_band;
+    uint32_t done = 0;
+    for (uint32_t b = 0; b < band_count; b++) {
+        band_spans *band = &job->bands[b];
+        const uint64_t first = b * columns_per_band, left = columns - first;
+        for (uint64_t c = 0; c < columns_per_band && c < left; c++) {
+            field->first_span[first + c] += done;
+        }
+        memcpy(field->spans + done, band->spans, band->count * sizeof *band->spans);
+        done += band->count;
+        tl_release_array(field->allocator, band->spans, band->count, sizeof *band->spans);
+        band->spans = NULL;
+    }
+    return TL_OK;
+}
+
+static tl_result rasterize(field_job *job, const tl_host *host)
+{
+    tl_nav_heightfield *field = job->field;
+    const uint32_t band_count = job->rasterizer.band_count;
+    field->first_span =
+        tl_allocate_array(field->allocator, (uint64_t)field->width * field->height + 1, sizeof *field->first_span);
+    job->bands = tl_allocate_array(field->allocator, band_count, sizeof *job->bands);
+    if (job->bands != NULL) {
+        memset(job->bands, 0, band_count * sizeof *job->bands);
+    }
+    if (field->first_span == NULL || job->bands == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    TL_TRY(tl_run_batches(host, "rasterize", rasterize_band, band_count, BANDS_PER_WORKER, job));
+    return join_bands(job);
+}
+
+tl_result tl_nav_rasterize_list(const tl_nav_config *config, const tl_mesh_view *mesh, const uint8_t *areas,
+                                tl_triangle_list list, const tl_host *host, tl_nav_heightfield *heightfield_out,
+                                tl_report *report)
+{
+    tl_nav_heightfield *field = heightfield_out;
+    memset(field, 0, sizeof *field);
+    field->width = config->width;
+    field->height = config->height;
+    field->lattice = config->lattice;
+    field->bounds = config->bounds;
+    field->cell_size = config->cell_size;
+    field->cell_height = config->cell_height;
+    field->allocator = host != NULL ? host->allocator : NULL;
+
+    field_job job;
+    memset(&job, 0, sizeof job);
+    job.field = field;
+    tl_result result = tl_rasterizer_init(&job.rasterizer, config, mesh, areas, list, 0, host);
+    if (result == TL_OK) {
+        result = rasterize(&job, host);
+        for (uint32_t b = 0; job.bands != NULL && b < job.rasterizer.band_count; b++) {
+            tl_release_array(field->allocator, job.bands[b].spans, job.bands[b].count, sizeof *job.bands[b].spans);
+        }
+        tl_release_array(field->allocator, job.bands, job.rasterizer.band_count, sizeof *job.bands);
+        tl_rasterizer_free(&job.rasterizer);
+    }
+    if (result != TL_OK) {
+        tl_nav_heightfield_free(field);
+    }
+    if (result == TL_ERR_LIMIT) {
+        tl_report_fail(report, result, "cell_size", TL_NO_ELEMENT,
+                       "set tile_size, or raise cell_size: there are more spans than 32 bits can count");
+    }
+    return result;
+}
+
+tl_result tl_nav_rasterize(const tl_nav_config *config, const tl_mesh_view *mesh, const uint8_t *areas,
+                           const tl_host *host, tl_nav_heightfield *heightfield_out, tl_report *report_out)
+{
+    tl_report_begin(report_out, "rasterize");
+    memset(heightfield_out, 0, sizeof *heightfield_out);
+    TL_TRY(tl_level_mesh_check(mesh, NULL, report_out));
+    tl_triangle_list all = { NULL, mesh->triangle_count };
+    return tl_nav_rasterize_list(config, mesh, areas, all, host, heightfield_out, report_out);
+}
