@@ -63,7 +63,7 @@ fuzz:
 	tools/fuzz build/fuzz/fuzz
 
 format:
-	git ls-files '*.c' '*.h' '*.cpp' | xargs clang-format -i
+	git ls-files '*.c' '*.h' '*.inl' '*.cpp' '*.hpp' | xargs clang-format -i
 
 lint:
 	tools/setup lint

@@ -141,6 +141,10 @@ typedef struct tl_host {
     const tl_progress *progress;   ///< NULL: silent and not cancellable
 } tl_host;
 
+/// What every def with a tl_default_..._def() ends with, in its field `cookie`: it tells a def that was begun with its
+/// defaults from one that was only zeroed, whose zeros nobody chose. The latter is TL_ERR_ARGUMENT, field "cookie".
+#define TL_DEF_COOKIE 0x7a1d5defu
+
 #define TL_NO_ELEMENT UINT64_MAX
 
 /// What a build says about itself, besides its result. A caller who does not want it passes NULL.

@@ -9,7 +9,8 @@
 //   TL_HEAP_BEFORE(context, a, b)  whether item a comes before item b. Break all ties: then the order in which items
 //                                  leave depends on the items alone, not on the heap's shape.
 //   TL_HEAP_MOVED(context, a, at)  optional: item a stands at `at` now, for heaps whose items are improved or removed
-//   TL_HEAP_ARITY                  optional: children of a node; 2 unless told. 4 is faster where items are small: a heap
+//   TL_HEAP_ARITY                  optional: children of a node; 2 unless told. 4 is faster where items are small: a
+//   heap
 //                                  half as high, and the four children lie in one cache line.
 //
 // and the inclusion gives, for `TL_HEAP_CONTEXT context` (const void * unless told), static functions

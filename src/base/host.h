@@ -36,6 +36,10 @@ tl_result tl_report_fail(tl_report *report, tl_result result, const char *elemen
 /// The same for a field of a def: `return tl_report_field(report, TL_ERR_ARGUMENT, "cell_size", "make it > 0");`
 tl_result tl_report_field(tl_report *report, tl_result result, const char *field, const char *advice);
 
+/// Refuses a def that was zeroed instead of begun with its defaults. `advice` names the function: "begin with
+/// tl_default_soup_def()".
+tl_result tl_def_check(uint32_t cookie, const char *advice, tl_report *report);
+
 /// Clears a report that may be NULL: no element, stage as given.
 void tl_report_begin(tl_report *report, const char *stage);
 
