@@ -324,7 +324,7 @@ void bench_unreachable(arena &a)
         [&](size_t i) { a.checksum += a.talus_path(a.pairs[i]); });
 }
 
-// The searches again, over roads.
+// The searches again, over the visibility graph.
 void bench_prepared(arena &a, double bar)
 {
     double begin = now_seconds();
@@ -332,11 +332,12 @@ void bench_prepared(arena &a, double bar)
     def.label_bytes = 256u << 20;
     tl_nav_prepared made;
     if (tl_navmesh_prepare(a.level.twin.get(), &def, &made) != TL_OK || !tl_navmesh_is_prepared(a.navmesh())) {
-        std::printf("  prepared               no roads\n");
+        std::printf("  prepared               no visibility graph\n");
         return;
     }
-    std::printf("  prepared               in %.2f ms: %s, %u bends, %u roads, %.2f MB\n", 1e3 * (now_seconds() - begin),
-                tl_nav_prepared_kind_name(made.kind), made.bend_count, made.road_count, 1e-6 * (double)made.bytes);
+    std::printf("  prepared               in %.2f ms: %s, %u corner vertices, %u edges, %.2f MB\n",
+                1e3 * (now_seconds() - begin), tl_nav_prepared_kind_name(made.kind), made.corner_vertex_count,
+                made.edge_count, 1e-6 * (double)made.bytes);
     bench_paths(a, bar, ", prepared");
 }
 

@@ -270,7 +270,7 @@ static tl_exit run(tl_cli *cli)
         { "partial", 0, TL_OPTION_FLAG, &settings.partial, NULL,
           "print the way as near to the goal as it leads, as: partial length points", NULL, 0, 0, 0, 0 },
         { "prepared", 0, TL_OPTION_FLAG, &settings.prepared, NULL,
-          "find all roads of the navmesh first: pays for some hundred pairs and more", NULL, 0, 0, 0, 0 },
+          "bake the visibility graph first: pays for some hundred pairs and more", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     tl_option level_options[TL_LEVEL_OPTIONS];

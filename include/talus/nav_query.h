@@ -148,7 +148,7 @@ TL_API tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmes
 /// Makes room for `count` more links, so that adding them takes no memory. TL_ERR_LIMIT, TL_ERR_MEMORY.
 TL_API tl_result tl_navmesh_reserve_offmesh(tl_navmesh *navmesh, uint32_t count);
 
-/// Takes an off-mesh link out. O(1); where it led from one shore to another (its ends do not hang together over
+/// Takes an off-mesh link out. O(1); where it led from one seam_island to another (its ends do not hang together over
 /// polygons), islands are joined anew, which takes what removing a tile takes. TL_NOT_FOUND: no such link.
 TL_API tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link);
 
@@ -305,8 +305,8 @@ TL_API tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *n
 
 /// The same search in slices, for long paths over many frames: begin, step until the status is not
 /// TL_NAV_PATH_UNFINISHED, write. tl_nav_query_find_path is one long step: however a search is cut, the path is the
-/// same, bit by bit. (On a prepared navmesh that one goes over roads; then its path may be another one of the same
-/// length.)
+/// same, bit by bit. (On a prepared navmesh that one uses the visibility graph; then its path may be another one of the
+/// same length.)
 ///
 /// One search a query is under way. Another one, or any question that needs the query, ends it. The filter is copied;
 /// its functions and their `user` must stay. Tiles may come and go between steps: where one that the search has looked

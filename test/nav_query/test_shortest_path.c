@@ -115,7 +115,7 @@ static tl_nav_location pick(const graph *g, test_random *random, tally *t)
     return location;
 }
 
-// By the search over polygons, then by the one over roads, then by the table, then by labels.
+// By the search over polygons, then by the one over the visibility graph, then by the table, then by labels.
 static void check_level(tl_navmesh *navmesh, uint32_t pairs, uint64_t seed, tally *t)
 {
     tl_nav_query_def def = tl_default_nav_query_def();
@@ -129,7 +129,7 @@ static void check_level(tl_navmesh *navmesh, uint32_t pairs, uint64_t seed, tall
         tl_nav_prepared made = { TL_NAV_PREPARED_NONE, 0, 0, 0, 0 };
         if (kind != TL_NAV_PREPARED_NONE) {
             TEST_RESULT(tl_navmesh_prepare(navmesh, &def_of_kind, &made), TL_OK);
-            TEST_CHECK(made.kind == kind || made.kind == TL_NAV_PREPARED_NONE || made.bend_count == 0);
+            TEST_CHECK(made.kind == kind || made.kind == TL_NAV_PREPARED_NONE || made.corner_vertex_count == 0);
             t->prepared += made.kind == TL_NAV_PREPARED_LABELS;
         }
         for (uint32_t i = 0; i < pairs; i++) {

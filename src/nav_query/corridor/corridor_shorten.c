@@ -100,18 +100,18 @@ tl_result tl_nav_corridor_shorten(tl_nav_corridor *corridor, const tl_navmesh *n
         *changed_out = false;
     }
     TL_TRY(look_ahead(corridor, navmesh, filter, &ahead));
-    // What lies before the first bend is seen already.
-    uint32_t bend = 1;
-    while (bend < ahead.count && (ahead.points[bend].flags & (TL_NAV_CORNER_LEFT | TL_NAV_CORNER_RIGHT)) == 0) {
-        bend++;
+    // What lies before the first turn is seen already.
+    uint32_t turn = 1;
+    while (turn < ahead.count && (ahead.points[turn].flags & (TL_NAV_CORNER_LEFT | TL_NAV_CORNER_RIGHT)) == 0) {
+        turn++;
     }
     uint32_t far_end = ahead.count;
-    while (far_end > bend + 1 && ahead.points[far_end - 1].length > range) {
+    while (far_end > turn + 1 && ahead.points[far_end - 1].length > range) {
         far_end--;
     }
-    for (uint32_t ray = 0; ray < MOST_RAYS && far_end > bend + 1 && !changed; ray++) {
+    for (uint32_t ray = 0; ray < MOST_RAYS && far_end > turn + 1 && !changed; ray++) {
         TL_TRY(try_sight(corridor, navmesh, filter, &ahead.points[far_end - 1], &changed));
-        far_end = bend + 1 + (far_end - bend - 1) / 2;
+        far_end = turn + 1 + (far_end - turn - 1) / 2;
     }
     if (changed_out != NULL) {
         *changed_out = changed;

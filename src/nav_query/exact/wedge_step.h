@@ -121,7 +121,7 @@ static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t 
            tl_nav_root_is_first(s->query, TURNING_NUMBER | corner_number(s, from->slot, from->polygon, vertex), cost);
 }
 
-static inline void note_bend(const wedge_search *s, uint64_t turn)
+static inline void note_corner(const wedge_search *s, uint64_t turn)
 {
     if (turn != 0) {
         s->sight->note(s->sight->user, (uint32_t)turn);
@@ -166,7 +166,7 @@ static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i,
     const tl_nav_direction open = { 0.0, 0.0 };
     uint64_t turn = turn_of(s, from, vertex);
     if (s->sight != NULL) {
-        note_bend(s, turn);
+        note_corner(s, turn);
         return;
     }
     cost += length_of(to_vertex);
@@ -217,7 +217,7 @@ static inline void turn_at(wedge_search *s, const step_from *from, const tl_nav_
         return;
     }
     if (s->sight != NULL) {
-        note_bend(s, turn);
+        note_corner(s, turn);
         return;
     }
     float x = from->ring[vertex].x;

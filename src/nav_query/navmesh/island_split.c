@@ -9,10 +9,11 @@
 // keeps the old label. So the time goes with what lies between the seeds, or with the smaller parts, not with the
 // world. Seeds that had different labels before never meet and do not wait for one another.
 //
-// Shores come first. For islands one seed of each shore is enough, and where there is but one shore, none is.
-// Rejected: joining all tiles anew (the time of a swap grew with the world); the forests of Holm, de Lichtenberg and
-// Thorup (2001), which bound the worst case, a long and narrow world cut in the middle over and over, by many times
-// the code and memory; blocks of tiles joined in two levels, which cost a block each time, off-mesh links at the top.
+// Components over seams alone are split first. Islands then need one seed of each of those components, and none where
+// there is only one. Rejected: joining all tiles anew (the time of a swap grew with the world); the forests of Holm, de
+// Lichtenberg and Thorup (2001), which bound the worst case, a long and narrow world cut in the middle over and over,
+// by many times the code and memory; blocks of tiles joined in two levels, which cost a block each time, off-mesh links
+// at the top.
 
 #include "nav_query/navmesh/islands.h"
 
@@ -174,20 +175,21 @@ static void split(tl_navmesh *navmesh, tl_nav_island_kind kind, const uint32_t *
     finish(&s, count);
 }
 
-// Leaves one seed of each shore.
+// Leaves one seed of each component over seams.
 static uint32_t thin_out(tl_nav_islands *islands, uint32_t *seeds, uint32_t count)
 {
-    tl_nav_island_label *shores = islands->labels[TL_NAV_SHORES];
+    tl_nav_island_label *components = islands->labels[TL_NAV_SEAM_ISLANDS];
     uint32_t left = 0;
     for (uint32_t i = 0; i < count; i++) {
-        tl_nav_island_label *shore = &shores[tl_nav_label_root(shores, islands->nodes[seeds[i]].labels[TL_NAV_SHORES])];
-        if (shore->groups == 0) {
-            shore->groups = 1;
+        tl_nav_island_label *component =
+            &components[tl_nav_label_root(components, islands->nodes[seeds[i]].labels[TL_NAV_SEAM_ISLANDS])];
+        if (component->groups == 0) {
+            component->groups = 1;
             seeds[left++] = seeds[i];
         }
     }
     for (uint32_t i = 0; i < left; i++) {
-        shores[tl_nav_label_root(shores, islands->nodes[seeds[i]].labels[TL_NAV_SHORES])].groups = 0;
+        components[tl_nav_label_root(components, islands->nodes[seeds[i]].labels[TL_NAV_SEAM_ISLANDS])].groups = 0;
     }
     return left;
 }
@@ -198,8 +200,8 @@ void tl_nav_split_islands(tl_navmesh *navmesh)
     for (uint32_t i = 0; i < islands->seed_count; i++) {
         islands->nodes[islands->seeds[i]].piece = TL_NAV_NO_ISLAND;
     }
-    split(navmesh, TL_NAV_SHORES, islands->seeds, islands->shore_seed_count);
+    split(navmesh, TL_NAV_SEAM_ISLANDS, islands->seeds, islands->seam_seed_count);
     split(navmesh, TL_NAV_ISLANDS, islands->seeds, thin_out(islands, islands->seeds, islands->seed_count));
     islands->seed_count = 0;
-    islands->shore_seed_count = 0;
+    islands->seam_seed_count = 0;
 }

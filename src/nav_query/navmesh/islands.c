@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Islands: what hangs together over all tiles and off-mesh links. Two polygons on two islands have no path between
-// them, whatever the filter, and a few array reads per polygon say so.
+// Islands: the connected components of the navmesh over all tiles and off-mesh links. Two polygons on two islands have
+// no path between them, whatever the filter, and a few array reads per polygon say so.
 //
 // Within a tile polygons are labelled once (rings.c); those components are the nodes. A node has a label, and labels
 // are joined by union-find: a tile that comes in joins its own to its neighbours', in time in proportion to its seams.
 // Nodes point to labels, never to one another, so that a part that is cut off gets a label of its own and all others
 // keep theirs (island_split.c). Labels are handed out once; when they run out, the roots are named anew.
-// Off-mesh links join as if they led both ways: what is apart then is apart for certain. A second set of labels, over
-// seams alone, knows the shores: a link from a shore to itself joins nothing, and when it goes nothing is looked at.
-// Unions go by size, so that a reader finds a root in log2(labels) steps without writing.
-// Source: Tarjan, Efficiency of a Good But Not Linear Set Union Algorithm, 1975.
+// Off-mesh links join as if they led both ways: what is apart then is apart for certain. A second set of labels holds
+// the components over seams alone: a link within one of them joins nothing, and removing it splits nothing. Unions go
+// by size, so that a reader finds a root in log2(labels) steps without writing. Source: Tarjan, Efficiency of a Good
+// But Not Linear Set Union Algorithm, 1975.
 
 #include "nav_query/navmesh/islands.h"
 
@@ -36,10 +36,10 @@ uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t pol
     return root_of(navmesh, TL_NAV_ISLANDS, slot, polygon);
 }
 
-bool tl_nav_is_on_one_shore(const tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry)
+bool tl_nav_is_same_component(const tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry)
 {
-    return root_of(navmesh, TL_NAV_SHORES, entry->ends[0].slot, entry->ends[0].polygon) ==
-           root_of(navmesh, TL_NAV_SHORES, entry->ends[1].slot, entry->ends[1].polygon);
+    return root_of(navmesh, TL_NAV_SEAM_ISLANDS, entry->ends[0].slot, entry->ends[0].polygon) ==
+           root_of(navmesh, TL_NAV_SEAM_ISLANDS, entry->ends[1].slot, entry->ends[1].polygon);
 }
 
 static void free_arrays(const tl_allocator *allocator, tl_nav_islands *islands)
@@ -179,7 +179,7 @@ static void make_nodes(tl_navmesh *navmesh, uint32_t slot)
         }
         tl_nav_island_node node = { slot,
                                     p,
-                                    { tl_nav_new_label(islands, TL_NAV_SHORES),
+                                    { tl_nav_new_label(islands, TL_NAV_SEAM_ISLANDS),
                                       tl_nav_new_label(islands, TL_NAV_ISLANDS) },
                                     TL_NAV_NO_ISLAND,
                                     TL_NAV_NO_ISLAND };
@@ -199,7 +199,7 @@ void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot)
             for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
                 uint32_t node = node_of(navmesh, slot, portals[i].polygon);
                 uint32_t neighbour = node_of(navmesh, links->links[k].slot, links->links[k].polygon);
-                join(&navmesh->islands, TL_NAV_SHORES, node, neighbour);
+                join(&navmesh->islands, TL_NAV_SEAM_ISLANDS, node, neighbour);
                 join(&navmesh->islands, TL_NAV_ISLANDS, node, neighbour);
             }
         }
@@ -232,7 +232,7 @@ void tl_nav_leave_islands(tl_navmesh *navmesh, uint32_t slot)
             tl_nav_seed_island(navmesh, own->sides[side].links[k].slot, own->sides[side].links[k].polygon);
         }
     }
-    islands->shore_seed_count = islands->seed_count;
+    islands->seam_seed_count = islands->seed_count;
     for (uint32_t c = 0; c < own->rings.component_count; c++) {
         tl_nav_island_node *node = &islands->nodes[own->rings.island[c]];
         node->slot = TL_NAV_NO_SLOT;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Islands: what hangs together over all tiles, as labels of the tiles' components (islands.c, island_split.c).
+// Islands: connected components over all tiles, as labels of each tile's own components (islands.c, island_split.c).
 
 #ifndef TALUS_SRC_NAV_QUERY_ISLANDS_H
 #define TALUS_SRC_NAV_QUERY_ISLANDS_H
@@ -10,14 +10,14 @@
 /// No node, no piece.
 #define TL_NAV_NO_ISLAND UINT32_MAX
 
-/// Over what components hang together.
+/// What connects the components.
 typedef enum tl_nav_island_kind {
-    TL_NAV_SHORES,  ///< seams alone
-    TL_NAV_ISLANDS, ///< seams and off-mesh links
+    TL_NAV_SEAM_ISLANDS, ///< seams alone
+    TL_NAV_ISLANDS,      ///< seams and off-mesh links
     TL_NAV_ISLAND_KINDS
 } tl_nav_island_kind;
 
-/// A component of a tile: what hangs together within it.
+/// A connected component within a tile.
 typedef struct tl_nav_island_node {
     uint32_t slot, polygon; ///< one of its polygons
     uint32_t labels[TL_NAV_ISLAND_KINDS];
@@ -54,7 +54,7 @@ typedef struct tl_nav_islands {
     uint32_t free_count; ///< of them
     uint32_t label_count[TL_NAV_ISLAND_KINDS];
     uint32_t seed_count;
-    uint32_t shore_seed_count; ///< the first ones, which have lost a way over a seam
+    uint32_t seam_seed_count; ///< the first ones, which have lost a way over a seam
 } tl_nav_islands;
 
 /// Room for `count` more components. TL_ERR_MEMORY, TL_ERR_LIMIT.

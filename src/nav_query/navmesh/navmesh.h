@@ -47,7 +47,7 @@ typedef struct tl_nav_slot {
     tl_nav_kept_walls *kept_walls; ///< NULL: not prepared, or dropped by an edit
 } tl_nav_slot;
 
-typedef struct tl_nav_roads tl_nav_roads; // roads.h
+typedef struct tl_nav_visibility_graph tl_nav_visibility_graph; // visibility_graph.h
 
 struct tl_navmesh {
     tl_allocator allocator;
@@ -63,14 +63,14 @@ struct tl_navmesh {
     uint64_t *area_table; ///< [slot_capacity + 1], of the slots' areas
     tl_nav_islands islands;
     tl_nav_offmesh_table offmesh;
-    tl_nav_roads *roads; ///< NULL, or of the edit that they tell (roads.c)
-    uint32_t last_fan;   ///< the last number that fans.c gave
-    uint64_t all_flags;  ///< that every polygon of every tile so far has
-    uint64_t any_flags;  ///< that some polygon of some tile so far has
-    float extent;        ///< metres: the largest |x| or |z| of any tile so far
-    double kept_reach;   ///< metres: slots' kept walls lie within it
-    double kept_touch;   ///< what touched when they were found (clearance.h)
-    uint64_t kept_bytes; ///< of them
+    tl_nav_visibility_graph *graph; ///< NULL, or that of the edit whose number it holds
+    uint32_t last_fan;              ///< the last number that fans.c gave
+    uint64_t all_flags;             ///< that every polygon of every tile so far has
+    uint64_t any_flags;             ///< that some polygon of some tile so far has
+    float extent;                   ///< metres: the largest |x| or |z| of any tile so far
+    double kept_reach;              ///< metres: slots' kept walls lie within it
+    double kept_touch;              ///< what touched when they were found (clearance.h)
+    uint64_t kept_bytes;            ///< of them
     // Of all tiles; valid while tile_count > 0.
     tl_vec3 origin;
     float cell_size, cell_height;
@@ -110,7 +110,7 @@ static inline bool tl_nav_all_pass(const tl_navmesh *navmesh, const tl_nav_filte
 }
 
 /// Drops the kept walls that an edit of the tile at a place may change (prepared_walls.c).
-void tl_nav_spoil_walls(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
+void tl_nav_invalidate_walls(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
 /// Drops all.
 void tl_nav_drop_walls(tl_navmesh *navmesh);
 
@@ -155,7 +155,7 @@ void tl_nav_number_fans_on_side(tl_navmesh *navmesh, uint32_t slot, uint32_t sid
 /// Joins the islands of a link's two anchors.
 void tl_nav_join_anchors(tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry);
 /// Whether a link's anchors hang together without any off-mesh link.
-bool tl_nav_is_on_one_shore(const tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry);
+bool tl_nav_is_same_component(const tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry);
 
 /// Anchors the ends of off-mesh links near a slot anew, after its tile has come, or for those that stood on it, before
 /// it is freed but after it can be found no more. Seeds the islands where a link was lost.

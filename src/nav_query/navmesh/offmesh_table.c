@@ -140,7 +140,7 @@ tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link)
     if (entry == NULL) {
         return TL_NOT_FOUND;
     }
-    if (tl_nav_is_anchored(entry) && !tl_nav_is_on_one_shore(navmesh, entry)) {
+    if (tl_nav_is_anchored(entry) && !tl_nav_is_same_component(navmesh, entry)) {
         tl_nav_seed_island(navmesh, entry->ends[0].slot, entry->ends[0].polygon);
         tl_nav_seed_island(navmesh, entry->ends[1].slot, entry->ends[1].polygon);
     }

@@ -4,7 +4,7 @@
 // of a place, cuts with the same ends.
 //
 // Overlaps are exact: both tiles count lattice steps from one origin. Heights are compared along the baked profiles of
-// the surface, at every bend of either one, so that a hill on the seam neither hides a link nor fakes one.
+// the surface, at every kink of either one, so that a hill on the seam neither hides a link nor fakes one.
 
 #include "base/arena.h"
 #include "nav_query/navmesh/navmesh.h"
@@ -38,19 +38,19 @@ static double profile_height(profile_cursor *cursor, double along)
     return (double)a[0].height + t * ((double)a[1].height - (double)a[0].height);
 }
 
-// The next bend behind `along`, or `high`.
-static double next_bend(const profile_cursor *cursor, double along, double high)
+// The next kink behind `along`, or `high`.
+static double next_kink(const profile_cursor *cursor, double along, double high)
 {
     for (uint32_t i = cursor->at; i < cursor->count; i++) {
-        double bend = (double)cursor->points[i].along;
-        if (bend > along) {
-            return bend < high ? bend : high;
+        double kink = (double)cursor->points[i].along;
+        if (kink > along) {
+            return kink < high ? kink : high;
         }
     }
     return high;
 }
 
-// Whether the surfaces come within `tolerance` anywhere on [low, high]. Between two bends the difference is linear, so
+// Whether the surfaces come within `tolerance` anywhere on [low, high]. Between two kinks the difference is linear, so
 // it is smallest at one of them, or zero between when its sign changes.
 static bool profiles_meet(profile_cursor a, profile_cursor b, double low, double high, double tolerance)
 {
@@ -60,9 +60,9 @@ static bool profiles_meet(profile_cursor a, profile_cursor b, double low, double
         if (along >= high) {
             return false;
         }
-        double bend_a = next_bend(&a, along, high);
-        double bend_b = next_bend(&b, along, high);
-        along = bend_a < bend_b ? bend_a : bend_b;
+        double kink_a = next_kink(&a, along, high);
+        double kink_b = next_kink(&b, along, high);
+        along = kink_a < kink_b ? kink_a : kink_b;
         double next = profile_height(&a, along) - profile_height(&b, along);
         if ((next < 0.0) != (difference < 0.0)) {
             return true;

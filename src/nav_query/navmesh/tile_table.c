@@ -10,7 +10,7 @@
 #include "base/assert.h"
 #include "base/hash.h"
 #include "nav_query/navmesh/area_table.h"
-#include "nav_query/prepared/roads.h"
+#include "nav_query/prepared/visibility_graph.h"
 
 #include <string.h>
 
@@ -74,7 +74,7 @@ void tl_navmesh_destroy(tl_navmesh *navmesh)
     tl_nav_free_offmesh(navmesh);
     tl_release_array(&allocator, navmesh->area_table, (uint64_t)navmesh->slot_capacity + 1,
                      sizeof *navmesh->area_table);
-    tl_nav_free_roads(&allocator, navmesh->roads);
+    tl_nav_free_visibility_graph(&allocator, navmesh->graph);
     tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
 }
 
@@ -426,7 +426,7 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
 
     tl_nav_begin_edit(navmesh, tile->tile_x, tile->tile_z);
     const uint64_t edit = navmesh->edit.number;
-    tl_nav_spoil_walls(navmesh, tile->tile_x, tile->tile_z);
+    tl_nav_invalidate_walls(navmesh, tile->tile_x, tile->tile_z);
     tl_nav_slot *slot = &navmesh->slots[index];
     if (index == navmesh->free_slots) {
         navmesh->free_slots = slot->next;
@@ -481,7 +481,7 @@ static void remove_slot(tl_navmesh *navmesh, uint32_t index)
     const int32_t tile_x = slot->tile->tile_x, tile_z = slot->tile->tile_z;
     tl_nav_begin_edit(navmesh, tile_x, tile_z);
     const uint64_t edit = navmesh->edit.number;
-    tl_nav_spoil_walls(navmesh, tile_x, tile_z);
+    tl_nav_invalidate_walls(navmesh, tile_x, tile_z);
     tl_nav_note_edit(navmesh, index);
     tl_nav_leave_islands(navmesh, index);
     unlink_slot(navmesh, index);

@@ -19,7 +19,7 @@
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/path/path_run.h"
 #include "nav_query/plane/crossing.h"
-#include "nav_query/prepared/roads.h"
+#include "nav_query/prepared/visibility_graph.h"
 #include "nav_query/search/node_pool.h"
 
 #include <string.h>
@@ -368,14 +368,14 @@ void tl_nav_run_step(tl_nav_path_run *run, uint64_t *steps)
     }
 }
 
-// The path over roads, where there are any.
-static bool find_over_roads(tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
+// The path by the visibility graph, where there is one.
+static bool find_over_graph(tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
 {
-    const tl_nav_roads *roads = tl_nav_roads_for(&run->exact);
+    const tl_nav_visibility_graph *graph = tl_nav_visibility_graph_for(&run->exact);
     const tl_nav_path_room room = { NULL, 0, polygons_out, capacity };
     tl_nav_shortest_path path;
     memset(&path, 0, sizeof path);
-    if (roads == NULL || !tl_nav_find_over_roads(&run->exact, roads, &room, &path)) {
+    if (graph == NULL || !tl_nav_find_over_graph(&run->exact, graph, &room, &path)) {
         return false;
     }
     path_out->status = TL_NAV_PATH_COMPLETE;
@@ -395,7 +395,7 @@ tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh,
     tl_nav_path_run run;
     bool is_uniform = true;
     TL_TRY(set_up(query, navmesh, filter, start, goal, &run, &is_uniform));
-    if (is_uniform && !tl_nav_is_cut_off(&run.exact) && find_over_roads(&run, polygons_out, capacity, path_out)) {
+    if (is_uniform && !tl_nav_is_cut_off(&run.exact) && find_over_graph(&run, polygons_out, capacity, path_out)) {
         return path_out->polygon_count <= capacity ? TL_OK : TL_INCOMPLETE;
     }
     begin_run(&run, is_uniform);

@@ -55,7 +55,7 @@ static bool is_straight(tl_vec3 a, tl_vec3 b, tl_vec3 c)
     return ahead > 0.0 && tl_nav_side_of(a, b, c) == 0;
 }
 
-// Adds a corner; one before it that is no bend, or the same place, gives way to it.
+// Adds a corner; one before it at which the path does not turn, or the same place, gives way to it.
 static void add_corner(corner_list *list, tl_vec3 point, tl_nav_ref polygon, uint32_t flags, tl_nav_ref link)
 {
     bool replaces =

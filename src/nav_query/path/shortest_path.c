@@ -6,7 +6,7 @@
 #include "nav_query/navmesh/filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"
-#include "nav_query/prepared/roads.h"
+#include "nav_query/prepared/visibility_graph.h"
 
 #include <math.h>
 #include <string.h>
@@ -235,9 +235,9 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
     if (result != TL_OK || tl_nav_is_cut_off(&search)) {
         return result;
     }
-    const tl_nav_roads *roads = tl_nav_roads_for(&search);
+    const tl_nav_visibility_graph *graph = tl_nav_visibility_graph_for(&search);
     const tl_nav_path_room room = { corners_out, corner_capacity, polygons_out, polygon_capacity };
-    if (roads != NULL && tl_nav_find_over_roads(&search, roads, &room, path_out)) {
+    if (graph != NULL && tl_nav_find_over_graph(&search, graph, &room, path_out)) {
         return fits(path_out, corner_capacity, polygon_capacity);
     }
     memset(path_out, 0, sizeof *path_out);

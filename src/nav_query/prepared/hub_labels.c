@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Hub labels: for each bend the lengths to a few hundred hubs, so chosen that of any two bends a shortest way passes a
-// hub of both.
+// Hub labels: for each corner vertex the lengths to a few hundred hubs, so chosen that of any two corner vertices a
+// shortest way passes a hub of both.
 //
-// Where a table of all bends is too large, on a city of 25,000 bends 3.6 GB, labels take a hundredth or less. They are
-// found by a Dijkstra a bend, the most travelled bends first, that goes no farther than where the labels so far know a
-// way as short. How much a bend is travelled is counted on shortest path trees of a sample. The first road to its hub
-// stands in each label, so that the bends of a way are read off.
-// A query adds the legs of the start's bends to their labels, hub by hub, and looks the goal's up there.
-// Rejected: an elimination tree (Ouyang et al. 2018) needs no hub's number, but sight along streets makes its
-// separators wide: 1,900 lengths a bend on that city.
+// Where a table of all corner vertices is too large, on a city of 25,000 corner vertices 3.6 GB, labels take a
+// hundredth or less. They are found by a Dijkstra a corner vertex, the most travelled corner vertices first, that goes
+// no farther than where the labels so far know a way as short. How much a corner vertex is travelled is counted on
+// shortest path trees of a sample. The first edge to its hub stands in each label, so that the corner vertices of a way
+// are read off. A query adds the legs of the start's corner vertices to their labels, hub by hub, and looks the goal's
+// up there. Rejected: an elimination tree (Ouyang et al. 2018) needs no hub's number, but sight along streets makes its
+// separators wide: 1,900 lengths a corner vertex on that city.
 // Source: Akiba, Iwata, Yoshida, Fast Exact Shortest-Path Distance Queries on Large Networks by Pruned Landmark
 // Labeling, SIGMOD 2013; Du, Shen, Cheema, Ultrafast Euclidean Shortest Path Computation Using Hub Labeling, AAAI 2023.
 
-#include "nav_query/prepared/road_lengths.h"
+#include "nav_query/prepared/dijkstra.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
@@ -26,7 +26,7 @@
 
 enum { SAMPLES = 128, FIRST_LABELS = 8 };
 
-// The labels of a bend while they are found.
+// The labels of a corner vertex while they are found.
 typedef struct growing_label {
     tl_nav_hub *hubs;
     uint32_t count, capacity;
@@ -34,43 +34,44 @@ typedef struct growing_label {
 
 typedef struct labeller {
     const tl_allocator *allocator;
-    tl_nav_roads *roads;
-    tl_nav_road_lengths lengths;
-    growing_label *labels; // by bend
-    tl_sort_item *order;   // [2 * bend_count] bends by rank, the keys the lower the more travelled; then scratch
-    float *to_root;        // by rank: metres from the bend at hand, INFINITY: it does not know the hub
+    tl_nav_visibility_graph *graph;
+    tl_nav_dijkstra lengths;
+    growing_label *labels; // by corner vertex
+    tl_sort_item
+        *order;     // [2 * vertex_count] corner vertices by rank, the keys the lower the more travelled; then scratch
+    float *to_root; // by rank: metres from the corner vertex at hand, INFINITY: it does not know the hub
     uint64_t count, limit;
 } labeller;
 
-// Orders bends by how many bends lie behind them on shortest path trees, the most first.
-static void order_bends(labeller *l, uint32_t *behind)
+// Orders corner vertices by how many corner vertices lie behind them on shortest path trees, the most first.
+static void order_vertices(labeller *l, uint32_t *behind)
 {
-    uint32_t n = l->roads->bend_count;
+    uint32_t n = l->graph->vertex_count;
     uint32_t samples = n < SAMPLES ? n : SAMPLES;
     for (uint32_t i = 0; i < n; i++) {
         tl_sort_item item = { UINT64_MAX, i, 0 };
         l->order[i] = item;
     }
     for (uint32_t k = 0; k < samples; k++) {
-        // Bends are numbered tile by tile, so these are spread over the world.
+        // Corner vertices are numbered tile by tile, so these are spread over the world.
         uint32_t root = (uint32_t)((uint64_t)k * n / samples);
-        tl_nav_measure_roads(&l->lengths, &root, 1);
+        tl_nav_dijkstra_run(&l->lengths, &root, 1);
         for (uint32_t i = 0; i < n; i++) {
             behind[i] = 1;
         }
         for (uint32_t i = l->lengths.settled_count; i > 0; i--) {
-            uint32_t bend = l->lengths.settled[i - 1];
-            l->order[bend].key -= behind[bend];
-            behind[l->lengths.before[bend]] += bend != root ? behind[bend] : 0;
+            uint32_t vertex = l->lengths.settled[i - 1];
+            l->order[vertex].key -= behind[vertex];
+            behind[l->lengths.before[vertex]] += vertex != root ? behind[vertex] : 0;
         }
     }
     tl_radix_sort(l->order, l->order + n, n);
 }
 
-// Whether labels know a way from the root at hand to a bend that is as short, within their rounding.
-static bool is_known(const labeller *l, uint32_t bend, double length)
+// Whether labels know a way from the root at hand to a corner vertex that is as short, within their rounding.
+static bool is_known(const labeller *l, uint32_t vertex, double length)
 {
-    const growing_label *label = &l->labels[bend];
+    const growing_label *label = &l->labels[vertex];
     float limit = (float)(length * (1.0 + (double)TL_FLOAT_GAMMA(3)));
     for (uint32_t i = 0; i < label->count; i++) {
         if (l->to_root[tl_nav_hub_rank(&label->hubs[i])] + label->hubs[i].length <= limit) {
@@ -80,20 +81,20 @@ static bool is_known(const labeller *l, uint32_t bend, double length)
     return false;
 }
 
-static uint32_t road_between(const tl_nav_roads *roads, uint32_t from, uint32_t to)
+static uint32_t edge_between(const tl_nav_visibility_graph *graph, uint32_t from, uint32_t to)
 {
-    const tl_nav_bend *bend = &roads->bends[from];
-    for (uint32_t k = bend[0].first_road; k < bend[1].first_road; k++) {
-        if (roads->roads[k].to == to) {
-            return k - bend[0].first_road;
+    const tl_nav_corner_vertex *vertex = &graph->vertices[from];
+    for (uint32_t k = vertex[0].first_edge; k < vertex[1].first_edge; k++) {
+        if (graph->edges[k].to == to) {
+            return k - vertex[0].first_edge;
         }
     }
-    return 0; // a bend's label of itself
+    return 0; // a corner vertex's label of itself
 }
 
-static tl_result add_label(labeller *l, uint32_t bend, uint32_t rank, double length)
+static tl_result add_label(labeller *l, uint32_t vertex, uint32_t rank, double length)
 {
-    growing_label *label = &l->labels[bend];
+    growing_label *label = &l->labels[vertex];
     if (l->count == l->limit) {
         return TL_ERR_LIMIT;
     }
@@ -110,17 +111,18 @@ static tl_result add_label(labeller *l, uint32_t bend, uint32_t rank, double len
         label->hubs = grown;
         label->capacity = more;
     }
-    uint32_t road = road_between(l->roads, bend, l->lengths.before[bend]);
-    tl_nav_hub hub = { rank << TL_NAV_HUB_ROAD_BITS | road, (float)length };
+    uint32_t edge = edge_between(l->graph, vertex, l->lengths.before[vertex]);
+    tl_nav_hub hub = { rank << TL_NAV_HUB_EDGE_BITS | edge, (float)length };
     label->hubs[label->count++] = hub;
     l->count++;
     return TL_OK;
 }
 
-// Labels all bends to which the shortest ways from the bend of a rank lead, and which no hub before it is on.
+// Labels all corner vertices to which the shortest ways from the corner vertex of a rank lead, and which no hub before
+// it is on.
 static tl_result label_from(labeller *l, uint32_t rank)
 {
-    tl_nav_road_lengths *s = &l->lengths;
+    tl_nav_dijkstra *s = &l->lengths;
     uint32_t root = l->order[rank].value;
     const growing_label *own = &l->labels[root];
     for (uint32_t i = 0; i < own->count; i++) {
@@ -131,25 +133,25 @@ static tl_result label_from(labeller *l, uint32_t rank)
     s->length[root] = 0.0;
     s->before[root] = root;
     s->settled[touched++] = root;
-    tl_nav_push_bend(s, 0.0, root);
+    tl_nav_push_vertex(s, 0.0, root);
     while (s->heap_count > 0 && result == TL_OK) {
-        tl_nav_open_bend next = tl_nav_pop_bend(s);
-        if (next.length > s->length[next.bend] || is_known(l, next.bend, next.length)) {
+        tl_nav_open_vertex next = tl_nav_pop_vertex(s);
+        if (next.length > s->length[next.vertex] || is_known(l, next.vertex, next.length)) {
             continue;
         }
-        result = add_label(l, next.bend, rank, next.length);
-        const tl_nav_bend *bend = &l->roads->bends[next.bend];
-        for (uint32_t k = bend[0].first_road; k < bend[1].first_road; k++) {
-            const tl_nav_road *road = &l->roads->roads[k];
-            double length = next.length + tl_nav_road_length(bend, road);
-            if (length < s->length[road->to]) {
-                if (s->length[road->to] == (double)INFINITY) {
-                    s->settled[touched++] = road->to;
+        result = add_label(l, next.vertex, rank, next.length);
+        const tl_nav_corner_vertex *vertex = &l->graph->vertices[next.vertex];
+        for (uint32_t k = vertex[0].first_edge; k < vertex[1].first_edge; k++) {
+            const tl_nav_visibility_edge *edge = &l->graph->edges[k];
+            double length = next.length + tl_nav_visibility_edge_length(vertex, edge);
+            if (length < s->length[edge->to]) {
+                if (s->length[edge->to] == (double)INFINITY) {
+                    s->settled[touched++] = edge->to;
                 }
-                s->length[road->to] = length;
-                s->before[road->to] = next.bend;
-                tl_nav_push_bend(s, length, road->to);
-                tl_prefetch(l->labels[road->to].hubs); // each is in a place of its own, and asked for soon
+                s->length[edge->to] = length;
+                s->before[edge->to] = next.vertex;
+                tl_nav_push_vertex(s, length, edge->to);
+                tl_prefetch(l->labels[edge->to].hubs); // each is in a place of its own, and asked for soon
             }
         }
     }
@@ -166,9 +168,9 @@ static tl_result label_from(labeller *l, uint32_t rank)
 
 static tl_result label_all(labeller *l, uint32_t *behind)
 {
-    uint32_t n = l->roads->bend_count;
+    uint32_t n = l->graph->vertex_count;
     memset(l->labels, 0, n * sizeof *l->labels);
-    order_bends(l, behind);
+    order_vertices(l, behind);
     for (uint32_t i = 0; i < n; i++) {
         l->to_root[i] = INFINITY;
         l->lengths.length[i] = (double)INFINITY;
@@ -182,19 +184,19 @@ static tl_result label_all(labeller *l, uint32_t *behind)
 // Puts all labels into one array.
 static tl_result gather(labeller *l)
 {
-    tl_nav_hub_labels *labels = &l->roads->labels;
-    uint32_t n = l->roads->bend_count;
+    tl_nav_hub_labels *labels = &l->graph->labels;
+    uint32_t n = l->graph->vertex_count;
     labels->count = l->count;
     labels->first = tl_allocate_array(l->allocator, (uint64_t)n + 1, sizeof *labels->first);
     labels->hubs = tl_allocate_array(l->allocator, l->count, sizeof *labels->hubs);
-    labels->bend = tl_allocate_array(l->allocator, n, sizeof *labels->bend);
-    if (labels->first == NULL || labels->hubs == NULL || labels->bend == NULL) {
-        tl_nav_free_hub_labels(l->allocator, l->roads);
+    labels->vertex = tl_allocate_array(l->allocator, n, sizeof *labels->vertex);
+    if (labels->first == NULL || labels->hubs == NULL || labels->vertex == NULL) {
+        tl_nav_free_hub_labels(l->allocator, l->graph);
         return TL_ERR_MEMORY;
     }
     uint64_t at = 0;
     for (uint32_t i = 0; i < n; i++) {
-        labels->bend[i] = l->order[i].value;
+        labels->vertex[i] = l->order[i].value;
         labels->first[i] = at;
         memcpy(labels->hubs + at, l->labels[i].hubs, l->labels[i].count * sizeof *labels->hubs);
         at += l->labels[i].count;
@@ -203,30 +205,30 @@ static tl_result gather(labeller *l)
     return TL_OK;
 }
 
-// More roads from a bend than a label can tell apart, or more bends.
-static bool is_too_large(const tl_nav_roads *roads)
+// More edges from a corner vertex than a label can tell apart, or more corner vertices.
+static bool is_too_large(const tl_nav_visibility_graph *graph)
 {
     uint32_t most = 0;
-    for (uint32_t i = 0; i < roads->bend_count; i++) {
-        uint32_t count = roads->bends[i + 1].first_road - roads->bends[i].first_road;
+    for (uint32_t i = 0; i < graph->vertex_count; i++) {
+        uint32_t count = graph->vertices[i + 1].first_edge - graph->vertices[i].first_edge;
         most = count > most ? count : most;
     }
-    return most > 1u << TL_NAV_HUB_ROAD_BITS || roads->bend_count > UINT32_MAX >> TL_NAV_HUB_ROAD_BITS;
+    return most > 1u << TL_NAV_HUB_EDGE_BITS || graph->vertex_count > UINT32_MAX >> TL_NAV_HUB_EDGE_BITS;
 }
 
-tl_result tl_nav_make_hub_labels(const tl_allocator *allocator, tl_nav_roads *roads, uint64_t budget)
+tl_result tl_nav_bake_hub_labels(const tl_allocator *allocator, tl_nav_visibility_graph *graph, uint64_t budget)
 {
-    uint64_t fixed = tl_nav_hub_labels_size(roads);
-    if (is_too_large(roads) || budget < fixed) {
+    uint64_t fixed = tl_nav_hub_labels_size(graph);
+    if (is_too_large(graph) || budget < fixed) {
         return TL_ERR_LIMIT;
     }
     labeller l;
     memset(&l, 0, sizeof l);
     l.allocator = allocator;
-    l.roads = roads;
+    l.graph = graph;
     l.limit = (budget - fixed) / sizeof(tl_nav_hub);
-    TL_TRY(tl_nav_road_lengths_make(allocator, roads, &l.lengths));
-    uint32_t n = roads->bend_count;
+    TL_TRY(tl_nav_dijkstra_init(allocator, graph, &l.lengths));
+    uint32_t n = graph->vertex_count;
     uint32_t *behind = tl_allocate_array(allocator, n, sizeof *behind);
     l.labels = tl_allocate_array(allocator, n, sizeof *l.labels);
     l.order = tl_allocate_array(allocator, 2 * (uint64_t)n, sizeof *l.order);
@@ -239,7 +241,7 @@ tl_result tl_nav_make_hub_labels(const tl_allocator *allocator, tl_nav_roads *ro
             tl_release_array(allocator, l.labels[i].hubs, l.labels[i].capacity, sizeof(tl_nav_hub));
         }
     }
-    tl_nav_road_lengths_free(allocator, &l.lengths);
+    tl_nav_dijkstra_free(allocator, &l.lengths);
     tl_release_array(allocator, behind, n, sizeof *behind);
     tl_release_array(allocator, l.labels, n, sizeof *l.labels);
     tl_release_array(allocator, l.order, 2 * (uint64_t)n, sizeof *l.order);
@@ -247,19 +249,19 @@ tl_result tl_nav_make_hub_labels(const tl_allocator *allocator, tl_nav_roads *ro
     return result;
 }
 
-uint64_t tl_nav_hub_labels_size(const tl_nav_roads *roads)
+uint64_t tl_nav_hub_labels_size(const tl_nav_visibility_graph *graph)
 {
-    const tl_nav_hub_labels *labels = &roads->labels;
-    return ((uint64_t)roads->bend_count + 1) * sizeof *labels->first +
-           (uint64_t)roads->bend_count * sizeof *labels->bend + labels->count * sizeof *labels->hubs;
+    const tl_nav_hub_labels *labels = &graph->labels;
+    return ((uint64_t)graph->vertex_count + 1) * sizeof *labels->first +
+           (uint64_t)graph->vertex_count * sizeof *labels->vertex + labels->count * sizeof *labels->hubs;
 }
 
-void tl_nav_free_hub_labels(const tl_allocator *allocator, tl_nav_roads *roads)
+void tl_nav_free_hub_labels(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
 {
-    tl_nav_hub_labels *labels = &roads->labels;
-    tl_release_array(allocator, labels->first, (uint64_t)roads->bend_count + 1, sizeof *labels->first);
+    tl_nav_hub_labels *labels = &graph->labels;
+    tl_release_array(allocator, labels->first, (uint64_t)graph->vertex_count + 1, sizeof *labels->first);
     tl_release_array(allocator, labels->hubs, labels->count, sizeof *labels->hubs);
-    tl_release_array(allocator, labels->bend, roads->bend_count, sizeof *labels->bend);
+    tl_release_array(allocator, labels->vertex, graph->vertex_count, sizeof *labels->vertex);
     memset(labels, 0, sizeof *labels);
 }
 
@@ -267,9 +269,9 @@ void tl_nav_free_hub_labels(const tl_allocator *allocator, tl_nav_roads *roads)
 // Asking.
 
 // Metres from any start to each hub of this one, if it is nearer.
-static void reach_hubs(const tl_nav_hub_labels *labels, const tl_nav_bend_leg *start, float *to_hub)
+static void reach_hubs(const tl_nav_hub_labels *labels, const tl_nav_corner_leg *start, float *to_hub)
 {
-    for (uint64_t i = labels->first[start->bend]; i < labels->first[start->bend + 1]; i++) {
+    for (uint64_t i = labels->first[start->vertex]; i < labels->first[start->vertex + 1]; i++) {
         uint32_t rank = tl_nav_hub_rank(&labels->hubs[i]);
         float length = start->length + labels->hubs[i].length;
         to_hub[rank] = length < to_hub[rank] ? length : to_hub[rank];
@@ -280,11 +282,11 @@ static void meet_goals(const tl_nav_hub_labels *labels, const tl_nav_ends *ends,
                        tl_nav_meeting *best)
 {
     for (uint32_t k = 0; k < ends->goal_count; k++) {
-        tl_nav_bend_leg *goal = &ends->goals[k];
+        tl_nav_corner_leg *goal = &ends->goals[k];
         if (!(goal->total < best->length * margin)) {
             continue;
         }
-        for (uint64_t i = labels->first[goal->bend]; i < labels->first[goal->bend + 1]; i++) {
+        for (uint64_t i = labels->first[goal->vertex]; i < labels->first[goal->vertex + 1]; i++) {
             uint32_t rank = tl_nav_hub_rank(&labels->hubs[i]);
             float length = to_hub[rank] + labels->hubs[i].length + goal->length;
             if (length < best->length) {
@@ -296,11 +298,11 @@ static void meet_goals(const tl_nav_hub_labels *labels, const tl_nav_ends *ends,
     }
 }
 
-// The label of a bend for a hub, NULL: it has none.
-static const tl_nav_hub *find_hub(const tl_nav_hub_labels *labels, uint32_t bend, uint32_t rank)
+// The label of a corner vertex for a hub, NULL: it has none.
+static const tl_nav_hub *find_hub(const tl_nav_hub_labels *labels, uint32_t vertex, uint32_t rank)
 {
-    uint64_t first = labels->first[bend];
-    uint64_t end = labels->first[bend + 1];
+    uint64_t first = labels->first[vertex];
+    uint64_t end = labels->first[vertex + 1];
     while (first < end) {
         uint64_t middle = first + (end - first) / 2;
         uint32_t at = tl_nav_hub_rank(&labels->hubs[middle]);
@@ -314,30 +316,30 @@ static const tl_nav_hub *find_hub(const tl_nav_hub_labels *labels, uint32_t bend
 }
 
 // What a way over each leg takes at least, by landmarks, where that says more than the straight line.
-static void raise_totals(const tl_nav_roads *roads, tl_nav_bend_leg *legs, uint32_t count,
-                         const tl_nav_bend_leg *others, uint32_t other_count)
+static void raise_totals(const tl_nav_visibility_graph *graph, tl_nav_corner_leg *legs, uint32_t count,
+                         const tl_nav_corner_leg *others, uint32_t other_count)
 {
-    tl_nav_end_marks other;
-    tl_nav_mark_end(roads, others, other_count, &other);
+    tl_nav_landmark_bounds other;
+    tl_nav_bound_by_landmarks(graph, others, other_count, &other);
     for (uint32_t i = 0; i < count; i++) {
-        float total = legs[i].length + tl_nav_least_by_marks(roads, &other, legs[i].bend);
+        float total = legs[i].length + tl_nav_min_by_landmarks(graph, &other, legs[i].vertex);
         legs[i].total = total > legs[i].total ? total : legs[i].total;
     }
 }
 
-tl_nav_meeting tl_nav_best_by_labels(const tl_nav_roads *roads, tl_nav_ends *ends, float *to_hub)
+tl_nav_meeting tl_nav_best_by_labels(const tl_nav_visibility_graph *graph, tl_nav_ends *ends, float *to_hub)
 {
-    const tl_nav_hub_labels *labels = &roads->labels;
+    const tl_nav_hub_labels *labels = &graph->labels;
     const float margin = 1.0f + TL_FLOAT_GAMMA(16);
     tl_nav_meeting best = { INFINITY, NULL, NULL, 0 };
     if (ends->start_count == 0) {
         return best;
     }
-    for (uint32_t i = 0; i < roads->bend_count; i++) {
+    for (uint32_t i = 0; i < graph->vertex_count; i++) {
         to_hub[i] = INFINITY;
     }
-    raise_totals(roads, ends->starts, ends->start_count, ends->goals, ends->goal_count);
-    raise_totals(roads, ends->goals, ends->goal_count, ends->starts, ends->start_count);
+    raise_totals(graph, ends->starts, ends->start_count, ends->goals, ends->goal_count);
+    raise_totals(graph, ends->goals, ends->goal_count, ends->starts, ends->start_count);
     // The most promising start first: it bounds what is worth a look. A total may be too long by its roundings.
     uint32_t nearest = 0;
     for (uint32_t i = 1; i < ends->start_count; i++) {
@@ -352,7 +354,7 @@ tl_nav_meeting tl_nav_best_by_labels(const tl_nav_roads *roads, tl_nav_ends *end
     }
     meet_goals(labels, ends, to_hub, margin, &best);
     for (uint32_t i = 0; i < ends->start_count && best.length < INFINITY; i++) {
-        const tl_nav_hub *hub = find_hub(labels, ends->starts[i].bend, best.hub);
+        const tl_nav_hub *hub = find_hub(labels, ends->starts[i].vertex, best.hub);
         if (hub != NULL && ends->starts[i].length + hub->length == to_hub[best.hub]) {
             best.start = &ends->starts[i];
             break;
@@ -361,33 +363,34 @@ tl_nav_meeting tl_nav_best_by_labels(const tl_nav_roads *roads, tl_nav_ends *end
     return best;
 }
 
-// The bends from one to a hub, both among them; returns their number, UINT32_MAX: there is no room.
-static uint32_t walk_to_hub(const tl_nav_roads *roads, uint32_t bend, uint32_t rank, uint64_t *bends, uint32_t capacity)
+// The corner vertices from one to a hub, both among them; returns their number, UINT32_MAX: there is no room.
+static uint32_t walk_to_hub(const tl_nav_visibility_graph *graph, uint32_t vertex, uint32_t rank, uint64_t *vertices,
+                            uint32_t capacity)
 {
     uint32_t count = 0;
-    for (uint32_t at = bend;;) {
-        const tl_nav_hub *hub = find_hub(&roads->labels, at, rank);
+    for (uint32_t at = vertex;;) {
+        const tl_nav_hub *hub = find_hub(&graph->labels, at, rank);
         if (count == capacity || hub == NULL) {
             return UINT32_MAX;
         }
-        bends[count++] = at;
-        if (at == roads->labels.bend[rank]) {
+        vertices[count++] = at;
+        if (at == graph->labels.vertex[rank]) {
             return count;
         }
-        at = roads->roads[roads->bends[at].first_road + tl_nav_hub_road(hub)].to;
+        at = graph->edges[graph->vertices[at].first_edge + tl_nav_hub_edge(hub)].to;
     }
 }
 
-uint32_t tl_nav_unpack_meeting(const tl_nav_roads *roads, const tl_nav_meeting *meeting, uint64_t *bends,
+uint32_t tl_nav_unpack_meeting(const tl_nav_visibility_graph *graph, const tl_nav_meeting *meeting, uint64_t *vertices,
                                uint32_t capacity)
 {
-    uint32_t count = walk_to_hub(roads, meeting->goal->bend, meeting->hub, bends, capacity);
+    uint32_t count = walk_to_hub(graph, meeting->goal->vertex, meeting->hub, vertices, capacity);
     if (count == UINT32_MAX) {
         return count;
     }
     // The hub comes from both sides.
-    uint64_t *rest = bends + count - 1;
-    uint32_t more = walk_to_hub(roads, meeting->start->bend, meeting->hub, rest, capacity - count + 1);
+    uint64_t *rest = vertices + count - 1;
+    uint32_t more = walk_to_hub(graph, meeting->start->vertex, meeting->hub, rest, capacity - count + 1);
     if (more == UINT32_MAX) {
         return more;
     }

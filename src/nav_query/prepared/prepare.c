@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Preparing a navmesh: its roads, and what is known of lengths along them as far as memory may go.
+// Preparing a navmesh: its edges, and what is known of lengths along them as far as memory may go.
 
-#include "nav_query/prepared/roads.h"
+#include "nav_query/prepared/visibility_graph.h"
 
 #include "base/assert.h"
 
@@ -16,7 +16,7 @@ tl_nav_prepare_def tl_default_nav_prepare_def(void)
 
 const char *tl_nav_prepared_kind_name(tl_nav_prepared_kind kind)
 {
-    static const char *const NAMES[] = { "none", "roads", "table", "labels" };
+    static const char *const NAMES[] = { "none", "graph", "table", "labels" };
     return (unsigned)kind < TL_COUNT_OF(NAMES) ? NAMES[kind] : "unknown";
 }
 
@@ -32,42 +32,42 @@ static bool floors_fork(const tl_navmesh *navmesh)
 
 static tl_result prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def)
 {
-    if (!tl_nav_roads_hold(navmesh)) {
-        tl_nav_free_roads(&navmesh->allocator, navmesh->roads);
-        navmesh->roads = NULL;
+    if (!tl_nav_has_current_graph(navmesh)) {
+        tl_nav_free_visibility_graph(&navmesh->allocator, navmesh->graph);
+        navmesh->graph = NULL;
         if (floors_fork(navmesh)) {
             return TL_OK;
         }
-        TL_TRY(tl_nav_make_roads(navmesh, &navmesh->roads));
+        TL_TRY(tl_nav_bake_visibility_graph(navmesh, &navmesh->graph));
     }
     const tl_allocator *allocator = &navmesh->allocator;
-    tl_nav_roads *roads = navmesh->roads;
-    if (tl_nav_bend_table_size(roads) <= def->table_bytes) {
-        tl_nav_free_hub_labels(allocator, roads);
-        return roads->table == NULL ? tl_nav_make_bend_table(allocator, roads) : TL_OK;
+    tl_nav_visibility_graph *graph = navmesh->graph;
+    if (tl_nav_corner_distances_size(graph) <= def->table_bytes) {
+        tl_nav_free_hub_labels(allocator, graph);
+        return graph->table == NULL ? tl_nav_bake_corner_distances(allocator, graph) : TL_OK;
     }
-    tl_nav_free_bend_table(allocator, roads);
-    if (roads->labels.first != NULL && tl_nav_hub_labels_size(roads) <= def->label_bytes) {
+    tl_nav_free_corner_distances(allocator, graph);
+    if (graph->labels.first != NULL && tl_nav_hub_labels_size(graph) <= def->label_bytes) {
         return TL_OK;
     }
-    tl_nav_free_hub_labels(allocator, roads);
-    tl_result result = def->label_bytes > 0 ? tl_nav_make_hub_labels(allocator, roads, def->label_bytes) : TL_OK;
-    return result == TL_ERR_LIMIT ? TL_OK : result; // the roads serve without
+    tl_nav_free_hub_labels(allocator, graph);
+    tl_result result = def->label_bytes > 0 ? tl_nav_bake_hub_labels(allocator, graph, def->label_bytes) : TL_OK;
+    return result == TL_ERR_LIMIT ? TL_OK : result; // the edges serve without
 }
 
 static tl_nav_prepared report(const tl_navmesh *navmesh)
 {
-    const tl_nav_roads *roads = navmesh->roads;
+    const tl_nav_visibility_graph *graph = navmesh->graph;
     tl_nav_prepared made = { TL_NAV_PREPARED_NONE, 0, 0, 0, 0 };
-    if (roads != NULL) {
-        made.kind = roads->table != NULL          ? TL_NAV_PREPARED_TABLE
-                    : roads->labels.first != NULL ? TL_NAV_PREPARED_LABELS
-                                                  : TL_NAV_PREPARED_ROADS;
-        made.bend_count = roads->bend_count;
-        made.road_count = roads->road_count;
-        made.table_bytes = tl_nav_bend_table_size(roads);
-        made.bytes = tl_nav_roads_size(roads) + (roads->table != NULL ? made.table_bytes : 0) +
-                     (roads->labels.first != NULL ? tl_nav_hub_labels_size(roads) : 0);
+    if (graph != NULL) {
+        made.kind = graph->table != NULL          ? TL_NAV_PREPARED_TABLE
+                    : graph->labels.first != NULL ? TL_NAV_PREPARED_LABELS
+                                                  : TL_NAV_PREPARED_GRAPH;
+        made.corner_vertex_count = graph->vertex_count;
+        made.edge_count = graph->edge_count;
+        made.table_bytes = tl_nav_corner_distances_size(graph);
+        made.bytes = tl_nav_visibility_graph_size(graph) + (graph->table != NULL ? made.table_bytes : 0) +
+                     (graph->labels.first != NULL ? tl_nav_hub_labels_size(graph) : 0);
     }
     return made;
 }
@@ -77,8 +77,8 @@ tl_result tl_navmesh_prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def,
     const tl_nav_prepare_def usual = tl_default_nav_prepare_def();
     tl_result result = prepare(navmesh, def != NULL ? def : &usual);
     if (result != TL_OK) {
-        tl_nav_free_roads(&navmesh->allocator, navmesh->roads);
-        navmesh->roads = NULL;
+        tl_nav_free_visibility_graph(&navmesh->allocator, navmesh->graph);
+        navmesh->graph = NULL;
     }
     if (prepared_out != NULL) {
         *prepared_out = report(navmesh);
@@ -88,5 +88,5 @@ tl_result tl_navmesh_prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def,
 
 bool tl_navmesh_is_prepared(const tl_navmesh *navmesh)
 {
-    return tl_nav_roads_hold(navmesh) && navmesh->offmesh.count == 0;
+    return tl_nav_has_current_graph(navmesh) && navmesh->offmesh.count == 0;
 }

@@ -33,15 +33,15 @@ typedef struct tl_nav_heap_entry {
     uint32_t wedge;
 } tl_nav_heap_entry;
 
-/// A bend that a search over roads has come to (road_search.c).
+/// A corner vertex that a search over the visibility graph has reached (graph_search.c).
 typedef struct tl_nav_stop {
     double cost;    ///< metres from the start
     double to_goal; ///< metres straight to the goal, where that may be seen; < 0: it is not
     float total;    ///< cost and guess
     float guess;    ///< metres to the goal, at least; < 0: not asked for yet
-    uint32_t bend;
+    uint32_t vertex;
     uint32_t parent; ///< stop; TL_NAV_NO_NODE: the start
-    bool is_start;   ///< not the bend's own: whether the start sees it is not known yet
+    bool is_start;   ///< not the corner vertex's own: whether the start sees it is not known yet
     bool is_guessed; ///< landmarks were asked
 } tl_nav_stop;
 
@@ -51,7 +51,7 @@ typedef struct tl_nav_root {
     uint32_t generation; ///< of the search that wrote the entry
     union {
         float cost;    ///< metres from the start
-        uint32_t stop; ///< of a bend
+        uint32_t stop; ///< of a corner vertex
     };
     // Of a corner that is turned at: what `cost` lost when it was rounded, and the root from which that way came.
     float cost_rest, from_x, from_z;
@@ -85,7 +85,8 @@ uint32_t tl_nav_pool_get(tl_nav_query *query, uint64_t key);
 
 /// Puts a node into the heap, or moves it up after its total has fallen.
 void tl_nav_heap_improve(tl_nav_query *query, uint32_t node);
-/// Takes out the node of least total, ties to the lower index, and marks it closed. TL_NAV_NO_NODE when empty.
+/// Takes out the node of least total, ties to the lower index, and marks it closed. TL_NAV_NO_NODE when
+/// empty.
 uint32_t tl_nav_heap_pop(tl_nav_query *query);
 
 #endif

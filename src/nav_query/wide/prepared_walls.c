@@ -268,7 +268,7 @@ void tl_nav_drop_walls(tl_navmesh *navmesh)
     }
 }
 
-void tl_nav_spoil_walls(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+void tl_nav_invalidate_walls(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
 {
     if (navmesh->kept_bytes == 0) {
         return;

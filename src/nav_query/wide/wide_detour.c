@@ -4,7 +4,7 @@
 //
 // A cap is the polygon of 32 corners written into the circle around a wall's end; the hull of a wall's two caps stands
 // for what the wall forbids. It holds all that is nearer to the wall than 0.995 of the reach, and is held by all that
-// is nearer than the reach: so where there is a free way at the reach there is one around the hulls, it bends at
+// is nearer than the reach: so where there is a free way at the reach there is one around the hulls, it vertices at
 // corners of caps only, and no place of it is nearer to a wall than 0.995 of the reach.
 // Few walls are in the way, and mostly by an end alone. So the shortest way is found around none at first, by A* over
 // the corners of caps in the polygon, then around those ends and walls that it has met, until it meets no other. Around
@@ -16,7 +16,7 @@
 
 #include <string.h>
 
-// A place where a way may bend.
+// A place where a way may vertex.
 typedef struct stop {
     tl_nav_spot spot, center;
     double cost, total; // metres from the first stop, and with those that are left at least
@@ -229,10 +229,10 @@ static bool find_way(detour *d, bool *found_out)
     }
 }
 
-bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_t behind)
+bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_polyline *path, uint32_t behind)
 {
-    const tl_nav_wide_bend from = path->bends[behind];
-    const tl_nav_wide_bend to = path->bends[from.next];
+    const tl_nav_polyline_vertex from = path->vertices[behind];
+    const tl_nav_polyline_vertex to = path->vertices[from.next];
     tl_nav_room room = clearance->room;
     tl_nav_wall_cell cell;
     if (!tl_nav_wall_cell_of(clearance, from.slot, from.polygon, clearance->reach, &cell)) {
@@ -253,11 +253,11 @@ bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_
     bool fits = d.met != NULL && add_stop(&d, from.spot, from.spot) && add_stop(&d, to.spot, to.spot) &&
                 find_way(&d, &is_found);
     for (uint32_t i = is_found ? d.stops[1].before : 0; i != 0 && fits; i = d.stops[i].before) {
-        uint32_t bend = tl_nav_bend_add(path, behind, d.stops[i].spot, from.slot, from.polygon);
-        fits = bend != TL_NAV_NO_NODE;
+        uint32_t vertex = tl_nav_polyline_insert(path, behind, d.stops[i].spot, from.slot, from.polygon);
+        fits = vertex != TL_NAV_NO_NODE;
         if (fits) {
-            path->bends[bend].is_cap = true;
-            path->bends[bend].center = d.stops[i].center;
+            path->vertices[vertex].is_cap = true;
+            path->vertices[vertex].center = d.stops[i].center;
         }
     }
     clearance->room = room;

@@ -16,31 +16,31 @@ static tl_nav_spot spot_of(tl_vec3 point)
     return tl_nav_spot_make((double)point.x, (double)point.z);
 }
 
-static tl_nav_corner corner_of(tl_nav_clearance *clearance, const tl_nav_wide_bend *bend)
+static tl_nav_corner corner_of(tl_nav_clearance *clearance, const tl_nav_polyline_vertex *vertex)
 {
-    tl_nav_met home = { bend->slot, bend->polygon };
-    tl_nav_location at = tl_nav_settle(clearance, home, bend->spot);
+    tl_nav_met home = { vertex->slot, vertex->polygon };
+    tl_nav_location at = tl_nav_settle(clearance, home, vertex->spot);
     tl_nav_corner corner = { at.point, at.polygon, 0, TL_NAV_NO_REF };
     return corner;
 }
 
-static void write_corners(tl_nav_clearance *clearance, const tl_nav_bends *path, tl_nav_corner *corners,
+static void write_corners(tl_nav_clearance *clearance, const tl_nav_polyline *path, tl_nav_corner *corners,
                           uint32_t capacity, tl_nav_wide_path *out)
 {
     tl_vec3 last = { 0.0f, 0.0f, 0.0f };
-    for (uint32_t i = 0; i != TL_NAV_NO_NODE; i = path->bends[i].next) {
-        const tl_nav_wide_bend *bend = &path->bends[i];
-        tl_nav_corner corner = corner_of(clearance, bend);
-        if (bend->before == TL_NAV_NO_NODE) {
+    for (uint32_t i = 0; i != TL_NAV_NO_NODE; i = path->vertices[i].next) {
+        const tl_nav_polyline_vertex *vertex = &path->vertices[i];
+        tl_nav_corner corner = corner_of(clearance, vertex);
+        if (vertex->before == TL_NAV_NO_NODE) {
             corner.flags = TL_NAV_CORNER_START;
         } else {
-            const tl_nav_wide_bend *before = &path->bends[bend->before];
-            out->length += sqrt(tl_nav_spot_distance_sq(before->spot, bend->spot));
+            const tl_nav_polyline_vertex *before = &path->vertices[vertex->before];
+            out->length += sqrt(tl_nav_spot_distance_sq(before->spot, vertex->spot));
             out->surface_length += (double)tl_distance(last, corner.point);
-            if (bend->next == TL_NAV_NO_NODE) {
+            if (vertex->next == TL_NAV_NO_NODE) {
                 corner.flags = TL_NAV_CORNER_END;
             } else {
-                double turn = tl_nav_spot_turn(before->spot, bend->spot, path->bends[bend->next].spot);
+                double turn = tl_nav_spot_turn(before->spot, vertex->spot, path->vertices[vertex->next].spot);
                 corner.flags = turn < 0.0 ? TL_NAV_CORNER_LEFT : TL_NAV_CORNER_RIGHT;
             }
         }
@@ -92,10 +92,10 @@ static tl_result write_path(tl_nav_wide_search *search, tl_nav_corner *corners_o
                             tl_nav_wide_path *path_out)
 {
     tl_nav_clearance *clearance = search->clearance;
-    // Bends get a quarter of the room that is left: each one is smaller than what is gathered around it.
-    tl_nav_bends path = { NULL, 0, 0, TL_NAV_NO_NODE };
-    path.capacity = (uint32_t)((uint64_t)(clearance->room.high - clearance->room.low) / 4 / sizeof *path.bends);
-    path.bends = tl_nav_take(clearance, path.capacity, sizeof *path.bends);
+    // Vertices get a quarter of the room that is left: each one is smaller than what is gathered around it.
+    tl_nav_polyline path = { NULL, 0, 0, TL_NAV_NO_NODE };
+    path.capacity = (uint32_t)((uint64_t)(clearance->room.high - clearance->room.low) / 4 / sizeof *path.vertices);
+    path.vertices = tl_nav_take(clearance, path.capacity, sizeof *path.vertices);
     if (!tl_nav_wide_straighten(search, &path) || !tl_nav_wide_pull(clearance, &path)) {
         path_out->status = TL_NAV_WIDE_OUT_OF_NODES;
         return TL_OK;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Pulling a free path taut: at each bend the triangle over it is emptied. The two sides that meet in the bend give way
-// to the hull, on their side, of all corners of caps in the triangle: the shortest way there that passes each obstacle
-// on the same hand. Nothing lies between the old way and the new one, so a path stays free, and one that can be made no
-// shorter so is the shortest of all that it can be pulled into, tiles and floors regardless.
-// Bends are taken every other one first, so that a long straight stretch is joined in a few sweeps of small triangles.
-// Source: Hershberger and Snoeyink, Computing Minimum Length Paths of a Given Homotopy Class, 1994, for the view that
-// such a path is unique; the steps are the rubber band's.
+// Pulling a free path taut: at each vertex the triangle over it is emptied. The two sides that meet in the vertex give
+// way to the hull, on their side, of all corners of caps in the triangle: the shortest way there that passes each
+// obstacle on the same hand. Nothing lies between the old way and the new one, so a path stays free, and one that can
+// be made no shorter so is the shortest of all that it can be pulled into, tiles and floors regardless. Vertices are
+// taken every other one first, so that a long straight stretch is joined in a few sweeps of small triangles. Source:
+// Hershberger and Snoeyink, Computing Minimum Length Paths of a Given Homotopy Class, 1994, for the view that such a
+// path is unique; the steps are the rubber band's.
 
 #include "nav_query/wide/wide_search.h"
 
@@ -16,7 +16,7 @@
 
 #include <string.h>
 
-// Far more sweeps than the doubling of stretches and the settling of bends take. A path is free after each.
+// Far more sweeps than the doubling of stretches and the settling of vertices take. A path is free after each.
 enum { MAX_SWEEPS = 64 };
 
 // Share of its length that a step must gain: many roundings, so that steps cannot go around in a circle.
@@ -27,7 +27,7 @@ typedef struct cap_corner {
     tl_nav_spot spot, center;
 } cap_corner;
 
-// The triangle over a bend, and the new way.
+// The triangle over a vertex, and the new way.
 typedef struct triangle {
     tl_nav_spot a, b, c;
     double hand; // the sign of the turn from a over c to b
@@ -53,9 +53,9 @@ static bool holds(const triangle *t, tl_nav_spot spot)
            t->hand * tl_nav_spot_turn(t->b, t->a, spot) >= 0.0 && !is_same(spot, t->a) && !is_same(spot, t->c);
 }
 
-// Whether the way bends around a cap of which the bend itself is a corner. A cap on the other hand of the bend touches
-// the triangle there and is no reason to stay: the way is free, so a cap lies on one hand or the other.
-static bool bends_around(const triangle *t, tl_nav_spot center)
+// Whether the way vertices around a cap of which the vertex itself is a corner. A cap on the other hand of the vertex
+// touches the triangle there and is no reason to stay: the way is free, so a cap lies on one hand or the other.
+static bool turns_around(const triangle *t, tl_nav_spot center)
 {
     return t->hand * tl_nav_spot_turn(t->c, t->b, center) >= 0.0 &&
            t->hand * tl_nav_spot_turn(t->b, t->a, center) >= 0.0;
@@ -86,7 +86,7 @@ static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
         for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS && may_hold(t, center, clearance->reach + clearance->slack);
              k++) {
             cap_corner corner = { tl_nav_circle_corner(center, clearance->reach, k), center };
-            if (holds(t, corner.spot) && (!is_same(corner.spot, t->b) || bends_around(t, center))) {
+            if (holds(t, corner.spot) && (!is_same(corner.spot, t->b) || turns_around(t, center))) {
                 t->corners[t->count++] = corner;
             }
         }
@@ -127,7 +127,7 @@ static tl_nav_met home_of(const tl_nav_clearance *clearance, const tl_nav_near_w
     return best;
 }
 
-// Whether the hull is free, and shorter than the way over the bend or without any.
+// Whether the hull is free, and shorter than the way over the vertex or without any.
 static bool hull_is_better(const triangle *t, double least)
 {
     double sum = 0.0;
@@ -144,90 +144,90 @@ static bool hull_is_better(const triangle *t, double least)
     return is_same(at, t->c) && (is_straight || sum < (length(t->a, t->b) + length(t->b, t->c)) * (1.0 - LEAST_GAIN));
 }
 
-// Takes a bend out of the list; its memory stays unused.
-static void drop(tl_nav_bends *path, uint32_t bend)
+// Takes a vertex out of the list; its memory stays unused.
+static void drop(tl_nav_polyline *path, uint32_t vertex)
 {
-    const tl_nav_wide_bend *b = &path->bends[bend];
-    path->bends[b->before].is_taut = false;
-    path->bends[b->next].is_taut = false;
-    path->bends[b->before].next = b->next;
-    path->bends[b->next].before = b->before;
+    const tl_nav_polyline_vertex *b = &path->vertices[vertex];
+    path->vertices[b->before].is_taut = false;
+    path->vertices[b->next].is_taut = false;
+    path->vertices[b->before].next = b->next;
+    path->vertices[b->next].before = b->before;
 }
 
-// Puts the hull in the place of a bend, whose own memory serves its first corner.
-static bool put_hull(const tl_nav_clearance *clearance, const triangle *t, tl_nav_bends *path, uint32_t bend)
+// Puts the hull in the place of a vertex, whose own memory serves its first corner.
+static bool put_hull(const tl_nav_clearance *clearance, const triangle *t, tl_nav_polyline *path, uint32_t vertex)
 {
-    uint32_t behind = path->bends[bend].before;
+    uint32_t behind = path->vertices[vertex].before;
     bool is_used = false;
-    path->bends[behind].is_taut = false;
-    path->bends[path->bends[bend].next].is_taut = false;
+    path->vertices[behind].is_taut = false;
+    path->vertices[path->vertices[vertex].next].is_taut = false;
     for (cap_corner at = next_of_hull(t, t->a); !is_same(at.spot, t->c); at = next_of_hull(t, at.spot)) {
         tl_nav_met home = home_of(clearance, &t->near, at.spot);
         if (is_used) {
-            behind = tl_nav_bend_add(path, behind, at.spot, home.slot, home.polygon);
+            behind = tl_nav_polyline_insert(path, behind, at.spot, home.slot, home.polygon);
         } else {
-            path->bends[bend].spot = at.spot;
-            path->bends[bend].slot = home.slot;
-            path->bends[bend].polygon = home.polygon;
+            path->vertices[vertex].spot = at.spot;
+            path->vertices[vertex].slot = home.slot;
+            path->vertices[vertex].polygon = home.polygon;
             is_used = true;
-            behind = bend;
+            behind = vertex;
         }
         if (behind == TL_NAV_NO_NODE) {
             return false;
         }
-        path->bends[behind].is_cap = true;
-        path->bends[behind].is_taut = false;
-        path->bends[behind].center = at.center;
+        path->vertices[behind].is_cap = true;
+        path->vertices[behind].is_taut = false;
+        path->vertices[behind].center = at.center;
     }
     if (!is_used) {
-        drop(path, bend);
+        drop(path, vertex);
     }
     return true;
 }
 
-// Empties the triangle over a bend. `*moved_out` is set when that has changed the path.
-static bool pull_bend(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_t bend, bool *moved_out)
+// Empties the triangle over a vertex. `*moved_out` is set when that has changed the path.
+static bool pull_vertex(tl_nav_clearance *clearance, tl_nav_polyline *path, uint32_t vertex, bool *moved_out)
 {
-    const tl_nav_wide_bend *b = &path->bends[bend];
+    const tl_nav_polyline_vertex *b = &path->vertices[vertex];
     triangle t;
     memset(&t, 0, sizeof t);
-    t.a = path->bends[b->before].spot;
+    t.a = path->vertices[b->before].spot;
     t.b = b->spot;
-    t.c = path->bends[b->next].spot;
+    t.c = path->vertices[b->next].spot;
     if (is_same(t.a, t.b) || is_same(t.b, t.c)) {
-        drop(path, bend);
+        drop(path, vertex);
         *moved_out = true;
         return true;
     }
     double turn = tl_nav_spot_turn(t.a, t.c, t.b);
     t.hand = turn < 0.0 ? -1.0 : 1.0;
-    if (b->is_taut || (b->is_cap && bends_around(&t, b->center))) {
+    if (b->is_taut || (b->is_cap && turns_around(&t, b->center))) {
         return true;
     }
-    path->bends[bend].is_taut = true;
+    path->vertices[vertex].is_taut = true;
     tl_nav_room room = clearance->room;
     tl_nav_spot shape[3] = { t.a, t.b, t.c };
     bool fits = tl_nav_find_cell_walls(clearance, b->slot, b->polygon, shape, 3, &t.near) && gather_caps(clearance, &t);
     if (fits && hull_is_better(&t, clearance->least)) {
         *moved_out = true;
-        fits = put_hull(clearance, &t, path, bend);
+        fits = put_hull(clearance, &t, path, vertex);
     }
     clearance->room = room;
     clearance->is_full = clearance->is_full || !fits;
     return fits;
 }
 
-bool tl_nav_wide_pull(tl_nav_clearance *clearance, tl_nav_bends *path)
+bool tl_nav_wide_pull(tl_nav_clearance *clearance, tl_nav_polyline *path)
 {
     bool moved = true;
     for (uint32_t sweep = 0; sweep < MAX_SWEEPS && moved; sweep++) {
         moved = false;
-        // Odd sweeps begin one bend later.
-        uint32_t at = path->bends[0].next;
+        // Odd sweeps begin one vertex later.
+        uint32_t at = path->vertices[0].next;
         for (bool takes = true; at != path->last; takes = !takes) {
-            uint32_t next = path->bends[at].next;
+            uint32_t next = path->vertices[at].next;
             bool moves = false;
-            if ((takes || sweep % 2 == 1) && !pull_bend(clearance, path, at, &moves)) {
+            if ((takes || sweep % 2 == 1) && !pull_vertex(clearance, path, at, &moves)) {
                 return false;
             }
             moved = moved || moves || (!takes && sweep % 2 == 0);

@@ -262,20 +262,21 @@ bool tl_nav_wide_run(tl_nav_wide_search *search)
     return false;
 }
 
-uint32_t tl_nav_bend_add(tl_nav_bends *path, uint32_t behind, tl_nav_spot spot, uint32_t slot, uint32_t polygon)
+uint32_t tl_nav_polyline_insert(tl_nav_polyline *path, uint32_t behind, tl_nav_spot spot, uint32_t slot,
+                                uint32_t polygon)
 {
     if (path->count == path->capacity) {
         return TL_NAV_NO_NODE;
     }
-    uint32_t next = behind == TL_NAV_NO_NODE ? TL_NAV_NO_NODE : path->bends[behind].next;
-    tl_nav_wide_bend bend = { spot, { 0.0, 0.0 }, false, false, slot, polygon, 0, behind, next };
+    uint32_t next = behind == TL_NAV_NO_NODE ? TL_NAV_NO_NODE : path->vertices[behind].next;
+    tl_nav_polyline_vertex vertex = { spot, { 0.0, 0.0 }, false, false, slot, polygon, 0, behind, next };
     uint32_t index = path->count++;
-    path->bends[index] = bend;
+    path->vertices[index] = vertex;
     if (behind != TL_NAV_NO_NODE) {
-        path->bends[behind].next = index;
+        path->vertices[behind].next = index;
     }
     if (next != TL_NAV_NO_NODE) {
-        path->bends[next].before = index;
+        path->vertices[next].before = index;
     } else {
         path->last = index;
     }

@@ -11,7 +11,7 @@
 #include <talus/nav_wide.h>
 
 /// A place of a path. Paths are lists, so that they may be changed in the middle.
-typedef struct tl_nav_wide_bend {
+typedef struct tl_nav_polyline_vertex {
     tl_nav_spot spot;
     tl_nav_spot center; ///< the spot is a corner of the cap around it, if is_cap
     bool is_cap;
@@ -19,17 +19,18 @@ typedef struct tl_nav_wide_bend {
     uint32_t slot, polygon; ///< the path goes on in it
     uint32_t pass;          ///< the caller's: how many portals it is behind (wide_straight.c)
     uint32_t before, next;  ///< TL_NAV_NO_NODE at the ends
-} tl_nav_wide_bend;
+} tl_nav_polyline_vertex;
 
-typedef struct tl_nav_bends {
-    tl_nav_wide_bend *bends; ///< [0]: the path's start
+typedef struct tl_nav_polyline {
+    tl_nav_polyline_vertex *vertices; ///< [0]: the path's start
     uint32_t count, capacity;
     uint32_t last; ///< the path's end
-} tl_nav_bends;
+} tl_nav_polyline;
 
-/// A new bend behind another (TL_NAV_NO_NODE: the first of all), no corner of a cap; its number, or TL_NAV_NO_NODE: no
-/// room.
-uint32_t tl_nav_bend_add(tl_nav_bends *path, uint32_t behind, tl_nav_spot spot, uint32_t slot, uint32_t polygon);
+/// A new vertex behind another (TL_NAV_NO_NODE: the first of all), no corner of a cap; its number, or TL_NAV_NO_NODE:
+/// no room.
+uint32_t tl_nav_polyline_insert(tl_nav_polyline *path, uint32_t behind, tl_nav_spot spot, uint32_t slot,
+                                uint32_t polygon);
 
 typedef struct tl_nav_wide_end {
     tl_nav_spot spot;
@@ -59,13 +60,13 @@ bool tl_nav_wide_run(tl_nav_wide_search *search);
 
 /// Writes the path that was found: pulled straight through its portals, with detours where a wall is too near to that.
 /// False: out of room (is_full).
-bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_bends *path);
+bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_polyline *path);
 
-/// Adds the bends of a free way, the shortest there is, between two that stand in one polygon, `behind` and its next.
-/// False: out of room (is_full).
-bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_bends *path, uint32_t behind);
+/// Adds the vertices of a free way, the shortest there is, between two that stand in one polygon, `behind` and its
+/// next. False: out of room (is_full).
+bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_polyline *path, uint32_t behind);
 
 /// Pulls a free path taut. False: out of room (is_full); the path is free all the same.
-bool tl_nav_wide_pull(tl_nav_clearance *clearance, tl_nav_bends *path);
+bool tl_nav_wide_pull(tl_nav_clearance *clearance, tl_nav_polyline *path);
 
 #endif

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// From the portals that a wide path passes to its first bends: the shortest way through the free pieces of the portals,
-// by a funnel, and a detour within each polygon where that comes too near to a wall. Most polygons need none, and their
-// places on the portals are no bends. What is left for pulling taut (wide_pull.c) is little.
-// Source: Lee, Preparata, Euclidean Shortest Paths in the Presence of Rectilinear Barriers, 1984.
+// From the portals that a wide path passes to its first vertices: the shortest way through the free pieces of the
+// portals, by a funnel, and a detour within each polygon where that comes too near to a wall. Most polygons need none,
+// and their places on the portals are no vertices. What is left for pulling taut (wide_pull.c) is little. Source: Lee,
+// Preparata, Euclidean Shortest Paths in the Presence of Rectilinear Barriers, 1984.
 
 #include "nav_query/wide/wide_search.h"
 
@@ -14,7 +14,7 @@ typedef struct pass {
     tl_nav_spot right, left;
     tl_nav_spot spot; // where the path crosses
     uint32_t slot, polygon;
-    uint32_t bend;   // or TL_NAV_NO_NODE
+    uint32_t vertex; // or TL_NAV_NO_NODE
     bool is_corner;  // the path turns here
     bool is_blocked; // a wall is too near to the straight way that leads here
 } pass;
@@ -47,7 +47,7 @@ static bool list_passes(const tl_nav_wide_search *search, passes *all)
         p->left = spot_of(portal->left_x, portal->left_z);
         p->slot = nodes[i].slot;
         p->polygon = nodes[i].polygon;
-        p->bend = TL_NAV_NO_NODE;
+        p->vertex = TL_NAV_NO_NODE;
         p->is_corner = false;
         p->is_blocked = false;
     }
@@ -161,19 +161,19 @@ static bool is_straight(tl_nav_clearance *clearance, const passes *all, tl_nav_s
     return is_clear_in(clearance, &all->at[last], at, to, fits);
 }
 
-// Leaves out the bends on portals that a straight way over the same pieces does without. What forbids a place in a
+// Leaves out the vertices on portals that a straight way over the same pieces does without. What forbids a place in a
 // polygon reaches to its outline, and never to a piece: so nothing lies between the old way and the new one.
-static bool leave_out(tl_nav_clearance *clearance, const passes *all, tl_nav_bends *path)
+static bool leave_out(tl_nav_clearance *clearance, const passes *all, tl_nav_polyline *path)
 {
     bool fits = true;
     for (uint32_t i = 1; i + 1 < all->count && fits; i++) {
-        if (all->at[i].bend == TL_NAV_NO_NODE) {
+        if (all->at[i].vertex == TL_NAV_NO_NODE) {
             continue;
         }
-        const tl_nav_wide_bend *b = &path->bends[all->at[i].bend];
-        tl_nav_wide_bend *before = &path->bends[b->before];
-        tl_nav_wide_bend *next = &path->bends[b->next];
-        uint32_t last = all->at[next->pass].bend == b->next ? next->pass - 1 : next->pass;
+        const tl_nav_polyline_vertex *b = &path->vertices[all->at[i].vertex];
+        tl_nav_polyline_vertex *before = &path->vertices[b->before];
+        tl_nav_polyline_vertex *next = &path->vertices[b->next];
+        uint32_t last = all->at[next->pass].vertex == b->next ? next->pass - 1 : next->pass;
         if (is_straight(clearance, all, before->spot, before->pass, next->spot, last, &fits)) {
             before->next = b->next;
             next->before = b->before;
@@ -182,7 +182,7 @@ static bool leave_out(tl_nav_clearance *clearance, const passes *all, tl_nav_ben
     return fits;
 }
 
-bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_bends *path)
+bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_polyline *path)
 {
     tl_nav_clearance *clearance = search->clearance;
     passes all = { NULL, 0 };
@@ -197,14 +197,14 @@ bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_bends *path
         pass *p = &all.at[i];
         if (p->is_corner || p->is_blocked || all.at[i + 1].is_blocked) {
             uint32_t before = behind;
-            behind = tl_nav_bend_add(path, behind, p->spot, p->slot, p->polygon);
-            p->bend = behind;
+            behind = tl_nav_polyline_insert(path, behind, p->spot, p->slot, p->polygon);
+            p->vertex = behind;
             fits = behind != TL_NAV_NO_NODE && (!p->is_blocked || tl_nav_wide_detour(clearance, path, before));
-            for (uint32_t k = before; fits && k != behind && k != TL_NAV_NO_NODE; k = path->bends[k].next) {
-                path->bends[k].pass = k == before ? path->bends[k].pass : i - 1;
+            for (uint32_t k = before; fits && k != behind && k != TL_NAV_NO_NODE; k = path->vertices[k].next) {
+                path->vertices[k].pass = k == before ? path->vertices[k].pass : i - 1;
             }
             if (fits) {
-                path->bends[behind].pass = i;
+                path->vertices[behind].pass = i;
             }
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Prepared navmeshes: the same lengths as without roads, whatever tiles and links come and go; memory.
+// Prepared navmeshes: the same lengths as without the graph, whatever tiles and links come and go; memory.
 // That these are the shortest of all is tested beside the search over polygons (test_shortest_path.c).
 
 #include "nav_fixture.h"
@@ -46,7 +46,7 @@ static uint32_t compare(const tl_navmesh *prepared, const tl_navmesh *plain, tes
     return turning;
 }
 
-// Each edit ends the roads, and preparing brings them back.
+// Each edit invalidates the graph, and preparing brings it back.
 static void test_edits(void **state)
 {
     (void)state;
@@ -83,7 +83,7 @@ static void test_edits(void **state)
     TEST_CHECK(turning > 300);
 }
 
-// Too few nodes for the roads, and for the polygons too.
+// Too few nodes for the graph, and for the polygons too.
 static void test_nodes(void **state)
 {
     (void)state;
@@ -127,15 +127,17 @@ static void test_budgets(void **state)
     tl_nav_prepared made, none;
     tl_nav_prepare_def def = tl_default_nav_prepare_def();
     TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, &made), TL_OK);
-    TEST_CHECK(made.kind == TL_NAV_PREPARED_TABLE && made.bend_count > 10 && made.road_count >= made.bend_count);
-    TEST_CHECK(made.table_bytes == 6ull * made.bend_count * made.bend_count && made.bytes > made.table_bytes);
+    TEST_CHECK(made.kind == TL_NAV_PREPARED_TABLE && made.corner_vertex_count > 10 &&
+               made.edge_count >= made.corner_vertex_count);
+    TEST_CHECK(made.table_bytes == 6ull * made.corner_vertex_count * made.corner_vertex_count &&
+               made.bytes > made.table_bytes);
     TEST_CHECK(compare(navmesh, twin, &random, 40) > 4);
-    // The roads stay where the table goes and comes.
+    // The graph stays where the table goes and comes.
     for (uint32_t i = 0; i < 4; i++) {
         def.table_bytes = made.table_bytes - (i % 2 == 0 ? 1 : 0);
         TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &none), TL_OK);
-        TEST_CHECK(none.kind == (i % 2 == 0 ? TL_NAV_PREPARED_ROADS : TL_NAV_PREPARED_TABLE));
-        TEST_CHECK(none.table_bytes == made.table_bytes && none.road_count == made.road_count);
+        TEST_CHECK(none.kind == (i % 2 == 0 ? TL_NAV_PREPARED_GRAPH : TL_NAV_PREPARED_TABLE));
+        TEST_CHECK(none.table_bytes == made.table_bytes && none.edge_count == made.edge_count);
         TEST_CHECK(none.bytes == made.bytes - (i % 2 == 0 ? made.table_bytes : 0));
         TEST_CHECK(tl_navmesh_is_prepared(navmesh) && compare(navmesh, twin, &random, 40) > 4);
     }
@@ -148,7 +150,7 @@ static void test_budgets(void **state)
     for (uint32_t i = 0; i < 4; i++) {
         def.label_bytes = label_bytes - (i % 2 == 0 ? 1 : 0);
         TEST_RESULT(tl_navmesh_prepare(navmesh, &def, &made), TL_OK);
-        TEST_CHECK(made.kind == (i % 2 == 0 ? TL_NAV_PREPARED_ROADS : TL_NAV_PREPARED_LABELS));
+        TEST_CHECK(made.kind == (i % 2 == 0 ? TL_NAV_PREPARED_GRAPH : TL_NAV_PREPARED_LABELS));
         TEST_CHECK(tl_navmesh_is_prepared(navmesh) && compare(navmesh, twin, &random, 40) > 4);
     }
     TEST_CHECK(strcmp(tl_nav_prepared_kind_name(TL_NAV_PREPARED_TABLE), "table") == 0);
@@ -184,7 +186,7 @@ static void test_slices(void **state)
     tl_navmesh_destroy(navmesh);
 }
 
-// A link is a way that roads do not know.
+// A link is a way that the graph does not know.
 static void test_links(void **state)
 {
     (void)state;
@@ -257,7 +259,7 @@ static void test_memory(void **state)
     tl_nav_prepared made;
     TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
     TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, &made), TL_OK);
-    TEST_CHECK(made.bend_count == 0 && made.road_count == 0 && made.table_bytes == 0);
+    TEST_CHECK(made.corner_vertex_count == 0 && made.edge_count == 0 && made.table_bytes == 0);
     tl_navmesh_destroy(navmesh);
 }
 

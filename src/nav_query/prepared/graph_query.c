@@ -1,66 +1,69 @@
 // SPDX-License-Identifier: MIT
 //
-// The shortest path on a prepared navmesh: the straight line where it arrives, else over bends.
+// The shortest path on a prepared navmesh: the straight line where it arrives, else over corner vertices.
 //
-// With a table of all lengths between bends, or labels, nothing is searched: of the bends that the start and the goal
-// have in view, the pair with the shortest way is the path. It is read off by walking along its legs; a first or last
-// leg that was in view by rounding only is struck out, and the next best pair taken. What is offered is never too long,
-// so the first path that can be walked is the shortest of all. Source: Shen, Cheema, Harabor, Stuckey, Euclidean
-// Pathfinding with Compressed Path Databases, IJCAI 2020 (bends in view of both ends, and lengths between them that are
-// known).
+// With a table of all lengths between corner vertices, or labels, nothing is searched: of the corner vertices that the
+// start and the goal have in cone, the pair with the shortest way is the path. It is read off by walking along its
+// legs; a first or last leg that was in cone by rounding only is struck out, and the next best pair taken. What is
+// offered is never too long, so the first path that can be walked is the shortest of all. Source: Shen, Cheema,
+// Harabor, Stuckey, Euclidean Pathfinding with Compressed Path Databases, IJCAI 2020 (corner vertices in cone of both
+// ends, and lengths between them that are known).
 
-#include "nav_query/prepared/roads.h"
+#include "nav_query/prepared/visibility_graph.h"
 #include "nav_query/search/root_table.h"
 
 #include <string.h>
 
-// The bends on the way of a pair, the last one first; UINT32_MAX: more than there is room for.
-static uint32_t unpack(const tl_nav_roads *roads, uint32_t first, uint32_t last, uint64_t *bends, uint32_t capacity)
+// The corner vertices on the way of a pair, the last one first; UINT32_MAX: more than there is room for.
+static uint32_t unpack(const tl_nav_visibility_graph *graph, uint32_t first, uint32_t last, uint64_t *vertices,
+                       uint32_t capacity)
 {
-    const uint16_t *way = roads->table_way + (uint64_t)first * roads->bend_count;
+    const uint16_t *way = graph->table_way + (uint64_t)first * graph->vertex_count;
     uint32_t count = 0;
     for (uint32_t at = last;; at = way[at]) {
         if (count == capacity) {
             return UINT32_MAX;
         }
-        bends[count++] = at;
+        vertices[count++] = at;
         if (at == first) {
             return count;
         }
     }
 }
 
-// The best pair, and the bends on its way. The query's heaps are free: one is scratch, the other holds the bends.
-static tl_nav_meeting best_pair(tl_nav_query *query, const tl_nav_roads *roads, tl_nav_ends *ends, uint32_t *count_out)
+// The best pair, and the corner vertices on its way. The query's heaps are free: one is scratch, the other holds the
+// corner vertices.
+static tl_nav_meeting best_pair(tl_nav_query *query, const tl_nav_visibility_graph *graph, tl_nav_ends *ends,
+                                uint32_t *count_out)
 {
     tl_nav_meeting best;
-    if (roads->table != NULL) {
-        best = tl_nav_best_by_table(roads, ends);
+    if (graph->table != NULL) {
+        best = tl_nav_best_by_table(graph, ends);
         *count_out = best.start != NULL
-                         ? unpack(roads, best.start->bend, best.goal->bend, query->wedge_heap, query->max_nodes)
+                         ? unpack(graph, best.start->vertex, best.goal->vertex, query->wedge_heap, query->max_nodes)
                          : UINT32_MAX;
     } else {
-        best = tl_nav_best_by_labels(roads, ends, (float *)(void *)query->heap);
+        best = tl_nav_best_by_labels(graph, ends, (float *)(void *)query->heap);
         *count_out =
-            best.start != NULL ? tl_nav_unpack_meeting(roads, &best, query->wedge_heap, query->max_nodes) : UINT32_MAX;
+            best.start != NULL ? tl_nav_unpack_meeting(graph, &best, query->wedge_heap, query->max_nodes) : UINT32_MAX;
     }
     return best;
 }
 
 // By what is known of all lengths. False: no pair can be walked, or there is no room.
-static bool find_by_lengths(tl_nav_shortest_search *search, const tl_nav_roads *roads, tl_nav_ends *ends,
+static bool find_by_lengths(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph, tl_nav_ends *ends,
                             const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
 {
     tl_nav_query *query = search->query;
     for (uint32_t tries = 0; tries < ends->start_count + ends->goal_count; tries++) {
         uint32_t count = 0;
-        tl_nav_meeting best = best_pair(query, roads, ends, &count);
+        tl_nav_meeting best = best_pair(query, graph, ends, &count);
         if (count == UINT32_MAX) {
             return false;
         }
         // Five roundings a leg, three of what is known, three of sums.
         search->lower_bound = (double)best.length * (1.0 - (double)TL_FLOAT_GAMMA(11));
-        uint32_t blocked = tl_nav_write_roads(search, roads, query->wedge_heap, count, room, path_out);
+        uint32_t blocked = tl_nav_write_graph_path(search, graph, query->wedge_heap, count, room, path_out);
         if (blocked == UINT32_MAX) {
             path_out->node_count = ends->start_count + ends->goal_count;
             return true;
@@ -68,15 +71,15 @@ static bool find_by_lengths(tl_nav_shortest_search *search, const tl_nav_roads *
         if (blocked != 0 && blocked != count) {
             return false;
         }
-        *(blocked == 0 ? best.start : best.goal) = (tl_nav_bend_leg){ 0, INFINITY, INFINITY };
+        *(blocked == 0 ? best.start : best.goal) = (tl_nav_corner_leg){ 0, INFINITY, INFINITY };
     }
     return false;
 }
 
 // Whether lengths are known, and the query has room to make use of them.
-static bool knows_lengths(const tl_nav_query *query, const tl_nav_roads *roads)
+static bool knows_lengths(const tl_nav_query *query, const tl_nav_visibility_graph *graph)
 {
-    return roads->table != NULL || (roads->labels.first != NULL && roads->bend_count <= query->max_nodes);
+    return graph->table != NULL || (graph->labels.first != NULL && graph->vertex_count <= query->max_nodes);
 }
 
 // Whether the goal is seen from the start; the path is then written. `*is_unclear_out`: it cannot be told.
@@ -114,8 +117,8 @@ static bool write_straight(const tl_nav_shortest_search *search, const tl_nav_li
     return true;
 }
 
-bool tl_nav_find_over_roads(tl_nav_shortest_search *search, const tl_nav_roads *roads, const tl_nav_path_room *room,
-                            tl_nav_shortest_path *path_out)
+bool tl_nav_find_over_graph(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph,
+                            const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
 {
     double x = (double)search->start.x;
     double z = (double)search->start.z;
@@ -127,7 +130,7 @@ bool tl_nav_find_over_roads(tl_nav_shortest_search *search, const tl_nav_roads *
                          0,
                          search->goal_slot,
                          search->goal_polygon,
-                         tl_nav_line_rounding(search, roads) };
+                         tl_nav_line_rounding(search, graph) };
     bool is_unclear = false;
     if (write_straight(search, &line, room, path_out, &is_unclear)) {
         return true;
@@ -138,7 +141,7 @@ bool tl_nav_find_over_roads(tl_nav_shortest_search *search, const tl_nav_roads *
     // From here on the query's memory is used: a search in slices that was under way is no more.
     tl_nav_next_generation(search->query);
     tl_nav_ends ends;
-    return tl_nav_find_ends(search, roads, &ends) &&
-           ((knows_lengths(search->query, roads) && find_by_lengths(search, roads, &ends, room, path_out)) ||
-            (tl_nav_find_ends(search, roads, &ends) && tl_nav_search_roads(search, roads, &ends, room, path_out)));
+    return tl_nav_find_ends(search, graph, &ends) &&
+           ((knows_lengths(search->query, graph) && find_by_lengths(search, graph, &ends, room, path_out)) ||
+            (tl_nav_find_ends(search, graph, &ends) && tl_nav_search_graph(search, graph, &ends, room, path_out)));
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// A path over roads as its caller wants it: its corners, and the polygons along each leg.
+// A path over edges as its caller wants it: its corners, and the polygons along each leg.
 //
-// A leg ends in one of the polygons around a bend and the next one begins in another: the polygons between them, on the
-// side away from the walls, belong to the path too.
+// A leg ends in one of the polygons around a corner vertex and the next one begins in another: the polygons between
+// them, on the side away from the walls, belong to the path too.
 
-#include "nav_query/prepared/roads.h"
+#include "nav_query/prepared/visibility_graph.h"
 
 #include <math.h>
 #include <string.h>
 
-uint32_t tl_nav_fan_of(const tl_navmesh *navmesh, const tl_nav_bend *bend, tl_nav_ring_place *fan_out)
+uint32_t tl_nav_fan_of(const tl_navmesh *navmesh, const tl_nav_corner_vertex *vertex, tl_nav_ring_place *fan_out)
 {
-    tl_nav_ring_place at = bend->place;
+    tl_nav_ring_place at = vertex->place;
     for (uint32_t i = 0; i < TL_NAV_MAX_FAN; i++) {
         uint32_t count = 0;
         const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, at.slot, at.polygon, &count);
@@ -49,14 +49,14 @@ bool tl_nav_line_enters(const tl_nav_line *line, const tl_nav_ring_place *place)
     return (fabs(to_right) <= slack && is_ahead(line, right)) || (fabs(to_left) <= slack && is_ahead(line, left));
 }
 
-typedef struct road_path {
+typedef struct graph_path {
     const tl_nav_shortest_search *search;
-    const tl_nav_roads *roads;
+    const tl_nav_visibility_graph *graph;
     const tl_nav_path_room *room;
     tl_nav_shortest_path *path;
     tl_nav_trail trail;
     tl_vec3 last; // corner
-} road_path;
+} graph_path;
 
 static double plan_distance(tl_vec3 a, tl_vec3 b)
 {
@@ -65,7 +65,7 @@ static double plan_distance(tl_vec3 a, tl_vec3 b)
     return sqrt(x * x + z * z);
 }
 
-static void add_corner(road_path *p, tl_vec3 point, tl_nav_ref polygon, uint32_t flags)
+static void add_corner(graph_path *p, tl_vec3 point, tl_nav_ref polygon, uint32_t flags)
 {
     if (p->path->corner_count > 0) {
         p->path->length += plan_distance(p->last, point);
@@ -79,8 +79,8 @@ static void add_corner(road_path *p, tl_vec3 point, tl_nav_ref polygon, uint32_t
     p->last = point;
 }
 
-// Adds a bend as a corner, unless the path goes straight on there.
-static void add_bend(road_path *p, tl_vec3 point, tl_vec3 next, tl_nav_ref polygon, bool is_left)
+// Adds a corner vertex as a corner, unless the path goes straight on there.
+static void add_vertex(graph_path *p, tl_vec3 point, tl_vec3 next, tl_nav_ref polygon, bool is_left)
 {
     double x = (double)point.x - (double)p->last.x;
     double z = (double)point.z - (double)p->last.z;
@@ -127,12 +127,12 @@ static uint32_t next_in_fan(const tl_nav_ring_place *fan, uint32_t count, uint32
     return best;
 }
 
-// Goes around a bend from the last polygon to the one into which the next leg leads.
-static bool turn_at(road_path *p, const tl_nav_bend *bend, const tl_nav_line *line, tl_vec3 next)
+// Goes around a corner vertex from the last polygon to the one into which the next leg leads.
+static bool turn_at(graph_path *p, const tl_nav_corner_vertex *vertex, const tl_nav_line *line, tl_vec3 next)
 {
     const tl_navmesh *navmesh = p->search->navmesh;
     tl_nav_ring_place fan[TL_NAV_MAX_FAN];
-    uint32_t count = tl_nav_fan_of(navmesh, bend, fan);
+    uint32_t count = tl_nav_fan_of(navmesh, vertex, fan);
     uint32_t from = 0;
     while (from < count && (fan[from].slot != p->trail.slot || fan[from].polygon != p->trail.polygon)) {
         from++;
@@ -145,13 +145,13 @@ static bool turn_at(road_path *p, const tl_nav_bend *bend, const tl_nav_line *li
         tl_nav_add_to_trail(&p->trail, navmesh, fan[i].slot, fan[i].polygon);
     }
     tl_nav_add_to_trail(&p->trail, navmesh, fan[to].slot, fan[to].polygon);
-    add_bend(p, tl_vec3_make(bend->x, bend->y, bend->z), next, tl_nav_make_ref(navmesh, fan[to].slot, fan[to].polygon),
-             to > from);
+    add_vertex(p, tl_vec3_make(vertex->x, vertex->y, vertex->z), next,
+               tl_nav_make_ref(navmesh, fan[to].slot, fan[to].polygon), to > from);
     return true;
 }
 
-// The leg from a bend (NULL: the start) to another (NULL: the goal).
-static bool add_leg(road_path *p, const tl_nav_bend *from, const tl_nav_bend *to)
+// The leg from a corner vertex (NULL: the start) to another (NULL: the goal).
+static bool add_leg(graph_path *p, const tl_nav_corner_vertex *from, const tl_nav_corner_vertex *to)
 {
     const tl_nav_shortest_search *search = p->search;
     tl_vec3 point = from != NULL ? tl_vec3_make(from->x, from->y, from->z) : search->start;
@@ -164,7 +164,7 @@ static bool add_leg(road_path *p, const tl_nav_bend *from, const tl_nav_bend *to
                          to != NULL ? to->turn : 0,
                          search->goal_slot,
                          search->goal_polygon,
-                         p->roads->rounding };
+                         p->graph->rounding };
     if (from != NULL && !turn_at(p, from, &line, next)) {
         return false;
     }
@@ -173,17 +173,20 @@ static bool add_leg(road_path *p, const tl_nav_bend *from, const tl_nav_bend *to
     return tl_nav_walk_line(&line, slot, polygon, &p->trail) == TL_NAV_LINE_ARRIVES;
 }
 
-uint32_t tl_nav_write_roads(const tl_nav_shortest_search *search, const tl_nav_roads *roads, const uint64_t *bends,
-                            uint32_t bend_count, const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
+uint32_t tl_nav_write_graph_path(const tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph,
+                                 const uint64_t *vertices, uint32_t vertex_count, const tl_nav_path_room *room,
+                                 tl_nav_shortest_path *path_out)
 {
     const tl_navmesh *navmesh = search->navmesh;
     memset(path_out, 0, sizeof *path_out);
-    road_path p = { search, roads, room, path_out, { room->polygons, room->polygon_capacity, 0, 0, 0 }, search->start };
+    graph_path p = {
+        search, graph, room, path_out, { room->polygons, room->polygon_capacity, 0, 0, 0 }, search->start
+    };
     add_corner(&p, search->start, tl_nav_make_ref(navmesh, search->start_slot, search->start_polygon),
                TL_NAV_CORNER_START);
-    const tl_nav_bend *from = NULL;
-    for (uint32_t i = 0; i <= bend_count; i++) {
-        const tl_nav_bend *to = i < bend_count ? &roads->bends[bends[bend_count - 1 - i]] : NULL;
+    const tl_nav_corner_vertex *from = NULL;
+    for (uint32_t i = 0; i <= vertex_count; i++) {
+        const tl_nav_corner_vertex *to = i < vertex_count ? &graph->vertices[vertices[vertex_count - 1 - i]] : NULL;
         if (!add_leg(&p, from, to)) {
             return i;
         }

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+//
+// From where in a polygon a path may go straight to a corner vertex and turn there: wedges of sight, cut to the
+// directions from which one comes with the corner vertex's walls on the hand of the turn.
+//
+// What a corner vertex sees through the edge by which sight enters a polygon is a cone. So are the directions that have
+// both walls on one hand, and what is left of it is a cone again: two cross products say whether a point is in it. That
+// leaves few corner vertices for a point, where the polygon as a whole is seen by many and turned to from more. Cones
+// side by side are joined. A cone is kept as two half planes, a little too wide by rounding: who goes a leg walks along
+// it in the end. They stand array by array, so that a compiler takes several at once.
+
+#include "nav_query/prepared/visibility_graph.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+#include "nav_query/exact/wedge_sight.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct opening {
+    tl_nav_direction right, left;
+} opening;
+
+// Leaves the part of a cone that lies left of a wall (hand 1) or right of it (-1). False: none does.
+static bool cut(opening *c, tl_nav_direction wall, int hand, double rounding)
+{
+    double wall_size = fabs(wall.x) + fabs(wall.z);
+    double left = hand * cross(wall, c->left);
+    double right = hand * cross(wall, c->right);
+    bool keeps_left = left <= 2.0 * rounding * (wall_size + fabs(c->left.x) + fabs(c->left.z));
+    bool keeps_right = right <= 2.0 * rounding * (wall_size + fabs(c->right.x) + fabs(c->right.z));
+    if (is_open(wall) || (keeps_left && keeps_right)) {
+        return true;
+    }
+    if (!keeps_left && !keeps_right) {
+        return false;
+    }
+    // The wall's line leaves the corner vertex inside the cone, along the wall or away from it.
+    bool is_along = cross(c->left, wall) >= cross(c->right, wall);
+    tl_nav_direction end = { is_along ? wall.x : -wall.x, is_along ? wall.z : -wall.z };
+    *(keeps_left ? &c->right : &c->left) = end;
+    return true;
+}
+
+static bool clip(const tl_nav_wedge *wedge, const tl_nav_ring_walls *walls, int hand, double rounding,
+                 opening *opening_out)
+{
+    const tl_nav_direction first = { (double)walls->first_x, (double)walls->first_z };
+    const tl_nav_direction last = { (double)walls->last_x, (double)walls->last_z };
+    opening c = { wedge->right, wedge->left };
+    if (is_open(c.left) || is_open(c.right)) {
+        // Beside the corner vertex: between the walls, or one of them and where the other leads.
+        const tl_nav_direction back = { -last.x, -last.z };
+        c.right = hand > 0 ? first : back;
+        c.left = hand > 0 ? back : first;
+    } else if (!cut(&c, first, hand, rounding) || !cut(&c, last, hand, rounding)) {
+        return false;
+    }
+    *opening_out = c;
+    return true;
+}
+
+tl_result tl_nav_add_cones(tl_nav_cone_list *list, const tl_nav_visibility_graph *graph, uint32_t vertex,
+                           const tl_nav_wedge *wedge)
+{
+    for (int hand = -1; hand <= 1; hand += 2) {
+        opening c;
+        if (!clip(wedge, &graph->vertices[vertex].walls, hand, graph->rounding, &c)) {
+            continue;
+        }
+        tl_nav_corner_cone cone = { wedge->slot,      wedge->polygon,   vertex,          hand,
+                                    (float)c.right.x, (float)c.right.z, (float)c.left.x, (float)c.left.z };
+        if (list->count == list->capacity) {
+            tl_nav_corner_cone *grown = tl_grow_array(list->allocator, list->cones, &list->capacity, sizeof *grown);
+            if (grown == NULL) {
+                return TL_ERR_MEMORY;
+            }
+            list->cones = grown;
+        }
+        list->cones[list->count++] = cone;
+    }
+    return TL_OK;
+}
+
+static bool joins(const tl_nav_corner_cone *a, const tl_nav_corner_cone *b)
+{
+    return a->vertex == b->vertex && a->hand == b->hand && a->left_x == b->right_x && a->left_z == b->right_z;
+}
+
+// Joins the cones of a polygon that stand side by side; those of a corner vertex follow one another. Returns how many
+// are left.
+static uint32_t join_cones(tl_nav_corner_cone *cones, uint32_t count)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        tl_nav_corner_cone cone = cones[i];
+        for (uint32_t k = kept; k > 0 && cones[k - 1].vertex == cone.vertex; k--) {
+            tl_nav_corner_cone *other = &cones[k - 1];
+            bool is_left = joins(&cone, other); // the other is beyond the left end
+            if (is_left || joins(other, &cone)) {
+                cone.left_x = is_left ? other->left_x : cone.left_x;
+                cone.left_z = is_left ? other->left_z : cone.left_z;
+                cone.right_x = is_left ? cone.right_x : other->right_x;
+                cone.right_z = is_left ? cone.right_z : other->right_z;
+                memmove(other, other + 1, (kept - k) * sizeof *other);
+                kept--;
+                k = kept + 1;
+            }
+        }
+        cones[kept++] = cone;
+    }
+    return kept;
+}
+
+// The half plane left of a direction from a corner vertex, for points no farther from it than `size`.
+static void write_plane(const tl_nav_corner_vertex *vertex, double x, double z, double size, double rounding,
+                        float *x_out, float *z_out, float *least_out)
+{
+    double at_vertex = x * (double)vertex->z - z * (double)vertex->x;
+    *x_out = (float)x;
+    *z_out = (float)z;
+    *least_out = (float)(at_vertex - 4.0 * rounding * (fabs(x) + fabs(z) + size));
+}
+
+static void write_cone(const tl_navmesh *navmesh, const tl_nav_visibility_graph *graph, const tl_nav_corner_cone *cone,
+                       uint32_t at)
+{
+    const tl_nav_corner_cones *cones = &graph->cones;
+    const tl_nav_corner_vertex *vertex = &graph->vertices[cone->vertex];
+    uint32_t count = 0;
+    const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, cone->slot, cone->polygon, &count);
+    double size = 0.0;
+    double largest = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        double x = (double)ring[i].x;
+        double z = (double)ring[i].z;
+        size = fmax(size, fabs(x - (double)vertex->x) + fabs(z - (double)vertex->z));
+        largest = fmax(largest, fmax(fabs(x), fabs(z)));
+    }
+    double rounding = fmax(graph->rounding, TL_NAV_ON_LINE * largest);
+    write_plane(vertex, (double)cone->left_x, (double)cone->left_z, size, rounding, &cones->left_x[at],
+                &cones->left_z[at], &cones->left_least[at]);
+    write_plane(vertex, -(double)cone->right_x, -(double)cone->right_z, size, rounding, &cones->right_x[at],
+                &cones->right_z[at], &cones->right_least[at]);
+    cones->vertex[at] = cone->vertex;
+}
+
+static bool make_room(const tl_allocator *allocator, tl_nav_corner_cones *cones)
+{
+    cones->size = 7 * ((uint64_t)cones->count + TL_NAV_CONES_AT_ONCE);
+    cones->block = tl_allocate_array(allocator, cones->size, sizeof *cones->block);
+    if (cones->block == NULL) {
+        return false;
+    }
+    memset(cones->block, 0, cones->size * sizeof *cones->block);
+    float **arrays[6] = { &cones->left_x,  &cones->left_z,  &cones->left_least,
+                          &cones->right_x, &cones->right_z, &cones->right_least };
+    for (uint32_t i = 0; i < 6; i++) {
+        *arrays[i] = cones->block + i * (cones->size / 7);
+    }
+    cones->vertex = (uint32_t *)(void *)(cones->block + 6 * (cones->size / 7));
+    return true;
+}
+
+tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, tl_nav_visibility_graph *graph)
+{
+    tl_nav_corner_cones *cones = &graph->cones;
+    if (list->count > UINT32_MAX - TL_NAV_CONES_AT_ONCE) {
+        return TL_ERR_LIMIT;
+    }
+    uint32_t *first = tl_allocate_array(list->allocator, (uint64_t)graph->polygon_count + 1, sizeof *first);
+    tl_nav_corner_cone *grouped = tl_allocate_array(list->allocator, list->count, sizeof *grouped);
+    cones->first = first;
+    bool fits = first != NULL && grouped != NULL;
+    if (fits) {
+        memset(first, 0, ((size_t)graph->polygon_count + 1) * sizeof *first);
+        for (uint64_t i = 0; i < list->count; i++) {
+            first[graph->slot_first[list->cones[i].slot] + list->cones[i].polygon]++;
+        }
+        for (uint32_t p = 1; p <= graph->polygon_count; p++) {
+            first[p] += first[p - 1];
+        }
+        for (uint64_t i = list->count; i > 0; i--) {
+            const tl_nav_corner_cone *last = &list->cones[i - 1];
+            grouped[--first[graph->slot_first[last->slot] + last->polygon]] = *last;
+        }
+        for (uint32_t p = 0; p < graph->polygon_count; p++) {
+            uint32_t count = join_cones(grouped + first[p], first[p + 1] - first[p]);
+            memmove(grouped + cones->count, grouped + first[p], count * sizeof *grouped);
+            first[p] = cones->count;
+            cones->count += count;
+        }
+        first[graph->polygon_count] = cones->count;
+        fits = make_room(list->allocator, cones);
+    }
+    for (uint32_t i = 0; i < cones->count && fits; i++) {
+        write_cone(navmesh, graph, &grouped[i], i);
+    }
+    tl_release_array(list->allocator, grouped, list->count, sizeof *grouped);
+    return fits ? TL_OK : TL_ERR_MEMORY;
+}
+
+void tl_nav_free_cones(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
+{
+    tl_release_array(allocator, graph->cones.first, (uint64_t)graph->polygon_count + 1, sizeof *graph->cones.first);
+    tl_release_array(allocator, graph->cones.block, graph->cones.size, sizeof *graph->cones.block);
+}
+
+// A point on a polygon.
+typedef struct spot {
+    uint32_t slot, polygon;
+    tl_vec3 point;
+} spot;
+
+static float plan_distance(float x, float z, const tl_nav_corner_vertex *vertex)
+{
+    float to_x = x - vertex->x;
+    float to_z = z - vertex->z;
+    return sqrtf(to_x * to_x + to_z * to_z);
+}
+
+// The corner vertices in cone of a point; `other` is the other end of the path. TL_NAV_NO_NODE: there is no room for
+// them.
+static uint32_t vertices_in_cones(const tl_nav_visibility_graph *graph, const spot *at, tl_vec3 other,
+                                  tl_nav_corner_leg *legs_out, uint32_t capacity)
+{
+    const tl_nav_corner_cones *cones = &graph->cones;
+    const uint32_t *first = cones->first + graph->slot_first[at->slot] + at->polygon;
+    const float x = at->point.x;
+    const float z = at->point.z;
+    uint32_t count = 0;
+    for (uint32_t base = first[0]; base < first[1]; base += TL_NAV_CONES_AT_ONCE) {
+        uint32_t is_in[TL_NAV_CONES_AT_ONCE];
+        for (uint32_t k = 0; k < TL_NAV_CONES_AT_ONCE; k++) {
+            uint32_t i = base + k;
+            is_in[k] = (cones->left_x[i] * z - cones->left_z[i] * x >= cones->left_least[i] ? 1u : 0u) &
+                       (cones->right_x[i] * z - cones->right_z[i] * x >= cones->right_least[i] ? 1u : 0u);
+        }
+        if (capacity - count < TL_NAV_CONES_AT_ONCE) {
+            return TL_NAV_NO_NODE;
+        }
+        for (uint32_t k = 0; k < TL_NAV_CONES_AT_ONCE && base + k < first[1]; k++) {
+            legs_out[count].vertex = cones->vertex[base + k];
+            count += is_in[k];
+        }
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_nav_corner_vertex *vertex = &graph->vertices[legs_out[i].vertex];
+        legs_out[i].length = plan_distance(x, z, vertex);
+        legs_out[i].total = legs_out[i].length + plan_distance(other.x, other.z, vertex);
+    }
+    return count;
+}
+
+bool tl_nav_find_ends(const tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph, tl_nav_ends *ends_out)
+{
+    const spot start = { search->start_slot, search->start_polygon, search->start };
+    const spot goal = { search->goal_slot, search->goal_polygon, search->goal };
+    uint32_t room = search->query->max_nodes;
+    ends_out->starts = (tl_nav_corner_leg *)(void *)search->query->wedges;
+    ends_out->start_count = vertices_in_cones(graph, &start, search->goal, ends_out->starts, room);
+    if (ends_out->start_count == TL_NAV_NO_NODE) {
+        return false;
+    }
+    room -= ends_out->start_count;
+    ends_out->goals = ends_out->starts + ends_out->start_count;
+    ends_out->goal_count = vertices_in_cones(graph, &goal, search->start, ends_out->goals, room);
+    return ends_out->goal_count != TL_NAV_NO_NODE;
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+//
+// A table of the lengths of the shortest ways between all corner vertices, and of the corner vertices on them.
+//
+// For worlds of up to a few thousand corner vertices the table is small (6 bytes a pair), takes a Dijkstra a corner
+// vertex, and turns a search into some hundred look-ups. Floats do: which of two ways that differ by a rounding is
+// taken is no matter, and the length of a path is summed up anew from its corners.
+
+#include "nav_query/prepared/dijkstra.h"
+
+#include "base/arena.h"
+#include "base/assert.h"
+
+#include <math.h>
+
+uint64_t tl_nav_corner_distances_size(const tl_nav_visibility_graph *graph)
+{
+    uint64_t pairs = (uint64_t)graph->vertex_count * graph->vertex_count;
+    // Corner vertices have 16 bits in it.
+    return graph->vertex_count <= UINT16_MAX ? pairs * (sizeof *graph->table + sizeof *graph->table_way) : UINT64_MAX;
+}
+
+tl_result tl_nav_bake_corner_distances(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
+{
+    uint32_t n = graph->vertex_count;
+    uint64_t pairs = (uint64_t)n * n;
+    tl_nav_dijkstra lengths;
+    TL_TRY(tl_nav_dijkstra_init(allocator, graph, &lengths));
+    graph->table = tl_allocate_array(allocator, pairs, sizeof *graph->table);
+    graph->table_way = tl_allocate_array(allocator, pairs, sizeof *graph->table_way);
+    bool fits = graph->table != NULL && graph->table_way != NULL;
+    for (uint32_t i = 0; i < n && fits; i++) {
+        tl_nav_dijkstra_run(&lengths, &i, 1);
+        for (uint32_t k = 0; k < n; k++) {
+            graph->table[(uint64_t)i * n + k] = (float)lengths.length[k];
+            graph->table_way[(uint64_t)i * n + k] = (uint16_t)lengths.before[k];
+        }
+    }
+    tl_nav_dijkstra_free(allocator, &lengths);
+    return fits ? TL_OK : TL_ERR_MEMORY;
+}
+
+void tl_nav_free_corner_distances(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
+{
+    uint64_t pairs = (uint64_t)graph->vertex_count * graph->vertex_count;
+    tl_release_array(allocator, graph->table, pairs, sizeof *graph->table);
+    tl_release_array(allocator, graph->table_way, pairs, sizeof *graph->table_way);
+    graph->table = NULL;
+    graph->table_way = NULL;
+}
+
+static void swap(tl_nav_corner_leg *a, tl_nav_corner_leg *b)
+{
+    tl_nav_corner_leg kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+// Moves the goals over which a way may be shorter than `best` to the front; returns how many they are.
+static uint32_t drop_far_goals(tl_nav_corner_leg *goals, uint32_t count, float best)
+{
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        if (goals[k].total < best) {
+            swap(&goals[k], &goals[kept++]);
+        }
+    }
+    return kept;
+}
+
+tl_nav_meeting tl_nav_best_by_table(const tl_nav_visibility_graph *graph, tl_nav_ends *ends)
+{
+    // The most promising one first: it bounds what is worth a look. A total may be too long by its roundings.
+    const float margin = 1.0f + TL_FLOAT_GAMMA(16);
+    uint32_t goal_count = ends->goal_count;
+    tl_nav_meeting best = { INFINITY, NULL, NULL, 0 };
+    for (uint32_t i = 1; i < ends->start_count; i++) {
+        if (ends->starts[i].total < ends->starts[0].total) {
+            swap(&ends->starts[i], &ends->starts[0]);
+        }
+    }
+    for (uint32_t i = 0; i < ends->start_count; i++) {
+        tl_nav_corner_leg *start = &ends->starts[i];
+        if (!(start->total < best.length * margin)) {
+            continue;
+        }
+        const float *row = graph->table + (uint64_t)start->vertex * graph->vertex_count;
+        tl_nav_corner_leg *nearest = NULL;
+        for (uint32_t k = 0; k < goal_count; k++) {
+            float length = start->length + row[ends->goals[k].vertex] + ends->goals[k].length;
+            if (length < best.length) {
+                best.length = length;
+                nearest = &ends->goals[k];
+            }
+        }
+        if (nearest != NULL) {
+            tl_nav_corner_leg goal = *nearest;
+            goal_count = drop_far_goals(ends->goals, goal_count, best.length * margin);
+            best.start = start;
+            best.goal = ends->goals;
+            while (best.goal->vertex != goal.vertex) {
+                best.goal++;
+            }
+        }
+    }
+    return best;
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// Lengths along edges to all corner vertices: Dijkstra with a binary heap, in which a corner vertex stands once for
+// each time its length fell. Equal lengths go to the lower corner vertex, so that the same ways are found everywhere.
+// Source: Dijkstra, A note on two problems in connexion with graphs, 1959.
+
+#include "nav_query/prepared/dijkstra.h"
+
+#include "base/arena.h"
+
+#include <math.h>
+#include <string.h>
+
+tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visibility_graph *graph,
+                               tl_nav_dijkstra *lengths_out)
+{
+    memset(lengths_out, 0, sizeof *lengths_out);
+    lengths_out->graph = graph;
+    lengths_out->length = tl_allocate_array(allocator, graph->vertex_count, sizeof *lengths_out->length);
+    lengths_out->before = tl_allocate_array(allocator, graph->vertex_count, sizeof *lengths_out->before);
+    lengths_out->heap =
+        tl_allocate_array(allocator, (uint64_t)graph->vertex_count + graph->edge_count, sizeof *lengths_out->heap);
+    lengths_out->settled = tl_allocate_array(allocator, graph->vertex_count, sizeof *lengths_out->settled);
+    if (lengths_out->length == NULL || lengths_out->before == NULL || lengths_out->settled == NULL ||
+        lengths_out->heap == NULL) {
+        tl_nav_dijkstra_free(allocator, lengths_out);
+        return TL_ERR_MEMORY;
+    }
+    return TL_OK;
+}
+
+void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *lengths)
+{
+    const tl_nav_visibility_graph *graph = lengths->graph;
+    tl_release_array(allocator, lengths->length, graph->vertex_count, sizeof *lengths->length);
+    tl_release_array(allocator, lengths->before, graph->vertex_count, sizeof *lengths->before);
+    tl_release_array(allocator, lengths->settled, graph->vertex_count, sizeof *lengths->settled);
+    tl_release_array(allocator, lengths->heap, (uint64_t)graph->vertex_count + graph->edge_count,
+                     sizeof *lengths->heap);
+}
+
+void tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count)
+{
+    const tl_nav_visibility_graph *graph = lengths->graph;
+    for (uint32_t i = 0; i < graph->vertex_count; i++) {
+        lengths->length[i] = (double)INFINITY;
+    }
+    for (uint32_t i = 0; i < source_count; i++) {
+        lengths->length[sources[i]] = 0.0;
+        lengths->before[sources[i]] = sources[i];
+        tl_nav_push_vertex(lengths, 0.0, sources[i]);
+    }
+    lengths->settled_count = 0;
+    while (lengths->heap_count > 0) {
+        tl_nav_open_vertex next = tl_nav_pop_vertex(lengths);
+        if (next.length > lengths->length[next.vertex]) {
+            continue;
+        }
+        lengths->settled[lengths->settled_count++] = next.vertex;
+        const tl_nav_corner_vertex *vertex = &graph->vertices[next.vertex];
+        for (uint32_t k = vertex[0].first_edge; k < vertex[1].first_edge; k++) {
+            const tl_nav_visibility_edge *edge = &graph->edges[k];
+            double length = next.length + tl_nav_visibility_edge_length(vertex, edge);
+            if (length < lengths->length[edge->to]) {
+                lengths->length[edge->to] = length;
+                lengths->before[edge->to] = next.vertex;
+                tl_nav_push_vertex(lengths, length, edge->to);
+            }
+        }
+    }
+}

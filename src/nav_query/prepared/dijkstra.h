@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// Lengths along edges from any corner vertices to all others (dijkstra.c).
+
+#ifndef TALUS_SRC_NAV_QUERY_DIJKSTRA_H
+#define TALUS_SRC_NAV_QUERY_DIJKSTRA_H
+
+#include "nav_query/prepared/visibility_graph.h"
+
+typedef struct tl_nav_open_vertex {
+    double length;
+    uint32_t vertex;
+} tl_nav_open_vertex;
+
+typedef struct tl_nav_dijkstra {
+    const tl_nav_visibility_graph *graph;
+    double *length;           ///< by corner vertex: metres; INFINITY: no way
+    uint32_t *before;         ///< by corner vertex: the one before it on the way there; itself for a source
+    tl_nav_open_vertex *heap; ///< [edge_count + corner_vertex_count]: an entry each time a length falls
+    uint32_t heap_count;
+    uint32_t *settled; ///< corner vertices that were reached, the nearest first
+    uint32_t settled_count;
+} tl_nav_dijkstra;
+
+static inline double tl_nav_visibility_edge_length(const tl_nav_corner_vertex *from, const tl_nav_visibility_edge *edge)
+{
+    double x = (double)edge->x - (double)from->x;
+    double z = (double)edge->z - (double)from->z;
+    return sqrt(x * x + z * z);
+}
+
+static inline bool tl_nav_open_before(tl_nav_open_vertex a, tl_nav_open_vertex b)
+{
+    return a.length < b.length || (a.length == b.length && a.vertex < b.vertex);
+}
+
+static inline void tl_nav_push_vertex(tl_nav_dijkstra *s, double length, uint32_t vertex)
+{
+    tl_nav_open_vertex entry = { length, vertex };
+    uint32_t at = s->heap_count++;
+    for (; at > 0 && tl_nav_open_before(entry, s->heap[(at - 1) / 2]); at = (at - 1) / 2) {
+        s->heap[at] = s->heap[(at - 1) / 2];
+    }
+    s->heap[at] = entry;
+}
+
+/// The heap must not be empty.
+static inline tl_nav_open_vertex tl_nav_pop_vertex(tl_nav_dijkstra *s)
+{
+    tl_nav_open_vertex top = s->heap[0];
+    tl_nav_open_vertex last = s->heap[--s->heap_count];
+    uint32_t at = 0;
+    for (;;) {
+        uint32_t child = 2 * at + 1;
+        if (child >= s->heap_count) {
+            break;
+        }
+        child += child + 1 < s->heap_count && tl_nav_open_before(s->heap[child + 1], s->heap[child]) ? 1 : 0;
+        if (!tl_nav_open_before(s->heap[child], last)) {
+            break;
+        }
+        s->heap[at] = s->heap[child];
+        at = child;
+    }
+    s->heap[at] = last;
+    return top;
+}
+
+/// TL_ERR_MEMORY: nothing is left to free.
+tl_result tl_nav_dijkstra_init(const tl_allocator *allocator, const tl_nav_visibility_graph *graph,
+                               tl_nav_dijkstra *lengths_out);
+void tl_nav_dijkstra_free(const tl_allocator *allocator, tl_nav_dijkstra *lengths);
+
+/// Measures from `source_count` corner vertices, from the nearest of them to each.
+void tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint32_t source_count);
+
+#endif
