@@ -27,17 +27,12 @@ static int unknown_command(const char *word)
 {
     uint32_t count;
     const tl_command *const *commands = tl_command_table(&count);
-    const char *nearest = NULL;
-    unsigned best = ~0u;
+    tl_closest_word closest = tl_closest_word_to(word);
     for (uint32_t i = 0; i < count; ++i) {
-        unsigned distance = tl_word_distance(word, commands[i]->name);
-        if (distance < best && tl_word_is_near(word, distance)) {
-            best = distance;
-            nearest = commands[i]->name;
-        }
+        tl_closest_word_offer(&closest, commands[i]->name, commands[i]->name);
     }
-    if (nearest != NULL) {
-        fprintf(stderr, "talus: '%s' is no command; did you mean '%s'?\n", word, nearest);
+    if (closest.meant != NULL) {
+        fprintf(stderr, "talus: '%s' is no command; did you mean '%s'?\n", word, closest.meant);
     } else {
         fprintf(stderr, "talus: '%s' is no command; 'talus --help' lists them\n", word);
     }

@@ -55,17 +55,12 @@ static void list_names(const tl_name_table *names, tl_text *text)
 
 static const char *nearest_name(const tl_name_table *names, const char *word)
 {
-    const char *nearest = NULL;
-    unsigned best = ~0u;
+    tl_closest_word closest = tl_closest_word_to(word);
     for (uint32_t id = 1; id < names->count; id++) {
         const char *name = tl_name_table_get(names, id);
-        const unsigned distance = tl_word_distance(word, name);
-        if (distance < best && tl_word_is_near(word, distance)) {
-            best = distance;
-            nearest = name;
-        }
+        tl_closest_word_offer(&closest, name, name);
     }
-    return nearest;
+    return closest.meant;
 }
 
 static void fail_unknown(tl_cli *cli, const tl_level *level, const char *path, const tl_area_marks *marks,

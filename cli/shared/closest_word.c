@@ -36,7 +36,17 @@ unsigned tl_word_distance(const char *a, const char *b)
     return rows[a_length % 3][b_length];
 }
 
-int tl_word_is_near(const char *word, unsigned distance)
+tl_closest_word tl_closest_word_to(const char *word)
 {
-    return distance <= 1 + strlen(word) / 5;
+    const tl_closest_word closest = { word, NULL, ~0u };
+    return closest;
+}
+
+void tl_closest_word_offer(tl_closest_word *closest, const char *known, const char *meant)
+{
+    unsigned distance = tl_word_distance(closest->word, known);
+    if (distance < closest->distance && distance <= 1 + strlen(closest->word) / 5) {
+        closest->distance = distance;
+        closest->meant = meant;
+    }
 }

@@ -13,7 +13,15 @@ enum { TL_MAX_WORD_BYTES = 63 };
 /// TL_MAX_WORD_BYTES.
 unsigned tl_word_distance(const char *a, const char *b);
 
-/// Whether a distance is small enough, for a word of that length, to be a typing error.
-int tl_word_is_near(const char *word, unsigned distance);
+/// The search for a mistyped word among known ones.
+typedef struct tl_closest_word {
+    const char *word;
+    const char *meant; ///< what the nearest known word stands for; NULL: none is near enough to be a typing error
+    unsigned distance; ///< of the nearest
+} tl_closest_word;
+
+tl_closest_word tl_closest_word_to(const char *word);
+/// Compares with one more known word, which stands for `meant`: often itself.
+void tl_closest_word_offer(tl_closest_word *closest, const char *known, const char *meant);
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "cli/shared/options.h"
 
-#include "cli/shared/closest_word.h"
+#include "cli/shared/option_spelling.h"
 #include "cli/shared/parse_value.h"
 
 #include <popt.h>
@@ -14,7 +14,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_OPTIONS = 96, HELP_VALUE = MAX_OPTIONS + 1, HELP_COLUMN = 34, HELP_WIDTH = 104 };
+enum { MAX_OPTIONS = 96, HELP_COLUMN = 34, HELP_WIDTH = 104 };
+
+// What popt returns for a word: an option's index from 1, one of these, or FIRST_REFUSED and a spelling's index.
+enum { HELP_VALUE = MAX_OPTIONS + 1, FIRST_REFUSED };
+
+// All that popt may meet.
+typedef struct option_list {
+    const tl_option *options[MAX_OPTIONS];
+    uint32_t count;
+    tl_option_spelling spellings[TL_MAX_OPTION_SPELLINGS];
+    uint32_t spelling_count;
+    struct poptOption table[MAX_OPTIONS + TL_MAX_OPTION_SPELLINGS + 2];
+} option_list;
 
 // What parsed words and texts point into.
 typedef struct storage {
@@ -81,25 +93,48 @@ void tl_arguments_free(tl_arguments *arguments)
     arguments->storage = NULL;
 }
 
-// Flattens the groups; popt's table and `flat` run in step.
-static int flatten(const tl_option_group *groups, const tl_option **flat, struct poptOption *table)
+static bool is_flag(const tl_option *option)
 {
-    int count = 0;
+    return option->kind == TL_OPTION_FLAG || option->kind == TL_OPTION_UNFLAG;
+}
+
+static void fill_list(const tl_option_group *groups, option_list *list)
+{
+    list->count = 0;
+    struct poptOption *entry = list->table;
     for (; groups->title != NULL; ++groups) {
-        for (const tl_option *option = groups->options; option->name != NULL && count < MAX_OPTIONS; ++option) {
-            bool flag = option->kind == TL_OPTION_FLAG || option->kind == TL_OPTION_UNFLAG;
-            struct poptOption entry = { option->name, option->letter, flag ? POPT_ARG_NONE : POPT_ARG_STRING,
-                                        NULL,         count + 1,      NULL,
-                                        NULL };
-            flat[count] = option;
-            table[count++] = entry;
+        for (const tl_option *option = groups->options; option->name != NULL && list->count < MAX_OPTIONS; ++option) {
+            list->options[list->count++] = option;
+            const struct poptOption own = {
+                option->name, option->letter,   is_flag(option) ? POPT_ARG_NONE : POPT_ARG_STRING,
+                NULL,         (int)list->count, NULL,
+                NULL
+            };
+            *entry++ = own;
         }
     }
-    struct poptOption help = { "help", 'h', POPT_ARG_NONE, NULL, HELP_VALUE, NULL, NULL };
-    struct poptOption end = POPT_TABLEEND;
-    table[count] = help;
-    table[count + 1] = end;
-    return count;
+    list->spelling_count = tl_option_spellings(list->options, list->count, list->spellings);
+    for (uint32_t i = 0; i < list->spelling_count; ++i) {
+        const tl_option_spelling *spelling = &list->spellings[i];
+        const bool flag = is_flag(list->options[spelling->option]);
+        const struct poptOption other = {
+            spelling->word,
+            0,
+            // A refused word may come with its value or without.
+            spelling->advice != NULL ? POPT_ARG_STRING | POPT_ARGFLAG_OPTIONAL
+            : flag                   ? POPT_ARG_NONE
+                                     : POPT_ARG_STRING,
+            NULL,
+            spelling->advice != NULL ? FIRST_REFUSED + (int)i : (int)spelling->option + 1,
+            NULL,
+            NULL,
+        };
+        *entry++ = other;
+    }
+    const struct poptOption help = { "help", 'h', POPT_ARG_NONE, NULL, HELP_VALUE, NULL, NULL };
+    const struct poptOption end = POPT_TABLEEND;
+    *entry++ = help;
+    *entry = end;
 }
 
 static const char *skip_marker(const char *value)
@@ -203,28 +238,36 @@ static bool set_value(tl_arguments *arguments, const tl_option *option, const ch
     }
 }
 
-static void explain_bad_option(tl_arguments *arguments, const storage *s, int code, const tl_option *const *flat,
-                               int count)
+static void explain_bad_option(tl_arguments *arguments, const storage *s, int code, const option_list *list)
 {
     const char *bad = poptBadOption(s->context, POPT_BADOPTION_NOALIAS);
-    const tl_option *nearest = NULL;
-    unsigned best = ~0u;
-    for (int i = 0; code == POPT_ERROR_BADOPT && i < count; ++i) {
-        const char *word = bad + strspn(bad, "-");
-        unsigned distance = tl_word_distance(word, flat[i]->name);
-        if (distance < best && tl_word_is_near(word, distance)) {
-            best = distance;
-            nearest = flat[i];
-        }
+    const char *meant = NULL;
+    if (code == POPT_ERROR_BADOPT) {
+        meant = tl_option_suggestion(bad + strspn(bad, "-"), list->options, list->count, list->spellings,
+                                     list->spelling_count);
     }
-    if (nearest != NULL) {
-        snprintf(arguments->message, sizeof(arguments->message), "%s is no option; did you mean --%s?", bad,
-                 nearest->name);
+    if (meant != NULL) {
+        snprintf(arguments->message, sizeof(arguments->message), "%s is no option; did you mean --%s?", bad, meant);
     } else if (code == POPT_ERROR_BADOPT) {
         snprintf(arguments->message, sizeof(arguments->message), "%s is no option", bad);
     } else {
         snprintf(arguments->message, sizeof(arguments->message), "%s: %s", bad, poptStrerror(code));
     }
+}
+
+// Takes the option that popt met. False: it is refused.
+static bool take_option(tl_arguments *arguments, storage *s, const option_list *list, int code)
+{
+    char *value = poptGetOptArg(s->context);
+    if (value != NULL) {
+        s->values[s->value_count++] = value;
+    }
+    if (code >= FIRST_REFUSED) {
+        const tl_option_spelling *spelling = &list->spellings[code - FIRST_REFUSED];
+        snprintf(arguments->message, sizeof(arguments->message), "--%s %s", spelling->word, spelling->advice);
+        return false;
+    }
+    return set_value(arguments, list->options[code - 1], value != NULL ? value : "");
 }
 
 static bool take_words(tl_arguments *arguments, const storage *s)
@@ -242,14 +285,13 @@ static bool take_words(tl_arguments *arguments, const storage *s)
 tl_parse_outcome tl_options_parse(const tl_option_group *groups, int argc, const char *const *argv,
                                   tl_arguments *arguments_out)
 {
-    const tl_option *flat[MAX_OPTIONS];
-    struct poptOption table[MAX_OPTIONS + 2];
+    option_list list;
     memset(arguments_out, 0, sizeof(*arguments_out));
-    int count = flatten(groups, flat, table);
+    fill_list(groups, &list);
     storage *s = make_storage(argc, argv);
     arguments_out->storage = s;
     if (s != NULL && s->values != NULL && s->argv != NULL && s->copies != NULL) {
-        s->context = poptGetContext(NULL, argc, s->argv, table, 0);
+        s->context = poptGetContext(NULL, argc, s->argv, list.table, 0);
     }
     if (s == NULL || s->context == NULL) {
         snprintf(arguments_out->message, sizeof(arguments_out->message), "out of memory");
@@ -260,16 +302,12 @@ tl_parse_outcome tl_options_parse(const tl_option_group *groups, int argc, const
         if (code == HELP_VALUE) {
             return TL_PARSE_HELP;
         }
-        char *value = poptGetOptArg(s->context);
-        if (value != NULL) {
-            s->values[s->value_count++] = value;
-        }
-        if (!set_value(arguments_out, flat[code - 1], value != NULL ? value : "")) {
+        if (!take_option(arguments_out, s, &list, code)) {
             return TL_PARSE_ERROR;
         }
     }
     if (code < -1) {
-        explain_bad_option(arguments_out, s, code, flat, count);
+        explain_bad_option(arguments_out, s, code, &list);
         return TL_PARSE_ERROR;
     }
     return take_words(arguments_out, s) ? TL_PARSE_OK : TL_PARSE_ERROR;
