@@ -36,7 +36,7 @@ static void transform(const tl_hull *hull, tl_vec3 scale, tl_vec3 turn, tl_vec3 
     tl_transform pose = { { turn.x, turn.y, turn.z, 1.0f }, shift };
     tl_hull *image;
     if (tl_hull_transform(hull, scale, pose, NULL, &image, NULL) == TL_OK) {
-        require(tl_hull_check(image, image->blob.size) == TL_OK);
+        require(tl_hull_check(image, image->blob.size, NULL) == TL_OK);
         require(tl_hull_validate(image, NULL, 0, NULL) == TL_OK);
         tl_blob_free(image);
     }
@@ -51,7 +51,7 @@ static void build(const tl_vec3 *points, uint32_t count, uint32_t limit)
     if (tl_hull_bake(points, count, &def, &hull, NULL) != TL_OK) {
         return;
     }
-    require(tl_hull_check(hull, hull->blob.size) == TL_OK);
+    require(tl_hull_check(hull, hull->blob.size, NULL) == TL_OK);
     tl_result proof = tl_hull_validate(hull, points, count, NULL);
     require(proof == TL_OK || (limit != 0 && proof == TL_ERR_RANGE));
     for (uint32_t i = 0; i < count; i++) {
@@ -91,7 +91,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 
     void *copy = aligned_alloc(64, (size + 63) / 64 * 64);
     memcpy(copy, data, size);
-    if (tl_hull_check(copy, size) == TL_OK) {
+    if (tl_hull_check(copy, size, NULL) == TL_OK) {
         use(copy, tl_vec3_make(1.0f, -2.0f, 0.5f));
     }
     free(copy);

@@ -54,11 +54,11 @@ static void read_all(const tl_pack *pack)
         (void)tl_hash_bytes(chunk.bytes, (size_t)chunk.size, 0);
         require(tl_pack_find(pack, chunk.type, chunk.id, &found) == TL_OK && found.type == chunk.type);
         require(tl_pack_count(pack, chunk.type) >= 1);
-        if (tl_pack_meta_check(chunk.bytes, chunk.size) == TL_OK) {
+        if (tl_pack_meta_check(chunk.bytes, chunk.size, NULL) == TL_OK) {
             require(strlen(tl_pack_meta_name(chunk.bytes)) == ((const tl_pack_meta *)chunk.bytes)->name_size);
         }
-        (void)tl_pack_navmesh_check(chunk.bytes, chunk.size);
-        if (tl_pack_volumes_check(chunk.bytes, chunk.size) == TL_OK) {
+        (void)tl_pack_navmesh_check(chunk.bytes, chunk.size, NULL);
+        if (tl_pack_volumes_check(chunk.bytes, chunk.size, NULL) == TL_OK) {
             const tl_pack_volumes *marks = chunk.bytes;
             for (uint32_t k = 0; k < marks->count; k++) {
                 const tl_nav_volume volume = tl_pack_volumes_at(marks, k);

@@ -118,7 +118,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             block[((size_t)data[i] << 8 | data[i + 1]) % bytes] = data[i + 2];
         }
     }
-    if (tl_soup_check(block, bytes) == TL_OK) {
+    if (tl_soup_check(block, bytes, NULL) == TL_OK) {
         use_soup((const tl_soup *)(const void *)block);
     }
     free(block);

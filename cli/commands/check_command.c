@@ -146,11 +146,12 @@ static tl_result check_tile(findings *f, const char *part, tl_pack_chunk chunk)
 
 static void check_hull(findings *f, const char *part, tl_pack_chunk chunk)
 {
-    tl_result result = tl_hull_check(chunk.bytes, chunk.size);
+    tl_report report;
+    tl_result result = tl_hull_check(chunk.bytes, chunk.size, &report);
+    find_result(f, part, result, &report);
     if (result == TL_OK) {
-        result = tl_hull_validate(chunk.bytes, NULL, 0, NULL);
+        find_result(f, part, tl_hull_validate(chunk.bytes, NULL, 0, NULL), NULL);
     }
-    find_result(f, part, result, NULL);
 }
 
 static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
@@ -160,27 +161,28 @@ static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
              (int)(chunk.type >> 16 & 0x7f), (int)(chunk.type >> 24 & 0x7f), chunk.id);
     uint32_t faults = f->faults;
     tl_result memory = TL_OK;
+    tl_report report;
     switch (chunk.type) {
     case TL_PACK_META:
-        find_result(f, part, tl_pack_meta_check(chunk.bytes, chunk.size), NULL);
+        find_result(f, part, tl_pack_meta_check(chunk.bytes, chunk.size, &report), &report);
         break;
     case TL_PACK_SOUP:
-        find_result(f, part, tl_soup_check(chunk.bytes, chunk.size), NULL);
+        find_result(f, part, tl_soup_check(chunk.bytes, chunk.size, &report), &report);
         break;
     case TL_PACK_HULL:
         check_hull(f, part, chunk);
         break;
     case TL_PACK_NAVM:
-        find_result(f, part, tl_pack_navmesh_check(chunk.bytes, chunk.size), NULL);
+        find_result(f, part, tl_pack_navmesh_check(chunk.bytes, chunk.size, &report), &report);
         break;
     case TL_PACK_NAVT:
         memory = check_tile(f, part, chunk);
         break;
     case TL_PACK_LINK:
-        find_result(f, part, tl_nav_links_check(chunk.bytes, chunk.size), NULL);
+        find_result(f, part, tl_nav_links_check(chunk.bytes, chunk.size, &report), &report);
         break;
     case TL_PACK_MARK:
-        find_result(f, part, tl_pack_volumes_check(chunk.bytes, chunk.size), NULL);
+        find_result(f, part, tl_pack_volumes_check(chunk.bytes, chunk.size, &report), &report);
         break;
     default: // a later version may have more kinds; their bytes are covered by the file's hashes
         break;

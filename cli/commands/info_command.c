@@ -71,8 +71,9 @@ typedef struct baked_info {
 } baked_info;
 
 // A missing part is no failure, a damaged one is.
-static bool take_chunk(tl_cli *cli, const tl_input *input, uint32_t type, tl_result (*check)(const void *, uint64_t),
-                       const void **chunk_out, tl_exit *exit_out)
+static bool take_chunk(tl_cli *cli, const tl_input *input, uint32_t type,
+                       tl_result (*check)(const void *, uint64_t, tl_report *), const void **chunk_out,
+                       tl_exit *exit_out)
 {
     tl_result result;
     *chunk_out = tl_input_checked_chunk(input, type, check, &result);

@@ -58,13 +58,13 @@ bool tl_input_open_baked(tl_cli *cli, const char *path, tl_input *input_out, tl_
     return result == TL_OK;
 }
 
-const void *tl_input_checked_chunk(const tl_input *input, uint32_t type, tl_result (*check)(const void *, uint64_t),
-                                   tl_result *result_out)
+const void *tl_input_checked_chunk(const tl_input *input, uint32_t type,
+                                   tl_result (*check)(const void *, uint64_t, tl_report *), tl_result *result_out)
 {
     tl_pack_chunk chunk;
     *result_out = tl_pack_find(&input->pack, type, 0, &chunk);
     if (*result_out == TL_OK) {
-        *result_out = check(chunk.bytes, chunk.size);
+        *result_out = check(chunk.bytes, chunk.size, NULL);
     }
     return *result_out == TL_OK ? chunk.bytes : NULL;
 }

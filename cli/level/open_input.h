@@ -40,7 +40,7 @@ void tl_input_close(tl_input *input);
 
 /// The blob of the only chunk of a type, after `check` found it sound; NULL when there is none (`*result_out` is
 /// TL_NOT_FOUND) or it is damaged.
-const void *tl_input_checked_chunk(const tl_input *input, uint32_t type, tl_result (*check)(const void *, uint64_t),
-                                   tl_result *result_out);
+const void *tl_input_checked_chunk(const tl_input *input, uint32_t type,
+                                   tl_result (*check)(const void *, uint64_t, tl_report *), tl_result *result_out);
 
 #endif

@@ -147,9 +147,9 @@ TL_API tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge_mesh *mesh
 
 /// Whether bytes of unknown origin are a hull that every query can be trusted with: head, offsets, indices, loops,
 /// twins, Euler's formula, finite values, and, exactly decided, that every face is flat and every edge convex. Safe on
-/// any bytes; `bytes` must be 16-byte aligned. O(size). That the points of the input lie inside, and that the surface
-/// does not wind around twice, which no build does, takes tl_hull_validate.
-TL_API tl_result tl_hull_check(const void *bytes, uint64_t size);
+/// any bytes; `bytes` must be 16-byte aligned. `report_out` may be NULL. O(size). That the points of the input lie
+/// inside, and that the surface does not wind around twice, which no build does, takes tl_hull_validate.
+TL_API tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *report_out);
 
 /// What tl_hull_validate found.
 typedef struct tl_hull_validation {

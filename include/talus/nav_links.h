@@ -104,8 +104,10 @@ typedef struct tl_nav_links_report {
 TL_API tl_result tl_nav_links_find(const tl_nav_links_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
                                    tl_nav_links **links_out, tl_nav_links_report *report_out);
 
-/// Whether bytes from anywhere are a whole set of links. Safe on any 8-byte aligned bytes. O(links).
-TL_API tl_result tl_nav_links_check(const void *bytes, uint64_t size);
+/// Whether untrusted bytes are a whole set of links; the report, which may be NULL, names the link that is not sound.
+/// TL_ERR_ARGUMENT (NULL, or not 8-byte aligned), TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_CORRUPT.
+/// O(links).
+TL_API tl_result tl_nav_links_check(const void *bytes, uint64_t size, tl_report *report_out);
 
 /// Adds all links to a navmesh: `user` is the link's index in the set; radius, flags, costs and area as in `like`
 /// (NULL: the default one). On failure, as those of tl_navmesh_add_offmesh, none is added.

@@ -58,9 +58,9 @@ typedef struct tl_nav_sight {
 TL_API tl_result tl_nav_sight_bake(const tl_nav_sight_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
                                    tl_nav_sight **sight_out, tl_report *report_out);
 
-/// Whether bytes from anywhere are a table that can be asked. `bytes` must be 8-byte aligned. TL_ERR_ARGUMENT,
-/// TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_CORRUPT.
-TL_API tl_result tl_nav_sight_check(const void *bytes, uint64_t size);
+/// Whether untrusted bytes are a table that can be asked. TL_ERR_ARGUMENT (NULL, or not 8-byte aligned),
+/// TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_CORRUPT. `report_out` may be NULL. O(tiles).
+TL_API tl_result tl_nav_sight_check(const void *bytes, uint64_t size, tl_report *report_out);
 
 /// Whether two polygons see each other. TL_NOT_FOUND: a stale reference; TL_ERR_ARGUMENT: the table was made from
 /// another navmesh, as far as can be told. O(1).

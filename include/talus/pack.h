@@ -104,8 +104,9 @@ typedef struct tl_pack_meta {
 /// Makes a META blob; `source_name` is a zero-terminated string of at most 2^16 bytes (TL_ERR_LIMIT), or NULL.
 TL_API tl_result tl_pack_meta_encode(const char *source_name, uint64_t source_vertices, uint64_t source_triangles,
                                      tl_aabb bounds, const tl_allocator *allocator, tl_pack_meta **meta_out);
-/// Safe on any 8-byte aligned bytes.
-TL_API tl_result tl_pack_meta_check(const void *bytes, uint64_t size);
+/// Whether untrusted bytes are a META blob. TL_ERR_ARGUMENT (NULL, or not 8-byte aligned), TL_ERR_TRUNCATED,
+/// TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_CORRUPT; `report_out` may be NULL. O(size).
+TL_API tl_result tl_pack_meta_check(const void *bytes, uint64_t size, tl_report *report_out);
 /// The source's name, zero-terminated.
 TL_API const char *tl_pack_meta_name(const tl_pack_meta *meta);
 
@@ -132,8 +133,8 @@ typedef struct tl_pack_navmesh {
 TL_API tl_result tl_pack_navmesh_encode(const tl_nav_def *def, tl_aabb bounds, uint32_t tiles_x, uint32_t tiles_z,
                                         uint32_t tile_count, const tl_allocator *allocator,
                                         tl_pack_navmesh **navmesh_out);
-/// Safe on any 8-byte aligned bytes.
-TL_API tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size);
+/// As tl_pack_meta_check.
+TL_API tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size, tl_report *report_out);
 
 /// The def that a navmesh was built with, host empty; its bounds are those it was built over.
 TL_API tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh);
@@ -160,8 +161,8 @@ typedef struct tl_pack_volumes {
 /// TL_ERR_NOT_FINITE: a coordinate that is not, or a kind that there is not. TL_ERR_LIMIT: 2^32 points. TL_ERR_MEMORY.
 TL_API tl_result tl_pack_volumes_encode(const tl_nav_volume *volumes, uint32_t count, const tl_allocator *allocator,
                                         tl_pack_volumes **marks_out);
-/// Safe on any 8-byte aligned bytes. O(size).
-TL_API tl_result tl_pack_volumes_check(const void *bytes, uint64_t size);
+/// As tl_pack_meta_check; the report names the volume. O(size).
+TL_API tl_result tl_pack_volumes_check(const void *bytes, uint64_t size, tl_report *report_out);
 /// Volume `index` < count of checked marks; its points lie in them.
 TL_API tl_nav_volume tl_pack_volumes_at(const tl_pack_volumes *marks, uint32_t index);
 

@@ -112,10 +112,11 @@ TL_API tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, 
 TL_API tl_result tl_soup_refit(tl_soup *soup, const tl_mesh_view *moved, tl_report *report_out);
 
 /// Whether `size` bytes at `bytes` are a sound soup: TL_OK, or TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION,
-/// TL_ERR_ARGUMENT (not aligned to TL_BLOB_ALIGNMENT), TL_ERR_CORRUPT. Safe on any bytes. O(size).
+/// TL_ERR_ARGUMENT (not aligned to TL_BLOB_ALIGNMENT), TL_ERR_CORRUPT. Safe on any bytes. `report_out` may be NULL.
+/// O(size).
 /// On success the bytes may be used as a tl_soup in place. It proves that queries are safe and end, not that the tree's
 /// boxes hold their triangles; a content hash is the container's affair.
-TL_API tl_result tl_soup_check(const void *bytes, uint64_t size);
+TL_API tl_result tl_soup_check(const void *bytes, uint64_t size, tl_report *report_out);
 
 /// Bytes of the blob.
 TL_API uint64_t tl_soup_size(const tl_soup *soup);

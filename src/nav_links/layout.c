@@ -6,6 +6,8 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/blob_check.h"
+#include "base/host.h"
 
 #include <math.h>
 #include <string.h>
@@ -42,7 +44,7 @@ static bool is_finite(tl_vec3 v)
     return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
 
-static bool is_sane(const tl_nav_found_link *link)
+static bool is_sound_link(const tl_nav_found_link *link)
 {
     float up = link->end.y - link->start.y;
     bool jumps = link->kind == TL_NAV_LINK_JUMP;
@@ -51,47 +53,51 @@ static bool is_sane(const tl_nav_found_link *link)
            (jumps ? link->apex >= up : link->apex == 0.0f && up < 0.0f);
 }
 
-tl_result tl_nav_links_check(const void *bytes, uint64_t size)
+static bool is_length(float metres)
 {
-    if ((uintptr_t)bytes % 8 != 0) {
-        return TL_ERR_ARGUMENT;
+    return isfinite(metres) && metres >= 0.0f;
+}
+
+static bool is_sound_head(const tl_nav_links *links, uint64_t size)
+{
+    return size == links->blob.size && size == size_of(links->link_count) && links->links == FIRST_LINK &&
+           is_length(links->agent_radius) && is_length(links->agent_height) && links->agent_height > 0.0f &&
+           is_length(links->agent_lift) && is_length(links->margin);
+}
+
+// The head's end and what follows the last link are zeros.
+static bool is_padded(const tl_nav_links *links, uint64_t size)
+{
+    const uint8_t *bytes = (const uint8_t *)links;
+    uint8_t any = 0;
+    for (uint64_t i = sizeof *links; i < FIRST_LINK; i++) {
+        any |= bytes[i];
     }
+    for (uint64_t i = FIRST_LINK + (uint64_t)links->link_count * sizeof(tl_nav_found_link); i < size; i++) {
+        any |= bytes[i];
+    }
+    return any == 0;
+}
+
+tl_result tl_nav_links_check(const void *bytes, uint64_t size, tl_report *report_out)
+{
+    const tl_blob expected = { TL_NAV_LINKS_MAGIC, TL_NAV_LINKS_VERSION, sizeof(tl_nav_links) };
+    TL_TRY(tl_blob_check_head(bytes, size, expected, 8, report_out));
     const tl_nav_links *links = bytes;
-    if (size < sizeof(tl_blob)) {
-        return TL_ERR_TRUNCATED;
+    if (!is_sound_head(links, size) || !is_padded(links, size)) {
+        return tl_report_fail(report_out, TL_ERR_CORRUPT, "head", TL_NO_ELEMENT, "find the links again");
     }
-    if (links->blob.magic != TL_NAV_LINKS_MAGIC) {
-        return TL_ERR_MAGIC;
-    }
-    if (links->blob.version != TL_NAV_LINKS_VERSION) {
-        return TL_ERR_VERSION;
-    }
-    if (size < sizeof *links || size < links->blob.size) {
-        return TL_ERR_TRUNCATED;
-    }
-    if (size != links->blob.size || size != size_of(links->link_count) || links->links != FIRST_LINK) {
-        return TL_ERR_CORRUPT;
-    }
-    bool sane = links->agent_radius >= 0.0f && isfinite(links->agent_radius) && links->agent_height > 0.0f &&
-                isfinite(links->agent_height) && links->agent_lift >= 0.0f && isfinite(links->agent_lift) &&
-                links->margin >= 0.0f && isfinite(links->margin);
     uint32_t counts[TL_NAV_LINK_KINDS] = { 0 };
     const tl_nav_found_link *at = tl_nav_links_at(links);
-    for (uint32_t i = 0; i < links->link_count && sane; i++) {
-        sane = is_sane(&at[i]);
-        if (sane) {
-            counts[at[i].kind]++;
+    for (uint32_t i = 0; i < links->link_count; i++) {
+        if (!is_sound_link(&at[i])) {
+            return tl_report_fail(report_out, TL_ERR_CORRUPT, "link", i, "find the links again");
         }
+        counts[at[i].kind]++;
     }
-    // The head's end and what follows the last link are zeros.
-    const uint8_t *byte = bytes;
-    for (uint64_t i = sizeof *links; i < FIRST_LINK; i++) {
-        sane = sane && byte[i] == 0;
-    }
-    for (uint64_t i = FIRST_LINK + (uint64_t)links->link_count * sizeof *at; i < size; i++) {
-        sane = sane && byte[i] == 0;
-    }
-    return sane && memcmp(counts, links->kind_counts, sizeof counts) == 0 ? TL_OK : TL_ERR_CORRUPT;
+    return memcmp(counts, links->kind_counts, sizeof counts) == 0
+               ? TL_OK
+               : tl_report_fail(report_out, TL_ERR_CORRUPT, "head", TL_NO_ELEMENT, "find the links again");
 }
 
 tl_result tl_nav_links_add(const tl_nav_links *links, const tl_nav_offmesh *like, tl_navmesh *navmesh)

@@ -10,6 +10,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/blob_check.h"
 #include "base/host.h"
 
 #include <talus/nav_sight.h>
@@ -275,36 +276,30 @@ tl_result tl_nav_sight_bake(const tl_nav_sight_def *def, const tl_navmesh *navme
     return TL_OK;
 }
 
-tl_result tl_nav_sight_check(const void *bytes, uint64_t size)
+static bool is_sound_head(const tl_nav_sight *sight)
 {
-    const tl_nav_sight *sight = bytes;
-    if (bytes == NULL || (uintptr_t)bytes % 8 != 0) {
-        return TL_ERR_ARGUMENT;
-    }
-    if (size < sizeof *sight) {
-        return TL_ERR_TRUNCATED;
-    }
-    if (sight->blob.magic != TL_NAV_SIGHT_MAGIC) {
-        return TL_ERR_MAGIC;
-    }
-    if (sight->blob.version != TL_NAV_SIGHT_VERSION) {
-        return TL_ERR_VERSION;
-    }
     const uint64_t polygons = sight->polygon_count, slots = sight->slot_count;
-    if (polygons == 0 || polygons > TL_NAV_SIGHT_MAX_POLYGONS || slots > TL_NAV_MAX_TILES ||
-        sight->words != words_of(polygons) || sight->first != first_offset() || sight->rows != rows_offset(slots) ||
-        sight->blob.size != round_up(sight->rows + polygons * sight->words * sizeof(uint64_t))) {
-        return TL_ERR_CORRUPT;
-    }
-    if (size < sight->blob.size) {
-        return TL_ERR_TRUNCATED;
+    return polygons > 0 && polygons <= TL_NAV_SIGHT_MAX_POLYGONS && slots <= TL_NAV_MAX_TILES &&
+           sight->words == words_of(polygons) && sight->first == first_offset() && sight->rows == rows_offset(slots) &&
+           sight->blob.size == round_up(sight->rows + polygons * sight->words * sizeof(uint64_t));
+}
+
+tl_result tl_nav_sight_check(const void *bytes, uint64_t size, tl_report *report_out)
+{
+    const tl_blob expected = { TL_NAV_SIGHT_MAGIC, TL_NAV_SIGHT_VERSION, sizeof(tl_nav_sight) };
+    const tl_nav_sight *sight = bytes;
+    TL_TRY(tl_blob_check_head(bytes, size, expected, 8, report_out));
+    if (!is_sound_head(sight)) {
+        return tl_report_fail(report_out, TL_ERR_CORRUPT, "head", TL_NO_ELEMENT, "bake it again");
     }
     const uint32_t *first = read_first(sight);
-    bool rises = first[0] == 0 && first[slots] == polygons;
-    for (uint64_t slot = 0; slot < slots; slot++) {
-        rises = rises && first[slot] <= first[slot + 1];
+    uint32_t slot = 0;
+    while (slot < sight->slot_count && first[slot] <= first[slot + 1]) {
+        slot++;
     }
-    return rises ? TL_OK : TL_ERR_CORRUPT;
+    return first[0] == 0 && slot == sight->slot_count && first[slot] == sight->polygon_count
+               ? TL_OK
+               : tl_report_fail(report_out, TL_ERR_CORRUPT, "tile", slot, "bake it again");
 }
 
 // ---- Asking ------------------------------------------------------------------------------------------------

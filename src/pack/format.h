@@ -33,8 +33,8 @@ typedef struct tl_pack_entry {
 
 _Static_assert(sizeof(tl_pack_header) == 64 && sizeof(tl_pack_entry) == 32, "no hidden padding");
 
-/// The head of a blob of at least `least` bytes; safe on any bytes.
-tl_result tl_pack_check_head(const void *bytes, uint64_t size, uint32_t magic, uint32_t version, uint64_t least);
+/// tl_blob_check_head for a chunk, behind whose blob no more bytes may follow (TL_ERR_CORRUPT).
+tl_result tl_pack_check_head(const void *bytes, uint64_t size, tl_blob expected, tl_report *report);
 
 static inline uint64_t tl_pack_align(uint64_t offset)
 {

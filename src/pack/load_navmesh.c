@@ -14,7 +14,7 @@ static tl_result add_chunk(const tl_pack_chunk *chunk, tl_navmesh *navmesh, tl_r
         return tl_navmesh_add_tile(navmesh, chunk->bytes, TL_NAV_TILE_BORROWED);
     }
     if (chunk->type == TL_PACK_LINK) {
-        TL_TRY(tl_nav_links_check(chunk->bytes, chunk->size));
+        TL_TRY(tl_nav_links_check(chunk->bytes, chunk->size, report));
         return tl_nav_links_add(chunk->bytes, NULL, navmesh);
     }
     return TL_OK;

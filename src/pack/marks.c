@@ -5,6 +5,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/host.h"
 #include "pack/format.h"
 
 #include <math.h>
@@ -99,35 +100,44 @@ tl_result tl_pack_volumes_encode(const tl_nav_volume *volumes, uint32_t count, c
     return TL_OK;
 }
 
-tl_result tl_pack_volumes_check(const void *bytes, uint64_t size)
+static bool is_padded(const tl_pack_volumes *marks, uint64_t used, uint64_t size)
 {
-    TL_TRY(tl_pack_check_head(bytes, size, TL_PACK_MARKS_MAGIC, TL_PACK_MARKS_VERSION, sizeof(tl_pack_volumes)));
+    uint32_t any = 0;
+    for (size_t i = 0; i < TL_COUNT_OF(marks->reserved); i++) {
+        any |= marks->reserved[i];
+    }
+    for (uint64_t i = used; i < size; i++) {
+        any |= ((const uint8_t *)marks)[i];
+    }
+    return any == 0;
+}
+
+tl_result tl_pack_volumes_check(const void *bytes, uint64_t size, tl_report *report_out)
+{
+    const tl_blob expected = { TL_PACK_MARKS_MAGIC, TL_PACK_MARKS_VERSION, sizeof(tl_pack_volumes) };
+    const char *again = "bake the file again";
+    TL_TRY(tl_pack_check_head(bytes, size, expected, report_out));
     const tl_pack_volumes *marks = bytes;
     const uint64_t used =
         sizeof *marks + marks->count * (uint64_t)sizeof(tl_pack_mark) + marks->point_count * (uint64_t)sizeof(tl_vec3);
-    if (size < used) {
-        return TL_ERR_CORRUPT;
-    }
-    bool sane = true;
-    for (size_t i = 0; i < TL_COUNT_OF(marks->reserved); i++) {
-        sane = sane && marks->reserved[i] == 0;
-    }
-    for (uint64_t i = used; i < size; i++) {
-        sane = sane && ((const uint8_t *)bytes)[i] == 0;
+    if (size < used || !is_padded(marks, used, size)) {
+        return tl_report_fail(report_out, TL_ERR_CORRUPT, "head", TL_NO_ELEMENT, again);
     }
     // Points follow one another, each mark's behind those of the one before.
     const tl_pack_mark *list = (const tl_pack_mark *)(marks + 1);
     uint64_t first = 0;
     for (uint32_t i = 0; i < marks->count; i++) {
-        sane = sane && is_sane(&list[i]) && list[i].first_point == first;
+        if (!is_sane(&list[i]) || list[i].first_point != first) {
+            return tl_report_fail(report_out, TL_ERR_CORRUPT, "volume", i, again);
+        }
         first += list[i].point_count;
     }
-    sane = sane && first == marks->point_count;
     const tl_vec3 *points = points_of(marks);
-    for (uint32_t i = 0; i < marks->point_count && sane; i++) {
-        sane = is_finite(points[i]) && points[i].y == 0.0f;
+    bool sound = first == marks->point_count;
+    for (uint32_t i = 0; i < marks->point_count && sound; i++) {
+        sound = is_finite(points[i]) && points[i].y == 0.0f;
     }
-    return sane ? TL_OK : TL_ERR_CORRUPT;
+    return sound ? TL_OK : tl_report_fail(report_out, TL_ERR_CORRUPT, "points", TL_NO_ELEMENT, again);
 }
 
 tl_nav_volume tl_pack_volumes_at(const tl_pack_volumes *marks, uint32_t index)

@@ -4,6 +4,8 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/blob_check.h"
+#include "base/host.h"
 #include "pack/format.h"
 
 #include <math.h>
@@ -36,40 +38,28 @@ tl_result tl_pack_meta_encode(const char *source_name, uint64_t source_vertices,
     return TL_OK;
 }
 
-tl_result tl_pack_check_head(const void *bytes, uint64_t size, uint32_t magic, uint32_t version, uint64_t least)
+tl_result tl_pack_check_head(const void *bytes, uint64_t size, tl_blob expected, tl_report *report)
 {
-    if ((uintptr_t)bytes % 8 != 0) {
-        return TL_ERR_ARGUMENT;
-    }
-    const tl_blob *blob = bytes;
-    if (size < sizeof *blob) {
-        return TL_ERR_TRUNCATED;
-    }
-    if (blob->magic != magic) {
-        return TL_ERR_MAGIC;
-    }
-    if (blob->version != version) {
-        return TL_ERR_VERSION;
-    }
-    if (size < least || size < blob->size) {
-        return TL_ERR_TRUNCATED;
-    }
-    return blob->size == size ? TL_OK : TL_ERR_CORRUPT;
+    TL_TRY(tl_blob_check_head(bytes, size, expected, 8, report));
+    return ((const tl_blob *)bytes)->size == size
+               ? TL_OK
+               : tl_report_fail(report, TL_ERR_CORRUPT, "head", TL_NO_ELEMENT, "there are bytes behind its end");
 }
 
-tl_result tl_pack_meta_check(const void *bytes, uint64_t size)
+tl_result tl_pack_meta_check(const void *bytes, uint64_t size, tl_report *report_out)
 {
-    TL_TRY(tl_pack_check_head(bytes, size, TL_PACK_META_MAGIC, TL_PACK_META_VERSION, sizeof(tl_pack_meta)));
+    const tl_blob expected = { TL_PACK_META_MAGIC, TL_PACK_META_VERSION, sizeof(tl_pack_meta) };
+    TL_TRY(tl_pack_check_head(bytes, size, expected, report_out));
     const tl_pack_meta *meta = bytes;
     uint64_t room = size - sizeof *meta;
     if (meta->name_size > MAX_NAME_BYTES || meta->name_size >= room || meta->reserved != 0) {
-        return TL_ERR_CORRUPT;
+        return tl_report_fail(report_out, TL_ERR_CORRUPT, "name", TL_NO_ELEMENT, "bake the file again");
     }
     // One string without a zero inside, then zeros only.
     const char *name = tl_pack_meta_name(meta);
     for (uint64_t i = 0; i < room; i++) {
         if ((name[i] == 0) != (i >= meta->name_size)) {
-            return TL_ERR_CORRUPT;
+            return tl_report_fail(report_out, TL_ERR_CORRUPT, "name", TL_NO_ELEMENT, "bake the file again");
         }
     }
     return TL_OK;
@@ -143,9 +133,10 @@ tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh)
     return def;
 }
 
-tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size)
+tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size, tl_report *report_out)
 {
-    TL_TRY(tl_pack_check_head(bytes, size, TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVMESH_VERSION, sizeof(tl_pack_navmesh)));
+    const tl_blob expected = { TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVMESH_VERSION, sizeof(tl_pack_navmesh) };
+    TL_TRY(tl_pack_check_head(bytes, size, expected, report_out));
     const tl_pack_navmesh *navmesh = bytes;
     const uint8_t *behind = (const uint8_t *)(navmesh + 1);
     bool zero = true;
@@ -161,5 +152,7 @@ tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size)
                 navmesh->max_verts_per_poly <= MAX_MAX_VERTS && navmesh->tile_height >= 0.0f &&
                 isfinite(navmesh->tile_height) &&
                 (navmesh->tile_height > 0.0f || navmesh->tile_count <= (uint64_t)navmesh->tiles_x * navmesh->tiles_z);
-    return zero && sane ? TL_OK : TL_ERR_CORRUPT;
+    return zero && sane ? TL_OK
+                        : tl_report_fail(report_out, TL_ERR_CORRUPT, zero ? "settings" : "padding", TL_NO_ELEMENT,
+                                         "bake the file again");
 }

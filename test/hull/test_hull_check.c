@@ -21,12 +21,12 @@ static void test_prefixes_are_refused(void **state)
         tl_hull_def def = tl_default_hull_def();
         tl_hull *hull;
         TEST_RESULT(tl_hull_bake(points, count, &def, &hull, NULL), TL_OK);
-        TEST_RESULT(tl_hull_check(hull, hull->blob.size), TL_OK);
+        TEST_RESULT(tl_hull_check(hull, hull->blob.size, NULL), TL_OK);
         for (uint64_t size = 0; size < hull->blob.size; size += 4) {
             // A copy of just that size, so that a sanitizer sees any read beyond it.
             void *copy = aligned_alloc(64, (size + 63) / 64 * 64 + (size == 0 ? 64 : 0));
             memcpy(copy, hull, size);
-            TEST_RESULT(tl_hull_check(copy, size), TL_ERR_TRUNCATED);
+            TEST_RESULT(tl_hull_check(copy, size, NULL), TL_ERR_TRUNCATED);
             free(copy);
         }
         tl_blob_free(hull);
@@ -60,7 +60,7 @@ static void test_altered_hulls_are_refused_or_harmless(void **state)
             if (memcmp(copy, hull, size) == 0) {
                 continue;
             }
-            tl_result result = tl_hull_check(copy, size);
+            tl_result result = tl_hull_check(copy, size, NULL);
             refused += result != TL_OK;
             named[0] += result == TL_ERR_MAGIC;
             named[1] += result == TL_ERR_VERSION;
@@ -123,11 +123,11 @@ static void test_dented_hulls_are_refused(void **state)
     const float heights[] = { 1.5f, 1.1f, above, 1.0f, below, 0.9f, 0.0f };
     for (size_t i = 0; i < sizeof heights / sizeof *heights; i++) {
         tl_hull *hull = bake_pyramid(right, heights[i], -1.0f, &arena);
-        TEST_RESULT(tl_hull_check(hull, hull->blob.size), heights[i] > 1.0f ? TL_OK : TL_ERR_CORRUPT);
+        TEST_RESULT(tl_hull_check(hull, hull->blob.size, NULL), heights[i] > 1.0f ? TL_OK : TL_ERR_CORRUPT);
         tl_blob_free(hull);
     }
     tl_hull *bent = bake_pyramid(right, 1.5f, nextafterf(-1.0f, -2.0f), &arena);
-    TEST_RESULT(tl_hull_check(bent, bent->blob.size), TL_ERR_CORRUPT);
+    TEST_RESULT(tl_hull_check(bent, bent->blob.size, NULL), TL_ERR_CORRUPT);
     tl_blob_free(bent);
     tl_arena_free(&arena);
     tl_blob_free(right);

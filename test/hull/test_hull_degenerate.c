@@ -165,7 +165,7 @@ static float largest_size(const tl_vec3 *points, uint32_t count)
 
 static void prove(const tl_hull *hull, const tl_vec3 *points, uint32_t count, bool thickened)
 {
-    TEST_RESULT(tl_hull_check(hull, hull->blob.size), TL_OK);
+    TEST_RESULT(tl_hull_check(hull, hull->blob.size, NULL), TL_OK);
     TEST_RESULT(tl_hull_validate(hull, NULL, 0, NULL), TL_OK);
     // Points of a flat cloud lie on the end faces of what it was thickened to, and those were rounded.
     tl_hull_validation found;

@@ -73,7 +73,8 @@ static bool is_same_scaled(const tl_hull *hull, const tl_vec3 *points, uint32_t 
             scratch[i] = tl_scale(points[i], ldexpf(1.0f, exponents[e]));
         }
         tl_hull *other = build_exactly(scratch, count);
-        same = same && other != NULL && same_faces(hull, other) && tl_hull_check(other, other->blob.size) == TL_OK;
+        same =
+            same && other != NULL && same_faces(hull, other) && tl_hull_check(other, other->blob.size, NULL) == TL_OK;
         tl_blob_free(other);
     }
     return same;

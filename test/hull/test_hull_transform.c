@@ -24,7 +24,7 @@ static tl_hull *map(const tl_hull *hull, tl_vec3 scale, tl_transform pose)
 {
     tl_hull *out;
     TEST_RESULT(tl_hull_transform(hull, scale, pose, NULL, &out, NULL), TL_OK);
-    TEST_RESULT(tl_hull_check(out, out->blob.size), TL_OK);
+    TEST_RESULT(tl_hull_check(out, out->blob.size, NULL), TL_OK);
     TEST_RESULT(tl_hull_validate(out, NULL, 0, NULL), TL_OK);
     return out;
 }

@@ -23,7 +23,7 @@ static tl_hull *build(const tl_vec3 *points, uint32_t count)
 
 static void prove(const tl_hull *hull, const tl_vec3 *points, uint32_t count)
 {
-    TEST_RESULT(tl_hull_check(hull, hull->blob.size), TL_OK);
+    TEST_RESULT(tl_hull_check(hull, hull->blob.size, NULL), TL_OK);
     TEST_RESULT(tl_hull_validate(hull, points, count, NULL), TL_OK);
     // Each vertex is the input point it names, and the first of those at its place.
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
@@ -72,7 +72,7 @@ static void test_hulls_are_proven_at_all_scales(void **state)
                 }
                 tl_hull *other = build(scaled, count);
                 TEST_CHECK(same_topology(hull, other));
-                TEST_RESULT(tl_hull_check(other, other->blob.size), TL_OK);
+                TEST_RESULT(tl_hull_check(other, other->blob.size, NULL), TL_OK);
                 tl_blob_free(other);
             }
             tl_blob_free(hull);

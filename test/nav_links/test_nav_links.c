@@ -236,21 +236,21 @@ static void test_damage(void **state)
     tl_nav_links *links;
     TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, NULL), TL_OK);
     uint64_t size = links->blob.size;
-    TEST_RESULT(tl_nav_links_check(links, size), TL_OK);
+    TEST_RESULT(tl_nav_links_check(links, size, NULL), TL_OK);
     uint8_t *bytes = aligned_alloc(TL_BLOB_ALIGNMENT, size);
     for (uint64_t cut = 0; cut < size; cut++) {
         memcpy(bytes, links, size);
-        TEST_CHECK(tl_nav_links_check(bytes, cut) != TL_OK);
+        TEST_CHECK(tl_nav_links_check(bytes, cut, NULL) != TL_OK);
     }
     // A bit in the head, or in a link's kind, direction or padding, or behind the last link, is found.
     uint64_t refused = 0;
     for (uint64_t i = 0; i < size; i++) {
         memcpy(bytes, links, size);
         bytes[i] ^= 0xff;
-        refused += tl_nav_links_check(bytes, size) != TL_OK;
+        refused += tl_nav_links_check(bytes, size, NULL) != TL_OK;
     }
     TEST_CHECK(refused > 60);
-    TEST_RESULT(tl_nav_links_check(bytes + 1, size - 1), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_links_check(bytes + 1, size - 1, NULL), TL_ERR_ARGUMENT);
     // A link as it must not be added is refused whole.
     tl_nav_offmesh like = tl_default_nav_offmesh();
     like.flags = 0;

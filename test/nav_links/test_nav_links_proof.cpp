@@ -121,7 +121,7 @@ void prove_level(const level &l, uint64_t kinds_out[TL_NAV_LINK_KINDS])
     tl_nav_links *links;
     tl_nav_links_report report;
     TEST_RESULT(tl_nav_links_find(&links_def, navmesh, soup, &links, &report), TL_OK);
-    TEST_RESULT(tl_nav_links_check(links, links->blob.size), TL_OK);
+    TEST_RESULT(tl_nav_links_check(links, links->blob.size, NULL), TL_OK);
     TEST_RESULT(tl_nav_links_add(links, nullptr, navmesh), TL_OK);
     uint64_t steps = 0;
     uint32_t used = 0;

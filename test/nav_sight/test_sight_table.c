@@ -102,7 +102,7 @@ static void equals_lines_cast_one_by_one(void **state)
         def.max_distance = round == 2 ? 7.0f : INFINITY;
         tl_nav_sight *sight;
         TEST_RESULT(tl_nav_sight_bake(&def, r.navmesh, r.soup, &sight, NULL), TL_OK);
-        TEST_RESULT(tl_nav_sight_check(sight, sight->blob.size), TL_OK);
+        TEST_RESULT(tl_nav_sight_check(sight, sight->blob.size, NULL), TL_OK);
         static tl_nav_ref refs[4096], listed[4096];
         const uint32_t count = list_refs(r.navmesh, refs);
         uint32_t seen_pairs = 0, hidden_pairs = 0;
@@ -152,12 +152,12 @@ static void any_host_gives_the_same_bytes(void **state)
     assert_memory_equal(one, three, (size_t)one->blob.size);
     // Every truncated prefix, and every altered head, is refused or at least sound to ask.
     for (uint64_t size = 0; size < one->blob.size; size += 8) {
-        TEST_CHECK(tl_nav_sight_check(one, size) == TL_ERR_TRUNCATED);
+        TEST_CHECK(tl_nav_sight_check(one, size, NULL) == TL_ERR_TRUNCATED);
     }
     for (size_t at = 0; at < (size_t)one->rows; at++) {
         unsigned char *byte = (unsigned char *)one + at;
         *byte ^= 0x41;
-        if (tl_nav_sight_check(one, three->blob.size) == TL_OK) {
+        if (tl_nav_sight_check(one, three->blob.size, NULL) == TL_OK) {
             TEST_CHECK(one->polygon_count == three->polygon_count && one->rows == three->rows);
         }
         *byte ^= 0x41;

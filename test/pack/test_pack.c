@@ -203,17 +203,17 @@ static void test_meta(void **state)
     tl_aabb bounds = { { -1, -2, -3 }, { 4, 5, 6 } };
     tl_pack_meta *meta = NULL;
     TEST_RESULT(tl_pack_meta_encode("level.obj", 123, 456, bounds, NULL, &meta), TL_OK);
-    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_OK);
+    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size, NULL), TL_OK);
     TEST_CHECK(strcmp(tl_pack_meta_name(meta), "level.obj") == 0 && meta->source_triangles == 456);
-    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size - 64), TL_ERR_TRUNCATED);
+    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size - 64, NULL), TL_ERR_TRUNCATED);
     meta->name_size = 200;
-    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_ERR_CORRUPT);
+    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size, NULL), TL_ERR_CORRUPT);
     meta->name_size = 8;
-    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_ERR_CORRUPT);
+    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size, NULL), TL_ERR_CORRUPT);
     tl_blob_free(meta);
     TEST_RESULT(tl_pack_meta_encode(NULL, 0, 0, bounds, NULL, &meta), TL_OK);
     TEST_CHECK(tl_pack_meta_name(meta)[0] == 0);
-    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size), TL_OK);
+    TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size, NULL), TL_OK);
     tl_blob_free(meta);
     char *long_name = malloc(70000);
     memset(long_name, 'a', 69999);
@@ -237,17 +237,17 @@ static void test_navmesh_settings(void **state)
     tl_aabb bounds = { { -1, -2, -3 }, { 4, 5, 6 } };
     tl_pack_navmesh *settings = NULL;
     TEST_RESULT(tl_pack_navmesh_encode(&def, bounds, 4, 3, 11, NULL, &settings), TL_OK);
-    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_OK);
+    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size, NULL), TL_OK);
     TEST_CHECK(settings->filters == 2 && settings->partition == TL_NAV_MONOTONE && settings->tile_size == 48);
     TEST_CHECK(tl_pack_navmesh_def(settings).polygon_method == TL_PARTITION_OPTIMAL);
     settings->polygon_method = 3;
-    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_ERR_CORRUPT);
+    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size, NULL), TL_ERR_CORRUPT);
     settings->polygon_method = 0;
     settings->tile_count = 13;
-    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_ERR_CORRUPT);
+    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size, NULL), TL_ERR_CORRUPT);
     settings->tile_count = 12;
     settings->cell_size = NAN;
-    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size), TL_ERR_CORRUPT);
+    TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size, NULL), TL_ERR_CORRUPT);
     tl_blob_free(settings);
 }
 
@@ -271,7 +271,7 @@ static void test_marks(void **state)
     tl_pack_volumes *marks = NULL;
     TEST_RESULT(tl_pack_volumes_encode(volumes, 3, NULL, &marks), TL_OK);
     const uint64_t size = marks->blob.size;
-    TEST_RESULT(tl_pack_volumes_check(marks, size), TL_OK);
+    TEST_RESULT(tl_pack_volumes_check(marks, size, NULL), TL_OK);
     for (uint32_t i = 0; i < 3; i++) {
         const tl_nav_volume volume = tl_pack_volumes_at(marks, i);
         TEST_CHECK(volume.kind == volumes[i].kind && volume.area == volumes[i].area &&
@@ -281,7 +281,7 @@ static void test_marks(void **state)
     const tl_nav_volume prism = tl_pack_volumes_at(marks, 1);
     TEST_CHECK(prism.points[2].x == 4.0f && prism.points[2].y == 0.0f && prism.points[2].z == 4.0f);
     for (uint64_t cut = 0; cut < size; cut++) {
-        TEST_CHECK(tl_pack_volumes_check(marks, cut) != TL_OK);
+        TEST_CHECK(tl_pack_volumes_check(marks, cut, NULL) != TL_OK);
     }
     // Any byte altered: refused, or marks that can be read whole.
     uint8_t *bytes = (uint8_t *)marks;
@@ -289,7 +289,7 @@ static void test_marks(void **state)
     for (uint64_t i = 0; i < size; i++) {
         for (int bit = 0; bit < 8; bit++) {
             bytes[i] ^= (uint8_t)(1 << bit);
-            const bool ok = tl_pack_volumes_check(bytes, size) == TL_OK;
+            const bool ok = tl_pack_volumes_check(bytes, size, NULL) == TL_OK;
             for (uint32_t k = 0; ok && k < marks->count; k++) {
                 const tl_nav_volume volume = tl_pack_volumes_at(marks, k);
                 for (uint32_t p = 0; p < volume.point_count; p++) {
@@ -305,7 +305,7 @@ static void test_marks(void **state)
     volumes[2].radius = NAN;
     TEST_RESULT(tl_pack_volumes_encode(volumes, 3, NULL, &marks), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_pack_volumes_encode(NULL, 0, NULL, &marks), TL_OK);
-    TEST_RESULT(tl_pack_volumes_check(marks, marks->blob.size), TL_OK);
+    TEST_RESULT(tl_pack_volumes_check(marks, marks->blob.size, NULL), TL_OK);
     tl_blob_free(marks);
 }
 

@@ -86,15 +86,15 @@ static void check_sound_soup_passes(tl_soup_layout layout)
 {
     uint32_t size;
     tl_soup *soup = sample_soup(layout, &size);
-    TEST_RESULT(tl_soup_check(soup, size), TL_OK);
-    TEST_RESULT(tl_soup_check(soup, size + 1000), TL_OK); // more bytes may follow
-    TEST_RESULT(tl_soup_check(NULL, size), TL_ERR_TRUNCATED);
-    TEST_RESULT(tl_soup_check((const char *)soup + 16, size - 16), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_soup_check(soup, size, NULL), TL_OK);
+    TEST_RESULT(tl_soup_check(soup, size + 1000, NULL), TL_OK); // more bytes may follow
+    TEST_RESULT(tl_soup_check(NULL, size, NULL), TL_ERR_TRUNCATED);
+    TEST_RESULT(tl_soup_check((const char *)soup + 16, size - 16, NULL), TL_ERR_ARGUMENT);
     ((tl_blob *)soup)->magic ^= 1;
-    TEST_RESULT(tl_soup_check(soup, size), TL_ERR_MAGIC);
+    TEST_RESULT(tl_soup_check(soup, size, NULL), TL_ERR_MAGIC);
     ((tl_blob *)soup)->magic ^= 1;
     ((tl_blob *)soup)->version++;
-    TEST_RESULT(tl_soup_check(soup, size), TL_ERR_VERSION);
+    TEST_RESULT(tl_soup_check(soup, size, NULL), TL_ERR_VERSION);
     ((tl_blob *)soup)->version--;
     tl_blob_free(soup);
 }
@@ -107,10 +107,10 @@ static void check_every_prefix_is_refused(tl_soup_layout layout)
         void *bytes = NULL;
         TEST_CHECK(posix_memalign(&bytes, TL_BLOB_ALIGNMENT, prefix + (prefix == 0)) == 0);
         memcpy(bytes, soup, prefix);
-        TEST_RESULT(tl_soup_check(bytes, prefix), TL_ERR_TRUNCATED);
+        TEST_RESULT(tl_soup_check(bytes, prefix, NULL), TL_ERR_TRUNCATED);
         if (prefix >= sizeof(tl_blob) && prefix % 64 == 0) {
             ((tl_blob *)bytes)->size = prefix; // a head that agrees with the cut
-            TEST_CHECK(tl_soup_check(bytes, prefix) != TL_OK);
+            TEST_CHECK(tl_soup_check(bytes, prefix, NULL) != TL_OK);
         }
         free(bytes);
     }
@@ -133,7 +133,7 @@ static void check_flipped_bits_are_refused_or_harmless(tl_soup_layout layout)
             uint32_t byte = test_random_below(&random, i % 2 == 0 ? size : i % 4 == 1 ? 192 : 1024);
             ((uint8_t *)damaged)[byte] ^= (uint8_t)(1u << test_random_below(&random, 8));
         }
-        if (tl_soup_check(damaged, size) == TL_OK) {
+        if (tl_soup_check(damaged, size, NULL) == TL_OK) {
             use_soup(damaged, &random);
             accepted++;
         } else {
@@ -157,7 +157,7 @@ static void test_random_bytes_are_refused(void **state)
         }
         tl_blob head = { TL_SOUP_MAGIC, TL_SOUP_VERSION, sizeof bytes };
         memcpy(bytes, &head, i % 3 == 0 ? 0 : sizeof head);
-        TEST_CHECK(tl_soup_check(bytes, sizeof bytes) != TL_OK);
+        TEST_CHECK(tl_soup_check(bytes, sizeof bytes, NULL) != TL_OK);
     }
 }
 

@@ -176,7 +176,7 @@ static uint32_t check_all(model m, model_storage storage)
 {
     tl_soup_def def = model_soup_def(storage);
     tl_soup *soup = model_soup(&m, &def);
-    TEST_RESULT(tl_soup_check(soup, tl_soup_size(soup)), TL_OK);
+    TEST_RESULT(tl_soup_check(soup, tl_soup_size(soup), NULL), TL_OK);
     check_enumeration(&m, soup);
     uint32_t touching = check_box_search(&m, soup, storage != MODEL_BOXES, 1);
     check_tree_boxes(soup);

@@ -51,7 +51,7 @@ static void check_model(model m, model_storage storage, uint32_t *hits)
         move_all(&m, 0.5f * (float)step + 0.1f, 0.4f);
         tl_mesh_view view = model_view(&m);
         TEST_RESULT(tl_soup_refit(moved, &view, NULL), TL_OK);
-        TEST_RESULT(tl_soup_check(moved, tl_soup_size(moved)), TL_OK);
+        TEST_RESULT(tl_soup_check(moved, tl_soup_size(moved), NULL), TL_OK);
         tl_soup *built = model_soup(&m, &def);
         *hits += compare(moved, built, step);
         tl_blob_free(built);

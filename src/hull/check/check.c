@@ -7,6 +7,7 @@
 #include "hull/support/face_ring.h"
 
 #include "base/assert.h"
+#include "base/host.h"
 #include "math/predicates.h"
 
 #include <string.h>
@@ -227,7 +228,7 @@ static bool check_table(const tl_hull *hull)
     return memcmp(&scale, &hull->table_scale, sizeof scale) == 0;
 }
 
-tl_result tl_hull_check(const void *bytes, uint64_t size)
+static tl_result check_hull_bytes(const void *bytes, uint64_t size)
 {
     TL_TRY(check_head(bytes, size));
     const tl_hull *hull = bytes;
@@ -250,4 +251,10 @@ tl_result tl_hull_check(const void *bytes, uint64_t size)
         return TL_ERR_CORRUPT;
     }
     return TL_OK;
+}
+
+tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *report_out)
+{
+    tl_report_begin(report_out, "check hull");
+    return check_hull_bytes(bytes, size);
 }

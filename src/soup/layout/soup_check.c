@@ -6,6 +6,8 @@
 
 #include "soup/layout/compact_layout.h"
 
+#include "base/host.h"
+
 #include <float.h>
 #include <string.h>
 
@@ -199,7 +201,7 @@ static bool check_nodes(checker *c)
     return c->next_node == c->soup->node_count && c->next_leaf == c->soup->leaf_bytes;
 }
 
-tl_result tl_soup_check(const void *bytes, uint64_t size)
+static tl_result check_soup_bytes(const void *bytes, uint64_t size)
 {
     if (bytes == NULL || size < sizeof(tl_soup)) {
         return TL_ERR_TRUNCATED;
@@ -227,4 +229,10 @@ tl_result tl_soup_check(const void *bytes, uint64_t size)
                   c.triangle_count == soup->triangle_count && c.pair_count == soup->pair_count &&
                   c.single_count == soup->single_count && c.depth == soup->depth && c.depth <= TL_SOUP_MAX_DEPTH;
     return counts ? TL_OK : TL_ERR_CORRUPT;
+}
+
+tl_result tl_soup_check(const void *bytes, uint64_t size, tl_report *report_out)
+{
+    tl_report_begin(report_out, "check soup");
+    return check_soup_bytes(bytes, size);
 }
