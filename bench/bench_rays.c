@@ -17,7 +17,7 @@
 
 #include "embree_scene.h"
 #include "report.h"
-#include "soup/ray/ray.h"
+#include "soup/ray/ray_job.h"
 #include "soup_levels.h"
 
 #include <float.h>

@@ -4,7 +4,7 @@
 // of 300 to 5,000 triangles, each placed many times at random poses. Each repetition runs every system on the same rays
 // in turn, in an order that rotates; of each slice of rays the best run counts. Rows are million rays a second, and
 // microseconds for builds and for the step after everything, or a tenth of it, has moved. Claims are ratios to Embree
-// robust, whose items are built at quality HIGH; its scene of instances is built at quality LOW for the step, the
+// robust, whose models are built at quality HIGH; its scene of instances is built at quality LOW for the step, the
 // fastest that it has, and at MEDIUM for rays and the build.
 //
 //   bench_scene [--json FILE] [repetitions [rays]]
@@ -21,7 +21,7 @@
 #include <string.h>
 #include <talus/scene.h>
 
-enum { KINDS = 4, SLICE_RAYS = 250, MAX_SLICES = 4096, MODELS = 8, SIZES = 2, MAX_ITEMS = 10000 };
+enum { KINDS = 4, SLICE_RAYS = 250, MAX_SLICES = 4096, MODELS = 8, SIZES = 2, MAX_INSTANCES = 10000 };
 enum { TALUS, ROBUST, FAST, SYSTEMS };
 
 static const uint32_t sizes[SIZES] = { 1000, 10000 };
@@ -83,20 +83,20 @@ typedef struct model {
 
 typedef struct world {
     uint32_t count;
-    tl_scene_item items[MAX_ITEMS];
-    uint32_t models[MAX_ITEMS];
+    tl_scene_instance instances[MAX_INSTANCES];
+    uint32_t models[MAX_INSTANCES];
     tl_scene *scene;
     RTCScene embree[SYSTEMS];
-    RTCGeometry instances[SYSTEMS][MAX_ITEMS];
+    RTCGeometry embree_instances[SYSTEMS][MAX_INSTANCES];
 } world;
 
-static void set_matrix(RTCGeometry instance, tl_transform pose)
+static void set_matrix(RTCGeometry embree_instance, tl_transform pose)
 {
     tl_vec3 x = tl_rotate(pose.rotation, tl_vec3_make(1, 0, 0)), y = tl_rotate(pose.rotation, tl_vec3_make(0, 1, 0));
     tl_vec3 z = tl_rotate(pose.rotation, tl_vec3_make(0, 0, 1)), p = pose.position;
     const float columns[12] = { x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z, p.x, p.y, p.z };
-    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
-    rtcCommitGeometry(instance);
+    rtcSetGeometryTransform(embree_instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns);
+    rtcCommitGeometry(embree_instance);
 }
 
 static RTCScene make_scene(RTCDevice device, world *w, const model *models, uint32_t system,
@@ -107,12 +107,12 @@ static RTCScene make_scene(RTCDevice device, world *w, const model *models, uint
                                 (quality == RTC_BUILD_QUALITY_LOW ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_NONE));
     rtcSetSceneBuildQuality(scene, quality);
     for (uint32_t i = 0; i < w->count; i++) {
-        RTCGeometry instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-        rtcSetGeometryInstancedScene(instance, models[w->models[i]].embree[system]);
-        set_matrix(instance, w->items[i].pose);
-        rtcAttachGeometry(scene, instance);
-        w->instances[system][i] = instance;
-        rtcReleaseGeometry(instance); // the scene holds it
+        RTCGeometry embree_instance = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
+        rtcSetGeometryInstancedScene(embree_instance, models[w->models[i]].embree[system]);
+        set_matrix(embree_instance, w->instances[i].pose);
+        rtcAttachGeometry(scene, embree_instance);
+        w->embree_instances[system][i] = embree_instance;
+        rtcReleaseGeometry(embree_instance); // the scene holds it
     }
     return scene;
 }
@@ -163,10 +163,10 @@ static answer run_talus(const world *w, const query *queries, uint32_t count, ui
         tl_ray ray = { queries[i].origin, queries[i].target, INFINITY };
         tl_scene_hit hit;
         if (kind == 3) {
-            a.hits += !tl_scene_line_of_sight(w->scene, w->items, ray.origin, ray.direction, NULL);
+            a.hits += !tl_scene_line_of_sight(w->scene, w->instances, ray.origin, ray.direction, NULL);
         } else if (kind == 2) {
-            a.hits += tl_scene_occluded(w->scene, w->items, &ray, NULL);
-        } else if (tl_scene_cast_ray(w->scene, w->items, &ray, NULL, &hit)) {
+            a.hits += tl_scene_occluded(w->scene, w->instances, &ray, NULL);
+        } else if (tl_scene_cast_ray(w->scene, w->instances, &ray, NULL, &hit)) {
             a.hits++;
             a.t_sum += (double)hit.hit.t;
         }
@@ -271,17 +271,19 @@ static void place(world *w, const model *models, uint32_t count)
     tl_aabb area = { tl_vec3_make(0, 0, 0), tl_vec3_make(side, 0.1f * side, side) };
     for (uint32_t i = 0; i < count; i++) {
         uint32_t m = (uint32_t)(bench_unit(&random_state) * MODELS);
-        tl_scene_item item = { models[m].soup, NULL, { random_rotation(), bench_point_in(&random_state, area) }, 1 };
-        w->items[i] = item;
+        tl_scene_instance instance = {
+            models[m].soup, NULL, { random_rotation(), bench_point_in(&random_state, area) }, 1
+        };
+        w->instances[i] = instance;
         w->models[i] = m;
     }
 }
 
-// Every `step`th item goes a bit, and turns.
+// Every `step`th instance goes a bit, and turns.
 static void move(world *w, uint32_t step)
 {
     for (uint32_t i = 0; i < w->count; i += step) {
-        tl_transform *pose = &w->items[i].pose;
+        tl_transform *pose = &w->instances[i].pose;
         pose->position = tl_mul_add(pose->position, bench_direction(&random_state), 0.1f);
         tl_quat turn = { 0, 0.05f, 0, 1 };
         pose->rotation = tl_quat_normalize(tl_quat_mul(turn, pose->rotation));
@@ -305,7 +307,7 @@ static void step_embree(world *w, RTCScene scene, uint32_t step, double *best)
 {
     double begin = bench_thread_now();
     for (uint32_t i = 0; i < w->count; i += step) {
-        set_matrix(w->instances[ROBUST][i], w->items[i].pose);
+        set_matrix(w->embree_instances[ROBUST][i], w->instances[i].pose);
     }
     rtcCommitScene(scene);
     *best = fmin(*best, microseconds(begin));
@@ -314,7 +316,7 @@ static void step_embree(world *w, RTCScene scene, uint32_t step, double *best)
 static void step_talus(world *w, double *best, float *growth)
 {
     double begin = bench_thread_now();
-    if (tl_scene_refit(w->scene, w->items, w->count, growth, NULL) != TL_OK) {
+    if (tl_scene_refit(w->scene, w->instances, w->count, growth, NULL) != TL_OK) {
         exit(1);
     }
     *best = fmin(*best, microseconds(begin));
@@ -327,7 +329,7 @@ static changes time_changes(RTCDevice device, world *w, const model *models, uin
         double begin = bench_thread_now();
         tl_blob_free(w->scene);
         w->scene = NULL;
-        if (tl_scene_bake(w->items, w->count, NULL, &w->scene, NULL) != TL_OK) {
+        if (tl_scene_bake(w->instances, w->count, NULL, &w->scene, NULL) != TL_OK) {
             exit(1);
         }
         best.build = fmin(best.build, microseconds(begin));
@@ -362,7 +364,7 @@ static void run_size(RTCDevice device, const model *models, uint32_t count, uint
 {
     static world w;
     char label[32], chart[64];
-    snprintf(label, sizeof label, "%u items", count);
+    snprintf(label, sizeof label, "%u instances", count);
     place(&w, models, count);
     *step = time_changes(device, &w, models, repetitions);
     printf(
@@ -370,7 +372,7 @@ static void run_size(RTCDevice device, const model *models, uint32_t count, uint
         label, step->build, step->embree_build, step->refit, step->embree_low, step->refit_tenth, step->embree_tenth,
         step->growth);
     tl_blob_free(w.scene);
-    if (tl_scene_bake(w.items, w.count, NULL, &w.scene, NULL) != TL_OK) {
+    if (tl_scene_bake(w.instances, w.count, NULL, &w.scene, NULL) != TL_OK) {
         exit(1);
     }
     for (uint32_t system = 1; system < SYSTEMS; system++) {
@@ -378,8 +380,8 @@ static void run_size(RTCDevice device, const model *models, uint32_t count, uint
         rtcCommitScene(w.embree[system]);
     }
     tl_scene_stats stats = tl_scene_get_stats(w.scene);
-    printf("  %.0f bytes an item, %.1f children a node, depth %u, cost %.2f\n", (double)stats.size / count,
-           (double)(stats.item_count + stats.node_count - 1) / stats.node_count, stats.depth, stats.cost);
+    printf("  %.0f bytes an instance, %.1f children a node, depth %u, cost %.2f\n", (double)stats.size / count,
+           (double)(stats.instance_count + stats.node_count - 1) / stats.node_count, stats.depth, stats.cost);
     query *queries = malloc(ray_count * sizeof *queries);
     for (uint32_t kind = 0; kind < KINDS; kind++) {
         double seconds[SYSTEMS];
@@ -410,19 +412,19 @@ static void claim(bench_report *report, double ratios[SIZES][KINDS], const chang
     char text[96];
     for (uint32_t kind = 0; kind < KINDS; kind++) {
         for (uint32_t i = 0; i < SIZES; i++) {
-            snprintf(text, sizeof text, "%s, %u items: talus to Embree robust", kind_names[kind], sizes[i]);
+            snprintf(text, sizeof text, "%s, %u instances: talus to Embree robust", kind_names[kind], sizes[i]);
             bench_report_at_least(report, text, ratios[i][kind], 1.0);
         }
     }
     for (uint32_t i = 0; i < SIZES; i++) {
-        snprintf(text, sizeof text, "build time, %u items, to Embree medium", sizes[i]);
+        snprintf(text, sizeof text, "build time, %u instances, to Embree medium", sizes[i]);
         bench_report_at_most(report, text, steps[i].build / steps[i].embree_build, 1.0);
-        snprintf(text, sizeof text, "refit time, %u items, to Embree's commit at low", sizes[i]);
+        snprintf(text, sizeof text, "refit time, %u instances, to Embree's commit at low", sizes[i]);
         bench_report_at_most(report, text, steps[i].refit / steps[i].embree_low, 1.0);
-        snprintf(text, sizeof text, "the same, a tenth of %u items moved", sizes[i]);
+        snprintf(text, sizeof text, "the same, a tenth of %u instances moved", sizes[i]);
         bench_report_at_most(report, text, steps[i].refit_tenth / steps[i].embree_tenth, 1.0);
     }
-    bench_report_at_most(report, "build of 1,000 items, us", steps[0].build, 100);
+    bench_report_at_most(report, "build of 1,000 instances, us", steps[0].build, 100);
 }
 
 int main(int argc, char **argv)

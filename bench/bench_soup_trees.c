@@ -38,7 +38,7 @@ static bool build_rows(const bench_level *level, row rows[ROWS])
     for (uint32_t k = 0; k < ROWS; k++) {
         tl_soup_def def = tl_default_soup_def();
         def.pair_triangles = k % 2 == 0;
-        def.partition = k / 2 == 1 ? TL_SOUP_KD : TL_SOUP_BOXES;
+        def.partition = k / 2 == 1 ? TL_SOUP_KD_TREE : TL_SOUP_BVH;
         def.layout = k == 4 ? TL_SOUP_COMPACT : TL_SOUP_FAST;
         double start = bench_thread_now();
         built = tl_soup_bake(&level->view, &def, &rows[k].soup, NULL) == TL_OK && built;

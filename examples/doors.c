@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A guard, a thief, and a door between them: the level, the door and the thief are items of one scene. The door swings
-// open, the scene is refitted, and the guard sees, shoots and walks through.
+// A guard, a thief, and a door between them: the level, the door and the thief are instances of one scene. The door
+// swings open, the scene is refitted, and the guard sees, shoots and walks through.
 
 #include <talus/scene.h>
 
 #include <stdio.h>
 
-enum { LEVEL, DOOR, THIEF, ITEMS };
+enum { LEVEL, DOOR, THIEF, INSTANCES };
 enum { STATIC = 1, DOORS = 2, PEOPLE = 4 };
 
 // Two walls across z = 0 that leave a doorway from x = 0 to x = 1, 2 m high, and a floor, 20 m square.
@@ -17,11 +17,11 @@ static const tl_vec3 vertices[12] = { { -10, 0, 0 },  { 0, 0, 0 },   { 0, 2, 0 }
 static const uint32_t indices[18] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 8, 9, 10, 8, 10, 11 };
 
 // What the guard sees of the thief: nothing but the thief may be in the way of it.
-static bool sees(const tl_scene *scene, const tl_scene_item *items, tl_vec3 eye, tl_vec3 target)
+static bool sees(const tl_scene *scene, const tl_scene_instance *instances, tl_vec3 eye, tl_vec3 target)
 {
     tl_scene_filter filter = tl_default_scene_filter();
     filter.without = THIEF;
-    return tl_scene_line_of_sight(scene, items, eye, target, &filter);
+    return tl_scene_line_of_sight(scene, instances, eye, target, &filter);
 }
 
 int main(void)
@@ -35,39 +35,39 @@ int main(void)
     // The door hangs at its hinge, which is its own origin.
     tl_convex door = tl_convex_box(tl_vec3_make(0.5f, 1, 0), tl_vec3_make(0.5f, 1, 0.03f), 0);
     tl_convex body = tl_convex_capsule(tl_vec3_make(0, 0.3f, 0), tl_vec3_make(0, 1.5f, 0), 0.3f);
-    tl_scene_item items[ITEMS] = { { level, NULL, tl_transform_identity(), STATIC },
-                                   { NULL, &door, tl_transform_identity(), DOORS },
-                                   { NULL, &body, tl_transform_identity(), PEOPLE } };
-    items[THIEF].pose.position = tl_vec3_make(0.5f, 0, 4);
-    if (tl_scene_bake(items, ITEMS, NULL, &scene, NULL) != TL_OK) {
+    tl_scene_instance instances[INSTANCES] = { { level, NULL, tl_transform_identity(), STATIC },
+                                               { NULL, &door, tl_transform_identity(), DOORS },
+                                               { NULL, &body, tl_transform_identity(), PEOPLE } };
+    instances[THIEF].pose.position = tl_vec3_make(0.5f, 0, 4);
+    if (tl_scene_bake(instances, INSTANCES, NULL, &scene, NULL) != TL_OK) {
         return 1;
     }
     tl_vec3 eye = tl_vec3_make(0.5f, 1.6f, -4), chest = tl_vec3_make(0.5f, 1.2f, 4);
-    bool before = sees(scene, items, eye, chest);
+    bool before = sees(scene, instances, eye, chest);
     printf("door shut: the guard %s the thief\n", before ? "sees" : "does not see");
 
     // A quarter turn about y, and a bit more.
     tl_quat open = { 0, 0.75f, 0, 0.66f };
-    items[DOOR].pose.rotation = open;
-    if (tl_scene_refit(scene, items, ITEMS, NULL, NULL) != TL_OK) {
+    instances[DOOR].pose.rotation = open;
+    if (tl_scene_refit(scene, instances, INSTANCES, NULL, NULL) != TL_OK) {
         return 1;
     }
-    bool after = sees(scene, items, eye, chest);
+    bool after = sees(scene, instances, eye, chest);
     printf("door open: the guard %s the thief\n", after ? "sees" : "does not see");
 
     tl_ray shot = { eye, tl_sub(chest, eye), INFINITY };
-    tl_scene_hit hit = { .item = TL_NO_ITEM };
-    (void)tl_scene_cast_ray(scene, items, &shot, NULL, &hit);
-    printf("a shot meets item %u after %.2f of the way\n", hit.item, (double)hit.hit.t);
+    tl_scene_hit hit = { .instance = TL_NO_INSTANCE };
+    (void)tl_scene_cast_ray(scene, instances, &shot, NULL, &hit);
+    printf("a shot meets instance %u after %.2f of the way\n", hit.instance, (double)hit.hit.t);
 
     tl_transform guard = tl_transform_identity();
     guard.position = tl_vec3_make(0.5f, 0, -4);
-    tl_scene_shape_hit met = { .item = TL_NO_ITEM };
-    (void)tl_scene_cast_shape(scene, items, &body, guard, tl_vec3_make(0, 0, 10), NULL, &met);
-    printf("the guard runs into item %u after %.2f m\n", met.item, 10 * (double)met.hit.t);
+    tl_scene_shape_hit met = { .instance = TL_NO_INSTANCE };
+    (void)tl_scene_cast_shape(scene, instances, &body, guard, tl_vec3_make(0, 0, 10), NULL, &met);
+    printf("the guard runs into instance %u after %.2f m\n", met.instance, 10 * (double)met.hit.t);
 
     tl_blob_free(scene);
     tl_blob_free(level);
-    bool right = !before && after && hit.item == THIEF && met.item == THIEF && fabsf(met.hit.t - 0.74f) < 1e-4f;
+    bool right = !before && after && hit.instance == THIEF && met.instance == THIEF && fabsf(met.hit.t - 0.74f) < 1e-4f;
     return right ? 0 : 1;
 }

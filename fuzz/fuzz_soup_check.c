@@ -91,7 +91,7 @@ static void use_soup(const tl_soup *soup)
     require(count == stats.pair_count + stats.single_count);
     (void)tl_soup_triangles_in_box(soup, tl_soup_bounds(soup), count_triangle, &count);
     count = 0;
-    (void)tl_soup_tree_boxes(soup, UINT32_MAX, count_box, &count);
+    (void)tl_soup_bvh_boxes(soup, UINT32_MAX, count_box, &count);
     require(count == stats.node_count + stats.leaf_count);
 }
 

@@ -47,7 +47,7 @@ void draw_stage_soup(draw_scene *scene, const tl_soup *soup, uint32_t depth)
     tl_soup_stats stats = tl_soup_get_stats(soup);
     depth = depth < stats.depth ? depth : stats.depth;
     box_job job = { scene, depth, 0 };
-    tl_soup_tree_boxes(soup, depth, add_tree_box, &job);
+    tl_soup_bvh_boxes(soup, depth, add_tree_box, &job);
 
     snprintf(scene->subtitle, sizeof scene->subtitle,
              "%u triangles, %.1f%% of them in %u pairs; %u nodes, %.1f bytes a triangle; %u boxes down to depth %u",

@@ -48,10 +48,10 @@ typedef struct tl_soup tl_soup;
 
 /// How triangles are parted among the leaves of a soup. Answers are the same, bit for bit.
 typedef enum tl_soup_partition {
-    TL_SOUP_BOXES, ///< a tree of boxes: each pair lies in one leaf (but for split_budget). The faster one.
+    TL_SOUP_BVH, ///< a tree of boxes: each pair lies in one leaf (but for split_budget). The faster one.
     /// A k-d tree: planes part space, and what they cut is stored on both sides. Two to four times the memory. Kept
     /// because the text stands on it, so that its claims can be measured.
-    TL_SOUP_KD
+    TL_SOUP_KD_TREE
 } tl_soup_partition;
 
 /// How a soup is stored. Answers are the same, bit for bit.
@@ -67,7 +67,7 @@ typedef struct tl_soup_def {
     tl_soup_layout layout;
     /// [0, 1]: share of extra references that spatial splits may add. A pair that straddles a split plane is then
     /// stored on both sides, so that large triangles do not make the boxes around small ones fat. It costs build time
-    /// and memory, and pays only where sizes differ much. 0: none. TL_SOUP_KD does not look at it.
+    /// and memory, and pays only where sizes differ much. 0: none. TL_SOUP_KD_TREE does not look at it.
     float split_budget;
     tl_host host;
 } tl_soup_def;
@@ -361,10 +361,10 @@ typedef bool tl_soup_triangle_fn(const tl_soup_triangle *triangle, void *user);
 TL_API bool tl_soup_triangles_in_box(const tl_soup *soup, tl_aabb box, tl_soup_triangle_fn *found, void *user);
 
 /// Called for each box of the tree; `depth` 0 is the root's box, `leaf` tells a box that holds pairs. False ends it.
-typedef bool tl_soup_tree_box_fn(tl_aabb box, uint32_t depth, bool leaf, void *user);
+typedef bool tl_soup_bvh_box_fn(tl_aabb box, uint32_t depth, bool leaf, void *user);
 
 /// Calls `visit` for every box of the tree down to `max_depth`, parents before children. Returns false when ended.
-TL_API bool tl_soup_tree_boxes(const tl_soup *soup, uint32_t max_depth, tl_soup_tree_box_fn *visit, void *user);
+TL_API bool tl_soup_bvh_boxes(const tl_soup *soup, uint32_t max_depth, tl_soup_bvh_box_fn *visit, void *user);
 
 #ifdef __cplusplus
 }

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Shapes in items' spaces: the box that is walked through the tree, and poses.
+// Shapes in instances' spaces: the box that is walked through the tree, and poses.
 //
-// In an item's space the shape's position is off as a ray's origin is, its motion as a direction, and its rotation by
-// four roundings: each of its points by 4 u of its distance from the shape's own origin, at most 4 u (|middle| + |half|
+// In an instance's space the shape's position is off as a ray's origin is, its motion as a direction, and its rotation
+// by four roundings: each of its points by 4 u of its distance from the shape's own origin, at most 4 u (|middle| +
+// |half|
 // + |position|). What a cast may stop early, 16 u (|half|), is on top. So the box is widened by 32 u of all of these,
 // and half extents are rounded with them.
 
 #include "scene/moved_shape.h"
 
 #include "math/tolerance.h"
-#include "scene/item_box.h"
+#include "scene/instance_box.h"
 
 #include <float.h>
 
@@ -49,10 +50,10 @@ tl_result tl_moved_shape_make(const tl_convex *convex, tl_transform pose, tl_vec
     return TL_OK;
 }
 
-tl_transform tl_scene_pose_to_item(const tl_scene_record *record, tl_transform pose)
+tl_transform tl_scene_pose_to_instance(const tl_scene_record *record, tl_transform pose)
 {
-    tl_transform seen = { pose.rotation, tl_scene_point_to_item(record, pose.position) };
-    if (tl_scene_is_turned(record)) {
+    tl_transform seen = { pose.rotation, tl_scene_point_to_instance(record, pose.position) };
+    if (tl_scene_is_rotated(record)) {
         tl_quatd q = tl_quatd_between(tl_quatd_from(record->pose.rotation), tl_quatd_from(pose.rotation));
         double scale = 1.0 / sqrt(q.length_sq);
         tl_quat rotation = { (float)(q.x * scale), (float)(q.y * scale), (float)(q.z * scale), (float)(q.w * scale) };

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Fitting the tree to items that moved: records and boxes of those that did, then all inner boxes from the last node
-// to the first, since children lie behind their parents.
+// Fitting the tree to instances that moved: records and boxes of those that did, then all inner boxes from the last
+// node to the first, since children lie behind their parents.
 //
-// An item that stands as it stood, by the bits of its pose and of its own box, keeps its record: most things in a game
-// stand still in most frames.
+// An instance that stands as it stood, by the bits of its pose and of its own box, keeps its record: most things in a
+// game stand still in most frames.
 //
 // The cost is the surface area heuristic's: a random ray through a box enters one inside of it with the probability of
 // their surfaces' ratio. Source: Goldsmith, Salmon, Automatic Creation of Object Hierarchies for Ray Tracing, 1987.
@@ -13,7 +13,7 @@
 
 #include "base/assert.h"
 #include "base/host.h"
-#include "scene/item_box.h"
+#include "scene/instance_box.h"
 
 #include <string.h>
 
@@ -77,7 +77,7 @@ void tl_scene_fit_nodes(tl_scene *scene)
     for (uint32_t n = scene->node_count; n-- > 0;) {
         for (uint32_t i = 0; i < TL_SCENE_WIDTH; i++) {
             uint32_t child = nodes[n].child[i], mask;
-            if (child != 0 && (child & TL_CHILD_ITEM) == 0) {
+            if (child != 0 && (child & TL_CHILD_INSTANCE) == 0) {
                 tl_aabb box = box_of(&nodes[child], &mask);
                 tl_scene_set_lane(scene, n * TL_SCENE_WIDTH + i, box, mask);
                 below += half_area(box);
@@ -90,48 +90,49 @@ void tl_scene_fit_nodes(tl_scene *scene)
     scene->cost = 1.0 + (whole > 0.0 ? below / whole : 0.0);
 }
 
-tl_result tl_scene_refuse_item(tl_report *report, tl_result result, uint32_t item)
+tl_result tl_scene_refuse_instance(tl_report *report, tl_result result, uint32_t instance)
 {
     const char *advice = result == TL_ERR_NOT_FINITE   ? "make its pose and its shape's corners finite"
                          : result == TL_ERR_DEGENERATE ? "give it a rotation; the identity is (0, 0, 0, 1)"
                          : result == TL_ERR_RANGE      ? "keep its position and box within TL_MAX_COORDINATE"
                                                        : "give it a soup or a shape, with a radius of at least 0";
-    return tl_report_fail(report, result, "item", item, advice);
+    return tl_report_fail(report, result, "instance", instance, advice);
 }
 
-static bool is_same(const tl_scene_record *record, const tl_scene_item *item, const tl_aabb *local, uint32_t mask)
+static bool is_same(const tl_scene_record *record, const tl_scene_instance *instance, const tl_aabb *local,
+                    uint32_t mask)
 {
-    return memcmp(&record->pose, &item->pose, sizeof item->pose) == 0 &&
-           memcmp(&record->local, local, sizeof *local) == 0 && (mask != 0) == (item->mask != 0);
+    return memcmp(&record->pose, &instance->pose, sizeof instance->pose) == 0 &&
+           memcmp(&record->local, local, sizeof *local) == 0 && (mask != 0) == (instance->mask != 0);
 }
 
-tl_result tl_scene_refit(tl_scene *scene, const tl_scene_item *items, uint32_t count, float *growth_out,
+tl_result tl_scene_refit(tl_scene *scene, const tl_scene_instance *instances, uint32_t count, float *growth_out,
                          tl_report *report_out)
 {
-    TL_ASSERT(scene != NULL && (items != NULL || count == 0));
+    TL_ASSERT(scene != NULL && (instances != NULL || count == 0));
     tl_report_begin(report_out, "refit scene");
-    if (count != scene->item_count) {
-        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "item", TL_NO_ELEMENT,
-                              "build the scene anew for another number of items");
+    if (count != scene->instance_count) {
+        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "instance", TL_NO_ELEMENT,
+                              "build the scene anew for another number of instances");
     }
     tl_aabb local;
     for (uint32_t i = 0; i < count; i++) {
-        tl_result result = tl_scene_read_item(&items[i], &local);
+        tl_result result = tl_scene_read_instance(&instances[i], &local);
         if (result != TL_OK) {
-            return tl_scene_refuse_item(report_out, result, i);
+            return tl_scene_refuse_instance(report_out, result, i);
         }
     }
     tl_scene_record *records = (tl_scene_record *)(void *)((char *)scene + scene->records);
     for (uint32_t i = 0; i < count; i++) {
-        (void)tl_scene_read_item(&items[i], &local);
+        (void)tl_scene_read_instance(&instances[i], &local);
         tl_scene_record *record = &records[i];
         uint32_t *mask = &nodes_of(scene)[record->lane / TL_SCENE_WIDTH].mask[record->lane % TL_SCENE_WIDTH];
-        if (is_same(record, &items[i], &local, *mask)) {
-            *mask = items[i].mask;
+        if (is_same(record, &instances[i], &local, *mask)) {
+            *mask = instances[i].mask;
             continue;
         }
-        tl_scene_place_item(record, items[i].pose, local);
-        tl_scene_set_lane(scene, record->lane, tl_scene_world_box(record), items[i].mask);
+        tl_scene_place_instance(record, instances[i].pose, local);
+        tl_scene_set_lane(scene, record->lane, tl_scene_world_box(record), instances[i].mask);
     }
     tl_scene_fit_nodes(scene);
     if (growth_out != NULL) {
@@ -149,6 +150,6 @@ tl_aabb tl_scene_bounds(const tl_scene *scene)
 tl_scene_stats tl_scene_get_stats(const tl_scene *scene)
 {
     TL_ASSERT(scene != NULL);
-    tl_scene_stats stats = { scene->blob.size, scene->item_count, scene->node_count, scene->depth, scene->cost };
+    tl_scene_stats stats = { scene->blob.size, scene->instance_count, scene->node_count, scene->depth, scene->cost };
     return stats;
 }

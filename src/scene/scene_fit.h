@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Fitting a scene's boxes to its items.
+// Fitting a scene's boxes to its instances.
 
 #ifndef TALUS_SRC_SCENE_SCENE_FIT_H
 #define TALUS_SRC_SCENE_SCENE_FIT_H
@@ -10,10 +10,10 @@
 /// Puts a box and its mask into a lane. What has no mask is found by nothing, so it has no box there.
 void tl_scene_set_lane(tl_scene *scene, uint32_t lane, tl_aabb box, uint32_t mask);
 
-/// Fits the inner boxes to the items', and measures the scene. O(nodes).
+/// Fits the inner boxes to the instances', and measures the scene. O(nodes).
 void tl_scene_fit_nodes(tl_scene *scene);
 
-/// Reports an item that tl_scene_read_item refused.
-tl_result tl_scene_refuse_item(tl_report *report, tl_result result, uint32_t item);
+/// Reports an instance that tl_scene_read_instance refused.
+tl_result tl_scene_refuse_instance(tl_report *report, tl_result result, uint32_t instance);
 
 #endif

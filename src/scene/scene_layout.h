@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The bytes of a scene: a record an item, and nodes of eight boxes, breadth first, so that a child lies behind its
-// parent. A node is four cache lines: planes, children, and the kinds of items below each child, so that a query for
-// few kinds does not walk where there are none.
+// The bytes of a scene: a record an instance, and nodes of eight boxes, breadth first, so that a child lies behind its
+// parent. A node is four cache lines: planes, children, and the kinds of instances below each child, so that a query
+// for few kinds does not walk where there are none.
 
 #ifndef TALUS_SRC_SCENE_SCENE_LAYOUT_H
 #define TALUS_SRC_SCENE_SCENE_LAYOUT_H
@@ -13,10 +13,10 @@
 
 enum { TL_SCENE_WIDTH = 8 };
 
-/// In a child word: the rest is an item's index. Else it is a node's; 0 is no child, because the root is nobody's.
-#define TL_CHILD_ITEM 0x80000000u
+/// In a child word: the rest is an instance's index. Else it is a node's; 0 is no child, because the root is nobody's.
+#define TL_CHILD_INSTANCE 0x80000000u
 
-/// Nodes on the longest way down: as many as the build lets costs choose the splits, and log8 of the most items.
+/// Nodes on the longest way down: as many as the build lets costs choose the splits, and log8 of the most instances.
 enum { TL_SCENE_COST_DEPTH = 24, TL_SCENE_MAX_DEPTH = TL_SCENE_COST_DEPTH + 11 };
 
 /// Each node on the way down leaves all but one of its children behind.
@@ -25,27 +25,27 @@ enum { TL_SCENE_STACK_SIZE = (TL_SCENE_WIDTH - 1) * TL_SCENE_MAX_DEPTH + TL_SCEN
 typedef struct tl_scene_node {
     float plane[6][TL_SCENE_WIDTH]; ///< min x, max x, min y, ...; of a lane without a box INFINITY, -INFINITY
     uint32_t child[TL_SCENE_WIDTH];
-    uint32_t mask[TL_SCENE_WIDTH]; ///< of all items below
+    uint32_t mask[TL_SCENE_WIDTH]; ///< of all instances below
 } tl_scene_node;
 
-/// An item where it was when the scene was fitted last.
+/// An instance where it was when the scene was fitted last.
 typedef struct tl_scene_record {
     tl_vec3d rows[3]; ///< the rotation's matrix
     tl_transform pose;
-    tl_aabb local; ///< the item's box in its own space; empty: nothing is here
+    tl_aabb local; ///< the instance's box in its own space; empty: nothing is here
     uint32_t lane; ///< where its box is: TL_SCENE_WIDTH * node + lane
 } tl_scene_record;
 
 struct tl_scene {
     tl_blob blob;
-    uint32_t item_count;
+    uint32_t instance_count;
     uint32_t node_count; ///< >= 1
     uint32_t depth;
     uint32_t padding;
     tl_aabb bounds;
     double built_cost; ///< as of tl_scene_stats, when it was built
     double cost;
-    uint64_t records; ///< tl_scene_record [item_count], bytes from the beginning
+    uint64_t records; ///< tl_scene_record [instance_count], bytes from the beginning
     uint64_t nodes;   ///< tl_scene_node [node_count]
 };
 
@@ -59,45 +59,45 @@ static inline const tl_scene_node *tl_scene_nodes(const tl_scene *scene)
     return (const tl_scene_node *)(const void *)((const char *)scene + scene->nodes);
 }
 
-/// Whether more than a shift lies between the item's space and the world.
-static inline bool tl_scene_is_turned(const tl_scene_record *record)
+/// Whether more than a shift lies between the instance's space and the world.
+static inline bool tl_scene_is_rotated(const tl_scene_record *record)
 {
     const tl_quat *q = &record->pose.rotation;
     return (q->x != 0.0f) | (q->y != 0.0f) | (q->z != 0.0f);
 }
 
-/// Whether an item is asked as it is: what would be added to its points is zero, and a -0 stays one.
-static inline bool tl_scene_is_at_home(const tl_scene_record *record)
+/// Whether an instance is asked as it is: what would be added to its points is zero, and a -0 stays one.
+static inline bool tl_scene_is_identity(const tl_scene_record *record)
 {
     const tl_vec3 *p = &record->pose.position;
-    return !tl_scene_is_turned(record) & (p->x == 0.0f) & (p->y == 0.0f) & (p->z == 0.0f);
+    return !tl_scene_is_rotated(record) & (p->x == 0.0f) & (p->y == 0.0f) & (p->z == 0.0f);
 }
 
-/// A direction of the world in the item's space, in double: R^T v. Not for items that are not turned: these keep the
-/// very bits.
-static inline tl_vec3d tl_scene_turn_back(const tl_scene_record *record, tl_vec3d v)
+/// A direction of the world in the instance's space, in double: R^T v. Not for instances that are not turned: these
+/// keep the very bits.
+static inline tl_vec3d tl_scene_rotate_back(const tl_scene_record *record, tl_vec3d v)
 {
     const tl_vec3d *r = record->rows;
     return tl_vec3d_make(r[0].x * v.x + r[1].x * v.y + r[2].x * v.z, r[0].y * v.x + r[1].y * v.y + r[2].y * v.z,
                          r[0].z * v.x + r[1].z * v.y + r[2].z * v.z);
 }
 
-/// The item's directions and points in the world, and the other way, each coordinate rounded once.
-static inline tl_vec3 tl_scene_direction_to_item(const tl_scene_record *record, tl_vec3 v)
+/// The instance's directions and points in the world, and the other way, each coordinate rounded once.
+static inline tl_vec3 tl_scene_direction_to_instance(const tl_scene_record *record, tl_vec3 v)
 {
-    return tl_scene_is_turned(record) ? tl_vec3d_to_float(tl_scene_turn_back(record, tl_vec3d_from(v))) : v;
+    return tl_scene_is_rotated(record) ? tl_vec3d_to_float(tl_scene_rotate_back(record, tl_vec3d_from(v))) : v;
 }
 
-static inline tl_vec3 tl_scene_point_to_item(const tl_scene_record *record, tl_vec3 p)
+static inline tl_vec3 tl_scene_point_to_instance(const tl_scene_record *record, tl_vec3 p)
 {
-    if (tl_scene_is_at_home(record)) {
+    if (tl_scene_is_identity(record)) {
         return p;
     }
     tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(p), tl_vec3d_from(record->pose.position));
-    return tl_vec3d_to_float(tl_scene_is_turned(record) ? tl_scene_turn_back(record, v) : v);
+    return tl_vec3d_to_float(tl_scene_is_rotated(record) ? tl_scene_rotate_back(record, v) : v);
 }
 
-static inline tl_vec3d tl_scene_turn(const tl_scene_record *record, tl_vec3d v)
+static inline tl_vec3d tl_scene_rotate(const tl_scene_record *record, tl_vec3d v)
 {
     const tl_vec3d *r = record->rows;
     return tl_vec3d_make(tl_vec3d_dot(r[0], v), tl_vec3d_dot(r[1], v), tl_vec3d_dot(r[2], v));
@@ -105,16 +105,16 @@ static inline tl_vec3d tl_scene_turn(const tl_scene_record *record, tl_vec3d v)
 
 static inline tl_vec3 tl_scene_direction_to_world(const tl_scene_record *record, tl_vec3 v)
 {
-    return tl_scene_is_turned(record) ? tl_vec3d_to_float(tl_scene_turn(record, tl_vec3d_from(v))) : v;
+    return tl_scene_is_rotated(record) ? tl_vec3d_to_float(tl_scene_rotate(record, tl_vec3d_from(v))) : v;
 }
 
 static inline tl_vec3 tl_scene_point_to_world(const tl_scene_record *record, tl_vec3 p)
 {
-    if (tl_scene_is_at_home(record)) {
+    if (tl_scene_is_identity(record)) {
         return p;
     }
     tl_vec3d v = tl_vec3d_from(p);
-    v = tl_scene_is_turned(record) ? tl_scene_turn(record, v) : v;
+    v = tl_scene_is_rotated(record) ? tl_scene_rotate(record, v) : v;
     return tl_vec3d_to_float(tl_vec3d_add(v, tl_vec3d_from(record->pose.position)));
 }
 
@@ -129,11 +129,11 @@ static inline const tl_ray_filter *tl_scene_triangles(const tl_scene_filter *fil
     return filter != NULL ? filter->triangles : NULL;
 }
 
-/// Whether a filter lets an item count, its mask aside.
-static inline bool tl_scene_accepts(const tl_scene_filter *filter, uint32_t item)
+/// Whether a filter lets an instance count, its mask aside.
+static inline bool tl_scene_accepts(const tl_scene_filter *filter, uint32_t instance)
 {
     return filter == NULL ||
-           (item != filter->without && (filter->accept == NULL || filter->accept(item, filter->accept_user)));
+           (instance != filter->without && (filter->accept == NULL || filter->accept(instance, filter->accept_user)));
 }
 
 #endif

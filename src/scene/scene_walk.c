@@ -15,7 +15,7 @@
 // Products of what is farther away could overflow.
 #define FARTHEST 1e15
 
-// Shorter directions are denormal in an item's space, where a rounding is no share of them any more.
+// Shorter directions are denormal in an instance's space, where a rounding is no share of them any more.
 #define SHORTEST        1e-30
 
 #define LARGEST_INVERSE 1180591620717411303424.0 // 2^70
@@ -114,7 +114,7 @@ bool tl_scene_line_walk(tl_scene_line *line)
     if (!line->every) {
         return line->walk(line);
     }
-    for (uint32_t i = 0; i < line->scene->item_count; i++) {
+    for (uint32_t i = 0; i < line->scene->instance_count; i++) {
         const tl_scene_record *record = &tl_scene_records(line->scene)[i];
         uint32_t mask = tl_scene_nodes(line->scene)[record->lane / TL_SCENE_WIDTH].mask[record->lane % TL_SCENE_WIDTH];
         if ((mask & line->mask) != 0 && !line->visit(line, i)) {

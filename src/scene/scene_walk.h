@@ -9,8 +9,9 @@
 // Times are those of the unit line: t times the direction's largest component. With O the middle, M the largest
 // distance along an axis from it to a corner of the scene's box, and u = 2^-24: plane p is met at p inv - O inv. inv,
 // both products and the difference round once: at most u |inv| (3 |p| + 2 |O|) <= u |inv| (5 |O| + 3 M), where the
-// machine does not fuse. Asking in an item's space moves the line by 2 u |O| more (item_box.c), and a reported t is off
-// by u t, which is u |inv| M along the largest axis. The pad is 12 u (|O| + M) |inv|, with |O| a sum over axes.
+// machine does not fuse. Asking in an instance's space moves the line by 2 u |O| more (instance_box.c), and a reported
+// t is off by u t, which is u |inv| M along the largest axis. The pad is 12 u (|O| + M) |inv|, with |O| a sum over
+// axes.
 //
 // A component below 2^-70 of the largest is taken as 2^-70: over the way through the scene that is nothing beside M u.
 
@@ -21,21 +22,21 @@
 
 typedef struct tl_scene_line tl_scene_line;
 
-/// Called for each item that the line may meet, nearest boxes first; it may shorten the line. False ends the walk.
-typedef bool tl_scene_visit_fn(tl_scene_line *line, uint32_t item);
+/// Called for each instance that the line may meet, nearest boxes first; it may shorten the line. False ends the walk.
+typedef bool tl_scene_visit_fn(tl_scene_line *line, uint32_t instance);
 
 /// Walks the tree, once per instruction set. False when a visit ended it.
 typedef bool tl_scene_walk_fn(tl_scene_line *line);
 
 struct tl_scene_line {
     const tl_scene *scene;
-    const tl_scene_item *items;
+    const tl_scene_instance *instances;
     tl_scene_walk_fn *walk;
     tl_scene_visit_fn *visit;
     void *user;
-    uint32_t mask; ///< kinds of items that count
+    uint32_t mask; ///< kinds of instances that count
     bool any;      ///< nearest first does not matter
-    bool every;    ///< floats cannot tell: every item is visited, in order
+    bool every;    ///< floats cannot tell: every instance is visited, in order
 
     // Plane p of axis i is met at p * scale[i] + near_base[i] at the earliest, and with far_base at the latest.
     float scale[3];
@@ -47,7 +48,7 @@ struct tl_scene_line {
 };
 
 /// Fills the line of `from + t * direction`, all finite, and `half` extents around it, for t up to `limit`. `user` and
-/// `any` are the caller's, and so are `visit` and `items`. A direction of zero stands still.
+/// `any` are the caller's, and so are `visit` and `instances`. A direction of zero stands still.
 void tl_scene_line_make(tl_scene_line *line, const tl_scene *scene, uint32_t mask, tl_vec3 from, tl_vec3 direction,
                         tl_vec3d half, double limit);
 
@@ -66,7 +67,7 @@ tl_scene_walk_fn tl_scene_walk_sse42, tl_scene_walk_avx2;
 tl_scene_walk_fn *tl_scene_walk_for(int level);
 
 /// tl_scene_cast_ray and tl_scene_occluded (without `hit_out`) with a walk of the caller's choice.
-bool tl_scene_cast_ray_with(tl_scene_walk_fn *walk, const tl_scene *scene, const tl_scene_item *items,
+bool tl_scene_cast_ray_with(tl_scene_walk_fn *walk, const tl_scene *scene, const tl_scene_instance *instances,
                             const tl_ray *ray, const tl_scene_filter *filter, tl_scene_hit *hit_out);
 
 #endif

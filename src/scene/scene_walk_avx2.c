@@ -4,5 +4,5 @@
 
 #if defined(__x86_64__)
 #define TL_SCENE_WALK tl_scene_walk_avx2
-#include "scene/scene_walk_kernel.h"
+#include "scene/scene_walk.inl"
 #endif

@@ -4,4 +4,4 @@
 
 #define TL_SIMD_SCALAR
 #define TL_SCENE_WALK tl_scene_walk_scalar
-#include "scene/scene_walk_kernel.h"
+#include "scene/scene_walk.inl"

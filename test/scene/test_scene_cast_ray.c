@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// scene/cast_ray.c and the walk: against every item asked in turn, on all instruction sets; nothing slips through
-// between triangles of a turned item. An argument sets the number of rays a scene.
+// scene/scene_cast_ray.c and the walk: against every instance asked in turn, on all instruction sets; nothing slips
+// through between triangles of a turned instance. An argument sets the number of rays a scene.
 
 #include "scene_models.h"
 
@@ -15,22 +15,22 @@ static tl_vec3 vec(float x, float y, float z)
     return tl_vec3_make(x, y, z);
 }
 
-// What one item says.
-static bool ask_item(const tl_scene_item *items, uint32_t i, const tl_ray *ray, const tl_ray_filter *triangles,
-                     tl_scene_hit *hit)
+// What one instance says.
+static bool ask_instance(const tl_scene_instance *instances, uint32_t i, const tl_ray *ray,
+                         const tl_ray_filter *triangles, tl_scene_hit *hit)
 {
     memset(hit, 0, sizeof *hit);
-    hit->item = i;
-    if (items[i].soup != NULL) {
-        tl_ray local = { scene_point_in(&items[i], ray->origin), scene_direction_in(&items[i], ray->direction),
+    hit->instance = i;
+    if (instances[i].soup != NULL) {
+        tl_ray local = { scene_point_in(&instances[i], ray->origin), scene_direction_in(&instances[i], ray->direction),
                          ray->tmax };
-        bool met = tl_soup_cast_ray(items[i].soup, &local, triangles, &hit->hit);
-        hit->hit.normal = scene_direction_out(&items[i], hit->hit.normal);
+        bool met = tl_soup_cast_ray(instances[i].soup, &local, triangles, &hit->hit);
+        hit->hit.normal = scene_direction_out(&instances[i], hit->hit.normal);
         return met;
     }
     tl_convex_hit found;
-    if (items[i].shape == NULL ||
-        !tl_convex_cast_ray(items[i].shape, items[i].pose, ray->origin, ray->direction, ray->tmax, &found)) {
+    if (instances[i].shape == NULL ||
+        !tl_convex_cast_ray(instances[i].shape, instances[i].pose, ray->origin, ray->direction, ray->tmax, &found)) {
         return false;
     }
     hit->hit.t = found.t;
@@ -41,14 +41,14 @@ static bool ask_item(const tl_scene_item *items, uint32_t i, const tl_ray *ray, 
     return true;
 }
 
-static bool ask_all(const tl_scene_item *items, uint32_t count, const tl_ray *ray, const tl_scene_filter *filter,
-                    tl_scene_hit *best)
+static bool ask_all(const tl_scene_instance *instances, uint32_t count, const tl_ray *ray,
+                    const tl_scene_filter *filter, tl_scene_hit *best)
 {
     bool met = false;
     for (uint32_t i = 0; i < count; i++) {
         tl_scene_hit hit;
-        if (scene_passes(filter, items, i) &&
-            ask_item(items, i, ray, filter != NULL ? filter->triangles : NULL, &hit) &&
+        if (scene_passes(filter, instances, i) &&
+            ask_instance(instances, i, ray, filter != NULL ? filter->triangles : NULL, &hit) &&
             (!met || hit.hit.t < best->hit.t)) {
             *best = hit;
             met = true;
@@ -59,7 +59,7 @@ static bool ask_all(const tl_scene_item *items, uint32_t count, const tl_ray *ra
 
 static bool same_hit(const tl_scene_hit *a, const tl_scene_hit *b)
 {
-    return a->item == b->item && a->inside == b->inside && a->status == b->status && a->hit.t == b->hit.t &&
+    return a->instance == b->instance && a->inside == b->inside && a->status == b->status && a->hit.t == b->hit.t &&
            a->hit.triangle == b->hit.triangle && a->hit.u == b->hit.u && a->hit.v == b->hit.v &&
            memcmp(&a->hit.normal, &b->hit.normal, sizeof a->hit.normal) == 0 && a->hit.back == b->hit.back &&
            a->hit.material == b->hit.material;
@@ -69,39 +69,39 @@ typedef struct regimes {
     uint32_t hits, misses, soups, shapes, inside, filtered, blocked, clear, ties;
 } regimes;
 
-static void check_sight(const tl_scene *scene, const tl_scene_item *items, uint32_t count, tl_vec3 a, tl_vec3 b,
+static void check_sight(const tl_scene *scene, const tl_scene_instance *instances, uint32_t count, tl_vec3 a, tl_vec3 b,
                         const tl_scene_filter *filter, regimes *r)
 {
     bool free = true;
     for (uint32_t i = 0; i < count && free; i++) {
-        if (!scene_passes(filter, items, i)) {
+        if (!scene_passes(filter, instances, i)) {
             continue;
         }
-        if (items[i].soup != NULL) {
-            free = tl_soup_line_of_sight(items[i].soup, scene_point_in(&items[i], a), scene_point_in(&items[i], b),
-                                         filter != NULL ? filter->triangles : NULL);
-        } else if (items[i].shape != NULL) {
+        if (instances[i].soup != NULL) {
+            free = tl_soup_line_of_sight(instances[i].soup, scene_point_in(&instances[i], a),
+                                         scene_point_in(&instances[i], b), filter != NULL ? filter->triangles : NULL);
+        } else if (instances[i].shape != NULL) {
             bool before = b.x != a.x ? b.x < a.x : b.y != a.y ? b.y < a.y : b.z < a.z;
             tl_convex segment = tl_convex_capsule(before ? b : a, before ? a : b, 0);
-            free = !tl_convex_overlap(items[i].shape, items[i].pose, &segment, tl_transform_identity(), NULL);
+            free = !tl_convex_overlap(instances[i].shape, instances[i].pose, &segment, tl_transform_identity(), NULL);
         }
     }
-    TEST_CHECK(tl_scene_line_of_sight(scene, items, a, b, filter) == free);
+    TEST_CHECK(tl_scene_line_of_sight(scene, instances, a, b, filter) == free);
     if (filter == NULL || filter->triangles == NULL) {
-        TEST_CHECK(tl_scene_line_of_sight(scene, items, b, a, filter) == free);
+        TEST_CHECK(tl_scene_line_of_sight(scene, instances, b, a, filter) == free);
     }
     r->blocked += !free;
     r->clear += free;
 }
 
-static tl_ray random_ray(test_random *random, const tl_scene_item *items, uint32_t count, tl_aabb bounds)
+static tl_ray random_ray(test_random *random, const tl_scene_instance *instances, uint32_t count, tl_aabb bounds)
 {
     tl_vec3 margin = tl_scale(tl_aabb_size(bounds), 0.1f);
     tl_vec3 from = test_random_point(random, tl_sub(bounds.min, margin), tl_add(bounds.max, margin));
     tl_ray ray = { from, test_random_direction(random), INFINITY };
     uint32_t kind = test_random_below(random, 8);
-    if (kind < 3 && count > 0) { // at an item
-        ray.direction = tl_sub(items[test_random_below(random, count)].pose.position, from);
+    if (kind < 3 && count > 0) { // at an instance
+        ray.direction = tl_sub(instances[test_random_below(random, count)].pose.position, from);
     } else if (kind == 3) { // along an axis
         ray.direction = vec(0, test_random_below(random, 2) ? -2.0f : 1.0f, 0);
     } else if (kind == 4) {
@@ -112,8 +112,8 @@ static tl_ray random_ray(test_random *random, const tl_scene_item *items, uint32
     return ray;
 }
 
-static void check_scene(const tl_scene *scene, const tl_scene_item *items, uint32_t count, uint32_t rays, uint64_t seed,
-                        regimes *r)
+static void check_scene(const tl_scene *scene, const tl_scene_instance *instances, uint32_t count, uint32_t rays,
+                        uint64_t seed, regimes *r)
 {
     test_random random = { seed };
     tl_aabb bounds = tl_scene_bounds(scene);
@@ -121,7 +121,7 @@ static void check_scene(const tl_scene *scene, const tl_scene_item *items, uint3
         bounds.min = bounds.max = vec(0, 0, 0);
     }
     for (uint32_t k = 0; k < rays; k++) {
-        tl_ray ray = random_ray(&random, items, count, bounds);
+        tl_ray ray = random_ray(&random, instances, count, bounds);
         tl_scene_filter chosen;
         const tl_scene_filter *filter = scene_filter(&random, count, &chosen);
         tl_ray_filter fronts = tl_default_ray_filter();
@@ -130,17 +130,17 @@ static void check_scene(const tl_scene *scene, const tl_scene_item *items, uint3
             chosen.triangles = &fronts;
         }
         tl_scene_hit expected, hit;
-        bool met = ask_all(items, count, &ray, filter, &expected);
+        bool met = ask_all(instances, count, &ray, filter, &expected);
         for (int level = 0; level < 3; level++) {
             tl_scene_walk_fn *walk = tl_scene_walk_for(level);
             if (walk != NULL) {
-                TEST_CHECK(tl_scene_cast_ray_with(walk, scene, items, &ray, filter, &hit) == met);
+                TEST_CHECK(tl_scene_cast_ray_with(walk, scene, instances, &ray, filter, &hit) == met);
                 TEST_CHECK(!met || same_hit(&hit, &expected));
-                TEST_CHECK(tl_scene_cast_ray_with(walk, scene, items, &ray, filter, NULL) == met);
+                TEST_CHECK(tl_scene_cast_ray_with(walk, scene, instances, &ray, filter, NULL) == met);
             }
         }
-        TEST_CHECK(tl_scene_cast_ray(scene, items, &ray, filter, &hit) == met);
-        TEST_CHECK(tl_scene_occluded(scene, items, &ray, filter) == met);
+        TEST_CHECK(tl_scene_cast_ray(scene, instances, &ray, filter, &hit) == met);
+        TEST_CHECK(tl_scene_occluded(scene, instances, &ray, filter) == met);
         r->hits += met;
         r->misses += !met;
         r->filtered += filter != NULL;
@@ -152,11 +152,11 @@ static void check_scene(const tl_scene *scene, const tl_scene_item *items, uint3
             // The end belongs to the ray.
             ray.tmax = hit.hit.t;
             if (hit.hit.triangle != TL_NO_TRIANGLE) {
-                TEST_CHECK(tl_scene_cast_ray(scene, items, &ray, filter, &hit) && same_hit(&hit, &expected));
+                TEST_CHECK(tl_scene_cast_ray(scene, instances, &ray, filter, &hit) && same_hit(&hit, &expected));
             }
         }
         tl_vec3 to = test_random_point(&random, bounds.min, bounds.max);
-        check_sight(scene, items, count, ray.origin, to, filter, r);
+        check_sight(scene, instances, count, ray.origin, to, filter, r);
     }
 }
 
@@ -164,28 +164,28 @@ static void check_random_scene(const scene_parts *parts, uint32_t count, tl_vec3
                                regimes *r)
 {
     test_random random = { count + 17 };
-    tl_scene_item *items = malloc((count + 1) * sizeof *items);
-    TEST_CHECK(items != NULL);
+    tl_scene_instance *instances = malloc((count + 1) * sizeof *instances);
+    TEST_CHECK(instances != NULL);
     for (uint32_t i = 0; i < count; i++) {
-        items[i] = scene_item(parts, &random, center, range);
+        instances[i] = scene_instance(parts, &random, center, range);
         if (i > 0 && i % 7 == 0) {
-            items[i] = items[i - 1]; // the same thing in the same place
+            instances[i] = instances[i - 1]; // the same thing in the same place
         }
     }
-    tl_scene *scene = scene_build(items, count);
-    check_scene(scene, items, count, rays, count, r);
-    // Moved, refitted, and built anew: answers are those of the items.
+    tl_scene *scene = scene_build(instances, count);
+    check_scene(scene, instances, count, rays, count, r);
+    // Moved, refitted, and built anew: answers are those of the instances.
     for (uint32_t i = 0; i < count; i += 1 + i % 3) {
-        items[i] = scene_item(parts, &random, center, range * (i % 11 == 0 ? 3 : 1));
+        instances[i] = scene_instance(parts, &random, center, range * (i % 11 == 0 ? 3 : 1));
     }
     float growth;
-    TEST_RESULT(tl_scene_refit(scene, items, count, &growth, NULL), TL_OK);
-    check_scene(scene, items, count, rays, count + 1, r);
+    TEST_RESULT(tl_scene_refit(scene, instances, count, &growth, NULL), TL_OK);
+    check_scene(scene, instances, count, rays, count + 1, r);
     tl_blob_free(scene);
-    free(items);
+    free(instances);
 }
 
-static void test_against_all_items(void **state)
+static void test_against_all_instances(void **state)
 {
     (void)state;
     regimes r = { 0 };
@@ -217,9 +217,9 @@ static void test_far_and_tiny_rays(void **state)
     scene_parts parts;
     scene_parts_make(&parts, 1);
     test_random random = { 3 };
-    tl_scene_item items[20];
-    scene_fill(&parts, &random, vec(0, 0, 0), 3, items, 20);
-    tl_scene *scene = scene_build(items, 20);
+    tl_scene_instance instances[20];
+    scene_fill(&parts, &random, vec(0, 0, 0), 3, instances, 20);
+    tl_scene *scene = scene_build(instances, 20);
     uint32_t hits = 0;
     for (uint32_t k = 0; k < 400; k++) {
         tl_vec3 d = test_random_direction(&random);
@@ -229,8 +229,8 @@ static void test_far_and_tiny_rays(void **state)
             ray.direction = tl_scale(d, k % 4 == 0 ? 1e-42f : 1e-32f);
         }
         tl_scene_hit expected, hit;
-        bool met = ask_all(items, 20, &ray, NULL, &expected);
-        TEST_CHECK(tl_scene_cast_ray(scene, items, &ray, NULL, &hit) == met);
+        bool met = ask_all(instances, 20, &ray, NULL, &expected);
+        TEST_CHECK(tl_scene_cast_ray(scene, instances, &ray, NULL, &hit) == met);
         TEST_CHECK(!met || same_hit(&hit, &expected));
         hits += met;
     }
@@ -238,27 +238,27 @@ static void test_far_and_tiny_rays(void **state)
     tl_ray bad[6] = { { vec(0, NAN, 0), vec(0, 1, 0), 1 },      { vec(0, 0, 0), vec(0, 0, 0), 1 },
                       { vec(0, 0, 0), vec(0, 1, 0), -1 },       { vec(0, 0, 0), vec(0, 1, 0), NAN },
                       { vec(0, 0, 0), vec(0, INFINITY, 0), 1 }, { vec(INFINITY, 0, 0), vec(0, 1, 0), 1 } };
-    tl_scene_hit untouched = { .item = 77 };
+    tl_scene_hit untouched = { .instance = 77 };
     for (uint32_t i = 0; i < 6; i++) {
-        TEST_CHECK(!tl_scene_cast_ray(scene, items, &bad[i], NULL, &untouched) && untouched.item == 77);
-        TEST_CHECK(!tl_scene_occluded(scene, items, &bad[i], NULL));
+        TEST_CHECK(!tl_scene_cast_ray(scene, instances, &bad[i], NULL, &untouched) && untouched.instance == 77);
+        TEST_CHECK(!tl_scene_occluded(scene, instances, &bad[i], NULL));
     }
-    TEST_CHECK(tl_scene_line_of_sight(scene, items, vec(0, NAN, 0), vec(0, 0, 0), NULL));
-    TEST_CHECK(tl_scene_line_of_sight(scene, items, vec(50, 0, 0), vec(50, 0, 0), NULL));
-    TEST_CHECK(tl_scene_line_of_sight(scene, items, vec(3e38f, 3e38f, 0), vec(3e38f, -3e38f, 0), NULL));
+    TEST_CHECK(tl_scene_line_of_sight(scene, instances, vec(0, NAN, 0), vec(0, 0, 0), NULL));
+    TEST_CHECK(tl_scene_line_of_sight(scene, instances, vec(50, 0, 0), vec(50, 0, 0), NULL));
+    TEST_CHECK(tl_scene_line_of_sight(scene, instances, vec(3e38f, 3e38f, 0), vec(3e38f, -3e38f, 0), NULL));
     tl_blob_free(scene);
     scene_parts_free(&parts);
 }
 
-// An item at the identity answers as its soup alone, bit for bit.
+// An instance at the identity answers as its soup alone, bit for bit.
 static void test_identity(void **state)
 {
     (void)state;
     model m = model_terrain(20, 2, vec(-10, 0, -10), 9);
     tl_soup *soup = model_soup(&m, NULL);
-    tl_scene_item item = { soup, NULL, tl_transform_identity(), 1 };
-    item.pose.rotation.w = -3; // a turn by nothing
-    tl_scene *scene = scene_build(&item, 1);
+    tl_scene_instance instance = { soup, NULL, tl_transform_identity(), 1 };
+    instance.pose.rotation.w = -3; // a turn by nothing
+    tl_scene *scene = scene_build(&instance, 1);
     test_random random = { 4 };
     uint32_t hits = 0;
     for (uint32_t k = 0; k < 5000; k++) {
@@ -271,9 +271,9 @@ static void test_identity(void **state)
         tl_ray_hit expected;
         tl_scene_hit hit;
         bool met = tl_soup_cast_ray(soup, &ray, NULL, &expected);
-        TEST_CHECK(tl_scene_cast_ray(scene, &item, &ray, NULL, &hit) == met);
+        TEST_CHECK(tl_scene_cast_ray(scene, &instance, &ray, NULL, &hit) == met);
         if (met) {
-            TEST_CHECK(hit.item == 0 && hit.hit.t == expected.t && hit.hit.triangle == expected.triangle);
+            TEST_CHECK(hit.instance == 0 && hit.hit.t == expected.t && hit.hit.triangle == expected.triangle);
             TEST_CHECK(memcmp(&hit.hit.u, &expected.u, 4) == 0 && memcmp(&hit.hit.v, &expected.v, 4) == 0);
             TEST_CHECK(memcmp(&hit.hit.normal, &expected.normal, 12) == 0 && hit.hit.back == expected.back);
             hits++;
@@ -285,10 +285,10 @@ static void test_identity(void **state)
     model_free(&m);
 }
 
-// A corner of an item in the world.
-static tl_vec3d corner_out(const tl_scene_item *item, tl_vec3 corner)
+// A corner of an instance in the world.
+static tl_vec3d corner_out(const tl_scene_instance *instance, tl_vec3 corner)
 {
-    tl_frame frame = tl_frame_from(item->pose);
+    tl_frame frame = tl_frame_from(instance->pose);
     return tl_frame_point(&frame, tl_vec3d_from(corner));
 }
 
@@ -304,35 +304,35 @@ static void test_nothing_slips_through(void **state)
         tl_vec3 at = test_random_point(&random, vec(-1000, -1000, -1000), vec(1000, 1000, 1000));
         model m = model_ball(2, radius, 0.05f, k % 2 ? vec(0, 0, 0) : vec(3 * radius, 0, radius), k);
         tl_soup *soup = model_soup(&m, NULL);
-        tl_scene_item item = { soup, NULL, { scene_rotation(&random), at }, 1 };
-        tl_scene *scene = scene_build(&item, 1);
+        tl_scene_instance instance = { soup, NULL, { scene_rotation(&random), at }, 1 };
+        tl_scene *scene = scene_build(&instance, 1);
         tl_vec3 middle = k % 2 ? vec(0, 0, 0) : vec(3 * radius, 0, radius);
         for (uint32_t i = 0; i < 300; i++) {
             const uint32_t *corner = m.indices + 3 * (size_t)test_random_below(&random, m.triangle_count);
             tl_vec3 a = m.vertices[corner[0]], b = m.vertices[corner[1]];
             tl_vec3 target = tl_lerp(a, b, i % 3 == 0 ? 0.0f : test_random_unit(&random));
-            tl_vec3d to = corner_out(&item, target);
-            tl_vec3d inside = corner_out(&item, tl_mul_add(middle, test_random_direction(&random), 0.5f * radius));
+            tl_vec3d to = corner_out(&instance, target);
+            tl_vec3d inside = corner_out(&instance, tl_mul_add(middle, test_random_direction(&random), 0.5f * radius));
             tl_vec3 from = tl_vec3d_to_float(inside);
             tl_ray ray = { from, tl_sub(tl_vec3d_to_float(to), from), INFINITY };
             if (ray.direction.x == 0 && ray.direction.y == 0 && ray.direction.z == 0) {
                 continue;
             }
             tl_scene_hit hit;
-            TEST_CHECK(tl_scene_cast_ray(scene, &item, &ray, NULL, &hit));
-            TEST_CHECK(tl_scene_occluded(scene, &item, &ray, NULL));
+            TEST_CHECK(tl_scene_cast_ray(scene, &instance, &ray, NULL, &hit));
+            TEST_CHECK(tl_scene_occluded(scene, &instance, &ray, NULL));
             rays++;
             // The point at t lies in the triangle's plane, as near as the header says.
             const uint32_t *met = m.indices + 3 * (size_t)hit.hit.triangle;
-            tl_vec3d p = corner_out(&item, m.vertices[met[0]]), q = corner_out(&item, m.vertices[met[1]]);
-            tl_vec3d s = corner_out(&item, m.vertices[met[2]]);
+            tl_vec3d p = corner_out(&instance, m.vertices[met[0]]), q = corner_out(&instance, m.vertices[met[1]]);
+            tl_vec3d s = corner_out(&instance, m.vertices[met[2]]);
             tl_vec3d normal = tl_vec3d_cross(tl_vec3d_sub(q, p), tl_vec3d_sub(s, p));
             normal = tl_vec3d_scale(normal, 1 / tl_vec3d_length(normal));
             tl_vec3d point =
                 tl_vec3d_mul_add(tl_vec3d_from(ray.origin), tl_vec3d_from(ray.direction), (double)hit.hit.t);
             double off = fabs(tl_vec3d_dot(normal, tl_vec3d_sub(point, p)));
             double way = (double)hit.hit.t * tl_vec3d_length(tl_vec3d_from(ray.direction));
-            double share = tl_vec3d_length(tl_vec3d_from(scene_point_in(&item, from))) + way;
+            double share = tl_vec3d_length(tl_vec3d_from(scene_point_in(&instance, from))) + way;
             // t itself is rounded, too: 5/8 ulp of the way.
             double bound = (double)TL_FLOAT_ROUNDING * (1.001 * share + 1.25 * way);
             TEST_CHECK(off <= bound);
@@ -353,7 +353,7 @@ int main(int argc, char **argv)
         ray_count = (uint32_t)strtoul(argv[1], NULL, 10);
     }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_all_items),
+        cmocka_unit_test(test_against_all_instances),
         cmocka_unit_test(test_far_and_tiny_rays),
         cmocka_unit_test(test_identity),
         cmocka_unit_test(test_nothing_slips_through),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// scene/cast_shape.c, overlap.c, nearest.c, items_in_box.c: against every item asked in turn, by example, and on many
-// threads at once. An argument sets the number of queries a scene.
+// scene/scene_cast_shape.c, overlap.c, nearest.c, instances_in_box.c: against every instance asked in turn, by example,
+// and on many threads at once. An argument sets the number of queries a scene.
 
 #include "scene_models.h"
 
@@ -20,12 +20,12 @@ typedef struct regimes {
     uint32_t hits, free_ways, overlaps, deep, triangles, shapes, crowded, nearest_soup, nearest_shape, inside, none;
 } regimes;
 
-// A shape's pose in an item's space; the library's own, as its rounding is part of the answer.
-static tl_transform pose_in(const tl_scene_item *item, tl_transform pose)
+// A shape's pose in an instance's space; the library's own, as its rounding is part of the answer.
+static tl_transform pose_in(const tl_scene_instance *instance, tl_transform pose)
 {
-    tl_transform seen = { pose.rotation, scene_point_in(item, pose.position) };
-    if (scene_is_turned(item)) {
-        tl_quatd q = tl_quatd_between(tl_quatd_from(item->pose.rotation), tl_quatd_from(pose.rotation));
+    tl_transform seen = { pose.rotation, scene_point_in(instance, pose.position) };
+    if (scene_is_turned(instance)) {
+        tl_quatd q = tl_quatd_between(tl_quatd_from(instance->pose.rotation), tl_quatd_from(pose.rotation));
         double scale = 1.0 / sqrt(q.length_sq);
         seen.rotation.x = (float)(q.x * scale);
         seen.rotation.y = (float)(q.y * scale);
@@ -36,21 +36,21 @@ static tl_transform pose_in(const tl_scene_item *item, tl_transform pose)
 }
 
 // Without the rule for what touches: that is left out of the comparison, and has a test of its own.
-static bool cast_at_item(const tl_scene_item *item, const tl_convex *shape, tl_transform pose, tl_vec3 motion,
-                         tl_shape_hit *hit)
+static bool cast_at_instance(const tl_scene_instance *instance, const tl_convex *shape, tl_transform pose,
+                             tl_vec3 motion, tl_shape_hit *hit)
 {
-    if (item->soup != NULL) {
-        if (tl_soup_cast_shape(item->soup, shape, pose_in(item, pose), scene_direction_in(item, motion), NULL, hit) !=
-            TL_OK) {
+    if (instance->soup != NULL) {
+        if (tl_soup_cast_shape(instance->soup, shape, pose_in(instance, pose), scene_direction_in(instance, motion),
+                               NULL, hit) != TL_OK) {
             return false;
         }
-        hit->point = scene_point_out(item, hit->point);
-        hit->normal = scene_direction_out(item, hit->normal);
-        hit->face_normal = scene_direction_out(item, hit->face_normal);
+        hit->point = scene_point_out(instance, hit->point);
+        hit->normal = scene_direction_out(instance, hit->normal);
+        hit->face_normal = scene_direction_out(instance, hit->face_normal);
         return true;
     }
     tl_convex_hit met;
-    if (item->shape == NULL || !tl_convex_cast(item->shape, item->pose, shape, pose, motion, &met)) {
+    if (instance->shape == NULL || !tl_convex_cast(instance->shape, instance->pose, shape, pose, motion, &met)) {
         return false;
     }
     memset(hit, 0, sizeof *hit);
@@ -60,7 +60,7 @@ static bool cast_at_item(const tl_scene_item *item, const tl_convex *shape, tl_t
     hit->normal = met.normal;
     if (met.initial_overlap) {
         tl_penetration in;
-        tl_convex_penetration(item->shape, item->pose, shape, pose, NULL, &in);
+        tl_convex_penetration(instance->shape, instance->pose, shape, pose, NULL, &in);
         hit->initial_overlap = true;
         hit->depth = in.depth;
         hit->point = in.point_a;
@@ -69,14 +69,15 @@ static bool cast_at_item(const tl_scene_item *item, const tl_convex *shape, tl_t
     return true;
 }
 
-static void check_cast(const tl_scene *scene, const tl_scene_item *items, uint32_t count, const tl_convex *shape,
-                       tl_transform pose, tl_vec3 motion, const tl_scene_filter *filter, regimes *r)
+static void check_cast(const tl_scene *scene, const tl_scene_instance *instances, uint32_t count,
+                       const tl_convex *shape, tl_transform pose, tl_vec3 motion, const tl_scene_filter *filter,
+                       regimes *r)
 {
     tl_shape_hit best = { 0 };
-    uint32_t item = TL_NO_ITEM;
+    uint32_t instance = TL_NO_INSTANCE;
     for (uint32_t i = 0; i < count; i++) {
         tl_shape_hit hit;
-        if (!scene_passes(filter, items, i) || !cast_at_item(&items[i], shape, pose, motion, &hit)) {
+        if (!scene_passes(filter, instances, i) || !cast_at_instance(&instances[i], shape, pose, motion, &hit)) {
             continue;
         }
         if (hit.initial_overlap && hit.depth < 1e-5f * (1 + tl_length(pose.position))) {
@@ -86,17 +87,17 @@ static void check_cast(const tl_scene *scene, const tl_scene_item *items, uint32
         if (!hit.initial_overlap && closing < 0.01 * (double)tl_length(motion)) {
             return;
         }
-        if (item == TL_NO_ITEM || hit.t < best.t || (hit.t == best.t && hit.depth > best.depth)) {
+        if (instance == TL_NO_INSTANCE || hit.t < best.t || (hit.t == best.t && hit.depth > best.depth)) {
             best = hit;
-            item = i;
+            instance = i;
         }
     }
     tl_scene_shape_hit found;
-    tl_result result = tl_scene_cast_shape(scene, items, shape, pose, motion, filter, &found);
-    TEST_RESULT(result, item == TL_NO_ITEM ? TL_NOT_FOUND : TL_OK);
-    r->free_ways += item == TL_NO_ITEM;
-    if (item != TL_NO_ITEM) {
-        TEST_CHECK(found.item == item && found.hit.t == best.t && found.hit.triangle == best.triangle);
+    tl_result result = tl_scene_cast_shape(scene, instances, shape, pose, motion, filter, &found);
+    TEST_RESULT(result, instance == TL_NO_INSTANCE ? TL_NOT_FOUND : TL_OK);
+    r->free_ways += instance == TL_NO_INSTANCE;
+    if (instance != TL_NO_INSTANCE) {
+        TEST_CHECK(found.instance == instance && found.hit.t == best.t && found.hit.triangle == best.triangle);
         TEST_CHECK(found.hit.depth == best.depth && found.hit.initial_overlap == best.initial_overlap);
         TEST_CHECK(memcmp(&found.hit.normal, &best.normal, sizeof best.normal) == 0);
         TEST_CHECK(found.hit.point.x == best.point.x && found.hit.point.y == best.point.y &&
@@ -107,31 +108,31 @@ static void check_cast(const tl_scene *scene, const tl_scene_item *items, uint32
     }
 }
 
-static int by_item(const void *a, const void *b)
+static int by_instance(const void *a, const void *b)
 {
     const tl_scene_overlap *x = a, *y = b;
-    return x->item != y->item          ? (x->item < y->item ? -1 : 1)
+    return x->instance != y->instance  ? (x->instance < y->instance ? -1 : 1)
            : x->triangle < y->triangle ? -1
                                        : x->triangle > y->triangle;
 }
 
-static void check_overlaps(const tl_scene *scene, const tl_scene_item *items, uint32_t count, const tl_convex *shape,
-                           tl_transform pose, const tl_scene_filter *filter, regimes *r)
+static void check_overlaps(const tl_scene *scene, const tl_scene_instance *instances, uint32_t count,
+                           const tl_convex *shape, tl_transform pose, const tl_scene_filter *filter, regimes *r)
 {
     static tl_scene_overlap expected[20000], found[20000];
     static uint32_t triangles[5000];
     uint32_t n = 0;
     for (uint32_t i = 0; i < count; i++) {
-        if (!scene_passes(filter, items, i)) {
+        if (!scene_passes(filter, instances, i)) {
             continue;
         }
         uint32_t some = 0;
-        if (items[i].soup != NULL) {
-            TEST_RESULT(
-                tl_soup_find_overlaps(items[i].soup, shape, pose_in(&items[i], pose), NULL, triangles, 5000, &some),
-                TL_OK);
-        } else if (items[i].shape != NULL) {
-            some = tl_convex_overlap(items[i].shape, items[i].pose, shape, pose, NULL);
+        if (instances[i].soup != NULL) {
+            TEST_RESULT(tl_soup_find_overlaps(instances[i].soup, shape, pose_in(&instances[i], pose), NULL, triangles,
+                                              5000, &some),
+                        TL_OK);
+        } else if (instances[i].shape != NULL) {
+            some = tl_convex_overlap(instances[i].shape, instances[i].pose, shape, pose, NULL);
             triangles[0] = TL_NO_TRIANGLE;
         }
         for (uint32_t k = 0; k < some; k++) {
@@ -142,20 +143,20 @@ static void check_overlaps(const tl_scene *scene, const tl_scene_item *items, ui
     }
     uint32_t m = 0;
     bool any = false;
-    TEST_RESULT(tl_scene_overlaps(scene, items, shape, pose, filter, &any), TL_OK);
+    TEST_RESULT(tl_scene_overlaps(scene, instances, shape, pose, filter, &any), TL_OK);
     TEST_CHECK(any == (n > 0));
-    TEST_RESULT(tl_scene_find_overlaps(scene, items, shape, pose, filter, found, 20000, &m), TL_OK);
+    TEST_RESULT(tl_scene_find_overlaps(scene, instances, shape, pose, filter, found, 20000, &m), TL_OK);
     TEST_CHECK(m == n);
-    qsort(expected, n, sizeof *expected, by_item);
-    qsort(found, m, sizeof *found, by_item);
+    qsort(expected, n, sizeof *expected, by_instance);
+    qsort(found, m, sizeof *found, by_instance);
     TEST_CHECK(n == 0 || memcmp(expected, found, n * sizeof *found) == 0);
     if (n > 1) { // less room: each that is written is one of them, and none is written beyond
         uint32_t room = n / 2;
-        found[room].item = 123456789;
-        TEST_RESULT(tl_scene_find_overlaps(scene, items, shape, pose, filter, found, room, &m), TL_INCOMPLETE);
-        TEST_CHECK(m == n && found[room].item == 123456789);
+        found[room].instance = 123456789;
+        TEST_RESULT(tl_scene_find_overlaps(scene, instances, shape, pose, filter, found, room, &m), TL_INCOMPLETE);
+        TEST_CHECK(m == n && found[room].instance == 123456789);
         for (uint32_t k = 0; k < room; k++) {
-            TEST_CHECK(bsearch(&found[k], expected, n, sizeof *found, by_item) != NULL);
+            TEST_CHECK(bsearch(&found[k], expected, n, sizeof *found, by_instance) != NULL);
         }
         r->crowded++;
     }
@@ -163,46 +164,46 @@ static void check_overlaps(const tl_scene *scene, const tl_scene_item *items, ui
     r->triangles += n;
 }
 
-static void check_nearest(const tl_scene *scene, const tl_scene_item *items, uint32_t count, tl_vec3 at, float reach,
-                          const tl_scene_filter *filter, regimes *r)
+static void check_nearest(const tl_scene *scene, const tl_scene_instance *instances, uint32_t count, tl_vec3 at,
+                          float reach, const tl_scene_filter *filter, regimes *r)
 {
     tl_soup_point best = { 0 };
-    uint32_t item = TL_NO_ITEM;
+    uint32_t instance = TL_NO_INSTANCE;
     for (uint32_t i = 0; i < count; i++) {
         tl_soup_point p;
-        if (!scene_passes(filter, items, i)) {
+        if (!scene_passes(filter, instances, i)) {
             continue;
         }
-        if (items[i].soup != NULL) {
-            if (tl_soup_nearest(items[i].soup, scene_point_in(&items[i], at), reach, NULL, &p) != TL_OK) {
+        if (instances[i].soup != NULL) {
+            if (tl_soup_nearest(instances[i].soup, scene_point_in(&instances[i], at), reach, NULL, &p) != TL_OK) {
                 continue;
             }
-            p.point = scene_point_out(&items[i], p.point);
-            p.normal = scene_direction_out(&items[i], p.normal);
-        } else if (items[i].shape != NULL) {
+            p.point = scene_point_out(&instances[i], p.point);
+            p.normal = scene_direction_out(&instances[i], p.normal);
+        } else if (instances[i].shape != NULL) {
             tl_convex point = tl_convex_sphere(at, 0);
             tl_separation apart;
-            tl_convex_distance(items[i].shape, items[i].pose, &point, tl_transform_identity(), NULL, &apart);
+            tl_convex_distance(instances[i].shape, instances[i].pose, &point, tl_transform_identity(), NULL, &apart);
             memset(&p, 0, sizeof p);
             p.point = apart.overlap ? at : apart.point_a;
             p.normal = apart.normal;
             p.distance = apart.distance;
             p.triangle = TL_NO_TRIANGLE;
         }
-        if ((items[i].soup == NULL && items[i].shape == NULL) || p.distance > reach) {
+        if ((instances[i].soup == NULL && instances[i].shape == NULL) || p.distance > reach) {
             continue;
         }
-        if (item == TL_NO_ITEM || p.distance < best.distance) {
+        if (instance == TL_NO_INSTANCE || p.distance < best.distance) {
             best = p;
-            item = i;
+            instance = i;
         }
     }
     tl_scene_point found;
-    tl_result result = tl_scene_nearest(scene, items, at, reach, filter, &found);
-    TEST_RESULT(result, item == TL_NO_ITEM ? TL_NOT_FOUND : TL_OK);
-    r->none += item == TL_NO_ITEM;
-    if (item != TL_NO_ITEM) {
-        TEST_CHECK(found.item == item && found.point.distance == best.distance);
+    tl_result result = tl_scene_nearest(scene, instances, at, reach, filter, &found);
+    TEST_RESULT(result, instance == TL_NO_INSTANCE ? TL_NOT_FOUND : TL_OK);
+    r->none += instance == TL_NO_INSTANCE;
+    if (instance != TL_NO_INSTANCE) {
+        TEST_CHECK(found.instance == instance && found.point.distance == best.distance);
         TEST_CHECK(found.point.triangle == best.triangle && found.point.feature == best.feature);
         TEST_CHECK(memcmp(&found.point.normal, &best.normal, sizeof best.normal) == 0);
         TEST_CHECK(found.point.point.x == best.point.x && found.point.back == best.back);
@@ -217,19 +218,19 @@ typedef struct box_search {
     uint32_t count, most;
 } box_search;
 
-static bool mark_item(uint32_t item, void *user)
+static bool mark_instance(uint32_t instance, void *user)
 {
     box_search *b = user;
-    TEST_CHECK(b->seen[item] == 0);
-    b->seen[item] = 1;
+    TEST_CHECK(b->seen[instance] == 0);
+    b->seen[instance] = 1;
     return ++b->count < b->most;
 }
 
-static void check_box(const tl_scene *scene, const tl_scene_item *items, uint32_t count, tl_aabb box,
+static void check_box(const tl_scene *scene, const tl_scene_instance *instances, uint32_t count, tl_aabb box,
                       const tl_scene_filter *filter)
 {
     box_search b = { calloc(count + 1, 1), 0, UINT32_MAX };
-    TEST_CHECK(b.seen != NULL && tl_scene_items_in_box(scene, box, filter, mark_item, &b));
+    TEST_CHECK(b.seen != NULL && tl_scene_instances_in_box(scene, box, filter, mark_instance, &b));
     uint32_t all = b.count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t lane = tl_scene_records(scene)[i].lane;
@@ -237,19 +238,19 @@ static void check_box(const tl_scene *scene, const tl_scene_item *items, uint32_
         lane %= TL_SCENE_WIDTH;
         tl_aabb own = { vec(node->plane[0][lane], node->plane[2][lane], node->plane[4][lane]),
                         vec(node->plane[1][lane], node->plane[3][lane], node->plane[5][lane]) };
-        TEST_CHECK(b.seen[i] == (tl_aabb_overlaps(own, box) && scene_passes(filter, items, i)));
+        TEST_CHECK(b.seen[i] == (tl_aabb_overlaps(own, box) && scene_passes(filter, instances, i)));
     }
     if (all > 1) {
         memset(b.seen, 0, count);
         b.count = 0;
         b.most = all - 1;
-        TEST_CHECK(!tl_scene_items_in_box(scene, box, filter, mark_item, &b) && b.count == all - 1);
+        TEST_CHECK(!tl_scene_instances_in_box(scene, box, filter, mark_instance, &b) && b.count == all - 1);
     }
     free(b.seen);
 }
 
-static void check_scene(const scene_parts *parts, const tl_scene *scene, const tl_scene_item *items, uint32_t count,
-                        float range, tl_vec3 center, uint32_t queries, regimes *r)
+static void check_scene(const scene_parts *parts, const tl_scene *scene, const tl_scene_instance *instances,
+                        uint32_t count, float range, tl_vec3 center, uint32_t queries, regimes *r)
 {
     test_random random = { count };
     tl_vec3 wide = vec(range + 1, range + 1, range + 1);
@@ -267,12 +268,12 @@ static void check_scene(const scene_parts *parts, const tl_scene *scene, const t
         if (k % 10 == 0) {
             motion = vec(0, k % 20 == 0 ? 0.0f : -range, 0);
         }
-        check_cast(scene, items, count, &small, pose, motion, filter, r);
-        check_overlaps(scene, items, count, &small, pose, filter, r);
+        check_cast(scene, instances, count, &small, pose, motion, filter, r);
+        check_overlaps(scene, instances, count, &small, pose, filter, r);
         float reach = k % 3 == 0 ? INFINITY : test_random_unit(&random) * range;
-        check_nearest(scene, items, count, pose.position, reach, filter, r);
+        check_nearest(scene, instances, count, pose.position, reach, filter, r);
         tl_aabb box = { tl_sub(pose.position, tl_abs(motion)), tl_add(pose.position, tl_abs(motion)) };
-        check_box(scene, items, count, box, filter);
+        check_box(scene, instances, count, box, filter);
     }
 }
 
@@ -280,26 +281,26 @@ static void check_random_scene(const scene_parts *parts, uint32_t count, tl_vec3
                                regimes *r)
 {
     test_random random = { count + 5 };
-    tl_scene_item *items = malloc((count + 1) * sizeof *items);
-    TEST_CHECK(items != NULL);
+    tl_scene_instance *instances = malloc((count + 1) * sizeof *instances);
+    TEST_CHECK(instances != NULL);
     for (uint32_t i = 0; i < count; i++) {
-        items[i] = scene_item(parts, &random, center, range);
+        instances[i] = scene_instance(parts, &random, center, range);
         if (i > 0 && i % 6 == 0) {
-            items[i] = items[i - 1];
+            instances[i] = instances[i - 1];
         }
     }
-    tl_scene *scene = scene_build(items, count);
-    check_scene(parts, scene, items, count, range, center, queries, r);
+    tl_scene *scene = scene_build(instances, count);
+    check_scene(parts, scene, instances, count, range, center, queries, r);
     for (uint32_t i = 0; i < count; i += 2) {
-        items[i] = scene_item(parts, &random, center, range);
+        instances[i] = scene_instance(parts, &random, center, range);
     }
-    TEST_RESULT(tl_scene_refit(scene, items, count, NULL, NULL), TL_OK);
-    check_scene(parts, scene, items, count, range, center, queries, r);
+    TEST_RESULT(tl_scene_refit(scene, instances, count, NULL, NULL), TL_OK);
+    check_scene(parts, scene, instances, count, range, center, queries, r);
     tl_blob_free(scene);
-    free(items);
+    free(instances);
 }
 
-static void test_against_all_items(void **state)
+static void test_against_all_instances(void **state)
 {
     (void)state;
     regimes r = { 0 };
@@ -333,26 +334,27 @@ static void test_standing(void **state)
     uint32_t caught = 0, walked = 0, sunk = 0;
     for (uint32_t k = 0; k < 2000; k++) {
         bool is_soup = k % 2 == 0;
-        tl_scene_item item = { is_soup ? parts.soups[4] : NULL, is_soup ? NULL : &box, tl_transform_identity(), 1 };
-        item.pose.position = test_random_point(&random, vec(900, 900, 900), vec(1000, 1000, 1000));
+        tl_scene_instance instance = { is_soup ? parts.soups[4] : NULL, is_soup ? NULL : &box, tl_transform_identity(),
+                                       1 };
+        instance.pose.position = test_random_point(&random, vec(900, 900, 900), vec(1000, 1000, 1000));
         tl_quat turn = { 0, test_random_range(&random, -1, 1), 0, 1 };
-        item.pose.rotation = turn;
-        tl_scene *scene = scene_build(&item, 1);
+        instance.pose.rotation = turn;
+        tl_scene *scene = scene_build(&instance, 1);
         tl_transform pose = tl_transform_identity();
-        pose.position = tl_add(item.pose.position, vec(test_random_range(&random, -1, 1), 0, 0));
+        pose.position = tl_add(instance.pose.position, vec(test_random_range(&random, -1, 1), 0, 0));
         // An ulp of 900 is 6e-5.
         pose.position.y = nextafterf(pose.position.y, k % 3 == 0 ? 0.0f : k % 3 == 1 ? 2000.0f : pose.position.y);
         tl_scene_shape_hit hit;
         tl_vec3 along = vec(0.5f, 0, 0.2f);
-        tl_result result = tl_scene_cast_shape(scene, &item, &body, pose, along, NULL, &hit);
+        tl_result result = tl_scene_cast_shape(scene, &instance, &body, pose, along, NULL, &hit);
         caught += result != TL_NOT_FOUND;
         walked += result == TL_NOT_FOUND;
-        TEST_RESULT(tl_scene_cast_shape(scene, &item, &body, pose, vec(0, 0.5f, 0), NULL, &hit), TL_NOT_FOUND);
-        TEST_RESULT(tl_scene_cast_shape(scene, &item, &body, pose, vec(0, -0.5f, 0), NULL, &hit), TL_OK);
+        TEST_RESULT(tl_scene_cast_shape(scene, &instance, &body, pose, vec(0, 0.5f, 0), NULL, &hit), TL_NOT_FOUND);
+        TEST_RESULT(tl_scene_cast_shape(scene, &instance, &body, pose, vec(0, -0.5f, 0), NULL, &hit), TL_OK);
         TEST_CHECK(hit.hit.t < 1e-3f && !hit.hit.initial_overlap && hit.hit.normal.y > 0.99f);
         // Deeper than roundings explain is an overlap.
-        pose.position.y = item.pose.position.y - 0.01f;
-        TEST_RESULT(tl_scene_cast_shape(scene, &item, &body, pose, along, NULL, &hit), TL_OK);
+        pose.position.y = instance.pose.position.y - 0.01f;
+        TEST_RESULT(tl_scene_cast_shape(scene, &instance, &body, pose, along, NULL, &hit), TL_OK);
         sunk += hit.hit.initial_overlap && fabsf(hit.hit.depth - 0.01f) < 1e-3f;
         tl_blob_free(scene);
     }
@@ -366,24 +368,24 @@ static void test_bad_questions(void **state)
     (void)state;
     scene_parts parts;
     scene_parts_make(&parts, 1);
-    tl_scene_item item = { parts.soups[0], NULL, tl_transform_identity(), 1 };
-    tl_scene *scene = scene_build(&item, 1);
+    tl_scene_instance instance = { parts.soups[0], NULL, tl_transform_identity(), 1 };
+    tl_scene *scene = scene_build(&instance, 1);
     tl_convex sphere = tl_convex_sphere(vec(0, 0, 0), 1);
     tl_transform pose = tl_transform_identity(), bad = pose;
     bad.position.x = NAN;
     tl_scene_shape_hit hit;
     bool any;
     uint32_t count;
-    TEST_RESULT(tl_scene_cast_shape(scene, &item, &sphere, bad, vec(0, 1, 0), NULL, &hit), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_scene_cast_shape(scene, &item, &sphere, pose, vec(0, NAN, 0), NULL, &hit), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_scene_overlaps(scene, &item, &sphere, bad, NULL, &any), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_scene_cast_shape(scene, &instance, &sphere, bad, vec(0, 1, 0), NULL, &hit), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_scene_cast_shape(scene, &instance, &sphere, pose, vec(0, NAN, 0), NULL, &hit), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_scene_overlaps(scene, &instance, &sphere, bad, NULL, &any), TL_ERR_NOT_FINITE);
     sphere.radius = -1;
-    TEST_RESULT(tl_scene_cast_shape(scene, &item, &sphere, pose, vec(0, 1, 0), NULL, &hit), TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_scene_find_overlaps(scene, &item, &sphere, pose, NULL, NULL, 0, &count), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_scene_cast_shape(scene, &instance, &sphere, pose, vec(0, 1, 0), NULL, &hit), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_scene_find_overlaps(scene, &instance, &sphere, pose, NULL, NULL, 0, &count), TL_ERR_ARGUMENT);
     tl_scene_point nearest;
-    TEST_RESULT(tl_scene_nearest(scene, &item, vec(NAN, 0, 0), 1, NULL, &nearest), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_scene_nearest(scene, &item, vec(0, 0, 0), -1, NULL, &nearest), TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_scene_nearest(scene, &item, vec(3e38f, 0, 3e38f), INFINITY, NULL, &nearest), TL_OK);
+    TEST_RESULT(tl_scene_nearest(scene, &instance, vec(NAN, 0, 0), 1, NULL, &nearest), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_scene_nearest(scene, &instance, vec(0, 0, 0), -1, NULL, &nearest), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_scene_nearest(scene, &instance, vec(3e38f, 0, 3e38f), INFINITY, NULL, &nearest), TL_OK);
     tl_blob_free(scene);
     scene_parts_free(&parts);
 }
@@ -392,7 +394,7 @@ static void test_bad_questions(void **state)
 
 typedef struct asked {
     const tl_scene *scene;
-    const tl_scene_item *items;
+    const tl_scene_instance *instances;
     const tl_convex *shape;
     double sum;
 } asked;
@@ -406,17 +408,17 @@ static void *ask_much(void *user)
         tl_ray ray = { test_random_point(&random, vec(-12, -12, -12), vec(12, 12, 12)), test_random_direction(&random),
                        INFINITY };
         tl_scene_hit hit;
-        if (tl_scene_cast_ray(a->scene, a->items, &ray, NULL, &hit)) {
+        if (tl_scene_cast_ray(a->scene, a->instances, &ray, NULL, &hit)) {
             a->sum += (double)hit.hit.t;
         }
-        a->sum += tl_scene_line_of_sight(a->scene, a->items, ray.origin, vec(0, 0, 0), NULL);
+        a->sum += tl_scene_line_of_sight(a->scene, a->instances, ray.origin, vec(0, 0, 0), NULL);
         tl_transform pose = { tl_quat_identity(), ray.origin };
         tl_scene_shape_hit met;
-        if (tl_scene_cast_shape(a->scene, a->items, a->shape, pose, ray.direction, NULL, &met) == TL_OK) {
+        if (tl_scene_cast_shape(a->scene, a->instances, a->shape, pose, ray.direction, NULL, &met) == TL_OK) {
             a->sum += (double)met.hit.t;
         }
         tl_scene_point nearest;
-        if (tl_scene_nearest(a->scene, a->items, ray.origin, 5, NULL, &nearest) == TL_OK) {
+        if (tl_scene_nearest(a->scene, a->instances, ray.origin, 5, NULL, &nearest) == TL_OK) {
             a->sum += (double)nearest.point.distance;
         }
     }
@@ -429,13 +431,13 @@ static void test_threads(void **state)
     scene_parts parts;
     scene_parts_make(&parts, 1);
     test_random random = { 8 };
-    tl_scene_item items[100];
-    scene_fill(&parts, &random, vec(0, 0, 0), 10, items, 100);
-    tl_scene *scene = scene_build(items, 100);
+    tl_scene_instance instances[100];
+    scene_fill(&parts, &random, vec(0, 0, 0), 10, instances, 100);
+    tl_scene *scene = scene_build(instances, 100);
     asked each[4];
     pthread_t threads[4];
     for (uint32_t i = 0; i < 4; i++) {
-        asked a = { scene, items, &parts.shapes[4], 0 };
+        asked a = { scene, instances, &parts.shapes[4], 0 };
         each[i] = a;
         TEST_CHECK(pthread_create(&threads[i], NULL, ask_much, &each[i]) == 0);
     }
@@ -454,7 +456,7 @@ int main(int argc, char **argv)
         query_count = (uint32_t)strtoul(argv[1], NULL, 10);
     }
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_against_all_items),
+        cmocka_unit_test(test_against_all_instances),
         cmocka_unit_test(test_standing),
         cmocka_unit_test(test_bad_questions),
         cmocka_unit_test(test_threads),

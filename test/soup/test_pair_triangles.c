@@ -10,7 +10,7 @@ typedef struct paired {
     uint32_t triangles, in_pairs;
 } paired;
 
-static void check_corners(const tl_mesh *mesh, const tl_pair *pair, uint32_t side)
+static void check_corners(const tl_mesh *mesh, const tl_triangle_pair *pair, uint32_t side)
 {
     uint32_t slot[3] = { pair->corner[0], pair->corner[side == 0 ? 1 : 3], pair->corner[2] };
     const uint32_t *indices = mesh->indices + 3 * (size_t)pair->triangle[side];
@@ -28,7 +28,7 @@ static paired check_pairing(const model *m, bool allow_pairs)
     TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, NULL), TL_OK);
     tl_arena arena;
     tl_arena_init(&arena, NULL);
-    tl_pair *pairs = NULL;
+    tl_triangle_pair *pairs = NULL;
     uint8_t *seen = calloc(mesh.triangle_count, 1);
     TEST_CHECK(seen != NULL);
     uint32_t count = 0;

@@ -3,7 +3,7 @@
 // ray_prepare.c: the slab constants bracket the true t of every plane, and sheared corners stay within the bound,
 // both measured in long double. The brackets must also be tight: a filter that passes everything is no filter.
 
-#include "soup/ray/ray.h"
+#include "soup/ray/ray_job.h"
 #include "soup_models.h"
 
 #include <float.h>

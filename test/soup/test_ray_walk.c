@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// ray_walk.h in each of its compilations: all bits equal over instruction sets, and equal to a loop over all triangles,
-// both in the soup's own arithmetic and, independently, in double from the source mesh.
+// ray_walk.inl in each of its compilations: all bits equal over instruction sets, and equal to a loop over all
+// triangles, both in the soup's own arithmetic and, independently, in double from the source mesh.
 //
 // An argument raises the number of rays a model: test_ray_walk 100000.
 
-#include "soup/ray/ray.h"
+#include "soup/ray/ray_job.h"
 #include "soup_models.h"
 
 static uint32_t rays_asked = 0;

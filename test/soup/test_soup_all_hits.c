@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// all_hits.c: against all triangles one by one, and parity of lines that are aimed at edges and corners.
+// soup_all_hits.c: against all triangles one by one, and parity of lines that are aimed at edges and corners.
 
 #include "soup_models.h"
 
-#include "soup/ray/ray.h"
+#include "soup/ray/ray_job.h"
 
 #include <float.h>
 

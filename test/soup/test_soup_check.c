@@ -79,7 +79,7 @@ static void use_soup(const tl_soup *soup, test_random *random)
     TEST_CHECK(count == tl_soup_get_stats(soup).pair_count + tl_soup_get_stats(soup).single_count);
     count = 0;
     tl_soup_triangles_in_box(soup, tl_soup_bounds(soup), count_triangle, &count);
-    tl_soup_tree_boxes(soup, UINT32_MAX, count_box, &count);
+    tl_soup_bvh_boxes(soup, UINT32_MAX, count_box, &count);
 }
 
 static void check_sound_soup_passes(tl_soup_layout layout)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// locate.c and check_closed.c: whole numbers, where every ray grazes something; solid angles as an oracle; surfaces
-// that are not closed.
+// soup_locate.c and soup_check_closed.c: whole numbers, where every ray grazes something; solid angles as an oracle;
+// surfaces that are not closed.
 
 #include "soup_models.h"
 

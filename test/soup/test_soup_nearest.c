@@ -4,7 +4,7 @@
 
 #include "soup_models.h"
 
-#include "soup/query/triangle_point.h"
+#include "soup/triangle/triangle_point.h"
 
 #include <float.h>
 

@@ -158,18 +158,18 @@ static void check_tree_boxes(const tl_soup *soup)
     tl_soup_stats stats = tl_soup_get_stats(soup);
     bool is_compact = stats.layout == TL_SOUP_COMPACT;
     box_walk walk = { .is_compact = is_compact };
-    TEST_CHECK(tl_soup_tree_boxes(soup, UINT32_MAX, visit_box, &walk));
+    TEST_CHECK(tl_soup_bvh_boxes(soup, UINT32_MAX, visit_box, &walk));
     TEST_CHECK(walk.count == stats.node_count + stats.leaf_count && walk.leaves == stats.leaf_count);
     TEST_CHECK(walk.deepest == stats.depth);
     TEST_CHECK(tl_aabb_contains(walk.leaf_union, tl_soup_bounds(soup).min));
     TEST_CHECK(tl_aabb_contains(walk.leaf_union, tl_soup_bounds(soup).max));
     box_walk shallow = { .is_compact = is_compact };
-    TEST_CHECK(tl_soup_tree_boxes(soup, 1, visit_box, &shallow));
+    TEST_CHECK(tl_soup_bvh_boxes(soup, 1, visit_box, &shallow));
     TEST_CHECK(shallow.count <= 17 && shallow.deepest == 1);
     box_walk root = { .is_compact = is_compact };
-    TEST_CHECK(tl_soup_tree_boxes(soup, 0, visit_box, &root) && root.count == 1);
+    TEST_CHECK(tl_soup_bvh_boxes(soup, 0, visit_box, &root) && root.count == 1);
     box_walk ended = { .is_compact = is_compact, .limit = 2 };
-    TEST_CHECK(!tl_soup_tree_boxes(soup, UINT32_MAX, visit_box, &ended) && ended.count == 2);
+    TEST_CHECK(!tl_soup_bvh_boxes(soup, UINT32_MAX, visit_box, &ended) && ended.count == 2);
 }
 
 static uint32_t check_all(model m, model_storage storage)

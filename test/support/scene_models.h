@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Scenes for tests: soups and shapes at random poses, and the way of a question into an item's space.
+// Scenes for tests: soups and shapes at random poses, and the way of a question into an instance's space.
 
 #ifndef TALUS_TEST_SCENE_MODELS_H
 #define TALUS_TEST_SCENE_MODELS_H
@@ -12,7 +12,7 @@
 
 enum { SCENE_SOUPS = 5, SCENE_SHAPES = 7 };
 
-/// What items are made of.
+/// What instances are made of.
 typedef struct scene_parts {
     model models[SCENE_SOUPS];
     tl_soup *soups[SCENE_SOUPS];
@@ -87,83 +87,84 @@ static inline tl_quat scene_rotation(test_random *random)
     return q; // of any length
 }
 
-/// A random item within `range` of `center`: a soup or a shape, turned, moved only, or nothing at all.
-static inline tl_scene_item scene_item(const scene_parts *parts, test_random *random, tl_vec3 center, float range)
+/// A random instance within `range` of `center`: a soup or a shape, turned, moved only, or nothing at all.
+static inline tl_scene_instance scene_instance(const scene_parts *parts, test_random *random, tl_vec3 center,
+                                               float range)
 {
-    tl_scene_item item = { NULL, NULL, tl_transform_identity(), 1u << test_random_below(random, 4) };
+    tl_scene_instance instance = { NULL, NULL, tl_transform_identity(), 1u << test_random_below(random, 4) };
     uint32_t what = test_random_below(random, 20);
     if (what < 12) {
-        item.soup = parts->soups[what % SCENE_SOUPS];
+        instance.soup = parts->soups[what % SCENE_SOUPS];
     } else if (what < 19) {
-        item.shape = &parts->shapes[what - 12];
+        instance.shape = &parts->shapes[what - 12];
     }
     tl_vec3 wide = tl_vec3_make(range, range, range);
-    item.pose.position = test_random_point(random, tl_sub(center, wide), tl_add(center, wide));
+    instance.pose.position = test_random_point(random, tl_sub(center, wide), tl_add(center, wide));
     if (test_random_below(random, 5) != 0) {
-        item.pose.rotation = scene_rotation(random);
+        instance.pose.rotation = scene_rotation(random);
     }
-    return item;
+    return instance;
 }
 
 /// So many of them, one after the other.
 static inline void scene_fill(const scene_parts *parts, test_random *random, tl_vec3 center, float range,
-                              tl_scene_item *items, uint32_t count)
+                              tl_scene_instance *instances, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
-        items[i] = scene_item(parts, random, center, range);
+        instances[i] = scene_instance(parts, random, center, range);
     }
 }
 
-static inline tl_scene *scene_build(const tl_scene_item *items, uint32_t count)
+static inline tl_scene *scene_build(const tl_scene_instance *instances, uint32_t count)
 {
     tl_scene *scene = NULL;
-    TEST_RESULT(tl_scene_bake(items, count, NULL, &scene, NULL), TL_OK);
+    TEST_RESULT(tl_scene_bake(instances, count, NULL, &scene, NULL), TL_OK);
     return scene;
 }
 
-static inline bool scene_is_turned(const tl_scene_item *item)
+static inline bool scene_is_turned(const tl_scene_instance *instance)
 {
-    tl_quat q = item->pose.rotation;
+    tl_quat q = instance->pose.rotation;
     return q.x != 0 || q.y != 0 || q.z != 0;
 }
 
-/// In the item's space, as scene.h says: in double, rounded once.
-static inline tl_vec3 scene_direction_in(const tl_scene_item *item, tl_vec3 v)
+/// In the instance's space, as scene.h says: in double, rounded once.
+static inline tl_vec3 scene_direction_in(const tl_scene_instance *instance, tl_vec3 v)
 {
-    tl_frame frame = tl_frame_from(item->pose);
-    return scene_is_turned(item) ? tl_vec3d_to_float(tl_frame_rotate_back(&frame, tl_vec3d_from(v))) : v;
+    tl_frame frame = tl_frame_from(instance->pose);
+    return scene_is_turned(instance) ? tl_vec3d_to_float(tl_frame_rotate_back(&frame, tl_vec3d_from(v))) : v;
 }
 
-static inline tl_vec3 scene_point_in(const tl_scene_item *item, tl_vec3 p)
+static inline tl_vec3 scene_point_in(const tl_scene_instance *instance, tl_vec3 p)
 {
-    tl_frame frame = tl_frame_from(item->pose);
+    tl_frame frame = tl_frame_from(instance->pose);
     tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(p), frame.origin);
-    return tl_vec3d_to_float(scene_is_turned(item) ? tl_frame_rotate_back(&frame, v) : v);
+    return tl_vec3d_to_float(scene_is_turned(instance) ? tl_frame_rotate_back(&frame, v) : v);
 }
 
 /// And back.
-static inline tl_vec3 scene_direction_out(const tl_scene_item *item, tl_vec3 v)
+static inline tl_vec3 scene_direction_out(const tl_scene_instance *instance, tl_vec3 v)
 {
-    tl_frame frame = tl_frame_from(item->pose);
-    return scene_is_turned(item) ? tl_vec3d_to_float(tl_frame_rotate(&frame, tl_vec3d_from(v))) : v;
+    tl_frame frame = tl_frame_from(instance->pose);
+    return scene_is_turned(instance) ? tl_vec3d_to_float(tl_frame_rotate(&frame, tl_vec3d_from(v))) : v;
 }
 
-static inline tl_vec3 scene_point_out(const tl_scene_item *item, tl_vec3 p)
+static inline tl_vec3 scene_point_out(const tl_scene_instance *instance, tl_vec3 p)
 {
-    tl_frame frame = tl_frame_from(item->pose);
+    tl_frame frame = tl_frame_from(instance->pose);
     return tl_vec3d_to_float(tl_frame_point(&frame, tl_vec3d_from(p)));
 }
 
-static inline bool scene_passes(const tl_scene_filter *filter, const tl_scene_item *items, uint32_t item)
+static inline bool scene_passes(const tl_scene_filter *filter, const tl_scene_instance *instances, uint32_t instance)
 {
-    return filter == NULL || ((items[item].mask & filter->mask) != 0 && item != filter->without &&
-                              (filter->accept == NULL || filter->accept(item, filter->accept_user)));
+    return filter == NULL || ((instances[instance].mask & filter->mask) != 0 && instance != filter->without &&
+                              (filter->accept == NULL || filter->accept(instance, filter->accept_user)));
 }
 
-static inline bool scene_accept_thirds(uint32_t item, void *user)
+static inline bool scene_accept_thirds(uint32_t instance, void *user)
 {
     (void)user;
-    return item % 3 != 0;
+    return instance % 3 != 0;
 }
 
 /// A random filter, or NULL.

@@ -18,8 +18,8 @@
 // (clipping).
 
 #include "base/host.h"
+#include "soup/bake/bvh_split.h"
 #include "soup/bake/soup_bake.h"
-#include "soup/bake/tree_split.h"
 #include "soup/layout/soup_layout.h"
 
 #include <float.h>
@@ -39,16 +39,16 @@ static_assert(DEPTH_MAX + 32 <= TL_SOUP_MAX_DEPTH, "a cell of 2^32 references en
 
 // An array that grows. References are pushed and popped in the order of the recursion.
 typedef struct ref_list {
-    tl_tree_ref *refs;
+    tl_bvh_ref *refs;
     uint64_t count, capacity;
 } ref_list;
 
 typedef struct kd_builder {
-    tl_tree_splitter clipper;
+    tl_bvh_splitter clipper;
     const tl_host *host;
     ref_list work; // references of the cells on the way down
     ref_list out;  // references of leaves
-    tl_tree_node *nodes;
+    tl_bvh_node *nodes;
     uint64_t node_count, node_capacity;
     uint32_t depth_max;
     bool out_of_memory;
@@ -92,7 +92,7 @@ static bool grow(kd_builder *b, void **array, uint64_t *capacity, uint64_t neede
     return true;
 }
 
-static bool push_ref(kd_builder *b, ref_list *list, const tl_tree_ref *ref)
+static bool push_ref(kd_builder *b, ref_list *list, const tl_bvh_ref *ref)
 {
     void *refs = list->refs;
     if (!grow(b, &refs, &list->capacity, list->count + 1, sizeof *list->refs)) {
@@ -117,7 +117,7 @@ static uint32_t push_node(kd_builder *b)
 // ---------------------------------------------------------------------------------------------------------
 // Leaves.
 
-static tl_aabb box_of(const tl_tree_ref *refs, uint32_t count)
+static tl_aabb box_of(const tl_bvh_ref *refs, uint32_t count)
 {
     tl_aabb box = tl_aabb_empty();
     for (uint32_t i = 0; i < count; i++) {
@@ -139,7 +139,7 @@ static uint32_t make_leaves(kd_builder *b, uint64_t first, uint32_t count)
         b->nodes[index].first = (uint32_t)b->out.count;
         b->nodes[index].count = count;
         for (uint32_t i = 0; i < count; i++) {
-            tl_tree_ref ref = b->work.refs[first + i];
+            tl_bvh_ref ref = b->work.refs[first + i];
             (void)push_ref(b, &b->out, &ref);
         }
         return index;
@@ -175,7 +175,7 @@ static void try_plane(const kd_cell *cell, uint32_t axis, float position, uint32
     float left_area = tl_aabb_half_area(left_box), right_area = tl_aabb_half_area(right_box);
     for (uint32_t side = 0; side < (planar > 0 ? 2u : 1u); side++) {
         uint32_t on_left = left + (side == 0 ? planar : 0), on_right = right + (side == 0 ? 0 : planar);
-        float cost = left_area * tl_tree_blocks(on_left) + right_area * tl_tree_blocks(on_right);
+        float cost = left_area * tl_bvh_blocks(on_left) + right_area * tl_bvh_blocks(on_right);
         cost *= on_left == 0 || on_right == 0 ? EMPTY_SPACE_SHARE : 1.0f;
         if (cost < best->cost) {
             kd_plane plane = { cost, position, axis, side == 0 };
@@ -206,7 +206,7 @@ static void insert_event(kd_event *events, uint32_t *count, kd_event event)
     events[place] = event;
 }
 
-static uint32_t list_events(const tl_tree_ref *refs, uint32_t count, uint32_t axis, kd_event *events)
+static uint32_t list_events(const tl_bvh_ref *refs, uint32_t count, uint32_t axis, kd_event *events)
 {
     uint32_t event_count = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -256,7 +256,7 @@ static void try_bins(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd
         return;
     }
     uint32_t begin[BINS] = { 0 }, end[BINS] = { 0 };
-    const tl_tree_ref *refs = b->work.refs + cell->first;
+    const tl_bvh_ref *refs = b->work.refs + cell->first;
     for (uint32_t i = 0; i < cell->count; i++) {
         begin[bin_of(tl_component(refs[i].min, axis), base, 1.0f / width)]++;
         end[bin_of(tl_component(refs[i].max, axis), base, 1.0f / width)]++;
@@ -273,7 +273,7 @@ static void try_bins(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd
 static bool find_plane(const kd_builder *b, const kd_cell *cell, kd_plane *best)
 {
     float area = tl_aabb_half_area(cell->box);
-    best->cost = area * (tl_tree_blocks(cell->count) - TRAVERSAL_COST);
+    best->cost = area * (tl_bvh_blocks(cell->count) - TRAVERSAL_COST);
     float limit = best->cost;
     if (cell->count <= 1 || cell->depth >= b->depth_max) {
         return false;
@@ -299,7 +299,7 @@ static bool part_references(kd_builder *b, const kd_cell *cell, const kd_plane *
     right->first = cell->first;
     right->count = 0;
     for (uint32_t i = 0; i < cell->count; i++) {
-        tl_tree_ref ref = b->work.refs[cell->first + i];
+        tl_bvh_ref ref = b->work.refs[cell->first + i];
         float low = tl_component(ref.min, plane->axis), high = tl_component(ref.max, plane->axis);
         bool planar = low == plane->position && high == plane->position;
         tl_aabb on_left = { ref.min, ref.max }, on_right = on_left;
@@ -308,17 +308,17 @@ static bool part_references(kd_builder *b, const kd_cell *cell, const kd_plane *
         } else if (planar || low >= plane->position) {
             on_left = tl_aabb_empty();
         } else {
-            tl_tree_cut_reference(&b->clipper, &ref, plane->axis, plane->position, &on_left, &on_right);
+            tl_bvh_clip_reference(&b->clipper, &ref, plane->axis, plane->position, &on_left, &on_right);
         }
         if (!tl_aabb_is_empty(on_left)) {
-            tl_tree_ref part = { on_left.min, ref.pair, on_left.max, 0 };
+            tl_bvh_ref part = { on_left.min, ref.pair, on_left.max, 0 };
             left->count++;
             if (!push_ref(b, &b->work, &part)) {
                 return false;
             }
         }
         if (!tl_aabb_is_empty(on_right)) {
-            tl_tree_ref part = { on_right.min, ref.pair, on_right.max, 0 };
+            tl_bvh_ref part = { on_right.min, ref.pair, on_right.max, 0 };
             b->work.refs[right->first + right->count++] = part;
         }
     }
@@ -349,7 +349,7 @@ static uint32_t build_cell(kd_builder *b, kd_cell cell)
     uint32_t right_node = build_cell(b, right);
     uint32_t index = push_node(b);
     if (!b->out_of_memory) {
-        tl_tree_node node = { box, left_node, right_node, 0, 0 };
+        tl_bvh_node node = { box, left_node, right_node, 0, 0 };
         b->nodes[index] = node;
     }
     return index;
@@ -367,13 +367,13 @@ static uint32_t depth_limit(uint32_t count)
 }
 
 // What was built goes to the arena, so that a soup's build has one way to end.
-static tl_result hand_over(const kd_builder *b, uint32_t root, tl_arena *arena, tl_tree *tree)
+static tl_result hand_over(const kd_builder *b, uint32_t root, tl_arena *arena, tl_bvh *tree)
 {
-    if (b->out.count > UINT32_MAX || b->node_count > TL_TREE_MAX_NODES) {
+    if (b->out.count > UINT32_MAX || b->node_count > TL_BVH_MAX_NODES) {
         return TL_ERR_LIMIT;
     }
-    tree->refs = TL_PUSH(arena, tl_tree_ref, b->out.count);
-    tree->nodes = TL_PUSH(arena, tl_tree_node, b->node_count);
+    tree->refs = TL_PUSH(arena, tl_bvh_ref, b->out.count);
+    tree->nodes = TL_PUSH(arena, tl_bvh_node, b->node_count);
     if (tree->refs == NULL || tree->nodes == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -387,8 +387,8 @@ static tl_result hand_over(const kd_builder *b, uint32_t root, tl_arena *arena, 
     return TL_OK;
 }
 
-tl_result tl_kd_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
-                      tl_arena *arena, tl_tree *tree_out)
+tl_result tl_kd_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
+                      tl_arena *arena, tl_bvh *tree_out)
 {
     kd_builder b;
     memset(&b, 0, sizeof b);
@@ -398,7 +398,7 @@ tl_result tl_kd_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_c
     b.depth_max = depth_limit(pair_count);
     kd_cell whole = { mesh->bounds, 0, pair_count, 0 };
     for (uint32_t i = 0; i < pair_count; i++) {
-        tl_tree_ref ref = tl_tree_reference(mesh, pairs, i);
+        tl_bvh_ref ref = tl_bvh_reference(mesh, pairs, i);
         if (!push_ref(&b, &b.work, &ref)) {
             break;
         }

@@ -31,7 +31,7 @@ enum { BORDER_SHARE = 32 };
 typedef struct pairing {
     const tl_mesh *mesh;
     uint32_t chunk_count, chunk_size;
-    tl_pair *pairs;
+    tl_triangle_pair *pairs;
     uint32_t *mates;            // of triangles, as tl_pair_match has them
     uint32_t *ends;             // of chunks: pairs up to its end
     tl_pair_matcher **matchers; // of workers
@@ -143,15 +143,15 @@ static uint8_t corner_order(const uint32_t *indices, uint32_t a, uint32_t e, uin
     return 1;
 }
 
-static tl_pair make_single(const tl_mesh *mesh, uint32_t triangle)
+static tl_triangle_pair make_single(const tl_mesh *mesh, uint32_t triangle)
 {
     const uint32_t *v = mesh->indices + 3 * (size_t)triangle;
-    tl_pair pair = { { v[0], v[1], v[2], v[0] }, { triangle, TL_NO_TRIANGLE }, { 1, 1 } };
+    tl_triangle_pair pair = { { v[0], v[1], v[2], v[0] }, { triangle, TL_NO_TRIANGLE }, { 1, 1 } };
     return pair;
 }
 
 // The shared edge runs from c to a in the first triangle: it is a, b, c from the corner after the edge's first on.
-static tl_pair make_pair(const tl_mesh *mesh, uint32_t edge, uint32_t other_edge)
+static tl_triangle_pair make_pair(const tl_mesh *mesh, uint32_t edge, uint32_t other_edge)
 {
     const uint32_t triangles[2] = { edge / 3, other_edge / 3 };
     const uint32_t *v = mesh->indices + 3 * (size_t)triangles[0];
@@ -161,9 +161,9 @@ static tl_pair make_pair(const tl_mesh *mesh, uint32_t edge, uint32_t other_edge
     uint32_t a = v[(k + 1) % 3];
     uint32_t b = v[(k + 2) % 3];
     uint32_t d = w[(other_edge + 2) % 3];
-    tl_pair pair = { { a, b, c, d },
-                     { triangles[0], triangles[1] },
-                     { corner_order(v, a, b, c), corner_order(w, a, d, c) } };
+    tl_triangle_pair pair = { { a, b, c, d },
+                              { triangles[0], triangles[1] },
+                              { corner_order(v, a, b, c), corner_order(w, a, d, c) } };
     return pair;
 }
 
@@ -188,7 +188,7 @@ static void write_pairs(uint32_t chunk, uint32_t worker, void *user)
 {
     (void)worker;
     const pairing *p = user;
-    tl_pair *next = p->pairs + (chunk > 0 ? p->ends[chunk - 1] : 0);
+    tl_triangle_pair *next = p->pairs + (chunk > 0 ? p->ends[chunk - 1] : 0);
     uint32_t end = chunk_end(p, chunk);
     for (uint32_t i = chunk * p->chunk_size; i < end; i++) {
         if (begins_pair(p, i)) {
@@ -199,7 +199,7 @@ static void write_pairs(uint32_t chunk, uint32_t worker, void *user)
 }
 
 tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena,
-                            tl_pair **pairs_out, uint32_t *pair_count_out)
+                            tl_triangle_pair **pairs_out, uint32_t *pair_count_out)
 {
     pairing p = { .mesh = mesh };
     lay_chunks(&p);
@@ -218,7 +218,7 @@ tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host
         p.ends[i] += p.ends[i - 1];
     }
     *pair_count_out = p.ends[p.chunk_count - 1];
-    p.pairs = TL_PUSH(arena, tl_pair, *pair_count_out);
+    p.pairs = TL_PUSH(arena, tl_triangle_pair, *pair_count_out);
     if (p.pairs == NULL) {
         return TL_ERR_MEMORY;
     }

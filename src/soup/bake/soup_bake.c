@@ -15,7 +15,7 @@ enum { STAGE_BYTES = 136 };
 
 tl_soup_def tl_default_soup_def(void)
 {
-    tl_soup_def def = { true, TL_SOUP_BOXES, TL_SOUP_FAST, 0.0f, { NULL, NULL, NULL } };
+    tl_soup_def def = { true, TL_SOUP_BVH, TL_SOUP_FAST, 0.0f, { NULL, NULL, NULL } };
     return def;
 }
 
@@ -24,8 +24,8 @@ static tl_result check_input(const tl_mesh_view *view, const tl_soup_def *def, t
     if (!(def->split_budget >= 0.0f && def->split_budget <= 1.0f)) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "split_budget", 0, "give a share from 0 to 1");
     }
-    if (def->partition != TL_SOUP_BOXES && def->partition != TL_SOUP_KD) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "partition", 0, "give TL_SOUP_BOXES or TL_SOUP_KD");
+    if (def->partition != TL_SOUP_BVH && def->partition != TL_SOUP_KD_TREE) {
+        return tl_report_fail(report, TL_ERR_ARGUMENT, "partition", 0, "give TL_SOUP_BVH or TL_SOUP_KD_TREE");
     }
     if (def->layout != TL_SOUP_FAST && def->layout != TL_SOUP_COMPACT) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "layout", 0, "give TL_SOUP_FAST or TL_SOUP_COMPACT");
@@ -64,21 +64,21 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh *mesh, const tl_s
     if (!tl_arena_reserve(arena, (uint64_t)mesh->triangle_count * STAGE_BYTES)) {
         return TL_ERR_MEMORY;
     }
-    tl_pair *pairs = NULL;
+    tl_triangle_pair *pairs = NULL;
     uint32_t pair_count = 0;
     TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, host, arena, &pairs, &pair_count));
     TL_TRY(tl_progress_update(host, "pair triangles", 1, 1));
 
     report->base.stage = "build tree";
     TL_TRY(tl_progress_update(host, "build tree", 0, 1));
-    tl_tree tree;
-    TL_TRY(def->partition == TL_SOUP_KD ? tl_kd_build(mesh, pairs, pair_count, def, arena, &tree)
-                                        : tl_tree_build(mesh, pairs, pair_count, def, arena, &tree));
+    tl_bvh tree;
+    TL_TRY(def->partition == TL_SOUP_KD_TREE ? tl_kd_build(mesh, pairs, pair_count, def, arena, &tree)
+                                             : tl_bvh_build(mesh, pairs, pair_count, def, arena, &tree));
     TL_TRY(tl_progress_update(host, "build tree", 1, 1));
 
     report->base.stage = "bake soup";
     TL_TRY(tl_progress_update(host, "bake soup", 0, 1));
-    TL_TRY(tl_soup_emit(view, mesh, pairs, pair_count, &tree, def, arena, soup_out));
+    TL_TRY(tl_soup_encode(view, mesh, pairs, pair_count, &tree, def, arena, soup_out));
     report->triangle_count = (*soup_out)->triangle_count;
     report->pair_count = (*soup_out)->pair_count;
     report->single_count = (*soup_out)->single_count;

@@ -2,8 +2,8 @@
 //
 // The stages of a soup's build and what they hand on.
 
-#ifndef TALUS_SRC_SOUP_SOUP_BUILD_H
-#define TALUS_SRC_SOUP_SOUP_BUILD_H
+#ifndef TALUS_SRC_SOUP_SOUP_BAKE_H
+#define TALUS_SRC_SOUP_SOUP_BAKE_H
 
 #include "base/arena.h"
 
@@ -12,75 +12,76 @@
 
 /// Two triangles that share an edge, or one. Corners are vertices of the welded mesh: triangles a, b, c and a, c, d
 /// (as sets: the second may run against the first). Orders are rows of tl_soup_corner_slots.
-typedef struct tl_pair {
+typedef struct tl_triangle_pair {
     uint32_t corner[4];   ///< a, b, c, d; a single has d == a
     uint32_t triangle[2]; ///< in the welded mesh; the second is TL_NO_TRIANGLE for a single
     uint8_t order[2];
-} tl_pair;
+} tl_triangle_pair;
 
 /// Matches triangles over shared edges, on the host's tasks. Pairs and scratch are the arena's.
 tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena,
-                            tl_pair **pairs_out, uint32_t *pair_count_out);
+                            tl_triangle_pair **pairs_out, uint32_t *pair_count_out);
 
 /// A pair's box, or the part of it that a spatial split left. 32 bytes, so that two fill a cache line.
-typedef struct tl_tree_ref {
+typedef struct tl_bvh_ref {
     tl_vec3 min;
     uint32_t pair;
     tl_vec3 max;
     uint32_t is_copy; ///< 1: an earlier leaf holds the pair too; for the bake
-} tl_tree_ref;
+} tl_bvh_ref;
 
 /// A whole pair.
-static inline tl_tree_ref tl_tree_reference(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair)
+static inline tl_bvh_ref tl_bvh_reference(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32_t pair)
 {
     tl_aabb box = tl_aabb_empty();
     for (uint32_t k = 0; k < 4; k++) {
         box = tl_aabb_add_point(box, mesh->vertices[pairs[pair].corner[k]]);
     }
-    tl_tree_ref ref = { box.min, pair, box.max, 0 };
+    tl_bvh_ref ref = { box.min, pair, box.max, 0 };
     return ref;
 }
 
 /// A binary tree node. Inner: children; leaf: references [first, first + count).
-typedef struct tl_tree_node {
+typedef struct tl_bvh_node {
     tl_aabb box;
     uint32_t left, right; ///< inner: indices of nodes
-    uint32_t first;       ///< inner: its plan (tree_cut.c)
+    uint32_t first;       ///< inner: its plan (bvh_collapse.c)
     uint32_t count;       ///< 0: inner
-} tl_tree_node;
+} tl_bvh_node;
 
 /// A subtree that may be worked on at once with the others, and what is known of it.
-typedef struct tl_tree_part {
+typedef struct tl_bvh_part {
     uint32_t root;
     uint32_t inner_count, leaf_count; ///< nodes
     uint32_t ref_count;               ///< in leaves
     double leaf_surface;              ///< sum of half areas of leaves
-} tl_tree_part;
+} tl_bvh_part;
 
 /// Indices of nodes are below it, so that the bake has a bit to spare.
-#define TL_TREE_MAX_NODES 0x80000000u
+#define TL_BVH_MAX_NODES 0x80000000u
 
-typedef struct tl_tree {
-    tl_tree_ref *refs;
-    tl_tree_node *nodes;
+typedef struct tl_bvh {
+    tl_bvh_ref *refs;
+    tl_bvh_node *nodes;
     uint64_t node_capacity; ///< indices of nodes are below it
     uint32_t root;
-    const tl_tree_part *parts; ///< from left to right; no part holds another
+    const tl_bvh_part *parts; ///< from left to right; no part holds another
     uint32_t part_count;
     uint32_t ref_count; ///< in leaves
-} tl_tree;
+} tl_bvh;
 
 /// Builds the binary tree that the wide one is cut from. Leaves hold 1 .. TL_SOUP_LEAF_PAIRS references.
-tl_result tl_tree_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
-                        tl_arena *arena, tl_tree *tree_out);
+tl_result tl_bvh_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
+                       tl_arena *arena, tl_bvh *tree_out);
 
-/// The same tree by planes that part space (TL_SOUP_KD): leaves may share pairs, and no two nodes' boxes overlap but
-/// where pairs lie in too many planes to be parted.
-tl_result tl_kd_build(const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
-                      tl_arena *arena, tl_tree *tree_out);
+/// The same tree by planes that part space (TL_SOUP_KD_TREE): leaves may share pairs, and no two nodes' boxes overlap
+/// but where pairs lie in too many planes to be parted.
+tl_result tl_kd_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
+                      tl_arena *arena, tl_bvh *tree_out);
 
 /// Cuts the binary tree into wide nodes and writes the blob.
-tl_result tl_soup_emit(const tl_mesh_view *view, const tl_mesh *mesh, const tl_pair *pairs, uint32_t pair_count,
-                       const tl_tree *tree, const tl_soup_def *def, tl_arena *arena, tl_soup **soup_out);
+tl_result tl_soup_encode(const tl_mesh_view *view, const tl_mesh *mesh, const tl_triangle_pair *pairs,
+                         uint32_t pair_count, const tl_bvh *tree, const tl_soup_def *def, tl_arena *arena,
+                         tl_soup **soup_out);
 
 #endif

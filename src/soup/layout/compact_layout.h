@@ -101,18 +101,18 @@ static inline uint64_t tl_soup_place_arrays(tl_soup *head)
 }
 
 /// Room for an expanded leaf.
-typedef struct tl_leaf_room {
+typedef struct tl_leaf_buffer {
     _Alignas(16) tl_soup_leaf head;
     uint32_t words[(2 + 12) * TL_SOUP_LEAF_PAIRS];
-} tl_leaf_room;
+} tl_leaf_buffer;
 
 /// Expands pairs [first, first + count) into the plain form.
 static inline const tl_soup_leaf *tl_expand_pairs(const tl_soup *soup, uint32_t first, uint32_t count,
-                                                  tl_leaf_room *room)
+                                                  tl_leaf_buffer *buffer)
 {
-    room->head.tagged_count = TL_LEAF_TAG | count;
-    room->head.extent = 0.0f;
-    uint32_t *ids = room->words;
+    buffer->head.tagged_count = TL_LEAF_TAG | count;
+    buffer->head.extent = 0.0f;
+    uint32_t *ids = buffer->words;
     float *floats = (float *)(void *)(ids + 2 * (size_t)count);
     for (uint32_t i = 0; i < count; i++) {
         const tl_compact_pair *pair = &tl_compact_pairs(soup)[first + i];
@@ -127,23 +127,23 @@ static inline const tl_soup_leaf *tl_expand_pairs(const tl_soup *soup, uint32_t 
             float a = v[0][axis], c = v[1][axis], b = v[2][axis], d = v[3][axis];
             float low = tl_minf(a, c), high = tl_maxf(a, c);
             float first_extent = tl_maxf(high, b) - tl_minf(low, b), second_extent = tl_maxf(high, d) - tl_minf(low, d);
-            room->head.extent = tl_maxf(room->head.extent, tl_maxf(first_extent, second_extent));
+            buffer->head.extent = tl_maxf(buffer->head.extent, tl_maxf(first_extent, second_extent));
             for (uint32_t k = 0; k < 4; k++) {
                 floats[(4 * axis + k) * count + i] = v[k][axis];
             }
         }
     }
-    return &room->head;
+    return &buffer->head;
 }
 
 /// The leaf that a child word names, in the plain form: where it is, or expanded.
-static inline const tl_soup_leaf *tl_open_leaf(const tl_soup *soup, uint32_t child, tl_leaf_room *room)
+static inline const tl_soup_leaf *tl_open_leaf(const tl_soup *soup, uint32_t child, tl_leaf_buffer *buffer)
 {
     uint64_t offset = tl_child_leaf_offset(child);
     if (soup->layout == TL_SOUP_FAST) {
         return tl_soup_leaf_at(soup, offset);
     }
-    return tl_expand_pairs(soup, (uint32_t)(offset / sizeof(tl_compact_pair)), tl_child_pair_count(child), room);
+    return tl_expand_pairs(soup, (uint32_t)(offset / sizeof(tl_compact_pair)), tl_child_pair_count(child), buffer);
 }
 
 #endif

@@ -100,8 +100,8 @@ static bool check_leaf(checker *c, uint32_t child)
     if (compact && !vertices_are_there(c->soup, offset / sizeof(tl_compact_pair), pairs)) {
         return false;
     }
-    tl_leaf_room room;
-    const tl_soup_leaf *leaf = tl_open_leaf(c->soup, child, &room);
+    tl_leaf_buffer buffer;
+    const tl_soup_leaf *leaf = tl_open_leaf(c->soup, child, &buffer);
     if (leaf->tagged_count != (TL_LEAF_TAG | pairs) || !extent_in_range(leaf->extent)) {
         return false;
     }

@@ -8,7 +8,7 @@
 // Nodes hold 16 child boxes as plain floats: 448 bytes, seven cache lines. 16 children because a ray's time goes into
 // visits (a missed branch, a missed cache line), not into box arithmetic. Floats because a ray waits for each visit to
 // learn where to go: 16-bit planes halve a node, but to widen and to convert them costs a third of a visit, and rays a
-// tenth of their time. What nodes weigh is then a matter of how well they are filled (tree_cut.c).
+// tenth of their time. What nodes weigh is then a matter of how well they are filled (bvh_collapse.c).
 //
 // Leaves hold their corners themselves, one array a coordinate, without padding lanes: a ray reads one run of memory.
 // A leaf of n pairs, in 4-byte words, follows its head (see tl_leaf_view):
@@ -27,7 +27,7 @@ enum {
     TL_SOUP_LEAF_PAIRS = 4,  ///< most pairs of a leaf
     TL_SOUP_LEAF_ALIGN = 16, ///< bytes
     TL_SOUP_TAIL_BYTES = 64, ///< readable zeros behind the last leaf, so that vector loads may run over it
-    TL_SOUP_MAX_DEPTH = 96   ///< nodes on a way from root to leaf; tree_build.c keeps it
+    TL_SOUP_MAX_DEPTH = 96   ///< nodes on a way from root to leaf; bvh_build.c keeps it
 };
 
 typedef struct tl_soup_node {

@@ -42,10 +42,10 @@ tl_soup_stats tl_soup_get_stats(const tl_soup *soup)
 
 // What a cursor stands on: a leaf, or in the compact layout, where a pair does not know its leaf, a pair. Returns its
 // size in bytes.
-static uint64_t open_at(const tl_soup *soup, uint64_t offset, tl_leaf_room *room, tl_leaf_view *view)
+static uint64_t open_at(const tl_soup *soup, uint64_t offset, tl_leaf_buffer *buffer, tl_leaf_view *view)
 {
     if (soup->layout == TL_SOUP_COMPACT) {
-        *view = tl_view_leaf(tl_expand_pairs(soup, (uint32_t)(offset / sizeof(tl_compact_pair)), 1, room));
+        *view = tl_view_leaf(tl_expand_pairs(soup, (uint32_t)(offset / sizeof(tl_compact_pair)), 1, buffer));
         return sizeof(tl_compact_pair);
     }
     *view = tl_view_leaf(tl_soup_leaf_at(soup, offset));
@@ -64,9 +64,9 @@ bool tl_soup_next_triangle(const tl_soup *soup, uint64_t *cursor, tl_soup_triang
     while (leaf_of_cursor(*cursor) < soup->leaf_bytes) {
         uint64_t offset = leaf_of_cursor(*cursor);
         uint32_t lane = (uint32_t)(*cursor - offset);
-        tl_leaf_room room;
+        tl_leaf_buffer buffer;
         tl_leaf_view leaf;
-        uint64_t size = open_at(soup, offset, &room, &leaf);
+        uint64_t size = open_at(soup, offset, &buffer, &leaf);
         *cursor = lane + 1 < 2 * leaf.pair_count ? *cursor + 1 : offset + size;
         if (leaf.ids[lane] != TL_ID_NONE && (leaf.ids[lane] & TL_ID_COPY) == 0) {
             tl_leaf_corners(&leaf, lane, triangle_out->corners);
@@ -84,9 +84,9 @@ bool tl_soup_next_pair(const tl_soup *soup, uint64_t *cursor, tl_soup_pair *pair
     while (leaf_of_cursor(*cursor) < soup->leaf_bytes) {
         uint64_t offset = leaf_of_cursor(*cursor);
         uint32_t i = (uint32_t)(*cursor - offset);
-        tl_leaf_room room;
+        tl_leaf_buffer buffer;
         tl_leaf_view leaf;
-        uint64_t size = open_at(soup, offset, &room, &leaf);
+        uint64_t size = open_at(soup, offset, &buffer, &leaf);
         uint32_t n = leaf.pair_count;
         *cursor = i + 1 < n ? *cursor + 1 : offset + size;
         if ((leaf.ids[i] & TL_ID_COPY) != 0) {

@@ -15,7 +15,7 @@
 // Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996 (conservative advancement).
 
 #include "soup/query/triangle_cast.h"
-#include "soup/query/triangle_point.h"
+#include "soup/triangle/triangle_point.h"
 
 #include <string.h>
 

@@ -9,7 +9,8 @@
 // be deep at once; for the rest Newton's iteration goes on to the depth that counts.
 
 #include "soup/query/triangle_cast.h"
-#include "soup/query/triangle_point.h"
+#include "soup/triangle/segment_triangle.h"
+#include "soup/triangle/triangle_point.h"
 
 void tl_approach_at(const tl_query_shape *shape, tl_vec3d step, double t, const tl_vec3 corners[3],
                     tl_approach *approach_out)

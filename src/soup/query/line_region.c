@@ -12,7 +12,7 @@
 // The reported t is rounded to float before it is compared with tmax.
 #define END_ERROR (2.0 * (double)TL_FLOAT_ROUNDING)
 
-tl_result tl_ray_refuse(const tl_ray *ray)
+tl_result tl_ray_check(const tl_ray *ray)
 {
     if (!tl_is_finite(ray->origin) || !tl_is_finite(ray->direction)) {
         return TL_ERR_NOT_FINITE;

@@ -20,10 +20,6 @@ void tl_line_region_make(const tl_ray *ray, tl_line_region *region_out);
 uint32_t tl_region_enter_line(const tl_walk_boxes *boxes, const void *line_region);
 
 /// TL_ERR_NOT_FINITE (origin or direction) or TL_ERR_ARGUMENT (a zero direction, a tmax that is negative or NaN).
-tl_result tl_ray_refuse(const tl_ray *ray);
-
-/// Whether the line passes through a triangle when it is moved aside by less than any number, so that it meets no edge
-/// (line_crossing.c). Only triangles that the line touches can be crossed.
-bool tl_moved_line_crosses(tl_vec3 origin, tl_vec3 direction, const tl_vec3 corners[3]);
+tl_result tl_ray_check(const tl_ray *ray);
 
 #endif

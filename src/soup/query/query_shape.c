@@ -6,7 +6,9 @@
 #include "soup/query/query_shape.h"
 
 #include "math/predicates.h"
-#include "soup/query/triangle_point.h"
+#include "soup/triangle/box_triangle.h"
+#include "soup/triangle/segment_triangle.h"
+#include "soup/triangle/triangle_point.h"
 
 #include <string.h>
 

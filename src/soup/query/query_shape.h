@@ -6,7 +6,7 @@
 #define TALUS_SRC_SOUP_QUERY_SHAPE_H
 
 #include "math/vec3d.h"
-#include "soup/ray/filter.h"
+#include "soup/ray/ray_filter.h"
 
 #include <talus/convex.h>
 
@@ -33,16 +33,5 @@ bool tl_query_shape_touches(const tl_query_shape *shape, const tl_vec3 corners[3
 
 /// The side of a triangle that the shape's middle sees, exactly.
 tl_seen tl_query_shape_sees(const tl_query_shape *shape, const tl_vec3 corners[3]);
-
-/// Nearest points of a segment and a triangle.
-typedef struct tl_segment_triangle {
-    double distance_sq; ///< 0 when they cross; then the points are not set
-    tl_vec3d on_segment, on_triangle;
-} tl_segment_triangle;
-
-void tl_segment_triangle_nearest(const tl_vec3d ends[2], const tl_vec3 corners[3], tl_segment_triangle *nearest_out);
-
-/// Whether a triangle, given in the box's frame, shares a point with the box of these half extents around the origin.
-bool tl_box_touches_triangle(const double half[3], const tl_vec3d corners[3]);
 
 #endif

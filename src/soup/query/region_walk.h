@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_SOUP_REGION_WALK_H
 #define TALUS_SRC_SOUP_REGION_WALK_H
 
-#include "soup/query/tree_walk.h"
+#include "soup/query/bvh_walk.h"
 
 /// Which children of a node may hold what is looked for: a bit a lane. Must answer the same for the same boxes.
 typedef uint32_t tl_region_enter_fn(const tl_walk_boxes *boxes, const void *region);

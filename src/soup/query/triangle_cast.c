@@ -5,7 +5,8 @@
 
 #include "soup/query/triangle_cast.h"
 
-#include "soup/query/triangle_point.h"
+#include "soup/triangle/segment_triangle.h"
+#include "soup/triangle/triangle_point.h"
 
 #include <string.h>
 

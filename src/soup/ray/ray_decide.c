@@ -21,7 +21,7 @@
 
 #include "math/predicates.h"
 #include "math/vec3d.h"
-#include "soup/ray/filter.h"
+#include "soup/ray/ray_filter.h"
 
 #include <float.h>
 
@@ -209,7 +209,7 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
     }
     // normal . direction > 0: the ray runs with the normal, so it came from behind.
     bool back = (job->direction[job->axes[2]] > 0.0) == (test.sign > 0);
-    if (!tl_filter_passes(job->soup, job->filter, triangle, back ? TL_SEEN_BACK : TL_SEEN_FRONT)) {
+    if (!tl_ray_filter_accepts(job->soup, job->filter, triangle, back ? TL_SEEN_BACK : TL_SEEN_FRONT)) {
         return false;
     }
     job->t = t;

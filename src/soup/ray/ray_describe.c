@@ -2,9 +2,9 @@
 //
 // What is reported of a hit that ray_decide.c has found.
 
-#include "soup/ray/ray.h"
+#include "soup/ray/ray_job.h"
 
-#include "soup/query/triangle_point.h"
+#include "soup/triangle/triangle_point.h"
 
 #include <string.h>
 

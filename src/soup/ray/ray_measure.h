@@ -20,7 +20,7 @@
 
 #include "math/simd4d.h"
 #include "math/tolerance.h"
-#include "soup/ray/ray.h"
+#include "soup/ray/ray_job.h"
 
 #include <string.h>
 

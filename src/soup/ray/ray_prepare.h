@@ -26,7 +26,7 @@
 
 #include "math/simd.h"
 #include "math/tolerance.h"
-#include "soup/ray/ray.h"
+#include "soup/ray/ray_job.h"
 
 #include <float.h>
 
@@ -82,7 +82,7 @@ static TL_ALWAYS_INLINE void tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 or
 }
 
 /// Whether a ray that begins outside the soup's box passes it by, as a node's box is passed by.
-static TL_ALWAYS_INLINE bool tl_ray_passes_bounds(const tl_ray_job *job)
+static TL_ALWAYS_INLINE bool tl_ray_misses_bounds(const tl_ray_job *job)
 {
     tl_f32x4 low = tl_f32x4_load(&job->soup->bounds_min.x), high = tl_f32x4_load(&job->soup->bounds_max.x);
     tl_f32x4 scale = tl_f32x4_load(job->plane_scale);

@@ -6,7 +6,7 @@
 // load and a branch, no state of our own. A cached choice would be mutable global state; a choice stored in the soup
 // would make its bytes depend on the machine.
 
-#include "soup/ray/ray.h"
+#include "soup/ray/ray_job.h"
 
 #include "base/assert.h"
 

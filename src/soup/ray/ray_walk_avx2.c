@@ -5,6 +5,6 @@
 #if defined(__x86_64__)
 #define TL_RAY_WALK      tl_ray_walk_avx2
 #define TL_RAY_WALK_MANY tl_ray_walk_many_avx2
-#include "soup/ray/ray_walk.h"
-#include "soup/ray/ray_walk_interleaved.h"
+#include "soup/ray/ray_walk.inl"
+#include "soup/ray/ray_walk_interleaved.inl"
 #endif

@@ -5,5 +5,5 @@
 #define TL_SIMD_SCALAR
 #define TL_RAY_WALK      tl_ray_walk_scalar
 #define TL_RAY_WALK_MANY tl_ray_walk_many_scalar
-#include "soup/ray/ray_walk.h"
-#include "soup/ray/ray_walk_interleaved.h"
+#include "soup/ray/ray_walk.inl"
+#include "soup/ray/ray_walk_interleaved.inl"

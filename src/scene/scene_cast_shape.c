@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+//
+// A moving shape through a scene: each instance that its box may meet is asked for itself.
+//
+// What counts as touching is a share of coordinates, since these are what was rounded; and where the shape stands is
+// written in the world's coordinates. A prop's own coordinates are small, and so is what its soup takes for touching: a
+// character that stands on it, a kilometre from the origin, would be caught. So a start that is no deeper in a soup
+// than what the world's coordinates explain is moved out, by that depth, and the way begins there.
+//
+// What slides along a convex instance is met by it again and again, as a rounded shape's normal is known no better than
+// the root of the gap. Whether it ever comes deeper than touching is asked once more: the way is cast again, moved out
+// by as much as touching is, and where that is free the shape passes.
+
+#include "base/assert.h"
+#include "math/tolerance.h"
+#include "scene/moved_shape.h"
+
+#include <string.h>
+
+// As of soups: a position and a corner round by half an ulp each, along three axes.
+#define TOUCH_SHARE (4.0 * (double)TL_FLOAT_ROUNDING)
+
+// A corner has three faces to be moved out of; each step out of one may lead a little into another.
+enum { MOST_STEPS_OUT = 4 };
+
+typedef struct search {
+    const tl_scene_instance *instances;
+    const tl_scene_record *records;
+    const tl_scene_filter *filter;
+    const tl_moved_shape *shape;
+    tl_vec3 motion;
+    double touch; // metres
+    tl_scene_shape_hit *hit;
+    uint32_t instance; // TL_NO_INSTANCE: none yet
+} search;
+
+static tl_transform move_out(tl_transform pose, tl_vec3 normal, double by)
+{
+    tl_vec3d at = tl_vec3d_mul_add(tl_vec3d_from(pose.position), tl_vec3d_from(normal), by);
+    pose.position = tl_vec3d_to_float(at);
+    return pose;
+}
+
+static bool cast_at_soup(const search *s, uint32_t instance, tl_shape_hit *hit)
+{
+    const tl_scene_record *record = &s->records[instance];
+    tl_transform pose = tl_scene_pose_to_instance(record, s->shape->pose);
+    tl_vec3 motion = tl_scene_direction_to_instance(record, s->motion);
+    double touch = s->touch;
+    for (uint32_t step = 0;; step++) {
+        if (tl_soup_cast_shape(s->instances[instance].soup, s->shape->convex, pose, motion,
+                               tl_scene_triangles(s->filter), hit) != TL_OK) {
+            return false;
+        }
+        bool stands_on = hit->initial_overlap && (double)hit->depth <= touch;
+        if (!stands_on || step == MOST_STEPS_OUT || tl_scene_is_identity(record)) {
+            break;
+        }
+        touch -= (double)hit->depth;
+        double rounding = 2.0 * (double)TL_FLOAT_ROUNDING * tl_vec3d_size(tl_vec3d_from(pose.position));
+        pose = move_out(pose, hit->normal, (double)hit->depth + rounding);
+    }
+    hit->point = tl_scene_point_to_world(record, hit->point);
+    hit->normal = tl_scene_direction_to_world(record, hit->normal);
+    hit->face_normal = tl_scene_direction_to_world(record, hit->face_normal);
+    return true;
+}
+
+static bool cast_at_shape(const search *s, uint32_t instance, tl_shape_hit *hit)
+{
+    const tl_convex *other = s->instances[instance].shape;
+    tl_transform at = s->records[instance].pose;
+    tl_convex_hit met;
+    if (!tl_convex_cast(other, at, s->shape->convex, s->shape->pose, s->motion, &met)) {
+        return false;
+    }
+    memset(hit, 0, sizeof *hit);
+    hit->t = met.t;
+    hit->triangle = TL_NO_TRIANGLE;
+    hit->point = met.point;
+    hit->normal = met.normal;
+    hit->status = met.status;
+    if (met.initial_overlap) {
+        tl_penetration in;
+        tl_convex_penetration(other, at, s->shape->convex, s->shape->pose, NULL, &in);
+        hit->initial_overlap = (double)in.depth > s->touch;
+        hit->depth = hit->initial_overlap ? in.depth : 0.0f;
+        hit->point = in.point_a;
+        hit->normal = in.normal;
+        hit->status = in.status;
+    }
+    hit->face_normal = hit->normal;
+    if (hit->initial_overlap) {
+        return true;
+    }
+    tl_transform outside = move_out(s->shape->pose, hit->normal, s->touch);
+    return tl_convex_cast(other, at, s->shape->convex, outside, s->motion, &met);
+}
+
+static bool cast_at_instance(const search *s, uint32_t instance, tl_shape_hit *hit)
+{
+    return s->instances[instance].soup != NULL
+               ? cast_at_soup(s, instance, hit)
+               : s->instances[instance].shape != NULL && cast_at_shape(s, instance, hit);
+}
+
+// Earlier wins; of overlaps the deeper one; then the lower instance.
+static bool is_better(const search *s, const tl_shape_hit *hit, uint32_t instance)
+{
+    const tl_shape_hit *best = &s->hit->hit;
+    if (s->instance == TL_NO_INSTANCE || hit->t != best->t) {
+        return s->instance == TL_NO_INSTANCE || hit->t < best->t;
+    }
+    if (hit->initial_overlap != best->initial_overlap) {
+        return hit->initial_overlap;
+    }
+    return hit->depth != best->depth ? hit->depth > best->depth : instance < s->instance;
+}
+
+static bool visit(tl_scene_line *line, uint32_t instance)
+{
+    search *s = line->user;
+    tl_shape_hit hit;
+    if (tl_scene_accepts(s->filter, instance) && cast_at_instance(s, instance, &hit) && is_better(s, &hit, instance)) {
+        s->hit->hit = hit;
+        s->instance = instance;
+        tl_scene_line_shorten(line, (double)hit.t);
+    }
+    return true;
+}
+
+tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_instance *instances, const tl_convex *shape,
+                              tl_transform pose, tl_vec3 motion, const tl_scene_filter *filter,
+                              tl_scene_shape_hit *hit_out)
+{
+    TL_ASSERT(scene != NULL && shape != NULL && hit_out != NULL && (instances != NULL || scene->instance_count == 0));
+    tl_moved_shape moved;
+    TL_TRY(tl_moved_shape_make(shape, pose, motion, &moved));
+    tl_scene_shape_hit hit;
+    search s = { instances, tl_scene_records(scene),   filter, &moved,
+                 motion,    TOUCH_SHARE * moved.reach, &hit,   TL_NO_INSTANCE };
+    tl_scene_line line = { .instances = instances, .visit = visit, .user = &s };
+    tl_scene_line_make(&line, scene, tl_scene_kinds(filter), moved.middle, motion, moved.half, 1.0);
+    tl_scene_line_walk(&line);
+    if (s.instance == TL_NO_INSTANCE) {
+        return TL_NOT_FOUND;
+    }
+    hit.instance = s.instance;
+    *hit_out = hit;
+    return TL_OK;
+}

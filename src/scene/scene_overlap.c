@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+//
+// What a shape that stands still touches in a scene, and what lies in a box: lines that go nowhere.
+//
+// The caller's buffer takes what a soup reports in place: indices go into the rear half of the room that is left, and
+// are then spread to the front. Place k is written up to word 2 k + 1, and the next index to be read is word
+// room + k + 1, behind it.
+
+#include "base/assert.h"
+#include "scene/moved_shape.h"
+
+#include <string.h>
+
+typedef struct search {
+    const tl_scene_instance *instances;
+    const tl_scene_record *records;
+    const tl_scene_filter *filter;
+    const tl_moved_shape *shape;
+    tl_scene_overlap *overlaps;
+    uint32_t capacity, count;
+} search;
+
+static_assert(sizeof(tl_scene_overlap) == 2 * sizeof(uint32_t), "an overlap is two words");
+
+static bool touches_shape(const search *s, uint32_t instance)
+{
+    return tl_convex_overlap(s->instances[instance].shape, s->records[instance].pose, s->shape->convex, s->shape->pose,
+                             NULL);
+}
+
+static void spread(tl_scene_overlap *room, uint32_t room_size, uint32_t count, uint32_t instance)
+{
+    const char *indices = (const char *)room + (size_t)room_size * sizeof(uint32_t);
+    for (uint32_t k = 0; k < count; k++) {
+        tl_scene_overlap overlap = { instance, 0 };
+        memcpy(&overlap.triangle, indices + k * sizeof(uint32_t), sizeof overlap.triangle);
+        room[k] = overlap;
+    }
+}
+
+static void add_soup(search *s, uint32_t instance)
+{
+    uint32_t room_size = s->count < s->capacity ? s->capacity - s->count : 0, count = 0;
+    tl_scene_overlap *room = room_size > 0 ? s->overlaps + s->count : NULL;
+    uint32_t *indices = room_size > 0 ? (uint32_t *)(void *)room + room_size : NULL;
+    tl_transform pose = tl_scene_pose_to_instance(&s->records[instance], s->shape->pose);
+    tl_result result = tl_soup_find_overlaps(s->instances[instance].soup, s->shape->convex, pose,
+                                             tl_scene_triangles(s->filter), indices, room_size, &count);
+    if (result == TL_OK || result == TL_INCOMPLETE) {
+        if (room != NULL) {
+            spread(room, room_size, count < room_size ? count : room_size, instance);
+        }
+        s->count = count > UINT32_MAX - s->count ? UINT32_MAX : s->count + count;
+    }
+}
+
+static bool visit_all(tl_scene_line *line, uint32_t instance)
+{
+    search *s = line->user;
+    if (!tl_scene_accepts(s->filter, instance)) {
+        return true;
+    }
+    if (s->instances[instance].soup != NULL) {
+        add_soup(s, instance);
+    } else if (s->instances[instance].shape != NULL && touches_shape(s, instance)) {
+        tl_scene_overlap overlap = { instance, TL_NO_TRIANGLE };
+        if (s->count < s->capacity) {
+            s->overlaps[s->count] = overlap;
+        }
+        s->count += s->count < UINT32_MAX;
+    }
+    return true;
+}
+
+static bool visit_any(tl_scene_line *line, uint32_t instance)
+{
+    search *s = line->user;
+    if (!tl_scene_accepts(s->filter, instance)) {
+        return true;
+    }
+    bool touches = false;
+    if (s->instances[instance].soup != NULL) {
+        tl_transform pose = tl_scene_pose_to_instance(&s->records[instance], s->shape->pose);
+        (void)tl_soup_overlaps(s->instances[instance].soup, s->shape->convex, pose, tl_scene_triangles(s->filter),
+                               &touches);
+    } else if (s->instances[instance].shape != NULL) {
+        touches = touches_shape(s, instance);
+    }
+    return !touches;
+}
+
+static tl_vec3 nowhere(void)
+{
+    return tl_vec3_make(0.0f, 0.0f, 0.0f);
+}
+
+static bool walk(search *s, const tl_scene *scene, tl_scene_visit_fn *visit)
+{
+    tl_scene_line line = { .instances = s->instances, .visit = visit, .user = s, .any = true };
+    tl_scene_line_make(&line, scene, tl_scene_kinds(s->filter), s->shape->middle, nowhere(), s->shape->half, 1.0);
+    return tl_scene_line_walk(&line);
+}
+
+tl_result tl_scene_overlaps(const tl_scene *scene, const tl_scene_instance *instances, const tl_convex *shape,
+                            tl_transform pose, const tl_scene_filter *filter, bool *overlaps_out)
+{
+    TL_ASSERT(scene != NULL && shape != NULL && overlaps_out != NULL &&
+              (instances != NULL || scene->instance_count == 0));
+    tl_moved_shape moved;
+    TL_TRY(tl_moved_shape_make(shape, pose, nowhere(), &moved));
+    search s = { instances, tl_scene_records(scene), filter, &moved, NULL, 0, 0 };
+    *overlaps_out = !walk(&s, scene, visit_any);
+    return TL_OK;
+}
+
+tl_result tl_scene_find_overlaps(const tl_scene *scene, const tl_scene_instance *instances, const tl_convex *shape,
+                                 tl_transform pose, const tl_scene_filter *filter, tl_scene_overlap *overlaps_out,
+                                 uint32_t capacity, uint32_t *count_out)
+{
+    TL_ASSERT(scene != NULL && shape != NULL && count_out != NULL && (overlaps_out != NULL || capacity == 0) &&
+              (instances != NULL || scene->instance_count == 0));
+    tl_moved_shape moved;
+    TL_TRY(tl_moved_shape_make(shape, pose, nowhere(), &moved));
+    search s = { instances, tl_scene_records(scene), filter, &moved, overlaps_out, capacity, 0 };
+    (void)walk(&s, scene, visit_all);
+    *count_out = s.count;
+    return s.count <= capacity ? TL_OK : TL_INCOMPLETE;
+}

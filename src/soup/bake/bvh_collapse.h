@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// Which binary nodes become the children of a wide node.
+
+#ifndef TALUS_SRC_SOUP_BVH_COLLAPSE_H
+#define TALUS_SRC_SOUP_BVH_COLLAPSE_H
+
+#include "soup/bake/soup_bake.h"
+#include "soup/layout/soup_layout.h"
+
+typedef struct tl_bvh_collapse {
+    const tl_bvh *tree;
+    const struct tl_collapse_plan *plans;
+    uint32_t inner_count; ///< binary nodes that are no leaves; there are no more wide nodes, but for a lone leaf's
+    const float *chance;  ///< by binary node (bvh_order.h)
+} tl_bvh_collapse;
+
+/// A whole subtree as a part.
+tl_bvh_part tl_bvh_sum_part(const tl_bvh_node *nodes, uint32_t root);
+
+/// Plans the cut of a tree on the host's tasks, and writes into its inner nodes which plan is theirs. Memory is the
+/// arena's.
+tl_result tl_bvh_plan_collapse(const tl_bvh *tree, const tl_host *host, tl_arena *arena, tl_bvh_collapse *cut_out);
+
+/// The children of the wide node that stands for the binary node `root`, in their order; returns how many.
+uint32_t tl_bvh_collapsed_children(const tl_bvh_collapse *cut, uint32_t root, uint32_t children[TL_SOUP_WIDTH]);
+
+#endif

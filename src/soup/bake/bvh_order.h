@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// The order of a wide node's children.
+
+#ifndef TALUS_SRC_SOUP_BVH_ORDER_H
+#define TALUS_SRC_SOUP_BVH_ORDER_H
+
+#include "soup/bake/soup_bake.h"
+
+/// Writes the chance that a binary node stops a ray which enters its box; those of its children are known.
+void tl_bvh_order_node(const tl_bvh *tree, uint32_t index, float *chance);
+
+/// The most likely first; of equal ones, as they were.
+void tl_bvh_order_children(const float *chance, uint32_t *children, uint32_t count);
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+//
+// What both layouts are written from: the binary tree, cut into wide nodes in breadth-first order.
+
+#ifndef TALUS_SRC_SOUP_SOUP_ENCODE_H
+#define TALUS_SRC_SOUP_SOUP_ENCODE_H
+
+#include "soup/bake/bvh_collapse.h"
+#include "soup/bake/soup_bake.h"
+#include "soup/layout/compact_layout.h"
+
+/// A child of a wide node that is a leaf, by this bit of its binary node's index.
+#define TL_WIDE_LEAF TL_BVH_MAX_NODES
+
+/// A wide node, and where what it names goes.
+typedef struct tl_wide_node {
+    uint32_t root; ///< binary node
+    uint32_t child_count;
+    uint32_t child[TL_SOUP_WIDTH]; ///< binary nodes
+    uint32_t inner_count;          ///< children that are no leaves
+    uint32_t leaf_count;
+    uint32_t first_inner; ///< number of the first of them: they follow each other
+    uint32_t leaf_bytes;
+    uint64_t leaf_offset; ///< of its first leaf: they follow each other
+} tl_wide_node;
+
+typedef struct tl_soup_encoder {
+    const tl_mesh_view *view;
+    const tl_mesh *mesh;
+    const tl_triangle_pair *pairs;
+    uint32_t pair_count;
+    const tl_bvh *tree;
+    tl_soup_layout layout;
+    tl_bvh_collapse cut;
+    tl_wide_node *wide; // in breadth-first order
+    uint32_t node_count;
+    uint32_t leaf_count;
+    uint32_t depth;
+    uint64_t leaf_bytes;
+    const struct tl_compact_plan *plan;
+    tl_soup *soup;
+} tl_soup_encoder;
+
+/// The vertices of the compact layout, numbered in the order of the leaves.
+typedef struct tl_compact_plan {
+    uint16_t (*corners)[4]; ///< of each pair in leaves
+    uint32_t *groups;
+    uint32_t *vertices; ///< of the mesh
+    uint32_t vertex_count;
+} tl_compact_plan;
+
+tl_result tl_compact_plan_vertices(const tl_soup_encoder *baker, tl_arena *arena, tl_compact_plan *plan);
+
+/// Writes a node and its pairs.
+void tl_compact_write_node(const tl_soup_encoder *baker, uint32_t node);
+
+/// Writes groups and vertices.
+void tl_compact_write_vertices(const tl_soup_encoder *baker, const tl_host *host);
+
+/// The id word of a reference's first (k 0) or second (k 1) triangle; TL_ID_NONE where it has no second one.
+uint32_t tl_encode_id(const tl_soup_encoder *baker, const tl_bvh_ref *ref, uint32_t k);
+
+#endif

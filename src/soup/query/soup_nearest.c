@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+//
+// The nearest point of the soup: the tree from near to far, boxes pruned by the best distance so far.
+//
+// Boxes and triangles' own boxes give lower bounds in float; a triangle that they cannot rule out is measured in
+// double, from its own three corners. So the answer is the minimum over all triangles, whatever the tree looks like.
+// Source: Roussopoulos, Kelley, Vincent, Nearest Neighbor Queries, 1995.
+
+#include "base/assert.h"
+#include "math/predicates.h"
+#include "soup/query/bvh_walk.h"
+#include "soup/ray/ray_filter.h"
+#include "soup/triangle/triangle_point.h"
+
+// A squared distance to a box in float: a difference, a square and two sums, each rounded, and a share to spare for the
+// limit's own rounding.
+#define KEY_SHRINK (1.0f - TL_FLOAT_GAMMA(8))
+
+typedef struct search {
+    const tl_soup *soup;
+    const tl_ray_filter *filter;
+    tl_vec3 at;
+    tl_vec3d point;
+    double limit_sq; // nothing beyond it counts
+    float limit_key;
+    tl_triangle_point best;
+    uint32_t triangle; // UINT32_MAX: none yet
+    tl_vec3 corners[3];
+} search;
+
+// From below.
+static float box_key(tl_vec3 at, float min_x, float max_x, float min_y, float max_y, float min_z, float max_z)
+{
+    float x = tl_maxf(tl_maxf(min_x - at.x, at.x - max_x), 0.0f);
+    float y = tl_maxf(tl_maxf(min_y - at.y, at.y - max_y), 0.0f);
+    float z = tl_maxf(tl_maxf(min_z - at.z, at.z - max_z), 0.0f);
+    return (x * x + y * y + z * z) * KEY_SHRINK;
+}
+
+static void enter_node(const search *s, tl_walk *walk, uint32_t node)
+{
+    tl_walk_boxes boxes;
+    tl_walk_read_boxes(walk, node, &boxes);
+    float keys[TL_WALK_WIDTH];
+    uint32_t mask = 0;
+    for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
+        keys[i] = box_key(s->at, boxes.min[0][i], boxes.max[0][i], boxes.min[1][i], boxes.max[1][i], boxes.min[2][i],
+                          boxes.max[2][i]);
+    }
+    for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
+        mask |= (uint32_t)(keys[i] <= s->limit_key) << i;
+    }
+    tl_walk_enter(walk, &boxes, mask, keys);
+}
+
+static tl_seen side_of(const tl_vec3 corners[3], tl_vec3 point)
+{
+    int side = tl_orient3d(corners[0], corners[1], corners[2], point);
+    return side > 0 ? TL_SEEN_FRONT : side < 0 ? TL_SEEN_BACK : TL_SEEN_BOTH;
+}
+
+static void set_limit(search *s, double limit_sq)
+{
+    s->limit_sq = limit_sq;
+    s->limit_key = limit_sq < (double)FLT_MAX ? (float)limit_sq + FLT_MIN : INFINITY;
+}
+
+static void visit_leaf(search *s, uint32_t child)
+{
+    tl_walk_leaf leaf;
+    tl_walk_open_leaf(s->soup, child, &leaf);
+    tl_walk_triangle triangle;
+    for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
+        if (!tl_walk_read_triangle(&leaf, lane, &triangle)) {
+            continue;
+        }
+        tl_aabb own = tl_walk_triangle_box(&triangle);
+        if (box_key(s->at, own.min.x, own.max.x, own.min.y, own.max.y, own.min.z, own.max.z) > s->limit_key) {
+            continue;
+        }
+        tl_triangle_point found;
+        tl_triangle_nearest(triangle.corners, s->point, &found);
+        bool better =
+            found.distance_sq < s->limit_sq || (found.distance_sq == s->limit_sq && triangle.triangle < s->triangle);
+        if (!better || (s->filter != NULL && !tl_ray_filter_accepts(s->soup, s->filter, triangle.triangle,
+                                                                    side_of(triangle.corners, s->at)))) {
+            continue;
+        }
+        s->best = found;
+        s->triangle = triangle.triangle;
+        memcpy(s->corners, triangle.corners, sizeof s->corners);
+        set_limit(s, found.distance_sq);
+    }
+}
+
+tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance, const tl_ray_filter *filter,
+                          tl_soup_point *nearest_out)
+{
+    TL_ASSERT(soup != NULL && nearest_out != NULL);
+    if (!tl_is_finite(point)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (!(max_distance >= 0.0f)) {
+        return TL_ERR_ARGUMENT;
+    }
+    search s = { .soup = soup, .filter = filter, .at = point, .point = tl_vec3d_from(point), .triangle = UINT32_MAX };
+    set_limit(&s, (double)max_distance * (double)max_distance);
+    tl_walk walk;
+    tl_walk_begin(&walk, soup);
+    uint32_t child;
+    while (tl_walk_next(&walk, s.limit_key, &child)) {
+        if (tl_walk_is_leaf(child)) {
+            visit_leaf(&s, child);
+        } else {
+            enter_node(&s, &walk, child);
+        }
+    }
+    if (s.triangle == UINT32_MAX) {
+        return TL_NOT_FOUND;
+    }
+    memset(nearest_out, 0, sizeof *nearest_out);
+    nearest_out->point = tl_vec3d_to_float(s.best.point);
+    nearest_out->distance = (float)sqrt(s.best.distance_sq);
+    nearest_out->triangle = s.triangle;
+    nearest_out->feature = s.best.feature;
+    nearest_out->normal = tl_triangle_normal(s.corners);
+    nearest_out->material = tl_soup_material(soup, s.triangle);
+    nearest_out->back = side_of(s.corners, point) == TL_SEEN_BACK;
+    return TL_OK;
+}

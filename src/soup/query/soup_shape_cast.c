@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+//
+// A moving convex shape against the soup: which triangle it meets first.
+//
+// The shape's box, moved along, is cast through the tree from near to far; a triangle whose box it meets before the
+// best hit so far is cast against for itself. Each triangle's time depends on nothing but the triangle and the shape,
+// and of equal times the lowest index wins: so the tree does not show in the answer.
+//
+// What counts as touching: positions are floats, so a capsule that stands on a floor stands some roundings above or
+// inside of it. A shape may come that deep into a triangle and still pass; otherwise it would be caught by the floor it
+// slides on, and by every inner edge of it.
+//
+// Sources: van den Bergen, Ray Casting against General Convex Objects, 2004 (convex/cast.c); for the tree, Ericson,
+// Real-Time Collision Detection, 2005, section 5.5.
+
+#include "base/assert.h"
+#include "math/predicates.h"
+#include "soup/query/bvh_walk.h"
+#include "soup/query/triangle_cast.h"
+#include "soup/triangle/triangle_point.h"
+
+// Metres that count as touching, as a share of the largest coordinate that the shape reaches: a position and a corner
+// round by half an ulp each, along three axes.
+#define TOUCH_SHARE (4.0 * (double)TL_FLOAT_ROUNDING)
+
+// Slower than this along an axis (metres) is taken as standing there, with a box that is so much wider.
+#define STANDING 1e-30f
+
+// A time at which boxes meet: a difference and a product round, boxes and limit round once each.
+#define TIME_ERROR TL_FLOAT_GAMMA(6)
+
+typedef struct search {
+    const tl_soup *soup;
+    const tl_ray_filter *filter;
+    const tl_query_shape *shape;
+    tl_motion motion;
+    bool capsule;
+    float low[3], high[3]; // the shape's box
+    bool moves[3];
+    float inverse[3]; // 1 / step, where it moves
+    tl_triangle_cast best;
+    double limit; // times after it are of no use
+    float limit_key;
+    uint32_t triangle; // UINT32_MAX: none
+    tl_vec3 corners[3];
+    bool back;
+} search;
+
+static void prepare(search *s)
+{
+    const float step[3] = { s->motion.step.x, s->motion.step.y, s->motion.step.z };
+    const tl_aabb *box = &s->shape->bounds;
+    const float low[3] = { box->min.x, box->min.y, box->min.z }, high[3] = { box->max.x, box->max.y, box->max.z };
+    double reach = 0.0;
+    for (int i = 0; i < 3; i++) {
+        s->moves[i] = fabsf(step[i]) >= STANDING;
+        s->inverse[i] = s->moves[i] ? 1.0f / step[i] : 0.0f;
+        s->low[i] = s->moves[i] ? low[i] : low[i] - STANDING;
+        s->high[i] = s->moves[i] ? high[i] : high[i] + STANDING;
+        double most = fabs((double)low[i]) > fabs((double)high[i]) ? fabs((double)low[i]) : fabs((double)high[i]);
+        most += fabs((double)step[i]);
+        reach = most > reach ? most : reach;
+    }
+    s->motion.touch = TOUCH_SHARE * reach;
+    s->capsule = (s->shape->kind == TL_QUERY_SPHERE || s->shape->kind == TL_QUERY_CAPSULE) &&
+                 s->shape->radius > TL_ROUND_RADIUS * s->motion.touch;
+}
+
+// From when to when the moving box meets a still one along one axis. Where it stands: always, or never.
+static inline void meet_axis(const search *s, int axis, float min, float max, float *enter, float *leave)
+{
+    float before = min - s->high[axis], behind = max - s->low[axis];
+    if (s->moves[axis]) {
+        float a = before * s->inverse[axis], b = behind * s->inverse[axis];
+        *enter = tl_maxf(*enter, tl_minf(a, b));
+        *leave = tl_minf(*leave, tl_maxf(a, b));
+    } else {
+        *leave = before <= 0.0f && behind >= 0.0f ? *leave : -1.0f;
+    }
+}
+
+// The time from which boxes can meet, from below, and INFINITY when they cannot.
+static inline float meet_box(const search *s, const float min[3], const float max[3])
+{
+    float enter = 0.0f, leave = 1.0f;
+    for (int axis = 0; axis < 3; axis++) {
+        meet_axis(s, axis, min[axis], max[axis], &enter, &leave);
+    }
+    enter -= enter * TIME_ERROR;
+    return enter <= leave + TIME_ERROR * leave && leave >= 0.0f ? enter : INFINITY;
+}
+
+static void enter_node(const search *s, tl_walk *walk, uint32_t node)
+{
+    tl_walk_boxes boxes;
+    tl_walk_read_boxes(walk, node, &boxes);
+    float keys[TL_WALK_WIDTH];
+    uint32_t mask = 0;
+    for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
+        const float min[3] = { boxes.min[0][i], boxes.min[1][i], boxes.min[2][i] };
+        const float max[3] = { boxes.max[0][i], boxes.max[1][i], boxes.max[2][i] };
+        keys[i] = meet_box(s, min, max);
+        mask |= (uint32_t)(keys[i] <= s->limit_key) << i;
+    }
+    tl_walk_enter(walk, &boxes, mask, keys);
+}
+
+// The side from which the motion meets the triangle; a shape that does not move sees it from where it is.
+static tl_seen seen_from(const search *s, const tl_vec3 corners[3])
+{
+    tl_vec3 zero = tl_vec3_make(0.0f, 0.0f, 0.0f);
+    if (s->motion.step.x == 0.0f && s->motion.step.y == 0.0f && s->motion.step.z == 0.0f) {
+        return tl_query_shape_sees(s->shape, corners);
+    }
+    double along = tl_normal_dot(corners[0], corners[1], corners[2], s->motion.step, zero);
+    return along < 0.0 ? TL_SEEN_FRONT : along > 0.0 ? TL_SEEN_BACK : TL_SEEN_BOTH;
+}
+
+// Earlier wins; of overlaps the deeper one; then the lower index.
+static bool is_better(const search *s, const tl_triangle_cast *cast, uint32_t triangle)
+{
+    if (cast->t != s->best.t) {
+        return cast->t < s->best.t;
+    }
+    if (cast->depth != s->best.depth) {
+        return cast->depth > s->best.depth;
+    }
+    return cast->overlap == s->best.overlap ? triangle < s->triangle : cast->overlap;
+}
+
+static void visit_triangle(search *s, const tl_walk_triangle *triangle)
+{
+    tl_aabb own = tl_walk_triangle_box(triangle);
+    const float min[3] = { own.min.x, own.min.y, own.min.z }, max[3] = { own.max.x, own.max.y, own.max.z };
+    if (!(meet_box(s, min, max) <= s->limit_key)) {
+        return;
+    }
+    tl_triangle_cast cast;
+    bool hit = s->capsule ? tl_triangle_cast_capsule(s->shape, &s->motion, triangle->corners, s->limit, &cast)
+                          : tl_triangle_cast_shape(s->shape, &s->motion, triangle->corners, s->limit, &cast);
+    if (!hit || (s->triangle != UINT32_MAX && !is_better(s, &cast, triangle->triangle))) {
+        return;
+    }
+    if (s->filter != NULL &&
+        !tl_ray_filter_accepts(s->soup, s->filter, triangle->triangle, seen_from(s, triangle->corners))) {
+        return;
+    }
+    s->best = cast;
+    s->triangle = triangle->triangle;
+    memcpy(s->corners, triangle->corners, sizeof s->corners);
+    s->limit = cast.t;
+    s->limit_key = (float)cast.t * (1.0f + TIME_ERROR) + FLT_MIN;
+}
+
+static void describe_hit(const search *s, tl_shape_hit *hit)
+{
+    memset(hit, 0, sizeof *hit);
+    // Rounded down: not late.
+    float t = (float)s->best.t;
+    hit->t = (double)t > s->best.t ? t * (1.0f - 2.0f * TL_FLOAT_ROUNDING) : t;
+    hit->initial_overlap = s->best.overlap;
+    hit->depth = (float)s->best.depth;
+    hit->point = s->best.point;
+    hit->normal = s->best.normal;
+    hit->triangle = s->triangle;
+    hit->material = tl_soup_material(s->soup, s->triangle);
+    hit->back = seen_from(s, s->corners) == TL_SEEN_BACK;
+    hit->face_normal = tl_triangle_normal(s->corners);
+    hit->status = s->best.status;
+}
+
+tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_transform pose, tl_vec3 motion,
+                             const tl_ray_filter *filter, tl_shape_hit *hit_out)
+{
+    TL_ASSERT(soup != NULL && shape != NULL && hit_out != NULL);
+    if (!tl_is_finite(motion)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    tl_query_shape query;
+    TL_TRY(tl_query_shape_make(shape, pose, &query));
+    search s = { .soup = soup, .filter = filter, .shape = &query, .triangle = UINT32_MAX };
+    s.motion.step = motion;
+    s.limit = 1.0;
+    s.limit_key = 1.0f;
+    prepare(&s);
+    tl_walk walk;
+    tl_walk_begin(&walk, soup);
+    uint32_t child;
+    while (tl_walk_next(&walk, s.limit_key, &child)) {
+        if (!tl_walk_is_leaf(child)) {
+            enter_node(&s, &walk, child);
+            continue;
+        }
+        tl_walk_leaf leaf;
+        tl_walk_open_leaf(soup, child, &leaf);
+        tl_walk_triangle triangle;
+        for (uint32_t lane = 0; lane < leaf.lane_count; lane++) {
+            if (tl_walk_read_triangle(&leaf, lane, &triangle)) {
+                visit_triangle(&s, &triangle);
+            }
+        }
+    }
+    if (s.triangle == UINT32_MAX) {
+        return TL_NOT_FOUND;
+    }
+    describe_hit(&s, hit_out);
+    return TL_OK;
+}

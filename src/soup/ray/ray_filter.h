@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// Whether a query passes by a triangle.
+
+#ifndef TALUS_SRC_SOUP_RAY_FILTER_H
+#define TALUS_SRC_SOUP_RAY_FILTER_H
+
+#include "soup/layout/soup_layout.h"
+
+/// The sides from which a query meets a triangle: both where it lies in the triangle's plane.
+typedef enum tl_seen { TL_SEEN_FRONT = 1, TL_SEEN_BACK = 2, TL_SEEN_BOTH = 3 } tl_seen;
+
+static inline bool tl_ray_filter_accepts(const tl_soup *soup, const tl_ray_filter *filter, uint32_t triangle,
+                                         tl_seen seen)
+{
+    if (filter == NULL) {
+        return true;
+    }
+    if ((filter->cull == TL_RAY_CULL_BACK && seen == TL_SEEN_BACK) ||
+        (filter->cull == TL_RAY_CULL_FRONT && seen == TL_SEEN_FRONT)) {
+        return false;
+    }
+    if (filter->material_mask == UINT64_MAX && filter->accept == NULL) {
+        return true;
+    }
+    uint16_t material = tl_soup_material(soup, triangle);
+    uint32_t bit = material < 63 ? material : 63;
+    if ((filter->material_mask >> bit & 1) == 0) {
+        return false;
+    }
+    return filter->accept == NULL || filter->accept(triangle, material, filter->accept_user);
+}
+
+#endif

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+//
+// One ray on its way through a soup.
+//
+// A query has three parts. Boxes and leaves are filtered in float, conservatively: what they reject is proven to be no
+// hit, whatever rounds how. What passes is decided in double, exactly where signs matter (ray_decide.c). So the filters
+// may differ between instruction sets, and the answers do not.
+
+#ifndef TALUS_SRC_SOUP_RAY_JOB_H
+#define TALUS_SRC_SOUP_RAY_JOB_H
+
+#include "soup/layout/compact_layout.h"
+
+#include <math.h>
+#include <string.h>
+
+/// Three coordinates and a lane to spare: stored as one vector, read one by one.
+typedef union tl_ray_point {
+    tl_vec3 point;
+    float lane[4];
+} tl_ray_point;
+
+typedef struct tl_ray_job {
+    const tl_soup *soup;
+    const tl_ray_filter *filter; ///< NULL: nothing is passed by
+    _Alignas(16) tl_ray_point origin;
+    tl_ray_point target; ///< a ray's direction or a segment's end
+    bool is_segment;     ///< direction is target - origin, not rounded; t is within [0, 1]
+    bool is_exact;       ///< direction, exact_shear and inverse_z are filled
+
+    bool is_usual; ///< box t is t, and no filter is out of its range
+
+    // Boxes. Plane p of axis i is met at t = (p * plane_scale[i] + near_base[i]) / box_scale, rounded down, or with
+    // far_base up. Lane 3 is not used. Vectors are aligned, so that a lane is read from the store that is under way.
+    _Alignas(16) float plane_scale[4];
+    float near_base[4];
+    float far_base[4];
+    uint32_t backward; ///< bit i: the ray runs down along axis i, so it enters a box by its max plane
+    uint32_t outside;  ///< bit i: along axis i the ray begins outside the soup's box
+    float box_scale;   ///< power of two: box t = t * box_scale
+    float box_limit;   ///< boxes that begin beyond it are skipped
+
+    // Leaves: origin moved to zero, then sheared so that the ray runs along the last of the axes.
+    float per_depth;                   ///< box t a metre along that axis
+    _Alignas(16) float leaf_origin[4]; ///< along the axes
+    float shear[4];                    ///< direction by its component along the last axis
+    const uint32_t *axes;              ///< three, in the order of x, y, z
+    float reach;        ///< metres: the largest distance along an axis from the origin to a corner of the soup's box
+    float corner_error; ///< metres: bound of the error of a sheared corner
+
+    // The exact part, filled when the first lane is decided.
+    double direction[3];
+    double exact_shear[2];
+    double inverse_z; ///< 1 / direction along the last axis
+
+    tl_leaf_buffer *buffers; ///< of the walk, for leaves of a compact soup; NULL: leaves are read where they are
+
+    // The best so far. t begins as tmax, so the first hit at tmax itself still wins by its index.
+    float t;
+    uint32_t triangle; ///< UINT32_MAX: none
+    const tl_soup_leaf *leaf;
+    uint32_t lane;
+    float u, v;
+    bool back;
+} tl_ray_job;
+
+/// Fills what the filters need; the caller has set soup, filter, is_segment and t. False: nothing can be hit.
+/// The walks have it inline (ray_prepare.h).
+bool tl_ray_prepare(tl_ray_job *job, tl_vec3 origin, tl_vec3 target);
+
+/// The rare rest of it, with origin and target set: directions that need scaling, and origins too far away for float
+/// filters.
+bool tl_ray_prepare_unusual(tl_ray_job *job);
+
+/// Decides one lane of a leaf. If it is hit, and better than the best so far, it becomes the best.
+bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane);
+
+/// Describes the best hit.
+void tl_ray_describe(const tl_ray_job *job, tl_ray_hit *hit_out);
+
+/// Prepares a ray and walks the tree, once per instruction set. `target` is a direction, or a segment's end. Without
+/// `hit_out` it returns at the first hit. True: something was hit.
+typedef bool tl_ray_walk_fn(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *target, float tmax,
+                            bool is_segment, const tl_ray_filter *filter, tl_ray_hit *hit_out);
+
+tl_ray_walk_fn tl_ray_walk_scalar;
+#if defined(__x86_64__)
+tl_ray_walk_fn tl_ray_walk_sse42, tl_ray_walk_avx2, tl_ray_walk_avx512;
+#endif
+
+/// Rays whose closest hits are asked for together.
+typedef struct tl_ray_batch {
+    const tl_soup *soup; ///< of the plain layout
+    const tl_ray *rays;
+    uint32_t count;
+    const tl_ray_filter *filter;
+    tl_ray_hit *hits;
+} tl_ray_batch;
+
+/// Some rays under way at once, once per instruction set (ray_walk_interleaved.inl).
+typedef void tl_ray_walk_many_fn(const tl_ray_batch *batch);
+
+tl_ray_walk_many_fn tl_ray_walk_many_scalar;
+#if defined(__x86_64__)
+tl_ray_walk_many_fn tl_ray_walk_many_sse42, tl_ray_walk_many_avx2, tl_ray_walk_many_avx512;
+#endif
+
+/// What a batch says of a ray that hits nothing.
+static inline void tl_ray_miss(tl_ray_hit *hit)
+{
+    memset(hit, 0, sizeof *hit);
+    hit->t = INFINITY;
+    hit->triangle = TL_NO_TRIANGLE;
+}
+
+/// Instruction sets, ascending.
+typedef enum tl_ray_isa { TL_RAY_SCALAR, TL_RAY_SSE42, TL_RAY_AVX2, TL_RAY_AVX512, TL_RAY_ISA_COUNT } tl_ray_isa;
+
+/// The walk for an instruction set, or NULL where this machine or build lacks it.
+tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa);
+
+tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa);
+
+/// The instruction set that the public queries use on this machine.
+tl_ray_isa tl_ray_best_isa(void);
+
+/// The public queries with a walk of the caller's choice.
+bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,
+                           tl_ray_hit *hit_out);
+bool tl_soup_occluded_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter);
+bool tl_soup_cast_segment_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b,
+                               const tl_ray_filter *filter, tl_ray_hit *hit_out);
+bool tl_soup_line_of_sight_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_vec3 a, tl_vec3 b,
+                                const tl_ray_filter *filter);
+
+#endif
