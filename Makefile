@@ -2,6 +2,7 @@
 #
 #   make demo       set up, build, and run the whole job on built-in levels; pictures go to build/demo
 #   make test       set up, build, and pass the tests
+#   make install    install command, library and headers under PREFIX (/usr/local unless told)
 #   make bench      set up, build, and run every benchmark; make bench-rays runs one
 
 # make's own default for CC is cc; CXX is needed by the tests that compare with C++ peers.
@@ -10,9 +11,12 @@ BUILD ?= build/release
 DEMO ?= build/demo
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 CMAKE_FLAGS ?=
+# Warnings are errors where the project is checked (.ci/run), not at users', whose compilers may be newer.
+WERROR ?= OFF
+PREFIX ?= /usr/local
 TEST_FLAGS ?=
 
-CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX_COMPILER=$(CXX_OF_CC) -DTALUS_WERROR=ON \
+CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX_COMPILER=$(CXX_OF_CC) -DTALUS_WERROR=$(WERROR) \
     -DCMAKE_BUILD_TYPE=Release $(CMAKE_FLAGS)
 
 # Optimised a little, asserts on.
@@ -70,7 +74,7 @@ lint:
 	tools/lint
 
 install: all
-	cmake --install $(BUILD)
+	cmake --install $(BUILD) --prefix "$(PREFIX)"
 
 clean:
 	rm -rf build

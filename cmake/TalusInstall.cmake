@@ -7,6 +7,13 @@ install(TARGETS talus EXPORT talus-targets
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/talus DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 if(TARGET talus_command)
+    # The command finds the shared library beside it, wherever both were installed.
+    file(RELATIVE_PATH talus_library_dir /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
+    if(APPLE)
+        set_target_properties(talus_command PROPERTIES INSTALL_RPATH "@loader_path/${talus_library_dir}")
+    else()
+        set_target_properties(talus_command PROPERTIES INSTALL_RPATH "$ORIGIN/${talus_library_dir}")
+    endif()
     install(TARGETS talus_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()
 
@@ -15,5 +22,13 @@ install(EXPORT talus-targets NAMESPACE talus:: FILE talus-config.cmake DESTINATI
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/talus-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/talus-config-version.cmake DESTINATION ${talus_package_dir})
 
+# The prefix is told from where the file lies, so that an installation can be moved. Whoever links a static library needs
+# its libraries too, with and without pkg-config --static.
+file(RELATIVE_PATH talus_pc_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+if(BUILD_SHARED_LIBS)
+    set(talus_pc_libs_private " -lm")
+else()
+    set(talus_pc_libs " -lm")
+endif()
 configure_file(cmake/talus.pc.in ${CMAKE_CURRENT_BINARY_DIR}/talus.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/talus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -10,6 +10,10 @@ function(talus_compile_options target)
             -ffp-contract=off
             $<$<COMPILE_LANGUAGE:C>:-Wall -Wextra -Wshadow -Wconversion -Wmissing-prototypes -Wstrict-prototypes
             -Wdouble-promotion -Wvla -pedantic>)
+        # A project that adds talus without choosing a build type would get it unoptimised, at a tenth of its speed.
+        if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+            target_compile_options(${target} PRIVATE -O2)
+        endif()
         if(TALUS_WERROR)
             target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:C>:-Werror>)
         endif()
