@@ -52,7 +52,7 @@ int main(void)
     tl_halfedge_mesh mesh;
     tl_halfedge_mesh_init(&mesh, NULL);
     tl_result result = build_prism(&mesh);
-    if (result != TL_OK || tl_halfedge_mesh_check(&mesh) != TL_OK) {
+    if (result != TL_OK || tl_halfedge_mesh_check(&mesh, NULL) != TL_OK) {
         fprintf(stderr, "mesh: %s\n", tl_result_text(result));
         tl_halfedge_mesh_destroy(&mesh);
         return 1;

@@ -148,10 +148,12 @@ static void check_hull(findings *f, const char *part, tl_pack_chunk chunk)
 {
     tl_report report;
     tl_result result = tl_hull_check(chunk.bytes, chunk.size, &report);
-    find_result(f, part, result, &report);
     if (result == TL_OK) {
-        find_result(f, part, tl_hull_validate(chunk.bytes, NULL, 0, NULL), NULL);
+        tl_hull_validation validation;
+        result = tl_hull_validate(chunk.bytes, NULL, 0, &validation);
+        report = validation.base;
     }
+    find_result(f, part, result, &report);
 }
 
 static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
@@ -267,7 +269,7 @@ static tl_exit check_mesh(findings *f, const char *path, const tl_level_settings
     if (tl_level_load(f->cli, path, settings, &level, &code)) {
         tl_adjacency adjacency;
         tl_mesh_view view = tl_mesh_as_view(&level.mesh);
-        tl_result result = tl_adjacency_bake(&view, &f->cli->host, &adjacency);
+        tl_result result = tl_adjacency_bake(&view, &f->cli->host, &adjacency, NULL);
         tl_progress_end(&f->cli->progress);
         code = TL_EXIT_OK;
         if (!out_of_memory(f, result, &code)) {
@@ -281,7 +283,7 @@ static tl_exit check_mesh(findings *f, const char *path, const tl_level_settings
                 printf("ok     %u triangles\n", level.mesh.triangle_count);
             }
         }
-        tl_adjacency_free(&adjacency, NULL);
+        tl_adjacency_free(&adjacency);
     }
     tl_level_free(&level);
     return code;

@@ -386,7 +386,7 @@ static tl_exit info_of_mesh(tl_cli *cli, const char *path, const tl_level_settin
     if (tl_level_load(cli, path, settings, &level, &code)) {
         tl_adjacency adjacency;
         tl_mesh_view view = tl_mesh_as_view(&level.mesh);
-        tl_result result = tl_adjacency_bake(&view, &cli->host, &adjacency);
+        tl_result result = tl_adjacency_bake(&view, &cli->host, &adjacency, NULL);
         tl_progress_end(&cli->progress);
         if (result != TL_OK) {
             code = tl_cli_fail_result(cli, path, result, NULL);
@@ -396,7 +396,7 @@ static tl_exit info_of_mesh(tl_cli *cli, const char *path, const tl_level_settin
             print_mesh(&level, &adjacency);
             code = TL_EXIT_OK;
         }
-        tl_adjacency_free(&adjacency, NULL);
+        tl_adjacency_free(&adjacency);
     }
     tl_level_free(&level);
     return code;

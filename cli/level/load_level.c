@@ -108,7 +108,7 @@ bool tl_level_load(tl_cli *cli, const char *path, const tl_level_settings *setti
 void tl_level_free(tl_level *level)
 {
     tl_imported_mesh_free(&level->imported);
-    tl_mesh_free(&level->mesh, NULL);
+    tl_mesh_free(&level->mesh);
     free(level->source_indices);
     memset(level, 0, sizeof(*level));
 }

@@ -22,12 +22,12 @@ int main(void)
     }
     tl_adjacency adjacency;
     tl_mesh_view clean = tl_mesh_as_view(&mesh);
-    result = tl_adjacency_bake(&clean, NULL, &adjacency);
+    result = tl_adjacency_bake(&clean, NULL, &adjacency, NULL);
     if (result == TL_OK) {
         printf("talus %s: %u vertices welded to %u, %u shared edge\n", tl_version(), view.vertex_count,
                mesh.vertex_count, adjacency.paired_edges);
-        tl_adjacency_free(&adjacency, NULL);
+        tl_adjacency_free(&adjacency);
     }
-    tl_mesh_free(&mesh, NULL);
+    tl_mesh_free(&mesh);
     return result == TL_OK ? 0 : 1;
 }

@@ -65,27 +65,28 @@ typedef struct tl_halfedge_mesh {
     tl_allocator allocator;
 } tl_halfedge_mesh;
 
-/// An empty mesh; takes no memory yet. `allocator` may be NULL: malloc.
+/// An empty mesh; takes no memory yet. `allocator` NULL: malloc. The mesh remembers it.
 TL_API void tl_halfedge_mesh_init(tl_halfedge_mesh *mesh, const tl_allocator *allocator);
 
-/// Gives all memory back; the mesh is as after tl_halfedge_mesh_init.
+/// Gives all memory back; the mesh is as after tl_halfedge_mesh_init. NULL or zeroed: nothing happens.
 TL_API void tl_halfedge_mesh_destroy(tl_halfedge_mesh *mesh);
 
 /// Removes everything, keeps the memory.
 TL_API void tl_halfedge_mesh_clear(tl_halfedge_mesh *mesh);
 
-/// Adds a vertex. Amortized O(1). Errors: TL_ERR_MEMORY, TL_ERR_LIMIT; the mesh is unchanged then.
+/// Adds a vertex. Amortized O(1). Errors: TL_ERR_ARGUMENT (NULL), TL_ERR_MEMORY, TL_ERR_LIMIT; the mesh is unchanged
+/// then.
 TL_API tl_result tl_halfedge_mesh_add_vertex(tl_halfedge_mesh *mesh, tl_vec3 position, uint32_t *vertex_out);
 
 /// Removes a vertex and all its faces; the other vertices of these stay. O(sum of the faces' sizes).
-/// TL_ERR_INDEX: no such live vertex.
+/// TL_ERR_STALE: no such live vertex.
 TL_API tl_result tl_halfedge_mesh_remove_vertex(tl_halfedge_mesh *mesh, uint32_t vertex);
 
 /// Adds a face of `count` >= 3 vertices, counter-clockwise seen from outside.
 ///
-/// Errors, the mesh unchanged: TL_ERR_ARGUMENT (fewer than 3), TL_ERR_INDEX (no such live vertex), TL_ERR_DEGENERATE (a
-/// vertex twice), TL_ERR_WINDING (it runs along an edge in the same direction as the one face there),
-/// TL_ERR_NON_MANIFOLD (an edge has two faces already, or a vertex would get a closed fan beside another fan),
+/// Errors, the mesh unchanged: TL_ERR_ARGUMENT (fewer than 3, or NULL), TL_ERR_STALE (no such live vertex),
+/// TL_ERR_DEGENERATE (a vertex twice), TL_ERR_WINDING (it runs along an edge in the same direction as the one face
+/// there), TL_ERR_NON_MANIFOLD (an edge has two faces already, or a vertex would get a closed fan beside another fan),
 /// TL_ERR_MEMORY, TL_ERR_LIMIT. `face_out` may be NULL.
 /// O(sum of the vertices' degrees); an edge is looked for at both of its ends at once, so a vertex of high degree with
 /// neighbours of low degree costs little unless the face touches it by the vertex only.
@@ -96,7 +97,7 @@ TL_API tl_result tl_halfedge_mesh_add_triangle(tl_halfedge_mesh *mesh, uint32_t 
                                                uint32_t *face_out);
 
 /// Removes a face, and those of its edges that no other face has; vertices stay. O(size of the face).
-/// TL_ERR_INDEX: no such live face.
+/// TL_ERR_STALE: no such live face.
 TL_API tl_result tl_halfedge_mesh_remove_face(tl_halfedge_mesh *mesh, uint32_t face);
 
 /// The half-edge from one vertex to another, or TL_HALFEDGE_NONE; also for indices that are not live.
@@ -126,9 +127,10 @@ TL_API uint32_t tl_halfedge_mesh_face_vertices(const tl_halfedge_mesh *mesh, uin
 /// go on from the result + 1. TL_HALFEDGE_NONE when there is no more. O(size of the mesh and loops) for all calls.
 TL_API uint32_t tl_halfedge_mesh_next_boundary_loop(const tl_halfedge_mesh *mesh, uint32_t from);
 
-/// Whether every invariant holds: links, loops, rings, pools, free lists, counts. TL_ERR_CORRUPT if not. O(size), and
-/// takes one array of marks from the allocator: TL_ERR_MEMORY.
-TL_API tl_result tl_halfedge_mesh_check(const tl_halfedge_mesh *mesh);
+/// Whether every invariant holds: links, loops, rings, pools, free lists, counts. TL_ERR_CORRUPT if not, with the
+/// vertex, half-edge, face or field in `report_out`, which may be NULL. O(size), and takes one array of marks from the
+/// allocator: TL_ERR_MEMORY.
+TL_API tl_result tl_halfedge_mesh_check(const tl_halfedge_mesh *mesh, tl_report *report_out);
 
 /// The vertex of a closed convex mesh that is farthest along a direction, by hill climbing from `hint`: no vertex with
 /// a face has a larger dot product, exactly decided. Which of several equal ones is not specified.

@@ -41,6 +41,7 @@ typedef struct tl_hull_def {
     /// coordinate: 8 covers a plane whose points were rounded to floats. 0: only what is exactly flat.
     float flatness;
     tl_host host;
+    uint32_t cookie; ///< private: set by tl_default_hull_def
 } tl_hull_def;
 
 /// What tl_hull_bake did.
@@ -147,12 +148,14 @@ TL_API tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge_mesh *mesh
 
 /// Whether bytes of unknown origin are a hull that every query can be trusted with: head, offsets, indices, loops,
 /// twins, Euler's formula, finite values, and, exactly decided, that every face is flat and every edge convex. Safe on
-/// any bytes; `bytes` must be 16-byte aligned. `report_out` may be NULL. O(size). That the points of the input lie
-/// inside, and that the surface does not wind around twice, which no build does, takes tl_hull_validate.
+/// any bytes; `bytes` must be 16-byte aligned. O(size). That the points of the input lie inside, and that the surface
+/// does not wind around twice, which no build does, takes tl_hull_validate.
+/// A failure names the head's field, or the half-edge, face, vertex or cell, in `report_out`, which may be NULL.
 TL_API tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *report_out);
 
 /// What tl_hull_validate found.
 typedef struct tl_hull_validation {
+    tl_report base;     ///< names the first face that is not flat or not convex, else the first point outside
     bool euler;         ///< V - E + F = 2
     bool flat_faces;    ///< each face's vertices lie exactly in one plane
     bool convex;        ///< every edge is strictly convex, exactly decided; so the whole surface is

@@ -36,6 +36,7 @@ typedef struct tl_mesh_def {
     float weld_tolerance;
     bool keep_duplicates; ///< keep triangles that repeat another one's three vertices in the same winding
     tl_host host;
+    uint32_t cookie; ///< private: set by tl_default_mesh_def
 } tl_mesh_def;
 
 /// A mesh whose vertices are unique, whose triangles have area, and which remembers where each came from.
@@ -48,8 +49,9 @@ typedef struct tl_mesh {
     uint16_t *materials;        ///< one a triangle, never NULL
     uint32_t *source_triangles; ///< triangle in the view that each came from, ascending
     tl_aabb bounds;             ///< of the vertices that triangles use
-    void *block;
-    size_t block_size;
+    void *block;                ///< private: all arrays
+    size_t block_size;          ///< private: bytes
+    tl_allocator allocator;     ///< private: what frees it
 } tl_mesh;
 
 /// What tl_mesh_bake did.
@@ -67,14 +69,14 @@ TL_API tl_mesh_def tl_default_mesh_def(void);
 ///
 /// Triangles keep their order; vertices are ordered by first use. The result depends on nothing but the view and def.
 /// Errors, each with the element's index in `report_out->base`: TL_ERR_EMPTY (no triangle left), TL_ERR_NOT_FINITE
-/// (vertex), TL_ERR_RANGE (vertex beyond TL_MAX_COORDINATE), TL_ERR_INDEX (triangle), TL_ERR_LIMIT, TL_ERR_ARGUMENT.
-/// An unused vertex may hold anything. On failure `*mesh_out` is zeroed. `def` NULL: defaults. `report_out` may be
-/// NULL.
+/// (vertex), TL_ERR_RANGE (vertex beyond TL_MAX_COORDINATE), TL_ERR_INDEX (triangle), TL_ERR_LIMIT, TL_ERR_ARGUMENT,
+/// TL_ERR_MEMORY, TL_ERR_CANCELLED. An unused vertex may hold anything. On failure `*mesh_out` is zeroed. `def` NULL:
+/// defaults. `report_out` may be NULL. Free with tl_mesh_free.
 TL_API tl_result tl_mesh_bake(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out,
                               tl_mesh_report *report_out);
 
-/// Frees a mesh with the allocator of its def. A zeroed mesh is allowed.
-TL_API void tl_mesh_free(tl_mesh *mesh, const tl_allocator *allocator);
+/// Gives a mesh's memory back to the allocator of its def and zeroes it. NULL or zeroed: nothing happens.
+TL_API void tl_mesh_free(tl_mesh *mesh);
 
 /// A built mesh as a view. Valid while the mesh lives.
 TL_API tl_mesh_view tl_mesh_as_view(const tl_mesh *mesh);
@@ -90,18 +92,22 @@ typedef struct tl_adjacency {
     uint32_t border_edges;       ///< edges with one triangle
     uint32_t paired_edges;       ///< edges with two triangles of opposite direction
     uint32_t non_manifold_edges; ///< edges with more than two triangles, or two that run the same way
+    tl_allocator allocator;      ///< private: what frees it
 } tl_adjacency;
 
 #define TL_EDGE_BORDER       UINT32_MAX
 #define TL_EDGE_NON_MANIFOLD (UINT32_MAX - 1u)
 
 /// Finds each triangle's neighbours. Two triangles are neighbours across an edge when exactly those two have it,
-/// in opposite directions. O(triangles). Indices are trusted: give a tl_mesh, or a checked view. Errors: TL_ERR_LIMIT
-/// (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*adjacency_out` is zeroed then. `host` may be NULL.
-/// A collapsed edge (both ends the same vertex) counts as non-manifold unless it stands alone.
-TL_API tl_result tl_adjacency_bake(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out);
+/// in opposite directions. O(triangles). Indices are trusted: give a tl_mesh, or a checked view. Errors:
+/// TL_ERR_ARGUMENT (no indices), TL_ERR_LIMIT (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*adjacency_out` is zeroed
+/// then. `host` and `report_out` may be NULL. A collapsed edge (both ends the same vertex) counts as non-manifold
+/// unless it stands alone. Free with tl_adjacency_free.
+TL_API tl_result tl_adjacency_bake(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out,
+                                   tl_report *report_out);
 
-TL_API void tl_adjacency_free(tl_adjacency *adjacency, const tl_allocator *allocator);
+/// Gives the memory back to the host's allocator and zeroes the struct. NULL or zeroed: nothing happens.
+TL_API void tl_adjacency_free(tl_adjacency *adjacency);
 
 #define TL_NO_PART UINT32_MAX
 
@@ -112,15 +118,20 @@ typedef struct tl_closed_parts {
     uint32_t part_count;
     uint32_t open_part_count; ///< parts with a rim
     uint32_t triangle_count;
+    tl_allocator allocator; ///< private: what frees it
 } tl_closed_parts;
 
 /// Finds which triangles belong to closed parts. Triangles hang together across an edge that as many of them run one
 /// way as the other; a part is closed when its own triangles do so on every edge. So crates side by side are closed,
 /// whose touching faces share edges, and a crate is that shares an edge with an open floor.
-/// Corners are told by their index: weld the mesh first. O(triangles). Indices are trusted. Errors: TL_ERR_LIMIT (over
-/// TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*parts_out` is zeroed then. `host` may be NULL.
-TL_API tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl_closed_parts *parts_out);
-TL_API void tl_closed_parts_free(tl_closed_parts *parts, const tl_allocator *allocator);
+/// Corners are told by their index: weld the mesh first. O(triangles). Indices are trusted. Errors: TL_ERR_ARGUMENT (no
+/// indices), TL_ERR_LIMIT (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*parts_out` is zeroed then. `host` and
+/// `report_out` may be NULL. Free with tl_closed_parts_free.
+TL_API tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl_closed_parts *parts_out,
+                                      tl_report *report_out);
+
+/// Gives the memory back to the host's allocator and zeroes the struct. NULL or zeroed: nothing happens.
+TL_API void tl_closed_parts_free(tl_closed_parts *parts);
 
 #ifdef __cplusplus
 }

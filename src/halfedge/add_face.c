@@ -58,12 +58,12 @@ static uint32_t side(const tl_halfedge_mesh *mesh, const new_face *face, uint32_
 
 static tl_result check_vertices(tl_halfedge_mesh *mesh, const new_face *face)
 {
-    if (face->count < 3) {
+    if (mesh == NULL || face->vertices == NULL || face->count < 3) {
         return TL_ERR_ARGUMENT;
     }
     for (uint32_t i = 0; i < face->count; i++) {
         if (!tl_halfedge_is_vertex(mesh, face->vertices[i])) {
-            return TL_ERR_INDEX;
+            return TL_ERR_STALE;
         }
     }
     if (++mesh->stamp == 0) {

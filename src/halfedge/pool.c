@@ -23,11 +23,13 @@ void tl_halfedge_mesh_init(tl_halfedge_mesh *mesh, const tl_allocator *allocator
 
 void tl_halfedge_mesh_destroy(tl_halfedge_mesh *mesh)
 {
-    tl_release_array(&mesh->allocator, mesh->vertices, mesh->vertex_capacity, sizeof *mesh->vertices);
-    tl_release_array(&mesh->allocator, mesh->edges, mesh->edge_capacity, sizeof *mesh->edges);
-    tl_release_array(&mesh->allocator, mesh->faces, mesh->face_capacity, sizeof *mesh->faces);
-    tl_allocator allocator = mesh->allocator;
-    tl_halfedge_mesh_init(mesh, &allocator);
+    if (mesh != NULL && mesh->allocator.release != NULL) {
+        tl_release_array(&mesh->allocator, mesh->vertices, mesh->vertex_capacity, sizeof *mesh->vertices);
+        tl_release_array(&mesh->allocator, mesh->edges, mesh->edge_capacity, sizeof *mesh->edges);
+        tl_release_array(&mesh->allocator, mesh->faces, mesh->face_capacity, sizeof *mesh->faces);
+        tl_allocator allocator = mesh->allocator;
+        tl_halfedge_mesh_init(mesh, &allocator);
+    }
 }
 
 void tl_halfedge_mesh_clear(tl_halfedge_mesh *mesh)
@@ -66,6 +68,9 @@ static tl_result grow(tl_halfedge_mesh *mesh, void **array, uint32_t *capacity, 
 
 tl_result tl_halfedge_mesh_add_vertex(tl_halfedge_mesh *mesh, tl_vec3 position, uint32_t *vertex_out)
 {
+    if (mesh == NULL || vertex_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     uint32_t index = mesh->free_vertex;
     if (index != TL_HALFEDGE_NONE) {
         mesh->free_vertex = mesh->vertices[index].link;
@@ -82,23 +87,6 @@ tl_result tl_halfedge_mesh_add_vertex(tl_halfedge_mesh *mesh, tl_vec3 position, 
     vertex->mark = 0;
     mesh->vertex_count++;
     *vertex_out = index;
-    return TL_OK;
-}
-
-tl_result tl_halfedge_mesh_remove_vertex(tl_halfedge_mesh *mesh, uint32_t vertex)
-{
-    if (!tl_halfedge_is_vertex(mesh, vertex)) {
-        return TL_ERR_INDEX;
-    }
-    // Every edge has a face on one side at least, and its last edge goes with its last face.
-    while (mesh->vertices[vertex].edge != TL_HALFEDGE_NONE) {
-        uint32_t edge = mesh->vertices[vertex].edge;
-        uint32_t face = mesh->edges[edge].face;
-        TL_TRY(tl_halfedge_mesh_remove_face(mesh, face != TL_HALFEDGE_NONE ? face : mesh->edges[edge ^ 1u].face));
-    }
-    mesh->vertices[vertex].link = mesh->free_vertex;
-    mesh->free_vertex = vertex;
-    mesh->vertex_count--;
     return TL_OK;
 }
 
@@ -151,6 +139,13 @@ uint32_t tl_halfedge_take_edge(tl_halfedge_mesh *mesh, uint32_t from, uint32_t t
     mesh->edges[index].face = mesh->edges[index + 1].face = TL_HALFEDGE_NONE;
     mesh->half_edge_count += 2;
     return index;
+}
+
+void tl_halfedge_give_vertex(tl_halfedge_mesh *mesh, uint32_t vertex)
+{
+    mesh->vertices[vertex].link = mesh->free_vertex;
+    mesh->free_vertex = vertex;
+    mesh->vertex_count--;
 }
 
 void tl_halfedge_give_face(tl_halfedge_mesh *mesh, uint32_t face)

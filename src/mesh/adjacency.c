@@ -10,6 +10,7 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "base/radix_sort.h"
+#include "mesh/clean.h"
 
 #include <talus/mesh.h>
 
@@ -73,31 +74,37 @@ static tl_result link_edges(const tl_mesh_view *view, tl_arena *arena, tl_adjace
     return TL_OK;
 }
 
-tl_result tl_adjacency_bake(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out)
+tl_result tl_adjacency_bake(const tl_mesh_view *view, const tl_host *host, tl_adjacency *adjacency_out,
+                            tl_report *report_out)
 {
-    TL_ASSERT(view != NULL && adjacency_out != NULL);
+    tl_report_begin(report_out, "adjacency");
+    if (adjacency_out == NULL) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "adjacency_out", "give where the adjacency goes");
+    }
     memset(adjacency_out, 0, sizeof *adjacency_out);
-    if (view->triangle_count > TL_MAX_MESH_TRIANGLES) {
-        return TL_ERR_LIMIT;
-    }
+    TL_TRY(tl_mesh_view_check_indices(view, report_out));
     const tl_allocator *allocator = host != NULL ? host->allocator : NULL;
+    adjacency_out->allocator = tl_allocator_or_default(allocator);
     adjacency_out->across = tl_allocate_array(allocator, 3 * (uint64_t)view->triangle_count, sizeof(uint32_t));
-    if (adjacency_out->across == NULL) {
-        return TL_ERR_MEMORY;
-    }
     adjacency_out->triangle_count = view->triangle_count;
     tl_arena arena;
     tl_arena_init(&arena, allocator);
-    tl_result result = link_edges(view, &arena, adjacency_out);
+    tl_result result = adjacency_out->across != NULL ? link_edges(view, &arena, adjacency_out) : TL_ERR_MEMORY;
+    if (report_out != NULL) {
+        report_out->peak_bytes = arena.peak_bytes + 3 * (uint64_t)view->triangle_count * sizeof(uint32_t);
+    }
     tl_arena_free(&arena);
     if (result != TL_OK) {
-        tl_adjacency_free(adjacency_out, allocator);
+        tl_adjacency_free(adjacency_out);
     }
     return result;
 }
 
-void tl_adjacency_free(tl_adjacency *adjacency, const tl_allocator *allocator)
+void tl_adjacency_free(tl_adjacency *adjacency)
 {
-    tl_release_array(allocator, adjacency->across, 3 * (uint64_t)adjacency->triangle_count, sizeof(uint32_t));
-    memset(adjacency, 0, sizeof *adjacency);
+    if (adjacency != NULL) {
+        tl_release_array(&adjacency->allocator, adjacency->across, 3 * (uint64_t)adjacency->triangle_count,
+                         sizeof(uint32_t));
+        memset(adjacency, 0, sizeof *adjacency);
+    }
 }

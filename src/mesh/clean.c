@@ -16,18 +16,42 @@
 
 #include <string.h>
 
-static bool in_range(tl_vec3 p)
+tl_result tl_mesh_view_check_indices(const tl_mesh_view *view, tl_report *report)
 {
-    return fabsf(p.x) <= TL_MAX_COORDINATE && fabsf(p.y) <= TL_MAX_COORDINATE && fabsf(p.z) <= TL_MAX_COORDINATE;
+    if (view == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "view", "give a mesh view");
+    }
+    if (view->triangle_count > 0 && view->indices == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "view.indices", "give 3 a triangle");
+    }
+    if (view->triangle_count > TL_MAX_MESH_TRIANGLES) {
+        return tl_report_field(report, TL_ERR_LIMIT, "view.triangle_count",
+                               "split the mesh: its indices would not fit 32 bits");
+    }
+    return TL_OK;
 }
 
-static tl_result check_vertex(const tl_mesh_view *view, uint32_t vertex, tl_report *report)
+tl_result tl_mesh_view_check(const tl_mesh_view *view, tl_report *report)
+{
+    TL_TRY(tl_mesh_view_check_indices(view, report));
+    if (view->vertex_count > 0 && view->vertices == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "view.vertices", "give as many as vertex_count says");
+    }
+    if (view->vertex_count > TL_MAX_MESH_VERTICES) {
+        return tl_report_field(report, TL_ERR_LIMIT, "view.vertex_count",
+                               "split the mesh: its indices would not fit 32 bits");
+    }
+    return TL_OK;
+}
+
+static tl_result check_mesh_vertex(const tl_mesh_view *view, uint32_t vertex, tl_report *report)
 {
     tl_vec3 p = view->vertices[vertex];
     if (!tl_is_finite(p)) {
         return tl_report_fail(report, TL_ERR_NOT_FINITE, "vertex", vertex, "repair or remove this vertex");
     }
-    if (!in_range(p)) {
+    tl_vec3 size = tl_abs(p);
+    if (!(size.x <= TL_MAX_COORDINATE && size.y <= TL_MAX_COORDINATE && size.z <= TL_MAX_COORDINATE)) {
         return tl_report_fail(report, TL_ERR_RANGE, "vertex", vertex, "keep coordinates within +-1e12");
     }
     return TL_OK;
@@ -44,7 +68,7 @@ tl_result tl_check_triangles(const tl_mesh_view *view, uint32_t *used, tl_report
                                       "make its indices smaller than the vertex count");
             }
             if (used[vertex] == TL_WELD_UNUSED) {
-                TL_TRY(check_vertex(view, vertex, report));
+                TL_TRY(check_mesh_vertex(view, vertex, report));
                 used[vertex] = TL_WELD_PENDING;
             }
         }
@@ -142,17 +166,17 @@ static void clean_block(uint32_t block, uint32_t worker, void *user)
     c->counts[block] = count;
 }
 
-tl_result tl_clean_triangles(const tl_mesh_view *view, const uint32_t *representative, bool keep_duplicates,
-                             const tl_host *host, tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out,
-                             tl_mesh_report *report)
+tl_result tl_clean_triangles(const tl_mesh_view *view, const tl_mesh_def *def, const uint32_t *representative,
+                             tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out, tl_mesh_report *report)
 {
+    const bool keep_duplicates = def->keep_duplicates;
     uint32_t blocks = tl_block_count(view->triangle_count, BLOCK_TRIANGLES);
     cleaner c = { view, representative, kept, TL_PUSH(arena, uint32_t, blocks) };
     triangle_set set = { NULL, 0 };
     if (c.counts == NULL || (!keep_duplicates && !triangle_set_make(&set, view->triangle_count, arena))) {
         return TL_ERR_MEMORY;
     }
-    tl_run_tasks(host, clean_block, blocks, &c);
+    tl_run_tasks(&def->host, clean_block, blocks, &c);
     uint32_t sound = 0;
     for (uint32_t block = 0; block < blocks; block++) {
         memmove(kept + sound, kept + (size_t)block * BLOCK_TRIANGLES, c.counts[block] * sizeof *kept);

@@ -7,15 +7,19 @@
 
 #include <talus/mesh.h>
 
+/// Whether a view, its indices and, with the second, its vertices are there, and no more of them than the limits allow.
+tl_result tl_mesh_view_check_indices(const tl_mesh_view *view, tl_report *report);
+tl_result tl_mesh_view_check(const tl_mesh_view *view, tl_report *report);
+
 /// Indices in range, used vertices finite and below TL_MAX_COORDINATE. Names the first offending element in `report`.
 /// Writes TL_WELD_PENDING into used[v] for each vertex that a triangle uses, TL_WELD_UNUSED for the others.
 tl_result tl_check_triangles(const tl_mesh_view *view, uint32_t *used, tl_report *report);
 
-/// Writes the indices of the triangles to keep, ascending, into `kept` (room for all): those whose three representative
-/// corners differ and span an area, and which repeat no earlier triangle unless `keep_duplicates`.
-/// Counts the others in `report`. Errors: TL_ERR_MEMORY. O(triangles), on the host's tasks where duplicates are kept.
-tl_result tl_clean_triangles(const tl_mesh_view *view, const uint32_t *representative, bool keep_duplicates,
-                             const tl_host *host, tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out,
-                             tl_mesh_report *report);
+/// Writes the indices of the triangles to keep, ascending, into `kept`, which holds triangle_count: those whose three
+/// representative corners differ and span an area, and which repeat no earlier triangle unless the def keeps
+/// duplicates. Counts the others in `report`. Errors: TL_ERR_MEMORY. O(triangles), on the host's tasks where duplicates
+/// are kept.
+tl_result tl_clean_triangles(const tl_mesh_view *view, const tl_mesh_def *def, const uint32_t *representative,
+                             tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out, tl_mesh_report *report);
 
 #endif

@@ -11,22 +11,23 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/disjoint_sets.h"
 #include "base/host.h"
 #include "base/radix_sort.h"
+#include "mesh/clean.h"
 
 #include <string.h>
-#include <talus/mesh.h>
 
-typedef struct search {
+typedef struct parts_search {
     const tl_mesh_view *view;
     tl_sort_item *edges; // value: the triangle, extra: 1 when it runs from the lower vertex to the higher
     uint32_t edge_count;
     uint32_t *parent; // [triangle_count] of the union-find; roots have the lowest index
     int32_t *balance; // [triangle_count] of the root at hand
     uint8_t *has_rim; // [triangle_count] of the root
-} search;
+} parts_search;
 
-static tl_result sort_edges(search *s, tl_arena *arena)
+static tl_result sort_part_edges(parts_search *s, tl_arena *arena)
 {
     const tl_mesh_view *view = s->view;
     tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, 3 * (uint64_t)view->triangle_count);
@@ -45,7 +46,7 @@ static tl_result sort_edges(search *s, tl_arena *arena)
     return TL_OK;
 }
 
-static uint32_t group_end(const search *s, uint32_t begin)
+static uint32_t group_end(const parts_search *s, uint32_t begin)
 {
     uint32_t end = begin + 1;
     while (end < s->edge_count && s->edges[end].key == s->edges[begin].key) {
@@ -59,16 +60,12 @@ static int32_t direction_of(const tl_sort_item *edge)
     return edge->extra != 0 ? 1 : -1;
 }
 
-static uint32_t root_of(search *s, uint32_t triangle)
+static uint32_t part_root(parts_search *s, uint32_t triangle)
 {
-    while (s->parent[triangle] != triangle) {
-        s->parent[triangle] = s->parent[s->parent[triangle]];
-        triangle = s->parent[triangle];
-    }
-    return triangle;
+    return tl_disjoint_sets_find(s->parent, triangle);
 }
 
-static void join_groups(search *s)
+static void join_groups(parts_search *s)
 {
     for (uint32_t begin = 0; begin < s->edge_count;) {
         const uint32_t end = group_end(s, begin);
@@ -77,36 +74,35 @@ static void join_groups(search *s)
             sum += direction_of(&s->edges[i]);
         }
         for (uint32_t i = begin + 1; sum == 0 && i < end; i++) {
-            const uint32_t a = root_of(s, s->edges[begin].value), b = root_of(s, s->edges[i].value);
-            s->parent[a > b ? a : b] = a < b ? a : b;
+            tl_disjoint_sets_unite(s->parent, s->edges[begin].value, s->edges[i].value);
         }
         begin = end;
     }
 }
 
-static void find_rims(search *s)
+static void find_rims(parts_search *s)
 {
     for (uint32_t begin = 0; begin < s->edge_count;) {
         const uint32_t end = group_end(s, begin);
         for (uint32_t i = begin; i < end; i++) {
-            s->balance[root_of(s, s->edges[i].value)] += direction_of(&s->edges[i]);
+            s->balance[part_root(s, s->edges[i].value)] += direction_of(&s->edges[i]);
         }
         for (uint32_t i = begin; i < end; i++) {
-            const uint32_t root = root_of(s, s->edges[i].value);
+            const uint32_t root = part_root(s, s->edges[i].value);
             s->has_rim[root] |= s->balance[root] != 0;
         }
         for (uint32_t i = begin; i < end; i++) {
-            s->balance[root_of(s, s->edges[i].value)] = 0;
+            s->balance[part_root(s, s->edges[i].value)] = 0;
         }
         begin = end;
     }
 }
 
 // Numbers the closed roots. A root comes before all others of its part.
-static void number_parts(search *s, tl_closed_parts *parts)
+static void number_parts(parts_search *s, tl_closed_parts *parts)
 {
     for (uint32_t t = 0; t < parts->triangle_count; t++) {
-        const uint32_t root = root_of(s, t);
+        const uint32_t root = part_root(s, t);
         parts->part_of[t] = TL_NO_PART;
         if (s->has_rim[root]) {
             parts->open_part_count += root == t;
@@ -127,26 +123,27 @@ static double signed_volume(tl_vec3 apex, tl_vec3 a, tl_vec3 b, tl_vec3 c)
     return (ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)) / 6.0;
 }
 
-static void measure_parts(search *s, tl_closed_parts *parts)
+static void measure_parts(parts_search *s, tl_closed_parts *parts)
 {
     for (uint32_t t = 0; t < parts->triangle_count; t++) {
         if (parts->part_of[t] != TL_NO_PART) {
             const uint32_t *corner = s->view->indices + 3 * (size_t)t;
             const tl_vec3 *vertices = s->view->vertices;
-            const tl_vec3 apex = vertices[s->view->indices[3 * (size_t)root_of(s, t)]];
+            const tl_vec3 apex = vertices[s->view->indices[3 * (size_t)part_root(s, t)]];
             parts->volumes[parts->part_of[t]] +=
                 signed_volume(apex, vertices[corner[0]], vertices[corner[1]], vertices[corner[2]]);
         }
     }
 }
 
-static tl_result find(const tl_mesh_view *view, tl_arena *arena, const tl_allocator *allocator, tl_closed_parts *parts)
+static tl_result find_parts(const tl_mesh_view *view, tl_arena *arena, tl_closed_parts *parts)
 {
-    search s;
+    const tl_allocator *allocator = &parts->allocator;
+    parts_search s;
     memset(&s, 0, sizeof s);
     s.view = view;
     const uint32_t count = view->triangle_count;
-    TL_TRY(sort_edges(&s, arena));
+    TL_TRY(sort_part_edges(&s, arena));
     s.parent = TL_PUSH(arena, uint32_t, count);
     s.balance = TL_PUSH_ZERO(arena, int32_t, count);
     s.has_rim = TL_PUSH_ZERO(arena, uint8_t, count);
@@ -154,9 +151,7 @@ static tl_result find(const tl_mesh_view *view, tl_arena *arena, const tl_alloca
     if (s.parent == NULL || s.balance == NULL || s.has_rim == NULL || parts->part_of == NULL) {
         return TL_ERR_MEMORY;
     }
-    for (uint32_t t = 0; t < count; t++) {
-        s.parent[t] = t;
-    }
+    tl_disjoint_sets_init(s.parent, count);
     join_groups(&s);
     find_rims(&s);
     number_parts(&s, parts);
@@ -169,27 +164,37 @@ static tl_result find(const tl_mesh_view *view, tl_arena *arena, const tl_alloca
     return TL_OK;
 }
 
-tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl_closed_parts *parts_out)
+tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl_closed_parts *parts_out,
+                               tl_report *report_out)
 {
-    const tl_allocator *allocator = host != NULL ? host->allocator : NULL;
-    memset(parts_out, 0, sizeof *parts_out);
-    if (view->triangle_count > TL_MAX_MESH_TRIANGLES) {
-        return TL_ERR_LIMIT;
+    tl_report_begin(report_out, "closed parts");
+    if (parts_out == NULL) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "parts_out", "give where the parts go");
     }
+    memset(parts_out, 0, sizeof *parts_out);
+    TL_TRY(tl_mesh_view_check(view, report_out));
+    const tl_allocator *allocator = host != NULL ? host->allocator : NULL;
+    parts_out->allocator = tl_allocator_or_default(allocator);
     parts_out->triangle_count = view->triangle_count;
     tl_arena arena;
     tl_arena_init(&arena, allocator);
-    const tl_result result = find(view, &arena, allocator, parts_out);
+    const tl_result result = find_parts(view, &arena, parts_out);
+    if (report_out != NULL) {
+        report_out->peak_bytes = arena.peak_bytes + parts_out->triangle_count * sizeof *parts_out->part_of +
+                                 parts_out->part_count * sizeof *parts_out->volumes;
+    }
     tl_arena_free(&arena);
     if (result != TL_OK) {
-        tl_closed_parts_free(parts_out, allocator);
+        tl_closed_parts_free(parts_out);
     }
     return result;
 }
 
-void tl_closed_parts_free(tl_closed_parts *parts, const tl_allocator *allocator)
+void tl_closed_parts_free(tl_closed_parts *parts)
 {
-    tl_release_array(allocator, parts->part_of, parts->triangle_count, sizeof *parts->part_of);
-    tl_release_array(allocator, parts->volumes, parts->part_count, sizeof *parts->volumes);
-    memset(parts, 0, sizeof *parts);
+    if (parts != NULL) {
+        tl_release_array(&parts->allocator, parts->part_of, parts->triangle_count, sizeof *parts->part_of);
+        tl_release_array(&parts->allocator, parts->volumes, parts->part_count, sizeof *parts->volumes);
+        memset(parts, 0, sizeof *parts);
+    }
 }

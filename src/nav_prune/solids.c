@@ -43,7 +43,7 @@ tl_result tl_solids_make(const tl_mesh_view *mesh, const tl_host *host, tl_solid
     tl_solids *s = solids_out;
     memset(s, 0, sizeof *s);
     s->allocator = host->allocator;
-    TL_TRY(tl_closed_parts_find(mesh, host, &s->parts));
+    TL_TRY(tl_closed_parts_find(mesh, host, &s->parts, NULL));
     for (uint32_t p = 0; p < s->parts.part_count; p++) {
         s->outward_count += s->parts.volumes[p] > 0.0;
     }
@@ -74,7 +74,7 @@ void tl_solids_free(tl_solids *s)
     tl_release_array(s->allocator, s->part_of, s->index_count / 3, sizeof *s->part_of);
     tl_release_array(s->allocator, s->indices, s->index_count, sizeof *s->indices);
     tl_release_array(s->allocator, s->hits, s->hit_capacity, sizeof *s->hits);
-    tl_closed_parts_free(&s->parts, s->allocator);
+    tl_closed_parts_free(&s->parts);
     memset(s, 0, sizeof *s);
 }
 

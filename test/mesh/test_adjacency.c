@@ -32,7 +32,7 @@ static void equals_a_scan_over_all_edges(void **state)
         }
         tl_mesh_view view = { vertices, vertex_count, indices, TRIANGLES, NULL };
         tl_adjacency adjacency;
-        TEST_RESULT(tl_adjacency_bake(&view, NULL, &adjacency), TL_OK);
+        TEST_RESULT(tl_adjacency_bake(&view, NULL, &adjacency, NULL), TL_OK);
         uint32_t counted[2] = { 0, 0 };
         for (uint32_t edge = 0; edge < EDGES; edge++) {
             uint32_t from;
@@ -63,7 +63,7 @@ static void equals_a_scan_over_all_edges(void **state)
         assert_int_equal(adjacency.border_edges, counted[0]);
         assert_int_equal(adjacency.paired_edges * 2, counted[1]);
         pairs += adjacency.paired_edges;
-        tl_adjacency_free(&adjacency, NULL);
+        tl_adjacency_free(&adjacency);
     }
     TEST_CHECK(borders > 1000 && pairs > 300 && knots > 1000);
 }
@@ -80,11 +80,11 @@ static void a_fan_of_many_triangles_is_linear(void **state)
     }
     tl_mesh_view view = { NULL, TRIANGLES + 1, indices, TRIANGLES, NULL };
     tl_adjacency adjacency;
-    TEST_RESULT(tl_adjacency_bake(&view, NULL, &adjacency), TL_OK);
+    TEST_RESULT(tl_adjacency_bake(&view, NULL, &adjacency, NULL), TL_OK);
     assert_int_equal(adjacency.border_edges, TRIANGLES);
     assert_int_equal(adjacency.paired_edges, TRIANGLES);
     assert_int_equal(adjacency.across[2], 3);
-    tl_adjacency_free(&adjacency, NULL);
+    tl_adjacency_free(&adjacency);
     free(indices);
 }
 
@@ -99,9 +99,9 @@ static void failing_memory_leaks_nothing(void **state)
         test_allocator_init(&test, fail_at);
         tl_host host = { &test.allocator, NULL, NULL };
         tl_adjacency adjacency;
-        tl_result result = tl_adjacency_bake(&view, &host, &adjacency);
+        tl_result result = tl_adjacency_bake(&view, &host, &adjacency, NULL);
         if (result == TL_OK) {
-            tl_adjacency_free(&adjacency, &test.allocator);
+            tl_adjacency_free(&adjacency);
             TEST_CHECK(test.live_blocks == 0);
             break;
         }
@@ -111,7 +111,7 @@ static void failing_memory_leaks_nothing(void **state)
     TEST_CHECK(fail_at >= 3);
     tl_mesh_view huge = { NULL, 4, indices, TL_MAX_MESH_TRIANGLES + 1u, NULL };
     tl_adjacency adjacency;
-    TEST_RESULT(tl_adjacency_bake(&huge, NULL, &adjacency), TL_ERR_LIMIT);
+    TEST_RESULT(tl_adjacency_bake(&huge, NULL, &adjacency, NULL), TL_ERR_LIMIT);
 }
 
 int main(void)

@@ -73,7 +73,7 @@ static tl_closed_parts find(const scene *s)
 {
     const tl_mesh_view view = { s->vertices, s->vertex_count, s->indices, s->triangle_count, NULL };
     tl_closed_parts parts;
-    TEST_RESULT(tl_closed_parts_find(&view, NULL, &parts), TL_OK);
+    TEST_RESULT(tl_closed_parts_find(&view, NULL, &parts, NULL), TL_OK);
     return parts;
 }
 
@@ -100,14 +100,14 @@ static void boxes_are_closed_whatever_they_touch(void **state)
     }
     TEST_CHECK(fabs(parts.volumes[0] - 16.0) < 1e-9 && fabs(parts.volumes[1] - 27.0) < 1e-9);
     TEST_CHECK(fabs(parts.volumes[2] + 1000.0) < 1e-9);
-    tl_closed_parts_free(&parts, NULL);
+    tl_closed_parts_free(&parts);
     // A triangle the wrong way round opens its box.
     const uint32_t b = s.indices[3 * 30 + 1];
     s.indices[3 * 30 + 1] = s.indices[3 * 30 + 2];
     s.indices[3 * 30 + 2] = b;
     parts = find(&s);
     TEST_CHECK(parts.part_count == 2 && parts.part_of[28] == TL_NO_PART && parts.part_of[40] == 1);
-    tl_closed_parts_free(&parts, NULL);
+    tl_closed_parts_free(&parts);
 }
 
 // The definition, triangle by triangle: spread across balanced edges, then sum each edge over the part.
@@ -192,7 +192,7 @@ static void random_soups_follow_the_rule(void **state)
                 TEST_CHECK((parts.part_of[u] == parts.part_of[t]) == (part[u] == part[t]));
             }
         }
-        tl_closed_parts_free(&parts, NULL);
+        tl_closed_parts_free(&parts);
     }
     TEST_CHECK(closed > 500 && open > 500);
 }
@@ -209,9 +209,9 @@ static void failing_memory_leaves_nothing(void **state)
         test_allocator_init(&memory, k);
         const tl_host host = { &memory.allocator, NULL, NULL };
         tl_closed_parts parts;
-        const tl_result result = tl_closed_parts_find(&view, &host, &parts);
+        const tl_result result = tl_closed_parts_find(&view, &host, &parts, NULL);
         TEST_CHECK(result == TL_OK || parts.part_of == NULL);
-        tl_closed_parts_free(&parts, &memory.allocator);
+        tl_closed_parts_free(&parts);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
         if (result == TL_OK) {
             TEST_CHECK(k > 3);

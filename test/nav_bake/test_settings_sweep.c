@@ -148,7 +148,7 @@ static void sweep_level(const tl_mesh_view *view, const char *name, uint64_t see
         counts->methods[def.polygon_method]++;
     }
     free(areas);
-    tl_mesh_free(&mesh, NULL);
+    tl_mesh_free(&mesh);
 }
 
 static void print_counts(const sweep_counts *counts)

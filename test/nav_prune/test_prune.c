@@ -127,7 +127,7 @@ static void floors_inside_solids_go(void **state)
         TEST_CHECK(has_floor(&tiles, 18, 0.3f, 6));                                       // in one with a hole
         TEST_CHECK(has_floor(&tiles, 6, 4.3f, 6) && has_floor(&tiles, 1.5f, 0.3f, 1.5f)); // on the roof, outside
         tl_nav_tiles_free(&tiles, NULL);
-        tl_mesh_free(&W.mesh, NULL);
+        tl_mesh_free(&W.mesh);
     }
 }
 
@@ -155,7 +155,7 @@ static void the_innermost_surface_decides(void **state)
     TEST_CHECK(!has_floor(&tiles, 20, 0.3f, 20)); // in the pillar
     TEST_CHECK(has_floor(&tiles, 14, 2.3f, 14));  // in its cellar
     tl_nav_tiles_free(&tiles, NULL);
-    tl_mesh_free(&W.mesh, NULL);
+    tl_mesh_free(&W.mesh);
 }
 
 static void islands_without_a_seed_go(void **state)
@@ -185,7 +185,7 @@ static void islands_without_a_seed_go(void **state)
         const tl_nav_prune_report all = prune(&tiles, &def);
         TEST_CHECK(all.small.islands == 2 && tiles.tile_count == 0);
         tl_nav_tiles_free(&tiles, NULL);
-        tl_mesh_free(&W.mesh, NULL);
+        tl_mesh_free(&W.mesh);
     }
 }
 
@@ -219,7 +219,7 @@ static void what_is_wrong_is_named(void **state)
     TEST_CHECK(report.base.element_index == 1);
     TEST_CHECK(area_of(&tiles) == before);
     tl_nav_tiles_free(&tiles, NULL);
-    tl_mesh_free(&W.mesh, NULL);
+    tl_mesh_free(&W.mesh);
 }
 
 static void no_tiles_are_no_trouble(void **state)
@@ -279,7 +279,7 @@ static void failures_change_nothing(void **state)
         }
         TEST_RESULT(result, TL_ERR_CANCELLED);
     }
-    tl_mesh_free(&W.mesh, NULL);
+    tl_mesh_free(&W.mesh);
 }
 
 int main(void)

@@ -89,7 +89,7 @@ static walk check_tree(const model *m, tl_soup_partition partition, float split_
     TEST_CHECK(kd || w.references <= (uint32_t)((float)count * (1 + split_budget)) + 1);
     w.cost /= (double)tl_aabb_half_area(tree.nodes[tree.root].box);
     tl_arena_free(&arena);
-    tl_mesh_free(&mesh, NULL);
+    tl_mesh_free(&mesh);
     return w;
 }
 

@@ -77,7 +77,7 @@ static void test_random_trees(void **state)
         TEST_CHECK(chance != NULL);
         checked += check_node(&tree, chance, tree.root);
         tl_arena_free(&arena);
-        tl_mesh_free(&mesh, NULL);
+        tl_mesh_free(&mesh);
         model_free(&m);
     }
     TEST_CHECK(checked > 3000);

@@ -49,7 +49,7 @@ static paired check_pairing(const model *m, bool allow_pairs)
     }
     free(seen);
     tl_arena_free(&arena);
-    tl_mesh_free(&mesh, NULL);
+    tl_mesh_free(&mesh);
     return result;
 }
 

@@ -28,6 +28,7 @@ tl_hull_def tl_default_hull_def(void)
     tl_hull_def def;
     memset(&def, 0, sizeof def);
     def.flatness = 8.0f;
+    def.cookie = TL_DEF_COOKIE;
     return def;
 }
 
@@ -108,9 +109,11 @@ static tl_result check_points(const tl_vec3 *points, uint32_t count, tl_report *
     if (count == 0) {
         return tl_report_fail(report, TL_ERR_EMPTY, NULL, TL_NO_ELEMENT, "give at least four points");
     }
+    if (points == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "points", "give as many points as count says");
+    }
     if (count >= TL_MAX_HULL_POINTS) {
-        return tl_report_fail(report, TL_ERR_LIMIT, NULL, TL_NO_ELEMENT,
-                              "build hulls of parts, then of their vertices");
+        return tl_report_field(report, TL_ERR_LIMIT, "count", "bake hulls of parts, then of their vertices");
     }
     for (uint32_t i = 0; i < count; i++) {
         if (!tl_is_finite(points[i])) {
@@ -260,24 +263,37 @@ static tl_result build(tl_quickhull *hull, const tl_hull_def *def, tl_hull **hul
     return TL_OK;
 }
 
+static tl_result check_hull_def(const tl_hull_def *def, tl_report *report)
+{
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_hull_def()", report));
+    if (def->max_vertices != 0 && def->max_vertices < 4) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "max_vertices", "give 0 for no limit, or at least 4");
+    }
+    if (!(def->thickness >= 0.0f) || !isfinite(def->thickness)) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "thickness", "give metres, 0 or more");
+    }
+    if (!(def->flatness >= 0.0f)) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "flatness", "give half ulps, 0 or more");
+    }
+    return TL_OK;
+}
+
 tl_result tl_hull_bake(const tl_vec3 *points, uint32_t count, const tl_hull_def *def, tl_hull **hull_out,
                        tl_hull_report *report_out)
 {
-    TL_ASSERT(hull_out != NULL);
     const tl_hull_def defaults = tl_default_hull_def();
     def = def != NULL ? def : &defaults;
-    *hull_out = NULL;
     tl_report *base = NULL;
     if (report_out != NULL) {
         memset(report_out, 0, sizeof *report_out);
         base = &report_out->base;
     }
     tl_report_begin(base, "hull");
-    if ((def->max_vertices != 0 && def->max_vertices < 4) || !(def->thickness >= 0.0f) || !isfinite(def->thickness) ||
-        !(def->flatness >= 0.0f)) {
-        return tl_report_fail(base, TL_ERR_ARGUMENT, NULL, TL_NO_ELEMENT,
-                              "max_vertices is 0 or at least 4, thickness and flatness are at least 0");
+    if (hull_out == NULL) {
+        return tl_report_field(base, TL_ERR_ARGUMENT, "hull_out", "give where the hull goes");
     }
+    *hull_out = NULL;
+    TL_TRY(check_hull_def(def, base));
     TL_TRY(check_points(points, count, base));
     tl_arena arena;
     tl_arena_init(&arena, def->host.allocator);

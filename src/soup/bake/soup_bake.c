@@ -108,7 +108,7 @@ tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup
         report.base.peak_bytes = held > report.base.peak_bytes ? held : report.base.peak_bytes;
         tl_arena_free(&arena);
     }
-    tl_mesh_free(&mesh, used.host.allocator);
+    tl_mesh_free(&mesh);
     if (result == TL_OK) {
         // The last word of progress may still be no.
         result = tl_progress_update(&used.host, "bake soup", 1, 1);

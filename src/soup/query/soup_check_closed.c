@@ -128,7 +128,7 @@ tl_result tl_soup_check_closed(const tl_soup *soup, const tl_host *host, tl_repo
     memset(&mesh, 0, sizeof mesh);
     tl_result result = check(soup, &used, &arena, &mesh, &report);
     report.peak_bytes = arena.peak_bytes + mesh.block_size;
-    tl_mesh_free(&mesh, used.allocator);
+    tl_mesh_free(&mesh);
     tl_arena_free(&arena);
     if (report_out != NULL) {
         *report_out = report;

@@ -7,7 +7,7 @@
 
 #include "hull/bake/side_plane.h"
 
-#include "base/assert.h"
+#include "base/host.h"
 
 #include <talus/hull.h>
 
@@ -91,16 +91,52 @@ static void validate_face(const tl_hull *hull, uint32_t face, const face_plane *
     }
 }
 
-static void validate_points(const face_plane *plane, const tl_vec3 *points, uint32_t count, tl_hull_validation *out)
+// The lowest point outside so far.
+static uint64_t validate_points(const face_plane *plane, const tl_vec3 *points, uint32_t count, uint64_t lowest,
+                                tl_hull_validation *out)
 {
     for (uint32_t i = 0; i < count; i++) {
         double value;
         if (side_of(plane, points[i], &value) > 0) {
             double height = value / tl_side_plane_length(&plane->plane);
             out->contains = false;
+            lowest = i < lowest ? i : lowest;
             out->max_outside = height > out->max_outside ? height : out->max_outside;
         }
     }
+    return lowest;
+}
+
+static tl_result validate(const tl_hull *hull, const tl_vec3 *points, uint32_t count, tl_hull_validation *found)
+{
+    if (hull == NULL || (points == NULL && count > 0)) {
+        return tl_report_field(&found->base, TL_ERR_ARGUMENT, hull == NULL ? "hull" : "points", "do not give NULL");
+    }
+    found->euler = (uint64_t)hull->vertex_count + hull->face_count == (uint64_t)hull->half_edge_count / 2 + 2;
+    found->flat_faces = found->convex = found->contains = true;
+    tl_aabb box = hull->bounds;
+    for (uint32_t i = 0; i < count; i++) {
+        box = tl_aabb_add_point(box, points[i]);
+    }
+    uint64_t bad_face = TL_NO_ELEMENT, bad_point = TL_NO_ELEMENT;
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        face_plane plane = plane_of(hull, f, box);
+        validate_face(hull, f, &plane, found);
+        if (bad_face == TL_NO_ELEMENT && !(found->flat_faces && found->convex)) {
+            bad_face = f;
+        }
+        bad_point = validate_points(&plane, points, count, bad_point, found);
+    }
+    if (!found->euler) {
+        return tl_report_field(&found->base, TL_ERR_CORRUPT, "face_count", "bake the hull again");
+    }
+    if (bad_face != TL_NO_ELEMENT) {
+        return tl_report_fail(&found->base, TL_ERR_CORRUPT, "face", bad_face, "bake the hull again");
+    }
+    if (bad_point != TL_NO_ELEMENT) {
+        return tl_report_fail(&found->base, TL_ERR_RANGE, "point", bad_point, "bake a hull of all points");
+    }
+    return TL_OK;
 }
 
 tl_result tl_hull_validate(const tl_hull *hull, const tl_vec3 *points, uint32_t count,
@@ -108,22 +144,10 @@ tl_result tl_hull_validate(const tl_hull *hull, const tl_vec3 *points, uint32_t 
 {
     tl_hull_validation found;
     memset(&found, 0, sizeof found);
-    found.euler = (uint64_t)hull->vertex_count + hull->face_count == (uint64_t)hull->half_edge_count / 2 + 2;
-    found.flat_faces = found.convex = found.contains = true;
-    tl_aabb box = hull->bounds;
-    for (uint32_t i = 0; i < count; i++) {
-        box = tl_aabb_add_point(box, points[i]);
-    }
-    for (uint32_t f = 0; f < hull->face_count; f++) {
-        face_plane plane = plane_of(hull, f, box);
-        validate_face(hull, f, &plane, &found);
-        validate_points(&plane, points, count, &found);
-    }
+    tl_report_begin(&found.base, "validate hull");
+    tl_result result = validate(hull, points, count, &found);
     if (validation_out != NULL) {
         *validation_out = found;
     }
-    if (!found.euler || !found.flat_faces || !found.convex) {
-        return TL_ERR_CORRUPT;
-    }
-    return found.contains ? TL_OK : TL_ERR_RANGE;
+    return result;
 }

@@ -12,20 +12,19 @@
 
 tl_mesh_def tl_default_mesh_def(void)
 {
-    tl_mesh_def def = { 0.0f, false, { NULL, NULL, NULL } };
+    tl_mesh_def def = { 0.0f, false, { NULL, NULL, NULL }, TL_DEF_COOKIE };
     return def;
 }
 
-static tl_result check_def(const tl_mesh_view *view, const tl_mesh_def *def, tl_report *report)
+static tl_result check_mesh_def(const tl_mesh_view *view, const tl_mesh_def *def, tl_report *report)
 {
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_mesh_def()", report));
     if (!(def->weld_tolerance >= 0.0f) || def->weld_tolerance > TL_MAX_COORDINATE) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "weld_tolerance", 0, "give metres, 0 or more");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "weld_tolerance", "give metres, 0 to TL_MAX_COORDINATE");
     }
+    TL_TRY(tl_mesh_view_check(view, report));
     if (view->triangle_count == 0 || view->vertex_count == 0) {
         return tl_report_fail(report, TL_ERR_EMPTY, NULL, TL_NO_ELEMENT, "give at least one triangle");
-    }
-    if (view->vertex_count > TL_MAX_MESH_VERTICES || view->triangle_count > TL_MAX_MESH_TRIANGLES) {
-        return tl_report_fail(report, TL_ERR_LIMIT, "mesh", 0, "split the mesh: its indices would not fit 32 bits");
     }
     return TL_OK;
 }
@@ -47,6 +46,7 @@ static tl_result allocate_mesh(uint32_t vertex_count, uint32_t triangle_count, c
     if (block == NULL) {
         return TL_ERR_MEMORY;
     }
+    mesh->allocator = tl_allocator_or_default(allocator);
     mesh->block = block;
     mesh->block_size = (size_t)size;
     mesh->vertices = (tl_vec3 *)(void *)block;
@@ -59,8 +59,8 @@ static tl_result allocate_mesh(uint32_t vertex_count, uint32_t triangle_count, c
 }
 
 // Gives each kept vertex its new number, in order of first use.
-static uint32_t number_vertices(const tl_mesh_view *view, const uint32_t *representative, const uint32_t *kept,
-                                uint32_t kept_count, uint32_t *number)
+static uint32_t number_mesh_vertices(const tl_mesh_view *view, const uint32_t *representative, const uint32_t *kept,
+                                     uint32_t kept_count, uint32_t *number)
 {
     memset(number, 0xff, (size_t)view->vertex_count * sizeof *number);
     uint32_t count = 0;
@@ -150,8 +150,8 @@ static tl_result fill_mesh(filler *f, const tl_host *host, tl_arena *arena, tl_m
     return TL_OK;
 }
 
-static tl_result build(const tl_mesh_view *view, const tl_mesh_def *def, tl_arena *arena, tl_mesh *mesh,
-                       tl_mesh_report *report)
+static tl_result weld_and_clean(const tl_mesh_view *view, const tl_mesh_def *def, tl_arena *arena, tl_mesh *mesh,
+                                tl_mesh_report *report)
 {
     const tl_host *host = &def->host;
     uint32_t *representative = TL_PUSH(arena, uint32_t, view->vertex_count);
@@ -171,12 +171,12 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh_def *def, tl_aren
     report->base.stage = "clean";
     TL_TRY(tl_progress_update(host, "clean", 0, view->triangle_count));
     uint32_t kept_count = 0;
-    TL_TRY(tl_clean_triangles(view, representative, def->keep_duplicates, host, arena, kept, &kept_count, report));
+    TL_TRY(tl_clean_triangles(view, def, representative, arena, kept, &kept_count, report));
     if (kept_count == 0) {
         return tl_report_fail(&report->base, TL_ERR_EMPTY, NULL, TL_NO_ELEMENT,
                               "all triangles are degenerate: check the unit and the weld tolerance");
     }
-    uint32_t vertex_count = number_vertices(view, representative, kept, kept_count, number);
+    uint32_t vertex_count = number_mesh_vertices(view, representative, kept, kept_count, number);
     TL_TRY(allocate_mesh(vertex_count, kept_count, def->host.allocator, mesh));
     filler f = { view, representative, kept, number, mesh, 0, NULL };
     TL_TRY(fill_mesh(&f, host, arena, report));
@@ -185,31 +185,35 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh_def *def, tl_aren
 
 tl_result tl_mesh_bake(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out, tl_mesh_report *report_out)
 {
-    TL_ASSERT(view != NULL && mesh_out != NULL);
     const tl_mesh_def defaults = tl_default_mesh_def();
     def = def != NULL ? def : &defaults;
     tl_mesh_report unread;
     tl_mesh_report *report = report_out != NULL ? report_out : &unread;
     memset(report, 0, sizeof *report);
     tl_report_begin(&report->base, "check");
+    if (mesh_out == NULL) {
+        return tl_report_field(&report->base, TL_ERR_ARGUMENT, "mesh_out", "give where the mesh goes");
+    }
     memset(mesh_out, 0, sizeof *mesh_out);
-    TL_TRY(check_def(view, def, &report->base));
+    TL_TRY(check_mesh_def(view, def, &report->base));
 
     tl_arena arena;
     tl_arena_init(&arena, def->host.allocator);
-    tl_result result = build(view, def, &arena, mesh_out, report);
+    tl_result result = weld_and_clean(view, def, &arena, mesh_out, report);
     report->base.peak_bytes = arena.peak_bytes + mesh_out->block_size;
     tl_arena_free(&arena);
     if (result != TL_OK) {
-        tl_mesh_free(mesh_out, def->host.allocator);
+        tl_mesh_free(mesh_out);
     }
     return result;
 }
 
-void tl_mesh_free(tl_mesh *mesh, const tl_allocator *allocator)
+void tl_mesh_free(tl_mesh *mesh)
 {
-    tl_release(allocator, mesh->block, mesh->block_size);
-    memset(mesh, 0, sizeof *mesh);
+    if (mesh != NULL) {
+        tl_release(&mesh->allocator, mesh->block, mesh->block_size);
+        memset(mesh, 0, sizeof *mesh);
+    }
 }
 
 tl_mesh_view tl_mesh_as_view(const tl_mesh *mesh)

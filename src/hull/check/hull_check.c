@@ -12,78 +12,103 @@
 
 #include <string.h>
 
-static bool same_bits(float a, float b)
+static bool same_float_bits(float a, float b)
 {
     return memcmp(&a, &b, sizeof a) == 0;
 }
 
-static tl_result check_head(const void *bytes, uint64_t size)
+static tl_result wrong_field(tl_report *report, const char *field)
 {
+    return tl_report_field(report, TL_ERR_CORRUPT, field, "bake the hull again");
+}
+
+static tl_result wrong_element(tl_report *report, const char *element, uint64_t index)
+{
+    return tl_report_fail(report, TL_ERR_CORRUPT, element, index, "bake the hull again");
+}
+
+static tl_result check_blob(const void *bytes, uint64_t size, tl_report *report)
+{
+    if (bytes == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "bytes", "give the hull's bytes");
+    }
     if (size < sizeof(tl_blob)) {
-        return TL_ERR_TRUNCATED;
+        return tl_report_field(report, TL_ERR_TRUNCATED, "size", "give the whole hull");
     }
-    const tl_hull *hull = bytes;
-    if (hull->blob.magic != TL_HULL_MAGIC) {
-        return TL_ERR_MAGIC;
+    const tl_blob *blob = bytes;
+    if (blob->magic != TL_HULL_MAGIC) {
+        return tl_report_field(report, TL_ERR_MAGIC, "blob.magic", "give the bytes of a baked hull");
     }
-    if (hull->blob.version != TL_HULL_VERSION) {
-        return TL_ERR_VERSION;
+    if (blob->version != TL_HULL_VERSION) {
+        return tl_report_field(report, TL_ERR_VERSION, "blob.version", "bake the hull again with this version");
     }
-    if (size < sizeof(tl_hull) || size < hull->blob.size) {
-        return TL_ERR_TRUNCATED;
-    }
-    const uint32_t most_vertices = TL_MAX_HULL_POINTS;
-    // E <= 3 V - 6, F <= 2 V - 4 (Euler), and a block holds at least one half-edge.
-    if (hull->vertex_count < 4 || hull->vertex_count > most_vertices || hull->half_edge_count % 2 != 0 ||
-        hull->half_edge_count > 6 * (uint64_t)hull->vertex_count || hull->block_count < hull->vertex_count ||
-        hull->block_count > hull->half_edge_count || hull->ring_count > hull->face_count ||
-        hull->ring_cells > tl_face_ring_cells(hull->half_edge_count) ||
-        (uint64_t)hull->vertex_count + hull->face_count != (uint64_t)hull->half_edge_count / 2 + 2) {
-        return TL_ERR_CORRUPT;
-    }
-    tl_hull expected = *hull;
-    uint64_t expected_size = tl_hull_lay_out(&expected);
-    if (hull->blob.size != expected_size || memcmp(&expected, hull, sizeof expected) != 0) {
-        return TL_ERR_CORRUPT;
+    if (size < sizeof(tl_hull) || size < blob->size) {
+        return tl_report_field(report, TL_ERR_TRUNCATED, "size", "give the whole hull");
     }
     return TL_OK;
 }
 
-static bool check_loops(const tl_hull *hull)
+static tl_result check_head(const tl_hull *hull, tl_report *report)
+{
+    // E <= 3 V - 6, F <= 2 V - 4 (Euler), and a block holds at least one half-edge.
+    if (hull->vertex_count < 4 || hull->vertex_count > TL_MAX_HULL_POINTS) {
+        return wrong_field(report, "vertex_count");
+    }
+    if (hull->half_edge_count % 2 != 0 || hull->half_edge_count > 6 * (uint64_t)hull->vertex_count) {
+        return wrong_field(report, "half_edge_count");
+    }
+    if ((uint64_t)hull->vertex_count + hull->face_count != (uint64_t)hull->half_edge_count / 2 + 2) {
+        return wrong_field(report, "face_count");
+    }
+    if (hull->block_count < hull->vertex_count || hull->block_count > hull->half_edge_count) {
+        return wrong_field(report, "block_count");
+    }
+    if (hull->ring_count > hull->face_count || hull->ring_cells > tl_face_ring_cells(hull->half_edge_count)) {
+        return wrong_field(report, "ring_count");
+    }
+    tl_hull expected = *hull;
+    uint64_t expected_size = tl_hull_lay_out(&expected);
+    if (hull->blob.size != expected_size) {
+        return wrong_field(report, "blob.size");
+    }
+    return memcmp(&expected, hull, sizeof expected) == 0 ? TL_OK : wrong_field(report, "offsets");
+}
+
+static tl_result check_loops(const tl_hull *hull, tl_report *report)
 {
     const tl_hull_face *faces = tl_hull_faces(hull);
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
     uint32_t first = 0;
     for (uint32_t f = 0; f < hull->face_count; f++) {
         if (faces[f].first != first || faces[f].count < 3 || faces[f].count > hull->half_edge_count - first) {
-            return false;
+            return wrong_element(report, "face", f);
         }
         for (uint32_t k = 0; k < faces[f].count; k++) {
             tl_hull_half_edge h = half_edges[first + k];
             uint32_t next = k + 1 < faces[f].count ? first + k + 1 : first;
             if (h.face != f || h.next != next || h.origin >= hull->vertex_count || h.twin >= hull->half_edge_count ||
                 h.origin < half_edges[first].origin) {
-                return false;
+                return wrong_element(report, "half-edge", first + k);
             }
         }
         first += faces[f].count;
     }
     if (first != hull->half_edge_count) {
-        return false;
+        return wrong_field(report, "half_edge_count");
     }
     for (uint32_t h = 0; h < hull->half_edge_count; h++) {
         uint32_t twin = half_edges[h].twin;
         if (twin == h || half_edges[twin].twin != h || half_edges[twin].origin == half_edges[h].origin ||
             half_edges[half_edges[h].next].origin != half_edges[twin].origin) {
-            return false;
+            return wrong_element(report, "half-edge", h);
         }
     }
-    return true;
+    return TL_OK;
 }
 
 // One vertex's ring and blocks. The loops are proven, so to turn around a vertex is a permutation of half-edges and the
 // ring closes; rings of different vertices are disjoint, which bounds the work by 2 E.
-static bool check_ring(const tl_hull *hull, uint32_t vertex, uint32_t *half_edges_seen, uint32_t *next_block)
+static bool check_vertex_ring(const tl_hull *hull, uint32_t vertex, uint32_t *half_edges_seen, uint32_t *next_block)
 {
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
     uint32_t start = tl_hull_vertex_edges(hull)[vertex];
@@ -121,89 +146,106 @@ static bool check_ring(const tl_hull *hull, uint32_t vertex, uint32_t *half_edge
     }
 }
 
-static bool check_geometry(const tl_hull *hull)
+static tl_result check_rings(const tl_hull *hull, tl_report *report)
+{
+    uint32_t half_edges_seen = 0, blocks_seen = hull->vertex_count;
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        if (!check_vertex_ring(hull, v, &half_edges_seen, &blocks_seen)) {
+            return wrong_element(report, "vertex", v);
+        }
+    }
+    if (half_edges_seen != hull->half_edge_count) {
+        return wrong_field(report, "vertex_edges");
+    }
+    return blocks_seen == hull->block_count ? TL_OK : wrong_field(report, "block_count");
+}
+
+static tl_result check_vertices_and_bounds(const tl_hull *hull, tl_report *report)
 {
     tl_aabb bounds = tl_aabb_empty();
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         tl_vec3 p = tl_hull_vertices(hull)[v], size = tl_abs(p);
         if (!tl_is_finite(p) || tl_maxf(size.x, tl_maxf(size.y, size.z)) > TL_MAX_HULL_COORDINATE) {
-            return false;
+            return wrong_element(report, "vertex", v);
         }
         bounds = tl_aabb_add_point(bounds, p);
     }
-    if (memcmp(&bounds, &hull->bounds, sizeof bounds) != 0) {
-        return false;
-    }
+    return memcmp(&bounds, &hull->bounds, sizeof bounds) == 0 ? TL_OK : wrong_field(report, "bounds");
+}
+
+static tl_result check_planes_and_mass(const tl_hull *hull, tl_report *report)
+{
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_plane plane = tl_hull_face_plane(hull, f);
         double length_sq =
             plane.normal[0] * plane.normal[0] + plane.normal[1] * plane.normal[1] + plane.normal[2] * plane.normal[2];
         // Generous: this only keeps nonsense out, tl_hull_validate measures.
         if (!(length_sq > 0.999 && length_sq < 1.001) || !isfinite(plane.offset)) {
-            return false;
+            return wrong_element(report, "face", f);
         }
     }
     // A query must not name a face that is not there.
     for (uint32_t f = hull->face_count; f < 8 * tl_hull_plane_block_count(hull->face_count); f++) {
         tl_hull_plane plane = tl_hull_face_plane(hull, f);
         if (plane.normal[0] != 0.0 || plane.normal[1] != 0.0 || plane.normal[2] != 0.0 || plane.offset != 0.0) {
-            return false;
+            return wrong_field(report, "planes");
         }
     }
     const double *mass = &hull->mass.volume;
     for (size_t i = 0; i < sizeof hull->mass / sizeof *mass; i++) {
         if (!isfinite(mass[i])) {
-            return false;
+            return wrong_field(report, "mass");
         }
     }
-    return true;
+    return TL_OK;
 }
 
-static tl_vec3 corner(const tl_hull *hull, uint32_t half_edge)
+static tl_vec3 origin_of(const tl_hull *hull, uint32_t half_edge)
 {
     return tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin];
 }
 
 // Exactly: every face lies in one plane and turns left at each corner, and at every edge the surface is bent inward.
 // What this leaves open is a surface that winds around more than once, which only tl_hull_validate excludes.
-static bool check_convexity(const tl_hull *hull)
+static tl_result check_convexity(const tl_hull *hull, tl_report *report)
 {
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
     for (uint32_t h = 0; h < hull->half_edge_count; h++) {
         uint32_t next = half_edges[h].next, twin = half_edges[h].twin;
         uint32_t beyond = half_edges[half_edges[twin].next].next; // starts at a corner of the other face, off this edge
-        if (tl_orient3d(corner(hull, h), corner(hull, next), corner(hull, half_edges[next].next),
-                        corner(hull, beyond)) >= 0) {
-            return false;
+        if (tl_orient3d(origin_of(hull, h), origin_of(hull, next), origin_of(hull, half_edges[next].next),
+                        origin_of(hull, beyond)) >= 0) {
+            return wrong_element(report, "half-edge", h);
         }
     }
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_face face = tl_hull_faces(hull)[f];
         for (uint32_t k = 3; k < face.count; k++) {
-            if (tl_orient3d(corner(hull, face.first), corner(hull, face.first + 1), corner(hull, face.first + 2),
-                            corner(hull, face.first + k)) != 0) {
-                return false;
+            if (tl_orient3d(origin_of(hull, face.first), origin_of(hull, face.first + 1),
+                            origin_of(hull, face.first + 2), origin_of(hull, face.first + k)) != 0) {
+                return wrong_element(report, "face", f);
             }
         }
     }
-    return true;
+    return TL_OK;
 }
 
-static bool check_scan(const tl_hull *hull)
+static tl_result check_scan(const tl_hull *hull, tl_report *report)
 {
     const float *rows = tl_hull_scan_rows(hull);
     for (uint32_t i = 0; i < hull->scan_count; i++) {
         tl_vec3 p = tl_hull_scan_point(hull, i);
-        if (!same_bits(rows[i], p.x) || !same_bits(rows[hull->scan_count + i], p.y) ||
-            !same_bits(rows[2 * hull->scan_count + i], p.z)) {
-            return false;
+        if (!same_float_bits(rows[i], p.x) || !same_float_bits(rows[hull->scan_count + i], p.y) ||
+            !same_float_bits(rows[2 * hull->scan_count + i], p.z)) {
+            return wrong_field(report, "scan");
         }
     }
-    return same_bits(hull->scan_error, hull->scan_count > 0 ? tl_hull_scan_error(hull) : 0.0f);
+    bool right = same_float_bits(hull->scan_error, hull->scan_count > 0 ? tl_hull_scan_error(hull) : 0.0f);
+    return right ? TL_OK : wrong_field(report, "scan_error");
 }
 
 // Any vertex is a right start, so the cells are only proven to hold vertices.
-static bool check_table(const tl_hull *hull)
+static tl_result check_direction_table(const tl_hull *hull, tl_report *report)
 {
     tl_vec3 scale = tl_hull_table_scale(hull);
     const uint32_t *table = tl_hull_table(hull);
@@ -211,7 +253,7 @@ static bool check_table(const tl_hull *hull)
     for (uint64_t i = 0; i < squares + hull->ring_cells; i++) {
         bool ring = i < squares && (table[i] & TL_TABLE_RING) != 0;
         if (ring ? (table[i] & ~TL_TABLE_RING) >= hull->ring_count : table[i] >= hull->vertex_count) {
-            return false;
+            return wrong_element(report, "table cell", i);
         }
     }
     uint32_t count = 0, first = (uint32_t)squares;
@@ -220,41 +262,30 @@ static bool check_table(const tl_hull *hull)
         if (tl_face_has_ring(corners)) {
             tl_face_ring expected = tl_face_ring_make(hull, face, first);
             if (memcmp(&expected, &tl_hull_rings(hull)[count++], sizeof expected) != 0) {
-                return false;
+                return wrong_element(report, "ring", count - 1);
             }
             first += tl_face_ring_cells(corners);
         }
     }
-    return memcmp(&scale, &hull->table_scale, sizeof scale) == 0;
-}
-
-static tl_result check_hull_bytes(const void *bytes, uint64_t size)
-{
-    TL_TRY(check_head(bytes, size));
-    const tl_hull *hull = bytes;
-    if (!check_loops(hull) || !check_geometry(hull) || !check_convexity(hull)) {
-        return TL_ERR_CORRUPT;
-    }
-    tl_hull rings = *hull;
-    tl_hull_count_rings(&rings, tl_hull_faces(hull));
-    if (rings.ring_count != hull->ring_count || rings.ring_cells != hull->ring_cells) {
-        return TL_ERR_CORRUPT;
-    }
-    uint32_t half_edges_seen = 0, blocks_seen = hull->vertex_count;
-    for (uint32_t v = 0; v < hull->vertex_count; v++) {
-        if (!check_ring(hull, v, &half_edges_seen, &blocks_seen)) {
-            return TL_ERR_CORRUPT;
-        }
-    }
-    if (half_edges_seen != hull->half_edge_count || blocks_seen != hull->block_count || !check_scan(hull) ||
-        !check_table(hull)) {
-        return TL_ERR_CORRUPT;
-    }
-    return TL_OK;
+    return memcmp(&scale, &hull->table_scale, sizeof scale) == 0 ? TL_OK : wrong_field(report, "table_scale");
 }
 
 tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *report_out)
 {
     tl_report_begin(report_out, "check hull");
-    return check_hull_bytes(bytes, size);
+    TL_TRY(check_blob(bytes, size, report_out));
+    const tl_hull *hull = bytes;
+    TL_TRY(check_head(hull, report_out));
+    TL_TRY(check_loops(hull, report_out));
+    TL_TRY(check_vertices_and_bounds(hull, report_out));
+    TL_TRY(check_planes_and_mass(hull, report_out));
+    TL_TRY(check_convexity(hull, report_out));
+    tl_hull rings = *hull;
+    tl_hull_count_rings(&rings, tl_hull_faces(hull));
+    if (rings.ring_count != hull->ring_count || rings.ring_cells != hull->ring_cells) {
+        return wrong_field(report_out, "ring_count");
+    }
+    TL_TRY(check_rings(hull, report_out));
+    TL_TRY(check_scan(hull, report_out));
+    return check_direction_table(hull, report_out);
 }

@@ -5,6 +5,8 @@
 
 #include "halfedge/pool.h"
 
+#include "base/assert.h"
+
 static void remove_edge(tl_halfedge_mesh *mesh, uint32_t edge)
 {
     uint32_t twin = tl_halfedge_twin(edge);
@@ -25,8 +27,11 @@ static void remove_edge(tl_halfedge_mesh *mesh, uint32_t edge)
 
 tl_result tl_halfedge_mesh_remove_face(tl_halfedge_mesh *mesh, uint32_t face)
 {
+    if (mesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     if (!tl_halfedge_is_face(mesh, face)) {
-        return TL_ERR_INDEX;
+        return TL_ERR_STALE;
     }
     uint32_t start = mesh->faces[face].edge, edge = start, size = 0;
     do {
@@ -46,5 +51,23 @@ tl_result tl_halfedge_mesh_remove_face(tl_halfedge_mesh *mesh, uint32_t face)
         edge = next;
     }
     tl_halfedge_give_face(mesh, face);
+    return TL_OK;
+}
+
+tl_result tl_halfedge_mesh_remove_vertex(tl_halfedge_mesh *mesh, uint32_t vertex)
+{
+    if (mesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (!tl_halfedge_is_vertex(mesh, vertex)) {
+        return TL_ERR_STALE;
+    }
+    // Every edge has a face on one side at least, and its last edge goes with its last face.
+    while (mesh->vertices[vertex].edge != TL_HALFEDGE_NONE) {
+        uint32_t edge = mesh->vertices[vertex].edge;
+        uint32_t face = mesh->edges[edge].face;
+        TL_TRY(tl_halfedge_mesh_remove_face(mesh, face != TL_HALFEDGE_NONE ? face : mesh->edges[edge ^ 1u].face));
+    }
+    tl_halfedge_give_vertex(mesh, vertex);
     return TL_OK;
 }

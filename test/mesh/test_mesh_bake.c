@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// mesh_build.c with weld.c and clean.c: examples, a quadratic oracle of the weld, bad input by name, failing memory.
+// mesh_bake.c with weld.c and clean.c: examples, a quadratic oracle of the weld, bad input by name, failing memory.
 
 #include "talus_test.h"
 
@@ -43,13 +43,13 @@ static void a_loose_square_becomes_two_joined_triangles(void **state)
     assert_memory_equal(mesh.indices, expected, sizeof expected);
     TEST_CHECK(mesh.bounds.min.x == 0 && mesh.bounds.max.z == 1);
     TEST_CHECK(report.base.peak_bytes >= mesh.block_size);
-    tl_mesh_free(&mesh, NULL);
+    tl_mesh_free(&mesh);
     TEST_CHECK(mesh.vertices == NULL);
 
     def.keep_duplicates = true;
     TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, NULL), TL_OK);
     assert_int_equal(mesh.triangle_count, 5);
-    tl_mesh_free(&mesh, NULL);
+    tl_mesh_free(&mesh);
 }
 
 // A triangle whose corners lie on one line in exact arithmetic has no area; one float aside it has some, and stays.
@@ -74,7 +74,7 @@ static void area_is_decided_exactly(void **state)
     assert_int_equal(mesh.triangle_count, 2);
     assert_int_equal(mesh.source_triangles[0], 1);
     assert_int_equal(mesh.source_triangles[1], 2);
-    tl_mesh_free(&mesh, NULL);
+    tl_mesh_free(&mesh);
 }
 
 // The documented rule, by a quadratic scan.
@@ -134,7 +134,7 @@ static void weld_equals_a_quadratic_scan(void **state)
             welded += expected[i] != i;
             kept_count += expected[i] == i;
         }
-        tl_mesh_free(&mesh, NULL);
+        tl_mesh_free(&mesh);
     }
     TEST_CHECK(welded > 5000 && kept_count > 5000);
 }
@@ -202,7 +202,7 @@ static void failing_memory_and_cancellation_leak_nothing(void **state)
         tl_result result = tl_mesh_bake(&view, &def, &mesh, NULL);
         if (result == TL_OK) {
             TEST_CHECK(test.live_blocks == 1);
-            tl_mesh_free(&mesh, &test.allocator);
+            tl_mesh_free(&mesh);
             TEST_CHECK(test.live_blocks == 0 && test.live_bytes == 0);
             break;
         }
