@@ -169,7 +169,8 @@ void bench_random(arena &a)
         [&](const place &p) {
             const uint64_t bits[2] = { random_bits(), random_bits() };
             tl_nav_location at;
-            tl_nav_query_random_reachable(a.query.get(), navmesh, nullptr, &p.talus, RADIUS, bits, &at);
+            const tl_nav_around_request request = { nullptr, p.talus, RADIUS };
+            tl_nav_query_random_reachable(a.query.get(), navmesh, &request, bits, &at);
             a.checksum += at.polygon;
         });
     compare(
@@ -188,7 +189,8 @@ void bench_random(arena &a)
                 number = random_bits();
             }
             tl_nav_location at[POINTS];
-            tl_nav_query_random_reachable_points(a.query.get(), navmesh, nullptr, &p.talus, RADIUS, bits, POINTS, at);
+            const tl_nav_around_request request = { nullptr, p.talus, RADIUS };
+            tl_nav_query_random_reachable_points(a.query.get(), navmesh, &request, bits, POINTS, at);
             a.checksum += at[0].polygon;
         });
 }
@@ -206,9 +208,10 @@ void bench_around(arena &a)
         },
         [&](const place &p) {
             tl_nav_zone zone = tl_nav_zone_circle(p.talus.point, RADIUS);
-            tl_nav_field_def field = { INFINITY, &zone, false };
+            tl_nav_field_def field = tl_default_nav_field_def();
+            field.zone = &zone;
             uint32_t count = 0;
-            tl_nav_query_flood(a.query.get(), navmesh, nullptr, &p.talus, &field, a.entries.data(), MOST, &count);
+            tl_nav_query_flood(a.query.get(), navmesh, &p.talus, &field, a.entries.data(), MOST, &count);
             a.checksum += count;
         });
     compare(
@@ -244,7 +247,8 @@ void bench_sliced(arena &a)
         [&](const place &p) {
             tl_nav_path_progress progress;
             tl_nav_path path;
-            tl_nav_query_begin_path(a.query.get(), navmesh, nullptr, &p.talus, &p.goal);
+            const tl_nav_path_request request = { nullptr, p.talus, p.goal };
+            tl_nav_query_begin_path(a.query.get(), navmesh, &request);
             do {
                 tl_nav_query_step_path(a.query.get(), SLICE, &progress);
             } while (progress.status == TL_NAV_PATH_UNFINISHED);

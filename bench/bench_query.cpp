@@ -138,13 +138,15 @@ struct arena {
     {
         tl_nav_path path;
         uint32_t count = 0;
-        if (tl_nav_query_find_path(talus.get(), navmesh(), nullptr, &p.start.talus, &p.goal.talus, polygons.data(),
-                                   (uint32_t)polygons.size(), &path) != TL_OK ||
+        const tl_nav_path_request request = { nullptr, p.start.talus, p.goal.talus };
+        if (tl_nav_query_find_path(talus.get(), navmesh(), &request, polygons.data(), (uint32_t)polygons.size(),
+                                   &path) != TL_OK ||
             path.status != TL_NAV_PATH_COMPLETE) {
             return 0;
         }
-        tl_navmesh_straight_path(navmesh(), polygons.data(), path.polygon_count, p.start.talus.point,
-                                 p.goal.talus.point, corners.data(), (uint32_t)corners.size(), &count, nullptr);
+        const tl_nav_polygon_path found = { polygons.data(), path.polygon_count, p.start.talus.point,
+                                            p.goal.talus.point };
+        tl_navmesh_straight_path(navmesh(), &found, corners.data(), (uint32_t)corners.size(), &count, nullptr);
         return count;
     }
 
@@ -152,8 +154,10 @@ struct arena {
     double shortest_path(const located_pair &p, uint32_t *corner_count_out)
     {
         tl_nav_shortest_path path;
-        tl_nav_query_find_shortest_path(talus.get(), navmesh(), nullptr, &p.start.talus, &p.goal.talus, corners.data(),
-                                        (uint32_t)corners.size(), polygons.data(), (uint32_t)polygons.size(), &path);
+        const tl_nav_path_request request = { nullptr, p.start.talus, p.goal.talus };
+        const tl_nav_path_buffers buffers = { polygons.data(), (uint32_t)polygons.size(), corners.data(),
+                                              (uint32_t)corners.size() };
+        tl_nav_query_find_shortest_path(talus.get(), navmesh(), &request, &buffers, &path);
         *corner_count_out = path.corner_count;
         return path.status == TL_NAV_PATH_COMPLETE ? path.length : -1.0;
     }
@@ -369,11 +373,10 @@ void bench_places(arena &a)
         },
         [&](size_t i) {
             const located_pair &p = a.pairs[i];
-            tl_nav_location end;
-            uint32_t count;
-            tl_nav_query_move_along_surface(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, p.target,
-                                            a.polygons.data(), 64, &count, &end);
-            a.checksum += count;
+            const tl_nav_move_request request = { nullptr, p.start.talus, p.target };
+            tl_nav_move move;
+            tl_nav_query_move_along_surface(a.talus.get(), a.navmesh(), &request, a.polygons.data(), 64, &move);
+            a.checksum += move.polygon_count;
         });
     compare(
         "wall distance", 1.0, all,
@@ -386,8 +389,9 @@ void bench_places(arena &a)
         },
         [&](size_t i) {
             const located_pair &p = a.pairs[i];
+            const tl_nav_around_request request = { nullptr, p.start.talus, WALL_RADIUS };
             tl_nav_wall wall;
-            tl_nav_query_find_wall(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, WALL_RADIUS, &wall);
+            tl_nav_query_find_wall(a.talus.get(), a.navmesh(), &request, &wall);
             a.checksum += (uint64_t)wall.distance;
         });
     compare(
@@ -416,18 +420,18 @@ void compare_places(arena &a)
     for (const located_pair &p : a.pairs) {
         float end[3], distance, point[3], normal[3];
         int count;
-        uint32_t own_count;
-        tl_nav_location own_end;
+        const tl_nav_move_request move_request = { nullptr, p.start.talus, p.target };
+        const tl_nav_around_request wall_request = { nullptr, p.start.talus, WALL_RADIUS };
+        tl_nav_move own_move;
         tl_nav_wall wall;
         a.detour->moveAlongSurface(p.start.detour, p.start.detour_point, &p.target.x, &a.filter, end,
                                    a.detour_polygons.data(), &count, 64);
-        tl_nav_query_move_along_surface(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, p.target, nullptr, 0,
-                                        &own_count, &own_end);
-        double theirs = plan_distance(end, p.target), ours = plan_distance(&own_end.point.x, p.target);
+        tl_nav_query_move_along_surface(a.talus.get(), a.navmesh(), &move_request, nullptr, 0, &own_move);
+        double theirs = plan_distance(end, p.target), ours = plan_distance(&own_move.end.point.x, p.target);
         slides += ours > theirs + 2e-3;
         a.detour->findDistanceToWall(p.start.detour, p.start.detour_point, WALL_RADIUS, &a.filter, &distance, point,
                                      normal);
-        tl_nav_query_find_wall(a.talus.get(), a.navmesh(), nullptr, &p.start.talus, WALL_RADIUS, &wall);
+        tl_nav_query_find_wall(a.talus.get(), a.navmesh(), &wall_request, &wall);
         walls += std::fabs((double)wall.distance - (double)distance) > 2e-3;
     }
     std::printf("  %-22s of %zu slides %zu end farther from their target than Detour's, %zu wall distances differ\n",

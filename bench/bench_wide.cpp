@@ -169,9 +169,12 @@ class arena
     {
         const float near = radius - RADII[0] + 2.0f * CELL;
         const tl_vec3 extents = { 2.0f * CELL, 1.0f, 2.0f * CELL };
-        return tl_navmesh_find_nearest(navmesh.get(), nullptr, { point[0], point[1], point[2] }, extents, plain) ==
-                   TL_OK &&
-               tl_nav_query_find_wide_place(query.get(), navmesh.get(), nullptr, radius, plain, near, wide) == TL_OK;
+        if (tl_navmesh_find_nearest(navmesh.get(), nullptr, { point[0], point[1], point[2] }, extents, plain) !=
+            TL_OK) {
+            return false;
+        }
+        const tl_nav_around_request around = { nullptr, *plain, near };
+        return tl_nav_query_find_wide_place(query.get(), navmesh.get(), &around, radius, wide) == TL_OK;
     }
 
     void find_pairs(const detour_level &baked, float radius)
@@ -203,8 +206,8 @@ class arena
     tl_nav_wide_path wide_path(const tl_navmesh *asked, const place_pair &p, float radius)
     {
         tl_nav_wide_path path;
-        tl_nav_query_find_wide_path(query.get(), asked, nullptr, radius, &p.talus[0], &p.talus[1], corners.data(), MOST,
-                                    &path);
+        const tl_nav_path_request request = { nullptr, p.talus[0], p.talus[1] };
+        tl_nav_query_find_wide_path(query.get(), asked, &request, radius, corners.data(), MOST, &path);
         return path;
     }
 
@@ -266,13 +269,13 @@ void arena::bench_radius(const detour_level &baked, float radius)
     double theirs = 1e30, plain = 1e30, gathered = 1e30, ours = 1e30, asked = 1e30;
     for (int run = 0; run < options.runs; run++) {
         theirs = std::min(theirs, time_once([&](const place_pair &p) { checksum += (uint64_t)detour_path(baked, p); }));
-        plain =
-            std::min(plain, time_once([&](const place_pair &p) {
-                         tl_nav_shortest_path path;
-                         tl_nav_query_find_shortest_path(query.get(), navmesh.get(), nullptr, &p.talus_plain[0],
-                                                         &p.talus_plain[1], corners.data(), MOST, nullptr, 0, &path);
-                         checksum += path.corner_count;
-                     }));
+        plain = std::min(plain, time_once([&](const place_pair &p) {
+                             tl_nav_shortest_path path;
+                             const tl_nav_path_request request = { nullptr, p.talus_plain[0], p.talus_plain[1] };
+                             const tl_nav_path_buffers buffers = { nullptr, 0, corners.data(), MOST };
+                             tl_nav_query_find_shortest_path(query.get(), navmesh.get(), &request, &buffers, &path);
+                             checksum += path.corner_count;
+                         }));
         gathered = std::min(gathered, time_once([&](const place_pair &p) {
                                 checksum += wide_path(navmesh.get(), p, radius).corner_count;
                             }));
@@ -281,8 +284,8 @@ void arena::bench_radius(const detour_level &baked, float radius)
                         }));
         asked = std::min(asked, time_once([&](const place_pair &p) {
                              tl_nav_wide_status status;
-                             tl_nav_query_is_wide_reachable(query.get(), prepared.get(), nullptr, radius, &p.talus[0],
-                                                            &p.talus[1], &status);
+                             const tl_nav_path_request request = { nullptr, p.talus[0], p.talus[1] };
+                             tl_nav_query_is_wide_reachable(query.get(), prepared.get(), &request, radius, &status);
                              checksum += (uint64_t)status;
                          }));
     }

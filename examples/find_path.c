@@ -49,10 +49,10 @@ static tl_result walk(const tl_navmesh *navmesh, float *length_out)
     }
     tl_nav_ref polygons[MOST_POLYGONS];
     tl_nav_corner corners[MOST_CORNERS];
-    tl_nav_route_buffers buffers = { polygons, MOST_POLYGONS, corners, MOST_CORNERS };
+    tl_nav_path_buffers buffers = { polygons, MOST_POLYGONS, corners, MOST_CORNERS };
     tl_nav_route route;
-    result = tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(-5, 0, -5), tl_vec3_make(5, 0, -5),
-                                     tl_vec3_make(1, 2, 1), &buffers, &route);
+    const tl_nav_route_request request = { .start = { -5, 0, -5 }, .goal = { 5, 0, -5 }, .half_extents = { 1, 2, 1 } };
+    result = tl_nav_query_find_route(query, navmesh, &request, &buffers, &route);
     if (result == TL_OK && route.path.status == TL_NAV_PATH_COMPLETE) {
         printf("%g m through %u polygons:\n", (double)route.length, route.path.polygon_count);
         for (uint32_t i = 0; i < route.corner_count; i++) {

@@ -100,10 +100,10 @@ static tl_result walk(const world *w, actor *a)
 {
     tl_nav_ref polygons[MOST_POLYGONS];
     tl_nav_corner corners[MOST_CORNERS];
-    const tl_nav_route_buffers buffers = { polygons, MOST_POLYGONS, corners, MOST_CORNERS };
+    const tl_nav_path_buffers buffers = { polygons, MOST_POLYGONS, corners, MOST_CORNERS };
     tl_nav_route route;
-    tl_result result = tl_nav_query_find_route(w->query, w->navmesh, NULL, a->place, a->goal,
-                                               tl_vec3_make(AHEAD, 2, AHEAD), &buffers, &route);
+    const tl_nav_route_request request = { .start = a->place, .goal = a->goal, .half_extents = { AHEAD, 2, AHEAD } };
+    tl_result result = tl_nav_query_find_route(w->query, w->navmesh, &request, &buffers, &route);
     float left = a->speed * TICK;
     for (uint32_t i = 1; result == TL_OK && i < route.corner_count && left > 0.0f; i++) {
         const tl_vec3 to = tl_sub(corners[i].point, a->place);

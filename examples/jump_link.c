@@ -80,10 +80,12 @@ static int go(const roofs *r)
 {
     tl_nav_ref polygons[MOST];
     tl_nav_corner corners[MOST];
-    tl_nav_route_buffers buffers = { polygons, MOST, corners, MOST };
+    tl_nav_path_buffers buffers = { polygons, MOST, corners, MOST };
     tl_nav_route route;
-    tl_result result = tl_nav_query_find_route(r->query, r->navmesh, NULL, tl_vec3_make(2, 0, 2),
-                                               tl_vec3_make(16, -0.5f, 8), tl_vec3_make(1, 1, 1), &buffers, &route);
+    const tl_nav_route_request request = { .start = { 2, 0, 2 },
+                                           .goal = { 16, -0.5f, 8 },
+                                           .half_extents = { 1, 1, 1 } };
+    tl_result result = tl_nav_query_find_route(r->query, r->navmesh, &request, &buffers, &route);
     if (result != TL_OK || route.path.status != TL_NAV_PATH_COMPLETE) {
         printf("no way\n");
         return -1;

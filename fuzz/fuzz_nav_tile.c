@@ -98,10 +98,11 @@ static void ask(const tl_navmesh *navmesh, tl_nav_query *query, tl_vec3 from, tl
 {
     tl_nav_ref polygons[64];
     tl_nav_corner corners[64];
-    tl_nav_route_buffers buffers = { polygons, 64, corners, 64 };
+    tl_nav_path_buffers buffers = { polygons, 64, corners, 64 };
     tl_nav_route route;
     tl_vec3 extents = { 40.0f, 1e9f, 40.0f };
-    tl_result result = tl_nav_query_find_route(query, navmesh, NULL, from, to, extents, &buffers, &route);
+    const tl_nav_route_request request = { .start = from, .goal = to, .half_extents = extents };
+    tl_result result = tl_nav_query_find_route(query, navmesh, &request, &buffers, &route);
     require(result == TL_OK || result == TL_NOT_FOUND || result == TL_INCOMPLETE);
     if (result != TL_OK) {
         return;

@@ -73,12 +73,13 @@ static bool list_walls(const around_queries *all, tl_nav_query *query, const tl_
 {
     const around_settings *settings = all->settings;
     uint32_t count = 0;
-    tl_nav_query_find_walls(query, all->navmesh, NULL, center, settings->radius, NULL, 0, &count);
+    const tl_nav_around_request request = { .center = *center, .radius = settings->radius };
+    tl_nav_query_find_walls(query, all->navmesh, &request, NULL, 0, &count);
     tl_nav_wall_segment *walls = malloc((count + 1u) * sizeof(*walls));
     if (walls == NULL) {
         return false;
     }
-    tl_nav_query_find_walls(query, all->navmesh, NULL, center, settings->radius, walls, count, &count);
+    tl_nav_query_find_walls(query, all->navmesh, &request, walls, count, &count);
     begin_list(text, settings, "walls", count);
     for (uint32_t i = 0; i < count; ++i) {
         tl_text_add(text, !settings->json ? "" : i > 0 ? ",{\"distance\":" : "{\"distance\":");
@@ -97,14 +98,15 @@ static bool list_walls(const around_queries *all, tl_nav_query *query, const tl_
 static bool list_polygons(const around_queries *all, tl_nav_query *query, const tl_nav_location *center, tl_text *text)
 {
     const around_settings *settings = all->settings;
-    const tl_nav_field_def def = { settings->radius, NULL, false };
+    tl_nav_field_def def = tl_default_nav_field_def();
+    def.max_cost = settings->radius;
     uint32_t count = 0;
-    tl_nav_query_flood(query, all->navmesh, NULL, center, &def, NULL, 0, &count);
+    tl_nav_query_flood(query, all->navmesh, center, &def, NULL, 0, &count);
     tl_nav_field_entry *entries = malloc((count + 1u) * sizeof(*entries));
     if (entries == NULL) {
         return false;
     }
-    tl_nav_query_flood(query, all->navmesh, NULL, center, &def, entries, count, &count);
+    tl_nav_query_flood(query, all->navmesh, center, &def, entries, count, &count);
     begin_list(text, settings, "polygons", count);
     for (uint32_t i = 0; i < count; ++i) {
         tl_text_add(text, !settings->json ? "" : i > 0 ? ",{\"cost\":" : "{\"cost\":");
@@ -129,7 +131,8 @@ static void list_random(const around_queries *all, tl_nav_query *query, const tl
         if (center == NULL) {
             tl_navmesh_random_point(all->navmesh, NULL, bits, &at);
         } else {
-            tl_nav_query_random_reachable(query, all->navmesh, NULL, center, settings->radius, bits, &at);
+            const tl_nav_around_request request = { .center = *center, .radius = settings->radius };
+            tl_nav_query_random_reachable(query, all->navmesh, &request, bits, &at);
         }
         tl_text_add(text, settings->json && i > 0 ? "," : "");
         write_point(text, settings, at.point);

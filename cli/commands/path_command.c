@@ -27,7 +27,7 @@ typedef struct path_settings {
 // What one worker searches with. Buffers grow when a route needs more.
 typedef struct searcher {
     tl_nav_query *query;
-    tl_nav_route_buffers buffers;
+    tl_nav_path_buffers buffers;
 } searcher;
 
 typedef struct path_queries {
@@ -64,16 +64,16 @@ static bool grow(searcher *s, uint32_t polygons, uint32_t corners)
 // known.
 static tl_result find_route(const path_queries *queries, searcher *s, const float *n, tl_nav_route *route)
 {
-    tl_vec3 start = tl_vec3_make(n[0], n[1], n[2]);
-    tl_vec3 goal = tl_vec3_make(n[3], n[4], n[5]);
+    const tl_nav_route_request request = { .start = tl_vec3_make(n[0], n[1], n[2]),
+                                           .goal = tl_vec3_make(n[3], n[4], n[5]),
+                                           .half_extents = queries->settings->extents };
     tl_result result = TL_INCOMPLETE;
     for (unsigned trial = 0; trial < 3 && result == TL_INCOMPLETE; ++trial) {
         memset(route, 0, sizeof(*route));
         result = queries->settings->radius > 0.0f
-                     ? tl_find_wide_route(s->query, queries->navmesh, queries->settings->radius, start, goal,
-                                          queries->settings->extents, &s->buffers, route)
-                     : tl_nav_query_find_route(s->query, queries->navmesh, NULL, start, goal,
-                                               queries->settings->extents, &s->buffers, route);
+                     ? tl_find_wide_route(s->query, queries->navmesh, &request, queries->settings->radius, &s->buffers,
+                                          route)
+                     : tl_nav_query_find_route(s->query, queries->navmesh, &request, &s->buffers, route);
         if (result == TL_INCOMPLETE && !grow(s, route->path.polygon_count, route->corner_count + 2)) {
             return TL_ERR_MEMORY;
         }

@@ -16,7 +16,7 @@ enum { HALF_CIRCLE = 17 };
 // A route over the navmesh: what is needed to draw it.
 typedef struct draw_route {
     tl_nav_query *query;
-    tl_nav_route_buffers buffers;
+    tl_nav_path_buffers buffers;
     tl_nav_route route;
     bool found;
 } draw_route;
@@ -52,8 +52,8 @@ static tl_result make_route_room(const tl_navmesh *navmesh, draw_route *route)
 
 static tl_result find_route(const tl_navmesh *navmesh, draw_route *route, tl_vec3 from, tl_vec3 to, tl_vec3 extents)
 {
-    tl_result result =
-        tl_nav_query_find_route(route->query, navmesh, NULL, from, to, extents, &route->buffers, &route->route);
+    const tl_nav_route_request request = { .start = from, .goal = to, .half_extents = extents };
+    tl_result result = tl_nav_query_find_route(route->query, navmesh, &request, &route->buffers, &route->route);
     route->found = result == TL_OK;
     return result;
 }
@@ -64,8 +64,8 @@ static tl_result find_given_route(const tl_navmesh *navmesh, const draw_route_en
     if (ends->radius <= 0.0f) {
         return find_route(navmesh, route, ends->from, ends->to, near);
     }
-    return tl_find_wide_route(route->query, navmesh, ends->radius, ends->from, ends->to, near, &route->buffers,
-                              &route->route);
+    const tl_nav_route_request request = { .start = ends->from, .goal = ends->to, .half_extents = near };
+    return tl_find_wide_route(route->query, navmesh, &request, ends->radius, &route->buffers, &route->route);
 }
 
 // Without ends given: across the level, the longer one of its two diagonals that leads all the way, at the height of

@@ -46,6 +46,6 @@ void draw_stage_links(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav
 
 /// A route over the navmesh: the polygons of the corridor, the straight path, start and goal.
 void draw_stage_route(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav_route *route,
-                      const tl_nav_route_buffers *buffers);
+                      const tl_nav_path_buffers *buffers);
 
 #endif

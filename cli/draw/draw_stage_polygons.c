@@ -110,7 +110,7 @@ void draw_stage_navmesh(draw_scene *scene, const tl_navmesh *navmesh)
 }
 
 void draw_stage_route(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav_route *route,
-                      const tl_nav_route_buffers *buffers)
+                      const tl_nav_path_buffers *buffers)
 {
     const draw_colour corridor = 0xf2c14e;
     const draw_colour line = 0xc0392b;

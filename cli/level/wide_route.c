@@ -11,26 +11,30 @@ static tl_nav_path_status status_of(tl_nav_wide_status status)
                                                 : TL_NAV_PATH_UNREACHABLE;
 }
 
-tl_result tl_find_wide_route(tl_nav_query *query, const tl_navmesh *navmesh, float radius, tl_vec3 start, tl_vec3 goal,
-                             tl_vec3 half_extents, const tl_nav_route_buffers *buffers, tl_nav_route *route_out)
+tl_result tl_find_wide_route(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_route_request *request,
+                             float agent_radius, const tl_nav_path_buffers *buffers, tl_nav_route *route_out)
 {
-    const tl_vec3 ends[2] = { start, goal };
+    const tl_vec3 half_extents = request->half_extents;
+    const tl_vec3 ends[2] = { request->start, request->goal };
     tl_nav_location *places[2] = { &route_out->start, &route_out->goal };
     memset(route_out, 0, sizeof *route_out);
     for (int i = 0; i < 2; i++) {
         tl_nav_location near;
-        tl_result result = tl_navmesh_find_nearest(navmesh, NULL, ends[i], half_extents, &near);
+        tl_result result = tl_navmesh_find_nearest(navmesh, request->filter, ends[i], half_extents, &near);
         if (result == TL_OK) {
-            result = tl_nav_query_find_wide_place(query, navmesh, NULL, radius, &near,
-                                                  tl_minf(half_extents.x, half_extents.z), places[i]);
+            const tl_nav_around_request around = { .filter = request->filter,
+                                                   .center = near,
+                                                   .radius = tl_minf(half_extents.x, half_extents.z) };
+            result = tl_nav_query_find_wide_place(query, navmesh, &around, agent_radius, places[i]);
         }
         if (result != TL_OK) {
             return result;
         }
     }
     tl_nav_wide_path path;
-    tl_result result = tl_nav_query_find_wide_path(query, navmesh, NULL, radius, &route_out->start, &route_out->goal,
-                                                   buffers->corners, buffers->corner_capacity, &path);
+    const tl_nav_path_request between = { request->filter, route_out->start, route_out->goal };
+    tl_result result = tl_nav_query_find_wide_path(query, navmesh, &between, agent_radius, buffers->corners,
+                                                   buffers->corner_capacity, &path);
     route_out->path.status = status_of(path.status);
     route_out->corner_count = path.corner_count;
     route_out->length = (float)path.surface_length;

@@ -7,9 +7,9 @@
 
 #include <talus/nav_wide.h>
 
-/// tl_nav_query_find_route for a radius: between the places with room that are nearest to the ends. The route has
-/// corners and no polygons. TL_INCOMPLETE: route_out->corner_count says how much room is needed.
-tl_result tl_find_wide_route(tl_nav_query *query, const tl_navmesh *navmesh, float radius, tl_vec3 start, tl_vec3 goal,
-                             tl_vec3 half_extents, const tl_nav_route_buffers *buffers, tl_nav_route *route_out);
+/// tl_nav_query_find_route for an agent radius: between the places with room that are nearest to the ends. The route
+/// has corners and no polygons. TL_INCOMPLETE: route_out->corner_count says how much room is needed.
+tl_result tl_find_wide_route(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_route_request *request,
+                             float agent_radius, const tl_nav_path_buffers *buffers, tl_nav_route *route_out);
 
 #endif

@@ -29,13 +29,17 @@ typedef struct tl_nav_zone {
 TL_API tl_nav_zone tl_nav_zone_circle(tl_vec3 center, float radius);
 TL_API tl_nav_zone tl_nav_zone_polygon(const tl_vec3 *points, uint32_t point_count);
 
+/// Heights from `min` to `max`, metres; they may be infinite.
+typedef struct tl_nav_height_range {
+    float min, max;
+} tl_nav_height_range;
+
 /// All polygons that pass and come into a zone, whether a path leads there or not. Their order is that of the tiles'
-/// trees. Only those whose surface comes between min_y and max_y, as far as its box tells. `*count_out` is the true
-/// number. TL_INCOMPLETE: only the first were written. TL_ERR_ARGUMENT (a zone that is none), TL_ERR_NOT_FINITE
-/// (heights may be infinite).
+/// trees. Only those whose surface comes into `heights` (NULL: all), as far as its box tells. `*count_out` is the true
+/// number. TL_INCOMPLETE: only the first were written. TL_ERR_ARGUMENT (a zone that is none), TL_ERR_NOT_FINITE.
 TL_API tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                          const tl_nav_zone *zone, float min_y, float max_y, tl_nav_ref *polygons_out,
-                                          uint32_t capacity, uint32_t *count_out);
+                                          const tl_nav_zone *zone, const tl_nav_height_range *heights,
+                                          tl_nav_ref *polygons_out, uint32_t capacity, uint32_t *count_out);
 
 // ---------------------------------------------------------------------------------------------------------
 // Fields: the cost of the way to each polygon around.
@@ -49,14 +53,19 @@ typedef struct tl_nav_field_entry {
     tl_vec3 point;   ///< where the path enters the polygon; the start in its own
 } tl_nav_field_entry;
 
-/// How far a field reaches.
+/// How far a field reaches, and what its ways cost. Begin with tl_default_nav_field_def.
 typedef struct tl_nav_field_def {
-    float max_cost;          ///< polygons that are entered at a higher cost do not belong to it; INFINITY: all do
-    const tl_nav_zone *zone; ///< NULL: everywhere; else only ways from polygon to polygon that come into it are gone,
-                             ///< and off-mesh links that land in it
-    bool by_reference;       ///< entries stand in the order of references, for tl_nav_field_find; false: in the order
-                             ///< in which they were found, the start's first, which takes less time
+    const tl_nav_filter *filter; ///< NULL: the default filter
+    const tl_nav_zone *zone;     ///< NULL: everywhere; else only ways from polygon to polygon that come into it count,
+                                 ///< and off-mesh links that land in it
+    float max_cost;              ///< >= 0: polygons that are entered at a higher cost do not belong to the field
+    bool by_reference;           ///< entries stand in the order of references, for tl_nav_field_find; false: in the
+                                 ///< order in which they were found, the start's first, which takes less time
+    uint32_t cookie;             ///< TL_DEF_COOKIE, set by tl_default_nav_field_def
 } tl_nav_field_def;
+
+/// The default filter, everywhere, at any cost (INFINITY), as found.
+TL_API tl_nav_field_def tl_default_nav_field_def(void);
 
 /// Floods the polygons around a start, the cheapest first: those that hang together with it within the field's reach,
 /// what a path costs there, and from where it comes.
@@ -67,9 +76,9 @@ typedef struct tl_nav_field_def {
 /// those that were found are written, and costs may be too high. TL_NOT_FOUND: a stale reference.
 /// TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: the zone, a cost, max_cost below 0. O(polygons log polygons). Source: Dijkstra
 /// 1959.
-TL_API tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                    const tl_nav_location *start, const tl_nav_field_def *def,
-                                    tl_nav_field_entry *entries_out, uint32_t capacity, uint32_t *count_out);
+TL_API tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_location *start,
+                                    const tl_nav_field_def *def, tl_nav_field_entry *entries_out, uint32_t capacity,
+                                    uint32_t *count_out);
 
 /// The entry of a polygon in a field by reference, or UINT32_MAX. O(log count).
 TL_API uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t count, tl_nav_ref polygon);
@@ -101,8 +110,8 @@ TL_API tl_result tl_navmesh_polygon_walls(const tl_navmesh *navmesh, const tl_na
 /// nearest `capacity` of them, the nearest first, whole. `*count_out` is the true number. TL_INCOMPLETE: there are
 /// more. TL_ERR_LIMIT: the query was out of nodes. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
 /// TL_ERR_ARGUMENT: a negative radius.
-TL_API tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                         const tl_nav_location *center, float radius, tl_nav_wall_segment *segments_out,
+TL_API tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh,
+                                         const tl_nav_around_request *request, tl_nav_wall_segment *segments_out,
                                          uint32_t capacity, uint32_t *count_out);
 
 // ---------------------------------------------------------------------------------------------------------
@@ -121,13 +130,12 @@ TL_API tl_result tl_navmesh_random_point(const tl_navmesh *navmesh, const tl_nav
 /// A circle without area has its centre alone. TL_ERR_LIMIT: the query was out of nodes; the point lies on the polygons
 /// that were found. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
 TL_API tl_result tl_nav_query_random_reachable(tl_nav_query *query, const tl_navmesh *navmesh,
-                                               const tl_nav_filter *filter, const tl_nav_location *center, float radius,
-                                               const uint64_t random[2], tl_nav_location *location_out);
+                                               const tl_nav_around_request *request, const uint64_t random[2],
+                                               tl_nav_location *location_out);
 /// The same `count` times, for one flood: random[2 * i] and random[2 * i + 1] choose locations_out[i].
 TL_API tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_navmesh *navmesh,
-                                                      const tl_nav_filter *filter, const tl_nav_location *center,
-                                                      float radius, const uint64_t *random, uint32_t count,
-                                                      tl_nav_location *locations_out);
+                                                      const tl_nav_around_request *request, const uint64_t *random,
+                                                      uint32_t count, tl_nav_location *locations_out);
 
 #ifdef __cplusplus
 }

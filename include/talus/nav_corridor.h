@@ -5,8 +5,8 @@
 // A path is searched once; each step then changes only the corridor's ends, and what is far away is looked at when the
 // agent comes near:
 //
-//   tl_nav_ref room[256];
-//   tl_nav_corridor corridor = tl_nav_corridor_init(room, 256);
+//   tl_nav_ref polygons[256];
+//   tl_nav_corridor corridor = tl_nav_corridor_init(polygons, 256);
 //   tl_nav_corridor_reset(&corridor, &agent);
 //   tl_nav_corridor_find(&corridor, query, navmesh, NULL, &goal, &path);
 //   each frame:
@@ -31,7 +31,7 @@ extern "C" {
 
 /// Read it freely; change it through the functions below.
 typedef struct tl_nav_corridor {
-    tl_nav_ref *path;  ///< the caller's room: as tl_nav_query_find_path writes it, off-mesh links among the polygons
+    tl_nav_ref *path;  ///< the caller's buffer: as tl_nav_query_find_path writes it, off-mesh links among the polygons
     uint32_t capacity; ///< >= 1
     uint32_t count;    ///< 0: the corridor is nowhere yet
     tl_vec3 position;  ///< of the agent, on the first polygon
@@ -40,16 +40,16 @@ typedef struct tl_nav_corridor {
     bool reaches;      ///< the target is the goal
 } tl_nav_corridor;
 
-/// An empty corridor.
-TL_API tl_nav_corridor tl_nav_corridor_init(tl_nav_ref *room, uint32_t capacity);
+/// An empty corridor in the caller's buffer, which must outlive it.
+TL_API tl_nav_corridor tl_nav_corridor_init(tl_nav_ref *path, uint32_t capacity);
 
 /// Puts agent and target in one place.
 TL_API void tl_nav_corridor_reset(tl_nav_corridor *corridor, const tl_nav_location *at);
 
 /// Searches the path from the agent to a goal, right into the corridor (tl_nav_query_find_path). A path that does not
-/// fit is cut where the room ends: the agent goes that far, and then the rest is asked for. A partial path leads to its
-/// own end. Errors as those of tl_nav_query_find_path, TL_INCOMPLETE excepted, and
-/// TL_NOT_FOUND for an empty corridor; then nothing is changed.
+/// fit is cut where the buffer ends: the agent goes that far, and then the rest is asked for. A partial path leads to
+/// its own end. Errors as those of tl_nav_query_find_path, TL_INCOMPLETE excepted, and TL_NOT_FOUND for an empty
+/// corridor; then nothing is changed.
 TL_API tl_result tl_nav_corridor_find(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
                                       const tl_nav_filter *filter, const tl_nav_location *goal, tl_nav_path *path_out);
 

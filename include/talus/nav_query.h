@@ -277,6 +277,35 @@ typedef enum tl_nav_path_status {
 /// A word for a status: "complete", "unreachable", "out of nodes", "unfinished", "stale".
 TL_API const char *tl_nav_path_status_name(tl_nav_path_status status);
 
+#define TL_NAV_CORNER_START 1u  ///< the path's start
+#define TL_NAV_CORNER_END   2u  ///< the path's end
+#define TL_NAV_CORNER_LEFT  4u  ///< the path turns left around it
+#define TL_NAV_CORNER_RIGHT 8u  ///< the path turns right around it
+#define TL_NAV_CORNER_LINK  16u ///< the path goes from here to the next corner by an off-mesh link
+
+/// A corner of a straight path.
+typedef struct tl_nav_corner {
+    tl_vec3 point;
+    tl_nav_ref polygon; ///< entered at this corner: the path goes on in it
+    uint32_t flags;     ///< TL_NAV_CORNER_...
+    tl_nav_ref link;    ///< TL_NAV_CORNER_LINK: which; else TL_NAV_NO_REF
+} tl_nav_corner;
+
+/// What a path search is asked for.
+typedef struct tl_nav_path_request {
+    const tl_nav_filter *filter; ///< NULL: the default filter
+    tl_nav_location start;       ///< on its polygon (tl_navmesh_find_nearest), which need not pass the filter
+    tl_nav_location goal;        ///< on its polygon
+} tl_nav_path_request;
+
+/// Where a path is written: the caller's. A buffer that is not wanted is NULL with capacity 0.
+typedef struct tl_nav_path_buffers {
+    tl_nav_ref *polygons;
+    uint32_t polygon_capacity;
+    tl_nav_corner *corners;
+    uint32_t corner_capacity;
+} tl_nav_path_buffers;
+
 typedef struct tl_nav_path {
     tl_nav_path_status status;
     uint32_t polygon_count; ///< of the whole path, though the buffer may hold fewer
@@ -295,13 +324,12 @@ typedef struct tl_nav_path {
 ///
 /// A goal on another island (tl_navmesh_island) is TL_NAV_PATH_UNREACHABLE at once, with no search, and the path is the
 /// start's polygon alone; tl_nav_query_find_route leads as near to such a goal as any path does.
-/// start and goal must lie on their polygons (tl_navmesh_find_nearest); the start's polygon need not pass the filter.
 /// TL_OK for every status. TL_INCOMPLETE: the first `capacity` polygons were written. TL_NOT_FOUND: a stale
 /// reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: an area cost. NULL filter: the default one.
 /// Source: Hart, Nilsson, Raphael 1968.
-TL_API tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                        const tl_nav_location *start, const tl_nav_location *goal,
-                                        tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out);
+TL_API tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh,
+                                        const tl_nav_path_request *request, tl_nav_ref *polygons_out, uint32_t capacity,
+                                        tl_nav_path *path_out);
 
 /// The same search in slices, for long paths over many frames: begin, step until the status is not
 /// TL_NAV_PATH_UNFINISHED, write. tl_nav_query_find_path is one long step: however a search is cut, the path is the
@@ -312,8 +340,8 @@ TL_API tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *n
 /// its functions and their `user` must stay. Tiles may come and go between steps: where one that the search has looked
 /// at changes, or one beside it, the search is TL_NAV_PATH_STALE; others change nothing of what is known, and what is
 /// searched later is searched as it is then. Errors as those of tl_nav_query_find_path; then nothing is under way.
-TL_API tl_result tl_nav_query_begin_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                         const tl_nav_location *start, const tl_nav_location *goal);
+TL_API tl_result tl_nav_query_begin_path(tl_nav_query *query, const tl_navmesh *navmesh,
+                                         const tl_nav_path_request *request);
 
 /// How far a search in slices has come.
 typedef struct tl_nav_path_progress {
@@ -332,30 +360,24 @@ TL_API tl_result tl_nav_query_step_path(tl_nav_query *query, uint32_t max_steps,
 TL_API tl_result tl_nav_query_write_path(tl_nav_query *query, tl_nav_ref *polygons_out, uint32_t capacity,
                                          tl_nav_path *path_out);
 
-#define TL_NAV_CORNER_START 1u  ///< the path's start
-#define TL_NAV_CORNER_END   2u  ///< the path's end
-#define TL_NAV_CORNER_LEFT  4u  ///< the path turns left around it
-#define TL_NAV_CORNER_RIGHT 8u  ///< the path turns right around it
-#define TL_NAV_CORNER_LINK  16u ///< the path goes from here to the next corner by an off-mesh link
+/// A path as its polygons, as tl_nav_query_find_path writes them: each is a neighbour of the one before, or an off-mesh
+/// link stands between the two.
+typedef struct tl_nav_polygon_path {
+    const tl_nav_ref *polygons; ///< the start's first, the end's last
+    uint32_t polygon_count;     ///< >= 1
+    tl_vec3 start, end;         ///< points that are not on their polygons are moved to the closest point there
+} tl_nav_polygon_path;
 
-/// A corner of a straight path.
-typedef struct tl_nav_corner {
-    tl_vec3 point;
-    tl_nav_ref polygon; ///< entered at this corner: the path goes on in it
-    uint32_t flags;     ///< TL_NAV_CORNER_...
-    tl_nav_ref link;    ///< TL_NAV_CORNER_LINK: which; else TL_NAV_NO_REF
-} tl_nav_corner;
-
-/// The shortest line in the plane from start to end through a corridor of polygons, each a neighbour of the one before.
+/// The shortest line in the plane from start to end through a path's polygons.
 ///
 /// Off-mesh links in the corridor, as tl_nav_query_find_path writes them, cut it into pieces from anchor to anchor.
 /// start and end are first moved to the closest point of the first and last polygon. Two corners at least (start, end).
 /// `*length_out` (may be NULL) is the sum of the straight distances in space. TL_INCOMPLETE: the first `capacity`
 /// corners were written, count and length are true. TL_ERR_ARGUMENT: no polygon, or two that are not neighbours.
 /// TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. Source: Mikko Mononen, Simple Stupid Funnel Algorithm, 2010.
-TL_API tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
-                                          tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
-                                          uint32_t *count_out, float *length_out);
+TL_API tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_polygon_path *path,
+                                          tl_nav_corner *corners_out, uint32_t capacity, uint32_t *count_out,
+                                          float *length_out);
 
 // More flags, of the points of a traced path.
 #define TL_NAV_CORNER_CROSSING 32u ///< it crosses into another polygon here
@@ -370,19 +392,28 @@ typedef struct tl_nav_trace_point {
     float length; ///< of the path up to here, metres in space
 } tl_nav_trace_point;
 
+/// What a straight path is followed through. Polygons and corners are those of one path: of tl_navmesh_straight_path,
+/// of tl_nav_query_find_shortest_path, or of tl_navmesh_cast_ray, whose corners are its start and its end.
+typedef struct tl_nav_trace_request {
+    const tl_nav_filter *filter; ///< for costs; whether polygons pass does not matter. NULL: the default filter
+    const tl_nav_ref *polygons;
+    uint32_t polygon_count; ///< >= 1
+    const tl_nav_corner *corners;
+    uint32_t corner_count; ///< >= 2
+    /// Crossings with one of these flags are written: 0, TL_NAV_CORNER_AREA or TL_NAV_CORNER_CROSSING.
+    uint32_t keep;
+} tl_nav_trace_request;
+
 /// Follows a straight path through its polygons: what it costs, and where it crosses into them.
 ///
-/// Polygons and corners are those of one path: of tl_navmesh_straight_path, of tl_nav_query_find_shortest_path, or of
-/// tl_navmesh_cast_ray, whose corners are its start and its end. All corners are written, and those crossings that
-/// have a flag of `keep`: 0, TL_NAV_CORNER_AREA or TL_NAV_CORNER_CROSSING; a crossing in the place of a corner is one
+/// All corners are written, and the crossings that have a flag of `keep`; a crossing in the place of a corner is one
 /// with it. Heights of crossings are those of the polygons' edges. `*cost_out` (may be NULL) is the whole cost,
-/// infinite where the filter's function says so; whether polygons pass is not asked.
+/// infinite where the filter's function says so.
 /// TL_INCOMPLETE: only the first were written; count and cost are true. TL_ERR_ARGUMENT: no path: fewer than two
 /// corners, neighbours that are none, a corner in none of the polygons. TL_NOT_FOUND: a stale reference.
-TL_API tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                       const tl_nav_ref *polygons, uint32_t polygon_count, const tl_nav_corner *corners,
-                                       uint32_t corner_count, uint32_t keep, tl_nav_trace_point *points_out,
-                                       uint32_t capacity, uint32_t *count_out, float *cost_out);
+TL_API tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_trace_request *request,
+                                       tl_nav_trace_point *points_out, uint32_t capacity, uint32_t *count_out,
+                                       float *cost_out);
 
 /// The shortest path and its certificate.
 typedef struct tl_nav_shortest_path {
@@ -403,14 +434,12 @@ typedef struct tl_nav_shortest_path {
 /// the goal. Start and goal are first moved onto their polygons, in the plane.
 /// TL_NAV_PATH_UNREACHABLE: proven, and for another island at once. TL_NAV_PATH_OUT_OF_NODES: gave up at max_nodes;
 /// lower_bound still holds. In both cases nothing is written and the counts are 0.
-/// TL_INCOMPLETE: the first corners and polygons were written, counts and lengths are true. Either buffer may be NULL
-/// with capacity 0: it is then left out. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
+/// TL_INCOMPLETE: the first corners and polygons were written, counts and lengths are true. A buffer with capacity 0 is
+/// left out; NULL `buffers`: both. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
 /// Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh, IJCAI 2017.
 TL_API tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh *navmesh,
-                                                 const tl_nav_filter *filter, const tl_nav_location *start,
-                                                 const tl_nav_location *goal, tl_nav_corner *corners_out,
-                                                 uint32_t corner_capacity, tl_nav_ref *polygons_out,
-                                                 uint32_t polygon_capacity, tl_nav_shortest_path *path_out);
+                                                 const tl_nav_path_request *request, const tl_nav_path_buffers *buffers,
+                                                 tl_nav_shortest_path *path_out);
 
 /// A ray along the surface.
 typedef struct tl_nav_ray_hit {
@@ -437,46 +466,62 @@ TL_API tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_fil
 // ---------------------------------------------------------------------------------------------------------
 // Around a place.
 
-/// Moves from start towards `target` (its x and z) and along walls.
+/// What a move along the surface is asked for.
+typedef struct tl_nav_move_request {
+    const tl_nav_filter *filter; ///< NULL: the default filter. What it refuses is wall
+    tl_nav_location start;       ///< on its polygon
+    tl_vec3 target;              ///< its x and z count
+} tl_nav_move_request;
+
+/// Where a move ended.
+typedef struct tl_nav_move {
+    tl_nav_location end;    ///< exact in x and z; y is that of the target or of the wall (see tl_navmesh_height)
+    uint32_t polygon_count; ///< that the move went through, the first and last included
+} tl_nav_move;
+
+/// Moves from start towards the target and along walls.
 ///
 /// The move ends at the target when polygons that touch the circle over the way there lead to it, else at the point of
-/// their walls that is nearest to it. What the filter refuses is wall. The end is exact in x and z; its y is
-/// that of the target or of the wall (tl_navmesh_height gives the surface's).
-/// `polygons_out` (may be NULL with capacity 0) gets the polygons from the start's to the end's, neighbours in order;
-/// `*count_out` is their true number. TL_INCOMPLETE: only the first were written, the end is whole. TL_ERR_LIMIT: the
-/// query was out of nodes; the end is the best that was seen. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
-/// O(polygons that touch the circle).
+/// their walls that is nearest to it. `polygons_out` (may be NULL with capacity 0: left out) gets the polygons from
+/// the start's to the end's, neighbours in order. TL_INCOMPLETE: only the first were written, the end is whole.
+/// TL_ERR_LIMIT: the query was out of nodes; the end is the best that was seen. TL_NOT_FOUND: a stale reference.
+/// TL_ERR_NOT_FINITE. O(polygons that touch the circle).
 TL_API tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh *navmesh,
-                                                 const tl_nav_filter *filter, const tl_nav_location *start,
-                                                 tl_vec3 target, tl_nav_ref *polygons_out, uint32_t capacity,
-                                                 uint32_t *count_out, tl_nav_location *end_out);
+                                                 const tl_nav_move_request *request, tl_nav_ref *polygons_out,
+                                                 uint32_t capacity, tl_nav_move *move_out);
+
+/// A place and how far around it: what the queries that look around one are asked for.
+typedef struct tl_nav_around_request {
+    const tl_nav_filter *filter; ///< NULL: the default filter
+    tl_nav_location center;      ///< on its polygon
+    float radius;                ///< metres in the plane, >= 0
+} tl_nav_around_request;
 
 /// The wall nearest to a place, in the plane.
 typedef struct tl_nav_wall {
     bool hit;           ///< false: none within the radius
-    float distance;     ///< metres in the plane; max_radius without a hit
+    float distance;     ///< metres in the plane; the radius without a hit
     tl_vec3 point;      ///< on the wall
     tl_vec3 normal;     ///< unit, in the plane, towards the walkable side; 0 without a hit
     tl_nav_ref polygon; ///< that the wall belongs to; the centre's without a hit
 } tl_nav_wall;
 
-/// Finds the wall nearest to `center` within `max_radius` metres, of those that can be walked to straight: what lies on
+/// Finds the wall nearest to a place within a radius, of those that can be walked to straight: what lies on
 /// a floor above or below does not count. What the filter refuses is wall. TL_ERR_LIMIT: the query was out of nodes;
 /// the wall is the nearest that was seen. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a
 /// negative radius.
-TL_API tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                        const tl_nav_location *center, float max_radius, tl_nav_wall *wall_out);
+TL_API tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh,
+                                        const tl_nav_around_request *request, tl_nav_wall *wall_out);
 
 // ---------------------------------------------------------------------------------------------------------
 // All in one.
 
-/// The caller's room for a route.
-typedef struct tl_nav_route_buffers {
-    tl_nav_ref *polygons;
-    uint32_t polygon_capacity;
-    tl_nav_corner *corners;
-    uint32_t corner_capacity;
-} tl_nav_route_buffers;
+/// What a route is asked for.
+typedef struct tl_nav_route_request {
+    const tl_nav_filter *filter; ///< NULL: the default filter
+    tl_vec3 start, goal;         ///< anywhere near the navmesh
+    tl_vec3 half_extents;        ///< metres, >= 0: the box around both in which polygons are sought
+} tl_nav_route_request;
 
 typedef struct tl_nav_route {
     tl_nav_location start, goal; ///< the nearest points on the navmesh
@@ -491,9 +536,9 @@ typedef struct tl_nav_route {
 /// TL_NOT_FOUND: no polygon near start (route_out->start.polygon is TL_NAV_NO_REF) or near goal
 /// (route_out->goal.polygon is). TL_INCOMPLETE: path.polygon_count and, when the polygons fitted, corner_count say
 /// how much room is needed. Other errors as those of the functions it calls.
-TL_API tl_result tl_nav_query_find_route(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                         tl_vec3 start, tl_vec3 goal, tl_vec3 half_extents,
-                                         const tl_nav_route_buffers *buffers, tl_nav_route *route_out);
+TL_API tl_result tl_nav_query_find_route(tl_nav_query *query, const tl_navmesh *navmesh,
+                                         const tl_nav_route_request *request, const tl_nav_path_buffers *buffers,
+                                         tl_nav_route *route_out);
 
 #ifdef __cplusplus
 }

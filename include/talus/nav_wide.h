@@ -36,7 +36,7 @@ typedef struct tl_nav_wide_path {
 /// A path for an agent of any radius from the mesh's own upwards, over tiles, seams and floors over one another.
 ///
 /// A mesh has its own agent's radius taken off around all walls already. A wider agent's centre keeps the difference,
-/// radius - agent_radius of the start's tile, from the walls that are left: edges with nothing across them, and
+/// agent_radius less that of the start's tile, from the walls that are left: edges with nothing across them, and
 /// polygons that the filter refuses. Whether there is such a way is decided exactly, up to the rounding of coordinates:
 /// a gap as wide as the agent lets it through. The path found is taut: no way that passes the same obstacles on the
 /// same hands is shorter, but one that passes others may be. Turns are rounded by chords of a 32nd of a circle, so the
@@ -48,19 +48,19 @@ typedef struct tl_nav_wide_path {
 /// and lengths are true. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
 /// Sources: docs/paths.md.
 TL_API tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *navmesh,
-                                             const tl_nav_filter *filter, float radius, const tl_nav_location *start,
-                                             const tl_nav_location *goal, tl_nav_corner *corners_out, uint32_t capacity,
-                                             tl_nav_wide_path *path_out);
+                                             const tl_nav_path_request *request, float agent_radius,
+                                             tl_nav_corner *corners_out, uint32_t capacity, tl_nav_wide_path *path_out);
 
 /// Whether there is such a path: its status, as tl_nav_query_find_wide_path would give it, without the path. Errors as
 /// there.
 TL_API tl_result tl_nav_query_is_wide_reachable(tl_nav_query *query, const tl_navmesh *navmesh,
-                                                const tl_nav_filter *filter, float radius, const tl_nav_location *start,
-                                                const tl_nav_location *goal, tl_nav_wide_status *status_out);
+                                                const tl_nav_path_request *request, float agent_radius,
+                                                tl_nav_wide_status *status_out);
 
 /// How much is known beforehand. Fill it from tl_default_nav_wide_def.
 typedef struct tl_nav_wide_def {
     float max_radius; ///< metres, >= 0: of the widest agent that is served so
+    uint32_t cookie;  ///< TL_DEF_COOKIE, set by tl_default_nav_wide_def
 } tl_nav_wide_def;
 
 /// 1.5 m.
@@ -83,12 +83,12 @@ typedef struct tl_nav_wide_report {
 TL_API tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *def,
                                          tl_nav_wide_report *report_out);
 
-/// The place nearest to `near` in the plane where an agent of this radius may stand, among the polygons that hang
-/// together with its own within `max_distance` metres of it. TL_NOT_FOUND: there is none, or a stale reference.
-/// TL_ERR_LIMIT: the query was out of nodes. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius or distance.
+/// The place nearest to the request's center in the plane where an agent of this radius may stand, among the polygons
+/// that hang together with the center's within the request's radius of it. TL_NOT_FOUND: there is none, or a stale
+/// reference. TL_ERR_LIMIT: the query was out of nodes. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
 TL_API tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *navmesh,
-                                              const tl_nav_filter *filter, float radius, const tl_nav_location *near,
-                                              float max_distance, tl_nav_location *place_out);
+                                              const tl_nav_around_request *request, float agent_radius,
+                                              tl_nav_location *place_out);
 
 /// How near a path of straight lines over the surface comes to a wall, in the plane: metres, or max_distance when no
 /// wall is nearer. Each corner must lie on its polygon. TL_ERR_LIMIT: the query was out of nodes. TL_NOT_FOUND: a

@@ -172,8 +172,9 @@ static tl_result find_path(const tl_audit_job *job, const path_job *paths, searc
 {
     tl_result result = TL_INCOMPLETE;
     for (int trial = 0; trial < 2 && result == TL_INCOMPLETE; trial++) {
-        result = tl_nav_query_find_shortest_path(s->query, job->scene.navmesh, NULL, start, goal, s->corners,
-                                                 s->corner_capacity, s->polygons, s->polygon_capacity, path);
+        const tl_nav_path_request request = { .start = *start, .goal = *goal };
+        const tl_nav_path_buffers buffers = { s->polygons, s->polygon_capacity, s->corners, s->corner_capacity };
+        result = tl_nav_query_find_shortest_path(s->query, job->scene.navmesh, &request, &buffers, path);
         if (result != TL_INCOMPLETE) {
             break;
         }

@@ -63,7 +63,8 @@ static tl_result is_long(const selection *s, const tl_nav_location *from, const 
                          bool *is_long_out)
 {
     tl_nav_shortest_path path;
-    TL_TRY(tl_nav_query_find_shortest_path(s->query, s->navmesh, NULL, from, to, NULL, 0, NULL, 0, &path));
+    const tl_nav_path_request request = { .start = *from, .goal = *to };
+    TL_TRY(tl_nav_query_find_shortest_path(s->query, s->navmesh, &request, NULL, &path));
     *is_long_out = path.status != TL_NAV_PATH_COMPLETE || path.length >= (double)s->def->least_gain * (double)cost;
     return TL_OK;
 }

@@ -92,7 +92,8 @@ static tl_result try_place(search *s, const tl_nav_location *place)
         return TL_OK;
     }
     tl_nav_shortest_path path;
-    TL_TRY(tl_nav_query_find_shortest_path(s->query, s->navmesh, s->filter, s->agent, place, NULL, 0, NULL, 0, &path));
+    const tl_nav_path_request request = { s->filter, *s->agent, *place };
+    TL_TRY(tl_nav_query_find_shortest_path(s->query, s->navmesh, &request, NULL, &path));
     s->gave_up = s->gave_up || path.status == TL_NAV_PATH_OUT_OF_NODES;
     const float length = (float)path.length;
     if (path.status == TL_NAV_PATH_COMPLETE && length <= s->def->max_length && (!full || length < limit_of(s))) {

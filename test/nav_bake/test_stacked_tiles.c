@@ -247,8 +247,8 @@ static double check_path(const pair_of_meshes *p, tl_nav_query *query, const tl_
 {
     tl_nav_shortest_path path[2];
     for (int side = 0; side < 2; side++) {
-        TEST_RESULT(tl_nav_query_find_shortest_path(query, p->mesh[side], NULL, &from[side], &to[side], NULL, 0, NULL,
-                                                    0, &path[side]),
+        TEST_RESULT(tl_nav_query_find_shortest_path(
+                        query, p->mesh[side], &(tl_nav_path_request){ NULL, from[side], to[side] }, NULL, &path[side]),
                     TL_OK);
     }
     TEST_CHECK(path[0].status == path[1].status);
@@ -262,8 +262,10 @@ static void check_wide(const pair_of_meshes *p, tl_nav_query *query, const tl_na
                        const tl_nav_location to[2], tally *sum)
 {
     tl_nav_location ends[2][2];
-    if (tl_nav_query_find_wide_place(query, p->mesh[0], NULL, 0.9f, &from[0], 2.0f, &ends[0][0]) != TL_OK ||
-        tl_nav_query_find_wide_place(query, p->mesh[0], NULL, 0.9f, &to[0], 2.0f, &ends[0][1]) != TL_OK) {
+    if (tl_nav_query_find_wide_place(query, p->mesh[0], &(tl_nav_around_request){ NULL, from[0], 2.0f }, 0.9f,
+                                     &ends[0][0]) != TL_OK ||
+        tl_nav_query_find_wide_place(query, p->mesh[0], &(tl_nav_around_request){ NULL, to[0], 2.0f }, 0.9f,
+                                     &ends[0][1]) != TL_OK) {
         return;
     }
     tl_nav_wide_path path[2];
@@ -272,8 +274,9 @@ static void check_wide(const pair_of_meshes *p, tl_nav_query *query, const tl_na
             ends[1][i].polygon = twin_ref(p, 0, ends[0][i].polygon);
             ends[1][i].point = ends[0][i].point;
         }
-        TEST_RESULT(tl_nav_query_find_wide_path(query, p->mesh[side], NULL, 0.9f, &ends[side][0], &ends[side][1], NULL,
-                                                0, &path[side]),
+        TEST_RESULT(tl_nav_query_find_wide_path(query, p->mesh[side],
+                                                &(tl_nav_path_request){ NULL, ends[side][0], ends[side][1] }, 0.9f,
+                                                NULL, 0, &path[side]),
                     path[side].corner_count > 0 ? TL_INCOMPLETE : TL_OK);
     }
     TEST_CHECK(path[0].status == path[1].status);
@@ -295,19 +298,16 @@ static void check_queries(const pair_of_meshes *p, tl_nav_query *query, tl_aabb 
                             id_of(p->mesh[1], from[1].polygon).slot != id_of(p->mesh[1], to[1].polygon).slot;
         check_wide(p, query, from, to, sum);
         tl_nav_ray_hit hit[2];
-        tl_nav_location end[2];
+        tl_nav_move move[2];
         for (int side = 0; side < 2; side++) {
-            uint32_t count = 0;
+            const tl_nav_move_request request = { NULL, from[side], tl_lerp(from[side].point, to[side].point, 0.2f) };
             TEST_RESULT(tl_navmesh_cast_ray(p->mesh[side], NULL, &from[side], to[side].point, NULL, 0, &hit[side]),
                         TL_OK);
-            TEST_RESULT(tl_nav_query_move_along_surface(query, p->mesh[side], NULL, &from[side],
-                                                        tl_lerp(from[side].point, to[side].point, 0.2f), NULL, 0,
-                                                        &count, &end[side]),
-                        TL_OK);
+            TEST_RESULT(tl_nav_query_move_along_surface(query, p->mesh[side], &request, NULL, 0, &move[side]), TL_OK);
         }
         TEST_CHECK(hit[0].hit == hit[1].hit && hit[0].t == hit[1].t && hit[0].polygon_count == hit[1].polygon_count &&
                    twin_ref(p, 0, hit[0].polygon) == hit[1].polygon);
-        TEST_CHECK(end[0].point.x == end[1].point.x && end[0].point.z == end[1].point.z);
+        TEST_CHECK(move[0].end.point.x == move[1].end.point.x && move[0].end.point.z == move[1].end.point.z);
         sum->rays++;
         sum->slides++;
     }
@@ -394,8 +394,8 @@ static uint32_t check_same_paths(const tl_navmesh *meshes[2], tl_nav_query *quer
             const tl_vec3 reach = { 2, 3, 2 };
             if (tl_navmesh_find_nearest(meshes[m], NULL, at[0], reach, &ends[0]) == TL_OK &&
                 tl_navmesh_find_nearest(meshes[m], NULL, at[1], reach, &ends[1]) == TL_OK) {
-                TEST_RESULT(tl_nav_query_find_shortest_path(query, meshes[m], NULL, &ends[0], &ends[1], NULL, 0, NULL,
-                                                            0, &path[m]),
+                TEST_RESULT(tl_nav_query_find_shortest_path(
+                                query, meshes[m], &(tl_nav_path_request){ NULL, ends[0], ends[1] }, NULL, &path[m]),
                             TL_OK);
                 found++;
             }

@@ -235,10 +235,10 @@ void talus_answers_in_detour(void **)
                 answer theirs = ask(side, start, goal);
                 std::vector<tl_nav_ref> polygons(MOST_POLYGONS);
                 std::vector<tl_nav_corner> corners(MOST_POLYGONS);
-                tl_nav_route_buffers buffers = { polygons.data(), MOST_POLYGONS, corners.data(), MOST_POLYGONS };
+                tl_nav_path_buffers buffers = { polygons.data(), MOST_POLYGONS, corners.data(), MOST_POLYGONS };
                 tl_nav_route route;
-                TEST_RESULT(tl_nav_query_find_route(query.get(), made, nullptr, start, goal, EXTENTS, &buffers, &route),
-                            TL_OK);
+                const tl_nav_route_request request = { nullptr, start, goal, EXTENTS };
+                TEST_RESULT(tl_nav_query_find_route(query.get(), made, &request, &buffers, &route), TL_OK);
                 bool reached = route.path.status == TL_NAV_PATH_COMPLETE;
                 same_reach += reached == theirs.complete;
                 unreachable += !reached && !theirs.complete;

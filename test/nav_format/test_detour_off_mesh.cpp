@@ -116,13 +116,13 @@ void test_path(void **)
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     tl_nav_ref polygons[16];
     tl_nav_corner corners[16];
-    tl_nav_route_buffers buffers = { polygons, 16, corners, 16 };
+    tl_nav_path_buffers buffers = { polygons, 16, corners, 16 };
     tl_nav_route route;
     for (int way = 0; way < 2; way++) {
         tl_vec3 west = tl_vec3_make(1, 0, 1), east = tl_vec3_make(11, 0, 1);
-        TEST_RESULT(tl_nav_query_find_route(query, navmesh, nullptr, way == 0 ? west : east, way == 0 ? east : west,
-                                            tl_vec3_make(1, 1, 1), &buffers, &route),
-                    TL_OK);
+        const tl_nav_route_request request = { nullptr, way == 0 ? west : east, way == 0 ? east : west,
+                                               tl_vec3_make(1, 1, 1) };
+        TEST_RESULT(tl_nav_query_find_route(query, navmesh, &request, &buffers, &route), TL_OK);
         TEST_CHECK(route.path.status == TL_NAV_PATH_COMPLETE && route.corner_count == 4);
         tl_nav_offmesh_state state;
         TEST_RESULT(tl_navmesh_offmesh_state(navmesh, corners[1].link, &state), TL_OK);

@@ -81,10 +81,11 @@ static tl_nav_path_status ask(const linked_level *level, tl_vec3 from, tl_vec3 t
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     tl_nav_ref polygons[256];
     tl_nav_corner corners[256];
-    tl_nav_route_buffers buffers = { polygons, 256, corners, 256 };
+    tl_nav_path_buffers buffers = { polygons, 256, corners, 256 };
     tl_nav_route route;
-    TEST_RESULT(tl_nav_query_find_route(query, level->navmesh, NULL, from, to, tl_vec3_make(0.5f, 0.5f, 0.5f), &buffers,
-                                        &route),
+    TEST_RESULT(tl_nav_query_find_route(query, level->navmesh,
+                                        &(tl_nav_route_request){ NULL, from, to, tl_vec3_make(0.5f, 0.5f, 0.5f) },
+                                        &buffers, &route),
                 TL_OK);
     *links_out = 0;
     for (uint32_t i = 0; i < route.corner_count; i++) {

@@ -79,10 +79,9 @@ bool is_used(const tl_navmesh *navmesh, tl_nav_query *query, const tl_nav_found_
     tl_vec3 near_by = tl_vec3_make(0.01f, 0.01f, 0.01f);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, nullptr, link.start, near_by, &ends[0]), TL_OK);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, nullptr, link.end, near_by, &ends[1]), TL_OK);
+    const tl_nav_path_request request = { nullptr, ends[0], ends[1] };
     tl_nav_shortest_path path;
-    TEST_RESULT(
-        tl_nav_query_find_shortest_path(query, navmesh, nullptr, &ends[0], &ends[1], nullptr, 0, nullptr, 0, &path),
-        TL_OK);
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &request, nullptr, &path), TL_OK);
     double cost = (double)tl_distance(link.start, link.end);
     return path.status == TL_NAV_PATH_COMPLETE && path.length <= cost * (1.0 + 1e-6) + 1e-6;
 }

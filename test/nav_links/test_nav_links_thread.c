@@ -97,15 +97,15 @@ static void *read_paths(void *user)
         tl_vec3 to = test_random_point(&random, tl_vec3_make(1, 0, 1), tl_vec3_make(24, 4, 15));
         tl_nav_ref polygons[MOST];
         tl_nav_corner corners[MOST];
-        tl_nav_route_buffers buffers = { polygons, MOST, corners, MOST };
+        tl_nav_path_buffers buffers = { polygons, MOST, corners, MOST };
         tl_nav_route route;
         uint32_t links = 0;
         while (atomic_load(&world->writer_waits)) {
             sched_yield();
         }
         pthread_rwlock_rdlock(&world->lock);
-        tl_result result =
-            tl_nav_query_find_route(query, world->navmesh, NULL, from, to, tl_vec3_make(3, 5, 3), &buffers, &route);
+        tl_result result = tl_nav_query_find_route(
+            query, world->navmesh, &(tl_nav_route_request){ NULL, from, to, tl_vec3_make(3, 5, 3) }, &buffers, &route);
         bool whole = result == TL_NOT_FOUND ||
                      (result == TL_OK && path_is_whole(world->navmesh, polygons, route.path.polygon_count, &links));
         pthread_rwlock_unlock(&world->lock);

@@ -70,14 +70,14 @@ static void *read_paths(void *user)
         tl_vec3 to = test_random_point(&random, tl_vec3_make(1, 0, 1), tl_vec3_make(24, 4, 15));
         tl_nav_ref polygons[MOST];
         tl_nav_corner corners[MOST];
-        tl_nav_route_buffers buffers = { polygons, MOST, corners, MOST };
+        tl_nav_path_buffers buffers = { polygons, MOST, corners, MOST };
         tl_nav_route route;
         while (atomic_load(&world->writer_waits)) {
             sched_yield();
         }
         pthread_rwlock_rdlock(&world->lock);
-        tl_result result =
-            tl_nav_query_find_route(query, world->navmesh, NULL, from, to, tl_vec3_make(3, 5, 3), &buffers, &route);
+        tl_result result = tl_nav_query_find_route(
+            query, world->navmesh, &(tl_nav_route_request){ NULL, from, to, tl_vec3_make(3, 5, 3) }, &buffers, &route);
         if (result == TL_OK) {
             atomic_fetch_add(&world->paths, 1);
             atomic_fetch_add(&world->complete, route.path.status == TL_NAV_PATH_COMPLETE);

@@ -38,9 +38,9 @@ static float straight_length(const tl_nav_corridor *c, const tl_navmesh *navmesh
     tl_nav_corner corners[ROOM];
     uint32_t count = 0;
     float length = 0.0f;
-    TEST_RESULT(
-        tl_navmesh_straight_path(navmesh, c->path, c->count, c->position, c->target, corners, ROOM, &count, &length),
-        TL_OK);
+    TEST_RESULT(tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ c->path, c->count, c->position, c->target },
+                                         corners, ROOM, &count, &length),
+                TL_OK);
     // The first corners are those of the whole path.
     tl_nav_corner first[3];
     uint32_t first_count = 0;

@@ -15,6 +15,16 @@ typedef struct twin_entry {
     bool open, closed;
 } twin_entry;
 
+static tl_nav_field_def field_of(const tl_nav_filter *filter, const tl_nav_zone *zone, float max_cost)
+{
+    tl_nav_field_def def = tl_default_nav_field_def();
+    def.filter = filter;
+    def.zone = zone;
+    def.max_cost = max_cost;
+    def.by_reference = true;
+    return def;
+}
+
 static float metre_of(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref ref)
 {
     const tl_nav_tile *tile = NULL;
@@ -94,13 +104,15 @@ static void check_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_
     float metres = 0.0f;
     TEST_RESULT(tl_nav_field_path(entries, count, entry, polygons, MOST, &length), TL_OK);
     TEST_CHECK(polygons[0] == start->polygon && polygons[length - 1] == entries[entry].polygon);
-    TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, length, start->point, entries[entry].point, corners, MOST,
-                                         &corner_count, &metres),
+    TEST_RESULT(tl_navmesh_straight_path(navmesh,
+                                         &(tl_nav_polygon_path){ polygons, length, start->point, entries[entry].point },
+                                         corners, MOST, &corner_count, &metres),
                 TL_OK);
     tl_nav_location goal = { entries[entry].polygon, entries[entry].point };
     tl_nav_shortest_path shortest;
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, start, &goal, NULL, 0, NULL, 0, &shortest),
-                TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, *start, goal }, NULL, &shortest),
+        TL_OK);
     TEST_CHECK(shortest.status == TL_NAV_PATH_COMPLETE);
     *ratio_sum += shortest.length > 1.0 ? (double)metres / shortest.surface_length : 1.0;
     // Too little room: the first ones, and the true count.
@@ -134,13 +146,13 @@ static void test_fields(void **state)
             }
             const tl_nav_filter *used = i % 2 == 0 ? NULL : &filter;
             tl_nav_zone zone = tl_nav_zone_circle(start.point, test_random_range(&random, 1.0f, 12.0f));
-            tl_nav_field_def field = { i < 2 ? INFINITY : test_random_range(&random, 2.0f, 40.0f),
-                                       i >= 4 ? &zone : NULL, true };
+            tl_nav_field_def field =
+                field_of(used, i >= 4 ? &zone : NULL, i < 2 ? INFINITY : test_random_range(&random, 2.0f, 40.0f));
             bool close_call = false;
             twin_entry *twin = twin_flood(navmesh, &all, used, &start, field.max_cost, field.zone, &close_call);
             tl_nav_field_entry entries[MOST];
             uint32_t count = 0, expected = 0;
-            TEST_RESULT(tl_nav_query_flood(query, navmesh, used, &start, &field, entries, MOST, &count), TL_OK);
+            TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, entries, MOST, &count), TL_OK);
             for (uint32_t k = 1; k < count; k++) {
                 TEST_CHECK(entries[k - 1].polygon < entries[k].polygon);
             }
@@ -161,7 +173,7 @@ static void test_fields(void **state)
             tl_nav_field_entry found[MOST];
             uint32_t found_count = 0;
             field.by_reference = false;
-            TEST_RESULT(tl_nav_query_flood(query, navmesh, used, &start, &field, found, MOST, &found_count), TL_OK);
+            TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, found, MOST, &found_count), TL_OK);
             TEST_CHECK(found_count == count && found[0].polygon == start.polygon && found[0].parent == UINT32_MAX);
             for (uint32_t k = 0; k < count; k++) {
                 uint32_t at = tl_nav_field_find(entries, count, found[k].polygon);
@@ -241,14 +253,15 @@ static void test_reachable_areas(void **state)
         tl_nav_location center = fixture_random_location(navmesh, &all, &random);
         float radius = test_random_range(&random, 0.2f, 9.0f);
         tl_nav_zone zone = tl_nav_zone_circle(center.point, radius);
-        tl_nav_field_def field = { radius, &zone, true };
+        tl_nav_field_def field = field_of(NULL, &zone, radius);
         uint32_t count = 0;
-        TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &center, &field, entries, MOST, &count), TL_OK);
+        TEST_RESULT(tl_nav_query_flood(query, navmesh, &center, &field, entries, MOST, &count), TL_OK);
         for (uint32_t i = 0; i < POINTS; i++) {
             bits[2 * i] = (uint64_t)i * (UINT64_MAX / POINTS);
             bits[2 * i + 1] = test_random_u64(&random);
         }
-        TEST_RESULT(tl_nav_query_random_reachable_points(query, navmesh, NULL, &center, radius, bits, POINTS, points),
+        TEST_RESULT(tl_nav_query_random_reachable_points(
+                        query, navmesh, &(tl_nav_around_request){ NULL, center, radius }, bits, POINTS, points),
                     TL_OK);
         double sum = 0.0;
         for (uint32_t k = 0; k < count; k++) {
@@ -266,7 +279,8 @@ static void test_reachable_areas(void **state)
         }
         for (uint32_t i = 0; i < POINTS; i += 97) {
             tl_nav_location one;
-            TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &center, radius, bits + 2 * i, &one),
+            TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, center, radius },
+                                                      bits + 2 * i, &one),
                         TL_OK);
             TEST_CHECK(memcmp(&one.point, &points[i].point, sizeof one.point) == 0 && one.polygon == points[i].polygon);
         }
@@ -295,10 +309,10 @@ static void test_reachable(void **state)
         tl_nav_location center = fixture_random_location(navmesh, &all, &random);
         float radius = test_random_range(&random, 1.5f, 9.0f);
         tl_nav_zone zone = tl_nav_zone_circle(center.point, radius);
-        tl_nav_field_def field = { radius, &zone, true };
+        tl_nav_field_def field = field_of(NULL, &zone, radius);
         tl_nav_field_entry entries[MOST];
         uint32_t count = 0, kept = 0, expected[SECTORS] = { 0 }, met[SECTORS] = { 0 };
-        TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &center, &field, entries, MOST, &count), TL_OK);
+        TEST_RESULT(tl_nav_query_flood(query, navmesh, &center, &field, entries, MOST, &count), TL_OK);
         for (uint32_t i = 0; i < 40 * DRAWS && kept < DRAWS; i++) {
             const uint64_t bits[2] = { test_random_u64(&random), test_random_u64(&random) };
             tl_nav_location at;
@@ -312,7 +326,9 @@ static void test_reachable(void **state)
         for (uint32_t i = 0; i < kept; i++) {
             const uint64_t bits[2] = { test_random_u64(&random), test_random_u64(&random) };
             tl_nav_location at;
-            TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &center, radius, bits, &at), TL_OK);
+            TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, center, radius },
+                                                      bits, &at),
+                        TL_OK);
             float x = at.point.x - center.point.x, z = at.point.z - center.point.z;
             TEST_CHECK(x * x + z * z <= radius * radius * 1.00001f);
             TEST_CHECK(tl_nav_field_find(entries, count, at.polygon) != UINT32_MAX);
@@ -345,26 +361,27 @@ static void test_links(void **state)
     tl_nav_location start, goal;
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2, 0, 2), extents, &start), TL_OK);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(22, 0, 2), extents, &goal), TL_OK);
-    tl_nav_field_def everywhere = { INFINITY, NULL, true };
+    tl_nav_field_def everywhere = field_of(NULL, NULL, INFINITY);
     tl_nav_field_entry entries[8];
     tl_nav_ref polygons[8], expected[8];
     uint32_t count = 0, length = 0;
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &everywhere, entries, 8, &count), TL_OK);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &everywhere, entries, 8, &count), TL_OK);
     TEST_CHECK(count == 4);
     uint32_t at = tl_nav_field_find(entries, count, goal.polygon);
     // 5.5 m to the link, 9 m and 3 for it, 3.5 m to the last edge.
     TEST_CHECK(at != UINT32_MAX && fabsf(entries[at].cost - 21.0f) < 1e-4f);
     TEST_RESULT(tl_nav_field_path(entries, count, at, polygons, 8, &length), TL_OK);
     tl_nav_path path;
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, expected, 8, &path), TL_OK);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, expected, 8, &path),
+                TL_OK);
     TEST_CHECK(length == 5 && path.polygon_count == 5 && memcmp(polygons, expected, 5 * sizeof expected[0]) == 0);
     TEST_CHECK(polygons[2] == link);
     // Not backward, and not where its landing lies outside the zone.
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &goal, &everywhere, entries, 8, &count), TL_OK);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, &goal, &everywhere, entries, 8, &count), TL_OK);
     TEST_CHECK(count == 2);
     tl_nav_zone zone = tl_nav_zone_circle(start.point, 10.0f);
-    tl_nav_field_def near_start = { INFINITY, &zone, true };
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &near_start, entries, 8, &count), TL_OK);
+    tl_nav_field_def near_start = field_of(NULL, &zone, INFINITY);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &near_start, entries, 8, &count), TL_OK);
     TEST_CHECK(count == 2);
     tl_nav_query_destroy(query);
     tl_navmesh_destroy(navmesh);
@@ -381,25 +398,32 @@ static void test_arguments(void **state)
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } }, at;
     tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
-    tl_nav_field_def field = { INFINITY, NULL, true }, below = { -1.0f, NULL, true };
+    tl_nav_field_def field = field_of(NULL, NULL, INFINITY), below = field_of(NULL, NULL, -1.0f);
     tl_nav_field_entry entries[8];
     uint32_t count = 0;
     const uint64_t bits[2] = { 1, 2 };
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &stale, &field, entries, 8, &count), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &nan, &field, entries, 8, &count), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &below, entries, 8, &count), TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &field, entries, 8, &count), TL_ERR_LIMIT);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, &stale, &field, entries, 8, &count), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, &nan, &field, entries, 8, &count), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &below, entries, 8, &count), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, entries, 8, &count), TL_ERR_LIMIT);
     TEST_CHECK(count == 3);
-    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &start, 20.0f, bits, &at), TL_ERR_LIMIT);
-    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &start, -1.0f, bits, &at), TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &start, 0.0f, bits, &at), TL_OK);
+    TEST_RESULT(
+        tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, start, 20.0f }, bits, &at),
+        TL_ERR_LIMIT);
+    TEST_RESULT(
+        tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, start, -1.0f }, bits, &at),
+        TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, start, 0.0f }, bits, &at),
+                TL_OK);
     TEST_CHECK(at.polygon == start.polygon && at.point.x == 2.0f && at.point.z == 2.0f);
-    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &stale, 1.0f, bits, &at), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, NULL, &nan, 1.0f, bits, &at), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, stale, 1.0f }, bits, &at),
+                TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, nan, 1.0f }, bits, &at),
+                TL_ERR_NOT_FINITE);
     tl_nav_query_destroy(query);
     def.max_nodes = 64;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, NULL, &start, &field, entries, 2, &count), TL_INCOMPLETE);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, entries, 2, &count), TL_INCOMPLETE);
     TEST_CHECK(count == 8 && entries[0].polygon == start.polygon);
     uint32_t length = 0;
     TEST_RESULT(tl_nav_field_path(entries, 2, 7, NULL, 0, &length), TL_NOT_FOUND);

@@ -93,9 +93,9 @@ static void test_functions(void **state)
             bool reachable = is_reachable(navmesh, &all, fixture_index_of(&all, start.polygon),
                                           fixture_index_of(&all, goal.polygon), &r);
             filter.pass = pass_most;
-            TEST_RESULT(
-                tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons[0], MOST_POLYGONS, &path),
-                TL_OK);
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal },
+                                               polygons[0], MOST_POLYGONS, &path),
+                        TL_OK);
             TEST_CHECK((path.status == TL_NAV_PATH_COMPLETE) == reachable);
             for (uint32_t k = 1; k < path.polygon_count; k++) {
                 const tl_nav_tile *tile = NULL;
@@ -110,17 +110,17 @@ static void test_functions(void **state)
             filter.pass = NULL;
             filter.cost = cost_by_area;
             r.calls = 0;
-            TEST_RESULT(
-                tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons[0], MOST_POLYGONS, &path),
-                TL_OK);
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal },
+                                               polygons[0], MOST_POLYGONS, &path),
+                        TL_OK);
             TEST_CHECK(r.calls > 0 || path.node_count == 0);
             filter.cost = NULL;
             for (uint32_t area = 0; area <= TL_NAV_MAX_AREA; area++) {
                 filter.area_cost[area] = cost_of_area(area);
             }
-            TEST_RESULT(
-                tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons[1], MOST_POLYGONS, &twin),
-                TL_OK);
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal },
+                                               polygons[1], MOST_POLYGONS, &twin),
+                        TL_OK);
             TEST_CHECK(path.status == twin.status && path.cost == twin.cost && path.node_count == twin.node_count);
             TEST_CHECK(path.polygon_count == twin.polygon_count &&
                        memcmp(polygons[0], polygons[1], path.polygon_count * sizeof polygons[0][0]) == 0);
@@ -133,9 +133,9 @@ static void test_functions(void **state)
             uint32_t polygon = 0;
             TEST_RESULT(tl_navmesh_resolve(navmesh, start.polygon, &tile, &polygon), TL_OK);
             start_passes = pass_most(tile, polygon, &r);
-            TEST_RESULT(
-                tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons[1], MOST_POLYGONS, &twin),
-                TL_OK);
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal },
+                                               polygons[1], MOST_POLYGONS, &twin),
+                        TL_OK);
             TEST_CHECK((twin.status == TL_NAV_PATH_COMPLETE) == (reachable && start_passes));
         }
         free(all.refs);

@@ -215,7 +215,9 @@ static void test_against_twin(void **state)
             }
             tl_nav_ref polygons[512];
             tl_nav_path path;
-            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons, 512, &path), TL_OK);
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal }, polygons,
+                                               512, &path),
+                        TL_OK);
             check_chain(navmesh, &filter, polygons, path.polygon_count);
             TEST_CHECK(polygons[0] == start.polygon && polygons[path.polygon_count - 1] == path.end.polygon);
             bool reachable = g.component[fixture_index_of(&g.all, start.polygon)] ==
@@ -307,12 +309,15 @@ static void test_length(void **state)
             tl_nav_path path;
             uint32_t count = 0;
             float length = 0.0f;
-            TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 256, &path), TL_OK);
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, polygons,
+                                               256, &path),
+                        TL_OK);
             if (path.status != TL_NAV_PATH_COMPLETE) {
                 continue;
             }
-            TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, path.polygon_count, start.point, goal.point,
-                                                 corners, 256, &count, &length),
+            TEST_RESULT(tl_navmesh_straight_path(
+                            navmesh, &(tl_nav_polygon_path){ polygons, path.polygon_count, start.point, goal.point },
+                            corners, 256, &count, &length),
                         TL_OK);
             TEST_CHECK(length <= path.cost * 1.00001f);
             double ratio = (double)length / sampled_shortest(&g, &start, &goal);
@@ -361,15 +366,19 @@ static void test_partial(void **state)
             tl_nav_ref polygons[512];
             tl_nav_corner corners[512];
             tl_nav_path path;
-            TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 512, &path), TL_OK);
+            TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, polygons,
+                                               512, &path),
+                        TL_OK);
             TEST_CHECK(path.status == TL_NAV_PATH_UNREACHABLE && path.node_count == 0 && path.polygon_count == 1);
             tl_nav_location near_goal;
             TEST_RESULT(tl_navmesh_find_nearest_reachable(navmesh, NULL, start.polygon, goal.point, &near_goal), TL_OK);
             TEST_CHECK(tl_distance_sq(near_goal.point, goal.point) == best);
-            tl_nav_route_buffers buffers = { polygons, 512, corners, 512 };
+            tl_nav_path_buffers buffers = { polygons, 512, corners, 512 };
             tl_nav_route route;
-            TEST_RESULT(tl_nav_query_find_route(query, navmesh, NULL, start.point, goal.point,
-                                                tl_vec3_make(0.5f, 0.5f, 0.5f), &buffers, &route),
+            TEST_RESULT(tl_nav_query_find_route(
+                            query, navmesh,
+                            &(tl_nav_route_request){ NULL, start.point, goal.point, tl_vec3_make(0.5f, 0.5f, 0.5f) },
+                            &buffers, &route),
                         TL_OK);
             // Where a point lies on a border, the route may begin or end on the other side of it.
             if (route.start.polygon == start.polygon && route.goal.polygon == goal.polygon) {
@@ -406,7 +415,9 @@ static void test_out_of_nodes(void **state)
         TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
         tl_nav_ref polygons[512];
         tl_nav_path path;
-        TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 512, &path), TL_OK);
+        TEST_RESULT(
+            tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, polygons, 512, &path),
+            TL_OK);
         check_chain(navmesh, &filter, polygons, path.polygon_count);
         TEST_CHECK(path.status != TL_NAV_PATH_UNREACHABLE && path.node_count <= max_nodes);
         TEST_CHECK(complete == 0 || path.status == TL_NAV_PATH_COMPLETE);
@@ -438,8 +449,11 @@ static void test_query_is_reusable(void **state)
         TEST_RESULT(tl_nav_query_create(&def, &fresh), TL_OK);
         tl_nav_ref a[256], b[256];
         tl_nav_path path_a, path_b;
-        TEST_RESULT(tl_nav_query_find_path(used, navmesh, NULL, &start, &goal, a, 256, &path_a), TL_OK);
-        TEST_RESULT(tl_nav_query_find_path(fresh, navmesh, NULL, &start, &goal, b, 256, &path_b), TL_OK);
+        TEST_RESULT(tl_nav_query_find_path(used, navmesh, &(tl_nav_path_request){ NULL, start, goal }, a, 256, &path_a),
+                    TL_OK);
+        TEST_RESULT(
+            tl_nav_query_find_path(fresh, navmesh, &(tl_nav_path_request){ NULL, start, goal }, b, 256, &path_b),
+            TL_OK);
         TEST_CHECK(path_a.polygon_count == path_b.polygon_count && path_a.cost == path_b.cost);
         TEST_CHECK(memcmp(a, b, path_a.polygon_count * sizeof *a) == 0);
         tl_nav_query_destroy(fresh);
@@ -466,17 +480,23 @@ static void test_arguments(void **state)
     tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
     tl_nav_ref polygons[8] = { 0 };
     tl_nav_path path;
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &stale, &goal, polygons, 8, &path), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &stale, polygons, 8, &path), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &nan, &goal, polygons, 8, &path), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, stale, goal }, polygons, 8, &path),
+                TL_NOT_FOUND);
+    TEST_RESULT(
+        tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, start, stale }, polygons, 8, &path),
+        TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, nan, goal }, polygons, 8, &path),
+                TL_ERR_NOT_FINITE);
     const float bad[8] = { 0.0f, -0.0f, -1.0f, -FLT_MIN, NAN, -NAN, INFINITY, -INFINITY };
     for (int i = 0; i < 16; i++) {
         tl_nav_filter filter = tl_default_nav_filter();
         filter.area_cost[i < 8 ? 5 : TL_NAV_MAX_AREA] = bad[i % 8];
-        TEST_RESULT(tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons, 8, &path),
-                    TL_ERR_ARGUMENT);
+        TEST_RESULT(
+            tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal }, polygons, 8, &path),
+            TL_ERR_ARGUMENT);
     }
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 3, &path), TL_INCOMPLETE);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, polygons, 3, &path),
+                TL_INCOMPLETE);
     TEST_CHECK(path.polygon_count == 5 && path.status == TL_NAV_PATH_COMPLETE);
     TEST_CHECK(polygons[0] == start.polygon && polygons[3] == 0);
     TEST_CHECK(strcmp(tl_nav_path_status_name(TL_NAV_PATH_OUT_OF_NODES), "out of nodes") == 0);
@@ -484,20 +504,26 @@ static void test_arguments(void **state)
 
     // All in one.
     tl_nav_corner corners[8];
-    tl_nav_route_buffers buffers = { polygons, 8, corners, 8 };
+    tl_nav_path_buffers buffers = { polygons, 8, corners, 8 };
     tl_nav_route route;
     tl_vec3 extents = { 1, 2, 1 };
-    TEST_RESULT(tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(2, 0.5f, 2), tl_vec3_make(10, 0, 10),
-                                        extents, &buffers, &route),
+    TEST_RESULT(tl_nav_query_find_route(
+                    query, navmesh,
+                    &(tl_nav_route_request){ NULL, tl_vec3_make(2, 0.5f, 2), tl_vec3_make(10, 0, 10), extents },
+                    &buffers, &route),
                 TL_OK);
     TEST_CHECK(route.corner_count == 3 && fabsf(route.length - 2.0f * sqrtf(4.0f + 36.0f)) < 1e-5f);
-    TEST_RESULT(tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(2, 0, 2), tl_vec3_make(40, 0, 10), extents,
-                                        &buffers, &route),
+    TEST_RESULT(tl_nav_query_find_route(
+                    query, navmesh,
+                    &(tl_nav_route_request){ NULL, tl_vec3_make(2, 0, 2), tl_vec3_make(40, 0, 10), extents }, &buffers,
+                    &route),
                 TL_NOT_FOUND);
     TEST_CHECK(route.start.polygon != TL_NAV_NO_REF && route.goal.polygon == TL_NAV_NO_REF);
     buffers.corner_capacity = 2;
-    TEST_RESULT(tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(2, 0, 2), tl_vec3_make(10, 0, 10), extents,
-                                        &buffers, &route),
+    TEST_RESULT(tl_nav_query_find_route(
+                    query, navmesh,
+                    &(tl_nav_route_request){ NULL, tl_vec3_make(2, 0, 2), tl_vec3_make(10, 0, 10), extents }, &buffers,
+                    &route),
                 TL_INCOMPLETE);
     TEST_CHECK(route.corner_count == 3);
     tl_nav_query_destroy(query);

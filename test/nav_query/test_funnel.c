@@ -171,8 +171,8 @@ static void check_corridor(const tl_navmesh *navmesh, const corridor *c, tl_vec3
     tl_nav_corner corners[MAX_CORRIDOR + 1];
     uint32_t count = 0;
     float length = 0.0f;
-    TEST_RESULT(tl_navmesh_straight_path(navmesh, c->polygons, c->count, start, end, corners, MAX_CORRIDOR + 1, &count,
-                                         &length),
+    TEST_RESULT(tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ c->polygons, c->count, start, end }, corners,
+                                         MAX_CORRIDOR + 1, &count, &length),
                 TL_OK);
     TEST_CHECK(count >= 2 && corners[0].flags == TL_NAV_CORNER_START && corners[count - 1].flags == TL_NAV_CORNER_END);
     TEST_CHECK(corners[0].polygon == c->polygons[0] && corners[count - 1].polygon == c->polygons[c->count - 1]);
@@ -255,11 +255,13 @@ static void test_example(void **state)
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     tl_nav_ref polygons[16];
     tl_nav_corner corners[16];
-    tl_nav_route_buffers buffers = { polygons, 16, corners, 16 };
+    tl_nav_path_buffers buffers = { polygons, 16, corners, 16 };
     tl_nav_route route;
     tl_vec3 extents = { 0.1f, 1, 0.1f };
-    TEST_RESULT(tl_nav_query_find_route(query, navmesh, NULL, tl_vec3_make(0.5f, 0, 1.25f),
-                                        tl_vec3_make(3.5f, 0, 1.25f), extents, &buffers, &route),
+    TEST_RESULT(tl_nav_query_find_route(query, navmesh,
+                                        &(tl_nav_route_request){ NULL, tl_vec3_make(0.5f, 0, 1.25f),
+                                                                 tl_vec3_make(3.5f, 0, 1.25f), extents },
+                                        &buffers, &route),
                 TL_OK);
     TEST_CHECK(route.corner_count == 4);
     TEST_CHECK(corners[1].point.x == 1.0f && corners[1].point.z == 1.0f && corners[2].point.x == 3.0f);
@@ -285,17 +287,30 @@ static void test_arguments(void **state)
     uint32_t count = 0;
     float length = 0.0f;
     tl_vec3 a = { 1, 0, 1 }, b = { 11, 0, 1 }, nan = { NAN, 0, 0 };
-    TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, 0, a, b, corners, 4, &count, &length), TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_navmesh_straight_path(navmesh, gap, 2, a, b, corners, 4, &count, &length), TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_navmesh_straight_path(navmesh, stale, 2, a, b, corners, 4, &count, &length), TL_NOT_FOUND);
-    TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, 3, nan, b, corners, 4, &count, &length), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, 3, a, b, corners, 1, &count, &length), TL_INCOMPLETE);
+    TEST_RESULT(
+        tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ polygons, 0, a, b }, corners, 4, &count, &length),
+        TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ gap, 2, a, b }, corners, 4, &count, &length),
+                TL_ERR_ARGUMENT);
+    TEST_RESULT(
+        tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ stale, 2, a, b }, corners, 4, &count, &length),
+        TL_NOT_FOUND);
+    TEST_RESULT(
+        tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ polygons, 3, nan, b }, corners, 4, &count, &length),
+        TL_ERR_NOT_FINITE);
+    TEST_RESULT(
+        tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ polygons, 3, a, b }, corners, 1, &count, &length),
+        TL_INCOMPLETE);
     TEST_CHECK(count == 2 && length == 10.0f);
     // Start and end in the same place are still two corners; points outside are moved in.
-    TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, 1, a, a, corners, 4, &count, NULL), TL_OK);
+    TEST_RESULT(
+        tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ polygons, 1, a, a }, corners, 4, &count, NULL),
+        TL_OK);
     TEST_CHECK(count == 2);
     tl_vec3 outside = { -5, 0, 1 };
-    TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, 3, outside, b, corners, 4, &count, &length), TL_OK);
+    TEST_RESULT(tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ polygons, 3, outside, b }, corners, 4, &count,
+                                         &length),
+                TL_OK);
     TEST_CHECK(corners[0].point.x == 0.0f && length == 11.0f);
     tl_navmesh_destroy(navmesh);
 }

@@ -111,8 +111,12 @@ static void check_paths(const edited *e, tl_nav_query *query, test_random *rando
         TEST_RESULT(tl_navmesh_find_nearest(e->navmesh, NULL, a.point, near_by, &c), TL_OK);
         TEST_RESULT(tl_navmesh_find_nearest(e->navmesh, NULL, b.point, near_by, &d), TL_OK);
         tl_nav_shortest_path expected, found;
-        TEST_RESULT(tl_nav_query_find_shortest_path(query, fresh, NULL, &a, &b, NULL, 0, NULL, 0, &expected), TL_OK);
-        TEST_RESULT(tl_nav_query_find_shortest_path(query, e->navmesh, NULL, &c, &d, NULL, 0, NULL, 0, &found), TL_OK);
+        TEST_RESULT(
+            tl_nav_query_find_shortest_path(query, fresh, &(tl_nav_path_request){ NULL, a, b }, NULL, &expected),
+            TL_OK);
+        TEST_RESULT(
+            tl_nav_query_find_shortest_path(query, e->navmesh, &(tl_nav_path_request){ NULL, c, d }, NULL, &found),
+            TL_OK);
         TEST_CHECK(expected.status == found.status);
         TEST_CHECK(fabs(expected.length - found.length) <= 1e-5 * (1.0 + expected.length));
         *complete_out += found.status == TL_NAV_PATH_COMPLETE;
@@ -218,11 +222,13 @@ static void test_cut_off(void **state)
     tl_nav_ref polygons[2];
     tl_nav_path path;
     tl_nav_shortest_path shortest;
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 2, &path), TL_OK);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, polygons, 2, &path),
+                TL_OK);
     TEST_CHECK(path.status == TL_NAV_PATH_UNREACHABLE && path.node_count == 0 && path.polygon_count == 1);
     TEST_CHECK(polygons[0] == start.polygon && path.end.polygon == start.polygon);
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &shortest),
-                TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &shortest),
+        TL_OK);
     TEST_CHECK(shortest.status == TL_NAV_PATH_UNREACHABLE && shortest.node_count == 0);
     uint32_t island;
     TEST_RESULT(tl_navmesh_island(navmesh, 77, &island), TL_NOT_FOUND);

@@ -140,7 +140,9 @@ static void test_floors_over_one_another(void **state)
             at.y = (float)(floor * FIXTURE_FLOOR_HEIGHT) * level.cell_height;
             if (tl_navmesh_find_nearest(navmesh, NULL, at, tl_vec3_make(0.01f, 0.5f, 0.01f), &start) == TL_OK) {
                 tl_nav_wall wall;
-                TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &start, 30.0f, &wall), TL_OK);
+                TEST_RESULT(
+                    tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, start, 30.0f }, &wall),
+                    TL_OK);
                 TEST_CHECK(wall.hit);
                 TEST_CHECK(is_straight(navmesh, &start, wall.point));
                 ties += wall.distance > 0.0f;
@@ -171,7 +173,8 @@ static void test_around(void **state)
             uint32_t index = fixture_index_of(&all, start.polygon);
             float radius = test_random_range(&random, 0.1f, 8.0f);
             tl_nav_wall wall;
-            TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &start, radius, &wall), TL_OK);
+            TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, start, radius }, &wall),
+                        TL_OK);
             double expected = nearest_wall(navmesh, &all, &start, (double)radius);
             TEST_CHECK(fabs((double)wall.distance - expected) < 1e-4);
             if (wall.hit) {
@@ -188,11 +191,12 @@ static void test_around(void **state)
             target.x += test_random_range(&random, -6.0f, 6.0f);
             target.z += test_random_range(&random, -6.0f, 6.0f);
             tl_nav_ref polygons[64];
-            uint32_t count = 0;
-            tl_nav_location end;
-            TEST_RESULT(
-                tl_nav_query_move_along_surface(query, navmesh, NULL, &start, target, polygons, 64, &count, &end),
-                TL_OK);
+            tl_nav_move move;
+            TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, &(tl_nav_move_request){ NULL, start, target },
+                                                        polygons, 64, &move),
+                        TL_OK);
+            const uint32_t count = move.polygon_count;
+            const tl_nav_location end = move.end;
             double left = hypot((double)end.point.x - (double)target.x, (double)end.point.z - (double)target.z);
             TEST_CHECK(fabs(left - best_slide(navmesh, &all, index, start.point, target)) < 1e-4);
             TEST_CHECK(polygons[0] == start.polygon && polygons[count - 1] == end.polygon);
@@ -223,27 +227,33 @@ static void test_arguments(void **state)
     const tl_navmesh *navmesh = ring.navmesh;
     const tl_nav_location start = ring.start, stale = ring.stale, nan = ring.nan;
     tl_nav_query *query = ring.few_nodes;
-    tl_nav_location end;
+    tl_nav_move move;
     tl_nav_wall wall;
-    uint32_t count = 0;
     tl_nav_ref polygons[1];
-    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &stale, 1.0f, &wall), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &nan, 1.0f, &wall), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &start, -1.0f, &wall), TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &start, 0.5f, &wall), TL_OK);
+    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, stale, 1.0f }, &wall),
+                TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, nan, 1.0f }, &wall),
+                TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, start, -1.0f }, &wall),
+                TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, start, 0.5f }, &wall), TL_OK);
     TEST_CHECK(!wall.hit && wall.distance == 0.5f && wall.polygon == start.polygon);
     tl_vec3 there = { 10, 0, 2 };
-    TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, NULL, &stale, there, NULL, 0, &count, &end),
-                TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, NULL, &nan, there, NULL, 0, &count, &end),
-                TL_ERR_NOT_FINITE);
+    TEST_RESULT(
+        tl_nav_query_move_along_surface(query, navmesh, &(tl_nav_move_request){ NULL, stale, there }, NULL, 0, &move),
+        TL_NOT_FOUND);
+    TEST_RESULT(
+        tl_nav_query_move_along_surface(query, navmesh, &(tl_nav_move_request){ NULL, nan, there }, NULL, 0, &move),
+        TL_ERR_NOT_FINITE);
     // Two nodes do not suffice.
-    TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, NULL, &start, there, NULL, 0, &count, &end),
-                TL_ERR_LIMIT);
+    TEST_RESULT(
+        tl_nav_query_move_along_surface(query, navmesh, &(tl_nav_move_request){ NULL, start, there }, NULL, 0, &move),
+        TL_ERR_LIMIT);
     query = ring.many_nodes;
-    TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, NULL, &start, there, polygons, 1, &count, &end),
+    TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, &(tl_nav_move_request){ NULL, start, there }, polygons,
+                                                1, &move),
                 TL_INCOMPLETE);
-    TEST_CHECK(count == 3 && polygons[0] == start.polygon && end.point.x == 10.0f);
+    TEST_CHECK(move.polygon_count == 3 && polygons[0] == start.polygon && move.end.point.x == 10.0f);
     fixture_free_ring(&ring);
 }
 

@@ -86,9 +86,10 @@ found_path find_talus(const tl_navmesh *navmesh, tl_nav_query *query, tl_vec3 st
 {
     tl_nav_ref polygons[2048];
     tl_nav_corner corners[2048];
-    tl_nav_route_buffers buffers = { polygons, 2048, corners, 2048 };
+    tl_nav_path_buffers buffers = { polygons, 2048, corners, 2048 };
     tl_nav_route route;
-    tl_result result = tl_nav_query_find_route(query, navmesh, nullptr, start, goal, EXTENTS, &buffers, &route);
+    const tl_nav_route_request request = { nullptr, start, goal, EXTENTS };
+    tl_result result = tl_nav_query_find_route(query, navmesh, &request, &buffers, &route);
     if (result == TL_NOT_FOUND) {
         return { false, false, 0.0 };
     }

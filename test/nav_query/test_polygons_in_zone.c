@@ -88,7 +88,9 @@ static void test_zones(void **state)
             float low = i % 3 == 0 ? at.point.y - 0.3f : -INFINITY, high = i % 3 == 0 ? at.point.y + 0.3f : INFINITY;
             tl_nav_ref refs[1024];
             uint32_t ref_count = 0;
-            TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, low, high, refs, 1024, &ref_count), TL_OK);
+            TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, &(tl_nav_height_range){ low, high }, refs, 1024,
+                                                 &ref_count),
+                        TL_OK);
             plane_point outline[128];
             for (uint32_t k = 0; k < count; k++) {
                 outline[k].x = (double)points[k].x;
@@ -142,21 +144,28 @@ static void test_arguments(void **state)
     const tl_vec3 line[3] = { { 0, 0, 0 }, { 1, 0, 1 }, { 2, 0, 2 } };
     const tl_vec3 nan[3] = { { 0, 0, 0 }, { NAN, 0, 1 }, { 2, 0, 0 } };
     tl_nav_zone zone = tl_nav_zone_polygon(square, 4);
-    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, -INFINITY, INFINITY, refs, 4, &count), TL_OK);
+    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, NULL, refs, 4, &count), TL_OK);
     TEST_CHECK(count == 4);
-    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, -INFINITY, INFINITY, refs, 1, &count), TL_INCOMPLETE);
+    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, NULL, refs, 1, &count), TL_INCOMPLETE);
     TEST_CHECK(count == 4);
-    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, NAN, INFINITY, refs, 4, &count), TL_ERR_NOT_FINITE);
+    TEST_RESULT(
+        tl_navmesh_find_polygons(navmesh, NULL, &zone, &(tl_nav_height_range){ NAN, INFINITY }, refs, 4, &count),
+        TL_ERR_NOT_FINITE);
     zone = tl_nav_zone_polygon(bow, 4);
-    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, 0, 1, refs, 4, &count), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, &(tl_nav_height_range){ 0, 1 }, refs, 4, &count),
+                TL_ERR_ARGUMENT);
     zone = tl_nav_zone_polygon(line, 3);
-    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, 0, 1, refs, 4, &count), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, &(tl_nav_height_range){ 0, 1 }, refs, 4, &count),
+                TL_ERR_ARGUMENT);
     zone = tl_nav_zone_polygon(square, 2);
-    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, 0, 1, refs, 4, &count), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, &(tl_nav_height_range){ 0, 1 }, refs, 4, &count),
+                TL_ERR_ARGUMENT);
     zone = tl_nav_zone_polygon(nan, 3);
-    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, 0, 1, refs, 4, &count), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, &(tl_nav_height_range){ 0, 1 }, refs, 4, &count),
+                TL_ERR_NOT_FINITE);
     zone = tl_nav_zone_circle(square[0], -1.0f);
-    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, 0, 1, refs, 4, &count), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_navmesh_find_polygons(navmesh, NULL, &zone, &(tl_nav_height_range){ 0, 1 }, refs, 4, &count),
+                TL_ERR_ARGUMENT);
     tl_navmesh_destroy(navmesh);
 }
 

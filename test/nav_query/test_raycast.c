@@ -197,11 +197,12 @@ static void test_legs_of_paths(void **state)
             tl_vec3 goal = fixture_random_location(navmesh, &all, &random).point;
             tl_nav_ref polygons[256];
             tl_nav_corner corners[256];
-            tl_nav_route_buffers buffers = { polygons, 256, corners, 256 };
+            tl_nav_path_buffers buffers = { polygons, 256, corners, 256 };
             tl_nav_route route;
-            TEST_RESULT(
-                tl_nav_query_find_route(query, navmesh, NULL, start, goal, tl_vec3_make(1, 2, 1), &buffers, &route),
-                TL_OK);
+            TEST_RESULT(tl_nav_query_find_route(query, navmesh,
+                                                &(tl_nav_route_request){ NULL, start, goal, tl_vec3_make(1, 2, 1) },
+                                                &buffers, &route),
+                        TL_OK);
             for (uint32_t k = 0; k + 1 < route.corner_count; k++) {
                 tl_nav_location from = { corners[k].polygon, corners[k].point };
                 tl_nav_ray_hit hit;

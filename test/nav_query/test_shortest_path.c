@@ -57,9 +57,12 @@ static void check_funnel(graph *g, tl_nav_query *query, const tl_nav_location *s
     static tl_nav_ref polygons[4096];
     tl_nav_path path;
     uint32_t count = 0;
-    TEST_RESULT(tl_nav_query_find_path(query, g->navmesh, NULL, start, goal, polygons, 4096, &path), TL_OK);
-    TEST_RESULT(tl_navmesh_straight_path(g->navmesh, polygons, path.polygon_count, start->point, goal->point, corners,
-                                         1024, &count, NULL),
+    TEST_RESULT(
+        tl_nav_query_find_path(query, g->navmesh, &(tl_nav_path_request){ NULL, *start, *goal }, polygons, 4096, &path),
+        TL_OK);
+    TEST_RESULT(tl_navmesh_straight_path(
+                    g->navmesh, &(tl_nav_polygon_path){ polygons, path.polygon_count, start->point, goal->point },
+                    corners, 1024, &count, NULL),
                 TL_OK);
     double sum = 0.0;
     for (uint32_t i = 1; i < count; i++) {
@@ -74,9 +77,9 @@ static void check_pair(graph *g, tl_nav_query *query, const tl_nav_location *sta
     static tl_nav_corner corners[1024];
     static tl_nav_ref polygons[4096];
     tl_nav_shortest_path path, back;
-    TEST_RESULT(
-        tl_nav_query_find_shortest_path(query, g->navmesh, NULL, start, goal, corners, 1024, polygons, 4096, &path),
-        TL_OK);
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, g->navmesh, &(tl_nav_path_request){ NULL, *start, *goal },
+                                                &(tl_nav_path_buffers){ polygons, 4096, corners, 1024 }, &path),
+                TL_OK);
     double expected = oracle(g, start, goal);
     TEST_CHECK((path.status == TL_NAV_PATH_COMPLETE) == (isfinite(expected) != 0));
     TEST_CHECK(path.status != TL_NAV_PATH_OUT_OF_NODES);
@@ -91,7 +94,9 @@ static void check_pair(graph *g, tl_nav_query *query, const tl_nav_location *sta
     }
     TEST_CHECK(fabs(path.length - expected) <= 2e-5 + same + 1e-5 * expected);
     check_path(g, start, goal, &path, corners, polygons);
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, g->navmesh, NULL, goal, start, NULL, 0, NULL, 0, &back), TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_shortest_path(query, g->navmesh, &(tl_nav_path_request){ NULL, *goal, *start }, NULL, &back),
+        TL_OK);
     TEST_CHECK(fabs(path.length - back.length) <= 2e-5 + same + 1e-5 * expected);
     check_funnel(g, query, start, goal, path.length);
     t->complete++;
@@ -276,10 +281,15 @@ static void test_filter(void **state)
             TEST_RESULT(tl_navmesh_find_nearest(open, &filter, a.point, near_by, &b), TL_OK);
             TEST_RESULT(tl_navmesh_find_nearest(open, &filter, c.point, near_by, &d), TL_OK);
             tl_nav_shortest_path expected, found, free_way;
-            TEST_RESULT(tl_nav_query_find_shortest_path(query, closed, NULL, &a, &c, NULL, 0, NULL, 0, &expected),
-                        TL_OK);
-            TEST_RESULT(tl_nav_query_find_shortest_path(query, open, &filter, &b, &d, NULL, 0, NULL, 0, &found), TL_OK);
-            TEST_RESULT(tl_nav_query_find_shortest_path(query, open, NULL, &b, &d, NULL, 0, NULL, 0, &free_way), TL_OK);
+            TEST_RESULT(
+                tl_nav_query_find_shortest_path(query, closed, &(tl_nav_path_request){ NULL, a, c }, NULL, &expected),
+                TL_OK);
+            TEST_RESULT(
+                tl_nav_query_find_shortest_path(query, open, &(tl_nav_path_request){ &filter, b, d }, NULL, &found),
+                TL_OK);
+            TEST_RESULT(
+                tl_nav_query_find_shortest_path(query, open, &(tl_nav_path_request){ NULL, b, d }, NULL, &free_way),
+                TL_OK);
             TEST_CHECK(expected.status == found.status);
             TEST_CHECK(fabs(expected.length - found.length) <= 1e-5 * (1.0 + expected.length));
             complete += found.status == TL_NAV_PATH_COMPLETE;
@@ -309,11 +319,13 @@ static void test_straight_back(void **state)
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(8.0f, 0.0f, 4.0f), near_by, &goal), TL_OK);
     tl_nav_corner corners[4];
     tl_nav_shortest_path path;
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, corners, 4, NULL, 0, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal },
+                                                &(tl_nav_path_buffers){ NULL, 0, corners, 4 }, &path),
                 TL_OK);
     TEST_CHECK(path.corner_count == 3 && fabs(path.length - 11.0) < 1e-6);
     TEST_CHECK(corners[1].point.x == 4.0f && corners[1].point.z == 4.0f && corners[1].flags == TL_NAV_CORNER_LEFT);
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &goal, &start, corners, 4, NULL, 0, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, goal, start },
+                                                &(tl_nav_path_buffers){ NULL, 0, corners, 4 }, &path),
                 TL_OK);
     TEST_CHECK(path.corner_count == 3 && fabs(path.length - 11.0) < 1e-6);
     TEST_CHECK(corners[1].flags == TL_NAV_CORNER_RIGHT);
@@ -351,8 +363,9 @@ static void test_equal_blocks(void **state)
         tl_nav_location start = fixture_random_location(navmesh, &all, &random);
         tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
         tl_nav_shortest_path path;
-        TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path),
-                    TL_OK);
+        TEST_RESULT(
+            tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &path),
+            TL_OK);
         TEST_CHECK(path.status == TL_NAV_PATH_COMPLETE);
         most = path.node_count > most ? path.node_count : most;
     }
@@ -377,22 +390,28 @@ static void test_buffers(void **state)
     tl_nav_corner corners[4];
     tl_nav_ref polygons[8] = { 0 };
     tl_nav_shortest_path path;
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &stale, &goal, corners, 4, polygons, 8, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, stale, goal },
+                                                &(tl_nav_path_buffers){ polygons, 8, corners, 4 }, &path),
                 TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &nan, corners, 4, polygons, 8, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, nan },
+                                                &(tl_nav_path_buffers){ polygons, 8, corners, 4 }, &path),
                 TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, corners, 4, polygons, 8, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal },
+                                                &(tl_nav_path_buffers){ polygons, 8, corners, 4 }, &path),
                 TL_OK);
     TEST_CHECK(path.corner_count == 3 && path.polygon_count == 5);
     TEST_CHECK(fabs(path.length - 2.0 * sqrt(4.0 + 36.0)) < 1e-6);
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, corners, 2, polygons, 8, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal },
+                                                &(tl_nav_path_buffers){ polygons, 8, corners, 2 }, &path),
                 TL_INCOMPLETE);
     TEST_CHECK(path.corner_count == 3 && corners[0].flags == TL_NAV_CORNER_START && corners[1].flags != 0);
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, corners, 4, polygons, 3, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal },
+                                                &(tl_nav_path_buffers){ polygons, 3, corners, 4 }, &path),
                 TL_INCOMPLETE);
     TEST_CHECK(path.polygon_count == 5 && polygons[0] == start.polygon);
     // Start and goal in one place, and in one polygon.
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &start, corners, 4, NULL, 0, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, start },
+                                                &(tl_nav_path_buffers){ NULL, 0, corners, 4 }, &path),
                 TL_OK);
     TEST_CHECK(path.status == TL_NAV_PATH_COMPLETE && path.length == 0.0 && path.corner_count == 2);
     // Every pool size: the answer is the whole one, or says that it gave up.
@@ -401,8 +420,9 @@ static void test_buffers(void **state)
         tl_nav_query *small = NULL;
         def.max_nodes = max_nodes;
         TEST_RESULT(tl_nav_query_create(&def, &small), TL_OK);
-        TEST_RESULT(tl_nav_query_find_shortest_path(small, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path),
-                    TL_OK);
+        TEST_RESULT(
+            tl_nav_query_find_shortest_path(small, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &path),
+            TL_OK);
         gave_up += path.status == TL_NAV_PATH_OUT_OF_NODES;
         complete += path.status == TL_NAV_PATH_COMPLETE;
         TEST_CHECK(path.node_count <= max_nodes);

@@ -17,7 +17,9 @@ static answer find_at_once(tl_nav_query *query, const tl_navmesh *navmesh, const
 {
     answer a;
     memset(&a, 0, sizeof a);
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, filter, start, goal, a.polygons, MOST_POLYGONS, &a.path), TL_OK);
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ filter, *start, *goal }, a.polygons,
+                                       MOST_POLYGONS, &a.path),
+                TL_OK);
     return a;
 }
 
@@ -89,7 +91,9 @@ static void test_all_slices(void **state)
                 tl_nav_path_progress progress;
                 uint32_t steps = 0;
                 float least = INFINITY;
-                TEST_RESULT(tl_nav_query_begin_path(query, navmesh, i % 3 == 0 ? NULL : &filter, &start, &goal), TL_OK);
+                TEST_RESULT(tl_nav_query_begin_path(query, navmesh,
+                                                    &(tl_nav_path_request){ i % 3 == 0 ? NULL : &filter, start, goal }),
+                            TL_OK);
                 do {
                     answer part;
                     TEST_RESULT(tl_nav_query_write_path(query, part.polygons, MOST_POLYGONS, &part.path), TL_OK);
@@ -155,7 +159,7 @@ static void test_edits(void **state)
         tl_nav_location start = fixture_random_location(navmesh, &all, &random);
         tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
         tl_nav_filter filter = make_filter(round % 2);
-        TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &filter, &start, &goal), TL_OK);
+        TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal }), TL_OK);
         tl_nav_path_progress progress;
         uint32_t edits = 0;
         int32_t x = 0, z = 0;
@@ -210,21 +214,21 @@ static void test_ended(void **state)
     tl_nav_ref polygons[8];
     TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
     TEST_RESULT(tl_nav_query_write_path(query, polygons, 8, &path), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &stale, &goal), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &nan, &goal), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ NULL, stale, goal }), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ NULL, nan, goal }), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
 
-    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &start, &goal), TL_OK);
+    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }), TL_OK);
     TEST_RESULT(tl_nav_query_step_path(query, 0, &progress), TL_OK);
     TEST_CHECK(progress.status == TL_NAV_PATH_UNFINISHED && progress.node_count > 0);
     TEST_RESULT(tl_nav_query_write_path(query, NULL, 0, &path), TL_INCOMPLETE);
     // Another question takes the query's nodes.
     tl_nav_wall wall;
-    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, NULL, &start, 2.0f, &wall), TL_OK);
+    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, start, 2.0f }, &wall), TL_OK);
     TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
 
     // The goal's tile goes; it is named.
-    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &start, &goal), TL_OK);
+    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }), TL_OK);
     TEST_RESULT(tl_navmesh_remove_tile(navmesh, 2, 2), TL_OK);
     TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_OK);
     TEST_CHECK(progress.status == TL_NAV_PATH_STALE && progress.tile_x == 2 && progress.tile_z == 2);

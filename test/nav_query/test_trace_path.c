@@ -98,20 +98,23 @@ static void test_paths(void **state)
             float cost = 0.0f, length = 0.0f;
             if (i % 3 == 0) {
                 tl_nav_path path;
-                TEST_RESULT(tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons, MOST, &path),
+                TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal },
+                                                   polygons, MOST, &path),
                             TL_OK);
                 if (path.status != TL_NAV_PATH_COMPLETE) {
                     continue;
                 }
                 polygon_count = path.polygon_count;
-                TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, polygon_count, start.point, goal.point, corners,
-                                                     MOST, &corner_count, &length),
+                TEST_RESULT(tl_navmesh_straight_path(
+                                navmesh, &(tl_nav_polygon_path){ polygons, polygon_count, start.point, goal.point },
+                                corners, MOST, &corner_count, &length),
                             TL_OK);
                 paths++;
             } else if (i % 3 == 1) {
                 tl_nav_shortest_path path;
-                TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, corners, MOST,
-                                                            polygons, MOST, &path),
+                TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal },
+                                                            &(tl_nav_path_buffers){ polygons, MOST, corners, MOST },
+                                                            &path),
                             TL_OK);
                 if (path.status != TL_NAV_PATH_COMPLETE) {
                     continue;
@@ -129,13 +132,17 @@ static void test_paths(void **state)
                 corner_count = 2;
                 rays++;
             }
-            TEST_RESULT(tl_navmesh_trace_path(navmesh, &filter, polygons, polygon_count, corners, corner_count,
-                                              TL_NAV_CORNER_CROSSING, points, MOST, &count, &cost),
+            TEST_RESULT(tl_navmesh_trace_path(navmesh,
+                                              &(tl_nav_trace_request){ &filter, polygons, polygon_count, corners,
+                                                                       corner_count, TL_NAV_CORNER_CROSSING },
+                                              points, MOST, &count, &cost),
                         TL_OK);
             check_points(navmesh, polygons, polygon_count, corners, corner_count, points, count, cost);
             // Area crossings alone are those among all; corners alone are the corners.
-            TEST_RESULT(tl_navmesh_trace_path(navmesh, &filter, polygons, polygon_count, corners, corner_count,
-                                              TL_NAV_CORNER_AREA, few, MOST, &few_count, NULL),
+            TEST_RESULT(tl_navmesh_trace_path(navmesh,
+                                              &(tl_nav_trace_request){ &filter, polygons, polygon_count, corners,
+                                                                       corner_count, TL_NAV_CORNER_AREA },
+                                              few, MOST, &few_count, NULL),
                         TL_OK);
             uint32_t area_points = 0;
             for (uint32_t k = 0; k < count; k++) {
@@ -145,13 +152,17 @@ static void test_paths(void **state)
                 areas += (points[k].flags & TL_NAV_CORNER_AREA) != 0;
             }
             TEST_CHECK(few_count >= corner_count && few_count <= count && few_count >= area_points);
-            TEST_RESULT(tl_navmesh_trace_path(navmesh, &filter, polygons, polygon_count, corners, corner_count, 0, few,
-                                              MOST, &few_count, NULL),
+            TEST_RESULT(tl_navmesh_trace_path(
+                            navmesh,
+                            &(tl_nav_trace_request){ &filter, polygons, polygon_count, corners, corner_count, 0 }, few,
+                            MOST, &few_count, NULL),
                         TL_OK);
             TEST_CHECK(few_count <= corner_count);
             tl_result expected = few_count > 1 ? TL_INCOMPLETE : TL_OK;
-            TEST_RESULT(tl_navmesh_trace_path(navmesh, &filter, polygons, polygon_count, corners, corner_count, 0, few,
-                                              1, &few_count, &length),
+            TEST_RESULT(tl_navmesh_trace_path(
+                            navmesh,
+                            &(tl_nav_trace_request){ &filter, polygons, polygon_count, corners, corner_count, 0 }, few,
+                            1, &few_count, &length),
                         expected);
             TEST_CHECK(length == cost);
             bends += corner_count > 2;
@@ -181,28 +192,37 @@ static void test_link_and_arguments(void **state)
     tl_nav_trace_point points[8];
     uint32_t corner_count = 0, count = 0;
     float cost = 0.0f;
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, NULL, &start, &goal, polygons, 8, &path), TL_OK);
-    TEST_RESULT(tl_navmesh_straight_path(navmesh, polygons, path.polygon_count, start.point, goal.point, corners, 8,
-                                         &corner_count, NULL),
+    TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, polygons, 8, &path),
                 TL_OK);
-    TEST_RESULT(tl_navmesh_trace_path(navmesh, NULL, polygons, path.polygon_count, corners, corner_count,
-                                      TL_NAV_CORNER_CROSSING, points, 8, &count, &cost),
+    TEST_RESULT(tl_navmesh_straight_path(
+                    navmesh, &(tl_nav_polygon_path){ polygons, path.polygon_count, start.point, goal.point }, corners,
+                    8, &corner_count, NULL),
+                TL_OK);
+    TEST_RESULT(tl_navmesh_trace_path(navmesh,
+                                      &(tl_nav_trace_request){ NULL, polygons, path.polygon_count, corners,
+                                                               corner_count, TL_NAV_CORNER_CROSSING },
+                                      points, 8, &count, &cost),
                 TL_OK);
     // Start, an edge, the link, its landing, an edge, the end: 20 m and 3.
     TEST_CHECK(count == 6 && fabsf(cost - 23.0f) < 1e-4f && (points[2].flags & TL_NAV_CORNER_LINK) != 0);
     TEST_CHECK(points[3].point.x == 16.5f && fabsf(points[5].length - 20.0f) < 1e-4f);
-    TEST_RESULT(tl_navmesh_trace_path(navmesh, NULL, polygons, 0, corners, corner_count, 0, points, 8, &count, &cost),
+    TEST_RESULT(tl_navmesh_trace_path(navmesh, &(tl_nav_trace_request){ NULL, polygons, 0, corners, corner_count, 0 },
+                                      points, 8, &count, &cost),
                 TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_navmesh_trace_path(navmesh, NULL, polygons, 5, corners, 1, 0, points, 8, &count, &cost),
+    TEST_RESULT(tl_navmesh_trace_path(navmesh, &(tl_nav_trace_request){ NULL, polygons, 5, corners, 1, 0 }, points, 8,
+                                      &count, &cost),
                 TL_ERR_ARGUMENT);
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, link), TL_OK);
-    TEST_RESULT(tl_navmesh_trace_path(navmesh, NULL, polygons, 5, corners, corner_count, 0, points, 8, &count, &cost),
+    TEST_RESULT(tl_navmesh_trace_path(navmesh, &(tl_nav_trace_request){ NULL, polygons, 5, corners, corner_count, 0 },
+                                      points, 8, &count, &cost),
                 TL_NOT_FOUND);
     polygons[1] = polygons[4];
-    TEST_RESULT(tl_navmesh_trace_path(navmesh, NULL, polygons, 2, corners, 2, 0, points, 8, &count, &cost),
+    TEST_RESULT(tl_navmesh_trace_path(navmesh, &(tl_nav_trace_request){ NULL, polygons, 2, corners, 2, 0 }, points, 8,
+                                      &count, &cost),
                 TL_ERR_ARGUMENT);
     polygons[0] = 77;
-    TEST_CHECK(tl_navmesh_trace_path(navmesh, NULL, polygons, 2, corners, 2, 0, points, 8, &count, &cost) != TL_OK);
+    TEST_CHECK(tl_navmesh_trace_path(navmesh, &(tl_nav_trace_request){ NULL, polygons, 2, corners, 2, 0 }, points, 8,
+                                     &count, &cost) != TL_OK);
     tl_nav_query_destroy(query);
     tl_navmesh_destroy(navmesh);
 }

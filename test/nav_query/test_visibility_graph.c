@@ -29,9 +29,15 @@ static uint32_t compare(const tl_navmesh *prepared, const tl_navmesh *plain, tes
         tl_nav_shortest_path a, b;
         tl_nav_path path;
         tl_nav_ref polygons[512];
-        TEST_RESULT(tl_nav_query_find_shortest_path(query, prepared, NULL, &start, &goal, NULL, 0, NULL, 0, &a), TL_OK);
-        TEST_RESULT(tl_nav_query_find_shortest_path(query, plain, NULL, &start, &goal, NULL, 0, NULL, 0, &b), TL_OK);
-        TEST_RESULT(tl_nav_query_find_path(query, prepared, NULL, &start, &goal, polygons, 512, &path), TL_OK);
+        TEST_RESULT(
+            tl_nav_query_find_shortest_path(query, prepared, &(tl_nav_path_request){ NULL, start, goal }, NULL, &a),
+            TL_OK);
+        TEST_RESULT(
+            tl_nav_query_find_shortest_path(query, plain, &(tl_nav_path_request){ NULL, start, goal }, NULL, &b),
+            TL_OK);
+        TEST_RESULT(
+            tl_nav_query_find_path(query, prepared, &(tl_nav_path_request){ NULL, start, goal }, polygons, 512, &path),
+            TL_OK);
         TEST_CHECK(a.status == b.status && path.status == a.status);
         TEST_CHECK(fabs(a.length - b.length) <= 1e-5 * (1.0 + b.length));
         if (a.status == TL_NAV_PATH_COMPLETE) {
@@ -100,9 +106,11 @@ static void test_nodes(void **state)
         tl_nav_location start = fixture_random_location(navmesh, &all, &random);
         tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
         tl_nav_shortest_path found, expected;
-        TEST_RESULT(tl_nav_query_find_shortest_path(small, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &found),
-                    TL_OK);
-        TEST_RESULT(tl_nav_query_find_shortest_path(large, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &expected),
+        TEST_RESULT(
+            tl_nav_query_find_shortest_path(small, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &found),
+            TL_OK);
+        TEST_RESULT(tl_nav_query_find_shortest_path(large, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL,
+                                                    &expected),
                     TL_OK);
         TEST_CHECK(found.node_count <= max_nodes);
         TEST_CHECK(found.status == expected.status || found.status == TL_NAV_PATH_OUT_OF_NODES);
@@ -174,11 +182,12 @@ static void test_slices(void **state)
         tl_nav_path_progress progress;
         tl_nav_shortest_path path;
         TEST_RESULT(tl_navmesh_prepare(navmesh, &defs[i], NULL), TL_OK);
-        TEST_RESULT(tl_nav_query_begin_path(query, navmesh, NULL, &start, &goal), TL_OK);
+        TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }), TL_OK);
         TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_OK);
         TEST_CHECK(progress.status == TL_NAV_PATH_UNFINISHED);
-        TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &goal, &start, NULL, 0, NULL, 0, &path),
-                    TL_OK);
+        TEST_RESULT(
+            tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, goal, start }, NULL, &path),
+            TL_OK);
         TEST_CHECK(path.corner_count == 3);
         TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
     }
@@ -207,14 +216,20 @@ static void test_links(void **state)
     link.end = tl_vec3_make(8.5f, 0, 2);
     tl_nav_ref added = TL_NAV_NO_REF;
     tl_nav_shortest_path path;
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path), TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &path),
+        TL_OK);
     TEST_CHECK(path.length > 12.0);
     TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &link, &added), TL_OK);
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path), TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &path),
+        TL_OK);
     TEST_CHECK(path.length < 9.0);
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, added), TL_OK);
     TEST_RESULT(tl_navmesh_prepare(navmesh, NULL, NULL), TL_OK);
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path), TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &path),
+        TL_OK);
     TEST_CHECK(path.length > 12.0);
     tl_nav_query_destroy(query);
     tl_navmesh_destroy(navmesh);

@@ -140,7 +140,8 @@ static void test_walls(void **state)
             float radius = test_random_range(&random, 0.2f, 9.0f);
             tl_nav_wall_segment segments[MOST], few[3];
             uint32_t count = 0, same = 0;
-            TEST_RESULT(tl_nav_query_find_walls(query, navmesh, &filter, &center, radius, segments, MOST, &count),
+            TEST_RESULT(tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ &filter, center, radius },
+                                                segments, MOST, &count),
                         TL_OK);
             int32_t expected = count_walls(navmesh, &filter, &all, &center, (double)radius);
             TEST_CHECK(expected < 0 || (uint32_t)expected == count);
@@ -150,12 +151,15 @@ static void test_walls(void **state)
                 TEST_CHECK(k == 0 || segments[k - 1].distance <= segments[k].distance);
             }
             tl_nav_wall nearest;
-            TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &filter, &center, radius, &nearest), TL_OK);
+            TEST_RESULT(
+                tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ &filter, center, radius }, &nearest),
+                TL_OK);
             TEST_CHECK(nearest.hit == (count > 0) || nearest.distance == radius);
             // That one does not look behind ways that are farther than a wall.
             TEST_CHECK(!nearest.hit || nearest.distance >= segments[0].distance);
             equal += nearest.hit && nearest.distance == segments[0].distance;
-            tl_result result = tl_nav_query_find_walls(query, navmesh, &filter, &center, radius, few, 3, &same);
+            tl_result result = tl_nav_query_find_walls(
+                query, navmesh, &(tl_nav_around_request){ &filter, center, radius }, few, 3, &same);
             TEST_CHECK(result == (count > 3 ? TL_INCOMPLETE : TL_OK) && same == count);
             for (uint32_t k = 0; k < 3 && k < count; k++) {
                 TEST_CHECK(few[k].distance == segments[k].distance && few[k].polygon == segments[k].polygon);
@@ -180,12 +184,21 @@ static void test_arguments(void **state)
     tl_nav_wall_segment segments[4];
     uint32_t count = 0;
     TEST_RESULT(tl_navmesh_polygon_walls(navmesh, NULL, 77, segments, 4, &count), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &stale, 1.0f, segments, 4, &count), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &nan, 1.0f, segments, 4, &count), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &start, -1.0f, segments, 4, &count), TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &start, 20.0f, segments, 4, &count), TL_ERR_LIMIT);
+    TEST_RESULT(
+        tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ NULL, stale, 1.0f }, segments, 4, &count),
+        TL_NOT_FOUND);
+    TEST_RESULT(
+        tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ NULL, nan, 1.0f }, segments, 4, &count),
+        TL_ERR_NOT_FINITE);
+    TEST_RESULT(
+        tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ NULL, start, -1.0f }, segments, 4, &count),
+        TL_ERR_ARGUMENT);
+    TEST_RESULT(
+        tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ NULL, start, 20.0f }, segments, 4, &count),
+        TL_ERR_LIMIT);
     query = ring.many_nodes;
-    TEST_RESULT(tl_nav_query_find_walls(query, navmesh, NULL, &start, 2.5f, NULL, 0, &count), TL_INCOMPLETE);
+    TEST_RESULT(tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ NULL, start, 2.5f }, NULL, 0, &count),
+                TL_INCOMPLETE);
     TEST_CHECK(count == 2);
     fixture_free_ring(&ring);
 }

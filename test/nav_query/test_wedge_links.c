@@ -76,7 +76,9 @@ static void free_pair(linked_pair *p)
 static double plain_length(linked_pair *p, const tl_nav_location *a, const tl_nav_location *b)
 {
     tl_nav_shortest_path path;
-    TEST_RESULT(tl_nav_query_find_shortest_path(p->query, p->plain, NULL, a, b, NULL, 0, NULL, 0, &path), TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_shortest_path(p->query, p->plain, &(tl_nav_path_request){ NULL, *a, *b }, NULL, &path),
+        TL_OK);
     return path.status == TL_NAV_PATH_COMPLETE ? path.length : (double)INFINITY;
 }
 
@@ -201,7 +203,8 @@ static void check_ways(linked_pair *p, const tl_nav_location *start, const tl_na
     tl_nav_filter filter = tl_default_nav_filter();
     filter.area_cost[1] = 2.0f;
     tl_nav_path path;
-    TEST_RESULT(tl_nav_query_find_path(p->query, p->linked, &filter, start, goal, polygons, MOST_POLYGONS, &path),
+    TEST_RESULT(tl_nav_query_find_path(p->query, p->linked, &(tl_nav_path_request){ &filter, *start, *goal }, polygons,
+                                       MOST_POLYGONS, &path),
                 TL_OK);
     TEST_CHECK((path.status == TL_NAV_PATH_COMPLETE) == isfinite(shortest));
     check_polygons(p->linked, polygons, path.polygon_count, start, path.end.polygon);
@@ -209,8 +212,9 @@ static void check_ways(linked_pair *p, const tl_nav_location *start, const tl_na
         TEST_CHECK((double)path.cost >= shortest - 1e-4 * (1.0 + shortest));
         uint32_t count = 0;
         float length = 0.0f;
-        TEST_RESULT(tl_navmesh_straight_path(p->linked, polygons, path.polygon_count, start->point, goal->point,
-                                             corners, MOST_CORNERS, &count, &length),
+        TEST_RESULT(tl_navmesh_straight_path(
+                        p->linked, &(tl_nav_polygon_path){ polygons, path.polygon_count, start->point, goal->point },
+                        corners, MOST_CORNERS, &count, &length),
                     TL_OK);
         coverage unused;
         memset(&unused, 0, sizeof unused);
@@ -230,8 +234,9 @@ static void check_pair(linked_pair *p, test_random *random, coverage *seen)
     }
     double expected = oracle(p, &start, &goal);
     tl_nav_shortest_path path;
-    TEST_RESULT(tl_nav_query_find_shortest_path(p->query, p->linked, NULL, &start, &goal, corners, MOST_CORNERS,
-                                                polygons, MOST_POLYGONS, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(
+                    p->query, p->linked, &(tl_nav_path_request){ NULL, start, goal },
+                    &(tl_nav_path_buffers){ polygons, MOST_POLYGONS, corners, MOST_CORNERS }, &path),
                 TL_OK);
     TEST_CHECK((path.status == TL_NAV_PATH_COMPLETE) == isfinite(expected));
     check_ways(p, &start, &goal, expected, seen);
@@ -307,27 +312,36 @@ static void test_filter(void **state)
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(10, 0, 2), tl_vec3_make(1, 1, 1), &start), TL_OK);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(10, 0, 14), tl_vec3_make(1, 1, 1), &goal), TL_OK);
     tl_nav_shortest_path path;
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, NULL, 0, NULL, 0, &path), TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &path),
+        TL_OK);
     TEST_CHECK(fabs(path.length - 12.0) < 1e-5);
     tl_nav_filter filter = tl_default_nav_filter();
     filter.exclude_flags = 4;
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &filter, &start, &goal, NULL, 0, NULL, 0, &path),
-                TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal }, NULL, &path),
+        TL_OK);
     TEST_CHECK(path.status == TL_NAV_PATH_COMPLETE && path.length > 20.0);
     // By A*: at ten times its length the link loses.
     filter.exclude_flags = 0;
     filter.area_cost[9] = 10.0f;
     tl_nav_ref polygons[64];
     tl_nav_path by_ways;
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons, 64, &by_ways), TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal }, polygons, 64, &by_ways),
+        TL_OK);
     for (uint32_t i = 0; i < by_ways.polygon_count; i++) {
         TEST_CHECK(!tl_nav_is_offmesh(polygons[i]));
     }
     filter.area_cost[9] = 1.5f;
-    TEST_RESULT(tl_nav_query_find_path(query, navmesh, &filter, &start, &goal, polygons, 64, &by_ways), TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal }, polygons, 64, &by_ways),
+        TL_OK);
     TEST_CHECK(by_ways.polygon_count == 3 && polygons[1] == ref && fabsf(by_ways.cost - 16.5f) < 1e-3f);
     // From the far side it leads nowhere.
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &goal, &start, NULL, 0, NULL, 0, &path), TL_OK);
+    TEST_RESULT(
+        tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, goal, start }, NULL, &path),
+        TL_OK);
     TEST_CHECK(path.length > 20.0);
     tl_nav_query_destroy(query);
     tl_navmesh_destroy(navmesh);

@@ -136,11 +136,14 @@ static bool wide_way(tl_nav_query *query, const tl_navmesh *navmesh, float radiu
     static tl_nav_corner corners[CAPACITY];
     tl_nav_location start, goal;
     tl_nav_wide_path path;
-    if (tl_nav_query_find_wide_place(query, navmesh, NULL, radius, a, near, &start) != TL_OK ||
-        tl_nav_query_find_wide_place(query, navmesh, NULL, radius, b, near, &goal) != TL_OK) {
+    if (tl_nav_query_find_wide_place(query, navmesh, &(tl_nav_around_request){ NULL, *a, near }, radius, &start) !=
+            TL_OK ||
+        tl_nav_query_find_wide_place(query, navmesh, &(tl_nav_around_request){ NULL, *b, near }, radius, &goal) !=
+            TL_OK) {
         return false;
     }
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, radius, &start, &goal, corners, CAPACITY, &path),
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, radius,
+                                            corners, CAPACITY, &path),
                 TL_OK);
     if (path.status > 1)
         printf("%s at %.9g %.9g -> %.9g %.9g, radius %g, near %.9g %.9g\n", tl_nav_wide_status_name(path.status),

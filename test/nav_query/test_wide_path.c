@@ -48,7 +48,7 @@ static float room_at(tl_nav_query *query, const tl_navmesh *navmesh, const tl_na
 {
     tl_nav_wall wall;
     tl_nav_ray_hit hit;
-    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, filter, at, limit, &wall), TL_OK);
+    TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ filter, *at, limit }, &wall), TL_OK);
     *most_out = wall.distance;
     if (wall.hit) {
         tl_vec3 to = tl_lerp(at->point, wall.point, 0.999f);
@@ -197,8 +197,9 @@ static void compare(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav
     for (uint32_t i = 0; i < 40; i++) {
         uint32_t a = test_random_below(random, g->count), b = test_random_below(random, g->count);
         tl_nav_wide_path path;
-        TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, filter, agent_radius + reach, &g->places[a].at,
-                                                &g->places[b].at, corners, CAPACITY, &path),
+        TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh,
+                                                &(tl_nav_path_request){ filter, g->places[a].at, g->places[b].at },
+                                                agent_radius + reach, corners, CAPACITY, &path),
                     TL_OK);
         bool has_more = set_of(g, a, 0) == set_of(g, b, 0) && g->places[a].room[0] >= reach + 1.5f * STEP &&
                         g->places[b].room[0] >= reach + 1.5f * STEP;
@@ -283,16 +284,17 @@ static void test_places(void **state)
             float reach = test_random_range(&random, 0.3f, 2.2f), most = 6.0f, room = 0.0f;
             tl_nav_location near = g.places[test_random_below(&random, g.count)].at, place;
             tl_nav_wide_path path;
-            tl_result result = tl_nav_query_find_wide_place(query, navmesh, NULL, 0.5f + reach, &near, most, &place);
+            tl_result result = tl_nav_query_find_wide_place(
+                query, navmesh, &(tl_nav_around_request){ NULL, near, most }, 0.5f + reach, &place);
             double distance = (double)INFINITY;
             if (result == TL_OK) {
                 distance =
                     hypot((double)place.point.x - (double)near.point.x, (double)place.point.z - (double)near.point.z);
                 TEST_CHECK(distance <= (double)most + 1e-4);
                 TEST_CHECK(room_at(query, navmesh, NULL, &place, 4.0f, &room) >= reach - 1e-4f);
-                TEST_RESULT(
-                    tl_nav_query_find_wide_path(query, navmesh, NULL, 0.5f + reach, &place, &place, NULL, 0, &path),
-                    TL_INCOMPLETE);
+                TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, place, place },
+                                                        0.5f + reach, NULL, 0, &path),
+                            TL_INCOMPLETE);
                 TEST_CHECK(path.status == TL_NAV_WIDE_COMPLETE && path.length == 0.0);
                 moved += distance > 0.0 ? 1u : 0u;
             } else {
@@ -336,13 +338,19 @@ static void test_filter(void **state)
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(18.0f, 0.0f, 10.0f), extents, &goal), TL_OK);
     tl_nav_corner corners[256];
     tl_nav_wide_path path;
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 2.0f, &start, &goal, corners, 256, &path), TL_OK);
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, 2.0f, corners,
+                                            256, &path),
+                TL_OK);
     TEST_CHECK(path.status == TL_NAV_WIDE_COMPLETE);
     double short_way = path.length;
     // As wide as the passage itself.
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 2.5f, &start, &goal, corners, 256, &path), TL_OK);
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, 2.5f, corners,
+                                            256, &path),
+                TL_OK);
     TEST_CHECK(path.status == TL_NAV_WIDE_COMPLETE);
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 2.51f, &start, &goal, corners, 256, &path), TL_OK);
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, 2.51f, corners,
+                                            256, &path),
+                TL_OK);
     TEST_CHECK(path.status == TL_NAV_WIDE_START_BLOCKED);
     // Without the cell in the passage near by, around through the other one.
     tl_nav_location gate;
@@ -359,7 +367,9 @@ static void test_filter(void **state)
     filter.exclude_flags = 2;
     TEST_RESULT(tl_navmesh_find_nearest(flagged, NULL, tl_vec3_make(18.0f, 0.0f, 2.0f), extents, &start), TL_OK);
     TEST_RESULT(tl_navmesh_find_nearest(flagged, NULL, tl_vec3_make(18.0f, 0.0f, 10.0f), extents, &goal), TL_OK);
-    TEST_RESULT(tl_nav_query_find_wide_path(query, flagged, &filter, 2.0f, &start, &goal, corners, 256, &path), TL_OK);
+    TEST_RESULT(tl_nav_query_find_wide_path(query, flagged, &(tl_nav_path_request){ &filter, start, goal }, 2.0f,
+                                            corners, 256, &path),
+                TL_OK);
     TEST_CHECK(path.status == TL_NAV_WIDE_COMPLETE && path.length > short_way + 10.0);
     walk(query, flagged, &filter, corners, path.corner_count, &path);
     tl_navmesh_destroy(flagged);
@@ -387,35 +397,53 @@ static void test_arguments(void **state)
     tl_nav_wide_path path, again;
     tl_nav_shortest_path shortest;
     // Without a difference: the shortest path.
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 0.25f, &start, &goal, corners, 64, &path), TL_OK);
-    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, NULL, &start, &goal, corners, 64, NULL, 0, &shortest),
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, 0.25f, corners,
+                                            64, &path),
+                TL_OK);
+    TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal },
+                                                &(tl_nav_path_buffers){ NULL, 0, corners, 64 }, &shortest),
                 TL_OK);
     TEST_CHECK(path.length == shortest.length && path.wall_distance == 0.0);
     // With one, around a circle: two tangents and an arc of 90 degrees less what they take, within the chords' share.
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 1.5f, &start, &goal, corners, 64, &path), TL_OK);
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, 1.5f, corners,
+                                            64, &path),
+                TL_OK);
     // From the corner that is passed, start and goal lie at (-6, -2) and (2, 6).
     double tangent = sqrt(2.0 * 2.0 + 6.0 * 6.0 - 1.0);
     double arc = 2.0 * acos(-1.0) - acos(-24.0 / 40.0) - 2.0 * acos(1.0 / sqrt(40.0));
     TEST_CHECK(fabs(path.length - (2.0 * tangent + arc)) < 0.005);
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 1.5f, &start, &goal, corners, 1, &again),
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, 1.5f, corners,
+                                            1, &again),
                 TL_INCOMPLETE);
     TEST_CHECK(again.corner_count == path.corner_count && again.length == path.length);
-    TEST_RESULT(tl_nav_query_find_wide_path(small, navmesh, NULL, 1.5f, &start, &goal, corners, 64, &path), TL_OK);
+    TEST_RESULT(tl_nav_query_find_wide_path(small, navmesh, &(tl_nav_path_request){ NULL, start, goal }, 1.5f, corners,
+                                            64, &path),
+                TL_OK);
     TEST_CHECK(path.status == TL_NAV_WIDE_OUT_OF_NODES && path.corner_count == 0);
-    TEST_RESULT(tl_nav_query_find_wide_place(small, navmesh, NULL, 1.5f, &start, 1.0f, &place), TL_ERR_LIMIT);
+    TEST_RESULT(
+        tl_nav_query_find_wide_place(small, navmesh, &(tl_nav_around_request){ NULL, start, 1.0f }, 1.5f, &place),
+        TL_ERR_LIMIT);
     bad = start;
     bad.polygon = TL_NAV_NO_REF;
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 1.5f, &bad, &goal, corners, 64, &path), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_find_wide_place(query, navmesh, NULL, 1.5f, &bad, 1.0f, &place), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, bad, goal }, 1.5f, corners,
+                                            64, &path),
+                TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_find_wide_place(query, navmesh, &(tl_nav_around_request){ NULL, bad, 1.0f }, 1.5f, &place),
+                TL_NOT_FOUND);
     bad = start;
     bad.point.x = NAN;
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, 1.5f, &bad, &goal, corners, 64, &path),
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, bad, goal }, 1.5f, corners,
+                                            64, &path),
                 TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, INFINITY, &start, &goal, corners, 64, &path),
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, INFINITY,
+                                            corners, 64, &path),
                 TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, NULL, -1.0f, &start, &goal, corners, 64, &path),
+    TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, -1.0f, corners,
+                                            64, &path),
                 TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_nav_query_find_wide_place(query, navmesh, NULL, 1.5f, &start, -1.0f, &place), TL_ERR_ARGUMENT);
+    TEST_RESULT(
+        tl_nav_query_find_wide_place(query, navmesh, &(tl_nav_around_request){ NULL, start, -1.0f }, 1.5f, &place),
+        TL_ERR_ARGUMENT);
     float clearance = 0.0f;
     TEST_RESULT(tl_nav_query_path_clearance(query, navmesh, NULL, corners, 0, 1.0f, &clearance), TL_ERR_ARGUMENT);
     for (int i = 0; i <= TL_NAV_WIDE_GOAL_BLOCKED + 1; i++) {

@@ -46,8 +46,8 @@ static void compare_path(tl_nav_query *query, const tl_navmesh *navmeshes[2], co
     tl_nav_wide_path paths[2];
     memset(paths, 0, sizeof paths);
     for (int i = 0; i < 2; i++) {
-        TEST_RESULT(tl_nav_query_find_wide_path(query, navmeshes[i], filter, radius, &ends[0], &ends[1], corners[i],
-                                                CAPACITY, &paths[i]),
+        TEST_RESULT(tl_nav_query_find_wide_path(query, navmeshes[i], &(tl_nav_path_request){ filter, ends[0], ends[1] },
+                                                radius, corners[i], CAPACITY, &paths[i]),
                     TL_OK);
     }
     TEST_CHECK(paths[0].status == paths[1].status && paths[0].corner_count == paths[1].corner_count);
@@ -60,7 +60,8 @@ static void compare_path(tl_nav_query *query, const tl_navmesh *navmeshes[2], co
     }
     TEST_CHECK(paths[0].status != TL_NAV_WIDE_OUT_OF_NODES);
     tl_nav_wide_status status = TL_NAV_WIDE_OUT_OF_NODES;
-    TEST_RESULT(tl_nav_query_is_wide_reachable(query, navmeshes[0], filter, radius, &ends[0], &ends[1], &status),
+    TEST_RESULT(tl_nav_query_is_wide_reachable(query, navmeshes[0], &(tl_nav_path_request){ filter, ends[0], ends[1] },
+                                               radius, &status),
                 TL_OK);
     TEST_CHECK(status == paths[0].status);
     seen->complete += paths[0].status == TL_NAV_WIDE_COMPLETE;
@@ -87,7 +88,8 @@ static void compare(tl_nav_query *query, const tl_navmesh *prepared, const tl_na
             tl_nav_location at = fixture_random_location(plain, &all, random), places[2];
             tl_result results[2];
             for (int n = 0; n < 2; n++) {
-                results[n] = tl_nav_query_find_wide_place(query, navmeshes[n], asked, radius, &at, 3.0f, &places[n]);
+                results[n] = tl_nav_query_find_wide_place(
+                    query, navmeshes[n], &(tl_nav_around_request){ asked, at, 3.0f }, radius, &places[n]);
             }
             TEST_CHECK(results[0] == results[1] && (results[0] == TL_OK || results[0] == TL_NOT_FOUND));
             TEST_CHECK(results[0] != TL_OK || same_location(&places[0], &places[1]));

@@ -60,7 +60,8 @@ static float rate(const yard *y, const tl_nav_location *agent, const tl_nav_cove
     if (!is_hidden(y, def, place->point)) {
         return INFINITY;
     }
-    TEST_RESULT(tl_nav_query_find_shortest_path(y->query, y->navmesh, NULL, agent, place, NULL, 0, NULL, 0, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(y->query, y->navmesh, &(tl_nav_path_request){ NULL, *agent, *place },
+                                                NULL, &path),
                 TL_OK);
     const bool near = path.status == TL_NAV_PATH_COMPLETE && (float)path.length <= def->max_length;
     return near ? (float)path.length : INFINITY;

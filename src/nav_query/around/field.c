@@ -58,31 +58,42 @@ static void write_by_reference(tl_nav_query *query, const tl_navmesh *navmesh, t
     }
 }
 
-tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                             const tl_nav_location *start, const tl_nav_field_def *def, tl_nav_field_entry *entries_out,
-                             uint32_t capacity, uint32_t *count_out)
+tl_nav_field_def tl_default_nav_field_def(void)
 {
-    *count_out = 0;
+    tl_nav_field_def def = { NULL, NULL, INFINITY, false, TL_DEF_COOKIE };
+    return def;
+}
+
+static tl_result check_def(const tl_nav_field_def *def)
+{
     float least = 1.0f;
     bool is_uniform = true;
+    bool good = def->cookie == TL_DEF_COOKIE && def->max_cost >= 0.0f &&
+                (def->filter == NULL || tl_nav_filter_costs(def->filter, &least, &is_uniform));
+    return good ? TL_OK : TL_ERR_ARGUMENT;
+}
+
+tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_location *start,
+                             const tl_nav_field_def *def, tl_nav_field_entry *entries_out, uint32_t capacity,
+                             uint32_t *count_out)
+{
+    *count_out = 0;
+    const tl_nav_field_def used = def != NULL ? *def : tl_default_nav_field_def();
     tl_nav_zone_test zone;
     if (!tl_nav_is_finite(start->point)) {
         return TL_ERR_NOT_FINITE;
     }
-    if (!(def->max_cost >= 0.0f) || (filter != NULL && !tl_nav_filter_costs(filter, &least, &is_uniform))) {
-        return TL_ERR_ARGUMENT;
+    TL_TRY(check_def(&used));
+    if (used.zone != NULL) {
+        TL_TRY(tl_nav_zone_begin(used.zone, &zone));
     }
-    if (def->zone != NULL) {
-        TL_TRY(tl_nav_zone_begin(def->zone, &zone));
-    }
-    tl_nav_flood flood = {
-        query, navmesh, filter, false, def->max_cost, def->zone != NULL ? &zone : NULL, false, false
-    };
+    tl_nav_flood flood = { query, navmesh, used.filter, false, used.max_cost, used.zone != NULL ? &zone : NULL,
+                           false, false };
     if (!tl_nav_flood_run(&flood, start)) {
         return TL_NOT_FOUND;
     }
     *count_out = query->node_count;
-    if (def->by_reference) {
+    if (used.by_reference) {
         write_by_reference(query, navmesh, entries_out, capacity);
     } else {
         write_as_found(query, navmesh, entries_out, capacity);

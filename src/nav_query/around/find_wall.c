@@ -81,9 +81,12 @@ static void look_around(wall_search *search, uint32_t node)
     }
 }
 
-tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                 const tl_nav_location *center, float max_radius, tl_nav_wall *wall_out)
+tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
+                                 tl_nav_wall *wall_out)
 {
+    const tl_nav_filter *filter = request->filter;
+    const tl_nav_location *center = &request->center;
+    const float max_radius = request->radius;
     memset(wall_out, 0, sizeof *wall_out);
     uint32_t slot = 0;
     uint32_t polygon = 0;

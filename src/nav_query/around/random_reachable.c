@@ -288,17 +288,19 @@ static tl_vec3 point_in(const tl_nav_flood *flood, const clip_polygon *part, dou
     return tl_vec3_make((float)((double)flood->zone->center.x + x), 0.0f, (float)((double)flood->zone->center.z + z));
 }
 
-tl_result tl_nav_query_random_reachable(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                        const tl_nav_location *center, float radius, const uint64_t random[2],
+tl_result tl_nav_query_random_reachable(tl_nav_query *query, const tl_navmesh *navmesh,
+                                        const tl_nav_around_request *request, const uint64_t random[2],
                                         tl_nav_location *location_out)
 {
-    return tl_nav_query_random_reachable_points(query, navmesh, filter, center, radius, random, 1, location_out);
+    return tl_nav_query_random_reachable_points(query, navmesh, request, random, 1, location_out);
 }
 
 tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_navmesh *navmesh,
-                                               const tl_nav_filter *filter, const tl_nav_location *center, float radius,
-                                               const uint64_t *random, uint32_t count, tl_nav_location *locations_out)
+                                               const tl_nav_around_request *request, const uint64_t *random,
+                                               uint32_t count, tl_nav_location *locations_out)
 {
+    const tl_nav_location *center = &request->center;
+    const float radius = request->radius;
     const tl_nav_location none = { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } };
     for (uint32_t i = 0; i < count; i++) {
         locations_out[i] = none;
@@ -309,7 +311,7 @@ tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_nav
     if (!tl_nav_is_finite(center->point)) {
         return TL_ERR_NOT_FINITE;
     }
-    tl_nav_flood flood = { query, navmesh, filter, true, radius, &test, false, false };
+    tl_nav_flood flood = { query, navmesh, request->filter, true, radius, &test, false, false };
     if (!tl_nav_flood_run(&flood, center)) {
         return TL_NOT_FOUND;
     }

@@ -100,12 +100,15 @@ static uint32_t write_way(const slide_search *search, tl_nav_ref *polygons, uint
     return count;
 }
 
-tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                          const tl_nav_location *start, tl_vec3 target, tl_nav_ref *polygons_out,
-                                          uint32_t capacity, uint32_t *count_out, tl_nav_location *end_out)
+tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh *navmesh,
+                                          const tl_nav_move_request *request, tl_nav_ref *polygons_out,
+                                          uint32_t capacity, tl_nav_move *move_out)
 {
-    *end_out = *start;
-    *count_out = 0;
+    const tl_nav_filter *filter = request->filter;
+    const tl_nav_location *start = &request->start;
+    const tl_vec3 target = request->target;
+    move_out->end = *start;
+    move_out->polygon_count = 0;
     uint32_t slot = 0;
     uint32_t polygon = 0;
     if (!tl_nav_is_finite(start->point) || !tl_nav_is_finite(target)) {
@@ -142,12 +145,12 @@ tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh 
     if (search.best != TL_NAV_NO_NODE) {
         const tl_nav_wedge *last = &query->wedges[search.best];
         tl_vec3 point = search.start == NULL ? target : tl_nav_point_on_edge(search.start, search.end, search.best_t);
-        end_out->polygon = tl_nav_make_ref(navmesh, last->slot, last->polygon);
-        end_out->point = point;
-        *count_out = write_way(&search, polygons_out, capacity);
+        move_out->end.polygon = tl_nav_make_ref(navmesh, last->slot, last->polygon);
+        move_out->end.point = point;
+        move_out->polygon_count = write_way(&search, polygons_out, capacity);
     }
     if (search.full) {
         return TL_ERR_LIMIT;
     }
-    return *count_out <= capacity || capacity == 0 ? TL_OK : TL_INCOMPLETE;
+    return move_out->polygon_count <= capacity || capacity == 0 ? TL_OK : TL_INCOMPLETE;
 }

@@ -112,10 +112,12 @@ static void look_around(wall_gathering *walls, uint32_t node)
     }
 }
 
-tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                  const tl_nav_location *center, float radius, tl_nav_wall_segment *segments_out,
-                                  uint32_t capacity, uint32_t *count_out)
+tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
+                                  tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out)
 {
+    const tl_nav_filter *filter = request->filter;
+    const tl_nav_location *center = &request->center;
+    const float radius = request->radius;
     *count_out = 0;
     uint32_t slot = 0;
     uint32_t polygon = 0;

@@ -17,11 +17,11 @@
 
 #include <string.h>
 
-tl_nav_corridor tl_nav_corridor_init(tl_nav_ref *room, uint32_t capacity)
+tl_nav_corridor tl_nav_corridor_init(tl_nav_ref *path, uint32_t capacity)
 {
     tl_nav_corridor corridor;
     memset(&corridor, 0, sizeof corridor);
-    corridor.path = room;
+    corridor.path = path;
     corridor.capacity = capacity;
     return corridor;
 }
@@ -85,9 +85,8 @@ tl_result tl_nav_corridor_find(tl_nav_corridor *corridor, tl_nav_query *query, c
     if (corridor->count == 0) {
         return TL_NOT_FOUND;
     }
-    tl_nav_location start = { corridor->path[0], corridor->position };
-    tl_result result =
-        tl_nav_query_find_path(query, navmesh, filter, &start, goal, corridor->path, corridor->capacity, path_out);
+    const tl_nav_path_request request = { filter, { corridor->path[0], corridor->position }, *goal };
+    tl_result result = tl_nav_query_find_path(query, navmesh, &request, corridor->path, corridor->capacity, path_out);
     if (result != TL_OK && result != TL_INCOMPLETE) {
         return result;
     }
@@ -120,26 +119,29 @@ tl_result tl_nav_corridor_set_path(tl_nav_corridor *corridor, const tl_navmesh *
 tl_result tl_nav_corridor_corners(const tl_nav_corridor *corridor, const tl_navmesh *navmesh,
                                   tl_nav_corner *corners_out, uint32_t capacity, uint32_t *count_out)
 {
-    return tl_nav_first_corners(navmesh, corridor->path, corridor->count, corridor->position, corridor->target,
-                                corners_out, capacity, count_out);
+    const tl_nav_polygon_path path = { corridor->path, corridor->count, corridor->position, corridor->target };
+    return tl_nav_first_corners(navmesh, &path, corners_out, capacity, count_out);
 }
 
-// Slides one of the corridor's ends; the polygons gone through, the end's first.
-static tl_result slide(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
-                       const tl_nav_filter *filter, const tl_nav_location *from, tl_vec3 to, tl_nav_ref *polygons,
-                       uint32_t *count_out, tl_vec3 *point_out)
+// The move of one of the corridor's ends: the polygons that it went through, and where it ended on the surface.
+typedef struct end_move {
+    tl_nav_ref polygons[TL_NAV_CORRIDOR_STEP];
+    uint32_t polygon_count;
+    tl_vec3 point;
+} end_move;
+
+static tl_result move_end(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_move_request *request,
+                          end_move *out)
 {
-    tl_nav_location end;
-    if (corridor->count == 0) {
-        return TL_NOT_FOUND;
-    }
-    tl_result result = tl_nav_query_move_along_surface(query, navmesh, filter, from, to, polygons, TL_NAV_CORRIDOR_STEP,
-                                                       count_out, &end);
+    tl_nav_move move;
+    tl_result result =
+        tl_nav_query_move_along_surface(query, navmesh, request, out->polygons, TL_NAV_CORRIDOR_STEP, &move);
     if (result != TL_OK) {
         return result == TL_INCOMPLETE ? TL_ERR_LIMIT : result;
     }
-    *point_out = end.point;
-    return tl_navmesh_height(navmesh, end.polygon, end.point.x, end.point.z, &point_out->y);
+    out->polygon_count = move.polygon_count;
+    out->point = move.end.point;
+    return tl_navmesh_height(navmesh, move.end.polygon, move.end.point.x, move.end.point.z, &out->point.y);
 }
 
 // A coordinate of a position on a portal and those of its ends are rounded to float: as a share of the largest one.
@@ -173,29 +175,30 @@ static uint32_t entered(const tl_nav_corridor *corridor, const tl_navmesh *navme
 tl_result tl_nav_corridor_move(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
                                const tl_nav_filter *filter, tl_vec3 to)
 {
-    tl_nav_ref gone[TL_NAV_CORRIDOR_STEP];
+    end_move move;
     tl_nav_ref back[TL_NAV_CORRIDOR_STEP];
-    uint32_t gone_count = 0;
+    if (corridor->count == 0) {
+        return TL_NOT_FOUND;
+    }
     uint32_t begin = entered(corridor, navmesh);
-    tl_nav_location from = { corridor->count > 0 ? corridor->path[begin] : TL_NAV_NO_REF, corridor->position };
-    tl_vec3 point;
-    TL_TRY(slide(corridor, query, navmesh, filter, &from, to, gone, &gone_count, &point));
+    const tl_nav_move_request request = { filter, { corridor->path[begin], corridor->position }, to };
+    TL_TRY(move_end(query, navmesh, &request, &move));
     // Where the move and the corridor meet last: at their common begin if nowhere else.
     uint32_t last_in_path = begin;
     uint32_t last_in_move = 0;
     for (uint32_t i = begin; i < corridor->count; i++) {
-        for (uint32_t k = 0; k < gone_count; k++) {
-            if (corridor->path[i] == gone[k]) {
+        for (uint32_t k = 0; k < move.polygon_count; k++) {
+            if (corridor->path[i] == move.polygons[k]) {
                 last_in_path = i;
                 last_in_move = k;
             }
         }
     }
     uint32_t back_count = 0;
-    for (uint32_t k = gone_count; k > last_in_move; k--) {
-        back[back_count++] = gone[k - 1];
+    for (uint32_t k = move.polygon_count; k > last_in_move; k--) {
+        back[back_count++] = move.polygons[k - 1];
     }
-    corridor->position = point;
+    corridor->position = move.point;
     tl_nav_corridor_replace(corridor, navmesh, back, back_count, last_in_path + 1);
     return TL_OK;
 }
@@ -203,29 +206,29 @@ tl_result tl_nav_corridor_move(tl_nav_corridor *corridor, tl_nav_query *query, c
 tl_result tl_nav_corridor_move_target(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
                                       const tl_nav_filter *filter, tl_vec3 to)
 {
-    tl_nav_ref gone[TL_NAV_CORRIDOR_STEP];
-    uint32_t gone_count = 0;
-    tl_nav_location from = { corridor->count > 0 ? corridor->path[corridor->count - 1] : TL_NAV_NO_REF,
-                             corridor->target };
-    tl_vec3 point;
-    TL_TRY(slide(corridor, query, navmesh, filter, &from, to, gone, &gone_count, &point));
+    end_move move;
+    if (corridor->count == 0) {
+        return TL_NOT_FOUND;
+    }
+    const tl_nav_move_request request = { filter, { corridor->path[corridor->count - 1], corridor->target }, to };
+    TL_TRY(move_end(query, navmesh, &request, &move));
     uint32_t first_in_path = corridor->count - 1;
     uint32_t last_in_move = 0;
     for (uint32_t i = corridor->count; i > 0; i--) {
-        for (uint32_t k = 0; k < gone_count; k++) {
-            if (corridor->path[i - 1] == gone[k]) {
+        for (uint32_t k = 0; k < move.polygon_count; k++) {
+            if (corridor->path[i - 1] == move.polygons[k]) {
                 first_in_path = i - 1;
                 last_in_move = k;
             }
         }
     }
-    uint32_t added = gone_count - 1 - last_in_move;
+    uint32_t added = move.polygon_count - 1 - last_in_move;
     uint32_t room = corridor->capacity - (first_in_path + 1);
     uint32_t fits = added < room ? added : room;
-    memcpy(corridor->path + first_in_path + 1, gone + last_in_move + 1, fits * sizeof *corridor->path);
+    memcpy(corridor->path + first_in_path + 1, move.polygons + last_in_move + 1, fits * sizeof *corridor->path);
     corridor->count = first_in_path + 1 + fits;
-    corridor->target = point;
-    corridor->goal = point;
+    corridor->target = move.point;
+    corridor->goal = move.point;
     if (fits < added) {
         cut(corridor, navmesh, corridor->count);
     }

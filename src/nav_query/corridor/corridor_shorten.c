@@ -39,8 +39,9 @@ static tl_result look_ahead(const tl_nav_corridor *corridor, const tl_navmesh *n
     while (polygon_count < corridor->count && corridor->path[polygon_count - 1] != ahead->corners[last].polygon) {
         polygon_count++;
     }
-    result = tl_navmesh_trace_path(navmesh, filter, corridor->path, polygon_count, ahead->corners, ahead->corner_count,
-                                   TL_NAV_CORNER_CROSSING, ahead->points, MOST_POINTS, &ahead->count, NULL);
+    const tl_nav_trace_request trace = { filter,         corridor->path,      polygon_count,
+                                         ahead->corners, ahead->corner_count, TL_NAV_CORNER_CROSSING };
+    result = tl_navmesh_trace_path(navmesh, &trace, ahead->points, MOST_POINTS, &ahead->count, NULL);
     ahead->count = ahead->count < MOST_POINTS ? ahead->count : MOST_POINTS;
     return result == TL_INCOMPLETE ? TL_OK : result;
 }
@@ -82,7 +83,8 @@ static tl_result try_sight(tl_nav_corridor *corridor, const tl_navmesh *navmesh,
                                     { to->point, hit.polygon, TL_NAV_CORNER_END, TL_NAV_NO_REF } };
     uint32_t count = 0;
     float cost = 0.0f;
-    result = tl_navmesh_trace_path(navmesh, filter, polygons, hit.polygon_count, ends, 2, 0, NULL, 0, &count, &cost);
+    const tl_nav_trace_request trace = { filter, polygons, hit.polygon_count, ends, 2, 0 };
+    result = tl_navmesh_trace_path(navmesh, &trace, NULL, 0, &count, &cost);
     if (result != TL_INCOMPLETE || !is_cheaper(cost, to->cost)) {
         return TL_OK;
     }
@@ -119,17 +121,14 @@ tl_result tl_nav_corridor_shorten(tl_nav_corridor *corridor, const tl_navmesh *n
     return TL_OK;
 }
 
-// Searches the way to a point of the path; `*count_out` 0: none within the steps, or none that fits.
-static tl_result search_to(const tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
-                           const tl_nav_filter *filter, const tl_nav_trace_point *to, uint32_t max_steps,
-                           tl_nav_ref *polygons, uint32_t *count_out)
+// Searches a path within `max_steps`; `*count_out` 0: none was found, or none that fits.
+static tl_result search_within(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
+                               uint32_t max_steps, tl_nav_ref polygons[TL_NAV_CORRIDOR_STEP], uint32_t *count_out)
 {
-    tl_nav_location start = { corridor->path[0], corridor->position };
-    tl_nav_location goal = { to->polygon, to->point };
     tl_nav_path_progress progress;
     tl_nav_path path;
     *count_out = 0;
-    TL_TRY(tl_nav_query_begin_path(query, navmesh, filter, &start, &goal));
+    TL_TRY(tl_nav_query_begin_path(query, navmesh, request));
     TL_TRY(tl_nav_query_step_path(query, max_steps, &progress));
     if (progress.status == TL_NAV_PATH_COMPLETE &&
         tl_nav_query_write_path(query, polygons, TL_NAV_CORRIDOR_STEP, &path) == TL_OK) {
@@ -145,10 +144,12 @@ static bool is_cheaper_way(const tl_nav_corridor *corridor, const tl_navmesh *na
     uint32_t corner_count = 0;
     uint32_t count = 0;
     float cost = 0.0f;
-    return tl_navmesh_straight_path(navmesh, polygons, polygon_count, corridor->position, to->point, corners,
-                                    MOST_CORNERS, &corner_count, NULL) == TL_OK &&
-           tl_navmesh_trace_path(navmesh, filter, polygons, polygon_count, corners, corner_count, 0, NULL, 0, &count,
-                                 &cost) == TL_INCOMPLETE &&
+    const tl_nav_polygon_path path = { polygons, polygon_count, corridor->position, to->point };
+    if (tl_navmesh_straight_path(navmesh, &path, corners, MOST_CORNERS, &corner_count, NULL) != TL_OK) {
+        return false;
+    }
+    const tl_nav_trace_request trace = { filter, polygons, polygon_count, corners, corner_count, 0 };
+    return tl_navmesh_trace_path(navmesh, &trace, NULL, 0, &count, &cost) == TL_INCOMPLETE &&
            is_cheaper(cost, to->cost);
 }
 
@@ -170,7 +171,10 @@ tl_result tl_nav_corridor_improve(tl_nav_corridor *corridor, tl_nav_query *query
     }
     tl_nav_ref polygons[TL_NAV_CORRIDOR_STEP];
     uint32_t count = 0;
-    TL_TRY(search_to(corridor, query, navmesh, filter, &path.points[to], max_steps, polygons, &count));
+    const tl_nav_path_request request = { filter,
+                                          { corridor->path[0], corridor->position },
+                                          { path.points[to].polygon, path.points[to].point } };
+    TL_TRY(search_within(query, navmesh, &request, max_steps, polygons, &count));
     if (count > 0 && is_cheaper_way(corridor, navmesh, filter, polygons, count, &path.points[to])) {
         tl_nav_corridor_replace(corridor, navmesh, polygons, count, place_of(corridor, path.points[to].polygon) + 1);
         if (changed_out != NULL) {

@@ -76,8 +76,7 @@ bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight);
 
 /// Fills in what a search needs from a caller's words: points are moved onto their polygons. Errors as those of
 /// tl_nav_query_find_shortest_path.
-tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                  const tl_nav_location *start, const tl_nav_location *goal,
+tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
                                   tl_nav_shortest_search *search_out);
 /// Metres in the plane of a path that was found.
 double tl_nav_shortest_length(const tl_nav_shortest_search *search);

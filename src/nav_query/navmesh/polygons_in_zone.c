@@ -48,10 +48,12 @@ static void search_tile(zone_search *search, uint32_t slot)
 }
 
 tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_nav_filter *filter, const tl_nav_zone *zone,
-                                   float min_y, float max_y, tl_nav_ref *polygons_out, uint32_t capacity,
+                                   const tl_nav_height_range *heights, tl_nav_ref *polygons_out, uint32_t capacity,
                                    uint32_t *count_out)
 {
     *count_out = 0;
+    const float min_y = heights != NULL ? heights->min : -INFINITY;
+    const float max_y = heights != NULL ? heights->max : INFINITY;
     tl_nav_zone_test test;
     TL_TRY(tl_nav_zone_begin(zone, &test));
     if (isnan(min_y) || isnan(max_y)) {

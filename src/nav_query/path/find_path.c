@@ -313,24 +313,24 @@ static void note_exact_end(tl_nav_path_run *run, tl_nav_search_end end)
     }
 }
 
-static tl_result set_up(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                        const tl_nav_location *start, const tl_nav_location *goal, tl_nav_path_run *run,
-                        bool *is_uniform_out)
+static tl_result set_up(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
+                        tl_nav_path_run *run, bool *is_uniform_out)
 {
+    const tl_nav_filter *filter = request->filter;
     float least = 1.0f;
     *is_uniform_out = true;
     run->stage = TL_NAV_RUN_NONE;
-    TL_TRY(tl_nav_prepare_shortest(query, navmesh, filter, start, goal, &run->exact));
+    TL_TRY(tl_nav_prepare_shortest(query, navmesh, request, &run->exact));
     if (filter != NULL && !tl_nav_filter_costs(filter, &least, is_uniform_out)) {
         return TL_ERR_ARGUMENT;
     }
     tl_nav_way_search ways = {
-        query,       navmesh,  filter, least,         run->exact.goal_slot, run->exact.goal_polygon,
-        goal->point, INFINITY, false,  TL_NAV_NO_NODE
+        query,    navmesh, filter,        least, run->exact.goal_slot, run->exact.goal_polygon, request->goal.point,
+        INFINITY, false,   TL_NAV_NO_NODE
     };
     run->ways = ways;
-    run->start = *start;
-    run->goal = *goal;
+    run->start = request->start;
+    run->goal = request->goal;
     run->status = TL_NAV_PATH_UNFINISHED;
     run->edits = navmesh->edit.number;
     return TL_OK;
@@ -349,11 +349,11 @@ static void begin_run(tl_nav_path_run *run, bool is_uniform)
     }
 }
 
-tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                           const tl_nav_location *start, const tl_nav_location *goal, tl_nav_path_run *run)
+tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
+                           tl_nav_path_run *run)
 {
     bool is_uniform = true;
-    TL_TRY(set_up(query, navmesh, filter, start, goal, run, &is_uniform));
+    TL_TRY(set_up(query, navmesh, request, run, &is_uniform));
     begin_run(run, is_uniform);
     return TL_OK;
 }
@@ -372,7 +372,7 @@ void tl_nav_run_step(tl_nav_path_run *run, uint64_t *steps)
 static bool find_over_graph(tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
 {
     const tl_nav_visibility_graph *graph = tl_nav_visibility_graph_for(&run->exact);
-    const tl_nav_path_room room = { NULL, 0, polygons_out, capacity };
+    const tl_nav_path_buffers room = { polygons_out, capacity, NULL, 0 };
     tl_nav_shortest_path path;
     memset(&path, 0, sizeof path);
     if (graph == NULL || !tl_nav_find_over_graph(&run->exact, graph, &room, &path)) {
@@ -386,15 +386,14 @@ static bool find_over_graph(tl_nav_path_run *run, tl_nav_ref *polygons_out, uint
     return true;
 }
 
-tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                 const tl_nav_location *start, const tl_nav_location *goal, tl_nav_ref *polygons_out,
-                                 uint32_t capacity, tl_nav_path *path_out)
+tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
+                                 tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
 {
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
     tl_nav_path_run run;
     bool is_uniform = true;
-    TL_TRY(set_up(query, navmesh, filter, start, goal, &run, &is_uniform));
+    TL_TRY(set_up(query, navmesh, request, &run, &is_uniform));
     if (is_uniform && !tl_nav_is_cut_off(&run.exact) && find_over_graph(&run, polygons_out, capacity, path_out)) {
         return path_out->polygon_count <= capacity ? TL_OK : TL_INCOMPLETE;
     }

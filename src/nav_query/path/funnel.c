@@ -240,8 +240,10 @@ tl_result tl_nav_find_link(const tl_navmesh *navmesh, const tl_nav_ref *corridor
 }
 
 // From link to link, and from the last one to the end. A piece's first corner stays whatever comes.
-static tl_result pull_pieces(funnel *f, const tl_nav_ref *polygons, uint32_t polygon_count, tl_vec3 start, tl_vec3 end)
+static tl_result pull_pieces(funnel *f, const tl_nav_polygon_path *path, tl_vec3 start, tl_vec3 end)
 {
+    const tl_nav_ref *polygons = path->polygons;
+    const uint32_t polygon_count = path->polygon_count;
     for (uint32_t begin = 0; begin < polygon_count && !is_enough(f);) {
         uint32_t next = begin;
         while (next < polygon_count && !tl_nav_is_offmesh(polygons[next])) {
@@ -275,45 +277,44 @@ static tl_result pull_pieces(funnel *f, const tl_nav_ref *polygons, uint32_t pol
     return TL_OK;
 }
 
-static tl_result pull_path(funnel *f, const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
-                           tl_vec3 start, tl_vec3 end, tl_nav_corner *corners, uint32_t capacity)
+static tl_result pull_path(funnel *f, const tl_navmesh *navmesh, const tl_nav_polygon_path *path,
+                           tl_nav_corner *corners, uint32_t capacity)
 {
-    if (polygon_count == 0) {
+    if (path->polygon_count == 0) {
         return TL_ERR_ARGUMENT;
     }
-    if (!tl_nav_is_finite(start) || !tl_nav_is_finite(end)) {
+    if (!tl_nav_is_finite(path->start) || !tl_nav_is_finite(path->end)) {
         return TL_ERR_NOT_FINITE;
     }
     uint32_t slots[2], ends[2];
-    if (!tl_nav_split_ref(navmesh, polygons[0], &slots[0], &ends[0]) ||
-        !tl_nav_split_ref(navmesh, polygons[polygon_count - 1], &slots[1], &ends[1])) {
+    if (!tl_nav_split_ref(navmesh, path->polygons[0], &slots[0], &ends[0]) ||
+        !tl_nav_split_ref(navmesh, path->polygons[path->polygon_count - 1], &slots[1], &ends[1])) {
         return TL_NOT_FOUND;
     }
     bool inside = false;
     f->navmesh = navmesh;
     f->list.corners = corners;
     f->list.capacity = capacity;
-    tl_vec3 first = tl_nav_clamp_to_polygon(navmesh->slots[slots[0]].tile, ends[0], start, &inside);
-    tl_vec3 last = tl_nav_clamp_to_polygon(navmesh->slots[slots[1]].tile, ends[1], end, &inside);
-    return pull_pieces(f, polygons, polygon_count, first, last);
+    tl_vec3 first = tl_nav_clamp_to_polygon(navmesh->slots[slots[0]].tile, ends[0], path->start, &inside);
+    tl_vec3 last = tl_nav_clamp_to_polygon(navmesh->slots[slots[1]].tile, ends[1], path->end, &inside);
+    return pull_pieces(f, path, first, last);
 }
 
-tl_result tl_nav_first_corners(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
-                               tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
-                               uint32_t *count_out)
+tl_result tl_nav_first_corners(const tl_navmesh *navmesh, const tl_nav_polygon_path *path, tl_nav_corner *corners_out,
+                               uint32_t capacity, uint32_t *count_out)
 {
     *count_out = 0;
     funnel f;
     memset(&f, 0, sizeof f);
     f.only_first = true;
-    TL_TRY(pull_path(&f, navmesh, polygons, polygon_count, start, end, corners_out, capacity));
+    TL_TRY(pull_path(&f, navmesh, path, corners_out, capacity));
     *count_out = f.list.count <= capacity ? f.list.count : capacity;
     return f.list.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }
 
-tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
-                                   tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
-                                   uint32_t *count_out, float *length_out)
+tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_polygon_path *path,
+                                   tl_nav_corner *corners_out, uint32_t capacity, uint32_t *count_out,
+                                   float *length_out)
 {
     *count_out = 0;
     if (length_out != NULL) {
@@ -321,7 +322,7 @@ tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_ref *
     }
     funnel f;
     memset(&f, 0, sizeof f);
-    TL_TRY(pull_path(&f, navmesh, polygons, polygon_count, start, end, corners_out, capacity));
+    TL_TRY(pull_path(&f, navmesh, path, corners_out, capacity));
     *count_out = f.list.count;
     if (length_out != NULL) {
         *length_out = (float)f.list.length;

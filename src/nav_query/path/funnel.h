@@ -9,9 +9,8 @@
 
 /// The first corners of what tl_navmesh_straight_path finds: it stops when there are more than `capacity`, and the
 /// count is then capacity.
-tl_result tl_nav_first_corners(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t polygon_count,
-                               tl_vec3 start, tl_vec3 end, tl_nav_corner *corners_out, uint32_t capacity,
-                               uint32_t *count_out);
+tl_result tl_nav_first_corners(const tl_navmesh *navmesh, const tl_nav_polygon_path *path, tl_nav_corner *corners_out,
+                               uint32_t capacity, uint32_t *count_out);
 
 /// The two anchors of the off-mesh link corridor[1], that leads from corridor[0] to corridor[2]. TL_NOT_FOUND: it
 /// is gone. TL_ERR_ARGUMENT: it leads elsewhere.

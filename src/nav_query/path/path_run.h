@@ -41,9 +41,9 @@ typedef struct tl_nav_path_run {
     uint64_t pool_generation; ///< and of its nodes: another search since would have taken them
 } tl_nav_path_run;
 
-/// Begins. Errors as those of tl_nav_query_find_path; then nothing runs. `filter` must outlive the run.
-tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                           const tl_nav_location *start, const tl_nav_location *goal, tl_nav_path_run *run);
+/// Begins. Errors as those of tl_nav_query_find_path; then nothing runs. The request's filter must outlive the run.
+tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
+                           tl_nav_path_run *run);
 /// Goes on for at most `*steps` nodes, which are counted down.
 void tl_nav_run_step(tl_nav_path_run *run, uint64_t *steps);
 /// The path as far as it is known.

@@ -184,10 +184,12 @@ uint32_t tl_nav_write_wedges(const tl_nav_shortest_search *search, tl_nav_ref *p
     return count;
 }
 
-tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                  const tl_nav_location *start, const tl_nav_location *goal,
+tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
                                   tl_nav_shortest_search *search_out)
 {
+    const tl_nav_filter *filter = request->filter;
+    const tl_nav_location *start = &request->start;
+    const tl_nav_location *goal = &request->goal;
     memset(search_out, 0, sizeof *search_out);
     if (!tl_nav_is_finite(start->point) || !tl_nav_is_finite(goal->point)) {
         return TL_ERR_NOT_FINITE;
@@ -215,30 +217,30 @@ bool tl_nav_is_cut_off(const tl_nav_shortest_search *search)
            tl_nav_island_of(search->navmesh, search->goal_slot, search->goal_polygon);
 }
 
-static tl_result fits(const tl_nav_shortest_path *path, uint32_t corner_capacity, uint32_t polygon_capacity)
+// A buffer that is left out has capacity 0.
+static tl_result fits(const tl_nav_shortest_path *path, const tl_nav_path_buffers *buffers)
 {
-    bool all = (corner_capacity == 0 || path->corner_count <= corner_capacity) &&
-               (polygon_capacity == 0 || path->polygon_count <= polygon_capacity);
+    bool all = (buffers->corner_capacity == 0 || path->corner_count <= buffers->corner_capacity) &&
+               (buffers->polygon_capacity == 0 || path->polygon_count <= buffers->polygon_capacity);
     return all ? TL_OK : TL_INCOMPLETE;
 }
 
-tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                          const tl_nav_location *start, const tl_nav_location *goal,
-                                          tl_nav_corner *corners_out, uint32_t corner_capacity,
-                                          tl_nav_ref *polygons_out, uint32_t polygon_capacity,
+tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh *navmesh,
+                                          const tl_nav_path_request *request, const tl_nav_path_buffers *buffers,
                                           tl_nav_shortest_path *path_out)
 {
+    static const tl_nav_path_buffers none = { NULL, 0, NULL, 0 };
+    const tl_nav_path_buffers *room = buffers != NULL ? buffers : &none;
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
     tl_nav_shortest_search search;
-    tl_result result = tl_nav_prepare_shortest(query, navmesh, filter, start, goal, &search);
+    tl_result result = tl_nav_prepare_shortest(query, navmesh, request, &search);
     if (result != TL_OK || tl_nav_is_cut_off(&search)) {
         return result;
     }
     const tl_nav_visibility_graph *graph = tl_nav_visibility_graph_for(&search);
-    const tl_nav_path_room room = { corners_out, corner_capacity, polygons_out, polygon_capacity };
-    if (graph != NULL && tl_nav_find_over_graph(&search, graph, &room, path_out)) {
-        return fits(path_out, corner_capacity, polygon_capacity);
+    if (graph != NULL && tl_nav_find_over_graph(&search, graph, room, path_out)) {
+        return fits(path_out, room);
     }
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
@@ -249,8 +251,8 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
         return TL_OK;
     }
     path_out->status = TL_NAV_PATH_COMPLETE;
-    write_corners(&search, corners_out, corner_capacity, path_out);
-    path_out->polygon_count = tl_nav_write_wedges(&search, polygons_out, polygon_capacity);
+    write_corners(&search, room->corners, room->corner_capacity, path_out);
+    path_out->polygon_count = tl_nav_write_wedges(&search, room->polygons, room->polygon_capacity);
     path_out->lower_bound = fmin(search.lower_bound, path_out->length);
-    return fits(path_out, corner_capacity, polygon_capacity);
+    return fits(path_out, room);
 }

@@ -73,14 +73,15 @@ static void look_for_edits(tl_nav_path_run *run)
     run->edits = navmesh->edit.number;
 }
 
-tl_result tl_nav_query_begin_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                  const tl_nav_location *start, const tl_nav_location *goal)
+tl_result tl_nav_query_begin_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request)
 {
     tl_nav_path_run *run = query->run;
-    if (filter != NULL) {
-        run->filter = *filter;
+    tl_nav_path_request kept = *request;
+    if (request->filter != NULL) {
+        run->filter = *request->filter;
+        kept.filter = &run->filter;
     }
-    TL_TRY(tl_nav_run_begin(query, navmesh, filter != NULL ? &run->filter : NULL, start, goal, run));
+    TL_TRY(tl_nav_run_begin(query, navmesh, &kept, run));
     note_generations(query);
     return TL_OK;
 }

@@ -130,31 +130,30 @@ static tl_result follow(path_trace *trace, const tl_nav_corner *from, const tl_n
     return go_to(trace, to->point);
 }
 
-tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_filter *filter, const tl_nav_ref *polygons,
-                                uint32_t polygon_count, const tl_nav_corner *corners, uint32_t corner_count,
-                                uint32_t keep, tl_nav_trace_point *points_out, uint32_t capacity, uint32_t *count_out,
-                                float *cost_out)
+tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_trace_request *request,
+                                tl_nav_trace_point *points_out, uint32_t capacity, uint32_t *count_out, float *cost_out)
 {
     *count_out = 0;
     if (cost_out != NULL) {
         *cost_out = 0.0f;
     }
-    if (polygon_count == 0 || corner_count < 2) {
+    if (request->polygon_count == 0 || request->corner_count < 2) {
         return TL_ERR_ARGUMENT;
     }
     path_trace trace;
     memset(&trace, 0, sizeof trace);
     trace.navmesh = navmesh;
-    trace.filter = filter;
-    trace.polygons = polygons;
-    trace.polygon_count = polygon_count;
-    trace.keep = keep;
+    trace.filter = request->filter;
+    trace.polygons = request->polygons;
+    trace.polygon_count = request->polygon_count;
+    trace.keep = request->keep;
     trace.points = points_out;
     trace.capacity = capacity;
+    const tl_nav_corner *corners = request->corners;
     trace.point = corners[0].point;
     write_point(&trace, corners[0].flags);
-    for (uint32_t i = 1; i < corner_count; i++) {
-        TL_TRY(follow(&trace, &corners[i - 1], &corners[i], i + 1 == corner_count));
+    for (uint32_t i = 1; i < request->corner_count; i++) {
+        TL_TRY(follow(&trace, &corners[i - 1], &corners[i], i + 1 == request->corner_count));
         write_point(&trace, corners[i].flags);
     }
     *count_out = trace.count;

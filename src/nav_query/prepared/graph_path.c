@@ -52,7 +52,7 @@ bool tl_nav_line_enters(const tl_nav_line *line, const tl_nav_ring_place *place)
 typedef struct graph_path {
     const tl_nav_shortest_search *search;
     const tl_nav_visibility_graph *graph;
-    const tl_nav_path_room *room;
+    const tl_nav_path_buffers *room;
     tl_nav_shortest_path *path;
     tl_nav_trail trail;
     tl_vec3 last; // corner
@@ -174,7 +174,7 @@ static bool add_leg(graph_path *p, const tl_nav_corner_vertex *from, const tl_na
 }
 
 uint32_t tl_nav_write_graph_path(const tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph,
-                                 const uint64_t *vertices, uint32_t vertex_count, const tl_nav_path_room *room,
+                                 const uint64_t *vertices, uint32_t vertex_count, const tl_nav_path_buffers *room,
                                  tl_nav_shortest_path *path_out)
 {
     const tl_navmesh *navmesh = search->navmesh;

@@ -52,7 +52,7 @@ static tl_nav_meeting best_pair(tl_nav_query *query, const tl_nav_visibility_gra
 
 // By what is known of all lengths. False: no pair can be walked, or there is no room.
 static bool find_by_lengths(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph, tl_nav_ends *ends,
-                            const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
+                            const tl_nav_path_buffers *room, tl_nav_shortest_path *path_out)
 {
     tl_nav_query *query = search->query;
     for (uint32_t tries = 0; tries < ends->start_count + ends->goal_count; tries++) {
@@ -83,8 +83,8 @@ static bool knows_lengths(const tl_nav_query *query, const tl_nav_visibility_gra
 }
 
 // Whether the goal is seen from the start; the path is then written. `*is_unclear_out`: it cannot be told.
-static bool write_straight(const tl_nav_shortest_search *search, const tl_nav_line *line, const tl_nav_path_room *room,
-                           tl_nav_shortest_path *path_out, bool *is_unclear_out)
+static bool write_straight(const tl_nav_shortest_search *search, const tl_nav_line *line,
+                           const tl_nav_path_buffers *room, tl_nav_shortest_path *path_out, bool *is_unclear_out)
 {
     const tl_navmesh *navmesh = search->navmesh;
     tl_nav_trail trail = { room->polygons, room->polygon_capacity, 0, 0, 0 };
@@ -118,7 +118,7 @@ static bool write_straight(const tl_nav_shortest_search *search, const tl_nav_li
 }
 
 bool tl_nav_find_over_graph(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph,
-                            const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
+                            const tl_nav_path_buffers *room, tl_nav_shortest_path *path_out)
 {
     double x = (double)search->start.x;
     double z = (double)search->start.z;

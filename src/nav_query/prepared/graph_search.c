@@ -262,7 +262,7 @@ static uint32_t run(graph_search *s)
 }
 
 bool tl_nav_search_graph(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph, const tl_nav_ends *ends,
-                         const tl_nav_path_room *room, tl_nav_shortest_path *path_out)
+                         const tl_nav_path_buffers *room, tl_nav_shortest_path *path_out)
 {
     graph_search s;
     tl_nav_query *query = search->query;

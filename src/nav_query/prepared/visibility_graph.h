@@ -220,27 +220,19 @@ static inline double tl_nav_line_rounding(const tl_nav_shortest_search *search, 
     return fmax(graph->rounding, TL_NAV_ON_LINE * fmax(start, goal));
 }
 
-/// What there is room for.
-typedef struct tl_nav_path_room {
-    tl_nav_corner *corners;
-    uint32_t corner_capacity;
-    tl_nav_ref *polygons;
-    uint32_t polygon_capacity;
-} tl_nav_path_room;
-
 /// The shortest path of a search that has edges. False: out of nodes, or a line that touches too much to tell where it
 /// goes; the search over polygons will do it. Then nothing of `path_out` counts.
 bool tl_nav_find_over_graph(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph,
-                            const tl_nav_path_room *room, tl_nav_shortest_path *path_out);
+                            const tl_nav_path_buffers *room, tl_nav_shortest_path *path_out);
 /// The same by search, for a start and a goal that do not see one another.
 bool tl_nav_search_graph(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph, const tl_nav_ends *ends,
-                         const tl_nav_path_room *room, tl_nav_shortest_path *path_out);
+                         const tl_nav_path_buffers *room, tl_nav_shortest_path *path_out);
 
 /// Writes the path that goes over corner vertices [0, vertex_count), of which the query's heap holds the last
 /// one first: the first of its corners and polygons, their true numbers and lengths. Returns UINT32_MAX, or which leg
 /// cannot be gone straight: 0 is from the start.
 uint32_t tl_nav_write_graph_path(const tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph,
-                                 const uint64_t *vertices, uint32_t vertex_count, const tl_nav_path_room *room,
+                                 const uint64_t *vertices, uint32_t vertex_count, const tl_nav_path_buffers *room,
                                  tl_nav_shortest_path *path_out);
 
 #endif

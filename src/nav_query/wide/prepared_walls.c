@@ -290,6 +290,7 @@ tl_nav_wide_def tl_default_nav_wide_def(void)
     tl_nav_wide_def def;
     memset(&def, 0, sizeof def);
     def.max_radius = 1.5f;
+    def.cookie = TL_DEF_COOKIE;
     return def;
 }
 
@@ -323,16 +324,20 @@ static tl_result make_all(builder *b, tl_navmesh *navmesh, uint32_t *made)
 
 tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *def, tl_nav_wide_report *report_out)
 {
-    if (!isfinite(def->max_radius)) {
+    const float max_radius = def != NULL ? def->max_radius : tl_default_nav_wide_def().max_radius;
+    if (def != NULL && def->cookie != TL_DEF_COOKIE) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (!isfinite(max_radius)) {
         return TL_ERR_NOT_FINITE;
     }
-    if (def->max_radius < 0.0f) {
+    if (max_radius < 0.0f) {
         return TL_ERR_ARGUMENT;
     }
     double reach = 0.0;
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
         if (navmesh->slots[i].tile != NULL) {
-            reach = fmax(reach, tl_nav_extra_reach(navmesh->slots[i].tile, def->max_radius));
+            reach = fmax(reach, tl_nav_extra_reach(navmesh->slots[i].tile, max_radius));
         }
     }
     double touch = tl_nav_touch_of(navmesh);

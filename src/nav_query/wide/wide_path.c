@@ -53,13 +53,11 @@ static void write_corners(tl_nav_clearance *clearance, const tl_nav_polyline *pa
 }
 
 // Without a wider agent the shortest path is the answer.
-static tl_result find_narrow(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                             const tl_nav_location *start, const tl_nav_location *goal, tl_nav_corner *corners_out,
-                             uint32_t capacity, tl_nav_wide_path *path_out)
+static tl_result find_narrow(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
+                             const tl_nav_path_buffers *buffers, tl_nav_wide_path *path_out)
 {
     tl_nav_shortest_path path;
-    tl_result result =
-        tl_nav_query_find_shortest_path(query, navmesh, filter, start, goal, corners_out, capacity, NULL, 0, &path);
+    tl_result result = tl_nav_query_find_shortest_path(query, navmesh, request, buffers, &path);
     path_out->status = path.status == TL_NAV_PATH_COMPLETE       ? TL_NAV_WIDE_COMPLETE
                        : path.status == TL_NAV_PATH_OUT_OF_NODES ? TL_NAV_WIDE_OUT_OF_NODES
                                                                  : TL_NAV_WIDE_UNREACHABLE;
@@ -67,7 +65,7 @@ static tl_result find_narrow(tl_nav_query *query, const tl_navmesh *navmesh, con
     path_out->length = path.length;
     path_out->surface_length = path.surface_length;
     path_out->node_count = path.node_count;
-    return path.corner_count > capacity && result == TL_OK ? TL_INCOMPLETE : result;
+    return path.corner_count > buffers->corner_capacity && result == TL_OK ? TL_INCOMPLETE : result;
 }
 
 // Looks for the pieces that lead to the goal. TL_NAV_WIDE_COMPLETE: there are.
@@ -104,10 +102,9 @@ static tl_result write_path(tl_nav_wide_search *search, tl_nav_corner *corners_o
     return path_out->corner_count <= capacity ? TL_OK : TL_INCOMPLETE;
 }
 
-// What a path and the question whether there is one have in common. `is_asked_only`: no corners are wanted.
-static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter, float radius,
-                           const tl_nav_location *start, const tl_nav_location *goal, bool is_asked_only,
-                           tl_nav_corner *corners_out, uint32_t capacity, tl_nav_wide_path *path_out)
+// What a path and the question whether there is one have in common. `buffers` NULL: only the question.
+static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
+                           float radius, const tl_nav_path_buffers *buffers, tl_nav_wide_path *path_out)
 {
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_WIDE_UNREACHABLE;
@@ -118,17 +115,18 @@ static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const
         return TL_ERR_ARGUMENT;
     }
     tl_nav_shortest_search ends;
-    tl_result result = tl_nav_prepare_shortest(query, navmesh, filter, start, goal, &ends);
+    tl_result result = tl_nav_prepare_shortest(query, navmesh, request, &ends);
     if (result != TL_OK) {
         return result;
     }
     tl_nav_clearance clearance;
     double reach = tl_nav_extra_reach(navmesh->slots[ends.start_slot].tile, radius);
-    tl_nav_clearance_begin(query, navmesh, filter, reach, &clearance);
+    tl_nav_clearance_begin(query, navmesh, request->filter, reach, &clearance);
     // Corners are rounded to floats at the end.
     path_out->wall_distance = fmax(clearance.least - clearance.slack, 0.0);
     if (!(clearance.least > 0.0)) {
-        return find_narrow(query, navmesh, filter, start, goal, corners_out, capacity, path_out);
+        const tl_nav_path_buffers none = { NULL, 0, NULL, 0 };
+        return find_narrow(query, navmesh, request, buffers != NULL ? buffers : &none, path_out);
     }
     if (tl_nav_is_cut_off(&ends)) {
         return TL_OK;
@@ -142,24 +140,25 @@ static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const
     tl_nav_pool_reset(query);
     path_out->status = search_pieces(&search);
     path_out->node_count = query->node_count;
-    return is_asked_only || path_out->status != TL_NAV_WIDE_COMPLETE
+    return buffers == NULL || path_out->status != TL_NAV_WIDE_COMPLETE
                ? TL_OK
-               : write_path(&search, corners_out, capacity, path_out);
+               : write_path(&search, buffers->corners, buffers->corner_capacity, path_out);
 }
 
-tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                      float radius, const tl_nav_location *start, const tl_nav_location *goal,
+tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *navmesh,
+                                      const tl_nav_path_request *request, float agent_radius,
                                       tl_nav_corner *corners_out, uint32_t capacity, tl_nav_wide_path *path_out)
 {
-    return find_wide(query, navmesh, filter, radius, start, goal, false, corners_out, capacity, path_out);
+    const tl_nav_path_buffers buffers = { NULL, 0, corners_out, capacity };
+    return find_wide(query, navmesh, request, agent_radius, &buffers, path_out);
 }
 
-tl_result tl_nav_query_is_wide_reachable(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                         float radius, const tl_nav_location *start, const tl_nav_location *goal,
+tl_result tl_nav_query_is_wide_reachable(tl_nav_query *query, const tl_navmesh *navmesh,
+                                         const tl_nav_path_request *request, float agent_radius,
                                          tl_nav_wide_status *status_out)
 {
     tl_nav_wide_path path;
-    tl_result result = find_wide(query, navmesh, filter, radius, start, goal, true, NULL, 0, &path);
+    tl_result result = find_wide(query, navmesh, request, agent_radius, NULL, &path);
     *status_out = path.status;
     return result == TL_INCOMPLETE ? TL_OK : result;
 }

@@ -239,24 +239,27 @@ static void run(place_search *search)
     }
 }
 
-tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                                       float radius, const tl_nav_location *near, float max_distance,
+tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *navmesh,
+                                       const tl_nav_around_request *request, float agent_radius,
                                        tl_nav_location *place_out)
 {
     memset(place_out, 0, sizeof *place_out);
+    const tl_nav_location *near = &request->center;
+    const float max_distance = request->radius;
     uint32_t slot = 0;
     uint32_t polygon = 0;
-    if (!tl_nav_is_finite(near->point) || !isfinite(radius) || !isfinite(max_distance)) {
+    if (!tl_nav_is_finite(near->point) || !isfinite(agent_radius) || !isfinite(max_distance)) {
         return TL_ERR_NOT_FINITE;
     }
-    if (radius < 0.0f || max_distance < 0.0f) {
+    if (agent_radius < 0.0f || max_distance < 0.0f) {
         return TL_ERR_ARGUMENT;
     }
     if (!tl_nav_split_ref(navmesh, near->polygon, &slot, &polygon)) {
         return TL_NOT_FOUND;
     }
     tl_nav_clearance clearance;
-    tl_nav_clearance_begin(query, navmesh, filter, tl_nav_extra_reach(navmesh->slots[slot].tile, radius), &clearance);
+    double reach = tl_nav_extra_reach(navmesh->slots[slot].tile, agent_radius);
+    tl_nav_clearance_begin(query, navmesh, request->filter, reach, &clearance);
     place_search search;
     memset(&search, 0, sizeof search);
     search.clearance = &clearance;
