@@ -9,12 +9,10 @@
 #include "nav_query/navmesh/filter.h"
 #include "nav_query/navmesh/surface.h"
 
-// Nodes in the order of their references; each node's heap_at, which nothing needs any more, becomes its place. The
-// room is that of the wedges, which a flood does not use.
+// Nodes in the order of their references; each node's heap_at, which nothing needs any more, becomes its place.
 static const tl_sort_item *order_nodes(tl_nav_query *query)
 {
-    _Static_assert(sizeof(tl_nav_wedge) >= 2 * sizeof(tl_sort_item), "wedges hold items and their scratch");
-    tl_sort_item *items = (tl_sort_item *)(void *)query->wedges;
+    tl_sort_item *items = query->sort_items;
     for (uint32_t i = 0; i < query->node_count; i++) {
         items[i].key = query->nodes[i].key;
         items[i].value = i;

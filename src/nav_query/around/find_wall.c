@@ -7,10 +7,10 @@
 // what is entered at a distance has nothing that is nearer. Where it seems to, the way there has turned around the end
 // of a wall and come back over or under the place, as a ramp to the next floor does: that does not count.
 
-#include "nav_query/exact/wedge_heap.h"
 #include "nav_query/navmesh/plan.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/search/local_search.h"
+#include "nav_query/search/open_items.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,18 +43,18 @@ static void offer(wall_search *search, tl_nav_ring_seam to, double distance_sq)
         return;
     }
     root->cost = (float)distance_sq;
-    tl_nav_wedge *node = &query->wedges[query->wedge_count];
+    tl_nav_local_node *node = &query->local_nodes[query->wedge_count];
     node->slot = to.slot;
     node->polygon = to.polygon;
     node->cost = distance_sq;
-    tl_nav_wedge_push(query, root->cost, query->wedge_count++);
+    tl_nav_open_push(query, root->cost, query->wedge_count++);
 }
 
 static void look_around(wall_search *search, uint32_t node)
 {
-    uint32_t slot = search->query->wedges[node].slot;
-    uint32_t polygon = search->query->wedges[node].polygon;
-    double entry = sqrt(search->query->wedges[node].cost) - search->rounding;
+    uint32_t slot = search->query->local_nodes[node].slot;
+    uint32_t polygon = search->query->local_nodes[node].polygon;
+    double entry = sqrt(search->query->local_nodes[node].cost) - search->rounding;
     double least_sq = entry > 0.0 ? entry * entry : 0.0;
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, slot, polygon, &count);
@@ -119,12 +119,12 @@ tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh,
     tl_nav_ring_seam home = { slot, polygon };
     offer(&search, home, 0.0);
     while (query->open_count > 0) {
-        tl_nav_heap_entry next = tl_nav_wedge_pop(query);
+        tl_nav_open_item next = tl_nav_open_pop(query);
         // Keys are rounded: one more polygon may be looked at than need be, never one less.
         if ((double)next.total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING) >= search.best_sq) {
             break;
         }
-        look_around(&search, next.wedge);
+        look_around(&search, next.index);
     }
     wall_out->distance = max_radius;
     wall_out->polygon = tl_nav_make_ref(navmesh, search.slot, search.polygon);

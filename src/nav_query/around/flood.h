@@ -5,8 +5,9 @@
 #ifndef TALUS_SRC_NAV_QUERY_FLOOD_H
 #define TALUS_SRC_NAV_QUERY_FLOOD_H
 
-#include "nav_query/exact/shortest_search.h"
+#include "nav_query/navmesh/navmesh.h"
 #include "nav_query/plane/zone.h"
+#include "nav_query/search/node_pool.h"
 
 typedef struct tl_nav_flood {
     tl_nav_query *query;
@@ -19,11 +20,10 @@ typedef struct tl_nav_flood {
     bool all_pass; ///< the filter refuses nothing
 } tl_nav_flood;
 
-/// The end of an off-mesh link by which the way into a node was begun, or TL_NAV_NO_END: kept in the heap of wedges,
-/// which a flood does not use.
+/// The end of an off-mesh link by which the way into a node was begun, or TL_NAV_NO_END.
 static inline uint64_t *tl_nav_flood_end(tl_nav_query *query, uint32_t node)
 {
-    return &query->wedge_heap[node];
+    return &query->link_ends[node];
 }
 
 /// Floods from a point of a polygon. Afterwards the query's nodes [0, node_count) are the polygons, the start's first;

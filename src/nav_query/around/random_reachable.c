@@ -242,7 +242,7 @@ static double area_of(const clip_polygon *polygon)
     return area;
 }
 
-// The areas of the polygons' parts, summed up among the wedges, which a flood does not use; returns the sum of all.
+// The areas of the polygons' parts, summed up; returns the sum of all.
 static double sum_areas(const tl_nav_flood *flood, const circle *c)
 {
     tl_nav_query *query = flood->query;
@@ -251,7 +251,7 @@ static double sum_areas(const tl_nav_flood *flood, const circle *c)
         clip_polygon part;
         clip(flood, &query->nodes[i], c, &part);
         sum += area_of(&part);
-        query->wedges[i].cost = sum;
+        query->area_sums[i] = sum;
     }
     return sum;
 }
@@ -263,13 +263,13 @@ static uint32_t find_part(const tl_nav_query *query, double *at)
     uint32_t high = query->node_count - 1;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
-        if (*at < query->wedges[middle].cost) {
+        if (*at < query->area_sums[middle]) {
             high = middle;
         } else {
             low = middle + 1;
         }
     }
-    *at -= low > 0 ? query->wedges[low - 1].cost : 0.0;
+    *at -= low > 0 ? query->area_sums[low - 1] : 0.0;
     return low;
 }
 

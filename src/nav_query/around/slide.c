@@ -46,8 +46,8 @@ static bool holds(const tl_nav_ring_edge *ring, uint32_t count, double x, double
 // Looks at a polygon's edges; true when it holds the target.
 static bool look_around(slide_search *search, uint32_t node)
 {
-    uint32_t slot = search->query->wedges[node].slot;
-    uint32_t polygon = search->query->wedges[node].polygon;
+    uint32_t slot = search->query->local_nodes[node].slot;
+    uint32_t polygon = search->query->local_nodes[node].polygon;
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, slot, polygon, &count);
     if (holds(ring, count, search->x, search->z)) {
@@ -85,7 +85,7 @@ static bool look_around(slide_search *search, uint32_t node)
 // The polygons from the start's to the one where the move ends; returns how many there are.
 static uint32_t write_way(const slide_search *search, tl_nav_ref *polygons, uint32_t capacity)
 {
-    const tl_nav_wedge *nodes = search->query->wedges;
+    const tl_nav_local_node *nodes = search->query->local_nodes;
     uint32_t count = 0;
     for (uint32_t i = search->best; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
         count++;
@@ -143,7 +143,7 @@ tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh 
     for (uint32_t node = 0; node < query->wedge_count && !look_around(&search, node); node++) {
     }
     if (search.best != TL_NAV_NO_NODE) {
-        const tl_nav_wedge *last = &query->wedges[search.best];
+        const tl_nav_local_node *last = &query->local_nodes[search.best];
         tl_vec3 point = search.start == NULL ? target : tl_nav_point_on_edge(search.start, search.end, search.best_t);
         move_out->end.polygon = tl_nav_make_ref(navmesh, last->slot, last->polygon);
         move_out->end.point = point;

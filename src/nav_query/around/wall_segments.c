@@ -89,8 +89,8 @@ static void insert(wall_gathering *walls, const tl_nav_wall_segment *segment)
 
 static void look_around(wall_gathering *walls, uint32_t node)
 {
-    uint32_t slot = walls->query->wedges[node].slot;
-    uint32_t polygon = walls->query->wedges[node].polygon;
+    uint32_t slot = walls->query->local_nodes[node].slot;
+    uint32_t polygon = walls->query->local_nodes[node].polygon;
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(walls->navmesh, slot, polygon, &count);
     for (uint32_t i = 0; i < count; i++) {

@@ -50,20 +50,18 @@ static uint32_t next_wedge(wedge_search *s, float *total_out)
         }
         offer(s, only, total_of(s, wedge, &s->only_edge));
     }
-    tl_nav_heap_entry next = { s->best_total, s->best };
+    tl_nav_open_item next = { s->best_total, s->best };
     if (s->best == TL_NAV_NO_NODE) {
         if (query->open_count == 0) {
             return TL_NAV_NO_NODE;
         }
-        next = tl_nav_wedge_pop(query);
-    } else if (query->open_count > 0 && query->wedge_heap[0] < tl_nav_heap_key(next.total, next.wedge)) {
-        tl_nav_heap_entry top = tl_nav_heap_entry_of(query->wedge_heap[0]);
-        tl_nav_wedge_sink(query, tl_nav_heap_key(next.total, next.wedge));
-        next = top;
+        next = tl_nav_open_pop(query);
+    } else if (query->open_count > 0 && query->open[0] < tl_nav_open_key(next.total, next.index)) {
+        next = tl_nav_open_swap_top(query, next.total, next.index);
     }
     s->best = TL_NAV_NO_NODE;
     *total_out = next.total;
-    return next.wedge;
+    return next.index;
 }
 
 // What a total that was rounded to float says for certain.

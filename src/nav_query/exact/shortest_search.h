@@ -6,31 +6,8 @@
 #define TALUS_SRC_NAV_QUERY_SHORTEST_SEARCH_H
 
 #include "nav_query/navmesh/navmesh.h"
-#include "nav_query/search/node_pool.h"
-
-/// Seen from a root: a direction in the plane. Both 0: open, nothing lies beyond it.
-typedef struct tl_nav_direction {
-    double x, z;
-} tl_nav_direction;
-
-/// A node of the search: what can be seen from a root through an edge by which a polygon is entered.
-typedef struct tl_nav_wedge {
-    tl_nav_direction left, right; ///< from the root, the ends of what is seen
-    double cost;                  ///< metres from the start to the root
-    float root_x, root_z;
-    uint32_t slot, polygon; ///< that is entered
-    uint32_t edge;          ///< by which, of its ring; or TL_NAV_WEDGE_...: it holds its root
-    uint32_t parent;
-} tl_nav_wedge;
-
-// Values of tl_nav_wedge.edge beside edges. From such a wedge all is open.
-#define TL_NAV_WEDGE_LANDS 0x80000000u ///< | the end by which an off-mesh link was left; the root is its other end
-#define TL_NAV_WEDGE_HOLDS UINT32_MAX  ///< the start is here, or the root of the wedge's parent
-
-static inline bool tl_nav_wedge_lands(const tl_nav_wedge *wedge)
-{
-    return wedge->edge >= TL_NAV_WEDGE_LANDS && wedge->edge != TL_NAV_WEDGE_HOLDS;
-}
+#include "nav_query/search/query.h"
+#include "nav_query/search/wedge.h"
 
 typedef enum tl_nav_search_end {
     TL_NAV_SEARCH_FOUND,

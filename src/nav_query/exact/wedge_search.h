@@ -6,10 +6,10 @@
 #define TALUS_SRC_NAV_QUERY_WEDGE_SEARCH_H
 
 #include "math/tolerance.h"
-#include "nav_query/exact/wedge_heap.h"
 #include "nav_query/exact/wedge_sight.h"
 #include "nav_query/navmesh/filter.h"
 #include "nav_query/navmesh/ring_step.h"
+#include "nav_query/search/open_items.h"
 #include "nav_query/search/root_table.h"
 
 typedef struct wedge_search {
@@ -59,11 +59,11 @@ static inline void offer(wedge_search *s, uint32_t wedge, float total)
         s->best = wedge;
         s->best_total = total;
     } else if (total < s->best_total) {
-        tl_nav_wedge_push(s->query, s->best_total, s->best);
+        tl_nav_open_push(s->query, s->best_total, s->best);
         s->best = wedge;
         s->best_total = total;
     } else {
-        tl_nav_wedge_push(s->query, total, wedge);
+        tl_nav_open_push(s->query, total, wedge);
     }
 }
 

@@ -6,6 +6,7 @@
 #define TALUS_SRC_NAV_QUERY_PATH_RUN_H
 
 #include "nav_query/exact/shortest_search.h"
+#include "nav_query/search/node_pool.h"
 
 /// A* over ways into polygons.
 typedef struct tl_nav_way_search {
@@ -27,7 +28,7 @@ typedef enum tl_nav_run_stage {
     TL_NAV_RUN_WAYS     ///< A* runs
 } tl_nav_run_stage;
 
-typedef struct tl_nav_path_run {
+struct tl_nav_path_run {
     tl_nav_run_stage stage;
     tl_nav_path_status status; ///< TL_NAV_PATH_UNFINISHED while there is more to do
     tl_nav_location start, goal;
@@ -39,7 +40,7 @@ typedef struct tl_nav_path_run {
     uint64_t edits;           ///< of the navmesh, up to which all nodes are known to be whole
     uint32_t generation;      ///< of the query's wedges,
     uint64_t pool_generation; ///< and of its nodes: another search since would have taken them
-} tl_nav_path_run;
+};
 
 /// Begins. Errors as those of tl_nav_query_find_path; then nothing runs. The request's filter must outlive the run.
 tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,

@@ -258,7 +258,7 @@ bool tl_nav_find_ends(const tl_nav_shortest_search *search, const tl_nav_visibil
     const spot start = { search->start_slot, search->start_polygon, search->start };
     const spot goal = { search->goal_slot, search->goal_polygon, search->goal };
     uint32_t room = search->query->max_nodes;
-    ends_out->starts = (tl_nav_corner_leg *)(void *)search->query->wedges;
+    ends_out->starts = search->query->legs;
     ends_out->start_count = vertices_in_cones(graph, &start, search->goal, ends_out->starts, room);
     if (ends_out->start_count == TL_NAV_NO_NODE) {
         return false;

@@ -48,11 +48,11 @@ void tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint
     for (uint32_t i = 0; i < source_count; i++) {
         lengths->length[sources[i]] = 0.0;
         lengths->before[sources[i]] = sources[i];
-        tl_nav_push_vertex(lengths, 0.0, sources[i]);
+        tl_nav_dijkstra_open(lengths, 0.0, sources[i]);
     }
     lengths->settled_count = 0;
     while (lengths->heap_count > 0) {
-        tl_nav_open_vertex next = tl_nav_pop_vertex(lengths);
+        tl_nav_open_vertex next = tl_nav_dijkstra_next(lengths);
         if (next.length > lengths->length[next.vertex]) {
             continue;
         }
@@ -64,7 +64,7 @@ void tl_nav_dijkstra_run(tl_nav_dijkstra *lengths, const uint32_t *sources, uint
             if (length < lengths->length[edge->to]) {
                 lengths->length[edge->to] = length;
                 lengths->before[edge->to] = next.vertex;
-                tl_nav_push_vertex(lengths, length, edge->to);
+                tl_nav_dijkstra_open(lengths, length, edge->to);
             }
         }
     }

@@ -29,41 +29,26 @@ static inline double tl_nav_visibility_edge_length(const tl_nav_corner_vertex *f
     return sqrt(x * x + z * z);
 }
 
-static inline bool tl_nav_open_before(tl_nav_open_vertex a, tl_nav_open_vertex b)
+static inline bool tl_nav_open_vertex_before(tl_nav_open_vertex a, tl_nav_open_vertex b)
 {
     return a.length < b.length || (a.length == b.length && a.vertex < b.vertex);
 }
 
-static inline void tl_nav_push_vertex(tl_nav_dijkstra *s, double length, uint32_t vertex)
+#define TL_HEAP(name)                 tl_nav_open_vertex_##name
+#define TL_HEAP_ITEM                  tl_nav_open_vertex
+#define TL_HEAP_BEFORE(context, a, b) tl_nav_open_vertex_before(a, b)
+#include "base/heap.inl"
+
+static inline void tl_nav_dijkstra_open(tl_nav_dijkstra *s, double length, uint32_t vertex)
 {
-    tl_nav_open_vertex entry = { length, vertex };
-    uint32_t at = s->heap_count++;
-    for (; at > 0 && tl_nav_open_before(entry, s->heap[(at - 1) / 2]); at = (at - 1) / 2) {
-        s->heap[at] = s->heap[(at - 1) / 2];
-    }
-    s->heap[at] = entry;
+    const tl_nav_open_vertex item = { length, vertex };
+    tl_nav_open_vertex_push(s->heap, &s->heap_count, item, NULL);
 }
 
-/// The heap must not be empty.
-static inline tl_nav_open_vertex tl_nav_pop_vertex(tl_nav_dijkstra *s)
+/// The nearest open vertex, taken off the heap, which must not be empty.
+static inline tl_nav_open_vertex tl_nav_dijkstra_next(tl_nav_dijkstra *s)
 {
-    tl_nav_open_vertex top = s->heap[0];
-    tl_nav_open_vertex last = s->heap[--s->heap_count];
-    uint32_t at = 0;
-    for (;;) {
-        uint32_t child = 2 * at + 1;
-        if (child >= s->heap_count) {
-            break;
-        }
-        child += child + 1 < s->heap_count && tl_nav_open_before(s->heap[child + 1], s->heap[child]) ? 1 : 0;
-        if (!tl_nav_open_before(s->heap[child], last)) {
-            break;
-        }
-        s->heap[at] = s->heap[child];
-        at = child;
-    }
-    s->heap[at] = last;
-    return top;
+    return tl_nav_open_vertex_pop(s->heap, &s->heap_count, NULL);
 }
 
 /// TL_ERR_MEMORY: nothing is left to free.

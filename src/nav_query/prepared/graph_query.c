@@ -9,7 +9,7 @@
 // Harabor, Stuckey, Euclidean Pathfinding with Compressed Path Databases, IJCAI 2020 (corner vertices in cone of both
 // ends, and lengths between them that are known).
 
-#include "nav_query/prepared/visibility_graph.h"
+#include "nav_query/prepared/graph_search.h"
 #include "nav_query/search/root_table.h"
 
 #include <string.h>
@@ -31,8 +31,7 @@ static uint32_t unpack(const tl_nav_visibility_graph *graph, uint32_t first, uin
     }
 }
 
-// The best pair, and the corner vertices on its way. The query's heaps are free: one is scratch, the other holds the
-// corner vertices.
+// The best pair, and the corner vertices on its way, in query->on_path.
 static tl_nav_meeting best_pair(tl_nav_query *query, const tl_nav_visibility_graph *graph, tl_nav_ends *ends,
                                 uint32_t *count_out)
 {
@@ -40,12 +39,12 @@ static tl_nav_meeting best_pair(tl_nav_query *query, const tl_nav_visibility_gra
     if (graph->table != NULL) {
         best = tl_nav_best_by_table(graph, ends);
         *count_out = best.start != NULL
-                         ? unpack(graph, best.start->vertex, best.goal->vertex, query->wedge_heap, query->max_nodes)
+                         ? unpack(graph, best.start->vertex, best.goal->vertex, query->on_path, query->max_nodes)
                          : UINT32_MAX;
     } else {
-        best = tl_nav_best_by_labels(graph, ends, (float *)(void *)query->heap);
+        best = tl_nav_best_by_labels(graph, ends, query->to_hub);
         *count_out =
-            best.start != NULL ? tl_nav_unpack_meeting(graph, &best, query->wedge_heap, query->max_nodes) : UINT32_MAX;
+            best.start != NULL ? tl_nav_unpack_meeting(graph, &best, query->on_path, query->max_nodes) : UINT32_MAX;
     }
     return best;
 }
@@ -63,7 +62,7 @@ static bool find_by_lengths(tl_nav_shortest_search *search, const tl_nav_visibil
         }
         // Five roundings a leg, three of what is known, three of sums.
         search->lower_bound = (double)best.length * (1.0 - (double)TL_FLOAT_GAMMA(11));
-        uint32_t blocked = tl_nav_write_graph_path(search, graph, query->wedge_heap, count, room, path_out);
+        uint32_t blocked = tl_nav_write_graph_path(search, graph, query->on_path, count, room, path_out);
         if (blocked == UINT32_MAX) {
             path_out->node_count = ends->start_count + ends->goal_count;
             return true;

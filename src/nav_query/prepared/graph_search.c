@@ -9,10 +9,10 @@
 // Raphael 1968; Goldberg and Harrelson 2005; Oh and Leong, Edge N-Level Sparse Visibility Graphs, 2017 (why only taut
 // turns need be looked at).
 
-#include "nav_query/prepared/visibility_graph.h"
+#include "nav_query/prepared/graph_search.h"
 
-#include "nav_query/exact/wedge_heap.h"
 #include "nav_query/exact/wedge_sight.h"
+#include "nav_query/search/open_items.h"
 #include "nav_query/search/root_table.h"
 #include "nav_query/search/straight_line.h"
 
@@ -31,7 +31,7 @@ typedef struct graph_search {
 } graph_search;
 
 // Metres from a corner vertex to the goal, at least, by landmarks.
-static float guess_by_landmarks(graph_search *s, uint32_t vertex)
+static float estimate_by_landmarks(graph_search *s, uint32_t vertex)
 {
     if (!s->has_goal_bounds) {
         tl_nav_bound_by_landmarks(s->graph, s->ends->goals, s->ends->goal_count, &s->goal_bounds);
@@ -41,7 +41,7 @@ static float guess_by_landmarks(graph_search *s, uint32_t vertex)
 }
 
 // The same by the straight line, from where the corner vertex is.
-static float guess_straight(const graph_search *s, float vertex_x, float vertex_z)
+static float estimate_straight(const graph_search *s, float vertex_x, float vertex_z)
 {
     double x = s->goal_x - (double)vertex_x;
     double z = s->goal_z - (double)vertex_z;
@@ -77,7 +77,7 @@ static void open_stop(graph_search *s, uint32_t index)
         s->is_unclear = true;
         return;
     }
-    tl_nav_wedge_push(s->query, s->query->stops[index].total, index);
+    tl_nav_open_push(s->query, s->query->stops[index].total, index);
 }
 
 // Offers a way to a corner vertex, which is at (x, z). The corner vertex's stop when that is better than what was
@@ -92,10 +92,10 @@ static uint32_t relax(graph_search *s, uint32_t vertex, float x, float z, double
     if (!(cost < stop->cost)) {
         return TL_NAV_NO_NODE;
     }
-    stop->guess = stop->guess < 0.0f ? guess_straight(s, x, z) : stop->guess;
+    stop->estimate = stop->estimate < 0.0f ? estimate_straight(s, x, z) : stop->estimate;
     stop->cost = cost;
     stop->parent = parent;
-    stop->total = (float)(cost + (double)stop->guess);
+    stop->total = (float)(cost + (double)stop->estimate);
     return index;
 }
 
@@ -124,7 +124,7 @@ static void prepare_goal(graph_search *s)
             double z = (double)vertex->z - s->goal_z;
             double length = sqrt(x * x + z * z);
             s->query->stops[stop].to_goal = length;
-            s->query->stops[stop].guess = (float)length * (1.0f - TL_FLOAT_GAMMA(2));
+            s->query->stops[stop].estimate = (float)length * (1.0f - TL_FLOAT_GAMMA(2));
         }
     }
 }
@@ -140,9 +140,9 @@ static void open_start(graph_search *s)
             double x = (double)vertex->x - s->start_x;
             double z = (double)vertex->z - s->start_z;
             stop->cost = sqrt(x * x + z * z);
-            stop->guess = guess_straight(s, vertex->x, vertex->z);
+            stop->estimate = estimate_straight(s, vertex->x, vertex->z);
             stop->is_start = true;
-            stop->total = (float)(stop->cost + (double)stop->guess);
+            stop->total = (float)(stop->cost + (double)stop->estimate);
             open_stop(s, index);
         }
     }
@@ -214,18 +214,18 @@ static bool departs(graph_search *s, const tl_nav_stop *stop)
 }
 
 // Landmarks are looked at for stops that come to the top only. Whether they say more than the straight line does.
-static bool guess_better(graph_search *s, uint32_t index)
+static bool raise_estimate(graph_search *s, uint32_t index)
 {
     tl_nav_stop *stop = &s->query->stops[index];
-    if (stop->is_guessed) {
+    if (stop->has_asked_landmarks) {
         return false;
     }
-    stop->is_guessed = true;
-    float better = guess_by_landmarks(s, stop->vertex);
-    if (!(better > stop->guess)) {
+    stop->has_asked_landmarks = true;
+    float better = estimate_by_landmarks(s, stop->vertex);
+    if (!(better > stop->estimate)) {
         return false;
     }
-    stop->guess = better;
+    stop->estimate = better;
     stop->total = (float)(stop->cost + (double)better);
     return true;
 }
@@ -235,17 +235,17 @@ static uint32_t run(graph_search *s)
 {
     tl_nav_query *query = s->query;
     while (query->open_count > 0 && !s->is_unclear) {
-        tl_nav_heap_entry next = tl_nav_wedge_pop(query);
-        const tl_nav_stop *stop = &query->stops[next.wedge];
+        tl_nav_open_item next = tl_nav_open_pop(query);
+        const tl_nav_stop *stop = &query->stops[next.index];
         if (next.total != stop->total) {
             continue; // it was reached in a shorter way since
         }
         if (stop->vertex == GOAL_VERTEX) {
             if (arrives(s, stop)) {
-                return next.wedge;
+                return next.index;
             }
-        } else if (guess_better(s, next.wedge)) {
-            open_stop(s, next.wedge);
+        } else if (raise_estimate(s, next.index)) {
+            open_stop(s, next.index);
         } else if (stop->is_start) {
             if (departs(s, stop)) {
                 const tl_nav_corner_vertex *vertex = &s->graph->vertices[stop->vertex];
@@ -255,7 +255,7 @@ static uint32_t run(graph_search *s)
                 }
             }
         } else {
-            expand(s, next.wedge);
+            expand(s, next.index);
         }
     }
     return TL_NAV_NO_NODE;
@@ -286,12 +286,12 @@ bool tl_nav_search_graph(tl_nav_shortest_search *search, const tl_nav_visibility
         return false;
     }
     search->lower_bound = (double)query->stops[last].total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
-    // The search is over: the room of its heap holds the corner vertices, the last one first.
+    // The search is over: its heap gives way to the path.
     uint32_t count = 0;
     for (uint32_t stop = query->stops[last].parent; stop != TL_NAV_NO_NODE; stop = query->stops[stop].parent) {
-        query->wedge_heap[count++] = query->stops[stop].vertex;
+        query->on_path[count++] = query->stops[stop].vertex;
     }
-    bool is_written = tl_nav_write_graph_path(search, graph, query->wedge_heap, count, room, path_out) == UINT32_MAX;
+    bool is_written = tl_nav_write_graph_path(search, graph, query->on_path, count, room, path_out) == UINT32_MAX;
     path_out->node_count = query->stop_count;
     return is_written;
 }

@@ -133,9 +133,9 @@ static tl_result label_from(labeller *l, uint32_t rank)
     s->length[root] = 0.0;
     s->before[root] = root;
     s->settled[touched++] = root;
-    tl_nav_push_vertex(s, 0.0, root);
+    tl_nav_dijkstra_open(s, 0.0, root);
     while (s->heap_count > 0 && result == TL_OK) {
-        tl_nav_open_vertex next = tl_nav_pop_vertex(s);
+        tl_nav_open_vertex next = tl_nav_dijkstra_next(s);
         if (next.length > s->length[next.vertex] || is_known(l, next.vertex, next.length)) {
             continue;
         }
@@ -150,7 +150,7 @@ static tl_result label_from(labeller *l, uint32_t rank)
                 }
                 s->length[edge->to] = length;
                 s->before[edge->to] = next.vertex;
-                tl_nav_push_vertex(s, length, edge->to);
+                tl_nav_dijkstra_open(s, length, edge->to);
                 tl_prefetch(l->labels[edge->to].hubs); // each is in a place of its own, and asked for soon
             }
         }

@@ -48,11 +48,11 @@ typedef struct tl_nav_corner_cones {
 } tl_nav_corner_cones;
 
 /// A straight way between a place and a corner vertex.
-typedef struct tl_nav_corner_leg {
+struct tl_nav_corner_leg {
     uint32_t vertex;
     float length; ///< metres in the plane
     float total;  ///< and straight on to the other end of the path
-} tl_nav_corner_leg;
+};
 
 typedef struct tl_nav_visibility_edge {
     uint32_t to;   ///< corner vertex
@@ -224,9 +224,6 @@ static inline double tl_nav_line_rounding(const tl_nav_shortest_search *search, 
 /// goes; the search over polygons will do it. Then nothing of `path_out` counts.
 bool tl_nav_find_over_graph(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph,
                             const tl_nav_path_buffers *room, tl_nav_shortest_path *path_out);
-/// The same by search, for a start and a goal that do not see one another.
-bool tl_nav_search_graph(tl_nav_shortest_search *search, const tl_nav_visibility_graph *graph, const tl_nav_ends *ends,
-                         const tl_nav_path_buffers *room, tl_nav_shortest_path *path_out);
 
 /// Writes the path that goes over corner vertices [0, vertex_count), of which the query's heap holds the last
 /// one first: the first of its corners and polygons, their true numbers and lengths. Returns UINT32_MAX, or which leg

@@ -5,10 +5,16 @@
 #ifndef TALUS_SRC_NAV_QUERY_LOCAL_SEARCH_H
 #define TALUS_SRC_NAV_QUERY_LOCAL_SEARCH_H
 
-#include "nav_query/exact/shortest_search.h"
 #include "nav_query/navmesh/filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/search/root_table.h"
+
+/// A polygon that was met.
+struct tl_nav_local_node {
+    double cost; ///< for searches that have one
+    uint32_t slot, polygon;
+    uint32_t parent; ///< node, or TL_NAV_NO_NODE
+};
 
 /// Forgets what the query knew.
 static inline void tl_nav_local_begin(tl_nav_query *query)
@@ -33,7 +39,7 @@ static inline uint32_t tl_nav_local_add(tl_nav_query *query, uint32_t slot, uint
         return TL_NAV_NO_NODE;
     }
     uint32_t index = query->wedge_count++;
-    tl_nav_wedge *node = &query->wedges[index];
+    tl_nav_local_node *node = &query->local_nodes[index];
     node->slot = slot;
     node->polygon = polygon;
     node->parent = parent;

@@ -8,7 +8,18 @@
 
 #include "base/hash.h"
 #include "math/tolerance.h"
-#include "nav_query/search/node_pool.h"
+#include "nav_query/search/query.h"
+
+struct tl_nav_root {
+    uint64_t number;
+    uint32_t generation; ///< of the search that wrote the entry
+    union {
+        float cost;    ///< metres from the start
+        uint32_t stop; ///< of a corner vertex
+    };
+    // Of a corner that is turned at: what `cost` lost when it was rounded, and the root from which that way came.
+    float cost_rest, from_x, from_z;
+};
 
 /// Forgets all entries. Those of a table whose generations have run out would look like new ones: they are cleared.
 static inline void tl_nav_next_generation(tl_nav_query *query)

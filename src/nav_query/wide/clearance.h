@@ -35,7 +35,7 @@ typedef struct tl_nav_clearance {
 /// place itself, the wall's two ends and the agent's radius are rounded once, the way that leads there a few times.
 #define TL_NAV_PLACE_ROUNDINGS 16.0
 
-/// The room is the memory of the query's wedges: no wide query runs an exact search.
+/// The room is the query's wide_memory.
 void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter, double reach,
                             tl_nav_clearance *clearance_out);
 

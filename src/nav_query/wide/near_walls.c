@@ -44,8 +44,8 @@ void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, cons
     clearance_out->touch = tl_nav_touch_of(navmesh);
     clearance_out->reach = tl_nav_most(reach - clearance_out->slack, 0.0);
     clearance_out->least = tl_nav_most(CHORD_SHARE * clearance_out->reach - clearance_out->slack, 0.0);
-    clearance_out->room.low = (char *)query->wedges;
-    clearance_out->room.high = (char *)(query->wedges + query->max_nodes);
+    clearance_out->room.low = query->wide_memory;
+    clearance_out->room.high = clearance_out->room.low + query->item_bytes;
 }
 
 void *tl_nav_take(tl_nav_clearance *clearance, uint64_t count, uint64_t size)

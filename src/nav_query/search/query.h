@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+//
+// The query object: the memory of searches, of which one at a time is under way.
+//
+// Memory stands in blocks of max_nodes items. Each search uses the blocks that it needs, under a name of its own; what
+// an earlier search left there is overwritten, and told apart by a generation where tables are not cleared.
+
+#ifndef TALUS_SRC_NAV_QUERY_QUERY_H
+#define TALUS_SRC_NAV_QUERY_QUERY_H
+
+#include <talus/nav_query.h>
+
+#define TL_NAV_NO_NODE UINT32_MAX
+
+typedef struct tl_nav_node tl_nav_node;             // node_pool.h
+typedef struct tl_nav_wedge tl_nav_wedge;           // wedge.h
+typedef struct tl_nav_local_node tl_nav_local_node; // local_search.h
+typedef struct tl_nav_root tl_nav_root;             // root_table.h
+typedef struct tl_nav_stop tl_nav_stop;             // prepared/graph_search.h
+typedef struct tl_nav_corner_leg tl_nav_corner_leg; // prepared/corner_cones.h
+typedef struct tl_nav_path_run tl_nav_path_run;     // path/path_run.h
+typedef struct tl_sort_item tl_sort_item;           // base/radix_sort.h
+
+struct tl_nav_query {
+    tl_allocator allocator;
+    uint32_t max_nodes;
+
+    // The node pool (node_pool.h): A* over ways into polygons, floods, the wide search.
+    tl_nav_node *nodes;
+    uint32_t *buckets; ///< bucket_count is a power of two
+    /// [max_nodes] numbers of 32 bits.
+    union {
+        uint32_t *heap; ///< open nodes of the pool (open_heap.c)
+        float *to_hub;  ///< metres from the start to each hub (prepared/hub_labels.c)
+    };
+    uint32_t node_count;
+    uint32_t bucket_count;
+    uint32_t heap_count;
+    uint64_t pool_generation; ///< counts resets
+
+    /// [max_nodes] items as large as a wedge.
+    union {
+        tl_nav_wedge *wedges;           ///< of an exact search
+        tl_nav_local_node *local_nodes; ///< of a search around a place (local_search.h)
+        tl_nav_corner_leg *legs;        ///< from both ends of a path to corner vertices
+        tl_sort_item *sort_items;       ///< of a flood's nodes (around/field.c), and as many for scratch
+        double *area_sums;              ///< by a flood's node (around/random_reachable.c)
+        void *wide_memory;              ///< whatever a wide search takes (wide/clearance.h)
+    };
+    uint64_t item_bytes;  ///< of that block in all
+    uint32_t wedge_count; ///< wedges or local nodes in use
+    /// [max_nodes] numbers of 64 bits.
+    union {
+        uint64_t *open;      ///< a heap of open wedges, local nodes or stops (open_items.h)
+        uint64_t *link_ends; ///< by a flood's node: the end of the off-mesh link by which it was entered
+        uint64_t *on_path;   ///< corner vertices of a path, the last one first
+    };
+    uint32_t open_count; ///< of the heap
+
+    tl_nav_stop *stops; ///< [max_nodes]: corner vertices that a search over the visibility graph has reached
+    uint32_t stop_count;
+
+    // The table of roots (root_table.h).
+    tl_nav_root *roots;    ///< [root_mask + 1], more than wedges
+    uint32_t root_mask;    ///< a power of two - 1
+    uint32_t repeat_count; ///< entries of this generation that are corners turned at, at most half as many as nodes
+    uint32_t generation;   ///< of the search that wrote an entry
+
+    tl_nav_path_run *run; ///< a path search in slices
+};
+
+#endif
