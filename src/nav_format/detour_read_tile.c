@@ -12,9 +12,9 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
-#include "nav_format/fan.h"
-#include "nav_format/lattice.h"
+#include "nav_format/lattice_polygon.h"
 #include "nav_format/source_check.h"
+#include "nav_format/triangle_fan.h"
 
 #include <string.h>
 

@@ -9,7 +9,7 @@
 
 #include "base/assert.h"
 #include "base/host.h"
-#include "nav_format/fan.h"
+#include "nav_format/triangle_fan.h"
 
 #include <math.h>
 #include <string.h>

@@ -13,7 +13,7 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "base/radix_sort.h"
-#include "nav_format/lattice.h"
+#include "nav_format/lattice_polygon.h"
 
 #include <math.h>
 #include <string.h>

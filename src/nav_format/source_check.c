@@ -7,7 +7,7 @@
 
 #include "base/assert.h"
 #include "base/host.h"
-#include "nav_format/lattice.h"
+#include "nav_format/lattice_polygon.h"
 
 #include <math.h>
 #include <talus/mesh.h>

@@ -30,7 +30,7 @@ static bool overlaps(const tl_mesh_view *mesh, const tl_lattice_map *map, uint32
 {
     double min_x = (double)INFINITY, max_x = -(double)INFINITY, min_z = (double)INFINITY, max_z = -(double)INFINITY;
     for (uint32_t k = 0; k < 3; k++) {
-        tl_lattice_point p = tl_lattice_map_point(map, mesh->vertices[mesh->indices[3 * triangle + k]]);
+        tl_voxel_point p = tl_lattice_map_point(map, mesh->vertices[mesh->indices[3 * triangle + k]]);
         min_x = fmin(min_x, p.x);
         max_x = fmax(max_x, p.x);
         min_z = fmin(min_z, p.z);

@@ -35,7 +35,7 @@ static void bench_end(bench *b)
     tl_span_buffer_free(&b->buffer);
 }
 
-static void voxelize(bench *b, tl_lattice_point p, tl_lattice_point q, tl_lattice_point r)
+static void voxelize(bench *b, tl_voxel_point p, tl_voxel_point q, tl_voxel_point r)
 {
     b->buffer.count = 0;
     TEST_RESULT(tl_voxelize_triangle(&b->band, p, q, r, 1), TL_OK);
@@ -60,7 +60,7 @@ static tl_span_item item_of(const bench *b, uint32_t x, uint32_t z)
 // ---- The oracle --------------------------------------------------------------------------------------------
 
 typedef struct clip_polygon {
-    tl_lattice_point points[16];
+    tl_voxel_point points[16];
     int count;
 } clip_polygon;
 
@@ -70,14 +70,14 @@ static clip_polygon clip(const clip_polygon *in, int axis, double line, double s
     clip_polygon out;
     out.count = 0;
     for (int i = 0; i < in->count; i++) {
-        tl_lattice_point p = in->points[i], q = in->points[(i + 1) % in->count];
+        tl_voxel_point p = in->points[i], q = in->points[(i + 1) % in->count];
         double dp = sign * ((axis == 0 ? p.x : p.z) - line), dq = sign * ((axis == 0 ? q.x : q.z) - line);
         if (dp <= 0) {
             out.points[out.count++] = p;
         }
         if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) {
             double t = dp / (dp - dq);
-            tl_lattice_point cut = { p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t, p.z + (q.z - p.z) * t };
+            tl_voxel_point cut = { p.x + (q.x - p.x) * t, p.y + (q.y - p.y) * t, p.z + (q.z - p.z) * t };
             out.points[out.count++] = cut;
         }
     }
@@ -85,8 +85,7 @@ static clip_polygon clip(const clip_polygon *in, int axis, double line, double s
 }
 
 // Heights of the triangle over the cell grown by `grow`; false when it misses it.
-static bool heights_over(const tl_lattice_point *triangle, uint32_t x, uint32_t z, double grow, double *low,
-                         double *high)
+static bool heights_over(const tl_voxel_point *triangle, uint32_t x, uint32_t z, double grow, double *low, double *high)
 {
     clip_polygon polygon = { { triangle[0], triangle[1], triangle[2] }, 3 };
     polygon = clip(&polygon, 0, (double)x - grow, -1);
@@ -109,7 +108,7 @@ typedef struct coverage {
     uint32_t covered, empty, undecided, tall, below, above;
 } coverage;
 
-static void check_cell(const bench *b, const tl_lattice_point *triangle, uint32_t x, uint32_t z, coverage *seen)
+static void check_cell(const bench *b, const tl_voxel_point *triangle, uint32_t x, uint32_t z, coverage *seen)
 {
     double inner_low = 0, inner_high = 0, outer_low = 0, outer_high = 0;
     bool inner = heights_over(triangle, x, z, -DISPLACEMENT, &inner_low, &inner_high);
@@ -144,7 +143,7 @@ static void check_cell(const bench *b, const tl_lattice_point *triangle, uint32_
     }
 }
 
-static void check_triangle(bench *b, const tl_lattice_point *triangle, coverage *seen)
+static void check_triangle(bench *b, const tl_voxel_point *triangle, coverage *seen)
 {
     voxelize(b, triangle[0], triangle[1], triangle[2]);
     tl_span_item first[WIDTH * HEIGHT];
@@ -172,11 +171,11 @@ static double on_grid(double value, double steps)
     return floor(value * steps) / steps;
 }
 
-static tl_lattice_point random_point(test_random *random, double margin, double steps)
+static tl_voxel_point random_point(test_random *random, double margin, double steps)
 {
-    tl_lattice_point p = { random_between(random, -margin, WIDTH + margin),
-                           random_between(random, -margin, VOXELS + margin),
-                           random_between(random, -margin, HEIGHT + margin) };
+    tl_voxel_point p = { random_between(random, -margin, WIDTH + margin),
+                         random_between(random, -margin, VOXELS + margin),
+                         random_between(random, -margin, HEIGHT + margin) };
     p.x = on_grid(p.x, steps);
     p.z = on_grid(p.z, steps);
     p.y = steps <= 2 ? on_grid(p.y, 1) : p.y;
@@ -193,7 +192,7 @@ static void agrees_with_clipping(void **state)
     for (int kind = 0; kind < 6; kind++) {
         coverage seen = { 0 };
         for (uint32_t round = 0; round < 1500; round++) {
-            tl_lattice_point t[3];
+            tl_voxel_point t[3];
             double steps = kind == 3 ? 1 + test_random_below(&random, 2) : 1024;
             double margin = kind == 5 ? 1e9 : 8;
             for (int k = 0; k < 3; k++) {
@@ -229,9 +228,9 @@ static void agrees_with_clipping(void **state)
 
 // ---- What lies on borders ----------------------------------------------------------------------------------
 
-static tl_lattice_point at(double x, double y, double z)
+static tl_voxel_point at(double x, double y, double z)
 {
-    tl_lattice_point p = { x, y, z };
+    tl_voxel_point p = { x, y, z };
     return p;
 }
 
@@ -278,8 +277,8 @@ static void the_far_side_is_closed_on_request(void **state)
     (void)state;
     bench b;
     bench_begin(&b);
-    const tl_lattice_point x_wall[3] = { at(WIDTH, 0, 2), at(WIDTH, 0, 4), at(WIDTH, 5, 4) };
-    const tl_lattice_point z_wall[3] = { at(2, 0, HEIGHT), at(4, 0, HEIGHT), at(4, 5, HEIGHT) };
+    const tl_voxel_point x_wall[3] = { at(WIDTH, 0, 2), at(WIDTH, 0, 4), at(WIDTH, 5, 4) };
+    const tl_voxel_point z_wall[3] = { at(2, 0, HEIGHT), at(4, 0, HEIGHT), at(4, 5, HEIGHT) };
     voxelize(&b, x_wall[0], x_wall[1], x_wall[2]);
     TEST_CHECK(covered_count(&b) == 0);
     voxelize(&b, z_wall[0], z_wall[1], z_wall[2]);
@@ -319,7 +318,7 @@ static void bands_and_seams_lose_nothing(void **state)
     bench_begin(&b);
     test_random random = { 123 };
     for (uint32_t round = 0; round < 2000; round++) {
-        tl_lattice_point t[3];
+        tl_voxel_point t[3];
         for (int k = 0; k < 3; k++) {
             t[k] = random_point(&random, 6, 1024);
         }
@@ -358,7 +357,7 @@ static void maps_of_tiles_agree(void **state)
         tile.first_z = (int32_t)test_random_below(&random, 60000) - 9;
         tl_lattice_map a = tl_lattice_map_make(&whole, 0.3f, 0.2f), b = tl_lattice_map_make(&tile, 0.3f, 0.2f);
         tl_vec3 v = test_random_point(&random, tl_vec3_make(-9000, -50, -9000), tl_vec3_make(9000, 50, 9000));
-        tl_lattice_point p = tl_lattice_map_point(&a, v), q = tl_lattice_map_point(&b, v);
+        tl_voxel_point p = tl_lattice_map_point(&a, v), q = tl_lattice_map_point(&b, v);
         TEST_CHECK(p.x - tile.first_x == q.x && p.z - tile.first_z == q.z && p.y == q.y);
         TEST_CHECK(floor(p.x * 1024) == p.x * 1024 && floor(p.z * 1024) == p.z * 1024);
         TEST_CHECK(fabs(p.x - ((double)v.x - (double)whole.origin.x) / (double)0.3f) <= 0.5001 / 1024);

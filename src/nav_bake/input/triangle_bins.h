@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_NAV_BAKE_TRIANGLE_BINS_H
 #define TALUS_SRC_NAV_BAKE_TRIANGLE_BINS_H
 
-#include "nav_bake/voxels/voxelize.h"
+#include "nav_bake/input/lattice_map.h"
 
 /// Some triangles of a mesh, by index; NULL indices: all.
 typedef struct tl_triangle_list {

@@ -5,7 +5,7 @@
 // What is kept is made once, for the floors without marks; what a marked floor changes in it is found and done anew. So
 // nothing depends on what was there before, and the tile has the bytes of one that is made at once.
 
-#include "nav_bake/tiles/tile_build.h"
+#include "nav_bake/tiles/tile_bake.h"
 
 #include "base/arena.h"
 #include "base/assert.h"

@@ -35,14 +35,6 @@ static const double WHOLE_ROUNDER = 6755399441055744.0;
 /// Heights of a cell that nothing has reached yet.
 static const double NO_LOW = (double)INFINITY, NO_HIGH = -(double)INFINITY;
 
-tl_lattice_map tl_lattice_map_make(const tl_nav_lattice *lattice, float cell_size, float cell_height)
-{
-    tl_lattice_map map = { (double)lattice->origin.x, (double)lattice->origin.y, (double)lattice->origin.z,
-                           1.0 / (double)cell_size,   1.0 / (double)cell_height, (double)lattice->first_x,
-                           (double)lattice->first_z };
-    return map;
-}
-
 // ---- Small helpers -----------------------------------------------------------------------------------------
 
 static inline double min_of(double a, double b)
@@ -85,7 +77,7 @@ static inline void cell_range(double min, double max, uint32_t count, int32_t *f
 }
 
 // Of two points of one edge, the one that it is walked from: the same for both triangles of the edge.
-static bool comes_first(const tl_lattice_point *a, const tl_lattice_point *b)
+static bool comes_first(const tl_voxel_point *a, const tl_voxel_point *b)
 {
     if (a->z != b->z) {
         return a->z < b->z;
@@ -93,9 +85,9 @@ static bool comes_first(const tl_lattice_point *a, const tl_lattice_point *b)
     return a->x != b->x ? a->x < b->x : a->y < b->y;
 }
 
-static void swap_points(tl_lattice_point *a, tl_lattice_point *b)
+static void swap_points(tl_voxel_point *a, tl_voxel_point *b)
 {
-    tl_lattice_point t = *a;
+    tl_voxel_point t = *a;
     *a = *b;
     *b = t;
 }
@@ -277,7 +269,7 @@ static inline void walk_profile(profile_point p, profile_point q, uint32_t count
 }
 
 // Widens the cells of the row at hand, and of the next one where `in_next`.
-static inline void walk_edge(walk *w, const tl_lattice_point *p, const tl_lattice_point *q, bool in_next)
+static inline void walk_edge(walk *w, const tl_voxel_point *p, const tl_voxel_point *q, bool in_next)
 {
     const profile_point from = { p->x, p->y }, to = { q->x, q->y };
     const cell_heights here = { w->low, w->high }, next = { w->next_low, w->next_high };
@@ -285,14 +277,14 @@ static inline void walk_edge(walk *w, const tl_lattice_point *p, const tl_lattic
 }
 
 // The piece in the row at hand reaches to the point, which lies in it or on its lines.
-static inline void reach(walk *w, const tl_lattice_point *point)
+static inline void reach(walk *w, const tl_voxel_point *point)
 {
     w->left = min_of(w->left, point->x);
     w->right = max_of(w->right, point->x);
 }
 
 // The cut between the row at hand and the next one.
-static inline void add_cut(walk *w, const tl_lattice_point *p, const tl_lattice_point *q)
+static inline void add_cut(walk *w, const tl_voxel_point *p, const tl_voxel_point *q)
 {
     w->next_left = min_of(p->x, q->x);
     w->next_right = max_of(p->x, q->x);
@@ -303,7 +295,7 @@ static inline void add_cut(walk *w, const tl_lattice_point *p, const tl_lattice_
     }
 }
 
-static inline void add_edge(walk *w, const tl_lattice_point *p, const tl_lattice_point *q)
+static inline void add_edge(walk *w, const tl_voxel_point *p, const tl_voxel_point *q)
 {
     if (!w->level) {
         walk_edge(w, p, q, false);
@@ -345,11 +337,11 @@ void tl_voxel_heights_init(double *heights, uint32_t line)
 
 // An edge as a function of z, from its lower to its upper end.
 typedef struct edge {
-    tl_lattice_point start;
+    tl_voxel_point start;
     double dx, dy; ///< per unit of z; not used when the edge lies along a row
 } edge;
 
-static inline edge make_edge(const tl_lattice_point *start, const tl_lattice_point *end)
+static inline edge make_edge(const tl_voxel_point *start, const tl_voxel_point *end)
 {
     double dz = end->z - start->z;
     edge e = { *start, 0.0, 0.0 };
@@ -360,20 +352,20 @@ static inline edge make_edge(const tl_lattice_point *start, const tl_lattice_poi
     return e;
 }
 
-static inline tl_lattice_point cross_line(const edge *e, double z)
+static inline tl_voxel_point cross_line(const edge *e, double z)
 {
     double along = z - e->start.z;
-    tl_lattice_point point = { tl_round_to_subdivision(e->start.x + along * e->dx), e->start.y + along * e->dy, z };
+    tl_voxel_point point = { tl_round_to_subdivision(e->start.x + along * e->dx), e->start.y + along * e->dy, z };
     return point;
 }
 
 // a, b, c in the order of comes_first; the rows first..last are the band's that it overlaps.
-static tl_result walk_rows(walk *w, const tl_lattice_point *a, const tl_lattice_point *b, const tl_lattice_point *c,
+static tl_result walk_rows(walk *w, const tl_voxel_point *a, const tl_voxel_point *b, const tl_voxel_point *c,
                            int32_t first, int32_t last)
 {
     const edge whole = make_edge(a, c), lower = make_edge(a, b), upper = make_edge(b, c);
     double line = (double)first;
-    tl_lattice_point on_whole = *a, on_bent = *a; // where the two sides of the outline enter the row
+    tl_voxel_point on_whole = *a, on_bent = *a; // where the two sides of the outline enter the row
     w->left = w->right = a->x;
     if (a->z < line) {
         on_whole = cross_line(&whole, line);
@@ -384,7 +376,7 @@ static tl_result walk_rows(walk *w, const tl_lattice_point *a, const tl_lattice_
     }
     for (int32_t row = first; row <= last; row++) {
         const double next = line + 1.0;
-        tl_lattice_point whole_end = *c, bent_end = *c;
+        tl_voxel_point whole_end = *c, bent_end = *c;
         const bool cut = c->z > next;
         if (cut) {
             whole_end = cross_line(&whole, next);
@@ -416,7 +408,7 @@ static tl_result walk_rows(walk *w, const tl_lattice_point *a, const tl_lattice_
 }
 
 // A triangle within one row of cells, such as a wall along x: its edges are walked as they are.
-static tl_result walk_one_row(walk *w, const tl_lattice_point *a, const tl_lattice_point *b, const tl_lattice_point *c,
+static tl_result walk_one_row(walk *w, const tl_voxel_point *a, const tl_voxel_point *b, const tl_voxel_point *c,
                               uint32_t row)
 {
     w->left = min_of(a->x, min_of(b->x, c->x));
@@ -429,8 +421,8 @@ static tl_result walk_one_row(walk *w, const tl_lattice_point *a, const tl_latti
 
 // A triangle within one column of cells, such as a wall along z: the same with x and z exchanged. a, b, c in the order
 // of comes_first; the rows first..last are the band's that it overlaps.
-static tl_result walk_one_column(walk *w, const tl_lattice_point *a, const tl_lattice_point *b,
-                                 const tl_lattice_point *c, uint32_t column, int32_t first, int32_t last)
+static tl_result walk_one_column(walk *w, const tl_voxel_point *a, const tl_voxel_point *b, const tl_voxel_point *c,
+                                 uint32_t column, int32_t first, int32_t last)
 {
     const tl_voxel_band *band = w->band;
     tl_span_buffer *buffer = band->buffer;
@@ -468,7 +460,7 @@ static inline bool is_in_one_cell(double min, double max, double *cell_out)
 }
 
 // A wall exactly on the field's far side moves half a cell inwards.
-static void close_far_side(const tl_voxel_band *band, tl_lattice_point *a, tl_lattice_point *b, tl_lattice_point *c)
+static void close_far_side(const tl_voxel_band *band, tl_voxel_point *a, tl_voxel_point *b, tl_voxel_point *c)
 {
     const double end_x = (double)band->width, end_z = (double)band->field_height;
     if (a->x == end_x && b->x == end_x && c->x == end_x) {
@@ -479,7 +471,7 @@ static void close_far_side(const tl_voxel_band *band, tl_lattice_point *a, tl_la
     }
 }
 
-tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_lattice_point a, tl_lattice_point b, tl_lattice_point c,
+tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_voxel_point a, tl_voxel_point b, tl_voxel_point c,
                                uint32_t area)
 {
     if (comes_first(&b, &a)) {

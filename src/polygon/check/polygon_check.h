@@ -6,7 +6,7 @@
 #define TALUS_SRC_POLYGON_POLYGON_CHECK_H
 
 #include "base/arena.h"
-#include "polygon/outline/lattice.h"
+#include "polygon/outline/lattice_point.h"
 
 #include <talus/polygon.h>
 

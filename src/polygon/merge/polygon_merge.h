@@ -6,7 +6,7 @@
 #define TALUS_SRC_POLYGON_POLYGON_MERGE_H
 
 #include "base/arena.h"
-#include "polygon/outline/lattice.h"
+#include "polygon/outline/lattice_point.h"
 #include "polygon/outline/trace_steps.h"
 
 /// The polygons made of one contour: polygon p has the corners corners[first[p] .. first[p + 1] - 1].

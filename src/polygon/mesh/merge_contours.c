@@ -8,7 +8,7 @@
 
 #include "base/assert.h"
 #include "base/radix_sort.h"
-#include "polygon/optimal/divide.h"
+#include "polygon/optimal/divide_outline.h"
 #include "polygon/triangulate/fans.h"
 
 // Members of one region and area, by rising number; values of sorted items.

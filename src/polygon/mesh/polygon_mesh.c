@@ -10,7 +10,7 @@
 #include "base/host.h"
 #include "polygon/mesh/merge_contours.h"
 #include "polygon/mesh/polygon_store.h"
-#include "polygon/optimal/divide.h"
+#include "polygon/optimal/divide_outline.h"
 #include "polygon/outline/straight_vertices.h"
 
 #include <string.h>

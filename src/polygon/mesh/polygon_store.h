@@ -7,7 +7,7 @@
 
 #include "base/arena.h"
 #include "polygon/outline/key_table.h"
-#include "polygon/outline/lattice.h"
+#include "polygon/outline/lattice_point.h"
 
 #include <talus/polygon.h>
 

@@ -7,7 +7,7 @@
 // bridges to holes. (With holes the exact problem is NP-hard: Lingas 1982.) Merging the triangles is tried as well, as
 // they are and as Delaunay triangles, and the fewest polygons win.
 
-#include "polygon/optimal/divide.h"
+#include "polygon/optimal/divide_outline.h"
 
 #include "base/assert.h"
 #include "polygon/optimal/optimal_partition.h"

@@ -6,7 +6,7 @@
 #define TALUS_SRC_POLYGON_VISIBILITY_H
 
 #include "base/arena.h"
-#include "polygon/outline/lattice.h"
+#include "polygon/outline/lattice_point.h"
 
 /// The chords of an outline of `count` corners: from corner i to the later corners seen from it, by rising number:
 /// to[first[i]] .. to[first[i + 1] - 1]. The outline's own edges are among them, so i + 1 comes first.

@@ -8,7 +8,7 @@
 
 #include "polygon/outline/straight_vertices.h"
 
-#include "polygon/outline/lattice.h"
+#include "polygon/outline/lattice_point.h"
 
 static uint64_t place_key(const tl_contour_vertex *v)
 {

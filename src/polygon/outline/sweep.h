@@ -6,7 +6,7 @@
 #define TALUS_SRC_POLYGON_SWEEP_H
 
 #include "base/arena.h"
-#include "polygon/outline/lattice.h"
+#include "polygon/outline/lattice_point.h"
 
 /// Two points by number; they differ.
 typedef struct tl_lattice_segment {

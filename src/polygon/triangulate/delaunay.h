@@ -6,7 +6,7 @@
 #define TALUS_SRC_POLYGON_DELAUNAY_H
 
 #include "base/arena.h"
-#include "polygon/outline/lattice.h"
+#include "polygon/outline/lattice_point.h"
 
 /// Flips edges between triangles until none has a corner of its other triangle inside the circle through the corners of
 /// one. `corners` are 3 a triangle, indices of points; twins as tl_triangulate gives them; edges without a twin stay.

@@ -6,7 +6,7 @@
 #define TALUS_SRC_POLYGON_REFLEX_TREE_H
 
 #include "base/arena.h"
-#include "polygon/outline/lattice.h"
+#include "polygon/outline/lattice_point.h"
 
 typedef struct tl_reflex_node {
     int32_t min_x, max_x, min_z, max_z;

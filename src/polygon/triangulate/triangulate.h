@@ -6,7 +6,7 @@
 #define TALUS_SRC_POLYGON_TRIANGULATE_H
 
 #include "base/arena.h"
-#include "polygon/outline/lattice.h"
+#include "polygon/outline/lattice_point.h"
 #include "polygon/outline/trace_steps.h"
 
 #define TL_NO_EDGE UINT32_MAX

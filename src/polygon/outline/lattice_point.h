@@ -9,8 +9,8 @@
 // positive turns: "left" below. Seen from above with x to the right and z down, as tools draw it, contours run
 // clockwise.
 
-#ifndef TALUS_SRC_POLYGON_LATTICE_H
-#define TALUS_SRC_POLYGON_LATTICE_H
+#ifndef TALUS_SRC_POLYGON_LATTICE_POINT_H
+#define TALUS_SRC_POLYGON_LATTICE_POINT_H
 
 #include <stdbool.h>
 #include <stdint.h>

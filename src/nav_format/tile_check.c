@@ -8,9 +8,9 @@
 #include "base/hash.h"
 #include "base/host.h"
 #include "nav_format/box_tree.h"
-#include "nav_format/lattice.h"
-#include "nav_format/layout.h"
+#include "nav_format/lattice_polygon.h"
 #include "nav_format/source_check.h"
+#include "nav_format/tile_layout.h"
 
 #include <math.h>
 #include <string.h>

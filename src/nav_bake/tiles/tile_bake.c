@@ -6,12 +6,13 @@
 // Intermediate data is freed as soon as its last reader is done: a band of solid spans when its floors are known, the
 // distance field after the regions, the contours after the polygons, the compact heightfield after the detail mesh.
 
-#include "nav_bake/tiles/tile_build.h"
+#include "nav_bake/tiles/tile_bake.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
 #include "nav_bake/floors/compact.h"
+#include "nav_bake/input/input_check.h"
 #include "nav_bake/regions/regions.h"
 #include "nav_bake/tiles/memory_meter.h"
 

@@ -2,7 +2,7 @@
 //
 // Exact questions about polygons on the lattice.
 
-#include "nav_format/lattice.h"
+#include "nav_format/lattice_polygon.h"
 
 bool tl_nav_is_convex(const int32_t *vertices, const uint32_t *corners, uint32_t count)
 {

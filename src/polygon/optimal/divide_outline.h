@@ -2,8 +2,8 @@
 //
 // From an outline to convex polygons, by the method asked for.
 
-#ifndef TALUS_SRC_POLYGON_DIVIDE_H
-#define TALUS_SRC_POLYGON_DIVIDE_H
+#ifndef TALUS_SRC_POLYGON_DIVIDE_OUTLINE_H
+#define TALUS_SRC_POLYGON_DIVIDE_OUTLINE_H
 
 #include "polygon/merge/polygon_merge.h"
 #include "polygon/outline/outline.h"

@@ -2,7 +2,7 @@
 //
 // Where the arrays of a tile lie: behind the header, in the header's order, each at the next multiple of 64.
 
-#include "nav_format/layout.h"
+#include "nav_format/tile_layout.h"
 
 #include <string.h>
 

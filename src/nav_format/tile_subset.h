@@ -2,8 +2,8 @@
 //
 // A tile of some of a tile's polygons.
 
-#ifndef TALUS_SRC_NAV_FORMAT_SUBSET_H
-#define TALUS_SRC_NAV_FORMAT_SUBSET_H
+#ifndef TALUS_SRC_NAV_FORMAT_TILE_SUBSET_H
+#define TALUS_SRC_NAV_FORMAT_TILE_SUBSET_H
 
 #include <talus/nav_tile.h>
 

@@ -2,8 +2,8 @@
 //
 // The surface of a polygon that has no detail of its own: a fan from its first corner.
 
-#ifndef TALUS_SRC_NAV_FORMAT_FAN_H
-#define TALUS_SRC_NAV_FORMAT_FAN_H
+#ifndef TALUS_SRC_NAV_FORMAT_TRIANGLE_FAN_H
+#define TALUS_SRC_NAV_FORMAT_TRIANGLE_FAN_H
 
 #include <talus/nav_tile.h>
 

@@ -2,7 +2,7 @@
 //
 // What the pipeline refuses before any work, by name.
 
-#include "nav_bake/tiles/tile_build.h"
+#include "nav_bake/input/input_check.h"
 
 #include "nav_level.h"
 

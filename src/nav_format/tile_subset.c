@@ -2,7 +2,7 @@
 //
 // A tile of some of a tile's polygons: its arrays, read back as what it was baked from, with the others left out.
 
-#include "nav_format/subset.h"
+#include "nav_format/tile_subset.h"
 
 #include "base/arena.h"
 #include "base/assert.h"

@@ -2,7 +2,7 @@
 //
 // Readings of a tile that are not one array access.
 
-#include "nav_format/lattice.h"
+#include "nav_format/lattice_polygon.h"
 
 uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon, uint32_t edge)
 {

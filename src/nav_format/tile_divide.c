@@ -7,7 +7,7 @@
 // before (heightfield layers, as others do) simplifies both sides of each cut by themselves, and has to mend what then
 // no longer fits.
 
-#include "nav_format/subset.h"
+#include "nav_format/tile_subset.h"
 
 #include "base/arena.h"
 #include "base/assert.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What the pipeline is given, checked once before any work.
+// The input of a bake, checked once before any work.
 
-#include "nav_bake/tiles/tile_build.h"
+#include "nav_bake/input/input_check.h"
 
 #include "base/assert.h"
 #include "base/host.h"

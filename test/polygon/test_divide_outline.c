@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "polygon/optimal/divide.h"
+#include "polygon/optimal/divide_outline.h"
 
 #include "polygon/triangulate/triangulate.h"
 #include "polygon_shapes.h"

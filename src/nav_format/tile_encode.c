@@ -5,11 +5,11 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "nav_format/box_tree.h"
-#include "nav_format/fan.h"
-#include "nav_format/lattice.h"
-#include "nav_format/layout.h"
+#include "nav_format/lattice_polygon.h"
 #include "nav_format/portal_bake.h"
 #include "nav_format/source_check.h"
+#include "nav_format/tile_layout.h"
+#include "nav_format/triangle_fan.h"
 
 #include <string.h>
 

@@ -3,8 +3,8 @@
 // Where the arrays of a tile lie, given their counts. Writer and checker share it, so a tile's offsets are never
 // interpreted: they are computed anew and compared.
 
-#ifndef TALUS_SRC_NAV_FORMAT_LAYOUT_H
-#define TALUS_SRC_NAV_FORMAT_LAYOUT_H
+#ifndef TALUS_SRC_NAV_FORMAT_TILE_LAYOUT_H
+#define TALUS_SRC_NAV_FORMAT_TILE_LAYOUT_H
 
 #include <talus/nav_tile.h>
 

@@ -5,7 +5,7 @@
 // The bound: where the floor's angle is 180 degrees or more a chord must end, and a chord has two ends; and n corners
 // make n - 2 triangles, of which a polygon of k corners takes k - 2.
 
-#include "polygon/optimal/divide.h"
+#include "polygon/optimal/divide_outline.h"
 
 #include "base/assert.h"
 #include "polygon/outline/key_table.h"

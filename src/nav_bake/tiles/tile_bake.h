@@ -2,13 +2,10 @@
 //
 // All stages for one tile, on input that was checked.
 
-#ifndef TALUS_SRC_NAV_BAKE_TILE_BUILD_H
-#define TALUS_SRC_NAV_BAKE_TILE_BUILD_H
+#ifndef TALUS_SRC_NAV_BAKE_TILE_BAKE_H
+#define TALUS_SRC_NAV_BAKE_TILE_BAKE_H
 
 #include "nav_bake/input/triangle_bins.h"
-
-/// Checks mesh, areas and volumes, and measures the mesh's bounds.
-tl_result tl_nav_input_check(const tl_nav_input *input, tl_aabb *bounds_out, tl_report *report);
 
 /// tl_nav_tile_bake for the triangles of a list. Adds its counts to those in `report`, which is not NULL, and leaves
 /// the last stage, or what failed, in its base. `stages` is not NULL and zero; with `keep_stages` it holds all

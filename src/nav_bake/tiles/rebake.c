@@ -7,7 +7,7 @@
 
 #include "base/assert.h"
 #include "base/host.h"
-#include "nav_bake/tiles/tile_build.h"
+#include "nav_bake/tiles/tile_bake.h"
 
 #include <math.h>
 
