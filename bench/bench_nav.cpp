@@ -159,7 +159,7 @@ bool run_talus(const bench_part &part, figures *sum)
             return !tl_polygon_mesh_bake(&s.contours.set, &def, &s.polygons, nullptr);
         }) &&
         watch.time([&] { return !tl_nav_bake_detail(&config, compact, &s.polygons, nullptr, &s.detail, nullptr); });
-    tl_nav_stages_free(&s, nullptr);
+    tl_nav_stages_free(&s);
     return done && time_whole(part, sum);
 }
 
@@ -233,7 +233,7 @@ double wall_ms(const bench_level &level, tl_nav_def def, const tl_tasks *tasks)
     const double begin = clock_ms(CLOCK_MONOTONIC);
     const tl_result result = tl_nav_bake(&def, &input, &tiles, nullptr);
     const double ms = clock_ms(CLOCK_MONOTONIC) - begin;
-    tl_nav_tiles_free(&tiles, nullptr);
+    tl_nav_tiles_free(&tiles);
     return result == TL_OK ? ms : 0;
 }
 

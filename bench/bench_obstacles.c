@@ -65,7 +65,7 @@ static void measure_rebuilds(const tl_nav_def *def, const tl_nav_input *input, b
         must(tl_nav_rebake(def, input, box, &block, NULL), "rebuild");
         times[i] = (now() - began) * 1e3;
         tiles += block.range.count_x * block.range.count_z;
-        tl_nav_tile_block_free(&block, NULL);
+        tl_nav_tile_block_free(&block);
     }
     double median = quantile(times, REBUILDS, 0.5);
     printf("a box of 3 m baked again: median %.2f ms, most %.2f ms, %.1f tiles\n", median,

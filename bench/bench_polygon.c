@@ -69,7 +69,7 @@ static double run(int way, const tl_contour_set *set, uint32_t cap, uint32_t *po
         exit(1);
     }
     *polygons = mesh.polygon_count;
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     return seconds;
 }
 

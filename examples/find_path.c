@@ -35,7 +35,7 @@ static tl_result bake(tl_navmesh *navmesh)
             tiles.tiles[i] = NULL; // the navmesh frees it
         }
     }
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     return result;
 }
 

@@ -83,7 +83,7 @@ static tl_result make_world(const level *l, world *w)
         result = tl_navmesh_add_tile(w->navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED);
         tiles.tiles[i] = result == TL_OK ? NULL : tiles.tiles[i];
     }
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     return result;
 }
 

@@ -116,7 +116,7 @@ int main(void)
     tl_nav_query_destroy(r.query);
     tl_blob_free(r.links);
     tl_navmesh_destroy(r.navmesh);
-    tl_nav_tiles_free(&r.tiles, NULL);
+    tl_nav_tiles_free(&r.tiles);
     tl_blob_free(r.soup);
     if (result != TL_OK) {
         fprintf(stderr, "talus: %s\n", tl_result_text(result));

@@ -35,6 +35,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             free(bytes);
         }
     }
-    tl_detour_tiles_free(&tiles, NULL);
+    tl_detour_tiles_free(&tiles);
     return 0;
 }

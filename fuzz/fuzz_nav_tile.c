@@ -152,7 +152,7 @@ static tl_nav_tile *bake_layer(uint32_t layer)
     require(tl_nav_tile_divide(whole, layers, NULL, &stack, NULL) == TL_OK && stack.count == 2);
     tl_nav_tile *tile = stack.tiles[layer];
     stack.tiles[layer] = NULL;
-    tl_nav_tile_stack_free(&stack, NULL);
+    tl_nav_tile_stack_free(&stack);
     tl_blob_free(whole);
     return tile;
 }

@@ -33,7 +33,7 @@ static void build_and_check(const tl_contour_set *set, uint32_t cap, uint32_t me
             }
         }
     }
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
 }
 
 static void from_bytes(const uint8_t *data, size_t size)

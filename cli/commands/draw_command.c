@@ -165,7 +165,7 @@ static bool add_polygons(draw_source *source, uint32_t max_verts_per_poly, const
         return false;
     }
     draw_stage_polygons(scene, &polygons, what);
-    tl_polygon_mesh_free(&polygons, NULL);
+    tl_polygon_mesh_free(&polygons);
     return true;
 }
 

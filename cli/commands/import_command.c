@@ -104,7 +104,7 @@ static tl_exit import_bytes(tl_cli *cli, const char *path, const tl_file_map *ma
         code = print_report(cli, output, size, &report);
     }
     tl_pack_content_free(&content);
-    tl_detour_tiles_free(&tiles, NULL);
+    tl_detour_tiles_free(&tiles);
     return code;
 }
 

@@ -183,7 +183,7 @@ static tl_exit run_set(job *j, const tl_contour_text *text)
     if (code == TL_EXIT_OK) {
         report_set(j, text->name, &mesh, &report, seconds, verdict);
     }
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     return code;
 }
 

@@ -146,7 +146,7 @@ void draw_source_close(draw_source *source)
     if (source->is_contours) {
         tl_contour_text_free(&source->text);
     }
-    tl_nav_stages_free(&source->stages, NULL);
+    tl_nav_stages_free(&source->stages);
     tl_level_areas_free(&source->areas);
     tl_blob_free(source->baked_soup);
     free(source->corners);

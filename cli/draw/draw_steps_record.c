@@ -93,7 +93,7 @@ tl_result steps_record_make(const tl_contour_set *set, uint32_t contour, uint32_
     if (result != TL_OK) {
         return result;
     }
-    tl_polygon_mesh_free(&record_out->mesh, NULL);
+    tl_polygon_mesh_free(&record_out->mesh);
     record_out->counting = false;
     record_out->kinds[0].count = record_out->kinds[1].count = 0;
     result = tl_polygon_mesh_bake(&one, &def, &record_out->mesh, NULL);
@@ -109,6 +109,6 @@ void steps_record_free(steps_record *record)
         free(kind->shown);
     }
     tl_io_release(&allocator, record->numbers, (size_t)record->number_capacity * sizeof *record->numbers);
-    tl_polygon_mesh_free(&record->mesh, NULL);
+    tl_polygon_mesh_free(&record->mesh);
     memset(record, 0, sizeof *record);
 }

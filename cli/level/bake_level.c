@@ -281,6 +281,6 @@ void tl_bake_free(tl_bake *bake)
     tl_blob_free(bake->hull);
     tl_blob_free(bake->links);
     tl_blob_free(bake->marks);
-    tl_nav_tiles_free(&bake->tiles, NULL);
+    tl_nav_tiles_free(&bake->tiles);
     memset(bake, 0, sizeof(*bake));
 }

@@ -41,7 +41,7 @@ static tl_exit run_method(tl_cli *cli, const char *input, const tl_contour_text 
                      : result == TL_ERR_CORRUPT ? tl_polygon_fault_text(check.first_fault)
                                                 : tl_result_text(result);
     }
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     return TL_EXIT_OK;
 }
 

@@ -145,7 +145,7 @@ typedef struct tl_nav_heightfield {
     uint32_t *first_span; ///< [width * height + 1]
     tl_nav_span *spans;   ///< [span_count]
     uint32_t span_count;
-    const tl_allocator *allocator;
+    tl_allocator allocator; ///< private: what gives the memory back
 } tl_nav_heightfield;
 
 /// Voxelizes triangles conservatively and merges their spans. Triangles less steep than the agent's limit are given
@@ -199,7 +199,7 @@ typedef struct tl_nav_compact {
     uint32_t *region;      ///< [span_count] 0: none; after a region build, else NULL
     uint32_t region_count; ///< largest region id + 1
     tl_nav_region_stats region_stats;
-    const tl_allocator *allocator;
+    tl_allocator allocator; ///< private: what gives the memory back
 } tl_nav_compact;
 
 /// The span that lies beside another in a direction, or TL_NAV_NO_SPAN.
@@ -256,7 +256,7 @@ typedef struct tl_nav_contours {
     uint32_t unbridged_count; ///< holes left out of set, because no bridge to their outline was found
     uint32_t slit_count; ///< traced outlines without area, between floors of one region that are not linked; left out
     uint32_t repaired_count; ///< traced outlines that got vertices back, lest their simplified forms collapse or cross
-    const tl_allocator *allocator;
+    tl_allocator allocator;  ///< private, as all below: one block holds all arrays
     void *block;
     size_t block_size;
 } tl_nav_contours;
@@ -328,7 +328,7 @@ typedef struct tl_nav_stages {
     tl_nav_detail detail;
 } tl_nav_stages;
 
-TL_API void tl_nav_stages_free(tl_nav_stages *stages, const tl_allocator *allocator);
+TL_API void tl_nav_stages_free(tl_nav_stages *stages);
 
 /// Counts of a bake, summed over its tiles.
 typedef struct tl_nav_bake_report {
@@ -387,11 +387,12 @@ typedef struct tl_nav_tiles {
     tl_nav_tile **tiles; ///< only those that hold polygons, row-major by (tile_z, tile_x), of a place by rising layer
     uint32_t tile_count;
     uint32_t tiles_x, tiles_z;
+    tl_allocator allocator; ///< private: what gives the memory back
 } tl_nav_tiles;
 
 TL_API tl_result tl_nav_bake(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tiles *tiles_out,
                              tl_nav_bake_report *report_out);
-TL_API void tl_nav_tiles_free(tl_nav_tiles *tiles, const tl_allocator *allocator);
+TL_API void tl_nav_tiles_free(tl_nav_tiles *tiles);
 
 // ---------------------------------------------------------------------------------------------------------
 // A part of the tiles: levels that change.
@@ -418,6 +419,7 @@ typedef struct tl_nav_stage_sink {
 typedef struct tl_nav_tile_block {
     tl_nav_tile_range range;
     tl_nav_tile_stack *stacks; ///< [range.count_x * range.count_z] by place, row-major; empty where nothing is walkable
+    tl_allocator allocator;    ///< private: what gives the memory back
 } tl_nav_tile_block;
 
 /// Bakes a range of tiles: the same bytes as in tl_nav_bake of the whole. `sink` may be NULL. A caller whose mesh
@@ -431,7 +433,7 @@ TL_API tl_result tl_nav_bake_range(const tl_nav_def *def, const tl_nav_input *in
 /// (TL_ERR_ARGUMENT). Hand each stack of the block to tl_navmesh_replace_tiles.
 TL_API tl_result tl_nav_rebake(const tl_nav_def *def, const tl_nav_input *input, tl_aabb changed,
                                tl_nav_tile_block *block_out, tl_nav_bake_report *report_out);
-TL_API void tl_nav_tile_block_free(tl_nav_tile_block *block, const tl_allocator *allocator);
+TL_API void tl_nav_tile_block_free(tl_nav_tile_block *block);
 
 #ifdef __cplusplus
 }

@@ -60,6 +60,7 @@ TL_API tl_result tl_detour_set_write(const tl_nav_tile *const *tiles, uint32_t t
 typedef struct tl_detour_tiles {
     tl_nav_tile **tiles;
     uint32_t tile_count;
+    tl_allocator allocator; ///< private: what gives the memory back
 } tl_detour_tiles;
 
 typedef struct tl_detour_read_def {
@@ -80,7 +81,7 @@ TL_API tl_detour_read_def tl_default_detour_read_def(void);
 /// tile over which Detour links them are walls here. `tiles_out` is cleared unless TL_OK.
 TL_API tl_result tl_detour_read(const void *bytes, uint64_t size, const tl_detour_read_def *def,
                                 tl_detour_tiles *tiles_out, tl_detour_report *report_out);
-TL_API void tl_detour_tiles_free(tl_detour_tiles *tiles, const tl_allocator *allocator);
+TL_API void tl_detour_tiles_free(tl_detour_tiles *tiles);
 
 /// An off-mesh connection, with what tl_navmesh_add_offmesh (nav_query.h) takes.
 typedef struct tl_detour_off_mesh {

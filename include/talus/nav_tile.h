@@ -46,11 +46,12 @@ typedef struct tl_nav_detail {
     float max_error; ///< metres: how far the farthest inner height sample lies from the finished surface, vertically
     uint32_t limited_patches; ///< that reached 65,535 vertices with larger errors left, or have an edge too long to be
                               ///< sampled as densely as asked (more than 512 steps)
-    void *block;              ///< one block holds all arrays
+    tl_allocator allocator;   ///< private, as all below: one block holds all arrays
+    void *block;
     size_t block_size;
 } tl_nav_detail;
 
-TL_API void tl_nav_detail_free(tl_nav_detail *detail, const tl_allocator *allocator);
+TL_API void tl_nav_detail_free(tl_nav_detail *detail);
 
 // ---------------------------------------------------------------------------------------------------------
 // Limits, checked when a tile is baked and again when its bytes are.
@@ -190,9 +191,10 @@ TL_API tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep
 typedef struct tl_nav_tile_stack {
     tl_nav_tile **tiles;
     uint32_t count;
+    tl_allocator allocator; ///< private: what gives the memory back
 } tl_nav_tile_stack;
 
-TL_API void tl_nav_tile_stack_free(tl_nav_tile_stack *stack, const tl_allocator *allocator);
+TL_API void tl_nav_tile_stack_free(tl_nav_tile_stack *stack);
 
 /// Divides a tile into layers: polygon p goes into that of the number layers[p]. Together they have the tile's
 /// polygons, each layer its own in the same order, and in a navmesh the same links: an edge between two layers becomes

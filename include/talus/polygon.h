@@ -99,7 +99,8 @@ typedef struct tl_polygon_mesh {
     uint32_t max_verts_per_poly;
     uint32_t note_count;
     tl_contour_note *notes; ///< [note_count] contours that were not taken as they came, by rising contour index
-    void *block;            ///< one block holds all arrays
+    tl_allocator allocator; ///< private, as all below: one block holds all arrays
+    void *block;
     size_t block_size;
 } tl_polygon_mesh;
 
@@ -210,7 +211,7 @@ TL_API tl_result tl_polygon_mesh_bake(const tl_contour_set *contours, const tl_p
                                       tl_polygon_mesh *mesh_out, tl_polygon_report *report_out);
 
 /// Gives the mesh back to the allocator it was built with (NULL: free) and clears it. A cleared mesh is allowed.
-TL_API void tl_polygon_mesh_free(tl_polygon_mesh *mesh, const tl_allocator *allocator);
+TL_API void tl_polygon_mesh_free(tl_polygon_mesh *mesh);
 
 /// A vertex in the world, metres.
 static inline tl_vec3 tl_polygon_mesh_vertex(const tl_polygon_mesh *mesh, uint32_t vertex)

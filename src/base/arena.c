@@ -44,7 +44,7 @@ static void default_release(void *block, size_t size, void *user)
 
 tl_allocator tl_allocator_or_default(const tl_allocator *allocator)
 {
-    if (allocator != NULL) {
+    if (allocator != NULL && allocator->allocate != NULL) {
         return *allocator;
     }
     tl_allocator standard = { default_allocate, default_release, NULL };

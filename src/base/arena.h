@@ -23,7 +23,7 @@ typedef struct tl_arena_mark {
     size_t used;
 } tl_arena_mark;
 
-/// The allocator that a NULL stands for: aligned malloc and free.
+/// The allocator that NULL, or a zeroed one, stands for: aligned malloc and free.
 tl_allocator tl_allocator_or_default(const tl_allocator *allocator);
 
 void *tl_allocate(const tl_allocator *allocator, size_t size, size_t alignment);

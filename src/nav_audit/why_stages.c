@@ -381,7 +381,7 @@ static tl_result look_at_tile(const window *w, const int64_t column[2], tl_why_f
         result = dropped ? measure_island(&stages.compact, at, host, &finding->island) : TL_OK;
     }
     tl_blob_free(tile);
-    tl_nav_stages_free(&stages, host->allocator);
+    tl_nav_stages_free(&stages);
     return result;
 }
 

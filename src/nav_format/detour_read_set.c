@@ -149,9 +149,10 @@ tl_result tl_detour_read(const void *bytes, uint64_t size, const tl_detour_read_
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "read detour");
     memset(tiles_out, 0, sizeof *tiles_out);
+    tiles_out->allocator = allocator;
     tl_result result = read_any(bytes, size, &settings, &report, tiles_out);
     if (result != TL_OK) {
-        tl_detour_tiles_free(tiles_out, &allocator);
+        tl_detour_tiles_free(tiles_out);
     }
     if (report_out != NULL) {
         *report_out = report;
@@ -159,13 +160,15 @@ tl_result tl_detour_read(const void *bytes, uint64_t size, const tl_detour_read_
     return result;
 }
 
-void tl_detour_tiles_free(tl_detour_tiles *tiles, const tl_allocator *allocator)
+void tl_detour_tiles_free(tl_detour_tiles *tiles)
 {
-    tl_allocator own = tl_allocator_or_default(allocator);
+    if (tiles == NULL) {
+        return;
+    }
     for (uint32_t i = 0; i < tiles->tile_count; i++) {
         tl_blob_free(tiles->tiles[i]);
     }
-    tl_release_array(&own, tiles->tiles, tiles->tile_count, sizeof *tiles->tiles);
+    tl_release_array(&tiles->allocator, tiles->tiles, tiles->tile_count, sizeof *tiles->tiles);
     memset(tiles, 0, sizeof *tiles);
 }
 

@@ -85,6 +85,7 @@ static tl_result make_layers(const tl_nav_tile *tile, const tl_nav_layering *lay
     }
     memset(stack->tiles, 0, count * sizeof(*stack->tiles));
     stack->count = count;
+    stack->allocator = tl_allocator_or_default(allocator);
     for (uint32_t i = 0, layer = UINT32_MAX; i < count; i++) {
         layer = next_layer(tile, layering->layers, layer);
         TL_TRY(tl_nav_tile_layer(tile, layering, layer, allocator, &stack->tiles[i], report));
@@ -115,16 +116,19 @@ tl_result tl_nav_tile_divide(const tl_nav_tile *tile, const uint32_t *layers, co
     }
     tl_arena_free(&arena);
     if (result != TL_OK) {
-        tl_nav_tile_stack_free(stack_out, allocator);
+        tl_nav_tile_stack_free(stack_out);
     }
     return result;
 }
 
-void tl_nav_tile_stack_free(tl_nav_tile_stack *stack, const tl_allocator *allocator)
+void tl_nav_tile_stack_free(tl_nav_tile_stack *stack)
 {
+    if (stack == NULL) {
+        return;
+    }
     for (uint32_t i = 0; i < stack->count; i++) {
         tl_blob_free(stack->tiles[i]);
     }
-    tl_release_array(allocator, stack->tiles, stack->count, sizeof(*stack->tiles));
+    tl_release_array(&stack->allocator, stack->tiles, stack->count, sizeof(*stack->tiles));
     memset(stack, 0, sizeof *stack);
 }

@@ -101,7 +101,6 @@ static void free_floors(tl_nav_obstacles *o, tile_floors *tile)
 
 // Where a bake puts the floors that it makes: beside those that are there until all is well.
 typedef struct floors_taker {
-    tl_nav_obstacles *obstacles;
     tl_nav_tile_range range;
     tl_nav_compact *fresh; // [range.count_x * range.count_z]
 } floors_taker;
@@ -113,10 +112,9 @@ static void take_floors(const tl_nav_config *config, tl_nav_stages *stages, void
     tl_nav_compact *fresh = &taker->fresh[(uint64_t)z * taker->range.count_x + x];
     *fresh = stages->compact;
     memset(&stages->compact, 0, sizeof stages->compact);
-    fresh->allocator = &taker->obstacles->allocator;
-    tl_release_array(fresh->allocator, fresh->distance, fresh->span_count, sizeof *fresh->distance);
-    tl_release_array(fresh->allocator, fresh->region, fresh->span_count, sizeof *fresh->region);
-    tl_release_array(fresh->allocator, fresh->clearance, fresh->span_count, sizeof *fresh->clearance);
+    tl_release_array(&fresh->allocator, fresh->distance, fresh->span_count, sizeof *fresh->distance);
+    tl_release_array(&fresh->allocator, fresh->region, fresh->span_count, sizeof *fresh->region);
+    tl_release_array(&fresh->allocator, fresh->clearance, fresh->span_count, sizeof *fresh->clearance);
     fresh->distance = NULL;
     fresh->region = NULL;
     fresh->clearance = NULL; // links were its last reader
@@ -168,7 +166,7 @@ static tl_result bake_range(tl_nav_obstacles *o, const tl_host *host, const tl_n
                             tl_nav_tile_range range, tl_nav_tile_block *block, tl_nav_bake_report *report_out)
 {
     const uint64_t count = (uint64_t)range.count_x * range.count_z;
-    floors_taker taker = { o, range, tl_allocate_array(&o->allocator, count, sizeof *taker.fresh) };
+    floors_taker taker = { range, tl_allocate_array(&o->allocator, count, sizeof *taker.fresh) };
     uint8_t **areas = tl_allocate_array(&o->allocator, count, sizeof *areas);
     tl_result result = TL_ERR_MEMORY;
     if (taker.fresh != NULL && areas != NULL) {
@@ -186,7 +184,7 @@ static tl_result bake_range(tl_nav_obstacles *o, const tl_host *host, const tl_n
             install(o, &taker, areas);
         } else {
             drop(o, &taker, areas);
-            tl_nav_tile_block_free(block, &o->allocator);
+            tl_nav_tile_block_free(block);
         }
     }
     tl_release_array(&o->allocator, taker.fresh, count, sizeof *taker.fresh);
@@ -265,7 +263,7 @@ tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input
     if (block_out != NULL) {
         *block_out = block;
     } else {
-        tl_nav_tile_block_free(&block, &o->allocator);
+        tl_nav_tile_block_free(&block);
         let_wait(o, &(tl_nav_tile_range){ 0, 0, o->tiles_x, o->tiles_z });
     }
     *obstacles_out = o;
@@ -286,7 +284,7 @@ tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_inpu
     if (result == TL_OK && range.count_x > 0) {
         result = bake_range(o, &alone, input, range, &block, &report);
         if (result == TL_OK) {
-            tl_nav_tile_block_free(&block, &o->allocator); // made again with the obstacles
+            tl_nav_tile_block_free(&block); // made again with the obstacles
             let_wait(o, &range);
         }
     }

@@ -231,8 +231,8 @@ static tl_result remake_tiles(prune_job *job, tl_report *report)
 // The array of tiles is made as long as their new number, which tl_nav_tiles_free rests on.
 static tl_result replace_tiles(prune_job *job)
 {
-    const tl_allocator *allocator = job->def->host.allocator;
     tl_nav_tiles *tiles = job->tiles;
+    const tl_allocator *allocator = tiles->tiles != NULL ? &tiles->allocator : job->def->host.allocator;
     for (uint32_t t = 0; t < tiles->tile_count; t++) {
         job->report->removed_tiles += job->gone[t];
         job->report->changed_tiles += job->remade[t] != NULL;
@@ -254,6 +254,7 @@ static tl_result replace_tiles(prune_job *job)
         }
     }
     tl_release_array(allocator, tiles->tiles, tiles->tile_count, sizeof(*left));
+    tiles->allocator = tl_allocator_or_default(allocator);
     tiles->tiles = left;
     tiles->tile_count = count;
     return TL_OK;

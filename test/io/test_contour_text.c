@@ -127,7 +127,7 @@ static void meshes_come_back_as_written(void **state)
     second.size = 0;
     second.limit = 100;
     TEST_RESULT(tl_polygon_text_write(&mesh, "a", "talus", 0, 0.0, into_buffer, &second), TL_ERR_IO);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
 }
 
 static void every_prefix_is_refused(void **state)
@@ -143,7 +143,7 @@ static void every_prefix_is_refused(void **state)
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
     first.size = first.limit = 0;
     TEST_RESULT(tl_polygon_text_write(&mesh, "a", "talus", 0, 0.0, into_buffer, &first), TL_OK);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     const char *texts[2] = { two_contours, first.bytes };
     const size_t sizes[2] = { sizeof two_contours - 1, first.size };
     uint32_t truncated = 0;

@@ -52,7 +52,7 @@ static void invariants(void **state)
         tl_polygon_mesh polygons;
         TEST_RESULT(tl_polygon_mesh_bake(&contours.set, &def, &polygons, NULL), TL_OK);
         TEST_CHECK(polygons.note_count == 0);
-        tl_polygon_mesh_free(&polygons, NULL);
+        tl_polygon_mesh_free(&polygons);
         contours_seen += contours.set.contour_count;
         holes += contours.hole_count;
         repaired += contours.repaired_count;

@@ -85,7 +85,7 @@ static void within_error(void **state)
             }
         }
         tl_arena_free(&arena);
-        tl_polygon_mesh_free(&polygons, NULL);
+        tl_polygon_mesh_free(&polygons);
         tl_nav_contours_free(&contours);
         fixture_compact_free(&compact);
     }
@@ -114,8 +114,8 @@ static void long_edges_are_coarse(void **state)
     tl_nav_detail detail;
     TEST_RESULT(tl_nav_bake_detail(&config, &compact, &polygons, NULL, &detail, NULL), TL_OK);
     TEST_CHECK(detail.patch_count == 1 && detail.limited_patches == 1 && detail.vertex_count == 4);
-    tl_nav_detail_free(&detail, NULL);
-    tl_polygon_mesh_free(&polygons, NULL);
+    tl_nav_detail_free(&detail);
+    tl_polygon_mesh_free(&polygons);
     tl_nav_contours_free(&contours);
     fixture_compact_free(&compact);
     fixture_map_free(&map);

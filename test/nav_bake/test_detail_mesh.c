@@ -28,8 +28,8 @@ static void build_level(level *l, tl_nav_compact compact, tl_nav_config config)
 
 static void free_level(level *l)
 {
-    tl_nav_detail_free(&l->detail, NULL);
-    tl_polygon_mesh_free(&l->polygons, NULL);
+    tl_nav_detail_free(&l->detail);
+    tl_polygon_mesh_free(&l->polygons);
     tl_nav_contours_free(&l->contours);
     fixture_compact_free(&l->compact);
 }
@@ -357,7 +357,7 @@ static void same_bytes_again(void **state)
     TEST_CHECK(again.vertex_count == l.detail.vertex_count && again.triangle_count == l.detail.triangle_count);
     assert_memory_equal(again.vertices, l.detail.vertices, again.vertex_count * sizeof *again.vertices);
     assert_memory_equal(again.triangles, l.detail.triangles, again.triangle_count * sizeof *again.triangles);
-    tl_nav_detail_free(&again, NULL);
+    tl_nav_detail_free(&again);
     free_level(&l);
 }
 
@@ -377,7 +377,7 @@ static void fails_at_each_allocation(void **state)
         tl_result result = tl_nav_bake_detail(&l.config, &l.compact, &l.polygons, &host, &detail, &report);
         if (result == TL_OK) {
             TEST_CHECK(test.live_blocks == 1);
-            tl_nav_detail_free(&detail, &test.allocator);
+            tl_nav_detail_free(&detail);
             TEST_CHECK(test.live_blocks == 0 && test.live_bytes == 0);
             break;
         }

@@ -175,7 +175,7 @@ static void fails_at_each_allocation(void **state)
     for (;; k++) {
         test_allocator_init(&test, k);
         tl_host host = { &test.allocator, NULL, NULL };
-        compact.allocator = &test.allocator;
+        compact.allocator = test.allocator;
         tl_result result = tl_nav_distance_field(&host, &compact, NULL);
         if (result == TL_OK) {
             break;
@@ -191,7 +191,7 @@ static void fails_at_each_allocation(void **state)
     TEST_CHECK(test.live_blocks == 1);
     tl_release_array(&test.allocator, compact.distance, compact.span_count, sizeof(uint16_t));
     compact.distance = NULL;
-    compact.allocator = NULL;
+    compact.allocator = tl_allocator_or_default(NULL);
     TEST_CHECK(test.live_blocks == 0 && test.live_bytes == 0);
     fixture_compact_free(&compact);
 }

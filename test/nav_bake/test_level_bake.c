@@ -69,9 +69,9 @@ static void tiles_find_what_one_bake_finds(void **state)
                        (tile->tile_z == next->tile_z && tile->tile_x < next->tile_x));
         }
         TEST_CHECK(polygons == report.polygon_count);
-        tl_nav_tiles_free(&tiles, NULL);
+        tl_nav_tiles_free(&tiles);
     }
-    tl_nav_tiles_free(&whole, NULL);
+    tl_nav_tiles_free(&whole);
 }
 
 // ---- Seams -------------------------------------------------------------------------------------------------
@@ -134,7 +134,7 @@ static tile_seams build_seams(const tl_nav_def *def, const tl_nav_input *input, 
         }
     }
     tl_blob_free(tile);
-    tl_nav_stages_free(&stages, NULL);
+    tl_nav_stages_free(&stages);
     return seams;
 }
 
@@ -198,9 +198,9 @@ static void workers_do_not_matter(void **state)
         TEST_CHECK(same_tiles(&expected, &other));
         TEST_CHECK(report.span_count == expected_report.span_count &&
                    report.polygon_count == expected_report.polygon_count);
-        tl_nav_tiles_free(&other, NULL);
+        tl_nav_tiles_free(&other);
     }
-    tl_nav_tiles_free(&expected, NULL);
+    tl_nav_tiles_free(&expected);
 }
 
 static void bad_input_is_named(void **state)
@@ -224,7 +224,7 @@ static void bad_input_is_named(void **state)
     def.agent_radius = 50;
     TEST_RESULT(tl_nav_bake(&def, &input, &tiles, &report), TL_OK);
     TEST_CHECK(tiles.tile_count == 0 && report.tile_count == 0);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
 }
 
 // A floor of 256 strips 4 m wide, an area each: all that are walkable come out, whatever the partition.
@@ -265,7 +265,7 @@ static void all_areas_are_kept(void **state)
             TEST_CHECK(square_metres[area] == (double)STRIP * ((double)DEPTH - 1.0));
         }
         TEST_CHECK(square_metres[1] > 0.0 && square_metres[TL_NAV_MAX_AREA] > 0.0);
-        tl_nav_tiles_free(&tiles, NULL);
+        tl_nav_tiles_free(&tiles);
     }
 }
 
@@ -285,7 +285,7 @@ static void cancelling_leaves_nothing(void **state)
         tl_nav_tiles tiles;
         tl_result result = tl_nav_bake(&def, &input, &tiles, NULL);
         TEST_CHECK(result == TL_OK || tiles.tiles == NULL);
-        tl_nav_tiles_free(&tiles, &memory.allocator);
+        tl_nav_tiles_free(&tiles);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
         if (result == TL_OK) {
             TEST_CHECK(k > 5);
@@ -309,7 +309,7 @@ static void failing_memory_leaves_nothing(void **state)
         tl_nav_bake_report report;
         tl_result result = tl_nav_bake(&def, &input, &tiles, &report);
         TEST_CHECK(result == TL_OK || tiles.tiles == NULL);
-        tl_nav_tiles_free(&tiles, &memory.allocator);
+        tl_nav_tiles_free(&tiles);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
         if (result == TL_OK) {
             TEST_CHECK(k > 50);

@@ -48,7 +48,7 @@ static double area_of_road(uint8_t floor_area, uint8_t road_area, float road_hei
     for (uint32_t p = 0; p < tiles.tiles[0]->polygon_count; p++) {
         sum += tl_nav_tile_area(tiles.tiles[0], p) == road_area ? tl_nav_tile_polygon_area(tiles.tiles[0], p) : 0.0;
     }
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     return sum;
 }
 

@@ -61,7 +61,7 @@ static uint64_t hash_of_build(const tl_nav_def *def, const tl_mesh_view *mesh, u
         hash = tl_hash_bytes(tiles.tiles[t], ((const tl_blob *)tiles.tiles[t])->size, hash);
     }
     TEST_CHECK(tiles.tile_count > 0);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     return hash;
 }
 

@@ -105,7 +105,7 @@ static built build(const slabs *s, const tl_nav_def *def)
             sum.highest = y > sum.highest ? y : sum.highest;
         }
         tl_blob_free(tile);
-        tl_nav_stages_free(&stages, NULL);
+        tl_nav_stages_free(&stages);
     }
     return sum;
 }

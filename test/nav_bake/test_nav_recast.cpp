@@ -180,7 +180,7 @@ void polygons_agree(void **)
                 TEST_CHECK(is_strictly_convex(stages.polygons, p));
             }
             tl_blob_free(tile);
-            tl_nav_stages_free(&stages, nullptr);
+            tl_nav_stages_free(&stages);
         }
     }
 }

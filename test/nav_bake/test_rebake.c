@@ -64,8 +64,8 @@ static void test_whole_range(void **state)
         }
     }
     TEST_CHECK(next == tiles.tile_count && next > 10);
-    tl_nav_tiles_free(&tiles, NULL);
-    tl_nav_tile_block_free(&block, NULL);
+    tl_nav_tiles_free(&tiles);
+    tl_nav_tile_block_free(&block);
 }
 
 // A block moves about; what its old and its new place touch is baked again.
@@ -106,7 +106,7 @@ static void test_edits(void **state)
                             &part.stacks[(z - part.range.z) * part.range.count_x + (x - part.range.x)];
                         changed += !same_stack(stack, baked);
                         emptied += stack->count > baked->count;
-                        tl_nav_tile_stack_free(stack, NULL);
+                        tl_nav_tile_stack_free(stack);
                         *stack = *baked;
                         memset(baked, 0, sizeof *baked);
                     } else {
@@ -115,11 +115,11 @@ static void test_edits(void **state)
                     TEST_CHECK(same_stack(stack, &fresh.stacks[z * now.range.count_x + x]));
                 }
             }
-            tl_nav_tile_block_free(&fresh, NULL);
-            tl_nav_tile_block_free(&part, NULL);
+            tl_nav_tile_block_free(&fresh);
+            tl_nav_tile_block_free(&part);
             before = after;
         }
-        tl_nav_tile_block_free(&now, NULL);
+        tl_nav_tile_block_free(&now);
     }
     TEST_CHECK(changed > 200 && kept > 200 && emptied > 0);
 }
@@ -154,7 +154,7 @@ static void test_sink(void **state)
     tl_nav_tile_block block;
     TEST_RESULT(tl_nav_bake_range(&def, &input, range, &sink, &block, NULL), TL_OK);
     TEST_CHECK(counts[0] == 6 && counts[1] > 100);
-    tl_nav_tile_block_free(&block, def.host.allocator);
+    tl_nav_tile_block_free(&block);
     TEST_CHECK(counting.live_blocks == 0);
 }
 
@@ -176,7 +176,7 @@ static void test_refusals(void **state)
     TEST_RESULT(tl_nav_rebake(&def, &input, not_finite, &block, &report), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_rebake(&def, &input, far_away, &block, &report), TL_OK);
     TEST_CHECK(block.range.count_x == 0 && block.range.count_z == 0);
-    tl_nav_tile_block_free(&block, NULL);
+    tl_nav_tile_block_free(&block);
     // A fault is named by the caller's own number, and one that lies elsewhere does no harm.
     uint32_t last = level.mesh.triangle_count - 1;
     level.vertices[level.indices[3 * last]] = tl_vec3_make(NAN, 0.0f, NAN);
@@ -202,7 +202,7 @@ static void test_refusals(void **state)
         tl_nav_tile_range range = { 1, 1, 2, 1 };
         tl_result result = tl_nav_bake_range(&def, &input, range, &sink, &block, NULL);
         if (result == TL_OK) {
-            tl_nav_tile_block_free(&block, def.host.allocator);
+            tl_nav_tile_block_free(&block);
         }
         TEST_CHECK(counting.live_blocks == 0);
         if (result == TL_OK) {

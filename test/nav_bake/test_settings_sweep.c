@@ -67,7 +67,7 @@ static void check_tile(const tl_nav_config *config, const tl_nav_input *input, c
     counts->polygons += stages.polygons.polygon_count;
     counts->repaired += stages.polygons.note_count;
     counts->filtered_spans += stages.compact.region_stats.filtered_spans;
-    tl_nav_stages_free(&stages, NULL);
+    tl_nav_stages_free(&stages);
 }
 
 static bool leads_to(const tl_navmesh *navmesh, tl_nav_ref from, tl_nav_ref to)

@@ -113,7 +113,7 @@ static void divide_at_random(const tl_nav_tiles *whole, uint32_t layer_count, te
             out->tiles[out->tile_count++] = stack.tiles[i];
             stack.tiles[i] = NULL;
         }
-        tl_nav_tile_stack_free(&stack, NULL);
+        tl_nav_tile_stack_free(&stack);
         free(layers);
     }
     // As long as their number, which tl_nav_tiles_free rests on.
@@ -145,7 +145,7 @@ static void free_pair(pair_of_meshes *p)
 {
     for (int side = 0; side < 2; side++) {
         tl_navmesh_destroy(p->mesh[side]);
-        tl_nav_tiles_free(&p->tiles[side], NULL);
+        tl_nav_tiles_free(&p->tiles[side]);
         free(p->twin[side]);
         free(p->first[side]);
     }

@@ -85,7 +85,7 @@ static void kept_stages_are_whole(void **state)
     // The stages hold no trace of the build's own allocator.
     tl_nav_heightfield_free(&stages.heightfield);
     tl_nav_compact_free(&stages.compact);
-    tl_nav_stages_free(&stages, &memory.allocator);
+    tl_nav_stages_free(&stages);
     tl_blob_free(lean);
     tl_blob_free(kept);
     TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
@@ -238,7 +238,7 @@ static void cancelling_anywhere_leaves_nothing(void **state)
         tl_nav_bake_report report;
         tl_result result = tl_nav_tile_bake(&config, &input, &host, k % 2 == 0 ? &stages : NULL, &tile, &report);
         tl_blob_free(tile);
-        tl_nav_stages_free(&stages, &memory.allocator);
+        tl_nav_stages_free(&stages);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
         if (result == TL_OK) {
             TEST_CHECK(k > 20);
@@ -265,7 +265,7 @@ static void failing_memory_anywhere_leaves_nothing(void **state)
         tl_nav_bake_report report;
         tl_result result = tl_nav_tile_bake(&config, &input, &host, k % 2 == 0 ? &stages : NULL, &tile, &report);
         tl_blob_free(tile);
-        tl_nav_stages_free(&stages, &memory.allocator);
+        tl_nav_stages_free(&stages);
         TEST_CHECK(memory.live_blocks == 0 && memory.live_bytes == 0);
         if (result == TL_OK) {
             TEST_CHECK(k > 20);

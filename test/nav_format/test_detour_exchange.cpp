@@ -192,7 +192,7 @@ void detour_comes_back_the_same(void **)
             TEST_CHECK(alike.same_reach >= PAIRS - 1 && alike.same_length >= PAIRS * 99 / 100);
             TEST_CHECK(alike.same_corners >= PAIRS * 95 / 100);
             polygons += report.polygon_count;
-            tl_detour_tiles_free(&tiles, nullptr);
+            tl_detour_tiles_free(&tiles);
         }
     }
     TEST_CHECK(polygons > 1000);
@@ -252,7 +252,7 @@ void talus_answers_in_detour(void **)
                         ratio / complete);
             TEST_CHECK(same_reach >= PAIRS - 2 && complete > PAIRS / 4);
             TEST_CHECK(ratio / complete > 0.98 && ratio / complete < 1.005);
-            tl_nav_tiles_free(&tiles, nullptr);
+            tl_nav_tiles_free(&tiles);
         }
     }
 }

@@ -131,7 +131,7 @@ void test_path(void **)
     }
     tl_nav_query_destroy(query);
     tl_navmesh_destroy(navmesh);
-    tl_detour_tiles_free(&tiles, nullptr);
+    tl_detour_tiles_free(&tiles);
 }
 
 } // namespace

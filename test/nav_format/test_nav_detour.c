@@ -91,9 +91,9 @@ static void test_there_and_back(void **state)
                 portals += back.tiles[t]->portal_count;
                 added_heights += back.tiles[t]->detail_vertex_count - back.tiles[t]->corner_count;
             }
-            tl_detour_tiles_free(&back, NULL);
+            tl_detour_tiles_free(&back);
             free(set.bytes);
-            tl_nav_tiles_free(&tiles, NULL);
+            tl_nav_tiles_free(&tiles);
         }
     }
     TEST_CHECK(portals > 20 && added_heights > 20);
@@ -112,9 +112,9 @@ static void test_single_tile(void **state)
     TEST_RESULT(tl_detour_read(bytes, size, NULL, &back, NULL), TL_OK);
     TEST_CHECK(back.tile_count == 1 && fabs(back.tiles[0]->area - tiles.tiles[0]->area) < 1e-3);
     check_same(tiles.tiles[0], back.tiles[0]);
-    tl_detour_tiles_free(&back, NULL);
+    tl_detour_tiles_free(&back);
     free(bytes);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
 }
 
 // One octagon, clockwise on the page where x runs right and z up.
@@ -167,15 +167,15 @@ static void test_what_cannot_be_written(void **state)
     areas[1] = TL_DETOUR_MAX_AREA + 1;
     TEST_RESULT(tl_detour_tile_write(tiles.tiles[0], TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_ERR_LIMIT);
     TEST_CHECK(report.base.element_index == 1);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
 
     TEST_RESULT(tl_detour_set_write(NULL, 0, TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_ERR_EMPTY);
     tl_nav_tiles one = bake(20, tl_vec3_make(0, 0, 0)), other = bake(32, tl_vec3_make(0, 0, 0));
     const tl_nav_tile *mixed[2] = { one.tiles[0], other.tiles[1] };
     TEST_RESULT(tl_detour_set_write(mixed, 2, TL_DETOUR_REFS_32, bytes, sizeof bytes, &report), TL_ERR_ARGUMENT);
     TEST_CHECK(report.base.element_index == 1);
-    tl_nav_tiles_free(&one, NULL);
-    tl_nav_tiles_free(&other, NULL);
+    tl_nav_tiles_free(&one);
+    tl_nav_tiles_free(&other);
 }
 
 // A copy of exactly the bytes, so that a sanitizer sees a read beyond them.
@@ -191,7 +191,7 @@ static tl_result read_copy(const unsigned char *bytes, uint64_t size, tl_detour_
         TEST_RESULT(tl_nav_tile_check(tiles.tiles[i], tiles.tiles[i]->blob.size, NULL), TL_OK);
     }
     *tiles_out = tiles.tile_count;
-    tl_detour_tiles_free(&tiles, NULL);
+    tl_detour_tiles_free(&tiles);
     free(copy);
     return result;
 }
@@ -244,7 +244,7 @@ static void test_bytes_from_anywhere(void **state)
         memcpy(set.bytes + words[i].at, &before, 4);
     }
     free(set.bytes);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
 }
 
 static void test_out_of_memory(void **state)
@@ -261,7 +261,7 @@ static void test_out_of_memory(void **state)
         tl_detour_tiles back;
         tl_result result = tl_detour_read(set.bytes, set.size, &def, &back, NULL);
         if (result == TL_OK) {
-            tl_detour_tiles_free(&back, def.allocator);
+            tl_detour_tiles_free(&back);
         }
         TEST_CHECK(counting.live_blocks == 0);
         if (result == TL_OK) {
@@ -272,7 +272,7 @@ static void test_out_of_memory(void **state)
     }
     TEST_CHECK(failures > 10);
     free(set.bytes);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
 }
 
 // What hangs together within a tile, as layers: nothing is cut.
@@ -308,7 +308,7 @@ static tl_nav_tiles divide(const tl_nav_tiles *whole)
             out.tiles[out.tile_count++] = stack.tiles[i];
             stack.tiles[i] = NULL;
         }
-        tl_nav_tile_stack_free(&stack, NULL);
+        tl_nav_tile_stack_free(&stack);
         free(layers);
     }
     out.tiles = realloc(out.tiles, out.tile_count * sizeof *out.tiles);
@@ -342,7 +342,7 @@ static void test_layers(void **state)
         check_same(tiles.tiles[t], back.tiles[t]);
     }
     TEST_CHECK(count_links(back.tiles, back.tile_count) == count_links(whole.tiles, whole.tile_count));
-    tl_detour_tiles_free(&back, NULL);
+    tl_detour_tiles_free(&back);
     free(set.bytes);
 
     tl_nav_tile_stack stack;
@@ -363,10 +363,10 @@ static void test_layers(void **state)
     TEST_CHECK(strcmp(report.base.element, "layer") == 0 && report.base.element_index == 1);
     TEST_RESULT(tl_detour_set_write(list, 2, TL_DETOUR_REFS_32, NULL, 0, &report), TL_ERR_LIMIT);
     TEST_CHECK(strcmp(report.base.element, "layer") == 0);
-    tl_nav_tile_stack_free(&stack, NULL);
+    tl_nav_tile_stack_free(&stack);
     free(layers);
-    tl_nav_tiles_free(&tiles, NULL);
-    tl_nav_tiles_free(&whole, NULL);
+    tl_nav_tiles_free(&tiles);
+    tl_nav_tiles_free(&whole);
 }
 
 int main(void)

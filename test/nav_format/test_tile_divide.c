@@ -22,7 +22,7 @@ static tl_nav_tile *make_house(const tl_sample_mesh *mesh, tl_nav_tiles *divided
     TEST_CHECK(whole.tile_count == 1);
     tl_nav_tile *tile = whole.tiles[0];
     whole.tiles[0] = NULL;
-    tl_nav_tiles_free(&whole, NULL);
+    tl_nav_tiles_free(&whole);
     return tile;
 }
 
@@ -73,7 +73,7 @@ static void test_altered_bytes(void **state)
     cuts.write[0] = kept;
     TEST_RESULT(tl_nav_tile_check(tile, tile->blob.size, NULL), TL_OK);
     tl_blob_free(whole);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     tl_sample_mesh_free(&mesh);
 }
 
@@ -89,7 +89,7 @@ static void test_divide(void **state)
     // One layer is the tile; of another number but for that.
     TEST_RESULT(tl_nav_tile_divide(whole, layers, NULL, &stack, NULL), TL_OK);
     TEST_CHECK(stack.count == 1 && memcmp(stack.tiles[0], whole, whole->blob.size) == 0);
-    tl_nav_tile_stack_free(&stack, NULL);
+    tl_nav_tile_stack_free(&stack);
     tl_report report;
     TEST_RESULT(tl_nav_tile_divide(tiles.tiles[1], layers, NULL, &stack, &report), TL_ERR_ARGUMENT);
     TEST_CHECK(stack.count == 0 && strcmp(report.element, "tile") == 0);
@@ -114,7 +114,7 @@ static void test_divide(void **state)
         const tl_result result = tl_nav_tile_divide(whole, layers, &failing.allocator, &stack, NULL);
         if (result == TL_OK) {
             TEST_CHECK(failing.live_blocks == 4);
-            tl_nav_tile_stack_free(&stack, &failing.allocator);
+            tl_nav_tile_stack_free(&stack);
             TEST_CHECK(failing.live_blocks == 0);
             break;
         }
@@ -125,7 +125,7 @@ static void test_divide(void **state)
     free(keep);
     free(layers);
     tl_blob_free(whole);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     tl_sample_mesh_free(&mesh);
 }
 
@@ -142,7 +142,7 @@ static tl_nav_tile *copy_of(const tl_nav_tile *tile, const tl_allocator *allocat
 
 static tl_nav_tile_stack copy_all(const tl_nav_tiles *tiles, uint32_t without, test_allocator *counting)
 {
-    tl_nav_tile_stack stack = { NULL, 0 };
+    tl_nav_tile_stack stack = { .allocator = counting->allocator };
     stack.tiles = test_allocate((tiles->tile_count - 1) * sizeof *stack.tiles, 16, counting);
     for (uint32_t i = 0; i < tiles->tile_count; i++) {
         if (i != without) {
@@ -194,7 +194,7 @@ static void test_replace(void **state)
     }
     TEST_CHECK(failures > 5);
     tl_blob_free(whole);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     tl_sample_mesh_free(&mesh);
 }
 

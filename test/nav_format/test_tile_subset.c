@@ -33,7 +33,7 @@ static void all_polygons_give_the_same_bytes(void **state)
             TEST_CHECK(memcmp(again, tiles.tiles[t], again->blob.size) == 0);
             tl_blob_free(again);
         }
-        tl_nav_tiles_free(&tiles, NULL);
+        tl_nav_tiles_free(&tiles);
     }
 }
 
@@ -95,7 +95,7 @@ static void some_polygons_stay_what_they_are(void **state)
             cut += tile->polygon_count - kept;
             tl_blob_free(part);
         }
-        tl_nav_tiles_free(&tiles, NULL);
+        tl_nav_tiles_free(&tiles);
     }
     TEST_CHECK(portals > 100 && cut > 500);
 }
@@ -119,7 +119,7 @@ static void failing_memory_leaves_nothing(void **state)
         }
         TEST_RESULT(result, TL_ERR_MEMORY);
     }
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
 }
 
 int main(void)

@@ -70,7 +70,7 @@ static void make_level(linked_level *out)
 static void free_level(linked_level *level)
 {
     tl_navmesh_destroy(level->navmesh);
-    tl_nav_tiles_free(&level->tiles, NULL);
+    tl_nav_tiles_free(&level->tiles);
     tl_blob_free(level->soup);
 }
 

@@ -142,7 +142,7 @@ void prove_level(const level &l, uint64_t kinds_out[TL_NAV_LINK_KINDS])
     tl_blob_free(links);
     tl_blob_free(soup);
     tl_navmesh_destroy(navmesh);
-    tl_nav_tiles_free(&tiles, nullptr);
+    tl_nav_tiles_free(&tiles);
 }
 
 void test_levels(void **)

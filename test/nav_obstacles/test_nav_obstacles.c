@@ -88,7 +88,7 @@ static void check_against_bake(const world *w, const tl_nav_volume *volumes, uin
         }
     }
     TEST_CHECK(count == tl_navmesh_tile_count(w->navmesh));
-    tl_nav_tile_block_free(&block, w->def.host.allocator);
+    tl_nav_tile_block_free(&block);
 }
 
 static tl_nav_obstacle cylinder(uint8_t area, tl_vec3 base, float radius, float height)
@@ -287,7 +287,7 @@ static void test_marks(void **state)
     TEST_CHECK(left > 100000 && by_height > 500 && close > 100 && close < left / 50);
     free(base);
     tl_blob_free(tile);
-    tl_nav_stages_free(&stages, NULL);
+    tl_nav_stages_free(&stages);
 }
 
 // Whatever comes, moves and goes, in whatever order: the same bytes as when only what is left had come.
@@ -524,7 +524,7 @@ static void test_out_of_memory(void **state)
             if (result == TL_OK) {
                 // And what the tile keeps of itself.
                 TEST_CHECK(counting.live_blocks >= blocks + (remade.stack.count > 0 ? remade.stack.count + 1 : 0));
-                tl_nav_tile_stack_free(&remade.stack, &counting.allocator);
+                tl_nav_tile_stack_free(&remade.stack);
                 break;
             }
             TEST_RESULT(result, TL_ERR_MEMORY);

@@ -173,7 +173,7 @@ static void test_edits_under_readers(void **state)
             tl_navmesh_find_layer(world.navmesh, expected->tile_x, expected->layer, expected->tile_z);
         TEST_CHECK(tile != NULL && memcmp(tile, expected, tile->blob.size) == 0);
     }
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     tl_navmesh_destroy(world.navmesh);
     tl_nav_obstacles_destroy(obstacles);
     pthread_rwlock_destroy(&world.lock);

@@ -126,7 +126,7 @@ static void floors_inside_solids_go(void **state)
         TEST_CHECK(!has_floor(&tiles, 6, 0.3f, 6));                                       // in the solid
         TEST_CHECK(has_floor(&tiles, 18, 0.3f, 6));                                       // in one with a hole
         TEST_CHECK(has_floor(&tiles, 6, 4.3f, 6) && has_floor(&tiles, 1.5f, 0.3f, 1.5f)); // on the roof, outside
-        tl_nav_tiles_free(&tiles, NULL);
+        tl_nav_tiles_free(&tiles);
         tl_mesh_free(&W.mesh);
     }
 }
@@ -154,7 +154,7 @@ static void the_innermost_surface_decides(void **state)
     TEST_CHECK(has_floor(&tiles, 7, 0.3f, 7));    // in the cave
     TEST_CHECK(!has_floor(&tiles, 20, 0.3f, 20)); // in the pillar
     TEST_CHECK(has_floor(&tiles, 14, 2.3f, 14));  // in its cellar
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     tl_mesh_free(&W.mesh);
 }
 
@@ -184,7 +184,7 @@ static void islands_without_a_seed_go(void **state)
         def.seed_count = 0;
         const tl_nav_prune_report all = prune(&tiles, &def);
         TEST_CHECK(all.small.islands == 2 && tiles.tile_count == 0);
-        tl_nav_tiles_free(&tiles, NULL);
+        tl_nav_tiles_free(&tiles);
         tl_mesh_free(&W.mesh);
     }
 }
@@ -214,21 +214,21 @@ static void what_is_wrong_is_named(void **state)
     assert_string_equal(report.base.element, "seed_extents");
     def = tl_default_nav_prune_def();
     tl_nav_tile *twice[2] = { tiles.tiles[0], tiles.tiles[0] };
-    tl_nav_tiles same = { twice, 2, 1, 1 };
+    tl_nav_tiles same = { .tiles = twice, .tile_count = 2, .tiles_x = 1, .tiles_z = 1 };
     TEST_RESULT(tl_nav_prune(&def, &same, &report), TL_ERR_ARGUMENT);
     TEST_CHECK(report.base.element_index == 1);
     TEST_CHECK(area_of(&tiles) == before);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     tl_mesh_free(&W.mesh);
 }
 
 static void no_tiles_are_no_trouble(void **state)
 {
     (void)state;
-    tl_nav_tiles none = { NULL, 0, 0, 0 };
+    tl_nav_tiles none = { 0 };
     const tl_nav_prune_def def = tl_default_nav_prune_def();
     TEST_RESULT(tl_nav_prune(&def, &none, NULL), TL_OK);
-    tl_nav_tiles_free(&none, NULL);
+    tl_nav_tiles_free(&none);
 }
 
 // Fails the k-th allocation, or stops at the k-th call of the progress hook.
@@ -248,7 +248,7 @@ static tl_result prune_until(test_allocator *memory, const tl_progress *progress
     def.host.progress = progress;
     const tl_result result = tl_nav_prune(&def, &tiles, NULL);
     TEST_CHECK((area_of(&tiles) < before) == (result == TL_OK));
-    tl_nav_tiles_free(&tiles, &memory->allocator);
+    tl_nav_tiles_free(&tiles);
     TEST_CHECK(memory->live_blocks == 0 && memory->live_bytes == 0);
     return result;
 }

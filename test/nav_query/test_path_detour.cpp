@@ -43,7 +43,7 @@ std::unique_ptr<tl_navmesh, detour_deleter> bake(const level &l, const tl_nav_de
         TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED), TL_OK);
         tiles.tiles[i] = nullptr; // the navmesh's now
     }
-    tl_nav_tiles_free(&tiles, nullptr);
+    tl_nav_tiles_free(&tiles);
     return std::unique_ptr<tl_navmesh, detour_deleter>(navmesh);
 }
 
@@ -130,7 +130,7 @@ class floor_flood
         tl_blob_free(tile);
         compact = stages.compact;
         stages.compact = {};
-        tl_nav_stages_free(&stages, nullptr);
+        tl_nav_stages_free(&stages);
         islands.assign(compact.span_count, 0);
         for (uint32_t i = 0, island = 0; i < compact.span_count; i++) {
             if (is_walkable(i) && islands[i] == 0) {

@@ -208,7 +208,7 @@ static void test_layers(void **state)
     tl_nav_query_destroy(query);
     tl_navmesh_destroy(navmeshes[0]);
     tl_navmesh_destroy(navmeshes[1]);
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     tl_sample_mesh_free(&mesh);
 }
 

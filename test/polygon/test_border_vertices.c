@@ -47,24 +47,24 @@ static void border_vertices_go_where_the_border_is_straight(void **state)
         TEST_CHECK(mesh.areas[p] == 63 && mesh.regions[p] == TL_SEVERAL_REGIONS &&
                    mesh.contours[p] == TL_SEVERAL_CONTOURS);
     }
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     def.keep_border_vertices = true;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, &set);
     TEST_CHECK(mesh.vertex_count == 6 && mesh.polygon_count == 2 && report.border_vertices_kept == 0);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     def.keep_border_vertices = false;
     // A border that bends there keeps its vertex, and so do regions of different areas.
     contours[1].area = 1;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     contours[1].area = 63;
     corners[1].x = corners[4].x = 1;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, &set);
     TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
 }
 
 // Many border vertices in a row, around which polygons are replaced again and again.
@@ -102,7 +102,7 @@ static void border_vertices_go_one_after_another(void **state)
         TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
         shape_check_mesh(&mesh, &set);
         TEST_CHECK(report.border_vertices_gone == STRIPS - 1 && report.portal_count == 3);
-        tl_polygon_mesh_free(&mesh, NULL);
+        tl_polygon_mesh_free(&mesh);
     }
 }
 
@@ -159,7 +159,7 @@ static void random_tiles_keep_their_floor(void **state)
         for (uint32_t p = 0; p < mesh.polygon_count; p++) {
             mixed += mesh.regions[p] == TL_SEVERAL_REGIONS;
         }
-        tl_polygon_mesh_free(&mesh, NULL);
+        tl_polygon_mesh_free(&mesh);
     }
     TEST_CHECK(gone > 1000 && kept > 1000 && mixed > 1000);
 }

@@ -201,7 +201,7 @@ static void meshes_of_all_kinds_are_good(void **state)
         TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, NULL), TL_OK);
         TEST_CHECK(report.lower_bound <= report.polygon_count);
         good += mesh.polygon_count > 0;
-        tl_polygon_mesh_free(&mesh, NULL);
+        tl_polygon_mesh_free(&mesh);
     }
     TEST_CHECK(good > 1000);
 }

@@ -27,13 +27,13 @@ static outcome build(uint32_t n, uint32_t cap)
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &o.report), TL_OK);
     o.classic = o.report.polygon_count;
     TEST_CHECK(o.report.lower_bound <= o.classic);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     def.method = TL_PARTITION_OPTIMAL;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &o.report), TL_OK);
     shape_check_mesh(&mesh, &set);
     TEST_CHECK(o.report.lower_bound <= o.report.polygon_count && o.report.polygon_count <= o.classic);
     TEST_CHECK(o.report.lower_bound >= 1 || o.report.polygon_count == 0);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     return o;
 }
 

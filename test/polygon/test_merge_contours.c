@@ -35,7 +35,7 @@ static tl_polygon_report build(const tl_contour_set *set, uint32_t cap, bool mer
     TEST_RESULT(tl_polygon_mesh_bake(set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, set);
     *first_contour = mesh.polygon_count > 0 ? mesh.contours[0] : 0;
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     return report;
 }
 

@@ -234,7 +234,7 @@ static void three_hundred_thousand_polygons_are_linked_right(void **state)
     }
     TEST_CHECK(open == 4 * ACROSS);
     TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, NULL), TL_OK);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     free(corners);
     free(contours);
     free(edges);

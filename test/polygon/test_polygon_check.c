@@ -45,7 +45,7 @@ static tl_polygon_check_report expect(fixture *f, tl_polygon_fault fault, bool w
         fail_msg("expected '%s', got '%s'", tl_polygon_fault_text(fault), tl_polygon_fault_text(report.first_fault));
     }
     TEST_CHECK(report.base.element != NULL && report.base.advice != NULL);
-    tl_polygon_mesh_free(&f->mesh, NULL);
+    tl_polygon_mesh_free(&f->mesh);
     return report;
 }
 
@@ -166,7 +166,7 @@ static void names_overlaps_and_t_junctions(void **state)
     f.mesh.contours[0] = 5;
     tl_polygon_mesh_check(&f.mesh, NULL, NULL, &report);
     TEST_CHECK(report.counts[TL_POLYGON_FAULT_OVERLAP] == 0);
-    tl_polygon_mesh_free(&f.mesh, NULL);
+    tl_polygon_mesh_free(&f.mesh);
     // In a kite the upper triangle is put over the lower one, whose own corner then lies inside the upper one's edge.
     const oracle_point kite[4] = { { 0, 0 }, { 4, 4 }, { 8, 0 }, { 4, -4 } };
     build(&f, kite, 4, 3);
@@ -272,7 +272,7 @@ static void passes_over_border_vertices(void **state)
             TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, NULL), TL_OK);
             gone += report.border_vertices_gone;
             kept += report.border_vertices_kept;
-            tl_polygon_mesh_free(&mesh, NULL);
+            tl_polygon_mesh_free(&mesh);
         }
     }
     TEST_CHECK(gone > 50 && kept > 50);
@@ -317,7 +317,7 @@ static void floors_that_hang_together_may_lie_over_each_other(void **state)
     tl_polygon_check_report report;
     TEST_RESULT(tl_polygon_mesh_check(&mesh, NULL, NULL, &report), TL_ERR_CORRUPT);
     TEST_CHECK(report.counts[TL_POLYGON_FAULT_OVERLAP] > 0);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
 }
 
 static void runs_out_of_memory_cleanly(void **state)
@@ -335,7 +335,7 @@ static void runs_out_of_memory_cleanly(void **state)
     }
     TEST_RESULT(result, TL_OK);
     TEST_CHECK(fail_at > 2);
-    tl_polygon_mesh_free(&f.mesh, NULL);
+    tl_polygon_mesh_free(&f.mesh);
 }
 
 int main(void)

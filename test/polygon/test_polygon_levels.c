@@ -146,7 +146,7 @@ static void compare_with_plain(const tl_contour_set *set, tl_polygon_def def, ro
             r->plain_equal += equals_plain(set, i, &mesh, p);
         }
     }
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
 }
 
 static void compare_set(const tl_contour_text *text, tl_contour_reader *recast_reader, row *r)
@@ -177,7 +177,7 @@ static void compare_set(const tl_contour_text *text, tl_contour_reader *recast_r
         }
         tl_polygon_text_free(&recast);
     }
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
 }
 
 static void compare_file(const char *name, row *sum)

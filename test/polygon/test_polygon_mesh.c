@@ -34,7 +34,7 @@ static void two_contours_meet_in_links(void **state)
     TEST_CHECK(report.link_count == 1 && report.portal_count == 0 && report.triangle_count == 4);
     tl_vec3 v = tl_polygon_mesh_vertex(&mesh, 2);
     TEST_CHECK(v.x == 12.0f && v.y == 20.25f && v.z == 32.0f);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     // Heights 1 and 3, 1 and 2 at the shared corners: an exact merge leaves both pairs apart, one unit one of them.
     static const uint32_t heights[3] = { 0, 1, 2 }, expected_vertices[3] = { 8, 7, 6 }, expected_links[3] = { 0, 0, 1 };
     for (uint32_t i = 0; i < 3; i++) {
@@ -42,7 +42,7 @@ static void two_contours_meet_in_links(void **state)
         TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
         shape_check_mesh(&mesh, &set);
         TEST_CHECK(mesh.vertex_count == expected_vertices[i] && report.link_count == expected_links[i]);
-        tl_polygon_mesh_free(&mesh, NULL);
+        tl_polygon_mesh_free(&mesh);
     }
 }
 
@@ -74,7 +74,7 @@ static void scribbles_give_good_meshes(void **state)
         plain += simple;
         repaired += report.repaired_contours;
         empty += report.empty_contours;
-        tl_polygon_mesh_free(&mesh, NULL);
+        tl_polygon_mesh_free(&mesh);
     }
     TEST_CHECK(plain > 300 && touched > 0 && repaired > 2000 && empty > 20);
 }
@@ -104,7 +104,7 @@ static void hard_families_pass_the_validator(void **state)
             TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
             TEST_CHECK(mesh.note_count == 0 && report.triangle_count == n - 2);
             shape_check_mesh(&mesh, &set);
-            tl_polygon_mesh_free(&mesh, NULL);
+            tl_polygon_mesh_free(&mesh);
         }
     }
 }
@@ -127,7 +127,7 @@ static void floors_upon_each_other_are_counted(void **state)
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     TEST_CHECK(mesh.polygon_count == 2 && report.link_count == 0 && report.crowded_edges > 0);
     shape_check_mesh(&mesh, &set);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
 }
 
 static void bad_arguments_are_named(void **state)
@@ -158,8 +158,8 @@ static void bad_arguments_are_named(void **state)
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     TEST_CHECK(mesh.polygon_count == 0 && mesh.first[0] == 0);
     shape_check_mesh(&mesh, &set);
-    tl_polygon_mesh_free(&mesh, NULL);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
+    tl_polygon_mesh_free(&mesh);
 }
 
 static bool stop_at_once(const char *stage, uint64_t done, uint64_t total, void *user)
@@ -212,7 +212,7 @@ static void every_allocation_may_fail(void **state)
         TEST_CHECK(result == TL_OK || mesh.block == NULL);
         if (result == TL_OK) {
             shape_check_mesh(&mesh, &set);
-            tl_polygon_mesh_free(&mesh, &allocator.allocator);
+            tl_polygon_mesh_free(&mesh);
             TEST_CHECK(allocator.live_blocks == 0 && allocator.live_bytes == 0);
         }
     }
@@ -251,7 +251,7 @@ static void a_run_back_on_another_floor_is_a_wall(void **state)
             }
         }
         assert_int_equal(walls, 2);
-        tl_polygon_mesh_free(&mesh, NULL);
+        tl_polygon_mesh_free(&mesh);
     }
 }
 

@@ -17,7 +17,7 @@ static tl_polygon_quality measure(uint32_t n, uint32_t cap)
     tl_polygon_mesh mesh;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
     tl_polygon_quality quality = tl_polygon_mesh_measure(&mesh);
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     return quality;
 }
 

@@ -282,7 +282,7 @@ static void divide(const tl_contour_set *set, const tl_polygon_def *def, uint32_
     }
     sums.polygons[def->method] += mesh.polygon_count;
     sums.no_area += def->method == TL_PARTITION_CLASSIC && mesh.polygon_count == 0;
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
 }
 
 static void sweep_contour(test_random *random, origin kind)

@@ -20,7 +20,7 @@ static tl_polygon_report build(const tl_contour_set *set, bool drop, uint32_t *p
     TEST_RESULT(tl_polygon_mesh_bake(set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, set);
     *polygons = mesh.polygon_count;
-    tl_polygon_mesh_free(&mesh, NULL);
+    tl_polygon_mesh_free(&mesh);
     return report;
 }
 

@@ -190,8 +190,8 @@ static void steps_are_those_of_the_plain_method(void **state)
         def.trace = NULL;
         TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
         TEST_CHECK(mesh.block_size == traced.block_size && memcmp(mesh.block, traced.block, mesh.block_size) == 0);
-        tl_polygon_mesh_free(&traced, NULL);
-        tl_polygon_mesh_free(&mesh, NULL);
+        tl_polygon_mesh_free(&traced);
+        tl_polygon_mesh_free(&mesh);
         followed++;
         merges += f.merges;
         offered += f.offered;
@@ -232,7 +232,7 @@ static void each_method_hands_out_its_steps(void **state)
         TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, NULL), TL_OK);
         TEST_CHECK(counts.cuts == 2 * (n - 2) && counts.last_contour == 1);
         TEST_CHECK(counts.merges == (method == TL_PARTITION_OPTIMAL ? 0 : counts.cuts - mesh.polygon_count));
-        tl_polygon_mesh_free(&mesh, NULL);
+        tl_polygon_mesh_free(&mesh);
     }
 }
 

@@ -20,7 +20,7 @@ static inline tl_navmesh *test_nav_bake(const tl_nav_def *def, const tl_nav_inpu
         TEST_RESULT(tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED), TL_OK);
         tiles.tiles[i] = NULL; // the navmesh's now
     }
-    tl_nav_tiles_free(&tiles, NULL);
+    tl_nav_tiles_free(&tiles);
     return navmesh;
 }
 

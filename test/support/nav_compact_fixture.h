@@ -89,6 +89,7 @@ static inline void fixture_compact_init(tl_nav_compact *compact, uint32_t width,
     compact->width = width;
     compact->height = height;
     compact->border_size = border;
+    compact->allocator = tl_allocator_or_default(NULL);
     compact->walkable_height = FIXTURE_HEIGHT;
     compact->walkable_climb = FIXTURE_CLIMB;
     compact->cell_size = 0.5f;
@@ -147,8 +148,8 @@ static inline void fixture_compact_free(tl_nav_compact *compact)
     tl_release_array(NULL, compact->clearance, count, sizeof(uint16_t));
     tl_release_array(NULL, compact->area, count, sizeof(uint8_t));
     tl_release_array(NULL, compact->neighbour, 4 * (uint64_t)count, sizeof(uint32_t));
-    tl_release_array(compact->allocator, compact->distance, count, sizeof(uint16_t));
-    tl_release_array(compact->allocator, compact->region, count, sizeof(uint32_t));
+    tl_release_array(&compact->allocator, compact->distance, count, sizeof(uint16_t));
+    tl_release_array(&compact->allocator, compact->region, count, sizeof(uint32_t));
     memset(compact, 0, sizeof *compact);
 }
 

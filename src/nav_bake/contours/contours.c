@@ -195,7 +195,7 @@ static tl_result pack(const assembly *a, tl_nav_contours *out)
         return TL_ERR_LIMIT;
     }
     out->block_size = (size_t)size + 1; // never empty
-    out->block = tl_allocate(out->allocator, out->block_size, TL_BLOB_ALIGNMENT);
+    out->block = tl_allocate(&out->allocator, out->block_size, TL_BLOB_ALIGNMENT);
     if (out->block == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -245,9 +245,9 @@ tl_result tl_nav_bake_contours(const tl_nav_config *config, const tl_nav_compact
     if (compact->region == NULL) {
         return tl_report_fail(report_out, TL_ERR_ARGUMENT, "region", TL_NO_ELEMENT, "call tl_nav_bake_regions");
     }
-    contours_out->allocator = host != NULL ? host->allocator : NULL;
+    contours_out->allocator = tl_allocator_or_default(host != NULL ? host->allocator : NULL);
     tl_arena arena;
-    tl_arena_init(&arena, contours_out->allocator);
+    tl_arena_init(&arena, &contours_out->allocator);
     tl_contour_work work = { .config = config, .compact = compact, .arena = &arena };
     tl_result result = build(&work, host, contours_out);
     if (report_out != NULL) {
@@ -265,7 +265,7 @@ tl_result tl_nav_bake_contours(const tl_nav_config *config, const tl_nav_compact
 void tl_nav_contours_free(tl_nav_contours *contours)
 {
     if (contours != NULL) {
-        tl_release(contours->allocator, contours->block, contours->block_size);
+        tl_release(&contours->allocator, contours->block, contours->block_size);
         memset(contours, 0, sizeof *contours);
     }
 }

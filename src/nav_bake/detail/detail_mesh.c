@@ -232,6 +232,7 @@ static tl_result pack(const patch_builder *b, const tl_allocator *allocator, tl_
     if (block == NULL) {
         return TL_ERR_MEMORY;
     }
+    out->allocator = tl_allocator_or_default(allocator);
     out->block = block;
     out->block_size = (size_t)size;
     out->patches = (tl_nav_detail_patch *)(void *)block;
@@ -293,15 +294,15 @@ tl_result tl_nav_bake_detail(const tl_nav_config *config, const tl_nav_compact *
     }
     tl_arena_free(&arena);
     if (result != TL_OK) {
-        tl_nav_detail_free(detail_out, allocator);
+        tl_nav_detail_free(detail_out);
     }
     return result;
 }
 
-void tl_nav_detail_free(tl_nav_detail *detail, const tl_allocator *allocator)
+void tl_nav_detail_free(tl_nav_detail *detail)
 {
     if (detail != NULL) {
-        tl_release(allocator, detail->block, detail->block_size);
+        tl_release(&detail->allocator, detail->block, detail->block_size);
         memset(detail, 0, sizeof *detail);
     }
 }

@@ -79,7 +79,7 @@ static tl_result allocate_job(open_job *job, const tl_host *host)
     tl_nav_compact *compact = job->compact;
     const uint64_t columns = (uint64_t)compact->width * compact->height;
     job->worker_count = tl_worker_count(host);
-    compact->first_span = tl_allocate_array(compact->allocator, columns + 1, sizeof *compact->first_span);
+    compact->first_span = tl_allocate_array(&compact->allocator, columns + 1, sizeof *compact->first_span);
     job->pieces = tl_allocate_array(job->allocator, job->task_count, sizeof *job->pieces);
     job->workers = tl_allocate_array(job->allocator, job->worker_count, sizeof *job->workers);
     if (job->pieces != NULL) {
@@ -122,9 +122,9 @@ static tl_result join_pieces(open_job *job)
         return TL_ERR_LIMIT;
     }
     compact->span_count = (uint32_t)count;
-    compact->floor = tl_allocate_array(compact->allocator, count, sizeof *compact->floor);
-    compact->clearance = tl_allocate_array(compact->allocator, count, sizeof *compact->clearance);
-    compact->area = tl_allocate_array(compact->allocator, count, sizeof *compact->area);
+    compact->floor = tl_allocate_array(&compact->allocator, count, sizeof *compact->floor);
+    compact->clearance = tl_allocate_array(&compact->allocator, count, sizeof *compact->clearance);
+    compact->area = tl_allocate_array(&compact->allocator, count, sizeof *compact->area);
     if (compact->floor == NULL || compact->clearance == NULL || compact->area == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -187,10 +187,10 @@ static open_job start_job(const tl_nav_config *config, const tl_host *host, tl_n
     compact->bounds = config->bounds;
     compact->cell_size = config->cell_size;
     compact->cell_height = config->cell_height;
-    compact->allocator = host != NULL ? host->allocator : NULL;
+    compact->allocator = tl_allocator_or_default(host != NULL ? host->allocator : NULL);
     job.config = config;
     job.compact = compact;
-    job.allocator = compact->allocator;
+    job.allocator = &compact->allocator;
     return job;
 }
 
@@ -244,7 +244,7 @@ void tl_nav_compact_free(tl_nav_compact *compact)
     if (compact == NULL) {
         return;
     }
-    const tl_allocator *allocator = compact->allocator;
+    const tl_allocator *allocator = &compact->allocator;
     const uint64_t columns = (uint64_t)compact->width * compact->height, count = compact->span_count;
     tl_release_array(allocator, compact->first_span, columns + 1, sizeof *compact->first_span);
     tl_release_array(allocator, compact->floor, count, sizeof *compact->floor);

@@ -133,12 +133,12 @@ tl_result tl_nav_link_floors(const tl_host *host, tl_nav_compact *compact)
 {
     const uint64_t count = 4 * (uint64_t)compact->span_count;
     if (steps_fit(compact)) {
-        compact->step = tl_allocate_array(compact->allocator, count, sizeof *compact->step);
+        compact->step = tl_allocate_array(&compact->allocator, count, sizeof *compact->step);
         if (compact->step != NULL) {
             memset(compact->step, 0, count * sizeof *compact->step);
         }
     } else {
-        compact->neighbour = tl_allocate_array(compact->allocator, count, sizeof *compact->neighbour);
+        compact->neighbour = tl_allocate_array(&compact->allocator, count, sizeof *compact->neighbour);
         if (compact->neighbour != NULL) {
             memset(compact->neighbour, 0xff, count * sizeof *compact->neighbour); // TL_NAV_NO_SPAN
         }

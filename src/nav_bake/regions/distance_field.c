@@ -54,17 +54,17 @@ tl_result tl_nav_distance_field(const tl_host *host, tl_nav_compact *compact, tl
     const tl_allocator *scratch = host != NULL ? host->allocator : NULL;
     uint32_t count = compact->span_count;
     uint16_t *sharp = tl_allocate_array(scratch, count, sizeof *sharp);
-    uint16_t *blurred = tl_allocate_array(compact->allocator, count, sizeof *blurred);
+    uint16_t *blurred = tl_allocate_array(&compact->allocator, count, sizeof *blurred);
     if (sharp == NULL || blurred == NULL) {
         tl_release_array(scratch, sharp, count, sizeof *sharp);
-        tl_release_array(compact->allocator, blurred, count, sizeof *blurred);
+        tl_release_array(&compact->allocator, blurred, count, sizeof *blurred);
         return TL_ERR_MEMORY;
     }
     tl_distance_sweep_forward(compact, sharp);
     compact->max_distance = tl_distance_sweep_backward(compact, sharp);
     tl_distance_blur(compact, sharp, blurred);
     tl_release_array(scratch, sharp, count, sizeof *sharp);
-    tl_release_array(compact->allocator, compact->distance, count, sizeof *compact->distance);
+    tl_release_array(&compact->allocator, compact->distance, count, sizeof *compact->distance);
     compact->distance = blurred;
     if (report_out != NULL) {
         report_out->peak_bytes = (uint64_t)count * (sizeof *sharp + sizeof *blurred);

@@ -142,7 +142,7 @@ tl_result tl_distance_field_update(const uint8_t *before, const tl_distance_stag
     updater u = { .compact = compact, .before = before, .words = words };
     u.first = tl_allocate_array(allocator, 2 * (uint64_t)words, sizeof *u.first);
     u.forward = tl_allocate_array(allocator, 2 * (uint64_t)count, sizeof *u.forward);
-    u.blurred = tl_allocate_array(compact->allocator, count, sizeof *u.blurred);
+    u.blurred = tl_allocate_array(&compact->allocator, count, sizeof *u.blurred);
     const bool there = u.first != NULL && u.forward != NULL && u.blurred != NULL;
     if (there) {
         u.second = u.first + words;
@@ -158,7 +158,7 @@ tl_result tl_distance_field_update(const uint8_t *before, const tl_distance_stag
         compact->max_distance = largest_of(u.sharp, count);
         compact->distance = u.blurred;
     } else {
-        tl_release_array(compact->allocator, u.blurred, count, sizeof *u.blurred);
+        tl_release_array(&compact->allocator, u.blurred, count, sizeof *u.blurred);
     }
     tl_release_array(allocator, u.first, 2 * (uint64_t)words, sizeof *u.first);
     tl_release_array(allocator, u.forward, 2 * (uint64_t)count, sizeof *u.forward);

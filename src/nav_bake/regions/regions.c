@@ -79,7 +79,7 @@ tl_result tl_nav_divide_regions(const tl_nav_config *config, const tl_host *host
     }
     TL_TRY(tl_progress_update(host, "regions", 0, 1));
 
-    uint32_t *region = tl_allocate_array(compact->allocator, compact->span_count, sizeof *region);
+    uint32_t *region = tl_allocate_array(&compact->allocator, compact->span_count, sizeof *region);
     if (region == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -103,17 +103,17 @@ tl_result tl_nav_divide_regions(const tl_nav_config *config, const tl_host *host
         result = tl_progress_update(host, "regions", 1, 1);
     }
     if (result != TL_OK) {
-        tl_release_array(compact->allocator, region, compact->span_count, sizeof *region);
+        tl_release_array(&compact->allocator, region, compact->span_count, sizeof *region);
         return result == TL_ERR_CORRUPT
                    ? tl_report_fail(report_out, result, "span", TL_NO_ELEMENT, "neighbour links must be mutual")
                    : result;
     }
-    tl_release_array(compact->allocator, compact->region, compact->span_count, sizeof *compact->region);
+    tl_release_array(&compact->allocator, compact->region, compact->span_count, sizeof *compact->region);
     compact->region = region;
     compact->region_count = work.region_count;
     compact->region_stats = work.stats;
     if (!keep_distance) {
-        tl_release_array(compact->allocator, compact->distance, compact->span_count, sizeof *compact->distance);
+        tl_release_array(&compact->allocator, compact->distance, compact->span_count, sizeof *compact->distance);
         compact->distance = NULL;
     }
     return TL_OK;

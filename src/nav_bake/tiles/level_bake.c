@@ -79,7 +79,7 @@ static tl_result run_tile(const level_job *job, uint64_t tile, tl_triangle_list 
         if (result == TL_OK) {
             job->sink->take(&config, &stages, job->sink->user);
         }
-        tl_nav_stages_free(&stages, job->def->host.allocator);
+        tl_nav_stages_free(&stages);
     }
     return result;
 }
@@ -209,7 +209,7 @@ static void end_job(level_job *job, tl_memory_meter *meter, const tl_nav_bake_re
 {
     const uint64_t count = tile_count_of(job);
     for (uint64_t t = 0; job->stacks != NULL && t < count; t++) {
-        tl_nav_tile_stack_free(&job->stacks[t], job->host.allocator);
+        tl_nav_tile_stack_free(&job->stacks[t]);
     }
     tl_release_array(job->host.allocator, job->stacks, count, sizeof *job->stacks);
     tl_release_array(job->host.allocator, job->workers, job->worker_count, sizeof *job->workers);
@@ -235,6 +235,7 @@ static tl_result keep_tiles(level_job *job, uint32_t tile_count, tl_nav_tiles *t
             job->stacks[t].tiles[i] = NULL;
         }
     }
+    tiles_out->allocator = tl_allocator_or_default(job->def->host.allocator);
     tiles_out->tiles_x = job->tiles_x;
     tiles_out->tiles_z = job->tiles_z;
     return TL_OK;
@@ -296,6 +297,21 @@ static tl_result build_part(level_job *job, const tl_nav_tile_range *range, tl_n
     return result;
 }
 
+static void hand_over_stacks(level_job *job, tl_nav_tile_block *block_out)
+{
+    block_out->allocator = tl_allocator_or_default(job->def->host.allocator);
+    for (uint64_t t = 0; t < tile_count_of(job); t++) {
+        tl_nav_tile_stack *stack = &job->stacks[t];
+        for (uint32_t i = 0; i < stack->count; i++) {
+            tl_blob_hand_over(stack->tiles[i], &block_out->allocator);
+        }
+        stack->allocator = block_out->allocator;
+    }
+    block_out->range = job->range;
+    block_out->stacks = job->stacks;
+    job->stacks = NULL;
+}
+
 tl_result tl_nav_bake_range(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tile_range range,
                             const tl_nav_stage_sink *sink, tl_nav_tile_block *block_out, tl_nav_bake_report *report_out)
 {
@@ -309,30 +325,26 @@ tl_result tl_nav_bake_range(const tl_nav_def *def, const tl_nav_input *input, tl
     const bool part = !tl_aabb_is_empty(def->bounds) && def->tile_size > 0 && range.count_x > 0 && range.count_z > 0;
     tl_result result = part ? build_part(&job, &range, &report) : build_range(&job, &range, &report);
     if (result == TL_OK) {
-        for (uint64_t t = 0; t < tile_count_of(&job); t++) {
-            for (uint32_t i = 0; i < job.stacks[t].count; i++) {
-                tl_blob_hand_over(job.stacks[t].tiles[i], def->host.allocator);
-            }
-        }
-        block_out->range = job.range;
-        block_out->stacks = job.stacks;
-        job.stacks = NULL;
+        hand_over_stacks(&job, block_out);
     }
     end_job(&job, &meter, &report, report_out);
     return result;
 }
 
-void tl_nav_tile_block_free(tl_nav_tile_block *block, const tl_allocator *allocator)
+void tl_nav_tile_block_free(tl_nav_tile_block *block)
 {
+    if (block == NULL) {
+        return;
+    }
     const uint64_t count = (uint64_t)block->range.count_x * block->range.count_z;
     for (uint64_t t = 0; block->stacks != NULL && t < count; t++) {
-        tl_nav_tile_stack_free(&block->stacks[t], allocator);
+        tl_nav_tile_stack_free(&block->stacks[t]);
     }
-    tl_release_array(allocator, block->stacks, count, sizeof *block->stacks);
+    tl_release_array(&block->allocator, block->stacks, count, sizeof *block->stacks);
     memset(block, 0, sizeof *block);
 }
 
-void tl_nav_tiles_free(tl_nav_tiles *tiles, const tl_allocator *allocator)
+void tl_nav_tiles_free(tl_nav_tiles *tiles)
 {
     if (tiles == NULL) {
         return;
@@ -340,6 +352,6 @@ void tl_nav_tiles_free(tl_nav_tiles *tiles, const tl_allocator *allocator)
     for (uint32_t i = 0; i < tiles->tile_count; i++) {
         tl_blob_free(tiles->tiles[i]);
     }
-    tl_release_array(allocator, tiles->tiles, tiles->tile_count, sizeof *tiles->tiles);
+    tl_release_array(&tiles->allocator, tiles->tiles, tiles->tile_count, sizeof *tiles->tiles);
     memset(tiles, 0, sizeof *tiles);
 }

@@ -10,6 +10,7 @@
 #include "nav_bake/tiles/tile_bake.h"
 
 #include <math.h>
+#include <string.h>
 
 // Tiles along one axis whose columns [t * size - border, (t + 1) * size + border) meet [min, max], metres. One column
 // more on each side pays for the rounding of the division.
@@ -60,7 +61,7 @@ tl_result tl_nav_rebake(const tl_nav_def *def, const tl_nav_input *input, tl_aab
 {
     tl_nav_bake_report report = { 0 };
     tl_nav_tile_range range;
-    *block_out = (tl_nav_tile_block){ { 0, 0, 0, 0 }, NULL };
+    memset(block_out, 0, sizeof *block_out);
     tl_report_begin(&report.base, "rebuild");
     tl_result result = TL_OK;
     if (tl_aabb_is_empty(def->bounds)) {

@@ -6,18 +6,15 @@
 
 #include <string.h>
 
-void tl_nav_stages_free(tl_nav_stages *stages, const tl_allocator *allocator)
+void tl_nav_stages_free(tl_nav_stages *stages)
 {
     if (stages == NULL) {
         return;
     }
-    stages->heightfield.allocator = allocator;
-    stages->compact.allocator = allocator;
-    stages->contours.allocator = allocator;
     tl_nav_heightfield_free(&stages->heightfield);
     tl_nav_compact_free(&stages->compact);
     tl_nav_contours_free(&stages->contours);
-    tl_polygon_mesh_free(&stages->polygons, allocator);
-    tl_nav_detail_free(&stages->detail, allocator);
+    tl_polygon_mesh_free(&stages->polygons);
+    tl_nav_detail_free(&stages->detail);
     memset(stages, 0, sizeof *stages);
 }

@@ -66,7 +66,7 @@ static tl_result build_floors(tile_job *job)
     } else {
         TL_TRY(tl_nav_open_triangles(config, &input->mesh, input->areas, job->list, &job->host, compact,
                                      &job->report->span_count, report));
-        tl_release_array(compact->allocator, compact->clearance, compact->span_count, sizeof *compact->clearance);
+        tl_release_array(&compact->allocator, compact->clearance, compact->span_count, sizeof *compact->clearance);
         compact->clearance = NULL; // links were its last reader
     }
     job->report->compact_span_count += compact->span_count;
@@ -155,6 +155,7 @@ static tl_result stack_whole(tile_job *job, uint32_t layer)
         return TL_ERR_MEMORY;
     }
     job->tile->layer = layer;
+    job->stack.allocator = tl_allocator_or_default(job->host.allocator);
     job->stack.tiles[0] = job->tile;
     job->stack.count = 1;
     job->tile = NULL;
@@ -195,7 +196,7 @@ static tl_result hand_over(tile_job *job, tl_result result, tl_nav_tile_stack *s
 {
     tl_blob_free(job->tile);
     if (result != TL_OK) {
-        tl_nav_tile_stack_free(&job->stack, job->host.allocator);
+        tl_nav_tile_stack_free(&job->stack);
     }
     *stack_out = job->stack;
     return result;
@@ -255,16 +256,19 @@ tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input
     job.report = report;
     const tl_result result = build_tile(&job);
     if (!keep_stages) {
-        tl_nav_stages_free(stages, host->allocator);
+        tl_nav_stages_free(stages);
     }
     return hand_over(&job, result, stack_out);
 }
 
 void tl_nav_stages_hand_over(tl_nav_stages *stages, const tl_allocator *allocator)
 {
-    stages->heightfield.allocator = allocator;
-    stages->compact.allocator = allocator;
-    stages->contours.allocator = allocator;
+    const tl_allocator host = tl_allocator_or_default(allocator);
+    stages->heightfield.allocator = host;
+    stages->compact.allocator = host;
+    stages->contours.allocator = host;
+    stages->polygons.allocator = host;
+    stages->detail.allocator = host;
 }
 
 tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_input *input, const tl_host *host,
@@ -295,7 +299,7 @@ tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_input *inpu
         tl_nav_stages_hand_over(&stages, allocator);
         *stages_out = stages;
     } else {
-        tl_nav_stages_free(&stages, &meter.allocator);
+        tl_nav_stages_free(&stages);
     }
     report.base.peak_bytes = tl_memory_meter_peak(&meter);
     if (report_out != NULL) {
@@ -323,12 +327,12 @@ tl_result tl_nav_tile_from_distance(const tl_nav_config *config, tl_nav_compact 
     job.report = &report;
     const tl_result result = finish_tile(&job);
     const tl_nav_compact *worked = &stages.compact;
-    tl_release_array(compact->allocator, worked->distance, worked->span_count, sizeof *worked->distance);
-    tl_release_array(compact->allocator, worked->region, worked->span_count, sizeof *worked->region);
+    tl_release_array(&compact->allocator, worked->distance, worked->span_count, sizeof *worked->distance);
+    tl_release_array(&compact->allocator, worked->region, worked->span_count, sizeof *worked->region);
     compact->distance = NULL;
     compact->region = NULL;
     memset(&stages.compact, 0, sizeof stages.compact);
-    tl_nav_stages_free(&stages, job.host.allocator);
+    tl_nav_stages_free(&stages);
     if (report_out != NULL) {
         *report_out = report;
     }

@@ -13,6 +13,7 @@
 #include "base/host.h"
 #include "nav_bake/input/level_mesh.h"
 #include "nav_bake/voxels/batches.h"
+#include "nav_bake/voxels/voxelize.h"
 
 #include <string.h>
 
@@ -174,7 +175,7 @@ static tl_result rasterize_band(uint32_t index, uint32_t worker, void *user)
     const uint32_t columns = rows.width * height;
     band_spans *band = &job->bands[index];
     band->count = rows.first_span[columns];
-    band->spans = tl_allocate_array(job->field->allocator, band->count, sizeof *band->spans);
+    band->spans = tl_allocate_array(&job->field->allocator, band->count, sizeof *band->spans);
     if (band->spans == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -204,7 +205,7 @@ static tl_result join_bands(field_job *job)
         job->bands[0].spans = NULL;
         return TL_OK;
     }
-    field->spans = tl_allocate_array(field->allocator, total, sizeof *field->spans);
+    field->spans = tl_allocate_array(&field->allocator, total, sizeof *field->spans);
     if (field->spans == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -218,7 +219,7 @@ static tl_result join_bands(field_job *job)
         }
         memcpy(field->spans + done, band->spans, band->count * sizeof *band->spans);
         done += band->count;
-        tl_release_array(field->allocator, band->spans, band->count, sizeof *band->spans);
+        tl_release_array(&field->allocator, band->spans, band->count, sizeof *band->spans);
         band->spans = NULL;
     }
     return TL_OK;
@@ -229,8 +230,8 @@ static tl_result rasterize(field_job *job, const tl_host *host)
     tl_nav_heightfield *field = job->field;
     const uint32_t band_count = job->rasterizer.band_count;
     field->first_span =
-        tl_allocate_array(field->allocator, (uint64_t)field->width * field->height + 1, sizeof *field->first_span);
-    job->bands = tl_allocate_array(field->allocator, band_count, sizeof *job->bands);
+        tl_allocate_array(&field->allocator, (uint64_t)field->width * field->height + 1, sizeof *field->first_span);
+    job->bands = tl_allocate_array(&field->allocator, band_count, sizeof *job->bands);
     if (job->bands != NULL) {
         memset(job->bands, 0, band_count * sizeof *job->bands);
     }
@@ -253,7 +254,7 @@ tl_result tl_nav_rasterize_list(const tl_nav_config *config, const tl_mesh_view 
     field->bounds = config->bounds;
     field->cell_size = config->cell_size;
     field->cell_height = config->cell_height;
-    field->allocator = host != NULL ? host->allocator : NULL;
+    field->allocator = tl_allocator_or_default(host != NULL ? host->allocator : NULL);
 
     field_job job;
     memset(&job, 0, sizeof job);
@@ -262,9 +263,9 @@ tl_result tl_nav_rasterize_list(const tl_nav_config *config, const tl_mesh_view 
     if (result == TL_OK) {
         result = rasterize(&job, host);
         for (uint32_t b = 0; job.bands != NULL && b < job.rasterizer.band_count; b++) {
-            tl_release_array(field->allocator, job.bands[b].spans, job.bands[b].count, sizeof *job.bands[b].spans);
+            tl_release_array(&field->allocator, job.bands[b].spans, job.bands[b].count, sizeof *job.bands[b].spans);
         }
-        tl_release_array(field->allocator, job.bands, job.rasterizer.band_count, sizeof *job.bands);
+        tl_release_array(&field->allocator, job.bands, job.rasterizer.band_count, sizeof *job.bands);
         tl_rasterizer_free(&job.rasterizer);
     }
     if (result != TL_OK) {

@@ -59,6 +59,6 @@ tl_result tl_navmesh_replace_tiles(tl_navmesh *navmesh, int32_t tile_x, int32_t 
             stack->tiles[i] = result == TL_OK ? NULL : stack->tiles[i];
         }
     }
-    tl_nav_tile_stack_free(stack, &navmesh->allocator);
+    tl_nav_tile_stack_free(stack);
     return result;
 }

@@ -230,6 +230,7 @@ static tl_result write_mesh(builder *b, tl_polygon_mesh *mesh)
     }
     memset(block, 0, size);
     memset(mesh, 0, sizeof *mesh);
+    mesh->allocator = tl_allocator_or_default(b->def->host.allocator);
     mesh->block = block;
     mesh->block_size = size;
     mesh->notes = (void *)(block + notes_at);
@@ -323,10 +324,10 @@ tl_result tl_polygon_mesh_bake(const tl_contour_set *contours, const tl_polygon_
     return result;
 }
 
-void tl_polygon_mesh_free(tl_polygon_mesh *mesh, const tl_allocator *allocator)
+void tl_polygon_mesh_free(tl_polygon_mesh *mesh)
 {
     if (mesh != NULL) {
-        tl_release_array(allocator, mesh->block, mesh->block_size, 1);
+        tl_release_array(&mesh->allocator, mesh->block, mesh->block_size, 1);
         memset(mesh, 0, sizeof *mesh);
     }
 }
