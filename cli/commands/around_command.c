@@ -4,7 +4,8 @@
 
 #include "cli/level/navmesh_query.h"
 #include "cli/level/open_input.h"
-#include "cli/shared/batch.h"
+#include "cli/shared/line_batch.h"
+#include "cli/shared/random.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -33,15 +34,6 @@ typedef struct around_queries {
     uint32_t count;
 } around_queries;
 
-// SplitMix64 (Steele, Lea, Flood 2014).
-static uint64_t next_random(uint64_t *state)
-{
-    uint64_t z = (*state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
-
 // Begins a list: its number on a line of its own, or the name of an array.
 static void begin_list(tl_text *text, const around_settings *settings, const char *name, uint32_t count)
 {
@@ -60,7 +52,7 @@ static void end_list(tl_text *text, const around_settings *settings)
     tl_text_add(text, settings->json ? "]}\n" : "");
 }
 
-static void write_point(tl_text *text, const around_settings *settings, tl_vec3 point)
+static void write_place(tl_text *text, const around_settings *settings, tl_vec3 point)
 {
     if (settings->json) {
         tl_text_add_json_point(text, point);
@@ -85,9 +77,9 @@ static bool list_walls(const around_queries *all, tl_nav_query *query, const tl_
         tl_text_add(text, !settings->json ? "" : i > 0 ? ",{\"distance\":" : "{\"distance\":");
         tl_text_add_float(text, walls[i].distance);
         tl_text_add(text, settings->json ? ",\"start\":" : " ");
-        write_point(text, settings, walls[i].start);
+        write_place(text, settings, walls[i].start);
         tl_text_add(text, settings->json ? ",\"end\":" : " ");
-        write_point(text, settings, walls[i].end);
+        write_place(text, settings, walls[i].end);
         tl_text_add(text, settings->json ? "}" : "\n");
     }
     end_list(text, settings);
@@ -112,7 +104,7 @@ static bool list_polygons(const around_queries *all, tl_nav_query *query, const 
         tl_text_add(text, !settings->json ? "" : i > 0 ? ",{\"cost\":" : "{\"cost\":");
         tl_text_add_float(text, entries[i].cost);
         tl_text_add(text, settings->json ? ",\"point\":" : " ");
-        write_point(text, settings, entries[i].point);
+        write_place(text, settings, entries[i].point);
         tl_text_add(text, settings->json ? "}" : "\n");
     }
     end_list(text, settings);
@@ -126,7 +118,7 @@ static void list_random(const around_queries *all, tl_nav_query *query, const tl
     uint64_t state = settings->seed;
     begin_list(text, settings, "points", settings->random);
     for (uint32_t i = 0; i < settings->random; ++i) {
-        const uint64_t bits[2] = { next_random(&state), next_random(&state) };
+        const uint64_t bits[2] = { tl_splitmix64(&state), tl_splitmix64(&state) };
         tl_nav_location at;
         if (center == NULL) {
             tl_navmesh_random_point(all->navmesh, NULL, bits, &at);
@@ -135,7 +127,7 @@ static void list_random(const around_queries *all, tl_nav_query *query, const tl
             tl_nav_query_random_reachable(query, all->navmesh, &request, bits, &at);
         }
         tl_text_add(text, settings->json && i > 0 ? "," : "");
-        write_point(text, settings, at.point);
+        write_place(text, settings, at.point);
         tl_text_add(text, settings->json ? "" : "\n");
     }
     end_list(text, settings);
@@ -176,7 +168,7 @@ static bool make_queries(around_queries *all, uint32_t count)
     return all->queries != NULL;
 }
 
-static tl_exit answer(tl_cli *cli, const around_settings *settings, const float *numbers)
+static tl_exit answer_places(tl_cli *cli, const around_settings *settings, const float *numbers)
 {
     tl_input input;
     tl_exit code;
@@ -197,25 +189,15 @@ static tl_exit answer(tl_cli *cli, const around_settings *settings, const float 
     return code;
 }
 
-static bool parse_words(tl_cli *cli, around_settings *settings, float numbers[3], tl_exit *exit_out)
+static bool parse_around_words(tl_cli *cli, around_settings *settings, float numbers[3], tl_exit *exit_out)
 {
-    if (!tl_extents_read(cli, settings->extents_text, &settings->extents, exit_out)) {
-        return false;
-    }
-    bool has_place = cli->arguments.count > 1;
-    settings->everywhere = !has_place && settings->places == NULL && settings->random > 0;
-    if (settings->everywhere) {
-        return true;
-    }
-    if ((settings->places != NULL) == has_place) {
-        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE,
-                                "give a place behind FILE, or many with --places; only --random needs none");
-        return false;
-    }
-    return !has_place || tl_cli_read_triple(cli, 1, "place", numbers, exit_out);
+    static const tl_question_words words = { "place", NULL, "places" };
+    settings->everywhere = cli->arguments.count == 1 && settings->places == NULL && settings->random > 0;
+    return tl_extents_read(cli, settings->extents_text, &settings->extents, exit_out) &&
+           (settings->everywhere || tl_question_read(cli, &words, settings->places, numbers, exit_out));
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_around(tl_cli *cli)
 {
     static const char *const LISTS[] = { "walls", "polygons", NULL };
     around_settings settings;
@@ -239,21 +221,14 @@ static tl_exit run(tl_cli *cli)
           "metres: how far from a place its navmesh polygon may lie (2,4,2)", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option level_options[TL_LEVEL_OPTIONS];
-    tl_option nav_options[TL_NAV_OPTIONS];
-    tl_level_options(&settings.bake.level, level_options);
-    tl_nav_options(&settings.bake, nav_options);
-    const tl_option_group groups[] = { { "Options:", options },
-                                       { "When FILE is a level:", level_options },
-                                       { "When FILE is a level, for its navmesh:", nav_options },
-                                       { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
     tl_exit code;
     float numbers[3] = { 0 };
-    if (!tl_cli_parse(cli, groups, 1, 2, &code) || !tl_bake_take_bounds(cli, &settings.bake, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 2, &code)) {
         return code;
     }
     settings.json = cli->json;
-    return parse_words(cli, &settings, numbers, &code) ? answer(cli, &settings, numbers) : code;
+    return parse_around_words(cli, &settings, numbers, &code) ? answer_places(cli, &settings, numbers) : code;
 }
 
 const tl_command tl_around_command = {
@@ -267,5 +242,5 @@ const tl_command tl_around_command = {
     "talus around courtyard.talus 2,0,20 --radius 5\n"
     "talus around courtyard.talus 2,0,20 --list polygons --json\n"
     "talus around courtyard.talus --random 100 --seed 7",
-    run,
+    run_around,
 };

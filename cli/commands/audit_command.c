@@ -2,7 +2,7 @@
 //
 // talus audit: the navmesh held against the triangles.
 
-#include "cli/draw/draw_sheet.h"
+#include "cli/draw/draw_picture.h"
 #include "cli/draw/draw_source.h"
 #include "cli/draw/draw_stage.h"
 #include "cli/shared/json_out.h"
@@ -25,11 +25,11 @@ typedef struct audit_settings {
 // Why the first missing floors are missing; each takes some builds of a tile.
 enum { MOST_EXPLAINED = 32 };
 
-static const draw_colour COLOURS[] = { 0xc0392b, 0xd35400, 0x8e44ad, 0x2471a3 };
+static const draw_colour FINDING_COLOURS[] = { 0xc0392b, 0xd35400, 0x8e44ad, 0x2471a3 };
 
 // ---- What was found, as text -------------------------------------------------------------------------------
 
-static void print_reason(const tl_nav_why_answer *why)
+static void print_first_reason(const tl_nav_why_answer *why)
 {
     if (why->reason_count > 0) {
         const tl_nav_reason *reason = &why->reasons[0];
@@ -60,12 +60,12 @@ static void print_finding(const tl_nav_finding *f, const tl_nav_why_answer *why)
     }
     printf(", %u place%s", f->count, f->count == 1 ? "" : "s");
     if (why != NULL) {
-        print_reason(why);
+        print_first_reason(why);
     }
     printf("\n");
 }
 
-static void print_summary(const tl_nav_audit *audit, uint32_t listed)
+static void print_audit_summary(const tl_nav_audit *audit, uint32_t listed)
 {
     if (listed < audit->finding_count) {
         printf("... and %u more; --list %u shows all\n", audit->finding_count - listed, audit->finding_count);
@@ -149,44 +149,34 @@ static void add_marks(draw_scene *scene, const tl_nav_audit *audit)
     for (uint32_t i = audit->finding_count; i-- > 0;) {
         const tl_nav_finding *f = &audit->findings[i];
         counts[f->kind]++;
-        draw_add_box(scene, f->bounds, COLOURS[f->kind], 1.2f, 0.8f);
-        draw_add_dot(scene, f->point, COLOURS[f->kind], 5.0f);
+        draw_add_box(scene, f->bounds, FINDING_COLOURS[f->kind], 1.2f, 0.8f);
+        draw_add_dot(scene, f->point, FINDING_COLOURS[f->kind], 5.0f);
     }
     for (int kind = 0; kind < 4; kind++) {
         char text[48];
         snprintf(text, sizeof text, "%s: %u", tl_nav_finding_name((tl_nav_finding_kind)kind), counts[kind]);
         if (counts[kind] > 0) {
-            draw_add_legend(scene, COLOURS[kind], text);
+            draw_add_legend(scene, FINDING_COLOURS[kind], text);
         }
     }
     const size_t used = strlen(scene->subtitle);
     snprintf(scene->subtitle + used, sizeof scene->subtitle - used, "; %u findings of the audit", audit->finding_count);
 }
 
-static bool draw(draw_source *source, const audit_settings *settings, const tl_nav_audit *audit, tl_exit *exit_out)
+static bool draw_findings(draw_source *source, const audit_settings *settings, const tl_nav_audit *audit,
+                          tl_exit *exit_out)
 {
     draw_scene scene;
-    draw_scene_init(&scene, source->bounds);
-    snprintf(scene.title, sizeof scene.title, "%s: audit", source->input.path);
-    scene.overlay_bias = 0.95f * source->nav_def.agent_height;
-    draw_add_backdrop(&scene, &source->mesh);
+    draw_picture_begin(source, "audit", &scene);
     draw_stage_navmesh(&scene, source->input.navmesh);
     add_marks(&scene, audit);
-    const draw_options options = { true, true, settings->size };
-    tl_io_error error;
-    memset(&error, 0, sizeof error);
-    const bool drawn = draw_sheet_write(&scene, &options, settings->picture, &source->cli->host, &error) == TL_OK;
-    if (!drawn) {
-        *exit_out = tl_cli_fail_io(source->cli, &error);
-    }
-    draw_scene_free(&scene);
-    return drawn;
+    return draw_picture_end(source, &scene, settings->size, settings->picture, exit_out);
 }
 
 // ---- The command -------------------------------------------------------------------------------------------
 
-static tl_exit explain(draw_source *source, const tl_nav_audit *audit, uint32_t first, tl_nav_why_answer *whys,
-                       uint32_t *count)
+static tl_exit explain_missing(draw_source *source, const tl_nav_audit *audit, uint32_t first, tl_nav_why_answer *whys,
+                               uint32_t *count)
 {
     const tl_nav_input input = tl_level_areas_input(&source->areas, &source->mesh);
     tl_nav_def def = source->nav_def;
@@ -205,7 +195,7 @@ static tl_exit explain(draw_source *source, const tl_nav_audit *audit, uint32_t 
     return TL_EXIT_OK;
 }
 
-static tl_exit report(draw_source *source, const audit_settings *settings, const tl_nav_audit *audit)
+static tl_exit report_audit(draw_source *source, const audit_settings *settings, const tl_nav_audit *audit)
 {
     tl_nav_why_answer *whys = calloc(MOST_EXPLAINED, sizeof *whys);
     if (whys == NULL) {
@@ -215,7 +205,7 @@ static tl_exit report(draw_source *source, const audit_settings *settings, const
     while (first < audit->finding_count && audit->findings[first].kind != TL_NAV_FINDING_MISSING) {
         first++;
     }
-    tl_exit code = explain(source, audit, first, whys, &count);
+    tl_exit code = explain_missing(source, audit, first, whys, &count);
     tl_progress_end(&source->cli->progress);
     if (code == TL_EXIT_OK && source->cli->json) {
         code = tl_cli_print_json(source->cli, audit_json(source->cli, audit, whys, count, first));
@@ -224,7 +214,7 @@ static tl_exit report(draw_source *source, const audit_settings *settings, const
         for (uint32_t i = 0; i < listed; i++) {
             print_finding(&audit->findings[i], i >= first && i - first < count ? &whys[i - first] : NULL);
         }
-        print_summary(audit, listed);
+        print_audit_summary(audit, listed);
     }
     free(whys);
     return code;
@@ -260,16 +250,16 @@ static tl_exit audit_source(draw_source *source, audit_settings *settings)
     for (uint32_t i = 0; i < audit.finding_count; i++) {
         audit.findings[i].triangle = draw_soup_triangle(source, audit.findings[i].triangle);
     }
-    code = report(source, settings, &audit);
+    code = report_audit(source, settings, &audit);
     if (code == TL_EXIT_OK && settings->picture != NULL) {
-        draw(source, settings, &audit, &code);
+        draw_findings(source, settings, &audit, &code);
     }
     code = code == TL_EXIT_OK && audit.finding_count > 0 ? TL_EXIT_NEGATIVE : code;
     tl_nav_audit_free(&audit);
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_audit(tl_cli *cli)
 {
     audit_settings settings;
     memset(&settings, 0, sizeof settings);
@@ -294,15 +284,9 @@ static tl_exit run(tl_cli *cli)
         { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "longer side of each view", NULL, 0, 0, 200, 8000 },
         TL_OPTION_TABLE_END,
     };
-    tl_option level_options[TL_LEVEL_OPTIONS], nav_options[TL_NAV_OPTIONS];
-    tl_level_options(&settings.bake.level, level_options);
-    tl_nav_options(&settings.bake, nav_options);
-    const tl_option_group groups[] = { { "Options:", options },
-                                       { "When FILE is a level:", level_options },
-                                       { "Navmesh of a level:", nav_options },
-                                       { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
     tl_exit code;
-    if (!tl_cli_parse(cli, groups, 1, 1, &code) || !tl_bake_take_bounds(cli, &settings.bake, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 1, &code)) {
         return code;
     }
     draw_source source;
@@ -323,5 +307,5 @@ const tl_command tl_audit_command = {
     "disagree; exit code 1 when there is one. docs/audit.md says what free promises and what is tolerated.",
     "talus audit courtyard.talus\ntalus audit courtyard.obj --paths 10000 --draw audit.png\n"
     "talus audit courtyard.talus --json > audit.json",
-    run,
+    run_audit,
 };

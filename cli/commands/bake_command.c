@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static tl_result make_content(const tl_level *level, const tl_bake *bake, bool nav, tl_pack_content *content)
+static tl_result make_baked_content(const tl_level *level, const tl_bake *bake, bool nav, tl_pack_content *content)
 {
     tl_result result = tl_pack_content_make(bake->tiles.tile_count + 6, content);
     if (result != TL_OK) {
@@ -33,7 +33,7 @@ static tl_result make_content(const tl_level *level, const tl_bake *bake, bool n
     for (uint32_t i = 0; i < bake->tiles.tile_count; ++i) {
         tl_pack_content_add(content, TL_PACK_NAVT, i, bake->tiles.tiles[i]);
     }
-    tl_pack_content_add(content, TL_PACK_LINK, 0, bake->links);
+    tl_pack_content_add(content, TL_PACK_LINK, 0, bake->links.links);
     tl_pack_content_add(content, TL_PACK_MARK, 0, bake->marks);
     return TL_OK;
 }
@@ -93,8 +93,9 @@ static uint32_t collect_counts(const bake_result *r, stage_count out[STAGE_COUNT
         { "tile", "polygons", nav->polygon_count, tile_bytes(r->bake) },
         { "tiles", "tiles", nav->tile_count, tile_bytes(r->bake) },
         { "prune", "islands", r->bake->pruned.island_count, 0 },
-        { "ledges", "places", r->bake->links_report.sample_count, 0 },
-        { "selection", "links", r->bake->links != NULL ? r->bake->links->link_count : 0, blob_bytes(r->bake->links) },
+        { "ledges", "places", r->bake->links.report.sample_count, 0 },
+        { "selection", "links", r->bake->links.links != NULL ? r->bake->links.links->link_count : 0,
+          blob_bytes(r->bake->links.links) },
         { "write", "", 0, r->file_bytes },
     };
     memcpy(out, counts, sizeof(counts));
@@ -173,7 +174,7 @@ static void print_left_out(const tl_bake *bake)
     }
 }
 
-static void print_summary(const bake_result *r)
+static void print_bake_summary(const bake_result *r)
 {
     const tl_bake *bake = r->bake;
     printf("\n");
@@ -196,9 +197,9 @@ static void print_summary(const bake_result *r)
     } else if (r->settings->nav) {
         printf("navmesh  empty: nothing is walkable for this agent; check --scale and --up, or the agent's size\n");
     }
-    if (bake->links != NULL) {
-        printf("links    %u drops, %u jumps, %u climbs\n", bake->links->kind_counts[TL_NAV_LINK_DROP],
-               bake->links->kind_counts[TL_NAV_LINK_JUMP], bake->links->kind_counts[TL_NAV_LINK_CLIMB]);
+    if (bake->links.links != NULL) {
+        printf("links    %u drops, %u jumps, %u climbs\n", bake->links.links->kind_counts[TL_NAV_LINK_DROP],
+               bake->links.links->kind_counts[TL_NAV_LINK_JUMP], bake->links.links->kind_counts[TL_NAV_LINK_CLIMB]);
     }
     printf("wrote    %s\n", r->output);
 }
@@ -278,19 +279,19 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
         json_object_set_new(json_object_get(object, "navmesh"), "areas", tl_area_sums_json(&bake->areas));
         json_object_set_new(json_object_get(object, "navmesh"), "left_out", left_out_json(bake));
     }
-    if (bake->links != NULL) {
-        json_object_set_new(object, "links", tl_level_links_json(&bake->links_report));
+    if (bake->links.links != NULL) {
+        json_object_set_new(object, "links", tl_level_links_json(&bake->links.report));
     }
     return object;
 }
 
-static tl_exit print_report(tl_cli *cli, const bake_result *r)
+static tl_exit print_bake_report(tl_cli *cli, const bake_result *r)
 {
     if (cli->json) {
         return tl_cli_print_json(cli, result_json(cli, r));
     }
     print_table(cli, r);
-    print_summary(r);
+    print_bake_summary(r);
     return TL_EXIT_OK;
 }
 
@@ -305,13 +306,13 @@ static tl_exit bake_and_write(tl_cli *cli, const tl_level *level, const tl_bake_
     tl_exit code;
     if (tl_bake_level(cli, level, settings, &bake, &code)) {
         bake_result result = { level, &bake, settings, output, 0, 0.0 };
-        tl_result made = make_content(level, &bake, settings->nav, &content);
+        tl_result made = make_baked_content(level, &bake, settings->nav, &content);
         code = made == TL_OK ? tl_pack_content_write(cli, output, &content, &result.file_bytes)
                              : tl_cli_fail_result(cli, output, made, NULL);
         tl_progress_end(&cli->progress);
         result.seconds = tl_clock_seconds() - began;
         if (code == TL_EXIT_OK && strcmp(output, "-") != 0) {
-            code = print_report(cli, &result);
+            code = print_bake_report(cli, &result);
         }
     }
     tl_pack_content_free(&content);
@@ -319,7 +320,7 @@ static tl_exit bake_and_write(tl_cli *cli, const tl_level *level, const tl_bake_
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_bake(tl_cli *cli)
 {
     const char *output = NULL;
     tl_bake_settings settings = tl_default_bake_settings();
@@ -374,5 +375,5 @@ const tl_command tl_bake_command = {
     "talus bake castle.obj -o castle.talus --links --drop 5 --jump 2.5\n"
     "talus bake city.glb -o city.talus --tile-size 64 --agent-radius 0.4 --threads 8\n"
     "talus bake map.fbx -o map.talus --up z --scale 0.01 --no-nav --json",
-    run,
+    run_bake,
 };

@@ -18,7 +18,7 @@ typedef struct findings {
     uint32_t faults;
 } findings;
 
-static void find(findings *f, const char *part, const char *element, uint64_t index, const char *fault)
+static void add_finding(findings *f, const char *part, const char *element, uint64_t index, const char *fault)
 {
     f->faults++;
     if (f->list != NULL) {
@@ -37,11 +37,11 @@ static void find(findings *f, const char *part, const char *element, uint64_t in
     }
 }
 
-static void find_result(findings *f, const char *part, tl_result result, const tl_report *report)
+static void add_failed(findings *f, const char *part, tl_result result, const tl_report *report)
 {
     if (result != TL_OK) {
-        find(f, part, report != NULL ? report->element : NULL, report != NULL ? report->element_index : TL_NO_ELEMENT,
-             tl_result_text(result));
+        add_finding(f, part, report != NULL ? report->element : NULL,
+                    report != NULL ? report->element_index : TL_NO_ELEMENT, tl_result_text(result));
     }
 }
 
@@ -52,7 +52,7 @@ static void say_ok(const findings *f, const char *part, uint64_t bytes)
     }
 }
 
-static bool out_of_memory(findings *f, tl_result result, tl_exit *exit_out)
+static bool is_out_of_memory(findings *f, tl_result result, tl_exit *exit_out)
 {
     if (result == TL_ERR_MEMORY) {
         *exit_out = tl_cli_fail(f->cli, TL_EXIT_MEMORY, "out of memory");
@@ -113,7 +113,7 @@ static bool make_polygons(const tl_nav_tile *tile, tile_polygons *out)
     return true;
 }
 
-static tl_result check_polygons(findings *f, const char *part, const tl_nav_tile *tile)
+static tl_result check_tile_polygons(findings *f, const char *part, const tl_nav_tile *tile)
 {
     tile_polygons polygons;
     tl_polygon_check_report report;
@@ -123,7 +123,7 @@ static tl_result check_polygons(findings *f, const char *part, const tl_nav_tile
     }
     tl_result result = tl_polygon_mesh_check(&polygons.mesh, NULL, NULL, &report);
     if (result != TL_OK && result != TL_ERR_MEMORY) {
-        find(f, part, report.base.element, report.base.element_index, tl_polygon_fault_text(report.first_fault));
+        add_finding(f, part, report.base.element, report.base.element_index, tl_polygon_fault_text(report.first_fault));
     }
     free(polygons.block);
     return result == TL_ERR_MEMORY ? result : TL_OK;
@@ -138,10 +138,10 @@ static tl_result check_tile(findings *f, const char *part, tl_pack_chunk chunk)
     report.element_index = TL_NO_ELEMENT;
     tl_result result = tl_nav_tile_check(chunk.bytes, chunk.size, &report);
     if (result != TL_OK) {
-        find_result(f, part, result, &report);
+        add_failed(f, part, result, &report);
         return TL_OK;
     }
-    return check_polygons(f, part, chunk.bytes);
+    return check_tile_polygons(f, part, chunk.bytes);
 }
 
 static void check_hull(findings *f, const char *part, tl_pack_chunk chunk)
@@ -153,7 +153,7 @@ static void check_hull(findings *f, const char *part, tl_pack_chunk chunk)
         result = tl_hull_validate(chunk.bytes, NULL, 0, &validation);
         report = validation.base;
     }
-    find_result(f, part, result, &report);
+    add_failed(f, part, result, &report);
 }
 
 static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
@@ -166,25 +166,25 @@ static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
     tl_report report;
     switch (chunk.type) {
     case TL_PACK_META:
-        find_result(f, part, tl_pack_meta_check(chunk.bytes, chunk.size, &report), &report);
+        add_failed(f, part, tl_pack_meta_check(chunk.bytes, chunk.size, &report), &report);
         break;
     case TL_PACK_SOUP:
-        find_result(f, part, tl_soup_check(chunk.bytes, chunk.size, &report), &report);
+        add_failed(f, part, tl_soup_check(chunk.bytes, chunk.size, &report), &report);
         break;
     case TL_PACK_HULL:
         check_hull(f, part, chunk);
         break;
     case TL_PACK_NAVM:
-        find_result(f, part, tl_pack_navmesh_check(chunk.bytes, chunk.size, &report), &report);
+        add_failed(f, part, tl_pack_navmesh_check(chunk.bytes, chunk.size, &report), &report);
         break;
     case TL_PACK_NAVT:
         memory = check_tile(f, part, chunk);
         break;
     case TL_PACK_LINK:
-        find_result(f, part, tl_nav_links_check(chunk.bytes, chunk.size, &report), &report);
+        add_failed(f, part, tl_nav_links_check(chunk.bytes, chunk.size, &report), &report);
         break;
     case TL_PACK_MARK:
-        find_result(f, part, tl_pack_volumes_check(chunk.bytes, chunk.size, &report), &report);
+        add_failed(f, part, tl_pack_volumes_check(chunk.bytes, chunk.size, &report), &report);
         break;
     default: // a later version may have more kinds; their bytes are covered by the file's hashes
         break;
@@ -207,7 +207,7 @@ static tl_result check_navmesh(findings *f, const tl_pack *pack)
         return TL_OK;
     }
     if (result != TL_OK) {
-        find_result(f, "navmesh", result, &report);
+        add_failed(f, "navmesh", result, &report);
         return result == TL_ERR_MEMORY ? result : TL_OK;
     }
     if (f->list == NULL) {
@@ -232,7 +232,7 @@ static tl_exit check_baked(findings *f, const char *path)
     memset(&report, 0, sizeof(report));
     report.element_index = TL_NO_ELEMENT;
     tl_result result = tl_pack_open(map.bytes, map.size, &pack, &report);
-    find_result(f, "file", result, &report);
+    add_failed(f, "file", result, &report);
     if (result == TL_OK) {
         say_ok(f, "file", map.size);
     }
@@ -242,7 +242,7 @@ static tl_exit check_baked(findings *f, const char *path)
     if (result == TL_OK && f->faults == 0) {
         result = check_navmesh(f, &pack);
     }
-    out_of_memory(f, result, &code);
+    is_out_of_memory(f, result, &code);
     tl_file_map_close(&map);
     return code;
 }
@@ -250,7 +250,7 @@ static tl_exit check_baked(findings *f, const char *path)
 // ---------------------------------------------------------------------------------------------------------
 // Mesh files: bakes take what is listed here, so it is no fault, but it is often not what was meant.
 
-static void note(findings *f, uint64_t count, const char *what)
+static void add_note(findings *f, uint64_t count, const char *what)
 {
     if (count == 0) {
         return;
@@ -272,13 +272,14 @@ static tl_exit check_mesh(findings *f, const char *path, const tl_level_settings
         tl_result result = tl_adjacency_bake(&view, &f->cli->host, &adjacency, NULL);
         tl_progress_end(&f->cli->progress);
         code = TL_EXIT_OK;
-        if (!out_of_memory(f, result, &code)) {
-            note(f, level.report.degenerate_triangles, "triangles without area, left out");
-            note(f, level.report.duplicate_triangles, "triangles that repeat another, left out");
-            note(f, level.imported.crooked_count, "polygons that cross themselves, cut as fans");
-            note(f, level.imported.skipped_lines, "lines of an unknown keyword, skipped");
-            note(f, adjacency.border_edges, "open edges: the surface is not closed there");
-            note(f, adjacency.non_manifold_edges, "edges of more than two triangles, or of two that face differently");
+        if (!is_out_of_memory(f, result, &code)) {
+            add_note(f, level.report.degenerate_triangles, "triangles without area, left out");
+            add_note(f, level.report.duplicate_triangles, "triangles that repeat another, left out");
+            add_note(f, level.imported.crooked_count, "polygons that cross themselves, cut as fans");
+            add_note(f, level.imported.skipped_lines, "lines of an unknown keyword, skipped");
+            add_note(f, adjacency.border_edges, "open edges: the surface is not closed there");
+            add_note(f, adjacency.non_manifold_edges,
+                     "edges of more than two triangles, or of two that face differently");
             if (f->list == NULL) {
                 printf("ok     %u triangles\n", level.mesh.triangle_count);
             }
@@ -289,20 +290,17 @@ static tl_exit check_mesh(findings *f, const char *path, const tl_level_settings
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_check(tl_cli *cli)
 {
-    tl_level_settings settings = tl_default_level_settings();
-    tl_option level_options[TL_LEVEL_OPTIONS];
-    tl_level_options(&settings, level_options);
-    const tl_option_group groups[] = { { "When FILE is a mesh:", level_options }, { NULL, NULL } };
+    tl_bake_settings settings = tl_default_bake_settings();
     tl_exit code;
-    if (!tl_cli_parse(cli, groups, 1, 1, &code)) {
+    if (!tl_input_parse(cli, NULL, TL_INPUT_LEVEL, &settings, 1, 1, &code)) {
         return code;
     }
     const char *path = cli->arguments.words[0];
     findings f = { cli, cli->json ? json_array() : NULL, 0 };
     bool baked = tl_input_is_baked(path);
-    code = baked ? check_baked(&f, path) : check_mesh(&f, path, &settings);
+    code = baked ? check_baked(&f, path) : check_mesh(&f, path, &settings.level);
     if (code == TL_EXIT_OK) {
         code = f.faults > 0 ? TL_EXIT_NEGATIVE : TL_EXIT_OK;
         if (cli->json) {
@@ -325,5 +323,5 @@ const tl_command tl_check_command = {
     "polygons are convex and simple and name each other as neighbours, and that tiles fit. Prints every\n"
     "finding; exit code 1 when there is a fault. Of a mesh file it prints what bakes leave out or mend.",
     "talus check courtyard.talus\ntalus check courtyard.obj --json",
-    run,
+    run_check,
 };

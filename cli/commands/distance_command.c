@@ -3,8 +3,8 @@
 // talus distance: how far two hulls are apart, and where they are nearest.
 
 #include "cli/level/open_hull.h"
-#include "cli/shared/batch.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/line_batch.h"
 #include "cli/shared/parse_value.h"
 
 #include <talus/convex.h>
@@ -111,7 +111,7 @@ static void answer_pose(const distance_query *query, tl_transform pose_b, tl_tex
     }
 }
 
-static bool answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
+static bool answer_pose_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
 {
     tl_transform pose;
     (void)worker;
@@ -138,13 +138,14 @@ static bool answer_given(const float *numbers, uint32_t count, tl_text *text, ui
     return true;
 }
 
-static tl_exit answer(tl_cli *cli, distance_query *query, const char *poses)
+static tl_exit answer_poses(tl_cli *cli, distance_query *query, const char *poses)
 {
-    const tl_batch batch = { poses, "px py pz [qx qy qz qw]", 3, 7, poses != NULL ? answer_line : answer_given, query };
+    const tl_batch batch = { poses, "px py pz [qx qy qz qw]", 3, 7, poses != NULL ? answer_pose_line : answer_given,
+                             query };
     return tl_batch_run(cli, &batch, NULL);
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_distance(tl_cli *cli)
 {
     distance_settings s;
     memset(&s, 0, sizeof(s));
@@ -181,7 +182,7 @@ static tl_exit run(tl_cli *cli)
         query.a = tl_convex_from_hull(a.hull, s.radius_a);
         query.b = tl_convex_from_hull(b.hull, s.radius_b);
         query.json = cli->json;
-        code = answer(cli, &query, s.poses);
+        code = answer_poses(cli, &query, s.poses);
     }
     tl_hull_input_close(&a);
     tl_hull_input_close(&b);
@@ -198,5 +199,5 @@ const tl_command tl_distance_command = {
     "talus distance rock.obj crate.obj --pose 3,0,0\n"
     "talus distance rock.obj crate.obj --pose 3,0,0,0,0.707107,0,0.707107 --json\n"
     "talus distance rock.obj crate.obj --poses poses.txt",
-    run,
+    run_distance,
 };

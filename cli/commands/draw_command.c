@@ -2,6 +2,7 @@
 //
 // talus draw: pictures of every stage, of a level or of a baked file.
 
+#include "cli/draw/draw_picture.h"
 #include "cli/draw/draw_route.h"
 #include "cli/draw/draw_sheet.h"
 #include "cli/draw/draw_source.h"
@@ -217,17 +218,11 @@ static bool add_pipeline_stage(draw_source *source, int stage, draw_scene *scene
     return true;
 }
 
-static const char *file_name(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    return slash != NULL ? slash + 1 : path;
-}
-
-static bool make_scene(draw_source *source, const draw_settings *settings, int stage, draw_scene *scene,
-                       tl_exit *exit_out)
+static bool make_stage_scene(draw_source *source, const draw_settings *settings, int stage, draw_scene *scene,
+                             tl_exit *exit_out)
 {
     draw_scene_init(scene, source->bounds);
-    snprintf(scene->title, sizeof scene->title, "%s: %s", file_name(source->input.path), STAGE_NAMES[stage]);
+    snprintf(scene->title, sizeof scene->title, "%s: %s", draw_file_name(source->input.path), STAGE_NAMES[stage]);
     // Coarse polygons dip under the ground between their corners. What is less than an agent's height above them is
     // their own floor, not one overhead.
     scene->overlay_bias = 0.95f * source->nav_def.agent_height;
@@ -257,7 +252,7 @@ static bool draw_scene_of_stage(draw_source *source, const draw_settings *settin
                                 char summary[DRAW_STEPS_SUMMARY], tl_exit *exit_out)
 {
     draw_scene scene;
-    bool done = make_scene(source, settings, stage, &scene, exit_out);
+    bool done = make_stage_scene(source, settings, stage, &scene, exit_out);
     if (done) {
         const draw_options options = { settings->view != 2, settings->view != 1, settings->size };
         tl_io_error error;
@@ -291,7 +286,7 @@ static bool draw_steps_of_stage(draw_source *source, const draw_settings *settin
     }
     const draw_steps_options options = { stage == STAGE_MERGING ? TL_POLYGON_STEP_MERGE : TL_POLYGON_STEP_CUT, contour,
                                          source->nav_def.max_verts_per_poly, settings->size / 3,
-                                         file_name(source->input.path) };
+                                         draw_file_name(source->input.path) };
     tl_io_error error;
     memset(&error, 0, sizeof error);
     tl_result result = draw_steps_write(set, &options, path, &source->cli->host, summary, &error);
@@ -327,7 +322,7 @@ static bool add_to_overview(draw_source *source, const draw_settings *settings, 
                             tl_exit *exit_out)
 {
     draw_scene scene;
-    bool done = make_scene(source, settings, stage, &scene, exit_out);
+    bool done = make_stage_scene(source, settings, stage, &scene, exit_out);
     if (done) {
         const draw_options options = { settings->view != 2, settings->view == 2, settings->size / 2 };
         tl_io_error error;
@@ -404,7 +399,7 @@ static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *s
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_draw(tl_cli *cli)
 {
     draw_settings settings;
     memset(&settings, 0, sizeof settings);
@@ -435,16 +430,9 @@ static tl_exit run(tl_cli *cli)
           "path: for an agent wider than the navmesh was made for", NULL, 0, 1e6f, 0, 0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option level_options[TL_LEVEL_OPTIONS];
-    tl_option nav_options[TL_NAV_OPTIONS];
-    tl_level_options(&settings.bake.level, level_options);
-    tl_nav_options(&settings.bake, nav_options);
-    const tl_option_group groups[] = { { "Options:", options },
-                                       { "Reading the level:", level_options },
-                                       { "Navmesh (a baked file brings its own):", nav_options },
-                                       { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
     tl_exit code = TL_EXIT_OK;
-    if (!tl_cli_parse(cli, groups, 1, 1, &code) || !tl_bake_take_bounds(cli, &settings.bake, &code) ||
+    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 1, &code) ||
         !read_ends(cli, &settings, &code) || !choose_stages(cli, &settings, &code)) {
         return code;
     }
@@ -467,5 +455,5 @@ const tl_command tl_draw_command = {
     "talus draw courtyard.obj -o courtyard.png --overview\n"
     "talus draw courtyard.talus -o way.svg --from 2,0,20 --to 38,0,20 --view top\n"
     "talus draw courtyard.obj -o steps.png --stage triangulation,merging --contour 0",
-    run,
+    run_draw,
 };

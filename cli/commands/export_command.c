@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static tl_exit print_report(tl_cli *cli, const char *output, uint64_t size, const tl_detour_report *report)
+static tl_exit print_export_report(tl_cli *cli, const char *output, uint64_t size, const tl_detour_report *report)
 {
     if (report->plain_patches > 0) {
         tl_cli_warn(cli, "%u polygons have more height detail than Detour's 255 vertices or triangles: written flat",
@@ -55,14 +55,14 @@ static tl_exit export_navmesh(tl_cli *cli, const tl_input *input, tl_detour_refs
     } else if (tl_atomic_write(output, bytes, size, &error) != TL_OK) {
         code = tl_cli_fail_io(cli, &error);
     } else {
-        code = print_report(cli, output, size, &report);
+        code = print_export_report(cli, output, size, &report);
     }
     free(bytes);
     free(tiles);
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_export(tl_cli *cli)
 {
     const char *output = NULL;
     int refs = 0;
@@ -74,16 +74,9 @@ static tl_exit run(tl_cli *cli)
           0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option level_options[TL_LEVEL_OPTIONS];
-    tl_option nav_options[TL_NAV_OPTIONS];
-    tl_level_options(&settings.level, level_options);
-    tl_nav_options(&settings, nav_options);
-    const tl_option_group groups[] = { { "Options:", options },
-                                       { "Reading the level:", level_options },
-                                       { "Navmesh (a baked file brings its own):", nav_options },
-                                       { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
     tl_exit code;
-    if (!tl_cli_parse(cli, groups, 1, 1, &code) || !tl_bake_take_bounds(cli, &settings, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings, 1, 1, &code)) {
         return code;
     }
     if (output == NULL) {
@@ -106,5 +99,5 @@ const tl_command tl_export_command = {
     "version 7), the file that RecastDemo loads. Detour's polygons have at most 6 corners and 16 flags.",
     "talus export courtyard.talus -o courtyard.bin\n"
     "talus export city.obj -o city.bin --tile-size 64 --refs 64",
-    run,
+    run_export,
 };

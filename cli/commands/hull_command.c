@@ -47,7 +47,7 @@ static void print_hull(const tl_hull *hull, uint32_t points, const tl_hull_repor
 }
 
 // Faces are polygons, in the hull's own order.
-static tl_result write_obj(const tl_hull *hull, const char *output, tl_io_error *error)
+static tl_result write_hull_obj(const tl_hull *hull, const char *output, tl_io_error *error)
 {
     tl_obj_writer *writer;
     tl_result result = tl_obj_writer_open(output, &writer, error);
@@ -75,12 +75,12 @@ static tl_result write_obj(const tl_hull *hull, const char *output, tl_io_error 
     return tl_obj_writer_commit(writer, error);
 }
 
-static tl_result write_bytes(const void *bytes, size_t size, void *user)
+static tl_result write_hull_bytes(const void *bytes, size_t size, void *user)
 {
     return tl_atomic_file_write(user, bytes, size, NULL);
 }
 
-static tl_result write_baked(const tl_hull *hull, const char *output, tl_io_error *error)
+static tl_result write_baked_hull(const tl_hull *hull, const char *output, tl_io_error *error)
 {
     tl_atomic_file *file;
     tl_result result = tl_atomic_file_open(output, &file, error);
@@ -88,7 +88,7 @@ static tl_result write_baked(const tl_hull *hull, const char *output, tl_io_erro
         return result;
     }
     tl_pack_item item = { TL_PACK_HULL, 0, hull, hull->blob.size };
-    result = tl_pack_write(&item, 1, NULL, write_bytes, file, NULL);
+    result = tl_pack_write(&item, 1, NULL, write_hull_bytes, file, NULL);
     if (result == TL_ERR_MEMORY) {
         tl_atomic_file_abort(file);
         return tl_io_fail(error, result, output, 0, NULL, "out of memory");
@@ -110,8 +110,8 @@ static tl_exit hull_of_one(tl_cli *cli, const tl_hull_settings *settings, const 
         tl_io_error error;
         memset(&error, 0, sizeof(error));
         code = TL_EXIT_OK;
-        if (output != NULL && (is_baked_name(output) ? write_baked(input.hull, output, &error)
-                                                     : write_obj(input.hull, output, &error)) != TL_OK) {
+        if (output != NULL && (is_baked_name(output) ? write_baked_hull(input.hull, output, &error)
+                                                     : write_hull_obj(input.hull, output, &error)) != TL_OK) {
             code = tl_cli_fail_io(cli, &error);
         } else if (output != NULL && strcmp(output, "-") == 0) {
             code = TL_EXIT_OK; // the hull itself went to standard output
@@ -165,7 +165,7 @@ static tl_exit hulls_of_all(tl_cli *cli, const tl_hull_settings *settings, const
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_hull(tl_cli *cli)
 {
     const char *output = NULL;
     bool all = false;
@@ -208,5 +208,5 @@ const tl_command tl_hull_command = {
     "talus hull rock.obj -o hull.obj\n"
     "talus hull points.txt --json\n"
     "talus hull clouds.txt --all",
-    run,
+    run_hull,
 };

@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static tl_result make_content(const char *path, const tl_detour_tiles *tiles, tl_pack_content *content)
+static tl_result make_imported_content(const char *path, const tl_detour_tiles *tiles, tl_pack_content *content)
 {
     tl_result result = tl_pack_content_make(tiles->tile_count + 2, content);
     if (result != TL_OK) {
@@ -50,7 +50,7 @@ static tl_result make_content(const char *path, const tl_detour_tiles *tiles, tl
 }
 
 // What could not be taken as it came is said, not kept.
-static void warn(tl_cli *cli, const char *path, const tl_detour_report *report)
+static void warn_of_losses(tl_cli *cli, const char *path, const tl_detour_report *report)
 {
     if (report->dropped_polygons > 0) {
         tl_cli_warn(cli, "%s: %u polygons without area or not convex were left out", path, report->dropped_polygons);
@@ -69,7 +69,7 @@ static void warn(tl_cli *cli, const char *path, const tl_detour_report *report)
     }
 }
 
-static tl_exit print_report(tl_cli *cli, const char *output, uint64_t size, const tl_detour_report *r)
+static tl_exit print_import_report(tl_cli *cli, const char *output, uint64_t size, const tl_detour_report *r)
 {
     if (cli->json) {
         return tl_cli_print_json(
@@ -95,20 +95,20 @@ static tl_exit import_bytes(tl_cli *cli, const char *path, const tl_file_map *ma
     }
     tl_pack_content content;
     uint64_t size = 0;
-    result = make_content(path, &tiles, &content);
+    result = make_imported_content(path, &tiles, &content);
     tl_exit code = result == TL_OK ? tl_pack_content_write(cli, output, &content, &size)
                                    : tl_cli_fail_result(cli, path, result, NULL);
     tl_progress_end(&cli->progress);
     if (code == TL_EXIT_OK) {
-        warn(cli, path, &report);
-        code = print_report(cli, output, size, &report);
+        warn_of_losses(cli, path, &report);
+        code = print_import_report(cli, output, size, &report);
     }
     tl_pack_content_free(&content);
     tl_detour_tiles_free(&tiles);
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_import(tl_cli *cli)
 {
     const char *output = NULL;
     tl_detour_read_def def = tl_default_detour_read_def();
@@ -146,5 +146,5 @@ const tl_command tl_import_command = {
     "off-mesh connections are left out, and counted.",
     "talus import all_tiles_navmesh.bin -o level.talus\n"
     "talus import solo_navmesh.bin -o level.talus --json",
-    run,
+    run_import,
 };

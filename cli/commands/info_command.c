@@ -71,9 +71,9 @@ typedef struct baked_info {
 } baked_info;
 
 // A missing part is no failure, a damaged one is.
-static bool take_chunk(tl_cli *cli, const tl_input *input, uint32_t type,
-                       tl_result (*check)(const void *, uint64_t, tl_report *), const void **chunk_out,
-                       tl_exit *exit_out)
+static bool take_checked_chunk(tl_cli *cli, const tl_input *input, uint32_t type,
+                               tl_result (*check)(const void *, uint64_t, tl_report *), const void **chunk_out,
+                               tl_exit *exit_out)
 {
     tl_result result;
     *chunk_out = tl_input_checked_chunk(input, type, check, &result);
@@ -84,15 +84,15 @@ static bool take_chunk(tl_cli *cli, const tl_input *input, uint32_t type,
     return true;
 }
 
-static bool collect(tl_cli *cli, const tl_input *input, baked_info *info_out, tl_exit *exit_out)
+static bool collect_baked_info(tl_cli *cli, const tl_input *input, baked_info *info_out, tl_exit *exit_out)
 {
     const void *chunk[5];
     memset(info_out, 0, sizeof(*info_out));
-    if (!take_chunk(cli, input, TL_PACK_META, tl_pack_meta_check, &chunk[0], exit_out) ||
-        !take_chunk(cli, input, TL_PACK_SOUP, tl_soup_check, &chunk[1], exit_out) ||
-        !take_chunk(cli, input, TL_PACK_HULL, tl_hull_check, &chunk[2], exit_out) ||
-        !take_chunk(cli, input, TL_PACK_NAVM, tl_pack_navmesh_check, &chunk[3], exit_out) ||
-        !take_chunk(cli, input, TL_PACK_LINK, tl_nav_links_check, &chunk[4], exit_out)) {
+    if (!take_checked_chunk(cli, input, TL_PACK_META, tl_pack_meta_check, &chunk[0], exit_out) ||
+        !take_checked_chunk(cli, input, TL_PACK_SOUP, tl_soup_check, &chunk[1], exit_out) ||
+        !take_checked_chunk(cli, input, TL_PACK_HULL, tl_hull_check, &chunk[2], exit_out) ||
+        !take_checked_chunk(cli, input, TL_PACK_NAVM, tl_pack_navmesh_check, &chunk[3], exit_out) ||
+        !take_checked_chunk(cli, input, TL_PACK_LINK, tl_nav_links_check, &chunk[4], exit_out)) {
         return false;
     }
     info_out->meta = chunk[0];
@@ -293,7 +293,7 @@ static tl_exit info_of_baked(tl_cli *cli, const char *path)
     tl_input input;
     baked_info info;
     tl_exit code;
-    if (tl_input_open_baked(cli, path, &input, &code) && collect(cli, &input, &info, &code)) {
+    if (tl_input_open_baked(cli, path, &input, &code) && collect_baked_info(cli, &input, &info, &code)) {
         code = TL_EXIT_OK;
         if (cli->json) {
             code = tl_cli_print_json(cli, baked_json(&input, &info));
@@ -402,18 +402,15 @@ static tl_exit info_of_mesh(tl_cli *cli, const char *path, const tl_level_settin
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_info(tl_cli *cli)
 {
-    tl_level_settings settings = tl_default_level_settings();
-    tl_option level_options[TL_LEVEL_OPTIONS];
-    tl_level_options(&settings, level_options);
-    const tl_option_group groups[] = { { "When FILE is a mesh:", level_options }, { NULL, NULL } };
+    tl_bake_settings settings = tl_default_bake_settings();
     tl_exit code;
-    if (!tl_cli_parse(cli, groups, 1, 1, &code)) {
+    if (!tl_input_parse(cli, NULL, TL_INPUT_LEVEL, &settings, 1, 1, &code)) {
         return code;
     }
     const char *path = cli->arguments.words[0];
-    return tl_input_is_baked(path) ? info_of_baked(cli, path) : info_of_mesh(cli, path, &settings);
+    return tl_input_is_baked(path) ? info_of_baked(cli, path) : info_of_mesh(cli, path, &settings.level);
 }
 
 const tl_command tl_info_command = {
@@ -422,5 +419,5 @@ const tl_command tl_info_command = {
     "FILE [options]",
     "Prints counts, sizes, bounds and settings of a baked file, or counts of a mesh file as it is read.",
     "talus info courtyard.talus\ntalus info courtyard.obj --json",
-    run,
+    run_info,
 };

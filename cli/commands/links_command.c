@@ -2,7 +2,7 @@
 //
 // talus links: the drops, jumps and climbs of a level, found, proven, counted, drawn, and put into its baked file.
 
-#include "cli/draw/draw_sheet.h"
+#include "cli/draw/draw_picture.h"
 #include "cli/draw/draw_source.h"
 #include "cli/draw/draw_stage.h"
 #include "cli/level/write_pack.h"
@@ -19,7 +19,7 @@ typedef struct links_settings {
 } links_settings;
 
 // The file's chunks with these links in the place of those it had.
-static tl_exit write_baked(tl_cli *cli, const draw_source *source, const tl_nav_links *links, const char *output)
+static tl_exit write_baked_links(tl_cli *cli, const draw_source *source, const tl_nav_links *links, const char *output)
 {
     const tl_pack *pack = &source->input.pack;
     tl_pack_content content;
@@ -41,36 +41,25 @@ static tl_exit write_baked(tl_cli *cli, const draw_source *source, const tl_nav_
     return code;
 }
 
-static tl_exit draw(tl_cli *cli, const draw_source *source, const tl_nav_links *links, const links_settings *settings)
+static tl_exit draw_links(draw_source *source, const tl_nav_links *links, const links_settings *settings)
 {
     draw_scene scene;
-    draw_scene_init(&scene, source->bounds);
-    const char *slash = strrchr(source->input.path, '/');
-    snprintf(scene.title, sizeof scene.title, "%s: links", slash != NULL ? slash + 1 : source->input.path);
-    scene.overlay_bias = 0.95f * source->nav_def.agent_height;
-    draw_add_backdrop(&scene, &source->mesh);
+    draw_picture_begin(source, "links", &scene);
     draw_stage_links(&scene, source->input.navmesh, links);
-    const draw_options options = { true, true, settings->size };
-    tl_io_error error;
-    memset(&error, 0, sizeof error);
     tl_exit code = TL_EXIT_OK;
-    if (draw_sheet_write(&scene, &options, settings->picture, &cli->host, &error) != TL_OK) {
-        code = tl_cli_fail_io(cli, &error);
-    }
-    draw_scene_free(&scene);
+    (void)draw_picture_end(source, &scene, settings->size, settings->picture, &code);
     return code;
 }
 
-static tl_exit report(tl_cli *cli, const tl_nav_links *links, const tl_nav_links_report *found,
-                      const links_settings *settings)
+static tl_exit report_links(tl_cli *cli, const tl_level_links *found, const links_settings *settings)
 {
     tl_progress_end(&cli->progress);
     if (!cli->json) {
-        tl_level_links_print(found);
+        tl_level_links_print(&found->report);
         return TL_EXIT_OK;
     }
-    json_t *object = tl_level_links_json(found);
-    json_object_set_new(object, "links", tl_level_links_list_json(links));
+    json_t *object = tl_level_links_json(&found->report);
+    json_object_set_new(object, "links", tl_level_links_list_json(found->links));
     if (settings->output != NULL) {
         json_object_set_new(object, "output", tl_json_text(settings->output));
     }
@@ -87,13 +76,13 @@ static void drop_links(tl_navmesh *navmesh)
     }
 }
 
-static tl_exit find(tl_cli *cli, const links_settings *settings)
+static tl_exit find_level_links(tl_cli *cli, const links_settings *settings)
 {
     const char *path = cli->arguments.words[0];
     draw_source source;
     tl_exit code;
-    tl_nav_links *links = NULL;
-    tl_nav_links_report found;
+    tl_level_links found;
+    memset(&found, 0, sizeof found);
     bool open = draw_source_open(cli, path, &settings->bake, 0, &source, &code);
     if (open && (source.is_bare || source.is_contours)) {
         code = tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no triangles to prove links with", path);
@@ -107,18 +96,17 @@ static tl_exit find(tl_cli *cli, const links_settings *settings)
     if (open) {
         drop_links(source.input.navmesh);
     }
-    if (open && tl_level_links_find(cli, path, &settings->bake.links_def, source.input.navmesh, source.soup, &links,
-                                    &found, &code)) {
-        code = settings->output != NULL ? write_baked(cli, &source, links, settings->output) : TL_EXIT_OK;
-        code = code == TL_EXIT_OK && settings->picture != NULL ? draw(cli, &source, links, settings) : code;
-        code = code == TL_EXIT_OK ? report(cli, links, &found, settings) : code;
+    if (open && tl_level_links_find(cli, &settings->bake.links_def, source.input.navmesh, source.soup, &found, &code)) {
+        code = settings->output != NULL ? write_baked_links(cli, &source, found.links, settings->output) : TL_EXIT_OK;
+        code = code == TL_EXIT_OK && settings->picture != NULL ? draw_links(&source, found.links, settings) : code;
+        code = code == TL_EXIT_OK ? report_links(cli, &found, settings) : code;
     }
-    tl_blob_free(links);
+    tl_blob_free(found.links);
     draw_source_close(&source);
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_links(tl_cli *cli)
 {
     links_settings settings;
     memset(&settings, 0, sizeof settings);
@@ -133,21 +121,15 @@ static tl_exit run(tl_cli *cli)
         TL_OPTION_TABLE_END,
     };
     tl_option link_options[TL_LINK_OPTIONS];
-    tl_option level_options[TL_LEVEL_OPTIONS];
-    tl_option nav_options[TL_NAV_OPTIONS];
     tl_link_options(&settings.bake.links_def, link_options);
-    tl_level_options(&settings.bake.level, level_options);
-    tl_nav_options(&settings.bake, nav_options);
     const tl_option_group groups[] = { { "Options:", options },
                                        { "What an agent can do:", link_options },
-                                       { "When FILE is a level:", level_options },
-                                       { "When FILE is a level, for its navmesh:", nav_options },
                                        { NULL, NULL } };
     tl_exit code;
-    if (!tl_cli_parse(cli, groups, 1, 1, &code) || !tl_bake_take_bounds(cli, &settings.bake, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 1, &code)) {
         return code;
     }
-    return find(cli, &settings);
+    return find_level_links(cli, &settings);
 }
 
 const tl_command tl_links_command = {
@@ -160,5 +142,5 @@ const tl_command tl_links_command = {
     "memory. With -o the links are written into the baked file: talus path uses them from then on.",
     "talus links castle.talus -o castle.talus --drop 5 --jump 2.5 --draw links.png\n"
     "talus links castle.obj --climb 0 --json",
-    run,
+    run_links,
 };

@@ -3,8 +3,8 @@
 // talus nearest: the nearest point of the level, or whether a point is inside of it.
 
 #include "cli/level/open_input.h"
-#include "cli/shared/batch.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/line_batch.h"
 
 #include <string.h>
 
@@ -26,7 +26,7 @@ static const char *feature_name(tl_triangle_feature feature)
     return feature == TL_TRIANGLE_FACE ? "face" : feature < TL_TRIANGLE_CORNER_0 ? "edge" : "corner";
 }
 
-static void write_json_point(tl_text *text, const tl_soup_point *found)
+static void write_json_found_point(tl_text *text, const tl_soup_point *found)
 {
     tl_text_add(text, "{\"found\":true,\"distance\":");
     tl_text_add_json_float(text, found->distance);
@@ -41,7 +41,7 @@ static void write_json_point(tl_text *text, const tl_soup_point *found)
     tl_text_add(text, found->back ? ",\"back\":true}\n" : ",\"back\":false}\n");
 }
 
-static void write_point(tl_text *text, const tl_soup_point *found)
+static void write_found_point(tl_text *text, const tl_soup_point *found)
 {
     const float floats[3] = { found->point.x, found->point.y, found->point.z };
     tl_text_add_float(text, found->distance);
@@ -77,13 +77,13 @@ static bool answer_inside(const nearest_query *query, tl_vec3 at, tl_text *text)
 }
 
 // Answers one point; returns whether there is something near it.
-static bool answer_point(const float *n, uint32_t count, tl_text *text, uint32_t worker, void *user)
+static bool answer_nearest(const float *n, uint32_t count, tl_text *text, uint32_t worker, void *user)
 {
     const nearest_query *query = user;
     const nearest_settings *settings = query->settings;
     (void)count;
     (void)worker;
-    tl_vec3 at = tl_vec3_make(n[0], n[1], n[2]), zero = tl_vec3_make(0.0f, 0.0f, 0.0f);
+    tl_vec3 at = tl_vec3_make(n[0], n[1], n[2]);
     if (settings->inside) {
         return answer_inside(query, at, text);
     }
@@ -92,13 +92,10 @@ static bool answer_point(const float *n, uint32_t count, tl_text *text, uint32_t
         tl_text_add(text, settings->json ? "{\"found\":false}\n" : "none\n");
         return false;
     }
-    // Zero has no sign here: -0 would only puzzle a reader.
-    found.point = tl_add(found.point, zero);
-    found.normal = tl_add(found.normal, zero);
     if (settings->json) {
-        write_json_point(text, &found);
+        write_json_found_point(text, &found);
     } else {
-        write_point(text, &found);
+        write_found_point(text, &found);
     }
     return true;
 }
@@ -114,7 +111,7 @@ static void warn_when_open(tl_cli *cli, const nearest_query *query)
     }
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_nearest(tl_cli *cli)
 {
     nearest_settings settings;
     memset(&settings, 0, sizeof(settings));
@@ -128,27 +125,21 @@ static tl_exit run(tl_cli *cli)
           "say whether the point is inside of a closed surface: inside, outside, surface, or open", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option level_options[TL_LEVEL_OPTIONS];
-    tl_level_options(&settings.bake.level, level_options);
-    const tl_option_group groups[] = { { "Options:", options },
-                                       { "When FILE is a level:", level_options },
-                                       { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
     tl_exit code;
     float numbers[3] = { 0 };
-    if (!tl_cli_parse(cli, groups, 1, 2, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_LEVEL, &settings.bake, 1, 2, &code)) {
         return code;
     }
     settings.json = cli->json;
-    if ((settings.points != NULL) == (cli->arguments.count > 1)) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "give a point behind FILE, or many with --points");
-    }
-    if (settings.points == NULL && !tl_cli_read_triple(cli, 1, "point", numbers, &code)) {
+    static const tl_question_words words = { "point", NULL, "points" };
+    if (!tl_question_read(cli, &words, settings.points, numbers, &code)) {
         return code;
     }
     tl_input input;
     if (tl_input_open_soup(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
         nearest_query query = { input.soup, &settings };
-        tl_batch batch = { settings.points, "x y z", 3, 3, answer_point, &query };
+        tl_batch batch = { settings.points, "x y z", 3, 3, answer_nearest, &query };
         if (settings.inside) {
             warn_when_open(cli, &query);
         }
@@ -170,5 +161,5 @@ const tl_command tl_nearest_command = {
     "talus nearest courtyard.talus 20,10,20\n"
     "talus nearest courtyard.talus 20,10,20 --max-distance 2 --json\n"
     "echo '20 10 20' | talus nearest house.obj --points - --inside",
-    run,
+    run_nearest,
 };

@@ -4,8 +4,8 @@
 
 #include "cli/level/open_input.h"
 #include "cli/level/shape_option.h"
-#include "cli/shared/batch.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/line_batch.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -36,9 +36,9 @@ static void write_list(tl_text *text, const uint32_t *triangles, uint32_t count,
 }
 
 // Answers one point; returns whether anything is touched.
-static bool answer_point(const float *n, uint32_t number_count, tl_text *text, uint32_t worker, void *user)
+static bool answer_overlap(const float *n, uint32_t number_count, tl_text *text, uint32_t worker, void *user)
 {
-    enum { FEW = 256 };
+    enum { FEW_OVERLAPS = 256 };
     const overlap_query *query = user;
     (void)number_count;
     (void)worker;
@@ -53,8 +53,9 @@ static bool answer_point(const float *n, uint32_t number_count, tl_text *text, u
                                          : "free\n");
         return touches;
     }
-    uint32_t few[FEW], *triangles = few, count = 0;
-    tl_result result = tl_soup_find_overlaps(query->soup, &settings->shape.shape, pose, NULL, few, FEW, &count);
+    uint32_t few[FEW_OVERLAPS], *triangles = few, count = 0;
+    tl_result result =
+        tl_soup_find_overlaps(query->soup, &settings->shape.shape, pose, NULL, few, FEW_OVERLAPS, &count);
     if (result == TL_INCOMPLETE) {
         triangles = malloc(count * sizeof(*triangles));
         if (triangles == NULL) {
@@ -70,7 +71,7 @@ static bool answer_point(const float *n, uint32_t number_count, tl_text *text, u
     return count > 0;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_overlap(tl_cli *cli)
 {
     overlap_settings settings;
     memset(&settings, 0, sizeof(settings));
@@ -83,28 +84,24 @@ static tl_exit run(tl_cli *cli)
           0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option level_options[TL_LEVEL_OPTIONS], shape_options[TL_SHAPE_OPTIONS];
-    tl_level_options(&settings.bake.level, level_options);
+    tl_option shape_options[TL_SHAPE_OPTIONS];
     tl_shape_options(&settings.shape, shape_options);
-    const tl_option_group groups[] = {
-        { "Options:", options }, { "Shape:", shape_options }, { "When FILE is a level:", level_options }, { NULL, NULL }
-    };
+    const tl_option_group groups[] = { { "Options:", options }, { "Shape:", shape_options }, { NULL, NULL } };
     tl_exit code;
     float numbers[3] = { 0 };
-    if (!tl_cli_parse(cli, groups, 1, 2, &code) || !tl_shape_option_read(cli, &settings.shape, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_LEVEL, &settings.bake, 1, 2, &code) ||
+        !tl_shape_option_read(cli, &settings.shape, &code)) {
         return code;
     }
     settings.json = cli->json;
-    if ((settings.points != NULL) == (cli->arguments.count > 1)) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "give a point behind FILE, or many with --points");
-    }
-    if (settings.points == NULL && !tl_cli_read_triple(cli, 1, "point", numbers, &code)) {
+    static const tl_question_words words = { "point", NULL, "points" };
+    if (!tl_question_read(cli, &words, settings.points, numbers, &code)) {
         return code;
     }
     tl_input input;
     if (tl_input_open_soup(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
         overlap_query query = { input.soup, &settings };
-        tl_batch batch = { settings.points, "x y z", 3, 3, answer_point, &query };
+        tl_batch batch = { settings.points, "x y z", 3, 3, answer_overlap, &query };
         code = tl_batch_run(cli, &batch, numbers);
     }
     tl_input_close(&input);
@@ -123,5 +120,5 @@ const tl_command tl_overlap_command = {
     "talus overlap courtyard.talus 20,5,20 --radius 0.4\n"
     "talus overlap courtyard.talus 20,5.1,20 --radius 0.4 --height 1.8 --any\n"
     "echo '20 5 20' | talus overlap courtyard.obj --points - --half 1,1,1 --json",
-    run,
+    run_overlap,
 };

@@ -2,11 +2,11 @@
 //
 // talus path: the way from one point to another, one pair or many.
 
+#include "cli/level/agent_route.h"
 #include "cli/level/navmesh_query.h"
 #include "cli/level/open_input.h"
-#include "cli/level/wide_route.h"
-#include "cli/shared/batch.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/line_batch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -25,21 +25,21 @@ typedef struct path_settings {
 } path_settings;
 
 // What one worker searches with. Buffers grow when a route needs more.
-typedef struct searcher {
+typedef struct path_searcher {
     tl_nav_query *query;
     tl_nav_path_buffers buffers;
-} searcher;
+} path_searcher;
 
 typedef struct path_queries {
     const tl_navmesh *navmesh;
     const path_settings *settings;
-    searcher *searchers; // one a worker
+    path_searcher *searchers; // one a worker
     uint32_t searcher_count;
 } path_queries;
 
-enum { FIRST_CAPACITY = 1024 };
+enum { FIRST_ROUTE_CAPACITY = 1024 };
 
-static bool grow(searcher *s, uint32_t polygons, uint32_t corners)
+static bool grow_route_buffers(path_searcher *s, uint32_t polygons, uint32_t corners)
 {
     if (polygons > s->buffers.polygon_capacity) {
         tl_nav_ref *moved = realloc(s->buffers.polygons, polygons * sizeof(*moved));
@@ -62,7 +62,7 @@ static bool grow(searcher *s, uint32_t polygons, uint32_t corners)
 
 // A route's corners may outnumber its polygons by the two ends; a second growth happens when only the first count was
 // known.
-static tl_result find_route(const path_queries *queries, searcher *s, const float *n, tl_nav_route *route)
+static tl_result find_pair_route(const path_queries *queries, path_searcher *s, const float *n, tl_nav_route *route)
 {
     const tl_nav_route_request request = { .start = tl_vec3_make(n[0], n[1], n[2]),
                                            .goal = tl_vec3_make(n[3], n[4], n[5]),
@@ -70,18 +70,16 @@ static tl_result find_route(const path_queries *queries, searcher *s, const floa
     tl_result result = TL_INCOMPLETE;
     for (unsigned trial = 0; trial < 3 && result == TL_INCOMPLETE; ++trial) {
         memset(route, 0, sizeof(*route));
-        result = queries->settings->radius > 0.0f
-                     ? tl_find_wide_route(s->query, queries->navmesh, &request, queries->settings->radius, &s->buffers,
-                                          route)
-                     : tl_nav_query_find_route(s->query, queries->navmesh, &request, &s->buffers, route);
-        if (result == TL_INCOMPLETE && !grow(s, route->path.polygon_count, route->corner_count + 2)) {
+        result =
+            tl_agent_route_find(s->query, queries->navmesh, &request, queries->settings->radius, &s->buffers, route);
+        if (result == TL_INCOMPLETE && !grow_route_buffers(s, route->path.polygon_count, route->corner_count + 2)) {
             return TL_ERR_MEMORY;
         }
     }
     return result;
 }
 
-static void write_corners(tl_text *text, const searcher *s, const tl_nav_route *route, bool json)
+static void write_route_corners(tl_text *text, const path_searcher *s, const tl_nav_route *route, bool json)
 {
     for (uint32_t i = 0; i < route->corner_count; ++i) {
         if (json) {
@@ -95,7 +93,7 @@ static void write_corners(tl_text *text, const searcher *s, const tl_nav_route *
 }
 
 // The corners at which an off-mesh link is taken, where there are any.
-static void write_json_links(tl_text *text, const searcher *s, const tl_nav_route *route)
+static void write_json_links(tl_text *text, const path_searcher *s, const tl_nav_route *route)
 {
     bool any = false;
     for (uint32_t i = 0; i < route->corner_count; ++i) {
@@ -108,7 +106,7 @@ static void write_json_links(tl_text *text, const searcher *s, const tl_nav_rout
     tl_text_add(text, any ? "]" : "");
 }
 
-static void write_json_route(tl_text *text, const searcher *s, const tl_nav_route *route, tl_result result)
+static void write_json_route(tl_text *text, const path_searcher *s, const tl_nav_route *route, tl_result result)
 {
     if (result == TL_NOT_FOUND) {
         bool start = route->start.polygon == TL_NAV_NO_REF;
@@ -122,13 +120,14 @@ static void write_json_route(tl_text *text, const searcher *s, const tl_nav_rout
     tl_text_add(text, ",\"polygons\":");
     tl_text_add_count(text, route->path.polygon_count);
     tl_text_add(text, ",\"corners\":[");
-    write_corners(text, s, route, true);
+    write_route_corners(text, s, route, true);
     tl_text_add(text, "]");
     write_json_links(text, s, route);
     tl_text_add(text, "}\n");
 }
 
-static void write_route(tl_text *text, const searcher *s, const tl_nav_route *route, tl_result result, bool partial)
+static void write_route(tl_text *text, const path_searcher *s, const tl_nav_route *route, tl_result result,
+                        bool partial)
 {
     if (result == TL_NOT_FOUND) {
         bool start = route->start.polygon == TL_NAV_NO_REF;
@@ -139,7 +138,7 @@ static void write_route(tl_text *text, const searcher *s, const tl_nav_route *ro
     if (complete || partial) {
         tl_text_add(text, complete ? "" : "partial ");
         tl_text_add_float(text, route->length);
-        write_corners(text, s, route, false);
+        write_route_corners(text, s, route, false);
     } else {
         tl_vec3 end = s->buffers.corners[route->corner_count - 1].point;
         tl_text_add(text, "none: ");
@@ -153,10 +152,10 @@ static void write_route(tl_text *text, const searcher *s, const tl_nav_route *ro
 }
 
 // Returns whether the goal is reached.
-static bool answer_pair(const path_queries *queries, searcher *s, const float *numbers, tl_text *text)
+static bool answer_pair(const path_queries *queries, path_searcher *s, const float *numbers, tl_text *text)
 {
     tl_nav_route route;
-    tl_result result = find_route(queries, s, numbers, &route);
+    tl_result result = find_pair_route(queries, s, numbers, &route);
     if (result != TL_OK && result != TL_NOT_FOUND) {
         bool json = queries->settings->json;
         text->failed = text->failed || result == TL_ERR_MEMORY;
@@ -173,7 +172,7 @@ static bool answer_pair(const path_queries *queries, searcher *s, const float *n
     return result == TL_OK && route.path.status == TL_NAV_PATH_COMPLETE;
 }
 
-static bool answer_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
+static bool answer_pair_line(const float *numbers, uint32_t count, tl_text *text, uint32_t worker, void *user)
 {
     const path_queries *queries = user;
     (void)count;
@@ -202,8 +201,9 @@ static bool make_searchers(path_queries *queries, uint32_t count)
     }
     for (uint32_t i = 0; i < count; ++i) {
         queries->searcher_count = i + 1;
-        searcher *s = &queries->searchers[i];
-        if (tl_nav_query_create(&def, &s->query) != TL_OK || !grow(s, FIRST_CAPACITY, FIRST_CAPACITY)) {
+        path_searcher *s = &queries->searchers[i];
+        if (tl_nav_query_create(&def, &s->query) != TL_OK ||
+            !grow_route_buffers(s, FIRST_ROUTE_CAPACITY, FIRST_ROUTE_CAPACITY)) {
             return false;
         }
     }
@@ -211,7 +211,7 @@ static bool make_searchers(path_queries *queries, uint32_t count)
 }
 
 // Many wide paths pay for a look around each polygon; for the others that is the user's to say. False: out of memory.
-static bool prepare(tl_navmesh *navmesh, const path_settings *settings)
+static bool prepare_navmesh(tl_navmesh *navmesh, const path_settings *settings)
 {
     if (settings->prepared && tl_navmesh_prepare(navmesh, NULL, NULL) == TL_ERR_MEMORY) {
         return false;
@@ -222,17 +222,17 @@ static bool prepare(tl_navmesh *navmesh, const path_settings *settings)
            tl_navmesh_prepare_wide(navmesh, &def, NULL) != TL_ERR_MEMORY;
 }
 
-static tl_exit find(tl_cli *cli, const path_settings *settings, const float *numbers)
+static tl_exit find_paths(tl_cli *cli, const path_settings *settings, const float *numbers)
 {
     tl_input input;
     tl_exit code;
     if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
         path_queries queries = { input.navmesh, settings, NULL, 0 };
-        if (!prepare(input.navmesh, settings) ||
+        if (!prepare_navmesh(input.navmesh, settings) ||
             !make_searchers(&queries, settings->pairs != NULL ? cli->host.tasks->worker_count : 1)) {
             code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
         } else {
-            const tl_batch batch = { settings->pairs, "ax ay az bx by bz", 6, 6, answer_line, &queries };
+            const tl_batch batch = { settings->pairs, "ax ay az bx by bz", 6, 6, answer_pair_line, &queries };
             code = tl_batch_run(cli, &batch, numbers);
         }
         free_searchers(&queries);
@@ -241,20 +241,7 @@ static tl_exit find(tl_cli *cli, const path_settings *settings, const float *num
     return code;
 }
 
-static bool parse_words(tl_cli *cli, path_settings *settings, float numbers[6], tl_exit *exit_out)
-{
-    if (!tl_extents_read(cli, settings->extents_text, &settings->extents, exit_out)) {
-        return false;
-    }
-    if ((settings->pairs != NULL) == (cli->arguments.count > 1) || cli->arguments.count == 2) {
-        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "give start and goal behind FILE, or many pairs with --pairs");
-        return false;
-    }
-    return settings->pairs != NULL || (tl_cli_read_triple(cli, 1, "start", numbers, exit_out) &&
-                                       tl_cli_read_triple(cli, 2, "goal", numbers + 3, exit_out));
-}
-
-static tl_exit run(tl_cli *cli)
+static tl_exit run_path(tl_cli *cli)
 {
     path_settings settings;
     memset(&settings, 0, sizeof(settings));
@@ -273,21 +260,18 @@ static tl_exit run(tl_cli *cli)
           "bake the visibility graph first: pays for some hundred pairs and more", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option level_options[TL_LEVEL_OPTIONS];
-    tl_option nav_options[TL_NAV_OPTIONS];
-    tl_level_options(&settings.bake.level, level_options);
-    tl_nav_options(&settings.bake, nav_options);
-    const tl_option_group groups[] = { { "Options:", options },
-                                       { "When FILE is a level:", level_options },
-                                       { "When FILE is a level, for its navmesh:", nav_options },
-                                       { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
     tl_exit code;
     float numbers[6] = { 0 };
-    if (!tl_cli_parse(cli, groups, 1, 3, &code) || !tl_bake_take_bounds(cli, &settings.bake, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 3, &code)) {
         return code;
     }
     settings.json = cli->json;
-    return parse_words(cli, &settings, numbers, &code) ? find(cli, &settings, numbers) : code;
+    static const tl_question_words words = { "start", "goal", "pairs" };
+    return tl_extents_read(cli, settings.extents_text, &settings.extents, &code) &&
+                   tl_question_read(cli, &words, settings.pairs, numbers, &code)
+               ? find_paths(cli, &settings, numbers)
+               : code;
 }
 
 const tl_command tl_path_command = {
@@ -302,5 +286,5 @@ const tl_command tl_path_command = {
     "talus path courtyard.obj 2,0,20 38,0,20 --agent-radius 0.4 --json\n"
     "talus path courtyard.talus 2,0,20 38,0,20 --radius 1.2\n"
     "talus path courtyard.talus --pairs pairs.txt --prepared",
-    run,
+    run_path,
 };

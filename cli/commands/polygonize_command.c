@@ -30,7 +30,7 @@ typedef struct job {
     double seconds;
 } job;
 
-static tl_result write_text(const char *bytes, size_t size, void *user)
+static tl_result write_mesh_text(const char *bytes, size_t size, void *user)
 {
     job *j = user;
     return tl_atomic_file_write(j->file, bytes, size, &j->error);
@@ -176,8 +176,8 @@ static tl_exit run_set(job *j, const tl_contour_text *text)
     snprintf(producer, sizeof producer, "talus-%s", tl_version());
     const char *verdict = check_set(j, text->name, &text->set, &mesh, &code);
     if (code == TL_EXIT_OK && j->file != NULL &&
-        tl_polygon_text_write(&mesh, text->name, producer, report.refused_contours, seconds * 1e6, write_text, j) !=
-            TL_OK) {
+        tl_polygon_text_write(&mesh, text->name, producer, report.refused_contours, seconds * 1e6, write_mesh_text,
+                              j) != TL_OK) {
         code = tl_cli_fail_io(j->cli, &j->error);
     }
     if (code == TL_EXIT_OK) {
@@ -206,7 +206,7 @@ static tl_exit run_sets(job *j, const tl_file_map *map)
     return code;
 }
 
-static tl_exit print_report(job *j)
+static tl_exit print_polygonize_report(job *j)
 {
     if (j->warnings > MAX_WARNINGS) {
         tl_cli_warn(j->cli, "%s: %u more contours were repaired; --json names them all", j->input,
@@ -250,10 +250,10 @@ static tl_exit run_job(job *j)
         code = tl_atomic_file_commit(file, &j->error) == TL_OK ? TL_EXIT_OK : tl_cli_fail_io(j->cli, &j->error);
     }
     tl_atomic_file_abort(j->file);
-    return code == TL_EXIT_OK ? print_report(j) : code;
+    return code == TL_EXIT_OK ? print_polygonize_report(j) : code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_polygonize(tl_cli *cli)
 {
     const char *output = NULL;
     int method = 0;
@@ -332,5 +332,5 @@ const tl_command tl_polygonize_command = {
     "both formats and the method. Contours that touch or cross themselves are repaired and named.",
     "talus polygonize contours.txt -o mesh.txt --check\ntalus polygonize contours.txt --max-verts 12 --json\n"
     "talus polygonize contours.txt --compare",
-    run,
+    run_polygonize,
 };

@@ -3,8 +3,8 @@
 // talus ray: what a ray hits, one ray or many.
 
 #include "cli/level/open_input.h"
-#include "cli/shared/batch.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/line_batch.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -47,17 +47,7 @@ static bool find_closest(const ray_query *query, const float *n, float tmax, tl_
     return tl_soup_cast_ray(query->soup, &ray, &query->filter, hit_out);
 }
 
-// Zero has no sign here: -0 would only puzzle a reader.
-static tl_ray_hit without_negative_zero(tl_ray_hit hit)
-{
-    hit.t += 0.0f;
-    hit.u += 0.0f;
-    hit.v += 0.0f;
-    hit.normal = tl_add(hit.normal, tl_vec3_make(0.0f, 0.0f, 0.0f));
-    return hit;
-}
-
-static void write_hit(tl_text *text, const tl_ray_hit *hit)
+static void write_ray_hit(tl_text *text, const tl_ray_hit *hit)
 {
     tl_text_add_float(text, hit->t);
     tl_text_add(text, " ");
@@ -89,7 +79,7 @@ static void add_json_hit(tl_text *text, const tl_ray_hit *hit, const float *n, b
     tl_text_add(text, hit->back ? ",\"back\":true}" : ",\"back\":false}");
 }
 
-static void write_all(tl_text *text, const tl_ray_hit *hits, uint32_t count, const float *n, bool json)
+static void write_all_hits(tl_text *text, const tl_ray_hit *hits, uint32_t count, const float *n, bool json)
 {
     if (json) {
         tl_text_add(text, "{\"hits\":[");
@@ -98,12 +88,11 @@ static void write_all(tl_text *text, const tl_ray_hit *hits, uint32_t count, con
         tl_text_add(text, "\n");
     }
     for (uint32_t i = 0; i < count; ++i) {
-        tl_ray_hit hit = without_negative_zero(hits[i]);
         if (json) {
             tl_text_add(text, i > 0 ? ",{" : "{");
-            add_json_hit(text, &hit, n, false);
+            add_json_hit(text, &hits[i], n, false);
         } else {
-            write_hit(text, &hit);
+            write_ray_hit(text, &hits[i]);
         }
     }
     tl_text_add(text, json ? "]}\n" : "");
@@ -112,12 +101,12 @@ static void write_all(tl_text *text, const tl_ray_hit *hits, uint32_t count, con
 // Answers one ray with all its hits; returns whether there are any.
 static bool answer_all(const ray_query *query, const float *n, float tmax, tl_text *text)
 {
-    enum { FEW = 64 };
+    enum { FEW_HITS = 64 };
     tl_ray ray = { { n[0], n[1], n[2] }, { n[3], n[4], n[5] }, tmax };
     tl_hit_rule rule = query->settings->crossings ? TL_HITS_CROSSED : TL_HITS_TOUCHED;
-    tl_ray_hit few[FEW], *hits = few;
+    tl_ray_hit few[FEW_HITS], *hits = few;
     uint32_t count = 0; // stays 0 for a ray that leads nowhere
-    tl_result result = tl_soup_cast_ray_all(query->soup, &ray, rule, &query->filter, few, FEW, &count);
+    tl_result result = tl_soup_cast_ray_all(query->soup, &ray, rule, &query->filter, few, FEW_HITS, &count);
     if (result == TL_INCOMPLETE) {
         hits = malloc(count * sizeof(*hits));
         if (hits == NULL) {
@@ -126,7 +115,7 @@ static bool answer_all(const ray_query *query, const float *n, float tmax, tl_te
         }
         (void)tl_soup_cast_ray_all(query->soup, &ray, rule, &query->filter, hits, count, &count);
     }
-    write_all(text, hits, count, n, query->settings->json);
+    write_all_hits(text, hits, count, n, query->settings->json);
     if (hits != few) {
         free(hits);
     }
@@ -153,18 +142,17 @@ static bool answer_ray(const float *numbers, uint32_t count, tl_text *text, uint
         tl_text_add(text, settings->json ? "{\"hit\":false}\n" : "miss\n");
         return false;
     }
-    hit = without_negative_zero(hit);
     if (settings->json) {
         tl_text_add(text, "{\"hit\":true,");
         add_json_hit(text, &hit, numbers, settings->segment);
         tl_text_add(text, "\n");
     } else {
-        write_hit(text, &hit);
+        write_ray_hit(text, &hit);
     }
     return true;
 }
 
-static tl_exit cast(tl_cli *cli, const ray_settings *settings, const float *numbers)
+static tl_exit cast_rays(tl_cli *cli, const ray_settings *settings, const float *numbers)
 {
     tl_input input;
     tl_exit code;
@@ -179,21 +167,7 @@ static tl_exit cast(tl_cli *cli, const ray_settings *settings, const float *numb
     return code;
 }
 
-// The two points of a single ray, from the command line.
-static bool parse_points(tl_cli *cli, bool segment, float numbers[6], tl_exit *exit_out)
-{
-    if (!tl_cli_read_triple(cli, 1, segment ? "start" : "origin", numbers, exit_out) ||
-        !tl_cli_read_triple(cli, 2, segment ? "end" : "direction", numbers + 3, exit_out)) {
-        return false;
-    }
-    if (!segment && numbers[3] == 0.0f && numbers[4] == 0.0f && numbers[5] == 0.0f) {
-        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "the direction 0,0,0 leads nowhere");
-        return false;
-    }
-    return true;
-}
-
-static tl_exit run(tl_cli *cli)
+static tl_exit run_ray(tl_cli *cli)
 {
     static const char *const culls[] = { "none", "back", "front", NULL };
     ray_settings settings;
@@ -216,14 +190,10 @@ static tl_exit run(tl_cli *cli)
           0, 0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option level_options[TL_LEVEL_OPTIONS];
-    tl_level_options(&settings.bake.level, level_options);
-    const tl_option_group groups[] = { { "Options:", options },
-                                       { "When FILE is a level:", level_options },
-                                       { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
     tl_exit code;
     float numbers[6] = { 0 };
-    if (!tl_cli_parse(cli, groups, 1, 3, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_LEVEL, &settings.bake, 1, 3, &code)) {
         return code;
     }
     settings.json = cli->json;
@@ -231,13 +201,14 @@ static tl_exit run(tl_cli *cli)
     if (settings.all && (settings.any || settings.segment)) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "--all and --crossings go with rays, not with --any or --segment");
     }
-    if ((settings.rays != NULL) == (cli->arguments.count > 1) || cli->arguments.count == 2) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "give one ray as two points behind FILE, or many with --rays");
-    }
-    if (settings.rays == NULL && !parse_points(cli, settings.segment, numbers, &code)) {
+    static const tl_question_words rays = { "origin", "direction", "rays" }, segments = { "start", "end", "rays" };
+    if (!tl_question_read(cli, settings.segment ? &segments : &rays, settings.rays, numbers, &code)) {
         return code;
     }
-    return cast(cli, &settings, numbers);
+    if (settings.rays == NULL && !settings.segment && numbers[3] == 0.0f && numbers[4] == 0.0f && numbers[5] == 0.0f) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "the direction 0,0,0 leads nowhere");
+    }
+    return cast_rays(cli, &settings, numbers);
 }
 
 const tl_command tl_ray_command = {
@@ -255,5 +226,5 @@ const tl_command tl_ray_command = {
     "talus ray courtyard.talus 20,10,20 0,-1,0 --all\n"
     "talus ray courtyard.talus --segment 2,1.7,20 38,1.7,20 --any\n"
     "echo '20 10 20 0 -1 0' | talus ray courtyard.obj --rays - --json",
-    run,
+    run_ray,
 };

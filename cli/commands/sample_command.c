@@ -38,7 +38,7 @@ static tl_aabb bounds_of(const tl_sample_mesh *mesh)
     return bounds;
 }
 
-static tl_exit report(tl_cli *cli, const char *name, const char *output, const tl_sample_mesh *mesh)
+static tl_exit report_sample(tl_cli *cli, const char *name, const char *output, const tl_sample_mesh *mesh)
 {
     tl_aabb bounds = bounds_of(mesh);
     if (cli->json) {
@@ -71,14 +71,14 @@ static tl_exit write_level(tl_cli *cli, const tl_sample_level *level, const char
         if (tl_obj_write_mesh(output, &view, NULL, 0, &error) != TL_OK) {
             code = tl_cli_fail_io(cli, &error);
         } else {
-            code = strcmp(output, "-") == 0 ? TL_EXIT_OK : report(cli, level->name, output, &mesh);
+            code = strcmp(output, "-") == 0 ? TL_EXIT_OK : report_sample(cli, level->name, output, &mesh);
         }
     }
     tl_sample_mesh_free(&mesh);
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_sample(tl_cli *cli)
 {
     const char *output = NULL;
     uint32_t triangles = 0;
@@ -121,5 +121,5 @@ const tl_command tl_sample_command = {
     "Writes a built-in level: rooms, stairs, ramps, bridges over floors, thin walls, pits. The same\n"
     "name, size and seed give the same file everywhere. Metres, y up.",
     "talus sample courtyard -o courtyard.obj\ntalus sample city --triangles 1000000 --seed 7 -o city.obj",
-    run,
+    run_sample,
 };

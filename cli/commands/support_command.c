@@ -3,7 +3,7 @@
 // talus support: the point of a hull that lies farthest along a direction.
 
 #include "cli/level/open_hull.h"
-#include "cli/shared/batch.h"
+#include "cli/shared/line_batch.h"
 
 #include <string.h>
 
@@ -41,7 +41,7 @@ static bool answer_direction(const float *n, uint32_t count, tl_text *text, uint
     return true;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_support(tl_cli *cli)
 {
     const char *directions = NULL;
     tl_hull_settings settings = tl_default_hull_settings();
@@ -57,17 +57,16 @@ static tl_exit run(tl_cli *cli)
     if (!tl_cli_parse(cli, groups, 1, 2, &code)) {
         return code;
     }
-    if ((directions != NULL) == (cli->arguments.count > 1)) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "give one direction behind HULL, or many with --directions");
+    static const tl_question_words words = { "direction", NULL, "directions" };
+    float numbers[3] = { 0 };
+    if (!tl_question_read(cli, &words, directions, numbers, &code)) {
+        return code;
     }
     tl_hull_input input;
     if (tl_hull_open(cli, cli->arguments.words[0], &settings, &input, &code)) {
         support_query query = { input.hull, cli->json };
         const tl_batch batch = { directions, "dx dy dz", 3, 3, answer_direction, &query };
-        float numbers[3] = { 0 };
-        if (directions != NULL || tl_cli_read_triple(cli, 1, "direction", numbers, &code)) {
-            code = tl_batch_run(cli, &batch, numbers);
-        }
+        code = tl_batch_run(cli, &batch, numbers);
     }
     tl_hull_input_close(&input);
     return code;
@@ -83,5 +82,5 @@ const tl_command tl_support_command = {
     "that are equally far it is the first. dot is its product with the direction as given.",
     "talus support rock.obj 0,1,0\n"
     "talus support hull.talus --directions directions.txt",
-    run,
+    run_support,
 };

@@ -4,8 +4,8 @@
 
 #include "cli/level/open_input.h"
 #include "cli/level/shape_option.h"
-#include "cli/shared/batch.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/line_batch.h"
 
 #include <string.h>
 
@@ -23,13 +23,7 @@ typedef struct sweep_query {
     const sweep_settings *settings;
 } sweep_query;
 
-// Zero has no sign here: -0 would only puzzle a reader.
-static tl_vec3 without_negative_zero(tl_vec3 v)
-{
-    return tl_add(v, tl_vec3_make(0.0f, 0.0f, 0.0f));
-}
-
-static void write_hit(tl_text *text, const tl_shape_hit *hit)
+static void write_sweep_hit(tl_text *text, const tl_shape_hit *hit)
 {
     const float floats[7] = { hit->point.x,  hit->point.y,  hit->point.z, hit->normal.x,
                               hit->normal.y, hit->normal.z, hit->depth };
@@ -43,7 +37,7 @@ static void write_hit(tl_text *text, const tl_shape_hit *hit)
     tl_text_add(text, "\n");
 }
 
-static void write_json_hit(tl_text *text, const tl_shape_hit *hit)
+static void write_json_sweep_hit(tl_text *text, const tl_shape_hit *hit)
 {
     tl_text_add(text, "{\"hit\":true,\"t\":");
     tl_text_add_json_float(text, hit->t);
@@ -76,18 +70,15 @@ static bool answer_sweep(const float *n, uint32_t count, tl_text *text, uint32_t
         tl_text_add(text, query->settings->json ? "{\"hit\":false}\n" : "free\n");
         return false;
     }
-    hit.point = without_negative_zero(hit.point);
-    hit.normal = without_negative_zero(hit.normal);
-    hit.face_normal = without_negative_zero(hit.face_normal);
     if (query->settings->json) {
-        write_json_hit(text, &hit);
+        write_json_sweep_hit(text, &hit);
     } else {
-        write_hit(text, &hit);
+        write_sweep_hit(text, &hit);
     }
     return true;
 }
 
-static tl_exit sweep(tl_cli *cli, const sweep_settings *settings, const float *numbers)
+static tl_exit sweep_shape(tl_cli *cli, const sweep_settings *settings, const float *numbers)
 {
     tl_input input;
     tl_exit code;
@@ -101,7 +92,7 @@ static tl_exit sweep(tl_cli *cli, const sweep_settings *settings, const float *n
     return code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_sweep(tl_cli *cli)
 {
     static const char *const culls[] = { "none", "back", "front", NULL };
     sweep_settings settings;
@@ -115,26 +106,21 @@ static tl_exit run(tl_cli *cli)
           0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option level_options[TL_LEVEL_OPTIONS], shape_options[TL_SHAPE_OPTIONS];
-    tl_level_options(&settings.bake.level, level_options);
+    tl_option shape_options[TL_SHAPE_OPTIONS];
     tl_shape_options(&settings.shape, shape_options);
-    const tl_option_group groups[] = {
-        { "Options:", options }, { "Shape:", shape_options }, { "When FILE is a level:", level_options }, { NULL, NULL }
-    };
+    const tl_option_group groups[] = { { "Options:", options }, { "Shape:", shape_options }, { NULL, NULL } };
     tl_exit code;
     float numbers[6] = { 0 };
-    if (!tl_cli_parse(cli, groups, 1, 3, &code) || !tl_shape_option_read(cli, &settings.shape, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_LEVEL, &settings.bake, 1, 3, &code) ||
+        !tl_shape_option_read(cli, &settings.shape, &code)) {
         return code;
     }
     settings.json = cli->json;
-    if ((settings.sweeps != NULL) == (cli->arguments.count > 1) || cli->arguments.count == 2) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "give a point and a motion behind FILE, or many with --sweeps");
-    }
-    if (settings.sweeps == NULL && (!tl_cli_read_triple(cli, 1, "point", numbers, &code) ||
-                                    !tl_cli_read_triple(cli, 2, "motion", numbers + 3, &code))) {
+    static const tl_question_words words = { "point", "motion", "sweeps" };
+    if (!tl_question_read(cli, &words, settings.sweeps, numbers, &code)) {
         return code;
     }
-    return sweep(cli, &settings, numbers);
+    return sweep_shape(cli, &settings, numbers);
 }
 
 const tl_command tl_sweep_command = {
@@ -150,5 +136,5 @@ const tl_command tl_sweep_command = {
     "talus sweep courtyard.talus 20,10,20 0,-10,0 --radius 0.4\n"
     "talus sweep courtyard.talus 2,5.5,20 36,0,0 --radius 0.4 --height 1.8 --json\n"
     "echo '20 10 20 0 -10 0' | talus sweep courtyard.obj --sweeps - --half 0.5,0.5,0.5",
-    run,
+    run_sweep,
 };

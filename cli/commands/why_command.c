@@ -115,7 +115,7 @@ static json_t *answer_json(const tl_nav_why_answer *answer)
                      tl_json_float(answer->largest_island_area));
 }
 
-static tl_exit explain(draw_source *source, tl_vec3 point)
+static tl_exit explain_point(draw_source *source, tl_vec3 point)
 {
     tl_cli *cli = source->cli;
     tl_exit code = TL_EXIT_OK;
@@ -148,24 +148,18 @@ static tl_exit explain(draw_source *source, tl_vec3 point)
     return code == TL_EXIT_OK && !answer.walkable ? TL_EXIT_NEGATIVE : code;
 }
 
-static tl_exit run(tl_cli *cli)
+static tl_exit run_why(tl_cli *cli)
 {
     tl_bake_settings settings = tl_default_bake_settings();
-    tl_option level_options[TL_LEVEL_OPTIONS], nav_options[TL_NAV_OPTIONS];
-    tl_level_options(&settings.level, level_options);
-    tl_nav_options(&settings, nav_options);
-    const tl_option_group groups[] = { { "When FILE is a level:", level_options },
-                                       { "Navmesh of a level:", nav_options },
-                                       { NULL, NULL } };
     tl_exit code;
     float n[3] = { 0 };
-    if (!tl_cli_parse(cli, groups, 2, 2, &code) || !tl_bake_take_bounds(cli, &settings, &code) ||
+    if (!tl_input_parse(cli, NULL, TL_INPUT_NAVMESH, &settings, 2, 2, &code) ||
         !tl_cli_read_triple(cli, 1, "point", n, &code)) {
         return code;
     }
     draw_source source;
     if (draw_source_open(cli, cli->arguments.words[0], &settings, 0, &source, &code)) {
-        code = explain(&source, tl_vec3_make(n[0], n[1], n[2]));
+        code = explain_point(&source, tl_vec3_make(n[0], n[1], n[2]));
     }
     draw_source_close(&source);
     return code;
@@ -180,5 +174,5 @@ const tl_command tl_why_command = {
     "proven: the tile is built with them. FILE is a baked file, or a level. Exit code 1 when the point is not\n"
     "walkable.",
     "talus why courtyard.talus 20,6,20\ntalus why courtyard.obj 20,6,20 --agent-radius 0.3 --json",
-    run,
+    run_why,
 };

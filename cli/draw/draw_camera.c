@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { MARGIN_PIXELS = 18, SMALLEST_PANEL = 220 };
+enum { VIEW_MARGIN_PIXELS = 18, SMALLEST_PANEL = 220 };
 
 static void set_axes(draw_camera *camera, draw_view view)
 {
@@ -36,10 +36,10 @@ draw_camera draw_camera_fit(draw_view view, tl_aabb bounds, uint32_t panel_size)
     }
     tl_vec3 size = tl_aabb_size(seen);
     float longest = tl_maxf(size.x, size.y);
-    float room = (float)panel_size - 2.0f * MARGIN_PIXELS;
+    float room = (float)panel_size - 2.0f * VIEW_MARGIN_PIXELS;
     camera.pixels_per_metre = longest > 0.0f ? room / longest : 1.0f;
-    camera.width = (uint32_t)ceilf(size.x * camera.pixels_per_metre) + 2 * MARGIN_PIXELS;
-    camera.height = (uint32_t)ceilf(size.y * camera.pixels_per_metre) + 2 * MARGIN_PIXELS;
+    camera.width = (uint32_t)ceilf(size.x * camera.pixels_per_metre) + 2 * VIEW_MARGIN_PIXELS;
+    camera.height = (uint32_t)ceilf(size.y * camera.pixels_per_metre) + 2 * VIEW_MARGIN_PIXELS;
     camera.width = camera.width < SMALLEST_PANEL ? SMALLEST_PANEL : camera.width;
     camera.height = camera.height < SMALLEST_PANEL ? SMALLEST_PANEL : camera.height;
     camera.middle_right = 0.5f * (seen.min.x + seen.max.x);

@@ -67,7 +67,7 @@ typedef struct paper_file {
     tl_result result;
 } paper_file;
 
-static cairo_status_t write_bytes(void *closure, const unsigned char *bytes, unsigned int size)
+static cairo_status_t write_paper_bytes(void *closure, const unsigned char *bytes, unsigned int size)
 {
     paper_file *out = closure;
     out->result = out->result == TL_OK ? tl_atomic_file_write(out->file, bytes, size, out->error) : out->result;
@@ -89,7 +89,7 @@ tl_result draw_paper_write(const char *path, uint32_t width, uint32_t height, dr
         return result;
     }
     bool svg = ends_in_svg(path);
-    cairo_surface_t *surface = svg ? cairo_svg_surface_create_for_stream(write_bytes, &out, width, height)
+    cairo_surface_t *surface = svg ? cairo_svg_surface_create_for_stream(write_paper_bytes, &out, width, height)
                                    : cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
     cairo_t *cairo = cairo_create(surface);
     paint(cairo, user);
@@ -98,7 +98,7 @@ tl_result draw_paper_write(const char *path, uint32_t width, uint32_t height, dr
     if (svg) {
         cairo_surface_finish(surface);
     } else if (status == CAIRO_STATUS_SUCCESS) {
-        status = cairo_surface_write_to_png_stream(surface, write_bytes, &out);
+        status = cairo_surface_write_to_png_stream(surface, write_paper_bytes, &out);
     }
     status = status == CAIRO_STATUS_SUCCESS ? cairo_surface_status(surface) : status;
     cairo_surface_destroy(surface);

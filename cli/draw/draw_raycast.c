@@ -15,7 +15,7 @@ typedef struct colour3 {
     float r, g, b;
 } colour3;
 
-static colour3 unpack(draw_colour colour)
+static colour3 unpack_pixel(draw_colour colour)
 {
     colour3 c = { (float)((colour >> 16) & 255), (float)((colour >> 8) & 255), (float)(colour & 255) };
     return c;
@@ -27,7 +27,7 @@ static colour3 mix(colour3 a, colour3 b, float t)
     return c;
 }
 
-static uint32_t pack(colour3 c)
+static uint32_t pack_pixel(colour3 c)
 {
     return 0xff000000u | (uint32_t)lrintf(c.r) << 16 | (uint32_t)lrintf(c.g) << 8 | (uint32_t)lrintf(c.b);
 }
@@ -112,12 +112,12 @@ static colour3 lit(colour3 colour, float light)
 
 static colour3 colour_of_ray(const draw_scene *scene, const draw_soups *soups, const tl_ray *ray, float pixel)
 {
-    colour3 colour = unpack(DRAW_PAPER);
+    colour3 colour = unpack_pixel(DRAW_PAPER);
     tl_ray_hit hit;
     float level_t = INFINITY;
     if (hit_backdrop(soups->backdrop, ray, &hit)) {
         level_t = hit.t;
-        colour = lit(unpack(scene->backdrop.colours[hit.triangle]), sunlight(soups->backdrop, ray, &hit, pixel));
+        colour = lit(unpack_pixel(scene->backdrop.colours[hit.triangle]), sunlight(soups->backdrop, ray, &hit, pixel));
     }
     if (soups->overlay != NULL && tl_soup_cast_ray(soups->overlay, ray, NULL, &hit)) {
         const tl_soup *shading = soups->backdrop != NULL ? soups->backdrop : soups->overlay;
@@ -125,7 +125,7 @@ static colour3 colour_of_ray(const draw_scene *scene, const draw_soups *soups, c
             scene->overlay_alpha < 1.0f ? 0.9f + 0.1f * fabsf(hit.normal.y) : sunlight(shading, ray, &hit, pixel);
         bool hidden = hit.t > level_t + scene->overlay_bias;
         float alpha = hidden ? 0.4f * scene->overlay_alpha : scene->overlay_alpha;
-        colour = mix(colour, lit(unpack(scene->overlay.colours[hit.triangle]), light), alpha);
+        colour = mix(colour, lit(unpack_pixel(scene->overlay.colours[hit.triangle]), light), alpha);
     }
     return colour;
 }
@@ -150,7 +150,7 @@ static void first_row(uint32_t row, uint32_t worker, void *user)
     (void)worker;
     const raycast_job *job = user;
     for (uint32_t x = 0; x < job->camera->width; x++) {
-        job->first[(size_t)row * job->camera->width + x] = pack(sample(job, (float)x + 0.5f, (float)row + 0.5f));
+        job->first[(size_t)row * job->camera->width + x] = pack_pixel(sample(job, (float)x + 0.5f, (float)row + 0.5f));
     }
 }
 
@@ -191,7 +191,7 @@ static void smooth_row(uint32_t row, uint32_t worker, void *user)
                 sum.g += 0.25f * c.g;
                 sum.b += 0.25f * c.b;
             }
-            colour = pack(sum);
+            colour = pack_pixel(sum);
         }
         job->pixels[(size_t)row * job->stride + x] = colour;
     }

@@ -5,7 +5,7 @@
 #include "cli/draw/draw_route.h"
 
 #include "cli/draw/draw_stage.h"
-#include "cli/level/wide_route.h"
+#include "cli/level/agent_route.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,6 @@ typedef struct draw_route {
     tl_nav_query *query;
     tl_nav_path_buffers buffers;
     tl_nav_route route;
-    bool found;
 } draw_route;
 
 static void free_route(draw_route *route)
@@ -50,22 +49,18 @@ static tl_result make_route_room(const tl_navmesh *navmesh, draw_route *route)
     return tl_nav_query_create(&def, &route->query);
 }
 
-static tl_result find_route(const tl_navmesh *navmesh, draw_route *route, tl_vec3 from, tl_vec3 to, tl_vec3 extents)
+static tl_result find_drawn_route(const tl_navmesh *navmesh, draw_route *route, const tl_nav_route_request *request,
+                                  float radius)
 {
-    const tl_nav_route_request request = { .start = from, .goal = to, .half_extents = extents };
-    tl_result result = tl_nav_query_find_route(route->query, navmesh, &request, &route->buffers, &route->route);
-    route->found = result == TL_OK;
-    return result;
+    return tl_agent_route_find(route->query, navmesh, request, radius, &route->buffers, &route->route);
 }
 
 static tl_result find_given_route(const tl_navmesh *navmesh, const draw_route_ends *ends, draw_route *route)
 {
-    const tl_vec3 near = { 2.0f, 4.0f, 2.0f };
-    if (ends->radius <= 0.0f) {
-        return find_route(navmesh, route, ends->from, ends->to, near);
-    }
-    const tl_nav_route_request request = { .start = ends->from, .goal = ends->to, .half_extents = near };
-    return tl_find_wide_route(route->query, navmesh, &request, ends->radius, &route->buffers, &route->route);
+    const tl_nav_route_request request = { .start = ends->from,
+                                           .goal = ends->to,
+                                           .half_extents = { 2.0f, 4.0f, 2.0f } };
+    return find_drawn_route(navmesh, route, &request, ends->radius);
 }
 
 // Without ends given: across the level, the longer one of its two diagonals that leads all the way, at the height of
@@ -86,7 +81,8 @@ static tl_result find_longest_route(const draw_source *source, draw_route *route
     tl_result result = TL_NOT_FOUND;
     for (int i = 0; i < 3; i++) {
         int diagonal = i < 2 ? i : best;
-        tl_result found = find_route(navmesh, route, from[diagonal], to[diagonal], size);
+        const tl_nav_route_request request = { .start = from[diagonal], .goal = to[diagonal], .half_extents = size };
+        tl_result found = find_drawn_route(navmesh, route, &request, 0.0f);
         if (found != TL_OK && found != TL_NOT_FOUND) {
             return found;
         }

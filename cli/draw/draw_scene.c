@@ -30,7 +30,7 @@ void draw_scene_free(draw_scene *scene)
 }
 
 // Grows `*array` so that it holds `count` + 1 elements; false and the sticky flag when memory is out.
-static bool grow(draw_scene *scene, void **array, uint32_t count, uint32_t capacity, size_t size)
+static bool grow_elements(draw_scene *scene, void **array, uint32_t count, uint32_t capacity, size_t size)
 {
     if (count < capacity) {
         return true;
@@ -45,12 +45,12 @@ static bool grow(draw_scene *scene, void **array, uint32_t count, uint32_t capac
     return true;
 }
 
-static uint32_t grown(uint32_t count, uint32_t capacity)
+static uint32_t grown_elements(uint32_t count, uint32_t capacity)
 {
     return count < capacity ? capacity : capacity == 0 ? 1024 : capacity * 2;
 }
 
-static tl_vec3 place(draw_scene *scene, tl_vec3 world)
+static tl_vec3 next_element(draw_scene *scene, tl_vec3 world)
 {
     tl_vec3 p = tl_sub(world, scene->center);
     scene->bounds = tl_aabb_add_point(scene->bounds, p);
@@ -61,16 +61,16 @@ static void add_to_layer(draw_scene *scene, draw_layer *layer, const tl_vec3 cor
 {
     void *places = layer->corners;
     void *colours = layer->colours;
-    bool fits = grow(scene, &places, layer->count, layer->capacity, 3 * sizeof *layer->corners);
+    bool fits = grow_elements(scene, &places, layer->count, layer->capacity, 3 * sizeof *layer->corners);
     layer->corners = places;
-    fits = fits && grow(scene, &colours, layer->count, layer->capacity, sizeof *layer->colours);
+    fits = fits && grow_elements(scene, &colours, layer->count, layer->capacity, sizeof *layer->colours);
     layer->colours = colours;
     if (!fits) {
         return;
     }
-    layer->capacity = grown(layer->count, layer->capacity);
+    layer->capacity = grown_elements(layer->count, layer->capacity);
     for (uint32_t k = 0; k < 3; k++) {
-        layer->corners[3 * (size_t)layer->count + k] = place(scene, corners[k]);
+        layer->corners[3 * (size_t)layer->count + k] = next_element(scene, corners[k]);
     }
     layer->colours[layer->count++] = colour;
 }
@@ -101,11 +101,11 @@ void draw_add_quad(draw_scene *scene, tl_vec3 a, tl_vec3 b, tl_vec3 c, tl_vec3 d
 void draw_add_line(draw_scene *scene, tl_vec3 a, tl_vec3 b, draw_colour colour, float width, float alpha)
 {
     void *lines = scene->lines;
-    bool fits = grow(scene, &lines, scene->line_count, scene->line_capacity, sizeof *scene->lines);
+    bool fits = grow_elements(scene, &lines, scene->line_count, scene->line_capacity, sizeof *scene->lines);
     scene->lines = lines;
     if (fits) {
-        scene->line_capacity = grown(scene->line_count, scene->line_capacity);
-        draw_line line = { place(scene, a), place(scene, b), colour, width, alpha };
+        scene->line_capacity = grown_elements(scene->line_count, scene->line_capacity);
+        draw_line line = { next_element(scene, a), next_element(scene, b), colour, width, alpha };
         scene->lines[scene->line_count++] = line;
     }
 }
@@ -113,11 +113,11 @@ void draw_add_line(draw_scene *scene, tl_vec3 a, tl_vec3 b, draw_colour colour, 
 void draw_add_dot(draw_scene *scene, tl_vec3 at, draw_colour colour, float radius)
 {
     void *dots = scene->dots;
-    bool fits = grow(scene, &dots, scene->dot_count, scene->dot_capacity, sizeof *scene->dots);
+    bool fits = grow_elements(scene, &dots, scene->dot_count, scene->dot_capacity, sizeof *scene->dots);
     scene->dots = dots;
     if (fits) {
-        scene->dot_capacity = grown(scene->dot_count, scene->dot_capacity);
-        draw_dot dot = { place(scene, at), colour, radius };
+        scene->dot_capacity = grown_elements(scene->dot_count, scene->dot_capacity);
+        draw_dot dot = { next_element(scene, at), colour, radius };
         scene->dots[scene->dot_count++] = dot;
     }
 }

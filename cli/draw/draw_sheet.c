@@ -17,25 +17,25 @@ enum {
     HEAD_PIXELS = 64,
     FOOT_PIXELS = 62, // scale bar and one row of the legend
     GAP_PIXELS = 12,
-    MARGIN_PIXELS = 20,
+    SHEET_MARGIN_PIXELS = 20,
     LEGEND_PIXELS = 22,
     LEGEND_SIZE = 13,
     LEAST_WIDTH = 420, // pixels: a sheet's words need room beside a narrow level too
-    MOST_PANELS = 2
+    MAX_SHEET_PANELS = 2
 };
 
 typedef struct draw_sheet {
     const draw_scene *scene;
     draw_soups soups;
-    draw_camera cameras[MOST_PANELS];
-    cairo_surface_t *images[MOST_PANELS];
+    draw_camera cameras[MAX_SHEET_PANELS];
+    cairo_surface_t *images[MAX_SHEET_PANELS];
     uint32_t panel_count;
     uint32_t width, height;
     uint32_t legend_y; // of its first row
 } draw_sheet;
 
 // A stretch of a line: hidden ones are drawn faintly, so that one sees where they go on.
-static void stroke(cairo_t *cairo, const draw_line *line, const double from[2], const double to[2], bool hidden)
+static void stroke_lines(cairo_t *cairo, const draw_line *line, const double from[2], const double to[2], bool hidden)
 {
     draw_set_colour(cairo, line->colour, (double)line->alpha * (hidden ? 0.28 : 1.0));
     cairo_set_line_width(cairo, (double)line->width);
@@ -62,7 +62,7 @@ static void draw_one_line(cairo_t *cairo, const draw_sheet *sheet, const draw_ca
             double end = (double)i / pieces;
             const double from[2] = { a[0] + (b[0] - a[0]) * begin, a[1] + (b[1] - a[1]) * begin };
             const double to[2] = { a[0] + (b[0] - a[0]) * end, a[1] + (b[1] - a[1]) * end };
-            stroke(cairo, line, from, to, hidden);
+            stroke_lines(cairo, line, from, to, hidden);
             begin = end;
         }
         hidden = now;
@@ -115,14 +115,14 @@ static void draw_scale_bar(cairo_t *cairo, const draw_camera *camera, double rig
 // In as many rows as the width asks for, the first at `y`; returns how many. Paints only if `paints`.
 static uint32_t draw_legends(cairo_t *cairo, const draw_scene *scene, double width, double y, bool paints)
 {
-    double x = MARGIN_PIXELS;
+    double x = SHEET_MARGIN_PIXELS;
     uint32_t rows = 1;
     for (uint32_t i = 0; i < scene->legend_count; i++) {
         const draw_legend *legend = &scene->legends[i];
         draw_choose_font(cairo, LEGEND_SIZE, false);
         double taken = 20 + draw_text_width(cairo, legend->text);
-        if (x > MARGIN_PIXELS && x + taken > width - MARGIN_PIXELS) {
-            x = MARGIN_PIXELS;
+        if (x > SHEET_MARGIN_PIXELS && x + taken > width - SHEET_MARGIN_PIXELS) {
+            x = SHEET_MARGIN_PIXELS;
             y += LEGEND_PIXELS;
             rows++;
         }
@@ -146,7 +146,7 @@ static uint32_t legend_rows(const draw_sheet *sheet)
     return rows;
 }
 
-static void paint_sheet(cairo_t *cairo, const void *user)
+static void paint_views(cairo_t *cairo, const void *user)
 {
     const draw_sheet *sheet = user;
     draw_set_colour(cairo, DRAW_PAPER, 1.0);
@@ -164,18 +164,18 @@ static void paint_sheet(cairo_t *cairo, const void *user)
         x += camera->width + GAP_PIXELS;
     }
     draw_set_colour(cairo, DRAW_INK, 1.0);
-    const double width = sheet->width - 2.0 * MARGIN_PIXELS;
-    draw_text_within(cairo, MARGIN_PIXELS, 30, 20, true, sheet->scene->title, width);
+    const double width = sheet->width - 2.0 * SHEET_MARGIN_PIXELS;
+    draw_text_within(cairo, SHEET_MARGIN_PIXELS, 30, 20, true, sheet->scene->title, width);
     draw_set_colour(cairo, 0x6a6a72, 1.0);
-    draw_text_within(cairo, MARGIN_PIXELS, 52, 13, false, sheet->scene->subtitle, width);
+    draw_text_within(cairo, SHEET_MARGIN_PIXELS, 52, 13, false, sheet->scene->subtitle, width);
     (void)draw_legends(cairo, sheet->scene, sheet->width, sheet->legend_y, true);
 }
 
 static tl_result render_panels(draw_sheet *sheet, const draw_options *options, const tl_host *host)
 {
-    const bool wanted[MOST_PANELS] = { options->top, options->oblique };
+    const bool wanted[MAX_SHEET_PANELS] = { options->top, options->oblique };
     sheet->width = GAP_PIXELS;
-    for (uint32_t view = 0; view < MOST_PANELS; view++) {
+    for (uint32_t view = 0; view < MAX_SHEET_PANELS; view++) {
         if (!wanted[view]) {
             continue;
         }
@@ -236,7 +236,7 @@ tl_result draw_sheet_write(const draw_scene *scene, const draw_options *options,
     draw_sheet sheet;
     tl_result result = make_sheet(scene, options, path, host, &sheet, error_out);
     if (result == TL_OK) {
-        result = draw_paper_write(path, sheet.width, sheet.height, paint_sheet, &sheet, error_out);
+        result = draw_paper_write(path, sheet.width, sheet.height, paint_views, &sheet, error_out);
     }
     free_sheet(&sheet);
     return result;
@@ -255,7 +255,7 @@ tl_result draw_overview_add(draw_overview *overview, const draw_scene *scene, co
     if (result == TL_OK) {
         cairo_surface_t *image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)sheet.width, (int)sheet.height);
         cairo_t *cairo = cairo_create(image);
-        paint_sheet(cairo, &sheet);
+        paint_views(cairo, &sheet);
         const bool painted = cairo_status(cairo) == CAIRO_STATUS_SUCCESS;
         cairo_destroy(cairo);
         overview->sheets[overview->count++] = image;
@@ -271,7 +271,7 @@ typedef struct overview_grid {
     uint32_t x[DRAW_MOST_SHEETS + 1], y[DRAW_MOST_SHEETS + 1]; // where columns and rows begin
 } overview_grid;
 
-static overview_grid lay_out(const draw_overview *overview, uint32_t columns)
+static overview_grid lay_out_sheet(const draw_overview *overview, uint32_t columns)
 {
     overview_grid grid;
     memset(&grid, 0, sizeof grid);
@@ -308,7 +308,7 @@ static void paint_overview(cairo_t *cairo, const void *user)
 
 tl_result draw_overview_write(const draw_overview *overview, uint32_t columns, const char *path, tl_io_error *error_out)
 {
-    const overview_grid grid = lay_out(overview, columns);
+    const overview_grid grid = lay_out_sheet(overview, columns);
     return draw_paper_write(path, grid.x[grid.columns], grid.y[grid.rows], paint_overview, &grid, error_out);
 }
 

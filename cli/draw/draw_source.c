@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool fail_memory(draw_source *source, tl_exit *exit_out)
+static bool fail_source_memory(draw_source *source, tl_exit *exit_out)
 {
     *exit_out = tl_cli_fail(source->cli, TL_EXIT_MEMORY, "out of memory");
     return false;
@@ -22,7 +22,7 @@ static bool triangles_of_soup(draw_source *source, tl_exit *exit_out)
     source->indices = malloc(corner_count * sizeof *source->indices);
     source->numbers = malloc(stats.triangle_count * sizeof *source->numbers);
     if (source->corners == NULL || source->indices == NULL || source->numbers == NULL) {
-        return fail_memory(source, exit_out);
+        return fail_source_memory(source, exit_out);
     }
     uint64_t cursor = 0;
     tl_soup_triangle triangle;
@@ -40,7 +40,7 @@ static bool triangles_of_soup(draw_source *source, tl_exit *exit_out)
     return true;
 }
 
-static bool open_baked(draw_source *source, const char *path, tl_exit *exit_out)
+static bool open_baked_source(draw_source *source, const char *path, tl_exit *exit_out)
 {
     if (!tl_input_open_baked(source->cli, path, &source->input, exit_out)) {
         return false;
@@ -127,7 +127,7 @@ bool draw_source_open(tl_cli *cli, const char *path, const tl_bake_settings *set
     source_out->settings = settings;
     source_out->nav_def = tl_bake_nav_def(settings);
     if (tl_input_is_baked(path)) {
-        return open_baked(source_out, path, exit_out);
+        return open_baked_source(source_out, path, exit_out);
     }
     if (is_contour_file(path)) {
         return open_contours(source_out, path, set, exit_out);

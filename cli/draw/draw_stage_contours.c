@@ -6,7 +6,7 @@
 
 #include <stdio.h>
 
-static tl_vec3 vertex_of(const tl_contour_set *set, uint32_t vertex)
+static tl_vec3 contour_point(const tl_contour_set *set, uint32_t vertex)
 {
     const tl_contour_vertex *v = &set->vertices[vertex];
     return tl_vec3_make(set->bounds.min.x + (float)v->x * set->cell_size,
@@ -26,8 +26,8 @@ static void add_outlines(draw_scene *scene, const tl_contour_set *set, outline_s
         draw_colour colour =
             style.plain ? 0x55555d : draw_colour_mix(draw_colour_of_id(contour->region), 0x101018, 0.35f);
         for (uint32_t k = 0; k < contour->vertex_count; k++) {
-            tl_vec3 a = vertex_of(set, contour->first_vertex + k);
-            tl_vec3 b = vertex_of(set, contour->first_vertex + (k + 1) % contour->vertex_count);
+            tl_vec3 a = contour_point(set, contour->first_vertex + k);
+            tl_vec3 b = contour_point(set, contour->first_vertex + (k + 1) % contour->vertex_count);
             draw_add_line(scene, a, b, colour, style.width, style.alpha);
             if (!style.plain) {
                 draw_add_dot(scene, a, draw_colour_mix(colour, 0x000000, 0.3f), 2.2f);

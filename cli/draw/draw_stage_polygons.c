@@ -6,15 +6,15 @@
 
 #include <stdio.h>
 
-static const draw_colour WALL = 0x23303f;
-static const draw_colour INNER = 0xffffff;
+static const draw_colour WALL_COLOUR = 0x23303f;
+static const draw_colour INNER_COLOUR = 0xffffff;
 
-static tl_vec3 lifted(tl_vec3 p, float height)
+static tl_vec3 lifted_detail(tl_vec3 p, float height)
 {
     return tl_vec3_make(p.x, p.y + height, p.z);
 }
 
-static void add_fan(draw_scene *scene, const tl_vec3 *corners, uint32_t count, draw_colour colour)
+static void add_filled_fan(draw_scene *scene, const tl_vec3 *corners, uint32_t count, draw_colour colour)
 {
     for (uint32_t k = 2; k < count; k++) {
         draw_add_triangle(scene, corners[0], corners[k - 1], corners[k], colour);
@@ -30,24 +30,25 @@ void draw_stage_polygons(draw_scene *scene, const tl_polygon_mesh *mesh, const c
         draw_colour colour = draw_colour_of_id(mesh->regions[p] != TL_SEVERAL_REGIONS ? mesh->regions[p] : p + 1);
         // Neighbours of one region differ a little, so that the partition shows under thin edges too.
         colour = draw_colour_mix(colour, 0xffffff, 0.12f * (float)(p % 3));
-        tl_vec3 anchor = lifted(tl_polygon_mesh_vertex(mesh, mesh->indices[first]), mesh->cell_height);
+        tl_vec3 anchor = lifted_detail(tl_polygon_mesh_vertex(mesh, mesh->indices[first]), mesh->cell_height);
         for (uint32_t k = 2; k < count; k++) {
-            tl_vec3 b = lifted(tl_polygon_mesh_vertex(mesh, mesh->indices[first + k - 1]), mesh->cell_height);
-            tl_vec3 c = lifted(tl_polygon_mesh_vertex(mesh, mesh->indices[first + k]), mesh->cell_height);
+            tl_vec3 b = lifted_detail(tl_polygon_mesh_vertex(mesh, mesh->indices[first + k - 1]), mesh->cell_height);
+            tl_vec3 c = lifted_detail(tl_polygon_mesh_vertex(mesh, mesh->indices[first + k]), mesh->cell_height);
             draw_add_triangle(scene, anchor, b, c, colour);
         }
         for (uint32_t k = 0; k < count; k++) {
-            tl_vec3 a = lifted(tl_polygon_mesh_vertex(mesh, mesh->indices[first + k]), mesh->cell_height);
-            tl_vec3 b = lifted(tl_polygon_mesh_vertex(mesh, mesh->indices[first + (k + 1) % count]), mesh->cell_height);
+            tl_vec3 a = lifted_detail(tl_polygon_mesh_vertex(mesh, mesh->indices[first + k]), mesh->cell_height);
+            tl_vec3 b =
+                lifted_detail(tl_polygon_mesh_vertex(mesh, mesh->indices[first + (k + 1) % count]), mesh->cell_height);
             bool wall = mesh->neighbours[first + k] == TL_NO_POLYGON;
             links += !wall;
-            draw_add_line(scene, a, b, wall ? WALL : INNER, wall ? 1.8f : 1.0f, wall ? 0.9f : 0.85f);
+            draw_add_line(scene, a, b, wall ? WALL_COLOUR : INNER_COLOUR, wall ? 1.8f : 1.0f, wall ? 0.9f : 0.85f);
         }
     }
     snprintf(scene->subtitle, sizeof scene->subtitle, "%u %s, %u vertices, %u links", mesh->polygon_count, what,
              mesh->vertex_count, links / 2);
     draw_add_legend(scene, draw_colour_of_id(1), "polygon, coloured by region");
-    draw_add_legend(scene, WALL, "wall or ledge");
+    draw_add_legend(scene, WALL_COLOUR, "wall or ledge");
     draw_add_legend(scene, 0xc8c8c8, "edge between neighbours");
 }
 
@@ -63,26 +64,27 @@ void draw_stage_detail(draw_scene *scene, const tl_nav_detail *detail)
                               draw_colour_mix(draw_colour_of_id(p + 1), 0xffffff, 0.25f));
             for (uint32_t k = 0; k < 3; k++) {
                 bool outline = (triangle->edge_flags >> k & 1u) != 0;
-                draw_add_line(scene, vertices[corner[k]], vertices[corner[(k + 1) % 3]], outline ? WALL : INNER,
-                              outline ? 1.2f : 0.7f, 0.8f);
+                draw_add_line(scene, vertices[corner[k]], vertices[corner[(k + 1) % 3]],
+                              outline ? WALL_COLOUR : INNER_COLOUR, outline ? 1.2f : 0.7f, 0.8f);
             }
         }
     }
     snprintf(scene->subtitle, sizeof scene->subtitle, "%u triangles over %u polygons, %u vertices",
              detail->triangle_count, detail->patch_count, detail->vertex_count);
     draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(1), 0xffffff, 0.25f), "patch of a polygon");
-    draw_add_legend(scene, WALL, "its outline");
+    draw_add_legend(scene, WALL_COLOUR, "its outline");
 }
 
 static void add_tile_polygon(draw_scene *scene, const tl_nav_tile *tile, uint32_t polygon, draw_colour colour)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
-    add_fan(scene, corners, count, colour);
+    add_filled_fan(scene, corners, count, colour);
     const uint32_t *links = tl_nav_tile_links(tile, polygon);
     for (uint32_t k = 0; k < count; k++) {
         bool wall = links[k] == TL_NAV_LINK_WALL;
-        draw_add_line(scene, corners[k], corners[(k + 1) % count], wall ? WALL : INNER, wall ? 1.6f : 0.9f, 0.85f);
+        draw_add_line(scene, corners[k], corners[(k + 1) % count], wall ? WALL_COLOUR : INNER_COLOUR,
+                      wall ? 1.6f : 0.9f, 0.85f);
     }
 }
 
@@ -105,7 +107,7 @@ void draw_stage_navmesh(draw_scene *scene, const tl_navmesh *navmesh)
     }
     snprintf(scene->subtitle, sizeof scene->subtitle, "%u polygons in %u tiles, %.1f square metres", polygons,
              tl_navmesh_tile_count(navmesh), area);
-    draw_add_legend(scene, WALL, "wall or ledge");
+    draw_add_legend(scene, WALL_COLOUR, "wall or ledge");
     draw_add_area_legends(scene, used);
 }
 
@@ -128,19 +130,20 @@ void draw_stage_route(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav
             const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
             tl_vec3 raised[TL_NAV_MAX_CORNERS];
             for (uint32_t k = 0; k < count; k++) {
-                raised[k] = lifted(corners[k], 0.02f);
+                raised[k] = lifted_detail(corners[k], 0.02f);
             }
-            add_fan(scene, raised, count, corridor);
+            add_filled_fan(scene, raised, count, corridor);
         }
     }
     uint32_t corners = route->corner_count < buffers->corner_capacity ? route->corner_count : buffers->corner_capacity;
     for (uint32_t i = 0; i + 1 < corners; i++) {
-        draw_add_line(scene, lifted(buffers->corners[i].point, 0.2f), lifted(buffers->corners[i + 1].point, 0.2f), line,
-                      3.2f, 1.0f);
+        draw_add_line(scene, lifted_detail(buffers->corners[i].point, 0.2f),
+                      lifted_detail(buffers->corners[i + 1].point, 0.2f), line, 3.2f, 1.0f);
     }
     for (uint32_t i = 0; i < corners; i++) {
         bool end = i == 0 || i + 1 == corners;
-        draw_add_dot(scene, lifted(buffers->corners[i].point, 0.2f), i == 0 ? 0x1e8449 : line, end ? 6.0f : 3.2f);
+        draw_add_dot(scene, lifted_detail(buffers->corners[i].point, 0.2f), i == 0 ? 0x1e8449 : line,
+                     end ? 6.0f : 3.2f);
     }
     snprintf(scene->subtitle, sizeof scene->subtitle, "path %s: %.2f m, %u corners, %u polygons",
              tl_nav_path_status_name(route->path.status), (double)route->length, route->corner_count,

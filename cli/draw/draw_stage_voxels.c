@@ -9,25 +9,27 @@
 static const draw_colour CLOSED = 0xb9a89c;
 static const draw_colour SOLID = 0xcfc8bb;
 
-typedef struct lattice {
+typedef struct column_lattice {
     tl_vec3 origin;
     float cell_size, cell_height;
-} lattice;
+} column_lattice;
 
-static tl_vec3 lattice_point(const lattice *grid, uint32_t x, float y, uint32_t z)
+static tl_vec3 lattice_point(const column_lattice *grid, uint32_t x, float y, uint32_t z)
 {
     return tl_vec3_make(grid->origin.x + (float)x * grid->cell_size, grid->origin.y + y * grid->cell_height,
                         grid->origin.z + (float)z * grid->cell_size);
 }
 
-static void add_square(draw_scene *scene, const lattice *grid, uint32_t x, float y, uint32_t z, draw_colour colour)
+static void add_square(draw_scene *scene, const column_lattice *grid, uint32_t x, float y, uint32_t z,
+                       draw_colour colour)
 {
     draw_add_quad(scene, lattice_point(grid, x, y, z), lattice_point(grid, x, y, z + 1),
                   lattice_point(grid, x + 1, y, z + 1), lattice_point(grid, x + 1, y, z), colour);
 }
 
 // The side of a block towards direction d, from height `low` to `high`.
-static void add_side(draw_scene *scene, const lattice *grid, uint32_t x, uint32_t z, uint32_t d, float low, float high)
+static void add_side(draw_scene *scene, const column_lattice *grid, uint32_t x, uint32_t z, uint32_t d, float low,
+                     float high)
 {
     // The edge of the cell on that side, as offsets of its two ends.
     static const uint8_t ends[4][4] = { { 0, 0, 0, 1 }, { 0, 1, 1, 1 }, { 1, 1, 1, 0 }, { 1, 0, 0, 0 } };
@@ -38,7 +40,7 @@ static void add_side(draw_scene *scene, const lattice *grid, uint32_t x, uint32_
 }
 
 // Sides are drawn only where the neighbour column is open: its spans are cut out of [min, max].
-static void add_open_sides(draw_scene *scene, const tl_nav_heightfield *field, const lattice *grid, uint32_t x,
+static void add_open_sides(draw_scene *scene, const tl_nav_heightfield *field, const column_lattice *grid, uint32_t x,
                            uint32_t z, const tl_nav_span *span)
 {
     static const int step[4][2] = { { -1, 0 }, { 0, 1 }, { 1, 0 }, { 0, -1 } };
@@ -67,7 +69,7 @@ static void add_open_sides(draw_scene *scene, const tl_nav_heightfield *field, c
 
 void draw_stage_spans(draw_scene *scene, const tl_nav_heightfield *field)
 {
-    const lattice grid = { field->bounds.min, field->cell_size, field->cell_height };
+    const column_lattice grid = { field->bounds.min, field->cell_size, field->cell_height };
     scene->overlay_alpha = 1.0f;
     uint32_t walkable = 0;
     bool used[TL_NAV_MAX_AREA + 1] = { false };
@@ -139,7 +141,7 @@ static void name_floors(draw_scene *scene, const tl_nav_compact *compact, draw_f
 
 void draw_stage_floors(draw_scene *scene, const tl_nav_compact *compact, draw_floor_colour kind)
 {
-    const lattice grid = { compact->bounds.min, compact->cell_size, compact->cell_height };
+    const column_lattice grid = { compact->bounds.min, compact->cell_size, compact->cell_height };
     for (uint32_t z = 0; z < compact->height; z++) {
         for (uint32_t x = 0; x < compact->width; x++) {
             size_t column = (size_t)z * compact->width + x;

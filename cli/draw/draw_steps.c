@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { COLUMNS = 4, MOST_PANELS = 12, HEAD = 64, FOOT = 44, CAPTION = 40, GAP = 14 };
+enum { COLUMNS = 4, MAX_STEP_PANELS = 12, HEAD = 64, FOOT = 44, CAPTION = 40, GAP = 14 };
 
 static const draw_colour FLOOR = 0xeceef1, DONE = 0xcfe3f1, OUTLINE = 0x23303f, CANDIDATE = 0x4f86b5, CHOSEN = 0xc0392b,
                          FRESH = 0xf2c14e, FAINT = 0xa9b4c0;
@@ -66,7 +66,7 @@ static void fill_loop(cairo_t *cairo, const steps_sheet *sheet, const int32_t *p
     cairo_fill(cairo);
 }
 
-static void add_contour(cairo_t *cairo, const steps_sheet *sheet)
+static void add_step_contour(cairo_t *cairo, const steps_sheet *sheet)
 {
     const tl_contour *contour = &sheet->set->contours[sheet->options->contour];
     for (uint32_t i = 0; i < contour->vertex_count; i++) {
@@ -78,7 +78,7 @@ static void add_contour(cairo_t *cairo, const steps_sheet *sheet)
     cairo_close_path(cairo);
 }
 
-static void stroke(cairo_t *cairo, draw_colour colour, double width)
+static void stroke_step(cairo_t *cairo, draw_colour colour, double width)
 {
     draw_set_colour(cairo, colour, 1.0);
     cairo_set_line_width(cairo, width);
@@ -99,14 +99,14 @@ static const int32_t *partitions_of(const steps_sheet *sheet, const steps_entry 
     return sheet->record->numbers + entry->first;
 }
 
-static const int32_t *outline_of(const steps_sheet *sheet, const steps_entry *entry)
+static const int32_t *step_outline(const steps_sheet *sheet, const steps_entry *entry)
 {
     return partitions_of(sheet, entry) + 4 * (size_t)entry->partition_count;
 }
 
-static const int32_t *corners_of(const steps_sheet *sheet, const steps_entry *entry)
+static const int32_t *step_corners(const steps_sheet *sheet, const steps_entry *entry)
 {
-    return outline_of(sheet, entry) + 2 * (size_t)entry->outline_count;
+    return step_outline(sheet, entry) + 2 * (size_t)entry->outline_count;
 }
 
 // The potential partitions dashed, and the chosen one, which is the first, over them.
@@ -118,18 +118,18 @@ static void draw_choice(cairo_t *cairo, const steps_sheet *sheet, const steps_en
         add_segment(cairo, sheet, partitions + 4 * (size_t)i);
     }
     cairo_set_dash(cairo, dashes, 2, 0.0);
-    stroke(cairo, CANDIDATE, 1.2);
+    stroke_step(cairo, CANDIDATE, 1.2);
     cairo_set_dash(cairo, NULL, 0, 0.0);
     if (entry->partition_count > 0) {
         add_segment(cairo, sheet, partitions);
-        stroke(cairo, CHOSEN, 2.4);
+        stroke_step(cairo, CHOSEN, 2.4);
     }
 }
 
 static void draw_contour(cairo_t *cairo, const steps_sheet *sheet)
 {
-    add_contour(cairo, sheet);
-    stroke(cairo, OUTLINE, 1.6);
+    add_step_contour(cairo, sheet);
+    stroke_step(cairo, OUTLINE, 1.6);
 }
 
 static void draw_dots(cairo_t *cairo, const steps_sheet *sheet, const int32_t *pairs, uint32_t count)
@@ -148,18 +148,18 @@ static void draw_cut(cairo_t *cairo, const steps_sheet *sheet, uint32_t step)
     const steps_of_kind *cuts = &sheet->record->kinds[TL_POLYGON_STEP_CUT];
     for (uint32_t i = 0; i <= step; i++) {
         const steps_entry *entry = &cuts->entries[i];
-        fill_loop(cairo, sheet, corners_of(sheet, entry), entry->corner_count, i == step ? FRESH : DONE);
+        fill_loop(cairo, sheet, step_corners(sheet, entry), entry->corner_count, i == step ? FRESH : DONE);
     }
     for (uint32_t i = 0; i < step; i++) {
-        add_loop(cairo, sheet, corners_of(sheet, &cuts->entries[i]), cuts->entries[i].corner_count);
+        add_loop(cairo, sheet, step_corners(sheet, &cuts->entries[i]), cuts->entries[i].corner_count);
     }
-    stroke(cairo, 0xffffff, 1.0);
+    stroke_step(cairo, 0xffffff, 1.0);
     draw_contour(cairo, sheet);
     const steps_entry *entry = &cuts->entries[step];
-    add_loop(cairo, sheet, outline_of(sheet, entry), entry->outline_count);
-    stroke(cairo, OUTLINE, 1.6);
+    add_loop(cairo, sheet, step_outline(sheet, entry), entry->outline_count);
+    stroke_step(cairo, OUTLINE, 1.6);
     draw_choice(cairo, sheet, entry);
-    draw_dots(cairo, sheet, outline_of(sheet, entry), entry->outline_count);
+    draw_dots(cairo, sheet, step_outline(sheet, entry), entry->outline_count);
 }
 
 // What the cuts left and no earlier merge has taken away.
@@ -172,21 +172,21 @@ static void draw_edges(cairo_t *cairo, const steps_sheet *sheet, uint64_t merges
             add_segment(cairo, sheet, partitions_of(sheet, &cuts->entries[i]));
         }
     }
-    stroke(cairo, FAINT, 1.0);
+    stroke_step(cairo, FAINT, 1.0);
     // Painted over with the floor: the same segments, so nothing else can be hit but where edges meet.
     for (uint64_t i = 0; i < merges_done; i++) {
         add_segment(cairo, sheet, partitions_of(sheet, &merges->entries[i]));
     }
-    stroke(cairo, FLOOR, 2.4);
+    stroke_step(cairo, FLOOR, 2.4);
 }
 
 static void draw_merge(cairo_t *cairo, const steps_sheet *sheet, uint32_t step)
 {
     draw_edges(cairo, sheet, step);
     const steps_entry *entry = &sheet->record->kinds[TL_POLYGON_STEP_MERGE].entries[step];
-    fill_loop(cairo, sheet, corners_of(sheet, entry), entry->corner_count, FRESH);
-    add_loop(cairo, sheet, corners_of(sheet, entry), entry->corner_count);
-    stroke(cairo, OUTLINE, 1.2);
+    fill_loop(cairo, sheet, step_corners(sheet, entry), entry->corner_count, FRESH);
+    add_loop(cairo, sheet, step_corners(sheet, entry), entry->corner_count);
+    stroke_step(cairo, OUTLINE, 1.2);
     draw_contour(cairo, sheet);
     draw_choice(cairo, sheet, entry);
 }
@@ -204,7 +204,7 @@ static void draw_polygons(cairo_t *cairo, const steps_sheet *sheet)
         cairo_close_path(cairo);
         draw_set_colour(cairo, draw_colour_mix(draw_colour_of_id(p + 1), 0xffffff, 0.35f), 1.0);
         cairo_fill_preserve(cairo);
-        stroke(cairo, 0xffffff, 1.0);
+        stroke_step(cairo, 0xffffff, 1.0);
     }
     draw_contour(cairo, sheet);
 }
@@ -214,12 +214,12 @@ static void draw_triangles(cairo_t *cairo, const steps_sheet *sheet)
     const steps_of_kind *cuts = &sheet->record->kinds[TL_POLYGON_STEP_CUT];
     for (uint64_t i = 0; i < cuts->count; i++) {
         const steps_entry *entry = &cuts->entries[i];
-        fill_loop(cairo, sheet, corners_of(sheet, entry), entry->corner_count, DONE);
+        fill_loop(cairo, sheet, step_corners(sheet, entry), entry->corner_count, DONE);
     }
     for (uint64_t i = 0; i < cuts->count; i++) {
-        add_loop(cairo, sheet, corners_of(sheet, &cuts->entries[i]), cuts->entries[i].corner_count);
+        add_loop(cairo, sheet, step_corners(sheet, &cuts->entries[i]), cuts->entries[i].corner_count);
     }
-    stroke(cairo, CANDIDATE, 1.0);
+    stroke_step(cairo, CANDIDATE, 1.0);
     draw_contour(cairo, sheet);
 }
 
@@ -292,7 +292,7 @@ static void draw_legend_entry(cairo_t *cairo, double *x, double y, draw_colour c
     *x += 44 + draw_text_width(cairo, words);
 }
 
-static void paint_sheet(cairo_t *cairo, const void *user)
+static void paint_steps(cairo_t *cairo, const void *user)
 {
     const steps_sheet *sheet = user;
     const draw_steps_options *options = sheet->options;
@@ -312,7 +312,7 @@ static void paint_sheet(cairo_t *cairo, const void *user)
         cairo_save(cairo);
         cairo_translate(cairo, GAP + (double)(i % sheet->columns) * (sheet->panel_width + GAP),
                         HEAD + CAPTION + (double)(i / sheet->columns) * (sheet->panel_height + CAPTION + GAP));
-        add_contour(cairo, sheet);
+        add_step_contour(cairo, sheet);
         draw_set_colour(cairo, FLOOR, 1.0);
         cairo_fill(cairo);
         if (i == 0) {
@@ -333,7 +333,7 @@ static void paint_sheet(cairo_t *cairo, const void *user)
     }
 }
 
-static void lay_out(steps_sheet *sheet)
+static void lay_out_steps(steps_sheet *sheet)
 {
     const tl_contour *contour = &sheet->set->contours[sheet->options->contour];
     const tl_contour_vertex *vertices = sheet->set->vertices + contour->first_vertex;
@@ -363,7 +363,7 @@ tl_result draw_steps_write(const tl_contour_set *set, const draw_steps_options *
 {
     steps_record record;
     tl_result result = steps_record_make(set, options->contour, options->max_verts_per_poly, options->kind,
-                                         MOST_PANELS - 2, host, &record);
+                                         MAX_STEP_PANELS - 2, host, &record);
     if (result == TL_OK && record.kinds[TL_POLYGON_STEP_CUT].count == 0) {
         result = TL_ERR_EMPTY;
     }
@@ -381,8 +381,8 @@ tl_result draw_steps_write(const tl_contour_set *set, const draw_steps_options *
         sheet.options = options;
         sheet.record = &record;
         sheet.summary = summary_out;
-        lay_out(&sheet);
-        result = draw_paper_write(path, sheet.width, sheet.height, paint_sheet, &sheet, error_out);
+        lay_out_steps(&sheet);
+        result = draw_paper_write(path, sheet.width, sheet.height, paint_steps, &sheet, error_out);
     }
     steps_record_free(&record);
     return result;

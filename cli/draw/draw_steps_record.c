@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void *grown(steps_record *record, void *array, uint64_t *capacity, uint64_t used, uint64_t needed, size_t size)
+static void *grown_steps(steps_record *record, void *array, uint64_t *capacity, uint64_t used, uint64_t needed,
+                         size_t size)
 {
     tl_allocator allocator = tl_io_allocator_or_default(NULL);
     if (!tl_io_grow(&allocator, &array, capacity, used, needed, size)) {
@@ -21,8 +22,8 @@ static void *grown(steps_record *record, void *array, uint64_t *capacity, uint64
 
 static void put_numbers(steps_record *record, const int32_t *numbers, uint64_t count)
 {
-    record->numbers = grown(record, record->numbers, &record->number_capacity, record->number_count,
-                            record->number_count + count, sizeof *record->numbers);
+    record->numbers = grown_steps(record, record->numbers, &record->number_capacity, record->number_count,
+                                  record->number_count + count, sizeof *record->numbers);
     if (!record->out_of_memory && count > 0) {
         memcpy(record->numbers + record->number_count, numbers, (size_t)count * sizeof *numbers);
         record->number_count += count;
@@ -50,7 +51,8 @@ static void record_step(const tl_polygon_step *step, void *user)
     bool full = is_shown(kind, kind->count);
     steps_entry entry = { record->number_count, full ? step->partition_count : step->partition_count > 0,
                           full ? step->outline_count : 0, step->corner_count, step->partition_count };
-    kind->entries = grown(record, kind->entries, &kind->capacity, kind->count, kind->count + 1, sizeof *kind->entries);
+    kind->entries =
+        grown_steps(record, kind->entries, &kind->capacity, kind->count, kind->count + 1, sizeof *kind->entries);
     put_numbers(record, step->partitions, 4 * (uint64_t)entry.partition_count);
     put_numbers(record, step->outline, 2 * (uint64_t)entry.outline_count);
     put_numbers(record, step->corners, 2 * (uint64_t)entry.corner_count);

@@ -258,8 +258,7 @@ static bool bake_links(tl_cli *cli, const tl_level *level, const tl_bake_setting
     if (!ok) {
         *exit_out = tl_cli_fail_result(cli, level->path, result, NULL);
     }
-    ok = ok && tl_level_links_find(cli, level->path, &settings->links_def, navmesh, bake->soup, &bake->links,
-                                   &bake->links_report, exit_out);
+    ok = ok && tl_level_links_find(cli, &settings->links_def, navmesh, bake->soup, &bake->links, exit_out);
     tl_navmesh_destroy(navmesh);
     return ok;
 }
@@ -279,7 +278,7 @@ void tl_bake_free(tl_bake *bake)
 {
     tl_blob_free(bake->soup);
     tl_blob_free(bake->hull);
-    tl_blob_free(bake->links);
+    tl_blob_free(bake->links.links);
     tl_blob_free(bake->marks);
     tl_nav_tiles_free(&bake->tiles);
     memset(bake, 0, sizeof(*bake));

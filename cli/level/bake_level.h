@@ -63,8 +63,7 @@ typedef struct tl_bake {
     tl_area_sums areas;         ///< the same by area
     uint64_t nav_polygons;
     tl_pack_volumes *marks; ///< NULL: no volumes were given
-    tl_nav_links *links;
-    tl_nav_links_report links_report;
+    tl_level_links links;
 } tl_bake;
 
 /// False: the failure was reported, and `*exit_out` says how to end. Free with tl_bake_free, also then.

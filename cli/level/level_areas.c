@@ -16,7 +16,7 @@
 
 enum { MOST_NAMES_LISTED = 24 };
 
-static bool fail_memory(tl_cli *cli, const tl_level *level, tl_exit *exit_out)
+static bool fail_areas_memory(tl_cli *cli, const tl_level *level, tl_exit *exit_out)
 {
     *exit_out = tl_cli_fail(cli, TL_EXIT_MEMORY, "%s: out of memory", level->path);
     return false;
@@ -33,7 +33,7 @@ static bool take_word(tl_cli *cli, const tl_level *level, const char *word, tl_a
         return false;
     }
     return tl_area_marks_add_rule(marks, word, (size_t)(equals - word), 0, (uint8_t)area) == TL_OK ||
-           fail_memory(cli, level, exit_out);
+           fail_areas_memory(cli, level, exit_out);
 }
 
 // ---- Materials -----------------------------------------------------------------------------------------------
@@ -118,7 +118,7 @@ static bool mark_triangles(tl_cli *cli, const tl_level *level, const char *path,
     areas->of_triangle = malloc(level->mesh.triangle_count);
     if (of_material == NULL || areas->of_triangle == NULL) {
         free(of_material);
-        return fail_memory(cli, level, exit_out);
+        return fail_areas_memory(cli, level, exit_out);
     }
     memset(of_material, TL_NAV_WALKABLE_AREA, names->count + 1);
     bool known = true;

@@ -31,15 +31,14 @@ void tl_link_options(tl_nav_links_def *def, tl_option table[TL_LINK_OPTIONS])
     memcpy(table, options, sizeof(options));
 }
 
-bool tl_level_links_find(tl_cli *cli, const char *path, const tl_nav_links_def *def, const tl_navmesh *navmesh,
-                         const tl_soup *soup, tl_nav_links **links_out, tl_nav_links_report *report_out,
-                         tl_exit *exit_out)
+bool tl_level_links_find(tl_cli *cli, const tl_nav_links_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
+                         tl_level_links *links_out, tl_exit *exit_out)
 {
     tl_nav_links_def with_host = *def;
     with_host.host = &cli->host;
-    tl_result result = tl_nav_links_find(&with_host, navmesh, soup, links_out, report_out);
+    tl_result result = tl_nav_links_find(&with_host, navmesh, soup, &links_out->links, &links_out->report);
     if (result != TL_OK) {
-        *exit_out = tl_cli_fail_result(cli, path, result, &report_out->base);
+        *exit_out = tl_cli_fail_result(cli, cli->arguments.words[0], result, &links_out->report.base);
     }
     return result == TL_OK;
 }
@@ -82,11 +81,6 @@ json_t *tl_level_links_json(const tl_nav_links_report *report)
     return object;
 }
 
-static json_t *point_json(tl_vec3 p)
-{
-    return json_pack("[ooo]", tl_json_float(p.x), tl_json_float(p.y), tl_json_float(p.z));
-}
-
 json_t *tl_level_links_list_json(const tl_nav_links *links)
 {
     json_t *list = json_array();
@@ -94,7 +88,7 @@ json_t *tl_level_links_list_json(const tl_nav_links *links)
     for (uint32_t i = 0; i < links->link_count; ++i) {
         json_array_append_new(list,
                               json_pack("{ss so so so sb}", "kind", tl_nav_link_kind_name((tl_nav_link_kind)at[i].kind),
-                                        "start", point_json(at[i].start), "end", point_json(at[i].end), "apex",
+                                        "start", tl_json_point(at[i].start), "end", tl_json_point(at[i].end), "apex",
                                         tl_json_float(at[i].apex), "both_ways", (int)at[i].both_ways));
     }
     return list;

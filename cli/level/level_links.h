@@ -15,10 +15,15 @@ enum { TL_LINK_OPTIONS = 9 };
 /// Options for the fields of a def, named by what the agent can do.
 void tl_link_options(tl_nav_links_def *def, tl_option table[TL_LINK_OPTIONS]);
 
-/// Finds the links. False: the failure was reported. Free them with tl_blob_free.
-bool tl_level_links_find(tl_cli *cli, const char *path, const tl_nav_links_def *def, const tl_navmesh *navmesh,
-                         const tl_soup *soup, tl_nav_links **links_out, tl_nav_links_report *report_out,
-                         tl_exit *exit_out);
+/// What was found, and the counts. `links` is freed with tl_blob_free.
+typedef struct tl_level_links {
+    tl_nav_links *links;
+    tl_nav_links_report report;
+} tl_level_links;
+
+/// Finds the links of the level that the command line names first. False: the failure was reported.
+bool tl_level_links_find(tl_cli *cli, const tl_nav_links_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
+                         tl_level_links *links_out, tl_exit *exit_out);
 
 /// A table of kinds and what became of the ways that were tried.
 void tl_level_links_print(const tl_nav_links_report *report);

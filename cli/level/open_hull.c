@@ -75,7 +75,7 @@ bool tl_read_clouds(tl_cli *cli, const char *path, const tl_hull_settings *setti
     return true;
 }
 
-static bool open_baked(tl_cli *cli, const char *path, tl_hull_input *input, tl_exit *exit_out)
+static bool open_baked_hull(tl_cli *cli, const char *path, tl_hull_input *input, tl_exit *exit_out)
 {
     if (!tl_input_open_baked(cli, path, &input->baked, exit_out)) {
         return false;
@@ -95,7 +95,7 @@ bool tl_hull_open(tl_cli *cli, const char *path, const tl_hull_settings *setting
 {
     memset(input_out, 0, sizeof(*input_out));
     if (tl_input_is_baked(path)) {
-        return open_baked(cli, path, input_out, exit_out);
+        return open_baked_hull(cli, path, input_out, exit_out);
     }
     tl_point_clouds clouds;
     if (!tl_read_clouds(cli, path, settings, &clouds, exit_out)) {

@@ -16,6 +16,30 @@ static bool ends_with(const char *text, const char *end)
     return text_length >= end_length && strcmp(text + text_length - end_length, end) == 0;
 }
 
+bool tl_input_parse(tl_cli *cli, const tl_option_group *own, tl_input_options options, tl_bake_settings *settings,
+                    uint32_t min_words, uint32_t max_words, tl_exit *exit_out)
+{
+    tl_option level_options[TL_LEVEL_OPTIONS];
+    tl_option nav_options[TL_NAV_OPTIONS];
+    tl_option_group groups[TL_MAX_OPTION_GROUPS + 1];
+    uint32_t count = 0;
+    for (; own != NULL && own->title != NULL && count < TL_MAX_OPTION_GROUPS - 2; ++own) {
+        groups[count++] = *own;
+    }
+    tl_level_options(&settings->level, level_options);
+    const tl_option_group level = { "When FILE is a level:", level_options };
+    groups[count++] = level;
+    if (options == TL_INPUT_NAVMESH) {
+        tl_nav_options(settings, nav_options);
+        const tl_option_group nav = { "When FILE is a level, its navmesh:", nav_options };
+        groups[count++] = nav;
+    }
+    const tl_option_group end = { NULL, NULL };
+    groups[count] = end;
+    return tl_cli_parse(cli, groups, min_words, max_words, exit_out) &&
+           (options == TL_INPUT_LEVEL || tl_bake_take_bounds(cli, settings, exit_out));
+}
+
 bool tl_input_is_baked(const char *path)
 {
     if (strcmp(path, "-") == 0) {

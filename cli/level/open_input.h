@@ -21,6 +21,16 @@ typedef struct tl_input {
     tl_navmesh *navmesh; ///< after tl_input_need_navmesh
 } tl_input;
 
+/// Which options for a level a command that takes FILE has beside its own.
+typedef enum tl_input_options {
+    TL_INPUT_LEVEL,  ///< how the level is read
+    TL_INPUT_NAVMESH ///< and how its navmesh is baked
+} tl_input_options;
+
+/// tl_cli_parse for a command that takes FILE: its own option groups, then those for a level, which fill `settings`.
+bool tl_input_parse(tl_cli *cli, const tl_option_group *own, tl_input_options options, tl_bake_settings *settings,
+                    uint32_t min_words, uint32_t max_words, tl_exit *exit_out);
+
 /// Whether the file's first bytes, or its ending .talus, say that it is a baked file. A file that cannot be opened is
 /// none: reading it as a level names the reason.
 bool tl_input_is_baked(const char *path);

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-tl_result tl_pack_content_make(uint32_t most, tl_pack_content *content_out)
+tl_result tl_pack_content_make(uint32_t max_count, tl_pack_content *content_out)
 {
     memset(content_out, 0, sizeof(*content_out));
-    content_out->items = calloc(most, sizeof(*content_out->items));
+    content_out->items = calloc(max_count, sizeof(*content_out->items));
     return content_out->items != NULL ? TL_OK : TL_ERR_MEMORY;
 }
 
@@ -43,7 +43,7 @@ typedef struct file_sink {
     uint64_t total;
 } file_sink;
 
-static tl_result write_bytes(const void *bytes, size_t size, void *user)
+static tl_result write_pack_bytes(const void *bytes, size_t size, void *user)
 {
     file_sink *sink = user;
     tl_result result = tl_atomic_file_write(sink->file, bytes, size, &sink->error);
@@ -67,7 +67,7 @@ tl_exit tl_pack_content_write(tl_cli *cli, const char *output, const tl_pack_con
     if (tl_atomic_file_open(output, &sink.file, &sink.error) != TL_OK) {
         return tl_cli_fail_io(cli, &sink.error);
     }
-    tl_result result = tl_pack_write(content->items, content->count, NULL, write_bytes, &sink, NULL);
+    tl_result result = tl_pack_write(content->items, content->count, NULL, write_pack_bytes, &sink, NULL);
     if (result != TL_OK) {
         tl_atomic_file_abort(sink.file);
         return sink.error.result != TL_OK ? tl_cli_fail_io(cli, &sink.error)

@@ -17,8 +17,8 @@ typedef struct tl_pack_content {
     tl_pack_navmesh *navmesh;
 } tl_pack_content;
 
-/// Room for `most` chunks. Free with tl_pack_content_free, also after a failure.
-tl_result tl_pack_content_make(uint32_t most, tl_pack_content *content_out);
+/// Takes up to `max_count` chunks. Free with tl_pack_content_free, also after a failure.
+tl_result tl_pack_content_make(uint32_t max_count, tl_pack_content *content_out);
 void tl_pack_content_free(tl_pack_content *content);
 
 /// Adds a blob, which stays the caller's; a NULL is left out.

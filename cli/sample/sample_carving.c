@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void push(tl_sample_carving *carving, tl_aabb box, bool solid)
+static void push_box(tl_sample_carving *carving, tl_aabb box, bool solid)
 {
     if (carving->count == carving->capacity) {
         uint32_t grown = carving->capacity > 0 ? 2 * carving->capacity : 64;
@@ -27,29 +27,29 @@ static void push(tl_sample_carving *carving, tl_aabb box, bool solid)
 
 void tl_sample_carving_add(tl_sample_carving *carving, float x0, float y0, float z0, float x1, float y1, float z1)
 {
-    push(carving, tl_sample_bounds(x0, y0, z0, x1, y1, z1), true);
+    push_box(carving, tl_sample_bounds(x0, y0, z0, x1, y1, z1), true);
 }
 
 void tl_sample_carving_cut(tl_sample_carving *carving, float x0, float y0, float z0, float x1, float y1, float z1)
 {
-    push(carving, tl_sample_bounds(x0, y0, z0, x1, y1, z1), false);
+    push_box(carving, tl_sample_bounds(x0, y0, z0, x1, y1, z1), false);
 }
 
 // The planes of one axis, ascending; cell i lies between planes i - 1 and i, so cells 0 and count lie outside.
-typedef struct planes {
+typedef struct plane_list {
     float *at;
     uint32_t count;
-} planes;
+} plane_list;
 
 // The lattice and its vertices, made when a face first needs them.
-typedef struct lattice {
-    planes axis[3];
+typedef struct carving_lattice {
+    plane_list axis[3];
     uint32_t cells[3]; // planes + 1
     unsigned char *solid;
     uint32_t *vertex; // index + 1, 0: not made yet
-} lattice;
+} carving_lattice;
 
-static float component(tl_vec3 v, unsigned axis)
+static float point_component(tl_vec3 v, unsigned axis)
 {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
@@ -61,11 +61,11 @@ static int compare_floats(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static void collect_planes(const tl_sample_carving *carving, unsigned axis, planes *out)
+static void collect_planes(const tl_sample_carving *carving, unsigned axis, plane_list *out)
 {
     for (uint32_t i = 0; i < carving->count; ++i) {
-        out->at[2 * i] = component(carving->boxes[i].box.min, axis);
-        out->at[2 * i + 1] = component(carving->boxes[i].box.max, axis);
+        out->at[2 * i] = point_component(carving->boxes[i].box.min, axis);
+        out->at[2 * i + 1] = point_component(carving->boxes[i].box.max, axis);
     }
     qsort(out->at, 2 * (size_t)carving->count, sizeof(float), compare_floats);
     uint32_t count = 0;
@@ -77,23 +77,23 @@ static void collect_planes(const tl_sample_carving *carving, unsigned axis, plan
     out->count = count;
 }
 
-static uint32_t find_plane(const planes *axis, float value)
+static uint32_t plane_index(const plane_list *axis, float value)
 {
     const float *found = bsearch(&value, axis->at, axis->count, sizeof(float), compare_floats);
     return (uint32_t)(found - axis->at);
 }
 
-static size_t cell_index(const lattice *grid, uint32_t x, uint32_t y, uint32_t z)
+static size_t cell_index(const carving_lattice *grid, uint32_t x, uint32_t y, uint32_t z)
 {
     return ((size_t)z * grid->cells[1] + y) * grid->cells[0] + x;
 }
 
-static void fill(lattice *grid, const tl_sample_carving_box *entry)
+static void fill_cells(carving_lattice *grid, const tl_sample_carving_box *entry)
 {
     uint32_t low[3], high[3];
     for (unsigned axis = 0; axis < 3; ++axis) {
-        low[axis] = find_plane(&grid->axis[axis], component(entry->box.min, axis)) + 1;
-        high[axis] = find_plane(&grid->axis[axis], component(entry->box.max, axis)) + 1;
+        low[axis] = plane_index(&grid->axis[axis], point_component(entry->box.min, axis)) + 1;
+        high[axis] = plane_index(&grid->axis[axis], point_component(entry->box.max, axis)) + 1;
     }
     if (high[0] <= low[0]) {
         return;
@@ -105,7 +105,7 @@ static void fill(lattice *grid, const tl_sample_carving_box *entry)
     }
 }
 
-static uint32_t corner(lattice *grid, const uint32_t plane[3], tl_sample_mesh *mesh)
+static uint32_t lattice_corner(carving_lattice *grid, const uint32_t plane[3], tl_sample_mesh *mesh)
 {
     if (mesh->counting) {
         return 0;
@@ -120,7 +120,7 @@ static uint32_t corner(lattice *grid, const uint32_t plane[3], tl_sample_mesh *m
 
 // The face on plane `plane` of `axis` of the cell column (b, c) of the two other axes; it looks towards +axis when
 // `forward`.
-static void put_face(lattice *grid, unsigned axis, uint32_t plane, uint32_t b, uint32_t c, bool forward,
+static void put_face(carving_lattice *grid, unsigned axis, uint32_t plane, uint32_t b, uint32_t c, bool forward,
                      tl_sample_mesh *mesh)
 {
     unsigned axis_b = (axis + 1) % 3;
@@ -131,7 +131,7 @@ static void put_face(lattice *grid, unsigned axis, uint32_t plane, uint32_t b, u
         at[axis] = plane;
         at[axis_b] = b - 1 + (i == 1 || i == 2);
         at[axis_c] = c - 1 + (i >= 2);
-        v[i] = corner(grid, at, mesh);
+        v[i] = lattice_corner(grid, at, mesh);
     }
     if (forward) {
         tl_sample_quad(mesh, v[0], v[1], v[2], v[3]);
@@ -142,10 +142,11 @@ static void put_face(lattice *grid, unsigned axis, uint32_t plane, uint32_t b, u
 
 static bool on_window(const tl_aabb *window, unsigned axis, float at)
 {
-    return window != NULL && axis != 1 && (at == component(window->min, axis) || at == component(window->max, axis));
+    return window != NULL && axis != 1 &&
+           (at == point_component(window->min, axis) || at == point_component(window->max, axis));
 }
 
-static void put_faces(lattice *grid, unsigned axis, const tl_aabb *window, tl_sample_mesh *mesh)
+static void put_faces(carving_lattice *grid, unsigned axis, const tl_aabb *window, tl_sample_mesh *mesh)
 {
     unsigned axis_b = (axis + 1) % 3;
     unsigned axis_c = (axis + 2) % 3;
@@ -170,7 +171,7 @@ static void put_faces(lattice *grid, unsigned axis, const tl_aabb *window, tl_sa
     }
 }
 
-static bool make_lattice(const tl_sample_carving *carving, lattice *grid)
+static bool make_lattice(const tl_sample_carving *carving, carving_lattice *grid)
 {
     size_t cells = 1;
     for (unsigned axis = 0; axis < 3; ++axis) {
@@ -193,12 +194,12 @@ static bool make_lattice(const tl_sample_carving *carving, lattice *grid)
 
 void tl_sample_carving_finish(tl_sample_carving *carving, const tl_aabb *window, tl_sample_mesh *mesh)
 {
-    lattice grid = { 0 };
+    carving_lattice grid = { 0 };
     if (carving->failed || (carving->count > 0 && !make_lattice(carving, &grid))) {
         mesh->result = TL_ERR_MEMORY;
     } else if (carving->count > 0 && mesh->result == TL_OK) {
         for (uint32_t i = 0; i < carving->count; ++i) {
-            fill(&grid, &carving->boxes[i]);
+            fill_cells(&grid, &carving->boxes[i]);
         }
         for (unsigned axis = 0; axis < 3; ++axis) {
             put_faces(&grid, axis, window, mesh);

@@ -7,15 +7,15 @@
 #include "cli/sample/sample_carving.h"
 #include "cli/sample/sample_level.h"
 
-#define BLOCK    52.0f
-#define PAVEMENT 20.0f // from the block's centre to the kerb
-#define KERB     0.15f
-#define LOT      10.0f // from the block's centre to a lot's centre
-#define STOREY   3.2f
-#define SLAB     0.25f
-#define WALL     0.3f
-#define HALF_X   8.0f // of a house
-#define HALF_Z   6.0f
+#define CITY_BLOCK  52.0f
+#define PAVEMENT    20.0f // from the block's centre to the kerb
+#define KERB        0.15f
+#define LOT         10.0f // from the block's centre to a lot's centre
+#define CITY_STOREY 3.2f
+#define SLAB        0.25f
+#define CITY_WALL   0.3f
+#define HALF_X      8.0f // of a house
+#define HALF_Z      6.0f
 
 typedef enum lot_kind { LOT_FLAT, LOT_GABLE, LOT_PARK } lot_kind;
 
@@ -35,8 +35,8 @@ static lot lot_of(const tl_sample_plan *plan, uint32_t column, uint32_t row, uns
     result.kind = draw < 4 ? LOT_FLAT : draw < 6 ? LOT_GABLE : LOT_PARK;
     result.storeys = result.kind == LOT_FLAT ? 1 + tl_sample_random_below(&random, 5) : 1 + draw % 2;
     result.turns = 2 * tl_sample_random_below(&random, 2);
-    result.center = tl_vec3_make(((float)column + 0.5f) * BLOCK + (index & 1 ? LOT : -LOT), KERB,
-                                 ((float)row + 0.5f) * BLOCK + (index & 2 ? LOT : -LOT));
+    result.center = tl_vec3_make(((float)column + 0.5f) * CITY_BLOCK + (index & 1 ? LOT : -LOT), KERB,
+                                 ((float)row + 0.5f) * CITY_BLOCK + (index & 2 ? LOT : -LOT));
     result.hash = tl_sample_random_u64(&random);
     return result;
 }
@@ -55,22 +55,22 @@ static void cut_windows(tl_sample_carving *walls, float floor)
 
 // Walls, and thin partitions with a door on each floor. Floors are pieces of their own: the windows' planes would
 // cut them to shreds.
-static void add_walls(const lot *here, bool windows, float top, tl_sample_mesh *mesh)
+static void add_house_walls(const lot *here, bool windows, float top, tl_sample_mesh *mesh)
 {
     tl_sample_carving walls = { 0 };
-    float x = HALF_X - WALL;
-    float z = HALF_Z - WALL;
+    float x = HALF_X - CITY_WALL;
+    float z = HALF_Z - CITY_WALL;
     tl_sample_carving_add(&walls, -HALF_X, 0.0f, -HALF_Z, HALF_X, top, HALF_Z);
     tl_sample_carving_cut(&walls, -x, 0.0f, -z, x, top, z);
     for (uint32_t i = 0; windows && i < here->storeys; ++i) {
-        cut_windows(&walls, (float)i * STOREY);
+        cut_windows(&walls, (float)i * CITY_STOREY);
     }
     tl_sample_carving_cut(&walls, 2.0f, 0.0f, -HALF_Z, 4.2f, 2.4f, -z); // front door
     tl_sample_carving_cut(&walls, -0.2f, 0.0f, z, 2.0f, 2.4f, HALF_Z);  // back door
     tl_sample_carving_finish(&walls, NULL, mesh);
     for (uint32_t i = 0; windows && i < here->storeys; ++i) {
-        float floor = (float)i * STOREY;
-        tl_sample_carving_add(&walls, -0.06f, floor, -z, 0.06f, floor + STOREY - SLAB, z);
+        float floor = (float)i * CITY_STOREY;
+        tl_sample_carving_add(&walls, -0.06f, floor, -z, 0.06f, floor + CITY_STOREY - SLAB, z);
         tl_sample_carving_cut(&walls, -0.06f, floor, -1.2f, 0.06f, floor + 2.4f, 1.2f);
         tl_sample_carving_finish(&walls, NULL, mesh);
     }
@@ -79,10 +79,10 @@ static void add_walls(const lot *here, bool windows, float top, tl_sample_mesh *
 // Stairs alternate between two lanes, along the front and along the back wall, so that no flight stands over another.
 static void add_floors(const lot *here, bool roof_access, tl_sample_mesh *mesh)
 {
-    float x = HALF_X - WALL;
-    float z = HALF_Z - WALL;
+    float x = HALF_X - CITY_WALL;
+    float z = HALF_Z - CITY_WALL;
     for (uint32_t i = 1; i <= here->storeys; ++i) {
-        float top = (float)i * STOREY;
+        float top = (float)i * CITY_STOREY;
         unsigned turns = here->turns + 2 * ((i - 1) % 2);
         bool opening = i < here->storeys || roof_access;
         tl_sample_carving slab = { 0 };
@@ -93,7 +93,7 @@ static void add_floors(const lot *here, bool roof_access, tl_sample_mesh *mesh)
         }
         tl_sample_carving_finish(&slab, NULL, mesh);
         if (opening) {
-            tl_sample_stairs(mesh, tl_sample_bounds(-6.0f, top - STOREY, -z, -2.2f, top, -z + 2.4f), 16);
+            tl_sample_stairs(mesh, tl_sample_bounds(-6.0f, top - CITY_STOREY, -z, -2.2f, top, -z + 2.4f), 16);
         }
     }
 }
@@ -101,9 +101,9 @@ static void add_floors(const lot *here, bool roof_access, tl_sample_mesh *mesh)
 static void add_house(const lot *here, uint32_t detail, tl_sample_mesh *mesh)
 {
     bool flat = here->kind == LOT_FLAT;
-    float height = (float)here->storeys * STOREY;
+    float height = (float)here->storeys * CITY_STOREY;
     tl_sample_place(mesh, here->center, here->turns);
-    add_walls(here, detail > 0, flat ? height + 0.8f : height, mesh);
+    add_house_walls(here, detail > 0, flat ? height + 0.8f : height, mesh);
     add_floors(here, flat && detail > 0 && here->hash % 2 == 0, mesh);
     tl_sample_place(mesh, here->center, here->turns);
     if (!flat) {
@@ -133,11 +133,11 @@ static void add_park(const lot *here, tl_sample_mesh *mesh)
     }
 }
 
-static void add_ground(const tl_sample_plan *plan, uint32_t column, uint32_t row, tl_sample_mesh *mesh)
+static void add_city_ground(const tl_sample_plan *plan, uint32_t column, uint32_t row, tl_sample_mesh *mesh)
 {
-    tl_vec3 center = { ((float)column + 0.5f) * BLOCK, 0.0f, ((float)row + 0.5f) * BLOCK };
+    tl_vec3 center = { ((float)column + 0.5f) * CITY_BLOCK, 0.0f, ((float)row + 0.5f) * CITY_BLOCK };
     tl_sample_carving ground = { 0 };
-    float half = 0.5f * BLOCK;
+    float half = 0.5f * CITY_BLOCK;
     tl_sample_carving_add(&ground, -half, -4.0f, -half, half, 0.0f, half);
     tl_sample_carving_add(&ground, -PAVEMENT, 0.0f, -PAVEMENT, PAVEMENT, KERB, PAVEMENT);
     for (unsigned i = 0; i < 4 && plan->detail > 0; ++i) {
@@ -154,7 +154,7 @@ static void add_ground(const tl_sample_plan *plan, uint32_t column, uint32_t row
 // Over the street towards +x, with stairs along the kerb on both pavements.
 static void add_footbridge(uint32_t column, uint32_t row, tl_sample_mesh *mesh)
 {
-    tl_vec3 middle = { ((float)column + 1.0f) * BLOCK, 0.0f, ((float)row + 0.5f) * BLOCK };
+    tl_vec3 middle = { ((float)column + 1.0f) * CITY_BLOCK, 0.0f, ((float)row + 0.5f) * CITY_BLOCK };
     tl_sample_carving deck = { 0 };
     tl_sample_place(mesh, middle, 0);
     tl_sample_carving_add(&deck, -7.8f, 4.7f, -1.4f, 7.8f, 5.0f, 1.4f);
@@ -178,7 +178,7 @@ void tl_sample_build_city(const tl_sample_plan *plan, tl_sample_mesh *mesh)
 {
     for (uint32_t row = 0; row < plan->rows; ++row) {
         for (uint32_t column = 0; column < plan->columns; ++column) {
-            add_ground(plan, column, row, mesh);
+            add_city_ground(plan, column, row, mesh);
             for (unsigned i = 0; i < (plan->detail > 0 ? 4u : 1u); ++i) {
                 lot here = lot_of(plan, column, row, i);
                 if (plan->detail == 0) {
@@ -210,5 +210,5 @@ tl_vec3 tl_sample_city_prop_place(const tl_sample_plan *plan, float radius, tl_s
                     : side == 1 ? tl_vec3_make(-across, 0.0f, along)
                     : side == 2 ? tl_vec3_make(along, 0.0f, across)
                                 : tl_vec3_make(along, 0.0f, -across);
-    return tl_add(tl_vec3_make(((float)column + 0.5f) * BLOCK, 0.0f, ((float)row + 0.5f) * BLOCK), local);
+    return tl_add(tl_vec3_make(((float)column + 0.5f) * CITY_BLOCK, 0.0f, ((float)row + 0.5f) * CITY_BLOCK), local);
 }

@@ -8,12 +8,12 @@
 #include "cli/sample/sample_carving.h"
 #include "cli/sample/sample_level.h"
 
-#define WARD      40.0f
-#define HALF_WALL 18.0f // outer face of the walls, from the ward's centre
-#define INNER     15.0f // inner face
-#define WALK      5.0f  // height of the wall-walk
+#define WARD       40.0f
+#define HALF_WALL  18.0f // outer face of the walls, from the ward's centre
+#define INNER_FACE 15.0f // inner face
+#define WALK       5.0f  // height of the wall-walk
 
-static void add_ground(const tl_sample_plan *plan, tl_sample_mesh *mesh)
+static void add_court_ground(const tl_sample_plan *plan, tl_sample_mesh *mesh)
 {
     tl_sample_carving ground = { 0 };
     float half = 0.5f * WARD;
@@ -28,7 +28,7 @@ static void add_ground(const tl_sample_plan *plan, tl_sample_mesh *mesh)
     tl_sample_carving_finish(&ground, NULL, mesh);
 }
 
-static void add_walls(const tl_sample_plan *plan, tl_sample_mesh *mesh)
+static void add_curtain_walls(const tl_sample_plan *plan, tl_sample_mesh *mesh)
 {
     tl_sample_carving walls = { 0 };
     float a = HALF_WALL;
@@ -42,20 +42,20 @@ static void add_walls(const tl_sample_plan *plan, tl_sample_mesh *mesh)
             tl_sample_carving_cut(&walls, -a, WALK + 0.6f, at - 0.5f, a, WALK + 1.1f, at + 0.5f);
         }
     }
-    tl_sample_carving_cut(&walls, -INNER, 0.0f, -INNER, INNER, WALK, INNER);
+    tl_sample_carving_cut(&walls, -INNER_FACE, 0.0f, -INNER_FACE, INNER_FACE, WALK, INNER_FACE);
     tl_sample_carving_cut(&walls, -1.6f, 0.0f, -a, 1.6f, 3.4f, a); // gates
     tl_sample_carving_cut(&walls, -a, 0.0f, -1.6f, a, 3.4f, 1.6f);
     if (plan->detail > 0) { // bridge over the court with low rails
-        tl_sample_carving_add(&walls, -INNER, WALK - 0.3f, -1.2f, INNER, WALK, 1.2f);
-        tl_sample_carving_add(&walls, -INNER, WALK, -1.2f, INNER, WALK + 1.0f, -1.1f);
-        tl_sample_carving_add(&walls, -INNER, WALK, 1.1f, INNER, WALK + 1.0f, 1.2f);
+        tl_sample_carving_add(&walls, -INNER_FACE, WALK - 0.3f, -1.2f, INNER_FACE, WALK, 1.2f);
+        tl_sample_carving_add(&walls, -INNER_FACE, WALK, -1.2f, INNER_FACE, WALK + 1.0f, -1.1f);
+        tl_sample_carving_add(&walls, -INNER_FACE, WALK, 1.1f, INNER_FACE, WALK + 1.0f, 1.2f);
     }
     tl_sample_carving_finish(&walls, NULL, mesh);
 }
 
 static void add_climbs(const tl_sample_plan *plan, tl_vec3 center, unsigned turns, tl_sample_mesh *mesh)
 {
-    float w = INNER;
+    float w = INNER_FACE;
     tl_sample_place(mesh, center, turns);
     tl_sample_stairs(mesh, tl_sample_bounds(-w + 4.0f, 0.0f, -w, -w + 11.0f, WALK, -w + 2.6f), plan->detail ? 25 : 12);
     tl_sample_box(mesh, tl_sample_bounds(-w + 11.0f, 0.0f, -w, -w + 13.0f, WALK, -w + 2.6f)); // landing
@@ -72,11 +72,11 @@ static void add_colonnade(tl_vec3 center, unsigned turns, tl_sample_mesh *mesh)
     tl_sample_place(mesh, center, turns);
     for (int side = -1; side <= 1; side += 2) {
         for (int i = 0; i < 4; ++i) {
-            tl_vec3 base = { INNER - 3.0f, 0.0f, (float)side * (3.0f + 3.0f * (float)i) };
+            tl_vec3 base = { INNER_FACE - 3.0f, 0.0f, (float)side * (3.0f + 3.0f * (float)i) };
             tl_sample_pillar(mesh, base, 0.3f, 3.2f, 3);
         }
         float z0 = side < 0 ? -13.0f : 2.2f;
-        tl_sample_ramp(mesh, tl_sample_bounds(INNER - 4.0f, 3.2f, z0, INNER, 4.4f, z0 + 10.8f));
+        tl_sample_ramp(mesh, tl_sample_bounds(INNER_FACE - 4.0f, 3.2f, z0, INNER_FACE, 4.4f, z0 + 10.8f));
     }
 }
 
@@ -111,8 +111,8 @@ void tl_sample_build_courtyard(const tl_sample_plan *plan, tl_sample_mesh *mesh)
             tl_sample_random random = tl_sample_random_make(plan->seed, column, row);
             unsigned turns = tl_sample_random_below(&random, 4);
             tl_sample_place(mesh, center, turns);
-            add_ground(plan, mesh);
-            add_walls(plan, mesh);
+            add_court_ground(plan, mesh);
+            add_curtain_walls(plan, mesh);
             add_climbs(plan, center, turns, mesh);
             if (plan->detail > 0) {
                 add_colonnade(center, turns, mesh);

@@ -7,10 +7,10 @@
 #include "cli/sample/sample_carving.h"
 #include "cli/sample/sample_level.h"
 
-#define CELL        20.0f
-#define HALF_DOOR   1.2f
-#define STOREY      1.6f
-#define DOOR_HEIGHT 2.8f
+#define CELL           20.0f
+#define HALF_DOOR      1.2f
+#define DUNGEON_STOREY 1.6f
+#define DOOR_HEIGHT    2.8f
 
 typedef enum room_kind { ROOM_PLAIN, ROOM_PILLARS, ROOM_PIT, ROOM_GALLERY, ROOM_PARTITION, ROOM_KINDS } room_kind;
 
@@ -26,7 +26,7 @@ static room room_of(const tl_sample_plan *plan, uint32_t column, uint32_t row)
     room result;
     float half_x = tl_sample_random_range(&random, 4.8f, 6.4f);
     float half_z = tl_sample_random_range(&random, 4.8f, 6.4f);
-    float floor = STOREY * (float)tl_sample_random_below(&random, 3);
+    float floor = DUNGEON_STOREY * (float)tl_sample_random_below(&random, 3);
     float height = tl_sample_random_range(&random, 4.2f, 5.5f);
     result.kind = plan->detail > 0 ? (room_kind)tl_sample_random_below(&random, ROOM_KINDS) : ROOM_PLAIN;
     result.hash = tl_sample_random_u64(&random);
@@ -96,7 +96,7 @@ static void add_climb(const room *here, const room *there, unsigned side, tl_vec
     float length = rise * 1.1f;
     tl_sample_place(mesh, center, turns[side]);
     tl_aabb box = tl_sample_bounds(-reach - length, there->box.min.y, -HALF_DOOR, -reach, here->box.min.y, HALF_DOOR);
-    if (rise < 1.5f * STOREY && (here->hash >> (16 + side)) % 2 != 0) {
+    if (rise < 1.5f * DUNGEON_STOREY && (here->hash >> (16 + side)) % 2 != 0) {
         box.min.x = tl_maxf(-reach - 2.0f * rise, -0.5f * CELL);
         tl_sample_ramp(mesh, box);
     } else {

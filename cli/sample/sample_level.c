@@ -59,7 +59,7 @@ static tl_sample_plan plan_of(uint32_t cells, uint32_t detail, uint64_t seed)
     return plan;
 }
 
-static uint32_t count_triangles(const tl_sample_level *level, uint32_t cells, uint32_t detail, uint64_t seed)
+static uint32_t count_level_triangles(const tl_sample_level *level, uint32_t cells, uint32_t detail, uint64_t seed)
 {
     tl_sample_mesh counter = { 0 };
     counter.counting = true;
@@ -73,12 +73,12 @@ static uint32_t count_triangles(const tl_sample_level *level, uint32_t cells, ui
 static tl_sample_plan choose_plan(const tl_sample_level *level, uint32_t triangle_count, uint64_t seed)
 {
     enum { PROBES = 20 };
-    uint32_t detail = count_triangles(level, 1, 1, seed) <= triangle_count ? 1 : 0;
+    uint32_t detail = count_level_triangles(level, 1, 1, seed) <= triangle_count ? 1 : 0;
     uint64_t low = 1;
     uint64_t high = (uint64_t)triangle_count + 2; // a cell has at least one triangle
     uint64_t guess = 4;
     for (uint32_t probe = 0; probe < PROBES && guess > low && guess < high; ++probe) {
-        uint32_t count = count_triangles(level, (uint32_t)guess, detail, seed);
+        uint32_t count = count_level_triangles(level, (uint32_t)guess, detail, seed);
         tl_sample_plan plan = plan_of((uint32_t)guess, detail, seed);
         if (count > triangle_count) {
             high = (uint64_t)plan.columns * plan.rows;

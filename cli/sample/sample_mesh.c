@@ -5,6 +5,8 @@
 
 #include "cli/sample/sample_mesh.h"
 
+#include "cli/shared/random.h"
+
 #include <stdlib.h>
 
 void tl_sample_mesh_free(tl_sample_mesh *mesh)
@@ -32,7 +34,7 @@ void tl_sample_place(tl_sample_mesh *mesh, tl_vec3 origin, unsigned quarter_turn
 }
 
 // Doubles the array when it is full.
-static bool reserve(tl_sample_mesh *mesh, void **array, uint32_t count, uint32_t *capacity, size_t size)
+static bool reserve_elements(tl_sample_mesh *mesh, void **array, uint32_t count, uint32_t *capacity, size_t size)
 {
     if (count < *capacity) {
         return true;
@@ -52,7 +54,7 @@ static bool reserve(tl_sample_mesh *mesh, void **array, uint32_t count, uint32_t
     return true;
 }
 
-static tl_vec3 turn(tl_vec3 p, unsigned quarter_turns)
+static tl_vec3 turn_point(tl_vec3 p, unsigned quarter_turns)
 {
     switch (quarter_turns) {
     case 1:
@@ -72,11 +74,11 @@ uint32_t tl_sample_vertex(tl_sample_mesh *mesh, tl_vec3 local)
         return 0;
     }
     void *array = mesh->vertices;
-    if (!reserve(mesh, &array, mesh->vertex_count, &mesh->vertex_capacity, sizeof(tl_vec3))) {
+    if (!reserve_elements(mesh, &array, mesh->vertex_count, &mesh->vertex_capacity, sizeof(tl_vec3))) {
         return 0;
     }
     mesh->vertices = array;
-    mesh->vertices[mesh->vertex_count] = tl_add(mesh->origin, turn(local, mesh->quarter_turns));
+    mesh->vertices[mesh->vertex_count] = tl_add(mesh->origin, turn_point(local, mesh->quarter_turns));
     return mesh->vertex_count++;
 }
 
@@ -87,7 +89,7 @@ void tl_sample_triangle(tl_sample_mesh *mesh, uint32_t a, uint32_t b, uint32_t c
     }
     if (!mesh->counting) {
         void *array = mesh->indices;
-        if (!reserve(mesh, &array, mesh->triangle_count, &mesh->triangle_capacity, 3 * sizeof(uint32_t))) {
+        if (!reserve_elements(mesh, &array, mesh->triangle_count, &mesh->triangle_capacity, 3 * sizeof(uint32_t))) {
             return;
         }
         mesh->indices = array;
@@ -259,38 +261,44 @@ void tl_sample_arch(tl_sample_mesh *mesh, tl_vec3 base, float inner_radius, floa
     tl_sample_quad(mesh, last, last + 2, last + 3, last + 1);
 }
 
+typedef struct rock_shape {
+    tl_vec3 center;
+    float radius;
+    uint64_t seed;
+} rock_shape;
+
 // A dent by direction: the same for equal directions, so that split edges meet.
-static tl_vec3 rock_point(tl_vec3 direction, tl_vec3 center, float radius, uint64_t seed)
+static tl_vec3 rock_point(const rock_shape *rock, tl_vec3 direction)
 {
     tl_vec3 d = tl_normalize(direction);
     float swell = 1.0f;
     for (uint64_t k = 0; k < 5; ++k) {
-        tl_sample_random random = tl_sample_random_make(seed, k, 17);
+        tl_sample_random random = tl_sample_random_make(rock->seed, k, 17);
         tl_vec3 axis = { tl_sample_random_range(&random, -1, 1), tl_sample_random_range(&random, -1, 1),
                          tl_sample_random_range(&random, -1, 1) };
         float along = tl_dot(d, tl_normalize(axis));
         swell -= 0.35f * tl_maxf(along - 0.55f, 0.0f);
     }
-    return tl_mul_add(center, d, radius * swell);
+    return tl_mul_add(rock->center, d, rock->radius * swell);
 }
 
-static void split_rock_face(tl_sample_mesh *mesh, tl_vec3 a, tl_vec3 b, tl_vec3 c, uint32_t level, tl_vec3 center,
-                            float radius, uint64_t seed)
+static void split_rock_face(tl_sample_mesh *mesh, const rock_shape *rock, tl_vec3 a, tl_vec3 b, tl_vec3 c,
+                            uint32_t level)
 {
     if (level == 0) {
-        uint32_t i = tl_sample_vertex(mesh, rock_point(a, center, radius, seed));
-        uint32_t j = tl_sample_vertex(mesh, rock_point(b, center, radius, seed));
-        uint32_t k = tl_sample_vertex(mesh, rock_point(c, center, radius, seed));
+        uint32_t i = tl_sample_vertex(mesh, rock_point(rock, a));
+        uint32_t j = tl_sample_vertex(mesh, rock_point(rock, b));
+        uint32_t k = tl_sample_vertex(mesh, rock_point(rock, c));
         tl_sample_triangle(mesh, i, j, k);
         return;
     }
     tl_vec3 ab = tl_scale(tl_add(a, b), 0.5f);
     tl_vec3 bc = tl_scale(tl_add(b, c), 0.5f);
     tl_vec3 ca = tl_scale(tl_add(c, a), 0.5f);
-    split_rock_face(mesh, a, ab, ca, level - 1, center, radius, seed);
-    split_rock_face(mesh, ab, b, bc, level - 1, center, radius, seed);
-    split_rock_face(mesh, ca, bc, c, level - 1, center, radius, seed);
-    split_rock_face(mesh, ab, bc, ca, level - 1, center, radius, seed);
+    split_rock_face(mesh, rock, a, ab, ca, level - 1);
+    split_rock_face(mesh, rock, ab, b, bc, level - 1);
+    split_rock_face(mesh, rock, ca, bc, c, level - 1);
+    split_rock_face(mesh, rock, ab, bc, ca, level - 1);
 }
 
 void tl_sample_rock(tl_sample_mesh *mesh, tl_vec3 center, float radius, uint32_t level, uint64_t seed)
@@ -299,12 +307,13 @@ void tl_sample_rock(tl_sample_mesh *mesh, tl_vec3 center, float radius, uint32_t
         mesh->triangle_count += 8u << (2 * level);
         return;
     }
+    const rock_shape rock = { center, radius, seed };
     for (unsigned i = 0; i < 8; ++i) {
         tl_vec3 x = tl_vec3_make(i & 1 ? -1.0f : 1.0f, 0, 0);
         tl_vec3 y = tl_vec3_make(0, i & 2 ? -1.0f : 1.0f, 0);
         tl_vec3 z = tl_vec3_make(0, 0, i & 4 ? -1.0f : 1.0f);
         bool mirrored = ((i & 1) + (i >> 1 & 1) + (i >> 2 & 1)) % 2 != 0;
-        split_rock_face(mesh, x, mirrored ? z : y, mirrored ? y : z, level, center, radius, seed);
+        split_rock_face(mesh, &rock, x, mirrored ? z : y, mirrored ? y : z, level);
     }
 }
 
@@ -318,15 +327,12 @@ tl_sample_random tl_sample_random_make(uint64_t seed, uint64_t x, uint64_t z)
 
 uint64_t tl_sample_random_u64(tl_sample_random *random)
 {
-    uint64_t z = (random->state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
+    return tl_splitmix64(&random->state);
 }
 
 uint32_t tl_sample_random_below(tl_sample_random *random, uint32_t bound)
 {
-    return (uint32_t)(((tl_sample_random_u64(random) >> 32) * bound) >> 32);
+    return tl_splitmix64_below(&random->state, bound);
 }
 
 float tl_sample_random_range(tl_sample_random *random, float low, float high)

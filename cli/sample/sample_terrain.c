@@ -173,7 +173,7 @@ static void fill_row(const tl_sample_plan *plan, uint32_t row, const gorge *gorg
     }
 }
 
-static void add_ground(const tl_sample_plan *plan, uint32_t squares_x, uint32_t squares_z, tl_sample_mesh *mesh)
+static void add_hills(const tl_sample_plan *plan, uint32_t squares_x, uint32_t squares_z, tl_sample_mesh *mesh)
 {
     gorge *gorges = malloc((squares_x + 1) * sizeof(*gorges));
     if (gorges == NULL) {
@@ -208,7 +208,7 @@ void tl_sample_build_terrain(const tl_sample_plan *plan, tl_sample_mesh *mesh)
     uint32_t squares_x = (uint32_t)((float)plan->columns * spacing_of(plan) / FEATURE_SQUARE);
     uint32_t squares_z = (uint32_t)((float)plan->rows * spacing_of(plan) / FEATURE_SQUARE);
     tl_sample_place(mesh, tl_vec3_make(0, 0, 0), 0);
-    add_ground(plan, squares_x, squares_z, mesh);
+    add_hills(plan, squares_x, squares_z, mesh);
     add_features(plan, squares_x, squares_z, mesh);
 }
 

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static unsigned smaller(unsigned a, unsigned b)
+static unsigned smaller_of(unsigned a, unsigned b)
 {
     return a < b ? a : b;
 }
@@ -27,9 +27,9 @@ unsigned tl_word_distance(const char *a, const char *b)
         row[0] = (unsigned)i;
         for (size_t j = 1; j <= b_length; ++j) {
             unsigned exchanged = above[j - 1] + (a[i - 1] != b[j - 1]);
-            row[j] = smaller(exchanged, smaller(above[j], row[j - 1]) + 1);
+            row[j] = smaller_of(exchanged, smaller_of(above[j], row[j - 1]) + 1);
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-                row[j] = smaller(row[j], two_above[j - 2] + 1);
+                row[j] = smaller_of(row[j], two_above[j - 2] + 1);
             }
         }
     }

@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_GROUPS = 8, MAX_THREADS = 1024 };
+enum { MAX_THREADS = 1024 };
 
 static void print_usage_lines(const tl_command *command)
 {
@@ -62,7 +62,7 @@ static bool set_up_host(tl_cli *cli, int progress_style, tl_exit *exit_out)
     return true;
 }
 
-bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t least, uint32_t most, tl_exit *exit_out)
+bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words, uint32_t max_words, tl_exit *exit_out)
 {
     static const char *const styles[] = { "auto", "none", "line", "json", NULL };
     int style = TL_PROGRESS_AUTO;
@@ -77,9 +77,9 @@ bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t least, ui
         { "help", 'h', TL_OPTION_FLAG, &help, NULL, "print this", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option_group all[MAX_GROUPS + 2];
+    tl_option_group all[TL_MAX_OPTION_GROUPS + 2];
     uint32_t count = 0;
-    for (; groups != NULL && groups[count].title != NULL && count < MAX_GROUPS; ++count) {
+    for (; groups != NULL && groups[count].title != NULL && count < TL_MAX_OPTION_GROUPS; ++count) {
         all[count] = groups[count];
     }
     tl_option_group shared = { "Common options:", common };
@@ -99,10 +99,10 @@ bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t least, ui
         *exit_out = usage_error(cli, cli->arguments.message);
         return false;
     }
-    if (cli->arguments.count < least || cli->arguments.count > most) {
+    if (cli->arguments.count < min_words || cli->arguments.count > max_words) {
         char message[256];
-        if (cli->arguments.count > most) {
-            snprintf(message, sizeof(message), "unexpected word '%.80s'", cli->arguments.words[most]);
+        if (cli->arguments.count > max_words) {
+            snprintf(message, sizeof(message), "unexpected word '%.80s'", cli->arguments.words[max_words]);
         } else {
             snprintf(message, sizeof(message), "something is missing: talus %s %.*s", cli->command->name,
                      (int)strcspn(cli->command->usage, "\n"), cli->command->usage);

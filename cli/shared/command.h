@@ -37,6 +37,8 @@ typedef struct tl_command {
     tl_exit (*run)(tl_cli *cli);
 } tl_command;
 
+enum { TL_MAX_OPTION_GROUPS = 8 };
+
 /// All commands, `count_out` of them.
 const tl_command *const *tl_command_table(uint32_t *count_out);
 
@@ -58,9 +60,10 @@ struct tl_cli {
 tl_exit tl_command_run(const tl_command *command, int argc, const char *const *argv);
 
 /// Parses the command line with the command's own groups (NULL-ended, may be NULL) and the common options, and sets up
-/// host and progress. False: `*exit_out` says how to end (help was printed, or an error). Between `least` and `most`
-/// words must be there.
-bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t least, uint32_t most, tl_exit *exit_out);
+/// host and progress. False: `*exit_out` says how to end (help was printed, or an error). Between
+/// `min_words` and `max_words` must be there.
+bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words, uint32_t max_words,
+                  tl_exit *exit_out);
 
 /// Ends the progress line, prints "talus NAME: message" to standard error, and returns `code`.
 tl_exit tl_cli_fail(tl_cli *cli, tl_exit code, const char *format, ...) TL_IO_PRINTF(3, 4);

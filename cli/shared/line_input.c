@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { BUFFER_BYTES = 2 * TL_MAX_LINE_BYTES };
+enum { LINE_BUFFER_BYTES = 2 * TL_MAX_LINE_BYTES };
 
 tl_result tl_line_input_open(const char *path, tl_line_input *input_out, tl_io_error *error_out)
 {
@@ -24,7 +24,7 @@ tl_result tl_line_input_open(const char *path, tl_line_input *input_out, tl_io_e
     if (input_out->file < 0) {
         return tl_io_fail_system(error_out, path, "open", errno);
     }
-    input_out->buffer = malloc(BUFFER_BYTES + 1);
+    input_out->buffer = malloc(LINE_BUFFER_BYTES + 1);
     if (input_out->buffer == NULL) {
         tl_line_input_close(input_out);
         return tl_io_fail(error_out, TL_ERR_MEMORY, path, 0, NULL, "out of memory");
@@ -41,7 +41,7 @@ void tl_line_input_close(tl_line_input *input)
     }
 }
 
-static tl_result fill(tl_line_input *input, tl_io_error *error_out)
+static tl_result fill_line_buffer(tl_line_input *input, tl_io_error *error_out)
 {
     if (input->end - input->begin >= TL_MAX_LINE_BYTES) {
         return tl_io_fail(error_out, TL_ERR_FORMAT, input->path, input->line + 1, "is this a text file?",
@@ -51,7 +51,7 @@ static tl_result fill(tl_line_input *input, tl_io_error *error_out)
     input->end -= input->begin;
     input->begin = 0;
     for (;;) {
-        ssize_t got = read(input->file, input->buffer + input->end, BUFFER_BYTES - input->end);
+        ssize_t got = read(input->file, input->buffer + input->end, LINE_BUFFER_BYTES - input->end);
         if (got >= 0) {
             input->at_end = got == 0;
             input->end += (size_t)got;
@@ -78,7 +78,7 @@ tl_result tl_line_input_next(tl_line_input *input, char **line_out, tl_io_error 
         if (input->at_end) {
             return TL_NOT_FOUND;
         }
-        tl_result result = fill(input, error_out);
+        tl_result result = fill_line_buffer(input, error_out);
         if (result != TL_OK) {
             return result;
         }

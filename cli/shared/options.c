@@ -166,15 +166,15 @@ static bool set_float(tl_arguments *arguments, const tl_option *option, const ch
 
 static bool set_count(tl_arguments *arguments, const tl_option *option, const char *value)
 {
-    uint32_t most = option->most != 0 ? option->most : UINT32_MAX - 1;
+    uint32_t max_count = option->max_count != 0 ? option->max_count : UINT32_MAX - 1;
     uint64_t number = 0;
-    const char *reason = tl_parse_count_value(value, most, &number);
-    if (reason == NULL && number < option->least) {
+    const char *reason = tl_parse_count_value(value, max_count, &number);
+    if (reason == NULL && number < option->min_count) {
         reason = "is too small";
     }
     if (reason != NULL) {
         char range[96];
-        snprintf(range, sizeof(range), "%s; use %u to %u", reason, option->least, most);
+        snprintf(range, sizeof(range), "%s; use %u to %u", reason, option->min_count, max_count);
         return refuse(arguments, option, value, range);
     }
     *(uint32_t *)option->target = (uint32_t)number;

@@ -34,11 +34,11 @@ typedef struct tl_option {
     char letter;      ///< or 0
     tl_option_kind kind;
     void *target;
-    const char *metavar;      ///< what stands for the value in the help
-    const char *help;         ///< without full stop
-    const char *const *words; ///< CHOICE: NULL-terminated
-    float min, max;           ///< FLOAT: closed range
-    uint32_t least, most;     ///< COUNT: closed range; most 0: any
+    const char *metavar;           ///< what stands for the value in the help
+    const char *help;              ///< without full stop
+    const char *const *words;      ///< CHOICE: NULL-terminated
+    float min, max;                ///< FLOAT: closed range
+    uint32_t min_count, max_count; ///< COUNT: closed range; max_count 0: any
 } tl_option;
 
 #define TL_OPTION_TABLE_END                                                                                            \

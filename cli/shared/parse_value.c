@@ -16,14 +16,14 @@ static const char not_finite[] = "is not finite";
 static const char not_a_number[] = "is not a number";
 static const char too_large[] = "is too large for a float";
 
-static bool is_blank(char c)
+static bool is_blank_letter(char c)
 {
     return c == ' ' || c == '\t';
 }
 
-static const char *skip_blanks(const char *text)
+static const char *skip_blank_letters(const char *text)
 {
-    while (is_blank(*text)) {
+    while (is_blank_letter(*text)) {
         text++;
     }
     return text;
@@ -50,7 +50,7 @@ static const char *read_float(const char **text, const char *end, float *value_o
     return NULL;
 }
 
-const char *tl_parse_float_list(const char *text, float *values_out, uint32_t least, uint32_t count,
+const char *tl_parse_float_list(const char *text, float *values_out, uint32_t min_count, uint32_t count,
                                 uint32_t *count_out)
 {
     const char *end = text + strlen(text);
@@ -59,13 +59,13 @@ const char *tl_parse_float_list(const char *text, float *values_out, uint32_t le
         if (found == count) {
             return "has too many numbers";
         }
-        text = skip_blanks(text);
+        text = skip_blank_letters(text);
         const char *reason = read_float(&text, end, &values_out[found]);
         if (reason != NULL) {
             return reason;
         }
         found++;
-        text = skip_blanks(text);
+        text = skip_blank_letters(text);
         if (*text == '\0') {
             break;
         }
@@ -74,7 +74,7 @@ const char *tl_parse_float_list(const char *text, float *values_out, uint32_t le
         }
         text++;
     }
-    if (found < least) {
+    if (found < min_count) {
         return "has too few numbers";
     }
     if (count_out != NULL) {
@@ -101,7 +101,7 @@ const char *tl_parse_point_value(const char *text, tl_vec3 *point_out)
 
 const char *tl_parse_count_value(const char *text, uint64_t max, uint64_t *value_out)
 {
-    text = skip_blanks(text);
+    text = skip_blank_letters(text);
     if (*text == '-') {
         return "is negative";
     }
@@ -111,7 +111,7 @@ const char *tl_parse_count_value(const char *text, uint64_t max, uint64_t *value
     char *end;
     errno = 0;
     unsigned long long value = strtoull(text, &end, 10);
-    if (*skip_blanks(end) != '\0') {
+    if (*skip_blank_letters(end) != '\0') {
         return "is not a whole number";
     }
     if (errno == ERANGE || value > max) {
@@ -127,7 +127,7 @@ const char *tl_parse_float_words(const char *line, float *values_out, uint32_t c
     const char *end = line + strlen(line);
     uint32_t count = 0;
     for (;;) {
-        while (is_blank(*line) || *line == ',' || *line == '\r') {
+        while (is_blank_letter(*line) || *line == ',' || *line == '\r') {
             line++;
         }
         if (*line == '\0') {
@@ -137,7 +137,7 @@ const char *tl_parse_float_words(const char *line, float *values_out, uint32_t c
         const char *word = line;
         float value = 0.0f;
         const char *reason = read_float(&line, end, &value);
-        if (reason == NULL && *line != '\0' && *line != ',' && *line != '\r' && !is_blank(*line)) {
+        if (reason == NULL && *line != '\0' && *line != ',' && *line != '\r' && !is_blank_letter(*line)) {
             reason = not_a_number;
         }
         if (reason != NULL) {

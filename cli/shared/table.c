@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static unsigned column_of(const tl_table *table)
+static unsigned next_column(const tl_table *table)
 {
     const char(*row)[TL_TABLE_CELL_BYTES] = table->cells[table->row_count - 1];
     unsigned column = 0;
@@ -26,7 +26,7 @@ void tl_table_row(tl_table *table)
 
 void tl_table_text(tl_table *table, const char *text)
 {
-    unsigned column = column_of(table);
+    unsigned column = next_column(table);
     assert(column < TL_TABLE_COLUMNS);
     snprintf(table->cells[table->row_count - 1][column], TL_TABLE_CELL_BYTES, "%s", text[0] != '\0' ? text : " ");
     if (column + 1 > table->column_count) {

@@ -15,7 +15,7 @@ void tl_text_free(tl_text *text)
     memset(text, 0, sizeof(*text));
 }
 
-static void add(tl_text *text, const char *bytes, size_t size)
+static void append_bytes(tl_text *text, const char *bytes, size_t size)
 {
     if (size == 0) {
         return; // memcpy takes no NULL, not even for nothing
@@ -36,7 +36,7 @@ static void add(tl_text *text, const char *bytes, size_t size)
 
 void tl_text_add(tl_text *text, const char *words)
 {
-    add(text, words, strlen(words));
+    append_bytes(text, words, strlen(words));
 }
 
 void tl_text_add_safe(tl_text *text, const char *words)
@@ -50,7 +50,7 @@ void tl_text_add_safe(tl_text *text, const char *words)
 void tl_text_add_float(tl_text *text, float value)
 {
     char digits[TL_FLOAT_TEXT_BYTES];
-    add(text, digits, tl_format_float(value, digits));
+    append_bytes(text, digits, tl_format_float(value + 0.0f, digits)); // -0 + 0 is 0
 }
 
 void tl_text_add_count(tl_text *text, uint64_t value)
@@ -61,15 +61,15 @@ void tl_text_add_count(tl_text *text, uint64_t value)
         digits[--at] = (char)('0' + value % 10);
         value /= 10;
     } while (value > 0);
-    add(text, digits + at, sizeof(digits) - at);
+    append_bytes(text, digits + at, sizeof(digits) - at);
 }
 
 void tl_text_add_point(tl_text *text, tl_vec3 point, char separator)
 {
     tl_text_add_float(text, point.x);
-    add(text, &separator, 1);
+    append_bytes(text, &separator, 1);
     tl_text_add_float(text, point.y);
-    add(text, &separator, 1);
+    append_bytes(text, &separator, 1);
     tl_text_add_float(text, point.z);
 }
 

@@ -20,7 +20,7 @@ void tl_text_free(tl_text *text);
 void tl_text_add(tl_text *text, const char *words);
 /// Words out of a file, with ? for the bytes that could drive a terminal.
 void tl_text_add_safe(tl_text *text, const char *words);
-/// The fewest digits that read back as the same float.
+/// The fewest digits that read back as the same float; -0 is written 0, since the sign would only puzzle a reader.
 void tl_text_add_float(tl_text *text, float value);
 void tl_text_add_count(tl_text *text, uint64_t value);
 /// Three floats with a separator between.

@@ -73,7 +73,7 @@ static void *thread_main(void *user)
     return NULL;
 }
 
-static void run(tl_task_fn *task, uint32_t count, void *task_user, void *user)
+static void run_tasks(tl_task_fn *task, uint32_t count, void *task_user, void *user)
 {
     tl_thread_pool *pool = user;
     if (count <= 1 || pool->tasks.worker_count == 1) {
@@ -110,7 +110,7 @@ tl_thread_pool *tl_thread_pool_create(uint32_t worker_count)
     pthread_mutex_init(&pool->mutex, NULL);
     pthread_cond_init(&pool->work_came, NULL);
     pthread_cond_init(&pool->all_left, NULL);
-    pool->tasks.run = run;
+    pool->tasks.run = run_tasks;
     pool->tasks.user = pool;
     pool->tasks.worker_count = 1;
     for (uint32_t i = 1; i < worker_count; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "cli/level/wide_route.h"
+#include "cli/level/agent_route.h"
 
 #include <string.h>
 
@@ -11,8 +11,8 @@ static tl_nav_path_status status_of(tl_nav_wide_status status)
                                                 : TL_NAV_PATH_UNREACHABLE;
 }
 
-tl_result tl_find_wide_route(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_route_request *request,
-                             float agent_radius, const tl_nav_path_buffers *buffers, tl_nav_route *route_out)
+static tl_result find_wide_route(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_route_request *request,
+                                 float agent_radius, const tl_nav_path_buffers *buffers, tl_nav_route *route_out)
 {
     const tl_vec3 half_extents = request->half_extents;
     const tl_vec3 ends[2] = { request->start, request->goal };
@@ -45,4 +45,11 @@ tl_result tl_find_wide_route(tl_nav_query *query, const tl_navmesh *navmesh, con
         route_out->corner_count = 1;
     }
     return result;
+}
+
+tl_result tl_agent_route_find(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_route_request *request,
+                              float agent_radius, const tl_nav_path_buffers *buffers, tl_nav_route *route_out)
+{
+    return agent_radius > 0.0f ? find_wide_route(query, navmesh, request, agent_radius, buffers, route_out)
+                               : tl_nav_query_find_route(query, navmesh, request, buffers, route_out);
 }

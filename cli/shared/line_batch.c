@@ -2,7 +2,7 @@
 //
 // Blocks of lines: parsed in order, answered in chunks that each fill a text of their own, printed chunk by chunk.
 
-#include "cli/shared/batch.h"
+#include "cli/shared/line_batch.h"
 
 #include "cli/shared/interrupt.h"
 #include "cli/shared/line_input.h"
@@ -20,16 +20,16 @@ typedef struct question {
     uint32_t count;
 } question;
 
-typedef struct block {
+typedef struct line_block {
     const tl_batch *batch;
     uint32_t count;
     question questions[BLOCK_LINES];
     tl_text answers[BLOCK_CHUNKS];
-} block;
+} line_block;
 
 static void answer_chunk(uint32_t index, uint32_t worker, void *user)
 {
-    block *b = user;
+    line_block *b = user;
     uint32_t end = (index + 1) * CHUNK_LINES < b->count ? (index + 1) * CHUNK_LINES : b->count;
     for (uint32_t i = index * CHUNK_LINES; i < end; ++i) {
         b->batch->answer(b->questions[i].numbers, b->questions[i].count, &b->answers[index], worker, b->batch->user);
@@ -37,7 +37,7 @@ static void answer_chunk(uint32_t index, uint32_t worker, void *user)
 }
 
 // Answers and prints what the block holds, and empties it.
-static tl_exit answer_block(tl_cli *cli, block *b)
+static tl_exit answer_block(tl_cli *cli, line_block *b)
 {
     uint32_t chunks = (b->count + CHUNK_LINES - 1) / CHUNK_LINES;
     cli->host.tasks->run(answer_chunk, chunks, b, cli->host.tasks->user);
@@ -55,7 +55,7 @@ static tl_exit answer_block(tl_cli *cli, block *b)
 }
 
 // Takes one line into the block. Comments and empty lines are none.
-static tl_exit take_line(tl_cli *cli, block *b, const tl_line_input *input, const char *line)
+static tl_exit take_question(tl_cli *cli, line_block *b, const tl_line_input *input, const char *line)
 {
     const char *text = line + strspn(line, " \t");
     if (*text == '\0' || *text == '#') {
@@ -64,7 +64,7 @@ static tl_exit take_line(tl_cli *cli, block *b, const tl_line_input *input, cons
     question *q = &b->questions[b->count];
     const char *bad = NULL;
     const char *reason = tl_parse_float_words(text, q->numbers, TL_MAX_LINE_NUMBERS, &q->count, &bad);
-    if (reason == NULL && q->count >= b->batch->least && q->count <= b->batch->most) {
+    if (reason == NULL && q->count >= b->batch->min_numbers && q->count <= b->batch->max_numbers) {
         b->count++;
         return TL_EXIT_OK;
     }
@@ -80,7 +80,7 @@ static tl_exit take_line(tl_cli *cli, block *b, const tl_line_input *input, cons
                        (unsigned long long)input->line, q->count, b->batch->wanted);
 }
 
-static tl_exit run_lines(tl_cli *cli, block *b, tl_line_input *input)
+static tl_exit run_lines(tl_cli *cli, line_block *b, tl_line_input *input)
 {
     for (;;) {
         if (tl_interrupted()) {
@@ -107,7 +107,7 @@ static tl_exit run_lines(tl_cli *cli, block *b, tl_line_input *input)
             code = answer_block(cli, b);
             return code != TL_EXIT_OK ? code : tl_cli_fail_io(cli, &error);
         }
-        code = take_line(cli, b, input, line);
+        code = take_question(cli, b, input, line);
         if (code != TL_EXIT_OK) {
             return code;
         }
@@ -118,7 +118,7 @@ static tl_exit answer_one(tl_cli *cli, const tl_batch *batch, const float *numbe
 {
     tl_text text;
     memset(&text, 0, sizeof(text));
-    const bool yes = batch->answer(numbers, batch->least, &text, 0, batch->user);
+    const bool yes = batch->answer(numbers, batch->min_numbers, &text, 0, batch->user);
     const tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory")
                          : yes       ? TL_EXIT_OK
                                      : TL_EXIT_NEGATIVE;
@@ -136,7 +136,7 @@ static tl_exit answer_lines(tl_cli *cli, const tl_batch *batch)
         return tl_cli_fail_io(cli, &error);
     }
     tl_exit code = TL_EXIT_MEMORY;
-    block *b = calloc(1, sizeof(*b));
+    line_block *b = calloc(1, sizeof(*b));
     if (b != NULL) {
         b->batch = batch;
         tl_progress_end(&cli->progress);
@@ -155,4 +155,18 @@ static tl_exit answer_lines(tl_cli *cli, const tl_batch *batch)
 tl_exit tl_batch_run(tl_cli *cli, const tl_batch *batch, const float *numbers)
 {
     return batch->path != NULL ? answer_lines(cli, batch) : answer_one(cli, batch, numbers);
+}
+
+bool tl_question_read(tl_cli *cli, const tl_question_words *words, const char *path, float *numbers_out,
+                      tl_exit *exit_out)
+{
+    const uint32_t given = cli->arguments.count - 1, wanted = words->second != NULL ? 2 : 1;
+    if (given != (path != NULL ? 0 : wanted)) {
+        *exit_out =
+            tl_cli_fail(cli, TL_EXIT_USAGE, "give the %s%s%s behind FILE, or a file of many with --%s", words->first,
+                        wanted == 2 ? " and the " : "", wanted == 2 ? words->second : "", words->option);
+        return false;
+    }
+    return path != NULL || (tl_cli_read_triple(cli, 1, words->first, numbers_out, exit_out) &&
+                            (wanted == 1 || tl_cli_read_triple(cli, 2, words->second, numbers_out + 3, exit_out)));
 }
