@@ -19,8 +19,9 @@ static const uint32_t indices[18] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 8, 9, 
 // What the guard sees of the thief: nothing but the thief may be in the way of it.
 static bool sees(const tl_scene *scene, const tl_scene_instance *instances, tl_vec3 eye, tl_vec3 target)
 {
-    tl_scene_filter filter = tl_default_scene_filter();
-    filter.without = THIEF;
+    tl_scene_filter filter = { 0 };
+    filter.first_ignored = THIEF;
+    filter.ignored_count = 1;
     return tl_scene_line_of_sight(scene, instances, eye, target, &filter);
 }
 

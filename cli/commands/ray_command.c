@@ -157,7 +157,7 @@ static tl_exit cast_rays(tl_cli *cli, const ray_settings *settings, const float 
     tl_input input;
     tl_exit code;
     if (tl_input_open_soup(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
-        ray_query query = { input.soup, tl_default_ray_filter(), settings };
+        ray_query query = { .soup = input.soup, .settings = settings };
         query.filter.cull = (tl_ray_cull)settings->cull;
         const tl_batch rays = { settings->rays, "ox oy oz dx dy dz [tmax]", 6, 7, answer_ray, &query };
         const tl_batch segments = { settings->rays, "ax ay az bx by bz", 6, 6, answer_ray, &query };

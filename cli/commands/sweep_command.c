@@ -83,7 +83,7 @@ static tl_exit sweep_shape(tl_cli *cli, const sweep_settings *settings, const fl
     tl_input input;
     tl_exit code;
     if (tl_input_open_soup(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
-        sweep_query query = { input.soup, tl_default_ray_filter(), settings };
+        sweep_query query = { .soup = input.soup, .settings = settings };
         query.filter.cull = (tl_ray_cull)settings->cull;
         tl_batch batch = { settings->sweeps, "x y z dx dy dz", 6, 6, answer_sweep, &query };
         code = tl_batch_run(cli, &batch, numbers);

@@ -79,7 +79,7 @@ void draw_soups_free(draw_soups *soups)
 // that is wound the other way round is still seen.
 static bool hit_backdrop(const tl_soup *soup, const tl_ray *ray, tl_ray_hit *hit)
 {
-    tl_ray_filter fronts = tl_default_ray_filter();
+    tl_ray_filter fronts = { 0 };
     fronts.cull = TL_RAY_CULL_BACK;
     return soup != NULL && (tl_soup_cast_ray(soup, ray, &fronts, hit) || tl_soup_cast_ray(soup, ray, NULL, hit));
 }
@@ -95,7 +95,7 @@ static float sunlight(const tl_soup *soup, const tl_ray *ray, const tl_ray_hit *
         tl_ray to_sun = { tl_mul_add(point, normal, 0.5f * pixel), sun, INFINITY };
         // Only what is left by its back casts a shadow: a solid does, a one-sided ceiling that is looked through does
         // not.
-        tl_ray_filter backs = tl_default_ray_filter();
+        tl_ray_filter backs = { 0 };
         backs.cull = TL_RAY_CULL_FRONT;
         if (tl_soup_occluded(soup, &to_sun, &backs)) {
             lambert *= 0.35f;

@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: MIT
 //
-// The chunky triangle soup: any triangle list, baked into pairs of triangles that share an edge under a wide tree of
-// boxes, and asked by rays, points and shapes.
+// The chunky triangle soup: a triangle list, baked into pairs of triangles that share an edge, in the leaves of a
+// 16-wide BVH or of a k-d tree. Rays, points and shapes query it.
 //
-//   tl_mesh_view --tl_soup_bake (weld, pair, tree)--> tl_soup --tl_soup_cast_ray, tl_soup_occluded ...--> tl_ray_hit
+//   tl_mesh_view --tl_soup_bake (weld, pair, BVH)--> tl_soup --tl_soup_cast_ray, tl_soup_occluded ...--> tl_ray_hit
 //
-// What a ray hits is defined by geometry alone, not by the tree, the pairing or the instruction set:
+// Geometry alone defines what a ray hits: the tree, the pairing and the instruction set do not change it.
 //
 // - A triangle is closed: its edges and corners belong to it. Whether the ray's line meets it is decided exactly, so a
-//   line through a shared edge meets both triangles, and no line slips between two of them.
-// - A ray in the plane of a triangle does not hit that triangle (on a closed surface it then hits a neighbour).
-// - Points of the ray are origin + t * direction; the direction need not have length 1. t is within [0, tmax], both
-// ends
-//   included; whether t >= 0 is decided exactly, and the upper end by the rounded t.
+//   line through a shared edge meets both triangles, and no line slips between two of them (watertight).
+// - A ray in the plane of a triangle does not hit that triangle. On a closed surface it hits a neighbour.
+// - A ray holds the points origin + t * direction with t in [0, tmax]. The direction need not have length 1. Whether
+//   t >= 0 is decided exactly; t is compared with tmax after rounding.
 // - t is computed in double from the triangle's own three corners and rounded to float once. Of equal t the lowest
-//   triangle index wins. So the answer does not depend on how the triangles are stored or searched.
-// - A direction of zero, a coordinate that is NaN or infinite, and a tmax that is NaN or negative hit nothing.
-//   tmax may be INFINITY. A t beyond FLT_MAX (denormal directions) is reported as FLT_MAX.
+//   triangle index wins.
+// - A ray hits nothing when its direction is zero, a coordinate is NaN or infinite, or tmax is negative or NaN. tmax
+//   may be INFINITY. A t beyond FLT_MAX (denormal directions) is reported as FLT_MAX.
 //
-// Queries take a const soup, allocate nothing, and may run on any number of threads. A soup that comes from untrusted
-// bytes must pass tl_soup_check first; then every query on it is safe, whatever its floats are.
+// Queries take a const soup, allocate nothing, and may run on any number of threads at once. Bytes from an untrusted
+// source must pass tl_soup_check first: then every query on them is safe and ends, whatever floats they hold.
+//
+// Functions that return a tl_result refuse NULL pointers (TL_ERR_ARGUMENT) and zero their outputs when they fail or
+// find nothing. Other functions take no NULL but where it is allowed. A pose with a zero quaternion is not rotated.
 //
 // Sources: Christer Ericson, "Chunky triangle soup", 2009, and Real-Time Collision Detection, 2005, section 5.3.5;
 // Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2013.
@@ -36,89 +38,88 @@
 extern "C" {
 #endif
 
-/// A baked soup. Begins with a tl_blob, so `tl_blob_free` frees it and `((const tl_blob *)soup)->size` is its size.
+/// A baked soup. It begins with a tl_blob: `tl_blob_free` frees it.
 typedef struct tl_soup tl_soup;
 
 /// "tlsp" in memory.
 #define TL_SOUP_MAGIC   0x70736c74u
 #define TL_SOUP_VERSION 3u
 
-/// Most triangles of one view: their index shares a 32-bit word with four bits of the pair.
+/// The largest number of triangles of one view: an index shares a 32-bit word with four bits of its pair.
 #define TL_MAX_SOUP_TRIANGLES 0x0fffffffu
 
-/// How triangles are parted among the leaves of a soup. Answers are the same, bit for bit.
+/// How the tree divides the triangles. Answers are the same, bit for bit.
 typedef enum tl_soup_partition {
-    TL_SOUP_BVH, ///< a tree of boxes: each pair lies in one leaf (but for split_budget). The faster one.
-    /// A k-d tree: planes part space, and what they cut is stored on both sides. Two to four times the memory. Kept
-    /// because the text stands on it, so that its claims can be measured.
+    TL_SOUP_BVH, ///< a BVH divides the pairs: each lies in one leaf, or in several with split_budget. The faster tree.
+    /// A k-d tree divides space: pairs that a plane cuts are stored on both sides. Two to four times the memory. It is
+    /// the tree of Ericson's article, here to reproduce its comparison.
     TL_SOUP_KD_TREE
 } tl_soup_partition;
 
 /// How a soup is stored. Answers are the same, bit for bit.
 typedef enum tl_soup_layout {
     TL_SOUP_FAST,   ///< 36 to 42 bytes a triangle
-    TL_SOUP_COMPACT ///< 16 to 20: shared vertices, boxes of bytes; it cannot be refitted
+    TL_SOUP_COMPACT ///< 16 to 20 bytes: shared vertices, quantized boxes. It cannot be refitted.
 } tl_soup_layout;
 
-/// How a soup is built.
+/// How to bake a soup. Begin with tl_default_soup_def().
 typedef struct tl_soup_def {
     bool pair_triangles; ///< false keeps every triangle single, to measure what pairs are worth
     tl_soup_partition partition;
     tl_soup_layout layout;
-    /// [0, 1]: share of extra references that spatial splits may add. A pair that straddles a split plane is then
-    /// stored on both sides, so that large triangles do not make the boxes around small ones fat. It costs build time
-    /// and memory, and pays only where sizes differ much. 0: none. TL_SOUP_KD_TREE does not look at it.
+    /// The share of extra references, [0, 1], that spatial splits (SBVH) may add. A pair that straddles a split plane
+    /// is then stored on both sides, so that large triangles do not widen the boxes around small ones. Costs time to
+    /// bake and memory; pays only where triangle sizes differ much. 0: none. TL_SOUP_KD_TREE ignores it.
     float split_budget;
     tl_host host;
+    uint32_t cookie; ///< TL_DEF_COOKIE, set by tl_default_soup_def
 } tl_soup_def;
 
 /// What tl_soup_bake did.
 typedef struct tl_soup_report {
     tl_report base;
     uint32_t triangle_count;       ///< stored
-    uint32_t degenerate_triangles; ///< dropped: no area in exact arithmetic, so no ray can hit them
-    uint32_t pair_count;           ///< distinct, split references not counted
-    uint32_t single_count;
+    uint32_t degenerate_triangles; ///< dropped: their area is exactly zero, so no ray can hit them
+    uint32_t pair_count;           ///< distinct: copies by spatial splits count once
+    uint32_t single_count;         ///< distinct triangles without a partner
 } tl_soup_report;
 
-/// Pairs, and no spatial splits.
+/// Pairs in a BVH, the fast layout, no spatial splits.
 TL_API tl_soup_def tl_default_soup_def(void);
 
-/// Bakes a triangle list. Triangles keep the index they have in the view: that is what queries report.
+/// Bakes a triangle list. Triangles keep their index in the view: queries report it.
 ///
-/// Nothing is required of the triangles: they may intersect, repeat, be loose, or share an edge by the dozen. Corners
-/// at equal positions count as shared, so the view need not be welded. The bytes depend on nothing but the view and the
-/// def's fields before `host`. `def` may be NULL: defaults. On failure `*soup_out` is NULL. `report_out` may be NULL.
-/// Free the soup with `tl_blob_free(soup)`.
-/// Errors, each with its element in `report_out->base`: TL_ERR_EMPTY (no triangles), TL_ERR_INDEX (triangle),
+/// The triangles may intersect, repeat, be loose, or share an edge by the dozen. Corners at equal positions count as
+/// shared, so the view need not be welded. The bytes depend only on the view and on the def's fields before `host`.
+/// A NULL `def` means the defaults. `report_out` may be NULL. Free the soup with `tl_blob_free(soup)`. O(n log n).
+/// Errors, each with its element or field in `report_out->base`: TL_ERR_EMPTY (no triangles), TL_ERR_INDEX (triangle),
 /// TL_ERR_NOT_FINITE (vertex), TL_ERR_RANGE (vertex beyond TL_MAX_COORDINATE), TL_ERR_DEGENERATE (no triangle has
-/// area), TL_ERR_LIMIT (more than TL_MAX_SOUP_TRIANGLES), TL_ERR_ARGUMENT, TL_ERR_MEMORY, TL_ERR_CANCELLED. An unused
-/// vertex may hold anything. O(n log n).
+/// area), TL_ERR_LIMIT (more than TL_MAX_SOUP_TRIANGLES), TL_ERR_ARGUMENT, TL_ERR_MEMORY, TL_ERR_CANCELLED. Vertices
+/// that no triangle uses may hold anything.
 TL_API tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup **soup_out,
                               tl_soup_report *report_out);
 
-/// Moves a soup's triangles to where their vertices are now: the same triangles, indices and number of vertices or not,
-/// other positions. In place, O(n), no memory.
+/// Moves a soup's triangles to where their vertices are now: the same triangles and indices at other positions, with
+/// any number of vertices. In place, O(n), no memory.
 ///
-/// Every query then answers as if the soup had been built anew, bit for bit; the tree is as good as the triangles still
-/// lie together, so build anew when they have mixed. Triangles that lost their area are kept, and no ray hits them;
-/// those that had none when the soup was built stay away. Vertices at equal positions then must have equal positions
-/// now. The soup must be writable (not a mapped file), and no query may run meanwhile: move a second soup while the
-/// first is asked.
+/// Every query then answers as if the soup had been baked anew, bit for bit. Queries slow down as triangles move apart
+/// from their neighbours in the tree: bake anew when they have mixed. Triangles that lost their area are kept, and no
+/// ray hits them; those that had none when the soup was baked stay dropped. Vertices that had equal positions must
+/// still have equal positions. The soup must be writable (not a mapped file), and no query may run meanwhile: refit a
+/// second soup while the first one is queried.
 /// TL_ERR_ARGUMENT (another number of triangles, or a triangle that came apart from its pair), TL_ERR_UNSUPPORTED (the
-/// compact layout: its vertices are shared by triangles that may come apart), TL_ERR_INDEX (triangle),
-/// TL_ERR_NOT_FINITE, TL_ERR_RANGE (vertex), with the element in `report_out`, which may be NULL; the soup is then
-/// unchanged.
+/// compact layout: triangles that may come apart share its vertices), TL_ERR_INDEX (triangle), TL_ERR_NOT_FINITE,
+/// TL_ERR_RANGE (vertex), with the element in `report_out`, which may be NULL; the soup is then unchanged.
 TL_API tl_result tl_soup_refit(tl_soup *soup, const tl_mesh_view *moved, tl_report *report_out);
 
 /// Whether `size` bytes at `bytes` are a sound soup: TL_OK, or TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION,
-/// TL_ERR_ARGUMENT (not aligned to TL_BLOB_ALIGNMENT), TL_ERR_CORRUPT. Safe on any bytes. `report_out` may be NULL.
-/// O(size).
-/// On success the bytes may be used as a tl_soup in place. It proves that queries are safe and end, not that the tree's
-/// boxes hold their triangles; a content hash is the container's affair.
+/// TL_ERR_ARGUMENT (NULL, or not aligned to TL_BLOB_ALIGNMENT), TL_ERR_CORRUPT, with the offending part in
+/// `report_out`, which may be NULL. Safe on any bytes. O(size).
+/// On success the bytes may be used in place as a tl_soup. This proves that queries are safe and end, not that the
+/// tree's boxes hold their triangles: a content hash is left to the container.
 TL_API tl_result tl_soup_check(const void *bytes, uint64_t size, tl_report *report_out);
 
-/// Bytes of the blob.
+/// The blob's size in bytes.
 TL_API uint64_t tl_soup_size(const tl_soup *soup);
 
 /// The box of all stored triangles.
@@ -126,17 +127,17 @@ TL_API tl_aabb tl_soup_bounds(const tl_soup *soup);
 
 /// What a soup holds. Bytes a triangle: size / triangle_count.
 typedef struct tl_soup_stats {
-    uint64_t size;                  ///< bytes in all, vertices, ids, materials and nodes counted
-    uint32_t source_triangle_count; ///< triangles of the view it was built from
+    uint64_t size;                  ///< bytes in all, vertices, ids, materials and nodes included
+    uint32_t source_triangle_count; ///< triangles of the view it was baked from
     uint32_t triangle_count;        ///< distinct triangles stored
     uint32_t pair_count;            ///< distinct pairs
-    uint32_t single_count;          ///< distinct triangles that found no partner
-    uint32_t reference_count;       ///< pairs and singles in leaves; more than distinct ones where splits repeat them
+    uint32_t single_count;          ///< distinct triangles without a partner
+    uint32_t reference_count;       ///< pairs and singles in leaves; more than distinct ones where splits copied them
     uint32_t leaf_count;
     uint32_t node_count;
     tl_soup_layout layout;
-    uint32_t depth;          ///< nodes on the longest way from the root to a leaf
-    uint64_t node_bytes;     ///< of size: the tree
+    uint32_t depth;          ///< nodes on the longest path from the root to a leaf
+    uint64_t node_bytes;     ///< of size: nodes
     uint64_t leaf_bytes;     ///< of size: corners and triangle indices
     uint64_t vertex_bytes;   ///< of size: shared vertices of the compact layout
     uint64_t material_bytes; ///< of size: 0 when all materials are the same
@@ -146,45 +147,42 @@ TL_API tl_soup_stats tl_soup_get_stats(const tl_soup *soup);
 
 /// A ray: origin + t * direction for t in [0, tmax].
 typedef struct tl_ray {
-    tl_vec3 origin;
-    tl_vec3 direction;
-    float tmax;
+    tl_vec3 origin;    ///< metres
+    tl_vec3 direction; ///< of any length but 0
+    float tmax;        ///< >= 0, or INFINITY
 } tl_ray;
 
-/// Which side of a triangle stops a ray. The front is the side from which its corners run counter-clockwise.
+/// Which side of a triangle a query ignores. The front is the side from which the corners run counter-clockwise.
 typedef enum tl_ray_cull {
-    TL_RAY_CULL_NONE = 0, ///< both
+    TL_RAY_CULL_NONE = 0, ///< neither: both sides stop a ray
     TL_RAY_CULL_BACK,     ///< only fronts stop it
     TL_RAY_CULL_FRONT     ///< only backs stop it
 } tl_ray_cull;
 
-/// Whether a triangle counts. Must answer the same for the same triangle during one query; it can be asked about
-/// triangles that are not the closest, in any order and more than once.
+/// Whether a triangle counts: false ignores it. Must answer the same for the same triangle during one query. It may be
+/// called for triangles that are not the closest, in any order and more than once.
 typedef bool tl_triangle_filter_fn(uint32_t triangle, uint16_t material, void *user);
 
-/// What a ray, or another query, passes by. All zero with material_mask UINT64_MAX passes by nothing, as a NULL filter
-/// does.
+/// What a query ignores. A zeroed filter, or NULL, ignores nothing.
 typedef struct tl_ray_filter {
     tl_ray_cull cull;
-    uint64_t material_mask;        ///< bit m: triangles of material m count; bit 63 stands for all materials >= 63
-    tl_triangle_filter_fn *accept; ///< asked last; NULL: all count
+    uint64_t ignored_materials;    ///< bit m ignores triangles of material m; bit 63 all materials >= 63
+    tl_triangle_filter_fn *accept; ///< called last; NULL: all count
     void *accept_user;
 } tl_ray_filter;
 
-TL_API tl_ray_filter tl_default_ray_filter(void);
-
-/// Where a ray met the soup. The point is origin + t * direction, and nearly corner 0 * (1 - u - v) + corner 1 * u +
-/// corner 2 * v of the triangle as the view has it.
+/// Where a ray hit the soup. The point is origin + t * direction, and nearly corner 0 * (1 - u - v) + corner 1 * u +
+/// corner 2 * v of the triangle, its corners numbered as in the view.
 typedef struct tl_ray_hit {
     float t;
     uint32_t triangle; ///< its index in the view
     float u, v;        ///< >= 0, u + v <= 1 but for rounding
-    tl_vec3 normal;    ///< unit length, of the triangle's front; zero for a needle too thin for doubles to tell
+    tl_vec3 normal;    ///< unit length, of the triangle's front; zero for a needle too thin for doubles
     uint16_t material;
     bool back; ///< the ray came from behind
 } tl_ray_hit;
 
-/// The closest hit of a ray; false and an untouched `hit_out` when there is none. `filter` may be NULL.
+/// The closest hit of a ray; false, with `hit_out` untouched, when there is none. `filter` may be NULL.
 ///
 /// t is within 5/8 ulp of the exact value, however the ray grazes the triangle.
 TL_API bool tl_soup_cast_ray(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter, tl_ray_hit *hit_out);
@@ -192,47 +190,49 @@ TL_API bool tl_soup_cast_ray(const tl_soup *soup, const tl_ray *ray, const tl_ra
 /// Whether a ray hits anything. Agrees with tl_soup_cast_ray, and is faster. `filter` may be NULL.
 TL_API bool tl_soup_occluded(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter);
 
-/// The hit of the segment from a to b that is closest to a; t in [0, 1]. Both ends are exact: b is not rounded by way
-/// of a direction, and a triangle that touches it is hit. Equal ends hit nothing. `filter` may be NULL.
+/// The hit of the segment from a to b that is closest to a, t in [0, 1]; false, with `hit_out` untouched, when there is
+/// none. Both ends are exact: b is not rounded by way of a direction, and a triangle that touches it is hit. Equal ends
+/// hit nothing. `filter` may be NULL.
 TL_API bool tl_soup_cast_segment(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter,
                                  tl_ray_hit *hit_out);
 
-/// Whether no triangle meets the closed segment from a to b. The same as from b to a, always (but for culling).
+/// Whether no triangle meets the closed segment from a to b. From b to a the answer is the same (but for culling).
 /// `filter` may be NULL.
 TL_API bool tl_soup_line_of_sight(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter);
 
 /// The closest hits of many rays: for each what tl_soup_cast_ray gives, bit for bit; triangle TL_NO_TRIANGLE and t
-/// INFINITY where it hits nothing. `filter` and `host` may be NULL.
+/// INFINITY for a ray that hits nothing. `filter` and `host` may be NULL.
 ///
-/// Runs on the host's tasks, 16,384 rays each. In soups larger than a core's own cache (over 2 MB) a thread casts some
-/// rays at once, so that one goes on while another waits for memory: rays in no order are answered 1.2 to 1.6 times as
-/// fast as by single calls. Smaller soups, and those of the compact layout, gain nothing.
+/// Runs on the host's tasks, 16,384 rays each. In soups over 2 MB, larger than a core's own cache, a thread traces
+/// several rays at once, so that one continues while another waits for memory: incoherent rays then take 1 / 1.2 to
+/// 1 / 1.6 of the time of single calls. Smaller soups, and those of the compact layout, gain nothing.
 TL_API void tl_soup_cast_rays(const tl_soup *soup, const tl_ray *rays, uint32_t count, const tl_ray_filter *filter,
                               const tl_host *host, tl_ray_hit *hits_out);
 
 /// What counts as a hit where a ray passes through an edge or a corner.
 typedef enum tl_hit_rule {
-    /// Every triangle that the ray touches, as tl_soup_cast_ray has it: an edge gives both of its triangles, a corner
-    /// its fan.
+    /// Every triangle that the ray touches, as in tl_soup_cast_ray: at an edge both of its triangles, at a corner the
+    /// whole fan.
     TL_HITS_TOUCHED,
-    /// Each passage through a surface once: of the triangles around an edge or corner those count that the ray still
-    /// meets when it is moved aside by less than any number. A line crosses a closed surface an even number of times,
-    /// always, and one from the inside an odd number. The rim of an open surface counts on one side only.
+    /// Every passage through a surface once: of the triangles around an edge or corner those count that the ray still
+    /// meets when it is moved aside by an infinitesimal step. So a line crosses a closed surface an even number of
+    /// times, always, and a ray from the inside an odd number. The rim of an open surface counts on one side only.
     TL_HITS_CROSSED
 } tl_hit_rule;
 
 /// All hits of a ray, sorted by t, of equal t by triangle; each triangle at most once. `filter` may be NULL.
 ///
-/// Writes the nearest `capacity` of them, and to `*count_out` how many there are: TL_INCOMPLETE when that is more.
-/// With TL_HITS_TOUCHED the first is the hit of tl_soup_cast_ray, bit for bit. TL_ERR_NOT_FINITE: origin or direction;
-/// TL_ERR_ARGUMENT: the direction is zero, or tmax negative or NaN.
+/// Writes the nearest `capacity` of them, and to `*count_out` how many there are: TL_INCOMPLETE when that is more. A
+/// ray without hits gives TL_OK and 0. With TL_HITS_TOUCHED the first one is the hit of tl_soup_cast_ray, bit for bit.
+/// `hits_out` may be NULL when `capacity` is 0. TL_ERR_NOT_FINITE: origin or direction; TL_ERR_ARGUMENT: the direction
+/// is zero, or tmax negative or NaN.
 TL_API tl_result tl_soup_cast_ray_all(const tl_soup *soup, const tl_ray *ray, tl_hit_rule rule,
                                       const tl_ray_filter *filter, tl_ray_hit *hits_out, uint32_t capacity,
                                       uint32_t *count_out);
 
 /// A part of a triangle, corners numbered as in the view.
 typedef enum tl_triangle_feature {
-    TL_TRIANGLE_FACE = 0, ///< inside
+    TL_TRIANGLE_FACE = 0, ///< the inside
     TL_TRIANGLE_EDGE_0,   ///< from corner 0 to corner 1
     TL_TRIANGLE_EDGE_1,   ///< from corner 1 to corner 2
     TL_TRIANGLE_EDGE_2,   ///< from corner 2 to corner 0
@@ -245,103 +245,103 @@ typedef enum tl_triangle_feature {
 typedef struct tl_soup_point {
     tl_vec3 point;
     float distance; ///< metres from the query's point
-    tl_vec3 normal; ///< unit length, of the triangle's front; zero for a needle too thin for doubles to tell
+    tl_vec3 normal; ///< unit length, of the triangle's front; zero for a needle too thin for doubles
     uint32_t triangle;
     uint16_t material;
     bool back; ///< the query's point lies behind the triangle's plane, exactly
     tl_triangle_feature feature;
 } tl_soup_point;
 
-/// The point of the soup that is nearest to `point`, and at most `max_distance` metres away (INFINITY: anywhere).
+/// The point of the soup that is nearest to `point` and at most `max_distance` metres away (INFINITY: anywhere).
 ///
-/// Distances are computed in double from each triangle's own corners, relative error 1e-7 at most; of equal ones the
-/// lowest triangle index wins. So the answer does not depend on how the triangles are stored. A point in a triangle's
-/// plane counts as seen from both sides. `filter` may be NULL.
-/// TL_NOT_FOUND: nothing is that near; TL_ERR_NOT_FINITE: the point; TL_ERR_ARGUMENT: max_distance is negative or
-/// NaN. `nearest_out` is then untouched.
+/// Distances are computed in double from each triangle's own corners, with a relative error of 1e-7 at most; of equal
+/// ones the lowest triangle index wins. So the answer does not depend on how the triangles are stored. From a point in
+/// a triangle's plane both sides are seen. `filter` may be NULL.
+/// TL_NOT_FOUND: nothing is that near; TL_ERR_NOT_FINITE: the point; TL_ERR_ARGUMENT: max_distance is negative or NaN.
 TL_API tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance, const tl_ray_filter *filter,
                                  tl_soup_point *nearest_out);
 
-/// Whether a shape, standing still, touches any triangle.
+/// Whether a shape at `pose` touches any triangle.
 ///
 /// Spheres, capsules and boxes without a radius are decided by formulas in double, other shapes by tl_convex_overlap;
-/// touching within the rounding of either is touching. A triangle is seen from the side on which the middle of the
-/// shape's box lies. `filter` may be NULL.
-/// TL_ERR_NOT_FINITE: the pose, or the shape has no finite box; TL_ERR_ARGUMENT: a radius is negative or NaN.
+/// touching within the rounding of either counts as touching. For culling, a triangle is seen from the middle of the
+/// shape's box. `filter` may be NULL.
+/// TL_ERR_NOT_FINITE: the pose, or a shape without a finite box; TL_ERR_ARGUMENT: a radius is negative or NaN.
 TL_API tl_result tl_soup_overlaps(const tl_soup *soup, const tl_convex *shape, tl_transform pose,
                                   const tl_ray_filter *filter, bool *overlaps_out);
 
 /// The triangles that a shape touches, each once, in an order of the soup's own. Rules and errors as in
 /// tl_soup_overlaps.
 /// Writes at most `capacity` of them, and to `*count_out` how many there are: TL_INCOMPLETE when that is more.
+/// `triangles_out` may be NULL when `capacity` is 0.
 TL_API tl_result tl_soup_find_overlaps(const tl_soup *soup, const tl_convex *shape, tl_transform pose,
                                        const tl_ray_filter *filter, uint32_t *triangles_out, uint32_t capacity,
                                        uint32_t *count_out);
 
-/// What a moving shape met.
+/// What a moving shape hit.
 typedef struct tl_shape_hit {
     float t;              ///< share of the motion, [0, 1]; not later than the true one
     bool initial_overlap; ///< it overlapped at the start: t is 0
-    bool back;            ///< it moved with the triangle's normal, so it came from behind
+    bool back;            ///< it moved with the triangle's normal: it came from behind
     uint16_t material;
     uint32_t triangle;
-    float depth;         ///< metres, of an initial overlap: this far along the normal parts shape and triangle
+    float depth;         ///< metres, of an initial overlap: moving this far along the normal separates them
     tl_vec3 point;       ///< on the triangle
-    tl_vec3 normal;      ///< unit, from the triangle to the shape: the face's, or an edge's or corner's own
-    tl_vec3 face_normal; ///< unit length, of the triangle's front; zero for a needle too thin for doubles to tell
-    /// ITERATIONS or DEGENERATE: free until t, unknown beyond, reported as a hit
+    tl_vec3 normal;      ///< unit length, from the triangle to the shape: the face's, or an edge's or corner's own
+    tl_vec3 face_normal; ///< unit length, of the triangle's front; zero for a needle too thin for doubles
+    /// ITERATIONS or DEGENERATE: the way is free until t, unknown beyond, and reported as a hit
     tl_convex_status status;
 } tl_shape_hit;
 
-/// Moves a convex shape by `motion` without turning it, and finds the triangle that it meets first.
+/// Sweeps a convex shape by `motion`, without rotation, and finds the triangle that it hits first.
 ///
-/// Spheres and capsules (characters) take a path of their own. Of triangles met at the same time the lowest index is
-/// reported, of those that overlap at the start the deepest. `filter` may be NULL; a triangle is seen from the front by
-/// a motion against its normal, and by a shape that stands still from the side of its box's middle.
+/// Spheres and capsules (characters) take a faster path of their own. Of triangles hit at the same time the lowest
+/// index is reported, of those that overlap at the start the deepest. `filter` may be NULL. For culling, a motion
+/// against a triangle's normal sees its front; a shape that does not move sees it from the middle of its box.
 ///
-/// Touching: a shape that comes no deeper into a triangle than 2.4e-7 of the largest coordinate it reaches passes. So
-/// it slides along the floor that it was put on, over all its inner edges, and moves away from a wall it leans on.
-/// Edges are not smoothed: at an inner edge of a floor that bends, `normal` is the edge's, and `face_normal` the
+/// Touching: the shape passes a triangle that it penetrates by no more than 2.4e-7 of the largest coordinate that it
+/// reaches. So it slides along the floor that it stands on, over all inner edges, and leaves a wall that it leans on.
+/// Edges are not smoothed: at an inner edge of a floor that bends, `normal` is the edge's and `face_normal` the
 /// floor's.
 ///
-/// TL_NOT_FOUND: the way is free; TL_ERR_NOT_FINITE: motion, pose or shape; TL_ERR_ARGUMENT: a radius is negative
-/// or NaN. `hit_out` is then untouched.
+/// TL_NOT_FOUND: the way is free; TL_ERR_NOT_FINITE: motion, pose or shape; TL_ERR_ARGUMENT: a radius is negative or
+/// NaN.
 TL_API tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_transform pose, tl_vec3 motion,
                                     const tl_ray_filter *filter, tl_shape_hit *hit_out);
 
 typedef enum tl_soup_side { TL_SOUP_OUTSIDE, TL_SOUP_INSIDE, TL_SOUP_ON_SURFACE } tl_soup_side;
 
-/// Where a point lies to a closed surface.
+/// Where a point lies with respect to a closed surface.
 typedef struct tl_soup_location {
     tl_soup_side side; ///< inside: the winding number is not 0
-    int32_t winding;   ///< how often the surface goes around the point: 1 in a solid, more where solids overlap, -1 in
+    int32_t winding;   ///< how often the surface winds around the point: 1 in a solid, more where solids overlap, -1 in
                        ///< one that is inside out
     uint32_t triangle; ///< on the surface: the lowest that holds the point, else TL_NO_TRIANGLE
 } tl_soup_location;
 
-/// Whether a point lies inside of a soup that is closed: exactly, whatever edges and corners its rays go through.
+/// Whether a point lies inside a closed soup: exact, whatever edges and corners its rays pass through.
 ///
-/// TL_ERR_NOT_CLOSED, TL_ERR_WINDING: rays from the point to both sides contradict each other, so the surface has a
-/// hole or a rim, or triangles that face against their neighbours. Not every hole shows at every point;
-/// tl_soup_check_closed proves that there is none. TL_ERR_NOT_FINITE: the point. `place_out` is then untouched.
-TL_API tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_location *place_out);
+/// TL_ERR_NOT_CLOSED, TL_ERR_WINDING: rays from the point in opposite directions contradict each other, so the surface
+/// has a hole or a rim, or triangles with opposite winding side by side. Not every hole shows at every point;
+/// tl_soup_check_closed proves that there is none. TL_ERR_NOT_FINITE: the point.
+TL_API tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_location *location_out);
 
-/// Whether the triangles of a soup enclose a space: along every edge as many run one way as the other. They may
+/// Whether the triangles of a soup enclose a volume: along every edge as many run one way as the other. They may
 /// intersect.
 ///
-/// TL_ERR_NOT_CLOSED (a hole or rim) or TL_ERR_WINDING (all edges are shared, but some neighbours face against each
-/// other), with a triangle in `report_out`, which may be NULL. Not a query: it takes memory from the host, which may be
+/// TL_ERR_NOT_CLOSED (a hole or rim) or TL_ERR_WINDING (all edges are shared, but some neighbours have opposite
+/// winding), with a triangle in `report_out`, which may be NULL. Not a query: it allocates from the host, which may be
 /// NULL too. TL_ERR_MEMORY, TL_ERR_CANCELLED. O(n).
 TL_API tl_result tl_soup_check_closed(const tl_soup *soup, const tl_host *host, tl_report *report_out);
 
 /// One stored triangle.
 typedef struct tl_soup_triangle {
-    tl_vec3 corners[3]; ///< as in the view, order and winding kept
+    tl_vec3 corners[3]; ///< as in the view, in the view's order
     uint32_t triangle;  ///< its index in the view
     uint16_t material;
 } tl_soup_triangle;
 
-/// Goes through all triangles, each once, in the soup's own order. Start with `*cursor` 0; false at the end.
+/// Visits all triangles, each once, in the soup's own order. Start with `*cursor` 0; false at the end.
 TL_API bool tl_soup_next_triangle(const tl_soup *soup, uint64_t *cursor, tl_soup_triangle *triangle_out);
 
 /// One pair, or one triangle without a partner.
@@ -350,20 +350,21 @@ typedef struct tl_soup_pair {
     uint32_t triangles[2]; ///< indices in the view; the second is TL_NO_TRIANGLE for a single
 } tl_soup_pair;
 
-/// Goes through all pairs and singles, each once. Start with `*cursor` 0; false at the end.
+/// Visits all pairs and singles, each once. Start with `*cursor` 0; false at the end.
 TL_API bool tl_soup_next_pair(const tl_soup *soup, uint64_t *cursor, tl_soup_pair *pair_out);
 
 /// Called for each triangle found; false ends the search.
 typedef bool tl_soup_triangle_fn(const tl_soup_triangle *triangle, void *user);
 
-/// Calls `found` for the triangles that may touch `box` (closed), in the soup's order: for every one that does, and for
-/// none whose own box stays apart from it; each once. Returns false when `found` ended the search.
+/// Calls `found` once for each triangle that may touch `box` (closed): for every one that does, for none whose own box
+/// does not. In the soup's own order. Returns false when `found` ended the search.
 TL_API bool tl_soup_triangles_in_box(const tl_soup *soup, tl_aabb box, tl_soup_triangle_fn *found, void *user);
 
-/// Called for each box of the tree; `depth` 0 is the root's box, `leaf` tells a box that holds pairs. False ends it.
+/// Called for each box of the tree: `depth` 0 is the root's box, a `leaf` holds pairs. False ends the visit.
 typedef bool tl_soup_bvh_box_fn(tl_aabb box, uint32_t depth, bool leaf, void *user);
 
-/// Calls `visit` for every box of the tree down to `max_depth`, parents before children. Returns false when ended.
+/// Calls `visit` for every box of the tree down to `max_depth`, parents before children. Returns false when `visit`
+/// ended it.
 TL_API bool tl_soup_bvh_boxes(const tl_soup *soup, uint32_t max_depth, tl_soup_bvh_box_fn *visit, void *user);
 
 #ifdef __cplusplus

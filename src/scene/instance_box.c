@@ -53,9 +53,6 @@ tl_result tl_scene_read_instance(const tl_scene_instance *instance, tl_aabb *loc
         !isfinite(q.w)) {
         return TL_ERR_NOT_FINITE;
     }
-    if (q.x == 0.0f && q.y == 0.0f && q.z == 0.0f && q.w == 0.0f) {
-        return TL_ERR_DEGENERATE;
-    }
     if (!is_within_range(instance->pose.position)) {
         return TL_ERR_RANGE;
     }

@@ -5,12 +5,6 @@
 #include "base/assert.h"
 #include "scene/scene_layout.h"
 
-tl_scene_filter tl_default_scene_filter(void)
-{
-    tl_scene_filter filter = { UINT32_MAX, TL_NO_INSTANCE, NULL, NULL, NULL };
-    return filter;
-}
-
 static uint32_t touched(const tl_scene_node *node, const tl_aabb *box)
 {
     uint32_t mask = 0;
@@ -28,7 +22,7 @@ bool tl_scene_instances_in_box(const tl_scene *scene, tl_aabb box, const tl_scen
                                tl_scene_instance_fn *found, void *user)
 {
     TL_ASSERT(scene != NULL && found != NULL);
-    uint32_t kinds = tl_scene_kinds(filter);
+    uint32_t counted = tl_scene_mask(filter);
     uint32_t stack[TL_SCENE_STACK_SIZE];
     uint32_t count = 1;
     stack[0] = 0;
@@ -44,7 +38,7 @@ bool tl_scene_instances_in_box(const tl_scene *scene, tl_aabb box, const tl_scen
         const tl_scene_node *node = &tl_scene_nodes(scene)[child];
         uint32_t mask = touched(node, &box);
         for (uint32_t i = TL_SCENE_WIDTH; i-- > 0;) {
-            if ((mask >> i & 1u) != 0 && (node->mask[i] & kinds) != 0) {
+            if ((mask >> i & 1u) != 0 && (node->mask[i] & counted) != 0) {
                 stack[count++] = node->child[i];
             }
         }

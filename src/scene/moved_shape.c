@@ -10,15 +10,11 @@
 
 #include "scene/moved_shape.h"
 
+#include "base/min_max.h"
 #include "math/tolerance.h"
 #include "scene/instance_box.h"
 
 #include <float.h>
-
-static double farther(double a, double b)
-{
-    return a > b ? a : b;
-}
 
 tl_result tl_moved_shape_make(const tl_convex *convex, tl_transform pose, tl_vec3 motion, tl_moved_shape *shape_out)
 {
@@ -43,10 +39,10 @@ tl_result tl_moved_shape_make(const tl_convex *convex, tl_transform pose, tl_vec
     double size = tl_scene_size(shape_out->middle) + tl_vec3d_size(half) + tl_scene_size(pose.position);
     double wider = (double)TL_SCENE_WIDEN * (size + tl_vec3d_size(step)) + (double)FLT_MIN;
     shape_out->half = tl_vec3d_add(half, tl_vec3d_make(wider, wider, wider));
-    double x = farther(fabs(low.x), fabs(high.x)) + fabs(step.x);
-    double y = farther(fabs(low.y), fabs(high.y)) + fabs(step.y);
-    double z = farther(fabs(low.z), fabs(high.z)) + fabs(step.z);
-    shape_out->reach = farther(x, farther(y, z));
+    double x = tl_max_f64(fabs(low.x), fabs(high.x)) + fabs(step.x);
+    double y = tl_max_f64(fabs(low.y), fabs(high.y)) + fabs(step.y);
+    double z = tl_max_f64(fabs(low.z), fabs(high.z)) + fabs(step.z);
+    shape_out->reach = tl_max_f64(x, tl_max_f64(y, z));
     return TL_OK;
 }
 

@@ -23,60 +23,60 @@
 #include <string.h>
 
 // Fewer bins where there are few instances: most of a small split's work is to look at bins.
-enum { BINS = 16, FEW_BINS = 8, FEW_INSTANCES = 64, AXES = 3 };
+enum { INSTANCE_BINS = 16, FEW_INSTANCE_BINS = 8, FEW_INSTANCES = 64, AXES = 3 };
 
 // An instance's box, and its index in `instance`; the other fourth number is zero.
-typedef struct build_ref {
+typedef struct instance_ref {
     float min[3];
     uint32_t instance;
     float max[3];
     uint32_t zero;
-} build_ref;
+} instance_ref;
 
 // Instances [begin, end) of the refs.
-typedef struct build_range {
+typedef struct instance_range {
     uint32_t begin, end;
     float half_area;
-} build_range;
+} instance_range;
 
 // A node in the making: its range, and then what its lanes hold.
-typedef struct build_node {
+typedef struct scene_build_node {
     uint32_t begin, end, depth;
     uint32_t child[TL_SCENE_WIDTH];
-} build_node;
+} scene_build_node;
 
-typedef struct build {
-    build_ref *refs;
+typedef struct scene_build {
+    instance_ref *refs;
     tl_scene_record *records;
-    build_node *nodes;
+    scene_build_node *nodes;
     uint32_t node_count, depth;
-} build;
+} scene_build;
 
-static tl_box4 load(const build_ref *ref)
+static tl_box4 load(const instance_ref *ref)
 {
     return tl_box4_load(ref->min, ref->max);
 }
 
-static float half_area(tl_box4 box)
+static float box4_half_area(tl_box4 box)
 {
     return tl_aabb_half_area(tl_box4_to_aabb(box));
 }
 
 typedef struct bins {
-    tl_box4 box[AXES][BINS];
-    uint32_t count[AXES][BINS];
+    tl_box4 box[AXES][INSTANCE_BINS];
+    uint32_t count[AXES][INSTANCE_BINS];
     float base[4], scale[4]; // of doubled middles
     uint32_t used;           // bins of each axis
 } bins;
 
 // Where a range is cut: instances whose bin along the axis is below `bin` go to the left.
-typedef struct cut {
+typedef struct bin_cut {
     uint32_t axis, bin; // bin 0: nowhere
     float half_areas[2];
     float cost;
-} cut;
+} bin_cut;
 
-static void fill_bins(const build *b, const build_range *range, bins *s)
+static void fill_instance_bins(const scene_build *b, const instance_range *range, bins *s)
 {
     tl_box4 middles = tl_box4_empty();
     for (uint32_t i = range->begin; i < range->end; i++) {
@@ -86,7 +86,7 @@ static void fill_bins(const build *b, const build_range *range, bins *s)
     tl_vec3 size = tl_aabb_size(spread);
     const float low[3] = { spread.min.x, spread.min.y, spread.min.z }, width[3] = { size.x, size.y, size.z };
     memset(s->count, 0, sizeof s->count);
-    s->used = range->end - range->begin < FEW_INSTANCES ? FEW_BINS : BINS;
+    s->used = range->end - range->begin < FEW_INSTANCES ? FEW_INSTANCE_BINS : INSTANCE_BINS;
     for (uint32_t axis = 0; axis < AXES; axis++) {
         s->base[axis] = low[axis];
         s->scale[axis] = width[axis] > 0.0f ? (float)s->used / width[axis] : 0.0f;
@@ -106,13 +106,13 @@ static void fill_bins(const build *b, const build_range *range, bins *s)
     }
 }
 
-static void try_axis(const bins *s, uint32_t axis, uint32_t total, cut *best)
+static void try_axis(const bins *s, uint32_t axis, uint32_t total, bin_cut *best)
 {
-    float right_area[BINS];
+    float right_area[INSTANCE_BINS];
     tl_box4 box = tl_box4_empty();
     for (uint32_t k = s->used; k-- > 1;) {
         box = tl_box4_union(box, s->box[axis][k]);
-        right_area[k] = half_area(box);
+        right_area[k] = box4_half_area(box);
     }
     box = tl_box4_empty();
     uint32_t left = 0;
@@ -122,17 +122,17 @@ static void try_axis(const bins *s, uint32_t axis, uint32_t total, cut *best)
         if (left == 0 || left == total) {
             continue;
         }
-        float left_area = half_area(box);
+        float left_area = box4_half_area(box);
         float cost = left_area * (float)left + right_area[k] * (float)(total - left);
         if (cost < best->cost) {
-            cut better = { axis, k, { left_area, right_area[k] }, cost };
+            bin_cut better = { axis, k, { left_area, right_area[k] }, cost };
             *best = better;
         }
     }
 }
 
 // Puts the instances below the cut first; returns where the others begin.
-static uint32_t part(const build *b, const build_range *range, const bins *s, const cut *c)
+static uint32_t part(const scene_build *b, const instance_range *range, const bins *s, const bin_cut *c)
 {
     uint32_t low = range->begin, high = range->end;
     while (low < high) {
@@ -141,7 +141,7 @@ static uint32_t part(const build *b, const build_range *range, const bins *s, co
         if ((uint32_t)cells[c->axis] < c->bin) {
             low++;
         } else {
-            build_ref ref = b->refs[low];
+            instance_ref ref = b->refs[low];
             b->refs[low] = b->refs[--high];
             b->refs[high] = ref;
         }
@@ -150,7 +150,7 @@ static uint32_t part(const build *b, const build_range *range, const bins *s, co
 }
 
 // In halves as they lie: for instances in one place, and for trees that got too deep.
-static void halve(build_range *range, build_range *other)
+static void halve(instance_range *range, instance_range *other)
 {
     other->begin = range->begin + (range->end - range->begin) / 2;
     other->end = range->end;
@@ -159,11 +159,11 @@ static void halve(build_range *range, build_range *other)
 }
 
 // Cuts a range of at least two instances in two.
-static void split(const build *b, build_range *range, build_range *other)
+static void split_range(const scene_build *b, instance_range *range, instance_range *other)
 {
     bins s;
-    fill_bins(b, range, &s);
-    cut best = { 0, 0, { 0.0f, 0.0f }, INFINITY };
+    fill_instance_bins(b, range, &s);
+    bin_cut best = { 0, 0, { 0.0f, 0.0f }, INFINITY };
     for (uint32_t axis = 0; axis < AXES; axis++) {
         if (s.scale[axis] > 0.0f) {
             try_axis(&s, axis, range->end - range->begin, &best);
@@ -182,7 +182,7 @@ static void split(const build *b, build_range *range, build_range *other)
 
 // The part with the largest surface (or, not by cost, the most instances) of those that hold `least` instances to
 // `most`; `count` when there is none.
-static uint32_t choose_part(const build_range *parts, uint32_t count, uint32_t least, uint32_t most, bool by_cost)
+static uint32_t choose_part(const instance_range *parts, uint32_t count, uint32_t least, uint32_t most, bool by_cost)
 {
     uint32_t chosen = count;
     for (uint32_t i = 0; i < count; i++) {
@@ -198,21 +198,21 @@ static uint32_t choose_part(const build_range *parts, uint32_t count, uint32_t l
 }
 
 // Puts a part's instances into lanes of their own; returns how many parts there are now.
-static uint32_t dissolve(build_range *parts, uint32_t count, uint32_t chosen)
+static uint32_t dissolve(instance_range *parts, uint32_t count, uint32_t chosen)
 {
-    build_range whole = parts[chosen];
+    instance_range whole = parts[chosen];
     parts[chosen].end = whole.begin + 1;
     for (uint32_t i = whole.begin + 1; i < whole.end; i++) {
-        build_range one = { i, i + 1, 0.0f };
+        instance_range one = { i, i + 1, 0.0f };
         parts[count++] = one;
     }
     return count;
 }
 
 // What the node's lanes hold.
-static uint32_t part_node(const build *b, const build_node *node, build_range parts[TL_SCENE_WIDTH])
+static uint32_t part_node(const scene_build *b, const scene_build_node *node, instance_range parts[TL_SCENE_WIDTH])
 {
-    build_range whole = { node->begin, node->end, 0.0f };
+    instance_range whole = { node->begin, node->end, 0.0f };
     parts[0] = whole;
     uint32_t count = node->end > node->begin;
     bool by_cost = node->depth < TL_SCENE_COST_DEPTH;
@@ -220,7 +220,7 @@ static uint32_t part_node(const build *b, const build_node *node, build_range pa
     while (count < TL_SCENE_WIDTH &&
            (chosen = choose_part(parts, count, TL_SCENE_WIDTH + 1, UINT32_MAX, by_cost)) < count) {
         if (by_cost) {
-            split(b, &parts[chosen], &parts[count]);
+            split_range(b, &parts[chosen], &parts[count]);
         } else {
             halve(&parts[chosen], &parts[count]);
         }
@@ -233,15 +233,15 @@ static uint32_t part_node(const build *b, const build_node *node, build_range pa
 }
 
 // Nodes are made breadth first: those that wait are at the list's end.
-static void build_tree(build *b, uint32_t instance_count)
+static void build_tree(scene_build *b, uint32_t instance_count)
 {
     memset(&b->nodes[0], 0, sizeof b->nodes[0]);
     b->nodes[0].end = instance_count;
     b->nodes[0].depth = 1;
     b->node_count = 1;
     for (uint32_t n = 0; n < b->node_count; n++) {
-        build_node *node = &b->nodes[n];
-        build_range parts[TL_SCENE_WIDTH];
+        scene_build_node *node = &b->nodes[n];
+        instance_range parts[TL_SCENE_WIDTH];
         uint32_t count = part_node(b, node, parts);
         b->depth = node->depth;
         for (uint32_t i = 0; i < count; i++) {
@@ -251,7 +251,7 @@ static void build_tree(build *b, uint32_t instance_count)
                 b->records[instance].lane = n * TL_SCENE_WIDTH + i;
                 continue;
             }
-            build_node *below = &b->nodes[b->node_count];
+            scene_build_node *below = &b->nodes[b->node_count];
             memset(below, 0, sizeof *below);
             below->begin = parts[i].begin;
             below->end = parts[i].end;
@@ -262,7 +262,7 @@ static void build_tree(build *b, uint32_t instance_count)
 }
 
 // What is not there is put where it would be, since it may come back.
-static tl_aabb place_of(const tl_scene_record *record)
+static tl_aabb box_or_position(const tl_scene_record *record)
 {
     tl_aabb box = tl_scene_world_box(record);
     if (tl_aabb_is_empty(box)) {
@@ -271,7 +271,7 @@ static tl_aabb place_of(const tl_scene_record *record)
     return box;
 }
 
-static tl_result read_instances(build *b, const tl_scene_instance *instances, uint32_t count, tl_report *report)
+static tl_result read_instances(scene_build *b, const tl_scene_instance *instances, uint32_t count, tl_report *report)
 {
     for (uint32_t i = 0; i < count; i++) {
         tl_aabb local;
@@ -280,15 +280,15 @@ static tl_result read_instances(build *b, const tl_scene_instance *instances, ui
             return tl_scene_refuse_instance(report, result, i);
         }
         tl_scene_place_instance(&b->records[i], instances[i].pose, local);
-        tl_aabb box = place_of(&b->records[i]);
-        build_ref ref = { { box.min.x, box.min.y, box.min.z }, i, { box.max.x, box.max.y, box.max.z }, 0 };
+        tl_aabb box = box_or_position(&b->records[i]);
+        instance_ref ref = { { box.min.x, box.min.y, box.min.z }, i, { box.max.x, box.max.y, box.max.z }, 0 };
         b->refs[i] = ref;
     }
     return TL_OK;
 }
 
-static tl_result bake(const build *b, const tl_scene_instance *instances, uint32_t count, const tl_allocator *allocator,
-                      tl_scene **scene_out)
+static tl_result encode_scene(const scene_build *b, const tl_scene_instance *instances, uint32_t count,
+                              const tl_allocator *allocator, tl_scene **scene_out)
 {
     uint64_t records = (sizeof(tl_scene) + 63) / 64 * 64;
     uint64_t nodes = (records + (uint64_t)count * sizeof(tl_scene_record) + 63) / 64 * 64;
@@ -325,9 +325,14 @@ static tl_result bake(const build *b, const tl_scene_instance *instances, uint32
 tl_result tl_scene_bake(const tl_scene_instance *instances, uint32_t count, const tl_host *host, tl_scene **scene_out,
                         tl_report *report_out)
 {
-    TL_ASSERT(scene_out != NULL && (instances != NULL || count == 0));
+    tl_report_begin(report_out, "bake scene");
+    if (scene_out == NULL) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "scene_out", "give a place for the scene");
+    }
     *scene_out = NULL;
-    tl_report_begin(report_out, "build scene");
+    if (instances == NULL && count > 0) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "instances", "give the instances");
+    }
     if (count > TL_MAX_SCENE_INSTANCES) {
         return tl_report_fail(report_out, TL_ERR_LIMIT, "instance", TL_MAX_SCENE_INSTANCES, "make several scenes");
     }
@@ -337,15 +342,15 @@ tl_result tl_scene_bake(const tl_scene_instance *instances, uint32_t count, cons
     // By induction a range of s >= 2 instances takes s / 2 + (s - 2) / 14 nodes at most: the worst are eight parts of
     // two.
     uint64_t most_nodes = (uint64_t)count / 2 + count / 14 + 1;
-    build b = { TL_PUSH(&arena, build_ref, count), TL_PUSH(&arena, tl_scene_record, count),
-                TL_PUSH(&arena, build_node, most_nodes), 0, 0 };
+    scene_build b = { TL_PUSH(&arena, instance_ref, count), TL_PUSH(&arena, tl_scene_record, count),
+                      TL_PUSH(&arena, scene_build_node, most_nodes), 0, 0 };
     tl_result result = TL_ERR_MEMORY;
     if (b.refs != NULL && b.records != NULL && b.nodes != NULL) {
         result = read_instances(&b, instances, count, report_out);
     }
     if (result == TL_OK) {
         build_tree(&b, count);
-        result = bake(&b, instances, count, allocator, scene_out);
+        result = encode_scene(&b, instances, count, allocator, scene_out);
     }
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + (*scene_out != NULL ? (*scene_out)->blob.size : 0);

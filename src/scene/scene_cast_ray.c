@@ -14,7 +14,7 @@
 // Share of its ends' coordinates by which a segment may be elsewhere in an instance's space.
 #define SIGHT_ERROR (4.0 * (double)TL_FLOAT_ROUNDING)
 
-typedef struct search {
+typedef struct scene_ray_search {
     const tl_scene_instance *instances;
     const tl_scene_record *records;
     const tl_scene_filter *filter;
@@ -24,18 +24,19 @@ typedef struct search {
     float tmax;        // of the best
     tl_scene_hit *hit; // NULL: any will do
     uint32_t instance; // TL_NO_INSTANCE: none yet
-} search;
+} scene_ray_search;
 
-static search begin(const tl_scene *scene, const tl_scene_instance *instances, const tl_scene_filter *filter)
+static scene_ray_search begin_ray_search(const tl_scene *scene, const tl_scene_instance *instances,
+                                         const tl_scene_filter *filter)
 {
-    search s = {
+    scene_ray_search s = {
         .instances = instances, .records = tl_scene_records(scene), .filter = filter, .instance = TL_NO_INSTANCE
     };
     s.triangles = tl_scene_triangles(filter);
     return s;
 }
 
-static bool cast_at_soup(const search *s, uint32_t instance, tl_scene_hit *hit)
+static bool cast_ray_at_soup(const scene_ray_search *s, uint32_t instance, tl_scene_hit *hit)
 {
     const tl_scene_record *record = &s->records[instance];
     tl_ray ray = { tl_scene_point_to_instance(record, s->ray.origin),
@@ -51,7 +52,7 @@ static bool cast_at_soup(const search *s, uint32_t instance, tl_scene_hit *hit)
     return true;
 }
 
-static bool cast_at_shape(const search *s, uint32_t instance, tl_scene_hit *hit)
+static bool cast_ray_at_shape(const scene_ray_search *s, uint32_t instance, tl_scene_hit *hit)
 {
     tl_convex_hit found;
     if (!tl_convex_cast_ray(s->instances[instance].shape, s->records[instance].pose, s->ray.origin, s->ray.direction,
@@ -69,14 +70,14 @@ static bool cast_at_shape(const search *s, uint32_t instance, tl_scene_hit *hit)
 
 static bool visit_by_ray(tl_scene_line *line, uint32_t instance)
 {
-    search *s = line->user;
+    scene_ray_search *s = line->user;
     if (!tl_scene_accepts(s->filter, instance)) {
         return true;
     }
     tl_scene_hit hit;
     bool is_soup = s->instances[instance].soup != NULL;
-    bool met = is_soup ? cast_at_soup(s, instance, &hit)
-                       : s->instances[instance].shape != NULL && cast_at_shape(s, instance, &hit);
+    bool met = is_soup ? cast_ray_at_soup(s, instance, &hit)
+                       : s->instances[instance].shape != NULL && cast_ray_at_shape(s, instance, &hit);
     if (!met) {
         return true;
     }
@@ -104,17 +105,17 @@ static bool is_castable(const tl_ray *ray)
 bool tl_scene_cast_ray_with(tl_scene_walk_fn *walk, const tl_scene *scene, const tl_scene_instance *instances,
                             const tl_ray *ray, const tl_scene_filter *filter, tl_scene_hit *hit_out)
 {
-    TL_ASSERT(scene != NULL && ray != NULL && (instances != NULL || scene->instance_count == 0));
+    TL_ASSERT(tl_scene_has_instances(scene, instances) && ray != NULL);
     if (!is_castable(ray)) {
         return false;
     }
-    search s = begin(scene, instances, filter);
+    scene_ray_search s = begin_ray_search(scene, instances, filter);
     s.ray = *ray;
     s.tmax = ray->tmax;
     tl_scene_hit hit;
     s.hit = hit_out != NULL ? &hit : NULL;
     tl_scene_line line = { .instances = instances, .visit = visit_by_ray, .user = &s, .any = hit_out == NULL };
-    tl_scene_line_make(&line, scene, tl_scene_kinds(filter), ray->origin, ray->direction, tl_vec3d_make(0.0, 0.0, 0.0),
+    tl_scene_line_make(&line, scene, tl_scene_mask(filter), ray->origin, ray->direction, tl_vec3d_make(0.0, 0.0, 0.0),
                        (double)ray->tmax);
     line.walk = walk != NULL ? walk : line.walk;
     tl_scene_line_walk(&line);
@@ -144,13 +145,13 @@ bool tl_scene_occluded(const tl_scene *scene, const tl_scene_instance *instances
 }
 
 // An order of two points that does not know which one looks.
-static bool is_before(tl_vec3 a, tl_vec3 b)
+static bool precedes_point(tl_vec3 a, tl_vec3 b)
 {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
 // A shape stops the view where the segment touches it.
-static bool hides(const search *s, uint32_t instance)
+static bool hides(const scene_ray_search *s, uint32_t instance)
 {
     const tl_scene_record *record = &s->records[instance];
     const tl_scene_instance *it = &s->instances[instance];
@@ -161,14 +162,14 @@ static bool hides(const search *s, uint32_t instance)
     if (it->shape == NULL) {
         return false;
     }
-    bool turned = is_before(s->to, s->ray.origin);
+    bool turned = precedes_point(s->to, s->ray.origin);
     tl_convex segment = tl_convex_capsule(turned ? s->to : s->ray.origin, turned ? s->ray.origin : s->to, 0.0f);
     return tl_convex_overlap(it->shape, record->pose, &segment, tl_transform_identity(), NULL);
 }
 
 static bool visit_by_sight(tl_scene_line *line, uint32_t instance)
 {
-    search *s = line->user;
+    scene_ray_search *s = line->user;
     if (tl_scene_accepts(s->filter, instance) && hides(s, instance)) {
         s->instance = instance;
         return false;
@@ -179,17 +180,17 @@ static bool visit_by_sight(tl_scene_line *line, uint32_t instance)
 bool tl_scene_line_of_sight(const tl_scene *scene, const tl_scene_instance *instances, tl_vec3 a, tl_vec3 b,
                             const tl_scene_filter *filter)
 {
-    TL_ASSERT(scene != NULL && (instances != NULL || scene->instance_count == 0));
+    TL_ASSERT(tl_scene_has_instances(scene, instances));
     if (!tl_is_finite(a) || !tl_is_finite(b)) {
         return true;
     }
-    search s = begin(scene, instances, filter);
+    scene_ray_search s = begin_ray_search(scene, instances, filter);
     s.ray.origin = a;
     s.to = b;
     tl_scene_line line = { .instances = instances, .visit = visit_by_sight, .user = &s, .any = true };
     // Both ends move by roundings of their own, and the difference rounds.
     double wide = SIGHT_ERROR * (tl_vec3d_size(tl_vec3d_from(a)) + tl_vec3d_size(tl_vec3d_from(b)));
-    tl_scene_line_make(&line, scene, tl_scene_kinds(filter), a, tl_sub(b, a), tl_vec3d_make(wide, wide, wide), 1.0);
+    tl_scene_line_make(&line, scene, tl_scene_mask(filter), a, tl_sub(b, a), tl_vec3d_make(wide, wide, wide), 1.0);
     tl_scene_line_walk(&line);
     return s.instance == TL_NO_INSTANCE;
 }

@@ -18,12 +18,12 @@
 #include <string.h>
 
 // As of soups: a position and a corner round by half an ulp each, along three axes.
-#define TOUCH_SHARE (4.0 * (double)TL_FLOAT_ROUNDING)
+#define WORLD_TOUCH_SHARE (4.0 * (double)TL_FLOAT_ROUNDING)
 
 // A corner has three faces to be moved out of; each step out of one may lead a little into another.
-enum { MOST_STEPS_OUT = 4 };
+enum { MAX_STEPS_OUT = 4 };
 
-typedef struct search {
+typedef struct scene_sweep {
     const tl_scene_instance *instances;
     const tl_scene_record *records;
     const tl_scene_filter *filter;
@@ -32,7 +32,7 @@ typedef struct search {
     double touch; // metres
     tl_scene_shape_hit *hit;
     uint32_t instance; // TL_NO_INSTANCE: none yet
-} search;
+} scene_sweep;
 
 static tl_transform move_out(tl_transform pose, tl_vec3 normal, double by)
 {
@@ -41,7 +41,7 @@ static tl_transform move_out(tl_transform pose, tl_vec3 normal, double by)
     return pose;
 }
 
-static bool cast_at_soup(const search *s, uint32_t instance, tl_shape_hit *hit)
+static bool sweep_at_soup(const scene_sweep *s, uint32_t instance, tl_shape_hit *hit)
 {
     const tl_scene_record *record = &s->records[instance];
     tl_transform pose = tl_scene_pose_to_instance(record, s->shape->pose);
@@ -53,7 +53,7 @@ static bool cast_at_soup(const search *s, uint32_t instance, tl_shape_hit *hit)
             return false;
         }
         bool stands_on = hit->initial_overlap && (double)hit->depth <= touch;
-        if (!stands_on || step == MOST_STEPS_OUT || tl_scene_is_identity(record)) {
+        if (!stands_on || step == MAX_STEPS_OUT || tl_scene_is_identity(record)) {
             break;
         }
         touch -= (double)hit->depth;
@@ -66,7 +66,7 @@ static bool cast_at_soup(const search *s, uint32_t instance, tl_shape_hit *hit)
     return true;
 }
 
-static bool cast_at_shape(const search *s, uint32_t instance, tl_shape_hit *hit)
+static bool sweep_at_shape(const scene_sweep *s, uint32_t instance, tl_shape_hit *hit)
 {
     const tl_convex *other = s->instances[instance].shape;
     tl_transform at = s->records[instance].pose;
@@ -97,15 +97,15 @@ static bool cast_at_shape(const search *s, uint32_t instance, tl_shape_hit *hit)
     return tl_convex_cast(other, at, s->shape->convex, outside, s->motion, &met);
 }
 
-static bool cast_at_instance(const search *s, uint32_t instance, tl_shape_hit *hit)
+static bool sweep_at_instance(const scene_sweep *s, uint32_t instance, tl_shape_hit *hit)
 {
     return s->instances[instance].soup != NULL
-               ? cast_at_soup(s, instance, hit)
-               : s->instances[instance].shape != NULL && cast_at_shape(s, instance, hit);
+               ? sweep_at_soup(s, instance, hit)
+               : s->instances[instance].shape != NULL && sweep_at_shape(s, instance, hit);
 }
 
 // Earlier wins; of overlaps the deeper one; then the lower instance.
-static bool is_better(const search *s, const tl_shape_hit *hit, uint32_t instance)
+static bool is_better_hit(const scene_sweep *s, const tl_shape_hit *hit, uint32_t instance)
 {
     const tl_shape_hit *best = &s->hit->hit;
     if (s->instance == TL_NO_INSTANCE || hit->t != best->t) {
@@ -117,11 +117,12 @@ static bool is_better(const search *s, const tl_shape_hit *hit, uint32_t instanc
     return hit->depth != best->depth ? hit->depth > best->depth : instance < s->instance;
 }
 
-static bool visit(tl_scene_line *line, uint32_t instance)
+static bool visit_by_shape(tl_scene_line *line, uint32_t instance)
 {
-    search *s = line->user;
+    scene_sweep *s = line->user;
     tl_shape_hit hit;
-    if (tl_scene_accepts(s->filter, instance) && cast_at_instance(s, instance, &hit) && is_better(s, &hit, instance)) {
+    if (tl_scene_accepts(s->filter, instance) && sweep_at_instance(s, instance, &hit) &&
+        is_better_hit(s, &hit, instance)) {
         s->hit->hit = hit;
         s->instance = instance;
         tl_scene_line_shorten(line, (double)hit.t);
@@ -133,14 +134,20 @@ tl_result tl_scene_cast_shape(const tl_scene *scene, const tl_scene_instance *in
                               tl_transform pose, tl_vec3 motion, const tl_scene_filter *filter,
                               tl_scene_shape_hit *hit_out)
 {
-    TL_ASSERT(scene != NULL && shape != NULL && hit_out != NULL && (instances != NULL || scene->instance_count == 0));
+    if (hit_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    memset(hit_out, 0, sizeof *hit_out);
+    if (!tl_scene_has_instances(scene, instances) || shape == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     tl_moved_shape moved;
     TL_TRY(tl_moved_shape_make(shape, pose, motion, &moved));
     tl_scene_shape_hit hit;
-    search s = { instances, tl_scene_records(scene),   filter, &moved,
-                 motion,    TOUCH_SHARE * moved.reach, &hit,   TL_NO_INSTANCE };
-    tl_scene_line line = { .instances = instances, .visit = visit, .user = &s };
-    tl_scene_line_make(&line, scene, tl_scene_kinds(filter), moved.middle, motion, moved.half, 1.0);
+    scene_sweep s = { instances, tl_scene_records(scene),         filter, &moved,
+                      motion,    WORLD_TOUCH_SHARE * moved.reach, &hit,   TL_NO_INSTANCE };
+    tl_scene_line line = { .instances = instances, .visit = visit_by_shape, .user = &s };
+    tl_scene_line_make(&line, scene, tl_scene_mask(filter), moved.middle, motion, moved.half, 1.0);
     tl_scene_line_walk(&line);
     if (s.instance == TL_NO_INSTANCE) {
         return TL_NOT_FOUND;

@@ -36,23 +36,24 @@ void tl_scene_set_lane(tl_scene *scene, uint32_t lane, tl_aabb box, uint32_t mas
     node->mask[i] = mask;
 }
 
-static float least(const float *eight)
+static float least_of_eight(const float *eight)
 {
     float a = tl_minf(tl_minf(eight[0], eight[1]), tl_minf(eight[2], eight[3]));
     return tl_minf(a, tl_minf(tl_minf(eight[4], eight[5]), tl_minf(eight[6], eight[7])));
 }
 
-static float largest(const float *eight)
+static float largest_of_eight(const float *eight)
 {
     float a = tl_maxf(tl_maxf(eight[0], eight[1]), tl_maxf(eight[2], eight[3]));
     return tl_maxf(a, tl_maxf(tl_maxf(eight[4], eight[5]), tl_maxf(eight[6], eight[7])));
 }
 
 // Around all children.
-static tl_aabb box_of(const tl_scene_node *node, uint32_t *mask_out)
+static tl_aabb box_of_children(const tl_scene_node *node, uint32_t *mask_out)
 {
-    tl_aabb box = { { least(node->plane[0]), least(node->plane[2]), least(node->plane[4]) },
-                    { largest(node->plane[1]), largest(node->plane[3]), largest(node->plane[5]) } };
+    tl_aabb box = { { least_of_eight(node->plane[0]), least_of_eight(node->plane[2]), least_of_eight(node->plane[4]) },
+                    { largest_of_eight(node->plane[1]), largest_of_eight(node->plane[3]),
+                      largest_of_eight(node->plane[5]) } };
     *mask_out = 0;
     for (uint32_t i = 0; i < TL_SCENE_WIDTH; i++) {
         *mask_out |= node->mask[i];
@@ -61,7 +62,7 @@ static tl_aabb box_of(const tl_scene_node *node, uint32_t *mask_out)
 }
 
 // In double: boxes may be 1e12 m wide. Of an empty box 0.
-static double half_area(tl_aabb box)
+static double half_area_f64(tl_aabb box)
 {
     if (tl_aabb_is_empty(box)) {
         return 0.0;
@@ -78,29 +79,28 @@ void tl_scene_fit_nodes(tl_scene *scene)
         for (uint32_t i = 0; i < TL_SCENE_WIDTH; i++) {
             uint32_t child = nodes[n].child[i], mask;
             if (child != 0 && (child & TL_CHILD_INSTANCE) == 0) {
-                tl_aabb box = box_of(&nodes[child], &mask);
+                tl_aabb box = box_of_children(&nodes[child], &mask);
                 tl_scene_set_lane(scene, n * TL_SCENE_WIDTH + i, box, mask);
-                below += half_area(box);
+                below += half_area_f64(box);
             }
         }
     }
     uint32_t all;
-    scene->bounds = box_of(&nodes[0], &all);
-    double whole = half_area(scene->bounds);
+    scene->bounds = box_of_children(&nodes[0], &all);
+    double whole = half_area_f64(scene->bounds);
     scene->cost = 1.0 + (whole > 0.0 ? below / whole : 0.0);
 }
 
 tl_result tl_scene_refuse_instance(tl_report *report, tl_result result, uint32_t instance)
 {
-    const char *advice = result == TL_ERR_NOT_FINITE   ? "make its pose and its shape's corners finite"
-                         : result == TL_ERR_DEGENERATE ? "give it a rotation; the identity is (0, 0, 0, 1)"
-                         : result == TL_ERR_RANGE      ? "keep its position and box within TL_MAX_COORDINATE"
-                                                       : "give it a soup or a shape, with a radius of at least 0";
+    const char *advice = result == TL_ERR_NOT_FINITE ? "make its pose and its shape's corners finite"
+                         : result == TL_ERR_RANGE    ? "keep its position and box within TL_MAX_COORDINATE"
+                                                     : "give it a soup or a shape, with a radius of at least 0";
     return tl_report_fail(report, result, "instance", instance, advice);
 }
 
-static bool is_same(const tl_scene_record *record, const tl_scene_instance *instance, const tl_aabb *local,
-                    uint32_t mask)
+static bool has_not_moved(const tl_scene_record *record, const tl_scene_instance *instance, const tl_aabb *local,
+                          uint32_t mask)
 {
     return memcmp(&record->pose, &instance->pose, sizeof instance->pose) == 0 &&
            memcmp(&record->local, local, sizeof *local) == 0 && (mask != 0) == (instance->mask != 0);
@@ -109,11 +109,17 @@ static bool is_same(const tl_scene_record *record, const tl_scene_instance *inst
 tl_result tl_scene_refit(tl_scene *scene, const tl_scene_instance *instances, uint32_t count, float *growth_out,
                          tl_report *report_out)
 {
-    TL_ASSERT(scene != NULL && (instances != NULL || count == 0));
     tl_report_begin(report_out, "refit scene");
+    if (growth_out != NULL) {
+        *growth_out = 0.0f;
+    }
+    if (scene == NULL || (instances == NULL && count > 0)) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, scene == NULL ? "scene" : "instances",
+                               "give a scene and its instances");
+    }
     if (count != scene->instance_count) {
-        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "instance", TL_NO_ELEMENT,
-                              "build the scene anew for another number of instances");
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "count",
+                               "bake the scene anew for another number of instances");
     }
     tl_aabb local;
     for (uint32_t i = 0; i < count; i++) {
@@ -127,7 +133,7 @@ tl_result tl_scene_refit(tl_scene *scene, const tl_scene_instance *instances, ui
         (void)tl_scene_read_instance(&instances[i], &local);
         tl_scene_record *record = &records[i];
         uint32_t *mask = &nodes_of(scene)[record->lane / TL_SCENE_WIDTH].mask[record->lane % TL_SCENE_WIDTH];
-        if (is_same(record, &instances[i], &local, *mask)) {
+        if (has_not_moved(record, &instances[i], &local, *mask)) {
             *mask = instances[i].mask;
             continue;
         }

@@ -49,6 +49,12 @@ struct tl_scene {
     uint64_t nodes;   ///< tl_scene_node [node_count]
 };
 
+/// Whether a query was given a scene and, if it holds any, its instances.
+static inline bool tl_scene_has_instances(const tl_scene *scene, const tl_scene_instance *instances)
+{
+    return scene != NULL && (instances != NULL || scene->instance_count == 0);
+}
+
 static inline const tl_scene_record *tl_scene_records(const tl_scene *scene)
 {
     return (const tl_scene_record *)(const void *)((const char *)scene + scene->records);
@@ -118,10 +124,10 @@ static inline tl_vec3 tl_scene_point_to_world(const tl_scene_record *record, tl_
     return tl_vec3d_to_float(tl_vec3d_add(v, tl_vec3d_from(record->pose.position)));
 }
 
-/// What a filter, which may be NULL, says of kinds and of triangles.
-static inline uint32_t tl_scene_kinds(const tl_scene_filter *filter)
+/// The mask bits that count for a filter, which may be NULL.
+static inline uint32_t tl_scene_mask(const tl_scene_filter *filter)
 {
-    return filter != NULL ? filter->mask : UINT32_MAX;
+    return filter != NULL ? ~filter->ignored_mask : UINT32_MAX;
 }
 
 static inline const tl_ray_filter *tl_scene_triangles(const tl_scene_filter *filter)
@@ -129,11 +135,11 @@ static inline const tl_ray_filter *tl_scene_triangles(const tl_scene_filter *fil
     return filter != NULL ? filter->triangles : NULL;
 }
 
-/// Whether a filter lets an instance count, its mask aside.
+/// Whether an instance counts for a filter, its mask aside.
 static inline bool tl_scene_accepts(const tl_scene_filter *filter, uint32_t instance)
 {
-    return filter == NULL ||
-           (instance != filter->without && (filter->accept == NULL || filter->accept(instance, filter->accept_user)));
+    return filter == NULL || (instance - filter->first_ignored >= filter->ignored_count &&
+                              (filter->accept == NULL || filter->accept(instance, filter->accept_user)));
 }
 
 #endif

@@ -5,7 +5,6 @@
 // A soup gets the best distance as its limit, one rounding up: what it reports is rounded, and of equal distances the
 // lower instance wins, whichever was asked first.
 
-#include "base/assert.h"
 #include "base/lowest_bit.h"
 #include "math/tolerance.h"
 #include "scene/scene_layout.h"
@@ -15,12 +14,12 @@
 
 // A distance to a box in float, squared: a difference, a square and two sums, each rounded, and a share to spare for
 // the limit's own rounding.
-#define KEY_SHRINK (1.0f - TL_FLOAT_GAMMA(8))
+#define INSTANCE_KEY_SHRINK (1.0f - TL_FLOAT_GAMMA(8))
 
 // In an instance's space the point is off by this share of its coordinates (instance_box.c has the instance's part).
-#define POINT_ERROR TL_FLOAT_GAMMA(4)
+#define INSTANCE_POINT_ERROR TL_FLOAT_GAMMA(4)
 
-typedef struct search {
+typedef struct scene_nearest_search {
     const tl_scene *scene;
     const tl_scene_instance *instances;
     const tl_scene_record *records;
@@ -32,16 +31,16 @@ typedef struct search {
     float limit_key; // its square, from above
     tl_soup_point best;
     uint32_t instance; // TL_NO_INSTANCE: none yet
-} search;
+} scene_nearest_search;
 
-static void set_limit(search *s, float distance)
+static void set_scene_limit(scene_nearest_search *s, float distance)
 {
     s->limit = distance;
     s->limit_key = distance * distance * (1.0f + TL_FLOAT_GAMMA(2)) + FLT_MIN;
 }
 
 // Squared distances to eight boxes, from below.
-static void measure(const search *s, const tl_scene_node *node, float keys[TL_SCENE_WIDTH])
+static void measure_boxes(const scene_nearest_search *s, const tl_scene_node *node, float keys[TL_SCENE_WIDTH])
 {
     for (uint32_t i = 0; i < TL_SCENE_WIDTH; i++) {
         float x = tl_maxf(node->plane[0][i] - s->at.x, s->at.x - node->plane[1][i]) - s->error;
@@ -50,11 +49,11 @@ static void measure(const search *s, const tl_scene_node *node, float keys[TL_SC
         x = tl_maxf(x, 0.0f);
         y = tl_maxf(y, 0.0f);
         z = tl_maxf(z, 0.0f);
-        keys[i] = (x * x + y * y + z * z) * KEY_SHRINK;
+        keys[i] = (x * x + y * y + z * z) * INSTANCE_KEY_SHRINK;
     }
 }
 
-static bool ask_soup(const search *s, uint32_t instance, tl_soup_point *found)
+static bool ask_soup(const scene_nearest_search *s, uint32_t instance, tl_soup_point *found)
 {
     const tl_scene_record *record = &s->records[instance];
     float reach = tl_minf(nextafterf(s->limit, INFINITY), s->max_distance);
@@ -62,7 +61,7 @@ static bool ask_soup(const search *s, uint32_t instance, tl_soup_point *found)
                            tl_scene_triangles(s->filter), found) == TL_OK;
 }
 
-static bool ask_shape(const search *s, uint32_t instance, tl_soup_point *found)
+static bool ask_shape(const scene_nearest_search *s, uint32_t instance, tl_soup_point *found)
 {
     tl_convex point = tl_convex_sphere(s->at, 0.0f);
     tl_separation apart;
@@ -76,7 +75,7 @@ static bool ask_shape(const search *s, uint32_t instance, tl_soup_point *found)
     return apart.distance <= s->limit;
 }
 
-static void visit(search *s, uint32_t instance)
+static void visit_instance(scene_nearest_search *s, uint32_t instance)
 {
     const tl_scene_instance *it = &s->instances[instance];
     if ((it->soup == NULL && it->shape == NULL) || !tl_scene_accepts(s->filter, instance)) {
@@ -90,17 +89,18 @@ static void visit(search *s, uint32_t instance)
         (found.distance == s->best.distance && instance < s->instance)) {
         s->best = found;
         s->instance = instance;
-        set_limit(s, found.distance);
+        set_scene_limit(s, found.distance);
     }
 }
 
 // Children on the stack, nearest on top: the key's bits above the child word.
-static uint32_t enter(const search *s, const tl_scene_node *node, uint64_t *stack, uint32_t count)
+static uint32_t enter_scene_node(const scene_nearest_search *s, const tl_scene_node *node, uint64_t *stack,
+                                 uint32_t count)
 {
     uint64_t *base = stack + count;
-    uint32_t added = 0, mask = tl_scene_kinds(s->filter);
+    uint32_t added = 0, mask = tl_scene_mask(s->filter);
     float keys[TL_SCENE_WIDTH];
-    measure(s, node, keys);
+    measure_boxes(s, node, keys);
     for (uint32_t lane = 0; lane < TL_SCENE_WIDTH; lane++) {
         bool is_empty = node->plane[0][lane] > node->plane[1][lane];
         if (is_empty || (node->mask[lane] & mask) == 0 || !(keys[lane] <= s->limit_key)) {
@@ -118,10 +118,10 @@ static uint32_t enter(const search *s, const tl_scene_node *node, uint64_t *stac
     return count + added;
 }
 
-static void walk(search *s)
+static void walk_nearest(scene_nearest_search *s)
 {
     uint64_t stack[TL_SCENE_STACK_SIZE];
-    uint32_t count = enter(s, tl_scene_nodes(s->scene), stack, 0);
+    uint32_t count = enter_scene_node(s, tl_scene_nodes(s->scene), stack, 0);
     while (count > 0) {
         uint64_t entry = stack[--count];
         uint32_t bits = (uint32_t)(entry >> 32), child = (uint32_t)entry;
@@ -131,9 +131,9 @@ static void walk(search *s)
             continue;
         }
         if ((child & TL_CHILD_INSTANCE) != 0) {
-            visit(s, child & ~TL_CHILD_INSTANCE);
+            visit_instance(s, child & ~TL_CHILD_INSTANCE);
         } else {
-            count = enter(s, &tl_scene_nodes(s->scene)[child], stack, count);
+            count = enter_scene_node(s, &tl_scene_nodes(s->scene)[child], stack, count);
         }
     }
 }
@@ -141,19 +141,27 @@ static void walk(search *s)
 tl_result tl_scene_nearest(const tl_scene *scene, const tl_scene_instance *instances, tl_vec3 point, float max_distance,
                            const tl_scene_filter *filter, tl_scene_point *nearest_out)
 {
-    TL_ASSERT(scene != NULL && nearest_out != NULL && (instances != NULL || scene->instance_count == 0));
+    if (nearest_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    memset(nearest_out, 0, sizeof *nearest_out);
+    if (!tl_scene_has_instances(scene, instances)) {
+        return TL_ERR_ARGUMENT;
+    }
     if (!tl_is_finite(point)) {
         return TL_ERR_NOT_FINITE;
     }
     if (!(max_distance >= 0.0f)) {
         return TL_ERR_ARGUMENT;
     }
-    search s = { .scene = scene, .instances = instances, .filter = filter, .at = point, .instance = TL_NO_INSTANCE };
+    scene_nearest_search s = {
+        .scene = scene, .instances = instances, .filter = filter, .at = point, .instance = TL_NO_INSTANCE
+    };
     s.max_distance = max_distance;
     s.records = tl_scene_records(scene);
-    s.error = (fabsf(point.x) + fabsf(point.y) + fabsf(point.z)) * POINT_ERROR + FLT_MIN;
-    set_limit(&s, max_distance);
-    walk(&s);
+    s.error = (fabsf(point.x) + fabsf(point.y) + fabsf(point.z)) * INSTANCE_POINT_ERROR + FLT_MIN;
+    set_scene_limit(&s, max_distance);
+    walk_nearest(&s);
     if (s.instance == TL_NO_INSTANCE) {
         return TL_NOT_FOUND;
     }

@@ -11,24 +11,24 @@
 
 #include <string.h>
 
-typedef struct search {
+typedef struct scene_overlap_search {
     const tl_scene_instance *instances;
     const tl_scene_record *records;
     const tl_scene_filter *filter;
     const tl_moved_shape *shape;
     tl_scene_overlap *overlaps;
     uint32_t capacity, count;
-} search;
+} scene_overlap_search;
 
 static_assert(sizeof(tl_scene_overlap) == 2 * sizeof(uint32_t), "an overlap is two words");
 
-static bool touches_shape(const search *s, uint32_t instance)
+static bool touches_shape(const scene_overlap_search *s, uint32_t instance)
 {
     return tl_convex_overlap(s->instances[instance].shape, s->records[instance].pose, s->shape->convex, s->shape->pose,
                              NULL);
 }
 
-static void spread(tl_scene_overlap *room, uint32_t room_size, uint32_t count, uint32_t instance)
+static void spread_indices(tl_scene_overlap *room, uint32_t room_size, uint32_t count, uint32_t instance)
 {
     const char *indices = (const char *)room + (size_t)room_size * sizeof(uint32_t);
     for (uint32_t k = 0; k < count; k++) {
@@ -38,7 +38,7 @@ static void spread(tl_scene_overlap *room, uint32_t room_size, uint32_t count, u
     }
 }
 
-static void add_soup(search *s, uint32_t instance)
+static void add_soup(scene_overlap_search *s, uint32_t instance)
 {
     uint32_t room_size = s->count < s->capacity ? s->capacity - s->count : 0, count = 0;
     tl_scene_overlap *room = room_size > 0 ? s->overlaps + s->count : NULL;
@@ -48,7 +48,7 @@ static void add_soup(search *s, uint32_t instance)
                                              tl_scene_triangles(s->filter), indices, room_size, &count);
     if (result == TL_OK || result == TL_INCOMPLETE) {
         if (room != NULL) {
-            spread(room, room_size, count < room_size ? count : room_size, instance);
+            spread_indices(room, room_size, count < room_size ? count : room_size, instance);
         }
         s->count = count > UINT32_MAX - s->count ? UINT32_MAX : s->count + count;
     }
@@ -56,7 +56,7 @@ static void add_soup(search *s, uint32_t instance)
 
 static bool visit_all(tl_scene_line *line, uint32_t instance)
 {
-    search *s = line->user;
+    scene_overlap_search *s = line->user;
     if (!tl_scene_accepts(s->filter, instance)) {
         return true;
     }
@@ -74,7 +74,7 @@ static bool visit_all(tl_scene_line *line, uint32_t instance)
 
 static bool visit_any(tl_scene_line *line, uint32_t instance)
 {
-    search *s = line->user;
+    scene_overlap_search *s = line->user;
     if (!tl_scene_accepts(s->filter, instance)) {
         return true;
     }
@@ -94,35 +94,58 @@ static tl_vec3 nowhere(void)
     return tl_vec3_make(0.0f, 0.0f, 0.0f);
 }
 
-static bool walk(search *s, const tl_scene *scene, tl_scene_visit_fn *visit)
+static bool walk_overlaps(scene_overlap_search *s, const tl_scene *scene, tl_scene_visit_fn *visit)
 {
     tl_scene_line line = { .instances = s->instances, .visit = visit, .user = s, .any = true };
-    tl_scene_line_make(&line, scene, tl_scene_kinds(s->filter), s->shape->middle, nowhere(), s->shape->half, 1.0);
+    tl_scene_line_make(&line, scene, tl_scene_mask(s->filter), s->shape->middle, nowhere(), s->shape->half, 1.0);
     return tl_scene_line_walk(&line);
 }
 
-tl_result tl_scene_overlaps(const tl_scene *scene, const tl_scene_instance *instances, const tl_convex *shape,
-                            tl_transform pose, const tl_scene_filter *filter, bool *overlaps_out)
+// What both queries begin with; their outputs are zero already.
+static tl_result begin_overlap_search(const tl_scene *scene, const tl_scene_instance *instances,
+                                      const tl_scene_overlap_query *query, tl_moved_shape *moved,
+                                      scene_overlap_search *search)
 {
-    TL_ASSERT(scene != NULL && shape != NULL && overlaps_out != NULL &&
-              (instances != NULL || scene->instance_count == 0));
-    tl_moved_shape moved;
-    TL_TRY(tl_moved_shape_make(shape, pose, nowhere(), &moved));
-    search s = { instances, tl_scene_records(scene), filter, &moved, NULL, 0, 0 };
-    *overlaps_out = !walk(&s, scene, visit_any);
+    if (!tl_scene_has_instances(scene, instances) || query == NULL || query->shape == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    TL_TRY(tl_moved_shape_make(query->shape, query->pose, nowhere(), moved));
+    scene_overlap_search s = { instances, tl_scene_records(scene), query->filter, moved, NULL, 0, 0 };
+    *search = s;
     return TL_OK;
 }
 
-tl_result tl_scene_find_overlaps(const tl_scene *scene, const tl_scene_instance *instances, const tl_convex *shape,
-                                 tl_transform pose, const tl_scene_filter *filter, tl_scene_overlap *overlaps_out,
-                                 uint32_t capacity, uint32_t *count_out)
+tl_result tl_scene_overlaps(const tl_scene *scene, const tl_scene_instance *instances,
+                            const tl_scene_overlap_query *query, bool *overlaps_out)
 {
-    TL_ASSERT(scene != NULL && shape != NULL && count_out != NULL && (overlaps_out != NULL || capacity == 0) &&
-              (instances != NULL || scene->instance_count == 0));
+    if (overlaps_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    *overlaps_out = false;
     tl_moved_shape moved;
-    TL_TRY(tl_moved_shape_make(shape, pose, nowhere(), &moved));
-    search s = { instances, tl_scene_records(scene), filter, &moved, overlaps_out, capacity, 0 };
-    (void)walk(&s, scene, visit_all);
+    scene_overlap_search s;
+    TL_TRY(begin_overlap_search(scene, instances, query, &moved, &s));
+    *overlaps_out = !walk_overlaps(&s, scene, visit_any);
+    return TL_OK;
+}
+
+tl_result tl_scene_find_overlaps(const tl_scene *scene, const tl_scene_instance *instances,
+                                 const tl_scene_overlap_query *query, tl_scene_overlap *overlaps_out, uint32_t capacity,
+                                 uint32_t *count_out)
+{
+    if (count_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    *count_out = 0;
+    if (overlaps_out == NULL && capacity > 0) {
+        return TL_ERR_ARGUMENT;
+    }
+    tl_moved_shape moved;
+    scene_overlap_search s;
+    TL_TRY(begin_overlap_search(scene, instances, query, &moved, &s));
+    s.overlaps = overlaps_out;
+    s.capacity = capacity;
+    (void)walk_overlaps(&s, scene, visit_all);
     *count_out = s.count;
     return s.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

@@ -6,6 +6,7 @@
 #include "scene/scene_walk.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "math/tolerance.h"
 
 #include <float.h>
@@ -13,7 +14,7 @@
 #define LINE_ERROR (12.0 * (double)TL_FLOAT_ROUNDING * 1.001)
 
 // Products of what is farther away could overflow.
-#define FARTHEST 1e15
+#define MAX_LINE_REACH 1e15
 
 // Shorter directions are denormal in an instance's space, where a rounding is no share of them any more.
 #define SHORTEST        1e-30
@@ -50,22 +51,17 @@ tl_scene_walk_fn *tl_scene_walk_for(int level)
 
 #endif
 
-static inline tl_scene_walk_fn *best_walk(void)
+static inline tl_scene_walk_fn *best_scene_walk(void)
 {
     tl_scene_walk_fn *best = tl_scene_walk_for(2);
     best = best != NULL ? best : tl_scene_walk_for(1);
     return best != NULL ? best : tl_scene_walk_scalar;
 }
 
-static inline double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 // From a point to the farther of two planes.
-static inline double reach(float min, float max, double at)
+static inline double farther_plane(float min, float max, double at)
 {
-    return larger(fabs((double)min - at), fabs((double)max - at));
+    return tl_max_f64(fabs((double)min - at), fabs((double)max - at));
 }
 
 void tl_scene_line_make(tl_scene_line *line, const tl_scene *scene, uint32_t mask, tl_vec3 from, tl_vec3 direction,
@@ -73,21 +69,21 @@ void tl_scene_line_make(tl_scene_line *line, const tl_scene *scene, uint32_t mas
 {
     line->scene = scene;
     line->mask = mask;
-    line->walk = best_walk();
+    line->walk = best_scene_walk();
     const double at[3] = { (double)from.x, (double)from.y, (double)from.z };
     const double along[3] = { (double)direction.x, (double)direction.y, (double)direction.z };
     const double wide[3] = { half.x, half.y, half.z };
-    double largest = larger(larger(fabs(along[0]), fabs(along[1])), fabs(along[2]));
+    double largest = tl_max_f64(tl_max_f64(fabs(along[0]), fabs(along[1])), fabs(along[2]));
     bool stands = largest == 0.0;
     line->per_t = stands ? 1.0 : largest;
     tl_scene_line_shorten(line, limit);
     double size = fabs(at[0]) + fabs(at[1]) + fabs(at[2]);
     tl_vec3 low = scene->bounds.min, high = scene->bounds.max;
-    double farthest =
-        larger(larger(reach(low.x, high.x, at[0]), reach(low.y, high.y, at[1])), reach(low.z, high.z, at[2]));
+    double farthest = tl_max_f64(tl_max_f64(farther_plane(low.x, high.x, at[0]), farther_plane(low.y, high.y, at[1])),
+                                 farther_plane(low.z, high.z, at[2]));
     // An empty scene's box is infinite, and a difference of points may be.
-    line->every = (larger(size + tl_vec3d_size(half), farthest) > FARTHEST) | (!stands & (largest < SHORTEST)) |
-                  (largest == (double)INFINITY);
+    line->every = (tl_max_f64(size + tl_vec3d_size(half), farthest) > MAX_LINE_REACH) |
+                  (!stands & (largest < SHORTEST)) | (largest == (double)INFINITY);
     if (line->every) {
         return;
     }

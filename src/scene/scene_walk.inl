@@ -14,12 +14,12 @@
 // A child that the line enters, with the bits of its key above the child word: the time when, or, where any hit will
 // do, how short the line's part inside is, since a long one is the likelier to end there. Keys are never negative, so
 // their bits have the order of their values.
-typedef uint64_t walk_entry;
+typedef uint64_t scene_entry;
 
 // Where in a node the planes are by which a line enters boxes, by its bits `backward`: bytes. It leaves by those of
 // ~backward.
-static const uint32_t walk_rows[8][3] = { { 0, 64, 128 }, { 32, 64, 128 }, { 0, 96, 128 }, { 32, 96, 128 },
-                                          { 0, 64, 160 }, { 32, 64, 160 }, { 0, 96, 160 }, { 32, 96, 160 } };
+static const uint32_t scene_rows[8][3] = { { 0, 64, 128 }, { 32, 64, 128 }, { 0, 96, 128 }, { 32, 96, 128 },
+                                           { 0, 64, 160 }, { 32, 64, 160 }, { 0, 96, 160 }, { 32, 96, 160 } };
 static_assert(sizeof(((tl_scene_node *)0)->plane[0]) == 32, "rows of walk_rows");
 
 typedef struct walk_place {
@@ -34,8 +34,8 @@ static inline tl_f32x8 load_row(const tl_scene_node *node, uint32_t row)
 }
 
 // Which boxes the line enters before its end; and when, or for how long where any hit will do.
-static TL_ALWAYS_INLINE uint32_t enter_boxes(const tl_scene_line *line, const walk_place *place,
-                                             const tl_scene_node *node, float *keys)
+static TL_ALWAYS_INLINE uint32_t enter_instance_boxes(const tl_scene_line *line, const walk_place *place,
+                                                      const tl_scene_node *node, float *keys)
 {
     tl_f32x8 first = tl_f32x8_all(0.0f), last = tl_f32x8_all(line->limit);
     for (uint32_t i = 0; i < 3; i++) {
@@ -61,7 +61,7 @@ static TL_NOINLINE uint32_t choose_kinds(const tl_scene_node *node, uint32_t ent
 }
 
 // What waits is mostly visited soon, and its lines are then under way.
-static inline void prefetch_child(const tl_scene_line *line, const walk_place *place, uint32_t child)
+static inline void prefetch_scene_child(const tl_scene_line *line, const walk_place *place, uint32_t child)
 {
     uint32_t instance = child & ~TL_CHILD_INSTANCE;
     bool is_instance = instance != child;
@@ -71,8 +71,8 @@ static inline void prefetch_child(const tl_scene_line *line, const walk_place *p
     tl_prefetch(is_instance ? (const char *)&line->instances[instance] : at + 128);
 }
 
-static inline walk_entry entry_of(const tl_scene_line *line, const tl_scene_node *node, const float *keys,
-                                  uint32_t lane)
+static inline scene_entry entry_of(const tl_scene_line *line, const tl_scene_node *node, const float *keys,
+                                   uint32_t lane)
 {
     uint32_t bits;
     memcpy(&bits, &keys[lane], sizeof bits);
@@ -80,39 +80,39 @@ static inline walk_entry entry_of(const tl_scene_line *line, const tl_scene_node
     return (uint64_t)bits << 32 | node->child[lane];
 }
 
-static inline walk_entry nearer(walk_entry a, walk_entry b)
+static inline scene_entry earlier_entry(scene_entry a, scene_entry b)
 {
     return a < b ? a : b;
 }
 
-static inline walk_entry farther(walk_entry a, walk_entry b)
+static inline scene_entry later_entry(scene_entry a, scene_entry b)
 {
     return a < b ? b : a;
 }
 
 // Puts all that is entered on the stack but the first by key, which is returned; the next lies on top. The mask is not
 // empty.
-static TL_ALWAYS_INLINE walk_entry push_children(const tl_scene_line *line, const walk_place *place,
-                                                 const tl_scene_node *node, const float *keys, uint32_t mask,
-                                                 walk_entry *stack, uint32_t *stack_count)
+static TL_ALWAYS_INLINE scene_entry push_scene_children(const tl_scene_line *line, const walk_place *place,
+                                                        const tl_scene_node *node, const float *keys, uint32_t mask,
+                                                        scene_entry *stack, uint32_t *stack_count)
 {
-    walk_entry *base = stack + *stack_count;
-    walk_entry nearest = entry_of(line, node, keys, tl_lowest_bit(mask));
+    scene_entry *base = stack + *stack_count;
+    scene_entry nearest = entry_of(line, node, keys, tl_lowest_bit(mask));
     mask &= mask - 1;
     if (mask == 0) {
         return nearest;
     }
-    walk_entry second = entry_of(line, node, keys, tl_lowest_bit(mask));
-    base[0] = farther(nearest, second);
-    nearest = nearer(nearest, second);
-    prefetch_child(line, place, (uint32_t)base[0]);
+    scene_entry second = entry_of(line, node, keys, tl_lowest_bit(mask));
+    base[0] = later_entry(nearest, second);
+    nearest = earlier_entry(nearest, second);
+    prefetch_scene_child(line, place, (uint32_t)base[0]);
     uint32_t count = 1;
     while ((mask &= mask - 1) != 0) {
-        walk_entry entry = entry_of(line, node, keys, tl_lowest_bit(mask));
+        scene_entry entry = entry_of(line, node, keys, tl_lowest_bit(mask));
         uint32_t at = count++;
-        walk_entry later = farther(entry, nearest);
-        nearest = nearer(entry, nearest);
-        prefetch_child(line, place, (uint32_t)later);
+        scene_entry later = later_entry(entry, nearest);
+        nearest = earlier_entry(entry, nearest);
+        prefetch_scene_child(line, place, (uint32_t)later);
         for (; at > 0 && base[at - 1] < later; at--) {
             base[at] = base[at - 1];
         }
@@ -127,11 +127,11 @@ bool TL_SCENE_WALK(tl_scene_line *line)
     walk_place place;
     place.nodes = tl_scene_nodes(line->scene);
     place.records = tl_scene_records(line->scene);
-    place.near_rows = walk_rows[line->backward];
-    place.far_rows = walk_rows[~line->backward & 7u];
-    walk_entry stack[TL_SCENE_STACK_SIZE];
+    place.near_rows = scene_rows[line->backward];
+    place.far_rows = scene_rows[~line->backward & 7u];
+    scene_entry stack[TL_SCENE_STACK_SIZE];
     uint32_t stack_count = 0;
-    walk_entry entry = 0;
+    scene_entry entry = 0;
     for (;;) {
         uint32_t child = (uint32_t)entry;
         if ((child & TL_CHILD_INSTANCE) != 0) {
@@ -141,12 +141,12 @@ bool TL_SCENE_WALK(tl_scene_line *line)
         } else {
             const tl_scene_node *node = &place.nodes[child];
             float keys[TL_SCENE_WIDTH];
-            uint32_t entered = enter_boxes(line, &place, node, keys);
+            uint32_t entered = enter_instance_boxes(line, &place, node, keys);
             if (line->mask != UINT32_MAX) {
                 entered = choose_kinds(node, entered, line->mask);
             }
             if (entered != 0) {
-                entry = push_children(line, &place, node, keys, entered, stack, &stack_count);
+                entry = push_scene_children(line, &place, node, keys, entered, stack, &stack_count);
                 continue;
             }
         }

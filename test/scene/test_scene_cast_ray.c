@@ -124,7 +124,7 @@ static void check_scene(const tl_scene *scene, const tl_scene_instance *instance
         tl_ray ray = random_ray(&random, instances, count, bounds);
         tl_scene_filter chosen;
         const tl_scene_filter *filter = scene_filter(&random, count, &chosen);
-        tl_ray_filter fronts = tl_default_ray_filter();
+        tl_ray_filter fronts = { 0 };
         fronts.cull = TL_RAY_CULL_BACK;
         if (filter != NULL && k % 2 == 0) {
             chosen.triangles = &fronts;

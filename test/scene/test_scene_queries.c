@@ -143,9 +143,10 @@ static void check_overlaps(const tl_scene *scene, const tl_scene_instance *insta
     }
     uint32_t m = 0;
     bool any = false;
-    TEST_RESULT(tl_scene_overlaps(scene, instances, shape, pose, filter, &any), TL_OK);
+    const tl_scene_overlap_query query = { shape, pose, filter };
+    TEST_RESULT(tl_scene_overlaps(scene, instances, &query, &any), TL_OK);
     TEST_CHECK(any == (n > 0));
-    TEST_RESULT(tl_scene_find_overlaps(scene, instances, shape, pose, filter, found, 20000, &m), TL_OK);
+    TEST_RESULT(tl_scene_find_overlaps(scene, instances, &query, found, 20000, &m), TL_OK);
     TEST_CHECK(m == n);
     qsort(expected, n, sizeof *expected, by_instance);
     qsort(found, m, sizeof *found, by_instance);
@@ -153,7 +154,7 @@ static void check_overlaps(const tl_scene *scene, const tl_scene_instance *insta
     if (n > 1) { // less room: each that is written is one of them, and none is written beyond
         uint32_t room = n / 2;
         found[room].instance = 123456789;
-        TEST_RESULT(tl_scene_find_overlaps(scene, instances, shape, pose, filter, found, room, &m), TL_INCOMPLETE);
+        TEST_RESULT(tl_scene_find_overlaps(scene, instances, &query, found, room, &m), TL_INCOMPLETE);
         TEST_CHECK(m == n && found[room].instance == 123456789);
         for (uint32_t k = 0; k < room; k++) {
             TEST_CHECK(bsearch(&found[k], expected, n, sizeof *found, by_instance) != NULL);
@@ -378,10 +379,12 @@ static void test_bad_questions(void **state)
     uint32_t count;
     TEST_RESULT(tl_scene_cast_shape(scene, &instance, &sphere, bad, vec(0, 1, 0), NULL, &hit), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_scene_cast_shape(scene, &instance, &sphere, pose, vec(0, NAN, 0), NULL, &hit), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_scene_overlaps(scene, &instance, &sphere, bad, NULL, &any), TL_ERR_NOT_FINITE);
+    tl_scene_overlap_query query = { &sphere, bad, NULL };
+    TEST_RESULT(tl_scene_overlaps(scene, &instance, &query, &any), TL_ERR_NOT_FINITE);
     sphere.radius = -1;
     TEST_RESULT(tl_scene_cast_shape(scene, &instance, &sphere, pose, vec(0, 1, 0), NULL, &hit), TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_scene_find_overlaps(scene, &instance, &sphere, pose, NULL, NULL, 0, &count), TL_ERR_ARGUMENT);
+    query.pose = pose;
+    TEST_RESULT(tl_scene_find_overlaps(scene, &instance, &query, NULL, 0, &count), TL_ERR_ARGUMENT);
     tl_scene_point nearest;
     TEST_RESULT(tl_scene_nearest(scene, &instance, vec(NAN, 0, 0), 1, NULL, &nearest), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_scene_nearest(scene, &instance, vec(0, 0, 0), -1, NULL, &nearest), TL_ERR_ARGUMENT);

@@ -115,7 +115,7 @@ static void test_same_bits(void **state)
     tl_soup_def compact = tl_default_soup_def();
     compact.layout = TL_SOUP_COMPACT;
     tl_soup *soups[3] = { model_soup(&large, NULL), model_soup(&small, NULL), model_soup(&small, &compact) };
-    tl_ray_filter filter = tl_default_ray_filter();
+    tl_ray_filter filter = { 0 };
     filter.accept = even;
     for (uint32_t i = 0; i < 3; i++) {
         check_batch(soups[i], 70000, NULL, 1);

@@ -48,7 +48,7 @@ static void check_against_each(const model *m, const tl_soup *soup, tl_vec3 orig
     uint32_t count = all_hits(soup, origin, direction, tmax, TL_HITS_TOUCHED, NULL, hits);
     uint32_t expected = 0;
     for (uint32_t i = 0; i < m->triangle_count; i++) {
-        tl_ray_filter filter = tl_default_ray_filter();
+        tl_ray_filter filter = { 0 };
         filter.accept = only_one;
         filter.accept_user = &i;
         tl_ray ray = { origin, direction, tmax };

@@ -47,12 +47,12 @@ static void test_bad_input_is_named(void **state)
     for (uint32_t i = 0; i < 4; i++) {
         def.split_budget = bad[i];
         TEST_RESULT(build(&view, &def, &report), TL_ERR_ARGUMENT);
-        TEST_CHECK(strcmp(report.base.element, "split_budget") == 0);
+        TEST_CHECK(strcmp(report.base.field, "split_budget") == 0);
     }
     def = tl_default_soup_def();
     def.partition = (tl_soup_partition)2;
     TEST_RESULT(build(&view, &def, &report), TL_ERR_ARGUMENT);
-    TEST_CHECK(strcmp(report.base.element, "partition") == 0);
+    TEST_CHECK(strcmp(report.base.field, "partition") == 0);
     model_free(&m);
 }
 

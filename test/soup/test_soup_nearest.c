@@ -90,7 +90,7 @@ static uint32_t brute_force(const model *m, const uint16_t *materials, tl_vec3 a
         if (filter != NULL) {
             double height = tl_vec3d_dot(n, tl_vec3d_sub(tl_vec3d_from(at), a));
             if ((filter->cull == TL_RAY_CULL_BACK && height < 0) || (filter->cull == TL_RAY_CULL_FRONT && height > 0) ||
-                (filter->material_mask >> materials[i] & 1) == 0 ||
+                (filter->ignored_materials >> materials[i] & 1) != 0 ||
                 (filter->accept != NULL && !filter->accept(i, materials[i], filter->accept_user))) {
                 continue;
             }
@@ -132,9 +132,9 @@ static void check_model(model m, model_storage storage, uint32_t count, regimes 
             at = m.vertices[m.indices[test_random_below(&random, 3 * m.triangle_count)]];
         }
         float reach = i % 3 == 0 ? test_random_unit(&random) * 0.05f * diagonal : INFINITY;
-        tl_ray_filter filter = tl_default_ray_filter();
+        tl_ray_filter filter = { 0 };
         filter.cull = (tl_ray_cull)test_random_below(&random, 3);
-        filter.material_mask = test_random_u64(&random) | 1;
+        filter.ignored_materials = ~(test_random_u64(&random) | 1);
         filter.accept = i % 8 == 0 ? reject_odd : NULL;
         // Culling in the oracle is by float, which is right only where sides are clear.
         const tl_ray_filter *used = i % 4 == 0 && i % 5 != 0 ? &filter : NULL;

@@ -220,16 +220,16 @@ static void test_examples(void **state)
     TEST_CHECK(touches(soup, box, vec(3, 0, 3), NULL) && !touches(soup, box, vec(3.001f, 0, 3.001f), NULL));
     TEST_CHECK(touches(soup, capsule, vec(1, 0, 1), NULL)); // right through
     TEST_CHECK(touches(soup, capsule, vec(1, 1.5f, 1), NULL) && !touches(soup, capsule, vec(1, 1.501f, 1), NULL));
-    tl_ray_filter filter = tl_default_ray_filter();
+    tl_ray_filter filter = { 0 };
     filter.cull = TL_RAY_CULL_BACK; // the triangle's front looks down
     TEST_CHECK(touches(soup, ball, vec(1, -0.5f, 1), &filter) && !touches(soup, ball, vec(1, 0.5f, 1), &filter));
     TEST_CHECK(touches(soup, ball, vec(1, 0, 1), &filter));
     filter.cull = TL_RAY_CULL_FRONT;
     TEST_CHECK(!touches(soup, ball, vec(1, -0.5f, 1), &filter) && touches(soup, ball, vec(1, 0.5f, 1), &filter));
-    filter = tl_default_ray_filter();
-    filter.material_mask = 2;
+    memset(&filter, 0, sizeof filter);
+    filter.ignored_materials = ~2ull;
     TEST_CHECK(!touches(soup, ball, vec(1, 0, 1), &filter));
-    filter.material_mask = 1;
+    filter.ignored_materials = ~1ull;
     TEST_CHECK(touches(soup, ball, vec(1, 0, 1), &filter));
     filter.accept = refuse;
     TEST_CHECK(!touches(soup, ball, vec(1, 0, 1), &filter));

@@ -315,12 +315,12 @@ static void test_examples(void **state)
     TEST_RESULT(cast_at(soup, box, vec(2, -0.25f, 2), vec(1, 0, 0), NULL, &hit), TL_OK);
     TEST_CHECK(hit.initial_overlap && fabsf(hit.depth - 0.25f) < 1e-5f && hit.normal.y > 0.999f);
     // Filters.
-    tl_ray_filter filter = tl_default_ray_filter();
+    tl_ray_filter filter = { 0 };
     filter.cull = TL_RAY_CULL_BACK;
     TEST_RESULT(cast_at(soup, capsule, vec(2, 3, 2), vec(0, -6, 0), &filter, &hit), TL_OK);
     TEST_RESULT(cast_at(soup, capsule, vec(2, -3, 2), vec(0, 6, 0), &filter, &hit), TL_NOT_FOUND);
-    filter = tl_default_ray_filter();
-    filter.material_mask = 2;
+    memset(&filter, 0, sizeof filter);
+    filter.ignored_materials = ~2ull;
     TEST_RESULT(cast_at(soup, capsule, vec(2, 3, 2), vec(0, -6, 0), &filter, &hit), TL_NOT_FOUND);
     // By name.
     TEST_RESULT(cast_at(soup, capsule, vec(2, NAN, 2), vec(0, -6, 0), NULL, &hit), TL_ERR_NOT_FINITE);

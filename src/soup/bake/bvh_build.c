@@ -15,14 +15,12 @@
 #include "base/assert.h"
 #include "base/host.h"
 #include "soup/bake/bvh_collapse.h"
+#include "soup/bake/bvh_split.h"
 #include "soup/bake/bvh_top.h"
 #include "soup/bake/soup_bake.h"
 #include "soup/layout/soup_layout.h"
 
 #include <string.h>
-
-// A child box costs this share of a leaf test to look at.
-#define TRAVERSAL_COST 0.25f
 
 // Both parts of a pair that was cut may end in one leaf: one of them is enough.
 static uint32_t drop_repeated(tl_bvh_ref *refs, uint32_t count)
@@ -59,10 +57,11 @@ static bool leaf_is_better(const tl_bvh_range *range, const tl_bvh_split *split)
     if (range->count > TL_SOUP_LEAF_PAIRS) {
         return false;
     }
-    return range->count == 1 || !split->found || tl_aabb_half_area(range->box) * (1.0f - TRAVERSAL_COST) <= split->cost;
+    return range->count == 1 || !split->found ||
+           tl_aabb_half_area(range->box) * (1.0f - TL_BVH_TRAVERSAL_COST) <= split->cost;
 }
 
-static uint32_t build_range(const tl_bvh_top *top, tl_bvh_range range)
+static uint32_t build_bvh_range(const tl_bvh_top *top, tl_bvh_range range)
 {
     tl_bvh_split split;
     split.found = false;
@@ -78,8 +77,8 @@ static uint32_t build_range(const tl_bvh_top *top, tl_bvh_range range)
     tl_bvh_node *node = &top->nodes[index];
     memset(node, 0, sizeof *node);
     node->box = range.box;
-    node->left = build_range(top, left);
-    node->right = build_range(top, right);
+    node->left = build_bvh_range(top, left);
+    node->right = build_bvh_range(top, right);
     return index;
 }
 
@@ -99,7 +98,7 @@ static void build_subtree(uint32_t index, uint32_t worker, void *user)
         memcpy(top->splitter.refs + range->first, top->splitter.scratch + range->first,
                (size_t)range->count * sizeof(tl_bvh_ref));
     }
-    *subtree->link = build_range(top, *range);
+    *subtree->link = build_bvh_range(top, *range);
     tasks->parts[index] = tl_bvh_sum_part(top->nodes, *subtree->link);
 }
 

@@ -16,6 +16,7 @@
 #include "soup/bake/bvh_collapse.h"
 
 #include "base/host.h"
+#include "base/min_max.h"
 #include "soup/bake/bvh_order.h"
 
 #include <float.h>
@@ -44,22 +45,17 @@ typedef struct planner {
     uint32_t *first_plans; // of each part
 } planner;
 
-static inline uint32_t least(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
-}
-
 // What a subtree offers its parent: C(n, i), i from 1 to width.
-typedef struct offer {
+typedef struct collapse_offer {
     const float *cost;
     uint32_t width;
-} offer;
+} collapse_offer;
 
-static offer offer_of(const planner *p, uint32_t node)
+static collapse_offer offer_of(const planner *p, uint32_t node)
 {
     // A leaf costs nothing here.
     static const float leaf[2] = { 0.0f, 0.0f };
-    offer o = { leaf, 1 };
+    collapse_offer o = { leaf, 1 };
     if (p->tree->nodes[node].count == 0) {
         const tl_collapse_plan *plan = &p->plans[p->tree->nodes[node].first];
         o.cost = plan->cost;
@@ -69,10 +65,10 @@ static offer offer_of(const planner *p, uint32_t node)
 }
 
 // The best way to get up to `count` children from both subtrees, which have that many.
-static float share_out(offer left, offer right, uint32_t count, uint8_t *left_out, uint8_t *right_out)
+static float share_out(collapse_offer left, collapse_offer right, uint32_t count, uint8_t *left_out, uint8_t *right_out)
 {
     float best = FLT_MAX;
-    uint32_t end = least(left.width, count - 1);
+    uint32_t end = tl_min_u32(left.width, count - 1);
     for (uint32_t i = count > right.width ? count - right.width : 1; i <= end; i++) {
         float cost = left.cost[i] + right.cost[count - i];
         if (cost < best) {
@@ -106,10 +102,10 @@ static void plan_node(planner *p, uint32_t index)
     tl_bvh_order_node(p->tree, index, p->chance);
     node->first = p->plan_count;
     tl_collapse_plan *plan = &p->plans[p->plan_count++];
-    offer left = offer_of(p, node->left), right = offer_of(p, node->right);
+    collapse_offer left = offer_of(p, node->left), right = offer_of(p, node->right);
     uint32_t leaves = left.width + right.width;
-    plan->width = least(leaves, TL_SOUP_WIDTH - 1);
-    float below = share_out(left, right, least(leaves, TL_SOUP_WIDTH), &plan->left[0], &plan->right[0]);
+    plan->width = tl_min_u32(leaves, TL_SOUP_WIDTH - 1);
+    float below = share_out(left, right, tl_min_u32(leaves, TL_SOUP_WIDTH), &plan->left[0], &plan->right[0]);
     plan->cost[0] = below;
     plan->cost[1] = tl_aabb_half_area(node->box) + p->node_price + below;
     plan->left[1] = 0;
@@ -212,15 +208,16 @@ tl_result tl_bvh_plan_collapse(const tl_bvh *tree, const tl_host *host, tl_arena
 }
 
 // Appends up to `room` children from a subtree.
-static void collect(const tl_bvh_collapse *cut, uint32_t index, uint32_t room, uint32_t *children, uint32_t *count)
+static void collect_children(const tl_bvh_collapse *cut, uint32_t index, uint32_t room, uint32_t *children,
+                             uint32_t *count)
 {
     const tl_bvh_node *node = &cut->tree->nodes[index];
     if (node->count == 0) {
         const tl_collapse_plan *plan = &cut->plans[node->first];
-        room = least(room, plan->width);
+        room = tl_min_u32(room, plan->width);
         if (plan->left[room] > 0) {
-            collect(cut, node->left, plan->left[room], children, count);
-            collect(cut, node->right, plan->right[room], children, count);
+            collect_children(cut, node->left, plan->left[room], children, count);
+            collect_children(cut, node->right, plan->right[room], children, count);
             return;
         }
     }
@@ -236,8 +233,8 @@ uint32_t tl_bvh_collapsed_children(const tl_bvh_collapse *cut, uint32_t root, ui
         return count;
     }
     const tl_collapse_plan *plan = &cut->plans[node->first];
-    collect(cut, node->left, plan->left[0], children, &count);
-    collect(cut, node->right, plan->right[0], children, &count);
+    collect_children(cut, node->left, plan->left[0], children, &count);
+    collect_children(cut, node->right, plan->right[0], children, &count);
     tl_bvh_order_children(cut->chance, children, count);
     return count;
 }

@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-static inline tl_box4 box_of(const tl_bvh_ref *ref)
+static inline tl_box4 box_of_ref(const tl_bvh_ref *ref)
 {
     static_assert(sizeof(tl_bvh_ref) == 8 * sizeof(float), "two rows of four");
     const float *row = (const float *)(const void *)ref;
@@ -54,7 +54,7 @@ void tl_bvh_fill_bins(const tl_bvh_ref *refs, uint32_t count, const tl_bvh_grid 
     }
     for (uint32_t i = 0; i < count; i++) {
         int32_t cells[4];
-        tl_box4 box = box_of(&refs[i]);
+        tl_box4 box = box_of_ref(&refs[i]);
         find_cells(grid, box, cells);
         for (uint32_t axis = 0; axis < 3; axis++) {
             tl_box4 *bin_box = &bins_out->bin[axis][cells[axis]].box;
@@ -147,7 +147,7 @@ uint32_t tl_bvh_divide(const tl_bvh_ref *refs, uint32_t count, const tl_bvh_grid
     tl_bvh_ref *next[2] = { left, right };
     for (uint32_t i = 0; i < count; i++) {
         tl_bvh_ref ref = refs[i];
-        tl_box4 box = box_of(&ref);
+        tl_box4 box = box_of_ref(&ref);
         int32_t cells[4];
         find_cells(grid, box, cells);
         uint32_t side = (uint32_t)(cells[split->axis] >= (int32_t)split->bin);
@@ -162,7 +162,7 @@ tl_bvh_range tl_bvh_measure_range(const tl_bvh_ref *refs, uint32_t first, uint32
 {
     tl_box4 box = tl_box4_empty(), middles = tl_box4_empty();
     for (uint32_t i = 0; i < count; i++) {
-        tl_box4 of_ref = box_of(&refs[first + i]);
+        tl_box4 of_ref = box_of_ref(&refs[first + i]);
         box = tl_box4_union(box, of_ref);
         middles = tl_box4_union(middles, tl_box4_middle(of_ref));
     }

@@ -36,6 +36,9 @@ typedef struct tl_bvh_splitter {
     float root_half_area;
 } tl_bvh_splitter;
 
+/// The surface area heuristic's cost of a box test, in leaf tests.
+#define TL_BVH_TRAVERSAL_COST 0.25f
+
 enum { TL_BVH_BINS = 16 };
 
 /// Where the bins of an axis begin, and bins a metre of doubled middle; 0 where no plane parts the references.

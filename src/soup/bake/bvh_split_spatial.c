@@ -28,13 +28,13 @@ typedef struct spatial_bins {
     uint32_t end[SPATIAL_BINS];   // references whose last bin this is
 } spatial_bins;
 
-static inline float round_down(double value)
+static inline float bound_below(double value)
 {
     float f = (float)value;
     return f - fabsf(f) * FLT_EPSILON - FLT_MIN;
 }
 
-static inline float round_up(double value)
+static inline float bound_above(double value)
 {
     float f = (float)value;
     return f + fabsf(f) * FLT_EPSILON + FLT_MIN;
@@ -48,8 +48,8 @@ static tl_aabb crossing_box(tl_vec3 a, tl_vec3 b, uint32_t axis, float position)
     double x = (double)a.x + ((double)b.x - (double)a.x) * t;
     double y = (double)a.y + ((double)b.y - (double)a.y) * t;
     double z = (double)a.z + ((double)b.z - (double)a.z) * t;
-    tl_aabb box = { tl_vec3_make(round_down(x), round_down(y), round_down(z)),
-                    tl_vec3_make(round_up(x), round_up(y), round_up(z)) };
+    tl_aabb box = { tl_vec3_make(bound_below(x), bound_below(y), bound_below(z)),
+                    tl_vec3_make(bound_above(x), bound_above(y), bound_above(z)) };
     return box;
 }
 
@@ -98,8 +98,8 @@ static inline uint32_t spatial_bin(float place, float base, float per_metre)
     return bin <= 0.0f ? 0 : bin >= (float)(SPATIAL_BINS - 1) ? SPATIAL_BINS - 1 : (uint32_t)bin;
 }
 
-static void fill_bins(const tl_bvh_splitter *splitter, const tl_bvh_range *range, uint32_t axis, float base,
-                      float width, spatial_bins *bins)
+static void fill_spatial_bins(const tl_bvh_splitter *splitter, const tl_bvh_range *range, uint32_t axis, float base,
+                              float width, spatial_bins *bins)
 {
     for (uint32_t bin = 0; bin < SPATIAL_BINS; bin++) {
         bins->box[bin] = tl_aabb_empty();
@@ -175,7 +175,7 @@ void tl_bvh_improve_by_spatial_split(const tl_bvh_splitter *splitter, const tl_b
         // Bins must be wider than the rounding of their planes.
         if (width > 4.0f * FLT_EPSILON * fabsf(base) && width > FLT_MIN && 1.0f / width < FLT_MAX) {
             spatial_bins bins;
-            fill_bins(splitter, range, axis, base, width, &bins);
+            fill_spatial_bins(splitter, range, axis, base, width, &bins);
             evaluate_bins(&bins, range, axis, base, width, split);
         }
     }

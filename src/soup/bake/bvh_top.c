@@ -43,15 +43,15 @@ typedef struct top_block {
     tl_box4 middles[2];
 } top_block;
 
-typedef struct builder {
+typedef struct top_builder {
     tl_bvh_top *top;
     top_range *ranges;
     uint32_t range_count;
     top_block *blocks;
     uint32_t block_count;
-} builder;
+} top_builder;
 
-static tl_bvh_splitter splitter_of(const builder *b, const top_range *r)
+static tl_bvh_splitter splitter_of(const top_builder *b, const top_range *r)
 {
     tl_bvh_splitter s = b->top->splitter;
     if (r->subtree.in_scratch) {
@@ -61,7 +61,7 @@ static tl_bvh_splitter splitter_of(const builder *b, const top_range *r)
     return s;
 }
 
-static void lay_blocks(builder *b)
+static void lay_blocks(top_builder *b)
 {
     b->block_count = 0;
     for (uint32_t i = 0; i < b->range_count; i++) {
@@ -81,7 +81,7 @@ static void lay_blocks(builder *b)
 static void make_references(uint32_t index, uint32_t worker, void *user)
 {
     (void)worker;
-    const builder *b = user;
+    const top_builder *b = user;
     const tl_bvh_splitter *s = &b->top->splitter;
     top_block *block = &b->blocks[index];
     for (uint32_t i = block->first; i < block->first + block->count; i++) {
@@ -92,19 +92,19 @@ static void make_references(uint32_t index, uint32_t worker, void *user)
     block->middles[1] = tl_box4_of(measured.middles);
 }
 
-static void fill_bins(uint32_t index, uint32_t worker, void *user)
+static void fill_block_bins(uint32_t index, uint32_t worker, void *user)
 {
     (void)worker;
-    const builder *b = user;
+    const top_builder *b = user;
     top_block *block = &b->blocks[index];
     const top_range *r = &b->ranges[block->range];
     tl_bvh_fill_bins(splitter_of(b, r).refs + block->first, block->count, &r->grid, &block->bins);
 }
 
-static void choose_split(uint32_t index, uint32_t worker, void *user)
+static void choose_range_split(uint32_t index, uint32_t worker, void *user)
 {
     (void)worker;
-    const builder *b = user;
+    const top_builder *b = user;
     top_range *r = &b->ranges[index];
     const tl_bvh_range *range = &r->subtree.range;
     tl_bvh_splitter splitter = splitter_of(b, r);
@@ -134,7 +134,7 @@ static void choose_split(uint32_t index, uint32_t worker, void *user)
 static void part_block(uint32_t index, uint32_t worker, void *user)
 {
     (void)worker;
-    const builder *b = user;
+    const top_builder *b = user;
     top_block *block = &b->blocks[index];
     top_range *r = &b->ranges[block->range];
     tl_bvh_splitter s = splitter_of(b, r);
@@ -149,7 +149,7 @@ static void part_block(uint32_t index, uint32_t worker, void *user)
 }
 
 // The node of a range that was split; its sides are the next level's, or subtrees.
-static void end_range(builder *b, const top_range *r, tl_bvh_subtree sides[2])
+static void end_range(top_builder *b, const top_range *r, tl_bvh_subtree sides[2])
 {
     sides[0].range = r->left;
     sides[1].range = r->right;
@@ -177,17 +177,17 @@ static void end_range(builder *b, const top_range *r, tl_bvh_subtree sides[2])
     }
 }
 
-static void split_level(builder *b, uint32_t task_refs, const tl_host *host)
+static void split_level(top_builder *b, uint32_t task_refs, const tl_host *host)
 {
     tl_bvh_top *top = b->top;
     for (uint32_t i = 0; i < b->range_count; i++) {
         b->ranges[i].grid = tl_bvh_make_grid(&b->ranges[i].subtree.range);
     }
     lay_blocks(b);
-    tl_run_tasks(host, fill_bins, b->block_count, b);
+    tl_run_tasks(host, fill_block_bins, b->block_count, b);
     // Without spatial splits this is too little to hand out.
-    tl_run_tasks(b->ranges[0].subtree.range.capacity > b->ranges[0].subtree.range.count ? host : NULL, choose_split,
-                 b->range_count, b);
+    tl_run_tasks(b->ranges[0].subtree.range.capacity > b->ranges[0].subtree.range.count ? host : NULL,
+                 choose_range_split, b->range_count, b);
     tl_run_tasks(host, part_block, b->block_count, b);
     tl_bvh_subtree next[MAX_LEVEL_RANGES];
     uint32_t next_count = 0;
@@ -208,7 +208,7 @@ static void split_level(builder *b, uint32_t task_refs, const tl_host *host)
     b->range_count = next_count;
 }
 
-static tl_bvh_range measure_all(builder *b, uint32_t pair_count, uint32_t capacity, const tl_host *host)
+static tl_bvh_range measure_all(top_builder *b, uint32_t pair_count, uint32_t capacity, const tl_host *host)
 {
     tl_bvh_range whole = { tl_aabb_empty(), tl_aabb_empty(), 0, pair_count, capacity, 0 };
     b->ranges[0].subtree.range = whole;
@@ -254,7 +254,7 @@ tl_result tl_bvh_build_top(tl_bvh_top *top, uint32_t pair_count, uint32_t capaci
 {
     uint32_t task_refs = task_size(pair_count), max_subtrees = tl_bvh_max_subtrees(pair_count);
     uint32_t max_ranges = capacity / task_refs + 1;
-    builder b = { .top = top };
+    top_builder b = { .top = top };
     tl_bvh_subtree *sorted = TL_PUSH(arena, tl_bvh_subtree, max_subtrees);
     tl_arena_mark mark = tl_arena_get_mark(arena);
     top->subtrees = TL_PUSH(arena, tl_bvh_subtree, max_subtrees);

@@ -136,7 +136,7 @@ static void write_boxes(const tl_soup_encoder *b, const tl_wide_node *wide, tl_c
     node->mask = (1u << wide->child_count) - 1u;
 }
 
-static void write_pairs(const tl_soup_encoder *b, const tl_bvh_node *leaf, uint32_t first, tl_compact_pair *out)
+static void write_compact_pairs(const tl_soup_encoder *b, const tl_bvh_node *leaf, uint32_t first, tl_compact_pair *out)
 {
     for (uint32_t i = 0; i < leaf->count; i++) {
         for (uint32_t k = 0; k < 2; k++) {
@@ -158,7 +158,7 @@ void tl_compact_write_node(const tl_soup_encoder *b, uint32_t index)
         if ((wide->child[k] & TL_WIDE_LEAF) != 0) {
             const tl_bvh_node *leaf = &b->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
             node->child[k] = tl_child_of_leaf(next_pair * sizeof *pairs, leaf->count);
-            write_pairs(b, leaf, next_pair, pairs);
+            write_compact_pairs(b, leaf, next_pair, pairs);
             next_pair += leaf->count;
         } else {
             node->child[k] = next_node++;
@@ -166,15 +166,15 @@ void tl_compact_write_node(const tl_soup_encoder *b, uint32_t index)
     }
 }
 
-enum { BLOCK_VERTICES = 1 << 14 };
+enum { COMPACT_BLOCK_VERTICES = 1 << 14 };
 
 static void write_block_of_vertices(uint32_t block, uint32_t worker, void *user)
 {
     (void)worker;
     const tl_soup_encoder *b = user;
     tl_vec3 *vertices = (tl_vec3 *)(void *)((char *)b->soup + b->soup->vertex_offset);
-    uint32_t end = tl_block_end(block, BLOCK_VERTICES, b->plan->vertex_count);
-    for (uint32_t i = block * BLOCK_VERTICES; i < end; i++) {
+    uint32_t end = tl_block_end(block, COMPACT_BLOCK_VERTICES, b->plan->vertex_count);
+    for (uint32_t i = block * COMPACT_BLOCK_VERTICES; i < end; i++) {
         vertices[i] = b->mesh->vertices[b->plan->vertices[i]];
     }
 }
@@ -183,6 +183,6 @@ void tl_compact_write_vertices(const tl_soup_encoder *b, const tl_host *host)
 {
     uint32_t groups = tl_compact_group_count(b->tree->ref_count);
     memcpy((char *)b->soup + b->soup->group_offset, b->plan->groups, groups * sizeof(uint32_t));
-    tl_run_tasks(host, write_block_of_vertices, tl_block_count(b->plan->vertex_count, BLOCK_VERTICES),
+    tl_run_tasks(host, write_block_of_vertices, tl_block_count(b->plan->vertex_count, COMPACT_BLOCK_VERTICES),
                  (void *)(uintptr_t)b);
 }

@@ -27,13 +27,11 @@
 
 enum {
     SWEEP_MAX = 64, // references of a cell that is swept
-    BINS = 64,
+    KD_BINS = 64,
     DEPTH_MAX = 60 // the share-out below ends within 29 levels more
 };
 static_assert(DEPTH_MAX + 32 <= TL_SOUP_MAX_DEPTH, "a cell of 2^32 references ends within the depth limit");
 
-// A child box costs this share of a leaf test to look at, as in the box tree.
-#define TRAVERSAL_COST 0.25f
 // A plane that cuts off empty space lets rays end early, which areas alone do not see (Wald and Havran, section 5.1).
 #define EMPTY_SPACE_SHARE 0.8f
 
@@ -103,7 +101,7 @@ static bool push_ref(kd_builder *b, ref_list *list, const tl_bvh_ref *ref)
     return true;
 }
 
-static uint32_t push_node(kd_builder *b)
+static uint32_t push_kd_node(kd_builder *b)
 {
     void *nodes = b->nodes;
     if (!grow(b, &nodes, &b->node_capacity, b->node_count + 1, sizeof *b->nodes)) {
@@ -117,7 +115,7 @@ static uint32_t push_node(kd_builder *b)
 // ---------------------------------------------------------------------------------------------------------
 // Leaves.
 
-static tl_aabb box_of(const tl_bvh_ref *refs, uint32_t count)
+static tl_aabb box_of_refs(const tl_bvh_ref *refs, uint32_t count)
 {
     tl_aabb box = tl_aabb_empty();
     for (uint32_t i = 0; i < count; i++) {
@@ -130,11 +128,11 @@ static tl_aabb box_of(const tl_bvh_ref *refs, uint32_t count)
 // Shares references out among leaves by count.
 static uint32_t make_leaves(kd_builder *b, uint64_t first, uint32_t count)
 {
-    uint32_t index = push_node(b);
+    uint32_t index = push_kd_node(b);
     if (b->out_of_memory) {
         return 0;
     }
-    b->nodes[index].box = box_of(b->work.refs + first, count);
+    b->nodes[index].box = box_of_refs(b->work.refs + first, count);
     if (count <= TL_SOUP_LEAF_PAIRS) {
         b->nodes[index].first = (uint32_t)b->out.count;
         b->nodes[index].count = count;
@@ -192,7 +190,7 @@ typedef struct kd_event {
     kd_event_kind kind;
 } kd_event;
 
-static bool comes_before(kd_event a, kd_event b)
+static bool event_before(kd_event a, kd_event b)
 {
     return a.position < b.position || (a.position == b.position && a.kind < b.kind);
 }
@@ -200,7 +198,7 @@ static bool comes_before(kd_event a, kd_event b)
 static void insert_event(kd_event *events, uint32_t *count, kd_event event)
 {
     uint32_t place = (*count)++;
-    for (; place > 0 && comes_before(event, events[place - 1]); place--) {
+    for (; place > 0 && event_before(event, events[place - 1]); place--) {
         events[place] = events[place - 1];
     }
     events[place] = event;
@@ -220,7 +218,7 @@ static uint32_t list_events(const tl_bvh_ref *refs, uint32_t count, uint32_t axi
     return event_count;
 }
 
-static void sweep(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
+static void sweep_events(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
 {
     kd_event events[2 * SWEEP_MAX];
     uint32_t event_count = list_events(b->work.refs + cell->first, cell->count, axis, events);
@@ -243,26 +241,26 @@ static void sweep(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd_pl
 static uint32_t bin_of(float place, float base, float per_metre)
 {
     float bin = (place - base) * per_metre;
-    return bin <= 0.0f ? 0 : bin >= (float)(BINS - 1) ? BINS - 1 : (uint32_t)bin;
+    return bin <= 0.0f ? 0 : bin >= (float)(KD_BINS - 1) ? KD_BINS - 1 : (uint32_t)bin;
 }
 
 // Counts are off for references that end on a border of bins; only the plane is chosen by them.
 static void try_bins(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
 {
     float base = tl_component(cell->box.min, axis);
-    float width = (tl_component(cell->box.max, axis) - base) / BINS;
+    float width = (tl_component(cell->box.max, axis) - base) / KD_BINS;
     // Bins must be wider than the rounding of their borders.
     if (!(width > 4.0f * FLT_EPSILON * fabsf(base) && width > FLT_MIN && 1.0f / width < FLT_MAX)) {
         return;
     }
-    uint32_t begin[BINS] = { 0 }, end[BINS] = { 0 };
+    uint32_t begin[KD_BINS] = { 0 }, end[KD_BINS] = { 0 };
     const tl_bvh_ref *refs = b->work.refs + cell->first;
     for (uint32_t i = 0; i < cell->count; i++) {
         begin[bin_of(tl_component(refs[i].min, axis), base, 1.0f / width)]++;
         end[bin_of(tl_component(refs[i].max, axis), base, 1.0f / width)]++;
     }
     uint32_t left = 0, right = cell->count;
-    for (uint32_t bin = 1; bin < BINS; bin++) {
+    for (uint32_t bin = 1; bin < KD_BINS; bin++) {
         left += begin[bin - 1];
         right -= end[bin - 1];
         try_plane(cell, axis, base + width * (float)bin, left, 0, right, best);
@@ -270,17 +268,17 @@ static void try_bins(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd
 }
 
 // False: to part the cell is no better than to test all of it.
-static bool find_plane(const kd_builder *b, const kd_cell *cell, kd_plane *best)
+static bool find_kd_plane(const kd_builder *b, const kd_cell *cell, kd_plane *best)
 {
     float area = tl_aabb_half_area(cell->box);
-    best->cost = area * (tl_bvh_blocks(cell->count) - TRAVERSAL_COST);
+    best->cost = area * (tl_bvh_blocks(cell->count) - TL_BVH_TRAVERSAL_COST);
     float limit = best->cost;
     if (cell->count <= 1 || cell->depth >= b->depth_max) {
         return false;
     }
     for (uint32_t axis = 0; axis < 3; axis++) {
         if (cell->count <= SWEEP_MAX) {
-            sweep(b, cell, axis, best);
+            sweep_events(b, cell, axis, best);
         } else {
             try_bins(b, cell, axis, best);
         }
@@ -328,7 +326,7 @@ static bool part_references(kd_builder *b, const kd_cell *cell, const kd_plane *
 static uint32_t build_cell(kd_builder *b, kd_cell cell)
 {
     kd_plane plane = { 0 };
-    if (!find_plane(b, &cell, &plane)) {
+    if (!find_kd_plane(b, &cell, &plane)) {
         return make_leaves(b, cell.first, cell.count);
     }
     kd_cell left = { .depth = cell.depth + 1 }, right = { .depth = cell.depth + 1 };
@@ -339,15 +337,15 @@ static uint32_t build_cell(kd_builder *b, kd_cell cell)
     if (left.count == 0) {
         return build_cell(b, right);
     }
-    tl_aabb box =
-        tl_aabb_union(box_of(b->work.refs + left.first, left.count), box_of(b->work.refs + right.first, right.count));
+    tl_aabb box = tl_aabb_union(box_of_refs(b->work.refs + left.first, left.count),
+                                box_of_refs(b->work.refs + right.first, right.count));
     uint32_t left_node = build_cell(b, left);
     b->work.count = left.first;
     if (right.count == 0 || b->out_of_memory) {
         return left_node;
     }
     uint32_t right_node = build_cell(b, right);
-    uint32_t index = push_node(b);
+    uint32_t index = push_kd_node(b);
     if (!b->out_of_memory) {
         tl_bvh_node node = { box, left_node, right_node, 0, 0 };
         b->nodes[index] = node;
@@ -367,7 +365,7 @@ static uint32_t depth_limit(uint32_t count)
 }
 
 // What was built goes to the arena, so that a soup's build has one way to end.
-static tl_result hand_over(const kd_builder *b, uint32_t root, tl_arena *arena, tl_bvh *tree)
+static tl_result copy_to_arena(const kd_builder *b, uint32_t root, tl_arena *arena, tl_bvh *tree)
 {
     if (b->out.count > UINT32_MAX || b->node_count > TL_BVH_MAX_NODES) {
         return TL_ERR_LIMIT;
@@ -404,7 +402,7 @@ tl_result tl_kd_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32
         }
     }
     uint32_t root = b.out_of_memory ? 0 : build_cell(&b, whole);
-    tl_result result = b.out_of_memory ? TL_ERR_MEMORY : hand_over(&b, root, arena, tree_out);
+    tl_result result = b.out_of_memory ? TL_ERR_MEMORY : copy_to_arena(&b, root, arena, tree_out);
     tl_release_array(def->host.allocator, b.work.refs, b.work.capacity, sizeof *b.work.refs);
     tl_release_array(def->host.allocator, b.out.refs, b.out.capacity, sizeof *b.out.refs);
     tl_release_array(def->host.allocator, b.nodes, b.node_capacity, sizeof *b.nodes);

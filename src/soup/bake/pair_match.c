@@ -83,14 +83,14 @@ static void append_to_chain(tl_pair_matcher *m, uint32_t edge)
 {
     uint32_t mask = (1u << m->slot_bits) - 1u;
     uint32_t slot = (uint32_t)(m->keys[edge] * 0x9e3779b97f4a7c15u >> (64 - m->slot_bits));
-    while (m->slots[slot] != TL_NO_EDGE && m->keys[m->slots[slot]] != m->keys[edge]) {
+    while (m->slots[slot] != TL_NO_MATE && m->keys[m->slots[slot]] != m->keys[edge]) {
         slot = (slot + 1) & mask;
     }
     uint32_t last = m->slots[slot];
     m->slots[slot] = edge;
     m->previous[edge] = last;
-    m->next[edge] = TL_NO_EDGE;
-    if (last != TL_NO_EDGE) {
+    m->next[edge] = TL_NO_MATE;
+    if (last != TL_NO_MATE) {
         m->next[last] = edge;
         m->degree[edge / 3]++;
         m->degree[last / 3]++;
@@ -140,7 +140,7 @@ static uint32_t order_links(tl_pair_matcher *m)
 {
     uint32_t begin[COST_STEPS + 1] = { 0 };
     for (uint32_t edge = 0; edge < 3 * m->count; edge++) {
-        if (m->next[edge] != TL_NO_EDGE) {
+        if (m->next[edge] != TL_NO_MATE) {
             m->steps[edge] = (uint16_t)cost_step(link_cost(&m->boxes[edge / 3], &m->boxes[m->next[edge] / 3]));
             begin[m->steps[edge] + 1]++;
         }
@@ -149,7 +149,7 @@ static uint32_t order_links(tl_pair_matcher *m)
         begin[step] += begin[step - 1];
     }
     for (uint32_t edge = 3 * m->count; edge-- > 0;) {
-        if (m->next[edge] != TL_NO_EDGE) {
+        if (m->next[edge] != TL_NO_MATE) {
             m->order[begin[m->steps[edge]]++] = edge;
         }
     }
@@ -163,7 +163,7 @@ static inline uint32_t neighbour(const tl_pair_matcher *m, uint32_t triangle, ui
     return i % 2 == 0 ? m->next[*own_out] : m->previous[*own_out];
 }
 
-static void join(tl_pair_matcher *m, uint32_t edge, uint32_t other)
+static void join_mates(tl_pair_matcher *m, uint32_t edge, uint32_t other)
 {
     m->mates[edge / 3] = other;
     m->mates[other / 3] = edge;
@@ -173,7 +173,7 @@ static void join(tl_pair_matcher *m, uint32_t edge, uint32_t other)
 
 static void lose_neighbour(tl_pair_matcher *m, uint32_t edge)
 {
-    if (edge != TL_NO_EDGE && m->free[edge / 3] && --m->degree[edge / 3] == 1) {
+    if (edge != TL_NO_MATE && m->free[edge / 3] && --m->degree[edge / 3] == 1) {
         m->stack[m->stack_count++] = edge / 3;
     }
 }
@@ -181,7 +181,7 @@ static void lose_neighbour(tl_pair_matcher *m, uint32_t edge)
 static void match(tl_pair_matcher *m, uint32_t edge, uint32_t other)
 {
     const uint32_t pair[2] = { edge / 3, other / 3 };
-    join(m, edge, other);
+    join_mates(m, edge, other);
     for (uint32_t side = 0; side < 2; side++) {
         for (uint32_t e = 3 * pair[side]; e < 3 * pair[side] + 3; e++) {
             lose_neighbour(m, m->next[e]);
@@ -195,29 +195,29 @@ static uint32_t find_free_neighbour(const tl_pair_matcher *m, uint32_t triangle,
 {
     for (uint32_t i = 0; i < 6; i++) {
         uint32_t other = neighbour(m, triangle, i, own_out);
-        if (other != TL_NO_EDGE && m->free[other / 3]) {
+        if (other != TL_NO_MATE && m->free[other / 3]) {
             return other;
         }
     }
-    return TL_NO_EDGE;
+    return TL_NO_MATE;
 }
 
 static void match_forced(tl_pair_matcher *m)
 {
     while (m->stack_count > 0) {
         uint32_t triangle = m->stack[--m->stack_count], own;
-        uint32_t other = m->free[triangle] ? find_free_neighbour(m, triangle, &own) : TL_NO_EDGE;
-        if (other != TL_NO_EDGE) {
+        uint32_t other = m->free[triangle] ? find_free_neighbour(m, triangle, &own) : TL_NO_MATE;
+        if (other != TL_NO_MATE) {
             match(m, own, other);
         }
     }
 }
 
-static void match_all(tl_pair_matcher *m, uint32_t link_count)
+static void match_links(tl_pair_matcher *m, uint32_t link_count)
 {
     m->stack_count = 0;
     for (uint32_t i = m->count; i-- > 0;) {
-        m->mates[i] = TL_NO_EDGE;
+        m->mates[i] = TL_NO_MATE;
         if (m->degree[i] == 1) {
             m->stack[m->stack_count++] = i;
         }
@@ -236,9 +236,9 @@ void tl_pair_match(tl_pair_matcher *m, const uint32_t *list, uint32_t first, uin
 {
     m->count = count;
     find_links(m, list, first);
-    match_all(m, order_links(m));
+    match_links(m, order_links(m));
     for (uint32_t i = 0; i < count; i++) {
         uint32_t mate = m->mates[i], triangle = list != NULL ? list[i] : first + i;
-        mates[triangle] = mate == TL_NO_EDGE ? mate : 3 * (list != NULL ? list[mate / 3] : first + mate / 3) + mate % 3;
+        mates[triangle] = mate == TL_NO_MATE ? mate : 3 * (list != NULL ? list[mate / 3] : first + mate / 3) + mate % 3;
     }
 }

@@ -9,7 +9,7 @@
 
 #include <talus/mesh.h>
 
-#define TL_NO_EDGE UINT32_MAX
+#define TL_NO_MATE UINT32_MAX
 
 /// Edges are counted as the mesh counts corners: edge 3 t + k of triangle t runs from its corner k to the next.
 typedef struct tl_pair_matcher tl_pair_matcher;

@@ -80,7 +80,7 @@ static uint32_t count_free(const pairing *p)
 {
     uint32_t count = 0;
     for (uint32_t i = 0; i < p->mesh->triangle_count; i++) {
-        count += p->mates[i] == TL_NO_EDGE;
+        count += p->mates[i] == TL_NO_MATE;
     }
     return count;
 }
@@ -96,7 +96,7 @@ static tl_result match_rest(pairing *p, uint32_t count, tl_arena *arena)
     }
     uint32_t rest = 0;
     for (uint32_t i = 0; i < p->mesh->triangle_count; i++) {
-        if (p->mates[i] == TL_NO_EDGE) {
+        if (p->mates[i] == TL_NO_MATE) {
             list[rest++] = i;
         }
     }
@@ -117,7 +117,7 @@ static tl_result match_at_once(pairing *p, tl_arena *arena)
     return TL_OK;
 }
 
-static tl_result match_all(pairing *p, const tl_host *host, tl_arena *arena)
+static tl_result match_mesh(pairing *p, const tl_host *host, tl_arena *arena)
 {
     if (p->chunk_count == 1) {
         return match_at_once(p, arena);
@@ -170,7 +170,7 @@ static tl_triangle_pair make_pair(const tl_mesh *mesh, uint32_t edge, uint32_t o
 // A pair belongs to the earlier of its triangles.
 static bool begins_pair(const pairing *p, uint32_t triangle)
 {
-    return p->mates[triangle] == TL_NO_EDGE || p->mates[triangle] / 3 > triangle;
+    return p->mates[triangle] == TL_NO_MATE || p->mates[triangle] / 3 > triangle;
 }
 
 static void count_pairs(uint32_t chunk, uint32_t worker, void *user)
@@ -193,7 +193,7 @@ static void write_pairs(uint32_t chunk, uint32_t worker, void *user)
     for (uint32_t i = chunk * p->chunk_size; i < end; i++) {
         if (begins_pair(p, i)) {
             uint32_t mate = p->mates[i];
-            *next++ = mate == TL_NO_EDGE ? make_single(p->mesh, i) : make_pair(p->mesh, p->mates[mate / 3], mate);
+            *next++ = mate == TL_NO_MATE ? make_single(p->mesh, i) : make_pair(p->mesh, p->mates[mate / 3], mate);
         }
     }
 }
@@ -209,7 +209,7 @@ tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host
         return TL_ERR_MEMORY;
     }
     if (allow_pairs) {
-        TL_TRY(match_all(&p, host, arena));
+        TL_TRY(match_mesh(&p, host, arena));
     } else {
         memset(p.mates, 0xff, (size_t)mesh->triangle_count * sizeof *p.mates);
     }

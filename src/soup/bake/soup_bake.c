@@ -15,20 +15,24 @@ enum { STAGE_BYTES = 136 };
 
 tl_soup_def tl_default_soup_def(void)
 {
-    tl_soup_def def = { true, TL_SOUP_BVH, TL_SOUP_FAST, 0.0f, { NULL, NULL, NULL } };
+    tl_soup_def def = { true, TL_SOUP_BVH, TL_SOUP_FAST, 0.0f, { NULL, NULL, NULL }, TL_DEF_COOKIE };
     return def;
 }
 
 static tl_result check_input(const tl_mesh_view *view, const tl_soup_def *def, tl_report *report)
 {
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_soup_def()", report));
+    if (view == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "view", "give the triangles");
+    }
     if (!(def->split_budget >= 0.0f && def->split_budget <= 1.0f)) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "split_budget", 0, "give a share from 0 to 1");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "split_budget", "make it a share from 0 to 1");
     }
     if (def->partition != TL_SOUP_BVH && def->partition != TL_SOUP_KD_TREE) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "partition", 0, "give TL_SOUP_BVH or TL_SOUP_KD_TREE");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "partition", "make it TL_SOUP_BVH or TL_SOUP_KD_TREE");
     }
     if (def->layout != TL_SOUP_FAST && def->layout != TL_SOUP_COMPACT) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "layout", 0, "give TL_SOUP_FAST or TL_SOUP_COMPACT");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "layout", "make it TL_SOUP_FAST or TL_SOUP_COMPACT");
     }
     if (view->triangle_count > TL_MAX_SOUP_TRIANGLES) {
         return tl_report_fail(report, TL_ERR_LIMIT, "triangle", TL_MAX_SOUP_TRIANGLES,
@@ -54,8 +58,8 @@ static tl_result weld(const tl_mesh_view *view, const tl_host *host, tl_mesh *me
     return result;
 }
 
-static tl_result build(const tl_mesh_view *view, const tl_mesh *mesh, const tl_soup_def *def, tl_arena *arena,
-                       tl_soup **soup_out, tl_soup_report *report)
+static tl_result bake_welded(const tl_mesh_view *view, const tl_mesh *mesh, const tl_soup_def *def, tl_arena *arena,
+                             tl_soup **soup_out, tl_soup_report *report)
 {
     const tl_host *host = &def->host;
     report->base.stage = "pair triangles";
@@ -69,16 +73,17 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh *mesh, const tl_s
     TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, host, arena, &pairs, &pair_count));
     TL_TRY(tl_progress_update(host, "pair triangles", 1, 1));
 
-    report->base.stage = "build tree";
-    TL_TRY(tl_progress_update(host, "build tree", 0, 1));
+    report->base.stage = "build BVH";
+    TL_TRY(tl_progress_update(host, "build BVH", 0, 1));
     tl_bvh tree;
     TL_TRY(def->partition == TL_SOUP_KD_TREE ? tl_kd_build(mesh, pairs, pair_count, def, arena, &tree)
                                              : tl_bvh_build(mesh, pairs, pair_count, def, arena, &tree));
-    TL_TRY(tl_progress_update(host, "build tree", 1, 1));
+    TL_TRY(tl_progress_update(host, "build BVH", 1, 1));
 
     report->base.stage = "bake soup";
     TL_TRY(tl_progress_update(host, "bake soup", 0, 1));
-    TL_TRY(tl_soup_encode(view, mesh, pairs, pair_count, &tree, def, arena, soup_out));
+    const tl_soup_parts parts = { view, mesh, pairs, pair_count, &tree };
+    TL_TRY(tl_soup_encode(&parts, def, arena, soup_out));
     report->triangle_count = (*soup_out)->triangle_count;
     report->pair_count = (*soup_out)->pair_count;
     report->single_count = (*soup_out)->single_count;
@@ -87,11 +92,13 @@ static tl_result build(const tl_mesh_view *view, const tl_mesh *mesh, const tl_s
 
 tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup **soup_out, tl_soup_report *report_out)
 {
-    TL_ASSERT(view != NULL && soup_out != NULL);
     tl_soup_def used = def != NULL ? *def : tl_default_soup_def();
     tl_soup_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "weld");
+    if (soup_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     *soup_out = NULL;
     tl_mesh mesh;
     memset(&mesh, 0, sizeof mesh);
@@ -102,7 +109,7 @@ tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup
     if (result == TL_OK) {
         tl_arena arena;
         tl_arena_init(&arena, used.host.allocator);
-        result = build(view, &mesh, &used, &arena, soup_out, &report);
+        result = bake_welded(view, &mesh, &used, &arena, soup_out, &report);
         uint64_t soup_bytes = *soup_out != NULL ? (*soup_out)->blob.size : 0;
         uint64_t held = mesh.block_size + arena.peak_bytes + soup_bytes;
         report.base.peak_bytes = held > report.base.peak_bytes ? held : report.base.peak_bytes;

@@ -79,9 +79,16 @@ tl_result tl_bvh_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint3
 tl_result tl_kd_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
                       tl_arena *arena, tl_bvh *tree_out);
 
-/// Cuts the binary tree into wide nodes and writes the blob.
-tl_result tl_soup_encode(const tl_mesh_view *view, const tl_mesh *mesh, const tl_triangle_pair *pairs,
-                         uint32_t pair_count, const tl_bvh *tree, const tl_soup_def *def, tl_arena *arena,
-                         tl_soup **soup_out);
+/// What a soup is encoded from.
+typedef struct tl_soup_parts {
+    const tl_mesh_view *view;
+    const tl_mesh *mesh; ///< the view, welded
+    const tl_triangle_pair *pairs;
+    uint32_t pair_count;
+    const tl_bvh *bvh;
+} tl_soup_parts;
+
+/// Collapses the binary BVH into wide nodes and lays out the blob.
+tl_result tl_soup_encode(const tl_soup_parts *parts, const tl_soup_def *def, tl_arena *arena, tl_soup **soup_out);
 
 #endif

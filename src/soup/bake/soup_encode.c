@@ -117,7 +117,7 @@ static float triangle_extent(tl_vec3 a, tl_vec3 b, tl_vec3 c)
     return tl_maxf(tl_maxf(size.x, size.y), size.z);
 }
 
-static void write_corner(float *const *arrays, uint32_t i, tl_vec3 corner)
+static void write_leaf_corner(float *const *arrays, uint32_t i, tl_vec3 corner)
 {
     arrays[0][i] = corner.x;
     arrays[1][i] = corner.y;
@@ -154,10 +154,10 @@ static void write_leaf(const tl_soup_encoder *b, const tl_bvh_node *node, tl_sou
         for (uint32_t k = 0; k < 4; k++) {
             corner[k] = b->mesh->vertices[pair->corner[k]];
         }
-        write_corner(a, i, corner[0]);
-        write_corner(e, i, corner[1]);
-        write_corner(c, i, corner[2]);
-        write_corner(e, n + i, corner[3]);
+        write_leaf_corner(a, i, corner[0]);
+        write_leaf_corner(e, i, corner[1]);
+        write_leaf_corner(c, i, corner[2]);
+        write_leaf_corner(e, n + i, corner[3]);
         for (uint32_t k = 0; k < 2; k++) {
             ids[k * n + i] = tl_encode_id(b, ref, k);
         }
@@ -247,11 +247,12 @@ static tl_soup *allocate_soup(tl_soup *head, const tl_allocator *allocator)
     return soup;
 }
 
-tl_result tl_soup_encode(const tl_mesh_view *view, const tl_mesh *mesh, const tl_triangle_pair *pairs,
-                         uint32_t pair_count, const tl_bvh *tree, const tl_soup_def *def, tl_arena *arena,
-                         tl_soup **soup_out)
+tl_result tl_soup_encode(const tl_soup_parts *parts, const tl_soup_def *def, tl_arena *arena, tl_soup **soup_out)
 {
-    tl_soup_encoder b = { .view = view, .mesh = mesh, .pairs = pairs, .pair_count = pair_count, .tree = tree };
+    const tl_mesh_view *view = parts->view;
+    const tl_bvh *tree = parts->bvh;
+    tl_soup_encoder b = { .view = view, .mesh = parts->mesh, .pairs = parts->pairs, .tree = tree };
+    b.pair_count = parts->pair_count;
     b.layout = def->layout;
     TL_TRY(tl_bvh_plan_collapse(tree, &def->host, arena, &b.cut));
     b.wide = TL_PUSH(arena, tl_wide_node, (uint64_t)b.cut.inner_count + 1);
@@ -262,7 +263,7 @@ tl_result tl_soup_encode(const tl_mesh_view *view, const tl_mesh *mesh, const tl
     if (b.leaf_bytes / TL_SOUP_LEAF_ALIGN > TL_MAX_LEAF_UNITS) {
         return TL_ERR_LIMIT;
     }
-    if (tree->ref_count != pair_count) {
+    if (tree->ref_count != b.pair_count) {
         TL_TRY(mark_copies(&b, arena));
     }
     tl_compact_plan plan = { 0 };

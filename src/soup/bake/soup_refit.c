@@ -20,12 +20,12 @@ typedef struct moved_pair {
     bool single;
 } moved_pair;
 
-static bool in_range(tl_vec3 v)
+static bool position_in_range(tl_vec3 v)
 {
     return fabsf(v.x) <= TL_MAX_COORDINATE && fabsf(v.y) <= TL_MAX_COORDINATE && fabsf(v.z) <= TL_MAX_COORDINATE;
 }
 
-static bool is_same(tl_vec3 a, tl_vec3 b)
+static bool is_same_position(tl_vec3 a, tl_vec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
@@ -55,14 +55,14 @@ static tl_result check_triangle(const tl_mesh_view *view, uint32_t triangle, tl_
         if (!tl_is_finite(view->vertices[index])) {
             return tl_report_fail(report, TL_ERR_NOT_FINITE, "vertex", index, "check what moves the vertices");
         }
-        if (!in_range(view->vertices[index])) {
+        if (!position_in_range(view->vertices[index])) {
             return tl_report_fail(report, TL_ERR_RANGE, "vertex", index, "keep coordinates within 1e12 m");
         }
     }
     return TL_OK;
 }
 
-static tl_result check_leaf(const tl_mesh_view *view, const tl_leaf_view *leaf, tl_report *report)
+static tl_result check_moved_leaf(const tl_mesh_view *view, const tl_leaf_view *leaf, tl_report *report)
 {
     for (uint32_t i = 0; i < 2 * leaf->pair_count; i++) {
         if (leaf->ids[i] != TL_ID_NONE) {
@@ -71,7 +71,8 @@ static tl_result check_leaf(const tl_mesh_view *view, const tl_leaf_view *leaf, 
     }
     for (uint32_t i = 0; i < leaf->pair_count; i++) {
         moved_pair moved = move_pair(view, leaf, i);
-        bool together = is_same(moved.slot[0][0], moved.slot[1][0]) && is_same(moved.slot[0][2], moved.slot[1][2]);
+        bool together = is_same_position(moved.slot[0][0], moved.slot[1][0]) &&
+                        is_same_position(moved.slot[0][2], moved.slot[1][2]);
         if (!moved.single && !together) {
             return tl_report_fail(report, TL_ERR_ARGUMENT, "triangle", leaf->ids[i] & TL_ID_INDEX,
                                   "it came apart from its neighbour: move equal vertices equally, or build anew");
@@ -92,7 +93,7 @@ static tl_result check_view(const tl_soup *soup, const tl_mesh_view *view, tl_re
     }
     for (uint64_t offset = 0; offset < soup->leaf_bytes;) {
         tl_leaf_view leaf = tl_view_leaf(tl_soup_leaf_at(soup, offset));
-        TL_TRY(check_leaf(view, &leaf, report));
+        TL_TRY(check_moved_leaf(view, &leaf, report));
         offset += tl_leaf_size(leaf.pair_count);
     }
     return TL_OK;
@@ -153,16 +154,11 @@ static tl_aabb box_of_node(const tl_soup_node *node)
 
 tl_result tl_soup_refit(tl_soup *soup, const tl_mesh_view *moved, tl_report *report_out)
 {
-    TL_ASSERT(soup != NULL && moved != NULL);
-    tl_report report;
-    tl_report_begin(&report, "refit");
-    tl_result result = check_view(soup, moved, &report);
-    if (report_out != NULL) {
-        *report_out = report;
+    tl_report_begin(report_out, "refit soup");
+    if (soup == NULL || moved == NULL) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, soup == NULL ? "soup" : "moved", "give a soup and a view");
     }
-    if (result != TL_OK) {
-        return result;
-    }
+    TL_TRY(check_view(soup, moved, report_out));
     tl_soup_node *nodes = (tl_soup_node *)(void *)((char *)soup + soup->node_offset);
     for (uint32_t i = soup->node_count; i-- > 0;) {
         for (uint32_t lane = 0; lane < TL_SOUP_WIDTH; lane++) {

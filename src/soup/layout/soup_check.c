@@ -6,6 +6,8 @@
 
 #include "soup/layout/compact_layout.h"
 
+#include "base/assert.h"
+#include "base/blob_check.h"
 #include "base/host.h"
 
 #include <float.h>
@@ -13,6 +15,7 @@
 
 typedef struct checker {
     const tl_soup *soup;
+    uint32_t node; // that is checked
     uint32_t next_node;
     uint64_t next_leaf; // offset
     uint32_t leaf_count;
@@ -23,14 +26,14 @@ typedef struct checker {
     uint32_t depth;
 } checker;
 
-static bool in_range(float value)
+static bool coordinate_in_range(float value)
 {
     return fabsf(value) <= TL_MAX_COORDINATE; // false for NaN
 }
 
 static bool vec_in_range(tl_vec3 v)
 {
-    return in_range(v.x) && in_range(v.y) && in_range(v.z);
+    return coordinate_in_range(v.x) && coordinate_in_range(v.y) && coordinate_in_range(v.z);
 }
 
 static bool extent_in_range(float extent)
@@ -84,7 +87,7 @@ static bool vertices_are_there(const tl_soup *soup, uint64_t first, uint32_t cou
     return true;
 }
 
-static bool check_leaf(checker *c, uint32_t child)
+static bool leaf_is_sound(checker *c, uint32_t child)
 {
     uint32_t pairs = tl_child_pair_count(child);
     uint64_t offset = tl_child_leaf_offset(child);
@@ -123,7 +126,7 @@ static bool check_leaf(checker *c, uint32_t child)
         c->triangle_count += copy ? 0 : single ? 1 : 2;
     }
     for (uint32_t i = 0; i < 12 * pairs; i++) {
-        if (!in_range(view.floats[i])) {
+        if (!coordinate_in_range(view.floats[i])) {
             return false;
         }
     }
@@ -137,7 +140,7 @@ static bool boxes_are_sound(const tl_soup_node *node)
     for (uint32_t lane = 0; lane < TL_SOUP_WIDTH; lane++) {
         for (uint32_t i = 0; i < 6; i++) {
             float plane = node->plane[i][lane];
-            if (node->child[lane] != 0 ? !in_range(plane) : plane != (i % 2 == 0 ? INFINITY : -INFINITY)) {
+            if (node->child[lane] != 0 ? !coordinate_in_range(plane) : plane != (i % 2 == 0 ? INFINITY : -INFINITY)) {
                 return false;
             }
         }
@@ -160,7 +163,7 @@ static bool compact_boxes_are_sound(const tl_compact_node *node)
     }
     for (uint32_t axis = 0; axis < 3; axis++) {
         // The last step may lie beyond the range, planes that are used not.
-        if (!in_range(node->origin[axis]) || !is_power_of_two(node->scale[axis])) {
+        if (!coordinate_in_range(node->origin[axis]) || !is_power_of_two(node->scale[axis])) {
             return false;
         }
     }
@@ -175,6 +178,7 @@ static bool check_nodes(checker *c)
     c->depth = 1;
     uint32_t level_end = 1;
     for (uint32_t i = 0; i < c->soup->node_count; i++) {
+        c->node = i;
         if (i == level_end) {
             if (level_end == c->next_node) {
                 return false; // nobody names node i
@@ -190,7 +194,7 @@ static bool check_nodes(checker *c)
         for (uint32_t k = 0; k < TL_SOUP_WIDTH; k++) {
             uint32_t child = children[k];
             if ((child & TL_CHILD_LEAF) != 0) {
-                if (!check_leaf(c, child)) {
+                if (!leaf_is_sound(c, child)) {
                     return false;
                 }
             } else if (child != 0 && (child != c->next_node++ || child >= c->soup->node_count)) {
@@ -201,38 +205,27 @@ static bool check_nodes(checker *c)
     return c->next_node == c->soup->node_count && c->next_leaf == c->soup->leaf_bytes;
 }
 
-static tl_result check_soup_bytes(const void *bytes, uint64_t size)
+static bool counts_are_sound(const checker *c)
 {
-    if (bytes == NULL || size < sizeof(tl_soup)) {
-        return TL_ERR_TRUNCATED;
-    }
-    if ((uintptr_t)bytes % TL_BLOB_ALIGNMENT != 0) {
-        return TL_ERR_ARGUMENT;
-    }
-    const tl_soup *soup = bytes;
-    if (soup->blob.magic != TL_SOUP_MAGIC) {
-        return TL_ERR_MAGIC;
-    }
-    if (soup->blob.version != TL_SOUP_VERSION) {
-        return TL_ERR_VERSION;
-    }
-    if (soup->blob.size > size) {
-        return TL_ERR_TRUNCATED;
-    }
-    checker c;
-    memset(&c, 0, sizeof c);
-    c.soup = soup;
-    if (!head_is_sound(soup) || !check_nodes(&c)) {
-        return TL_ERR_CORRUPT;
-    }
-    bool counts = c.leaf_count == soup->leaf_count && c.reference_count == soup->reference_count &&
-                  c.triangle_count == soup->triangle_count && c.pair_count == soup->pair_count &&
-                  c.single_count == soup->single_count && c.depth == soup->depth && c.depth <= TL_SOUP_MAX_DEPTH;
-    return counts ? TL_OK : TL_ERR_CORRUPT;
+    const tl_soup *soup = c->soup;
+    return c->leaf_count == soup->leaf_count && c->reference_count == soup->reference_count &&
+           c->triangle_count == soup->triangle_count && c->pair_count == soup->pair_count &&
+           c->single_count == soup->single_count && c->depth == soup->depth && c->depth <= TL_SOUP_MAX_DEPTH;
 }
 
 tl_result tl_soup_check(const void *bytes, uint64_t size, tl_report *report_out)
 {
-    tl_report_begin(report_out, "check soup");
-    return check_soup_bytes(bytes, size);
+    const tl_blob expected = { TL_SOUP_MAGIC, TL_SOUP_VERSION, sizeof(tl_soup) };
+    TL_TRY(tl_blob_check_head(bytes, size, expected, TL_BLOB_ALIGNMENT, report_out));
+    checker c;
+    memset(&c, 0, sizeof c);
+    c.soup = bytes;
+    const char *advice = "bake the soup again, or copy its file again";
+    if (!head_is_sound(c.soup)) {
+        return tl_report_fail(report_out, TL_ERR_CORRUPT, "head", TL_NO_ELEMENT, advice);
+    }
+    if (!check_nodes(&c)) {
+        return tl_report_fail(report_out, TL_ERR_CORRUPT, "node", c.node, advice);
+    }
+    return counts_are_sound(&c) ? TL_OK : tl_report_fail(report_out, TL_ERR_CORRUPT, "count", TL_NO_ELEMENT, advice);
 }

@@ -7,7 +7,7 @@
 #include "soup/query/line_region.h"
 
 // t of a plane: a difference, the inverse and a product, each rounded; the limit's own rounding is put on top.
-#define PLANE_ERROR TL_DOUBLE_GAMMA(4)
+#define LINE_PLANE_ERROR TL_DOUBLE_GAMMA(4)
 
 // The reported t is rounded to float before it is compared with tmax.
 #define END_ERROR (2.0 * (double)TL_FLOAT_ROUNDING)
@@ -58,7 +58,9 @@ uint32_t tl_region_enter_line(const tl_walk_boxes *boxes, const void *line_regio
     }
     uint32_t mask = 0;
     for (uint32_t i = 0; i < TL_WALK_WIDTH; i++) {
-        mask |= (uint32_t)(leave[i] >= 0.0 && enter[i] * (1.0 - PLANE_ERROR) <= leave[i] * (1.0 + PLANE_ERROR)) << i;
+        mask |=
+            (uint32_t)(leave[i] >= 0.0 && enter[i] * (1.0 - LINE_PLANE_ERROR) <= leave[i] * (1.0 + LINE_PLANE_ERROR))
+            << i;
     }
     return mask;
 }

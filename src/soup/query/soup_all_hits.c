@@ -7,6 +7,7 @@
 // heap is then sorted in place.
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "soup/query/line_region.h"
 #include "soup/ray/ray_job.h"
 #include "soup/triangle/line_triangle.h"
@@ -26,47 +27,20 @@ static bool is_farther(const tl_ray_hit *a, const tl_ray_hit *b)
     return a->t > b->t || (a->t == b->t && a->triangle > b->triangle);
 }
 
-static void swap_hits(tl_ray_hit *a, tl_ray_hit *b)
-{
-    tl_ray_hit c = *a;
-    *a = *b;
-    *b = c;
-}
+#define TL_HEAP(name)                 farthest_hit_##name
+#define TL_HEAP_ITEM                  tl_ray_hit
+#define TL_HEAP_BEFORE(context, a, b) is_farther(&(a), &(b))
+#include "base/heap.inl"
 
-static void sift_up(tl_ray_hit *heap, uint32_t at)
+static void sort_hits(tl_ray_hit *heap, uint32_t count)
 {
-    while (at > 0 && is_farther(&heap[at], &heap[(at - 1) / 2])) {
-        swap_hits(&heap[at], &heap[(at - 1) / 2]);
-        at = (at - 1) / 2;
+    while (count > 1) {
+        tl_ray_hit farthest = farthest_hit_pop(heap, &count, NULL);
+        heap[count] = farthest;
     }
 }
 
-static void sift_down(tl_ray_hit *heap, uint32_t count)
-{
-    uint32_t at = 0;
-    for (;;) {
-        uint64_t child = 2 * (uint64_t)at + 1;
-        if (child >= count) {
-            return;
-        }
-        child += child + 1 < count && is_farther(&heap[child + 1], &heap[child]);
-        if (!is_farther(&heap[child], &heap[at])) {
-            return;
-        }
-        swap_hits(&heap[child], &heap[at]);
-        at = (uint32_t)child;
-    }
-}
-
-static void sort_heap(tl_ray_hit *heap, uint32_t count)
-{
-    for (uint32_t end = count; end > 1; end--) {
-        swap_hits(&heap[0], &heap[end - 1]);
-        sift_down(heap, end - 1);
-    }
-}
-
-static bool belongs(const tl_walk_triangle *triangle, void *user)
+static bool is_hit(const tl_walk_triangle *triangle, void *user)
 {
     collector *c = user;
     // As if nothing had been hit yet.
@@ -77,18 +51,16 @@ static bool belongs(const tl_walk_triangle *triangle, void *user)
 }
 
 // Follows upon belongs, so the job still holds the hit.
-static bool collect(const tl_walk_triangle *triangle, void *user)
+static bool collect_hit(const tl_walk_triangle *triangle, void *user)
 {
     collector *c = user;
     (void)triangle;
     tl_ray_hit hit;
     tl_ray_describe(&c->job, &hit);
     if (c->count < c->capacity) {
-        c->hits[c->count] = hit;
-        sift_up(c->hits, c->count);
+        farthest_hit_sift_up(c->hits, c->count, hit, NULL);
     } else if (c->capacity > 0 && is_farther(&c->hits[0], &hit)) {
-        c->hits[0] = hit;
-        sift_down(c->hits, c->capacity);
+        farthest_hit_sift_down(c->hits, c->capacity, 0, hit, NULL);
     }
     c->count++;
     return true;
@@ -97,7 +69,13 @@ static bool collect(const tl_walk_triangle *triangle, void *user)
 tl_result tl_soup_cast_ray_all(const tl_soup *soup, const tl_ray *ray, tl_hit_rule rule, const tl_ray_filter *filter,
                                tl_ray_hit *hits_out, uint32_t capacity, uint32_t *count_out)
 {
-    TL_ASSERT(soup != NULL && ray != NULL && count_out != NULL && (hits_out != NULL || capacity == 0));
+    if (count_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    *count_out = 0;
+    if (soup == NULL || ray == NULL || (hits_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     TL_TRY(tl_ray_check(ray));
     collector c = { .origin = ray->origin,
                     .direction = ray->direction,
@@ -112,10 +90,10 @@ tl_result tl_soup_cast_ray_all(const tl_soup *soup, const tl_ray *ray, tl_hit_ru
     if (tl_ray_prepare(&c.job, ray->origin, ray->direction)) {
         tl_line_region line;
         tl_line_region_make(ray, &line);
-        tl_region region = { tl_region_enter_line, &line, belongs, collect, &c };
+        tl_region region = { tl_region_enter_line, &line, is_hit, collect_hit, &c };
         tl_region_walk(soup, &region);
     }
-    sort_heap(hits_out, c.count < capacity ? c.count : capacity);
+    sort_hits(hits_out, tl_min_u32(c.count, capacity));
     *count_out = c.count;
     return c.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

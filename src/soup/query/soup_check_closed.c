@@ -21,7 +21,7 @@ typedef struct loose_triangles {
     uint32_t count;
 } loose_triangles;
 
-static bool unpack(const tl_soup *soup, tl_arena *arena, loose_triangles *loose)
+static bool unpack_triangles(const tl_soup *soup, tl_arena *arena, loose_triangles *loose)
 {
     uint64_t count = tl_soup_get_stats(soup).triangle_count;
     loose->vertices = TL_PUSH(arena, tl_vec3, 3 * count);
@@ -45,7 +45,7 @@ static bool unpack(const tl_soup *soup, tl_arena *arena, loose_triangles *loose)
 }
 
 // `extra`: 1 when the edge runs from its lower vertex to its higher; `value`: the triangle.
-static tl_sort_item *sort_edges(const tl_mesh *mesh, tl_arena *arena)
+static tl_sort_item *sort_directed_edges(const tl_mesh *mesh, tl_arena *arena)
 {
     uint64_t count = 3 * (uint64_t)mesh->triangle_count;
     tl_sort_item *edges = TL_PUSH(arena, tl_sort_item, count);
@@ -64,8 +64,8 @@ static tl_sort_item *sort_edges(const tl_mesh *mesh, tl_arena *arena)
 }
 
 // The triangle with the lowest index on an edge that does not add up; TL_NO_TRIANGLE when all do.
-static tl_result check_edges(const tl_mesh *mesh, const loose_triangles *loose, const tl_sort_item *edges,
-                             uint32_t *triangle_out)
+static tl_result check_directed_edges(const tl_mesh *mesh, const loose_triangles *loose, const tl_sort_item *edges,
+                                      uint32_t *triangle_out)
 {
     uint32_t count = 3 * mesh->triangle_count;
     tl_result result = TL_OK;
@@ -89,10 +89,11 @@ static tl_result check_edges(const tl_mesh *mesh, const loose_triangles *loose, 
     return result;
 }
 
-static tl_result check(const tl_soup *soup, const tl_host *host, tl_arena *arena, tl_mesh *mesh, tl_report *report)
+static tl_result weld_and_check(const tl_soup *soup, const tl_host *host, tl_arena *arena, tl_mesh *mesh,
+                                tl_report *report)
 {
     loose_triangles loose;
-    if (!unpack(soup, arena, &loose)) {
+    if (!unpack_triangles(soup, arena, &loose)) {
         return TL_ERR_MEMORY;
     }
     tl_mesh_view view = { loose.vertices, 3 * loose.count, loose.indices, loose.count, NULL };
@@ -100,12 +101,12 @@ static tl_result check(const tl_soup *soup, const tl_host *host, tl_arena *arena
     def.keep_duplicates = true;
     def.host = *host;
     TL_TRY(tl_mesh_bake(&view, &def, mesh, NULL));
-    tl_sort_item *edges = sort_edges(mesh, arena);
+    tl_sort_item *edges = sort_directed_edges(mesh, arena);
     if (edges == NULL) {
         return TL_ERR_MEMORY;
     }
     uint32_t triangle;
-    tl_result result = check_edges(mesh, &loose, edges, &triangle);
+    tl_result result = check_directed_edges(mesh, &loose, edges, &triangle);
     if (result == TL_ERR_NOT_CLOSED) {
         return tl_report_fail(report, result, "triangle", triangle, "close the hole or the rim at one of its edges");
     }
@@ -117,16 +118,21 @@ static tl_result check(const tl_soup *soup, const tl_host *host, tl_arena *arena
 
 tl_result tl_soup_check_closed(const tl_soup *soup, const tl_host *host, tl_report *report_out)
 {
-    TL_ASSERT(soup != NULL);
-    tl_host used = { NULL, NULL, NULL };
-    used = host != NULL ? *host : used;
     tl_report report;
     tl_report_begin(&report, "check closed");
+    if (soup == NULL) {
+        if (report_out != NULL) {
+            *report_out = report;
+        }
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "soup", "give a soup");
+    }
+    tl_host used = { NULL, NULL, NULL };
+    used = host != NULL ? *host : used;
     tl_arena arena;
     tl_arena_init(&arena, used.allocator);
     tl_mesh mesh;
     memset(&mesh, 0, sizeof mesh);
-    tl_result result = check(soup, &used, &arena, &mesh, &report);
+    tl_result result = weld_and_check(soup, &used, &arena, &mesh, &report);
     report.peak_bytes = arena.peak_bytes + mesh.block_size;
     tl_mesh_free(&mesh);
     tl_arena_free(&arena);

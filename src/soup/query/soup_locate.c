@@ -12,7 +12,6 @@
 // The ray runs mainly along the axis on which the soup is thinnest: across a level it meets a few floors, along it
 // every house.
 
-#include "base/assert.h"
 #include "math/predicates.h"
 #include "soup/query/line_region.h"
 #include "soup/ray/ray_job.h"
@@ -50,14 +49,14 @@ static bool plane_point_is_inside(const tl_vec3 c[3], tl_vec3 p)
     return false;
 }
 
-typedef struct touch {
+typedef struct surface_touch {
     tl_vec3 point;
     uint32_t triangle; // the lowest
-} touch;
+} surface_touch;
 
 static bool holds_point(const tl_walk_triangle *triangle, void *user)
 {
-    const touch *t = user;
+    const surface_touch *t = user;
     return tl_aabb_contains(tl_walk_triangle_box(triangle), t->point) &&
            tl_orient3d(triangle->corners[0], triangle->corners[1], triangle->corners[2], t->point) == 0 &&
            plane_point_is_inside(triangle->corners, t->point);
@@ -65,7 +64,7 @@ static bool holds_point(const tl_walk_triangle *triangle, void *user)
 
 static bool keep_lowest(const tl_walk_triangle *triangle, void *user)
 {
-    touch *t = user;
+    surface_touch *t = user;
     t->triangle = triangle->triangle < t->triangle ? triangle->triangle : t->triangle;
     return true;
 }
@@ -115,14 +114,20 @@ static tl_vec3 choose_direction(const tl_soup *soup)
     return size.x <= size.z ? tl_vec3_make(1.0f, 0.0859375f, 0.0546875f) : tl_vec3_make(0.0859375f, 0.0546875f, 1.0f);
 }
 
-tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_location *place_out)
+tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_location *location_out)
 {
-    TL_ASSERT(soup != NULL && place_out != NULL);
+    if (location_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    memset(location_out, 0, sizeof *location_out);
+    if (soup == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     if (!tl_is_finite(point)) {
         return TL_ERR_NOT_FINITE;
     }
     tl_soup_location place = { TL_SOUP_OUTSIDE, 0, TL_NO_TRIANGLE };
-    touch t = { point, TL_NO_TRIANGLE };
+    surface_touch t = { point, TL_NO_TRIANGLE };
     tl_aabb at = { point, point };
     tl_region region = { tl_region_enter_box, &at, holds_point, keep_lowest, &t };
     tl_region_walk(soup, &region);
@@ -141,6 +146,6 @@ tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_location *p
         place.winding = there.winding;
         place.side = there.winding != 0 ? TL_SOUP_INSIDE : TL_SOUP_OUTSIDE;
     }
-    *place_out = place;
+    *location_out = place;
     return TL_OK;
 }

@@ -6,7 +6,6 @@
 // double, from its own three corners. So the answer is the minimum over all triangles, whatever the tree looks like.
 // Source: Roussopoulos, Kelley, Vincent, Nearest Neighbor Queries, 1995.
 
-#include "base/assert.h"
 #include "math/predicates.h"
 #include "soup/query/bvh_walk.h"
 #include "soup/ray/ray_filter.h"
@@ -14,9 +13,9 @@
 
 // A squared distance to a box in float: a difference, a square and two sums, each rounded, and a share to spare for the
 // limit's own rounding.
-#define KEY_SHRINK (1.0f - TL_FLOAT_GAMMA(8))
+#define BOX_KEY_SHRINK (1.0f - TL_FLOAT_GAMMA(8))
 
-typedef struct search {
+typedef struct nearest_search {
     const tl_soup *soup;
     const tl_ray_filter *filter;
     tl_vec3 at;
@@ -26,7 +25,7 @@ typedef struct search {
     tl_triangle_point best;
     uint32_t triangle; // UINT32_MAX: none yet
     tl_vec3 corners[3];
-} search;
+} nearest_search;
 
 // From below.
 static float box_key(tl_vec3 at, float min_x, float max_x, float min_y, float max_y, float min_z, float max_z)
@@ -34,10 +33,10 @@ static float box_key(tl_vec3 at, float min_x, float max_x, float min_y, float ma
     float x = tl_maxf(tl_maxf(min_x - at.x, at.x - max_x), 0.0f);
     float y = tl_maxf(tl_maxf(min_y - at.y, at.y - max_y), 0.0f);
     float z = tl_maxf(tl_maxf(min_z - at.z, at.z - max_z), 0.0f);
-    return (x * x + y * y + z * z) * KEY_SHRINK;
+    return (x * x + y * y + z * z) * BOX_KEY_SHRINK;
 }
 
-static void enter_node(const search *s, tl_walk *walk, uint32_t node)
+static void enter_nearest_node(const nearest_search *s, tl_walk *walk, uint32_t node)
 {
     tl_walk_boxes boxes;
     tl_walk_read_boxes(walk, node, &boxes);
@@ -53,19 +52,19 @@ static void enter_node(const search *s, tl_walk *walk, uint32_t node)
     tl_walk_enter(walk, &boxes, mask, keys);
 }
 
-static tl_seen side_of(const tl_vec3 corners[3], tl_vec3 point)
+static tl_seen seen_from_point(const tl_vec3 corners[3], tl_vec3 point)
 {
     int side = tl_orient3d(corners[0], corners[1], corners[2], point);
     return side > 0 ? TL_SEEN_FRONT : side < 0 ? TL_SEEN_BACK : TL_SEEN_BOTH;
 }
 
-static void set_limit(search *s, double limit_sq)
+static void set_nearest_limit(nearest_search *s, double limit_sq)
 {
     s->limit_sq = limit_sq;
     s->limit_key = limit_sq < (double)FLT_MAX ? (float)limit_sq + FLT_MIN : INFINITY;
 }
 
-static void visit_leaf(search *s, uint32_t child)
+static void visit_nearest_leaf(nearest_search *s, uint32_t child)
 {
     tl_walk_leaf leaf;
     tl_walk_open_leaf(s->soup, child, &leaf);
@@ -83,48 +82,55 @@ static void visit_leaf(search *s, uint32_t child)
         bool better =
             found.distance_sq < s->limit_sq || (found.distance_sq == s->limit_sq && triangle.triangle < s->triangle);
         if (!better || (s->filter != NULL && !tl_ray_filter_accepts(s->soup, s->filter, triangle.triangle,
-                                                                    side_of(triangle.corners, s->at)))) {
+                                                                    seen_from_point(triangle.corners, s->at)))) {
             continue;
         }
         s->best = found;
         s->triangle = triangle.triangle;
         memcpy(s->corners, triangle.corners, sizeof s->corners);
-        set_limit(s, found.distance_sq);
+        set_nearest_limit(s, found.distance_sq);
     }
 }
 
 tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance, const tl_ray_filter *filter,
                           tl_soup_point *nearest_out)
 {
-    TL_ASSERT(soup != NULL && nearest_out != NULL);
+    if (nearest_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    memset(nearest_out, 0, sizeof *nearest_out);
+    if (soup == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     if (!tl_is_finite(point)) {
         return TL_ERR_NOT_FINITE;
     }
     if (!(max_distance >= 0.0f)) {
         return TL_ERR_ARGUMENT;
     }
-    search s = { .soup = soup, .filter = filter, .at = point, .point = tl_vec3d_from(point), .triangle = UINT32_MAX };
-    set_limit(&s, (double)max_distance * (double)max_distance);
+    nearest_search s = {
+        .soup = soup, .filter = filter, .at = point, .point = tl_vec3d_from(point), .triangle = UINT32_MAX
+    };
+    set_nearest_limit(&s, (double)max_distance * (double)max_distance);
     tl_walk walk;
     tl_walk_begin(&walk, soup);
     uint32_t child;
     while (tl_walk_next(&walk, s.limit_key, &child)) {
         if (tl_walk_is_leaf(child)) {
-            visit_leaf(&s, child);
+            visit_nearest_leaf(&s, child);
         } else {
-            enter_node(&s, &walk, child);
+            enter_nearest_node(&s, &walk, child);
         }
     }
     if (s.triangle == UINT32_MAX) {
         return TL_NOT_FOUND;
     }
-    memset(nearest_out, 0, sizeof *nearest_out);
     nearest_out->point = tl_vec3d_to_float(s.best.point);
     nearest_out->distance = (float)sqrt(s.best.distance_sq);
     nearest_out->triangle = s.triangle;
     nearest_out->feature = s.best.feature;
     nearest_out->normal = tl_triangle_normal(s.corners);
     nearest_out->material = tl_soup_material(soup, s.triangle);
-    nearest_out->back = side_of(s.corners, point) == TL_SEEN_BACK;
+    nearest_out->back = seen_from_point(s.corners, point) == TL_SEEN_BACK;
     return TL_OK;
 }

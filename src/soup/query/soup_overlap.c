@@ -6,18 +6,18 @@
 #include "soup/query/query_shape.h"
 #include "soup/query/region_walk.h"
 
-typedef struct search {
+typedef struct overlap_search {
     const tl_soup *soup;
     const tl_query_shape *shape;
     const tl_ray_filter *filter;
     uint32_t *triangles;
     uint32_t capacity;
     uint32_t count;
-} search;
+} overlap_search;
 
-static bool belongs(const tl_walk_triangle *triangle, void *user)
+static bool is_touched(const tl_walk_triangle *triangle, void *user)
 {
-    const search *s = user;
+    const overlap_search *s = user;
     if (!tl_aabb_overlaps(tl_walk_triangle_box(triangle), s->shape->bounds) ||
         !tl_query_shape_touches(s->shape, triangle->corners)) {
         return false;
@@ -26,9 +26,9 @@ static bool belongs(const tl_walk_triangle *triangle, void *user)
                                                       tl_query_shape_sees(s->shape, triangle->corners));
 }
 
-static bool add(const tl_walk_triangle *triangle, void *user)
+static bool add_overlap(const tl_walk_triangle *triangle, void *user)
 {
-    search *s = user;
+    overlap_search *s = user;
     if (s->count < s->capacity) {
         s->triangles[s->count] = triangle->triangle;
     }
@@ -36,9 +36,9 @@ static bool add(const tl_walk_triangle *triangle, void *user)
     return true;
 }
 
-static bool stop(const tl_walk_triangle *triangle, void *user)
+static bool stop_at_first(const tl_walk_triangle *triangle, void *user)
 {
-    search *s = user;
+    overlap_search *s = user;
     (void)triangle;
     s->count++;
     return false;
@@ -47,11 +47,17 @@ static bool stop(const tl_walk_triangle *triangle, void *user)
 tl_result tl_soup_overlaps(const tl_soup *soup, const tl_convex *shape, tl_transform pose, const tl_ray_filter *filter,
                            bool *overlaps_out)
 {
-    TL_ASSERT(soup != NULL && shape != NULL && overlaps_out != NULL);
+    if (overlaps_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    *overlaps_out = false;
+    if (soup == NULL || shape == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     tl_query_shape query;
     TL_TRY(tl_query_shape_make(shape, pose, &query));
-    search s = { soup, &query, filter, NULL, 0, 0 };
-    tl_region region = { tl_region_enter_box, &query.bounds, belongs, stop, &s };
+    overlap_search s = { soup, &query, filter, NULL, 0, 0 };
+    tl_region region = { tl_region_enter_box, &query.bounds, is_touched, stop_at_first, &s };
     *overlaps_out = !tl_region_walk(soup, &region);
     return TL_OK;
 }
@@ -60,11 +66,17 @@ tl_result tl_soup_find_overlaps(const tl_soup *soup, const tl_convex *shape, tl_
                                 const tl_ray_filter *filter, uint32_t *triangles_out, uint32_t capacity,
                                 uint32_t *count_out)
 {
-    TL_ASSERT(soup != NULL && shape != NULL && count_out != NULL && (triangles_out != NULL || capacity == 0));
+    if (count_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    *count_out = 0;
+    if (soup == NULL || shape == NULL || (triangles_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     tl_query_shape query;
     TL_TRY(tl_query_shape_make(shape, pose, &query));
-    search s = { soup, &query, filter, triangles_out, capacity, 0 };
-    tl_region region = { tl_region_enter_box, &query.bounds, belongs, add, &s };
+    overlap_search s = { soup, &query, filter, triangles_out, capacity, 0 };
+    tl_region region = { tl_region_enter_box, &query.bounds, is_touched, add_overlap, &s };
     tl_region_walk(soup, &region);
     *count_out = s.count;
     return s.count <= capacity ? TL_OK : TL_INCOMPLETE;

@@ -14,6 +14,7 @@
 // Real-Time Collision Detection, 2005, section 5.5.
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "math/predicates.h"
 #include "soup/query/bvh_walk.h"
 #include "soup/query/triangle_cast.h"
@@ -21,7 +22,7 @@
 
 // Metres that count as touching, as a share of the largest coordinate that the shape reaches: a position and a corner
 // round by half an ulp each, along three axes.
-#define TOUCH_SHARE (4.0 * (double)TL_FLOAT_ROUNDING)
+#define SOUP_TOUCH_SHARE (4.0 * (double)TL_FLOAT_ROUNDING)
 
 // Slower than this along an axis (metres) is taken as standing there, with a box that is so much wider.
 #define STANDING 1e-30f
@@ -29,7 +30,7 @@
 // A time at which boxes meet: a difference and a product round, boxes and limit round once each.
 #define TIME_ERROR TL_FLOAT_GAMMA(6)
 
-typedef struct search {
+typedef struct sweep_search {
     const tl_soup *soup;
     const tl_ray_filter *filter;
     const tl_query_shape *shape;
@@ -44,9 +45,9 @@ typedef struct search {
     uint32_t triangle; // UINT32_MAX: none
     tl_vec3 corners[3];
     bool back;
-} search;
+} sweep_search;
 
-static void prepare(search *s)
+static void prepare_sweep(sweep_search *s)
 {
     const float step[3] = { s->motion.step.x, s->motion.step.y, s->motion.step.z };
     const tl_aabb *box = &s->shape->bounds;
@@ -57,17 +58,16 @@ static void prepare(search *s)
         s->inverse[i] = s->moves[i] ? 1.0f / step[i] : 0.0f;
         s->low[i] = s->moves[i] ? low[i] : low[i] - STANDING;
         s->high[i] = s->moves[i] ? high[i] : high[i] + STANDING;
-        double most = fabs((double)low[i]) > fabs((double)high[i]) ? fabs((double)low[i]) : fabs((double)high[i]);
-        most += fabs((double)step[i]);
-        reach = most > reach ? most : reach;
+        double farthest = tl_max_f64(fabs((double)low[i]), fabs((double)high[i])) + fabs((double)step[i]);
+        reach = tl_max_f64(reach, farthest);
     }
-    s->motion.touch = TOUCH_SHARE * reach;
+    s->motion.touch = SOUP_TOUCH_SHARE * reach;
     s->capsule = (s->shape->kind == TL_QUERY_SPHERE || s->shape->kind == TL_QUERY_CAPSULE) &&
                  s->shape->radius > TL_ROUND_RADIUS * s->motion.touch;
 }
 
 // From when to when the moving box meets a still one along one axis. Where it stands: always, or never.
-static inline void meet_axis(const search *s, int axis, float min, float max, float *enter, float *leave)
+static inline void meet_axis(const sweep_search *s, int axis, float min, float max, float *enter, float *leave)
 {
     float before = min - s->high[axis], behind = max - s->low[axis];
     if (s->moves[axis]) {
@@ -80,7 +80,7 @@ static inline void meet_axis(const search *s, int axis, float min, float max, fl
 }
 
 // The time from which boxes can meet, from below, and INFINITY when they cannot.
-static inline float meet_box(const search *s, const float min[3], const float max[3])
+static inline float meet_box(const sweep_search *s, const float min[3], const float max[3])
 {
     float enter = 0.0f, leave = 1.0f;
     for (int axis = 0; axis < 3; axis++) {
@@ -90,7 +90,7 @@ static inline float meet_box(const search *s, const float min[3], const float ma
     return enter <= leave + TIME_ERROR * leave && leave >= 0.0f ? enter : INFINITY;
 }
 
-static void enter_node(const search *s, tl_walk *walk, uint32_t node)
+static void enter_swept_node(const sweep_search *s, tl_walk *walk, uint32_t node)
 {
     tl_walk_boxes boxes;
     tl_walk_read_boxes(walk, node, &boxes);
@@ -106,7 +106,7 @@ static void enter_node(const search *s, tl_walk *walk, uint32_t node)
 }
 
 // The side from which the motion meets the triangle; a shape that does not move sees it from where it is.
-static tl_seen seen_from(const search *s, const tl_vec3 corners[3])
+static tl_seen seen_from(const sweep_search *s, const tl_vec3 corners[3])
 {
     tl_vec3 zero = tl_vec3_make(0.0f, 0.0f, 0.0f);
     if (s->motion.step.x == 0.0f && s->motion.step.y == 0.0f && s->motion.step.z == 0.0f) {
@@ -117,7 +117,7 @@ static tl_seen seen_from(const search *s, const tl_vec3 corners[3])
 }
 
 // Earlier wins; of overlaps the deeper one; then the lower index.
-static bool is_better(const search *s, const tl_triangle_cast *cast, uint32_t triangle)
+static bool is_better_cast(const sweep_search *s, const tl_triangle_cast *cast, uint32_t triangle)
 {
     if (cast->t != s->best.t) {
         return cast->t < s->best.t;
@@ -128,7 +128,7 @@ static bool is_better(const search *s, const tl_triangle_cast *cast, uint32_t tr
     return cast->overlap == s->best.overlap ? triangle < s->triangle : cast->overlap;
 }
 
-static void visit_triangle(search *s, const tl_walk_triangle *triangle)
+static void visit_triangle(sweep_search *s, const tl_walk_triangle *triangle)
 {
     tl_aabb own = tl_walk_triangle_box(triangle);
     const float min[3] = { own.min.x, own.min.y, own.min.z }, max[3] = { own.max.x, own.max.y, own.max.z };
@@ -138,7 +138,7 @@ static void visit_triangle(search *s, const tl_walk_triangle *triangle)
     tl_triangle_cast cast;
     bool hit = s->capsule ? tl_triangle_cast_capsule(s->shape, &s->motion, triangle->corners, s->limit, &cast)
                           : tl_triangle_cast_shape(s->shape, &s->motion, triangle->corners, s->limit, &cast);
-    if (!hit || (s->triangle != UINT32_MAX && !is_better(s, &cast, triangle->triangle))) {
+    if (!hit || (s->triangle != UINT32_MAX && !is_better_cast(s, &cast, triangle->triangle))) {
         return;
     }
     if (s->filter != NULL &&
@@ -152,9 +152,8 @@ static void visit_triangle(search *s, const tl_walk_triangle *triangle)
     s->limit_key = (float)cast.t * (1.0f + TIME_ERROR) + FLT_MIN;
 }
 
-static void describe_hit(const search *s, tl_shape_hit *hit)
+static void describe_hit(const sweep_search *s, tl_shape_hit *hit)
 {
-    memset(hit, 0, sizeof *hit);
     // Rounded down: not late.
     float t = (float)s->best.t;
     hit->t = (double)t > s->best.t ? t * (1.0f - 2.0f * TL_FLOAT_ROUNDING) : t;
@@ -172,23 +171,29 @@ static void describe_hit(const search *s, tl_shape_hit *hit)
 tl_result tl_soup_cast_shape(const tl_soup *soup, const tl_convex *shape, tl_transform pose, tl_vec3 motion,
                              const tl_ray_filter *filter, tl_shape_hit *hit_out)
 {
-    TL_ASSERT(soup != NULL && shape != NULL && hit_out != NULL);
+    if (hit_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    memset(hit_out, 0, sizeof *hit_out);
+    if (soup == NULL || shape == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     if (!tl_is_finite(motion)) {
         return TL_ERR_NOT_FINITE;
     }
     tl_query_shape query;
     TL_TRY(tl_query_shape_make(shape, pose, &query));
-    search s = { .soup = soup, .filter = filter, .shape = &query, .triangle = UINT32_MAX };
+    sweep_search s = { .soup = soup, .filter = filter, .shape = &query, .triangle = UINT32_MAX };
     s.motion.step = motion;
     s.limit = 1.0;
     s.limit_key = 1.0f;
-    prepare(&s);
+    prepare_sweep(&s);
     tl_walk walk;
     tl_walk_begin(&walk, soup);
     uint32_t child;
     while (tl_walk_next(&walk, s.limit_key, &child)) {
         if (!tl_walk_is_leaf(child)) {
-            enter_node(&s, &walk, child);
+            enter_swept_node(&s, &walk, child);
             continue;
         }
         tl_walk_leaf leaf;

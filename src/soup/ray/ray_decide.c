@@ -19,6 +19,7 @@
 
 #include "soup/ray/ray_measure.h"
 
+#include "base/min_max.h"
 #include "math/predicates.h"
 #include "math/vec3d.h"
 #include "soup/ray/ray_filter.h"
@@ -34,14 +35,9 @@ typedef struct triangle_test {
     int sign;         // of the weights that are not zero
 } triangle_test;
 
-static inline int sign_of(double value)
+static inline int sign_of_weight(double value)
 {
     return (value > 0.0) - (value < 0.0);
-}
-
-static inline double larger(double a, double b)
-{
-    return a > b ? a : b;
 }
 
 // The exact side on which the line passes the edge across from corner k, as the sign of that corner's weight.
@@ -86,8 +82,8 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
         double dz = (double)corner[job->axes[2] * stride] - origin_z;
         x[k] = dx - job->exact_shear[0] * dz;
         y[k] = dy - job->exact_shear[1] * dz;
-        test->reach = larger(test->reach, larger(larger(fabs(dx), fabs(dy)), fabs(dz)));
-        size = larger(size, larger(fabs(x[k]), fabs(y[k])));
+        test->reach = tl_max_f64(test->reach, tl_max_f64(tl_max_f64(fabs(dx), fabs(dy)), fabs(dz)));
+        size = tl_max_f64(size, tl_max_f64(fabs(x[k]), fabs(y[k])));
     }
     double reach = test->reach;
     test->error =
@@ -102,7 +98,7 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
     for (int k = 0; k < 3 && !(positive && negative); k++) {
         if (fabs(test->weight[k]) <= test->error) {
             int sign = exact_side(job, test, k);
-            test->weight[k] = sign != 0 && sign_of(test->weight[k]) == sign ? test->weight[k] : 0.0;
+            test->weight[k] = sign != 0 && sign_of_weight(test->weight[k]) == sign ? test->weight[k] : 0.0;
             positive |= sign > 0;
             negative |= sign < 0;
         }
@@ -141,7 +137,7 @@ static double width_of(const triangle_test *test)
     double width = 0.0;
     for (int k = 1; k < 3; k++) {
         tl_vec3d side = tl_vec3d_sub(tl_vec3d_from(v[k]), tl_vec3d_from(v[0]));
-        width = larger(width, larger(larger(fabs(side.x), fabs(side.y)), fabs(side.z)));
+        width = tl_max_f64(width, tl_max_f64(tl_max_f64(fabs(side.x), fabs(side.y)), fabs(side.z)));
     }
     return width;
 }

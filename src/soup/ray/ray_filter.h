@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether a query passes by a triangle.
+// Whether a triangle counts for a query.
 
 #ifndef TALUS_SRC_SOUP_RAY_FILTER_H
 #define TALUS_SRC_SOUP_RAY_FILTER_H
@@ -20,12 +20,12 @@ static inline bool tl_ray_filter_accepts(const tl_soup *soup, const tl_ray_filte
         (filter->cull == TL_RAY_CULL_FRONT && seen == TL_SEEN_FRONT)) {
         return false;
     }
-    if (filter->material_mask == UINT64_MAX && filter->accept == NULL) {
+    if (filter->ignored_materials == 0 && filter->accept == NULL) {
         return true;
     }
     uint16_t material = tl_soup_material(soup, triangle);
     uint32_t bit = material < 63 ? material : 63;
-    if ((filter->material_mask >> bit & 1) == 0) {
+    if ((filter->ignored_materials >> bit & 1) != 0) {
         return false;
     }
     return filter->accept == NULL || filter->accept(triangle, material, filter->accept_user);

@@ -15,15 +15,15 @@
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-static inline bool has_avx2(void)
+static inline bool ray_has_avx2(void)
 {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi");
 }
 
-static inline bool has_avx512(void)
+static inline bool ray_has_avx512(void)
 {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") && has_avx2();
+           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") && ray_has_avx2();
 }
 
 tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
@@ -34,9 +34,9 @@ tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
     case TL_RAY_SSE42:
         return __builtin_cpu_supports("sse4.2") ? tl_ray_walk_sse42 : NULL;
     case TL_RAY_AVX2:
-        return has_avx2() ? tl_ray_walk_avx2 : NULL;
+        return ray_has_avx2() ? tl_ray_walk_avx2 : NULL;
     case TL_RAY_AVX512:
-        return has_avx512() ? tl_ray_walk_avx512 : NULL;
+        return ray_has_avx512() ? tl_ray_walk_avx512 : NULL;
     default:
         return NULL;
     }
@@ -52,10 +52,10 @@ tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa)
 // AVX-512 on AMD's processors only. Those that have it (Zen 4 and later) take a ray 5 to 15 per cent faster with it. On
 // Intel's Sapphire Rapids it saves instructions and no time: 2 to 8 per cent slower, so AVX2 there, as on what nobody
 // has measured (bench_rays has a row for each). A machine with AVX-512 always has AVX2.
-static inline tl_ray_walk_fn *best_walk(void)
+static inline tl_ray_walk_fn *best_ray_walk(void)
 {
-    if (has_avx2()) {
-        return __builtin_cpu_is("amd") && has_avx512() ? tl_ray_walk_avx512 : tl_ray_walk_avx2;
+    if (ray_has_avx2()) {
+        return __builtin_cpu_is("amd") && ray_has_avx512() ? tl_ray_walk_avx512 : tl_ray_walk_avx2;
     }
     return __builtin_cpu_supports("sse4.2") ? tl_ray_walk_sse42 : tl_ray_walk_scalar;
 }
@@ -72,7 +72,7 @@ tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa)
     return isa == TL_RAY_SCALAR ? tl_ray_walk_many_scalar : NULL;
 }
 
-static inline tl_ray_walk_fn *best_walk(void)
+static inline tl_ray_walk_fn *best_ray_walk(void)
 {
     return tl_ray_walk_scalar;
 }
@@ -82,16 +82,10 @@ static inline tl_ray_walk_fn *best_walk(void)
 tl_ray_isa tl_ray_best_isa(void)
 {
     tl_ray_isa isa = TL_RAY_SCALAR;
-    while (tl_ray_walk_for(isa) != best_walk()) {
+    while (tl_ray_walk_for(isa) != best_ray_walk()) {
         isa++;
     }
     return isa;
-}
-
-tl_ray_filter tl_default_ray_filter(void)
-{
-    tl_ray_filter filter = { TL_RAY_CULL_NONE, UINT64_MAX, NULL, NULL };
-    return filter;
 }
 
 bool tl_soup_cast_ray_with(tl_ray_walk_fn *walk, const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter,
@@ -123,20 +117,20 @@ bool tl_soup_line_of_sight_with(tl_ray_walk_fn *walk, const tl_soup *soup, tl_ve
 
 bool tl_soup_cast_ray(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter, tl_ray_hit *hit_out)
 {
-    return tl_soup_cast_ray_with(best_walk(), soup, ray, filter, hit_out);
+    return tl_soup_cast_ray_with(best_ray_walk(), soup, ray, filter, hit_out);
 }
 
 bool tl_soup_occluded(const tl_soup *soup, const tl_ray *ray, const tl_ray_filter *filter)
 {
-    return tl_soup_occluded_with(best_walk(), soup, ray, filter);
+    return tl_soup_occluded_with(best_ray_walk(), soup, ray, filter);
 }
 
 bool tl_soup_cast_segment(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter, tl_ray_hit *hit_out)
 {
-    return tl_soup_cast_segment_with(best_walk(), soup, a, b, filter, hit_out);
+    return tl_soup_cast_segment_with(best_ray_walk(), soup, a, b, filter, hit_out);
 }
 
 bool tl_soup_line_of_sight(const tl_soup *soup, tl_vec3 a, tl_vec3 b, const tl_ray_filter *filter)
 {
-    return tl_soup_line_of_sight_with(best_walk(), soup, a, b, filter);
+    return tl_soup_line_of_sight_with(best_ray_walk(), soup, a, b, filter);
 }

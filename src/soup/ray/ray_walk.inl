@@ -57,9 +57,9 @@ enum { WALK_STACK_SIZE = (TL_SOUP_WIDTH - 1) * TL_SOUP_MAX_DEPTH + TL_SOUP_WIDTH
 
 // Where in a plain node the planes are by which a ray enters, by its bits `backward`: bytes. It leaves by those of
 // ~backward.
-static const uint32_t walk_rows[8][4] = { { 0, 128, 256, 0 },  { 64, 128, 256, 0 }, { 0, 192, 256, 0 },
-                                          { 64, 192, 256, 0 }, { 0, 128, 320, 0 },  { 64, 128, 320, 0 },
-                                          { 0, 192, 320, 0 },  { 64, 192, 320, 0 } };
+static const uint32_t ray_rows[8][4] = { { 0, 128, 256, 0 },  { 64, 128, 256, 0 }, { 0, 192, 256, 0 },
+                                         { 64, 192, 256, 0 }, { 0, 128, 320, 0 },  { 64, 128, 320, 0 },
+                                         { 0, 192, 320, 0 },  { 64, 192, 320, 0 } };
 static_assert(sizeof(((tl_soup_node *)0)->plane[0]) == 64, "rows of walk_rows");
 
 // What a visit needs beside the job.
@@ -91,12 +91,12 @@ static inline void prefetch_child(const walk_ray *ray, uint32_t child)
     tl_prefetch(at + 128);
 }
 
-static inline walk_entry nearer(walk_entry a, walk_entry b)
+static inline walk_entry nearer_entry(walk_entry a, walk_entry b)
 {
     return a < b ? a : b;
 }
 
-static inline walk_entry farther(walk_entry a, walk_entry b)
+static inline walk_entry farther_entry(walk_entry a, walk_entry b)
 {
     return a < b ? b : a;
 }
@@ -176,22 +176,22 @@ static TL_ALWAYS_INLINE uint32_t push_children(const walk_ray *ray, const uint32
     walk_entry b = make_entry(t_bits, children, tl_lowest_bit(rest));
     rest &= rest - 1;
     if (rest == 0) {
-        top[0] = farther(a, b);
+        top[0] = farther_entry(a, b);
         prefetch_child(ray, (uint32_t)top[0]);
         *stack_count += 1;
-        return (uint32_t)nearer(a, b);
+        return (uint32_t)nearer_entry(a, b);
     }
     if ((rest & (rest - 1)) != 0) {
         return push_sorted(t_bits, children, mask, stack, stack_count);
     }
     walk_entry c = make_entry(t_bits, children, tl_lowest_bit(rest));
-    walk_entry low = nearer(a, b), high = farther(a, b);
-    top[0] = farther(high, c);
-    high = nearer(high, c);
-    top[1] = farther(low, high);
+    walk_entry low = nearer_entry(a, b), high = farther_entry(a, b);
+    top[0] = farther_entry(high, c);
+    high = nearer_entry(high, c);
+    top[1] = farther_entry(low, high);
     prefetch_child(ray, (uint32_t)top[1]);
     *stack_count += 2;
-    return (uint32_t)nearer(low, high);
+    return (uint32_t)nearer_entry(low, high);
 }
 
 // A leaf's triangles as the ray sees them.
@@ -204,7 +204,7 @@ typedef struct leaf_lanes {
     float extent;                    // of any triangle, in metres
 } leaf_lanes;
 
-static inline tl_f32x8 cross(tl_f32x8 ax, tl_f32x8 ay, tl_f32x8 bx, tl_f32x8 by)
+static inline tl_f32x8 cross_lanes(tl_f32x8 ax, tl_f32x8 ay, tl_f32x8 bx, tl_f32x8 by)
 {
     return tl_f32x8_sub(tl_f32x8_mul(ax, by), tl_f32x8_mul(ay, bx));
 }
@@ -233,7 +233,7 @@ static TL_ALWAYS_INLINE void test_leaf(const tl_ray_job *job, const tl_soup_leaf
     ay = tl_f32x8_mul_sub_from(shear_y, az, ay);
     cy = tl_f32x8_mul_sub_from(shear_y, cz, cy);
     ey = tl_f32x8_mul_sub_from(shear_y, ez, ey);
-    tl_f32x8 ae = cross(ax, ay, ex, ey), ec = cross(ex, ey, cx, cy), ca = cross(cx, cy, ax, ay);
+    tl_f32x8 ae = cross_lanes(ax, ay, ex, ey), ec = cross_lanes(ex, ey, cx, cy), ca = cross_lanes(cx, cy, ax, ay);
     lanes->extent = leaf->extent;
     tl_f32x8 error = tl_f32x8_all(
         job->corner_error * (LEAF_EXTENT_TERM * leaf->extent + LEAF_ERROR_TERM * job->corner_error) + FLT_MIN);
@@ -434,7 +434,7 @@ static TL_ALWAYS_INLINE bool measure_waiting(const tl_ray_job *job, const walk_b
 }
 
 // The end of a walk: false when nothing was hit. Any hit would have ended it before, if it was sure.
-static TL_ALWAYS_INLINE bool report(tl_ray_job *job, walk_best best, tl_ray_hit *hit)
+static TL_ALWAYS_INLINE bool report_hit(tl_ray_job *job, walk_best best, tl_ray_hit *hit)
 {
     if (best.child != 0) {
         if (hit != NULL && measure_waiting(job, &best, hit)) {
@@ -450,8 +450,8 @@ static TL_ALWAYS_INLINE bool report(tl_ray_job *job, walk_best best, tl_ray_hit 
 
 static TL_ALWAYS_INLINE void begin_walk(const tl_ray_job *job, uint32_t node_size, walk_ray *ray, walk_best *best)
 {
-    ray->near_rows = walk_rows[job->backward];
-    ray->far_rows = walk_rows[job->backward ^ 7u];
+    ray->near_rows = ray_rows[job->backward];
+    ray->far_rows = ray_rows[job->backward ^ 7u];
     ray->node_size = node_size;
     ray->nodes = (const char *)job->soup + job->soup->node_offset;
     ray->leaves = (const char *)job->soup + job->soup->leaf_offset;
@@ -475,7 +475,7 @@ static TL_ALWAYS_INLINE bool pop_child(const walk_entry *stack, uint32_t *stack_
     return true;
 }
 
-static TL_ALWAYS_INLINE bool walk(tl_ray_job *job, tl_ray_hit *hit)
+static TL_ALWAYS_INLINE bool walk_soup(tl_ray_job *job, tl_ray_hit *hit)
 {
     const bool any = hit == NULL;
     walk_ray ray;
@@ -496,7 +496,7 @@ static TL_ALWAYS_INLINE bool walk(tl_ray_job *job, tl_ray_hit *hit)
             return true;
         }
         if (!pop_child(stack, &stack_count, best.limit, &child)) {
-            return report(job, best, hit);
+            return report_hit(job, best, hit);
         }
     }
 }
@@ -518,5 +518,5 @@ bool TL_RAY_WALK(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *targ
     if (soup->layout == TL_SOUP_COMPACT) {
         return walk_compact(&job, hit_out);
     }
-    return hit_out == NULL ? walk(&job, NULL) : walk(&job, hit_out);
+    return hit_out == NULL ? walk_soup(&job, NULL) : walk_soup(&job, hit_out);
 }

@@ -103,7 +103,7 @@ static bool walk_compact(tl_ray_job *job, tl_ray_hit *hit)
             }
         }
         if (!pop_child(stack, &stack_count, best.limit, &child)) {
-            return report(job, best, hit);
+            return report_hit(job, best, hit);
         }
     }
 }

@@ -17,13 +17,13 @@
 
 // With twice as many lanes, or half, and groups of 4 to 8, times differed by less than they did from run to run. All
 // lanes and a single walk's stack together take less than 32 KB.
-enum { LANES = 12, LANE_GROUP = 6, LANE_RING = 16 };
+enum { RAY_LANES = 12, LANE_GROUP = 6, LANE_RING = 16 };
 
 #ifndef TL_LANE_STACK_SIZE // a test has a shorter one
 #define TL_LANE_STACK_SIZE 96
 #endif
 
-static_assert(LANES <= LANE_RING, "a ring holds all lanes");
+static_assert(RAY_LANES <= LANE_RING, "a ring holds all lanes");
 
 // A ray under way.
 typedef struct walk_lane {
@@ -44,7 +44,7 @@ typedef struct lane_walk {
     const tl_ray_batch *batch;
     uint32_t next; // ray
     lane_ring nodes, leaves;
-    walk_lane lanes[LANES];
+    walk_lane lanes[RAY_LANES];
 } lane_walk;
 
 // Puts the next ray that meets the soup's box on its way. False: there is none.
@@ -80,7 +80,7 @@ static TL_NOINLINE bool change_ray(lane_walk *w, walk_lane *lane, bool alone)
     tl_ray_hit *hit = &w->batch->hits[lane->index];
     bool found =
         alone ? TL_RAY_WALK(w->batch->soup, &ray->origin, &ray->direction, ray->tmax, false, w->batch->filter, hit)
-              : report(&lane->job, lane->best, hit);
+              : report_hit(&lane->job, lane->best, hit);
     if (!found) {
         tl_ray_miss(hit);
     }
@@ -88,7 +88,7 @@ static TL_NOINLINE bool change_ray(lane_walk *w, walk_lane *lane, bool alone)
 }
 
 // Takes a lane to what waits nearest, or to its next ray.
-static TL_ALWAYS_INLINE void go_on(lane_walk *w, uint32_t index)
+static TL_ALWAYS_INLINE void advance_lane(lane_walk *w, uint32_t index)
 {
     walk_lane *lane = &w->lanes[index];
     bool overflows = lane->stack_count > TL_LANE_STACK_SIZE - TL_SOUP_WIDTH - 3;
@@ -124,15 +124,15 @@ static TL_ALWAYS_INLINE void push_all(walk_lane *lane, const uint32_t *children,
     walk_entry a = entry_of_lowest(t_bits, children, mask), b = entry_of_lowest(t_bits, children, second);
     walk_entry c = entry_of_lowest(t_bits, children, third);
     walk_entry *top = lane->stack + lane->stack_count;
-    walk_entry low = nearer(a, b), high = farther(a, b);
-    top[0] = farther(high, c);
-    high = nearer(high, c);
-    top[1] = farther(low, high);
-    top[2] = nearer(low, high);
+    walk_entry low = nearer_entry(a, b), high = farther_entry(a, b);
+    top[0] = farther_entry(high, c);
+    high = nearer_entry(high, c);
+    top[1] = farther_entry(low, high);
+    top[2] = nearer_entry(low, high);
     lane->stack_count += (uint32_t)(mask != 0) + (uint32_t)(second != 0) + (uint32_t)(third != 0);
 }
 
-static TL_ALWAYS_INLINE const tl_soup_node *node_of(const walk_lane *lane)
+static TL_ALWAYS_INLINE const tl_soup_node *lane_node(const walk_lane *lane)
 {
     return (const tl_soup_node *)(const void *)(lane->ray.nodes + lane->child * sizeof(tl_soup_node));
 }
@@ -144,11 +144,11 @@ static TL_ALWAYS_INLINE void visit_nodes(lane_walk *w, uint32_t count)
     for (uint32_t i = 0; i < count; i++) {
         at[i] = w->nodes.lanes[w->nodes.first++ % LANE_RING];
         const walk_lane *lane = &w->lanes[at[i]];
-        masks[i] = enter_children(&lane->job, &lane->ray, node_of(lane), lane->best.limit, t_bits[i]);
+        masks[i] = enter_children(&lane->job, &lane->ray, lane_node(lane), lane->best.limit, t_bits[i]);
     }
     for (uint32_t i = 0; i < count; i++) {
-        push_all(&w->lanes[at[i]], node_of(&w->lanes[at[i]])->child, t_bits[i], masks[i]);
-        go_on(w, at[i]);
+        push_all(&w->lanes[at[i]], lane_node(&w->lanes[at[i]])->child, t_bits[i], masks[i]);
+        advance_lane(w, at[i]);
     }
 }
 
@@ -167,7 +167,7 @@ static TL_ALWAYS_INLINE void visit_leaves(lane_walk *w, uint32_t count)
         if (tested[i].maybe != 0) {
             (void)settle_lanes(&lane->job, &tested[i], lane->child, false, &lane->best);
         }
-        go_on(w, at[i]);
+        advance_lane(w, at[i]);
     }
 }
 
@@ -178,7 +178,7 @@ void TL_RAY_WALK_MANY(const tl_ray_batch *batch)
     w.next = 0;
     w.nodes.first = w.nodes.end = 0;
     w.leaves.first = w.leaves.end = 0;
-    for (uint32_t i = 0; i < LANES && begin_lane(&w, &w.lanes[i]); i++) {
+    for (uint32_t i = 0; i < RAY_LANES && begin_lane(&w, &w.lanes[i]); i++) {
         w.nodes.lanes[w.nodes.end++] = i;
     }
     for (;;) {

@@ -15,22 +15,12 @@
 // roundings each, a dot product adds five, the reach five more.
 #define GAP_ERROR TL_DOUBLE_GAMMA(32)
 
-static double smaller(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static double larger(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 // Whether an axis parts the box from the points, `size` being the largest coordinate of all of them.
-static bool parts(tl_vec3d axis, const double half[3], const tl_vec3d v[3], double size)
+static bool separates(tl_vec3d axis, const double half[3], const tl_vec3d v[3], double size)
 {
     double reach = half[0] * fabs(axis.x) + half[1] * fabs(axis.y) + half[2] * fabs(axis.z);
     double a = tl_vec3d_dot(axis, v[0]), b = tl_vec3d_dot(axis, v[1]), c = tl_vec3d_dot(axis, v[2]);
-    double low = smaller(smaller(a, b), c), high = larger(larger(a, b), c);
+    double low = tl_min_f64(tl_min_f64(a, b), c), high = tl_max_f64(tl_max_f64(a, b), c);
     double noise = GAP_ERROR * size * (fabs(axis.x) + fabs(axis.y) + fabs(axis.z));
     return low > reach + noise || high < -(reach + noise);
 }
@@ -39,23 +29,23 @@ bool tl_box_touches_triangle(const double half[3], const tl_vec3d corners[3])
 {
     double size = 0.0;
     for (int k = 0; k < 3; k++) {
-        size = larger(size, larger(larger(fabs(corners[k].x), fabs(corners[k].y)), fabs(corners[k].z)));
-        size = larger(size, half[k]);
+        size = tl_max_f64(size, tl_max_f64(tl_max_f64(fabs(corners[k].x), fabs(corners[k].y)), fabs(corners[k].z)));
+        size = tl_max_f64(size, half[k]);
     }
     const tl_vec3d axes[3] = { { 1.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0 }, { 0.0, 0.0, 1.0 } };
     for (int i = 0; i < 3; i++) {
-        if (parts(axes[i], half, corners, size)) {
+        if (separates(axes[i], half, corners, size)) {
             return false;
         }
     }
     tl_vec3d edge[3] = { tl_vec3d_sub(corners[1], corners[0]), tl_vec3d_sub(corners[2], corners[1]),
                          tl_vec3d_sub(corners[0], corners[2]) };
-    if (parts(tl_vec3d_cross(edge[0], edge[1]), half, corners, size)) {
+    if (separates(tl_vec3d_cross(edge[0], edge[1]), half, corners, size)) {
         return false;
     }
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 3; k++) {
-            if (parts(tl_vec3d_cross(axes[i], edge[k]), half, corners, size)) {
+            if (separates(tl_vec3d_cross(axes[i], edge[k]), half, corners, size)) {
                 return false;
             }
         }

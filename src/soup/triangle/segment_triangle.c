@@ -9,7 +9,6 @@
 
 #include "soup/triangle/segment_triangle.h"
 
-#include "base/min_max.h"
 #include "soup/triangle/triangle_point.h"
 
 static double clamp_share(double share)
