@@ -85,7 +85,7 @@ typedef struct edit_times {
 static void make_tiles(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, edit_times *times)
 {
     while (tl_nav_obstacles_waiting(obstacles) > 0 && times->swap_count < MOST_TILES) {
-        tl_nav_remade_tile remade;
+        tl_nav_rebaked_tile remade;
         double began = now();
         must(tl_nav_obstacles_bake_next(obstacles, &remade, NULL), "build");
         double built = now();

@@ -26,7 +26,7 @@ static void build_and_check(const tl_contour_set *set, uint32_t cap, uint32_t me
     if (tl_polygon_mesh_check(&mesh, set, NULL, &check) != TL_OK) {
         // Contours that lie upon each other may claim an edge more than twice; one of the claims stays without a link.
         for (uint32_t fault = 0; fault < TL_POLYGON_FAULT_COUNT; fault++) {
-            if (check.counts[fault] > 0 && (fault != TL_POLYGON_FAULT_LINK || report.crowded_edges == 0)) {
+            if (check.counts[fault] > 0 && (fault != TL_POLYGON_FAULT_LINK || report.non_manifold_edges == 0)) {
                 fprintf(stderr, "%s: %s %llu\n", tl_polygon_fault_text((tl_polygon_fault)fault), check.base.element,
                         (unsigned long long)check.base.element_index);
                 abort();

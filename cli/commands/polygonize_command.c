@@ -112,11 +112,11 @@ static void report_set(job *j, const char *name, const tl_polygon_mesh *mesh, co
                 "refused_contours", (json_int_t)report->refused_contours, "triangles",
                 (json_int_t)report->triangle_count, "lower_bound", (json_int_t)report->lower_bound, "polygons",
                 (json_int_t)report->polygon_count, "vertices", (json_int_t)report->vertex_count, "links",
-                (json_int_t)report->link_count, "portals", (json_int_t)report->portal_count, "crowded_edges",
-                (json_int_t)report->crowded_edges, "straight_vertices_removed",
-                (json_int_t)report->straight_vertices_gone, "contour_merges", (json_int_t)report->contour_merges,
-                "border_vertices_removed", (json_int_t)report->border_vertices_gone, "border_vertices_kept",
-                (json_int_t)report->border_vertices_kept, "seconds", tl_json_double(seconds), "notes",
+                (json_int_t)report->link_count, "portals", (json_int_t)report->portal_count, "non_manifold_edges",
+                (json_int_t)report->non_manifold_edges, "straight_vertices_removed",
+                (json_int_t)report->removed_straight_vertices, "contour_merges", (json_int_t)report->contour_merges,
+                "border_vertices_removed", (json_int_t)report->removed_border_vertices, "border_vertices_kept",
+                (json_int_t)report->kept_border_vertices, "seconds", tl_json_double(seconds), "notes",
                 notes_as_json(mesh), "check", verdict, "peak_bytes", (json_int_t)report->base.peak_bytes));
     }
     j->set_count++;

@@ -130,7 +130,7 @@ static bool mark_triangles(tl_cli *cli, const tl_level *level, const char *path,
     }
     if (known) {
         const tl_mesh_view view = tl_mesh_as_view(&level->mesh);
-        tl_nav_areas_of_materials(&view, of_material, names->count, areas->of_triangle);
+        tl_nav_areas_from_materials(&view, of_material, names->count, areas->of_triangle);
     }
     free(of_material);
     return known;

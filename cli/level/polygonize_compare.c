@@ -49,8 +49,8 @@ static json_t *row_as_json(const row *r)
 {
     return json_pack("{s:s, s:I, s:I, s:I, s:f, s:I, s:f, s:f, s:f, s:f, s:o, s:s}", "method", r->method, "polygons",
                      (json_int_t)r->report.polygon_count, "lower_bound", (json_int_t)r->report.lower_bound, "vertices",
-                     (json_int_t)r->report.vertex_count, "mean_corners", r->quality.mean_corners, "most_corners",
-                     (json_int_t)r->quality.most_corners, "smallest_angle_degrees",
+                     (json_int_t)r->report.vertex_count, "mean_corners", r->quality.mean_corners, "max_corners",
+                     (json_int_t)r->quality.max_corners, "smallest_angle_degrees",
                      degrees(r->quality.smallest_angle_cosine), "mean_sharpest_cosine", r->quality.mean_sharpest_cosine,
                      "mean_aspect", r->quality.mean_aspect, "worst_aspect", r->quality.worst_aspect, "seconds",
                      tl_json_double(r->seconds), "check", r->verdict != NULL ? r->verdict : "not asked for");

@@ -191,7 +191,8 @@ typedef struct tl_nav_compact {
     uint16_t *floor;      ///< [span_count] voxels: where an agent stands
     uint16_t *clearance;  ///< [span_count] voxels of free height above the floor, clamped to 0xffff
     uint8_t *area;        ///< [span_count]
-    int16_t *step;        ///< [4 * span_count]: to the span beside, by direction, 0: none; mutual. See tl_nav_beside
+    int16_t
+        *step; ///< [4 * span_count]: to the span beside, by direction, 0: none; mutual. See tl_nav_compact_neighbour
     uint32_t *neighbour; ///< instead of `step`, in fields too wide for it: the span beside or TL_NAV_NO_SPAN. Else NULL
     uint16_t
         *distance; ///< [span_count] twice the distance to the border in columns; after tl_nav_distance_field, else NULL
@@ -203,7 +204,7 @@ typedef struct tl_nav_compact {
 } tl_nav_compact;
 
 /// The span that lies beside another in a direction, or TL_NAV_NO_SPAN.
-static inline uint32_t tl_nav_beside(const tl_nav_compact *compact, uint32_t span, uint32_t direction)
+static inline uint32_t tl_nav_compact_neighbour(const tl_nav_compact *compact, uint32_t span, uint32_t direction)
 {
     const size_t link = 4 * (size_t)span + direction;
     if (compact->step == NULL) {
@@ -217,8 +218,8 @@ TL_API tl_result tl_nav_bake_compact(const tl_nav_config *config, const tl_nav_h
                                      const tl_host *host, tl_nav_compact *compact_out, tl_report *report_out);
 /// The filters that config names and tl_nav_bake_compact in one sweep over a heightfield that stays as it is: the same
 /// result in half the time.
-TL_API tl_result tl_nav_open_floors(const tl_nav_config *config, const tl_nav_heightfield *heightfield,
-                                    const tl_host *host, tl_nav_compact *compact_out, tl_report *report_out);
+TL_API tl_result tl_nav_filter_and_compact(const tl_nav_config *config, const tl_nav_heightfield *heightfield,
+                                           const tl_host *host, tl_nav_compact *compact_out, tl_report *report_out);
 TL_API void tl_nav_compact_free(tl_nav_compact *compact);
 
 /// Takes the walkable area back from walls and ledges by walkable_radius columns.
@@ -226,12 +227,12 @@ TL_API tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, 
 
 /// A volume whose floors get an area: TL_NAV_NULL_AREA cuts a hole. Only walkable floors are marked.
 /// Floors are tested at the centre of their column, and by floor height within [min_y, max_y].
-TL_API void tl_nav_mark_box(tl_nav_compact *compact, tl_aabb box, uint8_t area);
+TL_API void tl_nav_mark_box_area(tl_nav_compact *compact, tl_aabb box, uint8_t area);
 /// `points`: a simple polygon on xz (y ignored), either winding, convex or not; count >= 3.
-TL_API void tl_nav_mark_polygon(tl_nav_compact *compact, const tl_vec3 *points, uint32_t count, float min_y,
-                                float max_y, uint8_t area);
+TL_API void tl_nav_mark_polygon_area(tl_nav_compact *compact, const tl_vec3 *points, uint32_t count, float min_y,
+                                     float max_y, uint8_t area);
 /// An upright cylinder that stands on `base`.
-TL_API void tl_nav_mark_cylinder(tl_nav_compact *compact, tl_vec3 base, float radius, float height, uint8_t area);
+TL_API void tl_nav_mark_cylinder_area(tl_nav_compact *compact, tl_vec3 base, float radius, float height, uint8_t area);
 
 /// Distance of each floor to the nearest border of its area, blurred as the watershed wants it. Fills
 /// compact->distance.
@@ -302,8 +303,8 @@ typedef struct tl_nav_volume {
     float radius, height;  ///< CYLINDER
 } tl_nav_volume;
 
-/// tl_nav_mark_box, tl_nav_mark_polygon or tl_nav_mark_cylinder, by kind.
-TL_API void tl_nav_mark_volume(tl_nav_compact *compact, const tl_nav_volume *volume);
+/// tl_nav_mark_box_area, tl_nav_mark_polygon_area or tl_nav_mark_cylinder_area, by kind.
+TL_API void tl_nav_mark_volume_area(tl_nav_compact *compact, const tl_nav_volume *volume);
 
 /// What the pipeline works on.
 typedef struct tl_nav_input {
@@ -315,8 +316,8 @@ typedef struct tl_nav_input {
 
 /// Fills tl_nav_input.areas of a mesh from its materials: areas_out[i] is material_areas[material of triangle i], and
 /// TL_NAV_WALKABLE_AREA where that has no entry. `areas_out` has room for mesh->triangle_count.
-TL_API void tl_nav_areas_of_materials(const tl_mesh_view *mesh, const uint8_t *material_areas, uint32_t material_count,
-                                      uint8_t *areas_out);
+TL_API void tl_nav_areas_from_materials(const tl_mesh_view *mesh, const uint8_t *material_areas,
+                                        uint32_t material_count, uint8_t *areas_out);
 
 /// The intermediate data of one tile, kept for drawing and debugging. Zero before the call; free with
 /// tl_nav_stages_free.
@@ -366,14 +367,16 @@ TL_API tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_inpu
 /// The stages from regions to the tile, on floors that are there: walkable areas final, eroded and marked. The field's
 /// `distance` and `region` are made anew and left freed; nothing else of it is changed. For obstacles that come and go
 /// without a look at the triangles. `*stack_out`: the tile, or its layers; empty where nothing is walkable.
-TL_API tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
-                                         tl_nav_tile_stack *stack_out, tl_nav_bake_report *report_out);
+TL_API tl_result tl_nav_tile_bake_from_compact(const tl_nav_config *config, tl_nav_compact *compact,
+                                               const tl_host *host, tl_nav_tile_stack *stack_out,
+                                               tl_nav_bake_report *report_out);
 
 /// What a tile that is made again and again keeps of itself from one time to the next: what does not depend on the
 /// floors that are marked. With watershed regions 6 bytes a floor, else next to nothing.
 typedef struct tl_nav_tile_memo tl_nav_tile_memo;
 
-/// tl_nav_tile_from_floors, the same bytes, for floors of which few have another area than in `base_area` [span_count].
+/// tl_nav_tile_bake_from_compact, the same bytes, for floors of which few have another area than in `base_area`
+/// [span_count].
 /// `*memo` is NULL at first: it is made when a floor is marked, and serves as long as the floors and `base_area` stay
 /// as they are. It takes its memory from the host's allocator. On failure it is as it was.
 TL_API tl_result tl_nav_tile_rebake(const tl_nav_config *config, tl_nav_compact *compact, const uint8_t *base_area,

@@ -88,22 +88,22 @@ TL_API tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_n
                                          tl_nav_bake_report *report_out);
 
 /// A tile made again: all layers of its place, where it is divided.
-typedef struct tl_nav_remade_tile {
+typedef struct tl_nav_rebaked_tile {
     int32_t tile_x, tile_z;
     tl_nav_tile_stack stack; ///< the caller's, from the def's allocator; empty: nothing is walkable there now
-} tl_nav_remade_tile;
+} tl_nav_rebaked_tile;
 
 /// Makes the tile that has waited longest. Hand its stack to tl_navmesh_replace_tiles, or free it. TL_NOT_FOUND:
 /// none waits. On another failure it goes on waiting.
-TL_API tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_remade_tile *remade_out,
+TL_API tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *remade_out,
                                             tl_nav_bake_report *report_out);
 
-/// Makes up to `most_tiles` waiting tiles and puts them into the navmesh in the place of the old ones, as
+/// Makes up to `max_tiles` waiting tiles and puts them into the navmesh in the place of the old ones, as
 /// tl_navmesh_replace_tiles does: a tile or layer whose bytes are the same stays. The navmesh takes them over, so it
 /// must have been created with the def's allocator.
 /// `*waiting_out` (may be NULL): how many wait still. On failure the tile at hand goes on waiting, and the navmesh has
 /// the old one or, out of memory in between, none or some of its layers there.
-TL_API tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t most_tiles,
+TL_API tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t max_tiles,
                                          uint32_t *waiting_out, tl_nav_bake_report *report_out);
 
 #ifdef __cplusplus

@@ -166,23 +166,23 @@ typedef struct tl_polygon_def {
 /// The counts of one build.
 typedef struct tl_polygon_report {
     tl_report base;
-    uint32_t contour_count;          ///< contours given
-    uint32_t empty_contours;         ///< without area: fewer than three vertices, or all on one line
-    uint32_t repaired_contours;      ///< divided after a repair; named in the mesh's notes
-    uint32_t refused_contours;       ///< left out; named in the mesh's notes
-    uint32_t triangle_count;         ///< before merging
-    uint32_t lower_bound;            ///< fewest polygons that the contours, each by itself and divided along chords
-                                     ///< between its corners, could take: exact where TL_PARTITION_OPTIMAL is
-    uint32_t polygon_count;          ///< in the end
-    uint32_t vertex_count;           ///< in the end
-    uint32_t straight_vertices_gone; ///< by drop_straight_vertices
-    uint32_t contour_merges;         ///< by merge_contours: so many polygons fewer
-    uint32_t border_vertices_gone;   ///< border vertices removed
-    uint32_t border_vertices_kept;   ///< border vertices whose removal would have changed the floor's outline
-    uint32_t link_count;             ///< edges between two polygons
-    uint32_t portal_count;           ///< edges on a tile's border
-    uint32_t crowded_edges;  ///< edges along which more than one polygon runs in one direction; of both directions the
-                             ///< first are linked, then the second, as far as there are
+    uint32_t contour_count;             ///< contours given
+    uint32_t empty_contours;            ///< without area: fewer than three vertices, or all on one line
+    uint32_t repaired_contours;         ///< divided after a repair; named in the mesh's notes
+    uint32_t refused_contours;          ///< left out; named in the mesh's notes
+    uint32_t triangle_count;            ///< before merging
+    uint32_t lower_bound;               ///< fewest polygons that the contours, each by itself and divided along chords
+                                        ///< between its corners, could take: exact where TL_PARTITION_OPTIMAL is
+    uint32_t polygon_count;             ///< in the end
+    uint32_t vertex_count;              ///< in the end
+    uint32_t removed_straight_vertices; ///< by drop_straight_vertices
+    uint32_t contour_merges;            ///< by merge_contours: so many polygons fewer
+    uint32_t removed_border_vertices;   ///< border vertices removed
+    uint32_t kept_border_vertices;      ///< border vertices whose removal would have changed the floor's outline
+    uint32_t link_count;                ///< edges between two polygons
+    uint32_t portal_count;              ///< edges on a tile's border
+    uint32_t non_manifold_edges; ///< edges along which more than one polygon runs in one direction; of both directions
+                                 ///< the first are linked, then the second, as far as there are
     int64_t uncovered_area2; ///< doubled area of all contours, less that of the polygons; 0 without repairs
 } tl_polygon_report;
 
@@ -225,7 +225,7 @@ static inline tl_vec3 tl_polygon_mesh_vertex(const tl_polygon_mesh *mesh, uint32
 /// The shapes of a mesh's polygons on the xz plane.
 typedef struct tl_polygon_quality {
     uint32_t polygon_count;
-    uint32_t most_corners;
+    uint32_t max_corners;
     double mean_corners;          ///< corners a polygon
     double smallest_angle_cosine; ///< of the sharpest corner: its cosine; -1 without polygons
     double mean_sharpest_cosine;  ///< of each polygon's sharpest corner, the mean of the cosines

@@ -282,7 +282,7 @@ static void mark_volumes(window *w)
 {
     const tl_nav_input *input = w->question->input;
     for (uint32_t i = 0; i < input->volume_count; i++) {
-        tl_nav_mark_volume(&w->compact, &input->volumes[i]);
+        tl_nav_mark_volume_area(&w->compact, &input->volumes[i]);
     }
     const uint32_t at = find_open_floor(&w->compact, w->x, w->z, w->top);
     if (w->compact.area[at] == TL_NAV_NULL_AREA) {
@@ -327,7 +327,7 @@ static tl_result measure_island(const tl_nav_compact *compact, uint32_t from, co
     while (size < end) {
         const uint32_t at = waiting[size++];
         for (uint32_t direction = 0; direction < 4; direction++) {
-            const uint32_t next = tl_nav_beside(compact, at, direction);
+            const uint32_t next = tl_nav_compact_neighbour(compact, at, direction);
             if (next != TL_NAV_NO_SPAN && !seen[next] && compact->area[next] != TL_NAV_NULL_AREA) {
                 seen[next] = 1;
                 waiting[end++] = next;

@@ -452,7 +452,7 @@ static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl
     }
 }
 
-tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_remade_tile *remade_out,
+tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *remade_out,
                                      tl_nav_bake_report *report_out)
 {
     tl_nav_obstacles *o = obstacles;
@@ -478,14 +478,14 @@ tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_remade_
     return TL_OK;
 }
 
-tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t most_tiles,
+tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t max_tiles,
                                   uint32_t *waiting_out, tl_nav_bake_report *report_out)
 {
     tl_nav_obstacles *o = obstacles;
     tl_result result = TL_OK;
-    for (uint32_t i = 0; i < most_tiles && result == TL_OK && o->first_waiting != NONE; i++) {
+    for (uint32_t i = 0; i < max_tiles && result == TL_OK && o->first_waiting != NONE; i++) {
         const uint32_t index = o->first_waiting;
-        tl_nav_remade_tile remade;
+        tl_nav_rebaked_tile remade;
         result = tl_nav_obstacles_bake_next(o, &remade, report_out);
         if (result != TL_OK) {
             break;

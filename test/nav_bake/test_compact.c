@@ -73,7 +73,7 @@ static void agrees_with_the_definition(void **state)
                 TEST_CHECK(compact.floor[at] == field.spans[i].max && compact.area[at] == field.spans[i].area);
                 TEST_CHECK(compact.clearance[at] == (top ? 0xffff : field.spans[i + 1].min - field.spans[i].max));
                 for (uint32_t d = 0; d < 4; d++) {
-                    TEST_CHECK(tl_nav_beside(&compact, at, d) == expected[4 * at + d]);
+                    TEST_CHECK(tl_nav_compact_neighbour(&compact, at, d) == expected[4 * at + d]);
                     linked += expected[4 * at + d] != TL_NAV_NO_SPAN;
                     unlinked += expected[4 * at + d] == TL_NAV_NO_SPAN;
                 }

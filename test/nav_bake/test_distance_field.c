@@ -10,7 +10,7 @@
 static bool twin_is_border(const tl_nav_compact *compact, uint32_t i)
 {
     for (uint32_t d = 0; d < 4; d++) {
-        uint32_t beside = tl_nav_beside(compact, i, d);
+        uint32_t beside = tl_nav_compact_neighbour(compact, i, d);
         if (beside == TL_NAV_NO_SPAN || compact->area[beside] != compact->area[i]) {
             return true;
         }
@@ -30,8 +30,8 @@ static void twin_distance(const tl_nav_compact *compact, uint32_t *distance)
         changed = false;
         for (uint32_t i = 0; i < compact->span_count; i++) {
             for (uint32_t d = 0; distance[i] != 0 && d < 4; d++) {
-                uint32_t beside = tl_nav_beside(compact, i, d);
-                uint32_t diagonal = tl_nav_beside(compact, beside, corner_of[d]);
+                uint32_t beside = tl_nav_compact_neighbour(compact, i, d);
+                uint32_t diagonal = tl_nav_compact_neighbour(compact, beside, corner_of[d]);
                 uint32_t best = distance[beside] + 2;
                 if (diagonal != TL_NAV_NO_SPAN && distance[diagonal] + 3 < best) {
                     best = distance[diagonal] + 3;
@@ -53,8 +53,8 @@ static uint32_t twin_blur(const tl_nav_compact *compact, const uint32_t *distanc
     }
     uint32_t sum = own;
     for (uint32_t d = 0; d < 4; d++) {
-        uint32_t beside = tl_nav_beside(compact, i, d);
-        uint32_t diagonal = tl_nav_beside(compact, beside, ((d + 1) & 3));
+        uint32_t beside = tl_nav_compact_neighbour(compact, i, d);
+        uint32_t diagonal = tl_nav_compact_neighbour(compact, beside, ((d + 1) & 3));
         sum += distance[beside] + (diagonal == TL_NAV_NO_SPAN ? own : distance[diagonal]);
     }
     return (sum + 5) / 9;

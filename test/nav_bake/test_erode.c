@@ -84,7 +84,7 @@ static void one_layer_is_eroded_exactly(void **state)
 
 static uint32_t beside(const tl_nav_compact *compact, uint32_t i, uint32_t direction)
 {
-    return i == TL_NAV_NO_SPAN ? i : tl_nav_beside(compact, i, direction);
+    return i == TL_NAV_NO_SPAN ? i : tl_nav_compact_neighbour(compact, i, direction);
 }
 
 static void relax(const int *distance, uint32_t from, int step, int *nearest)

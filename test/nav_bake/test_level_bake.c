@@ -94,7 +94,7 @@ static void count_links(const tl_nav_compact *compact, uint32_t side, seam *out)
         uint32_t z = side == 3 ? border : side == 1 ? border + size - 1 : border + i;
         uint32_t column = z * compact->width + x;
         for (uint32_t f = compact->first_span[column]; f < compact->first_span[column + 1]; f++) {
-            uint32_t beside = tl_nav_beside(compact, f, side);
+            uint32_t beside = tl_nav_compact_neighbour(compact, f, side);
             bool link = beside != TL_NAV_NO_SPAN && compact->area[f] != 0 && compact->area[beside] != 0;
             out->links[i] += link;
             out->link_sum += link;

@@ -73,7 +73,7 @@ static void boxes(void **state)
         tl_vec3 a = random_point(&random), b = random_point(&random);
         tl_aabb box = { tl_min(a, b), tl_max(a, b) };
         uint8_t area = (uint8_t)(round % 3 == 0 ? 0 : 7);
-        tl_nav_mark_box(&compact, box, area);
+        tl_nav_mark_box_area(&compact, box, area);
         compare(&compact, area, in_box, &box, &marked, &spared);
         tl_nav_compact_free(&compact);
     }
@@ -102,7 +102,7 @@ static void cylinders(void **state)
         tl_nav_compact compact = random_compact(&random);
         cylinder c = { random_point(&random), (float)test_random_below(&random, 50) / 8,
                        (float)test_random_below(&random, 50) / 8 };
-        tl_nav_mark_cylinder(&compact, c.base, c.radius, c.height, 9);
+        tl_nav_mark_cylinder_area(&compact, c.base, c.radius, c.height, 9);
         compare(&compact, 9, in_cylinder, &c, &marked, &spared);
         tl_nav_compact_free(&compact);
     }
@@ -152,7 +152,7 @@ static void polygons(void **state)
         }
         shape.min_y = middle.y - 1;
         shape.max_y = middle.y + 2;
-        tl_nav_mark_polygon(&compact, shape.points, shape.count, shape.min_y, shape.max_y, 3);
+        tl_nav_mark_polygon_area(&compact, shape.points, shape.count, shape.min_y, shape.max_y, 3);
         compare(&compact, 3, in_polygon, &shape, &marked, &spared);
         tl_nav_compact_free(&compact);
     }
@@ -172,7 +172,7 @@ static void neighbours_share_nothing(void **state)
         tl_vec3 triangle[3] = { corners[k], corners[(k + 1) % 4], middle };
         uint8_t *before = malloc(compact.span_count);
         memcpy(before, compact.area, compact.span_count);
-        tl_nav_mark_polygon(&compact, triangle, 3, 0, 1000, (uint8_t)(k + 1));
+        tl_nav_mark_polygon_area(&compact, triangle, 3, 0, 1000, (uint8_t)(k + 1));
         for (uint32_t i = 0; i < compact.span_count; i++) {
             TEST_CHECK(before[i] == compact.area[i] || before[i] == 40);
         }
@@ -199,18 +199,18 @@ static void nonsense_marks_nothing(void **state)
     test_random random = { 25 };
     tl_nav_compact compact = random_compact(&random);
     tl_aabb box = { { NAN, 0, -1e9f }, { 1e9f, 100, 1e9f } };
-    tl_nav_mark_box(&compact, box, 1);
-    tl_nav_mark_box(&compact, tl_aabb_empty(), 1);
-    tl_nav_mark_cylinder(&compact, center_of(30, 0), NAN, 10, 1);
-    tl_nav_mark_cylinder(&compact, center_of(30, 0), -1, 10, 1);
+    tl_nav_mark_box_area(&compact, box, 1);
+    tl_nav_mark_box_area(&compact, tl_aabb_empty(), 1);
+    tl_nav_mark_cylinder_area(&compact, center_of(30, 0), NAN, 10, 1);
+    tl_nav_mark_cylinder_area(&compact, center_of(30, 0), -1, 10, 1);
     tl_vec3 points[3] = { { 0, 0, 0 }, { 1e9f, 0, 0 }, { INFINITY, 0, 1e9f } };
-    tl_nav_mark_polygon(&compact, points, 2, 0, 1000, 1);
+    tl_nav_mark_polygon_area(&compact, points, 2, 0, 1000, 1);
     uint32_t marked = 0, spared = 0;
     tl_aabb none = tl_aabb_empty();
     compare(&compact, 1, in_box, &none, &marked, &spared);
     TEST_CHECK(marked == 0 && spared > 100);
     box = (tl_aabb){ { -1e12f, -1e12f, -1e12f }, { 1e12f, 1e12f, 1e12f } };
-    tl_nav_mark_box(&compact, box, 1);
+    tl_nav_mark_box_area(&compact, box, 1);
     compare(&compact, 1, in_box, &box, &marked, &spared);
     TEST_CHECK(marked > 100);
     tl_nav_compact_free(&compact);

@@ -11,13 +11,13 @@ static void each_triangle_has_its_materials_area(void **state)
     const uint8_t material_areas[3] = { 7, 0, 255 };
     uint8_t areas[5];
     tl_mesh_view mesh = { NULL, 0, NULL, 5, materials };
-    tl_nav_areas_of_materials(&mesh, material_areas, 3, areas);
+    tl_nav_areas_from_materials(&mesh, material_areas, 3, areas);
     const uint8_t expected[5] = { 7, 255, 0, TL_NAV_WALKABLE_AREA, TL_NAV_WALKABLE_AREA };
     TEST_CHECK(memcmp(areas, expected, sizeof areas) == 0);
     mesh.materials = NULL; // all material 0
-    tl_nav_areas_of_materials(&mesh, material_areas, 3, areas);
+    tl_nav_areas_from_materials(&mesh, material_areas, 3, areas);
     TEST_CHECK(areas[0] == 7 && areas[4] == 7);
-    tl_nav_areas_of_materials(&mesh, NULL, 0, areas);
+    tl_nav_areas_from_materials(&mesh, NULL, 0, areas);
     TEST_CHECK(areas[0] == TL_NAV_WALKABLE_AREA && areas[4] == TL_NAV_WALKABLE_AREA);
 }
 
@@ -36,7 +36,7 @@ static double area_of_road(uint8_t floor_area, uint8_t road_area, float road_hei
     level.mesh.materials = materials;
     const uint8_t material_areas[2] = { floor_area, road_area };
     uint8_t areas[4];
-    tl_nav_areas_of_materials(&level.mesh, material_areas, 2, areas);
+    tl_nav_areas_from_materials(&level.mesh, material_areas, 2, areas);
     tl_nav_def def = tl_default_nav_def();
     def.cell_size = 0.25f;
     def.cell_height = 0.25f;

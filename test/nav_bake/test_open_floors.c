@@ -49,7 +49,7 @@ static bool same_compact(const tl_nav_compact *a, const tl_nav_compact *b)
                 memcmp(a->area, b->area, count) == 0;
     for (uint32_t i = 0; same && i < count; i++) {
         for (uint32_t d = 0; d < 4; d++) {
-            same = same && tl_nav_beside(a, i, d) == tl_nav_beside(b, i, d);
+            same = same && tl_nav_compact_neighbour(a, i, d) == tl_nav_compact_neighbour(b, i, d);
         }
     }
     return same;
@@ -83,7 +83,7 @@ static void agrees_with_the_filters(void **state)
         const bool high = round % 5 == 0;
         tl_nav_heightfield field = random_field(&random, &config, round % 50 == 0 ? 300 : 1 + round % 4, high);
         tl_nav_compact swept, expected;
-        TEST_RESULT(tl_nav_open_floors(&config, &field, NULL, &swept, NULL), TL_OK);
+        TEST_RESULT(tl_nav_filter_and_compact(&config, &field, NULL, &swept, NULL), TL_OK);
         filter_one_by_one(&config, &field);
         TEST_RESULT(tl_nav_bake_compact(&config, &field, NULL, &expected, NULL), TL_OK);
         if (!same_compact(&swept, &expected)) {
@@ -124,10 +124,10 @@ static void wide_fields_have_indices(void **state)
         TEST_CHECK(compact.span_count == field.span_count && (compact.step != NULL) == (k == 0));
         for (uint32_t i = 0; i < compact.span_count; i++) {
             const uint32_t x = i % config.width, z = i / config.width;
-            TEST_CHECK(tl_nav_beside(&compact, i, 0) == (x > 0 ? i - 1 : TL_NAV_NO_SPAN));
-            TEST_CHECK(tl_nav_beside(&compact, i, 1) == (z < 2 ? i + config.width : TL_NAV_NO_SPAN));
-            TEST_CHECK(tl_nav_beside(&compact, i, 2) == (x + 1 < config.width ? i + 1 : TL_NAV_NO_SPAN));
-            TEST_CHECK(tl_nav_beside(&compact, i, 3) == (z > 0 ? i - config.width : TL_NAV_NO_SPAN));
+            TEST_CHECK(tl_nav_compact_neighbour(&compact, i, 0) == (x > 0 ? i - 1 : TL_NAV_NO_SPAN));
+            TEST_CHECK(tl_nav_compact_neighbour(&compact, i, 1) == (z < 2 ? i + config.width : TL_NAV_NO_SPAN));
+            TEST_CHECK(tl_nav_compact_neighbour(&compact, i, 2) == (x + 1 < config.width ? i + 1 : TL_NAV_NO_SPAN));
+            TEST_CHECK(tl_nav_compact_neighbour(&compact, i, 3) == (z > 0 ? i - config.width : TL_NAV_NO_SPAN));
         }
         tl_nav_compact_free(&compact);
         tl_nav_heightfield_free(&field);
@@ -159,7 +159,7 @@ static void bands_agree_with_the_heightfield(void **state)
         tl_nav_compact from_triangles, from_field;
         uint64_t span_count = 0;
         TEST_RESULT(tl_nav_rasterize(&config, &mesh, NULL, NULL, &field, NULL), TL_OK);
-        TEST_RESULT(tl_nav_open_floors(&config, &field, NULL, &from_field, NULL), TL_OK);
+        TEST_RESULT(tl_nav_filter_and_compact(&config, &field, NULL, &from_field, NULL), TL_OK);
         TEST_RESULT(tl_nav_open_triangles(&config, &mesh, NULL, all, &host, &from_triangles, &span_count, NULL), TL_OK);
         TEST_CHECK(span_count == field.span_count && same_compact(&from_triangles, &from_field));
         bands += config.width * config.height > 20000;

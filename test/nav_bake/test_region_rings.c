@@ -48,7 +48,7 @@ static void against_scan(void **state)
         uint8_t *touches = calloc((size_t)count * count, 1), *named = calloc((size_t)count * count, 1);
         for (uint32_t i = 0; i < compact.span_count; i++) {
             for (uint32_t d = 0; region[i] != 0 && d < 4; d++) {
-                uint32_t beside = tl_nav_beside(&compact, i, d);
+                uint32_t beside = tl_nav_compact_neighbour(&compact, i, d);
                 touches[(size_t)region[i] * count + (beside != TL_NAV_NO_SPAN ? region[beside] : 0)] = 1;
             }
         }

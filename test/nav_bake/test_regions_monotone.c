@@ -41,7 +41,7 @@ static void one_run_a_row(void **state)
         for (uint32_t c = 0; c < compact.width * compact.height; c++) {
             uint32_t row = 1 + c / compact.width;
             for (uint32_t i = compact.first_span[c]; i < compact.first_span[c + 1]; i++) {
-                uint32_t r = work.region[i], left = tl_nav_beside(&compact, i, 0);
+                uint32_t r = work.region[i], left = tl_nav_compact_neighbour(&compact, i, 0);
                 if (compact.area[i] != TL_NAV_NULL_AREA && r < work.region_count) {
                     TEST_CHECK(r != 0); // every inner walkable floor has one
                     bool run_begins = left == TL_NAV_NO_SPAN || work.region[left] != r;

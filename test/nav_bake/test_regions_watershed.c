@@ -38,7 +38,7 @@ static bool twin_step(twin *t, uint32_t level)
         }
         uint32_t best = UINT32_MAX;
         for (uint32_t d = 0; d < 4; d++) {
-            uint32_t beside = tl_nav_beside(t->compact, i, d);
+            uint32_t beside = tl_nav_compact_neighbour(t->compact, i, d);
             if (twin_same_area(t, i, beside) && twin_is_region(t->region[beside]) && t->reach[beside] < best) {
                 best = t->reach[beside];
                 t->next_region[i] = t->region[beside];
@@ -55,11 +55,11 @@ static bool twin_step(twin *t, uint32_t level)
 static bool twin_meets_other(const twin *t, uint32_t i, uint32_t own)
 {
     for (uint32_t d = 0; d < 4; d++) {
-        uint32_t beside = tl_nav_beside(t->compact, i, d);
+        uint32_t beside = tl_nav_compact_neighbour(t->compact, i, d);
         if (!twin_same_area(t, i, beside) || (t->region[beside] & TL_NAV_BORDER_REGION) != 0) {
             continue;
         }
-        uint32_t diagonal = tl_nav_beside(t->compact, beside, ((d + 1) & 3));
+        uint32_t diagonal = tl_nav_compact_neighbour(t->compact, beside, ((d + 1) & 3));
         uint32_t straight = t->region[beside], corner = twin_same_area(t, i, diagonal) ? t->region[diagonal] : 0;
         if ((twin_is_region(straight) && straight != own) || (twin_is_region(corner) && corner != own)) {
             return true;
@@ -83,7 +83,7 @@ static uint32_t twin_flood(twin *t, uint32_t seed, uint32_t level)
         }
         taken++;
         for (uint32_t d = 0; d < 4; d++) {
-            uint32_t beside = tl_nav_beside(t->compact, i, d);
+            uint32_t beside = tl_nav_compact_neighbour(t->compact, i, d);
             if (twin_same_area(t, i, beside) && t->region[beside] == 0 && t->compact->distance[beside] >= level) {
                 t->region[beside] = own;
                 t->reach[beside] = 0;

@@ -132,7 +132,7 @@ static void settle(editor *e)
 {
     shared_world *world = e->world;
     while (tl_nav_obstacles_waiting(e->obstacles) > 0) {
-        tl_nav_remade_tile remade;
+        tl_nav_rebaked_tile remade;
         TEST_RESULT(tl_nav_obstacles_bake_next(e->obstacles, &remade, NULL), TL_OK);
         begin_write(world);
         TEST_RESULT(tl_navmesh_replace_tiles(world->navmesh, remade.tile_x, remade.tile_z, &remade.stack), TL_OK);

@@ -438,7 +438,7 @@ static void test_refusals(void **state)
     far_away.base.x = 1e6f;
     TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &far_away, &id), TL_OK);
     TEST_CHECK(tl_nav_obstacles_count(w.obstacles) == 1 && tl_nav_obstacles_waiting(w.obstacles) == 0);
-    tl_nav_remade_tile remade;
+    tl_nav_rebaked_tile remade;
     TEST_RESULT(tl_nav_obstacles_bake_next(w.obstacles, &remade, NULL), TL_NOT_FOUND);
     tl_nav_bake_report report;
     tl_nav_obstacles *none;
@@ -516,7 +516,7 @@ static void test_out_of_memory(void **state)
     while (tl_nav_obstacles_waiting(obstacles) > 0) {
         uint32_t waiting = tl_nav_obstacles_waiting(obstacles);
         for (uint64_t k = 1;; k++) {
-            tl_nav_remade_tile remade;
+            tl_nav_rebaked_tile remade;
             counting.calls = 0;
             counting.fail_at = k;
             uint64_t blocks = counting.live_blocks;

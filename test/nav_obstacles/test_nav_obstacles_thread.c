@@ -97,7 +97,7 @@ static void *read_paths(void *user)
 static void settle(tl_nav_obstacles *obstacles, shared_world *world)
 {
     while (tl_nav_obstacles_waiting(obstacles) > 0) {
-        tl_nav_remade_tile remade;
+        tl_nav_rebaked_tile remade;
         TEST_RESULT(tl_nav_obstacles_bake_next(obstacles, &remade, NULL), TL_OK);
         atomic_store(&world->writer_waits, true);
         pthread_rwlock_wrlock(&world->lock);

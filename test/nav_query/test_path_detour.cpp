@@ -164,7 +164,7 @@ class floor_flood
             uint32_t at = open.back();
             open.pop_back();
             for (uint32_t d = 0; d < 4; d++) {
-                uint32_t beside = tl_nav_beside(&compact, at, d);
+                uint32_t beside = tl_nav_compact_neighbour(&compact, at, d);
                 if (beside != TL_NAV_NO_SPAN && is_walkable(beside) && islands[beside] == 0) {
                     islands[beside] = island;
                     open.push_back(beside);

@@ -34,7 +34,7 @@ static void border_vertices_go_where_the_border_is_straight(void **state)
     tl_polygon_report report;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, &set);
-    TEST_CHECK(report.border_vertices_gone == 1 && report.border_vertices_kept == 0 && mesh.vertex_count == 5);
+    TEST_CHECK(report.removed_border_vertices == 1 && report.kept_border_vertices == 0 && mesh.vertex_count == 5);
     TEST_CHECK(report.portal_count == 3); // x == 0 is one edge now, z == 0 and z == 8
     uint32_t sides[4] = { 0, 0, 0, 0 };
     for (uint32_t k = 0; k < mesh.index_count; k++) {
@@ -51,19 +51,19 @@ static void border_vertices_go_where_the_border_is_straight(void **state)
     def.keep_border_vertices = true;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, &set);
-    TEST_CHECK(mesh.vertex_count == 6 && mesh.polygon_count == 2 && report.border_vertices_kept == 0);
+    TEST_CHECK(mesh.vertex_count == 6 && mesh.polygon_count == 2 && report.kept_border_vertices == 0);
     tl_polygon_mesh_free(&mesh);
     def.keep_border_vertices = false;
     // A border that bends there keeps its vertex, and so do regions of different areas.
     contours[1].area = 1;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
-    TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
+    TEST_CHECK(report.removed_border_vertices == 0 && report.kept_border_vertices == 1);
     tl_polygon_mesh_free(&mesh);
     contours[1].area = 63;
     corners[1].x = corners[4].x = 1;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
     shape_check_mesh(&mesh, &set);
-    TEST_CHECK(report.border_vertices_gone == 0 && report.border_vertices_kept == 1);
+    TEST_CHECK(report.removed_border_vertices == 0 && report.kept_border_vertices == 1);
     tl_polygon_mesh_free(&mesh);
 }
 
@@ -101,7 +101,7 @@ static void border_vertices_go_one_after_another(void **state)
         tl_polygon_report report;
         TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
         shape_check_mesh(&mesh, &set);
-        TEST_CHECK(report.border_vertices_gone == STRIPS - 1 && report.portal_count == 3);
+        TEST_CHECK(report.removed_border_vertices == STRIPS - 1 && report.portal_count == 3);
         tl_polygon_mesh_free(&mesh);
     }
 }
@@ -154,8 +154,8 @@ static void random_tiles_keep_their_floor(void **state)
         tl_polygon_report report;
         TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_OK);
         shape_check_mesh(&mesh, &set);
-        gone += report.border_vertices_gone;
-        kept += report.border_vertices_kept;
+        gone += report.removed_border_vertices;
+        kept += report.kept_border_vertices;
         for (uint32_t p = 0; p < mesh.polygon_count; p++) {
             mixed += mesh.regions[p] == TL_SEVERAL_REGIONS;
         }

@@ -270,8 +270,8 @@ static void passes_over_border_vertices(void **state)
             tl_polygon_report report;
             TEST_RESULT(tl_polygon_mesh_bake(&set, NULL, &mesh, &report), TL_OK);
             TEST_RESULT(tl_polygon_mesh_check(&mesh, &set, NULL, NULL), TL_OK);
-            gone += report.border_vertices_gone;
-            kept += report.border_vertices_kept;
+            gone += report.removed_border_vertices;
+            kept += report.kept_border_vertices;
             tl_polygon_mesh_free(&mesh);
         }
     }

@@ -27,11 +27,11 @@ static void known_shapes(void **state)
     const oracle_point box[4] = { { 0, 0 }, { 12, 0 }, { 12, 3 }, { 0, 3 } };
     memcpy(points, box, sizeof box);
     tl_polygon_quality q = measure(4, 6);
-    TEST_CHECK(q.polygon_count == 1 && q.most_corners == 4 && q.mean_corners == 4.0);
+    TEST_CHECK(q.polygon_count == 1 && q.max_corners == 4 && q.mean_corners == 4.0);
     TEST_CHECK(q.smallest_angle_cosine == 0.0 && q.mean_aspect == 4.0 && q.worst_aspect == 4.0);
     memcpy(points, box, sizeof box);
     q = measure(4, 3);
-    TEST_CHECK(q.polygon_count == 2 && q.most_corners == 3);
+    TEST_CHECK(q.polygon_count == 2 && q.max_corners == 3);
     // The sharp corners of both halves: 12 / sqrt(153).
     TEST_CHECK(fabs(q.smallest_angle_cosine - 12.0 / sqrt(153.0)) < 1e-12);
     TEST_CHECK(fabs(q.mean_sharpest_cosine - q.smallest_angle_cosine) < 1e-12);

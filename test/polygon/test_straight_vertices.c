@@ -41,13 +41,13 @@ static void only_vertices_without_a_neighbour_go(void **state)
     set.cell_size = set.cell_height = 1.0f;
     uint32_t polygons;
     tl_polygon_report report = build(&set, true, &polygons);
-    TEST_CHECK(report.straight_vertices_gone == 1 && report.link_count == 4 && report.vertex_count == 7);
-    TEST_CHECK(build(&set, false, &polygons).straight_vertices_gone == 0);
+    TEST_CHECK(report.removed_straight_vertices == 1 && report.link_count == 4 && report.vertex_count == 7);
+    TEST_CHECK(build(&set, false, &polygons).removed_straight_vertices == 0);
     // On a tile's border the neighbour is out of sight.
     set.border_size = 1;
     set.width = 8;
     set.height = 4;
-    TEST_CHECK(build(&set, true, &polygons).straight_vertices_gone == 0);
+    TEST_CHECK(build(&set, true, &polygons).removed_straight_vertices == 0);
 }
 
 // A triangle whose contour runs to (2, 0) and back, twice: no polygon has that vertex, and nothing is missing.
@@ -86,9 +86,9 @@ static void fewer_polygons_cover_the_same_floor(void **state)
         build(&set, false, &before);
         tl_polygon_report report = build(&set, true, &after);
         TEST_CHECK(round % 2 != 0 || report.uncovered_area2 == 0 || report.repaired_contours == 1);
-        gone += report.straight_vertices_gone;
+        gone += report.removed_straight_vertices;
         fewer += after < before;
-        kept_all += report.straight_vertices_gone == 0;
+        kept_all += report.removed_straight_vertices == 0;
     }
     TEST_CHECK(fewer > 150 && gone > 1000 && kept_all > 50);
 }

@@ -28,7 +28,7 @@ static inline uint32_t region_part_size(const tl_nav_compact *compact, const uin
     while (head < tail) {
         uint32_t i = queue[head++];
         for (uint32_t d = 0; d < 4; d++) {
-            uint32_t beside = tl_nav_beside(compact, i, d);
+            uint32_t beside = tl_nav_compact_neighbour(compact, i, d);
             if (beside != TL_NAV_NO_SPAN && !seen[beside] && region[beside] == region[seed]) {
                 seen[beside] = 1;
                 queue[tail++] = beside;
@@ -96,7 +96,7 @@ static inline uint32_t check_islands(const tl_nav_compact *compact, uint32_t min
         bool at_border = false;
         for (uint32_t k = 0; k < size; k++) {
             for (uint32_t d = 0; d < 4; d++) {
-                uint32_t beside = tl_nav_beside(compact, queue[k], d);
+                uint32_t beside = tl_nav_compact_neighbour(compact, queue[k], d);
                 at_border |= beside != TL_NAV_NO_SPAN && kind[beside] == 2;
             }
         }

@@ -157,12 +157,13 @@ typedef struct corner {
 static corner find_corner(const tl_nav_compact *compact, uint32_t floor, uint32_t direction)
 {
     uint32_t turned = (direction + 1) & 3;
-    corner c = { { floor, tl_nav_beside(compact, floor, direction), TL_NAV_NO_SPAN,
-                   tl_nav_beside(compact, floor, turned) },
+    corner c = { { floor, tl_nav_compact_neighbour(compact, floor, direction), TL_NAV_NO_SPAN,
+                   tl_nav_compact_neighbour(compact, floor, turned) },
                  compact->floor[floor] };
-    uint32_t first_way = c.floors[1] != TL_NAV_NO_SPAN ? tl_nav_beside(compact, c.floors[1], turned) : TL_NAV_NO_SPAN;
+    uint32_t first_way =
+        c.floors[1] != TL_NAV_NO_SPAN ? tl_nav_compact_neighbour(compact, c.floors[1], turned) : TL_NAV_NO_SPAN;
     uint32_t other_way =
-        c.floors[3] != TL_NAV_NO_SPAN ? tl_nav_beside(compact, c.floors[3], direction) : TL_NAV_NO_SPAN;
+        c.floors[3] != TL_NAV_NO_SPAN ? tl_nav_compact_neighbour(compact, c.floors[3], direction) : TL_NAV_NO_SPAN;
     c.floors[2] = other_way != TL_NAV_NO_SPAN ? other_way : first_way;
     const uint32_t seen[4] = { c.floors[1], first_way, c.floors[3], other_way };
     for (int k = 0; k < 4; k++) {
@@ -231,7 +232,7 @@ static void emit_edge(tracer *t, uint32_t vertex, uint32_t floor, uint32_t direc
 {
     tl_contour_work *work = t->work;
     const tl_nav_compact *compact = work->compact;
-    uint32_t beside = tl_nav_beside(compact, floor, direction);
+    uint32_t beside = tl_nav_compact_neighbour(compact, floor, direction);
     uint32_t across = beside != TL_NAV_NO_SPAN ? compact->region[beside] : 0;
     bool area_border = beside != TL_NAV_NO_SPAN && compact->area[beside] != compact->area[floor];
     work->across[vertex] = across;
@@ -310,7 +311,7 @@ static tl_result walk_loop(tracer *t, uint32_t start, uint32_t start_x, uint32_t
             emit_edge(t, work->vertex_count++, floor, direction, x, z);
             direction = (direction + 1) & 3;
         } else {
-            floor = tl_nav_beside(work->compact, floor, direction);
+            floor = tl_nav_compact_neighbour(work->compact, floor, direction);
             x += (direction == 2) - (uint32_t)(direction == 0);
             z += (direction == 1) - (uint32_t)(direction == 3);
             direction = (direction + 3) & 3;

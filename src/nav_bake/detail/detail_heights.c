@@ -103,10 +103,10 @@ static void walk_towards(const tl_nav_compact *compact, found_floor *at, int64_t
         int64_t dx = x - at->x, dz = z - at->z;
         uint32_t along_x = dx < 0 ? 0 : 2, along_z = dz < 0 ? 3 : 1;
         uint32_t first = (x_first && dx != 0) || dz == 0 ? along_x : along_z, direction = first;
-        uint32_t next = tl_nav_beside(compact, at->span, direction);
+        uint32_t next = tl_nav_compact_neighbour(compact, at->span, direction);
         if (next == TL_NAV_NO_SPAN && dx != 0 && dz != 0) {
             direction = first == along_x ? along_z : along_x;
-            next = tl_nav_beside(compact, at->span, direction);
+            next = tl_nav_compact_neighbour(compact, at->span, direction);
         }
         if (next == TL_NAV_NO_SPAN) {
             break;
@@ -141,10 +141,10 @@ static void walk_straight(const tl_nav_compact *compact, found_floor *at, int64_
     while (left_x > 0 || left_z > 0) {
         // The axis along which more of its own way is left; the other one when there is no link.
         bool along_x = left_z == 0 || (left_x != 0 && left_x * length_z >= left_z * length_x);
-        uint32_t next = tl_nav_beside(compact, at->span, along_x ? toward_x : toward_z);
+        uint32_t next = tl_nav_compact_neighbour(compact, at->span, along_x ? toward_x : toward_z);
         if (next == TL_NAV_NO_SPAN && left_x > 0 && left_z > 0) {
             along_x = !along_x;
-            next = tl_nav_beside(compact, at->span, along_x ? toward_x : toward_z);
+            next = tl_nav_compact_neighbour(compact, at->span, along_x ? toward_x : toward_z);
         }
         if (next == TL_NAV_NO_SPAN) {
             break;

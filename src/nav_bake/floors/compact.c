@@ -213,8 +213,8 @@ tl_result tl_nav_open_triangles(const tl_nav_config *config, const tl_mesh_view 
     return finish(&job, result, report);
 }
 
-tl_result tl_nav_open_floors(const tl_nav_config *config, const tl_nav_heightfield *heightfield, const tl_host *host,
-                             tl_nav_compact *compact_out, tl_report *report_out)
+tl_result tl_nav_filter_and_compact(const tl_nav_config *config, const tl_nav_heightfield *heightfield,
+                                    const tl_host *host, tl_nav_compact *compact_out, tl_report *report_out)
 {
     const tl_nav_heightfield *field = heightfield;
     TL_ASSERT(config->width == field->width && config->height == field->height);
@@ -236,7 +236,7 @@ tl_result tl_nav_bake_compact(const tl_nav_config *config, const tl_nav_heightfi
     as_it_is.filter_low_hanging_obstacles = false;
     as_it_is.filter_ledge_spans = false;
     as_it_is.filter_walkable_low_height_spans = false;
-    return tl_nav_open_floors(&as_it_is, heightfield, host, compact_out, report_out);
+    return tl_nav_filter_and_compact(&as_it_is, heightfield, host, compact_out, report_out);
 }
 
 void tl_nav_compact_free(tl_nav_compact *compact)

@@ -40,7 +40,7 @@ static inline uint32_t nearest_over(const tl_nav_compact *compact, const uint16_
                                     uint32_t turn, uint32_t nearest)
 {
     nearest = min_of(nearest, (uint32_t)distance[beside] + STRAIGHT);
-    const uint32_t across = tl_nav_beside(compact, beside, turn);
+    const uint32_t across = tl_nav_compact_neighbour(compact, beside, turn);
     return across != TL_NAV_NO_SPAN ? min_of(nearest, (uint32_t)distance[across] + DIAGONAL) : nearest;
 }
 
@@ -64,8 +64,8 @@ static void sweep_backward(tl_nav_compact *compact, uint32_t limit, uint16_t *di
     for (uint32_t i = compact->span_count; i-- > 0;) {
         uint32_t nearest = distance[i];
         if (nearest > 0) {
-            nearest = nearest_over(compact, distance, tl_nav_beside(compact, i, 2), 1, nearest);
-            nearest = nearest_over(compact, distance, tl_nav_beside(compact, i, 1), 0, nearest);
+            nearest = nearest_over(compact, distance, tl_nav_compact_neighbour(compact, i, 2), 1, nearest);
+            nearest = nearest_over(compact, distance, tl_nav_compact_neighbour(compact, i, 1), 0, nearest);
             distance[i] = (uint16_t)nearest;
         }
         compact->area[i] = nearest < limit ? TL_NAV_NULL_AREA : compact->area[i];

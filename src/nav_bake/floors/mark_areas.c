@@ -66,7 +66,7 @@ static void mark_column(tl_nav_compact *compact, uint32_t x, uint32_t z, const m
     }
 }
 
-void tl_nav_mark_box(tl_nav_compact *compact, tl_aabb box, uint8_t area)
+void tl_nav_mark_box_area(tl_nav_compact *compact, tl_aabb box, uint8_t area)
 {
     const mark_window window = window_of(compact, box);
     for (uint32_t z = window.first_z; z < window.end_z; z++) {
@@ -91,8 +91,8 @@ static bool polygon_holds(const tl_vec3 *points, uint32_t count, double x, doubl
     return inside;
 }
 
-void tl_nav_mark_polygon(tl_nav_compact *compact, const tl_vec3 *points, uint32_t count, float min_y, float max_y,
-                         uint8_t area)
+void tl_nav_mark_polygon_area(tl_nav_compact *compact, const tl_vec3 *points, uint32_t count, float min_y, float max_y,
+                              uint8_t area)
 {
     if (count < 3) {
         return;
@@ -113,7 +113,7 @@ void tl_nav_mark_polygon(tl_nav_compact *compact, const tl_vec3 *points, uint32_
     }
 }
 
-void tl_nav_mark_cylinder(tl_nav_compact *compact, tl_vec3 base, float radius, float height, uint8_t area)
+void tl_nav_mark_cylinder_area(tl_nav_compact *compact, tl_vec3 base, float radius, float height, uint8_t area)
 {
     if (!(radius > 0.0f && height >= 0.0f)) {
         return;
@@ -133,18 +133,18 @@ void tl_nav_mark_cylinder(tl_nav_compact *compact, tl_vec3 base, float radius, f
     }
 }
 
-void tl_nav_mark_volume(tl_nav_compact *compact, const tl_nav_volume *volume)
+void tl_nav_mark_volume_area(tl_nav_compact *compact, const tl_nav_volume *volume)
 {
     switch (volume->kind) {
     case TL_NAV_VOLUME_BOX:
-        tl_nav_mark_box(compact, volume->box, volume->area);
+        tl_nav_mark_box_area(compact, volume->box, volume->area);
         break;
     case TL_NAV_VOLUME_POLYGON:
-        tl_nav_mark_polygon(compact, volume->points, volume->point_count, volume->box.min.y, volume->box.max.y,
-                            volume->area);
+        tl_nav_mark_polygon_area(compact, volume->points, volume->point_count, volume->box.min.y, volume->box.max.y,
+                                 volume->area);
         break;
     case TL_NAV_VOLUME_CYLINDER:
-        tl_nav_mark_cylinder(compact, volume->base, volume->radius, volume->height, volume->area);
+        tl_nav_mark_cylinder_area(compact, volume->base, volume->radius, volume->height, volume->area);
         break;
     }
 }

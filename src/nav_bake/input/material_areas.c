@@ -4,8 +4,8 @@
 
 #include <talus/nav_bake.h>
 
-void tl_nav_areas_of_materials(const tl_mesh_view *mesh, const uint8_t *material_areas, uint32_t material_count,
-                               uint8_t *areas_out)
+void tl_nav_areas_from_materials(const tl_mesh_view *mesh, const uint8_t *material_areas, uint32_t material_count,
+                                 uint8_t *areas_out)
 {
     for (uint32_t i = 0; i < mesh->triangle_count; i++) {
         const uint32_t material = mesh->materials != NULL ? mesh->materials[i] : 0;

@@ -30,7 +30,7 @@ static inline uint32_t tl_distance_over(const tl_nav_compact *compact, const uin
 {
     const uint32_t straight = distance[beside] + (uint32_t)TL_EDGE_STEP;
     best = straight < best ? straight : best;
-    const uint32_t diagonal = tl_nav_beside(compact, beside, corner);
+    const uint32_t diagonal = tl_nav_compact_neighbour(compact, beside, corner);
     const uint32_t round = diagonal != TL_NAV_NO_SPAN ? distance[diagonal] + (uint32_t)TL_CORNER_STEP : best;
     return round < best ? round : best;
 }
@@ -55,8 +55,8 @@ static inline uint16_t tl_distance_backward(const tl_nav_compact *compact, const
     if (forward == 0) {
         return 0;
     }
-    const uint32_t best = tl_distance_over(compact, distance, tl_nav_beside(compact, floor, 2), 1, forward);
-    return (uint16_t)tl_distance_over(compact, distance, tl_nav_beside(compact, floor, 1), 0, best);
+    const uint32_t best = tl_distance_over(compact, distance, tl_nav_compact_neighbour(compact, floor, 2), 1, forward);
+    return (uint16_t)tl_distance_over(compact, distance, tl_nav_compact_neighbour(compact, floor, 1), 0, best);
 }
 
 /// The mean of a floor and its eight neighbours, rounded; one that is missing counts as the floor itself.
@@ -68,8 +68,8 @@ static inline uint16_t tl_distance_blurred(const tl_nav_compact *compact, const 
     }
     uint32_t sum = own;
     for (uint32_t d = 0; d < 4; d++) {
-        const uint32_t beside = tl_nav_beside(compact, floor, d); // exists: distance > 0
-        const uint32_t diagonal = tl_nav_beside(compact, beside, (d + 1) & 3);
+        const uint32_t beside = tl_nav_compact_neighbour(compact, floor, d); // exists: distance > 0
+        const uint32_t diagonal = tl_nav_compact_neighbour(compact, beside, (d + 1) & 3);
         sum += sharp[beside] + (diagonal != TL_NAV_NO_SPAN ? sharp[diagonal] : own);
     }
     return (uint16_t)((sum + 5) / 9);

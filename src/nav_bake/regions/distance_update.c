@@ -38,7 +38,7 @@ static inline void add(uint64_t *set, uint32_t floor)
 
 static inline uint32_t step(const tl_nav_compact *compact, uint32_t floor, uint32_t direction)
 {
-    return floor != TL_NAV_NO_SPAN ? tl_nav_beside(compact, floor, direction) : TL_NAV_NO_SPAN;
+    return floor != TL_NAV_NO_SPAN ? tl_nav_compact_neighbour(compact, floor, direction) : TL_NAV_NO_SPAN;
 }
 
 // Puts the floors that may become borders, or cease to be, into the first set.
@@ -75,11 +75,12 @@ static void update_forward(const updater *u)
             }
             u->forward[i] = value;
             add(u->second, i);
-            const uint32_t right = tl_nav_beside(compact, i, 2), below = tl_nav_beside(compact, i, 1);
+            const uint32_t right = tl_nav_compact_neighbour(compact, i, 2),
+                           below = tl_nav_compact_neighbour(compact, i, 1);
             add(u->first, right); // all four come later
             add(u->first, below);
             add(u->first, step(compact, below, 2));
-            add(u->first, step(compact, tl_nav_beside(compact, i, 0), 1));
+            add(u->first, step(compact, tl_nav_compact_neighbour(compact, i, 0), 1));
         }
     }
 }

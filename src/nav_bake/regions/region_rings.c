@@ -23,7 +23,7 @@ typedef struct ring_walk {
 
 static inline uint32_t region_across(const tl_region_work *work, uint32_t floor, uint32_t direction)
 {
-    uint32_t beside = tl_nav_beside(work->compact, floor, direction);
+    uint32_t beside = tl_nav_compact_neighbour(work->compact, floor, direction);
     return beside != TL_NAV_NO_SPAN ? work->region[beside] : 0;
 }
 
@@ -68,7 +68,7 @@ static tl_result walk_ring(ring_walk *walk, uint32_t floor)
             }
             direction = (direction + 1) & 3;
         } else {
-            floor = tl_nav_beside(work->compact, floor, direction);
+            floor = tl_nav_compact_neighbour(work->compact, floor, direction);
             direction = (direction + 3) & 3;
         }
     } while (floor != start || direction != 0);

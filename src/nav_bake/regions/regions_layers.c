@@ -38,7 +38,7 @@ static void visit_pairs(const tl_region_work *work, uint32_t *last, uint32_t *co
             continue;
         }
         for (uint32_t d = 0; d < 4; d++) {
-            uint32_t beside = tl_nav_beside(work->compact, i, d);
+            uint32_t beside = tl_nav_compact_neighbour(work->compact, i, d);
             if (!is_other_region(work, i, beside) || last[own] == work->region[beside]) {
                 continue;
             }

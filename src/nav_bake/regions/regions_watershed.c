@@ -195,7 +195,7 @@ static bool touches_other_region(const watershed *w, uint32_t floor, uint32_t ow
         if (compact->area[beside] != area || tl_region_is_border(w->region[beside])) {
             continue;
         }
-        const uint32_t diagonal = tl_nav_beside(compact, beside, (d + 1) & 3);
+        const uint32_t diagonal = tl_nav_compact_neighbour(compact, beside, (d + 1) & 3);
         if (diagonal != TL_NAV_NO_SPAN && is_of_other(w, diagonal, area, own)) {
             return true;
         }

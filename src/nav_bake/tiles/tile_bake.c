@@ -85,7 +85,7 @@ static tl_result mark_areas(tile_job *job)
     tl_report_begin(&job->report->base, "areas");
     for (uint32_t i = 0; i < input->volume_count; i++) {
         TL_TRY(tl_progress_update(&job->host, "areas", i, input->volume_count));
-        tl_nav_mark_volume(&job->stages->compact, &input->volumes[i]);
+        tl_nav_mark_volume_area(&job->stages->compact, &input->volumes[i]);
     }
     return tl_progress_update(&job->host, "areas", input->volume_count, input->volume_count);
 }
@@ -308,8 +308,9 @@ tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_input *inpu
     return result;
 }
 
-tl_result tl_nav_tile_from_distance(const tl_nav_config *config, tl_nav_compact *compact, bool has_distance,
-                                    const tl_host *host, tl_nav_tile_stack *stack_out, tl_nav_bake_report *report_out)
+tl_result tl_nav_tile_bake_from_distance(const tl_nav_config *config, tl_nav_compact *compact, bool has_distance,
+                                         const tl_host *host, tl_nav_tile_stack *stack_out,
+                                         tl_nav_bake_report *report_out)
 {
     static const tl_host plain = { NULL, NULL, NULL };
     tl_nav_bake_report report;
@@ -339,8 +340,8 @@ tl_result tl_nav_tile_from_distance(const tl_nav_config *config, tl_nav_compact 
     return hand_over(&job, result, stack_out);
 }
 
-tl_result tl_nav_tile_from_floors(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
-                                  tl_nav_tile_stack *stack_out, tl_nav_bake_report *report_out)
+tl_result tl_nav_tile_bake_from_compact(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
+                                        tl_nav_tile_stack *stack_out, tl_nav_bake_report *report_out)
 {
-    return tl_nav_tile_from_distance(config, compact, false, host, stack_out, report_out);
+    return tl_nav_tile_bake_from_distance(config, compact, false, host, stack_out, report_out);
 }

@@ -14,9 +14,10 @@ tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input
                           const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile_stack *stack_out,
                           tl_nav_bake_report *report);
 
-/// tl_nav_tile_from_floors for floors that have their distance field already, with `has_distance`.
-tl_result tl_nav_tile_from_distance(const tl_nav_config *config, tl_nav_compact *compact, bool has_distance,
-                                    const tl_host *host, tl_nav_tile_stack *stack_out, tl_nav_bake_report *report_out);
+/// tl_nav_tile_bake_from_compact for floors that have their distance field already, with `has_distance`.
+tl_result tl_nav_tile_bake_from_distance(const tl_nav_config *config, tl_nav_compact *compact, bool has_distance,
+                                         const tl_host *host, tl_nav_tile_stack *stack_out,
+                                         tl_nav_bake_report *report_out);
 
 /// The stages were built through a meter, which ends with the build; what holds an allocator gets the host's.
 void tl_nav_stages_hand_over(tl_nav_stages *stages, const tl_allocator *allocator);

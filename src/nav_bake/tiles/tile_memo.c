@@ -49,7 +49,7 @@ static tl_result remake(const tl_nav_config *config, tl_nav_compact *compact, co
     if (watershed) {
         TL_TRY(tl_distance_field_update(base_area, &memo->distance, &memo->allocator, compact));
     }
-    return tl_nav_tile_from_distance(config, compact, watershed, host, stack_out, report_out);
+    return tl_nav_tile_bake_from_distance(config, compact, watershed, host, stack_out, report_out);
 }
 
 tl_result tl_nav_tile_rebake(const tl_nav_config *config, tl_nav_compact *compact, const uint8_t *base_area,
@@ -61,7 +61,7 @@ tl_result tl_nav_tile_rebake(const tl_nav_config *config, tl_nav_compact *compac
     const bool first_time = *memo == NULL;
     memset(stack_out, 0, sizeof *stack_out);
     if (first_time && memcmp(compact->area, base_area, compact->span_count) == 0) {
-        return tl_nav_tile_from_floors(config, compact, host, stack_out, report_out); // it may never be marked
+        return tl_nav_tile_bake_from_compact(config, compact, host, stack_out, report_out); // it may never be marked
     }
     if (first_time) {
         TL_TRY(make_memo(config, compact, base_area, &allocator, memo));

@@ -55,7 +55,7 @@ tl_polygon_quality tl_polygon_mesh_measure(const tl_polygon_mesh *mesh)
     double cosines = 0.0, aspects = 0.0;
     for (uint32_t p = 0; p < mesh->polygon_count; p++) {
         uint32_t corners = mesh->first[p + 1] - mesh->first[p];
-        q.most_corners = corners > q.most_corners ? corners : q.most_corners;
+        q.max_corners = corners > q.max_corners ? corners : q.max_corners;
         double sharpest = -1.0;
         for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
             uint32_t next = tl_mesh_next(mesh, p, k);

@@ -56,7 +56,7 @@ static void link_claims(tl_polygon_store *store, const tl_sort_item *claims, uin
         store->neighbours[down->value] = up->extra;
     }
     report->link_count += pairs;
-    report->crowded_edges += rising > 1 || falling > 1;
+    report->non_manifold_edges += rising > 1 || falling > 1;
 }
 
 static void link_edges(tl_polygon_store *store, const tl_sort_item *ends, uint32_t count, tl_polygon_report *report)

@@ -143,7 +143,7 @@ static tl_result prepare_without_straight(builder *b, const tl_contour *contour,
     if (count < contour->vertex_count) {
         TL_TRY(tl_outline_prepare(&b->scratch, kept, count, b->def->merge_height, outline));
         *is_prepared = outline->faults == 0;
-        b->report.straight_vertices_gone += *is_prepared ? contour->vertex_count - count : 0;
+        b->report.removed_straight_vertices += *is_prepared ? contour->vertex_count - count : 0;
     }
     return TL_OK;
 }
@@ -289,7 +289,7 @@ static tl_result build(builder *b, tl_polygon_mesh *mesh_out)
     TL_TRY(add_contours(b));
     if (!b->def->keep_border_vertices) {
         TL_TRY(tl_remove_border_vertices(&b->store, &b->scratch, b->def->max_verts_per_poly,
-                                         &b->report.border_vertices_gone, &b->report.border_vertices_kept));
+                                         &b->report.removed_border_vertices, &b->report.kept_border_vertices));
     }
     if (b->def->merge_contours) {
         TL_TRY(tl_merge_across_contours(&b->store, &b->scratch, b->def->max_verts_per_poly, &b->report.contour_merges));
