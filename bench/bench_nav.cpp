@@ -149,7 +149,7 @@ bool run_talus(const bench_part &part, figures *sum)
     bool done =
         watch.time([&] { return !tl_nav_rasterize(&config, &mesh, nullptr, nullptr, &s.heightfield, nullptr); }) &&
         watch.time([&] { return !tl_nav_filter_and_compact(&config, &s.heightfield, nullptr, compact, nullptr); }) &&
-        watch.time([&] { return !tl_nav_erode(&config, nullptr, compact); }) &&
+        watch.time([&] { return !tl_nav_erode(&config, nullptr, compact, nullptr); }) &&
         watch.time([&] { return !watershed || !tl_nav_distance_field(nullptr, compact, nullptr); }) &&
         watch.time([&] { return !tl_nav_bake_regions(&config, nullptr, compact, nullptr); }) &&
         watch.time([&] { return !tl_nav_bake_contours(&config, compact, nullptr, &s.contours, nullptr); }) &&

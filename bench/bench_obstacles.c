@@ -130,12 +130,12 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
                                   random_between(def.bounds.min.z, def.bounds.max.z));
         tl_nav_obstacle_id id;
         began = now();
-        must(tl_nav_obstacles_add(obstacles, &crate, &id), "add");
+        must(tl_nav_obstacles_add(obstacles, &crate, &id, NULL), "add");
         add[i] = (now() - began) * 1e6;
         make_tiles(obstacles, navmesh, &times);
         crate.base.x += 0.4f; // it is pushed on
         crate.base.z -= 0.3f;
-        must(tl_nav_obstacles_move(obstacles, id, &crate), "move");
+        must(tl_nav_obstacles_move(obstacles, id, &crate, NULL), "move");
         make_tiles(obstacles, navmesh, &times);
     }
     double add_median = quantile(add, EDITS, 0.5), first_median = quantile(times.first, times.first_count, 0.5);

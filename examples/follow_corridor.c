@@ -74,7 +74,7 @@ static uint32_t follow(tl_nav_corridor *corridor, tl_nav_query *query, tl_navmes
     uint32_t count = 0, waiting = 0, step = 0;
     for (; step < MOST_STEPS; step++) {
         trail[step] = corridor->position;
-        if (step == 20 && (tl_nav_obstacles_add(obstacles, crate, &id) != TL_OK ||
+        if (step == 20 && (tl_nav_obstacles_add(obstacles, crate, &id, NULL) != TL_OK ||
                            tl_nav_obstacles_update(obstacles, navmesh, UINT32_MAX, &waiting, NULL) != TL_OK)) {
             break;
         }

@@ -189,7 +189,9 @@ tl_exit tl_cli_fail_result(tl_cli *cli, const char *path, tl_result result, cons
     }
     char place[128] = "";
     const char *advice = report != NULL ? report->advice : NULL;
-    if (report != NULL && report->element != NULL && result == TL_ERR_ARGUMENT) {
+    if (report != NULL && report->field != NULL) {
+        name_option(report->field, place, sizeof(place));
+    } else if (report != NULL && report->element != NULL && result == TL_ERR_ARGUMENT) {
         name_option(report->element, place, sizeof(place));
     } else if (report != NULL && report->element != NULL && report->element_index != TL_NO_ELEMENT) {
         snprintf(place, sizeof(place), "%s %llu: ", report->element, (unsigned long long)report->element_index);

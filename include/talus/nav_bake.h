@@ -56,6 +56,7 @@ typedef struct tl_nav_def {
                        ///< which are tiles of their own. 0: they are one tile. Default 0
     tl_aabb bounds;    ///< metres; what to build. Empty (the default): the bounds of the mesh
     tl_host host;
+    uint32_t cookie; ///< TL_DEF_COOKIE, by tl_default_nav_def
 } tl_nav_def;
 
 TL_API tl_nav_def tl_default_nav_def(void);
@@ -223,7 +224,8 @@ TL_API tl_result tl_nav_filter_and_compact(const tl_nav_config *config, const tl
 TL_API void tl_nav_compact_free(tl_nav_compact *compact);
 
 /// Takes the walkable area back from walls and ledges by walkable_radius columns.
-TL_API tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact);
+TL_API tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact,
+                              tl_report *report_out);
 
 /// A volume whose floors get an area: TL_NAV_NULL_AREA cuts a hole. Only walkable floors are marked.
 /// Floors are tested at the centre of their column, and by floor height within [min_y, max_y].
@@ -356,7 +358,7 @@ typedef struct tl_nav_bake_report {
 /// its corners. Layer k holds heights from k * layer_height on, in voxels above the origin. layers_out has room for
 /// polygons->polygon_count; all 0 when layer_height is. TL_ERR_MEMORY.
 TL_API tl_result tl_nav_assign_layers(const tl_nav_config *config, const tl_polygon_mesh *polygons,
-                                      const tl_allocator *allocator, uint32_t *layers_out);
+                                      const tl_allocator *allocator, uint32_t *layers_out, tl_report *report_out);
 
 /// All stages for one place, as one tile: layer_height is not looked at (tl_nav_tile_divide divides it). `*tile_out` is
 /// NULL with TL_OK when nothing in it is walkable.

@@ -68,6 +68,7 @@ typedef struct tl_detour_read_def {
     /// rounded to this. Default 1/1024, which no agent notices.
     float cell_height;
     const tl_allocator *allocator; ///< NULL: malloc
+    uint32_t cookie;               ///< TL_DEF_COOKIE, by tl_default_detour_read_def
 } tl_detour_read_def;
 
 TL_API tl_detour_read_def tl_default_detour_read_def(void);

@@ -69,11 +69,12 @@ TL_API void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles);
 /// where the list of obstacles grows. TL_ERR_ARGUMENT (a size, the area, an outline that is not convex),
 /// TL_ERR_NOT_FINITE, TL_ERR_MEMORY.
 TL_API tl_result tl_nav_obstacles_add(tl_nav_obstacles *obstacles, const tl_nav_obstacle *obstacle,
-                                      tl_nav_obstacle_id *id_out);
-/// Moves it, or makes it another: the tiles of its old and its new place wait. TL_NOT_FOUND for a name that is not
+                                      tl_nav_obstacle_id *id_out, tl_report *report_out);
+/// Moves it, or makes it another: the tiles of its old and its new place wait. TL_ERR_STALE for a name that is not
 /// in use; else as adding.
 TL_API tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id,
-                                       const tl_nav_obstacle *obstacle);
+                                       const tl_nav_obstacle *obstacle, tl_report *report_out);
+/// TL_ERR_STALE for a name that is not in use.
 TL_API tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id);
 
 TL_API uint32_t tl_nav_obstacles_count(const tl_nav_obstacles *obstacles);
@@ -95,7 +96,7 @@ typedef struct tl_nav_rebaked_tile {
 
 /// Makes the tile that has waited longest. Hand its stack to tl_navmesh_replace_tiles, or free it. TL_NOT_FOUND:
 /// none waits. On another failure it goes on waiting.
-TL_API tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *remade_out,
+TL_API tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *rebaked_out,
                                             tl_nav_bake_report *report_out);
 
 /// Makes up to `max_tiles` waiting tiles and puts them into the navmesh in the place of the old ones, as

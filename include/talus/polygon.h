@@ -161,6 +161,7 @@ typedef struct tl_polygon_def {
                                    ///< each outline, O(n^2); of the other methods what they share with it: the cuts,
                                    ///< and Delaunay's merges
     tl_host host;
+    uint32_t cookie; ///< TL_DEF_COOKIE, by tl_default_polygon_def
 } tl_polygon_def;
 
 /// The counts of one build.
@@ -183,7 +184,7 @@ typedef struct tl_polygon_report {
     uint32_t portal_count;              ///< edges on a tile's border
     uint32_t non_manifold_edges; ///< edges along which more than one polygon runs in one direction; of both directions
                                  ///< the first are linked, then the second, as far as there are
-    int64_t uncovered_area2; ///< doubled area of all contours, less that of the polygons; 0 without repairs
+    int64_t uncovered_area2;     ///< doubled area of all contours, less that of the polygons; 0 without repairs
 } tl_polygon_report;
 
 TL_API tl_polygon_def tl_default_polygon_def(void);
@@ -203,9 +204,9 @@ TL_API tl_polygon_def tl_default_polygon_def(void);
 /// itself between lattice points the crossing is rounded to the lattice. Each such contour has a note in the mesh.
 ///
 /// `contours` has valid ranges and coordinates within +-TL_MAX_CONTOUR_COORDINATE; else TL_ERR_INDEX or TL_ERR_RANGE,
-/// with the contour named. Contours without area are legal and counted. `mesh_out` is written only with TL_OK;
-/// free it with tl_polygon_mesh_free. `def` NULL: defaults. `report_out` may be NULL. Thread safe. Near-linear for
-/// outlines that do not cross themselves: O(n log n) with n vertices, for all but contrived ones. Errors:
+/// with the contour named. Contours without area are legal and counted. On failure `mesh_out` is
+/// zeroed; free it with tl_polygon_mesh_free. `def` NULL: defaults. `report_out` may be NULL. Thread safe. Near-linear
+/// for outlines that do not cross themselves: O(n log n) with n vertices, for all but contrived ones. Errors:
 /// TL_ERR_ARGUMENT, TL_ERR_INDEX, TL_ERR_RANGE, TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
 TL_API tl_result tl_polygon_mesh_bake(const tl_contour_set *contours, const tl_polygon_def *def,
                                       tl_polygon_mesh *mesh_out, tl_polygon_report *report_out);

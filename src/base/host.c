@@ -49,6 +49,11 @@ tl_result tl_report_field(tl_report *report, tl_result result, const char *field
     return result;
 }
 
+tl_result tl_refuse_null(const void *pointer, const char *name, tl_report *report)
+{
+    return pointer != NULL ? TL_OK : tl_report_field(report, TL_ERR_ARGUMENT, name, "it is needed, and is NULL");
+}
+
 tl_result tl_def_check(uint32_t cookie, const char *advice, tl_report *report)
 {
     return cookie == TL_DEF_COOKIE ? TL_OK : tl_report_field(report, TL_ERR_ARGUMENT, "cookie", advice);

@@ -36,6 +36,12 @@ tl_result tl_report_fail(tl_report *report, tl_result result, const char *elemen
 /// The same for a field of a def: `return tl_report_field(report, TL_ERR_ARGUMENT, "cell_size", "make it > 0");`
 tl_result tl_report_field(tl_report *report, tl_result result, const char *field, const char *advice);
 
+/// Refuses a NULL object, input or needed output at the public edge; `name` is the parameter's.
+tl_result tl_refuse_null(const void *pointer, const char *name, tl_report *report);
+
+/// TL_REFUSE_NULL(mesh_out, report) returns TL_ERR_ARGUMENT, field "mesh_out", where it is NULL. Needs base/assert.h.
+#define TL_REFUSE_NULL(pointer, report) TL_TRY(tl_refuse_null((pointer), #pointer, (report)))
+
 /// Refuses a def that was zeroed instead of begun with its defaults. `advice` names the function: "begin with
 /// tl_default_soup_def()".
 tl_result tl_def_check(uint32_t cookie, const char *advice, tl_report *report);

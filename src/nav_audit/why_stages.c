@@ -256,7 +256,7 @@ static tl_result outlives(window *w, uint32_t radius, bool *outlives_out)
     config.walkable_radius = radius;
     tl_nav_compact_free(&w->compact);
     TL_TRY(tl_nav_bake_compact(&config, &w->field, w->question->host, &w->compact, w->report));
-    TL_TRY(tl_nav_erode(&config, w->question->host, &w->compact));
+    TL_TRY(tl_nav_erode(&config, w->question->host, &w->compact, w->report));
     const uint32_t at = find_open_floor(&w->compact, w->x, w->z, w->top);
     *outlives_out = at != TL_NAV_NO_SPAN && w->compact.area[at] != TL_NAV_NULL_AREA;
     return TL_OK;

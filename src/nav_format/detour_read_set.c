@@ -13,7 +13,7 @@
 
 tl_detour_read_def tl_default_detour_read_def(void)
 {
-    tl_detour_read_def def = { 1.0f / 1024.0f, NULL };
+    tl_detour_read_def def = { 1.0f / 1024.0f, NULL, TL_DEF_COOKIE };
     return def;
 }
 
@@ -128,8 +128,10 @@ static tl_result read_single(const void *bytes, uint64_t size, const tl_detour_r
 static tl_result read_any(const void *bytes, uint64_t size, const tl_detour_read_def *def, tl_detour_report *report,
                           tl_detour_tiles *tiles)
 {
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_detour_read_def()", &report->base));
+    TL_REFUSE_NULL(bytes, &report->base);
     if (!(def->cell_height > 0.0f) || !isfinite(def->cell_height)) {
-        return tl_report_fail(&report->base, TL_ERR_ARGUMENT, "cell_height", TL_NO_ELEMENT, "it is above 0");
+        return tl_report_field(&report->base, TL_ERR_ARGUMENT, "cell_height", "make it > 0");
     }
     set_reader set;
     memset(&set, 0, sizeof set);
@@ -148,9 +150,12 @@ tl_result tl_detour_read(const void *bytes, uint64_t size, const tl_detour_read_
     tl_detour_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "read detour");
-    memset(tiles_out, 0, sizeof *tiles_out);
-    tiles_out->allocator = allocator;
-    tl_result result = read_any(bytes, size, &settings, &report, tiles_out);
+    tl_result result = tl_refuse_null(tiles_out, "tiles_out", &report.base);
+    if (result == TL_OK) {
+        memset(tiles_out, 0, sizeof *tiles_out);
+        tiles_out->allocator = allocator;
+        result = read_any(bytes, size, &settings, &report, tiles_out);
+    }
     if (result != TL_OK) {
         tl_detour_tiles_free(tiles_out);
     }
@@ -243,8 +248,16 @@ tl_result tl_detour_read_off_mesh(const void *bytes, uint64_t size, tl_detour_of
     set.bytes = bytes;
     set.size = size;
     connection_list list = { links_out, capacity, 0 };
-    tl_result result = read_all_connections(&set, &list, &report);
-    *count_out = result == TL_OK ? list.count : 0;
+    tl_result result = tl_refuse_null(bytes, "bytes", &report.base);
+    if (result == TL_OK) {
+        result = tl_refuse_null(count_out, "count_out", &report.base);
+    }
+    if (result == TL_OK) {
+        result = read_all_connections(&set, &list, &report);
+    }
+    if (count_out != NULL) {
+        *count_out = result == TL_OK ? list.count : 0;
+    }
     if (report_out != NULL) {
         *report_out = report;
     }

@@ -235,7 +235,10 @@ tl_result tl_detour_tile_write(const tl_nav_tile *tile, tl_detour_refs refs, voi
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "write detour tile");
     uint64_t size;
-    tl_result result = write_tile(tile, refs, bytes, capacity, &size, &report);
+    tl_result result = tl_refuse_null(tile, "tile", &report.base);
+    if (result == TL_OK) {
+        result = write_tile(tile, refs, bytes, capacity, &size, &report);
+    }
     if (report_out != NULL) {
         *report_out = report;
     }
@@ -370,7 +373,10 @@ tl_result tl_detour_set_write(const tl_nav_tile *const *tiles, uint32_t tile_cou
     tl_detour_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "write detour set");
-    tl_result result = write_set(tiles, tile_count, refs, bytes, capacity, &report);
+    tl_result result = tile_count == 0 ? TL_OK : tl_refuse_null(tiles, "tiles", &report.base);
+    if (result == TL_OK) {
+        result = write_set(tiles, tile_count, refs, bytes, capacity, &report);
+    }
     if (report_out != NULL) {
         *report_out = report;
     }

@@ -245,7 +245,7 @@ tl_result tl_nav_bake_portals(const tl_nav_tile_source *source, tl_arena *arena,
         }
     }
     if (profile_capacity > UINT32_MAX) {
-        return tl_report_fail(report, TL_ERR_LIMIT, "detail", TL_NO_ELEMENT, "use smaller tiles");
+        return tl_report_field(report, TL_ERR_LIMIT, "detail", "use smaller tiles");
     }
     tl_nav_portal *found = TL_PUSH(arena, tl_nav_portal, count);
     uint8_t *sides = TL_PUSH(arena, uint8_t, count);

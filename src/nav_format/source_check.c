@@ -20,24 +20,33 @@ static bool is_finite(tl_vec3 v)
 static tl_result check_settings(const tl_nav_tile_source *source, tl_report *report)
 {
     const tl_polygon_mesh *polygons = source->polygons;
-    if (!(polygons->cell_size > 0.0f) || !(polygons->cell_height > 0.0f) || !isfinite(polygons->cell_size) ||
-        !isfinite(polygons->cell_height)) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "cell_size", TL_NO_ELEMENT, "cells have a size above 0");
+    const struct {
+        const char *name;
+        float value;
+        bool may_be_zero;
+    } sizes[] = {
+        { "cell_size", polygons->cell_size, false },          { "cell_height", polygons->cell_height, false },
+        { "agent_height", source->agent_height, false },      { "agent_radius", source->agent_radius, true },
+        { "agent_max_climb", source->agent_max_climb, true },
+    };
+    for (size_t i = 0; i < TL_COUNT_OF(sizes); i++) {
+        if (!(sizes[i].value >= 0.0f) || !isfinite(sizes[i].value) ||
+            (sizes[i].value == 0.0f && !sizes[i].may_be_zero)) {
+            return tl_report_field(report, TL_ERR_ARGUMENT, sizes[i].name,
+                                   sizes[i].may_be_zero ? "make it >= 0" : "make it > 0");
+        }
     }
-    if (!(source->agent_height > 0.0f) || !isfinite(source->agent_height) || !(source->agent_radius >= 0.0f) ||
-        !isfinite(source->agent_radius) || !(source->agent_max_climb >= 0.0f) || !isfinite(source->agent_max_climb)) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "agent_height", TL_NO_ELEMENT,
-                              "an agent has a height above 0, and no negative radius or climb");
+    if (source->tile_size > TL_MAX_CONTOUR_COORDINATE) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "tile_size", "use tiles of 32 to 1024 cells");
     }
-    bool alone = source->tile_size == 0;
-    if (source->tile_size > TL_MAX_CONTOUR_COORDINATE || source->tile_x > TL_NAV_MAX_TILE_INDEX ||
-        source->tile_x < -TL_NAV_MAX_TILE_INDEX || source->tile_z > TL_NAV_MAX_TILE_INDEX ||
-        source->tile_z < -TL_NAV_MAX_TILE_INDEX || (alone && (source->tile_x != 0 || source->tile_z != 0))) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "tile_x", TL_NO_ELEMENT,
-                              "the place of a tile is beyond the grid; without a tile_size it is (0, 0)");
+    const int32_t limit = source->tile_size == 0 ? 0 : TL_NAV_MAX_TILE_INDEX;
+    const bool x_fits = source->tile_x >= -limit && source->tile_x <= limit;
+    if (!x_fits || source->tile_z > limit || source->tile_z < -limit) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, x_fits ? "tile_z" : "tile_x",
+                               "stay within +-TL_NAV_MAX_TILE_INDEX; without a tile_size the only tile is (0, 0)");
     }
     if (source->layer > TL_NAV_MAX_LAYER) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "layer", TL_NO_ELEMENT, "layers are 0 to 65535");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "layer", "give 0 to 65535");
     }
     return TL_OK;
 }
@@ -57,13 +66,13 @@ static tl_result check_origin(const tl_nav_tile_source *source, tl_report *repor
     const tl_polygon_mesh *polygons = source->polygons;
     tl_vec3 claimed = polygons->bounds.min;
     if (!is_finite(source->origin) || !is_finite(claimed)) {
-        return tl_report_fail(report, TL_ERR_NOT_FINITE, "origin", TL_NO_ELEMENT, NULL);
+        return tl_report_field(report, TL_ERR_NOT_FINITE, "origin", NULL);
     }
     if (!origin_agrees(source->origin.x, source->tile_x, source->tile_size, polygons->cell_size, claimed.x) ||
         !origin_agrees(source->origin.z, source->tile_z, source->tile_size, polygons->cell_size, claimed.z) ||
         !origin_agrees(source->origin.y, 0, 0, polygons->cell_height, claimed.y)) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "origin", TL_NO_ELEMENT,
-                              "origin + tile * tile_size * cell_size is not where the polygons' bounds begin");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "origin",
+                               "origin + tile * tile_size * cell_size is not where the polygons' bounds begin");
     }
     return TL_OK;
 }
@@ -189,7 +198,7 @@ static tl_result check_detail(const tl_nav_tile_source *source, tl_report *repor
         return TL_OK;
     }
     if (detail->patch_count != polygons->polygon_count) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "detail", TL_NO_ELEMENT, "there is one patch a polygon");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "detail", "there is one patch a polygon");
     }
     uint64_t vertices = 0;
     uint64_t triangles = 0;
@@ -200,7 +209,7 @@ static tl_result check_detail(const tl_nav_tile_source *source, tl_report *repor
     }
     // Patches may share ranges in the source, not in the tile.
     if (vertices > UINT32_MAX || triangles > UINT32_MAX) {
-        return tl_report_fail(report, TL_ERR_LIMIT, "detail", TL_NO_ELEMENT, "use smaller tiles");
+        return tl_report_field(report, TL_ERR_LIMIT, "detail", "use smaller tiles");
     }
     return TL_OK;
 }

@@ -336,8 +336,9 @@ static tl_result check_tree(const tl_nav_tile *tile, tl_report *report)
 tl_result tl_nav_tile_check(const void *bytes, uint64_t size, tl_report *report_out)
 {
     tl_report_begin(report_out, "check tile");
+    TL_REFUSE_NULL(bytes, report_out);
     if ((uintptr_t)bytes % 8 != 0) {
-        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "bytes", TL_NO_ELEMENT, "align the bytes to 8");
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "bytes", "align the bytes to 8");
     }
     if (size < sizeof(tl_blob)) {
         return tl_report_fail(report_out, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT, NULL);

@@ -96,14 +96,18 @@ static tl_result make_layers(const tl_nav_tile *tile, const tl_nav_layering *lay
 tl_result tl_nav_tile_divide(const tl_nav_tile *tile, const uint32_t *layers, const tl_allocator *allocator,
                              tl_nav_tile_stack *stack_out, tl_report *report_out)
 {
+    tl_report_begin(report_out, "divide tile");
+    TL_REFUSE_NULL(stack_out, report_out);
     memset(stack_out, 0, sizeof *stack_out);
+    TL_REFUSE_NULL(tile, report_out);
+    TL_REFUSE_NULL(layers, report_out);
     tl_report_begin(report_out, "divide tile");
     if (tile->layer != 0 || tl_nav_tile_side_first(tile, TL_NAV_SIDE_CUT) < tile->portal_count) {
-        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "tile", TL_NO_ELEMENT, "it is a layer already");
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "tile", "divide the whole tile: this is a layer already");
     }
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         if (layers[p] > TL_NAV_MAX_LAYER) {
-            return tl_report_fail(report_out, TL_ERR_ARGUMENT, "layer", p, "layers are 0 to 65535");
+            return tl_report_fail(report_out, TL_ERR_ARGUMENT, "polygon", p, "give layers of 0 to 65535");
         }
     }
     tl_arena arena;

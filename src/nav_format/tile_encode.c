@@ -168,8 +168,10 @@ static tl_result bake(const tl_nav_tile_source *source, const tl_allocator *allo
 tl_result tl_nav_tile_encode(const tl_nav_tile_source *source, const tl_allocator *allocator, tl_nav_tile **tile_out,
                              tl_report *report_out)
 {
+    tl_report_begin(report_out, "encode tile");
+    TL_REFUSE_NULL(tile_out, report_out);
     *tile_out = NULL;
-    tl_report_begin(report_out, "bake tile");
+    TL_REFUSE_NULL(source, report_out);
     TL_TRY(tl_nav_tile_check_source(source, report_out));
     tl_arena arena;
     tl_arena_init(&arena, allocator);

@@ -199,6 +199,11 @@ tl_result tl_nav_tile_layer(const tl_nav_tile *tile, const tl_nav_layering *laye
 tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep, const tl_allocator *allocator,
                              tl_nav_tile **tile_out, tl_report *report_out)
 {
+    tl_report_begin(report_out, "subset");
+    TL_REFUSE_NULL(tile_out, report_out);
+    *tile_out = NULL;
+    TL_REFUSE_NULL(tile, report_out);
+    TL_REFUSE_NULL(keep, report_out);
     subset s;
     memset(&s, 0, sizeof s);
     s.tile = tile;

@@ -168,7 +168,7 @@ static bool is_convex(const tl_nav_obstacle *obstacle)
 static tl_result check_prism(const tl_nav_obstacle *obstacle, tl_report *report)
 {
     if (obstacle->point_count < 3 || obstacle->point_count > TL_NAV_MAX_OBSTACLE_POINTS) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "point_count", TL_NO_ELEMENT, "give 3 to 16 points");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "point_count", "give 3 to 16 points");
     }
     for (uint32_t i = 0; i < obstacle->point_count; i++) {
         if (!tl_is_finite(obstacle->points[i])) {
@@ -176,31 +176,34 @@ static tl_result check_prism(const tl_nav_obstacle *obstacle, tl_report *report)
         }
     }
     return is_convex(obstacle) ? TL_OK
-                               : tl_report_fail(report, TL_ERR_ARGUMENT, "points", TL_NO_ELEMENT,
-                                                "give the outline of a convex polygon with area, in order");
+                               : tl_report_field(report, TL_ERR_ARGUMENT, "points",
+                                                 "give the outline of a convex polygon with area, in order");
 }
 
 tl_result tl_obstacle_check(const tl_nav_obstacle *obstacle, tl_report *report)
 {
     if ((unsigned)obstacle->shape > (unsigned)TL_NAV_OBSTACLE_PRISM) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "shape", TL_NO_ELEMENT, "use a tl_nav_obstacle_shape");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "shape", "use a tl_nav_obstacle_shape");
     }
-    if (!tl_is_finite(obstacle->base) || !isfinite(obstacle->height)) {
-        return tl_report_fail(report, TL_ERR_NOT_FINITE, "base", TL_NO_ELEMENT, NULL);
+    if (!tl_is_finite(obstacle->base)) {
+        return tl_report_field(report, TL_ERR_NOT_FINITE, "base", NULL);
+    }
+    if (!isfinite(obstacle->height)) {
+        return tl_report_field(report, TL_ERR_NOT_FINITE, "height", NULL);
     }
     bool round = obstacle->shape == TL_NAV_OBSTACLE_CYLINDER;
     if (!round && (!isfinite(obstacle->cosine) || !isfinite(obstacle->sine))) {
-        return tl_report_fail(report, TL_ERR_NOT_FINITE, "cosine", TL_NO_ELEMENT, NULL);
+        return tl_report_field(report, TL_ERR_NOT_FINITE, "cosine", NULL);
     }
     if (!(obstacle->height >= 0.0f)) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "height", TL_NO_ELEMENT, "give a height of 0 or more");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "height", "give a height of 0 or more");
     }
     if (round && !(obstacle->radius > 0.0f && isfinite(obstacle->radius))) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "radius", TL_NO_ELEMENT, "give a radius above 0");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "radius", "give a radius above 0");
     }
     if (obstacle->shape == TL_NAV_OBSTACLE_BOX && !(obstacle->half_x >= 0.0f && isfinite(obstacle->half_x) &&
                                                     obstacle->half_z >= 0.0f && isfinite(obstacle->half_z))) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "half_x", TL_NO_ELEMENT, "give extents of 0 or more");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "half_x", "give extents of 0 or more");
     }
     return obstacle->shape == TL_NAV_OBSTACLE_PRISM ? check_prism(obstacle, report) : TL_OK;
 }

@@ -195,22 +195,33 @@ static tl_result bake_range(tl_nav_obstacles *o, const tl_host *host, const tl_n
 // ---------------------------------------------------------------------------------------------------------
 // Making and ending.
 
-static tl_result check_def(const tl_nav_def *def, tl_report *report)
+static tl_report *begin_report(tl_nav_bake_report *report, const char *stage)
 {
+    if (report == NULL) {
+        return NULL;
+    }
+    memset(report, 0, sizeof *report);
+    tl_report_begin(&report->base, stage);
+    return &report->base;
+}
+
+static tl_result check_obstacles_def(const tl_nav_def *def, tl_report *report)
+{
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_nav_def()", report));
     if (def->tile_size == 0) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "tile_size", TL_NO_ELEMENT,
-                              "give a tile_size, such as 64: only touched tiles are made again");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "tile_size",
+                               "give a tile_size, such as 64: only touched tiles are made again");
     }
     if (tl_aabb_is_empty(def->bounds)) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "bounds", TL_NO_ELEMENT,
-                              "give def->bounds, or the lattice moves when the mesh does");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "bounds",
+                               "give def->bounds, or the lattice moves when the mesh does");
     }
     return TL_OK;
 }
 
 static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report *report)
 {
-    TL_TRY(check_def(def, report));
+    TL_TRY(check_obstacles_def(def, report));
     uint32_t tiles_x, tiles_z;
     TL_TRY(tl_nav_tile_grid(def, def->bounds, &tiles_x, &tiles_z, report));
     const tl_allocator allocator = tl_allocator_or_default(def->host.allocator);
@@ -238,10 +249,15 @@ static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report
 tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input, tl_nav_obstacles **obstacles_out,
                                 tl_nav_tile_block *block_out, tl_nav_bake_report *report_out)
 {
+    tl_report *base = begin_report(report_out, "obstacles");
     tl_nav_obstacles *o = NULL;
     tl_nav_tile_block block;
     memset(&block, 0, sizeof block);
+    TL_REFUSE_NULL(obstacles_out, base);
     *obstacles_out = NULL;
+    TL_REFUSE_NULL(input, base);
+    const tl_nav_def defaults = tl_default_nav_def();
+    def = def != NULL ? def : &defaults;
     if (block_out != NULL) {
         *block_out = block;
     }
@@ -274,6 +290,9 @@ tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_inpu
                                   tl_nav_bake_report *report_out)
 {
     static const tl_host alone = { NULL, NULL, NULL };
+    tl_report *base = begin_report(report_out, "rebake");
+    TL_REFUSE_NULL(obstacles, base);
+    TL_REFUSE_NULL(input, base);
     tl_nav_obstacles *o = obstacles;
     tl_nav_tile_range range;
     tl_nav_tile_block block;
@@ -324,11 +343,12 @@ static obstacle_slot *find(const tl_nav_obstacles *o, tl_nav_obstacle_id id)
     return there ? &o->slots[slot] : NULL;
 }
 
-static tl_result range_of(const tl_nav_obstacles *o, const tl_nav_obstacle *obstacle, tl_nav_tile_range *range)
+static tl_result range_of(const tl_nav_obstacles *o, const tl_nav_obstacle *obstacle, tl_nav_tile_range *range,
+                          tl_report *report)
 {
-    TL_TRY(tl_obstacle_check(obstacle, NULL));
+    TL_TRY(tl_obstacle_check(obstacle, report));
     tl_aabb box = tl_obstacle_box(obstacle, o->def.agent_radius, o->def.agent_height);
-    return tl_nav_tiles_in_box(&o->def, o->def.bounds, box, range, NULL);
+    return tl_nav_tiles_in_box(&o->def, o->def.bounds, box, range, report);
 }
 
 static tl_result take_slot(tl_nav_obstacles *o, uint32_t *slot_out)
@@ -359,11 +379,17 @@ static tl_result take_slot(tl_nav_obstacles *o, uint32_t *slot_out)
     return TL_OK;
 }
 
-tl_result tl_nav_obstacles_add(tl_nav_obstacles *obstacles, const tl_nav_obstacle *obstacle, tl_nav_obstacle_id *id_out)
+tl_result tl_nav_obstacles_add(tl_nav_obstacles *obstacles, const tl_nav_obstacle *obstacle, tl_nav_obstacle_id *id_out,
+                               tl_report *report_out)
 {
     tl_nav_tile_range range;
     uint32_t index = 0;
-    TL_TRY(range_of(obstacles, obstacle, &range));
+    tl_report_begin(report_out, "add obstacle");
+    TL_REFUSE_NULL(id_out, report_out);
+    *id_out = 0;
+    TL_REFUSE_NULL(obstacles, report_out);
+    TL_REFUSE_NULL(obstacle, report_out);
+    TL_TRY(range_of(obstacles, obstacle, &range, report_out));
     TL_TRY(take_slot(obstacles, &index));
     obstacle_slot *slot = &obstacles->slots[index];
     slot->obstacle = *obstacle;
@@ -375,14 +401,18 @@ tl_result tl_nav_obstacles_add(tl_nav_obstacles *obstacles, const tl_nav_obstacl
     return TL_OK;
 }
 
-tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id, const tl_nav_obstacle *obstacle)
+tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id, const tl_nav_obstacle *obstacle,
+                                tl_report *report_out)
 {
+    tl_report_begin(report_out, "move obstacle");
+    TL_REFUSE_NULL(obstacles, report_out);
+    TL_REFUSE_NULL(obstacle, report_out);
     obstacle_slot *slot = find(obstacles, id);
     tl_nav_tile_range range;
     if (slot == NULL) {
-        return TL_NOT_FOUND;
+        return tl_report_fail(report_out, TL_ERR_STALE, "obstacle", id, "it was removed, or never was");
     }
-    TL_TRY(range_of(obstacles, obstacle, &range));
+    TL_TRY(range_of(obstacles, obstacle, &range, report_out));
     let_wait(obstacles, &slot->range);
     slot->obstacle = *obstacle;
     slot->range = range;
@@ -392,9 +422,10 @@ tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id 
 
 tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id)
 {
+    TL_REFUSE_NULL(obstacles, NULL);
     obstacle_slot *slot = find(obstacles, id);
     if (slot == NULL) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     let_wait(obstacles, &slot->range);
     slot->generation++;
@@ -452,26 +483,28 @@ static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl
     }
 }
 
-tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *remade_out,
+tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *rebaked_out,
                                      tl_nav_bake_report *report_out)
 {
     tl_nav_obstacles *o = obstacles;
-    memset(remade_out, 0, sizeof *remade_out);
+    tl_report *base = begin_report(report_out, "rebake");
+    TL_REFUSE_NULL(rebaked_out, base);
+    memset(rebaked_out, 0, sizeof *rebaked_out);
+    TL_REFUSE_NULL(obstacles, base);
     if (o->first_waiting == NONE) {
         return TL_NOT_FOUND;
     }
     tile_floors *tile = &o->tiles[o->first_waiting];
     const uint32_t x = o->first_waiting % o->tiles_x, z = o->first_waiting / o->tiles_x;
-    remade_out->tile_x = (int32_t)x;
-    remade_out->tile_z = (int32_t)z;
+    rebaked_out->tile_x = (int32_t)x;
+    rebaked_out->tile_z = (int32_t)z;
     if (tile->compact.span_count > 0) {
         tl_nav_config config;
-        TL_TRY(tl_nav_config_from_def(&o->def, o->def.bounds, x, z, &config,
-                                      report_out != NULL ? &report_out->base : NULL));
+        TL_TRY(tl_nav_config_from_def(&o->def, o->def.bounds, x, z, &config, base));
         memcpy(tile->compact.area, tile->base_area, tile->compact.span_count);
         mark_obstacles(o, x, z, &tile->compact);
         const tl_host host = { &o->allocator, NULL, NULL };
-        TL_TRY(tl_nav_tile_rebake(&config, &tile->compact, tile->base_area, &tile->memo, &host, &remade_out->stack,
+        TL_TRY(tl_nav_tile_rebake(&config, &tile->compact, tile->base_area, &tile->memo, &host, &rebaked_out->stack,
                                   report_out));
     }
     end_wait(o);
@@ -481,16 +514,19 @@ tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked
 tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t max_tiles,
                                   uint32_t *waiting_out, tl_nav_bake_report *report_out)
 {
+    tl_report *base = begin_report(report_out, "rebake");
+    TL_REFUSE_NULL(obstacles, base);
+    TL_REFUSE_NULL(navmesh, base);
     tl_nav_obstacles *o = obstacles;
     tl_result result = TL_OK;
     for (uint32_t i = 0; i < max_tiles && result == TL_OK && o->first_waiting != NONE; i++) {
         const uint32_t index = o->first_waiting;
-        tl_nav_rebaked_tile remade;
-        result = tl_nav_obstacles_bake_next(o, &remade, report_out);
+        tl_nav_rebaked_tile rebaked;
+        result = tl_nav_obstacles_bake_next(o, &rebaked, report_out);
         if (result != TL_OK) {
             break;
         }
-        result = tl_navmesh_replace_tiles(navmesh, remade.tile_x, remade.tile_z, &remade.stack);
+        result = tl_navmesh_replace_tiles(navmesh, rebaked.tile_x, rebaked.tile_z, &rebaked.stack);
         if (result != TL_OK) {
             let_wait(o, &(tl_nav_tile_range){ index % o->tiles_x, index / o->tiles_x, 1, 1 });
         }

@@ -346,7 +346,7 @@ static void failures_leave_nothing(void **state)
     h.def.nav.cell_size = -1.0f;
     tl_report report;
     TEST_RESULT(tl_nav_audit_run(&h.def, h.navmesh, soup, &h.audit, &report), TL_ERR_ARGUMENT);
-    assert_string_equal(report.element, "cell_size");
+    assert_string_equal(report.field, "cell_size");
     tl_blob_free(soup);
     tear_down(&h);
 }

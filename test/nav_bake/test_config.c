@@ -107,7 +107,7 @@ static void every_field_is_checked(void **state)
             bool allowed = value == 0.0f && !fields[f].zero_is_bad;
             TEST_RESULT(tl_nav_config_from_def(&def, LEVEL, 0, 0, &config, &report), allowed ? TL_OK : TL_ERR_ARGUMENT);
             if (!allowed) {
-                assert_string_equal(report.element, fields[f].name);
+                assert_string_equal(report.field, fields[f].name);
                 TEST_CHECK(report.advice != NULL);
             }
         }
@@ -136,7 +136,7 @@ static void expect_limit(const tl_nav_def *def, tl_aabb bounds, const char *elem
     tl_nav_config config;
     tl_report report;
     TEST_RESULT(tl_nav_config_from_def(def, bounds, 0, 0, &config, &report), TL_ERR_LIMIT);
-    assert_string_equal(report.element, element);
+    assert_string_equal(report.field, element);
     TEST_CHECK(report.advice != NULL);
 }
 

@@ -65,7 +65,7 @@ static void one_layer_is_eroded_exactly(void **state)
         tl_nav_compact compact = flat_compact(&random, &config, 5 + test_random_below(&random, 40));
         uint8_t before[SIDE * SIDE];
         memcpy(before, compact.area, compact.span_count);
-        TEST_RESULT(tl_nav_erode(&config, NULL, &compact), TL_OK);
+        TEST_RESULT(tl_nav_erode(&config, NULL, &compact, NULL), TL_OK);
         for (int z = 0; z < SIDE; z++) {
             for (int x = 0; x < SIDE; x++) {
                 if (has_floor(&compact, x, z)) {
@@ -135,7 +135,7 @@ static void layers_agree_with_the_twin(void **state)
         }
         uint8_t *before = malloc(compact.span_count + 1);
         memcpy(before, compact.area, compact.span_count);
-        TEST_RESULT(tl_nav_erode(&config, NULL, &compact), TL_OK);
+        TEST_RESULT(tl_nav_erode(&config, NULL, &compact, NULL), TL_OK);
         for (uint32_t i = 0; i < compact.span_count; i++) {
             bool stays = distance[i] >= 2 * (int)config.walkable_radius;
             TEST_CHECK(compact.area[i] == (stays ? before[i] : 0));
@@ -160,13 +160,13 @@ static void failing_and_cancelling(void **state)
     test_allocator memory;
     test_allocator_init(&memory, 1);
     tl_host host = { &memory.allocator, NULL, NULL };
-    TEST_RESULT(tl_nav_erode(&config, &host, &compact), TL_ERR_MEMORY);
+    TEST_RESULT(tl_nav_erode(&config, &host, &compact, NULL), TL_ERR_MEMORY);
     test_progress progress;
     test_progress_init(&progress, 1);
     host = (tl_host){ NULL, NULL, &progress.progress };
-    TEST_RESULT(tl_nav_erode(&config, &host, &compact), TL_ERR_CANCELLED);
+    TEST_RESULT(tl_nav_erode(&config, &host, &compact, NULL), TL_ERR_CANCELLED);
     TEST_CHECK(compact.area[0] != 0);
-    TEST_RESULT(tl_nav_erode(&config, NULL, &compact), TL_OK);
+    TEST_RESULT(tl_nav_erode(&config, NULL, &compact, NULL), TL_OK);
     for (uint32_t i = 0; i < compact.span_count; i++) {
         TEST_CHECK(compact.area[i] == 0);
     }

@@ -213,7 +213,7 @@ static void bad_input_is_named(void **state)
     tl_nav_bake_report report;
     def.agent_max_slope = 95;
     TEST_RESULT(tl_nav_bake(&def, &input, &tiles, &report), TL_ERR_ARGUMENT);
-    assert_string_equal(report.base.element, "agent_max_slope");
+    assert_string_equal(report.base.field, "agent_max_slope");
     def = level_def(0.2f, 32);
     LEVEL.vertices[9].y = NAN;
     TEST_RESULT(tl_nav_bake(&def, &input, &tiles, &report), TL_ERR_NOT_FINITE);

@@ -145,7 +145,7 @@ static void twenty_kilometres(void **state)
     tl_report report;
     const tl_aabb square = { tl_vec3_make(0, 0, 0), tl_vec3_make(20000, 10, 20000) };
     TEST_RESULT(tl_nav_tile_grid(&def, square, &tiles_x, &tiles_z, &report), TL_ERR_LIMIT);
-    assert_string_equal(report.element, "tile_size");
+    assert_string_equal(report.field, "tile_size");
     TEST_CHECK(report.advice != NULL);
 }
 
@@ -168,7 +168,7 @@ static void two_thousand_metres_high(void **state)
     tl_report report;
     const tl_aabb bounds = { tl_vec3_make(0, 0, 0), tl_vec3_make(16, 2000, 16) };
     TEST_RESULT(tl_nav_config_from_def(&def, bounds, 0, 0, &config, &report), TL_ERR_LIMIT);
-    assert_string_equal(report.element, "cell_height");
+    assert_string_equal(report.field, "cell_height");
 }
 
 static void three_hundred_floors(void **state)

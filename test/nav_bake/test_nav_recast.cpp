@@ -102,7 +102,7 @@ void spans_and_floors_agree(void **)
         TEST_CHECK(recast.build_compact(config) && recast.erode(config));
         tl_nav_compact compact;
         TEST_RESULT(tl_nav_bake_compact(&config, &field, nullptr, &compact, nullptr), TL_OK);
-        TEST_RESULT(tl_nav_erode(&config, nullptr, &compact), TL_OK);
+        TEST_RESULT(tl_nav_erode(&config, nullptr, &compact, nullptr), TL_OK);
         uint64_t walkable = 0, recast_walkable = 0;
         for (uint32_t i = 0; i < compact.span_count; i++) {
             walkable += compact.area[i] != TL_NAV_NULL_AREA;

@@ -169,7 +169,7 @@ static void test_refusals(void **state)
     tl_nav_bake_report report;
     tl_nav_tile_range beyond = { 2, 0, 1000, 1 };
     TEST_RESULT(tl_nav_bake_range(&def, &input, beyond, NULL, &block, &report), TL_ERR_ARGUMENT);
-    assert_string_equal(report.base.element, "range");
+    assert_string_equal(report.base.field, "range");
     tl_aabb box = { { 1, 0, 1 }, { 2, 1, 2 } }, far_away = { { 900, 0, 1 }, { 901, 1, 2 } };
     tl_aabb not_finite = { { NAN, 0, 1 }, { 2, 1, 2 } };
     TEST_RESULT(tl_nav_rebake(&def, &input, tl_aabb_empty(), &block, &report), TL_ERR_NOT_FINITE);
@@ -189,7 +189,7 @@ static void test_refusals(void **state)
     test_level_make(&level, tl_vec3_make(0, 0, 0));
     def.bounds = tl_aabb_empty();
     TEST_RESULT(tl_nav_rebake(&def, &input, box, &block, &report), TL_ERR_ARGUMENT);
-    assert_string_equal(report.base.element, "bounds");
+    assert_string_equal(report.base.field, "bounds");
     // Every allocation may fail.
     def = make_def(16);
     uint32_t failures = 0;

@@ -72,13 +72,13 @@ static void test_profile(void **state)
     fixture_free_mesh(&mesh);
 }
 
-static void refuse(fixture_mesh *mesh, const tl_nav_tile_source *source, tl_result expected, const char *element)
+static void refuse(fixture_mesh *mesh, const tl_nav_tile_source *source, tl_result expected, const char *name)
 {
     tl_nav_tile *tile = NULL;
     tl_report report;
     TEST_RESULT(tl_nav_tile_encode(source, NULL, &tile, &report), expected);
     TEST_CHECK(tile == NULL);
-    TEST_CHECK(report.element != NULL && strcmp(report.element, element) == 0);
+    assert_string_equal(report.field != NULL ? report.field : report.element, name);
     fixture_free_mesh(mesh);
 }
 
@@ -97,9 +97,9 @@ static void test_bad_sources(void **state)
     level.detail = true;
     REFUSE(m.mesh.polygon_count = 0, TL_ERR_EMPTY, "polygon");
     REFUSE(m.mesh.cell_size = 0.0f, TL_ERR_ARGUMENT, "cell_size");
-    REFUSE(m.mesh.cell_height = NAN, TL_ERR_ARGUMENT, "cell_size");
+    REFUSE(m.mesh.cell_height = NAN, TL_ERR_ARGUMENT, "cell_height");
     REFUSE(s.agent_height = 0.0f, TL_ERR_ARGUMENT, "agent_height");
-    REFUSE(s.agent_max_climb = -1.0f, TL_ERR_ARGUMENT, "agent_height");
+    REFUSE(s.agent_max_climb = -1.0f, TL_ERR_ARGUMENT, "agent_max_climb");
     REFUSE(s.tile_x = 1, TL_ERR_ARGUMENT, "tile_x"); // without a tile size
     REFUSE(s.origin.x += 0.2f, TL_ERR_ARGUMENT, "origin");
     REFUSE(s.origin.x = NAN, TL_ERR_NOT_FINITE, "origin");

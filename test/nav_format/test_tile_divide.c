@@ -92,10 +92,10 @@ static void test_divide(void **state)
     tl_nav_tile_stack_free(&stack);
     tl_report report;
     TEST_RESULT(tl_nav_tile_divide(tiles.tiles[1], layers, NULL, &stack, &report), TL_ERR_ARGUMENT);
-    TEST_CHECK(stack.count == 0 && strcmp(report.element, "tile") == 0);
+    TEST_CHECK(stack.count == 0 && strcmp(report.field, "tile") == 0);
     layers[1] = TL_NAV_MAX_LAYER + 1;
     TEST_RESULT(tl_nav_tile_divide(whole, layers, NULL, &stack, &report), TL_ERR_ARGUMENT);
-    TEST_CHECK(strcmp(report.element, "layer") == 0 && report.element_index == 1);
+    TEST_CHECK(strcmp(report.element, "polygon") == 0 && report.element_index == 1);
     // All of a layer's polygons give its bytes again, cuts too.
     uint8_t *keep = malloc(whole->polygon_count);
     memset(keep, 1, whole->polygon_count);

@@ -152,7 +152,7 @@ static void edit_crates(editor *e)
     crate.height = 1.5f;
     uint32_t which = e->crate_count > 0 ? test_random_below(&e->random, e->crate_count) : 0;
     if (e->crate_count < MOST_OBSTACLES && test_random_below(&e->random, 2) == 0) {
-        TEST_RESULT(tl_nav_obstacles_add(e->obstacles, &crate, &e->crates[e->crate_count++]), TL_OK);
+        TEST_RESULT(tl_nav_obstacles_add(e->obstacles, &crate, &e->crates[e->crate_count++], NULL), TL_OK);
     } else if (e->crate_count > 0) {
         TEST_RESULT(tl_nav_obstacles_remove(e->obstacles, e->crates[which]), TL_OK);
         e->crates[which] = e->crates[--e->crate_count];

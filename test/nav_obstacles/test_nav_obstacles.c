@@ -146,7 +146,7 @@ static void test_volumes(void **state)
     };
     tl_nav_obstacle_id ids[3];
     for (int i = 0; i < 3; i++) {
-        TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &wanted[i], &ids[i]), TL_OK);
+        TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &wanted[i], &ids[i], NULL), TL_OK);
         settle(&w);
         check_against_bake(&w, volumes, (uint32_t)i + 1);
     }
@@ -154,17 +154,17 @@ static void test_volumes(void **state)
     // Elsewhere and back: as if nothing had been.
     tl_nav_obstacle moved = wanted[1];
     moved.base.x += 4.0f;
-    TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[1], &moved), TL_OK);
+    TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[1], &moved, NULL), TL_OK);
     settle(&w);
-    TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[1], &wanted[1]), TL_OK);
+    TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[1], &wanted[1], NULL), TL_OK);
     settle(&w);
     check_against_bake(&w, volumes, 3);
     for (int i = 3; i-- > 0;) {
         TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, ids[i]), TL_OK);
         settle(&w);
         check_against_bake(&w, volumes, (uint32_t)i);
-        TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, ids[i]), TL_NOT_FOUND);
-        TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[i], &moved), TL_NOT_FOUND);
+        TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, ids[i]), TL_ERR_STALE);
+        TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[i], &moved, NULL), TL_ERR_STALE);
     }
     free_world(&w);
 }
@@ -306,14 +306,14 @@ static void test_random_edits(void **state)
         uint32_t what = test_random_below(&random, 3);
         if (count == 0 || (what == 0 && count < MOST)) {
             there[count] = random_obstacle(&random);
-            TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &there[count], &ids[count]), TL_OK);
+            TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &there[count], &ids[count], NULL), TL_OK);
             count++;
             added++;
         } else {
             uint32_t which = test_random_below(&random, count);
             if (what == 1) {
                 there[which] = random_obstacle(&random);
-                TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[which], &there[which]), TL_OK);
+                TEST_RESULT(tl_nav_obstacles_move(w.obstacles, ids[which], &there[which], NULL), TL_OK);
                 moved++;
             } else {
                 TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, ids[which]), TL_OK);
@@ -332,7 +332,7 @@ static void test_random_edits(void **state)
         }
         settle(&w);
         for (uint32_t i = count; i-- > 0;) { // in the other order
-            TEST_RESULT(tl_nav_obstacles_add(other.obstacles, &there[i], &other_ids[i]), TL_OK);
+            TEST_RESULT(tl_nav_obstacles_add(other.obstacles, &there[i], &other_ids[i], NULL), TL_OK);
         }
         settle(&other);
         TEST_CHECK(tl_navmesh_tile_count(w.navmesh) == tl_navmesh_tile_count(other.navmesh));
@@ -362,7 +362,7 @@ static void test_rebake(void **state)
     make_world(&w, NULL);
     tl_nav_obstacle_id id;
     tl_nav_obstacle danger = cylinder(5, tl_vec3_make(7.3f, -0.1f, 8.1f), 2.4f, 1.0f);
-    TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &danger, &id), TL_OK);
+    TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &danger, &id, NULL), TL_OK);
     settle(&w);
     test_level_box(&w.level, 6, 0, 7, 8, 2.0f, 9.5f, 2.0f);
     w.input.mesh = w.level.mesh;
@@ -430,13 +430,13 @@ static void test_refusals(void **state)
             expected = i == 11 ? TL_ERR_NOT_FINITE : TL_ERR_ARGUMENT;
             break;
         }
-        TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &bad, &id), expected);
+        TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &bad, &id, NULL), expected);
     }
-    TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, 0), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, UINT64_MAX), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, 0), TL_ERR_STALE);
+    TEST_RESULT(tl_nav_obstacles_remove(w.obstacles, UINT64_MAX), TL_ERR_STALE);
     tl_nav_obstacle far_away = good;
     far_away.base.x = 1e6f;
-    TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &far_away, &id), TL_OK);
+    TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &far_away, &id, NULL), TL_OK);
     TEST_CHECK(tl_nav_obstacles_count(w.obstacles) == 1 && tl_nav_obstacles_waiting(w.obstacles) == 0);
     tl_nav_rebaked_tile remade;
     TEST_RESULT(tl_nav_obstacles_bake_next(w.obstacles, &remade, NULL), TL_NOT_FOUND);
@@ -445,11 +445,11 @@ static void test_refusals(void **state)
     tl_nav_def def = w.def;
     def.tile_size = 0;
     TEST_RESULT(tl_nav_obstacles_bake(&def, &w.input, &none, NULL, &report), TL_ERR_ARGUMENT);
-    assert_string_equal(report.base.element, "tile_size");
+    assert_string_equal(report.base.field, "tile_size");
     def = w.def;
     def.bounds = tl_aabb_empty();
     TEST_RESULT(tl_nav_obstacles_bake(&def, &w.input, &none, NULL, &report), TL_ERR_ARGUMENT);
-    assert_string_equal(report.base.element, "bounds");
+    assert_string_equal(report.base.field, "bounds");
     TEST_CHECK(none == NULL);
     free_world(&w);
 }
@@ -506,7 +506,7 @@ static void test_out_of_memory(void **state)
     for (uint64_t k = 1;; k++) {
         counting.calls = 0;
         counting.fail_at = k;
-        tl_result result = tl_nav_obstacles_add(obstacles, &crate, &id);
+        tl_result result = tl_nav_obstacles_add(obstacles, &crate, &id, NULL);
         if (result == TL_OK) {
             break;
         }

@@ -145,12 +145,12 @@ static void test_edits_under_readers(void **state)
         tl_nav_obstacle crate = random_crate(&random);
         uint32_t which = count > 0 ? test_random_below(&random, count) : 0;
         if (count < MOST_OBSTACLES && test_random_below(&random, 2) == 0) {
-            TEST_RESULT(tl_nav_obstacles_add(obstacles, &crate, &ids[count++]), TL_OK);
+            TEST_RESULT(tl_nav_obstacles_add(obstacles, &crate, &ids[count++], NULL), TL_OK);
         } else if (count > 0 && test_random_below(&random, 2) == 0) {
             TEST_RESULT(tl_nav_obstacles_remove(obstacles, ids[which]), TL_OK);
             ids[which] = ids[--count];
         } else if (count > 0) {
-            TEST_RESULT(tl_nav_obstacles_move(obstacles, ids[which], &crate), TL_OK);
+            TEST_RESULT(tl_nav_obstacles_move(obstacles, ids[which], &crate, NULL), TL_OK);
         }
         settle(obstacles, &world);
     }

@@ -143,7 +143,7 @@ static void bad_arguments_are_named(void **state)
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_ERR_ARGUMENT);
     def.max_verts_per_poly = 65;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_ERR_ARGUMENT);
-    TEST_CHECK(strcmp(report.base.element, "max_verts_per_poly") == 0 && report.base.advice != NULL);
+    TEST_CHECK(strcmp(report.base.field, "max_verts_per_poly") == 0 && report.base.advice != NULL);
     def = tl_default_polygon_def();
     contour.vertex_count = 5;
     TEST_RESULT(tl_polygon_mesh_bake(&set, &def, &mesh, &report), TL_ERR_INDEX);

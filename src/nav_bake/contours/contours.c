@@ -239,11 +239,13 @@ static tl_result build(tl_contour_work *work, const tl_host *host, tl_nav_contou
 tl_result tl_nav_bake_contours(const tl_nav_config *config, const tl_nav_compact *compact, const tl_host *host,
                                tl_nav_contours *contours_out, tl_report *report_out)
 {
-    TL_ASSERT(config != NULL && compact != NULL && contours_out != NULL);
     tl_report_begin(report_out, "contours");
+    TL_REFUSE_NULL(contours_out, report_out);
     memset(contours_out, 0, sizeof *contours_out);
+    TL_REFUSE_NULL(config, report_out);
+    TL_REFUSE_NULL(compact, report_out);
     if (compact->region == NULL) {
-        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "region", TL_NO_ELEMENT, "call tl_nav_bake_regions");
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "region", "call tl_nav_bake_regions");
     }
     contours_out->allocator = tl_allocator_or_default(host != NULL ? host->allocator : NULL);
     tl_arena arena;

@@ -276,11 +276,14 @@ tl_result tl_nav_bake_detail(const tl_nav_config *config, const tl_nav_compact *
                              const tl_polygon_mesh *polygons, const tl_host *host, tl_nav_detail *detail_out,
                              tl_report *report_out)
 {
-    TL_ASSERT(config != NULL && compact != NULL && polygons != NULL && detail_out != NULL);
     tl_report_begin(report_out, "detail");
+    TL_REFUSE_NULL(detail_out, report_out);
     memset(detail_out, 0, sizeof *detail_out);
+    TL_REFUSE_NULL(config, report_out);
+    TL_REFUSE_NULL(compact, report_out);
+    TL_REFUSE_NULL(polygons, report_out);
     if (compact->region == NULL) {
-        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "region", TL_NO_ELEMENT, "call tl_nav_bake_regions");
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "region", "call tl_nav_bake_regions");
     }
     const tl_allocator *allocator = host != NULL ? host->allocator : NULL;
     tl_arena arena;

@@ -168,8 +168,8 @@ static tl_result finish(open_job *job, tl_result result, tl_report *report)
     if (result != TL_OK) {
         tl_nav_compact_free(job->compact);
     }
-    return result == TL_ERR_LIMIT ? tl_report_fail(report, result, "cell_size", TL_NO_ELEMENT,
-                                                   "set tile_size, or raise cell_size: a field has too many floors")
+    return result == TL_ERR_LIMIT ? tl_report_field(report, result, "cell_size",
+                                                    "set tile_size, or raise cell_size: a field has too many floors")
                                   : result;
 }
 
@@ -216,9 +216,16 @@ tl_result tl_nav_open_triangles(const tl_nav_config *config, const tl_mesh_view 
 tl_result tl_nav_filter_and_compact(const tl_nav_config *config, const tl_nav_heightfield *heightfield,
                                     const tl_host *host, tl_nav_compact *compact_out, tl_report *report_out)
 {
-    const tl_nav_heightfield *field = heightfield;
-    TL_ASSERT(config->width == field->width && config->height == field->height);
     tl_report_begin(report_out, "compact");
+    TL_REFUSE_NULL(compact_out, report_out);
+    memset(compact_out, 0, sizeof *compact_out);
+    TL_REFUSE_NULL(config, report_out);
+    TL_REFUSE_NULL(heightfield, report_out);
+    const tl_nav_heightfield *field = heightfield;
+    if (config->width != field->width || config->height != field->height) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "heightfield",
+                               "give the config that it was rasterized with");
+    }
     open_job job = start_job(config, host, compact_out);
     const tl_span_rows rows = { field->spans, field->first_span, field->width, field->height, 0 };
     const uint32_t per_task = COLUMNS_PER_TASK / field->width;
@@ -232,6 +239,9 @@ tl_result tl_nav_filter_and_compact(const tl_nav_config *config, const tl_nav_he
 tl_result tl_nav_bake_compact(const tl_nav_config *config, const tl_nav_heightfield *heightfield, const tl_host *host,
                               tl_nav_compact *compact_out, tl_report *report_out)
 {
+    if (config == NULL) {
+        return tl_nav_filter_and_compact(config, heightfield, host, compact_out, report_out); // which refuses it
+    }
     tl_nav_config as_it_is = *config;
     as_it_is.filter_low_hanging_obstacles = false;
     as_it_is.filter_ledge_spans = false;

@@ -72,8 +72,11 @@ static void sweep_backward(tl_nav_compact *compact, uint32_t limit, uint16_t *di
     }
 }
 
-tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact)
+tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact, tl_report *report_out)
 {
+    tl_report_begin(report_out, "erode");
+    TL_REFUSE_NULL(config, report_out);
+    TL_REFUSE_NULL(compact, report_out);
     TL_TRY(tl_progress_update(host, "erode", 0, 1));
     if (config->walkable_radius > 0) {
         // walkable_radius <= TL_NAV_MAX_VOXELS, so its double fits 16 bits; farther floors need no exact distance.

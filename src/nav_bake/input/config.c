@@ -47,6 +47,7 @@ tl_nav_def tl_default_nav_def(void)
     def.filter_ledge_spans = true;
     def.filter_walkable_low_height_spans = true;
     def.bounds = tl_aabb_empty();
+    def.cookie = TL_DEF_COOKIE;
     return def;
 }
 
@@ -70,6 +71,7 @@ typedef struct field_rule {
 
 static tl_result check_fields(const tl_nav_def *def, tl_report *report)
 {
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_nav_def()", report));
     const float max = TL_MAX_COORDINATE;
     const field_rule rules[] = {
         { "cell_size", def->cell_size, 0, max, true, false, "use a third to a half of the agent's radius, in metres" },
@@ -93,19 +95,19 @@ static tl_result check_fields(const tl_nav_def *def, tl_report *report)
         bool above = rule->low_excluded ? rule->value > rule->low : rule->value >= rule->low;
         bool below = rule->high_excluded ? rule->value < rule->high : rule->value <= rule->high;
         if (!(above && below)) { // also when NaN
-            return tl_report_fail(report, TL_ERR_ARGUMENT, rule->name, TL_NO_ELEMENT, rule->advice);
+            return tl_report_field(report, TL_ERR_ARGUMENT, rule->name, rule->advice);
         }
     }
     if (def->max_verts_per_poly < 3 || def->max_verts_per_poly > 64) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "max_verts_per_poly", TL_NO_ELEMENT, "use 3 to 64");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "max_verts_per_poly", "use 3 to 64");
     }
     if (def->partition != TL_NAV_WATERSHED && def->partition != TL_NAV_MONOTONE && def->partition != TL_NAV_LAYERS) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "partition", TL_NO_ELEMENT,
-                              "use TL_NAV_WATERSHED, TL_NAV_MONOTONE or TL_NAV_LAYERS");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "partition",
+                               "use TL_NAV_WATERSHED, TL_NAV_MONOTONE or TL_NAV_LAYERS");
     }
     if ((unsigned)def->polygon_method > (unsigned)TL_PARTITION_DELAUNAY) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "polygon_method", TL_NO_ELEMENT,
-                              "use TL_PARTITION_CLASSIC, TL_PARTITION_OPTIMAL or TL_PARTITION_DELAUNAY");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "polygon_method",
+                               "use TL_PARTITION_CLASSIC, TL_PARTITION_OPTIMAL or TL_PARTITION_DELAUNAY");
     }
     return TL_OK;
 }
@@ -117,14 +119,14 @@ static tl_result choose_bounds(const tl_nav_def *def, tl_aabb level_bounds, tl_a
     tl_aabb bounds = from_def ? def->bounds : level_bounds;
     const char *name = from_def ? "bounds" : "level_bounds";
     if (tl_aabb_is_empty(bounds)) {
-        return tl_report_fail(report, TL_ERR_EMPTY, name, TL_NO_ELEMENT, "give the bounds of a mesh with triangles");
+        return tl_report_field(report, TL_ERR_EMPTY, name, "give the bounds of a mesh with triangles");
     }
     if (!tl_is_finite(bounds.min) || !tl_is_finite(bounds.max)) {
-        return tl_report_fail(report, TL_ERR_NOT_FINITE, name, TL_NO_ELEMENT, "use finite bounds");
+        return tl_report_field(report, TL_ERR_NOT_FINITE, name, "use finite bounds");
     }
     tl_vec3 extreme = tl_max(tl_abs(bounds.min), tl_abs(bounds.max));
     if (tl_maxf(extreme.x, tl_maxf(extreme.y, extreme.z)) > TL_MAX_COORDINATE) {
-        return tl_report_fail(report, TL_ERR_RANGE, name, TL_NO_ELEMENT, "move or scale the level towards the origin");
+        return tl_report_field(report, TL_ERR_RANGE, name, "move or scale the level towards the origin");
     }
     *bounds_out = bounds;
     return TL_OK;
@@ -154,17 +156,17 @@ static tl_result agent_voxels(const tl_nav_def *def, level_lattice *level, tl_re
     const char *advice = "raise cell_height: the agent is too many voxels tall";
     double height = ceil(quotient((double)def->agent_height, def->cell_height));
     if (height > (double)TL_NAV_MAX_VOXELS) {
-        return tl_report_fail(report, TL_ERR_LIMIT, "agent_height", TL_NO_ELEMENT, advice);
+        return tl_report_field(report, TL_ERR_LIMIT, "agent_height", advice);
     }
     double climb = floor(quotient((double)def->agent_max_climb, def->cell_height));
     if (climb > (double)TL_NAV_MAX_VOXELS) {
-        return tl_report_fail(report, TL_ERR_LIMIT, "agent_max_climb", TL_NO_ELEMENT,
-                              "raise cell_height or lower the climb: the step is too many voxels high");
+        return tl_report_field(report, TL_ERR_LIMIT, "agent_max_climb",
+                               "raise cell_height or lower the climb: the step is too many voxels high");
     }
     double radius = ceil(quotient((double)def->agent_radius, def->cell_size));
     if (radius > (double)TL_NAV_MAX_VOXELS) {
-        return tl_report_fail(report, TL_ERR_LIMIT, "agent_radius", TL_NO_ELEMENT,
-                              "raise cell_size: the agent is too many cells wide");
+        return tl_report_field(report, TL_ERR_LIMIT, "agent_radius",
+                               "raise cell_size: the agent is too many cells wide");
     }
     level->walkable_height = (uint32_t)height;
     level->walkable_climb = (uint32_t)climb;
@@ -178,13 +180,13 @@ static tl_result level_columns(const tl_nav_def *def, level_lattice *level, tl_r
     double columns_x = column_count(level->bounds.min.x, level->bounds.max.x, def->cell_size);
     double columns_z = column_count(level->bounds.min.z, level->bounds.max.z, def->cell_size);
     if (columns_x > (double)TL_NAV_MAX_LATTICE || columns_z > (double)TL_NAV_MAX_LATTICE) {
-        return tl_report_fail(report, TL_ERR_LIMIT, "cell_size", TL_NO_ELEMENT,
-                              "raise cell_size, or give smaller bounds: the level has too many columns on one side");
+        return tl_report_field(report, TL_ERR_LIMIT, "cell_size",
+                               "raise cell_size, or give smaller bounds: the level has too many columns on one side");
     }
     double voxels = ceil(quotient((double)level->bounds.max.y - (double)level->bounds.min.y, def->cell_height));
     if (voxels > (double)TL_NAV_MAX_HEIGHT) {
-        return tl_report_fail(report, TL_ERR_LIMIT, "cell_height", TL_NO_ELEMENT,
-                              "raise cell_height, or cut the level by bounds: it is more than 65534 voxels tall");
+        return tl_report_field(report, TL_ERR_LIMIT, "cell_height",
+                               "raise cell_height, or cut the level by bounds: it is more than 65534 voxels tall");
     }
     level->columns_x = (uint32_t)columns_x;
     level->columns_z = (uint32_t)columns_z;
@@ -197,29 +199,28 @@ static tl_result level_tiles(const tl_nav_def *def, level_lattice *level, tl_rep
     // Higher than any level is as good as infinitely high: layer 0 only.
     double layer = floor(quotient((double)def->tile_height, def->cell_height));
     if (def->tile_height > 0.0f && layer < 1.0) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "tile_height", TL_NO_ELEMENT,
-                              "use the height of a storey in metres, at least cell_height, or 0");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "tile_height",
+                               "use the height of a storey in metres, at least cell_height, or 0");
     }
     level->layer_height = layer < (double)UINT16_MAX ? (uint32_t)layer : UINT16_MAX;
     level->tiles_x = level->tiles_z = 1;
     uint64_t width = level->columns_x, height = level->columns_z;
     if (def->tile_size > 0) {
         if (def->tile_size > TL_NAV_MAX_SIDE) {
-            return tl_report_fail(report, TL_ERR_LIMIT, "tile_size", TL_NO_ELEMENT, "use tiles of 32 to 1024 cells");
+            return tl_report_field(report, TL_ERR_LIMIT, "tile_size", "use tiles of 32 to 1024 cells");
         }
         level->tiles_x = (level->columns_x - 1) / def->tile_size + 1;
         level->tiles_z = (level->columns_z - 1) / def->tile_size + 1;
         width = height = (uint64_t)def->tile_size + 2 * (uint64_t)level->border_size;
     }
     if ((uint64_t)level->tiles_x * level->tiles_z > TL_NAV_MAX_TILES) {
-        return tl_report_fail(report, TL_ERR_LIMIT, "tile_size", TL_NO_ELEMENT,
-                              "raise tile_size: the level has too many tiles");
+        return tl_report_field(report, TL_ERR_LIMIT, "tile_size", "raise tile_size: the level has too many tiles");
     }
     if (width > TL_NAV_MAX_SIDE || height > TL_NAV_MAX_SIDE || width * height > TL_NAV_MAX_COLUMNS) {
         return def->tile_size > 0
-                   ? tl_report_fail(report, TL_ERR_LIMIT, "tile_size", TL_NO_ELEMENT, "use tiles of 32 to 1024 cells")
-                   : tl_report_fail(report, TL_ERR_LIMIT, "cell_size", TL_NO_ELEMENT,
-                                    "set tile_size (64, say), or raise cell_size: one tile has too many columns");
+                   ? tl_report_field(report, TL_ERR_LIMIT, "tile_size", "use tiles of 32 to 1024 cells")
+                   : tl_report_field(report, TL_ERR_LIMIT, "cell_size",
+                                     "set tile_size (64, say), or raise cell_size: one tile has too many columns");
     }
     return TL_OK;
 }
@@ -239,8 +240,12 @@ tl_result tl_nav_tile_grid(const tl_nav_def *def, tl_aabb level_bounds, uint32_t
                            tl_report *report_out)
 {
     level_lattice level;
+    tl_report_begin(report_out, "config");
+    TL_REFUSE_NULL(tiles_x_out, report_out);
+    TL_REFUSE_NULL(tiles_z_out, report_out);
     *tiles_x_out = *tiles_z_out = 0;
-    TL_TRY(make_level(def, level_bounds, &level, report_out));
+    const tl_nav_def defaults = tl_default_nav_def();
+    TL_TRY(make_level(def != NULL ? def : &defaults, level_bounds, &level, report_out));
     *tiles_x_out = level.tiles_x;
     *tiles_z_out = level.tiles_z;
     return TL_OK;
@@ -288,11 +293,15 @@ tl_result tl_nav_config_from_def(const tl_nav_def *def, tl_aabb level_bounds, ui
                                  tl_nav_config *config_out, tl_report *report_out)
 {
     level_lattice level;
+    tl_report_begin(report_out, "config");
+    TL_REFUSE_NULL(config_out, report_out);
     memset(config_out, 0, sizeof *config_out);
+    const tl_nav_def defaults = tl_default_nav_def();
+    def = def != NULL ? def : &defaults;
     TL_TRY(make_level(def, level_bounds, &level, report_out));
     if (tile_x >= level.tiles_x || tile_z >= level.tiles_z) {
-        return tl_report_fail(report_out, TL_ERR_ARGUMENT, tile_x >= level.tiles_x ? "tile_x" : "tile_z", TL_NO_ELEMENT,
-                              "ask tl_nav_tile_grid how many tiles there are");
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, tile_x >= level.tiles_x ? "tile_x" : "tile_z",
+                               "ask tl_nav_tile_grid how many tiles there are");
     }
     tl_nav_config *config = config_out;
     place_tile(def, &level, tile_x, tile_z, config);

@@ -48,8 +48,8 @@ void tl_distance_blur(const tl_nav_compact *compact, const uint16_t *sharp, uint
 
 tl_result tl_nav_distance_field(const tl_host *host, tl_nav_compact *compact, tl_report *report_out)
 {
-    TL_ASSERT(compact != NULL);
     tl_report_begin(report_out, "distance field");
+    TL_REFUSE_NULL(compact, report_out);
     TL_TRY(tl_progress_update(host, "distance field", 0, 1));
     const tl_allocator *scratch = host != NULL ? host->allocator : NULL;
     uint32_t count = compact->span_count;

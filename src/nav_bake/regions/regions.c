@@ -66,13 +66,14 @@ static tl_result partition(const tl_nav_config *config, tl_region_work *work)
 tl_result tl_nav_divide_regions(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact,
                                 bool keep_distance, tl_report *report_out)
 {
-    TL_ASSERT(config != NULL && compact != NULL);
     tl_report_begin(report_out, "regions");
+    TL_REFUSE_NULL(config, report_out);
+    TL_REFUSE_NULL(compact, report_out);
     if ((unsigned)config->partition > (unsigned)TL_NAV_LAYERS) {
-        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "partition", config->partition, "use a tl_nav_partition");
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "partition", "use a tl_nav_partition");
     }
     if (config->partition == TL_NAV_WATERSHED && compact->distance == NULL) {
-        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "distance", TL_NO_ELEMENT, "call tl_nav_distance_field");
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "distance", "call tl_nav_distance_field");
     }
     if (compact->span_count >= TL_NAV_BORDER_REGION) { // a region a span must be possible
         return tl_report_fail(report_out, TL_ERR_LIMIT, "span", compact->span_count, "use tiles or larger cells");

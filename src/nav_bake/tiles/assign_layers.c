@@ -63,8 +63,12 @@ static void assign_region(const tl_polygon_mesh *polygons, const tl_sort_item *i
 }
 
 tl_result tl_nav_assign_layers(const tl_nav_config *config, const tl_polygon_mesh *polygons,
-                               const tl_allocator *allocator, uint32_t *layers_out)
+                               const tl_allocator *allocator, uint32_t *layers_out, tl_report *report_out)
 {
+    tl_report_begin(report_out, "layers");
+    TL_REFUSE_NULL(config, report_out);
+    TL_REFUSE_NULL(polygons, report_out);
+    TL_REFUSE_NULL(layers_out, report_out);
     const uint32_t count = polygons->polygon_count;
     if (config->layer_height == 0) {
         memset(layers_out, 0, count * sizeof *layers_out);

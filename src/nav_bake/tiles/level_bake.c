@@ -132,9 +132,9 @@ static tl_result sort_triangles(level_job *job, tl_report *report)
     tl_bin_grid grid = { job->range.count_x, job->range.count_z, size, size, config.border_size };
     tl_triangle_list all = { NULL, job->input->mesh.triangle_count };
     tl_result result = tl_triangle_bins_build(&job->input->mesh, all, &map, &grid, job->host.allocator, &job->bins);
-    return result == TL_ERR_LIMIT ? tl_report_fail(report, result, "tile_size", TL_NO_ELEMENT,
-                                                   "raise tile_size: too many tiles a triangle")
-                                  : result;
+    return result == TL_ERR_LIMIT
+               ? tl_report_field(report, result, "tile_size", "raise tile_size: too many tiles a triangle")
+               : result;
 }
 
 static tl_result build_tiles(level_job *job, tl_nav_bake_report *report)
@@ -168,8 +168,7 @@ static tl_result take_range(level_job *job, const tl_nav_tile_range *range, tl_r
     const tl_nav_tile_range wanted = range != NULL ? *range : all;
     if (wanted.x > all.count_x || wanted.count_x > all.count_x - wanted.x || wanted.z > all.count_z ||
         wanted.count_z > all.count_z - wanted.z) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "range", TL_NO_ELEMENT,
-                              "ask tl_nav_tile_grid how many tiles there are");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "range", "ask tl_nav_tile_grid how many tiles there are");
     }
     job->range = wanted;
     return TL_OK;
@@ -244,9 +243,14 @@ static tl_result keep_tiles(level_job *job, uint32_t tile_count, tl_nav_tiles *t
 tl_result tl_nav_bake(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tiles *tiles_out,
                       tl_nav_bake_report *report_out)
 {
+    tl_report *base = tl_nav_bake_report_begin(report_out, "check");
+    TL_REFUSE_NULL(tiles_out, base);
+    memset(tiles_out, 0, sizeof *tiles_out);
+    TL_REFUSE_NULL(input, base);
+    const tl_nav_def defaults = tl_default_nav_def();
+    def = def != NULL ? def : &defaults;
     tl_nav_bake_report report;
     memset(&report, 0, sizeof report);
-    memset(tiles_out, 0, sizeof *tiles_out);
     tl_memory_meter meter;
     level_job job;
     begin_job(&job, def, input, &meter);
@@ -315,9 +319,14 @@ static void hand_over_stacks(level_job *job, tl_nav_tile_block *block_out)
 tl_result tl_nav_bake_range(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tile_range range,
                             const tl_nav_stage_sink *sink, tl_nav_tile_block *block_out, tl_nav_bake_report *report_out)
 {
+    tl_report *base = tl_nav_bake_report_begin(report_out, "check");
+    TL_REFUSE_NULL(block_out, base);
+    memset(block_out, 0, sizeof *block_out);
+    TL_REFUSE_NULL(input, base);
+    const tl_nav_def defaults = tl_default_nav_def();
+    def = def != NULL ? def : &defaults;
     tl_nav_bake_report report;
     memset(&report, 0, sizeof report);
-    memset(block_out, 0, sizeof *block_out);
     tl_memory_meter meter;
     level_job job;
     begin_job(&job, def, input, &meter);

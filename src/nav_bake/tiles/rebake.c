@@ -31,12 +31,16 @@ tl_result tl_nav_tiles_in_box(const tl_nav_def *def, tl_aabb level_bounds, tl_aa
                               tl_report *report_out)
 {
     tl_nav_tile_range range = { 0, 0, 0, 0 };
+    tl_report_begin(report_out, "tiles in box");
+    TL_REFUSE_NULL(range_out, report_out);
     *range_out = range;
+    const tl_nav_def defaults = tl_default_nav_def();
+    def = def != NULL ? def : &defaults;
     if (!tl_is_finite(box.min) || !tl_is_finite(box.max)) {
-        return tl_report_fail(report_out, TL_ERR_NOT_FINITE, "box", TL_NO_ELEMENT, NULL);
+        return tl_report_field(report_out, TL_ERR_NOT_FINITE, "box", NULL);
     }
     if (tl_aabb_is_empty(box)) {
-        return tl_report_fail(report_out, TL_ERR_ARGUMENT, "box", TL_NO_ELEMENT, "give a box with min <= max");
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "box", "give a box with min <= max");
     }
     uint32_t tiles_x, tiles_z;
     tl_nav_config config;
@@ -59,23 +63,17 @@ tl_result tl_nav_tiles_in_box(const tl_nav_def *def, tl_aabb level_bounds, tl_aa
 tl_result tl_nav_rebake(const tl_nav_def *def, const tl_nav_input *input, tl_aabb changed, tl_nav_tile_block *block_out,
                         tl_nav_bake_report *report_out)
 {
-    tl_nav_bake_report report = { 0 };
-    tl_nav_tile_range range;
+    tl_report *base = tl_nav_bake_report_begin(report_out, "rebake");
+    TL_REFUSE_NULL(block_out, base);
     memset(block_out, 0, sizeof *block_out);
-    tl_report_begin(&report.base, "rebuild");
-    tl_result result = TL_OK;
+    TL_REFUSE_NULL(input, base);
+    const tl_nav_def defaults = tl_default_nav_def();
+    def = def != NULL ? def : &defaults;
+    tl_nav_tile_range range;
     if (tl_aabb_is_empty(def->bounds)) {
-        result = tl_report_fail(&report.base, TL_ERR_ARGUMENT, "bounds", TL_NO_ELEMENT,
-                                "give def->bounds, or the lattice moves when the mesh does");
+        return tl_report_field(base, TL_ERR_ARGUMENT, "bounds",
+                               "give def->bounds, or the lattice moves when the mesh does");
     }
-    if (result == TL_OK) {
-        result = tl_nav_tiles_in_box(def, def->bounds, changed, &range, &report.base);
-    }
-    if (result == TL_OK) {
-        return tl_nav_bake_range(def, input, range, NULL, block_out, report_out);
-    }
-    if (report_out != NULL) {
-        *report_out = report;
-    }
-    return result;
+    TL_TRY(tl_nav_tiles_in_box(def, def->bounds, changed, &range, base));
+    return tl_nav_bake_range(def, input, range, NULL, block_out, report_out);
 }

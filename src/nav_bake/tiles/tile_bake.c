@@ -75,8 +75,7 @@ static tl_result build_floors(tile_job *job)
 
 static tl_result erode(tile_job *job)
 {
-    tl_report_begin(&job->report->base, "erode");
-    return tl_nav_erode(job->config, &job->host, &job->stages->compact);
+    return tl_nav_erode(job->config, &job->host, &job->stages->compact, &job->report->base);
 }
 
 static tl_result mark_areas(tile_job *job)
@@ -165,7 +164,7 @@ static tl_result stack_whole(tile_job *job, uint32_t layer)
 static tl_result divide(tile_job *job, uint32_t *layers)
 {
     const tl_polygon_mesh *polygons = &job->stages->polygons;
-    TL_TRY(tl_nav_assign_layers(job->config, polygons, job->host.allocator, layers));
+    TL_TRY(tl_nav_assign_layers(job->config, polygons, job->host.allocator, layers, NULL));
     bool is_whole = true;
     for (uint32_t p = 1; p < polygons->polygon_count; p++) {
         is_whole = is_whole && layers[p] == layers[0];
@@ -241,6 +240,16 @@ static tl_result build_tile(tile_job *job)
     return finish_tile(job);
 }
 
+tl_report *tl_nav_bake_report_begin(tl_nav_bake_report *report, const char *stage)
+{
+    if (report == NULL) {
+        return NULL;
+    }
+    memset(report, 0, sizeof *report);
+    tl_report_begin(&report->base, stage);
+    return &report->base;
+}
+
 tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input, tl_triangle_list list,
                           const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile_stack *stack_out,
                           tl_nav_bake_report *report)
@@ -271,6 +280,16 @@ void tl_nav_stages_hand_over(tl_nav_stages *stages, const tl_allocator *allocato
     stages->detail.allocator = host;
 }
 
+static tl_result check_arguments(const tl_nav_config *config, const tl_nav_input *input, tl_nav_tile **tile_out,
+                                 tl_report *report)
+{
+    tl_report_begin(report, "check");
+    TL_REFUSE_NULL(tile_out, report);
+    TL_REFUSE_NULL(config, report);
+    TL_REFUSE_NULL(input, report);
+    return tl_nav_input_check(input, NULL, report);
+}
+
 tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_input *input, const tl_host *host,
                            tl_nav_stages *stages_out, tl_nav_tile **tile_out, tl_nav_bake_report *report_out)
 {
@@ -283,8 +302,13 @@ tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_input *inpu
     tl_memory_meter_init(&meter, allocator);
     tl_host metered = { &meter.allocator, host != NULL ? host->tasks : NULL, host != NULL ? host->progress : NULL };
 
-    *tile_out = NULL;
-    tl_result result = tl_nav_input_check(input, NULL, &report.base);
+    if (tile_out != NULL) {
+        *tile_out = NULL;
+    }
+    if (stages_out != NULL) {
+        memset(stages_out, 0, sizeof *stages_out);
+    }
+    tl_result result = check_arguments(config, input, tile_out, &report.base);
     if (result == TL_OK) {
         tl_triangle_list all = { NULL, input->mesh.triangle_count };
         tl_nav_config whole = *config;
@@ -343,5 +367,10 @@ tl_result tl_nav_tile_bake_from_distance(const tl_nav_config *config, tl_nav_com
 tl_result tl_nav_tile_bake_from_compact(const tl_nav_config *config, tl_nav_compact *compact, const tl_host *host,
                                         tl_nav_tile_stack *stack_out, tl_nav_bake_report *report_out)
 {
+    tl_report *base = tl_nav_bake_report_begin(report_out, "regions");
+    TL_REFUSE_NULL(stack_out, base);
+    memset(stack_out, 0, sizeof *stack_out);
+    TL_REFUSE_NULL(config, base);
+    TL_REFUSE_NULL(compact, base);
     return tl_nav_tile_bake_from_distance(config, compact, false, host, stack_out, report_out);
 }

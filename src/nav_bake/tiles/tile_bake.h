@@ -7,6 +7,9 @@
 
 #include "nav_bake/input/triangle_bins.h"
 
+/// Clears a report that may be NULL; its base, or NULL.
+tl_report *tl_nav_bake_report_begin(tl_nav_bake_report *report, const char *stage);
+
 /// tl_nav_tile_bake for the triangles of a list. Adds its counts to those in `report`, which is not NULL, and leaves
 /// the last stage, or what failed, in its base. `stages` is not NULL and zero; with `keep_stages` it holds all
 /// intermediate data afterwards, also on failure, else nothing.

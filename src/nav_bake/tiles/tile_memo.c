@@ -9,6 +9,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/host.h"
 #include "nav_bake/regions/distance_update.h"
 
 #include <string.h>
@@ -56,10 +57,16 @@ tl_result tl_nav_tile_rebake(const tl_nav_config *config, tl_nav_compact *compac
                              tl_nav_tile_memo **memo, const tl_host *host, tl_nav_tile_stack *stack_out,
                              tl_nav_bake_report *report_out)
 {
+    tl_report *base = tl_nav_bake_report_begin(report_out, "regions");
+    TL_REFUSE_NULL(stack_out, base);
+    memset(stack_out, 0, sizeof *stack_out);
+    TL_REFUSE_NULL(config, base);
+    TL_REFUSE_NULL(compact, base);
+    TL_REFUSE_NULL(base_area, base);
+    TL_REFUSE_NULL(memo, base);
     TL_ASSERT(*memo == NULL || (*memo)->span_count == compact->span_count);
     const tl_allocator allocator = tl_allocator_or_default(host != NULL ? host->allocator : NULL);
     const bool first_time = *memo == NULL;
-    memset(stack_out, 0, sizeof *stack_out);
     if (first_time && memcmp(compact->area, base_area, compact->span_count) == 0) {
         return tl_nav_tile_bake_from_compact(config, compact, host, stack_out, report_out); // it may never be marked
     }

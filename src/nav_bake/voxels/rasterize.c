@@ -272,8 +272,8 @@ tl_result tl_nav_rasterize_list(const tl_nav_config *config, const tl_mesh_view 
         tl_nav_heightfield_free(field);
     }
     if (result == TL_ERR_LIMIT) {
-        tl_report_fail(report, result, "cell_size", TL_NO_ELEMENT,
-                       "set tile_size, or raise cell_size: there are more spans than 32 bits can count");
+        tl_report_field(report, result, "cell_size",
+                        "set tile_size, or raise cell_size: there are more spans than 32 bits can count");
     }
     return result;
 }
@@ -282,7 +282,10 @@ tl_result tl_nav_rasterize(const tl_nav_config *config, const tl_mesh_view *mesh
                            const tl_host *host, tl_nav_heightfield *heightfield_out, tl_report *report_out)
 {
     tl_report_begin(report_out, "rasterize");
+    TL_REFUSE_NULL(heightfield_out, report_out);
     memset(heightfield_out, 0, sizeof *heightfield_out);
+    TL_REFUSE_NULL(config, report_out);
+    TL_REFUSE_NULL(mesh, report_out);
     TL_TRY(tl_level_mesh_check(mesh, NULL, report_out));
     tl_triangle_list all = { NULL, mesh->triangle_count };
     return tl_nav_rasterize_list(config, mesh, areas, all, host, heightfield_out, report_out);

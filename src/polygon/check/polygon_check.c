@@ -267,14 +267,16 @@ static tl_result check(tl_polygon_checker *c)
 tl_result tl_polygon_mesh_check(const tl_polygon_mesh *mesh, const tl_contour_set *contours,
                                 const tl_allocator *allocator, tl_polygon_check_report *report_out)
 {
-    TL_ASSERT(mesh != NULL);
     tl_polygon_checker checker;
     memset(&checker, 0, sizeof checker);
     checker.mesh = mesh;
     checker.contours = contours;
     tl_report_begin(&checker.report.base, "polygon check");
     tl_arena_init(&checker.arena, allocator);
-    tl_result result = check(&checker);
+    tl_result result = tl_refuse_null(mesh, "mesh", &checker.report.base);
+    if (result == TL_OK) {
+        result = check(&checker);
+    }
     checker.report.base.peak_bytes = checker.arena.peak_bytes;
     tl_arena_free(&checker.arena);
     if (result == TL_OK && checker.report.base.element != NULL) {

@@ -38,18 +38,20 @@ tl_polygon_def tl_default_polygon_def(void)
     def.max_verts_per_poly = 6;
     def.method = TL_PARTITION_CLASSIC;
     def.merge_height = 2;
+    def.cookie = TL_DEF_COOKIE;
     return def;
 }
 
 static tl_result check_arguments(const tl_contour_set *set, const tl_polygon_def *def, uint32_t *vertex_count,
                                  tl_report *report)
 {
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_polygon_def()", report));
     if (def->max_verts_per_poly != 0 && (def->max_verts_per_poly < 3 || def->max_verts_per_poly > 64)) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "max_verts_per_poly", TL_NO_ELEMENT, "use 0 or 3 to 64");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "max_verts_per_poly", "use 0 or 3 to 64");
     }
     if (def->method != TL_PARTITION_CLASSIC && def->method != TL_PARTITION_OPTIMAL &&
         def->method != TL_PARTITION_DELAUNAY) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "method", TL_NO_ELEMENT, "use a TL_PARTITION_ value");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "method", "use a TL_PARTITION_ value");
     }
     uint64_t vertices = 0;
     for (uint32_t i = 0; i < set->contour_count; i++) {
@@ -303,7 +305,14 @@ static tl_result build(builder *b, tl_polygon_mesh *mesh_out)
 tl_result tl_polygon_mesh_bake(const tl_contour_set *contours, const tl_polygon_def *def, tl_polygon_mesh *mesh_out,
                                tl_polygon_report *report_out)
 {
-    TL_ASSERT(contours != NULL && mesh_out != NULL);
+    tl_report *base = report_out != NULL ? &report_out->base : NULL;
+    if (report_out != NULL) {
+        memset(report_out, 0, sizeof *report_out);
+    }
+    tl_report_begin(base, "polygons");
+    TL_REFUSE_NULL(mesh_out, base);
+    memset(mesh_out, 0, sizeof *mesh_out);
+    TL_REFUSE_NULL(contours, base);
     const tl_polygon_def defaults = tl_default_polygon_def();
     def = def != NULL ? def : &defaults;
     builder b;
