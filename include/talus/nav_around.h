@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What lies around a place on a navmesh: random points, walls, polygons in a zone, and how far it is to each of them.
+// What lies around a place on a navmesh: random points, walls, the polygons in a zone, and Dijkstra maps (flow fields):
+// what a path costs to each of them.
 //
-// Like all queries these allocate nothing; those that search take a tl_nav_query for their nodes.
+// Like all queries these allocate nothing; those that search take a tl_nav_query for their nodes. Results are those of
+// all searches (nav_query.h): TL_ERR_STALE, TL_ERR_NODES, TL_INCOMPLETE ...
 
 #ifndef TALUS_NAV_AROUND_H
 #define TALUS_NAV_AROUND_H
@@ -14,19 +16,20 @@ extern "C" {
 #endif
 
 // ---------------------------------------------------------------------------------------------------------
-// Zones: a part of the plane.
+// Zones: parts of the plane.
 
 #define TL_NAV_MAX_ZONE_POINTS 64
 
-/// A circle, or a convex outline. Its own outline belongs to it.
+/// A circle, or a convex outline. The outline belongs to the zone.
 typedef struct tl_nav_zone {
-    tl_vec3 center;        ///< of the circle; y is not looked at
-    float radius;          ///< >= 0
-    const tl_vec3 *points; ///< NULL: the circle. Else a convex outline in x and z, either winding
+    tl_vec3 center;        ///< of the circle; y is ignored
+    float radius;          ///< metres, >= 0
+    const tl_vec3 *points; ///< NULL: the circle. Else a convex outline in x and z, either winding; the caller's
     uint32_t point_count;  ///< 3 to TL_NAV_MAX_ZONE_POINTS
 } tl_nav_zone;
 
 TL_API tl_nav_zone tl_nav_zone_circle(tl_vec3 center, float radius);
+/// The points must outlive the zone.
 TL_API tl_nav_zone tl_nav_zone_polygon(const tl_vec3 *points, uint32_t point_count);
 
 /// Heights from `min` to `max`, metres; they may be infinite.
@@ -34,15 +37,15 @@ typedef struct tl_nav_height_range {
     float min, max;
 } tl_nav_height_range;
 
-/// All polygons that pass and come into a zone, whether a path leads there or not. Their order is that of the tiles'
-/// trees. Only those whose surface comes into `heights` (NULL: all), as far as its box tells. `*count_out` is the true
-/// number. TL_INCOMPLETE: only the first were written. TL_ERR_ARGUMENT (a zone that is none), TL_ERR_NOT_FINITE.
+/// Finds all polygons that pass the filter and come into a zone, whether a path leads there or not, in the order of the
+/// tiles' BVHs. With `heights` (NULL: all) only those whose bounding box comes into that range.
+/// TL_ERR_ARGUMENT: the zone is invalid.
 TL_API tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                           const tl_nav_zone *zone, const tl_nav_height_range *heights,
                                           tl_nav_ref *polygons_out, uint32_t capacity, uint32_t *count_out);
 
 // ---------------------------------------------------------------------------------------------------------
-// Fields: the cost of the way to each polygon around.
+// Fields (Dijkstra maps, flow fields): the cost of the path to each polygon around a start.
 
 /// A polygon that a path leads to.
 typedef struct tl_nav_field_entry {
@@ -53,29 +56,27 @@ typedef struct tl_nav_field_entry {
     tl_vec3 point;   ///< where the path enters the polygon; the start in its own
 } tl_nav_field_entry;
 
-/// How far a field reaches, and what its ways cost. Begin with tl_default_nav_field_def.
+/// How far a field reaches, and what its paths cost. Begin with tl_default_nav_field_def.
 typedef struct tl_nav_field_def {
     const tl_nav_filter *filter; ///< NULL: the default filter
-    const tl_nav_zone *zone;     ///< NULL: everywhere; else only ways from polygon to polygon that come into it count,
-                                 ///< and off-mesh links that land in it
+    const tl_nav_zone *zone;     ///< NULL: everywhere; else paths cross only edges that come into it, and take only
+                                 ///< off-mesh links that land in it
     float max_cost;              ///< >= 0: polygons that are entered at a higher cost do not belong to the field
-    bool by_reference;           ///< entries stand in the order of references, for tl_nav_field_find; false: in the
-                                 ///< order in which they were found, the start's first, which takes less time
+    bool by_reference;           ///< entries are ordered by reference, for tl_nav_field_find; false: in the order in
+                                 ///< which they were found, the start's first, which takes less time
     uint32_t cookie;             ///< TL_DEF_COOKIE, set by tl_default_nav_field_def
 } tl_nav_field_def;
 
-/// The default filter, everywhere, at any cost (INFINITY), as found.
+/// The default filter, everywhere, at any cost (INFINITY), in the order found.
 TL_API tl_nav_field_def tl_default_nav_field_def(void);
 
-/// Floods the polygons around a start, the cheapest first: those that hang together with it within the field's reach,
-/// what a path costs there, and from where it comes.
+/// Floods the polygons around a start, the cheapest first: all that a path within the field's reach leads to, what that
+/// path costs, and from where it comes. NULL def: the default one.
 ///
-/// Paths go from polygon to polygon over the point of the way that is nearest to the one before: they are no shortest
-/// ones, but lie near them; tl_navmesh_straight_path makes them short. `*count_out` is the true number.
-/// TL_INCOMPLETE: only the first were written, and parents may name others. TL_ERR_LIMIT: the query was out of nodes;
-/// those that were found are written, and costs may be too high. TL_NOT_FOUND: a stale reference.
-/// TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: the zone, a cost, max_cost below 0. O(polygons log polygons). Source: Dijkstra
-/// 1959.
+/// Paths enter each polygon at the point of its edge that is nearest to the point before: they are near the shortest
+/// ones; tl_navmesh_straight_path pulls them straight. TL_INCOMPLETE: parents may name entries that did not fit.
+/// TL_ERR_NODES: what was found is written, and costs may be too high. TL_ERR_ARGUMENT: the zone, an area cost,
+/// max_cost below 0. O(polygons log polygons). Source: Dijkstra, A Note on Two Problems in Connexion with Graphs, 1959.
 TL_API tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_location *start,
                                     const tl_nav_field_def *def, tl_nav_field_entry *entries_out, uint32_t capacity,
                                     uint32_t *count_out);
@@ -84,9 +85,8 @@ TL_API tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navme
 TL_API uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t count, tl_nav_ref polygon);
 
 /// The path from the field's start to an entry's polygon, as tl_nav_query_find_path writes it, for
-/// tl_navmesh_straight_path. Without off-mesh links, read backwards, it leads to the start. No search. TL_INCOMPLETE:
-/// only the first were written. TL_NOT_FOUND: there is no such entry, or a field that was cut off lacks one on the
-/// way.
+/// tl_navmesh_straight_path. A path without off-mesh links leads to the start when it is read backwards. No search.
+/// TL_NOT_FOUND: there is no such entry, or a field that was cut off lacks one on the path.
 TL_API tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t count, uint32_t entry,
                                    tl_nav_ref *polygons_out, uint32_t capacity, uint32_t *count_out);
 
@@ -97,42 +97,40 @@ TL_API tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t c
 typedef struct tl_nav_wall_segment {
     tl_vec3 start, end;
     tl_nav_ref polygon; ///< that it belongs to
-    tl_nav_ref across;  ///< the polygon behind it, that the filter refuses; TL_NAV_NO_REF: nothing lies there
-    float distance;     ///< metres in the plane from the place that was asked for; 0 for one polygon's walls
+    tl_nav_ref across;  ///< the polygon behind it, which the filter refuses; TL_NAV_NO_REF: there is none
+    float distance;     ///< metres in the plane from the request's center; 0 for one polygon's walls
 } tl_nav_wall_segment;
 
-/// The walls of a polygon, in the order of its edges. What the filter refuses is wall. `*count_out` is the true number.
-/// TL_INCOMPLETE: only the first were written. TL_NOT_FOUND: a stale reference.
+/// The walls of a polygon, in the order of its edges. What the filter refuses is wall.
 TL_API tl_result tl_navmesh_polygon_walls(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref polygon,
                                           tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out);
 
-/// The walls within `radius` metres in the plane of the polygons that hang together with the centre's within it: the
-/// nearest `capacity` of them, the nearest first, whole. `*count_out` is the true number. TL_INCOMPLETE: there are
-/// more. TL_ERR_LIMIT: the query was out of nodes. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
-/// TL_ERR_ARGUMENT: a negative radius.
+/// Finds the walls within a radius of a place in the plane, of the polygons that are connected with the center's within
+/// it: the nearest `capacity` of them, uncut, the nearest first. TL_ERR_ARGUMENT: a negative radius.
 TL_API tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh,
                                          const tl_nav_around_request *request, tl_nav_wall_segment *segments_out,
                                          uint32_t capacity, uint32_t *count_out);
 
 // ---------------------------------------------------------------------------------------------------------
-// Random points. The random numbers are the caller's: all bits of both evenly spread. The same ones give the same point
-// everywhere.
+// Random points. The random numbers are the caller's: all bits of both uniform. The same numbers give the same point on
+// every machine.
 
-/// A point of the surface, each square of the lattice in the plane as likely as any other: areas are summed up in whole
-/// numbers. O(log polygons); O(polygons) with a filter that refuses some. TL_NOT_FOUND: none passes.
+/// A random point of the surface, uniform by area in the plane; areas are summed up in whole numbers, exactly.
+/// O(log polygons); O(polygons) with a filter that refuses some. TL_NOT_FOUND: no polygon passes.
 TL_API tl_result tl_navmesh_random_point(const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                          const uint64_t random[2], tl_nav_location *location_out);
 
-/// A point that can be reached from `center`: uniform by area over what lies within the circle of `radius` metres in
-/// the plane on those polygons which a path enters that is no longer than the radius and stays on polygons that come
-/// into the circle. Paths and their lengths are those of tl_nav_query_flood with all area costs 1. The circle is
-/// a regular polygon with 32 sides within it, which leaves out the outmost 0.5% of the radius between its corners.
-/// A circle without area has its centre alone. TL_ERR_LIMIT: the query was out of nodes; the point lies on the polygons
-/// that were found. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a negative radius.
+/// A random point that can be reached from the request's center: uniform by area over the part of the circle that lies
+/// on polygons which a path of at most the radius enters over polygons that come into the circle. Paths and their
+/// lengths are those of tl_nav_query_flood with all area costs 1.
+///
+/// The circle is a regular polygon with 32 sides inscribed in it, which leaves out the outer 0.5% of the radius between
+/// its corners. A circle without area has its center alone. TL_ERR_NODES: the point lies on the polygons that were
+/// found. TL_ERR_ARGUMENT: a negative radius.
 TL_API tl_result tl_nav_query_random_reachable(tl_nav_query *query, const tl_navmesh *navmesh,
                                                const tl_nav_around_request *request, const uint64_t random[2],
                                                tl_nav_location *location_out);
-/// The same `count` times, for one flood: random[2 * i] and random[2 * i + 1] choose locations_out[i].
+/// The same `count` times with one flood: random[2 * i] and random[2 * i + 1] choose locations_out[i].
 TL_API tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_navmesh *navmesh,
                                                       const tl_nav_around_request *request, const uint64_t *random,
                                                       uint32_t count, tl_nav_location *locations_out);

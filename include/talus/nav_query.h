@@ -265,28 +265,38 @@ TL_API tl_nav_query_def tl_default_nav_query_def(void);
 TL_API tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_out);
 TL_API void tl_nav_query_destroy(tl_nav_query *query);
 
+// The contract of all searches. What names nothing (any more) is TL_ERR_STALE, a coordinate or radius that is no number
+// TL_ERR_NOT_FINITE, a NULL where something is needed, or a filter without its cookie, TL_ERR_ARGUMENT. A NULL filter
+// is the default one. A buffer is NULL where its capacity is 0; TL_INCOMPLETE: it holds the first part, counts are
+// true.
+//
+// How a search for a path went is a status of the path, not a result: TL_OK for an unreachable goal too, and where the
+// query ran out of nodes. Other searches that run out of nodes return TL_ERR_NODES, with the best that was seen. After
+// any other error the outputs are zeroed.
+
 /// How a path search ended.
 typedef enum tl_nav_path_status {
+    TL_NAV_PATH_NONE,         ///< nothing was searched: the call failed, and its result says why
     TL_NAV_PATH_COMPLETE,     ///< the path leads to the goal
-    TL_NAV_PATH_UNREACHABLE,  ///< proven: no path to the goal; this one leads as near to it as any
+    TL_NAV_PATH_UNREACHABLE,  ///< proven: no path leads to the goal; this one leads as near to it as any
     TL_NAV_PATH_OUT_OF_NODES, ///< gave up at max_nodes; this one leads as near to the goal as was seen
-    TL_NAV_PATH_UNFINISHED,   ///< in slices, and there is more to do; this one leads as near as was seen so far
-    TL_NAV_PATH_STALE         ///< in slices, and a tile that was searched has changed: begin again
+    TL_NAV_PATH_UNFINISHED,   ///< sliced, and there is more to do; this one leads as near as was seen so far
+    TL_NAV_PATH_STALE         ///< sliced, and a tile that was searched has changed: begin again
 } tl_nav_path_status;
 
-/// A word for a status: "complete", "unreachable", "out of nodes", "unfinished", "stale".
+/// "none", "complete", "unreachable", "out of nodes", "unfinished", "stale"; "unknown" for other numbers.
 TL_API const char *tl_nav_path_status_name(tl_nav_path_status status);
 
 #define TL_NAV_CORNER_START 1u  ///< the path's start
 #define TL_NAV_CORNER_END   2u  ///< the path's end
 #define TL_NAV_CORNER_LEFT  4u  ///< the path turns left around it
 #define TL_NAV_CORNER_RIGHT 8u  ///< the path turns right around it
-#define TL_NAV_CORNER_LINK  16u ///< the path goes from here to the next corner by an off-mesh link
+#define TL_NAV_CORNER_LINK  16u ///< the path takes an off-mesh link from here to the next corner
 
 /// A corner of a straight path.
 typedef struct tl_nav_corner {
     tl_vec3 point;
-    tl_nav_ref polygon; ///< entered at this corner: the path goes on in it
+    tl_nav_ref polygon; ///< that the path enters here and continues in
     uint32_t flags;     ///< TL_NAV_CORNER_...
     tl_nav_ref link;    ///< TL_NAV_CORNER_LINK: which; else TL_NAV_NO_REF
 } tl_nav_corner;
@@ -298,7 +308,7 @@ typedef struct tl_nav_path_request {
     tl_nav_location goal;        ///< on its polygon
 } tl_nav_path_request;
 
-/// Where a path is written: the caller's. A buffer that is not wanted is NULL with capacity 0.
+/// Where a path is written: the caller's memory.
 typedef struct tl_nav_path_buffers {
     tl_nav_ref *polygons;
     uint32_t polygon_capacity;
@@ -314,49 +324,48 @@ typedef struct tl_nav_path {
     uint32_t node_count;    ///< nodes that the search used
 } tl_nav_path;
 
-/// The polygons of a path, the start's first; each shares an edge with the one before, or an off-mesh link stands
+/// Finds the polygons of a path, the start's first; each shares an edge with the one before, or an off-mesh link stands
 /// between the two (tl_nav_is_offmesh) that leads from one to the other.
 ///
-/// Where every metre costs the same the path is the shortest there is in the plane (tl_nav_query_find_shortest_path),
-/// and the straight path through its polygons has that length. Where costs differ, and where that search is out of
-/// nodes, the path is A*'s: a node is a way into a polygon, entered where the way from the point before to the goal is
-/// shortest. Then the path is near the cheapest, but not proven to be it; that there is one, or none, is.
+/// Where every metre costs the same the path is the shortest one in the plane (tl_nav_query_find_shortest_path), and
+/// the straight path through its polygons has that length. Where costs differ, or that search runs out of nodes, A*
+/// finds the path: its nodes are ways into polygons, and each polygon is entered where the path from the point before
+/// over that edge to the goal is shortest. Such a path is near the cheapest, but not proven to be it; whether there is
+/// a path at all is proven.
 ///
-/// A goal on another island (tl_navmesh_island) is TL_NAV_PATH_UNREACHABLE at once, with no search, and the path is the
-/// start's polygon alone; tl_nav_query_find_route leads as near to such a goal as any path does.
-/// TL_OK for every status. TL_INCOMPLETE: the first `capacity` polygons were written. TL_NOT_FOUND: a stale
-/// reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: an area cost. NULL filter: the default one.
-/// Source: Hart, Nilsson, Raphael 1968.
+/// A goal in another connected component (tl_navmesh_island) is TL_NAV_PATH_UNREACHABLE at once, without a search, and
+/// the path is the start's polygon alone; tl_nav_query_find_route leads as near to such a goal as any path does.
+/// TL_ERR_ARGUMENT: an area cost. Source: Hart, Nilsson, Raphael, A Formal Basis for the Heuristic Determination of
+/// Minimum Cost Paths, 1968 (A*).
 TL_API tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh,
                                         const tl_nav_path_request *request, tl_nav_ref *polygons_out, uint32_t capacity,
                                         tl_nav_path *path_out);
 
-/// The same search in slices, for long paths over many frames: begin, step until the status is not
-/// TL_NAV_PATH_UNFINISHED, write. tl_nav_query_find_path is one long step: however a search is cut, the path is the
-/// same, bit by bit. (On a prepared navmesh that one uses the visibility graph; then its path may be another one of the
-/// same length.)
+/// Begins a sliced search, for long paths over many frames: begin, step until the status is not TL_NAV_PATH_UNFINISHED,
+/// write. The path does not depend on the slices: it is that of tl_nav_query_find_path, bit by bit. (On a prepared
+/// navmesh that function uses the visibility graph and may find another path of the same length.)
 ///
-/// One search a query is under way. Another one, or any question that needs the query, ends it. The filter is copied;
-/// its functions and their `user` must stay. Tiles may come and go between steps: where one that the search has looked
-/// at changes, or one beside it, the search is TL_NAV_PATH_STALE; others change nothing of what is known, and what is
-/// searched later is searched as it is then. Errors as those of tl_nav_query_find_path; then nothing is under way.
+/// A query has one search under way. Another one, or any other call that takes the query, ends it. The filter is
+/// copied; its functions and their `user` must outlive the search. Tiles may be added and removed between steps: where
+/// one that the search has seen changes, or a neighbour of one, the search becomes TL_NAV_PATH_STALE; other changes do
+/// not disturb it. Errors as those of tl_nav_query_find_path; then no search is under way.
 TL_API tl_result tl_nav_query_begin_path(tl_nav_query *query, const tl_navmesh *navmesh,
                                          const tl_nav_path_request *request);
 
-/// How far a search in slices has come.
+/// How far a sliced search has come.
 typedef struct tl_nav_path_progress {
     tl_nav_path_status status;
     uint32_t node_count;    ///< nodes used so far
-    int32_t tile_x, tile_z; ///< TL_NAV_PATH_STALE: the tile that came or went; else 0
+    int32_t tile_x, tile_z; ///< TL_NAV_PATH_STALE: the tile that was added or removed; else 0
 } tl_nav_path_progress;
 
-/// Goes on for at most `max_steps` nodes. 0 only looks whether tiles have changed. TL_NOT_FOUND: no search is under
-/// way.
+/// Continues for at most `max_steps` nodes; 0 only checks whether tiles have changed. TL_ERR_STALE: no search is under
+/// way, or another one has ended it.
 TL_API tl_result tl_nav_query_step_path(tl_nav_query *query, uint32_t max_steps, tl_nav_path_progress *progress_out);
 
-/// The path as far as it is known, at any time; the search may go on afterwards. While TL_NAV_PATH_UNFINISHED the cost
-/// is no more than a lower bound. TL_NAV_PATH_STALE: there is none, polygon_count is 0. TL_NOT_FOUND: no search is
-/// under way. TL_INCOMPLETE: the first `capacity` polygons were written. O(nodes used) before the goal is reached.
+/// Writes the path as far as it is known, at any time; the search may continue afterwards. While
+/// TL_NAV_PATH_UNFINISHED the cost is only a lower bound. TL_NAV_PATH_STALE: there is no path, polygon_count is 0.
+/// TL_ERR_STALE: no search is under way, or another one has ended it. O(nodes used) before the goal is reached.
 TL_API tl_result tl_nav_query_write_path(tl_nav_query *query, tl_nav_ref *polygons_out, uint32_t capacity,
                                          tl_nav_path *path_out);
 
@@ -368,25 +377,24 @@ typedef struct tl_nav_polygon_path {
     tl_vec3 start, end;         ///< points that are not on their polygons are moved to the closest point there
 } tl_nav_polygon_path;
 
-/// The shortest line in the plane from start to end through a path's polygons.
+/// Pulls a path straight (funnel, string pulling): the shortest line in the plane from start to end through its
+/// polygons.
 ///
-/// Off-mesh links in the corridor, as tl_nav_query_find_path writes them, cut it into pieces from anchor to anchor.
-/// start and end are first moved to the closest point of the first and last polygon. Two corners at least (start, end).
-/// `*length_out` (may be NULL) is the sum of the straight distances in space. TL_INCOMPLETE: the first `capacity`
-/// corners were written, count and length are true. TL_ERR_ARGUMENT: no polygon, or two that are not neighbours.
-/// TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. Source: Mikko Mononen, Simple Stupid Funnel Algorithm, 2010.
+/// Off-mesh links cut the line into pieces from anchor to anchor. There are at least two corners, start and end.
+/// `*length_out` (may be NULL) is the sum of the straight distances in space, metres. TL_ERR_ARGUMENT: no polygon, or
+/// two in succession that are not neighbours. Source: Mikko Mononen, Simple Stupid Funnel Algorithm, 2010.
 TL_API tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_polygon_path *path,
                                           tl_nav_corner *corners_out, uint32_t capacity, uint32_t *count_out,
                                           float *length_out);
 
 // More flags, of the points of a traced path.
-#define TL_NAV_CORNER_CROSSING 32u ///< it crosses into another polygon here
+#define TL_NAV_CORNER_CROSSING 32u ///< the path crosses into another polygon here
 #define TL_NAV_CORNER_AREA     64u ///< which has another area
 
 /// A point of a path: a corner, or where it crosses from a polygon into the next.
 typedef struct tl_nav_trace_point {
     tl_vec3 point;
-    tl_nav_ref polygon; ///< the path goes on in it
+    tl_nav_ref polygon; ///< the path continues in it
     uint32_t flags;     ///< TL_NAV_CORNER_...
     float cost;   ///< of the path up to here: metres in space times area costs, or what the filter's function says
     float length; ///< of the path up to here, metres in space
@@ -395,7 +403,8 @@ typedef struct tl_nav_trace_point {
 /// What a straight path is followed through. Polygons and corners are those of one path: of tl_navmesh_straight_path,
 /// of tl_nav_query_find_shortest_path, or of tl_navmesh_cast_ray, whose corners are its start and its end.
 typedef struct tl_nav_trace_request {
-    const tl_nav_filter *filter; ///< for costs; whether polygons pass does not matter. NULL: the default filter
+    const tl_nav_filter
+        *filter; ///< for costs alone: polygons that it refuses are crossed too. NULL: the default filter
     const tl_nav_ref *polygons;
     uint32_t polygon_count; ///< >= 1
     const tl_nav_corner *corners;
@@ -406,11 +415,10 @@ typedef struct tl_nav_trace_request {
 
 /// Follows a straight path through its polygons: what it costs, and where it crosses into them.
 ///
-/// All corners are written, and the crossings that have a flag of `keep`; a crossing in the place of a corner is one
-/// with it. Heights of crossings are those of the polygons' edges. `*cost_out` (may be NULL) is the whole cost,
-/// infinite where the filter's function says so.
-/// TL_INCOMPLETE: only the first were written; count and cost are true. TL_ERR_ARGUMENT: no path: fewer than two
-/// corners, neighbours that are none, a corner in none of the polygons. TL_NOT_FOUND: a stale reference.
+/// All corners are written, and the crossings that have a flag of `keep`; a crossing at the place of a corner is merged
+/// with it. Crossings have the heights of the polygons' edges. `*cost_out` (may be NULL) is the whole cost, infinite
+/// where the filter's function says so. TL_ERR_ARGUMENT: no path: fewer than two corners, two polygons in succession
+/// that are not neighbours, or a corner that lies in none of the polygons.
 TL_API tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_trace_request *request,
                                        tl_nav_trace_point *points_out, uint32_t capacity, uint32_t *count_out,
                                        float *cost_out);
@@ -426,17 +434,16 @@ typedef struct tl_nav_shortest_path {
     uint32_t node_count;   ///< nodes that the search used
 } tl_nav_shortest_path;
 
-/// The shortest path in the plane from point to point, over tiles, seams and floors that lie over one another, with its
-/// corners and its polygons, and a proof. Off-mesh links are used where that is shorter.
+/// Finds the shortest path in the plane from point to point, over tiles, seams and floors that lie over one another,
+/// with its corners, its polygons and a proof. Off-mesh links are used where that is shorter.
 ///
 /// Lengths are measured in x and z, where "straight" means the same on every floor; heights follow from the surface.
-/// Area costs are not looked at, the filter's flags are. Corners are the start, the vertices where the path turns, and
-/// the goal. Start and goal are first moved onto their polygons, in the plane.
-/// TL_NAV_PATH_UNREACHABLE: proven, and for another island at once. TL_NAV_PATH_OUT_OF_NODES: gave up at max_nodes;
-/// lower_bound still holds. In both cases nothing is written and the counts are 0.
-/// TL_INCOMPLETE: the first corners and polygons were written, counts and lengths are true. A buffer with capacity 0 is
-/// left out; NULL `buffers`: both. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE.
-/// Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh, IJCAI 2017.
+/// The filter's flags count, its area costs do not. Corners are the start, the vertices where the path turns, and the
+/// goal. Start and goal are first moved onto their polygons, in the plane.
+/// TL_NAV_PATH_UNREACHABLE: proven, and at once for a goal in another connected component. TL_NAV_PATH_OUT_OF_NODES:
+/// gave up at max_nodes; lower_bound still holds. In both cases nothing is written and the counts are 0.
+/// A buffer with capacity 0 is left out, and its count alone is no TL_INCOMPLETE; NULL `buffers`: both are left out.
+/// Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh (Polyanya), IJCAI 2017.
 TL_API tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh *navmesh,
                                                  const tl_nav_path_request *request, const tl_nav_path_buffers *buffers,
                                                  tl_nav_shortest_path *path_out);
@@ -452,13 +459,12 @@ typedef struct tl_nav_ray_hit {
     uint32_t polygon_count; ///< crossed, the first and last included
 } tl_nav_ray_hit;
 
-/// Walks from start straight towards `end` (its x and z) until a wall, or a polygon that the filter refuses, is met. It
-/// takes no off-mesh links.
+/// Casts a ray from start straight towards `end` (its x and z) along the surface, until it hits a wall or a polygon
+/// that the filter refuses. It takes no off-mesh links.
 ///
-/// A ray that only touches a wall or corner passes it. `polygons_out` (may be NULL with capacity 0) gets the polygons
-/// crossed; TL_INCOMPLETE: only the first were written, the hit is whole. TL_NOT_FOUND: a stale reference.
-/// TL_ERR_NOT_FINITE. TL_ERR_ITERATIONS: more steps than polygons, which only a damaged tile can cause.
-/// O(polygons crossed).
+/// A ray that only touches a wall or corner continues. `polygons_out` gets the polygons crossed; left out with capacity
+/// 0. TL_INCOMPLETE: the hit is whole. TL_ERR_ITERATIONS: more steps than polygons, which only a damaged tile can
+/// cause. O(polygons crossed).
 TL_API tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                      const tl_nav_location *start, tl_vec3 end, tl_nav_ref *polygons_out,
                                      uint32_t capacity, tl_nav_ray_hit *hit_out);
@@ -479,18 +485,17 @@ typedef struct tl_nav_move {
     uint32_t polygon_count; ///< that the move went through, the first and last included
 } tl_nav_move;
 
-/// Moves from start towards the target and along walls.
+/// Moves from start towards the target, sliding along walls.
 ///
-/// The move ends at the target when polygons that touch the circle over the way there lead to it, else at the point of
-/// their walls that is nearest to it. `polygons_out` (may be NULL with capacity 0: left out) gets the polygons from
-/// the start's to the end's, neighbours in order. TL_INCOMPLETE: only the first were written, the end is whole.
-/// TL_ERR_LIMIT: the query was out of nodes; the end is the best that was seen. TL_NOT_FOUND: a stale reference.
-/// TL_ERR_NOT_FINITE. O(polygons that touch the circle).
+/// The move ends at the target where polygons that touch the circle around start and target (whose distance is its
+/// diameter) lead to it, else at the point of their walls that is nearest to the target. `polygons_out` gets the
+/// polygons from the start's to the end's, neighbours in order; left out with capacity 0. TL_INCOMPLETE: the end is
+/// whole. O(polygons that touch the circle).
 TL_API tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh *navmesh,
                                                  const tl_nav_move_request *request, tl_nav_ref *polygons_out,
                                                  uint32_t capacity, tl_nav_move *move_out);
 
-/// A place and how far around it: what the queries that look around one are asked for.
+/// A place and how far around it: what queries around a place are asked for.
 typedef struct tl_nav_around_request {
     const tl_nav_filter *filter; ///< NULL: the default filter
     tl_nav_location center;      ///< on its polygon
@@ -503,13 +508,11 @@ typedef struct tl_nav_wall {
     float distance;     ///< metres in the plane; the radius without a hit
     tl_vec3 point;      ///< on the wall
     tl_vec3 normal;     ///< unit, in the plane, towards the walkable side; 0 without a hit
-    tl_nav_ref polygon; ///< that the wall belongs to; the centre's without a hit
+    tl_nav_ref polygon; ///< that the wall belongs to; the center's without a hit
 } tl_nav_wall;
 
-/// Finds the wall nearest to a place within a radius, of those that can be walked to straight: what lies on
-/// a floor above or below does not count. What the filter refuses is wall. TL_ERR_LIMIT: the query was out of nodes;
-/// the wall is the nearest that was seen. TL_NOT_FOUND: a stale reference. TL_ERR_NOT_FINITE. TL_ERR_ARGUMENT: a
-/// negative radius.
+/// Finds the wall nearest to a place within a radius, among those that a straight line along the surface reaches: walls
+/// on a floor above or below do not count. What the filter refuses is wall. TL_ERR_ARGUMENT: a negative radius.
 TL_API tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh,
                                         const tl_nav_around_request *request, tl_nav_wall *wall_out);
 
@@ -526,16 +529,16 @@ typedef struct tl_nav_route_request {
 typedef struct tl_nav_route {
     tl_nav_location start, goal; ///< the nearest points on the navmesh
     tl_nav_path path;
-    uint32_t corner_count;
-    float length; ///< metres along the corners
+    uint32_t corner_count; ///< of the whole route, though the buffer may hold fewer
+    float length;          ///< metres along the corners
 } tl_nav_route;
 
-/// Nearest points to start and goal, path, straight path. Where there is no path, the corners lead to the point nearest
-/// to the goal that can be reached, and the status says so.
+/// Finds the points of the navmesh nearest to start and goal, a path between them and its straight path. Where no path
+/// leads to the goal, the corners lead to the point nearest to it that can be reached, and the status says so.
 ///
 /// TL_NOT_FOUND: no polygon near start (route_out->start.polygon is TL_NAV_NO_REF) or near goal
-/// (route_out->goal.polygon is). TL_INCOMPLETE: path.polygon_count and, when the polygons fitted, corner_count say
-/// how much room is needed. Other errors as those of the functions it calls.
+/// (route_out->goal.polygon is). TL_INCOMPLETE: path.polygon_count and, when the polygons fitted, corner_count are the
+/// capacities needed. Other errors as those of the functions it calls.
 TL_API tl_result tl_nav_query_find_route(tl_nav_query *query, const tl_navmesh *navmesh,
                                          const tl_nav_route_request *request, const tl_nav_path_buffers *buffers,
                                          tl_nav_route *route_out);

@@ -282,9 +282,9 @@ static void test_own_tile(void **state)
     tl_nav_path path;
     tl_nav_corner corners[4];
     uint32_t count = 0;
-    TEST_RESULT(tl_nav_corridor_find(&c, query, navmesh, NULL, &goal, &path), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_corridor_move(&c, query, navmesh, NULL, goal.point), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_corridor_repair(&c, query, navmesh, NULL, extents, &path), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_corridor_find(&c, query, navmesh, NULL, &goal, &path), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_corridor_move(&c, query, navmesh, NULL, goal.point), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_corridor_repair(&c, query, navmesh, NULL, extents, &path), TL_ERR_ARGUMENT);
     TEST_CHECK(tl_nav_corridor_check(&c, navmesh, NULL, 5) == 0);
     tl_nav_corridor_reset(&c, &start);
     TEST_RESULT(tl_nav_corridor_set_path(&c, navmesh, &goal.polygon, 1, goal.point), TL_ERR_ARGUMENT);
@@ -357,7 +357,7 @@ static void test_link(void **state)
     uint32_t whole = c.count;
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, link), TL_OK);
     TEST_CHECK(tl_nav_corridor_check(&c, navmesh, NULL, UINT32_MAX) < whole);
-    TEST_RESULT(tl_nav_corridor_pass_link(&c, navmesh, NULL, NULL), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_corridor_pass_link(&c, navmesh, NULL, NULL), TL_ERR_STALE);
     TEST_RESULT(tl_nav_corridor_repair(&c, query, navmesh, NULL, extents, &path), TL_OK);
     TEST_CHECK(path.status == TL_NAV_PATH_UNREACHABLE && !c.reaches);
     check_corridor(&c, navmesh, NULL);

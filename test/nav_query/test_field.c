@@ -402,14 +402,14 @@ static void test_arguments(void **state)
     tl_nav_field_entry entries[8];
     uint32_t count = 0;
     const uint64_t bits[2] = { 1, 2 };
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, &stale, &field, entries, 8, &count), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, &stale, &field, entries, 8, &count), TL_ERR_STALE);
     TEST_RESULT(tl_nav_query_flood(query, navmesh, &nan, &field, entries, 8, &count), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &below, entries, 8, &count), TL_ERR_ARGUMENT);
-    TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, entries, 8, &count), TL_ERR_LIMIT);
+    TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, entries, 8, &count), TL_ERR_NODES);
     TEST_CHECK(count == 3);
     TEST_RESULT(
         tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, start, 20.0f }, bits, &at),
-        TL_ERR_LIMIT);
+        TL_ERR_NODES);
     TEST_RESULT(
         tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, start, -1.0f }, bits, &at),
         TL_ERR_ARGUMENT);
@@ -417,7 +417,7 @@ static void test_arguments(void **state)
                 TL_OK);
     TEST_CHECK(at.polygon == start.polygon && at.point.x == 2.0f && at.point.z == 2.0f);
     TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, stale, 1.0f }, bits, &at),
-                TL_NOT_FOUND);
+                TL_ERR_STALE);
     TEST_RESULT(tl_nav_query_random_reachable(query, navmesh, &(tl_nav_around_request){ NULL, nan, 1.0f }, bits, &at),
                 TL_ERR_NOT_FINITE);
     tl_nav_query_destroy(query);

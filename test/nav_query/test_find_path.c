@@ -481,10 +481,10 @@ static void test_arguments(void **state)
     tl_nav_ref polygons[8] = { 0 };
     tl_nav_path path;
     TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, stale, goal }, polygons, 8, &path),
-                TL_NOT_FOUND);
+                TL_ERR_STALE);
     TEST_RESULT(
         tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, start, stale }, polygons, 8, &path),
-        TL_NOT_FOUND);
+        TL_ERR_STALE);
     TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ NULL, nan, goal }, polygons, 8, &path),
                 TL_ERR_NOT_FINITE);
     const float bad[8] = { 0.0f, -0.0f, -1.0f, -FLT_MIN, NAN, -NAN, INFINITY, -INFINITY };

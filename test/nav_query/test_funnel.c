@@ -294,7 +294,7 @@ static void test_arguments(void **state)
                 TL_ERR_ARGUMENT);
     TEST_RESULT(
         tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ stale, 2, a, b }, corners, 4, &count, &length),
-        TL_NOT_FOUND);
+        TL_ERR_STALE);
     TEST_RESULT(
         tl_navmesh_straight_path(navmesh, &(tl_nav_polygon_path){ polygons, 3, nan, b }, corners, 4, &count, &length),
         TL_ERR_NOT_FINITE);

@@ -231,7 +231,7 @@ static void test_arguments(void **state)
     tl_nav_wall wall;
     tl_nav_ref polygons[1];
     TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, stale, 1.0f }, &wall),
-                TL_NOT_FOUND);
+                TL_ERR_STALE);
     TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, nan, 1.0f }, &wall),
                 TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, start, -1.0f }, &wall),
@@ -241,14 +241,14 @@ static void test_arguments(void **state)
     tl_vec3 there = { 10, 0, 2 };
     TEST_RESULT(
         tl_nav_query_move_along_surface(query, navmesh, &(tl_nav_move_request){ NULL, stale, there }, NULL, 0, &move),
-        TL_NOT_FOUND);
+        TL_ERR_STALE);
     TEST_RESULT(
         tl_nav_query_move_along_surface(query, navmesh, &(tl_nav_move_request){ NULL, nan, there }, NULL, 0, &move),
         TL_ERR_NOT_FINITE);
     // Two nodes do not suffice.
     TEST_RESULT(
         tl_nav_query_move_along_surface(query, navmesh, &(tl_nav_move_request){ NULL, start, there }, NULL, 0, &move),
-        TL_ERR_LIMIT);
+        TL_ERR_NODES);
     query = ring.many_nodes;
     TEST_RESULT(tl_nav_query_move_along_surface(query, navmesh, &(tl_nav_move_request){ NULL, start, there }, polygons,
                                                 1, &move),

@@ -228,7 +228,7 @@ static void test_arguments(void **state)
     tl_nav_location stale = { 99, { 1, 0, 2 } };
     tl_nav_ref polygons[4] = { 0 };
     tl_nav_ray_hit hit;
-    TEST_RESULT(tl_navmesh_cast_ray(navmesh, NULL, &stale, start.point, NULL, 0, &hit), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_cast_ray(navmesh, NULL, &stale, start.point, NULL, 0, &hit), TL_ERR_STALE);
     TEST_RESULT(tl_navmesh_cast_ray(navmesh, NULL, &start, tl_vec3_make(NAN, 0, 0), NULL, 0, &hit), TL_ERR_NOT_FINITE);
     TEST_RESULT(tl_navmesh_cast_ray(navmesh, NULL, &start, tl_vec3_make(21, 0, 2), polygons, 2, &hit), TL_INCOMPLETE);
     TEST_CHECK(hit.hit && hit.polygon_count == 3 && polygons[2] == 0 && hit.edge == 2);

@@ -392,7 +392,7 @@ static void test_buffers(void **state)
     tl_nav_shortest_path path;
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, stale, goal },
                                                 &(tl_nav_path_buffers){ polygons, 8, corners, 4 }, &path),
-                TL_NOT_FOUND);
+                TL_ERR_STALE);
     TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, nan },
                                                 &(tl_nav_path_buffers){ polygons, 8, corners, 4 }, &path),
                 TL_ERR_NOT_FINITE);

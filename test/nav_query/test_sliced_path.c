@@ -212,11 +212,11 @@ static void test_ended(void **state)
     tl_nav_path_progress progress;
     tl_nav_path path;
     tl_nav_ref polygons[8];
-    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_write_path(query, polygons, 8, &path), TL_NOT_FOUND);
-    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ NULL, stale, goal }), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_ERR_STALE);
+    TEST_RESULT(tl_nav_query_write_path(query, polygons, 8, &path), TL_ERR_STALE);
+    TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ NULL, stale, goal }), TL_ERR_STALE);
     TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ NULL, nan, goal }), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_ERR_STALE);
 
     TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }), TL_OK);
     TEST_RESULT(tl_nav_query_step_path(query, 0, &progress), TL_OK);
@@ -225,7 +225,7 @@ static void test_ended(void **state)
     // Another question takes the query's nodes.
     tl_nav_wall wall;
     TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ NULL, start, 2.0f }, &wall), TL_OK);
-    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_ERR_STALE);
 
     // The goal's tile goes; it is named.
     TEST_RESULT(tl_nav_query_begin_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }), TL_OK);

@@ -215,7 +215,7 @@ static void test_link_and_arguments(void **state)
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, link), TL_OK);
     TEST_RESULT(tl_navmesh_trace_path(navmesh, &(tl_nav_trace_request){ NULL, polygons, 5, corners, corner_count, 0 },
                                       points, 8, &count, &cost),
-                TL_NOT_FOUND);
+                TL_ERR_STALE);
     polygons[1] = polygons[4];
     TEST_RESULT(tl_navmesh_trace_path(navmesh, &(tl_nav_trace_request){ NULL, polygons, 2, corners, 2, 0 }, points, 8,
                                       &count, &cost),

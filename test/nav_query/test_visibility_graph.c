@@ -189,7 +189,7 @@ static void test_slices(void **state)
             tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, goal, start }, NULL, &path),
             TL_OK);
         TEST_CHECK(path.corner_count == 3);
-        TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_NOT_FOUND);
+        TEST_RESULT(tl_nav_query_step_path(query, 1, &progress), TL_ERR_STALE);
     }
     tl_nav_query_destroy(query);
     tl_navmesh_destroy(navmesh);

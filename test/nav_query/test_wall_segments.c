@@ -183,10 +183,10 @@ static void test_arguments(void **state)
     tl_nav_query *query = ring.few_nodes;
     tl_nav_wall_segment segments[4];
     uint32_t count = 0;
-    TEST_RESULT(tl_navmesh_polygon_walls(navmesh, NULL, 77, segments, 4, &count), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_polygon_walls(navmesh, NULL, 77, segments, 4, &count), TL_ERR_STALE);
     TEST_RESULT(
         tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ NULL, stale, 1.0f }, segments, 4, &count),
-        TL_NOT_FOUND);
+        TL_ERR_STALE);
     TEST_RESULT(
         tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ NULL, nan, 1.0f }, segments, 4, &count),
         TL_ERR_NOT_FINITE);
@@ -195,7 +195,7 @@ static void test_arguments(void **state)
         TL_ERR_ARGUMENT);
     TEST_RESULT(
         tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ NULL, start, 20.0f }, segments, 4, &count),
-        TL_ERR_LIMIT);
+        TL_ERR_NODES);
     query = ring.many_nodes;
     TEST_RESULT(tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ NULL, start, 2.5f }, NULL, 0, &count),
                 TL_INCOMPLETE);

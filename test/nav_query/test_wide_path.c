@@ -422,14 +422,14 @@ static void test_arguments(void **state)
     TEST_CHECK(path.status == TL_NAV_WIDE_OUT_OF_NODES && path.corner_count == 0);
     TEST_RESULT(
         tl_nav_query_find_wide_place(small, navmesh, &(tl_nav_around_request){ NULL, start, 1.0f }, 1.5f, &place),
-        TL_ERR_LIMIT);
+        TL_ERR_NODES);
     bad = start;
     bad.polygon = TL_NAV_NO_REF;
     TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, bad, goal }, 1.5f, corners,
                                             64, &path),
-                TL_NOT_FOUND);
+                TL_ERR_STALE);
     TEST_RESULT(tl_nav_query_find_wide_place(query, navmesh, &(tl_nav_around_request){ NULL, bad, 1.0f }, 1.5f, &place),
-                TL_NOT_FOUND);
+                TL_ERR_STALE);
     bad = start;
     bad.point.x = NAN;
     TEST_RESULT(tl_nav_query_find_wide_path(query, navmesh, &(tl_nav_path_request){ NULL, bad, goal }, 1.5f, corners,

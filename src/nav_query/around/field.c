@@ -75,6 +75,10 @@ tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, con
                              const tl_nav_field_def *def, tl_nav_field_entry *entries_out, uint32_t capacity,
                              uint32_t *count_out)
 {
+    if (query == NULL || navmesh == NULL || start == NULL || count_out == NULL ||
+        (entries_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     *count_out = 0;
     const tl_nav_field_def used = def != NULL ? *def : tl_default_nav_field_def();
     tl_nav_zone_test zone;
@@ -88,7 +92,7 @@ tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, con
     tl_nav_flood flood = { query, navmesh, used.filter, false, used.max_cost, used.zone != NULL ? &zone : NULL,
                            false, false };
     if (!tl_nav_flood_run(&flood, start)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     *count_out = query->node_count;
     if (used.by_reference) {
@@ -97,13 +101,14 @@ tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, con
         write_as_found(query, navmesh, entries_out, capacity);
     }
     if (flood.out_of_nodes) {
-        return TL_ERR_LIMIT;
+        return TL_ERR_NODES;
     }
     return *count_out <= capacity ? TL_OK : TL_INCOMPLETE;
 }
 
 uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t count, tl_nav_ref polygon)
 {
+    TL_ASSERT(entries != NULL || count == 0);
     uint32_t low = 0;
     uint32_t high = count;
     while (low < high) {
@@ -120,6 +125,9 @@ uint32_t tl_nav_field_find(const tl_nav_field_entry *entries, uint32_t count, tl
 tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t count, uint32_t entry, tl_nav_ref *polygons_out,
                             uint32_t capacity, uint32_t *count_out)
 {
+    if (entries == NULL || count_out == NULL || (polygons_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     *count_out = 0;
     uint32_t length = 0;
     uint32_t steps = 0;

@@ -84,6 +84,9 @@ static void look_around(wall_search *search, uint32_t node)
 tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
                                  tl_nav_wall *wall_out)
 {
+    if (query == NULL || navmesh == NULL || request == NULL || wall_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     const tl_nav_filter *filter = request->filter;
     const tl_nav_location *center = &request->center;
     const float max_radius = request->radius;
@@ -97,7 +100,7 @@ tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh,
         return TL_ERR_ARGUMENT;
     }
     if (!tl_nav_split_ref(navmesh, center->polygon, &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     double radius_sq = (double)max_radius * (double)max_radius;
     wall_search search = { query,
@@ -136,5 +139,5 @@ tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh,
         wall_out->normal =
             tl_normalize(tl_vec3_make(search.end->z - search.start->z, 0.0f, search.start->x - search.end->x));
     }
-    return search.full ? TL_ERR_LIMIT : TL_OK;
+    return search.full ? TL_ERR_NODES : TL_OK;
 }

@@ -299,6 +299,10 @@ tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_nav
                                                const tl_nav_around_request *request, const uint64_t *random,
                                                uint32_t count, tl_nav_location *locations_out)
 {
+    if (query == NULL || navmesh == NULL || request == NULL ||
+        ((random == NULL || locations_out == NULL) && count > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     const tl_nav_location *center = &request->center;
     const float radius = request->radius;
     const tl_nav_location none = { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } };
@@ -313,7 +317,7 @@ tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_nav
     }
     tl_nav_flood flood = { query, navmesh, request->filter, true, radius, &test, false, false };
     if (!tl_nav_flood_run(&flood, center)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     const circle c = make_circle((double)radius);
     const double sum = radius > 0.0f ? sum_areas(&flood, &c) : 0.0;
@@ -334,5 +338,5 @@ tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_nav
         out->point = tl_nav_closest_on_surface(navmesh->slots[node->slot].tile, node->polygon,
                                                point_in(&flood, &part, at, random[2 * i + 1]), &inside);
     }
-    return flood.out_of_nodes ? TL_ERR_LIMIT : TL_OK;
+    return flood.out_of_nodes ? TL_ERR_NODES : TL_OK;
 }

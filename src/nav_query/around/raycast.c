@@ -518,12 +518,15 @@ tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *fi
 {
     uint32_t slot = 0;
     uint32_t polygon = 0;
+    if (navmesh == NULL || start == NULL || hit_out == NULL || (polygons_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     memset(hit_out, 0, sizeof *hit_out);
     if (!tl_nav_is_finite(start->point) || !tl_nav_is_finite(end)) {
         return TL_ERR_NOT_FINITE;
     }
     if (!tl_nav_split_ref(navmesh, start->polygon, &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     ray_walk walk;
     memset(&walk, 0, sizeof walk);

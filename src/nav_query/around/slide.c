@@ -104,18 +104,21 @@ tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh 
                                           const tl_nav_move_request *request, tl_nav_ref *polygons_out,
                                           uint32_t capacity, tl_nav_move *move_out)
 {
+    if (query == NULL || navmesh == NULL || request == NULL || move_out == NULL ||
+        (polygons_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     const tl_nav_filter *filter = request->filter;
     const tl_nav_location *start = &request->start;
     const tl_vec3 target = request->target;
-    move_out->end = *start;
-    move_out->polygon_count = 0;
+    memset(move_out, 0, sizeof *move_out);
     uint32_t slot = 0;
     uint32_t polygon = 0;
     if (!tl_nav_is_finite(start->point) || !tl_nav_is_finite(target)) {
         return TL_ERR_NOT_FINITE;
     }
     if (!tl_nav_split_ref(navmesh, start->polygon, &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     double dx = (double)target.x - (double)start->point.x;
     double dz = (double)target.z - (double)start->point.z;
@@ -150,7 +153,7 @@ tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh 
         move_out->polygon_count = write_way(&search, polygons_out, capacity);
     }
     if (search.full) {
-        return TL_ERR_LIMIT;
+        return TL_ERR_NODES;
     }
     return move_out->polygon_count <= capacity || capacity == 0 ? TL_OK : TL_INCOMPLETE;
 }

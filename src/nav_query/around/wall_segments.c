@@ -40,11 +40,14 @@ static tl_nav_wall_segment make_segment(const tl_navmesh *navmesh, const tl_nav_
 tl_result tl_navmesh_polygon_walls(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref polygon,
                                    tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out)
 {
+    if (navmesh == NULL || count_out == NULL || (segments_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     *count_out = 0;
     uint32_t slot = 0;
     uint32_t local = 0;
     if (!tl_nav_split_ref(navmesh, polygon, &slot, &local)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     uint32_t edge_count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(navmesh, slot, local, &edge_count);
@@ -115,6 +118,10 @@ static void look_around(wall_gathering *walls, uint32_t node)
 tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
                                   tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out)
 {
+    if (query == NULL || navmesh == NULL || request == NULL || count_out == NULL ||
+        (segments_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     const tl_nav_filter *filter = request->filter;
     const tl_nav_location *center = &request->center;
     const float radius = request->radius;
@@ -128,7 +135,7 @@ tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh
         return TL_ERR_ARGUMENT;
     }
     if (!tl_nav_split_ref(navmesh, center->polygon, &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     wall_gathering walls = { query,
                              navmesh,
@@ -147,7 +154,7 @@ tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh
     }
     *count_out = walls.count;
     if (walls.full) {
-        return TL_ERR_LIMIT;
+        return TL_ERR_NODES;
     }
     return walls.count <= capacity ? TL_OK : TL_INCOMPLETE;
 }

@@ -28,6 +28,7 @@ tl_nav_corridor tl_nav_corridor_init(tl_nav_ref *path, uint32_t capacity)
 
 void tl_nav_corridor_reset(tl_nav_corridor *corridor, const tl_nav_location *at)
 {
+    TL_ASSERT(corridor != NULL && corridor->capacity > 0 && at != NULL);
     corridor->path[0] = at->polygon;
     corridor->count = 1;
     corridor->position = at->point;
@@ -80,10 +81,12 @@ uint32_t tl_nav_corridor_before_link(const tl_nav_corridor *corridor)
 tl_result tl_nav_corridor_find(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
                                const tl_nav_filter *filter, const tl_nav_location *goal, tl_nav_path *path_out)
 {
+    if (corridor == NULL || goal == NULL || path_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     memset(path_out, 0, sizeof *path_out);
-    path_out->status = TL_NAV_PATH_UNREACHABLE;
     if (corridor->count == 0) {
-        return TL_NOT_FOUND;
+        return TL_ERR_ARGUMENT;
     }
     const tl_nav_path_request request = { filter, { corridor->path[0], corridor->position }, *goal };
     tl_result result = tl_nav_query_find_path(query, navmesh, &request, corridor->path, corridor->capacity, path_out);
@@ -103,6 +106,9 @@ tl_result tl_nav_corridor_find(tl_nav_corridor *corridor, tl_nav_query *query, c
 tl_result tl_nav_corridor_set_path(tl_nav_corridor *corridor, const tl_navmesh *navmesh, const tl_nav_ref *path,
                                    uint32_t count, tl_vec3 target)
 {
+    if (corridor == NULL || navmesh == NULL || path == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     if (!tl_nav_is_finite(target)) {
         return TL_ERR_NOT_FINITE;
     }
@@ -119,6 +125,9 @@ tl_result tl_nav_corridor_set_path(tl_nav_corridor *corridor, const tl_navmesh *
 tl_result tl_nav_corridor_corners(const tl_nav_corridor *corridor, const tl_navmesh *navmesh,
                                   tl_nav_corner *corners_out, uint32_t capacity, uint32_t *count_out)
 {
+    if (corridor == NULL || navmesh == NULL || count_out == NULL || (corners_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     const tl_nav_polygon_path path = { corridor->path, corridor->count, corridor->position, corridor->target };
     return tl_nav_first_corners(navmesh, &path, corners_out, capacity, count_out);
 }
@@ -177,8 +186,8 @@ tl_result tl_nav_corridor_move(tl_nav_corridor *corridor, tl_nav_query *query, c
 {
     end_move move;
     tl_nav_ref back[TL_NAV_CORRIDOR_STEP];
-    if (corridor->count == 0) {
-        return TL_NOT_FOUND;
+    if (corridor == NULL || navmesh == NULL || corridor->count == 0) {
+        return TL_ERR_ARGUMENT;
     }
     uint32_t begin = entered(corridor, navmesh);
     const tl_nav_move_request request = { filter, { corridor->path[begin], corridor->position }, to };
@@ -207,8 +216,8 @@ tl_result tl_nav_corridor_move_target(tl_nav_corridor *corridor, tl_nav_query *q
                                       const tl_nav_filter *filter, tl_vec3 to)
 {
     end_move move;
-    if (corridor->count == 0) {
-        return TL_NOT_FOUND;
+    if (corridor == NULL || navmesh == NULL || corridor->count == 0) {
+        return TL_ERR_ARGUMENT;
     }
     const tl_nav_move_request request = { filter, { corridor->path[corridor->count - 1], corridor->target }, to };
     TL_TRY(move_end(query, navmesh, &request, &move));
@@ -238,10 +247,16 @@ tl_result tl_nav_corridor_move_target(tl_nav_corridor *corridor, tl_nav_query *q
 tl_result tl_nav_corridor_pass_link(tl_nav_corridor *corridor, const tl_navmesh *navmesh, tl_nav_location ends_out[2],
                                     tl_nav_ref *link_out)
 {
+    if (corridor == NULL || navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     uint32_t at = tl_nav_corridor_before_link(corridor);
     tl_vec3 ends[2];
-    if (at == 0 || at + 1 >= corridor->count || tl_nav_find_link(navmesh, &corridor->path[at - 1], ends) != TL_OK) {
+    if (at == 0 || at + 1 >= corridor->count) {
         return TL_NOT_FOUND;
+    }
+    if (tl_nav_find_link(navmesh, &corridor->path[at - 1], ends) != TL_OK) {
+        return TL_ERR_STALE;
     }
     for (int i = 0; i < 2 && ends_out != NULL; i++) {
         ends_out[i].polygon = corridor->path[i == 0 ? at - 1 : at + 1];

@@ -7,6 +7,7 @@
 // already, and a search that finds its goal soon costs little.
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "nav_query/corridor/corridor_path.h"
 #include "nav_query/navmesh/filter.h"
 #include "nav_query/path/funnel.h"
@@ -36,9 +37,10 @@ static bool is_whole(const tl_nav_corridor *corridor, const tl_navmesh *navmesh,
 }
 
 uint32_t tl_nav_corridor_check(const tl_nav_corridor *corridor, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                               uint32_t most)
+                               uint32_t max_count)
 {
-    uint32_t count = most < corridor->count ? most : corridor->count;
+    TL_ASSERT(corridor != NULL && navmesh != NULL);
+    uint32_t count = tl_min_u32(max_count, corridor->count);
     uint32_t whole = 0;
     for (uint32_t i = 0; i < count; i++) {
         // A link is looked at with the polygon that it leads to.
@@ -56,10 +58,12 @@ uint32_t tl_nav_corridor_check(const tl_nav_corridor *corridor, const tl_navmesh
 tl_result tl_nav_corridor_repair(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
                                  const tl_nav_filter *filter, tl_vec3 half_extents, tl_nav_path *path_out)
 {
+    if (corridor == NULL || query == NULL || navmesh == NULL || path_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     memset(path_out, 0, sizeof *path_out);
-    path_out->status = TL_NAV_PATH_UNREACHABLE;
     if (corridor->count == 0) {
-        return TL_NOT_FOUND;
+        return TL_ERR_ARGUMENT;
     }
     if (tl_nav_corridor_check(corridor, navmesh, filter, UINT32_MAX) == corridor->count) {
         path_out->status = TL_NAV_PATH_COMPLETE;
@@ -82,6 +86,7 @@ tl_result tl_nav_corridor_repair(tl_nav_corridor *corridor, tl_nav_query *query,
     if (result == TL_OK) {
         result = tl_nav_corridor_find(corridor, query, navmesh, filter, &goal, path_out);
     } else {
+        path_out->status = TL_NAV_PATH_UNREACHABLE;
         path_out->polygon_count = 1;
         path_out->end = agent;
         corridor->reaches = false;

@@ -98,6 +98,9 @@ tl_result tl_nav_corridor_shorten(tl_nav_corridor *corridor, const tl_navmesh *n
 {
     bool changed = false;
     path_ahead ahead;
+    if (corridor == NULL || navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     if (changed_out != NULL) {
         *changed_out = false;
     }
@@ -157,6 +160,9 @@ tl_result tl_nav_corridor_improve(tl_nav_corridor *corridor, tl_nav_query *query
                                   const tl_nav_filter *filter, uint32_t ahead, uint32_t max_steps, bool *changed_out)
 {
     path_ahead path;
+    if (corridor == NULL || query == NULL || navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     if (changed_out != NULL) {
         *changed_out = false;
     }

@@ -389,8 +389,11 @@ static bool find_over_graph(tl_nav_path_run *run, tl_nav_ref *polygons_out, uint
 tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
                                  tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
 {
+    if (query == NULL || navmesh == NULL || request == NULL || path_out == NULL ||
+        (polygons_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     memset(path_out, 0, sizeof *path_out);
-    path_out->status = TL_NAV_PATH_UNREACHABLE;
     tl_nav_path_run run;
     bool is_uniform = true;
     TL_TRY(set_up(query, navmesh, request, &run, &is_uniform));
@@ -405,6 +408,6 @@ tl_result tl_nav_query_find_path(tl_nav_query *query, const tl_navmesh *navmesh,
 
 const char *tl_nav_path_status_name(tl_nav_path_status status)
 {
-    static const char *const NAMES[] = { "complete", "unreachable", "out of nodes", "unfinished", "stale" };
+    static const char *const NAMES[] = { "none", "complete", "unreachable", "out of nodes", "unfinished", "stale" };
     return (unsigned)status < TL_COUNT_OF(NAMES) ? NAMES[status] : "unknown";
 }

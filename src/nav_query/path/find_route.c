@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "nav_query/navmesh/filter.h"
+#include "nav_query/path/path_run.h"
 
 #include <string.h>
 #include <talus/nav_query.h>
@@ -53,10 +54,9 @@ static tl_result route_between(tl_nav_query *query, const tl_navmesh *navmesh, c
                                     &route->length);
 }
 
-tl_result tl_nav_query_find_route(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_route_request *request,
-                                  const tl_nav_path_buffers *buffers, tl_nav_route *route_out)
+static tl_result route_over(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_route_request *request,
+                            const tl_nav_path_buffers *buffers, tl_nav_route *route_out)
 {
-    memset(route_out, 0, sizeof *route_out);
     const tl_nav_filter *filter = request->filter;
     TL_TRY(tl_navmesh_find_nearest(navmesh, filter, request->start, request->half_extents, &route_out->start));
     TL_TRY(tl_navmesh_find_nearest(navmesh, filter, request->goal, request->half_extents, &route_out->goal));
@@ -73,6 +73,22 @@ tl_result tl_nav_query_find_route(tl_nav_query *query, const tl_navmesh *navmesh
     tl_result result = route_between(query, navmesh, &between, buffers, route_out);
     if (route_out->path.status == TL_NAV_PATH_COMPLETE) {
         route_out->path.status = TL_NAV_PATH_UNREACHABLE;
+    }
+    return result;
+}
+
+tl_result tl_nav_query_find_route(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_route_request *request,
+                                  const tl_nav_path_buffers *buffers, tl_nav_route *route_out)
+{
+    static const tl_nav_path_buffers none = { NULL, 0, NULL, 0 };
+    const tl_nav_path_buffers *used = buffers != NULL ? buffers : &none;
+    if (query == NULL || navmesh == NULL || request == NULL || route_out == NULL || !tl_nav_are_buffers(used)) {
+        return TL_ERR_ARGUMENT;
+    }
+    memset(route_out, 0, sizeof *route_out);
+    tl_result result = route_over(query, navmesh, request, used, route_out);
+    if (tl_is_error(result)) {
+        memset(route_out, 0, sizeof *route_out);
     }
     return result;
 }

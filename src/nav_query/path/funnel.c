@@ -98,7 +98,7 @@ static tl_result portal_at(const funnel *f, uint32_t i, tl_vec3 *left_out, tl_ve
     uint32_t slot = 0;
     uint32_t polygon = 0;
     if (!tl_nav_split_ref(f->navmesh, f->polygons[i + 1], &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     return tl_nav_portal_between(f->navmesh, f->polygons[i], slot, polygon, left_out, right_out) ? TL_OK
                                                                                                  : TL_ERR_ARGUMENT;
@@ -230,7 +230,9 @@ static tl_result pull(funnel *f)
 tl_result tl_nav_find_link(const tl_navmesh *navmesh, const tl_nav_ref *corridor, tl_vec3 ends_out[2])
 {
     tl_nav_offmesh_state link;
-    TL_TRY(tl_navmesh_offmesh_state(navmesh, corridor[1], &link));
+    if (tl_navmesh_offmesh_state(navmesh, corridor[1], &link) != TL_OK) {
+        return TL_ERR_STALE;
+    }
     int from = (corridor[1] & TL_NAV_OFFMESH_BACKWARD) != 0 ? 1 : 0;
     ends_out[0] = link.ends[from].point;
     ends_out[1] = link.ends[1 - from].point;
@@ -280,7 +282,7 @@ static tl_result pull_pieces(funnel *f, const tl_nav_polygon_path *path, tl_vec3
 static tl_result pull_path(funnel *f, const tl_navmesh *navmesh, const tl_nav_polygon_path *path,
                            tl_nav_corner *corners, uint32_t capacity)
 {
-    if (path->polygon_count == 0) {
+    if (path->polygons == NULL || path->polygon_count == 0) {
         return TL_ERR_ARGUMENT;
     }
     if (!tl_nav_is_finite(path->start) || !tl_nav_is_finite(path->end)) {
@@ -289,7 +291,7 @@ static tl_result pull_path(funnel *f, const tl_navmesh *navmesh, const tl_nav_po
     uint32_t slots[2], ends[2];
     if (!tl_nav_split_ref(navmesh, path->polygons[0], &slots[0], &ends[0]) ||
         !tl_nav_split_ref(navmesh, path->polygons[path->polygon_count - 1], &slots[1], &ends[1])) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     bool inside = false;
     f->navmesh = navmesh;
@@ -316,6 +318,9 @@ tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_nav_polyg
                                    tl_nav_corner *corners_out, uint32_t capacity, uint32_t *count_out,
                                    float *length_out)
 {
+    if (navmesh == NULL || path == NULL || count_out == NULL || (corners_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     *count_out = 0;
     if (length_out != NULL) {
         *length_out = 0.0f;

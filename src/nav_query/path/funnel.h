@@ -12,7 +12,7 @@
 tl_result tl_nav_first_corners(const tl_navmesh *navmesh, const tl_nav_polygon_path *path, tl_nav_corner *corners_out,
                                uint32_t capacity, uint32_t *count_out);
 
-/// The two anchors of the off-mesh link corridor[1], that leads from corridor[0] to corridor[2]. TL_NOT_FOUND: it
+/// The two anchors of the off-mesh link corridor[1], that leads from corridor[0] to corridor[2]. TL_ERR_STALE: it
 /// is gone. TL_ERR_ARGUMENT: it leads elsewhere.
 tl_result tl_nav_find_link(const tl_navmesh *navmesh, const tl_nav_ref *corridor, tl_vec3 ends_out[2]);
 

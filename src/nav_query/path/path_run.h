@@ -8,6 +8,13 @@
 #include "nav_query/exact/shortest_search.h"
 #include "nav_query/search/node_pool.h"
 
+/// Whether each buffer is there that has a capacity.
+static inline bool tl_nav_are_buffers(const tl_nav_path_buffers *buffers)
+{
+    return (buffers->polygons != NULL || buffers->polygon_capacity == 0) &&
+           (buffers->corners != NULL || buffers->corner_capacity == 0);
+}
+
 /// A* over ways into polygons.
 typedef struct tl_nav_way_search {
     tl_nav_query *query;

@@ -2,10 +2,12 @@
 //
 // The exact shortest path as its caller wants it: corners and polygons, read off the wedges of the search.
 
+#include "base/assert.h"
 #include "nav_query/exact/shortest_search.h"
 #include "nav_query/navmesh/filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"
+#include "nav_query/path/path_run.h"
 #include "nav_query/prepared/visibility_graph.h"
 
 #include <math.h>
@@ -196,7 +198,7 @@ tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh
     }
     if (!tl_nav_split_ref(navmesh, start->polygon, &search_out->start_slot, &search_out->start_polygon) ||
         !tl_nav_split_ref(navmesh, goal->polygon, &search_out->goal_slot, &search_out->goal_polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     search_out->query = query;
     search_out->navmesh = navmesh;
@@ -231,12 +233,15 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
 {
     static const tl_nav_path_buffers none = { NULL, 0, NULL, 0 };
     const tl_nav_path_buffers *room = buffers != NULL ? buffers : &none;
+    if (query == NULL || navmesh == NULL || request == NULL || path_out == NULL || !tl_nav_are_buffers(room)) {
+        return TL_ERR_ARGUMENT;
+    }
     memset(path_out, 0, sizeof *path_out);
-    path_out->status = TL_NAV_PATH_UNREACHABLE;
     tl_nav_shortest_search search;
-    tl_result result = tl_nav_prepare_shortest(query, navmesh, request, &search);
-    if (result != TL_OK || tl_nav_is_cut_off(&search)) {
-        return result;
+    TL_TRY(tl_nav_prepare_shortest(query, navmesh, request, &search));
+    path_out->status = TL_NAV_PATH_UNREACHABLE;
+    if (tl_nav_is_cut_off(&search)) {
+        return TL_OK;
     }
     const tl_nav_visibility_graph *graph = tl_nav_visibility_graph_for(&search);
     if (graph != NULL && tl_nav_find_over_graph(&search, graph, room, path_out)) {

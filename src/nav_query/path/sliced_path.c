@@ -75,6 +75,9 @@ static void look_for_edits(tl_nav_path_run *run)
 
 tl_result tl_nav_query_begin_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request)
 {
+    if (query == NULL || navmesh == NULL || request == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     tl_nav_path_run *run = query->run;
     tl_nav_path_request kept = *request;
     if (request->filter != NULL) {
@@ -88,10 +91,13 @@ tl_result tl_nav_query_begin_path(tl_nav_query *query, const tl_navmesh *navmesh
 
 tl_result tl_nav_query_step_path(tl_nav_query *query, uint32_t max_steps, tl_nav_path_progress *progress_out)
 {
+    if (query == NULL || progress_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     tl_nav_path_run *run = query->run;
     memset(progress_out, 0, sizeof *progress_out);
     if (!is_under_way(query)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     uint64_t steps = max_steps;
     look_for_edits(run);
@@ -109,10 +115,12 @@ tl_result tl_nav_query_step_path(tl_nav_query *query, uint32_t max_steps, tl_nav
 tl_result tl_nav_query_write_path(tl_nav_query *query, tl_nav_ref *polygons_out, uint32_t capacity,
                                   tl_nav_path *path_out)
 {
+    if (query == NULL || path_out == NULL || (polygons_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     memset(path_out, 0, sizeof *path_out);
-    path_out->status = TL_NAV_PATH_UNREACHABLE;
     if (!is_under_way(query)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     look_for_edits(query->run);
     if (query->run->status == TL_NAV_PATH_STALE) {

@@ -58,7 +58,7 @@ static tl_result go_to(path_trace *trace, tl_vec3 point)
     uint32_t slot = 0;
     uint32_t polygon = 0;
     if (!tl_nav_split_ref(trace->navmesh, trace->polygons[trace->at], &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     const tl_nav_tile *tile = trace->navmesh->slots[slot].tile;
     trace->cost += (double)tl_nav_cost_between(trace->filter, tile, polygon, trace->point, point);
@@ -90,7 +90,7 @@ static tl_result cross_portal(path_trace *trace, tl_vec3 a, tl_vec3 b)
     }
     if (!tl_nav_split_ref(trace->navmesh, from[0], &slots[0], &polygons[0]) ||
         !tl_nav_split_ref(trace->navmesh, from[1], &slots[1], &polygons[1])) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     if (!tl_nav_portal_between(trace->navmesh, from[0], slots[1], polygons[1], &left, &right)) {
         return TL_ERR_ARGUMENT;
@@ -112,7 +112,7 @@ static tl_result follow(path_trace *trace, const tl_nav_corner *from, const tl_n
     if ((from->flags & TL_NAV_CORNER_LINK) != 0) {
         const tl_nav_offmesh_entry *link = tl_nav_find_offmesh(&trace->navmesh->offmesh, from->link);
         if (link == NULL) {
-            return TL_NOT_FOUND;
+            return TL_ERR_STALE;
         }
         if (trace->at + 2 >= trace->polygon_count || trace->polygons[trace->at + 1] != from->link) {
             return TL_ERR_ARGUMENT;
@@ -133,11 +133,15 @@ static tl_result follow(path_trace *trace, const tl_nav_corner *from, const tl_n
 tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_trace_request *request,
                                 tl_nav_trace_point *points_out, uint32_t capacity, uint32_t *count_out, float *cost_out)
 {
+    if (navmesh == NULL || request == NULL || count_out == NULL || (points_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     *count_out = 0;
     if (cost_out != NULL) {
         *cost_out = 0.0f;
     }
-    if (request->polygon_count == 0 || request->corner_count < 2) {
+    if (request->polygons == NULL || request->polygon_count == 0 || request->corners == NULL ||
+        request->corner_count < 2) {
         return TL_ERR_ARGUMENT;
     }
     path_trace trace;

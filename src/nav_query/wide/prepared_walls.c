@@ -16,6 +16,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/host.h"
 
 #include <string.h>
 
@@ -296,7 +297,6 @@ tl_nav_wide_def tl_default_nav_wide_def(void)
 
 static void fill_report(const tl_navmesh *navmesh, uint32_t made, tl_nav_wide_report *report)
 {
-    memset(report, 0, sizeof *report);
     report->made_tile_count = made;
     report->bytes = navmesh->kept_bytes;
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
@@ -322,18 +322,21 @@ static tl_result make_all(builder *b, tl_navmesh *navmesh, uint32_t *made)
     return TL_OK;
 }
 
-tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *def, tl_nav_wide_report *report_out)
+static tl_result check_wide_def(const tl_navmesh *navmesh, const tl_nav_wide_def *def, tl_report *report)
 {
-    const float max_radius = def != NULL ? def->max_radius : tl_default_nav_wide_def().max_radius;
-    if (def != NULL && def->cookie != TL_DEF_COOKIE) {
-        return TL_ERR_ARGUMENT;
+    if (navmesh == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "navmesh", "it is NULL");
     }
-    if (!isfinite(max_radius)) {
-        return TL_ERR_NOT_FINITE;
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_nav_wide_def()", report));
+    if (!isfinite(def->max_radius)) {
+        return tl_report_field(report, TL_ERR_NOT_FINITE, "max_radius", "make it a number");
     }
-    if (max_radius < 0.0f) {
-        return TL_ERR_ARGUMENT;
-    }
+    return def->max_radius >= 0.0f ? TL_OK : tl_report_field(report, TL_ERR_ARGUMENT, "max_radius", "make it >= 0");
+}
+
+// Sets how far walls are found; what was kept for another distance goes.
+static void set_reach(tl_navmesh *navmesh, float max_radius)
+{
     double reach = 0.0;
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
         if (navmesh->slots[i].tile != NULL) {
@@ -346,15 +349,27 @@ tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *de
         navmesh->kept_reach = reach;
         navmesh->kept_touch = touch;
     }
+}
+
+tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *def, tl_nav_wide_report *report_out)
+{
+    const tl_nav_wide_def used = def != NULL ? *def : tl_default_nav_wide_def();
+    tl_report *report = report_out != NULL ? &report_out->base : NULL;
+    if (report_out != NULL) {
+        memset(report_out, 0, sizeof *report_out);
+    }
+    tl_report_begin(report, "walls");
+    TL_TRY(check_wide_def(navmesh, &used, report));
+    set_reach(navmesh, used.max_radius);
     builder b;
     memset(&b, 0, sizeof b);
     b.navmesh = navmesh;
-    b.reach = reach;
+    b.reach = navmesh->kept_reach;
     b.walls.size = sizeof(tl_nav_near_wall);
     b.hits.size = sizeof(tl_nav_wall_hit);
     b.pairs.size = sizeof(tl_nav_wall_pair);
     uint32_t made = 0;
-    tl_result result = reach > 0.0 ? make_all(&b, navmesh, &made) : TL_OK;
+    tl_result result = b.reach > 0.0 ? make_all(&b, navmesh, &made) : TL_OK;
     tl_nav_query_destroy(b.query);
     list *lists[3] = { &b.walls, &b.hits, &b.pairs };
     for (int i = 0; i < 3; i++) {

@@ -107,7 +107,6 @@ static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const
                            float radius, const tl_nav_path_buffers *buffers, tl_nav_wide_path *path_out)
 {
     memset(path_out, 0, sizeof *path_out);
-    path_out->status = TL_NAV_WIDE_UNREACHABLE;
     if (!isfinite(radius)) {
         return TL_ERR_NOT_FINITE;
     }
@@ -115,10 +114,7 @@ static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const
         return TL_ERR_ARGUMENT;
     }
     tl_nav_shortest_search ends;
-    tl_result result = tl_nav_prepare_shortest(query, navmesh, request, &ends);
-    if (result != TL_OK) {
-        return result;
-    }
+    TL_TRY(tl_nav_prepare_shortest(query, navmesh, request, &ends));
     tl_nav_clearance clearance;
     double reach = tl_nav_extra_reach(navmesh->slots[ends.start_slot].tile, radius);
     tl_nav_clearance_begin(query, navmesh, request->filter, reach, &clearance);
@@ -129,6 +125,7 @@ static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const
         return find_narrow(query, navmesh, request, buffers != NULL ? buffers : &none, path_out);
     }
     if (tl_nav_is_cut_off(&ends)) {
+        path_out->status = TL_NAV_WIDE_UNREACHABLE;
         return TL_OK;
     }
     tl_nav_wide_search search = { &clearance,
@@ -149,6 +146,10 @@ tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *nav
                                       const tl_nav_path_request *request, float agent_radius,
                                       tl_nav_corner *corners_out, uint32_t capacity, tl_nav_wide_path *path_out)
 {
+    if (query == NULL || navmesh == NULL || request == NULL || path_out == NULL ||
+        (corners_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     const tl_nav_path_buffers buffers = { NULL, 0, corners_out, capacity };
     return find_wide(query, navmesh, request, agent_radius, &buffers, path_out);
 }
@@ -157,6 +158,9 @@ tl_result tl_nav_query_is_wide_reachable(tl_nav_query *query, const tl_navmesh *
                                          const tl_nav_path_request *request, float agent_radius,
                                          tl_nav_wide_status *status_out)
 {
+    if (query == NULL || navmesh == NULL || request == NULL || status_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     tl_nav_wide_path path;
     tl_result result = find_wide(query, navmesh, request, agent_radius, NULL, &path);
     *status_out = path.status;
@@ -165,8 +169,8 @@ tl_result tl_nav_query_is_wide_reachable(tl_nav_query *query, const tl_navmesh *
 
 const char *tl_nav_wide_status_name(tl_nav_wide_status status)
 {
-    static const char *const NAMES[] = { "complete", "unreachable", "out of nodes", "no room at start",
-                                         "no room at goal" };
+    static const char *const NAMES[] = { "none",         "complete",         "unreachable",
+                                         "out of nodes", "no room at start", "no room at goal" };
     return (unsigned)status < TL_COUNT_OF(NAMES) ? NAMES[status] : "unknown";
 }
 
@@ -189,6 +193,9 @@ tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *nav
                                       const tl_nav_corner *corners, uint32_t count, float max_distance,
                                       float *clearance_out)
 {
+    if (query == NULL || navmesh == NULL || corners == NULL || clearance_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     *clearance_out = 0.0f;
     if (!isfinite(max_distance)) {
         return TL_ERR_NOT_FINITE;
@@ -207,10 +214,10 @@ tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *nav
             return TL_ERR_NOT_FINITE;
         }
         if (!tl_nav_split_ref(navmesh, corners[i].polygon, &slot, &polygon)) {
-            return TL_NOT_FOUND;
+            return TL_ERR_STALE;
         }
         if (!segment_clearance(&clearance, pair, slot, polygon, &least_sq)) {
-            return TL_ERR_LIMIT;
+            return TL_ERR_NODES;
         }
     }
     *clearance_out = (float)sqrt(least_sq);

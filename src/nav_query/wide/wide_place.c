@@ -243,6 +243,9 @@ tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *na
                                        const tl_nav_around_request *request, float agent_radius,
                                        tl_nav_location *place_out)
 {
+    if (query == NULL || navmesh == NULL || request == NULL || place_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     memset(place_out, 0, sizeof *place_out);
     const tl_nav_location *near = &request->center;
     const float max_distance = request->radius;
@@ -255,7 +258,7 @@ tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *na
         return TL_ERR_ARGUMENT;
     }
     if (!tl_nav_split_ref(navmesh, near->polygon, &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     tl_nav_clearance clearance;
     double reach = tl_nav_extra_reach(navmesh->slots[slot].tile, agent_radius);
@@ -270,7 +273,7 @@ tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *na
     search.best_sq = (double)max_distance * (double)max_distance * (1.0 + TL_DOUBLE_GAMMA(4));
     run(&search);
     if (clearance.is_full) {
-        return TL_ERR_LIMIT;
+        return TL_ERR_NODES;
     }
     if (!search.is_found) {
         return TL_NOT_FOUND;
