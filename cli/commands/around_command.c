@@ -5,7 +5,7 @@
 #include "cli/level/navmesh_query.h"
 #include "cli/level/open_input.h"
 #include "cli/shared/line_batch.h"
-#include "cli/shared/random.h"
+#include "cli/shared/splitmix64.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -208,15 +208,15 @@ static tl_exit run_around(tl_cli *cli)
     settings.seed = 1;
     const tl_option options[] = {
         { "places", 'p', TL_OPTION_TEXT, &settings.places, "FILE",
-          "ask for the places of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
+          "answer for the places of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "radius", 0, TL_OPTION_FLOAT, &settings.radius, "M",
-          "metres: of the circle for walls and random points, of paths for polygons", NULL, 0.0f, 1e9f, 0, 0 },
+          "metres: radius for walls and random points; length of paths for polygons", NULL, 0.0f, 1e9f, 0, 0 },
         { "list", 0, TL_OPTION_CHOICE, &settings.list, "WHAT",
-          "walls in the circle, the nearest first; or polygons that a path of that length enters", LISTS, 0, 0, 0, 0 },
+          "walls within the radius, nearest first; or polygons that a path of that length enters", LISTS, 0, 0, 0, 0 },
         { "random", 0, TL_OPTION_COUNT, &settings.random, "N",
-          "print N random points instead that can be reached; without a place, of the whole navmesh", NULL, 0, 0, 0,
-          1000000000 },
-        { "seed", 0, TL_OPTION_NUMBER, &settings.seed, "N", "begin of the random numbers", NULL, 0, 0, 0, 0 },
+          "print N random points instead, reachable from the place; without a place, of the whole navmesh", NULL, 0, 0,
+          0, 1000000000 },
+        { "seed", 0, TL_OPTION_NUMBER, &settings.seed, "N", "seed of the random points", NULL, 0, 0, 0, 0 },
         { "extents", 0, TL_OPTION_TEXT, &settings.extents_text, "X,Y,Z",
           "metres: how far from a place its navmesh polygon may lie (2,4,2)", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
@@ -233,12 +233,18 @@ static tl_exit run_around(tl_cli *cli)
 
 const tl_command tl_around_command = {
     "around",
-    "walls, reachable polygons or random points around a place",
-    "FILE X,Y,Z [options]\nFILE --places PLACES|- [options]\nFILE --random N [options]",
-    "Tells what lies around a place on the navmesh. FILE is a baked file, or a level, which is then baked in\n"
-    "memory. The answer is a number and so many lines: distance x,y,z x,y,z for a wall; cost x,y,z for a\n"
-    "polygon, the point where the path enters it; x,y,z for a random point, uniform by area.\n\n"
-    "PLACES holds a place a line: x y z. A single place without navmesh ends with exit code 1.",
+    "Navmesh",
+    "list walls, polygons or random points around a place",
+    "FILE X,Y,Z [options]\n"
+    "FILE --places PLACES|- [options]\n"
+    "FILE --random N [options]",
+    "Lists what lies around a place on the navmesh. FILE is a baked file, or a level, which is then baked in\n"
+    "memory. The answer is a count, then one line for each: distance x,y,z x,y,z for a wall; cost x,y,z for a\n"
+    "polygon, the point where the path enters it; x,y,z for a random point, uniform by area.\n"
+    "\n"
+    "PLACES holds one place a line: x y z. A single place without navmesh exits with 1.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
     "talus around courtyard.talus 2,0,20 --radius 5\n"
     "talus around courtyard.talus 2,0,20 --list polygons --json\n"
     "talus around courtyard.talus --random 100 --seed 7",

@@ -68,7 +68,7 @@ static void print_finding(const tl_nav_finding *f, const tl_nav_why_answer *why)
 static void print_audit_summary(const tl_nav_audit *audit, uint32_t listed)
 {
     if (listed < audit->finding_count) {
-        printf("... and %u more; --list %u shows all\n", audit->finding_count - listed, audit->finding_count);
+        printf("... and %u more; --list %u prints all\n", audit->finding_count - listed, audit->finding_count);
     }
     const tl_nav_probe *p = &audit->probe;
     printf("%s%llu paths (%.0f m), %llu polygons, %llu portals: %llu sweeps of a capsule, radius %.3g m, from %.3g to "
@@ -132,13 +132,13 @@ static json_t *audit_json(tl_cli *cli, const tl_nav_audit *audit, const tl_nav_w
     json_t *probe =
         json_pack("{so so so so so}", "radius", tl_json_float(p->radius), "step", tl_json_float(p->step), "height",
                   tl_json_float(p->height), "surface", tl_json_float(p->surface), "gap", tl_json_float(p->gap));
-    return json_pack("{sb sI so sI sf sI sI sI sI sI so sf so so}", "clean", (int)(audit->finding_count == 0),
-                     "findings", (json_int_t)audit->finding_count, "probe", probe, "paths",
-                     (json_int_t)audit->path_count, "path_metres", audit->path_metres, "polygons",
-                     (json_int_t)audit->polygon_count, "portals", (json_int_t)audit->portal_count, "sweeps",
+    return json_pack("{so sb sI so sI sf sI sI sI sI sI so sf so so}", "file", tl_json_text(cli->arguments.words[0]),
+                     "clean", (int)(audit->finding_count == 0), "finding_count", (json_int_t)audit->finding_count,
+                     "probe", probe, "paths", (json_int_t)audit->path_count, "path_metres", audit->path_metres,
+                     "polygons", (json_int_t)audit->polygon_count, "portals", (json_int_t)audit->portal_count, "sweeps",
                      (json_int_t)audit->step_count, "places", (json_int_t)audit->contradictions, "floor_samples",
                      (json_int_t)audit->floor_samples, "sample_spacing", tl_json_float(audit->sample_spacing),
-                     "missing_area", audit->missing_area, "seconds", times, "list", list);
+                     "missing_area", audit->missing_area, "seconds", times, "findings", list);
 }
 
 // ---- As a picture ------------------------------------------------------------------------------------------
@@ -224,7 +224,7 @@ static tl_exit audit_source(draw_source *source, audit_settings *settings)
 {
     tl_exit code = TL_EXIT_OK;
     if (source->is_bare) {
-        return tl_cli_fail(source->cli, TL_EXIT_DATA, "%s: holds no soup; bake it without --no-soup",
+        return tl_cli_fail(source->cli, TL_EXIT_DATA, "%s: holds no triangles; bake it without --no-soup",
                            source->input.path);
     }
     if (!draw_need_soup(source, &code) || !draw_need_navmesh(source, &code)) {
@@ -272,16 +272,18 @@ static tl_exit run_audit(tl_cli *cli)
     settings.size = 900;
     const tl_option options[] = {
         { "paths", 'n', TL_OPTION_COUNT, &settings.paths, "N", "random paths to walk", NULL, 0, 0, 0, 0 },
-        { "seed", 0, TL_OPTION_COUNT, &settings.seed, "N", "of the random paths", NULL, 0, 0, 0, 0 },
+        { "seed", 0, TL_OPTION_COUNT, &settings.seed, "N", "seed of the random paths", NULL, 0, 0, 0, 0 },
         { "probe-radius", 0, TL_OPTION_FLOAT, &settings.radius, "M",
-          "of the capsule that must be free (-1: the agent's, less what voxels and outlines cost)", NULL, -1, 1e6f, 0,
+          "metres: radius of the capsule (-1: the agent's, less what voxels and contours may cost)", NULL, -1, 1e6f, 0,
           0 },
         { "min-area", 0, TL_OPTION_FLOAT, &settings.area, "M2",
-          "smaller floors may be missing (-1: than the smallest island that is kept)", NULL, -1, 1e12f, 0, 0 },
+          "square metres: ignore missing floors smaller than this (-1: than the smallest island kept)", NULL, -1, 1e12f,
+          0, 0 },
         { "list", 0, TL_OPTION_COUNT, &settings.list, "N", "findings to print; --json has all", NULL, 0, 0, 0, 0 },
-        { "draw", 0, TL_OPTION_TEXT, &settings.picture, "FILE", "a picture with the findings marked: .png or .svg",
+        { "draw", 0, TL_OPTION_TEXT, &settings.picture, "FILE", "draw a picture with the findings marked: .png or .svg",
           NULL, 0, 0, 0, 0 },
-        { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "longer side of each view", NULL, 0, 0, 200, 8000 },
+        { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "of the picture: longer side of each view", NULL, 0, 0,
+          200, 8000 },
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
@@ -299,13 +301,18 @@ static tl_exit run_audit(tl_cli *cli)
 
 const tl_command tl_audit_command = {
     "audit",
-    "hold a navmesh against the triangles",
+    "Navmesh",
+    "compare a navmesh with the triangles",
     "FILE [options]",
-    "Walks a capsule through the triangles wherever the navmesh says that an agent may go: around every polygon,\n"
-    "through every portal, along random shortest paths. Then looks for floor that has room for the agent and no\n"
-    "navmesh. FILE is a baked file, or a level, which is then baked in memory. Prints every place where the two\n"
-    "disagree; exit code 1 when there is one. docs/audit.md says what free promises and what is tolerated.",
-    "talus audit courtyard.talus\ntalus audit courtyard.obj --paths 10000 --draw audit.png\n"
-    "talus audit courtyard.talus --json > audit.json",
+    "Walks a capsule through the triangles wherever the navmesh says that an agent may go: around every\n"
+    "polygon, through every portal, along random shortest paths. Then looks for floor that has room for the\n"
+    "agent and no navmesh. Prints every place where the two disagree, and exits with 1 when there is one.\n"
+    "FILE is a baked file, or a level, which is then baked in memory. docs/audit.md says what is promised and\n"
+    "what is tolerated.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
+    "talus audit courtyard.talus --paths 100\n"
+    "talus audit courtyard.obj --paths 100 --draw audit.png --size 400\n"
+    "talus audit courtyard.talus --paths 100 --json > audit.json",
     run_audit,
 };

@@ -160,17 +160,17 @@ static void print_left_out(const tl_bake *bake)
 {
     const tl_nav_bake_report *nav = &bake->nav_report;
     if (nav->filtered_regions > 0) {
-        printf("left out %u islands, %llu floors, %.1f m2: less than --region-min-size squared\n",
+        printf("left out %u islands, %llu floors, %.1f m2: fewer cells than --region-min-size squared\n",
                nav->filtered_regions, (unsigned long long)nav->filtered_spans, nav->filtered_area);
     }
     print_pruned(&bake->pruned.inside, "inside solids");
-    print_pruned(&bake->pruned.unreachable, "not --reachable-from any place");
-    print_pruned(&bake->pruned.small, "less than --island-min-area");
+    print_pruned(&bake->pruned.unreachable, "not reachable from --reachable-from");
+    print_pruned(&bake->pruned.small, "smaller than --island-min-area");
     if (nav->unbridged_holes > 0) {
         printf("holes    %u became floor, since no bridge to their outline was found\n", nav->unbridged_holes);
     }
     if (nav->limited_patches > 0) {
-        printf("detail   %u polygons are too large to be as exact as asked\n", nav->limited_patches);
+        printf("detail   %u polygons are too large for the height detail asked for\n", nav->limited_patches);
     }
 }
 
@@ -246,7 +246,7 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
 {
     const tl_bake *bake = r->bake;
     const tl_mesh_report *report = &r->level->report;
-    json_t *object = json_pack("{so so so}", "level", tl_json_text(r->level->path), "output", tl_json_text(r->output),
+    json_t *object = json_pack("{so so so}", "file", tl_json_text(r->level->path), "output", tl_json_text(r->output),
                                "stages", stages_json(cli, r));
     json_object_set_new(object, "seconds", tl_json_double(r->seconds));
     json_object_set_new(object, "bytes", json_integer((json_int_t)r->file_bytes));
@@ -325,7 +325,7 @@ static tl_exit run_bake(tl_cli *cli)
     const char *output = NULL;
     tl_bake_settings settings = tl_default_bake_settings();
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; needed", NULL, 0, 0, 0, 0 },
+        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; required", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     tl_option part_options[TL_PART_OPTIONS];
@@ -351,7 +351,8 @@ static tl_exit run_bake(tl_cli *cli)
         return tl_cli_fail(cli, TL_EXIT_USAGE, "--no-soup and --no-nav leave nothing to bake; add --hull");
     }
     if (settings.links && !(settings.soup && settings.nav)) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "--links needs both soup and navmesh: leave out --no-soup and --no-nav");
+        return tl_cli_fail(cli, TL_EXIT_USAGE,
+                           "--links needs triangles and a navmesh; leave out --no-soup and --no-nav");
     }
     double began = tl_clock_seconds();
     tl_level level;
@@ -364,16 +365,23 @@ static tl_exit run_bake(tl_cli *cli)
 
 const tl_command tl_bake_command = {
     "bake",
-    "bake a level into one file for rays and paths",
+    "Levels",
+    "bake a level into one file for rays, shapes and paths",
     "LEVEL -o OUT.talus [options]",
-    "Reads a level (OBJ, glTF, GLB, FBX, STL, PLY, DAE; - is standard input), bakes its triangles for rays\n"
-    "and a navmesh for paths, and writes both to one file. Prints what each stage took and made. The\n"
-    "same level and options give the same bytes on every machine. A level of which nothing is walkable\n"
-    "is baked without a navmesh, and the command says so.",
+    "Reads a level (OBJ, glTF, GLB, FBX, STL, PLY, DAE; - is standard input), bakes a BVH over its triangles\n"
+    "for rays and shapes, and a navmesh for paths, and writes both to one file. Prints what each stage made\n"
+    "and how long it took. The same level and options give the same bytes on every machine. When no place of\n"
+    "the level is walkable, the file holds no navmesh, and the command says so.\n"
+    "\n"
+    "Options may be written as users of Recast know them: --cs, --cellSize, --walkableSlopeAngle. Where\n"
+    "Recast counts cells and talus takes metres, a message names the option and its unit.",
+    "talus sample courtyard -o courtyard.obj\n"
     "talus bake courtyard.obj -o courtyard.talus\n"
-    "talus bake park.obj -o park.talus --area 'water*=0' --area grass=5 --areas doors.txt\n"
-    "talus bake castle.obj -o castle.talus --links --drop 5 --jump 2.5\n"
-    "talus bake city.glb -o city.talus --tile-size 64 --agent-radius 0.4 --threads 8\n"
-    "talus bake map.fbx -o map.talus --up z --scale 0.01 --no-nav --json",
+    "talus bake courtyard.obj -o courtyard.talus --agent-radius 0.4 --agent-height 1.8 --tile-size 64\n"
+    "talus bake courtyard.obj -o linked.talus --links --drop 5 --jump 2.5\n"
+    "(echo 'usemtl grass'; cat courtyard.obj) > park.obj\n"
+    "echo 'box 0 18 -1 18 22 3 22' > areas.txt\n"
+    "talus bake park.obj -o park.talus --area 'gr*=5' --areas areas.txt\n"
+    "talus bake courtyard.obj -o rays.talus --up z --scale 0.01 --no-nav --json",
     run_bake,
 };

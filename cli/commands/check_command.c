@@ -262,7 +262,7 @@ static void add_note(findings *f, uint64_t count, const char *what)
     }
 }
 
-static tl_exit check_mesh(findings *f, const char *path, const tl_level_settings *settings)
+static tl_exit check_mesh_file(findings *f, const char *path, const tl_level_settings *settings)
 {
     tl_level level;
     tl_exit code;
@@ -300,13 +300,14 @@ static tl_exit run_check(tl_cli *cli)
     const char *path = cli->arguments.words[0];
     findings f = { cli, cli->json ? json_array() : NULL, 0 };
     bool baked = tl_input_is_baked(path);
-    code = baked ? check_baked(&f, path) : check_mesh(&f, path, &settings.level);
+    code = baked ? check_baked(&f, path) : check_mesh_file(&f, path, &settings.level);
     if (code == TL_EXIT_OK) {
         code = f.faults > 0 ? TL_EXIT_NEGATIVE : TL_EXIT_OK;
         if (cli->json) {
             json_t *object = json_pack("{so ss sb sO}", "file", tl_json_text(path), "kind", baked ? "baked" : "mesh",
                                        "ok", (int)(f.faults == 0), baked ? "faults" : "notes", f.list);
-            code = tl_json_print(object) ? code : TL_EXIT_MEMORY;
+            const tl_exit printed = tl_cli_print_json(cli, object);
+            code = printed == TL_EXIT_OK ? code : printed;
         } else if (baked) {
             printf(f.faults == 0 ? "%s is whole\n" : "%s is damaged; bake it again\n", path);
         }
@@ -317,11 +318,15 @@ static tl_exit run_check(tl_cli *cli)
 
 const tl_command tl_check_command = {
     "check",
-    "prove a baked file right, or name its faults",
+    "Levels",
+    "check a baked file and name its faults",
     "FILE [options]",
-    "Checks a baked file: size, hashes, the layout of every part, that hulls are convex, that navmesh\n"
-    "polygons are convex and simple and name each other as neighbours, and that tiles fit. Prints every\n"
-    "finding; exit code 1 when there is a fault. Of a mesh file it prints what bakes leave out or mend.",
-    "talus check courtyard.talus\ntalus check courtyard.obj --json",
+    "Checks every part of a baked file: sizes, hashes and layouts; that hulls are convex; that navmesh\n"
+    "polygons are convex and simple and name each other as neighbours; that tiles fit. Prints every fault,\n"
+    "and exits with 1 when there is one. Of a mesh file it prints what a bake leaves out or repairs.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
+    "talus check courtyard.talus\n"
+    "talus check courtyard.obj --json",
     run_check,
 };

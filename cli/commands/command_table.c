@@ -10,8 +10,7 @@
     COMMAND(bake) \
     COMMAND(info) \
     COMMAND(check) \
-    COMMAND(audit) \
-    COMMAND(why) \
+    COMMAND(draw) \
     COMMAND(ray) \
     COMMAND(nearest) \
     COMMAND(overlap) \
@@ -19,13 +18,14 @@
     COMMAND(path) \
     COMMAND(around) \
     COMMAND(links) \
+    COMMAND(why) \
+    COMMAND(audit) \
     COMMAND(hull) \
     COMMAND(support) \
     COMMAND(distance) \
     COMMAND(polygonize) \
     COMMAND(export) \
-    COMMAND(import) \
-    COMMAND(draw)
+    COMMAND(import)
 // clang-format on
 
 #define DECLARE(name) extern const tl_command tl_##name##_command;

@@ -157,10 +157,10 @@ static tl_exit run_distance(tl_cli *cli)
         { "pose-b", 0, TL_OPTION_TEXT, &s.pose_b, "POSE", "the same as --pose", NULL, 0, 0, 0, 0 },
         { "poses", 0, TL_OPTION_TEXT, &s.poses, "FILE",
           "answer for the poses of B in FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
-        { "radius-a", 0, TL_OPTION_FLOAT, &s.radius_a, "M", "metres: A is rounded by a ball of it", NULL, 0, 1e6f, 0,
-          0 },
-        { "radius-b", 0, TL_OPTION_FLOAT, &s.radius_b, "M", "metres: B is rounded by a ball of it", NULL, 0, 1e6f, 0,
-          0 },
+        { "radius-a", 0, TL_OPTION_FLOAT, &s.radius_a, "M", "metres: A is rounded by a ball of this radius", NULL, 0,
+          1e6f, 0, 0 },
+        { "radius-b", 0, TL_OPTION_FLOAT, &s.radius_b, "M", "metres: B is rounded by a ball of this radius", NULL, 0,
+          1e6f, 0, 0 },
         { "index-a", 0, TL_OPTION_NEEDED_COUNT, &s.hull_a.index, "I", "which cloud of A's file, from 0", NULL, 0, 0, 0,
           0 },
         { "index-b", 0, TL_OPTION_NEEDED_COUNT, &s.hull_b.index, "I", "which cloud of B's file, from 0", NULL, 0, 0, 0,
@@ -191,13 +191,18 @@ static tl_exit run_distance(tl_cli *cli)
 
 const tl_command tl_distance_command = {
     "distance",
-    "measure how far two hulls are apart",
-    "HULL_A HULL_B [--pose POSE] [options]",
-    "HULL_A and HULL_B are meshes, points, or baked files that hold a hull. A pose is a position, or a\n"
-    "position and a rotation as a quaternion x,y,z,w. Prints: distance point-on-A point-on-B normal, the\n"
-    "normal from A to B; or overlap.",
-    "talus distance rock.obj crate.obj --pose 3,0,0\n"
-    "talus distance rock.obj crate.obj --pose 3,0,0,0,0.707107,0,0.707107 --json\n"
-    "talus distance rock.obj crate.obj --poses poses.txt",
+    "Convex hulls",
+    "measure the distance between two hulls",
+    "HULL_A HULL_B [--pose POSE] [options]\n"
+    "HULL_A HULL_B --poses POSES|- [options]",
+    "HULL_A and HULL_B are meshes, points, or baked files that hold a hull. POSE is a position px,py,pz, or a\n"
+    "position and a rotation px,py,pz,qx,qy,qz,qw; POSES holds one pose of B a line, with blanks for the\n"
+    "commas. Prints one line for each: distance point-on-A point-on-B normal, the normal from A to B; or\n"
+    "overlap.",
+    "printf '%s\\n' '0 0 0' '2 0 0' '0 2 0' '0 0 2' > points.txt\n"
+    "talus distance points.txt points.txt --pose 3,0,0\n"
+    "talus distance points.txt points.txt --pose 3,0,0,0,0.707107,0,0.707107 --json\n"
+    "echo '3 0 0' > poses.txt\n"
+    "talus distance points.txt points.txt --poses poses.txt",
     run_distance,
 };

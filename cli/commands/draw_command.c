@@ -391,7 +391,8 @@ static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *s
         }
     }
     if (list != NULL && going) {
-        code = tl_json_print(list) ? code : TL_EXIT_MEMORY;
+        const tl_exit printed = tl_cli_print_json(cli, list);
+        code = printed == TL_EXIT_OK ? code : printed;
     } else {
         json_decref(list);
     }
@@ -409,25 +410,27 @@ static tl_exit run_draw(tl_cli *cli)
     settings.contour = UINT32_MAX;
     static const char *const views[] = { "both", "top", "oblique", NULL };
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &settings.output, "FILE", "where to write: .png or .svg", NULL, 0, 0, 0, 0 },
-        { "stage", 's', TL_OPTION_TEXT, &settings.stages_text, "NAME,...", "what to draw (polygons)", NULL, 0, 0, 0,
-          0 },
+        { "output", 'o', TL_OPTION_TEXT, &settings.output, "FILE", "where to write: .png or .svg; required", NULL, 0, 0,
+          0, 0 },
+        { "stage", 's', TL_OPTION_TEXT, &settings.stages_text, "NAME,...",
+          "what to draw: stages, separated by commas (polygons)", NULL, 0, 0, 0, 0 },
         { "overview", 0, TL_OPTION_FLAG, &settings.overview, NULL,
           "the stages side by side in one picture, half as large, from above unless --view says otherwise", NULL, 0, 0,
           0, 0 },
-        { "view", 0, TL_OPTION_CHOICE, &settings.view, NULL, "from where", views, 0, 0, 0, 0 },
+        { "view", 0, TL_OPTION_CHOICE, &settings.view, NULL, "from above, obliquely, or both side by side", views, 0, 0,
+          0, 0 },
         { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "longer side of each view", NULL, 0, 0, 200, 8000 },
-        { "depth", 0, TL_OPTION_COUNT, &settings.depth, "N", "soup: boxes of the tree are shown down to this depth",
-          NULL, 0, 0, 0, 64 },
+        { "depth", 0, TL_OPTION_COUNT, &settings.depth, "N", "soup: show the boxes of the BVH down to this depth", NULL,
+          0, 0, 0, 64 },
         { "contour", 0, TL_OPTION_COUNT, &settings.contour, "N",
-          "triangulation, merging: which contour (one worth a look)", NULL, 0, 0, 0, UINT32_MAX - 1 },
+          "triangulation, merging: which contour (one that shows much)", NULL, 0, 0, 0, UINT32_MAX - 1 },
         { "set", 0, TL_OPTION_COUNT, &settings.set, "N", "a contour file: which of its sets", NULL, 0, 0, 0,
           UINT32_MAX - 1 },
         { "from", 0, TL_OPTION_TEXT, &settings.from_text, "X,Y,Z", "path: where it starts", NULL, 0, 0, 0, 0 },
-        { "to", 0, TL_OPTION_TEXT, &settings.to_text, "X,Y,Z", "path: where it leads (without ends: across the level)",
-          NULL, 0, 0, 0, 0 },
+        { "to", 0, TL_OPTION_TEXT, &settings.to_text, "X,Y,Z",
+          "path: where it ends (without --from and --to: across the level)", NULL, 0, 0, 0, 0 },
         { "radius", 0, TL_OPTION_FLOAT, &settings.ends.radius, "M",
-          "path: for an agent wider than the navmesh was made for", NULL, 0, 1e6f, 0, 0 },
+          "metres, path: the radius of an agent wider than the navmesh's own (0: its own)", NULL, 0, 1e6f, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
@@ -437,22 +440,25 @@ static tl_exit run_draw(tl_cli *cli)
         return code;
     }
     if (settings.output == NULL) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "say where to write: -o FILE.png");
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "say where to write with -o FILE.png");
     }
     return draw_stages(cli, cli->arguments.words[0], &settings);
 }
 
 const tl_command tl_draw_command = {
     "draw",
+    "Levels",
     "draw the stages of a level or a baked file as PNG or SVG",
     "FILE -o OUT.png|OUT.svg [--stage NAME,...] [--view both|top|oblique]",
-    "FILE is a level, a baked file, or contours ('navcontours 1'). Stages, in the order of the pipeline: soup,\n"
-    "spans, areas, distance, regions, contours, triangulation, merging, triangles, polygons, detail, navmesh,\n"
-    "path; or all. Several stages go to several files: OUT-STAGE.png. A top view and an oblique view, both to scale.\n"
-    "Where the level hides a part of what lies on it, that part is drawn faintly. triangulation and merging\n"
-    "show one contour being divided, step by step.",
-    "talus draw courtyard.obj -o courtyard.png --stage all\n"
-    "talus draw courtyard.obj -o courtyard.png --overview\n"
+    "Draws a top view and an oblique view, both to scale. FILE is a level, a baked file, or contours\n"
+    "('navcontours 1'). The stages, in the order of the pipeline: soup, spans, areas, distance, regions,\n"
+    "contours, triangulation, merging, triangles, polygons, detail, navmesh, path; or all. Several stages go\n"
+    "to several files: OUT-STAGE.png. What the level hides is drawn faintly. triangulation and merging show\n"
+    "step by step how one contour is divided.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
+    "talus draw courtyard.obj -o stages.png --stage soup,regions,polygons --size 400\n"
+    "talus draw courtyard.obj -o overview.png --overview --size 400\n"
     "talus draw courtyard.talus -o way.svg --from 2,0,20 --to 38,0,20 --view top\n"
     "talus draw courtyard.obj -o steps.png --stage triangulation,merging --contour 0",
     run_draw,

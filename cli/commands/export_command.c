@@ -19,8 +19,9 @@ static tl_exit print_export_report(tl_cli *cli, const char *output, uint64_t siz
                     report->plain_patches);
     }
     if (cli->json) {
-        return tl_cli_print_json(cli, json_pack("{so sI sI sI sI}", "output", tl_json_text(output), "bytes",
-                                                (json_int_t)size, "tiles", (json_int_t)report->tile_count, "polygons",
+        return tl_cli_print_json(cli, json_pack("{so so sI sI sI sI}", "file", tl_json_text(cli->arguments.words[0]),
+                                                "output", tl_json_text(output), "bytes", (json_int_t)size, "tiles",
+                                                (json_int_t)report->tile_count, "polygons",
                                                 (json_int_t)report->polygon_count, "plain_patches",
                                                 (json_int_t)report->plain_patches));
     }
@@ -69,9 +70,9 @@ static tl_exit run_export(tl_cli *cli)
     static const char *const widths[] = { "32", "64", NULL };
     tl_bake_settings settings = tl_default_bake_settings();
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; needed", NULL, 0, 0, 0, 0 },
-        { "refs", 0, TL_OPTION_CHOICE, &refs, "BITS", "how Detour was compiled: 64 with DT_POLYREF64", widths, 0, 0, 0,
-          0 },
+        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; required", NULL, 0, 0, 0, 0 },
+        { "refs", 0, TL_OPTION_CHOICE, &refs, "BITS",
+          "bits of a polygon reference: 64 for a Detour compiled with DT_POLYREF64", widths, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
@@ -93,11 +94,15 @@ static tl_exit run_export(tl_cli *cli)
 
 const tl_command tl_export_command = {
     "export",
+    "Other formats",
     "write the navmesh as Detour tiles",
     "FILE -o OUT.bin [--refs 32|64]",
-    "FILE is a baked file, or a level, which is baked now. OUT is a set of Detour tiles (\"MSET\", tiles of\n"
-    "version 7), the file that RecastDemo loads. Detour's polygons have at most 6 corners and 16 flags.",
+    "FILE is a baked file, or a level, which is then baked in memory. OUT is a set of Detour tiles (\"MSET\",\n"
+    "tiles of version 7), the file that RecastDemo loads. Detour's polygons have at most 6 corners and 16\n"
+    "flags.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
     "talus export courtyard.talus -o courtyard.bin\n"
-    "talus export city.obj -o city.bin --tile-size 64 --refs 64",
+    "talus export courtyard.obj -o tiled.bin --tile-size 64 --refs 64",
     run_export,
 };

@@ -116,7 +116,11 @@ static tl_exit hull_of_one(tl_cli *cli, const tl_hull_settings *settings, const 
         } else if (output != NULL && strcmp(output, "-") == 0) {
             code = TL_EXIT_OK; // the hull itself went to standard output
         } else if (cli->json) {
-            code = tl_cli_print_json(cli, hull_json(input.hull, input.points, &input.report));
+            json_t *object = hull_json(input.hull, input.points, &input.report);
+            if (output != NULL) {
+                json_object_set_new(object, "output", tl_json_text(output));
+            }
+            code = tl_cli_print_json(cli, object);
         } else {
             print_hull(input.hull, input.points, &input.report);
         }
@@ -171,10 +175,9 @@ static tl_exit run_hull(tl_cli *cli)
     bool all = false;
     tl_hull_settings settings = tl_default_hull_settings();
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "write the hull: .obj with polygon faces, or .talus", NULL, 0,
-          0, 0, 0 },
-        { "all", 'a', TL_OPTION_FLAG, &all, NULL, "measure every cloud of a file of several, one a line", NULL, 0, 0, 0,
-          0 },
+        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write the hull: .obj with polygon faces, or .talus",
+          NULL, 0, 0, 0, 0 },
+        { "all", 'a', TL_OPTION_FLAG, &all, NULL, "measure every cloud of the file, one a line", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     tl_option hull_options[TL_HULL_OPTIONS];
@@ -188,7 +191,8 @@ static tl_exit run_hull(tl_cli *cli)
         return hull_of_one(cli, &settings, output);
     }
     if (output != NULL || settings.index != UINT32_MAX) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "--all only measures; choose one cloud with --index to write it");
+        return tl_cli_fail(cli, TL_EXIT_USAGE,
+                           "--all only measures; without it, --index chooses the cloud and -o writes its hull");
     }
     tl_point_clouds clouds;
     if (tl_read_clouds(cli, cli->arguments.words[0], &settings, &clouds, &code)) {
@@ -200,13 +204,17 @@ static tl_exit run_hull(tl_cli *cli)
 
 const tl_command tl_hull_command = {
     "hull",
-    "build and measure a convex hull",
-    "MESH|POINTS [-o hull.obj|hull.talus] [options]",
-    "Builds the convex hull of a mesh's vertices or of points, and prints its counts, volume, area and\n"
+    "Convex hulls",
+    "bake and measure a convex hull",
+    "MESH|POINTS [-o OUT.obj|OUT.talus] [options]",
+    "Bakes the convex hull of a mesh's vertices or of points, and prints its counts, volume, area and\n"
     "centroid. POINTS is a text of x y z lines, or of several clouds: a line N, then N lines x y z; then\n"
     "--index chooses one, and --all measures every one. A baked file that holds a hull is measured too.",
-    "talus hull rock.obj -o hull.obj\n"
-    "talus hull points.txt --json\n"
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus hull courtyard.obj -o hull.obj\n"
+    "printf '%s\\n' '0 0 0' '2 0 0' '0 2 0' '0 0 2' > points.txt\n"
+    "talus hull points.txt -o hull.talus --json\n"
+    "printf '%s\\n' 4 '0 0 0' '1 0 0' '0 1 0' '0 0 1' 4 '0 0 0' '2 0 0' '0 2 0' '0 0 2' > clouds.txt\n"
     "talus hull clouds.txt --all",
     run_hull,
 };

@@ -56,8 +56,7 @@ static void warn_of_losses(tl_cli *cli, const char *path, const tl_detour_report
         tl_cli_warn(cli, "%s: %u polygons without area or not convex were left out", path, report->dropped_polygons);
     }
     if (report->one_way_links > 0) {
-        tl_cli_warn(cli, "%s: %u links lead to a polygon that does not lead back; they are walls now", path,
-                    report->one_way_links);
+        tl_cli_warn(cli, "%s: %u links lead one way only; they are walls now", path, report->one_way_links);
     }
     if (report->off_mesh_links > 0) {
         tl_cli_warn(cli, "%s: %u off-mesh connections were left out: a baked file keeps links that talus links found",
@@ -73,11 +72,12 @@ static tl_exit print_import_report(tl_cli *cli, const char *output, uint64_t siz
 {
     if (cli->json) {
         return tl_cli_print_json(
-            cli, json_pack("{so sI sI sI sI sI sI sI sI}", "output", tl_json_text(output), "bytes", (json_int_t)size,
-                           "tiles", (json_int_t)r->tile_count, "polygons", (json_int_t)r->polygon_count,
-                           "dropped_polygons", (json_int_t)r->dropped_polygons, "one_way_links",
-                           (json_int_t)r->one_way_links, "off_mesh_links", (json_int_t)r->off_mesh_links,
-                           "plain_patches", (json_int_t)r->plain_patches, "area_zeros", (json_int_t)r->area_zeros));
+            cli,
+            json_pack("{so so sI sI sI sI sI sI sI sI}", "file", tl_json_text(cli->arguments.words[0]), "output",
+                      tl_json_text(output), "bytes", (json_int_t)size, "tiles", (json_int_t)r->tile_count, "polygons",
+                      (json_int_t)r->polygon_count, "dropped_polygons", (json_int_t)r->dropped_polygons,
+                      "one_way_links", (json_int_t)r->one_way_links, "off_mesh_links", (json_int_t)r->off_mesh_links,
+                      "plain_patches", (json_int_t)r->plain_patches, "area_zeros", (json_int_t)r->area_zeros));
     }
     printf("%s: %u tiles, %u polygons, %llu bytes\n", output, r->tile_count, r->polygon_count,
            (unsigned long long)size);
@@ -113,9 +113,9 @@ static tl_exit run_import(tl_cli *cli)
     const char *output = NULL;
     tl_detour_read_def def = tl_default_detour_read_def();
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; needed", NULL, 0, 0, 0, 0 },
-        { "cell-height", 0, TL_OPTION_FLOAT, &def.cell_height, "METRES", "step to which corners' heights are rounded",
-          NULL, 1e-6f, 100.0f, 0, 0 },
+        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; required", NULL, 0, 0, 0, 0 },
+        { "cell-height", 0, TL_OPTION_FLOAT, &def.cell_height, "M",
+          "metres: corners' heights are rounded to multiples of it", NULL, 1e-6f, 100.0f, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
@@ -139,12 +139,16 @@ static tl_exit run_import(tl_cli *cli)
 
 const tl_command tl_import_command = {
     "import",
+    "Other formats",
     "read Detour tiles into a baked file",
     "TILES.bin -o OUT.talus",
     "TILES is a set of Detour tiles as RecastDemo saves it (\"MSET\"), or the data of one tile (version 7). The\n"
-    "baked file holds a navmesh and no triangles. Polygons that are none, links that lead one way, and\n"
+    "baked file holds a navmesh and no triangles. Invalid polygons, links that lead one way only, and\n"
     "off-mesh connections are left out, and counted.",
-    "talus import all_tiles_navmesh.bin -o level.talus\n"
-    "talus import solo_navmesh.bin -o level.talus --json",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus export courtyard.obj -o courtyard.bin\n"
+    "talus import courtyard.bin -o imported.talus\n"
+    "talus path imported.talus 2,0,20 38,0,20\n"
+    "talus import courtyard.bin -o fine.talus --cell-height 0.05 --json",
     run_import,
 };

@@ -285,6 +285,14 @@ static json_t *baked_json(const tl_input *input, const baked_info *info)
     if (info->navmesh != NULL) {
         json_object_set_new(object, "navmesh", navmesh_json(info));
     }
+    if (info->links != NULL) {
+        json_t *links = json_object();
+        for (int kind = 0; kind < TL_NAV_LINK_KINDS; ++kind) {
+            json_object_set_new(links, tl_nav_link_kind_name((tl_nav_link_kind)kind),
+                                json_integer((json_int_t)info->links->kind_counts[kind]));
+        }
+        json_object_set_new(object, "links", links);
+    }
     return object;
 }
 
@@ -350,18 +358,18 @@ static void print_mesh(const tl_level *level, const tl_adjacency *adjacency)
     printf("%s: mesh, read as %s, %llu bytes\n", level->path, m->format, (unsigned long long)m->source_bytes);
     printf("faces      %u, %u of them polygons, %u triangles in all\n", m->face_count, m->polygon_count,
            m->triangle_count);
-    printf("vertices   %u, %u apart\n", m->vertex_count, level->mesh.vertex_count);
+    printf("vertices   %u, %u distinct\n", m->vertex_count, level->mesh.vertex_count);
     print_materials(&m->names);
     print_bounds(level->mesh.bounds);
     printf("area       %.9g m2\n", surface_area(&level->mesh));
-    printf("edges      %u between two triangles, %u open, %u shared otherwise\n", adjacency->paired_edges,
+    printf("edges      %u between two triangles, %u open, %u non-manifold\n", adjacency->paired_edges,
            adjacency->border_edges, adjacency->non_manifold_edges);
     if (level->report.degenerate_triangles > 0 || level->report.duplicate_triangles > 0) {
         printf("left out   %u triangles without area, %u that repeat another\n", level->report.degenerate_triangles,
                level->report.duplicate_triangles);
     }
     if (m->crooked_count > 0) {
-        printf("polygons   %u that no proper split was found for\n", m->crooked_count);
+        printf("polygons   %u that could not be split properly\n", m->crooked_count);
     }
 }
 
@@ -415,9 +423,13 @@ static tl_exit run_info(tl_cli *cli)
 
 const tl_command tl_info_command = {
     "info",
-    "tell what a baked file or a mesh file holds",
+    "Levels",
+    "print what a baked file or a mesh file holds",
     "FILE [options]",
-    "Prints counts, sizes, bounds and settings of a baked file, or counts of a mesh file as it is read.",
-    "talus info courtyard.talus\ntalus info courtyard.obj --json",
+    "Prints counts, sizes, bounds and settings of a baked file, or the counts of a mesh file.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
+    "talus info courtyard.talus\n"
+    "talus info courtyard.obj --json",
     run_info,
 };

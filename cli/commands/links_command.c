@@ -59,6 +59,7 @@ static tl_exit report_links(tl_cli *cli, const tl_level_links *found, const link
         return TL_EXIT_OK;
     }
     json_t *object = tl_level_links_json(&found->report);
+    json_object_set_new(object, "file", tl_json_text(cli->arguments.words[0]));
     json_object_set_new(object, "links", tl_level_links_list_json(found->links));
     if (settings->output != NULL) {
         json_object_set_new(object, "output", tl_json_text(settings->output));
@@ -85,12 +86,12 @@ static tl_exit find_level_links(tl_cli *cli, const links_settings *settings)
     memset(&found, 0, sizeof found);
     bool open = draw_source_open(cli, path, &settings->bake, 0, &source, &code);
     if (open && (source.is_bare || source.is_contours)) {
-        code = tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no triangles to prove links with", path);
+        code = tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no triangles to sweep along links", path);
         open = false;
     }
     open = open && draw_need_soup(&source, &code) && draw_need_navmesh(&source, &code);
     if (open && settings->output != NULL && !source.input.baked) {
-        code = tl_cli_fail(cli, TL_EXIT_USAGE, "%s is a level: write its links with talus bake --links", path);
+        code = tl_cli_fail(cli, TL_EXIT_USAGE, "%s is a level; write its links with talus bake --links", path);
         open = false;
     }
     if (open) {
@@ -115,7 +116,8 @@ static tl_exit run_links(tl_cli *cli)
     const tl_option options[] = {
         { "output", 'o', TL_OPTION_TEXT, &settings.output, "FILE",
           "where to write the baked file with its links; may be FILE itself", NULL, 0, 0, 0, 0 },
-        { "draw", 0, TL_OPTION_TEXT, &settings.picture, "FILE", "a picture of them: .png or .svg", NULL, 0, 0, 0, 0 },
+        { "draw", 0, TL_OPTION_TEXT, &settings.picture, "FILE", "draw a picture of them: .png or .svg", NULL, 0, 0, 0,
+          0 },
         { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "of the picture: longer side of each view", NULL, 0, 0,
           200, 8000 },
         TL_OPTION_TABLE_END,
@@ -134,13 +136,16 @@ static tl_exit run_links(tl_cli *cli)
 
 const tl_command tl_links_command = {
     "links",
-    "find drops, jumps and climbs, each proven by a sweep",
+    "Navmesh",
+    "find drops, jumps and climbs",
     "FILE [-o OUT.talus] [--drop M] [--jump M] [--climb M] [--draw OUT.png] [options]",
     "Looks along the borders of the navmesh for places to drop, jump or climb from, and sweeps the agent's\n"
-    "capsule through the level's triangles along each way. Keeps those that save a long way, prints how\n"
-    "many there are and why others were refused. FILE is a baked file, or a level, which is then baked in\n"
-    "memory. With -o the links are written into the baked file: talus path uses them from then on.",
-    "talus links castle.talus -o castle.talus --drop 5 --jump 2.5 --draw links.png\n"
-    "talus links castle.obj --climb 0 --json",
+    "capsule through the level's triangles along each trajectory. Keeps the links that shorten paths, and\n"
+    "prints how many there are and why others were refused. FILE is a baked file, or a level, which is then\n"
+    "baked in memory. With -o the baked file is written with its links: talus path uses them from then on.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
+    "talus links courtyard.talus -o courtyard.talus --drop 5 --jump 2.5 --draw links.png --size 400\n"
+    "talus links courtyard.obj --climb 0 --json",
     run_links,
 };

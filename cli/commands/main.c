@@ -13,14 +13,21 @@ static void print_commands(FILE *out)
     uint32_t count;
     const tl_command *const *commands = tl_command_table(&count);
     fprintf(out, "Usage: talus COMMAND ...\n\n"
-                 "A level's loose triangles in; rays, convex shapes and paths out.\n\nCommands:\n");
-    for (uint32_t i = 0; i < count; ++i) {
-        fprintf(out, "  %-12s%s\n", commands[i]->name, commands[i]->summary);
-    }
-    fprintf(out, "\n'talus COMMAND --help' explains a command, with an example. Start with:\n"
+                 "Bakes a level's triangles into one file, and answers rays, convex shapes and paths from it.\n\n"
+                 "Start here:\n"
                  "  talus sample courtyard -o courtyard.obj\n"
                  "  talus bake courtyard.obj -o courtyard.talus\n"
                  "  talus path courtyard.talus 2,0,20 38,0,20\n");
+    const char *topic = "";
+    for (uint32_t i = 0; i < count; ++i) {
+        if (strcmp(commands[i]->topic, topic) != 0) {
+            topic = commands[i]->topic;
+            fprintf(out, "\n%s:\n", topic);
+        }
+        fprintf(out, "  %-12s%s\n", commands[i]->name, commands[i]->summary);
+    }
+    fprintf(out, "\n'talus COMMAND --help' explains a command, with examples that run as they are.\n"
+                 "'talus --version' prints the version.\n");
 }
 
 static int unknown_command(const char *word)

@@ -119,10 +119,11 @@ static tl_exit run_nearest(tl_cli *cli)
     settings.max_distance = INFINITY;
     const tl_option options[] = {
         { "points", 'p', TL_OPTION_TEXT, &settings.points, "FILE",
-          "ask for the points of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
-        { "max-distance", 0, TL_OPTION_FLOAT, &settings.max_distance, "M", "look no farther", NULL, 0.0f, 3e38f, 0, 0 },
+          "answer for the points of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
+        { "max-distance", 0, TL_OPTION_FLOAT, &settings.max_distance, "M", "metres: ignore what is farther away", NULL,
+          0.0f, 3e38f, 0, 0 },
         { "inside", 0, TL_OPTION_FLAG, &settings.inside, NULL,
-          "say whether the point is inside of a closed surface: inside, outside, surface, or open", NULL, 0, 0, 0, 0 },
+          "say whether the point is inside a closed surface: inside, outside, surface, or open", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
@@ -151,15 +152,20 @@ static tl_exit run_nearest(tl_cli *cli)
 
 const tl_command tl_nearest_command = {
     "nearest",
-    "the nearest point of a baked file or a level",
-    "FILE X,Y,Z [options]\nFILE --points POINTS|- [options]",
+    "Triangles",
+    "find the nearest point, or whether a point is inside",
+    "FILE X,Y,Z [options]\n"
+    "FILE --points POINTS|- [options]",
     "Finds the point of the triangles that is nearest to a point. FILE is a baked file, or a level, which is\n"
-    "then baked in memory.\n\n"
-    "POINTS holds a line each: x y z. The answer is a line each, in order: distance triangle x y z part, or\n"
-    "none; part is face, edge or corner, and the triangle's number counts the source's triangles from 0.\n"
-    "A single point with nothing near, or that is not inside, ends with exit code 1.",
+    "then baked in memory.\n"
+    "\n"
+    "POINTS holds one point a line: x y z. The answer is one line for each, in order: distance triangle x y z\n"
+    "feature, or none. The feature is face, edge or corner; triangles have their numbers in the source, from\n"
+    "0. A single point with nothing near it, or that is not inside, exits with 1.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
     "talus nearest courtyard.talus 20,10,20\n"
-    "talus nearest courtyard.talus 20,10,20 --max-distance 2 --json\n"
-    "echo '20 10 20' | talus nearest house.obj --points - --inside",
+    "talus nearest courtyard.talus 20,5.5,20 --max-distance 2 --json\n"
+    "echo '20 10 20' | talus nearest courtyard.obj --points - --inside",
     run_nearest,
 };

@@ -79,7 +79,7 @@ static tl_exit run_overlap(tl_cli *cli)
     settings.shape = tl_default_shape_option();
     const tl_option options[] = {
         { "points", 'p', TL_OPTION_TEXT, &settings.points, "FILE",
-          "put the shape at the points of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
+          "answer for the points of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "any", 0, TL_OPTION_FLAG, &settings.any, NULL, "say only touches or free, which is faster", NULL, 0, 0, 0,
           0 },
         TL_OPTION_TABLE_END,
@@ -110,15 +110,20 @@ static tl_exit run_overlap(tl_cli *cli)
 
 const tl_command tl_overlap_command = {
     "overlap",
-    "what a ball, capsule or box touches in a baked file or a level",
-    "FILE X,Y,Z [options]\nFILE --points POINTS|- [options]",
-    "Lists the triangles that a shape touches which stands still. FILE is a baked file, or a level, which is\n"
-    "then baked in memory.\n\n"
-    "POINTS holds a line each: x y z. The answer is a line each, in order: how many triangles, and their\n"
-    "numbers, which count the source's triangles from 0; with --any: touches or free. A single shape that\n"
-    "is free ends with exit code 1.",
+    "Triangles",
+    "find what a ball, capsule or box touches",
+    "FILE X,Y,Z [options]\n"
+    "FILE --points POINTS|- [options]",
+    "Lists the triangles that a shape at rest touches. FILE is a baked file, or a level, which is then baked\n"
+    "in memory.\n"
+    "\n"
+    "POINTS holds one point a line: x y z. The answer is one line for each, in order: how many triangles,\n"
+    "then their numbers in the source, from 0; with --any: touches or free. A single shape that is free exits\n"
+    "with 1.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
     "talus overlap courtyard.talus 20,5,20 --radius 0.4\n"
-    "talus overlap courtyard.talus 20,5.1,20 --radius 0.4 --height 1.8 --any\n"
+    "talus overlap courtyard.talus 20,4.5,20 --radius 0.4 --height 1.8 --any\n"
     "echo '20 5 20' | talus overlap courtyard.obj --points - --half 1,1,1 --json",
     run_overlap,
 };

@@ -249,15 +249,15 @@ static tl_exit run_path(tl_cli *cli)
     settings.extents = tl_vec3_make(2.0f, 4.0f, 2.0f);
     const tl_option options[] = {
         { "pairs", 'p', TL_OPTION_TEXT, &settings.pairs, "FILE",
-          "find the paths of FILE, a pair a line; - is standard input", NULL, 0, 0, 0, 0 },
+          "find the paths of FILE, one pair a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "extents", 0, TL_OPTION_TEXT, &settings.extents_text, "X,Y,Z",
           "metres: how far from a point its navmesh polygon may lie (2,4,2)", NULL, 0, 0, 0, 0 },
         { "radius", 'r', TL_OPTION_FLOAT, &settings.radius, "M",
-          "metres: for an agent wider than the navmesh was baked for (0: that one)", NULL, 0, 1e6f, 0, 0 },
+          "metres: radius of an agent wider than the navmesh's own (0: its own)", NULL, 0, 1e6f, 0, 0 },
         { "partial", 0, TL_OPTION_FLAG, &settings.partial, NULL,
-          "print the way as near to the goal as it leads, as: partial length points", NULL, 0, 0, 0, 0 },
+          "print the path to the reachable point nearest to the goal, as: partial length corners", NULL, 0, 0, 0, 0 },
         { "prepared", 0, TL_OPTION_FLAG, &settings.prepared, NULL,
-          "bake the visibility graph first: pays for some hundred pairs and more", NULL, 0, 0, 0, 0 },
+          "prepare the navmesh first (visibility graph); pays off from some hundred pairs on", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
@@ -276,15 +276,21 @@ static tl_exit run_path(tl_cli *cli)
 
 const tl_command tl_path_command = {
     "path",
-    "find the way from one point to another",
-    "FILE AX,AY,AZ BX,BY,BZ [options]\nFILE --pairs PAIRS|- [options]",
-    "Finds a path over the navmesh and prints its length in metres and its corner points, or why there\n"
-    "is none. FILE is a baked file, or a level, which is then baked in memory.\n\n"
-    "PAIRS holds a pair a line: ax ay az bx by bz. The answer is a line a pair, in order: length x,y,z\n"
-    "x,y,z ..., or none: reason. A single path that does not exist ends with exit code 1.",
+    "Navmesh",
+    "find the path from one point to another",
+    "FILE AX,AY,AZ BX,BY,BZ [options]\n"
+    "FILE --pairs PAIRS|- [options]",
+    "Finds a path over the navmesh, and prints its length in metres and its corners, or why there is none.\n"
+    "FILE is a baked file, or a level, which is then baked in memory.\n"
+    "\n"
+    "PAIRS holds one pair a line: ax ay az bx by bz. The answer is one line for each, in order: length x,y,z\n"
+    "x,y,z ..., or none: reason. A single path that does not exist exits with 1.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
     "talus path courtyard.talus 2,0,20 38,0,20\n"
     "talus path courtyard.obj 2,0,20 38,0,20 --agent-radius 0.4 --json\n"
     "talus path courtyard.talus 2,0,20 38,0,20 --radius 1.2\n"
+    "echo '2 0 20 38 0 20' > pairs.txt\n"
     "talus path courtyard.talus --pairs pairs.txt --prepared",
     run_path,
 };

@@ -214,9 +214,10 @@ static tl_exit print_polygonize_report(job *j)
     }
     tl_exit code = j->faulty_sets > 0 ? TL_EXIT_NEGATIVE : TL_EXIT_OK;
     if (j->cli->json) {
-        json_t *object =
-            json_pack("{s:s, s:O, s:o}", "input", j->input, "sets", j->sets, "seconds", tl_json_double(j->seconds));
-        return tl_json_print(object) ? code : TL_EXIT_MEMORY;
+        json_t *object = json_pack("{s:o, s:O, s:o}", "file", tl_json_text(j->input), "sets", j->sets, "seconds",
+                                   tl_json_double(j->seconds));
+        const tl_exit printed = tl_cli_print_json(j->cli, object);
+        return printed == TL_EXIT_OK ? code : printed;
     }
     if (j->output != NULL && strcmp(j->output, "-") != 0) {
         printf("%s: %u sets, %llu contours, %llu polygons, %llu vertices, %llu links, %.2f ms\n", j->output,
@@ -267,20 +268,20 @@ static tl_exit run_polygonize(tl_cli *cli)
         { "method", 'm', TL_OPTION_CHOICE, &method, "NAME", "how contours are divided", tl_partition_method_names, 0, 0,
           0, 0 },
         { "max-verts", 'n', TL_OPTION_COUNT, &max_verts, "N",
-          "corners a polygon may have, 3 to 64 (0: what the set says, else 6)", NULL, 0, 0, 0, 64 },
-        { "unlimited", 0, TL_OPTION_FLAG, &unlimited, NULL, "polygons may have any number of corners", NULL, 0, 0, 0,
+          "most corners of a polygon, 3 to 64 (0: what the set says, else 6)", NULL, 0, 0, 0, 64 },
+        { "unlimited", 0, TL_OPTION_FLAG, &unlimited, NULL, "allow polygons of any number of corners", NULL, 0, 0, 0,
           0 },
         { "merge-height", 0, TL_OPTION_COUNT, &def.merge_height, "N",
-          "lattice units: vertices at one place and at most this far apart in height become one", NULL, 0, 0, 0,
+          "lattice units: vertices at one place, no farther apart in height than this, become one", NULL, 0, 0, 0,
           UINT16_MAX },
         { "keep-border-vertices", 0, TL_OPTION_FLAG, &keep_border, NULL,
-          "leave vertices in that a tile's border does not need", NULL, 0, 0, 0, 0 },
+          "keep vertices that a tile's border does not need", NULL, 0, 0, 0, 0 },
         { "drop-straight", 0, TL_OPTION_FLAG, &drop_straight, NULL,
-          "take vertices out of straight runs where no other contour has them", NULL, 0, 0, 0, 0 },
+          "remove vertices of straight runs where no other contour has them", NULL, 0, 0, 0, 0 },
         { "merge-contours", 0, TL_OPTION_FLAG, &merge_contours, NULL,
           "merge polygons across contours of one region and area", NULL, 0, 0, 0, 0 },
-        { "check", 'c', TL_OPTION_FLAG, &check, NULL, "prove the result right; exit code 1 when it is not", NULL, 0, 0,
-          0, 0 },
+        { "check", 'c', TL_OPTION_FLAG, &check, NULL, "verify the result; exits with 1 when it is wrong", NULL, 0, 0, 0,
+          0 },
         { "compare", 0, TL_OPTION_FLAG, &compare, NULL,
           "divide by every method and print them side by side; writes no meshes", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
@@ -294,7 +295,7 @@ static tl_exit run_polygonize(tl_cli *cli)
         return tl_cli_fail(cli, TL_EXIT_USAGE, "--max-verts: a polygon has at least 3 corners; use 3 to 64");
     }
     if (compare && output != NULL) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "--compare writes no meshes; leave -o out");
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "--compare writes no meshes; leave out -o");
     }
     job j;
     memset(&j, 0, sizeof j);
@@ -325,12 +326,16 @@ static tl_exit run_polygonize(tl_cli *cli)
 
 const tl_command tl_polygonize_command = {
     "polygonize",
+    "Other formats",
     "divide contours into convex polygons",
     "CONTOURS [-o MESH.txt] [--method NAME] [--max-verts N] [--check] [--compare]",
-    "Reads contour sets (text, 'navcontours 1'), divides each contour into convex polygons, links\n"
-    "neighbours, and writes one mesh ('navpolys 1') for each set, in order. docs/polygon.md describes\n"
-    "both formats and the method. Contours that touch or cross themselves are repaired and named.",
-    "talus polygonize contours.txt -o mesh.txt --check\ntalus polygonize contours.txt --max-verts 12 --json\n"
+    "Reads contour sets (text, 'navcontours 1'), divides each contour into convex polygons, links neighbours,\n"
+    "and writes one mesh ('navpolys 1') for each set, in order. docs/polygon.md describes both formats and\n"
+    "the method. Contours that touch or cross themselves are repaired and named.",
+    "printf '%s\\n' 'navcontours 1' 'cs 0.3' 'ch 0.2' 'contours 1' 'c 0 1 63 6' '0 0 0 0' '0 0 8 0' '4 0 8 0' '4 0 4 "
+    "0' '8 0 4 0' '8 0 0 0' end > contours.txt\n"
+    "talus polygonize contours.txt -o mesh.txt --check\n"
+    "talus polygonize contours.txt --max-verts 12 --json\n"
     "talus polygonize contours.txt --compare",
     run_polygonize,
 };

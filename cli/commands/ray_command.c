@@ -178,16 +178,15 @@ static tl_exit run_ray(tl_cli *cli)
         { "rays", 'r', TL_OPTION_TEXT, &settings.rays, "FILE", "cast the rays of FILE, one a line; - is standard input",
           NULL, 0, 0, 0, 0 },
         { "any", 0, TL_OPTION_FLAG, &settings.any, NULL, "say only hit or miss, which is faster", NULL, 0, 0, 0, 0 },
-        { "all", 'a', TL_OPTION_FLAG, &settings.all, NULL, "every triangle that the ray touches, nearest first", NULL,
-          0, 0, 0, 0 },
+        { "all", 'a', TL_OPTION_FLAG, &settings.all, NULL, "print every triangle that the ray touches, nearest first",
+          NULL, 0, 0, 0, 0 },
         { "crossings", 0, TL_OPTION_FLAG, &settings.crossings, NULL,
-          "the same, but each passage through a surface once, edges and corners too", NULL, 0, 0, 0, 0 },
+          "the same, but each crossing of a surface once, at edges and corners too", NULL, 0, 0, 0, 0 },
         { "segment", 0, TL_OPTION_FLAG, &settings.segment, NULL,
-          "from point to point: the second triple is the end, t runs from 0 to 1", NULL, 0, 0, 0, 0 },
+          "cast from point to point: the second triple is the end, t runs from 0 to 1", NULL, 0, 0, 0, 0 },
         { "tmax", 0, TL_OPTION_FLOAT, &settings.tmax, "T", "how far rays reach, in lengths of their direction", NULL,
           0.0f, 3e38f, 0, 0 },
-        { "cull", 0, TL_OPTION_CHOICE, &settings.cull, NULL, "sides of triangles that rays pass through", culls, 0, 0,
-          0, 0 },
+        { "cull", 0, TL_OPTION_CHOICE, &settings.cull, NULL, "sides of triangles to ignore", culls, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
@@ -213,18 +212,24 @@ static tl_exit run_ray(tl_cli *cli)
 
 const tl_command tl_ray_command = {
     "ray",
-    "cast rays at a baked file or a level",
-    "FILE OX,OY,OZ DX,DY,DZ [options]\nFILE --rays RAYS|- [options]",
-    "Finds the first triangle that a ray meets, or tells whether there is one. FILE is a baked file, or\n"
-    "a level, which is then baked in memory.\n\n"
-    "RAYS holds a ray a line: ox oy oz dx dy dz [tmax]; with --segment: ax ay az bx by bz. The answer is\n"
-    "a line a ray, in order: t triangle u v, or miss; with --any: hit or miss; with --all or --crossings:\n"
-    "a line with the number of hits, and a line for each. The point is origin + t * direction, and corner 0\n"
-    "* (1-u-v) + corner 1 * u + corner 2 * v of the triangle, whose number counts the source's triangles\n"
-    "from 0. A single ray that misses ends with exit code 1.",
+    "Triangles",
+    "cast rays",
+    "FILE OX,OY,OZ DX,DY,DZ [options]\n"
+    "FILE --segment AX,AY,AZ BX,BY,BZ [options]\n"
+    "FILE --rays RAYS|- [options]",
+    "Finds the first triangle that a ray hits, or only whether it hits one. FILE is a baked file, or a level,\n"
+    "which is then baked in memory.\n"
+    "\n"
+    "RAYS holds one ray a line: ox oy oz dx dy dz [tmax]; with --segment: ax ay az bx by bz. The answer is\n"
+    "one line for each ray, in order: t triangle u v, or miss; with --any: hit or miss; with --all or\n"
+    "--crossings: the number of hits, then a line for each. The point of the hit is origin + t * direction,\n"
+    "and in barycentric coordinates corner 0 * (1-u-v) + corner 1 * u + corner 2 * v. Triangles have their\n"
+    "numbers in the source, from 0. A single ray that misses exits with 1.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
     "talus ray courtyard.talus 20,10,20 0,-1,0\n"
     "talus ray courtyard.talus 20,10,20 0,-1,0 --all\n"
-    "talus ray courtyard.talus --segment 2,1.7,20 38,1.7,20 --any\n"
+    "talus ray courtyard.talus --segment 20,10,20 20,0,20 --any\n"
     "echo '20 10 20 0 -1 0' | talus ray courtyard.obj --rays - --json",
     run_ray,
 };

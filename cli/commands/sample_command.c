@@ -88,10 +88,10 @@ static tl_exit run_sample(tl_cli *cli)
         { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; - is standard output (NAME.obj)", NULL, 0, 0,
           0, 0 },
         { "triangles", 'n', TL_OPTION_COUNT, &triangles, "N",
-          "size of the level, from 500; at most 7 fewer are made (0: as --list says)", NULL, 0, 0, 0,
+          "triangles of the level, from 500; up to 7 fewer are made (0: as --list says)", NULL, 0, 0, 0,
           TL_MAX_MESH_TRIANGLES / 4 },
-        { "seed", 's', TL_OPTION_NUMBER, &seed, "N", "another number gives another level of the same kind", NULL, 0, 0,
-          0, 0 },
+        { "seed", 's', TL_OPTION_NUMBER, &seed, "N", "each number gives another level of the same kind", NULL, 0, 0, 0,
+          0 },
         { "list", 'l', TL_OPTION_FLAG, &list, NULL, "list the levels", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
@@ -116,10 +116,14 @@ static tl_exit run_sample(tl_cli *cli)
 
 const tl_command tl_sample_command = {
     "sample",
-    "write a built-in level as OBJ: courtyard, dungeon, terrain, city",
-    "NAME [-o FILE.obj] [--triangles N] [--seed N]\n--list",
-    "Writes a built-in level: rooms, stairs, ramps, bridges over floors, thin walls, pits. The same\n"
-    "name, size and seed give the same file everywhere. Metres, y up.",
-    "talus sample courtyard -o courtyard.obj\ntalus sample city --triangles 1000000 --seed 7 -o city.obj",
+    "Levels",
+    "write a built-in level as OBJ",
+    "NAME [-o FILE.obj] [--triangles N] [--seed N]\n"
+    "--list",
+    "Writes a built-in level: rooms, stairs, ramps, bridges over floors, thin walls, pits. Metres, y up. The\n"
+    "same name, size and seed give the same file on every machine. Without NAME it lists the levels.",
+    "talus sample --list\n"
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus sample city --triangles 100000 --seed 7 -o city.obj",
     run_sample,
 };

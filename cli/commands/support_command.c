@@ -46,8 +46,8 @@ static tl_exit run_support(tl_cli *cli)
     const char *directions = NULL;
     tl_hull_settings settings = tl_default_hull_settings();
     const tl_option options[] = {
-        { "directions", 'd', TL_OPTION_TEXT, &directions, "FILE", "answer the directions of FILE; - is standard input",
-          NULL, 0, 0, 0, 0 },
+        { "directions", 'd', TL_OPTION_TEXT, &directions, "FILE",
+          "answer for the directions of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     tl_option hull_options[TL_HULL_OPTIONS];
@@ -74,13 +74,17 @@ static tl_exit run_support(tl_cli *cli)
 
 const tl_command tl_support_command = {
     "support",
-    "find a hull's farthest vertex along directions",
-    "HULL DX,DY,DZ [options]\nHULL --directions FILE|- [options]",
-    "HULL is a mesh, points, or a baked file that holds a hull. FILE holds a direction a line: dx dy dz;\n"
-    "directions need not have length 1. The answer is a line a direction, in order: vertex x y z dot. The\n"
-    "vertex is the point's number in the file that the hull was built from, counted from 0; of several\n"
-    "that are equally far it is the first. dot is its product with the direction as given.",
-    "talus support rock.obj 0,1,0\n"
-    "talus support hull.talus --directions directions.txt",
+    "Convex hulls",
+    "find a hull's farthest vertex in a direction",
+    "HULL DX,DY,DZ [options]\n"
+    "HULL --directions FILE|- [options]",
+    "Finds the vertex of a hull that lies farthest in a direction. HULL is a mesh, points, or a baked file\n"
+    "that holds a hull. FILE holds one direction a line: dx dy dz, of any length. The answer is one line for\n"
+    "each, in order: vertex x y z dot. The vertex has its number in the file that the hull was baked from,\n"
+    "from 0; of several that are equally far it is the first. dot is its product with the direction as given.",
+    "printf '%s\\n' '0 0 0' '2 0 0' '0 2 0' '0 0 2' > points.txt\n"
+    "talus support points.txt 0,1,0\n"
+    "echo '0 1 0' > directions.txt\n"
+    "talus support points.txt --directions directions.txt",
     run_support,
 };

@@ -101,9 +101,8 @@ static tl_exit run_sweep(tl_cli *cli)
     settings.shape = tl_default_shape_option();
     const tl_option options[] = {
         { "sweeps", 's', TL_OPTION_TEXT, &settings.sweeps, "FILE",
-          "move along the lines of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
-        { "cull", 0, TL_OPTION_CHOICE, &settings.cull, NULL, "sides of triangles that the shape passes through", culls,
-          0, 0, 0, 0 },
+          "answer for the sweeps of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
+        { "cull", 0, TL_OPTION_CHOICE, &settings.cull, NULL, "sides of triangles to ignore", culls, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     tl_option shape_options[TL_SHAPE_OPTIONS];
@@ -125,14 +124,19 @@ static tl_exit run_sweep(tl_cli *cli)
 
 const tl_command tl_sweep_command = {
     "sweep",
-    "move a ball, capsule or box through a baked file or a level",
-    "FILE X,Y,Z DX,DY,DZ [options]\nFILE --sweeps SWEEPS|- [options]",
-    "Moves a shape from a point by a motion, and finds the first triangle that it meets. FILE is a baked\n"
-    "file, or a level, which is then baked in memory.\n\n"
-    "SWEEPS holds a line each: x y z dx dy dz. The answer is a line each, in order: t triangle x y z nx ny\n"
-    "nz, or free; t is the share of the motion that is free, then come the point of contact and the normal\n"
-    "towards the shape. A shape that overlaps the level at the start has t 0 and one number more: how far\n"
-    "it must be moved along the normal. A single sweep that is free ends with exit code 1.",
+    "Triangles",
+    "sweep a ball, capsule or box",
+    "FILE X,Y,Z DX,DY,DZ [options]\n"
+    "FILE --sweeps SWEEPS|- [options]",
+    "Moves a shape from a point along a motion, and finds the first triangle that it touches. FILE is a baked\n"
+    "file, or a level, which is then baked in memory.\n"
+    "\n"
+    "SWEEPS holds one sweep a line: x y z dx dy dz. The answer is one line for each, in order: t triangle x y\n"
+    "z nx ny nz, or free. t is the fraction of the motion before the contact; then come the point of contact\n"
+    "and the normal towards the shape. A shape that overlaps the level at its start has t 0 and one more\n"
+    "number, the penetration depth along the normal. A single sweep that is free exits with 1.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
     "talus sweep courtyard.talus 20,10,20 0,-10,0 --radius 0.4\n"
     "talus sweep courtyard.talus 2,5.5,20 36,0,0 --radius 0.4 --height 1.8 --json\n"
     "echo '20 10 20 0 -10 0' | talus sweep courtyard.obj --sweeps - --half 0.5,0.5,0.5",

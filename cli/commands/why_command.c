@@ -69,7 +69,8 @@ static void print_answer(const tl_nav_why_answer *answer)
     if (answer->walkable) {
         printf("walkable, at height %.6g\n", (double)answer->floor.y);
         if (answer->apart) {
-            printf("      but on an island of %.4g m2; the largest one has %.4g m2, and no path leads there\n",
+            printf("      but on an island (connected component) of %.4g m2; no path leads to the largest one, of %.4g "
+                   "m2\n",
                    (double)answer->island_area, (double)answer->largest_island_area);
         }
         return;
@@ -78,7 +79,7 @@ static void print_answer(const tl_nav_why_answer *answer)
         print_reason(&answer->reasons[i], i == 0);
     }
     if (answer->proven && answer->reasons[0].parameter != NULL) {
-        printf("proven: tile %u,%u was built with %s, and the point is walkable (%u builds)\n", answer->tile_x,
+        printf("proven: tile %u,%u was baked with %s, and the point is walkable (%u bakes)\n", answer->tile_x,
                answer->tile_z, answer->reason_count == 1 ? "it" : "all of them", answer->build_count);
     }
 }
@@ -101,18 +102,18 @@ static json_t *reason_json(const tl_nav_reason *reason)
     return object;
 }
 
-static json_t *answer_json(const tl_nav_why_answer *answer)
+static json_t *answer_json(const tl_cli *cli, const tl_nav_why_answer *answer)
 {
     json_t *reasons = json_array();
     for (uint32_t i = 0; i < answer->reason_count; i++) {
         json_array_append_new(reasons, reason_json(&answer->reasons[i]));
     }
-    return json_pack("{sb so so sb so sI sb so so}", "walkable", (int)answer->walkable, "floor",
-                     tl_json_point(answer->floor), "reasons", reasons, "proven", (int)answer->proven, "tile",
-                     json_pack("[II]", (json_int_t)answer->tile_x, (json_int_t)answer->tile_z), "builds",
-                     (json_int_t)answer->build_count, "apart", (int)answer->apart, "island_area",
-                     tl_json_float(answer->island_area), "largest_island_area",
-                     tl_json_float(answer->largest_island_area));
+    return json_pack(
+        "{so sb so so sb so sI sb so so}", "file", tl_json_text(cli->arguments.words[0]), "walkable",
+        (int)answer->walkable, "floor", tl_json_point(answer->floor), "reasons", reasons, "proven", (int)answer->proven,
+        "tile", json_pack("[II]", (json_int_t)answer->tile_x, (json_int_t)answer->tile_z), "builds",
+        (json_int_t)answer->build_count, "apart", (int)answer->apart, "island_area", tl_json_float(answer->island_area),
+        "largest_island_area", tl_json_float(answer->largest_island_area));
 }
 
 static tl_exit explain_point(draw_source *source, tl_vec3 point)
@@ -120,8 +121,7 @@ static tl_exit explain_point(draw_source *source, tl_vec3 point)
     tl_cli *cli = source->cli;
     tl_exit code = TL_EXIT_OK;
     if (source->is_bare) {
-        return tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no soup, so no triangles; bake it without --no-soup",
-                           source->input.path);
+        return tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no triangles; bake it without --no-soup", source->input.path);
     }
     if (!draw_need_navmesh(source, &code)) {
         return code;
@@ -141,7 +141,7 @@ static tl_exit explain_point(draw_source *source, tl_vec3 point)
         answer.reasons[i].triangle = draw_mesh_triangle(source, answer.reasons[i].triangle);
     }
     if (cli->json) {
-        code = tl_cli_print_json(cli, answer_json(&answer));
+        code = tl_cli_print_json(cli, answer_json(cli, &answer));
     } else {
         print_answer(&answer);
     }
@@ -167,12 +167,17 @@ static tl_exit run_why(tl_cli *cli)
 
 const tl_command tl_why_command = {
     "why",
-    "why a point is not walkable, and what would make it so",
+    "Navmesh",
+    "explain why a point is not walkable",
     "FILE X,Y,Z [options]",
-    "Builds the tile around a point again, stage by stage, and names the first stage that takes the point away, the\n"
-    "setting to blame, and the nearest value of it that would not; then what else would stand in the way. Values are\n"
-    "proven: the tile is built with them. FILE is a baked file, or a level. Exit code 1 when the point is not\n"
-    "walkable.",
-    "talus why courtyard.talus 20,6,20\ntalus why courtyard.obj 20,6,20 --agent-radius 0.3 --json",
+    "Bakes the tile around a point again, stage by stage, and names the first stage that removes the point,\n"
+    "the setting to blame, and the nearest value of it that would keep the point; then what else stands in\n"
+    "the way. Each value is proven: the tile is baked with it. FILE is a baked file, or a level. A point\n"
+    "that is not walkable exits with 1.",
+    "talus sample courtyard -o courtyard.obj\n"
+    "talus bake courtyard.obj -o courtyard.talus\n"
+    "talus why courtyard.talus 20,6,20\n"
+    "talus why courtyard.obj 20,6,20 --agent-radius 0.3 --json\n"
+    "talus why courtyard.talus 0.5,0.2,20  # exits with 1",
     run_why,
 };

@@ -19,13 +19,14 @@ void tl_link_options(tl_nav_links_def *def, tl_option table[TL_LINK_OPTIONS])
           huge, 0, 0 },
         { "jump-height", 0, TL_OPTION_FLOAT, &def->jump_height, "M", "metres: how high a jump rises", NULL, 0, huge, 0,
           0 },
-        { "jump-speed", 0, TL_OPTION_FLOAT, &def->max_speed, "M/S", "metres a second in the plane while jumping", NULL,
+        { "jump-speed", 0, TL_OPTION_FLOAT, &def->max_speed, "M/S", "metres a second: horizontal speed of a jump", NULL,
           0, huge, 0, 0 },
-        { "gravity", 0, TL_OPTION_FLOAT, &def->gravity, "M/S2", "metres a second squared", NULL, 1e-3f, huge, 0, 0 },
-        { "link-spacing", 0, TL_OPTION_FLOAT, &def->spacing, "M", "metres between places tried along a ledge", NULL,
-          1e-3f, huge, 0, 0 },
+        { "gravity", 0, TL_OPTION_FLOAT, &def->gravity, "M/S2", "metres a second squared: downwards", NULL, 1e-3f, huge,
+          0, 0 },
+        { "link-spacing", 0, TL_OPTION_FLOAT, &def->spacing, "M", "metres: distance between places tried along a ledge",
+          NULL, 1e-3f, huge, 0, 0 },
         { "link-gain", 0, TL_OPTION_FLOAT, &def->least_gain, "N",
-          "links are kept where the way without is so many times as long", NULL, 1, huge, 0, 0 },
+          "keep a link where the path without it is at least this many times as long", NULL, 1, huge, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     memcpy(table, options, sizeof(options));
@@ -62,7 +63,7 @@ void tl_level_links_print(const tl_nav_links_report *report)
         tl_table_count(&table, count->useless);
     }
     tl_table_print(&table);
-    printf("\n%u places along %u ledges; %u ways without a landing, %u jumps too fast\n", report->sample_count,
+    printf("\n%u places along %u ledges; %u trajectories without a landing, %u jumps too fast\n", report->sample_count,
            report->ledge_count, report->no_landing, report->too_fast);
 }
 

@@ -22,10 +22,10 @@ void tl_level_options(tl_level_settings *settings, tl_option table[TL_LEVEL_OPTI
     const tl_option options[TL_LEVEL_OPTIONS] = {
         { "up", 0, TL_OPTION_CHOICE, &settings->up, NULL, "the file's axis that points up; z is turned to y", axes, 0,
           0, 0, 0 },
-        { "scale", 0, TL_OPTION_FLOAT, &settings->scale, "S", "metres a file unit: 0.01 for centimetres", NULL, 1e-9f,
-          1e9f, 0, 0 },
-        { "weld", 0, TL_OPTION_FLOAT, &settings->weld, "M", "metres: vertices this close become one", NULL, 0.0f, 1e6f,
-          0, 0 },
+        { "scale", 0, TL_OPTION_FLOAT, &settings->scale, "S", "metres per unit of the file: 0.01 for centimetres", NULL,
+          1e-9f, 1e9f, 0, 0 },
+        { "weld", 0, TL_OPTION_FLOAT, &settings->weld, "M", "metres: vertices no farther apart become one", NULL, 0.0f,
+          1e6f, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     memcpy(table, options, sizeof(options));

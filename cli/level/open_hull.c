@@ -21,12 +21,13 @@ void tl_hull_options(tl_hull_settings *settings, tl_option table[TL_HULL_OPTIONS
     const tl_option options[TL_HULL_OPTIONS] = {
         { "index", 'i', TL_OPTION_NEEDED_COUNT, &settings->index, "I", "which cloud of a file of several, from 0", NULL,
           0, 0, 0, 0 },
-        { "max-vertices", 0, TL_OPTION_COUNT, &settings->max_vertices, "N", "vertices at most, from 4; 0: any", NULL, 0,
-          0, 0, 0 },
+        { "max-vertices", 0, TL_OPTION_COUNT, &settings->max_vertices, "N", "most vertices, from 4; 0: no limit", NULL,
+          0, 0, 0, 0 },
         { "thickness", 0, TL_OPTION_FLOAT, &settings->thickness, "M",
-          "metres: make flat, straight or single-point input this thick; 0: refuse it", NULL, 0, 1e6f, 0, 0 },
+          "metres: make flat input, a line or a single point this thick; 0: refuse it", NULL, 0, 1e6f, 0, 0 },
         { "up", 0, TL_OPTION_CHOICE, &settings->level.up, NULL, "a mesh file's axis that points up", axes, 0, 0, 0, 0 },
-        { "scale", 0, TL_OPTION_FLOAT, &settings->level.scale, "S", "metres a file unit", NULL, 1e-9f, 1e9f, 0, 0 },
+        { "scale", 0, TL_OPTION_FLOAT, &settings->level.scale, "S", "metres per unit of the file", NULL, 1e-9f, 1e9f, 0,
+          0 },
         TL_OPTION_TABLE_END,
     };
     memcpy(table, options, sizeof(options));

@@ -17,12 +17,13 @@ tl_shape_option tl_default_shape_option(void)
 void tl_shape_options(tl_shape_option *shape, tl_option *options_out)
 {
     const tl_option options[TL_SHAPE_OPTIONS] = {
-        { "radius", 0, TL_OPTION_FLOAT, &shape->radius, "M", "of the ball around the point, or of the capsule", NULL,
-          0.0f, 1e6f, 0, 0 },
+        { "radius", 0, TL_OPTION_FLOAT, &shape->radius, "M",
+          "metres: radius of the ball around the point, or of the capsule", NULL, 0.0f, 1e6f, 0, 0 },
         { "height", 0, TL_OPTION_FLOAT, &shape->height, "M",
-          "an upright capsule so high, round ends included, that stands on the point", NULL, 0.0f, 1e6f, 0, 0 },
-        { "half", 0, TL_OPTION_TEXT, &shape->half, "X,Y,Z", "a box around the point that reaches so far to each side",
-          NULL, 0, 0, 0, 0 },
+          "metres: height of an upright capsule that stands on the point, round ends included (0: a ball)", NULL, 0.0f,
+          1e6f, 0, 0 },
+        { "half", 0, TL_OPTION_TEXT, &shape->half, "X,Y,Z", "metres: half extents of a box around the point", NULL, 0,
+          0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     memcpy(options_out, options, sizeof(options));

@@ -5,7 +5,7 @@
 
 #include "cli/sample/sample_mesh.h"
 
-#include "cli/shared/random.h"
+#include "cli/shared/splitmix64.h"
 
 #include <stdlib.h>
 

@@ -38,7 +38,8 @@ static void print_help(const tl_command *command, const tl_option_group *groups)
         printf("  %.*s\n", length, line);
         line = end != NULL ? end + 1 : NULL;
     }
-    printf("\nExit codes: 0 done; 1 the answer is no; 2 usage; 3 bad input; 4 file; 5 out of memory; 130 cancelled.\n");
+    printf("\nExit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 4 file cannot be read or written;\n5 "
+           "out of memory; 130 cancelled.\n");
 }
 
 static tl_exit usage_error(tl_cli *cli, const char *message)
@@ -69,12 +70,13 @@ bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words
     bool help = false;
     cli->threads = tl_online_processors();
     const tl_option common[] = {
-        { "json", 0, TL_OPTION_FLAG, &cli->json, NULL, "print JSON", NULL, 0, 0, 0, 0 },
-        { "threads", 'j', TL_OPTION_COUNT, &cli->threads, "N", "threads to use; results do not depend on it", NULL, 0,
-          0, 1, MAX_THREADS },
+        { "json", 0, TL_OPTION_FLAG, &cli->json, NULL, "print JSON; answers to lines of a file one object a line", NULL,
+          0, 0, 0, 0 },
+        { "threads", 'j', TL_OPTION_COUNT, &cli->threads, "N", "threads; results do not depend on them", NULL, 0, 0, 1,
+          MAX_THREADS },
         { "progress", 0, TL_OPTION_CHOICE, &style, NULL, "how to show progress; auto is a line on a terminal", styles,
           0, 0, 0, 0 },
-        { "help", 'h', TL_OPTION_FLAG, &help, NULL, "print this", NULL, 0, 0, 0, 0 },
+        { "help", 'h', TL_OPTION_FLAG, &help, NULL, "print this help", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     tl_option_group all[TL_MAX_OPTION_GROUPS + 2];

@@ -30,10 +30,13 @@ typedef struct tl_cli tl_cli;
 
 typedef struct tl_command {
     const char *name;
-    const char *summary;  ///< one line of `talus --help`
-    const char *usage;    ///< words after the command's name; alternatives on lines of their own
-    const char *text;     ///< what it does, formats included; ends without line end
-    const char *examples; ///< lines that can be typed, one each
+    const char *topic;   ///< its heading in `talus --help`; commands of a topic stand together
+    const char *summary; ///< one line of `talus --help`
+    const char *usage;   ///< words after the command's name; alternatives on lines of their own
+    const char *text;    ///< what it does, formats included; ends without line end
+    /// Lines for a shell, one each: typed in order in an empty folder they run as they are. "# exits with 1" stands
+    /// behind a line whose answer is no. test_cli_examples runs them all.
+    const char *examples;
     tl_exit (*run)(tl_cli *cli);
 } tl_command;
 

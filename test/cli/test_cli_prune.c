@@ -54,7 +54,7 @@ static void test_pruning(void **state)
     }
     cli_result words = cli_expect(0, "bake yard.obj -o out.talus --drop-inside-solids --reachable-from 20,0,30");
     cli_check_part(words.out, "m2: inside solids");
-    cli_check_part(words.out, "m2: less than --region-min-size squared");
+    cli_check_part(words.out, "m2: fewer cells than --region-min-size squared");
     cli_free(&words);
     // Pruning does not depend on threads.
     cli_do(0, "bake yard.obj -o one.talus --drop-inside-solids --tile-size 40 --threads 1");

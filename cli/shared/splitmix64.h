@@ -4,8 +4,8 @@
 // For sample levels, random points, and benchmarks (C and C++).
 // Source: Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014.
 
-#ifndef TALUS_CLI_RANDOM_H
-#define TALUS_CLI_RANDOM_H
+#ifndef TALUS_CLI_SPLITMIX64_H
+#define TALUS_CLI_SPLITMIX64_H
 
 #include <stdint.h>
 
