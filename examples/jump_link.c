@@ -63,11 +63,11 @@ static void walk(const roofs *r, const tl_nav_corner *corners, uint32_t count)
         // The link's number in the set is what it was added with.
         tl_nav_offmesh_state state;
         if (tl_navmesh_offmesh_state(r->navmesh, corners[i].link, &state) == TL_OK) {
-            const tl_nav_found_link *link = &tl_nav_links_at(r->links)[state.offmesh.user];
+            const tl_nav_jump_link *link = &tl_nav_links_array(r->links)[state.offmesh.user];
             bool backward = (corners[i].link & TL_NAV_OFFMESH_BACKWARD) != 0;
             for (int step = 1; step < AIR_STEPS; step++) {
                 float t = (float)step / (float)AIR_STEPS;
-                tl_vec3 p = tl_nav_found_link_point(link, backward ? 1.0f - t : t);
+                tl_vec3 p = tl_nav_jump_link_point(link, backward ? 1.0f - t : t);
                 printf("    %s %5.2f %5.2f %5.2f\n", tl_nav_link_kind_name((tl_nav_link_kind)link->kind), (double)p.x,
                        (double)p.y, (double)p.z);
             }

@@ -6,7 +6,7 @@
 // table and header are set right, which lets the fuzzer reach what lies behind them.
 
 #include "base/hash.h"
-#include "pack/format.h"
+#include "pack/pack_format.h"
 
 #include <stdlib.h>
 #include <string.h>

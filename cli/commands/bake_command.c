@@ -18,10 +18,12 @@ static tl_result make_baked_content(const tl_level *level, const tl_bake *bake, 
         return result;
     }
     result = tl_pack_meta_encode(tl_pack_source_name(level->path), level->imported.vertex_count,
-                                 level->imported.triangle_count, level->mesh.bounds, NULL, &content->meta);
+                                 level->imported.triangle_count, level->mesh.bounds, NULL, &content->meta, NULL);
     if (result == TL_OK && nav) {
-        result = tl_pack_navmesh_encode(&bake->nav_def, bake->nav_bounds, bake->tiles.tiles_x, bake->tiles.tiles_z,
-                                        bake->tiles.tile_count, NULL, &content->navmesh);
+        tl_nav_def def = bake->nav_def;
+        def.bounds = bake->nav_bounds;
+        result = tl_pack_navmesh_encode(&def, bake->tiles.tiles_x, bake->tiles.tiles_z, bake->tiles.tile_count, NULL,
+                                        &content->navmesh, NULL);
     }
     if (result != TL_OK) {
         return result;

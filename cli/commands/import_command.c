@@ -34,10 +34,11 @@ static tl_result make_imported_content(const char *path, const tl_detour_tiles *
     def.agent_radius = model->agent_radius;
     def.agent_max_climb = model->agent_max_climb;
     def.tile_size = model->tile_size;
-    result = tl_pack_meta_encode(tl_pack_source_name(path), 0, 0, bounds, NULL, &content->meta);
+    result = tl_pack_meta_encode(tl_pack_source_name(path), 0, 0, bounds, NULL, &content->meta, NULL);
     if (result == TL_OK) {
-        result = tl_pack_navmesh_encode(&def, bounds, (uint32_t)most_x + 1, (uint32_t)most_z + 1, tiles->tile_count,
-                                        NULL, &content->navmesh);
+        def.bounds = bounds;
+        result = tl_pack_navmesh_encode(&def, (uint32_t)most_x + 1, (uint32_t)most_z + 1, tiles->tile_count, NULL,
+                                        &content->navmesh, NULL);
     }
     if (result == TL_OK) {
         tl_pack_content_add(content, TL_PACK_META, 0, content->meta);

@@ -80,7 +80,7 @@ static void print_answer(const tl_nav_why_answer *answer)
     }
     if (answer->proven && answer->reasons[0].parameter != NULL) {
         printf("proven: tile %u,%u was baked with %s, and the point is walkable (%u bakes)\n", answer->tile_x,
-               answer->tile_z, answer->reason_count == 1 ? "it" : "all of them", answer->build_count);
+               answer->tile_z, answer->reason_count == 1 ? "it" : "all of them", answer->bake_count);
     }
 }
 
@@ -112,7 +112,7 @@ static json_t *answer_json(const tl_cli *cli, const tl_nav_why_answer *answer)
         "{so sb so so sb so sI sb so so}", "file", tl_json_text(cli->arguments.words[0]), "walkable",
         (int)answer->walkable, "floor", tl_json_point(answer->floor), "reasons", reasons, "proven", (int)answer->proven,
         "tile", json_pack("[II]", (json_int_t)answer->tile_x, (json_int_t)answer->tile_z), "builds",
-        (json_int_t)answer->build_count, "apart", (int)answer->apart, "island_area", tl_json_float(answer->island_area),
+        (json_int_t)answer->bake_count, "apart", (int)answer->apart, "island_area", tl_json_float(answer->island_area),
         "largest_island_area", tl_json_float(answer->largest_island_area));
 }
 

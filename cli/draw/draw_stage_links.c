@@ -15,14 +15,14 @@ static tl_vec3 lifted_end(tl_vec3 p)
     return tl_vec3_make(p.x, p.y + 0.15f, p.z);
 }
 
-static void add_link_arc(draw_scene *scene, const tl_nav_found_link *link)
+static void add_link_arc(draw_scene *scene, const tl_nav_jump_link *link)
 {
     draw_colour colour = LINK_COLOURS[link->kind];
     tl_vec3 corner = tl_vec3_make(link->end.x, link->start.y, link->end.z);
     if (link->kind == TL_NAV_LINK_JUMP) {
         tl_vec3 from = link->start;
         for (int i = 1; i <= JUMP_PIECES; i++) {
-            tl_vec3 to = tl_nav_found_link_point(link, (float)i / (float)JUMP_PIECES);
+            tl_vec3 to = tl_nav_jump_link_point(link, (float)i / (float)JUMP_PIECES);
             draw_add_line(scene, lifted_end(from), lifted_end(to), colour, 2.6f, 1.0f);
             from = to;
         }
@@ -41,7 +41,7 @@ void draw_stage_links(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav
 {
     draw_stage_navmesh(scene, navmesh);
     for (uint32_t i = 0; i < links->link_count; i++) {
-        add_link_arc(scene, &tl_nav_links_at(links)[i]);
+        add_link_arc(scene, &tl_nav_links_array(links)[i]);
     }
     for (int kind = 0; kind < TL_NAV_LINK_KINDS; kind++) {
         char text[64];

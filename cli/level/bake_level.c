@@ -175,7 +175,8 @@ static bool bake_hull(tl_cli *cli, const tl_level *level, tl_bake *bake, tl_exit
 static bool fail_prune(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings,
                        const tl_nav_prune_def *def, tl_result result, const tl_report *report, tl_exit *exit_out)
 {
-    if (result == TL_NOT_FOUND && report->element_index < settings->seeds.count) {
+    if (result == TL_ERR_ARGUMENT && report->element != NULL && strcmp(report->element, "seed") == 0 &&
+        report->element_index < settings->seeds.count) {
         const tl_vec3 e = def->seed_extents;
         *exit_out = tl_cli_fail(cli, TL_EXIT_DATA,
                                 "%s: --reachable-from %s: there is no navmesh within %g m, and %g m up or down",
@@ -227,7 +228,7 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
     bake->nav_bounds = tl_aabb_is_empty(bake->nav_def.bounds) ? level->mesh.bounds : bake->nav_def.bounds;
     tl_result result = tl_nav_bake(&bake->nav_def, &input, &bake->tiles, &bake->nav_report);
     if (result == TL_OK && input.volume_count > 0) {
-        result = tl_pack_volumes_encode(input.volumes, input.volume_count, NULL, &bake->marks);
+        result = tl_pack_volumes_encode(input.volumes, input.volume_count, NULL, &bake->marks, &bake->nav_report.base);
     }
     tl_level_areas_free(&areas);
     if (result != TL_OK) {

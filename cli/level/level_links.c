@@ -25,7 +25,7 @@ void tl_link_options(tl_nav_links_def *def, tl_option table[TL_LINK_OPTIONS])
           0, 0 },
         { "link-spacing", 0, TL_OPTION_FLOAT, &def->spacing, "M", "metres: distance between places tried along a ledge",
           NULL, 1e-3f, huge, 0, 0 },
-        { "link-gain", 0, TL_OPTION_FLOAT, &def->least_gain, "N",
+        { "link-gain", 0, TL_OPTION_FLOAT, &def->min_gain, "N",
           "keep a link where the path without it is at least this many times as long", NULL, 1, huge, 0, 0 },
         TL_OPTION_TABLE_END,
     };
@@ -36,7 +36,7 @@ bool tl_level_links_find(tl_cli *cli, const tl_nav_links_def *def, const tl_navm
                          tl_level_links *links_out, tl_exit *exit_out)
 {
     tl_nav_links_def with_host = *def;
-    with_host.host = &cli->host;
+    with_host.host = cli->host;
     tl_result result = tl_nav_links_find(&with_host, navmesh, soup, &links_out->links, &links_out->report);
     if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(cli, cli->arguments.words[0], result, &links_out->report.base);
@@ -85,7 +85,7 @@ json_t *tl_level_links_json(const tl_nav_links_report *report)
 json_t *tl_level_links_list_json(const tl_nav_links *links)
 {
     json_t *list = json_array();
-    const tl_nav_found_link *at = tl_nav_links_at(links);
+    const tl_nav_jump_link *at = tl_nav_links_array(links);
     for (uint32_t i = 0; i < links->link_count; ++i) {
         json_array_append_new(list,
                               json_pack("{ss so so so sb}", "kind", tl_nav_link_kind_name((tl_nav_link_kind)at[i].kind),

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Audit: a navmesh held against the triangles that it was made from.
+// Audit: a navmesh checked against the triangles that it was baked from.
 //
-//   tl_nav_audit_run   walks a probe of the agent along paths, polygons and portals through the soup, and looks for
+//   tl_nav_audit_run   sweeps a probe of the agent along paths, polygons and portals through the soup, and looks for
 //                      floor that the navmesh lacks: every place where one says free and the other says blocked
-//   tl_nav_why         the stage and the parameter that made one point not walkable, and the value that would make it
-//   so
+//   tl_nav_why         the stage and the setting that made a point not walkable, and the value that would make it so
 //
-// What free promises. The probe is the agent less what voxels, a simplified outline and a coarse surface may cost; the
-// header says how much that is, and docs/audit.md derives it. Where even the probe does not fit, the navmesh is wrong.
+// What "free" promises: the probe is the agent, reduced by what voxels, a simplified outline and a coarse surface may
+// cost; docs/audit.md derives how much that is. Where even the probe does not fit, the navmesh is wrong.
 
 #ifndef TALUS_NAV_AUDIT_H
 #define TALUS_NAV_AUDIT_H
@@ -24,33 +23,34 @@ extern "C" {
 // ---------------------------------------------------------------------------------------------------------
 // The audit.
 
-/// The part of an agent that must be free wherever the navmesh says so. Metres.
+/// The part of an agent that must be free wherever the navmesh says so: a capsule. Metres.
 typedef struct tl_nav_probe {
     float radius;  ///< of the capsule
-    float step;    ///< the capsule begins so high above the floor: what is lower can be climbed
-    float height;  ///< and ends here
+    float step;    ///< above the floor, where the capsule begins: what is lower can be climbed
+    float height;  ///< above the floor, where the capsule ends
     float surface; ///< how far the navmesh's surface may lie above or below the floor, a step not counted
     float gap;     ///< holes narrower than twice this do not show in voxels
 } tl_nav_probe;
 
-/// The probe of a navmesh that was built with `config`.
+/// The probe of a navmesh that was baked with `config`.
 ///
 /// radius: what erosion leaves at least less max_simplification_error, and no less than half of the agent's; step:
-/// walkable_climb and one voxel more; height: walkable_height in metres, less one voxel. An audit makes the radius no
-/// larger than half of what is between.
+/// walkable_climb and one voxel more; height: walkable_height in metres, less one voxel. An audit limits the radius to
+/// half the distance between step and height.
 TL_API tl_nav_probe tl_nav_probe_from_config(const tl_nav_config *config);
 
 typedef struct tl_nav_audit_def {
-    tl_nav_def nav;       ///< what the navmesh was built with; `bounds` empty: those of the soup. Its host is not used
+    tl_nav_def nav;       ///< what the navmesh was baked with; `bounds` empty: those of the soup. Its host is ignored
     uint32_t path_count;  ///< random shortest paths. Default 2000
-    uint64_t seed;        ///< of those paths. Default 1
+    uint64_t seed;        ///< of their random ends. Default 1
     float probe_radius;   ///< metres; negative (the default): that of tl_nav_probe_from_config
     const uint8_t *areas; ///< as in tl_nav_input, by the soup's triangles, or NULL: floor of area 0 is not missing
     const tl_nav_volume *volumes; ///< the same for volumes of area 0
     uint32_t volume_count;
-    float min_missing_area; ///< square metres: smaller missing floors are not reported. Negative (the default): that of
-                            ///< the smallest island that a build keeps (region_min_size)
+    float min_missing_area; ///< square metres: smaller missing floors are ignored. Negative (the default): the area of
+                            ///< the smallest island that a bake keeps (region_min_size)
     tl_host host;           ///< tasks, progress ("audit polygons", "audit paths", "audit floors") and memory
+    uint32_t cookie;        ///< set by tl_default_nav_audit_def
 } tl_nav_audit_def;
 
 TL_API tl_nav_audit_def tl_default_nav_audit_def(void);
@@ -65,24 +65,24 @@ typedef enum tl_nav_finding_kind {
 /// "blocked", "step", "no floor", "missing".
 TL_API const char *tl_nav_finding_name(tl_nav_finding_kind kind);
 
-/// One place that is wrong, however many paths met it.
+/// One fault, however many paths met it.
 typedef struct tl_nav_finding {
     tl_nav_finding_kind kind;
-    uint32_t triangle;  ///< that stops the probe, or that the missing floor lies on; else TL_NO_TRIANGLE
+    uint32_t triangle;  ///< that blocks the probe, or on which the missing floor lies; else TL_NO_TRIANGLE
     tl_nav_ref polygon; ///< of the navmesh; TL_NAV_NO_REF for missing floor
-    tl_vec3 point;      ///< on the floor, or on the navmesh where there is none: the worst place of all
+    tl_vec3 point;      ///< on the floor, or on the navmesh where there is none: the worst of those places
     tl_vec3 contact;    ///< on the triangle
     /// Metres. Blocked: how deep the probe overlaps the triangle; step: its height; no floor: how deep one falls,
     /// INFINITY when for ever; missing: 0.
     float depth;
-    uint32_t count; ///< places a cell apart that were drawn together
+    uint32_t count; ///< places a cell apart that were merged into this finding
     tl_aabb bounds; ///< of those places
     float area;     ///< square metres, of missing floor; else 0
 } tl_nav_finding;
 
 /// What an audit found, and what it did. Free with tl_nav_audit_free.
 typedef struct tl_nav_audit {
-    tl_nav_finding *findings; ///< by kind, then from worst to least: depth or area
+    tl_nav_finding *findings; ///< by kind, then the worst first, by depth or area
     uint32_t finding_count;
     tl_nav_probe probe;      ///< as it was used
     uint64_t path_count;     ///< random paths walked
@@ -90,14 +90,14 @@ typedef struct tl_nav_audit {
     uint64_t polygon_count;  ///< polygons whose outline and middle were walked
     uint64_t portal_count;   ///< links between polygons that were crossed
     uint64_t step_count;     ///< sweeps of the probe
-    uint64_t contradictions; ///< places a cell wide before they were drawn together to findings
-    uint64_t floor_samples;  ///< points of the soup that were held against the navmesh
+    uint64_t contradictions; ///< places a cell wide, before they were merged into findings
+    uint64_t floor_samples;  ///< points of the soup that were compared with the navmesh
     float sample_spacing;    ///< metres between these
     double missing_area;     ///< square metres, of the findings
-    const tl_allocator *allocator;
+    tl_allocator allocator;  ///< private
 } tl_nav_audit;
 
-/// Holds a navmesh against a soup.
+/// Checks a navmesh against a soup.
 ///
 /// Each polygon's outline, its lines from the middle to its neighbours' middles, and random shortest paths are walked
 /// in steps of a cell: the floor under the path is looked up in the soup, and the probe is swept from floor to floor.
@@ -106,11 +106,12 @@ typedef struct tl_nav_audit {
 /// no navmesh within a cell, is missing. The same result for any number of workers. Links that leave the surface are
 /// not walked.
 ///
-/// `navmesh` may be empty or NULL: then all floor is missing. Errors: TL_ERR_ARGUMENT and TL_ERR_LIMIT as of
-/// tl_nav_config_from_def, TL_ERR_MEMORY, TL_ERR_CANCELLED; `*audit_out` is zeroed then. `report_out` may be NULL.
+/// `def` NULL: the default one. `navmesh` may be empty or NULL: then all floor is missing. `report_out` may be NULL.
+/// TL_ERR_ARGUMENT and TL_ERR_LIMIT as of tl_nav_config_from_def, TL_ERR_MEMORY, TL_ERR_CANCELLED; `*audit_out` is
+/// zeroed then.
 TL_API tl_result tl_nav_audit_run(const tl_nav_audit_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
                                   tl_nav_audit *audit_out, tl_report *report_out);
-/// A zeroed audit is allowed.
+/// Frees what an audit holds and zeroes it. NULL or zeroed: nothing happens.
 TL_API void tl_nav_audit_free(tl_nav_audit *audit);
 
 // ---------------------------------------------------------------------------------------------------------
@@ -119,7 +120,7 @@ TL_API void tl_nav_audit_free(tl_nav_audit *audit);
 /// The first stage that took a point away.
 typedef enum tl_nav_cause {
     TL_NAV_CAUSE_NONE,       ///< the point is walkable
-    TL_NAV_CAUSE_OUTSIDE,    ///< beyond the bounds of what was built, or on their rim
+    TL_NAV_CAUSE_OUTSIDE,    ///< beyond the bounds of what was baked, or on their rim
     TL_NAV_CAUSE_NO_FLOOR,   ///< no triangle within a step of the point
     TL_NAV_CAUSE_SLOPE,      ///< the floor is too steep, or faces down
     TL_NAV_CAUSE_AREA_INPUT, ///< the triangle's own area is 0
@@ -127,21 +128,21 @@ typedef enum tl_nav_cause {
     TL_NAV_CAUSE_CEILING,    ///< too little height above
     TL_NAV_CAUSE_RADIUS,     ///< too near to a wall or a ledge
     TL_NAV_CAUSE_VOLUME,     ///< a volume marked it as not walkable
-    TL_NAV_CAUSE_ISLAND,     ///< of an island smaller than region_min_size squared
+    TL_NAV_CAUSE_ISLAND,     ///< of an island (connected component) of fewer columns than region_min_size squared
     TL_NAV_CAUSE_OUTLINE,    ///< the simplified outline cut it off
-    TL_NAV_CAUSE_CHANGED     ///< these triangles and settings give navmesh here, but the one asked about has none
+    TL_NAV_CAUSE_CHANGED     ///< these triangles and settings give navmesh here, but the navmesh has none
 } tl_nav_cause;
 
-/// A word or two, such as "low ceiling".
+/// One to four words, such as "small island"; of another number "unknown".
 TL_API const char *tl_nav_cause_name(tl_nav_cause cause);
-/// A sentence.
+/// A sentence for a cause.
 TL_API const char *tl_nav_cause_text(tl_nav_cause cause);
 
 /// One cause, and the setting that removes it.
 typedef struct tl_nav_reason {
     tl_nav_cause cause;
-    const char *stage;     ///< static; as builds name it
-    const char *parameter; ///< static; a field of tl_nav_def, or NULL when none helps
+    const char *stage;     ///< static; as bakes name it
+    const char *parameter; ///< static; the field of tl_nav_def to blame, or NULL when none helps
     float value;           ///< of that field now
     float needed;          ///< the nearest value with which this cause is gone
     /// What was found at the point. Slope: degrees; ledge: metres of the drop or stair; ceiling: metres of free height;
@@ -155,25 +156,25 @@ enum { TL_NAV_MAX_REASONS = 6 };
 /// The answer to "why?".
 typedef struct tl_nav_why_answer {
     bool walkable; ///< nothing to explain: a polygon lies at the point
-    tl_vec3 floor; ///< the floor that was meant: the one nearest to the point
-    /// The first is why the point is not walkable. Each other one is what would stand in the way once the ones before
-    /// are removed.
+    tl_vec3 floor; ///< the floor nearest to the point, which the answer is about
+    /// The first is why the point is not walkable. Each other one is the reason that is left once those before it are
+    /// removed.
     tl_nav_reason reasons[TL_NAV_MAX_REASONS];
     uint32_t reason_count;
-    bool proven;             ///< the tile was built with all the needed values, and the point lies on its navmesh
+    bool proven;             ///< the tile was baked with all the needed values, and the point lies on its navmesh
     tl_nav_def needed;       ///< the def with those values
-    uint32_t tile_x, tile_z; ///< the tile that was built
-    uint32_t build_count;    ///< tiles that were built to find out
-    bool apart;              ///< walkable, but on another island than most of the navmesh: no path leads there
+    uint32_t tile_x, tile_z; ///< the tile that was baked
+    uint32_t bake_count;     ///< tiles that were baked to find out
+    bool apart;              ///< walkable, but not on the largest island: no path leads there from it
     float island_area, largest_island_area; ///< square metres; 0 without a navmesh
 } tl_nav_why_answer;
 
-/// Builds the tile around a point, stage by stage, until one takes the point away; finds the nearest value of the
-/// setting to blame with which it does not, and goes on until the point is walkable or nothing helps.
+/// Bakes the tile around a point, stage by stage, until one removes the point; finds the nearest value of that stage's
+/// setting with which it stays, and repeats until the point is walkable or nothing helps. Bakes some 30 tiles at most.
 ///
-/// `def`, `input`: what the navmesh was built with. `navmesh` may be NULL: then a fresh build is asked about.
-/// `def->host` lends memory; tasks and progress of a build are used too. Builds up to some 30 tiles.
-/// Errors: those of tl_nav_tile_bake; TL_ERR_NOT_FINITE for the point. `report_out` may be NULL.
+/// `def`, `input`: what the navmesh was baked with; `def` NULL: the default one. `navmesh` may be NULL: then the answer
+/// is about a fresh bake. `def->host`: memory, and tasks and progress of the bakes. `report_out` may be NULL. Errors:
+/// those of tl_nav_tile_bake; TL_ERR_NOT_FINITE (the point), TL_ERR_INDEX (a triangle); `*answer_out` is zeroed then.
 TL_API tl_result tl_nav_why(const tl_nav_def *def, const tl_nav_input *input, const tl_navmesh *navmesh, tl_vec3 point,
                             tl_nav_why_answer *answer_out, tl_report *report_out);
 

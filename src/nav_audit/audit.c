@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The audit's table of contents: polygons, paths, floors; then what they met, drawn together to findings.
+// The audit in order: polygons, paths, floors; then what they met is merged into findings.
 //
-// Work is cut into shares that do not depend on the number of workers, and what shares hand over is added up in their
-// order: so the result is the same for any host.
+// Work is cut into shares that do not depend on the number of workers, and the results of shares are added up in their
+// order, so the result is the same for any host.
 
 #include "nav_audit/audit.h"
 
@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-// Shares that are open at one time; between two such batches the host hears of the progress.
+// Shares that run between two reports of progress.
 enum { SHARES_PER_WORKER = 8 };
 
 tl_nav_audit_def tl_default_nav_audit_def(void)
@@ -26,6 +26,7 @@ tl_nav_audit_def tl_default_nav_audit_def(void)
     def.seed = 1;
     def.probe_radius = -1.0f;
     def.min_missing_area = -1.0f;
+    def.cookie = TL_DEF_COOKIE;
     return def;
 }
 
@@ -38,24 +39,24 @@ const char *tl_nav_finding_name(tl_nav_finding_kind kind)
 void tl_nav_audit_free(tl_nav_audit *audit)
 {
     if (audit != NULL) {
-        tl_release_array(audit->allocator, audit->findings, audit->finding_count, sizeof *audit->findings);
+        tl_release_array(&audit->allocator, audit->findings, audit->finding_count, sizeof *audit->findings);
         memset(audit, 0, sizeof *audit);
     }
 }
 
 // ---- Shares ------------------------------------------------------------------------------------------------
 
-typedef struct batch {
+typedef struct share_batch {
     tl_audit_job *job;
     tl_audit_task *task;
     void *user;
     tl_audit_share *shares;
     uint32_t first;
-} batch;
+} share_batch;
 
 static void run_share(uint32_t index, uint32_t worker, void *user)
 {
-    const batch *b = user;
+    const share_batch *b = user;
     tl_audit_share *share = &b->shares[index];
     b->task(b->job, b->first + index, worker, share, b->user);
     if (share->result == TL_OK && share->records.count > 0) {
@@ -78,7 +79,7 @@ tl_result tl_audit_run_shares(tl_audit_job *job, const char *stage, uint32_t cou
 {
     const tl_allocator *allocator = job->host->allocator;
     const uint32_t open = SHARES_PER_WORKER * tl_worker_count(job->host);
-    batch b = { job, task, user, tl_allocate_array(allocator, open, sizeof *b.shares), 0 };
+    share_batch b = { job, task, user, tl_allocate_array(allocator, open, sizeof *b.shares), 0 };
     tl_result result = b.shares != NULL ? TL_OK : TL_ERR_MEMORY;
     for (; b.first < count && result == TL_OK; b.first += open) {
         const uint32_t size = count - b.first < open ? count - b.first : open;
@@ -102,7 +103,7 @@ tl_result tl_audit_run_shares(tl_audit_job *job, const char *stage, uint32_t cou
 
 // ---- Findings ----------------------------------------------------------------------------------------------
 
-static bool is_worse(const tl_nav_finding *a, const tl_nav_finding *b)
+static bool is_worse_finding(const tl_nav_finding *a, const tl_nav_finding *b)
 {
     if (a->kind != b->kind) {
         return a->kind < b->kind;
@@ -110,49 +111,36 @@ static bool is_worse(const tl_nav_finding *a, const tl_nav_finding *b)
     return a->area != b->area ? a->area > b->area : a->depth > b->depth;
 }
 
-static void swap_findings(tl_nav_finding *a, tl_nav_finding *b)
-{
-    const tl_nav_finding kept = *a;
-    *a = *b;
-    *b = kept;
-}
+#define TL_HEAP(name)                 finding_heap_##name
+#define TL_HEAP_ITEM                  tl_nav_finding
+#define TL_HEAP_BEFORE(context, a, b) is_worse_finding(&(b), &(a))
+#include "base/heap.inl"
 
-static void sift_down(tl_nav_finding *findings, uint32_t root, uint32_t count)
-{
-    for (uint32_t child; (child = 2 * root + 1) < count; root = child) {
-        child += child + 1 < count && is_worse(&findings[child], &findings[child + 1]);
-        if (!is_worse(&findings[root], &findings[child])) {
-            return;
-        }
-        swap_findings(&findings[root], &findings[child]);
-    }
-}
-
-// Heap sort: worst first. It moves equals about, but the same way each time.
+// Heapsort, the worst first: the heap's top is the least bad. It is not stable, but the same each time.
 static void sort_findings(tl_nav_finding *findings, uint32_t count)
 {
     for (uint32_t i = count / 2; i-- > 0;) {
-        sift_down(findings, i, count);
+        finding_heap_sift_down(findings, count, i, findings[i], NULL);
     }
-    for (uint32_t end = count; end-- > 1;) {
-        swap_findings(&findings[0], &findings[end]);
-        sift_down(findings, 0, end);
+    for (uint32_t left = count; left > 1;) {
+        const tl_nav_finding top = finding_heap_pop(findings, &left, NULL);
+        findings[left] = top;
     }
 }
 
-// Areas of missing floors; those too small are left out.
+// Fills in the areas of missing floors, and drops those that are too small.
 static uint32_t measure_missing(const tl_audit_job *job, tl_nav_finding *findings, uint32_t count)
 {
     const float spacing = job->audit->sample_spacing, cell = job->scene.config.cell_size;
-    const float least = job->def->min_missing_area >= 0.0f
-                            ? job->def->min_missing_area
-                            : tl_maxf((float)job->scene.config.min_region_area, 1.0f) * cell * cell;
+    const float min_area = job->def->min_missing_area >= 0.0f
+                               ? job->def->min_missing_area
+                               : tl_maxf((float)job->scene.config.min_region_area, 1.0f) * cell * cell;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_finding finding = findings[i];
         if (finding.kind == TL_NAV_FINDING_MISSING) {
             finding.area = (float)finding.count * spacing * spacing;
-            if (finding.area < least) {
+            if (finding.area < min_area) {
                 continue;
             }
             job->audit->missing_area += (double)finding.area;
@@ -162,7 +150,8 @@ static uint32_t measure_missing(const tl_audit_job *job, tl_nav_finding *finding
     return kept;
 }
 
-// Places of one kind are drawn together when they lie within an agent's width. `from` is where they begin in the list.
+// Merges the records into findings and adds these to the audit: records of one kind whose cubes, `reach` cells wide,
+// touch become one.
 static tl_result add_findings(tl_audit_job *job, uint32_t reach)
 {
     tl_nav_audit *audit = job->audit;
@@ -192,10 +181,10 @@ static tl_result add_findings(tl_audit_job *job, uint32_t reach)
     return all != NULL ? TL_OK : TL_ERR_MEMORY;
 }
 
-// ---- All of it ---------------------------------------------------------------------------------------------
+// ---- The audit ---------------------------------------------------------------------------------------------
 
-// The level's lattice in one piece, without the limits that a piece has when it is built.
-static tl_result make_config(const tl_nav_def *def, tl_aabb soup_bounds, tl_nav_config *config, tl_report *report)
+// The config of the whole level as one field, without the limits of a field that is baked.
+static tl_result make_level_config(const tl_nav_def *def, tl_aabb soup_bounds, tl_nav_config *config, tl_report *report)
 {
     uint32_t tiles_x, tiles_z;
     TL_TRY(tl_nav_tile_grid(def, soup_bounds, &tiles_x, &tiles_z, report));
@@ -212,12 +201,12 @@ static tl_result make_config(const tl_nav_def *def, tl_aabb soup_bounds, tl_nav_
     return TL_OK;
 }
 
-static tl_result make_scene(tl_audit_job *job, const tl_navmesh *navmesh, const tl_soup *soup, tl_report *report)
+static tl_result prepare_audit(tl_audit_job *job, const tl_navmesh *navmesh, const tl_soup *soup, tl_report *report)
 {
     tl_audit_scene *scene = &job->scene;
     scene->navmesh = navmesh;
     scene->soup = soup;
-    TL_TRY(make_config(&job->def->nav, tl_soup_bounds(soup), &scene->config, report));
+    TL_TRY(make_level_config(&job->def->nav, tl_soup_bounds(soup), &scene->config, report));
     scene->stride = scene->config.cell_size;
     scene->probe = tl_nav_probe_from_config(&scene->config);
     if (job->def->probe_radius >= 0.0f) {
@@ -230,7 +219,7 @@ static tl_result make_scene(tl_audit_job *job, const tl_navmesh *navmesh, const 
     return TL_OK;
 }
 
-static tl_result run(tl_audit_job *job)
+static tl_result run_audit(tl_audit_job *job)
 {
     const uint32_t agent = 2 * (job->scene.config.walkable_radius + 1);
     TL_TRY(tl_audit_list_polygons(job->scene.navmesh, job->host->allocator, &job->polygons));
@@ -241,22 +230,38 @@ static tl_result run(tl_audit_job *job)
     return add_findings(job, 1);
 }
 
+static tl_result check_audit(const tl_nav_audit_def *def, const tl_soup *soup, tl_report *report)
+{
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_nav_audit_def()", report));
+    if (soup == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "soup", "it may not be NULL");
+    }
+    return def->volumes != NULL || def->volume_count == 0
+               ? TL_OK
+               : tl_report_field(report, TL_ERR_ARGUMENT, "volumes", "give volumes, or a volume_count of 0");
+}
+
 tl_result tl_nav_audit_run(const tl_nav_audit_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
                            tl_nav_audit *audit_out, tl_report *report_out)
 {
-    TL_ASSERT(def != NULL && soup != NULL && audit_out != NULL);
+    const tl_nav_audit_def default_def = tl_default_nav_audit_def();
     tl_audit_job job;
-    memset(&job, 0, sizeof job);
+    def = def != NULL ? def : &default_def;
+    tl_report_begin(report_out, "audit");
+    if (audit_out == NULL) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "audit_out", "it may not be NULL");
+    }
     memset(audit_out, 0, sizeof *audit_out);
-    audit_out->allocator = def->host.allocator;
+    TL_TRY(check_audit(def, soup, report_out));
+    memset(&job, 0, sizeof job);
+    audit_out->allocator = tl_allocator_or_default(def->host.allocator);
     job.def = def;
     job.host = &def->host;
     job.records.allocator = def->host.allocator;
     job.audit = audit_out;
-    tl_report_begin(report_out, "audit");
-    tl_result result = make_scene(&job, navmesh, soup, report_out);
+    tl_result result = prepare_audit(&job, navmesh, soup, report_out);
     if (result == TL_OK) {
-        result = run(&job);
+        result = run_audit(&job);
     }
     tl_audit_records_free(&job.records);
     tl_audit_polygons_free(&job.polygons);

@@ -18,19 +18,19 @@
 #include <math.h>
 #include <string.h>
 
-enum { STRIDE_COLUMNS = 2, MOST_SIDE = 4096, DIRECTIONS = 8, FIRST_HITS = 64 };
+enum { STRIDE_COLUMNS = 2, MAX_SIDE_SAMPLES = 4096, DIRECTIONS = 8, FIRST_HITS = 64 };
 
-typedef struct hit_buffer {
+typedef struct column_hits {
     tl_ray_hit *hits;
     uint32_t capacity;
-} hit_buffer;
+} column_hits;
 
 typedef struct floor_job {
     uint32_t stride; ///< columns between two samples
     uint32_t width, height;
-    float room;          ///< metres around a point that must be free
-    float slack;         ///< metres up or down within which navmesh is looked for
-    hit_buffer *buffers; ///< one a worker
+    float room;           ///< metres around a point that must be free
+    float slack;          ///< metres up or down within which navmesh is looked for
+    column_hits *buffers; ///< one a worker
 } floor_job;
 
 // On the unit circle: eight directions, exact where they can be.
@@ -49,7 +49,7 @@ static bool has_navmesh(const tl_audit_job *job, const floor_job *floors, tl_vec
 }
 
 // Whether floor of a triangle, or at a place, was said to be not walkable.
-static bool is_marked(const tl_audit_job *job, uint32_t triangle)
+static bool is_null_area(const tl_audit_job *job, uint32_t triangle)
 {
     return job->def->areas != NULL && job->def->areas[triangle] == TL_NAV_NULL_AREA;
 }
@@ -103,7 +103,7 @@ static bool has_room(const tl_audit_job *job, const floor_job *floors, tl_vec3 p
 }
 
 // Whether walkable floor goes on in a direction for the length of the room, with height for the agent above it.
-static bool goes_on(const tl_audit_job *job, const floor_job *floors, tl_vec3 point, int direction)
+static bool floor_goes_on(const tl_audit_job *job, const floor_job *floors, tl_vec3 point, int direction)
 {
     const tl_nav_config *config = &job->scene.config;
     const float voxel = config->cell_height, cell = config->cell_size;
@@ -118,7 +118,7 @@ static bool goes_on(const tl_audit_job *job, const floor_job *floors, tl_vec3 po
         const tl_ray down = { above, { 0.0f, -1.0f, 0.0f }, 2.0f * climb };
         tl_ray_hit hit;
         if (!(climb > 0.0f) || !tl_soup_cast_ray(job->scene.soup, &down, NULL, &hit) || hit.back ||
-            is_marked(job, hit.triangle) || !(hit.normal.y > config->walkable_slope_cos)) {
+            is_null_area(job, hit.triangle) || !(hit.normal.y > config->walkable_slope_cos)) {
             return false;
         }
         y = above.y - hit.t;
@@ -131,7 +131,7 @@ static bool goes_on(const tl_audit_job *job, const floor_job *floors, tl_vec3 po
 }
 
 // The rim of what was built counts as a ledge.
-static bool is_inside(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
+static bool is_within_bounds(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
 {
     const tl_aabb box = job->scene.config.bounds;
     const float room = floors->room;
@@ -141,12 +141,12 @@ static bool is_inside(const tl_audit_job *job, const floor_job *floors, tl_vec3 
 
 static bool is_missing(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
 {
-    if (!is_inside(job, floors, point) || is_near_volume(job, floors, point) || has_navmesh(job, floors, point) ||
-        !has_room(job, floors, point)) {
+    if (!is_within_bounds(job, floors, point) || is_near_volume(job, floors, point) ||
+        has_navmesh(job, floors, point) || !has_room(job, floors, point)) {
         return false;
     }
     for (int direction = 0; direction < DIRECTIONS; direction++) {
-        if (!goes_on(job, floors, point, direction)) {
+        if (!floor_goes_on(job, floors, point, direction)) {
             return false;
         }
     }
@@ -169,7 +169,7 @@ static tl_result add_missing(const tl_audit_job *job, tl_audit_share *share, tl_
 }
 
 // All that a ray meets, in a buffer that grows.
-static tl_result cast_all(const tl_audit_job *job, const tl_ray *ray, hit_buffer *buffer, uint32_t *count_out)
+static tl_result cast_all(const tl_audit_job *job, const tl_ray *ray, column_hits *buffer, uint32_t *count_out)
 {
     const tl_allocator *allocator = job->host->allocator;
     if (buffer->hits != NULL && tl_soup_cast_ray_all(job->scene.soup, ray, TL_HITS_TOUCHED, NULL, buffer->hits,
@@ -196,11 +196,11 @@ static tl_result sample_column(tl_audit_job *job, const floor_job *floors, int32
                          { 0.0f, -1.0f, 0.0f },
                          reach };
     uint32_t count = 0;
-    hit_buffer *buffer = &floors->buffers[worker];
+    column_hits *buffer = &floors->buffers[worker];
     TL_TRY(cast_all(job, &ray, buffer, &count));
     for (uint32_t i = 0; i < count; i++) {
         const tl_ray_hit *hit = &buffer->hits[i];
-        if (hit->back || is_marked(job, hit->triangle) || !(hit->normal.y > config->walkable_slope_cos) ||
+        if (hit->back || is_null_area(job, hit->triangle) || !(hit->normal.y > config->walkable_slope_cos) ||
             (i > 0 && hit->t == hit[-1].t)) {
             continue;
         }
@@ -229,7 +229,7 @@ tl_result tl_audit_floors(tl_audit_job *job)
     const uint32_t workers = tl_worker_count(job->host);
     floor_job floors;
     memset(&floors, 0, sizeof floors);
-    floors.stride = side > STRIDE_COLUMNS * MOST_SIDE ? (side - 1) / MOST_SIDE + 1 : STRIDE_COLUMNS;
+    floors.stride = side > STRIDE_COLUMNS * MAX_SIDE_SAMPLES ? (side - 1) / MAX_SIDE_SAMPLES + 1 : STRIDE_COLUMNS;
     floors.width = (config->width - 1) / floors.stride + 1;
     floors.height = (config->height - 1) / floors.stride + 1;
     floors.room = config->cell_size * ((float)config->walkable_radius + 1.0f + 0.70710678f + across);

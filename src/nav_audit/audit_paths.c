@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Random shortest paths: what an agent really does, around corners and along walls. Both ends are uniform by area, the
-// goal on the start's island. Path number i depends on the seed and i alone, so that tasks may take them in any order.
+// Random shortest paths: what agents do, around corners and along walls. Both ends are uniform by area, the goal on the
+// start's island. Path number i depends on the seed and i alone, so that tasks may take them in any order.
 
 #include "nav_audit/audit.h"
 
@@ -9,6 +9,7 @@
 #include "base/assert.h"
 #include "base/hash.h"
 #include "base/host.h"
+#include "base/random.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,29 +20,22 @@ enum { PATHS_PER_SHARE = 32 };
 // floats, and points between them once more.
 #define ON_POLYGON_CELLS 0.001f
 
-typedef struct searcher {
+typedef struct path_searcher {
     tl_nav_query *query;
     tl_nav_corner *corners;
     tl_nav_ref *polygons;
     uint32_t corner_capacity, polygon_capacity;
-} searcher;
+} path_searcher;
 
 typedef struct path_job {
-    searcher *searchers; ///< one a worker
+    path_searcher *path_searchers; ///< one a worker
     const tl_allocator *allocator;
 } path_job;
 
 // ---- Random places -----------------------------------------------------------------------------------------
 
-// [0, 1), from the state's 53 high bits. Steele, Lea, Flood, Fast splittable pseudorandom number generators, 2014.
-static double next_unit(uint64_t *state)
-{
-    *state += 0x9e3779b97f4a7c15u;
-    return (double)(tl_hash_mix(*state) >> 11) * (1.0 / 9007199254740992.0);
-}
-
 // The last polygon in [low, high) that begins at or before an area.
-static uint32_t polygon_at(const tl_audit_polygon *polygons, uint32_t low, uint32_t high, double area)
+static uint32_t polygon_of_area(const tl_audit_polygon *polygons, uint32_t low, uint32_t high, double area)
 {
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
@@ -61,7 +55,7 @@ static double fan_area(const tl_vec3 *c, uint32_t k)
 }
 
 // Uniform over the polygon: a triangle of its fan by area, then a point of it.
-static tl_vec3 point_in(const tl_audit_polygon *at, uint64_t *state)
+static tl_vec3 random_point_in(const tl_audit_polygon *at, uint64_t *state)
 {
     uint32_t count;
     const tl_vec3 *c = tl_nav_tile_corners(at->tile, at->polygon, &count);
@@ -69,18 +63,19 @@ static tl_vec3 point_in(const tl_audit_polygon *at, uint64_t *state)
     for (uint32_t k = 1; k + 1 < count; k++) {
         area += fan_area(c, k);
     }
-    double left = area * next_unit(state);
+    double left = area * tl_random_unit(state);
     uint32_t k = 1;
     for (; k + 2 < count && left >= fan_area(c, k); k++) {
         left -= fan_area(c, k);
     }
-    const float root = (float)sqrt(next_unit(state)), share = (float)next_unit(state);
+    const float root = (float)sqrt(tl_random_unit(state)), share = (float)tl_random_unit(state);
     return tl_lerp(c[0], tl_lerp(c[k], c[k + 1], share), root);
 }
 
 static tl_nav_location location_in(const tl_audit_job *job, uint32_t index, uint64_t *state)
 {
-    tl_nav_location location = { job->polygons.polygons[index].ref, point_in(&job->polygons.polygons[index], state) };
+    tl_nav_location location = { job->polygons.polygons[index].ref,
+                                 random_point_in(&job->polygons.polygons[index], state) };
     return location;
 }
 
@@ -88,11 +83,11 @@ static void random_ends(const tl_audit_job *job, uint64_t number, tl_nav_locatio
 {
     const tl_audit_polygon_list *list = &job->polygons;
     uint64_t state = tl_hash_mix(job->def->seed + number * 0x9e3779b97f4a7c15u);
-    const uint32_t from = polygon_at(list->polygons, 0, list->count, list->area * next_unit(&state));
+    const uint32_t from = polygon_of_area(list->polygons, 0, list->count, list->area * tl_random_unit(&state));
     uint32_t low;
     const uint32_t high = tl_audit_island_around(list, from, &low);
     const double begin = tl_audit_area_before(list, low), area = tl_audit_area_before(list, high) - begin;
-    const uint32_t to = polygon_at(list->polygons, low, high, begin + area * next_unit(&state));
+    const uint32_t to = polygon_of_area(list->polygons, low, high, begin + area * tl_random_unit(&state));
     *start = location_in(job, from, &state);
     *goal = location_in(job, to, &state);
 }
@@ -134,8 +129,8 @@ static uint32_t behind_link(const tl_nav_ref *polygons, uint32_t count, uint32_t
     return at + 1 < count ? at + 1 : at;
 }
 
-static bool walk_to_corner(tl_audit_walker *walker, const searcher *s, uint32_t polygon_count, tl_vec3 from, tl_vec3 to,
-                           uint32_t *at)
+static bool walk_to_corner(tl_audit_walker *walker, const path_searcher *s, uint32_t polygon_count, tl_vec3 from,
+                           tl_vec3 to, uint32_t *at)
 {
     const tl_audit_scene *scene = walker->scene;
     const float dx = to.x - from.x, dz = to.z - from.z;
@@ -152,7 +147,7 @@ static bool walk_to_corner(tl_audit_walker *walker, const searcher *s, uint32_t 
 }
 
 // Off-mesh links leave the surface, so they are not walked: the walk begins anew behind each.
-static bool walk_path(tl_audit_walker *walker, const searcher *s, const tl_nav_shortest_path *path)
+static bool walk_path(tl_audit_walker *walker, const path_searcher *s, const tl_nav_shortest_path *path)
 {
     uint32_t at = 0;
     tl_audit_walk_begin(walker);
@@ -167,8 +162,8 @@ static bool walk_path(tl_audit_walker *walker, const searcher *s, const tl_nav_s
     return true;
 }
 
-static tl_result find_path(const tl_audit_job *job, const path_job *paths, searcher *s, const tl_nav_location *start,
-                           const tl_nav_location *goal, tl_nav_shortest_path *path)
+static tl_result find_path(const tl_audit_job *job, const path_job *paths, path_searcher *s,
+                           const tl_nav_location *start, const tl_nav_location *goal, tl_nav_shortest_path *path)
 {
     tl_result result = TL_INCOMPLETE;
     for (int trial = 0; trial < 2 && result == TL_INCOMPLETE; trial++) {
@@ -194,7 +189,7 @@ static tl_result find_path(const tl_audit_job *job, const path_job *paths, searc
 static void walk_paths(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user)
 {
     const path_job *paths = user;
-    searcher *s = &paths->searchers[worker];
+    path_searcher *s = &paths->path_searchers[worker];
     tl_audit_walker walker = { &job->scene, &share->records, 0, false, { 0.0f, 0.0f, 0.0f } };
     const uint32_t begin = index * PATHS_PER_SHARE, left = job->def->path_count - begin;
     const uint32_t end = begin + (left < PATHS_PER_SHARE ? left : PATHS_PER_SHARE);
@@ -212,21 +207,21 @@ static void walk_paths(tl_audit_job *job, uint32_t index, uint32_t worker, tl_au
     share->sweeps = walker.sweeps;
 }
 
-static tl_result create_searcher(const tl_audit_job *job, const path_job *paths, searcher *s)
+static tl_result create_path_searcher(const tl_audit_job *job, const path_job *paths, path_searcher *s)
 {
-    enum { FIRST_ROOM = 256 };
+    enum { FIRST_CORNERS = 256 };
     tl_nav_query_def def = tl_default_nav_query_def();
     const uint64_t nodes = tl_navmesh_link_count(job->scene.navmesh) + 2;
     def.max_nodes = nodes > def.max_nodes ? (nodes < UINT32_MAX / 2 ? (uint32_t)nodes : UINT32_MAX / 2) : def.max_nodes;
     def.allocator = paths->allocator;
-    s->corner_capacity = s->polygon_capacity = FIRST_ROOM;
-    s->corners = tl_allocate_array(paths->allocator, FIRST_ROOM, sizeof *s->corners);
-    s->polygons = tl_allocate_array(paths->allocator, FIRST_ROOM, sizeof *s->polygons);
+    s->corner_capacity = s->polygon_capacity = FIRST_CORNERS;
+    s->corners = tl_allocate_array(paths->allocator, FIRST_CORNERS, sizeof *s->corners);
+    s->polygons = tl_allocate_array(paths->allocator, FIRST_CORNERS, sizeof *s->polygons);
     TL_TRY(tl_nav_query_create(&def, &s->query));
     return s->corners != NULL && s->polygons != NULL ? TL_OK : TL_ERR_MEMORY;
 }
 
-static void free_searcher(const path_job *paths, searcher *s)
+static void free_path_searcher(const path_job *paths, path_searcher *s)
 {
     tl_nav_query_destroy(s->query);
     tl_release_array(paths->allocator, s->corners, s->corner_capacity, sizeof *s->corners);
@@ -240,22 +235,22 @@ tl_result tl_audit_paths(tl_audit_job *job)
     }
     const uint32_t workers = tl_worker_count(job->host);
     path_job paths = { NULL, job->host->allocator };
-    paths.searchers = tl_allocate_array(paths.allocator, workers, sizeof *paths.searchers);
-    if (paths.searchers == NULL) {
+    paths.path_searchers = tl_allocate_array(paths.allocator, workers, sizeof *paths.path_searchers);
+    if (paths.path_searchers == NULL) {
         return TL_ERR_MEMORY;
     }
-    memset(paths.searchers, 0, workers * sizeof *paths.searchers);
+    memset(paths.path_searchers, 0, workers * sizeof *paths.path_searchers);
     tl_result result = TL_OK;
     for (uint32_t i = 0; i < workers && result == TL_OK; i++) {
-        result = create_searcher(job, &paths, &paths.searchers[i]);
+        result = create_path_searcher(job, &paths, &paths.path_searchers[i]);
     }
     if (result == TL_OK) {
         const uint32_t shares = (job->def->path_count - 1) / PATHS_PER_SHARE + 1;
         result = tl_audit_run_shares(job, "audit paths", shares, walk_paths, &paths);
     }
     for (uint32_t i = 0; i < workers; i++) {
-        free_searcher(&paths, &paths.searchers[i]);
+        free_path_searcher(&paths, &paths.path_searchers[i]);
     }
-    tl_release_array(paths.allocator, paths.searchers, workers, sizeof *paths.searchers);
+    tl_release_array(paths.allocator, paths.path_searchers, workers, sizeof *paths.path_searchers);
     return result;
 }

@@ -9,7 +9,7 @@
 
 enum { POLYGONS_PER_SHARE = 64, FEW_LINKS = 64 };
 
-static tl_vec3 middle_of(const tl_nav_tile *tile, uint32_t polygon)
+static tl_vec3 corner_mean(const tl_nav_tile *tile, uint32_t polygon)
 {
     uint32_t count;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
@@ -30,11 +30,11 @@ static bool walk_outline(tl_audit_walker *walker, const tl_audit_polygon *at)
             return false;
         }
     }
-    return tl_audit_walk_line(walker, at->ref, corners[0], middle_of(at->tile, at->polygon));
+    return tl_audit_walk_line(walker, at->ref, corners[0], corner_mean(at->tile, at->polygon));
 }
 
 // From the polygon's middle to that of the neighbour, once for the two of them.
-static bool cross_portal(tl_audit_walker *walker, const tl_audit_polygon *at, const tl_nav_link *link)
+static bool cross_to_neighbour(tl_audit_walker *walker, const tl_audit_polygon *at, const tl_nav_link *link)
 {
     const tl_nav_tile *tile;
     uint32_t polygon;
@@ -43,17 +43,17 @@ static bool cross_portal(tl_audit_walker *walker, const tl_audit_polygon *at, co
     }
     const tl_vec3 door = tl_lerp(link->left, link->right, 0.5f);
     tl_audit_walk_begin(walker);
-    return tl_audit_walk_line(walker, at->ref, middle_of(at->tile, at->polygon), door) &&
-           tl_audit_walk_line(walker, link->to, door, middle_of(tile, polygon));
+    return tl_audit_walk_line(walker, at->ref, corner_mean(at->tile, at->polygon), door) &&
+           tl_audit_walk_line(walker, link->to, door, corner_mean(tile, polygon));
 }
 
-static bool cross_all(tl_audit_walker *walker, const tl_audit_polygon *at, const tl_nav_link *links, uint32_t count,
-                      tl_audit_share *share)
+static bool cross_portals_of(tl_audit_walker *walker, const tl_audit_polygon *at, const tl_nav_link *links,
+                             uint32_t count, tl_audit_share *share)
 {
     for (uint32_t i = 0; i < count; i++) {
         if (at->ref < links[i].to) {
             share->portals++;
-            if (!cross_portal(walker, at, &links[i])) {
+            if (!cross_to_neighbour(walker, at, &links[i])) {
                 return false;
             }
         }
@@ -68,14 +68,14 @@ static bool cross_portals(tl_audit_walker *walker, const tl_audit_polygon *at, t
     tl_nav_link few[FEW_LINKS];
     uint32_t count = 0;
     if (tl_navmesh_links(navmesh, at->ref, few, FEW_LINKS, &count) != TL_INCOMPLETE) {
-        return cross_all(walker, at, few, count, share);
+        return cross_portals_of(walker, at, few, count, share);
     }
     const uint32_t room = count; // along the side of a tile there may be any number
     tl_nav_link *many = tl_allocate_array(allocator, room, sizeof *many);
     bool done = many != NULL;
     if (done) {
         (void)tl_navmesh_links(navmesh, at->ref, many, room, &count);
-        done = cross_all(walker, at, many, count, share);
+        done = cross_portals_of(walker, at, many, count, share);
     }
     tl_release_array(allocator, many, room, sizeof *many);
     return done;

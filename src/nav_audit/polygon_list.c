@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The list is sorted by island, so that an island is a stretch of it, and a place drawn by area is found by bisection,
-// on all of the navmesh or on one island.
+// The list is sorted by island (connected component), so that an island is a range of it, and a random area is turned
+// into a polygon by binary search, on all of the navmesh or on one island.
 
 #include "nav_audit/polygon_list.h"
 
@@ -20,7 +20,7 @@ static uint64_t count_polygons(const tl_navmesh *navmesh)
     return count;
 }
 
-static void fill(const tl_navmesh *navmesh, tl_audit_polygon *polygons, tl_sort_item *items)
+static void fill_polygons(const tl_navmesh *navmesh, tl_audit_polygon *polygons, tl_sort_item *items)
 {
     uint32_t at = 0;
     for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
@@ -36,7 +36,7 @@ static void fill(const tl_navmesh *navmesh, tl_audit_polygon *polygons, tl_sort_
     }
 }
 
-static void sort(tl_audit_polygon_list *list, const tl_audit_polygon *unsorted, tl_sort_item *items)
+static void sort_by_island(tl_audit_polygon_list *list, const tl_audit_polygon *unsorted, tl_sort_item *items)
 {
     tl_radix_sort(items, items + list->count, list->count);
     for (uint32_t i = 0; i < list->count; i++) {
@@ -64,8 +64,8 @@ tl_result tl_audit_list_polygons(const tl_navmesh *navmesh, const tl_allocator *
     tl_sort_item *items = tl_allocate_array(allocator, 2 * count, sizeof *items);
     const bool fits = list_out->polygons != NULL && unsorted != NULL && items != NULL;
     if (fits) {
-        fill(navmesh, unsorted, items);
-        sort(list_out, unsorted, items);
+        fill_polygons(navmesh, unsorted, items);
+        sort_by_island(list_out, unsorted, items);
     } else {
         tl_audit_polygons_free(list_out);
     }

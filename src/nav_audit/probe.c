@@ -2,22 +2,20 @@
 //
 // The probe: what of an agent must be free wherever the navmesh says so, and how it walks.
 //
-// At each point the floor is looked up in the soup, above and below the navmesh's surface; the nearest one on which the
-// probe fits is stood on. From floor to floor it is swept level, at the height of the higher one, because that is what
-// the build promises: two columns are linked when the free spaces above both have walkable_height in common above the
-// higher floor, and when no more than walkable_climb lies between them.
+// At each point the floor is looked up in the soup, above and below the navmesh's surface; the probe stands on the
+// nearest one on which it fits. From floor to floor it is swept level, at the height of the higher one, because that is
+// what the bake promises: two columns are linked when the free spaces above both have walkable_height in common above
+// the higher floor, and when no more than walkable_climb lies between them.
 //
 // Where the tolerances come from:
 //
 // - Radius. Erosion leaves at least (2 R - 1) / sqrt 5 columns between a wall and the traced outline, R being the
-// radius
-//   in columns: it counts a diagonal step as 1.5 columns, and starts at columns that have no neighbour, not at the
-//   wall. The outline is then made straight, which may move it by max_simplification_error. Both seldom meet; in coarse
-//   voxels nothing would be left to sweep, so at least half of the agent's radius must be free.
-// - Step. Two floors a climb apart in voxels are up to a voxel more apart in truth, since both are rounded.
+//   radius in columns: it counts a diagonal step as 1.5 columns, and starts at columns that have no neighbour, not at
+//   the wall. The outline is then simplified, which may move it by max_simplification_error. Both together are rare; in
+//   coarse voxels nothing would be left to sweep, so at least half of the agent's radius must be free.
+// - Step. Two floors a climb apart in voxels are up to a voxel farther apart in truth, since both are rounded.
 // - Height. A floor is rounded up and a ceiling down, so a column keeps its promise; but the floor under the path is
-// one
-//   point of the column.
+//   one point of the column.
 // - Surface. A floor's voxel is the top of what lies in its column: a slope's higher side, rounded up. The detail mesh
 //   keeps to the floors at its samples, and may miss by half a sample's distance up or down a slope.
 // - Gap. A column is floor when a triangle lies anywhere in it.
@@ -67,7 +65,7 @@ typedef struct floor_hit {
     uint32_t triangle;
 } floor_hit;
 
-enum { MOST_FLOORS = 3 };
+enum { MAX_FLOORS = 3 };
 
 static float rise_of(const tl_audit_scene *scene, tl_vec3 normal)
 {
@@ -115,7 +113,7 @@ static void swap_floors(floor_hit *a, floor_hit *b)
 }
 
 // The floors at a point, the nearest to the navmesh's surface first: straight below and above, and under a ball.
-static uint32_t find_floors(const tl_audit_scene *scene, tl_vec3 surface, floor_hit floors[MOST_FLOORS])
+static uint32_t find_floors(const tl_audit_scene *scene, tl_vec3 surface, floor_hit floors[MAX_FLOORS])
 {
     const float reach = scene->probe.step + scene->probe.surface;
     uint32_t count = 0;
@@ -150,7 +148,7 @@ static tl_convex probe_over(const tl_nav_probe *probe, tl_vec3 feet)
                              probe->radius);
 }
 
-static bool is_free(tl_audit_walker *walker, tl_vec3 feet, tl_vec3 motion, tl_shape_hit *hit)
+static bool sweep_is_free(tl_audit_walker *walker, tl_vec3 feet, tl_vec3 motion, tl_shape_hit *hit)
 {
     const tl_audit_scene *scene = walker->scene;
     const tl_convex probe = probe_over(&scene->probe, feet);
@@ -159,14 +157,14 @@ static bool is_free(tl_audit_walker *walker, tl_vec3 feet, tl_vec3 motion, tl_sh
 }
 
 // From where the walker stands to a floor: level, at the height of the higher one. Or there at once.
-static bool can_go(tl_audit_walker *walker, tl_vec3 to, tl_shape_hit *hit)
+static bool can_walk_to(tl_audit_walker *walker, tl_vec3 to, tl_shape_hit *hit)
 {
     if (!walker->standing) {
-        return is_free(walker, to, tl_vec3_make(0.0f, 0.0f, 0.0f), hit);
+        return sweep_is_free(walker, to, tl_vec3_make(0.0f, 0.0f, 0.0f), hit);
     }
     const float base = tl_maxf(walker->feet.y, to.y);
     const tl_vec3 from = { walker->feet.x, base, walker->feet.z };
-    return is_free(walker, from, tl_vec3_make(to.x - from.x, 0.0f, to.z - from.z), hit);
+    return sweep_is_free(walker, from, tl_vec3_make(to.x - from.x, 0.0f, to.z - from.z), hit);
 }
 
 // ---- Records -----------------------------------------------------------------------------------------------
@@ -179,42 +177,54 @@ static int32_t cube_of(float at, float origin, float edge)
     return (int32_t)(cube < -most ? -most : cube > most ? most : cube);
 }
 
-static bool record(tl_audit_walker *walker, tl_nav_finding_kind kind, tl_nav_ref polygon, tl_vec3 point,
-                   uint32_t triangle, tl_vec3 contact, float depth)
+// A record at a point; the caller fills in what else there is to say.
+static tl_audit_record record_at(const tl_audit_walker *walker, tl_nav_finding_kind kind, tl_nav_ref polygon,
+                                 tl_vec3 point)
 {
     const tl_nav_config *config = &walker->scene->config;
-    tl_audit_record r;
-    memset(&r, 0, sizeof r);
-    r.kind = kind;
-    r.triangle = triangle;
-    r.polygon = polygon;
-    r.point = point;
-    r.contact = contact;
-    r.depth = depth;
-    r.cube[0] = cube_of(point.x, config->lattice.origin.x, config->cell_size);
-    r.cube[1] = cube_of(point.y, config->lattice.origin.y, config->cell_size);
-    r.cube[2] = cube_of(point.z, config->lattice.origin.z, config->cell_size);
-    return tl_audit_records_add(walker->records, &r) == TL_OK;
+    tl_audit_record record;
+    memset(&record, 0, sizeof record);
+    record.kind = kind;
+    record.triangle = TL_NO_TRIANGLE;
+    record.polygon = polygon;
+    record.point = record.contact = point;
+    record.cube[0] = cube_of(point.x, config->lattice.origin.x, config->cell_size);
+    record.cube[1] = cube_of(point.y, config->lattice.origin.y, config->cell_size);
+    record.cube[2] = cube_of(point.z, config->lattice.origin.z, config->cell_size);
+    return record;
 }
 
 static bool record_blocked(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 to, const tl_shape_hit *hit)
 {
-    // What the sweep would still have gone in, or the overlap that is there.
+    tl_audit_record record = record_at(walker, TL_NAV_FINDING_BLOCKED, polygon, to);
+    // How much deeper the sweep would have gone, or the overlap at its start.
     float depth = hit->depth;
     if (!hit->initial_overlap) {
         const tl_vec3 motion = { to.x - walker->feet.x, 0.0f, to.z - walker->feet.z };
         depth = -tl_dot(motion, hit->normal) * (1.0f - hit->t);
     }
-    return record(walker, TL_NAV_FINDING_BLOCKED, polygon, to, hit->triangle, hit->point, tl_maxf(depth, 0.0f));
+    record.triangle = hit->triangle;
+    record.contact = hit->point;
+    record.depth = tl_maxf(depth, 0.0f);
+    return tl_audit_records_add(walker->records, &record) == TL_OK;
 }
 
 static bool record_no_floor(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 surface)
 {
+    tl_audit_record record = record_at(walker, TL_NAV_FINDING_NO_FLOOR, polygon, surface);
     floor_hit floor;
     const float reach = walker->scene->config.agent_height * FALL_HEIGHTS;
     const bool ends = cast_upright(walker->scene, surface, -1.0f, reach, &floor);
-    return record(walker, TL_NAV_FINDING_NO_FLOOR, polygon, surface, TL_NO_TRIANGLE, surface,
-                  ends ? surface.y - floor.y : INFINITY);
+    record.depth = ends ? surface.y - floor.y : INFINITY;
+    return tl_audit_records_add(walker->records, &record) == TL_OK;
+}
+
+static bool record_step(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 nearest, uint32_t triangle)
+{
+    tl_audit_record record = record_at(walker, TL_NAV_FINDING_STEP, polygon, nearest);
+    record.triangle = triangle;
+    record.depth = fabsf(nearest.y - walker->feet.y);
+    return tl_audit_records_add(walker->records, &record) == TL_OK;
 }
 
 // ---- Walks -------------------------------------------------------------------------------------------------
@@ -244,7 +254,7 @@ static bool choose_floor(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 su
         if (!is_step(walker, &floors[i])) {
             continue;
         }
-        if (can_go(walker, to, &hit)) {
+        if (can_walk_to(walker, to, &hit)) {
             walker->feet = to;
             walker->standing = true;
             return true;
@@ -254,8 +264,7 @@ static bool choose_floor(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 su
         stopped = true;
     }
     bool done = stopped ? record_blocked(walker, polygon, nearest, &first)
-                        : record(walker, TL_NAV_FINDING_STEP, polygon, nearest, floors[0].triangle, nearest,
-                                 fabsf(nearest.y - walker->feet.y));
+                        : record_step(walker, polygon, nearest, floors[0].triangle);
     walker->feet = nearest;
     walker->standing = true;
     return done;
@@ -269,7 +278,7 @@ bool tl_audit_walk_to(tl_audit_walker *walker, tl_nav_ref polygon, float x, floa
         walker->standing = false;
         return true;
     }
-    floor_hit floors[MOST_FLOORS];
+    floor_hit floors[MAX_FLOORS];
     uint32_t count = find_floors(scene, surface, floors);
     // Between planks one does not fall: the floor goes on at the height where one stands.
     const tl_vec3 level = { x, walker->standing ? walker->feet.y : surface.y, z };

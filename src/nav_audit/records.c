@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// From thousands of places to a few findings. A fault in a level is met by every path that comes by, a cell further
-// each time; what a person wants to see is the fault once, its worst place, and how far it reaches.
+// From thousands of places to a few findings. Every path past a fault of the level meets it, a cell apart each time; a
+// person wants to see the fault once, with its worst place and its extent.
 //
-// Places are kept once a cube. Then cubes are made coarser and those that touch are joined (union-find over sorted
-// cubes, neighbours by binary search). Rejected: joining whatever lies within a distance, which needs the pairs; and
-// one finding a triangle, because a wall is many triangles and a ground triangle can hold many faults.
+// One record per cube is kept. Then cubes are made coarser, and those that touch are merged (union-find over sorted
+// cubes, neighbours by binary search). Rejected: merging what lies within a distance, which needs all pairs; and one
+// finding per triangle, because a wall has many triangles and a ground triangle can hold many faults.
 
 #include "nav_audit/records.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/disjoint_sets.h"
+#include "base/min_max.h"
 #include "base/radix_sort.h"
 
 #include <string.h>
 
-enum { FIRST_CAPACITY = 64 };
+enum { FIRST_RECORD_CAPACITY = 64 };
 
-#define MOST_RECORDS 0x7fffffffu
+#define MAX_RECORDS 0x7fffffffu
 
 void tl_audit_records_free(tl_audit_records *list)
 {
@@ -26,18 +28,16 @@ void tl_audit_records_free(tl_audit_records *list)
     list->count = list->capacity = 0;
 }
 
-static tl_result make_room(tl_audit_records *list, uint32_t more)
+static tl_result reserve_records(tl_audit_records *list, uint32_t more)
 {
     if (more <= list->capacity - list->count) {
         return TL_OK;
     }
-    if (more > MOST_RECORDS - list->count) {
+    if (more > MAX_RECORDS - list->count) {
         return TL_ERR_LIMIT;
     }
     const uint64_t wanted = (uint64_t)list->count + more, doubled = 2 * (uint64_t)list->capacity;
-    uint64_t capacity = wanted > doubled ? wanted : doubled;
-    capacity = capacity > FIRST_CAPACITY ? capacity : FIRST_CAPACITY;
-    capacity = capacity < MOST_RECORDS ? capacity : MOST_RECORDS;
+    const uint64_t capacity = tl_clamp_u64(tl_max_u64(wanted, doubled), FIRST_RECORD_CAPACITY, MAX_RECORDS);
     tl_audit_record *records = tl_allocate_array(list->allocator, capacity, sizeof *records);
     if (records == NULL) {
         return TL_ERR_MEMORY;
@@ -53,14 +53,14 @@ static tl_result make_room(tl_audit_records *list, uint32_t more)
 
 tl_result tl_audit_records_add(tl_audit_records *list, const tl_audit_record *record)
 {
-    TL_TRY(make_room(list, 1));
+    TL_TRY(reserve_records(list, 1));
     list->records[list->count++] = *record;
     return TL_OK;
 }
 
 tl_result tl_audit_records_append(tl_audit_records *list, const tl_audit_records *more)
 {
-    TL_TRY(make_room(list, more->count));
+    TL_TRY(reserve_records(list, more->count));
     if (more->count > 0) {
         memcpy(list->records + list->count, more->records, more->count * sizeof *more->records);
     }
@@ -75,7 +75,7 @@ typedef struct cube_key {
     uint64_t high, low;
 } cube_key;
 
-static uint32_t ordered(int64_t coordinate)
+static uint32_t order_preserving(int64_t coordinate)
 {
     return (uint32_t)(coordinate + ((int64_t)1 << 31));
 }
@@ -86,11 +86,11 @@ static int64_t floor_divide(int64_t a, int64_t b)
 }
 
 // The key of the coarse cube of a record, moved by some coarse cubes.
-static cube_key key_of(const tl_audit_record *record, uint32_t reach, const int32_t moved[3])
+static cube_key cube_key_of(const tl_audit_record *record, uint32_t reach, const int32_t moved[3])
 {
     uint32_t place[3];
     for (int i = 0; i < 3; i++) {
-        place[i] = ordered(floor_divide(record->cube[i], reach) + moved[i]);
+        place[i] = order_preserving(floor_divide(record->cube[i], reach) + moved[i]);
     }
     cube_key key = { (uint64_t)record->kind << 32 | place[2], (uint64_t)place[0] << 32 | place[1] };
     return key;
@@ -109,7 +109,7 @@ static void sort_by_cube(const tl_audit_records *list, uint32_t reach, tl_sort_i
     for (int word = 0; word < 2; word++) {
         for (uint32_t i = 0; i < list->count; i++) {
             const uint32_t value = word == 0 ? i : items[i].value;
-            const cube_key key = key_of(&list->records[value], reach, NOT_MOVED);
+            const cube_key key = cube_key_of(&list->records[value], reach, NOT_MOVED);
             items[i].key = word == 0 ? key.low : key.high;
             items[i].value = value;
             items[i].extra = 0;
@@ -130,8 +130,8 @@ tl_result tl_audit_records_thin(tl_audit_records *list)
         uint32_t count = 0;
         for (uint32_t i = 0; i < list->count; i++) {
             const tl_audit_record *record = &list->records[items[i].value];
-            const bool same =
-                count > 0 && compare_keys(key_of(&kept[count - 1], 1, NOT_MOVED), key_of(record, 1, NOT_MOVED)) == 0;
+            const bool same = count > 0 && compare_keys(cube_key_of(&kept[count - 1], 1, NOT_MOVED),
+                                                        cube_key_of(record, 1, NOT_MOVED)) == 0;
             if (!same) {
                 kept[count++] = *record;
             } else if (record->depth > kept[count - 1].depth) {
@@ -152,38 +152,17 @@ tl_result tl_audit_records_thin(tl_audit_records *list)
 
 // ---- Groups ------------------------------------------------------------------------------------------------
 
-// The records in the order of their coarse cubes; `parent` points from each to another one of its group, a root to
-// itself.
+// The records in the order of their coarse cubes, and which of them belong together.
 typedef struct grouping {
     const tl_audit_records *list;
     uint32_t reach;
     tl_sort_item *order; // [2 * count]
-    uint32_t *parent;    // [count], by place in the order
+    uint32_t *parents;   // [count] disjoint sets, by place in the order
 } grouping;
-
-static uint32_t root_of(const grouping *g, uint32_t at)
-{
-    while (g->parent[at] != at) {
-        g->parent[at] = g->parent[g->parent[at]];
-        at = g->parent[at];
-    }
-    return at;
-}
-
-// The lower root stays: groups are numbered by their first record.
-static void join(const grouping *g, uint32_t a, uint32_t b)
-{
-    const uint32_t root_a = root_of(g, a), root_b = root_of(g, b);
-    if (root_a < root_b) {
-        g->parent[root_b] = root_a;
-    } else {
-        g->parent[root_a] = root_b;
-    }
-}
 
 static cube_key key_at(const grouping *g, uint32_t at)
 {
-    return key_of(&g->list->records[g->order[at].value], g->reach, NOT_MOVED);
+    return cube_key_of(&g->list->records[g->order[at].value], g->reach, NOT_MOVED);
 }
 
 // The first record of a cube, or count.
@@ -202,18 +181,18 @@ static uint32_t find_cube(const grouping *g, cube_key key)
 }
 
 // Each cube with the 13 of its neighbours that come before it in the order.
-static void join_cubes(const grouping *g)
+static void unite_cubes(const grouping *g)
 {
     for (uint32_t i = 0; i < g->list->count; i++) {
         if (i > 0 && compare_keys(key_at(g, i - 1), key_at(g, i)) == 0) {
-            join(g, i - 1, i);
+            tl_disjoint_sets_unite(g->parents, i - 1, i);
             continue;
         }
         for (int32_t neighbour = 0; neighbour < 13; neighbour++) {
             const int32_t moved[3] = { neighbour / 3 % 3 - 1, neighbour % 3 - 1, neighbour / 9 - 1 };
-            const uint32_t other = find_cube(g, key_of(&g->list->records[g->order[i].value], g->reach, moved));
+            const uint32_t other = find_cube(g, cube_key_of(&g->list->records[g->order[i].value], g->reach, moved));
             if (other < g->list->count) {
-                join(g, other, i);
+                tl_disjoint_sets_unite(g->parents, other, i);
             }
         }
     }
@@ -242,7 +221,7 @@ static void add_record(tl_nav_finding *finding, const tl_audit_record *record)
     finding->bounds = tl_aabb_add_point(finding->bounds, record->point);
 }
 
-// Missing floors have no depth: the record nearest to the middle of the box speaks for them.
+// Missing floors have no depth: the record nearest to the middle of the box represents them.
 static void move_to_middle(tl_nav_finding *finding, const tl_audit_record *record)
 {
     const tl_vec3 middle = tl_aabb_center(finding->bounds);
@@ -255,7 +234,8 @@ static uint32_t number_groups(const grouping *g)
 {
     uint32_t groups = 0;
     for (uint32_t i = 0; i < g->list->count; i++) {
-        g->order[i].extra = root_of(g, i) == i ? groups++ : g->order[root_of(g, i)].extra;
+        const uint32_t root = tl_disjoint_sets_find(g->parents, i); // the lowest of its group: it is numbered already
+        g->order[i].extra = root == i ? groups++ : g->order[root].extra;
     }
     return groups;
 }
@@ -265,15 +245,13 @@ tl_result tl_audit_records_cluster(const tl_audit_records *list, uint32_t reach,
 {
     const uint64_t room = 2 * (uint64_t)list->count;
     grouping g = { list, reach, tl_allocate_array(list->allocator, room, sizeof *g.order),
-                   tl_allocate_array(list->allocator, list->count, sizeof *g.parent) };
+                   tl_allocate_array(list->allocator, list->count, sizeof *g.parents) };
     *findings_out = NULL;
     *count_out = 0;
-    if (g.order != NULL && g.parent != NULL) {
+    if (g.order != NULL && g.parents != NULL) {
         sort_by_cube(list, reach, g.order);
-        for (uint32_t i = 0; i < list->count; i++) {
-            g.parent[i] = i;
-        }
-        join_cubes(&g);
+        tl_disjoint_sets_init(g.parents, list->count);
+        unite_cubes(&g);
         const uint32_t groups = number_groups(&g);
         tl_nav_finding *findings = tl_allocate_array(list->allocator, groups, sizeof *findings);
         if (findings != NULL) {
@@ -289,6 +267,6 @@ tl_result tl_audit_records_cluster(const tl_audit_records *list, uint32_t reach,
         }
     }
     tl_release_array(list->allocator, g.order, room, sizeof *g.order);
-    tl_release_array(list->allocator, g.parent, list->count, sizeof *g.parent);
+    tl_release_array(list->allocator, g.parents, list->count, sizeof *g.parents);
     return *findings_out != NULL ? TL_OK : TL_ERR_MEMORY;
 }

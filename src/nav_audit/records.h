@@ -29,13 +29,12 @@ void tl_audit_records_free(tl_audit_records *list);
 tl_result tl_audit_records_add(tl_audit_records *list, const tl_audit_record *record);
 tl_result tl_audit_records_append(tl_audit_records *list, const tl_audit_records *more);
 
-/// Of the records of one kind in one cube the deepest stays, of equal ones the first; sorted by kind and cube.
+/// Keeps of the records of one kind in one cube the deepest, of equally deep ones the first; sorts by kind and cube.
 tl_result tl_audit_records_thin(tl_audit_records *list);
 
-/// Draws records of one kind together, each group to one finding: those whose cubes, `reach` cubes of the list a side,
-/// are the same or touch. The record that speaks for a group is its deepest; of those that have no depth the one
-/// nearest to the group's middle. Areas are left 0. Free the array with tl_release_array(allocator, array, count,
-/// size).
+/// Merges records of one kind into findings: those whose cubes, `reach` cubes of the list a side, are the same or
+/// touch. The deepest record represents a group; where none has a depth, the one nearest to the group's middle. Areas
+/// are left 0. Free the array with tl_release_array(allocator, array, count, size).
 tl_result tl_audit_records_cluster(const tl_audit_records *list, uint32_t reach, tl_nav_finding **findings_out,
                                    uint32_t *count_out);
 

@@ -2,10 +2,10 @@
 //
 // Why a point is not walkable, and what would make it so.
 //
-// Each stage that can take a point away has one setting to blame, and what was measured at the point says which value
-// of it is the nearest that does not: the triangle's own slope, the free height, the columns of the island. That value
-// goes into the def, and the question is asked again, until the point is walkable or nothing helps. So the answer is
-// not guessed: it has been built.
+// Each stage that can remove a point has one setting to blame, and what is measured at the point gives the nearest
+// value with which the point stays: the triangle's own slope, the free height, the columns of the island. That value
+// goes into the def, and the search is repeated until the point is walkable or nothing helps. So the answer is not a
+// guess: it has been baked.
 
 #include "base/assert.h"
 #include "base/host.h"
@@ -22,11 +22,11 @@
 
 enum { SLOPE_STEPS = 40, ERROR_STEPS = 5 };
 
-typedef struct search {
+typedef struct why_search {
     tl_why_question question;
     tl_nav_why_answer *answer;
     tl_report *report;
-} search;
+} why_search;
 
 const char *tl_nav_cause_name(tl_nav_cause cause)
 {
@@ -57,22 +57,22 @@ const char *tl_nav_cause_text(tl_nav_cause cause)
 
 // ---- What a change of the def gives ------------------------------------------------------------------------
 
-static tl_result find(search *s, const tl_nav_def *def, tl_why_finding *finding)
+static tl_result find_cause(why_search *s, const tl_nav_def *def, tl_why_finding *finding)
 {
-    s->answer->build_count++;
+    s->answer->bake_count++;
     return tl_why_find(&s->question, def, finding, s->report);
 }
 
-static tl_result try_def(search *s, const tl_nav_def *def, bool *walkable_out)
+static tl_result try_def(why_search *s, const tl_nav_def *def, bool *walkable_out)
 {
     tl_why_finding finding;
-    TL_TRY(find(s, def, &finding));
+    TL_TRY(find_cause(s, def, &finding));
     *walkable_out = finding.cause == TL_NAV_CAUSE_NONE;
     return TL_OK;
 }
 
 // Bounds that reach `more` metres farther to each side, in whole columns, so that the lattice stays where it is.
-static tl_nav_def with_wider_bounds(const search *s, const tl_nav_def *def, float more)
+static tl_nav_def with_wider_bounds(const why_search *s, const tl_nav_def *def, float more)
 {
     tl_nav_def wider = *def;
     const float step = def->cell_size * ceilf(more / def->cell_size + 1.0f);
@@ -85,7 +85,7 @@ static tl_nav_def with_wider_bounds(const search *s, const tl_nav_def *def, floa
 }
 
 // What the rim of the bounds takes away is not the radius' fault, nor a ledge's: with wider bounds it would stay.
-static tl_result blame_bounds(search *s, const tl_nav_def *def, tl_why_finding *finding)
+static tl_result blame_bounds(why_search *s, const tl_nav_def *def, tl_why_finding *finding)
 {
     const bool by_rim = finding->cause == TL_NAV_CAUSE_RADIUS || finding->cause == TL_NAV_CAUSE_LEDGE;
     if (!by_rim || !(finding->outside > 0.0f)) {
@@ -93,7 +93,7 @@ static tl_result blame_bounds(search *s, const tl_nav_def *def, tl_why_finding *
     }
     const tl_nav_def wider = with_wider_bounds(s, def, finding->outside);
     tl_why_finding other;
-    TL_TRY(find(s, &wider, &other));
+    TL_TRY(find_cause(s, &wider, &other));
     finding->cause = other.cause != finding->cause ? TL_NAV_CAUSE_OUTSIDE : finding->cause;
     return TL_OK;
 }
@@ -155,7 +155,7 @@ static void blame_height(const tl_why_finding *finding, tl_nav_def *def, tl_nav_
 
 // The largest radius with which the floor stays and, where the outline or an island's size would take it still, the
 // largest below that with which nothing does.
-static tl_result blame_radius(search *s, const tl_why_finding *finding, tl_nav_def *def, tl_nav_reason *reason)
+static tl_result blame_radius(why_search *s, const tl_why_finding *finding, tl_nav_def *def, tl_nav_reason *reason)
 {
     reason->stage = "erode";
     reason->parameter = "agent_radius";
@@ -189,7 +189,7 @@ static void blame_island(const tl_why_finding *finding, tl_nav_def *def, tl_nav_
 
 // Halves the error until the point is on the navmesh, then goes back as far as it stays there. A smaller radius is what
 // is left when no error helps.
-static tl_result blame_outline(search *s, tl_nav_def *def, tl_nav_reason *reason)
+static tl_result blame_outline(why_search *s, tl_nav_def *def, tl_nav_reason *reason)
 {
     tl_nav_def tried = *def;
     float good = 0.0f, bad = def->edge_max_error;
@@ -217,7 +217,7 @@ static tl_result blame_outline(search *s, tl_nav_def *def, tl_nav_reason *reason
     return TL_OK;
 }
 
-static void blame_outside(const search *s, const tl_why_finding *finding, tl_nav_def *def, tl_nav_reason *reason)
+static void blame_outside(const why_search *s, const tl_why_finding *finding, tl_nav_def *def, tl_nav_reason *reason)
 {
     const tl_nav_def wider = with_wider_bounds(s, def, finding->outside);
     const tl_aabb before = tl_aabb_is_empty(def->bounds) ? s->question.mesh_bounds : def->bounds;
@@ -229,7 +229,7 @@ static void blame_outside(const search *s, const tl_why_finding *finding, tl_nav
 }
 
 // Names the setting and puts the needed value into `def`.
-static tl_result blame(search *s, const tl_why_finding *finding, tl_nav_def *def, tl_nav_reason *reason)
+static tl_result blame(why_search *s, const tl_why_finding *finding, tl_nav_def *def, tl_nav_reason *reason)
 {
     switch (finding->cause) {
     case TL_NAV_CAUSE_OUTSIDE:
@@ -271,7 +271,7 @@ static tl_result blame(search *s, const tl_why_finding *finding, tl_nav_def *def
 // ---- The answer --------------------------------------------------------------------------------------------
 
 // Whether another island is larger than the point's.
-static tl_result compare_islands(const search *s, const tl_navmesh *navmesh, tl_nav_ref polygon)
+static tl_result compare_islands(const why_search *s, const tl_navmesh *navmesh, tl_nav_ref polygon)
 {
     tl_nav_why_answer *answer = s->answer;
     tl_audit_polygon_list list;
@@ -291,13 +291,13 @@ static tl_result compare_islands(const search *s, const tl_navmesh *navmesh, tl_
 }
 
 // One cause after the other, each removed before the next is looked for.
-static tl_result collect_reasons(search *s)
+static tl_result collect_reasons(why_search *s)
 {
     tl_nav_why_answer *answer = s->answer;
     bool helped = true;
     for (uint32_t i = 0; helped; i++) {
         tl_why_finding finding;
-        TL_TRY(find(s, &answer->needed, &finding));
+        TL_TRY(find_cause(s, &answer->needed, &finding));
         TL_TRY(blame_bounds(s, &answer->needed, &finding));
         if (i == 0) {
             answer->floor = finding.floor;
@@ -317,11 +317,11 @@ static tl_result collect_reasons(search *s)
     return TL_OK;
 }
 
-static tl_result measure_mesh(search *s)
+static tl_result measure_mesh(why_search *s)
 {
     const tl_mesh_view *mesh = &s->question.input->mesh;
     s->question.mesh_bounds = tl_aabb_empty();
-    for (uint32_t i = 0; i < 3 * mesh->triangle_count; i++) {
+    for (uint64_t i = 0; i < 3 * (uint64_t)mesh->triangle_count; i++) {
         if (mesh->indices[i] >= mesh->vertex_count) {
             return tl_report_fail(s->report, TL_ERR_INDEX, "triangle", i / 3, "check the index buffer");
         }
@@ -330,7 +330,7 @@ static tl_result measure_mesh(search *s)
     return TL_OK;
 }
 
-static tl_result answer_why(search *s, const tl_nav_def *def, const tl_navmesh *navmesh)
+static tl_result answer_why(why_search *s, const tl_nav_def *def, const tl_navmesh *navmesh)
 {
     tl_nav_why_answer *answer = s->answer;
     tl_nav_location location;
@@ -357,24 +357,33 @@ static tl_result answer_why(search *s, const tl_nav_def *def, const tl_navmesh *
 tl_result tl_nav_why(const tl_nav_def *def, const tl_nav_input *input, const tl_navmesh *navmesh, tl_vec3 point,
                      tl_nav_why_answer *answer_out, tl_report *report_out)
 {
-    TL_ASSERT(def != NULL && input != NULL && answer_out != NULL);
-    search s;
-    tl_report report;
-    tl_report_begin(&report, "why");
-    memset(&s, 0, sizeof s);
+    const tl_nav_def default_def = tl_default_nav_def();
+    tl_report unused;
+    tl_report *report = report_out != NULL ? report_out : &unused;
+    tl_report_begin(report, "why");
+    if (answer_out == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "answer_out", "it may not be NULL");
+    }
     memset(answer_out, 0, sizeof *answer_out);
+    if (input == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "input", "it may not be NULL");
+    }
+    if (!tl_is_finite(point)) {
+        return tl_report_fail(report, TL_ERR_NOT_FINITE, "point", TL_NO_ELEMENT, "give a finite point");
+    }
+    def = def != NULL ? def : &default_def;
     answer_out->needed = *def;
     answer_out->floor = point;
+    why_search s;
+    memset(&s, 0, sizeof s);
     s.question.input = input;
     s.question.point = point;
     s.question.host = &def->host;
     s.answer = answer_out;
-    s.report = &report;
-    tl_result result = tl_is_finite(point)
-                           ? answer_why(&s, def, navmesh)
-                           : tl_report_fail(&report, TL_ERR_NOT_FINITE, "point", TL_NO_ELEMENT, "give a finite point");
-    if (report_out != NULL) {
-        *report_out = report;
+    s.report = report;
+    const tl_result result = answer_why(&s, def, navmesh);
+    if (result != TL_OK) {
+        memset(answer_out, 0, sizeof *answer_out);
     }
     return result;
 }

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// The pipeline once more, watched at one column. All stages up to erosion look no farther than the agent's radius, so
-// they run on a window of columns around the point, which costs microseconds; the lattice is the level's, so these are
-// the very voxels of the bake. Regions and outlines look at the whole tile, so the tile is built.
+// The pipeline again, watched at one column. No stage up to erosion looks farther than the agent's radius, so they run
+// on a window of columns around the point, which costs microseconds; the lattice is the level's, so these are the very
+// voxels of the bake. Regions and outlines depend on the whole tile, so the tile is baked.
 
 #include "nav_audit/why_stages.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/min_max.h"
 
 #include <math.h>
 #include <string.h>
 
-typedef struct window {
+typedef struct why_window {
     const tl_why_question *question;
     tl_nav_config config;     ///< of the columns around the point
     uint32_t x, z;            ///< the point's column in it
@@ -23,7 +24,7 @@ typedef struct window {
     tl_nav_compact compact;
     tl_why_finding *finding;
     tl_report *report;
-} window;
+} why_window;
 
 // How far the navmesh's surface may lie from the voxels' floor; but not as far as the next floor.
 static float surface_reach(const tl_nav_config *config)
@@ -68,15 +69,15 @@ static tl_result find_tile(const tl_why_question *question, const tl_nav_def *de
 }
 
 // The columns around the point that the stages up to erosion look at, cut to those of the tile.
-static void place_window(const tl_nav_config *tile, const int64_t column[2], window *w)
+static void place_window(const tl_nav_config *tile, const int64_t column[2], why_window *w)
 {
     const int64_t reach = (int64_t)tile->walkable_radius + 3;
     const int64_t first[2] = { tile->lattice.first_x, tile->lattice.first_z };
     const int64_t end[2] = { first[0] + tile->width, first[1] + tile->height };
     int64_t low[2], high[2];
     for (int axis = 0; axis < 2; axis++) {
-        low[axis] = column[axis] - reach > first[axis] ? column[axis] - reach : first[axis];
-        high[axis] = column[axis] + reach + 1 < end[axis] ? column[axis] + reach + 1 : end[axis];
+        low[axis] = tl_max_i64(column[axis] - reach, first[axis]);
+        high[axis] = tl_min_i64(column[axis] + reach + 1, end[axis]);
     }
     tl_nav_config *config = &w->config;
     *config = *tile;
@@ -101,7 +102,7 @@ static float height_of(const tl_nav_config *config, uint32_t voxels)
     return tl_nav_lattice_to_world(config->lattice.origin.y, voxels, config->cell_height);
 }
 
-static uint32_t clearance_of(const window *w, uint32_t span)
+static uint32_t clearance_of(const why_window *w, uint32_t span)
 {
     const uint32_t column = w->z * w->field.width + w->x, end = w->field.first_span[column + 1];
     return span + 1 < end ? (uint32_t)w->field.spans[span + 1].min - w->field.spans[span].max : UINT32_MAX;
@@ -109,7 +110,7 @@ static uint32_t clearance_of(const window *w, uint32_t span)
 
 // The span whose top is nearest to the point, within a step of it; one with room for the agent before one without: who
 // asks inside a kerb means the kerb's top.
-static bool choose_span(window *w)
+static bool choose_span(why_window *w)
 {
     const uint32_t column = w->z * w->field.width + w->x;
     const float y = w->question->point.y, step = tl_nav_probe_from_config(&w->config).step;
@@ -134,7 +135,7 @@ static bool choose_span(window *w)
 }
 
 // Of the triangles over the column whose highest point there may be the floor's: the one that is least steep.
-static void choose_triangle(window *w)
+static void choose_triangle(why_window *w)
 {
     const tl_mesh_view *mesh = &w->question->input->mesh;
     const tl_nav_config *config = &w->config;
@@ -167,21 +168,21 @@ static void choose_triangle(window *w)
 
 // ---- Filters -----------------------------------------------------------------------------------------------
 
-static bool is_walkable(const window *w)
+static bool is_span_walkable(const why_window *w)
 {
     return w->field.spans[w->span].area != TL_NAV_NULL_AREA;
 }
 
 // The smallest climb with which the ledge filter leaves the floor, tried on the spans as they were before it.
-static tl_result find_climb(window *w, const tl_nav_span *before)
+static tl_result find_climb(why_window *w, const tl_nav_span *before)
 {
     tl_nav_config config = w->config;
-    const uint32_t most = config.height_voxels < TL_NAV_MAX_VOXELS ? config.height_voxels : TL_NAV_MAX_VOXELS;
+    const uint32_t highest = tl_min_u32(config.height_voxels, TL_NAV_MAX_VOXELS);
     w->finding->needed_climb = 0;
-    for (config.walkable_climb++; config.walkable_climb <= most; config.walkable_climb++) {
+    for (config.walkable_climb++; config.walkable_climb <= highest; config.walkable_climb++) {
         memcpy(w->field.spans, before, w->field.span_count * sizeof *before);
         tl_nav_filter_ledge_spans(&config, &w->field);
-        if (is_walkable(w)) {
+        if (is_span_walkable(w)) {
             w->finding->needed_climb = config.walkable_climb;
             break;
         }
@@ -189,7 +190,7 @@ static tl_result find_climb(window *w, const tl_nav_span *before)
     return TL_OK;
 }
 
-static tl_result filter_ledges(window *w)
+static tl_result filter_ledges_at(why_window *w)
 {
     const tl_allocator *allocator = w->question->host->allocator;
     const uint32_t count = w->field.span_count;
@@ -200,7 +201,7 @@ static tl_result filter_ledges(window *w)
     memcpy(before, w->field.spans, count * sizeof *before);
     tl_nav_filter_ledge_spans(&w->config, &w->field);
     tl_result result = TL_OK;
-    if (!is_walkable(w)) {
+    if (!is_span_walkable(w)) {
         w->finding->cause = TL_NAV_CAUSE_LEDGE;
         result = find_climb(w, before);
     }
@@ -208,14 +209,14 @@ static tl_result filter_ledges(window *w)
     return result;
 }
 
-// The filters one by one, in the pipeline's order, until one takes the floor.
-static tl_result filter(window *w)
+// The filters one by one, in the pipeline's order, until one removes the floor.
+static tl_result filter_floor(why_window *w)
 {
     const tl_nav_config *config = &w->config;
     if (config->filter_low_hanging_obstacles) {
         tl_nav_filter_low_hanging_obstacles(config, &w->field);
     }
-    if (!is_walkable(w)) {
+    if (!is_span_walkable(w)) {
         const uint8_t *areas = w->question->input->areas;
         const uint32_t triangle = w->finding->triangle;
         const bool by_input = areas != NULL && triangle != TL_NO_TRIANGLE && areas[triangle] == TL_NAV_NULL_AREA;
@@ -223,11 +224,11 @@ static tl_result filter(window *w)
         return TL_OK;
     }
     if (config->filter_ledge_spans) {
-        TL_TRY(filter_ledges(w));
+        TL_TRY(filter_ledges_at(w));
     }
     if (w->finding->cause == TL_NAV_CAUSE_NONE && config->filter_walkable_low_height_spans) {
         tl_nav_filter_walkable_low_height_spans(config, &w->field);
-        if (!is_walkable(w)) {
+        if (!is_span_walkable(w)) {
             w->finding->cause = TL_NAV_CAUSE_CEILING;
             w->finding->clearance = clearance_of(w, w->span);
         }
@@ -250,7 +251,7 @@ static uint32_t find_open_floor(const tl_nav_compact *compact, uint32_t x, uint3
 }
 
 // Whether the floor outlives an erosion by `radius` columns.
-static tl_result outlives(window *w, uint32_t radius, bool *outlives_out)
+static tl_result outlives(why_window *w, uint32_t radius, bool *outlives_out)
 {
     tl_nav_config config = w->config;
     config.walkable_radius = radius;
@@ -262,7 +263,7 @@ static tl_result outlives(window *w, uint32_t radius, bool *outlives_out)
     return TL_OK;
 }
 
-static tl_result erode(window *w)
+static tl_result erode_floor(why_window *w)
 {
     bool stays;
     TL_TRY(outlives(w, w->config.walkable_radius, &stays));
@@ -278,7 +279,7 @@ static tl_result erode(window *w)
     return TL_OK;
 }
 
-static void mark_volumes(window *w)
+static void mark_window_volumes(why_window *w)
 {
     const tl_nav_input *input = w->question->input;
     for (uint32_t i = 0; i < input->volume_count; i++) {
@@ -290,7 +291,7 @@ static void mark_volumes(window *w)
     }
 }
 
-static tl_result look_through_window(window *w)
+static tl_result look_through_window(why_window *w)
 {
     const tl_nav_input *input = w->question->input;
     TL_TRY(tl_nav_rasterize(&w->config, &input->mesh, input->areas, w->question->host, &w->field, w->report));
@@ -299,19 +300,19 @@ static tl_result look_through_window(window *w)
         return TL_OK;
     }
     choose_triangle(w);
-    TL_TRY(filter(w));
+    TL_TRY(filter_floor(w));
     if (w->finding->cause == TL_NAV_CAUSE_NONE) {
-        TL_TRY(erode(w));
+        TL_TRY(erode_floor(w));
     }
     if (w->finding->cause == TL_NAV_CAUSE_NONE) {
-        mark_volumes(w);
+        mark_window_volumes(w);
     }
     return TL_OK;
 }
 
 // ---- Regions and outlines ----------------------------------------------------------------------------------
 
-// The columns of the walkable floors that hang together with one.
+// The columns of the walkable floors connected to one: a flood fill.
 static tl_result measure_island(const tl_nav_compact *compact, uint32_t from, const tl_host *host, uint32_t *size_out)
 {
     const uint32_t count = compact->span_count;
@@ -356,7 +357,7 @@ static tl_result is_on_tile(const tl_nav_tile *tile, const tl_nav_config *config
     return result;
 }
 
-static tl_result look_at_tile(const window *w, const int64_t column[2], tl_why_finding *finding)
+static tl_result look_at_tile(const why_window *w, const int64_t column[2], tl_why_finding *finding)
 {
     const tl_host *host = w->question->host;
     const tl_nav_config *config = &finding->config;
@@ -388,7 +389,7 @@ static tl_result look_at_tile(const window *w, const int64_t column[2], tl_why_f
 tl_result tl_why_find(const tl_why_question *question, const tl_nav_def *def, tl_why_finding *finding_out,
                       tl_report *report)
 {
-    window w;
+    why_window w;
     int64_t column[2] = { 0, 0 };
     bool inside = true;
     memset(&w, 0, sizeof w);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Which stage of a build takes a point away.
+// Which stage of a bake removes a point.
 
 #ifndef TALUS_SRC_NAV_AUDIT_WHY_STAGES_H
 #define TALUS_SRC_NAV_AUDIT_WHY_STAGES_H
 
 #include <talus/nav_audit.h>
 
-/// What is asked, and what is lent.
+/// What is asked, and the host's means.
 typedef struct tl_why_question {
     const tl_nav_input *input;
     tl_aabb mesh_bounds;

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
-// Places along borders: wherever a polygon's edge has no other polygon behind it, a ledge or the foot of a wall. Which
-// of the two it is the sweeps find out; the navmesh does not know.
+// Places along borders. A polygon's edge that no other polygon shares is a ledge or the foot of a wall. The navmesh
+// does not know which; the sweeps find out.
 
 #include "nav_links/ledges.h"
 
 #include <math.h>
 
-enum { MOST_LINKS = 256 };
+enum { MAX_POLYGON_LINKS = 256 };
 
 typedef struct ledge_walk {
     const tl_navmesh *navmesh;
     float spacing;
     tl_nav_ledge_point *points;
     uint64_t capacity, count, edges;
-    tl_nav_link links[MOST_LINKS]; // of the polygon at hand
+    tl_nav_link links[MAX_POLYGON_LINKS]; // of the polygon at hand
     uint32_t link_count;
 } ledge_walk;
 
-// Whether another polygon lies behind an edge at a point of it.
+// Whether another polygon shares an edge at a point of it.
 static bool is_open_at(const ledge_walk *walk, uint32_t edge, tl_vec3 a, tl_vec3 b, tl_vec3 point)
 {
     float x = b.x - a.x;
@@ -43,7 +43,7 @@ static void sample_edge(ledge_walk *walk, tl_nav_ref polygon, uint32_t edge, tl_
     if (!(length > 0.0f)) {
         return;
     }
-    // Outward is right of the way from a to b: polygons run counter-clockwise as seen from above.
+    // Outward is to the right of a to b: polygons run counter-clockwise as seen from above.
     tl_vec3 out = tl_vec3_make(-z / length, 0.0f, x / length);
     double steps = ceil((double)length / (double)walk->spacing);
     uint32_t count = steps < (double)(UINT32_MAX / 2) ? (uint32_t)steps : UINT32_MAX / 2;
@@ -65,15 +65,15 @@ static void sample_edge(ledge_walk *walk, tl_nav_ref polygon, uint32_t edge, tl_
     walk->edges += is_border ? 1 : 0;
 }
 
-static void sample_polygon(ledge_walk *walk, const tl_nav_tile *tile, uint32_t slot, uint32_t polygon)
+static void sample_polygon_edges(ledge_walk *walk, const tl_nav_tile *tile, uint32_t slot, uint32_t polygon)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
     const uint32_t *links = tl_nav_tile_links(tile, polygon);
     tl_nav_ref ref = tl_navmesh_polygon_ref(walk->navmesh, slot, polygon);
-    tl_result result = tl_navmesh_links(walk->navmesh, ref, walk->links, MOST_LINKS, &walk->link_count);
-    // Of more links the rest count as borders: ways over those are walkable, and found to be so.
-    walk->link_count = result == TL_OK ? walk->link_count : MOST_LINKS;
+    tl_result result = tl_navmesh_links(walk->navmesh, ref, walk->links, MAX_POLYGON_LINKS, &walk->link_count);
+    // Links beyond the buffer count as borders: candidates there turn out to be walkable without a link.
+    walk->link_count = result == TL_OK ? walk->link_count : MAX_POLYGON_LINKS;
     for (uint32_t k = 0; k < count; k++) {
         bool may_be_border = links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) != 0;
         if (may_be_border) {
@@ -95,7 +95,7 @@ uint64_t tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_nav_l
     for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
         const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
         for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++) {
-            sample_polygon(&walk, tile, slot, p);
+            sample_polygon_edges(&walk, tile, slot, p);
         }
     }
     *edge_count_out = walk.edges;

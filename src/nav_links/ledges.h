@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Places along the borders of a navmesh, and where ways from there may land.
+// Places along the borders of a navmesh, and candidates for links from there.
 
 #ifndef TALUS_SRC_NAV_LINKS_LEDGES_H
 #define TALUS_SRC_NAV_LINKS_LEDGES_H
@@ -15,29 +15,29 @@ typedef struct tl_nav_ledge_point {
     float off_middle; ///< metres from the middle of its edge
 } tl_nav_ledge_point;
 
-/// Goes through all border edges, and along each at `spacing` or less, evenly. Writes the first `capacity`; returns the
-/// true count. `*edge_count_out`: border edges.
+/// Places evenly along all border edges, at most `spacing` apart. Writes the first `capacity`; returns the true count.
+/// `*edge_count_out`: border edges.
 uint64_t tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_nav_ledge_point *points, uint64_t capacity,
                               uint64_t *edge_count_out);
 
-/// Ways that start at one place: one down, and a jump in each of three directions.
-#define TL_NAV_WAYS_A_PLACE 4u
+/// Candidates that start at one place: one down, and a jump in each of three directions.
+#define TL_NAV_CANDIDATES_PER_PLACE 4u
 
-typedef enum tl_nav_way_fate {
-    TL_NAV_WAY_NONE, ///< nothing to land on
-    TL_NAV_WAY_TOO_FAST,
-    TL_NAV_WAY_BLOCKED,
-    TL_NAV_WAY_FREE
-} tl_nav_way_fate;
+typedef enum tl_nav_candidate_fate {
+    TL_NAV_CANDIDATE_NO_LANDING, ///< nothing to land on
+    TL_NAV_CANDIDATE_TOO_FAST,
+    TL_NAV_CANDIDATE_BLOCKED,
+    TL_NAV_CANDIDATE_FREE
+} tl_nav_candidate_fate;
 
-typedef struct tl_nav_way_try {
-    tl_nav_found_link link;
+typedef struct tl_nav_link_candidate {
+    tl_nav_jump_link link;
     float cost; ///< metres, straight from start to end
-    float rank; ///< ways of less rank are kept first
-    tl_nav_way_fate fate;
-} tl_nav_way_try;
+    float rank; ///< candidates of lower rank are selected first
+    tl_nav_candidate_fate fate;
+} tl_nav_link_candidate;
 
-/// What all tries share.
+/// What all candidates share.
 typedef struct tl_nav_landing_search {
     const tl_nav_links_def *def;
     const tl_navmesh *navmesh;
@@ -46,8 +46,8 @@ typedef struct tl_nav_landing_search {
     float cell;
 } tl_nav_landing_search;
 
-/// Finds where ways from a place land, and proves them.
-void tl_nav_try_ways(const tl_nav_landing_search *search, const tl_nav_ledge_point *place,
-                     tl_nav_way_try tries[TL_NAV_WAYS_A_PLACE]);
+/// Finds where links from a place may land, and proves them.
+void tl_nav_find_candidates(const tl_nav_landing_search *search, const tl_nav_ledge_point *place,
+                            tl_nav_link_candidate candidates[TL_NAV_CANDIDATES_PER_PLACE]);
 
 #endif

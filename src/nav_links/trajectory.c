@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The ways of links. A jump's is decided by its two ends and its highest point: gravity gives the time it takes, not
-// its shape. Drops and climbs turn one corner, over the lower end at the height of the upper one.
+// The trajectories of links. A jump is a parabola given by its two ends and its highest point: gravity decides how long
+// it takes, not its shape. Drops and climbs have two legs, whose corner lies over the lower end at the upper one's
+// height.
 
 #include "nav_links/trajectory.h"
 
@@ -9,7 +10,7 @@
 
 tl_nav_parabola tl_nav_parabola_of(float up, float apex)
 {
-    // rise - fall = up, and rise^2 / (4 fall) = apex; of two solutions the one that is past its highest point.
+    // rise - fall = up, and rise^2 / (4 fall) = apex; of the two solutions the one that ends past its highest point.
     double twice = 2.0 * (double)apex - (double)up;
     double square = twice * twice - (double)up * (double)up;
     double fall = twice + sqrt(square > 0.0 ? square : 0.0);
@@ -17,7 +18,7 @@ tl_nav_parabola tl_nav_parabola_of(float up, float apex)
     return parabola;
 }
 
-static tl_vec3 jump_point(const tl_nav_found_link *link, float t)
+static tl_vec3 jump_point(const tl_nav_jump_link *link, float t)
 {
     tl_nav_parabola parabola = tl_nav_parabola_of(link->end.y - link->start.y, link->apex);
     tl_vec3 point = tl_lerp(link->start, link->end, t);
@@ -25,7 +26,7 @@ static tl_vec3 jump_point(const tl_nav_found_link *link, float t)
     return point;
 }
 
-tl_vec3 tl_nav_found_link_point(const tl_nav_found_link *link, float t)
+tl_vec3 tl_nav_jump_link_point(const tl_nav_jump_link *link, float t)
 {
     if (t <= 0.0f || t >= 1.0f) {
         return t <= 0.0f ? link->start : link->end;

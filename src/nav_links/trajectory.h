@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The ways of links, and their proof.
+// The trajectories of links, and their proof.
 
 #ifndef TALUS_SRC_NAV_LINKS_TRAJECTORY_H
 #define TALUS_SRC_NAV_LINKS_TRAJECTORY_H
@@ -24,7 +24,7 @@ typedef struct tl_nav_walker {
 
 tl_nav_walker tl_nav_walker_make(const tl_soup *soup, float radius, float height, float lift, float margin);
 
-/// Whether the whole way of a link is free of triangles. False also where a sweep gave up.
-bool tl_nav_way_is_free(const tl_nav_walker *walker, const tl_nav_found_link *link);
+/// Whether the whole trajectory of a link is free of triangles. False also where a sweep gave up.
+bool tl_nav_link_is_free(const tl_nav_walker *walker, const tl_nav_jump_link *link);
 
 #endif

@@ -1,37 +1,38 @@
 // SPDX-License-Identifier: MIT
 //
-// Pruning by islands: all tiles go into a navmesh, which knows what hangs together; each island is kept or left out as
-// a whole; the tiles that lose polygons are baked again without them. No link is cut, since links never leave an
-// island.
+// Pruning by connected components (islands): all tiles are added to a navmesh, which knows the component of each
+// polygon; each island is kept or removed as a whole; the tiles that lose polygons are baked again without them. No
+// link is cut, since links never leave an island.
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
 #include "nav_prune/solids.h"
 
-#include <math.h>
-#include <string.h>
 #include <talus/nav_prune.h>
 #include <talus/nav_query.h>
 
-typedef enum verdict { KEPT, INSIDE, UNREACHABLE, SMALL } verdict;
+#include <math.h>
+#include <string.h>
 
-typedef struct island {
+typedef enum prune_verdict { PRUNE_KEPT, PRUNE_INSIDE, PRUNE_UNREACHABLE, PRUNE_SMALL } prune_verdict;
+
+typedef struct prune_island {
     uint64_t polygons;
     double area;
     bool has_seed;
     bool is_free; ///< the middle of some polygon is not inside a solid
     uint8_t verdict;
-} island;
+} prune_island;
 
 typedef struct prune_job {
     const tl_nav_prune_def *def;
     tl_nav_tiles *tiles;
     tl_navmesh *navmesh;
-    island *islands; ///< by the navmesh's numbers, not all of which are in use
+    prune_island *islands; ///< by the navmesh's numbers, not all of which are in use
     uint64_t island_capacity;
-    tl_nav_tile **remade; ///< [tiles->tile_count] in place of those that change; NULL: as it is, or `gone`
-    uint8_t *gone;        ///< [tiles->tile_count]
+    tl_nav_tile **rebaked; ///< [tiles->tile_count] in place of those that change; NULL: as it is, or `gone`
+    uint8_t *gone;         ///< [tiles->tile_count]
     tl_nav_prune_report *report;
 } prune_job;
 
@@ -40,17 +41,22 @@ tl_nav_prune_def tl_default_nav_prune_def(void)
     tl_nav_prune_def def;
     memset(&def, 0, sizeof def);
     def.seed_extents = tl_vec3_make(2.0f, 4.0f, 2.0f);
+    def.cookie = TL_DEF_COOKIE;
     return def;
 }
 
-static tl_result check_def(const tl_nav_prune_def *def, tl_report *report)
+static tl_result check_prune_def(const tl_nav_prune_def *def, tl_report *report)
 {
     const tl_vec3 e = def->seed_extents;
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_nav_prune_def()", report));
+    if (def->seeds == NULL && def->seed_count > 0) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "seeds", "give points, or a seed_count of 0");
+    }
     if (!(e.x >= 0.0f && e.y >= 0.0f && e.z >= 0.0f) || !tl_is_finite(e)) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "seed_extents", TL_NO_ELEMENT, "give metres, 0 or more");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "seed_extents", "make them finite and >= 0");
     }
     if (!(def->min_area >= 0.0) || !isfinite(def->min_area)) {
-        return tl_report_fail(report, TL_ERR_ARGUMENT, "min_area", TL_NO_ELEMENT, "give square metres, 0 or more");
+        return tl_report_field(report, TL_ERR_ARGUMENT, "min_area", "make it finite and >= 0");
     }
     return TL_OK;
 }
@@ -64,7 +70,7 @@ static uint32_t island_number(const prune_job *job, uint32_t tile, uint32_t poly
     return number;
 }
 
-static tl_result assemble(prune_job *job, tl_report *report)
+static tl_result assemble_tiles(prune_job *job, tl_report *report)
 {
     TL_TRY(tl_navmesh_create(job->def->host.allocator, &job->navmesh));
     for (uint32_t i = 0; i < job->tiles->tile_count; i++) {
@@ -94,7 +100,7 @@ static tl_result measure_islands(prune_job *job)
     memset(job->islands, 0, (size_t)job->island_capacity * sizeof *job->islands);
     for (uint32_t t = 0; t < job->tiles->tile_count; t++) {
         for (uint32_t p = 0; p < job->tiles->tiles[t]->polygon_count; p++) {
-            island *i = &job->islands[island_number(job, t, p)];
+            prune_island *i = &job->islands[island_number(job, t, p)];
             job->report->island_count += i->polygons == 0;
             i->polygons++;
             i->area += tl_nav_tile_polygon_area(job->tiles->tiles[t], p);
@@ -103,14 +109,14 @@ static tl_result measure_islands(prune_job *job)
     return TL_OK;
 }
 
-static tl_result plant_seeds(prune_job *job, tl_report *report)
+static tl_result mark_seeded(prune_job *job, tl_report *report)
 {
     for (uint32_t s = 0; s < job->def->seed_count; s++) {
         tl_nav_location location;
         const tl_result result =
             tl_navmesh_find_nearest(job->navmesh, NULL, job->def->seeds[s], job->def->seed_extents, &location);
         if (result != TL_OK) {
-            return tl_report_fail(report, result, "seed", s,
+            return tl_report_fail(report, result == TL_NOT_FOUND ? TL_ERR_ARGUMENT : result, "seed", s,
                                   "give a point on the navmesh, or larger extents to look for it");
         }
         uint32_t number = 0;
@@ -123,7 +129,7 @@ static tl_result plant_seeds(prune_job *job, tl_report *report)
 // ---- Solids ----------------------------------------------------------------------------------------------------
 
 // Over the mean of the corners, which lies in the polygon.
-static tl_vec3 middle_of(const prune_job *job, uint32_t tile, uint32_t polygon)
+static tl_vec3 point_over(const prune_job *job, uint32_t tile, uint32_t polygon)
 {
     const tl_nav_tile *t = job->tiles->tiles[tile];
     uint32_t count = 0;
@@ -144,10 +150,10 @@ static tl_result look_inside(prune_job *job, tl_solids *solids)
     for (uint32_t t = 0; t < job->tiles->tile_count; t++) {
         TL_TRY(tl_progress_update(&job->def->host, "prune", t, job->tiles->tile_count));
         for (uint32_t p = 0; p < job->tiles->tiles[t]->polygon_count; p++) {
-            island *i = &job->islands[island_number(job, t, p)];
+            prune_island *i = &job->islands[island_number(job, t, p)];
             bool inside = false;
             if (!i->has_seed && !i->is_free) {
-                TL_TRY(tl_solids_hold(solids, middle_of(job, t, p), &inside));
+                TL_TRY(tl_solids_contain(solids, point_over(job, t, p), &inside));
             }
             i->is_free = !inside;
         }
@@ -158,7 +164,7 @@ static tl_result look_inside(prune_job *job, tl_solids *solids)
 static tl_result find_insides(prune_job *job, tl_report *report)
 {
     tl_solids solids;
-    tl_result result = tl_solids_make(job->def->solids, &job->def->host, &solids, report);
+    tl_result result = tl_solids_init(job->def->solids, &job->def->host, &solids, report);
     job->report->solid_count = solids.outward_count;
     if (result == TL_OK) {
         result = look_inside(job, &solids);
@@ -173,16 +179,16 @@ static void judge(prune_job *job)
 {
     tl_nav_pruned *sums[] = { NULL, &job->report->inside, &job->report->unreachable, &job->report->small };
     for (uint64_t n = 0; n < job->island_capacity; n++) {
-        island *i = &job->islands[n];
+        prune_island *i = &job->islands[n];
         if (i->polygons == 0 || i->has_seed) {
             continue;
         }
         const bool inside = job->def->solids != NULL && !i->is_free;
-        i->verdict = inside                         ? INSIDE
-                     : job->def->seed_count > 0     ? UNREACHABLE
-                     : i->area < job->def->min_area ? SMALL
-                                                    : KEPT;
-        if (i->verdict != KEPT) {
+        i->verdict = inside                         ? PRUNE_INSIDE
+                     : job->def->seed_count > 0     ? PRUNE_UNREACHABLE
+                     : i->area < job->def->min_area ? PRUNE_SMALL
+                                                    : PRUNE_KEPT;
+        if (i->verdict != PRUNE_KEPT) {
             tl_nav_pruned *sum = sums[i->verdict];
             sum->islands++;
             sum->polygons += i->polygons;
@@ -191,22 +197,22 @@ static void judge(prune_job *job)
     }
 }
 
-static tl_result remake_tile(prune_job *job, uint32_t t, uint8_t *keep, tl_report *report)
+static tl_result rebake_tile(prune_job *job, uint32_t t, uint8_t *keep, tl_report *report)
 {
     const tl_nav_tile *tile = job->tiles->tiles[t];
     uint32_t kept = 0;
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
-        keep[p] = job->islands[island_number(job, t, p)].verdict == KEPT;
+        keep[p] = job->islands[island_number(job, t, p)].verdict == PRUNE_KEPT;
         kept += keep[p];
     }
     job->gone[t] = kept == 0;
     if (kept == 0 || kept == tile->polygon_count) {
         return TL_OK;
     }
-    return tl_nav_tile_subset(tile, keep, job->def->host.allocator, &job->remade[t], report);
+    return tl_nav_tile_subset(tile, keep, job->def->host.allocator, &job->rebaked[t], report);
 }
 
-static tl_result remake_tiles(prune_job *job, tl_report *report)
+static tl_result rebake_tiles(prune_job *job, tl_report *report)
 {
     const tl_allocator *allocator = job->def->host.allocator;
     const uint32_t count = job->tiles->tile_count;
@@ -214,15 +220,15 @@ static tl_result remake_tiles(prune_job *job, tl_report *report)
     for (uint32_t t = 0; t < count; t++) {
         most = job->tiles->tiles[t]->polygon_count > most ? job->tiles->tiles[t]->polygon_count : most;
     }
-    job->remade = tl_allocate_array(allocator, count, sizeof(*job->remade));
+    job->rebaked = tl_allocate_array(allocator, count, sizeof(*job->rebaked));
     job->gone = tl_allocate_array(allocator, count, sizeof *job->gone);
     uint8_t *keep = tl_allocate_array(allocator, most, sizeof *keep);
-    tl_result result = job->remade != NULL && job->gone != NULL && keep != NULL ? TL_OK : TL_ERR_MEMORY;
-    if (job->remade != NULL) {
-        memset(job->remade, 0, count * sizeof(*job->remade));
+    tl_result result = job->rebaked != NULL && job->gone != NULL && keep != NULL ? TL_OK : TL_ERR_MEMORY;
+    if (job->rebaked != NULL) {
+        memset(job->rebaked, 0, count * sizeof(*job->rebaked));
     }
     for (uint32_t t = 0; result == TL_OK && t < count; t++) {
-        result = remake_tile(job, t, keep, report);
+        result = rebake_tile(job, t, keep, report);
     }
     tl_release_array(allocator, keep, most, sizeof *keep);
     return result;
@@ -235,7 +241,7 @@ static tl_result replace_tiles(prune_job *job)
     const tl_allocator *allocator = tiles->tiles != NULL ? &tiles->allocator : job->def->host.allocator;
     for (uint32_t t = 0; t < tiles->tile_count; t++) {
         job->report->removed_tiles += job->gone[t];
-        job->report->changed_tiles += job->remade[t] != NULL;
+        job->report->changed_tiles += job->rebaked[t] != NULL;
     }
     tl_nav_tile **left = tl_allocate_array(allocator, tiles->tile_count - job->report->removed_tiles, sizeof(*left));
     if (left == NULL) {
@@ -244,10 +250,10 @@ static tl_result replace_tiles(prune_job *job)
     uint32_t count = 0;
     for (uint32_t t = 0; t < tiles->tile_count; t++) {
         tl_nav_tile *tile = tiles->tiles[t];
-        if (job->gone[t] || job->remade[t] != NULL) {
+        if (job->gone[t] || job->rebaked[t] != NULL) {
             tl_blob_free(tile);
-            tile = job->remade[t];
-            job->remade[t] = NULL;
+            tile = job->rebaked[t];
+            job->rebaked[t] = NULL;
         }
         if (tile != NULL) {
             left[count++] = tile;
@@ -262,16 +268,16 @@ static tl_result replace_tiles(prune_job *job)
 
 static tl_result prune(prune_job *job, tl_report *report)
 {
-    TL_TRY(check_def(job->def, report));
-    TL_TRY(assemble(job, report));
+    TL_TRY(check_prune_def(job->def, report));
+    TL_TRY(assemble_tiles(job, report));
     TL_TRY(measure_islands(job));
-    TL_TRY(plant_seeds(job, report));
+    TL_TRY(mark_seeded(job, report));
     if (job->def->solids != NULL) {
         TL_TRY(find_insides(job, report));
     }
     judge(job);
     tl_report_begin(report, "prune");
-    TL_TRY(remake_tiles(job, report));
+    TL_TRY(rebake_tiles(job, report));
     TL_TRY(tl_progress_update(&job->def->host, "prune", job->tiles->tile_count, job->tiles->tile_count));
     tl_navmesh_destroy(job->navmesh); // it looks at its tiles to the last
     job->navmesh = NULL;
@@ -280,22 +286,26 @@ static tl_result prune(prune_job *job, tl_report *report)
 
 tl_result tl_nav_prune(const tl_nav_prune_def *def, tl_nav_tiles *tiles, tl_nav_prune_report *report_out)
 {
+    const tl_nav_prune_def default_def = tl_default_nav_prune_def();
     tl_nav_prune_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "prune");
     prune_job job;
     memset(&job, 0, sizeof job);
-    job.def = def;
+    job.def = def != NULL ? def : &default_def;
     job.tiles = tiles;
     job.report = &report;
-    const uint32_t count = tiles->tile_count;
-    const tl_result result = prune(&job, &report.base);
-    for (uint32_t t = 0; job.remade != NULL && t < count; t++) {
-        tl_blob_free(job.remade[t]);
+    const uint32_t count = tiles != NULL ? tiles->tile_count : 0;
+    const tl_result result = tiles != NULL
+                                 ? prune(&job, &report.base)
+                                 : tl_report_field(&report.base, TL_ERR_ARGUMENT, "tiles", "it may not be NULL");
+    for (uint32_t t = 0; job.rebaked != NULL && t < count; t++) {
+        tl_blob_free(job.rebaked[t]);
     }
-    tl_release_array(def->host.allocator, job.remade, count, sizeof(*job.remade));
-    tl_release_array(def->host.allocator, job.gone, count, sizeof *job.gone);
-    tl_release_array(def->host.allocator, job.islands, job.island_capacity, sizeof *job.islands);
+    const tl_allocator *allocator = job.def->host.allocator;
+    tl_release_array(allocator, job.rebaked, count, sizeof(*job.rebaked));
+    tl_release_array(allocator, job.gone, count, sizeof *job.gone);
+    tl_release_array(allocator, job.islands, job.island_capacity, sizeof *job.islands);
     tl_navmesh_destroy(job.navmesh);
     if (report_out != NULL) {
         *report_out = report;

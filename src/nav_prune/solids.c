@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// A point inside a solid: a ray straight up passes the surfaces of all closed parts around the point; those that it
-// leaves once more than it enters hold the point, and of these the smallest decides. So the inside of a pillar in a
-// room is solid, and a cave inside a mountain is not, however the two are wound; parts that cut through each other are
-// asked one by one. Passages through edges and corners are counted exactly (soup.h).
+// Whether a point is inside a solid, by winding numbers: a ray straight up crosses the surfaces of all closed parts
+// around the point; the parts that it leaves more often than it enters contain the point, and the smallest of them
+// decides. So the inside of a pillar in a room is solid, and a cave inside a mountain is not; parts that intersect are
+// counted separately. Crossings at edges and corners are counted exactly (TL_HITS_CROSSED of soup.h).
 //
-// Rejected: one winding number for all. A room (-1) around a pillar (+1) adds up to the same 0 as a mountain around a
-// cave. Rejected: the side of the first surface that the ray meets. Where a pillar stands in the room's floor, that may
-// be either's.
+// Rejected: one winding number for all parts. A room (-1) around a pillar (+1) adds up to the same 0 as a mountain
+// around a cave. Rejected: the side of the first surface that the ray meets. Where a pillar stands in the room's floor,
+// that may be either's.
 
 #include "nav_prune/solids.h"
 
@@ -38,7 +38,7 @@ static tl_result collect_triangles(const tl_mesh_view *mesh, tl_solids *s)
     return TL_OK;
 }
 
-tl_result tl_solids_make(const tl_mesh_view *mesh, const tl_host *host, tl_solids *solids_out, tl_report *report)
+tl_result tl_solids_init(const tl_mesh_view *mesh, const tl_host *host, tl_solids *solids_out, tl_report *report)
 {
     tl_solids *s = solids_out;
     memset(s, 0, sizeof *s);
@@ -78,7 +78,7 @@ void tl_solids_free(tl_solids *s)
     memset(s, 0, sizeof *s);
 }
 
-static tl_result make_room(tl_solids *s, uint32_t count)
+static tl_result grow_hits(tl_solids *s, uint32_t count)
 {
     tl_release_array(s->allocator, s->hits, s->hit_capacity, sizeof *s->hits);
     s->hit_capacity = 0;
@@ -96,14 +96,14 @@ static tl_result cast_up(tl_solids *s, tl_vec3 point, uint32_t *count_out)
     tl_result result =
         tl_soup_cast_ray_all(s->soup, &ray, TL_HITS_CROSSED, NULL, s->hits, (uint32_t)s->hit_capacity, count_out);
     if (result == TL_INCOMPLETE) {
-        TL_TRY(make_room(s, *count_out));
+        TL_TRY(grow_hits(s, *count_out));
         result =
             tl_soup_cast_ray_all(s->soup, &ray, TL_HITS_CROSSED, NULL, s->hits, (uint32_t)s->hit_capacity, count_out);
     }
     return result;
 }
 
-tl_result tl_solids_hold(tl_solids *s, tl_vec3 point, bool *inside_out)
+tl_result tl_solids_contain(tl_solids *s, tl_vec3 point, bool *inside_out)
 {
     *inside_out = false;
     if (s->soup == NULL) {

@@ -8,7 +8,7 @@
 #include <talus/mesh.h>
 #include <talus/soup.h>
 
-/// The closed parts of a mesh, ready for points. Zero holds none; free with tl_solids_free.
+/// The closed parts of a mesh, ready for queries. Zeroed: no part; free with tl_solids_free.
 typedef struct tl_solids {
     tl_closed_parts parts;
     tl_soup *soup;     ///< of the closed parts' triangles; NULL: there is none
@@ -23,10 +23,10 @@ typedef struct tl_solids {
 } tl_solids;
 
 /// TL_ERR_MEMORY, TL_ERR_LIMIT, TL_ERR_CANCELLED; the soup's other errors name the vertex. Free also then.
-tl_result tl_solids_make(const tl_mesh_view *mesh, const tl_host *host, tl_solids *solids_out, tl_report *report);
+tl_result tl_solids_init(const tl_mesh_view *mesh, const tl_host *host, tl_solids *solids_out, tl_report *report);
 void tl_solids_free(tl_solids *solids);
 
-/// Not for several threads at a time. TL_ERR_MEMORY.
-tl_result tl_solids_hold(tl_solids *solids, tl_vec3 point, bool *inside_out);
+/// One thread at a time: it uses the scratch above. TL_ERR_MEMORY.
+tl_result tl_solids_contain(tl_solids *solids, tl_vec3 point, bool *inside_out);
 
 #endif

@@ -145,7 +145,7 @@ static void test_limits(void **state)
     tl_nav_links *links;
     tl_nav_links_report report;
     tl_nav_links_def def = tl_default_nav_links_def();
-    def.least_gain = 0.5f;
+    def.min_gain = 0.5f;
     TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, &report), TL_ERR_ARGUMENT);
     TEST_CHECK(links == NULL && report.base.advice != NULL);
     def = tl_default_nav_links_def();
@@ -185,14 +185,14 @@ static void test_hosts(void **state)
     tl_nav_links_def def = tl_default_nav_links_def();
     tl_nav_links *first, *second;
     TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &first, NULL), TL_OK);
-    def.host = &host;
+    def.host = host;
     TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &second, NULL), TL_OK);
     TEST_CHECK(first->blob.size == second->blob.size && memcmp(first, second, first->blob.size) == 0);
     static char stages[3][16] = { "ledges", "sweeps", "selection" };
     for (int i = 0; i < 3; i++) {
         tl_progress progress = { stop_late, stages[i] };
         tl_host stopped = { NULL, NULL, &progress };
-        def.host = &stopped;
+        def.host = stopped;
         tl_nav_links *links;
         TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, NULL), TL_ERR_CANCELLED);
         TEST_CHECK(links == NULL);
@@ -214,7 +214,7 @@ static void test_failing_memory(void **state)
         test_allocator_init(&memory, fail_at);
         tl_host host = { &memory.allocator, NULL, NULL };
         tl_nav_links_def def = tl_default_nav_links_def();
-        def.host = &host;
+        def.host = host;
         def.spacing = 2.0f;
         tl_nav_links *links;
         result = tl_nav_links_find(&def, level.navmesh, level.soup, &links, NULL);
@@ -266,17 +266,17 @@ static void test_damage(void **state)
 static void test_points(void **state)
 {
     (void)state;
-    tl_nav_found_link jump = { { 1, 2, 3 }, { 4, 1.5f, 7 }, 0.75f, TL_NAV_LINK_JUMP, 1, 0 };
+    tl_nav_jump_link jump = { { 1, 2, 3 }, { 4, 1.5f, 7 }, 0.75f, TL_NAV_LINK_JUMP, 1, 0 };
     float highest = 0.0f;
     for (int i = 0; i <= 1000; i++) {
-        tl_vec3 p = tl_nav_found_link_point(&jump, (float)i / 1000.0f);
+        tl_vec3 p = tl_nav_jump_link_point(&jump, (float)i / 1000.0f);
         highest = fmaxf(highest, p.y);
     }
     TEST_CHECK(fabsf(highest - 2.75f) < 1e-4f);
-    TEST_CHECK(tl_distance(tl_nav_found_link_point(&jump, 0.999f), jump.end) < 0.02f);
-    tl_nav_found_link drop = { { 0, 3, 0 }, { 1, 0, 0 }, 0.0f, TL_NAV_LINK_DROP, 0, 0 };
-    TEST_CHECK(tl_distance(tl_nav_found_link_point(&drop, 0.25f), tl_vec3_make(1, 3, 0)) < 1e-6f);
-    TEST_CHECK(tl_distance(tl_nav_found_link_point(&drop, 0.5f), tl_vec3_make(1, 2, 0)) < 1e-6f);
+    TEST_CHECK(tl_distance(tl_nav_jump_link_point(&jump, 0.999f), jump.end) < 0.02f);
+    tl_nav_jump_link drop = { { 0, 3, 0 }, { 1, 0, 0 }, 0.0f, TL_NAV_LINK_DROP, 0, 0 };
+    TEST_CHECK(tl_distance(tl_nav_jump_link_point(&drop, 0.25f), tl_vec3_make(1, 3, 0)) < 1e-6f);
+    TEST_CHECK(tl_distance(tl_nav_jump_link_point(&drop, 0.5f), tl_vec3_make(1, 2, 0)) < 1e-6f);
 }
 
 int main(void)

@@ -33,12 +33,12 @@ bool test_triangle(const tl_soup_triangle *triangle, void *user)
     return !s->touches;
 }
 
-double way_length(const tl_nav_found_link &link)
+double way_length(const tl_nav_jump_link &link)
 {
     double length = 0.0;
     tl_vec3 from = link.start;
     for (int i = 1; i <= 64; i++) {
-        tl_vec3 to = tl_nav_found_link_point(&link, (float)i / 64.0f);
+        tl_vec3 to = tl_nav_jump_link_point(&link, (float)i / 64.0f);
         length += (double)tl_distance(from, to);
         from = to;
     }
@@ -46,10 +46,10 @@ double way_length(const tl_nav_found_link &link)
 }
 
 // Steps that touched a triangle.
-uint64_t walk(const tl_soup *soup, const tl_nav_links *links, const tl_nav_found_link &link, uint64_t *steps)
+uint64_t walk(const tl_soup *soup, const tl_nav_links *links, const tl_nav_jump_link &link, uint64_t *steps)
 {
     const double STEP = 0.01;
-    float lift = fminf(links->agent_lift, links->agent_height - 2.0f * links->agent_radius);
+    float lift = fminf(links->agent_max_climb, links->agent_height - 2.0f * links->agent_radius);
     float low = fmaxf(lift, 0.0f) + links->agent_radius;
     float high = fmaxf(links->agent_height - links->agent_radius, low);
     step s = { tl_convex_capsule(tl_vec3_make(0, low, 0), tl_vec3_make(0, high, 0), links->agent_radius),
@@ -57,7 +57,7 @@ uint64_t walk(const tl_soup *soup, const tl_nav_links *links, const tl_nav_found
     uint32_t count = (uint32_t)(way_length(link) / STEP) + 2;
     uint64_t touched = 0;
     for (uint32_t i = 0; i <= count; i++) {
-        s.pose.position = tl_nav_found_link_point(&link, (float)i / (float)count);
+        s.pose.position = tl_nav_jump_link_point(&link, (float)i / (float)count);
         s.touches = false;
         tl_soup_triangles_in_box(soup, tl_convex_bounds(&s.capsule, s.pose), test_triangle, &s);
         touched += s.touches;
@@ -73,7 +73,7 @@ bool is_on_navmesh(const tl_navmesh *navmesh, tl_vec3 point)
 }
 
 // Whether the shortest path between its ends, now that all links are in, is no longer than the link.
-bool is_used(const tl_navmesh *navmesh, tl_nav_query *query, const tl_nav_found_link &link)
+bool is_used(const tl_navmesh *navmesh, tl_nav_query *query, const tl_nav_jump_link &link)
 {
     tl_nav_location ends[2];
     tl_vec3 near_by = tl_vec3_make(0.01f, 0.01f, 0.01f);
@@ -88,7 +88,7 @@ bool is_used(const tl_navmesh *navmesh, tl_nav_query *query, const tl_nav_found_
 
 void check_links(const tl_navmesh *navmesh, const tl_soup *soup, const tl_nav_links *links, uint64_t *steps)
 {
-    const tl_nav_found_link *at = tl_nav_links_at(links);
+    const tl_nav_jump_link *at = tl_nav_links_array(links);
     for (uint32_t i = 0; i < links->link_count; i++) {
         TEST_CHECK(is_on_navmesh(navmesh, at[i].start) && is_on_navmesh(navmesh, at[i].end));
         uint64_t touched = walk(soup, links, at[i], steps);
@@ -129,7 +129,7 @@ void prove_level(const level &l, uint64_t kinds_out[TL_NAV_LINK_KINDS])
     tl_nav_query *query;
     TEST_RESULT(tl_nav_query_create(&query_def, &query), TL_OK);
     for (uint32_t i = 0; i < links->link_count; i++) {
-        used += is_used(navmesh, query, tl_nav_links_at(links)[i]);
+        used += is_used(navmesh, query, tl_nav_links_array(links)[i]);
     }
     TEST_CHECK(used == links->link_count);
     std::printf("%-18s %5u places: %u links (%u drops, %u jumps, %u climbs), 0 of %llu steps touch a triangle\n",

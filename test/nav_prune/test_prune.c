@@ -200,7 +200,7 @@ static void what_is_wrong_is_named(void **state)
     tl_nav_prune_report report;
     def.seeds = seeds;
     def.seed_count = 2;
-    TEST_RESULT(tl_nav_prune(&def, &tiles, &report), TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_prune(&def, &tiles, &report), TL_ERR_ARGUMENT);
     TEST_CHECK(report.base.element_index == 1);
     assert_string_equal(report.base.element, "seed");
     def.seed_count = 0;
@@ -211,7 +211,7 @@ static void what_is_wrong_is_named(void **state)
     def.min_area = 0.0;
     def.seed_extents.y = -1.0f;
     TEST_RESULT(tl_nav_prune(&def, &tiles, &report), TL_ERR_ARGUMENT);
-    assert_string_equal(report.base.element, "seed_extents");
+    assert_string_equal(report.base.field, "seed_extents");
     def = tl_default_nav_prune_def();
     tl_nav_tile *twice[2] = { tiles.tiles[0], tiles.tiles[0] };
     tl_nav_tiles same = { .tiles = twice, .tile_count = 2, .tiles_x = 1, .tiles_z = 1 };

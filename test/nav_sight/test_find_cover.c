@@ -42,26 +42,26 @@ static void tear_down(yard *y)
     tl_blob_free(y->soup);
 }
 
-static bool is_hidden(const yard *y, const tl_nav_cover_def *def, tl_vec3 place)
+static bool is_hidden(const yard *y, tl_vec3 threat, const tl_nav_cover_def *def, tl_vec3 place)
 {
     bool hidden = true;
     for (uint32_t i = 0; i < def->height_count; i++) {
         const tl_vec3 part = { place.x, place.y + def->heights[i], place.z };
-        hidden = hidden && !tl_soup_line_of_sight(y->soup, def->threat, part, NULL);
+        hidden = hidden && !tl_soup_line_of_sight(y->soup, threat, part, NULL);
     }
     return hidden;
 }
 
-// The length of the way to a place if it is hidden and near enough, else INFINITY.
-static float rate(const yard *y, const tl_nav_location *agent, const tl_nav_cover_def *def,
+// The length of the path to a place if it is hidden and near enough, else INFINITY.
+static float rate(const yard *y, const tl_nav_cover_request *request, const tl_nav_cover_def *def,
                   const tl_nav_location *place)
 {
     tl_nav_shortest_path path;
-    if (!is_hidden(y, def, place->point)) {
+    if (!is_hidden(y, request->threat, def, place->point)) {
         return INFINITY;
     }
-    TEST_RESULT(tl_nav_query_find_shortest_path(y->query, y->navmesh, &(tl_nav_path_request){ NULL, *agent, *place },
-                                                NULL, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(y->query, y->navmesh,
+                                                &(tl_nav_path_request){ NULL, request->agent, *place }, NULL, &path),
                 TL_OK);
     const bool near = path.status == TL_NAV_PATH_COMPLETE && (float)path.length <= def->max_length;
     return near ? (float)path.length : INFINITY;
@@ -78,17 +78,17 @@ static void insert(float *lengths, uint32_t capacity, float length)
     }
 }
 
-enum { MOST = 5 };
+enum { MAX_COVERS = 5 };
 
 // The lengths of the nearest places, by looking at every place of the grid, low and high.
-static uint32_t search_all(const yard *y, const tl_nav_location *agent, const tl_nav_cover_def *def, float *lengths,
-                           uint32_t *upstairs)
+static uint32_t search_all(const yard *y, const tl_nav_cover_request *request, const tl_nav_cover_def *def,
+                           float *lengths, uint32_t *upstairs)
 {
     uint32_t found = 0;
-    for (uint32_t i = 0; i < MOST; i++) {
+    for (uint32_t i = 0; i < MAX_COVERS; i++) {
         lengths[i] = INFINITY;
     }
-    insert(lengths, MOST, rate(y, agent, def, agent));
+    insert(lengths, MAX_COVERS, rate(y, request, def, &request->agent));
     for (int x = 0; x <= (int)(30.0f / def->spacing); x++) {
         for (int z = 0; z <= (int)(30.0f / def->spacing); z++) {
             for (int floor = 0; floor < 2; floor++) {
@@ -98,14 +98,14 @@ static uint32_t search_all(const yard *y, const tl_nav_location *agent, const tl
                 const tl_vec3 half = { 0.0f, 1.4f, 0.0f };
                 if (tl_navmesh_find_nearest(y->navmesh, NULL, at, half, &place) == TL_OK &&
                     (floor == 0) == (place.point.y < 1.6f)) {
-                    const float length = rate(y, agent, def, &place);
-                    insert(lengths, MOST, length);
+                    const float length = rate(y, request, def, &place);
+                    insert(lengths, MAX_COVERS, length);
                     *upstairs += floor == 1 && length < INFINITY;
                 }
             }
         }
     }
-    while (found < MOST && lengths[found] < INFINITY) {
+    while (found < MAX_COVERS && lengths[found] < INFINITY) {
         found++;
     }
     return found;
@@ -125,20 +125,21 @@ static void the_nearest_places_are_found(void **state)
             if (tl_navmesh_find_nearest(y.navmesh, NULL, wish, tl_vec3_make(2, 1, 2), &agent) != TL_OK) {
                 continue;
             }
-            tl_nav_cover_def def = tl_default_nav_cover_def(
-                test_random_point(&random, tl_vec3_make(0, 1.5f, 0), tl_vec3_make(30, k % 3 == 0 ? 8.0f : 2.0f, 30)));
+            const tl_vec3 threat =
+                test_random_point(&random, tl_vec3_make(0, 1.5f, 0), tl_vec3_make(30, k % 3 == 0 ? 8.0f : 2.0f, 30));
+            const tl_nav_cover_request request = { y.navmesh, y.soup, NULL, agent, threat };
+            tl_nav_cover_def def = tl_default_nav_cover_def();
             def.spacing = test_random_range(&random, 1.1f, 2.5f);
             def.max_length = k == 5 ? 3.0f : 25.0f;
-            float lengths[MOST];
-            tl_nav_cover covers[MOST];
+            float lengths[MAX_COVERS];
+            tl_nav_cover covers[MAX_COVERS];
             uint32_t count;
-            const uint32_t expected = search_all(&y, &agent, &def, lengths, &upstairs);
-            TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, covers, MOST, &count),
-                        TL_OK);
+            const uint32_t expected = search_all(&y, &request, &def, lengths, &upstairs);
+            TEST_RESULT(tl_nav_query_find_cover(y.query, &request, &def, covers, MAX_COVERS, &count), TL_OK);
             assert_int_equal(count, expected);
             for (uint32_t i = 0; i < count; i++) {
                 TEST_CHECK(covers[i].length == lengths[i]);
-                TEST_CHECK(rate(&y, &agent, &def, &covers[i].location) == covers[i].length);
+                TEST_CHECK(rate(&y, &request, &def, &covers[i].location) == covers[i].length);
             }
             found += count;
             none += count == 0;
@@ -159,23 +160,20 @@ static void bad_arguments(void **state)
     TEST_RESULT(tl_navmesh_find_nearest(y.navmesh, NULL, tl_vec3_make(3, 0, 3), tl_vec3_make(2, 1, 2), &agent), TL_OK);
     tl_nav_cover cover;
     uint32_t count;
-    tl_nav_cover_def def = tl_default_nav_cover_def(tl_vec3_make(15, 2, 15));
-    TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, NULL, 0, &count), TL_OK);
+    tl_nav_cover_request request = { y.navmesh, y.soup, NULL, agent, tl_vec3_make(15, 2, 15) };
+    tl_nav_cover_def def = tl_default_nav_cover_def();
+    TEST_RESULT(tl_nav_query_find_cover(y.query, &request, &def, NULL, 0, &count), TL_OK);
     def.spacing = 0.0f;
-    TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, &cover, 1, &count),
-                TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_query_find_cover(y.query, &request, &def, &cover, 1, &count), TL_ERR_ARGUMENT);
     def.spacing = 1.0f;
     def.height_count = TL_NAV_MAX_COVER_HEIGHTS + 1;
-    TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, &cover, 1, &count),
-                TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_query_find_cover(y.query, &request, &def, &cover, 1, &count), TL_ERR_ARGUMENT);
     def.height_count = 1;
-    def.threat.x = NAN;
-    TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, &cover, 1, &count),
-                TL_ERR_NOT_FINITE);
-    def.threat.x = 0.0f;
-    agent.polygon = 77;
-    TEST_RESULT(tl_nav_query_find_cover(y.query, y.navmesh, y.soup, NULL, &agent, &def, &cover, 1, &count),
-                TL_NOT_FOUND);
+    request.threat.x = NAN;
+    TEST_RESULT(tl_nav_query_find_cover(y.query, &request, &def, &cover, 1, &count), TL_ERR_NOT_FINITE);
+    request.threat.x = 0.0f;
+    request.agent.polygon = 77;
+    TEST_RESULT(tl_nav_query_find_cover(y.query, &request, &def, &cover, 1, &count), TL_ERR_STALE);
     tear_down(&y);
 }
 

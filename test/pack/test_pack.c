@@ -202,7 +202,7 @@ static void test_meta(void **state)
     (void)state;
     tl_aabb bounds = { { -1, -2, -3 }, { 4, 5, 6 } };
     tl_pack_meta *meta = NULL;
-    TEST_RESULT(tl_pack_meta_encode("level.obj", 123, 456, bounds, NULL, &meta), TL_OK);
+    TEST_RESULT(tl_pack_meta_encode("level.obj", 123, 456, bounds, NULL, &meta, NULL), TL_OK);
     TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size, NULL), TL_OK);
     TEST_CHECK(strcmp(tl_pack_meta_name(meta), "level.obj") == 0 && meta->source_triangles == 456);
     TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size - 64, NULL), TL_ERR_TRUNCATED);
@@ -211,32 +211,30 @@ static void test_meta(void **state)
     meta->name_size = 8;
     TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size, NULL), TL_ERR_CORRUPT);
     tl_blob_free(meta);
-    TEST_RESULT(tl_pack_meta_encode(NULL, 0, 0, bounds, NULL, &meta), TL_OK);
+    TEST_RESULT(tl_pack_meta_encode(NULL, 0, 0, bounds, NULL, &meta, NULL), TL_OK);
     TEST_CHECK(tl_pack_meta_name(meta)[0] == 0);
     TEST_RESULT(tl_pack_meta_check(meta, meta->blob.size, NULL), TL_OK);
     tl_blob_free(meta);
     char *long_name = malloc(70000);
     memset(long_name, 'a', 69999);
     long_name[69999] = 0;
-    TEST_RESULT(tl_pack_meta_encode(long_name, 0, 0, bounds, NULL, &meta), TL_ERR_LIMIT);
+    TEST_RESULT(tl_pack_meta_encode(long_name, 0, 0, bounds, NULL, &meta, NULL), TL_ERR_LIMIT);
     free(long_name);
 }
 
 static void test_navmesh_settings(void **state)
 {
     (void)state;
-    tl_nav_def def;
-    memset(&def, 0, sizeof def);
-    def.cell_size = 0.3f;
-    def.cell_height = 0.2f;
-    def.max_verts_per_poly = 6;
-    def.filter_ledge_spans = true;
+    tl_nav_def def = tl_default_nav_def();
+    def.filter_low_hanging_obstacles = false;
+    def.filter_walkable_low_height_spans = false;
     def.partition = TL_NAV_MONOTONE;
     def.polygon_method = TL_PARTITION_OPTIMAL;
     def.tile_size = 48;
-    tl_aabb bounds = { { -1, -2, -3 }, { 4, 5, 6 } };
+    def.bounds.min = tl_vec3_make(-1, -2, -3);
+    def.bounds.max = tl_vec3_make(4, 5, 6);
     tl_pack_navmesh *settings = NULL;
-    TEST_RESULT(tl_pack_navmesh_encode(&def, bounds, 4, 3, 11, NULL, &settings), TL_OK);
+    TEST_RESULT(tl_pack_navmesh_encode(&def, 4, 3, 11, NULL, &settings, NULL), TL_OK);
     TEST_RESULT(tl_pack_navmesh_check(settings, settings->blob.size, NULL), TL_OK);
     TEST_CHECK(settings->filters == 2 && settings->partition == TL_NAV_MONOTONE && settings->tile_size == 48);
     TEST_CHECK(tl_pack_navmesh_def(settings).polygon_method == TL_PARTITION_OPTIMAL);
@@ -269,7 +267,7 @@ static void test_marks(void **state)
     volumes[2].radius = 2;
     volumes[2].height = 1;
     tl_pack_volumes *marks = NULL;
-    TEST_RESULT(tl_pack_volumes_encode(volumes, 3, NULL, &marks), TL_OK);
+    TEST_RESULT(tl_pack_volumes_encode(volumes, 3, NULL, &marks, NULL), TL_OK);
     const uint64_t size = marks->blob.size;
     TEST_RESULT(tl_pack_volumes_check(marks, size, NULL), TL_OK);
     for (uint32_t i = 0; i < 3; i++) {
@@ -303,8 +301,8 @@ static void test_marks(void **state)
     TEST_CHECK(refused > 1000 && refused < size * 8);
     tl_blob_free(marks);
     volumes[2].radius = NAN;
-    TEST_RESULT(tl_pack_volumes_encode(volumes, 3, NULL, &marks), TL_ERR_NOT_FINITE);
-    TEST_RESULT(tl_pack_volumes_encode(NULL, 0, NULL, &marks), TL_OK);
+    TEST_RESULT(tl_pack_volumes_encode(volumes, 3, NULL, &marks, NULL), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_pack_volumes_encode(NULL, 0, NULL, &marks, NULL), TL_OK);
     TEST_RESULT(tl_pack_volumes_check(marks, marks->blob.size, NULL), TL_OK);
     tl_blob_free(marks);
 }

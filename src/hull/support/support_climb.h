@@ -80,7 +80,7 @@ static inline bool tl_hull_climb_blocks(const tl_hull *hull, const tl_climber *c
     const tl_climb_block *blocks = tl_hull_blocks(hull);
     for (;;) {
         uint32_t next = *vertex;
-        float least_gain = 0.0f;
+        float min_gain = 0.0f;
         bool open = false;
         for (uint32_t at = *vertex; at != TL_NO_VERTEX; at = tl_climb_block_after(&blocks[at])) {
             tl_climb_gains g = tl_climber_ask(c, &blocks[at]);
@@ -89,8 +89,8 @@ static inline bool tl_hull_climb_blocks(const tl_hull *hull, const tl_climber *c
             }
             open = true;
             tl_f32x8 certain = tl_f32x8_sub(g.gain, g.error), best = tl_f32x8_largest(certain);
-            if (tl_f32x8_first(best) > least_gain) {
-                least_gain = tl_f32x8_first(best);
+            if (tl_f32x8_first(best) > min_gain) {
+                min_gain = tl_f32x8_first(best);
                 next = blocks[at].link[tl_lowest_bit(tl_f32x8_not_less(certain, best))];
             }
         }

@@ -65,7 +65,7 @@ static uint32_t samples_of(const tl_navmesh *navmesh, tl_nav_ref ref, float eye,
     return count + 1;
 }
 
-static bool see_each_other(const rooms *r, tl_nav_ref a, tl_nav_ref b, const tl_nav_sight_def *def)
+static bool see_each_other(const rooms *r, tl_nav_ref a, tl_nav_ref b, const tl_nav_pvs_def *def)
 {
     tl_vec3 from[TL_NAV_MAX_CORNERS + 1], to[TL_NAV_MAX_CORNERS + 1];
     const uint32_t n = samples_of(r->navmesh, a, def->eye_height, from);
@@ -98,20 +98,20 @@ static void equals_lines_cast_one_by_one(void **state)
     for (int round = 0; round < 3; round++) {
         rooms r;
         set_up(&r, round == 0 ? 0 : 24);
-        tl_nav_sight_def def = tl_default_nav_sight_def();
+        tl_nav_pvs_def def = tl_default_nav_pvs_def();
         def.max_distance = round == 2 ? 7.0f : INFINITY;
-        tl_nav_sight *sight;
-        TEST_RESULT(tl_nav_sight_bake(&def, r.navmesh, r.soup, &sight, NULL), TL_OK);
-        TEST_RESULT(tl_nav_sight_check(sight, sight->blob.size, NULL), TL_OK);
+        tl_nav_pvs *sight;
+        TEST_RESULT(tl_nav_pvs_bake(&def, r.navmesh, r.soup, &sight, NULL), TL_OK);
+        TEST_RESULT(tl_nav_pvs_check(sight, sight->blob.size, NULL), TL_OK);
         static tl_nav_ref refs[4096], listed[4096];
         const uint32_t count = list_refs(r.navmesh, refs);
         uint32_t seen_pairs = 0, hidden_pairs = 0;
         for (uint32_t a = 0; a < count; a++) {
             uint32_t from_a = 0, expected = 0;
-            TEST_RESULT(tl_nav_sight_seen_from(sight, r.navmesh, refs[a], listed, 4096, &from_a), TL_OK);
+            TEST_RESULT(tl_nav_pvs_seen_from(sight, r.navmesh, refs[a], listed, 4096, &from_a), TL_OK);
             for (uint32_t b = 0; b < count; b++) {
                 bool seen;
-                TEST_RESULT(tl_nav_sight_between(sight, r.navmesh, refs[a], refs[b], &seen), TL_OK);
+                TEST_RESULT(tl_nav_pvs_sees(sight, r.navmesh, refs[a], refs[b], &seen), TL_OK);
                 assert_int_equal(seen, see_each_other(&r, refs[a], refs[b], &def));
                 TEST_CHECK(!seen || listed[expected] == refs[b]);
                 expected += seen;
@@ -120,7 +120,7 @@ static void equals_lines_cast_one_by_one(void **state)
             }
             assert_int_equal(expected, from_a);
             if (expected > 1) {
-                TEST_RESULT(tl_nav_sight_seen_from(sight, r.navmesh, refs[a], listed, 1, &from_a), TL_INCOMPLETE);
+                TEST_RESULT(tl_nav_pvs_seen_from(sight, r.navmesh, refs[a], listed, 1, &from_a), TL_INCOMPLETE);
                 assert_int_equal(from_a, expected);
             }
         }
@@ -144,20 +144,20 @@ static void any_host_gives_the_same_bytes(void **state)
     rooms r;
     set_up(&r, 24);
     const tl_tasks tasks = { run_backwards, 3, NULL };
-    tl_nav_sight_def def = tl_default_nav_sight_def();
-    tl_nav_sight *one, *three;
-    TEST_RESULT(tl_nav_sight_bake(&def, r.navmesh, r.soup, &one, NULL), TL_OK);
+    tl_nav_pvs_def def = tl_default_nav_pvs_def();
+    tl_nav_pvs *one, *three;
+    TEST_RESULT(tl_nav_pvs_bake(&def, r.navmesh, r.soup, &one, NULL), TL_OK);
     def.host.tasks = &tasks;
-    TEST_RESULT(tl_nav_sight_bake(&def, r.navmesh, r.soup, &three, NULL), TL_OK);
+    TEST_RESULT(tl_nav_pvs_bake(&def, r.navmesh, r.soup, &three, NULL), TL_OK);
     assert_memory_equal(one, three, (size_t)one->blob.size);
     // Every truncated prefix, and every altered head, is refused or at least sound to ask.
     for (uint64_t size = 0; size < one->blob.size; size += 8) {
-        TEST_CHECK(tl_nav_sight_check(one, size, NULL) == TL_ERR_TRUNCATED);
+        TEST_CHECK(tl_nav_pvs_check(one, size, NULL) == TL_ERR_TRUNCATED);
     }
     for (size_t at = 0; at < (size_t)one->rows; at++) {
         unsigned char *byte = (unsigned char *)one + at;
         *byte ^= 0x41;
-        if (tl_nav_sight_check(one, three->blob.size, NULL) == TL_OK) {
+        if (tl_nav_pvs_check(one, three->blob.size, NULL) == TL_OK) {
             TEST_CHECK(one->polygon_count == three->polygon_count && one->rows == three->rows);
         }
         *byte ^= 0x41;
@@ -181,36 +181,35 @@ static void failures(void **state)
     (void)state;
     rooms r;
     set_up(&r, 0);
-    tl_nav_sight_def def = tl_default_nav_sight_def();
-    tl_nav_sight *sight;
+    tl_nav_pvs_def def = tl_default_nav_pvs_def();
+    tl_nav_pvs *sight;
     tl_result result = TL_ERR_MEMORY;
     for (uint64_t k = 1; result == TL_ERR_MEMORY; k++) {
         test_allocator failing;
         test_allocator_init(&failing, k);
         def.host.allocator = &failing.allocator;
-        result = tl_nav_sight_bake(&def, r.navmesh, r.soup, &sight, NULL);
+        result = tl_nav_pvs_bake(&def, r.navmesh, r.soup, &sight, NULL);
         TEST_CHECK((result == TL_OK) == (sight != NULL));
         tl_blob_free(sight);
         assert_int_equal(failing.live_blocks, 0);
     }
     TEST_RESULT(result, TL_OK);
-    def = tl_default_nav_sight_def();
+    def = tl_default_nav_pvs_def();
     const tl_progress progress = { stop, NULL };
     def.host.progress = &progress;
-    TEST_RESULT(tl_nav_sight_bake(&def, r.navmesh, r.soup, &sight, NULL), TL_ERR_CANCELLED);
+    TEST_RESULT(tl_nav_pvs_bake(&def, r.navmesh, r.soup, &sight, NULL), TL_ERR_CANCELLED);
     def.host.progress = NULL;
     def.eye_height = NAN;
     tl_report report;
-    TEST_RESULT(tl_nav_sight_bake(&def, r.navmesh, r.soup, &sight, &report), TL_ERR_ARGUMENT);
-    assert_string_equal(report.element, "eye_height");
-    def = tl_default_nav_sight_def();
+    TEST_RESULT(tl_nav_pvs_bake(&def, r.navmesh, r.soup, &sight, &report), TL_ERR_ARGUMENT);
+    assert_string_equal(report.field, "eye_height");
+    def = tl_default_nav_pvs_def();
     tl_navmesh *empty;
     TEST_RESULT(tl_navmesh_create(NULL, &empty), TL_OK);
-    TEST_RESULT(tl_nav_sight_bake(&def, empty, r.soup, &sight, NULL), TL_ERR_EMPTY);
-    TEST_RESULT(tl_nav_sight_bake(&def, r.navmesh, r.soup, &sight, NULL), TL_OK);
+    TEST_RESULT(tl_nav_pvs_bake(&def, empty, r.soup, &sight, NULL), TL_ERR_EMPTY);
+    TEST_RESULT(tl_nav_pvs_bake(&def, r.navmesh, r.soup, &sight, NULL), TL_OK);
     bool seen;
-    TEST_RESULT(tl_nav_sight_between(sight, r.navmesh, 12345, tl_navmesh_polygon_ref(r.navmesh, 0, 0), &seen),
-                TL_NOT_FOUND);
+    TEST_RESULT(tl_nav_pvs_sees(sight, r.navmesh, 12345, tl_navmesh_polygon_ref(r.navmesh, 0, 0), &seen), TL_ERR_STALE);
     tl_navmesh_destroy(empty);
     tl_blob_free(sight);
     tear_down(&r);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The chunks that describe the file itself: where the geometry came from, and what the navmesh was built with.
+// The chunks that describe the file itself: where the geometry came from, and what the navmesh was baked with.
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/blob_check.h"
 #include "base/host.h"
-#include "pack/format.h"
+#include "pack/pack_format.h"
 
 #include <math.h>
 #include <string.h>
@@ -16,13 +16,18 @@ _Static_assert(sizeof(tl_pack_meta) == 64 && sizeof(tl_pack_navmesh) == 144, "no
 enum { MAX_NAME_BYTES = 1 << 16, MAX_MAX_VERTS = 64 };
 
 tl_result tl_pack_meta_encode(const char *source_name, uint64_t source_vertices, uint64_t source_triangles,
-                              tl_aabb bounds, const tl_allocator *allocator, tl_pack_meta **meta_out)
+                              tl_aabb bounds, const tl_allocator *allocator, tl_pack_meta **meta_out,
+                              tl_report *report_out)
 {
+    tl_report_begin(report_out, "encode meta");
+    if (meta_out == NULL) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "meta_out", "it may not be NULL");
+    }
     *meta_out = NULL;
     const char *name = source_name != NULL ? source_name : "";
     size_t name_size = strlen(name);
     if (name_size > MAX_NAME_BYTES) {
-        return TL_ERR_LIMIT;
+        return tl_report_field(report_out, TL_ERR_LIMIT, "source_name", "give a name of at most 65536 bytes");
     }
     tl_pack_meta *meta =
         tl_blob_allocate(allocator, TL_PACK_META_MAGIC, TL_PACK_META_VERSION, sizeof *meta + name_size + 1);
@@ -51,13 +56,13 @@ tl_result tl_pack_meta_check(const void *bytes, uint64_t size, tl_report *report
     const tl_blob expected = { TL_PACK_META_MAGIC, TL_PACK_META_VERSION, sizeof(tl_pack_meta) };
     TL_TRY(tl_pack_check_head(bytes, size, expected, report_out));
     const tl_pack_meta *meta = bytes;
-    uint64_t room = size - sizeof *meta;
-    if (meta->name_size > MAX_NAME_BYTES || meta->name_size >= room || meta->reserved != 0) {
+    uint64_t name_capacity = size - sizeof *meta;
+    if (meta->name_size > MAX_NAME_BYTES || meta->name_size >= name_capacity || meta->reserved != 0) {
         return tl_report_fail(report_out, TL_ERR_CORRUPT, "name", TL_NO_ELEMENT, "bake the file again");
     }
     // One string without a zero inside, then zeros only.
     const char *name = tl_pack_meta_name(meta);
-    for (uint64_t i = 0; i < room; i++) {
+    for (uint64_t i = 0; i < name_capacity; i++) {
         if ((name[i] == 0) != (i >= meta->name_size)) {
             return tl_report_fail(report_out, TL_ERR_CORRUPT, "name", TL_NO_ELEMENT, "bake the file again");
         }
@@ -70,10 +75,16 @@ const char *tl_pack_meta_name(const tl_pack_meta *meta)
     return (const char *)(meta + 1);
 }
 
-tl_result tl_pack_navmesh_encode(const tl_nav_def *def, tl_aabb bounds, uint32_t tiles_x, uint32_t tiles_z,
-                                 uint32_t tile_count, const tl_allocator *allocator, tl_pack_navmesh **navmesh_out)
+tl_result tl_pack_navmesh_encode(const tl_nav_def *def, uint32_t tiles_x, uint32_t tiles_z, uint32_t tile_count,
+                                 const tl_allocator *allocator, tl_pack_navmesh **navmesh_out, tl_report *report_out)
 {
+    tl_report_begin(report_out, "encode navmesh");
+    if (navmesh_out == NULL) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "navmesh_out", "it may not be NULL");
+    }
     *navmesh_out = NULL;
+    const tl_nav_def default_def = tl_default_nav_def();
+    def = def != NULL ? def : &default_def;
     tl_pack_navmesh *navmesh =
         tl_blob_allocate(allocator, TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVMESH_VERSION, sizeof *navmesh);
     if (navmesh == NULL) {
@@ -101,7 +112,7 @@ tl_result tl_pack_navmesh_encode(const tl_nav_def *def, tl_aabb bounds, uint32_t
     navmesh->tiles_x = tiles_x;
     navmesh->tiles_z = tiles_z;
     navmesh->tile_count = tile_count;
-    navmesh->bounds = bounds;
+    navmesh->bounds = def->bounds;
     *navmesh_out = navmesh;
     return TL_OK;
 }
@@ -133,26 +144,31 @@ tl_nav_def tl_pack_navmesh_def(const tl_pack_navmesh *navmesh)
     return def;
 }
 
+static bool are_sound_settings(const tl_pack_navmesh *navmesh)
+{
+    return navmesh->cell_size > 0.0f && isfinite(navmesh->cell_size) && navmesh->cell_height > 0.0f &&
+           isfinite(navmesh->cell_height) && navmesh->partition <= TL_NAV_LAYERS &&
+           navmesh->polygon_method <= TL_PARTITION_DELAUNAY && navmesh->filters <= 7 &&
+           navmesh->max_verts_per_poly <= MAX_MAX_VERTS && navmesh->tile_height >= 0.0f &&
+           isfinite(navmesh->tile_height) &&
+           (navmesh->tile_height > 0.0f || navmesh->tile_count <= (uint64_t)navmesh->tiles_x * navmesh->tiles_z);
+}
+
 tl_result tl_pack_navmesh_check(const void *bytes, uint64_t size, tl_report *report_out)
 {
     const tl_blob expected = { TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVMESH_VERSION, sizeof(tl_pack_navmesh) };
     TL_TRY(tl_pack_check_head(bytes, size, expected, report_out));
     const tl_pack_navmesh *navmesh = bytes;
-    const uint8_t *behind = (const uint8_t *)(navmesh + 1);
-    bool zero = true;
-    for (uint64_t i = 0; i < size - sizeof *navmesh; i++) {
-        zero = zero && behind[i] == 0;
+    uint32_t any = 0;
+    for (uint64_t i = sizeof *navmesh; i < size; i++) {
+        any |= ((const uint8_t *)bytes)[i];
     }
     for (size_t i = 0; i < TL_COUNT_OF(navmesh->reserved); i++) {
-        zero = zero && navmesh->reserved[i] == 0;
+        any |= navmesh->reserved[i];
     }
-    bool sane = navmesh->cell_size > 0.0f && isfinite(navmesh->cell_size) && navmesh->cell_height > 0.0f &&
-                isfinite(navmesh->cell_height) && navmesh->partition <= TL_NAV_LAYERS &&
-                navmesh->polygon_method <= TL_PARTITION_DELAUNAY && navmesh->filters <= 7 &&
-                navmesh->max_verts_per_poly <= MAX_MAX_VERTS && navmesh->tile_height >= 0.0f &&
-                isfinite(navmesh->tile_height) &&
-                (navmesh->tile_height > 0.0f || navmesh->tile_count <= (uint64_t)navmesh->tiles_x * navmesh->tiles_z);
-    return zero && sane ? TL_OK
-                        : tl_report_fail(report_out, TL_ERR_CORRUPT, zero ? "settings" : "padding", TL_NO_ELEMENT,
-                                         "bake the file again");
+    if (any != 0 || !are_sound_settings(navmesh)) {
+        return tl_report_fail(report_out, TL_ERR_CORRUPT, any != 0 ? "padding" : "settings", TL_NO_ELEMENT,
+                              "bake the file again");
+    }
+    return TL_OK;
 }

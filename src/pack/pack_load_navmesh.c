@@ -35,8 +35,14 @@ static tl_result add_chunks(const tl_pack *pack, tl_navmesh *navmesh, tl_report 
 tl_result tl_pack_load_navmesh(const tl_pack *pack, const tl_allocator *allocator, tl_navmesh **navmesh_out,
                                tl_report *report_out)
 {
-    *navmesh_out = NULL;
     tl_report_begin(report_out, "load navmesh");
+    if (navmesh_out == NULL) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "navmesh_out", "it may not be NULL");
+    }
+    *navmesh_out = NULL;
+    if (pack == NULL) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, "pack", "it may not be NULL");
+    }
     if (tl_pack_count(pack, TL_PACK_NAVM) == 0 && tl_pack_count(pack, TL_PACK_NAVT) == 0) {
         return tl_report_fail(report_out, TL_NOT_FOUND, "chunk", TL_NO_ELEMENT, "bake the file with a navmesh");
     }

@@ -4,18 +4,19 @@
 //
 // Between the ends of a chord that spans dt, fall * t * t departs from the chord by fall * dt * dt / 4 at most, in the
 // middle. There are so many chords that this is no more than half the margin by which the capsule is thicker than the
-// agent; the other half is for the roundings of positions. So what is swept holds the agent's capsule at every moment.
+// agent; the other half covers the rounding of positions. So the swept volume contains the agent's capsule at every
+// moment.
 
 #include "nav_links/trajectory.h"
 
 #include <math.h>
 
 // More chords than a jump of a kilometre needs with a margin of a centimetre.
-enum { MOST_CHORDS = 256 };
+enum { MAX_CHORDS = 256 };
 
 tl_nav_walker tl_nav_walker_make(const tl_soup *soup, float radius, float height, float lift, float margin)
 {
-    // The feet's share is left out as far as the rest is still a whole capsule.
+    // What is lower than `lift` is left out, as far as the rest is still a whole capsule.
     float bottom = lift < height - 2.0f * radius ? lift : height - 2.0f * radius;
     bottom = bottom > 0.0f ? bottom : 0.0f;
     float low = bottom + radius;
@@ -34,14 +35,14 @@ static bool piece_is_free(const tl_nav_walker *walker, tl_vec3 from, tl_vec3 to)
     return tl_soup_cast_shape(walker->soup, &walker->body, pose, tl_sub(to, from), NULL, &hit) == TL_NOT_FOUND;
 }
 
-static uint32_t count_chords(const tl_nav_walker *walker, const tl_nav_found_link *link)
+static uint32_t count_chords(const tl_nav_walker *walker, const tl_nav_jump_link *link)
 {
     tl_nav_parabola parabola = tl_nav_parabola_of(link->end.y - link->start.y, link->apex);
     double chords = ceil(sqrt((double)parabola.fall / (2.0 * (double)walker->margin)));
-    return chords < 1.0 ? 1 : chords < (double)MOST_CHORDS ? (uint32_t)chords : MOST_CHORDS + 1;
+    return chords < 1.0 ? 1 : chords < (double)MAX_CHORDS ? (uint32_t)chords : MAX_CHORDS + 1;
 }
 
-bool tl_nav_way_is_free(const tl_nav_walker *walker, const tl_nav_found_link *link)
+bool tl_nav_link_is_free(const tl_nav_walker *walker, const tl_nav_jump_link *link)
 {
     if (link->kind != TL_NAV_LINK_JUMP) {
         tl_vec3 corner = tl_vec3_make(link->end.x, link->start.y, link->end.z);
@@ -49,12 +50,12 @@ bool tl_nav_way_is_free(const tl_nav_walker *walker, const tl_nav_found_link *li
     }
     uint32_t chords = count_chords(walker, link);
     tl_vec3 from = link->start;
-    for (uint32_t i = 1; i <= chords && chords <= MOST_CHORDS; i++) {
-        tl_vec3 to = tl_nav_found_link_point(link, (float)i / (float)chords);
+    for (uint32_t i = 1; i <= chords && chords <= MAX_CHORDS; i++) {
+        tl_vec3 to = tl_nav_jump_link_point(link, (float)i / (float)chords);
         if (!piece_is_free(walker, from, to)) {
             return false;
         }
         from = to;
     }
-    return chords <= MOST_CHORDS;
+    return chords <= MAX_CHORDS;
 }

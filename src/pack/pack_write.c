@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Writing a container: sizes and hashes are known beforehand, so the file is written once, front to back, and a sink
-// that cannot seek will do. The header hashes itself and the table, the table hashes each chunk, so that no byte is
-// left uncovered; the padding between chunks is zero, and its place follows from the table.
+// Writing the baked file: sizes and hashes are known beforehand, so the file is written once, front to back, and the
+// callback need not seek. The header holds the hash of itself and of the table, the table that of each chunk, so that
+// every byte is covered; the padding between chunks is zero, and its place follows from the table.
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/hash.h"
 #include "base/host.h"
 #include "base/radix_sort.h"
-#include "pack/format.h"
+#include "pack/pack_format.h"
 
 #include <string.h>
 
@@ -27,12 +27,12 @@ uint64_t tl_pack_size(const tl_pack_item *items, uint32_t count)
     return size;
 }
 
-static uint64_t name_of(const tl_pack_item *item)
+static uint64_t chunk_name(const tl_pack_item *item)
 {
     return (uint64_t)item->type << 32 | item->id;
 }
 
-static tl_result check_names(const tl_pack_item *items, uint32_t count, tl_arena *arena, tl_report *report)
+static tl_result check_chunk_names(const tl_pack_item *items, uint32_t count, tl_arena *arena, tl_report *report)
 {
     tl_sort_item *names = TL_PUSH(arena, tl_sort_item, count);
     tl_sort_item *scratch = TL_PUSH(arena, tl_sort_item, count);
@@ -43,7 +43,7 @@ static tl_result check_names(const tl_pack_item *items, uint32_t count, tl_arena
         if (items[i].type == 0 || items[i].size > SIZE_MAX) {
             return tl_report_fail(report, TL_ERR_ARGUMENT, "chunk", i, "a type has four characters");
         }
-        tl_sort_item name = { name_of(&items[i]), i, 0 };
+        tl_sort_item name = { chunk_name(&items[i]), i, 0 };
         names[i] = name;
     }
     tl_radix_sort(names, scratch, count);
@@ -62,10 +62,10 @@ static tl_result write_padding(uint64_t written, tl_write_fn *write, void *user)
     return padding > 0 ? write(ZEROS, (size_t)padding, user) : TL_OK;
 }
 
-static tl_result write_all(const tl_pack_item *items, uint32_t count, tl_arena *arena, tl_write_fn *write, void *user,
-                           tl_report *report)
+static tl_result write_pack(const tl_pack_item *items, uint32_t count, tl_arena *arena, tl_write_fn *write, void *user,
+                            tl_report *report)
 {
-    TL_TRY(check_names(items, count, arena, report));
+    TL_TRY(check_chunk_names(items, count, arena, report));
     uint64_t table_size = (uint64_t)count * sizeof(tl_pack_entry);
     tl_pack_entry *table = tl_arena_push_zero(arena, count, sizeof *table);
     if (table == NULL) {
@@ -105,9 +105,12 @@ tl_result tl_pack_write(const tl_pack_item *items, uint32_t count, const tl_allo
                         void *user, tl_report *report_out)
 {
     tl_report_begin(report_out, "write pack");
+    if (write == NULL || (items == NULL && count > 0)) {
+        return tl_report_field(report_out, TL_ERR_ARGUMENT, write == NULL ? "write" : "items", "it may not be NULL");
+    }
     tl_arena arena;
     tl_arena_init(&arena, allocator);
-    tl_result result = write_all(items, count, &arena, write, user, report_out);
+    tl_result result = write_pack(items, count, &arena, write, user, report_out);
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes;
     }
