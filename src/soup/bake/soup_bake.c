@@ -96,21 +96,19 @@ tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup
     tl_soup_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "weld");
-    if (soup_out == NULL) {
-        return TL_ERR_ARGUMENT;
-    }
-    *soup_out = NULL;
+    tl_soup *soup = NULL;
     tl_mesh mesh;
     memset(&mesh, 0, sizeof mesh);
-    tl_result result = check_input(view, &used, &report.base);
+    tl_result result = soup_out != NULL ? check_input(view, &used, &report.base)
+                                        : tl_report_field(&report.base, TL_ERR_ARGUMENT, "soup_out", "give a pointer");
     if (result == TL_OK) {
         result = weld(view, &used.host, &mesh, &report);
     }
     if (result == TL_OK) {
         tl_arena arena;
         tl_arena_init(&arena, used.host.allocator);
-        result = bake_welded(view, &mesh, &used, &arena, soup_out, &report);
-        uint64_t soup_bytes = *soup_out != NULL ? (*soup_out)->blob.size : 0;
+        result = bake_welded(view, &mesh, &used, &arena, &soup, &report);
+        uint64_t soup_bytes = soup != NULL ? soup->blob.size : 0;
         uint64_t held = mesh.block_size + arena.peak_bytes + soup_bytes;
         report.base.peak_bytes = held > report.base.peak_bytes ? held : report.base.peak_bytes;
         tl_arena_free(&arena);
@@ -120,9 +118,12 @@ tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup
         // The last word of progress may still be no.
         result = tl_progress_update(&used.host, "bake soup", 1, 1);
     }
-    if (result != TL_OK && *soup_out != NULL) {
-        tl_blob_free(*soup_out);
-        *soup_out = NULL;
+    if (result != TL_OK) {
+        tl_blob_free(soup);
+        soup = NULL;
+    }
+    if (soup_out != NULL) {
+        *soup_out = soup;
     }
     if (report_out != NULL) {
         *report_out = report;
