@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// An instance's box in its own space, and in the world: the box around its turned box.
+// An instance's box in its own space, and in the world: the box around its rotated box.
 //
-// The box of the turned box is looser than that of the turned triangles, but it costs 20 ns and knows nothing of them;
-// an instance that a ray enters in vain is left after its root's box.
+// The box of the rotated box is looser than that of the rotated triangles, but it costs 20 ns and reads no triangle; a
+// ray that enters an instance in vain leaves it after the box of its root.
 //
-// What must not be left out (u is 2^-24, sizes are sums over three coordinates, as these bound all norms; |p| that of
-// the position, r of the farthest corner of the instance's box from the instance's own origin, |o| that of what is
-// asked):
+// What must not be missed (u is 2^-24, sizes are sums over three coordinates, as these bound all norms; |p| that of the
+// position, r of the farthest corner of the instance's box from the instance's own origin, |o| that of the query):
 //
-// - Asking in the instance's space moves a point there by u times its distance from the instance's origin. So a ray at
-// the t of
-//   its hit is off by u (|o'| + t |d'|), where |o'| <= |o| + |p| and t |d'| <= |o'| + r: by u (2 |o| + 2 |p| + r).
+// - A query in the instance's space moves a point there by u times its distance from the instance's origin. So a ray at
+//   the t of its hit is off by u (|o'| + t |d'|), where |o'| <= |o| + |p| and t |d'| <= |o'| + r: by u (2 |o| + 2 |p| +
+//   r).
 // - A cast at a shape may stop early, by up to 8 u of the shapes' diameters: 16 u r of this one.
-// - Planes are rounded to float: u (|p| + r). Frames and sums in double, of some forty roundings, are off by 2^-23 of
+// - Planes are rounded to float: u (|p| + r). Frames and sums in double, of about forty roundings, are off by 2^-23 of
 //   that.
 //
-// So the box is widened by 32 u (|p| + r), which takes the instance's part; the part of |o| widens what is asked.
+// So the box is widened by 32 u (|p| + r), the instance's part; the part of |o| widens the query.
 
 #include "scene/instance_box.h"
 
@@ -29,7 +28,7 @@ static float round_out(double at, double sign)
     return (float)(at + sign * (fabs(at) * TL_FLOAT_OUTWARD + (double)FLT_MIN));
 }
 
-// A hull's own bounds, grown: its six support points would cost more than all else.
+// A hull's own bounds, grown: its six support points would cost more than everything else.
 static tl_aabb hull_box(const tl_hull *hull, float radius)
 {
     tl_vec3 low = hull->bounds.min, high = hull->bounds.max;

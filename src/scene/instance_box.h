@@ -7,7 +7,7 @@
 
 #include "scene/scene_layout.h"
 
-/// Share of coordinates by which boxes of instances, and of what is asked, are widened (instance_box.c).
+/// Share of coordinates by which boxes of instances and of queries are widened (instance_box.c).
 #define TL_SCENE_WIDEN TL_FLOAT_GAMMA(32)
 
 /// The sum of a point's coordinates' sizes.
@@ -16,10 +16,10 @@ static inline double tl_scene_size(tl_vec3 a)
     return tl_vec3d_size(tl_vec3d_from(a));
 }
 
-/// Refuses an instance that cannot be placed, and measures it in its own space: an empty box when nothing is there.
+/// Checks an instance, and gives its box in its own space: empty when nothing is there.
 tl_result tl_scene_read_instance(const tl_scene_instance *instance, tl_aabb *local_out);
 
-/// Fills what a record knows beside its lane.
+/// Fills a record, but for its lane.
 void tl_scene_place_instance(tl_scene_record *record, tl_transform pose, tl_aabb local);
 
 /// The box in the world; empty when nothing is there.

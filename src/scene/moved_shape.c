@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Shapes in instances' spaces: the box that is walked through the tree, and poses.
+// Shapes in the spaces of instances: the box that is cast through the BVH, and poses.
 //
 // In an instance's space the shape's position is off as a ray's origin is, its motion as a direction, and its rotation
 // by four roundings: each of its points by 4 u of its distance from the shape's own origin, at most 4 u (|middle| +
-// |half|
-// + |position|). What a cast may stop early, 16 u (|half|), is on top. So the box is widened by 32 u of all of these,
+// |half| + |position|). A cast may stop early by another 16 u (|half|). So the box is widened by 32 u of all of these,
 // and half extents are rounded with them.
 
 #include "scene/moved_shape.h"

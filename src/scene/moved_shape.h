@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A shape that is asked about, in the world and in an instance's space.
+// The shape of a query, in the world and in an instance's space.
 
 #ifndef TALUS_SRC_SCENE_MOVED_SHAPE_H
 #define TALUS_SRC_SCENE_MOVED_SHAPE_H
@@ -12,7 +12,7 @@ typedef struct tl_moved_shape {
     tl_transform pose;
     tl_aabb bounds; ///< world
     tl_vec3 middle;
-    tl_vec3d half; ///< of a box around the middle that is wider than the bounds by all that may be off (instance_box.c)
+    tl_vec3d half; ///< of a box around the middle, wider than the bounds by all errors (instance_box.c)
     double reach;  ///< metres: no coordinate of the moving shape is larger
 } tl_moved_shape;
 
@@ -20,7 +20,8 @@ typedef struct tl_moved_shape {
 /// NaN).
 tl_result tl_moved_shape_make(const tl_convex *convex, tl_transform pose, tl_vec3 motion, tl_moved_shape *shape_out);
 
-/// The pose as an instance sees it: position and rotation rounded once; kept where nothing is turned or moved.
+/// The pose in an instance's space: position and rotation rounded once; unchanged where the instance is not rotated or
+/// moved.
 tl_transform tl_scene_pose_to_instance(const tl_scene_record *record, tl_transform pose);
 
 #endif

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// The tree over the instances: top down, cut where the surface area heuristic is least among planes between bins of
-// middles, eight children a node.
+// The top-level BVH (TLAS) over the boxes of the instances: built from the top down by the surface area heuristic with
+// bins of centroids, eight children a node.
 //
 // A node's range of instances is split, and of its parts the one with the largest surface again, until there are eight,
-// or none holds more than eight instances. What fits into lanes that are left is put there instance by instance. So the
-// last three of a binary tree's levels, half of its work, are never built, and nodes are full: a visit costs the same
+// or none holds more than eight instances. Parts that fit into the free lanes are put there instance by instance. So
+// the last three levels of a binary tree, half of its work, are never built, and nodes are full: a visit costs the same
 // for two boxes as for eight.
 //
-// Below a depth that costs never reach in practice the largest part is halved instead, so that a walk's stack is small
-// whatever the instances are.
+// Below a depth that costs never reach in practice the largest part is halved instead, which bounds a walk's stack for
+// any instances.
 //
-// Source: Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007.
+// Sources: MacDonald, Booth, Heuristics for Ray Tracing Using Space Subdivision, 1990 (SAH); Wald, On fast Construction
+// of SAH-based Bounding Volume Hierarchies, 2007 (binning).
 
 #include "base/arena.h"
 #include "base/assert.h"
@@ -22,7 +23,7 @@
 
 #include <string.h>
 
-// Fewer bins where there are few instances: most of a small split's work is to look at bins.
+// Fewer bins for few instances: bins are most of the work of a small split.
 enum { INSTANCE_BINS = 16, FEW_INSTANCE_BINS = 8, FEW_INSTANCES = 64, AXES = 3 };
 
 // An instance's box, and its index in `instance`; the other fourth number is zero.
@@ -39,7 +40,7 @@ typedef struct instance_range {
     float half_area;
 } instance_range;
 
-// A node in the making: its range, and then what its lanes hold.
+// A node being built: its range, and then its children.
 typedef struct scene_build_node {
     uint32_t begin, end, depth;
     uint32_t child[TL_SCENE_WIDTH];
@@ -65,7 +66,7 @@ static float box4_half_area(tl_box4 box)
 typedef struct bins {
     tl_box4 box[AXES][INSTANCE_BINS];
     uint32_t count[AXES][INSTANCE_BINS];
-    float base[4], scale[4]; // of doubled middles
+    float base[4], scale[4]; // of doubled centroids
     uint32_t used;           // bins of each axis
 } bins;
 
@@ -78,11 +79,11 @@ typedef struct bin_cut {
 
 static void fill_instance_bins(const scene_build *b, const instance_range *range, bins *s)
 {
-    tl_box4 middles = tl_box4_empty();
+    tl_box4 centroids = tl_box4_empty();
     for (uint32_t i = range->begin; i < range->end; i++) {
-        middles = tl_box4_union(middles, tl_box4_middle(load(&b->refs[i])));
+        centroids = tl_box4_union(centroids, tl_box4_middle(load(&b->refs[i])));
     }
-    tl_aabb spread = tl_box4_to_aabb(middles);
+    tl_aabb spread = tl_box4_to_aabb(centroids);
     tl_vec3 size = tl_aabb_size(spread);
     const float low[3] = { spread.min.x, spread.min.y, spread.min.z }, width[3] = { size.x, size.y, size.z };
     memset(s->count, 0, sizeof s->count);
@@ -149,7 +150,7 @@ static uint32_t part(const scene_build *b, const instance_range *range, const bi
     return low;
 }
 
-// In halves as they lie: for instances in one place, and for trees that got too deep.
+// Halves a range by count: for instances in one place, and for trees that got too deep.
 static void halve(instance_range *range, instance_range *other)
 {
     other->begin = range->begin + (range->end - range->begin) / 2;
@@ -158,7 +159,7 @@ static void halve(instance_range *range, instance_range *other)
     range->end = other->begin;
 }
 
-// Cuts a range of at least two instances in two.
+// Splits a range of at least two instances in two.
 static void split_range(const scene_build *b, instance_range *range, instance_range *other)
 {
     bins s;
@@ -182,12 +183,13 @@ static void split_range(const scene_build *b, instance_range *range, instance_ra
 
 // The part with the largest surface (or, not by cost, the most instances) of those that hold `least` instances to
 // `most`; `count` when there is none.
-static uint32_t choose_part(const instance_range *parts, uint32_t count, uint32_t least, uint32_t most, bool by_cost)
+static uint32_t choose_part(const instance_range *parts, uint32_t count, uint32_t min_size, uint32_t max_size,
+                            bool by_cost)
 {
     uint32_t chosen = count;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t size = parts[i].end - parts[i].begin;
-        if (size < least || size > most) {
+        if (size < min_size || size > max_size) {
             continue;
         }
         bool larger = chosen == count || (by_cost ? parts[i].half_area > parts[chosen].half_area
@@ -197,7 +199,7 @@ static uint32_t choose_part(const instance_range *parts, uint32_t count, uint32_
     return chosen;
 }
 
-// Puts a part's instances into lanes of their own; returns how many parts there are now.
+// Makes each instance of a part a part of its own; returns how many parts there are now.
 static uint32_t dissolve(instance_range *parts, uint32_t count, uint32_t chosen)
 {
     instance_range whole = parts[chosen];
@@ -209,7 +211,7 @@ static uint32_t dissolve(instance_range *parts, uint32_t count, uint32_t chosen)
     return count;
 }
 
-// What the node's lanes hold.
+// The children of a node.
 static uint32_t part_node(const scene_build *b, const scene_build_node *node, instance_range parts[TL_SCENE_WIDTH])
 {
     instance_range whole = { node->begin, node->end, 0.0f };
@@ -232,7 +234,7 @@ static uint32_t part_node(const scene_build *b, const scene_build_node *node, in
     return count;
 }
 
-// Nodes are made breadth first: those that wait are at the list's end.
+// Nodes are built breadth first: those not built yet are at the end of the list.
 static void build_tree(scene_build *b, uint32_t instance_count)
 {
     memset(&b->nodes[0], 0, sizeof b->nodes[0]);
@@ -261,7 +263,7 @@ static void build_tree(scene_build *b, uint32_t instance_count)
     }
 }
 
-// What is not there is put where it would be, since it may come back.
+// An empty instance has the box of its position, since it may come back.
 static tl_aabb box_or_position(const tl_scene_record *record)
 {
     tl_aabb box = tl_scene_world_box(record);
@@ -341,9 +343,9 @@ tl_result tl_scene_bake(const tl_scene_instance *instances, uint32_t count, cons
     tl_arena_init(&arena, allocator);
     // By induction a range of s >= 2 instances takes s / 2 + (s - 2) / 14 nodes at most: the worst are eight parts of
     // two.
-    uint64_t most_nodes = (uint64_t)count / 2 + count / 14 + 1;
+    uint64_t max_nodes = (uint64_t)count / 2 + count / 14 + 1;
     scene_build b = { TL_PUSH(&arena, instance_ref, count), TL_PUSH(&arena, tl_scene_record, count),
-                      TL_PUSH(&arena, scene_build_node, most_nodes), 0, 0 };
+                      TL_PUSH(&arena, scene_build_node, max_nodes), 0, 0 };
     tl_result result = TL_ERR_MEMORY;
     if (b.refs != NULL && b.records != NULL && b.nodes != NULL) {
         result = read_instances(&b, instances, count, report_out);

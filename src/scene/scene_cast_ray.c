@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Rays and lines of sight through a scene: each instance that the walk meets is asked for itself, in its own space.
+// Rays and lines of sight through a scene: each instance that the walk meets is queried in its own space.
 //
 // A soup gets the best t so far as the ray's end, which cuts its own walk short and changes no answer: a hit's t does
 // not depend on where the ray ends, and ends count. A shape's t does, by a rounding, so shapes get the whole ray.
@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-// Share of its ends' coordinates by which a segment may be elsewhere in an instance's space.
+// Error of a segment in an instance's space, as a share of its ends' coordinates.
 #define SIGHT_ERROR (4.0 * (double)TL_FLOAT_ROUNDING)
 
 typedef struct scene_ray_search {
@@ -144,13 +144,13 @@ bool tl_scene_occluded(const tl_scene *scene, const tl_scene_instance *instances
     return tl_scene_cast_ray_with(NULL, scene, instances, ray, filter, NULL);
 }
 
-// An order of two points that does not know which one looks.
+// An order of two points, whichever of them is given first.
 static bool precedes_point(tl_vec3 a, tl_vec3 b)
 {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
 }
 
-// A shape stops the view where the segment touches it.
+// A shape blocks the view where the segment touches it.
 static bool hides(const scene_ray_search *s, uint32_t instance)
 {
     const tl_scene_record *record = &s->records[instance];
@@ -162,8 +162,8 @@ static bool hides(const scene_ray_search *s, uint32_t instance)
     if (it->shape == NULL) {
         return false;
     }
-    bool turned = precedes_point(s->to, s->ray.origin);
-    tl_convex segment = tl_convex_capsule(turned ? s->to : s->ray.origin, turned ? s->ray.origin : s->to, 0.0f);
+    bool reversed = precedes_point(s->to, s->ray.origin);
+    tl_convex segment = tl_convex_capsule(reversed ? s->to : s->ray.origin, reversed ? s->ray.origin : s->to, 0.0f);
     return tl_convex_overlap(it->shape, record->pose, &segment, tl_transform_identity(), NULL);
 }
 

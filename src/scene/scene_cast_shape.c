@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// A moving shape through a scene: each instance that its box may meet is asked for itself.
+// Sweeping a shape through a scene: each instance that its box may meet is queried by itself.
 //
-// What counts as touching is a share of coordinates, since these are what was rounded; and where the shape stands is
-// written in the world's coordinates. A prop's own coordinates are small, and so is what its soup takes for touching: a
-// character that stands on it, a kilometre from the origin, would be caught. So a start that is no deeper in a soup
-// than what the world's coordinates explain is moved out, by that depth, and the way begins there.
+// What counts as touching is a share of coordinates, since these are what was rounded; and the shape's position is
+// given in the world's coordinates. A prop's own coordinates are small, and so is what its soup takes for touching: a
+// character that stands on it, a kilometre from the origin, would be caught. So a start that penetrates a soup no
+// deeper than the world's coordinates explain is moved out, by that depth, and the sweep begins there.
 //
-// What slides along a convex instance is met by it again and again, as a rounded shape's normal is known no better than
-// the root of the gap. Whether it ever comes deeper than touching is asked once more: the way is cast again, moved out
-// by as much as touching is, and where that is free the shape passes.
+// A shape that slides along a convex instance is hit by it again and again, as a rounded shape's normal is known no
+// better than the root of the gap. Whether it ever penetrates deeper than touching takes a second sweep: it begins
+// moved out by as much as touching is, and where that is free the shape passes.
 
 #include "base/assert.h"
 #include "math/tolerance.h"
@@ -17,10 +17,10 @@
 
 #include <string.h>
 
-// As of soups: a position and a corner round by half an ulp each, along three axes.
+// As for soups: a position and a corner round by half an ulp each, along three axes.
 #define WORLD_TOUCH_SHARE (4.0 * (double)TL_FLOAT_ROUNDING)
 
-// A corner has three faces to be moved out of; each step out of one may lead a little into another.
+// At a corner the shape leaves three faces; each step out of one may lead a little into another.
 enum { MAX_STEPS_OUT = 4 };
 
 typedef struct scene_sweep {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Fitting the tree to instances that moved: records and boxes of those that did, then all inner boxes from the last
-// node to the first, since children lie behind their parents.
+// Refitting the top-level BVH to instances that moved: records and boxes of those that did, then all inner boxes from
+// the last node to the first, since children lie behind their parents.
 //
-// An instance that stands as it stood, by the bits of its pose and of its own box, keeps its record: most things in a
-// game stand still in most frames.
+// An instance whose pose and box have the same bits as before keeps its record: most things in a game stand still in
+// most frames.
 //
-// The cost is the surface area heuristic's: a random ray through a box enters one inside of it with the probability of
-// their surfaces' ratio. Source: Goldsmith, Salmon, Automatic Creation of Object Hierarchies for Ray Tracing, 1987.
+// The cost is that of the surface area heuristic: a random ray through a box enters one inside it with the probability
+// of their surfaces' ratio. Source: Goldsmith, Salmon, Automatic Creation of Object Hierarchies for Ray Tracing, 1987.
 
 #include "scene/scene_fit.h"
 

@@ -7,7 +7,7 @@
 
 #include "scene/scene_layout.h"
 
-/// Puts a box and its mask into a lane. What has no mask is found by nothing, so it has no box there.
+/// Writes a box and its mask into a lane. Every query ignores a mask of 0, so its box is empty.
 void tl_scene_set_lane(tl_scene *scene, uint32_t lane, tl_aabb box, uint32_t mask);
 
 /// Fits the inner boxes to the instances', and measures the scene. O(nodes).

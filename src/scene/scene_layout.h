@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The bytes of a scene: a record an instance, and nodes of eight boxes, breadth first, so that a child lies behind its
-// parent. A node is four cache lines: planes, children, and the kinds of instances below each child, so that a query
-// for few kinds does not walk where there are none.
+// The bytes of a scene: a record an instance, and nodes of eight boxes, breadth first, so that children lie behind
+// their parents. A node is four cache lines: planes, children, and the mask of all instances below each child, so that
+// a query skips subtrees that it ignores.
 
 #ifndef TALUS_SRC_SCENE_SCENE_LAYOUT_H
 #define TALUS_SRC_SCENE_SCENE_LAYOUT_H
@@ -13,13 +13,14 @@
 
 enum { TL_SCENE_WIDTH = 8 };
 
-/// In a child word: the rest is an instance's index. Else it is a node's; 0 is no child, because the root is nobody's.
+/// In a child word: the rest is the index of an instance. Else it is that of a node; 0 is no child, since the root is
+/// nobody's child.
 #define TL_CHILD_INSTANCE 0x80000000u
 
-/// Nodes on the longest way down: as many as the build lets costs choose the splits, and log8 of the most instances.
+/// Nodes on the longest path: levels whose splits the costs choose, and log8 of the largest number of instances.
 enum { TL_SCENE_COST_DEPTH = 24, TL_SCENE_MAX_DEPTH = TL_SCENE_COST_DEPTH + 11 };
 
-/// Each node on the way down leaves all but one of its children behind.
+/// Each node on the path leaves all but one of its children on the stack.
 enum { TL_SCENE_STACK_SIZE = (TL_SCENE_WIDTH - 1) * TL_SCENE_MAX_DEPTH + TL_SCENE_WIDTH };
 
 typedef struct tl_scene_node {
@@ -65,14 +66,14 @@ static inline const tl_scene_node *tl_scene_nodes(const tl_scene *scene)
     return (const tl_scene_node *)(const void *)((const char *)scene + scene->nodes);
 }
 
-/// Whether more than a shift lies between the instance's space and the world.
+/// Whether the instance's space is rotated, not only shifted, against the world.
 static inline bool tl_scene_is_rotated(const tl_scene_record *record)
 {
     const tl_quat *q = &record->pose.rotation;
     return (q->x != 0.0f) | (q->y != 0.0f) | (q->z != 0.0f);
 }
 
-/// Whether an instance is asked as it is: what would be added to its points is zero, and a -0 stays one.
+/// Whether the pose is the identity: then queries keep their bits, and a -0 stays one.
 static inline bool tl_scene_is_identity(const tl_scene_record *record)
 {
     const tl_vec3 *p = &record->pose.position;

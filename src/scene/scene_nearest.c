@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The nearest point of a scene: the tree from near to far, boxes pruned by the best distance so far.
+// The nearest point of a scene: best-first traversal of the top-level BVH, boxes pruned by the best distance so far.
 //
 // A soup gets the best distance as its limit, one rounding up: what it reports is rounded, and of equal distances the
-// lower instance wins, whichever was asked first.
+// lower instance wins, whichever was queried first.
 
 #include "base/lowest_bit.h"
 #include "math/tolerance.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// What a shape that stands still touches in a scene, and what lies in a box: lines that go nowhere.
+// What a shape touches in a scene: a line of zero length, with the shape's half extents around it.
 //
-// The caller's buffer takes what a soup reports in place: indices go into the rear half of the room that is left, and
-// are then spread to the front. Place k is written up to word 2 k + 1, and the next index to be read is word
-// room + k + 1, behind it.
+// A soup writes its triangles straight into the caller's buffer: indices go into the rear half of the free part, and
+// are then spread to the front. Place k is written up to word 2 k + 1, and the next index to be read is word capacity +
+// k + 1, behind it.
 
 #include "base/assert.h"
 #include "scene/moved_shape.h"
@@ -28,27 +28,27 @@ static bool touches_shape(const scene_overlap_search *s, uint32_t instance)
                              NULL);
 }
 
-static void spread_indices(tl_scene_overlap *room, uint32_t room_size, uint32_t count, uint32_t instance)
+static void spread_indices(tl_scene_overlap *free_part, uint32_t free_count, uint32_t count, uint32_t instance)
 {
-    const char *indices = (const char *)room + (size_t)room_size * sizeof(uint32_t);
+    const char *indices = (const char *)free_part + (size_t)free_count * sizeof(uint32_t);
     for (uint32_t k = 0; k < count; k++) {
         tl_scene_overlap overlap = { instance, 0 };
         memcpy(&overlap.triangle, indices + k * sizeof(uint32_t), sizeof overlap.triangle);
-        room[k] = overlap;
+        free_part[k] = overlap;
     }
 }
 
 static void add_soup(scene_overlap_search *s, uint32_t instance)
 {
-    uint32_t room_size = s->count < s->capacity ? s->capacity - s->count : 0, count = 0;
-    tl_scene_overlap *room = room_size > 0 ? s->overlaps + s->count : NULL;
-    uint32_t *indices = room_size > 0 ? (uint32_t *)(void *)room + room_size : NULL;
+    uint32_t free_count = s->count < s->capacity ? s->capacity - s->count : 0, count = 0;
+    tl_scene_overlap *free_part = free_count > 0 ? s->overlaps + s->count : NULL;
+    uint32_t *indices = free_count > 0 ? (uint32_t *)(void *)free_part + free_count : NULL;
     tl_transform pose = tl_scene_pose_to_instance(&s->records[instance], s->shape->pose);
     tl_result result = tl_soup_find_overlaps(s->instances[instance].soup, s->shape->convex, pose,
-                                             tl_scene_triangles(s->filter), indices, room_size, &count);
+                                             tl_scene_triangles(s->filter), indices, free_count, &count);
     if (result == TL_OK || result == TL_INCOMPLETE) {
-        if (room != NULL) {
-            spread_indices(room, room_size, count < room_size ? count : room_size, instance);
+        if (free_part != NULL) {
+            spread_indices(free_part, free_count, count < free_count ? count : free_count, instance);
         }
         s->count = count > UINT32_MAX - s->count ? UINT32_MAX : s->count + count;
     }
@@ -89,7 +89,7 @@ static bool visit_any(tl_scene_line *line, uint32_t instance)
     return !touches;
 }
 
-static tl_vec3 nowhere(void)
+static tl_vec3 no_motion(void)
 {
     return tl_vec3_make(0.0f, 0.0f, 0.0f);
 }
@@ -97,7 +97,7 @@ static tl_vec3 nowhere(void)
 static bool walk_overlaps(scene_overlap_search *s, const tl_scene *scene, tl_scene_visit_fn *visit)
 {
     tl_scene_line line = { .instances = s->instances, .visit = visit, .user = s, .any = true };
-    tl_scene_line_make(&line, scene, tl_scene_mask(s->filter), s->shape->middle, nowhere(), s->shape->half, 1.0);
+    tl_scene_line_make(&line, scene, tl_scene_mask(s->filter), s->shape->middle, no_motion(), s->shape->half, 1.0);
     return tl_scene_line_walk(&line);
 }
 
@@ -109,7 +109,7 @@ static tl_result begin_overlap_search(const tl_scene *scene, const tl_scene_inst
     if (!tl_scene_has_instances(scene, instances) || query == NULL || query->shape == NULL) {
         return TL_ERR_ARGUMENT;
     }
-    TL_TRY(tl_moved_shape_make(query->shape, query->pose, nowhere(), moved));
+    TL_TRY(tl_moved_shape_make(query->shape, query->pose, no_motion(), moved));
     scene_overlap_search s = { instances, tl_scene_records(scene), query->filter, moved, NULL, 0, 0 };
     *search = s;
     return TL_OK;

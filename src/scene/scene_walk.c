@@ -16,7 +16,7 @@
 // Products of what is farther away could overflow.
 #define MAX_LINE_REACH 1e15
 
-// Shorter directions are denormal in an instance's space, where a rounding is no share of them any more.
+// Shorter directions are denormal in an instance's space, where roundings are no longer relative.
 #define SHORTEST        1e-30
 
 #define LARGEST_INVERSE 1180591620717411303424.0 // 2^70

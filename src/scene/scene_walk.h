@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// The way through a scene's boxes of whatever moves along a line: a ray, a shape on its way, or one that stands still.
+// Traversal of the top-level BVH by anything that moves along a line: a ray, a shape that moves, or one that does not.
 //
-// A moving shape's box meets a box where its middle meets that box grown by its half extents; so all of them are a ray
-// whose slabs are wider. Boxes are left out in float, when they are proven to be out of the question, so instruction
-// sets may round differently and answers do not.
+// A moving shape's box meets a box where its middle meets that box grown by its half extents (their Minkowski sum); so
+// all of these are rays with wider slabs. Boxes are skipped in float, only when they are proven to be out of the
+// question, so instruction sets may round differently and answers do not.
 //
 // Times are those of the unit line: t times the direction's largest component. With O the middle, M the largest
 // distance along an axis from it to a corner of the scene's box, and u = 2^-24: plane p is met at p inv - O inv. inv,
 // both products and the difference round once: at most u |inv| (3 |p| + 2 |O|) <= u |inv| (5 |O| + 3 M), where the
-// machine does not fuse. Asking in an instance's space moves the line by 2 u |O| more (instance_box.c), and a reported
+// machine does not fuse. A query in an instance's space moves the line by 2 u |O| more (instance_box.c), and a reported
 // t is off by u t, which is u |inv| M along the largest axis. The pad is 12 u (|O| + M) |inv|, with |O| a sum over
 // axes.
 //
-// A component below 2^-70 of the largest is taken as 2^-70: over the way through the scene that is nothing beside M u.
+// A component below 2^-70 of the largest is taken as 2^-70: over the length of the scene that is nothing beside M u.
 
 #ifndef TALUS_SRC_SCENE_SCENE_WALK_H
 #define TALUS_SRC_SCENE_SCENE_WALK_H
@@ -22,10 +22,11 @@
 
 typedef struct tl_scene_line tl_scene_line;
 
-/// Called for each instance that the line may meet, nearest boxes first; it may shorten the line. False ends the walk.
+/// Called for each instance whose box the line meets, nearest boxes first; it may shorten the line. False ends the
+/// walk.
 typedef bool tl_scene_visit_fn(tl_scene_line *line, uint32_t instance);
 
-/// Walks the tree, once per instruction set. False when a visit ended it.
+/// Walks the BVH, compiled once per instruction set. False when a visit ended it.
 typedef bool tl_scene_walk_fn(tl_scene_line *line);
 
 struct tl_scene_line {
@@ -34,28 +35,28 @@ struct tl_scene_line {
     tl_scene_walk_fn *walk;
     tl_scene_visit_fn *visit;
     void *user;
-    uint32_t mask; ///< kinds of instances that count
+    uint32_t mask; ///< mask bits of instances that count
     bool any;      ///< nearest first does not matter
-    bool every;    ///< floats cannot tell: every instance is visited, in order
+    bool every;    ///< out of range for float filters: every instance is visited, in order
 
     // Plane p of axis i is met at p * scale[i] + near_base[i] at the earliest, and with far_base at the latest.
     float scale[3];
     float near_base[3];
     float far_base[3];
     uint32_t backward; ///< bit i: it runs down along axis i, so it enters a box by its max plane
-    float limit;       ///< boxes entered later are left out
-    double per_t;      ///< of these times, one of t
+    float limit;       ///< boxes entered later are skipped
+    double per_t;      ///< times of the unit line per t
 };
 
-/// Fills the line of `from + t * direction`, all finite, and `half` extents around it, for t up to `limit`. `user` and
-/// `any` are the caller's, and so are `visit` and `instances`. A direction of zero stands still.
+/// Fills the line of `from + t * direction`, all finite, and `half` extents around it, for t up to `limit`. The caller
+/// sets `user`, `any`, `visit` and `instances`. A zero direction does not move.
 void tl_scene_line_make(tl_scene_line *line, const tl_scene *scene, uint32_t mask, tl_vec3 from, tl_vec3 direction,
                         tl_vec3d half, double limit);
 
-/// From now on only what may be met by t counts.
+/// Shortens the line to end at t.
 void tl_scene_line_shorten(tl_scene_line *line, double t);
 
-/// Visits what the line may meet. False when a visit ended it.
+/// Visits the instances whose boxes the line meets. False when a visit ended it.
 bool tl_scene_line_walk(tl_scene_line *line);
 
 tl_scene_walk_fn tl_scene_walk_scalar;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The walk through the tree: one source, compiled once for each instruction set by a file that defines TL_SCENE_WALK.
+// Traversal of the top-level BVH: one source, compiled once for each instruction set by a file that defines
+// TL_SCENE_WALK.
 //
-// A visit tests eight child boxes, keeps the nearest that is entered at hand, and puts the others on the stack, sorted
-// by distance. Instances wait there among nodes: what an instance finds shortens the line for all behind it.
+// A visit tests eight child boxes, continues with the nearest that is entered, and puts the others on the stack, sorted
+// by distance. Instances wait there among nodes: a hit in one instance shortens the line for all behind it.
 
 #include "base/assert.h"
 #include "base/lowest_bit.h"
@@ -16,8 +17,8 @@
 // their bits have the order of their values.
 typedef uint64_t scene_entry;
 
-// Where in a node the planes are by which a line enters boxes, by its bits `backward`: bytes. It leaves by those of
-// ~backward.
+// Byte offsets in a node of the planes by which a line enters boxes, indexed by its bits `backward`. It leaves by those
+// of ~backward.
 static const uint32_t scene_rows[8][3] = { { 0, 64, 128 }, { 32, 64, 128 }, { 0, 96, 128 }, { 32, 96, 128 },
                                            { 0, 64, 160 }, { 32, 64, 160 }, { 0, 96, 160 }, { 32, 96, 160 } };
 static_assert(sizeof(((tl_scene_node *)0)->plane[0]) == 32, "rows of walk_rows");
@@ -33,7 +34,7 @@ static inline tl_f32x8 load_row(const tl_scene_node *node, uint32_t row)
     return tl_f32x8_load((const float *)(const void *)((const char *)node + row));
 }
 
-// Which boxes the line enters before its end; and when, or for how long where any hit will do.
+// Which boxes the line enters before its end; and when, or for how long when any hit will do.
 static TL_ALWAYS_INLINE uint32_t enter_instance_boxes(const tl_scene_line *line, const walk_place *place,
                                                       const tl_scene_node *node, float *keys)
 {
@@ -50,17 +51,17 @@ static TL_ALWAYS_INLINE uint32_t enter_instance_boxes(const tl_scene_line *line,
     return ~tl_f32x8_less_bits(last, first) & 0xffu;
 }
 
-// Those of some children that hold instances that count.
-static TL_NOINLINE uint32_t choose_kinds(const tl_scene_node *node, uint32_t entered, uint32_t kinds)
+// The entered children below which some instance counts.
+static TL_NOINLINE uint32_t mask_children(const tl_scene_node *node, uint32_t entered, uint32_t mask)
 {
     uint32_t chosen = 0;
     for (uint32_t rest = entered; rest != 0; rest &= rest - 1) {
-        chosen |= (node->mask[tl_lowest_bit(rest)] & kinds) != 0 ? rest & (0u - rest) : 0;
+        chosen |= (node->mask[tl_lowest_bit(rest)] & mask) != 0 ? rest & (0u - rest) : 0;
     }
     return chosen;
 }
 
-// What waits is mostly visited soon, and its lines are then under way.
+// A child on the stack is mostly visited soon, and its cache lines are then on their way.
 static inline void prefetch_scene_child(const tl_scene_line *line, const walk_place *place, uint32_t child)
 {
     uint32_t instance = child & ~TL_CHILD_INSTANCE;
@@ -90,8 +91,8 @@ static inline scene_entry later_entry(scene_entry a, scene_entry b)
     return a < b ? b : a;
 }
 
-// Puts all that is entered on the stack but the first by key, which is returned; the next lies on top. The mask is not
-// empty.
+// Puts all entered children but the first by key on the stack, and returns that one; the next lies on top. The mask is
+// not empty.
 static TL_ALWAYS_INLINE scene_entry push_scene_children(const tl_scene_line *line, const walk_place *place,
                                                         const tl_scene_node *node, const float *keys, uint32_t mask,
                                                         scene_entry *stack, uint32_t *stack_count)
@@ -143,14 +144,14 @@ bool TL_SCENE_WALK(tl_scene_line *line)
             float keys[TL_SCENE_WIDTH];
             uint32_t entered = enter_instance_boxes(line, &place, node, keys);
             if (line->mask != UINT32_MAX) {
-                entered = choose_kinds(node, entered, line->mask);
+                entered = mask_children(node, entered, line->mask);
             }
             if (entered != 0) {
                 entry = push_scene_children(line, &place, node, keys, entered, stack, &stack_count);
                 continue;
             }
         }
-        // What waits is left out when the line has become too short for it.
+        // Waiting entries are dropped when the line has become too short for them.
         uint32_t limit;
         memcpy(&limit, &line->limit, sizeof limit);
         do {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// A binary tree over pairs by the surface area heuristic, from the top down, with binned costs. The wide tree is cut
-// from it (soup_bake.c): choosing sixteen children at once has no good greedy rule, choosing two has.
+// A binary BVH over pairs, built from the top down by the surface area heuristic (SAH) with binned costs. The 16-wide
+// BVH is collapsed from it (bvh_collapse.c): no greedy rule chooses sixteen children well, and a good one chooses two.
 //
 // A leaf holds up to four pairs and costs one test whatever it holds, so costs count blocks of four, not pairs.
 //
-// References live in one array; a range is split in place. With spatial splits a range grows, so it has spare room
-// behind it, handed down in proportion to the counts. A node's place follows from its range alone (see
-// tl_bvh_leaf_index), so subtrees can be built by any number of threads, without a lock, and always give the same tree.
+// References lie in one array; a range is split in place. With spatial splits a range grows, so spare capacity lies
+// behind it, shared out in proportion to the counts. A node's index follows from its range alone (tl_bvh_leaf_index),
+// so any number of threads can build subtrees without a lock, and the tree is always the same.
 //
-// Sources: Ingo Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007 (binning); Martin Stich,
-// Heiko Friedrich, Andreas Dietrich, Spatial Splits in Bounding Volume Hierarchies, 2009.
+// Sources: MacDonald, Booth, Heuristics for Ray Tracing Using Space Subdivision, 1990 (SAH); Wald, On fast Construction
+// of SAH-based Bounding Volume Hierarchies, 2007 (binning); Stich, Friedrich, Dietrich, Spatial Splits in Bounding
+// Volume Hierarchies, 2009 (SBVH).
 
 #include "base/assert.h"
 #include "base/host.h"
@@ -22,7 +23,7 @@
 
 #include <string.h>
 
-// Both parts of a pair that was cut may end in one leaf: one of them is enough.
+// Both halves of a clipped pair may end in one leaf, which then keeps one reference with both boxes.
 static uint32_t drop_repeated(tl_bvh_ref *refs, uint32_t count)
 {
     uint32_t kept = 0;

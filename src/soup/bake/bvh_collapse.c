@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// The cut of a binary tree into wide nodes that rays visit least, by dynamic programming.
+// Collapses the binary BVH into 16-wide nodes that rays visit least, by dynamic programming.
 //
-// A ray visits a node in proportion to its surface, so the sum of surfaces over all wide nodes is what counts; leaves
-// are visited whatever the cut is. C(n, i) is the least sum below binary node n when it may become up to i children of
-// one wide node: one child that is a wide node itself, or some of n's left and some of n's right subtree. Opening the
-// largest child again and again (Wald, Benthin, Boulos 2008) looks one step ahead: it leaves a third more nodes than
-// this, most of them nearly empty, at the bottom.
+// A ray visits a node in proportion to its surface, so the sum of surfaces over all wide nodes counts; leaves are
+// visited however the tree is collapsed. C(n, i) is the least sum below binary node n when it may become up to i
+// children of one wide node: one child that is a wide node itself, or some of n's left and some of n's right subtree.
+// Opening the largest child again and again (Wald, Benthin, Boulos 2008) looks one step ahead: it leaves a third more
+// nodes, most of them nearly empty, at the bottom.
 //
-// A wide node also costs room in the cache, however rarely it is visited; without that price small nodes abound.
+// A wide node also takes cache, however rarely it is visited; without a price for that small nodes abound.
 //
-// Source: Henri Ylitie, Tero Karras, Samuli Laine, Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide
-// BVHs, 2017, section 3.1.
+// Source: Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs, 2017, section
+// 3.1.
 
 #include "soup/bake/bvh_collapse.h"
 
@@ -25,22 +25,22 @@
 // What a wide node costs unvisited, in mean surfaces of a binary leaf.
 #define NODE_PRICE 1.0f
 
-// How one binary node is shared out. Index 0 is for the node as a wide node, index i for up to i children. There are at
-// most as many children as leaves: what lies above is not filled.
+// How one binary node is divided. Index 0 is for the node as a wide node, index i for up to i children. There are no
+// more children than leaves: entries beyond are not filled.
 typedef struct tl_collapse_plan {
-    uint32_t width; // leaves, 15 at most
+    uint32_t width; // number of leaves, at most 15
     float cost[TL_SOUP_WIDTH];
-    uint8_t left[TL_SOUP_WIDTH]; // children that come from the left subtree; 0: it is one child
+    uint8_t left[TL_SOUP_WIDTH]; // children from the left subtree; 0: the node is one child
     uint8_t right[TL_SOUP_WIDTH];
 } tl_collapse_plan;
 
-// The parts of a tree are planned by tasks, and what is above them afterwards: each node's plan needs its children's.
+// Tasks plan the parts of a tree; the nodes above them follow, since a node's plan needs its children's.
 typedef struct planner {
     const tl_bvh *tree;
     tl_collapse_plan *plans;
     float *chance; // by node (bvh_order.h)
     uint32_t plan_count;
-    uint32_t next_part, part_count; // parts that the walk of all that is above them has not come to yet
+    uint32_t next_part, part_count; // parts that the walk over the nodes above has not reached yet
     float node_price;
     uint32_t *first_plans; // of each part
 } planner;
@@ -64,7 +64,7 @@ static collapse_offer offer_of(const planner *p, uint32_t node)
     return o;
 }
 
-// The best way to get up to `count` children from both subtrees, which have that many.
+// The cheapest way to take up to `count` children from both subtrees, which have that many leaves.
 static float share_out(collapse_offer left, collapse_offer right, uint32_t count, uint8_t *left_out, uint8_t *right_out)
 {
     float best = FLT_MAX;
@@ -154,7 +154,7 @@ tl_bvh_part tl_bvh_sum_part(const tl_bvh_node *nodes, uint32_t root)
     return sum;
 }
 
-// The sum of the whole tree, with what is known of its parts; their plans lie one behind the other.
+// The sum of the whole tree from the sums of its parts, whose plans lie one behind the other.
 static void sum_tree(planner *p, uint32_t index, tl_bvh_part *sum)
 {
     const tl_bvh_node *node = &p->tree->nodes[index];
@@ -207,17 +207,17 @@ tl_result tl_bvh_plan_collapse(const tl_bvh *tree, const tl_host *host, tl_arena
     return TL_OK;
 }
 
-// Appends up to `room` children from a subtree.
-static void collect_children(const tl_bvh_collapse *cut, uint32_t index, uint32_t room, uint32_t *children,
+// Appends up to `limit` children from a subtree.
+static void collect_children(const tl_bvh_collapse *cut, uint32_t index, uint32_t limit, uint32_t *children,
                              uint32_t *count)
 {
     const tl_bvh_node *node = &cut->tree->nodes[index];
     if (node->count == 0) {
         const tl_collapse_plan *plan = &cut->plans[node->first];
-        room = tl_min_u32(room, plan->width);
-        if (plan->left[room] > 0) {
-            collect_children(cut, node->left, plan->left[room], children, count);
-            collect_children(cut, node->right, plan->right[room], children, count);
+        limit = tl_min_u32(limit, plan->width);
+        if (plan->left[limit] > 0) {
+            collect_children(cut, node->left, plan->left[limit], children, count);
+            collect_children(cut, node->right, plan->right[limit], children, count);
             return;
         }
     }

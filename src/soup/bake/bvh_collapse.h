@@ -11,15 +11,15 @@
 typedef struct tl_bvh_collapse {
     const tl_bvh *tree;
     const struct tl_collapse_plan *plans;
-    uint32_t inner_count; ///< binary nodes that are no leaves; there are no more wide nodes, but for a lone leaf's
+    uint32_t inner_count; ///< binary inner nodes: at least the number of wide nodes, unless the tree is one leaf
     const float *chance;  ///< by binary node (bvh_order.h)
 } tl_bvh_collapse;
 
-/// A whole subtree as a part.
+/// Sums up a whole subtree.
 tl_bvh_part tl_bvh_sum_part(const tl_bvh_node *nodes, uint32_t root);
 
-/// Plans the cut of a tree on the host's tasks, and writes into its inner nodes which plan is theirs. Memory is the
-/// arena's.
+/// Plans the collapse of a tree on the host's tasks, and writes into each inner node the index of its plan. Memory is
+/// the arena's.
 tl_result tl_bvh_plan_collapse(const tl_bvh *tree, const tl_host *host, tl_arena *arena, tl_bvh_collapse *cut_out);
 
 /// The children of the wide node that stands for the binary node `root`, in their order; returns how many.

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Which child of a wide node comes first: the one most likely to stop a ray.
+// The order of a wide node's children: first the one that most likely stops a ray.
 //
-// A query that any hit will do for takes a node's children as they come. The first is the one by which such a query
-// ends soonest, so that is worth a choice when the tree is baked; at run time it costs nothing. Queries that look for
-// the nearest hit sort children themselves.
+// An any-hit query takes a node's children as they come, and ends soonest with the likeliest blocker first. Choosing it
+// when the tree is baked costs nothing at run time. Closest-hit queries sort children themselves.
 //
-// A ray that enters a box enters a box within it with the chance of their surfaces' ratio. So in a leaf a pair stops it
-// with the chance that the pair's own box has, taken as full (most pairs are a rectangle that fills it); and it passes
-// through a node when it passes through both halves, which are taken as independent of each other.
+// A ray that enters a box enters a box inside it with the probability of their surfaces' ratio (as in the SAH). So in a
+// leaf a pair stops it with the probability of the pair's own box, taken as full (most pairs are a rectangle that fills
+// it); and a ray leaves a node when it passes both halves, taken as independent.
 //
-// Tried: chances by the area of the triangles instead of their box (the same), by chance for the cost of a visit
-// (the same), leaves first (a fifth of the gain), largest first (no gain), nearest first at run time (a sixth slower
-// than none at all).
+// Tried: probabilities by the area of the triangles instead of their box (the same), by probability for the cost of a
+// visit (the same), leaves first (a fifth of the gain), largest first (no gain), nearest first at run time (a sixth
+// slower than no order at all).
 
 #include "soup/bake/bvh_order.h"
 
-// The chance that a ray that enters the outer box enters the inner one.
+// The probability that a ray that enters the outer box enters the inner one.
 static float share(float inner_half_area, float outer_half_area)
 {
     return inner_half_area < outer_half_area ? inner_half_area / outer_half_area : 1.0f;

@@ -7,10 +7,10 @@
 
 #include "soup/bake/soup_bake.h"
 
-/// Writes the chance that a binary node stops a ray which enters its box; those of its children are known.
+/// Writes the probability that a binary node stops a ray that enters its box; its children's are known.
 void tl_bvh_order_node(const tl_bvh *tree, uint32_t index, float *chance);
 
-/// The most likely first; of equal ones, as they were.
+/// Sorts children by that, the likeliest first; equal ones keep their order.
 void tl_bvh_order_children(const float *chance, uint32_t *children, uint32_t count);
 
 #endif

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Object splits: references are sorted into bins by the middle of their boxes, and the plane between two bins with the
-// least sum of surface times blocks wins.
-// Source: Ingo Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007.
+// Object splits: references are sorted into bins by the centroids of their boxes, and the plane between two bins with
+// the least surface area heuristic wins: the sum over both sides of surface times blocks of four.
+// Source: Wald, On fast Construction of SAH-based Bounding Volume Hierarchies, 2007.
 
 #include "soup/bake/bvh_split.h"
 
@@ -22,8 +22,8 @@ static inline void find_cells(const tl_bvh_grid *grid, tl_box4 box, int32_t cell
     tl_box4_cells(tl_box4_middle(box), grid->base, grid->scale, (float)(grid->count - 1), cells);
 }
 
-// Few references get few bins: the cost of a bin is paid whether it is used or not. Twice as many bins made no
-// difference to rays that could be measured.
+// Few references get few bins: a bin costs time whether it is used or not. Twice as many bins made no measurable
+// difference to rays.
 static uint32_t choose_bin_count(uint32_t count)
 {
     uint32_t bins = 4 + count / 8;
@@ -34,10 +34,10 @@ tl_bvh_grid tl_bvh_make_grid(const tl_bvh_range *range)
 {
     tl_bvh_grid grid = { .count = choose_bin_count(range->count) };
     for (uint32_t axis = 0; axis < 3; axis++) {
-        grid.base[axis] = tl_component(range->middles.min, axis);
-        float extent = tl_component(range->middles.max, axis) - grid.base[axis];
+        grid.base[axis] = tl_component(range->centroids.min, axis);
+        float extent = tl_component(range->centroids.max, axis) - grid.base[axis];
         float per_metre = (float)grid.count / extent;
-        // Extents so small that the quotient overflows cannot be parted by a float either.
+        // Where the quotient overflows, no float lies between the centroids either.
         grid.scale[axis] = extent > 0.0f && per_metre < INFINITY ? per_metre : 0.0f;
     }
     return grid;
@@ -100,7 +100,7 @@ static void choose_along(const tl_bvh_bins *bins, uint32_t axis, uint32_t bin_co
     for (uint32_t bin = 1; bin < bin_count; bin++) {
         box = tl_box4_union(box, bins->bin[axis][bin - 1].box);
         count += bins->bin[axis][bin - 1].count;
-        // Behind an empty bin the plane is where it was.
+        // Behind an empty bin the split is the one before.
         if (bins->bin[axis][bin - 1].count == 0 || right_cost[bin] < 0.0f) {
             continue;
         }
@@ -139,10 +139,10 @@ tl_bvh_split tl_bvh_find_split(const tl_bvh_splitter *splitter, const tl_bvh_ran
     return best;
 }
 
-// Without branches: which side it is cannot be foretold. The order within a side stays, and with it the neighbours in
-// memory that the mesh had.
+// Without branches, since the side is unpredictable. References keep their order within a side, and so their locality
+// in memory.
 uint32_t tl_bvh_divide(const tl_bvh_ref *refs, uint32_t count, const tl_bvh_grid *grid, const tl_bvh_split *split,
-                       tl_bvh_ref *left, tl_bvh_ref *right, tl_box4 middles[2])
+                       tl_bvh_ref *left, tl_bvh_ref *right, tl_box4 centroids[2])
 {
     tl_bvh_ref *next[2] = { left, right };
     for (uint32_t i = 0; i < count; i++) {
@@ -152,7 +152,7 @@ uint32_t tl_bvh_divide(const tl_bvh_ref *refs, uint32_t count, const tl_bvh_grid
         find_cells(grid, box, cells);
         uint32_t side = (uint32_t)(cells[split->axis] >= (int32_t)split->bin);
         *next[side]++ = ref;
-        middles[side] = tl_box4_union(middles[side], tl_box4_middle(box));
+        centroids[side] = tl_box4_union(centroids[side], tl_box4_middle(box));
     }
     return (uint32_t)(next[0] - left);
 }
@@ -160,13 +160,13 @@ uint32_t tl_bvh_divide(const tl_bvh_ref *refs, uint32_t count, const tl_bvh_grid
 tl_bvh_range tl_bvh_measure_range(const tl_bvh_ref *refs, uint32_t first, uint32_t count, uint32_t capacity,
                                   uint32_t depth)
 {
-    tl_box4 box = tl_box4_empty(), middles = tl_box4_empty();
+    tl_box4 box = tl_box4_empty(), centroids = tl_box4_empty();
     for (uint32_t i = 0; i < count; i++) {
         tl_box4 of_ref = box_of_ref(&refs[first + i]);
         box = tl_box4_union(box, of_ref);
-        middles = tl_box4_union(middles, tl_box4_middle(of_ref));
+        centroids = tl_box4_union(centroids, tl_box4_middle(of_ref));
     }
-    tl_bvh_range range = { tl_box4_to_aabb(box), tl_box4_to_aabb(middles), first, count, capacity, depth };
+    tl_bvh_range range = { tl_box4_to_aabb(box), tl_box4_to_aabb(centroids), first, count, capacity, depth };
     return range;
 }
 
@@ -192,14 +192,14 @@ void tl_bvh_apply_split(const tl_bvh_splitter *splitter, const tl_bvh_range *ran
     if (split->found && !split->spatial) {
         tl_bvh_ref *right = splitter->scratch + range->first;
         tl_bvh_grid grid = tl_bvh_make_grid(range);
-        tl_box4 middles[2] = { tl_box4_empty(), tl_box4_empty() };
-        uint32_t left_count = tl_bvh_divide(refs, range->count, &grid, split, refs, right, middles);
+        tl_box4 centroids[2] = { tl_box4_empty(), tl_box4_empty() };
+        uint32_t left_count = tl_bvh_divide(refs, range->count, &grid, split, refs, right, centroids);
         tl_bvh_share_range(range, left_count, range->count - left_count, left_out, right_out);
         memcpy(splitter->refs + right_out->first, right, (size_t)right_out->count * sizeof *refs);
         left_out->box = tl_box4_to_aabb(split->box[0]);
-        left_out->middles = tl_box4_to_aabb(middles[0]);
+        left_out->centroids = tl_box4_to_aabb(centroids[0]);
         right_out->box = tl_box4_to_aabb(split->box[1]);
-        right_out->middles = tl_box4_to_aabb(middles[1]);
+        right_out->centroids = tl_box4_to_aabb(centroids[1]);
         return;
     }
     uint32_t left_count, right_count;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The top of the binary tree. Few ranges are large there, so tasks take blocks of them instead: each block fills bins
-// of its own, which add up in any order; the plane that is chosen tells from a block's bins how many of its references
-// go left, so all blocks know where to write before any of them does. References go to and fro between two arrays, one
-// pass a level. The ranges of a level are done together, so that there are few loops to hand out.
+// The top of the binary BVH, built in parallel within a range. Few ranges are large there, so tasks take blocks of
+// their references: each block fills bins of its own, which add up in any order; the chosen plane tells from a block's
+// bins how many of its references go left, so every block knows where to write before any of them does. References move
+// between two arrays, one pass a level. All ranges of a level are split together, so that there are few parallel loops.
 //
-// A range that is cut by a spatial split, or halved, is one task: those are rare, or near their end.
+// A range that a spatial split clips, or that is halved, is one task: such ranges are rare, or nearly done.
 
 #include "soup/bake/bvh_top.h"
 
@@ -40,7 +40,7 @@ typedef struct top_block {
     uint32_t first, count;            // references
     uint32_t left_first, right_first; // where they go
     tl_bvh_bins bins;
-    tl_box4 middles[2];
+    tl_box4 centroids[2];
 } top_block;
 
 typedef struct top_builder {
@@ -88,8 +88,8 @@ static void make_references(uint32_t index, uint32_t worker, void *user)
         s->refs[i] = tl_bvh_reference(s->mesh, s->pairs, i);
     }
     tl_bvh_range measured = tl_bvh_measure_range(s->refs, block->first, block->count, block->count, 0);
-    block->middles[0] = tl_box4_of(measured.box);
-    block->middles[1] = tl_box4_of(measured.middles);
+    block->centroids[0] = tl_box4_of(measured.box);
+    block->centroids[1] = tl_box4_of(measured.centroids);
 }
 
 static void fill_block_bins(uint32_t index, uint32_t worker, void *user)
@@ -139,10 +139,10 @@ static void part_block(uint32_t index, uint32_t worker, void *user)
     top_range *r = &b->ranges[block->range];
     tl_bvh_splitter s = splitter_of(b, r);
     if (r->split.found && !r->split.spatial) {
-        block->middles[0] = tl_box4_empty();
-        block->middles[1] = tl_box4_empty();
+        block->centroids[0] = tl_box4_empty();
+        block->centroids[1] = tl_box4_empty();
         tl_bvh_divide(s.refs + block->first, block->count, &r->grid, &r->split, s.scratch + block->left_first,
-                      s.scratch + block->right_first, block->middles);
+                      s.scratch + block->right_first, block->centroids);
     } else if (index == r->first_block) {
         tl_bvh_apply_split(&s, &r->subtree.range, &r->split, &r->left, &r->right);
     }
@@ -165,14 +165,14 @@ static void end_range(top_builder *b, const top_range *r, tl_bvh_subtree sides[2
         sides[side].in_scratch = r->subtree.in_scratch != moved;
     }
     if (moved) {
-        tl_box4 middles[2] = { tl_box4_empty(), tl_box4_empty() };
+        tl_box4 centroids[2] = { tl_box4_empty(), tl_box4_empty() };
         for (uint32_t i = 0; i < r->block_count; i++) {
-            middles[0] = tl_box4_union(middles[0], b->blocks[r->first_block + i].middles[0]);
-            middles[1] = tl_box4_union(middles[1], b->blocks[r->first_block + i].middles[1]);
+            centroids[0] = tl_box4_union(centroids[0], b->blocks[r->first_block + i].centroids[0]);
+            centroids[1] = tl_box4_union(centroids[1], b->blocks[r->first_block + i].centroids[1]);
         }
         for (uint32_t side = 0; side < 2; side++) {
             sides[side].range.box = tl_box4_to_aabb(r->split.box[side]);
-            sides[side].range.middles = tl_box4_to_aabb(middles[side]);
+            sides[side].range.centroids = tl_box4_to_aabb(centroids[side]);
         }
     }
 }
@@ -215,13 +215,13 @@ static tl_bvh_range measure_all(top_builder *b, uint32_t pair_count, uint32_t ca
     b->range_count = 1;
     lay_blocks(b);
     tl_run_tasks(host, make_references, b->block_count, b);
-    tl_box4 box = tl_box4_empty(), middles = tl_box4_empty();
+    tl_box4 box = tl_box4_empty(), centroids = tl_box4_empty();
     for (uint32_t i = 0; i < b->block_count; i++) {
-        box = tl_box4_union(box, b->blocks[i].middles[0]);
-        middles = tl_box4_union(middles, b->blocks[i].middles[1]);
+        box = tl_box4_union(box, b->blocks[i].centroids[0]);
+        centroids = tl_box4_union(centroids, b->blocks[i].centroids[1]);
     }
     whole.box = tl_box4_to_aabb(box);
-    whole.middles = tl_box4_to_aabb(middles);
+    whole.centroids = tl_box4_to_aabb(centroids);
     return whole;
 }
 

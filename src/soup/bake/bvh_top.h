@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The top of the binary tree, where single ranges are work for all.
+// The top of the binary BVH, where many threads work on one range.
 
 #ifndef TALUS_SRC_SOUP_BVH_TOP_H
 #define TALUS_SRC_SOUP_BVH_TOP_H
@@ -10,11 +10,11 @@
 /// Below this depth ranges are halved by count, which ends within 29 levels more: at most TL_SOUP_MAX_DEPTH in all.
 enum { TL_BVH_HEURISTIC_DEPTH = 60 };
 
-/// A subtree that is still to be built.
+/// A subtree that is not built yet.
 typedef struct tl_bvh_subtree {
     tl_bvh_range range;
     uint32_t *link;  ///< where its root's index goes
-    bool in_scratch; ///< its references are in the splitter's scratch, in the same places
+    bool in_scratch; ///< its references are in the splitter's scratch, at the same indices
 } tl_bvh_subtree;
 
 typedef struct tl_bvh_top {
@@ -25,7 +25,7 @@ typedef struct tl_bvh_top {
     uint32_t subtree_count;
 } tl_bvh_top;
 
-/// More than these there never are.
+/// The largest number of subtrees.
 uint32_t tl_bvh_max_subtrees(uint32_t pair_count);
 
 /// Makes the references of all pairs, and splits them on the host's tasks until no range is much more than a 64th of
@@ -34,8 +34,8 @@ uint32_t tl_bvh_max_subtrees(uint32_t pair_count);
 tl_result tl_bvh_build_top(tl_bvh_top *top, uint32_t pair_count, uint32_t capacity, const tl_host *host,
                            tl_arena *arena);
 
-// A leaf begins at a place of its own; an inner node belongs to the place at which its right part begins. Both are
-// unique among nodes of their kind, and the latter is never 0.
+// A leaf is known by where its references begin, an inner node by where its right part begins. Both are unique among
+// nodes of their kind, and the latter is never 0.
 static inline uint32_t tl_bvh_leaf_index(uint32_t first)
 {
     return 2 * first;

@@ -15,11 +15,11 @@
 
 typedef struct numbering {
     tl_compact_plan *plan;
-    uint32_t *latest; // number that a vertex of the mesh has got last, UINT32_MAX: none
+    uint32_t *latest; // the latest number of a mesh vertex, UINT32_MAX: none
     uint32_t pair_count;
 } numbering;
 
-// A group begins so far back that all of its own new vertices are within reach too.
+// A group counts from so far back that its own new vertices are within reach too.
 static void begin_group(numbering *n)
 {
     uint32_t reach = TL_COMPACT_WINDOW - 4 * TL_COMPACT_GROUP, count = n->plan->vertex_count;

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// The other way to part a soup: a k-d tree. Planes part space, not triangles: what a plane cuts is stored on both
-// sides, clipped to each, so cells never overlap and a ray meets them strictly one after the other. That is what the
-// text puts its pairs into; the wide nodes and the leaves are those of the box tree, so the two can be compared, and
-// every query runs on both.
+// The k-d tree, the alternative to the BVH. Planes divide space, not triangles: pairs that a plane cuts are stored on
+// both sides, clipped to each, so cells never overlap and a ray meets them strictly one after the other. It is the tree
+// of Ericson's article. Wide nodes and leaves are those of the BVH, so the two can be compared, and every query runs on
+// both.
 //
-// Planes are chosen by the surface area heuristic, from the top down. Costs of planes can only have their minimum
-// where a clipped reference begins or ends: in small cells all of those are tried in one sweep over sorted events, in
-// large ones the borders of bins, which cost a count instead of a sort and lose little. A cell at whose best plane
-// nothing is won (a fan around a corner, which no plane parts) is shared out among leaves by count.
+// Planes are chosen by the surface area heuristic, from the top down. Its minimum lies where a clipped reference begins
+// or ends: in small cells all those planes are tried in one sweep over sorted events, in large ones the borders of
+// bins, which cost a count instead of a sort and lose little. A cell whose best plane gains nothing (a fan around a
+// corner, which no plane separates) is distributed over leaves by count.
 //
-// A triangle that lies in several leaves need not be remembered while a ray is under way (mailboxes): to find it twice
-// gives the same t twice, and what lies behind the best hit is dropped before it is decided.
+// A ray need not remember the triangles that it has tested (mailboxes): finding one twice gives the same t twice, and
+// what lies behind the best hit is dropped before it is decided.
 //
-// Sources: Ingo Wald, Vlastimil Havran, On building fast kd-Trees for Ray Tracing, and on doing that in O(N log N),
-// 2006 (costs, sweep, planar references, depth); Havran, Bittner, On Improving KD-Trees for Ray Shooting, 2002
-// (clipping).
+// Sources: Wald, Havran, On building fast kd-Trees for Ray Tracing, and on doing that in O(N log N), 2006 (costs,
+// sweep, planar references, depth); Havran, Bittner, On Improving KD-Trees for Ray Shooting, 2002 (clipping).
 
 #include "base/host.h"
 #include "soup/bake/bvh_split.h"
@@ -26,16 +25,16 @@
 #include <string.h>
 
 enum {
-    SWEEP_MAX = 64, // references of a cell that is swept
+    SWEEP_MAX = 64, // the most references of a cell that is swept
     KD_BINS = 64,
-    DEPTH_MAX = 60 // the share-out below ends within 29 levels more
+    DEPTH_MAX = 60 // distributing by count ends within 29 levels more
 };
 static_assert(DEPTH_MAX + 32 <= TL_SOUP_MAX_DEPTH, "a cell of 2^32 references ends within the depth limit");
 
-// A plane that cuts off empty space lets rays end early, which areas alone do not see (Wald and Havran, section 5.1).
+// Cutting off empty space ends rays early, which areas alone do not show (Wald and Havran, section 5.1).
 #define EMPTY_SPACE_SHARE 0.8f
 
-// An array that grows. References are pushed and popped in the order of the recursion.
+// A growing array. References are pushed and popped in the order of the recursion.
 typedef struct ref_list {
     tl_bvh_ref *refs;
     uint64_t count, capacity;
@@ -69,8 +68,8 @@ typedef struct kd_plane {
 // ---------------------------------------------------------------------------------------------------------
 // Memory.
 
-// Doubles an array, or gives up and says so once for all.
-static bool grow(kd_builder *b, void **array, uint64_t *capacity, uint64_t needed, size_t size)
+// Doubles an array. Once this fails, all later calls fail.
+static bool grow_kd_array(kd_builder *b, void **array, uint64_t *capacity, uint64_t needed, size_t size)
 {
     if (needed <= *capacity) {
         return true;
@@ -93,7 +92,7 @@ static bool grow(kd_builder *b, void **array, uint64_t *capacity, uint64_t neede
 static bool push_ref(kd_builder *b, ref_list *list, const tl_bvh_ref *ref)
 {
     void *refs = list->refs;
-    if (!grow(b, &refs, &list->capacity, list->count + 1, sizeof *list->refs)) {
+    if (!grow_kd_array(b, &refs, &list->capacity, list->count + 1, sizeof *list->refs)) {
         return false;
     }
     list->refs = refs;
@@ -104,7 +103,7 @@ static bool push_ref(kd_builder *b, ref_list *list, const tl_bvh_ref *ref)
 static uint32_t push_kd_node(kd_builder *b)
 {
     void *nodes = b->nodes;
-    if (!grow(b, &nodes, &b->node_capacity, b->node_count + 1, sizeof *b->nodes)) {
+    if (!grow_kd_array(b, &nodes, &b->node_capacity, b->node_count + 1, sizeof *b->nodes)) {
         return 0;
     }
     b->nodes = nodes;
@@ -125,7 +124,7 @@ static tl_aabb box_of_refs(const tl_bvh_ref *refs, uint32_t count)
     return box;
 }
 
-// Shares references out among leaves by count.
+// Distributes references over leaves by count.
 static uint32_t make_leaves(kd_builder *b, uint64_t first, uint32_t count)
 {
     uint32_t index = push_kd_node(b);
@@ -142,7 +141,7 @@ static uint32_t make_leaves(kd_builder *b, uint64_t first, uint32_t count)
         }
         return index;
     }
-    // Whole leaves on the left, so that only the last one of all may have room left.
+    // Full leaves on the left, so that only the last leaf may hold fewer.
     uint32_t blocks = (count + TL_SOUP_LEAF_PAIRS - 1) / TL_SOUP_LEAF_PAIRS;
     uint32_t left_count = blocks / 2 * TL_SOUP_LEAF_PAIRS;
     uint32_t left = make_leaves(b, first, left_count);
@@ -182,7 +181,7 @@ static void try_plane(const kd_cell *cell, uint32_t axis, float position, uint32
     }
 }
 
-// At one position ends come before planar references, and these before beginnings.
+// At the same position ends come before planar references, and these before beginnings.
 typedef enum kd_event_kind { EVENT_END, EVENT_PLANAR, EVENT_BEGIN } kd_event_kind;
 
 typedef struct kd_event {
@@ -244,7 +243,7 @@ static uint32_t bin_of(float place, float base, float per_metre)
     return bin <= 0.0f ? 0 : bin >= (float)(KD_BINS - 1) ? KD_BINS - 1 : (uint32_t)bin;
 }
 
-// Counts are off for references that end on a border of bins; only the plane is chosen by them.
+// Counts are approximate for references that end on a border of bins; they only choose the plane.
 static void try_bins(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
 {
     float base = tl_component(cell->box.min, axis);
@@ -267,7 +266,7 @@ static void try_bins(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd
     }
 }
 
-// False: to part the cell is no better than to test all of it.
+// False: splitting the cell is no cheaper than testing all of it.
 static bool find_kd_plane(const kd_builder *b, const kd_cell *cell, kd_plane *best)
 {
     float area = tl_aabb_half_area(cell->box);
@@ -289,7 +288,7 @@ static bool find_kd_plane(const kd_builder *b, const kd_cell *cell, kd_plane *be
 // ---------------------------------------------------------------------------------------------------------
 // The tree.
 
-// Sorts a cell's references to both sides: right ones stay in the cell's place, left ones go behind all others.
+// Sorts a cell's references to both sides: right ones stay where the cell's were, left ones go behind all others.
 static bool part_references(kd_builder *b, const kd_cell *cell, const kd_plane *plane, kd_cell *left, kd_cell *right)
 {
     left->first = b->work.count;
@@ -353,7 +352,7 @@ static uint32_t build_cell(kd_builder *b, kd_cell cell)
     return index;
 }
 
-// Wald and Havran's 8 + 1.3 log2 of the count: what is not parted by then is not worth it.
+// Wald and Havran's depth limit: 8 + 1.3 log2 of the count.
 static uint32_t depth_limit(uint32_t count)
 {
     uint32_t log2 = 0;
@@ -364,7 +363,7 @@ static uint32_t depth_limit(uint32_t count)
     return depth < DEPTH_MAX ? depth : DEPTH_MAX;
 }
 
-// What was built goes to the arena, so that a soup's build has one way to end.
+// Copies the tree to the arena, so that baking a soup has one exit.
 static tl_result copy_to_arena(const kd_builder *b, uint32_t root, tl_arena *arena, tl_bvh *tree)
 {
     if (b->out.count > UINT32_MAX || b->node_count > TL_BVH_MAX_NODES) {

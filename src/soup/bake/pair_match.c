@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// A matching of triangles over shared edges, as large as can be had in linear time, short pairs first.
+// A matching of triangles over shared edges, as large as linear time gives, compact pairs first.
 //
-// A triangle that has one free neighbour left is matched with it at once: some maximum matching contains that edge, so
+// A triangle with one free neighbour left is matched with it at once: some maximum matching contains that edge, so
 // nothing is lost (Karp and Sipser, Maximum matchings in sparse random graphs, 1981). While there is none, the free
-// edge whose pair has the smallest box, measured against its two triangles' boxes, is taken: what pairs cost a tree is
-// the surface that their common box adds. Greedy by cost alone leaves every tenth triangle single; a maximum matching
-// by augmenting paths alone ignores the boxes and undoes good pairs.
+// edge whose pair has the smallest box, relative to its two triangles' boxes, is taken: a pair costs the BVH the
+// surface that the common box adds. Greedy matching by cost alone leaves every tenth triangle single; a maximum
+// matching by augmenting paths ignores the boxes and undoes good pairs.
 //
-// Nothing is assumed about the mesh. Triangles around one edge form a chain, in which each is a neighbour of the one
-// before and the one behind it; two triangles with the same three corners are neighbours too, and winding plays no
-// part.
+// Any mesh will do. Triangles around one edge form a chain, in which each is a neighbour of the one before and the one
+// behind it; two triangles with the same three corners are neighbours too, and winding does not matter.
 //
-// A link is two triangles across one edge, known by the edge of the earlier one: next[edge] is the other's. In here
-// triangles and edges are numbered by their place among those that are matched, so that all arrays are small.
+// A link is two triangles across one edge, known by the edge of the earlier one: next[edge] is the other's. Triangles
+// and edges are numbered here within the set that is matched, so that all arrays are small.
 
 #include "soup/bake/pair_match.h"
 
@@ -21,8 +20,8 @@
 
 #include <string.h>
 
-// Costs as steps of at most a per cent, from 0.5 to 128: finer ones cost more time than better pairs
-// gain. What is dearer, or NaN, is in the last step.
+// Costs are quantized in steps of at most one per cent, from 0.5 to 128: finer steps cost more time than better pairs
+// gain. Larger costs, and NaN, are in the last step.
 enum { COST_STEPS = 1024, COST_SHIFT = 16, COST_OF_HALF = 0x3f00 };
 
 struct tl_pair_matcher {
@@ -38,14 +37,14 @@ struct tl_pair_matcher {
     tl_box4 *boxes;  // of triangles
     uint8_t *degree; // of triangles that are free: links to others that are
     uint8_t *free;   // of triangles
-    uint32_t *stack; // triangles that came down to one free neighbour
+    uint32_t *stack; // triangles with one free neighbour left
     uint32_t stack_count;
     uint32_t *mates; // of triangles: the partner's edge
 };
 
 static uint32_t slot_bits_for(uint32_t triangles)
 {
-    // There are three edges a triangle at most, and one and a half mostly.
+    // At most three edges a triangle, usually one and a half.
     uint32_t bits = 4;
     while (bits < 31 && (uint64_t)1 << bits < 4 * (uint64_t)triangles) {
         bits++;
@@ -63,7 +62,7 @@ tl_pair_matcher *tl_pair_matcher_make(const tl_mesh *mesh, uint32_t capacity, tl
     m->mesh = mesh;
     m->slots = TL_PUSH(arena, uint32_t, (uint64_t)1 << slot_bits_for(capacity));
     m->keys = TL_PUSH(arena, uint64_t, edges);
-    m->order = (uint32_t *)(void *)m->keys; // which are needed no more then
+    m->order = (uint32_t *)(void *)m->keys; // the keys are no longer needed then
     m->next = TL_PUSH(arena, uint32_t, edges);
     m->previous = TL_PUSH(arena, uint32_t, edges);
     m->steps = TL_PUSH(arena, uint16_t, edges);
@@ -118,9 +117,8 @@ static void find_links(tl_pair_matcher *m, const uint32_t *list, uint32_t first)
     }
 }
 
-// Surface of the common box over the surfaces of both boxes; 0.5 for two equal boxes. Flat boxes of zero surface
-// (a triangle is never a line, so its box has surface) do not occur; underflow of tiny ones gives NaN, which sorts
-// last.
+// Surface of the common box over the surfaces of both boxes; 0.5 for two equal boxes. No box has zero surface, since no
+// triangle is a line; underflow of tiny boxes gives NaN, which sorts last.
 static float link_cost(const tl_box4 *a, const tl_box4 *b)
 {
     return tl_box4_half_area(tl_box4_union(*a, *b)) / (tl_box4_half_area(*a) + tl_box4_half_area(*b));

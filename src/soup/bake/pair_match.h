@@ -11,10 +11,10 @@
 
 #define TL_NO_MATE UINT32_MAX
 
-/// Edges are counted as the mesh counts corners: edge 3 t + k of triangle t runs from its corner k to the next.
+/// Edges are numbered like corners: edge 3 t + k of triangle t runs from its corner k to the next.
 typedef struct tl_pair_matcher tl_pair_matcher;
 
-/// Room to match up to `capacity` triangles at once. NULL: out of memory.
+/// A matcher of up to `capacity` triangles at once. NULL: out of memory.
 tl_pair_matcher *tl_pair_matcher_make(const tl_mesh *mesh, uint32_t capacity, tl_arena *arena);
 
 /// Matches `count` triangles: those in `list`, or, where it is NULL, those from `first` on. Writes to mates[t], for

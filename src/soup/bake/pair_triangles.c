@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Pairing: tasks match the triangles of one chunk each (pair_match.c), which lie near each other in most meshes, and so
-// does their memory. What is left single then is matched once more, over the chunks' borders. Where borders turn out to
-// be everywhere, because the mesh is in no order, all is matched at once: that takes twice as long on a mesh larger
-// than the caches, and one thread. Chunks are a matter of the mesh alone, so the pairs do not depend on how many tasks
-// run.
+// Pairing: each task matches the triangles of one chunk (pair_match.c), which lie near each other in most meshes, and
+// so does their memory. The triangles left single are matched once more, across the borders of chunks. Where borders
+// turn out to be everywhere, because the mesh is in no order, all triangles are matched at once: on a mesh larger than
+// the caches that takes twice as long, and one thread. Chunks depend on the mesh alone, so the pairs do not depend on
+// the number of tasks.
 //
-// The text's pair A B C, A C D is stored with the order in which each triangle really runs.
+// The article's pair A B C, A C D is stored with the order in which each triangle really runs.
 //
 // Source: Christer Ericson, "Chunky triangle soup", 2009.
 
@@ -22,10 +22,10 @@
 const uint8_t tl_soup_corner_slots[8][3] = { { 0, 1, 2 }, { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
                                              { 0, 2, 1 }, { 2, 1, 0 }, { 1, 0, 2 }, { 0, 1, 2 } };
 
-// Most triangles of a chunk: its arrays are some 1.5 MB.
+// The largest chunk, in triangles: its arrays take about 1.5 MB.
 enum { CHUNK_TRIANGLES = 1 << 14 };
 
-// A mesh of which more than this share is paired over borders is in no order.
+// A mesh is in no order when more than 1 / BORDER_SHARE of it is paired across borders.
 enum { BORDER_SHARE = 32 };
 
 typedef struct pairing {
@@ -37,7 +37,7 @@ typedef struct pairing {
     tl_pair_matcher **matchers; // of workers
 } pairing;
 
-// Chunks of about the same size.
+// Chunks of nearly equal size.
 static void lay_chunks(pairing *p)
 {
     uint32_t count = p->mesh->triangle_count;
@@ -85,7 +85,7 @@ static uint32_t count_free(const pairing *p)
     return count;
 }
 
-// Matches what the chunks left free.
+// Matches the triangles that the chunks left free.
 static tl_result match_rest(pairing *p, uint32_t count, tl_arena *arena)
 {
     tl_arena_mark mark = tl_arena_get_mark(arena);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// From a triangle list to a soup: weld, pair, build the tree, bake.
+// From a triangle list to a soup: weld, pair, build the tree, encode.
 
 #include "soup/bake/soup_bake.h"
 
@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-// A triangle's share of the largest stage, measured: a matching of all triangles, or the tree.
+// Bytes a triangle of the largest stage, measured: a matching of all triangles, or the tree.
 enum { STAGE_BYTES = 136 };
 
 tl_soup_def tl_default_soup_def(void)
@@ -64,7 +64,7 @@ static tl_result bake_welded(const tl_mesh_view *view, const tl_mesh *mesh, cons
     const tl_host *host = &def->host;
     report->base.stage = "pair triangles";
     TL_TRY(tl_progress_update(host, "pair triangles", 0, 1));
-    // One block for what the stages need at once, so that each uses the pages of the one before it.
+    // One block for all stages, so that each reuses the pages of the one before.
     if (!tl_arena_reserve(arena, (uint64_t)mesh->triangle_count * STAGE_BYTES)) {
         return TL_ERR_MEMORY;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The stages of a soup's build and what they hand on.
+// The stages of baking a soup, and what they hand on.
 
 #ifndef TALUS_SRC_SOUP_SOUP_BAKE_H
 #define TALUS_SRC_SOUP_SOUP_BAKE_H
@@ -22,15 +22,15 @@ typedef struct tl_triangle_pair {
 tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena,
                             tl_triangle_pair **pairs_out, uint32_t *pair_count_out);
 
-/// A pair's box, or the part of it that a spatial split left. 32 bytes, so that two fill a cache line.
+/// A reference: a pair's box, or the part of it that spatial splits left. 32 bytes, so that two fill a cache line.
 typedef struct tl_bvh_ref {
     tl_vec3 min;
     uint32_t pair;
     tl_vec3 max;
-    uint32_t is_copy; ///< 1: an earlier leaf holds the pair too; for the bake
+    uint32_t is_copy; ///< 1: an earlier leaf holds the pair too
 } tl_bvh_ref;
 
-/// A whole pair.
+/// The reference of a whole pair.
 static inline tl_bvh_ref tl_bvh_reference(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32_t pair)
 {
     tl_aabb box = tl_aabb_empty();
@@ -49,7 +49,7 @@ typedef struct tl_bvh_node {
     uint32_t count;       ///< 0: inner
 } tl_bvh_node;
 
-/// A subtree that may be worked on at once with the others, and what is known of it.
+/// A subtree that tasks may work on in parallel with the others, and its sums.
 typedef struct tl_bvh_part {
     uint32_t root;
     uint32_t inner_count, leaf_count; ///< nodes
@@ -57,7 +57,7 @@ typedef struct tl_bvh_part {
     double leaf_surface;              ///< sum of half areas of leaves
 } tl_bvh_part;
 
-/// Indices of nodes are below it, so that the bake has a bit to spare.
+/// Indices of nodes are below it, so that they have a bit to spare.
 #define TL_BVH_MAX_NODES 0x80000000u
 
 typedef struct tl_bvh {
@@ -70,7 +70,7 @@ typedef struct tl_bvh {
     uint32_t ref_count; ///< in leaves
 } tl_bvh;
 
-/// Builds the binary tree that the wide one is cut from. Leaves hold 1 .. TL_SOUP_LEAF_PAIRS references.
+/// Builds the binary BVH that the wide one is collapsed from. Leaves hold 1 .. TL_SOUP_LEAF_PAIRS references.
 tl_result tl_bvh_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
                        tl_arena *arena, tl_bvh *tree_out);
 

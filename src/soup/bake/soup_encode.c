@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// From the binary tree to the blob: wide nodes are cut from it (bvh_collapse.c) level by level, which gives every node
-// and leaf its place; then they are written, in any order, by the host's tasks. The blob is not zeroed first: a task
-// writes all bytes of its own nodes and leaves, and touches their pages.
+// From the binary BVH to the blob: wide nodes are collapsed from it (bvh_collapse.c) level by level, which gives every
+// node and leaf its place; then the host's tasks write them, in any order. The blob is not zeroed first: a task writes
+// all bytes of its own nodes and leaves, and so touches their pages first.
 
 #include "soup/bake/soup_encode.h"
 
@@ -15,7 +15,7 @@
 // Wide nodes a task.
 enum { BLOCK_NODES = 64 };
 
-// What tasks go over: nodes from `first` to below `end`.
+// The nodes of tasks: from `first` to below `end`.
 typedef struct node_range {
     tl_soup_encoder *baker;
     uint32_t first, end;
@@ -54,7 +54,7 @@ static void find_children_of_block(uint32_t block, uint32_t worker, void *user)
     }
 }
 
-// Gives what a node names its place: behind all that the nodes before it name.
+// Gives a node's children their places: behind the children of all nodes before it.
 static void place_children(tl_soup_encoder *b, tl_wide_node *wide)
 {
     wide->first_inner = b->node_count;
@@ -202,7 +202,7 @@ static void write_block(uint32_t block, uint32_t worker, void *user)
     }
 }
 
-// The material of all triangles, or whether they need a table.
+// Whether triangles differ in material; if not, `*uniform_out` is the material of all.
 static bool needs_material_table(const tl_mesh_view *view, uint32_t *uniform_out)
 {
     *uniform_out = view->materials != NULL ? view->materials[0] : 0;
@@ -235,7 +235,7 @@ static void fill_head(const tl_soup_encoder *b, tl_soup *soup)
     soup->bounds_max = bounds.max;
 }
 
-// The blob with its head. Nodes and leaves are left as they are; all else is zero.
+// The blob with its head. Nodes and leaves are uninitialized, all other bytes zero.
 static tl_soup *allocate_soup(tl_soup *head, const tl_allocator *allocator)
 {
     tl_soup *soup = tl_blob_allocate_part(allocator, TL_SOUP_MAGIC, TL_SOUP_VERSION, tl_soup_place_arrays(head),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What both layouts are written from: the binary tree, cut into wide nodes in breadth-first order.
+// What both layouts are written from: the binary BVH, collapsed into wide nodes in breadth-first order.
 
 #ifndef TALUS_SRC_SOUP_SOUP_ENCODE_H
 #define TALUS_SRC_SOUP_SOUP_ENCODE_H
@@ -9,19 +9,19 @@
 #include "soup/bake/soup_bake.h"
 #include "soup/layout/compact_layout.h"
 
-/// A child of a wide node that is a leaf, by this bit of its binary node's index.
+/// Marks a child of a wide node as a leaf, in the index of its binary node.
 #define TL_WIDE_LEAF TL_BVH_MAX_NODES
 
-/// A wide node, and where what it names goes.
+/// A wide node, and the places of its children.
 typedef struct tl_wide_node {
     uint32_t root; ///< binary node
     uint32_t child_count;
     uint32_t child[TL_SOUP_WIDTH]; ///< binary nodes
-    uint32_t inner_count;          ///< children that are no leaves
+    uint32_t inner_count;          ///< children that are wide nodes
     uint32_t leaf_count;
-    uint32_t first_inner; ///< number of the first of them: they follow each other
+    uint32_t first_inner; ///< index of the first of them: they are consecutive
     uint32_t leaf_bytes;
-    uint64_t leaf_offset; ///< of its first leaf: they follow each other
+    uint64_t leaf_offset; ///< of its first leaf: they are consecutive
 } tl_wide_node;
 
 typedef struct tl_soup_encoder {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Moved vertices, the same triangles: corners are written anew, and boxes from the leaves up.
+// Refit: rewrites the corners of moved vertices, and the boxes from the leaves up.
 //
-// Pairs and tree stay what they were, so the soup answers as well as one built anew, only slower the more its triangles
-// have moved apart. Nodes are numbered breadth first, so children come behind their parents, and one pass from the last
-// node to the first fits all boxes. Where spatial splits had cut a pair's box, each of its copies gets the whole box.
+// Pairs and tree stay what they were, so queries answer as on a soup that is baked anew, only more slowly the farther
+// its triangles have moved apart. Nodes are numbered breadth first, so children lie behind their parents, and one pass
+// from the last node to the first fits all boxes. Where spatial splits had clipped a pair's box, each copy gets the
+// whole box.
 //
-// All is checked before anything is written.
+// Everything is checked before anything is written.
 
 #include "base/assert.h"
 #include "base/host.h"
@@ -53,7 +54,7 @@ static tl_result check_triangle(const tl_mesh_view *view, uint32_t triangle, tl_
             return tl_report_fail(report, TL_ERR_INDEX, "triangle", triangle, "check the index buffer");
         }
         if (!tl_is_finite(view->vertices[index])) {
-            return tl_report_fail(report, TL_ERR_NOT_FINITE, "vertex", index, "check what moves the vertices");
+            return tl_report_fail(report, TL_ERR_NOT_FINITE, "vertex", index, "check the code that moves the vertices");
         }
         if (!position_in_range(view->vertices[index])) {
             return tl_report_fail(report, TL_ERR_RANGE, "vertex", index, "keep coordinates within 1e12 m");
@@ -75,7 +76,7 @@ static tl_result check_moved_leaf(const tl_mesh_view *view, const tl_leaf_view *
                         is_same_position(moved.slot[0][2], moved.slot[1][2]);
         if (!moved.single && !together) {
             return tl_report_fail(report, TL_ERR_ARGUMENT, "triangle", leaf->ids[i] & TL_ID_INDEX,
-                                  "it came apart from its neighbour: move equal vertices equally, or build anew");
+                                  "it came apart from its neighbour: move equal vertices equally, or bake anew");
         }
     }
     return TL_OK;
@@ -85,11 +86,11 @@ static tl_result check_view(const tl_soup *soup, const tl_mesh_view *view, tl_re
 {
     if (soup->layout != TL_SOUP_FAST) {
         return tl_report_fail(report, TL_ERR_UNSUPPORTED, "soup", TL_NO_ELEMENT,
-                              "build soups that move in the plain layout");
+                              "bake soups that move with TL_SOUP_FAST");
     }
     if (view->triangle_count != soup->source_triangle_count) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "triangle", view->triangle_count,
-                              "give the triangles that the soup was built from");
+                              "give the triangles that the soup was baked from");
     }
     for (uint64_t offset = 0; offset < soup->leaf_bytes;) {
         tl_leaf_view leaf = tl_view_leaf(tl_soup_leaf_at(soup, offset));
@@ -107,7 +108,7 @@ static float extent_of(const tl_vec3 v[3])
 
 static void write_slot(const tl_leaf_view *leaf, uint32_t lane, uint32_t slot, tl_vec3 at)
 {
-    // The soup is the caller's to change; the view's pointers are const for the queries.
+    // The soup is writable; the view's pointers are const for the queries.
     const float *slots[3];
     tl_leaf_slots(leaf, lane, slots);
     float *corner = (float *)(uintptr_t)slots[slot];

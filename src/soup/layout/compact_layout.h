@@ -5,13 +5,13 @@
 //   tl_soup | tl_compact_node[node_count] | tl_compact_pair[reference_count] | uint32 groups[] | float vertices[3][] |
 //   zeros | uint16 materials[]
 //
-// - Vertices stand once. A pair names its four by 16 bits each, counted from a vertex that 64 pairs have in common. A
+// - Vertices are shared. A pair names its four by 16 bits each, counted from a vertex that 64 pairs have in common. A
 //   vertex that is used again too far away is stored again, which is rare: leaves lie in the order of the tree.
-// - A node's boxes are bytes, steps of a power of two from the node's own corner. They are rounded outward, so they
-// only
-//   let in more; and a plane, origin + byte * scale, rounds once, fused or not, so it is the same float everywhere.
-// - A leaf is one to four pairs in a row. What reads a leaf expands it into the plain form (tl_soup_leaf) first: the
-//   leaf code, and with it every answer, is that of the plain layout.
+// - A node's boxes are quantized to bytes: steps of a power of two from the node's own corner. They are rounded
+//   outward, so they only let in more; and a plane, origin + byte * scale, rounds once, fused or not, so it is the same
+//   float on every machine.
+// - A leaf is one to four consecutive pairs. Its readers expand it to the plain form (tl_soup_leaf) first: the leaf
+//   code, and with it every answer, is that of the plain layout.
 //
 // Source of the node: Ylitie, Karras, Laine, Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs,
 // 2017, section 3; here without their implicit children, which would save 40 bytes of 192 and cost a shuffle a visit.
@@ -23,7 +23,7 @@
 
 enum {
     TL_COMPACT_GROUP = 64,     ///< pairs that count their vertices from the same one
-    TL_COMPACT_STEPS = 255,    ///< of a plane
+    TL_COMPACT_STEPS = 255,    ///< the largest step of a plane
     TL_COMPACT_WINDOW = 65536, ///< vertices that a pair can name
 };
 
@@ -71,7 +71,7 @@ static inline uint32_t tl_compact_group_count(uint32_t pair_count)
     return pair_count / TL_COMPACT_GROUP + (pair_count % TL_COMPACT_GROUP != 0);
 }
 
-/// The vertex from which pair `index` counts.
+/// The vertex from which pair `index` counts its vertices.
 static inline const float *tl_compact_base(const tl_soup *soup, uint32_t index)
 {
     return tl_compact_vertices(soup) + 3 * (size_t)tl_compact_groups(soup)[index / TL_COMPACT_GROUP];
@@ -83,8 +83,8 @@ static inline float tl_compact_plane(const tl_compact_node *node, uint32_t axis,
     return node->origin[axis] + (float)step * node->scale[axis];
 }
 
-/// Where the arrays lie, by the counts in the head: sets its offsets and returns the end of the last one. No overflow
-/// for any counts.
+/// Computes the arrays' offsets in the head from its counts, and returns the end of the last array. No overflow for any
+/// counts.
 static inline uint64_t tl_soup_place_arrays(tl_soup *head)
 {
     bool compact = head->layout == TL_SOUP_COMPACT;
@@ -100,7 +100,7 @@ static inline uint64_t tl_soup_place_arrays(tl_soup *head)
     return head->material_offset + (head->has_materials ? (uint64_t)head->source_triangle_count * sizeof(uint16_t) : 0);
 }
 
-/// Room for an expanded leaf.
+/// An expanded leaf.
 typedef struct tl_leaf_buffer {
     _Alignas(16) tl_soup_leaf head;
     uint32_t words[(2 + 12) * TL_SOUP_LEAF_PAIRS];
@@ -136,7 +136,7 @@ static inline const tl_soup_leaf *tl_expand_pairs(const tl_soup *soup, uint32_t 
     return &buffer->head;
 }
 
-/// The leaf that a child word names, in the plain form: where it is, or expanded.
+/// The leaf that a child word names, in the plain form: in place, or expanded into `buffer`.
 static inline const tl_soup_leaf *tl_open_leaf(const tl_soup *soup, uint32_t child, tl_leaf_buffer *buffer)
 {
     uint64_t offset = tl_child_leaf_offset(child);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether bytes are a sound soup. Offsets must be the ones that the baker computes from the counts; nodes must be
-// numbered breadth first and leaves lie in the order in which nodes name them. Each child word is then forced, so two
-// counters prove that the nodes form a tree, that every query ends, and that nothing lies outside.
+// Whether bytes are a sound soup. Offsets must be those that the encoder computes from the counts; nodes must be
+// numbered breadth first, and leaves must lie in the order in which nodes name them. Each child word is then
+// determined, so two counters prove that the nodes form a tree, that every query ends, and that nothing lies outside.
 
 #include "soup/layout/compact_layout.h"
 
@@ -15,7 +15,7 @@
 
 typedef struct checker {
     const tl_soup *soup;
-    uint32_t node; // that is checked
+    uint32_t node; // the node being checked
     uint32_t next_node;
     uint64_t next_leaf; // offset
     uint32_t leaf_count;
@@ -116,7 +116,7 @@ static bool leaf_is_sound(checker *c, uint32_t child)
             (!single && (!id_is_sound(c, view.ids[pairs + i]) || copy != ((view.ids[pairs + i] & TL_ID_COPY) != 0)))) {
             return false;
         }
-        // A lane without a triangle has no area, so no ray can surely hit it.
+        // A lane without a triangle must have no area: then no ray can surely hit it.
         tl_vec3 a = tl_leaf_slot(&view, i, 0), d = tl_leaf_slot(&view, pairs + i, 1);
         if (single && !(a.x == d.x && a.y == d.y && a.z == d.z)) {
             return false;
@@ -133,8 +133,7 @@ static bool leaf_is_sound(checker *c, uint32_t child)
     return true;
 }
 
-// The walks do not look at child words to tell lanes apart, so a lane without a child must have the box that no ray
-// enters.
+// Traversal does not read child words to skip lanes, so a lane without a child must have the box that no ray enters.
 static bool boxes_are_sound(const tl_soup_node *node)
 {
     for (uint32_t lane = 0; lane < TL_SOUP_WIDTH; lane++) {
@@ -154,7 +153,7 @@ static bool is_power_of_two(float value)
     return value >= FLT_MIN && value <= TL_MAX_COORDINATE && frexpf(value, &exponent) == 0.5f;
 }
 
-// Here the mask tells.
+// In compact nodes the mask skips them.
 static bool compact_boxes_are_sound(const tl_compact_node *node)
 {
     uint32_t children = 0;
@@ -162,7 +161,7 @@ static bool compact_boxes_are_sound(const tl_compact_node *node)
         children |= (uint32_t)(node->child[lane] != 0) << lane;
     }
     for (uint32_t axis = 0; axis < 3; axis++) {
-        // The last step may lie beyond the range, planes that are used not.
+        // The last step may lie beyond the range; planes in use may not.
         if (!coordinate_in_range(node->origin[axis]) || !is_power_of_two(node->scale[axis])) {
             return false;
         }
@@ -181,7 +180,7 @@ static bool check_nodes(checker *c)
         c->node = i;
         if (i == level_end) {
             if (level_end == c->next_node) {
-                return false; // nobody names node i
+                return false; // no node names node i
             }
             level_end = c->next_node;
             c->depth++;

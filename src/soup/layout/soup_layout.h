@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 //
-// The soup's plain bytes (compact_layout.h has the others): a head, 16-wide nodes, leaves of one to four pairs,
+// The soup's plain bytes (compact_layout.h has the others): a head, the 16-wide BVH, leaves of one to four pairs,
 // materials.
 //
 //   tl_soup | tl_soup_node[node_count] | leaves, each 16-byte aligned | 64 zero bytes | uint16 materials[] | zeros
 //
-// Nodes hold 16 child boxes as plain floats: 448 bytes, seven cache lines. 16 children because a ray's time goes into
-// visits (a missed branch, a missed cache line), not into box arithmetic. Floats because a ray waits for each visit to
-// learn where to go: 16-bit planes halve a node, but to widen and to convert them costs a third of a visit, and rays a
-// tenth of their time. What nodes weigh is then a matter of how well they are filled (bvh_collapse.c).
+// A node holds 16 child boxes as plain floats: 448 bytes, seven cache lines. 16 children, because a ray's time goes
+// into visits (a mispredicted branch, a cache miss), not into box arithmetic. Floats, because a ray waits for each
+// visit to learn where to go: 16-bit planes halve a node, but widening and converting them costs a third of a visit,
+// and rays a tenth of their time. How much memory nodes take then depends on how well they are filled (bvh_collapse.c).
 //
-// Leaves hold their corners themselves, one array a coordinate, without padding lanes: a ray reads one run of memory.
-// A leaf of n pairs, in 4-byte words, follows its head (see tl_leaf_view):
+// Leaves hold their corners themselves, one array a coordinate, without padding lanes: a ray reads one run of memory. A
+// leaf of n pairs, in 4-byte words, follows its head (see tl_leaf_view):
+//
 //   uint32 ids[2n]; float x: a[n] c[n] b[n] d[n], y: a[n] c[n] b[n] d[n], z: a[n] c[n] b[n] d[n]
-// Behind c lies e[2n]: b for the first n lanes and d for the last n. With a, e, c both triangles of a pair take one
-// formula.
+//
+// Behind c lies e[2n]: b for the first n lanes and d for the last n. With a, e, c one formula serves both triangles of
+// a pair.
 
 #ifndef TALUS_SRC_SOUP_SOUP_LAYOUT_H
 #define TALUS_SRC_SOUP_SOUP_LAYOUT_H
@@ -24,10 +26,10 @@
 
 enum {
     TL_SOUP_WIDTH = 16,      ///< children of a node
-    TL_SOUP_LEAF_PAIRS = 4,  ///< most pairs of a leaf
+    TL_SOUP_LEAF_PAIRS = 4,  ///< the most pairs of a leaf
     TL_SOUP_LEAF_ALIGN = 16, ///< bytes
     TL_SOUP_TAIL_BYTES = 64, ///< readable zeros behind the last leaf, so that vector loads may run over it
-    TL_SOUP_MAX_DEPTH = 96   ///< nodes on a way from root to leaf; bvh_build.c keeps it
+    TL_SOUP_MAX_DEPTH = 96   ///< nodes on a path from root to leaf; bvh_build.c keeps it
 };
 
 typedef struct tl_soup_node {
@@ -66,8 +68,8 @@ struct tl_soup {
 
 static_assert(sizeof(tl_soup) == 192, "no padding holes in the head");
 
-// A child word. Nodes are numbered in breadth-first order and leaves lie in the order in which those name them, so a
-// check needs one counter for each, and no marks.
+// A child word. Nodes are numbered breadth first, and leaves lie in the order in which nodes name them, so a check
+// needs one counter for each, and no marks.
 #define TL_CHILD_LEAF 0x80000000u
 /// Leaves: bit 31, 29 bits of offset in units of 16 bytes, 2 bits of pair count - 1. 2^29 units are 8 GiB.
 #define TL_MAX_LEAF_UNITS 0x1fffffffu
@@ -94,7 +96,7 @@ typedef struct tl_soup_leaf {
 } tl_soup_leaf;
 
 /// Vector loads of a short leaf's last array run into the next leaf's head, and arithmetic on denormals is slow: so no
-/// word of a head may look like one. The tag and the corner order, which is 1 or more, keep the exponent bits busy.
+/// word of a head may look like one. The tag, and the corner order (1 or more), set bits of the exponent.
 #define TL_LEAF_TAG 0x746c6600u
 
 static inline uint32_t tl_leaf_pair_count(const tl_soup_leaf *leaf)
@@ -126,8 +128,8 @@ static inline tl_leaf_view tl_view_leaf(const tl_soup_leaf *leaf)
 }
 
 // An id word: 28 bits of the triangle's index in the view, one bit for a copy that spatial splits made, three bits for
-// the order in which the view has the corners, 1 to 6. TL_ID_NONE in the second lane is the text's bit: this is no
-// pair.
+// the order in which the view has the corners, 1 to 6. TL_ID_NONE in the second lane (the article's bit) marks a single
+// triangle.
 #define TL_ID_NONE  UINT32_MAX
 #define TL_ID_COPY  0x10000000u
 #define TL_ID_INDEX 0x0fffffffu
@@ -158,8 +160,8 @@ static inline uint16_t tl_soup_material(const tl_soup *soup, uint32_t triangle)
     return ((const uint16_t *)(const void *)((const char *)soup + soup->material_offset))[triangle];
 }
 
-/// Where the corners a, e, c of a lane are. Axis k of each is at [k * tl_leaf_stride]. Without branches: which lane,
-/// and below which corner, is what nobody can foretell.
+/// Where the corners a, e, c of a lane are. Axis k of each is at [k * tl_leaf_stride]. Without branches: lane and
+/// corner are unpredictable.
 static inline void tl_leaf_slots(const tl_leaf_view *leaf, uint32_t lane, const float *slots_out[3])
 {
     uint32_t n = leaf->pair_count;
@@ -174,7 +176,7 @@ static inline uint32_t tl_leaf_stride(const tl_leaf_view *leaf)
     return 4 * leaf->pair_count;
 }
 
-/// Where the corners of a lane's triangle are, in the order of the view.
+/// Where the corners of a lane's triangle are, in the view's order.
 static inline void tl_leaf_find_corners(const tl_leaf_view *leaf, uint32_t lane, const float *corners_out[3])
 {
     uint32_t n = leaf->pair_count;

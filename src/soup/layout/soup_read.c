@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Reading a soup without a search: its counts, its triangles and pairs one after the other.
+// Reading a soup without a search: its counts, its triangles and its pairs in order.
 
 #include "soup/layout/compact_layout.h"
 
@@ -40,8 +40,8 @@ tl_soup_stats tl_soup_get_stats(const tl_soup *soup)
     return stats;
 }
 
-// What a cursor stands on: a leaf, or in the compact layout, where a pair does not know its leaf, a pair. Returns its
-// size in bytes.
+// Opens what a cursor points to: a leaf, or in the compact layout, where a pair does not know its leaf, a pair. Returns
+// its size in bytes.
 static uint64_t open_at(const tl_soup *soup, uint64_t offset, tl_leaf_buffer *buffer, tl_leaf_view *view)
 {
     if (soup->layout == TL_SOUP_COMPACT) {

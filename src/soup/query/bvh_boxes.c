@@ -5,7 +5,7 @@
 #include "base/assert.h"
 #include "soup/query/bvh_walk.h"
 
-// A child whose turn has not come. A stack of its own, because of the depths.
+// A child that is not visited yet. A stack of its own, because entries need a depth.
 typedef struct box_entry {
     uint32_t node, lane, depth;
 } box_entry;

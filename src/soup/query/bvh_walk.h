@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The tree as every query but the ray walk sees it: boxes of a node's children, a stack of what is still to be
-// visited, and the triangles of a leaf. What the bytes of a node look like is known here and nowhere above.
+// BVH traversal for every query but rays: boxes of a node's children, a stack of children to visit, and the triangles
+// of a leaf. Only this file knows the bytes of a node; queries above it do not.
 //
 //   tl_walk_begin(&walk, soup);
 //   while (tl_walk_next(&walk, limit, &child)) {
@@ -10,7 +10,7 @@
 //              compute a key a lane and the mask of lanes to enter; tl_walk_enter(&walk, &boxes, mask, keys); }
 //   }
 //
-// The boxes are plain floats in arrays over the lanes, so that a query's loop over sixteen lanes becomes vector code
+// Boxes are plain floats in arrays over the lanes, so that a compiler vectorizes a query's loop over sixteen lanes
 // without an instruction set of its own: unlike rays, these queries spend their time in leaves.
 
 #ifndef TALUS_SRC_SOUP_BVH_WALK_H
@@ -24,7 +24,7 @@
 
 enum {
     TL_WALK_WIDTH = TL_SOUP_WIDTH,
-    // Each node on the way down leaves all but one of its children behind.
+    // Each node on the path leaves all but one of its children on the stack.
     TL_WALK_STACK_SIZE = (TL_SOUP_WIDTH - 1) * TL_SOUP_MAX_DEPTH + TL_SOUP_WIDTH
 };
 
@@ -56,7 +56,7 @@ static inline void tl_walk_begin(tl_walk *walk, const tl_soup *soup)
     walk->entries[0] = 0;
 }
 
-/// Takes the child that waits on top, leaving out those whose key is above `limit`. False: none is left.
+/// Pops the next child whose key is not above `limit`. False: none is left.
 static inline bool tl_walk_next(tl_walk *walk, float limit, uint32_t *child_out)
 {
     uint32_t bits;
@@ -112,7 +112,7 @@ static inline tl_aabb tl_walk_box(const tl_walk_boxes *boxes, uint32_t lane)
     return box;
 }
 
-/// Puts the children in `mask` on the stack, the one with the smallest key (>= 0) on top; of equal keys, and when
+/// Pushes the children in `mask`, the one with the smallest key (>= 0) on top; of equal keys, and when
 /// `keys` is NULL, the lowest lane.
 static inline void tl_walk_enter(tl_walk *walk, const tl_walk_boxes *boxes, uint32_t mask, const float *keys)
 {
@@ -135,12 +135,12 @@ static inline void tl_walk_enter(tl_walk *walk, const tl_walk_boxes *boxes, uint
     walk->count += count;
 }
 
-/// A leaf that is being read.
+/// An open leaf.
 typedef struct tl_walk_leaf {
     const tl_soup_leaf *leaf; ///< in the soup, or in `buffer`
     tl_leaf_view view;
     uint32_t child;      ///< its word
-    uint32_t lane_count; ///< of which some may hold no triangle
+    uint32_t lane_count; ///< some lanes may hold no triangle
     tl_leaf_buffer buffer;
 } tl_walk_leaf;
 
@@ -180,7 +180,7 @@ static inline tl_aabb tl_walk_triangle_box(const tl_walk_triangle *triangle)
     return box;
 }
 
-/// Whether spatial splits have put some triangle into several leaves.
+/// Whether spatial splits have copied some triangle into several leaves.
 static inline bool tl_walk_has_copies(const tl_soup *soup)
 {
     return soup->reference_count != soup->pair_count + soup->single_count;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// A moving sphere or capsule against one triangle.
+// Sweeping a sphere or capsule against one triangle, by conservative advancement.
 //
 // The distance of two convex sets is a convex function of their motion. So the line through its value at t, with the
 // slope that the two nearest points give, lies below it, and where that line reaches the radius the capsule is not
-// later than it truly touches: Newton's iteration, which comes from the free side only. A face takes one step, an edge
-// or a corner some four, a graze many, up to TL_MAX_CAST_ITERATIONS. The closed form (a ray against the prism of
-// triangle and segment, rounded: five polygons, nine cylinders, six spheres) takes as long and has seams between its
-// pieces.
+// later than its true contact: Newton's iteration, which converges from the free side only. A face takes one step, an
+// edge or a corner about four, a grazing motion many, up to TL_MAX_CAST_ITERATIONS. The closed form (a ray against the
+// Minkowski sum of triangle and segment, rounded: five polygons, nine cylinders, six spheres) takes as long and has
+// seams between its pieces.
 //
-// It starts where the capsule reaches the triangle's plane, for the same reason. A graze may touch and come no deeper
-// (graze.c): then it passes.
+// It starts where the capsule reaches the triangle's plane, for the same reason. A grazing shape may touch and
+// penetrate no deeper (graze.c): then it passes.
 //
 // Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996 (conservative advancement).
 
@@ -22,7 +22,7 @@
 // A gap of this share of what counts as touching is closed.
 #define CLOSED_SHARE 0.125
 
-// The capsule is not at the plane before the time returned, >= 0; INFINITY when never.
+// The earliest time, >= 0, at which the capsule can be at the plane; INFINITY: never.
 static double reach_plane(const tl_query_shape *shape, tl_vec3d step, double touch, const tl_vec3 corners[3])
 {
     tl_vec3d a = tl_vec3d_from(corners[0]);
@@ -61,7 +61,7 @@ bool tl_triangle_cast_capsule(const tl_query_shape *shape, const tl_motion *moti
     for (uint32_t i = 0;; i++) {
         double closing = -tl_vec3d_dot(a.normal, step);
         if (a.gap - closing * (1.0 - t) >= -touch) {
-            return false; // nothing comes deeper along this plane
+            return false; // it penetrates no deeper along this plane
         }
         if (a.gap <= CLOSED_SHARE * touch || i == TL_MAX_CAST_ITERATIONS) {
             cast_out->status = i == TL_MAX_CAST_ITERATIONS ? TL_CONVEX_ITERATIONS : TL_CONVEX_CONVERGED;

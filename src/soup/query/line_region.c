@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Slabs in double: plain, because a walk to the end of a ray visits each box once and has nothing to sort.
+// The slab test in double: plain, because a walk to the end of a ray visits each box once and sorts nothing.
 //
 // Source: Kay, Kajiya, Ray Tracing Complex Scenes, 1986.
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which formula serves a shape. Spheres, capsules and boxes are what characters and triggers are made of, and a formula
-// is several times as fast as GJK on a triangle; a rounded box, a cylinder and a hull are rare enough to take GJK.
+// Chooses the formula for a shape. Characters and triggers are spheres, capsules and boxes, and a formula is several
+// times as fast as GJK on a triangle; rounded boxes, cylinders and hulls are rare enough to take GJK.
 
 #include "soup/query/query_shape.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A convex shape in the world, made ready to be tried on many triangles.
+// A convex shape in the world, prepared for tests against many triangles.
 
 #ifndef TALUS_SRC_SOUP_QUERY_SHAPE_H
 #define TALUS_SRC_SOUP_QUERY_SHAPE_H
@@ -10,7 +10,7 @@
 
 #include <talus/convex.h>
 
-/// Shapes with a formula of their own; everything else is left to GJK.
+/// Shapes with a formula of their own; GJK serves all others.
 typedef enum tl_query_kind { TL_QUERY_SPHERE, TL_QUERY_CAPSULE, TL_QUERY_BOX, TL_QUERY_CONVEX } tl_query_kind;
 
 typedef struct tl_query_shape {
@@ -18,7 +18,7 @@ typedef struct tl_query_shape {
     const tl_convex *convex;
     tl_transform pose;
     tl_aabb bounds;
-    tl_vec3 middle;     ///< of the bounds: from here sides of triangles are seen
+    tl_vec3 middle;     ///< of the bounds: for culling, triangles are seen from here
     tl_vec3d ends[2];   ///< sphere: both the centre; capsule: of its segment, world
     double radius;      ///< sphere, capsule
     tl_frame box_frame; ///< box to world, its centre the origin

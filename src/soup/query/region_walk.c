@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A walk through all leaves that a test on boxes lets in.
+// A walk over all leaves whose boxes a test accepts.
 //
-// Where spatial splits stored a triangle several times, it is reported in one of its leaves only: the one whose word is
-// smallest among those whose boxes meet both the region and the triangle's own box. To know it, a second walk looks for
-// them. (A leaf may hold a triangle that its box does not meet, because splits cut pairs.) That costs a short walk a
-// reported triangle, in soups with copies only, and needs no memory; marks or a table of what was seen would have to be
-// as large as the answer.
+// Spatial splits may have stored a triangle several times. It is reported in one of its leaves only: the one whose word
+// is smallest among those whose boxes meet both the region and the triangle's own box, which a second walk finds. (A
+// leaf may hold a triangle that its box does not meet, because splits clip pairs.) That costs a short walk a reported
+// triangle, in soups with copies only, and needs no memory; marks or a table of the triangles seen would have to be as
+// large as the answer.
 
 #include "soup/query/region_walk.h"
 

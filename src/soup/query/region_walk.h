@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Going through the triangles of a region, each once.
+// Visiting the triangles of a region, each once.
 
 #ifndef TALUS_SRC_SOUP_REGION_WALK_H
 #define TALUS_SRC_SOUP_REGION_WALK_H
 
 #include "soup/query/bvh_walk.h"
 
-/// Which children of a node may hold what is looked for: a bit a lane. Must answer the same for the same boxes.
+/// Which children of a node may meet the region: a bit a lane. Must answer the same for the same boxes.
 typedef uint32_t tl_region_enter_fn(const tl_walk_boxes *boxes, const void *region);
 
 /// Whether a triangle of an entered leaf belongs to the region: asked about copies too.
@@ -24,7 +24,7 @@ typedef struct tl_region {
     void *user;
 } tl_region;
 
-/// Returns false when `found` ended the walk. No order is promised but that it is always the same.
+/// Returns false when `found` ended the walk. The order is not specified, but always the same.
 bool tl_region_walk(const tl_soup *soup, const tl_region *region);
 
 /// Lanes whose boxes share a point with `box`.

@@ -43,14 +43,14 @@ static void sort_hits(tl_ray_hit *heap, uint32_t count)
 static bool is_hit(const tl_walk_triangle *triangle, void *user)
 {
     collector *c = user;
-    // As if nothing had been hit yet.
+    // As if nothing were hit yet.
     c->job.t = c->tmax;
     c->job.triangle = UINT32_MAX;
     return tl_ray_decide(&c->job, triangle->leaf->leaf, triangle->lane) &&
            (c->rule == TL_HITS_TOUCHED || tl_moved_line_crosses(c->origin, c->direction, triangle->corners));
 }
 
-// Follows upon belongs, so the job still holds the hit.
+// Called right after is_hit, so the job still holds the hit.
 static bool collect_hit(const tl_walk_triangle *triangle, void *user)
 {
     collector *c = user;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether a soup is closed: every edge is run along as often one way as the other. Then it is the border of a space,
-// however many surfaces it has and whatever they cut through, and winding numbers are the same for every ray.
+// Whether a soup is closed: every edge is used as often in one direction as in the other. Then it is the boundary of a
+// volume, however many surfaces it has and whatever they intersect, and winding numbers are the same for every ray.
 //
 // Corners at equal positions are one corner. The triangles are welded again, because a soup keeps corners and no
-// vertices; edges are sorted, so that those of two vertices lie side by side.
+// vertices; edges are sorted, so that those of the same two vertices are adjacent.
 
 #include "base/arena.h"
 #include "base/assert.h"
@@ -63,7 +63,7 @@ static tl_sort_item *sort_directed_edges(const tl_mesh *mesh, tl_arena *arena)
     return edges;
 }
 
-// The triangle with the lowest index on an edge that does not add up; TL_NO_TRIANGLE when all do.
+// The triangle with the lowest index on an unbalanced edge; TL_NO_TRIANGLE when there is none.
 static tl_result check_directed_edges(const tl_mesh *mesh, const loose_triangles *loose, const tl_sort_item *edges,
                                       uint32_t *triangle_out)
 {
@@ -78,7 +78,7 @@ static tl_result check_directed_edges(const tl_mesh *mesh, const loose_triangles
             sum += edges[end].extra ? 1 : -1;
             lowest = triangle < lowest ? triangle : lowest;
         }
-        // An odd number of triangles cannot add up; an even number would if one were turned around.
+        // An odd number of triangles cannot balance; an even number would if one were reversed.
         tl_result found = sum == 0 ? TL_OK : (end - first) % 2 != 0 ? TL_ERR_NOT_CLOSED : TL_ERR_WINDING;
         if (found == TL_ERR_NOT_CLOSED ? result != TL_ERR_NOT_CLOSED || lowest < *triangle_out
                                        : found != TL_OK && result != TL_ERR_NOT_CLOSED && lowest < *triangle_out) {

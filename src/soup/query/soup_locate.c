@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// Inside or outside of a closed surface: how often it winds around the point.
+// Inside or outside of a closed surface: the winding number around the point, by ray casting.
 //
-// A ray from the point counts a passage out through a front as 1 and one in as -1; for a closed surface the sum is the
-// winding number, for any direction. Passages are counted exactly (soup_all_hits.c), so the answer is exact too. A
-// second ray goes the other way: on a surface that is closed both sums are equal, so where they differ it is not, and
-// the answer says so. Solid angles (Jacobson, Kavan, Sorkine-Hornung, Robust Inside-Outside Segmentation, 2013) would
-// give a share for open surfaces, but cost a pass over all triangles or a far field, and arctangents, which differ
+// A ray from the point counts a crossing out through a front as 1 and one in as -1; for a closed surface the sum is the
+// winding number, for any direction. Crossings are counted exactly (line_triangle.c), so the answer is exact. A second
+// ray runs the opposite way: on a closed surface both sums are equal, so where they differ it is not closed, and the
+// answer says so. Solid angles (Jacobson, Kavan, Sorkine-Hornung, Robust Inside-Outside Segmentation, 2013) would give
+// a fraction for open surfaces, but cost a pass over all triangles or a far field, and arctangents, which differ
 // between machines.
 //
-// The ray runs mainly along the axis on which the soup is thinnest: across a level it meets a few floors, along it
+// The ray runs mainly along the axis in which the soup is thinnest: across a level it crosses a few floors, along it
 // every house.
 
 #include "math/predicates.h"
@@ -17,19 +17,19 @@
 #include "soup/ray/ray_job.h"
 #include "soup/triangle/line_triangle.h"
 
-typedef struct passages {
+typedef struct crossings {
     int32_t winding;
     uint32_t count;
-} passages;
+} crossings;
 
 typedef struct counter {
     const tl_soup *soup;
     tl_ray_job job;
     tl_vec3 origin, direction;
-    passages passages;
+    crossings crossings;
 } counter;
 
-// Is a point in a triangle's plane within it? In a projection that keeps its area.
+// Whether a point in a triangle's plane lies within it, in a projection in which the triangle has area.
 static bool plane_point_is_inside(const tl_vec3 c[3], tl_vec3 p)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -69,7 +69,7 @@ static bool keep_lowest(const tl_walk_triangle *triangle, void *user)
     return true;
 }
 
-static bool is_passed(const tl_walk_triangle *triangle, void *user)
+static bool is_crossed(const tl_walk_triangle *triangle, void *user)
 {
     counter *c = user;
     c->job.t = INFINITY;
@@ -78,16 +78,16 @@ static bool is_passed(const tl_walk_triangle *triangle, void *user)
            tl_moved_line_crosses(c->origin, c->direction, triangle->corners);
 }
 
-static bool count_passage(const tl_walk_triangle *triangle, void *user)
+static bool count_crossing(const tl_walk_triangle *triangle, void *user)
 {
     counter *c = user;
     (void)triangle;
-    c->passages.winding += c->job.back ? 1 : -1;
-    c->passages.count++;
+    c->crossings.winding += c->job.back ? 1 : -1;
+    c->crossings.count++;
     return true;
 }
 
-static passages count_passages(const tl_soup *soup, tl_vec3 point, tl_vec3 direction)
+static crossings count_crossings(const tl_soup *soup, tl_vec3 point, tl_vec3 direction)
 {
     counter c = { .soup = soup, .origin = point, .direction = direction };
     c.job.soup = soup;
@@ -98,13 +98,13 @@ static passages count_passages(const tl_soup *soup, tl_vec3 point, tl_vec3 direc
         tl_ray ray = { point, direction, INFINITY };
         tl_line_region line;
         tl_line_region_make(&ray, &line);
-        tl_region region = { tl_region_enter_line, &line, is_passed, count_passage, &c };
+        tl_region region = { tl_region_enter_line, &line, is_crossed, count_crossing, &c };
         tl_region_walk(soup, &region);
     }
-    return c.passages;
+    return c.crossings;
 }
 
-// Aslant, so that it seldom lies in the plane of a wall or meets an edge that is parallel to an axis.
+// Oblique, so that it seldom lies in the plane of a wall or meets an edge parallel to an axis.
 static tl_vec3 choose_direction(const tl_soup *soup)
 {
     tl_vec3 size = tl_aabb_size(tl_soup_bounds(soup));
@@ -136,7 +136,8 @@ tl_result tl_soup_locate(const tl_soup *soup, tl_vec3 point, tl_soup_location *l
         place.triangle = t.triangle;
     } else if (tl_aabb_contains(tl_soup_bounds(soup), point)) {
         tl_vec3 direction = choose_direction(soup);
-        passages there = count_passages(soup, point, direction), back = count_passages(soup, point, tl_neg(direction));
+        crossings there = count_crossings(soup, point, direction),
+                  back = count_crossings(soup, point, tl_neg(direction));
         if (there.count % 2 != back.count % 2) {
             return TL_ERR_NOT_CLOSED;
         }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The nearest point of the soup: the tree from near to far, boxes pruned by the best distance so far.
+// The nearest point of the soup: best-first BVH traversal, boxes pruned by the best distance so far.
 //
-// Boxes and triangles' own boxes give lower bounds in float; a triangle that they cannot rule out is measured in
+// Boxes, and the triangles' own boxes, give lower bounds in float; a triangle that they cannot rule out is measured in
 // double, from its own three corners. So the answer is the minimum over all triangles, whatever the tree looks like.
+//
 // Source: Roussopoulos, Kelley, Vincent, Nearest Neighbor Queries, 1995.
 
 #include "math/predicates.h"
@@ -15,7 +16,7 @@
 // limit's own rounding.
 #define BOX_KEY_SHRINK (1.0f - TL_FLOAT_GAMMA(8))
 
-typedef struct nearest_search {
+typedef struct soup_nearest_search {
     const tl_soup *soup;
     const tl_ray_filter *filter;
     tl_vec3 at;
@@ -25,9 +26,9 @@ typedef struct nearest_search {
     tl_triangle_point best;
     uint32_t triangle; // UINT32_MAX: none yet
     tl_vec3 corners[3];
-} nearest_search;
+} soup_nearest_search;
 
-// From below.
+// A lower bound of the squared distance to a box.
 static float box_key(tl_vec3 at, float min_x, float max_x, float min_y, float max_y, float min_z, float max_z)
 {
     float x = tl_maxf(tl_maxf(min_x - at.x, at.x - max_x), 0.0f);
@@ -36,7 +37,7 @@ static float box_key(tl_vec3 at, float min_x, float max_x, float min_y, float ma
     return (x * x + y * y + z * z) * BOX_KEY_SHRINK;
 }
 
-static void enter_nearest_node(const nearest_search *s, tl_walk *walk, uint32_t node)
+static void enter_nearest_node(const soup_nearest_search *s, tl_walk *walk, uint32_t node)
 {
     tl_walk_boxes boxes;
     tl_walk_read_boxes(walk, node, &boxes);
@@ -58,13 +59,13 @@ static tl_seen seen_from_point(const tl_vec3 corners[3], tl_vec3 point)
     return side > 0 ? TL_SEEN_FRONT : side < 0 ? TL_SEEN_BACK : TL_SEEN_BOTH;
 }
 
-static void set_nearest_limit(nearest_search *s, double limit_sq)
+static void set_nearest_limit(soup_nearest_search *s, double limit_sq)
 {
     s->limit_sq = limit_sq;
     s->limit_key = limit_sq < (double)FLT_MAX ? (float)limit_sq + FLT_MIN : INFINITY;
 }
 
-static void visit_nearest_leaf(nearest_search *s, uint32_t child)
+static void visit_nearest_leaf(soup_nearest_search *s, uint32_t child)
 {
     tl_walk_leaf leaf;
     tl_walk_open_leaf(s->soup, child, &leaf);
@@ -108,7 +109,7 @@ tl_result tl_soup_nearest(const tl_soup *soup, tl_vec3 point, float max_distance
     if (!(max_distance >= 0.0f)) {
         return TL_ERR_ARGUMENT;
     }
-    nearest_search s = {
+    soup_nearest_search s = {
         .soup = soup, .filter = filter, .at = point, .point = tl_vec3d_from(point), .triangle = UINT32_MAX
     };
     set_nearest_limit(&s, (double)max_distance * (double)max_distance);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The triangles that a convex shape touches: boxes of the tree against the shape's box, then triangle by triangle.
+// The triangles that a convex shape touches: boxes of the BVH against the shape's box, then triangle by triangle.
 
 #include "base/assert.h"
 #include "soup/query/query_shape.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// A moving convex shape against the soup: which triangle it meets first.
+// Sweeping a convex shape through the soup: which triangle it hits first.
 //
-// The shape's box, moved along, is cast through the tree from near to far; a triangle whose box it meets before the
-// best hit so far is cast against for itself. Each triangle's time depends on nothing but the triangle and the shape,
-// and of equal times the lowest index wins: so the tree does not show in the answer.
+// The shape's box is cast through the BVH from near to far; a triangle whose box it meets before the best hit so far is
+// tested by itself. Each triangle's time depends only on the triangle and the shape, and of equal times the lowest
+// index wins: so the answer does not depend on the tree.
 //
-// What counts as touching: positions are floats, so a capsule that stands on a floor stands some roundings above or
-// inside of it. A shape may come that deep into a triangle and still pass; otherwise it would be caught by the floor it
-// slides on, and by every inner edge of it.
+// Touching: positions are floats, so a capsule on a floor stands some roundings above or inside it. A shape may
+// penetrate a triangle that deep and still pass; otherwise the floor that it slides on would stop it, and every inner
+// edge of it.
 //
 // Sources: van den Bergen, Ray Casting against General Convex Objects, 2004 (convex/cast.c); for the tree, Ericson,
 // Real-Time Collision Detection, 2005, section 5.5.
@@ -24,7 +24,7 @@
 // round by half an ulp each, along three axes.
 #define SOUP_TOUCH_SHARE (4.0 * (double)TL_FLOAT_ROUNDING)
 
-// Slower than this along an axis (metres) is taken as standing there, with a box that is so much wider.
+// A shape that moves less than this along an axis (metres) counts as not moving there, with a box wider by as much.
 #define STANDING 1e-30f
 
 // A time at which boxes meet: a difference and a product round, boxes and limit round once each.
@@ -40,7 +40,7 @@ typedef struct sweep_search {
     bool moves[3];
     float inverse[3]; // 1 / step, where it moves
     tl_triangle_cast best;
-    double limit; // times after it are of no use
+    double limit; // later times do not count
     float limit_key;
     uint32_t triangle; // UINT32_MAX: none
     tl_vec3 corners[3];
@@ -66,7 +66,7 @@ static void prepare_sweep(sweep_search *s)
                  s->shape->radius > TL_ROUND_RADIUS * s->motion.touch;
 }
 
-// From when to when the moving box meets a still one along one axis. Where it stands: always, or never.
+// When the moving box enters and leaves a fixed one along one axis. Where it does not move: always, or never.
 static inline void meet_axis(const sweep_search *s, int axis, float min, float max, float *enter, float *leave)
 {
     float before = min - s->high[axis], behind = max - s->low[axis];
@@ -79,7 +79,7 @@ static inline void meet_axis(const sweep_search *s, int axis, float min, float m
     }
 }
 
-// The time from which boxes can meet, from below, and INFINITY when they cannot.
+// A lower bound of the time at which the boxes meet; INFINITY when they do not.
 static inline float meet_box(const sweep_search *s, const float min[3], const float max[3])
 {
     float enter = 0.0f, leave = 1.0f;
@@ -105,7 +105,7 @@ static void enter_swept_node(const sweep_search *s, tl_walk *walk, uint32_t node
     tl_walk_enter(walk, &boxes, mask, keys);
 }
 
-// The side from which the motion meets the triangle; a shape that does not move sees it from where it is.
+// The side from which the motion hits the triangle; a shape that does not move sees it from where it is.
 static tl_seen seen_from(const sweep_search *s, const tl_vec3 corners[3])
 {
     tl_vec3 zero = tl_vec3_make(0.0f, 0.0f, 0.0f);
@@ -154,7 +154,7 @@ static void visit_triangle(sweep_search *s, const tl_walk_triangle *triangle)
 
 static void describe_hit(const sweep_search *s, tl_shape_hit *hit)
 {
-    // Rounded down: not late.
+    // Rounded down: never late.
     float t = (float)s->best.t;
     hit->t = (double)t > s->best.t ? t * (1.0f - 2.0f * TL_FLOAT_ROUNDING) : t;
     hit->initial_overlap = s->best.overlap;

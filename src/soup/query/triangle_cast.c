@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Any moving convex shape against one triangle: the cast of convex.h, and its penetration for shapes that overlap at
+// Sweeping any convex shape against one triangle: tl_convex_cast, and tl_convex_penetration for shapes that overlap at
 // the start.
 
 #include "soup/query/triangle_cast.h"
@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-// Out of the plane, towards the shape's middle: for an overlap so shallow that it has no direction of its own.
+// The plane's normal, towards the shape's middle: for an overlap so shallow that it has no direction of its own.
 static tl_vec3 face_way_out(const tl_query_shape *shape, const tl_vec3 corners[3])
 {
     tl_vec3 normal = tl_triangle_normal(corners);
@@ -75,7 +75,7 @@ bool tl_triangle_cast_shape(const tl_query_shape *shape, const tl_motion *motion
         cast_out->normal = hit.normal;
         cast_out->status = hit.status;
     }
-    // Along this plane it would come no deeper than what counts as touching.
+    // Along this plane it would penetrate no deeper than what counts as touching.
     double closing = -tl_vec3d_dot(tl_vec3d_from(cast_out->normal), tl_vec3d_from(motion->step));
     if (!(closing * (1.0 - cast_out->t) > motion->touch)) {
         return false;

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// A moving shape against one triangle.
+// Sweeping a shape against one triangle.
 
 #ifndef TALUS_SRC_SOUP_TRIANGLE_CAST_H
 #define TALUS_SRC_SOUP_TRIANGLE_CAST_H
 
 #include "soup/query/query_shape.h"
 
-/// A radius above this many times what counts as touching rounds a shape: its normals can be told from its centre line.
+/// A shape counts as rounded when its radius exceeds this many times what counts as touching: its normals then follow
+/// from its core.
 #define TL_ROUND_RADIUS 16.0
 
 typedef struct tl_motion {
     tl_vec3 step;
-    double touch; ///< metres: shapes that never come deeper into one another than this pass
+    double touch; ///< metres: shapes that never penetrate deeper than this pass
 } tl_motion;
 
 typedef struct tl_triangle_cast {
@@ -32,10 +33,10 @@ bool tl_triangle_cast_shape(const tl_query_shape *shape, const tl_motion *motion
 bool tl_triangle_cast_capsule(const tl_query_shape *shape, const tl_motion *motion, const tl_vec3 corners[3],
                               double t_limit, tl_triangle_cast *cast_out);
 
-/// Depth and way out of a shape that overlaps a triangle.
+/// Penetration depth and normal of a shape that overlaps a triangle.
 void tl_triangle_cast_overlap(const tl_query_shape *shape, const tl_vec3 corners[3], tl_triangle_cast *cast_out);
 
-/// How a moved shape lies to a triangle.
+/// The separation of a moved shape and a triangle.
 typedef struct tl_approach {
     tl_vec3d normal; ///< unit, from the triangle to the shape; zero when the shape's core meets the triangle
     tl_vec3d point;  ///< on the triangle
@@ -46,8 +47,8 @@ typedef struct tl_approach {
 void tl_approach_at(const tl_query_shape *shape, tl_vec3d step, double t, const tl_vec3 corners[3],
                     tl_approach *approach_out);
 
-/// Whether a rounded shape that touches a triangle at the time t (`at` is its approach then) comes deeper into it than
-/// what counts as touching, later.
+/// Whether a rounded shape that touches a triangle at the time t (`at` is its approach then) later penetrates it deeper
+/// than what counts as touching.
 bool tl_graze_deepens(const tl_query_shape *shape, const tl_motion *motion, const tl_vec3 corners[3], double t,
                       tl_approach at);
 

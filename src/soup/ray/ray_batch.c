@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
 // Many rays in one call, with the bits of single calls: slices on the host's tasks, and where the soup is larger than a
-// core's own cache, some rays of a slice under way at once (ray_walk_interleaved.inl). In smaller ones that takes 0.9
-// to 1.1 of the time of rays one by one.
+// core's own cache, several rays of a slice in flight at once (ray_walk_interleaved.inl). In smaller soups that takes
+// 0.9 to 1.1 of the time of single rays.
 //
-// Rejected: an order of their own for the rays of a slice, by a Morton code of where they begin and which way they run.
-// It gains a sixth in a soup of ten million triangles, nothing at three million, and costs a sixth at one million and
-// half a ray's time below, even where all rays begin in 64 places: once rays hide each other's misses, what is left to
-// gain is less than the sort and the jumps from ray to ray.
+// Rejected: sorting the rays of a slice by a Morton code of origin and direction. It gains a sixth in a soup of ten
+// million triangles, nothing at three million, and costs a sixth at one million and half a ray's time below, even where
+// all rays begin in 64 places: once rays hide each other's cache misses, what is left to gain is less than the sort and
+// the jumps from ray to ray.
 
 #include "base/assert.h"
 #include "base/host.h"

@@ -2,16 +2,17 @@
 //
 // Whether a ray meets a triangle, exactly, and where.
 //
-// The ray is sheared into an axis and the triangle's corners into a plane across it, in double. The sidedness of the
-// ray and an edge a, b is then E(a, b) = a.x b.y - a.y b.x: the scalar triple product of the text, divided by the
+// In double, the ray is sheared into an axis and the triangle's corners into a plane across it. The sidedness of the
+// ray and an edge a, b is then E(a, b) = a.x b.y - a.y b.x: the scalar triple product of Ericson's test, divided by the
 // direction's largest component. The line meets the closed triangle when no two edges have opposite signs; a sign that
-// the error bound cannot vouch for is found exactly. E of the three edges are also the weights of the opposite corners.
+// the error bound does not prove is computed exactly. E of the three edges are also the weights of the opposite
+// corners.
 //
 // Error of E, u = TL_DOUBLE_ROUNDING, M the largest coordinate of the three corners seen from the origin, m the largest
 // after the shear: corners are off by at most 8 u M (ray_prepare.h), so E by at most 4 (8 u M) m + 2 (8 u M)^2, and its
 // own two products and difference add 4 u m^2.
 //
-// t, u and v are those of ray_measure.h, from the plane. Where a grazing ray leaves them in doubt, t is a quotient of
+// t, u and v are those of ray_measure.h, from the plane. Where a grazing ray makes them doubtful, t is a quotient of
 // two exact sums, each rounded once or twice: right to 8 u of itself, and so is its sign.
 //
 // Sources: Christer Ericson, Real-Time Collision Detection, 2005, section 5.3.4; Woop, Benthin, Wald, Watertight
@@ -107,7 +108,7 @@ static bool meets_line(const tl_ray_job *job, triangle_test *test)
     return positive != negative;
 }
 
-// t of the triangle's plane by exact sums: for lines that graze it, where the weights say little.
+// t of the triangle's plane by exact sums: for lines that graze it, where the weights are imprecise.
 static double exact_t(const tl_ray_job *job, const triangle_test *test)
 {
     tl_vec3 v[3];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is reported of a hit that ray_decide.c has found.
+// Fills the hit of a triangle that ray_decide.c has found.
 
 #include "soup/ray/ray_job.h"
 

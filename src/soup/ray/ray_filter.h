@@ -7,7 +7,7 @@
 
 #include "soup/layout/soup_layout.h"
 
-/// The sides from which a query meets a triangle: both where it lies in the triangle's plane.
+/// The sides of a triangle that a query sees: both when it lies in the triangle's plane.
 typedef enum tl_seen { TL_SEEN_FRONT = 1, TL_SEEN_BACK = 2, TL_SEEN_BOTH = 3 } tl_seen;
 
 static inline bool tl_ray_filter_accepts(const tl_soup *soup, const tl_ray_filter *filter, uint32_t triangle,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// One ray on its way through a soup.
+// One ray in flight through a soup.
 //
 // A query has three parts. Boxes and leaves are filtered in float, conservatively: what they reject is proven to be no
-// hit, whatever rounds how. What passes is decided in double, exactly where signs matter (ray_decide.c). So the filters
-// may differ between instruction sets, and the answers do not.
+// hit, however operations round. What passes is decided in double, exactly where signs matter (ray_decide.c). So the
+// filters may differ between instruction sets, and the answers do not.
 
 #ifndef TALUS_SRC_SOUP_RAY_JOB_H
 #define TALUS_SRC_SOUP_RAY_JOB_H
@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-/// Three coordinates and a lane to spare: stored as one vector, read one by one.
+/// Three coordinates and a spare lane: stored as one vector, read one by one.
 typedef union tl_ray_point {
     tl_vec3 point;
     float lane[4];
@@ -22,7 +22,7 @@ typedef union tl_ray_point {
 
 typedef struct tl_ray_job {
     const tl_soup *soup;
-    const tl_ray_filter *filter; ///< NULL: nothing is passed by
+    const tl_ray_filter *filter; ///< NULL: ignores nothing
     _Alignas(16) tl_ray_point origin;
     tl_ray_point target; ///< a ray's direction or a segment's end
     bool is_segment;     ///< direction is target - origin, not rounded; t is within [0, 1]
@@ -31,7 +31,7 @@ typedef struct tl_ray_job {
     bool is_usual; ///< box t is t, and no filter is out of its range
 
     // Boxes. Plane p of axis i is met at t = (p * plane_scale[i] + near_base[i]) / box_scale, rounded down, or with
-    // far_base up. Lane 3 is not used. Vectors are aligned, so that a lane is read from the store that is under way.
+    // far_base up. Lane 3 is not used. Vectors are aligned, so that a store is forwarded to the load of a lane.
     _Alignas(16) float plane_scale[4];
     float near_base[4];
     float far_base[4];
@@ -53,7 +53,7 @@ typedef struct tl_ray_job {
     double exact_shear[2];
     double inverse_z; ///< 1 / direction along the last axis
 
-    tl_leaf_buffer *buffers; ///< of the walk, for leaves of a compact soup; NULL: leaves are read where they are
+    tl_leaf_buffer *buffers; ///< of the walk, for leaves of a compact soup; NULL: leaves are read in place
 
     // The best so far. t begins as tmax, so the first hit at tmax itself still wins by its index.
     float t;
@@ -68,8 +68,8 @@ typedef struct tl_ray_job {
 /// The walks have it inline (ray_prepare.h).
 bool tl_ray_prepare(tl_ray_job *job, tl_vec3 origin, tl_vec3 target);
 
-/// The rare rest of it, with origin and target set: directions that need scaling, and origins too far away for float
-/// filters.
+/// The rare cases of it, with origin and target set: directions that need scaling, and origins too far away for the
+/// float filters.
 bool tl_ray_prepare_unusual(tl_ray_job *job);
 
 /// Decides one lane of a leaf. If it is hit, and better than the best so far, it becomes the best.
@@ -78,8 +78,8 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane);
 /// Describes the best hit.
 void tl_ray_describe(const tl_ray_job *job, tl_ray_hit *hit_out);
 
-/// Prepares a ray and walks the tree, once per instruction set. `target` is a direction, or a segment's end. Without
-/// `hit_out` it returns at the first hit. True: something was hit.
+/// Prepares a ray and walks the BVH, compiled once per instruction set. `target` is a direction, or a segment's end.
+/// Without `hit_out` it returns at the first hit. True: something was hit.
 typedef bool tl_ray_walk_fn(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *target, float tmax,
                             bool is_segment, const tl_ray_filter *filter, tl_ray_hit *hit_out);
 
@@ -88,7 +88,7 @@ tl_ray_walk_fn tl_ray_walk_scalar;
 tl_ray_walk_fn tl_ray_walk_sse42, tl_ray_walk_avx2, tl_ray_walk_avx512;
 #endif
 
-/// Rays whose closest hits are asked for together.
+/// Rays of one call for closest hits.
 typedef struct tl_ray_batch {
     const tl_soup *soup; ///< of the plain layout
     const tl_ray *rays;
@@ -97,7 +97,7 @@ typedef struct tl_ray_batch {
     tl_ray_hit *hits;
 } tl_ray_batch;
 
-/// Some rays under way at once, once per instruction set (ray_walk_interleaved.inl).
+/// Several rays in flight at once, compiled once per instruction set (ray_walk_interleaved.inl).
 typedef void tl_ray_walk_many_fn(const tl_ray_batch *batch);
 
 tl_ray_walk_many_fn tl_ray_walk_many_scalar;
@@ -105,7 +105,7 @@ tl_ray_walk_many_fn tl_ray_walk_many_scalar;
 tl_ray_walk_many_fn tl_ray_walk_many_sse42, tl_ray_walk_many_avx2, tl_ray_walk_many_avx512;
 #endif
 
-/// What a batch says of a ray that hits nothing.
+/// What a batch reports for a ray that hits nothing.
 static inline void tl_ray_miss(tl_ray_hit *hit)
 {
     memset(hit, 0, sizeof *hit);

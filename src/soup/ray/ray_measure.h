@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Where a ray meets the plane of a triangle that it meets: t, u, v and the normal, in double.
+// Where a ray meets the plane of a triangle that it hits: t, u, v and the normal, in double.
 //
-// With corner a, sides p and q from it, c = a - origin, d the direction and n = p x q, Cramer's rule gives
+// With corner a, sides p and q from it, c = a - origin, d the direction and n = p x q, Cramer's rule (Moller and
+// Trumbore, 1997) gives
 //
 //   t = n.c / n.d,  u = (c x d).q / n.d,  v = -(c x d).p / n.d
 //
-// in four lanes, with one division, and the normal is there already. Nothing is fused, so every instruction set gives
-// the same bits. ray_decide.c does the same for the triangles that the filters leave in doubt.
+// in four lanes, with one division, and the normal comes with it. Nothing is fused, so every instruction set gives the
+// same bits. ray_decide.c does the same for the triangles that the filters leave in doubt.
 //
 // Error of t, with u = TL_DOUBLE_ROUNDING, L the largest coordinate of p and q, M that of c, D that of d. A component
 // of n sums two products of at most L^2, and four roundings go into each: it is off by 8 u L^2. So n.d is off by 3 (8 u
 // L^2 D + 2 L^2 D 4 u) = 48 u L^2 D, and n.c by 48 u L^2 M. The hit lies on the triangle, so |t| D <= M + L. Together t
-// is off by 48 u L^2 (2 M + L) / |n.d|, which is 48 u L^2 (2 M + L) / |n.c| of itself: only when the ray grazes the
-// triangle's plane, or begins in it, is that much. Then t is found exactly (ray_decide.c).
+// is off by 48 u L^2 (2 M + L) / |n.d|, which is 48 u L^2 (2 M + L) / |n.c| of itself: that is much only when the ray
+// grazes the triangle's plane, or begins in it. Then t is computed exactly (ray_decide.c).
 
 #ifndef TALUS_SRC_SOUP_RAY_MEASURE_H
 #define TALUS_SRC_SOUP_RAY_MEASURE_H
@@ -26,7 +27,7 @@
 
 /// Share of t that errors may move it before it is rounded: an eighth of an ulp of float.
 #define TL_RAY_T_ERROR 7.450580596923828e-9 // 2^-27
-// 48 u in units of that. The margin covers what is rounded in the bound itself, and L and M in float.
+// 48 u in units of that. The margin covers the rounding of the bound itself, and of L and M in float.
 #define TL_RAY_ACROSS_BOUND (1.01 * 48.0 * TL_DOUBLE_ROUNDING / TL_RAY_T_ERROR)
 // A t that is not near FLT_MAX.
 #define TL_RAY_T_MAX 1e37f
@@ -68,13 +69,13 @@ static TL_ALWAYS_INLINE tl_vec3 tl_ray_unit_normal(tl_f64x4 normal)
     return tl_vec3_make(unit[0], unit[1], unit[2]);
 }
 
-/// Whether t is as exact as promised, of triangles with coordinates of sides up to `wide`, `reach` away.
+/// Whether t is as exact as promised, for a triangle with sides up to `wide` along an axis, `reach` away.
 static inline bool tl_ray_t_is_safe(double across, double wide, double reach)
 {
     return TL_RAY_ACROSS_BOUND * (wide * wide) * (2.0 * reach + wide) <= fabs(across);
 }
 
-/// u and v as numbers of a point of the triangle: their error is that of the weights, and may lead out of it.
+/// Clamps u and v to the triangle: their rounding error may lead out of it.
 static inline void tl_ray_keep_inside(float *u, float *v)
 {
     *u = *u > 0.0f ? *u : 0.0f;
@@ -83,9 +84,9 @@ static inline void tl_ray_keep_inside(float *u, float *v)
     *v = *v < 1.0f - *u ? *v : 1.0f - *u;
 }
 
-// Describes the triangle that waits, which the filters have proven to be hit: the first or second of pair (bit & 3) of
-// a leaf of n. False, and nothing done, when its t must be found exactly. What is known of all triangles of the leaf
-// bounds this one's coordinates from above.
+// Describes the pending triangle, which the filters have proven to be hit: the first or second of pair (bit & 3) of a
+// leaf of n. False, and nothing done, when its t must be computed exactly. Bounds of the whole leaf bound this
+// triangle's coordinates from above.
 static TL_ALWAYS_INLINE bool tl_ray_measure(const tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t n, uint32_t bit,
                                             tl_ray_hit *hit)
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Preparing the rays that are not usual: directions of any length down to denormals and up to the largest float, and
-// origins beyond the reach of float filters. Everything else, and the error analysis, is in ray_prepare.h.
+// Preparing unusual rays: directions of any length down to denormals and up to the largest float, and origins beyond
+// the range of the float filters. Everything else, and the error analysis, is in ray_prepare.h.
 
 #include "soup/ray/ray_prepare.h"
 
@@ -13,7 +13,7 @@ static double power_scale(double largest)
     return ldexp(1.0, exponent > 1 ? 10 - exponent : 1 - exponent);
 }
 
-// The origin is so far away that float filters cannot work: everything is handed to the exact part.
+// The origin is too far away for float filters: everything passes to the exact part.
 static void pass_everything(tl_ray_job *job)
 {
     for (uint32_t i = 0; i < 3; i++) {

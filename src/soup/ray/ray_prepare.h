@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What is computed once a ray for the float filters: slab constants with their rounding already added, and the shear
+// What is computed once a ray for the float filters: slab constants that include their rounding errors, and the shear
 // that turns the ray into an axis.
 //
 // Below, u is TL_FLOAT_ROUNDING, M the largest distance along an axis from the ray's origin to a corner of the soup's
@@ -11,15 +11,16 @@
 // <= u (2 |X| + 6 |Z|) <= 8 u M.
 //
 // Slab planes. t = p inv - O inv, with p the plane. inv has two roundings (a segment's direction, the division), each
-// product one, the difference one: |error| <= 4 u (|p| + |O|) |inv| <= 4 u (2 |O| + M) |inv|. The pad is
-// 16 u (|O| + M) |inv|; it rounds, and so does O inv with the pad, which takes 2 u (|O| + M) of it. What is left,
-// 6 u |O| + 10 u M, covers the rounding of the reported t (u t) with which boxes are compared, and the error before it.
+// product one, the difference one: |error| <= 4 u (|p| + |O|) |inv| <= 4 u (2 |O| + M) |inv|. The pad is 16 u (|O| + M)
+// |inv|; it rounds, and so does O inv with the pad, which takes 2 u (|O| + M) of it. The rest, 6 u |O| + 10 u M, covers
+// the rounding of the reported t (u t) with which boxes are compared, and the error before it.
 //
 // A direction component that is tiny or zero is replaced by 2^-70, which keeps all numbers finite. The largest
-// component is 2^-10 at least, so over the whole way through the soup's box that moves the ray by at most 2^-59 M.
+// component is 2^-10 at least, so over the whole length of the soup's box that moves the ray by at most 2^-59 M.
 //
-// Source of the shear: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2013. Where that paper decides
-// in float and mends zeros, here float only rejects.
+// Source of the shear: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2013. That paper decides in
+// float and repairs zeros; here float only rejects. The slab test is Kay's and Kajiya's, Ray Tracing Complex Scenes,
+// 1986.
 
 #ifndef TALUS_SRC_SOUP_RAY_PREPARE_H
 #define TALUS_SRC_SOUP_RAY_PREPARE_H
@@ -51,7 +52,7 @@ static inline const uint32_t *tl_ray_axes(uint32_t largest_mask)
 }
 
 // Slabs, shear and error of a direction whose largest component is within the bounds above; `size` are its absolute
-// values and `largest` their largest in all lanes. What a ray waits for comes first: the division.
+// values and `largest` their largest in all lanes. The division comes first, since the ray waits for it.
 static TL_ALWAYS_INLINE void tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 origin, tl_f32x4 direction, tl_f32x4 size,
                                                     tl_f32x4 largest)
 {
@@ -81,7 +82,7 @@ static TL_ALWAYS_INLINE void tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 or
     job->corner_error = job->reach * TL_RAY_CORNER_ERROR + FLT_MIN;
 }
 
-/// Whether a ray that begins outside the soup's box passes it by, as a node's box is passed by.
+/// Whether a ray that begins outside the soup's box misses it, by the test of a node's boxes.
 static TL_ALWAYS_INLINE bool tl_ray_misses_bounds(const tl_ray_job *job)
 {
     tl_f32x4 low = tl_f32x4_load(&job->soup->bounds_min.x), high = tl_f32x4_load(&job->soup->bounds_max.x);

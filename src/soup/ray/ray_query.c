@@ -49,9 +49,9 @@ tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa)
     return tl_ray_walk_for(isa) != NULL ? walks[isa] : NULL;
 }
 
-// AVX-512 on AMD's processors only. Those that have it (Zen 4 and later) take a ray 5 to 15 per cent faster with it. On
-// Intel's Sapphire Rapids it saves instructions and no time: 2 to 8 per cent slower, so AVX2 there, as on what nobody
-// has measured (bench_rays has a row for each). A machine with AVX-512 always has AVX2.
+// AVX-512 on AMD's processors only: Zen 4 and later trace a ray 5 to 15 per cent faster with it. On Intel's Sapphire
+// Rapids it saves instructions and no time (2 to 8 per cent slower), so AVX2 is used there, and on unmeasured
+// processors (bench_rays has a row for each). A machine with AVX-512 always has AVX2.
 static inline tl_ray_walk_fn *best_ray_walk(void)
 {
     if (ray_has_avx2()) {

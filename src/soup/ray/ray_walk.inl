@@ -1,34 +1,37 @@
 // SPDX-License-Identifier: MIT
 //
-// The walk through the tree: one source, compiled once for each instruction set by a file that defines TL_RAY_WALK.
+// BVH traversal by a ray: one source, compiled once for each instruction set by a file that defines TL_RAY_WALK.
 //
-// A visit tests sixteen child boxes and goes on with the nearest that is hit; the others wait, sorted by distance, or
-// in the node's order when any hit will do. A leaf tests its four pairs at once: with corners a, e, c both triangles of
-// a pair take one formula, in eight lanes. Two of the text's three tests per triangle are shared or saved there only in
-// a scalar loop; in lanes it is cheaper to compute E(a, e), E(e, c) and E(c, a) for all eight than to choose.
+// A visit tests sixteen child boxes and continues with the nearest that is hit; the others wait on a stack, sorted by
+// distance, or in the node's order when any hit will do. A leaf tests its four pairs at once: with corners a, e, c one
+// formula serves both triangles of a pair, in eight lanes. Ericson's article shares or saves two of the three tests per
+// triangle, which pays only in a scalar loop; in lanes it is cheaper to compute E(a, e), E(e, c) and E(c, a) for all
+// eight than to choose.
+//
+// The edge tests are those of Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2013, used as a filter
+// with error bounds.
 //
 // A lane is rejected when two edges have opposite signs beyond the error bound. If the line does meet the triangle, its
 // sheared corners lie no farther from the ray than the triangle is wide: |coordinates| <= 2 L, L the largest extent in
-// the leaf. With corner error d = 8 u M, E is then off by at most 4 d (2 L + d) + 2 d^2 + 4 u (2 L + d)^2
-// <= 12 d L + 7 d^2, as L <= 2 M. Underflow adds less than FLT_MIN. The bound of a leaf is e = 13 d L + 8 d^2 +
-// FLT_MIN.
+// the leaf. With corner error d = 8 u M, E is then off by at most 4 d (2 L + d) + 2 d^2 + 4 u (2 L + d)^2 <= 12 d L + 7
+// d^2, as L <= 2 M. Underflow adds less than FLT_MIN. The bound of a leaf is e = 13 d L + 8 d^2 + FLT_MIN.
 //
-// A lane is surely met when all three E are beyond e on one side. For rounding is monotonous, so E = x y' - y x', each
+// A lane is surely met when all three E are beyond e on one side. For rounding is monotonic, so E = x y' - y x', each
 // product rounded once, has the sign of the exact expression; three equal signs mean that the triangle of the computed
 // corners holds the origin, so these are within 2 L + 2 d, the bound e is valid, and no true sign differs. That is why
 // these products must not be fused.
 //
-// Lanes that pass get an interval of t, so that most of what is left is settled without ray_decide.c: triangles behind
-// the ray or beyond the best are dropped, and one that is surely hit, surely in front of the best, only waits: it is
-// decided when another comes too near to tell them apart, or measured at the end (ray_measure.h). With D = sum(E) and
-// depths z_i, t = sum(E_i z_i) / D times per_depth. Let the line meet the triangle. Depths differ by L at most, so all
-// are within Z = |z_a| + L, and no corner is farther away than M' = Z + L: it is off by d' = 8 u M'. With m the largest
-// of the triangle's own computed coordinates, at most 2 M', E is off by at most 4 d' m + 2 d'^2 + 4 u m^2 <= 5 d' m +
-// 2 d'^2; taken as e = 5.5 d' m + 3 d'^2 + FLT_MIN. (L is that of the leaf's largest triangle: where small ones lie
-// beside it, 13 d' L told a fourth of some camera's hits not from misses.) True weights have one sign, so errors of the
-// weights move the quotient by at most sum(e |z_i - z|) / |D| <= 3 e L / |D|. With |D| >= 64 e, roundings of depths,
-// products, sums and the quotient add 18 u Z, per_depth (two of its own) and its product 3 u Z. Taken as 4 e L / |D| +
-// 26 u Z.
+// Lanes that pass get an interval of t, which settles most of them without ray_decide.c: triangles behind the ray or
+// beyond the best are dropped, and one that is surely hit, surely in front of the best, is only remembered as pending:
+// it is decided when another comes too near to tell them apart, or measured at the end (ray_measure.h). With D = sum(E)
+// and depths z_i, t = sum(E_i z_i) / D times per_depth. Let the line meet the triangle. Depths differ by L at most, so
+// all are within Z = |z_a| + L, and no corner is farther away than M' = Z + L: it is off by d' = 8 u M'. With m the
+// largest of the triangle's own computed coordinates, at most 2 M', E is off by at most 4 d' m + 2 d'^2 + 4 u m^2 <= 5
+// d' m + 2 d'^2; taken as e = 5.5 d' m + 3 d'^2 + FLT_MIN. (L is that of the leaf's largest triangle: where small ones
+// lie beside it, 13 d' L could not tell a fourth of some camera's hits from misses.) True weights have one sign, so
+// errors of the weights move the quotient by at most sum(e |z_i - z|) / |D| <= 3 e L / |D|. With |D| >= 64 e, roundings
+// of depths, products, sums and the quotient add 18 u Z, per_depth (two of its own) and its product 3 u Z. Taken as 4 e
+// L / |D| + 26 u Z.
 
 #include "base/lowest_bit.h"
 #include "base/prefetch.h"
@@ -49,20 +52,20 @@
 #define T_RATIO_TERM     8.0f
 #define T_ROUNDING       (28.0f * TL_FLOAT_ROUNDING)
 
-// Around a t that is decided: where another's interval must end or begin to be told from it.
+// Margin around a decided t: another's interval must end before or begin after it to be told apart.
 #define T_MARGIN (4.0f * TL_FLOAT_ROUNDING)
 
 // Each node on the way down leaves at most fifteen siblings behind; tl_u32x16_compress_pairs may write sixteen.
 enum { WALK_STACK_SIZE = (TL_SOUP_WIDTH - 1) * TL_SOUP_MAX_DEPTH + TL_SOUP_WIDTH };
 
-// Where in a plain node the planes are by which a ray enters, by its bits `backward`: bytes. It leaves by those of
-// ~backward.
+// Byte offsets in a plain node of the planes by which a ray enters, indexed by its bits `backward`. It leaves by those
+// of ~backward.
 static const uint32_t ray_rows[8][4] = { { 0, 128, 256, 0 },  { 64, 128, 256, 0 }, { 0, 192, 256, 0 },
                                          { 64, 192, 256, 0 }, { 0, 128, 320, 0 },  { 64, 128, 320, 0 },
                                          { 0, 192, 320, 0 },  { 64, 192, 320, 0 } };
 static_assert(sizeof(((tl_soup_node *)0)->plane[0]) == 64, "rows of walk_rows");
 
-// What a visit needs beside the job.
+// What a visit needs besides the job.
 typedef struct walk_ray {
     const uint32_t *near_rows;
     const uint32_t *far_rows;
@@ -71,8 +74,8 @@ typedef struct walk_ray {
     const char *leaves;
 } walk_ray;
 
-// A child that the ray enters: the bits of the box t where, above the child word. Such t are never negative, so their
-// bits have the order of their values, and one integer compare orders entries.
+// A child that the ray enters: the bits of the box t of the entry point, above the child word. Such t are never
+// negative, so their bits sort as their values do, and one integer compare orders entries.
 typedef uint64_t walk_entry;
 
 static inline walk_entry make_entry(const uint32_t *t_bits, const uint32_t *children, uint32_t lane)
@@ -80,7 +83,7 @@ static inline walk_entry make_entry(const uint32_t *t_bits, const uint32_t *chil
     return (uint64_t)t_bits[lane] << 32 | children[lane];
 }
 
-// What waits on the stack is mostly visited soon, and its lines are then under way.
+// A child on the stack is mostly visited soon, and its cache lines are then on their way.
 static inline void prefetch_child(const walk_ray *ray, uint32_t child)
 {
     bool leaf = (child & TL_CHILD_LEAF) != 0;
@@ -114,7 +117,7 @@ typedef struct walk_slab {
 // Which of sixteen boxes the ray enters, and where.
 static TL_ALWAYS_INLINE uint32_t enter_boxes(const walk_slab slabs[3], float limit, uint32_t *t_bits)
 {
-    // The last maximum leaves nothing negative. A negative minimum is below that whichever it is.
+    // The last maximum leaves nothing negative. A negative minimum is below it, whichever of several it is.
     tl_f32x16 first = tl_f32x16_max_bits(tl_f32x16_max_bits(slabs[0].enter, slabs[1].enter),
                                          tl_f32x16_max_bits(slabs[2].enter, tl_f32x16_all(0.0f)));
     tl_f32x16 last = tl_f32x16_min_bits(tl_f32x16_min_bits(slabs[0].leave, slabs[1].leave),
@@ -156,8 +159,8 @@ static inline uint32_t push_sorted(const uint32_t *t_bits, const uint32_t *child
     return (uint32_t)base[count - 1];
 }
 
-// The same, without branches for two and three children, which are most visits; `mask` is not empty. Any hit will do:
-// sorting costs more than it saves, the lowest lane is as good as another, and one child is no case of its own.
+// The same, without branches for two and three children, which are most visits; `mask` is not empty. When any hit will
+// do, sorting costs more than it saves: the lowest lane comes first, and one child is no special case.
 static TL_ALWAYS_INLINE uint32_t push_children(const walk_ray *ray, const uint32_t *t_bits, const uint32_t *children,
                                                uint32_t mask, bool any, walk_entry *stack, uint32_t *stack_count)
 {
@@ -194,7 +197,7 @@ static TL_ALWAYS_INLINE uint32_t push_children(const walk_ray *ray, const uint32
     return (uint32_t)nearer_entry(low, high);
 }
 
-// A leaf's triangles as the ray sees them.
+// A leaf's triangles in the ray's sheared space.
 typedef struct leaf_lanes {
     tl_f32x8 ax, ex, cx, ay, ey, cy; // across the ray
     tl_f32x8 az, ez, cz;             // depths
@@ -237,7 +240,7 @@ static TL_ALWAYS_INLINE void test_leaf(const tl_ray_job *job, const tl_soup_leaf
     lanes->extent = leaf->extent;
     tl_f32x8 error = tl_f32x8_all(
         job->corner_error * (LEAF_EXTENT_TERM * leaf->extent + LEAF_ERROR_TERM * job->corner_error) + FLT_MIN);
-    // Signs tell which edges are surely negative, and which surely positive.
+    // The signs of these tell which edges are surely negative, and which surely positive.
     tl_f32x8 below_ae = tl_f32x8_add(ae, error), above_ae = tl_f32x8_sub(error, ae);
     tl_f32x8 below_ec = tl_f32x8_add(ec, error), above_ec = tl_f32x8_sub(error, ec);
     tl_f32x8 below_ca = tl_f32x8_add(ca, error), above_ca = tl_f32x8_sub(error, ca);
@@ -261,11 +264,11 @@ static TL_ALWAYS_INLINE void test_leaf(const tl_ray_job *job, const tl_soup_leaf
     lanes->ca = ca;
 }
 
-// What is known of the hit so far.
+// The best hit so far.
 typedef struct walk_best {
-    float limit;    // what surely begins beyond this t is no better
-    float ahead;    // what surely ends before this t is better
-    uint32_t child; // leaf of a triangle that is surely hit, the best so far and not decided yet; 0: none
+    float limit;    // what surely lies beyond this t is no better
+    float ahead;    // what surely lies before this t is better
+    uint32_t child; // leaf of the pending triangle: surely hit, the best so far, not decided yet; 0: none
     uint32_t bit;   // its bit in leaf_lanes
 } walk_best;
 
@@ -283,7 +286,7 @@ static inline const tl_soup_leaf *leaf_of(const tl_ray_job *job, uint32_t child,
                                 : tl_open_leaf(job->soup, child, &job->buffers[buffer]);
 }
 
-// Decides a lane. A leaf that was expanded must stay as long as its triangle is the best.
+// Decides a lane. An expanded leaf is kept as long as its triangle is the best.
 static inline void decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
 {
     if (tl_ray_decide(job, leaf, lane) && job->buffers != NULL) {
@@ -297,7 +300,7 @@ static inline void decide_waiting(tl_ray_job *job, const walk_best *best)
     decide(job, leaf_of(job, best->child, BUFFER_WAITING), lane_of_bit(best->bit, tl_child_pair_count(best->child)));
 }
 
-// The lanes of a leaf that may be hit, as far as floats can tell.
+// The lanes of a leaf that may be hit, as far as the float filters tell.
 typedef struct walk_lanes {
     uint32_t maybe; // bits
     uint32_t sure;  // bits: hit, and in front of the origin
@@ -307,7 +310,7 @@ typedef struct walk_lanes {
 
 enum { NO_LANE = 8 };
 
-// Takes or decides lanes one by one.
+// Takes lanes as pending, or decides them, one by one.
 static TL_NOINLINE walk_best settle_each(tl_ray_job *job, const walk_lanes *lanes, uint32_t child, walk_best best)
 {
     const tl_soup_leaf *leaf = leaf_of(job, child, BUFFER_VISITED);
@@ -343,8 +346,7 @@ static TL_ALWAYS_INLINE tl_f32x8 farthest_across(const leaf_lanes *v)
 }
 
 // The lane of `better` whose interval ends first, or NO_LANE; `maybe` holds all of them, and was known long before. By
-// branches, which the processor foretells: what is done with the lane then begins before the division above has told
-// which it is.
+// branches, which the processor predicts: work on the lane then begins before the division above has told which it is.
 static TL_ALWAYS_INLINE uint32_t nearest_lane(const walk_lanes *lanes, uint32_t maybe, uint32_t better)
 {
     uint32_t nearest = NO_LANE;
@@ -420,7 +422,7 @@ static TL_ALWAYS_INLINE bool visit_leaf(tl_ray_job *job, const walk_ray *ray, ui
     return lanes.maybe != 0 && settle_lanes(job, &lanes, child, any, best);
 }
 
-// Of a compact leaf the one pair is enough.
+// Of a compact leaf only the one pair is expanded.
 static TL_ALWAYS_INLINE bool measure_waiting(const tl_ray_job *job, const walk_best *best, tl_ray_hit *hit)
 {
     uint64_t offset = tl_child_leaf_offset(best->child);
@@ -433,7 +435,7 @@ static TL_ALWAYS_INLINE bool measure_waiting(const tl_ray_job *job, const walk_b
                           hit);
 }
 
-// The end of a walk: false when nothing was hit. Any hit would have ended it before, if it was sure.
+// The end of a walk: false when nothing was hit. (A sure hit has ended an any-hit query before.)
 static TL_ALWAYS_INLINE bool report_hit(tl_ray_job *job, walk_best best, tl_ray_hit *hit)
 {
     if (best.child != 0) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The walk through a compact soup: the same steps and the same leaf code, on boxes of bytes and on leaves that are
+// BVH traversal of a compact soup: the same steps and the same leaf code, on quantized boxes and on leaves that are
 // expanded first. Part of ray_walk.inl.
 //
-// To be tested a leaf is expanded to four pairs, a shorter one by repeating its first: vectors of four are then stored
-// where they will be read, whole.
+// A leaf is expanded to four pairs for the test, a shorter one by repeating its first: so vectors of four are stored
+// where they are read, whole.
 
 // A byte for each float of a plain node.
 static inline const uint8_t *byte_row(const tl_compact_node *node, uint32_t row)
@@ -12,8 +12,8 @@ static inline const uint8_t *byte_row(const tl_compact_node *node, uint32_t row)
     return (const uint8_t *)(const void *)node->plane + row / sizeof(float);
 }
 
-// A product with a power of two is exact, so a plane is the very float that the builder had, and the bounds of
-// ray_prepare.h hold. (To fold scale and origin into the slab's constants saves twelve instructions and no time.)
+// A product with a power of two is exact, so a plane is the very float that the encoder had, and the bounds of
+// ray_prepare.h hold. (Folding scale and origin into the slab constants saves twelve instructions and no time.)
 static TL_ALWAYS_INLINE uint32_t enter_compact_children(const tl_ray_job *job, const walk_ray *ray,
                                                         const tl_compact_node *node, float limit, uint32_t *t_bits)
 {
@@ -59,7 +59,7 @@ static TL_ALWAYS_INLINE const tl_soup_leaf *expand_leaf(const tl_soup *soup, uin
     gather_corners(bases, pairs, 0, 1, ac);
     gather_corners(bases, pairs, 2, 3, bd);
     float *floats = (float *)(void *)(buffer->words + 8);
-    // The widest pair, along an axis: at least the widest triangle, which is what bounds of errors ask for.
+    // The widest pair along an axis: at least as wide as the widest triangle, which the error bounds need.
     tl_f32x8 extent = tl_f32x8_all(0.0f);
     for (uint32_t axis = 0; axis < 3; axis++) {
         tl_f32x8_store(floats + (size_t)axis * 16, ac[axis]);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Many rays on one thread, some of them under way at once. A single ray waits for memory, for chains of arithmetic, and
-// for branches that nobody can foretell; here each ray asks for what it visits next and lets others go on until it has
+// Many rays on one thread, several of them in flight at once. A single ray waits for memory, for chains of arithmetic,
+// and for mispredicted branches; here each ray prefetches what it visits next and lets others continue until it has
 // come.
 //
 // Rays that stand at nodes and rays that stand at leaves wait in a ring each. A round takes a group from one ring and
 // tests it without a branch in between, so that the processor overlaps the tests; only then does each ray find its own
-// way on. What a single walk branches on, up to three children, is sorted without. The bookkeeping takes a third more
-// instructions a ray, which in a soup that fits the caches is about what it saves.
+// way on. Where a single walk branches, up to three children, sorting is branchless. The bookkeeping takes a third more
+// instructions a ray, about what it saves in a soup that fits the caches.
 //
-// A ray under way has a short stack; one that would overflow it is cast alone. Answers are those of the single walk, as
-// both decide by the same functions. Included behind ray_walk.inl.
+// A ray in flight has a short stack; one that would overflow it is traced alone. Answers are those of the single walk,
+// as both decide by the same functions. Included after ray_walk.inl.
 
 #ifndef TALUS_SRC_SOUP_RAY_WALK_INTERLEAVED_INL
 #define TALUS_SRC_SOUP_RAY_WALK_INTERLEAVED_INL
@@ -25,7 +25,7 @@ enum { RAY_LANES = 12, LANE_GROUP = 6, LANE_RING = 16 };
 
 static_assert(RAY_LANES <= LANE_RING, "a ring holds all lanes");
 
-// A ray under way.
+// A ray in flight.
 typedef struct walk_lane {
     uint32_t child; // what it visits next
     uint32_t stack_count;
@@ -47,7 +47,7 @@ typedef struct lane_walk {
     walk_lane lanes[RAY_LANES];
 } lane_walk;
 
-// Puts the next ray that meets the soup's box on its way. False: there is none.
+// Starts the next ray that meets the soup's box. False: there is none.
 static TL_ALWAYS_INLINE bool begin_lane(lane_walk *w, walk_lane *lane)
 {
     const tl_ray_batch *batch = w->batch;
@@ -72,8 +72,8 @@ static TL_ALWAYS_INLINE bool begin_lane(lane_walk *w, walk_lane *lane)
     return false;
 }
 
-// Ends a ray, alone when its stack is too short, and begins the next one; false when there is none. Not inline: that
-// would be four times all that a ray takes to begin and to end.
+// Ends a ray, tracing it alone when its stack is too short, and begins the next one; false when there is none. Not
+// inline: that would repeat the code that begins and ends a ray four times.
 static TL_NOINLINE bool change_ray(lane_walk *w, walk_lane *lane, bool alone)
 {
     const tl_ray *ray = &w->batch->rays[lane->index];
@@ -87,7 +87,7 @@ static TL_NOINLINE bool change_ray(lane_walk *w, walk_lane *lane, bool alone)
     return begin_lane(w, lane);
 }
 
-// Takes a lane to what waits nearest, or to its next ray.
+// Advances a lane to its nearest waiting child, or to its next ray.
 static TL_ALWAYS_INLINE void advance_lane(lane_walk *w, uint32_t index)
 {
     walk_lane *lane = &w->lanes[index];
@@ -111,8 +111,8 @@ static inline walk_entry entry_of_lowest(const uint32_t *t_bits, const uint32_t 
     return any & make_entry(t_bits, children, tl_lowest_bit(mask | 1u << (TL_SOUP_WIDTH - 1)));
 }
 
-// Puts all children on the stack, the nearest on top. Of up to three those that are not there are zero and sort to the
-// top, where they are not counted.
+// Puts all children on the stack, the nearest on top. Of up to three, missing ones are zero and sort to the top, where
+// they are not counted.
 static TL_ALWAYS_INLINE void push_all(walk_lane *lane, const uint32_t *children, const uint32_t *t_bits, uint32_t mask)
 {
     uint32_t second = mask & (mask - 1u), third = second & (second - 1u);

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// Box against triangle: they are apart when one of thirteen axes parts them: the box's three, the triangle's normal,
-// and the nine crosses of their edges. Source: Tomas Akenine-Moller, Fast 3D Triangle-Box Overlap Testing, 2001.
+// Box against triangle by separating axes: they are disjoint when one of thirteen axes separates them: the box's three,
+// the triangle's normal, and the nine crosses of their edges.
 //
-// Any axis along which there is a gap proves that they are apart, the cross of two parallel edges too, which is nothing
-// but rounding. So only the projections' own rounding counts: a gap below it is none.
+// A gap along any axis proves that they are disjoint, even along the cross of two parallel edges, which is nothing but
+// rounding. So only the rounding of the projections counts: a gap smaller than it is none.
+//
+// Source: Akenine-Moller, Fast 3D Triangle-Box Overlap Testing, 2001.
 
 #include "soup/triangle/box_triangle.h"
 
 #include "base/min_max.h"
 #include "math/tolerance.h"
 
-// Share of the terms' sum by which a gap may be wrong: the corners come rotated into the box's frame with some ten
-// roundings each, a dot product adds five, the reach five more.
+// Error of a gap, as a share of the sum of its terms: rotating a corner into the box's frame takes about ten roundings,
+// a dot product five, the reach five more.
 #define GAP_ERROR TL_DOUBLE_GAMMA(32)
 
-// Whether an axis parts the box from the points, `size` being the largest coordinate of all of them.
+// Whether an axis separates the box from the points; `size` is the largest coordinate of all of them.
 static bool separates(tl_vec3d axis, const double half[3], const tl_vec3d v[3], double size)
 {
     double reach = half[0] * fabs(axis.x) + half[1] * fabs(axis.y) + half[2] * fabs(axis.z);

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Does a line cross a triangle, counted so that every passage through a surface counts once?
+// Whether a line crosses a triangle, so that every passage through a surface counts once.
 //
-// A line through an edge meets both of its triangles, and through a corner all of its fan, so to count hits is not to
-// count how often a surface is crossed. The answer is to move the line by a step that is smaller than any number, along
-// x, then by one that is smaller still along y, then z: it then passes through no edge. The sidedness of an edge a, b
-// is det(d, a - o, b - o); the step e changes it by e . (d x (b - a)), so where it is zero, the first component of d x
-// (b - a) that is not zero has its sign. All are zero only for edges along the line, whose triangles are seen edge-on
-// and cannot be hit. Each sign belongs to the edge, so every closed surface is crossed an even number of times by the
-// moved line, whatever the line went through: exactly. Source: Edelsbrunner, Mucke, Simulation of Simplicity, 1990.
+// A line through an edge meets both of its triangles, and through a corner all of its fan, so the number of triangles
+// met is not the number of crossings. Simulation of simplicity answers: the line is moved by an infinitesimal step
+// along x, then by a smaller one along y, then z, so that it passes through no edge. The sidedness of an edge a, b is
+// det(d, a - o, b - o); the step e changes it by e . (d x (b - a)), so where it is zero, the first component of d x (b
+// - a) that is not zero has its sign. All are zero only for edges along the line, whose triangles are seen edge-on and
+// cannot be hit. The sign belongs to the edge, not to the triangle: so the moved line crosses every closed surface an
+// even number of times, exactly, whatever the line passed through.
+//
+// Source: Edelsbrunner, Mucke, Simulation of Simplicity, 1990.
 
 #include "soup/triangle/line_triangle.h"
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// How far a segment is from a triangle. Unless it crosses the face, an end of the segment or an edge of the triangle
-// holds the nearest point.
+// The distance between a segment and a triangle. Unless the segment crosses the face, a nearest point lies at an end of
+// the segment or on an edge of the triangle.
 //
-// Whether it crosses is decided in double. Where rounding spoils that, the segment passes an edge, or an end lies in
-// the plane, to within the same rounding, and the other terms are then as small. Source: Christer Ericson, Real-Time
-// Collision Detection, 2005, sections 5.1.9 and 5.1.10.
+// The crossing is decided in double. Where rounding decides it wrongly, the segment passes an edge, or an end lies in
+// the plane, to within the same rounding, and the other terms are as small.
+//
+// Source: Christer Ericson, Real-Time Collision Detection, 2005, sections 5.1.9 and 5.1.10.
 
 #include "soup/triangle/segment_triangle.h"
 
@@ -34,7 +35,7 @@ static void try_edge(tl_segment_triangle *best, tl_vec3d p, tl_vec3d d, tl_vec3d
     double dd = tl_vec3d_dot(d, d), ee = tl_vec3d_dot(e, e), de = tl_vec3d_dot(d, e);
     double dr = tl_vec3d_dot(d, r), er = tl_vec3d_dot(e, r);
     double determinant = dd * ee - de * de;
-    // Nearly parallel: any s serves, and the ends are looked at beside this.
+    // Nearly parallel: any s will do, since the ends are tried as well.
     double s = determinant > 0.0 ? clamp_share((de * er - dr * ee) / determinant) : 0.0;
     double t = ee > 0.0 ? clamp_share((de * s + er) / ee) : 0.0;
     s = dd > 0.0 ? clamp_share((de * t - dr) / dd) : 0.0;

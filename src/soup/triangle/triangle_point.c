@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// The nearest point of a triangle: above its face, or on one of its edges.
+// The nearest point of a triangle: on its face, or on one of its edges.
 //
-// The point is above the face when it lies on the inner side of all three planes that stand on the edges, along the
-// triangle's normal. Ericson's regions (Real-Time Collision Detection, 2005, section 5.1.5) need fewer products, but a
-// needle's areas are mostly rounding, and then choose a corner that is not nearest. Here a needle has no face at all:
-// its edges, whose nearest points are well conditioned, are as near as the face to within the needle's own height.
+// The point projects onto the face when it lies on the inner side of the three planes through the edges along the
+// triangle's normal. Ericson's regions (Real-Time Collision Detection, 2005, section 5.1.5) need fewer products, but
+// the areas of a needle are mostly rounding, and then choose a corner that is not nearest. Here a needle has no face at
+// all: the nearest points of its edges are well conditioned, and as near as the face to within the needle's own height.
 
 #include "soup/triangle/triangle_point.h"
 
 #include "math/tolerance.h"
 
-// A triangle whose sine at corner 0 is below half an ulp of float has no face: it is not as high as its coordinates are
-// exact. Above, its normal in double is right to 2^-24.
+// A triangle whose sine at corner 0 is below half an ulp of float has no face: its height is below the precision of its
+// coordinates. Above that, its normal in double is right to 2^-24.
 #define NEEDLE_SINE ((double)TL_FLOAT_ROUNDING)
 
 static double nearest_of_edge(tl_vec3d a, tl_vec3d b, tl_vec3d p, tl_vec3d *point_out, int *end_out)
