@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Asking a navmesh: the table of tiles, nearest polygon, height, paths, straight paths, rays along the surface.
+// Queries on a navmesh: the table of tiles, off-mesh links, filters, nearest polygons, paths, straight paths, rays.
 //
 //   tl_navmesh    tiles side by side, and over one another where a place is divided into layers, linked across their
-//                 seams. Adding and removing a tile needs it alone; all
-//                 queries take it const and may run from any number of threads at once.
-//   tl_nav_query  the search state of one thread. Only the path search needs one.
+//                 seams. Adding or removing a tile touches the tiles around it alone. Queries take the navmesh const
+//                 and may run on any number of threads at once; a change of the navmesh runs alone.
+//   tl_nav_query  the search state of one thread. Functions that search take one; the others need none.
 //
-// Queries allocate nothing. xz is the plane in which polygons are convex and points are inside or outside; y follows
-// from the surface. All loops are bounded, and every way to end has a name.
+// Queries allocate nothing. Polygons are convex in the plane of x and z, and points are inside or outside there; y
+// follows from the surface. All loops are bounded, and every way to end has a name. A NULL filter is the default one.
+//
+// Errors that functions share. TL_ERR_STALE: a reference names nothing, or nothing any more. TL_ERR_NOT_FINITE: a
+// coordinate or number is infinite or NaN. TL_ERR_ARGUMENT: an object, an input or a needed output is NULL, a buffer is
+// NULL with a capacity above 0, or a filter has no cookie. After an error outputs are zero.
 
 #ifndef TALUS_NAV_QUERY_H
 #define TALUS_NAV_QUERY_H
@@ -24,9 +28,9 @@ extern "C" {
 
 typedef struct tl_navmesh tl_navmesh;
 
-/// A polygon in a navmesh: a slot of the table (20 bits), the polygon in its tile (28 bits), and the slot's salt
-/// (16 bits), which changes whenever a tile leaves the slot. A slot whose salts are used up is never used again, so
-/// that a reference to a removed tile stays invalid for ever. A reference without a salt names an off-mesh link
+/// A reference to a polygon of a navmesh: a slot of the table (20 bits), the polygon in its tile (28 bits), and the
+/// slot's salt (16 bits), which changes whenever a tile leaves the slot. A slot whose salts are used up is never used
+/// again: a reference to a removed tile stays stale for ever. A reference without a salt names an off-mesh link
 /// (tl_nav_is_offmesh).
 typedef uint64_t tl_nav_ref;
 
@@ -35,127 +39,135 @@ typedef uint64_t tl_nav_ref;
 /// Who frees a tile's bytes.
 typedef enum tl_nav_tile_ownership {
     TL_NAV_TILE_BORROWED, ///< the caller; they must outlive the tile's stay, for example a mapped file
-    TL_NAV_TILE_OWNED     ///< the navmesh, with tl_blob_free and its own allocator
+    TL_NAV_TILE_OWNED     ///< the navmesh, with tl_blob_free
 } tl_nav_tile_ownership;
 
-/// An empty navmesh. `allocator` is copied; NULL: malloc.
+/// Creates an empty navmesh. `allocator` is copied; NULL: malloc. TL_ERR_ARGUMENT, TL_ERR_MEMORY.
 TL_API tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_out);
 /// Frees the table and the tiles it owns. NULL: nothing happens.
 TL_API void tl_navmesh_destroy(tl_navmesh *navmesh);
 
-/// Puts a tile at its own (tile_x, layer, tile_z) and links it with its neighbours: all layers of the four places
+/// Adds a tile at its own (tile_x, layer, tile_z) and links it with its neighbours: all layers of the four places
 /// beside it, over their common sides, and the other layers of its own place, over cuts with the same ends.
 ///
-/// The tile must be known to be whole: fresh from tl_nav_tile_encode, or passed by tl_nav_tile_check; and it must not
-/// change while it is in (to change flags, take it out and put the changed one in). Two portals are
-/// linked where they overlap by more than a point and their heights come within agent_max_climb, the larger of both
-/// tiles', and one cell height of one another. On failure nothing is changed and the tile stays the caller's:
-/// TL_ERR_ARGUMENT (there is a tile already, or origin, cell sizes or tile_size differ from the other tiles'),
-/// TL_ERR_LIMIT (TL_NAV_MAX_TILES), TL_ERR_MEMORY. O(corners and links of the tiles of the five places).
+/// The tile must be known to be whole: fresh from tl_nav_tile_encode, or passed by tl_nav_tile_check. It must not
+/// change while it is in: to change flags, remove it and add the changed one. Two portals are linked where they overlap
+/// by more than a point and their heights come within agent_max_climb, the larger of both tiles', and one cell height
+/// of one another. On failure nothing is changed and the tile stays the caller's: TL_ERR_ARGUMENT (there is a tile
+/// already, or origin, cell sizes or tile_size differ from the other tiles'), TL_ERR_LIMIT (TL_NAV_MAX_TILES),
+/// TL_ERR_MEMORY. O(corners and links of the tiles of the five places).
 TL_API tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership);
+/// Adds `count` tiles, such as those of a tl_nav_tiles. On failure none of them is in, all stay the caller's, and
+/// `report` (may be NULL) names the tile. Errors as those of tl_navmesh_add_tile.
+TL_API tl_result tl_navmesh_add_tiles(tl_navmesh *navmesh, tl_nav_tile *const *tiles, uint32_t count,
+                                      tl_nav_tile_ownership ownership, tl_report *report);
 
-/// Takes the tile at a place out, all its layers where it is divided, and the links to them. TL_NOT_FOUND when
-/// there is none. Never fails otherwise. O(corners of the neighbours). Islands cost what lies between the neighbours,
-/// some tiles as a rule; where the tile was all that held two parts of an island together, the smaller part's tiles.
+/// Removes the tile at a place, all its layers where it is divided, and the links to them. TL_NOT_FOUND: there is none.
+/// O(corners of the neighbours). Islands cost what lies between the neighbours, some tiles as a rule; where the tile
+/// was all that connected two parts of an island, the smaller part's tiles.
 TL_API tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
-/// The same with one layer.
+/// Removes one layer. TL_NOT_FOUND: there is none.
 TL_API tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z);
 
-/// Makes the tiles at a place these: takes out those that are not among them byte for byte, adds those that are new,
-/// and leaves what stays the same as it is, references too. An empty stack empties the place.
+/// Replaces the tiles at a place by those of a stack: removes tiles that are not in the stack byte for byte, adds those
+/// that are new, and leaves the others as they are, references too. An empty stack empties the place.
 ///
-/// The navmesh takes the tiles and their array over, so they come from an allocator like its own; afterwards the stack
-/// is empty, on failure too. Errors: TL_ERR_ARGUMENT (a tile is of another place; nothing is changed), and those of
-/// tl_navmesh_add_tile; then some of the tiles may be missing. TL_ERR_MEMORY.
+/// The navmesh takes over the tiles and their array, which come from an allocator like its own; afterwards the stack is
+/// empty, on failure too. TL_ERR_ARGUMENT (a tile is of another place): nothing is changed. Other errors as those of
+/// tl_navmesh_add_tile: some of the tiles may be missing.
 TL_API tl_result tl_navmesh_replace_tiles(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z,
                                           tl_nav_tile_stack *stack);
 
 /// The tile at a place, or NULL; where it is divided the lowest layer that is there.
 TL_API const tl_nav_tile *tl_navmesh_find_tile(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
-/// One layer, or NULL.
+/// The tile of one layer at a place, or NULL.
 TL_API const tl_nav_tile *tl_navmesh_find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t layer,
                                                 int32_t tile_z);
 
+/// Tiles in the navmesh, layers counted each.
 TL_API uint32_t tl_navmesh_tile_count(const tl_navmesh *navmesh);
-/// To iterate over all tiles: slots below tl_navmesh_slot_count hold a tile or NULL.
+/// Slots of the table, for a loop over all tiles: each holds a tile or none.
 TL_API uint32_t tl_navmesh_slot_count(const tl_navmesh *navmesh);
+/// The tile of a slot; NULL: it is empty, or there is no such slot.
 TL_API const tl_nav_tile *tl_navmesh_slot_tile(const tl_navmesh *navmesh, uint32_t slot);
-/// Ways to step from a polygon into another, over all tiles and anchored off-mesh links. A search has at most two nodes
-/// more than that.
+/// Links from polygons to neighbours, over all tiles and anchored off-mesh links, each direction counted. A search uses
+/// at most two nodes more than that.
 TL_API uint64_t tl_navmesh_link_count(const tl_navmesh *navmesh);
 
 /// The reference of a polygon in the tile of a slot, or TL_NAV_NO_REF when there is none.
 TL_API tl_nav_ref tl_navmesh_polygon_ref(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);
-/// The tile and polygon that a reference names. TL_NOT_FOUND: it is stale or was never valid. Outputs may be NULL.
+/// The tile and polygon that a reference names. Outputs may be NULL. TL_ERR_STALE.
 TL_API tl_result tl_navmesh_resolve(const tl_navmesh *navmesh, tl_nav_ref ref, const tl_nav_tile **tile_out,
                                     uint32_t *polygon_out);
 
-/// A way from a polygon into a neighbour (off-mesh links are not among them): the stretch of edge that both share. Seen
-/// from inside the polygon, looking out, `left` is the end on the left.
+/// A link from a polygon to a neighbour: the portal, the stretch of edge that both share. Off-mesh links are not among
+/// these.
 typedef struct tl_nav_link {
-    tl_nav_ref to;
-    uint32_t edge; ///< of the polygon that is left
-    tl_vec3 left, right;
+    tl_nav_ref to;       ///< the neighbour
+    uint32_t edge;       ///< of the polygon that is left
+    tl_vec3 left, right; ///< ends of the portal, seen from inside the polygon looking out
 } tl_nav_link;
 
 /// A polygon's links in the order of its edges, and along a tile's side by ascending lattice coordinate.
-/// Writes the first `capacity`; `*count_out` is the true count. TL_INCOMPLETE when that is more, TL_NOT_FOUND
-/// for a stale reference.
+/// Writes the first `capacity`; `*count_out` is the true count. TL_INCOMPLETE: that is more. TL_ERR_STALE.
 TL_API tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_link *links_out, uint32_t capacity,
                                   uint32_t *count_out);
 
-/// The island of a polygon: all that hangs together over tiles and anchored off-mesh links, whatever flags say and
-/// whichever way links lead. Between two islands there is no path, for any filter. Within one there is, both ways, for
-/// a filter that refuses nothing on the way, unless it takes a link against its direction: where links lead one way
-/// only, a search has the last word. Numbers hold until a tile or a link is added or removed. TL_NOT_FOUND for a
-/// stale reference. O(log tiles), almost always O(1).
+/// The island of a polygon: the number of its connected component over tiles and anchored off-mesh links, whatever
+/// their flags, one-way links counted as if they led both ways.
+///
+/// Between two islands there is no path, for any filter. Within an island without one-way links there is a path between
+/// any two polygons, for a filter that passes all; where links lead one way only, a search has the last word. Numbers
+/// hold until a tile or a link is added or removed. TL_ERR_STALE. O(log tiles), almost always O(1).
 TL_API tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *island_out);
 
 // ---------------------------------------------------------------------------------------------------------
-// Off-mesh links: ways that lead over no polygon. Jumps, drops, ladders, doors, lifts, teleporters.
+// Off-mesh links: connections that cross no polygon. Jumps, drops, ladders, doors, lifts, teleporters.
 
-/// A link from a point to a point, of any length, over any number of tiles. Fill it from tl_default_nav_offmesh.
+/// A link from a point to a point, of any length, over any number of tiles. Begin with tl_default_nav_offmesh.
 typedef struct tl_nav_offmesh {
-    tl_vec3 start, end;
+    tl_vec3 start, end; ///< metres
     /// Metres, >= 0: an end is anchored to the polygon's point that is nearest to it in the box of this half size
     /// around it (tl_navmesh_find_nearest without a filter).
     float radius;
-    /// The link counts as fixed_cost + cost_factor * its length in metres, both >= 0. Below its length it is a short
-    /// cut through space, and searches lose sight of their goal near it: prefer 1 and more where there is a choice.
+    /// The link costs as much as fixed_cost + cost_factor * its length in metres, both >= 0. A link that costs less
+    /// than its length is a short cut through space, near which searches look at more polygons: prefer factors of 1 or
+    /// more.
     float cost_factor, fixed_cost;
-    uint64_t flags; ///< for filters, as a polygon's
-    uint64_t user;  ///< the caller's own
-    uint8_t area;   ///< what it counts is multiplied with this area's cost
-    bool both_ways;
+    uint64_t flags;  ///< for filters, as a polygon's; not 0
+    uint64_t user;   ///< the caller's own
+    uint8_t area;    ///< its cost is multiplied by this area's cost
+    bool both_ways;  ///< false: from start to end only
+    uint32_t cookie; ///< set by tl_default_nav_offmesh
 } tl_nav_offmesh;
 
-/// Radius 0.5, costs its length, flags 1, area 63 (TL_NAV_WALKABLE_AREA), one way.
+/// Radius 0.5, cost its length, flags 1, area 63 (TL_NAV_WALKABLE_AREA), one way.
 TL_API tl_nav_offmesh tl_default_nav_offmesh(void);
 
 #define TL_NAV_MAX_OFFMESH (1u << 24) ///< off-mesh links of one navmesh
 
 /// Adds an off-mesh link, and anchors its ends where there are polygons near them now.
 ///
-/// Ends follow the tiles: whenever one is added or removed, ends near it are anchored anew, to what is nearest then, so
-/// that anchors depend on the tiles that are there and not on their history. A link of which an end has no polygon is
-/// kept, and no path uses it until there is one. `*link_out` names it for ever; names are not used again.
-/// Changing links is changing the navmesh: no query may run meanwhile. O(1), but for the two nearest-polygon searches
-/// and the growth of the table. From then on each change of a tile looks at each link's box once.
+/// Ends follow the tiles: whenever a tile is added or removed, ends near it are anchored anew to the polygon that is
+/// nearest then. So anchors depend on the tiles that are there, not on their history. A link of which an end has no
+/// polygon is kept, and no path uses it until there is one. `*link_out` is its reference, which is not used again.
+/// No query may run meanwhile. O(1), but for the two nearest-polygon searches and the growth of the table. From then on
+/// each change of a tile looks at each link's box once.
 /// TL_ERR_NOT_FINITE, TL_ERR_ARGUMENT (radius, costs, no flags), TL_ERR_LIMIT (TL_NAV_MAX_OFFMESH),
 /// TL_ERR_MEMORY.
 TL_API tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh, tl_nav_ref *link_out);
 
-/// Makes room for `count` more links, so that adding them takes no memory. TL_ERR_LIMIT, TL_ERR_MEMORY.
+/// Reserves memory for `count` more links, so that adding them takes none. TL_ERR_LIMIT, TL_ERR_MEMORY.
 TL_API tl_result tl_navmesh_reserve_offmesh(tl_navmesh *navmesh, uint32_t count);
 
-/// Takes an off-mesh link out. O(1); where it led from one seam_island to another (its ends do not hang together over
-/// polygons), islands are joined anew, which takes what removing a tile takes. TL_NOT_FOUND: no such link.
+/// Removes an off-mesh link. TL_ERR_STALE: no such link. O(1); where its ends are not connected over polygons, islands
+/// are split as by removing a tile.
 TL_API tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link);
 
 /// Paths and corners set this bit in a link's reference where they take it from its end to its start.
 #define TL_NAV_OFFMESH_BACKWARD ((tl_nav_ref)1 << 47)
 
-/// Whether a reference names an off-mesh link (that may be gone) and not a polygon.
+/// Whether a reference is one to an off-mesh link, which may be gone, and not to a polygon.
 static inline bool tl_nav_is_offmesh(tl_nav_ref ref)
 {
     return ref != TL_NAV_NO_REF && ref >> 48 == 0;
@@ -167,56 +179,57 @@ typedef struct tl_nav_location {
     tl_vec3 point;
 } tl_nav_location;
 
-/// How an off-mesh link stands.
+/// An off-mesh link and its anchors.
 typedef struct tl_nav_offmesh_state {
     tl_nav_offmesh offmesh;  ///< as it was added
     tl_nav_location ends[2]; ///< where its start and its end are anchored; polygon TL_NAV_NO_REF: nowhere now
     bool anchored;           ///< both ends are: paths may use it
     float length;            ///< metres from anchor to anchor, straight in space; 0 unless anchored
-    float cost;              ///< metres that it counts as, before its area's cost
+    float cost;              ///< metres, before its area's cost; 0 unless anchored
 } tl_nav_offmesh_state;
 
-/// TL_NOT_FOUND: no such link.
+/// TL_ERR_STALE: no such link.
 TL_API tl_result tl_navmesh_offmesh_state(const tl_navmesh *navmesh, tl_nav_ref link, tl_nav_offmesh_state *state_out);
 
+/// Off-mesh links in the navmesh, anchored or not.
 TL_API uint32_t tl_navmesh_offmesh_count(const tl_navmesh *navmesh);
-/// Goes through all off-mesh links. Start with `*cursor` 0; false at the end.
+/// Iterates over all off-mesh links. Start with `*cursor` 0; false at the end.
 TL_API bool tl_navmesh_next_offmesh(const tl_navmesh *navmesh, uint32_t *cursor, tl_nav_ref *link_out);
 
-/// The off-mesh links by which a polygon can be left: they are anchored, and begin there or lead both ways and end
-/// there (TL_NAV_OFFMESH_BACKWARD is then set). In no order.
-/// Writes the first `capacity`; `*count_out` is the true count. TL_INCOMPLETE when that is more, TL_NOT_FOUND
-/// for a stale reference.
+/// The off-mesh links by which a polygon can be left: anchored ones that begin there, or end there and lead both ways
+/// (TL_NAV_OFFMESH_BACKWARD is then set). In no order.
+/// Writes the first `capacity`; `*count_out` is the true count. TL_INCOMPLETE: that is more. TL_ERR_STALE.
 TL_API tl_result tl_navmesh_offmesh_from(const tl_navmesh *navmesh, tl_nav_ref polygon, tl_nav_ref *links_out,
                                          uint32_t capacity, uint32_t *count_out);
 
 // ---------------------------------------------------------------------------------------------------------
-// Which polygons count, and what they cost.
+// Filters: which polygons may be entered, and what they cost.
 
-/// Whether a polygon passes whose flags do. It must not change its mind while a search runs.
+/// Whether a polygon passes whose flags do. The answer must stay the same while a search runs.
 typedef bool tl_nav_pass_fn(const tl_nav_tile *tile, uint32_t polygon, void *user);
 
-/// What it costs to go straight through a polygon from one point to another; `cost` is what it would without this
-/// function: metres times area cost. Negative, infinite or NaN: it cannot be done. The cheapest path is sought by an
-/// estimate that takes the least area cost for each metre; where this function asks for less the path may be dearer
-/// than need be.
+/// What it costs to go straight through a polygon from one point to another; `cost` is the cost without this function:
+/// metres times area cost. Negative, infinite or NaN: it cannot be done. Searches estimate with the lowest area cost
+/// for each metre: where this function returns less than that, the path found may not be the cheapest.
 typedef float tl_nav_cost_fn(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 from, tl_vec3 to, float cost,
                              void *user);
 
-/// A polygon passes when (flags & include) != 0 and (flags & exclude) == 0, and `pass` says so. A metre in it costs
-/// area_cost[its area], or what `cost` makes of it. Functions are called by the thread that asks, with `user`.
+/// A polygon passes when (flags & include_flags) != 0 and (flags & exclude_flags) == 0, and `pass` returns true. A
+/// metre in it costs area_cost[its area], or what `cost` makes of it. Functions are called by the querying thread.
 typedef struct tl_nav_filter {
-    uint64_t include_flags;
-    uint64_t exclude_flags;
+    uint64_t include_flags;               ///< default all
+    uint64_t exclude_flags;               ///< default none
     float area_cost[TL_NAV_MAX_AREA + 1]; ///< finite, > 0
     tl_nav_pass_fn *pass;                 ///< NULL: flags decide
     tl_nav_cost_fn *cost;                 ///< NULL: metres times area cost
-    void *user;
+    void *user;                           ///< for both functions
+    uint32_t cookie;                      ///< set by tl_default_nav_filter
 } tl_nav_filter;
 
-/// All polygons pass, each metre costs 1, no functions. It is also what a NULL filter stands for.
+/// All polygons with a flag pass, each metre costs 1, no functions.
 TL_API tl_nav_filter tl_default_nav_filter(void);
 
+/// Whether a polygon passes a filter (NULL: the default one). The tile must hold the polygon.
 TL_API bool tl_nav_filter_passes(const tl_nav_filter *filter, const tl_nav_tile *tile, uint32_t polygon);
 
 // ---------------------------------------------------------------------------------------------------------
@@ -225,44 +238,48 @@ TL_API bool tl_nav_filter_passes(const tl_nav_filter *filter, const tl_nav_tile 
 /// The polygon nearest to `center` among those that come into the box center +- half_extents, and its point.
 ///
 /// A polygon's point is its closest one in the plane, lifted to the surface; it must lie in the box. Points are
-/// compared by their distance in space; but a point that lies more than agent_max_climb above `center` counts as
-/// farther by agent_height. So any point of an agent's body, from its soles to its crown, finds the floor that the
-/// agent stands on and not the one overhead, though that one may be nearer; unless it lies within agent_max_climb
-/// under the next floor. Ties go to the lower slot, then polygon.
-/// TL_NOT_FOUND: none is in the box. TL_ERR_NOT_FINITE, TL_ERR_ARGUMENT (negative extents).
+/// compared by their distance in space, but a point more than agent_max_climb above `center` counts as agent_height
+/// farther. So any point of an agent's body, from its soles to its crown, finds the floor that the agent stands on,
+/// even where the floor overhead is nearer; unless it lies within agent_max_climb under that floor. Ties go to the
+/// lower slot, then polygon. half_extents: metres, >= 0. TL_NOT_FOUND: none is in the box. TL_ERR_NOT_FINITE,
+/// TL_ERR_ARGUMENT (negative extents).
 TL_API tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_vec3 center,
                                          tl_vec3 half_extents, tl_nav_location *location_out);
 
 /// The point nearest to `point` in space on the island of polygon `from`, on polygons that pass: where to go when the
-/// goal itself lies on another island. TL_NOT_FOUND: a stale reference, or no polygon passes. TL_ERR_NOT_FINITE.
+/// goal itself lies on another island. O(polygons). TL_NOT_FOUND: no polygon passes. TL_ERR_STALE, TL_ERR_NOT_FINITE.
 TL_API tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_nav_filter *filter,
                                                    tl_nav_ref from, tl_vec3 point, tl_nav_location *location_out);
 
 /// The polygon's point closest to `point` in the plane, lifted to the surface. A point over the polygon keeps its x
-/// and z bit by bit; `*inside_out` (may be NULL) says whether it was so. TL_NOT_FOUND for a stale reference.
+/// and z bit by bit; `*inside_out` (may be NULL) says whether it was so. TL_ERR_STALE, TL_ERR_NOT_FINITE.
 TL_API tl_result tl_navmesh_closest_point(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 point,
                                           tl_vec3 *closest_out, bool *inside_out);
 
 /// The surface's height at x and z, from the detail mesh; outside the polygon, that of the closest point in the plane.
-/// TL_NOT_FOUND for a stale reference.
+/// TL_ERR_STALE, TL_ERR_NOT_FINITE.
 TL_API tl_result tl_navmesh_height(const tl_navmesh *navmesh, tl_nav_ref ref, float x, float z, float *height_out);
 
 // ---------------------------------------------------------------------------------------------------------
 // Paths.
 
+/// The memory of one search at a time.
 typedef struct tl_nav_query tl_nav_query;
 
 typedef struct tl_nav_query_def {
-    /// Nodes that one search may use, >= 2; about 170 bytes each. tl_navmesh_link_count + 2 is always enough to find a
-    /// path where there is one. Default 65536.
+    /// Nodes that one search may use, 2 to 2^30. A node takes 232 bytes where this is a power of two, else up to 300.
+    /// tl_navmesh_link_count + 2 is always enough to find a path where there is one. Default 65536: 15 MB.
     uint32_t max_nodes;
-    const tl_allocator *allocator;
+    const tl_allocator *allocator; ///< copied; NULL: malloc
+    uint32_t cookie;               ///< set by tl_default_nav_query_def
 } tl_nav_query_def;
 
 TL_API tl_nav_query_def tl_default_nav_query_def(void);
 
-/// A search state for one thread at a time; it may serve any navmesh. TL_ERR_ARGUMENT, TL_ERR_MEMORY.
+/// Creates a query, for one thread at a time and any navmesh. NULL def: the default one. TL_ERR_ARGUMENT,
+/// TL_ERR_MEMORY.
 TL_API tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_out);
+/// Frees a query. NULL: nothing happens.
 TL_API void tl_nav_query_destroy(tl_nav_query *query);
 
 // The contract of all searches. What names nothing (any more) is TL_ERR_STALE, a coordinate or radius that is no number

@@ -12,7 +12,7 @@ enum { ROOM = 256 };
 
 static tl_nav_query *make_query(void)
 {
-    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     return query;

@@ -127,7 +127,7 @@ static void test_fields(void **state)
 {
     (void)state;
     test_random random = { 81 };
-    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     uint32_t inside = 0, outside = 0, paths = 0, in_zones = 0;
@@ -238,7 +238,7 @@ static void test_reachable_areas(void **state)
     (void)state;
     enum { POINTS = 2000 };
     test_random random = { 83 };
-    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     static uint64_t bits[2 * POINTS];
@@ -296,7 +296,7 @@ static void test_reachable(void **state)
 {
     (void)state;
     test_random random = { 82 };
-    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     enum { DRAWS = 4000, SECTORS = 8 };
@@ -354,7 +354,7 @@ static void test_links(void **state)
     (void)state;
     tl_nav_ref link = TL_NAV_NO_REF;
     tl_navmesh *navmesh = fixture_gap(&link);
-    tl_nav_query_def def = { 64, NULL };
+    tl_nav_query_def def = { 64, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     tl_vec3 extents = { 1, 1, 1 };
@@ -393,7 +393,7 @@ static void test_arguments(void **state)
     const char *const rows[] = { "000", "0#0", "000" };
     fixture_level level = fixture_make(rows, 3);
     tl_navmesh *navmesh = fixture_build(&level, NULL);
-    tl_nav_query_def def = { 3, NULL };
+    tl_nav_query_def def = { 3, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } }, at;

@@ -538,7 +538,7 @@ static void test_memory(void **state)
     for (uint64_t k = 1;; k++) {
         test_allocator failing;
         test_allocator_init(&failing, k);
-        tl_nav_query_def def = { 1000, &failing.allocator };
+        tl_nav_query_def def = { 1000, &failing.allocator, TL_DEF_COOKIE };
         tl_nav_query *query = NULL;
         tl_result result = tl_nav_query_create(&def, &query);
         if (result == TL_OK) {

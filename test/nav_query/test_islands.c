@@ -214,7 +214,7 @@ static void test_cut_off(void **state)
     const char *const rows[] = { "00#00", "00#00" };
     fixture_level level = fixture_make(rows, 2);
     tl_navmesh *navmesh = fixture_build(&level, NULL);
-    tl_nav_query_def def = { 2, NULL };
+    tl_nav_query_def def = { 2, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     fixture_refs all = fixture_all_refs(navmesh);
@@ -231,7 +231,7 @@ static void test_cut_off(void **state)
         TL_OK);
     TEST_CHECK(shortest.status == TL_NAV_PATH_UNREACHABLE && shortest.node_count == 0);
     uint32_t island;
-    TEST_RESULT(tl_navmesh_island(navmesh, 77, &island), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_island(navmesh, 77, &island), TL_ERR_STALE);
     free(all.refs);
     tl_nav_query_destroy(query);
     tl_navmesh_destroy(navmesh);

@@ -47,7 +47,7 @@ static void edit_links(edited *e, test_random *random)
     uint32_t i = test_random_below(random, e->link_count);
     tl_nav_ref gone = e->links[i];
     TEST_RESULT(tl_navmesh_remove_offmesh(e->navmesh, gone), TL_OK);
-    TEST_RESULT(tl_navmesh_remove_offmesh(e->navmesh, gone), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_remove_offmesh(e->navmesh, gone), TL_ERR_STALE);
     e->links[i] = e->links[--e->link_count];
     e->offmesh[i] = e->offmesh[e->link_count];
 }
@@ -193,7 +193,7 @@ static void test_arguments(void **state)
     TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link), TL_ERR_ARGUMENT);
     TEST_CHECK(link == TL_NAV_NO_REF && tl_navmesh_offmesh_count(navmesh) == 0);
     tl_nav_offmesh_state asked;
-    TEST_RESULT(tl_navmesh_offmesh_state(navmesh, 77, &asked), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_offmesh_state(navmesh, 77, &asked), TL_ERR_STALE);
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, TL_NAV_NO_REF), TL_NOT_FOUND);
     // A reference is no polygon's, and names nothing any more once its link is gone, though the place is used again.
     offmesh = tl_default_nav_offmesh();

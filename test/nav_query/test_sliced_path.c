@@ -145,7 +145,7 @@ static void test_edits(void **state)
 {
     (void)state;
     test_random random = { 502 };
-    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL, *other = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     TEST_RESULT(tl_nav_query_create(&def, &other), TL_OK);
@@ -200,7 +200,7 @@ static void test_ended(void **state)
     fixture_level level = fixture_make(rows, 3);
     level.tile_cells = 1;
     tl_navmesh *navmesh = fixture_build(&level, NULL);
-    tl_nav_query_def def = { 64, NULL };
+    tl_nav_query_def def = { 64, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     tl_nav_location start, goal, nan, stale = { 77, { 0, 0, 0 } };

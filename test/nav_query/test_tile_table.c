@@ -33,7 +33,7 @@ static void test_example(void **state)
     TEST_CHECK(polygon == 1 && tile == tl_navmesh_slot_tile(navmesh, 0));
     TEST_CHECK(tl_navmesh_polygon_ref(navmesh, 0, 4) == TL_NAV_NO_REF);
     TEST_CHECK(tl_navmesh_polygon_ref(navmesh, 4, 0) == TL_NAV_NO_REF);
-    TEST_RESULT(tl_navmesh_resolve(navmesh, TL_NAV_NO_REF, NULL, NULL), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, TL_NAV_NO_REF, NULL, NULL), TL_ERR_STALE);
     TEST_RESULT(tl_navmesh_resolve(navmesh, UINT64_MAX, NULL, NULL), TL_NOT_FOUND);
 
     TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_OK);
@@ -173,7 +173,7 @@ static void test_random_edits(void **state)
             }
             present[z][x] = !present[z][x];
             for (uint32_t i = 0; i < old_count; i++) {
-                TEST_RESULT(tl_navmesh_resolve(navmesh, old[i], NULL, NULL), TL_NOT_FOUND);
+                TEST_RESULT(tl_navmesh_resolve(navmesh, old[i], NULL, NULL), TL_ERR_STALE);
                 stale++;
             }
             if (edit % 10 != 9) {
@@ -363,7 +363,7 @@ static void test_salts_run_out(void **state)
     }
     TEST_RESULT(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_BORROWED), TL_OK);
     TEST_CHECK(tl_navmesh_slot_count(navmesh) == 2 && tl_navmesh_slot_tile(navmesh, 0) == NULL);
-    TEST_RESULT(tl_navmesh_resolve(navmesh, first, NULL, NULL), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, first, NULL, NULL), TL_ERR_STALE);
     tl_navmesh_destroy(navmesh);
     tl_blob_free(tile);
 }

@@ -72,7 +72,7 @@ static void test_paths(void **state)
 {
     (void)state;
     test_random random = { 401 };
-    tl_nav_query_def def = { 8192, NULL };
+    tl_nav_query_def def = { 8192, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     tl_nav_filter filter = tl_default_nav_filter();
@@ -179,7 +179,7 @@ static void test_link_and_arguments(void **state)
     (void)state;
     tl_nav_ref link = TL_NAV_NO_REF;
     tl_navmesh *navmesh = fixture_gap(&link);
-    tl_nav_query_def def = { 64, NULL };
+    tl_nav_query_def def = { 64, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     tl_nav_ref polygons[8];

@@ -121,7 +121,7 @@ static void test_walls(void **state)
 {
     (void)state;
     test_random random = { 31 };
-    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     uint32_t walls = 0, refused = 0, around = 0, cut = 0, equal = 0;

@@ -468,7 +468,7 @@ static inline fixture_ring fixture_make_ring(void)
 {
     const char *const rows[] = { "000", "0#0", "000" };
     fixture_level level = fixture_make(rows, 3);
-    tl_nav_query_def def = { 2, NULL };
+    tl_nav_query_def def = { 2, NULL, TL_DEF_COOKIE };
     fixture_ring ring;
     memset(&ring, 0, sizeof ring);
     ring.navmesh = fixture_build(&level, NULL);

@@ -6,7 +6,7 @@
 #include "base/assert.h"
 #include "base/radix_sort.h"
 #include "nav_query/around/flood.h"
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/surface.h"
 
 // Nodes in the order of their references; each node's heap_at, which nothing needs any more, becomes its place.

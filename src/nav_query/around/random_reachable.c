@@ -10,7 +10,7 @@
 
 #include "base/assert.h"
 #include "nav_query/around/flood.h"
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/plane/circle_corners.h"

@@ -24,6 +24,7 @@
 #include "nav_query/exact/shortest_search.h"
 
 #include "nav_query/exact/wedge_root.h"
+#include "nav_query/navmesh/surface.h"
 
 #include <string.h>
 
@@ -179,6 +180,42 @@ static uint32_t add_start(wedge_search *s)
     uint32_t first = new_wedge(s);
     s->query->wedges[first] = start;
     return first;
+}
+
+tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
+                                  tl_nav_shortest_search *search_out)
+{
+    const tl_nav_filter *filter = request->filter;
+    const tl_nav_location *start = &request->start;
+    const tl_nav_location *goal = &request->goal;
+    memset(search_out, 0, sizeof *search_out);
+    if (!tl_nav_filter_is_begun(filter)) {
+        return TL_ERR_ARGUMENT;
+    }
+    if (!tl_nav_is_finite(start->point) || !tl_nav_is_finite(goal->point)) {
+        return TL_ERR_NOT_FINITE;
+    }
+    if (!tl_nav_split_ref(navmesh, start->polygon, &search_out->start_slot, &search_out->start_polygon) ||
+        !tl_nav_split_ref(navmesh, goal->polygon, &search_out->goal_slot, &search_out->goal_polygon)) {
+        return TL_ERR_STALE;
+    }
+    search_out->query = query;
+    search_out->navmesh = navmesh;
+    bool all_pass = tl_nav_all_pass(navmesh, filter);
+    static const tl_nav_filter any = { UINT64_MAX, 0, { 0 }, NULL, NULL, NULL, TL_DEF_COOKIE };
+    search_out->filter = all_pass ? NULL : filter != NULL ? filter : &any;
+    bool inside = false;
+    search_out->start = tl_nav_clamp_to_polygon(navmesh->slots[search_out->start_slot].tile, search_out->start_polygon,
+                                                start->point, &inside);
+    search_out->goal = tl_nav_clamp_to_polygon(navmesh->slots[search_out->goal_slot].tile, search_out->goal_polygon,
+                                               goal->point, &inside);
+    return TL_OK;
+}
+
+bool tl_nav_is_cut_off(const tl_nav_shortest_search *search)
+{
+    return tl_nav_island_of(search->navmesh, search->start_slot, search->start_polygon) !=
+           tl_nav_island_of(search->navmesh, search->goal_slot, search->goal_polygon);
 }
 
 tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search)

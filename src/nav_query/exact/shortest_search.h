@@ -51,15 +51,21 @@ typedef struct tl_nav_sight {
 /// the filter is NULL. Afterwards the query's wedges hold the polygons that are seen. False: out of nodes.
 bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight);
 
-/// Fills in what a search needs from a caller's words: points are moved onto their polygons. Errors as those of
-/// tl_nav_query_find_shortest_path.
+/// Sets a search up for a request, and moves its ends onto their polygons. TL_ERR_ARGUMENT (the filter has no cookie),
+/// TL_ERR_NOT_FINITE, TL_ERR_STALE.
 tl_result tl_nav_prepare_shortest(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
                                   tl_nav_shortest_search *search_out);
-/// Metres in the plane of a path that was found.
-double tl_nav_shortest_length(const tl_nav_shortest_search *search);
 /// Whether start and goal lie on two islands.
 bool tl_nav_is_cut_off(const tl_nav_shortest_search *search);
-/// The polygons of a path that was found; returns their number.
-uint32_t tl_nav_write_wedges(const tl_nav_shortest_search *search, tl_nav_ref *polygons, uint32_t capacity);
+
+// Of a path that was found (wedge_path.c):
+
+/// Metres in the plane.
+double tl_nav_shortest_length(const tl_nav_shortest_search *search);
+/// Its polygons; returns their number.
+uint32_t tl_nav_write_wedge_polygons(const tl_nav_shortest_search *search, tl_nav_ref *polygons, uint32_t capacity);
+/// Its corners, their number, and both lengths of `path`.
+void tl_nav_write_wedge_corners(const tl_nav_shortest_search *search, tl_nav_corner *corners, uint32_t capacity,
+                                tl_nav_shortest_path *path);
 
 #endif

@@ -101,15 +101,18 @@ tl_result tl_navmesh_closest_point(const tl_navmesh *navmesh, tl_nav_ref ref, tl
     uint32_t slot = 0;
     uint32_t polygon = 0;
     bool inside = false;
-    *closest_out = tl_vec3_make(0.0f, 0.0f, 0.0f);
     if (inside_out != NULL) {
         *inside_out = false;
     }
+    if (navmesh == NULL || closest_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    *closest_out = tl_vec3_make(0.0f, 0.0f, 0.0f);
     if (!tl_nav_is_finite(point)) {
         return TL_ERR_NOT_FINITE;
     }
     if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     *closest_out = tl_nav_closest_on_surface(navmesh->slots[slot].tile, polygon, point, &inside);
     if (inside_out != NULL) {

@@ -167,6 +167,9 @@ float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, 
 tl_result tl_navmesh_height(const tl_navmesh *navmesh, tl_nav_ref ref, float x, float z, float *height_out)
 {
     tl_vec3 closest;
+    if (height_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     *height_out = 0.0f;
     tl_result result = tl_navmesh_closest_point(navmesh, ref, tl_vec3_make(x, 0.0f, z), &closest, NULL);
     if (result == TL_OK) {

@@ -246,9 +246,12 @@ tl_result tl_navmesh_island(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t 
 {
     uint32_t slot = 0;
     uint32_t polygon = 0;
+    if (navmesh == NULL || island_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     *island_out = 0;
     if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     *island_out = tl_nav_island_of(navmesh, slot, polygon);
     return TL_OK;

@@ -49,6 +49,20 @@ typedef struct tl_nav_slot {
 
 typedef struct tl_nav_visibility_graph tl_nav_visibility_graph; // visibility_graph.h
 
+/// Data that a later room derives from the tiles and keeps with the navmesh.
+typedef enum tl_nav_derived_kind {
+    TL_NAV_DERIVED_GRAPH, ///< the visibility graph (prepared/)
+    TL_NAV_DERIVED_WALLS, ///< walls around polygons (wide/)
+    TL_NAV_DERIVED_KINDS
+} tl_nav_derived_kind;
+
+/// What the table of tiles does with it. Who derives the data sets this in the navmesh.
+typedef struct tl_nav_derived {
+    /// Drops what a change of the tile at a place makes wrong. NULL: nothing is dropped, the data knows its edit.
+    void (*invalidate)(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
+    void (*free_all)(tl_navmesh *navmesh);
+} tl_nav_derived;
+
 struct tl_navmesh {
     tl_allocator allocator;
     tl_nav_slot *slots;
@@ -63,14 +77,15 @@ struct tl_navmesh {
     uint64_t *area_table; ///< [slot_capacity + 1], of the slots' areas
     tl_nav_islands islands;
     tl_nav_offmesh_table offmesh;
-    tl_nav_visibility_graph *graph; ///< NULL, or that of the edit whose number it holds
-    uint32_t last_fan;              ///< the last number that fans.c gave
-    uint64_t all_flags;             ///< that every polygon of every tile so far has
-    uint64_t any_flags;             ///< that some polygon of some tile so far has
-    float extent;                   ///< metres: the largest |x| or |z| of any tile so far
-    double kept_reach;              ///< metres: slots' kept walls lie within it
-    double kept_touch;              ///< what touched when they were found (clearance.h)
-    uint64_t kept_bytes;            ///< of them
+    const tl_nav_derived *derived[TL_NAV_DERIVED_KINDS]; ///< NULL: there is none
+    tl_nav_visibility_graph *graph;                      ///< NULL, or that of the edit whose number it holds
+    uint32_t last_fan;                                   ///< the last number that fans.c gave
+    uint64_t all_flags;                                  ///< that every polygon of every tile so far has
+    uint64_t any_flags;                                  ///< that some polygon of some tile so far has
+    float extent;                                        ///< metres: the largest |x| or |z| of any tile so far
+    double kept_reach;                                   ///< metres: slots' kept walls lie within it
+    double kept_touch;                                   ///< what touched when they were found (clearance.h)
+    uint64_t kept_bytes;                                 ///< of them
     // Of all tiles; valid while tile_count > 0.
     tl_vec3 origin;
     float cell_size, cell_height;
@@ -108,11 +123,6 @@ static inline bool tl_nav_all_pass(const tl_navmesh *navmesh, const tl_nav_filte
     return (navmesh->all_flags & filter->include_flags) != 0 && (navmesh->any_flags & filter->exclude_flags) == 0 &&
            filter->pass == NULL;
 }
-
-/// Drops the kept walls that an edit of the tile at a place may change (prepared_walls.c).
-void tl_nav_invalidate_walls(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z);
-/// Drops all.
-void tl_nav_drop_walls(tl_navmesh *navmesh);
 
 /// Slot and polygon of a reference; false when it is stale.
 bool tl_nav_split_ref(const tl_navmesh *navmesh, tl_nav_ref ref, uint32_t *slot_out, uint32_t *polygon_out);

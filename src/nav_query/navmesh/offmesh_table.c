@@ -14,7 +14,7 @@
 
 #include <string.h>
 
-enum { FIRST_CAPACITY = 16, WALKABLE_AREA = 63 };
+enum { FIRST_LINKS = 16, WALKABLE_AREA = 63 };
 
 tl_nav_offmesh tl_default_nav_offmesh(void)
 {
@@ -24,6 +24,7 @@ tl_nav_offmesh tl_default_nav_offmesh(void)
     offmesh.cost_factor = 1.0f;
     offmesh.flags = 1;
     offmesh.area = WALKABLE_AREA;
+    offmesh.cookie = TL_DEF_COOKIE;
     return offmesh;
 }
 
@@ -37,14 +38,14 @@ void tl_nav_free_offmesh(tl_navmesh *navmesh)
 }
 
 // Twice the room; ends move to the new buckets.
-static tl_result grow(tl_navmesh *navmesh)
+static tl_result grow_offmesh(tl_navmesh *navmesh)
 {
     tl_nav_offmesh_table old = navmesh->offmesh;
     if (old.capacity >= TL_NAV_MAX_OFFMESH) {
         return TL_ERR_LIMIT;
     }
     tl_nav_offmesh_table table = old;
-    table.capacity = old.capacity > 0 ? 2 * old.capacity : FIRST_CAPACITY;
+    table.capacity = old.capacity > 0 ? 2 * old.capacity : FIRST_LINKS;
     table.entries = tl_allocate_array(&navmesh->allocator, table.capacity, sizeof *table.entries);
     table.buckets = tl_allocate_array(&navmesh->allocator, 2 * (uint64_t)table.capacity, sizeof *table.buckets);
     table.short_cuts = tl_allocate_array(&navmesh->allocator, table.capacity, sizeof *table.short_cuts);
@@ -69,13 +70,16 @@ static tl_result grow(tl_navmesh *navmesh)
 
 tl_result tl_navmesh_reserve_offmesh(tl_navmesh *navmesh, uint32_t count)
 {
+    if (navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     while ((uint64_t)navmesh->offmesh.used + count > navmesh->offmesh.capacity) {
-        TL_TRY(grow(navmesh));
+        TL_TRY(grow_offmesh(navmesh));
     }
     return TL_OK;
 }
 
-static tl_result check(const tl_nav_offmesh *offmesh)
+static tl_result check_offmesh(const tl_nav_offmesh *offmesh)
 {
     if (!tl_nav_is_finite(offmesh->start) || !tl_nav_is_finite(offmesh->end) || !isfinite(offmesh->radius) ||
         !isfinite(offmesh->cost_factor) || !isfinite(offmesh->fixed_cost)) {
@@ -103,12 +107,18 @@ void tl_nav_note_offmesh_flags(tl_navmesh *navmesh)
 
 tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh, tl_nav_ref *link_out)
 {
+    if (link_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     *link_out = TL_NAV_NO_REF;
-    TL_TRY(check(offmesh));
+    if (navmesh == NULL || offmesh == NULL || offmesh->cookie != TL_DEF_COOKIE) {
+        return TL_ERR_ARGUMENT;
+    }
+    TL_TRY(check_offmesh(offmesh));
     tl_nav_offmesh_table *table = &navmesh->offmesh;
     bool is_full = table->used == table->capacity && (table->capacity == 0 || table->free == UINT32_MAX);
     if (is_full) {
-        TL_TRY(grow(navmesh));
+        TL_TRY(grow_offmesh(navmesh));
     }
     uint32_t index = table->free != UINT32_MAX ? table->free : table->used++;
     tl_nav_offmesh_entry *entry = &table->entries[index];
@@ -135,10 +145,13 @@ tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offm
 
 tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link)
 {
+    if (navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     tl_nav_offmesh_table *table = &navmesh->offmesh;
     tl_nav_offmesh_entry *entry = tl_nav_find_offmesh(table, link);
     if (entry == NULL) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     if (tl_nav_is_anchored(entry) && !tl_nav_is_same_component(navmesh, entry)) {
         tl_nav_seed_island(navmesh, entry->ends[0].slot, entry->ends[0].polygon);
@@ -159,10 +172,16 @@ tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link)
 
 tl_result tl_navmesh_offmesh_state(const tl_navmesh *navmesh, tl_nav_ref link, tl_nav_offmesh_state *state_out)
 {
+    if (state_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     memset(state_out, 0, sizeof *state_out);
+    if (navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     const tl_nav_offmesh_entry *entry = tl_nav_find_offmesh(&navmesh->offmesh, link);
     if (entry == NULL) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     state_out->offmesh = entry->offmesh;
     for (int i = 0; i < 2; i++) {
@@ -204,9 +223,15 @@ tl_result tl_navmesh_offmesh_from(const tl_navmesh *navmesh, tl_nav_ref polygon,
 {
     uint32_t slot = 0;
     uint32_t index = 0;
+    if (count_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     *count_out = 0;
+    if (navmesh == NULL || (links_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     if (!tl_nav_split_ref(navmesh, polygon, &slot, &index)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     for (uint32_t end = tl_nav_first_anchor(navmesh, slot, index); end != TL_NAV_NO_END;) {
         const tl_nav_offmesh_entry *entry = &navmesh->offmesh.entries[end / 2];

@@ -3,7 +3,7 @@
 // All polygons that come into a zone: down the box trees of the tiles around it, then exactly.
 
 #include "base/assert.h"
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/tile_walk.h"
 #include "nav_query/plane/zone.h"
 
@@ -51,7 +51,13 @@ tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_nav_filte
                                    const tl_nav_height_range *heights, tl_nav_ref *polygons_out, uint32_t capacity,
                                    uint32_t *count_out)
 {
+    if (count_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     *count_out = 0;
+    if (navmesh == NULL || zone == NULL || (polygons_out == NULL && capacity > 0) || !tl_nav_filter_is_begun(filter)) {
+        return TL_ERR_ARGUMENT;
+    }
     const float min_y = heights != NULL ? heights->min : -INFINITY;
     const float max_y = heights != NULL ? heights->max : INFINITY;
     tl_nav_zone_test test;

@@ -7,7 +7,7 @@
 // are kept (area_table.c), whole numbers, so that nothing is more likely than anything else.
 
 #include "nav_query/navmesh/area_table.h"
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/plane/point_of_random.h"
 
@@ -93,7 +93,13 @@ tl_result tl_navmesh_random_point(const tl_navmesh *navmesh, const tl_nav_filter
                                   tl_nav_location *location_out)
 {
     tl_nav_location none = { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } };
+    if (location_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     *location_out = none;
+    if (navmesh == NULL || random == NULL || !tl_nav_filter_is_begun(filter)) {
+        return TL_ERR_ARGUMENT;
+    }
     uint32_t slot = 0;
     uint32_t polygon = 0;
     uint64_t at = 0;

@@ -49,6 +49,9 @@ static void keep_same(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, tl_na
 tl_result tl_navmesh_replace_tiles(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z, tl_nav_tile_stack *stack)
 {
     tl_result result = TL_ERR_ARGUMENT;
+    if (navmesh == NULL || stack == NULL) {
+        return result;
+    }
     if (are_of_place(stack, tile_x, tile_z)) {
         keep_same(navmesh, tile_x, tile_z, stack);
         result = TL_OK;

@@ -49,8 +49,17 @@ tl_result tl_navmesh_resolve(const tl_navmesh *navmesh, tl_nav_ref ref, const tl
 {
     uint32_t slot = 0;
     uint32_t polygon = 0;
+    if (tile_out != NULL) {
+        *tile_out = NULL;
+    }
+    if (polygon_out != NULL) {
+        *polygon_out = 0;
+    }
+    if (navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     if (tile_out != NULL) {
         *tile_out = navmesh->slots[slot].tile;
@@ -66,9 +75,12 @@ tl_result tl_navmesh_links(const tl_navmesh *navmesh, tl_nav_ref ref, tl_nav_lin
 {
     uint32_t slot = 0;
     uint32_t polygon = 0;
+    if (navmesh == NULL || count_out == NULL || (links_out == NULL && capacity > 0)) {
+        return TL_ERR_ARGUMENT;
+    }
     *count_out = 0;
     if (!tl_nav_split_ref(navmesh, ref, &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     tl_nav_ways ways = tl_nav_ways_of(navmesh, slot, polygon);
     tl_nav_way way;

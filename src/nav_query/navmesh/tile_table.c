@@ -9,16 +9,17 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/hash.h"
+#include "base/host.h"
 #include "nav_query/navmesh/area_table.h"
-#include "nav_query/prepared/visibility_graph.h"
+#include "nav_query/navmesh/navmesh.h"
 
 #include <string.h>
 
-enum { FIRST_CAPACITY = 16, LAST_SALT = 0xffff };
+enum { FIRST_SLOTS = 16, LAST_SALT = 0xffff };
 
 static const int32_t SIDE_STEP[TL_NAV_SIDE_COUNT][2] = { { -1, 0 }, { 0, 1 }, { 1, 0 }, { 0, -1 }, { 0, 0 } };
 
-static uint32_t bucket_of(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+static uint32_t place_bucket(const tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
 {
     uint64_t place = (uint64_t)(uint32_t)tile_x << 32 | (uint32_t)tile_z;
     return (uint32_t)tl_hash_mix(place) & (navmesh->bucket_count - 1);
@@ -26,6 +27,9 @@ static uint32_t bucket_of(const tl_navmesh *navmesh, int32_t tile_x, int32_t til
 
 tl_result tl_navmesh_create(const tl_allocator *allocator, tl_navmesh **navmesh_out)
 {
+    if (navmesh_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     *navmesh_out = NULL;
     tl_navmesh *navmesh = tl_allocate_array(allocator, 1, sizeof *navmesh);
     if (navmesh == NULL) {
@@ -63,7 +67,11 @@ void tl_navmesh_destroy(tl_navmesh *navmesh)
     if (navmesh == NULL) {
         return;
     }
-    tl_nav_drop_walls(navmesh);
+    for (int kind = 0; kind < TL_NAV_DERIVED_KINDS; kind++) {
+        if (navmesh->derived[kind] != NULL) {
+            navmesh->derived[kind]->free_all(navmesh);
+        }
+    }
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
         free_slot_content(navmesh, &navmesh->slots[i]);
     }
@@ -74,7 +82,6 @@ void tl_navmesh_destroy(tl_navmesh *navmesh)
     tl_nav_free_offmesh(navmesh);
     tl_release_array(&allocator, navmesh->area_table, (uint64_t)navmesh->slot_capacity + 1,
                      sizeof *navmesh->area_table);
-    tl_nav_free_visibility_graph(&allocator, navmesh->graph);
     tl_release_array(&allocator, navmesh, 1, sizeof *navmesh);
 }
 
@@ -94,7 +101,7 @@ uint32_t tl_nav_find_slot(const tl_navmesh *navmesh, int64_t tile_x, int64_t til
         tile_z > INT32_MAX) {
         return TL_NAV_NO_SLOT;
     }
-    return first_in_chain(navmesh, navmesh->buckets[bucket_of(navmesh, (int32_t)tile_x, (int32_t)tile_z)], tile_x,
+    return first_in_chain(navmesh, navmesh->buckets[place_bucket(navmesh, (int32_t)tile_x, (int32_t)tile_z)], tile_x,
                           tile_z);
 }
 
@@ -116,7 +123,7 @@ static uint32_t find_layer(const tl_navmesh *navmesh, int32_t tile_x, uint32_t l
 static void chain_slot(tl_navmesh *navmesh, uint32_t slot)
 {
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
-    uint32_t bucket = bucket_of(navmesh, tile->tile_x, tile->tile_z);
+    uint32_t bucket = place_bucket(navmesh, tile->tile_x, tile->tile_z);
     navmesh->slots[slot].next = navmesh->buckets[bucket];
     navmesh->buckets[bucket] = slot;
 }
@@ -124,7 +131,7 @@ static void chain_slot(tl_navmesh *navmesh, uint32_t slot)
 static void unchain_slot(tl_navmesh *navmesh, uint32_t slot)
 {
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
-    uint32_t *at = &navmesh->buckets[bucket_of(navmesh, tile->tile_x, tile->tile_z)];
+    uint32_t *at = &navmesh->buckets[place_bucket(navmesh, tile->tile_x, tile->tile_z)];
     while (*at != slot) {
         at = &navmesh->slots[*at].next;
     }
@@ -132,12 +139,12 @@ static void unchain_slot(tl_navmesh *navmesh, uint32_t slot)
 }
 
 // Doubles the room for slots; two buckets a slot.
-static tl_result grow(tl_navmesh *navmesh)
+static tl_result grow_slots(tl_navmesh *navmesh)
 {
     if (navmesh->slot_count >= TL_NAV_MAX_TILES) {
         return TL_ERR_LIMIT;
     }
-    uint32_t capacity = navmesh->slot_capacity > 0 ? 2 * navmesh->slot_capacity : FIRST_CAPACITY;
+    uint32_t capacity = navmesh->slot_capacity > 0 ? 2 * navmesh->slot_capacity : FIRST_SLOTS;
     tl_nav_slot *slots = tl_allocate_array(&navmesh->allocator, capacity, sizeof *slots);
     uint32_t *buckets = tl_allocate_array(&navmesh->allocator, 2 * (uint64_t)capacity, sizeof *buckets);
     uint64_t *area_table = tl_allocate_array(&navmesh->allocator, (uint64_t)capacity + 1, sizeof *area_table);
@@ -174,7 +181,7 @@ static tl_result grow(tl_navmesh *navmesh)
 static tl_result reserve_slot(tl_navmesh *navmesh, uint32_t *slot_out)
 {
     if (navmesh->free_slots == TL_NAV_NO_SLOT && navmesh->slot_count == navmesh->slot_capacity) {
-        TL_TRY(grow(navmesh));
+        TL_TRY(grow_slots(navmesh));
     }
     *slot_out = navmesh->free_slots != TL_NAV_NO_SLOT ? navmesh->free_slots : navmesh->slot_count;
     return TL_OK;
@@ -406,9 +413,20 @@ static void note_tile(tl_navmesh *navmesh, const tl_nav_tile *tile)
     }
 }
 
+// Begins a change of the tile at a place, for all that is derived from tiles too.
+static void begin_edit(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+{
+    tl_nav_begin_edit(navmesh, tile_x, tile_z);
+    for (int kind = 0; kind < TL_NAV_DERIVED_KINDS; kind++) {
+        if (navmesh->derived[kind] != NULL && navmesh->derived[kind]->invalidate != NULL) {
+            navmesh->derived[kind]->invalidate(navmesh, tile_x, tile_z);
+        }
+    }
+}
+
 tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_nav_tile_ownership ownership)
 {
-    if (navmesh->tile_count > 0 && !same_lattice(navmesh, tile)) {
+    if (navmesh == NULL || tile == NULL || (navmesh->tile_count > 0 && !same_lattice(navmesh, tile))) {
         return TL_ERR_ARGUMENT;
     }
     if (find_layer(navmesh, tile->tile_x, tile->layer, tile->tile_z) != TL_NAV_NO_SLOT) {
@@ -424,9 +442,8 @@ tl_result tl_navmesh_add_tile(tl_navmesh *navmesh, const tl_nav_tile *tile, tl_n
         return reserved;
     }
 
-    tl_nav_begin_edit(navmesh, tile->tile_x, tile->tile_z);
+    begin_edit(navmesh, tile->tile_x, tile->tile_z);
     const uint64_t edit = navmesh->edit.number;
-    tl_nav_invalidate_walls(navmesh, tile->tile_x, tile->tile_z);
     tl_nav_slot *slot = &navmesh->slots[index];
     if (index == navmesh->free_slots) {
         navmesh->free_slots = slot->next;
@@ -479,9 +496,8 @@ static void remove_slot(tl_navmesh *navmesh, uint32_t index)
 {
     tl_nav_slot *slot = &navmesh->slots[index];
     const int32_t tile_x = slot->tile->tile_x, tile_z = slot->tile->tile_z;
-    tl_nav_begin_edit(navmesh, tile_x, tile_z);
+    begin_edit(navmesh, tile_x, tile_z);
     const uint64_t edit = navmesh->edit.number;
-    tl_nav_invalidate_walls(navmesh, tile_x, tile_z);
     tl_nav_note_edit(navmesh, index);
     tl_nav_leave_islands(navmesh, index);
     unlink_slot(navmesh, index);
@@ -501,8 +517,51 @@ static void remove_slot(tl_navmesh *navmesh, uint32_t index)
     }
 }
 
+// Takes the first tiles of a list out again; they stay the caller's.
+static void take_back(tl_navmesh *navmesh, tl_nav_tile *const *tiles, uint32_t count)
+{
+    for (uint32_t i = count; i > 0; i--) {
+        const tl_nav_tile *tile = tiles[i - 1];
+        const uint32_t slot = find_layer(navmesh, tile->tile_x, tile->layer, tile->tile_z);
+        navmesh->slots[slot].ownership = TL_NAV_TILE_BORROWED;
+        remove_slot(navmesh, slot);
+    }
+}
+
+static const char *advice_on(tl_result result)
+{
+    switch (result) {
+    case TL_ERR_ARGUMENT:
+        return "add one tile a place and layer, all with the same origin, cell sizes and tile_size";
+    case TL_ERR_LIMIT:
+        return "add fewer tiles";
+    default:
+        return "give it more memory";
+    }
+}
+
+tl_result tl_navmesh_add_tiles(tl_navmesh *navmesh, tl_nav_tile *const *tiles, uint32_t count,
+                               tl_nav_tile_ownership ownership, tl_report *report)
+{
+    tl_report_begin(report, "tiles");
+    if (navmesh == NULL || (tiles == NULL && count > 0)) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, navmesh == NULL ? "navmesh" : "tiles", "pass a pointer");
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_result result = tl_navmesh_add_tile(navmesh, tiles[i], ownership);
+        if (result != TL_OK) {
+            take_back(navmesh, tiles, i);
+            return tl_report_fail(report, result, "tile", i, advice_on(result));
+        }
+    }
+    return TL_OK;
+}
+
 tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
 {
+    if (navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     uint32_t index = find_layer(navmesh, tile_x, layer, tile_z);
     if (index == TL_NAV_NO_SLOT) {
         return TL_NOT_FOUND;
@@ -513,6 +572,9 @@ tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t 
 
 tl_result tl_navmesh_remove_tile(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
 {
+    if (navmesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     uint32_t index = tl_nav_find_slot(navmesh, tile_x, tile_z);
     if (index == TL_NAV_NO_SLOT) {
         return TL_NOT_FOUND;

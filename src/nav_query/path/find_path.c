@@ -14,7 +14,7 @@
 // Heron's (crossing.h).
 
 #include "base/assert.h"
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/path/path_run.h"
@@ -274,7 +274,7 @@ static void write_exact(const tl_nav_path_run *run, uint32_t last, tl_nav_ref *p
     }
     path_out->cost = run->ways.least_cost * (float)tl_nav_shortest_length(&search);
     path_out->node_count = search.query->wedge_count;
-    path_out->polygon_count = tl_nav_write_wedges(&search, polygons_out, capacity);
+    path_out->polygon_count = tl_nav_write_wedge_polygons(&search, polygons_out, capacity);
 }
 
 tl_result tl_nav_run_write(const tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity,

@@ -4,7 +4,7 @@
 // corners already; else by A* and the funnel.
 
 #include "base/assert.h"
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/path/path_run.h"
 
 #include <string.h>

@@ -21,7 +21,7 @@ _Static_assert(sizeof(tl_nav_wedge) >= 2 * sizeof(tl_sort_item), "wedges have ro
 
 tl_nav_query_def tl_default_nav_query_def(void)
 {
-    tl_nav_query_def def = { 65536, NULL };
+    tl_nav_query_def def = { 65536, NULL, TL_DEF_COOKIE };
     return def;
 }
 
@@ -51,18 +51,22 @@ static bool allocate_blocks(tl_nav_query *query)
 
 tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_out)
 {
-    *query_out = NULL;
-    if (def->max_nodes < 2 || def->max_nodes > MAX_QUERY_NODES) {
+    const tl_nav_query_def used = def != NULL ? *def : tl_default_nav_query_def();
+    if (query_out == NULL) {
         return TL_ERR_ARGUMENT;
     }
-    tl_nav_query *query = tl_allocate_array(def->allocator, 1, sizeof *query);
+    *query_out = NULL;
+    if (used.cookie != TL_DEF_COOKIE || used.max_nodes < 2 || used.max_nodes > MAX_QUERY_NODES) {
+        return TL_ERR_ARGUMENT;
+    }
+    tl_nav_query *query = tl_allocate_array(used.allocator, 1, sizeof *query);
     if (query == NULL) {
         return TL_ERR_MEMORY;
     }
     memset(query, 0, sizeof *query);
-    query->allocator = tl_allocator_or_default(def->allocator);
-    query->max_nodes = def->max_nodes;
-    query->bucket_count = power_of_two_from(def->max_nodes);
+    query->allocator = tl_allocator_or_default(used.allocator);
+    query->max_nodes = used.max_nodes;
+    query->bucket_count = power_of_two_from(used.max_nodes);
     // At most one new root a wedge: the table stays half empty.
     query->root_mask = 2 * query->bucket_count - 1;
     query->item_bytes = query->max_nodes * sizeof *query->wedges;

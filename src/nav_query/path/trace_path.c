@@ -6,7 +6,7 @@
 // portal's needs no search. A portal that passes through a corner is crossed in it.
 
 #include "base/assert.h"
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/offmesh.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/plane/side.h"

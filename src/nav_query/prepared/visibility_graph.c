@@ -126,7 +126,7 @@ static void note_sight(void *user, uint32_t turn)
 static tl_result make_query(builder *b, uint32_t max_nodes)
 {
     tl_nav_query_destroy(b->query);
-    tl_nav_query_def def = { max_nodes, &b->allocator };
+    tl_nav_query_def def = { max_nodes, &b->allocator, TL_DEF_COOKIE };
     return tl_nav_query_create(&def, &b->query);
 }
 

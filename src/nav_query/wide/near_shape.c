@@ -4,7 +4,7 @@
 
 #include "nav_query/wide/near_shape.h"
 
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/search/local_search.h"
 

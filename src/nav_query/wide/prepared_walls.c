@@ -262,14 +262,14 @@ static void drop(tl_navmesh *navmesh, tl_nav_slot *slot)
     }
 }
 
-void tl_nav_drop_walls(tl_navmesh *navmesh)
+static void drop_all_walls(tl_navmesh *navmesh)
 {
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
         drop(navmesh, &navmesh->slots[i]);
     }
 }
 
-void tl_nav_invalidate_walls(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
+static void invalidate_walls(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z)
 {
     if (navmesh->kept_bytes == 0) {
         return;
@@ -337,6 +337,8 @@ static tl_result check_wide_def(const tl_navmesh *navmesh, const tl_nav_wide_def
 // Sets how far walls are found; what was kept for another distance goes.
 static void set_reach(tl_navmesh *navmesh, float max_radius)
 {
+    static const tl_nav_derived derived = { invalidate_walls, drop_all_walls };
+    navmesh->derived[TL_NAV_DERIVED_WALLS] = &derived;
     double reach = 0.0;
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
         if (navmesh->slots[i].tile != NULL) {
@@ -345,7 +347,7 @@ static void set_reach(tl_navmesh *navmesh, float max_radius)
     }
     double touch = tl_nav_touch_of(navmesh);
     if (reach != navmesh->kept_reach || touch != navmesh->kept_touch) {
-        tl_nav_drop_walls(navmesh);
+        drop_all_walls(navmesh);
         navmesh->kept_reach = reach;
         navmesh->kept_touch = touch;
     }

@@ -8,7 +8,7 @@
 // circle away from the spot, or where it meets the border of another. Any of them that is free will do, the nearest is
 // taken.
 
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/wide/clearance.h"

@@ -12,7 +12,7 @@
 
 #include "nav_query/wide/wide_search.h"
 
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/plane/crossing.h"
 

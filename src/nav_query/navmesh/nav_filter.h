@@ -2,11 +2,17 @@
 //
 // Filters, inlined for the queries.
 
-#ifndef TALUS_SRC_NAV_QUERY_FILTER_H
-#define TALUS_SRC_NAV_QUERY_FILTER_H
+#ifndef TALUS_SRC_NAV_QUERY_NAV_FILTER_H
+#define TALUS_SRC_NAV_QUERY_NAV_FILTER_H
 
 #include <math.h>
 #include <talus/nav_query.h>
+
+/// Whether a filter was begun with its defaults, for which NULL stands too.
+static inline bool tl_nav_filter_is_begun(const tl_nav_filter *filter)
+{
+    return filter == NULL || filter->cookie == TL_DEF_COOKIE;
+}
 
 /// NULL passes all but polygons without any flag, as the default filter does.
 static inline bool tl_nav_passes(const tl_nav_filter *filter, const tl_nav_tile *tile, uint32_t polygon)

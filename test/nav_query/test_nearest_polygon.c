@@ -212,7 +212,7 @@ static void test_arguments(void **state)
     filter.include_flags = 3;
     TEST_CHECK(tl_nav_filter_passes(&filter, tl_navmesh_slot_tile(navmesh, 0), 0));
     float height = 1.0f;
-    TEST_RESULT(tl_navmesh_height(navmesh, 12345, 0, 0, &height), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_height(navmesh, 12345, 0, 0, &height), TL_ERR_STALE);
     TEST_RESULT(tl_navmesh_height(navmesh, tl_navmesh_polygon_ref(navmesh, 0, 0), NAN, 0, &height), TL_ERR_NOT_FINITE);
     tl_navmesh_destroy(navmesh);
 }

@@ -2,7 +2,7 @@
 //
 // Filters: which polygons count, and what a metre in them costs.
 
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 
 #include <string.h>
 
@@ -17,6 +17,7 @@ tl_nav_filter tl_default_nav_filter(void)
     filter.pass = NULL;
     filter.cost = NULL;
     filter.user = NULL;
+    filter.cookie = TL_DEF_COOKIE;
     return filter;
 }
 

@@ -4,7 +4,7 @@
 
 #include "nav_fixture.h"
 
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 
 enum { MOST_POLYGONS = 512 };
 
@@ -71,7 +71,7 @@ static void test_functions(void **state)
 {
     (void)state;
     test_random random = { 611 };
-    tl_nav_query_def def = { 4096, NULL };
+    tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     uint32_t complete = 0, refused = 0, twins = 0;

@@ -7,7 +7,7 @@
 // never prunes the answer, and the result is bit by bit that of trying all polygons. The branches of the bound stay:
 // without them, or with both children's boxes held against the search's at once, it takes 6 to 18% longer.
 
-#include "nav_query/navmesh/filter.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/navmesh/tile_walk.h"
@@ -190,7 +190,13 @@ tl_result tl_navmesh_find_nearest(const tl_navmesh *navmesh, const tl_nav_filter
                                   tl_vec3 half_extents, tl_nav_location *location_out)
 {
     tl_nav_location none = { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } };
+    if (location_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     *location_out = none;
+    if (navmesh == NULL || !tl_nav_filter_is_begun(filter)) {
+        return TL_ERR_ARGUMENT;
+    }
     if (!tl_nav_is_finite(center) || !tl_nav_is_finite(half_extents)) {
         return TL_ERR_NOT_FINITE;
     }
@@ -209,14 +215,20 @@ tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_
                                             tl_vec3 point, tl_nav_location *location_out)
 {
     tl_nav_location none = { TL_NAV_NO_REF, { 0.0f, 0.0f, 0.0f } };
-    *location_out = none;
     uint32_t slot = 0;
     uint32_t polygon = 0;
+    if (location_out == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
+    *location_out = none;
+    if (navmesh == NULL || !tl_nav_filter_is_begun(filter)) {
+        return TL_ERR_ARGUMENT;
+    }
     if (!tl_nav_is_finite(point)) {
         return TL_ERR_NOT_FINITE;
     }
     if (!tl_nav_split_ref(navmesh, from, &slot, &polygon)) {
-        return TL_NOT_FOUND;
+        return TL_ERR_STALE;
     }
     tl_aabb everywhere = { { -INFINITY, -INFINITY, -INFINITY }, { INFINITY, INFINITY, INFINITY } };
     nearest_search search = {

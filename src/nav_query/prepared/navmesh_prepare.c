@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+//
+// Preparing a navmesh for shortest paths: its visibility graph, and a table of distances or hub labels if they fit.
+
+#include "nav_query/prepared/visibility_graph.h"
+
+#include "base/assert.h"
+#include "base/host.h"
+
+#include <string.h>
+
+tl_nav_prepare_def tl_default_nav_prepare_def(void)
+{
+    tl_nav_prepare_def def = { 32u << 20, 0, TL_DEF_COOKIE };
+    return def;
+}
+
+const char *tl_nav_prepared_kind_name(tl_nav_prepared_kind kind)
+{
+    static const char *const NAMES[] = { "none", "graph", "table", "labels" };
+    return (unsigned)kind < TL_COUNT_OF(NAMES) ? NAMES[kind] : "unknown";
+}
+
+static bool floors_fork(const tl_navmesh *navmesh)
+{
+    for (uint32_t slot = 0; slot < navmesh->slot_count; slot++) {
+        if (navmesh->slots[slot].tile != NULL && navmesh->slots[slot].rings.has_back) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void free_graph(tl_navmesh *navmesh)
+{
+    tl_nav_free_visibility_graph(&navmesh->allocator, navmesh->graph);
+    navmesh->graph = NULL;
+}
+
+static tl_result prepare_graph(tl_navmesh *navmesh, const tl_nav_prepare_def *def)
+{
+    static const tl_nav_derived derived = { NULL, free_graph };
+    navmesh->derived[TL_NAV_DERIVED_GRAPH] = &derived;
+    if (!tl_nav_has_current_graph(navmesh)) {
+        free_graph(navmesh);
+        if (floors_fork(navmesh)) {
+            return TL_OK;
+        }
+        TL_TRY(tl_nav_bake_visibility_graph(navmesh, &navmesh->graph));
+    }
+    const tl_allocator *allocator = &navmesh->allocator;
+    tl_nav_visibility_graph *graph = navmesh->graph;
+    if (tl_nav_corner_distances_size(graph) <= def->table_bytes) {
+        tl_nav_free_hub_labels(allocator, graph);
+        return graph->table == NULL ? tl_nav_bake_corner_distances(allocator, graph) : TL_OK;
+    }
+    tl_nav_free_corner_distances(allocator, graph);
+    if (graph->labels.first != NULL && tl_nav_hub_labels_size(graph) <= def->label_bytes) {
+        return TL_OK;
+    }
+    tl_nav_free_hub_labels(allocator, graph);
+    tl_result result = def->label_bytes > 0 ? tl_nav_bake_hub_labels(allocator, graph, def->label_bytes) : TL_OK;
+    return result == TL_ERR_LIMIT ? TL_OK : result; // the graph serves without
+}
+
+static void note_prepared(const tl_nav_visibility_graph *graph, tl_nav_prepared *made)
+{
+    made->kind = graph->table != NULL          ? TL_NAV_PREPARED_TABLE
+                 : graph->labels.first != NULL ? TL_NAV_PREPARED_LABELS
+                                               : TL_NAV_PREPARED_GRAPH;
+    made->corner_vertex_count = graph->vertex_count;
+    made->edge_count = graph->edge_count;
+    made->table_bytes = tl_nav_corner_distances_size(graph);
+    made->bytes = tl_nav_visibility_graph_size(graph) + (graph->table != NULL ? made->table_bytes : 0) +
+                  (graph->labels.first != NULL ? tl_nav_hub_labels_size(graph) : 0);
+}
+
+tl_result tl_navmesh_prepare(tl_navmesh *navmesh, const tl_nav_prepare_def *def, tl_nav_prepared *prepared_out)
+{
+    const tl_nav_prepare_def used = def != NULL ? *def : tl_default_nav_prepare_def();
+    tl_nav_prepared unread;
+    tl_nav_prepared *made = prepared_out != NULL ? prepared_out : &unread;
+    memset(made, 0, sizeof *made);
+    tl_report_begin(&made->base, "visibility graph");
+    if (navmesh == NULL) {
+        return tl_report_field(&made->base, TL_ERR_ARGUMENT, "navmesh", "pass a navmesh");
+    }
+    TL_TRY(tl_def_check(used.cookie, "begin with tl_default_nav_prepare_def()", &made->base));
+    const tl_result result = prepare_graph(navmesh, &used);
+    if (result != TL_OK) {
+        free_graph(navmesh);
+    } else if (navmesh->graph != NULL) {
+        note_prepared(navmesh->graph, made);
+    }
+    return result;
+}
+
+bool tl_navmesh_is_prepared(const tl_navmesh *navmesh)
+{
+    return tl_nav_has_current_graph(navmesh) && navmesh->offmesh.count == 0;
+}
