@@ -194,16 +194,16 @@ static void test_arguments(void **state)
     TEST_CHECK(link == TL_NAV_NO_REF && tl_navmesh_offmesh_count(navmesh) == 0);
     tl_nav_offmesh_state asked;
     TEST_RESULT(tl_navmesh_offmesh_state(navmesh, 77, &asked), TL_ERR_STALE);
-    TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, TL_NAV_NO_REF), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, TL_NAV_NO_REF), TL_ERR_STALE);
     // A reference is no polygon's, and names nothing any more once its link is gone, though the place is used again.
     offmesh = tl_default_nav_offmesh();
     TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link), TL_OK);
-    TEST_RESULT(tl_navmesh_resolve(navmesh, link, NULL, NULL), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, link, NULL, NULL), TL_ERR_STALE);
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, link | TL_NAV_OFFMESH_BACKWARD), TL_OK);
     tl_nav_ref second;
     TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &second), TL_OK);
     TEST_CHECK(second != link);
-    TEST_RESULT(tl_navmesh_offmesh_state(navmesh, link, &asked), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_offmesh_state(navmesh, link, &asked), TL_ERR_STALE);
     TEST_RESULT(tl_navmesh_offmesh_state(navmesh, second, &asked), TL_OK);
     TEST_CHECK(!asked.anchored && asked.offmesh.radius == offmesh.radius);
     tl_navmesh_destroy(navmesh);

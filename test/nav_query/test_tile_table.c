@@ -34,16 +34,16 @@ static void test_example(void **state)
     TEST_CHECK(tl_navmesh_polygon_ref(navmesh, 0, 4) == TL_NAV_NO_REF);
     TEST_CHECK(tl_navmesh_polygon_ref(navmesh, 4, 0) == TL_NAV_NO_REF);
     TEST_RESULT(tl_navmesh_resolve(navmesh, TL_NAV_NO_REF, NULL, NULL), TL_ERR_STALE);
-    TEST_RESULT(tl_navmesh_resolve(navmesh, UINT64_MAX, NULL, NULL), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, UINT64_MAX, NULL, NULL), TL_ERR_STALE);
 
     TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_OK);
     TEST_RESULT(tl_navmesh_remove_tile(navmesh, 0, 0), TL_NOT_FOUND);
-    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, NULL, NULL), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, NULL, NULL), TL_ERR_STALE);
     TEST_CHECK(tl_navmesh_link_count(navmesh) == 2 * 24 - 2 * 4 - 2 * 4);
     tl_nav_tile *again = fixture_build_tile(&level, 0, 0, NULL);
     TEST_RESULT(tl_navmesh_add_tile(navmesh, again, TL_NAV_TILE_OWNED), TL_OK);
     // The same tile in the same slot is not the same polygon.
-    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, NULL, NULL), TL_NOT_FOUND);
+    TEST_RESULT(tl_navmesh_resolve(navmesh, ref, NULL, NULL), TL_ERR_STALE);
     TEST_CHECK(tl_navmesh_polygon_ref(navmesh, 0, 1) != ref);
     tl_navmesh_destroy(navmesh);
 }
