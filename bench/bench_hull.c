@@ -9,7 +9,7 @@
 
 #include "report.h"
 
-#include "hull/ray/ray.h"
+#include "hull/ray/hull_ray.h"
 
 #include <talus/hull.h>
 

@@ -122,7 +122,8 @@ static void check_pair(const body *a, tl_transform pose_a, const body *b, tl_tra
         require(!t.overlap);
     }
     tl_contact_manifold m;
-    uint32_t count = tl_convex_contacts(&a->shape, pose_a, &b->shape, pose_b, slack, slack, NULL, &m);
+    uint32_t count =
+        tl_convex_contacts(&a->shape, pose_a, &b->shape, pose_b, &(tl_contact_limits){ slack, slack }, NULL, &m);
     require(count <= TL_MAX_CONTACTS && (count > 0 || !s.overlap));
 }
 

@@ -2,8 +2,8 @@
 //
 // What every part of talus shares: version, results, allocator, task and progress hooks.
 //
-// The library keeps no global state, starts no thread, reads no clock and touches no file. What a build
-// needs of its surroundings it gets through a tl_host: an allocator, a way to run tasks, a progress hook.
+// The library keeps no global state, starts no thread, reads no clock and touches no file. What a bake
+// needs of its environment it gets through a tl_host: an allocator, a way to run tasks, a progress hook.
 
 #ifndef TALUS_BASE_H
 #define TALUS_BASE_H
@@ -33,7 +33,7 @@
 extern "C" {
 #endif
 
-/// How a call ended. Every failure has a name of its own; `tl_result_text` has a sentence for each.
+/// The result of a call. Every failure has a name of its own; `tl_result_text` has a sentence for each.
 ///
 /// Zero is success. Two ordinary outcomes have names as well, since a caller usually does something about them; they
 /// are not failures (tl_is_error). All other results are.
@@ -42,13 +42,13 @@ typedef enum tl_result {
     TL_NOT_FOUND,  ///< nothing is there: no hit, no polygon that near, no entry of that name
     TL_INCOMPLETE, ///< the caller's buffer holds a part: what fitted was written, and the true count was returned
 
-    // What the surroundings refused.
+    // From the host or the operating system.
     TL_ERR_MEMORY,    ///< the allocator returned NULL; nothing leaked, the input is untouched
-    TL_ERR_CANCELLED, ///< the progress hook asked to stop
+    TL_ERR_CANCELLED, ///< the progress hook returned false
     TL_ERR_IO,        ///< the operating system refused a read or write (io and tools only)
 
     // What was wrong with a def or an argument that comes from data.
-    TL_ERR_ARGUMENT,    ///< a def holds a value outside its documented range
+    TL_ERR_ARGUMENT,    ///< a NULL, a def without its cookie, or a field outside its documented range
     TL_ERR_UNSUPPORTED, ///< well-formed, but of a kind this build cannot handle
     TL_ERR_LIMIT,       ///< a documented limit would be exceeded; nothing was cut silently
     TL_ERR_STALE,       ///< a reference to something that is no longer there, or never was
@@ -97,11 +97,11 @@ TL_API const char *tl_result_text(tl_result result);
 /// "MAJOR.MINOR.PATCH" of the compiled library, to be compared with the header's macros.
 TL_API const char *tl_version(void);
 
-/// Where a build takes its memory from.
+/// Where a bake takes its memory from.
 ///
 /// `allocate` returns `size` bytes (> 0) aligned to `alignment` (a power of two, at most 64), or NULL.
 /// `release` gets back a pointer that `allocate` returned, and the size asked for then.
-/// A build that is given tasks may call both from several threads at once.
+/// A bake that is given tasks may call both from several threads at once.
 typedef struct tl_allocator {
     void *(*allocate)(size_t size, size_t alignment, void *user);
     void (*release)(void *block, size_t size, void *user);
@@ -112,7 +112,7 @@ typedef struct tl_allocator {
 /// same time have the same one, so it may index per-worker scratch.
 typedef void tl_task_fn(uint32_t index, uint32_t worker, void *task_user);
 
-/// How a build runs a loop of independent items on the host's own job system.
+/// How a bake runs a loop of independent items on the host's own job system.
 ///
 /// `run` calls `task(i, worker, task_user)` once for each i in [0, count), in any order and on any
 /// threads, and returns when all are done. It is never called from inside a task. Results never depend
@@ -123,17 +123,17 @@ typedef struct tl_tasks {
     void *user;
 } tl_tasks;
 
-/// How a build tells how far it is, and is told to stop.
+/// Progress of a bake, and its cancellation.
 ///
-/// `update` is called on the thread that called the build only. `stage` is a static string; `done` runs from
-/// 0 (the stage begins) to `total` (it has ended), so a host with a clock can time each stage. To return
-/// false cancels: the build frees what it holds and returns TL_ERR_CANCELLED.
+/// `update` is called on the thread that called the bake only. `stage` is a static string; `done` runs from
+/// 0 (the stage begins) to `total` (it has ended), so a host with a clock can time each stage. Returning
+/// false cancels: the bake frees what it holds and returns TL_ERR_CANCELLED.
 typedef struct tl_progress {
     bool (*update)(const char *stage, uint64_t done, uint64_t total, void *user);
     void *user;
 } tl_progress;
 
-/// What the host lends to a build. All zero is a valid host: malloc, one thread, silent.
+/// What the host lends to a bake. All zero is a valid host: malloc, one thread, silent.
 /// The pointed-to structs must outlive the call; blobs remember none of them.
 typedef struct tl_host {
     const tl_allocator *allocator; ///< NULL: malloc and free
@@ -147,14 +147,14 @@ typedef struct tl_host {
 
 #define TL_NO_ELEMENT UINT64_MAX
 
-/// What a build says about itself, besides its result. A caller who does not want it passes NULL.
+/// What a bake says about itself, besides its result. A caller who does not want it passes NULL.
 typedef struct tl_report {
     const char *stage;      ///< static; the stage that failed, or the last one
     const char *field;      ///< static; the def's field that was refused ("cell_size", "host.allocator"...), or NULL
     const char *element;    ///< static; kind of the offending element ("vertex", "triangle", "contour"...), or NULL
     uint64_t element_index; ///< its index in the caller's input, or TL_NO_ELEMENT
     const char *advice;     ///< static; what to do about a failure, or NULL
-    uint64_t peak_bytes;    ///< largest sum of bytes that the build held at one time
+    uint64_t peak_bytes;    ///< largest sum of bytes that the bake held at one time
 } tl_report;
 
 /// The head of every blob: one immutable, position-independent block, 64-byte aligned, that can be stored

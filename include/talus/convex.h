@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Queries on pairs of convex shapes: how far, and whether they touch.
+// Queries on pairs of convex shapes: distance, overlap, penetration depth, cast, contacts. GJK and EPA on the Minkowski
+// difference of the two.
 //
-// A shape is a proxy: what answers "which of your points is farthest along this direction", and a radius by which it
-// is rounded. All queries compute in double in shape A's frame, so the answer does not depend on where in the world
-// the pair is.
+// A shape is its support function, which gives the point farthest along a direction, and a radius by which it is
+// rounded. All queries compute in double in shape A's frame, so the answer does not depend on where in the world the
+// pair is.
+//
+// NULL shapes and outputs are the caller's bug (TL_ASSERT); a cache may be NULL.
 
 #ifndef TALUS_CONVEX_H
 #define TALUS_CONVEX_H
@@ -76,7 +79,7 @@ typedef struct tl_simplex_cache {
     uint32_t vertex_b[4];
 } tl_simplex_cache;
 
-/// How two shapes lie to each other.
+/// The separation of two shapes: distance, nearest points and direction.
 typedef struct tl_separation {
     /// Metres between the witness points, so never less than the true distance but for rounding; 0 on overlap.
     float distance;
@@ -103,19 +106,18 @@ TL_API void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl
 TL_API bool tl_convex_overlap(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                               tl_simplex_cache *cache);
 
-/// Room for the growing polytope of a penetration query; a hull is done after some ten steps, a curved shape after some
-/// fifty.
+/// Iterations of EPA in a penetration query. A hull converges in some ten, a curved shape in some fifty.
 #define TL_MAX_EPA_ITERATIONS 124u
 
-/// Supports asked at most where that was too little, which is rare: balls of many facets in one place, round shapes on
-/// one axis. Each takes some 0.2 us.
+/// Support points of the search over directions that follows where EPA did not converge, which is rare: concentric
+/// balls of many facets, round shapes on one axis. Each takes some 0.2 us.
 #define TL_MAX_DIRECTION_STEPS 131072u
 
-/// How deep two shapes are in one another.
+/// The penetration of two shapes: depth, direction and deepest points.
 typedef struct tl_penetration {
     bool overlap;      ///< false: the shapes are apart, all else but status and iterations is zero
-    float depth;       ///< metres, >= 0: moving B this far along the normal parts the shapes
-    float lower_bound; ///< metres; no shorter motion in any direction parts them
+    float depth;       ///< metres, >= 0: moving B this far along the normal separates the shapes
+    float lower_bound; ///< metres; no shorter motion in any direction separates them
     float upper_bound; ///< metres; the depth, with the rounding of directions added
     tl_vec3 normal;    ///< unit, from A to B, world. Of several that are equally short, any
     tl_vec3 point_a;   ///< A's point deepest in B, world; point_b + depth * normal, to rounding
@@ -124,24 +126,23 @@ typedef struct tl_penetration {
     uint32_t iterations;
 } tl_penetration;
 
-/// The shortest translation that parts two shapes. Returns `overlap`.
+/// The penetration depth: the shortest translation that separates two shapes. Returns `overlap`.
 ///
-/// Cheap while only the radii overlap (the distance of the cores tells all), else EPA. Shapes that are flat, straight
-/// or points have depths too: two segments that cross are 0 deep, along the normal of both. Poses, cache, threads as in
+/// Cheap while only the radii overlap (the distance of the cores is enough), else EPA. Flat shapes, segments and points
+/// have depths too: two segments that cross are 0 deep, along the normal of both. Poses, cache, threads as in
 /// tl_convex_distance; 32 KB of stack suffice.
 /// Source: van den Bergen, Proximity Queries and Penetration Depth Computation on 3D Game Objects, 2001.
 TL_API bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                                   tl_simplex_cache *cache, tl_penetration *penetration_out);
 
-/// A cast advances by what a plane proves free; more steps than this means that it grazes within rounding.
+/// Iterations of a cast, each of which advances to a separating plane; more mean that it grazes within rounding.
 #define TL_MAX_CAST_ITERATIONS 128u
 
 /// Where a moving shape or a ray meets a shape.
 typedef struct tl_convex_hit {
     bool hit;
-    bool initial_overlap; ///< they overlap at the start: t is 0, the normal zero; tl_convex_penetration tells the way
-                          ///< out
-    float t;        ///< share of the motion, or ray parameter; never later than the true one but for double rounding
+    bool initial_overlap; ///< they overlap at the start: t is 0, the normal zero; tl_convex_penetration has the depth
+    float t;        ///< fraction of the motion, or ray parameter; never later than the true one but for double rounding
     float gap;      ///< metres still between the shapes at t; at most some 2.4e-7 of their size when converged
     tl_vec3 point;  ///< on A's surface, world
     tl_vec3 normal; ///< unit, from A to B, world
@@ -149,20 +150,27 @@ typedef struct tl_convex_hit {
     uint32_t iterations;
 } tl_convex_hit;
 
-/// Moves B by `motion` without turning it, and finds when it first touches A. Returns `hit`.
+/// Linear cast: moves B by `motion` without turning it, and finds when it first touches A. Returns `hit`.
 ///
-/// Shapes that touch at the start and part or slide along each other do not hit. Shapes that pass one another closer
-/// than `gap` may be said to hit. Poses and threads as in tl_convex_distance; no allocation.
+/// Shapes that touch at the start and move apart or slide along each other do not hit. Shapes that pass one another
+/// closer than `gap` may be reported as hits. Poses and threads as in tl_convex_distance; no allocation.
 /// Source: van den Bergen, Ray Casting against General Convex Objects, 2004.
 TL_API bool tl_convex_cast(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                            tl_vec3 motion, tl_convex_hit *hit_out);
 
-/// Casts a ray at any shape. The direction has any length but zero; t counts in it and ends at t_max, which may be
-/// INFINITY. An origin inside is an initial overlap.
+/// Casts a ray at any shape. The direction has any length but zero; t is in units of it, up to t_max, which may be
+/// INFINITY. An origin inside is an initial overlap. Returns `hit`.
 TL_API bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec3 origin, tl_vec3 direction,
                                float t_max, tl_convex_hit *hit_out);
 
 #define TL_MAX_CONTACTS 4u
+
+/// Which contacts are wanted. A hundredth of the size of the smaller shape serves well for both lengths. All zero, or a
+/// NULL: only shapes that touch or overlap have contacts, and only the corners as deep as the deepest point.
+typedef struct tl_contact_limits {
+    float margin;    ///< metres, >= 0: shapes that are farther apart have no contacts
+    float tolerance; ///< metres, >= 0: a corner of the common patch may be so much less deep than the deepest point
+} tl_contact_limits;
 
 typedef struct tl_contact {
     tl_vec3 point_a;  ///< on A's surface, world
@@ -177,16 +185,15 @@ typedef struct tl_contact_manifold {
     tl_convex_status status;
 } tl_contact_manifold;
 
-/// Where two shapes rest on each other. Returns the number of contacts; 0 when they are more than `margin` metres
-/// apart.
+/// Where two shapes rest on each other: their contact manifold. Returns the number of contacts; 0 when the shapes are
+/// farther apart than the limits' margin.
 ///
-/// Where faces of hulls, boxes or triangles meet, these are corners of their common patch that are at most `tolerance`
-/// metres less deep than the deepest point; of more than four, the deepest and those that span the largest area.
-/// Everything else, and edges that cross, give one contact. Both lengths are >= 0; a hundredth of the size of the
-/// smaller shape serves well. Beside the distance it costs a support query and a look at a face's surroundings. Poses,
-/// cache, threads as in tl_convex_distance.
+/// Where faces of hulls, boxes or triangles meet, these are the corners of their common patch within the limits'
+/// tolerance; of more than four, the deepest and those that span the largest area. Everything else, and edges that
+/// cross, give one contact. Costs a distance, a support query and a search for each shape's face. `limits` may be NULL.
+/// Poses, cache, threads as in tl_convex_distance.
 TL_API uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
-                                   float margin, float tolerance, tl_simplex_cache *cache,
+                                   const tl_contact_limits *limits, tl_simplex_cache *cache,
                                    tl_contact_manifold *manifold_out);
 
 #ifdef __cplusplus

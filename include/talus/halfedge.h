@@ -88,8 +88,8 @@ TL_API tl_result tl_halfedge_mesh_remove_vertex(tl_halfedge_mesh *mesh, uint32_t
 /// TL_ERR_DEGENERATE (a vertex twice), TL_ERR_WINDING (it runs along an edge in the same direction as the one face
 /// there), TL_ERR_NON_MANIFOLD (an edge has two faces already, or a vertex would get a closed fan beside another fan),
 /// TL_ERR_MEMORY, TL_ERR_LIMIT. `face_out` may be NULL.
-/// O(sum of the vertices' degrees); an edge is looked for at both of its ends at once, so a vertex of high degree with
-/// neighbours of low degree costs little unless the face touches it by the vertex only.
+/// O(sum of the vertices' degrees). The search for an edge walks around both of its ends at once, so a vertex of high
+/// degree costs little where its neighbours have low degrees, unless the face touches it by the vertex only.
 TL_API tl_result tl_halfedge_mesh_add_face(tl_halfedge_mesh *mesh, const uint32_t *vertices, uint32_t count,
                                            uint32_t *face_out);
 
@@ -123,8 +123,9 @@ TL_API uint32_t tl_halfedge_mesh_vertex_faces(const tl_halfedge_mesh *mesh, uint
 TL_API uint32_t tl_halfedge_mesh_face_vertices(const tl_halfedge_mesh *mesh, uint32_t face, uint32_t *vertices_out,
                                                uint32_t capacity);
 
-/// The lowest boundary half-edge that is >= `from` and the lowest one of its loop: to walk all holes, begin with 0 and
-/// go on from the result + 1. TL_HALFEDGE_NONE when there is no more. O(size of the mesh and loops) for all calls.
+/// The next boundary loop (hole): the lowest boundary half-edge that is >= `from` and the lowest one of its loop. Start
+/// with 0, continue with the result + 1. TL_HALFEDGE_NONE when there is no more. All calls together are O(size of the
+/// mesh and its loops).
 TL_API uint32_t tl_halfedge_mesh_next_boundary_loop(const tl_halfedge_mesh *mesh, uint32_t from);
 
 /// Whether every invariant holds: links, loops, rings, pools, free lists, counts. TL_ERR_CORRUPT if not, with the
@@ -135,10 +136,10 @@ TL_API tl_result tl_halfedge_mesh_check(const tl_halfedge_mesh *mesh, tl_report 
 /// The vertex of a closed convex mesh that is farthest along a direction, by hill climbing from `hint`: no vertex with
 /// a face has a larger dot product, exactly decided. Which of several equal ones is not specified.
 ///
-/// A hint that is isolated, removed or out of range is as good as none. Without faces all live vertices are scanned;
-/// without vertices the answer is TL_HALFEDGE_NONE. Vertices within flat faces and edges are allowed; where a climb
-/// ends among nothing but equal ones all vertices are scanned, for this may be the minimum. On a mesh that is not
-/// convex the answer is a local maximum. Thread safe while the mesh is not changed.
+/// A hint that is isolated, removed or out of range is ignored. A mesh without faces is scanned; without vertices the
+/// answer is TL_HALFEDGE_NONE. Vertices within flat faces and edges are allowed: where a climb ends among nothing but
+/// equal ones, which may be the minimum, all vertices are scanned. On a mesh that is not convex the answer is a local
+/// maximum. Thread safe while the mesh is not changed.
 TL_API uint32_t tl_halfedge_mesh_support(const tl_halfedge_mesh *mesh, tl_vec3 direction, uint32_t hint);
 
 static inline bool tl_halfedge_is_vertex(const tl_halfedge_mesh *mesh, uint32_t vertex)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Convex hulls: built from points, baked into one block, then asked for support points, rays, mass and topology.
+// Convex hulls: baked from points into one block; queries for support points, rays, mass and topology.
 //
-// The build decides every side of every plane exactly, so the hull is the true convex hull of the float points at any
+// The bake decides every side of every plane exactly, so the hull is the true convex hull of the float points at any
 // scale and at any distance from the origin. Faces are polygons: triangles that lie in exactly one plane are merged,
 // and only strict corners stay vertices.
 // Source: Barber, Dobkin, Huhdanpaa, The Quickhull Algorithm for Convex Hulls, ACM TOMS 22, 1996.
@@ -24,18 +24,18 @@ extern "C" {
 /// Largest absolute coordinate of a hull's points: edges and their dot products stay finite floats.
 #define TL_MAX_HULL_COORDINATE 1e30f
 
-/// A build takes fewer points than this, so that its half-edges fit 32 bits.
+/// A bake takes fewer points than this, so that its half-edges fit 32 bits.
 #define TL_MAX_HULL_POINTS 0x10000000u
 
 #define TL_NO_VERTEX       UINT32_MAX
 
-/// How a hull is built.
+/// How a hull is baked.
 typedef struct tl_hull_def {
     /// 0: no limit; else >= 4. The points are added farthest first, so a hull that reaches the limit is the hull of
-    /// the most telling ones; the report says how far the others stick out.
+    /// those that matter most; the report says how far outside the others lie.
     uint32_t max_vertices;
-    /// Metres, >= 0. 0: flat, straight and single-point input is refused by name. Else it is made this thick, half to
-    /// each side, in every direction that it lacks.
+    /// Metres, >= 0. 0: input without volume is refused (TL_ERR_COPLANAR, ...). Else it is made this thick, half to
+    /// each side, along every direction in which it has no extent.
     float thickness;
     /// >= 0. Input counts as flat when its thickness is at most this many roundings (half ulps) of its largest
     /// coordinate: 8 covers a plane whose points were rounded to floats. 0: only what is exactly flat.
@@ -49,7 +49,7 @@ typedef struct tl_hull_report {
     tl_report base;
     uint32_t triangle_count; ///< of the hull before coplanar ones were merged
     bool thickened;
-    uint32_t points_left_out; ///< outside, because max_vertices was reached
+    uint32_t points_left_out; ///< points outside, because max_vertices was reached
     double max_outside;       ///< metres; the farthest of these lies at least so far outside, 0 when there is none
 } tl_hull_report;
 
@@ -120,7 +120,7 @@ typedef struct tl_hull {
 
 TL_API tl_hull_def tl_default_hull_def(void);
 
-/// Builds the convex hull of `count` points. Duplicates and inner points are allowed and cost little.
+/// Bakes the convex hull of `count` points. Duplicates and inner points are allowed and cost little.
 ///
 /// The result depends on the points and the def only. O(n log n) for points in general position.
 /// Errors: TL_ERR_EMPTY (no point), TL_ERR_NOT_FINITE and TL_ERR_RANGE (with the point's index), TL_ERR_COINCIDENT,
@@ -135,7 +135,7 @@ TL_API tl_result tl_hull_bake(const tl_vec3 *points, uint32_t count, const tl_hu
 ///
 /// The copy is the hull of the mapped corners, each coordinate rounded once; it is a valid hull whatever the map. Faces
 /// stay whole where the rounding keeps them flat (moves and scales of boxes, powers of two of anything), else they
-/// become several. `sources` name the points of the first build. To turn a body each frame, keep the hull and use
+/// become several. `sources` name the points of the first bake. To turn a body each frame, keep the hull and use
 /// poses. O(V log V). Errors, `*hull_out` NULL: TL_ERR_COINCIDENT, TL_ERR_COLLINEAR, TL_ERR_COPLANAR (nothing solid is
 /// left), TL_ERR_NOT_FINITE, TL_ERR_RANGE, TL_ERR_MEMORY, TL_ERR_CANCELLED. `host` and `report_out` may be NULL. Free
 /// with tl_blob_free.
@@ -149,7 +149,7 @@ TL_API tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge_mesh *mesh
 /// Whether bytes of unknown origin are a hull that every query can be trusted with: head, offsets, indices, loops,
 /// twins, Euler's formula, finite values, and, exactly decided, that every face is flat and every edge convex. Safe on
 /// any bytes; `bytes` must be 16-byte aligned. O(size). That the points of the input lie inside, and that the surface
-/// does not wind around twice, which no build does, takes tl_hull_validate.
+/// does not wind around twice, which no bake does, takes tl_hull_validate.
 /// A failure names the head's field, or the half-edge, face, vertex or cell, in `report_out`, which may be NULL.
 TL_API tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *report_out);
 
@@ -203,7 +203,7 @@ static inline const tl_vec3 *tl_hull_vertices(const tl_hull *hull)
     return (const tl_vec3 *)(const void *)((const char *)hull + hull->vertices);
 }
 
-/// V indices into the points that the hull was built from. A thickened hull names a point more than once.
+/// V indices into the points that the hull was baked from. A thickened hull names a point more than once.
 static inline const uint32_t *tl_hull_sources(const tl_hull *hull)
 {
     return (const uint32_t *)(const void *)((const char *)hull + hull->sources);

@@ -31,16 +31,15 @@ typedef struct tl_mesh_view {
 
 /// How a mesh is welded and cleaned.
 typedef struct tl_mesh_def {
-    /// Metres, >= 0. Each vertex in turn joins the earliest kept vertex that is no farther away than this, or is kept
-    /// itself: none moves by more than the tolerance. 0: only equal positions are welded (-0 equals 0).
+    /// Metres, >= 0. Each vertex in turn becomes the earliest kept vertex that is no farther away than this, or is kept
+    /// itself, so none moves by more than the tolerance. 0: only equal positions are welded (-0 equals 0).
     float weld_tolerance;
     bool keep_duplicates; ///< keep triangles that repeat another one's three vertices in the same winding
     tl_host host;
     uint32_t cookie; ///< private: set by tl_default_mesh_def
 } tl_mesh_def;
 
-/// A mesh whose vertices are unique, whose triangles have area, and which remembers where each came from.
-/// One block of memory; free it with tl_mesh_free.
+/// A mesh of unique vertices and of triangles with area, each with its index in the input. Free with tl_mesh_free.
 typedef struct tl_mesh {
     tl_vec3 *vertices;
     uint32_t vertex_count;
@@ -78,10 +77,10 @@ TL_API tl_result tl_mesh_bake(const tl_mesh_view *view, const tl_mesh_def *def, 
 /// Gives a mesh's memory back to the allocator of its def and zeroes it. NULL or zeroed: nothing happens.
 TL_API void tl_mesh_free(tl_mesh *mesh);
 
-/// A built mesh as a view. Valid while the mesh lives.
+/// A baked mesh as a view. Valid while the mesh lives.
 TL_API tl_mesh_view tl_mesh_as_view(const tl_mesh *mesh);
 
-/// Largest absolute coordinate that any build accepts, metres: squares and cubes of differences stay far from overflow.
+/// Largest absolute coordinate that any bake accepts, metres: squares and cubes of differences stay far from overflow.
 #define TL_MAX_COORDINATE 1e12f
 
 /// Which triangle lies across each edge. Edge k of triangle i runs from its corner k to corner (k + 1) % 3.
@@ -121,12 +120,12 @@ typedef struct tl_closed_parts {
     tl_allocator allocator; ///< private: what frees it
 } tl_closed_parts;
 
-/// Finds which triangles belong to closed parts. Triangles hang together across an edge that as many of them run one
-/// way as the other; a part is closed when its own triangles do so on every edge. So crates side by side are closed,
-/// whose touching faces share edges, and a crate is that shares an edge with an open floor.
-/// Corners are told by their index: weld the mesh first. O(triangles). Indices are trusted. Errors: TL_ERR_ARGUMENT (no
-/// indices), TL_ERR_LIMIT (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*parts_out` is zeroed then. `host` and
-/// `report_out` may be NULL. Free with tl_closed_parts_free.
+/// Finds which triangles belong to closed parts. An edge connects its triangles when as many of them run along it one
+/// way as the other; a part, a connected component, is closed when its own triangles do so on every edge. So crates
+/// side by side, whose touching faces share edges, are closed, and so is a crate that shares an edge with an open
+/// floor. Corners are the same when their indices are: weld the mesh first. O(triangles). Indices are trusted. Errors:
+/// TL_ERR_ARGUMENT (no indices), TL_ERR_LIMIT (over TL_MAX_MESH_TRIANGLES), TL_ERR_MEMORY; `*parts_out` is zeroed then.
+/// `host` and `report_out` may be NULL. Free with tl_closed_parts_free.
 TL_API tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl_closed_parts *parts_out,
                                       tl_report *report_out);
 

@@ -20,12 +20,13 @@ typedef struct tl_vec3 {
     float x, y, z;
 } tl_vec3;
 
-/// A unit quaternion: rotation by w + xi + yj + zk.
+/// A rotation as a unit quaternion w + xi + yj + zk. All zero is the identity, in every function of talus that takes a
+/// quaternion or a transform, so a zeroed transform is one too. Any other quaternion must be unit.
 typedef struct tl_quat {
     float x, y, z, w;
 } tl_quat;
 
-/// A rigid motion: rotate, then translate.
+/// A rigid motion: rotate, then translate. All zero is the identity.
 typedef struct tl_transform {
     tl_quat rotation;
     tl_vec3 position;
@@ -218,7 +219,7 @@ static inline tl_quat tl_quat_identity(void)
     return q;
 }
 
-/// v rotated by the unit quaternion q: v + 2w(u x v) + 2(u x (u x v)), u the vector part.
+/// v rotated by q: v + 2w(u x v) + 2(u x (u x v)), u the vector part.
 static inline tl_vec3 tl_rotate(tl_quat q, tl_vec3 v)
 {
     tl_vec3 u = tl_vec3_make(q.x, q.y, q.z);
@@ -226,6 +227,14 @@ static inline tl_vec3 tl_rotate(tl_quat q, tl_vec3 v)
     return tl_add(tl_mul_add(v, t, q.w), tl_cross(u, t));
 }
 
+/// The identity when q is all zero, else q.
+static inline tl_quat tl_quat_or_identity(tl_quat q)
+{
+    bool zero = q.x == 0.0f && q.y == 0.0f && q.z == 0.0f && q.w == 0.0f;
+    return zero ? tl_quat_identity() : q;
+}
+
+/// The rotation back. Of an all zero quaternion the same, all zero.
 static inline tl_quat tl_quat_conjugate(tl_quat q)
 {
     tl_quat r = { -q.x, -q.y, -q.z, q.w };
@@ -241,12 +250,14 @@ static inline tl_vec3 tl_inverse_rotate(tl_quat q, tl_vec3 v)
 /// First b, then a.
 static inline tl_quat tl_quat_mul(tl_quat a, tl_quat b)
 {
+    a = tl_quat_or_identity(a);
+    b = tl_quat_or_identity(b);
     tl_quat r = { a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
                   a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z };
     return r;
 }
 
-/// The unit quaternion in the direction of q, or the identity when q is zero.
+/// The unit quaternion in the direction of q, or the identity when q is zero or its squared length underflows.
 static inline tl_quat tl_quat_normalize(tl_quat q)
 {
     float length = sqrtf(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);

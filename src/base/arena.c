@@ -20,22 +20,22 @@ struct tl_arena_block {
     size_t used; // bytes, this head included
 };
 
-static size_t round_up(size_t value, size_t alignment)
+static size_t round_up_to(size_t value, size_t alignment)
 {
     return (value + alignment - 1) & ~(alignment - 1);
 }
 
-static void *default_allocate(size_t size, size_t alignment, void *user)
+static void *aligned_malloc(size_t size, size_t alignment, void *user)
 {
     (void)user;
     if (size > SIZE_MAX - alignment) {
         return NULL;
     }
     // aligned_alloc wants a size that is a multiple of the alignment.
-    return aligned_alloc(alignment, round_up(size, alignment));
+    return aligned_alloc(alignment, round_up_to(size, alignment));
 }
 
-static void default_release(void *block, size_t size, void *user)
+static void aligned_release(void *block, size_t size, void *user)
 {
     (void)size;
     (void)user;
@@ -47,7 +47,7 @@ tl_allocator tl_allocator_or_default(const tl_allocator *allocator)
     if (allocator != NULL && allocator->allocate != NULL) {
         return *allocator;
     }
-    tl_allocator standard = { default_allocate, default_release, NULL };
+    tl_allocator standard = { aligned_malloc, aligned_release, NULL };
     return standard;
 }
 
@@ -123,7 +123,7 @@ void *tl_blob_allocate_part(const tl_allocator *allocator, uint32_t magic, uint3
     if (size > SIZE_MAX - TL_BLOB_ALIGNMENT - sizeof(tl_blob_owner)) {
         return NULL;
     }
-    size_t rounded = round_up((size_t)size, TL_BLOB_ALIGNMENT);
+    size_t rounded = round_up_to((size_t)size, TL_BLOB_ALIGNMENT);
     tl_blob_owner *owner = tl_allocate(allocator, sizeof(tl_blob_owner) + rounded, TL_BLOB_ALIGNMENT);
     tl_blob *blob = NULL;
     if (owner != NULL) {
@@ -184,14 +184,14 @@ void tl_arena_free(tl_arena *arena)
 
 static bool add_block(tl_arena *arena, size_t bytes)
 {
-    size_t head = round_up(sizeof(tl_arena_block), ARENA_ALIGNMENT);
+    size_t head = round_up_to(sizeof(tl_arena_block), ARENA_ALIGNMENT);
     if (bytes > SIZE_MAX - head - ARENA_ALIGNMENT) {
         return false;
     }
-    size_t size = round_up((size_t)(arena->live_bytes / LIVE_SHARE), ARENA_ALIGNMENT);
+    size_t size = round_up_to((size_t)(arena->live_bytes / LIVE_SHARE), ARENA_ALIGNMENT);
     size = size > LEAST_BLOCK_BYTES ? size : LEAST_BLOCK_BYTES;
     if (size < head + bytes) {
-        size = round_up(head + bytes, ARENA_ALIGNMENT);
+        size = round_up_to(head + bytes, ARENA_ALIGNMENT);
     }
     tl_arena_block *block = arena->allocator.allocate(size, ARENA_ALIGNMENT, arena->allocator.user);
     if (block == NULL) {
@@ -216,7 +216,7 @@ void *tl_arena_push(tl_arena *arena, uint64_t count, size_t size)
     }
     size_t alignment = bytes >= ARENA_ALIGNMENT ? ARENA_ALIGNMENT : 16;
     tl_arena_block *block = arena->newest;
-    size_t start = block != NULL ? round_up(block->used, alignment) : 0;
+    size_t start = block != NULL ? round_up_to(block->used, alignment) : 0;
     if (block == NULL || start > block->size || bytes > block->size - start) {
         if (!add_block(arena, bytes)) {
             return NULL;

@@ -38,7 +38,7 @@ static uint64_t merge_lane(uint64_t hash, uint64_t lane)
     return (hash ^ round_lane(0, lane)) * PRIME_1 + PRIME_4;
 }
 
-static uint64_t finish(uint64_t hash, const uint8_t *bytes, size_t size)
+static uint64_t finish_hash(uint64_t hash, const uint8_t *bytes, size_t size)
 {
     while (size >= 8) {
         hash = rotate_left(hash ^ round_lane(0, read_word(bytes, 8)), 27) * PRIME_1 + PRIME_4;
@@ -77,5 +77,5 @@ uint64_t tl_hash_bytes(const void *bytes, size_t size, uint64_t seed)
             hash = merge_lane(hash, lane[i]);
         }
     }
-    return finish(hash + (uint64_t)size, at, left);
+    return finish_hash(hash + (uint64_t)size, at, left);
 }

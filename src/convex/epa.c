@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// EPA: the depth of two shapes that overlap is the distance of the origin from the surface of A - B. Grow a polytope
-// inside of A - B by the support along its face nearest to the origin: that face bounds the depth from below, each
-// support from above.
-// Source: van den Bergen, Proximity Queries and Penetration Depth Computation on 3D Game Objects, 2001.
+// EPA, the expanding polytope algorithm: the penetration depth of two shapes is the distance of the origin from the
+// surface of their Minkowski difference A - B. Grow a polytope inside A - B by the support point along the normal of
+// its face nearest to the origin: that face bounds the depth from below, each support point from above. Source: van den
+// Bergen, Proximity Queries and Penetration Depth Computation on 3D Game Objects, 2001.
 //
 // Both bounds hold at any time, so the loop may end anywhere and the answer says how good it is. A flat difference,
 // which has no tetrahedron to start from, is no failure: its depth is 0 and its normal that of the plane.
@@ -16,25 +16,25 @@
 #include <string.h>
 
 // The result is a float in a world whose coordinates are: bounds closer than four roundings of the size are equal.
-#define DEPTH_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
+#define EPA_DEPTH_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
 
 // A point of A - B is off by 16 roundings; a plane through three of them and the distance of a fourth, by 16 more each
 // where the triangle is not thin; thin ones are kept off by the margin that follows from 4 times that.
-#define PLANE_ERROR TL_DOUBLE_GAMMA(128)
+#define EPA_PLANE_ERROR TL_DOUBLE_GAMMA(128)
 
-typedef struct search {
-    tl_pair *pair;
+typedef struct epa_search {
+    tl_minkowski *pair;
     double reach; // largest |w| of the points seen; the origin is inside, so this is the size of A - B
-    tl_depth *depth;
-} search;
+    tl_core_depth *depth;
+} epa_search;
 
 // Metres that rounding may be off.
-static double noise_of(const search *s)
+static double epa_noise(const epa_search *s)
 {
-    return PLANE_ERROR * s->pair->scale;
+    return EPA_PLANE_ERROR * s->pair->scale;
 }
 
-static void grow_reach(search *s, const tl_pair_point *point)
+static void grow_reach(epa_search *s, const tl_minkowski_point *point)
 {
     double reach = tl_vec3d_size(point->w);
     s->reach = reach > s->reach ? reach : s->reach;
@@ -42,10 +42,10 @@ static void grow_reach(search *s, const tl_pair_point *point)
 
 // The support along a direction, whose length is one over `scale`. It bounds the depth from above: true when this is
 // the best bound so far. The face that is nearest is seldom near the one before, so no hint would help.
-static bool ask(search *s, tl_vec3d direction, double scale, tl_pair_point *point_out)
+static bool probe(epa_search *s, tl_vec3d direction, double scale, tl_minkowski_point *point_out)
 {
     s->pair->last_a = s->pair->last_b = TL_NO_VERTEX;
-    tl_pair_support(s->pair, direction, point_out);
+    tl_minkowski_support(s->pair, direction, point_out);
     grow_reach(s, point_out);
     double upper = tl_vec3d_dot(direction, point_out->w) * scale;
     if (upper < s->depth->upper) {
@@ -57,14 +57,14 @@ static bool ask(search *s, tl_vec3d direction, double scale, tl_pair_point *poin
 }
 
 // Asks along six directions and keeps the point for which `spread` of its difference from the first is largest.
-static bool widen(search *s, tl_pair_point *points, uint32_t count, const tl_vec3d directions[6])
+static bool widen_simplex(epa_search *s, tl_minkowski_point *points, uint32_t count, const tl_vec3d directions[6])
 {
     double best = 0.0;
     tl_vec3d line = count > 1 ? tl_vec3d_sub(points[1].w, points[0].w) : tl_vec3d_make(0.0, 0.0, 0.0);
     double length = tl_vec3d_length(line);
     for (int i = 0; i < 6; i++) {
-        tl_pair_point point;
-        ask(s, directions[i], 1.0, &point);
+        tl_minkowski_point point;
+        probe(s, directions[i], 1.0, &point);
         tl_vec3d away = tl_vec3d_sub(point.w, points[0].w);
         double spread = count > 1 ? tl_vec3d_length(tl_vec3d_cross(line, away)) / length : tl_vec3d_length(away);
         if (spread > best) {
@@ -72,16 +72,16 @@ static bool widen(search *s, tl_pair_point *points, uint32_t count, const tl_vec
             points[count] = point;
         }
     }
-    return best > 4.0 * noise_of(s);
+    return best > 4.0 * epa_noise(s);
 }
 
-static bool widen_point(search *s, tl_pair_point *points)
+static bool widen_point(epa_search *s, tl_minkowski_point *points)
 {
     static const tl_vec3d axes[6] = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } };
-    return widen(s, points, 1, axes);
+    return widen_simplex(s, points, 1, axes);
 }
 
-static bool widen_line(search *s, tl_pair_point *points)
+static bool widen_line(epa_search *s, tl_minkowski_point *points)
 {
     tl_vec3d line = tl_vec3d_sub(points[1].w, points[0].w);
     line = tl_vec3d_scale(line, 1.0 / tl_vec3d_length(line));
@@ -93,10 +93,10 @@ static bool widen_line(search *s, tl_pair_point *points)
                                            { -1, 0 }, { -0.5, -0.8660254037844386 }, { 0.5, -0.8660254037844386 } };
         directions[i] = tl_vec3d_mul_add(tl_vec3d_scale(u, turn[i][0]), v, turn[i][1]);
     }
-    return widen(s, points, 2, directions);
+    return widen_simplex(s, points, 2, directions);
 }
 
-static bool widen_plane(search *s, tl_pair_point *points)
+static bool widen_plane(epa_search *s, tl_minkowski_point *points)
 {
     tl_vec3d n = tl_vec3d_cross(tl_vec3d_sub(points[1].w, points[0].w), tl_vec3d_sub(points[2].w, points[0].w));
     double length = tl_vec3d_length(n);
@@ -104,25 +104,25 @@ static bool widen_plane(search *s, tl_pair_point *points)
         return false;
     }
     n = tl_vec3d_scale(n, 1.0 / length);
-    tl_pair_point up, down;
-    ask(s, n, 1.0, &up);
-    ask(s, tl_vec3d_neg(n), 1.0, &down);
+    tl_minkowski_point up, down;
+    probe(s, n, 1.0, &up);
+    probe(s, tl_vec3d_neg(n), 1.0, &down);
     double height = tl_vec3d_dot(n, tl_vec3d_sub(up.w, points[0].w)),
            depth = -tl_vec3d_dot(n, tl_vec3d_sub(down.w, points[0].w));
     points[3] = height > depth ? up : down;
-    return (height > depth ? height : depth) > 4.0 * noise_of(s);
+    return (height > depth ? height : depth) > 4.0 * epa_noise(s);
 }
 
 // Points of A and B whose difference is a triangle's point nearest to the origin. Returns how far that is from where
 // the depth and the normal say.
-static double witness_on(const search *s, const tl_polytope *p, const uint8_t vertices[3], tl_vec3d *on_a,
+static double witness_on(const epa_search *s, const tl_polytope *p, const uint8_t vertices[3], tl_vec3d *on_a,
                          tl_vec3d *on_b)
 {
     tl_simplex triangle;
     triangle.count = 3;
     for (int i = 0; i < 3; i++) {
         const tl_polytope_vertex *v = &p->vertices[vertices[i]];
-        tl_pair_point point = { v->w, v->a, TL_NO_VERTEX, TL_NO_VERTEX };
+        tl_minkowski_point point = { v->w, v->a, TL_NO_VERTEX, TL_NO_VERTEX };
         triangle.points[i] = point;
     }
     tl_vec3d nearest = tl_simplex_nearest(&triangle);
@@ -132,9 +132,9 @@ static double witness_on(const search *s, const tl_polytope *p, const uint8_t ve
 
 // A face of A - B is often several triangles, and the one that was asked last need not hold the origin's foot: of all
 // that are as near, take the one that does.
-static void find_witness(search *s, const tl_polytope *p, const uint8_t best_vertices[3])
+static void find_epa_witness(epa_search *s, const tl_polytope *p, const uint8_t best_vertices[3])
 {
-    double gap = DEPTH_GAP * s->reach;
+    double gap = EPA_DEPTH_GAP * s->reach;
     double key = p->keys[tl_polytope_nearest_face(p)], reach = sqrt(fmax(key, 0.0)) + gap;
     double best = witness_on(s, p, best_vertices, &s->depth->on_a, &s->depth->on_b);
     for (uint32_t f = 0; f < p->face_count && best > gap; f++) {
@@ -156,22 +156,22 @@ static void find_witness(search *s, const tl_polytope *p, const uint8_t best_ver
     s->depth->on_b = tl_vec3d_mul_add(s->depth->on_b, off, 0.5);
 }
 
-static void expand(search *s, tl_polytope *p)
+static void expand_polytope(epa_search *s, tl_polytope *p)
 {
     uint8_t best_vertices[3] = { 0, 1, 2 };
-    tl_depth *depth = s->depth;
+    tl_core_depth *depth = s->depth;
     depth->upper = (double)INFINITY; // what the start asked is found again where it matters, with its triangle
     for (;;) {
         uint32_t f = tl_polytope_nearest_face(p);
         const tl_vec3d normal = p->faces[f].normal;
         double scale = 1.0 / sqrt(p->faces[f].normal_sq), distance = p->faces[f].offset * scale;
-        tl_pair_point point;
-        if (ask(s, normal, scale, &point)) {
+        tl_minkowski_point point;
+        if (probe(s, normal, scale, &point)) {
             for (int i = 0; i < 3; i++) {
                 best_vertices[i] = p->origins[4 * f + (uint32_t)i];
             }
         }
-        double noise = noise_of(s), lower = distance - noise, gap = DEPTH_GAP * s->reach;
+        double noise = epa_noise(s), lower = distance - noise, gap = EPA_DEPTH_GAP * s->reach;
         depth->lower = lower > depth->lower ? lower : depth->lower;
         if (depth->upper - depth->lower <= gap || tl_vec3d_dot(normal, point.w) * scale - distance <= 2.0 * noise) {
             depth->status = depth->upper - depth->lower <= gap + 4.0 * s->pair->direction_error ? TL_CONVEX_CONVERGED
@@ -184,16 +184,16 @@ static void expand(search *s, tl_polytope *p)
         }
         depth->iterations++;
     }
-    find_witness(s, p, best_vertices);
+    find_epa_witness(s, p, best_vertices);
 }
 
-void tl_epa_run(tl_pair *pair, const tl_gjk *gjk, tl_depth *depth)
+void tl_epa_run(tl_minkowski *pair, const tl_gjk *gjk, tl_core_depth *depth)
 {
-    tl_pair_point points[4];
-    search s = { pair, 0.0, depth };
+    tl_minkowski_point points[4];
+    epa_search s = { pair, 0.0, depth };
     memset(depth, 0, sizeof *depth);
     depth->upper = (double)INFINITY;
-    tl_pair_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
+    tl_minkowski_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
     for (uint32_t i = 0; i < gjk->simplex.count; i++) {
         points[i] = gjk->simplex.points[i];
         grow_reach(&s, &points[i]);
@@ -206,6 +206,6 @@ void tl_epa_run(tl_pair *pair, const tl_gjk *gjk, tl_depth *depth)
     if (solid) {
         tl_polytope polytope;
         tl_polytope_init(&polytope, points);
-        expand(&s, &polytope);
+        expand_polytope(&s, &polytope);
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The face of a shape that looks most along a direction.
+// The face of a shape whose normal is closest to a direction: the one that rests on another shape.
 //
 // A hull of few faces is scanned. On one of many the search begins at the faces around the support vertex, whose
 // normals are the corners of the region of directions that this one lies in, and climbs: from a face to the best of
@@ -21,7 +21,7 @@ typedef struct candidate {
 } candidate;
 
 // Takes the face's place where it looks more along the direction; the lower one of equals.
-static void ask(candidate *best, uint32_t face)
+static void consider_face(candidate *best, uint32_t face)
 {
     const tl_hull_plane_block *block = &tl_hull_plane_blocks(best->hull)[face / 8];
     uint32_t lane = face % 8;
@@ -33,12 +33,12 @@ static void ask(candidate *best, uint32_t face)
     }
 }
 
-static void ask_around(candidate *best, uint32_t vertex)
+static void consider_faces_around(candidate *best, uint32_t vertex)
 {
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(best->hull);
     uint32_t first = tl_hull_vertex_edges(best->hull)[vertex], edge = first;
     do {
-        ask(best, half_edges[edge].face);
+        consider_face(best, half_edges[edge].face);
         edge = half_edges[half_edges[edge].twin].next;
     } while (edge != first);
 }
@@ -47,12 +47,12 @@ static void ask_around(candidate *best, uint32_t vertex)
 static void climb(candidate *best)
 {
     uint32_t from;
-    ask_around(best, tl_hull_support(best->hull, tl_vec3d_to_float(best->direction), TL_NO_VERTEX));
+    consider_faces_around(best, tl_hull_support(best->hull, tl_vec3d_to_float(best->direction), TL_NO_VERTEX));
     do {
         from = best->face;
         tl_hull_face face = tl_hull_faces(best->hull)[from];
         for (uint32_t i = 0; i < face.count; i++) {
-            ask_around(best, tl_hull_half_edges(best->hull)[face.first + i].origin);
+            consider_faces_around(best, tl_hull_half_edges(best->hull)[face.first + i].origin);
         }
     } while (best->face != from);
 }
@@ -64,7 +64,7 @@ static void hull_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
         climb(&best);
     } else {
         for (uint32_t f = 0; f < shape->hull->face_count; f++) {
-            ask(&best, f);
+            consider_face(&best, f);
         }
     }
     face->facet = tl_facet_around(shape->hull, best.face);

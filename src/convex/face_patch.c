@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// The corners of what two convex faces have in common: each edge of one is cut to what lies within the other (Cyrus and
-// Beck, Generalized Two- and Three-Dimensional Clipping, 1978), and the ends of all pieces are the corners. Against
-// clipping the whole polygon edge by edge (Sutherland and Hodgman) this needs no room for the polygon, so faces of any
-// number of corners do, without allocation: some edges of one at a time are taken around the other.
+// The corners of what two convex faces have in common: each edge of one is clipped to what lies within the other
+// (Cyrus and Beck, Generalized Two- and Three-Dimensional Clipping, 1978), and the ends of all pieces are the corners.
+// Against clipping the whole polygon edge by edge (Sutherland and Hodgman) this needs no room for the polygon, so faces
+// of any number of corners do, without allocation: some edges of one at a time are taken around the other.
 
 #include "convex/face_patch.h"
 
 #include "math/tolerance.h"
 
-// Faces whose edges coincide are cut at the same place: to four float roundings of their size.
+// Faces whose edges coincide are clipped at the same place: to four float roundings of their size.
 #define EDGE_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
 
 // A face that is steeper than 60 degrees to the normal is no face to rest on.
@@ -29,20 +29,20 @@ typedef struct clipper {
     uint32_t count;
 } clipper;
 
-static point2 project(const clipper *c, const tl_face *face, uint32_t at)
+static point2 project_corner(const clipper *c, const tl_face *face, uint32_t at)
 {
     tl_vec3d p = tl_face_corner(face, at);
     point2 q = { tl_vec3d_dot(c->patch->u, p), tl_vec3d_dot(c->patch->v, p) };
     return q;
 }
 
-static double height(const clipper *c, const tl_face *face, point2 p)
+static double height_on_face(const clipper *c, const tl_face *face, point2 p)
 {
     tl_vec3d flat = tl_vec3d_mul_add(tl_vec3d_scale(c->patch->u, p.x), c->patch->v, p.y);
     return (face->offset - tl_vec3d_dot(face->normal, flat)) / tl_vec3d_dot(face->normal, c->patch->normal);
 }
 
-static double distance_sq(tl_patch_point p, tl_patch_point q)
+static double patch_distance_sq(tl_patch_point p, tl_patch_point q)
 {
     return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y);
 }
@@ -54,7 +54,7 @@ static double area(tl_patch_point p, tl_patch_point q, tl_patch_point r)
 }
 
 // Keeps the deepest point, the one farthest from it, and the farthest from their line to either side.
-static void reduce(clipper *c)
+static void reduce_to_four(clipper *c)
 {
     uint32_t deepest = 0, far = 0, left = 0, right = 0;
     const tl_patch_point *b = c->buffer;
@@ -62,7 +62,7 @@ static void reduce(clipper *c)
         deepest = b[i].on_b - b[i].on_a < b[deepest].on_b - b[deepest].on_a ? i : deepest;
     }
     for (uint32_t i = 0; i < c->count; i++) {
-        far = distance_sq(b[i], b[deepest]) > distance_sq(b[far], b[deepest]) ? i : far;
+        far = patch_distance_sq(b[i], b[deepest]) > patch_distance_sq(b[far], b[deepest]) ? i : far;
     }
     for (uint32_t i = 0; i < c->count; i++) {
         left = area(b[deepest], b[far], b[i]) > area(b[deepest], b[far], b[left]) ? i : left;
@@ -70,10 +70,10 @@ static void reduce(clipper *c)
     }
     tl_patch_point kept[TL_PATCH_POINTS];
     uint32_t kept_count = 0, chosen[TL_PATCH_POINTS] = { deepest, far, left, right };
-    double length = sqrt(distance_sq(b[deepest], b[far]));
+    double length = sqrt(patch_distance_sq(b[deepest], b[far]));
     for (int i = 0; i < TL_PATCH_POINTS; i++) {
         bool wide = i < 2 || fabs(area(b[deepest], b[far], b[chosen[i]])) > c->gap * length;
-        bool apart = i == 0 || distance_sq(b[chosen[i]], b[deepest]) > c->gap * c->gap;
+        bool apart = i == 0 || patch_distance_sq(b[chosen[i]], b[deepest]) > c->gap * c->gap;
         if (wide && apart) {
             kept[kept_count++] = b[chosen[i]];
         }
@@ -84,15 +84,15 @@ static void reduce(clipper *c)
     c->count = kept_count;
 }
 
-static void emit(clipper *c, point2 p)
+static void add_patch_point(clipper *c, point2 p)
 {
-    tl_patch_point point = { p.x, p.y, height(c, c->a, p), height(c, c->b, p) };
+    tl_patch_point point = { p.x, p.y, height_on_face(c, c->a, p), height_on_face(c, c->b, p) };
     if (point.on_b - point.on_a > c->limit) {
         return;
     }
     c->buffer[c->count++] = point;
     if (c->count == PATCH_BUFFER) {
-        reduce(c);
+        reduce_to_four(c);
     }
 }
 
@@ -103,7 +103,7 @@ typedef struct piece {
 } piece;
 
 // Cuts off what lies to the right of the line, or, when `turn` is -1, to the left.
-static void cut(const clipper *c, piece *e, point2 from, point2 to, double turn)
+static void clip_piece(const clipper *c, piece *e, point2 from, point2 to, double turn)
 {
     double ex = (to.x - from.x) * turn, ey = (to.y - from.y) * turn, length = sqrt(ex * ex + ey * ey);
     // How far inside the ends are.
@@ -119,15 +119,15 @@ static void cut(const clipper *c, piece *e, point2 from, point2 to, double turn)
     }
 }
 
-static void cut_all(clipper *c, piece *pieces, uint32_t count, const tl_face *within, double turn)
+static void clip_pieces(clipper *c, piece *pieces, uint32_t count, const tl_face *within, double turn)
 {
     uint32_t at = within->first;
-    point2 from = project(c, within, at);
+    point2 from = project_corner(c, within, at);
     do {
         at = tl_face_next(within, at);
-        point2 to = project(c, within, at);
+        point2 to = project_corner(c, within, at);
         for (uint32_t i = 0; i < count; i++) {
-            cut(c, &pieces[i], from, to, turn);
+            clip_piece(c, &pieces[i], from, to, turn);
         }
         from = to;
     } while (at != within->first);
@@ -136,8 +136,8 @@ static void cut_all(clipper *c, piece *pieces, uint32_t count, const tl_face *wi
         if (e->low <= e->high) {
             point2 begin = { e->p.x + (e->q.x - e->p.x) * e->low, e->p.y + (e->q.y - e->p.y) * e->low },
                    end = { e->p.x + (e->q.x - e->p.x) * e->high, e->p.y + (e->q.y - e->p.y) * e->high };
-            emit(c, begin);
-            emit(c, end);
+            add_patch_point(c, begin);
+            add_patch_point(c, end);
         }
     }
 }
@@ -147,14 +147,14 @@ static void clip_face(clipper *c, const tl_face *face, const tl_face *within, do
 {
     piece pieces[PIECES];
     uint32_t count = 0, at = face->first;
-    point2 from = project(c, face, at);
+    point2 from = project_corner(c, face, at);
     do {
         at = tl_face_next(face, at);
-        piece next = { from, project(c, face, at), 0.0, 1.0 };
+        piece next = { from, project_corner(c, face, at), 0.0, 1.0 };
         pieces[count++] = next;
         from = next.q;
         if (count == PIECES || at == face->first) {
-            cut_all(c, pieces, count, within, turn);
+            clip_pieces(c, pieces, count, within, turn);
             count = 0;
         }
     } while (at != face->first);
@@ -165,7 +165,7 @@ static double extent(const clipper *c, const tl_face *face)
     double most = 0.0;
     uint32_t at = face->first;
     do {
-        point2 p = project(c, face, at);
+        point2 p = project_corner(c, face, at);
         most = fmax(most, fabs(p.x) + fabs(p.y));
         at = tl_face_next(face, at);
     } while (at != face->first);
@@ -190,7 +190,7 @@ void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double l
     clip_face(&c, a, b, -1.0);
     clip_face(&c, b, a, 1.0);
     if (c.count > 0) {
-        reduce(&c);
+        reduce_to_four(&c);
     }
     for (uint32_t i = 0; i < c.count; i++) {
         patch->points[i] = c.buffer[i];

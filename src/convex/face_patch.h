@@ -6,7 +6,7 @@
 #define TALUS_SRC_CONVEX_FACE_PATCH_H
 
 #include "convex/facet.h"
-#include "convex/proxy.h"
+#include "convex/minkowski.h"
 
 // A face of a hull, a box or a triangle, in A's frame. Its corners are walked from `first`, until that comes again.
 typedef struct tl_face {
@@ -20,7 +20,7 @@ typedef struct tl_face {
 } tl_face;
 
 // face_along.c
-// The face of the shape that looks most along the unit direction. False when the shape has no faces.
+// The face of the shape whose normal is closest to the unit direction. False when the shape has no faces.
 bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direction, tl_face *face_out);
 tl_vec3d tl_face_corner(const tl_face *face, uint32_t at);
 uint32_t tl_face_next(const tl_face *face, uint32_t at);

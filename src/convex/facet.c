@@ -16,19 +16,19 @@
 // through; eight roundings cover a plane whose points were rounded to floats, as in tl_hull_def.flatness.
 #define FLAT_GAP (8.0 * (double)TL_FLOAT_ROUNDING)
 
-static double height(const tl_facet *facet, uint32_t vertex)
+static double height_above(const tl_facet *facet, uint32_t vertex)
 {
     tl_vec3 v = tl_hull_vertices(facet->hull)[vertex];
     const double *n = facet->plane.normal;
     return n[0] * (double)v.x + n[1] * (double)v.y + n[2] * (double)v.z - facet->plane.offset;
 }
 
-static bool holds(const tl_facet *facet, uint32_t face)
+static bool facet_holds(const tl_facet *facet, uint32_t face)
 {
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
     tl_hull_face f = tl_hull_faces(facet->hull)[face];
     for (uint32_t i = 0; face != facet->face && i < f.count; i++) {
-        if (height(facet, half_edges[f.first + i].origin) < -facet->gap) {
+        if (height_above(facet, half_edges[f.first + i].origin) < -facet->gap) {
             return false;
         }
     }
@@ -41,7 +41,7 @@ static uint32_t outline_at(const tl_facet *facet, uint32_t vertex)
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
     uint32_t start = tl_hull_vertex_edges(facet->hull)[vertex], edge = start;
     do {
-        if (holds(facet, half_edges[edge].face) && !holds(facet, half_edges[half_edges[edge].twin].face)) {
+        if (facet_holds(facet, half_edges[edge].face) && !facet_holds(facet, half_edges[half_edges[edge].twin].face)) {
             return edge;
         }
         edge = half_edges[half_edges[edge].twin].next;
@@ -55,7 +55,7 @@ static double along(const tl_facet *facet, tl_vec3d direction, uint32_t vertex)
 }
 
 // The neighbour that is farthest along the direction; the vertex itself when none is farther.
-static uint32_t farther(const tl_facet *facet, tl_vec3d direction, uint32_t vertex)
+static uint32_t farther_neighbour(const tl_facet *facet, tl_vec3d direction, uint32_t vertex)
 {
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
     uint32_t start = tl_hull_vertex_edges(facet->hull)[vertex], edge = start, best = vertex;
@@ -77,7 +77,7 @@ tl_facet tl_facet_around(const tl_hull *hull, uint32_t face)
     tl_vec3d direction = tl_vec3d_perpendicular(tl_vec3d_make(n[0], n[1], n[2]));
     uint32_t vertex = tl_hull_half_edges(hull)[facet.first].origin, edge = outline_at(&facet, vertex);
     while (edge == TL_NO_VERTEX) {
-        uint32_t next = farther(&facet, direction, vertex);
+        uint32_t next = farther_neighbour(&facet, direction, vertex);
         if (next == vertex) {
             facet.gap = -(double)INFINITY; // rounding: the face alone
             return facet;
@@ -93,7 +93,7 @@ uint32_t tl_facet_next(const tl_facet *facet, uint32_t half_edge)
 {
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(facet->hull);
     uint32_t edge = half_edges[half_edge].next;
-    while (holds(facet, half_edges[half_edges[edge].twin].face)) {
+    while (facet_holds(facet, half_edges[half_edges[edge].twin].face)) {
         edge = half_edges[half_edges[edge].twin].next;
     }
     return edge;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// GJK: the distance of two convex shapes is that of the origin from their difference A - B. Walk with a simplex of
-// support points toward the origin; the nearest point of the simplex bounds the distance from above, the support along
-// it from below.
-// Source: Gilbert, Johnson, Keerthi, A Fast Procedure for Computing the Distance Between Complex Objects in
-// Three-Dimensional Space, 1988; the ends by van den Bergen, A Fast and Robust GJK Implementation, 1999.
+// GJK: the distance of two convex shapes is that of the origin from their Minkowski difference A - B. Walk with a
+// simplex of support points toward the origin; the nearest point of the simplex bounds the distance from above, the
+// support along it from below. Source: Gilbert, Johnson, Keerthi, A Fast Procedure for Computing the Distance Between
+// Complex Objects in Three-Dimensional Space, 1988; the ends by van den Bergen, A Fast and Robust GJK Implementation,
+// 1999.
 //
 // There is no tolerance that decides anything but "equal": the walk ends when the bounds meet to float precision, when
 // the support brings nothing new, or when rounding allows no progress; and the bounds hold in each case.
@@ -17,13 +17,13 @@
 #define BOUND_GAP ((double)TL_FLOAT_ROUNDING)
 
 // A point of A - B is a difference of two rotated points: less than 16 roundings of their size.
-#define POINT_ERROR TL_DOUBLE_GAMMA(16)
+#define GJK_POINT_ERROR TL_DOUBLE_GAMMA(16)
 
-static bool start_from_cache(tl_pair *pair, const tl_simplex_cache *cache, tl_simplex *simplex)
+static bool start_from_cache(tl_minkowski *pair, const tl_simplex_cache *cache, tl_simplex *simplex)
 {
     simplex->count = 0;
     for (uint32_t i = 0; i < cache->count && i < 4; i++) {
-        if (!tl_pair_vertex(pair, cache->vertex_a[i], cache->vertex_b[i], &simplex->points[simplex->count])) {
+        if (!tl_minkowski_vertex(pair, cache->vertex_a[i], cache->vertex_b[i], &simplex->points[simplex->count])) {
             return false;
         }
         simplex->count++;
@@ -40,28 +40,28 @@ static void store_cache(const tl_simplex *simplex, tl_simplex_cache *cache)
     }
 }
 
-static void start(tl_pair *pair, const tl_simplex_cache *cache, tl_gjk *gjk)
+static void start_walk(tl_minkowski *pair, const tl_simplex_cache *cache, tl_gjk *gjk)
 {
     gjk->lower = -(double)INFINITY;
     gjk->overlap = false;
     gjk->iterations = 0;
     if (cache == NULL || !start_from_cache(pair, cache, &gjk->simplex)) {
-        tl_pair_support(pair, tl_vec3d_neg(tl_pair_offset(pair)), &gjk->simplex.points[0]);
+        tl_minkowski_support(pair, tl_vec3d_neg(tl_minkowski_offset(pair)), &gjk->simplex.points[0]);
         gjk->simplex.count = 1;
         gjk->simplex.weights[0] = 1.0;
         gjk->nearest = gjk->simplex.points[0].w;
     } else {
-        tl_pair_set_hints(pair, gjk->simplex.points[0].vertex_a, gjk->simplex.points[0].vertex_b);
+        tl_minkowski_set_hints(pair, gjk->simplex.points[0].vertex_a, gjk->simplex.points[0].vertex_b);
         gjk->nearest = tl_simplex_nearest(&gjk->simplex);
     }
     gjk->upper = tl_vec3d_length(gjk->nearest);
 }
 
 // One step: false when the walk is over.
-static bool advance(tl_pair *pair, double decide_at, tl_gjk *gjk)
+static bool gjk_step(tl_minkowski *pair, double decide_at, tl_gjk *gjk)
 {
     gjk->status = TL_CONVEX_CONVERGED;
-    double noise = POINT_ERROR * pair->scale; // distances below this cannot be told from zero
+    double noise = GJK_POINT_ERROR * pair->scale; // distances below this cannot be told from zero
     if (gjk->simplex.count == 4 || gjk->upper <= noise) {
         gjk->overlap = true;
         gjk->upper = gjk->lower = 0.0;
@@ -71,8 +71,8 @@ static bool advance(tl_pair *pair, double decide_at, tl_gjk *gjk)
     if (gjk->upper <= decide_at) {
         return false;
     }
-    tl_pair_point *point = &gjk->simplex.points[gjk->simplex.count];
-    tl_pair_support(pair, tl_vec3d_neg(gjk->nearest), point);
+    tl_minkowski_point *point = &gjk->simplex.points[gjk->simplex.count];
+    tl_minkowski_support(pair, tl_vec3d_neg(gjk->nearest), point);
     double lower = tl_vec3d_dot(gjk->nearest, point->w) / gjk->upper - pair->direction_error - noise;
     if (lower > gjk->lower) {
         // The nearest point of a curved shape settles before its direction does: the best one is kept.
@@ -103,10 +103,10 @@ static bool advance(tl_pair *pair, double decide_at, tl_gjk *gjk)
     return true;
 }
 
-void tl_gjk_run(tl_pair *pair, tl_simplex_cache *cache, double decide_at, tl_gjk *gjk)
+void tl_gjk_run(tl_minkowski *pair, tl_simplex_cache *cache, double decide_at, tl_gjk *gjk)
 {
-    start(pair, cache, gjk);
-    while (advance(pair, decide_at, gjk)) {
+    start_walk(pair, cache, gjk);
+    while (gjk_step(pair, decide_at, gjk)) {
         if (++gjk->iterations == TL_MAX_GJK_ITERATIONS) {
             gjk->status = TL_CONVEX_ITERATIONS;
             break;

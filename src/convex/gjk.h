@@ -16,6 +16,6 @@ typedef struct tl_gjk {
 } tl_gjk;
 
 // Runs until the bounds meet, or, with decide_at >= 0, until it is known on which side of decide_at the distance lies.
-void tl_gjk_run(tl_pair *pair, tl_simplex_cache *cache, double decide_at, tl_gjk *gjk);
+void tl_gjk_run(tl_minkowski *pair, tl_simplex_cache *cache, double decide_at, tl_gjk *gjk);
 
 #endif

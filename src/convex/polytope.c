@@ -2,13 +2,13 @@
 //
 // Incremental hull of at most TL_POLYTOPE_VERTICES points, on the stack.
 //
-// A point sees a face also when it lies in the face's plane, to within rounding. Then a rim's edge always has a face
-// behind it that the point is clearly below, so the point is not on the edge's line and no new triangle is a sliver;
-// coplanar triangles are merely fanned anew. Seeing only what is strictly in front (the usual choice) makes slivers
-// whose normals point anywhere, and is why EPA has its name for failing on boxes.
+// A point sees a face also when it lies in the face's plane, to within rounding. Then a rim's edge always has a
+// face behind it that the point is clearly below, so the point is not on the edge's line and no new triangle is a
+// sliver; coplanar triangles are merely fanned anew. Seeing only what is strictly in front (the usual choice) makes
+// slivers whose normals point anywhere, and is why EPA has its name for failing on boxes.
 //
-// The faces that a point sees are walked depth first, the edges of each in their order. So the edges of the rim are met
-// in the order of the rim, and need no table to be sorted by.
+// The faces that a point sees are walked depth first, the edges of each in their order. So the edges of the rim
+// are met in the order of the rim, and need no table to be sorted by.
 
 #include "convex/polytope.h"
 
@@ -27,14 +27,14 @@ static void set_plane(tl_polytope *p, uint32_t f, tl_vec3d last, tl_vec3d to_fir
     p->keys[f] = normal_sq > 0.0 ? offset * fabs(offset) / normal_sq : (double)INFINITY;
 }
 
-static uint8_t add_vertex(tl_polytope *p, const tl_pair_point *point)
+static uint8_t add_polytope_vertex(tl_polytope *p, const tl_minkowski_point *point)
 {
     p->vertices[p->vertex_count].w = point->w;
     p->vertices[p->vertex_count].a = point->a;
     return (uint8_t)p->vertex_count++;
 }
 
-void tl_polytope_init(tl_polytope *p, const tl_pair_point points[4])
+void tl_polytope_init(tl_polytope *p, const tl_minkowski_point points[4])
 {
     static const uint8_t corners[4][3] = { { 0, 1, 2 }, { 0, 3, 1 }, { 0, 2, 3 }, { 1, 3, 2 } };
     static const uint8_t twins[4][3] = { { 6, 14, 8 }, { 10, 12, 0 }, { 2, 13, 4 }, { 5, 9, 1 } };
@@ -44,10 +44,10 @@ void tl_polytope_init(tl_polytope *p, const tl_pair_point points[4])
              w = tl_vec3d_sub(points[3].w, points[0].w);
     // Face 0 looks away from point 3.
     bool flip = tl_vec3d_dot(tl_vec3d_cross(u, v), w) > 0.0;
-    add_vertex(p, &points[0]);
-    add_vertex(p, &points[flip ? 2 : 1]);
-    add_vertex(p, &points[flip ? 1 : 2]);
-    add_vertex(p, &points[3]);
+    add_polytope_vertex(p, &points[0]);
+    add_polytope_vertex(p, &points[flip ? 2 : 1]);
+    add_polytope_vertex(p, &points[flip ? 1 : 2]);
+    add_polytope_vertex(p, &points[3]);
     for (uint32_t f = 0; f < 4; f++) {
         for (uint32_t i = 0; i < 3; i++) {
             p->origins[4 * f + i] = corners[f][i];
@@ -70,7 +70,7 @@ uint32_t tl_polytope_nearest_face(const tl_polytope *p)
     return best;
 }
 
-static bool sees(const tl_polytope_face *face, tl_vec3d point, double coplanar_sq)
+static bool point_sees(const tl_polytope_face *face, tl_vec3d point, double coplanar_sq)
 {
     double above = tl_vec3d_dot(face->normal, point) - face->offset;
     return above > 0.0 || above * above < coplanar_sq * face->normal_sq;
@@ -93,7 +93,7 @@ typedef struct view {
     uint32_t seen_count, rim_count;
 } view;
 
-static void look(tl_polytope *p, uint32_t first, tl_vec3d point, double coplanar_sq, view *v)
+static void find_visible(tl_polytope *p, uint32_t first, tl_vec3d point, double coplanar_sq, view *v)
 {
     uint16_t stack[TL_POLYTOPE_FACES + 2]; // each face seen takes one half-edge off and puts two on
     uint32_t depth = 3, seen_count = 1, rim_count = 0;
@@ -108,7 +108,7 @@ static void look(tl_polytope *p, uint32_t first, tl_vec3d point, double coplanar
         if (face->seen) {
             continue;
         }
-        if (sees(face, point, coplanar_sq)) {
+        if (point_sees(face, point, coplanar_sq)) {
             face->seen = true;
             v->seen[seen_count++] = (uint8_t)(across >> 2);
             stack[depth++] = p->twins[previous_of(across)];
@@ -145,7 +145,7 @@ static uint32_t take_face(tl_polytope *p, const view *v, uint32_t i)
 
 // New triangles from the point to each edge of the rim. Half-edge 0 lies on the rim, 1 beside the next triangle, 2
 // beside the last.
-static void fan(tl_polytope *p, const view *v, uint8_t apex)
+static void fan_to_apex(tl_polytope *p, const view *v, uint8_t apex)
 {
     uint8_t start = p->origins[next_of(v->rim[0])];
     uint32_t first = take_face(p, v, 0), f = first;
@@ -168,20 +168,20 @@ static void fan(tl_polytope *p, const view *v, uint8_t apex)
     }
 }
 
-bool tl_polytope_add(tl_polytope *p, uint32_t face, const tl_pair_point *point, double coplanar)
+bool tl_polytope_add(tl_polytope *p, uint32_t face, const tl_minkowski_point *point, double coplanar)
 {
     view v;
     if (p->vertex_count == TL_POLYTOPE_VERTICES) {
         return false;
     }
-    look(p, face, point->w, coplanar * coplanar, &v);
+    find_visible(p, face, point->w, coplanar * coplanar, &v);
     if (!is_loop(p, &v)) {
         for (uint32_t i = 0; i < v.seen_count; i++) {
             p->faces[v.seen[i]].seen = false;
         }
         return false;
     }
-    fan(p, &v, add_vertex(p, point));
+    fan_to_apex(p, &v, add_polytope_vertex(p, point));
     for (uint32_t i = v.rim_count; i < v.seen_count; i++) {
         p->keys[v.seen[i]] = (double)INFINITY;
         p->faces[v.seen[i]].seen = false;

@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_CONVEX_POLYTOPE_H
 #define TALUS_SRC_CONVEX_POLYTOPE_H
 
-#include "convex/proxy.h"
+#include "convex/minkowski.h"
 
 #include <assert.h>
 
@@ -42,7 +42,7 @@ static_assert(TL_POLYTOPE_FACES <= UINT8_MAX, "indices have eight bits");
 static_assert(sizeof(tl_polytope) <= 26 * 1024, "a query's stack is bounded");
 
 // From four points that are not in one plane. The points need not contain the origin.
-void tl_polytope_init(tl_polytope *polytope, const tl_pair_point points[4]);
+void tl_polytope_init(tl_polytope *polytope, const tl_minkowski_point points[4]);
 
 uint32_t tl_polytope_nearest_face(const tl_polytope *polytope);
 
@@ -54,6 +54,6 @@ static inline const tl_polytope_vertex *tl_polytope_corner(const tl_polytope *po
 // Grows to the hull with the point, which lies more than `coplanar` metres in front of the face. A face that the point
 // is less than `coplanar` behind is seen too. False, with nothing changed, when the polytope is full or rounding made
 // the rim of what the point sees not one loop.
-bool tl_polytope_add(tl_polytope *polytope, uint32_t face, const tl_pair_point *point, double coplanar);
+bool tl_polytope_add(tl_polytope *polytope, uint32_t face, const tl_minkowski_point *point, double coplanar);
 
 #endif

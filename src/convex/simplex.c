@@ -18,7 +18,7 @@
 
 // Each of the functions below takes the place of `best` when it has found a nearer point.
 
-static void ask_point(const tl_simplex *s, uint32_t i, tl_simplex_point *best)
+static void try_point(const tl_simplex *s, uint32_t i, tl_simplex_point *best)
 {
     double distance_sq = tl_vec3d_dot(s->points[i].w, s->points[i].w);
     if (distance_sq < best->distance_sq) {
@@ -30,16 +30,16 @@ static void ask_point(const tl_simplex *s, uint32_t i, tl_simplex_point *best)
     }
 }
 
-static void ask_segment(const tl_simplex *s, uint32_t i, uint32_t j, tl_simplex_point *best)
+static void try_segment(const tl_simplex *s, uint32_t i, uint32_t j, tl_simplex_point *best)
 {
     const tl_vec3d a = s->points[i].w, d = tl_vec3d_sub(s->points[j].w, a);
     double along = -tl_vec3d_dot(a, d), length_sq = tl_vec3d_dot(d, d);
     if (!(along > 0.0)) {
-        ask_point(s, i, best);
+        try_point(s, i, best);
         return;
     }
     if (!(along < length_sq)) {
-        ask_point(s, j, best);
+        try_point(s, j, best);
         return;
     }
     double t = along / length_sq;
@@ -57,7 +57,7 @@ static void ask_segment(const tl_simplex *s, uint32_t i, uint32_t j, tl_simplex_
 }
 
 // `all`: the edge from i to j too.
-static void ask_triangle(const tl_simplex *s, uint32_t i, uint32_t j, uint32_t k, bool all, tl_simplex_point *best)
+static void try_triangle(const tl_simplex *s, uint32_t i, uint32_t j, uint32_t k, bool all, tl_simplex_point *best)
 {
     const tl_vec3d a = s->points[i].w, b = s->points[j].w, c = s->points[k].w;
     tl_vec3d n = tl_vec3d_cross(tl_vec3d_sub(b, a), tl_vec3d_sub(c, a));
@@ -84,13 +84,13 @@ static void ask_triangle(const tl_simplex *s, uint32_t i, uint32_t j, uint32_t k
         return;
     }
     if (all) {
-        ask_segment(s, i, j, best);
+        try_segment(s, i, j, best);
     }
-    ask_segment(s, j, k, best);
-    ask_segment(s, i, k, best);
+    try_segment(s, j, k, best);
+    try_segment(s, i, k, best);
 }
 
-static void ask_tetrahedron(const tl_simplex *s, bool all, tl_simplex_point *best)
+static void try_tetrahedron(const tl_simplex *s, bool all, tl_simplex_point *best)
 {
     const tl_vec3d a = s->points[0].w, b = s->points[1].w, c = s->points[2].w, d = s->points[3].w;
     tl_vec3d u = tl_vec3d_sub(b, a), v = tl_vec3d_sub(c, a), w = tl_vec3d_sub(d, a);
@@ -118,20 +118,20 @@ static void ask_tetrahedron(const tl_simplex *s, bool all, tl_simplex_point *bes
         return;
     }
     if (out[0]) {
-        ask_triangle(s, 1, 2, 3, all, best);
+        try_triangle(s, 1, 2, 3, all, best);
     }
     if (out[1]) {
-        ask_triangle(s, 0, 2, 3, all, best);
+        try_triangle(s, 0, 2, 3, all, best);
     }
     if (out[2]) {
-        ask_triangle(s, 0, 1, 3, all, best);
+        try_triangle(s, 0, 1, 3, all, best);
     }
     if (all && out[3]) {
-        ask_triangle(s, 0, 1, 2, all, best);
+        try_triangle(s, 0, 1, 2, all, best);
     }
 }
 
-static void solve(const tl_simplex *simplex, bool all, tl_simplex_point *best)
+static void solve_simplex(const tl_simplex *simplex, bool all, tl_simplex_point *best)
 {
     best->point = simplex->points[0].w; // what remains when nothing compares: a point that is not finite
     best->distance_sq = (double)INFINITY;
@@ -140,27 +140,27 @@ static void solve(const tl_simplex *simplex, bool all, tl_simplex_point *best)
     best->weight[0] = 1.0;
     switch (simplex->count) {
     case 1:
-        ask_point(simplex, 0, best);
+        try_point(simplex, 0, best);
         break;
     case 2:
-        ask_segment(simplex, 0, 1, best);
+        try_segment(simplex, 0, 1, best);
         break;
     case 3:
-        ask_triangle(simplex, 0, 1, 2, all, best);
+        try_triangle(simplex, 0, 1, 2, all, best);
         break;
     default:
-        ask_tetrahedron(simplex, all, best);
+        try_tetrahedron(simplex, all, best);
     }
 }
 
 void tl_simplex_solve(const tl_simplex *simplex, tl_simplex_point *nearest_out)
 {
-    solve(simplex, true, nearest_out);
+    solve_simplex(simplex, true, nearest_out);
 }
 
 void tl_simplex_solve_last(const tl_simplex *simplex, tl_simplex_point *nearest_out)
 {
-    solve(simplex, false, nearest_out);
+    solve_simplex(simplex, false, nearest_out);
 }
 
 void tl_simplex_keep(tl_simplex *simplex, const tl_simplex_point *nearest)
@@ -186,7 +186,7 @@ void tl_simplex_witness(const tl_simplex *simplex, tl_vec3d *on_a_out, tl_vec3d 
 {
     tl_vec3d on_a = tl_vec3d_make(0.0, 0.0, 0.0), on_b = on_a;
     for (uint32_t i = 0; i < simplex->count; i++) {
-        const tl_pair_point *p = &simplex->points[i];
+        const tl_minkowski_point *p = &simplex->points[i];
         on_a = tl_vec3d_mul_add(on_a, p->a, simplex->weights[i]);
         on_b = tl_vec3d_mul_add(on_b, tl_vec3d_sub(p->a, p->w), simplex->weights[i]);
     }

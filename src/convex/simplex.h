@@ -5,11 +5,11 @@
 #ifndef TALUS_SRC_CONVEX_SIMPLEX_H
 #define TALUS_SRC_CONVEX_SIMPLEX_H
 
-#include "convex/proxy.h"
+#include "convex/minkowski.h"
 
 typedef struct tl_simplex {
     uint32_t count; // 1 .. 4
-    tl_pair_point points[4];
+    tl_minkowski_point points[4];
     double weights[4]; // of the nearest point; >= 0, sum 1
 } tl_simplex;
 
@@ -35,7 +35,7 @@ void tl_simplex_keep(tl_simplex *simplex, const tl_simplex_point *nearest);
 // When the origin lies inside of four points all stay, and the result is zero.
 tl_vec3d tl_simplex_nearest(tl_simplex *simplex);
 
-static inline bool tl_simplex_holds(const tl_simplex *simplex, const tl_pair_point *point)
+static inline bool tl_simplex_holds(const tl_simplex *simplex, const tl_minkowski_point *point)
 {
     for (uint32_t i = 0; i < simplex->count; i++) {
         const tl_vec3d *w = &simplex->points[i].w;

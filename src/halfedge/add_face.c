@@ -46,17 +46,17 @@ typedef struct new_face {
     uint32_t known[KNOWN_EDGES]; // the half-edge from each vertex to the next, or none
 } new_face;
 
-static uint32_t find_side(const tl_halfedge_mesh *mesh, const new_face *face, uint32_t i)
+static uint32_t find_face_side(const tl_halfedge_mesh *mesh, const new_face *face, uint32_t i)
 {
     return tl_halfedge_mesh_find_edge(mesh, face->vertices[i], face->vertices[i + 1 < face->count ? i + 1 : 0]);
 }
 
-static uint32_t side(const tl_halfedge_mesh *mesh, const new_face *face, uint32_t i)
+static uint32_t face_side(const tl_halfedge_mesh *mesh, const new_face *face, uint32_t i)
 {
-    return i < KNOWN_EDGES ? face->known[i] : find_side(mesh, face, i);
+    return i < KNOWN_EDGES ? face->known[i] : find_face_side(mesh, face, i);
 }
 
-static tl_result check_vertices(tl_halfedge_mesh *mesh, const new_face *face)
+static tl_result check_face_vertices(tl_halfedge_mesh *mesh, const new_face *face)
 {
     if (mesh == NULL || face->vertices == NULL || face->count < 3) {
         return TL_ERR_ARGUMENT;
@@ -83,11 +83,11 @@ static tl_result check_vertices(tl_halfedge_mesh *mesh, const new_face *face)
 }
 
 // What the edges say; which are there.
-static tl_result check_edges(const tl_halfedge_mesh *mesh, new_face *face)
+static tl_result check_face_edges(const tl_halfedge_mesh *mesh, new_face *face)
 {
     face->missing = 0;
     for (uint32_t i = 0; i < face->count; i++) {
-        uint32_t edge = find_side(mesh, face, i);
+        uint32_t edge = find_face_side(mesh, face, i);
         if (i < KNOWN_EDGES) {
             face->known[i] = edge;
         }
@@ -101,7 +101,7 @@ static tl_result check_edges(const tl_halfedge_mesh *mesh, new_face *face)
     return TL_OK;
 }
 
-static tl_result check_corner(const tl_halfedge_mesh *mesh, uint32_t vertex, uint32_t incoming, uint32_t outgoing)
+static tl_result check_face_corner(const tl_halfedge_mesh *mesh, uint32_t vertex, uint32_t incoming, uint32_t outgoing)
 {
     if (incoming == TL_HALFEDGE_NONE && outgoing == TL_HALFEDGE_NONE) {
         bool isolated = mesh->vertices[vertex].edge == TL_HALFEDGE_NONE;
@@ -114,12 +114,12 @@ static tl_result check_corner(const tl_halfedge_mesh *mesh, uint32_t vertex, uin
     return TL_OK;
 }
 
-static tl_result check_corners(const tl_halfedge_mesh *mesh, const new_face *face)
+static tl_result check_face_corners(const tl_halfedge_mesh *mesh, const new_face *face)
 {
-    uint32_t incoming = side(mesh, face, face->count - 1);
+    uint32_t incoming = face_side(mesh, face, face->count - 1);
     for (uint32_t i = 0; i < face->count; i++) {
-        uint32_t outgoing = side(mesh, face, i);
-        TL_TRY(check_corner(mesh, face->vertices[i], incoming, outgoing));
+        uint32_t outgoing = face_side(mesh, face, i);
+        TL_TRY(check_face_corner(mesh, face->vertices[i], incoming, outgoing));
         incoming = outgoing;
     }
     return TL_OK;
@@ -169,7 +169,7 @@ static uint32_t link_face(tl_halfedge_mesh *mesh, const new_face *face)
     uint32_t index = tl_halfedge_take_face(mesh), count = face->count;
     const uint32_t *vertices = face->vertices;
     // The edge into the first corner, then each edge out of a corner; a corner is linked when both are there.
-    uint32_t last = side(mesh, face, count - 1);
+    uint32_t last = face_side(mesh, face, count - 1);
     bool last_new = last == TL_HALFEDGE_NONE;
     if (last_new) {
         last = tl_halfedge_take_edge(mesh, vertices[count - 1], vertices[0]);
@@ -178,7 +178,7 @@ static uint32_t link_face(tl_halfedge_mesh *mesh, const new_face *face)
     bool incoming_new = last_new;
     mesh->faces[index].edge = last;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t outgoing = i + 1 < count ? side(mesh, face, i) : last;
+        uint32_t outgoing = i + 1 < count ? face_side(mesh, face, i) : last;
         bool outgoing_new = i + 1 < count ? outgoing == TL_HALFEDGE_NONE : last_new;
         if (outgoing == TL_HALFEDGE_NONE) {
             outgoing = tl_halfedge_take_edge(mesh, vertices[i], vertices[i + 1]);
@@ -202,9 +202,9 @@ tl_result tl_halfedge_mesh_add_face(tl_halfedge_mesh *mesh, const uint32_t *vert
     new_face face;
     face.vertices = vertices;
     face.count = count;
-    TL_TRY(check_vertices(mesh, &face));
-    TL_TRY(check_edges(mesh, &face));
-    TL_TRY(check_corners(mesh, &face));
+    TL_TRY(check_face_vertices(mesh, &face));
+    TL_TRY(check_face_edges(mesh, &face));
+    TL_TRY(check_face_corners(mesh, &face));
     TL_TRY(tl_halfedge_reserve(mesh, 1, face.missing));
     uint32_t index = link_face(mesh, &face);
     if (face_out != NULL) {

@@ -179,7 +179,7 @@ static tl_result check_pool_counts(const tl_halfedge_mesh *mesh, const census *l
     return TL_OK;
 }
 
-static tl_result check_mesh(const tl_halfedge_mesh *mesh, uint8_t *seen, tl_report *report)
+static tl_result check_halfedge_mesh(const tl_halfedge_mesh *mesh, uint8_t *seen, tl_report *report)
 {
     census live = { 0, 0, 0, 0 };
     TL_TRY(check_half_edges(mesh, &live, report));
@@ -203,7 +203,7 @@ tl_result tl_halfedge_mesh_check(const tl_halfedge_mesh *mesh, tl_report *report
         return TL_ERR_MEMORY;
     }
     memset(seen, 0, mesh->edge_end);
-    tl_result result = check_mesh(mesh, seen, report_out);
+    tl_result result = check_halfedge_mesh(mesh, seen, report_out);
     tl_release_array(&mesh->allocator, seen, mesh->edge_end, sizeof *seen);
     return result;
 }

@@ -7,7 +7,7 @@
 
 #include "base/assert.h"
 
-static void remove_edge(tl_halfedge_mesh *mesh, uint32_t edge)
+static void unlink_edge(tl_halfedge_mesh *mesh, uint32_t edge)
 {
     uint32_t twin = tl_halfedge_twin(edge);
     uint32_t from = mesh->edges[twin].vertex, to = mesh->edges[edge].vertex;
@@ -44,7 +44,7 @@ tl_result tl_halfedge_mesh_remove_face(tl_halfedge_mesh *mesh, uint32_t face)
         uint32_t next = mesh->edges[edge].next;
         if (mesh->edges[tl_halfedge_twin(edge)].face == TL_HALFEDGE_NONE) {
             mesh->boundary_count--;
-            remove_edge(mesh, edge);
+            unlink_edge(mesh, edge);
         } else {
             mesh->boundary_count++;
         }

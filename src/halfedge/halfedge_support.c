@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The support function on the editable mesh: hill climbing with a hint, as in the text, its defects mended.
-// Source: Allen Chou, Game Physics: Implementing Support Function for Polyhedrons using Half Edges, 2013.
+// The support function on the editable mesh: hill climbing with a hint, as in Chou's article, with its defects
+// corrected. Source: Allen Chou, Game Physics: Implementing Support Function for Polyhedrons using Half Edges, 2013.
 //
 // Comparisons are exact, so there is no epsilon that would depend on the model's size, and a climb strictly gains and
 // ends. When no neighbour is higher the vertex is a maximum of the surface around it, hence of the convex body, with

@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-#define FIRST_CAPACITY 32u
+#define FIRST_POOL_CAPACITY 32u
 
 void tl_halfedge_mesh_init(tl_halfedge_mesh *mesh, const tl_allocator *allocator)
 {
@@ -40,8 +40,8 @@ void tl_halfedge_mesh_clear(tl_halfedge_mesh *mesh)
 }
 
 // Makes room for `more` entries behind `used`.
-static tl_result grow(tl_halfedge_mesh *mesh, void **array, uint32_t *capacity, uint32_t used, uint32_t more,
-                      size_t size)
+static tl_result grow_pool(tl_halfedge_mesh *mesh, void **array, uint32_t *capacity, uint32_t used, uint32_t more,
+                           size_t size)
 {
     if (more <= *capacity - used) {
         return TL_OK;
@@ -49,7 +49,7 @@ static tl_result grow(tl_halfedge_mesh *mesh, void **array, uint32_t *capacity, 
     if (more > TL_MAX_HALFEDGE_ENTRIES - used) {
         return TL_ERR_LIMIT;
     }
-    uint32_t wanted = *capacity < FIRST_CAPACITY ? FIRST_CAPACITY : *capacity;
+    uint32_t wanted = *capacity < FIRST_POOL_CAPACITY ? FIRST_POOL_CAPACITY : *capacity;
     while (wanted < used + more) {
         wanted = wanted > TL_MAX_HALFEDGE_ENTRIES / 2 ? TL_MAX_HALFEDGE_ENTRIES : wanted * 2;
     }
@@ -76,7 +76,7 @@ tl_result tl_halfedge_mesh_add_vertex(tl_halfedge_mesh *mesh, tl_vec3 position, 
         mesh->free_vertex = mesh->vertices[index].link;
     } else {
         void *vertices = mesh->vertices;
-        TL_TRY(grow(mesh, &vertices, &mesh->vertex_capacity, mesh->vertex_end, 1, sizeof *mesh->vertices));
+        TL_TRY(grow_pool(mesh, &vertices, &mesh->vertex_capacity, mesh->vertex_end, 1, sizeof *mesh->vertices));
         mesh->vertices = vertices;
         index = mesh->vertex_end++;
     }
@@ -95,7 +95,7 @@ tl_result tl_halfedge_reserve(tl_halfedge_mesh *mesh, uint32_t faces, uint32_t e
     // One free pair or face may serve the first request; the others are counted in full.
     void *array = mesh->faces;
     if (mesh->free_face == TL_HALFEDGE_NONE || faces > 1) {
-        TL_TRY(grow(mesh, &array, &mesh->face_capacity, mesh->face_end, faces, sizeof *mesh->faces));
+        TL_TRY(grow_pool(mesh, &array, &mesh->face_capacity, mesh->face_end, faces, sizeof *mesh->faces));
         mesh->faces = array;
     }
     uint32_t free_pairs = (mesh->edge_end - mesh->half_edge_count) / 2;
@@ -104,7 +104,8 @@ tl_result tl_halfedge_reserve(tl_halfedge_mesh *mesh, uint32_t faces, uint32_t e
             return TL_ERR_LIMIT;
         }
         array = mesh->edges;
-        TL_TRY(grow(mesh, &array, &mesh->edge_capacity, mesh->edge_end, 2 * (edges - free_pairs), sizeof *mesh->edges));
+        TL_TRY(grow_pool(mesh, &array, &mesh->edge_capacity, mesh->edge_end, 2 * (edges - free_pairs),
+                         sizeof *mesh->edges));
         mesh->edges = array;
     }
     return TL_OK;

@@ -22,6 +22,8 @@
 
 #include "math/predicates.h"
 
+#include "math/vec3d.h"
+
 #include <assert.h>
 #include <float.h>
 
@@ -61,7 +63,7 @@ static inline exact_pair two_sum(double a, double b)
     return r;
 }
 
-static inline exact_pair split(double a)
+static inline exact_pair split_double(double a)
 {
     double c = 134217729.0 * a; // 2^27 + 1
     exact_pair r;
@@ -74,8 +76,8 @@ static inline exact_pair two_product(double a, double b)
 {
     exact_pair r;
     r.head = a * b;
-    exact_pair x = split(a);
-    exact_pair y = split(b);
+    exact_pair x = split_double(a);
+    exact_pair y = split_double(b);
     r.tail = x.tail * y.tail - (((r.head - x.head * y.head) - x.tail * y.head) - x.head * y.tail);
     return r;
 }
@@ -158,7 +160,7 @@ static inline exact_pair negated(exact_pair a)
     return r;
 }
 
-static inline int sign_of(double value)
+static inline int sign_of_double(double value)
 {
     return (value > 0.0) - (value < 0.0);
 }
@@ -187,7 +189,7 @@ int tl_orient2d(float ax, float ay, float bx, float by, float cx, float cy)
     double determinant = left - right;
     double permanent = absolute(left) + absolute(right);
     if (absolute(determinant) > ORIENT2D_BOUND * permanent) {
-        return sign_of(determinant);
+        return sign_of_double(determinant);
     }
     if (permanent == 0.0) {
         return 0;
@@ -245,29 +247,27 @@ static int determinant_exact(const exact_row *u, const exact_row *v, const exact
     return exact_sign(&sum);
 }
 
-// The filter: 0 when it cannot decide, 2 when the determinant is surely zero.
-static inline int determinant_filter(double ux, double uy, double uz, double vx, double vy, double vz, double wx,
-                                     double wy, double wz)
+// The filter for rows u, v, w: 0 when it cannot decide, 2 when the determinant is surely zero.
+static inline int determinant_filter(tl_vec3d u, tl_vec3d v, tl_vec3d w)
 {
-    double uyvz = uy * vz, uzvy = uz * vy;
-    double uzvx = uz * vx, uxvz = ux * vz;
-    double uxvy = ux * vy, uyvx = uy * vx;
-    double determinant = wx * (uyvz - uzvy) + wy * (uzvx - uxvz) + wz * (uxvy - uyvx);
-    double permanent = (absolute(uyvz) + absolute(uzvy)) * absolute(wx) +
-                       (absolute(uzvx) + absolute(uxvz)) * absolute(wy) +
-                       (absolute(uxvy) + absolute(uyvx)) * absolute(wz);
+    double uyvz = u.y * v.z, uzvy = u.z * v.y;
+    double uzvx = u.z * v.x, uxvz = u.x * v.z;
+    double uxvy = u.x * v.y, uyvx = u.y * v.x;
+    double determinant = w.x * (uyvz - uzvy) + w.y * (uzvx - uxvz) + w.z * (uxvy - uyvx);
+    double permanent = (absolute(uyvz) + absolute(uzvy)) * absolute(w.x) +
+                       (absolute(uzvx) + absolute(uxvz)) * absolute(w.y) +
+                       (absolute(uxvy) + absolute(uyvx)) * absolute(w.z);
     if (absolute(determinant) > ORIENT3D_BOUND * permanent) {
-        return sign_of(determinant);
+        return sign_of_double(determinant);
     }
     return permanent == 0.0 ? 2 : 0;
 }
 
 int tl_orient3d(tl_vec3 a, tl_vec3 b, tl_vec3 c, tl_vec3 d)
 {
-    double ax = (double)a.x, ay = (double)a.y, az = (double)a.z;
-    int sign =
-        determinant_filter((double)b.x - ax, (double)b.y - ay, (double)b.z - az, (double)c.x - ax, (double)c.y - ay,
-                           (double)c.z - az, (double)d.x - ax, (double)d.y - ay, (double)d.z - az);
+    tl_vec3d origin = tl_vec3d_from(a);
+    int sign = determinant_filter(tl_vec3d_sub(tl_vec3d_from(b), origin), tl_vec3d_sub(tl_vec3d_from(c), origin),
+                                  tl_vec3d_sub(tl_vec3d_from(d), origin));
     if (sign != 0) {
         return sign == 2 ? 0 : sign;
     }
@@ -279,10 +279,9 @@ int tl_orient3d(tl_vec3 a, tl_vec3 b, tl_vec3 c, tl_vec3 d)
 
 int tl_line_side(tl_vec3 origin, tl_vec3 direction, tl_vec3 a, tl_vec3 b)
 {
-    double ox = (double)origin.x, oy = (double)origin.y, oz = (double)origin.z;
-    int sign =
-        determinant_filter((double)direction.x, (double)direction.y, (double)direction.z, (double)a.x - ox,
-                           (double)a.y - oy, (double)a.z - oz, (double)b.x - ox, (double)b.y - oy, (double)b.z - oz);
+    tl_vec3d from = tl_vec3d_from(origin);
+    int sign = determinant_filter(tl_vec3d_from(direction), tl_vec3d_sub(tl_vec3d_from(a), from),
+                                  tl_vec3d_sub(tl_vec3d_from(b), from));
     if (sign != 0) {
         return sign == 2 ? 0 : sign;
     }
@@ -317,7 +316,7 @@ int tl_compare_along(tl_vec3 direction, tl_vec3 p, tl_vec3 q)
     double sum = (x + y) + z;
     double magnitude = (absolute(x) + absolute(y)) + absolute(z);
     if (absolute(sum) > ALONG_BOUND * magnitude) {
-        return sign_of(sum);
+        return sign_of_double(sum);
     }
     if (magnitude == 0.0) {
         return 0;

@@ -10,6 +10,8 @@
 #ifndef TALUS_SRC_MATH_SIMD_H
 #define TALUS_SRC_MATH_SIMD_H
 
+#include "base/compiler.h"
+
 #include <stdint.h>
 #include <string.h>
 
@@ -28,19 +30,6 @@
 
 #if TL_SIMD_LEVEL > 0
 #include <immintrin.h>
-#endif
-
-/// TL_ALWAYS_INLINE: a kernel's values must stay in registers over its parts. TL_KEEP_BRANCH behind an assignment to
-/// `value`: the branch that leads there stays one. Compilers like to make a conditional move of it, which waits for the
-/// condition where a branch is foretold.
-#if defined(__GNUC__)
-#define TL_ALWAYS_INLINE      inline __attribute__((always_inline))
-#define TL_NOINLINE           __attribute__((noinline))
-#define TL_KEEP_BRANCH(value) __asm__ volatile("" : "+r"(value))
-#else
-#define TL_ALWAYS_INLINE inline
-#define TL_NOINLINE
-#define TL_KEEP_BRANCH(value) ((void)(value))
 #endif
 
 // ----------------------------------------------------------------------------------------------- four floats

@@ -45,7 +45,7 @@ static void link_group(const tl_mesh_view *view, const tl_sort_item *group, uint
     }
 }
 
-static tl_result link_edges(const tl_mesh_view *view, tl_arena *arena, tl_adjacency *adjacency)
+static tl_result link_triangle_edges(const tl_mesh_view *view, tl_arena *arena, tl_adjacency *adjacency)
 {
     uint32_t edge_count = 3 * view->triangle_count;
     tl_sort_item *edges = TL_PUSH(arena, tl_sort_item, edge_count);
@@ -89,7 +89,7 @@ tl_result tl_adjacency_bake(const tl_mesh_view *view, const tl_host *host, tl_ad
     adjacency_out->triangle_count = view->triangle_count;
     tl_arena arena;
     tl_arena_init(&arena, allocator);
-    tl_result result = adjacency_out->across != NULL ? link_edges(view, &arena, adjacency_out) : TL_ERR_MEMORY;
+    tl_result result = adjacency_out->across != NULL ? link_triangle_edges(view, &arena, adjacency_out) : TL_ERR_MEMORY;
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + 3 * (uint64_t)view->triangle_count * sizeof(uint32_t);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Cleaning: what cannot be computed with is refused by name, what has no area or is there twice is dropped and counted.
+// Cleaning: refuses vertices that cannot be computed with, and names them; drops and counts triangles that have no area
+// or repeat another.
 //
 // "No area" is decided exactly: three points are collinear in space when all three coordinate-plane projections are,
 // and each projection is an exact orientation. A relative threshold would drop needles that rays can hit, and leak

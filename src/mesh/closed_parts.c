@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The closed parts of a mesh. Directed edges are sorted by their undirected name; a group of equal names that as many
-// run one way as the other hangs its triangles together (union-find), any other hangs none, so that an open floor does
-// not open the crate that stands on its edge. Then each group is summed part by part: a part is closed when all its
-// sums are 0, which is to say that it has no border.
+// The closed parts of a mesh: connected components without a border. Directed edges are sorted by their undirected key.
+// A group of equal keys connects its triangles (union-find) when as many of them run one way as the other, else none;
+// so an open floor does not open the crate that stands on its edge. Then each group is summed part by part: a part is
+// closed when all its sums are 0.
 //
 // A part's volume is that of the tetrahedra between its triangles and one of its corners.
 // Sources: the border of a chain, Hatcher, Algebraic Topology, 2002, chapter 2.1; Tarjan, Efficiency of a Good But Not
@@ -136,7 +136,7 @@ static void measure_parts(parts_search *s, tl_closed_parts *parts)
     }
 }
 
-static tl_result find_parts(const tl_mesh_view *view, tl_arena *arena, tl_closed_parts *parts)
+static tl_result find_closed_parts(const tl_mesh_view *view, tl_arena *arena, tl_closed_parts *parts)
 {
     const tl_allocator *allocator = &parts->allocator;
     parts_search s;
@@ -178,7 +178,7 @@ tl_result tl_closed_parts_find(const tl_mesh_view *view, const tl_host *host, tl
     parts_out->triangle_count = view->triangle_count;
     tl_arena arena;
     tl_arena_init(&arena, allocator);
-    const tl_result result = find_parts(view, &arena, parts_out);
+    const tl_result result = find_closed_parts(view, &arena, parts_out);
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + parts_out->triangle_count * sizeof *parts_out->part_of +
                                  parts_out->part_count * sizeof *parts_out->volumes;

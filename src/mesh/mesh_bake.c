@@ -91,7 +91,7 @@ typedef struct filler {
     } * sums; // of blocks of vertices
 } filler;
 
-static void fill_vertices(const filler *f, uint32_t block)
+static void fill_mesh_vertices(const filler *f, uint32_t block)
 {
     struct block_sum sum = { tl_aabb_empty(), 0, 0 };
     uint32_t end = tl_block_end(block, BLOCK_ITEMS, f->view->vertex_count);
@@ -108,7 +108,7 @@ static void fill_vertices(const filler *f, uint32_t block)
     f->sums[block] = sum;
 }
 
-static void fill_triangles(const filler *f, uint32_t block)
+static void fill_mesh_triangles(const filler *f, uint32_t block)
 {
     uint32_t end = tl_block_end(block, BLOCK_ITEMS, f->mesh->triangle_count);
     for (uint32_t i = block * BLOCK_ITEMS; i < end; i++) {
@@ -127,9 +127,9 @@ static void fill_block(uint32_t block, uint32_t worker, void *user)
     (void)worker;
     const filler *f = user;
     if (block < f->vertex_blocks) {
-        fill_vertices(f, block);
+        fill_mesh_vertices(f, block);
     } else {
-        fill_triangles(f, block - f->vertex_blocks);
+        fill_mesh_triangles(f, block - f->vertex_blocks);
     }
 }
 

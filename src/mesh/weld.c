@@ -36,7 +36,7 @@ static weld_cell cell_of(const weld_grid *grid, tl_vec3 p)
     return cell;
 }
 
-static uint64_t bits_of(double value)
+static uint64_t cell_bits(double value)
 {
     double without_sign_of_zero = value + 0.0;
     uint64_t bits;
@@ -44,11 +44,11 @@ static uint64_t bits_of(double value)
     return bits;
 }
 
-static uint32_t slot_of(const weld_grid *grid, weld_cell cell)
+static uint32_t grid_slot(const weld_grid *grid, weld_cell cell)
 {
-    uint64_t hash = tl_hash_mix(bits_of(cell.x));
-    hash = tl_hash_mix(hash ^ bits_of(cell.y));
-    hash = tl_hash_mix(hash ^ bits_of(cell.z));
+    uint64_t hash = tl_hash_mix(cell_bits(cell.x));
+    hash = tl_hash_mix(hash ^ cell_bits(cell.y));
+    hash = tl_hash_mix(hash ^ cell_bits(cell.z));
     return (uint32_t)hash & grid->mask;
 }
 
@@ -75,7 +75,7 @@ static uint32_t find_earliest(const weld_grid *grid, uint32_t vertex, weld_cell 
     uint32_t best = TL_WELD_UNUSED;
     for (int i = 0; i < 27; i++) {
         weld_cell near = { cell.x + (i % 3 - 1), cell.y + (i / 3 % 3 - 1), cell.z + (i / 9 - 1) };
-        best = earliest_in_slot(grid, slot_of(grid, near), vertex, best);
+        best = earliest_in_slot(grid, grid_slot(grid, near), vertex, best);
     }
     return best;
 }
@@ -106,7 +106,7 @@ tl_result tl_weld(const tl_mesh_view *view, float tolerance, tl_arena *arena, ui
         weld_cell cell = cell_of(&grid, view->vertices[v]);
         uint32_t kept = find_earliest(&grid, v, cell);
         if (kept == TL_WELD_UNUSED) {
-            uint32_t slot = slot_of(&grid, cell);
+            uint32_t slot = grid_slot(&grid, cell);
             grid.next[v] = grid.slots[slot];
             grid.slots[slot] = v;
             kept = v;

@@ -2,9 +2,9 @@
 //
 // Welding with tolerance 0: vertices that are equal, coordinate by coordinate, become the earliest of them.
 //
-// Vertices are dealt into parts by the low bits of a hash of their point, in their order; equal ones are in one part.
-// Each part is a task with a hash table of its own, small enough for the caches, which one table of all is not. The
-// result is that of one pass over all vertices, whatever the parts and tasks.
+// Hash partitioning: the low bits of a hash of its point say which part a vertex goes to, so equal vertices are in one
+// part, in their order. Each part is a task with a hash table of its own, which fits the caches; one table of all would
+// not. The result is that of one pass over all vertices, for any number of parts and tasks.
 
 #include "mesh/weld.h"
 
@@ -14,7 +14,7 @@
 #include <string.h>
 
 // A block of vertices is dealt by one task. Parts have some PART_VERTICES.
-enum { BLOCK_VERTICES = 1 << 14, PART_VERTICES = 1 << 13, MAX_PARTS = 1 << 12 };
+enum { WELD_BLOCK_VERTICES = 1 << 14, PART_VERTICES = 1 << 13, MAX_PARTS = 1 << 12 };
 
 typedef struct point_welder {
     const tl_mesh_view *view;
@@ -46,9 +46,9 @@ static void count_block(uint32_t block, uint32_t worker, void *user)
     (void)worker;
     const point_welder *w = user;
     uint32_t *counts = w->places + (size_t)block * w->part_count;
-    uint32_t end = tl_block_end(block, BLOCK_VERTICES, w->view->vertex_count);
+    uint32_t end = tl_block_end(block, WELD_BLOCK_VERTICES, w->view->vertex_count);
     memset(counts, 0, w->part_count * sizeof *counts);
-    for (uint32_t v = block * BLOCK_VERTICES; v < end; v++) {
+    for (uint32_t v = block * WELD_BLOCK_VERTICES; v < end; v++) {
         if (w->representative[v] != TL_WELD_UNUSED) {
             w->hashes[v] = hash_of(w->view->vertices[v]);
             counts[w->hashes[v] & (w->part_count - 1)]++;
@@ -61,8 +61,8 @@ static void deal_block(uint32_t block, uint32_t worker, void *user)
     (void)worker;
     const point_welder *w = user;
     uint32_t *places = w->places + (size_t)block * w->part_count;
-    uint32_t end = tl_block_end(block, BLOCK_VERTICES, w->view->vertex_count);
-    for (uint32_t v = block * BLOCK_VERTICES; v < end; v++) {
+    uint32_t end = tl_block_end(block, WELD_BLOCK_VERTICES, w->view->vertex_count);
+    for (uint32_t v = block * WELD_BLOCK_VERTICES; v < end; v++) {
         if (w->representative[v] != TL_WELD_UNUSED) {
             w->dealt[places[w->hashes[v] & (w->part_count - 1)]++] = v;
         }
@@ -117,7 +117,7 @@ tl_result tl_weld_points(const tl_mesh_view *view, const tl_host *host, tl_arena
     while (w.part_count < MAX_PARTS && count / w.part_count > PART_VERTICES) {
         w.part_count *= 2;
     }
-    w.block_count = tl_block_count(count, BLOCK_VERTICES);
+    w.block_count = tl_block_count(count, WELD_BLOCK_VERTICES);
     w.hashes = TL_PUSH(arena, uint32_t, count);
     w.places = TL_PUSH(arena, uint32_t, (uint64_t)w.block_count * w.part_count);
     w.dealt = TL_PUSH(arena, uint32_t, count);

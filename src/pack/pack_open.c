@@ -6,9 +6,9 @@
 // an altered size is not mistaken for a truncated file; the table's hash comes before any offset is followed.
 
 #include "base/assert.h"
-#include "base/byte_reader.h"
 #include "base/hash.h"
 #include "base/host.h"
+#include "base/range_fits.h"
 #include "pack/pack_format.h"
 
 #include <string.h>

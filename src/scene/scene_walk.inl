@@ -7,8 +7,8 @@
 // by distance. Instances wait there among nodes: a hit in one instance shortens the line for all behind it.
 
 #include "base/assert.h"
+#include "base/compiler.h"
 #include "base/lowest_bit.h"
-#include "base/prefetch.h"
 #include "math/simd8.h"
 #include "scene/scene_walk.h"
 

@@ -30,9 +30,9 @@ static void test_matches_brute_force(void **state)
         double size = (double)tl_maxf(a.size, b.size);
         double expected = oracle_distance(&oracle_a, &oracle_b) > 0.0 ? 0.0 : oracle_depth(&oracle_a, &oracle_b);
         if (expected > 1e-3 * size && expected < (double)INFINITY) {
-            tl_pair pair;
-            tl_depth depth;
-            tl_pair_init(&pair, &a.shape, pose_a, &b.shape, pose_b);
+            tl_minkowski pair;
+            tl_core_depth depth;
+            tl_minkowski_init(&pair, &a.shape, pose_a, &b.shape, pose_b);
             memset(&depth, 0, sizeof depth);
             depth.upper = 4.0 * size;
             tl_direction_search(&pair, &depth);

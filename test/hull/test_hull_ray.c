@@ -4,7 +4,7 @@
 
 #include "talus_test.h"
 
-#include "hull/ray/ray.h"
+#include "hull/ray/hull_ray.h"
 #include "hull_shapes.h"
 #include "math/predicates.h"
 

@@ -67,12 +67,47 @@ static void vectors(void **state)
     TEST_CHECK(tl_is_finite(a) && tl_clampf(5, 0, 1) == 1 && tl_clampf(-5, 0, 1) == 0);
 }
 
+static bool same_quat(tl_quat a, tl_quat b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z && a.w == b.w;
+}
+
+static bool same_point(tl_vec3 a, tl_vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static void zero_quaternions_are_the_identity(void **state)
+{
+    (void)state;
+    const tl_quat zero = { 0.0f, 0.0f, 0.0f, 0.0f };
+    const tl_transform still = { zero, { 0.0f, 0.0f, 0.0f } };
+    test_random random = { 77 };
+    for (int i = 0; i < 100; i++) {
+        tl_vec3 axis = test_random_direction(&random), p = test_random_direction(&random);
+        tl_quat q = { axis.x * 0.6f, axis.y * 0.6f, axis.z * 0.6f, 0.8f };
+        tl_transform pose = { q, test_random_direction(&random) };
+        TEST_CHECK(same_point(tl_rotate(zero, p), p) && same_point(tl_inverse_rotate(zero, p), p));
+        TEST_CHECK(same_quat(tl_quat_mul(zero, q), q) && same_quat(tl_quat_mul(q, zero), q));
+        TEST_CHECK(same_quat(tl_quat_mul(zero, zero), tl_quat_identity()));
+        TEST_CHECK(same_quat(tl_quat_mul(tl_quat_conjugate(zero), q), q));
+        TEST_CHECK(same_point(tl_transform_point(still, p), p) && same_point(tl_inverse_transform_point(still, p), p));
+        tl_transform after = tl_transform_mul(still, pose), before = tl_transform_mul(pose, still);
+        tl_transform seen = tl_transform_relative(still, pose);
+        TEST_CHECK(same_quat(after.rotation, q) && same_point(after.position, pose.position));
+        TEST_CHECK(same_quat(before.rotation, q) && same_point(before.position, pose.position));
+        TEST_CHECK(same_quat(seen.rotation, q) && same_point(seen.position, pose.position));
+        TEST_CHECK(same_quat(tl_quat_normalize(zero), tl_quat_identity()));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(boxes),
         cmocka_unit_test(rotations_keep_lengths_and_invert),
         cmocka_unit_test(vectors),
+        cmocka_unit_test(zero_quaternions_are_the_identity),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

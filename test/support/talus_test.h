@@ -13,6 +13,8 @@
 // cmocka wants the four above first.
 #include <cmocka.h>
 
+#include "base/random.h"
+
 #include <talus/base.h>
 #include <talus/vec.h>
 
@@ -33,23 +35,20 @@
         }                                                                                                              \
     } while (0)
 
-/// SplitMix64 (Steele, Lea, Flood 2014): one word of state, good enough for tests, the same everywhere.
+/// A seed, then the state of base/random.h: the same numbers everywhere.
 typedef struct test_random {
     uint64_t state;
 } test_random;
 
 static inline uint64_t test_random_u64(test_random *random)
 {
-    uint64_t z = (random->state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
+    return tl_random_bits(&random->state);
 }
 
 /// [0, bound), bound > 0.
 static inline uint32_t test_random_below(test_random *random, uint32_t bound)
 {
-    return (uint32_t)(((test_random_u64(random) >> 32) * bound) >> 32);
+    return tl_random_below(&random->state, bound);
 }
 
 /// [0, 1), 24 bits.

@@ -72,7 +72,7 @@ void tl_quickhull_refile(tl_quickhull *hull)
 }
 
 // A larger distance first; on ties the lower point, so that the order does not depend on the heap's shape.
-static bool comes_before(const tl_quickhull_entry *a, const tl_quickhull_entry *b)
+static bool waits_before(const tl_quickhull_entry *a, const tl_quickhull_entry *b)
 {
     if (a->distance != b->distance) {
         return a->distance > b->distance;
@@ -80,7 +80,12 @@ static bool comes_before(const tl_quickhull_entry *a, const tl_quickhull_entry *
     return a->point != b->point ? a->point < b->point : a->face < b->face;
 }
 
-static tl_result push_heap(tl_quickhull *hull, uint32_t face)
+#define TL_HEAP(name)                 waiting_##name
+#define TL_HEAP_ITEM                  tl_quickhull_entry
+#define TL_HEAP_BEFORE(context, a, b) waits_before(&(a), &(b))
+#include "base/heap.inl"
+
+static tl_result push_waiting_face(tl_quickhull *hull, uint32_t face)
 {
     if (hull->heap_count == hull->heap_capacity) {
         uint32_t capacity = hull->heap_capacity < 64 ? 64 : hull->heap_capacity * 2;
@@ -97,36 +102,8 @@ static tl_result push_heap(tl_quickhull *hull, uint32_t face)
     const tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
     tl_quickhull_entry entry = { conflicts->farthest_value / tl_side_plane_length(&hull->faces[face].plane), face,
                                  conflicts->farthest };
-    uint32_t at = hull->heap_count++;
-    while (at > 0 && comes_before(&entry, &hull->heap[(at - 1) / 2])) {
-        hull->heap[at] = hull->heap[(at - 1) / 2];
-        at = (at - 1) / 2;
-    }
-    hull->heap[at] = entry;
+    waiting_push(hull->heap, &hull->heap_count, entry, NULL);
     return TL_OK;
-}
-
-static tl_quickhull_entry pop_heap(tl_quickhull *hull)
-{
-    tl_quickhull_entry top = hull->heap[0];
-    tl_quickhull_entry last = hull->heap[--hull->heap_count];
-    uint32_t at = 0;
-    for (;;) {
-        uint32_t child = 2 * at + 1;
-        if (child >= hull->heap_count) {
-            break;
-        }
-        if (child + 1 < hull->heap_count && comes_before(&hull->heap[child + 1], &hull->heap[child])) {
-            child++;
-        }
-        if (!comes_before(&hull->heap[child], &last)) {
-            break;
-        }
-        hull->heap[at] = hull->heap[child];
-        at = child;
-    }
-    hull->heap[at] = last;
-    return top;
 }
 
 tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face)
@@ -136,7 +113,7 @@ tl_result tl_quickhull_enqueue(tl_quickhull *hull, uint32_t face)
         return TL_OK;
     }
     if (hull->farthest_first) {
-        return push_heap(hull, face);
+        return push_waiting_face(hull, face);
     }
     conflicts->newer = TL_NONE;
     conflicts->older = hull->newest;
@@ -169,7 +146,7 @@ uint32_t tl_quickhull_dequeue(tl_quickhull *hull)
         return hull->newest; // it leaves the list when it dies, for its farthest point sees it
     }
     while (hull->heap_count > 0) {
-        tl_quickhull_entry entry = pop_heap(hull);
+        tl_quickhull_entry entry = waiting_pop(hull->heap, &hull->heap_count, NULL);
         const tl_quickhull_conflicts *conflicts = &hull->conflicts[entry.face];
         // An entry of a face that is gone, or whose place another one took, is dropped.
         if (conflicts->live && conflicts->first != TL_NONE && conflicts->farthest == entry.point) {

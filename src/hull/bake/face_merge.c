@@ -36,7 +36,7 @@ static uint32_t origin(const merge_state *m, uint32_t half_edge)
     return m->hull->faces[tl_half_edge_face(half_edge)].vertex[tl_half_edge_corner(half_edge)];
 }
 
-static uint32_t twin(const merge_state *m, uint32_t half_edge)
+static uint32_t triangle_twin(const merge_state *m, uint32_t half_edge)
 {
     return m->hull->faces[tl_half_edge_face(half_edge)].across[tl_half_edge_corner(half_edge)];
 }
@@ -46,14 +46,14 @@ static uint32_t next_border(const merge_state *m, uint32_t half_edge)
 {
     uint32_t next = tl_half_edge_next(half_edge);
     while (m->mark[next] == FLAT) {
-        next = tl_half_edge_next(twin(m, next));
+        next = tl_half_edge_next(triangle_twin(m, next));
     }
     return next;
 }
 
 // The same, but to where the next straight edge starts: over the vertices that only two groups meet at. `last_out` gets
 // the last border half-edge of this one.
-static uint32_t next_edge(const merge_state *m, uint32_t half_edge, uint32_t *last_out)
+static uint32_t next_straight_edge(const merge_state *m, uint32_t half_edge, uint32_t *last_out)
 {
     uint32_t next = next_border(m, half_edge);
     *last_out = half_edge;
@@ -101,18 +101,18 @@ static void find_groups(merge_state *m, uint32_t key_shift)
         uint32_t edge = h, last, lowest = h;
         do {
             m->mark[edge] = WALKED;
-            edge = next_edge(m, edge, &last);
+            edge = next_straight_edge(m, edge, &last);
             lowest = origin(m, edge) < origin(m, lowest) ? edge : lowest;
             m->edge_count++;
         } while (edge != h);
         tl_sort_item *group = &m->groups[m->group_count++];
         group->value = lowest;
-        group->key = (uint64_t)origin(m, lowest) << key_shift | origin(m, next_edge(m, lowest, &last));
+        group->key = (uint64_t)origin(m, lowest) << key_shift | origin(m, next_straight_edge(m, lowest, &last));
     }
 }
 
 // Vertices in the order of their points.
-static tl_result number_vertices(merge_state *m, tl_hull_polygons *out)
+static tl_result number_strict_corners(merge_state *m, tl_hull_polygons *out)
 {
     uint32_t count = 0;
     for (uint32_t p = 0; p < m->hull->point_count; p++) {
@@ -132,7 +132,7 @@ static tl_result number_vertices(merge_state *m, tl_hull_polygons *out)
 }
 
 // Faces in the order of (lowest vertex, vertex after it), each starting there: the same for any order of insertion.
-static tl_result number_faces(merge_state *m, tl_hull_polygons *out)
+static tl_result number_polygons(merge_state *m, tl_hull_polygons *out)
 {
     tl_sort_item *scratch = TL_PUSH(m->hull->arena, tl_sort_item, m->group_count);
     out->half_edges = TL_PUSH(m->hull->arena, tl_hull_half_edge, m->edge_count);
@@ -145,8 +145,8 @@ static tl_result number_faces(merge_state *m, tl_hull_polygons *out)
     for (uint32_t f = 0; f < m->group_count; f++) {
         uint32_t first = count, edge = m->groups[f].value;
         do {
-            uint32_t last, next = next_edge(m, edge, &last);
-            tl_hull_half_edge half_edge = { m->number[origin(m, edge)], twin(m, last), count + 1, f };
+            uint32_t last, next = next_straight_edge(m, edge, &last);
+            tl_hull_half_edge half_edge = { m->number[origin(m, edge)], triangle_twin(m, last), count + 1, f };
             m->mark[edge] = count;
             out->half_edges[count++] = half_edge;
             edge = next;
@@ -182,6 +182,6 @@ tl_result tl_quickhull_merge_faces(tl_quickhull *hull, tl_hull_polygons *polygon
     memset(polygons_out, 0, sizeof *polygons_out);
     find_borders(&m);
     find_groups(&m, key_shift);
-    TL_TRY(number_vertices(&m, polygons_out));
-    return number_faces(&m, polygons_out);
+    TL_TRY(number_strict_corners(&m, polygons_out));
+    return number_polygons(&m, polygons_out);
 }

@@ -13,6 +13,7 @@
 
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/min_max.h"
 
 #include <string.h>
 
@@ -78,8 +79,8 @@ tl_result tl_quickhull_reserve(tl_quickhull *hull, uint32_t more)
     // than some times what it has come to, for of a solid cloud few do.
     uint64_t most = (uint64_t)hull->live_faces + 2 * (uint64_t)hull->waiting + FACES_A_STEP;
     uint64_t growth = FACE_GROWTH * (uint64_t)needed;
-    uint32_t capacity = (uint32_t)(most < growth ? most : growth);
-    capacity = capacity < needed ? needed : capacity;
+    uint32_t capacity = (uint32_t)tl_min_u64(most, growth);
+    capacity = tl_max_u32(capacity, needed);
     tl_quickhull_face *faces = TL_PUSH(hull->arena, tl_quickhull_face, capacity);
     tl_quickhull_conflicts *conflicts = TL_PUSH(hull->arena, tl_quickhull_conflicts, capacity);
     uint32_t *visible = TL_PUSH(hull->arena, uint32_t, capacity);
@@ -127,7 +128,7 @@ static tl_result check_points(const tl_vec3 *points, uint32_t count, tl_report *
     return TL_OK;
 }
 
-static void measure(tl_quickhull *hull)
+static void measure_box(tl_quickhull *hull)
 {
     hull->box = tl_aabb_empty();
     for (uint32_t i = 0; i < hull->point_count; i++) {
@@ -183,7 +184,7 @@ static tl_result make_tetrahedron(tl_quickhull *hull, const uint32_t seed[4])
     return TL_OK;
 }
 
-static tl_result expand(tl_quickhull *hull, const tl_hull_def *def)
+static tl_result add_farthest_points(tl_quickhull *hull, const tl_hull_def *def)
 {
     for (uint32_t step = 0;; step++) {
         // A triangulated sphere of F faces has F / 2 + 2 vertices.
@@ -228,15 +229,15 @@ static tl_result fail_without_volume(tl_report *report, tl_result result)
                           "the points have no volume: set a thickness, or use them as a point cloud");
 }
 
-static tl_result build(tl_quickhull *hull, const tl_hull_def *def, tl_hull **hull_out, tl_hull_report *report)
+static tl_result bake_polytope(tl_quickhull *hull, const tl_hull_def *def, tl_hull **hull_out, tl_hull_report *report)
 {
     tl_report *base = report != NULL ? &report->base : NULL;
     uint32_t seed[4], rank, copies = 1;
-    measure(hull);
+    measure_box(hull);
     tl_result result = tl_quickhull_seed(hull, (double)def->flatness, seed, &rank);
     if (result != TL_OK && def->thickness > 0.0f) {
         TL_TRY(tl_quickhull_thicken(hull, seed, rank, def->thickness, &copies));
-        measure(hull);
+        measure_box(hull);
         result = tl_quickhull_seed(hull, 0.0, seed, &rank);
     }
     if (result != TL_OK) {
@@ -252,11 +253,11 @@ static tl_result build(tl_quickhull *hull, const tl_hull_def *def, tl_hull **hul
     for (uint32_t i = 0; i < 4; i++) {
         TL_TRY(tl_quickhull_enqueue(hull, i));
     }
-    TL_TRY(expand(hull, def));
+    TL_TRY(add_farthest_points(hull, def));
     report_left_out(hull, report);
     tl_hull_polygons polygons;
     TL_TRY(tl_quickhull_merge_faces(hull, &polygons));
-    TL_TRY(tl_hull_emit(&polygons, hull->points, copies, hull->arena, hull_out));
+    TL_TRY(tl_hull_encode(&polygons, hull->points, copies, hull->arena, hull_out));
     if (report != NULL) {
         report->thickened = copies > 1;
     }
@@ -305,7 +306,7 @@ tl_result tl_hull_bake(const tl_vec3 *points, uint32_t count, const tl_hull_def 
     hull.free_face = TL_NONE;
     hull.newest = TL_NONE;
     hull.farthest_first = def->max_vertices != 0;
-    tl_result result = build(&hull, def, hull_out, report_out);
+    tl_result result = bake_polytope(&hull, def, hull_out, report_out);
     if (base != NULL) {
         base->peak_bytes = arena.peak_bytes + (*hull_out != NULL ? (*hull_out)->blob.size : 0);
     }

@@ -148,8 +148,11 @@ tl_result tl_quickhull_merge_faces(tl_quickhull *hull, tl_hull_polygons *polygon
 tl_result tl_quickhull_thicken(tl_quickhull *hull, const uint32_t seed[4], uint32_t rank, float thickness,
                                uint32_t *copies_out);
 
-// bake.c
-tl_result tl_hull_emit(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
-                       tl_hull **hull_out);
+// hull_mass.c
+void tl_hull_measure_mass(tl_hull *hull);
+
+// hull_encode.c
+tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
+                         tl_hull **hull_out);
 
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The first tetrahedron, and what input without volume is called.
+// The initial simplex of quickhull, a tetrahedron, and which result input without volume gets.
 //
 // The two extreme points of the box that are farthest apart, then the point farthest from their line, then the one
 // farthest from that plane: a fat tetrahedron leaves few points outside. Distances are approximate here; that the four
@@ -9,16 +9,17 @@
 #include "hull/bake/quickhull.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "math/predicates.h"
 #include "math/tolerance.h"
 #include "math/vec3d.h"
 
-static tl_vec3d difference(tl_vec3 a, tl_vec3 b)
+static tl_vec3d point_difference(tl_vec3 a, tl_vec3 b)
 {
     return tl_vec3d_sub(tl_vec3d_from(a), tl_vec3d_from(b));
 }
 
-static float coordinate(tl_vec3 p, int axis)
+static float point_coordinate(tl_vec3 p, int axis)
 {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
@@ -28,11 +29,11 @@ static void farthest_extremes(const tl_quickhull *hull, uint32_t *a_out, uint32_
     uint32_t extreme[6] = { 0 };
     for (uint32_t i = 1; i < hull->point_count; i++) {
         for (int axis = 0; axis < 3; axis++) {
-            float value = coordinate(hull->points[i], axis);
-            if (value < coordinate(hull->points[extreme[2 * axis]], axis)) {
+            float value = point_coordinate(hull->points[i], axis);
+            if (value < point_coordinate(hull->points[extreme[2 * axis]], axis)) {
                 extreme[2 * axis] = i;
             }
-            if (value > coordinate(hull->points[extreme[2 * axis + 1]], axis)) {
+            if (value > point_coordinate(hull->points[extreme[2 * axis + 1]], axis)) {
                 extreme[2 * axis + 1] = i;
             }
         }
@@ -40,7 +41,7 @@ static void farthest_extremes(const tl_quickhull *hull, uint32_t *a_out, uint32_
     double best = -1.0;
     for (int i = 0; i < 6; i++) {
         for (int j = i + 1; j < 6; j++) {
-            tl_vec3d d = difference(hull->points[extreme[i]], hull->points[extreme[j]]);
+            tl_vec3d d = point_difference(hull->points[extreme[i]], hull->points[extreme[j]]);
             if (tl_vec3d_dot(d, d) > best) {
                 best = tl_vec3d_dot(d, d);
                 *a_out = extreme[i];
@@ -53,11 +54,11 @@ static void farthest_extremes(const tl_quickhull *hull, uint32_t *a_out, uint32_
 // The point with the largest distance from the line a, b; its distance.
 static uint32_t farthest_from_line(const tl_quickhull *hull, uint32_t a, uint32_t b, double *distance_out)
 {
-    tl_vec3d along = difference(hull->points[b], hull->points[a]);
+    tl_vec3d along = point_difference(hull->points[b], hull->points[a]);
     uint32_t best = a;
     double best_sq = -1.0;
     for (uint32_t i = 0; i < hull->point_count; i++) {
-        tl_vec3d n = tl_vec3d_cross(along, difference(hull->points[i], hull->points[a]));
+        tl_vec3d n = tl_vec3d_cross(along, point_difference(hull->points[i], hull->points[a]));
         double value = tl_vec3d_dot(n, n);
         if (value > best_sq) {
             best_sq = value;
@@ -72,13 +73,13 @@ static uint32_t farthest_from_line(const tl_quickhull *hull, uint32_t a, uint32_
 static uint32_t farthest_from_plane(const tl_quickhull *hull, const uint32_t seed[3], double *thickness_out)
 {
     tl_vec3 a = hull->points[seed[0]];
-    tl_vec3d n = tl_vec3d_cross(difference(hull->points[seed[1]], a), difference(hull->points[seed[2]], a));
+    tl_vec3d n = tl_vec3d_cross(point_difference(hull->points[seed[1]], a), point_difference(hull->points[seed[2]], a));
     uint32_t best = seed[0];
     double best_value = -1.0, low = 0.0, high = 0.0;
     for (uint32_t i = 0; i < hull->point_count; i++) {
-        double value = tl_vec3d_dot(n, difference(hull->points[i], a));
-        low = value < low ? value : low;
-        high = value > high ? value : high;
+        double value = tl_vec3d_dot(n, point_difference(hull->points[i], a));
+        low = tl_min_f64(low, value);
+        high = tl_max_f64(high, value);
         if (fabs(value) > best_value) {
             best_value = fabs(value);
             best = i;
@@ -90,10 +91,10 @@ static uint32_t farthest_from_plane(const tl_quickhull *hull, const uint32_t see
 
 tl_result tl_quickhull_seed(tl_quickhull *hull, double flatness, uint32_t seed[4], uint32_t *rank_out)
 {
-    // One rounding moves a coordinate by at most TL_FLOAT_ROUNDING times the largest.
+    // One rounding moves a point_coordinate by at most TL_FLOAT_ROUNDING times the largest.
     tl_vec3 largest = tl_max(tl_abs(hull->box.min), tl_abs(hull->box.max));
     double noise = flatness * (double)TL_FLOAT_ROUNDING * (double)tl_maxf(largest.x, tl_maxf(largest.y, largest.z));
-    tl_vec3d extent = difference(hull->box.max, hull->box.min);
+    tl_vec3d extent = point_difference(hull->box.max, hull->box.min);
     double size = fmax(extent.x, fmax(extent.y, extent.z));
     *rank_out = 0;
     seed[0] = seed[1] = seed[2] = seed[3] = 0;

@@ -13,7 +13,7 @@ static void normalize(double v[3])
     }
 }
 
-static void cross(const double a[3], const double b[3], double out[3])
+static void cross_axes(const double a[3], const double b[3], double out[3])
 {
     out[0] = a[1] * b[2] - a[2] * b[1];
     out[1] = a[2] * b[0] - a[0] * b[2];
@@ -47,15 +47,15 @@ static void missing_axes(const tl_quickhull *hull, const uint32_t seed[4], uint3
                     : fabs(along[1]) <= fabs(along[2])                                   ? 1
                                                                                          : 2;
         double unit[3] = { least == 0 ? 1.0 : 0.0, least == 1 ? 1.0 : 0.0, least == 2 ? 1.0 : 0.0 };
-        cross(along, unit, axes[0]);
+        cross_axes(along, unit, axes[0]);
         normalize(axes[0]);
-        cross(along, axes[0], axes[1]);
+        cross_axes(along, axes[0], axes[1]);
         normalize(axes[1]);
         return;
     }
     double side[3];
     direction(hull, seed[0], seed[2], side);
-    cross(along, side, axes[0]);
+    cross_axes(along, side, axes[0]);
     normalize(axes[0]);
 }
 

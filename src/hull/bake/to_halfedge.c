@@ -7,7 +7,7 @@
 
 #include <talus/hull.h>
 
-static tl_result add_vertices(const tl_hull *hull, tl_halfedge_mesh *mesh)
+static tl_result add_hull_vertices(const tl_hull *hull, tl_halfedge_mesh *mesh)
 {
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         uint32_t index;
@@ -18,7 +18,7 @@ static tl_result add_vertices(const tl_hull *hull, tl_halfedge_mesh *mesh)
 }
 
 // A face's half-edges are consecutive.
-static tl_result add_faces(const tl_hull *hull, tl_halfedge_mesh *mesh, uint32_t *corners)
+static tl_result add_hull_faces(const tl_hull *hull, tl_halfedge_mesh *mesh, uint32_t *corners)
 {
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_face face = tl_hull_faces(hull)[f];
@@ -38,8 +38,8 @@ tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge_mesh *mesh)
     if (corners == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_result result = add_vertices(hull, mesh);
-    result = result == TL_OK ? add_faces(hull, mesh, corners) : result;
+    tl_result result = add_hull_vertices(hull, mesh);
+    result = result == TL_OK ? add_hull_faces(hull, mesh, corners) : result;
     tl_release_array(&mesh->allocator, corners, most, sizeof *corners);
     if (result != TL_OK) {
         tl_halfedge_mesh_clear(mesh);

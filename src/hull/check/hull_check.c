@@ -200,11 +200,6 @@ static tl_result check_planes_and_mass(const tl_hull *hull, tl_report *report)
     return TL_OK;
 }
 
-static tl_vec3 origin_of(const tl_hull *hull, uint32_t half_edge)
-{
-    return tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin];
-}
-
 // Exactly: every face lies in one plane and turns left at each corner, and at every edge the surface is bent inward.
 // What this leaves open is a surface that winds around more than once, which only tl_hull_validate excludes.
 static tl_result check_convexity(const tl_hull *hull, tl_report *report)
@@ -213,16 +208,16 @@ static tl_result check_convexity(const tl_hull *hull, tl_report *report)
     for (uint32_t h = 0; h < hull->half_edge_count; h++) {
         uint32_t next = half_edges[h].next, twin = half_edges[h].twin;
         uint32_t beyond = half_edges[half_edges[twin].next].next; // starts at a corner of the other face, off this edge
-        if (tl_orient3d(origin_of(hull, h), origin_of(hull, next), origin_of(hull, half_edges[next].next),
-                        origin_of(hull, beyond)) >= 0) {
+        if (tl_orient3d(tl_hull_corner(hull, h), tl_hull_corner(hull, next),
+                        tl_hull_corner(hull, half_edges[next].next), tl_hull_corner(hull, beyond)) >= 0) {
             return wrong_element(report, "half-edge", h);
         }
     }
     for (uint32_t f = 0; f < hull->face_count; f++) {
         tl_hull_face face = tl_hull_faces(hull)[f];
         for (uint32_t k = 3; k < face.count; k++) {
-            if (tl_orient3d(origin_of(hull, face.first), origin_of(hull, face.first + 1),
-                            origin_of(hull, face.first + 2), origin_of(hull, face.first + k)) != 0) {
+            if (tl_orient3d(tl_hull_corner(hull, face.first), tl_hull_corner(hull, face.first + 1),
+                            tl_hull_corner(hull, face.first + 2), tl_hull_corner(hull, face.first + k)) != 0) {
                 return wrong_element(report, "face", f);
             }
         }

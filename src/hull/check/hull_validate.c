@@ -35,7 +35,7 @@ static face_plane plane_of(const tl_hull *hull, uint32_t face, tl_aabb box)
     return p;
 }
 
-static int side_of(const face_plane *p, tl_vec3 point, double *height_out)
+static int side_of_face(const face_plane *p, tl_vec3 point, double *height_out)
 {
     tl_vec3 local = tl_sub(point, p->origin);
     *height_out = tl_side_plane_height(&p->plane, local);
@@ -59,7 +59,7 @@ static void validate_face(const tl_hull *hull, uint32_t face, const face_plane *
     uint32_t in_plane = 0;
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         double value;
-        int side = side_of(plane, tl_hull_vertices(hull)[v], &value);
+        int side = side_of_face(plane, tl_hull_vertices(hull)[v], &value);
         // In the plane are the face's own corners and no others.
         if (side > 0 || (side == 0 && !face_has(hull, face, v))) {
             out->convex = false;
@@ -97,7 +97,7 @@ static uint64_t validate_points(const face_plane *plane, const tl_vec3 *points, 
 {
     for (uint32_t i = 0; i < count; i++) {
         double value;
-        if (side_of(plane, points[i], &value) > 0) {
+        if (side_of_face(plane, points[i], &value) > 0) {
             double height = value / tl_side_plane_length(&plane->plane);
             out->contains = false;
             lowest = i < lowest ? i : lowest;

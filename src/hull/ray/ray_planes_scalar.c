@@ -3,7 +3,7 @@
 // A ray against a hull's planes in plain C: the twin that the others are compared with, and the one for machines
 // without them.
 
-#include "hull/ray/ray.h"
+#include "hull/ray/hull_ray.h"
 
 bool tl_ray_planes_scalar(const tl_hull *hull, const double origin[3], const double direction[3], double max_t,
                           double *t_out, uint32_t *face_out)

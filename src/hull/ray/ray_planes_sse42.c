@@ -4,5 +4,5 @@
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define TL_RAY_PLANES tl_ray_planes_sse42
-#include "hull/ray/ray_planes.h"
+#include "hull/ray/ray_planes.inl"
 #endif

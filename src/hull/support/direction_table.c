@@ -15,7 +15,7 @@
 #define MAX_SIDE 512u
 
 // The scale is chosen by so many of the faces, in a table of so many cells along a side.
-enum { SAMPLES = 256, SAMPLE_SIDE = 16 };
+enum { SCALE_SAMPLES = 256, SAMPLE_SIDE = 16 };
 
 uint32_t tl_hull_table_side(uint32_t vertex_count, bool has_rings)
 {
@@ -39,7 +39,7 @@ static tl_vec3 relative_extents(tl_aabb bounds)
 static uint32_t count_cells(const tl_hull *hull, tl_vec3 scale)
 {
     uint64_t seen[2 * SAMPLE_SIDE * SAMPLE_SIDE / 64] = { 0 };
-    uint32_t count = 0, stride = hull->face_count / SAMPLES + 1;
+    uint32_t count = 0, stride = hull->face_count / SCALE_SAMPLES + 1;
     for (uint32_t face = 0; face < hull->face_count; face += stride) {
         tl_hull_plane plane = tl_hull_face_plane(hull, face);
         tl_vec3 n = tl_vec3_make((float)plane.normal[0], (float)plane.normal[1], (float)plane.normal[2]);
@@ -97,7 +97,7 @@ static uint32_t fill_stretch(const table_row *row, const tl_support_kernel *kern
     tl_vec3 step = unscaled(hull, width, width, (row->half != 0 ? -slope : slope) * 2.0f * width);
     while (begin < end) {
         tl_vec3 d = middle_of_cell(row, begin);
-        if (row->rings != NULL && row->rings[vertex] != TL_NO_RING) {
+        if (row->rings != NULL && row->rings[vertex] != TL_NO_FACE_RING) {
             vertex = tl_ring_start(hull, row->rings[vertex], d); // many wedges may lie between this cell and the last
         }
         vertex = kernel->climb(hull, d, vertex);
@@ -128,7 +128,7 @@ static bool is_among_wedges(const uint32_t *square, uint32_t side, uint32_t row,
 {
     uint32_t vertex = square[row * side + column] & ~TL_TABLE_RING, others = 0;
     const int32_t steps[4][2] = { { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
-    for (int k = 0; k < 4 && rings[vertex] != TL_NO_RING; k++) {
+    for (int k = 0; k < 4 && rings[vertex] != TL_NO_FACE_RING; k++) {
         uint32_t r = row + (uint32_t)steps[k][0], c = column + (uint32_t)steps[k][1];
         if (r < side && c < side) {
             uint32_t other = square[r * side + c] & ~TL_TABLE_RING;

@@ -4,7 +4,7 @@
 //
 // The direction is scaled by the hull's box first: the support of a stretched body in direction d is that of the body
 // in the stretched direction, so this makes a needle's table as even as a ball's. (Other long bodies are better off
-// without, which is decided by how their faces' normals spread.) Then it is projected to the octahedron
+// without; how their faces' normals spread decides.) Then it is projected to the octahedron (octahedral map)
 // |x| + |y| + |z| = 1, each half of which (z < 0, z >= 0) turned by 45 degrees is a square: no branch, no fold, and no
 // cell is wasted, unlike with a grid over the cube's volume.
 // Near: Cigolle et al., A Survey of Efficient Representations for Independent Unit Vectors, JCGT 3, 2014.
@@ -16,7 +16,7 @@
 #ifndef TALUS_SRC_HULL_DIRECTION_TABLE_H
 #define TALUS_SRC_HULL_DIRECTION_TABLE_H
 
-#include "hull/support/support.h"
+#include "hull/support/hull_support.h"
 
 #include <float.h>
 #include <string.h>
@@ -63,7 +63,7 @@ static inline uint32_t tl_ring_start(const tl_hull *hull, uint32_t index, tl_vec
     return tl_hull_table(hull)[ring->first + tl_ring_cell(ring, direction)];
 }
 
-// For a direction in the range of support.h.
+// For a direction in the range of hull_support.h.
 static inline uint32_t tl_hull_table_start(const tl_hull *hull, tl_vec3 direction)
 {
     uint32_t cell = tl_table_cell(tl_mul(direction, hull->table_scale), hull->table_side);

@@ -5,12 +5,13 @@
 
 #include "hull/support/face_ring.h"
 
+#include "base/min_max.h"
 #include "hull/support/direction_table.h"
 #include "math/vec3d.h"
 
-static tl_vec3d corner_of(const tl_hull *hull, uint32_t half_edge)
+static tl_vec3d ring_corner(const tl_hull *hull, uint32_t half_edge)
 {
-    return tl_vec3d_from(tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin]);
+    return tl_vec3d_from(tl_hull_corner(hull, half_edge));
 }
 
 // The plane's axes, right-handed with its normal, of unit length; any turn about the normal will do.
@@ -25,13 +26,13 @@ static void plane_axes(const tl_hull *hull, uint32_t face, tl_vec3d axes[2])
 static void extents_along(const tl_hull *hull, uint32_t face, const tl_vec3d axes[2], double extent[2])
 {
     tl_hull_face f = tl_hull_faces(hull)[face];
-    tl_vec3d origin = corner_of(hull, f.first);
+    tl_vec3d origin = ring_corner(hull, f.first);
     for (int i = 0; i < 2; i++) {
         double low = 0.0, high = 0.0;
         for (uint32_t k = 1; k < f.count; k++) {
-            double at = tl_vec3d_dot(axes[i], tl_vec3d_sub(corner_of(hull, f.first + k), origin));
-            low = at < low ? at : low;
-            high = at > high ? at : high;
+            double at = tl_vec3d_dot(axes[i], tl_vec3d_sub(ring_corner(hull, f.first + k), origin));
+            low = tl_min_f64(low, at);
+            high = tl_max_f64(high, at);
         }
         extent[i] = high - low;
     }
@@ -76,7 +77,7 @@ static void fill_ring(const tl_hull *hull, uint32_t face, const tl_face_ring *ri
         // The first cell looks at all corners; from then on the farthest one only moves forward, along the loop.
         for (uint32_t k = 1, at = best; k < f.count; k++) {
             at = at + 1 < f.count ? at + 1 : 0;
-            tl_vec3d ahead = tl_vec3d_sub(corner_of(hull, f.first + at), corner_of(hull, f.first + best));
+            tl_vec3d ahead = tl_vec3d_sub(ring_corner(hull, f.first + at), ring_corner(hull, f.first + best));
             if (tl_vec3d_dot(d, ahead) > 0.0) {
                 best = at;
             } else if (cell > 0) {
@@ -92,7 +93,7 @@ void tl_hull_fill_rings(tl_hull *hull, uint32_t *table, uint32_t *rings_of_verti
     tl_face_ring *rings = (tl_face_ring *)(uintptr_t)tl_hull_rings(hull);
     const tl_hull_face *faces = tl_hull_faces(hull);
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
-        rings_of_vertices[v] = TL_NO_RING;
+        rings_of_vertices[v] = TL_NO_FACE_RING;
     }
     uint32_t count = 0, first = 2 * hull->table_side * hull->table_side;
     for (uint32_t face = 0; face < hull->face_count; face++) {
@@ -103,7 +104,7 @@ void tl_hull_fill_rings(tl_hull *hull, uint32_t *table, uint32_t *rings_of_verti
         fill_ring(hull, face, &rings[count], table);
         for (uint32_t k = 0; k < faces[face].count; k++) {
             uint32_t *of = &rings_of_vertices[tl_hull_half_edges(hull)[faces[face].first + k].origin];
-            if (*of == TL_NO_RING || rings[*of].cell_count < rings[count].cell_count) {
+            if (*of == TL_NO_FACE_RING || rings[*of].cell_count < rings[count].cell_count) {
                 *of = count;
             }
         }

@@ -5,9 +5,9 @@
 #ifndef TALUS_SRC_HULL_FACE_RING_H
 #define TALUS_SRC_HULL_FACE_RING_H
 
-#include "hull/support/support.h"
+#include "hull/support/hull_support.h"
 
-#define TL_NO_RING UINT32_MAX
+#define TL_NO_FACE_RING UINT32_MAX
 
 // Whether a face of so many vertices has a ring.
 static inline bool tl_face_has_ring(uint32_t vertex_count)
@@ -24,7 +24,8 @@ static inline uint32_t tl_face_ring_cells(uint32_t vertex_count)
 // The axes of a face's ring; `first` is copied.
 tl_face_ring tl_face_ring_make(const tl_hull *hull, uint32_t face, uint32_t first);
 
-// Writes all rings and their cells, and for each vertex the ring of the largest face that it belongs to, or TL_NO_RING.
+// Writes all rings and their cells, and for each vertex the ring of the largest face that it belongs to, or
+// TL_NO_FACE_RING.
 void tl_hull_fill_rings(tl_hull *hull, uint32_t *table, uint32_t *rings_of_vertices);
 
 #endif

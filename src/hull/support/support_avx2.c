@@ -6,5 +6,5 @@
 #define TL_SUPPORT_QUERY tl_hull_support_avx2
 #define TL_SUPPORT_CLIMB tl_hull_climb_avx2
 #define TL_SUPPORT_MARCH tl_hull_march_avx2
-#include "hull/support/support_query.h"
+#include "hull/support/support_query.inl"
 #endif

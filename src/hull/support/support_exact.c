@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// What float arithmetic leaves open, by exact comparisons.
+// Exact comparisons, for what float arithmetic leaves open.
 //
-// Hill climbing on the half-edges: the text's function with its defects mended.
+// Hill climbing on the half-edges: Chou's function with its defects corrected.
 // Source: Allen Chou, Game Physics: Implementing Support Function for Polyhedrons using Half Edges, 2013.
 //
 // A vertex of a convex body that no neighbour exceeds is a farthest one, and all farthest vertices are those of one
 // corner, edge or face. Each step strictly gains, so there are at most V steps.
 
-#include "hull/support/support.h"
+#include "hull/support/hull_support.h"
 
 #include "base/lowest_bit.h"
 #include "math/predicates.h"

@@ -6,4 +6,4 @@
 #define TL_SUPPORT_QUERY tl_hull_support_scalar
 #define TL_SUPPORT_CLIMB tl_hull_climb_scalar
 #define TL_SUPPORT_MARCH tl_hull_march_scalar
-#include "hull/support/support_query.h"
+#include "hull/support/support_query.inl"

@@ -6,5 +6,5 @@
 #define TL_SUPPORT_QUERY tl_hull_support_sse42
 #define TL_SUPPORT_CLIMB tl_hull_climb_sse42
 #define TL_SUPPORT_MARCH tl_hull_march_sse42
-#include "hull/support/support_query.h"
+#include "hull/support/support_query.inl"
 #endif

@@ -17,7 +17,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
-#include "base/prefetch.h"
+#include "base/compiler.h"
 #include "base/radix_sort.h"
 #include "math/tolerance.h"
 

@@ -33,8 +33,8 @@
 // of depths, products, sums and the quotient add 18 u Z, per_depth (two of its own) and its product 3 u Z. Taken as 4 e
 // L / |D| + 26 u Z.
 
+#include "base/compiler.h"
 #include "base/lowest_bit.h"
-#include "base/prefetch.h"
 #include "math/simd16.h"
 #include "soup/layout/compact_layout.h"
 #include "soup/ray/ray_measure.h"

@@ -4,7 +4,8 @@
 // of each face's fan. The mean lies inside, so all terms are positive and nothing cancels. Source: David Eberly,
 // Polyhedral Mass Properties (Revisited), 2002; here in the form of tetrahedra.
 
-#include "hull/support/support.h"
+#include "hull/bake/quickhull.h"
+#include "hull/support/hull_support.h"
 
 typedef struct moments {
     double volume6;   // six times the volume
@@ -15,7 +16,7 @@ typedef struct moments {
 
 static void relative(const tl_hull *hull, uint32_t half_edge, const double middle[3], double out[3])
 {
-    tl_vec3 p = tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin];
+    tl_vec3 p = tl_hull_corner(hull, half_edge);
     out[0] = (double)p.x - middle[0];
     out[1] = (double)p.y - middle[1];
     out[2] = (double)p.z - middle[2];

@@ -43,6 +43,12 @@ typedef struct tl_face_ring {
     uint32_t first, cell_count; // in the table
 } tl_face_ring;
 
+// Where a half-edge starts.
+static inline tl_vec3 tl_hull_corner(const tl_hull *hull, uint32_t half_edge)
+{
+    return tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin];
+}
+
 static inline const void *tl_hull_part(const tl_hull *hull, uint32_t part)
 {
     return (const char *)hull + (uint64_t)part * TL_BLOB_ALIGNMENT;
@@ -76,8 +82,8 @@ typedef enum tl_support_isa {
     TL_SUPPORT_ISA_COUNT
 } tl_support_isa;
 
-// Once per instruction set (support_query.h): the whole query; the climb alone, from a vertex and for a direction in
-// the range above, which needs no table; and the march along a row of the table (support_march.h).
+// Once per instruction set (support_query.inl): the whole query; the climb alone, from a vertex and for a direction in
+// the range above, which needs no table; and the march along a row of the table (support_march.inl).
 typedef uint32_t tl_hull_support_fn(const tl_hull *hull, tl_vec3 direction, uint32_t hint);
 typedef uint32_t tl_hull_march_fn(const tl_hull *hull, tl_vec3 from, tl_vec3 step, uint32_t count, uint32_t vertex,
                                   uint32_t *cells);
@@ -89,12 +95,6 @@ tl_hull_support_fn tl_hull_support_sse42, tl_hull_climb_sse42;
 tl_hull_march_fn tl_hull_march_sse42;
 tl_hull_support_fn tl_hull_support_avx2, tl_hull_climb_avx2;
 tl_hull_march_fn tl_hull_march_avx2;
-#endif
-
-#if defined(__GNUC__)
-#define TL_NOINLINE __attribute__((noinline))
-#else
-#define TL_NOINLINE
 #endif
 
 typedef struct tl_support_kernel {
@@ -124,7 +124,7 @@ tl_vec3 tl_hull_table_scale(const tl_hull *hull);
 // Fills the table of an otherwise finished hull.
 tl_result tl_hull_fill_table(tl_hull *hull, tl_arena *arena);
 
-// layout.c
+// hull_layout.c
 // Fills in the offsets and the counts that follow from V, F, 2 E, block_count, ring_count and ring_cells; the size of
 // the whole.
 uint64_t tl_hull_lay_out(tl_hull *head);
@@ -138,8 +138,5 @@ tl_vec3 tl_hull_edge_vector(tl_vec3 from, tl_vec3 to);
 // Row entry `index` of the scan: a vertex relative to the middle of the bounds; beyond V the last vertex again.
 tl_vec3 tl_hull_scan_point(const tl_hull *hull, uint32_t index);
 float tl_hull_scan_error(const tl_hull *hull);
-
-// mass.c
-void tl_hull_measure_mass(tl_hull *hull);
 
 #endif

@@ -9,7 +9,7 @@
 #ifndef TALUS_SRC_HULL_SUPPORT_MARCH_H
 #define TALUS_SRC_HULL_SUPPORT_MARCH_H
 
-#include "hull/support/support_climb.h"
+#include "hull/support/support_climb.inl"
 
 // Where wedges crowd, so many changes of vertex within one cell end the march.
 #define TL_MARCH_CHANGES 8u

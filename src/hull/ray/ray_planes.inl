@@ -7,7 +7,7 @@
 // fractions by cross multiplication takes as long, for it needs five registers of state instead of three.
 
 #include "base/lowest_bit.h"
-#include "hull/ray/ray.h"
+#include "hull/ray/hull_ray.h"
 #include "math/simd_f64.h"
 
 bool TL_RAY_PLANES(const tl_hull *hull, const double origin[3], const double direction[3], double max_t, double *t_out,

@@ -1,29 +1,31 @@
 // SPDX-License-Identifier: MIT
 //
-// Contacts of two shapes: the normal and depth of the distance or penetration query, and where faces rest on each other
-// the corners of their common patch.
+// The contact manifold of two shapes: the normal and depth of the distance or penetration query, and where faces rest
+// on each other the corners of their common patch.
 //
-// Whether faces touch is not asked of angles. What the two most opposed faces have in common is cut out, and of its
+// No angle decides whether faces touch. The two most opposed faces are clipped to their common patch, and of its
 // corners those count that are not much farther apart than the deepest point. That is one length, it gives a tilted box
 // one edge and a flat one four corners, and it has no angle at which the number of contacts would jump for large faces
 // but not for small ones.
 
-#include "convex/depth.h"
+#include "convex/core_depth.h"
 
+#include "base/assert.h"
 #include "convex/face_patch.h"
 
 #include <string.h>
 
-static void add_contact(const tl_pair *pair, tl_vec3d on_a, tl_vec3d on_b, tl_vec3d normal, tl_contact_manifold *out)
+static void add_contact(const tl_minkowski *pair, tl_vec3d on_a, tl_vec3d on_b, tl_vec3d normal,
+                        tl_contact_manifold *out)
 {
     double radius_a = (double)pair->a->radius, radius_b = (double)pair->b->radius;
     tl_contact *contact = &out->contacts[out->count++];
-    contact->point_a = tl_pair_to_world(pair, tl_vec3d_mul_add(on_a, normal, radius_a));
-    contact->point_b = tl_pair_to_world(pair, tl_vec3d_mul_add(on_b, normal, -radius_b));
+    contact->point_a = tl_minkowski_to_world(pair, tl_vec3d_mul_add(on_a, normal, radius_a));
+    contact->point_b = tl_minkowski_to_world(pair, tl_vec3d_mul_add(on_b, normal, -radius_b));
     contact->separation = (float)(tl_vec3d_dot(normal, tl_vec3d_sub(on_b, on_a)) - radius_a - radius_b);
 }
 
-static void add_patch(const tl_pair *pair, tl_vec3d normal, double limit, tl_contact_manifold *out)
+static void add_patch(const tl_minkowski *pair, tl_vec3d normal, double limit, tl_contact_manifold *out)
 {
     tl_face face_a, face_b;
     tl_patch patch;
@@ -41,10 +43,13 @@ static void add_patch(const tl_pair *pair, tl_vec3d normal, double limit, tl_con
 }
 
 uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
-                            float margin, float tolerance, tl_simplex_cache *cache, tl_contact_manifold *manifold_out)
+                            const tl_contact_limits *limits, tl_simplex_cache *cache, tl_contact_manifold *manifold_out)
 {
-    tl_pair pair;
-    tl_pair_init(&pair, a, pose_a, b, pose_b);
+    TL_ASSERT(a != NULL && b != NULL && manifold_out != NULL);
+    const double margin = limits != NULL ? (double)limits->margin : 0.0;
+    const double tolerance = limits != NULL ? (double)limits->tolerance : 0.0;
+    tl_minkowski pair;
+    tl_minkowski_init(&pair, a, pose_a, b, pose_b);
     double radii = (double)a->radius + (double)b->radius;
     tl_gjk gjk;
     memset(manifold_out, 0, sizeof *manifold_out);
@@ -53,22 +58,22 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
     tl_vec3d on_a, on_b, normal;
     double separation; // of the cores
     if (gjk.overlap) {
-        tl_depth depth;
-        tl_depth_find(&pair, &gjk, &depth);
+        tl_core_depth depth;
+        tl_core_depth_find(&pair, &gjk, &depth);
         manifold_out->status = depth.status;
         normal = depth.normal;
         on_a = depth.on_a;
         on_b = depth.on_b;
         separation = -depth.upper;
     } else {
-        if (gjk.upper - radii > (double)margin) {
+        if (gjk.upper - radii > margin) {
             return 0;
         }
         normal = gjk.normal;
         tl_simplex_witness(&gjk.simplex, &on_a, &on_b);
         separation = gjk.upper;
     }
-    double limit = fmin(separation + (double)tolerance, (double)margin + radii);
+    double limit = fmin(separation + tolerance, margin + radii);
     manifold_out->normal = tl_vec3d_to_float(tl_frame_rotate(&pair.a_to_world, normal));
     add_patch(&pair, normal, limit, manifold_out);
     if (manifold_out->count == 0) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Shapes as support functions, and pairs of them in the frame of the first.
+// The Minkowski difference A - B of two shapes by their support functions, in A's frame: its support point along d is
+// A's along d less B's along -d.
 //
 // Only differences of the two poses enter, taken in double: two shapes far from the origin see each other as well as
 // two near it.
 
-#include "convex/proxy.h"
+#include "convex/minkowski.h"
 
 #include "convex/farthest.h"
 #include "math/tolerance.h"
@@ -26,7 +27,7 @@ static tl_vec3d box_vertex(const tl_convex *shape, uint32_t k)
                          k & 4u ? c.z + h.z : c.z - h.z);
 }
 
-static bool vertex_of(const tl_convex *shape, uint32_t vertex, tl_vec3d *point_out)
+static bool shape_vertex(const tl_convex *shape, uint32_t vertex, tl_vec3d *point_out)
 {
     switch (shape->kind) {
     case TL_CONVEX_HULL:
@@ -89,7 +90,7 @@ static tl_vec3d curved_support(const tl_convex *shape, tl_vec3d direction)
 }
 
 // Sets the vertex, which comes as a hint, and the point. What has vertices is done here: it is short, and asked often.
-static void find_support(const tl_pair *pair, const tl_convex *shape, const tl_vec3d *direction, uint32_t *vertex,
+static void find_support(const tl_minkowski *pair, const tl_convex *shape, const tl_vec3d *direction, uint32_t *vertex,
                          tl_vec3d *point)
 {
     const tl_vec3 *points;
@@ -133,7 +134,7 @@ static double custom_size(const tl_convex *shape)
 }
 
 // Of a shape that is asked along float directions; 0 of what is asked in double.
-static double rounded_size(const tl_pair *pair, const tl_convex *shape)
+static double rounded_size(const tl_minkowski *pair, const tl_convex *shape)
 {
     if (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count > pair->scan_limit) {
         tl_aabb box = shape->hull->bounds;
@@ -142,7 +143,7 @@ static double rounded_size(const tl_pair *pair, const tl_convex *shape)
     return shape->kind == TL_CONVEX_CUSTOM ? custom_size(shape) : 0.0;
 }
 
-static tl_vec3d middle_of(const tl_convex *shape)
+static tl_vec3d shape_middle(const tl_convex *shape)
 {
     switch (shape->kind) {
     case TL_CONVEX_HULL:
@@ -157,7 +158,7 @@ static tl_vec3d middle_of(const tl_convex *shape)
     }
 }
 
-void tl_pair_set_hints(tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b)
+void tl_minkowski_set_hints(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_b)
 {
     pair->last_a = vertex_a;
     pair->last_b = vertex_b;
@@ -165,7 +166,8 @@ void tl_pair_set_hints(tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b)
     pair->direction_error = DIRECTION_ROUNDING * (rounded_size(pair, pair->a) + rounded_size(pair, pair->b));
 }
 
-void tl_pair_init(tl_pair *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b)
+void tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b,
+                       tl_transform pose_b)
 {
     tl_quatd rotation_a = tl_quatd_from(pose_a.rotation), rotation_b = tl_quatd_from(pose_b.rotation);
     tl_vec3d position_a = tl_vec3d_from(pose_a.position), position_b = tl_vec3d_from(pose_b.position);
@@ -175,24 +177,24 @@ void tl_pair_init(tl_pair *pair, const tl_convex *a, tl_transform pose_a, const 
     tl_frame_set(&pair->b_to_a, tl_quatd_between(rotation_a, rotation_b),
                  tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(position_b, position_a)));
     pair->scale = 0.0;
-    tl_pair_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
+    tl_minkowski_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
 }
 
-tl_vec3d tl_pair_offset(const tl_pair *pair)
+tl_vec3d tl_minkowski_offset(const tl_minkowski *pair)
 {
-    tl_vec3d offset = tl_vec3d_sub(middle_of(pair->a), tl_frame_point(&pair->b_to_a, middle_of(pair->b)));
+    tl_vec3d offset = tl_vec3d_sub(shape_middle(pair->a), tl_frame_point(&pair->b_to_a, shape_middle(pair->b)));
     return tl_vec3d_dot(offset, offset) > 0.0 ? offset : tl_vec3d_make(1.0, 0.0, 0.0);
 }
 
 // Sets w from the point of B in B's frame.
-static void finish_point(tl_pair *pair, tl_vec3d on_b, tl_pair_point *point)
+static void finish_point(tl_minkowski *pair, tl_vec3d on_b, tl_minkowski_point *point)
 {
     point->w = tl_vec3d_sub(point->a, tl_frame_point(&pair->b_to_a, on_b));
     double scale = tl_vec3d_size(point->a) + tl_vec3d_size(on_b) + tl_vec3d_size(pair->b_to_a.origin);
     pair->scale = scale > pair->scale ? scale : pair->scale;
 }
 
-void tl_pair_support(tl_pair *pair, tl_vec3d direction, tl_pair_point *point)
+void tl_minkowski_support(tl_minkowski *pair, tl_vec3d direction, tl_minkowski_point *point)
 {
     tl_vec3d direction_b = tl_frame_rotate_back(&pair->b_to_a, tl_vec3d_neg(direction)), on_b;
     find_support(pair, pair->a, &direction, &pair->last_a, &point->a);
@@ -202,10 +204,10 @@ void tl_pair_support(tl_pair *pair, tl_vec3d direction, tl_pair_point *point)
     finish_point(pair, on_b, point);
 }
 
-bool tl_pair_vertex(tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b, tl_pair_point *point)
+bool tl_minkowski_vertex(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_b, tl_minkowski_point *point)
 {
     tl_vec3d on_b;
-    if (!vertex_of(pair->a, vertex_a, &point->a) || !vertex_of(pair->b, vertex_b, &on_b)) {
+    if (!shape_vertex(pair->a, vertex_a, &point->a) || !shape_vertex(pair->b, vertex_b, &on_b)) {
         return false;
     }
     point->vertex_a = vertex_a;

@@ -14,7 +14,7 @@
 #define SCAN_ERROR TL_FLOAT_GAMMA(8)
 
 // Parts begin at whole units of TL_BLOB_ALIGNMENT.
-static uint64_t place(uint64_t *units, uint64_t count, uint64_t element_size)
+static uint64_t place_units(uint64_t *units, uint64_t count, uint64_t element_size)
 {
     uint64_t at = *units;
     *units = at + (count * element_size + TL_BLOB_ALIGNMENT - 1) / TL_BLOB_ALIGNMENT;
@@ -23,7 +23,7 @@ static uint64_t place(uint64_t *units, uint64_t count, uint64_t element_size)
 
 static uint64_t place_bytes(uint64_t *units, uint64_t count, uint64_t element_size)
 {
-    return place(units, count, element_size) * TL_BLOB_ALIGNMENT;
+    return place_units(units, count, element_size) * TL_BLOB_ALIGNMENT;
 }
 
 uint64_t tl_hull_lay_out(tl_hull *head)
@@ -36,10 +36,10 @@ uint64_t tl_hull_lay_out(tl_hull *head)
     head->scan_count = scanned ? (head->vertex_count + padding - 1) / padding * padding : 0;
     head->table_side = scanned ? 0 : tl_hull_table_side(head->vertex_count, head->ring_count > 0);
     uint64_t cells = 2 * (uint64_t)head->table_side * head->table_side + head->ring_cells;
-    head->scan = (uint32_t)place(&units, 3 * (uint64_t)head->scan_count, sizeof(float));
-    head->table = (uint32_t)place(&units, cells, sizeof(uint32_t));
-    head->rings = (uint32_t)place(&units, head->ring_count, sizeof(tl_face_ring));
-    head->blocks = (uint32_t)place(&units, head->block_count, sizeof(tl_climb_block));
+    head->scan = (uint32_t)place_units(&units, 3 * (uint64_t)head->scan_count, sizeof(float));
+    head->table = (uint32_t)place_units(&units, cells, sizeof(uint32_t));
+    head->rings = (uint32_t)place_units(&units, head->ring_count, sizeof(tl_face_ring));
+    head->blocks = (uint32_t)place_units(&units, head->block_count, sizeof(tl_climb_block));
     head->vertices = place_bytes(&units, head->vertex_count, sizeof(tl_vec3));
     head->sources = place_bytes(&units, head->vertex_count, sizeof(uint32_t));
     head->vertex_edges = place_bytes(&units, head->vertex_count, sizeof(uint32_t));

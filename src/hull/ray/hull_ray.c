@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Ray against a hull: the ray is clipped by every plane; what is left is the part inside. The kernel is in
-// ray_planes.h, chosen as in the soup's ray query: by a look at the processor's features, so that there is no state.
+// Ray against a hull: every plane clips the ray; what is left is the part inside. The kernel is in ray_planes.inl.
 // Source: Cyrus, Beck, Generalized Two- and Three-Dimensional Clipping, 1978. In double, so that neither the hull's
 // distance from the origin nor the ray's length costs precision that a float result could show.
 
-#include "hull/ray/ray.h"
+#include "hull/ray/hull_ray.h"
 
-#include "base/assert.h"
+#include "base/cpu.h"
 #include "math/predicates.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -18,14 +17,11 @@ tl_ray_planes_fn *tl_ray_planes_for(int level)
     case 0:
         return tl_ray_planes_scalar;
     case 1:
-        return __builtin_cpu_supports("sse4.2") ? tl_ray_planes_sse42 : NULL;
+        return tl_cpu_has_sse42() ? tl_ray_planes_sse42 : NULL;
     case 2:
-        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") ? tl_ray_planes_avx2 : NULL;
+        return tl_cpu_has_avx2() ? tl_ray_planes_avx2 : NULL;
     case 3:
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-                       __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq")
-                   ? tl_ray_planes_avx512
-                   : NULL;
+        return tl_cpu_has_avx512() ? tl_ray_planes_avx512 : NULL;
     default:
         return NULL;
     }

@@ -11,9 +11,9 @@
 // true maximiser, and does not depend on the hint, on the way it was found, or on the instruction set.
 
 #include "hull/support/direction_table.h"
-#include "hull/support/support_climb.h"
-#include "hull/support/support_march.h"
-#include "hull/support/support_scan.h"
+#include "hull/support/support_climb.inl"
+#include "hull/support/support_march.inl"
+#include "hull/support/support_scan.inl"
 #include "math/predicates.h"
 
 typedef enum climb_end { END_FARTHEST, END_LEVEL, END_HIGHER } climb_end;

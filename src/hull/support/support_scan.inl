@@ -9,7 +9,7 @@
 #ifndef TALUS_SRC_HULL_SUPPORT_SCAN_H
 #define TALUS_SRC_HULL_SUPPORT_SCAN_H
 
-#include "hull/support/support_climb.h"
+#include "hull/support/support_climb.inl"
 
 static inline tl_f32x8 scan_dot(const tl_climber *c, const float *x, uint32_t count)
 {
@@ -35,21 +35,21 @@ static inline tl_f32x8 scan_step(const tl_climber *c, const float *rows, uint32_
 // Those among more, whose rows come in pairs of eight: two strands, for a maximum waits for the one before it.
 static inline uint64_t scan_pairs(const tl_climber *c, const float *rows, uint32_t count, tl_f32x8 slack)
 {
-    enum { LANES = TL_CLIMB_LANES, PAIR = TL_SCAN_PAIR };
-    _Static_assert(TL_HULL_SCAN_LIMIT <= 64 && TL_HULL_SCAN_LIMIT % PAIR == 0, "the candidates are one word");
+    enum { SCAN_LANES = TL_CLIMB_LANES, SCAN_PAIR = TL_SCAN_PAIR };
+    _Static_assert(TL_HULL_SCAN_LIMIT <= 64 && TL_HULL_SCAN_LIMIT % SCAN_PAIR == 0, "the candidates are one word");
     _Alignas(32) float raised[TL_HULL_SCAN_LIMIT];
     tl_f32x8 best = scan_step(c, rows, count, slack, raised);
-    tl_f32x8 second = scan_step(c, rows + LANES, count, slack, raised + LANES);
-    for (uint32_t i = PAIR; i < count; i += PAIR) {
+    tl_f32x8 second = scan_step(c, rows + SCAN_LANES, count, slack, raised + SCAN_LANES);
+    for (uint32_t i = SCAN_PAIR; i < count; i += SCAN_PAIR) {
         best = tl_f32x8_max(best, scan_step(c, rows + i, count, slack, raised + i));
-        second = tl_f32x8_max(second, scan_step(c, rows + i + LANES, count, slack, raised + i + LANES));
+        second = tl_f32x8_max(second, scan_step(c, rows + i + SCAN_LANES, count, slack, raised + i + SCAN_LANES));
     }
     best = tl_f32x8_largest(tl_f32x8_max(best, second));
     uint64_t mask = 0;
-    for (uint32_t i = 0; i < count; i += PAIR) {
+    for (uint32_t i = 0; i < count; i += SCAN_PAIR) {
         uint32_t a = tl_f32x8_not_less(tl_f32x8_load(raised + i), best);
-        uint32_t b = tl_f32x8_not_less(tl_f32x8_load(raised + i + LANES), best);
-        mask |= (uint64_t)(a | b << LANES) << i;
+        uint32_t b = tl_f32x8_not_less(tl_f32x8_load(raised + i + SCAN_LANES), best);
+        mask |= (uint64_t)(a | b << SCAN_LANES) << i;
     }
     return mask;
 }

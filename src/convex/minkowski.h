@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A pair of shapes in the frame of the first, and the support points of their difference.
+// The Minkowski difference A - B of two shapes, in A's frame, and its support points. The shapes overlap when it
+// contains the origin; their distance or depth is that of the origin from its surface.
 
-#ifndef TALUS_SRC_CONVEX_PROXY_H
-#define TALUS_SRC_CONVEX_PROXY_H
+#ifndef TALUS_SRC_CONVEX_MINKOWSKI_H
+#define TALUS_SRC_CONVEX_MINKOWSKI_H
 
 #include "math/vec3d.h"
 
@@ -11,13 +12,13 @@
 
 // A point of A - B, in A's frame. The point of B is a - w: that the sum is rounded once more moves it by less than its
 // own error.
-typedef struct tl_pair_point {
+typedef struct tl_minkowski_point {
     tl_vec3d w; // a - b
     tl_vec3d a;
     uint32_t vertex_a, vertex_b; // TL_NO_VERTEX for curved and custom shapes
-} tl_pair_point;
+} tl_minkowski_point;
 
-typedef struct tl_pair {
+typedef struct tl_minkowski {
     const tl_convex *a, *b;
     tl_frame b_to_a;
     tl_frame a_to_world;
@@ -27,24 +28,25 @@ typedef struct tl_pair {
     double scale;            // what rounding is relative to: the largest coordinates that went into a point so far
     uint32_t last_a, last_b; // hints
     uint32_t scan_limit;     // hulls of so many vertices are scanned, whatever the hint
-} tl_pair;
+} tl_minkowski;
 
-void tl_pair_init(tl_pair *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b);
+void tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b,
+                       tl_transform pose_b);
 
 // Vertices that are likely to be the next support points, or TL_NO_VERTEX for both. Where a hint is right it is faster
 // than any scan.
-void tl_pair_set_hints(tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b);
+void tl_minkowski_set_hints(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_b);
 
 // From the middle of B to the middle of A, roughly; any direction but zero when they coincide.
-tl_vec3d tl_pair_offset(const tl_pair *pair);
+tl_vec3d tl_minkowski_offset(const tl_minkowski *pair);
 
 // The point of A - B farthest along the direction, which is not zero.
-void tl_pair_support(tl_pair *pair, tl_vec3d direction, tl_pair_point *point_out);
+void tl_minkowski_support(tl_minkowski *pair, tl_vec3d direction, tl_minkowski_point *point_out);
 
 // The point of A - B of two vertices; false when a shape has no such vertex.
-bool tl_pair_vertex(tl_pair *pair, uint32_t vertex_a, uint32_t vertex_b, tl_pair_point *point_out);
+bool tl_minkowski_vertex(tl_minkowski *pair, uint32_t vertex_a, uint32_t vertex_b, tl_minkowski_point *point_out);
 
-static inline tl_vec3 tl_pair_to_world(const tl_pair *pair, tl_vec3d p)
+static inline tl_vec3 tl_minkowski_to_world(const tl_minkowski *pair, tl_vec3d p)
 {
     return tl_vec3d_to_float(tl_frame_point(&pair->a_to_world, p));
 }

@@ -2,27 +2,15 @@
 //
 // The support query's front: which instruction set, and directions of unusual length.
 //
-// The choice reads the processor's features as the C runtime found them at program start (__builtin_cpu_supports): one
-// load and a branch, no state of our own, and the baked hull has the same bytes on every machine.
+// The baked hull has the same bytes on every machine.
 
-#include "hull/support/support.h"
+#include "hull/support/hull_support.h"
+
+#include "base/cpu.h"
 
 #include <string.h>
 
-#if defined(__x86_64__) && defined(__GNUC__)
-
-static inline bool has_avx2(void)
-{
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-}
-
-static inline bool has_sse42(void)
-{
-    return __builtin_cpu_supports("sse4.2");
-}
-
-#else
-
+#if !defined(__x86_64__)
 // Never called.
 #define tl_hull_support_avx2  tl_hull_support_scalar
 #define tl_hull_climb_avx2    tl_hull_climb_scalar
@@ -30,17 +18,6 @@ static inline bool has_sse42(void)
 #define tl_hull_support_sse42 tl_hull_support_scalar
 #define tl_hull_climb_sse42   tl_hull_climb_scalar
 #define tl_hull_march_sse42   tl_hull_march_scalar
-
-static inline bool has_avx2(void)
-{
-    return false;
-}
-
-static inline bool has_sse42(void)
-{
-    return false;
-}
-
 #endif
 
 bool tl_support_kernel_for(tl_support_isa isa, tl_support_kernel *kernel_out)
@@ -51,23 +28,27 @@ bool tl_support_kernel_for(tl_support_isa isa, tl_support_kernel *kernel_out)
         { tl_hull_support_avx2, tl_hull_climb_avx2, tl_hull_march_avx2 },
     };
     *kernel_out = kernels[isa];
-    return isa == TL_SUPPORT_SCALAR || (isa == TL_SUPPORT_SSE42 && has_sse42()) ||
-           (isa == TL_SUPPORT_AVX2 && has_avx2());
+    return isa == TL_SUPPORT_SCALAR || (isa == TL_SUPPORT_SSE42 && tl_cpu_has_sse42()) ||
+           (isa == TL_SUPPORT_AVX2 && tl_cpu_has_avx2());
 }
 
 tl_support_kernel tl_support_kernel_best(void)
 {
     tl_support_kernel kernel;
-    tl_support_kernel_for(has_avx2() ? TL_SUPPORT_AVX2 : has_sse42() ? TL_SUPPORT_SSE42 : TL_SUPPORT_SCALAR, &kernel);
+    tl_support_kernel_for(tl_cpu_has_avx2()    ? TL_SUPPORT_AVX2
+                          : tl_cpu_has_sse42() ? TL_SUPPORT_SSE42
+                                               : TL_SUPPORT_SCALAR,
+                          &kernel);
     return kernel;
 }
 
 uint32_t tl_hull_support(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
 {
-    if (has_avx2()) {
+    if (tl_cpu_has_avx2()) {
         return tl_hull_support_avx2(hull, direction, hint);
     }
-    return has_sse42() ? tl_hull_support_sse42(hull, direction, hint) : tl_hull_support_scalar(hull, direction, hint);
+    return tl_cpu_has_sse42() ? tl_hull_support_sse42(hull, direction, hint)
+                              : tl_hull_support_scalar(hull, direction, hint);
 }
 
 // 2^-exponent(size) as a double, for a float size > 0: exact, and never a denormal.

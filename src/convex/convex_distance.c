@@ -4,6 +4,7 @@
 
 #include "convex/gjk.h"
 
+#include "base/assert.h"
 #include "math/tolerance.h"
 
 #include <string.h>
@@ -11,8 +12,9 @@
 void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                         tl_simplex_cache *cache, tl_separation *separation_out)
 {
-    tl_pair pair;
-    tl_pair_init(&pair, a, pose_a, b, pose_b);
+    TL_ASSERT(a != NULL && b != NULL && separation_out != NULL);
+    tl_minkowski pair;
+    tl_minkowski_init(&pair, a, pose_a, b, pose_b);
     tl_gjk gjk;
     tl_gjk_run(&pair, cache, -1.0, &gjk);
     memset(separation_out, 0, sizeof *separation_out);
@@ -22,7 +24,7 @@ void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex
     tl_simplex_witness(&gjk.simplex, &on_a, &on_b);
     if (gjk.overlap) {
         separation_out->overlap = true;
-        separation_out->point_a = separation_out->point_b = tl_pair_to_world(&pair, on_a);
+        separation_out->point_a = separation_out->point_b = tl_minkowski_to_world(&pair, on_a);
         return;
     }
     const tl_vec3d normal = gjk.normal;
@@ -30,16 +32,17 @@ void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex
     separation_out->overlap = gjk.upper <= radii;
     separation_out->distance = gjk.upper > radii ? (float)(gjk.upper - radii) : 0.0f;
     separation_out->lower_bound = gjk.lower > radii ? (float)((gjk.lower - radii) * (1.0 - TL_FLOAT_OUTWARD)) : 0.0f;
-    separation_out->point_a = tl_pair_to_world(&pair, tl_vec3d_mul_add(on_a, normal, (double)a->radius));
-    separation_out->point_b = tl_pair_to_world(&pair, tl_vec3d_mul_add(on_b, normal, -(double)b->radius));
+    separation_out->point_a = tl_minkowski_to_world(&pair, tl_vec3d_mul_add(on_a, normal, (double)a->radius));
+    separation_out->point_b = tl_minkowski_to_world(&pair, tl_vec3d_mul_add(on_b, normal, -(double)b->radius));
     separation_out->normal = tl_vec3d_to_float(tl_frame_rotate(&pair.a_to_world, normal));
 }
 
 bool tl_convex_overlap(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                        tl_simplex_cache *cache)
 {
-    tl_pair pair;
-    tl_pair_init(&pair, a, pose_a, b, pose_b);
+    TL_ASSERT(a != NULL && b != NULL);
+    tl_minkowski pair;
+    tl_minkowski_init(&pair, a, pose_a, b, pose_b);
     double radii = (double)a->radius + (double)b->radius;
     tl_gjk gjk;
     tl_gjk_run(&pair, cache, radii, &gjk);

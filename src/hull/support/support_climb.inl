@@ -15,7 +15,7 @@
 #define TALUS_SRC_HULL_SUPPORT_CLIMB_H
 
 #include "base/lowest_bit.h"
-#include "hull/support/support.h"
+#include "hull/support/hull_support.h"
 #include "math/simd8.h"
 #include "math/tolerance.h"
 

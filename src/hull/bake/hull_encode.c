@@ -4,7 +4,7 @@
 // support query the rows of the scan, or the blocks of the climb and the direction table.
 
 #include "hull/bake/quickhull.h"
-#include "hull/support/support.h"
+#include "hull/support/hull_support.h"
 #include "math/predicates.h"
 #include "math/tolerance.h"
 #include "math/vec3d.h"
@@ -53,11 +53,6 @@ static void write_topology(tl_hull *hull, const tl_hull_polygons *polygons, cons
     }
 }
 
-static tl_vec3 corner(const tl_hull *hull, uint32_t half_edge)
-{
-    return tl_hull_vertices(hull)[tl_hull_half_edges(hull)[half_edge].origin];
-}
-
 // Twice the area's vector of a triangle, (b - a) x (c - a), to within TL_NORMAL_ERROR of its length. A face may be
 // thinner than double rounding: then the digits are summed exactly.
 static tl_vec3d normal_of(tl_vec3 a, tl_vec3 b, tl_vec3 c)
@@ -77,12 +72,12 @@ static tl_vec3d normal_of(tl_vec3 a, tl_vec3 b, tl_vec3 c)
 // The fan triangle with the largest area spans the plane best.
 static tl_hull_plane fit_plane(const tl_hull *hull, tl_hull_face face)
 {
-    tl_vec3 a = corner(hull, face.first);
+    tl_vec3 a = tl_hull_corner(hull, face.first);
     uint32_t best = 1;
     double best_area = 0.0;
     for (uint32_t k = 1; k + 1 < face.count && face.count > 3; k++) {
-        tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(corner(hull, face.first + k)), tl_vec3d_from(a));
-        tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(corner(hull, face.first + k + 1)), tl_vec3d_from(a));
+        tl_vec3d u = tl_vec3d_sub(tl_vec3d_from(tl_hull_corner(hull, face.first + k)), tl_vec3d_from(a));
+        tl_vec3d v = tl_vec3d_sub(tl_vec3d_from(tl_hull_corner(hull, face.first + k + 1)), tl_vec3d_from(a));
         tl_vec3d normal = tl_vec3d_cross(u, v);
         double area = tl_vec3d_dot(normal, normal);
         if (area > best_area) {
@@ -90,12 +85,12 @@ static tl_hull_plane fit_plane(const tl_hull *hull, tl_hull_face face)
             best = k;
         }
     }
-    tl_vec3 b = corner(hull, face.first + best), c = corner(hull, face.first + best + 1);
+    tl_vec3 b = tl_hull_corner(hull, face.first + best), c = tl_hull_corner(hull, face.first + best + 1);
     tl_vec3d n = normal_of(a, b, c);
     double length = tl_vec3d_length(n);
     tl_hull_plane plane = { { n.x / length, n.y / length, n.z / length }, -(double)INFINITY };
     for (uint32_t k = 0; k < face.count; k++) {
-        tl_vec3 p = corner(hull, face.first + k);
+        tl_vec3 p = tl_hull_corner(hull, face.first + k);
         double offset = plane.normal[0] * (double)p.x + plane.normal[1] * (double)p.y + plane.normal[2] * (double)p.z;
         plane.offset = offset > plane.offset ? offset : plane.offset;
     }
@@ -146,8 +141,8 @@ static void write_blocks(tl_hull *hull, const uint32_t *degrees)
     }
 }
 
-tl_result tl_hull_emit(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
-                       tl_hull **hull_out)
+tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
+                         tl_hull **hull_out)
 {
     uint32_t *degrees = TL_PUSH_ZERO(arena, uint32_t, polygons->vertex_count);
     if (degrees == NULL) {

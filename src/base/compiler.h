@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+//
+// Hints to the compiler; nothing where it has none.
+
+#ifndef TALUS_SRC_BASE_COMPILER_H
+#define TALUS_SRC_BASE_COMPILER_H
+
+/// TL_ALWAYS_INLINE: a kernel's values must stay in registers over its parts. TL_NOINLINE: its stack is its own.
+/// TL_KEEP_BRANCH behind an assignment to `value`: the branch that leads there stays one. Compilers like to make a
+/// conditional move of it, which waits for the condition where a branch is predicted.
+#if defined(__GNUC__)
+#define TL_ALWAYS_INLINE      inline __attribute__((always_inline))
+#define TL_NOINLINE           __attribute__((noinline))
+#define TL_KEEP_BRANCH(value) __asm__ volatile("" : "+r"(value))
+#else
+#define TL_ALWAYS_INLINE inline
+#define TL_NOINLINE
+#define TL_KEEP_BRANCH(value) ((void)(value))
+#endif
+
+/// A line of memory is needed soon.
+static inline void tl_prefetch(const void *at)
+{
+#if defined(__GNUC__)
+    __builtin_prefetch(at);
+#else
+    (void)at;
+#endif
+}
+
+#endif
