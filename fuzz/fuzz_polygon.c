@@ -68,16 +68,10 @@ static void from_text(const uint8_t *data, size_t size)
     memset(&reader, 0, sizeof reader);
     reader.bytes = (const char *)data;
     reader.size = size;
-    tl_contour_reader again = reader;
     tl_contour_text text;
     while (!tl_contour_reader_at_end(&reader) && tl_contour_text_read(&reader, &text, NULL) == TL_OK) {
         build_and_check(&text.set, text.max_verts_per_poly, 2);
         tl_contour_text_free(&text);
-    }
-    tl_polygon_text mesh;
-    while (!tl_contour_reader_at_end(&again) && tl_polygon_text_read(&again, &mesh, NULL) == TL_OK) {
-        tl_polygon_mesh_check(&mesh.mesh, NULL, NULL, NULL);
-        tl_polygon_text_free(&mesh);
     }
 }
 

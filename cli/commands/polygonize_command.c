@@ -8,6 +8,7 @@
 #include "io/files/atomic_write.h"
 #include "io/files/file_map.h"
 #include "io/text/contour_text.h"
+#include "io/text/polygon_text_write.h"
 
 #include <stdio.h>
 #include <string.h>

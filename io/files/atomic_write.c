@@ -21,7 +21,7 @@
 #include <unistd.h>
 
 enum {
-    BUFFER_BYTES = 64 * 1024,
+    WRITE_BUFFER_BYTES = 64 * 1024,
     TEMPORARY_NAME_BYTES = 64, // ".talus-", two 64-bit numbers, ".tmp"
     NAME_ATTEMPTS = 1000,
 };
@@ -36,7 +36,7 @@ struct tl_atomic_file {
     uint64_t size;
     size_t used; // bytes in the buffer
     tl_io_error failure;
-    unsigned char buffer[BUFFER_BYTES];
+    unsigned char buffer[WRITE_BUFFER_BYTES];
 };
 
 // Several files in the making in one folder, or what a killed process of the same number left, take different attempts.
@@ -195,11 +195,11 @@ static tl_result flush_buffer(tl_atomic_file *file)
     return write_through(file, file->buffer, used);
 }
 
-static tl_result append(tl_atomic_file *file, const unsigned char *bytes, size_t size)
+static tl_result append_to_file(tl_atomic_file *file, const unsigned char *bytes, size_t size)
 {
-    if (size > BUFFER_BYTES - file->used) {
+    if (size > WRITE_BUFFER_BYTES - file->used) {
         tl_result result = flush_buffer(file);
-        if (result != TL_OK || size >= BUFFER_BYTES) {
+        if (result != TL_OK || size >= WRITE_BUFFER_BYTES) {
             return result != TL_OK ? result : write_through(file, bytes, size);
         }
     }
@@ -213,7 +213,7 @@ tl_result tl_atomic_file_write(tl_atomic_file *file, const void *bytes, size_t s
     if (size == 0) {
         return file->failure.result;
     }
-    if (file->failure.result == TL_OK && append(file, bytes, size) == TL_OK) {
+    if (file->failure.result == TL_OK && append_to_file(file, bytes, size) == TL_OK) {
         file->size += size;
         return TL_OK;
     }

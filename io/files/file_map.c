@@ -26,7 +26,7 @@ static tl_result fail_too_large(const char *path, uint64_t max_bytes, tl_io_erro
                       "larger than the limit of %llu bytes", (unsigned long long)max_bytes);
 }
 
-static tl_result fail_memory(const char *path, tl_io_error *error)
+static tl_result fail_map_memory(const char *path, tl_io_error *error)
 {
     return tl_io_fail(error, TL_ERR_MEMORY, path, 0, NULL, "out of memory while reading");
 }
@@ -53,7 +53,7 @@ static tl_result read_stream(int descriptor, const char *path, uint64_t max_byte
             bytes = enlarge(bytes, used, capacity);
         }
         if (bytes == NULL) {
-            return fail_memory(path, error);
+            return fail_map_memory(path, error);
         }
         ssize_t got = read(descriptor, bytes + used, capacity - used);
         if (got < 0 && errno == EINTR) {
@@ -97,7 +97,7 @@ static tl_result map_descriptor(int descriptor, const char *path, uint64_t max_b
         return fail_too_large(path, max_bytes, error);
     }
     if (size > SIZE_MAX) {
-        return fail_memory(path, error);
+        return fail_map_memory(path, error);
     }
     void *bytes = mmap(NULL, (size_t)size, PROT_READ, MAP_PRIVATE, descriptor, 0);
     if (bytes == MAP_FAILED) {

@@ -9,7 +9,7 @@
 
 enum { ALIGNMENT = 64, FIRST_ITEMS = 64 };
 
-static void *default_allocate(size_t size, size_t alignment, void *user)
+static void *io_default_allocate(size_t size, size_t alignment, void *user)
 {
     (void)user;
     // aligned_alloc wants a multiple of the alignment.
@@ -17,7 +17,7 @@ static void *default_allocate(size_t size, size_t alignment, void *user)
                                         : NULL;
 }
 
-static void default_release(void *block, size_t size, void *user)
+static void io_default_release(void *block, size_t size, void *user)
 {
     (void)size;
     (void)user;
@@ -29,7 +29,7 @@ tl_allocator tl_io_allocator_or_default(const tl_allocator *allocator)
     if (allocator != NULL) {
         return *allocator;
     }
-    tl_allocator standard = { default_allocate, default_release, NULL };
+    tl_allocator standard = { io_default_allocate, io_default_release, NULL };
     return standard;
 }
 

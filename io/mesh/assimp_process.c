@@ -80,13 +80,12 @@ static void limit_child(size_t size)
 }
 
 // Does not return. _exit: nothing of the parent's (buffers, exit handlers) is to run twice.
-static void run_child(int pipe, const char *path, const void *bytes, size_t size, const char *hint,
-                      bool allow_no_triangles)
+static void run_child(int pipe, const tl_assimp_source *source)
 {
-    limit_child(size);
+    limit_child(source->size);
     message sent;
     memset(&sent, 0, sizeof sent);
-    sent.result = tl_assimp_read(path, bytes, size, hint, allow_no_triangles, NULL, &sent.mesh, &sent.error);
+    sent.result = tl_assimp_read(source, NULL, &sent.mesh, &sent.error);
     const tl_imported_mesh *mesh = &sent.mesh;
     size_t triangles = mesh->triangle_count;
     bool all = send_bytes(pipe, &sent, sizeof sent);
@@ -201,10 +200,10 @@ static tl_result explain_death(const receiver *from, int status)
                       "Assimp failed on it (%s)", WIFSIGNALED(status) ? strsignal(WTERMSIG(status)) : "it ended early");
 }
 
-tl_result tl_assimp_read_isolated(const char *path, const void *bytes, size_t size, const char *hint,
-                                  bool allow_no_triangles, const tl_host *host, tl_imported_mesh *mesh_out,
+tl_result tl_assimp_read_isolated(const tl_assimp_source *source, const tl_host *host, tl_imported_mesh *mesh_out,
                                   tl_io_error *error_out)
 {
+    const char *path = source->path;
     memset(mesh_out, 0, sizeof *mesh_out);
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) {
@@ -213,7 +212,7 @@ tl_result tl_assimp_read_isolated(const char *path, const void *bytes, size_t si
     pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
-        run_child(ends[1], path, bytes, size, hint, allow_no_triangles);
+        run_child(ends[1], source);
     }
     int refused = errno;
     close(ends[1]);
@@ -222,7 +221,7 @@ tl_result tl_assimp_read_isolated(const char *path, const void *bytes, size_t si
         return tl_io_fail_system(error_out, path, "start a process to read it", refused);
     }
     tl_imported_mesh_init(mesh_out, host != NULL ? host->allocator : NULL);
-    receiver from = { ends[0], child, path, host, error_out, size };
+    receiver from = { ends[0], child, path, host, error_out, source->size };
     tl_result result = receive_all(&from, mesh_out);
     close(ends[0]);
     if (result != TL_OK && result != TL_ERR_TRUNCATED) {

@@ -10,16 +10,12 @@
 #ifndef TALUS_IO_ASSIMP_PROCESS_H
 #define TALUS_IO_ASSIMP_PROCESS_H
 
-#include "io/files/io_error.h"
-#include "io/mesh/imported_mesh.h"
-
-#include <stddef.h>
+#include "io/mesh/assimp_reader.h"
 
 /// tl_assimp_read, but TL_ERR_FORMAT when Assimp crashes, TL_ERR_LIMIT when it takes more processor time than 10
 /// seconds and one more for each MB. The host's progress hook is called four times a second and can cancel. Thread
 /// safe; where the system refuses a process: TL_ERR_IO.
-tl_result tl_assimp_read_isolated(const char *path, const void *bytes, size_t size, const char *hint,
-                                  bool allow_no_triangles, const tl_host *host, tl_imported_mesh *mesh_out,
+tl_result tl_assimp_read_isolated(const tl_assimp_source *source, const tl_host *host, tl_imported_mesh *mesh_out,
                                   tl_io_error *error_out);
 
 #endif

@@ -24,17 +24,17 @@ typedef struct affine {
 } affine;
 
 // A node still to be visited, and its parent's map to the world.
-typedef struct pending_node {
+typedef struct pending_scene_node {
     const struct aiNode *node;
     affine parent;
-} pending_node;
+} pending_scene_node;
 
 typedef struct scene_reader {
     const struct aiScene *scene;
     tl_imported_mesh *mesh;
     const char *path;
     tl_io_error *error;
-    pending_node *stack;
+    pending_scene_node *stack;
     uint64_t stack_count;
     uint64_t stack_capacity;
     tl_split_corner *scratch; // TL_MAX_SPLIT_CORNERS of each, once there is a polygon
@@ -80,15 +80,15 @@ static bool affine_mirrors(const affine *a)
     return a->row[0][0] * x + a->row[0][1] * y + a->row[0][2] * z < 0.0;
 }
 
-static tl_result fail_memory(scene_reader *reader)
+static tl_result fail_scene_memory(scene_reader *reader)
 {
     return tl_io_fail(reader->error, TL_ERR_MEMORY, reader->path, 0, NULL, "out of memory");
 }
 
-static tl_result fail_reserve(scene_reader *reader, tl_result result, const char *what)
+static tl_result fail_scene_reserve(scene_reader *reader, tl_result result, const char *what)
 {
     if (result == TL_ERR_MEMORY) {
-        return fail_memory(reader);
+        return fail_scene_memory(reader);
     }
     return tl_io_fail(reader->error, result, reader->path, 0, "cut the level into parts",
                       "more %s than one mesh may have", what);
@@ -110,15 +110,15 @@ static tl_result find_material(scene_reader *reader, unsigned index, uint32_t *i
         return tl_io_fail(reader->error, result, reader->path, 0, "join materials",
                           "more than 65535 different materials");
     }
-    return result == TL_OK ? TL_OK : fail_memory(reader);
+    return result == TL_OK ? TL_OK : fail_scene_memory(reader);
 }
 
-static tl_result add_vertices(scene_reader *reader, const struct aiMesh *part, const affine *to_world)
+static tl_result add_scene_vertices(scene_reader *reader, const struct aiMesh *part, const affine *to_world)
 {
     tl_imported_mesh *mesh = reader->mesh;
     tl_result result = tl_imported_mesh_reserve_vertices(mesh, part->mNumVertices);
     if (result != TL_OK) {
-        return fail_reserve(reader, result, "vertices");
+        return fail_scene_reserve(reader, result, "vertices");
     }
     for (unsigned i = 0; i < part->mNumVertices; i++) {
         struct aiVector3D source = part->mVertices[i];
@@ -139,13 +139,13 @@ static tl_result add_vertices(scene_reader *reader, const struct aiMesh *part, c
 }
 
 // The fan of a face of three corners or more, wound the other way when mirrored.
-static tl_result add_fan(scene_reader *reader, const struct aiFace *face, uint32_t first_vertex, bool mirrored,
-                         uint32_t material)
+static tl_result add_face_fan(scene_reader *reader, const struct aiFace *face, uint32_t first_vertex, bool mirrored,
+                              uint32_t material)
 {
     tl_imported_mesh *mesh = reader->mesh;
     tl_result result = tl_imported_mesh_reserve_triangles(mesh, (uint64_t)face->mNumIndices - 2);
     if (result != TL_OK) {
-        return fail_reserve(reader, result, "triangles");
+        return fail_scene_reserve(reader, result, "triangles");
     }
     for (unsigned k = 1; k + 1 < face->mNumIndices; k++) {
         uint32_t *indices = mesh->indices + (size_t)mesh->triangle_count * 3;
@@ -177,7 +177,7 @@ static tl_result split_last(scene_reader *reader, const struct aiFace *face, uin
         reader->corners = tl_io_allocate(&mesh->allocator, TL_MAX_SPLIT_CORNERS * sizeof *reader->corners);
     }
     if (reader->scratch == NULL || reader->corners == NULL) {
-        return fail_memory(reader);
+        return fail_scene_memory(reader);
     }
     for (uint32_t k = 0; k < count; k++) {
         reader->corners[k] = first_vertex + face->mIndices[mirrored && k > 0 ? count - k : k];
@@ -203,7 +203,7 @@ static tl_result check_face(scene_reader *reader, const struct aiMesh *part, uns
     return TL_OK;
 }
 
-static tl_result add_faces(scene_reader *reader, const struct aiMesh *part, uint32_t first_vertex, bool mirrored)
+static tl_result add_scene_faces(scene_reader *reader, const struct aiMesh *part, uint32_t first_vertex, bool mirrored)
 {
     uint32_t material;
     tl_result result = find_material(reader, part->mMaterialIndex, &material);
@@ -216,7 +216,7 @@ static tl_result add_faces(scene_reader *reader, const struct aiMesh *part, uint
         }
         result = check_face(reader, part, i);
         if (result == TL_OK) {
-            result = add_fan(reader, face, first_vertex, mirrored, material);
+            result = add_face_fan(reader, face, first_vertex, mirrored, material);
         }
         if (result == TL_OK && face->mNumIndices > 3) {
             result = split_last(reader, face, first_vertex, mirrored);
@@ -225,7 +225,7 @@ static tl_result add_faces(scene_reader *reader, const struct aiMesh *part, uint
     return result;
 }
 
-static tl_result add_node(scene_reader *reader, const struct aiNode *node, const affine *to_world)
+static tl_result add_scene_node(scene_reader *reader, const struct aiNode *node, const affine *to_world)
 {
     bool mirrored = affine_mirrors(to_world);
     reader->mesh->mirrored_nodes += mirrored && node->mNumMeshes > 0;
@@ -237,9 +237,9 @@ static tl_result add_node(scene_reader *reader, const struct aiNode *node, const
         }
         const struct aiMesh *part = reader->scene->mMeshes[node->mMeshes[i]];
         uint32_t first_vertex = reader->mesh->vertex_count;
-        tl_result result = add_vertices(reader, part, to_world);
+        tl_result result = add_scene_vertices(reader, part, to_world);
         if (result == TL_OK) {
-            result = add_faces(reader, part, first_vertex, mirrored);
+            result = add_scene_faces(reader, part, first_vertex, mirrored);
         }
         if (result != TL_OK) {
             return result;
@@ -248,7 +248,7 @@ static tl_result add_node(scene_reader *reader, const struct aiNode *node, const
     return TL_OK;
 }
 
-static bool push_node(scene_reader *reader, const struct aiNode *node, const affine *parent)
+static bool push_scene_node(scene_reader *reader, const struct aiNode *node, const affine *parent)
 {
     if (!tl_io_grow(&reader->mesh->allocator, (void **)&reader->stack, &reader->stack_capacity, reader->stack_count,
                     reader->stack_count + 1, sizeof *reader->stack)) {
@@ -264,20 +264,20 @@ static bool push_node(scene_reader *reader, const struct aiNode *node, const aff
 static tl_result walk_nodes(scene_reader *reader)
 {
     static const affine identity = { { { 1.0, 0.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0, 0.0 } } };
-    if (!push_node(reader, reader->scene->mRootNode, &identity)) {
-        return fail_memory(reader);
+    if (!push_scene_node(reader, reader->scene->mRootNode, &identity)) {
+        return fail_scene_memory(reader);
     }
     while (reader->stack_count > 0) {
-        pending_node pending = reader->stack[--reader->stack_count];
+        pending_scene_node pending = reader->stack[--reader->stack_count];
         affine local = affine_of(&pending.node->mTransformation);
         affine to_world = affine_multiply(&pending.parent, &local);
-        tl_result result = add_node(reader, pending.node, &to_world);
+        tl_result result = add_scene_node(reader, pending.node, &to_world);
         if (result != TL_OK) {
             return result;
         }
         for (unsigned i = pending.node->mNumChildren; i-- > 0;) {
-            if (!push_node(reader, pending.node->mChildren[i], &to_world)) {
-                return fail_memory(reader);
+            if (!push_scene_node(reader, pending.node->mChildren[i], &to_world)) {
+                return fail_scene_memory(reader);
             }
         }
     }
@@ -289,7 +289,7 @@ static tl_result read_scene(scene_reader *reader, bool allow_no_triangles)
     tl_imported_mesh *mesh = reader->mesh;
     uint32_t nameless;
     if (tl_name_table_add(&mesh->names, &mesh->allocator, "", 0, 1, &nameless) != TL_OK) {
-        return fail_memory(reader);
+        return fail_scene_memory(reader);
     }
     tl_result result = walk_nodes(reader);
     tl_io_release(&mesh->allocator, reader->stack, reader->stack_capacity * sizeof *reader->stack);
@@ -310,16 +310,17 @@ bool tl_assimp_knows(const char *extension)
     return aiIsExtensionSupported(extension) == AI_TRUE;
 }
 
-tl_result tl_assimp_read(const char *path, const void *bytes, size_t size, const char *hint, bool allow_no_triangles,
-                         const tl_allocator *allocator, tl_imported_mesh *mesh_out, tl_io_error *error_out)
+tl_result tl_assimp_read(const tl_assimp_source *source, const tl_allocator *allocator, tl_imported_mesh *mesh_out,
+                         tl_io_error *error_out)
 {
+    const char *path = source->path, *hint = source->hint;
     memset(mesh_out, 0, sizeof *mesh_out);
-    if (hint != NULL && size > UINT32_MAX) {
+    if (hint != NULL && source->size > UINT32_MAX) {
         return tl_io_fail(error_out, TL_ERR_LIMIT, path, 0, "give it a name with an extension, and read it from there",
                           "more than 4 GiB in memory");
     }
     const struct aiScene *scene =
-        hint != NULL ? aiImportFileFromMemory(bytes, (unsigned)size, 0, hint) : aiImportFile(path, 0);
+        hint != NULL ? aiImportFileFromMemory(source->bytes, (unsigned)source->size, 0, hint) : aiImportFile(path, 0);
     if (scene == NULL || scene->mRootNode == NULL) {
         const char *reason = aiGetErrorString();
         tl_io_fail(error_out, TL_ERR_FORMAT, path, 0, "open it in a modelling tool and export it again", "%s",
@@ -329,9 +330,9 @@ tl_result tl_assimp_read(const char *path, const void *bytes, size_t size, const
     }
     tl_imported_mesh_init(mesh_out, allocator);
     mesh_out->format = "Assimp";
-    mesh_out->source_bytes = size;
+    mesh_out->source_bytes = source->size;
     scene_reader reader = { scene, mesh_out, path, error_out, NULL, 0, 0, NULL, NULL };
-    tl_result result = read_scene(&reader, allow_no_triangles);
+    tl_result result = read_scene(&reader, source->allow_no_triangles);
     if (result != TL_OK) {
         tl_imported_mesh_free(mesh_out);
     }

@@ -52,7 +52,7 @@ static bool begins_with(const char *bytes, size_t size, const char *text)
 }
 
 // Where a text begins; `size` when it is not there.
-static size_t find(const char *bytes, size_t size, const char *text)
+static size_t find_in_bytes(const char *bytes, size_t size, const char *text)
 {
     size_t length = strlen(text);
     for (size_t i = 0; i + length <= size; i++) {
@@ -65,7 +65,7 @@ static size_t find(const char *bytes, size_t size, const char *text)
 
 static bool contains(const char *bytes, size_t size, const char *text)
 {
-    return find(bytes, size, text) < size;
+    return find_in_bytes(bytes, size, text) < size;
 }
 
 // A binary STL file says nothing but its triangle count.
@@ -145,7 +145,7 @@ static tl_result check_ply(const char *bytes, size_t size, const char *name, tl_
         return TL_OK;
     }
     size_t most = size < LONGEST_PLY_HEADER ? size : LONGEST_PLY_HEADER;
-    size_t head = find(bytes, most, "end_header");
+    size_t head = find_in_bytes(bytes, most, "end_header");
     if (!contains(bytes + head, most - head, "end_header\n") && !contains(bytes + head, most - head, "end_header\r")) {
         return tl_io_fail(error, TL_ERR_FORMAT, name, 0, "the file is cut short", "a PLY file without an end_header");
     }
@@ -163,8 +163,8 @@ bool tl_import_is_mesh_name(const char *path)
     return strcmp(extension, ".obj") == 0 || (extension[0] != '\0' && tl_assimp_knows(extension));
 }
 
-static tl_result read_mesh(const void *bytes, size_t size, const char *path, const tl_import_options *options,
-                           tl_imported_mesh *mesh, tl_io_error *error)
+static tl_result read_mesh_bytes(const void *bytes, size_t size, const char *path, const tl_import_options *options,
+                                 tl_imported_mesh *mesh, tl_io_error *error)
 {
     const tl_host *host = &options->host;
     bool allow = options->allow_no_triangles;
@@ -185,10 +185,12 @@ static tl_result read_mesh(const void *bytes, size_t size, const char *path, con
         return tl_obj_read(bytes, size, name, allow, host, mesh, error);
     }
     if (!named_obj && !stream && tl_import_is_mesh_name(path)) {
-        return tl_assimp_read_isolated(path, NULL, size, NULL, allow, host, mesh, error);
+        const tl_assimp_source file = { path, NULL, size, NULL, allow };
+        return tl_assimp_read_isolated(&file, host, mesh, error);
     }
     if (other != NULL) {
-        return tl_assimp_read_isolated(name, bytes, size, other, allow, host, mesh, error);
+        const tl_assimp_source memory = { name, bytes, size, other, allow };
+        return tl_assimp_read_isolated(&memory, host, mesh, error);
     }
     if (sniff_obj(bytes, size)) {
         return tl_obj_read(bytes, size, name, allow, host, mesh, error);
@@ -238,7 +240,7 @@ tl_result tl_import_mesh_bytes(const void *bytes, size_t size, const char *path,
     memset(mesh_out, 0, sizeof *mesh_out);
     tl_result result = tl_import_options_check(&used, path, error_out);
     if (result == TL_OK) {
-        result = read_mesh(bytes, size, path, &used, mesh_out, error_out);
+        result = read_mesh_bytes(bytes, size, path, &used, mesh_out, error_out);
     }
     if (result == TL_OK) {
         result = tl_import_place_vertices(&used, path, mesh_out->vertices, mesh_out->vertex_count, error_out);

@@ -18,7 +18,7 @@
 
 enum {
     PROGRESS_BYTES = 4 * 1024 * 1024,
-    QUOTE_BYTES = 32, // of an offending word in a message
+    MAX_QUOTED_BYTES = 32, // of an offending word in a message
 };
 
 static const char stage[] = "read mesh";
@@ -58,34 +58,34 @@ static bool is_separator(char c)
 // --- failures -------------------------------------------------------------------------------------------------------
 
 // A word of the text for a message: ends with the word, the line, or "..." when it is long.
-static const char *quote(const char *at, const char *end, char text[QUOTE_BYTES + 4])
+static const char *quote(const char *at, const char *end, char text[MAX_QUOTED_BYTES + 4])
 {
     size_t size = 0;
-    while (size < QUOTE_BYTES && at + size < end && !is_separator(at[size])) {
+    while (size < MAX_QUOTED_BYTES && at + size < end && !is_separator(at[size])) {
         text[size] = at[size] != '\0' ? at[size] : '?';
         size++;
     }
-    bool cut = size == QUOTE_BYTES;
+    bool cut = size == MAX_QUOTED_BYTES;
     memcpy(text + size, cut ? "..." : "", cut ? 4 : 1);
     return text;
 }
 
 // Notes a failure without words of its own.
-static const char *fail(obj_reader *reader, tl_result result, const char *advice, const char *message)
+static const char *fail_at_line(obj_reader *reader, tl_result result, const char *advice, const char *message)
 {
     reader->result = tl_io_fail(reader->error, result, reader->path, reader->line, advice, "%s", message);
     return NULL;
 }
 
-static const char *fail_memory(obj_reader *reader)
+static const char *fail_obj_memory(obj_reader *reader)
 {
-    return fail(reader, TL_ERR_MEMORY, NULL, "out of memory");
+    return fail_at_line(reader, TL_ERR_MEMORY, NULL, "out of memory");
 }
 
-static const char *fail_reserve(obj_reader *reader, tl_result result, const char *what)
+static const char *fail_obj_reserve(obj_reader *reader, tl_result result, const char *what)
 {
     if (result == TL_ERR_MEMORY) {
-        return fail_memory(reader);
+        return fail_obj_memory(reader);
     }
     reader->result = tl_io_fail(reader->error, result, reader->path, reader->line, "cut the level into parts",
                                 "more %s than one mesh may have", what);
@@ -105,7 +105,7 @@ static bool is_word(const char *at, const char *word)
 static const char *fail_number(obj_reader *reader, const char *at, const char *element, uint64_t index,
                                const char *needed)
 {
-    char text[QUOTE_BYTES + 4];
+    char text[MAX_QUOTED_BYTES + 4];
     const char *digits = at + (*at == '-' || *at == '+');
     uint64_t line = reader->line;
     if (tl_is_line_end(*at) || *at == '#') {
@@ -133,7 +133,7 @@ static inline const char *step_line(obj_reader *reader, const char *at)
 }
 
 // To the next thing on the line, over `\` and the line end behind it.
-static inline const char *skip_blanks(obj_reader *reader, const char *at)
+static inline const char *skip_text_blanks(obj_reader *reader, const char *at)
 {
     for (;;) {
         while (tl_is_blank(*at)) {
@@ -165,7 +165,7 @@ static const char *find_statement_end(obj_reader *reader, const char *at)
 
 static inline const char *read_number(obj_reader *reader, const char *at, float *value)
 {
-    at = skip_blanks(reader, at);
+    at = skip_text_blanks(reader, at);
     const char *next = tl_parse_float_padded(at, reader->end, value);
     if (next == NULL || !is_separator(*next)) {
         return fail_number(reader, at, "vertex", reader->mesh->vertex_count, "a coordinate");
@@ -178,7 +178,7 @@ static const char *read_vertex_rest(obj_reader *reader, const char *at)
 {
     uint32_t count = 3;
     float value;
-    while (at = skip_blanks(reader, at), !tl_is_line_end(*at) && *at != '#') {
+    while (at = skip_text_blanks(reader, at), !tl_is_line_end(*at) && *at != '#') {
         at = read_number(reader, at, &value);
         if (at == NULL) {
             return NULL;
@@ -194,7 +194,7 @@ static const char *read_vertex_rest(obj_reader *reader, const char *at)
     return tl_find_line_end(at);
 }
 
-static inline const char *read_vertex(obj_reader *reader, const char *at)
+static inline const char *read_obj_vertex(obj_reader *reader, const char *at)
 {
     tl_imported_mesh *mesh = reader->mesh;
     tl_vec3 vertex;
@@ -209,14 +209,14 @@ static inline const char *read_vertex(obj_reader *reader, const char *at)
         }
     }
     if (!tl_is_finite(vertex)) {
-        fail(reader, TL_ERR_RANGE, "check the file's unit", "a coordinate is beyond the largest float");
+        fail_at_line(reader, TL_ERR_RANGE, "check the file's unit", "a coordinate is beyond the largest float");
         tl_io_blame(reader->error, TL_ERR_RANGE, "vertex", mesh->vertex_count);
         return NULL;
     }
     if (mesh->vertex_count == mesh->vertex_capacity) {
         tl_result result = tl_imported_mesh_reserve_vertices(mesh, 1);
         if (result != TL_OK) {
-            return fail_reserve(reader, result, "vertices");
+            return fail_obj_reserve(reader, result, "vertices");
         }
     }
     mesh->vertices[mesh->vertex_count++] = vertex;
@@ -225,7 +225,7 @@ static inline const char *read_vertex(obj_reader *reader, const char *at)
 
 static const char *fail_index(obj_reader *reader, const char *at)
 {
-    char text[QUOTE_BYTES + 4];
+    char text[MAX_QUOTED_BYTES + 4];
     tl_io_fail(reader->error, TL_ERR_INDEX, reader->path, reader->line, "indices count from 1, or backwards from -1",
                "corner '%s' names no vertex: there are %u so far", quote(at, reader->end, text),
                (unsigned)reader->mesh->vertex_count);
@@ -295,7 +295,7 @@ static inline const char *read_corner(obj_reader *reader, const char *at, uint32
     return next;
 }
 
-static bool add_polygon(obj_reader *reader, uint32_t corner_count)
+static bool add_obj_polygon(obj_reader *reader, uint32_t corner_count)
 {
     if (!tl_io_grow(&reader->mesh->allocator, (void **)&reader->polygons, &reader->polygon_capacity,
                     reader->polygon_count, reader->polygon_count + 1, sizeof *reader->polygons)) {
@@ -313,9 +313,10 @@ static inline const char *read_face(obj_reader *reader, const char *at)
     uint32_t count = 0;
     uint32_t corners[3] = { 0, 0, 0 }; // the first one, the one before, this one
     if (reader->line > UINT32_MAX) {
-        return fail(reader, TL_ERR_LIMIT, "cut the level into parts", "more lines than can be counted in 32 bits");
+        return fail_at_line(reader, TL_ERR_LIMIT, "cut the level into parts",
+                            "more lines than can be counted in 32 bits");
     }
-    while (at = skip_blanks(reader, at), !tl_is_line_end(*at) && *at != '#') {
+    while (at = skip_text_blanks(reader, at), !tl_is_line_end(*at) && *at != '#') {
         uint32_t *corner = &corners[count < 2 ? count : 2];
         at = read_corner(reader, at, corner);
         if (at == NULL) {
@@ -329,7 +330,7 @@ static inline const char *read_face(obj_reader *reader, const char *at)
         if (triangle == mesh->triangle_capacity) {
             tl_result result = tl_imported_mesh_reserve_triangles(mesh, 1);
             if (result != TL_OK) {
-                return fail_reserve(reader, result, "triangles");
+                return fail_obj_reserve(reader, result, "triangles");
             }
         }
         uint32_t *indices = mesh->indices + (size_t)triangle * 3;
@@ -347,14 +348,14 @@ static inline const char *read_face(obj_reader *reader, const char *at)
         reader->result = tl_io_blame(reader->error, TL_ERR_FORMAT, "face", mesh->face_count);
         return NULL;
     }
-    if (count > 3 && !add_polygon(reader, count)) {
-        return fail_memory(reader);
+    if (count > 3 && !add_obj_polygon(reader, count)) {
+        return fail_obj_memory(reader);
     }
     mesh->face_count++;
     return tl_find_line_end(at);
 }
 
-static const char *read_material(obj_reader *reader, const char *at)
+static const char *read_usemtl(obj_reader *reader, const char *at)
 {
     tl_imported_mesh *mesh = reader->mesh;
     while (tl_is_blank(*at)) {
@@ -368,9 +369,9 @@ static const char *read_material(obj_reader *reader, const char *at)
     tl_result result = tl_name_table_add(&mesh->names, &mesh->allocator, at, (size_t)(name_end - at),
                                          TL_MAX_IMPORTED_MATERIALS, &reader->material);
     if (result == TL_ERR_LIMIT) {
-        return fail(reader, TL_ERR_LIMIT, "join materials", "more than 65535 different materials");
+        return fail_at_line(reader, TL_ERR_LIMIT, "join materials", "more than 65535 different materials");
     }
-    return result == TL_OK ? line_end : fail_memory(reader);
+    return result == TL_OK ? line_end : fail_obj_memory(reader);
 }
 
 // A keyword that is not `v` or `f` with a blank behind it: all that is rare.
@@ -380,12 +381,12 @@ static const char *read_other(obj_reader *reader, const char *at)
     while (!is_separator(*keyword_end)) {
         unsigned char c = (unsigned char)*keyword_end;
         if (c < 0x20 || c == 0x7f) {
-            return fail(reader, TL_ERR_FORMAT, "this is no OBJ file; name it by its kind (.glb, .fbx, .stl...)",
-                        "binary content");
+            return fail_at_line(reader, TL_ERR_FORMAT, "this is no OBJ file; name it by its kind (.glb, .fbx, .stl...)",
+                                "binary content");
         }
         keyword_end++;
         if (keyword_end - at > TL_MAX_OBJ_KEYWORD_BYTES) {
-            return fail(reader, TL_ERR_LIMIT, "is this an OBJ file?", "a keyword of more than 32 characters");
+            return fail_at_line(reader, TL_ERR_LIMIT, "is this an OBJ file?", "a keyword of more than 32 characters");
         }
     }
     size_t size = (size_t)(keyword_end - at);
@@ -394,7 +395,7 @@ static const char *read_other(obj_reader *reader, const char *at)
         return find_statement_end(reader, keyword_end);
     }
     if (IS_KEYWORD("usemtl")) {
-        return read_material(reader, keyword_end);
+        return read_usemtl(reader, keyword_end);
     }
     if (IS_KEYWORD("o") || IS_KEYWORD("g") || IS_KEYWORD("mtllib")) {
         return tl_find_line_end(keyword_end);
@@ -411,13 +412,13 @@ static const char *read_other(obj_reader *reader, const char *at)
 
 // --- sections -------------------------------------------------------------------------------------------------------
 
-static inline const char *read_line(obj_reader *reader, const char *at)
+static inline const char *read_obj_line(obj_reader *reader, const char *at)
 {
     const char *first = at;
     const char *line_end;
-    at = skip_blanks(reader, at);
+    at = skip_text_blanks(reader, at);
     if (*at == 'v' && is_separator(at[1])) {
-        line_end = read_vertex(reader, at + 1);
+        line_end = read_obj_vertex(reader, at + 1);
     } else if (*at == 'f' && is_separator(at[1])) {
         line_end = read_face(reader, at + 1);
     } else if (*at == '#') {
@@ -431,17 +432,17 @@ static inline const char *read_line(obj_reader *reader, const char *at)
         return NULL;
     }
     if (line_end - first > TL_MAX_OBJ_LINE_BYTES) {
-        return fail(reader, TL_ERR_LIMIT, "is this an OBJ file?", "a line of more than 1048576 characters");
+        return fail_at_line(reader, TL_ERR_LIMIT, "is this an OBJ file?", "a line of more than 1048576 characters");
     }
     return step_line(reader, line_end);
 }
 
-static tl_result read_section(obj_reader *reader, const char *text, const char *end)
+static tl_result read_obj_section(obj_reader *reader, const char *text, const char *end)
 {
     reader->end = end;
     const char *at = text;
     while (at < end) {
-        at = read_line(reader, at);
+        at = read_obj_line(reader, at);
         if (at == NULL) {
             return reader->result;
         }
@@ -460,19 +461,19 @@ static tl_result read_section(obj_reader *reader, const char *text, const char *
 static tl_result read_sections(obj_reader *reader, const char *text, size_t size)
 {
     size_t in_place = tl_text_first_section(text, size);
-    tl_result result = read_section(reader, text, text + in_place);
+    tl_result result = read_obj_section(reader, text, text + in_place);
     if (result != TL_OK) {
         return result;
     }
     size_t block = tl_text_last_section_block(size - in_place);
     char *copy = tl_io_allocate(&reader->mesh->allocator, block);
     if (copy == NULL) {
-        fail_memory(reader);
+        fail_obj_memory(reader);
         return TL_ERR_MEMORY;
     }
     size_t last = tl_text_copy_last_section(text + in_place, size - in_place, copy);
     reader->section_offset = in_place;
-    result = read_section(reader, copy, copy + last);
+    result = read_obj_section(reader, copy, copy + last);
     tl_io_release(&reader->mesh->allocator, copy, block);
     return result;
 }
@@ -540,8 +541,8 @@ static tl_result check_whole(obj_reader *reader, bool allow_no_faces)
 // written to cost nothing.
 static tl_result reserve_guess(tl_imported_mesh *mesh, size_t size)
 {
-    enum { BYTES_A_VERTEX = 72, BYTES_A_TRIANGLE = 40 };
-    uint64_t vertices = size / BYTES_A_VERTEX;
+    enum { TEXT_BYTES_PER_VERTEX = 72, BYTES_A_TRIANGLE = 40 };
+    uint64_t vertices = size / TEXT_BYTES_PER_VERTEX;
     uint64_t triangles = size / BYTES_A_TRIANGLE;
     vertices = vertices < TL_MAX_MESH_VERTICES ? vertices : TL_MAX_MESH_VERTICES;
     triangles = triangles < TL_MAX_MESH_TRIANGLES ? triangles : TL_MAX_MESH_TRIANGLES;
@@ -549,7 +550,7 @@ static tl_result reserve_guess(tl_imported_mesh *mesh, size_t size)
     return result != TL_OK ? result : tl_imported_mesh_reserve_triangles(mesh, triangles);
 }
 
-static tl_result read_text(obj_reader *reader, const char *text, size_t size, bool allow_no_faces)
+static tl_result read_obj_text(obj_reader *reader, const char *text, size_t size, bool allow_no_faces)
 {
     uint32_t nameless;
     tl_imported_mesh *mesh = reader->mesh;
@@ -588,7 +589,7 @@ tl_result tl_obj_read(const void *text, size_t size, const char *path, bool allo
     reader.line = 1;
     reader.size = size;
     reader.next_progress = 1;
-    tl_result result = read_text(&reader, text, size, allow_no_faces);
+    tl_result result = read_obj_text(&reader, text, size, allow_no_faces);
     mesh_out->polygon_count = (uint32_t)reader.polygon_count;
     tl_io_release(&mesh_out->allocator, reader.polygons, reader.polygon_capacity * sizeof *reader.polygons);
     if (result != TL_OK) {

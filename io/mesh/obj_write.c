@@ -40,7 +40,7 @@ tl_result tl_obj_writer_open(const char *path, tl_obj_writer **writer_out, tl_io
     return TL_OK;
 }
 
-static void put(tl_obj_writer *writer, const char *text, size_t size)
+static void put_obj_text(tl_obj_writer *writer, const char *text, size_t size)
 {
     if (writer->failure.result == TL_OK) {
         tl_atomic_file_write(writer->file, text, size, &writer->failure);
@@ -50,15 +50,15 @@ static void put(tl_obj_writer *writer, const char *text, size_t size)
 // `keyword`, the text with each of its line ends (and its leading blanks, if `name`) replaced, and a line end.
 static void put_line(tl_obj_writer *writer, const char *keyword, const char *text, bool name)
 {
-    put(writer, keyword, strlen(keyword));
+    put_obj_text(writer, keyword, strlen(keyword));
     bool leading = name;
     for (const char *at = text; *at != '\0'; at++) {
         leading = leading && (*at == ' ' || *at == '\t');
         bool line_end = *at == '\n' || *at == '\r';
         char c = leading || (line_end && name) ? '_' : line_end ? ' ' : *at;
-        put(writer, &c, 1);
+        put_obj_text(writer, &c, 1);
     }
-    put(writer, "\n", 1);
+    put_obj_text(writer, "\n", 1);
 }
 
 void tl_obj_writer_comment(tl_obj_writer *writer, const char *text)
@@ -102,7 +102,7 @@ uint32_t tl_obj_writer_vertices(tl_obj_writer *writer, const tl_vec3 *vertices, 
         line[size++] = ' ';
         size += tl_format_float(vertices[i].z, line + size);
         line[size++] = '\n';
-        put(writer, line, size);
+        put_obj_text(writer, line, size);
         writer->vertex_count++;
     }
     return first;
@@ -123,7 +123,7 @@ static size_t format_index(uint32_t index, char *text)
     return count;
 }
 
-static void put_corner(tl_obj_writer *writer, uint32_t index)
+static void put_face_corner(tl_obj_writer *writer, uint32_t index)
 {
     if (writer->failure.result != TL_OK) {
         return;
@@ -133,7 +133,7 @@ static void put_corner(tl_obj_writer *writer, uint32_t index)
         return;
     }
     char text[12] = " ";
-    put(writer, text, 1 + format_index(index, text + 1));
+    put_obj_text(writer, text, 1 + format_index(index, text + 1));
 }
 
 void tl_obj_writer_face(tl_obj_writer *writer, const uint32_t *corners, uint32_t count)
@@ -141,24 +141,24 @@ void tl_obj_writer_face(tl_obj_writer *writer, const uint32_t *corners, uint32_t
     if (count < 3 && writer->failure.result == TL_OK) {
         fail_element(writer, TL_ERR_ARGUMENT, "face", writer->face_count, "has fewer than 3 corners");
     }
-    put(writer, "f", 1);
+    put_obj_text(writer, "f", 1);
     for (uint32_t i = 0; i < count; i++) {
-        put_corner(writer, corners[i]);
+        put_face_corner(writer, corners[i]);
     }
-    put(writer, "\n", 1);
+    put_obj_text(writer, "\n", 1);
     writer->face_count++;
 }
 
 void tl_obj_writer_triangles(tl_obj_writer *writer, const uint32_t *indices, uint32_t count, uint32_t first_vertex)
 {
     for (uint32_t i = 0; i < count && writer->failure.result == TL_OK; i++) {
-        put(writer, "f", 1);
+        put_obj_text(writer, "f", 1);
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t index = indices[(size_t)i * 3 + k];
             // A sum that wraps around would name a vertex that is there.
-            put_corner(writer, index <= UINT32_MAX - first_vertex ? first_vertex + index : UINT32_MAX);
+            put_face_corner(writer, index <= UINT32_MAX - first_vertex ? first_vertex + index : UINT32_MAX);
         }
-        put(writer, "\n", 1);
+        put_obj_text(writer, "\n", 1);
         writer->face_count++;
     }
 }

@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-enum { MOST_NUMBERS = 3, QUOTE_BYTES = 32 };
+enum { MOST_NUMBERS = 3, MAX_QUOTED_WORD_BYTES = 32 };
 
 typedef enum text_kind { TEXT_UNKNOWN, TEXT_POINTS, TEXT_CLOUDS } text_kind;
 
@@ -35,7 +35,7 @@ typedef struct number_line {
     const char *line_end;
 } number_line;
 
-static tl_result fail_memory(cloud_reader *reader)
+static tl_result fail_cloud_memory(cloud_reader *reader)
 {
     return tl_io_fail(reader->error, TL_ERR_MEMORY, reader->path, 0, NULL, "out of memory");
 }
@@ -45,7 +45,7 @@ static bool is_gap(char c)
     return tl_is_blank(c) || c == ',';
 }
 
-static tl_result add_point(cloud_reader *reader, tl_vec3 point)
+static tl_result add_cloud_point(cloud_reader *reader, tl_vec3 point)
 {
     tl_point_clouds *clouds = reader->clouds;
     uint64_t capacity = clouds->point_capacity;
@@ -55,7 +55,7 @@ static tl_result add_point(cloud_reader *reader, tl_vec3 point)
     }
     if (!tl_io_grow(&clouds->allocator, (void **)&clouds->points, &capacity, clouds->point_count,
                     (uint64_t)clouds->point_count + 1, sizeof *clouds->points)) {
-        return fail_memory(reader);
+        return fail_cloud_memory(reader);
     }
     clouds->point_capacity = (uint32_t)capacity;
     clouds->points[clouds->point_count++] = point;
@@ -74,7 +74,7 @@ static tl_result add_cloud(cloud_reader *reader)
     }
     if (!tl_io_grow(&clouds->allocator, (void **)&clouds->first_points, &capacity, used,
                     (uint64_t)clouds->cloud_count + 2, sizeof *clouds->first_points)) {
-        return fail_memory(reader);
+        return fail_cloud_memory(reader);
     }
     clouds->cloud_capacity = (uint32_t)capacity;
     clouds->first_points[clouds->cloud_count++] = clouds->point_count;
@@ -85,9 +85,9 @@ static tl_result add_cloud(cloud_reader *reader)
 static tl_result fail_word(cloud_reader *reader, tl_result result, const char *at, const char *problem,
                            const char *advice)
 {
-    char text[QUOTE_BYTES + 1];
+    char text[MAX_QUOTED_WORD_BYTES + 1];
     size_t size = 0;
-    while (size < QUOTE_BYTES && !is_gap(at[size]) && !tl_is_line_end(at[size]) && at[size] != '\0') {
+    while (size < MAX_QUOTED_WORD_BYTES && !is_gap(at[size]) && !tl_is_line_end(at[size]) && at[size] != '\0') {
         text[size] = at[size];
         size++;
     }
@@ -152,7 +152,7 @@ static tl_result begin_cloud(cloud_reader *reader, const number_line *line)
     return add_cloud(reader);
 }
 
-static tl_result take_line(cloud_reader *reader, const number_line *line)
+static tl_result take_cloud_line(cloud_reader *reader, const number_line *line)
 {
     if (line->count == 0) {
         return TL_OK;
@@ -175,18 +175,18 @@ static tl_result take_line(cloud_reader *reader, const number_line *line)
         return begin_cloud(reader, line);
     }
     reader->missing -= reader->kind == TEXT_CLOUDS;
-    tl_result result = add_point(reader, tl_vec3_make(line->numbers[0], line->numbers[1], line->numbers[2]));
+    tl_result result = add_cloud_point(reader, tl_vec3_make(line->numbers[0], line->numbers[1], line->numbers[2]));
     reader->clouds->first_points[reader->clouds->cloud_count] = reader->clouds->point_count;
     return result;
 }
 
-static tl_result read_section(cloud_reader *reader, const char *text, const char *end)
+static tl_result read_cloud_section(cloud_reader *reader, const char *text, const char *end)
 {
     for (const char *at = text; at < end;) {
         number_line line;
         tl_result result = read_numbers(reader, at, end, &line);
         if (result == TL_OK) {
-            result = take_line(reader, &line);
+            result = take_cloud_line(reader, &line);
         }
         if (result != TL_OK) {
             return result;
@@ -197,21 +197,21 @@ static tl_result read_section(cloud_reader *reader, const char *text, const char
     return TL_OK;
 }
 
-static tl_result read_text(cloud_reader *reader, const char *text, size_t size)
+static tl_result read_cloud_text(cloud_reader *reader, const char *text, size_t size)
 {
     const tl_allocator *allocator = &reader->clouds->allocator;
     size_t in_place = tl_text_first_section(text, size);
-    tl_result result = read_section(reader, text, text + in_place);
+    tl_result result = read_cloud_section(reader, text, text + in_place);
     if (result != TL_OK) {
         return result;
     }
     size_t block = tl_text_last_section_block(size - in_place);
     char *copy = tl_io_allocate(allocator, block);
     if (copy == NULL) {
-        return fail_memory(reader);
+        return fail_cloud_memory(reader);
     }
     size_t last = tl_text_copy_last_section(text + in_place, size - in_place, copy);
-    result = read_section(reader, copy, copy + last);
+    result = read_cloud_section(reader, copy, copy + last);
     tl_io_release(allocator, copy, block);
     if (result != TL_OK) {
         return result;
@@ -243,7 +243,7 @@ tl_result tl_point_clouds_parse(const void *text, size_t size, const char *path,
     size_t mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; // UTF-8 byte order mark
     tl_result result = tl_import_options_check(&used, path, error_out);
     if (result == TL_OK) {
-        result = read_text(&reader, (const char *)text + mark, size - mark);
+        result = read_cloud_text(&reader, (const char *)text + mark, size - mark);
     }
     if (result == TL_OK) {
         result = tl_import_place_vertices(&used, path, clouds_out->points, clouds_out->point_count, error_out);

@@ -14,14 +14,14 @@
 // Bound on point-in-ear tests: each of the n - 3 ears looks at few candidates in all but made-up polygons.
 enum { TESTS_PER_CORNER_PAIR = 8 };
 
-// Twice the area of a, b, c: > 0 when they turn left.
-static double turn(const tl_split_corner *a, const tl_split_corner *b, const tl_split_corner *c)
+// Twice the area of a, b, c: > 0 when they corner_turn left.
+static double corner_turn(const tl_split_corner *a, const tl_split_corner *b, const tl_split_corner *c)
 {
     return (b->x - a->x) * (c->y - a->y) - (b->y - a->y) * (c->x - a->x);
 }
 
 // Puts the corners into the plane of the two axes along which the polygon is seen largest. False: it has no area.
-static bool project(const tl_vec3 *vertices, const uint32_t *corners, uint32_t count, tl_split_corner *ring)
+static bool project_corners(const tl_vec3 *vertices, const uint32_t *corners, uint32_t count, tl_split_corner *ring)
 {
     double nx = 0.0;
     double ny = 0.0;
@@ -64,19 +64,19 @@ static bool project(const tl_vec3 *vertices, const uint32_t *corners, uint32_t c
 static bool is_fan(const tl_split_corner *ring, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
-        if (turn(&ring[ring[i].previous], &ring[i], &ring[ring[i].next]) < 0.0) {
+        if (corner_turn(&ring[ring[i].previous], &ring[i], &ring[ring[i].next]) < 0.0) {
             return false;
         }
     }
     for (uint32_t i = 1; i + 1 < count; i++) {
-        if (!(turn(&ring[0], &ring[i], &ring[i + 1]) > 0.0)) {
+        if (!(corner_turn(&ring[0], &ring[i], &ring[i + 1]) > 0.0)) {
             return false;
         }
     }
     return true;
 }
 
-static bool same_place(const tl_split_corner *a, const tl_split_corner *b)
+static bool same_corner(const tl_split_corner *a, const tl_split_corner *b)
 {
     return a->x == b->x && a->y == b->y;
 }
@@ -88,14 +88,14 @@ static bool is_ear(const tl_split_corner *ring, uint32_t ear, uint64_t *tests)
     const tl_split_corner *b = &ring[ear];
     const tl_split_corner *a = &ring[b->previous];
     const tl_split_corner *c = &ring[b->next];
-    if (!(turn(a, b, c) > 0.0)) {
+    if (!(corner_turn(a, b, c) > 0.0)) {
         return false;
     }
     for (uint32_t i = c->next; i != b->previous; i = ring[i].next) {
         const tl_split_corner *p = &ring[i];
         *tests += 1;
-        if (p->blocks && turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0 && !same_place(p, a) &&
-            !same_place(p, b) && !same_place(p, c)) {
+        if (p->blocks && corner_turn(a, b, p) >= 0.0 && corner_turn(b, c, p) >= 0.0 && corner_turn(c, a, p) >= 0.0 &&
+            !same_corner(p, a) && !same_corner(p, b) && !same_corner(p, c)) {
             return false;
         }
     }
@@ -104,7 +104,7 @@ static bool is_ear(const tl_split_corner *ring, uint32_t ear, uint64_t *tests)
 
 static void update_blocks(tl_split_corner *ring, uint32_t i)
 {
-    ring[i].blocks = !(turn(&ring[ring[i].previous], &ring[i], &ring[ring[i].next]) > 0.0);
+    ring[i].blocks = !(corner_turn(&ring[ring[i].previous], &ring[i], &ring[ring[i].next]) > 0.0);
 }
 
 // Takes corner i out of the ring.
@@ -119,7 +119,7 @@ static void unlink_corner(tl_split_corner *ring, uint32_t i)
 }
 
 // Clips ears until nothing is left. False when it gave up: `triangles` is spoilt then.
-static bool clip(tl_split_corner *ring, const uint32_t *corners, uint32_t count, uint32_t *triangles)
+static bool clip_ears(tl_split_corner *ring, const uint32_t *corners, uint32_t count, uint32_t *triangles)
 {
     uint64_t tests = 0;
     uint64_t most_tests = (uint64_t)TESTS_PER_CORNER_PAIR * count * count;
@@ -127,7 +127,7 @@ static bool clip(tl_split_corner *ring, const uint32_t *corners, uint32_t count,
     uint32_t failed = 0;
     for (uint32_t left = count; left > 2;) {
         // The last triangle is what it is. Corners in line are left for the end, when nothing else can be clipped.
-        bool straight = failed >= left && turn(&ring[ring[at].previous], &ring[at], &ring[ring[at].next]) == 0.0;
+        bool straight = failed >= left && corner_turn(&ring[ring[at].previous], &ring[at], &ring[ring[at].next]) == 0.0;
         if (left > 3 && !straight && !is_ear(ring, at, &tests)) {
             at = ring[at].next;
             failed++;
@@ -149,7 +149,7 @@ static bool clip(tl_split_corner *ring, const uint32_t *corners, uint32_t count,
     return true;
 }
 
-static void make_fan(const uint32_t *corners, uint32_t count, uint32_t *triangles)
+static void split_into_fan(const uint32_t *corners, uint32_t count, uint32_t *triangles)
 {
     for (uint32_t i = 1; i + 1 < count; i++) {
         *triangles++ = corners[0];
@@ -164,14 +164,14 @@ tl_split tl_split_polygon(const tl_vec3 *vertices, const uint32_t *corners, uint
     if (count > TL_MAX_SPLIT_CORNERS) {
         return TL_SPLIT_GAVE_UP;
     }
-    if (!project(vertices, corners, count, scratch) || is_fan(scratch, count)) {
+    if (!project_corners(vertices, corners, count, scratch) || is_fan(scratch, count)) {
         return TL_SPLIT_FAN;
     }
     for (uint32_t i = 0; i < count; i++) {
         update_blocks(scratch, i);
     }
-    if (!clip(scratch, corners, count, triangles)) {
-        make_fan(corners, count, triangles);
+    if (!clip_ears(scratch, corners, count, triangles)) {
+        split_into_fan(corners, count, triangles);
         return TL_SPLIT_GAVE_UP;
     }
     return TL_SPLIT_EARS;

@@ -8,20 +8,20 @@
 
 #include <string.h>
 
-typedef struct parse {
+typedef struct marks_parser {
     tl_area_marks *marks;
     tl_allocator allocator;
     tl_contour_reader reader;
     tl_io_error *error;
-} parse;
+} marks_parser;
 
-static tl_result fail(const parse *p, tl_result result, const char *message)
+static tl_result fail_mark(const marks_parser *p, tl_result result, const char *message)
 {
     return tl_io_fail(p->error, result, p->reader.path, p->reader.line, "'talus bake --help' shows the lines", "%s",
                       message);
 }
 
-static tl_result fail_memory(const parse *p)
+static tl_result fail_mark_memory(const marks_parser *p)
 {
     return tl_io_fail(p->error, TL_ERR_MEMORY, p->reader.path, p->reader.line, NULL, "out of memory");
 }
@@ -106,7 +106,7 @@ static bool take_point(tl_line *line, tl_vec3 *point)
     return tl_take_float(line, &point->x) && tl_take_float(line, &point->y) && tl_take_float(line, &point->z);
 }
 
-static tl_result read_material(parse *p, tl_line *line, uint8_t area)
+static tl_result read_material_mark(marks_parser *p, tl_line *line, uint8_t area)
 {
     while (line->at < line->end && (*line->at == ' ' || *line->at == '\t')) {
         line->at++;
@@ -115,35 +115,35 @@ static tl_result read_material(parse *p, tl_line *line, uint8_t area)
         line->end--;
     }
     if (line->at == line->end) {
-        return fail(p, TL_ERR_FORMAT, "expected a material's name");
+        return fail_mark(p, TL_ERR_FORMAT, "expected a material's name");
     }
     tl_result result = tl_area_marks_add_rule(p->marks, line->at, (size_t)(line->end - line->at), p->reader.line, area);
-    return result != TL_OK ? fail_memory(p) : TL_OK;
+    return result != TL_OK ? fail_mark_memory(p) : TL_OK;
 }
 
-static tl_result read_box(parse *p, tl_line *line, tl_nav_volume *volume)
+static tl_result read_box(marks_parser *p, tl_line *line, tl_nav_volume *volume)
 {
     volume->kind = TL_NAV_VOLUME_BOX;
     if (!take_point(line, &volume->box.min) || !take_point(line, &volume->box.max) || !tl_line_is_done(line)) {
-        return fail(p, TL_ERR_FORMAT, "expected box AREA x y z x y z");
+        return fail_mark(p, TL_ERR_FORMAT, "expected box AREA x y z x y z");
     }
-    return tl_aabb_is_empty(volume->box) ? fail(p, TL_ERR_RANGE, "the box is empty: give the lowest corner first")
+    return tl_aabb_is_empty(volume->box) ? fail_mark(p, TL_ERR_RANGE, "the box is empty: give the lowest corner first")
                                          : TL_OK;
 }
 
-static tl_result read_cylinder(parse *p, tl_line *line, tl_nav_volume *volume)
+static tl_result read_cylinder(marks_parser *p, tl_line *line, tl_nav_volume *volume)
 {
     volume->kind = TL_NAV_VOLUME_CYLINDER;
     if (!take_point(line, &volume->base) || !tl_take_float(line, &volume->radius) ||
         !tl_take_float(line, &volume->height) || !tl_line_is_done(line)) {
-        return fail(p, TL_ERR_FORMAT, "expected cylinder AREA x y z radius height");
+        return fail_mark(p, TL_ERR_FORMAT, "expected cylinder AREA x y z radius height");
     }
     return !(volume->radius > 0.0f && volume->height >= 0.0f)
-               ? fail(p, TL_ERR_RANGE, "a cylinder needs a radius above 0 and a height of 0 or more")
+               ? fail_mark(p, TL_ERR_RANGE, "a cylinder needs a radius above 0 and a height of 0 or more")
                : TL_OK;
 }
 
-static tl_result read_prism(parse *p, tl_line *line, tl_nav_volume *volume)
+static tl_result read_prism(marks_parser *p, tl_line *line, tl_nav_volume *volume)
 {
     volume->kind = TL_NAV_VOLUME_POLYGON;
     bool good = tl_take_float(line, &volume->box.min.y) && tl_take_float(line, &volume->box.max.y);
@@ -151,22 +151,23 @@ static tl_result read_prism(parse *p, tl_line *line, tl_nav_volume *volume)
         tl_vec3 point = { 0.0f, 0.0f, 0.0f };
         good = tl_take_float(line, &point.x) && tl_take_float(line, &point.z) && volume->point_count < UINT32_MAX;
         if (good && !push_point(&p->allocator, p->marks, point)) {
-            return fail_memory(p);
+            return fail_mark_memory(p);
         }
         volume->point_count += good;
     }
     if (!good || volume->point_count < 3) {
-        return fail(p, TL_ERR_FORMAT, "expected prism AREA low high x z x z x z, and more corners if wanted");
+        return fail_mark(p, TL_ERR_FORMAT, "expected prism AREA low high x z x z x z, and more corners if wanted");
     }
-    return volume->box.min.y > volume->box.max.y ? fail(p, TL_ERR_RANGE, "the prism is empty: give the low end first")
-                                                 : TL_OK;
+    return volume->box.min.y > volume->box.max.y
+               ? fail_mark(p, TL_ERR_RANGE, "the prism is empty: give the low end first")
+               : TL_OK;
 }
 
-static tl_result read_volume(parse *p, tl_line *line, const char *kind, uint8_t area)
+static tl_result read_volume(marks_parser *p, tl_line *line, const char *kind, uint8_t area)
 {
     tl_nav_volume *volume = p->marks->volume_count < UINT32_MAX ? push_volume(&p->allocator, p->marks) : NULL;
     if (volume == NULL) {
-        return fail_memory(p);
+        return fail_mark_memory(p);
     }
     volume->area = area;
     return kind[0] == 'b'   ? read_box(p, line, volume)
@@ -174,25 +175,26 @@ static tl_result read_volume(parse *p, tl_line *line, const char *kind, uint8_t 
                             : read_prism(p, line, volume);
 }
 
-static tl_result read_line(parse *p, tl_line line)
+static tl_result read_mark_line(marks_parser *p, tl_line line)
 {
     static const char *const kinds[] = { "material", "box", "cylinder", "prism" };
     for (int i = 0; i < 4; i++) {
         if (tl_take_word(&line, kinds[i])) {
             int64_t area;
             if (!tl_take_integer(&line, 0, TL_NAV_MAX_AREA, &area)) {
-                return fail(p, TL_ERR_FORMAT, "expected an area of 0 to 255 behind the line's first word");
+                return fail_mark(p, TL_ERR_FORMAT, "expected an area of 0 to 255 behind the line's first word");
             }
-            return i == 0 ? read_material(p, &line, (uint8_t)area) : read_volume(p, &line, kinds[i], (uint8_t)area);
+            return i == 0 ? read_material_mark(p, &line, (uint8_t)area)
+                          : read_volume(p, &line, kinds[i], (uint8_t)area);
         }
     }
-    return fail(p, TL_ERR_FORMAT, "expected material, box, cylinder or prism");
+    return fail_mark(p, TL_ERR_FORMAT, "expected material, box, cylinder or prism");
 }
 
 tl_result tl_area_marks_parse(tl_area_marks *marks, const char *text, size_t size, const char *path,
                               tl_io_error *error_out)
 {
-    parse p;
+    marks_parser p;
     memset(&p, 0, sizeof p);
     p.marks = marks;
     p.allocator = tl_io_allocator_or_default(NULL);
@@ -203,7 +205,7 @@ tl_result tl_area_marks_parse(tl_area_marks *marks, const char *text, size_t siz
     tl_result result = TL_OK;
     tl_line line;
     while (result == TL_OK && tl_next_line(&p.reader, &line)) {
-        result = *line.at != '#' ? read_line(&p, line) : TL_OK;
+        result = *line.at != '#' ? read_mark_line(&p, line) : TL_OK;
     }
     point_volumes(marks);
     return result;

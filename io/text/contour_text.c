@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-#define TRY(expression)                                                                                                \
+#define CONTOUR_TRY(expression)                                                                                        \
     do {                                                                                                               \
         tl_result try_result_ = (expression);                                                                          \
         if (try_result_ != TL_OK) {                                                                                    \
@@ -41,8 +41,8 @@ void tl_contour_text_free(tl_contour_text *text)
 }
 
 // One header line after the first. *count_out is set by the last one, "contours COUNT".
-static tl_result read_header_line(const tl_contour_reader *reader, tl_line line, tl_contour_text *text,
-                                  int64_t *count_out, tl_io_error *error)
+static tl_result read_contour_header_line(const tl_contour_reader *reader, tl_line line, tl_contour_text *text,
+                                          int64_t *count_out, tl_io_error *error)
 {
     tl_contour_set *set = &text->set;
     int64_t value = 0;
@@ -84,7 +84,8 @@ static tl_result read_header_line(const tl_contour_reader *reader, tl_line line,
     return good && tl_line_is_done(&line) ? TL_OK : tl_line_fail(reader, error, "a number in the word's range");
 }
 
-static tl_result read_header(tl_contour_reader *reader, tl_contour_text *text, int64_t *count_out, tl_io_error *error)
+static tl_result read_contour_header(tl_contour_reader *reader, tl_contour_text *text, int64_t *count_out,
+                                     tl_io_error *error)
 {
     tl_line line;
     if (!tl_next_line(reader, &line)) {
@@ -109,7 +110,7 @@ static tl_result read_header(tl_contour_reader *reader, tl_contour_text *text, i
         if (!tl_next_line(reader, &line)) {
             return tl_line_missing(reader, error, "'contours COUNT'");
         }
-        TRY(read_header_line(reader, line, text, count_out, error));
+        CONTOUR_TRY(read_contour_header_line(reader, line, text, count_out, error));
     }
     if (!(text->set.cell_size > 0.0f) || !(text->set.cell_height > 0.0f)) {
         return tl_line_fail(reader, error, "cs and ch before the contours");
@@ -117,7 +118,7 @@ static tl_result read_header(tl_contour_reader *reader, tl_contour_text *text, i
     return TL_OK;
 }
 
-static tl_result read_vertex(tl_contour_reader *reader, tl_contour_text *text, tl_io_error *error)
+static tl_result read_contour_vertex(tl_contour_reader *reader, tl_contour_text *text, tl_io_error *error)
 {
     void *vertices = (void *)(uintptr_t)text->set.vertices;
     if (!tl_io_grow(&text->allocator, &vertices, &text->vertex_capacity, text->set.vertex_count,
@@ -162,18 +163,18 @@ static tl_result read_contour(tl_contour_reader *reader, tl_contour_text *text, 
     }
     tl_contour contour = { text->set.vertex_count, (uint32_t)count, (uint32_t)region, (uint32_t)area };
     for (int64_t i = 0; i < count; i++) {
-        TRY(read_vertex(reader, text, error));
+        CONTOUR_TRY(read_contour_vertex(reader, text, error));
     }
     ((tl_contour *)contours)[text->set.contour_count++] = contour;
     return TL_OK;
 }
 
-static tl_result read_set(tl_contour_reader *reader, tl_contour_text *text, tl_io_error *error)
+static tl_result read_contour_set(tl_contour_reader *reader, tl_contour_text *text, tl_io_error *error)
 {
     int64_t count;
-    TRY(read_header(reader, text, &count, error));
+    CONTOUR_TRY(read_contour_header(reader, text, &count, error));
     for (int64_t i = 0; i < count; i++) {
-        TRY(read_contour(reader, text, error));
+        CONTOUR_TRY(read_contour(reader, text, error));
     }
     tl_line line;
     if (!tl_next_line(reader, &line)) {
@@ -186,7 +187,7 @@ tl_result tl_contour_text_read(tl_contour_reader *reader, tl_contour_text *text_
 {
     memset(text_out, 0, sizeof *text_out);
     text_out->allocator = tl_io_allocator_or_default(reader->allocator);
-    tl_result result = read_set(reader, text_out, error_out);
+    tl_result result = read_contour_set(reader, text_out, error_out);
     if (result != TL_OK) {
         tl_contour_text_free(text_out);
     }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Contour sets and polygon meshes as text: `navcontours 1` and `navpolys 1`. docs/polygon.md describes both formats.
-//
-// A file holds any number of sets one after another, so reading goes set by set from bytes in memory.
+// Contour sets as text, `navcontours 1` (docs/polygon.md). A file holds any number of sets one after another: they are
+// read set by set from bytes in memory.
 
 #ifndef TALUS_IO_CONTOUR_TEXT_H
 #define TALUS_IO_CONTOUR_TEXT_H
@@ -17,7 +16,7 @@ extern "C" {
 
 #define TL_TEXT_NAME_BYTES 128
 
-/// Where a reader is. Zero, then bytes, size, path and allocator.
+/// The place of a reader in its text. Begin zeroed, with bytes, size, path and allocator set.
 typedef struct tl_contour_reader {
     const char *bytes;
     size_t size;
@@ -44,30 +43,6 @@ bool tl_contour_reader_at_end(tl_contour_reader *reader);
 /// TL_ERR_FORMAT, TL_ERR_TRUNCATED, TL_ERR_MEMORY; then `*text_out` is zeroed. Free with tl_contour_text_free.
 tl_result tl_contour_text_read(tl_contour_reader *reader, tl_contour_text *text_out, tl_io_error *error_out);
 void tl_contour_text_free(tl_contour_text *text);
-
-/// A polygon mesh with what the text says beside it.
-typedef struct tl_polygon_text {
-    tl_polygon_mesh mesh; ///< bounds and cells are not in the text: 0. contours[p]: TL_SEVERAL_CONTOURS
-    char name[TL_TEXT_NAME_BYTES];
-    char producer[TL_TEXT_NAME_BYTES];
-    bool ok;
-    uint32_t bad_triangulations;
-    double cpu_us;
-    tl_allocator allocator;
-} tl_polygon_text;
-
-/// Reads the next polygon mesh; corners and neighbours that do not exist are refused, nothing else is judged
-/// (tl_polygon_mesh_check does that). Errors: TL_ERR_FORMAT, TL_ERR_TRUNCATED, TL_ERR_MEMORY.
-tl_result tl_polygon_text_read(tl_contour_reader *reader, tl_polygon_text *text_out, tl_io_error *error_out);
-void tl_polygon_text_free(tl_polygon_text *text);
-
-/// Where text goes to. Anything but TL_OK ends the writing and is handed on.
-typedef tl_result tl_text_sink_fn(const char *bytes, size_t size, void *user);
-
-tl_result tl_contour_text_write(const tl_contour_set *set, const char *name, uint32_t max_verts_per_poly,
-                                tl_text_sink_fn *sink, void *user);
-tl_result tl_polygon_text_write(const tl_polygon_mesh *mesh, const char *name, const char *producer,
-                                uint32_t bad_triangulations, double cpu_us, tl_text_sink_fn *sink, void *user);
 
 #ifdef __cplusplus
 }

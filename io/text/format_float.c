@@ -63,7 +63,7 @@ static size_t write_digits(uint32_t significand, char *digits)
     return count;
 }
 
-static char *write_text(char *at, const char *text)
+static char *write_word(char *at, const char *text)
 {
     size_t length = strlen(text);
     memcpy(at, text, length);
@@ -73,7 +73,7 @@ static char *write_text(char *at, const char *text)
 static char *write_plain(char *at, const char *digits, int count, int leading)
 {
     if (leading < 0) {
-        at = write_text(at, "0.");
+        at = write_word(at, "0.");
         for (int i = -1; i > leading; i--) {
             *at++ = '0';
         }
@@ -114,7 +114,7 @@ size_t tl_format_float(float value, char text[TL_FLOAT_TEXT_BYTES])
         value = -value;
     }
     if (!isfinite(value)) {
-        at = write_text(at, isnan(value) ? "nan" : "inf");
+        at = write_word(at, isnan(value) ? "nan" : "inf");
     } else if (value == 0.0f) {
         *at++ = '0';
     } else {

@@ -9,14 +9,14 @@
 #include <math.h>
 #include <string.h>
 
-static bool is_blank(char c)
+static bool is_line_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-static void skip_blanks(tl_line *line)
+static void skip_line_blanks(tl_line *line)
 {
-    while (line->at < line->end && is_blank(*line->at)) {
+    while (line->at < line->end && is_line_blank(*line->at)) {
         line->at++;
     }
 }
@@ -32,7 +32,7 @@ bool tl_next_line(tl_contour_reader *reader, tl_line *line_out)
         reader->line++;
         line_out->at = begin;
         line_out->end = begin + length;
-        skip_blanks(line_out);
+        skip_line_blanks(line_out);
         if (line_out->at < line_out->end) {
             return true;
         }
@@ -42,9 +42,9 @@ bool tl_next_line(tl_contour_reader *reader, tl_line *line_out)
 
 bool tl_next_word(tl_line *line, const char **begin, const char **end)
 {
-    skip_blanks(line);
+    skip_line_blanks(line);
     *begin = line->at;
-    while (line->at < line->end && !is_blank(*line->at)) {
+    while (line->at < line->end && !is_line_blank(*line->at)) {
         line->at++;
     }
     *end = line->at;
@@ -95,14 +95,14 @@ bool tl_take_float(tl_line *line, float *value_out)
 bool tl_line_is_done(const tl_line *line)
 {
     tl_line rest = *line;
-    skip_blanks(&rest);
+    skip_line_blanks(&rest);
     return rest.at == rest.end;
 }
 
 void tl_take_rest(tl_line *line, char *text, size_t capacity)
 {
-    skip_blanks(line);
-    while (line->end > line->at && is_blank(line->end[-1])) {
+    skip_line_blanks(line);
+    while (line->end > line->at && is_line_blank(line->end[-1])) {
         line->end--;
     }
     size_t length = (size_t)(line->end - line->at);

@@ -24,11 +24,14 @@ static void test_crash(void **state)
     TEST_CHECK(page != MAP_FAILED);
     tl_imported_mesh mesh;
     tl_io_error error;
-    tl_result result = tl_assimp_read_isolated("level.ply", page, 4096, "ply", false, NULL, &mesh, &error);
+    tl_result result =
+        tl_assimp_read_isolated(&(tl_assimp_source){ "level.ply", page, 4096, "ply", false }, NULL, &mesh, &error);
     TEST_RESULT(result, TL_ERR_FORMAT);
     TEST_CHECK(error.result == TL_ERR_FORMAT && strcmp(error.path, "level.ply") == 0 && mesh.vertices == NULL);
     TEST_CHECK(strstr(error.message, "Assimp failed") != NULL);
-    TEST_RESULT(tl_assimp_read_isolated("level.ply", page, 4096, "ply", false, NULL, &mesh, NULL), TL_ERR_FORMAT);
+    TEST_RESULT(
+        tl_assimp_read_isolated(&(tl_assimp_source){ "level.ply", page, 4096, "ply", false }, NULL, &mesh, NULL),
+        TL_ERR_FORMAT);
     munmap(page, 4096);
     TEST_CHECK(waitpid(-1, NULL, WNOHANG) == -1); // no child is left
 }
@@ -52,7 +55,8 @@ static void test_cancel(void **state)
     tl_host host = { NULL, NULL, &progress };
     tl_imported_mesh mesh;
     tl_io_error error;
-    TEST_RESULT(tl_assimp_read_isolated(path, NULL, 100, NULL, false, &host, &mesh, &error), TL_ERR_CANCELLED);
+    TEST_RESULT(tl_assimp_read_isolated(&(tl_assimp_source){ path, NULL, 100, NULL, false }, &host, &mesh, &error),
+                TL_ERR_CANCELLED);
     TEST_CHECK(calls == 3 && mesh.vertices == NULL && strcmp(error.path, path) == 0);
     TEST_CHECK(waitpid(-1, NULL, WNOHANG) == -1);
     unlink(path);
@@ -79,8 +83,9 @@ static void test_large(void **state)
     }
     tl_imported_mesh direct;
     tl_imported_mesh piped;
-    TEST_RESULT(tl_assimp_read("a.ply", text, size, "ply", false, NULL, &direct, NULL), TL_OK);
-    TEST_RESULT(tl_assimp_read_isolated("a.ply", text, size, "ply", false, NULL, &piped, NULL), TL_OK);
+    TEST_RESULT(tl_assimp_read(&(tl_assimp_source){ "a.ply", text, size, "ply", false }, NULL, &direct, NULL), TL_OK);
+    TEST_RESULT(tl_assimp_read_isolated(&(tl_assimp_source){ "a.ply", text, size, "ply", false }, NULL, &piped, NULL),
+                TL_OK);
     TEST_CHECK(direct.triangle_count == 2 * SIDE * SIDE && direct.polygon_count == SIDE * SIDE);
     TEST_CHECK(piped.vertex_count == direct.vertex_count && piped.triangle_count == direct.triangle_count);
     TEST_CHECK(memcmp(piped.vertices, direct.vertices, direct.vertex_count * sizeof *direct.vertices) == 0);

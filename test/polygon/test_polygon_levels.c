@@ -10,6 +10,7 @@
 #include "io/files/file_map.h"
 #include "io/text/contour_text.h"
 #include "polygon_shapes.h"
+#include "polygon_text.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -164,8 +165,8 @@ static void compare_set(const tl_contour_text *text, tl_contour_reader *recast_r
     r->repaired += report.repaired_contours;
     compare_with_plain(&text->set, def, r);
     if (r->has_recast) {
-        tl_polygon_text recast;
-        TEST_RESULT(tl_polygon_text_read(recast_reader, &recast, NULL), TL_OK);
+        polygon_text recast;
+        TEST_RESULT(polygon_text_read(recast_reader, &recast, NULL), TL_OK);
         uint32_t equal = count_equal(&mesh, &recast.mesh);
         r->recast += recast.mesh.polygon_count;
         r->recast_equal += equal;
@@ -175,7 +176,7 @@ static void compare_set(const tl_contour_text *text, tl_contour_reader *recast_r
         } else if (differs && tl_polygon_mesh_check(&recast.mesh, NULL, NULL, &check) != TL_OK) {
             r->recast_fault = tl_polygon_fault_text(check.first_fault);
         }
-        tl_polygon_text_free(&recast);
+        polygon_text_free(&recast);
     }
     tl_polygon_mesh_free(&mesh);
 }

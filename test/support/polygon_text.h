@@ -1,14 +1,29 @@
 // SPDX-License-Identifier: MIT
 //
-// Polygon meshes as text, reading.
+// Reading polygon meshes as text, `navpolys 1`: of Recast's results, and of what io/text/polygon_text_write.c writes.
+
+#ifndef TALUS_TEST_POLYGON_TEXT_H
+#define TALUS_TEST_POLYGON_TEXT_H
 
 #include "io/files/growable.h"
-#include "io/text/contour_text.h"
 #include "io/text/line_words.h"
+
+#include <talus/polygon.h>
 
 #include <string.h>
 
-#define TRY(expression)                                                                                                \
+/// A polygon mesh with the text's head.
+typedef struct polygon_text {
+    tl_polygon_mesh mesh; ///< bounds and cells are not in the text: 0. contours[p]: TL_SEVERAL_CONTOURS
+    char name[TL_TEXT_NAME_BYTES];
+    char producer[TL_TEXT_NAME_BYTES];
+    bool ok;
+    uint32_t bad_triangulations;
+    double cpu_us;
+    tl_allocator allocator;
+} polygon_text;
+
+#define POLYGON_TEXT_TRY(expression)                                                                                   \
     do {                                                                                                               \
         tl_result try_result_ = (expression);                                                                          \
         if (try_result_ != TL_OK) {                                                                                    \
@@ -17,10 +32,10 @@
     } while (0)
 
 // What grows with the lines, before the mesh's block can be made.
-typedef struct parse {
+typedef struct polygon_text_parse {
     tl_contour_reader *reader;
     tl_io_error *error;
-    tl_polygon_text *text;
+    polygon_text *text;
     tl_allocator allocator;
     int64_t vertex_count, polygon_count; // as the header says
     int32_t *vertices;
@@ -28,11 +43,11 @@ typedef struct parse {
     uint32_t *words; // per polygon: region, area, n, n corners, n neighbours
     uint64_t words_used, words_capacity;
     uint64_t index_count;
-} parse;
+} polygon_text_parse;
 
-static tl_result read_header_line(parse *p, tl_line line)
+static inline tl_result read_polygon_header_line(polygon_text_parse *p, tl_line line)
 {
-    tl_polygon_text *text = p->text;
+    polygon_text *text = p->text;
     int64_t value = 0;
     float number = 0.0f;
     bool good = true;
@@ -62,7 +77,7 @@ static tl_result read_header_line(parse *p, tl_line line)
     return good && tl_line_is_done(&line) ? TL_OK : tl_line_fail(p->reader, p->error, "a number in the word's range");
 }
 
-static tl_result read_header(parse *p)
+static inline tl_result read_polygon_header(polygon_text_parse *p)
 {
     tl_line line;
     if (!tl_next_line(p->reader, &line)) {
@@ -76,17 +91,17 @@ static tl_result read_header(parse *p)
         if (!tl_next_line(p->reader, &line)) {
             return tl_line_missing(p->reader, p->error, "'verts COUNT' and 'polys COUNT'");
         }
-        TRY(read_header_line(p, line));
+        POLYGON_TEXT_TRY(read_polygon_header_line(p, line));
     }
     return TL_OK;
 }
 
-static tl_result out_of_memory(const parse *p)
+static inline tl_result fail_polygon_memory(const polygon_text_parse *p)
 {
     return tl_io_fail(p->error, TL_ERR_MEMORY, p->reader->path, p->reader->line, NULL, "out of memory");
 }
 
-static tl_result read_vertex(parse *p)
+static inline tl_result read_polygon_vertex(polygon_text_parse *p)
 {
     tl_line line;
     if (!tl_next_line(p->reader, &line)) {
@@ -95,7 +110,7 @@ static tl_result read_vertex(parse *p)
     void *array = p->vertices;
     if (!tl_io_grow(&p->allocator, &array, &p->vertices_capacity, p->vertices_used, p->vertices_used + 3,
                     sizeof(int32_t))) {
-        return out_of_memory(p);
+        return fail_polygon_memory(p);
     }
     p->vertices = array;
     bool good = tl_take_word(&line, "v");
@@ -109,7 +124,7 @@ static tl_result read_vertex(parse *p)
     return good && tl_line_is_done(&line) ? TL_OK : tl_line_fail(p->reader, p->error, "a vertex 'v X Y Z'");
 }
 
-static bool take_neighbour(parse *p, tl_line *line, uint32_t *neighbour_out)
+static inline bool take_neighbour(polygon_text_parse *p, tl_line *line, uint32_t *neighbour_out)
 {
     for (uint32_t side = 0; side < 4; side++) {
         const char name[3] = { 'x', (char)('0' + side), '\0' };
@@ -126,7 +141,7 @@ static bool take_neighbour(parse *p, tl_line *line, uint32_t *neighbour_out)
     return true;
 }
 
-static tl_result read_polygon(parse *p)
+static inline tl_result read_polygon(polygon_text_parse *p)
 {
     tl_line line;
     if (!tl_next_line(p->reader, &line)) {
@@ -141,7 +156,7 @@ static tl_result read_polygon(parse *p)
     void *array = p->words;
     uint64_t needed = p->words_used + 3 + 2 * (uint64_t)count;
     if (!tl_io_grow(&p->allocator, &array, &p->words_capacity, p->words_used, needed, sizeof(uint32_t))) {
-        return out_of_memory(p);
+        return fail_polygon_memory(p);
     }
     p->words = array;
     p->words[p->words_used++] = (uint32_t)region;
@@ -166,7 +181,7 @@ static tl_result read_polygon(parse *p)
 }
 
 // Lays the mesh out in one block.
-static tl_result assemble(parse *p)
+static inline tl_result assemble_polygon_text(polygon_text_parse *p)
 {
     tl_polygon_mesh *mesh = &p->text->mesh;
     size_t polygons = (size_t)p->polygon_count;
@@ -174,7 +189,7 @@ static tl_result assemble(parse *p)
     size_t words = (size_t)p->vertices_used + (polygons + 1) + 2 * indices + 3 * polygons;
     uint32_t *block = tl_io_allocate(&p->allocator, words * sizeof(uint32_t));
     if (block == NULL) {
-        return out_of_memory(p);
+        return fail_polygon_memory(p);
     }
     mesh->block = block;
     mesh->block_size = words * sizeof(uint32_t);
@@ -210,14 +225,14 @@ static tl_result assemble(parse *p)
     return TL_OK;
 }
 
-static tl_result read_mesh(parse *p)
+static inline tl_result read_polygon_mesh(polygon_text_parse *p)
 {
-    TRY(read_header(p));
+    POLYGON_TEXT_TRY(read_polygon_header(p));
     for (int64_t i = 0; i < p->vertex_count; i++) {
-        TRY(read_vertex(p));
+        POLYGON_TEXT_TRY(read_polygon_vertex(p));
     }
     for (int64_t i = 0; i < p->polygon_count; i++) {
-        TRY(read_polygon(p));
+        POLYGON_TEXT_TRY(read_polygon(p));
     }
     tl_line line;
     if (!tl_next_line(p->reader, &line)) {
@@ -226,20 +241,20 @@ static tl_result read_mesh(parse *p)
     if (!tl_take_word(&line, "end") || !tl_line_is_done(&line)) {
         return tl_line_fail(p->reader, p->error, "'end'");
     }
-    return assemble(p);
+    return assemble_polygon_text(p);
 }
 
-tl_result tl_polygon_text_read(tl_contour_reader *reader, tl_polygon_text *text_out, tl_io_error *error_out)
+static inline tl_result polygon_text_read(tl_contour_reader *reader, polygon_text *text_out, tl_io_error *error_out)
 {
     memset(text_out, 0, sizeof *text_out);
-    parse p;
+    polygon_text_parse p;
     memset(&p, 0, sizeof p);
     p.reader = reader;
     p.error = error_out;
     p.text = text_out;
     p.allocator = tl_io_allocator_or_default(reader->allocator);
     text_out->allocator = p.allocator;
-    tl_result result = read_mesh(&p);
+    tl_result result = read_polygon_mesh(&p);
     tl_io_release(&p.allocator, p.vertices, (size_t)p.vertices_capacity * sizeof(int32_t));
     tl_io_release(&p.allocator, p.words, (size_t)p.words_capacity * sizeof(uint32_t));
     if (result != TL_OK) {
@@ -248,10 +263,14 @@ tl_result tl_polygon_text_read(tl_contour_reader *reader, tl_polygon_text *text_
     return result;
 }
 
-void tl_polygon_text_free(tl_polygon_text *text)
+static inline void polygon_text_free(polygon_text *text)
 {
     if (text->mesh.block != NULL) {
         tl_io_release(&text->allocator, text->mesh.block, text->mesh.block_size);
     }
     memset(text, 0, sizeof *text);
 }
+
+#undef POLYGON_TEXT_TRY
+
+#endif
