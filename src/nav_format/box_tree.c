@@ -66,7 +66,7 @@ static int widest_axis(const tree_build *build, uint32_t begin, uint32_t end)
 
 // Builds the subtree of items [begin, end) at `node` and returns the index behind it. The depth of the recursion is
 // that of the tree: at most 1 + log2(2^28).
-static uint32_t build_range(tree_build *build, uint32_t node, uint32_t begin, uint32_t end)
+static uint32_t build_box_subtree(tree_build *build, uint32_t node, uint32_t begin, uint32_t end)
 {
     tl_nav_tile_node *out = &build->nodes[node];
     if (end - begin == 1) {
@@ -82,8 +82,8 @@ static uint32_t build_range(tree_build *build, uint32_t node, uint32_t begin, ui
     }
     tl_radix_sort(build->items + begin, build->scratch, end - begin);
     uint32_t middle = begin + (end - begin) / 2;
-    uint32_t second = build_range(build, node + 1, begin, middle);
-    uint32_t behind = build_range(build, second, middle, end);
+    uint32_t second = build_box_subtree(build, node + 1, begin, middle);
+    uint32_t behind = build_box_subtree(build, second, middle, end);
     out->box = tl_aabb_union(build->nodes[node + 1].box, build->nodes[second].box);
     out->polygon = TL_NO_POLYGON;
     out->skip = behind;
@@ -104,7 +104,7 @@ tl_result tl_nav_bake_box_tree(tl_nav_tile *tile, tl_arena *arena)
         tl_sort_item item = { 0, p, 0 };
         build.items[p] = item;
     }
-    uint32_t behind = build_range(&build, 0, 0, count);
+    uint32_t behind = build_box_subtree(&build, 0, 0, count);
     TL_ASSERT(behind == tile->node_count);
     (void)behind;
     return TL_OK;

@@ -85,8 +85,8 @@ static tl_result next_tile(set_reader *set, uint32_t index, tl_detour_tile_bytes
     return TL_OK;
 }
 
-static tl_result read_set(set_reader *set, const tl_detour_read_def *def, tl_detour_report *report,
-                          tl_detour_tiles *tiles)
+static tl_result read_tile_set(set_reader *set, const tl_detour_read_def *def, tl_detour_report *report,
+                               tl_detour_tiles *tiles)
 {
     TL_TRY(open_set(set, report));
     uint32_t count = (uint32_t)set->header.tile_count;
@@ -137,7 +137,7 @@ static tl_result read_any(const void *bytes, uint64_t size, const tl_detour_read
     memset(&set, 0, sizeof set);
     set.bytes = bytes;
     set.size = size;
-    return word_at(&set, 0) == TL_DETOUR_SET_MAGIC ? read_set(&set, def, report, tiles)
+    return word_at(&set, 0) == TL_DETOUR_SET_MAGIC ? read_tile_set(&set, def, report, tiles)
                                                    : read_single(bytes, size, def, report, tiles);
 }
 

@@ -124,7 +124,7 @@ static tl_result read_vertices(reading *r)
     return TL_OK;
 }
 
-static tl_detour_polygon polygon_at(const reading *r, uint32_t p)
+static tl_detour_polygon detour_polygon(const reading *r, uint32_t p)
 {
     tl_detour_polygon polygon;
     memcpy(&polygon, r->tile.bytes + r->tile.at.polygons + sizeof polygon * (uint64_t)p, sizeof polygon);
@@ -151,7 +151,7 @@ static tl_result choose_polygons(reading *r)
         return TL_ERR_MEMORY;
     }
     for (uint32_t p = 0; p < count; p++) {
-        tl_detour_polygon polygon = polygon_at(r, p);
+        tl_detour_polygon polygon = detour_polygon(r, p);
         r->own[p] = TL_NO_POLYGON;
         if (polygon.area_and_type >> 6 != TL_DETOUR_GROUND) {
             r->report->off_mesh_links++;
@@ -178,7 +178,7 @@ static tl_result choose_polygons(reading *r)
 }
 
 // What lies across an edge, in our numbers; not yet whether it links back.
-static uint32_t across_edge(const reading *r, const tl_detour_polygon *polygon, uint32_t edge)
+static uint32_t detour_across(const reading *r, const tl_detour_polygon *polygon, uint32_t edge)
 {
     static const uint32_t sides[4] = { 2, 1, 0, 3 }; // of Detour's 0 x+, 2 z+, 4 x-, 6 z-
     uint32_t link = polygon->neighbours[edge];
@@ -225,7 +225,7 @@ static tl_result read_polygons(reading *r)
     }
     uint32_t at = 0;
     for (uint32_t p = 0; p < mesh->polygon_count; p++) {
-        tl_detour_polygon polygon = polygon_at(r, r->theirs[p]);
+        tl_detour_polygon polygon = detour_polygon(r, r->theirs[p]);
         uint32_t area = polygon.area_and_type & 0x3fu;
         r->report->area_zeros += area == 0;
         mesh->areas[p] = area != 0 ? area : TL_DETOUR_MAX_AREA;
@@ -233,7 +233,7 @@ static tl_result read_polygons(reading *r)
         mesh->first[p] = at;
         for (uint32_t k = 0; k < polygon.vertex_count; k++) {
             mesh->indices[at] = polygon.vertices[k];
-            mesh->neighbours[at++] = across_edge(r, &polygon, k);
+            mesh->neighbours[at++] = detour_across(r, &polygon, k);
         }
     }
     mesh->first[mesh->polygon_count] = at;
@@ -244,7 +244,7 @@ static tl_result read_polygons(reading *r)
 // ---------------------------------------------------------------------------------------------------------
 // Heights.
 
-static tl_vec3 corner_of(const reading *r, uint32_t vertex)
+static tl_vec3 detour_corner(const reading *r, uint32_t vertex)
 {
     float v[3];
     memcpy(v, r->tile.bytes + r->tile.at.vertices + sizeof v * (uint64_t)vertex, sizeof v);
@@ -298,7 +298,7 @@ static bool read_patch(reading *r, uint32_t p, tl_nav_detail_patch *patch)
 }
 
 // A patch that is missing or cannot be used becomes a fan over the polygon's corners.
-static void make_fan(reading *r, uint32_t corner_count, tl_nav_detail_patch *patch)
+static void fan_patch(reading *r, uint32_t corner_count, tl_nav_detail_patch *patch)
 {
     patch->vertex_count = corner_count;
     patch->triangle_count = corner_count - 2;
@@ -332,11 +332,11 @@ static tl_result read_detail(reading *r)
         patch->first_vertex = detail->vertex_count;
         patch->first_triangle = detail->triangle_count;
         for (uint32_t k = 0; k < corner_count; k++) {
-            detail->vertices[detail->vertex_count + k] = corner_of(r, r->mesh.indices[first + k]);
+            detail->vertices[detail->vertex_count + k] = detour_corner(r, r->mesh.indices[first + k]);
         }
         if (!read_patch(r, p, patch)) {
             r->report->plain_patches++;
-            make_fan(r, corner_count, patch);
+            fan_patch(r, corner_count, patch);
         }
         detail->vertex_count += patch->vertex_count;
         detail->triangle_count += patch->triangle_count;

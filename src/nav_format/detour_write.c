@@ -15,9 +15,9 @@
 #include <string.h>
 
 // Side 0 x-, 1 z+, 2 x+, 3 z- in Detour's eighths of a turn from x+.
-static const uint16_t SIDES[4] = { 4, 2, 0, 6 };
+static const uint16_t DETOUR_SIDES[4] = { 4, 2, 0, 6 };
 
-static bool is_plain(tl_nav_surface surface, uint32_t corner_count)
+static bool has_plain_detail(tl_nav_surface surface, uint32_t corner_count)
 {
     return surface.vertex_count - corner_count > UINT8_MAX || surface.vertex_count > UINT8_MAX + 1u ||
            surface.triangle_count > UINT8_MAX;
@@ -52,7 +52,7 @@ static float position_z(const tl_nav_tile *tile, int32_t z)
 }
 
 // The box in which polygons are looked for: the whole tile, as the grid has it; of the only tile, what there is.
-static void place(const tl_nav_tile *tile, tl_detour_header *header)
+static void place_array(const tl_nav_tile *tile, tl_detour_header *header)
 {
     bool alone = tile->tile_size == 0;
     header->min[0] = alone ? tile->bounds.min.x : position_x(tile, 0);
@@ -88,7 +88,7 @@ static tl_result make_header(const tl_nav_tile *tile, tl_detour_header *header, 
     header->walkable_height = tile->agent_height;
     header->walkable_radius = tile->agent_radius;
     header->walkable_climb = tile->agent_max_climb;
-    place(tile, header);
+    place_array(tile, header);
     float cells = fmaxf(header->max[0] - header->min[0], header->max[2] - header->min[2]) * header->quantization;
     if (!(fmaxf(cells, (header->max[1] - header->min[1]) * header->quantization) < (float)UINT16_MAX)) {
         return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", TL_NO_ELEMENT,
@@ -99,7 +99,7 @@ static tl_result make_header(const tl_nav_tile *tile, tl_detour_header *header, 
         uint32_t corner_count;
         tl_nav_tile_corners(tile, p, &corner_count);
         tl_nav_surface surface = tl_nav_tile_surface(tile, p);
-        bool plain = is_plain(surface, corner_count);
+        bool plain = has_plain_detail(surface, corner_count);
         report->plain_patches += plain;
         header->detail_vertex_count += plain ? 0 : (int32_t)(surface.vertex_count - corner_count);
         header->detail_triangle_count += (int32_t)(plain ? corner_count - 2 : surface.triangle_count);
@@ -123,7 +123,7 @@ static void write_polygon(const tl_nav_tile *tile, uint32_t p, uint8_t *bytes)
         uint32_t across = tl_nav_tile_neighbour(tile, p, k);
         out.vertices[k] = (uint16_t)vertices[k];
         out.neighbours[k] = across == TL_NO_POLYGON ? 0
-                            : across >= TL_PORTAL   ? (uint16_t)(TL_DETOUR_EXTERNAL | SIDES[across & 3u])
+                            : across >= TL_PORTAL   ? (uint16_t)(TL_DETOUR_EXTERNAL | DETOUR_SIDES[across & 3u])
                                                     : (uint16_t)(across + 1);
     }
     memcpy(bytes + p * sizeof out, &out, sizeof out);
@@ -157,7 +157,7 @@ static void write_detail(const tl_nav_tile *tile, const tl_detour_offsets *at, u
         uint32_t corner_count;
         tl_nav_tile_corners(tile, p, &corner_count);
         tl_nav_surface surface = tl_nav_tile_surface(tile, p);
-        bool plain = is_plain(surface, corner_count);
+        bool plain = has_plain_detail(surface, corner_count);
         uint32_t added = plain ? 0 : surface.vertex_count - corner_count;
         uint32_t triangles = plain ? corner_count - 2 : surface.triangle_count;
         tl_detour_patch patch = { vertex, triangle, (uint8_t)added, (uint8_t)triangles, { 0, 0 } };

@@ -23,7 +23,7 @@
 #define BORDER_VERTEX_CELLS 0.25
 
 // The side on which a portal edge really lies, or 4.
-static uint32_t portal_side(const tl_nav_tile_source *source, uint32_t p, uint32_t k)
+static uint32_t side_of_edge(const tl_nav_tile_source *source, uint32_t p, uint32_t k)
 {
     const tl_polygon_mesh *polygons = source->polygons;
     uint32_t across = polygons->neighbours[k];
@@ -123,7 +123,7 @@ static void bake_profile(const tl_nav_tile_source *source, uint32_t side, tl_nav
 }
 
 // An integer as one that sorts alike without a sign.
-static uint64_t biased(int32_t value)
+static uint64_t biased_height(int32_t value)
 {
     return (uint32_t)value ^ 0x80000000u;
 }
@@ -141,9 +141,9 @@ static void cut_words(const tl_polygon_mesh *polygons, const tl_nav_portal *cut,
     const int32_t *low = rises ? a : b;
     const int32_t *high = rises ? b : a;
     words_out[0] = (uint32_t)cut->high;
-    words_out[1] = biased(high[2]) << 32 | biased(high[1]);
-    words_out[2] = biased(low[1]) << 32 | biased(high[0]);
-    words_out[3] = biased(low[0]) << 32 | biased(low[2]);
+    words_out[1] = biased_height(high[2]) << 32 | biased_height(high[1]);
+    words_out[2] = biased_height(low[1]) << 32 | biased_height(high[0]);
+    words_out[3] = biased_height(low[0]) << 32 | biased_height(low[2]);
 }
 
 // Brings cuts, which stand behind `border_count` other portals, into the order of their words.
@@ -191,7 +191,7 @@ static tl_result sort_portals(const tl_nav_tile_source *source, tl_nav_portal *p
     TL_TRY(sort_cuts(source->polygons, portals, count - source->cut_count, count, items, scratch, report));
     for (uint32_t i = 0; i < count; i++) {
         uint32_t portal = items[i].value;
-        items[i].key = (uint64_t)sides[portal] << 32 | biased(portals[portal].low);
+        items[i].key = (uint64_t)sides[portal] << 32 | biased_height(portals[portal].low);
     }
     tl_radix_sort(items, scratch, count);
     for (uint32_t i = 0; i < count; i++) {
@@ -238,7 +238,7 @@ tl_result tl_nav_bake_portals(const tl_nav_tile_source *source, tl_arena *arena,
         uint32_t patch_vertices = source->detail != NULL ? source->detail->patches[p].vertex_count : 0;
         largest_patch = patch_vertices > largest_patch ? patch_vertices : largest_patch;
         for (uint32_t k = polygons->first[p]; k < polygons->first[p + 1]; k++) {
-            if (portal_side(source, p, k) < 4) {
+            if (side_of_edge(source, p, k) < 4) {
                 count++;
                 profile_capacity += 2 + (uint64_t)patch_vertices;
             }
@@ -258,7 +258,7 @@ tl_result tl_nav_bake_portals(const tl_nav_tile_source *source, tl_arena *arena,
     uint32_t made = 0;
     for (uint32_t p = 0; p < polygons->polygon_count; p++) {
         for (uint32_t k = polygons->first[p]; k < polygons->first[p + 1]; k++) {
-            uint32_t side = portal_side(source, p, k);
+            uint32_t side = side_of_edge(source, p, k);
             if (side < 4) {
                 sides[made] = (uint8_t)side;
                 found[made++] = make_portal(polygons, p, k, side);

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <talus/mesh.h>
 
-static bool is_finite(tl_vec3 v)
+static bool is_finite_point(tl_vec3 v)
 {
     return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
@@ -65,7 +65,7 @@ static tl_result check_origin(const tl_nav_tile_source *source, tl_report *repor
 {
     const tl_polygon_mesh *polygons = source->polygons;
     tl_vec3 claimed = polygons->bounds.min;
-    if (!is_finite(source->origin) || !is_finite(claimed)) {
+    if (!is_finite_point(source->origin) || !is_finite_point(claimed)) {
         return tl_report_field(report, TL_ERR_NOT_FINITE, "origin", NULL);
     }
     if (!origin_agrees(source->origin.x, source->tile_x, source->tile_size, polygons->cell_size, claimed.x) ||
@@ -82,7 +82,7 @@ static bool in_range(float position)
     return position >= -TL_MAX_COORDINATE && position <= TL_MAX_COORDINATE;
 }
 
-static tl_result check_vertices(const tl_nav_tile_source *source, tl_report *report)
+static tl_result check_source_vertices(const tl_nav_tile_source *source, tl_report *report)
 {
     const tl_polygon_mesh *polygons = source->polygons;
     for (uint32_t i = 0; i < polygons->vertex_count; i++) {
@@ -172,7 +172,7 @@ static tl_result check_patch(const tl_nav_detail *detail, uint32_t p, uint32_t c
     }
     for (uint32_t i = 0; i < patch->vertex_count; i++) {
         tl_vec3 v = detail->vertices[patch->first_vertex + i];
-        if (!is_finite(v)) {
+        if (!is_finite_point(v)) {
             return tl_report_fail(report, TL_ERR_NOT_FINITE, "patch", p, NULL);
         }
         if (!in_range(v.x) || !in_range(v.y) || !in_range(v.z)) {
@@ -241,7 +241,7 @@ tl_result tl_nav_tile_check_source(const tl_nav_tile_source *source, tl_report *
     }
     TL_TRY(check_settings(source, report));
     TL_TRY(check_origin(source, report));
-    TL_TRY(check_vertices(source, report));
+    TL_TRY(check_source_vertices(source, report));
     if (polygons->first[0] != 0 || polygons->first[polygons->polygon_count] != polygons->index_count) {
         return tl_report_fail(report, TL_ERR_INDEX, "polygon", 0, "its range of corners is wrong");
     }

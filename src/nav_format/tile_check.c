@@ -95,7 +95,7 @@ static bool is_range_table(const uint32_t *first, uint32_t count, uint32_t low, 
     return true;
 }
 
-static tl_result check_corners(const tl_nav_tile *tile, tl_report *report)
+static tl_result check_tile_corners(const tl_nav_tile *tile, tl_report *report)
 {
     const int32_t *vertices = tl_nav_tile_at(tile, tile->vertices);
     for (uint64_t i = 0; i < 3 * (uint64_t)tile->vertex_count; i++) {
@@ -142,7 +142,7 @@ static tl_result check_polygons(const tl_nav_tile *tile, tl_report *report)
     if (!is_range_table(first, tile->polygon_count, 3, TL_NAV_MAX_CORNERS, tile->corner_count)) {
         return corrupt(report, "polygon", TL_NO_ELEMENT);
     }
-    TL_TRY(check_corners(tile, report));
+    TL_TRY(check_tile_corners(tile, report));
     const uint32_t *corner_vertices = tl_nav_tile_at(tile, tile->corner_vertices);
     const int32_t *vertices = tl_nav_tile_at(tile, tile->vertices);
     double area = 0.0;

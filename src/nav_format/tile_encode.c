@@ -133,8 +133,8 @@ static void bake_surface(const tl_nav_tile_source *source, tl_nav_tile *tile)
     }
 }
 
-static tl_result bake(const tl_nav_tile_source *source, const tl_allocator *allocator, tl_arena *arena,
-                      tl_nav_tile **tile_out, tl_report *report)
+static tl_result encode_tile(const tl_nav_tile_source *source, const tl_allocator *allocator, tl_arena *arena,
+                             tl_nav_tile **tile_out, tl_report *report)
 {
     tl_nav_portals portals;
     TL_TRY(tl_nav_bake_portals(source, arena, &portals, report));
@@ -175,7 +175,7 @@ tl_result tl_nav_tile_encode(const tl_nav_tile_source *source, const tl_allocato
     TL_TRY(tl_nav_tile_check_source(source, report_out));
     tl_arena arena;
     tl_arena_init(&arena, allocator);
-    tl_result result = bake(source, allocator, &arena, tile_out, report_out);
+    tl_result result = encode_tile(source, allocator, &arena, tile_out, report_out);
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + (*tile_out != NULL ? (*tile_out)->blob.size : 0);
     }

@@ -29,7 +29,7 @@ static bool keeps(const subset *s, uint32_t p)
     return s->layering != NULL ? s->layering->layers[p] == s->layer : s->keep[p] != 0;
 }
 
-static tl_result make_room(subset *s, tl_arena *arena)
+static tl_result allocate_subset(subset *s, tl_arena *arena)
 {
     const tl_nav_tile *tile = s->tile;
     tl_polygon_mesh *mesh = &s->mesh;
@@ -70,33 +70,33 @@ static void number_what_is_kept(subset *s)
     }
 }
 
-static void add_cut(subset *s, uint32_t layer, uint32_t ordinal)
+static void add_subset_cut(subset *s, uint32_t layer, uint32_t ordinal)
 {
     const tl_nav_cut cut = { s->mesh.index_count, layer, ordinal };
     s->cuts[s->cut_count++] = cut;
 }
 
 // What lies across a corner's edge in the mesh that is made; a cut is noted.
-static uint32_t across_edge(subset *s, uint32_t p, uint32_t k, uint32_t edge)
+static uint32_t subset_across(subset *s, uint32_t p, uint32_t k, uint32_t edge)
 {
     const tl_nav_tile *tile = s->tile;
     const uint32_t across = tl_nav_tile_neighbour(tile, p, edge);
     if (across == (TL_PORTAL | TL_NAV_SIDE_CUT)) {
         const uint32_t link = tl_nav_tile_links(tile, p)[edge];
         const tl_nav_portal *portal = tl_nav_tile_portals(tile) + (link & ~TL_NAV_LINK_PORTAL);
-        add_cut(s, (uint32_t)portal->low, (uint32_t)portal->high);
+        add_subset_cut(s, (uint32_t)portal->low, (uint32_t)portal->high);
         return TL_NO_POLYGON;
     }
     if (across >= tile->polygon_count) {
         return across;
     }
     if (s->layering != NULL && s->number[across] == TL_NO_POLYGON) {
-        add_cut(s, s->layering->layers[across], s->layering->ordinals[k]);
+        add_subset_cut(s, s->layering->layers[across], s->layering->ordinals[k]);
     }
     return s->number[across];
 }
 
-static void copy_polygon(subset *s, uint32_t p)
+static void copy_kept_polygon(subset *s, uint32_t p)
 {
     const tl_nav_tile *tile = s->tile;
     const uint32_t *first = tl_nav_tile_at(tile, tile->first_corner);
@@ -109,7 +109,7 @@ static void copy_polygon(subset *s, uint32_t p)
     mesh->areas[to] = tl_nav_tile_area(tile, p);
     s->flags[to] = tl_nav_tile_flags(tile, p);
     for (uint32_t k = first[p]; k < first[p + 1]; k++) {
-        mesh->neighbours[mesh->index_count] = across_edge(s, p, k, k - first[p]);
+        mesh->neighbours[mesh->index_count] = subset_across(s, p, k, k - first[p]);
         mesh->indices[mesh->index_count++] = s->vertex_number[vertex[k]];
     }
     const tl_nav_detail_patch patch = { first_vertex[p], first_vertex[p + 1] - first_vertex[p], first_triangle[p],
@@ -132,7 +132,7 @@ static void borrow_surface(const tl_nav_tile *tile, tl_nav_detail *detail)
     detail->triangle_count = tile->detail_triangle_count;
 }
 
-static tl_result bake(subset *s, const tl_allocator *allocator, tl_nav_tile **tile_out, tl_report *report)
+static tl_result encode_subset(subset *s, const tl_allocator *allocator, tl_nav_tile **tile_out, tl_report *report)
 {
     const tl_nav_tile *tile = s->tile;
     s->mesh.cell_size = tile->cell_size;
@@ -164,18 +164,18 @@ static tl_result bake(subset *s, const tl_allocator *allocator, tl_nav_tile **ti
 static tl_result make_subset(subset *s, tl_arena *arena, const tl_allocator *allocator, tl_nav_tile **tile_out,
                              tl_report *report)
 {
-    TL_TRY(make_room(s, arena));
+    TL_TRY(allocate_subset(s, arena));
     number_what_is_kept(s);
     for (uint32_t p = 0; p < s->tile->polygon_count; p++) {
         if (s->number[p] != TL_NO_POLYGON) {
-            copy_polygon(s, p);
+            copy_kept_polygon(s, p);
         }
     }
     s->mesh.first[s->mesh.polygon_count] = s->mesh.index_count;
-    return bake(s, allocator, tile_out, report);
+    return encode_subset(s, allocator, tile_out, report);
 }
 
-static tl_result run(subset *s, const tl_allocator *allocator, tl_nav_tile **tile_out, tl_report *report)
+static tl_result run_subset(subset *s, const tl_allocator *allocator, tl_nav_tile **tile_out, tl_report *report)
 {
     tl_arena arena;
     tl_arena_init(&arena, allocator);
@@ -193,7 +193,7 @@ tl_result tl_nav_tile_layer(const tl_nav_tile *tile, const tl_nav_layering *laye
     s.tile = tile;
     s.layering = layering;
     s.layer = layer;
-    return run(&s, allocator, tile_out, report);
+    return run_subset(&s, allocator, tile_out, report);
 }
 
 tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep, const tl_allocator *allocator,
@@ -209,5 +209,5 @@ tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep, const
     s.tile = tile;
     s.keep = keep;
     s.layer = tile->layer;
-    return run(&s, allocator, tile_out, report_out);
+    return run_subset(&s, allocator, tile_out, report_out);
 }

@@ -125,7 +125,7 @@ static bool polygon_reaches(const footprint *foot, double x, double z)
     return inside || (foot->grow >= 0.0 && nearest <= foot->grow * foot->grow);
 }
 
-static bool reaches(const footprint *foot, double world_x, double world_z)
+static bool footprint_reaches(const footprint *foot, double world_x, double world_z)
 {
     double dx = world_x - foot->base_x, dz = world_z - foot->base_z;
     if (foot->round) {
@@ -137,7 +137,7 @@ static bool reaches(const footprint *foot, double world_x, double world_z)
 
 // ---------------------------------------------------------------------------------------------------------
 
-static double largest_coordinate(const footprint *foot)
+static double largest_footprint_coordinate(const footprint *foot)
 {
     double largest = 0.0;
     for (uint32_t i = 0; i < foot->count; i++) {
@@ -147,11 +147,11 @@ static double largest_coordinate(const footprint *foot)
 }
 
 // A corner may lie beyond another's edge line by rounding alone.
-static bool is_convex(const tl_nav_obstacle *obstacle)
+static bool is_convex_outline(const tl_nav_obstacle *obstacle)
 {
     footprint foot;
     make_outline(obstacle, &foot);
-    const double noise = CORNER_NOISE * largest_coordinate(&foot);
+    const double noise = CORNER_NOISE * largest_footprint_coordinate(&foot);
     for (uint32_t i = 0; i < foot.count; i++) {
         uint32_t next = (i + 1) % foot.count;
         double ux = foot.x[next] - foot.x[i], uz = foot.z[next] - foot.z[i];
@@ -175,9 +175,9 @@ static tl_result check_prism(const tl_nav_obstacle *obstacle, tl_report *report)
             return tl_report_fail(report, TL_ERR_NOT_FINITE, "point", i, NULL);
         }
     }
-    return is_convex(obstacle) ? TL_OK
-                               : tl_report_field(report, TL_ERR_ARGUMENT, "points",
-                                                 "give the outline of a convex polygon with area, in order");
+    return is_convex_outline(obstacle) ? TL_OK
+                                       : tl_report_field(report, TL_ERR_ARGUMENT, "points",
+                                                         "give the outline of a convex polygon with area, in order");
 }
 
 tl_result tl_obstacle_check(const tl_nav_obstacle *obstacle, tl_report *report)
@@ -215,7 +215,7 @@ static void round_outward(double low, double high, float *min, float *max)
     *max = nextafterf((float)high, INFINITY);
 }
 
-static tl_aabb box_of(const footprint *foot)
+static tl_aabb footprint_box(const footprint *foot)
 {
     double grow = foot->grow > 0.0 ? foot->grow : 0.0;
     double min_x = -foot->radius, max_x = foot->radius, min_z = -foot->radius, max_z = foot->radius;
@@ -241,24 +241,31 @@ static tl_aabb box_of(const footprint *foot)
 tl_aabb tl_obstacle_box(const tl_nav_obstacle *obstacle, float agent_radius, float agent_height)
 {
     const footprint foot = make_footprint(obstacle, agent_radius, agent_height);
-    return box_of(&foot);
+    return footprint_box(&foot);
 }
 
-// Columns [*first, *end) of `count` whose centres can lie in [min, max], metres.
-static void column_range(float min, float max, float origin, float cell_size, int32_t first_column, uint32_t count,
-                         uint32_t *first, uint32_t *end)
+// A field's columns along one axis.
+typedef struct field_axis {
+    float origin;         ///< metres
+    float cell_size;      ///< metres
+    int32_t first_column; ///< in the level's lattice
+    uint32_t count;
+} field_axis;
+
+// Columns [*first, *end) whose centres can lie in [min, max], metres.
+static void columns_near(const field_axis *axis, float min, float max, uint32_t *first, uint32_t *end)
 {
-    double shift = (double)first_column + 0.5;
-    double low = floor(((double)min - (double)origin) / (double)cell_size - shift);
-    double high = ceil(((double)max - (double)origin) / (double)cell_size - shift) + 1.0;
+    const double shift = (double)axis->first_column + 0.5, size = (double)axis->cell_size;
+    double low = floor(((double)min - (double)axis->origin) / size - shift);
+    double high = ceil(((double)max - (double)axis->origin) / size - shift) + 1.0;
     *first = *end = 0;
-    if (low < high && high > 0.0 && low < (double)count) {
+    if (low < high && high > 0.0 && low < (double)axis->count) {
         *first = low > 0.0 ? (uint32_t)low : 0;
-        *end = high < (double)count ? (uint32_t)high : count;
+        *end = high < (double)axis->count ? (uint32_t)high : axis->count;
     }
 }
 
-static void mark_column(const footprint *foot, uint8_t area, uint32_t column, tl_nav_compact *compact)
+static void mark_footprint_column(const footprint *foot, uint8_t area, uint32_t column, tl_nav_compact *compact)
 {
     for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
         double y = (double)compact->lattice.origin.y + (double)compact->floor[i] * (double)compact->cell_height;
@@ -272,19 +279,19 @@ void tl_obstacle_mark(const tl_nav_obstacle *obstacle, float agent_radius, float
 {
     const tl_nav_lattice *lattice = &compact->lattice;
     const footprint foot = make_footprint(obstacle, agent_radius, agent_height);
-    const tl_aabb box = box_of(&foot);
+    const tl_aabb box = footprint_box(&foot);
     uint32_t first_x, end_x, first_z, end_z;
-    column_range(box.min.x, box.max.x, lattice->origin.x, compact->cell_size, lattice->first_x, compact->width,
-                 &first_x, &end_x);
-    column_range(box.min.z, box.max.z, lattice->origin.z, compact->cell_size, lattice->first_z, compact->height,
-                 &first_z, &end_z);
+    const field_axis x_axis = { lattice->origin.x, compact->cell_size, lattice->first_x, compact->width };
+    const field_axis z_axis = { lattice->origin.z, compact->cell_size, lattice->first_z, compact->height };
+    columns_near(&x_axis, box.min.x, box.max.x, &first_x, &end_x);
+    columns_near(&z_axis, box.min.z, box.max.z, &first_z, &end_z);
     const double size = (double)compact->cell_size;
     for (uint32_t z = first_z; z < end_z; z++) {
         double center_z = (double)lattice->origin.z + ((double)lattice->first_z + (double)z + 0.5) * size;
         for (uint32_t x = first_x; x < end_x; x++) {
             double center_x = (double)lattice->origin.x + ((double)lattice->first_x + (double)x + 0.5) * size;
-            if (reaches(&foot, center_x, center_z)) {
-                mark_column(&foot, obstacle->area, z * compact->width + x, compact);
+            if (footprint_reaches(&foot, center_x, center_z)) {
+                mark_footprint_column(&foot, obstacle->area, z * compact->width + x, compact);
             }
         }
     }

@@ -40,7 +40,7 @@ struct tl_nav_obstacles {
     uint32_t first_waiting, last_waiting, waiting_count;
 };
 
-#define NONE UINT32_MAX
+#define NO_SLOT UINT32_MAX
 
 static uint64_t tile_count(const tl_nav_obstacles *o)
 {
@@ -65,8 +65,8 @@ static void let_wait(tl_nav_obstacles *o, const tl_nav_tile_range *range)
             }
             uint32_t index = z * o->tiles_x + x;
             tile->waits = true;
-            tile->next_waiting = NONE;
-            if (o->last_waiting == NONE) {
+            tile->next_waiting = NO_SLOT;
+            if (o->last_waiting == NO_SLOT) {
                 o->first_waiting = index;
             } else {
                 o->tiles[o->last_waiting].next_waiting = index;
@@ -81,7 +81,7 @@ static void end_wait(tl_nav_obstacles *o)
 {
     tile_floors *tile = &o->tiles[o->first_waiting];
     o->first_waiting = tile->next_waiting;
-    o->last_waiting = o->first_waiting == NONE ? NONE : o->last_waiting;
+    o->last_waiting = o->first_waiting == NO_SLOT ? NO_SLOT : o->last_waiting;
     tile->waits = false;
     o->waiting_count--;
 }
@@ -152,7 +152,7 @@ static void install(tl_nav_obstacles *o, const floors_taker *taker, uint8_t **ar
     }
 }
 
-static void drop(const tl_nav_obstacles *o, const floors_taker *taker, uint8_t **areas)
+static void drop_floors(const tl_nav_obstacles *o, const floors_taker *taker, uint8_t **areas)
 {
     const uint64_t count = (uint64_t)taker->range.count_x * taker->range.count_z;
     for (uint64_t i = 0; i < count; i++) {
@@ -183,7 +183,7 @@ static tl_result bake_range(tl_nav_obstacles *o, const tl_host *host, const tl_n
         if (result == TL_OK) {
             install(o, &taker, areas);
         } else {
-            drop(o, &taker, areas);
+            drop_floors(o, &taker, areas);
             tl_nav_tile_block_free(block);
         }
     }
@@ -235,7 +235,7 @@ static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report
     memset(&o->def.host, 0, sizeof o->def.host);
     o->tiles_x = tiles_x;
     o->tiles_z = tiles_z;
-    o->first_free = o->first_waiting = o->last_waiting = NONE;
+    o->first_free = o->first_waiting = o->last_waiting = NO_SLOT;
     o->tiles = tl_allocate_array(&allocator, tile_count(o), sizeof *o->tiles);
     if (o->tiles == NULL) {
         tl_release_array(&allocator, o, 1, sizeof *o);
@@ -336,7 +336,7 @@ static tl_nav_obstacle_id id_of(const tl_nav_obstacles *o, uint32_t slot)
     return (uint64_t)o->slots[slot].generation << 32 | slot;
 }
 
-static obstacle_slot *find(const tl_nav_obstacles *o, tl_nav_obstacle_id id)
+static obstacle_slot *find_obstacle_slot(const tl_nav_obstacles *o, tl_nav_obstacle_id id)
 {
     uint32_t slot = (uint32_t)id, generation = (uint32_t)(id >> 32);
     bool there = slot < o->slot_count && (generation & 1u) != 0 && o->slots[slot].generation == generation;
@@ -353,14 +353,14 @@ static tl_result range_of(const tl_nav_obstacles *o, const tl_nav_obstacle *obst
 
 static tl_result take_slot(tl_nav_obstacles *o, uint32_t *slot_out)
 {
-    if (o->first_free != NONE) {
+    if (o->first_free != NO_SLOT) {
         *slot_out = o->first_free;
         o->first_free = o->slots[o->first_free].next_free;
         return TL_OK;
     }
     if (o->slot_count == o->slot_capacity) {
         uint32_t capacity = o->slot_capacity > 0 ? 2 * o->slot_capacity : 16;
-        if (capacity < o->slot_capacity || capacity == NONE) {
+        if (capacity < o->slot_capacity || capacity == NO_SLOT) {
             return TL_ERR_LIMIT;
         }
         obstacle_slot *slots = tl_allocate_array(&o->allocator, capacity, sizeof *slots);
@@ -407,7 +407,7 @@ tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id 
     tl_report_begin(report_out, "move obstacle");
     TL_REFUSE_NULL(obstacles, report_out);
     TL_REFUSE_NULL(obstacle, report_out);
-    obstacle_slot *slot = find(obstacles, id);
+    obstacle_slot *slot = find_obstacle_slot(obstacles, id);
     tl_nav_tile_range range;
     if (slot == NULL) {
         return tl_report_fail(report_out, TL_ERR_STALE, "obstacle", id, "it was removed, or never was");
@@ -423,7 +423,7 @@ tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id 
 tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id)
 {
     TL_REFUSE_NULL(obstacles, NULL);
-    obstacle_slot *slot = find(obstacles, id);
+    obstacle_slot *slot = find_obstacle_slot(obstacles, id);
     if (slot == NULL) {
         return TL_ERR_STALE;
     }
@@ -451,7 +451,7 @@ uint32_t tl_nav_obstacles_waiting(const tl_nav_obstacles *obstacles)
 // ---------------------------------------------------------------------------------------------------------
 // Making tiles again.
 
-static bool holds(const tl_nav_tile_range *range, uint32_t x, uint32_t z)
+static bool range_holds(const tl_nav_tile_range *range, uint32_t x, uint32_t z)
 {
     return x >= range->x && x - range->x < range->count_x && z >= range->z && z - range->z < range->count_z;
 }
@@ -459,10 +459,10 @@ static bool holds(const tl_nav_tile_range *range, uint32_t x, uint32_t z)
 // Marks all of one area, and finds the next higher area of those that touch the tile; NONE: there is none.
 static uint32_t mark_area(const tl_nav_obstacles *o, uint32_t x, uint32_t z, uint32_t area, tl_nav_compact *compact)
 {
-    uint32_t next = NONE;
+    uint32_t next = NO_SLOT;
     for (uint32_t i = 0; i < o->slot_count; i++) {
         const obstacle_slot *slot = &o->slots[i];
-        if ((slot->generation & 1u) == 0 || !holds(&slot->range, x, z)) {
+        if ((slot->generation & 1u) == 0 || !range_holds(&slot->range, x, z)) {
             continue;
         }
         if (slot->obstacle.area == area) {
@@ -478,7 +478,7 @@ static uint32_t mark_area(const tl_nav_obstacles *o, uint32_t x, uint32_t z, uin
 // is cut stays cut, so the bodies, whose area is 0, come first.
 static void mark_obstacles(const tl_nav_obstacles *o, uint32_t x, uint32_t z, tl_nav_compact *compact)
 {
-    for (uint32_t area = TL_NAV_NULL_AREA; area != NONE;) {
+    for (uint32_t area = TL_NAV_NULL_AREA; area != NO_SLOT;) {
         area = mark_area(o, x, z, area, compact);
     }
 }
@@ -491,7 +491,7 @@ tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked
     TL_REFUSE_NULL(rebaked_out, base);
     memset(rebaked_out, 0, sizeof *rebaked_out);
     TL_REFUSE_NULL(obstacles, base);
-    if (o->first_waiting == NONE) {
+    if (o->first_waiting == NO_SLOT) {
         return TL_NOT_FOUND;
     }
     tile_floors *tile = &o->tiles[o->first_waiting];
@@ -519,7 +519,7 @@ tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navme
     TL_REFUSE_NULL(navmesh, base);
     tl_nav_obstacles *o = obstacles;
     tl_result result = TL_OK;
-    for (uint32_t i = 0; i < max_tiles && result == TL_OK && o->first_waiting != NONE; i++) {
+    for (uint32_t i = 0; i < max_tiles && result == TL_OK && o->first_waiting != NO_SLOT; i++) {
         const uint32_t index = o->first_waiting;
         tl_nav_rebaked_tile rebaked;
         result = tl_nav_obstacles_bake_next(o, &rebaked, report_out);

@@ -160,7 +160,9 @@ static void bands_agree_with_the_heightfield(void **state)
         uint64_t span_count = 0;
         TEST_RESULT(tl_nav_rasterize(&config, &mesh, NULL, NULL, &field, NULL), TL_OK);
         TEST_RESULT(tl_nav_filter_and_compact(&config, &field, NULL, &from_field, NULL), TL_OK);
-        TEST_RESULT(tl_nav_open_triangles(&config, &mesh, NULL, all, &host, &from_triangles, &span_count, NULL), TL_OK);
+        TEST_RESULT(tl_nav_open_triangles(&config, &(tl_nav_input){ .mesh = mesh }, all, &host, &from_triangles,
+                                          &span_count, NULL),
+                    TL_OK);
         TEST_CHECK(span_count == field.span_count && same_compact(&from_triangles, &from_field));
         bands += config.width * config.height > 20000;
         tl_nav_compact_free(&from_triangles);

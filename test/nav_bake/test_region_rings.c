@@ -26,7 +26,7 @@ static void example(void **state)
     e = rings.entries[e].next;
     TEST_CHECK(rings.entries[e].region == 2 && rings.entries[e].next == rings.head[1]);
     TEST_CHECK(rings.span_count[1] == 4 && rings.span_count[2] == 2 && rings.span_count[3] == 3);
-    TEST_CHECK(rings.area[1] == 1 && rings.area[2] == 2 && rings.area[3] == 3 && rings.head[0] == TL_NO_RING);
+    TEST_CHECK(rings.area[1] == 1 && rings.area[2] == 2 && rings.area[3] == 3 && rings.head[0] == TL_NO_REGION_RING);
     tl_arena_free(&arena);
     fixture_compact_free(&compact);
 }

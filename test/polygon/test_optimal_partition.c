@@ -158,9 +158,10 @@ static uint32_t partition(uint32_t n, uint32_t max_corners, uint64_t max_steps)
     tl_visibility visibility;
     tl_convex_parts parts;
     TEST_RESULT(tl_triangulate(&arena, lattice, n, NULL, triangles, twins), TL_OK);
-    TEST_RESULT(tl_find_visibility(&arena, lattice, n, triangles, twins, UINT32_MAX, &visibility, &found), TL_OK);
+    const tl_triangulated_outline outline = { lattice, n, triangles, twins };
+    TEST_RESULT(tl_find_visibility(&arena, &outline, UINT32_MAX, &visibility, &found), TL_OK);
     TEST_CHECK(found);
-    TEST_RESULT(tl_partition_optimally(&arena, lattice, n, &visibility, max_corners, max_steps, &parts, &found), TL_OK);
+    TEST_RESULT(tl_partition_optimally(&arena, &outline, &visibility, max_corners, max_steps, &parts, &found), TL_OK);
     int64_t area = 0;
     for (uint32_t p = 0; found && p < parts.count; p++) {
         const uint32_t *corners = parts.corners + parts.first[p];

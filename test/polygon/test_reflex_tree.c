@@ -10,8 +10,8 @@ static bool brute(const tl_lattice_point *p, const uint8_t *alive, tl_lattice_po
                   tl_lattice_point c)
 {
     for (uint32_t i = 0; i < POINTS; i++) {
-        if (alive[i] && tl_in_triangle(a, b, c, p[i]) && !tl_same_point(p[i], a) && !tl_same_point(p[i], b) &&
-            !tl_same_point(p[i], c)) {
+        if (alive[i] && tl_turn(a, b, p[i]) >= 0 && tl_turn(b, c, p[i]) >= 0 && tl_turn(c, a, p[i]) >= 0 &&
+            !tl_same_point(p[i], a) && !tl_same_point(p[i], b) && !tl_same_point(p[i], c)) {
             return true;
         }
     }

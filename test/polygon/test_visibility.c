@@ -19,7 +19,8 @@ static tl_visibility look(tl_arena *arena, uint32_t n, uint64_t max_chords, bool
     }
     tl_visibility visibility;
     TEST_RESULT(tl_triangulate(arena, lattice, n, NULL, triangles, twins), TL_OK);
-    TEST_RESULT(tl_find_visibility(arena, lattice, n, triangles, twins, max_chords, &visibility, found), TL_OK);
+    const tl_triangulated_outline outline = { lattice, n, triangles, twins };
+    TEST_RESULT(tl_find_visibility(arena, &outline, max_chords, &visibility, found), TL_OK);
     return visibility;
 }
 

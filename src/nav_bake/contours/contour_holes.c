@@ -22,7 +22,7 @@ typedef struct bridging {
     uint32_t hole_count;
 } bridging;
 
-static bool is_left(const tl_contour_vertex *a, const tl_contour_vertex *b, const tl_contour_vertex *c)
+static bool is_left_of_line(const tl_contour_vertex *a, const tl_contour_vertex *b, const tl_contour_vertex *c)
 {
     return tl_contour_area2(a, b, c) < 0;
 }
@@ -35,12 +35,12 @@ static bool sees_from_corner(const bridging *b, uint32_t j, const tl_contour_ver
     const tl_contour_vertex *next = &b->vertices[path->vertices[j + 1 < path->count ? j + 1 : 0]];
     const tl_contour_vertex *previous = &b->vertices[path->vertices[j > 0 ? j - 1 : path->count - 1]];
     if (tl_contour_area2(previous, at, next) <= 0) { // convex or straight
-        return is_left(at, p, previous) && is_left(p, at, next);
+        return is_left_of_line(at, p, previous) && is_left_of_line(p, at, next);
     }
     return !(tl_contour_area2(at, p, next) <= 0 && tl_contour_area2(p, at, previous) <= 0);
 }
 
-static bool is_within(const tl_contour_vertex *p, const tl_contour_vertex *a, const tl_contour_vertex *b)
+static bool is_within_outline(const tl_contour_vertex *p, const tl_contour_vertex *a, const tl_contour_vertex *b)
 {
     bool along_x = a->x != b->x;
     int32_t low = along_x ? (a->x < b->x ? a->x : b->x) : (a->z < b->z ? a->z : b->z);
@@ -50,16 +50,16 @@ static bool is_within(const tl_contour_vertex *p, const tl_contour_vertex *a, co
 }
 
 // Whether two segments share a point.
-static bool segments_meet(const tl_contour_vertex *a, const tl_contour_vertex *b, const tl_contour_vertex *c,
-                          const tl_contour_vertex *d)
+static bool bridge_meets_edge(const tl_contour_vertex *a, const tl_contour_vertex *b, const tl_contour_vertex *c,
+                              const tl_contour_vertex *d)
 {
     int64_t c_side = tl_contour_area2(a, b, c), d_side = tl_contour_area2(a, b, d);
     int64_t a_side = tl_contour_area2(c, d, a), b_side = tl_contour_area2(c, d, b);
     if (c_side != 0 && d_side != 0 && a_side != 0 && b_side != 0) {
         return (c_side < 0) != (d_side < 0) && (a_side < 0) != (b_side < 0);
     }
-    return (c_side == 0 && is_within(c, a, b)) || (d_side == 0 && is_within(d, a, b)) ||
-           (a_side == 0 && is_within(a, c, d)) || (b_side == 0 && is_within(b, c, d));
+    return (c_side == 0 && is_within_outline(c, a, b)) || (d_side == 0 && is_within_outline(d, a, b)) ||
+           (a_side == 0 && is_within_outline(a, c, d)) || (b_side == 0 && is_within_outline(b, c, d));
 }
 
 // Whether the bridge meets an edge of the path that it shares no end with.
@@ -71,7 +71,7 @@ static bool meets_path(const bridging *b, const tl_contour_vertex *p, const tl_c
         const tl_contour_vertex *after = &b->vertices[path->vertices[k]];
         bool shares_end = tl_contour_same_xz(p, before) || tl_contour_same_xz(p, after) ||
                           tl_contour_same_xz(q, before) || tl_contour_same_xz(q, after);
-        if (!shares_end && segments_meet(p, q, before, after)) {
+        if (!shares_end && bridge_meets_edge(p, q, before, after)) {
             return true;
         }
         before = after;
@@ -93,7 +93,7 @@ static bool is_clear(const bridging *b, uint32_t place, const tl_contour_vertex 
     return true;
 }
 
-static int64_t distance_sq(const tl_contour_vertex *a, const tl_contour_vertex *b)
+static int64_t hole_distance_sq(const tl_contour_vertex *a, const tl_contour_vertex *b)
 {
     int64_t dx = (int64_t)b->x - a->x, dz = (int64_t)b->z - a->z;
     return dx * dx + dz * dz;
@@ -109,7 +109,7 @@ static uint32_t find_bridge(const bridging *b, const tl_contour_vertex *p, uint3
         uint32_t best = path->count;
         int64_t best_distance = INT64_MAX;
         for (uint32_t j = 0; j < path->count; j++) {
-            int64_t d = distance_sq(&b->vertices[path->vertices[j]], p);
+            int64_t d = hole_distance_sq(&b->vertices[path->vertices[j]], p);
             bool later = d > tried_distance || (d == tried_distance && j > tried);
             if (d < best_distance && later && sees_from_corner(b, j, p)) {
                 best = j;

@@ -36,7 +36,7 @@ typedef struct repair {
     uint32_t *stack;
 } repair;
 
-static int sign_of(int64_t value)
+static int sign_of_turn(int64_t value)
 {
     return (value > 0) - (value < 0);
 }
@@ -52,8 +52,8 @@ static bool is_between(const tl_contour_vertex *p, const tl_contour_vertex *a, c
 static bool edges_conflict(const tl_contour_vertex *a, const tl_contour_vertex *b, const tl_contour_vertex *c,
                            const tl_contour_vertex *d)
 {
-    int c_side = sign_of(tl_contour_area2(a, b, c)), d_side = sign_of(tl_contour_area2(a, b, d));
-    int a_side = sign_of(tl_contour_area2(c, d, a)), b_side = sign_of(tl_contour_area2(c, d, b));
+    int c_side = sign_of_turn(tl_contour_area2(a, b, c)), d_side = sign_of_turn(tl_contour_area2(a, b, d));
+    int a_side = sign_of_turn(tl_contour_area2(c, d, a)), b_side = sign_of_turn(tl_contour_area2(c, d, b));
     if (c_side * d_side < 0 && a_side * b_side < 0) {
         return true;
     }
@@ -80,7 +80,7 @@ static bool corners_conflict(const tl_contour_vertex *v, const simple_edge *e, c
 }
 
 // Keeps a vertex, and has all regions that got it looked at again.
-static void keep(repair *r, uint32_t vertex)
+static void keep_vertex(repair *r, uint32_t vertex)
 {
     tl_contour_work *work = r->work;
     tl_contours_keep(work, vertex);
@@ -112,7 +112,7 @@ static bool keep_at(repair *r, const simple_edge *edge, const tl_contour_vertex 
     }
     for (uint32_t k = tl_contour_next(work, edge->begin); k != edge->end; k = tl_contour_next(work, k)) {
         if (tl_contour_same_xz(&work->vertices[k], p) && !work->keep[k]) {
-            keep(r, k);
+            keep_vertex(r, k);
             return true;
         }
     }
@@ -126,11 +126,11 @@ static bool mend_pair(repair *r, const simple_edge *e, const simple_edge *f)
     uint32_t e_far = tl_contours_farthest(r->work, e->begin, e->end, &e_error);
     uint32_t f_far = tl_contours_farthest(r->work, f->begin, f->end, &f_error);
     if (e_error > 0 && e_error >= f_error) {
-        keep(r, e_far);
+        keep_vertex(r, e_far);
         return true;
     }
     if (f_error > 0) {
-        keep(r, f_far);
+        keep_vertex(r, f_far);
         return true;
     }
     bool at_f = keep_at(r, e, &v[f->begin]) || keep_at(r, e, &v[f->end]);
@@ -155,7 +155,7 @@ static void mend_corners(repair *r, const simple_edge *e, const simple_edge *f)
         }
     }
     if (largest > 0) {
-        keep(r, farthest);
+        keep_vertex(r, farthest);
     }
 }
 
@@ -169,7 +169,7 @@ static bool mend_collapse(repair *r, const tl_contour_loop *loop, const tl_conto
         const tl_contour_vertex *b = &work->vertices[path->vertices[k + 1 < path->count ? k + 1 : 0]];
         area2 += (int64_t)b->x * a->z - (int64_t)a->x * b->z;
     }
-    if (sign_of(area2) == sign_of(loop->area2)) {
+    if (sign_of_turn(area2) == sign_of_turn(loop->area2)) {
         return false;
     }
     bool changed = false;
@@ -178,7 +178,7 @@ static bool mend_collapse(repair *r, const tl_contour_loop *loop, const tl_conto
         uint32_t end = path->vertices[k + 1 < path->count ? k + 1 : 0];
         uint32_t farthest = tl_contours_farthest(work, path->vertices[k], end, &error);
         if (error > 0) {
-            keep(r, farthest);
+            keep_vertex(r, farthest);
             changed = true;
         }
     }
@@ -252,7 +252,7 @@ static int ray_crossing(const tl_contour_vertex *p, const tl_contour_vertex *a, 
         return 0;
     }
     int upward = a->z <= p->z ? 1 : -1;
-    int side = sign_of(tl_contour_area2(a, b, p));
+    int side = sign_of_turn(tl_contour_area2(a, b, p));
     return side * upward < 0 ? upward : 0;
 }
 
@@ -296,14 +296,14 @@ static void mend_stray_holes(repair *r, uint32_t region, uint32_t count)
             if (work->loop_of[e->begin] != hole && is_cut_off(work, e, p)) {
                 uint32_t farthest = tl_contours_farthest(work, e->begin, e->end, &error);
                 if (error > 0) {
-                    keep(r, farthest);
+                    keep_vertex(r, farthest);
                 }
             }
         }
     }
 }
 
-static tl_result group_loops(repair *r)
+static tl_result group_loops_by_region(repair *r)
 {
     tl_contour_work *work = r->work;
     r->first_loop = TL_PUSH_ZERO(work->arena, uint32_t, (uint64_t)r->region_count + 2);
@@ -324,10 +324,10 @@ static tl_result group_loops(repair *r)
     return TL_OK;
 }
 
-static tl_result prepare(repair *r)
+static tl_result prepare_repair(repair *r)
 {
     tl_contour_work *work = r->work;
-    TL_TRY(group_loops(r));
+    TL_TRY(group_loops_by_region(r));
     uint32_t count = 0; // of the region with the most traced vertices
     for (uint32_t region = 1; region < r->region_count; region++) {
         uint32_t sum = 0;
@@ -351,7 +351,7 @@ tl_result tl_contours_repair(tl_contour_work *work)
 {
     repair r = { .work = work, .region_count = work->compact->region_count };
     tl_arena_mark mark = tl_arena_get_mark(work->arena);
-    TL_TRY(prepare(&r));
+    TL_TRY(prepare_repair(&r));
     memset(r.dirty, 1, r.region_count);
     for (bool changed = true; changed;) { // each round but the last keeps at least one vertex more
         changed = false;

@@ -79,7 +79,7 @@ static void keep_extremes(tl_contour_work *work, const tl_contour_loop *loop)
 
 // Squared distance of p from the segment a b. All differences and products are below 2^53 and so exact, the quotient is
 // rounded; both sides of an edge ask with the same a and b and so get the same bits.
-static double distance_sq(const tl_contour_vertex *p, const tl_contour_vertex *a, const tl_contour_vertex *b)
+static double distance_to_chord_sq(const tl_contour_vertex *p, const tl_contour_vertex *a, const tl_contour_vertex *b)
 {
     int64_t abx = (int64_t)b->x - a->x, abz = (int64_t)b->z - a->z, apx = (int64_t)p->x - a->x,
             apz = (int64_t)p->z - a->z;
@@ -113,7 +113,7 @@ uint32_t tl_contours_farthest(const tl_contour_work *work, uint32_t begin, uint3
         if (k == to) {
             break;
         }
-        double d = distance_sq(&work->vertices[k], &a, &b);
+        double d = distance_to_chord_sq(&work->vertices[k], &a, &b);
         if (d > largest && !work->keep[k]) {
             largest = d;
             farthest = k;
@@ -219,7 +219,7 @@ tl_result tl_contours_simplify(tl_contour_work *work)
 
 // Takes a vertex at the path's end back together with the one before it where they make nothing: two in a row at one
 // place, of which the later stays because the edge that goes on is its own; or a spike, there and back.
-static void append(const tl_contour_work *work, tl_contour_path *path, uint32_t vertex)
+static void append_vertex(const tl_contour_work *work, tl_contour_path *path, uint32_t vertex)
 {
     const tl_contour_vertex *v = &work->vertices[vertex];
     const uint32_t *last = path->vertices + path->count;
@@ -259,7 +259,7 @@ void tl_contours_simplified(const tl_contour_work *work, uint32_t loop, tl_conto
     path->count = 0;
     for (uint32_t k = l->first; k < l->first + l->count; k++) {
         if (work->keep[k]) {
-            append(work, path, k);
+            append_vertex(work, path, k);
         }
     }
     trim_ends(work, path);

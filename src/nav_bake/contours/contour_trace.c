@@ -62,7 +62,7 @@ static inline uint32_t edge_index(const tracer *t, uint32_t floor, uint32_t dire
     return t->first_edge[floor / 8] + count_edges(before);
 }
 
-static inline bool is_open(const tracer *t, uint32_t floor, uint32_t direction)
+static inline bool is_open_edge(const tracer *t, uint32_t floor, uint32_t direction)
 {
     return (t->outline[floor] >> (direction + 4) & 1) != 0;
 }
@@ -74,7 +74,7 @@ static inline uint32_t outline_of(const tl_nav_compact *compact, uint32_t floor)
     if (!is_traced(region)) {
         return 0; // nobody asks for its edges
     }
-    const tl_links links = tl_nav_links(compact, floor);
+    const tl_links links = tl_floor_links(compact, floor);
     uint32_t mask = 0;
     for (uint32_t d = 0; d < 4; d++) {
         mask |= (uint32_t)(links.to[d] == TL_NAV_NO_SPAN || compact->region[links.to[d]] != region) << d;
@@ -149,17 +149,17 @@ static uint64_t number_edges(tracer *t)
 // The floors that meet in the corner behind edge `direction` of a floor, going clockwise: the floor itself, the one
 // across the edge, the one diagonally across, the one across the next edge. Those that are not linked are
 // TL_NAV_NO_SPAN.
-typedef struct corner {
+typedef struct trace_corner {
     uint32_t floors[4];
     uint32_t height;
-} corner;
+} trace_corner;
 
-static corner find_corner(const tl_nav_compact *compact, uint32_t floor, uint32_t direction)
+static trace_corner find_corner(const tl_nav_compact *compact, uint32_t floor, uint32_t direction)
 {
     uint32_t turned = (direction + 1) & 3;
-    corner c = { { floor, tl_nav_compact_neighbour(compact, floor, direction), TL_NAV_NO_SPAN,
-                   tl_nav_compact_neighbour(compact, floor, turned) },
-                 compact->floor[floor] };
+    trace_corner c = { { floor, tl_nav_compact_neighbour(compact, floor, direction), TL_NAV_NO_SPAN,
+                         tl_nav_compact_neighbour(compact, floor, turned) },
+                       compact->floor[floor] };
     uint32_t first_way =
         c.floors[1] != TL_NAV_NO_SPAN ? tl_nav_compact_neighbour(compact, c.floors[1], turned) : TL_NAV_NO_SPAN;
     uint32_t other_way =
@@ -176,7 +176,7 @@ static corner find_corner(const tl_nav_compact *compact, uint32_t floor, uint32_
 
 // Two floors of one border side beside two inner floors of one area: the vertex is there only because the outline bends
 // or changes its neighbour on the tile's border. It is removed after merging, so that both tiles have the same edge.
-static bool is_border_vertex(const tl_nav_compact *compact, const corner *c)
+static bool is_border_vertex(const tl_nav_compact *compact, const trace_corner *c)
 {
     uint32_t region[4], area[4], any = 0;
     for (int k = 0; k < 4; k++) {
@@ -220,7 +220,7 @@ static inline void link_twin(tracer *t, uint32_t vertex, uint32_t beside, uint32
 {
     tl_contour_work *work = t->work;
     work->twin[vertex] = TL_NO_TWIN;
-    if (beside != TL_NAV_NO_SPAN && (t->outline[beside] & (1u << back)) != 0 && !is_open(t, beside, back)) {
+    if (beside != TL_NAV_NO_SPAN && (t->outline[beside] & (1u << back)) != 0 && !is_open_edge(t, beside, back)) {
         const uint32_t twin = t->vertex_of[edge_index(t, beside, back)];
         work->twin[vertex] = twin;
         work->twin[twin] = vertex;
@@ -240,7 +240,7 @@ static void emit_edge(tracer *t, uint32_t vertex, uint32_t floor, uint32_t direc
     t->vertex_of[edge_index(t, floor, direction)] = vertex;
     link_twin(t, vertex, beside, direction ^ 2);
 
-    corner c = find_corner(compact, floor, direction);
+    trace_corner c = find_corner(compact, floor, direction);
     tl_contour_vertex *end = &work->vertices[vertex + 1];
     end->x = (int32_t)(x + (direction == 1 || direction == 2)) - (int32_t)compact->border_size;
     end->z = (int32_t)(z + (direction == 0 || direction == 1)) - (int32_t)compact->border_size;
@@ -294,7 +294,7 @@ static tl_result walk_loop(tracer *t, uint32_t start, uint32_t start_x, uint32_t
 {
     tl_contour_work *work = t->work;
     uint32_t floor = start, x = start_x, z = start_z, direction = 0, first = work->vertex_count;
-    while (!is_open(t, start, direction)) {
+    while (!is_open_edge(t, start, direction)) {
         direction++;
     }
     uint32_t start_direction = direction;
@@ -304,7 +304,7 @@ static tl_result walk_loop(tracer *t, uint32_t start, uint32_t start_x, uint32_t
             return TL_ERR_CORRUPT;
         }
         if ((t->outline[floor] & (1u << direction)) != 0) {
-            if (!is_open(t, floor, direction)) {
+            if (!is_open_edge(t, floor, direction)) {
                 return TL_ERR_CORRUPT;
             }
             t->outline[floor] = (uint8_t)(t->outline[floor] & ~(0x10u << direction));
@@ -354,7 +354,7 @@ static tl_result walk_all(tracer *t)
 }
 
 // What only the walk needs, in the scratch arena; what stays, in the work's.
-static tl_result prepare(tracer *t, tl_arena *scratch)
+static tl_result prepare_trace(tracer *t, tl_arena *scratch)
 {
     tl_contour_work *work = t->work;
     const uint32_t count = work->compact->span_count;
@@ -381,7 +381,7 @@ tl_result tl_contours_trace(tl_contour_work *work)
     tracer t = { .work = work, .steps_left = 4 * (uint64_t)work->compact->span_count };
     tl_arena scratch;
     tl_arena_init(&scratch, &work->arena->allocator);
-    tl_result result = prepare(&t, &scratch);
+    tl_result result = prepare_trace(&t, &scratch);
     result = result == TL_OK ? walk_all(&t) : result;
     tl_arena_free(&scratch);
     return result;

@@ -23,7 +23,7 @@ typedef struct assembly {
     uint32_t outline_count, hole_count, slit_count, unbridged_count;
 } assembly;
 
-static tl_result group_loops(assembly *a)
+static tl_result group_outlines(assembly *a)
 {
     tl_contour_work *work = a->work;
     uint32_t region_count = work->compact->region_count;
@@ -101,10 +101,10 @@ static void assemble_contour(assembly *a, uint32_t outline, tl_contour_path *con
     a->unbridged_count += tl_contours_bridge_holes(work, contour, a->holes, hole_count, a->order, a->scratch);
 }
 
-static tl_result assemble(assembly *a)
+static tl_result assemble_contours(assembly *a)
 {
     tl_contour_work *work = a->work;
-    TL_TRY(group_loops(a));
+    TL_TRY(group_outlines(a));
     // A contour takes its own vertices, its holes' and two more a hole.
     uint64_t room = (uint64_t)work->vertex_count + 2 * (uint64_t)a->hole_count;
     a->path_space = TL_PUSH(work->arena, uint32_t, room);
@@ -182,7 +182,7 @@ static void copy_set(const assembly *a, tl_contour_set *set, tl_contour *contour
     set->contour_count = a->outline_count;
 }
 
-static tl_result pack(const assembly *a, tl_nav_contours *out)
+static tl_result pack_contours(const assembly *a, tl_nav_contours *out)
 {
     const tl_contour_work *work = a->work;
     uint64_t set_vertices = 0;
@@ -222,7 +222,7 @@ static tl_result pack(const assembly *a, tl_nav_contours *out)
     return TL_OK;
 }
 
-static tl_result build(tl_contour_work *work, const tl_host *host, tl_nav_contours *out)
+static tl_result build_contour_set(tl_contour_work *work, const tl_host *host, tl_nav_contours *out)
 {
     TL_TRY(tl_progress_update(host, "contours", 0, 3));
     TL_TRY(tl_contours_trace(work));
@@ -231,8 +231,8 @@ static tl_result build(tl_contour_work *work, const tl_host *host, tl_nav_contou
     TL_TRY(tl_contours_repair(work));
     TL_TRY(tl_progress_update(host, "contours", 2, 3));
     assembly a = { .work = work };
-    TL_TRY(assemble(&a));
-    TL_TRY(pack(&a, out));
+    TL_TRY(assemble_contours(&a));
+    TL_TRY(pack_contours(&a, out));
     return tl_progress_update(host, "contours", 3, 3);
 }
 
@@ -251,7 +251,7 @@ tl_result tl_nav_bake_contours(const tl_nav_config *config, const tl_nav_compact
     tl_arena arena;
     tl_arena_init(&arena, &contours_out->allocator);
     tl_contour_work work = { .config = config, .compact = compact, .arena = &arena };
-    tl_result result = build(&work, host, contours_out);
+    tl_result result = build_contour_set(&work, host, contours_out);
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + contours_out->block_size;
     }

@@ -21,7 +21,7 @@ static int64_t orient_of(const tl_detail_mesh *mesh, uint32_t a, uint32_t b, uin
     return tl_detail_orient(&mesh->points[a], &mesh->points[b], &mesh->points[c]);
 }
 
-static uint32_t corner_of(const tl_detail_triangle *triangle, uint32_t point)
+static uint32_t corner_in_triangle(const tl_detail_triangle *triangle, uint32_t point)
 {
     return triangle->corner[0] == point ? 0 : triangle->corner[1] == point ? 1 : 2;
 }
@@ -98,7 +98,7 @@ static void deal_samples(tl_detail_mesh *mesh, uint32_t list, uint32_t a, uint32
     }
 }
 
-static uint32_t take_samples(tl_detail_mesh *mesh, uint32_t t)
+static uint32_t collect_samples(tl_detail_mesh *mesh, uint32_t t)
 {
     uint32_t list = mesh->triangles[t].first_sample;
     mesh->triangles[t].first_sample = TL_DETAIL_NONE;
@@ -107,7 +107,7 @@ static uint32_t take_samples(tl_detail_mesh *mesh, uint32_t t)
 
 // Replaces edge k of t, from a to b, by the other diagonal, from c to d, if d is inside the circle of a, b, c.
 // Then t is c, a, d and the other triangle c, d, b.
-static bool flip(tl_detail_mesh *mesh, uint32_t t, uint32_t k)
+static bool flip_edge(tl_detail_mesh *mesh, uint32_t t, uint32_t k)
 {
     uint32_t other = mesh->triangles[t].across[k];
     if (other == TL_DETAIL_NONE) {
@@ -131,7 +131,7 @@ static bool flip(tl_detail_mesh *mesh, uint32_t t, uint32_t k)
     mesh->triangles[other].across[0] = t;
     mesh->triangles[other].across[1] = beyond_db;
     set_across(mesh, other, 2, beyond_bc, t);
-    uint32_t t_samples = take_samples(mesh, t), other_samples = take_samples(mesh, other);
+    uint32_t t_samples = collect_samples(mesh, t), other_samples = collect_samples(mesh, other);
     deal_samples(mesh, t_samples, c, d, other, t);
     deal_samples(mesh, other_samples, c, d, other, t);
     return true;
@@ -143,9 +143,9 @@ static void restore(tl_detail_mesh *mesh, uint32_t p, uint32_t waiting)
 {
     while (waiting > 0) {
         uint32_t t = mesh->stack[--waiting];
-        uint32_t k = (corner_of(&mesh->triangles[t], p) + 1) % 3;
+        uint32_t k = (corner_in_triangle(&mesh->triangles[t], p) + 1) % 3;
         uint32_t other = mesh->triangles[t].across[k];
-        if (flip(mesh, t, k)) {
+        if (flip_edge(mesh, t, k)) {
             mesh->stack[waiting++] = t;
             mesh->stack[waiting++] = other;
         }
@@ -168,7 +168,7 @@ void tl_detail_start(tl_detail_mesh *mesh, uint32_t corner_count)
         flipped = false;
         for (uint32_t t = 0; t < mesh->triangle_count; t++) {
             for (uint32_t k = 0; k < 3; k++) {
-                flipped |= flip(mesh, t, k);
+                flipped |= flip_edge(mesh, t, k);
                 mesh->changed_count = 0;
             }
         }
@@ -180,7 +180,7 @@ static uint32_t outline_triangle(const tl_detail_mesh *mesh, uint32_t a, uint32_
 {
     uint32_t t = mesh->triangle_of[a];
     for (;;) { // turns round a, from edge to edge, until the outline stops it
-        uint32_t k = corner_of(&mesh->triangles[t], a);
+        uint32_t k = corner_in_triangle(&mesh->triangles[t], a);
         if (mesh->triangles[t].across[k] == TL_DETAIL_NONE) {
             *edge_out = k;
             return t;
@@ -197,7 +197,7 @@ void tl_detail_insert_on_outline(tl_detail_mesh *mesh, uint32_t a)
     uint32_t b = was.corner[(k + 1) % 3], c = was.corner[(k + 2) % 3];
     uint32_t beyond_bc = was.across[(k + 1) % 3], beyond_ca = was.across[(k + 2) % 3];
     uint32_t other = new_triangle(mesh);
-    uint32_t list = take_samples(mesh, t);
+    uint32_t list = collect_samples(mesh, t);
     set_triangle(mesh, t, p, c, a);
     set_triangle(mesh, other, p, b, c);
     mesh->triangles[t].across[0] = other;
@@ -217,7 +217,7 @@ static void split_triangle(tl_detail_mesh *mesh, uint32_t t, uint32_t p)
 {
     tl_detail_triangle was = mesh->triangles[t];
     uint32_t a = was.corner[0], b = was.corner[1], c = was.corner[2];
-    uint32_t u = new_triangle(mesh), v = new_triangle(mesh), list = take_samples(mesh, t);
+    uint32_t u = new_triangle(mesh), v = new_triangle(mesh), list = collect_samples(mesh, t);
     set_triangle(mesh, t, p, a, b);
     set_triangle(mesh, u, p, b, c);
     set_triangle(mesh, v, p, c, a);
@@ -256,7 +256,7 @@ static void split_edge(tl_detail_mesh *mesh, uint32_t t, uint32_t k, uint32_t p)
     uint32_t beyond_bc = was_t.across[(k + 1) % 3], beyond_ca = was_t.across[(k + 2) % 3];
     uint32_t beyond_ad = was_o.across[(j + 1) % 3], beyond_db = was_o.across[(j + 2) % 3];
     uint32_t u = new_triangle(mesh), v = new_triangle(mesh);
-    uint32_t t_list = take_samples(mesh, t), o_list = take_samples(mesh, o);
+    uint32_t t_list = collect_samples(mesh, t), o_list = collect_samples(mesh, o);
     set_triangle(mesh, t, p, c, a);
     set_triangle(mesh, u, p, b, c);
     set_triangle(mesh, o, p, a, d);

@@ -93,7 +93,7 @@ static uint32_t farthest_step(const int32_t *heights, uint32_t a, uint32_t b, do
     return (double)worst > max_error * (double)span ? farthest : a;
 }
 
-static tl_result append(tl_detail_work *work, uint32_t step, int32_t y)
+static tl_result append_sample(tl_detail_work *work, uint32_t step, int32_t y)
 {
     tl_detail_edges *edges = &work->edges;
     if (edges->sample_count == edges->sample_capacity) {
@@ -125,7 +125,7 @@ static tl_result simplify(tl_detail_work *work, const int32_t *heights, tl_detai
             stack[depth++] = b;
             b = middle;
         } else if (depth > 0) {
-            TL_TRY(append(work, b, heights[b]));
+            TL_TRY(append_sample(work, b, heights[b]));
             a = b;
             b = stack[--depth];
         } else {
@@ -136,7 +136,7 @@ static tl_result simplify(tl_detail_work *work, const int32_t *heights, tl_detai
     return TL_OK;
 }
 
-static uint32_t next_corner(const tl_polygon_mesh *polygons, uint32_t polygon, uint32_t k)
+static uint32_t next_patch_corner(const tl_polygon_mesh *polygons, uint32_t polygon, uint32_t k)
 {
     return k + 1 < polygons->first[polygon + 1] ? k + 1 : polygons->first[polygon];
 }
@@ -145,18 +145,18 @@ static uint32_t next_corner(const tl_polygon_mesh *polygons, uint32_t polygon, u
 static uint32_t find_reverse(const tl_polygon_mesh *polygons, uint32_t polygon, uint32_t from, uint32_t to)
 {
     for (uint32_t k = polygons->first[polygon]; k < polygons->first[polygon + 1]; k++) {
-        if (polygons->indices[k] == to && polygons->indices[next_corner(polygons, polygon, k)] == from) {
+        if (polygons->indices[k] == to && polygons->indices[next_patch_corner(polygons, polygon, k)] == from) {
             return k;
         }
     }
     return TL_DETAIL_NONE;
 }
 
-static tl_result sample_edge(tl_detail_work *work, const tl_detail_floors *floors, uint32_t polygon, uint32_t k,
-                             int32_t *heights)
+static tl_result sample_patch_edge(tl_detail_work *work, const tl_detail_floors *floors, uint32_t polygon, uint32_t k,
+                                   int32_t *heights)
 {
     const tl_polygon_mesh *polygons = work->polygons;
-    uint32_t from = polygons->indices[k], to = polygons->indices[next_corner(polygons, polygon, k)];
+    uint32_t from = polygons->indices[k], to = polygons->indices[next_patch_corner(polygons, polygon, k)];
     uint32_t other = polygons->neighbours[k];
     if (other < polygon) {
         uint32_t reverse = find_reverse(polygons, other, from, to);
@@ -184,7 +184,7 @@ tl_result tl_detail_sample_edges(tl_detail_work *work)
     for (uint32_t p = 0; p < polygons->polygon_count && work->spacing > 0; p++) {
         tl_detail_floors floors = tl_detail_polygon_floors(work, p);
         for (uint32_t k = polygons->first[p]; k < polygons->first[p + 1]; k++) {
-            TL_TRY(sample_edge(work, &floors, p, k, heights));
+            TL_TRY(sample_patch_edge(work, &floors, p, k, heights));
         }
     }
     return TL_OK;

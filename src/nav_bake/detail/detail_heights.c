@@ -19,14 +19,14 @@
 // Columns, squared: as far as an outline is moved from its region by the usual edge_max_error, rounded up.
 #define BESIDE_SQ 8
 
-typedef struct column_range {
+typedef struct height_window {
     uint32_t begin, end;
-} column_range;
+} height_window;
 
-static column_range column_at(const tl_nav_compact *compact, int64_t x, int64_t z)
+static height_window column_at(const tl_nav_compact *compact, int64_t x, int64_t z)
 {
     size_t column = (size_t)z * compact->width + (size_t)x;
-    return (column_range){ compact->first_span[column], compact->first_span[column + 1] };
+    return (height_window){ compact->first_span[column], compact->first_span[column + 1] };
 }
 
 static uint32_t floor_of_region(const tl_nav_compact *compact, uint32_t region, int64_t x, int64_t z)
@@ -34,7 +34,7 @@ static uint32_t floor_of_region(const tl_nav_compact *compact, uint32_t region, 
     if (x < 0 || z < 0 || x >= (int64_t)compact->width || z >= (int64_t)compact->height) {
         return TL_NAV_NO_SPAN;
     }
-    column_range range = column_at(compact, x, z);
+    height_window range = column_at(compact, x, z);
     for (uint32_t i = range.begin; i < range.end; i++) {
         if (compact->region[i] == region) {
             return i;
@@ -49,7 +49,8 @@ typedef struct found_floor {
     int64_t distance_sq;
 } found_floor;
 
-static void consider(const tl_detail_floors *floors, int64_t x, int64_t z, int64_t dx, int64_t dz, found_floor *best)
+static void consider_floor(const tl_detail_floors *floors, int64_t x, int64_t z, int64_t dx, int64_t dz,
+                           found_floor *best)
 {
     int64_t distance_sq = dx * dx + dz * dz;
     if (distance_sq < best->distance_sq) {
@@ -76,7 +77,7 @@ static void consider_row(const tl_detail_floors *floors, int64_t x, int64_t z, i
         i++;
     }
     for (int64_t dx = low - x; i < first[high + 1] && dx <= high - x; dx++) {
-        consider(floors, x, z, dx, dz, best);
+        consider_floor(floors, x, z, dx, dz, best);
     }
 }
 
@@ -88,8 +89,8 @@ static found_floor find_nearest(const tl_detail_floors *floors, int64_t x, int64
     for (int64_t r = 1; r <= (int64_t)floors->reach && r * r < best.distance_sq; r++) {
         consider_row(floors, x, z, r, -r, &best);
         for (int64_t dz = 1 - r; dz < r; dz++) {
-            consider(floors, x, z, -r, dz, &best);
-            consider(floors, x, z, r, dz, &best);
+            consider_floor(floors, x, z, -r, dz, &best);
+            consider_floor(floors, x, z, r, dz, &best);
         }
         consider_row(floors, x, z, r, r, &best);
     }
@@ -119,7 +120,7 @@ static void walk_towards(const tl_nav_compact *compact, found_floor *at, int64_t
 }
 
 // The floor nearest to the column of those that two walks reach.
-static uint32_t walk_on(const tl_nav_compact *compact, found_floor from, int64_t x, int64_t z)
+static uint32_t walk_to_column(const tl_nav_compact *compact, found_floor from, int64_t x, int64_t z)
 {
     int64_t dx = x - from.x, dz = z - from.z;
     bool x_first = (dx < 0 ? -dx : dx) >= (dz < 0 ? -dz : dz); // the longer way
@@ -164,7 +165,7 @@ static bool is_only_floor(const tl_nav_compact *compact, int64_t x, int64_t z, u
     if (x < 0 || z < 0 || x >= (int64_t)compact->width || z >= (int64_t)compact->height) {
         return false;
     }
-    const column_range range = column_at(compact, x, z);
+    const height_window range = column_at(compact, x, z);
     return range.end - range.begin == 1 && range.begin == span;
 }
 
@@ -201,7 +202,7 @@ int32_t tl_detail_floor_at(const tl_detail_floors *floors, int64_t x, int64_t z,
         if (nearest.span == TL_NAV_NO_SPAN) {
             return expected;
         }
-        span = walk_on(compact, nearest, x, z);
+        span = walk_to_column(compact, nearest, x, z);
     }
     const bool sure =
         (own && inner && !floors->several) || is_only_floor(compact, x, z, span) || floors->anchor == TL_NAV_NO_SPAN;
@@ -216,7 +217,7 @@ static uint32_t region_near(const tl_nav_compact *compact, int64_t x, int64_t z,
     if (x < 0 || z < 0 || x >= (int64_t)compact->width || z >= (int64_t)compact->height) {
         return 0;
     }
-    column_range range = column_at(compact, x, z);
+    height_window range = column_at(compact, x, z);
     uint32_t region = 0;
     int32_t nearest = INT32_MAX;
     for (uint32_t i = range.begin; i < range.end; i++) {

@@ -93,7 +93,8 @@ static tl_result allocate_scratch(patch_builder *b)
 }
 
 // A larger array with the same content, or NULL.
-static void *grow(tl_arena *arena, const void *array, uint32_t count, uint32_t needed, uint32_t *capacity, size_t size)
+static void *grow_store(tl_arena *arena, const void *array, uint32_t count, uint32_t needed, uint32_t *capacity,
+                        size_t size)
 {
     uint64_t wanted = 2 * (uint64_t)*capacity > needed ? 2 * (uint64_t)*capacity : (uint64_t)needed + 1024;
     wanted = wanted < UINT32_MAX ? wanted : UINT32_MAX;
@@ -192,12 +193,12 @@ static tl_result store_patch(patch_builder *b, uint32_t polygon)
         return TL_ERR_LIMIT;
     }
     if (vertices > b->vertex_capacity) {
-        b->vertices = grow(b->work->arena, b->vertices, b->vertex_count, (uint32_t)vertices, &b->vertex_capacity,
-                           sizeof *b->vertices);
+        b->vertices = grow_store(b->work->arena, b->vertices, b->vertex_count, (uint32_t)vertices, &b->vertex_capacity,
+                                 sizeof *b->vertices);
     }
     if (triangles > b->triangle_capacity) {
-        b->triangles = grow(b->work->arena, b->triangles, b->triangle_count, (uint32_t)triangles, &b->triangle_capacity,
-                            sizeof *b->triangles);
+        b->triangles = grow_store(b->work->arena, b->triangles, b->triangle_count, (uint32_t)triangles,
+                                  &b->triangle_capacity, sizeof *b->triangles);
     }
     if (b->vertices == NULL || b->triangles == NULL) {
         return TL_ERR_MEMORY;
@@ -219,7 +220,7 @@ static tl_result store_patch(patch_builder *b, uint32_t polygon)
     return TL_OK;
 }
 
-static tl_result pack(const patch_builder *b, const tl_allocator *allocator, tl_nav_detail *out)
+static tl_result pack_detail(const patch_builder *b, const tl_allocator *allocator, tl_nav_detail *out)
 {
     uint32_t patch_count = b->work->polygons->polygon_count;
     uint64_t vertex_bytes = (uint64_t)b->vertex_count * sizeof *b->vertices;
@@ -253,7 +254,7 @@ static tl_result pack(const patch_builder *b, const tl_allocator *allocator, tl_
 
 enum { PATCHES_PER_UPDATE = 256 };
 
-static tl_result build(tl_detail_work *work, const tl_host *host, tl_nav_detail *out, tl_report *report)
+static tl_result build_patches(tl_detail_work *work, const tl_host *host, tl_nav_detail *out, tl_report *report)
 {
     uint32_t patch_count = work->polygons->polygon_count;
     TL_TRY(tl_progress_update(host, "detail", 0, patch_count));
@@ -268,7 +269,7 @@ static tl_result build(tl_detail_work *work, const tl_host *host, tl_nav_detail 
         build_patch(&b, p);
         TL_TRY(store_patch(&b, p));
     }
-    TL_TRY(pack(&b, host != NULL ? host->allocator : NULL, out));
+    TL_TRY(pack_detail(&b, host != NULL ? host->allocator : NULL, out));
     return tl_progress_update(host, "detail", patch_count, patch_count);
 }
 
@@ -291,7 +292,7 @@ tl_result tl_nav_bake_detail(const tl_nav_config *config, const tl_nav_compact *
     tl_detail_work work = { .config = config, .compact = compact, .polygons = polygons, .arena = &arena };
     work.spacing = (double)config->detail_sample_dist / (double)compact->cell_size;
     work.max_error = (double)config->detail_sample_max_error / (double)compact->cell_height;
-    tl_result result = build(&work, host, detail_out, report_out);
+    tl_result result = build_patches(&work, host, detail_out, report_out);
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + detail_out->block_size;
     }

@@ -93,40 +93,27 @@ uint32_t tl_detail_sample_inside(const tl_detail_work *work, uint32_t polygon, t
 
 // ---------------------------------------------------------------------------------------------------------
 
-static bool is_worse(const tl_detail_heap *heap, uint32_t a, uint32_t b)
+static bool is_worse_fit(const tl_detail_heap *heap, uint32_t a, uint32_t b)
 {
     return heap->error[a] > heap->error[b] || (heap->error[a] == heap->error[b] && heap->worst[a] < heap->worst[b]);
 }
 
-static void heap_set(tl_detail_heap *heap, uint32_t at, uint32_t triangle)
-{
-    heap->triangles[at] = triangle;
-    heap->place[triangle] = at;
-}
+#define TL_HEAP(name)                        worst_triangles_##name
+#define TL_HEAP_ITEM                         uint32_t
+#define TL_HEAP_CONTEXT                      tl_detail_heap *
+#define TL_HEAP_BEFORE(context, a, b)        is_worse_fit((context), (a), (b))
+#define TL_HEAP_MOVED(context, triangle, at) ((context)->place[triangle] = (at))
+#include "base/heap.inl"
 
-static void sift(tl_detail_heap *heap, uint32_t at)
+// A triangle's error has changed, up or down.
+static void reorder_triangle(tl_detail_heap *heap, uint32_t triangle)
 {
-    uint32_t triangle = heap->triangles[at];
-    while (at > 0 && is_worse(heap, triangle, heap->triangles[(at - 1) / 2])) {
-        heap_set(heap, at, heap->triangles[(at - 1) / 2]);
-        at = (at - 1) / 2;
-    }
-    for (;;) {
-        uint32_t child = 2 * at + 1;
-        if (child + 1 < heap->count && is_worse(heap, heap->triangles[child + 1], heap->triangles[child])) {
-            child++;
-        }
-        if (child >= heap->count || !is_worse(heap, heap->triangles[child], triangle)) {
-            break;
-        }
-        heap_set(heap, at, heap->triangles[child]);
-        at = child;
-    }
-    heap_set(heap, at, triangle);
+    worst_triangles_sift_up(heap->triangles, heap->place[triangle], triangle, heap);
+    worst_triangles_sift_down(heap->triangles, heap->count, heap->place[triangle], triangle, heap);
 }
 
 // Finds a triangle's worst sample: vertical distance from its plane.
-static void measure(const tl_detail_mesh *mesh, uint32_t t, tl_detail_heap *heap)
+static void measure_triangle(const tl_detail_mesh *mesh, uint32_t t, tl_detail_heap *heap)
 {
     const tl_detail_triangle *triangle = &mesh->triangles[t];
     const tl_detail_point *a = &mesh->points[triangle->corner[0]], *b = &mesh->points[triangle->corner[1]],
@@ -164,9 +151,8 @@ double tl_detail_refine(tl_detail_mesh *mesh, tl_detail_heap *heap, uint32_t sam
     }
     heap->count = 0;
     for (uint32_t t = 0; t < mesh->triangle_count; t++) {
-        measure(mesh, t, heap);
-        heap_set(heap, heap->count++, t);
-        sift(heap, heap->count - 1);
+        measure_triangle(mesh, t, heap);
+        worst_triangles_push(heap->triangles, &heap->count, t, heap);
     }
     while (mesh->point_count < TL_DETAIL_MAX_VERTICES && heap->error[heap->triangles[0]] > max_error) {
         uint32_t t = heap->triangles[0], sample = heap->worst[t], before = mesh->triangle_count;
@@ -177,11 +163,12 @@ double tl_detail_refine(tl_detail_mesh *mesh, tl_detail_heap *heap, uint32_t sam
         for (t = before; t < mesh->triangle_count; t++) {
             heap->error[t] = -1;
             heap->worst[t] = TL_DETAIL_NONE;
-            heap_set(heap, heap->count++, t);
+            heap->place[t] = heap->count;
+            heap->triangles[heap->count++] = t;
         }
         for (uint32_t k = 0; k < mesh->changed_count; k++) {
-            measure(mesh, mesh->changed[k], heap);
-            sift(heap, heap->place[mesh->changed[k]]);
+            measure_triangle(mesh, mesh->changed[k], heap);
+            reorder_triangle(heap, mesh->changed[k]);
         }
     }
     double left = heap->error[heap->triangles[0]];

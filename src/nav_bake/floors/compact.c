@@ -17,7 +17,7 @@
 
 #include <string.h>
 
-enum { COLUMNS_PER_TASK = 16384, TASKS_PER_WORKER = 4 };
+enum { COLUMNS_PER_TASK = 16384, OPEN_TASKS_PER_WORKER = 4 };
 
 typedef struct open_worker {
     tl_open_scratch scratch;
@@ -111,7 +111,7 @@ static void free_pieces(open_job *job)
 
 // All pieces in the order of the rows; positions in pieces become positions in the field. Each piece is freed when it
 // has been copied.
-static tl_result join_pieces(open_job *job)
+static tl_result join_floor_pieces(open_job *job)
 {
     tl_nav_compact *compact = job->compact;
     uint64_t count = 0;
@@ -149,7 +149,7 @@ static tl_result open_all(open_job *job, const tl_host *host, uint64_t *span_cou
 {
     TL_TRY(allocate_job(job, host));
     TL_TRY(tl_run_batches(host, job->rows == NULL ? "rasterize" : "compact", open_task, job->task_count,
-                          TASKS_PER_WORKER, job));
+                          OPEN_TASKS_PER_WORKER, job));
     for (uint32_t w = 0; w < job->worker_count; w++) {
         *span_count_out += job->workers[w].span_count;
     }
@@ -157,11 +157,11 @@ static tl_result open_all(open_job *job, const tl_host *host, uint64_t *span_cou
     if (job->rasterizer != NULL) {
         tl_rasterizer_free(job->rasterizer);
     }
-    TL_TRY(join_pieces(job));
+    TL_TRY(join_floor_pieces(job));
     return tl_nav_link_floors(host, job->compact);
 }
 
-static tl_result finish(open_job *job, tl_result result, tl_report *report)
+static tl_result finish_compact(open_job *job, tl_result result, tl_report *report)
 {
     free_workers(job);
     free_pieces(job);
@@ -194,15 +194,15 @@ static open_job start_job(const tl_nav_config *config, const tl_host *host, tl_n
     return job;
 }
 
-tl_result tl_nav_open_triangles(const tl_nav_config *config, const tl_mesh_view *mesh, const uint8_t *areas,
-                                tl_triangle_list list, const tl_host *host, tl_nav_compact *compact_out,
-                                uint64_t *span_count, tl_report *report)
+tl_result tl_nav_open_triangles(const tl_nav_config *config, const tl_nav_input *input, tl_triangle_list list,
+                                const tl_host *host, tl_nav_compact *compact_out, uint64_t *span_count,
+                                tl_report *report)
 {
     tl_report_begin(report, "rasterize");
     tl_rasterizer rasterizer;
     open_job job = start_job(config, host, compact_out);
-    tl_result result =
-        tl_rasterizer_init(&rasterizer, config, mesh, areas, list, config->filter_ledge_spans ? 1 : 0, host);
+    tl_result result = tl_rasterizer_init(&rasterizer, config, &input->mesh, input->areas, list,
+                                          config->filter_ledge_spans ? 1 : 0, host);
     if (result == TL_OK) {
         job.rasterizer = &rasterizer;
         job.rows_per_task = rasterizer.rows_per_band;
@@ -210,7 +210,7 @@ tl_result tl_nav_open_triangles(const tl_nav_config *config, const tl_mesh_view 
         result = open_all(&job, host, span_count);
         tl_rasterizer_free(&rasterizer);
     }
-    return finish(&job, result, report);
+    return finish_compact(&job, result, report);
 }
 
 tl_result tl_nav_filter_and_compact(const tl_nav_config *config, const tl_nav_heightfield *heightfield,
@@ -233,7 +233,7 @@ tl_result tl_nav_filter_and_compact(const tl_nav_config *config, const tl_nav_he
     job.rows = &rows;
     job.rows_per_task = per_task > 0 ? per_task : 1;
     job.task_count = (field->height - 1) / job.rows_per_task + 1;
-    return finish(&job, open_all(&job, host, &span_count), report_out);
+    return finish_compact(&job, open_all(&job, host, &span_count), report_out);
 }
 
 tl_result tl_nav_bake_compact(const tl_nav_config *config, const tl_nav_heightfield *heightfield, const tl_host *host,

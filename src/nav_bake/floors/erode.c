@@ -10,19 +10,15 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/min_max.h"
 #include "nav_bake/floors/links.h"
 
 #include <string.h>
 
 enum { STRAIGHT = 2, DIAGONAL = 3 };
 
-static inline uint32_t min_of(uint32_t a, uint32_t b)
-{
-    return a < b ? a : b;
-}
-
 // A floor that is not walkable, or lacks a walkable neighbour.
-static inline bool is_border(const tl_nav_compact *compact, uint32_t i, const tl_links *links)
+static inline bool is_area_border(const tl_nav_compact *compact, uint32_t i, const tl_links *links)
 {
     if (compact->area[i] == TL_NAV_NULL_AREA) {
         return true;
@@ -39,18 +35,18 @@ static inline bool is_border(const tl_nav_compact *compact, uint32_t i, const tl
 static inline uint32_t nearest_over(const tl_nav_compact *compact, const uint16_t *distance, uint32_t beside,
                                     uint32_t turn, uint32_t nearest)
 {
-    nearest = min_of(nearest, (uint32_t)distance[beside] + STRAIGHT);
+    nearest = tl_min_u32(nearest, (uint32_t)distance[beside] + STRAIGHT);
     const uint32_t across = tl_nav_compact_neighbour(compact, beside, turn);
-    return across != TL_NAV_NO_SPAN ? min_of(nearest, (uint32_t)distance[across] + DIAGONAL) : nearest;
+    return across != TL_NAV_NO_SPAN ? tl_min_u32(nearest, (uint32_t)distance[across] + DIAGONAL) : nearest;
 }
 
 // Borders get 0, all others the distance from what comes before them, at most `limit`. Those have all four neighbours.
 static void sweep_forward(const tl_nav_compact *compact, uint32_t limit, uint16_t *distance)
 {
     for (uint32_t i = 0; i < compact->span_count; i++) {
-        const tl_links links = tl_nav_links(compact, i);
+        const tl_links links = tl_floor_links(compact, i);
         uint32_t nearest = 0;
-        if (!is_border(compact, i, &links)) {
+        if (!is_area_border(compact, i, &links)) {
             nearest = nearest_over(compact, distance, links.to[0], 3, limit);
             nearest = nearest_over(compact, distance, links.to[3], 2, nearest);
         }

@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-enum { ROWS_PER_TASK = 32, TASKS_PER_WORKER = 16 };
+enum { ROWS_PER_TASK = 32, LINK_TASKS_PER_WORKER = 16 };
 
 // What linking reads and writes, without the compact heightfield around it.
 typedef struct linker {
@@ -146,6 +146,6 @@ tl_result tl_nav_link_floors(const tl_host *host, tl_nav_compact *compact)
     if (compact->step == NULL && compact->neighbour == NULL) {
         return TL_ERR_MEMORY;
     }
-    return tl_run_batches(host, "compact", link_rows, (compact->height - 1) / ROWS_PER_TASK + 1, TASKS_PER_WORKER,
+    return tl_run_batches(host, "compact", link_rows, (compact->height - 1) / ROWS_PER_TASK + 1, LINK_TASKS_PER_WORKER,
                           compact);
 }

@@ -13,7 +13,7 @@ typedef struct tl_links {
     uint32_t to[4]; ///< by direction; TL_NAV_NO_SPAN: none
 } tl_links;
 
-static inline tl_links tl_nav_links(const tl_nav_compact *compact, uint32_t span)
+static inline tl_links tl_floor_links(const tl_nav_compact *compact, uint32_t span)
 {
     tl_links links;
     if (compact->step != NULL) { // asked once, and not for each direction

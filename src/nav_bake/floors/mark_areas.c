@@ -16,17 +16,24 @@ typedef struct mark_window {
     double low, high;                        ///< floor heights, voxels, both included
 } mark_window;
 
-// Columns [*first, *end) of `count` whose centres lie in [min, max], metres.
-static void center_range(float min, float max, float origin, float cell_size, int32_t first_column, uint32_t count,
-                         uint32_t *first, uint32_t *end)
+// A field's columns along one axis.
+typedef struct column_axis {
+    float origin;         ///< metres
+    float cell_size;      ///< metres
+    int32_t first_column; ///< in the level's lattice
+    uint32_t count;
+} column_axis;
+
+// Columns [*first, *end) whose centres lie in [min, max], metres.
+static void centers_within(const column_axis *axis, float min, float max, uint32_t *first, uint32_t *end)
 {
-    double shift = (double)first_column + 0.5;
-    double low = ceil(((double)min - (double)origin) / (double)cell_size - shift);
-    double high = floor(((double)max - (double)origin) / (double)cell_size - shift) + 1.0;
+    const double shift = (double)axis->first_column + 0.5, size = (double)axis->cell_size;
+    double low = ceil(((double)min - (double)axis->origin) / size - shift);
+    double high = floor(((double)max - (double)axis->origin) / size - shift) + 1.0;
     *first = *end = 0;
-    if (low < high && high > 0.0 && low < (double)count) { // false when NaN
+    if (low < high && high > 0.0 && low < (double)axis->count) { // false when NaN
         *first = low > 0.0 ? (uint32_t)low : 0;
-        *end = high < (double)count ? (uint32_t)high : count;
+        *end = high < (double)axis->count ? (uint32_t)high : axis->count;
     }
 }
 
@@ -34,10 +41,10 @@ static mark_window window_of(const tl_nav_compact *compact, tl_aabb box)
 {
     const tl_nav_lattice *lattice = &compact->lattice;
     mark_window window;
-    center_range(box.min.x, box.max.x, lattice->origin.x, compact->cell_size, lattice->first_x, compact->width,
-                 &window.first_x, &window.end_x);
-    center_range(box.min.z, box.max.z, lattice->origin.z, compact->cell_size, lattice->first_z, compact->height,
-                 &window.first_z, &window.end_z);
+    const column_axis x = { lattice->origin.x, compact->cell_size, lattice->first_x, compact->width };
+    const column_axis z = { lattice->origin.z, compact->cell_size, lattice->first_z, compact->height };
+    centers_within(&x, box.min.x, box.max.x, &window.first_x, &window.end_x);
+    centers_within(&z, box.min.z, box.max.z, &window.first_z, &window.end_z);
     window.low = ((double)box.min.y - (double)lattice->origin.y) / (double)compact->cell_height;
     window.high = ((double)box.max.y - (double)lattice->origin.y) / (double)compact->cell_height;
     return window;
@@ -55,7 +62,7 @@ static double center_z(const tl_nav_compact *compact, uint32_t z)
     return (double)lattice->origin.z + ((double)lattice->first_z + (double)z + 0.5) * (double)compact->cell_size;
 }
 
-static void mark_column(tl_nav_compact *compact, uint32_t x, uint32_t z, const mark_window *window, uint8_t area)
+static void mark_column_area(tl_nav_compact *compact, uint32_t x, uint32_t z, const mark_window *window, uint8_t area)
 {
     const uint32_t column = z * compact->width + x;
     for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
@@ -71,7 +78,7 @@ void tl_nav_mark_box_area(tl_nav_compact *compact, tl_aabb box, uint8_t area)
     const mark_window window = window_of(compact, box);
     for (uint32_t z = window.first_z; z < window.end_z; z++) {
         for (uint32_t x = window.first_x; x < window.end_x; x++) {
-            mark_column(compact, x, z, &window, area);
+            mark_column_area(compact, x, z, &window, area);
         }
     }
 }
@@ -107,7 +114,7 @@ void tl_nav_mark_polygon_area(tl_nav_compact *compact, const tl_vec3 *points, ui
     for (uint32_t z = window.first_z; z < window.end_z; z++) {
         for (uint32_t x = window.first_x; x < window.end_x; x++) {
             if (polygon_holds(points, count, center_x(compact, x), center_z(compact, z))) {
-                mark_column(compact, x, z, &window, area);
+                mark_column_area(compact, x, z, &window, area);
             }
         }
     }
@@ -127,7 +134,7 @@ void tl_nav_mark_cylinder_area(tl_nav_compact *compact, tl_vec3 base, float radi
         for (uint32_t x = window.first_x; x < window.end_x; x++) {
             double dx = center_x(compact, x) - (double)base.x;
             if (dx * dx + dz * dz < radius_sq) {
-                mark_column(compact, x, z, &window, area);
+                mark_column_area(compact, x, z, &window, area);
             }
         }
     }

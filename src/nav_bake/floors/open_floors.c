@@ -27,36 +27,36 @@ enum {
 };
 
 // Heights of 0 .. 0xffff as signed 16 bits: SSE2 has no minimum of unsigned ones.
-typedef int16_t biased;
+typedef int16_t biased_floor;
 
 #define LOWEST  INT16_MIN // below all floors: a floor's height is at least 1
 #define HIGHEST INT16_MAX
 
-static inline biased bias(int32_t height)
+static inline biased_floor bias(int32_t height)
 {
-    return (biased)(height - 0x8000);
+    return (biased_floor)(height - 0x8000);
 }
 
 /// One gap of each column of a block, where it has so many.
 typedef struct tl_gap_layer {
-    biased floor[STRIDE];   ///< HIGHEST where there is none
-    biased ceiling[STRIDE]; ///< HIGHEST: the sky, no span begins so high
-    biased top[STRIDE];     ///< the highest floor from which an agent fits into the gap; LOWEST where there is none
-    biased down[STRIDE];    ///< the lowest floor from which one can climb to the gap's
-    biased lowest[BLOCK];   ///< floors that one can step or fall to from the gap
-    biased highest[BLOCK];
+    biased_floor floor[STRIDE];   ///< HIGHEST where there is none
+    biased_floor ceiling[STRIDE]; ///< HIGHEST: the sky, no span begins so high
+    biased_floor top[STRIDE];   ///< the highest floor from which an agent fits into the gap; LOWEST where there is none
+    biased_floor down[STRIDE];  ///< the lowest floor from which one can climb to the gap's
+    biased_floor lowest[BLOCK]; ///< floors that one can step or fall to from the gap
+    biased_floor highest[BLOCK];
     uint8_t area[STRIDE]; ///< of the floor, after the filters so far
     bool has_floors;      ///< any area is not 0
-    biased least_floor, greatest_top;
+    biased_floor least_floor, greatest_top;
 } layer;
 
 typedef struct tl_gap_block {
-    biased under[STRIDE];   ///< the highest floor from which one falls under the column's lowest span; LOWEST: none
-    uint32_t count[STRIDE]; ///< gaps
+    biased_floor under[STRIDE]; ///< the highest floor from which one falls under the column's lowest span; LOWEST: none
+    uint32_t count[STRIDE];     ///< gaps
     uint32_t first_layer, layer_count;
 } block;
 
-typedef struct sweep {
+typedef struct floor_sweep {
     const tl_nav_config *config;
     const tl_span_rows *rows;
     int32_t room, climb;
@@ -65,7 +65,7 @@ typedef struct sweep {
     tl_open_scratch *scratch;
     tl_floors *floors;
     uint32_t *ends;
-} sweep;
+} floor_sweep;
 
 tl_result tl_floors_allocate(tl_floors *floors, uint32_t capacity, const tl_allocator *allocator)
 {
@@ -112,7 +112,7 @@ void tl_open_scratch_free(tl_open_scratch *scratch)
 // ---- The gaps of a row -------------------------------------------------------------------------------------
 
 // As many layers as the block's columns, and those beside it, have spans.
-static uint32_t layers_needed(const sweep *s, const uint32_t *first, uint32_t b)
+static uint32_t layers_needed(const floor_sweep *s, const uint32_t *first, uint32_t b)
 {
     const uint32_t begin = b * BLOCK - (b > 0), width = s->rows->width;
     const uint32_t end = (b + 1) * BLOCK < width ? (b + 1) * BLOCK + 1 : width;
@@ -123,7 +123,7 @@ static uint32_t layers_needed(const sweep *s, const uint32_t *first, uint32_t b)
     return most;
 }
 
-static tl_result lay_out(const sweep *s, const uint32_t *first, tl_open_row *row)
+static tl_result lay_out_rows(const floor_sweep *s, const uint32_t *first, tl_open_row *row)
 {
     const tl_allocator *allocator = s->scratch->allocator;
     if (row->block_capacity < s->block_count) {
@@ -175,7 +175,7 @@ static void clear_block(const tl_open_row *row, block *b)
 //
 // A gap that is too low does no harm in its place: its top is below its floor, so nothing sees it, and it is
 // overwritten by the next one or not counted.
-static uint32_t list_column(const sweep *s, uint32_t i, uint32_t end, layer *layers, uint32_t at)
+static uint32_t list_column(const floor_sweep *s, uint32_t i, uint32_t end, layer *layers, uint32_t at)
 {
     const tl_nav_span *spans = s->rows->spans;
     const int32_t room = s->room, climb = s->climb;
@@ -212,21 +212,21 @@ static void copy_column(const tl_open_row *row, const block *from, uint32_t from
 
 // What follows from the floors and ceilings of a layer. In short loops over constants, which compilers make eight
 // columns wide.
-static void finish_layer(const sweep *s, layer *l)
+static void finish_layer(const floor_sweep *s, layer *l)
 {
-    const biased room = (biased)s->room, climb = (biased)s->climb; // both are below 2^15
-    const biased least_ceiling = (biased)(LOWEST + room), least_step = (biased)(LOWEST + climb);
-    const biased *restrict floors = l->floor, *restrict ceilings = l->ceiling;
-    biased *restrict tops = l->top, *restrict downs = l->down;
+    const biased_floor room = (biased_floor)s->room, climb = (biased_floor)s->climb; // both are below 2^15
+    const biased_floor least_ceiling = (biased_floor)(LOWEST + room), least_step = (biased_floor)(LOWEST + climb);
+    const biased_floor *restrict floors = l->floor, *restrict ceilings = l->ceiling;
+    biased_floor *restrict tops = l->top, *restrict downs = l->down;
     for (uint32_t i = 0; i < STRIDE; i++) {
-        const biased ceiling = ceilings[i] > least_ceiling ? ceilings[i] : least_ceiling;
-        tops[i] = ceilings[i] == HIGHEST ? HIGHEST : (biased)(ceiling - room);
+        const biased_floor ceiling = ceilings[i] > least_ceiling ? ceilings[i] : least_ceiling;
+        tops[i] = ceilings[i] == HIGHEST ? HIGHEST : (biased_floor)(ceiling - room);
     }
     for (uint32_t i = 0; i < STRIDE; i++) {
-        const biased floor = floors[i] > least_step ? floors[i] : least_step;
-        downs[i] = (biased)(floor - climb);
+        const biased_floor floor = floors[i] > least_step ? floors[i] : least_step;
+        downs[i] = (biased_floor)(floor - climb);
     }
-    biased least = HIGHEST, greatest = LOWEST;
+    biased_floor least = HIGHEST, greatest = LOWEST;
     for (uint32_t i = 0; i < STRIDE; i++) {
         least = floors[i] < least ? floors[i] : least;
         greatest = tops[i] > greatest ? tops[i] : greatest;
@@ -240,18 +240,18 @@ static void finish_layer(const sweep *s, layer *l)
     l->has_floors = any != TL_NAV_NULL_AREA;
 }
 
-static void finish_block(const sweep *s, const tl_open_row *row, const block *b)
+static void finish_block(const floor_sweep *s, const tl_open_row *row, const block *b)
 {
     for (uint32_t k = 0; k < b->layer_count; k++) {
         finish_layer(s, &row->layers[b->first_layer + k]);
     }
 }
 
-static tl_result list_gaps(sweep *s, uint32_t z)
+static tl_result list_gaps(floor_sweep *s, uint32_t z)
 {
     const uint32_t width = s->rows->width, *first = tl_span_rows_at(s->rows, z);
     tl_open_row *row = &s->scratch->rows[z % ROWS];
-    TL_TRY(lay_out(s, first, row));
+    TL_TRY(lay_out_rows(s, first, row));
     for (uint32_t k = 0; k < s->block_count; k++) {
         block *b = &row->blocks[k];
         layer *layers = row->layers + b->first_layer;
@@ -281,38 +281,38 @@ static tl_result list_gaps(sweep *s, uint32_t z)
 // floor too high for a step is a wall.
 static void look_at_layer(layer *restrict own, const layer *beside, uint32_t shift)
 {
-    const biased *restrict floor = own->floor + 1, *restrict top = own->top + 1;
-    const biased *beside_floor = beside->floor + shift, *beside_top = beside->top + shift,
-                 *beside_down = beside->down + shift;
+    const biased_floor *restrict floor = own->floor + 1, *restrict top = own->top + 1;
+    const biased_floor *beside_floor = beside->floor + shift, *beside_top = beside->top + shift,
+                       *beside_down = beside->down + shift;
     for (uint32_t i = 0; i < BLOCK; i++) {
-        const biased f = floor[i], g = beside_floor[i];
-        const biased ceiling = top[i] < beside_top[i] ? top[i] : beside_top[i], bottom = f > g ? f : g;
-        const biased reached = ((ceiling >= bottom) & (beside_down[i] <= f)) ? g : f;
+        const biased_floor f = floor[i], g = beside_floor[i];
+        const biased_floor ceiling = top[i] < beside_top[i] ? top[i] : beside_top[i], bottom = f > g ? f : g;
+        const biased_floor reached = ((ceiling >= bottom) & (beside_down[i] <= f)) ? g : f;
         own->lowest[i] = reached < own->lowest[i] ? reached : own->lowest[i];
         own->highest[i] = reached > own->highest[i] ? reached : own->highest[i];
     }
 }
 
 // The highest floor beside each column from which one falls under the column's neighbours.
-static void join_under(const block *b, const block *above, const block *below, biased *restrict under)
+static void join_under(const block *b, const block *above, const block *below, biased_floor *restrict under)
 {
-    const biased *left = b->under, *right = b->under + 2, *up = above->under + 1, *down = below->under + 1;
+    const biased_floor *left = b->under, *right = b->under + 2, *up = above->under + 1, *down = below->under + 1;
     for (uint32_t i = 0; i < BLOCK; i++) {
-        const biased along = left[i] > right[i] ? left[i] : right[i], across = up[i] > down[i] ? up[i] : down[i];
+        const biased_floor along = left[i] > right[i] ? left[i] : right[i], across = up[i] > down[i] ? up[i] : down[i];
         under[i] = along > across ? along : across;
     }
 }
 
-static void look_under(layer *restrict own, const biased *restrict under)
+static void look_under(layer *restrict own, const biased_floor *restrict under)
 {
-    const biased *restrict floor = own->floor + 1, *restrict top = own->top + 1;
+    const biased_floor *restrict floor = own->floor + 1, *restrict top = own->top + 1;
     for (uint32_t i = 0; i < BLOCK; i++) {
         own->lowest[i] = ((top[i] >= floor[i]) & (under[i] >= floor[i])) ? LOWEST : floor[i];
     }
 }
 
 // Floors beside ledges lose their areas.
-static void drop_ledges(const sweep *s, layer *l)
+static void drop_ledges(const floor_sweep *s, layer *l)
 {
     const int32_t climb = s->climb;
     for (uint32_t i = 0; i < BLOCK; i++) {
@@ -332,13 +332,13 @@ static void look_at_block(layer *own, const tl_open_row *row, const block *besid
 }
 
 // What the gaps above a row's walkable floors reach decides whether these stay.
-static void filter_ledges(const sweep *s, uint32_t z)
+static void filter_ledge_row(const floor_sweep *s, uint32_t z)
 {
     const tl_open_row *above = &s->scratch->rows[(z + ROWS - 1) % ROWS], *row = &s->scratch->rows[z % ROWS],
                       *below = &s->scratch->rows[(z + 1) % ROWS];
     for (uint32_t k = 0; k < s->block_count; k++) {
         const block *b = &row->blocks[k];
-        biased under[BLOCK];
+        biased_floor under[BLOCK];
         join_under(b, &above->blocks[k], &below->blocks[k], under);
         for (uint32_t j = 0; j < b->layer_count; j++) {
             layer *l = &row->layers[b->first_layer + j];
@@ -389,7 +389,7 @@ static void drop_rim(tl_open_row *row, uint32_t begin, uint32_t end)
     }
 }
 
-static void append_row(sweep *s, uint32_t z)
+static void append_row(floor_sweep *s, uint32_t z)
 {
     const uint32_t width = s->rows->width;
     tl_open_row *row = &s->scratch->rows[z % ROWS];
@@ -398,7 +398,7 @@ static void append_row(sweep *s, uint32_t z)
         drop_rim(row, 0, end_row ? width : 1);
         drop_rim(row, width - 1, width);
         if (!end_row) {
-            filter_ledges(s, z);
+            filter_ledge_row(s, z);
         }
     }
     for (uint32_t k = 0; k < s->block_count; k++) {
@@ -412,7 +412,7 @@ static void append_row(sweep *s, uint32_t z)
 tl_result tl_open_rows(const tl_nav_config *config, const tl_span_rows *rows, uint32_t begin, uint32_t end,
                        tl_open_scratch *scratch, tl_floors *floors, uint32_t *ends_out)
 {
-    sweep s;
+    floor_sweep s;
     memset(&s, 0, sizeof s);
     s.config = config;
     s.rows = rows;

@@ -23,7 +23,7 @@ static bool may_lie_in(const tl_mesh_view *mesh, const uint32_t *corners, const 
              (a->z > window->max.z && b->z > window->max.z && c->z > window->max.z));
 }
 
-static tl_result grow(tl_range_input *range, const tl_allocator *allocator)
+static tl_result grow_range_input(tl_range_input *range, const tl_allocator *allocator)
 {
     uint64_t capacity = range->capacity > 0 ? 2 * range->capacity : 1024;
     uint32_t *triangles = tl_allocate_array(allocator, capacity, sizeof *triangles);
@@ -50,7 +50,7 @@ tl_result tl_range_input_make(const tl_nav_input *input, tl_aabb window, const t
     for (uint32_t t = 0; t < input->mesh.triangle_count; t++) {
         if (may_lie_in(&input->mesh, input->mesh.indices + 3 * (size_t)t, &window)) {
             if (mesh->triangle_count == range->capacity) {
-                TL_TRY(grow(range, allocator));
+                TL_TRY(grow_range_input(range, allocator));
             }
             range->triangles[mesh->triangle_count++] = t;
         }

@@ -16,7 +16,7 @@ typedef struct bin_range {
 
 // Bins along one axis whose columns [i * size - margin, (i + 1) * size + margin) meet [min, max], points that only
 // touch included.
-static bool axis_range(double min, double max, uint32_t count, uint32_t size, uint32_t margin, uint32_t *first_out,
+static bool bins_along(double min, double max, uint32_t count, uint32_t size, uint32_t margin, uint32_t *first_out,
                        uint32_t *last_out)
 {
     const double low = -(double)margin, high = (double)count * (double)size + (double)margin;
@@ -45,8 +45,8 @@ static bin_range triangle_range(const tl_mesh_view *mesh, uint32_t triangle, con
     const double min_z = tl_lattice_map_z(map, box.min.z), max_z = tl_lattice_map_z(map, box.max.z);
     bin_range range = { 1, 0, 0, 0 };
     uint32_t x0, x1, z0, z1;
-    if (axis_range(min_x, max_x, grid->count_x, grid->size_x, grid->margin, &x0, &x1) &&
-        axis_range(min_z, max_z, grid->count_z, grid->size_z, grid->margin, &z0, &z1)) {
+    if (bins_along(min_x, max_x, grid->count_x, grid->size_x, grid->margin, &x0, &x1) &&
+        bins_along(min_z, max_z, grid->count_z, grid->size_z, grid->margin, &z0, &z1)) {
         range = (bin_range){ x0, x1, z0, z1 };
     }
     return range;

@@ -38,7 +38,7 @@ static inline uint32_t tl_distance_over(const tl_nav_compact *compact, const uin
 /// From the floors that come before this one, which have theirs. Borders have 0.
 static inline uint16_t tl_distance_forward(const tl_nav_compact *compact, const uint16_t *distance, uint32_t floor)
 {
-    const tl_links links = tl_nav_links(compact, floor);
+    const tl_links links = tl_floor_links(compact, floor);
     const uint8_t area = compact->area[floor];
     if (area == TL_NAV_NULL_AREA || tl_distance_is_border(compact, &links, area)) {
         return 0;

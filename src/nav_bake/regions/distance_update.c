@@ -29,14 +29,14 @@ typedef struct updater {
     uint16_t *forward, *sharp, *blurred;
 } updater;
 
-static inline void add(uint64_t *set, uint32_t floor)
+static inline void add_changed(uint64_t *set, uint32_t floor)
 {
     if (floor != TL_NAV_NO_SPAN) {
         set[floor / 64] |= UINT64_C(1) << (floor & 63);
     }
 }
 
-static inline uint32_t step(const tl_nav_compact *compact, uint32_t floor, uint32_t direction)
+static inline uint32_t update_step(const tl_nav_compact *compact, uint32_t floor, uint32_t direction)
 {
     return floor != TL_NAV_NO_SPAN ? tl_nav_compact_neighbour(compact, floor, direction) : TL_NAV_NO_SPAN;
 }
@@ -52,10 +52,10 @@ static void find_changes(const updater *u)
         }
         for (uint32_t i = begin; i < begin + count; i++) {
             if (u->before[i] != compact->area[i]) {
-                const tl_links links = tl_nav_links(compact, i);
-                add(u->first, i);
+                const tl_links links = tl_floor_links(compact, i);
+                add_changed(u->first, i);
                 for (uint32_t d = 0; d < 4; d++) {
-                    add(u->first, links.to[d]);
+                    add_changed(u->first, links.to[d]);
                 }
             }
         }
@@ -74,13 +74,13 @@ static void update_forward(const updater *u)
                 continue;
             }
             u->forward[i] = value;
-            add(u->second, i);
+            add_changed(u->second, i);
             const uint32_t right = tl_nav_compact_neighbour(compact, i, 2),
                            below = tl_nav_compact_neighbour(compact, i, 1);
-            add(u->first, right); // all four come later
-            add(u->first, below);
-            add(u->first, step(compact, below, 2));
-            add(u->first, step(compact, tl_nav_compact_neighbour(compact, i, 0), 1));
+            add_changed(u->first, right); // all four come later
+            add_changed(u->first, below);
+            add_changed(u->first, update_step(compact, below, 2));
+            add_changed(u->first, update_step(compact, tl_nav_compact_neighbour(compact, i, 0), 1));
         }
     }
 }
@@ -97,15 +97,15 @@ static void update_backward(const updater *u)
                 continue;
             }
             u->sharp[i] = value;
-            add(u->first, i);
-            const tl_links links = tl_nav_links(compact, i);
-            add(u->second, links.to[0]); // all four come earlier
-            add(u->second, links.to[3]);
-            add(u->second, step(compact, links.to[3], 0));
-            add(u->second, step(compact, links.to[2], 3));
+            add_changed(u->first, i);
+            const tl_links links = tl_floor_links(compact, i);
+            add_changed(u->second, links.to[0]); // all four come earlier
+            add_changed(u->second, links.to[3]);
+            add_changed(u->second, update_step(compact, links.to[3], 0));
+            add_changed(u->second, update_step(compact, links.to[2], 3));
             for (uint32_t d = 0; d < 4; d++) { // what the blur looks at in d, and then in the next direction
-                add(u->first, links.to[d]);
-                add(u->first, step(compact, links.to[d], (d + 3) & 3));
+                add_changed(u->first, links.to[d]);
+                add_changed(u->first, update_step(compact, links.to[d], (d + 3) & 3));
             }
         }
     }
@@ -126,7 +126,7 @@ static void copy_values(uint16_t *to, const uint16_t *from, uint32_t count)
     memcpy(to, from, count * sizeof *to);
 }
 
-static uint16_t largest_of(const uint16_t *values, uint32_t count)
+static uint16_t largest_distance(const uint16_t *values, uint32_t count)
 {
     uint16_t largest = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -156,7 +156,7 @@ tl_result tl_distance_field_update(const uint8_t *before, const tl_distance_stag
         update_forward(&u);
         update_backward(&u);
         update_blur(&u);
-        compact->max_distance = largest_of(u.sharp, count);
+        compact->max_distance = largest_distance(u.sharp, count);
         compact->distance = u.blurred;
     } else {
         tl_release_array(&compact->allocator, u.blurred, count, sizeof *u.blurred);

@@ -25,7 +25,7 @@ static inline bool same_regions(const uint32_t *region, uint32_t a, uint32_t b, 
     return k == count;
 }
 
-static tl_result append(tl_region_work *work, uint32_t *capacity, uint32_t column)
+static tl_result append_column(tl_region_work *work, uint32_t *capacity, uint32_t column)
 {
     tl_stacked_columns *stacked = &work->stacked;
     if (stacked->count == *capacity) {
@@ -60,7 +60,7 @@ tl_result tl_stacked_columns_find(tl_region_work *work)
             continue;
         }
         if (count != before_count || !same_regions(region, before, begin, count)) {
-            TL_TRY(append(work, &capacity, c));
+            TL_TRY(append_column(work, &capacity, c));
         }
         before = begin;
         before_count = count;

@@ -18,65 +18,54 @@
 #include "nav_bake/regions/region_rings.h"
 
 #include "base/assert.h"
+#include "base/disjoint_sets.h"
 
-typedef struct merger {
+typedef struct region_merger {
     tl_region_work *work;
     tl_region_rings rings;
     tl_region_columns columns;
     uint32_t *parent;        // union-find: the region that a region became part of, or itself
     uint32_t *next_member;   // circular list of the regions that are one now
     uint32_t *overlap_stamp; // [region] the last region for which it was found to share a column
-} merger;
+} region_merger;
 
-static uint32_t find(uint32_t *parent, uint32_t region)
+static uint32_t find_across(const region_merger *m, uint32_t region)
 {
-    while (parent[region] != region) {
-        parent[region] = parent[parent[region]];
-        region = parent[region];
-    }
-    return region;
+    return region == 0 || tl_region_is_border(region) ? region : tl_disjoint_sets_find(m->parent, region);
 }
 
-static uint32_t find_across(const merger *m, uint32_t region)
+static void reset_parents(region_merger *m)
 {
-    return region == 0 || tl_region_is_border(region) ? region : find(m->parent, region);
-}
-
-static void reset_parents(merger *m)
-{
-    for (uint32_t r = 0; r < m->work->region_count; r++) {
-        m->parent[r] = r;
-    }
+    tl_disjoint_sets_init(m->parent, m->work->region_count);
 }
 
 // Unites regions that touch; sizes and border contact are gathered at each island's root.
-static void gather_islands(merger *m, uint32_t *island_size, uint8_t *at_border)
+static void gather_islands(region_merger *m, uint32_t *island_size, uint8_t *at_border)
 {
     uint32_t count = m->work->region_count;
     for (uint32_t r = 1; r < count; r++) {
         uint32_t head = m->rings.head[r];
-        for (uint32_t e = head; e != TL_NO_RING;) {
+        for (uint32_t e = head; e != TL_NO_REGION_RING;) {
             uint32_t across = m->rings.entries[e].region;
             if (across != 0 && !tl_region_is_border(across)) {
-                uint32_t a = find(m->parent, r), b = find(m->parent, across);
-                m->parent[a > b ? a : b] = a > b ? b : a;
+                tl_disjoint_sets_unite(m->parent, r, across);
             }
             e = m->rings.entries[e].next;
-            e = e != head ? e : TL_NO_RING;
+            e = e != head ? e : TL_NO_REGION_RING;
         }
     }
     for (uint32_t r = 1; r < count; r++) {
-        uint32_t root = find(m->parent, r), head = m->rings.head[r];
+        uint32_t root = tl_disjoint_sets_find(m->parent, r), head = m->rings.head[r];
         island_size[root] += m->rings.span_count[r];
-        for (uint32_t e = head; e != TL_NO_RING;) {
+        for (uint32_t e = head; e != TL_NO_REGION_RING;) {
             at_border[root] |= tl_region_is_border(m->rings.entries[e].region);
             e = m->rings.entries[e].next;
-            e = e != head ? e : TL_NO_RING;
+            e = e != head ? e : TL_NO_REGION_RING;
         }
     }
 }
 
-static tl_result filter_islands(merger *m, uint32_t min_area)
+static tl_result filter_islands(region_merger *m, uint32_t min_area)
 {
     tl_region_work *work = m->work;
     uint32_t *island_size = TL_PUSH_ZERO(work->arena, uint32_t, work->region_count);
@@ -86,7 +75,7 @@ static tl_result filter_islands(merger *m, uint32_t min_area)
     }
     gather_islands(m, island_size, at_border);
     for (uint32_t r = 1; r < work->region_count; r++) {
-        uint32_t root = find(m->parent, r);
+        uint32_t root = tl_disjoint_sets_find(m->parent, r);
         if (m->rings.span_count[r] > 0 && island_size[root] < min_area && !at_border[root]) {
             work->stats.filtered_regions++;
             work->stats.filtered_spans += m->rings.span_count[r];
@@ -97,7 +86,7 @@ static tl_result filter_islands(merger *m, uint32_t min_area)
 }
 
 // Drops entries that have become equal to the one after them.
-static void normalize_ring(merger *m, uint32_t region)
+static void normalize_ring(region_merger *m, uint32_t region)
 {
     tl_ring_entry *entries = m->rings.entries;
     uint32_t head = m->rings.head[region], last = head;
@@ -128,10 +117,10 @@ static void normalize_ring(merger *m, uint32_t region)
     }
 }
 
-static uint32_t count_in_ring(const merger *m, uint32_t region, uint32_t wanted)
+static uint32_t count_in_ring(const region_merger *m, uint32_t region, uint32_t wanted)
 {
     uint32_t head = m->rings.head[region], count = 0, e = head;
-    if (head == TL_NO_RING) {
+    if (head == TL_NO_REGION_RING) {
         return 0;
     }
     do {
@@ -142,7 +131,7 @@ static uint32_t count_in_ring(const merger *m, uint32_t region, uint32_t wanted)
 }
 
 // The entry before the one that names `wanted`, which is in the ring.
-static uint32_t entry_before(const merger *m, uint32_t region, uint32_t wanted)
+static uint32_t entry_before(const region_merger *m, uint32_t region, uint32_t wanted)
 {
     uint32_t e = m->rings.head[region];
     while (m->rings.entries[m->rings.entries[e].next].region != wanted) {
@@ -152,7 +141,7 @@ static uint32_t entry_before(const merger *m, uint32_t region, uint32_t wanted)
 }
 
 // Stamps all regions that share a column with `region` or a part of it.
-static void stamp_overlaps(merger *m, uint32_t region)
+static void stamp_overlapping_regions(region_merger *m, uint32_t region)
 {
     const tl_nav_compact *compact = m->work->compact;
     uint32_t part = region;
@@ -162,7 +151,7 @@ static void stamp_overlaps(merger *m, uint32_t region)
             for (uint32_t i = compact->first_span[column]; i < compact->first_span[column + 1]; i++) {
                 uint32_t other = m->work->region[i];
                 if (other != part && other != 0 && !tl_region_is_border(other)) {
-                    m->overlap_stamp[find(m->parent, other)] = region;
+                    m->overlap_stamp[tl_disjoint_sets_find(m->parent, other)] = region;
                 }
             }
         }
@@ -171,7 +160,7 @@ static void stamp_overlaps(merger *m, uint32_t region)
 }
 
 // `region` becomes part of `target`; they share one stretch of outline.
-static void merge_into(merger *m, uint32_t region, uint32_t target)
+static void merge_into(region_merger *m, uint32_t region, uint32_t target)
 {
     tl_ring_entry *entries = m->rings.entries;
     uint32_t *head = m->rings.head;
@@ -192,7 +181,7 @@ static void merge_into(merger *m, uint32_t region, uint32_t target)
             entries[in_region].next = after_region;
             head[target] = after_region;
         } else {
-            head[target] = TL_NO_RING;
+            head[target] = TL_NO_REGION_RING;
         }
     }
     m->parent[region] = target;
@@ -202,13 +191,13 @@ static void merge_into(merger *m, uint32_t region, uint32_t target)
     m->rings.span_count[target] += m->rings.span_count[region];
     m->rings.span_count[region] = 0;
     m->work->stats.merged++;
-    if (head[target] != TL_NO_RING) {
+    if (head[target] != TL_NO_REGION_RING) {
         normalize_ring(m, target);
     }
 }
 
 // The smallest neighbour that the region may join, or 0; ties go to the first in the ring.
-static uint32_t choose_target(merger *m, uint32_t region)
+static uint32_t choose_target(region_merger *m, uint32_t region)
 {
     uint32_t head = m->rings.head[region], best = 0, smallest = UINT32_MAX, e = head;
     bool stamped = false;
@@ -219,14 +208,14 @@ static uint32_t choose_target(merger *m, uint32_t region)
             m->rings.area[other] != m->rings.area[region] || count_in_ring(m, region, other) != 1) {
             continue;
         }
-        if (m->rings.head[other] != TL_NO_RING) {
+        if (m->rings.head[other] != TL_NO_REGION_RING) {
             normalize_ring(m, other);
         }
         if (count_in_ring(m, other, region) > 1) {
             continue;
         }
         if (!stamped) {
-            stamp_overlaps(m, region);
+            stamp_overlapping_regions(m, region);
             stamped = true;
         }
         if (m->overlap_stamp[other] != region) {
@@ -237,13 +226,13 @@ static uint32_t choose_target(merger *m, uint32_t region)
     return best;
 }
 
-static void merge_regions(merger *m, uint32_t merge_area)
+static void merge_regions(region_merger *m, uint32_t merge_area)
 {
     bool merged = true;
     while (merged) { // each round but the last makes one region fewer
         merged = false;
         for (uint32_t r = 1; r < m->work->region_count; r++) {
-            if (m->rings.span_count[r] == 0 || m->rings.head[r] == TL_NO_RING) {
+            if (m->rings.span_count[r] == 0 || m->rings.head[r] == TL_NO_REGION_RING) {
                 continue;
             }
             normalize_ring(m, r);
@@ -260,7 +249,7 @@ static void merge_regions(merger *m, uint32_t merge_area)
 }
 
 // Numbers the regions that are left from 1, in the order of their old ids.
-static tl_result renumber(merger *m)
+static tl_result renumber(region_merger *m)
 {
     tl_region_work *work = m->work;
     uint32_t *new_id = TL_PUSH_ZERO(work->arena, uint32_t, work->region_count);
@@ -269,7 +258,7 @@ static tl_result renumber(merger *m)
     }
     uint32_t count = 1;
     for (uint32_t r = 1; r < work->region_count; r++) {
-        uint32_t root = find(m->parent, r);
+        uint32_t root = tl_disjoint_sets_find(m->parent, r);
         if (m->rings.span_count[root] > 0 && new_id[root] == 0) {
             new_id[root] = count++;
         }
@@ -286,7 +275,7 @@ static tl_result renumber(merger *m)
 
 tl_result tl_regions_filter_and_merge(tl_region_work *work, uint32_t min_area, uint32_t merge_area)
 {
-    merger m = { .work = work };
+    region_merger m = { .work = work };
     TL_TRY(tl_region_rings_make(work, &m.rings));
     m.parent = TL_PUSH(work->arena, uint32_t, work->region_count);
     if (m.parent == NULL) {

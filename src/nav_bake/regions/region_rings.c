@@ -28,7 +28,7 @@ static inline uint32_t region_across(const tl_region_work *work, uint32_t floor,
 }
 
 // Entries are kept as a plain stretch while a ring is walked, and linked at its end.
-static tl_result append(ring_walk *walk, uint32_t region)
+static tl_result append_ring_entry(ring_walk *walk, uint32_t region)
 {
     tl_region_rings *rings = walk->rings;
     if (rings->entry_count == walk->capacity) {
@@ -64,7 +64,7 @@ static tl_result walk_ring(ring_walk *walk, uint32_t floor)
         uint32_t across = region_across(work, floor, direction);
         if (across != own) {
             if (rings->entry_count == begin || rings->entries[rings->entry_count - 1].region != across) {
-                TL_TRY(append(walk, across));
+                TL_TRY(append_ring_entry(walk, across));
             }
             direction = (direction + 1) & 3;
         } else {
@@ -93,7 +93,7 @@ tl_result tl_region_rings_make(const tl_region_work *work, tl_region_rings *ring
         return TL_ERR_MEMORY;
     }
     for (uint32_t r = 0; r < work->region_count; r++) {
-        rings_out->head[r] = TL_NO_RING;
+        rings_out->head[r] = TL_NO_REGION_RING;
     }
     ring_walk walk = { work, rings_out, 0, 4 * (uint64_t)compact->span_count };
     // Floors that follow one another are mostly of one region: they are counted a run at a time.

@@ -7,7 +7,7 @@
 
 #include "nav_bake/regions/regions.h"
 
-#define TL_NO_RING UINT32_MAX
+#define TL_NO_REGION_RING UINT32_MAX
 
 /// A ring is a circular list of entries. Regions are as they were when the walk was made.
 typedef struct tl_ring_entry {
@@ -18,7 +18,7 @@ typedef struct tl_ring_entry {
 typedef struct tl_region_rings {
     tl_ring_entry *entries;
     uint32_t entry_count;
-    uint32_t *head;       ///< [region_count] first entry, or TL_NO_RING for a region without floors
+    uint32_t *head;       ///< [region_count] first entry, or TL_NO_REGION_RING for a region without floors
     uint32_t *span_count; ///< [region_count]
     uint8_t *area;        ///< [region_count]
 } tl_region_rings;

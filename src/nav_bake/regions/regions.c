@@ -45,7 +45,7 @@ static tl_result divide_by_watershed(tl_region_work *work)
     return TL_OK;
 }
 
-static tl_result partition(const tl_nav_config *config, tl_region_work *work)
+static tl_result divide_by_method(const tl_nav_config *config, tl_region_work *work)
 {
     uint32_t merge_area = config->merge_region_area;
     merge_area = merge_area < TL_REGIONS_NO_MERGE ? merge_area : TL_REGIONS_NO_MERGE - 1;
@@ -95,7 +95,7 @@ tl_result tl_nav_divide_regions(const tl_nav_config *config, const tl_host *host
                             .region = region,
                             .region_count = 1,
                             .scrap = keep_distance ? NULL : compact->distance };
-    tl_result result = partition(config, &work);
+    tl_result result = divide_by_method(config, &work);
     if (report_out != NULL) {
         report_out->peak_bytes = arena.peak_bytes + (uint64_t)compact->span_count * sizeof *region;
     }

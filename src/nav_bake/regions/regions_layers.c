@@ -73,7 +73,8 @@ static tl_result make_adjacency(const tl_region_work *work, adjacency *out)
 }
 
 // All regions that share a column with `region` are now under or over the layer.
-static void stamp_overlaps(const tl_region_columns *columns, uint32_t region, uint32_t layer, uint32_t *overlapped_by)
+static void stamp_layers_below(const tl_region_columns *columns, uint32_t region, uint32_t layer,
+                               uint32_t *overlapped_by)
 {
     const tl_nav_compact *compact = columns->compact;
     for (uint32_t k = columns->first[region]; k < columns->first[region + 1]; k++) {
@@ -108,14 +109,14 @@ tl_result tl_regions_layers(tl_region_work *work)
         uint32_t layer = layer_count++, head = 0, tail = 0;
         queue[tail++] = root;
         layer_of[root] = layer;
-        stamp_overlaps(&columns, root, layer, overlapped_by);
+        stamp_layers_below(&columns, root, layer, overlapped_by);
         while (head < tail) {
             uint32_t region = queue[head++];
             for (uint32_t k = touching.first[region]; k < touching.first[region + 1]; k++) {
                 uint32_t other = touching.to[k];
                 if (layer_of[other] == 0 && overlapped_by[other] != layer) {
                     layer_of[other] = layer;
-                    stamp_overlaps(&columns, other, layer, overlapped_by);
+                    stamp_layers_below(&columns, other, layer, overlapped_by);
                     queue[tail++] = other;
                 }
             }

@@ -14,19 +14,19 @@
 
 #include <string.h>
 
-typedef struct sweep {
+typedef struct row_sweep {
     uint32_t first; // the region that the run touches first in the row before; 0: none
     uint32_t above; // the one region that it touches there; 0 none, MANY several
     uint32_t links; // floors through which it does
     uint32_t region;
-} sweep;
+} row_sweep;
 
 #define MANY UINT32_MAX
 
 typedef struct monotone {
     const tl_nav_compact *compact;
     uint32_t *region;
-    sweep *sweeps;         // [row_capacity + 1], from 1
+    row_sweep *sweeps;     // [row_capacity + 1], from 1
     uint32_t *touched;     // [touched_capacity] floors of this row that lie beside each region of the row before
     uint32_t region_count; // largest id + 1
 } monotone;
@@ -53,11 +53,11 @@ static uint32_t make_runs(monotone *m, uint32_t begin, uint32_t end)
         const uint32_t above = region_if_same(m, links.to[3], area);
         if (run == 0) {
             run = next++;
-            m->sweeps[run] = (sweep){ above, 0, 0, 0 };
+            m->sweeps[run] = (row_sweep){ above, 0, 0, 0 };
         }
         if (above != 0) {
             // Past its first region a run counts nowhere: that one may still go on in another run.
-            sweep *s = &m->sweeps[run];
+            row_sweep *s = &m->sweeps[run];
             s->first = s->first != 0 ? s->first : above;
             bool same = s->above == 0 || s->above == above;
             s->above = same ? above : MANY;
@@ -73,7 +73,7 @@ static uint32_t make_runs(monotone *m, uint32_t begin, uint32_t end)
 static void name_runs(monotone *m, uint32_t begin, uint32_t end, uint32_t run_count)
 {
     for (uint32_t k = 1; k < run_count; k++) {
-        sweep *s = &m->sweeps[k];
+        row_sweep *s = &m->sweeps[k];
         bool continues = s->above != 0 && s->above != MANY && m->touched[s->above] == s->links;
         s->region = continues ? s->above : m->region_count++;
     }
@@ -108,7 +108,7 @@ tl_result tl_regions_monotone(tl_region_work *work)
     uint32_t first_x = border, end_x = compact->width - border;
     uint32_t row_capacity = largest_row(compact, first_x, end_x);
     monotone m = { compact, work->region, NULL, NULL, 1 };
-    m.sweeps = TL_PUSH(work->arena, sweep, (uint64_t)row_capacity + 1);
+    m.sweeps = TL_PUSH(work->arena, row_sweep, (uint64_t)row_capacity + 1);
     // A new region takes at least one floor, so ids stay within the floors.
     m.touched = TL_PUSH_ZERO(work->arena, uint32_t, (uint64_t)compact->span_count + 1);
     if (m.sweeps == NULL || m.touched == NULL) {

@@ -18,11 +18,11 @@ typedef struct placed_floor {
     uint32_t floor, column;
 } placed_floor;
 
-typedef struct splitter {
+typedef struct region_splitter {
     const tl_nav_compact *compact;
     uint32_t *region;
     placed_floor *queue; // room for all floors of regions that overlap
-} splitter;
+} region_splitter;
 
 // Marks the regions that have two floors in a column, and counts them. `last_column` is zeroed.
 static tl_result find_overlaps(tl_region_work *work, uint32_t *last_column, uint8_t *overlaps, uint32_t *found_out)
@@ -49,7 +49,7 @@ static tl_result find_overlaps(tl_region_work *work, uint32_t *last_column, uint
     return TL_OK;
 }
 
-static bool column_holds(const splitter *s, uint32_t column, uint32_t region)
+static bool column_holds(const region_splitter *s, uint32_t column, uint32_t region)
 {
     for (uint32_t i = s->compact->first_span[column]; i < s->compact->first_span[column + 1]; i++) {
         if (s->region[i] == region) {
@@ -59,14 +59,14 @@ static bool column_holds(const splitter *s, uint32_t column, uint32_t region)
     return false;
 }
 
-static void flood_piece(splitter *s, placed_floor seed, uint32_t piece)
+static void flood_piece(region_splitter *s, placed_floor seed, uint32_t piece)
 {
     uint32_t whole = s->region[seed.floor], head = 0, tail = 0;
     s->region[seed.floor] = piece;
     s->queue[tail++] = seed;
     while (head < tail) {
         const placed_floor from = s->queue[head++];
-        const tl_links links = tl_nav_links(s->compact, from.floor);
+        const tl_links links = tl_floor_links(s->compact, from.floor);
         for (uint32_t d = 0; d < 4; d++) {
             const placed_floor to = { links.to[d], from.column + tl_nav_column_step(s->compact->width, d) };
             if (to.floor != TL_NAV_NO_SPAN && s->region[to.floor] == whole && !column_holds(s, to.column, piece)) {
@@ -77,7 +77,7 @@ static void flood_piece(splitter *s, placed_floor seed, uint32_t piece)
     }
 }
 
-static tl_result split(tl_region_work *work, const uint8_t *overlaps)
+static tl_result split_region(tl_region_work *work, const uint8_t *overlaps)
 {
     const tl_nav_compact *compact = work->compact;
     const uint32_t whole_count = work->region_count;
@@ -85,7 +85,7 @@ static tl_result split(tl_region_work *work, const uint8_t *overlaps)
     for (uint32_t i = 0; i < compact->span_count; i++) {
         floors += work->region[i] < whole_count && overlaps[work->region[i]] != 0;
     }
-    splitter s = { compact, work->region, TL_PUSH(work->arena, placed_floor, floors) };
+    region_splitter s = { compact, work->region, TL_PUSH(work->arena, placed_floor, floors) };
     if (s.queue == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -112,5 +112,5 @@ tl_result tl_regions_split_overlaps(tl_region_work *work)
         return TL_OK;
     }
     work->stacked.are_known = false;
-    return split(work, overlaps);
+    return split_region(work, overlaps);
 }

@@ -55,7 +55,7 @@ typedef struct watershed {
 } watershed;
 
 // Room for `count` floors in all.
-static tl_result reserve(const watershed *w, floor_list *list, uint64_t count)
+static tl_result reserve_spans(const watershed *w, floor_list *list, uint64_t count)
 {
     if (count <= list->capacity) {
         return TL_OK;
@@ -105,7 +105,7 @@ static inline bool look_for_region(watershed *w, uint32_t floor)
 }
 
 // All that were found in this step join at once, so the result does not depend on the order of looking.
-static void join(watershed *w)
+static void join_basins(watershed *w)
 {
     for (uint32_t k = 0; k < w->joining.count; k++) {
         w->region[w->joining.floors[k]] &= ~JOINING;
@@ -120,7 +120,7 @@ static void join(watershed *w)
 static tl_result look_beside_frontier(watershed *w, uint32_t level)
 {
     const uint64_t most = w->compact->span_count, beside_all = 4 * (uint64_t)w->frontier.count;
-    TL_TRY(reserve(w, &w->joining, beside_all < most ? beside_all : most));
+    TL_TRY(reserve_spans(w, &w->joining, beside_all < most ? beside_all : most));
     for (uint32_t k = 0; k < w->frontier.count; k++) {
         uint32_t floor = w->frontier.floors[k];
         const tl_links links = tl_nav_links_or_self(w->compact, floor);
@@ -142,7 +142,7 @@ static tl_result look_at_waiting(watershed *w, uint32_t *begin, uint32_t end)
     for (uint32_t k = end; k-- > *begin;) {
         const uint32_t floor = w->order.floors[k];
         if (w->joining.count == w->joining.capacity) {
-            TL_TRY(reserve(w, &w->joining, (uint64_t)w->joining.count + 1024));
+            TL_TRY(reserve_spans(w, &w->joining, (uint64_t)w->joining.count + 1024));
         }
         if (w->region[floor] == 0 && !look_for_region(w, floor)) {
             w->order.floors[--kept] = floor;
@@ -155,13 +155,13 @@ static tl_result look_at_waiting(watershed *w, uint32_t *begin, uint32_t end)
 // Grows the regions over the waiting floors: order[*begin, end), all at `level` or above it. Those that still wait in
 // the end are among order[*begin, end) then, in order. The first step settles most, so few are left to be looked at;
 // where they are many, only those beside the last step's are.
-static tl_result grow(watershed *w, uint32_t *begin, uint32_t end, uint32_t level)
+static tl_result grow_basins(watershed *w, uint32_t *begin, uint32_t end, uint32_t level)
 {
     w->joining.count = w->frontier.count = 0;
     TL_TRY(look_at_waiting(w, begin, end));
     // Terminates: each step takes at least one floor from those that wait.
     for (uint32_t step = 1; w->joining.count > 0; step++) {
-        join(w);
+        join_basins(w);
         if (level != 0 && step >= GROWTH_STEPS) {
             continue;
         }
@@ -211,7 +211,7 @@ static tl_result flood(watershed *w, uint32_t seed, uint32_t level, uint32_t *ta
     // A floor on the stack has the region, and so is pushed once: the stack holds at most span_count.
     floor_list *stack = &w->frontier;
     stack->count = 0;
-    TL_TRY(reserve(w, stack, 1));
+    TL_TRY(reserve_spans(w, stack, 1));
     stack->floors[stack->count++] = seed;
     w->region[seed] = own;
     while (stack->count > 0) {
@@ -223,7 +223,7 @@ static tl_result flood(watershed *w, uint32_t seed, uint32_t level, uint32_t *ta
         taken++;
         w->reach[floor] = 0;
         if (stack->capacity - stack->count < 4 && stack->capacity < compact->span_count) {
-            TL_TRY(reserve(w, stack, (uint64_t)stack->capacity + 4));
+            TL_TRY(reserve_spans(w, stack, (uint64_t)stack->capacity + 4));
         }
         const tl_links links = tl_nav_links_or_self(compact, floor); // it has a region itself
         for (int d = 0; d < 4; d++) {
@@ -287,13 +287,13 @@ static tl_result sort_all(watershed *w)
 {
     const uint32_t count = w->compact->span_count;
     floor_list *list = &w->joining; // is not used yet
-    TL_TRY(reserve(w, list, (uint64_t)count));
+    TL_TRY(reserve_spans(w, list, (uint64_t)count));
     uint32_t waiting = 0;
     for (uint32_t i = 0; i < count; i++) {
         list->floors[waiting] = i; // no more have been kept than were seen, so there is room
         waiting += waits(w, i);
     }
-    TL_TRY(reserve(w, &w->order, waiting));
+    TL_TRY(reserve_spans(w, &w->order, waiting));
     uint32_t *next = w->level_end; // how many floors a level has, then where the next one goes, then where it ends
     memset(next, 0, w->level_count * sizeof *next);
     for (uint32_t k = 0; k < waiting; k++) {
@@ -327,7 +327,7 @@ static tl_result sort_levels(watershed *w, uint32_t first, uint32_t end)
         next[k] = position;
         position += size;
     }
-    TL_TRY(reserve(w, &w->order, position));
+    TL_TRY(reserve_spans(w, &w->order, position));
     w->order.count = position;
     for (uint32_t i = 0; i < count; i++) {
         if (waits(w, i)) {
@@ -369,7 +369,7 @@ static tl_result run_level(watershed *w, uint32_t *begin, uint32_t k)
 {
     const uint32_t level = 2 * (w->level_count - 1 - k), flood_level = level >= 2 ? level - 2 : 0;
     const uint32_t end = w->level_end[k];
-    TL_TRY(grow(w, begin, end, level));
+    TL_TRY(grow_basins(w, begin, end, level));
     for (uint32_t j = *begin; j < end; j++) {
         uint32_t taken = 0;
         if (w->region[w->order.floors[j]] == 0) {
@@ -397,7 +397,7 @@ static tl_result run_levels(watershed *w)
         }
     }
     uint32_t begin = 0;
-    return grow(w, &begin, w->order.count, 0);
+    return grow_basins(w, &begin, w->order.count, 0);
 }
 
 static void free_list(const watershed *w, floor_list *list)

@@ -73,7 +73,8 @@ static tl_result run_tile(const level_job *job, uint64_t tile, tl_triangle_list 
     TL_TRY(tl_nav_config_from_def(job->def, job->bounds, job->range.x + (uint32_t)(tile % job->range.count_x),
                                   job->range.z + (uint32_t)(tile / job->range.count_x), &config, &counts->base));
     const bool keep = job->sink != NULL;
-    tl_result result = tl_nav_tile_run(&config, job->input, list, host, keep, &stages, &job->stacks[tile], counts);
+    tl_result result =
+        tl_nav_tile_run(&config, job->input, list, host, keep ? &stages : NULL, &job->stacks[tile], counts);
     if (keep) {
         tl_nav_stages_hand_over(&stages, job->def->host.allocator);
         if (result == TL_OK) {
@@ -174,7 +175,7 @@ static tl_result take_range(level_job *job, const tl_nav_tile_range *range, tl_r
     return TL_OK;
 }
 
-static tl_result make_room(level_job *job)
+static tl_result allocate_stacks(level_job *job)
 {
     const uint64_t count = tile_count_of(job);
     job->stacks = tl_allocate_array(job->host.allocator, count, sizeof *job->stacks);
@@ -185,11 +186,11 @@ static tl_result make_room(level_job *job)
     return TL_OK;
 }
 
-static tl_result build_range(level_job *job, const tl_nav_tile_range *range, tl_nav_bake_report *report)
+static tl_result bake_tile_range(level_job *job, const tl_nav_tile_range *range, tl_nav_bake_report *report)
 {
     TL_TRY(tl_nav_input_check(job->input, &job->bounds, &report->base));
     TL_TRY(take_range(job, range, &report->base));
-    TL_TRY(make_room(job));
+    TL_TRY(allocate_stacks(job));
     return tile_count_of(job) > 0 ? build_tiles(job, report) : TL_OK;
 }
 
@@ -254,7 +255,7 @@ tl_result tl_nav_bake(const tl_nav_def *def, const tl_nav_input *input, tl_nav_t
     tl_memory_meter meter;
     level_job job;
     begin_job(&job, def, input, &meter);
-    tl_result result = build_range(&job, NULL, &report);
+    tl_result result = bake_tile_range(&job, NULL, &report);
     if (result == TL_OK) {
         result = keep_tiles(&job, report.tile_count, tiles_out);
     }
@@ -286,10 +287,10 @@ static tl_result build_part(level_job *job, const tl_nav_tile_range *range, tl_n
     TL_TRY(range_window(job->def, range, &window, &report->base));
     tl_result result = tl_range_input_make(whole, window, job->host.allocator, &part);
     if (result == TL_OK && part.input.mesh.triangle_count == 0) {
-        result = make_room(job); // tiles without triangles are no tiles
+        result = allocate_stacks(job); // tiles without triangles are no tiles
     } else if (result == TL_OK) {
         job->input = &part.input;
-        result = build_range(job, range, report);
+        result = bake_tile_range(job, range, report);
         job->input = whole;
         tl_report *base = &report->base;
         if (result != TL_OK && base->element != NULL && strcmp(base->element, "triangle") == 0 &&
@@ -332,7 +333,7 @@ tl_result tl_nav_bake_range(const tl_nav_def *def, const tl_nav_input *input, tl
     begin_job(&job, def, input, &meter);
     job.sink = sink;
     const bool part = !tl_aabb_is_empty(def->bounds) && def->tile_size > 0 && range.count_x > 0 && range.count_z > 0;
-    tl_result result = part ? build_part(&job, &range, &report) : build_range(&job, &range, &report);
+    tl_result result = part ? build_part(&job, &range, &report) : bake_tile_range(&job, &range, &report);
     if (result == TL_OK) {
         hand_over_stacks(&job, block_out);
     }

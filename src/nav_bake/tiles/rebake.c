@@ -12,18 +12,26 @@
 #include <math.h>
 #include <string.h>
 
-// Tiles along one axis whose columns [t * size - border, (t + 1) * size + border) meet [min, max], metres. One column
-// more on each side pays for the rounding of the division.
-static void axis_range(float min, float max, float origin, float cell_size, uint32_t size, uint32_t border,
-                       uint32_t tiles, uint32_t *first_out, uint32_t *count_out)
+// The tiles along one axis of the level.
+typedef struct tile_axis {
+    float origin;    // metres
+    float cell_size; // metres
+    uint32_t size;   // of a tile, columns
+    uint32_t border; // columns
+    uint32_t tiles;
+} tile_axis;
+
+// Tiles whose columns [t * size - border, (t + 1) * size + border) meet [min, max], metres. One column more on each
+// side pays for the rounding of the division.
+static void tiles_along(const tile_axis *axis, float min, float max, uint32_t *first_out, uint32_t *count_out)
 {
-    const double reach = (double)border + 1.0;
-    double first = floor((((double)min - (double)origin) / (double)cell_size - reach) / (double)size);
-    double last = floor((((double)max - (double)origin) / (double)cell_size + reach) / (double)size);
+    const double reach = (double)axis->border + 1.0, size = (double)axis->size, tiles = (double)axis->tiles;
+    double first = floor((((double)min - (double)axis->origin) / (double)axis->cell_size - reach) / size);
+    double last = floor((((double)max - (double)axis->origin) / (double)axis->cell_size + reach) / size);
     *first_out = *count_out = 0;
-    if (last >= 0.0 && first < (double)tiles) {
+    if (last >= 0.0 && first < tiles) {
         *first_out = first > 0.0 ? (uint32_t)first : 0;
-        *count_out = (last < (double)tiles - 1.0 ? (uint32_t)last : tiles - 1) - *first_out + 1;
+        *count_out = (last < tiles - 1.0 ? (uint32_t)last : axis->tiles - 1) - *first_out + 1;
     }
 }
 
@@ -49,10 +57,11 @@ tl_result tl_nav_tiles_in_box(const tl_nav_def *def, tl_aabb level_bounds, tl_aa
     if (def->tile_size == 0) {
         range.count_x = range.count_z = 1;
     } else {
-        axis_range(box.min.x, box.max.x, config.lattice.origin.x, config.cell_size, def->tile_size, config.border_size,
-                   tiles_x, &range.x, &range.count_x);
-        axis_range(box.min.z, box.max.z, config.lattice.origin.z, config.cell_size, def->tile_size, config.border_size,
-                   tiles_z, &range.z, &range.count_z);
+        const tl_vec3 origin = config.lattice.origin;
+        const tile_axis x = { origin.x, config.cell_size, def->tile_size, config.border_size, tiles_x };
+        const tile_axis z = { origin.z, config.cell_size, def->tile_size, config.border_size, tiles_z };
+        tiles_along(&x, box.min.x, box.max.x, &range.x, &range.count_x);
+        tiles_along(&z, box.min.z, box.max.z, &range.z, &range.count_z);
     }
     if (range.count_x > 0 && range.count_z > 0) {
         *range_out = range;

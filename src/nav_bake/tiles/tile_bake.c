@@ -64,8 +64,7 @@ static tl_result build_floors(tile_job *job)
         TL_TRY(keep_heightfield(job));
         TL_TRY(tl_nav_bake_compact(config, &job->stages->heightfield, &job->host, compact, report));
     } else {
-        TL_TRY(tl_nav_open_triangles(config, &input->mesh, input->areas, job->list, &job->host, compact,
-                                     &job->report->span_count, report));
+        TL_TRY(tl_nav_open_triangles(config, input, job->list, &job->host, compact, &job->report->span_count, report));
         tl_release_array(&compact->allocator, compact->clearance, compact->span_count, sizeof *compact->clearance);
         compact->clearance = NULL; // links were its last reader
     }
@@ -73,7 +72,7 @@ static tl_result build_floors(tile_job *job)
     return TL_OK;
 }
 
-static tl_result erode(tile_job *job)
+static tl_result erode_floors(tile_job *job)
 {
     return tl_nav_erode(job->config, &job->host, &job->stages->compact, &job->report->base);
 }
@@ -161,7 +160,7 @@ static tl_result stack_whole(tile_job *job, uint32_t layer)
     return TL_OK;
 }
 
-static tl_result divide(tile_job *job, uint32_t *layers)
+static tl_result divide_tile(tile_job *job, uint32_t *layers)
 {
     const tl_polygon_mesh *polygons = &job->stages->polygons;
     TL_TRY(tl_nav_assign_layers(job->config, polygons, job->host.allocator, layers, NULL));
@@ -185,7 +184,7 @@ static tl_result stack_tile(tile_job *job)
     }
     const uint32_t count = job->stages->polygons.polygon_count;
     uint32_t *layers = tl_allocate_array(job->host.allocator, count, sizeof *layers);
-    const tl_result result = layers != NULL ? divide(job, layers) : TL_ERR_MEMORY;
+    const tl_result result = layers != NULL ? divide_tile(job, layers) : TL_ERR_MEMORY;
     tl_release_array(job->host.allocator, layers, count, sizeof *layers);
     return result;
 }
@@ -235,7 +234,7 @@ static tl_result finish_tile(tile_job *job)
 static tl_result build_tile(tile_job *job)
 {
     TL_TRY(build_floors(job));
-    TL_TRY(erode(job));
+    TL_TRY(erode_floors(job));
     TL_TRY(mark_areas(job));
     return finish_tile(job);
 }
@@ -251,22 +250,22 @@ tl_report *tl_nav_bake_report_begin(tl_nav_bake_report *report, const char *stag
 }
 
 tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input, tl_triangle_list list,
-                          const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile_stack *stack_out,
+                          const tl_host *host, tl_nav_stages *stages, tl_nav_tile_stack *stack_out,
                           tl_nav_bake_report *report)
 {
+    tl_nav_stages scratch;
+    memset(&scratch, 0, sizeof scratch);
     tile_job job;
     memset(&job, 0, sizeof job);
     job.config = config;
     job.input = input;
     job.list = list;
     job.host = *host;
-    job.keep = job.keep_distance = keep_stages;
-    job.stages = stages;
+    job.keep = job.keep_distance = stages != NULL;
+    job.stages = stages != NULL ? stages : &scratch;
     job.report = report;
     const tl_result result = build_tile(&job);
-    if (!keep_stages) {
-        tl_nav_stages_free(stages);
-    }
+    tl_nav_stages_free(&scratch);
     return hand_over(&job, result, stack_out);
 }
 
@@ -280,8 +279,8 @@ void tl_nav_stages_hand_over(tl_nav_stages *stages, const tl_allocator *allocato
     stages->detail.allocator = host;
 }
 
-static tl_result check_arguments(const tl_nav_config *config, const tl_nav_input *input, tl_nav_tile **tile_out,
-                                 tl_report *report)
+static tl_result check_tile_arguments(const tl_nav_config *config, const tl_nav_input *input, tl_nav_tile **tile_out,
+                                      tl_report *report)
 {
     tl_report_begin(report, "check");
     TL_REFUSE_NULL(tile_out, report);
@@ -308,13 +307,13 @@ tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_input *inpu
     if (stages_out != NULL) {
         memset(stages_out, 0, sizeof *stages_out);
     }
-    tl_result result = check_arguments(config, input, tile_out, &report.base);
+    tl_result result = check_tile_arguments(config, input, tile_out, &report.base);
     if (result == TL_OK) {
         tl_triangle_list all = { NULL, input->mesh.triangle_count };
         tl_nav_config whole = *config;
         tl_nav_tile_stack stack;
         whole.layer_height = 0;
-        result = tl_nav_tile_run(&whole, input, all, &metered, stages_out != NULL, &stages, &stack, &report);
+        result = tl_nav_tile_run(&whole, input, all, &metered, stages_out != NULL ? &stages : NULL, &stack, &report);
         *tile_out = stack.count > 0 ? stack.tiles[0] : NULL;
         tl_blob_hand_over(*tile_out, allocator);
         tl_release_array(&meter.allocator, stack.tiles, stack.count, sizeof *stack.tiles);

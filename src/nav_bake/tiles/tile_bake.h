@@ -11,10 +11,10 @@
 tl_report *tl_nav_bake_report_begin(tl_nav_bake_report *report, const char *stage);
 
 /// tl_nav_tile_bake for the triangles of a list. Adds its counts to those in `report`, which is not NULL, and leaves
-/// the last stage, or what failed, in its base. `stages` is not NULL and zero; with `keep_stages` it holds all
-/// intermediate data afterwards, also on failure, else nothing.
+/// the last stage, or what failed, in its base. `stages` NULL: intermediate data is freed as soon as its last reader is
+/// done. Else it is zero, and holds all of it afterwards, also on failure.
 tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input, tl_triangle_list list,
-                          const tl_host *host, bool keep_stages, tl_nav_stages *stages, tl_nav_tile_stack *stack_out,
+                          const tl_host *host, tl_nav_stages *stages, tl_nav_tile_stack *stack_out,
                           tl_nav_bake_report *report);
 
 /// tl_nav_tile_bake_from_compact for floors that have their distance field already, with `has_distance`.

@@ -11,11 +11,19 @@ typedef struct floor_range {
     int32_t lowest, highest; ///< floors within a step, the span's own included
 } floor_range;
 
-// Whether one can fall more than `climb` from the space above a floor into the column [begin, end). Widens the range of
-// the floors that one can step to.
-static bool drops_into(const tl_nav_span *spans, uint32_t begin, uint32_t end, int32_t floor, int32_t ceiling,
-                       int32_t walkable_height, int32_t climb, floor_range *range)
+// An agent that stands on a floor. All in voxels.
+typedef struct standing_agent {
+    int32_t floor, ceiling;
+    int32_t height, climb;
+} standing_agent;
+
+// Whether the agent can fall more than its climb into the column of the spans [begin, end). Widens the range of the
+// floors that it can step to.
+static bool drops_into(const standing_agent *agent, const tl_nav_span *spans, uint32_t begin, uint32_t end,
+                       floor_range *range)
 {
+    const int32_t floor = agent->floor, ceiling = agent->ceiling;
+    const int32_t walkable_height = agent->height, climb = agent->climb;
     // Below the column's first span there is no floor at all: room enough to go there is room to fall.
     int32_t first_bottom = begin < end ? spans[begin].min : (int32_t)TL_NAV_OPEN_SKY;
     if ((first_bottom < ceiling ? first_bottom : ceiling) - floor >= walkable_height) {
@@ -44,12 +52,12 @@ static bool is_ledge(const tl_nav_config *config, const tl_nav_heightfield *fiel
 {
     const int32_t floor = field->spans[span].max;
     const int32_t ceiling = (int32_t)tl_nav_ceiling(field->spans, span, field->first_span[column + 1]);
-    const int32_t climb = (int32_t)config->walkable_climb, room = (int32_t)config->walkable_height;
+    const int32_t climb = (int32_t)config->walkable_climb;
+    const standing_agent agent = { floor, ceiling, (int32_t)config->walkable_height, climb };
     floor_range range = { floor, floor };
     for (uint32_t direction = 0; direction < 4; direction++) {
         uint32_t beside = column + tl_nav_column_step(field->width, direction);
-        if (drops_into(field->spans, field->first_span[beside], field->first_span[beside + 1], floor, ceiling, room,
-                       climb, &range)) {
+        if (drops_into(&agent, field->spans, field->first_span[beside], field->first_span[beside + 1], &range)) {
             return true;
         }
     }

@@ -128,20 +128,10 @@ void tl_span_buffer_free(tl_span_buffer *buffer)
 
 // ---- Sorting -----------------------------------------------------------------------------------------------
 
-static void sift_down(tl_span_item *items, uint32_t root, uint32_t count)
-{
-    tl_span_item moved = items[root];
-    for (uint32_t child; (child = 2 * root + 1) < count; root = child) {
-        if (child + 1 < count && items[child + 1] > items[child]) {
-            child++;
-        }
-        if (items[child] <= moved) {
-            break;
-        }
-        items[root] = items[child];
-    }
-    items[root] = moved;
-}
+#define TL_HEAP(name)                 span_heap_##name
+#define TL_HEAP_ITEM                  tl_span_item
+#define TL_HEAP_BEFORE(context, a, b) ((a) > (b))
+#include "base/heap.inl"
 
 // Compiles to conditional moves: the order of two spans is a coin's toss that no branch predictor wins.
 static inline void order(tl_span_item *a, tl_span_item *b)
@@ -175,13 +165,12 @@ static void sort_column(tl_span_item *items, uint32_t count)
     }
     if (count > INSERTION_SORT_MAX) {
         for (uint32_t i = count / 2; i-- > 0;) {
-            sift_down(items, i, count);
+            span_heap_sift_down(items, count, i, items[i], NULL);
         }
         for (uint32_t end = count - 1; end > 0; end--) {
             tl_span_item largest = items[0];
-            items[0] = items[end];
+            span_heap_sift_down(items, end, 0, items[end], NULL);
             items[end] = largest;
-            sift_down(items, 0, end);
         }
         return;
     }
@@ -273,7 +262,7 @@ static uint32_t reduce_union(const tl_span_item *items, uint32_t count, uint32_t
 }
 
 // Replaces the items by the fewest that have the same union. At most 256 passes over each, one an area.
-static tl_result reduce(tl_span_buffer *buffer)
+static tl_result reduce_column(tl_span_buffer *buffer)
 {
     TL_TRY(group_by_column(buffer));
     uint32_t begin = 0;
@@ -297,7 +286,7 @@ static tl_result reduce(tl_span_buffer *buffer)
 tl_result tl_span_buffer_make_room(tl_span_buffer *buffer, uint32_t count)
 {
     if (buffer->full_count + buffer->count + count > buffer->most_items) {
-        TL_TRY(reduce(buffer));
+        TL_TRY(reduce_column(buffer));
         while (2 * (buffer->full_count + buffer->count) + count > buffer->most_items) {
             buffer->most_items *= 2;
         }

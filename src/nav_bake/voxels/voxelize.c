@@ -22,6 +22,7 @@
 #include "nav_bake/voxels/voxelize.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,21 +38,6 @@ static const double NO_LOW = (double)INFINITY, NO_HIGH = -(double)INFINITY;
 
 // ---- Small helpers -----------------------------------------------------------------------------------------
 
-static inline double min_of(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static inline double max_of(double a, double b)
-{
-    return a > b ? a : b;
-}
-
-static inline double clamp(double value, double low, double high)
-{
-    return min_of(max_of(value, low), high);
-}
-
 // The nearest whole number, ties to even, of a value within +-2^31.
 static inline int32_t round_to_int(double value)
 {
@@ -66,7 +52,7 @@ static inline int32_t round_to_int(double value)
 static inline void cell_range(double min, double max, uint32_t count, int32_t *first_out, int32_t *last_out)
 {
     const double end = (double)count;
-    int32_t first = (int32_t)clamp(min, 0.0, end), last = (int32_t)clamp(max, 0.0, end);
+    int32_t first = (int32_t)tl_clamp_f64(min, 0.0, end), last = (int32_t)tl_clamp_f64(max, 0.0, end);
     if (min < max) {
         last -= (double)last >= max; // touched by max, or max is left of all
     } else {
@@ -77,7 +63,7 @@ static inline void cell_range(double min, double max, uint32_t count, int32_t *f
 }
 
 // Of two points of one edge, the one that it is walked from: the same for both triangles of the edge.
-static bool comes_first(const tl_voxel_point *a, const tl_voxel_point *b)
+static bool is_first_end(const tl_voxel_point *a, const tl_voxel_point *b)
 {
     if (a->z != b->z) {
         return a->z < b->z;
@@ -100,8 +86,8 @@ static inline bool span_of_heights(double low, double high, uint32_t height_voxe
 {
     // Bounded before the conversion, by more than rounding can bring back.
     const int32_t limit = (int32_t)height_voxels * SUBDIVISIONS;
-    int32_t bottom = round_to_int(clamp(low, -SUBDIVISIONS, (double)limit + SUBDIVISIONS));
-    int32_t top = round_to_int(clamp(high, -SUBDIVISIONS, (double)limit + SUBDIVISIONS));
+    int32_t bottom = round_to_int(tl_clamp_f64(low, -SUBDIVISIONS, (double)limit + SUBDIVISIONS));
+    int32_t top = round_to_int(tl_clamp_f64(high, -SUBDIVISIONS, (double)limit + SUBDIVISIONS));
     if (top < 0 || bottom > limit) {
         return false;
     }
@@ -166,7 +152,7 @@ static tl_result add_level_row(const walk *w, uint32_t row, int32_t first, int32
     return TL_OK;
 }
 
-static inline uint64_t bits_of(double value)
+static inline uint64_t bits_of_double(double value)
 {
     uint64_t bits;
     memcpy(&bits, &value, sizeof bits);
@@ -180,9 +166,9 @@ static void pack_items(const double *restrict low, const double *restrict high, 
 {
     const uint64_t min_mask = tl_span_item_make(0, 0xffff, 0, 0), max_mask = tl_span_item_make(0, 0, 0xffff, 0);
     for (uint32_t i = 0; i < count; i++) {
-        const double bottom = low[i] + WHOLE_ROUNDER, top = max_of(high[i] + WHOLE_ROUNDER, bottom + 1.0);
-        const uint64_t min = bits_of(bottom) << (24 - SUBDIVISION_BITS);
-        const uint64_t max = bits_of(top + (SUBDIVISIONS - 1)) >> (SUBDIVISION_BITS - 8);
+        const double bottom = low[i] + WHOLE_ROUNDER, top = tl_max_f64(high[i] + WHOLE_ROUNDER, bottom + 1.0);
+        const uint64_t min = bits_of_double(bottom) << (24 - SUBDIVISION_BITS);
+        const uint64_t max = bits_of_double(top + (SUBDIVISIONS - 1)) >> (SUBDIVISION_BITS - 8);
         items[i] = item | (min & min_mask) | (max & max_mask);
         item += NEXT_COLUMN;
     }
@@ -215,8 +201,8 @@ static tl_result add_row(const walk *w, uint32_t row, int32_t first, int32_t las
 
 static inline void widen_cell(double *low, double *high, int32_t cell, double y0, double y1)
 {
-    low[cell] = min_of(low[cell], min_of(y0, y1));
-    high[cell] = max_of(high[cell], max_of(y0, y1));
+    low[cell] = tl_min_f64(low[cell], tl_min_f64(y0, y1));
+    high[cell] = tl_max_f64(high[cell], tl_max_f64(y0, y1));
 }
 
 // A point of an edge seen from the side: how far along the cells it lies, and how high.
@@ -277,25 +263,25 @@ static inline void walk_edge(walk *w, const tl_voxel_point *p, const tl_voxel_po
 }
 
 // The piece in the row at hand reaches to the point, which lies in it or on its lines.
-static inline void reach(walk *w, const tl_voxel_point *point)
+static inline void reach_of_row(walk *w, const tl_voxel_point *point)
 {
-    w->left = min_of(w->left, point->x);
-    w->right = max_of(w->right, point->x);
+    w->left = tl_min_f64(w->left, point->x);
+    w->right = tl_max_f64(w->right, point->x);
 }
 
 // The cut between the row at hand and the next one.
-static inline void add_cut(walk *w, const tl_voxel_point *p, const tl_voxel_point *q)
+static inline void add_row_cut(walk *w, const tl_voxel_point *p, const tl_voxel_point *q)
 {
-    w->next_left = min_of(p->x, q->x);
-    w->next_right = max_of(p->x, q->x);
-    w->left = min_of(w->left, w->next_left);
-    w->right = max_of(w->right, w->next_right);
+    w->next_left = tl_min_f64(p->x, q->x);
+    w->next_right = tl_max_f64(p->x, q->x);
+    w->left = tl_min_f64(w->left, w->next_left);
+    w->right = tl_max_f64(w->right, w->next_right);
     if (!w->level) {
         walk_edge(w, p, q, true);
     }
 }
 
-static inline void add_edge(walk *w, const tl_voxel_point *p, const tl_voxel_point *q)
+static inline void add_edge_heights(walk *w, const tl_voxel_point *p, const tl_voxel_point *q)
 {
     if (!w->level) {
         walk_edge(w, p, q, false);
@@ -370,9 +356,9 @@ static tl_result walk_rows(walk *w, const tl_voxel_point *a, const tl_voxel_poin
     if (a->z < line) {
         on_whole = cross_line(&whole, line);
         on_bent = cross_line(b->z > line ? &lower : &upper, line);
-        w->left = min_of(on_whole.x, on_bent.x);
-        w->right = max_of(on_whole.x, on_bent.x);
-        add_edge(w, &on_whole, &on_bent);
+        w->left = tl_min_f64(on_whole.x, on_bent.x);
+        w->right = tl_max_f64(on_whole.x, on_bent.x);
+        add_edge_heights(w, &on_whole, &on_bent);
     }
     for (int32_t row = first; row <= last; row++) {
         const double next = line + 1.0;
@@ -382,22 +368,22 @@ static tl_result walk_rows(walk *w, const tl_voxel_point *a, const tl_voxel_poin
             whole_end = cross_line(&whole, next);
             bent_end = cross_line(b->z > next ? &lower : &upper, next);
             if (row < last) {
-                add_cut(w, &whole_end, &bent_end);
+                add_row_cut(w, &whole_end, &bent_end);
             } else {
-                add_edge(w, &whole_end, &bent_end);
-                reach(w, &whole_end);
-                reach(w, &bent_end);
+                add_edge_heights(w, &whole_end, &bent_end);
+                reach_of_row(w, &whole_end);
+                reach_of_row(w, &bent_end);
             }
         } else {
-            reach(w, c);
+            reach_of_row(w, c);
         }
-        add_edge(w, &on_whole, &whole_end);
+        add_edge_heights(w, &on_whole, &whole_end);
         if (b->z >= line && b->z <= next) {
-            add_edge(w, &on_bent, b);
-            add_edge(w, b, &bent_end);
-            reach(w, b);
+            add_edge_heights(w, &on_bent, b);
+            add_edge_heights(w, b, &bent_end);
+            reach_of_row(w, b);
         } else {
-            add_edge(w, &on_bent, &bent_end);
+            add_edge_heights(w, &on_bent, &bent_end);
         }
         TL_TRY(finish_row(w, (uint32_t)row));
         on_whole = whole_end;
@@ -411,11 +397,11 @@ static tl_result walk_rows(walk *w, const tl_voxel_point *a, const tl_voxel_poin
 static tl_result walk_one_row(walk *w, const tl_voxel_point *a, const tl_voxel_point *b, const tl_voxel_point *c,
                               uint32_t row)
 {
-    w->left = min_of(a->x, min_of(b->x, c->x));
-    w->right = max_of(a->x, max_of(b->x, c->x));
-    add_edge(w, a, c);
-    add_edge(w, a, b);
-    add_edge(w, b, c);
+    w->left = tl_min_f64(a->x, tl_min_f64(b->x, c->x));
+    w->right = tl_max_f64(a->x, tl_max_f64(b->x, c->x));
+    add_edge_heights(w, a, c);
+    add_edge_heights(w, a, b);
+    add_edge_heights(w, b, c);
     return finish_row(w, row);
 }
 
@@ -474,20 +460,20 @@ static void close_far_side(const tl_voxel_band *band, tl_voxel_point *a, tl_voxe
 tl_result tl_voxelize_triangle(const tl_voxel_band *band, tl_voxel_point a, tl_voxel_point b, tl_voxel_point c,
                                uint32_t area)
 {
-    if (comes_first(&b, &a)) {
+    if (is_first_end(&b, &a)) {
         swap_points(&a, &b);
     }
-    if (comes_first(&c, &b)) {
+    if (is_first_end(&c, &b)) {
         swap_points(&b, &c);
-        if (comes_first(&b, &a)) {
+        if (is_first_end(&b, &a)) {
             swap_points(&a, &b);
         }
     }
     if (band->closed_far_side) {
         close_far_side(band, &a, &b, &c);
     }
-    double min_x = min_of(a.x, min_of(b.x, c.x)), max_x = max_of(a.x, max_of(b.x, c.x));
-    double min_y = min_of(a.y, min_of(b.y, c.y)), max_y = max_of(a.y, max_of(b.y, c.y));
+    double min_x = tl_min_f64(a.x, tl_min_f64(b.x, c.x)), max_x = tl_max_f64(a.x, tl_max_f64(b.x, c.x));
+    double min_y = tl_min_f64(a.y, tl_min_f64(b.y, c.y)), max_y = tl_max_f64(a.y, tl_max_f64(b.y, c.y));
     if (max_x < 0.0 || min_x > (double)band->width || max_y < -1.0 || min_y > (double)band->height_voxels + 1.0) {
         return TL_OK;
     }

@@ -105,7 +105,7 @@ static bool is_late_direction(tl_lattice_point a, tl_lattice_point b)
 }
 
 // Turns left in each corner, and around once only: the directions leave the early half plane once.
-static bool is_convex(const tl_polygon_mesh *mesh, uint32_t p)
+static bool is_convex_polygon(const tl_polygon_mesh *mesh, uint32_t p)
 {
     uint32_t rounds = 0;
     for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
@@ -161,7 +161,7 @@ static tl_result check_shapes(tl_polygon_checker *c, bool *good)
             fault = TL_POLYGON_FAULT_REPEATED;
         } else if (polygon_area2(mesh, p) <= 0) {
             fault = TL_POLYGON_FAULT_INVERTED;
-        } else if (!is_convex(mesh, p)) {
+        } else if (!is_convex_polygon(mesh, p)) {
             fault = TL_POLYGON_FAULT_NOT_CONVEX;
         }
         if (fault != TL_POLYGON_FAULT_COUNT) {
@@ -253,7 +253,7 @@ static tl_result check_links(tl_polygon_checker *c)
     return check_open_edges(c);
 }
 
-static tl_result check(tl_polygon_checker *c)
+static tl_result check_polygon_mesh(tl_polygon_checker *c)
 {
     if (!ranges_are_good(c) || !contours_are_good(c)) {
         return TL_OK;
@@ -275,7 +275,7 @@ tl_result tl_polygon_mesh_check(const tl_polygon_mesh *mesh, const tl_contour_se
     tl_arena_init(&checker.arena, allocator);
     tl_result result = tl_refuse_null(mesh, "mesh", &checker.report.base);
     if (result == TL_OK) {
-        result = check(&checker);
+        result = check_polygon_mesh(&checker);
     }
     checker.report.base.peak_bytes = checker.arena.peak_bytes;
     tl_arena_free(&checker.arena);

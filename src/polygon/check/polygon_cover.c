@@ -10,6 +10,7 @@
 #include "polygon/check/polygon_check.h"
 
 #include "base/assert.h"
+#include "base/disjoint_sets.h"
 #include "base/radix_sort.h"
 #include "polygon/outline/key_table.h"
 
@@ -28,7 +29,7 @@ typedef struct lattice_box {
     int32_t min_x, max_x, min_z, max_z;
 } lattice_box;
 
-static lattice_box box_of(const tl_polygon_mesh *mesh, uint32_t p)
+static lattice_box polygon_box(const tl_polygon_mesh *mesh, uint32_t p)
 {
     tl_lattice_point a = tl_mesh_corner(mesh, mesh->first[p]);
     lattice_box box = { a.x, a.x, a.z, a.z };
@@ -108,9 +109,9 @@ static void check_overlaps(cover *c)
 {
     const tl_polygon_mesh *mesh = c->checker->mesh;
     for (uint32_t i = c->first; i < c->end; i++) {
-        lattice_box a = box_of(mesh, c->order[i].value);
+        lattice_box a = polygon_box(mesh, c->order[i].value);
         for (uint32_t j = i + 1; j < c->end && group_x(c->order[j].key) < x_key(a.max_x); j++) {
-            lattice_box b = box_of(mesh, c->order[j].value);
+            lattice_box b = polygon_box(mesh, c->order[j].value);
             if (a.min_z < b.max_z && b.min_z < a.max_z &&
                 !has_separating_edge(mesh, c->order[i].value, c->order[j].value) &&
                 !has_separating_edge(mesh, c->order[j].value, c->order[i].value) &&
@@ -157,7 +158,7 @@ static void check_t_junctions(cover *c)
     }
     for (uint32_t i = c->first; i < c->end; i++) {
         uint32_t p = c->order[i].value;
-        lattice_box box = box_of(mesh, p);
+        lattice_box box = polygon_box(mesh, p);
         uint32_t low = 0;
         for (uint32_t rest = count; rest > 0;) {
             uint32_t half = rest / 2;
@@ -175,29 +176,18 @@ static void check_t_junctions(cover *c)
     }
 }
 
-static uint32_t find_root(uint32_t *parent, uint32_t p)
-{
-    while (parent[p] != p) {
-        parent[p] = parent[parent[p]];
-        p = parent[p];
-    }
-    return p;
-}
-
 // Joins neighbours of several contours; a piece is named by its lowest polygon.
-static uint32_t *join_pieces(const tl_polygon_mesh *mesh, tl_arena *arena)
+static uint32_t *join_polygon_pieces(const tl_polygon_mesh *mesh, tl_arena *arena)
 {
     uint32_t *parent = TL_PUSH(arena, uint32_t, mesh->polygon_count);
-    for (uint32_t p = 0; parent != NULL && p < mesh->polygon_count; p++) {
-        parent[p] = p;
+    if (parent != NULL) {
+        tl_disjoint_sets_init(parent, mesh->polygon_count);
     }
     for (uint32_t p = 0; parent != NULL && p < mesh->polygon_count; p++) {
         for (uint32_t k = mesh->first[p]; mesh->contours[p] == TL_SEVERAL_CONTOURS && k < mesh->first[p + 1]; k++) {
             uint32_t beside = mesh->neighbours[k];
             if (beside < mesh->polygon_count && mesh->contours[beside] == TL_SEVERAL_CONTOURS) {
-                uint32_t a = find_root(parent, p);
-                uint32_t b = find_root(parent, beside);
-                parent[a > b ? a : b] = a > b ? b : a;
+                tl_disjoint_sets_unite(parent, p, beside);
             }
         }
     }
@@ -210,14 +200,14 @@ static tl_result sort_polygons(cover *c)
     tl_arena *arena = &c->checker->arena;
     c->order = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)mesh->polygon_count);
     c->vertices = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)mesh->index_count);
-    uint32_t *pieces = join_pieces(mesh, arena);
+    uint32_t *pieces = join_polygon_pieces(mesh, arena);
     if (c->order == NULL || c->vertices == NULL || pieces == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t p = 0; p < mesh->polygon_count; p++) {
         bool is_shared = mesh->contours[p] == TL_SEVERAL_CONTOURS;
-        uint64_t group = is_shared ? ((uint64_t)1 << 32) + find_root(pieces, p) : mesh->contours[p];
-        tl_sort_item item = { group << GROUP_SHIFT | x_key(box_of(mesh, p).min_x), p, 0 };
+        uint64_t group = is_shared ? ((uint64_t)1 << 32) + tl_disjoint_sets_find(pieces, p) : mesh->contours[p];
+        tl_sort_item item = { group << GROUP_SHIFT | x_key(polygon_box(mesh, p).min_x), p, 0 };
         c->order[p] = item;
     }
     tl_radix_sort(c->order, c->order + mesh->polygon_count, mesh->polygon_count);
@@ -226,7 +216,7 @@ static tl_result sort_polygons(cover *c)
 
 // Doubled area of the polygons of each contour; polygons of several contours go into *shared. Modulo 2^64: a mesh that
 // is wrong may have any number of polygons on one place.
-static uint64_t *sum_areas(tl_polygon_checker *checker, uint64_t *shared)
+static uint64_t *sum_contour_areas(tl_polygon_checker *checker, uint64_t *shared)
 {
     const tl_polygon_mesh *mesh = checker->mesh;
     uint64_t *areas = TL_PUSH_ZERO(&checker->arena, uint64_t, checker->contours->contour_count);
@@ -257,7 +247,7 @@ static tl_result check_areas(tl_polygon_checker *checker, uint8_t *is_whole)
 {
     const tl_polygon_mesh *mesh = checker->mesh;
     uint64_t shared;
-    uint64_t *areas = sum_areas(checker, &shared);
+    uint64_t *areas = sum_contour_areas(checker, &shared);
     if (areas == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -296,7 +286,7 @@ typedef struct edge_sums {
     uint32_t point_count, edge_count;
 } edge_sums;
 
-static uint32_t number_of(edge_sums *e, tl_lattice_point p)
+static uint32_t contour_number(edge_sums *e, tl_lattice_point p)
 {
     uint32_t *place = tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z));
     if (*place == TL_NO_VALUE) {
@@ -305,10 +295,10 @@ static uint32_t number_of(edge_sums *e, tl_lattice_point p)
     return *place;
 }
 
-static void add_edge(edge_sums *e, tl_lattice_point from, tl_lattice_point to, int32_t times)
+static void add_cover_edge(edge_sums *e, tl_lattice_point from, tl_lattice_point to, int32_t times)
 {
-    uint32_t a = number_of(e, from);
-    uint32_t b = number_of(e, to);
+    uint32_t a = contour_number(e, from);
+    uint32_t b = contour_number(e, to);
     if (a == b) { // a run to a vertex that was passed over, and back
         return;
     }
@@ -389,11 +379,11 @@ static void add_contour_backward(edge_sums *e, const tl_contour_vertex *vertices
         const tl_contour_vertex *vertex = &vertices[(start + i) % count];
         tl_lattice_point p = point_of(vertex);
         if (is_in_mesh(e, vertex) && (!may_be_gone(vertex) || has_edge(e, polygon_edges, last, p))) {
-            add_edge(e, last, p, -1);
+            add_cover_edge(e, last, p, -1);
             last = p;
         }
     }
-    add_edge(e, last, first, -1);
+    add_cover_edge(e, last, first, -1);
 }
 
 // The polygons' edges, and the contour's backward, must cancel.
@@ -416,7 +406,7 @@ static tl_result check_outline(cover *c, uint32_t contour_index)
     for (uint32_t i = c->first; i < c->end; i++) {
         uint32_t p = c->order[i].value;
         for (uint32_t k = mesh->first[p]; k < mesh->first[p + 1]; k++) {
-            add_edge(&e, tl_mesh_corner(mesh, k), tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k)), 1);
+            add_cover_edge(&e, tl_mesh_corner(mesh, k), tl_mesh_corner(mesh, tl_mesh_next(mesh, p, k)), 1);
         }
     }
     add_contour_backward(&e, set->vertices + contour->first_vertex, contour->vertex_count);

@@ -43,7 +43,7 @@ typedef struct merge_part {
     uint32_t any_edge;
 } merge_part;
 
-typedef struct merger {
+typedef struct polygon_merger {
     const tl_merge_input *input;
     const tl_lattice_point *points;
     merge_edge *edges;
@@ -52,9 +52,9 @@ typedef struct merger {
     uint32_t place_count;
     waiting_edge *heap; // edges of the current length
     uint32_t heap_count;
-} merger;
+} polygon_merger;
 
-static uint32_t polygon_of(merger *m, uint32_t edge)
+static uint32_t polygon_of(polygon_merger *m, uint32_t edge)
 {
     uint32_t t = edge / 3;
     while (m->parts[t].parent != t) {
@@ -65,74 +65,40 @@ static uint32_t polygon_of(merger *m, uint32_t edge)
 }
 
 // The pair of places of an edge as one number: low place first.
-static uint64_t place_pair(merger *m, uint32_t edge)
+static uint64_t place_pair(polygon_merger *m, uint32_t edge)
 {
     uint64_t a = m->parts[polygon_of(m, edge)].place;
     uint64_t b = m->parts[polygon_of(m, m->edges[edge].twin)].place;
     return a < b ? a << 32 | b : b << 32 | a;
 }
 
-static void heap_set(merger *m, uint32_t i, waiting_edge item)
-{
-    m->heap[i] = item;
-    m->edges[item.edge].heap_place = i;
-}
+#define TL_HEAP(name)                    waiting_heap_##name
+#define TL_HEAP_ITEM                     waiting_edge
+#define TL_HEAP_CONTEXT                  polygon_merger *
+#define TL_HEAP_BEFORE(context, a, b)    ((a).pair < (b).pair)
+#define TL_HEAP_MOVED(context, item, at) ((context)->edges[(item).edge].heap_place = (at))
+#include "base/heap.inl"
 
-static void sift_up(merger *m, uint32_t i)
-{
-    waiting_edge item = m->heap[i];
-    while (i > 0 && item.pair < m->heap[(i - 1) / 2].pair) {
-        heap_set(m, i, m->heap[(i - 1) / 2]);
-        i = (i - 1) / 2;
-    }
-    heap_set(m, i, item);
-}
-
-static void sift_down(merger *m, uint32_t i)
-{
-    waiting_edge item = m->heap[i];
-    for (;;) {
-        uint32_t child = 2 * i + 1;
-        if (child >= m->heap_count) {
-            break;
-        }
-        if (child + 1 < m->heap_count && m->heap[child + 1].pair < m->heap[child].pair) {
-            child++;
-        }
-        if (item.pair <= m->heap[child].pair) {
-            break;
-        }
-        heap_set(m, i, m->heap[child]);
-        i = child;
-    }
-    heap_set(m, i, item);
-}
-
-static void heapify(merger *m)
+static void heapify(polygon_merger *m)
 {
     for (uint32_t i = 0; i < m->heap_count; i++) {
         m->heap[i].pair = place_pair(m, m->heap[i].edge);
     }
     for (uint32_t i = m->heap_count / 2; i-- > 0;) {
-        sift_down(m, i);
+        waiting_heap_sift_down(m->heap, m->heap_count, i, m->heap[i], m);
     }
 }
 
-static uint32_t heap_pop(merger *m)
+static uint32_t pop_edge(polygon_merger *m)
 {
-    uint32_t top = m->heap[0].edge;
+    uint32_t top = waiting_heap_pop(m->heap, &m->heap_count, m).edge;
     m->edges[top].heap_place = NOT_WAITING;
-    m->heap_count--;
-    if (m->heap_count > 0) {
-        heap_set(m, 0, m->heap[m->heap_count]);
-        sift_down(m, 0);
-    }
     return top;
 }
 
 // A polygon's place has become lower: its waiting edges move up, one after another, each by its pair of places as
 // known so far, so that the heap is in order before each step. Where there are many, the heap is made anew.
-static void place_changed(merger *m, uint32_t root)
+static void place_changed(polygon_merger *m, uint32_t root)
 {
     if (m->heap_count == 0) {
         return;
@@ -149,21 +115,21 @@ static void place_changed(merger *m, uint32_t root)
         uint32_t i = m->edges[key].heap_place;
         if (i != NOT_WAITING) {
             m->heap[i].pair = place_pair(m, key);
-            sift_up(m, i);
+            waiting_heap_sift_up(m->heap, i, m->heap[i], m);
         }
         edge = m->edges[edge].next;
     } while (edge != start);
 }
 
 // Whether the corner where `edge` starts stays convex without it: from before the edge to after its twin.
-static bool stays_convex(const merger *m, uint32_t edge)
+static bool stays_convex(const polygon_merger *m, uint32_t edge)
 {
     const merge_edge *e = &m->edges[edge], *after = &m->edges[m->edges[m->edges[e->twin].next].next];
     return tl_turn(m->points[m->edges[e->previous].origin], m->points[e->origin], m->points[after->origin]) > 0;
 }
 
 // Whether the polygons of an edge can be merged.
-static bool can_go(merger *m, uint32_t edge)
+static bool can_merge_across(polygon_merger *m, uint32_t edge)
 {
     uint32_t twin = m->edges[edge].twin;
     uint32_t a = polygon_of(m, edge);
@@ -173,7 +139,7 @@ static bool can_go(merger *m, uint32_t edge)
            stays_convex(m, twin);
 }
 
-static void remove_edge(merger *m, uint32_t edge)
+static void remove_shared_edge(polygon_merger *m, uint32_t edge)
 {
     const merge_edge e = m->edges[edge], twin = m->edges[e.twin];
     const uint32_t a = polygon_of(m, edge), b = polygon_of(m, e.twin);
@@ -200,7 +166,7 @@ static void remove_edge(merger *m, uint32_t edge)
     place_changed(m, root);
 }
 
-static bool start(merger *m, tl_arena *scratch)
+static bool start_merge(polygon_merger *m, tl_arena *scratch)
 {
     const tl_merge_input *input = m->input;
     m->edges = TL_PUSH(scratch, merge_edge, 3 * (uint64_t)input->triangle_count);
@@ -225,7 +191,7 @@ static bool start(merger *m, tl_arena *scratch)
 }
 
 // Edges that could go if they went first, longest first; each pair of twins once.
-static tl_result sort_edges(merger *m, tl_arena *arena, uint32_t edge_count, tl_sort_item **items_out,
+static tl_result sort_edges(polygon_merger *m, tl_arena *arena, uint32_t edge_count, tl_sort_item **items_out,
                             uint32_t *count_out)
 {
     tl_sort_item *items = TL_PUSH(arena, tl_sort_item, edge_count);
@@ -249,7 +215,7 @@ static tl_result sort_edges(merger *m, tl_arena *arena, uint32_t edge_count, tl_
     return TL_OK;
 }
 
-static uint32_t write_corners(const merger *m, uint32_t root, uint32_t *corners)
+static uint32_t write_part_corners(const polygon_merger *m, uint32_t root, uint32_t *corners)
 {
     uint32_t begin = m->parts[root].any_edge;
     uint32_t edge = begin;
@@ -262,7 +228,7 @@ static uint32_t write_corners(const merger *m, uint32_t root, uint32_t *corners)
 }
 
 // Removes an edge and hands out the merge, with the edges that could have gone instead.
-static tl_result remove_and_trace(merger *m, tl_arena *arena, uint32_t edge)
+static tl_result remove_and_trace(polygon_merger *m, tl_arena *arena, uint32_t edge)
 {
     uint32_t edge_count = 3 * m->input->triangle_count;
     tl_arena_mark mark = tl_arena_get_mark(arena);
@@ -276,25 +242,25 @@ static tl_result remove_and_trace(merger *m, tl_arena *arena, uint32_t edge)
     partitions[1] = m->edges[m->edges[edge].twin].origin;
     for (uint32_t other = 0; other < edge_count; other++) {
         uint32_t twin = m->edges[other].twin;
-        if (twin != TL_NO_EDGE && other < twin && other != edge && can_go(m, other)) {
+        if (twin != TL_NO_EDGE && other < twin && other != edge && can_merge_across(m, other)) {
             partitions[2 * step.partition_count] = m->edges[other].origin;
             partitions[2 * step.partition_count++ + 1] = m->edges[twin].origin;
         }
     }
-    remove_edge(m, edge);
-    step.corner_count = write_corners(m, polygon_of(m, edge), corners);
+    remove_shared_edge(m, edge);
+    step.corner_count = write_part_corners(m, polygon_of(m, edge), corners);
     TL_TRY(tl_trace_step(m->input->tracer, arena, m->points, &step));
     tl_arena_rollback(arena, mark);
     return TL_OK;
 }
 
-static void write_parts(merger *m, tl_convex_parts *parts)
+static void write_merged_parts(polygon_merger *m, tl_convex_parts *parts)
 {
     uint32_t filled = 0;
     parts->count = m->place_count;
     for (uint32_t p = 0; p < m->place_count; p++) {
         parts->first[p] = filled;
-        filled += write_corners(m, m->at_place[p], parts->corners + filled);
+        filled += write_part_corners(m, m->at_place[p], parts->corners + filled);
     }
     parts->first[m->place_count] = filled;
     for (uint32_t t = 0; parts->part_of != NULL && t < m->input->triangle_count; t++) {
@@ -314,7 +280,7 @@ static bool allocate_parts(tl_convex_parts *parts, tl_arena *arena, const tl_mer
     return parts->first != NULL && parts->corners != NULL && (input->joined_first == NULL || parts->part_of != NULL);
 }
 
-static tl_result merge(merger *m, tl_arena *scratch)
+static tl_result merge(polygon_merger *m, tl_arena *scratch)
 {
     const uint32_t edge_count = 3 * m->input->triangle_count;
     tl_sort_item *items;
@@ -327,18 +293,18 @@ static tl_result merge(merger *m, tl_arena *scratch)
     for (uint32_t low = 0; low < count;) {
         uint32_t high = low;
         for (; high < count && items[high].key == items[low].key; high++) {
-            waiting_edge item = { 0, items[high].value };
-            heap_set(m, high - low, item);
+            m->heap[high - low] = (waiting_edge){ 0, items[high].value };
+            m->edges[items[high].value].heap_place = high - low;
         }
         m->heap_count = high - low;
         heapify(m);
         while (m->heap_count > 0) {
-            uint32_t edge = heap_pop(m);
-            if (!can_go(m, edge)) {
+            uint32_t edge = pop_edge(m);
+            if (!can_merge_across(m, edge)) {
                 continue;
             }
             if (m->input->tracer == NULL) {
-                remove_edge(m, edge);
+                remove_shared_edge(m, edge);
             } else {
                 TL_TRY(remove_and_trace(m, scratch, edge));
             }
@@ -350,7 +316,7 @@ static tl_result merge(merger *m, tl_arena *scratch)
 
 tl_result tl_merge_triangles(tl_arena *arena, const tl_merge_input *input, tl_convex_parts *parts_out)
 {
-    merger m;
+    polygon_merger m;
     memset(&m, 0, sizeof m);
     m.input = input;
     m.points = input->points;
@@ -358,11 +324,11 @@ tl_result tl_merge_triangles(tl_arena *arena, const tl_merge_input *input, tl_co
         return TL_ERR_MEMORY;
     }
     const tl_arena_mark mark = tl_arena_get_mark(arena);
-    if (!start(&m, arena)) {
+    if (!start_merge(&m, arena)) {
         return TL_ERR_MEMORY;
     }
     TL_TRY(merge(&m, arena));
-    write_parts(&m, parts_out);
+    write_merged_parts(&m, parts_out);
     tl_arena_rollback(arena, mark);
     return TL_OK;
 }

@@ -14,7 +14,7 @@
 
 #include <string.h>
 
-static uint32_t next_corner(const tl_stored_polygon *polygon, uint32_t place)
+static uint32_t next_polygon_corner(const tl_stored_polygon *polygon, uint32_t place)
 {
     return place + 1 < polygon->first + polygon->count ? place + 1 : polygon->first;
 }
@@ -27,7 +27,7 @@ static void gather_edges(const tl_polygon_store *store, uint32_t *first, tl_sort
     for (uint32_t p = 0; p < store->polygon_count; p++) {
         const tl_stored_polygon *polygon = &store->polygons[p];
         for (uint32_t place = polygon->first; place < polygon->first + polygon->count; place++) {
-            uint32_t from = store->indices[place], to = store->indices[next_corner(polygon, place)];
+            uint32_t from = store->indices[place], to = store->indices[next_polygon_corner(polygon, place)];
             first[(from < to ? from : to) + 2]++;
         }
     }
@@ -37,7 +37,7 @@ static void gather_edges(const tl_polygon_store *store, uint32_t *first, tl_sort
     for (uint32_t p = 0; p < store->polygon_count; p++) {
         const tl_stored_polygon *polygon = &store->polygons[p];
         for (uint32_t place = polygon->first; place < polygon->first + polygon->count; place++) {
-            uint32_t from = store->indices[place], to = store->indices[next_corner(polygon, place)];
+            uint32_t from = store->indices[place], to = store->indices[next_polygon_corner(polygon, place)];
             uint32_t low = from < to ? from : to, high = from < to ? to : from;
             tl_sort_item end = { (uint64_t)high << 1 | (from > to), place, p };
             ends[first[low + 1]++] = end;
@@ -59,7 +59,8 @@ static void link_claims(tl_polygon_store *store, const tl_sort_item *claims, uin
     report->non_manifold_edges += rising > 1 || falling > 1;
 }
 
-static void link_edges(tl_polygon_store *store, const tl_sort_item *ends, uint32_t count, tl_polygon_report *report)
+static void link_polygon_edges(tl_polygon_store *store, const tl_sort_item *ends, uint32_t count,
+                               tl_polygon_report *report)
 {
     for (uint32_t begin = 0, end; begin < count; begin = end) {
         uint32_t rising = 0;
@@ -70,7 +71,8 @@ static void link_edges(tl_polygon_store *store, const tl_sort_item *ends, uint32
     }
 }
 
-static uint32_t portal_side(const tl_polygon_store *store, const tl_contour_set *contours, uint32_t from, uint32_t to)
+static uint32_t portal_side_of_edge(const tl_polygon_store *store, const tl_contour_set *contours, uint32_t from,
+                                    uint32_t to)
 {
     tl_lattice_point a = tl_stored_point(store, from);
     tl_lattice_point b = tl_stored_point(store, to);
@@ -95,8 +97,8 @@ static void mark_portals(tl_polygon_store *store, const tl_contour_set *contours
         const tl_stored_polygon *polygon = &store->polygons[p];
         for (uint32_t place = polygon->first; place < polygon->first + polygon->count; place++) {
             if (store->neighbours[place] == TL_NO_POLYGON) {
-                store->neighbours[place] =
-                    portal_side(store, contours, store->indices[place], store->indices[next_corner(polygon, place)]);
+                store->neighbours[place] = portal_side_of_edge(store, contours, store->indices[place],
+                                                               store->indices[next_polygon_corner(polygon, place)]);
                 report->portal_count += store->neighbours[place] != TL_NO_POLYGON;
             }
         }
@@ -118,7 +120,7 @@ tl_result tl_link_neighbours(tl_polygon_store *store, tl_arena *scratch, const t
     for (uint32_t v = 0; v < store->vertex_count; v++) {
         // Stable: of each direction the earliest come first.
         tl_radix_sort(ends + first[v], spare, first[v + 1] - first[v]);
-        link_edges(store, ends + first[v], first[v + 1] - first[v], report);
+        link_polygon_edges(store, ends + first[v], first[v + 1] - first[v], report);
     }
     if (contours->border_size > 0) {
         mark_portals(store, contours, report);

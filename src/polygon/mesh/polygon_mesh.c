@@ -21,7 +21,7 @@
 // What a contour that touches itself nowhere takes of scratch memory, most of it while its triangles are merged.
 #define SCRATCH_BYTES_A_VERTEX 200u
 
-typedef struct builder {
+typedef struct polygon_mesh_builder {
     const tl_contour_set *contours;
     const tl_polygon_def *def;
     tl_arena arena;   // lives as long as the build
@@ -29,7 +29,7 @@ typedef struct builder {
     tl_polygon_store store;
     tl_place_counts places; // with drop_straight_vertices
     tl_polygon_report report;
-} builder;
+} polygon_mesh_builder;
 
 tl_polygon_def tl_default_polygon_def(void)
 {
@@ -42,8 +42,8 @@ tl_polygon_def tl_default_polygon_def(void)
     return def;
 }
 
-static tl_result check_arguments(const tl_contour_set *set, const tl_polygon_def *def, uint32_t *vertex_count,
-                                 tl_report *report)
+static tl_result check_polygon_arguments(const tl_contour_set *set, const tl_polygon_def *def, uint32_t *vertex_count,
+                                         tl_report *report)
 {
     TL_TRY(tl_def_check(def->cookie, "begin with tl_default_polygon_def()", report));
     if (def->max_verts_per_poly != 0 && (def->max_verts_per_poly < 3 || def->max_verts_per_poly > 64)) {
@@ -78,7 +78,7 @@ static tl_result check_arguments(const tl_contour_set *set, const tl_polygon_def
 }
 
 // Merges the outline's nodes with those of earlier contours. Nodes that no walk uses make no vertex.
-static tl_result merge_vertices(builder *b, const tl_outline *outline, uint32_t *map)
+static tl_result merge_vertices(polygon_mesh_builder *b, const tl_outline *outline, uint32_t *map)
 {
     const tl_outline_nodes *nodes = &outline->nodes;
     if (!outline->is_plain) {
@@ -96,7 +96,7 @@ static tl_result merge_vertices(builder *b, const tl_outline *outline, uint32_t 
     return TL_OK;
 }
 
-static tl_result divide(builder *b, uint32_t contour, const tl_outline *outline)
+static tl_result divide_contour(polygon_mesh_builder *b, uint32_t contour, const tl_outline *outline)
 {
     uint32_t *map = TL_PUSH(&b->scratch, uint32_t, outline->nodes.count);
     if (map == NULL) {
@@ -134,7 +134,8 @@ static int64_t stored_area2(const tl_polygon_store *store, uint32_t first_polygo
 
 // Prepares a contour without its straight vertices, where any may go. Not where it needs a repair: crossings that stand
 // on such a vertex would be rounded to the lattice without need.
-static tl_result prepare_without_straight(builder *b, const tl_contour *contour, tl_outline *outline, bool *is_prepared)
+static tl_result prepare_without_straight(polygon_mesh_builder *b, const tl_contour *contour, tl_outline *outline,
+                                          bool *is_prepared)
 {
     tl_contour_vertex *kept = TL_PUSH(&b->scratch, tl_contour_vertex, contour->vertex_count);
     if (kept == NULL) {
@@ -150,7 +151,7 @@ static tl_result prepare_without_straight(builder *b, const tl_contour *contour,
     return TL_OK;
 }
 
-static tl_result add_contour(builder *b, uint32_t index)
+static tl_result add_contour(polygon_mesh_builder *b, uint32_t index)
 {
     const tl_contour *contour = &b->contours->contours[index];
     uint32_t first_polygon = b->store.polygon_count;
@@ -164,7 +165,7 @@ static tl_result add_contour(builder *b, uint32_t index)
                                   b->def->merge_height, &outline));
     }
     if (outline.walk_count > 0) {
-        TL_TRY(divide(b, index, &outline));
+        TL_TRY(divide_contour(b, index, &outline));
     }
     if (outline.faults == 0) {
         return TL_OK;
@@ -189,7 +190,7 @@ static tl_result add_contour(builder *b, uint32_t index)
     return tl_polygon_store_note(&b->store, &note);
 }
 
-static tl_result add_contours(builder *b)
+static tl_result add_contours(polygon_mesh_builder *b)
 {
     uint32_t count = b->contours->contour_count;
     for (uint32_t i = 0; i < count; i++) {
@@ -212,7 +213,7 @@ static size_t take(size_t *used, uint64_t count, size_t size)
     return offset;
 }
 
-static tl_result write_mesh(builder *b, tl_polygon_mesh *mesh)
+static tl_result write_mesh(polygon_mesh_builder *b, tl_polygon_mesh *mesh)
 {
     const tl_polygon_store *store = &b->store;
     uint32_t polygons = store->polygon_count;
@@ -276,10 +277,10 @@ static uint32_t most_vertices(const tl_contour_set *contours)
     return most;
 }
 
-static tl_result build(builder *b, tl_polygon_mesh *mesh_out)
+static tl_result build_mesh(polygon_mesh_builder *b, tl_polygon_mesh *mesh_out)
 {
     uint32_t vertex_count = 0;
-    TL_TRY(check_arguments(b->contours, b->def, &vertex_count, &b->report.base));
+    TL_TRY(check_polygon_arguments(b->contours, b->def, &vertex_count, &b->report.base));
     // A first block that stays, large enough for most contours: none of them should cost an allocation.
     if (!tl_arena_reserve(&b->scratch, SCRATCH_BYTES_A_VERTEX * (uint64_t)most_vertices(b->contours))) {
         return TL_ERR_MEMORY;
@@ -315,7 +316,7 @@ tl_result tl_polygon_mesh_bake(const tl_contour_set *contours, const tl_polygon_
     TL_REFUSE_NULL(contours, base);
     const tl_polygon_def defaults = tl_default_polygon_def();
     def = def != NULL ? def : &defaults;
-    builder b;
+    polygon_mesh_builder b;
     memset(&b, 0, sizeof b);
     b.contours = contours;
     b.def = def;
@@ -323,7 +324,7 @@ tl_result tl_polygon_mesh_bake(const tl_contour_set *contours, const tl_polygon_
     tl_report_begin(&b.report.base, "polygons");
     tl_arena_init(&b.arena, def->host.allocator);
     tl_arena_init(&b.scratch, def->host.allocator);
-    tl_result result = build(&b, mesh_out);
+    tl_result result = build_mesh(&b, mesh_out);
     b.report.base.peak_bytes = b.arena.peak_bytes + b.scratch.peak_bytes + (result == TL_OK ? mesh_out->block_size : 0);
     tl_arena_free(&b.scratch);
     tl_arena_free(&b.arena);

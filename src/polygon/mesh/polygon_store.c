@@ -13,9 +13,9 @@
 
 // Of all arrays together, neighbours among them, as long as repairs add none: a contour of n vertices makes n - 2
 // triangles at most. What is not used is never touched.
-#define BYTES_A_VERTEX 112u
+#define STORE_BYTES_A_VERTEX 112u
 
-static tl_result reserve(tl_arena *arena, void **array, uint64_t used, uint64_t capacity, size_t size)
+static tl_result reserve_store(tl_arena *arena, void **array, uint64_t used, uint64_t capacity, size_t size)
 {
     void *larger = tl_arena_push(arena, capacity, size);
     if (larger == NULL) {
@@ -29,7 +29,7 @@ static tl_result reserve(tl_arena *arena, void **array, uint64_t used, uint64_t 
 }
 
 #define RESERVE(store, array, used, capacity)                                                                          \
-    TL_TRY(reserve((store)->arena, (void **)&(store)->array, (used), (capacity), sizeof *(store)->array))
+    TL_TRY(reserve_store((store)->arena, (void **)&(store)->array, (used), (capacity), sizeof *(store)->array))
 
 static tl_result grow_vertices(tl_polygon_store *s, uint32_t capacity)
 {
@@ -56,7 +56,7 @@ tl_result tl_polygon_store_init(tl_polygon_store *store, tl_arena *arena, const 
     memset(store, 0, sizeof *store);
     store->arena = arena;
     store->merge_height = def->merge_height;
-    if (!tl_arena_reserve(arena, BYTES_A_VERTEX * (uint64_t)vertex_count)) {
+    if (!tl_arena_reserve(arena, STORE_BYTES_A_VERTEX * (uint64_t)vertex_count)) {
         return TL_ERR_MEMORY;
     }
     TL_TRY(grow_vertices(store, vertex_count + 16));

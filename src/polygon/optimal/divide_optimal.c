@@ -21,29 +21,29 @@
 // spread angles take several times as many steps.
 #define ALWAYS_SOLVED 128
 // Larger outlines are given up above these limits. All but the largest of levels stay below them.
-#define MOST_CHORDS  (1u << 16)
-#define MOST_STEPS   (1u << 22)
-#define MOST_CORNERS (1u << 12)
+#define MAX_SOLVED_CHORDS  (1u << 16)
+#define MAX_SOLVED_STEPS   (1u << 22)
+#define MAX_SOLVED_CORNERS (1u << 12)
 // A piece has at most 2 * PIECE_TRIANGLES + 1 triangles.
 #define PIECE_TRIANGLES 32
 
-static uint32_t next_edge(uint32_t edge)
+static uint32_t next_in_triangle(uint32_t edge)
 {
     return edge % 3 < 2 ? edge + 1 : edge - 2;
 }
 
-static tl_result solve(tl_arena *arena, const tl_lattice_point *points, uint32_t count, const uint32_t *triangles,
-                       const uint32_t *twins, uint32_t max_corners, tl_convex_parts *parts, bool *found)
+static tl_result solve_exactly(tl_arena *arena, const tl_triangulated_outline *outline, uint32_t max_corners,
+                               tl_convex_parts *parts, bool *found)
 {
     *found = false;
-    if (count > MOST_CORNERS) {
+    if (outline->count > MAX_SOLVED_CORNERS) {
         return TL_OK;
     }
     tl_visibility visibility;
-    TL_TRY(tl_find_visibility(arena, points, count, triangles, twins, MOST_CHORDS, &visibility, found));
+    TL_TRY(tl_find_visibility(arena, outline, MAX_SOLVED_CHORDS, &visibility, found));
     if (*found) {
-        uint64_t max_steps = count <= ALWAYS_SOLVED ? UINT64_MAX : MOST_STEPS;
-        TL_TRY(tl_partition_optimally(arena, points, count, &visibility, max_corners, max_steps, parts, found));
+        uint64_t max_steps = outline->count <= ALWAYS_SOLVED ? UINT64_MAX : MAX_SOLVED_STEPS;
+        TL_TRY(tl_partition_optimally(arena, outline, &visibility, max_corners, max_steps, parts, found));
     }
     return TL_OK;
 }
@@ -93,16 +93,29 @@ typedef struct piece_outline {
     uint32_t *twins;
 } piece_outline;
 
-static bool is_border(const uint32_t *twins, const uint32_t *piece, uint32_t edge)
+static tl_triangulated_outline triangulated_view(const piece_outline *outline)
+{
+    tl_triangulated_outline view = { outline->points, outline->count, outline->triangles, outline->twins };
+    return view;
+}
+
+// The triangles of a piece.
+typedef struct piece_members {
+    const uint32_t *piece;     // [triangle of the walk] its piece
+    const uint32_t *rank;      // [triangle of the walk] its place among `triangles`
+    const uint32_t *triangles; // [count] those of this piece
+    uint32_t count;
+} piece_members;
+
+static bool is_piece_border(const uint32_t *twins, const uint32_t *piece, uint32_t edge)
 {
     return twins[edge] == TL_NO_EDGE || piece[twins[edge] / 3] != piece[edge / 3];
 }
 
-// `members` are the piece's triangles, rank[t] the place of each among them.
 static bool trace_piece(tl_arena *arena, const tl_lattice_point *points, const tl_outline_triangles *all,
-                        const uint32_t *piece, const uint32_t *members, uint32_t member_count, const uint32_t *rank,
-                        piece_outline *out)
+                        const piece_members *members, piece_outline *out)
 {
+    const uint32_t member_count = members->count, *rank = members->rank;
     out->points = TL_PUSH(arena, tl_lattice_point, (uint64_t)member_count + 2);
     out->names = TL_PUSH(arena, uint32_t, (uint64_t)member_count + 2);
     out->triangles = TL_PUSH(arena, uint32_t, 3 * (uint64_t)member_count);
@@ -113,8 +126,8 @@ static bool trace_piece(tl_arena *arena, const tl_lattice_point *points, const t
     uint32_t start = TL_NO_EDGE;
     for (uint32_t m = 0; m < member_count; m++) {
         for (uint32_t k = 0; k < 3; k++) {
-            uint32_t edge = 3 * members[m] + k;
-            bool border = is_border(all->twins, piece, edge);
+            uint32_t edge = 3 * members->triangles[m] + k;
+            bool border = is_piece_border(all->twins, members->piece, edge);
             uint32_t twin = all->twins[edge];
             out->twins[3 * m + k] = border ? TL_NO_EDGE : 3 * rank[twin / 3] + twin % 3;
             start = border ? edge : start;
@@ -125,9 +138,9 @@ static bool trace_piece(tl_arena *arena, const tl_lattice_point *points, const t
     out->count = 0;
     do {
         uint32_t corner = out->count++;
-        for (edge = next_edge(edge);; edge = next_edge(all->twins[edge])) {
+        for (edge = next_in_triangle(edge);; edge = next_in_triangle(all->twins[edge])) {
             out->triangles[3 * rank[edge / 3] + edge % 3] = corner;
-            if (is_border(all->twins, piece, edge)) {
+            if (is_piece_border(all->twins, members->piece, edge)) {
                 break;
             }
         }
@@ -166,14 +179,15 @@ static tl_result solve_pieces(tl_arena *arena, const tl_lattice_point *points, c
     }
     for (uint32_t p = 0; p < piece_count; p++) {
         tl_arena_mark mark = tl_arena_get_mark(arena);
+        const piece_members of_piece = { piece, rank, members + first[p], first[p + 1] - first[p] };
         piece_outline outline;
-        if (!trace_piece(arena, points, walk, piece, members + first[p], first[p + 1] - first[p], rank, &outline)) {
+        if (!trace_piece(arena, points, walk, &of_piece, &outline)) {
             return TL_ERR_MEMORY;
         }
         tl_convex_parts parts;
         bool found;
-        TL_TRY(
-            solve(arena, outline.points, outline.count, outline.triangles, outline.twins, max_corners, &parts, &found));
+        const tl_triangulated_outline view = triangulated_view(&outline);
+        TL_TRY(solve_exactly(arena, &view, max_corners, &parts, &found));
         TL_ASSERT(found);
         add_fans(f, &parts, outline.names);
         tl_arena_rollback(arena, mark);
@@ -193,13 +207,14 @@ static tl_result solve_walk(tl_arena *arena, const tl_lattice_point *points, con
     for (uint32_t t = 0; t < walk->count; t++) {
         members[t] = t;
     }
+    const piece_members all = { piece, members, members, walk->count };
     piece_outline outline;
-    if (!trace_piece(arena, points, walk, piece, members, walk->count, members, &outline)) {
+    if (!trace_piece(arena, points, walk, &all, &outline)) {
         return TL_ERR_MEMORY;
     }
     tl_convex_parts parts;
-    TL_TRY(
-        solve(arena, outline.points, outline.count, outline.triangles, outline.twins, max_corners, &parts, is_exact));
+    const tl_triangulated_outline view = triangulated_view(&outline);
+    TL_TRY(solve_exactly(arena, &view, max_corners, &parts, is_exact));
     if (!*is_exact) {
         return solve_pieces(arena, points, walk, max_corners, f);
     }
@@ -249,8 +264,8 @@ tl_result tl_divide_optimally(tl_arena *arena, const tl_outline *outline, uint32
 {
     const tl_lattice_point *points = outline->nodes.points;
     if (outline->is_plain) {
-        TL_TRY(solve(arena, points, outline->nodes.count, triangles->corners, triangles->twins, max_corners, parts_out,
-                     is_exact));
+        const tl_triangulated_outline view = { points, outline->nodes.count, triangles->corners, triangles->twins };
+        TL_TRY(solve_exactly(arena, &view, max_corners, parts_out, is_exact));
         if (*is_exact) {
             return TL_OK;
         }

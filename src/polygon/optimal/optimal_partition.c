@@ -24,7 +24,7 @@
 
 #include <string.h>
 
-#define NONE UINT32_MAX
+#define NO_CORNER UINT32_MAX
 
 typedef struct chain {
     uint32_t before; // the corner before the last one
@@ -48,7 +48,7 @@ typedef struct arrival {
     uint32_t chord;
 } arrival;
 
-typedef struct partition {
+typedef struct partition_solver {
     tl_arena *arena;
     const tl_lattice_point *points;
     const tl_visibility *visibility;
@@ -62,9 +62,9 @@ typedef struct partition {
     chain *chains;
     uint32_t chain_count, chain_capacity;
     uint64_t steps, max_steps;
-} partition;
+} partition_solver;
 
-static bool allocate(partition *p)
+static bool allocate_partition(partition_solver *p)
 {
     uint32_t n = p->count;
     p->chord_count = p->visibility->first[n];
@@ -78,7 +78,7 @@ static bool allocate(partition *p)
            p->chains != NULL;
 }
 
-static void sort_arrivals(partition *p)
+static void sort_arrivals(partition_solver *p)
 {
     const tl_visibility *seen = p->visibility;
     for (uint32_t k = 0; k < p->chord_count; k++) {
@@ -97,7 +97,7 @@ static void sort_arrivals(partition *p)
     memset(p->chord_to, 0xff, p->count * sizeof *p->chord_to);
 }
 
-static bool make_room(partition *p)
+static bool grow_bases(partition_solver *p)
 {
     if (p->chain_count < p->chain_capacity) {
         return true;
@@ -114,14 +114,14 @@ static bool make_room(partition *p)
 }
 
 // Whether whatever can follow b at corner v, or close it, can do so with a as well.
-static bool is_as_good(const partition *p, const chain *a, const chain *b, uint32_t v, bool apex_is_reflex)
+static bool is_as_good(const partition_solver *p, const chain *a, const chain *b, uint32_t v, bool apex_is_reflex)
 {
     return a->count <= b->count && (!apex_is_reflex || a->second >= b->second) &&
            (a->before == b->before || tl_turn(p->points[v], p->points[a->before], p->points[b->before]) >= 0);
 }
 
 // Adds a chain to those of a chord, the last chord that has any.
-static tl_result keep_chain(partition *p, chord *at, const chain *item, bool apex_is_reflex)
+static tl_result keep_chain(partition_solver *p, chord *at, const chain *item, bool apex_is_reflex)
 {
     chain *kept = p->chains + at->first_chain;
     p->steps += at->chain_count;
@@ -137,7 +137,7 @@ static tl_result keep_chain(partition *p, chord *at, const chain *item, bool ape
         }
     }
     p->chain_count = at->first_chain + left;
-    if (!make_room(p)) {
+    if (!grow_bases(p)) {
         return TL_ERR_MEMORY;
     }
     p->chains[p->chain_count++] = *item;
@@ -146,7 +146,7 @@ static tl_result keep_chain(partition *p, chord *at, const chain *item, bool ape
 }
 
 // A cheaper cost than all so far: what was kept goes.
-static void lower_cost(partition *p, chord *at, uint32_t cost)
+static void lower_cost(partition_solver *p, chord *at, uint32_t cost)
 {
     if (cost + 1 < at->fewest) {
         at->fewest = cost + 1;
@@ -156,7 +156,7 @@ static void lower_cost(partition *p, chord *at, uint32_t cost)
 }
 
 // Lets the chains that end in the arrival's corner go on to the chord's end.
-static tl_result extend(partition *p, uint32_t i, chord *at, const arrival *by, bool apex_is_reflex)
+static tl_result extend(partition_solver *p, uint32_t i, chord *at, const arrival *by, bool apex_is_reflex)
 {
     const uint32_t start = p->chord_to[by->from];
     const chord from = p->chords[start];
@@ -182,14 +182,14 @@ static tl_result extend(partition *p, uint32_t i, chord *at, const arrival *by, 
     }
     if (!extended && from.fewest + rest < at->fewest) {
         lower_cost(p, at, from.fewest + rest);
-        chain fresh = { u, u, 3 * step, NONE, by->chord, start };
+        chain fresh = { u, u, 3 * step, NO_CORNER, by->chord, start };
         TL_TRY(keep_chain(p, at, &fresh, apex_is_reflex));
     }
     return TL_OK;
 }
 
 // All chords from corner i, by rising other end.
-static tl_result solve_corner(partition *p, uint32_t i, bool *found)
+static tl_result solve_corner(partition_solver *p, uint32_t i, bool *found)
 {
     const tl_visibility *seen = p->visibility;
     const tl_lattice_point *points = p->points;
@@ -204,10 +204,10 @@ static tl_result solve_corner(partition *p, uint32_t i, bool *found)
             at->fewest = 0;
             continue;
         }
-        at->fewest = NONE;
+        at->fewest = NO_CORNER;
         const arrival *first = &p->arrivals[p->arrival_first[at->to]], *by = first;
         for (; by->from > i; by++) {
-            if (p->chord_to[by->from] != NONE) {
+            if (p->chord_to[by->from] != NO_CORNER) {
                 TL_TRY(extend(p, i, at, by, apex_is_reflex));
             }
         }
@@ -215,13 +215,13 @@ static tl_result solve_corner(partition *p, uint32_t i, bool *found)
         *found = p->steps <= p->max_steps;
     }
     for (uint32_t k = seen->first[i]; k < seen->first[i + 1]; k++) {
-        p->chord_to[seen->to[k]] = NONE;
+        p->chord_to[seen->to[k]] = NO_CORNER;
     }
     return TL_OK;
 }
 
 // The base polygon of a chord, its corners rising; chords of its edges that are not on the outline go on the stack.
-static uint32_t write_base(const partition *p, uint32_t i, const chord *at, uint32_t *corners, uint32_t *stack,
+static uint32_t write_base(const partition_solver *p, uint32_t i, const chord *at, uint32_t *corners, uint32_t *stack,
                            uint32_t *depth)
 {
     uint32_t count = 0;
@@ -234,7 +234,7 @@ static uint32_t write_base(const partition *p, uint32_t i, const chord *at, uint
         }
         last = c->before;
         corners[count++] = last;
-        if (c->back == NONE) {
+        if (c->back == NO_CORNER) {
             break;
         }
         c = &p->chains[c->back];
@@ -251,7 +251,7 @@ static uint32_t write_base(const partition *p, uint32_t i, const chord *at, uint
     return count;
 }
 
-static tl_result write_parts(const partition *p, tl_convex_parts *parts)
+static tl_result write_solved_parts(const partition_solver *p, tl_convex_parts *parts)
 {
     // The chord (0, n - 1) is the last one from corner 0.
     const uint32_t root = p->visibility->first[1] - 1;
@@ -281,25 +281,25 @@ static tl_result write_parts(const partition *p, tl_convex_parts *parts)
     return TL_OK;
 }
 
-tl_result tl_partition_optimally(tl_arena *arena, const tl_lattice_point *points, uint32_t count,
+tl_result tl_partition_optimally(tl_arena *arena, const tl_triangulated_outline *outline,
                                  const tl_visibility *visibility, uint32_t max_corners, uint64_t max_steps,
                                  tl_convex_parts *parts_out, bool *found)
 {
-    partition p;
+    partition_solver p;
     memset(&p, 0, sizeof p);
     p.arena = arena;
-    p.points = points;
+    p.points = outline->points;
     p.visibility = visibility;
-    p.count = count;
+    p.count = outline->count;
     p.max_corners = max_corners;
     p.max_steps = max_steps;
     *found = true;
-    if (!allocate(&p)) {
+    if (!allocate_partition(&p)) {
         return TL_ERR_MEMORY;
     }
     sort_arrivals(&p);
-    for (uint32_t i = count - 1; i-- > 0 && *found;) {
+    for (uint32_t i = outline->count - 1; i-- > 0 && *found;) {
         TL_TRY(solve_corner(&p, i, found));
     }
-    return *found ? write_parts(&p, parts_out) : TL_OK;
+    return *found ? write_solved_parts(&p, parts_out) : TL_OK;
 }

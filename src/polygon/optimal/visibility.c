@@ -19,22 +19,22 @@
 #include <string.h>
 
 // An edge that the cone between two corners leaves a triangle by; or, with edge TL_NO_EDGE, a corner to be listed.
-typedef struct crossing {
+typedef struct gate_edge {
     uint32_t edge;
     uint32_t low, high;
-} crossing;
+} gate_edge;
 
 typedef struct viewer {
     const tl_lattice_point *points;
     const uint32_t *triangles;
     const uint32_t *twins;
-    crossing *stack;
+    gate_edge *stack;
     uint32_t *to;
     uint64_t count, limit;
     uint64_t steps, max_steps;
 } viewer;
 
-static uint32_t next_edge(uint32_t edge)
+static uint32_t next_edge_of_triangle(uint32_t edge)
 {
     return edge % 3 < 2 ? edge + 1 : edge - 2;
 }
@@ -45,13 +45,13 @@ static uint32_t opposite_corner(const viewer *v, uint32_t edge)
 }
 
 // Lists what is seen from `eye` through one edge of a triangle at it. False: too many.
-static bool look_through(viewer *v, uint32_t eye, crossing gate)
+static bool look_through(viewer *v, uint32_t eye, gate_edge gate)
 {
     const tl_lattice_point p = v->points[eye];
     uint32_t depth = 0;
     v->stack[depth++] = gate;
     while (depth > 0) {
-        crossing at = v->stack[--depth];
+        gate_edge at = v->stack[--depth];
         if (at.edge == TL_NO_EDGE) {
             if (v->count == v->limit) {
                 return false;
@@ -70,14 +70,14 @@ static bool look_through(viewer *v, uint32_t eye, crossing gate)
         uint32_t apex = opposite_corner(v, twin);
         bool above_low = tl_turn(p, v->points[at.low], v->points[apex]) > 0;
         bool below_high = tl_turn(p, v->points[apex], v->points[at.high]) > 0;
-        uint32_t early = next_edge(twin);
-        crossing late_gate = { next_edge(early), above_low ? apex : at.low, at.high };
-        crossing early_gate = { early, at.low, below_high ? apex : at.high };
+        uint32_t early = next_edge_of_triangle(twin);
+        gate_edge late_gate = { next_edge_of_triangle(early), above_low ? apex : at.low, at.high };
+        gate_edge early_gate = { early, at.low, below_high ? apex : at.high };
         if (below_high) {
             v->stack[depth++] = late_gate;
         }
         if (above_low && below_high && apex > eye) {
-            crossing seen = { TL_NO_EDGE, apex, 0 };
+            gate_edge seen = { TL_NO_EDGE, apex, 0 };
             v->stack[depth++] = seen;
         }
         if (above_low) {
@@ -88,17 +88,17 @@ static bool look_through(viewer *v, uint32_t eye, crossing gate)
 }
 
 // All that corner `eye` sees, triangle by triangle around it. `edge` starts at it and lies on the outline.
-static bool look_around(viewer *v, uint32_t eye, uint32_t edge)
+static bool look_from_corner(viewer *v, uint32_t eye, uint32_t edge)
 {
     if (v->count == v->limit) {
         return false;
     }
-    uint32_t last = v->triangles[next_edge(edge)];
+    uint32_t last = v->triangles[next_edge_of_triangle(edge)];
     v->to[v->count++] = last;
     while (edge != TL_NO_EDGE && last > eye) {
-        uint32_t across = next_edge(edge);
-        uint32_t corner = v->triangles[next_edge(across)];
-        crossing gate = { across, last, corner };
+        uint32_t across = next_edge_of_triangle(edge);
+        uint32_t corner = v->triangles[next_edge_of_triangle(across)];
+        gate_edge gate = { across, last, corner };
         if (!look_through(v, eye, gate)) {
             return false;
         }
@@ -109,26 +109,27 @@ static bool look_around(viewer *v, uint32_t eye, uint32_t edge)
             v->to[v->count++] = corner;
         }
         last = corner;
-        edge = v->twins[next_edge(across)];
+        edge = v->twins[next_edge_of_triangle(across)];
     }
     return true;
 }
 
-tl_result tl_find_visibility(tl_arena *arena, const tl_lattice_point *points, uint32_t count, const uint32_t *triangles,
-                             const uint32_t *twins, uint64_t max_chords, tl_visibility *visibility_out, bool *found)
+tl_result tl_find_visibility(tl_arena *arena, const tl_triangulated_outline *outline, uint64_t max_chords,
+                             tl_visibility *visibility_out, bool *found)
 {
+    const uint32_t count = outline->count;
     // Hidden corners cost a step without being listed; outlines with many of them per chord are given up as well.
     enum { STEPS_PER_CHORD = 8 };
     const uint64_t all_chords = (uint64_t)count * (count - 1) / 2;
     viewer v;
     memset(&v, 0, sizeof v);
-    v.points = points;
-    v.triangles = triangles;
-    v.twins = twins;
+    v.points = outline->points;
+    v.triangles = outline->triangles;
+    v.twins = outline->twins;
     v.limit = max_chords < all_chords ? max_chords : all_chords;
     v.max_steps = STEPS_PER_CHORD * max_chords;
     // Each triangle entered takes one place and leaves at most three.
-    v.stack = TL_PUSH(arena, crossing, 2 * (uint64_t)count + 1);
+    v.stack = TL_PUSH(arena, gate_edge, 2 * (uint64_t)count + 1);
     v.to = TL_PUSH(arena, uint32_t, v.limit);
     uint32_t *first = TL_PUSH(arena, uint32_t, (uint64_t)count + 1);
     uint32_t *outline_edge = TL_PUSH(arena, uint32_t, count);
@@ -136,14 +137,14 @@ tl_result tl_find_visibility(tl_arena *arena, const tl_lattice_point *points, ui
         return TL_ERR_MEMORY;
     }
     for (uint32_t edge = 0; edge < 3 * (count - 2); edge++) {
-        if (twins[edge] == TL_NO_EDGE) {
-            outline_edge[triangles[edge]] = edge;
+        if (outline->twins[edge] == TL_NO_EDGE) {
+            outline_edge[outline->triangles[edge]] = edge;
         }
     }
     *found = true;
     for (uint32_t i = 0; i + 1 < count && *found; i++) {
         first[i] = (uint32_t)v.count;
-        *found = look_around(&v, i, outline_edge[i]);
+        *found = look_from_corner(&v, i, outline_edge[i]);
     }
     if (*found) {
         first[count - 1] = first[count] = (uint32_t)v.count;

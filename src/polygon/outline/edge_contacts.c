@@ -25,24 +25,24 @@ enum { MAX_CROSSINGS = 1 << 20, MAX_ROUNDS = 16 };
 enum { SMALLEST_SWEEP = 128 };
 
 // Node `node` is to be put into segment `segment`.
-typedef struct split {
+typedef struct split_contact_edge {
     uint32_t segment, node;
-} split;
+} split_contact_edge;
 
-typedef struct splitter {
+typedef struct edge_splitter {
     tl_arena *arena;
     tl_outline_nodes *nodes;
     tl_lattice_segment *segments; // each undirected edge once, however often it is run along
     uint32_t *source;             // [segment] first directed edge along it
     uint32_t segment_count;
     uint32_t *segment_of; // [edge]
-    split *splits;
+    split_contact_edge *splits;
     uint32_t split_count, split_capacity;
     uint32_t crossings;
     uint32_t first_contact; // lowest directed edge of a contact
-} splitter;
+} edge_splitter;
 
-static void *grow(tl_arena *arena, const void *old, uint64_t old_count, uint64_t new_count, size_t size)
+static void *grow_edges(tl_arena *arena, const void *old, uint64_t old_count, uint64_t new_count, size_t size)
 {
     void *array = tl_arena_push(arena, new_count, size);
     if (array != NULL && old_count > 0) {
@@ -51,11 +51,11 @@ static void *grow(tl_arena *arena, const void *old, uint64_t old_count, uint64_t
     return array;
 }
 
-static tl_result add_split(splitter *s, uint32_t segment_index, uint32_t node)
+static tl_result add_split(edge_splitter *s, uint32_t segment_index, uint32_t node)
 {
     if (s->split_count == s->split_capacity) {
         uint32_t capacity = s->split_capacity > 0 ? 2 * s->split_capacity : 16;
-        s->splits = grow(s->arena, s->splits, s->split_count, capacity, sizeof(split));
+        s->splits = grow_edges(s->arena, s->splits, s->split_count, capacity, sizeof(split_contact_edge));
         if (s->splits == NULL) {
             return TL_ERR_MEMORY;
         }
@@ -66,14 +66,14 @@ static tl_result add_split(splitter *s, uint32_t segment_index, uint32_t node)
     return TL_OK;
 }
 
-static tl_result add_node(splitter *s, tl_lattice_point point, int32_t height)
+static tl_result add_crossing_node(edge_splitter *s, tl_lattice_point point, int32_t height)
 {
     tl_outline_nodes *nodes = s->nodes;
     if (nodes->count == nodes->capacity) {
         uint32_t capacity = 2 * nodes->capacity;
-        nodes->points = grow(s->arena, nodes->points, nodes->count, capacity, sizeof *nodes->points);
-        nodes->heights = grow(s->arena, nodes->heights, nodes->count, capacity, sizeof *nodes->heights);
-        nodes->is_border = grow(s->arena, nodes->is_border, nodes->count, capacity, sizeof *nodes->is_border);
+        nodes->points = grow_edges(s->arena, nodes->points, nodes->count, capacity, sizeof *nodes->points);
+        nodes->heights = grow_edges(s->arena, nodes->heights, nodes->count, capacity, sizeof *nodes->heights);
+        nodes->is_border = grow_edges(s->arena, nodes->is_border, nodes->count, capacity, sizeof *nodes->is_border);
         if (nodes->points == NULL || nodes->heights == NULL || nodes->is_border == NULL) {
             return TL_ERR_MEMORY;
         }
@@ -105,7 +105,7 @@ static int32_t scale_rounded(int64_t distance, uint64_t numerator, uint64_t deno
 }
 
 // The lattice point nearest to where two segments cross.
-static tl_result add_crossing(splitter *s, uint32_t first, uint32_t second)
+static tl_result add_crossing(edge_splitter *s, uint32_t first, uint32_t second)
 {
     const tl_lattice_point *points = s->nodes->points;
     tl_lattice_segment f = s->segments[first];
@@ -121,10 +121,10 @@ static tl_result add_crossing(splitter *s, uint32_t first, uint32_t second)
     tl_lattice_point point = { a.x + scale_rounded((int64_t)b.x - a.x, from_a, from_a + from_b),
                                a.z + scale_rounded((int64_t)b.z - a.z, from_a, from_a + from_b) };
     int64_t rise = (int64_t)heights[f.b] - heights[f.a];
-    return add_node(s, point, heights[f.a] + scale_rounded(rise, from_a, from_a + from_b));
+    return add_crossing_node(s, point, heights[f.a] + scale_rounded(rise, from_a, from_a + from_b));
 }
 
-static void note_contact(splitter *s, uint32_t first, uint32_t second)
+static void note_contact(edge_splitter *s, uint32_t first, uint32_t second)
 {
     uint32_t a = s->source[first];
     uint32_t b = s->source[second];
@@ -133,7 +133,7 @@ static void note_contact(splitter *s, uint32_t first, uint32_t second)
 }
 
 // A node of `other` inside the segment becomes a split.
-static tl_result touch(splitter *s, uint32_t index, uint32_t other, uint32_t node, bool *touches)
+static tl_result touch(edge_splitter *s, uint32_t index, uint32_t other, uint32_t node, bool *touches)
 {
     const tl_lattice_point *points = s->nodes->points;
     tl_lattice_segment e = s->segments[index];
@@ -146,7 +146,7 @@ static tl_result touch(splitter *s, uint32_t index, uint32_t other, uint32_t nod
     return add_split(s, index, node);
 }
 
-static tl_result test_pair(splitter *s, uint32_t first, uint32_t second)
+static tl_result test_pair(edge_splitter *s, uint32_t first, uint32_t second)
 {
     tl_lattice_segment e = s->segments[first];
     tl_lattice_segment f = s->segments[second];
@@ -177,7 +177,7 @@ static uint64_t sort_key(int32_t x)
 }
 
 // All pairs of segments whose boxes overlap, by sorting along x.
-static tl_result test_all_pairs(splitter *s)
+static tl_result test_all_pairs(edge_splitter *s)
 {
     uint32_t count = s->segment_count;
     tl_sort_item *order = TL_PUSH(s->arena, tl_sort_item, 2 * (uint64_t)count);
@@ -208,7 +208,7 @@ static tl_result test_all_pairs(splitter *s)
 }
 
 // Nodes of crossings may fall on others: their numbers are replaced by the first one's. Returns by replacing `count`.
-static tl_result unite_new_nodes(splitter *s)
+static tl_result unite_new_nodes(edge_splitter *s)
 {
     tl_outline_nodes *nodes = s->nodes;
     tl_key_table table;
@@ -248,7 +248,7 @@ static bool meets_square(tl_lattice_point a, tl_lattice_point b, tl_lattice_poin
 }
 
 // Draws every segment through the nodes whose square it meets.
-static tl_result snap_segments(splitter *s)
+static tl_result snap_segments(edge_splitter *s)
 {
     const tl_outline_nodes *nodes = s->nodes;
     tl_sort_item *order = TL_PUSH(s->arena, tl_sort_item, 2 * (uint64_t)nodes->count);
@@ -284,7 +284,7 @@ static tl_result snap_segments(splitter *s)
 }
 
 // One segment per undirected edge, in order of first use.
-static tl_result gather_segments(splitter *s, const tl_outline_edge *edges, uint32_t count)
+static tl_result gather_segments(edge_splitter *s, const tl_outline_edge *edges, uint32_t count)
 {
     tl_key_table table;
     s->segments = TL_PUSH(s->arena, tl_lattice_segment, count);
@@ -311,11 +311,11 @@ static tl_result gather_segments(splitter *s, const tl_outline_edge *edges, uint
 }
 
 // Sorts splits by segment and along it, so that each segment's chain of nodes is a range. first_out: [segments + 1].
-static tl_result sort_splits(splitter *s, uint32_t **first_out)
+static tl_result sort_splits(edge_splitter *s, uint32_t **first_out)
 {
     uint32_t count = s->split_count;
     tl_sort_item *order = TL_PUSH(s->arena, tl_sort_item, 2 * (uint64_t)count);
-    split *sorted = TL_PUSH(s->arena, split, count);
+    split_contact_edge *sorted = TL_PUSH(s->arena, split_contact_edge, count);
     uint32_t *first = TL_PUSH_ZERO(s->arena, uint32_t, (uint64_t)s->segment_count + 1);
     if (order == NULL || sorted == NULL || first == NULL) {
         return TL_ERR_MEMORY;
@@ -338,7 +338,7 @@ static tl_result sort_splits(splitter *s, uint32_t **first_out)
     }
     memcpy(next, first, s->segment_count * sizeof *next);
     for (uint32_t i = 0; i < count; i++) {
-        split item = s->splits[order[i].value];
+        split_contact_edge item = s->splits[order[i].value];
         sorted[next[item.segment]++] = item;
     }
     s->splits = sorted;
@@ -347,7 +347,7 @@ static tl_result sort_splits(splitter *s, uint32_t **first_out)
     return TL_OK;
 }
 
-static tl_result split_edges(splitter *s, tl_outline_edge **edges, uint32_t *count)
+static tl_result split_edges(edge_splitter *s, tl_outline_edge **edges, uint32_t *count)
 {
     uint32_t *first;
     TL_TRY(sort_splits(s, &first));
@@ -385,7 +385,7 @@ tl_result tl_outline_split_contacts(tl_arena *arena, tl_outline_nodes *nodes, tl
                                     uint32_t *faults, uint32_t *fault_edge)
 {
     for (uint32_t round = 0; round < MAX_ROUNDS; round++) {
-        splitter s;
+        edge_splitter s;
         memset(&s, 0, sizeof s);
         s.arena = arena;
         s.nodes = nodes;

@@ -50,22 +50,4 @@ static inline bool tl_within_span(tl_lattice_point a, tl_lattice_point b, tl_lat
            (a.z < b.z ? a.z <= p.z && p.z <= b.z : b.z <= p.z && p.z <= a.z);
 }
 
-/// Whether the direction from `corner` to `target` lies strictly inside the interior angle of a corner of an outline.
-static inline bool tl_in_cone(tl_lattice_point before, tl_lattice_point corner, tl_lattice_point after,
-                              tl_lattice_point target)
-{
-    int64_t from_after = tl_turn(corner, after, target);
-    int64_t to_before = tl_turn(corner, target, before);
-    if (tl_turn(before, corner, after) > 0) {
-        return from_after > 0 && to_before > 0;
-    }
-    return from_after > 0 || to_before > 0;
-}
-
-/// p in the closed triangle a, b, c, whose turn is > 0.
-static inline bool tl_in_triangle(tl_lattice_point a, tl_lattice_point b, tl_lattice_point c, tl_lattice_point p)
-{
-    return tl_turn(a, b, p) >= 0 && tl_turn(b, c, p) >= 0 && tl_turn(c, a, p) >= 0;
-}
-
 #endif

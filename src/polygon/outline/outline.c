@@ -34,7 +34,7 @@ static bool boxes_apart(tl_lattice_point a, tl_lattice_point b, tl_lattice_point
 }
 
 // Closed segments whose boxes overlap.
-static bool segments_meet(tl_lattice_point a, tl_lattice_point b, tl_lattice_point c, tl_lattice_point d)
+static bool edges_meet(tl_lattice_point a, tl_lattice_point b, tl_lattice_point c, tl_lattice_point d)
 {
     int64_t c_side = tl_turn(a, b, c);
     int64_t d_side = tl_turn(a, b, d);
@@ -67,7 +67,7 @@ static bool is_plain_by_pairs(const tl_lattice_point *points, uint32_t count)
         for (uint32_t j = i + 2; j < last; j++) {
             tl_lattice_point c = points[j];
             tl_lattice_point d = points[j + 1 < count ? j + 1 : 0];
-            if (!boxes_apart(a, b, c, d) && segments_meet(a, b, c, d)) {
+            if (!boxes_apart(a, b, c, d) && edges_meet(a, b, c, d)) {
                 return false;
             }
         }
@@ -91,7 +91,7 @@ static tl_result is_plain_by_sweep(tl_arena *scratch, const tl_lattice_point *po
     return TL_OK;
 }
 
-static tl_result is_plain(tl_arena *scratch, const tl_lattice_point *points, uint32_t count, bool *plain_out)
+static tl_result is_plain_outline(tl_arena *scratch, const tl_lattice_point *points, uint32_t count, bool *plain_out)
 {
     if (count > MOST_PAIRED_VERTICES) {
         return is_plain_by_sweep(scratch, points, count, plain_out);
@@ -263,7 +263,7 @@ tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices,
     }
     bool plain = false;
     if (outline_out->area2 > 0) {
-        TL_TRY(is_plain(arena, nodes->points, count, &plain));
+        TL_TRY(is_plain_outline(arena, nodes->points, count, &plain));
     }
     if (plain) {
         return keep_as_it_is(arena, outline_out);

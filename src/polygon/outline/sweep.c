@@ -14,7 +14,7 @@
 #include "base/hash.h"
 #include "base/radix_sort.h"
 
-#define NONE UINT32_MAX
+#define NO_SEGMENT UINT32_MAX
 
 // A segment on the sweep line.
 typedef struct sweep_item {
@@ -25,15 +25,15 @@ typedef struct sweep_item {
     tl_lattice_point begin, end; // where they are: on the way down the tree each item is looked at once
 } sweep_item;
 
-typedef struct sweep {
+typedef struct sweep_line {
     const tl_lattice_point *points;
     sweep_item *items; // [segment]
     uint32_t root;
     uint32_t *first; // [points + 1] segments at each point
     uint32_t *around;
-} sweep;
+} sweep_line;
 
-static bool comes_first(tl_lattice_point a, tl_lattice_point b)
+static bool is_swept_first(tl_lattice_point a, tl_lattice_point b)
 {
     return a.x != b.x ? a.x < b.x : a.z < b.z;
 }
@@ -43,27 +43,27 @@ static uint64_t priority(uint32_t segment)
     return tl_hash_mix(segment);
 }
 
-static void replace_child(sweep *s, uint32_t parent, uint32_t old, uint32_t item)
+static void replace_child(sweep_line *s, uint32_t parent, uint32_t old, uint32_t item)
 {
-    if (parent == NONE) {
+    if (parent == NO_SEGMENT) {
         s->root = item;
     } else {
         s->items[parent].child[s->items[parent].child[1] == old] = item;
     }
-    if (item != NONE) {
+    if (item != NO_SEGMENT) {
         s->items[item].parent = parent;
     }
 }
 
 // Rotates an item above its parent.
-static void rotate_up(sweep *s, uint32_t item)
+static void rotate_up(sweep_line *s, uint32_t item)
 {
     uint32_t parent = s->items[item].parent;
     int side = s->items[parent].child[1] == item;
     uint32_t inner = s->items[item].child[!side];
     replace_child(s, s->items[parent].parent, parent, item);
     s->items[parent].child[side] = inner;
-    if (inner != NONE) {
+    if (inner != NO_SEGMENT) {
         s->items[inner].parent = parent;
     }
     s->items[item].child[!side] = parent;
@@ -71,55 +71,55 @@ static void rotate_up(sweep *s, uint32_t item)
 }
 
 // Puts an item between two that are neighbours now, either of which may be missing.
-static void insert_between(sweep *s, uint32_t item, uint32_t below, uint32_t above)
+static void insert_between(sweep_line *s, uint32_t item, uint32_t below, uint32_t above)
 {
     sweep_item *i = &s->items[item];
-    i->child[0] = i->child[1] = NONE;
+    i->child[0] = i->child[1] = NO_SEGMENT;
     i->neighbour[0] = below;
     i->neighbour[1] = above;
-    if (below != NONE) {
+    if (below != NO_SEGMENT) {
         s->items[below].neighbour[1] = item;
     }
-    if (above != NONE) {
+    if (above != NO_SEGMENT) {
         s->items[above].neighbour[0] = item;
     }
     // Of two neighbours one has no child towards the other.
-    if (below == NONE && above == NONE) {
+    if (below == NO_SEGMENT && above == NO_SEGMENT) {
         s->root = item;
-        i->parent = NONE;
+        i->parent = NO_SEGMENT;
         return;
     }
-    int side = below != NONE && s->items[below].child[1] == NONE;
+    int side = below != NO_SEGMENT && s->items[below].child[1] == NO_SEGMENT;
     uint32_t parent = side ? below : above;
     s->items[parent].child[side] = item;
     i->parent = parent;
-    while (i->parent != NONE && priority(item) < priority(i->parent)) {
+    while (i->parent != NO_SEGMENT && priority(item) < priority(i->parent)) {
         rotate_up(s, item);
     }
 }
 
-static void take_out(sweep *s, uint32_t item)
+static void take_out(sweep_line *s, uint32_t item)
 {
     sweep_item *i = &s->items[item];
-    while (i->child[0] != NONE && i->child[1] != NONE) {
+    while (i->child[0] != NO_SEGMENT && i->child[1] != NO_SEGMENT) {
         rotate_up(s, priority(i->child[0]) < priority(i->child[1]) ? i->child[0] : i->child[1]);
     }
-    replace_child(s, i->parent, item, i->child[0] != NONE ? i->child[0] : i->child[1]);
-    if (i->neighbour[0] != NONE) {
+    replace_child(s, i->parent, item, i->child[0] != NO_SEGMENT ? i->child[0] : i->child[1]);
+    if (i->neighbour[0] != NO_SEGMENT) {
         s->items[i->neighbour[0]].neighbour[1] = i->neighbour[1];
     }
-    if (i->neighbour[1] != NONE) {
+    if (i->neighbour[1] != NO_SEGMENT) {
         s->items[i->neighbour[1]].neighbour[0] = i->neighbour[0];
     }
 }
 
 // The segments next below and above where one from `point` to `target` begins (NONE: the point itself). False: one runs
 // through the point or along that segment.
-static bool locate(const sweep *s, uint32_t point, uint32_t target, uint32_t around[2])
+static bool locate(const sweep_line *s, uint32_t point, uint32_t target, uint32_t around[2])
 {
-    around[0] = around[1] = NONE;
+    around[0] = around[1] = NO_SEGMENT;
     tl_lattice_point p = s->points[point];
-    for (uint32_t item = s->root; item != NONE;) {
+    for (uint32_t item = s->root; item != NO_SEGMENT;) {
         const sweep_item *i = &s->items[item];
         int64_t turn = i->from == point ? tl_turn(p, i->end, s->points[target]) : tl_turn(i->begin, i->end, p);
         if (turn == 0) {
@@ -133,9 +133,9 @@ static bool locate(const sweep *s, uint32_t point, uint32_t target, uint32_t aro
 }
 
 // Neighbours that do not share an end and meet.
-static bool clash(const sweep *s, uint32_t below, uint32_t above)
+static bool clash(const sweep_line *s, uint32_t below, uint32_t above)
 {
-    if (below == NONE || above == NONE) {
+    if (below == NO_SEGMENT || above == NO_SEGMENT) {
         return false;
     }
     const sweep_item *i = &s->items[below];
@@ -146,12 +146,12 @@ static bool clash(const sweep *s, uint32_t below, uint32_t above)
     }
     tl_lattice_point a = i->begin, b = i->end, c = j->begin, d = j->end;
     // Both are in order now; they meet when the one that ends first ends on the wrong side of the other, or on it.
-    return comes_first(b, d) ? tl_turn(c, d, b) >= 0 : tl_turn(a, b, d) <= 0;
+    return is_swept_first(b, d) ? tl_turn(c, d, b) >= 0 : tl_turn(a, b, d) <= 0;
 }
 
 // Takes out the segments that end in a point. Those next to the last one, after the others are gone, are next to the
 // point, unless a segment that runs through the point stood between them: then it is one of them. Returns how many.
-static uint32_t end_segments(sweep *s, uint32_t point, uint32_t around[2])
+static uint32_t end_segments(sweep_line *s, uint32_t point, uint32_t around[2])
 {
     uint32_t ended = 0;
     for (uint32_t k = s->first[point]; k < s->first[point + 1]; k++) {
@@ -166,13 +166,13 @@ static uint32_t end_segments(sweep *s, uint32_t point, uint32_t around[2])
     return ended;
 }
 
-static bool runs_through(const sweep *s, uint32_t item, uint32_t point)
+static bool runs_through(const sweep_line *s, uint32_t item, uint32_t point)
 {
-    return item != NONE && tl_turn(s->items[item].begin, s->items[item].end, s->points[point]) == 0;
+    return item != NO_SEGMENT && tl_turn(s->items[item].begin, s->items[item].end, s->points[point]) == 0;
 }
 
 // Where to put one of two segments that begin in a point, the other one being there. False: one runs along the other.
-static bool locate_beside(const sweep *s, uint32_t other, uint32_t item, uint32_t around[2])
+static bool locate_beside(const sweep_line *s, uint32_t other, uint32_t item, uint32_t around[2])
 {
     const sweep_item *o = &s->items[other];
     int64_t turn = tl_turn(o->begin, o->end, s->items[item].end);
@@ -182,9 +182,9 @@ static bool locate_beside(const sweep *s, uint32_t other, uint32_t item, uint32_
 }
 
 // Puts in the segments that begin in a point; around[] is known where others ended there. False: a contact.
-static bool begin_segments(sweep *s, uint32_t point, uint32_t around[2], bool is_located)
+static bool begin_segments(sweep_line *s, uint32_t point, uint32_t around[2], bool is_located)
 {
-    uint32_t begun = 0, first = NONE;
+    uint32_t begun = 0, first = NO_SEGMENT;
     for (uint32_t k = s->first[point]; k < s->first[point + 1]; k++) {
         uint32_t item = s->around[k];
         if (s->items[item].from != point) {
@@ -211,9 +211,9 @@ static bool begin_segments(sweep *s, uint32_t point, uint32_t around[2], bool is
 }
 
 // False: a contact at the point, or of segments that have become neighbours there. All points are ends of segments.
-static bool pass_point(sweep *s, uint32_t point)
+static bool pass_point(sweep_line *s, uint32_t point)
 {
-    uint32_t around[2] = { NONE, NONE };
+    uint32_t around[2] = { NO_SEGMENT, NO_SEGMENT };
     uint32_t ended = end_segments(s, point, around);
     if (ended > 0 && (runs_through(s, around[0], point) || runs_through(s, around[1], point))) {
         return false;
@@ -221,7 +221,8 @@ static bool pass_point(sweep *s, uint32_t point)
     return begin_segments(s, point, around, ended > 0);
 }
 
-static bool gather(sweep *s, tl_arena *arena, uint32_t point_count, const tl_lattice_segment *segments, uint32_t count)
+static bool gather_sweep_segments(sweep_line *s, tl_arena *arena, uint32_t point_count,
+                                  const tl_lattice_segment *segments, uint32_t count)
 {
     s->items = TL_PUSH(arena, sweep_item, count);
     s->around = TL_PUSH(arena, uint32_t, 2 * (uint64_t)count);
@@ -230,7 +231,7 @@ static bool gather(sweep *s, tl_arena *arena, uint32_t point_count, const tl_lat
         return false;
     }
     for (uint32_t i = 0; i < count; i++) {
-        bool forward = comes_first(s->points[segments[i].a], s->points[segments[i].b]);
+        bool forward = is_swept_first(s->points[segments[i].a], s->points[segments[i].b]);
         s->items[i].from = forward ? segments[i].a : segments[i].b;
         s->items[i].to = forward ? segments[i].b : segments[i].a;
         s->items[i].begin = s->points[s->items[i].from];
@@ -246,17 +247,17 @@ static bool gather(sweep *s, tl_arena *arena, uint32_t point_count, const tl_lat
         s->around[s->first[segments[i].a + 1]++] = i;
         s->around[s->first[segments[i].b + 1]++] = i;
     }
-    s->root = NONE;
+    s->root = NO_SEGMENT;
     return true;
 }
 
 tl_result tl_sweep_segments(tl_arena *arena, const tl_lattice_point *points, uint32_t point_count,
                             const tl_lattice_segment *segments, uint32_t segment_count, bool *apart_out)
 {
-    sweep s;
+    sweep_line s;
     s.points = points;
     tl_sort_item *order = TL_PUSH(arena, tl_sort_item, 2 * (uint64_t)point_count);
-    if (order == NULL || !gather(&s, arena, point_count, segments, segment_count)) {
+    if (order == NULL || !gather_sweep_segments(&s, arena, point_count, segments, segment_count)) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t p = 0; p < point_count; p++) {

@@ -32,7 +32,7 @@ typedef struct graph {
     uint32_t outer;
 } graph;
 
-static uint32_t twin(uint32_t half)
+static uint32_t half_twin(uint32_t half)
 {
     return half ^ 1u;
 }
@@ -75,44 +75,29 @@ static tl_result gather_half_edges(graph *g, tl_arena *arena, const tl_outline_e
 static bool turns_first(const graph *g, uint32_t a, uint32_t b)
 {
     tl_lattice_point o = g->points[g->origin[a]];
-    tl_lattice_point p = g->points[g->origin[twin(a)]];
-    tl_lattice_point q = g->points[g->origin[twin(b)]];
+    tl_lattice_point p = g->points[g->origin[half_twin(a)]];
+    tl_lattice_point q = g->points[g->origin[half_twin(b)]];
     bool p_late = !(p.x > o.x || (p.x == o.x && p.z > o.z));
     bool q_late = !(q.x > o.x || (q.x == o.x && q.z > o.z));
     return p_late != q_late ? q_late : tl_turn(o, p, q) > 0;
 }
 
-static void sift_down(const graph *g, uint32_t *halves, uint32_t count, uint32_t i)
-{
-    uint32_t item = halves[i];
-    for (;;) {
-        uint32_t child = 2 * i + 1;
-        if (child >= count) {
-            break;
-        }
-        if (child + 1 < count && turns_first(g, halves[child], halves[child + 1])) {
-            child++;
-        }
-        if (!turns_first(g, item, halves[child])) {
-            break;
-        }
-        halves[i] = halves[child];
-        i = child;
-    }
-    halves[i] = item;
-}
+#define TL_HEAP(name)                 direction_heap_##name
+#define TL_HEAP_ITEM                  uint32_t
+#define TL_HEAP_CONTEXT               const graph *
+#define TL_HEAP_BEFORE(context, a, b) turns_first((context), (b), (a))
+#include "base/heap.inl"
 
 // Heapsort: no two directions at a node are equal, so stability does not matter, and a fan of bridges may be large.
 static void sort_by_direction(const graph *g, uint32_t *halves, uint32_t count)
 {
     for (uint32_t i = count / 2; i-- > 0;) {
-        sift_down(g, halves, count, i);
+        direction_heap_sift_down(halves, count, i, halves[i], g);
     }
     for (uint32_t end = count; end-- > 1;) {
         uint32_t largest = halves[0];
-        halves[0] = halves[end];
+        direction_heap_sift_down(halves, end, 0, halves[end], g);
         halves[end] = largest;
-        sift_down(g, halves, end, 0);
     }
 }
 
@@ -141,13 +126,13 @@ static tl_result link_faces(graph *g, tl_arena *arena)
         for (uint32_t k = 0; k < degree; k++) {
             // Arriving by the twin of halves[k], the face on the left goes on along the edge to the right of where
             // it came from.
-            g->next[twin(halves[k])] = halves[k > 0 ? k - 1 : degree - 1];
+            g->next[half_twin(halves[k])] = halves[k > 0 ? k - 1 : degree - 1];
         }
     }
     return TL_OK;
 }
 
-static tl_result number_faces(graph *g, tl_arena *arena)
+static tl_result number_plane_faces(graph *g, tl_arena *arena)
 {
     g->face = TL_PUSH(arena, uint32_t, g->half_count);
     if (g->face == NULL) {
@@ -166,7 +151,7 @@ static tl_result number_faces(graph *g, tl_arena *arena)
         uint32_t h = start;
         do {
             g->face[h] = g->face_count;
-            area2 += (uint64_t)tl_turn(corner, g->points[g->origin[h]], g->points[g->origin[twin(h)]]);
+            area2 += (uint64_t)tl_turn(corner, g->points[g->origin[h]], g->points[g->origin[half_twin(h)]]);
             h = g->next[h];
         } while (h != start);
         if ((int64_t)area2 <= 0) {
@@ -197,7 +182,7 @@ static tl_result count_windings(graph *g, tl_arena *arena)
         uint32_t start = one_edge[face];
         uint32_t h = start;
         do {
-            uint32_t beyond = g->face[twin(h)];
+            uint32_t beyond = g->face[half_twin(h)];
             if (!known[beyond]) {
                 known[beyond] = 1;
                 int32_t net = (h & 1) == 0 ? g->net[h / 2] : -g->net[h / 2];
@@ -216,7 +201,7 @@ static void add_walk(const graph *g, uint32_t start, uint32_t *halves, tl_outlin
     uint32_t count = 0;
     uint32_t h = start;
     do {
-        if (count > 0 && halves[count - 1] == twin(h)) {
+        if (count > 0 && halves[count - 1] == half_twin(h)) {
             count--;
             outline->faults |= TL_CONTOUR_FAULT_SPIKE;
         } else {
@@ -225,7 +210,7 @@ static void add_walk(const graph *g, uint32_t start, uint32_t *halves, tl_outlin
         h = g->next[h];
     } while (h != start);
     uint32_t first = 0;
-    while (count - first > 1 && halves[first] == twin(halves[count - 1])) {
+    while (count - first > 1 && halves[first] == half_twin(halves[count - 1])) {
         first++;
         count--;
         outline->faults |= TL_CONTOUR_FAULT_SPIKE;
@@ -268,7 +253,7 @@ tl_result tl_outline_trace_faces(tl_arena *arena, const tl_outline_edge *edges, 
     g.node_count = outline->nodes.count;
     TL_TRY(gather_half_edges(&g, arena, edges, count));
     TL_TRY(link_faces(&g, arena));
-    TL_TRY(number_faces(&g, arena));
+    TL_TRY(number_plane_faces(&g, arena));
     TL_TRY(count_windings(&g, arena));
     uint8_t *done = TL_PUSH_ZERO(arena, uint8_t, g.face_count);
     uint32_t *halves = TL_PUSH(arena, uint32_t, g.half_count);

@@ -50,7 +50,7 @@ bool tl_in_circle(tl_lattice_point a, tl_lattice_point b, tl_lattice_point c, tl
     return cos_b < 0 ? b_is_larger : d_is_larger;
 }
 
-static uint32_t next_edge(uint32_t edge)
+static uint32_t edge_after(uint32_t edge)
 {
     return edge % 3 < 2 ? edge + 1 : edge - 2;
 }
@@ -96,11 +96,11 @@ static uint32_t dequeue(edge_queue *q)
 
 // The edge a to c between the triangles a, c, d and c, a, b becomes the edge b to d. The sides of the quadrilateral get
 // other numbers, so one that waits under its old number is found there no more; the caller enqueues all four.
-static void flip(uint32_t *corners, uint32_t *twins, uint32_t edge)
+static void flip_diagonal(uint32_t *corners, uint32_t *twins, uint32_t edge)
 {
     uint32_t twin = twins[edge];
-    uint32_t cd = next_edge(edge), da = next_edge(cd);
-    uint32_t ab = next_edge(twin), bc = next_edge(ab);
+    uint32_t cd = edge_after(edge), da = edge_after(cd);
+    uint32_t ab = edge_after(twin), bc = edge_after(ab);
     uint32_t beyond_cd = twins[cd], beyond_ab = twins[ab];
     uint32_t b = corners[bc], d = corners[da];
     // Triangle of `edge`: b, d, a -> at edge: b to d, at cd: d to a, at da: a to b. The other: d, b, c.
@@ -136,17 +136,17 @@ tl_result tl_make_delaunay(tl_arena *scratch, const tl_lattice_point *points, ui
         if (twin == TL_NO_EDGE) { // a flip has put an edge of the outline here
             continue;
         }
-        uint32_t c = next_edge(edge), a = next_edge(twin);
-        tl_lattice_point d = points[corners[next_edge(c)]];
-        tl_lattice_point b = points[corners[next_edge(a)]];
+        uint32_t c = edge_after(edge), a = edge_after(twin);
+        tl_lattice_point d = points[corners[edge_after(c)]];
+        tl_lattice_point b = points[corners[edge_after(a)]];
         if (!tl_in_circle(points[corners[a]], b, points[corners[c]], d)) {
             continue;
         }
-        flip(corners, twins, edge);
+        flip_diagonal(corners, twins, edge);
         enqueue(&q, twins, c);
-        enqueue(&q, twins, next_edge(c));
+        enqueue(&q, twins, edge_after(c));
         enqueue(&q, twins, a);
-        enqueue(&q, twins, next_edge(a));
+        enqueue(&q, twins, edge_after(a));
     }
     return TL_OK;
 }

@@ -42,35 +42,14 @@ static inline bool tl_partition_comes_first(const tl_partition *a, const tl_part
     return a->key != b->key ? a->key < b->key : a->value < b->value;
 }
 
+#define TL_HEAP(name)                 tl_partition_heap_##name
+#define TL_HEAP_ITEM                  tl_partition
+#define TL_HEAP_BEFORE(context, a, b) tl_partition_comes_first(&(a), &(b))
+#include "base/heap.inl"
+
 static inline void tl_partition_queue_push(tl_partition_queue *queue, tl_partition item)
 {
-    tl_partition *heap = queue->heap;
-    uint32_t i = queue->heap_count++;
-    while (i > 0 && tl_partition_comes_first(&item, &heap[(i - 1) / 2])) {
-        heap[i] = heap[(i - 1) / 2];
-        i = (i - 1) / 2;
-    }
-    heap[i] = item;
-}
-
-static inline tl_partition tl_partition_heap_pop(tl_partition_queue *queue)
-{
-    tl_partition *heap = queue->heap;
-    const tl_partition top = heap[0];
-    const tl_partition last = heap[--queue->heap_count];
-    uint32_t i = 0;
-    for (uint32_t child = 1; child < queue->heap_count; child = 2 * i + 1) {
-        if (child + 1 < queue->heap_count && tl_partition_comes_first(&heap[child + 1], &heap[child])) {
-            child++;
-        }
-        if (!tl_partition_comes_first(&heap[child], &last)) {
-            break;
-        }
-        heap[i] = heap[child];
-        i = child;
-    }
-    heap[i] = last;
-    return top;
+    tl_partition_heap_push(queue->heap, &queue->heap_count, item, NULL);
 }
 
 /// Takes the shortest out. False: there are none.
@@ -78,7 +57,7 @@ static inline bool tl_partition_queue_pop(tl_partition_queue *queue, tl_partitio
 {
     if (queue->heap_count > 0 &&
         (queue->sorted_count == 0 || tl_partition_comes_first(&queue->heap[0], queue->sorted))) {
-        *shortest = tl_partition_heap_pop(queue);
+        *shortest = tl_partition_heap_pop(queue->heap, &queue->heap_count, NULL);
         return true;
     }
     if (queue->sorted_count == 0) {

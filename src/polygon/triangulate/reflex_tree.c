@@ -11,11 +11,12 @@
 #include "polygon/triangulate/reflex_tree.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 
 // Small outlines, nearly all there are, become one leaf: a plain loop.
 enum { LEAF_POINTS = 12, MAX_DEPTH = 64 };
 
-static int32_t coordinate(const tl_reflex_point *point, bool along_x)
+static int32_t point_coordinate(const tl_reflex_point *point, bool along_x)
 {
     return along_x ? point->position.x : point->position.z;
 }
@@ -23,8 +24,8 @@ static int32_t coordinate(const tl_reflex_point *point, bool along_x)
 // A total order, so that equal coordinates split evenly too.
 static bool before(const tl_reflex_point *a, const tl_reflex_point *b, bool along_x)
 {
-    int32_t ka = coordinate(a, along_x);
-    int32_t kb = coordinate(b, along_x);
+    int32_t ka = point_coordinate(a, along_x);
+    int32_t kb = point_coordinate(b, along_x);
     return ka != kb ? ka < kb : a->number < b->number;
 }
 
@@ -160,18 +161,6 @@ typedef struct query {
     int32_t min_x, max_x, min_z, max_z;
 } query;
 
-static int32_t least(int32_t a, int32_t b, int32_t c)
-{
-    int32_t low = a < b ? a : b;
-    return low < c ? low : c;
-}
-
-static int32_t greatest(int32_t a, int32_t b, int32_t c)
-{
-    int32_t high = a > b ? a : b;
-    return high > c ? high : c;
-}
-
 static bool any_in_leaf(const tl_reflex_tree *tree, const tl_reflex_node *leaf, const query *q)
 {
     const tl_reflex_point *points = tree->points + leaf->first;
@@ -211,7 +200,13 @@ static int64_t distance2_to_box(const tl_reflex_node *node, tl_lattice_point p)
 bool tl_reflex_tree_any_in_triangle(const tl_reflex_tree *tree, tl_lattice_point a, tl_lattice_point b,
                                     tl_lattice_point c)
 {
-    query q = { a, b, c, least(a.x, b.x, c.x), greatest(a.x, b.x, c.x), least(a.z, b.z, c.z), greatest(a.z, b.z, c.z) };
+    query q = { a,
+                b,
+                c,
+                tl_min_i32(tl_min_i32(a.x, b.x), c.x),
+                tl_max_i32(tl_max_i32(a.x, b.x), c.x),
+                tl_min_i32(tl_min_i32(a.z, b.z), c.z),
+                tl_max_i32(tl_max_i32(a.z, b.z), c.z) };
     uint32_t stack[MAX_DEPTH];
     uint32_t depth = 0;
     if (tree->node_count > 0) {

@@ -61,7 +61,7 @@ static bool find_partition(const triangulation *t, uint32_t b, tl_partition *fou
     return true;
 }
 
-static void consider(triangulation *t, uint32_t b)
+static void consider_partition(triangulation *t, uint32_t b)
 {
     tl_partition item;
     if (find_partition(t, b, &item)) {
@@ -89,20 +89,20 @@ static bool is_current(const triangulation *t, const tl_partition *item)
 }
 
 // The edge intersection test.
-static bool is_free(const triangulation *t, const tl_partition *item)
+static bool is_free_partition(const triangulation *t, const tl_partition *item)
 {
     const outline_vertex *a = &t->vertices[item->value];
     return !tl_reflex_tree_any_in_triangle(&t->reflex, a->position, t->vertices[a->next].position,
                                            t->vertices[item->extra].position);
 }
 
-static bool is_left(const triangulation *t, uint32_t b)
+static bool is_left_turn(const triangulation *t, uint32_t b)
 {
     return t->vertices[t->vertices[b].previous].next == b && t->vertices[t->vertices[b].next].previous == b;
 }
 
-static void emit(triangulation *t, uint32_t triangle, const uint32_t corners[3], uint32_t edges,
-                 uint32_t *triangles_out, uint32_t *twins_out)
+static void emit_triangle(triangulation *t, uint32_t triangle, const uint32_t corners[3], uint32_t edges,
+                          uint32_t *triangles_out, uint32_t *twins_out)
 {
     for (uint32_t k = 0; k < 3; k++) {
         triangles_out[3 * triangle + k] = corners[k];
@@ -114,7 +114,7 @@ static void emit(triangulation *t, uint32_t triangle, const uint32_t corners[3],
     }
 }
 
-static bool start(triangulation *t, tl_arena *scratch, const tl_lattice_point *points, uint32_t count)
+static bool start_triangulation(triangulation *t, tl_arena *scratch, const tl_lattice_point *points, uint32_t count)
 {
     t->points = points;
     t->vertices = TL_PUSH(scratch, outline_vertex, count);
@@ -142,7 +142,7 @@ static void add_potential(const triangulation *t, const tl_partition *items, uin
                           uint32_t *partition_count)
 {
     for (uint32_t i = 0; i < count; i++) {
-        if (is_current(t, &items[i]) && is_free(t, &items[i])) {
+        if (is_current(t, &items[i]) && is_free_partition(t, &items[i])) {
             partitions[2 * *partition_count] = items[i].value;
             partitions[2 * (*partition_count)++ + 1] = items[i].extra;
         }
@@ -187,13 +187,13 @@ static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count
             if (!tl_partition_queue_pop(&t->queue, &chosen)) {
                 return TL_ERR_SELF_INTERSECTION;
             }
-        } while (!is_current(t, &chosen) || !is_free(t, &chosen));
+        } while (!is_current(t, &chosen) || !is_free_partition(t, &chosen));
         const uint32_t a = chosen.value, c = chosen.extra;
         const uint32_t corners[3] = { a, t->vertices[a].next, c };
         if (tracer != NULL) {
             TL_TRY(trace_cut(t, scratch, tracer, left, corners));
         }
-        emit(t, triangle, corners, 2, triangles_out, twins_out);
+        emit_triangle(t, triangle, corners, 2, triangles_out, twins_out);
         t->vertices[a].across = 3 * triangle + 2;
         t->vertices[a].next = c;
         t->vertices[c].previous = a;
@@ -201,13 +201,13 @@ static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count
         update_angle(t, c);
         triangle++;
         if (left > 4) {
-            consider(t, a);
-            consider(t, c);
+            consider_partition(t, a);
+            consider_partition(t, c);
         }
     }
     // The last triangle begins at its lowest vertex.
     uint32_t corners[3] = { 0, 0, 0 };
-    while (!is_left(t, corners[0])) {
+    while (!is_left_turn(t, corners[0])) {
         corners[0]++;
     }
     corners[1] = t->vertices[corners[0]].next;
@@ -215,7 +215,7 @@ static tl_result triangulate(triangulation *t, tl_arena *scratch, uint32_t count
     if (tl_turn(t->points[corners[0]], t->points[corners[1]], t->points[corners[2]]) <= 0) {
         return TL_ERR_SELF_INTERSECTION;
     }
-    emit(t, triangle, corners, 3, triangles_out, twins_out);
+    emit_triangle(t, triangle, corners, 3, triangles_out, twins_out);
     return tracer != NULL ? trace_cut(t, scratch, tracer, 3, corners) : TL_OK;
 }
 
@@ -224,7 +224,7 @@ tl_result tl_triangulate(tl_arena *scratch, const tl_lattice_point *points, uint
 {
     const tl_arena_mark mark = tl_arena_get_mark(scratch);
     triangulation t;
-    if (!start(&t, scratch, points, count)) {
+    if (!start_triangulation(&t, scratch, points, count)) {
         return TL_ERR_MEMORY;
     }
     TL_TRY(triangulate(&t, scratch, count, tracer, triangles_out, twins_out));
