@@ -66,7 +66,7 @@ typedef struct tl_scene_instance {
 /// Bakes a scene of `count` instances, of which there may be none.
 ///
 /// The bytes depend only on the instances. O(n log n), about 0.1 us an instance. `host` and `report_out` may be NULL;
-/// tasks are not used.
+/// of the host only the allocator is used.
 /// Errors, with the instance in `report_out`: TL_ERR_NOT_FINITE (a pose, or a shape without a finite box), TL_ERR_RANGE
 /// (a position, or a box in the instance's space, beyond TL_MAX_COORDINATE), TL_ERR_ARGUMENT (both a soup and a shape;
 /// a radius that is negative or NaN; an inverted box), TL_ERR_LIMIT (more than TL_MAX_SCENE_INSTANCES), TL_ERR_MEMORY.
@@ -102,8 +102,9 @@ typedef bool tl_instance_filter_fn(uint32_t instance, void *user);
 
 /// What a query ignores. A zeroed filter, or NULL, ignores nothing.
 typedef struct tl_scene_filter {
-    uint32_t ignored_mask;  ///< an instance counts when its mask has a bit that is not set here
-    uint32_t first_ignored; ///< instances [first_ignored, first_ignored + ignored_count) are ignored: the one that asks
+    uint32_t ignored_mask; ///< an instance counts when its mask has a bit that is not set here
+    /// Instances [first_ignored, first_ignored + ignored_count) are ignored: say, those of the agent that queries.
+    uint32_t first_ignored;
     uint32_t ignored_count;
     tl_instance_filter_fn *accept; ///< called last; NULL: all count
     void *accept_user;

@@ -26,7 +26,7 @@
 // Fewer bins for few instances: bins are most of the work of a small split.
 enum { INSTANCE_BINS = 16, FEW_INSTANCE_BINS = 8, FEW_INSTANCES = 64, AXES = 3 };
 
-// An instance's box, and its index in `instance`; the other fourth number is zero.
+// An instance's box and index: two rows of four, so that a box is loaded as two vectors.
 typedef struct instance_ref {
     float min[3];
     uint32_t instance;
@@ -72,7 +72,7 @@ typedef struct bins {
 
 // Where a range is cut: instances whose bin along the axis is below `bin` go to the left.
 typedef struct bin_cut {
-    uint32_t axis, bin; // bin 0: nowhere
+    uint32_t axis, bin; // bin 0: no cut
     float half_areas[2];
     float cost;
 } bin_cut;
@@ -181,8 +181,8 @@ static void split_range(const scene_build *b, instance_range *range, instance_ra
     range->half_area = best.half_areas[0];
 }
 
-// The part with the largest surface (or, not by cost, the most instances) of those that hold `least` instances to
-// `most`; `count` when there is none.
+// The part with the largest surface (or, not by cost, the most instances) of those that hold `min_size` to `max_size`
+// instances; `count` when there is none.
 static uint32_t choose_part(const instance_range *parts, uint32_t count, uint32_t min_size, uint32_t max_size,
                             bool by_cost)
 {
@@ -319,7 +319,7 @@ static tl_result encode_scene(const scene_build *b, const tl_scene_instance *ins
         tl_scene_set_lane(scene, record->lane, tl_scene_world_box(record), instances[i].mask);
     }
     tl_scene_fit_nodes(scene);
-    scene->built_cost = scene->cost;
+    scene->baked_cost = scene->cost;
     *scene_out = scene;
     return TL_OK;
 }

@@ -142,7 +142,7 @@ tl_result tl_scene_refit(tl_scene *scene, const tl_scene_instance *instances, ui
     }
     tl_scene_fit_nodes(scene);
     if (growth_out != NULL) {
-        *growth_out = (float)(scene->cost / scene->built_cost);
+        *growth_out = (float)(scene->cost / scene->baked_cost);
     }
     return TL_OK;
 }

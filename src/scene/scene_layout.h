@@ -29,7 +29,7 @@ typedef struct tl_scene_node {
     uint32_t mask[TL_SCENE_WIDTH]; ///< of all instances below
 } tl_scene_node;
 
-/// An instance where it was when the scene was fitted last.
+/// An instance as it was when the scene was last baked or refitted.
 typedef struct tl_scene_record {
     tl_vec3d rows[3]; ///< the rotation's matrix
     tl_transform pose;
@@ -44,7 +44,7 @@ struct tl_scene {
     uint32_t depth;
     uint32_t padding;
     tl_aabb bounds;
-    double built_cost; ///< as of tl_scene_stats, when it was built
+    double baked_cost; ///< of tl_scene_stats, when the scene was baked
     double cost;
     uint64_t records; ///< tl_scene_record [instance_count], bytes from the beginning
     uint64_t nodes;   ///< tl_scene_node [node_count]
@@ -80,8 +80,8 @@ static inline bool tl_scene_is_identity(const tl_scene_record *record)
     return !tl_scene_is_rotated(record) & (p->x == 0.0f) & (p->y == 0.0f) & (p->z == 0.0f);
 }
 
-/// A direction of the world in the instance's space, in double: R^T v. Not for instances that are not turned: these
-/// keep the very bits.
+/// A direction of the world in the instance's space, in double: R^T v. Only for rotated instances: others keep their
+/// bits.
 static inline tl_vec3d tl_scene_rotate_back(const tl_scene_record *record, tl_vec3d v)
 {
     const tl_vec3d *r = record->rows;
@@ -89,7 +89,7 @@ static inline tl_vec3d tl_scene_rotate_back(const tl_scene_record *record, tl_ve
                          r[0].z * v.x + r[1].z * v.y + r[2].z * v.z);
 }
 
-/// The instance's directions and points in the world, and the other way, each coordinate rounded once.
+/// The instance's directions and points in the world, and back, each coordinate rounded once.
 static inline tl_vec3 tl_scene_direction_to_instance(const tl_scene_record *record, tl_vec3 v)
 {
     return tl_scene_is_rotated(record) ? tl_vec3d_to_float(tl_scene_rotate_back(record, tl_vec3d_from(v))) : v;

@@ -28,7 +28,7 @@ typedef struct scene_nearest_search {
     float error; // metres
     float max_distance;
     float limit;     // metres: what is farther away does not count
-    float limit_key; // its square, from above
+    float limit_key; // its square, rounded up
     tl_soup_point best;
     uint32_t instance; // TL_NO_INSTANCE: none yet
 } scene_nearest_search;
@@ -39,7 +39,7 @@ static void set_scene_limit(scene_nearest_search *s, float distance)
     s->limit_key = distance * distance * (1.0f + TL_FLOAT_GAMMA(2)) + FLT_MIN;
 }
 
-// Squared distances to eight boxes, from below.
+// Lower bounds of the squared distances to eight boxes.
 static void measure_boxes(const scene_nearest_search *s, const tl_scene_node *node, float keys[TL_SCENE_WIDTH])
 {
     for (uint32_t i = 0; i < TL_SCENE_WIDTH; i++) {

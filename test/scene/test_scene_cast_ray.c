@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// scene/scene_cast_ray.c and the walk: against every instance asked in turn, on all instruction sets; nothing slips
-// through between triangles of a turned instance. An argument sets the number of rays a scene.
+// scene/scene_cast_ray.c and the walk: against each instance queried in turn, on all instruction sets; nothing slips
+// through between triangles of a rotated instance. An argument sets the number of rays a scene.
 
 #include "scene_models.h"
 
@@ -174,7 +174,7 @@ static void check_random_scene(const scene_parts *parts, uint32_t count, tl_vec3
     }
     tl_scene *scene = scene_build(instances, count);
     check_scene(scene, instances, count, rays, count, r);
-    // Moved, refitted, and built anew: answers are those of the instances.
+    // Moved, refitted, and baked anew: answers are those of the instances.
     for (uint32_t i = 0; i < count; i += 1 + i % 3) {
         instances[i] = scene_instance(parts, &random, center, range * (i % 11 == 0 ? 3 : 1));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// scene/scene_cast_shape.c, overlap.c, nearest.c, instances_in_box.c: against every instance asked in turn, by example,
-// and on many threads at once. An argument sets the number of queries a scene.
+// scene/scene_cast_shape.c, scene_overlap.c, scene_nearest.c, instances_in_box.c: against each instance queried in
+// turn, by example, and on many threads at once. An argument sets the number of queries a scene.
 
 #include "scene_models.h"
 

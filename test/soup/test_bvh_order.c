@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// bvh_order.c: chances by hand and their bounds in random trees, and the order that they give.
+// bvh_order.c: probabilities by hand and their bounds in random trees, and the order that they give.
 
 #include "soup/bake/bvh_order.h"
 

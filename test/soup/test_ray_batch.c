@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// batch.c: a batch gives the bits of single calls, in any order, on any number of threads.
+// ray_batch.c: a batch gives the bits of single calls, in any order, on any number of threads.
 
 #include "soup/ray/ray_job.h"
 #include "soup_models.h"

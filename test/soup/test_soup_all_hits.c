@@ -40,7 +40,7 @@ static bool same_hit(const tl_ray_hit *a, const tl_ray_hit *b)
            a->normal.x == b->normal.x && a->normal.y == b->normal.y && a->normal.z == b->normal.z;
 }
 
-// Every triangle asked for alone by the closest-hit query.
+// Every triangle queried alone by the closest-hit query.
 static void check_against_each(const model *m, const tl_soup *soup, tl_vec3 origin, tl_vec3 direction, float tmax,
                                uint32_t *total)
 {

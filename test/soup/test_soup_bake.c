@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// soup_build.c: bad input by name, failing memory, cancelling, and the same bytes for any number of threads.
+// soup_bake.c: bad input by name, failing memory, cancelling, and the same bytes for any number of threads.
 
 #include "soup_models.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// nearest.c: by example, and against all triangles. An argument sets the number of queries; 100000 take ten seconds.
+// soup_nearest.c: by example, and against all triangles. An argument sets the number of queries; 100000 take ten
+// seconds.
 
 #include "soup_models.h"
 

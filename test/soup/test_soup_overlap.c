@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// overlap.c: every kind of shape against every triangle, by an oracle in plain double (convex_oracle.h). An argument
-// sets the number of queries: 100000 take a minute.
+// soup_overlap.c: every kind of shape against every triangle, by an oracle in plain double (convex_oracle.h). An
+// argument sets the number of queries: 100000 take a minute.
 
 #include "convex_oracle.h"
 #include "soup_models.h"

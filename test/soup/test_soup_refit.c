@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// soup_refit.c: a moved soup answers like one that is built anew, and what cannot be moved is refused whole.
+// soup_refit.c: a moved soup answers like one that is baked anew, and what cannot be moved is refused whole.
 
 #include "soup_models.h"
 

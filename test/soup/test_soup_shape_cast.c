@@ -2,8 +2,8 @@
 //
 // soup_shape_cast.c: moving shapes by example, and against an oracle that steps. The distance of two convex sets is
 // convex in their motion; the oracle looks at it at 48 steps for every triangle on the way, then between the steps
-// around the least, with plain distances of corners, edges and faces (convex_oracle.h). An argument sets the number of
-// casts.
+// around the minimum, with plain distances of corners, edges and faces (convex_oracle.h). An argument sets the number
+// of casts.
 
 #include "convex_oracle.h"
 #include "soup_models.h"

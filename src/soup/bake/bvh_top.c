@@ -26,7 +26,7 @@ enum { MAX_LEVEL_RANGES = 2 * TASK_SHARE };
 
 enum { BLOCK_REFS = 4096 };
 
-// A range of the level at hand.
+// A range of the level that is being split.
 typedef struct top_range {
     tl_bvh_subtree subtree;
     tl_bvh_grid grid;
@@ -38,7 +38,7 @@ typedef struct top_range {
 typedef struct top_block {
     uint32_t range;
     uint32_t first, count;            // references
-    uint32_t left_first, right_first; // where they go
+    uint32_t left_first, right_first; // where its references go
     tl_bvh_bins bins;
     tl_box4 centroids[2];
 } top_block;
@@ -185,7 +185,7 @@ static void split_level(top_builder *b, uint32_t task_refs, const tl_host *host)
     }
     lay_blocks(b);
     tl_run_tasks(host, fill_block_bins, b->block_count, b);
-    // Without spatial splits this is too little to hand out.
+    // Without spatial splits this is too little work for tasks.
     tl_run_tasks(b->ranges[0].subtree.range.capacity > b->ranges[0].subtree.range.count ? host : NULL,
                  choose_range_split, b->range_count, b);
     tl_run_tasks(host, part_block, b->block_count, b);
@@ -269,7 +269,7 @@ tl_result tl_bvh_build_top(tl_bvh_top *top, uint32_t pair_count, uint32_t capaci
     top->subtree_count = 0;
     b.ranges[0].subtree = whole;
     b.range_count = 1;
-    // Early, when there could be too many subtrees.
+    // Ends early when the next level could give too many subtrees.
     while (b.range_count > 0 && b.ranges[0].subtree.range.count > task_refs &&
            top->subtree_count + 2 * b.range_count <= max_subtrees) {
         split_level(&b, task_refs, host);

@@ -43,7 +43,7 @@ typedef struct ref_list {
 typedef struct kd_builder {
     tl_bvh_splitter clipper;
     const tl_host *host;
-    ref_list work; // references of the cells on the way down
+    ref_list work; // references of the cells on the path
     ref_list out;  // references of leaves
     tl_bvh_node *nodes;
     uint64_t node_count, node_capacity;

@@ -96,7 +96,7 @@ static void append_to_chain(tl_pair_matcher *m, uint32_t edge)
     }
 }
 
-static void find_links(tl_pair_matcher *m, const uint32_t *list, uint32_t first)
+static void find_pair_links(tl_pair_matcher *m, const uint32_t *list, uint32_t first)
 {
     m->slot_bits = slot_bits_for(m->count);
     memset(m->slots, 0xff, sizeof *m->slots << m->slot_bits);
@@ -154,7 +154,7 @@ static uint32_t order_links(tl_pair_matcher *m)
     return begin[COST_STEPS];
 }
 
-// Neighbour i of a triangle, 0 to 5: its edge, or TL_NO_EDGE; the triangle's own goes to `own_out`.
+// Neighbour i of a triangle, 0 to 5: its edge, or TL_NO_MATE; the triangle's own goes to `own_out`.
 static inline uint32_t neighbour(const tl_pair_matcher *m, uint32_t triangle, uint32_t i, uint32_t *own_out)
 {
     *own_out = 3 * triangle + i / 2;
@@ -233,7 +233,7 @@ static void match_links(tl_pair_matcher *m, uint32_t link_count)
 void tl_pair_match(tl_pair_matcher *m, const uint32_t *list, uint32_t first, uint32_t count, uint32_t *mates)
 {
     m->count = count;
-    find_links(m, list, first);
+    find_pair_links(m, list, first);
     match_links(m, order_links(m));
     for (uint32_t i = 0; i < count; i++) {
         uint32_t mate = m->mates[i], triangle = list != NULL ? list[i] : first + i;

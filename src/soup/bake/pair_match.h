@@ -18,7 +18,7 @@ typedef struct tl_pair_matcher tl_pair_matcher;
 tl_pair_matcher *tl_pair_matcher_make(const tl_mesh *mesh, uint32_t capacity, tl_arena *arena);
 
 /// Matches `count` triangles: those in `list`, or, where it is NULL, those from `first` on. Writes to mates[t], for
-/// each of them, the edge of its partner that they share, or TL_NO_EDGE.
+/// each of them, the edge of its partner that they share, or TL_NO_MATE.
 void tl_pair_match(tl_pair_matcher *matcher, const uint32_t *list, uint32_t first, uint32_t count, uint32_t *mates);
 
 #endif

@@ -115,7 +115,7 @@ tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup
     }
     tl_mesh_free(&mesh);
     if (result == TL_OK) {
-        // The last word of progress may still be no.
+        // The last progress update may still cancel.
         result = tl_progress_update(&used.host, "bake soup", 1, 1);
     }
     if (result != TL_OK) {

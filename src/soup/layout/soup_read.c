@@ -10,17 +10,20 @@
 
 uint64_t tl_soup_size(const tl_soup *soup)
 {
+    TL_ASSERT(soup != NULL);
     return soup->blob.size;
 }
 
 tl_aabb tl_soup_bounds(const tl_soup *soup)
 {
+    TL_ASSERT(soup != NULL);
     tl_aabb bounds = { soup->bounds_min, soup->bounds_max };
     return bounds;
 }
 
 tl_soup_stats tl_soup_get_stats(const tl_soup *soup)
 {
+    TL_ASSERT(soup != NULL);
     tl_soup_stats stats;
     memset(&stats, 0, sizeof stats);
     stats.size = soup->blob.size;

@@ -10,7 +10,7 @@
 /// Which children of a node may meet the region: a bit a lane. Must answer the same for the same boxes.
 typedef uint32_t tl_region_enter_fn(const tl_walk_boxes *boxes, const void *region);
 
-/// Whether a triangle of an entered leaf belongs to the region: asked about copies too.
+/// Whether a triangle of an entered leaf belongs to the region. Called for copies too.
 typedef bool tl_region_belongs_fn(const tl_walk_triangle *triangle, void *user);
 
 /// Called once for each triangle that belongs and has a point in a box that is entered; false ends the walk.

@@ -55,7 +55,7 @@
 // Margin around a decided t: another's interval must end before or begin after it to be told apart.
 #define T_MARGIN (4.0f * TL_FLOAT_ROUNDING)
 
-// Each node on the way down leaves at most fifteen siblings behind; tl_u32x16_compress_pairs may write sixteen.
+// Each node on the path leaves at most fifteen siblings behind; tl_u32x16_compress_pairs may write sixteen.
 enum { WALK_STACK_SIZE = (TL_SOUP_WIDTH - 1) * TL_SOUP_MAX_DEPTH + TL_SOUP_WIDTH };
 
 // Byte offsets in a plain node of the planes by which a ray enters, indexed by its bits `backward`. It leaves by those
@@ -277,8 +277,8 @@ static inline uint32_t lane_of_bit(uint32_t bit, uint32_t n)
     return bit < 4 ? bit : n + bit - 4;
 }
 
-// Rooms of a job for the leaves of a compact soup.
-enum { BUFFER_VISITED, BUFFER_WAITING, BUFFER_DECIDED, BUFFER_COUNT };
+// Buffers of a job for the leaves of a compact soup.
+enum { BUFFER_VISITED, BUFFER_PENDING, BUFFER_DECIDED, BUFFER_COUNT };
 
 static inline const tl_soup_leaf *leaf_of(const tl_ray_job *job, uint32_t child, uint32_t buffer)
 {
@@ -295,9 +295,9 @@ static inline void decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t la
     }
 }
 
-static inline void decide_waiting(tl_ray_job *job, const walk_best *best)
+static inline void decide_pending(tl_ray_job *job, const walk_best *best)
 {
-    decide(job, leaf_of(job, best->child, BUFFER_WAITING), lane_of_bit(best->bit, tl_child_pair_count(best->child)));
+    decide(job, leaf_of(job, best->child, BUFFER_PENDING), lane_of_bit(best->bit, tl_child_pair_count(best->child)));
 }
 
 // The lanes of a leaf that may be hit, as far as the float filters tell.
@@ -319,15 +319,15 @@ static TL_NOINLINE walk_best settle_each(tl_ray_job *job, const walk_lanes *lane
     for (uint32_t maybe = lanes->maybe; maybe != 0; maybe &= maybe - 1) {
         uint32_t bit = tl_lowest_bit(maybe), lane = lane_of_bit(bit, n);
         if ((lanes->sure >> bit & 1u) && lanes->high[bit] < best.ahead) {
-            walk_best waiting = { lanes->high[bit], lanes->low[bit], child, bit };
-            best = waiting;
+            walk_best pending = { lanes->high[bit], lanes->low[bit], child, bit };
+            best = pending;
             continue;
         }
         if (ids[lane] == TL_ID_NONE || ((lanes->clear >> bit & 1u) && lanes->low[bit] > best.limit)) {
             continue;
         }
         if (best.child != 0) {
-            decide_waiting(job, &best);
+            decide_pending(job, &best);
             best.child = 0;
         }
         decide(job, leaf, lane);
@@ -402,8 +402,8 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, 
     if (nearest != NO_LANE) {
         uint32_t behind = clear & tl_f32x8_less(tl_f32x8_all(lanes.high[nearest]), low);
         if ((maybe & ~behind & ~(1u << nearest)) == 0) {
-            walk_best waiting = { lanes.high[nearest], lanes.low[nearest], child, nearest };
-            *best = waiting;
+            walk_best pending = { lanes.high[nearest], lanes.low[nearest], child, nearest };
+            *best = pending;
             return false;
         }
     }
@@ -423,7 +423,7 @@ static TL_ALWAYS_INLINE bool visit_leaf(tl_ray_job *job, const walk_ray *ray, ui
 }
 
 // Of a compact leaf only the one pair is expanded.
-static TL_ALWAYS_INLINE bool measure_waiting(const tl_ray_job *job, const walk_best *best, tl_ray_hit *hit)
+static TL_ALWAYS_INLINE bool measure_pending(const tl_ray_job *job, const walk_best *best, tl_ray_hit *hit)
 {
     uint64_t offset = tl_child_leaf_offset(best->child);
     if (job->buffers == NULL) {
@@ -431,7 +431,7 @@ static TL_ALWAYS_INLINE bool measure_waiting(const tl_ray_job *job, const walk_b
                               hit);
     }
     uint32_t pair = (uint32_t)(offset / sizeof(tl_compact_pair)) + (best->bit & 3u);
-    return tl_ray_measure(job, tl_expand_pairs(job->soup, pair, 1, &job->buffers[BUFFER_WAITING]), 1, best->bit & 4u,
+    return tl_ray_measure(job, tl_expand_pairs(job->soup, pair, 1, &job->buffers[BUFFER_PENDING]), 1, best->bit & 4u,
                           hit);
 }
 
@@ -439,10 +439,10 @@ static TL_ALWAYS_INLINE bool measure_waiting(const tl_ray_job *job, const walk_b
 static TL_ALWAYS_INLINE bool report_hit(tl_ray_job *job, walk_best best, tl_ray_hit *hit)
 {
     if (best.child != 0) {
-        if (hit != NULL && measure_waiting(job, &best, hit)) {
+        if (hit != NULL && measure_pending(job, &best, hit)) {
             return true;
         }
-        decide_waiting(job, &best);
+        decide_pending(job, &best);
     }
     if (hit != NULL && job->triangle != UINT32_MAX) {
         tl_ray_describe(job, hit);
