@@ -12,11 +12,12 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// The library's version. CMake reads it from here; there is no second copy.
+/// The library's version: major, minor, patch. CMake reads it from here; there is no second copy.
 #define TL_VERSION_MAJOR 0
 #define TL_VERSION_MINOR 1
 #define TL_VERSION_PATCH 0
 
+/// What a function of the public API is declared with.
 #if defined(_WIN32) && defined(TALUS_SHARED)
 #if defined(TALUS_BUILDING)
 #define TL_API __declspec(dllexport)
@@ -105,7 +106,7 @@ TL_API const char *tl_version(void);
 typedef struct tl_allocator {
     void *(*allocate)(size_t size, size_t alignment, void *user);
     void (*release)(void *block, size_t size, void *user);
-    void *user;
+    void *user; ///< handed to both
 } tl_allocator;
 
 /// One item of a parallel loop. `worker` is below `tl_tasks.worker_count`; no two items that run at the
@@ -120,7 +121,7 @@ typedef void tl_task_fn(uint32_t index, uint32_t worker, void *task_user);
 typedef struct tl_tasks {
     void (*run)(tl_task_fn *task, uint32_t count, void *task_user, void *user);
     uint32_t worker_count; ///< >= 1
-    void *user;
+    void *user;            ///< handed to run
 } tl_tasks;
 
 /// Progress of a bake, and its cancellation.
@@ -130,7 +131,7 @@ typedef struct tl_tasks {
 /// false cancels: the bake frees what it holds and returns TL_ERR_CANCELLED.
 typedef struct tl_progress {
     bool (*update)(const char *stage, uint64_t done, uint64_t total, void *user);
-    void *user;
+    void *user; ///< handed to update
 } tl_progress;
 
 /// What the host lends to a bake. All zero is a valid host: malloc, one thread, silent.
@@ -145,6 +146,7 @@ typedef struct tl_host {
 /// defaults from one that was only zeroed, whose zeros nobody chose. The latter is TL_ERR_ARGUMENT, field "cookie".
 #define TL_DEF_COOKIE 0x7a1d5defu
 
+/// No element is to blame: tl_report.element_index.
 #define TL_NO_ELEMENT UINT64_MAX
 
 /// What a bake says about itself, besides its result. A caller who does not want it passes NULL.
@@ -165,6 +167,7 @@ typedef struct tl_blob {
     uint64_t size;    ///< bytes in all, this head included; a multiple of 64
 } tl_blob;
 
+/// Bytes that a blob's address and size are multiples of.
 #define TL_BLOB_ALIGNMENT 64
 
 /// Gives a blob back to the allocator it was baked with, which it remembers beside its bytes. NULL blob: nothing

@@ -23,6 +23,7 @@ extern "C" {
 /// The point of a convex shape that is farthest along a direction (any length; never zero). Must be deterministic.
 typedef tl_vec3 tl_convex_support_fn(tl_vec3 direction, void *user);
 
+/// What a shape is the hull of.
 typedef enum tl_convex_kind {
     TL_CONVEX_HULL,     ///< a baked hull
     TL_CONVEX_POINTS,   ///< the hull of 1 .. n points in the caller's memory; flat and coincident ones are fine
@@ -35,27 +36,34 @@ typedef enum tl_convex_kind {
 
 /// A convex shape in its own frame. Build it with the functions below; nothing is copied or owned.
 typedef struct tl_convex {
-    tl_convex_kind kind;
-    float radius; ///< metres, >= 0; the shape is grown by a ball of it
-    const tl_hull *hull;
-    const tl_vec3 *points;
-    uint32_t point_count;
-    tl_vec3 corners[3];
-    tl_convex_support_fn *support;
-    void *user;
+    tl_convex_kind kind;           ///< which of the fields below count
+    float radius;                  ///< metres, >= 0; the shape is grown by a ball of it
+    const tl_hull *hull;           ///< TL_CONVEX_HULL; borrowed
+    const tl_vec3 *points;         ///< TL_CONVEX_POINTS: [point_count]; borrowed
+    uint32_t point_count;          ///< of points, or of corners with TL_CONVEX_INLINE
+    tl_vec3 corners[3];            ///< see tl_convex_kind
+    tl_convex_support_fn *support; ///< TL_CONVEX_CUSTOM
+    void *user;                    ///< handed to support
 } tl_convex;
 
+/// A baked hull, which must outlive the shape. All radii here are tl_convex.radius: metres, >= 0.
 TL_API tl_convex tl_convex_from_hull(const tl_hull *hull, float radius);
-/// count >= 1 points. The support is a scan: O(count) an iteration.
+/// The hull of count >= 1 points, which must outlive the shape. The support is a scan: O(count) an iteration.
 TL_API tl_convex tl_convex_from_points(const tl_vec3 *points, uint32_t count, float radius);
+/// A box along the axes of its frame; half extents >= 0, metres.
 TL_API tl_convex tl_convex_box(tl_vec3 center, tl_vec3 half_extents, float radius);
+/// A ball; with radius 0 a point.
 TL_API tl_convex tl_convex_sphere(tl_vec3 center, float radius);
+/// A segment grown by the radius; a and b may coincide.
 TL_API tl_convex tl_convex_capsule(tl_vec3 a, tl_vec3 b, float radius);
+/// A triangle, which may have no area.
 TL_API tl_convex tl_convex_triangle(tl_vec3 a, tl_vec3 b, tl_vec3 c, float radius);
-/// The middles of the two discs, which differ; disc_radius >= 0. The support is exact, to double rounding.
+/// A cylinder by the middles of its two discs, which differ; disc_radius >= 0. The support is exact, to double
+/// rounding.
 TL_API tl_convex tl_convex_cylinder(tl_vec3 a, tl_vec3 b, float disc_radius, float radius);
-/// The middle of the base disc and the apex, which differ; disc_radius >= 0.
+/// A cone by the middle of its base disc and its apex, which differ; disc_radius >= 0.
 TL_API tl_convex tl_convex_cone(tl_vec3 base, tl_vec3 apex, float disc_radius, float radius);
+/// Any convex shape by its support function.
 TL_API tl_convex tl_convex_custom(tl_convex_support_fn *support, void *user, float radius);
 
 /// The box of a shape in the world: nothing of it lies outside, and each side is off by a few float roundings at most.
@@ -76,20 +84,20 @@ typedef enum tl_convex_status {
 typedef struct tl_simplex_cache {
     uint32_t count;       ///< 0 .. 4
     uint32_t vertex_a[4]; ///< vertices of A; of curved and custom shapes nothing is cached
-    uint32_t vertex_b[4];
+    uint32_t vertex_b[4]; ///< vertices of B
 } tl_simplex_cache;
 
 /// The separation of two shapes: distance, nearest points and direction.
 typedef struct tl_separation {
     /// Metres between the witness points, so never less than the true distance but for rounding; 0 on overlap.
     float distance;
-    float lower_bound; ///< metres; the true distance is not less
-    bool overlap;      ///< the rounded shapes share a point, or are closer than can be told in double
-    tl_vec3 point_a;   ///< witness on A's surface, world
-    tl_vec3 point_b;   ///< witness on B's surface, world
-    tl_vec3 normal;    ///< unit, from A to B, world; zero on overlap
-    tl_convex_status status;
-    uint32_t iterations;
+    float lower_bound;       ///< metres; the true distance is not less
+    bool overlap;            ///< the rounded shapes share a point, or are closer than can be told in double
+    tl_vec3 point_a;         ///< witness on A's surface, world
+    tl_vec3 point_b;         ///< witness on B's surface, world
+    tl_vec3 normal;          ///< unit, from A to B, world; zero on overlap
+    tl_convex_status status; ///< how far the answer can be trusted
+    uint32_t iterations;     ///< steps taken
 } tl_separation;
 
 /// Distance and nearest points of two convex shapes.
@@ -115,15 +123,15 @@ TL_API bool tl_convex_overlap(const tl_convex *a, tl_transform pose_a, const tl_
 
 /// The penetration of two shapes: depth, direction and deepest points.
 typedef struct tl_penetration {
-    bool overlap;      ///< false: the shapes are apart, all else but status and iterations is zero
-    float depth;       ///< metres, >= 0: moving B this far along the normal separates the shapes
-    float lower_bound; ///< metres; no shorter motion in any direction separates them
-    float upper_bound; ///< metres; the depth, with the rounding of directions added
-    tl_vec3 normal;    ///< unit, from A to B, world. Of several that are equally short, any
-    tl_vec3 point_a;   ///< A's point deepest in B, world; point_b + depth * normal, to rounding
-    tl_vec3 point_b;   ///< B's point deepest in A, world
-    tl_convex_status status;
-    uint32_t iterations;
+    bool overlap;            ///< false: the shapes are apart, all else but status and iterations is zero
+    float depth;             ///< metres, >= 0: moving B this far along the normal separates the shapes
+    float lower_bound;       ///< metres; no shorter motion in any direction separates them
+    float upper_bound;       ///< metres; the depth, with the rounding of directions added
+    tl_vec3 normal;          ///< unit, from A to B, world. Of several that are equally short, any
+    tl_vec3 point_a;         ///< A's point deepest in B, world; point_b + depth * normal, to rounding
+    tl_vec3 point_b;         ///< B's point deepest in A, world
+    tl_convex_status status; ///< how far the answer can be trusted
+    uint32_t iterations;     ///< steps taken
 } tl_penetration;
 
 /// The penetration depth: the shortest translation that separates two shapes. Returns `overlap`.
@@ -140,14 +148,14 @@ TL_API bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const
 
 /// Where a moving shape or a ray meets a shape.
 typedef struct tl_convex_hit {
-    bool hit;
+    bool hit;             ///< false: all else but status and iterations is zero
     bool initial_overlap; ///< they overlap at the start: t is 0, the normal zero; tl_convex_penetration has the depth
     float t;        ///< fraction of the motion, or ray parameter; never later than the true one but for double rounding
     float gap;      ///< metres still between the shapes at t; at most some 2.4e-7 of their size when converged
     tl_vec3 point;  ///< on A's surface, world
     tl_vec3 normal; ///< unit, from A to B, world
     tl_convex_status status; ///< ITERATIONS and DEGENERATE: free until t, unknown beyond; reported as a hit
-    uint32_t iterations;
+    uint32_t iterations;     ///< steps taken
 } tl_convex_hit;
 
 /// Linear cast: moves B by `motion` without turning it, and finds when it first touches A. Returns `hit`.
@@ -163,6 +171,7 @@ TL_API bool tl_convex_cast(const tl_convex *a, tl_transform pose_a, const tl_con
 TL_API bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec3 origin, tl_vec3 direction,
                                float t_max, tl_convex_hit *hit_out);
 
+/// Contacts of one pair.
 #define TL_MAX_CONTACTS 4u
 
 /// Which contacts are wanted. A hundredth of the size of the smaller shape serves well for both lengths. All zero, or a
@@ -172,17 +181,19 @@ typedef struct tl_contact_limits {
     float tolerance; ///< metres, >= 0: a corner of the common patch may be so much less deep than the deepest point
 } tl_contact_limits;
 
+/// A pair of points where two shapes rest on each other.
 typedef struct tl_contact {
     tl_vec3 point_a;  ///< on A's surface, world
     tl_vec3 point_b;  ///< on B's surface, world; point_a + separation * normal
     float separation; ///< metres; negative: this deep
 } tl_contact;
 
+/// The contacts of two shapes along one normal.
 typedef struct tl_contact_manifold {
-    uint32_t count; ///< 0 .. TL_MAX_CONTACTS
-    tl_contact contacts[TL_MAX_CONTACTS];
-    tl_vec3 normal; ///< unit, from A to B, world
-    tl_convex_status status;
+    uint32_t count;                       ///< 0 .. TL_MAX_CONTACTS
+    tl_contact contacts[TL_MAX_CONTACTS]; ///< [count]; the others are zero
+    tl_vec3 normal;                       ///< unit, from A to B, world
+    tl_convex_status status;              ///< how far the answer can be trusted
 } tl_contact_manifold;
 
 /// Where two shapes rest on each other: their contact manifold. Returns the number of contacts; 0 when the shapes are

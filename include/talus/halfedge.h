@@ -29,20 +29,23 @@ extern "C" {
 /// No pool grows beyond this many entries.
 #define TL_MAX_HALFEDGE_ENTRIES 0x7ffffffeu
 
+/// A vertex of the pool.
 typedef struct tl_halfedge_vertex {
-    tl_vec3 position;
-    uint32_t edge; ///< a half-edge that starts here, or TL_HALFEDGE_NONE
-    uint32_t link; ///< TL_HALFEDGE_LIVE, else the next free entry
-    uint32_t mark; ///< private scratch
+    tl_vec3 position; ///< may be written at any time
+    uint32_t edge;    ///< a half-edge that starts here, or TL_HALFEDGE_NONE
+    uint32_t link;    ///< TL_HALFEDGE_LIVE, else the next free entry
+    uint32_t mark;    ///< private scratch
 } tl_halfedge_vertex;
 
+/// A half-edge of the pool. Its twin is the entry with the lowest bit of the index flipped.
 typedef struct tl_halfedge_edge {
     uint32_t vertex; ///< where it points to; TL_HALFEDGE_NONE when the entry is free
     uint32_t face;   ///< to its left, or TL_HALFEDGE_NONE on the boundary
     uint32_t next;   ///< in the loop of its face or hole; the next free pair when the entry is free
-    uint32_t prev;
+    uint32_t prev;   ///< in the same loop
 } tl_halfedge_edge;
 
+/// A face of the pool.
 typedef struct tl_halfedge_face {
     uint32_t edge; ///< one of its half-edges
     uint32_t link; ///< TL_HALFEDGE_LIVE, else the next free entry
@@ -51,18 +54,18 @@ typedef struct tl_halfedge_face {
 /// The mesh. Read the fields freely, change them through the functions only. An index stays valid until its element is
 /// removed; then it is given to a new one. Not thread safe while it is changed.
 typedef struct tl_halfedge_mesh {
-    tl_halfedge_vertex *vertices;
-    tl_halfedge_edge *edges;
-    tl_halfedge_face *faces;
-    uint32_t vertex_end, edge_end, face_end; ///< entries ever used: indices are below
-    uint32_t vertex_count;                   ///< live ones
-    uint32_t half_edge_count;                ///< live ones, two an edge
-    uint32_t face_count;                     ///< live ones
-    uint32_t boundary_count;                 ///< edges with one face only
-    uint32_t vertex_capacity, edge_capacity, face_capacity;
-    uint32_t free_vertex, free_edge, free_face;
-    uint32_t stamp;
-    tl_allocator allocator;
+    tl_halfedge_vertex *vertices;                           ///< [vertex_end], live and free ones
+    tl_halfedge_edge *edges;                                ///< [edge_end]
+    tl_halfedge_face *faces;                                ///< [face_end]
+    uint32_t vertex_end, edge_end, face_end;                ///< entries ever used: indices are below
+    uint32_t vertex_count;                                  ///< live ones
+    uint32_t half_edge_count;                               ///< live ones, two an edge
+    uint32_t face_count;                                    ///< live ones
+    uint32_t boundary_count;                                ///< edges with one face only
+    uint32_t vertex_capacity, edge_capacity, face_capacity; ///< private
+    uint32_t free_vertex, free_edge, free_face;             ///< private: heads of the free lists
+    uint32_t stamp;                                         ///< private: the last value of tl_halfedge_vertex.mark
+    tl_allocator allocator;                                 ///< private: what frees it
 } tl_halfedge_mesh;
 
 /// An empty mesh; takes no memory yet. `allocator` NULL: malloc. The mesh remembers it.
@@ -93,6 +96,7 @@ TL_API tl_result tl_halfedge_mesh_remove_vertex(tl_halfedge_mesh *mesh, uint32_t
 TL_API tl_result tl_halfedge_mesh_add_face(tl_halfedge_mesh *mesh, const uint32_t *vertices, uint32_t count,
                                            uint32_t *face_out);
 
+/// tl_halfedge_mesh_add_face with three vertices.
 TL_API tl_result tl_halfedge_mesh_add_triangle(tl_halfedge_mesh *mesh, uint32_t a, uint32_t b, uint32_t c,
                                                uint32_t *face_out);
 
@@ -142,16 +146,19 @@ TL_API tl_result tl_halfedge_mesh_check(const tl_halfedge_mesh *mesh, tl_report 
 /// maximum. Thread safe while the mesh is not changed.
 TL_API uint32_t tl_halfedge_mesh_support(const tl_halfedge_mesh *mesh, tl_vec3 direction, uint32_t hint);
 
+/// Whether an index, which may be any number, names a live vertex.
 static inline bool tl_halfedge_is_vertex(const tl_halfedge_mesh *mesh, uint32_t vertex)
 {
     return vertex < mesh->vertex_end && mesh->vertices[vertex].link == TL_HALFEDGE_LIVE;
 }
 
+/// Whether an index names a live half-edge.
 static inline bool tl_halfedge_is_edge(const tl_halfedge_mesh *mesh, uint32_t edge)
 {
     return edge < mesh->edge_end && mesh->edges[edge].vertex != TL_HALFEDGE_NONE;
 }
 
+/// Whether an index names a live face.
 static inline bool tl_halfedge_is_face(const tl_halfedge_mesh *mesh, uint32_t face)
 {
     return face < mesh->face_end && mesh->faces[face].link == TL_HALFEDGE_LIVE;

@@ -19,7 +19,7 @@ extern "C" {
 #endif
 
 #define TL_HULL_MAGIC   0x4c554854u ///< "THUL"
-#define TL_HULL_VERSION 3u
+#define TL_HULL_VERSION 3u          ///< of the layout
 
 /// Largest absolute coordinate of a hull's points: edges and their dot products stay finite floats.
 #define TL_MAX_HULL_COORDINATE 1e30f
@@ -27,7 +27,8 @@ extern "C" {
 /// A bake takes fewer points than this, so that its half-edges fit 32 bits.
 #define TL_MAX_HULL_POINTS 0x10000000u
 
-#define TL_NO_VERTEX       UINT32_MAX
+/// No vertex, and no face, where an index of one is expected.
+#define TL_NO_VERTEX UINT32_MAX
 
 /// How a hull is baked.
 typedef struct tl_hull_def {
@@ -40,15 +41,15 @@ typedef struct tl_hull_def {
     /// >= 0. Input counts as flat when its thickness is at most this many roundings (half ulps) of its largest
     /// coordinate: 8 covers a plane whose points were rounded to floats. 0: only what is exactly flat.
     float flatness;
-    tl_host host;
+    tl_host host;    ///< allocator and progress
     uint32_t cookie; ///< private: set by tl_default_hull_def
 } tl_hull_def;
 
 /// What tl_hull_bake did.
 typedef struct tl_hull_report {
-    tl_report base;
-    uint32_t triangle_count; ///< of the hull before coplanar ones were merged
-    bool thickened;
+    tl_report base;           ///< what failed, and where
+    uint32_t triangle_count;  ///< of the hull before coplanar ones were merged
+    bool thickened;           ///< the input had no volume, and was given the def's thickness
     uint32_t points_left_out; ///< points outside, because max_vertices was reached
     double max_outside;       ///< metres; the farthest of these lies at least so far outside, 0 when there is none
 } tl_hull_report;
@@ -58,9 +59,10 @@ typedef struct tl_hull_half_edge {
     uint32_t origin; ///< vertex it starts at
     uint32_t twin;   ///< the same edge in the other direction
     uint32_t next;   ///< in the face's loop, counter-clockwise
-    uint32_t face;
+    uint32_t face;   ///< to its left
 } tl_hull_half_edge;
 
+/// A convex polygon, a run of consecutive half-edges.
 typedef struct tl_hull_face {
     uint32_t first; ///< its first half-edge; the one of its lowest vertex
     uint32_t count; ///< >= 3
@@ -68,30 +70,30 @@ typedef struct tl_hull_face {
 
 /// Points p with normal . p <= offset are inside. The normal has unit length, to double rounding.
 typedef struct tl_hull_plane {
-    double normal[3];
-    double offset;
+    double normal[3]; ///< outward
+    double offset;    ///< metres from the origin, along the normal
 } tl_hull_plane;
 
 /// The planes of eight faces, as queries read them: face f is lane f % 8 of block f / 8. Lanes beyond the last face are
 /// zero, planes that everything is on.
 typedef struct tl_hull_plane_block {
     double x[8], y[8], z[8]; ///< normals
-    double offset[8];
+    double offset[8];        ///< metres
 } tl_hull_plane_block;
 
 /// For density 1. Computed in double about a point inside, so it is as good far from the origin. A body thinner than
 /// double rounding of its length has volume and inertia 0, and the mean of its vertices as centre.
 typedef struct tl_hull_mass {
-    double volume;
-    double area;
-    double center[3];  ///< centre of mass
+    double volume;     ///< cubic metres, >= 0
+    double area;       ///< of the surface, square metres
+    double center[3];  ///< centre of mass, metres
     double inertia[6]; ///< about the centre of mass: xx, yy, zz, xy, xz, yz of the tensor (products carry their minus)
 } tl_hull_mass;
 
 /// The baked hull: a blob. Read it through the functions below; offsets are bytes from its beginning.
 /// Vertices are in the order of their points in the input, so "lowest vertex" is "earliest point".
 typedef struct tl_hull {
-    tl_blob blob;
+    tl_blob blob; ///< the head; free the hull with tl_blob_free
     // All that tl_hull_support reads of the head lies in its first cache line; the layout of these parts is private.
     // Offsets here are in units of TL_BLOB_ALIGNMENT.
     uint32_t vertex_count; ///< V >= 4
@@ -104,20 +106,21 @@ typedef struct tl_hull {
     uint32_t table;        ///< uint32_t [2 table_side^2 + ring_cells] a vertex to start from, or a ring to look in
     uint32_t rings;        ///< maps of large faces
     uint32_t block_count;  ///< V, and one for every seven neighbours of a vertex beyond eight
-    uint32_t ring_count;
-    uint32_t ring_cells;      ///< of all rings
-    uint32_t face_count;      ///< F
+    uint32_t ring_count;   ///< large faces with a ring
+    uint32_t ring_cells;   ///< of all rings
+    uint32_t face_count;   ///< F
     uint32_t half_edge_count; ///< 2 E; V - E + F = 2
-    tl_aabb bounds;
-    tl_hull_mass mass;
-    uint64_t vertices;     ///< tl_vec3 [V]
-    uint64_t sources;      ///< uint32_t [V] index of the input point
-    uint64_t vertex_edges; ///< uint32_t [V] a half-edge that starts there
-    uint64_t half_edges;   ///< tl_hull_half_edge [2 E]
-    uint64_t faces;        ///< tl_hull_face [F]
-    uint64_t planes;       ///< tl_hull_plane_block [(F + 7) / 8]
+    tl_aabb bounds;           ///< of the vertices, exact
+    tl_hull_mass mass;        ///< for density 1
+    uint64_t vertices;        ///< tl_vec3 [V]
+    uint64_t sources;         ///< uint32_t [V] index of the input point
+    uint64_t vertex_edges;    ///< uint32_t [V] a half-edge that starts there
+    uint64_t half_edges;      ///< tl_hull_half_edge [2 E]
+    uint64_t faces;           ///< tl_hull_face [F]
+    uint64_t planes;          ///< tl_hull_plane_block [(F + 7) / 8]
 } tl_hull;
 
+/// No limit of vertices, no thickness, flatness 8, malloc.
 TL_API tl_hull_def tl_default_hull_def(void);
 
 /// Bakes the convex hull of `count` points. Duplicates and inner points are allowed and cost little.
@@ -215,21 +218,25 @@ static inline const uint32_t *tl_hull_vertex_edges(const tl_hull *hull)
     return (const uint32_t *)(const void *)((const char *)hull + hull->vertex_edges);
 }
 
+/// 2 E half-edges, those of a face one after the other.
 static inline const tl_hull_half_edge *tl_hull_half_edges(const tl_hull *hull)
 {
     return (const tl_hull_half_edge *)(const void *)((const char *)hull + hull->half_edges);
 }
 
+/// F faces.
 static inline const tl_hull_face *tl_hull_faces(const tl_hull *hull)
 {
     return (const tl_hull_face *)(const void *)((const char *)hull + hull->faces);
 }
 
+/// Blocks of eight planes for so many faces.
 static inline uint32_t tl_hull_plane_block_count(uint32_t face_count)
 {
     return face_count / 8 + (face_count % 8 != 0);
 }
 
+/// The planes of all faces, in blocks of eight.
 static inline const tl_hull_plane_block *tl_hull_plane_blocks(const tl_hull *hull)
 {
     return (const tl_hull_plane_block *)(const void *)((const char *)hull + hull->planes);

@@ -14,6 +14,7 @@
 extern "C" {
 #endif
 
+/// No triangle, where an index of one is expected.
 #define TL_NO_TRIANGLE UINT32_MAX
 
 /// Limits of one mesh: 2^31 - 1 vertices, and triangles such that 3 * triangle_count fits 32 bits.
@@ -22,11 +23,11 @@ extern "C" {
 
 /// A triangle list as the caller has it. Nothing is copied or owned.
 typedef struct tl_mesh_view {
-    const tl_vec3 *vertices;
+    const tl_vec3 *vertices; ///< [vertex_count] metres
     uint32_t vertex_count;
-    const uint32_t *indices; ///< 3 a triangle, counter-clockwise seen from its front
+    const uint32_t *indices; ///< [3 * triangle_count] into vertices; counter-clockwise seen from the front
     uint32_t triangle_count;
-    const uint16_t *materials; ///< one a triangle, or NULL: all 0
+    const uint16_t *materials; ///< [triangle_count], or NULL: all 0
 } tl_mesh_view;
 
 /// How a mesh is welded and cleaned.
@@ -35,18 +36,18 @@ typedef struct tl_mesh_def {
     /// itself, so none moves by more than the tolerance. 0: only equal positions are welded (-0 equals 0).
     float weld_tolerance;
     bool keep_duplicates; ///< keep triangles that repeat another one's three vertices in the same winding
-    tl_host host;
-    uint32_t cookie; ///< private: set by tl_default_mesh_def
+    tl_host host;         ///< allocator, tasks, progress
+    uint32_t cookie;      ///< private: set by tl_default_mesh_def
 } tl_mesh_def;
 
 /// A mesh of unique vertices and of triangles with area, each with its index in the input. Free with tl_mesh_free.
 typedef struct tl_mesh {
-    tl_vec3 *vertices;
+    tl_vec3 *vertices; ///< [vertex_count] metres
     uint32_t vertex_count;
-    uint32_t *indices;
+    uint32_t *indices; ///< [3 * triangle_count]
     uint32_t triangle_count;
-    uint16_t *materials;        ///< one a triangle, never NULL
-    uint32_t *source_triangles; ///< triangle in the view that each came from, ascending
+    uint16_t *materials;        ///< [triangle_count], never NULL
+    uint32_t *source_triangles; ///< [triangle_count] of the view that each came from, ascending
     tl_aabb bounds;             ///< of the vertices that triangles use
     void *block;                ///< private: all arrays
     size_t block_size;          ///< private: bytes
@@ -55,13 +56,14 @@ typedef struct tl_mesh {
 
 /// What tl_mesh_bake did.
 typedef struct tl_mesh_report {
-    tl_report base;
+    tl_report base;                ///< what failed, and where
     uint32_t welded_vertices;      ///< input vertices that became another one
     uint32_t unused_vertices;      ///< input vertices that no kept triangle uses
     uint32_t degenerate_triangles; ///< dropped: two equal corners, or no area in exact arithmetic
     uint32_t duplicate_triangles;  ///< dropped: same corners, same winding as an earlier one
 } tl_mesh_report;
 
+/// Welds equal positions only, drops duplicate triangles, uses malloc and one thread.
 TL_API tl_mesh_def tl_default_mesh_def(void);
 
 /// Welds and cleans a triangle list.
@@ -87,15 +89,15 @@ TL_API tl_mesh_view tl_mesh_as_view(const tl_mesh *mesh);
 typedef struct tl_adjacency {
     /// [3 * triangle_count]: 3 * neighbour + its edge, TL_EDGE_BORDER or TL_EDGE_NON_MANIFOLD.
     uint32_t *across;
-    uint32_t triangle_count;
+    uint32_t triangle_count;     ///< of the view
     uint32_t border_edges;       ///< edges with one triangle
     uint32_t paired_edges;       ///< edges with two triangles of opposite direction
     uint32_t non_manifold_edges; ///< edges with more than two triangles, or two that run the same way
     tl_allocator allocator;      ///< private: what frees it
 } tl_adjacency;
 
-#define TL_EDGE_BORDER       UINT32_MAX
-#define TL_EDGE_NON_MANIFOLD (UINT32_MAX - 1u)
+#define TL_EDGE_BORDER       UINT32_MAX        ///< no other triangle has the edge
+#define TL_EDGE_NON_MANIFOLD (UINT32_MAX - 1u) ///< more than one has it, or one that runs the same way
 
 /// Finds each triangle's neighbours. Two triangles are neighbours across an edge when exactly those two have it,
 /// in opposite directions. O(triangles). Indices are trusted: give a tl_mesh, or a checked view. Errors:
@@ -108,16 +110,17 @@ TL_API tl_result tl_adjacency_bake(const tl_mesh_view *view, const tl_host *host
 /// Gives the memory back to the host's allocator and zeroes the struct. NULL or zeroed: nothing happens.
 TL_API void tl_adjacency_free(tl_adjacency *adjacency);
 
+/// The triangle belongs to no closed part.
 #define TL_NO_PART UINT32_MAX
 
 /// The closed parts of a mesh: surfaces that enclose a space.
 typedef struct tl_closed_parts {
-    uint32_t *part_of; ///< [triangle_count]: the closed part, numbered in the order of first triangles, or TL_NO_PART
-    double *volumes;   ///< [part_count] cubic metres; negative for a part that faces inwards, such as a room
-    uint32_t part_count;
-    uint32_t open_part_count; ///< parts with a rim
-    uint32_t triangle_count;
-    tl_allocator allocator; ///< private: what frees it
+    uint32_t *part_of;   ///< [triangle_count]: the closed part, numbered in the order of first triangles, or TL_NO_PART
+    double *volumes;     ///< [part_count] cubic metres; negative for a part that faces inwards, such as a room
+    uint32_t part_count; ///< closed ones
+    uint32_t open_part_count; ///< parts with a border
+    uint32_t triangle_count;  ///< of the view
+    tl_allocator allocator;   ///< private: what frees it
 } tl_closed_parts;
 
 /// Finds which triangles belong to closed parts. An edge connects its triangles when as many of them run along it one

@@ -3,7 +3,8 @@
 // Vectors, boxes and transforms, by value. All inline: a call costs what its arithmetic costs.
 //
 // Lengths are metres unless a name says otherwise, y is up, angles are radians. The order of operations in
-// each function is part of its contract: the library's results are reproducible bit by bit.
+// each function is part of its contract: the library's results are reproducible bit by bit. Functions without a comment
+// do what their names say, component by component where that makes sense.
 
 #ifndef TALUS_VEC_H
 #define TALUS_VEC_H
@@ -16,6 +17,7 @@
 extern "C" {
 #endif
 
+/// A point in metres, or a direction.
 typedef struct tl_vec3 {
     float x, y, z;
 } tl_vec3;
@@ -28,8 +30,8 @@ typedef struct tl_quat {
 
 /// A rigid motion: rotate, then translate. All zero is the identity.
 typedef struct tl_transform {
-    tl_quat rotation;
-    tl_vec3 position;
+    tl_quat rotation; ///< first
+    tl_vec3 position; ///< metres, added then
 } tl_transform;
 
 /// A closed axis-aligned box. Empty when min > max on any axis; `tl_aabb_empty()` is the neutral element of union.
@@ -119,11 +121,13 @@ static inline tl_vec3 tl_normalize(tl_vec3 a)
     return length > 0.0f ? tl_scale(a, 1.0f / length) : tl_vec3_make(0.0f, 0.0f, 0.0f);
 }
 
+/// The second of equal ones, and when either is NaN.
 static inline float tl_minf(float a, float b)
 {
     return a < b ? a : b;
 }
 
+/// The second of equal ones, and when either is NaN.
 static inline float tl_maxf(float a, float b)
 {
     return a > b ? a : b;
@@ -154,6 +158,7 @@ static inline bool tl_is_finite(tl_vec3 a)
     return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
 }
 
+/// The box of no points: min is +infinity, max is -infinity.
 static inline tl_aabb tl_aabb_empty(void)
 {
     tl_aabb box = { { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
@@ -178,6 +183,7 @@ static inline tl_aabb tl_aabb_intersection(tl_aabb a, tl_aabb b)
     return result;
 }
 
+/// Whether min > max, or either is NaN, on any axis.
 static inline bool tl_aabb_is_empty(tl_aabb box)
 {
     return !(box.min.x <= box.max.x && box.min.y <= box.max.y && box.min.z <= box.max.z);
@@ -190,6 +196,7 @@ static inline bool tl_aabb_overlaps(tl_aabb a, tl_aabb b)
            a.max.z >= b.min.z;
 }
 
+/// Whether a point lies in a closed box.
 static inline bool tl_aabb_contains(tl_aabb box, tl_vec3 p)
 {
     return p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y && p.z >= box.min.z &&
@@ -275,11 +282,13 @@ static inline tl_transform tl_transform_identity(void)
     return t;
 }
 
+/// p rotated, then moved.
 static inline tl_vec3 tl_transform_point(tl_transform t, tl_vec3 p)
 {
     return tl_add(tl_rotate(t.rotation, p), t.position);
 }
 
+/// p moved back, then rotated back: the inverse of tl_transform_point.
 static inline tl_vec3 tl_inverse_transform_point(tl_transform t, tl_vec3 p)
 {
     return tl_inverse_rotate(t.rotation, tl_sub(p, t.position));

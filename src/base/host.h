@@ -26,7 +26,7 @@ static inline uint32_t tl_block_end(uint32_t block, uint32_t size, uint32_t coun
 /// How many workers tl_run_tasks may use at once: >= 1.
 uint32_t tl_worker_count(const tl_host *host);
 
-/// Tells the host; TL_ERR_CANCELLED when it asks to stop. `host` may be NULL.
+/// Calls the progress hook; TL_ERR_CANCELLED when it returns false. `host` may be NULL.
 tl_result tl_progress_update(const tl_host *host, const char *stage, uint64_t done, uint64_t total);
 
 /// Writes a failure's place into a report that may be NULL, and returns `result`, so that it reads

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The shapes that a query can be asked of, as values.
+// The shapes of convex queries, as values.
 
 #include <talus/convex.h>
 

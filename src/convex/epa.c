@@ -56,7 +56,7 @@ static bool probe(epa_search *s, tl_vec3d direction, double scale, tl_minkowski_
     return false;
 }
 
-// Asks along six directions and keeps the point for which `spread` of its difference from the first is largest.
+// Takes the support along six directions and keeps the point that is farthest from the first point or line.
 static bool widen_simplex(epa_search *s, tl_minkowski_point *points, uint32_t count, const tl_vec3d directions[6])
 {
     double best = 0.0;
@@ -130,7 +130,7 @@ static double witness_on(const epa_search *s, const tl_polytope *p, const uint8_
     return tl_vec3d_length(tl_vec3d_mul_add(nearest, s->depth->normal, -s->depth->upper));
 }
 
-// A face of A - B is often several triangles, and the one that was asked last need not hold the origin's foot: of all
+// A face of A - B is often several triangles, and the last one need not hold the origin's foot: of all
 // that are as near, take the one that does.
 static void find_epa_witness(epa_search *s, const tl_polytope *p, const uint8_t best_vertices[3])
 {
@@ -160,7 +160,7 @@ static void expand_polytope(epa_search *s, tl_polytope *p)
 {
     uint8_t best_vertices[3] = { 0, 1, 2 };
     tl_core_depth *depth = s->depth;
-    depth->upper = (double)INFINITY; // what the start asked is found again where it matters, with its triangle
+    depth->upper = (double)INFINITY; // what the start found is found again where it matters, with its triangle
     for (;;) {
         uint32_t f = tl_polytope_nearest_face(p);
         const tl_vec3d normal = p->faces[f].normal;

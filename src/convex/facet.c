@@ -5,7 +5,7 @@
 //
 // A face belongs to the facet when all its corners lie in the plane of the one given, or below by no more than the
 // rounding of coordinates explains. The hull is convex: what lies so high on it is one piece without holes. Nothing is
-// stored; the outline is walked from half-edge to half-edge, and each face met is asked anew.
+// stored; the outline is walked from half-edge to half-edge, and each face met is tested again.
 
 #include "convex/facet.h"
 

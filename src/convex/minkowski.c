@@ -89,7 +89,7 @@ static tl_vec3d curved_support(const tl_convex *shape, tl_vec3d direction)
                                            : round_support(shape, direction);
 }
 
-// Sets the vertex, which comes as a hint, and the point. What has vertices is done here: it is short, and asked often.
+// Sets the vertex, which comes as a hint, and the point. What has vertices is done here: it is short and called often.
 static void find_support(const tl_minkowski *pair, const tl_convex *shape, const tl_vec3d *direction, uint32_t *vertex,
                          tl_vec3d *point)
 {
@@ -133,7 +133,7 @@ static double custom_size(const tl_convex *shape)
     return tl_vec3d_size(size);
 }
 
-// Of a shape that is asked along float directions; 0 of what is asked in double.
+// The size of a shape whose support takes float directions; 0 of one that takes double.
 static double rounded_size(const tl_minkowski *pair, const tl_convex *shape)
 {
     if (shape->kind == TL_CONVEX_HULL && shape->hull->vertex_count > pair->scan_limit) {

@@ -2,12 +2,13 @@
 //
 // The point of a simplex nearest to the origin.
 //
-// Each face of a tetrahedron that has the origin on its outer side, or that is too flat to say, is asked for its
-// nearest point, and the nearest of these wins; a triangle is its plane's foot when that lies inside, else the best of
-// its edges. That asks a little more than the one feature that Johnson's or Ericson's order of tests leads to, but no
-// rounding can lead it to a wrong feature: it compares finished distances. Bad simplices, flat and needle-like, are
-// what GJK ends with, so this is where its robustness is decided. Compare: Ericson, Real-Time Collision Detection, 5.1;
-// Montanari, Petrinic, Barbieri, Improving the GJK Algorithm for Faster and More Reliable Distance Queries, 2017.
+// For each face of a tetrahedron that has the origin on its outer side, or that is too flat to tell, the nearest point
+// is computed, and the nearest of these wins. Of a triangle that is the foot of the origin on its plane when the foot
+// lies inside, else the best of its edges. Johnson's and Ericson's orders of tests compute only one feature; this
+// computes a few more, but no rounding can lead it to a wrong one: it compares finished distances. Bad simplices, flat
+// and needle-like, are what GJK ends with, so this is where its robustness is decided. Compare: Ericson, Real-Time
+// Collision Detection, 5.1; Montanari, Petrinic, Barbieri, Improving the GJK Algorithm for Faster and More Reliable
+// Distance Queries, 2017.
 
 #include "convex/simplex.h"
 
@@ -16,7 +17,7 @@
 // A determinant of three differences has a relative error of less than 16 roundings of the product of their lengths.
 #define VOLUME_ERROR TL_DOUBLE_GAMMA(16)
 
-// Each of the functions below takes the place of `best` when it has found a nearer point.
+// Each of the functions below replaces `best` when it has found a nearer point.
 
 static void try_point(const tl_simplex *s, uint32_t i, tl_simplex_point *best)
 {

@@ -2,12 +2,12 @@
 //
 // Conflict lists: each point that is still outside is filed under one face that it lies strictly in front of.
 //
-// When faces are replaced by a cone, their points are asked of the cone's faces only. That is enough: a point that saw
-// a removed face and still sees a kept one sees, walking from one to the other inside its visible region, both faces at
-// some horizon edge, and the new face there lies between the two.
-// The newest face is refined first: the step after it works on the same few faces and points, which are in the cache,
-// and a point is refiled half as often as when faces wait in a ring.
-// Clarkson, Shor, Applications of Random Sampling in Computational Geometry, 1989, keep all conflicts; one is enough.
+// When faces are replaced by a cone, their points are tested against the cone's faces only. That is enough: a point
+// that saw a removed face and still sees a kept one sees, walking from one to the other inside its visible region, both
+// faces at some horizon edge, and the new face there lies between the two. The newest face is refined first: the step
+// after it works on the same few faces and points, which are in the cache, and a point is refiled half as often as when
+// faces wait in a ring. Clarkson, Shor, Applications of Random Sampling in Computational Geometry, 1989, keep all
+// conflicts; one is enough.
 
 #include "hull/bake/quickhull.h"
 
@@ -46,7 +46,7 @@ void tl_quickhull_file_all(tl_quickhull *hull, const uint32_t seed[4])
 
 void tl_quickhull_refile(tl_quickhull *hull)
 {
-    // The new point lies in the planes of all created faces: it need not be asked, and asking would be the costly case.
+    // The new point lies in the planes of all created faces: it needs no test, and a test would be the costly case.
     uint32_t eye = hull->faces[hull->created[0]].vertex[2];
     for (uint32_t i = 0; i < hull->visible_count; i++) {
         uint32_t p = hull->conflicts[hull->visible[i]].first;

@@ -4,7 +4,7 @@
 // corners of the body go.
 //
 // Coplanarity is exact, so it is transitive, and a group of coplanar triangles is a convex polygon with one border. So
-// it is enough to ask each edge once whether it is flat, and to walk the borders. A vertex inside such a polygon keeps
+// it is enough to test once whether each edge is flat, and to walk the borders. A vertex inside such a polygon keeps
 // no edge, one inside an edge keeps two; every other vertex meets three planes or more and stays.
 // For hill climbing this is needed, not cosmetic: a vertex inside a flat face has no strictly better neighbour when the
 // direction points away from the face, so a climb would stop at a minimum.
@@ -77,7 +77,7 @@ static void find_borders(merge_state *m)
         for (uint32_t k = 0; k < 3 && hull->conflicts[f].live; k++) {
             uint32_t across = face->across[k], corner = tl_half_edge_corner(across);
             if (across < 4 * f + k) {
-                continue; // asked from there
+                continue; // tested from there
             }
             uint32_t apex = hull->faces[tl_half_edge_face(across)].vertex[corner == 0 ? 2 : corner - 1];
             double height;

@@ -5,16 +5,28 @@
 // each has been rounded on its own, and a blunt corner may end up inside.
 
 #include "base/arena.h"
-#include "base/assert.h"
+#include "base/host.h"
 #include "math/vec3d.h"
 
 #include <talus/hull.h>
 
+#include <string.h>
+
 tl_result tl_hull_transform(const tl_hull *hull, tl_vec3 scale, tl_transform pose, const tl_host *host,
                             tl_hull **hull_out, tl_hull_report *report_out)
 {
-    TL_ASSERT(hull_out != NULL);
+    if (report_out != NULL) {
+        memset(report_out, 0, sizeof *report_out);
+    }
+    tl_report *report = report_out != NULL ? &report_out->base : NULL;
+    tl_report_begin(report, "hull");
+    if (hull_out == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "hull_out", "give where the hull goes");
+    }
     *hull_out = NULL;
+    if (hull == NULL) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "hull", "give a baked hull");
+    }
     tl_hull_def def = tl_default_hull_def();
     def.flatness = 0.0f; // the hull was no chip of rounding, so what remains of it is meant
     if (host != NULL) {

@@ -15,7 +15,7 @@
 
 #define TL_NONE UINT32_MAX
 
-// Half-edge k of triangle f is 4 * f + k and runs from vertex k to vertex (k + 1) % 3. What a step asks of a face is
+// Half-edge k of triangle f is 4 * f + k and runs from vertex k to vertex (k + 1) % 3. What a step reads of a face is
 // one cache line; what it keeps for it lies beside, in tl_quickhull_conflicts.
 typedef struct tl_quickhull_face {
     tl_side_plane plane;
@@ -27,7 +27,7 @@ typedef struct tl_quickhull_conflicts {
     double farthest_value; // height of the farthest point times the normal's length
     uint32_t first;        // head of a list linked by tl_quickhull_point.next
     uint32_t farthest;     // its point with the largest value; lowest index on ties
-    uint32_t seen;         // twice the step that last asked whether the face is visible, plus 1 when it is
+    uint32_t seen;         // twice the step that last tested whether the face is visible, plus 1 when it is
     uint32_t newer, older; // neighbours among the faces that wait
     bool live;
 } tl_quickhull_conflicts;

@@ -2,7 +2,7 @@
 //
 // The plane of a triangle, prepared for many exact questions on which side of it a point lies.
 //
-// The normal, the offset and a bound of the error are computed once, in double, for all points that can be asked; what
+// The normal, the offset and a bound of the error are computed once, in double, for all points that can be tested; what
 // lies within the bound is decided by tl_orient3d. The bound is a share of the points' reach, the largest absolute
 // coordinate on each axis, so a cloud is first moved near the origin: see tl_side_origin.
 
@@ -36,7 +36,7 @@ static inline float tl_side_origin(float low, float high)
 }
 
 // The plane through a, b, c, which runs counter-clockwise seen from in front. No coordinate of a point that will be
-// asked, or of a, exceeds `reach`.
+// tested, or of a, exceeds `reach`.
 static inline tl_side_plane tl_side_plane_make(tl_vec3 a, tl_vec3 b, tl_vec3 c, const double reach[3])
 {
     double ax = (double)a.x, ay = (double)a.y, az = (double)a.z;

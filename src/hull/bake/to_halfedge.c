@@ -32,15 +32,18 @@ static tl_result add_hull_faces(const tl_hull *hull, tl_halfedge_mesh *mesh, uin
 
 tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge_mesh *mesh)
 {
+    if (hull == NULL || mesh == NULL) {
+        return TL_ERR_ARGUMENT;
+    }
     tl_halfedge_mesh_clear(mesh);
-    uint32_t most = hull->vertex_count; // corners of a face
-    uint32_t *corners = tl_allocate_array(&mesh->allocator, most, sizeof *corners);
+    uint32_t max_corners = hull->vertex_count; // of a face
+    uint32_t *corners = tl_allocate_array(&mesh->allocator, max_corners, sizeof *corners);
     if (corners == NULL) {
         return TL_ERR_MEMORY;
     }
     tl_result result = add_hull_vertices(hull, mesh);
     result = result == TL_OK ? add_hull_faces(hull, mesh, corners) : result;
-    tl_release_array(&mesh->allocator, corners, most, sizeof *corners);
+    tl_release_array(&mesh->allocator, corners, max_corners, sizeof *corners);
     if (result != TL_OK) {
         tl_halfedge_mesh_clear(mesh);
     }

@@ -7,6 +7,7 @@
 #include "hull/support/face_ring.h"
 
 #include "base/assert.h"
+#include "base/blob_check.h"
 #include "base/host.h"
 #include "math/predicates.h"
 
@@ -25,27 +26,6 @@ static tl_result wrong_field(tl_report *report, const char *field)
 static tl_result wrong_element(tl_report *report, const char *element, uint64_t index)
 {
     return tl_report_fail(report, TL_ERR_CORRUPT, element, index, "bake the hull again");
-}
-
-static tl_result check_blob(const void *bytes, uint64_t size, tl_report *report)
-{
-    if (bytes == NULL) {
-        return tl_report_field(report, TL_ERR_ARGUMENT, "bytes", "give the hull's bytes");
-    }
-    if (size < sizeof(tl_blob)) {
-        return tl_report_field(report, TL_ERR_TRUNCATED, "size", "give the whole hull");
-    }
-    const tl_blob *blob = bytes;
-    if (blob->magic != TL_HULL_MAGIC) {
-        return tl_report_field(report, TL_ERR_MAGIC, "blob.magic", "give the bytes of a baked hull");
-    }
-    if (blob->version != TL_HULL_VERSION) {
-        return tl_report_field(report, TL_ERR_VERSION, "blob.version", "bake the hull again with this version");
-    }
-    if (size < sizeof(tl_hull) || size < blob->size) {
-        return tl_report_field(report, TL_ERR_TRUNCATED, "size", "give the whole hull");
-    }
-    return TL_OK;
 }
 
 static tl_result check_head(const tl_hull *hull, tl_report *report)
@@ -267,8 +247,8 @@ static tl_result check_direction_table(const tl_hull *hull, tl_report *report)
 
 tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *report_out)
 {
-    tl_report_begin(report_out, "check hull");
-    TL_TRY(check_blob(bytes, size, report_out));
+    const tl_blob expected = { TL_HULL_MAGIC, TL_HULL_VERSION, sizeof(tl_hull) };
+    TL_TRY(tl_blob_check_head(bytes, size, expected, 16, report_out));
     const tl_hull *hull = bytes;
     TL_TRY(check_head(hull, report_out));
     TL_TRY(check_loops(hull, report_out));

@@ -2,8 +2,8 @@
 //
 // Proof by exact predicates that a hull is convex and contains its points.
 //
-// Every vertex is asked of every face: local convexity at the edges alone would also accept a surface that winds around
-// twice.
+// Every vertex is tested against every face: local convexity at the edges alone would also accept a surface that winds
+// around twice.
 
 #include "hull/bake/side_plane.h"
 

@@ -6,6 +6,7 @@
 
 #include "hull/ray/hull_ray.h"
 
+#include "base/assert.h"
 #include "base/cpu.h"
 #include "math/predicates.h"
 
@@ -39,6 +40,7 @@ tl_ray_planes_fn *tl_ray_planes_for(int level)
 bool tl_hull_clip_ray(const tl_hull *hull, const double origin[3], const double direction[3], double max_t,
                       double *t_out, uint32_t *face_out)
 {
+    TL_ASSERT(hull != NULL && t_out != NULL && face_out != NULL);
     tl_ray_planes_fn *best = NULL;
     for (int level = 3; best == NULL; level--) {
         best = tl_ray_planes_for(level);
@@ -48,6 +50,7 @@ bool tl_hull_clip_ray(const tl_hull *hull, const double origin[3], const double 
 
 bool tl_hull_cast_ray(const tl_hull *hull, tl_vec3 origin, tl_vec3 direction, float max_t, tl_hull_hit *hit_out)
 {
+    TL_ASSERT(hull != NULL);
     const double from[3] = { (double)origin.x, (double)origin.y, (double)origin.z };
     const double along[3] = { (double)direction.x, (double)direction.y, (double)direction.z };
     double t;
@@ -69,6 +72,7 @@ bool tl_hull_cast_ray(const tl_hull *hull, tl_vec3 origin, tl_vec3 direction, fl
 
 bool tl_hull_contains(const tl_hull *hull, tl_vec3 point)
 {
+    TL_ASSERT(hull != NULL);
     const tl_vec3 *vertices = tl_hull_vertices(hull);
     const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
     for (uint32_t f = 0; f < hull->face_count; f++) {

@@ -145,7 +145,7 @@ static void name_rings(const tl_hull *hull, uint32_t *table, const uint32_t *rin
         uint32_t *square = table + row / side * side * side;
         for (uint32_t column = 0; column < side; column++) {
             if (is_among_wedges(square, side, row % side, column, rings)) {
-                table[row * side + column] |= TL_TABLE_RING; // beside its vertex, which the next cells ask for
+                table[row * side + column] |= TL_TABLE_RING; // beside its vertex, which the next cells need
             }
         }
     }

@@ -6,6 +6,7 @@
 
 #include "hull/support/hull_support.h"
 
+#include "base/assert.h"
 #include "base/cpu.h"
 
 #include <string.h>
@@ -44,6 +45,7 @@ tl_support_kernel tl_support_kernel_best(void)
 
 uint32_t tl_hull_support(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
 {
+    TL_ASSERT(hull != NULL);
     if (tl_cpu_has_avx2()) {
         return tl_hull_support_avx2(hull, direction, hint);
     }

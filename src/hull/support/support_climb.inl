@@ -37,7 +37,7 @@ typedef struct tl_climb_gains {
     tl_f32x8 gain, error;
 } tl_climb_gains;
 
-static inline tl_climb_gains tl_climber_ask(const tl_climber *c, const tl_climb_block *block)
+static inline tl_climb_gains tl_climber_gains_at(const tl_climber *c, const tl_climb_block *block)
 {
     tl_f32x8 x = tl_f32x8_mul(c->x, tl_f32x8_load(block->x));
     tl_f32x8 y = tl_f32x8_mul(c->y, tl_f32x8_load(block->y));
@@ -67,7 +67,7 @@ static inline bool tl_hull_is_farthest(const tl_hull *hull, const tl_climber *c,
 {
     const tl_climb_block *blocks = tl_hull_blocks(hull);
     for (uint32_t at = vertex; at != TL_NO_VERTEX; at = tl_climb_block_after(&blocks[at])) {
-        if (tl_climber_open(tl_climber_ask(c, &blocks[at])) != 0) {
+        if (tl_climber_open(tl_climber_gains_at(c, &blocks[at])) != 0) {
             return false;
         }
     }
@@ -83,7 +83,7 @@ static inline bool tl_hull_climb_blocks(const tl_hull *hull, const tl_climber *c
         float min_gain = 0.0f;
         bool open = false;
         for (uint32_t at = *vertex; at != TL_NO_VERTEX; at = tl_climb_block_after(&blocks[at])) {
-            tl_climb_gains g = tl_climber_ask(c, &blocks[at]);
+            tl_climb_gains g = tl_climber_gains_at(c, &blocks[at]);
             if (tl_climber_open(g) == 0) {
                 continue;
             }

@@ -4,7 +4,7 @@
 // TL_SUPPORT_CLIMB and TL_SUPPORT_MARCH.
 //
 // First the caller's hint. Then a scan of a small hull, or a start from the direction table. The start is right nearly
-// always, so the processor goes on with it while its neighbours are still being asked: the proof costs arithmetic, but
+// always, so the processor goes on with it while its neighbours are still being tested: the proof costs arithmetic, but
 // no waiting.
 //
 // Float arithmetic decides whenever its error bound allows; what it leaves open is settled exactly. So the answer is a
@@ -28,7 +28,7 @@ static inline climb_end settle(const tl_hull *hull, tl_vec3 direction, const tl_
     for (uint32_t at = *vertex; at != TL_NO_VERTEX; at = tl_climb_block_after(&blocks[at])) {
         // The last lane of all blocks but a vertex's last one is no neighbour, and repeats the first.
         uint32_t lanes = tl_climb_block_after(&blocks[at]) != TL_NO_VERTEX ? 0x7fu : 0xffu;
-        uint32_t open = tl_climber_open(tl_climber_ask(climber, &blocks[at])) & lanes;
+        uint32_t open = tl_climber_open(tl_climber_gains_at(climber, &blocks[at])) & lanes;
         for (; open != 0; open &= open - 1) {
             uint32_t other = blocks[at].link[tl_lowest_bit(open)];
             int order = tl_compare_along(direction, vertices[other], vertices[*vertex]);
