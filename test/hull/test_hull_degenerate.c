@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What a hull build answers to input without volume and to bad input: a row each, with the default flatness, exactly
-// decided, and made thick on request. The rows are those of docs/hull.md, word for word.
+// decided, and made thick on request. The rows are those of docs/guide/hulls.md, word for word.
 
 #include "talus_test.h"
 
@@ -198,7 +198,7 @@ static tl_result ask(const input *in, const tl_vec3 *points, int way)
 
 static char *read_doc(void)
 {
-    FILE *file = fopen(TALUS_SOURCE_DIR "/docs/hull.md", "r");
+    FILE *file = fopen(TALUS_SOURCE_DIR "/docs/guide/hulls.md", "r");
     TEST_CHECK(file != NULL);
     char *text = calloc(1, 65536);
     TEST_CHECK(fread(text, 1, 65535, file) > 0);
