@@ -29,7 +29,7 @@ typedef struct tl_nav_prune_def {
     const tl_mesh_view *solids;
 
     double min_area; ///< square metres, >= 0: smaller islands, over all tiles, are removed. Default 0
-    tl_host host;    ///< its allocator is the one that the tiles came from; progress (stage "prune")
+    tl_host host;    ///< progress (stage "prune") and memory, also of the tiles that are baked again
     uint32_t cookie; ///< set by tl_default_nav_prune_def
 } tl_nav_prune_def;
 

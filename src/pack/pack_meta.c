@@ -85,6 +85,7 @@ tl_result tl_pack_navmesh_encode(const tl_nav_def *def, uint32_t tiles_x, uint32
     *navmesh_out = NULL;
     const tl_nav_def default_def = tl_default_nav_def();
     def = def != NULL ? def : &default_def;
+    TL_TRY(tl_def_check(def->cookie, "begin with tl_default_nav_def()", report_out));
     tl_pack_navmesh *navmesh =
         tl_blob_allocate(allocator, TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVMESH_VERSION, sizeof *navmesh);
     if (navmesh == NULL) {

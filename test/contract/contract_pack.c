@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+//
+// pack.h.
+
+#include "contract.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// ---- The container -----------------------------------------------------------------------------------------
+
+typedef struct file_bytes {
+    unsigned char *bytes; // 64-byte aligned
+    size_t size;
+} file_bytes;
+
+static tl_result append(const void *bytes, size_t size, void *user)
+{
+    file_bytes *file = user;
+    memcpy(file->bytes + file->size, bytes, size);
+    file->size += size;
+    return TL_OK;
+}
+
+enum { MAX_ITEMS = 16 };
+
+static uint32_t level_items(tl_pack_item *items)
+{
+    const contract_level *level = contract_level_get();
+    const tl_pack_item soup = { TL_PACK_SOUP, 0, level->soup, tl_soup_size(level->soup) };
+    uint32_t count = 0;
+    items[count++] = soup;
+    for (uint32_t i = 0; i < level->tiles.tile_count; i++) {
+        const tl_nav_tile *tile = level->tiles.tiles[i];
+        const tl_pack_item item = { TL_PACK_NAVT, i, tile, tile->blob.size };
+        items[count++] = item;
+    }
+    TEST_CHECK(count <= MAX_ITEMS);
+    return count;
+}
+
+static file_bytes file_room(void)
+{
+    tl_pack_item items[MAX_ITEMS];
+    const size_t size = (size_t)tl_pack_size(items, level_items(items));
+    file_bytes file = { aligned_alloc(64, size), 0 };
+    TEST_CHECK(file.bytes != NULL);
+    return file;
+}
+
+static file_bytes make_file(void)
+{
+    tl_pack_item items[MAX_ITEMS];
+    file_bytes file = file_room();
+    TEST_RESULT(tl_pack_write(items, level_items(items), NULL, append, &file, NULL), TL_OK);
+    return file;
+}
+
+static tl_result pack_write(contract_run *run)
+{
+    const bool null_input = run->what == CONTRACT_NULL_INPUT;
+    tl_pack_item items[MAX_ITEMS];
+    file_bytes file = file_room();
+    const uint32_t count = level_items(items);
+    const tl_result result = tl_pack_write(null_input && run->variant == 0 ? NULL : items, count, run->host->allocator,
+                                           null_input && run->variant == 1 ? NULL : append, &file, run->report);
+    run->is_clear = file.size == 0;
+    run->answer = contract_hash(file.bytes, file.size, 0);
+    free(file.bytes);
+    return result;
+}
+
+static tl_result pack_open(contract_run *run)
+{
+    file_bytes file = make_file();
+    tl_pack pack;
+    memset(&pack, 0, sizeof pack);
+    file.bytes[100] ^= run->what == CONTRACT_BAD_BYTES ? 1 : 0;
+    const tl_result result = tl_pack_open(run->what == CONTRACT_NULL_INPUT ? NULL : file.bytes, file.size,
+                                          run->what == CONTRACT_NULL_OUTPUT ? NULL : &pack, run->report);
+    run->is_clear = contract_is_zero(&pack, sizeof pack);
+    run->answer = pack.chunk_count;
+    free(file.bytes);
+    return result;
+}
+
+static tl_result pack_find(contract_run *run)
+{
+    file_bytes file = make_file();
+    tl_pack pack;
+    tl_pack_chunk chunk;
+    memset(&chunk, 0, sizeof chunk);
+    TEST_RESULT(tl_pack_open(file.bytes, file.size, &pack, NULL), TL_OK);
+    const tl_result result =
+        tl_pack_find(run->what == CONTRACT_NULL_INPUT ? NULL : &pack, TL_PACK_SOUP,
+                     run->what == CONTRACT_NOT_FOUND ? 7 : 0, run->what == CONTRACT_NULL_OUTPUT ? NULL : &chunk);
+    run->is_clear = contract_is_zero(&chunk, sizeof chunk);
+    TEST_CHECK(result == TL_OK || run->is_clear);
+    free(file.bytes);
+    return result;
+}
+
+static tl_result pack_load_navmesh(contract_run *run)
+{
+    file_bytes file = make_file();
+    tl_pack pack;
+    tl_navmesh *navmesh = NULL;
+    TEST_RESULT(tl_pack_open(file.bytes, file.size, &pack, NULL), TL_OK);
+    pack.chunk_count = run->what == CONTRACT_NOT_FOUND ? 1 : pack.chunk_count; // the soup alone
+    if (run->what == CONTRACT_BAD_BYTES) {
+        file.bytes[(const unsigned char *)tl_pack_chunk_at(&pack, 1).bytes - file.bytes] ^= 1;
+    }
+    const tl_result result = tl_pack_load_navmesh(run->what == CONTRACT_NULL_INPUT ? NULL : &pack, run->host->allocator,
+                                                  run->what == CONTRACT_NULL_OUTPUT ? NULL : &navmesh, run->report);
+    run->is_clear = navmesh == NULL;
+    run->answer = navmesh != NULL ? tl_navmesh_link_count(navmesh) : 0;
+    TEST_CHECK(result == TL_OK || run->is_clear);
+    tl_navmesh_destroy(navmesh);
+    free(file.bytes);
+    return result;
+}
+
+// ---- Chunks of the file itself -----------------------------------------------------------------------------
+
+static tl_result blob_answer(contract_run *run, tl_result result, void *blob)
+{
+    run->is_clear = blob == NULL;
+    run->answer = blob != NULL ? contract_hash(blob, (size_t)((const tl_blob *)blob)->size, 0) : 0;
+    tl_blob_free(blob);
+    return result;
+}
+
+static tl_result meta_encode(contract_run *run)
+{
+    tl_pack_meta *meta = NULL;
+    const tl_result result =
+        tl_pack_meta_encode("level.obj", 12, 14, contract_level_get()->mesh.bounds, run->host->allocator,
+                            run->what == CONTRACT_NULL_OUTPUT ? NULL : &meta, run->report);
+    return blob_answer(run, result, meta);
+}
+
+static tl_result meta_check(contract_run *run)
+{
+    tl_pack_meta *meta;
+    TEST_RESULT(tl_pack_meta_encode("level.obj", 1, 1, tl_aabb_empty(), NULL, &meta, NULL), TL_OK);
+    meta->reserved = run->what == CONTRACT_BAD_BYTES ? 1 : 0;
+    run->is_clear = true;
+    const tl_result result =
+        tl_pack_meta_check(run->what == CONTRACT_NULL_INPUT ? NULL : meta, meta->blob.size, run->report);
+    tl_blob_free(meta);
+    return result;
+}
+
+static tl_result navmesh_encode(contract_run *run)
+{
+    tl_nav_def def = tl_default_nav_def();
+    tl_pack_navmesh *navmesh = NULL;
+    def.cookie = run->what == CONTRACT_ZEROED_DEF ? 0 : def.cookie;
+    const tl_result result =
+        tl_pack_navmesh_encode(run->what == CONTRACT_NULL_DEF ? NULL : &def, 2, 2, 4, run->host->allocator,
+                               run->what == CONTRACT_NULL_OUTPUT ? NULL : &navmesh, run->report);
+    return blob_answer(run, result, navmesh);
+}
+
+static tl_result navmesh_check(contract_run *run)
+{
+    tl_pack_navmesh *navmesh;
+    TEST_RESULT(tl_pack_navmesh_encode(NULL, 2, 2, 4, NULL, &navmesh, NULL), TL_OK);
+    navmesh->filters = run->what == CONTRACT_BAD_BYTES ? 8 : 7;
+    run->is_clear = true;
+    const tl_result result =
+        tl_pack_navmesh_check(run->what == CONTRACT_NULL_INPUT ? NULL : navmesh, navmesh->blob.size, run->report);
+    tl_blob_free(navmesh);
+    return result;
+}
+
+static const tl_vec3 CORNERS[] = { { 1, 0, 1 }, { 2, 0, 1 }, { 1, 0, 2 } };
+static const tl_nav_volume VOLUMES[] = {
+    { .kind = TL_NAV_VOLUME_POLYGON, .area = 3, .points = CORNERS, .point_count = 3, .box = { { 0 }, { 0, 2, 0 } } },
+};
+
+static tl_result volumes_encode(contract_run *run)
+{
+    tl_pack_volumes *volumes = NULL;
+    const tl_result result =
+        tl_pack_volumes_encode(run->what == CONTRACT_NULL_INPUT ? NULL : VOLUMES, 1, run->host->allocator,
+                               run->what == CONTRACT_NULL_OUTPUT ? NULL : &volumes, run->report);
+    return blob_answer(run, result, volumes);
+}
+
+static tl_result volumes_check(contract_run *run)
+{
+    tl_pack_volumes *volumes;
+    TEST_RESULT(tl_pack_volumes_encode(VOLUMES, 1, NULL, &volumes, NULL), TL_OK);
+    ((tl_pack_volume *)(volumes + 1))->area = run->what == CONTRACT_BAD_BYTES ? 1000 : 3;
+    run->is_clear = true;
+    const tl_result result =
+        tl_pack_volumes_check(run->what == CONTRACT_NULL_INPUT ? NULL : volumes, volumes->blob.size, run->report);
+    tl_blob_free(volumes);
+    return result;
+}
+
+enum {
+    ENCODE = CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(NO_MEMORY),
+    CHECK = CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(BAD_BYTES)
+};
+
+const contract_entry CONTRACT_TABLE_pack[] = {
+    { "tl_pack_write",
+      CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NO_MEMORY), 2, 0, NULL,
+      pack_write, NULL },
+    { "tl_pack_size", 0, 0, 0, NULL, NULL, "a sum: test_pack.c" },
+    { "tl_pack_open", CHECK | CONTRACT_BIT(NULL_OUTPUT), 1, 1, NULL, pack_open, NULL },
+    { "tl_pack_chunk_at", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },
+    { "tl_pack_find",
+      CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(NOT_FOUND), 1, 1, NULL,
+      pack_find, NULL },
+    { "tl_pack_count", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },
+    { "tl_pack_meta_encode", ENCODE, 0, 1, NULL, meta_encode, NULL },
+    { "tl_pack_meta_check", CHECK, 1, 0, NULL, meta_check, NULL },
+    { "tl_pack_meta_name", 0, 0, 0, NULL, NULL, "returns a place in the blob" },
+    { "tl_pack_navmesh_encode", ENCODE | CONTRACT_BIT(NULL_DEF) | CONTRACT_BIT(ZEROED_DEF), 0, 1, NULL, navmesh_encode,
+      NULL },
+    { "tl_pack_navmesh_check", CHECK, 1, 0, NULL, navmesh_check, NULL },
+    { "tl_pack_navmesh_def", 0, 0, 0, NULL, NULL, "copies a checked blob's fields" },
+    { "tl_pack_volumes_encode", ENCODE | CONTRACT_BIT(NULL_INPUT), 1, 1, NULL, volumes_encode, NULL },
+    { "tl_pack_volumes_check", CHECK, 1, 0, NULL, volumes_check, NULL },
+    { "tl_pack_volumes_at", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },
+    { "tl_pack_load_navmesh", CHECK | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(NOT_FOUND) | CONTRACT_BIT(NO_MEMORY), 1,
+      1, NULL, pack_load_navmesh, NULL },
+    { 0 },
+};
