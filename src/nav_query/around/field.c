@@ -66,7 +66,7 @@ static tl_result check_def(const tl_nav_field_def *def)
 {
     float least = 1.0f;
     bool is_uniform = true;
-    bool good = def->cookie == TL_DEF_COOKIE && def->max_cost >= 0.0f &&
+    bool good = def->cookie == TL_DEF_COOKIE && tl_nav_filter_is_begun(def->filter) && def->max_cost >= 0.0f &&
                 (def->filter == NULL || tl_nav_filter_costs(def->filter, &least, &is_uniform));
     return good ? TL_OK : TL_ERR_ARGUMENT;
 }

@@ -84,7 +84,8 @@ static void look_around(wall_search *search, uint32_t node)
 tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_around_request *request,
                                  tl_nav_wall *wall_out)
 {
-    if (query == NULL || navmesh == NULL || request == NULL || wall_out == NULL) {
+    if (query == NULL || navmesh == NULL || request == NULL || wall_out == NULL ||
+        !tl_nav_filter_is_begun(request->filter)) {
         return TL_ERR_ARGUMENT;
     }
     const tl_nav_filter *filter = request->filter;

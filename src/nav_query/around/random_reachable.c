@@ -300,7 +300,7 @@ tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_nav
                                                uint32_t count, tl_nav_location *locations_out)
 {
     if (query == NULL || navmesh == NULL || request == NULL ||
-        ((random == NULL || locations_out == NULL) && count > 0)) {
+        ((random == NULL || locations_out == NULL) && count > 0) || !tl_nav_filter_is_begun(request->filter)) {
         return TL_ERR_ARGUMENT;
     }
     const tl_nav_location *center = &request->center;

@@ -518,7 +518,8 @@ tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *fi
 {
     uint32_t slot = 0;
     uint32_t polygon = 0;
-    if (navmesh == NULL || start == NULL || hit_out == NULL || (polygons_out == NULL && capacity > 0)) {
+    if (navmesh == NULL || start == NULL || hit_out == NULL || (polygons_out == NULL && capacity > 0) ||
+        !tl_nav_filter_is_begun(filter)) {
         return TL_ERR_ARGUMENT;
     }
     memset(hit_out, 0, sizeof *hit_out);
@@ -552,5 +553,5 @@ tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *fi
         }
     }
     describe(&ray, &walk, hit_out);
-    return walk.polygon_count <= capacity || polygons_out == NULL ? TL_OK : TL_INCOMPLETE;
+    return walk.polygon_count <= capacity || capacity == 0 ? TL_OK : TL_INCOMPLETE;
 }

@@ -105,7 +105,7 @@ tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh 
                                           uint32_t capacity, tl_nav_move *move_out)
 {
     if (query == NULL || navmesh == NULL || request == NULL || move_out == NULL ||
-        (polygons_out == NULL && capacity > 0)) {
+        (polygons_out == NULL && capacity > 0) || !tl_nav_filter_is_begun(request->filter)) {
         return TL_ERR_ARGUMENT;
     }
     const tl_nav_filter *filter = request->filter;

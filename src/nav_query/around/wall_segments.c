@@ -40,7 +40,8 @@ static tl_nav_wall_segment make_segment(const tl_navmesh *navmesh, const tl_nav_
 tl_result tl_navmesh_polygon_walls(const tl_navmesh *navmesh, const tl_nav_filter *filter, tl_nav_ref polygon,
                                    tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out)
 {
-    if (navmesh == NULL || count_out == NULL || (segments_out == NULL && capacity > 0)) {
+    if (navmesh == NULL || count_out == NULL || (segments_out == NULL && capacity > 0) ||
+        !tl_nav_filter_is_begun(filter)) {
         return TL_ERR_ARGUMENT;
     }
     *count_out = 0;
@@ -119,7 +120,7 @@ tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh
                                   tl_nav_wall_segment *segments_out, uint32_t capacity, uint32_t *count_out)
 {
     if (query == NULL || navmesh == NULL || request == NULL || count_out == NULL ||
-        (segments_out == NULL && capacity > 0)) {
+        (segments_out == NULL && capacity > 0) || !tl_nav_filter_is_begun(request->filter)) {
         return TL_ERR_ARGUMENT;
     }
     const tl_nav_filter *filter = request->filter;

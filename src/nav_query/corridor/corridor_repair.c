@@ -58,7 +58,7 @@ uint32_t tl_nav_corridor_check(const tl_nav_corridor *corridor, const tl_navmesh
 tl_result tl_nav_corridor_repair(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
                                  const tl_nav_filter *filter, tl_vec3 half_extents, tl_nav_path *path_out)
 {
-    if (corridor == NULL || query == NULL || navmesh == NULL || path_out == NULL) {
+    if (corridor == NULL || query == NULL || navmesh == NULL || path_out == NULL || !tl_nav_filter_is_begun(filter)) {
         return TL_ERR_ARGUMENT;
     }
     memset(path_out, 0, sizeof *path_out);

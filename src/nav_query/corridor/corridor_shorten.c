@@ -9,6 +9,7 @@
 #include "base/assert.h"
 #include "math/tolerance.h"
 #include "nav_query/corridor/corridor_path.h"
+#include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/path/funnel.h"
 
 // How far a look goes. Stack: 12 KB for points, 2 KB for corners.
@@ -98,7 +99,7 @@ tl_result tl_nav_corridor_shorten(tl_nav_corridor *corridor, const tl_navmesh *n
 {
     bool changed = false;
     path_ahead ahead;
-    if (corridor == NULL || navmesh == NULL) {
+    if (corridor == NULL || navmesh == NULL || !tl_nav_filter_is_begun(filter)) {
         return TL_ERR_ARGUMENT;
     }
     if (changed_out != NULL) {
@@ -160,7 +161,7 @@ tl_result tl_nav_corridor_improve(tl_nav_corridor *corridor, tl_nav_query *query
                                   const tl_nav_filter *filter, uint32_t ahead, uint32_t max_steps, bool *changed_out)
 {
     path_ahead path;
-    if (corridor == NULL || query == NULL || navmesh == NULL) {
+    if (corridor == NULL || query == NULL || navmesh == NULL || !tl_nav_filter_is_begun(filter)) {
         return TL_ERR_ARGUMENT;
     }
     if (changed_out != NULL) {

@@ -140,8 +140,8 @@ tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_trace_re
     if (cost_out != NULL) {
         *cost_out = 0.0f;
     }
-    if (request->polygons == NULL || request->polygon_count == 0 || request->corners == NULL ||
-        request->corner_count < 2) {
+    if (!tl_nav_filter_is_begun(request->filter) || request->polygons == NULL || request->polygon_count == 0 ||
+        request->corners == NULL || request->corner_count < 2) {
         return TL_ERR_ARGUMENT;
     }
     path_trace trace;

@@ -193,7 +193,8 @@ tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *nav
                                       const tl_nav_corner *corners, uint32_t count, float max_distance,
                                       float *clearance_out)
 {
-    if (query == NULL || navmesh == NULL || corners == NULL || clearance_out == NULL) {
+    if (query == NULL || navmesh == NULL || corners == NULL || clearance_out == NULL ||
+        !tl_nav_filter_is_begun(filter)) {
         return TL_ERR_ARGUMENT;
     }
     *clearance_out = 0.0f;

@@ -243,7 +243,8 @@ tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *na
                                        const tl_nav_around_request *request, float agent_radius,
                                        tl_nav_location *place_out)
 {
-    if (query == NULL || navmesh == NULL || request == NULL || place_out == NULL) {
+    if (query == NULL || navmesh == NULL || request == NULL || place_out == NULL ||
+        !tl_nav_filter_is_begun(request->filter)) {
         return TL_ERR_ARGUMENT;
     }
     memset(place_out, 0, sizeof *place_out);
