@@ -60,7 +60,7 @@ endforeach()
 # Exact paths on real levels.
 set(talus_test_shortest_path_needs talus_io)
 set(talus_test_wide_bakes_needs talus_io talus_sample)
-set(talus_test_wide_prepared_needs talus_sample)
+set(talus_test_prepared_walls_needs talus_sample)
 foreach(stem stacked_tiles tile_divide)
     set(talus_test_${stem}_needs talus_sample)
 endforeach()

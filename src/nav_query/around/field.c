@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Fields of costs: a flood, written out. In the order of references a polygon is found by bisection, without a search
-// and without a table beside the caller's entries, and its path by following parents.
+// Fields (Dijkstra maps, flow fields): a flood, written out. In the order of references a polygon is found by binary
+// search, without a table beside the caller's entries, and its path by following parents.
 
 #include "base/assert.h"
 #include "base/radix_sort.h"
@@ -62,7 +62,7 @@ tl_nav_field_def tl_default_nav_field_def(void)
     return def;
 }
 
-static tl_result check_def(const tl_nav_field_def *def)
+static tl_result check_field_def(const tl_nav_field_def *def)
 {
     float least = 1.0f;
     bool is_uniform = true;
@@ -85,7 +85,7 @@ tl_result tl_nav_query_flood(tl_nav_query *query, const tl_navmesh *navmesh, con
     if (!tl_nav_is_finite(start->point)) {
         return TL_ERR_NOT_FINITE;
     }
-    TL_TRY(check_def(&used));
+    TL_TRY(check_field_def(&used));
     if (used.zone != NULL) {
         TL_TRY(tl_nav_zone_begin(used.zone, &zone));
     }

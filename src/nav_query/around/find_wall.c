@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The nearest wall: polygons are looked at in the order in which their edges come near, until none nearer than the
-// nearest wall is left. Dijkstra's order without his sums: the distance to an edge needs no path.
+// The nearest wall: polygons are visited in the order of the distance to the edge by which they are entered, until none
+// is nearer than the nearest wall. That is Dijkstra's order, but the distance to an edge needs no path.
 //
-// Up to the nearest wall there is none, so all that lies nearer can be walked to straight, and is met in that order:
-// what is entered at a distance has nothing that is nearer. Where it seems to, the way there has turned around the end
-// of a wall and come back over or under the place, as a ramp to the next floor does: that does not count.
+// Up to the nearest wall there is no wall, so all that lies nearer can be reached in a straight line and is visited in
+// that order: a polygon entered at a distance has nothing nearer. Where it seems to, the way there has turned around
+// the end of a wall and come back above or below the place, as a ramp to the next floor does: that does not count.
 
 #include "nav_query/navmesh/plan.h"
 #include "nav_query/navmesh/surface.h"
@@ -29,8 +29,8 @@ typedef struct wall_search {
     double rounding; // metres in the plane by which two edges over one place may differ
 } wall_search;
 
-// Offers a way into a polygon at a distance: it is looked at again where it is nearer than all before.
-static void offer(wall_search *search, tl_nav_ring_seam to, double distance_sq)
+// Offers a way into a polygon at a distance: the polygon is visited again where that is nearer than all before.
+static void offer_polygon(wall_search *search, tl_nav_ring_seam to, double distance_sq)
 {
     tl_nav_query *query = search->query;
     bool found = false;
@@ -50,7 +50,7 @@ static void offer(wall_search *search, tl_nav_ring_seam to, double distance_sq)
     tl_nav_open_push(query, root->cost, query->wedge_count++);
 }
 
-static void look_around(wall_search *search, uint32_t node)
+static void look_for_wall(wall_search *search, uint32_t node)
 {
     uint32_t slot = search->query->local_nodes[node].slot;
     uint32_t polygon = search->query->local_nodes[node].polygon;
@@ -68,7 +68,7 @@ static void look_around(wall_search *search, uint32_t node)
         if (ring[i].to != TL_NAV_RING_WALL) {
             tl_nav_ring_seam to = tl_nav_ring_across(search->navmesh, slot, ring[i].to);
             if (search->all_pass || tl_nav_passes(search->filter, search->navmesh->slots[to.slot].tile, to.polygon)) {
-                offer(search, to, nearest.distance_sq);
+                offer_polygon(search, to, nearest.distance_sq);
                 continue;
             }
         }
@@ -121,14 +121,14 @@ tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *navmesh,
     search.rounding = (double)TL_FLOAT_GAMMA(6) * (fabs(search.x) + fabs(search.z) + (double)max_radius);
     tl_nav_local_begin(query);
     tl_nav_ring_seam home = { slot, polygon };
-    offer(&search, home, 0.0);
+    offer_polygon(&search, home, 0.0);
     while (query->open_count > 0) {
         tl_nav_open_item next = tl_nav_open_pop(query);
-        // Keys are rounded: one more polygon may be looked at than need be, never one less.
+        // Keys are rounded: one more polygon may be visited than need be, never one less.
         if ((double)next.total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING) >= search.best_sq) {
             break;
         }
-        look_around(&search, next.index);
+        look_for_wall(&search, next.index);
     }
     wall_out->distance = max_radius;
     wall_out->polygon = tl_nav_make_ref(navmesh, search.slot, search.polygon);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Dijkstra over polygons: each is entered where the way into it is nearest to the point where the one before was, and
-// once, by the cheapest way. A path needs less than that for its polygons, and its length is the funnel's affair.
-// Source: Dijkstra, A Note on Two Problems in Connexion with Graphs, 1959.
+// Dijkstra's algorithm over polygons: each is entered once, by the cheapest way, at the point of its edge that is
+// nearest to the point before. That is all a field needs; the funnel finds the exact length of a path. Source:
+// Dijkstra, A Note on Two Problems in Connexion with Graphs, 1959.
 
 #include "nav_query/around/flood.h"
 
@@ -12,8 +12,8 @@
 #include "nav_query/navmesh/surface.h"
 
 // Offers a way into a polygon: `end` is the one of an off-mesh link that was left, or TL_NAV_NO_END.
-static void enter(tl_nav_flood *flood, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost, uint32_t from,
-                  uint32_t end)
+static void enter_polygon(tl_nav_flood *flood, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost,
+                          uint32_t from, uint32_t end)
 {
     if (!(cost <= flood->max_cost) || !(cost < INFINITY)) {
         return;
@@ -46,7 +46,7 @@ static float cost_between(const tl_nav_flood *flood, const tl_nav_node *node, tl
     return tl_nav_cost_between(flood->filter, tile, node->polygon, node->point, to);
 }
 
-static void cross_links(tl_nav_flood *flood, const tl_nav_node *node, uint32_t index)
+static void enter_by_links(tl_nav_flood *flood, const tl_nav_node *node, uint32_t index)
 {
     const tl_navmesh *navmesh = flood->navmesh;
     for (uint32_t end = tl_nav_first_anchor(navmesh, node->slot, node->polygon); end != TL_NAV_NO_END;) {
@@ -60,13 +60,13 @@ static void cross_links(tl_nav_flood *flood, const tl_nav_node *node, uint32_t i
             bool priced = flood->filter != NULL && !flood->in_metres;
             float factor = priced ? flood->filter->area_cost[link->offmesh.area] : 1.0f;
             float cost = cost_between(flood, node, from->point) + factor * (float)link->cost;
-            enter(flood, to->slot, to->polygon, to->point, node->cost + cost, index, end);
+            enter_polygon(flood, to->slot, to->polygon, to->point, node->cost + cost, index, end);
         }
         end = from->next;
     }
 }
 
-static void go_on(tl_nav_flood *flood, uint32_t index)
+static void expand_polygon(tl_nav_flood *flood, uint32_t index)
 {
     const tl_nav_node node = flood->query->nodes[index];
     const tl_nav_node *parent = node.parent != TL_NAV_NO_NODE ? &flood->query->nodes[node.parent] : NULL;
@@ -74,7 +74,7 @@ static void go_on(tl_nav_flood *flood, uint32_t index)
     const tl_nav_ring_edge *ring = tl_nav_ring_at(flood->navmesh, node.slot, node.polygon, &count);
     const bool all_pass = flood->all_pass;
     if (flood->navmesh->slots[node.slot].anchor_count > 0) {
-        cross_links(flood, &node, index);
+        enter_by_links(flood, &node, index);
     }
     for (uint32_t i = 0; i < count; i++) {
         if (!tl_nav_ring_is_open(&ring[i])) {
@@ -94,7 +94,7 @@ static void go_on(tl_nav_flood *flood, uint32_t index)
         double t = tl_nav_nearest_on_edge(&ring[i], end, (double)node.point.x, (double)node.point.z).t;
         tl_vec3 point = tl_nav_point_on_edge(&ring[i], end, t);
         float cost = cost_between(flood, &node, point);
-        enter(flood, to.slot, to.polygon, point, node.cost + cost, index, TL_NAV_NO_END);
+        enter_polygon(flood, to.slot, to.polygon, point, node.cost + cost, index, TL_NAV_NO_END);
     }
 }
 
@@ -108,9 +108,9 @@ bool tl_nav_flood_run(tl_nav_flood *flood, const tl_nav_location *start)
     flood->out_of_nodes = false;
     flood->all_pass = tl_nav_all_pass(flood->navmesh, flood->filter);
     tl_nav_pool_reset(flood->query);
-    enter(flood, slot, polygon, start->point, 0.0f, TL_NAV_NO_NODE, TL_NAV_NO_END);
+    enter_polygon(flood, slot, polygon, start->point, 0.0f, TL_NAV_NO_NODE, TL_NAV_NO_END);
     for (uint32_t index = 0; (index = tl_nav_heap_pop(flood->query)) != TL_NAV_NO_NODE;) {
-        go_on(flood, index);
+        expand_polygon(flood, index);
     }
     return true;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A random point that can be reached: flood the circle, clip each polygon to it, pick among what is left by area.
+// A random point that can be reached: flood the circle, clip each polygon to it, pick one by area.
 //
-// Detour picks among whole polygons, so its points may lie far outside the circle, and asks no length of the path. The
-// circle here is a polygon of 32 sides within it, so that clipping makes polygons, whose areas and points need no
-// rejection: two random numbers always suffice.
-// Clipping goes once around the polygon (Weiler and Atherton 1977, for two convex ones); cutting by one side after the
-// other (Sutherland and Hodgman 1974) takes five times as long.
+// Detour picks among whole polygons, so its points may lie far outside the circle, and it ignores the length of the
+// path. The circle here is a polygon of 32 sides inscribed in it, so that clipping makes polygons, whose areas and
+// points need no rejection sampling: two random numbers always suffice. Clipping walks once around the polygon (Weiler
+// and Atherton 1977, for two convex ones); cutting by one side after the other (Sutherland and Hodgman 1974) takes five
+// times as long.
 
 #include "base/assert.h"
 #include "nav_query/around/flood.h"
@@ -19,7 +19,7 @@
 #include <string.h>
 
 // An edge of the polygon adds three points at most: where it begins, comes in, goes out.
-enum { SIDES = TL_NAV_CIRCLE_CORNERS, MOST_CLIPPED = 3 * TL_NAV_MAX_CORNERS + 2 * SIDES };
+enum { CIRCLE_SIDES = TL_NAV_CIRCLE_CORNERS, MAX_CLIPPED = 3 * TL_NAV_MAX_CORNERS + 2 * CIRCLE_SIDES };
 
 // Points no farther from the centre than this share of the radius lie within all sides: cos(180 / 32 degrees) = 0.9951.
 #define SAFE_SHARE 0.995
@@ -28,14 +28,14 @@ enum { SIDES = TL_NAV_CIRCLE_CORNERS, MOST_CLIPPED = 3 * TL_NAV_MAX_CORNERS + 2 
 #define SAME_PLACE 1e-12
 
 typedef struct clip_polygon {
-    tl_nav_spot points[MOST_CLIPPED]; // from the centre
+    tl_nav_spot points[MAX_CLIPPED]; // from the centre
     uint32_t count;
 } clip_polygon;
 
 // The circle as a polygon around its centre.
 typedef struct circle {
     double within_sq; // points no farther from the centre than this lie within all sides
-    tl_nav_spot corners[SIDES + 1];
+    tl_nav_spot corners[CIRCLE_SIDES + 1];
 } circle;
 
 static circle make_circle(double radius)
@@ -43,7 +43,7 @@ static circle make_circle(double radius)
     circle c;
     double within = radius * SAFE_SHARE;
     c.within_sq = within * within;
-    for (uint32_t i = 0; i <= SIDES; i++) {
+    for (uint32_t i = 0; i <= CIRCLE_SIDES; i++) {
         c.corners[i] = tl_nav_circle_corner(tl_nav_spot_make(0.0, 0.0), radius, i);
     }
     return c;
@@ -59,15 +59,15 @@ static double inside_of(tl_nav_spot a, tl_nav_spot b, tl_nav_spot p)
 static uint32_t side_towards(const circle *c, tl_nav_spot p)
 {
     uint32_t quarter = p.z >= 0.0 ? (p.x > 0.0 ? 0 : 1) : (p.x < 0.0 ? 2 : 3);
-    uint32_t side = quarter * (SIDES / 4);
-    for (uint32_t step = SIDES / 8; step > 0; step /= 2) {
+    uint32_t side = quarter * (CIRCLE_SIDES / 4);
+    for (uint32_t step = CIRCLE_SIDES / 8; step > 0; step /= 2) {
         const tl_nav_spot *corner = &c->corners[side + step];
         side += corner->x * p.z - corner->z * p.x >= 0.0 ? step : 0;
     }
     return side;
 }
 
-static bool is_inside(const circle *c, tl_nav_spot p)
+static bool is_in_circle(const circle *c, tl_nav_spot p)
 {
     if (p.x * p.x + p.z * p.z <= c->within_sq) {
         return true;
@@ -77,11 +77,11 @@ static bool is_inside(const circle *c, tl_nav_spot p)
 }
 
 // Where a line goes over the circle's outline.
-typedef struct crossing {
+typedef struct circle_crossing {
     tl_nav_spot at;
     uint32_t side;
     double t; // along the line
-} crossing;
+} circle_crossing;
 
 static tl_nav_spot spot_along(tl_nav_spot a, tl_nav_spot along, double t)
 {
@@ -90,7 +90,7 @@ static tl_nav_spot spot_along(tl_nav_spot a, tl_nav_spot along, double t)
 
 // From where the line crosses the round circle to the side that lies there, or to one beside it. False: between two
 // sides the line passes by a corner.
-static bool find_crossing(const circle *c, tl_nav_spot a, tl_nav_spot along, double t, crossing *out)
+static bool find_crossing(const circle *c, tl_nav_spot a, tl_nav_spot along, double t, circle_crossing *out)
 {
     out->t = t;
     out->at = spot_along(a, along, t);
@@ -113,22 +113,22 @@ static bool find_crossing(const circle *c, tl_nav_spot a, tl_nav_spot along, dou
     return false;
 }
 
-static void add_point(clip_polygon *polygon, tl_nav_spot p)
+static void add_clip_point(clip_polygon *polygon, tl_nav_spot p)
 {
-    TL_ASSERT(polygon->count < MOST_CLIPPED);
+    TL_ASSERT(polygon->count < MAX_CLIPPED);
     polygon->points[polygon->count] = p;
-    polygon->count += polygon->count + 1 < MOST_CLIPPED ? 1 : 0;
+    polygon->count += polygon->count + 1 < MAX_CLIPPED ? 1 : 0;
 }
 
 // The circle's corners between where the polygon's outline left it and where it comes in again. Two crossings in one
 // place may be in either order.
-static void add_corners(const circle *c, const crossing *out, const crossing *in, clip_polygon *polygon)
+static void add_corners(const circle *c, const circle_crossing *out, const circle_crossing *in, clip_polygon *polygon)
 {
     double dx = in->at.x - out->at.x;
     double dz = in->at.z - out->at.z;
     if (dx * dx + dz * dz > SAME_PLACE * SAME_PLACE * c->within_sq) {
-        for (uint32_t side = out->side; side != in->side; side = side > 0 ? side - 1 : SIDES - 1) {
-            add_point(polygon, c->corners[side]);
+        for (uint32_t side = out->side; side != in->side; side = side > 0 ? side - 1 : CIRCLE_SIDES - 1) {
+            add_clip_point(polygon, c->corners[side]);
         }
     }
 }
@@ -136,12 +136,12 @@ static void add_corners(const circle *c, const crossing *out, const crossing *in
 // An outline on its way through the circle.
 typedef struct clip_walk {
     const circle *c;
-    clip_polygon *polygon; // what is written
-    crossing first, last;  // in, before any out; out
+    clip_polygon *polygon;       // what is written
+    circle_crossing first, last; // in, before any out; out
     bool has_first, is_out;
 } clip_walk;
 
-static void go_in(clip_walk *walk, const crossing *in)
+static void go_in(clip_walk *walk, const circle_crossing *in)
 {
     if (walk->is_out) {
         add_corners(walk->c, &walk->last, in, walk->polygon);
@@ -149,18 +149,18 @@ static void go_in(clip_walk *walk, const crossing *in)
         walk->first = *in;
         walk->has_first = true;
     }
-    add_point(walk->polygon, in->at);
+    add_clip_point(walk->polygon, in->at);
 }
 
-static void go_out(clip_walk *walk, const crossing *out)
+static void go_out(clip_walk *walk, const circle_crossing *out)
 {
-    add_point(walk->polygon, out->at);
+    add_clip_point(walk->polygon, out->at);
     walk->last = *out;
     walk->is_out = true;
 }
 
 // The edge from a to b, one of which is outside at least.
-static void cross_edge(clip_walk *walk, tl_nav_spot a, bool a_inside, tl_nav_spot b, bool b_inside)
+static void clip_edge(clip_walk *walk, tl_nav_spot a, bool a_inside, tl_nav_spot b, bool b_inside)
 {
     const double radius_sq = walk->c->corners[0].x * walk->c->corners[0].x;
     tl_nav_spot along = { b.x - a.x, b.z - a.z };
@@ -168,7 +168,7 @@ static void cross_edge(clip_walk *walk, tl_nav_spot a, bool a_inside, tl_nav_spo
     double middle = -(a.x * along.x + a.z * along.z);
     double half_sq = middle * middle - length_sq * (a.x * a.x + a.z * a.z - radius_sq);
     double half = half_sq > 0.0 ? sqrt(half_sq) : 0.0;
-    crossing in, out;
+    circle_crossing in, out;
     // Outside on both ends: over the round circle twice, or not at all.
     bool passes = half > 0.0 && middle + half > 0.0 && middle - half < length_sq;
     if (!a_inside && !b_inside && !passes) {
@@ -187,9 +187,9 @@ static void cross_edge(clip_walk *walk, tl_nav_spot a, bool a_inside, tl_nav_spo
     }
 }
 
-// The part of a polygon within the circle; `count` 0 when there is none. The outline is gone along once: what of it is
+// The part of a polygon within the circle; `count` 0 when there is none. The outline is walked once: what of it is
 // inside is kept, and between where it leaves and where it comes back lie corners of the circle.
-static void clip(const tl_nav_flood *flood, const tl_nav_node *node, const circle *c, clip_polygon *out)
+static void clip_to_circle(const tl_nav_flood *flood, const tl_nav_node *node, const circle *c, clip_polygon *out)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(flood->navmesh->slots[node->slot].tile, node->polygon, &count);
@@ -201,17 +201,17 @@ static void clip(const tl_nav_flood *flood, const tl_nav_node *node, const circl
     out->count = 0;
     bool holds_center = true;
     tl_nav_spot a = { (double)corners[0].x - (double)center.x, (double)corners[0].z - (double)center.z };
-    bool a_inside = is_inside(c, a);
+    bool a_inside = is_in_circle(c, a);
     for (uint32_t i = 0; i < count; i++) {
         const tl_vec3 *corner = &corners[i + 1 < count ? i + 1 : 0];
         tl_nav_spot b = { (double)corner->x - (double)center.x, (double)corner->z - (double)center.z };
-        bool b_inside = is_inside(c, b);
+        bool b_inside = is_in_circle(c, b);
         holds_center = holds_center && a.x * b.z - a.z * b.x <= 0.0;
         if (a_inside) {
-            add_point(out, a);
+            add_clip_point(out, a);
         }
         if (!a_inside || !b_inside) {
-            cross_edge(&walk, a, a_inside, b, b_inside);
+            clip_edge(&walk, a, a_inside, b, b_inside);
         }
         a = b;
         a_inside = b_inside;
@@ -219,10 +219,10 @@ static void clip(const tl_nav_flood *flood, const tl_nav_node *node, const circl
     if (walk.is_out && walk.has_first) {
         add_corners(c, &walk.last, &walk.first, out);
     }
-    for (uint32_t i = SIDES; i > 0 && out->count == 0 && holds_center; i--) {
-        out->points[SIDES - i] = c->corners[i];
+    for (uint32_t i = CIRCLE_SIDES; i > 0 && out->count == 0 && holds_center; i--) {
+        out->points[CIRCLE_SIDES - i] = c->corners[i];
     }
-    out->count = out->count == 0 && holds_center ? SIDES : out->count;
+    out->count = out->count == 0 && holds_center ? CIRCLE_SIDES : out->count;
 }
 
 // Twice the area of triangle i of the polygon's fan; seen from above in x and z it winds clockwise.
@@ -233,7 +233,7 @@ static double triangle_area(const clip_polygon *polygon, uint32_t i)
     return area > 0.0 ? area : 0.0;
 }
 
-static double area_of(const clip_polygon *polygon)
+static double clip_area(const clip_polygon *polygon)
 {
     double area = 0.0;
     for (uint32_t i = 1; i + 1 < polygon->count; i++) {
@@ -243,14 +243,14 @@ static double area_of(const clip_polygon *polygon)
 }
 
 // The areas of the polygons' parts, summed up; returns the sum of all.
-static double sum_areas(const tl_nav_flood *flood, const circle *c)
+static double sum_clip_areas(const tl_nav_flood *flood, const circle *c)
 {
     tl_nav_query *query = flood->query;
     double sum = 0.0;
     for (uint32_t i = 0; i < query->node_count; i++) {
         clip_polygon part;
-        clip(flood, &query->nodes[i], c, &part);
-        sum += area_of(&part);
+        clip_to_circle(flood, &query->nodes[i], c, &part);
+        sum += clip_area(&part);
         query->area_sums[i] = sum;
     }
     return sum;
@@ -273,7 +273,7 @@ static uint32_t find_part(const tl_nav_query *query, double *at)
     return low;
 }
 
-static tl_vec3 point_in(const tl_nav_flood *flood, const clip_polygon *part, double at, uint64_t bits)
+static tl_vec3 point_in_clip(const tl_nav_flood *flood, const clip_polygon *part, double at, uint64_t bits)
 {
     uint32_t i = 1;
     for (; i + 2 < part->count && at >= triangle_area(part, i); i++) {
@@ -320,7 +320,7 @@ tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_nav
         return TL_ERR_STALE;
     }
     const circle c = make_circle((double)radius);
-    const double sum = radius > 0.0f ? sum_areas(&flood, &c) : 0.0;
+    const double sum = radius > 0.0f ? sum_clip_areas(&flood, &c) : 0.0;
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_location *out = &locations_out[i];
         if (!(sum > 0.0)) {
@@ -333,10 +333,10 @@ tl_result tl_nav_query_random_reachable_points(tl_nav_query *query, const tl_nav
         const tl_nav_node *node = &query->nodes[find_part(query, &at)];
         clip_polygon part;
         bool inside = false;
-        clip(&flood, node, &c, &part);
+        clip_to_circle(&flood, node, &c, &part);
         out->polygon = node->key;
         out->point = tl_nav_closest_on_surface(navmesh->slots[node->slot].tile, node->polygon,
-                                               point_in(&flood, &part, at, random[2 * i + 1]), &inside);
+                                               point_in_clip(&flood, &part, at, random[2 * i + 1]), &inside);
     }
     return flood.out_of_nodes ? TL_ERR_NODES : TL_OK;
 }

@@ -2,14 +2,13 @@
 //
 // A ray along the surface: walk from polygon to polygon through the edge by which the ray leaves.
 //
-// Which edge that is is not read off intersection parameters, whose rounding differs from polygon to polygon, but off
-// one label a vertex: left or right of the ray. The ray leaves by the edge that runs from a right vertex to a left one.
-// A vertex has the same label in all polygons around it, so the walk cannot lose its way or turn in circles at a
-// corner.
+// That edge is not chosen by intersection parameters, whose rounding differs from polygon to polygon, but by one label
+// a vertex: left or right of the ray. The ray leaves by the edge that runs from a right vertex to a left one. A vertex
+// has the same label in all polygons around it, so the walk cannot lose its way or circle around a corner.
 //
-// A vertex within rounding of the ray is touched. It counts as left, or, when that ends at a wall, as right in a second
-// walk; and where that ends at a wall that begins in a touched vertex, the walk goes on from this vertex in the same
-// two ways. So a ray that only touches corners, on either hand, or runs along walls, passes.
+// A vertex within rounding of the ray is touched. It counts as left first. Where that walk ends at a wall, a second
+// walk counts it as right; where both end at a wall that begins in a touched vertex, the walk continues from this
+// vertex in the same two ways. So a ray that only touches corners, on either side, or runs along walls, is not stopped.
 // Sources: for the walk, Guibas and Stolfi 1985; for the labels, Edelsbrunner and Muecke, Simulation of Simplicity,
 // 1990.
 
@@ -52,7 +51,7 @@ typedef struct ray_trace {
 // the ray's two points' coordinates are each rounded to float, on both axes.
 #define GRAZING_ERROR ((double)TL_FLOAT_GAMMA(6))
 
-static bool is_left(surface_ray *ray, tl_vec3 vertex)
+static bool is_left_of_ray(surface_ray *ray, tl_vec3 vertex)
 {
     double turn = tl_nav_turn(ray->start, ray->end, vertex);
     if (fabs(turn) <= ray->grazing) {
@@ -63,7 +62,7 @@ static bool is_left(surface_ray *ray, tl_vec3 vertex)
 }
 
 // Where on the ray the line through a and b is crossed, >= 0.
-static double crossing(const surface_ray *ray, tl_vec3 a, tl_vec3 b)
+static double crossing_of_ray(const surface_ray *ray, tl_vec3 a, tl_vec3 b)
 {
     double at_start = tl_nav_turn(a, b, ray->start);
     double at_end = tl_nav_turn(a, b, ray->end);
@@ -77,13 +76,13 @@ static double crossing(const surface_ray *ray, tl_vec3 a, tl_vec3 b)
 static bool find_exit(surface_ray *ray, const tl_vec3 *corners, uint32_t count, uint32_t *edge_out, double *t_out)
 {
     bool found = false;
-    bool left = is_left(ray, corners[0]);
+    bool left = is_left_of_ray(ray, corners[0]);
     for (uint32_t i = 0; i < count; i++) {
         tl_vec3 a = corners[i];
         tl_vec3 b = corners[i + 1 < count ? i + 1 : 0];
-        bool next_left = is_left(ray, b);
+        bool next_left = is_left_of_ray(ray, b);
         if (!left && next_left) {
-            double t = crossing(ray, a, b);
+            double t = crossing_of_ray(ray, a, b);
             if (!found || t > *t_out) {
                 found = true;
                 *edge_out = i;
@@ -98,11 +97,11 @@ static bool find_exit(surface_ray *ray, const tl_vec3 *corners, uint32_t count, 
 // Whether the ray goes through this stretch of a seam.
 static bool is_through(surface_ray *ray, const tl_nav_seam_link *seam)
 {
-    return !is_left(ray, seam->right) && is_left(ray, seam->left);
+    return !is_left_of_ray(ray, seam->right) && is_left_of_ray(ray, seam->left);
 }
 
 // Steps over an edge; false at a wall, at a gap in a tile's seam, and where the filter refuses the polygon behind.
-static bool step(surface_ray *ray, uint32_t edge, uint32_t *slot, uint32_t *polygon)
+static bool step_over(surface_ray *ray, uint32_t edge, uint32_t *slot, uint32_t *polygon)
 {
     const tl_nav_slot *from = &ray->navmesh->slots[*slot];
     uint32_t link = tl_nav_tile_links(from->tile, *polygon)[edge];
@@ -155,7 +154,7 @@ static bool starts_beyond(const surface_ray *ray, tl_vec3 a, tl_vec3 b)
     return with_ray == ray->touching_is_left;
 }
 
-static void record(const surface_ray *ray, const ray_walk *at, const ray_trace *trace)
+static void record_polygon(const surface_ray *ray, const ray_walk *at, const ray_trace *trace)
 {
     if (at->polygon_count <= trace->capacity) {
         trace->polygons[at->polygon_count - 1] = tl_nav_make_ref(ray->navmesh, at->slot, at->polygon);
@@ -188,11 +187,11 @@ static bool begins_on(const surface_ray *ray, const tl_nav_way *way)
 }
 
 // Polygons around one point: more than meet in any vertex that a bake makes. Beyond it a corner stops the ray.
-enum { MAX_AROUND = 64 };
+enum { MAX_RAY_STARTS = 64 };
 
 // The polygons around the place where a walk begins, each with the one that it was found from.
 typedef struct polygons_around {
-    uint32_t slot[MAX_AROUND], polygon[MAX_AROUND], found_from[MAX_AROUND];
+    uint32_t slot[MAX_RAY_STARTS], polygon[MAX_RAY_STARTS], found_from[MAX_RAY_STARTS];
     uint32_t count;
 } polygons_around;
 
@@ -203,7 +202,7 @@ static void add_around(polygons_around *around, uint32_t slot, uint32_t polygon,
             return;
         }
     }
-    if (around->count < MAX_AROUND) {
+    if (around->count < MAX_RAY_STARTS) {
         around->slot[around->count] = slot;
         around->polygon[around->count] = polygon;
         around->found_from[around->count] = found_from;
@@ -224,7 +223,7 @@ static void move_around(const surface_ray *ray, const polygons_around *around, u
     for (uint32_t i = to; i != 0; i = around->found_from[i]) {
         at.slot = around->slot[i];
         at.polygon = around->polygon[i];
-        record(ray, &at, trace);
+        record_polygon(ray, &at, trace);
         at.polygon_count--;
     }
     walk->slot = around->slot[to];
@@ -266,7 +265,7 @@ static bool ends_beyond(const surface_ray *ray, tl_vec3 a, tl_vec3 b)
 }
 
 // Walks on from the polygon of `walk`, which is on record, to the ray's end or a wall.
-static tl_result walk_on(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
+static tl_result walk_one_way(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
 {
     find_start(ray, walk, trace);
     for (; ray->steps_left > 0; ray->steps_left--) {
@@ -282,13 +281,13 @@ static tl_result walk_on(surface_ray *ray, ray_walk *walk, const ray_trace *trac
         }
         t = t < 1.0 ? t : 1.0;
         walk->t = t > walk->t ? t : walk->t;
-        if (!crosses || !step(ray, edge, &walk->slot, &walk->polygon)) {
+        if (!crosses || !step_over(ray, edge, &walk->slot, &walk->polygon)) {
             walk->hit = true;
             walk->edge = edge;
             return TL_OK;
         }
         walk->polygon_count++;
-        record(ray, walk, trace);
+        record_polygon(ray, walk, trace);
     }
     return TL_ERR_ITERATIONS;
 }
@@ -300,15 +299,15 @@ static tl_result walk_both_ways(surface_ray *ray, ray_walk *walk, const ray_trac
     const ray_trace no_trace = { NULL, 0 };
     ray->touching_is_left = true;
     ray->touched = false;
-    tl_result result = walk_on(ray, walk, trace);
+    tl_result result = walk_one_way(ray, walk, trace);
     if (result != TL_OK || !walk->hit || !ray->touched) {
         return result;
     }
     ray_walk other = begin;
     ray->touching_is_left = false;
-    if (walk_on(ray, &other, &no_trace) == TL_OK && other.t > walk->t) {
+    if (walk_one_way(ray, &other, &no_trace) == TL_OK && other.t > walk->t) {
         *walk = begin;
-        result = walk_on(ray, walk, trace);
+        result = walk_one_way(ray, walk, trace);
     }
     return result;
 }
@@ -431,7 +430,7 @@ static bool walk_clean(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
             is_way = all_pass || tl_nav_passes(ray->filter, ray->navmesh->slots[twin.slot].tile, twin.polygon);
         }
         if (!is_way) {
-            double t = crossing(ray, a, b);
+            double t = crossing_of_ray(ray, a, b);
             at.t = t < 1.0 ? t : 1.0;
             at.hit = true;
             at.has_point = true;
@@ -446,7 +445,7 @@ static bool walk_clean(surface_ray *ray, ray_walk *walk, const ray_trace *trace)
         at.slot = twin.slot;
         at.polygon = twin.polygon;
         at.polygon_count++;
-        record(ray, &at, trace);
+        record_polygon(ray, &at, trace);
         ring = tl_nav_ring_at(ray->navmesh, at.slot, at.polygon, &count);
         is_clean = find_next_exit(ray, ring, count, twin.edge, &edge);
     }
@@ -464,7 +463,7 @@ static tl_result walk_to_end(surface_ray *ray, ray_walk *walk, const ray_trace *
     return TL_OK;
 }
 
-static double largest_coordinate(tl_vec3 a, tl_vec3 b)
+static double largest_coordinate_of(tl_vec3 a, tl_vec3 b)
 {
     double largest = fabs((double)a.x);
     double others[3] = { fabs((double)a.z), fabs((double)b.x), fabs((double)b.z) };
@@ -505,9 +504,9 @@ static surface_ray make_ray(const tl_navmesh *navmesh, const tl_nav_filter *filt
 {
     double dx = (double)end.x - (double)from.x;
     double dz = (double)end.z - (double)from.z;
-    double rounding = GRAZING_ERROR * largest_coordinate(from, end);
-    // Each polygon once, in either way of touching, and again for each vertex that is gone around.
-    uint64_t steps = 4 * navmesh->polygon_count + MAX_AROUND;
+    double rounding = GRAZING_ERROR * largest_coordinate_of(from, end);
+    // Each polygon once, in either way of touching, and again for each vertex that it turns around.
+    uint64_t steps = 4 * navmesh->polygon_count + MAX_RAY_STARTS;
     surface_ray ray = { navmesh, filter, from, end, from, rounding, rounding * sqrt(dx * dx + dz * dz),
                         true,    false,  steps };
     return ray;
@@ -536,7 +535,7 @@ tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_filter *fi
     walk.polygon_count = 1;
     const ray_trace trace = { polygons_out, capacity };
     surface_ray ray = make_ray(navmesh, filter, start->point, end);
-    record(&ray, &walk, &trace);
+    record_polygon(&ray, &walk, &trace);
     // A clean start is inside its polygon.
     if (!walk_clean(&ray, &walk, &trace)) {
         bool inside = false;

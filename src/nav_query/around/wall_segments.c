@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Walls as pieces: of one polygon, and of all that hang together around a place, the nearest first.
+// Wall segments: of one polygon, and of all polygons connected around a place, the nearest first.
 //
-// Rings know them: their edges are cut where links begin and end, so that each piece is wall or way as a whole. The
-// caller's buffer is kept in order as pieces come; it is short where this is asked often (what an agent steers by), and
-// what is farther than its last piece costs one comparison.
+// Rings (polygon outlines cut where links begin and end) know them: each of their edges is a wall or a portal as a
+// whole. The caller's buffer is kept sorted by insertion: it is short where this is called often (steering), and a wall
+// farther than its last entry costs one comparison.
 
 #include "nav_query/navmesh/plan.h"
 #include "nav_query/navmesh/surface.h"
@@ -91,7 +91,7 @@ static void insert(wall_gathering *walls, const tl_nav_wall_segment *segment)
     walls->segments[at] = *segment;
 }
 
-static void look_around(wall_gathering *walls, uint32_t node)
+static void gather_polygon_walls(wall_gathering *walls, uint32_t node)
 {
     uint32_t slot = walls->query->local_nodes[node].slot;
     uint32_t polygon = walls->query->local_nodes[node].polygon;
@@ -151,7 +151,7 @@ tl_result tl_nav_query_find_walls(tl_nav_query *query, const tl_navmesh *navmesh
     tl_nav_local_begin(query);
     tl_nav_local_add(query, slot, polygon, TL_NAV_NO_NODE, &walls.full);
     for (uint32_t node = 0; node < query->wedge_count; node++) {
-        look_around(&walls, node);
+        gather_polygon_walls(&walls, node);
     }
     *count_out = walls.count;
     if (walls.full) {

@@ -2,14 +2,15 @@
 //
 // Corridors: a path that follows its agent.
 //
-// A move tells which polygons it went through. Where the corridor and they meet last, the corridor goes on as it was;
-// before that it is the way back over the polygons of the move. So a step forward drops polygons, a step aside adds
-// them, and nothing is searched. The target's end is kept in the same way.
-// Source: Mikko Mononen, Detour, dtPathCorridor, for the idea.
+// A move reports the polygons that it crossed. Behind the last polygon that the corridor and the move share, the
+// corridor stays as it was; before it, it becomes the way back over the polygons of the move. So a step forward drops
+// polygons, a step aside adds them, and nothing is searched. The target's end is updated in the same way. Source: Mikko
+// Mononen, Detour, dtPathCorridor, for the idea.
 
 #include "nav_query/corridor/corridor_path.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "math/tolerance.h"
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/path/funnel.h"
@@ -39,7 +40,7 @@ void tl_nav_corridor_reset(tl_nav_corridor *corridor, const tl_nav_location *at)
 
 // Ends the corridor after `count` entries, or before: not in a link. The target is then that polygon's point nearest to
 // the goal.
-static void cut(tl_nav_corridor *corridor, const tl_navmesh *navmesh, uint32_t count)
+static void cut_off(tl_nav_corridor *corridor, const tl_navmesh *navmesh, uint32_t count)
 {
     corridor->count = count;
     while (corridor->count > 1 && tl_nav_is_offmesh(corridor->path[corridor->count - 1])) {
@@ -65,7 +66,7 @@ void tl_nav_corridor_replace(tl_nav_corridor *corridor, const tl_navmesh *navmes
     }
     corridor->count = begin + fits;
     if (begin < count || fits < kept) {
-        cut(corridor, navmesh, corridor->count);
+        cut_off(corridor, navmesh, corridor->count);
     }
 }
 
@@ -98,7 +99,7 @@ tl_result tl_nav_corridor_find(tl_nav_corridor *corridor, tl_nav_query *query, c
     corridor->reaches = path_out->status == TL_NAV_PATH_COMPLETE;
     corridor->count = path_out->polygon_count;
     if (result == TL_INCOMPLETE) {
-        cut(corridor, navmesh, corridor->capacity);
+        cut_off(corridor, navmesh, corridor->capacity);
     }
     return TL_OK;
 }
@@ -156,7 +157,7 @@ static tl_result move_end(tl_nav_query *query, const tl_navmesh *navmesh, const 
 // A coordinate of a position on a portal and those of its ends are rounded to float: as a share of the largest one.
 #define ON_PORTAL_ERROR ((double)TL_FLOAT_GAMMA(6))
 
-static bool lies_on(tl_vec3 point, tl_vec3 left, tl_vec3 right)
+static bool lies_on_portal(tl_vec3 point, tl_vec3 left, tl_vec3 right)
 {
     tl_vec3 nearest = tl_nav_closest_on_edge(right, left, point);
     double x = (double)nearest.x - (double)point.x;
@@ -175,7 +176,7 @@ static uint32_t entered(const tl_nav_corridor *corridor, const tl_navmesh *navme
     tl_vec3 left, right;
     while (at + 1 < corridor->count && tl_nav_split_ref(navmesh, corridor->path[at + 1], &slot, &polygon) &&
            tl_nav_portal_between(navmesh, corridor->path[at], slot, polygon, &left, &right) &&
-           lies_on(corridor->position, left, right)) {
+           lies_on_portal(corridor->position, left, right)) {
         at++;
     }
     return at;
@@ -232,14 +233,13 @@ tl_result tl_nav_corridor_move_target(tl_nav_corridor *corridor, tl_nav_query *q
         }
     }
     uint32_t added = move.polygon_count - 1 - last_in_move;
-    uint32_t room = corridor->capacity - (first_in_path + 1);
-    uint32_t fits = added < room ? added : room;
+    uint32_t fits = tl_min_u32(added, corridor->capacity - (first_in_path + 1));
     memcpy(corridor->path + first_in_path + 1, move.polygons + last_in_move + 1, fits * sizeof *corridor->path);
     corridor->count = first_in_path + 1 + fits;
     corridor->target = move.point;
     corridor->goal = move.point;
     if (fits < added) {
-        cut(corridor, navmesh, corridor->count);
+        cut_off(corridor, navmesh, corridor->count);
     }
     return TL_OK;
 }

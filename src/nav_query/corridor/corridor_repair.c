@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether a corridor is whole, and making it so after tiles have come and gone.
+// Whether a corridor is valid, and repairing it after tiles were added or removed.
 //
-// References of a tile that was replaced are stale for ever, so a look at them tells; that each still leads to the next
-// is asked of the navmesh. A broken corridor is searched anew from end to end: its far part may have been the worse way
-// already, and a search that finds its goal soon costs little.
+// References into a tile that was replaced are stale for ever, so checking them suffices; whether each polygon still
+// leads to the next is looked up in the navmesh. A broken corridor is searched anew from end to end: its far part may
+// already have been the longer way, and a search that finds its goal soon costs little.
 
 #include "base/assert.h"
 #include "base/min_max.h"
@@ -43,7 +43,7 @@ uint32_t tl_nav_corridor_check(const tl_nav_corridor *corridor, const tl_navmesh
     uint32_t count = tl_min_u32(max_count, corridor->count);
     uint32_t whole = 0;
     for (uint32_t i = 0; i < count; i++) {
-        // A link is looked at with the polygon that it leads to.
+        // A link is checked with the polygon that it leads to.
         if (tl_nav_is_offmesh(corridor->path[i])) {
             continue;
         }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Shorter corridors: by sight, and by a search of the next stretch.
+// Shorter corridors: by rays, and by a local search.
 //
-// Both look for another way to a point of the straight path, and take it where it is cheaper. The path behind the point
-// stays as it is, so a corridor never gets longer. Detour takes whatever a ray has crossed, and whatever way a short
-// search has found, and costs are not asked for.
+// Both look for another way to a point of the straight path, and take it where it is cheaper. The path behind that
+// point stays as it is, so a corridor never gets longer. Detour takes whatever a ray has crossed, and whatever way a
+// short search has found, without comparing costs.
 
 #include "base/assert.h"
 #include "math/tolerance.h"
@@ -13,12 +13,12 @@
 #include "nav_query/path/funnel.h"
 
 // How far a look goes. Stack: 12 KB for points, 2 KB for corners.
-enum { MOST_CORNERS = 64, MOST_POINTS = 256, MOST_RAYS = 4 };
+enum { MAX_AHEAD_CORNERS = 64, MAX_AHEAD_POINTS = 256, MAX_AHEAD_RAYS = 4 };
 
 // The straight path up to the first link, with its crossings.
 typedef struct path_ahead {
-    tl_nav_corner corners[MOST_CORNERS];
-    tl_nav_trace_point points[MOST_POINTS];
+    tl_nav_corner corners[MAX_AHEAD_CORNERS];
+    tl_nav_trace_point points[MAX_AHEAD_POINTS];
     uint32_t corner_count, count;
 } path_ahead;
 
@@ -26,7 +26,8 @@ static tl_result look_ahead(const tl_nav_corridor *corridor, const tl_navmesh *n
                             path_ahead *ahead)
 {
     ahead->count = 0;
-    tl_result result = tl_nav_corridor_corners(corridor, navmesh, ahead->corners, MOST_CORNERS, &ahead->corner_count);
+    tl_result result =
+        tl_nav_corridor_corners(corridor, navmesh, ahead->corners, MAX_AHEAD_CORNERS, &ahead->corner_count);
     if (result != TL_OK && result != TL_INCOMPLETE) {
         return result;
     }
@@ -42,13 +43,13 @@ static tl_result look_ahead(const tl_nav_corridor *corridor, const tl_navmesh *n
     }
     const tl_nav_trace_request trace = { filter,         corridor->path,      polygon_count,
                                          ahead->corners, ahead->corner_count, TL_NAV_CORNER_CROSSING };
-    result = tl_navmesh_trace_path(navmesh, &trace, ahead->points, MOST_POINTS, &ahead->count, NULL);
-    ahead->count = ahead->count < MOST_POINTS ? ahead->count : MOST_POINTS;
+    result = tl_navmesh_trace_path(navmesh, &trace, ahead->points, MAX_AHEAD_POINTS, &ahead->count, NULL);
+    ahead->count = ahead->count < MAX_AHEAD_POINTS ? ahead->count : MAX_AHEAD_POINTS;
     return result == TL_INCOMPLETE ? TL_OK : result;
 }
 
 // The place of a polygon in the corridor before its first link, or UINT32_MAX.
-static uint32_t place_of(const tl_nav_corridor *corridor, tl_nav_ref polygon)
+static uint32_t corridor_index_of(const tl_nav_corridor *corridor, tl_nav_ref polygon)
 {
     uint32_t count = tl_nav_corridor_before_link(corridor);
     for (uint32_t i = count; i > 0; i--) {
@@ -62,7 +63,7 @@ static uint32_t place_of(const tl_nav_corridor *corridor, tl_nav_ref polygon)
 // Whether a cost is lower than another by more than the rounding of sums over so many pieces.
 static bool is_cheaper(float cost, float than)
 {
-    return cost < than * (1.0f - TL_FLOAT_GAMMA(MOST_POINTS));
+    return cost < than * (1.0f - TL_FLOAT_GAMMA(MAX_AHEAD_POINTS));
 }
 
 // Goes straight to a point of the path, if that is free and cheaper.
@@ -76,7 +77,7 @@ static tl_result try_sight(tl_nav_corridor *corridor, const tl_navmesh *navmesh,
     if (result != TL_OK || hit.hit) {
         return result == TL_INCOMPLETE ? TL_OK : result;
     }
-    uint32_t place = place_of(corridor, hit.polygon);
+    uint32_t place = corridor_index_of(corridor, hit.polygon);
     if (place == UINT32_MAX) {
         return TL_OK; // another polygon that shares the point
     }
@@ -115,7 +116,7 @@ tl_result tl_nav_corridor_shorten(tl_nav_corridor *corridor, const tl_navmesh *n
     while (far_end > turn + 1 && ahead.points[far_end - 1].length > range) {
         far_end--;
     }
-    for (uint32_t ray = 0; ray < MOST_RAYS && far_end > turn + 1 && !changed; ray++) {
+    for (uint32_t ray = 0; ray < MAX_AHEAD_RAYS && far_end > turn + 1 && !changed; ray++) {
         TL_TRY(try_sight(corridor, navmesh, filter, &ahead.points[far_end - 1], &changed));
         far_end = turn + 1 + (far_end - turn - 1) / 2;
     }
@@ -144,12 +145,12 @@ static tl_result search_within(tl_nav_query *query, const tl_navmesh *navmesh, c
 static bool is_cheaper_way(const tl_nav_corridor *corridor, const tl_navmesh *navmesh, const tl_nav_filter *filter,
                            const tl_nav_ref *polygons, uint32_t polygon_count, const tl_nav_trace_point *to)
 {
-    tl_nav_corner corners[MOST_CORNERS];
+    tl_nav_corner corners[MAX_AHEAD_CORNERS];
     uint32_t corner_count = 0;
     uint32_t count = 0;
     float cost = 0.0f;
     const tl_nav_polygon_path path = { polygons, polygon_count, corridor->position, to->point };
-    if (tl_navmesh_straight_path(navmesh, &path, corners, MOST_CORNERS, &corner_count, NULL) != TL_OK) {
+    if (tl_navmesh_straight_path(navmesh, &path, corners, MAX_AHEAD_CORNERS, &corner_count, NULL) != TL_OK) {
         return false;
     }
     const tl_nav_trace_request trace = { filter, polygons, polygon_count, corners, corner_count, 0 };
@@ -170,7 +171,7 @@ tl_result tl_nav_corridor_improve(tl_nav_corridor *corridor, tl_nav_query *query
     TL_TRY(look_ahead(corridor, navmesh, filter, &path));
     // The last point of the path that lies on the first `ahead` polygons and behind its begin.
     uint32_t to = path.count - 1;
-    while (to > 0 && place_of(corridor, path.points[to].polygon) > ahead) {
+    while (to > 0 && corridor_index_of(corridor, path.points[to].polygon) > ahead) {
         to--;
     }
     if (to == 0) {
@@ -183,7 +184,8 @@ tl_result tl_nav_corridor_improve(tl_nav_corridor *corridor, tl_nav_query *query
                                           { path.points[to].polygon, path.points[to].point } };
     TL_TRY(search_within(query, navmesh, &request, max_steps, polygons, &count));
     if (count > 0 && is_cheaper_way(corridor, navmesh, filter, polygons, count, &path.points[to])) {
-        tl_nav_corridor_replace(corridor, navmesh, polygons, count, place_of(corridor, path.points[to].polygon) + 1);
+        tl_nav_corridor_replace(corridor, navmesh, polygons, count,
+                                corridor_index_of(corridor, path.points[to].polygon) + 1);
         if (changed_out != NULL) {
             *changed_out = true;
         }

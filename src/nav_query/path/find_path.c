@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// Paths as polygons: the shortest where every metre costs the same (shortest_search.c), else A* over the ways into
-// polygons.
+// Paths as polygons: the shortest one where every metre costs the same (Polyanya, shortest_search.c), else A* over the
+// ways into polygons.
 //
 // A node is a way into a polygon (a portal, crossed in one direction), not a polygon: where a polygon is entered
 // decides what crossing it costs. A portal is entered where the way from the point before, over the portal, to the goal
-// is shortest. The middle of the portal is the usual choice; it makes the graph fixed and the path provably the
-// cheapest in it, but that graph knows little of real lengths where polygons are large. Measured on eight levels
-// against Detour, which takes the middles too: paths through middles are 0.05% longer on average than Detour's, these
-// are 0.4% shorter, and 6 to 12% shorter at the best hundredth. What is given up is the proof: a point depends on the
-// path that led there, so a node that is closed may have been reachable by a slightly cheaper one. Source: Hart,
-// Nilsson, Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968. The crossing is
-// Heron's (crossing.h).
+// is shortest (crossing.h). The middle of the portal is the usual choice; it makes the graph fixed and the path
+// provably the cheapest in it, but that graph knows little of real lengths where polygons are large. Measured on eight
+// levels against Detour, which takes the middles too: paths through middles are 0.05% longer on average than Detour's,
+// these are 0.4% shorter, and 6 to 12% shorter at the best hundredth. The price is the proof: a point depends on the
+// path that led there, so a closed node may have been reachable by a slightly cheaper one. Source: Hart, Nilsson,
+// Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968.
 
 #include "base/assert.h"
 #include "nav_query/navmesh/nav_filter.h"
@@ -24,18 +23,18 @@
 
 #include <string.h>
 
-// Keys of the two nodes that are no ways. A slot is below 2^20, so no way has them.
-#define START_KEY UINT64_MAX
-#define GOAL_KEY  (UINT64_MAX - 1u)
+// Keys of the two nodes that are not ways. A slot is below 2^20, so no way has them.
+#define PATH_START_KEY UINT64_MAX
+#define PATH_GOAL_KEY  (UINT64_MAX - 1u)
 // Off-mesh links that were crossed: | the number of the end that was left.
 #define CROSSED_KEY ((uint64_t)1 << 62)
 
 // Offers a way to reach a node. `from` is TL_NAV_NO_NODE for the start.
-static void relax(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point, float cost,
-                  uint32_t from)
+static void relax_way(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32_t polygon, tl_vec3 point,
+                      float cost, uint32_t from)
 {
     if (cost == INFINITY) {
-        return; // it cannot be gone
+        return; // it cannot be crossed
     }
     uint32_t index = tl_nav_pool_get(search->query, key);
     if (index == TL_NAV_NO_NODE) {
@@ -55,20 +54,15 @@ static void relax(tl_nav_way_search *search, uint64_t key, uint32_t slot, uint32
     tl_nav_heap_improve(search->query, index);
 }
 
-static tl_nav_spot spot_of(tl_vec3 point)
-{
-    return tl_nav_spot_make((double)point.x, (double)point.z);
-}
-
 static tl_vec3 crossing_point(tl_vec3 from, tl_vec3 goal, const tl_nav_way *way)
 {
-    tl_nav_segment portal = { spot_of(way->right), spot_of(way->left) };
-    double share = tl_nav_crossing_share(spot_of(from), spot_of(goal), portal);
+    tl_nav_segment portal = { tl_nav_spot_of(way->right), tl_nav_spot_of(way->left) };
+    double share = tl_nav_crossing_share(tl_nav_spot_of(from), tl_nav_spot_of(goal), portal);
     return tl_lerp(way->right, way->left, (float)share);
 }
 
 // Crosses the off-mesh links that can be taken from a node's polygon.
-static void cross_links(tl_nav_way_search *search, uint32_t index)
+static void relax_links(tl_nav_way_search *search, uint32_t index)
 {
     const tl_navmesh *navmesh = search->navmesh;
     const tl_nav_node node = search->query->nodes[index];
@@ -82,8 +76,8 @@ static void cross_links(tl_nav_way_search *search, uint32_t index)
             tl_nav_passes(search->filter, navmesh->slots[to->slot].tile, to->polygon)) {
             float factor = search->filter != NULL ? search->filter->area_cost[link->offmesh.area] : 1.0f;
             float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, from->point);
-            relax(search, CROSSED_KEY | end, to->slot, to->polygon, to->point,
-                  node.cost + cost + factor * (float)link->cost, index);
+            relax_way(search, CROSSED_KEY | end, to->slot, to->polygon, to->point,
+                      node.cost + cost + factor * (float)link->cost, index);
         }
         end = from->next;
     }
@@ -94,8 +88,9 @@ static bool is_crossing(const tl_nav_node *node)
     return node->key >> 62 == CROSSED_KEY >> 62;
 }
 
-// A path that takes a short cut has the way from its end to the goal before it still.
-static float shortest_detour(const tl_nav_way_search *search)
+// A path that takes a short cut (a link that costs less than its length) still has the way from its end to the goal
+// ahead.
+static float least_shortcut_distance(const tl_nav_way_search *search)
 {
     const tl_nav_offmesh_table *table = &search->navmesh->offmesh;
     float least = INFINITY;
@@ -108,15 +103,15 @@ static float shortest_detour(const tl_nav_way_search *search)
     return least;
 }
 
-static void expand(tl_nav_way_search *search, uint32_t index)
+static void expand_way(tl_nav_way_search *search, uint32_t index)
 {
     const tl_nav_node node = search->query->nodes[index];
     const tl_nav_tile *tile = search->navmesh->slots[node.slot].tile;
     if (node.slot == search->goal_slot && node.polygon == search->goal_polygon) {
         float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, search->goal);
-        relax(search, GOAL_KEY, node.slot, node.polygon, search->goal, node.cost + cost, index);
+        relax_way(search, PATH_GOAL_KEY, node.slot, node.polygon, search->goal, node.cost + cost, index);
     }
-    cross_links(search, index);
+    relax_links(search, index);
     bool walked_in = node.parent != TL_NAV_NO_NODE && !is_crossing(&node);
     const tl_nav_node *parent = walked_in ? &search->query->nodes[node.parent] : NULL;
     tl_nav_ways ways = tl_nav_ways_of(search->navmesh, node.slot, node.polygon);
@@ -131,11 +126,11 @@ static void expand(tl_nav_way_search *search, uint32_t index)
         }
         tl_vec3 point = crossing_point(node.point, search->goal, &way);
         float cost = tl_nav_cost_between(search->filter, tile, node.polygon, node.point, point);
-        relax(search, way.key, way.slot, way.polygon, point, node.cost + cost, index);
+        relax_way(search, way.key, way.slot, way.polygon, point, node.cost + cost, index);
     }
 }
 
-// Goes on until the goal's node is taken up, or nothing is open, or the pool or the steps are used up.
+// Continues until the goal is closed, or nothing is open, or the pool or the steps are used up.
 static tl_nav_path_status step_by_ways(tl_nav_way_search *search, uint64_t *steps)
 {
     for (; *steps > 0; --*steps) {
@@ -143,11 +138,11 @@ static tl_nav_path_status step_by_ways(tl_nav_way_search *search, uint64_t *step
         if (index == TL_NAV_NO_NODE) {
             return TL_NAV_PATH_UNREACHABLE;
         }
-        if (search->query->nodes[index].key == GOAL_KEY) {
+        if (search->query->nodes[index].key == PATH_GOAL_KEY) {
             search->last = index;
             return TL_NAV_PATH_COMPLETE;
         }
-        expand(search, index);
+        expand_way(search, index);
         if (search->out_of_nodes) {
             return TL_NAV_PATH_OUT_OF_NODES;
         }
@@ -158,14 +153,15 @@ static tl_nav_path_status step_by_ways(tl_nav_way_search *search, uint64_t *step
 static void begin_by_ways(tl_nav_path_run *run)
 {
     tl_nav_way_search *search = &run->ways;
-    search->detour = shortest_detour(search);
+    search->detour = least_shortcut_distance(search);
     tl_nav_pool_reset(search->query);
-    relax(search, START_KEY, run->exact.start_slot, run->exact.start_polygon, run->start.point, 0.0f, TL_NAV_NO_NODE);
+    relax_way(search, PATH_START_KEY, run->exact.start_slot, run->exact.start_polygon, run->start.point, 0.0f,
+              TL_NAV_NO_NODE);
     run->stage = TL_NAV_RUN_WAYS;
 }
 
 // ---------------------------------------------------------------------------------------------------------
-// As near to the goal as a search has come: the nodes of either kind, by number.
+// As near to the goal as a search has come: nodes of either search, by number.
 
 typedef struct seen_polygon {
     uint32_t slot, polygon;
@@ -240,7 +236,7 @@ static void write_ways(const tl_nav_way_search *search, uint32_t last, tl_nav_re
 {
     const tl_nav_node *nodes = search->query->nodes;
     // The goal's node stands in the polygon of its parent.
-    uint32_t end = nodes[last].key == GOAL_KEY ? nodes[last].parent : last;
+    uint32_t end = nodes[last].key == PATH_GOAL_KEY ? nodes[last].parent : last;
     uint32_t count = 0;
     for (uint32_t i = end; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
         count += is_crossing(&nodes[i]) ? 2 : 1;
@@ -372,10 +368,10 @@ void tl_nav_run_step(tl_nav_path_run *run, uint64_t *steps)
 static bool find_over_graph(tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity, tl_nav_path *path_out)
 {
     const tl_nav_visibility_graph *graph = tl_nav_visibility_graph_for(&run->exact);
-    const tl_nav_path_buffers room = { polygons_out, capacity, NULL, 0 };
+    const tl_nav_path_buffers buffers = { polygons_out, capacity, NULL, 0 };
     tl_nav_shortest_path path;
     memset(&path, 0, sizeof path);
-    if (graph == NULL || !tl_nav_find_over_graph(&run->exact, graph, &room, &path)) {
+    if (graph == NULL || !tl_nav_find_over_graph(&run->exact, graph, &buffers, &path)) {
         return false;
     }
     path_out->status = TL_NAV_PATH_COMPLETE;

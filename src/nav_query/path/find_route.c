@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Nearest points, path and corners in one call: by the exact search where all metres cost the same, which has the
-// corners already; else by A* and the funnel.
+// Nearest points, path and corners in one call: by the exact search where all metres cost the same, which yields the
+// corners too; else by A* and the funnel.
 
 #include "base/assert.h"
 #include "nav_query/navmesh/nav_filter.h"

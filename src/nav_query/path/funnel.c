@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// String pulling: narrow a wedge from the apex, portal by portal; where one side would cross the other, the other is a
-// corner and the next apex, and the walk goes on from that corner's last portal.
+// String pulling (the funnel algorithm): narrow a wedge from the apex, portal by portal; where one side would cross the
+// other, the other becomes a corner and the next apex, and the walk continues from that corner's last portal.
 //
 // All turns are decided exactly, so nothing needs a tolerance; what remains is to decide every tie. Where both sides of
 // the wedge fall on one line the path must follow it, so the side that the corridor reaches first becomes a corner at
 // once, and the next corner removes it again if it lies straight behind. That keeps the order right where a corridor
 // turns back along a line, as it does around the end of a wall on the seam of two tiles.
+//
 // Where a corridor leaves a polygon by the very edge by which it came in (to another of two polygons that lie over one
-// another there), the line is inside the corridor but need not be the shortest.
-// Off-mesh links cut a corridor into pieces, each pulled by itself from anchor to anchor.
-// A corner is remembered with the last portal that has it, so each restart begins behind the one before: at most
-// n(n + 1)/2 portals are looked at, and about 2n on real corridors.
-// Source: Mikko Mononen, Simple Stupid Funnel Algorithm, 2010; Lee and Preparata, Euclidean Shortest Paths in the
-// Presence of Rectilinear Barriers, 1984.
+// another there), the line is inside the corridor but need not be the shortest. Off-mesh links cut a corridor into
+// pieces, each pulled by itself from anchor to anchor. A corner is remembered with the last portal that has it, so each
+// restart begins behind the one before: at most n(n + 1)/2 portals are visited, and about 2n on real corridors. Source:
+// Mikko Mononen, Simple Stupid Funnel Algorithm, 2010; Lee and Preparata, Euclidean Shortest Paths in the Presence of
+// Rectilinear Barriers, 1984.
 
 #include "nav_query/path/funnel.h"
 
@@ -42,13 +42,8 @@ static void set_last(corner_list *list, tl_vec3 point, tl_nav_ref polygon, uint3
     }
 }
 
-static bool same_place(tl_vec3 a, tl_vec3 b)
-{
-    return a.x == b.x && a.z == b.z;
-}
-
 // Whether b lies on the straight way from a to c.
-static bool is_straight(tl_vec3 a, tl_vec3 b, tl_vec3 c)
+static bool lies_straight_between(tl_vec3 a, tl_vec3 b, tl_vec3 c)
 {
     double ahead = ((double)b.x - (double)a.x) * ((double)c.x - (double)b.x) +
                    ((double)b.z - (double)a.z) * ((double)c.z - (double)b.z);
@@ -56,10 +51,10 @@ static bool is_straight(tl_vec3 a, tl_vec3 b, tl_vec3 c)
 }
 
 // Adds a corner; one before it at which the path does not turn, or the same place, gives way to it.
-static void add_corner(corner_list *list, tl_vec3 point, tl_nav_ref polygon, uint32_t flags, tl_nav_ref link)
+static void add_funnel_corner(corner_list *list, tl_vec3 point, tl_nav_ref polygon, uint32_t flags, tl_nav_ref link)
 {
-    bool replaces =
-        list->count > list->fixed && (same_place(list->last, point) || is_straight(list->before, list->last, point));
+    bool replaces = list->count > list->fixed &&
+                    (tl_nav_is_same_place(list->last, point) || lies_straight_between(list->before, list->last, point));
     if (!replaces) {
         list->before = list->last;
         list->length_before = list->length;
@@ -83,7 +78,7 @@ typedef struct funnel {
     wedge_side left, right; // at the apex: open, no portal has narrowed it yet
     uint32_t portal;        // the one to look at
     uint32_t last_portal;   // the end itself
-    bool only_first;        // corners that there is room for are enough
+    bool only_first;        // as many corners as fit are enough
     corner_list list;
 } funnel;
 
@@ -104,12 +99,12 @@ static tl_result portal_at(const funnel *f, uint32_t i, tl_vec3 *left_out, tl_ve
                                                                                                  : TL_ERR_ARGUMENT;
 }
 
-// Makes a side of the wedge a corner and the apex; the walk goes on behind its portal.
-static void turn_at(funnel *f, const wedge_side *side, uint32_t flags)
+// Makes a side of the wedge a corner and the apex; the walk continues behind its portal.
+static void turn_funnel(funnel *f, const wedge_side *side, uint32_t flags)
 {
     // A corner in the start's own place is no corner; add_corner sees to all others.
-    if (f->list.count > f->list.fixed || !same_place(side->point, f->start)) {
-        add_corner(&f->list, side->point, f->polygons[side->portal + 1], flags, TL_NAV_NO_REF);
+    if (f->list.count > f->list.fixed || !tl_nav_is_same_place(side->point, f->start)) {
+        add_funnel_corner(&f->list, side->point, f->polygons[side->portal + 1], flags, TL_NAV_NO_REF);
     }
     f->apex = side->point;
     f->portal = side->portal + 1;
@@ -129,7 +124,7 @@ static bool is_no_nearer(const funnel *f, const wedge_side *side, tl_vec3 point)
 static bool closes(const funnel *f, const wedge_side *other, int hand, tl_vec3 point, bool *in_line_out)
 {
     *in_line_out = false;
-    if (same_place(other->point, f->apex)) {
+    if (tl_nav_is_same_place(other->point, f->apex)) {
         return false;
     }
     // The end of the path is both ends of its portal, and closes nothing by itself.
@@ -146,12 +141,12 @@ static bool closes(const funnel *f, const wedge_side *other, int hand, tl_vec3 p
 // Moves one side of the wedge to its end of the current portal, unless that would widen it. `hand` is 1 for the right
 // side, -1 for the left one: hand * side_of is < 0 for what lies on the inner side of it.
 // Returns true when the wedge has closed: then there is a new apex.
-static bool narrow(funnel *f, wedge_side *own, const wedge_side *other, int hand, tl_vec3 end)
+static bool narrow_funnel(funnel *f, wedge_side *own, const wedge_side *other, int hand, tl_vec3 end)
 {
-    if (same_place(end, f->apex)) {
+    if (tl_nav_is_same_place(end, f->apex)) {
         return false;
     }
-    if (!same_place(own->point, f->apex)) {
+    if (!tl_nav_is_same_place(own->point, f->apex)) {
         int side = hand * tl_nav_side_of(f->apex, own->point, end);
         if (side > 0 || (side == 0 && !is_no_nearer(f, own, end))) {
             return false;
@@ -167,12 +162,12 @@ static bool narrow(funnel *f, wedge_side *own, const wedge_side *other, int hand
     bool own_is_first = in_line && other->portal == f->portal && !is_no_nearer(f, other, end);
     wedge_side first = own_is_first ? moved : *other;
     bool is_left = (hand < 0) == own_is_first;
-    turn_at(f, &first, is_left ? TL_NAV_CORNER_LEFT : TL_NAV_CORNER_RIGHT);
+    turn_funnel(f, &first, is_left ? TL_NAV_CORNER_LEFT : TL_NAV_CORNER_RIGHT);
     return true;
 }
 
 // Whether a point lies on a portal, or by rounding beyond it: `hand` 1 means on its far side, -1 on the near one.
-static bool lies_on(tl_vec3 left, tl_vec3 right, tl_vec3 point, int hand)
+static bool is_on_portal(tl_vec3 left, tl_vec3 right, tl_vec3 point, int hand)
 {
     if (hand * tl_nav_side_of(right, left, point) < 0) {
         return false;
@@ -191,14 +186,14 @@ static tl_result pass_ends(funnel *f)
     f->last_portal = f->polygon_count - 1;
     while (f->portal < f->last_portal) {
         TL_TRY(portal_at(f, f->portal, &left, &right));
-        if (!lies_on(left, right, f->start, 1)) {
+        if (!is_on_portal(left, right, f->start, 1)) {
             break;
         }
         f->portal++;
     }
     while (f->last_portal > f->portal) {
         TL_TRY(portal_at(f, f->last_portal - 1, &left, &right));
-        if (!lies_on(left, right, f->end, -1)) {
+        if (!is_on_portal(left, right, f->end, -1)) {
             break;
         }
         f->last_portal--;
@@ -217,10 +212,10 @@ static tl_result pull(funnel *f)
     while (f->portal <= f->last_portal && !is_enough(f)) {
         tl_vec3 left, right;
         TL_TRY(portal_at(f, f->portal, &left, &right));
-        if (f->portal == f->last_portal && same_place(f->end, f->apex)) {
+        if (f->portal == f->last_portal && tl_nav_is_same_place(f->end, f->apex)) {
             return TL_OK;
         }
-        if (!narrow(f, &f->right, &f->left, 1, right) && !narrow(f, &f->left, &f->right, -1, left)) {
+        if (!narrow_funnel(f, &f->right, &f->left, 1, right) && !narrow_funnel(f, &f->left, &f->right, -1, left)) {
             f->portal++;
         }
     }
@@ -268,11 +263,11 @@ static tl_result pull_pieces(funnel *f, const tl_nav_polygon_path *path, tl_vec3
         f->right.point = f->start;
         f->portal = 0;
         f->list.fixed = f->list.count + 1;
-        add_corner(&f->list, f->start, f->polygons[0], begin == 0 ? TL_NAV_CORNER_START : 0, TL_NAV_NO_REF);
+        add_funnel_corner(&f->list, f->start, f->polygons[0], begin == 0 ? TL_NAV_CORNER_START : 0, TL_NAV_NO_REF);
         TL_TRY(pass_ends(f));
         TL_TRY(pull(f));
-        add_corner(&f->list, f->end, f->polygons[f->polygon_count - 1],
-                   is_last ? TL_NAV_CORNER_END : TL_NAV_CORNER_LINK, is_last ? TL_NAV_NO_REF : polygons[next]);
+        add_funnel_corner(&f->list, f->end, f->polygons[f->polygon_count - 1],
+                          is_last ? TL_NAV_CORNER_END : TL_NAV_CORNER_LINK, is_last ? TL_NAV_NO_REF : polygons[next]);
         f->end = link[1];
         begin = next + 1;
     }

@@ -7,6 +7,12 @@
 
 #include <talus/nav_query.h>
 
+/// Whether two points are one in the plane.
+static inline bool tl_nav_is_same_place(tl_vec3 a, tl_vec3 b)
+{
+    return a.x == b.x && a.z == b.z;
+}
+
 /// The first corners of what tl_navmesh_straight_path finds: it stops when there are more than `capacity`, and the
 /// count is then capacity.
 tl_result tl_nav_first_corners(const tl_navmesh *navmesh, const tl_nav_polygon_path *path, tl_nav_corner *corners_out,

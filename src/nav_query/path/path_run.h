@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A path search under way: what find_path.c runs to its end and sliced_path.c runs in slices.
+// A path search under way: find_path.c runs it to its end, sliced_path.c in slices.
 
 #ifndef TALUS_SRC_NAV_QUERY_PATH_RUN_H
 #define TALUS_SRC_NAV_QUERY_PATH_RUN_H
@@ -23,7 +23,7 @@ typedef struct tl_nav_way_search {
     float least_cost; ///< of a metre
     uint32_t goal_slot, goal_polygon;
     tl_vec3 goal;
-    float detour; ///< metres at least from the nearest end of a short cut to the goal; INFINITY: there is none
+    float detour; ///< metres from the goal to the nearest end of a short cut; INFINITY: there is no short cut
     bool out_of_nodes;
     uint32_t last; ///< the goal's node, once it is found
 } tl_nav_way_search;
@@ -52,7 +52,7 @@ struct tl_nav_path_run {
 /// Begins. Errors as those of tl_nav_query_find_path; then nothing runs. The request's filter must outlive the run.
 tl_result tl_nav_run_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_path_request *request,
                            tl_nav_path_run *run);
-/// Goes on for at most `*steps` nodes, which are counted down.
+/// Continues for at most `*steps` nodes, which are counted down.
 void tl_nav_run_step(tl_nav_path_run *run, uint64_t *steps);
 /// The path as far as it is known.
 tl_result tl_nav_run_write(const tl_nav_path_run *run, tl_nav_ref *polygons_out, uint32_t capacity,

@@ -23,8 +23,8 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
                                           tl_nav_shortest_path *path_out)
 {
     static const tl_nav_path_buffers none = { NULL, 0, NULL, 0 };
-    const tl_nav_path_buffers *room = buffers != NULL ? buffers : &none;
-    if (query == NULL || navmesh == NULL || request == NULL || path_out == NULL || !tl_nav_are_buffers(room)) {
+    const tl_nav_path_buffers *wanted = buffers != NULL ? buffers : &none;
+    if (query == NULL || navmesh == NULL || request == NULL || path_out == NULL || !tl_nav_are_buffers(wanted)) {
         return TL_ERR_ARGUMENT;
     }
     memset(path_out, 0, sizeof *path_out);
@@ -35,8 +35,8 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
         return TL_OK;
     }
     const tl_nav_visibility_graph *graph = tl_nav_visibility_graph_for(&search);
-    if (graph != NULL && tl_nav_find_over_graph(&search, graph, room, path_out)) {
-        return fits(path_out, room);
+    if (graph != NULL && tl_nav_find_over_graph(&search, graph, wanted, path_out)) {
+        return fits(path_out, wanted);
     }
     memset(path_out, 0, sizeof *path_out);
     path_out->status = TL_NAV_PATH_UNREACHABLE;
@@ -47,8 +47,8 @@ tl_result tl_nav_query_find_shortest_path(tl_nav_query *query, const tl_navmesh 
         return TL_OK;
     }
     path_out->status = TL_NAV_PATH_COMPLETE;
-    tl_nav_write_wedge_corners(&search, room->corners, room->corner_capacity, path_out);
-    path_out->polygon_count = tl_nav_write_wedge_polygons(&search, room->polygons, room->polygon_capacity);
+    tl_nav_write_wedge_corners(&search, wanted->corners, wanted->corner_capacity, path_out);
+    path_out->polygon_count = tl_nav_write_wedge_polygons(&search, wanted->polygons, wanted->polygon_capacity);
     path_out->lower_bound = fmin(search.lower_bound, path_out->length);
-    return fits(path_out, room);
+    return fits(path_out, wanted);
 }

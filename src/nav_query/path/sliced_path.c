@@ -2,10 +2,11 @@
 //
 // A path search over many frames: the run of find_path.c, kept in the query between steps.
 //
-// Tiles may come and go between two steps. Every edit of the navmesh has a number, and each slot keeps that of the last
-// one that changed what a search sees there: its polygons, its links, its rings. A search all of whose nodes lie in
-// slots without a younger edit has seen nothing of any, so it goes on as if the tiles had always been as they are now.
-// Else it is stale: nodes may lie in polygons that are gone. A check costs one comparison while nothing is edited.
+// Tiles may be added and removed between two steps. Every edit of the navmesh has a number, and each slot keeps the
+// number of the last edit that changed what a search sees there: its polygons, links and rings. A search whose nodes
+// all lie in slots without a later edit has seen none of the changes, so it continues as if the tiles had always been
+// as they are now. Otherwise it is stale: nodes may lie in polygons that are gone. While nothing is edited the check is
+// one comparison.
 
 #include "base/assert.h"
 #include "nav_query/path/path_run.h"
@@ -27,7 +28,7 @@ static void note_generations(tl_nav_query *query)
 }
 
 // The slot of a node, or of the goal behind the last one.
-static uint32_t slot_of(const tl_nav_path_run *run, uint32_t node, uint32_t node_count)
+static uint32_t slot_of_node(const tl_nav_path_run *run, uint32_t node, uint32_t node_count)
 {
     const tl_nav_query *query = run->ways.query;
     return node == node_count               ? run->exact.goal_slot
@@ -47,7 +48,7 @@ static bool find_stale_slot(const tl_nav_path_run *run, uint32_t *slot_out)
     const tl_navmesh *navmesh = run->ways.navmesh;
     uint32_t count = count_nodes(run);
     for (uint32_t i = 0; i <= count; i++) {
-        uint32_t slot = slot_of(run, i, count);
+        uint32_t slot = slot_of_node(run, i, count);
         if (navmesh->slots[slot].last_edit.number > run->edits) {
             *slot_out = slot;
             return true;

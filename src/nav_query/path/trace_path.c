@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// A straight path polygon by polygon: where it crosses from one into the next, and what it costs.
+// Follows a straight path polygon by polygon: where it crosses from one into the next, and what it costs.
 //
-// Corners say in which polygon the path goes on, so each portal belongs to one leg; where the leg's line meets the
-// portal's needs no search. A portal that passes through a corner is crossed in it.
+// Corners say in which polygon the path continues, so each portal belongs to one leg, and where the leg's line meets
+// the portal's needs no search. A portal that contains a corner is crossed there.
 
 #include "base/assert.h"
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/offmesh.h"
 #include "nav_query/navmesh/surface.h"
+#include "nav_query/path/funnel.h"
 #include "nav_query/plane/side.h"
 #include "nav_query/search/portal_between.h"
 
@@ -28,15 +29,10 @@ typedef struct path_trace {
     tl_nav_trace_point last; // written
 } path_trace;
 
-static bool same_place(tl_vec3 a, tl_vec3 b)
-{
-    return a.x == b.x && a.z == b.z;
-}
-
 // Writes a point; one in the place of the point before it becomes part of that.
-static void write_point(path_trace *trace, uint32_t flags)
+static void write_trace_point(path_trace *trace, uint32_t flags)
 {
-    bool joins = trace->count > 0 && same_place(trace->point, trace->last.point) &&
+    bool joins = trace->count > 0 && tl_nav_is_same_place(trace->point, trace->last.point) &&
                  (trace->last.flags & TL_NAV_CORNER_LINK) == 0;
     trace->count += joins ? 0 : 1;
     trace->last.flags = flags | (joins ? trace->last.flags : 0);
@@ -49,10 +45,10 @@ static void write_point(path_trace *trace, uint32_t flags)
     }
 }
 
-// Goes straight to a point of the polygon at hand. In one place edges may have two heights, at a seam; the first stays.
+// Goes straight to a point of the current polygon. At a seam, edges may have two heights in one place; the first stays.
 static tl_result go_to(path_trace *trace, tl_vec3 point)
 {
-    if (same_place(trace->point, point)) {
+    if (tl_nav_is_same_place(trace->point, point)) {
         return TL_OK;
     }
     uint32_t slot = 0;
@@ -68,7 +64,7 @@ static tl_result go_to(path_trace *trace, tl_vec3 point)
 }
 
 // Where the leg from a to b crosses a portal; on the portal, whatever rounding says.
-static tl_vec3 crossing(tl_vec3 a, tl_vec3 b, tl_vec3 left, tl_vec3 right)
+static tl_vec3 leg_crossing(tl_vec3 a, tl_vec3 b, tl_vec3 left, tl_vec3 right)
 {
     double of_right = tl_nav_turn(a, b, right);
     double of_left = tl_nav_turn(a, b, left);
@@ -80,7 +76,7 @@ static tl_vec3 crossing(tl_vec3 a, tl_vec3 b, tl_vec3 left, tl_vec3 right)
 }
 
 // Crosses into the next polygon on the leg from a to b.
-static tl_result cross_portal(path_trace *trace, tl_vec3 a, tl_vec3 b)
+static tl_result trace_portal(path_trace *trace, tl_vec3 a, tl_vec3 b)
 {
     const tl_nav_ref *from = &trace->polygons[trace->at];
     uint32_t slots[2], polygons[2];
@@ -95,13 +91,13 @@ static tl_result cross_portal(path_trace *trace, tl_vec3 a, tl_vec3 b)
     if (!tl_nav_portal_between(trace->navmesh, from[0], slots[1], polygons[1], &left, &right)) {
         return TL_ERR_ARGUMENT;
     }
-    TL_TRY(go_to(trace, crossing(a, b, left, right)));
+    TL_TRY(go_to(trace, leg_crossing(a, b, left, right)));
     trace->at++;
     uint8_t areas[2] = { tl_nav_tile_area(trace->navmesh->slots[slots[0]].tile, polygons[0]),
                          tl_nav_tile_area(trace->navmesh->slots[slots[1]].tile, polygons[1]) };
     uint32_t flags = TL_NAV_CORNER_CROSSING | (areas[0] != areas[1] ? TL_NAV_CORNER_AREA : 0);
     if ((flags & trace->keep) != 0) {
-        write_point(trace, flags);
+        write_trace_point(trace, flags);
     }
     return TL_OK;
 }
@@ -125,7 +121,7 @@ static tl_result follow(path_trace *trace, const tl_nav_corner *from, const tl_n
         return TL_OK;
     }
     while (is_last ? trace->at + 1 < trace->polygon_count : trace->polygons[trace->at] != to->polygon) {
-        TL_TRY(cross_portal(trace, from->point, to->point));
+        TL_TRY(trace_portal(trace, from->point, to->point));
     }
     return go_to(trace, to->point);
 }
@@ -155,10 +151,10 @@ tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_trace_re
     trace.capacity = capacity;
     const tl_nav_corner *corners = request->corners;
     trace.point = corners[0].point;
-    write_point(&trace, corners[0].flags);
+    write_trace_point(&trace, corners[0].flags);
     for (uint32_t i = 1; i < request->corner_count; i++) {
         TL_TRY(follow(&trace, &corners[i - 1], &corners[i], i + 1 == request->corner_count));
-        write_point(&trace, corners[i].flags);
+        write_trace_point(&trace, corners[i].flags);
     }
     *count_out = trace.count;
     if (cost_out != NULL) {

@@ -7,18 +7,7 @@
 
 #include <math.h>
 #include <stdbool.h>
-
-// fmin and fmax are calls, for the sake of what is not a number.
-
-static inline double tl_nav_least(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static inline double tl_nav_most(double a, double b)
-{
-    return a > b ? a : b;
-}
+#include <talus/vec.h>
 
 typedef struct tl_nav_spot {
     double x, z;
@@ -32,6 +21,16 @@ static inline tl_nav_spot tl_nav_spot_make(double x, double z)
 {
     tl_nav_spot spot = { x, z };
     return spot;
+}
+
+static inline tl_nav_spot tl_nav_spot_of(tl_vec3 point)
+{
+    return tl_nav_spot_make((double)point.x, (double)point.z);
+}
+
+static inline bool tl_nav_is_same_spot(tl_nav_spot a, tl_nav_spot b)
+{
+    return a.x == b.x && a.z == b.z;
 }
 
 static inline tl_nav_spot tl_nav_spot_lerp(tl_nav_spot a, tl_nav_spot b, double t)

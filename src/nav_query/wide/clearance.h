@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Clearance: how far a place is from the walls around it, in the plane. What wide paths stand on.
+// Clearance: how far a place is from the walls around it, in the plane.
 //
 // An agent wider than the one that the mesh was baked for keeps its centre at least `reach` metres away from all walls.
-// What a wall forbids is then a convex set, all that is nearer to it than `reach`; within a polygon, which is convex
-// too, that makes questions of connection exact (free_pieces.c).
+// So a wall forbids its Minkowski sum with a disc, a stadium: a convex set, as a polygon is, which makes questions of
+// connection within a polygon exact (free_pieces.c).
 
 #ifndef TALUS_SRC_NAV_QUERY_CLEARANCE_H
 #define TALUS_SRC_NAV_QUERY_CLEARANCE_H
@@ -14,9 +14,9 @@
 #include "nav_query/search/node_pool.h"
 
 /// Memory that is taken from both ends. A copy of it, put back, frees what was taken since.
-typedef struct tl_nav_room {
+typedef struct tl_nav_scratch {
     char *low, *high;
-} tl_nav_room;
+} tl_nav_scratch;
 
 /// What one wide query works with.
 typedef struct tl_nav_clearance {
@@ -27,7 +27,7 @@ typedef struct tl_nav_clearance {
     double least;                ///< metres that its path keeps: a share of reach, as corners are rounded by chords
     double slack;                ///< metres: what rounding may do to a place
     double touch;                ///< metres, squared: what lies no farther apart touches
-    tl_nav_room room;            ///< what is left of the query's memory
+    tl_nav_scratch scratch;      ///< what is left of the query's memory
     bool is_full;                ///< it was not enough
 } tl_nav_clearance;
 
@@ -35,7 +35,7 @@ typedef struct tl_nav_clearance {
 /// place itself, the wall's two ends and the agent's radius are rounded once, the way that leads there a few times.
 #define TL_NAV_PLACE_ROUNDINGS 16.0
 
-/// The room is the query's wide_memory.
+/// The scratch memory is the query's wide_memory.
 void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter, double reach,
                             tl_nav_clearance *clearance_out);
 
@@ -43,7 +43,7 @@ void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, cons
 /// coordinates: so it changes hardly ever as tiles come in, and what was found before holds.
 double tl_nav_touch_of(const tl_navmesh *navmesh);
 
-/// Room for `count` elements, or NULL when it is used up; then is_full is set.
+/// Scratch memory for `count` elements, or NULL when it is used up; then is_full is set.
 void *tl_nav_take(tl_nav_clearance *clearance, uint64_t count, uint64_t size);
 
 /// A polygon that was met.
@@ -59,7 +59,7 @@ typedef struct tl_nav_near_wall {
     float a_x, a_z, b_x, b_z;
 } tl_nav_near_wall;
 
-static inline tl_nav_segment tl_nav_wall_segment(const tl_nav_near_wall *wall)
+static inline tl_nav_segment tl_nav_segment_of_wall(const tl_nav_near_wall *wall)
 {
     tl_nav_segment segment = { { (double)wall->a_x, (double)wall->a_z }, { (double)wall->b_x, (double)wall->b_z } };
     return segment;
@@ -76,7 +76,8 @@ typedef struct tl_nav_near_walls {
 /// Finds the walls that can be walked to straight, within `distance`, from some spot of a convex shape (1 corner: a
 /// spot, 2: a segment, at most 64) that lies in one polygon; the polygons that are met are left out. What the filter
 /// refuses is wall. Those within a lesser distance are the first ones of the list.
-/// False: out of room, and is_full is set. The list lies in the room; the caller puts `room` back when done.
+/// False: out of scratch memory, and is_full is set. The list lies in the scratch memory; the caller restores `scratch`
+/// when done.
 bool tl_nav_find_walls_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *corners,
                           uint32_t count, double distance, tl_nav_near_walls *near_out);
 
@@ -134,7 +135,7 @@ typedef struct tl_nav_wall_cell {
     tl_nav_spot corners[TL_NAV_MAX_CORNERS];
     uint32_t count;
     tl_nav_near_walls near; ///< of the polygon's outline
-    /// What is known beforehand; NULL and 0: nothing is.
+    /// What is precomputed; NULL and 0: nothing is.
     const uint32_t *side_first;    ///< [count + 1]: where each side's hits begin
     const tl_nav_wall_hit *hits;   ///< the nearest first
     const tl_nav_wall_pair *pairs; ///< the nearest first; those that meet in a corner of the outline are left out
@@ -154,7 +155,8 @@ bool tl_nav_is_side(const tl_nav_spot *corners, uint32_t count, uint32_t side, c
 float tl_nav_side_distance_sq(const tl_nav_spot *corners, uint32_t count, uint32_t side, const tl_nav_near_wall *wall);
 
 /// A polygon with all walls within `distance`: those that are kept with the navmesh, or else gathered. False: out of
-/// room, and is_full is set. What was gathered lies in the room; the caller puts `room` back when done.
+/// scratch memory, and is_full is set. What was gathered lies in the scratch memory; the caller restores `scratch` when
+/// done.
 bool tl_nav_wall_cell_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, double distance,
                          tl_nav_wall_cell *cell_out);
 /// The same, gathered.
@@ -164,22 +166,22 @@ bool tl_nav_gather_cell(tl_nav_clearance *clearance, uint32_t slot, uint32_t pol
 // ---------------------------------------------------------------------------------------------------------
 // Free pieces of a convex outline (free_pieces.c).
 
-#define TL_NAV_NO_FACE UINT32_MAX
+#define TL_NAV_NO_COMPONENT UINT32_MAX
 
 /// A stretch of an edge on which the agent's centre may stand.
 typedef struct tl_nav_piece {
     double from, to; ///< [0, 1] of the edge
     uint32_t edge;
-    uint32_t face; ///< pieces have the same one when there is a free way between them inside the outline
+    uint32_t component; ///< pieces have the same one when there is a free way between them inside the outline
 } tl_nav_piece;
 
 typedef struct tl_nav_pieces {
     tl_nav_piece *pieces; ///< in the outline's order
     uint32_t count;
-    uint32_t face_count; ///< faces are below it
+    uint32_t component_count; ///< components are below it
 } tl_nav_pieces;
 
-/// Cuts a polygon's outline into free pieces. False: out of room.
+/// Cuts a polygon's outline into free pieces. False: out of scratch memory.
 bool tl_nav_cut_cell(tl_nav_clearance *clearance, const tl_nav_wall_cell *cell, tl_nav_pieces *pieces_out);
 
 /// The same for any convex outline.
@@ -190,11 +192,11 @@ bool tl_nav_cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners,
 const tl_nav_piece *tl_nav_piece_at(const tl_nav_pieces *pieces, const tl_nav_spot *corners, uint32_t count,
                                     tl_nav_spot spot, double slack);
 
-/// The face of an outline's pieces that can be reached from a free spot inside it, or TL_NAV_NO_FACE when none can be.
+/// The component of an outline's pieces that can be reached from a free spot inside it, or TL_NAV_NO_COMPONENT when
+/// none can be.
 /// `*joined_out` (may be NULL): whether there is a free way inside the outline from the spot to `other`.
-/// `*face_out` is undefined when this returns false: out of room.
-bool tl_nav_face_of(tl_nav_clearance *clearance, const tl_nav_spot *corners, uint32_t count,
-                    const tl_nav_near_walls *near, const tl_nav_pieces *pieces, tl_nav_spot spot, tl_nav_spot other,
-                    uint32_t *face_out, bool *joined_out);
+/// `*component_out` is undefined when this returns false: out of scratch memory.
+bool tl_nav_component_at(tl_nav_clearance *clearance, const tl_nav_wall_cell *cell, const tl_nav_pieces *pieces,
+                         tl_nav_spot spot, tl_nav_spot other, uint32_t *component_out, bool *joined_out);
 
 #endif

@@ -1,24 +1,28 @@
 // SPDX-License-Identifier: MIT
 //
-// Where the centre of a wide agent may cross the outline of a convex polygon, and which of these places hang together
+// The pieces of a convex polygon's outline that the centre of a wide agent may cross, and which of them are connected
 // inside. Exact: no sampling, no search.
 //
-// What a wall forbids is the stadium of all spots nearer to it than the reach: convex, so it takes one interval off
-// each edge. Intervals that overlap make an arc; the free pieces lie between arcs. Inside the polygon two free pieces
-// are parted exactly when some connected part of what is forbidden touches the outline on both sides between them.
-// Stadiums whose intervals overlap are connected. So are two that overlap only inside: then all of their overlap lies
-// inside, and with it the middle between the two spots where the walls come nearest to each other. No other pair is. As
-// every wall lies outside or on the outline, every connected part reaches it, and its arcs tell all. Parts do not cross
-// one another. So the piece before an arc is bounded, inside, by the arc's part, and that leads to the piece behind the
-// arc which the same part touched last: one pass over the arcs joins all pieces that hang together (Kreweras'
-// complement of a partition without crossings). The widths of portals that others keep (Demyen and Buro, Efficient
-// Triangulation-Based Pathfinding, 2006; Kallmann, Dynamic and Robust Local Clearance Triangulations, 2014) hold for
-// triangles whose corners are all walls; polygons of a navmesh have corners on nothing, and walls of other polygons
-// reach in through several portals. Source: Kreweras, Sur les partitions non croisees d'un cycle, 1972.
+// A wall forbids its Minkowski sum with a disc, the stadium of all spots nearer to it than the reach: a convex set, so
+// it takes one interval off each edge. Intervals that overlap make an arc; the free pieces lie between arcs. Inside the
+// polygon two free pieces are separated exactly when some connected part of what is forbidden touches the outline on
+// both sides between them. Stadiums whose intervals overlap are connected. So are two that overlap only inside: then
+// all of their overlap lies inside, and with it the middle between the two spots where the walls come nearest to each
+// other. No other pair is. As every wall lies outside or on the outline, every connected part reaches it, so the arcs
+// tell all. Parts do not cross one another. So the piece before an arc is bounded, inside, by the arc's part, and that
+// leads to the piece behind the arc which the same part touched last: one pass over the arcs joins all pieces that are
+// connected (Kreweras' complement of a non-crossing partition).
+//
+// The widths of portals that others keep (Demyen and Buro, Efficient Triangulation-Based Pathfinding, 2006; Kallmann,
+// Dynamic and Robust Local Clearance Triangulations, 2014) hold for triangles whose corners are all walls; polygons of
+// a navmesh have corners on nothing, and walls of other polygons reach in through several portals. Source: Kreweras,
+// Sur les partitions non croisees d'un cycle, 1972.
 
 #include "nav_query/wide/clearance.h"
 
 #include "base/assert.h"
+#include "base/disjoint_sets.h"
+#include "base/min_max.h"
 
 #include <string.h>
 
@@ -32,12 +36,12 @@ typedef struct outline_cut {
     const tl_nav_spot *corners;
     uint32_t count;
     const tl_nav_near_walls *near;
-    const tl_nav_wall_cell *kept; // what is known beforehand, or NULL
+    const tl_nav_wall_cell *kept; // what is precomputed, or NULL
     double reach;
     uint32_t *parts; // [wall_count]: union-find over walls
     arc *arcs;       // [wall_count * count]
     uint32_t arc_count;
-    uint32_t *faces; // [arc_count]: union-find over the pieces behind arcs
+    uint32_t *components; // [arc_count]: union-find over the pieces behind arcs
 } outline_cut;
 
 bool tl_nav_pair_walls(const tl_nav_spot *corners, uint32_t count, const tl_nav_near_wall *walls, uint32_t a,
@@ -45,28 +49,13 @@ bool tl_nav_pair_walls(const tl_nav_spot *corners, uint32_t count, const tl_nav_
 {
     tl_nav_spot middle;
     tl_nav_wall_pair pair = { 0.0, a, b };
-    pair.distance_sq = tl_nav_between_segments(tl_nav_wall_segment(&walls[a]), tl_nav_wall_segment(&walls[b]), &middle);
+    pair.distance_sq =
+        tl_nav_between_segments(tl_nav_segment_of_wall(&walls[a]), tl_nav_segment_of_wall(&walls[b]), &middle);
     *pair_out = pair;
     return tl_nav_outside_by(corners, count, middle) <= 0.0;
 }
 
-static uint32_t root_of(uint32_t *parents, uint32_t i)
-{
-    while (parents[i] != i) {
-        parents[i] = parents[parents[i]];
-        i = parents[i];
-    }
-    return i;
-}
-
-static void unite(uint32_t *parents, uint32_t i, uint32_t k)
-{
-    uint32_t a = root_of(parents, i);
-    uint32_t b = root_of(parents, k);
-    parents[a > b ? a : b] = a < b ? a : b;
-}
-
-static void widen(double from, double to, double *low, double *high)
+static void widen_interval(double from, double to, double *low, double *high)
 {
     *low = from < *low ? from : *low;
     *high = to > *high ? to : *high;
@@ -84,7 +73,7 @@ static void cut_by_disc(tl_nav_spot p, tl_nav_spot d, tl_nav_spot center, double
     if (root > 0.0) {
         root = sqrt(root);
         double inverse = 1.0 / a;
-        widen((-b - root) * inverse, (-b + root) * inverse, low, high);
+        widen_interval((-b - root) * inverse, (-b + root) * inverse, low, high);
     }
 }
 
@@ -96,8 +85,8 @@ static bool clip_by_band(double at, double step, double from, double to, double 
     }
     double first = (from - at) / step;
     double last = (to - at) / step;
-    *low = tl_nav_most(*low, tl_nav_least(first, last));
-    *high = tl_nav_least(*high, tl_nav_most(first, last));
+    *low = tl_max_f64(tl_min_f64(last, first), *low);
+    *high = tl_min_f64(tl_max_f64(last, first), *high);
     return *low < *high;
 }
 
@@ -125,10 +114,10 @@ static bool forbidden_stretch(tl_nav_spot p, tl_nav_spot q, tl_nav_segment wall,
     double aside = (p.z - wall.a.z) * wx - (p.x - wall.a.x) * wz;
     if (length > 0.0 && clip_by_band(along, d.x * wx + d.z * wz, 0.0, length * length, &first, &last) &&
         clip_by_band(aside, d.z * wx - d.x * wz, -reach * length, reach * length, &first, &last)) {
-        widen(first, last, &low, &high);
+        widen_interval(first, last, &low, &high);
     }
-    *from_out = tl_nav_most(low, 0.0);
-    *to_out = tl_nav_least(high, 1.0);
+    *from_out = tl_max_f64(0.0, low);
+    *to_out = tl_min_f64(1.0, high);
     return low < 1.0 && high > 0.0 && *from_out < *to_out;
 }
 
@@ -138,7 +127,7 @@ static uint32_t add_stretch(const outline_cut *cut, uint32_t edge, uint32_t wall
     tl_nav_spot p = cut->corners[edge];
     tl_nav_spot q = cut->corners[edge + 1 < cut->count ? edge + 1 : 0];
     arc stretch = { 0.0, 0.0, wall };
-    if (!forbidden_stretch(p, q, tl_nav_wall_segment(&cut->near->walls[wall]), cut->reach, &stretch.from,
+    if (!forbidden_stretch(p, q, tl_nav_segment_of_wall(&cut->near->walls[wall]), cut->reach, &stretch.from,
                            &stretch.to)) {
         return count;
     }
@@ -158,8 +147,8 @@ static void add_arc(outline_cut *cut, const arc *stretch)
 {
     arc *last = cut->arc_count > 0 ? &cut->arcs[cut->arc_count - 1] : NULL;
     if (last != NULL && stretch->from <= last->to) {
-        last->to = tl_nav_most(last->to, stretch->to);
-        unite(cut->parts, last->wall, stretch->wall);
+        last->to = tl_max_f64(stretch->to, last->to);
+        tl_disjoint_sets_unite(cut->parts, last->wall, stretch->wall);
     } else {
         cut->arcs[cut->arc_count++] = *stretch;
     }
@@ -169,17 +158,17 @@ bool tl_nav_is_side(const tl_nav_spot *corners, uint32_t count, uint32_t side, c
 {
     tl_nav_spot p = corners[side];
     tl_nav_spot q = corners[side + 1 < count ? side + 1 : 0];
-    tl_nav_segment w = tl_nav_wall_segment(wall);
+    tl_nav_segment w = tl_nav_segment_of_wall(wall);
     return w.a.x == p.x && w.a.z == p.z && w.b.x == q.x && w.b.z == q.z;
 }
 
 float tl_nav_side_distance_sq(const tl_nav_spot *corners, uint32_t count, uint32_t side, const tl_nav_near_wall *wall)
 {
     tl_nav_segment segment = { corners[side], corners[side + 1 < count ? side + 1 : 0] };
-    return (float)tl_nav_segments_distance_sq(segment, tl_nav_wall_segment(wall));
+    return (float)tl_nav_segments_distance_sq(segment, tl_nav_segment_of_wall(wall));
 }
 
-// A side that is a wall is forbidden as a whole. What comes near to it hangs together with it, wherever it does.
+// A side that is a wall is forbidden as a whole. A wall that comes near to it anywhere is connected with it.
 static void close_edge(outline_cut *cut, uint32_t edge, uint32_t wall)
 {
     double reach_sq = cut->reach * cut->reach;
@@ -190,7 +179,7 @@ static void close_edge(outline_cut *cut, uint32_t edge, uint32_t wall)
         const tl_nav_wall_hit *end = cut->kept->hits + cut->kept->side_first[edge + 1];
         for (; hit < end && (double)hit->distance_sq < reach_sq; hit++) {
             if (hit->wall < cut->near->wall_count) {
-                unite(cut->parts, wall, hit->wall);
+                tl_disjoint_sets_unite(cut->parts, wall, hit->wall);
             }
         }
         return;
@@ -198,7 +187,7 @@ static void close_edge(outline_cut *cut, uint32_t edge, uint32_t wall)
     for (uint32_t i = 0; i < cut->near->wall_count; i++) {
         if (i != wall &&
             (double)tl_nav_side_distance_sq(cut->corners, cut->count, edge, &cut->near->walls[i]) < reach_sq) {
-            unite(cut->parts, wall, i);
+            tl_disjoint_sets_unite(cut->parts, wall, i);
         }
     }
 }
@@ -252,7 +241,7 @@ static void close_outline(outline_cut *cut)
 {
     arc *last = cut->arc_count > 1 ? &cut->arcs[cut->arc_count - 1] : NULL;
     if (last != NULL && cut->arcs[0].from <= 0.0 && last->to >= (double)cut->count) {
-        unite(cut->parts, cut->arcs[0].wall, last->wall);
+        tl_disjoint_sets_unite(cut->parts, cut->arcs[0].wall, last->wall);
         cut->arcs[0].from = last->from - (double)cut->count;
         cut->arc_count--;
     }
@@ -266,7 +255,7 @@ static void join_inside(outline_cut *cut)
         const tl_nav_wall_pair *pairs = cut->kept->pairs;
         for (uint32_t i = 0; i < cut->kept->pair_count && pairs[i].distance_sq < both; i++) {
             if (pairs[i].b < cut->near->wall_count) {
-                unite(cut->parts, pairs[i].a, pairs[i].b);
+                tl_disjoint_sets_unite(cut->parts, pairs[i].a, pairs[i].b);
             }
         }
         return;
@@ -274,37 +263,37 @@ static void join_inside(outline_cut *cut)
     for (uint32_t i = 0; i < cut->near->wall_count && cut->arc_count > 1; i++) {
         for (uint32_t k = i + 1; k < cut->near->wall_count; k++) {
             tl_nav_wall_pair pair;
-            if (root_of(cut->parts, i) != root_of(cut->parts, k) &&
+            if (tl_disjoint_sets_find(cut->parts, i) != tl_disjoint_sets_find(cut->parts, k) &&
                 tl_nav_pair_walls(cut->corners, cut->count, cut->near->walls, i, k, &pair) && pair.distance_sq < both) {
-                unite(cut->parts, i, k);
+                tl_disjoint_sets_unite(cut->parts, i, k);
             }
         }
     }
 }
 
 // Joins the pieces around each part. `last` holds wall_count numbers.
-static void join_faces(outline_cut *cut, uint32_t *last)
+static void join_components(outline_cut *cut, uint32_t *last)
 {
     uint32_t count = cut->arc_count;
     for (uint32_t i = 0; i < count; i++) {
-        cut->faces[i] = i;
-        last[root_of(cut->parts, cut->arcs[i].wall)] = i;
+        cut->components[i] = i;
+        last[tl_disjoint_sets_find(cut->parts, cut->arcs[i].wall)] = i;
     }
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t part = root_of(cut->parts, cut->arcs[i].wall);
-        unite(cut->faces, i > 0 ? i - 1 : count - 1, last[part]);
+        uint32_t part = tl_disjoint_sets_find(cut->parts, cut->arcs[i].wall);
+        tl_disjoint_sets_unite(cut->components, i > 0 ? i - 1 : count - 1, last[part]);
         last[part] = i;
     }
 }
 
 // Writes the free stretch between two places of the outline, edge by edge; the second may be a lap ahead.
-static void add_pieces(const outline_cut *cut, double from, double to, uint32_t face, tl_nav_pieces *pieces)
+static void add_pieces(const outline_cut *cut, double from, double to, uint32_t component, tl_nav_pieces *pieces)
 {
     uint32_t edge = (uint32_t)from;
     double lap = 0.0;
     while ((double)edge + lap < to) {
         double start = (double)edge + lap;
-        tl_nav_piece piece = { tl_nav_most(from - start, 0.0), tl_nav_least(to - start, 1.0), edge, face };
+        tl_nav_piece piece = { tl_max_f64(0.0, from - start), tl_min_f64(1.0, to - start), edge, component };
         if (piece.from < piece.to) {
             pieces->pieces[pieces->count++] = piece;
         }
@@ -325,23 +314,21 @@ static bool cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners,
         kept != NULL ? kept->side_first[count] - kept->side_first[0] : (uint64_t)near->wall_count * count;
     // Each stretch is followed by at most one free piece, and each corner cuts one more.
     pieces_out->pieces = tl_nav_take(clearance, stretches + count, sizeof *pieces_out->pieces);
-    tl_nav_room room = clearance->room;
+    tl_nav_scratch scratch = clearance->scratch;
     cut.parts = tl_nav_take(clearance, near->wall_count, sizeof *cut.parts);
     uint32_t *last = tl_nav_take(clearance, near->wall_count, sizeof *last);
     cut.arcs = tl_nav_take(clearance, stretches, sizeof *cut.arcs);
-    cut.faces = tl_nav_take(clearance, stretches, sizeof *cut.faces);
+    cut.components = tl_nav_take(clearance, stretches, sizeof *cut.components);
     if (clearance->is_full) {
         return false;
     }
-    for (uint32_t i = 0; i < near->wall_count; i++) {
-        cut.parts[i] = i;
-    }
+    tl_disjoint_sets_init(cut.parts, near->wall_count);
     for (uint32_t i = 0; i < count; i++) {
         cut_edge(&cut, i);
     }
     close_outline(&cut);
     join_inside(&cut);
-    join_faces(&cut, last);
+    join_components(&cut, last);
     if (cut.arc_count == 0) {
         add_pieces(&cut, 0.0, (double)count, 0, pieces_out);
     }
@@ -350,11 +337,11 @@ static bool cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners,
         double to = laps ? cut.arcs[0].from + (double)count : cut.arcs[i + 1].from;
         // The arc that was closed over the first corner begins before it.
         double from = cut.arcs[i].to;
-        add_pieces(&cut, from, to, root_of(cut.faces, i), pieces_out);
+        add_pieces(&cut, from, to, tl_disjoint_sets_find(cut.components, i), pieces_out);
     }
-    pieces_out->face_count = cut.arc_count > 0 ? cut.arc_count : 1;
+    pieces_out->component_count = cut.arc_count > 0 ? cut.arc_count : 1;
     TL_ASSERT(pieces_out->count <= stretches + count);
-    clearance->room = room;
+    clearance->scratch = scratch;
     return true;
 }
 

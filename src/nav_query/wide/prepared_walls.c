@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Walls around polygons, found beforehand up to a largest reach and kept with the navmesh.
+// The walls around each polygon, precomputed up to a largest reach and kept with the navmesh.
 //
-// A polygon's walls, sorted by the distance within which one must look to see them, serve every lesser reach by their
-// first ones (near_walls.c). With each side of the polygon stand the walls that come near to it, sorted too, so that a
-// cut looks at those few alone; and the pairs of walls that may meet inside, which are rare. What is left to the query
-// is what depends on the radius: the intervals themselves. Answers are the same bits as those of walls gathered anew.
+// A polygon's walls, sorted by the distance that a search must cover to see them, serve every shorter reach by their
+// first ones (visible_walls.c). Each side of the polygon has the list of walls that come near to it, sorted too, so
+// that a cut visits those few alone; and the pairs of walls that may meet inside, which are rare. What is left to the
+// query depends on the radius: the intervals themselves. Answers are the same bits as those of walls gathered anew.
+//
 // Why not intervals for all radii: their ends are roots, and move from wall to wall as the radius grows; a list of such
 // events is longer than the list of walls. Why not in the tile: a third of all walls lie across seams, so a tile alone
 // knows no polygon near its border. Why not a cache that queries fill: a navmesh is read by many threads, and a query's
-// own memory cannot tell a navmesh that was freed from the next one at the same address.
-// An edit drops what it may change, by the places of tiles; the next call makes that anew.
+// own memory cannot tell a navmesh that was freed from the next one at the same address. An edit drops what it may
+// change, by the places of tiles; the next call makes that anew.
 
 #include "nav_query/wide/prepared_walls.h"
 
@@ -20,30 +21,30 @@
 
 #include <string.h>
 
-// Nodes of the query that looks around, at first and at most: its room holds the walls of one polygon.
+// Nodes of the query that gathers walls, at first and at most: its memory holds the walls of one polygon.
 enum { FIRST_NODES = 1 << 10, LAST_NODES = 1 << 24 };
 
 // Share by which a kept distance is too small: many roundings of the distance, and of the cut that asks for it.
 static const double ROUND_DOWN = 1.0 - 0x1p-20;
 
 // A list that grows.
-typedef struct list {
+typedef struct item_list {
     char *at;
     uint64_t count, capacity;
     uint64_t size; // of an element
-} list;
+} item_list;
 
-typedef struct builder {
+typedef struct wall_baker {
     const tl_navmesh *navmesh;
     tl_nav_query *query;
     double reach;
-    list walls, hits, pairs;
+    item_list walls, hits, pairs;
     uint32_t *side_first;
     tl_nav_kept_cell *cells;
-} builder;
+} wall_baker;
 
 // Room for `count` > 0 more. NULL: out of memory.
-static void *add(builder *b, list *l, uint64_t count)
+static void *append_items(wall_baker *b, item_list *l, uint64_t count)
 {
     if (l->count + count > l->capacity) {
         const tl_allocator *allocator = &b->navmesh->allocator;
@@ -71,12 +72,12 @@ static float hit_distance_sq(const tl_nav_wall_cell *cell, uint32_t side, bool i
     if (is_closed) {
         return tl_nav_is_side(cell->corners, cell->count, side, wall) ? -1.0f : distance_sq;
     }
-    // A wall that is seen from afar only is none for a lesser reach, as near as its hidden part may be.
+    // A wall that only a long search sees does not count for a shorter reach, however near its hidden part is.
     return tl_maxf((float)((double)distance_sq * ROUND_DOWN), wall->distance_sq);
 }
 
 // Sorted in by their distance: a side has a few.
-static tl_result add_hits(builder *b, const tl_nav_wall_cell *cell, uint32_t side)
+static tl_result add_hits(wall_baker *b, const tl_nav_wall_cell *cell, uint32_t side)
 {
     uint64_t first = b->hits.count;
     bool is_closed = false;
@@ -88,7 +89,7 @@ static tl_result add_hits(builder *b, const tl_nav_wall_cell *cell, uint32_t sid
         if (!((double)hit.distance_sq < b->reach * b->reach)) {
             continue;
         }
-        if (add(b, &b->hits, 1) == NULL) {
+        if (append_items(b, &b->hits, 1) == NULL) {
             return TL_ERR_MEMORY;
         }
         tl_nav_wall_hit *hits = (tl_nav_wall_hit *)(void *)b->hits.at;
@@ -116,7 +117,7 @@ static bool meet_in_corner(const tl_nav_wall_cell *cell, tl_nav_segment a, tl_na
     return false;
 }
 
-static tl_result add_pairs(builder *b, const tl_nav_wall_cell *cell)
+static tl_result add_pairs(wall_baker *b, const tl_nav_wall_cell *cell)
 {
     uint64_t first = b->pairs.count;
     for (uint32_t i = 0; i < cell->near.wall_count; i++) {
@@ -124,11 +125,11 @@ static tl_result add_pairs(builder *b, const tl_nav_wall_cell *cell)
             tl_nav_wall_pair pair;
             if (!tl_nav_pair_walls(cell->corners, cell->count, cell->near.walls, i, k, &pair) ||
                 !(pair.distance_sq < 4.0 * b->reach * b->reach) ||
-                meet_in_corner(cell, tl_nav_wall_segment(&cell->near.walls[i]),
-                               tl_nav_wall_segment(&cell->near.walls[k]))) {
+                meet_in_corner(cell, tl_nav_segment_of_wall(&cell->near.walls[i]),
+                               tl_nav_segment_of_wall(&cell->near.walls[k]))) {
                 continue;
             }
-            if (add(b, &b->pairs, 1) == NULL) {
+            if (append_items(b, &b->pairs, 1) == NULL) {
                 return TL_ERR_MEMORY;
             }
             tl_nav_wall_pair *pairs = (tl_nav_wall_pair *)(void *)b->pairs.at;
@@ -142,7 +143,7 @@ static tl_result add_pairs(builder *b, const tl_nav_wall_cell *cell)
     return TL_OK;
 }
 
-static tl_result make_query(builder *b, uint32_t nodes)
+static tl_result make_wall_query(wall_baker *b, uint32_t nodes)
 {
     tl_nav_query_destroy(b->query);
     b->query = NULL;
@@ -152,8 +153,8 @@ static tl_result make_query(builder *b, uint32_t nodes)
     return tl_nav_query_create(&def, &b->query);
 }
 
-// Looks around a polygon, with more room if need be. The list of walls lies in the query's.
-static tl_result gather(builder *b, uint32_t slot, uint32_t polygon, tl_nav_wall_cell *cell)
+// Gathers the walls around a polygon, with more nodes if need be. The list lies in the query's memory.
+static tl_result gather_walls(wall_baker *b, uint32_t slot, uint32_t polygon, tl_nav_wall_cell *cell)
 {
     for (;;) {
         tl_nav_clearance clearance;
@@ -165,14 +166,14 @@ static tl_result gather(builder *b, uint32_t slot, uint32_t polygon, tl_nav_wall
         if (b->query->max_nodes == LAST_NODES) {
             return TL_ERR_LIMIT;
         }
-        TL_TRY(make_query(b, 2 * b->query->max_nodes));
+        TL_TRY(make_wall_query(b, 2 * b->query->max_nodes));
     }
 }
 
-static tl_result add_cell(builder *b, uint32_t slot, uint32_t polygon)
+static tl_result add_cell(wall_baker *b, uint32_t slot, uint32_t polygon)
 {
     tl_nav_wall_cell cell;
-    TL_TRY(gather(b, slot, polygon, &cell));
+    TL_TRY(gather_walls(b, slot, polygon, &cell));
     b->cells[polygon].wall = (uint32_t)b->walls.count;
     b->cells[polygon].pair = (uint32_t)b->pairs.count;
     const uint32_t *first_corner =
@@ -183,7 +184,7 @@ static tl_result add_cell(builder *b, uint32_t slot, uint32_t polygon)
     }
     TL_TRY(add_pairs(b, &cell));
     if (cell.near.wall_count > 0) {
-        void *walls = add(b, &b->walls, cell.near.wall_count);
+        void *walls = append_items(b, &b->walls, cell.near.wall_count);
         if (walls == NULL) {
             return TL_ERR_MEMORY;
         }
@@ -194,7 +195,7 @@ static tl_result add_cell(builder *b, uint32_t slot, uint32_t polygon)
 }
 
 // One block: the head and the arrays, those of doubles first.
-static tl_nav_kept_walls *pack(const builder *b, uint32_t polygons, uint32_t corners)
+static tl_nav_kept_walls *pack_walls(const wall_baker *b, uint32_t polygons, uint32_t corners)
 {
     uint64_t sizes[5] = { b->pairs.count * sizeof(tl_nav_wall_pair),
                           ((uint64_t)polygons + 1) * sizeof(tl_nav_kept_cell),
@@ -228,7 +229,7 @@ static tl_nav_kept_walls *pack(const builder *b, uint32_t polygons, uint32_t cor
     return kept;
 }
 
-static tl_result make_slot(builder *b, uint32_t slot, tl_nav_kept_walls **kept_out)
+static tl_result make_slot(wall_baker *b, uint32_t slot, tl_nav_kept_walls **kept_out)
 {
     const tl_nav_tile *tile = b->navmesh->slots[slot].tile;
     const tl_allocator *allocator = &b->navmesh->allocator;
@@ -245,7 +246,7 @@ static tl_result make_slot(builder *b, uint32_t slot, tl_nav_kept_walls **kept_o
         b->cells[tile->polygon_count].wall = (uint32_t)b->walls.count;
         b->cells[tile->polygon_count].pair = (uint32_t)b->pairs.count;
         b->side_first[tile->corner_count] = (uint32_t)b->hits.count;
-        *kept_out = pack(b, tile->polygon_count, tile->corner_count);
+        *kept_out = pack_walls(b, tile->polygon_count, tile->corner_count);
         result = *kept_out != NULL ? TL_OK : TL_ERR_MEMORY;
     }
     tl_release_array(allocator, b->cells, polygons, sizeof *b->cells);
@@ -253,7 +254,7 @@ static tl_result make_slot(builder *b, uint32_t slot, tl_nav_kept_walls **kept_o
     return result;
 }
 
-static void drop(tl_navmesh *navmesh, tl_nav_slot *slot)
+static void drop_kept_walls(tl_navmesh *navmesh, tl_nav_slot *slot)
 {
     if (slot->kept_walls != NULL) {
         navmesh->kept_bytes -= slot->kept_walls->size;
@@ -265,7 +266,7 @@ static void drop(tl_navmesh *navmesh, tl_nav_slot *slot)
 static void drop_all_walls(tl_navmesh *navmesh)
 {
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
-        drop(navmesh, &navmesh->slots[i]);
+        drop_kept_walls(navmesh, &navmesh->slots[i]);
     }
 }
 
@@ -281,7 +282,7 @@ static void invalidate_walls(tl_navmesh *navmesh, int32_t tile_x, int32_t tile_z
         tl_nav_slot *slot = &navmesh->slots[i];
         if (slot->kept_walls != NULL && fabs((double)slot->tile->tile_x - (double)tile_x) <= span &&
             fabs((double)slot->tile->tile_z - (double)tile_z) <= span) {
-            drop(navmesh, slot);
+            drop_kept_walls(navmesh, slot);
         }
     }
 }
@@ -308,9 +309,9 @@ static void fill_report(const tl_navmesh *navmesh, uint32_t made, tl_nav_wide_re
     }
 }
 
-static tl_result make_all(builder *b, tl_navmesh *navmesh, uint32_t *made)
+static tl_result make_all(wall_baker *b, tl_navmesh *navmesh, uint32_t *made)
 {
-    TL_TRY(make_query(b, FIRST_NODES));
+    TL_TRY(make_wall_query(b, FIRST_NODES));
     for (uint32_t i = 0; i < navmesh->slot_count; i++) {
         tl_nav_slot *slot = &navmesh->slots[i];
         if (slot->tile != NULL && slot->kept_walls == NULL) {
@@ -363,7 +364,7 @@ tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *de
     tl_report_begin(report, "walls");
     TL_TRY(check_wide_def(navmesh, &used, report));
     set_reach(navmesh, used.max_radius);
-    builder b;
+    wall_baker b;
     memset(&b, 0, sizeof b);
     b.navmesh = navmesh;
     b.reach = navmesh->kept_reach;
@@ -373,7 +374,7 @@ tl_result tl_navmesh_prepare_wide(tl_navmesh *navmesh, const tl_nav_wide_def *de
     uint32_t made = 0;
     tl_result result = b.reach > 0.0 ? make_all(&b, navmesh, &made) : TL_OK;
     tl_nav_query_destroy(b.query);
-    list *lists[3] = { &b.walls, &b.hits, &b.pairs };
+    item_list *lists[3] = { &b.walls, &b.hits, &b.pairs };
     for (int i = 0; i < 3; i++) {
         tl_release_array(&navmesh->allocator, lists[i]->at, lists[i]->capacity, lists[i]->size);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Paths for agents wider than the one that the mesh was baked for, as their caller wants them.
+// Paths for agents wider than the one that the mesh was baked for: the public calls.
 
 #include "nav_query/wide/wide_search.h"
 
@@ -11,12 +11,7 @@
 
 #include <string.h>
 
-static tl_nav_spot spot_of(tl_vec3 point)
-{
-    return tl_nav_spot_make((double)point.x, (double)point.z);
-}
-
-static tl_nav_corner corner_of(tl_nav_clearance *clearance, const tl_nav_polyline_vertex *vertex)
+static tl_nav_corner wide_corner(tl_nav_clearance *clearance, const tl_nav_polyline_vertex *vertex)
 {
     tl_nav_met home = { vertex->slot, vertex->polygon };
     tl_nav_location at = tl_nav_settle(clearance, home, vertex->spot);
@@ -24,13 +19,13 @@ static tl_nav_corner corner_of(tl_nav_clearance *clearance, const tl_nav_polylin
     return corner;
 }
 
-static void write_corners(tl_nav_clearance *clearance, const tl_nav_polyline *path, tl_nav_corner *corners,
-                          uint32_t capacity, tl_nav_wide_path *out)
+static void write_wide_corners(tl_nav_clearance *clearance, const tl_nav_polyline *path, tl_nav_corner *corners,
+                               uint32_t capacity, tl_nav_wide_path *out)
 {
     tl_vec3 last = { 0.0f, 0.0f, 0.0f };
     for (uint32_t i = 0; i != TL_NAV_NO_NODE; i = path->vertices[i].next) {
         const tl_nav_polyline_vertex *vertex = &path->vertices[i];
-        tl_nav_corner corner = corner_of(clearance, vertex);
+        tl_nav_corner corner = wide_corner(clearance, vertex);
         if (vertex->before == TL_NAV_NO_NODE) {
             corner.flags = TL_NAV_CORNER_START;
         } else {
@@ -90,15 +85,16 @@ static tl_result write_path(tl_nav_wide_search *search, tl_nav_corner *corners_o
                             tl_nav_wide_path *path_out)
 {
     tl_nav_clearance *clearance = search->clearance;
-    // Vertices get a quarter of the room that is left: each one is smaller than what is gathered around it.
+    // Vertices get a quarter of the memory that is left: each one is smaller than what is gathered around it.
     tl_nav_polyline path = { NULL, 0, 0, TL_NAV_NO_NODE };
-    path.capacity = (uint32_t)((uint64_t)(clearance->room.high - clearance->room.low) / 4 / sizeof *path.vertices);
+    path.capacity =
+        (uint32_t)((uint64_t)(clearance->scratch.high - clearance->scratch.low) / 4 / sizeof *path.vertices);
     path.vertices = tl_nav_take(clearance, path.capacity, sizeof *path.vertices);
-    if (!tl_nav_wide_straighten(search, &path) || !tl_nav_wide_pull(clearance, &path)) {
+    if (!tl_nav_wide_funnel(search, &path) || !tl_nav_wide_pull_taut(clearance, &path)) {
         path_out->status = TL_NAV_WIDE_OUT_OF_NODES;
         return TL_OK;
     }
-    write_corners(clearance, &path, corners_out, capacity, path_out);
+    write_wide_corners(clearance, &path, corners_out, capacity, path_out);
     return path_out->corner_count <= capacity ? TL_OK : TL_INCOMPLETE;
 }
 
@@ -129,8 +125,9 @@ static tl_result find_wide(tl_nav_query *query, const tl_navmesh *navmesh, const
         return TL_OK;
     }
     tl_nav_wide_search search = { &clearance,
-                                  { spot_of(ends.start), ends.start_slot, ends.start_polygon, TL_NAV_NO_FACE },
-                                  { spot_of(ends.goal), ends.goal_slot, ends.goal_polygon, TL_NAV_NO_FACE },
+                                  { tl_nav_spot_of(ends.start), ends.start_slot, ends.start_polygon,
+                                    TL_NAV_NO_COMPONENT },
+                                  { tl_nav_spot_of(ends.goal), ends.goal_slot, ends.goal_polygon, TL_NAV_NO_COMPONENT },
                                   NULL,
                                   false,
                                   TL_NAV_NO_NODE };
@@ -178,13 +175,13 @@ const char *tl_nav_wide_status_name(tl_nav_wide_status status)
 static bool segment_clearance(tl_nav_clearance *clearance, const tl_nav_corner *corners, uint32_t slot,
                               uint32_t polygon, double *least_sq)
 {
-    tl_nav_segment segment = { spot_of(corners[0].point), spot_of(corners[1].point) };
+    tl_nav_segment segment = { tl_nav_spot_of(corners[0].point), tl_nav_spot_of(corners[1].point) };
     tl_nav_near_walls near;
-    tl_nav_room room = clearance->room;
+    tl_nav_scratch scratch = clearance->scratch;
     bool fits = tl_nav_find_near_walls(clearance, slot, polygon, &segment.a, 2, sqrt(*least_sq), &near);
-    clearance->room = room;
+    clearance->scratch = scratch;
     for (uint32_t i = 0; fits && i < near.wall_count; i++) {
-        *least_sq = fmin(*least_sq, tl_nav_segments_distance_sq(segment, tl_nav_wall_segment(&near.walls[i])));
+        *least_sq = fmin(*least_sq, tl_nav_segments_distance_sq(segment, tl_nav_segment_of_wall(&near.walls[i])));
     }
     return fits;
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The nearest place with room for a wide agent: polygons are looked at in the order in which they come near, and in
-// each of them all places that can be the nearest free one.
+// The nearest place where a wide agent fits: polygons are visited in the order of their distance, and in each of them
+// all candidates for the nearest free place.
 //
-// Those are few. The nearest free place is the spot asked for itself, or lies on a free piece of the outline, or on the
-// border of what a wall forbids: there at the foot of the perpendicular on one of its two sides, at the end of its
-// circle away from the spot, or where it meets the border of another. Any of them that is free will do, the nearest is
-// taken.
+// Those are few. The nearest free place is the place asked for itself, or lies on a free piece of the outline, or on
+// the border of what a wall forbids: at the foot of the perpendicular on one of its two sides, at the point of its
+// circle nearest to the place, or where it meets the border of another wall. Each of them that is free is a candidate;
+// the nearest is taken.
 
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
@@ -23,7 +23,7 @@ typedef struct place_search {
     tl_nav_clearance *clearance;
     tl_nav_spot spot;
     double reach; // between the exact one and the one with slack: what is found stands rounding
-    // The polygon that is looked at.
+    // The polygon that is visited.
     uint32_t slot, polygon;
     tl_nav_wall_cell cell;
     // The nearest so far.
@@ -34,7 +34,7 @@ typedef struct place_search {
 } place_search;
 
 // As a float place it must be free.
-static void offer(place_search *search, tl_nav_spot exact)
+static void offer_place(place_search *search, tl_nav_spot exact)
 {
     tl_nav_spot spot = { (double)(float)exact.x, (double)(float)exact.z };
     double distance_sq = tl_nav_spot_distance_sq(spot, search->spot);
@@ -82,7 +82,7 @@ static uint32_t borders_of(tl_nav_segment wall, double reach, border out[4])
 
 static void offer_on_line(place_search *search, const border *line, double along)
 {
-    offer(search, tl_nav_spot_make(line->at.x + along * line->ahead.x, line->at.z + along * line->ahead.z));
+    offer_place(search, tl_nav_spot_make(line->at.x + along * line->ahead.x, line->at.z + along * line->ahead.z));
 }
 
 static void offer_nearest(place_search *search, const border *b)
@@ -93,10 +93,10 @@ static void offer_nearest(place_search *search, const border *b)
     if (!is_circle(b)) {
         offer_on_line(search, b, x * b->ahead.x + z * b->ahead.z);
     } else if (distance > 0.0) {
-        offer(search,
-              tl_nav_spot_make(b->at.x + x * (search->reach / distance), b->at.z + z * (search->reach / distance)));
+        offer_place(search, tl_nav_spot_make(b->at.x + x * (search->reach / distance),
+                                             b->at.z + z * (search->reach / distance)));
     } else {
-        offer(search, tl_nav_spot_make(b->at.x + search->reach, b->at.z));
+        offer_place(search, tl_nav_spot_make(b->at.x + search->reach, b->at.z));
     }
 }
 
@@ -140,13 +140,14 @@ static void offer_borders(place_search *search)
 {
     for (uint32_t i = 0; i < search->cell.near.wall_count; i++) {
         border own[4];
-        uint32_t own_count = borders_of(tl_nav_wall_segment(&search->cell.near.walls[i]), search->reach, own);
+        uint32_t own_count = borders_of(tl_nav_segment_of_wall(&search->cell.near.walls[i]), search->reach, own);
         for (uint32_t b = 0; b < own_count; b++) {
             offer_nearest(search, &own[b]);
         }
         for (uint32_t k = 0; k < i; k++) {
             border other[4];
-            uint32_t other_count = borders_of(tl_nav_wall_segment(&search->cell.near.walls[k]), search->reach, other);
+            uint32_t other_count =
+                borders_of(tl_nav_segment_of_wall(&search->cell.near.walls[k]), search->reach, other);
             for (uint32_t pair = 0; pair < own_count * other_count; pair++) {
                 offer_crossings(search, &own[pair / other_count], &other[pair % other_count]);
             }
@@ -154,17 +155,17 @@ static void offer_borders(place_search *search)
     }
 }
 
-// All places of the polygon that may be the nearest. False: out of room.
+// All places of the polygon that may be the nearest. False: out of scratch memory.
 static bool look_into(place_search *search)
 {
     tl_nav_clearance *clearance = search->clearance;
-    tl_nav_room room = clearance->room;
+    tl_nav_scratch scratch = clearance->scratch;
     tl_nav_pieces pieces;
     if (!tl_nav_wall_cell_of(clearance, search->slot, search->polygon, search->reach, &search->cell) ||
         !tl_nav_cut_cell(clearance, &search->cell, &pieces)) {
         return false;
     }
-    offer(search, search->spot);
+    offer_place(search, search->spot);
     for (uint32_t i = 0; i < pieces.count; i++) {
         const tl_nav_piece *piece = &pieces.pieces[i];
         tl_nav_spot p = search->cell.corners[piece->edge];
@@ -172,14 +173,14 @@ static bool look_into(place_search *search)
         tl_nav_segment stretch = { tl_nav_spot_lerp(p, q, piece->from), tl_nav_spot_lerp(p, q, piece->to) };
         tl_nav_spot nearest;
         tl_nav_nearest_of_segment(stretch, search->spot, &nearest);
-        offer(search, nearest);
+        offer_place(search, nearest);
     }
     offer_borders(search);
-    clearance->room = room;
+    clearance->scratch = scratch;
     return true;
 }
 
-static void relax(place_search *search, uint32_t slot, uint32_t polygon, double distance_sq)
+static void relax_polygon(place_search *search, uint32_t slot, uint32_t polygon, double distance_sq)
 {
     tl_nav_query *query = search->clearance->query;
     uint32_t index = tl_nav_pool_get(query, (uint64_t)slot << 32 | polygon);
@@ -213,19 +214,19 @@ static void step_on(place_search *search)
         bool passes = clearance->filter == NULL ||
                       tl_nav_passes(clearance->filter, clearance->navmesh->slots[to.slot].tile, to.polygon);
         if (distance_sq <= search->best_sq && passes) {
-            relax(search, to.slot, to.polygon, distance_sq);
+            relax_polygon(search, to.slot, to.polygon, distance_sq);
         }
     }
 }
 
-static void run(place_search *search)
+static void search_outward(place_search *search)
 {
     tl_nav_query *query = search->clearance->query;
     tl_nav_pool_reset(query);
-    relax(search, search->slot, search->polygon, 0.0);
+    relax_polygon(search, search->slot, search->polygon, 0.0);
     while (!search->clearance->is_full) {
         uint32_t index = tl_nav_heap_pop(query);
-        // Keys are rounded: one more polygon may be looked at than need be, never one less.
+        // Keys are rounded: one more polygon may be visited than need be, never one less.
         if (index == TL_NAV_NO_NODE ||
             (double)query->nodes[index].total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING) > search->best_sq) {
             return;
@@ -272,7 +273,7 @@ tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *na
     search.slot = slot;
     search.polygon = polygon;
     search.best_sq = (double)max_distance * (double)max_distance * (1.0 + TL_DOUBLE_GAMMA(4));
-    run(&search);
+    search_outward(&search);
     if (clearance.is_full) {
         return TL_ERR_NODES;
     }

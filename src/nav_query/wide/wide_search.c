@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 //
-// Paths for wide agents: A* over the free pieces of portals.
+// Paths with clearance: A* over the free pieces of portals.
 //
-// A node is a piece of a portal, crossed in one direction. From it the search goes on to the pieces of the polygon
-// behind it that hang together with it there (free_pieces.c): not to all, as a polygon may be free on both sides of a
-// passage that is too narrow, and not only to those of other portals, as the way around may lead back over the same
-// one. So a goal is reached exactly when there is a free way to it. Pieces are entered where that is shortest
-// (crossing.h), and ways within polygons count as if they were straight: the path is near the shortest, which one is
-// not proven. Source: Hart, Nilsson, Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths,
-// 1968.
+// A node is a piece of a portal, crossed in one direction. Its successors are the pieces that are connected with it in
+// the polygon behind it (free_pieces.c): not all pieces, as a polygon may be free on both sides of a passage that is
+// too narrow; and pieces of the same portal too, as the way around may lead back through it. So a goal is reached
+// exactly when there is a free path to it. Pieces are entered where that is shortest (crossing.h), and ways within
+// polygons are counted as if they were straight: the path is near the shortest, but not proven to be it. Source: Hart,
+// Nilsson, Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968.
 
 #include "nav_query/wide/wide_search.h"
 
+#include "base/min_max.h"
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/plane/crossing.h"
@@ -19,8 +19,8 @@
 #include <string.h>
 
 // Keys of the two nodes that are no pieces. Edges of a slot are fewer than 2^32 - 1, so no piece has them.
-#define START_KEY UINT64_MAX
-#define GOAL_KEY  (UINT64_MAX - 1u)
+#define WIDE_START_KEY UINT64_MAX
+#define WIDE_GOAL_KEY  (UINT64_MAX - 1u)
 
 // Bits of a key for a piece's number on its edge.
 enum { ORDINAL_BITS = 12 };
@@ -37,8 +37,8 @@ static bool cut_polygon_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t 
            tl_nav_cut_cell(clearance, &out->cell, &out->pieces);
 }
 
-// The face of a piece that a straight free way leads to, as it mostly does, or TL_NAV_NO_FACE.
-static uint32_t straight_face(const tl_nav_clearance *clearance, const cut_polygon *cut, tl_nav_spot spot)
+// The component of a piece that a straight free way leads to, as it mostly does, or TL_NAV_NO_COMPONENT.
+static uint32_t straight_component(const tl_nav_clearance *clearance, const cut_polygon *cut, tl_nav_spot spot)
 {
     for (uint32_t i = 0; i < cut->pieces.count; i++) {
         const tl_nav_piece *piece = &cut->pieces.pieces[i];
@@ -46,34 +46,33 @@ static uint32_t straight_face(const tl_nav_clearance *clearance, const cut_polyg
         tl_nav_spot q = cut->cell.corners[piece->edge + 1 < cut->cell.count ? piece->edge + 1 : 0];
         tl_nav_spot middle = tl_nav_spot_lerp(p, q, 0.5 * (piece->from + piece->to));
         if (tl_nav_is_clear(&cut->cell.near, spot, middle, clearance->reach)) {
-            return piece->face;
+            return piece->component;
         }
     }
-    return TL_NAV_NO_FACE;
+    return TL_NAV_NO_COMPONENT;
 }
 
 bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end)
 {
     tl_nav_clearance *clearance = search->clearance;
-    tl_nav_room room = clearance->room;
+    tl_nav_scratch scratch = clearance->scratch;
     cut_polygon cut;
     bool is_same = search->start.slot == search->goal.slot && search->start.polygon == search->goal.polygon;
     tl_nav_spot other = !is_same ? end->spot : end == &search->start ? search->goal.spot : search->start.spot;
     bool stands = cut_polygon_of(clearance, end->slot, end->polygon, &cut) &&
                   tl_nav_is_clear(&cut.cell.near, end->spot, end->spot, clearance->reach - clearance->slack);
-    end->face = stands ? straight_face(clearance, &cut, end->spot) : TL_NAV_NO_FACE;
-    if (stands && end->face == TL_NAV_NO_FACE) {
+    end->component = stands ? straight_component(clearance, &cut, end->spot) : TL_NAV_NO_COMPONENT;
+    if (stands && end->component == TL_NAV_NO_COMPONENT) {
         bool joined = false;
-        stands = tl_nav_face_of(clearance, cut.cell.corners, cut.cell.count, &cut.cell.near, &cut.pieces, end->spot,
-                                other, &end->face, &joined);
+        stands = tl_nav_component_at(clearance, &cut.cell, &cut.pieces, end->spot, other, &end->component, &joined);
         search->is_joined = search->is_joined || (joined && is_same);
     }
-    clearance->room = room;
+    clearance->scratch = scratch;
     return stands;
 }
 
-static void relax(tl_nav_wide_search *search, uint64_t key, tl_nav_met to, tl_nav_segment portal, tl_nav_spot spot,
-                  float cost, uint32_t from)
+static void relax_portal(tl_nav_wide_search *search, uint64_t key, tl_nav_met to, tl_nav_segment portal,
+                         tl_nav_spot spot, float cost, uint32_t from)
 {
     tl_nav_query *query = search->clearance->query;
     uint32_t index = tl_nav_pool_get(query, key);
@@ -96,14 +95,14 @@ static void relax(tl_nav_wide_search *search, uint64_t key, tl_nav_met to, tl_na
     tl_nav_heap_improve(query, index);
 }
 
-static tl_nav_spot spot_of(const tl_nav_node *node)
+static tl_nav_spot node_spot(const tl_nav_node *node)
 {
     return tl_nav_spot_make((double)node->point.x, (double)node->point.z);
 }
 
 static float step_cost(const tl_nav_node *node, tl_nav_spot to)
 {
-    return node->cost + (float)sqrt(tl_nav_spot_distance_sq(spot_of(node), to));
+    return node->cost + (float)sqrt(tl_nav_spot_distance_sq(node_spot(node), to));
 }
 
 // The share of an outline's edge from p to q at which a spot lies.
@@ -136,7 +135,7 @@ static uint32_t count_pieces(const tl_nav_pieces *pieces, uint32_t edge, double 
     uint32_t count = 0;
     for (uint32_t i = 0; i < pieces->count; i++) {
         const tl_nav_piece *piece = &pieces->pieces[i];
-        count += piece->edge == edge && tl_nav_most(piece->from, first) < tl_nav_least(piece->to, last) ? 1 : 0;
+        count += piece->edge == edge && tl_max_f64(first, piece->from) < tl_min_f64(last, piece->to) ? 1 : 0;
     }
     return count;
 }
@@ -147,10 +146,10 @@ typedef struct way_out {
     uint32_t side;
 } way_out;
 
-// Goes over an edge of the ring by all pieces of a face. `entry` is the piece by which the polygon was entered, or
+// Goes over an edge of the ring by all pieces of a component. `entry` is the piece by which the polygon was entered, or
 // NULL.
-static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_polygon *cut, uint32_t face,
-                       const tl_nav_piece *entry, const way_out *way)
+static void cross_wide_edge(tl_nav_wide_search *search, uint32_t index, const cut_polygon *cut, uint32_t component,
+                            const tl_nav_piece *entry, const way_out *way)
 {
     const tl_nav_clearance *clearance = search->clearance;
     const tl_nav_node node = clearance->query->nodes[index];
@@ -168,7 +167,7 @@ static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_pol
     double first = share_of(p, q, tl_nav_spot_make((double)edge->x, (double)edge->z));
     double last = share_of(p, q, tl_nav_spot_make((double)way->end->x, (double)way->end->z));
     bool is_back = entry != NULL && entry->edge == side && leads_back(search, &node, across);
-    double entry_share = is_back ? share_of(p, q, spot_of(&node)) : 0.0;
+    double entry_share = is_back ? share_of(p, q, node_spot(&node)) : 0.0;
     // A dead end hangs by this edge alone. One that has a single piece of it is left by the way that it was entered.
     if (is_dead_end(search, &node, across) && count_pieces(&cut->pieces, side, first, last) < 2) {
         return;
@@ -177,8 +176,8 @@ static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_pol
     uint64_t ordinal = 0;
     for (uint32_t i = 0; i < cut->pieces.count; i++) {
         const tl_nav_piece *piece = &cut->pieces.pieces[i];
-        double from = tl_nav_most(piece->from, first);
-        double until = tl_nav_least(piece->to, last);
+        double from = tl_max_f64(first, piece->from);
+        double until = tl_min_f64(last, piece->to);
         if (piece->edge != side || !(from < until)) {
             continue;
         }
@@ -187,46 +186,46 @@ static void cross_edge(tl_nav_wide_search *search, uint32_t index, const cut_pol
             return;
         }
         uint64_t key = ((uint64_t)node.slot << 32 | place) << ORDINAL_BITS | ordinal++;
-        // Back by the piece that the way came by leads to nothing but what hangs together with it there: no shorter.
+        // To go back through the piece of entry leads only to what is connected with it there: no shorter.
         bool is_entry = is_back && piece == entry && from <= entry_share && entry_share <= until;
-        if (piece->face == face && !is_entry) {
+        if (piece->component == component && !is_entry) {
             // The polygon across may see the piece's ends otherwise, by a rounding.
-            double margin = tl_nav_least(0.25 * (until - from), clearance->slack / sqrt(tl_nav_spot_distance_sq(p, q)));
+            double margin = tl_min_f64(clearance->slack / sqrt(tl_nav_spot_distance_sq(p, q)), 0.25 * (until - from));
             from += margin;
             until -= margin;
             tl_nav_segment portal = { tl_nav_spot_lerp(p, q, from), tl_nav_spot_lerp(p, q, until) };
-            double share = tl_nav_crossing_share(spot_of(&node), search->goal.spot, portal);
+            double share = tl_nav_crossing_share(node_spot(&node), search->goal.spot, portal);
             tl_nav_spot spot = tl_nav_spot_lerp(portal.a, portal.b, share);
-            relax(search, key, to, portal, spot, step_cost(&node, spot), index);
+            relax_portal(search, key, to, portal, spot, step_cost(&node, spot), index);
         }
     }
 }
 
-static void expand(tl_nav_wide_search *search, uint32_t index)
+static void expand_portal(tl_nav_wide_search *search, uint32_t index)
 {
     tl_nav_clearance *clearance = search->clearance;
     const tl_nav_node *node = &clearance->query->nodes[index];
-    tl_nav_room room = clearance->room;
+    tl_nav_scratch scratch = clearance->scratch;
     cut_polygon cut;
     if (!cut_polygon_of(clearance, node->slot, node->polygon, &cut)) {
         return;
     }
-    uint32_t face = search->start.face;
+    uint32_t component = search->start.component;
     const tl_nav_piece *entry = NULL;
-    if (node->key != START_KEY) {
-        entry = tl_nav_piece_at(&cut.pieces, cut.cell.corners, cut.cell.count, spot_of(node), clearance->slack);
-        face = entry != NULL ? entry->face : TL_NAV_NO_FACE;
+    if (node->key != WIDE_START_KEY) {
+        entry = tl_nav_piece_at(&cut.pieces, cut.cell.corners, cut.cell.count, node_spot(node), clearance->slack);
+        component = entry != NULL ? entry->component : TL_NAV_NO_COMPONENT;
     }
     bool is_goals = node->slot == search->goal.slot && node->polygon == search->goal.polygon;
-    if (is_goals && face != TL_NAV_NO_FACE && face == search->goal.face) {
+    if (is_goals && component != TL_NAV_NO_COMPONENT && component == search->goal.component) {
         tl_nav_met at = { node->slot, node->polygon };
         tl_nav_segment spot = { search->goal.spot, search->goal.spot };
-        relax(search, GOAL_KEY, at, spot, search->goal.spot, step_cost(node, search->goal.spot), index);
+        relax_portal(search, WIDE_GOAL_KEY, at, spot, search->goal.spot, step_cost(node, search->goal.spot), index);
     }
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(clearance->navmesh, node->slot, node->polygon, &count);
     uint32_t side = 0;
-    for (uint32_t i = 0; i < count && face != TL_NAV_NO_FACE; i++) {
+    for (uint32_t i = 0; i < count && component != TL_NAV_NO_COMPONENT; i++) {
         const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
         // A ring's edge starts at the outline's next corner when that side is done; an edge that runs back is not.
         if (i > 0 && side + 1 < cut.cell.count && ring[i].to != TL_NAV_RING_BACK &&
@@ -235,10 +234,10 @@ static void expand(tl_nav_wide_search *search, uint32_t index)
         }
         if (tl_nav_ring_is_open(&ring[i])) {
             way_out way = { &ring[i], end, side };
-            cross_edge(search, index, &cut, face, entry, &way);
+            cross_wide_edge(search, index, &cut, component, entry, &way);
         }
     }
-    clearance->room = room;
+    clearance->scratch = scratch;
 }
 
 bool tl_nav_wide_run(tl_nav_wide_search *search)
@@ -246,18 +245,19 @@ bool tl_nav_wide_run(tl_nav_wide_search *search)
     tl_nav_query *query = search->clearance->query;
     tl_nav_met start = { search->start.slot, search->start.polygon };
     tl_nav_segment from = { search->start.spot, search->start.spot };
-    relax(search, START_KEY, start, from, search->start.spot, 0.0f, TL_NAV_NO_NODE);
+    relax_portal(search, WIDE_START_KEY, start, from, search->start.spot, 0.0f, TL_NAV_NO_NODE);
     if (search->is_joined) {
         tl_nav_met goal = { search->goal.slot, search->goal.polygon };
         tl_nav_segment to = { search->goal.spot, search->goal.spot };
-        relax(search, GOAL_KEY, goal, to, search->goal.spot, step_cost(&query->nodes[0], search->goal.spot), 0);
+        relax_portal(search, WIDE_GOAL_KEY, goal, to, search->goal.spot, step_cost(&query->nodes[0], search->goal.spot),
+                     0);
     }
     while (!search->clearance->is_full) {
         search->last = tl_nav_heap_pop(query);
-        if (search->last == TL_NAV_NO_NODE || query->nodes[search->last].key == GOAL_KEY) {
+        if (search->last == TL_NAV_NO_NODE || query->nodes[search->last].key == WIDE_GOAL_KEY) {
             return search->last != TL_NAV_NO_NODE;
         }
-        expand(search, search->last);
+        expand_portal(search, search->last);
     }
     return false;
 }

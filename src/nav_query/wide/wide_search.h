@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A wide path is made in three steps: which portals' pieces it passes (wide_search.c), how it goes from one to the
-// next within each polygon (wide_detour.c), and how short it gets when it is pulled (wide_pull.c).
+// A path with clearance is made in three steps: which free pieces of portals it crosses (wide_search.c), how it gets
+// from one to the next within each polygon (wide_funnel.c, wide_local_path.c), and how short it becomes when it is
+// pulled taut (wide_pull_taut.c).
 
 #ifndef TALUS_SRC_NAV_QUERY_WIDE_SEARCH_H
 #define TALUS_SRC_NAV_QUERY_WIDE_SEARCH_H
@@ -16,8 +17,8 @@ typedef struct tl_nav_polyline_vertex {
     tl_nav_spot center; ///< the spot is a corner of the cap around it, if is_cap
     bool is_cap;
     bool is_taut;           ///< pulled in vain, and since then it has the same neighbours
-    uint32_t slot, polygon; ///< the path goes on in it
-    uint32_t pass;          ///< the caller's: how many portals it is behind (wide_straight.c)
+    uint32_t slot, polygon; ///< the path continues in it
+    uint32_t pass;          ///< the caller's: how many portals it is behind (wide_funnel.c)
     uint32_t before, next;  ///< TL_NAV_NO_NODE at the ends
 } tl_nav_polyline_vertex;
 
@@ -28,14 +29,14 @@ typedef struct tl_nav_polyline {
 } tl_nav_polyline;
 
 /// A new vertex behind another (TL_NAV_NO_NODE: the first of all), no corner of a cap; its number, or TL_NAV_NO_NODE:
-/// no room.
+/// out of memory.
 uint32_t tl_nav_polyline_insert(tl_nav_polyline *path, uint32_t behind, tl_nav_spot spot, uint32_t slot,
                                 uint32_t polygon);
 
 typedef struct tl_nav_wide_end {
     tl_nav_spot spot;
     uint32_t slot, polygon;
-    uint32_t face; ///< of its polygon's pieces; TL_NAV_NO_FACE: it can leave by none
+    uint32_t component; ///< of its polygon's pieces; TL_NAV_NO_COMPONENT: it can leave by none
 } tl_nav_wide_end;
 
 /// A stretch of a portal, from its right end to its left one.
@@ -51,22 +52,22 @@ typedef struct tl_nav_wide_search {
     uint32_t last;               ///< node of the goal, when found
 } tl_nav_wide_search;
 
-/// Looks where an end stands. False: nearer to a wall than the reach, or out of room (is_full).
+/// Looks where an end stands. False: nearer to a wall than the reach, or out of scratch memory (is_full).
 bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end);
 
 /// Finds the pieces of portals that lead to the goal: nodes of the query, from `last` over their parents to the
-/// start's. False: there are none, or the query is out of nodes or room (is_full).
+/// start's. False: there are none, or the query is out of nodes or scratch memory (is_full).
 bool tl_nav_wide_run(tl_nav_wide_search *search);
 
 /// Writes the path that was found: pulled straight through its portals, with detours where a wall is too near to that.
-/// False: out of room (is_full).
-bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_polyline *path);
+/// False: out of scratch memory (is_full).
+bool tl_nav_wide_funnel(const tl_nav_wide_search *search, tl_nav_polyline *path);
 
 /// Adds the vertices of a free way, the shortest there is, between two that stand in one polygon, `behind` and its
-/// next. False: out of room (is_full).
-bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_polyline *path, uint32_t behind);
+/// next. False: out of scratch memory (is_full).
+bool tl_nav_wide_local_path(tl_nav_clearance *clearance, tl_nav_polyline *path, uint32_t behind);
 
-/// Pulls a free path taut. False: out of room (is_full); the path is free all the same.
-bool tl_nav_wide_pull(tl_nav_clearance *clearance, tl_nav_polyline *path);
+/// Pulls a free path taut. False: out of scratch memory (is_full); the path is free all the same.
+bool tl_nav_wide_pull_taut(tl_nav_clearance *clearance, tl_nav_polyline *path);
 
 #endif

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Pulling a free path taut: at each vertex the triangle over it is emptied. The two sides that meet in the vertex give
-// way to the hull, on their side, of all corners of caps in the triangle: the shortest way there that passes each
-// obstacle on the same hand. Nothing lies between the old way and the new one, so a path stays free, and one that can
-// be made no shorter so is the shortest of all that it can be pulled into, tiles and floors regardless. Vertices are
-// taken every other one first, so that a long straight stretch is joined in a few sweeps of small triangles. Source:
-// Hershberger and Snoeyink, Computing Minimum Length Paths of a Given Homotopy Class, 1994, for the view that such a
-// path is unique; the steps are the rubber band's.
+// Pulling a free path taut, to the shortest one of its homotopy class: at each vertex the triangle over it is emptied.
+// The two sides that meet in the vertex are replaced by the hull, on their side, of all corners of caps in the
+// triangle: the shortest way there that passes each obstacle on the same side. Nothing lies between the old way and the
+// new one, so a path stays free, and one that cannot be shortened so is the shortest of its class, over tiles and
+// floors. Every other vertex is taken first, so that a long straight stretch is joined in a few sweeps of small
+// triangles. Source: Hershberger and Snoeyink, Computing Minimum Length Paths of a Given Homotopy Class, 1994, for the
+// proof that such a path is unique; the steps are those of a rubber band.
 
 #include "nav_query/wide/wide_search.h"
 
@@ -41,20 +41,16 @@ static double length(tl_nav_spot a, tl_nav_spot b)
     return sqrt(tl_nav_spot_distance_sq(a, b));
 }
 
-static bool is_same(tl_nav_spot a, tl_nav_spot b)
-{
-    return a.x == b.x && a.z == b.z;
-}
-
 // In the triangle or on its outline, but not at the ends of the way.
-static bool holds(const triangle *t, tl_nav_spot spot)
+static bool triangle_holds(const triangle *t, tl_nav_spot spot)
 {
     return t->hand * tl_nav_spot_turn(t->a, t->c, spot) >= 0.0 && t->hand * tl_nav_spot_turn(t->c, t->b, spot) >= 0.0 &&
-           t->hand * tl_nav_spot_turn(t->b, t->a, spot) >= 0.0 && !is_same(spot, t->a) && !is_same(spot, t->c);
+           t->hand * tl_nav_spot_turn(t->b, t->a, spot) >= 0.0 && !tl_nav_is_same_spot(spot, t->a) &&
+           !tl_nav_is_same_spot(spot, t->c);
 }
 
-// Whether the way vertices around a cap of which the vertex itself is a corner. A cap on the other hand of the vertex
-// touches the triangle there and is no reason to stay: the way is free, so a cap lies on one hand or the other.
+// Whether the way turns around a cap of which the vertex itself is a corner. A cap on the other side of the vertex
+// touches the triangle there and does not hold it: the way is free, so a cap lies on one side or the other.
 static bool turns_around(const triangle *t, tl_nav_spot center)
 {
     return t->hand * tl_nav_spot_turn(t->c, t->b, center) >= 0.0 &&
@@ -81,12 +77,13 @@ static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
         return false;
     }
     for (uint32_t i = 0; i < 2 * t->near.wall_count; i++) {
-        tl_nav_segment wall = tl_nav_wall_segment(&t->near.walls[i / 2]);
+        tl_nav_segment wall = tl_nav_segment_of_wall(&t->near.walls[i / 2]);
         tl_nav_spot center = i % 2 == 0 ? wall.a : wall.b;
         for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS && may_hold(t, center, clearance->reach + clearance->slack);
              k++) {
             cap_corner corner = { tl_nav_circle_corner(center, clearance->reach, k), center };
-            if (holds(t, corner.spot) && (!is_same(corner.spot, t->b) || turns_around(t, center))) {
+            if (triangle_holds(t, corner.spot) &&
+                (!tl_nav_is_same_spot(corner.spot, t->b) || turns_around(t, center))) {
                 t->corners[t->count++] = corner;
             }
         }
@@ -102,7 +99,8 @@ static cap_corner next_of_hull(const triangle *t, tl_nav_spot at)
         tl_nav_spot spot = t->corners[i].spot;
         double turn = t->hand * tl_nav_spot_turn(at, best.spot, spot);
         bool is_farther = tl_nav_spot_distance_sq(at, spot) > tl_nav_spot_distance_sq(at, best.spot);
-        if (!is_same(spot, at) && (turn > 0.0 || (turn == 0.0 && is_farther && !is_same(best.spot, t->c)))) {
+        if (!tl_nav_is_same_spot(spot, at) &&
+            (turn > 0.0 || (turn == 0.0 && is_farther && !tl_nav_is_same_spot(best.spot, t->c)))) {
             best = t->corners[i];
         }
     }
@@ -132,7 +130,7 @@ static bool hull_is_better(const triangle *t, double least)
 {
     double sum = 0.0;
     tl_nav_spot at = t->a;
-    for (uint32_t i = 0; i <= t->count && !is_same(at, t->c); i++) {
+    for (uint32_t i = 0; i <= t->count && !tl_nav_is_same_spot(at, t->c); i++) {
         tl_nav_spot next = next_of_hull(t, at).spot;
         sum += length(at, next);
         if (!tl_nav_is_clear(&t->near, at, next, least)) {
@@ -140,12 +138,13 @@ static bool hull_is_better(const triangle *t, double least)
         }
         at = next;
     }
-    bool is_straight = is_same(next_of_hull(t, t->a).spot, t->c);
-    return is_same(at, t->c) && (is_straight || sum < (length(t->a, t->b) + length(t->b, t->c)) * (1.0 - LEAST_GAIN));
+    bool is_straight = tl_nav_is_same_spot(next_of_hull(t, t->a).spot, t->c);
+    return tl_nav_is_same_spot(at, t->c) &&
+           (is_straight || sum < (length(t->a, t->b) + length(t->b, t->c)) * (1.0 - LEAST_GAIN));
 }
 
 // Takes a vertex out of the list; its memory stays unused.
-static void drop(tl_nav_polyline *path, uint32_t vertex)
+static void drop_vertex(tl_nav_polyline *path, uint32_t vertex)
 {
     const tl_nav_polyline_vertex *b = &path->vertices[vertex];
     path->vertices[b->before].is_taut = false;
@@ -161,7 +160,7 @@ static bool put_hull(const tl_nav_clearance *clearance, const triangle *t, tl_na
     bool is_used = false;
     path->vertices[behind].is_taut = false;
     path->vertices[path->vertices[vertex].next].is_taut = false;
-    for (cap_corner at = next_of_hull(t, t->a); !is_same(at.spot, t->c); at = next_of_hull(t, at.spot)) {
+    for (cap_corner at = next_of_hull(t, t->a); !tl_nav_is_same_spot(at.spot, t->c); at = next_of_hull(t, at.spot)) {
         tl_nav_met home = home_of(clearance, &t->near, at.spot);
         if (is_used) {
             behind = tl_nav_polyline_insert(path, behind, at.spot, home.slot, home.polygon);
@@ -180,7 +179,7 @@ static bool put_hull(const tl_nav_clearance *clearance, const triangle *t, tl_na
         path->vertices[behind].center = at.center;
     }
     if (!is_used) {
-        drop(path, vertex);
+        drop_vertex(path, vertex);
     }
     return true;
 }
@@ -194,8 +193,8 @@ static bool pull_vertex(tl_nav_clearance *clearance, tl_nav_polyline *path, uint
     t.a = path->vertices[b->before].spot;
     t.b = b->spot;
     t.c = path->vertices[b->next].spot;
-    if (is_same(t.a, t.b) || is_same(t.b, t.c)) {
-        drop(path, vertex);
+    if (tl_nav_is_same_spot(t.a, t.b) || tl_nav_is_same_spot(t.b, t.c)) {
+        drop_vertex(path, vertex);
         *moved_out = true;
         return true;
     }
@@ -205,19 +204,19 @@ static bool pull_vertex(tl_nav_clearance *clearance, tl_nav_polyline *path, uint
         return true;
     }
     path->vertices[vertex].is_taut = true;
-    tl_nav_room room = clearance->room;
+    tl_nav_scratch scratch = clearance->scratch;
     tl_nav_spot shape[3] = { t.a, t.b, t.c };
     bool fits = tl_nav_find_cell_walls(clearance, b->slot, b->polygon, shape, 3, &t.near) && gather_caps(clearance, &t);
     if (fits && hull_is_better(&t, clearance->least)) {
         *moved_out = true;
         fits = put_hull(clearance, &t, path, vertex);
     }
-    clearance->room = room;
+    clearance->scratch = scratch;
     clearance->is_full = clearance->is_full || !fits;
     return fits;
 }
 
-bool tl_nav_wide_pull(tl_nav_clearance *clearance, tl_nav_polyline *path)
+bool tl_nav_wide_pull_taut(tl_nav_clearance *clearance, tl_nav_polyline *path)
 {
     bool moved = true;
     for (uint32_t sweep = 0; sweep < MAX_SWEEPS && moved; sweep++) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Which of a polygon's free pieces a spot inside it can reach: the polygon is cut in two by a line through the spot,
-// which then lies on an outline, and what hangs together in each half is joined over the cut.
+// The connected component of a polygon's free pieces that a spot inside it can reach: the polygon is cut in two by a
+// line through the spot, which then lies on an outline, and the components of the two halves are joined over the cut.
 
 #include "nav_query/wide/clearance.h"
+
+#include "base/disjoint_sets.h"
 
 #include <string.h>
 
@@ -12,12 +14,12 @@ typedef struct half {
     tl_nav_spot corners[TL_NAV_MAX_CORNERS + 2];
     bool is_on_cut[TL_NAV_MAX_CORNERS + 2];
     uint32_t count;
-    uint32_t cut_edge;   // that lies on the line; UINT32_MAX: none
-    uint32_t first_face; // among the faces of both
+    uint32_t cut_edge;        // that lies on the line; UINT32_MAX: none
+    uint32_t first_component; // among the components of both
     tl_nav_pieces pieces;
 } half;
 
-static void add_corner(half *out, tl_nav_spot corner, bool is_on_cut)
+static void add_half_corner(half *out, tl_nav_spot corner, bool is_on_cut)
 {
     out->corners[out->count] = corner;
     out->is_on_cut[out->count++] = is_on_cut;
@@ -33,10 +35,10 @@ static void cut_half(const tl_nav_spot *corners, uint32_t count, tl_nav_spot a, 
         double own = side * tl_nav_spot_turn(a, b, p);
         double next = side * tl_nav_spot_turn(a, b, q);
         if (own >= 0.0) {
-            add_corner(out, p, own == 0.0);
+            add_half_corner(out, p, own == 0.0);
         }
         if ((own > 0.0 && next < 0.0) || (own < 0.0 && next > 0.0)) {
-            add_corner(out, tl_nav_spot_lerp(p, q, own / (own - next)), true);
+            add_half_corner(out, tl_nav_spot_lerp(p, q, own / (own - next)), true);
         }
     }
     // Less than a triangle: the line runs along an edge, or through a corner.
@@ -49,48 +51,42 @@ static void cut_half(const tl_nav_spot *corners, uint32_t count, tl_nav_spot a, 
     }
 }
 
-static uint32_t root_of(const uint32_t *parents, uint32_t i)
-{
-    while (parents[i] != i) {
-        i = parents[i];
-    }
-    return i;
-}
-
-// Joins faces over the stretches of the cut that are free. The halves run along it in opposite directions.
-static void join_over_cut(const half halves[2], uint32_t *faces)
+// Joins components over the stretches of the cut that are free. The halves run along it in opposite directions.
+static void join_over_cut(const half halves[2], uint32_t *components)
 {
     for (uint32_t i = 0; i < halves[0].pieces.count; i++) {
         const tl_nav_piece *a = &halves[0].pieces.pieces[i];
         for (uint32_t k = 0; k < halves[1].pieces.count && a->edge == halves[0].cut_edge; k++) {
             const tl_nav_piece *b = &halves[1].pieces.pieces[k];
             if (b->edge == halves[1].cut_edge && fmax(a->from, 1.0 - b->to) < fmin(a->to, 1.0 - b->from)) {
-                faces[root_of(faces, halves[1].first_face + b->face)] = root_of(faces, a->face);
+                tl_disjoint_sets_unite(components, halves[1].first_component + b->component, a->component);
             }
         }
     }
 }
 
-// The joined face of a spot on the cut, or TL_NAV_NO_FACE.
-static uint32_t face_on_cut(const half halves[2], const uint32_t *faces, tl_nav_spot spot, double slack)
+// The joined component of a spot on the cut, or TL_NAV_NO_COMPONENT.
+static uint32_t component_on_cut(const half halves[2], uint32_t *components, tl_nav_spot spot, double slack)
 {
     for (int h = 0; h < 2; h++) {
         const tl_nav_piece *piece = tl_nav_piece_at(&halves[h].pieces, halves[h].corners, halves[h].count, spot, slack);
         if (piece != NULL) {
-            return root_of(faces, halves[h].first_face + piece->face);
+            return tl_disjoint_sets_find(components, halves[h].first_component + piece->component);
         }
     }
-    return TL_NAV_NO_FACE;
+    return TL_NAV_NO_COMPONENT;
 }
 
-// The face of the whole outline's pieces that a joined face has a piece of.
-static uint32_t face_of_whole(const half halves[2], const uint32_t *faces, uint32_t face, const tl_nav_pieces *pieces,
-                              const tl_nav_spot *corners, uint32_t count, double slack)
+// The component of the whole outline's pieces that a joined component has a piece of.
+static uint32_t component_of_whole(const half halves[2], uint32_t *components, uint32_t component,
+                                   const tl_nav_pieces *pieces, const tl_nav_spot *corners, uint32_t count,
+                                   double slack)
 {
     for (int h = 0; h < 2; h++) {
         for (uint32_t i = 0; i < halves[h].pieces.count; i++) {
             const tl_nav_piece *piece = &halves[h].pieces.pieces[i];
-            if (piece->edge == halves[h].cut_edge || root_of(faces, halves[h].first_face + piece->face) != face) {
+            if (piece->edge == halves[h].cut_edge ||
+                tl_disjoint_sets_find(components, halves[h].first_component + piece->component) != component) {
                 continue;
             }
             tl_nav_spot p = halves[h].corners[piece->edge];
@@ -98,18 +94,20 @@ static uint32_t face_of_whole(const half halves[2], const uint32_t *faces, uint3
             const tl_nav_piece *whole =
                 tl_nav_piece_at(pieces, corners, count, tl_nav_spot_lerp(p, q, 0.5 * (piece->from + piece->to)), slack);
             if (whole != NULL) {
-                return whole->face;
+                return whole->component;
             }
         }
     }
-    return TL_NAV_NO_FACE;
+    return TL_NAV_NO_COMPONENT;
 }
 
-bool tl_nav_face_of(tl_nav_clearance *clearance, const tl_nav_spot *corners, uint32_t count,
-                    const tl_nav_near_walls *near, const tl_nav_pieces *pieces, tl_nav_spot spot, tl_nav_spot other,
-                    uint32_t *face_out, bool *joined_out)
+bool tl_nav_component_at(tl_nav_clearance *clearance, const tl_nav_wall_cell *cell, const tl_nav_pieces *pieces,
+                         tl_nav_spot spot, tl_nav_spot other, uint32_t *component_out, bool *joined_out)
 {
-    tl_nav_room room = clearance->room;
+    const tl_nav_spot *corners = cell->corners;
+    const uint32_t count = cell->count;
+    const tl_nav_near_walls *near = &cell->near;
+    tl_nav_scratch scratch = clearance->scratch;
     bool is_same = spot.x == other.x && spot.z == other.z;
     tl_nav_spot to = is_same ? tl_nav_spot_make(spot.x + 1.0, spot.z) : other;
     half halves[2];
@@ -121,24 +119,23 @@ bool tl_nav_face_of(tl_nav_clearance *clearance, const tl_nav_spot *corners, uin
             return false;
         }
     }
-    halves[1].first_face = halves[0].pieces.face_count;
-    uint32_t face_count = halves[0].pieces.face_count + halves[1].pieces.face_count;
-    uint32_t *faces = tl_nav_take(clearance, face_count, sizeof *faces);
-    if (faces == NULL) {
+    halves[1].first_component = halves[0].pieces.component_count;
+    uint32_t component_count = halves[0].pieces.component_count + halves[1].pieces.component_count;
+    uint32_t *components = tl_nav_take(clearance, component_count, sizeof *components);
+    if (components == NULL) {
         return false;
     }
-    for (uint32_t i = 0; i < face_count; i++) {
-        faces[i] = i;
-    }
-    join_over_cut(halves, faces);
-    uint32_t face = face_on_cut(halves, faces, spot, clearance->slack);
-    *face_out = TL_NAV_NO_FACE;
-    if (face != TL_NAV_NO_FACE) {
-        *face_out = face_of_whole(halves, faces, face, pieces, corners, count, clearance->slack);
+    tl_disjoint_sets_init(components, component_count);
+    join_over_cut(halves, components);
+    uint32_t component = component_on_cut(halves, components, spot, clearance->slack);
+    *component_out = TL_NAV_NO_COMPONENT;
+    if (component != TL_NAV_NO_COMPONENT) {
+        *component_out = component_of_whole(halves, components, component, pieces, corners, count, clearance->slack);
     }
     if (joined_out != NULL) {
-        *joined_out = face != TL_NAV_NO_FACE && face == face_on_cut(halves, faces, other, clearance->slack);
+        *joined_out = component != TL_NAV_NO_COMPONENT &&
+                      component == component_on_cut(halves, components, other, clearance->slack);
     }
-    clearance->room = room;
+    clearance->scratch = scratch;
     return true;
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// The shortest free way between two places of one polygon: straight, or from corner to corner of caps.
+// The shortest free way between two places of one polygon: straight, or over corners of caps.
 //
-// A cap is the polygon of 32 corners written into the circle around a wall's end; the hull of a wall's two caps stands
-// for what the wall forbids. It holds all that is nearer to the wall than 0.995 of the reach, and is held by all that
-// is nearer than the reach: so where there is a free way at the reach there is one around the hulls, it vertices at
-// corners of caps only, and no place of it is nearer to a wall than 0.995 of the reach.
-// Few walls are in the way, and mostly by an end alone. So the shortest way is found around none at first, by A* over
-// the corners of caps in the polygon, then around those ends and walls that it has met, until it meets no other. Around
-// fewer obstacles no way is longer: the one that is free of all is the shortest around all of them.
+// A cap is the polygon of 32 corners inscribed in the circle around a wall's end; the convex hull of a wall's two caps
+// approximates what the wall forbids (its Minkowski sum with the disc). The hull contains all that is nearer to the
+// wall than 0.995 of the reach and lies within the reach: so where there is a free way at the reach there is one around
+// the hulls, it turns at corners of caps only, and it keeps 0.995 of the reach from every wall.
+//
+// Few walls are in the way, and mostly by one end alone. So the shortest way is found around no obstacles first, by A*
+// over the corners of caps in the polygon, then around those ends and walls that it has met, until it meets no other.
+// Around fewer obstacles no way is longer: the one that is free of all is the shortest around all of them.
 
 #include "nav_query/wide/wide_search.h"
 
@@ -16,13 +17,13 @@
 
 #include <string.h>
 
-// A place where a way may vertex.
-typedef struct stop {
+// A place where a way may turn.
+typedef struct detour_stop {
     tl_nav_spot spot, center;
     double cost, total; // metres from the first stop, and with those that are left at least
     uint32_t before;
     bool is_closed, is_dead; // dead: a wall that was met later forbids it
-} stop;
+} detour_stop;
 
 // The line of a side of the polygon: unit, outward.
 typedef struct side_line {
@@ -41,7 +42,7 @@ typedef struct detour {
     side_line sides[TL_NAV_MAX_CORNERS];
     obstacle *met; // [3 * cell->near.wall_count]: each wall and its ends
     uint32_t met_count;
-    stop *stops; // [0] and [1]: the ends
+    detour_stop *stops; // [0] and [1]: the ends
     uint32_t count;
 } detour;
 
@@ -57,7 +58,7 @@ static void draw_sides(detour *d)
     }
 }
 
-static bool is_inside(const detour *d, tl_nav_spot spot)
+static bool is_in_polygon(const detour *d, tl_nav_spot spot)
 {
     for (uint32_t i = 0; i < d->cell->count; i++) {
         if (d->sides[i].x * spot.x + d->sides[i].z * spot.z - d->sides[i].offset > d->clearance->slack) {
@@ -80,8 +81,8 @@ static bool is_met_end(const detour *d, tl_nav_spot end)
 
 static bool add_stop(detour *d, tl_nav_spot spot, tl_nav_spot center)
 {
-    // Stops follow one another in the room, as nothing else is taken meanwhile.
-    stop *fresh = tl_nav_take(d->clearance, 1, sizeof *fresh);
+    // Stops are contiguous in the scratch memory, as nothing else is taken meanwhile.
+    detour_stop *fresh = tl_nav_take(d->clearance, 1, sizeof *fresh);
     if (fresh == NULL) {
         return false;
     }
@@ -106,7 +107,7 @@ static bool is_free_of_met(const detour *d, tl_nav_spot a, tl_nav_spot b)
     return true;
 }
 
-// Adds an obstacle with the corners of its caps that are free and in the polygon. False: out of room.
+// Adds an obstacle with the corners of its caps that are free and in the polygon. False: out of scratch memory.
 static bool meet_obstacle(detour *d, const obstacle *met)
 {
     const tl_nav_spot ends[2] = { met->wall.a, met->wall.b };
@@ -118,7 +119,7 @@ static bool meet_obstacle(detour *d, const obstacle *met)
     for (int e = 0; e < 2; e++) {
         for (uint32_t k = 0; k < TL_NAV_CIRCLE_CORNERS && !is_known[e]; k++) {
             tl_nav_spot spot = tl_nav_circle_corner(ends[e], d->clearance->reach, k);
-            if (is_inside(d, spot) && is_free_of_met(d, spot, spot) && !add_stop(d, spot, ends[e])) {
+            if (is_in_polygon(d, spot) && is_free_of_met(d, spot, spot) && !add_stop(d, spot, ends[e])) {
                 return false;
             }
         }
@@ -147,13 +148,13 @@ static bool connect(detour *d)
         d->stops[i].cost = d->stops[i].total = i == 0 ? 0.0 : (double)INFINITY;
     }
     for (uint32_t i = cheapest(d); i != UINT32_MAX; i = cheapest(d)) {
-        stop *from = &d->stops[i];
+        detour_stop *from = &d->stops[i];
         from->is_closed = true;
         if (i == 1) {
             return true;
         }
         for (uint32_t k = 1; k < d->count; k++) {
-            stop *to = &d->stops[k];
+            detour_stop *to = &d->stops[k];
             double cost = from->cost + sqrt(tl_nav_spot_distance_sq(from->spot, to->spot));
             if (!to->is_closed && cost < to->cost && is_free_of_met(d, from->spot, to->spot)) {
                 to->cost = cost;
@@ -192,7 +193,7 @@ static bool find_obstacle(const detour *d, obstacle *out)
     for (uint32_t i = 1; i != 0; i = d->stops[i].before) {
         tl_nav_segment leg = { d->stops[d->stops[i].before].spot, d->stops[i].spot };
         for (uint32_t w = 0; w < d->cell->near.wall_count; w++) {
-            if (is_in_the_way(leg, tl_nav_wall_segment(&d->cell->near.walls[w]), d->clearance->least, out)) {
+            if (is_in_the_way(leg, tl_nav_segment_of_wall(&d->cell->near.walls[w]), d->clearance->least, out)) {
                 return true;
             }
         }
@@ -211,14 +212,14 @@ static bool is_met(const detour *d, const obstacle *o)
     return false;
 }
 
-// Finds the way. `*found_out` is false when there is none. False: out of room.
+// Finds the way; `*found_out`: whether there is one. False: out of scratch memory.
 static bool find_way(detour *d, bool *found_out)
 {
     for (;;) {
         *found_out = connect(d);
         obstacle next;
         bool is_blocked = *found_out && find_obstacle(d, &next);
-        // What stands too near to an end by a rounding cannot be gone around.
+        // There is no way around what is too near to an end by a rounding.
         *found_out = *found_out && !(is_blocked && is_met(d, &next));
         if (!is_blocked || !*found_out) {
             return true;
@@ -229,17 +230,17 @@ static bool find_way(detour *d, bool *found_out)
     }
 }
 
-bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_polyline *path, uint32_t behind)
+bool tl_nav_wide_local_path(tl_nav_clearance *clearance, tl_nav_polyline *path, uint32_t behind)
 {
     const tl_nav_polyline_vertex from = path->vertices[behind];
     const tl_nav_polyline_vertex to = path->vertices[from.next];
-    tl_nav_room room = clearance->room;
+    tl_nav_scratch scratch = clearance->scratch;
     tl_nav_wall_cell cell;
     if (!tl_nav_wall_cell_of(clearance, from.slot, from.polygon, clearance->reach, &cell)) {
         return false;
     }
     if (tl_nav_is_clear(&cell.near, from.spot, to.spot, clearance->least)) {
-        clearance->room = room;
+        clearance->scratch = scratch;
         return true;
     }
     detour d;
@@ -248,7 +249,7 @@ bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_polyline *path, uint
     d.cell = &cell;
     draw_sides(&d);
     d.met = tl_nav_take(clearance, 3 * (uint64_t)cell.near.wall_count, sizeof *d.met);
-    d.stops = (stop *)(void *)clearance->room.low;
+    d.stops = (detour_stop *)(void *)clearance->scratch.low;
     bool is_found = false;
     bool fits = d.met != NULL && add_stop(&d, from.spot, from.spot) && add_stop(&d, to.spot, to.spot) &&
                 find_way(&d, &is_found);
@@ -260,7 +261,7 @@ bool tl_nav_wide_detour(tl_nav_clearance *clearance, tl_nav_polyline *path, uint
             path->vertices[vertex].center = d.stops[i].center;
         }
     }
-    clearance->room = room;
+    clearance->scratch = scratch;
     clearance->is_full = clearance->is_full || !fits;
     return fits;
 }

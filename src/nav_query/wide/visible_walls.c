@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// The walls near a convex shape, found by looking along straight lines over the surface.
+// The walls visible from a convex shape in straight lines over the surface.
 //
-// Only a wall that can be walked to straight from some spot of the shape, within the distance, counts: a floor above,
+// Only a wall that a straight line from some spot of the shape reaches within the distance counts: a floor above,
 // below, or behind another wall does not. So from each polygon that the shape touches beams go out through its open
-// edges, each as wide as the lines that pass all edges on its way may be. Straight lines never turn back, and so no
-// beam comes back over the floor that it came from by a stair beside it; a plain walk over all polygons near the shape
-// does. A beam's sides are the outermost directions, and lines through the ends of its last edge: a little more than
-// what is seen, never less. So no wall is missed; and one too many, hidden behind another, forbids nothing more than
-// that does.
-// Each wall is kept with the distance within which a walk must look to find it, and the list is sorted by that: so the
-// walls within a lesser distance are its first ones, the very same list as a walk that looks no farther would make
-// (prepared_walls.c stands on this).
+// edges, each as wide as the lines that cross all edges on its way may be. Straight lines never turn back, so no beam
+// comes back above the floor that it came from by a stair beside it, as a plain search over all polygons near the shape
+// does. A beam is bounded by the outermost directions and by lines through the ends of its last edge: a little more
+// than what is visible, never less. So no wall is missed; and an additional one, hidden behind another, forbids nothing
+// that the other does not.
+//
+// Each wall is kept with the distance that a search must cover to find it, and the list is sorted by that: so the walls
+// within a shorter distance are its first ones, the very same list that a search of that distance makes
+// (prepared_walls.c relies on this).
 
-#include "nav_query/wide/near_shape.h"
+#include "nav_query/wide/walls_near_shape.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/search/local_search.h"
 
@@ -42,22 +44,22 @@ void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, cons
     clearance_out->filter = tl_nav_all_pass(navmesh, filter) ? NULL : filter != NULL ? filter : &any;
     clearance_out->slack = TL_NAV_PLACE_ROUNDINGS * (double)TL_FLOAT_ROUNDING * ((double)navmesh->extent + reach);
     clearance_out->touch = tl_nav_touch_of(navmesh);
-    clearance_out->reach = tl_nav_most(reach - clearance_out->slack, 0.0);
-    clearance_out->least = tl_nav_most(CHORD_SHARE * clearance_out->reach - clearance_out->slack, 0.0);
-    clearance_out->room.low = query->wide_memory;
-    clearance_out->room.high = clearance_out->room.low + query->item_bytes;
+    clearance_out->reach = tl_max_f64(0.0, reach - clearance_out->slack);
+    clearance_out->least = tl_max_f64(0.0, CHORD_SHARE * clearance_out->reach - clearance_out->slack);
+    clearance_out->scratch.low = query->wide_memory;
+    clearance_out->scratch.high = clearance_out->scratch.low + query->item_bytes;
 }
 
 void *tl_nav_take(tl_nav_clearance *clearance, uint64_t count, uint64_t size)
 {
-    uint64_t left = (uint64_t)(clearance->room.high - clearance->room.low);
+    uint64_t left = (uint64_t)(clearance->scratch.high - clearance->scratch.low);
     uint64_t bytes = (count * size + 7) / 8 * 8;
     if (bytes > left) {
         clearance->is_full = true;
         return NULL;
     }
-    void *at = clearance->room.low;
-    clearance->room.low += bytes;
+    void *at = clearance->scratch.low;
+    clearance->scratch.low += bytes;
     return at;
 }
 
@@ -78,7 +80,7 @@ double tl_nav_outside_by(const tl_nav_spot *corners, uint32_t count, tl_nav_spot
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_spot p = corners[i];
         tl_nav_spot q = corners[i + 1 < count ? i + 1 : 0];
-        most = tl_nav_most(most, tl_nav_spot_turn(p, q, spot) / sqrt(tl_nav_spot_distance_sq(p, q)));
+        most = tl_max_f64(tl_nav_spot_turn(p, q, spot) / sqrt(tl_nav_spot_distance_sq(p, q)), most);
     }
     return most;
 }
@@ -89,7 +91,7 @@ bool tl_nav_is_clear(const tl_nav_near_walls *near, tl_nav_spot a, tl_nav_spot b
     tl_nav_segment segment = { a, b };
     tl_nav_shape reach = tl_nav_shape_make(ends, 2, distance, distance * (double)TL_FLOAT_ROUNDING);
     for (uint32_t i = 0; i < near->wall_count; i++) {
-        tl_nav_segment wall = tl_nav_wall_segment(&near->walls[i]);
+        tl_nav_segment wall = tl_nav_segment_of_wall(&near->walls[i]);
         if (!tl_nav_shape_is_far(&reach, wall) && tl_nav_segments_distance_sq(segment, wall) < reach.distance_sq) {
             return false;
         }
@@ -105,7 +107,7 @@ typedef struct beam {
     float distance_sq;                   // of the farthest window on the way, this one included
 } beam;
 
-// Where a walk over beams keeps what it has found. Walls grow upwards in the room, beams that wait grow downwards.
+// Where a walk over beams keeps what it has found. Walls grow upwards in the scratch memory, open beams downwards.
 typedef struct wall_walk {
     tl_nav_clearance *clearance;
     const tl_nav_shape *reach;
@@ -114,7 +116,7 @@ typedef struct wall_walk {
     beam *top; // of the beams that wait
 } wall_walk;
 
-static double cross(tl_nav_spot a, tl_nav_spot b)
+static double pass_window(tl_nav_spot a, tl_nav_spot b)
 {
     return a.x * b.z - a.z * b.x;
 }
@@ -138,9 +140,9 @@ static tl_nav_spot outermost(const tl_nav_shape *reach, tl_nav_spot end, tl_nav_
         tl_nav_spot ray = minus(end, reach->corners[i]);
         tl_nav_spot next = minus(end, reach->corners[i + 1 < reach->count ? i + 1 : 0]);
         double ray_along = ray.x * along.x + ray.z * along.z;
-        double ray_out = hand * cross(along, ray);
+        double ray_out = hand * pass_window(along, ray);
         double next_along = next.x * along.x + next.z * along.z;
-        double next_out = hand * cross(along, next);
+        double next_out = hand * pass_window(along, next);
         // Where the shape crosses the window's line, it sees the window edge-on: from behind its other end, or not.
         bool crosses = (ray_out < 0.0 && next_out > 0.0) || (ray_out > 0.0 && next_out < 0.0);
         if (crosses && ray_along * fabs(next_out) + next_along * fabs(ray_out) > 0.0) {
@@ -158,24 +160,24 @@ static tl_nav_spot outermost(const tl_nav_shape *reach, tl_nav_spot end, tl_nav_
 
 // Of the directions of a beam and of the one before, those of both. `along` leads along the window to its left end.
 // False: there are none.
-static bool narrow(beam *next, const beam *before, tl_nav_spot along)
+static bool narrow_beam(beam *next, const beam *before, tl_nav_spot along)
 {
-    double left_out = cross(along, before->left_ahead);
-    double right_out = cross(along, before->right_ahead);
+    double left_out = pass_window(along, before->left_ahead);
+    double right_out = pass_window(along, before->right_ahead);
     // A beam as wide as a half plane passes another window in line or parallel, if that leads on and not back.
-    bool leads_on = cross(before->left_ahead, before->right_ahead) == 0.0 &&
+    bool leads_on = pass_window(before->left_ahead, before->right_ahead) == 0.0 &&
                     along.x * before->left_ahead.x + along.z * before->left_ahead.z > 0.0;
     if (left_out <= 0.0 && right_out <= 0.0 && !leads_on) {
         return false;
     }
-    // A side that does not come out of the window is none.
-    if (left_out > 0.0 && cross(next->left_ahead, before->left_ahead) > 0.0) {
+    // A side that does not leave through the window bounds nothing.
+    if (left_out > 0.0 && pass_window(next->left_ahead, before->left_ahead) > 0.0) {
         next->left_ahead = before->left_ahead;
     }
-    if (right_out > 0.0 && cross(next->right_ahead, before->right_ahead) < 0.0) {
+    if (right_out > 0.0 && pass_window(next->right_ahead, before->right_ahead) < 0.0) {
         next->right_ahead = before->right_ahead;
     }
-    double width = cross(next->left_ahead, next->right_ahead);
+    double width = pass_window(next->left_ahead, next->right_ahead);
     double ahead = next->left_ahead.x * next->right_ahead.x + next->left_ahead.z * next->right_ahead.z;
     return width > 0.0 || (width == 0.0 && ahead < 0.0);
 }
@@ -190,7 +192,7 @@ static bool add_beam(wall_walk *walk, const beam *before, beam next)
         next.left_ahead = outermost(walk->reach, next.left, next.left_ahead, 1.0);
         next.right_ahead = outermost(walk->reach, next.right, next.right_ahead, -1.0);
     }
-    if (before != NULL && !narrow(&next, before, along)) {
+    if (before != NULL && !narrow_beam(&next, before, along)) {
         return true;
     }
     if ((char *)(walk->top - 1) < (char *)(walk->walls + walk->count)) {
@@ -231,15 +233,15 @@ static bool cut_to_beam(const beam *b, tl_nav_segment *segment)
     const tl_nav_spot aheads[2] = { b->left_ahead, b->right_ahead };
     for (int side = 0; side < 2; side++) {
         double hand = side == 0 ? 1.0 : -1.0;
-        double from = hand * cross(aheads[side], minus(segment->a, ends[side]));
-        double to = hand * cross(aheads[side], minus(segment->b, ends[side]));
+        double from = hand * pass_window(aheads[side], minus(segment->a, ends[side]));
+        double to = hand * pass_window(aheads[side], minus(segment->b, ends[side]));
         if (from < 0.0 && to < 0.0) {
             return false;
         }
         if (from < 0.0) {
-            first = tl_nav_most(first, from / (from - to));
+            first = tl_max_f64(from / (from - to), first);
         } else if (to < 0.0) {
-            last = tl_nav_least(last, from / (from - to));
+            last = tl_min_f64(from / (from - to), last);
         }
     }
     tl_nav_segment whole = *segment;
@@ -250,7 +252,8 @@ static bool cut_to_beam(const beam *b, tl_nav_segment *segment)
 
 static bool is_in_beam(const beam *b, tl_nav_spot spot)
 {
-    return cross(b->left_ahead, minus(spot, b->left)) >= 0.0 && cross(b->right_ahead, minus(spot, b->right)) <= 0.0;
+    return pass_window(b->left_ahead, minus(spot, b->left)) >= 0.0 &&
+           pass_window(b->right_ahead, minus(spot, b->right)) <= 0.0;
 }
 
 // Around most ends of walls less than a full turn is free, and one of the two walls there is seen whenever the end is.
@@ -278,7 +281,7 @@ static bool add_winding_end(wall_walk *walk, const tl_nav_ring_place *place, con
 }
 
 // Looks at the edges of a polygon: of the one behind a beam, or, without one, of one that the shape touches.
-static bool look_around(wall_walk *walk, tl_nav_met at, const beam *seen)
+static bool cast_beams(wall_walk *walk, tl_nav_met at, const beam *seen)
 {
     const tl_nav_clearance *clearance = walk->clearance;
     uint32_t count = 0;
@@ -324,12 +327,13 @@ bool tl_nav_look_from(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_s
                       double distance, tl_nav_near_walls *near)
 {
     tl_nav_shape reach = tl_nav_shape_make(shape, count, distance, clearance->slack);
-    beam *bottom = (beam *)(void *)clearance->room.high;
-    wall_walk walk = { clearance, &reach, (tl_nav_near_wall *)(void *)clearance->room.low, near->wall_count, bottom };
-    bool fits = look_around(&walk, at, NULL);
+    beam *bottom = (beam *)(void *)clearance->scratch.high;
+    wall_walk walk = { clearance, &reach, (tl_nav_near_wall *)(void *)clearance->scratch.low, near->wall_count,
+                       bottom };
+    bool fits = cast_beams(&walk, at, NULL);
     while (fits && walk.top < bottom) {
         const beam next = *walk.top++;
-        fits = look_around(&walk, next.at, &next);
+        fits = cast_beams(&walk, next.at, &next);
     }
     near->wall_count = walk.count;
     clearance->is_full = clearance->is_full || !fits;
@@ -339,12 +343,12 @@ bool tl_nav_look_from(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_s
 void tl_nav_begin_walls(tl_nav_clearance *clearance, tl_nav_near_walls *near)
 {
     memset(near, 0, sizeof *near);
-    near->walls = (tl_nav_near_wall *)(void *)clearance->room.low;
-    near->met = (tl_nav_met *)(void *)clearance->room.high - 1;
+    near->walls = (tl_nav_near_wall *)(void *)clearance->scratch.low;
+    near->met = (tl_nav_met *)(void *)clearance->scratch.high - 1;
     tl_nav_next_generation(clearance->query);
 }
 
-static bool is_before(const tl_nav_near_wall *a, const tl_nav_near_wall *b)
+static bool is_wall_before(const tl_nav_near_wall *a, const tl_nav_near_wall *b)
 {
     const float keys[2][5] = { { a->distance_sq, a->a_x, a->a_z, a->b_x, a->b_z },
                                { b->distance_sq, b->a_x, b->a_z, b->b_x, b->b_z } };
@@ -359,14 +363,14 @@ static bool is_before(const tl_nav_near_wall *a, const tl_nav_near_wall *b)
 void tl_nav_end_walls(tl_nav_clearance *clearance, const tl_nav_near_walls *near)
 {
     // Shell's sort: a polygon has a dozen walls around it, a wide shape a few hundred. Equal walls are the same bytes.
-    tl_nav_near_wall *walls = (tl_nav_near_wall *)(void *)clearance->room.low;
+    tl_nav_near_wall *walls = (tl_nav_near_wall *)(void *)clearance->scratch.low;
     static const uint32_t GAPS[] = { 701, 301, 132, 57, 23, 10, 4, 1 };
     for (uint32_t g = 0; g < TL_COUNT_OF(GAPS); g++) {
         uint32_t gap = GAPS[g];
         for (uint32_t i = gap; i < near->wall_count; i++) {
             const tl_nav_near_wall wall = walls[i];
             uint32_t at = i;
-            for (; at >= gap && is_before(&wall, &walls[at - gap]); at -= gap) {
+            for (; at >= gap && is_wall_before(&wall, &walls[at - gap]); at -= gap) {
                 walls[at] = walls[at - gap];
             }
             walls[at] = wall;

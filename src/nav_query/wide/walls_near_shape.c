@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// The walls near a convex shape that may lie over several polygons: those near its part in each.
+// The walls near a convex shape that may lie over several polygons: those near its part in each of them.
 
-#include "nav_query/wide/near_shape.h"
+#include "nav_query/wide/walls_near_shape.h"
 
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/surface.h"
@@ -11,10 +11,11 @@
 #include <string.h>
 
 // Adds a polygon that was not met yet: met polygons grow downwards.
-static bool meet(tl_nav_clearance *clearance, tl_nav_near_walls *near, uint32_t slot, uint32_t polygon)
+static bool meet_polygon(tl_nav_clearance *clearance, tl_nav_near_walls *near, uint32_t slot, uint32_t polygon)
 {
     bool found = false;
-    if (near->met_count == clearance->query->max_nodes || (char *)(near->met - near->met_count) < clearance->room.low) {
+    if (near->met_count == clearance->query->max_nodes ||
+        (char *)(near->met - near->met_count) < clearance->scratch.low) {
         return false;
     }
     tl_nav_find_root(clearance->query, (uint64_t)1 << 63 | (uint64_t)slot << 32 | polygon, &found);
@@ -25,7 +26,7 @@ static bool meet(tl_nav_clearance *clearance, tl_nav_near_walls *near, uint32_t 
     return true;
 }
 
-static bool holds(const tl_nav_spot *corners, uint32_t count, tl_nav_spot spot)
+static bool outline_holds(const tl_nav_spot *corners, uint32_t count, tl_nav_spot spot)
 {
     bool left = false;
     bool right = false;
@@ -38,10 +39,10 @@ static bool holds(const tl_nav_spot *corners, uint32_t count, tl_nav_spot spot)
 }
 
 // The lines of a shape's sides: unit, outward. None of a shape with more sides, or without an inside.
-enum { MOST_SIDES = 4 };
+enum { MAX_SHAPE_SIDES = 4 };
 
 typedef struct side_lines {
-    double x[MOST_SIDES], z[MOST_SIDES], offset[MOST_SIDES];
+    double x[MAX_SHAPE_SIDES], z[MAX_SHAPE_SIDES], offset[MAX_SHAPE_SIDES];
     uint32_t count;
 } side_lines;
 
@@ -50,7 +51,7 @@ static side_lines lines_of(const tl_nav_shape *shape)
     side_lines lines;
     lines.count = 0;
     double area = shape->count >= 3 ? tl_nav_spot_turn(shape->corners[0], shape->corners[1], shape->corners[2]) : 0.0;
-    for (uint32_t i = 0; i < shape->count && shape->count <= MOST_SIDES && area != 0.0; i++) {
+    for (uint32_t i = 0; i < shape->count && shape->count <= MAX_SHAPE_SIDES && area != 0.0; i++) {
         tl_nav_spot p = shape->corners[i];
         tl_nav_spot q = shape->corners[i + 1 < shape->count ? i + 1 : 0];
         double length = area > 0.0 ? sqrt(tl_nav_spot_distance_sq(p, q)) : -sqrt(tl_nav_spot_distance_sq(p, q));
@@ -65,12 +66,12 @@ static side_lines lines_of(const tl_nav_shape *shape)
 }
 
 // Whether a segment lies farther than a distance beyond one of the lines: then it is farther from the shape.
-static bool is_beyond(const side_lines *lines, tl_nav_segment segment, double distance)
+static bool is_beyond_lines(const side_lines *lines, tl_nav_segment segment, double distance)
 {
     for (uint32_t i = 0; i < lines->count; i++) {
-        double room = distance + lines->offset[i];
-        if (lines->x[i] * segment.a.x + lines->z[i] * segment.a.z > room &&
-            lines->x[i] * segment.b.x + lines->z[i] * segment.b.z > room) {
+        double margin = distance + lines->offset[i];
+        if (lines->x[i] * segment.a.x + lines->z[i] * segment.a.z > margin &&
+            lines->x[i] * segment.b.x + lines->z[i] * segment.b.z > margin) {
             return true;
         }
     }
@@ -97,7 +98,7 @@ static bool leads_on(const tl_nav_shape *touch, tl_nav_segment edge, bool *all_o
 static bool reaches_over(const tl_nav_shape *touch, const side_lines *lines, double slack, tl_nav_segment edge)
 {
     bool all = false;
-    if (tl_nav_shape_is_far(touch, edge) || is_beyond(lines, edge, slack) || !leads_on(touch, edge, &all)) {
+    if (tl_nav_shape_is_far(touch, edge) || is_beyond_lines(lines, edge, slack) || !leads_on(touch, edge, &all)) {
         return false;
     }
     return lines->count > 0 ? !all : tl_nav_shape_distance_sq(touch, edge) <= touch->distance_sq;
@@ -121,7 +122,7 @@ static bool meet_touched(tl_nav_clearance *clearance, const tl_nav_shape *touch,
             tl_nav_ring_seam to = tl_nav_ring_across(clearance->navmesh, met.slot, ring[i].to);
             if (clearance->filter == NULL ||
                 tl_nav_passes(clearance->filter, clearance->navmesh->slots[to.slot].tile, to.polygon)) {
-                fits = meet(clearance, near, to.slot, to.polygon);
+                fits = meet_polygon(clearance, near, to.slot, to.polygon);
             }
         }
     }
@@ -139,15 +140,15 @@ static uint32_t cut_shape(const tl_navmesh *navmesh, tl_nav_met at, const tl_nav
     for (uint32_t s = 0; s < side_count && count > 0; s++) {
         tl_nav_spot p = sides[s];
         tl_nav_spot q = sides[s + 1 < side_count ? s + 1 : 0];
-        double room = slack * sqrt(tl_nav_spot_distance_sq(p, q));
+        double margin = slack * sqrt(tl_nav_spot_distance_sq(p, q));
         uint32_t old_count = count;
         memcpy(old, cut, count * sizeof *cut);
         count = 0;
         for (uint32_t i = 0; i < old_count; i++) {
             tl_nav_spot a = old[i];
             tl_nav_spot b = old[i + 1 < old_count ? i + 1 : 0];
-            double own = tl_nav_spot_turn(p, q, a) - room;
-            double next = tl_nav_spot_turn(p, q, b) - room;
+            double own = tl_nav_spot_turn(p, q, a) - margin;
+            double next = tl_nav_spot_turn(p, q, b) - margin;
             if (own <= 0.0) {
                 cut[count++] = a;
             }
@@ -164,8 +165,8 @@ bool tl_nav_find_near_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
 {
     tl_nav_shape touch = tl_nav_shape_make(shape, count, clearance->slack, clearance->slack);
     tl_nav_begin_walls(clearance, near_out);
-    bool fits = meet(clearance, near_out, slot, polygon) && meet_touched(clearance, &touch, near_out);
-    clearance->room.high = (char *)(near_out->met - near_out->met_count + 1);
+    bool fits = meet_polygon(clearance, near_out, slot, polygon) && meet_touched(clearance, &touch, near_out);
+    clearance->scratch.high = (char *)(near_out->met - near_out->met_count + 1);
     clearance->is_full = clearance->is_full || !fits;
     for (uint32_t i = 0; fits && i < near_out->met_count; i++) {
         tl_nav_met at = *(near_out->met - i);
@@ -177,7 +178,7 @@ bool tl_nav_find_near_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
     return fits;
 }
 
-static bool is_known(const tl_nav_near_wall *walls, uint32_t count, const tl_nav_near_wall *wall)
+static bool is_known_wall(const tl_nav_near_wall *walls, uint32_t count, const tl_nav_near_wall *wall)
 {
     for (uint32_t i = 0; i < count; i++) {
         if (walls[i].a_x == wall->a_x && walls[i].a_z == wall->a_z && walls[i].b_x == wall->b_x &&
@@ -189,9 +190,9 @@ static bool is_known(const tl_nav_near_wall *walls, uint32_t count, const tl_nav
 }
 
 // Whether a segment comes nearer to the shape than its distance.
-static bool is_near(const tl_nav_shape *reach, const side_lines *lines, double distance, tl_nav_segment segment)
+static bool is_near_shape(const tl_nav_shape *reach, const side_lines *lines, double distance, tl_nav_segment segment)
 {
-    if (tl_nav_shape_is_far(reach, segment) || is_beyond(lines, segment, distance)) {
+    if (tl_nav_shape_is_far(reach, segment) || is_beyond_lines(lines, segment, distance)) {
         return false;
     }
     for (uint32_t i = 0; i < (reach->count > 2 ? reach->count : 1); i++) {
@@ -200,7 +201,7 @@ static bool is_near(const tl_nav_shape *reach, const side_lines *lines, double d
             return true;
         }
     }
-    return reach->count > 2 && holds(reach->corners, reach->count, segment.a);
+    return reach->count > 2 && outline_holds(reach->corners, reach->count, segment.a);
 }
 
 bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *shape,
@@ -209,24 +210,24 @@ bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
     tl_nav_shape touch = tl_nav_shape_make(shape, count, clearance->slack, clearance->slack);
     tl_nav_shape reach = tl_nav_shape_make(shape, count, clearance->reach, clearance->slack);
     tl_nav_begin_walls(clearance, near_out);
-    bool fits = meet(clearance, near_out, slot, polygon) && meet_touched(clearance, &touch, near_out);
-    clearance->room.high = (char *)(near_out->met - near_out->met_count + 1);
-    tl_nav_near_wall *walls = (tl_nav_near_wall *)(void *)clearance->room.low;
+    bool fits = meet_polygon(clearance, near_out, slot, polygon) && meet_touched(clearance, &touch, near_out);
+    clearance->scratch.high = (char *)(near_out->met - near_out->met_count + 1);
+    tl_nav_near_wall *walls = (tl_nav_near_wall *)(void *)clearance->scratch.low;
     const side_lines lines = lines_of(&reach);
     for (uint32_t i = 0; fits && i < near_out->met_count; i++) {
         tl_nav_met at = *(near_out->met - i);
-        tl_nav_room room = clearance->room;
+        tl_nav_scratch scratch = clearance->scratch;
         tl_nav_wall_cell cell;
         fits = tl_nav_take(clearance, near_out->wall_count, sizeof *walls) != NULL &&
                tl_nav_wall_cell_of(clearance, at.slot, at.polygon, clearance->reach, &cell);
-        clearance->room = room;
+        clearance->scratch = scratch;
         for (uint32_t k = 0; fits && k < cell.near.wall_count; k++) {
             // What was gathered lies behind the list, and moves to its end.
             const tl_nav_near_wall wall = cell.near.walls[k];
-            tl_nav_segment segment = tl_nav_wall_segment(&wall);
-            if (!is_known(walls, near_out->wall_count, &wall) &&
-                is_near(&reach, &lines, clearance->reach + clearance->slack, segment)) {
-                fits = (char *)(walls + near_out->wall_count + 1) <= clearance->room.high;
+            tl_nav_segment segment = tl_nav_segment_of_wall(&wall);
+            if (!is_known_wall(walls, near_out->wall_count, &wall) &&
+                is_near_shape(&reach, &lines, clearance->reach + clearance->slack, segment)) {
+                fits = (char *)(walls + near_out->wall_count + 1) <= clearance->scratch.high;
                 if (fits) {
                     walls[near_out->wall_count++] = wall;
                 }
@@ -241,7 +242,7 @@ tl_nav_location tl_nav_settle(tl_nav_clearance *clearance, tl_nav_met home, tl_n
 {
     const tl_navmesh *navmesh = clearance->navmesh;
     tl_nav_location at = { TL_NAV_NO_REF, { (float)spot.x, 0.0f, (float)spot.z } };
-    tl_nav_room room = clearance->room;
+    tl_nav_scratch scratch = clearance->scratch;
     tl_nav_near_walls near;
     // All polygons of a small square around it.
     double half = 4.0 * clearance->slack;
@@ -252,14 +253,14 @@ tl_nav_location tl_nav_settle(tl_nav_clearance *clearance, tl_nav_met home, tl_n
     tl_nav_shape touch = tl_nav_shape_make(square, 4, clearance->slack, clearance->slack);
     if (!tl_nav_is_over(navmesh->slots[home.slot].tile, home.polygon, at.point)) {
         tl_nav_begin_walls(clearance, &near);
-        if (meet(clearance, &near, home.slot, home.polygon) && meet_touched(clearance, &touch, &near)) {
+        if (meet_polygon(clearance, &near, home.slot, home.polygon) && meet_touched(clearance, &touch, &near)) {
             for (uint32_t i = 0; i < near.met_count; i++) {
                 tl_nav_met met = *(near.met - i);
                 home = tl_nav_is_over(navmesh->slots[met.slot].tile, met.polygon, at.point) ? met : home;
             }
         }
     }
-    clearance->room = room;
+    clearance->scratch = scratch;
     at.polygon = tl_nav_make_ref(navmesh, home.slot, home.polygon);
     at.point.y = tl_nav_surface_height(navmesh->slots[home.slot].tile, home.polygon, at.point.x, at.point.z);
     return at;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Moving along the surface: to the target, or to the point nearest to it that lies on a wall around the way there.
+// Moving along the surface: to the target, or to the point nearest to it on a wall around the way there.
 //
-// Polygons are gone through breadth first from the start, over edges that come into the circle whose diameter is the
-// way to the target. So a short step slides along walls and around their corners, and never slips through to a place
-// that is near by but a long way off. Almost all steps end in the first polygon or the second.
-// Source: Mikko Mononen, Detour, dtNavMeshQuery::moveAlongSurface, for the circle.
+// A breadth-first search from the start visits the polygons that touch the circle whose diameter runs from start to
+// target. So a short step slides along walls and around their corners, and never slips through to a place that is near
+// but a long way off. Almost all steps end in the first polygon or the second. Source: Mikko Mononen, Detour,
+// dtNavMeshQuery::moveAlongSurface, for the circle.
 
 #include "nav_query/navmesh/plan.h"
 #include "nav_query/navmesh/surface.h"
@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct slide_search {
+typedef struct move_search {
     tl_nav_query *query;
     const tl_navmesh *navmesh;
     const tl_nav_filter *filter;
@@ -27,10 +27,10 @@ typedef struct slide_search {
     uint32_t best;                       // node
     bool full;
     bool all_pass; // the filter refuses nothing
-} slide_search;
+} move_search;
 
 // Whether the target lies over a ring, its outline included.
-static bool holds(const tl_nav_ring_edge *ring, uint32_t count, double x, double z)
+static bool ring_holds(const tl_nav_ring_edge *ring, uint32_t count, double x, double z)
 {
     for (uint32_t i = 0; i < count; i++) {
         const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
@@ -44,13 +44,13 @@ static bool holds(const tl_nav_ring_edge *ring, uint32_t count, double x, double
 }
 
 // Looks at a polygon's edges; true when it holds the target.
-static bool look_around(slide_search *search, uint32_t node)
+static bool look_for_target(move_search *search, uint32_t node)
 {
     uint32_t slot = search->query->local_nodes[node].slot;
     uint32_t polygon = search->query->local_nodes[node].polygon;
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, slot, polygon, &count);
-    if (holds(ring, count, search->x, search->z)) {
+    if (ring_holds(ring, count, search->x, search->z)) {
         search->start = NULL;
         search->best = node;
         return true;
@@ -83,7 +83,7 @@ static bool look_around(slide_search *search, uint32_t node)
 }
 
 // The polygons from the start's to the one where the move ends; returns how many there are.
-static uint32_t write_way(const slide_search *search, tl_nav_ref *polygons, uint32_t capacity)
+static uint32_t write_way(const move_search *search, tl_nav_ref *polygons, uint32_t capacity)
 {
     const tl_nav_local_node *nodes = search->query->local_nodes;
     uint32_t count = 0;
@@ -126,24 +126,24 @@ tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh 
     double size =
         fabs((double)target.x) + fabs((double)target.z) + fabs((double)start->point.x) + fabs((double)start->point.z);
     double reach = 0.5 * sqrt(dx * dx + dz * dz) + (double)TL_FLOAT_GAMMA(6) * size;
-    slide_search search = { query,
-                            navmesh,
-                            filter,
-                            (double)target.x,
-                            (double)target.z,
-                            (double)start->point.x + 0.5 * dx,
-                            (double)start->point.z + 0.5 * dz,
-                            reach * reach,
-                            (double)INFINITY,
-                            0.0,
-                            NULL,
-                            NULL,
-                            TL_NAV_NO_NODE,
-                            false,
-                            tl_nav_all_pass(navmesh, filter) };
+    move_search search = { query,
+                           navmesh,
+                           filter,
+                           (double)target.x,
+                           (double)target.z,
+                           (double)start->point.x + 0.5 * dx,
+                           (double)start->point.z + 0.5 * dz,
+                           reach * reach,
+                           (double)INFINITY,
+                           0.0,
+                           NULL,
+                           NULL,
+                           TL_NAV_NO_NODE,
+                           false,
+                           tl_nav_all_pass(navmesh, filter) };
     tl_nav_local_begin(query);
     tl_nav_local_add(query, slot, polygon, TL_NAV_NO_NODE, &search.full);
-    for (uint32_t node = 0; node < query->wedge_count && !look_around(&search, node); node++) {
+    for (uint32_t node = 0; node < query->wedge_count && !look_for_target(&search, node); node++) {
     }
     if (search.best != TL_NAV_NO_NODE) {
         const tl_nav_local_node *last = &query->local_nodes[search.best];

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// How far segments are from a convex shape, and the steps of finding the walls near it (near_walls.c, near_shape.c).
+// Distances from segments to a convex shape, and the steps of finding the walls near it (visible_walls.c,
+// walls_near_shape.c).
 
-#ifndef TALUS_SRC_NAV_QUERY_NEAR_SHAPE_H
-#define TALUS_SRC_NAV_QUERY_NEAR_SHAPE_H
+#ifndef TALUS_SRC_NAV_QUERY_WALLS_NEAR_SHAPE_H
+#define TALUS_SRC_NAV_QUERY_WALLS_NEAR_SHAPE_H
 
+#include "base/min_max.h"
 #include "nav_query/wide/clearance.h"
 
 /// A convex shape and its box, grown by the distance and some slack.
@@ -21,10 +23,10 @@ static inline tl_nav_shape tl_nav_shape_make(const tl_nav_spot *corners, uint32_
         corners, count, distance * distance, corners[0].x, corners[0].z, corners[0].x, corners[0].z
     };
     for (uint32_t i = 1; i < count; i++) {
-        reach.low_x = tl_nav_least(reach.low_x, corners[i].x);
-        reach.low_z = tl_nav_least(reach.low_z, corners[i].z);
-        reach.high_x = tl_nav_most(reach.high_x, corners[i].x);
-        reach.high_z = tl_nav_most(reach.high_z, corners[i].z);
+        reach.low_x = tl_min_f64(corners[i].x, reach.low_x);
+        reach.low_z = tl_min_f64(corners[i].z, reach.low_z);
+        reach.high_x = tl_max_f64(corners[i].x, reach.high_x);
+        reach.high_z = tl_max_f64(corners[i].z, reach.high_z);
     }
     reach.low_x -= distance + slack;
     reach.low_z -= distance + slack;
@@ -36,10 +38,9 @@ static inline tl_nav_shape tl_nav_shape_make(const tl_nav_spot *corners, uint32_
 /// Whether a segment lies outside of the box.
 static inline bool tl_nav_shape_is_far(const tl_nav_shape *reach, tl_nav_segment segment)
 {
-    return tl_nav_most(segment.a.x, segment.b.x) < reach->low_x ||
-           tl_nav_least(segment.a.x, segment.b.x) > reach->high_x ||
-           tl_nav_most(segment.a.z, segment.b.z) < reach->low_z ||
-           tl_nav_least(segment.a.z, segment.b.z) > reach->high_z;
+    return tl_max_f64(segment.b.x, segment.a.x) < reach->low_x ||
+           tl_min_f64(segment.b.x, segment.a.x) > reach->high_x ||
+           tl_max_f64(segment.b.z, segment.a.z) < reach->low_z || tl_min_f64(segment.b.z, segment.a.z) > reach->high_z;
 }
 
 /// The squared distance from a shape to a segment that does not lie inside of it; infinite when it is surely too far.
@@ -51,17 +52,17 @@ static inline double tl_nav_shape_distance_sq(const tl_nav_shape *reach, tl_nav_
     }
     for (uint32_t i = 0; i < (reach->count > 2 ? reach->count : 1); i++) {
         tl_nav_segment side = { reach->corners[i], reach->corners[i + 1 < reach->count ? i + 1 : 0] };
-        best_sq = tl_nav_least(best_sq, tl_nav_segments_distance_sq(side, segment));
+        best_sq = tl_min_f64(tl_nav_segments_distance_sq(side, segment), best_sq);
     }
     return best_sq;
 }
 
-/// Begins a list of walls in the room.
+/// Begins a list of walls in the scratch memory.
 void tl_nav_begin_walls(tl_nav_clearance *clearance, tl_nav_near_walls *near);
-/// Adds the walls around a shape that lies in a polygon. False: out of room.
+/// Adds the walls around a shape that lies in a polygon. False: out of scratch memory.
 bool tl_nav_look_from(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
                       double distance, tl_nav_near_walls *near);
-/// Sorts the list and takes its memory from the room.
+/// Sorts the list and takes its memory.
 void tl_nav_end_walls(tl_nav_clearance *clearance, const tl_nav_near_walls *near);
 
 #endif

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// From the portals that a wide path passes to its first vertices: the shortest way through the free pieces of the
-// portals, by a funnel, and a detour within each polygon where that comes too near to a wall. Most polygons need none,
-// and their places on the portals are no vertices. What is left for pulling taut (wide_pull.c) is little. Source: Lee,
-// Preparata, Euclidean Shortest Paths in the Presence of Rectilinear Barriers, 1984.
+// The first vertices of a path with clearance: the funnel algorithm over the free pieces of the portals that it
+// crosses, and a local path within each polygon where the straight line comes too near to a wall. Most polygons need
+// none, and the points on their portals are no vertices; so little is left for pulling taut (wide_pull_taut.c). Source:
+// Lee, Preparata, Euclidean Shortest Paths in the Presence of Rectilinear Barriers, 1984.
 
 #include "nav_query/wide/wide_search.h"
 
@@ -24,7 +24,7 @@ typedef struct passes {
     uint32_t count;
 } passes;
 
-static tl_nav_spot spot_of(float x, float z)
+static tl_nav_spot portal_spot(float x, float z)
 {
     return tl_nav_spot_make((double)x, (double)z);
 }
@@ -43,8 +43,8 @@ static bool list_passes(const tl_nav_wide_search *search, passes *all)
     for (uint32_t i = search->last; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
         const tl_nav_wide_portal *portal = &search->portals[i];
         pass *p = &all->at[--at];
-        p->right = spot_of(portal->right_x, portal->right_z);
-        p->left = spot_of(portal->left_x, portal->left_z);
+        p->right = portal_spot(portal->right_x, portal->right_z);
+        p->left = portal_spot(portal->left_x, portal->left_z);
         p->slot = nodes[i].slot;
         p->polygon = nodes[i].polygon;
         p->vertex = TL_NAV_NO_NODE;
@@ -61,7 +61,7 @@ static bool list_passes(const tl_nav_wide_search *search, passes *all)
 }
 
 // The path turns at `to`; between that and the corner before, `from`, it is straight.
-static void put_corner(passes *all, uint32_t from, uint32_t to, tl_nav_spot spot)
+static void put_pass_corners(passes *all, uint32_t from, uint32_t to, tl_nav_spot spot)
 {
     all->at[to].spot = spot;
     all->at[to].is_corner = true;
@@ -70,11 +70,6 @@ static void put_corner(passes *all, uint32_t from, uint32_t to, tl_nav_spot spot
         double share = tl_nav_crossing_share(all->at[from].spot, spot, portal);
         all->at[i].spot = tl_nav_spot_lerp(portal.a, portal.b, share);
     }
-}
-
-static bool is_same(tl_nav_spot a, tl_nav_spot b)
-{
-    return a.x == b.x && a.z == b.z;
 }
 
 static void pull_through(passes *all)
@@ -90,8 +85,8 @@ static void pull_through(passes *all)
         tl_nav_spot corner_spot = all->at[corner].spot;
         for (uint32_t i = apex + 1; i < all->count; i++) {
             const pass *p = &all->at[i];
-            if (is_same(from, right_spot) || tl_nav_spot_turn(from, right_spot, p->right) <= 0.0) {
-                if (!is_same(from, left_spot) && tl_nav_spot_turn(from, left_spot, p->right) < 0.0) {
+            if (tl_nav_is_same_spot(from, right_spot) || tl_nav_spot_turn(from, right_spot, p->right) <= 0.0) {
+                if (!tl_nav_is_same_spot(from, left_spot) && tl_nav_spot_turn(from, left_spot, p->right) < 0.0) {
                     corner = left;
                     corner_spot = left_spot;
                     break;
@@ -99,8 +94,8 @@ static void pull_through(passes *all)
                 right = i;
                 right_spot = p->right;
             }
-            if (is_same(from, left_spot) || tl_nav_spot_turn(from, left_spot, p->left) >= 0.0) {
-                if (!is_same(from, right_spot) && tl_nav_spot_turn(from, right_spot, p->left) > 0.0) {
+            if (tl_nav_is_same_spot(from, left_spot) || tl_nav_spot_turn(from, left_spot, p->left) >= 0.0) {
+                if (!tl_nav_is_same_spot(from, right_spot) && tl_nav_spot_turn(from, right_spot, p->left) > 0.0) {
                     corner = right;
                     corner_spot = right_spot;
                     break;
@@ -109,7 +104,7 @@ static void pull_through(passes *all)
                 left_spot = p->left;
             }
         }
-        put_corner(all, apex, corner, corner_spot);
+        put_pass_corners(all, apex, corner, corner_spot);
         apex = corner;
     }
 }
@@ -119,30 +114,30 @@ static bool note_blocked(tl_nav_clearance *clearance, passes *all)
 {
     bool fits = true;
     for (uint32_t i = 1; i < all->count && fits; i++) {
-        tl_nav_room room = clearance->room;
+        tl_nav_scratch scratch = clearance->scratch;
         tl_nav_wall_cell cell;
         fits = tl_nav_wall_cell_of(clearance, all->at[i - 1].slot, all->at[i - 1].polygon, clearance->reach, &cell);
         all->at[i].is_blocked =
             fits && !tl_nav_is_clear(&cell.near, all->at[i - 1].spot, all->at[i].spot, clearance->least);
-        clearance->room = room;
+        clearance->scratch = scratch;
     }
     return fits;
 }
 
 static bool is_clear_in(tl_nav_clearance *clearance, const pass *in, tl_nav_spot from, tl_nav_spot to, bool *fits)
 {
-    tl_nav_room room = clearance->room;
+    tl_nav_scratch scratch = clearance->scratch;
     tl_nav_wall_cell cell;
     *fits = *fits && tl_nav_wall_cell_of(clearance, in->slot, in->polygon, clearance->reach, &cell);
     bool is_clear = *fits && tl_nav_is_clear(&cell.near, from, to, clearance->least);
-    clearance->room = room;
+    clearance->scratch = scratch;
     return is_clear;
 }
 
 // Whether the straight way from a spot in the polygon behind pass `first` to one in that behind pass `last` leads over
 // the free pieces of all portals between, and is clear.
-static bool is_straight(tl_nav_clearance *clearance, const passes *all, tl_nav_spot from, uint32_t first,
-                        tl_nav_spot to, uint32_t last, bool *fits)
+static bool is_clear_through(tl_nav_clearance *clearance, const passes *all, tl_nav_spot from, uint32_t first,
+                             tl_nav_spot to, uint32_t last, bool *fits)
 {
     tl_nav_spot at = from;
     for (uint32_t i = first + 1; i <= last; i++) {
@@ -174,7 +169,7 @@ static bool leave_out(tl_nav_clearance *clearance, const passes *all, tl_nav_pol
         tl_nav_polyline_vertex *before = &path->vertices[b->before];
         tl_nav_polyline_vertex *next = &path->vertices[b->next];
         uint32_t last = all->at[next->pass].vertex == b->next ? next->pass - 1 : next->pass;
-        if (is_straight(clearance, all, before->spot, before->pass, next->spot, last, &fits)) {
+        if (is_clear_through(clearance, all, before->spot, before->pass, next->spot, last, &fits)) {
             before->next = b->next;
             next->before = b->before;
         }
@@ -182,11 +177,11 @@ static bool leave_out(tl_nav_clearance *clearance, const passes *all, tl_nav_pol
     return fits;
 }
 
-bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_polyline *path)
+bool tl_nav_wide_funnel(const tl_nav_wide_search *search, tl_nav_polyline *path)
 {
     tl_nav_clearance *clearance = search->clearance;
     passes all = { NULL, 0 };
-    tl_nav_room room = clearance->room;
+    tl_nav_scratch scratch = clearance->scratch;
     if (!list_passes(search, &all)) {
         return false;
     }
@@ -199,7 +194,7 @@ bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_polyline *p
             uint32_t before = behind;
             behind = tl_nav_polyline_insert(path, behind, p->spot, p->slot, p->polygon);
             p->vertex = behind;
-            fits = behind != TL_NAV_NO_NODE && (!p->is_blocked || tl_nav_wide_detour(clearance, path, before));
+            fits = behind != TL_NAV_NO_NODE && (!p->is_blocked || tl_nav_wide_local_path(clearance, path, before));
             for (uint32_t k = before; fits && k != behind && k != TL_NAV_NO_NODE; k = path->vertices[k].next) {
                 path->vertices[k].pass = k == before ? path->vertices[k].pass : i - 1;
             }
@@ -209,7 +204,7 @@ bool tl_nav_wide_straighten(const tl_nav_wide_search *search, tl_nav_polyline *p
         }
     }
     fits = fits && leave_out(clearance, &all, path);
-    clearance->room = room;
+    clearance->scratch = scratch;
     clearance->is_full = clearance->is_full || !fits;
     return fits;
 }
