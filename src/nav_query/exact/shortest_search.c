@@ -16,25 +16,25 @@
 // without a turn in the heap.
 //
 // The end of an off-mesh link is gone to as if it were the goal, and its other end is a root from which all is open
-// (wedge_links.h). A link costs no less than the straight way, so estimates hold. Where one does, a short cut, an
+// (wedge_links.inl). A link costs no less than the straight way, so estimates hold. Where one does, a short cut, an
 // estimate is at most the way to the goal from the nearest end of a short cut. A wedge in the goal's polygon is then
 // taken up twice: for what lies behind it, and for its own true length.
 // Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh, IJCAI 2017.
 
 #include "nav_query/exact/shortest_search.h"
 
-#include "nav_query/exact/wedge_root.h"
+#include "nav_query/exact/wedge_root.inl"
 #include "nav_query/navmesh/surface.h"
 
 #include <string.h>
 
 // From where a link lands. A way straight to the goal is one among others here.
-static void land(wedge_search *s, uint32_t index)
+static void land_wedge(wedge_search *s, uint32_t index)
 {
-    uint32_t last = look_around(s, index);
+    uint32_t last = look_from_root(s, index);
     if (last != TL_NAV_NO_NODE) {
         const tl_nav_wedge *wedge = &s->query->wedges[last];
-        offer(s, last, (float)(wedge->cost + way_to(s, wedge, s->goal_x, s->goal_z).length));
+        offer_wedge(s, last, (float)(wedge->cost + way_to(s, wedge, s->goal_x, s->goal_z).length));
     }
 }
 
@@ -49,7 +49,7 @@ static uint32_t next_wedge(wedge_search *s, float *total_out)
         if (wedge->polygon != s->in->goal_polygon || wedge->slot != s->in->goal_slot) {
             return only;
         }
-        offer(s, only, total_of(s, wedge, &s->only_edge));
+        offer_wedge(s, only, total_of(s, wedge, &s->only_edge));
     }
     tl_nav_open_item next = { s->best_total, s->best };
     if (s->best == TL_NAV_NO_NODE) {
@@ -66,7 +66,7 @@ static uint32_t next_wedge(wedge_search *s, float *total_out)
 }
 
 // What a total that was rounded to float says for certain.
-static double bound_of(float total)
+static double certain_length(float total)
 {
     return (double)total * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING);
 }
@@ -82,7 +82,7 @@ static uint32_t end_in(wedge_search *s, uint32_t entered)
 
 // Where there are short cuts: takes up what lies behind a wedge in the goal's polygon, unless its total is its true
 // one.
-static bool goes_on(wedge_search *s, uint32_t index, float total)
+static bool goes_on_past_goal(wedge_search *s, uint32_t index, float total)
 {
     const tl_nav_wedge *wedge = &s->query->wedges[index];
     wedge_way way = way_to(s, wedge, s->goal_x, s->goal_z);
@@ -91,18 +91,18 @@ static bool goes_on(wedge_search *s, uint32_t index, float total)
         return false;
     }
     if (wedge->edge >= TL_NAV_WEDGE_LANDS) {
-        land(s, index);
+        land_wedge(s, index);
         return true;
     }
     if (way.reaches) {
-        offer(s, index, true_total);
+        offer_wedge(s, index, true_total);
     }
-    expand(s, index);
+    expand_wedge(s, index);
     return true;
 }
 
 // Takes up wedges, the least total first, until one has entered the goal's polygon or the steps are used up.
-static tl_nav_search_end run(wedge_search *s, uint64_t *steps)
+static tl_nav_search_end run_wedges(wedge_search *s, uint64_t *steps)
 {
     float total = 0.0f;
     for (; *steps > 0; --*steps) {
@@ -112,10 +112,10 @@ static tl_nav_search_end run(wedge_search *s, uint64_t *steps)
         }
         const tl_nav_wedge *wedge = &s->query->wedges[next];
         if (wedge->polygon == s->in->goal_polygon && wedge->slot == s->in->goal_slot) {
-            if (s->detour != (double)INFINITY && goes_on(s, next, total)) {
+            if (s->detour != (double)INFINITY && goes_on_past_goal(s, next, total)) {
                 continue;
             }
-            s->in->lower_bound = s->in->lower_bound > 0.0 ? s->in->lower_bound : bound_of(total);
+            s->in->lower_bound = s->in->lower_bound > 0.0 ? s->in->lower_bound : certain_length(total);
             s->in->last = end_in(s, next);
             if (s->in->last == TL_NAV_NO_NODE) {
                 continue;
@@ -123,15 +123,15 @@ static tl_nav_search_end run(wedge_search *s, uint64_t *steps)
             return TL_NAV_SEARCH_FOUND;
         }
         if (wedge->edge >= TL_NAV_WEDGE_LANDS) {
-            land(s, next);
+            land_wedge(s, next);
         } else {
-            expand(s, next);
+            expand_wedge(s, next);
         }
     }
     return s->trouble != TL_NAV_SEARCH_FOUND ? s->trouble : TL_NAV_SEARCH_PAUSED;
 }
 
-static double largest_of(double a, double b)
+static double larger_magnitude(double a, double b)
 {
     return fabs(a) > fabs(b) ? fabs(a) : fabs(b);
 }
@@ -155,9 +155,9 @@ static wedge_search take_up(tl_nav_shortest_search *search)
                        search->best,
                        search->best_total,
                        NULL };
-    double start_size = largest_of((double)search->start.x, (double)search->start.z);
-    s.rounding = TL_NAV_ON_LINE * largest_of(start_size, largest_of(s.goal_x, s.goal_z));
-    s.detour = shortest_detour(&s);
+    double start_size = larger_magnitude((double)search->start.x, (double)search->start.z);
+    s.rounding = TL_NAV_ON_LINE * larger_magnitude(start_size, larger_magnitude(s.goal_x, s.goal_z));
+    s.detour = min_wedge_detour(&s);
     return s;
 }
 
@@ -227,7 +227,7 @@ tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search)
     search->only = TL_NAV_NO_NODE;
     search->best = TL_NAV_NO_NODE;
     wedge_search s = take_up(search);
-    search->last = look_around(&s, add_start(&s));
+    search->last = look_from_root(&s, add_start(&s));
     lay_down(&s, search);
     if (search->last != TL_NAV_NO_NODE) {
         search->lower_bound = tl_nav_shortest_length(search);
@@ -239,7 +239,7 @@ tl_nav_search_end tl_nav_begin_shortest(tl_nav_shortest_search *search)
 tl_nav_search_end tl_nav_step_shortest(tl_nav_shortest_search *search, uint64_t *steps)
 {
     wedge_search s = take_up(search);
-    tl_nav_search_end end = run(&s, steps);
+    tl_nav_search_end end = run_wedges(&s, steps);
     lay_down(&s, search);
     return end;
 }
@@ -261,14 +261,14 @@ bool tl_nav_see(tl_nav_shortest_search *from, const tl_nav_sight *sight)
     s.trouble = TL_NAV_SEARCH_FOUND;
     s.sight = sight;
     s.detour = (double)INFINITY;
-    s.rounding = TL_NAV_ON_LINE * largest_of((double)from->start.x, (double)from->start.z);
+    s.rounding = TL_NAV_ON_LINE * larger_magnitude((double)from->start.x, (double)from->start.z);
     from->goal_slot = TL_NAV_NO_SLOT; // no polygon ends it
     s.query->wedge_count = 0;
     tl_nav_next_generation(s.query);
-    look_around(&s, add_start(&s));
+    look_from_root(&s, add_start(&s));
     for (uint32_t i = 0; i < s.query->wedge_count && s.trouble == TL_NAV_SEARCH_FOUND; i++) {
         if (s.query->wedges[i].edge < TL_NAV_WEDGE_LANDS) {
-            expand(&s, i);
+            expand_wedge(&s, i);
         }
     }
     return s.trouble == TL_NAV_SEARCH_FOUND;

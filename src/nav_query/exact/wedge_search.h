@@ -53,7 +53,7 @@ static inline uint32_t new_wedge(wedge_search *s)
 }
 
 // Gives a wedge to the heap, or keeps it at hand when it is the best of its step; then the one before goes there.
-static inline void offer(wedge_search *s, uint32_t wedge, float total)
+static inline void offer_wedge(wedge_search *s, uint32_t wedge, float total)
 {
     if (s->best == TL_NAV_NO_NODE) {
         s->best = wedge;

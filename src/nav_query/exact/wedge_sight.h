@@ -21,13 +21,13 @@ typedef struct seen_edge {
     tl_nav_direction right, left;
 } seen_edge;
 
-static inline double cross(tl_nav_direction a, tl_nav_direction b)
+static inline double wedge_cross(tl_nav_direction a, tl_nav_direction b)
 {
     return a.x * b.z - a.z * b.x;
 }
 
 // The sign of the cross product; 0 within its own rounding: < 0 when b lies left of a.
-static inline double side(tl_nav_direction a, tl_nav_direction b)
+static inline double side_of_direction(tl_nav_direction a, tl_nav_direction b)
 {
     double p = a.x * b.z;
     double q = a.z * b.x;
@@ -40,17 +40,17 @@ static inline double length_of(tl_nav_direction d)
     return sqrt(d.x * d.x + d.z * d.z);
 }
 
-static inline bool is_open(tl_nav_direction d)
+static inline bool is_open_direction(tl_nav_direction d)
 {
     return d.x == 0.0 && d.z == 0.0;
 }
 
 // Where the ray from the root along `d` meets the line through a and b (relative to the root).
-static inline tl_nav_direction meet(tl_nav_direction d, tl_nav_direction a, tl_nav_direction b)
+static inline tl_nav_direction meet_edge_line(tl_nav_direction d, tl_nav_direction a, tl_nav_direction b)
 {
     tl_nav_direction e = { b.x - a.x, b.z - a.z };
-    double across = cross(d, e);
-    double t = across != 0.0 ? cross(a, e) / across : 0.0;
+    double across = wedge_cross(d, e);
+    double t = across != 0.0 ? wedge_cross(a, e) / across : 0.0;
     tl_nav_direction point = { t * d.x, t * d.z };
     return point;
 }
@@ -61,19 +61,21 @@ static inline double least_through(const seen_edge *edge, tl_nav_direction left,
 {
     tl_nav_direction along = { edge->left.x - edge->right.x, edge->left.z - edge->right.z };
     tl_nav_direction from_edge = { goal.x - edge->right.x, goal.z - edge->right.z };
-    double beyond = cross(along, from_edge); // > 0: on the far side, right of the edge from its right end to its left
+    double beyond =
+        wedge_cross(along, from_edge); // > 0: on the far side, right of the edge from its right end to its left
     if (beyond < 0.0) {
         double scale = 2.0 * beyond / (along.x * along.x + along.z * along.z);
         goal.x += scale * along.z;
         goal.z -= scale * along.x;
     }
-    bool is_left_of = cross(left, goal) < 0.0;
-    if (!is_left_of && !(cross(right, goal) > 0.0)) {
+    bool is_left_of = wedge_cross(left, goal) < 0.0;
+    if (!is_left_of && !(wedge_cross(right, goal) > 0.0)) {
         return length_of(goal);
     }
     tl_nav_direction limit = is_left_of ? left : right;
     tl_nav_direction vertex = is_left_of ? edge->left : edge->right;
-    tl_nav_direction via = limit.x == vertex.x && limit.z == vertex.z ? vertex : meet(limit, edge->right, edge->left);
+    tl_nav_direction via =
+        limit.x == vertex.x && limit.z == vertex.z ? vertex : meet_edge_line(limit, edge->right, edge->left);
     tl_nav_direction rest = { goal.x - via.x, goal.z - via.z };
     return length_of(via) + length_of(rest);
 }
@@ -85,8 +87,8 @@ static inline bool may_turn(const tl_nav_ring_walls *walls, tl_nav_direction d, 
     const tl_nav_direction first = { (double)walls->first_x, (double)walls->first_z };
     const tl_nav_direction last = { (double)walls->last_x, (double)walls->last_z };
     double size = fabs(d.x) + fabs(d.z);
-    return hand * cross(d, first) <= 2.0 * rounding * (size + fabs(first.x) + fabs(first.z)) &&
-           hand * cross(d, last) <= 2.0 * rounding * (size + fabs(last.x) + fabs(last.z));
+    return hand * wedge_cross(d, first) <= 2.0 * rounding * (size + fabs(first.x) + fabs(first.z)) &&
+           hand * wedge_cross(d, last) <= 2.0 * rounding * (size + fabs(last.x) + fabs(last.z));
 }
 
 // A vertex as a wedge sees it.
@@ -112,8 +114,8 @@ static inline wedge_view make_view(const tl_nav_wedge *wedge)
                         (double)wedge->root_z,
                         TL_CROSS_ERROR * (fabs(wedge->left.x) + fabs(wedge->left.z)),
                         TL_CROSS_ERROR * (fabs(wedge->right.x) + fabs(wedge->right.z)),
-                        is_open(wedge->left),
-                        is_open(wedge->right) };
+                        is_open_direction(wedge->left),
+                        is_open_direction(wedge->right) };
     return view;
 }
 
@@ -123,8 +125,8 @@ static inline seen_vertex look_at(const wedge_view *view, const tl_nav_ring_edge
     seen.at.x = (double)vertex->x - view->root_x;
     seen.at.z = (double)vertex->z - view->root_z;
     double size = fabs(seen.at.x) + fabs(seen.at.z);
-    double to_left = cross(view->left, seen.at);
-    double to_right = cross(view->right, seen.at);
+    double to_left = wedge_cross(view->left, seen.at);
+    double to_right = wedge_cross(view->right, seen.at);
     double left_error = view->left_error * size;
     double right_error = view->right_error * size;
     seen.left_of_left = to_left < -left_error;

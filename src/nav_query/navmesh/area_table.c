@@ -15,7 +15,7 @@
 
 #include <string.h>
 
-static uint64_t doubled_area(const tl_nav_tile *tile, uint32_t polygon)
+static uint64_t doubled_polygon_area(const tl_nav_tile *tile, uint32_t polygon)
 {
     uint32_t count = 0;
     tl_nav_tile_corners(tile, polygon, &count);
@@ -39,7 +39,7 @@ uint64_t *tl_nav_areas_make(const tl_allocator *allocator, const tl_nav_tile *ti
     if (areas != NULL) {
         areas[0] = 0;
         for (uint32_t p = 0; p < tile->polygon_count; p++) {
-            areas[p + 1] = areas[p] + doubled_area(tile, p);
+            areas[p + 1] = areas[p] + doubled_polygon_area(tile, p);
         }
     }
     return areas;
@@ -52,7 +52,7 @@ void tl_nav_areas_free(const tl_allocator *allocator, uint64_t *areas, uint32_t 
     }
 }
 
-static uint64_t area_of(const tl_nav_slot *slot)
+static uint64_t slot_area(const tl_nav_slot *slot)
 {
     return slot->tile != NULL ? slot->areas[slot->tile->polygon_count] : 0;
 }
@@ -67,7 +67,7 @@ void tl_nav_area_table_fill(uint64_t *table, uint32_t capacity, const tl_nav_slo
 {
     memset(table, 0, ((size_t)capacity + 1) * sizeof *table);
     for (uint32_t i = 1; i <= capacity; i++) {
-        table[i] += i <= slot_count ? area_of(&slots[i - 1]) : 0;
+        table[i] += i <= slot_count ? slot_area(&slots[i - 1]) : 0;
         uint32_t above = i + lowest_bit(i);
         if (above <= capacity) {
             table[above] += table[i];
@@ -77,7 +77,7 @@ void tl_nav_area_table_fill(uint64_t *table, uint32_t capacity, const tl_nav_slo
 
 void tl_nav_area_table_change(tl_navmesh *navmesh, uint32_t slot, int sign)
 {
-    uint64_t area = area_of(&navmesh->slots[slot]);
+    uint64_t area = slot_area(&navmesh->slots[slot]);
     for (uint32_t i = slot + 1; i <= navmesh->slot_capacity; i += lowest_bit(i)) {
         navmesh->area_table[i] += sign > 0 ? area : ~area + 1u;
     }

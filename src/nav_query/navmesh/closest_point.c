@@ -12,7 +12,7 @@ typedef struct seen_corner {
     double x, z;
 } seen_corner;
 
-static inline seen_corner see(tl_vec3 corner, tl_vec3 point)
+static inline seen_corner see_corner(tl_vec3 corner, tl_vec3 point)
 {
     seen_corner seen = { (double)corner.x - (double)point.x, (double)corner.z - (double)point.z };
     return seen;
@@ -20,7 +20,7 @@ static inline seen_corner see(tl_vec3 corner, tl_vec3 point)
 
 // Whether a point lies beyond the edge from a to b of a polygon, exactly: tl_nav_side_of > 0, with what is common to
 // two edges that follow one another computed once.
-static inline bool is_beyond(tl_vec3 a, tl_vec3 b, tl_vec3 point, seen_corner seen_a, seen_corner seen_b)
+static inline bool is_beyond_edge(tl_vec3 a, tl_vec3 b, tl_vec3 point, seen_corner seen_a, seen_corner seen_b)
 {
     double left = seen_a.x * seen_b.z;
     double right = seen_a.z * seen_b.x;
@@ -32,11 +32,11 @@ bool tl_nav_is_over(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 point)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
-    seen_corner seen_a = see(corners[0], point);
+    seen_corner seen_a = see_corner(corners[0], point);
     for (uint32_t i = 0; i < count; i++) {
         const tl_vec3 *b = &corners[i + 1 < count ? i + 1 : 0];
-        seen_corner seen_b = see(*b, point);
-        if (is_beyond(corners[i], *b, point, seen_a, seen_b)) {
+        seen_corner seen_b = see_corner(*b, point);
+        if (is_beyond_edge(corners[i], *b, point, seen_a, seen_b)) {
             return false;
         }
         seen_a = seen_b;
@@ -67,12 +67,12 @@ tl_vec3 tl_nav_clamp_to_polygon(const tl_nav_tile *tile, uint32_t polygon, tl_ve
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
     tl_vec3 closest = point;
     double closest_sq = (double)INFINITY;
-    seen_corner seen_a = see(corners[0], point);
+    seen_corner seen_a = see_corner(corners[0], point);
     *inside_out = true;
     for (uint32_t i = 0; i < count; i++) {
         const tl_vec3 *b = &corners[i + 1 < count ? i + 1 : 0];
-        seen_corner seen_b = see(*b, point);
-        bool beyond = is_beyond(corners[i], *b, point, seen_a, seen_b);
+        seen_corner seen_b = see_corner(*b, point);
+        bool beyond = is_beyond_edge(corners[i], *b, point, seen_a, seen_b);
         seen_a = seen_b;
         if (beyond) {
             tl_vec3 candidate = tl_nav_closest_on_edge(corners[i], *b, point);

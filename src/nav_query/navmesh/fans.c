@@ -14,7 +14,7 @@
 
 #include "math/tolerance.h"
 
-typedef struct fan {
+typedef struct vertex_fan {
     tl_nav_ring_edge *members[TL_NAV_MAX_FAN];
     tl_nav_ring_walls *walls[TL_NAV_MAX_FAN]; // of the members
     uint32_t count;
@@ -23,7 +23,7 @@ typedef struct fan {
     double last_x, last_z;   // along the last one
     bool is_wide;
     bool is_odd; // walls do not tell on which hand to turn: ways fork, or go more than once around, or too many
-} fan;
+} vertex_fan;
 
 static tl_nav_ring_edge *ring_at(tl_navmesh *navmesh, tl_nav_ring_place place, uint32_t *count_out)
 {
@@ -39,7 +39,7 @@ static tl_nav_ring_walls *walls_of(tl_navmesh *navmesh, tl_nav_ring_place place)
 }
 
 // A fan turns left from its first edge: while it is no wider than a half plane nothing lies on the right.
-static void widen(fan *f, const tl_nav_ring_edge *end)
+static void widen_fan(vertex_fan *f, const tl_nav_ring_edge *end)
 {
     double dx = (double)end->x - f->x;
     double dz = (double)end->z - f->z;
@@ -68,7 +68,7 @@ static bool forks_at(const tl_nav_rings *rings, const tl_nav_ring_edge *ring, ui
 }
 
 // Gathers the fan that begins with the edge at `begin`, over the edges that end in its vertex; false when it is closed.
-static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, fan *f)
+static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, vertex_fan *f)
 {
     uint32_t count = 0;
     tl_nav_ring_edge *ring = ring_at(navmesh, begin, &count);
@@ -86,7 +86,7 @@ static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, fan *f)
         f->members[f->count] = &ring[at.edge];
         f->walls[f->count++] = walls_of(navmesh, at);
         uint32_t before = at.edge > 0 ? at.edge - 1 : count - 1;
-        widen(f, &ring[before]);
+        widen_fan(f, &ring[before]);
         f->is_odd = f->is_odd || f->count == TL_NAV_MAX_FAN ||
                     forks_at(&navmesh->slots[at.slot].rings, ring, count, f->x, f->z);
         if (f->count == TL_NAV_MAX_FAN || !tl_nav_ring_is_open(&ring[before])) {
@@ -102,7 +102,7 @@ static bool gather_fan(tl_navmesh *navmesh, tl_nav_ring_place begin, fan *f)
 
 static void number_fan(tl_navmesh *navmesh, tl_nav_ring_place begin)
 {
-    fan f;
+    vertex_fan f;
     bool is_walled = gather_fan(navmesh, begin, &f);
     uint32_t number = (is_walled && f.is_wide) || f.is_odd ? ++navmesh->last_fan : 0;
     tl_nav_ring_walls walls = { 0.0f, 0.0f, 0.0f, 0.0f };

@@ -13,7 +13,7 @@ typedef struct triangle_weights {
 } triangle_weights;
 
 // Twice the areas of the parts into which a point divides a triangle.
-static void divide(tl_vec3 a, tl_vec3 b, tl_vec3 c, double x, double z, double parts[3])
+static void divide_triangle(tl_vec3 a, tl_vec3 b, tl_vec3 c, double x, double z, double parts[3])
 {
     double ax = (double)a.x - x, az = (double)a.z - z;
     double bx = (double)b.x - x, bz = (double)b.z - z;
@@ -25,7 +25,7 @@ static void divide(tl_vec3 a, tl_vec3 b, tl_vec3 c, double x, double z, double p
 
 // Whether a triangle with area holds the point: what weigh would find, without its divisions. Most triangles of a patch
 // do not, in no order that a processor could foresee: one branch.
-static bool holds(const double parts[3])
+static bool has_no_negative_part(const double parts[3])
 {
     double low = parts[0] < parts[1] ? parts[0] : parts[1];
     double high = parts[0] < parts[1] ? parts[1] : parts[0];
@@ -108,7 +108,7 @@ static float height_beside(const tl_nav_surface *surface, double x, double z)
     uint32_t best = UINT32_MAX;
     for (uint32_t i = 0; i < surface->triangle_count; i++) {
         corners_of(surface, i, corners);
-        divide(*corners[0], *corners[1], *corners[2], x, z, parts);
+        divide_triangle(*corners[0], *corners[1], *corners[2], x, z, parts);
         double weight = worst_weight(parts);
         if (weight > worst) {
             worst = weight;
@@ -121,7 +121,7 @@ static float height_beside(const tl_nav_surface *surface, double x, double z)
     }
     triangle_weights weights;
     corners_of(surface, best, corners);
-    divide(*corners[0], *corners[1], *corners[2], x, z, parts);
+    divide_triangle(*corners[0], *corners[1], *corners[2], x, z, parts);
     weigh(parts, &weights);
     return mix_heights(corners, &weights);
 }
@@ -156,8 +156,8 @@ float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, 
         double parts[3];
         triangle_weights weights;
         corners_of(&surface, i, corners);
-        divide(*corners[0], *corners[1], *corners[2], (double)x, (double)z, parts);
-        if (holds(parts) && weigh(parts, &weights)) {
+        divide_triangle(*corners[0], *corners[1], *corners[2], (double)x, (double)z, parts);
+        if (has_no_negative_part(parts) && weigh(parts, &weights)) {
             return mix_heights(corners, &weights);
         }
     }

@@ -20,12 +20,12 @@
 #include "base/assert.h"
 #include "nav_query/navmesh/navmesh.h"
 
-typedef struct splitter {
+typedef struct island_splitter {
     const tl_navmesh *navmesh;
     tl_nav_islands *islands;
     tl_nav_island_kind kind;
     tl_nav_island_label *labels;
-} splitter;
+} island_splitter;
 
 static uint32_t group_of(tl_nav_island_piece *pieces, uint32_t piece)
 {
@@ -36,7 +36,7 @@ static uint32_t group_of(tl_nav_island_piece *pieces, uint32_t piece)
     return piece;
 }
 
-static void meet(splitter *s, uint32_t piece_a, uint32_t piece_b)
+static void join_search_pieces(island_splitter *s, uint32_t piece_a, uint32_t piece_b)
 {
     tl_nav_island_piece *pieces = s->islands->pieces;
     uint32_t a = group_of(pieces, piece_a);
@@ -54,13 +54,13 @@ static void meet(splitter *s, uint32_t piece_a, uint32_t piece_b)
     pieces[root].open += pieces[child].open;
 }
 
-static void reach(splitter *s, uint32_t piece, uint32_t slot, uint32_t polygon)
+static void reach_node(island_splitter *s, uint32_t piece, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_rings *rings = &s->navmesh->slots[slot].rings;
     uint32_t index = rings->island[rings->component[polygon]];
     tl_nav_island_node *node = &s->islands->nodes[index];
     if (node->piece != TL_NAV_NO_ISLAND) {
-        meet(s, piece, node->piece);
+        join_search_pieces(s, piece, node->piece);
         return;
     }
     tl_nav_island_piece *finder = &s->islands->pieces[piece];
@@ -70,7 +70,7 @@ static void reach(splitter *s, uint32_t piece, uint32_t slot, uint32_t polygon)
     finder->last = index;
 }
 
-static void reach_over_seams(splitter *s, uint32_t piece, const tl_nav_island_node *node)
+static void reach_over_seams(island_splitter *s, uint32_t piece, const tl_nav_island_node *node)
 {
     const tl_nav_slot *slot = &s->navmesh->slots[node->slot];
     uint32_t component = slot->rings.component[node->polygon];
@@ -80,14 +80,14 @@ static void reach_over_seams(splitter *s, uint32_t piece, const tl_nav_island_no
         for (uint32_t i = 0; links->first != NULL && i < links->portal_count; i++) {
             if (slot->rings.component[portals[i].polygon] == component) {
                 for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
-                    reach(s, piece, links->links[k].slot, links->links[k].polygon);
+                    reach_node(s, piece, links->links[k].slot, links->links[k].polygon);
                 }
             }
         }
     }
 }
 
-static void reach_over_links(splitter *s, uint32_t piece, const tl_nav_island_node *node)
+static void reach_over_links(island_splitter *s, uint32_t piece, const tl_nav_island_node *node)
 {
     const uint32_t *next_member = s->navmesh->slots[node->slot].rings.next_member;
     uint32_t polygon = node->polygon;
@@ -97,7 +97,7 @@ static void reach_over_links(splitter *s, uint32_t piece, const tl_nav_island_no
             const tl_nav_anchor *own = &entry->ends[end % 2];
             const tl_nav_anchor *other = &entry->ends[1 - end % 2];
             if (own->slot == node->slot && own->polygon == polygon && other->slot != TL_NAV_NO_SLOT) {
-                reach(s, piece, other->slot, other->polygon);
+                reach_node(s, piece, other->slot, other->polygon);
             }
             end = own->next;
         }
@@ -106,7 +106,7 @@ static void reach_over_links(splitter *s, uint32_t piece, const tl_nav_island_no
 }
 
 // Goes through one node of a piece.
-static void step(splitter *s, uint32_t index)
+static void step_piece(island_splitter *s, uint32_t index)
 {
     tl_nav_island_piece *piece = &s->islands->pieces[index];
     const tl_nav_island_node *node = &s->islands->nodes[piece->head];
@@ -122,7 +122,7 @@ static void step(splitter *s, uint32_t index)
     }
 }
 
-static void start(splitter *s, const uint32_t *seeds, uint32_t count)
+static void start_pieces(island_splitter *s, const uint32_t *seeds, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_island_node *node = &s->islands->nodes[seeds[i]];
@@ -137,7 +137,7 @@ static void start(splitter *s, const uint32_t *seeds, uint32_t count)
 }
 
 // Names the groups that were cut off, and forgets the search.
-static void finish(splitter *s, uint32_t count)
+static void finish_split(island_splitter *s, uint32_t count)
 {
     tl_nav_island_piece *pieces = s->islands->pieces;
     tl_nav_island_node *nodes = s->islands->nodes;
@@ -156,23 +156,23 @@ static void finish(splitter *s, uint32_t count)
     }
 }
 
-static void split(tl_navmesh *navmesh, tl_nav_island_kind kind, const uint32_t *seeds, uint32_t count)
+static void split_kind(tl_navmesh *navmesh, tl_nav_island_kind kind, const uint32_t *seeds, uint32_t count)
 {
     tl_nav_islands *islands = &navmesh->islands;
     tl_nav_reserve_labels(islands, kind, count);
-    splitter s = { navmesh, islands, kind, islands->labels[kind] };
-    start(&s, seeds, count);
+    island_splitter s = { navmesh, islands, kind, islands->labels[kind] };
+    start_pieces(&s, seeds, count);
     for (bool goes_on = true; goes_on;) {
         goes_on = false;
         for (uint32_t i = 0; i < count; i++) {
             const tl_nav_island_piece *piece = &islands->pieces[i];
             if (piece->head != TL_NAV_NO_ISLAND && s.labels[piece->label].open > 1) {
-                step(&s, i);
+                step_piece(&s, i);
                 goes_on = true;
             }
         }
     }
-    finish(&s, count);
+    finish_split(&s, count);
 }
 
 // Leaves one seed of each component over seams.
@@ -200,8 +200,8 @@ void tl_nav_split_islands(tl_navmesh *navmesh)
     for (uint32_t i = 0; i < islands->seed_count; i++) {
         islands->nodes[islands->seeds[i]].piece = TL_NAV_NO_ISLAND;
     }
-    split(navmesh, TL_NAV_SEAM_ISLANDS, islands->seeds, islands->seam_seed_count);
-    split(navmesh, TL_NAV_ISLANDS, islands->seeds, thin_out(islands, islands->seeds, islands->seed_count));
+    split_kind(navmesh, TL_NAV_SEAM_ISLANDS, islands->seeds, islands->seam_seed_count);
+    split_kind(navmesh, TL_NAV_ISLANDS, islands->seeds, thin_out(islands, islands->seeds, islands->seed_count));
     islands->seed_count = 0;
     islands->seam_seed_count = 0;
 }

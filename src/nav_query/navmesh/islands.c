@@ -25,7 +25,7 @@ static uint32_t node_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polyg
     return rings->island[rings->component[polygon]];
 }
 
-static uint32_t root_of(const tl_navmesh *navmesh, tl_nav_island_kind kind, uint32_t slot, uint32_t polygon)
+static uint32_t label_of(const tl_navmesh *navmesh, tl_nav_island_kind kind, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_islands *islands = &navmesh->islands;
     return tl_nav_label_root(islands->labels[kind], islands->nodes[node_of(navmesh, slot, polygon)].labels[kind]);
@@ -33,13 +33,13 @@ static uint32_t root_of(const tl_navmesh *navmesh, tl_nav_island_kind kind, uint
 
 uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
 {
-    return root_of(navmesh, TL_NAV_ISLANDS, slot, polygon);
+    return label_of(navmesh, TL_NAV_ISLANDS, slot, polygon);
 }
 
 bool tl_nav_is_same_component(const tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry)
 {
-    return root_of(navmesh, TL_NAV_SEAM_ISLANDS, entry->ends[0].slot, entry->ends[0].polygon) ==
-           root_of(navmesh, TL_NAV_SEAM_ISLANDS, entry->ends[1].slot, entry->ends[1].polygon);
+    return label_of(navmesh, TL_NAV_SEAM_ISLANDS, entry->ends[0].slot, entry->ends[0].polygon) ==
+           label_of(navmesh, TL_NAV_SEAM_ISLANDS, entry->ends[1].slot, entry->ends[1].polygon);
 }
 
 static void free_arrays(const tl_allocator *allocator, tl_nav_islands *islands)
@@ -133,7 +133,7 @@ uint32_t tl_nav_new_label(tl_nav_islands *islands, tl_nav_island_kind kind)
 }
 
 // The root, with every second label on the way hung higher; for the writer, who may.
-static uint32_t find_root(tl_nav_island_label *labels, uint32_t label)
+static uint32_t find_label_root(tl_nav_island_label *labels, uint32_t label)
 {
     while (labels[label].parent != label) {
         labels[label].parent = labels[labels[label].parent].parent;
@@ -142,11 +142,11 @@ static uint32_t find_root(tl_nav_island_label *labels, uint32_t label)
     return label;
 }
 
-static void join(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t node_a, uint32_t node_b)
+static void join_labels(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t node_a, uint32_t node_b)
 {
     tl_nav_island_label *labels = islands->labels[kind];
-    uint32_t a = find_root(labels, islands->nodes[node_a].labels[kind]);
-    uint32_t b = find_root(labels, islands->nodes[node_b].labels[kind]);
+    uint32_t a = find_label_root(labels, islands->nodes[node_a].labels[kind]);
+    uint32_t b = find_label_root(labels, islands->nodes[node_b].labels[kind]);
     if (a == b) {
         return;
     }
@@ -199,8 +199,8 @@ void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot)
             for (uint32_t k = links->first[i]; k < links->first[i + 1]; k++) {
                 uint32_t node = node_of(navmesh, slot, portals[i].polygon);
                 uint32_t neighbour = node_of(navmesh, links->links[k].slot, links->links[k].polygon);
-                join(&navmesh->islands, TL_NAV_SEAM_ISLANDS, node, neighbour);
-                join(&navmesh->islands, TL_NAV_ISLANDS, node, neighbour);
+                join_labels(&navmesh->islands, TL_NAV_SEAM_ISLANDS, node, neighbour);
+                join_labels(&navmesh->islands, TL_NAV_ISLANDS, node, neighbour);
             }
         }
     }
@@ -208,8 +208,8 @@ void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot)
 
 void tl_nav_join_anchors(tl_navmesh *navmesh, const tl_nav_offmesh_entry *entry)
 {
-    join(&navmesh->islands, TL_NAV_ISLANDS, node_of(navmesh, entry->ends[0].slot, entry->ends[0].polygon),
-         node_of(navmesh, entry->ends[1].slot, entry->ends[1].polygon));
+    join_labels(&navmesh->islands, TL_NAV_ISLANDS, node_of(navmesh, entry->ends[0].slot, entry->ends[0].polygon),
+                node_of(navmesh, entry->ends[1].slot, entry->ends[1].polygon));
 }
 
 void tl_nav_seed_island(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)

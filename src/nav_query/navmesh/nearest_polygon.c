@@ -30,7 +30,7 @@ static float vertical_measure(const nearest_search *search, const tl_nav_tile *t
     return !search->on_island && above > tile->agent_max_climb ? above + tile->agent_height : above;
 }
 
-static float measure(const nearest_search *search, const tl_nav_tile *tile, tl_vec3 point)
+static float measure_point(const nearest_search *search, const tl_nav_tile *tile, tl_vec3 point)
 {
     float dx = point.x - search->center.x;
     float dz = point.z - search->center.z;
@@ -45,7 +45,7 @@ static float gap(float c, float low, float high)
 }
 
 // The least measure that any point of the box can have.
-static float bound_of(const nearest_search *search, const tl_nav_tile *tile, const tl_aabb *box)
+static float min_measure(const nearest_search *search, const tl_nav_tile *tile, const tl_aabb *box)
 {
     tl_vec3 c = search->center;
     float dx = gap(c.x, box->min.x, box->max.x);
@@ -55,7 +55,7 @@ static float bound_of(const nearest_search *search, const tl_nav_tile *tile, con
     return dx * dx + dz * dz + dy * dy;
 }
 
-static void try_polygon(nearest_search *search, uint32_t slot, uint32_t polygon)
+static void try_nearest(nearest_search *search, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
     if (!tl_nav_passes(search->filter, tile, polygon) ||
@@ -73,7 +73,7 @@ static void try_polygon(nearest_search *search, uint32_t slot, uint32_t polygon)
     if (!search->on_island && !tl_aabb_contains(search->box, point)) {
         return;
     }
-    float distance = measure(search, tile, point);
+    float distance = measure_point(search, tile, point);
     bool wins_tie = distance == search->best &&
                     (slot < search->best_slot || (slot == search->best_slot && polygon < search->best_polygon));
     if (distance < search->best || wins_tie) {
@@ -84,32 +84,32 @@ static void try_polygon(nearest_search *search, uint32_t slot, uint32_t polygon)
     }
 }
 
-typedef struct pending_node {
+typedef struct pending_tile_node {
     uint32_t node;
     float bound;
-} pending_node;
+} pending_tile_node;
 
-static void search_tile(nearest_search *search, uint32_t slot)
+static void search_tile_nearest(nearest_search *search, uint32_t slot)
 {
     const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
     const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
     // A step down leaves one node behind, so the depth bounds the stack.
-    pending_node stack[TL_NAV_MAX_TILE_DEPTH + 1];
+    pending_tile_node stack[TL_NAV_MAX_TILE_DEPTH + 1];
     uint32_t depth = 0;
-    pending_node at = { 0, bound_of(search, tile, &nodes[0].box) };
+    pending_tile_node at = { 0, min_measure(search, tile, &nodes[0].box) };
     for (;;) {
         const tl_nav_tile_node *node = &nodes[at.node];
         if (at.bound <= search->best && tl_aabb_overlaps(node->box, search->box)) {
             if (node->polygon == TL_NO_POLYGON) {
-                pending_node near_node = { at.node + 1, bound_of(search, tile, &nodes[at.node + 1].box) };
+                pending_tile_node near_node = { at.node + 1, min_measure(search, tile, &nodes[at.node + 1].box) };
                 uint32_t second = nodes[at.node + 1].skip;
-                pending_node far_node = { second, bound_of(search, tile, &nodes[second].box) };
+                pending_tile_node far_node = { second, min_measure(search, tile, &nodes[second].box) };
                 bool ordered = near_node.bound <= far_node.bound;
                 stack[depth++] = ordered ? far_node : near_node;
                 at = ordered ? near_node : far_node;
                 continue;
             }
-            try_polygon(search, slot, node->polygon);
+            try_nearest(search, slot, node->polygon);
         }
         if (depth == 0) {
             return;
@@ -123,7 +123,7 @@ static void search_place(nearest_search *search, int64_t x, int64_t z)
     const tl_navmesh *navmesh = search->navmesh;
     for (uint32_t slot = tl_nav_find_slot(navmesh, x, z); slot != TL_NAV_NO_SLOT;
          slot = tl_nav_next_slot(navmesh, slot)) {
-        search_tile(search, slot);
+        search_tile_nearest(search, slot);
     }
 }
 
@@ -137,7 +137,7 @@ static double gap_to_place(const tl_navmesh *navmesh, int64_t place, double orig
     return gap > 0.0 ? gap : 0.0;
 }
 
-static int64_t place_of(const tl_navmesh *navmesh, double along, int64_t first, int64_t last)
+static int64_t tile_place_of(const tl_navmesh *navmesh, double along, int64_t first, int64_t last)
 {
     double place = floor(along / ((double)navmesh->cell_size * (double)navmesh->tile_size));
     return place < (double)first ? first : place > (double)last ? last : (int64_t)place;
@@ -150,8 +150,8 @@ static void search_places(nearest_search *search, const tl_nav_tile_walk *places
     const tl_navmesh *navmesh = search->navmesh;
     const double x = (double)search->center.x;
     const double z = (double)search->center.z;
-    const int64_t home_x = place_of(navmesh, x - (double)navmesh->origin.x, places->first_x, places->last_x);
-    const int64_t home_z = place_of(navmesh, z - (double)navmesh->origin.z, places->z, places->last_z);
+    const int64_t home_x = tile_place_of(navmesh, x - (double)navmesh->origin.x, places->first_x, places->last_x);
+    const int64_t home_z = tile_place_of(navmesh, z - (double)navmesh->origin.z, places->z, places->last_z);
     search_place(search, home_x, home_z);
     for (int64_t place_z = places->z; place_z <= places->last_z; place_z++) {
         double dz = gap_to_place(navmesh, place_z, (double)navmesh->origin.z, z);
@@ -172,7 +172,7 @@ static void search_tiles(nearest_search *search)
         return;
     }
     for (uint32_t slot = 0; (slot = tl_nav_next_tile(&walk)) != TL_NAV_NO_SLOT;) {
-        search_tile(search, slot);
+        search_tile_nearest(search, slot);
     }
 }
 
@@ -237,7 +237,7 @@ tl_result tl_navmesh_find_nearest_reachable(const tl_navmesh *navmesh, const tl_
     search.island = tl_nav_island_of(navmesh, slot, polygon);
     for (slot = 0; slot < navmesh->slot_count; slot++) {
         if (navmesh->slots[slot].tile != NULL) {
-            search_tile(&search, slot);
+            search_tile_nearest(&search, slot);
         }
     }
     return write_nearest(&search, location_out);

@@ -134,7 +134,7 @@ void tl_nav_release_anchors(tl_navmesh *navmesh, uint32_t index)
 }
 
 // Whether an end may find a polygon of a tile.
-static bool reaches(const tl_nav_offmesh_entry *entry, uint32_t end, const tl_nav_tile *tile)
+static bool is_end_near(const tl_nav_offmesh_entry *entry, uint32_t end, const tl_nav_tile *tile)
 {
     tl_vec3 center = end == 0 ? entry->offmesh.start : entry->offmesh.end;
     tl_vec3 half = tl_vec3_make(entry->offmesh.radius, entry->offmesh.radius, entry->offmesh.radius);
@@ -161,7 +161,7 @@ void tl_nav_anchor_near(tl_navmesh *navmesh, uint32_t slot, bool tile_leaves)
         const tl_nav_anchor *anchor = &entry->ends[end % 2];
         const tl_nav_anchor *other = &entry->ends[1 - end % 2];
         const tl_nav_anchor before = *anchor;
-        bool touched = tile_leaves ? before.slot == slot : reaches(entry, end % 2, navmesh->slots[slot].tile);
+        bool touched = tile_leaves ? before.slot == slot : is_end_near(entry, end % 2, navmesh->slots[slot].tile);
         if (!entry->is_used || !touched) {
             continue;
         }

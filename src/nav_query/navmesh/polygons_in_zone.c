@@ -16,7 +16,7 @@ typedef struct zone_search {
     uint32_t capacity, count;
 } zone_search;
 
-static void try_polygon(zone_search *search, uint32_t slot, uint32_t polygon)
+static void try_in_zone(zone_search *search, uint32_t slot, uint32_t polygon)
 {
     const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
     uint32_t corner_count = 0;
@@ -31,7 +31,7 @@ static void try_polygon(zone_search *search, uint32_t slot, uint32_t polygon)
     search->count++;
 }
 
-static void search_tile(zone_search *search, uint32_t slot)
+static void search_tile_in_zone(zone_search *search, uint32_t slot)
 {
     const tl_nav_tile *tile = search->navmesh->slots[slot].tile;
     const tl_nav_tile_node *nodes = tl_nav_tile_nodes(tile);
@@ -41,7 +41,7 @@ static void search_tile(zone_search *search, uint32_t slot)
     for (uint32_t i = 0; i < tile->node_count;) {
         bool overlaps = tl_aabb_overlaps(nodes[i].box, search->box);
         if (overlaps && nodes[i].polygon != TL_NO_POLYGON) {
-            try_polygon(search, slot, nodes[i].polygon);
+            try_in_zone(search, slot, nodes[i].polygon);
         }
         i = overlaps ? i + 1 : nodes[i].skip;
     }
@@ -69,7 +69,7 @@ tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_nav_filte
     zone_search search = { navmesh, filter, &test, box, polygons_out, capacity, 0 };
     tl_nav_tile_walk walk = tl_nav_tiles_over(navmesh, box);
     for (uint32_t slot = 0; (slot = tl_nav_next_tile(&walk)) != TL_NAV_NO_SLOT;) {
-        search_tile(&search, slot);
+        search_tile_in_zone(&search, slot);
     }
     *count_out = search.count;
     return search.count <= capacity ? TL_OK : TL_INCOMPLETE;

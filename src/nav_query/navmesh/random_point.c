@@ -53,7 +53,7 @@ static uint64_t sum_passing(const tl_navmesh *navmesh, const tl_nav_filter *filt
     return sum;
 }
 
-static uint64_t doubled_area(const int32_t *a, const int32_t *b, const int32_t *c)
+static uint64_t doubled_triangle_area(const int32_t *a, const int32_t *b, const int32_t *c)
 {
     int64_t abx = (int64_t)b[0] - a[0];
     int64_t abz = (int64_t)b[2] - a[2];
@@ -64,15 +64,15 @@ static uint64_t doubled_area(const int32_t *a, const int32_t *b, const int32_t *
 }
 
 // The triangle of the polygon's fan in which a square lies; a point of it by the bits.
-static tl_vec3 point_in(const tl_nav_tile *tile, uint32_t polygon, uint64_t at, uint64_t bits)
+static tl_vec3 point_in_polygon(const tl_nav_tile *tile, uint32_t polygon, uint64_t at, uint64_t bits)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
     const int32_t *first = tl_nav_tile_lattice(tile, polygon, 0);
     uint32_t i = 1;
     for (; i + 2 < count; i++) {
-        uint64_t area =
-            doubled_area(first, tl_nav_tile_lattice(tile, polygon, i), tl_nav_tile_lattice(tile, polygon, i + 1));
+        uint64_t area = doubled_triangle_area(first, tl_nav_tile_lattice(tile, polygon, i),
+                                              tl_nav_tile_lattice(tile, polygon, i + 1));
         if (at < area) {
             break;
         }
@@ -119,6 +119,7 @@ tl_result tl_navmesh_random_point(const tl_navmesh *navmesh, const tl_nav_filter
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
     bool inside = false;
     location_out->polygon = tl_nav_make_ref(navmesh, slot, polygon);
-    location_out->point = tl_nav_closest_on_surface(tile, polygon, point_in(tile, polygon, at, random[1]), &inside);
+    location_out->point =
+        tl_nav_closest_on_surface(tile, polygon, point_in_polygon(tile, polygon, at, random[1]), &inside);
     return TL_OK;
 }

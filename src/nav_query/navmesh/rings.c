@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-static bool same_place(const tl_nav_ring_edge *edge, tl_vec3 point)
+static bool is_same_vertex(const tl_nav_ring_edge *edge, tl_vec3 point)
 {
     return edge->x == point.x && edge->z == point.z;
 }
@@ -21,7 +21,7 @@ typedef struct ring_writer {
     uint32_t edge_count, seam_count;
 } ring_writer;
 
-static void add_edge(ring_writer *writer, tl_vec3 start, uint32_t to)
+static void add_ring_edge(ring_writer *writer, tl_vec3 start, uint32_t to)
 {
     tl_nav_ring_edge edge = { start.x, start.y, start.z, to, 0, 0 };
     writer->rings->edges[writer->edge_count++] = edge;
@@ -32,7 +32,7 @@ static void add_gap(ring_writer *writer, tl_vec3 at, tl_vec3 point, tl_vec3 ahea
 {
     if (at.x != point.x || at.z != point.z) {
         bool forward = tl_dot(tl_sub(point, at), ahead) > 0.0f;
-        add_edge(writer, at, forward ? TL_NAV_RING_WALL : TL_NAV_RING_BACK);
+        add_ring_edge(writer, at, forward ? TL_NAV_RING_WALL : TL_NAV_RING_BACK);
         writer->rings->has_back = writer->rings->has_back || !forward;
     }
 }
@@ -49,29 +49,29 @@ static void add_seam_edge(ring_writer *writer, tl_vec3 start, tl_vec3 end, const
         const tl_nav_seam_link *link = &side->links[begin + (rising ? i : count - 1 - i)];
         tl_nav_ring_seam seam = { link->slot, link->polygon };
         add_gap(writer, at, link->right, ahead);
-        add_edge(writer, link->right, TL_NAV_RING_SEAM | writer->seam_count);
+        add_ring_edge(writer, link->right, TL_NAV_RING_SEAM | writer->seam_count);
         writer->rings->seams[writer->seam_count++] = seam;
         at = link->left;
     }
     add_gap(writer, at, end, ahead);
 }
 
-static void add_polygon(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
-                        uint32_t polygon)
+static void add_ring(ring_writer *writer, const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
+                     uint32_t polygon)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
     const uint32_t *links = tl_nav_tile_links(tile, polygon);
     for (uint32_t k = 0; k < count; k++) {
         if (links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) == 0) {
-            add_edge(writer, corners[k], links[k] == TL_NAV_LINK_WALL ? TL_NAV_RING_WALL : links[k]);
+            add_ring_edge(writer, corners[k], links[k] == TL_NAV_LINK_WALL ? TL_NAV_RING_WALL : links[k]);
             continue;
         }
         uint32_t portal = links[k] & ~TL_NAV_LINK_PORTAL;
         uint32_t side = tl_nav_tile_side_of(tile, portal);
         uint32_t at = portal - tl_nav_tile_side_first(tile, side);
         if (sides[side]->first == NULL || sides[side]->first[at] == sides[side]->first[at + 1]) {
-            add_edge(writer, corners[k], TL_NAV_RING_WALL);
+            add_ring_edge(writer, corners[k], TL_NAV_RING_WALL);
         } else {
             add_seam_edge(writer, corners[k], corners[k + 1 < count ? k + 1 : 0], sides[side], at, side < 2);
         }
@@ -86,7 +86,7 @@ static void copy_turns(ring_writer *writer, const tl_nav_rings *old, uint32_t po
     tl_nav_rings *rings = writer->rings;
     for (uint32_t k = rings->cells[polygon].first; k < writer->edge_count; k++) {
         for (uint32_t i = 0; i < count; i++) {
-            if (same_place(&ring[i], tl_vec3_make(rings->edges[k].x, 0.0f, rings->edges[k].z))) {
+            if (is_same_vertex(&ring[i], tl_vec3_make(rings->edges[k].x, 0.0f, rings->edges[k].z))) {
                 rings->edges[k].turn = ring[i].turn;
                 rings->walls[k] = old->walls[old->cells[polygon].first + i];
             }
@@ -95,7 +95,7 @@ static void copy_turns(ring_writer *writer, const tl_nav_rings *old, uint32_t po
 }
 
 // A polygon whose edges stay as they were; only its seams get new places.
-static void copy_polygon(ring_writer *writer, const tl_nav_rings *old, uint32_t polygon)
+static void copy_ring(ring_writer *writer, const tl_nav_rings *old, uint32_t polygon)
 {
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_of(old, polygon, &count);
@@ -128,7 +128,7 @@ static void find_twins(tl_nav_rings *rings, uint32_t polygon)
         tl_nav_ring_of(rings, ring[i].to, &across_count);
         uint32_t k = 0;
         while (k + 1 < across_count &&
-               (across[k].to != polygon || !same_place(&across[k], tl_vec3_make(end->x, 0.0f, end->z)))) {
+               (across[k].to != polygon || !is_same_vertex(&across[k], tl_vec3_make(end->x, 0.0f, end->z)))) {
             k++;
         }
         TL_ASSERT(across[k].to == polygon);
@@ -167,8 +167,8 @@ static void label_components(tl_nav_rings *rings, uint32_t *stack)
 }
 
 // Room for the arrays, one behind the other: the widest alignment any of them needs is that of their numbers.
-static bool allocate(const tl_allocator *allocator, uint64_t polygons, uint64_t edges, uint64_t seams,
-                     tl_nav_rings *rings)
+static bool allocate_rings(const tl_allocator *allocator, uint64_t polygons, uint64_t edges, uint64_t seams,
+                           tl_nav_rings *rings)
 {
     uint64_t size = edges * (sizeof(tl_nav_ring_edge) + sizeof(tl_nav_ring_walls)) + seams * sizeof(tl_nav_ring_seam) +
                     (polygons + 1) * sizeof(tl_nav_ring_cell) + 3 * polygons * sizeof(uint32_t);
@@ -204,19 +204,19 @@ static void mark_changed(const tl_nav_tile *tile, uint32_t side, const tl_nav_ri
     }
 }
 
-static void fill(const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT], const uint32_t *is_changed,
-                 const tl_nav_rings *old, tl_nav_rings *rings)
+static void fill_rings(const tl_nav_tile *tile, const tl_nav_side_links *sides[TL_NAV_SIDE_COUNT],
+                       const uint32_t *is_changed, const tl_nav_rings *old, tl_nav_rings *rings)
 {
     ring_writer writer = { rings, 0, 0 };
     for (uint32_t p = 0; p < tile->polygon_count; p++) {
         rings->cells[p].first = writer.edge_count;
         if (is_changed[p]) {
-            add_polygon(&writer, tile, sides, p);
+            add_ring(&writer, tile, sides, p);
             if (old != NULL) {
                 copy_turns(&writer, old, p);
             }
         } else {
-            copy_polygon(&writer, old, p);
+            copy_ring(&writer, old, p);
         }
     }
     rings->cells[tile->polygon_count].first = writer.edge_count;
@@ -254,14 +254,14 @@ tl_result tl_nav_rings_make(const tl_allocator *allocator, const tl_nav_tile *ti
     tl_nav_rings rings;
     memset(&rings, 0, sizeof rings);
     uint32_t *scratch = tl_allocate_array(allocator, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
-    if (scratch == NULL || !allocate(allocator, tile->polygon_count, edges, seams, &rings)) {
+    if (scratch == NULL || !allocate_rings(allocator, tile->polygon_count, edges, seams, &rings)) {
         tl_release_array(allocator, scratch, 2 * (uint64_t)tile->polygon_count, sizeof *scratch);
         return TL_ERR_MEMORY;
     }
     rings.polygon_count = tile->polygon_count;
     memset(rings.walls, 0, edges * sizeof *rings.walls);
     mark_changed(tile, changed_side, old, scratch);
-    fill(tile, sides, scratch, old, &rings);
+    fill_rings(tile, sides, scratch, old, &rings);
     TL_ASSERT(rings.cells[tile->polygon_count].first <= edges);
     if (old != NULL) {
         copy_components(old, &rings);

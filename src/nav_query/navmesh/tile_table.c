@@ -15,7 +15,7 @@
 
 #include <string.h>
 
-enum { FIRST_SLOTS = 16, LAST_SALT = 0xffff };
+enum { FIRST_TILE_SLOTS = 16, LAST_SALT = 0xffff };
 
 static const int32_t SIDE_STEP[TL_NAV_SIDE_COUNT][2] = { { -1, 0 }, { 0, 1 }, { 1, 0 }, { 0, -1 }, { 0, 0 } };
 
@@ -144,7 +144,7 @@ static tl_result grow_slots(tl_navmesh *navmesh)
     if (navmesh->slot_count >= TL_NAV_MAX_TILES) {
         return TL_ERR_LIMIT;
     }
-    uint32_t capacity = navmesh->slot_capacity > 0 ? 2 * navmesh->slot_capacity : FIRST_SLOTS;
+    uint32_t capacity = navmesh->slot_capacity > 0 ? 2 * navmesh->slot_capacity : FIRST_TILE_SLOTS;
     tl_nav_slot *slots = tl_allocate_array(&navmesh->allocator, capacity, sizeof *slots);
     uint32_t *buckets = tl_allocate_array(&navmesh->allocator, 2 * (uint64_t)capacity, sizeof *buckets);
     uint64_t *area_table = tl_allocate_array(&navmesh->allocator, (uint64_t)capacity + 1, sizeof *area_table);

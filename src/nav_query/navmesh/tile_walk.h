@@ -18,8 +18,8 @@ typedef struct tl_nav_tile_walk {
 } tl_nav_tile_walk;
 
 // Tiles along one axis that an interval touches, one cell of margin on each side for rounding.
-static inline void tl_nav_tile_range(double low, double high, double origin, const tl_navmesh *navmesh,
-                                     int64_t *first_out, int64_t *last_out)
+static inline void tl_nav_tile_interval(double low, double high, double origin, const tl_navmesh *navmesh,
+                                        int64_t *first_out, int64_t *last_out)
 {
     double cell = (double)navmesh->cell_size;
     double size = cell * (double)navmesh->tile_size;
@@ -34,10 +34,10 @@ static inline tl_nav_tile_walk tl_nav_tiles_over(const tl_navmesh *navmesh, tl_a
 {
     tl_nav_tile_walk walk = { navmesh, false, 0, 0, 0, 0, 0, 0, TL_NAV_NO_SLOT };
     if (navmesh->tile_size > 0) {
-        tl_nav_tile_range((double)box.min.x, (double)box.max.x, (double)navmesh->origin.x, navmesh, &walk.first_x,
-                          &walk.last_x);
-        tl_nav_tile_range((double)box.min.z, (double)box.max.z, (double)navmesh->origin.z, navmesh, &walk.z,
-                          &walk.last_z);
+        tl_nav_tile_interval((double)box.min.x, (double)box.max.x, (double)navmesh->origin.x, navmesh, &walk.first_x,
+                             &walk.last_x);
+        tl_nav_tile_interval((double)box.min.z, (double)box.max.z, (double)navmesh->origin.z, navmesh, &walk.z,
+                             &walk.last_z);
         walk.x = walk.first_x;
         // Places are below 2^25 an axis: the product fits 64 bits.
         walk.by_place = (walk.last_x - walk.first_x + 1) * (walk.last_z - walk.z + 1) <= (int64_t)navmesh->slot_count;

@@ -18,7 +18,7 @@
 #include "nav_query/navmesh/surface.h"
 #include "nav_query/path/path_run.h"
 #include "nav_query/plane/crossing.h"
-#include "nav_query/prepared/visibility_graph.h"
+#include "nav_query/prepared/graph_query.h"
 #include "nav_query/search/node_pool.h"
 
 #include <string.h>

@@ -5,7 +5,7 @@
 #include "base/assert.h"
 #include "nav_query/exact/shortest_search.h"
 #include "nav_query/path/path_run.h"
-#include "nav_query/prepared/visibility_graph.h"
+#include "nav_query/prepared/graph_query.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// From where in a polygon a path may go straight to a corner vertex and turn there: wedges of sight, cut to the
-// directions from which one comes with the corner vertex's walls on the hand of the turn.
+// Visibility cones: from where in a polygon a path may go straight to a corner vertex and turn there.
 //
-// What a corner vertex sees through the edge by which sight enters a polygon is a cone. So are the directions that have
-// both walls on one hand, and what is left of it is a cone again: two cross products say whether a point is in it. That
-// leaves few corner vertices for a point, where the polygon as a whole is seen by many and turned to from more. Cones
-// side by side are joined. A cone is kept as two half planes, a little too wide by rounding: who goes a leg walks along
-// it in the end. They stand array by array, so that a compiler takes several at once.
+// What a corner vertex sees through the edge by which its sight enters a polygon is a cone. So are the directions that
+// have both of its walls on the side of the turn, and the intersection of both is a cone again: two cross products tell
+// whether a point lies in it. That leaves few corner vertices for a point; many more see the polygon as a whole.
+// Adjacent cones of a vertex are joined. A cone is kept as two half planes, a little too wide by rounding: a leg is
+// walked along before a path takes it. They stand array by array, so that a compiler tests several at once.
+// Source: Shen, Cheema, Harabor, Stuckey, Euclidean Pathfinding with Compressed Path Databases, IJCAI 2020, for paths
+// from the corner vertices that both ends see.
 
-#include "nav_query/prepared/visibility_graph.h"
+#include "nav_query/prepared/corner_cones.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "nav_query/exact/wedge_sight.h"
+#include "nav_query/prepared/visibility_graph.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,39 +24,39 @@ typedef struct opening {
     tl_nav_direction right, left;
 } opening;
 
-// Leaves the part of a cone that lies left of a wall (hand 1) or right of it (-1). False: none does.
-static bool cut(opening *c, tl_nav_direction wall, int hand, double rounding)
+// Leaves the part of a cone that lies left of a wall (side 1) or right of it (-1). False: none does.
+static bool cut_by_wall(opening *c, tl_nav_direction wall, int side, double rounding)
 {
     double wall_size = fabs(wall.x) + fabs(wall.z);
-    double left = hand * cross(wall, c->left);
-    double right = hand * cross(wall, c->right);
+    double left = side * wedge_cross(wall, c->left);
+    double right = side * wedge_cross(wall, c->right);
     bool keeps_left = left <= 2.0 * rounding * (wall_size + fabs(c->left.x) + fabs(c->left.z));
     bool keeps_right = right <= 2.0 * rounding * (wall_size + fabs(c->right.x) + fabs(c->right.z));
-    if (is_open(wall) || (keeps_left && keeps_right)) {
+    if (is_open_direction(wall) || (keeps_left && keeps_right)) {
         return true;
     }
     if (!keeps_left && !keeps_right) {
         return false;
     }
     // The wall's line leaves the corner vertex inside the cone, along the wall or away from it.
-    bool is_along = cross(c->left, wall) >= cross(c->right, wall);
+    bool is_along = wedge_cross(c->left, wall) >= wedge_cross(c->right, wall);
     tl_nav_direction end = { is_along ? wall.x : -wall.x, is_along ? wall.z : -wall.z };
     *(keeps_left ? &c->right : &c->left) = end;
     return true;
 }
 
-static bool clip(const tl_nav_wedge *wedge, const tl_nav_ring_walls *walls, int hand, double rounding,
-                 opening *opening_out)
+static bool clip_to_walls(const tl_nav_wedge *wedge, const tl_nav_ring_walls *walls, int side, double rounding,
+                          opening *opening_out)
 {
     const tl_nav_direction first = { (double)walls->first_x, (double)walls->first_z };
     const tl_nav_direction last = { (double)walls->last_x, (double)walls->last_z };
     opening c = { wedge->right, wedge->left };
-    if (is_open(c.left) || is_open(c.right)) {
+    if (is_open_direction(c.left) || is_open_direction(c.right)) {
         // Beside the corner vertex: between the walls, or one of them and where the other leads.
         const tl_nav_direction back = { -last.x, -last.z };
-        c.right = hand > 0 ? first : back;
-        c.left = hand > 0 ? back : first;
-    } else if (!cut(&c, first, hand, rounding) || !cut(&c, last, hand, rounding)) {
+        c.right = side > 0 ? first : back;
+        c.left = side > 0 ? back : first;
+    } else if (!cut_by_wall(&c, first, side, rounding) || !cut_by_wall(&c, last, side, rounding)) {
         return false;
     }
     *opening_out = c;
@@ -64,12 +66,12 @@ static bool clip(const tl_nav_wedge *wedge, const tl_nav_ring_walls *walls, int 
 tl_result tl_nav_add_cones(tl_nav_cone_list *list, const tl_nav_visibility_graph *graph, uint32_t vertex,
                            const tl_nav_wedge *wedge)
 {
-    for (int hand = -1; hand <= 1; hand += 2) {
+    for (int side = -1; side <= 1; side += 2) {
         opening c;
-        if (!clip(wedge, &graph->vertices[vertex].walls, hand, graph->rounding, &c)) {
+        if (!clip_to_walls(wedge, &graph->vertices[vertex].walls, side, graph->rounding, &c)) {
             continue;
         }
-        tl_nav_corner_cone cone = { wedge->slot,      wedge->polygon,   vertex,          hand,
+        tl_nav_corner_cone cone = { wedge->slot,      wedge->polygon,   vertex,          side,
                                     (float)c.right.x, (float)c.right.z, (float)c.left.x, (float)c.left.z };
         if (list->count == list->capacity) {
             tl_nav_corner_cone *grown = tl_grow_array(list->allocator, list->cones, &list->capacity, sizeof *grown);
@@ -85,11 +87,10 @@ tl_result tl_nav_add_cones(tl_nav_cone_list *list, const tl_nav_visibility_graph
 
 static bool joins(const tl_nav_corner_cone *a, const tl_nav_corner_cone *b)
 {
-    return a->vertex == b->vertex && a->hand == b->hand && a->left_x == b->right_x && a->left_z == b->right_z;
+    return a->vertex == b->vertex && a->side == b->side && a->left_x == b->right_x && a->left_z == b->right_z;
 }
 
-// Joins the cones of a polygon that stand side by side; those of a corner vertex follow one another. Returns how many
-// are left.
+// Joins adjacent cones of a polygon; those of a corner vertex follow one another. Returns how many are left.
 static uint32_t join_cones(tl_nav_corner_cone *cones, uint32_t count)
 {
     uint32_t kept = 0;
@@ -115,12 +116,12 @@ static uint32_t join_cones(tl_nav_corner_cone *cones, uint32_t count)
 
 // The half plane left of a direction from a corner vertex, for points no farther from it than `size`.
 static void write_plane(const tl_nav_corner_vertex *vertex, double x, double z, double size, double rounding,
-                        float *x_out, float *z_out, float *least_out)
+                        float *x_out, float *z_out, float *min_out)
 {
     double at_vertex = x * (double)vertex->z - z * (double)vertex->x;
     *x_out = (float)x;
     *z_out = (float)z;
-    *least_out = (float)(at_vertex - 4.0 * rounding * (fabs(x) + fabs(z) + size));
+    *min_out = (float)(at_vertex - 4.0 * rounding * (fabs(x) + fabs(z) + size));
 }
 
 static void write_cone(const tl_navmesh *navmesh, const tl_nav_visibility_graph *graph, const tl_nav_corner_cone *cone,
@@ -140,13 +141,13 @@ static void write_cone(const tl_navmesh *navmesh, const tl_nav_visibility_graph 
     }
     double rounding = fmax(graph->rounding, TL_NAV_ON_LINE * largest);
     write_plane(vertex, (double)cone->left_x, (double)cone->left_z, size, rounding, &cones->left_x[at],
-                &cones->left_z[at], &cones->left_least[at]);
+                &cones->left_z[at], &cones->left_min[at]);
     write_plane(vertex, -(double)cone->right_x, -(double)cone->right_z, size, rounding, &cones->right_x[at],
-                &cones->right_z[at], &cones->right_least[at]);
+                &cones->right_z[at], &cones->right_min[at]);
     cones->vertex[at] = cone->vertex;
 }
 
-static bool make_room(const tl_allocator *allocator, tl_nav_corner_cones *cones)
+static bool allocate_cones(const tl_allocator *allocator, tl_nav_corner_cones *cones)
 {
     cones->size = 7 * ((uint64_t)cones->count + TL_NAV_CONES_AT_ONCE);
     cones->block = tl_allocate_array(allocator, cones->size, sizeof *cones->block);
@@ -154,8 +155,8 @@ static bool make_room(const tl_allocator *allocator, tl_nav_corner_cones *cones)
         return false;
     }
     memset(cones->block, 0, cones->size * sizeof *cones->block);
-    float **arrays[6] = { &cones->left_x,  &cones->left_z,  &cones->left_least,
-                          &cones->right_x, &cones->right_z, &cones->right_least };
+    float **arrays[6] = { &cones->left_x,  &cones->left_z,  &cones->left_min,
+                          &cones->right_x, &cones->right_z, &cones->right_min };
     for (uint32_t i = 0; i < 6; i++) {
         *arrays[i] = cones->block + i * (cones->size / 7);
     }
@@ -192,7 +193,7 @@ tl_result tl_nav_group_cones(tl_nav_cone_list *list, const tl_navmesh *navmesh, 
             cones->count += count;
         }
         first[graph->polygon_count] = cones->count;
-        fits = make_room(list->allocator, cones);
+        fits = allocate_cones(list->allocator, cones);
     }
     for (uint32_t i = 0; i < cones->count && fits; i++) {
         write_cone(navmesh, graph, &grouped[i], i);
@@ -213,15 +214,15 @@ typedef struct spot {
     tl_vec3 point;
 } spot;
 
-static float plan_distance(float x, float z, const tl_nav_corner_vertex *vertex)
+static float leg_length(float x, float z, const tl_nav_corner_vertex *vertex)
 {
     float to_x = x - vertex->x;
     float to_z = z - vertex->z;
     return sqrtf(to_x * to_x + to_z * to_z);
 }
 
-// The corner vertices in cone of a point; `other` is the other end of the path. TL_NAV_NO_NODE: there is no room for
-// them.
+// The corner vertices in whose cones a point lies; `other` is the other end of the path. TL_NAV_NO_NODE: they are more
+// than capacity.
 static uint32_t vertices_in_cones(const tl_nav_visibility_graph *graph, const spot *at, tl_vec3 other,
                                   tl_nav_corner_leg *legs_out, uint32_t capacity)
 {
@@ -234,8 +235,8 @@ static uint32_t vertices_in_cones(const tl_nav_visibility_graph *graph, const sp
         uint32_t is_in[TL_NAV_CONES_AT_ONCE];
         for (uint32_t k = 0; k < TL_NAV_CONES_AT_ONCE; k++) {
             uint32_t i = base + k;
-            is_in[k] = (cones->left_x[i] * z - cones->left_z[i] * x >= cones->left_least[i] ? 1u : 0u) &
-                       (cones->right_x[i] * z - cones->right_z[i] * x >= cones->right_least[i] ? 1u : 0u);
+            is_in[k] = (cones->left_x[i] * z - cones->left_z[i] * x >= cones->left_min[i] ? 1u : 0u) &
+                       (cones->right_x[i] * z - cones->right_z[i] * x >= cones->right_min[i] ? 1u : 0u);
         }
         if (capacity - count < TL_NAV_CONES_AT_ONCE) {
             return TL_NAV_NO_NODE;
@@ -247,8 +248,8 @@ static uint32_t vertices_in_cones(const tl_nav_visibility_graph *graph, const sp
     }
     for (uint32_t i = 0; i < count; i++) {
         const tl_nav_corner_vertex *vertex = &graph->vertices[legs_out[i].vertex];
-        legs_out[i].length = plan_distance(x, z, vertex);
-        legs_out[i].total = legs_out[i].length + plan_distance(other.x, other.z, vertex);
+        legs_out[i].length = leg_length(x, z, vertex);
+        legs_out[i].total = legs_out[i].length + leg_length(other.x, other.z, vertex);
     }
     return count;
 }

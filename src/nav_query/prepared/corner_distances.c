@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
 //
-// A table of the lengths of the shortest ways between all corner vertices, and of the corner vertices on them.
+// The table of all-pairs shortest distances between corner vertices, and of the next vertex on each path.
 //
-// For worlds of up to a few thousand corner vertices the table is small (6 bytes a pair), takes a Dijkstra a corner
-// vertex, and turns a search into some hundred look-ups. Floats do: which of two ways that differ by a rounding is
-// taken is no matter, and the length of a path is summed up anew from its corners.
+// For worlds of up to a few thousand corner vertices the table is small (6 bytes a pair), takes a Dijkstra search from
+// each, and turns a path search into some hundred look-ups. Floats are enough: which of two paths is taken whose
+// lengths differ by a rounding does not matter, and the length of a path is summed up anew from its corners.
 
-#include "nav_query/prepared/dijkstra.h"
+#include "nav_query/prepared/corner_distances.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "math/tolerance.h"
+#include "nav_query/prepared/dijkstra.h"
 
 #include <math.h>
 
 uint64_t tl_nav_corner_distances_size(const tl_nav_visibility_graph *graph)
 {
     uint64_t pairs = (uint64_t)graph->vertex_count * graph->vertex_count;
-    // Corner vertices have 16 bits in it.
-    return graph->vertex_count <= UINT16_MAX ? pairs * (sizeof *graph->table + sizeof *graph->table_way) : UINT64_MAX;
+    // A corner vertex has 16 bits in it.
+    return graph->vertex_count <= UINT16_MAX ? pairs * (sizeof *graph->table + sizeof *graph->table_next) : UINT64_MAX;
 }
 
 tl_result tl_nav_bake_corner_distances(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
@@ -27,13 +29,13 @@ tl_result tl_nav_bake_corner_distances(const tl_allocator *allocator, tl_nav_vis
     tl_nav_dijkstra lengths;
     TL_TRY(tl_nav_dijkstra_init(allocator, graph, &lengths));
     graph->table = tl_allocate_array(allocator, pairs, sizeof *graph->table);
-    graph->table_way = tl_allocate_array(allocator, pairs, sizeof *graph->table_way);
-    bool fits = graph->table != NULL && graph->table_way != NULL;
+    graph->table_next = tl_allocate_array(allocator, pairs, sizeof *graph->table_next);
+    bool fits = graph->table != NULL && graph->table_next != NULL;
     for (uint32_t i = 0; i < n && fits; i++) {
         tl_nav_dijkstra_run(&lengths, &i, 1);
         for (uint32_t k = 0; k < n; k++) {
             graph->table[(uint64_t)i * n + k] = (float)lengths.length[k];
-            graph->table_way[(uint64_t)i * n + k] = (uint16_t)lengths.before[k];
+            graph->table_next[(uint64_t)i * n + k] = (uint16_t)lengths.before[k];
         }
     }
     tl_nav_dijkstra_free(allocator, &lengths);
@@ -44,9 +46,9 @@ void tl_nav_free_corner_distances(const tl_allocator *allocator, tl_nav_visibili
 {
     uint64_t pairs = (uint64_t)graph->vertex_count * graph->vertex_count;
     tl_release_array(allocator, graph->table, pairs, sizeof *graph->table);
-    tl_release_array(allocator, graph->table_way, pairs, sizeof *graph->table_way);
+    tl_release_array(allocator, graph->table_next, pairs, sizeof *graph->table_next);
     graph->table = NULL;
-    graph->table_way = NULL;
+    graph->table_next = NULL;
 }
 
 static void swap(tl_nav_corner_leg *a, tl_nav_corner_leg *b)
@@ -56,7 +58,7 @@ static void swap(tl_nav_corner_leg *a, tl_nav_corner_leg *b)
     *b = kept;
 }
 
-// Moves the goals over which a way may be shorter than `best` to the front; returns how many they are.
+// Moves the legs to the goal by which a path may be shorter than `best` to the front; returns their number.
 static uint32_t drop_far_goals(tl_nav_corner_leg *goals, uint32_t count, float best)
 {
     uint32_t kept = 0;
@@ -70,7 +72,7 @@ static uint32_t drop_far_goals(tl_nav_corner_leg *goals, uint32_t count, float b
 
 tl_nav_meeting tl_nav_best_by_table(const tl_nav_visibility_graph *graph, tl_nav_ends *ends)
 {
-    // The most promising one first: it bounds what is worth a look. A total may be too long by its roundings.
+    // The leg of the lowest total first: it bounds the others. A total may be too long by its roundings.
     const float margin = 1.0f + TL_FLOAT_GAMMA(16);
     uint32_t goal_count = ends->goal_count;
     tl_nav_meeting best = { INFINITY, NULL, NULL, 0 };
@@ -104,4 +106,20 @@ tl_nav_meeting tl_nav_best_by_table(const tl_nav_visibility_graph *graph, tl_nav
         }
     }
     return best;
+}
+
+uint32_t tl_nav_unpack_table(const tl_nav_visibility_graph *graph, const tl_nav_meeting *meeting, uint64_t *vertices,
+                             uint32_t capacity)
+{
+    const uint16_t *next = graph->table_next + (uint64_t)meeting->start->vertex * graph->vertex_count;
+    uint32_t count = 0;
+    for (uint32_t at = meeting->goal->vertex;; at = next[at]) {
+        if (count == capacity) {
+            return UINT32_MAX;
+        }
+        vertices[count++] = at;
+        if (at == meeting->start->vertex) {
+            return count;
+        }
+    }
 }

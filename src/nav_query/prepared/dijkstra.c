@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Lengths along edges to all corner vertices: Dijkstra with a binary heap, in which a corner vertex stands once for
-// each time its length fell. Equal lengths go to the lower corner vertex, so that the same ways are found everywhere.
-// Source: Dijkstra, A note on two problems in connexion with graphs, 1959.
+// Dijkstra over the visibility graph, with a binary heap in which a vertex stands once for each time that its distance
+// fell. Ties go to the lower vertex, so that the same paths are found everywhere.
+// Source: Dijkstra, A Note on Two Problems in Connexion with Graphs, 1959.
 
 #include "nav_query/prepared/dijkstra.h"
 

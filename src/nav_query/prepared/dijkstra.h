@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Lengths along edges from any corner vertices to all others (dijkstra.c).
+// Shortest distances over the visibility graph from given vertices to all others (dijkstra.c).
 
 #ifndef TALUS_SRC_NAV_QUERY_DIJKSTRA_H
 #define TALUS_SRC_NAV_QUERY_DIJKSTRA_H

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// A path over edges as its caller wants it: its corners, and the polygons along each leg.
+// A path over the visibility graph, written: its corners, and the polygons along each leg.
 //
 // A leg ends in one of the polygons around a corner vertex and the next one begins in another: the polygons between
 // them, on the side away from the walls, belong to the path too.
 
-#include "nav_query/prepared/visibility_graph.h"
+#include "nav_query/prepared/graph_path.h"
 
 #include <math.h>
 #include <string.h>
@@ -58,17 +58,17 @@ typedef struct graph_path {
     tl_vec3 last; // corner
 } graph_path;
 
-static double plan_distance(tl_vec3 a, tl_vec3 b)
+static double corner_distance(tl_vec3 a, tl_vec3 b)
 {
     double x = (double)b.x - (double)a.x;
     double z = (double)b.z - (double)a.z;
     return sqrt(x * x + z * z);
 }
 
-static void add_corner(graph_path *p, tl_vec3 point, tl_nav_ref polygon, uint32_t flags)
+static void add_path_corner(graph_path *p, tl_vec3 point, tl_nav_ref polygon, uint32_t flags)
 {
     if (p->path->corner_count > 0) {
-        p->path->length += plan_distance(p->last, point);
+        p->path->length += corner_distance(p->last, point);
         p->path->surface_length += (double)tl_distance(p->last, point);
     }
     if (p->path->corner_count < p->room->corner_capacity) {
@@ -80,7 +80,7 @@ static void add_corner(graph_path *p, tl_vec3 point, tl_nav_ref polygon, uint32_
 }
 
 // Adds a corner vertex as a corner, unless the path goes straight on there.
-static void add_vertex(graph_path *p, tl_vec3 point, tl_vec3 next, tl_nav_ref polygon, bool is_left)
+static void add_corner_vertex(graph_path *p, tl_vec3 point, tl_vec3 next, tl_nav_ref polygon, bool is_left)
 {
     double x = (double)point.x - (double)p->last.x;
     double z = (double)point.z - (double)p->last.z;
@@ -92,7 +92,7 @@ static void add_vertex(graph_path *p, tl_vec3 point, tl_vec3 next, tl_nav_ref po
     } else if (x * on_x + z * on_z >= 0.0) {
         return;
     }
-    add_corner(p, point, polygon, is_left ? TL_NAV_CORNER_LEFT : TL_NAV_CORNER_RIGHT);
+    add_path_corner(p, point, polygon, is_left ? TL_NAV_CORNER_LEFT : TL_NAV_CORNER_RIGHT);
 }
 
 // Polygons along a line behind a place of a fan, and around the fan to that place.
@@ -128,7 +128,7 @@ static uint32_t next_in_fan(const tl_nav_ring_place *fan, uint32_t count, uint32
 }
 
 // Goes around a corner vertex from the last polygon to the one into which the next leg leads.
-static bool turn_at(graph_path *p, const tl_nav_corner_vertex *vertex, const tl_nav_line *line, tl_vec3 next)
+static bool turn_around(graph_path *p, const tl_nav_corner_vertex *vertex, const tl_nav_line *line, tl_vec3 next)
 {
     const tl_navmesh *navmesh = p->search->navmesh;
     tl_nav_ring_place fan[TL_NAV_MAX_FAN];
@@ -145,8 +145,8 @@ static bool turn_at(graph_path *p, const tl_nav_corner_vertex *vertex, const tl_
         tl_nav_add_to_trail(&p->trail, navmesh, fan[i].slot, fan[i].polygon);
     }
     tl_nav_add_to_trail(&p->trail, navmesh, fan[to].slot, fan[to].polygon);
-    add_vertex(p, tl_vec3_make(vertex->x, vertex->y, vertex->z), next,
-               tl_nav_make_ref(navmesh, fan[to].slot, fan[to].polygon), to > from);
+    add_corner_vertex(p, tl_vec3_make(vertex->x, vertex->y, vertex->z), next,
+                      tl_nav_make_ref(navmesh, fan[to].slot, fan[to].polygon), to > from);
     return true;
 }
 
@@ -165,7 +165,7 @@ static bool add_leg(graph_path *p, const tl_nav_corner_vertex *from, const tl_na
                          search->goal_slot,
                          search->goal_polygon,
                          p->graph->rounding };
-    if (from != NULL && !turn_at(p, from, &line, next)) {
+    if (from != NULL && !turn_around(p, from, &line, next)) {
         return false;
     }
     uint32_t slot = from != NULL ? p->trail.slot : search->start_slot;
@@ -182,8 +182,8 @@ uint32_t tl_nav_write_graph_path(const tl_nav_shortest_search *search, const tl_
     graph_path p = {
         search, graph, room, path_out, { room->polygons, room->polygon_capacity, 0, 0, 0 }, search->start
     };
-    add_corner(&p, search->start, tl_nav_make_ref(navmesh, search->start_slot, search->start_polygon),
-               TL_NAV_CORNER_START);
+    add_path_corner(&p, search->start, tl_nav_make_ref(navmesh, search->start_slot, search->start_polygon),
+                    TL_NAV_CORNER_START);
     const tl_nav_corner_vertex *from = NULL;
     for (uint32_t i = 0; i <= vertex_count; i++) {
         const tl_nav_corner_vertex *to = i < vertex_count ? &graph->vertices[vertices[vertex_count - 1 - i]] : NULL;
@@ -192,7 +192,8 @@ uint32_t tl_nav_write_graph_path(const tl_nav_shortest_search *search, const tl_
         }
         from = to;
     }
-    add_corner(&p, search->goal, tl_nav_make_ref(navmesh, search->goal_slot, search->goal_polygon), TL_NAV_CORNER_END);
+    add_path_corner(&p, search->goal, tl_nav_make_ref(navmesh, search->goal_slot, search->goal_polygon),
+                    TL_NAV_CORNER_END);
     path_out->status = TL_NAV_PATH_COMPLETE;
     path_out->polygon_count = p.trail.count;
     path_out->lower_bound = fmin(search->lower_bound, path_out->length);

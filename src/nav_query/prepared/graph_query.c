@@ -1,35 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// The shortest path on a prepared navmesh: the straight line where it arrives, else over corner vertices.
+// The shortest path on a prepared navmesh: the straight line where it arrives, else one over corner vertices.
 //
-// With a table of all lengths between corner vertices, or labels, nothing is searched: of the corner vertices that the
-// start and the goal have in cone, the pair with the shortest way is the path. It is read off by walking along its
-// legs; a first or last leg that was in cone by rounding only is struck out, and the next best pair taken. What is
-// offered is never too long, so the first path that can be walked is the shortest of all. Source: Shen, Cheema,
-// Harabor, Stuckey, Euclidean Pathfinding with Compressed Path Databases, IJCAI 2020 (corner vertices in cone of both
-// ends, and lengths between them that are known).
+// With the table of distances, or hub labels, nothing is searched: of the corner vertices in whose visibility cones the
+// start and the goal lie, the pair with the shortest path is the answer. The path is read off by walking along its
+// legs; a first or last leg that rounding alone put into a cone is struck out, and the next best pair taken. No
+// distance is too long, so the first path that can be walked is the shortest of all. Source: Shen, Cheema, Harabor,
+// Stuckey, Euclidean Pathfinding with Compressed Path Databases, IJCAI 2020.
 
+#include "nav_query/prepared/graph_query.h"
+#include "nav_query/prepared/corner_distances.h"
+#include "nav_query/prepared/graph_path.h"
 #include "nav_query/prepared/graph_search.h"
 #include "nav_query/search/root_table.h"
 
 #include <string.h>
-
-// The corner vertices on the way of a pair, the last one first; UINT32_MAX: more than there is room for.
-static uint32_t unpack(const tl_nav_visibility_graph *graph, uint32_t first, uint32_t last, uint64_t *vertices,
-                       uint32_t capacity)
-{
-    const uint16_t *way = graph->table_way + (uint64_t)first * graph->vertex_count;
-    uint32_t count = 0;
-    for (uint32_t at = last;; at = way[at]) {
-        if (count == capacity) {
-            return UINT32_MAX;
-        }
-        vertices[count++] = at;
-        if (at == first) {
-            return count;
-        }
-    }
-}
 
 // The best pair, and the corner vertices on its way, in query->on_path.
 static tl_nav_meeting best_pair(tl_nav_query *query, const tl_nav_visibility_graph *graph, tl_nav_ends *ends,
@@ -38,13 +23,12 @@ static tl_nav_meeting best_pair(tl_nav_query *query, const tl_nav_visibility_gra
     tl_nav_meeting best;
     if (graph->table != NULL) {
         best = tl_nav_best_by_table(graph, ends);
-        *count_out = best.start != NULL
-                         ? unpack(graph, best.start->vertex, best.goal->vertex, query->on_path, query->max_nodes)
-                         : UINT32_MAX;
+        *count_out =
+            best.start != NULL ? tl_nav_unpack_table(graph, &best, query->on_path, query->max_nodes) : UINT32_MAX;
     } else {
         best = tl_nav_best_by_labels(graph, ends, query->to_hub);
         *count_out =
-            best.start != NULL ? tl_nav_unpack_meeting(graph, &best, query->on_path, query->max_nodes) : UINT32_MAX;
+            best.start != NULL ? tl_nav_unpack_labels(graph, &best, query->on_path, query->max_nodes) : UINT32_MAX;
     }
     return best;
 }

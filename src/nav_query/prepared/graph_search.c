@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Shortest paths over edges: A*, from the start's corner vertices to the goal's.
+// A* over the visibility graph, from the corner vertices that the start may see to those that the goal may see.
 //
-// Cones (corner_cones.c) tell which corner vertices the start and the goal see, but for rounding: when one is taken up
-// the line is walked, and what is not seen is crossed out. An edge is gone only where the path turns around the corner
-// vertex's walls. Estimates are the straight line and landmarks (landmarks.c). Measured on a city of 25,000 polygons:
-// 340 corner vertices are taken up where the search over polygons takes up 10,000 wedges. Source: Hart, Nilsson,
-// Raphael 1968; Goldberg and Harrelson 2005; Oh and Leong, Edge N-Level Sparse Visibility Graphs, 2017 (why only taut
-// turns need be looked at).
+// Visibility cones (corner_cones.c) tell which those are, but for rounding: when one is expanded its line is walked,
+// and dropped if it is blocked. An edge is followed only where the path turns around the vertex's walls. Estimates are
+// the straight line and landmarks (landmarks.c). On a city of 25,000 polygons 340 vertices are expanded where the
+// search over polygons expands 10,000 wedges. Source: Hart, Nilsson, Raphael 1968; Goldberg and Harrelson 2005; Oh and
+// Leong, Edge N-Level Sparse Visibility Graphs, 2017 (why only taut turns need be looked at).
 
 #include "nav_query/prepared/graph_search.h"
 
 #include "nav_query/exact/wedge_sight.h"
+#include "nav_query/prepared/graph_path.h"
+#include "nav_query/prepared/landmarks.h"
 #include "nav_query/search/open_items.h"
 #include "nav_query/search/root_table.h"
 #include "nav_query/search/straight_line.h"
@@ -82,7 +83,7 @@ static void open_stop(graph_search *s, uint32_t index)
 
 // Offers a way to a corner vertex, which is at (x, z). The corner vertex's stop when that is better than what was
 // known.
-static uint32_t relax(graph_search *s, uint32_t vertex, float x, float z, double cost, uint32_t parent)
+static uint32_t relax_stop(graph_search *s, uint32_t vertex, float x, float z, double cost, uint32_t parent)
 {
     uint32_t index = stop_at(s, vertex);
     if (index == TL_NAV_NO_NODE) {
@@ -106,7 +107,7 @@ static tl_nav_line make_line(const graph_search *s, double x, double z, double t
     return line;
 }
 
-static bool sees(graph_search *s, const tl_nav_line *line, uint32_t slot, uint32_t polygon)
+static bool sees_end(graph_search *s, const tl_nav_line *line, uint32_t slot, uint32_t polygon)
 {
     tl_nav_line_end end = tl_nav_walk_line(line, slot, polygon, NULL);
     s->is_unclear = s->is_unclear || end == TL_NAV_LINE_UNCLEAR;
@@ -148,15 +149,15 @@ static void open_start(graph_search *s)
     }
 }
 
-// A path that came along (x, z) and may turn to these hands: whether it may go on along (to_x, to_z).
-static bool goes_on(const graph_search *s, uint32_t hands, double x, double z, double to_x, double to_z)
+// A path that came along (x, z) and may turn to these turns: whether it may go on along (to_x, to_z).
+static bool may_go_on(const graph_search *s, uint32_t turns, double x, double z, double to_x, double to_z)
 {
     double turn = x * to_z - z * to_x;
     double slack = 2.0 * s->rounding * (fabs(x) + fabs(z) + fabs(to_x) + fabs(to_z));
-    return (turn >= -slack || (hands & TL_NAV_TURN_LEFT) != 0) && (turn <= slack || (hands & TL_NAV_TURN_RIGHT) != 0);
+    return (turn >= -slack || (turns & TL_NAV_TURN_LEFT) != 0) && (turn <= slack || (turns & TL_NAV_TURN_RIGHT) != 0);
 }
 
-static void expand(graph_search *s, uint32_t index)
+static void expand_stop(graph_search *s, uint32_t index)
 {
     const tl_nav_stop stop = s->query->stops[index];
     const tl_nav_corner_vertex *vertex = &s->graph->vertices[stop.vertex];
@@ -164,20 +165,21 @@ static void expand(graph_search *s, uint32_t index)
         stop.parent != TL_NAV_NO_NODE ? &s->graph->vertices[s->query->stops[stop.parent].vertex] : NULL;
     double x = (double)vertex->x - (from != NULL ? (double)from->x : s->start_x);
     double z = (double)vertex->z - (from != NULL ? (double)from->z : s->start_z);
-    uint32_t hands = tl_nav_hands_at(vertex, x, z, s->rounding);
+    uint32_t turns = tl_nav_turns_at(vertex, x, z, s->rounding);
     for (uint32_t k = vertex[0].first_edge; k < vertex[1].first_edge; k++) {
         const tl_nav_visibility_edge *edge = &s->graph->edges[k];
         double on_x = (double)edge->x - (double)vertex->x;
         double on_z = (double)edge->z - (double)vertex->z;
-        if (!goes_on(s, hands, x, z, on_x, on_z)) {
+        if (!may_go_on(s, turns, x, z, on_x, on_z)) {
             continue;
         }
-        uint32_t next = relax(s, edge->to, edge->x, edge->z, stop.cost + sqrt(on_x * on_x + on_z * on_z), index);
+        uint32_t next = relax_stop(s, edge->to, edge->x, edge->z, stop.cost + sqrt(on_x * on_x + on_z * on_z), index);
         if (next != TL_NAV_NO_NODE) {
             open_stop(s, next);
         }
     }
-    if (stop.to_goal >= 0.0 && goes_on(s, hands, x, z, s->goal_x - (double)vertex->x, s->goal_z - (double)vertex->z)) {
+    if (stop.to_goal >= 0.0 &&
+        may_go_on(s, turns, x, z, s->goal_x - (double)vertex->x, s->goal_z - (double)vertex->z)) {
         uint32_t goal = new_stop(s, GOAL_VERTEX);
         if (goal != TL_NAV_NO_NODE) {
             tl_nav_stop *last = &s->query->stops[goal];
@@ -197,7 +199,7 @@ static bool arrives(graph_search *s, const tl_nav_stop *goal)
     tl_nav_ring_place fan[TL_NAV_MAX_FAN];
     uint32_t count = tl_nav_fan_of(s->in->navmesh, vertex, fan);
     for (uint32_t i = 0; i < count; i++) {
-        if (tl_nav_line_enters(&line, &fan[i]) && sees(s, &line, fan[i].slot, fan[i].polygon)) {
+        if (tl_nav_line_enters(&line, &fan[i]) && sees_end(s, &line, fan[i].slot, fan[i].polygon)) {
             return true;
         }
     }
@@ -210,7 +212,7 @@ static bool departs(graph_search *s, const tl_nav_stop *stop)
     const tl_nav_corner_vertex *vertex = &s->graph->vertices[stop->vertex];
     tl_nav_line line = make_line(s, s->start_x, s->start_z, (double)vertex->x, (double)vertex->z);
     line.turn = vertex->turn;
-    return sees(s, &line, s->in->start_slot, s->in->start_polygon);
+    return sees_end(s, &line, s->in->start_slot, s->in->start_polygon);
 }
 
 // Landmarks are looked at for stops that come to the top only. Whether they say more than the straight line does.
@@ -231,7 +233,7 @@ static bool raise_estimate(graph_search *s, uint32_t index)
 }
 
 // Takes up stops, the least total first, until the goal is one. TL_NAV_NO_NODE: it gave up.
-static uint32_t run(graph_search *s)
+static uint32_t run_stops(graph_search *s)
 {
     tl_nav_query *query = s->query;
     while (query->open_count > 0 && !s->is_unclear) {
@@ -249,13 +251,13 @@ static uint32_t run(graph_search *s)
         } else if (stop->is_start) {
             if (departs(s, stop)) {
                 const tl_nav_corner_vertex *vertex = &s->graph->vertices[stop->vertex];
-                uint32_t seen = relax(s, stop->vertex, vertex->x, vertex->z, stop->cost, TL_NAV_NO_NODE);
+                uint32_t seen = relax_stop(s, stop->vertex, vertex->x, vertex->z, stop->cost, TL_NAV_NO_NODE);
                 if (seen != TL_NAV_NO_NODE) {
-                    expand(s, seen);
+                    expand_stop(s, seen);
                 }
             }
         } else {
-            expand(s, next.index);
+            expand_stop(s, next.index);
         }
     }
     return TL_NAV_NO_NODE;
@@ -281,7 +283,7 @@ bool tl_nav_search_graph(tl_nav_shortest_search *search, const tl_nav_visibility
     query->open_count = 0;
     prepare_goal(&s);
     open_start(&s);
-    uint32_t last = run(&s);
+    uint32_t last = run_stops(&s);
     if (last == TL_NAV_NO_NODE || s.is_unclear) {
         return false;
     }

@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: MIT
 //
-// Hub labels: for each corner vertex the lengths to a few hundred hubs, so chosen that of any two corner vertices a
-// shortest way passes a hub of both.
+// Hub labels: for each corner vertex the distances to a few hundred hubs, chosen so that a shortest path between any
+// two vertices passes a hub of both.
 //
-// Where a table of all corner vertices is too large, on a city of 25,000 corner vertices 3.6 GB, labels take a
-// hundredth or less. They are found by a Dijkstra a corner vertex, the most travelled corner vertices first, that goes
-// no farther than where the labels so far know a way as short. How much a corner vertex is travelled is counted on
-// shortest path trees of a sample. The first edge to its hub stands in each label, so that the corner vertices of a way
-// are read off. A query adds the legs of the start's corner vertices to their labels, hub by hub, and looks the goal's
-// up there. Rejected: an elimination tree (Ouyang et al. 2018) needs no hub's number, but sight along streets makes its
-// separators wide: 1,900 lengths a corner vertex on that city.
-// Source: Akiba, Iwata, Yoshida, Fast Exact Shortest-Path Distance Queries on Large Networks by Pruned Landmark
-// Labeling, SIGMOD 2013; Du, Shen, Cheema, Ultrafast Euclidean Shortest Path Computation Using Hub Labeling, AAAI 2023.
+// Where a table of all pairs is too large, 3.6 GB on a city of 25,000 corner vertices, labels take a hundredth or less.
+// They are found by a pruned Dijkstra search from each vertex, the most travelled vertices first, that stops where the
+// labels so far know a path as short. How much a vertex is travelled is counted on shortest path trees of a sample.
+// Each label holds the first edge to its hub, so that the vertices of a path are read off. A query adds the lengths of
+// the start's legs to their labels, hub by hub, and looks the goal's hubs up there. Rejected: an elimination tree
+// (Ouyang et al. 2018) needs no hub's number, but sight along streets makes its separators wide: 1,900 distances a
+// vertex on that city. Source: Akiba, Iwata, Yoshida, Fast Exact Shortest-Path Distance Queries on Large Networks by
+// Pruned Landmark Labeling, SIGMOD 2013; Du, Shen, Cheema, Ultrafast Euclidean Shortest Path Computation Using Hub
+// Labeling, AAAI 2023.
 
-#include "nav_query/prepared/dijkstra.h"
+#include "nav_query/prepared/hub_labels.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/compiler.h"
 #include "base/radix_sort.h"
 #include "math/tolerance.h"
+#include "nav_query/prepared/dijkstra.h"
+#include "nav_query/prepared/landmarks.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { SAMPLES = 128, FIRST_LABELS = 8 };
+enum { SAMPLE_TREES = 128, FIRST_LABELS = 8 };
 
 // The labels of a corner vertex while they are found.
 typedef struct growing_label {
@@ -47,7 +49,7 @@ typedef struct labeller {
 static void order_vertices(labeller *l, uint32_t *behind)
 {
     uint32_t n = l->graph->vertex_count;
-    uint32_t samples = n < SAMPLES ? n : SAMPLES;
+    uint32_t samples = n < SAMPLE_TREES ? n : SAMPLE_TREES;
     for (uint32_t i = 0; i < n; i++) {
         tl_sort_item item = { UINT64_MAX, i, 0 };
         l->order[i] = item;
@@ -69,7 +71,7 @@ static void order_vertices(labeller *l, uint32_t *behind)
 }
 
 // Whether labels know a way from the root at hand to a corner vertex that is as short, within their rounding.
-static bool is_known(const labeller *l, uint32_t vertex, double length)
+static bool is_known_by_labels(const labeller *l, uint32_t vertex, double length)
 {
     const growing_label *label = &l->labels[vertex];
     float limit = (float)(length * (1.0 + (double)TL_FLOAT_GAMMA(3)));
@@ -136,7 +138,7 @@ static tl_result label_from(labeller *l, uint32_t rank)
     tl_nav_dijkstra_open(s, 0.0, root);
     while (s->heap_count > 0 && result == TL_OK) {
         tl_nav_open_vertex next = tl_nav_dijkstra_next(s);
-        if (next.length > s->length[next.vertex] || is_known(l, next.vertex, next.length)) {
+        if (next.length > s->length[next.vertex] || is_known_by_labels(l, next.vertex, next.length)) {
             continue;
         }
         result = add_label(l, next.vertex, rank, next.length);
@@ -182,7 +184,7 @@ static tl_result label_all(labeller *l, uint32_t *behind)
 }
 
 // Puts all labels into one array.
-static tl_result gather(labeller *l)
+static tl_result gather_labels(labeller *l)
 {
     tl_nav_hub_labels *labels = &l->graph->labels;
     uint32_t n = l->graph->vertex_count;
@@ -236,7 +238,7 @@ tl_result tl_nav_bake_hub_labels(const tl_allocator *allocator, tl_nav_visibilit
     tl_result result = TL_ERR_MEMORY;
     if (behind != NULL && l.labels != NULL && l.order != NULL && l.to_root != NULL) {
         result = label_all(&l, behind);
-        result = result == TL_OK ? gather(&l) : result;
+        result = result == TL_OK ? gather_labels(&l) : result;
         for (uint32_t i = 0; i < n; i++) {
             tl_release_array(allocator, l.labels[i].hubs, l.labels[i].capacity, sizeof(tl_nav_hub));
         }
@@ -381,8 +383,8 @@ static uint32_t walk_to_hub(const tl_nav_visibility_graph *graph, uint32_t verte
     }
 }
 
-uint32_t tl_nav_unpack_meeting(const tl_nav_visibility_graph *graph, const tl_nav_meeting *meeting, uint64_t *vertices,
-                               uint32_t capacity)
+uint32_t tl_nav_unpack_labels(const tl_nav_visibility_graph *graph, const tl_nav_meeting *meeting, uint64_t *vertices,
+                              uint32_t capacity)
 {
     uint32_t count = walk_to_hub(graph, meeting->goal->vertex, meeting->hub, vertices, capacity);
     if (count == UINT32_MAX) {

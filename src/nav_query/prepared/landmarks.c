@@ -1,75 +1,76 @@
 // SPDX-License-Identifier: MIT
 //
-// Landmarks: lengths along edges from a few far places to every corner vertex, which bound how long a way must at least
-// be.
+// Landmarks: distances from a few far places to every corner vertex, which bound other distances from below (ALT).
 //
-// A landmark length is the length from the nearest of a set of places. Along an edge it changes by no more than the
-// edge is long, so the difference of two corner vertices' landmark lengths is a lower bound for the way between them;
-// on a city the largest of 16 is 5% below the truth where the straight line is 11% below, and a search looks at a third
-// of the corner vertices. Sets have one place in each part that hangs together, each as far as possible from those
-// before it. Source: Goldberg and Harrelson, Computing the Shortest Path: A* Search Meets Graph Theory, 2005.
+// A landmark here is a set of places, and its distance that from the nearest of them. Along an edge it changes by no
+// more than the edge is long (the triangle inequality), so the difference of two vertices' distances is a lower bound
+// for the path between them. On a city the largest of 16 bounds is 5% below the truth where the straight line is 11%
+// below, and a search looks at a third of the vertices. A set has one place in each connected component, each as far as
+// possible from those of earlier sets.
+// Source: Goldberg and Harrelson, Computing the Shortest Path: A* Search Meets Graph Theory, 2005.
 
-#include "nav_query/prepared/dijkstra.h"
+#include "nav_query/prepared/landmarks.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "math/tolerance.h"
+#include "nav_query/prepared/dijkstra.h"
 
 #include <math.h>
 #include <string.h>
 
-typedef struct spread {
+typedef struct landmark_spread {
     const tl_nav_visibility_graph *graph;
     tl_nav_dijkstra lengths;
-    uint32_t *part;   // by corner vertex: what hangs together
-    uint32_t *source; // by part: the place in the set at hand
-    uint32_t part_count;
+    uint32_t *component; // by corner vertex
+    uint32_t *source;    // by component: its place in the current set
+    uint32_t component_count;
     double *nearest; // by corner vertex: length to any set so far
-} spread;
+} landmark_spread;
 
-// Labels parts; the first source of each is its first corner vertex.
-static void find_parts(spread *s, uint32_t *stack)
+// Labels connected components; the first source of each is its first vertex.
+static void find_components(landmark_spread *s, uint32_t *stack)
 {
-    memset(s->part, 0xff, s->graph->vertex_count * sizeof *s->part);
+    memset(s->component, 0xff, s->graph->vertex_count * sizeof *s->component);
     for (uint32_t i = 0; i < s->graph->vertex_count; i++) {
-        if (s->part[i] != UINT32_MAX) {
+        if (s->component[i] != UINT32_MAX) {
             continue;
         }
         uint32_t depth = 0;
-        s->source[s->part_count] = i;
-        s->part[i] = s->part_count;
+        s->source[s->component_count] = i;
+        s->component[i] = s->component_count;
         stack[depth++] = i;
         while (depth > 0) {
             const tl_nav_corner_vertex *vertex = &s->graph->vertices[stack[--depth]];
             for (uint32_t k = vertex[0].first_edge; k < vertex[1].first_edge; k++) {
                 uint32_t to = s->graph->edges[k].to;
-                if (s->part[to] == UINT32_MAX) {
-                    s->part[to] = s->part_count;
+                if (s->component[to] == UINT32_MAX) {
+                    s->component[to] = s->component_count;
                     stack[depth++] = to;
                 }
             }
         }
-        s->part_count++;
+        s->component_count++;
     }
 }
 
-static void choose_sources(spread *s)
+static void choose_sources(landmark_spread *s)
 {
     for (uint32_t i = 0; i < s->graph->vertex_count; i++) {
-        uint32_t *source = &s->source[s->part[i]];
+        uint32_t *source = &s->source[s->component[i]];
         *source = s->nearest[i] > s->nearest[*source] ? i : *source;
     }
 }
 
-static void measure_landmarks(spread *s, tl_nav_visibility_graph *graph, uint32_t *stack)
+static void measure_landmarks(landmark_spread *s, tl_nav_visibility_graph *graph, uint32_t *stack)
 {
     double longest = 0.0;
-    find_parts(s, stack);
-    tl_nav_dijkstra_run(&s->lengths, s->source, s->part_count);
+    find_components(s, stack);
+    tl_nav_dijkstra_run(&s->lengths, s->source, s->component_count);
     memcpy(s->nearest, s->lengths.length, graph->vertex_count * sizeof *s->nearest);
     for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
         choose_sources(s);
-        tl_nav_dijkstra_run(&s->lengths, s->source, s->part_count);
+        tl_nav_dijkstra_run(&s->lengths, s->source, s->component_count);
         for (uint32_t i = 0; i < graph->vertex_count; i++) {
             graph->landmarks[i][k] = (float)s->lengths.length[i];
             longest = fmax(longest, s->lengths.length[i]);
@@ -83,21 +84,21 @@ static void measure_landmarks(spread *s, tl_nav_visibility_graph *graph, uint32_
 
 tl_result tl_nav_find_landmarks(const tl_allocator *allocator, tl_nav_visibility_graph *graph)
 {
-    spread s;
+    landmark_spread s;
     memset(&s, 0, sizeof s);
     s.graph = graph;
     TL_TRY(tl_nav_dijkstra_init(allocator, graph, &s.lengths));
     uint32_t *stack = tl_allocate_array(allocator, graph->vertex_count, sizeof *stack);
-    s.part = tl_allocate_array(allocator, graph->vertex_count, sizeof *s.part);
+    s.component = tl_allocate_array(allocator, graph->vertex_count, sizeof *s.component);
     s.source = tl_allocate_array(allocator, graph->vertex_count, sizeof *s.source);
     s.nearest = tl_allocate_array(allocator, graph->vertex_count, sizeof *s.nearest);
-    bool fits = stack != NULL && s.part != NULL && s.source != NULL && s.nearest != NULL;
+    bool fits = stack != NULL && s.component != NULL && s.source != NULL && s.nearest != NULL;
     if (fits) {
         measure_landmarks(&s, graph, stack);
     }
     tl_nav_dijkstra_free(allocator, &s.lengths);
     tl_release_array(allocator, stack, graph->vertex_count, sizeof *stack);
-    tl_release_array(allocator, s.part, graph->vertex_count, sizeof *s.part);
+    tl_release_array(allocator, s.component, graph->vertex_count, sizeof *s.component);
     tl_release_array(allocator, s.source, graph->vertex_count, sizeof *s.source);
     tl_release_array(allocator, s.nearest, graph->vertex_count, sizeof *s.nearest);
     return fits ? TL_OK : TL_ERR_MEMORY;
@@ -107,16 +108,16 @@ void tl_nav_bound_by_landmarks(const tl_nav_visibility_graph *graph, const tl_na
                                tl_nav_landmark_bounds *bounds_out)
 {
     for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
-        bounds_out->least[k] = INFINITY;
-        bounds_out->most[k] = -INFINITY;
+        bounds_out->upper[k] = INFINITY;
+        bounds_out->lower[k] = -INFINITY;
     }
     for (uint32_t i = 0; i < count; i++) {
         const float *landmarks = graph->landmarks[legs[i].vertex];
         for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
             float up = landmarks[k] + legs[i].length;
             float down = landmarks[k] - legs[i].length;
-            bounds_out->least[k] = up < bounds_out->least[k] ? up : bounds_out->least[k];
-            bounds_out->most[k] = down > bounds_out->most[k] ? down : bounds_out->most[k];
+            bounds_out->upper[k] = up < bounds_out->upper[k] ? up : bounds_out->upper[k];
+            bounds_out->lower[k] = down > bounds_out->lower[k] ? down : bounds_out->lower[k];
         }
     }
 }
@@ -126,8 +127,8 @@ float tl_nav_min_by_landmarks(const tl_nav_visibility_graph *graph, const tl_nav
     const float *landmarks = graph->landmarks[vertex];
     float bounds[TL_NAV_LANDMARKS];
     for (uint32_t k = 0; k < TL_NAV_LANDMARKS; k++) {
-        float down = landmarks[k] - end->most[k];
-        float up = end->least[k] - landmarks[k];
+        float down = landmarks[k] - end->lower[k];
+        float up = end->upper[k] - landmarks[k];
         bounds[k] = down > up ? down : up;
     }
     for (uint32_t half = TL_NAV_LANDMARKS / 2; half > 0; half /= 2) {

@@ -2,6 +2,7 @@
 //
 // Preparing a navmesh for shortest paths: its visibility graph, and a table of distances or hub labels if they fit.
 
+#include "nav_query/prepared/corner_distances.h"
 #include "nav_query/prepared/visibility_graph.h"
 
 #include "base/assert.h"

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// Finding the edges of a navmesh: from each corner vertex all that is seen is looked at once, by the wedges of the
-// exact search.
+// Baking the visibility graph: from each corner vertex all that is seen is looked at once, by wedges of the exact
+// search.
 //
-// An edge needs a corner vertex that sees another one, and at both ends walls on the hand to which a path would turn:
-// few lines of sight are left. On a city of 25,000 polygons there are 25,000 corner vertices with 14 edges each, found
-// in 0.4 s. Where a polygon is linked to two floors over the same stretch of a seam, a ring_vertex has several free
-// ways around it (fans.c) and no one number; such a navmesh gets no edges. Source: de Berg et al., Computational
-// Geometry, 3rd edition, 2008, chapter 15 (the visibility graph and why only lines that touch both obstacles count).
+// An edge needs two corner vertices that see one another, and at both ends walls on the side to which a path would
+// turn: few lines of sight are left. A city of 25,000 polygons has 25,000 corner vertices with 14 edges each, found in
+// 0.4 s. Where a polygon is linked to two floors over the same stretch of a seam, a vertex has several free ways around
+// it (fans.c) and no single number; such a navmesh gets no graph.
+// Source: Lozano-Perez and Wesley, An Algorithm for Planning Collision-Free Paths Among Polyhedral Obstacles, 1979 (the
+// visibility graph); de Berg et al., Computational Geometry, 3rd edition, 2008, chapter 15 (why only lines that touch
+// both obstacles count).
 
 #include "nav_query/prepared/visibility_graph.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
 #include "nav_query/exact/wedge_sight.h"
+#include "nav_query/prepared/corner_distances.h"
+#include "nav_query/prepared/landmarks.h"
 
 #include <string.h>
 
@@ -26,7 +30,7 @@ typedef struct pair_list {
     uint64_t count, capacity;
 } pair_list;
 
-typedef struct builder {
+typedef struct graph_baker {
     tl_navmesh *navmesh;
     tl_allocator allocator;
     tl_nav_visibility_graph *graph;
@@ -37,9 +41,9 @@ typedef struct builder {
     tl_nav_cone_list cones;
     uint32_t vertex;  // that looks
     tl_result result; // of the lists
-} builder;
+} graph_baker;
 
-static void add_pair(builder *b, uint32_t key, uint32_t value)
+static void add_pair(graph_baker *b, uint32_t key, uint32_t value)
 {
     pair_list *list = &b->sights;
     if (list->count == list->capacity) {
@@ -53,7 +57,7 @@ static void add_pair(builder *b, uint32_t key, uint32_t value)
     list->pairs[list->count++] = (uint64_t)key << 32 | value;
 }
 
-static uint32_t count_vertices(builder *b)
+static uint32_t count_vertices(graph_baker *b)
 {
     uint32_t vertices = 0;
     memset(b->vertex_of, 0xff, b->fan_count * sizeof *b->vertex_of);
@@ -70,7 +74,7 @@ static uint32_t count_vertices(builder *b)
     return vertices;
 }
 
-static void fill_vertex(builder *b, tl_nav_ring_place place)
+static void fill_corner_vertex(graph_baker *b, tl_nav_ring_place place)
 {
     uint32_t count = 0;
     const tl_nav_ring_edge *ring_vertex = tl_nav_ring_at(b->navmesh, place.slot, place.polygon, &count) + place.edge;
@@ -92,7 +96,7 @@ static void fill_vertex(builder *b, tl_nav_ring_place place)
     b->graph->rounding = fmax(b->graph->rounding, TL_NAV_ON_LINE * fmax(x, z));
 }
 
-static void fill_vertices(builder *b)
+static void fill_corner_vertices(graph_baker *b)
 {
     for (uint32_t slot = 0; slot < b->navmesh->slot_count; slot++) {
         const tl_nav_rings *rings = &b->navmesh->slots[slot].rings;
@@ -101,7 +105,7 @@ static void fill_vertices(builder *b)
             b->graph->polygon_count++;
             for (uint32_t i = 0; i < rings->cells[p + 1].first - rings->cells[p].first; i++) {
                 tl_nav_ring_place place = { slot, p, i };
-                fill_vertex(b, place);
+                fill_corner_vertex(b, place);
             }
         }
     }
@@ -109,28 +113,28 @@ static void fill_vertices(builder *b)
 
 static void note_sight(void *user, uint32_t turn)
 {
-    builder *b = user;
+    graph_baker *b = user;
     uint32_t seen = b->vertex_of[turn];
     const tl_nav_corner_vertex *from = &b->graph->vertices[b->vertex];
     const tl_nav_corner_vertex *to = &b->graph->vertices[seen];
     double x = (double)to->x - (double)from->x;
     double z = (double)to->z - (double)from->z;
-    if (seen != b->vertex && (x != 0.0 || z != 0.0) && tl_nav_hands_at(from, -x, -z, b->graph->rounding) != 0 &&
-        tl_nav_hands_at(to, x, z, b->graph->rounding) != 0) {
+    if (seen != b->vertex && (x != 0.0 || z != 0.0) && tl_nav_turns_at(from, -x, -z, b->graph->rounding) != 0 &&
+        tl_nav_turns_at(to, x, z, b->graph->rounding) != 0) {
         // Each end may have missed the other by rounding.
         add_pair(b, b->vertex, seen);
         add_pair(b, seen, b->vertex);
     }
 }
 
-static tl_result make_query(builder *b, uint32_t max_nodes)
+static tl_result make_look_query(graph_baker *b, uint32_t max_nodes)
 {
     tl_nav_query_destroy(b->query);
     tl_nav_query_def def = { max_nodes, &b->allocator, TL_DEF_COOKIE };
     return tl_nav_query_create(&def, &b->query);
 }
 
-static tl_result look_from(builder *b, uint32_t vertex)
+static tl_result look_from(graph_baker *b, uint32_t vertex)
 {
     const tl_nav_corner_vertex *from = &b->graph->vertices[vertex];
     tl_nav_shortest_search start;
@@ -146,7 +150,7 @@ static tl_result look_from(builder *b, uint32_t vertex)
         if (b->query->max_nodes > UINT32_MAX / 4) {
             return TL_ERR_LIMIT;
         }
-        TL_TRY(make_query(b, 2 * b->query->max_nodes));
+        TL_TRY(make_look_query(b, 2 * b->query->max_nodes));
         start.query = b->query;
     }
     for (uint32_t i = 0; i < b->query->wedge_count; i++) {
@@ -192,7 +196,7 @@ static uint32_t sort_unique(uint32_t *values, uint32_t count)
     return kept;
 }
 
-static tl_result make_edges(builder *b)
+static tl_result make_edges(graph_baker *b)
 {
     tl_nav_visibility_graph *graph = b->graph;
     uint32_t count = graph->vertex_count;
@@ -215,7 +219,7 @@ static tl_result make_edges(builder *b)
             const tl_nav_corner_vertex *end = &graph->vertices[to[k]];
             double x = (double)end->x - (double)from->x;
             double z = (double)end->z - (double)from->z;
-            tl_nav_visibility_edge edge = { to[k], end->x, end->z, tl_nav_hands_at(end, x, z, graph->rounding) };
+            tl_nav_visibility_edge edge = { to[k], end->x, end->z, tl_nav_turns_at(end, x, z, graph->rounding) };
             graph->edges[k] = edge;
         }
     }
@@ -224,7 +228,7 @@ static tl_result make_edges(builder *b)
     return graph->edges != NULL ? TL_OK : TL_ERR_MEMORY;
 }
 
-static tl_result find_vertices(builder *b)
+static tl_result find_vertices(graph_baker *b)
 {
     tl_nav_visibility_graph *graph = b->graph;
     b->fan_count = b->navmesh->last_fan + 1;
@@ -241,14 +245,14 @@ static tl_result find_vertices(builder *b)
         return TL_ERR_MEMORY;
     }
     memset(graph->vertices, 0, ((size_t)graph->vertex_count + 1) * sizeof *graph->vertices);
-    fill_vertices(b);
+    fill_corner_vertices(b);
     return TL_OK;
 }
 
-static tl_result build(builder *b)
+static tl_result bake_graph(graph_baker *b)
 {
     TL_TRY(find_vertices(b));
-    TL_TRY(make_query(b, FIRST_Wedges));
+    TL_TRY(make_look_query(b, FIRST_Wedges));
     for (uint32_t i = 0; i < b->graph->vertex_count; i++) {
         TL_TRY(look_from(b, i));
     }
@@ -286,7 +290,7 @@ void tl_nav_free_visibility_graph(const tl_allocator *allocator, tl_nav_visibili
 
 tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, tl_nav_visibility_graph **graph_out)
 {
-    builder b;
+    graph_baker b;
     memset(&b, 0, sizeof b);
     b.navmesh = navmesh;
     b.allocator = navmesh->allocator;
@@ -296,7 +300,7 @@ tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, tl_nav_visibility_gr
         return TL_ERR_MEMORY;
     }
     memset(b.graph, 0, sizeof *b.graph);
-    tl_result result = build(&b);
+    tl_result result = bake_graph(&b);
     tl_nav_query_destroy(b.query);
     tl_release_array(&b.allocator, b.sights.pairs, b.sights.capacity, sizeof *b.sights.pairs);
     tl_release_array(&b.allocator, b.cones.cones, b.cones.capacity, sizeof *b.cones.cones);

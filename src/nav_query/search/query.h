@@ -8,6 +8,8 @@
 #ifndef TALUS_SRC_NAV_QUERY_QUERY_H
 #define TALUS_SRC_NAV_QUERY_QUERY_H
 
+#include "base/radix_sort.h"
+
 #include <talus/nav_query.h>
 
 #define TL_NAV_NO_NODE UINT32_MAX
@@ -19,7 +21,6 @@ typedef struct tl_nav_root tl_nav_root;             // root_table.h
 typedef struct tl_nav_stop tl_nav_stop;             // prepared/graph_search.h
 typedef struct tl_nav_corner_leg tl_nav_corner_leg; // prepared/corner_cones.h
 typedef struct tl_nav_path_run tl_nav_path_run;     // path/path_run.h
-typedef struct tl_sort_item tl_sort_item;           // base/radix_sort.h
 
 struct tl_nav_query {
     tl_allocator allocator;

@@ -30,7 +30,8 @@ typedef struct touched_list {
     touched_polygon polygons[MAX_TOUCHED];
 } touched_list;
 
-static bool is_near(const tl_nav_line *line, const tl_nav_ring_edge *a, const tl_nav_ring_edge *b, double x, double z)
+static bool is_near_line(const tl_nav_line *line, const tl_nav_ring_edge *a, const tl_nav_ring_edge *b, double x,
+                         double z)
 {
     return tl_nav_nearest_on_edge(a, b, x, z).distance_sq <= line->rounding * line->rounding;
 }
@@ -60,11 +61,11 @@ static bool meets(const touched_list *list, const tl_nav_ring_edge *a, const tl_
         *first_out = along[0] + t * (along[1] - along[0]);
         *last_out = *first_out;
     }
-    if (*first_out > list->length && is_near(line, a, b, line->x + line->on_x, line->z + line->on_z)) {
+    if (*first_out > list->length && is_near_line(line, a, b, line->x + line->on_x, line->z + line->on_z)) {
         *first_out = list->length;
         *last_out = fmax(*last_out, list->length);
     }
-    if (*last_out < 0.0 && is_near(line, a, b, line->x, line->z)) {
+    if (*last_out < 0.0 && is_near_line(line, a, b, line->x, line->z)) {
         *last_out = 0.0;
     }
     return *first_out <= list->length + slack;

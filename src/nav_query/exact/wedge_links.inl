@@ -2,8 +2,8 @@
 //
 // Off-mesh links in the exact search: straight to one end within a wedge's polygon, over, and on from the other end.
 
-#ifndef TALUS_SRC_NAV_QUERY_WEDGE_LINKS_H
-#define TALUS_SRC_NAV_QUERY_WEDGE_LINKS_H
+#ifndef TALUS_SRC_NAV_QUERY_WEDGE_LINKS_INL
+#define TALUS_SRC_NAV_QUERY_WEDGE_LINKS_INL
 
 #include "nav_query/exact/wedge_search.h"
 
@@ -26,8 +26,8 @@ static inline wedge_way way_to(const wedge_search *s, const tl_nav_wedge *wedge,
     // A point on the wedge's border, as one on the edge of entry may be, lies beside it by rounding only.
     double left_slack = s->rounding * (fabs(wedge->left.x) + fabs(wedge->left.z));
     double right_slack = s->rounding * (fabs(wedge->right.x) + fabs(wedge->right.z));
-    bool is_left_of = cross(wedge->left, point) < -left_slack;
-    if (!is_left_of && !(cross(wedge->right, point) > right_slack)) {
+    bool is_left_of = wedge_cross(wedge->left, point) < -left_slack;
+    if (!is_left_of && !(wedge_cross(wedge->right, point) > right_slack)) {
         return way;
     }
     uint32_t count = 0;
@@ -55,7 +55,7 @@ static inline uint32_t turn_on(wedge_search *s, uint32_t index, const wedge_way 
 #define LANDING_NUMBER ((uint64_t)1 << 61)
 
 // Goes to an end of an off-mesh link in a wedge's polygon, and over to the other one.
-static inline void cross_link(wedge_search *s, uint32_t index, uint32_t end)
+static inline void cross_wedge_link(wedge_search *s, uint32_t index, uint32_t end)
 {
     const tl_nav_offmesh_entry *link = &s->navmesh->offmesh.entries[end / 2];
     const tl_nav_anchor *from = &link->ends[end % 2];
@@ -76,11 +76,11 @@ static inline void cross_link(wedge_search *s, uint32_t index, uint32_t end)
     s->query->wedges[landing] = wedge;
     tl_nav_direction goal = { s->goal_x - (double)to->point.x, s->goal_z - (double)to->point.z };
     double rest = length_of(goal);
-    offer(s, landing, (float)(cost + (rest < s->detour ? rest : s->detour)));
+    offer_wedge(s, landing, (float)(cost + (rest < s->detour ? rest : s->detour)));
 }
 
 // All links that can be taken from a wedge's polygon.
-static inline void cross_links(wedge_search *s, uint32_t index)
+static inline void cross_wedge_links(wedge_search *s, uint32_t index)
 {
     const tl_navmesh *navmesh = s->navmesh;
     uint32_t slot = s->query->wedges[index].slot;
@@ -94,14 +94,14 @@ static inline void cross_links(wedge_search *s, uint32_t index)
         const tl_nav_anchor *to = &link->ends[1 - end % 2];
         if (from->slot == slot && from->polygon == polygon && tl_nav_may_cross(link, end % 2, s->in->filter) &&
             may_enter(s, to->slot, to->polygon)) {
-            cross_link(s, index, end);
+            cross_wedge_link(s, index, end);
         }
         end = from->next;
     }
 }
 
 // A path that takes a short cut has the way from its end to the goal before it still. Metres in the plane.
-static inline double shortest_detour(const wedge_search *s)
+static inline double min_wedge_detour(const wedge_search *s)
 {
     const tl_nav_offmesh_table *table = &s->navmesh->offmesh;
     double least = (double)INFINITY;

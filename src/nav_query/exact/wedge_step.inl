@@ -3,10 +3,10 @@
 // One step of the exact search: a wedge goes on through a polygon, over its edges and around the ends of its edge of
 // entry.
 
-#ifndef TALUS_SRC_NAV_QUERY_WEDGE_STEP_H
-#define TALUS_SRC_NAV_QUERY_WEDGE_STEP_H
+#ifndef TALUS_SRC_NAV_QUERY_WEDGE_STEP_INL
+#define TALUS_SRC_NAV_QUERY_WEDGE_STEP_INL
 
-#include "nav_query/exact/wedge_links.h"
+#include "nav_query/exact/wedge_links.inl"
 
 // What a step goes on from.
 typedef struct step_from {
@@ -58,12 +58,12 @@ static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i,
     if (s->only != TL_NAV_NO_NODE) {
         uint32_t first = s->only;
         s->only = TL_NAV_NO_NODE;
-        offer(s, first, total_of(s, &s->query->wedges[first], &s->only_edge));
+        offer_wedge(s, first, total_of(s, &s->query->wedges[first], &s->only_edge));
     }
-    offer(s, index, total_of(s, wedge, edge));
+    offer_wedge(s, index, total_of(s, wedge, edge));
 }
 
-static inline seen_edge see(const step_from *from, uint32_t i, float root_x, float root_z)
+static inline seen_edge see_edge(const step_from *from, uint32_t i, float root_x, float root_z)
 {
     const tl_nav_ring_edge *a = &from->ring[i];
     const tl_nav_ring_edge *b = &from->ring[i + 1 < from->count ? i + 1 : 0];
@@ -79,7 +79,7 @@ typedef struct edge_view {
 
 static inline edge_view view_of(const wedge_search *s, const seen_edge *edge)
 {
-    double area = cross(edge->right, edge->left);
+    double area = wedge_cross(edge->right, edge->left);
     double size = fabs(edge->left.x - edge->right.x) + fabs(edge->left.z - edge->right.z);
     edge_view v = { area < 0.0, fabs(area) <= s->rounding * size };
     return v;
@@ -148,7 +148,7 @@ static inline bool is_repeated(wedge_search *s, const step_from *from, uint32_t 
     tl_nav_direction limit = { x - (double)from_x, z - (double)from_z };
     double known_cost = (double)root->cost + (double)root->cost_rest;
     if (found && cost >= known_cost * (1.0 - SUM_ROUNDING) &&
-        (hand > 0 ? side(known, limit) <= 0.0 : side(known, limit) >= 0.0)) {
+        (hand > 0 ? side_of_direction(known, limit) <= 0.0 : side_of_direction(known, limit) >= 0.0)) {
         return true;
     }
     s->query->repeat_count += !found;
@@ -173,7 +173,7 @@ static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i,
     if (turn != 0 && tl_nav_root_rank_of(s->query, turn, cost) != TL_NAV_ROOT_WORSE) {
         float x = from->ring[vertex].x;
         float z = from->ring[vertex].z;
-        seen_edge edge = see(from, i, x, z);
+        seen_edge edge = see_edge(from, i, x, z);
         add_wedge(s, from, i, x, z, cost, &edge, open, open);
     }
 }
@@ -184,9 +184,9 @@ static inline void add_edge_on(wedge_search *s, const step_from *from, uint32_t 
                                double cost, const seen_edge *edge)
 {
     uint32_t next = i + 1 < from->count ? i + 1 : 0;
-    if (is_open(edge->left) || is_open(edge->right)) {
+    if (is_open_direction(edge->left) || is_open_direction(edge->right)) {
         const tl_nav_direction open = { 0.0, 0.0 };
-        if (!may_turn_on(s, from, is_open(edge->left) ? next : i, cost)) {
+        if (!may_turn_on(s, from, is_open_direction(edge->left) ? next : i, cost)) {
             return;
         }
         add_wedge(s, from, i, root_x, root_z, cost, edge, open, open);
@@ -207,8 +207,8 @@ static inline bool has_walls_on(const wedge_search *s, const step_from *from, ui
 // The edges that are reached by turning at a vertex of the edge of entry: `hand` is 1 for the left one, -1 for the
 // right one. They lie beyond the wedge's `limit` on that hand, in the part of the ring from `begin` to `end` (counted
 // from the edge of entry).
-static inline void turn_at(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge, int hand, uint32_t begin,
-                           uint32_t end)
+static inline void turn_at_limit(wedge_search *s, const step_from *from, const tl_nav_wedge *wedge, int hand,
+                                 uint32_t begin, uint32_t end)
 {
     uint32_t vertex = hand > 0 ? wedge->edge : wedge->edge + 1 < from->count ? wedge->edge + 1 : 0;
     tl_nav_direction limit = hand > 0 ? wedge->left : wedge->right;
@@ -229,9 +229,9 @@ static inline void turn_at(wedge_search *s, const step_from *from, const tl_nav_
         if (!tl_nav_ring_is_open(&from->ring[i])) {
             continue;
         }
-        seen_edge edge = see(from, i, x, z);
-        double left = side(limit, edge.left);
-        double right = side(limit, edge.right);
+        seen_edge edge = see_edge(from, i, x, z);
+        double left = side_of_direction(limit, edge.left);
+        double right = side_of_direction(limit, edge.right);
         bool is_beyond = hand > 0 ? left < 0.0 : right > 0.0;
         bool is_near = hand > 0 ? right <= 0.0 : left >= 0.0;
         if (!is_beyond && !is_near) {
@@ -265,12 +265,12 @@ static inline void turn_at(wedge_search *s, const step_from *from, const tl_nav_
 
 // Goes around the ring from the right end of the edge of entry to its left end, which is from right to left as it is
 // seen from the root. Edges right of the wedge are reached by turning right, those left of it by turning left.
-static inline void expand(wedge_search *s, uint32_t index)
+static inline void expand_wedge(wedge_search *s, uint32_t index)
 {
     const tl_nav_wedge wedge = s->query->wedges[index];
     const wedge_view view = make_view(&wedge);
     if (s->navmesh->slots[wedge.slot].anchor_count > 0) {
-        cross_links(s, index);
+        cross_wedge_links(s, index);
     }
     step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
     from.ring = tl_nav_ring_at(s->navmesh, wedge.slot, wedge.polygon, &from.count);
@@ -311,11 +311,11 @@ static inline void expand(wedge_search *s, uint32_t index)
     const tl_nav_ring_edge *entry_right = &from.ring[wedge.edge + 1 < from.count ? wedge.edge + 1 : 0];
     if (!view.left_open && wedge.left.x == (double)entry_left->x - view.root_x &&
         wedge.left.z == (double)entry_left->z - view.root_z) {
-        turn_at(s, &from, &wedge, 1, last_seen, from.count);
+        turn_at_limit(s, &from, &wedge, 1, last_seen, from.count);
     }
     if (!view.right_open && wedge.right.x == (double)entry_right->x - view.root_x &&
         wedge.right.z == (double)entry_right->z - view.root_z) {
-        turn_at(s, &from, &wedge, -1, 1, first_seen < from.count ? first_seen + 1 : from.count);
+        turn_at_limit(s, &from, &wedge, -1, 1, first_seen < from.count ? first_seen + 1 : from.count);
     }
 }
 

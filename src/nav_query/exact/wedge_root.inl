@@ -3,15 +3,15 @@
 // A root of the exact search from which all is open, the start or where a link lands: all polygons that hold it, on an
 // edge or in a vertex several, one found from another.
 
-#ifndef TALUS_SRC_NAV_QUERY_WEDGE_ROOT_H
-#define TALUS_SRC_NAV_QUERY_WEDGE_ROOT_H
+#ifndef TALUS_SRC_NAV_QUERY_WEDGE_ROOT_INL
+#define TALUS_SRC_NAV_QUERY_WEDGE_ROOT_INL
 
-#include "nav_query/exact/wedge_step.h"
+#include "nav_query/exact/wedge_step.inl"
 
-enum { MAX_AROUND = 64 };
+enum { MAX_ROOT_HOLDERS = 64 };
 
 // Whether the root, which lies on the line of an edge, is between its ends.
-static inline bool is_within(const wedge_search *s, const seen_edge *edge)
+static inline bool is_root_within(const wedge_search *s, const seen_edge *edge)
 {
     double x = edge->left.x - edge->right.x;
     double z = edge->left.z - edge->right.z;
@@ -39,7 +39,7 @@ static inline void add_holder(wedge_search *s, root_holders *holders, uint32_t s
             return;
         }
     }
-    uint32_t index = holders->count < MAX_AROUND ? new_wedge(s) : TL_NAV_NO_NODE;
+    uint32_t index = holders->count < MAX_ROOT_HOLDERS ? new_wedge(s) : TL_NAV_NO_NODE;
     if (index != TL_NAV_NO_NODE) {
         s->query->wedges[index] = s->query->wedges[parent];
         s->query->wedges[index].slot = slot;
@@ -61,9 +61,9 @@ static inline void look_out(wedge_search *s, uint32_t index, root_holders *gathe
         if (!tl_nav_ring_is_open(&from.ring[i])) {
             continue;
         }
-        seen_edge edge = see(&from, i, wedge.root_x, wedge.root_z);
+        seen_edge edge = see_edge(&from, i, wedge.root_x, wedge.root_z);
         edge_view v = view_of(s, &edge);
-        bool on_edge = v.edge_on && is_within(s, &edge);
+        bool on_edge = v.edge_on && is_root_within(s, &edge);
         if (gathered != NULL && on_edge) {
             tl_nav_ring_seam to = tl_nav_ring_across(s->navmesh, from.slot, from.ring[i].to);
             if (may_enter(s, to.slot, to.polygon)) {
@@ -80,7 +80,7 @@ static inline void look_out(wedge_search *s, uint32_t index, root_holders *gathe
 // Looks from the root of wedge `first`, which lies in its polygon, through all edges around it. Where a polygon that
 // holds it holds the goal too, and no short cut beats the straight way, that wedge is returned, and there is nothing
 // else to look for.
-static inline uint32_t look_around(wedge_search *s, uint32_t first)
+static inline uint32_t look_from_root(wedge_search *s, uint32_t first)
 {
     root_holders holders = { first, s->query->wedge_count, 1 };
     for (uint32_t i = 0; i < holders.count; i++) {
@@ -93,13 +93,13 @@ static inline uint32_t look_around(wedge_search *s, uint32_t first)
             if (straight <= s->detour) {
                 return holder_at(&holders, i);
             }
-            offer(s, holder_at(&holders, i), (float)(wedge->cost + straight));
+            offer_wedge(s, holder_at(&holders, i), (float)(wedge->cost + straight));
         }
     }
     for (uint32_t i = 0; i < holders.count; i++) {
         const tl_nav_wedge *wedge = &s->query->wedges[holder_at(&holders, i)];
         if (s->navmesh->slots[wedge->slot].anchor_count > 0) {
-            cross_links(s, holder_at(&holders, i));
+            cross_wedge_links(s, holder_at(&holders, i));
         }
     }
     for (uint32_t i = 0; i < holders.count; i++) {
