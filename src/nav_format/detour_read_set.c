@@ -28,7 +28,8 @@ static tl_result open_set(set_reader *set, tl_detour_report *report)
 {
     tl_detour_set_header *h = &set->header;
     if (set->size < sizeof *h) {
-        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "set", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "set", TL_NO_ELEMENT,
+                              "the bytes end too early: give them all");
     }
     memcpy(h, set->bytes, sizeof *h);
     set->at = sizeof *h;
@@ -36,7 +37,7 @@ static tl_result open_set(set_reader *set, tl_detour_report *report)
         return tl_report_fail(&report->base, TL_ERR_VERSION, "set", TL_NO_ELEMENT, "sets of version 1 can be read");
     }
     if (!tl_detour_is_finite(h->params.origin) || !isfinite(h->params.tile_width) || !isfinite(h->params.tile_height)) {
-        return tl_report_fail(&report->base, TL_ERR_NOT_FINITE, "set", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(&report->base, TL_ERR_NOT_FINITE, "set", TL_NO_ELEMENT, "use finite numbers");
     }
     if (h->tile_count <= 0 || (uint32_t)h->tile_count > TL_NAV_MAX_TILES) {
         return tl_report_fail(&report->base, h->tile_count == 0 ? TL_ERR_EMPTY : TL_ERR_CORRUPT, "set", TL_NO_ELEMENT,
@@ -63,7 +64,7 @@ static tl_result next_tile(set_reader *set, uint32_t index, tl_detour_tile_bytes
     uint64_t begin = set->at + set->entry_bytes;
     uint64_t length = word_at(set, set->at + set->entry_bytes / 2);
     if (begin > set->size || length > set->size - begin) {
-        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "tile", index, NULL);
+        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "tile", index, "the bytes end too early: give them all");
     }
     TL_TRY(tl_detour_open_tile(set->bytes + begin, length, tile, report));
     set->at = begin + length;
@@ -92,7 +93,8 @@ static tl_result read_tile_set(set_reader *set, const tl_detour_read_def *def, t
     uint32_t count = (uint32_t)set->header.tile_count;
     // A tile takes at least its header: no more room is taken than the bytes can fill.
     if ((uint64_t)count * sizeof(tl_detour_header) > set->size) {
-        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "set", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "set", TL_NO_ELEMENT,
+                              "the bytes end too early: give them all");
     }
     tiles->tiles = tl_allocate_array(def->allocator, count, sizeof *tiles->tiles);
     if (tiles->tiles == NULL) {
@@ -195,7 +197,7 @@ static tl_result read_connection(const tl_detour_tile_bytes *tile, uint32_t inde
         return tl_report_fail(&report->base, TL_ERR_CORRUPT, "connection", list->count, "its polygon is out of range");
     }
     if (!tl_detour_is_finite(from.ends[0]) || !tl_detour_is_finite(from.ends[1]) || !isfinite(from.radius)) {
-        return tl_report_fail(&report->base, TL_ERR_NOT_FINITE, "connection", list->count, NULL);
+        return tl_report_fail(&report->base, TL_ERR_NOT_FINITE, "connection", list->count, "use finite numbers");
     }
     memcpy(&polygon, tile->bytes + tile->at.polygons + (uint64_t)from.polygon * sizeof polygon, sizeof polygon);
     if (list->count < list->capacity) {

@@ -50,7 +50,8 @@ tl_result tl_detour_open_tile(const uint8_t *bytes, uint64_t size, tl_detour_til
 {
     tl_detour_header *h = &tile->header;
     if (size < 8) {
-        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "tile", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "tile", TL_NO_ELEMENT,
+                              "the bytes end too early: give them all");
     }
     memcpy(h, bytes, size < sizeof *h ? 8 : sizeof *h);
     if ((uint32_t)h->magic != TL_DETOUR_TILE_MAGIC) {
@@ -60,7 +61,8 @@ tl_result tl_detour_open_tile(const uint8_t *bytes, uint64_t size, tl_detour_til
         return tl_report_fail(&report->base, TL_ERR_VERSION, "tile", TL_NO_ELEMENT, "tiles of version 7 can be read");
     }
     if (size < sizeof *h) {
-        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "tile", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "tile", TL_NO_ELEMENT,
+                              "the bytes end too early: give them all");
     }
     TL_TRY(check_counts(h, report));
     tl_detour_offsets narrow = tl_detour_offsets_of(h, TL_DETOUR_REFS_32);
@@ -68,7 +70,8 @@ tl_result tl_detour_open_tile(const uint8_t *bytes, uint64_t size, tl_detour_til
     tile->bytes = bytes;
     tile->at = size == wide.end ? wide : narrow;
     if (size < narrow.end) {
-        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "tile", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(&report->base, TL_ERR_TRUNCATED, "tile", TL_NO_ELEMENT,
+                              "the bytes end too early: give them all");
     }
     if (size != narrow.end && size != wide.end) {
         return tl_report_fail(&report->base, TL_ERR_CORRUPT, "tile", TL_NO_ELEMENT,
@@ -76,7 +79,7 @@ tl_result tl_detour_open_tile(const uint8_t *bytes, uint64_t size, tl_detour_til
     }
     if (!tl_detour_is_finite(h->min) || !tl_detour_is_finite(h->max) || !isfinite(h->walkable_height) ||
         !isfinite(h->walkable_radius) || !isfinite(h->walkable_climb)) {
-        return tl_report_fail(&report->base, TL_ERR_NOT_FINITE, "tile", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(&report->base, TL_ERR_NOT_FINITE, "tile", TL_NO_ELEMENT, "use finite numbers");
     }
     if (!(h->quantization > 0.0f) || !isfinite(h->quantization) || !isfinite(1.0f / h->quantization)) {
         return tl_report_fail(
@@ -106,7 +109,7 @@ static tl_result read_vertices(reading *r)
         float v[3];
         memcpy(v, tile->bytes + tile->at.vertices + sizeof v * (uint64_t)i, sizeof v);
         if (!tl_detour_is_finite(v)) {
-            return tl_report_fail(&r->report->base, TL_ERR_NOT_FINITE, "vertex", i, NULL);
+            return tl_report_fail(&r->report->base, TL_ERR_NOT_FINITE, "vertex", i, "use finite numbers");
         }
         for (int k = 0; k < 3; k++) {
             double off;
@@ -174,7 +177,8 @@ static tl_result choose_polygons(reading *r)
     }
     r->mesh.polygon_count = kept;
     r->mesh.index_count = corners;
-    return kept > 0 ? TL_OK : tl_report_fail(&r->report->base, TL_ERR_EMPTY, "polygon", TL_NO_ELEMENT, NULL);
+    return kept > 0 ? TL_OK
+                    : tl_report_fail(&r->report->base, TL_ERR_EMPTY, "polygon", TL_NO_ELEMENT, "give at least one");
 }
 
 // What lies across an edge, in our numbers; not yet whether it links back.

@@ -333,7 +333,7 @@ static tl_result write_set(const tl_nav_tile *const *tiles, uint32_t tile_count,
                            uint64_t capacity, tl_detour_report *report)
 {
     if (tile_count == 0) {
-        return tl_report_fail(&report->base, TL_ERR_EMPTY, "tile", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(&report->base, TL_ERR_EMPTY, "tile", TL_NO_ELEMENT, "give at least one");
     }
     TL_TRY(check_grid(tiles, tile_count, &report->base));
     TL_TRY(check_tiles(tiles, tile_count, &report->base));

@@ -66,7 +66,7 @@ static tl_result check_origin(const tl_nav_tile_source *source, tl_report *repor
     const tl_polygon_mesh *polygons = source->polygons;
     tl_vec3 claimed = polygons->bounds.min;
     if (!is_finite_point(source->origin) || !is_finite_point(claimed)) {
-        return tl_report_field(report, TL_ERR_NOT_FINITE, "origin", NULL);
+        return tl_report_field(report, TL_ERR_NOT_FINITE, "origin", "use finite numbers");
     }
     if (!origin_agrees(source->origin.x, source->tile_x, source->tile_size, polygons->cell_size, claimed.x) ||
         !origin_agrees(source->origin.z, source->tile_z, source->tile_size, polygons->cell_size, claimed.z) ||
@@ -173,10 +173,10 @@ static tl_result check_patch(const tl_nav_detail *detail, uint32_t p, uint32_t c
     for (uint32_t i = 0; i < patch->vertex_count; i++) {
         tl_vec3 v = detail->vertices[patch->first_vertex + i];
         if (!is_finite_point(v)) {
-            return tl_report_fail(report, TL_ERR_NOT_FINITE, "patch", p, NULL);
+            return tl_report_fail(report, TL_ERR_NOT_FINITE, "patch", p, "use finite numbers");
         }
         if (!in_range(v.x) || !in_range(v.y) || !in_range(v.z)) {
-            return tl_report_fail(report, TL_ERR_RANGE, "patch", p, NULL);
+            return tl_report_fail(report, TL_ERR_RANGE, "patch", p, "keep within TL_MAX_COORDINATE");
         }
     }
     for (uint32_t i = 0; i < patch->triangle_count; i++) {
@@ -234,7 +234,7 @@ tl_result tl_nav_tile_check_source(const tl_nav_tile_source *source, tl_report *
 {
     const tl_polygon_mesh *polygons = source->polygons;
     if (polygons == NULL || polygons->polygon_count == 0) {
-        return tl_report_fail(report, TL_ERR_EMPTY, "polygon", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(report, TL_ERR_EMPTY, "polygon", TL_NO_ELEMENT, "give at least one");
     }
     if (polygons->polygon_count > TL_NAV_MAX_TILE_POLYGONS || polygons->index_count > TL_NAV_LINK_PORTAL - 1u) {
         return tl_report_fail(report, TL_ERR_LIMIT, "polygon", TL_NO_ELEMENT, "use smaller tiles");

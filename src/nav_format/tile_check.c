@@ -341,17 +341,19 @@ tl_result tl_nav_tile_check(const void *bytes, uint64_t size, tl_report *report_
         return tl_report_field(report_out, TL_ERR_ARGUMENT, "bytes", "align the bytes to 8");
     }
     if (size < sizeof(tl_blob)) {
-        return tl_report_fail(report_out, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(report_out, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT,
+                              "the bytes end too early: give them all");
     }
     const tl_nav_tile *tile = bytes;
     if (tile->blob.magic != TL_NAV_TILE_MAGIC) {
-        return tl_report_fail(report_out, TL_ERR_MAGIC, "header", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(report_out, TL_ERR_MAGIC, "header", TL_NO_ELEMENT, "give the bytes of a navmesh tile");
     }
     if (tile->blob.version != TL_NAV_TILE_VERSION) {
         return tl_report_fail(report_out, TL_ERR_VERSION, "header", TL_NO_ELEMENT, "bake the level again");
     }
     if (size < sizeof *tile || size < tile->blob.size) {
-        return tl_report_fail(report_out, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT, NULL);
+        return tl_report_fail(report_out, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT,
+                              "the bytes end too early: give them all");
     }
     if (size != tile->blob.size) {
         return corrupt(report_out, "header", TL_NO_ELEMENT);

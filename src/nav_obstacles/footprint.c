@@ -172,7 +172,7 @@ static tl_result check_prism(const tl_nav_obstacle *obstacle, tl_report *report)
     }
     for (uint32_t i = 0; i < obstacle->point_count; i++) {
         if (!tl_is_finite(obstacle->points[i])) {
-            return tl_report_fail(report, TL_ERR_NOT_FINITE, "point", i, NULL);
+            return tl_report_fail(report, TL_ERR_NOT_FINITE, "point", i, "use finite numbers");
         }
     }
     return is_convex_outline(obstacle) ? TL_OK
@@ -186,14 +186,14 @@ tl_result tl_obstacle_check(const tl_nav_obstacle *obstacle, tl_report *report)
         return tl_report_field(report, TL_ERR_ARGUMENT, "shape", "use a tl_nav_obstacle_shape");
     }
     if (!tl_is_finite(obstacle->base)) {
-        return tl_report_field(report, TL_ERR_NOT_FINITE, "base", NULL);
+        return tl_report_field(report, TL_ERR_NOT_FINITE, "base", "use finite numbers");
     }
     if (!isfinite(obstacle->height)) {
-        return tl_report_field(report, TL_ERR_NOT_FINITE, "height", NULL);
+        return tl_report_field(report, TL_ERR_NOT_FINITE, "height", "use finite numbers");
     }
     bool round = obstacle->shape == TL_NAV_OBSTACLE_CYLINDER;
     if (!round && (!isfinite(obstacle->cosine) || !isfinite(obstacle->sine))) {
-        return tl_report_field(report, TL_ERR_NOT_FINITE, "cosine", NULL);
+        return tl_report_field(report, TL_ERR_NOT_FINITE, "cosine", "use finite numbers");
     }
     if (!(obstacle->height >= 0.0f)) {
         return tl_report_field(report, TL_ERR_ARGUMENT, "height", "give a height of 0 or more");

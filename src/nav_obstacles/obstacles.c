@@ -253,14 +253,14 @@ tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input
     tl_nav_obstacles *o = NULL;
     tl_nav_tile_block block;
     memset(&block, 0, sizeof block);
+    if (block_out != NULL) {
+        *block_out = block;
+    }
     TL_REFUSE_NULL(obstacles_out, base);
     *obstacles_out = NULL;
     TL_REFUSE_NULL(input, base);
     const tl_nav_def defaults = tl_default_nav_def();
     def = def != NULL ? def : &defaults;
-    if (block_out != NULL) {
-        *block_out = block;
-    }
     tl_nav_bake_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "obstacles");
@@ -515,6 +515,9 @@ tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navme
                                   uint32_t *waiting_out, tl_nav_bake_report *report_out)
 {
     tl_report *base = begin_report(report_out, "rebake");
+    if (waiting_out != NULL) {
+        *waiting_out = 0;
+    }
     TL_REFUSE_NULL(obstacles, base);
     TL_REFUSE_NULL(navmesh, base);
     tl_nav_obstacles *o = obstacles;

@@ -45,7 +45,7 @@ tl_result tl_nav_tiles_in_box(const tl_nav_def *def, tl_aabb level_bounds, tl_aa
     const tl_nav_def defaults = tl_default_nav_def();
     def = def != NULL ? def : &defaults;
     if (!tl_is_finite(box.min) || !tl_is_finite(box.max)) {
-        return tl_report_field(report_out, TL_ERR_NOT_FINITE, "box", NULL);
+        return tl_report_field(report_out, TL_ERR_NOT_FINITE, "box", "use finite numbers");
     }
     if (tl_aabb_is_empty(box)) {
         return tl_report_field(report_out, TL_ERR_ARGUMENT, "box", "give a box with min <= max");

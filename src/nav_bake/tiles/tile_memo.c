@@ -48,6 +48,8 @@ static tl_result remake(const tl_nav_config *config, tl_nav_compact *compact, co
 {
     const bool watershed = config->partition == TL_NAV_WATERSHED;
     if (watershed) {
+        tl_release_array(&compact->allocator, compact->distance, compact->span_count, sizeof *compact->distance);
+        compact->distance = NULL;
         TL_TRY(tl_distance_field_update(base_area, &memo->distance, &memo->allocator, compact));
     }
     return tl_nav_tile_bake_from_distance(config, compact, watershed, host, stack_out, report_out);
