@@ -16,7 +16,7 @@ static const tl_vec3 vertices[12] = { { -10, 0, 0 },  { 0, 0, 0 },   { 0, 2, 0 }
                                       { -10, 0, 10 }, { 10, 0, 10 }, { 10, 0, -10 }, { -10, 0, -10 } };
 static const uint32_t indices[18] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7, 8, 9, 10, 8, 10, 11 };
 
-// What the guard sees of the thief: nothing but the thief may be in the way of it.
+// Whether the guard sees the thief: the thief does not hide himself, so the query ignores him.
 static bool sees(const tl_scene *scene, const tl_scene_instance *instances, tl_vec3 eye, tl_vec3 target)
 {
     tl_scene_filter filter = { 0 };
@@ -57,14 +57,18 @@ int main(void)
     printf("door open: the guard %s the thief\n", after ? "sees" : "does not see");
 
     tl_ray shot = { eye, tl_sub(chest, eye), INFINITY };
-    tl_scene_hit hit = { .instance = TL_NO_INSTANCE };
-    (void)tl_scene_cast_ray(scene, instances, &shot, NULL, &hit);
-    printf("a shot meets instance %u after %.2f of the way\n", hit.instance, (double)hit.hit.t);
+    tl_scene_hit hit;
+    if (!tl_scene_cast_ray(scene, instances, &shot, NULL, &hit)) {
+        return 1;
+    }
+    printf("a shot hits instance %u after %.2f of the way\n", hit.instance, (double)hit.hit.t);
 
     tl_transform guard = tl_transform_identity();
     guard.position = tl_vec3_make(0.5f, 0, -4);
-    tl_scene_shape_hit met = { .instance = TL_NO_INSTANCE };
-    (void)tl_scene_cast_shape(scene, instances, &body, guard, tl_vec3_make(0, 0, 10), NULL, &met);
+    tl_scene_shape_hit met;
+    if (tl_scene_cast_shape(scene, instances, &body, guard, tl_vec3_make(0, 0, 10), NULL, &met) != TL_OK) {
+        return 1;
+    }
     printf("the guard runs into instance %u after %.2f m\n", met.instance, 10 * (double)met.hit.t);
 
     tl_blob_free(scene);

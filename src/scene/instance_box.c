@@ -9,8 +9,8 @@
 // position, r of the farthest corner of the instance's box from the instance's own origin, |o| that of the query):
 //
 // - A query in the instance's space moves a point there by u times its distance from the instance's origin. So a ray at
-//   the t of its hit is off by u (|o'| + t |d'|), where |o'| <= |o| + |p| and t |d'| <= |o'| + r: by u (2 |o| + 2 |p| +
-//   r).
+//   the t of its hit is off by u (|o'| + t |d'|), where |o'| <= |o| + |p| and t |d'| <= |o'| + r: by
+//   u (2 |o| + 2 |p| + r).
 // - A cast at a shape may stop early, by up to 8 u of the shapes' diameters: 16 u r of this one.
 // - Planes are rounded to float: u (|p| + r). Frames and sums in double, of about forty roundings, are off by 2^-23 of
 //   that.

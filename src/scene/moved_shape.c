@@ -3,9 +3,9 @@
 // Shapes in the spaces of instances: the box that is cast through the BVH, and poses.
 //
 // In an instance's space the shape's position is off as a ray's origin is, its motion as a direction, and its rotation
-// by four roundings: each of its points by 4 u of its distance from the shape's own origin, at most 4 u (|middle| +
-// |half| + |position|). A cast may stop early by another 16 u (|half|). So the box is widened by 32 u of all of these,
-// and half extents are rounded with them.
+// by four roundings: each of its points by 4 u of its distance from the shape's own origin, at most
+// 4 u (|middle| + |half| + |position|). A cast may stop early by another 16 u (|half|). So the box is widened by 32 u
+// of all of these, and half extents are rounded with them.
 
 #include "scene/moved_shape.h"
 

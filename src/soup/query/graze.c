@@ -4,9 +4,9 @@
 //
 // A capsule that slides on a floor touches the edge of each next triangle as it comes over it: the gap goes to zero and
 // grows again, and a sweep that stopped at zero would catch on every inner edge. With c the closing speed, v the speed
-// and d the distance of the cores, the gap after a time s is at least gap - c s (it is convex), and at most gap - c s +
-// s^2 v^2 / 2 d: the distance to a convex set bends no more than the distance to a point. So most hits are known to be
-// deep at once; for the rest Newton's iteration continues to the depth that counts.
+// and d the distance of the cores, the gap after a time s is at least gap - c s (it is convex), and at most
+// gap - c s + s^2 v^2 / 2 d: the distance to a convex set bends no more than the distance to a point. So most hits are
+// known to be deep at once; for the rest Newton's iteration continues to the depth that counts.
 
 #include "soup/query/triangle_cast.h"
 #include "soup/triangle/segment_triangle.h"

@@ -11,10 +11,10 @@
 // same bits. ray_decide.c does the same for the triangles that the filters leave in doubt.
 //
 // Error of t, with u = TL_DOUBLE_ROUNDING, L the largest coordinate of p and q, M that of c, D that of d. A component
-// of n sums two products of at most L^2, and four roundings go into each: it is off by 8 u L^2. So n.d is off by 3 (8 u
-// L^2 D + 2 L^2 D 4 u) = 48 u L^2 D, and n.c by 48 u L^2 M. The hit lies on the triangle, so |t| D <= M + L. Together t
-// is off by 48 u L^2 (2 M + L) / |n.d|, which is 48 u L^2 (2 M + L) / |n.c| of itself: that is much only when the ray
-// grazes the triangle's plane, or begins in it. Then t is computed exactly (ray_decide.c).
+// of n sums two products of at most L^2, and four roundings go into each: it is off by 8 u L^2. So n.d is off by
+// 3 (8 u L^2 D + 2 L^2 D 4 u) = 48 u L^2 D, and n.c by 48 u L^2 M. The hit lies on the triangle, so |t| D <= M + L.
+// Together t is off by 48 u L^2 (2 M + L) / |n.d|, which is 48 u L^2 (2 M + L) / |n.c| of itself: that is much only
+// when the ray grazes the triangle's plane, or begins in it. Then t is computed exactly (ray_decide.c).
 
 #ifndef TALUS_SRC_SOUP_RAY_MEASURE_H
 #define TALUS_SRC_SOUP_RAY_MEASURE_H

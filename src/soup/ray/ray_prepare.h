@@ -11,9 +11,9 @@
 // <= u (2 |X| + 6 |Z|) <= 8 u M.
 //
 // Slab planes. t = p inv - O inv, with p the plane. inv has two roundings (a segment's direction, the division), each
-// product one, the difference one: |error| <= 4 u (|p| + |O|) |inv| <= 4 u (2 |O| + M) |inv|. The pad is 16 u (|O| + M)
-// |inv|; it rounds, and so does O inv with the pad, which takes 2 u (|O| + M) of it. The rest, 6 u |O| + 10 u M, covers
-// the rounding of the reported t (u t) with which boxes are compared, and the error before it.
+// product one, the difference one: |error| <= 4 u (|p| + |O|) |inv| <= 4 u (2 |O| + M) |inv|. The pad is
+// 16 u (|O| + M) |inv|; it rounds, and so does O inv with the pad, which takes 2 u (|O| + M) of it. The rest,
+// 6 u |O| + 10 u M, covers the rounding of the reported t (u t) with which boxes are compared, and the error before it.
 //
 // A direction component that is tiny or zero is replaced by 2^-70, which keeps all numbers finite. The largest
 // component is 2^-10 at least, so over the whole length of the soup's box that moves the ray by at most 2^-59 M.

@@ -13,8 +13,9 @@
 //
 // A lane is rejected when two edges have opposite signs beyond the error bound. If the line does meet the triangle, its
 // sheared corners lie no farther from the ray than the triangle is wide: |coordinates| <= 2 L, L the largest extent in
-// the leaf. With corner error d = 8 u M, E is then off by at most 4 d (2 L + d) + 2 d^2 + 4 u (2 L + d)^2 <= 12 d L + 7
-// d^2, as L <= 2 M. Underflow adds less than FLT_MIN. The bound of a leaf is e = 13 d L + 8 d^2 + FLT_MIN.
+// the leaf. With corner error d = 8 u M, E is then off by at most
+// 4 d (2 L + d) + 2 d^2 + 4 u (2 L + d)^2 <= 12 d L + 7 d^2, as L <= 2 M. Underflow adds less than FLT_MIN. The bound
+// of a leaf is e = 13 d L + 8 d^2 + FLT_MIN.
 //
 // A lane is surely met when all three E are beyond e on one side. For rounding is monotonic, so E = x y' - y x', each
 // product rounded once, has the sign of the exact expression; three equal signs mean that the triangle of the computed
@@ -26,12 +27,12 @@
 // it is decided when another comes too near to tell them apart, or measured at the end (ray_measure.h). With D = sum(E)
 // and depths z_i, t = sum(E_i z_i) / D times per_depth. Let the line meet the triangle. Depths differ by L at most, so
 // all are within Z = |z_a| + L, and no corner is farther away than M' = Z + L: it is off by d' = 8 u M'. With m the
-// largest of the triangle's own computed coordinates, at most 2 M', E is off by at most 4 d' m + 2 d'^2 + 4 u m^2 <= 5
-// d' m + 2 d'^2; taken as e = 5.5 d' m + 3 d'^2 + FLT_MIN. (L is that of the leaf's largest triangle: where small ones
-// lie beside it, 13 d' L could not tell a fourth of some camera's hits from misses.) True weights have one sign, so
-// errors of the weights move the quotient by at most sum(e |z_i - z|) / |D| <= 3 e L / |D|. With |D| >= 64 e, roundings
-// of depths, products, sums and the quotient add 18 u Z, per_depth (two of its own) and its product 3 u Z. Taken as 4 e
-// L / |D| + 26 u Z.
+// largest of the triangle's own computed coordinates, at most 2 M', E is off by at most
+// 4 d' m + 2 d'^2 + 4 u m^2 <= 5 d' m + 2 d'^2; taken as e = 5.5 d' m + 3 d'^2 + FLT_MIN. (L is that of the leaf's
+// largest triangle: where small ones lie beside it, 13 d' L could not tell a fourth of some camera's hits from misses.)
+// True weights have one sign, so errors of the weights move the quotient by at most
+// sum(e |z_i - z|) / |D| <= 3 e L / |D|. With |D| >= 64 e, roundings of depths, products, sums and the quotient add
+// 18 u Z, per_depth (two of its own) and its product 3 u Z. Taken as 4 e L / |D| + 26 u Z.
 
 #include "base/compiler.h"
 #include "base/lowest_bit.h"

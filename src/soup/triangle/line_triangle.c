@@ -5,10 +5,10 @@
 // A line through an edge meets both of its triangles, and through a corner all of its fan, so the number of triangles
 // met is not the number of crossings. Simulation of simplicity answers: the line is moved by an infinitesimal step
 // along x, then by a smaller one along y, then z, so that it passes through no edge. The sidedness of an edge a, b is
-// det(d, a - o, b - o); the step e changes it by e . (d x (b - a)), so where it is zero, the first component of d x (b
-// - a) that is not zero has its sign. All are zero only for edges along the line, whose triangles are seen edge-on and
-// cannot be hit. The sign belongs to the edge, not to the triangle: so the moved line crosses every closed surface an
-// even number of times, exactly, whatever the line passed through.
+// det(d, a - o, b - o); the step e changes it by e . (d x (b - a)), so where it is zero, the first component of
+// d x (b - a) that is not zero has its sign. All are zero only for edges along the line, whose triangles are seen
+// edge-on and cannot be hit. The sign belongs to the edge, not to the triangle: so the moved line crosses every closed
+// surface an even number of times, exactly, whatever the line passed through.
 //
 // Source: Edelsbrunner, Mucke, Simulation of Simplicity, 1990.
 
