@@ -307,7 +307,7 @@ const tl_command tl_audit_command = {
     "Walks a capsule through the triangles wherever the navmesh says that an agent may go: around every\n"
     "polygon, through every portal, along random shortest paths. Then looks for floor that has room for the\n"
     "agent and no navmesh. Prints every place where the two disagree, and exits with 1 when there is one.\n"
-    "FILE is a baked file, or a level, which is then baked in memory. docs/audit.md says what is promised and\n"
+    "FILE is a baked file, or a level, which is then baked in memory. docs/guide/audit.md says what is promised and\n"
     "what is tolerated.",
     "talus sample courtyard -o courtyard.obj\n"
     "talus bake courtyard.obj -o courtyard.talus\n"

@@ -15,7 +15,7 @@
 
 #include <talus/base.h>
 
-/// How the program ends. Documented in docs/command.md.
+/// How the program ends. Documented in docs/guide/command.md.
 typedef enum tl_exit {
     TL_EXIT_OK = 0,
     TL_EXIT_NEGATIVE = 1,   ///< the answer is no: check found faults; a single ray misses; a single path does not exist

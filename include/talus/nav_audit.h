@@ -7,7 +7,7 @@
 //   tl_nav_why         the stage and the setting that made a point not walkable, and the value that would make it so
 //
 // What "free" promises: the probe is the agent, reduced by what voxels, a simplified outline and a coarse surface may
-// cost; docs/audit.md derives how much that is. Where even the probe does not fit, the navmesh is wrong.
+// cost; docs/guide/audit.md derives how much that is. Where even the probe does not fit, the navmesh is wrong.
 
 #ifndef TALUS_NAV_AUDIT_H
 #define TALUS_NAV_AUDIT_H

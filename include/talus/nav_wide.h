@@ -47,7 +47,7 @@ typedef struct tl_nav_wide_path {
 /// tl_nav_query_find_shortest_path.
 /// tl_nav_query_find_wide_place moves start and goal to where the agent fits. Corners are the start, places where the
 /// path turns, and the goal; a corner's polygon holds it, and the path continues there. TL_ERR_ARGUMENT: a negative
-/// radius. Sources: docs/paths.md.
+/// radius. Sources: docs/notes/paths.md.
 TL_API tl_result tl_nav_query_find_wide_path(tl_nav_query *query, const tl_navmesh *navmesh,
                                              const tl_nav_path_request *request, float agent_radius,
                                              tl_nav_corner *corners_out, uint32_t capacity, tl_nav_wide_path *path_out);

@@ -2,8 +2,8 @@
 //
 // The baked file: a container of typed chunks that is written once, mapped, checked whole, and queried in place.
 //
-// The core does no file I/O: bytes come from the caller's memory and go to the caller's callback. docs/file-format.md
-// describes the layout. Little-endian; chunks begin at multiples of 64 bytes.
+// The core does no file I/O: bytes come from the caller's memory and go to the caller's callback.
+// docs/guide/file-format.md describes the layout. Little-endian; chunks begin at multiples of 64 bytes.
 
 #ifndef TALUS_PACK_H
 #define TALUS_PACK_H

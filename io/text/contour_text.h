@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Contour sets as text, `navcontours 1` (docs/polygon.md). A file holds any number of sets one after another: they are
-// read set by set from bytes in memory.
+// Contour sets as text, `navcontours 1` (docs/guide/polygons.md). A file holds any number of sets one after another:
+// they are read set by set from bytes in memory.
 
 #ifndef TALUS_IO_CONTOUR_TEXT_H
 #define TALUS_IO_CONTOUR_TEXT_H

@@ -114,7 +114,7 @@ void tl_take_rest(tl_line *line, char *text, size_t capacity)
 
 tl_result tl_line_fail(const tl_contour_reader *reader, tl_io_error *error, const char *expected)
 {
-    return tl_io_fail(error, TL_ERR_FORMAT, reader->path, reader->line, "docs/polygon.md describes the format",
+    return tl_io_fail(error, TL_ERR_FORMAT, reader->path, reader->line, "docs/guide/polygons.md describes the format",
                       "expected %s", expected);
 }
 

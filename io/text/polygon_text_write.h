@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Writing polygon meshes as text, `navpolys 1` (docs/polygon.md).
+// Writing polygon meshes as text, `navpolys 1` (docs/guide/polygons.md).
 
 #ifndef TALUS_IO_POLYGON_TEXT_WRITE_H
 #define TALUS_IO_POLYGON_TEXT_WRITE_H

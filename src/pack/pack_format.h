@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The layout of the baked file: header, table, chunks (docs/file-format.md).
+// The layout of the baked file: header, table, chunks (docs/guide/file-format.md).
 
 #ifndef TALUS_SRC_PACK_FORMAT_H
 #define TALUS_SRC_PACK_FORMAT_H

@@ -90,7 +90,7 @@ static void test_errors(void **state)
     cli_check_error(2, "polygonize square.txt --json -o -", "standard output", "-o");
     cli_check_error(4, "polygonize square.txt -o no/where.txt", "no/where.txt", "check the path");
     cli_write_text("bad.txt", "navcontours 1\nname x\ncs 1\nch 0\n");
-    cli_check_error(3, "polygonize bad.txt -o bad_mesh.txt", "bad.txt:4:", "docs/polygon.md");
+    cli_check_error(3, "polygonize bad.txt -o bad_mesh.txt", "bad.txt:4:", "docs/guide/polygons.md");
     TEST_CHECK(!cli_exists("bad_mesh.txt"));
     cli_write_text("cut.txt", "navcontours 1\ncs 1\nch 1\ncontours 1\nc 0 1 63 4\n0 0 0 0\n");
     cli_check_error(3, "polygonize cut.txt", "cut.txt:6:", "the text ends");

@@ -272,7 +272,8 @@ static void test_oracle(void **state)
     memset(&seen, 0, sizeof seen);
     for (uint32_t round = 0; round < 400; round++) {
         fixture_level level = fixture_random(&random, round % 6, 4 + test_random_below(&random, 9));
-        // Two floors that fork at a seam can be changed anywhere along it (docs/paths.md): those stand in one tile.
+        // Two floors that fork at a seam can be changed anywhere along it (docs/notes/paths.md): those stand in one
+        // tile.
         level.tile_cells = round % 6 == 5 || test_random_below(&random, 3) == 0 ? 0 : 3;
         make_pair(&p, &level, &random, round % 2 == 0);
         for (uint32_t i = 0; i < 12 && p.all.count > 0; i++) {
