@@ -12,28 +12,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_SERIES = 12, MOST_LABELS = 32, MOST_POINTS = 64 };
+enum { MAX_SERIES = 12, MAX_LABELS = 32, MAX_POINTS = 64 };
 
 static const double PANEL_W = 560.0, PANEL_H = 380.0, MARGIN_LEFT = 64.0, MARGIN_RIGHT = 16.0, MARGIN_TOP = 54.0,
                     MARGIN_BOTTOM = 44.0, HEAD = 34.0, TAU = 6.283185307179586;
 
 // Okabe and Ito's colours, told apart by every kind of sight; the first series is the dark one.
-static const unsigned PALETTE[MOST_SERIES] = { 0x1b2a41, 0xe69f00, 0x56b4e9, 0x009e73, 0xd55e00, 0xcc79a7,
-                                               0x0072b2, 0xb8a300, 0x8c8c8c, 0x7a5195, 0x2f7f4f, 0x9c3d1e };
+static const unsigned PALETTE[MAX_SERIES] = { 0x1b2a41, 0xe69f00, 0x56b4e9, 0x009e73, 0xd55e00, 0xcc79a7,
+                                              0x0072b2, 0xb8a300, 0x8c8c8c, 0x7a5195, 0x2f7f4f, 0x9c3d1e };
 
 typedef struct series {
     const char *name;
-    double x[MOST_POINTS], y[MOST_POINTS];
+    double x[MAX_POINTS], y[MAX_POINTS];
     size_t count;
 } series;
 
 typedef struct chart {
     const char *name, *x_label, *unit;
-    series lines[MOST_SERIES];
+    series lines[MAX_SERIES];
     size_t line_count;
-    const char *labels[MOST_LABELS]; // of a bar chart: x is the label's number
+    const char *labels[MAX_LABELS]; // of a bar chart: x is the label's number
     size_t label_count;
-    double least_x, most_x, least_y, most_y;
+    double min_x, max_x, min_y, max_y;
 } chart;
 
 static void fail(const char *what, const char *why)
@@ -64,7 +64,7 @@ static series *series_named(chart *c, const char *name)
             return &c->lines[i];
         }
     }
-    if (c->line_count == MOST_SERIES) {
+    if (c->line_count == MAX_SERIES) {
         fail(c->name, "has more series than a picture can show");
     }
     series *fresh = &c->lines[c->line_count++];
@@ -79,7 +79,7 @@ static double label_number(chart *c, const char *label)
             return (double)i;
         }
     }
-    if (c->label_count == MOST_LABELS) {
+    if (c->label_count == MAX_LABELS) {
         fail(c->name, "has more labels than a picture can show");
     }
     c->labels[c->label_count] = label;
@@ -95,7 +95,7 @@ static void read_chart(const json_t *from, const json_t *root, chart *c)
     if (c->name == NULL || c->unit == NULL) {
         fail("the report", "a chart has no name or no unit");
     }
-    c->least_x = c->least_y = HUGE_VAL;
+    c->min_x = c->min_y = HUGE_VAL;
     size_t i;
     json_t *row;
     json_array_foreach(json_object_get(from, "rows"), i, row)
@@ -106,17 +106,17 @@ static void read_chart(const json_t *from, const json_t *root, chart *c)
             fail(c->name, "a row has no series");
         }
         series *s = series_named(c, name);
-        if (s->count == MOST_POINTS) {
+        if (s->count == MAX_POINTS) {
             fail(c->name, "has more points than a picture can show");
         }
         double x = label != NULL ? label_number(c, label) : json_number_value(json_object_get(row, "x"));
         double y = json_number_value(json_object_get(row, "y"));
         s->x[s->count] = x;
         s->y[s->count++] = y;
-        c->least_x = fmin(c->least_x, x);
-        c->most_x = fmax(c->most_x, x);
-        c->least_y = fmin(c->least_y, y);
-        c->most_y = fmax(c->most_y, y);
+        c->min_x = fmin(c->min_x, x);
+        c->max_x = fmax(c->max_x, x);
+        c->min_y = fmin(c->min_y, y);
+        c->max_y = fmax(c->max_y, y);
     }
 }
 
@@ -272,7 +272,7 @@ static void draw_bars(cairo_t *cr, const chart *c, double left, double top, doub
                 if (c->lines[i].x[k] != (double)g) {
                     continue;
                 }
-                double length = fmax(0.0, c->lines[i].y[k] / c->most_y * width);
+                double length = fmax(0.0, c->lines[i].y[k] / c->max_y * width);
                 set_colour(cr, PALETTE[i]);
                 cairo_rectangle(cr, left + label_width, y0 + bar * (double)i, length, bar * 0.9);
                 cairo_fill(cr);
@@ -299,17 +299,17 @@ static void draw_chart(cairo_t *cr, const chart *c, double left, double top)
         draw_bars(cr, c, left, top + MARGIN_TOP, PANEL_H - MARGIN_TOP - 12.0);
         return;
     }
-    if (!(c->least_x > 0.0) || !(c->least_y > 0.0)) {
+    if (!(c->min_x > 0.0) || !(c->min_y > 0.0)) {
         fail(c->name, "a curve needs x and y above zero");
     }
     axes a = { left + MARGIN_LEFT,
                top + MARGIN_TOP + 8.0,
                PANEL_W - MARGIN_LEFT - MARGIN_RIGHT,
                PANEL_H - MARGIN_TOP - MARGIN_BOTTOM,
-               log10(c->least_x) - 0.05,
-               log10(c->most_x) + 0.05,
-               log10(c->least_y) - 0.08,
-               log10(c->most_y) + 0.08 };
+               log10(c->min_x) - 0.05,
+               log10(c->max_x) + 0.05,
+               log10(c->min_y) - 0.08,
+               log10(c->max_y) + 0.08 };
     draw_curves(cr, c, &a);
 }
 

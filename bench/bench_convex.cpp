@@ -10,6 +10,9 @@
 // talus's proven bounds by more than 1e-4 of the size. Casts are wrong when they miss what the bounds of the distance
 // prove to be hit, or are later or earlier than 1e-4 of the size.
 
+#include "cli/shared/splitmix64.h"
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 
 #include <talus/convex.h>
@@ -19,7 +22,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -44,19 +46,14 @@ constexpr int pair_count = 96, steps = 16;
 
 double now()
 {
-    timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e9 * (double)time.tv_sec + (double)time.tv_nsec;
+    return 1e9 * bench_thread_seconds();
 }
 
 uint64_t random_state = 1;
 
 float random_unit()
 {
-    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (float)((z ^ (z >> 31)) >> 40) * (1.0f / 16777216.0f);
+    return tl_splitmix64_float(&random_state);
 }
 
 tl_vec3 random_direction()
@@ -462,14 +459,17 @@ void run(bench_report *report, const scene &s, int count, std::vector<shape> &sh
 
 int main(int argc, char **argv)
 {
-    const char *path = bench_report_path(&argc, argv);
+    const bench_option options[] = { { nullptr, BENCH_COUNT, nullptr, nullptr } };
+    std::vector<const char *> words((size_t)argc);
+    const char *json = nullptr;
+    words.resize((size_t)bench_parse(argc, argv, options, words.data(), &json));
     bench_report *report = bench_report_new("convex", "ns a query", "points of each hull");
     std::vector<int> counts = { 8, 32, 64, 128, 256, 1024 };
-    if (argc > 1) {
+    if (!words.empty()) {
         counts.clear();
-        for (int i = 1; i < argc; i++) {
-            counts.push_back(std::max(4, std::atoi(argv[i])));
-        }
+    }
+    for (const char *word : words) {
+        counts.push_back(std::max(4, std::atoi(word)));
     }
     const scene scenes[] = { { "apart, 0.5", 0.5f, kind_distance },
                              { "penetrating, 0.1", -0.1f, kind_distance },
@@ -492,5 +492,5 @@ int main(int argc, char **argv)
         }
     }
     bench_report_print_claims(report);
-    return bench_report_close(report, path);
+    return bench_report_close(report, json);
 }

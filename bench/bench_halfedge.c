@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The editable half-edge mesh: nanoseconds for each operation, from a thousand to a million vertices. The mesh is a
-// closed torus of triangles, six at each vertex; "in order" builds, walks and removes it as a file would list it,
-// "random" shuffles faces and vertices, so that at large sizes every access leaves the cache.
+// The editable half-edge mesh, without a peer: nanoseconds for each operation, from a thousand to a million vertices.
+// The mesh is a closed torus of triangles, six at each vertex; "in order" builds, walks and removes it as a file would
+// list it, "random" shuffles faces and vertices, so that at large sizes every access leaves the cache.
 
 #define _GNU_SOURCE
 
+#include "cli/shared/splitmix64.h"
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 
 #include <talus/halfedge.h>
@@ -13,7 +16,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 enum { REPETITIONS = 5, LEAST_FACES_A_SIZE = 200000 };
 
@@ -28,17 +30,12 @@ static uint64_t random_state = 1;
 
 static uint32_t random_below(uint32_t limit)
 {
-    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (uint32_t)(((z ^ (z >> 31)) >> 32) * limit >> 32);
+    return tl_splitmix64_below(&random_state, limit);
 }
 
 static double now(void)
 {
-    struct timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e9 * (double)time.tv_sec + (double)time.tv_nsec;
+    return 1e9 * bench_thread_seconds();
 }
 
 static void *allocate(size_t count, size_t size)
@@ -199,7 +196,9 @@ int main(int argc, char **argv)
     static const char *const names[FIGURE_COUNT] = { "add vertex", "add face",  "find edge",
                                                      "ring step",  "loop step", "remove face" };
     static const uint32_t sides[] = { 32, 90, 256, 512, 1000 };
-    const char *path = bench_report_path(&argc, argv);
+    const bench_option options[] = { { NULL, BENCH_COUNT, NULL, NULL } };
+    const char *json = NULL;
+    bench_parse(argc, argv, options, NULL, &json);
     bench_report *report = bench_report_new("Half-edge mesh", "ns", "vertices");
     double worst[FIGURE_COUNT] = { 0.0 };
     for (int shuffled = 0; shuffled < 2; shuffled++) {
@@ -231,5 +230,5 @@ int main(int argc, char **argv)
     bench_report_at_most(report, "remove face in order, any size, ns", worst[REMOVE_FACE], 50.0);
     bench_report_at_most(report, "ring walk in order, any size, ns a step", worst[RING_STEP], 3.0);
     bench_report_print_claims(report);
-    return bench_report_close(report, path);
+    return bench_report_close(report, json);
 }

@@ -7,6 +7,9 @@
 
 #define _GNU_SOURCE
 
+#include "cli/shared/splitmix64.h"
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 
 #include "hull/ray/hull_ray.h"
@@ -16,29 +19,23 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
 
 #ifdef TALUS_BENCH_QHULL
 #include <libqhull_r/qhull_ra.h>
 #endif
 
-enum { MOST_POINTS = 140000 };
+enum { MAX_POINTS = 140000 };
 
 static double now(void)
 {
-    struct timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e6 * (double)time.tv_sec + 1e-3 * (double)time.tv_nsec;
+    return 1e6 * bench_thread_seconds();
 }
 
 static uint64_t random_state = 1;
 
 static float random_signed(void)
 {
-    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (float)((z ^ (z >> 31)) >> 40) * (1.0f / 8388608.0f) - 1.0f;
+    return 2.0f * tl_splitmix64_float(&random_state) - 1.0f;
 }
 
 typedef enum cloud_kind { CLOUD_SPHERE, CLOUD_CUBE, CLOUD_CUBE_FACES, CLOUD_GRID } cloud_kind;
@@ -78,7 +75,7 @@ static double run_talus(const tl_vec3 *points, uint32_t count, uint32_t *vertice
 #ifdef TALUS_BENCH_QHULL
 static double run_qhull(const tl_vec3 *points, uint32_t count, uint32_t *vertices_out)
 {
-    static coordT coordinates[3 * MOST_POINTS];
+    static coordT coordinates[3 * MAX_POINTS];
     for (uint32_t i = 0; i < count; i++) {
         coordinates[3 * i] = (double)points[i].x;
         coordinates[3 * i + 1] = (double)points[i].y;
@@ -116,7 +113,7 @@ static void bench_builds(bench_report *report)
         { "cube 131072", CLOUD_CUBE, 131072, 5, 1.0 },     { "cube faces 8192", CLOUD_CUBE_FACES, 8192, 9, 1.0 },
         { "grid 132651", CLOUD_GRID, 132651, 5, 1.0 },
     };
-    static tl_vec3 points[MOST_POINTS];
+    static tl_vec3 points[MAX_POINTS];
     printf("%-16s %10s %10s %10s %7s\n", "hull", "vertices", "talus us", "qhull us", "ratio");
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         make_cloud(cases[c].kind, points, cases[c].count);
@@ -223,10 +220,12 @@ static void bench_rays(bench_report *report)
 
 int main(int argc, char **argv)
 {
-    const char *path = bench_report_path(&argc, argv);
+    const bench_option options[] = { { NULL, BENCH_COUNT, NULL, NULL } };
+    const char *json = NULL;
+    bench_parse(argc, argv, options, NULL, &json);
     bench_report *report = bench_report_new("Hulls", "time", NULL);
     bench_builds(report);
     bench_rays(report);
     bench_report_print_claims(report);
-    return bench_report_close(report, path);
+    return bench_report_close(report, json);
 }

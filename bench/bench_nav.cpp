@@ -2,14 +2,16 @@
 //
 // The navmesh build stage by stage, with Recast in the same process on the same settings where it is installed.
 //
-//   bench_nav [--json FILE] [cell size, metres (0.3)] [repetitions (5)] [level.obj ...]
+//   bench_nav [LEVEL.obj ...] [--cell-size METRES (0.3)] [--repetitions N (5)] [--json FILE]
 //
 // Without levels: the built-in ones, those of the data folder, and a city of a million triangles in tiles of 64 cells.
 // CPU time of one thread, the best of the repetitions, which alternate. `whole` is the build as users call it, for
 // Recast the sum of its stages. Memory is the most that was held at one time, counted by the allocator hooks of both;
 // each piece is freed when its last reader is done. A tiled level's memory is that of its largest tile.
 
-#include "bench_nav_levels.hpp"
+#include "measure.h"
+#include "nav_levels.hpp"
+#include "options.h"
 #include "report.h"
 
 #ifdef TALUS_HAVE_RECAST
@@ -21,7 +23,6 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <thread>
 
 namespace
@@ -62,13 +63,6 @@ struct figures {
     }
 };
 
-double clock_ms(clockid_t clock)
-{
-    timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
-
 // Runs stage after stage and adds the time that each takes.
 struct stopwatch {
     figures *sum;
@@ -76,9 +70,9 @@ struct stopwatch {
 
     template <class run_stage> bool time(run_stage run)
     {
-        const double begin = clock_ms(CLOCK_PROCESS_CPUTIME_ID);
+        const double begin = 1e3 * bench_process_seconds();
         const bool done = run();
-        sum->ms[stage++] += clock_ms(CLOCK_PROCESS_CPUTIME_ID) - begin;
+        sum->ms[stage++] += 1e3 * bench_process_seconds() - begin;
         return done;
     }
 };
@@ -230,9 +224,9 @@ double wall_ms(const bench_level &level, tl_nav_def def, const tl_tasks *tasks)
     tl_nav_input input = {};
     input.mesh = level.mesh.view();
     tl_nav_tiles tiles;
-    const double begin = clock_ms(CLOCK_MONOTONIC);
+    const double begin = 1e3 * bench_wall_seconds();
     const tl_result result = tl_nav_bake(&def, &input, &tiles, nullptr);
-    const double ms = clock_ms(CLOCK_MONOTONIC) - begin;
+    const double ms = 1e3 * bench_wall_seconds() - begin;
     tl_nav_tiles_free(&tiles);
     return result == TL_OK ? ms : 0;
 }
@@ -379,11 +373,16 @@ void bench_layers(bench_report *report, std::vector<bench_level> levels, int rep
 
 int main(int argc, char **argv)
 {
-    const char *json = bench_report_path(&argc, argv);
-    const int repetitions = argc > 2 ? std::atoi(argv[2]) : 5;
     tl_nav_def def = tl_default_nav_def();
-    def.cell_size = argc > 1 ? std::strtof(argv[1], nullptr) : 0.3f;
-    std::vector<std::string> files(argv + std::min(argc, 3), argv + argc);
+    uint32_t count = 5;
+    const bench_option options[] = { { "cell-size", BENCH_NUMBER, &def.cell_size, "metres" },
+                                     { "repetitions", BENCH_COUNT, &count, "of which the best counts" },
+                                     { nullptr, BENCH_COUNT, nullptr, nullptr } };
+    std::vector<const char *> words((size_t)argc);
+    const char *json = nullptr;
+    words.resize((size_t)bench_parse(argc, argv, options, words.data(), &json));
+    const std::vector<std::string> files(words.begin(), words.end());
+    const int repetitions = (int)count;
     std::vector<bench_level> levels = files.empty() ? default_levels(def) : levels_of_files(files, def);
     bench_report *report = bench_report_new("nav", "ms", nullptr);
     print_head("watershed", repetitions, def.cell_size);

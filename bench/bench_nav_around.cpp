@@ -6,15 +6,16 @@
 //
 // The polygons are Recast's, so that both sides ask the same mesh. CPU time of one thread, the best run of each side.
 
-#include "bench_options.hpp"
+#include "cli/shared/splitmix64.h"
 #include "detour_mesh.hpp"
 #include "io/mesh/mesh_import.h"
+#include "measure.h"
+#include "query_options.hpp"
 #include "report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <string>
 #include <talus/nav_around.h>
@@ -27,31 +28,20 @@ namespace
 {
 
 constexpr float RADIUS = 8.0f;
-constexpr int MOST = 4096;
+constexpr int MAX_FOUND = 4096;
 constexpr int SLICE = 64;       // nodes
 constexpr uint32_t POINTS = 64; // a call
 
 uint64_t random_state = 11;
 
-// SplitMix64.
 uint64_t random_bits()
 {
-    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
+    return tl_splitmix64(&random_state);
 }
 
 float random_unit()
 {
-    return (float)(random_bits() >> 40) * 0x1p-24f;
-}
-
-double now_seconds()
-{
-    timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+    return tl_splitmix64_float(&random_state);
 }
 
 // A place and a goal as both sides know them.
@@ -68,10 +58,10 @@ struct arena {
     std::unique_ptr<tl_nav_query, detour_deleter> query;
     dtQueryFilter filter;
     std::vector<place> places;
-    std::vector<dtPolyRef> refs = std::vector<dtPolyRef>(MOST), parents = std::vector<dtPolyRef>(MOST);
-    std::vector<float> costs = std::vector<float>(MOST);
-    std::vector<tl_nav_field_entry> entries = std::vector<tl_nav_field_entry>(MOST);
-    std::vector<tl_nav_ref> polygons = std::vector<tl_nav_ref>(MOST);
+    std::vector<dtPolyRef> refs = std::vector<dtPolyRef>(MAX_FOUND), parents = std::vector<dtPolyRef>(MAX_FOUND);
+    std::vector<float> costs = std::vector<float>(MAX_FOUND);
+    std::vector<tl_nav_field_entry> entries = std::vector<tl_nav_field_entry>(MAX_FOUND);
+    std::vector<tl_nav_ref> polygons = std::vector<tl_nav_ref>(MAX_FOUND);
     uint64_t checksum = 0; // so that nothing is optimised away
 
     bool locate(dtPolyRef *ref, float *point, tl_nav_location *out)
@@ -114,14 +104,14 @@ bench_report *report;
 // Microseconds a question. Short runs are repeated to last a while.
 double time_once(const arena &a, const std::function<void(const place &)> &ask)
 {
-    double begin = now_seconds(), seconds = 0.0;
+    double begin = bench_thread_seconds(), seconds = 0.0;
     int repeats = 0;
     do {
         for (const place &p : a.places) {
             ask(p);
         }
         repeats++;
-        seconds = now_seconds() - begin;
+        seconds = bench_thread_seconds() - begin;
     } while (seconds < 0.02);
     return seconds * 1e6 / ((double)repeats * (double)a.places.size());
 }
@@ -203,7 +193,7 @@ void bench_around(arena &a)
         [&](const place &p) {
             int count = 0;
             a.detour->findPolysAroundCircle(p.detour, p.point, RADIUS, &a.filter, a.refs.data(), a.parents.data(),
-                                            a.costs.data(), &count, MOST);
+                                            a.costs.data(), &count, MAX_FOUND);
             a.checksum += (uint64_t)count;
         },
         [&](const place &p) {
@@ -211,7 +201,7 @@ void bench_around(arena &a)
             tl_nav_field_def field = tl_default_nav_field_def();
             field.zone = &zone;
             uint32_t count = 0;
-            tl_nav_query_flood(a.query.get(), navmesh, &p.talus, &field, a.entries.data(), MOST, &count);
+            tl_nav_query_flood(a.query.get(), navmesh, &p.talus, &field, a.entries.data(), MAX_FOUND, &count);
             a.checksum += count;
         });
     compare(
@@ -241,7 +231,7 @@ void bench_sliced(arena &a)
             while (dtStatusInProgress(status)) {
                 status = a.detour->updateSlicedFindPath(SLICE, &done);
             }
-            a.detour->finalizeSlicedFindPath(a.refs.data(), &count, MOST);
+            a.detour->finalizeSlicedFindPath(a.refs.data(), &count, MAX_FOUND);
             a.checksum += (uint64_t)count;
         },
         [&](const place &p) {
@@ -252,7 +242,7 @@ void bench_sliced(arena &a)
             do {
                 tl_nav_query_step_path(a.query.get(), SLICE, &progress);
             } while (progress.status == TL_NAV_PATH_UNFINISHED);
-            tl_nav_query_write_path(a.query.get(), a.polygons.data(), MOST, &path);
+            tl_nav_query_write_path(a.query.get(), a.polygons.data(), MAX_FOUND, &path);
             a.checksum += path.polygon_count;
         });
 }
@@ -344,13 +334,12 @@ void bench_sample(const char *name, uint32_t triangles, uint32_t tile_size, size
 
 int main(int argc, char **argv)
 {
-    const char *json_path = bench_report_path(&argc, argv);
+    query_options options;
+    options.count = 2000;
+    options.city_triangles = 200000;
+    const char *json = options.parse(argc, argv, "places");
     report = bench_report_new("nav_around", "us", nullptr);
-    bench_options options{ 2000, 200000, 5, "", false };
-    if (!options.take(argc, argv, "--places")) {
-        return 2;
-    }
-    runs = options.runs;
+    runs = (int)options.runs;
     for (const char *name : { "nav_test", "dungeon", "undulating" }) {
         if (options.wants(name)) {
             bench_file(name, 0, options.count);
@@ -362,5 +351,5 @@ int main(int argc, char **argv)
     }
     std::printf("\n");
     bench_report_print_claims(report);
-    return bench_report_close(report, json_path);
+    return bench_report_close(report, json);
 }

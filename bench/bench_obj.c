@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// How fast an OBJ file becomes triangles: our reader, and Assimp on the same files in the same run.
+// How fast an OBJ file becomes triangles: megabytes a second of talus's reader, and of Assimp on the same files in the
+// same run; a ratio is how many times as fast talus is.
+//
+//   bench_obj [--side N (707)] [--repetitions N (5)] [--assimp N (1)] [--json FILE]
 //
 // The files are made here: terrain of 1,000,000 triangles, in the forms that exporters write. Each is read from the
 // page cache, by one thread. A figure is the median of the repetitions in processor time, which other programs disturb
@@ -12,6 +15,8 @@
 #include "io/files/file_map.h"
 #include "io/mesh/mesh_import.h"
 #include "io/mesh/obj_reader.h"
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 
 #include <assimp/cimport.h>
@@ -20,10 +25,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
-enum { MOST_REPETITIONS = 9 };
+enum { MAX_REPETITIONS = 9 };
 
 typedef struct obj_form {
     const char *name;
@@ -31,26 +35,6 @@ typedef struct obj_form {
     bool references;    // vt and vn lines, and v/vt/vn corners
     bool quads;
 } obj_form;
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
-static int compare_doubles(const void *a, const void *b)
-{
-    double x = *(const double *)a;
-    double y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double median(double *values, int count)
-{
-    qsort(values, (size_t)count, sizeof *values, compare_doubles);
-    return values[count / 2];
-}
 
 static void write_text(tl_atomic_file *file, const char *text)
 {
@@ -114,7 +98,7 @@ static tl_result write_terrain(const char *path, const obj_form *form, unsigned 
 // Seconds; the triangles go to `triangles_out`.
 static double time_ours(const char *path, uint32_t *triangles_out)
 {
-    double start = now();
+    double start = bench_process_seconds();
     tl_imported_mesh mesh;
     tl_io_error error;
     if (tl_import_mesh(path, NULL, &mesh, &error) != TL_OK) {
@@ -123,7 +107,7 @@ static double time_ours(const char *path, uint32_t *triangles_out)
         fprintf(stderr, "%s\n", text);
         exit(1);
     }
-    double seconds = now() - start;
+    double seconds = bench_process_seconds() - start;
     *triangles_out = mesh.triangle_count;
     tl_imported_mesh_free(&mesh);
     return seconds;
@@ -131,9 +115,9 @@ static double time_ours(const char *path, uint32_t *triangles_out)
 
 static double time_assimp(const char *path, uint32_t *triangles_out)
 {
-    double start = now();
+    double start = bench_process_seconds();
     const struct aiScene *scene = aiImportFile(path, aiProcess_Triangulate);
-    double seconds = now() - start;
+    double seconds = bench_process_seconds() - start;
     *triangles_out = 0;
     for (unsigned i = 0; scene != NULL && i < scene->mNumMeshes; i++) {
         *triangles_out += scene->mMeshes[i]->mNumFaces;
@@ -142,10 +126,10 @@ static double time_assimp(const char *path, uint32_t *triangles_out)
     return seconds;
 }
 
-static void measure(const char *path, const obj_form *form, int repetitions, int assimp_repetitions,
+static void measure(const char *path, const obj_form *form, uint32_t repetitions, uint32_t assimp_repetitions,
                     bench_report *report)
 {
-    double seconds[MOST_REPETITIONS];
+    double seconds[MAX_REPETITIONS];
     uint32_t triangles = 0;
     uint32_t assimp_triangles = 0;
     tl_file_map map;
@@ -155,17 +139,17 @@ static void measure(const char *path, const obj_form *form, int repetitions, int
     double megabytes = (double)map.size * 1e-6;
     tl_file_map_close(&map);
     time_ours(path, &triangles);
-    for (int i = 0; i < repetitions; i++) {
+    for (uint32_t i = 0; i < repetitions; i++) {
         seconds[i] = time_ours(path, &triangles);
     }
-    double ours = median(seconds, repetitions);
+    double ours = bench_quantile(seconds, repetitions, 0.5);
     printf("%-22s %8.1f %10u %9.1f %8.0f", form->name, megabytes, triangles, ours * 1e3, megabytes / ours);
     bench_report_value(report, "OBJ import", "talus", form->name, megabytes / ours);
     if (assimp_repetitions > 0) {
-        for (int i = 0; i < assimp_repetitions; i++) {
+        for (uint32_t i = 0; i < assimp_repetitions; i++) {
             seconds[i] = time_assimp(path, &assimp_triangles);
         }
-        double theirs = median(seconds, assimp_repetitions);
+        double theirs = bench_quantile(seconds, assimp_repetitions, 0.5);
         printf(" %9.1f %8.0f %7.1f%s", theirs * 1e3, megabytes / theirs, theirs / ours,
                assimp_triangles == triangles ? "" : "  (counts differ)");
         bench_report_value(report, "OBJ import", "Assimp", form->name, megabytes / theirs);
@@ -175,13 +159,17 @@ static void measure(const char *path, const obj_form *form, int repetitions, int
 
 int main(int argc, char **argv)
 {
-    const char *json_path = bench_report_path(&argc, argv);
-    unsigned side = argc > 1 ? (unsigned)atoi(argv[1]) : 707; // 999,698 triangles
-    int repetitions = argc > 2 ? atoi(argv[2]) : 5;
-    int assimp_repetitions = argc > 3 ? atoi(argv[3]) : 1;
-    if (side < 1 || side > 10000 || repetitions < 1 || repetitions > MOST_REPETITIONS || assimp_repetitions < 0 ||
-        assimp_repetitions > MOST_REPETITIONS) {
-        fprintf(stderr, "usage: bench_obj [side [repetitions [assimp repetitions]]] [--json FILE]\n");
+    uint32_t side = 707, repetitions = 5, assimp_repetitions = 1; // 999,698 triangles
+    const bench_option options[] = { { "side", BENCH_COUNT, &side, "squares along a side of the terrain" },
+                                     { "repetitions", BENCH_COUNT, &repetitions, "of which the median counts" },
+                                     { "assimp", BENCH_COUNT, &assimp_repetitions,
+                                       "repetitions of Assimp; 0: without it" },
+                                     { NULL, BENCH_COUNT, NULL, NULL } };
+    const char *json = NULL;
+    bench_parse(argc, argv, options, NULL, &json);
+    if (side < 1 || side > 10000 || repetitions < 1 || repetitions > MAX_REPETITIONS ||
+        assimp_repetitions > MAX_REPETITIONS) {
+        fprintf(stderr, "bench_obj: --side 1 to 10000, --repetitions 1 to %d\n", MAX_REPETITIONS);
         return 2;
     }
     static const obj_form forms[] = {
@@ -209,5 +197,5 @@ int main(int argc, char **argv)
         fflush(stdout);
     }
     unlink(path);
-    return bench_report_close(report, json_path);
+    return bench_report_close(report, json);
 }

@@ -3,9 +3,12 @@
 // A city that changes: a box of it baked again, and obstacles that come, move and go. Talus alone: Detour's tile cache
 // is not in Debian's library with the means to compare (it needs the caller's own compressor and mesh processing).
 //
-//   bench_obstacles [triangles] [--json FILE]
+//   bench_obstacles [--triangles N (1000000)] [--json FILE]
 
 #include "cli/sample/sample_level.h"
+#include "cli/shared/splitmix64.h"
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 
 #include <talus/nav_obstacles.h>
@@ -13,16 +16,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-enum { EDITS = 400, REBUILDS = 20, MOST_TILES = 12 * EDITS, MOST_SIDE = 256 };
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time); // one thread, on a machine that others use too
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
+enum { EDITS = 400, REBUILDS = 20, MAX_TILES = 12 * EDITS, MAX_SIDE = 256 };
 
 static void must(tl_result result, const char *what)
 {
@@ -32,24 +27,11 @@ static void must(tl_result result, const char *what)
     }
 }
 
-static int by_value(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static double quantile(double *values, size_t count, double share)
-{
-    qsort(values, count, sizeof *values, by_value);
-    return values[(size_t)(share * (double)(count - 1))];
-}
-
-static uint32_t random_state = 1;
+static uint64_t random_state = 1;
 
 static float random_between(float low, float high)
 {
-    random_state = random_state * 1664525u + 1013904223u;
-    return low + (high - low) * (float)(random_state >> 8) / 16777216.0f;
+    return low + (high - low) * tl_splitmix64_float(&random_state);
 }
 
 static void measure_rebuilds(const tl_nav_def *def, const tl_nav_input *input, bench_report *report)
@@ -61,37 +43,37 @@ static void measure_rebuilds(const tl_nav_def *def, const tl_nav_input *input, b
                        random_between(def->bounds.min.z, def->bounds.max.z) };
         tl_aabb box = { { at.x, -100.0f, at.z }, { at.x + 3.0f, 100.0f, at.z + 3.0f } };
         tl_nav_tile_block block;
-        double began = now();
+        double began = bench_process_seconds();
         must(tl_nav_rebake(def, input, box, &block, NULL), "rebuild");
-        times[i] = (now() - began) * 1e3;
+        times[i] = (bench_process_seconds() - began) * 1e3;
         tiles += block.range.count_x * block.range.count_z;
         tl_nav_tile_block_free(&block);
     }
-    double median = quantile(times, REBUILDS, 0.5);
+    double median = bench_quantile(times, REBUILDS, 0.5);
     printf("a box of 3 m baked again: median %.2f ms, most %.2f ms, %.1f tiles\n", median,
-           quantile(times, REBUILDS, 1.0), (double)tiles / REBUILDS);
+           bench_quantile(times, REBUILDS, 1.0), (double)tiles / REBUILDS);
     bench_report_at_most(report, "a changed box baked again, ms", median, 20.0);
 }
 
 // Times of one stage of the edits: of tiles that obstacles touch for the first time, which learn then what they keep of
 // themselves, and of those that they touched before.
 typedef struct edit_times {
-    double first[MOST_TILES], again[MOST_TILES], swap[MOST_TILES];
+    double first[MAX_TILES], again[MAX_TILES], swap[MAX_TILES];
     size_t first_count, again_count, swap_count;
-    bool seen[MOST_SIDE][MOST_SIDE]; // by tile
+    bool seen[MAX_SIDE][MAX_SIDE]; // by tile
 } edit_times;
 
 // Makes the tiles that wait, and puts them into the navmesh.
 static void make_tiles(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, edit_times *times)
 {
-    while (tl_nav_obstacles_waiting(obstacles) > 0 && times->swap_count < MOST_TILES) {
+    while (tl_nav_obstacles_waiting(obstacles) > 0 && times->swap_count < MAX_TILES) {
         tl_nav_rebaked_tile remade;
-        double began = now();
+        double began = bench_process_seconds();
         must(tl_nav_obstacles_bake_next(obstacles, &remade, NULL), "build");
-        double built = now();
+        double built = bench_process_seconds();
         must(tl_navmesh_replace_tiles(navmesh, remade.tile_x, remade.tile_z, &remade.stack), "swap");
-        times->swap[times->swap_count++] = (now() - built) * 1e6;
-        bool *seen = &times->seen[remade.tile_z % MOST_SIDE][remade.tile_x % MOST_SIDE];
+        times->swap[times->swap_count++] = (bench_process_seconds() - built) * 1e6;
+        bool *seen = &times->seen[remade.tile_z % MAX_SIDE][remade.tile_x % MAX_SIDE];
         if (*seen) {
             times->again[times->again_count++] = (built - began) * 1e6;
         } else {
@@ -110,9 +92,9 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
     def.tile_size = tile_size;
     tl_nav_obstacles *obstacles;
     tl_navmesh *navmesh;
-    double began = now();
+    double began = bench_process_seconds();
     must(tl_nav_obstacles_bake(&def, input, &obstacles, NULL, NULL), "bake");
-    double bake = now() - began;
+    double bake = bench_process_seconds() - began;
     must(tl_navmesh_create(NULL, &navmesh), "navmesh");
     must(tl_nav_obstacles_update(obstacles, navmesh, UINT32_MAX, NULL, NULL), "update");
     uint32_t tiles = tl_navmesh_tile_count(navmesh);
@@ -129,26 +111,28 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
         crate.base = tl_vec3_make(random_between(def.bounds.min.x, def.bounds.max.x), 0.0f,
                                   random_between(def.bounds.min.z, def.bounds.max.z));
         tl_nav_obstacle_id id;
-        began = now();
+        began = bench_process_seconds();
         must(tl_nav_obstacles_add(obstacles, &crate, &id, NULL), "add");
-        add[i] = (now() - began) * 1e6;
+        add[i] = (bench_process_seconds() - began) * 1e6;
         make_tiles(obstacles, navmesh, &times);
         crate.base.x += 0.4f; // it is pushed on
         crate.base.z -= 0.3f;
         must(tl_nav_obstacles_move(obstacles, id, &crate, NULL), "move");
         make_tiles(obstacles, navmesh, &times);
     }
-    double add_median = quantile(add, EDITS, 0.5), first_median = quantile(times.first, times.first_count, 0.5);
-    double again_median = quantile(times.again, times.again_count, 0.5);
-    double swap_median = quantile(times.swap, times.swap_count, 0.5);
+    double add_median = bench_quantile(add, EDITS, 0.5),
+           first_median = bench_quantile(times.first, times.first_count, 0.5);
+    double again_median = bench_quantile(times.again, times.again_count, 0.5);
+    double swap_median = bench_quantile(times.swap, times.swap_count, 0.5);
     const double memo_bytes = (double)tl_nav_obstacles_bytes(obstacles) - bare_bytes;
     printf("%s: baked in %.2f s, floors of %u tiles kept in %.1f MB, and %.1f MB more of %zu touched ones; a cylinder "
            "added: median %.2f us, 99%% %.2f; a tile made with one for the first time: median %.0f us, 90%% %.0f, 99%% "
            "%.0f; made again: median %.0f us, 90%% %.0f, 99%% %.0f; swapped in the navmesh: median %.0f us\n",
            name, bake, tiles, bare_bytes * 1e-6, memo_bytes * 1e-6, times.first_count, add_median,
-           quantile(add, EDITS, 0.99), first_median, quantile(times.first, times.first_count, 0.9),
-           quantile(times.first, times.first_count, 0.99), again_median, quantile(times.again, times.again_count, 0.9),
-           quantile(times.again, times.again_count, 0.99), swap_median);
+           bench_quantile(add, EDITS, 0.99), first_median, bench_quantile(times.first, times.first_count, 0.9),
+           bench_quantile(times.first, times.first_count, 0.99), again_median,
+           bench_quantile(times.again, times.again_count, 0.9), bench_quantile(times.again, times.again_count, 0.99),
+           swap_median);
     char claim[128];
     snprintf(claim, sizeof claim, "a cylinder added (%s), us", name);
     bench_report_at_most(report, claim, add_median, 100.0);
@@ -166,8 +150,11 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
 
 int main(int argc, char **argv)
 {
-    const char *json_path = bench_report_path(&argc, argv);
-    uint32_t triangles = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 1000000;
+    uint32_t triangles = 1000000;
+    const bench_option options[] = { { "triangles", BENCH_COUNT, &triangles, "of the city" },
+                                     { NULL, BENCH_COUNT, NULL, NULL } };
+    const char *json = NULL;
+    bench_parse(argc, argv, options, NULL, &json);
     uint32_t count;
     const tl_sample_level *levels = tl_sample_levels(&count);
     tl_sample_mesh mesh;
@@ -194,5 +181,5 @@ int main(int argc, char **argv)
     }
     bench_report_print_claims(report);
     tl_sample_mesh_free(&mesh);
-    return bench_report_close(report, json_path);
+    return bench_report_close(report, json);
 }

@@ -4,11 +4,14 @@
 // below TALUS_DATA_DIR/contours or those named, then the hard families and how their time grows. CPU time of one
 // thread, medians of repeated runs; growth from the fastest ones.
 //
-//   bench_polygon [CONTOURS.txt... | families]
+//   bench_polygon [CONTOURS.txt... | families] [--json FILE]
+//
 
-#include "bench_polygon_recast.h"
 #include "io/files/file_map.h"
 #include "io/text/contour_text.h"
+#include "measure.h"
+#include "options.h"
+#include "polygon_recast.h"
 #include "polygon_shapes.h"
 #include "report.h"
 
@@ -17,7 +20,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <talus/polygon.h>
-#include <time.h>
 
 enum { MAX_RUNS = 101, MAX_FILES = 512 };
 
@@ -32,19 +34,6 @@ typedef struct totals {
     uint64_t polygons[WAY_COUNT];
     uint64_t contours, vertices;
 } totals;
-
-static double now(void)
-{
-    struct timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
-
-static int by_size(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 static int by_name(const void *a, const void *b)
 {
@@ -61,9 +50,9 @@ static double run(int way, const tl_contour_set *set, uint32_t cap, uint32_t *po
     def.max_verts_per_poly = cap;
     def.method = methods[way];
     tl_polygon_mesh mesh;
-    double began = now();
+    double began = bench_process_seconds();
     tl_result result = tl_polygon_mesh_bake(set, &def, &mesh, NULL);
-    double seconds = now() - began;
+    double seconds = bench_process_seconds() - began;
     if (result != TL_OK) {
         fprintf(stderr, "bench_polygon: %s\n", tl_result_text(result));
         exit(1);
@@ -87,8 +76,7 @@ static void measure(int way, const tl_contour_set *set, uint32_t cap, totals *su
             break;
         }
     }
-    qsort(times, (size_t)runs, sizeof *times, by_size);
-    sums->seconds[way] += times[runs / 2];
+    sums->seconds[way] += bench_quantile(times, (size_t)runs, 0.5);
     sums->fastest[way] += times[0];
     sums->polygons[way] += polygons;
 }
@@ -269,7 +257,10 @@ static void claim_sets(const totals *sums, const char *const *names, bench_repor
 
 int main(int argc, char **argv)
 {
-    const char *json_path = bench_report_path(&argc, argv);
+    const bench_option options[] = { { NULL, BENCH_COUNT, NULL, NULL } };
+    const char **files = calloc((size_t)argc, sizeof *files);
+    const char *json = NULL;
+    const int file_count = files != NULL ? bench_parse(argc, argv, options, files, &json) : 0;
     bench_report *report = bench_report_new("polygon", "ms", NULL);
     static const char kinds[4] = { 'w', 'm', 'l', '*' };
     totals sums[4];
@@ -280,11 +271,11 @@ int main(int argc, char **argv)
     static const char *const names[4] = { "all watershed", "all monotone", "all layers", "all" };
     printf("%-34s %8s %10s %8s %10s %8s %10s %8s %10s %8s %26s\n", "contours", "vertices", "classic us", "polygons",
            "optimal us", "polygons", "Delaunay", "polygons", "Recast us", "polygons", "ratios to Recast");
-    if (argc > 1 && strcmp(argv[1], "families") != 0) {
-        for (int i = 1; i < argc; i++) {
-            bench_file(argv[i], sums);
+    if (file_count > 0 && strcmp(files[0], "families") != 0) {
+        for (int i = 0; i < file_count; i++) {
+            bench_file(files[i], sums);
         }
-    } else if (argc == 1) {
+    } else if (file_count == 0) {
         bench_folder(TALUS_DATA_DIR "/contours", sums);
     }
     for (uint32_t i = 0; i < 4; i++) {
@@ -296,5 +287,6 @@ int main(int argc, char **argv)
     bench_families(report);
     printf("\n");
     bench_report_print_claims(report);
-    return bench_report_close(report, json_path);
+    free(files);
+    return bench_report_close(report, json);
 }

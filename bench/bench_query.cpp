@@ -2,22 +2,23 @@
 //
 // Navmesh queries beside Detour's: on the very same polygons, in one process, runs taking turns.
 //
-//   bench_query [--city TRIANGLES (1000000)] [--pairs MOST (10000)] [--runs RUNS (5)] [--only NAME]
-//               [--prepared 1 (searches on prepared navmeshes alone)]
+//   bench_query [--city TRIANGLES (1000000)] [--pairs COUNT (10000)] [--runs RUNS (5)] [--only NAME]
+//               [--prepared 1 (searches on prepared navmeshes alone)] [--json FILE]
 //
 // Pairs: the recorded ones of the data folder, and 10,000 seeded ones on the built-in city in tiles. The polygons are
 // Recast's, so that both sides search the same mesh. CPU time of one thread, the best run of each side. Lengths are
 // compared in the plan (x and z), in which both sides pull their paths straight.
 
-#include "bench_options.hpp"
+#include "cli/shared/splitmix64.h"
 #include "detour_mesh.hpp"
 #include "io/mesh/mesh_import.h"
+#include "measure.h"
+#include "query_options.hpp"
 #include "report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <functional>
 #include <string>
@@ -31,15 +32,8 @@ namespace
 {
 
 const tl_vec3 EXTENTS = { 2.0f, 4.0f, 2.0f };
-constexpr int MOST_POLYGONS = 2048;
+constexpr int MAX_POLYGONS = 2048;
 constexpr float WALL_RADIUS = 10.0f;
-
-double now_seconds()
-{
-    timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
 
 // What is asked.
 struct question {
@@ -63,13 +57,9 @@ struct located_pair {
 
 uint64_t random_state = 1;
 
-// SplitMix64, [0, 1).
 float random_unit()
 {
-    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (float)((z ^ (z >> 31)) >> 40) * 0x1p-24f;
+    return tl_splitmix64_float(&random_state);
 }
 
 double plan_length(const float *points, size_t count, size_t stride)
@@ -96,8 +86,8 @@ struct arena {
     std::vector<located_pair> pairs;
     std::vector<size_t> complete, incomplete; // of pairs
     dtQueryFilter filter;
-    std::vector<dtPolyRef> detour_polygons = std::vector<dtPolyRef>(MOST_POLYGONS);
-    std::vector<float> detour_corners = std::vector<float>(3 * MOST_POLYGONS);
+    std::vector<dtPolyRef> detour_polygons = std::vector<dtPolyRef>(MAX_POLYGONS);
+    std::vector<float> detour_corners = std::vector<float>(3 * MAX_POLYGONS);
     std::vector<tl_nav_ref> polygons = std::vector<tl_nav_ref>(1 << 16);
     std::vector<tl_nav_corner> corners = std::vector<tl_nav_corner>(1 << 16);
     uint64_t checksum = 0; // so that nothing is optimised away
@@ -125,11 +115,11 @@ struct arena {
     {
         int count = 0, corner_count = 0;
         detour->findPath(p.start.detour, p.goal.detour, p.start.detour_point, p.goal.detour_point, &filter,
-                         detour_polygons.data(), &count, MOST_POLYGONS);
+                         detour_polygons.data(), &count, MAX_POLYGONS);
         *complete_out = count > 0 && detour_polygons[(size_t)count - 1] == p.goal.detour;
         if (*complete_out) {
             detour->findStraightPath(p.start.detour_point, p.goal.detour_point, detour_polygons.data(), count,
-                                     detour_corners.data(), nullptr, nullptr, &corner_count, MOST_POLYGONS);
+                                     detour_corners.data(), nullptr, nullptr, &corner_count, MAX_POLYGONS);
         }
         return corner_count;
     }
@@ -208,14 +198,14 @@ std::string current; // the level at hand
 // The best time of a run over all indices, in microseconds a query. Short runs are repeated to last a while.
 double time_once(const std::vector<size_t> &indices, const std::function<void(size_t)> &query)
 {
-    double begin = now_seconds(), seconds = 0.0;
+    double begin = bench_thread_seconds(), seconds = 0.0;
     int repeats = 0;
     do {
         for (size_t i : indices) {
             query(i);
         }
         repeats++;
-        seconds = now_seconds() - begin;
+        seconds = bench_thread_seconds() - begin;
     } while (seconds < 0.02);
     return seconds * 1e6 / ((double)repeats * (double)indices.size());
 }
@@ -331,7 +321,7 @@ void bench_unreachable(arena &a)
 // The searches again, over the visibility graph.
 void bench_prepared(arena &a, double bar)
 {
-    double begin = now_seconds();
+    double begin = bench_thread_seconds();
     tl_nav_prepare_def def = tl_default_nav_prepare_def();
     def.label_bytes = 256u << 20;
     tl_nav_prepared made;
@@ -340,7 +330,7 @@ void bench_prepared(arena &a, double bar)
         return;
     }
     std::printf("  prepared               in %.2f ms: %s, %u corner vertices, %u edges, %.2f MB\n",
-                1e3 * (now_seconds() - begin), tl_nav_prepared_kind_name(made.kind), made.corner_vertex_count,
+                1e3 * (bench_thread_seconds() - begin), tl_nav_prepared_kind_name(made.kind), made.corner_vertex_count,
                 made.edge_count, 1e-6 * (double)made.bytes);
     bench_paths(a, bar, ", prepared");
 }
@@ -401,14 +391,14 @@ void bench_places(arena &a)
             float t, normal[3];
             int count;
             a.detour->raycast(p.start.detour, p.start.detour_point, p.goal.detour_point, &a.filter, &t, normal,
-                              a.detour_polygons.data(), &count, MOST_POLYGONS);
+                              a.detour_polygons.data(), &count, MAX_POLYGONS);
             a.checksum += (uint64_t)count;
         },
         [&](size_t i) {
             const located_pair &p = a.pairs[i];
             tl_nav_ray_hit hit;
             tl_navmesh_cast_ray(a.navmesh(), nullptr, &p.start.talus, p.goal.talus.point, a.polygons.data(),
-                                MOST_POLYGONS, &hit);
+                                MAX_POLYGONS, &hit);
             a.checksum += hit.polygon_count;
         });
 }
@@ -476,7 +466,7 @@ tl_nav_def make_def(float cell_size, uint32_t tile_size)
 }
 
 // A file of pairs: a header, then a line a pair of four points, and behind a bar what Detour once answered.
-void bench_recorded(const std::string &file, size_t most_pairs)
+void bench_recorded(const std::string &file, size_t max_pairs)
 {
     std::ifstream in(std::string(TALUS_DATA_DIR) + "/queries/" + file + ".txt");
     std::string line, mesh_name;
@@ -491,7 +481,7 @@ void bench_recorded(const std::string &file, size_t most_pairs)
         std::sscanf(line.c_str(), "cs %f", &cell_size);
     }
     std::vector<question> questions;
-    while (questions.size() < most_pairs && std::getline(in, line)) {
+    while (questions.size() < max_pairs && std::getline(in, line)) {
         question q;
         float *numbers[] = { &q.start.x, &q.goal.x, &q.near_point.x, &q.target.x };
         const char *at = line.c_str();
@@ -553,14 +543,13 @@ void bench_sample(const char *name, uint32_t triangles, float cell_size, uint32_
 
 int main(int argc, char **argv)
 {
-    const char *json_path = bench_report_path(&argc, argv);
+    query_options options;
+    options.count = 10000;
+    options.city_triangles = 1000000;
+    const char *json = options.parse(argc, argv, "pairs");
     report = bench_report_new("query", "us", nullptr);
-    bench_options options{ 10000, 1000000, 5, "", false };
-    if (!options.take(argc, argv, "--pairs")) {
-        return 2;
-    }
-    runs = options.runs;
-    prepared_only = options.prepared_only;
+    runs = (int)options.runs;
+    prepared_only = options.prepared_only != 0;
     const char *files[] = { "nav_test_cs0.3_w_solo", "nav_test_cs0.3_w_t48",    "dungeon_cs0.3_w_solo",
                             "dungeon_cs0.3_w_t48",   "undulating_cs0.3_w_solo", "undulating_cs0.3_w_t48" };
     for (const char *file : files) {
@@ -573,5 +562,5 @@ int main(int argc, char **argv)
     }
     std::printf("\n");
     bench_report_print_claims(report);
-    return bench_report_close(report, json_path);
+    return bench_report_close(report, json);
 }

@@ -9,13 +9,16 @@
 // Rows are million rays a second; claims are ratios, as geometric means over levels, to Embree robust and to the better
 // of Embree's fast triangles and quads, all built at quality HIGH.
 //
-//   bench_rays [--json FILE] [repetitions [rays [only]]]
+//   bench_rays [--repetitions N (5)] [--rays N (20000)] [--only NAME] [--json FILE]
 //
-// `only` is a part of a level's name. Pin it to a core (taskset -c 1) and keep the machine quiet.
+// Pin it to a core (taskset -c 1) and keep the machine quiet.
 
 #define _DEFAULT_SOURCE // madvise
 
+#include "cli/shared/splitmix64.h"
 #include "embree_scene.h"
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 #include "soup/ray/ray_job.h"
 #include "soup_levels.h"
@@ -79,7 +82,7 @@ static void make_queries(query *queries, uint32_t count, uint32_t kind, tl_aabb 
         if (kind == 2) {
             q.target = bench_point_in(&random_state, inner);
         } else if (kind == 3) {
-            q.target = tl_mul_add(q.origin, q.target, diagonal * (0.02f + 0.1f * bench_unit(&random_state)));
+            q.target = tl_mul_add(q.origin, q.target, diagonal * (0.02f + 0.1f * tl_splitmix64_float(&random_state)));
         } else if (kind == 4) {
             q.target = tl_vec3_make(0, -1, 0);
         }
@@ -227,9 +230,9 @@ static answer run_slices(const scenes *s, uint32_t system, const query *queries,
     answer sum = { 0, 0 };
     for (uint32_t first = 0, slice = 0; first < count; first += SLICE_RAYS, slice++) {
         uint32_t rest = count - first < SLICE_RAYS ? count - first : SLICE_RAYS;
-        double start = bench_now();
+        double start = bench_wall_seconds();
         answer a = run_system(s, system, queries + first, rest, kind);
-        double t = bench_now() - start;
+        double t = bench_wall_seconds() - start;
         best[slice] = t < best[slice] ? t : best[slice];
         sum.hits += a.hits;
         sum.t_sum += a.t_sum;
@@ -342,7 +345,9 @@ static void run_level(RTCDevice device, const bench_level *l, uint32_t repetitio
     tl_aabb bounds = tl_soup_bounds(s.soup);
     for (uint32_t i = 0; i < ray_count; i++) {
         query q = { bench_point_in(&random_state, bounds),
-                    tl_vec3_make(0.1f * bench_unit(&random_state), 1, 0.1f * bench_unit(&random_state)), INFINITY };
+                    tl_vec3_make(0.1f * tl_splitmix64_float(&random_state), 1,
+                                 0.1f * tl_splitmix64_float(&random_state)),
+                    INFINITY };
         q.origin.y = bounds.max.y + 1;
         queries[i] = q;
     }
@@ -427,16 +432,21 @@ static void claim_others(bench_report *report, const result *results, uint32_t c
 
 int main(int argc, char **argv)
 {
-    const char *path = bench_report_path(&argc, argv);
-    uint32_t repetitions = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 5;
-    uint32_t ray_count = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 20000;
+    uint32_t repetitions = 5, ray_count = 20000;
+    const char *only = NULL;
+    const bench_option options[] = { { "repetitions", BENCH_COUNT, &repetitions, "of which the best counts" },
+                                     { "rays", BENCH_COUNT, &ray_count, "rays of each kind" },
+                                     { "only", BENCH_TEXT, &only, "levels whose name holds this" },
+                                     { NULL, BENCH_COUNT, NULL, NULL } };
+    const char *json = NULL;
+    bench_parse(argc, argv, options, NULL, &json);
     ray_count = ray_count < SLICE_RAYS * MAX_SLICES ? ray_count : SLICE_RAYS * MAX_SLICES;
     bench_report *report = bench_report_new("rays", "Mray/s", NULL);
     RTCDevice device = rtcNewDevice("threads=1");
     rtcSetDeviceMemoryMonitorFunction(device, count_memory, NULL);
     static bench_level levels[BENCH_MAX_LEVELS];
     static result results[BENCH_MAX_LEVELS];
-    uint32_t count = bench_load_levels(levels, argc > 3 ? argv[3] : NULL);
+    uint32_t count = bench_load_levels(levels, only);
     for (uint32_t i = 0; i < count; i++) {
         run_level(device, &levels[i], repetitions, ray_count, report, &results[i]);
     }
@@ -447,5 +457,5 @@ int main(int argc, char **argv)
     }
     bench_report_print_claims(report);
     rtcReleaseDevice(device);
-    return bench_report_close(report, path);
+    return bench_report_close(report, json);
 }

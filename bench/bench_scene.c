@@ -7,11 +7,14 @@
 // robust, whose models are built at quality HIGH; its scene of instances is built at quality LOW for the step, the
 // fastest that it has, and at MEDIUM for rays and the build.
 //
-//   bench_scene [--json FILE] [repetitions [rays]]
+//   bench_scene [--repetitions N (5)] [--rays N (20000)] [--json FILE]
 //
 // Pin it to a core (taskset -c 1) and keep the machine quiet.
 
+#include "cli/shared/splitmix64.h"
 #include "embree_scene.h"
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 #include "soup_levels.h"
 
@@ -217,10 +220,10 @@ static answer run_slices(const world *w, uint32_t system, const query *queries, 
     answer sum = { 0, 0 };
     for (uint32_t first = 0, slice = 0; first < count; first += SLICE_RAYS, slice++) {
         uint32_t rest = count - first < SLICE_RAYS ? count - first : SLICE_RAYS;
-        double begin = bench_now();
+        double begin = bench_wall_seconds();
         answer a = system == TALUS ? run_talus(w, queries + first, rest, kind)
                                    : run_embree(w->embree[system], queries + first, rest, kind);
-        double seconds = bench_now() - begin;
+        double seconds = bench_wall_seconds() - begin;
         best[slice] = seconds < best[slice] ? seconds : best[slice];
         sum.hits += a.hits;
         sum.t_sum += a.t_sum;
@@ -257,7 +260,7 @@ static void time_rays(const world *w, const query *queries, uint32_t count, uint
 static tl_quat random_rotation(void)
 {
     tl_vec3 axis = bench_direction(&random_state);
-    float w = 2 * bench_unit(&random_state) - 1, s = sqrtf(1 - w * w);
+    float w = 2 * tl_splitmix64_float(&random_state) - 1, s = sqrtf(1 - w * w);
     tl_quat q = { axis.x * s, axis.y * s, axis.z * s, w };
     return q;
 }
@@ -270,7 +273,7 @@ static void place(world *w, const model *models, uint32_t count)
     float side = 3.0f * sqrtf((float)count);
     tl_aabb area = { tl_vec3_make(0, 0, 0), tl_vec3_make(side, 0.1f * side, side) };
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t m = (uint32_t)(bench_unit(&random_state) * MODELS);
+        uint32_t m = (uint32_t)(tl_splitmix64_float(&random_state) * MODELS);
         tl_scene_instance instance = {
             models[m].soup, NULL, { random_rotation(), bench_point_in(&random_state, area) }, 1
         };
@@ -300,12 +303,12 @@ typedef struct changes {
 // What the thread has worked: builds are too long to find a run without a disturbance.
 static double microseconds(double begin)
 {
-    return 1e6 * (bench_thread_now() - begin);
+    return 1e6 * (bench_thread_seconds() - begin);
 }
 
 static void step_embree(world *w, RTCScene scene, uint32_t step, double *best)
 {
-    double begin = bench_thread_now();
+    double begin = bench_thread_seconds();
     for (uint32_t i = 0; i < w->count; i += step) {
         set_matrix(w->embree_instances[ROBUST][i], w->instances[i].pose);
     }
@@ -315,7 +318,7 @@ static void step_embree(world *w, RTCScene scene, uint32_t step, double *best)
 
 static void step_talus(world *w, double *best, float *growth)
 {
-    double begin = bench_thread_now();
+    double begin = bench_thread_seconds();
     if (tl_scene_refit(w->scene, w->instances, w->count, growth, NULL) != TL_OK) {
         exit(1);
     }
@@ -326,7 +329,7 @@ static changes time_changes(RTCDevice device, world *w, const model *models, uin
 {
     changes best = { 1e30, 1e30, 1e30, 1e30, 1e30, 1e30, 0 };
     for (uint32_t r = 0; r < 4 * repetitions; r++) {
-        double begin = bench_thread_now();
+        double begin = bench_thread_seconds();
         tl_blob_free(w->scene);
         w->scene = NULL;
         if (tl_scene_bake(w->instances, w->count, NULL, &w->scene, NULL) != TL_OK) {
@@ -336,7 +339,7 @@ static changes time_changes(RTCDevice device, world *w, const model *models, uin
     }
     for (uint32_t r = 0; r < repetitions; r++) {
         RTCScene scene = make_scene(device, w, models, ROBUST, RTC_BUILD_QUALITY_MEDIUM);
-        double begin = bench_thread_now();
+        double begin = bench_thread_seconds();
         rtcCommitScene(scene);
         best.embree_build = fmin(best.embree_build, microseconds(begin));
         rtcReleaseScene(scene);
@@ -359,9 +362,19 @@ static changes time_changes(RTCDevice device, world *w, const model *models, uin
 
 // ------------------------------------------------------------------------------------------------------- runs
 
-static void run_size(RTCDevice device, const model *models, uint32_t count, uint32_t repetitions, uint32_t ray_count,
-                     bench_report *report, double ratios[KINDS], changes *step)
+// What every size is run with.
+typedef struct bench_setup {
+    RTCDevice device;
+    const model *models;
+    uint32_t repetitions, ray_count;
+    bench_report *report;
+} bench_setup;
+
+static void run_size(const bench_setup *setup, uint32_t count, double ratios[KINDS], changes *step)
 {
+    const RTCDevice device = setup->device;
+    const model *models = setup->models;
+    const uint32_t repetitions = setup->repetitions, ray_count = setup->ray_count;
     static world w;
     char label[32], chart[64];
     snprintf(label, sizeof label, "%u instances", count);
@@ -393,7 +406,7 @@ static void run_size(RTCDevice device, const model *models, uint32_t count, uint
         for (uint32_t system = 0; system < SYSTEMS; system++) {
             double rate = 1e-6 * ray_count / seconds[system];
             printf("  %s %6.2f", system_names[system], rate);
-            bench_report_value(report, chart, system_names[system], label, rate);
+            bench_report_value(setup->report, chart, system_names[system], label, rate);
         }
         ratios[kind] = seconds[ROBUST] / seconds[TALUS];
         printf("   ratio %.2f; hits %.1f%%, robust %+d, fast %+d\n", ratios[kind], 100.0 * a[TALUS].hits / ray_count,
@@ -429,9 +442,12 @@ static void claim(bench_report *report, double ratios[SIZES][KINDS], const chang
 
 int main(int argc, char **argv)
 {
-    const char *path = bench_report_path(&argc, argv);
-    uint32_t repetitions = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 5;
-    uint32_t ray_count = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 20000;
+    uint32_t repetitions = 5, ray_count = 20000;
+    const bench_option options[] = { { "repetitions", BENCH_COUNT, &repetitions, "of which the best counts" },
+                                     { "rays", BENCH_COUNT, &ray_count, "rays of each kind" },
+                                     { NULL, BENCH_COUNT, NULL, NULL } };
+    const char *json = NULL;
+    bench_parse(argc, argv, options, NULL, &json);
     ray_count = ray_count < SLICE_RAYS * MAX_SLICES ? ray_count : SLICE_RAYS * MAX_SLICES;
     bench_report *report = bench_report_new("scene", "Mray/s", NULL);
     RTCDevice device = rtcNewDevice("threads=1");
@@ -455,10 +471,11 @@ int main(int argc, char **argv)
         printf("%s: %u triangles; ", models[i].level.name, models[i].level.view.triangle_count);
     }
     printf("\n");
+    const bench_setup setup = { device, models, repetitions, ray_count, report };
     double ratios[SIZES][KINDS];
     changes steps[SIZES];
     for (uint32_t i = 0; i < SIZES; i++) {
-        run_size(device, models, sizes[i], repetitions, ray_count, report, ratios[i], &steps[i]);
+        run_size(&setup, sizes[i], ratios[i], &steps[i]);
     }
     claim(report, ratios, steps);
     bench_report_print_claims(report);
@@ -469,5 +486,5 @@ int main(int argc, char **argv)
         bench_free_levels(&models[i].level, 1);
     }
     rtcReleaseDevice(device);
-    return bench_report_close(report, path);
+    return bench_report_close(report, json);
 }

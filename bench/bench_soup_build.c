@@ -4,14 +4,14 @@
 // HIGH), and two threads against one. Every round runs all of them in turn and the best round counts: CPU time against
 // Embree, wall time for threads. Two threads need two processors with nothing else to do.
 //
-//   bench_soup_build [--json FILE] [rounds [only [triangles]]]
-//
-// `only` is a part of a level's name, "" takes all; with `triangles` the level is a sample of that name and size.
+//   bench_soup_build [--rounds N (5)] [--only NAME] [--sample NAME --triangles N] [--json FILE]
 
 #define _POSIX_C_SOURCE 200809L
 
 #include "cli/shared/thread_pool.h"
 #include "embree_scene.h"
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 #include "soup_levels.h"
 
@@ -19,7 +19,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <talus/soup.h>
-#include <time.h>
 
 enum { MAX_STAGES = 8, THREADED_TRIANGLES = 50000 - 100 };
 
@@ -43,13 +42,6 @@ typedef struct level_result {
     double peak_bytes, bytes;
 } level_result;
 
-static double worked(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 static bool time_stage(const char *name, uint64_t done, uint64_t total, void *user)
 {
     level_result *r = user;
@@ -61,10 +53,10 @@ static bool time_stage(const char *name, uint64_t done, uint64_t total, void *us
         r->stages[r->stage_count++] = (stage){ name, 0, 1e30 };
     }
     if (i < MAX_STAGES && done == 0) {
-        r->stages[i].began = worked();
+        r->stages[i].began = bench_process_seconds();
     }
     if (i < MAX_STAGES && done == total) {
-        double seconds = worked() - r->stages[i].began;
+        double seconds = bench_process_seconds() - r->stages[i].began;
         r->stages[i].best = seconds < r->stages[i].best ? seconds : r->stages[i].best;
     }
     return true;
@@ -120,9 +112,9 @@ static void run_level(const bench_level *l, uint32_t rounds, RTCDevice device, c
     uint32_t more = triangles < FEW_TRIANGLES ? MORE_ROUNDS : 1;
     for (uint32_t round = 0; round < rounds * more; round++) {
         for (uint32_t system = 0; system < SYSTEMS; system++) {
-            double start = system < ONE_THREAD ? worked() : bench_now();
+            double start = system < ONE_THREAD ? bench_process_seconds() : bench_wall_seconds();
             run_system((system_kind)system, &l->view, device, two, r);
-            double seconds = (system < ONE_THREAD ? worked() : bench_now()) - start;
+            double seconds = (system < ONE_THREAD ? bench_process_seconds() : bench_wall_seconds()) - start;
             r->best[system] = seconds < r->best[system] ? seconds : r->best[system];
         }
     }
@@ -143,12 +135,12 @@ static void run_level(const bench_level *l, uint32_t rounds, RTCDevice device, c
 
 // The geometric mean of one system's time to another's, over levels of so many triangles or more.
 static double mean_ratio(const level_result *results, const bench_level *levels, uint32_t count, system_kind a,
-                         system_kind b, uint32_t least_triangles)
+                         system_kind b, uint32_t min_triangles)
 {
     double sum = 0;
     uint32_t taken = 0;
     for (uint32_t i = 0; i < count; i++) {
-        if (levels[i].view.triangle_count >= least_triangles) {
+        if (levels[i].view.triangle_count >= min_triangles) {
             sum += log(results[i].best[a] / results[i].best[b]);
             taken++;
         }
@@ -158,16 +150,22 @@ static double mean_ratio(const level_result *results, const bench_level *levels,
 
 int main(int argc, char **argv)
 {
-    const char *path = bench_report_path(&argc, argv);
-    uint32_t rounds = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 5;
-    const char *only = argc > 2 && argv[2][0] != '\0' ? argv[2] : NULL;
-    uint32_t triangles = argc > 3 ? (uint32_t)strtoul(argv[3], NULL, 10) : 0;
+    uint32_t rounds = 5, triangles = 0;
+    const char *only = NULL, *sample = NULL;
+    const bench_option options[] = { { "rounds", BENCH_COUNT, &rounds, "of which the best counts" },
+                                     { "only", BENCH_TEXT, &only, "levels whose name holds this" },
+                                     { "sample", BENCH_TEXT, &sample, "a built-in level instead" },
+                                     { "triangles", BENCH_COUNT, &triangles, "of the built-in level" },
+                                     { NULL, BENCH_COUNT, NULL, NULL } };
+    const char *json = NULL;
+    bench_parse(argc, argv, options, NULL, &json);
     bench_report *report = bench_report_new("Soup builds", "ns", NULL);
     RTCDevice device = rtcNewDevice("threads=1");
     tl_thread_pool *pool = tl_thread_pool_create(2);
     static bench_level levels[BENCH_MAX_LEVELS];
     static level_result results[BENCH_MAX_LEVELS];
-    uint32_t count = triangles > 0 ? bench_make_sample(only, triangles, &levels[0]) : bench_load_levels(levels, only);
+    uint32_t count =
+        sample != NULL ? bench_make_sample(sample, triangles, &levels[0]) : bench_load_levels(levels, only);
     for (uint32_t i = 0; i < count; i++) {
         run_level(&levels[i], rounds, device, tl_thread_pool_tasks(pool), report, &results[i]);
     }
@@ -183,5 +181,5 @@ int main(int argc, char **argv)
     bench_free_levels(levels, count);
     tl_thread_pool_free(pool);
     rtcReleaseDevice(device);
-    return bench_report_close(report, path);
+    return bench_report_close(report, json);
 }

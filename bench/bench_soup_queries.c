@@ -4,8 +4,11 @@
 // generated levels. One thread; each repetition runs all queries in turn, the best repetition counts. Times are those
 // of this thread alone, so that a busy machine disturbs them less.
 //
-//   bench_soup_queries [--json FILE] [repetitions [queries]]
+//   bench_soup_queries [--repetitions N (5)] [--queries N (10000)] [--json FILE]
 
+#include "cli/shared/splitmix64.h"
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 #include "soup_levels.h"
 
@@ -68,7 +71,7 @@ static void make_workload(workload *w, const tl_soup *soup, uint32_t count)
         tl_ray down = { above, { 0, -1, 0 }, INFINITY };
         tl_ray_hit hit;
         float y = tl_soup_cast_ray(soup, &down, NULL, &hit) ? above.y - hit.t : bounds.min.y;
-        w->places[i] = tl_vec3_make(above.x, y + 0.3f + 2 * bench_unit(&random), above.z);
+        w->places[i] = tl_vec3_make(above.x, y + 0.3f + 2 * tl_splitmix64_float(&random), above.z);
         w->motions[i] = tl_scale(bench_direction(&random), 4);
     }
 }
@@ -214,9 +217,9 @@ static void run_level(bench_report *report, const char *name, uint32_t triangles
         double best[KINDS];
         for (uint32_t r = 0; r < repetitions; r++) {
             for (uint32_t k = 0; k < KINDS; k++) {
-                double start = bench_thread_now();
+                double start = bench_thread_seconds();
                 w.found[k] = run(&w, (kind)k);
-                double time = bench_thread_now() - start;
+                double time = bench_thread_seconds() - start;
                 best[k] = r == 0 || time < best[k] ? time : best[k];
             }
         }
@@ -229,15 +232,18 @@ static void run_level(bench_report *report, const char *name, uint32_t triangles
 
 int main(int argc, char **argv)
 {
-    const char *path = bench_report_path(&argc, argv);
+    uint32_t repetitions = 5, queries = 10000;
+    const bench_option options[] = { { "repetitions", BENCH_COUNT, &repetitions, "of which the best counts" },
+                                     { "queries", BENCH_COUNT, &queries, "of each kind" },
+                                     { NULL, BENCH_COUNT, NULL, NULL } };
+    const char *json = NULL;
+    bench_parse(argc, argv, options, NULL, &json);
     bench_report *report = bench_report_new("Soup queries", "ns", NULL);
-    uint32_t repetitions = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 5;
-    uint32_t queries = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 10000;
     run_level(report, "dungeon", 8000, repetitions, queries);
     run_level(report, "dungeon", 50000, repetitions, queries);
     run_level(report, "terrain", 100000, repetitions, queries);
     run_level(report, "city", 100000, repetitions, queries);
     run_level(report, "city", 1000000, repetitions, queries);
     bench_report_print_claims(report);
-    return bench_report_close(report, path);
+    return bench_report_close(report, json);
 }

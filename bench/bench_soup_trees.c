@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 //
-// The text's two claims, measured: that pairs of triangles take less memory than single ones, and that a ray tests two
-// for little more than one. Four rows a level: a tree of boxes and a k-d tree, with pairs and without, over the same
-// leaf code. Each repetition asks all four the same rays in turn; the best counts. Answers are compared bit by bit.
+// The two claims of Christer Ericson's article "Chunky triangle soup" (2009): that pairs of triangles take less memory
+// than single ones, and that a ray tests two for little more than one. Four rows a level: a BVH and a k-d tree, with
+// pairs and without, over the same leaf code; a fifth is the compact BVH. No peer: the rows are compared with one
+// another. Each repetition casts the same rays at all in turn, the best counts, and answers are compared bit by bit.
 //
-//   bench_soup_trees [--json FILE] [repetitions [rays [only]]]
+//   bench_soup_trees [--repetitions N (5)] [--rays N (40000)] [--only NAME] [--json FILE]
 
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 #include "soup_levels.h"
 
@@ -17,7 +20,7 @@
 
 enum { ROWS = 5 };
 
-static const char *const row_names[ROWS] = { "boxes, pairs", "boxes, singles", "k-d, pairs", "k-d, singles",
+static const char *const row_names[ROWS] = { "BVH, pairs", "BVH, singles", "k-d, pairs", "k-d, singles",
                                              "compact, pairs" };
 
 typedef struct row {
@@ -40,9 +43,9 @@ static bool build_rows(const bench_level *level, row rows[ROWS])
         def.pair_triangles = k % 2 == 0;
         def.partition = k / 2 == 1 ? TL_SOUP_KD_TREE : TL_SOUP_BVH;
         def.layout = k == 4 ? TL_SOUP_COMPACT : TL_SOUP_FAST;
-        double start = bench_thread_now();
+        double start = bench_thread_seconds();
         built = tl_soup_bake(&level->view, &def, &rows[k].soup, NULL) == TL_OK && built;
-        rows[k].build = bench_thread_now() - start;
+        rows[k].build = bench_thread_seconds() - start;
     }
     return built;
 }
@@ -74,13 +77,13 @@ static void make_rays(tl_ray *camera, tl_ray *incoherent, uint32_t count, tl_aab
 
 static double cast(const tl_soup *soup, const tl_ray *rays, uint32_t count, tl_ray_hit *hits)
 {
-    double start = bench_thread_now();
+    double start = bench_thread_seconds();
     for (uint32_t i = 0; i < count; i++) {
         if (!tl_soup_cast_ray(soup, &rays[i], NULL, &hits[i])) {
             memset(&hits[i], 0, sizeof hits[i]);
         }
     }
-    return bench_thread_now() - start;
+    return bench_thread_seconds() - start;
 }
 
 static bool run(row rows[ROWS], const tl_ray *camera, const tl_ray *incoherent, uint32_t count, uint32_t repetitions)
@@ -139,12 +142,17 @@ static void print_means(const sums *all)
 
 int main(int argc, char **argv)
 {
-    const char *path = bench_report_path(&argc, argv);
+    uint32_t repetitions = 5, count = 40000;
+    const char *only = NULL;
+    const bench_option options[] = { { "repetitions", BENCH_COUNT, &repetitions, "of which the best counts" },
+                                     { "rays", BENCH_COUNT, &count, "of each kind" },
+                                     { "only", BENCH_TEXT, &only, "levels whose name holds this" },
+                                     { NULL, BENCH_COUNT, NULL, NULL } };
+    const char *json = NULL;
+    bench_parse(argc, argv, options, NULL, &json);
     bench_report *report = bench_report_new("Soup trees", "bytes or ns", NULL);
-    uint32_t repetitions = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 5;
-    uint32_t count = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 40000;
     bench_level levels[BENCH_MAX_LEVELS];
-    uint32_t level_count = bench_load_levels(levels, argc > 3 ? argv[3] : NULL);
+    uint32_t level_count = bench_load_levels(levels, only);
     tl_ray *camera = malloc(count * sizeof *camera), *incoherent = malloc(count * sizeof *incoherent);
     sums all = { 0 };
     bool sound = level_count > 0 && camera != NULL && incoherent != NULL;
@@ -164,9 +172,9 @@ int main(int argc, char **argv)
     if (all.levels > 0) {
         print_means(&all);
         bench_report_at_least(report, "triangles in pairs, %", all.paired / all.levels, 95.0);
-        bench_report_at_most(report, "boxes: memory of pairs over singles",
+        bench_report_at_most(report, "BVH: memory of pairs over singles",
                              exp((all.bytes[0] - all.bytes[1]) / all.levels), 1.0);
-        bench_report_at_most(report, "boxes: incoherent ray, pairs over singles",
+        bench_report_at_most(report, "BVH: incoherent ray, pairs over singles",
                              exp((all.incoherent[0] - all.incoherent[1]) / all.levels), 1.0);
         bench_report_at_most(report, "k-d: memory of pairs over singles",
                              exp((all.bytes[2] - all.bytes[3]) / all.levels), 1.0);
@@ -178,6 +186,6 @@ int main(int argc, char **argv)
     free(camera);
     free(incoherent);
     bench_free_levels(levels, level_count);
-    int code = bench_report_close(report, path);
+    int code = bench_report_close(report, json);
     return sound ? code : 1;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Support queries, nanoseconds each, one thread: exhaustive scans in scalar code and in SIMD, the text's climb as
-// written from the first vertex and from the last answer, and tl_hull_support without and with a hint.
+// Support queries, nanoseconds each, one thread: exhaustive scans in scalar code and in SIMD, the hill climbing of
+// Allen Chou's article as written, from the first vertex and from the last answer, and tl_hull_support without and with
+// a hint. A claim is a ratio of times to a peer's: smaller is better.
 //
 // Directions: random ones; ones that turn by one degree a query; and those that GJK asked of the hull for other shapes
 // around it. Every query waits for the one before it, as in GJK: where the next direction is read from depends on the
@@ -12,6 +13,9 @@
 
 #define _GNU_SOURCE
 
+#include "cli/shared/splitmix64.h"
+#include "measure.h"
+#include "options.h"
 #include "report.h"
 #include "support_peers.h"
 
@@ -21,28 +25,22 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-enum { QUERIES = 4096, ROUNDS = 7, MOST_ROUNDS = 25, MOST_POINTS = 200000, LARGEST = 100000 };
+enum { QUERIES = 4096, ROUNDS = 7, MAX_ROUNDS = 25, MAX_POINTS = 200000, LARGEST = 100000 };
 
 // A batch of queries is cut short after so long, so that scans of large hulls do not take minutes.
 static const double BATCH_NS = 4e5;
 
 static double now(void)
 {
-    struct timespec time;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return 1e9 * (double)time.tv_sec + (double)time.tv_nsec;
+    return 1e9 * bench_thread_seconds();
 }
 
 static uint64_t random_state = 1;
 
 static float random_unit(void)
 {
-    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (float)((z ^ (z >> 31)) >> 40) * (1.0f / 16777216.0f);
+    return tl_splitmix64_float(&random_state);
 }
 
 static tl_vec3 random_direction(void)
@@ -102,7 +100,7 @@ static const tl_hull *build_hull(const tl_vec3 *points, uint32_t count)
 
 static const tl_hull *build_shape(shape kind, uint32_t count)
 {
-    static tl_vec3 points[MOST_POINTS];
+    static tl_vec3 points[MAX_POINTS];
     for (uint32_t i = 0; i < count; i++) {
         points[i] = shape_point(kind, i, count);
     }
@@ -112,7 +110,7 @@ static const tl_hull *build_shape(shape kind, uint32_t count)
 // The hull of an OBJ file's vertices, or NULL when it is not there.
 static const tl_hull *build_model(const char *name)
 {
-    static tl_vec3 points[MOST_POINTS];
+    static tl_vec3 points[MAX_POINTS];
     char path[512], line[256];
     snprintf(path, sizeof path, "%s/models/%s.obj", TALUS_DATA_DIR, name);
     FILE *file = fopen(path, "r");
@@ -120,7 +118,7 @@ static const tl_hull *build_model(const char *name)
         return NULL;
     }
     uint32_t count = 0;
-    while (count < MOST_POINTS && fgets(line, sizeof line, file) != NULL) {
+    while (count < MAX_POINTS && fgets(line, sizeof line, file) != NULL) {
         tl_vec3 *p = &points[count];
         count += sscanf(line, "v %f %f %f", &p->x, &p->y, &p->z) == 3;
     }
@@ -197,16 +195,16 @@ typedef enum method {
     SSE2_SCAN,
     AVX2_SCAN,
     AVX512_SCAN,
-    TEXT,
-    TEXT_WARM,
+    CHOU,
+    CHOU_WARM,
     YARDSTICK,
     METHOD_COUNT
 } method;
 
-static const char *const method_names[METHOD_COUNT] = {
-    "talus",        "talus, last answer first", "scalar scan",           "SSE2 scan", "AVX2 scan",
-    "AVX-512 scan", "the text's climb",         "the text's climb, warm"
-};
+static const char *const method_names[METHOD_COUNT] = { "talus",        "talus, last answer first",
+                                                        "scalar scan",  "SSE2 scan",
+                                                        "AVX2 scan",    "AVX-512 scan",
+                                                        "Chou's climb", "Chou's climb, warm" };
 
 static peer_support_fn *methods[METHOD_COUNT];
 
@@ -232,7 +230,7 @@ static double run_batch(peer_hull *peer, peer_support_fn *support, const directi
 
 typedef struct timing {
     double ns[METHOD_COUNT]; // the best; 0: not measured
-    double round[METHOD_COUNT][MOST_ROUNDS];
+    double round[METHOD_COUNT][MAX_ROUNDS];
     int rounds;
 } timing;
 
@@ -245,7 +243,7 @@ static int compare_doubles(const void *a, const void *b)
 // The median over the rounds: what is measured within one ran at the same speed of the processor, mostly.
 static double ratio(const timing *t, method of, method to)
 {
-    double ratios[MOST_ROUNDS];
+    double ratios[MAX_ROUNDS];
     for (int i = 0; i < t->rounds; i++) {
         ratios[i] = t->round[of][i] / t->round[to][i];
     }
@@ -255,17 +253,17 @@ static double ratio(const timing *t, method of, method to)
 
 static peer_hull yardstick_hull;
 
-enum { MOST_COLUMNS = 6 };
+enum { MAX_COLUMNS = 6 };
 
 // What is measured of a set of directions, and printed in this order.
 typedef struct columns {
-    method method[MOST_COLUMNS];
+    method method[MAX_COLUMNS];
     int count;
 } columns;
 
-static const columns random_columns = { { SCALAR_SCAN, SSE2_SCAN, AVX2_SCAN, AVX512_SCAN, TEXT, TALUS }, 6 };
-static const columns turning_columns = { { AVX2_SCAN, TEXT, TEXT_WARM, TALUS_HINTED }, 4 };
-static const columns recorded_columns = { { AVX2_SCAN, TEXT_WARM, TALUS, TALUS_HINTED }, 4 };
+static const columns random_columns = { { SCALAR_SCAN, SSE2_SCAN, AVX2_SCAN, AVX512_SCAN, CHOU, TALUS }, 6 };
+static const columns turning_columns = { { AVX2_SCAN, CHOU, CHOU_WARM, TALUS_HINTED }, 4 };
+static const columns recorded_columns = { { AVX2_SCAN, CHOU_WARM, TALUS, TALUS_HINTED }, 4 };
 
 static void measure_one(timing *t, int round, method m, peer_hull *peer, const directions *set)
 {
@@ -281,7 +279,7 @@ static timing measure(peer_hull *peer, const directions *set, const columns *sho
 {
     timing t;
     memset(&t, 0, sizeof t);
-    t.rounds = peer->count <= 64 ? MOST_ROUNDS : ROUNDS;
+    t.rounds = peer->count <= 64 ? MAX_ROUNDS : ROUNDS;
     for (int round = 0; round < t.rounds; round++) {
         for (int i = 0; i < shown->count; i++) {
             measure_one(&t, round, shown->method[i], peer, set);
@@ -381,8 +379,8 @@ static void print_head(const char *name)
 {
     printf("\n%-12s | %-47s | %-31s | %-31s | wrong\n", name, "random directions", "turning 1 degree",
            "recorded from GJK");
-    printf("%12s | %7s %7s %7s %7s %7s %7s | %7s %7s %7s %7s | %7s %7s %7s %7s | talus text\n", "N", "scalar", "SSE2",
-           "AVX2", "AVX-512", "text", "talus", "AVX2", "text", "text,w", "talus,w", "AVX2", "text,w", "talus",
+    printf("%12s | %7s %7s %7s %7s %7s %7s | %7s %7s %7s %7s | %7s %7s %7s %7s | talus Chou\n", "N", "scalar", "SSE2",
+           "AVX2", "AVX-512", "Chou", "talus", "AVX2", "Chou", "Chou,w", "talus,w", "AVX2", "Chou,w", "talus",
            "talus,w");
 }
 
@@ -410,7 +408,7 @@ static void print_row(peer_hull *peer, const timing *random, const timing *turni
     for (int i = 0; i < 3; i++) {
         wrong += count_wrong(peer, talus, sets[i]) + count_wrong(peer, talus_hinted, sets[i]);
     }
-    printf(" | %5u %4u\n", wrong, count_wrong(peer, peer_text_climb, &random_set));
+    printf(" | %5u %4u\n", wrong, count_wrong(peer, peer_chou_climb, &random_set));
     fflush(stdout);
 }
 
@@ -424,7 +422,7 @@ static void report_curves(bench_report *report, const char *name, double count, 
             bench_report_point(report, chart, method_names[m], count, random->ns[m]);
         }
     }
-    static const method warm[] = { TALUS_HINTED, AVX2_SCAN, TEXT_WARM };
+    static const method warm[] = { TALUS_HINTED, AVX2_SCAN, CHOU_WARM };
     snprintf(chart, sizeof chart, "%s, directions that turn 1 degree", name);
     for (int i = 0; i < 3; i++) {
         if (turning->ns[warm[i]] > 0.0) {
@@ -462,7 +460,9 @@ int main(int argc, char **argv)
 {
     static const uint32_t counts[] = { 8, 12, 16, 24, 32, 48, 64, 96, 128, 256, 512, 1024, 4096, 16384, LARGEST };
     static const char *const models[] = { "suzanne", "teapot", "cow", "fandisk", "rocker-arm", "stanford-bunny" };
-    const char *path = bench_report_path(&argc, argv);
+    const bench_option options[] = { { NULL, BENCH_COUNT, NULL, NULL } };
+    const char *json = NULL;
+    bench_parse(argc, argv, options, NULL, &json);
     bench_report *report = bench_report_new("support", "ns a query", "vertices");
     methods[TALUS] = talus;
     methods[TALUS_HINTED] = talus_hinted;
@@ -471,14 +471,14 @@ int main(int argc, char **argv)
     methods[AVX2_SCAN] = peer_scan_avx2();
     methods[AVX512_SCAN] = peer_scan_avx512();
     methods[YARDSTICK] = peer_scan_avx2();
-    methods[TEXT] = peer_text_climb;
-    methods[TEXT_WARM] = peer_text_climb_warm;
+    methods[CHOU] = peer_chou_climb;
+    methods[CHOU_WARM] = peer_chou_climb_warm;
     fill_directions();
     const tl_hull *yardstick = build_shape(SHAPE_SPHERE, 256);
     if (!peer_hull_make(&yardstick_hull, yardstick)) {
         return 1;
     }
-    printf("support, ns a query (text,w and talus,w: warm, from the last answer)\n");
+    printf("support, ns a query (Chou,w and talus,w: warm, from the last answer)\n");
     for (int kind = 0; kind < SHAPE_COUNT; kind++) {
         print_head(shape_names[kind]);
         for (size_t c = 0; c < sizeof counts / sizeof *counts; c++) {
@@ -500,5 +500,5 @@ int main(int argc, char **argv)
     bench_report_print_claims(report);
     peer_hull_free(&yardstick_hull);
     tl_blob_free((tl_hull *)(uintptr_t)yardstick);
-    return bench_report_close(report, path);
+    return bench_report_close(report, json);
 }

@@ -8,15 +8,16 @@
 // and findStraightPath on the mesh that was baked for the radius. Places are Detour's own random ones there; talus is
 // asked from the nearest places with room on its mesh. CPU time of one thread, the best run of each side.
 
-#include "bench_options.hpp"
+#include "cli/shared/splitmix64.h"
 #include "detour_mesh.hpp"
 #include "io/mesh/mesh_import.h"
+#include "measure.h"
+#include "query_options.hpp"
 #include "report.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <functional>
 #include <string>
 #include <talus/nav_wide.h>
@@ -29,27 +30,16 @@ namespace
 {
 
 constexpr float CELL = 0.15f, RADII[3] = { 0.3f, 0.6f, 1.2f };
-constexpr int MOST = 4096;
+constexpr int MAX_FOUND = 4096;
 
 uint64_t random_state = 5;
 
-// SplitMix64, [0, 1).
 float random_unit()
 {
-    uint64_t z = (random_state += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (float)((z ^ (z >> 31)) >> 40) * 0x1p-24f;
+    return tl_splitmix64_float(&random_state);
 }
 
-double now_seconds()
-{
-    timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
-
-bench_options options{ 1000, 100000, 5, "", false };
+query_options options;
 bench_report *report;
 
 // Bytes that a navmesh holds beside its tiles.
@@ -89,7 +79,7 @@ struct place_pair {
 
 struct answers {
     size_t both = 0, neither = 0, only_talus = 0, only_detour = 0, no_room = 0;
-    double least_room = 1e30; // metres that a path's walls are farther than the radius says
+    double min_room = 1e30; // metres that a path's walls are farther than the radius says
     double talus_length = 0.0, detour_length = 0.0, nodes = 0.0;
 };
 
@@ -104,7 +94,7 @@ class arena
     std::unique_ptr<tl_navmesh, detour_deleter> navmesh, prepared; // after bytes: they are freed first
     tl_nav_wide_report kept = {};
     double prepared_in = 0.0; // seconds
-    std::vector<tl_nav_corner> corners = std::vector<tl_nav_corner>(MOST);
+    std::vector<tl_nav_corner> corners = std::vector<tl_nav_corner>(MAX_FOUND);
     uint64_t checksum = 0; // so that nothing is optimised away
 
     static size_t detour_size(const dtNavMesh &mesh)
@@ -133,9 +123,9 @@ class arena
     {
         tl_nav_wide_def def = tl_default_nav_wide_def();
         def.max_radius = RADII[2];
-        double begin = now_seconds();
+        double begin = bench_thread_seconds();
         tl_result result = tl_navmesh_prepare_wide(prepared.get(), &def, &kept);
-        prepared_in = now_seconds() - begin;
+        prepared_in = bench_thread_seconds() - begin;
         return result == TL_OK;
     }
 
@@ -161,8 +151,8 @@ class arena
 
   private:
     std::vector<place_pair> pairs;
-    std::vector<dtPolyRef> refs = std::vector<dtPolyRef>(MOST);
-    std::vector<float> points = std::vector<float>(3 * MOST);
+    std::vector<dtPolyRef> refs = std::vector<dtPolyRef>(MAX_FOUND);
+    std::vector<float> points = std::vector<float>(3 * MAX_FOUND);
     dtQueryFilter filter;
 
     bool locate(const float *point, float radius, tl_nav_location *plain, tl_nav_location *wide)
@@ -195,10 +185,11 @@ class arena
     int detour_path(const detour_level &baked, const place_pair &p)
     {
         int count = 0, corner_count = 0;
-        baked.query->findPath(p.detour[0], p.detour[1], p.points[0], p.points[1], &filter, refs.data(), &count, MOST);
+        baked.query->findPath(p.detour[0], p.detour[1], p.points[0], p.points[1], &filter, refs.data(), &count,
+                              MAX_FOUND);
         if (count > 0 && refs[(size_t)count - 1] == p.detour[1]) {
             baked.query->findStraightPath(p.points[0], p.points[1], refs.data(), count, points.data(), nullptr, nullptr,
-                                          &corner_count, MOST);
+                                          &corner_count, MAX_FOUND);
         }
         return corner_count;
     }
@@ -207,7 +198,7 @@ class arena
     {
         tl_nav_wide_path path;
         const tl_nav_path_request request = { nullptr, p.talus[0], p.talus[1] };
-        tl_nav_query_find_wide_path(query.get(), asked, &request, radius, corners.data(), MOST, &path);
+        tl_nav_query_find_wide_path(query.get(), asked, &request, radius, corners.data(), MAX_FOUND, &path);
         return path;
     }
 
@@ -242,7 +233,7 @@ answers arena::compare(const detour_level &baked, float radius)
         if (is_complete && radius > RADII[0] &&
             tl_nav_query_path_clearance(query.get(), navmesh.get(), nullptr, corners.data(), path.corner_count,
                                         2.0f * radius, &clearance) == TL_OK) {
-            found.least_room = std::min(found.least_room, (double)clearance + (double)RADII[0] - (double)radius);
+            found.min_room = std::min(found.min_room, (double)clearance + (double)RADII[0] - (double)radius);
         }
     }
     return found;
@@ -252,14 +243,14 @@ answers arena::compare(const detour_level &baked, float radius)
 double arena::time_once(const std::function<void(const place_pair &)> &ask)
 {
     size_t count = 0;
-    double begin = now_seconds();
+    double begin = bench_thread_seconds();
     for (const place_pair &p : pairs) {
         if (p.has_room) {
             ask(p);
             count++;
         }
     }
-    return (now_seconds() - begin) * 1e6 / (double)std::max(count, (size_t)1);
+    return (bench_thread_seconds() - begin) * 1e6 / (double)std::max(count, (size_t)1);
 }
 
 void arena::bench_radius(const detour_level &baked, float radius)
@@ -267,12 +258,12 @@ void arena::bench_radius(const detour_level &baked, float radius)
     find_pairs(baked, radius);
     answers found = compare(baked, radius);
     double theirs = 1e30, plain = 1e30, gathered = 1e30, ours = 1e30, asked = 1e30;
-    for (int run = 0; run < options.runs; run++) {
+    for (int run = 0; run < (int)options.runs; run++) {
         theirs = std::min(theirs, time_once([&](const place_pair &p) { checksum += (uint64_t)detour_path(baked, p); }));
         plain = std::min(plain, time_once([&](const place_pair &p) {
                              tl_nav_shortest_path path;
                              const tl_nav_path_request request = { nullptr, p.talus_plain[0], p.talus_plain[1] };
-                             const tl_nav_path_buffers buffers = { nullptr, 0, corners.data(), MOST };
+                             const tl_nav_path_buffers buffers = { nullptr, 0, corners.data(), MAX_FOUND };
                              tl_nav_query_find_shortest_path(query.get(), navmesh.get(), &request, &buffers, &path);
                              checksum += path.corner_count;
                          }));
@@ -300,7 +291,7 @@ void arena::bench_radius(const detour_level &baked, float radius)
         "    a way in both %zu, in neither %zu, talus's alone %zu, Detour's alone %zu, no room on talus's %zu\n",
         found.both, found.neither, found.only_talus, found.only_detour, found.no_room);
     std::printf("    nearest to a wall %+.4f m of the radius; paths are %.4f times as long as Detour's\n",
-                found.least_room, found.talus_length / found.detour_length);
+                found.min_room, found.talus_length / found.detour_length);
     char chart[128], claim[192];
     std::snprintf(chart, sizeof chart, "%s, radius %.1f", name.c_str(), (double)radius);
     bench_report_value(report, chart, "Detour", "path", theirs);
@@ -313,7 +304,7 @@ void arena::bench_radius(const detour_level &baked, float radius)
     std::snprintf(claim, sizeof claim, "%s: share of pairs as in the bake", chart);
     bench_report_at_least(report, claim, (double)(found.both + found.neither) / (double)pairs_asked, 0.99);
     std::snprintf(claim, sizeof claim, "%s: metres nearer to a wall than the radius", chart);
-    bench_report_at_most(report, claim, -found.least_room, (double)CELL);
+    bench_report_at_most(report, claim, -found.min_room, (double)CELL);
 }
 
 void bench_level(const std::string &name, const tl_mesh_view &view, uint32_t tile_size)
@@ -376,11 +367,10 @@ void bench_sample(const char *name, uint32_t triangles, uint32_t tile_size)
 
 int main(int argc, char **argv)
 {
-    const char *json_path = bench_report_path(&argc, argv);
+    options.count = 1000;
+    options.city_triangles = 100000;
+    const char *json = options.parse(argc, argv, "pairs");
     report = bench_report_new("wide", "us", nullptr);
-    if (!options.take(argc, argv, "--pairs")) {
-        return 2;
-    }
     for (const char *name : { "nav_test", "dungeon", "undulating" }) {
         if (options.wants(name)) {
             bench_file(name, 0);
@@ -395,5 +385,5 @@ int main(int argc, char **argv)
     }
     std::printf("\n");
     bench_report_print_claims(report);
-    return bench_report_close(report, json_path);
+    return bench_report_close(report, json);
 }

@@ -23,7 +23,7 @@ typedef struct audit_settings {
 } audit_settings;
 
 // Why the first missing floors are missing; each takes some builds of a tile.
-enum { MOST_EXPLAINED = 32 };
+enum { MAX_EXPLAINED = 32 };
 
 static const draw_colour FINDING_COLOURS[] = { 0xc0392b, 0xd35400, 0x8e44ad, 0x2471a3 };
 
@@ -182,7 +182,7 @@ static tl_exit explain_missing(draw_source *source, const tl_nav_audit *audit, u
     tl_nav_def def = source->nav_def;
     def.host.allocator = source->cli->host.allocator;
     *count = 0;
-    for (uint32_t i = first; i < audit->finding_count && *count < MOST_EXPLAINED; i++) {
+    for (uint32_t i = first; i < audit->finding_count && *count < MAX_EXPLAINED; i++) {
         tl_report report;
         memset(&report, 0, sizeof report);
         tl_result result =
@@ -197,7 +197,7 @@ static tl_exit explain_missing(draw_source *source, const tl_nav_audit *audit, u
 
 static tl_exit report_audit(draw_source *source, const audit_settings *settings, const tl_nav_audit *audit)
 {
-    tl_nav_why_answer *whys = calloc(MOST_EXPLAINED, sizeof *whys);
+    tl_nav_why_answer *whys = calloc(MAX_EXPLAINED, sizeof *whys);
     if (whys == NULL) {
         return tl_cli_fail(source->cli, TL_EXIT_MEMORY, "out of memory");
     }

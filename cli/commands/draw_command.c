@@ -35,7 +35,7 @@ enum {
     STAGE_COUNT
 };
 
-enum { MOST_PATH_BYTES = 4096, OVERVIEW_COLUMNS = 4 };
+enum { MAX_PATH_BYTES = 4096, OVERVIEW_COLUMNS = 4 };
 
 typedef struct draw_settings {
     tl_bake_settings bake;
@@ -298,7 +298,7 @@ static bool draw_steps_of_stage(draw_source *source, const draw_settings *settin
 
 static bool draw_one(draw_source *source, const draw_settings *settings, int stage, json_t *list, tl_exit *exit_out)
 {
-    char path[MOST_PATH_BYTES];
+    char path[MAX_PATH_BYTES];
     if (!output_path(settings, stage, path, sizeof path)) {
         *exit_out = tl_cli_fail(source->cli, TL_EXIT_USAGE, "--output: the name is too long");
         return false;

@@ -19,12 +19,12 @@ static tl_result make_imported_content(const char *path, const tl_detour_tiles *
     }
     const tl_nav_tile *model = tiles->tiles[0];
     tl_aabb bounds = tl_aabb_empty();
-    int32_t most_x = 0, most_z = 0;
+    int32_t max_x = 0, max_z = 0;
     for (uint32_t i = 0; i < tiles->tile_count; i++) {
         const tl_nav_tile *tile = tiles->tiles[i];
         bounds = tl_aabb_union(bounds, tile->bounds);
-        most_x = tile->tile_x > most_x ? tile->tile_x : most_x;
-        most_z = tile->tile_z > most_z ? tile->tile_z : most_z;
+        max_x = tile->tile_x > max_x ? tile->tile_x : max_x;
+        max_z = tile->tile_z > max_z ? tile->tile_z : max_z;
     }
     bounds.min = tl_min(bounds.min, model->origin);
     tl_nav_def def = tl_default_nav_def();
@@ -37,7 +37,7 @@ static tl_result make_imported_content(const char *path, const tl_detour_tiles *
     result = tl_pack_meta_encode(tl_pack_source_name(path), 0, 0, bounds, NULL, &content->meta, NULL);
     if (result == TL_OK) {
         def.bounds = bounds;
-        result = tl_pack_navmesh_encode(&def, (uint32_t)most_x + 1, (uint32_t)most_z + 1, tiles->tile_count, NULL,
+        result = tl_pack_navmesh_encode(&def, (uint32_t)max_x + 1, (uint32_t)max_z + 1, tiles->tile_count, NULL,
                                         &content->navmesh, NULL);
     }
     if (result == TL_OK) {

@@ -40,12 +40,12 @@ static size_t character_at(const char *words, size_t at, int step)
 
 void draw_text_within(cairo_t *cairo, double x, double y, double size, bool bold, const char *words, double width)
 {
-    enum { MOST_BYTES = 512 };
+    enum { MAX_BYTES = 512 };
     const size_t length = strlen(words);
-    char shorter[MOST_BYTES];
+    char shorter[MAX_BYTES];
     snprintf(shorter, sizeof shorter, "%s", words);
     draw_choose_font(cairo, size, bold);
-    for (size_t kept = length < MOST_BYTES - 4 ? length : MOST_BYTES - 4;
+    for (size_t kept = length < MAX_BYTES - 4 ? length : MAX_BYTES - 4;
          kept > 2 && draw_text_width(cairo, shorter) > width; kept--) {
         size_t head = character_at(words, kept / 2, -1);
         size_t tail = character_at(words, length - kept / 2, 1);

@@ -247,7 +247,7 @@ tl_result draw_sheet_write(const draw_scene *scene, const draw_options *options,
 tl_result draw_overview_add(draw_overview *overview, const draw_scene *scene, const draw_options *options,
                             const char *path, const tl_host *host, tl_io_error *error_out)
 {
-    if (overview->count == DRAW_MOST_SHEETS) {
+    if (overview->count == DRAW_MAX_SHEETS) {
         return tl_io_fail(error_out, TL_ERR_LIMIT, path, 0, "draw fewer stages", "too many pictures for one sheet");
     }
     draw_sheet sheet;
@@ -268,7 +268,7 @@ tl_result draw_overview_add(draw_overview *overview, const draw_scene *scene, co
 typedef struct overview_grid {
     const draw_overview *overview;
     uint32_t columns, rows;
-    uint32_t x[DRAW_MOST_SHEETS + 1], y[DRAW_MOST_SHEETS + 1]; // where columns and rows begin
+    uint32_t x[DRAW_MAX_SHEETS + 1], y[DRAW_MAX_SHEETS + 1]; // where columns and rows begin
 } overview_grid;
 
 static overview_grid lay_out_sheet(const draw_overview *overview, uint32_t columns)

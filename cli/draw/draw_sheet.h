@@ -6,7 +6,7 @@
 #include "cli/draw/draw_scene.h"
 #include "io/files/io_error.h"
 
-enum { DRAW_MOST_SHEETS = 16 };
+enum { DRAW_MAX_SHEETS = 16 };
 
 typedef struct draw_options {
     bool top, oblique;   ///< at least one; side by side when both
@@ -21,11 +21,11 @@ tl_result draw_sheet_write(const draw_scene *scene, const draw_options *options,
 
 /// Sheets side by side in one picture: an overview of several scenes. Zero is empty; free with draw_overview_free.
 typedef struct draw_overview {
-    struct _cairo_surface *sheets[DRAW_MOST_SHEETS];
+    struct _cairo_surface *sheets[DRAW_MAX_SHEETS];
     uint32_t count;
 } draw_overview;
 
-/// Renders a scene as draw_sheet_write does, and keeps the picture. `path` is for errors. Beyond DRAW_MOST_SHEETS:
+/// Renders a scene as draw_sheet_write does, and keeps the picture. `path` is for errors. Beyond DRAW_MAX_SHEETS:
 /// TL_ERR_LIMIT.
 tl_result draw_overview_add(draw_overview *overview, const draw_scene *scene, const draw_options *options,
                             const char *path, const tl_host *host, tl_io_error *error_out);

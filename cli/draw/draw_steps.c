@@ -21,7 +21,7 @@ typedef struct steps_sheet {
     const char *summary;
     uint32_t columns, rows, width, height;
     uint32_t panel_width, panel_height; // pixels, without the caption
-    int64_t least_x, least_z;
+    int64_t min_x, min_z;
     double scale; // pixels a lattice unit
 } steps_sheet;
 
@@ -43,8 +43,8 @@ uint32_t draw_steps_telling_contour(const tl_contour_set *set)
 
 static void to_panel(const steps_sheet *sheet, int32_t x, int32_t z, double *u, double *v)
 {
-    *u = ((double)(x - sheet->least_x) + 0.5) * sheet->scale;
-    *v = ((double)(z - sheet->least_z) + 0.5) * sheet->scale;
+    *u = ((double)(x - sheet->min_x) + 0.5) * sheet->scale;
+    *v = ((double)(z - sheet->min_z) + 0.5) * sheet->scale;
 }
 
 static void add_loop(cairo_t *cairo, const steps_sheet *sheet, const int32_t *pairs, uint32_t count)
@@ -337,16 +337,16 @@ static void lay_out_steps(steps_sheet *sheet)
 {
     const tl_contour *contour = &sheet->set->contours[sheet->options->contour];
     const tl_contour_vertex *vertices = sheet->set->vertices + contour->first_vertex;
-    int64_t most_x = vertices[0].x, most_z = vertices[0].z;
-    sheet->least_x = most_x;
-    sheet->least_z = most_z;
+    int64_t max_x = vertices[0].x, max_z = vertices[0].z;
+    sheet->min_x = max_x;
+    sheet->min_z = max_z;
     for (uint32_t i = 1; i < contour->vertex_count; i++) {
-        sheet->least_x = vertices[i].x < sheet->least_x ? vertices[i].x : sheet->least_x;
-        sheet->least_z = vertices[i].z < sheet->least_z ? vertices[i].z : sheet->least_z;
-        most_x = vertices[i].x > most_x ? vertices[i].x : most_x;
-        most_z = vertices[i].z > most_z ? vertices[i].z : most_z;
+        sheet->min_x = vertices[i].x < sheet->min_x ? vertices[i].x : sheet->min_x;
+        sheet->min_z = vertices[i].z < sheet->min_z ? vertices[i].z : sheet->min_z;
+        max_x = vertices[i].x > max_x ? vertices[i].x : max_x;
+        max_z = vertices[i].z > max_z ? vertices[i].z : max_z;
     }
-    double size_x = (double)(most_x - sheet->least_x) + 1.0, size_z = (double)(most_z - sheet->least_z) + 1.0;
+    double size_x = (double)(max_x - sheet->min_x) + 1.0, size_z = (double)(max_z - sheet->min_z) + 1.0;
     uint32_t panels = sheet->record->kinds[sheet->options->kind].shown_count + 2;
     sheet->scale = sheet->options->panel_size / fmax(size_x, size_z);
     double caption_width = 215.0; // what the longest caption takes

@@ -62,10 +62,10 @@ static void record_step(const tl_polygon_step *step, void *user)
 }
 
 // Evenly from the first to the last.
-static tl_result choose_shown(steps_of_kind *kind, uint32_t most_shown)
+static tl_result choose_shown(steps_of_kind *kind, uint32_t max_shown)
 {
-    kind->shown_count = kind->count < most_shown ? (uint32_t)kind->count : most_shown;
-    kind->shown = malloc((most_shown + 1) * sizeof *kind->shown);
+    kind->shown_count = kind->count < max_shown ? (uint32_t)kind->count : max_shown;
+    kind->shown = malloc((max_shown + 1) * sizeof *kind->shown);
     for (uint32_t i = 0; kind->shown != NULL && i < kind->shown_count; i++) {
         uint64_t gaps = kind->shown_count > 1 ? kind->shown_count - 1 : 1;
         kind->shown[i] = (uint32_t)((i * (kind->count - 1) + gaps / 2) / gaps);
@@ -74,7 +74,7 @@ static tl_result choose_shown(steps_of_kind *kind, uint32_t most_shown)
 }
 
 tl_result steps_record_make(const tl_contour_set *set, uint32_t contour, uint32_t max_verts_per_poly,
-                            tl_polygon_step_kind kind, uint32_t most_shown, const tl_host *host,
+                            tl_polygon_step_kind kind, uint32_t max_shown, const tl_host *host,
                             steps_record *record_out)
 {
     memset(record_out, 0, sizeof *record_out);
@@ -90,7 +90,7 @@ tl_result steps_record_make(const tl_contour_set *set, uint32_t contour, uint32_
     record_out->counting = true;
     tl_result result = tl_polygon_mesh_bake(&one, &def, &record_out->mesh, NULL);
     if (result == TL_OK) {
-        result = choose_shown(&record_out->kinds[kind], most_shown);
+        result = choose_shown(&record_out->kinds[kind], max_shown);
     }
     if (result != TL_OK) {
         return result;

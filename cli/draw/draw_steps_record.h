@@ -31,10 +31,10 @@ typedef struct steps_record {
     bool counting; // the first of two runs
 } steps_record;
 
-/// Divides the contour twice: to count the steps, then to record the at most `most_shown` of `kind` that are shown.
+/// Divides the contour twice: to count the steps, then to record the at most `max_shown` of `kind` that are shown.
 /// Free with steps_record_free in any case.
 tl_result steps_record_make(const tl_contour_set *set, uint32_t contour, uint32_t max_verts_per_poly,
-                            tl_polygon_step_kind kind, uint32_t most_shown, const tl_host *host,
+                            tl_polygon_step_kind kind, uint32_t max_shown, const tl_host *host,
                             steps_record *record_out);
 void steps_record_free(steps_record *record);
 

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_NAMES_LISTED = 24 };
+enum { MAX_NAMES_LISTED = 24 };
 
 static bool fail_areas_memory(tl_cli *cli, const tl_level *level, tl_exit *exit_out)
 {
@@ -41,14 +41,14 @@ static bool take_word(tl_cli *cli, const tl_level *level, const char *word, tl_a
 static void list_names(const tl_name_table *names, tl_text *text)
 {
     // Number 0 is what has no material.
-    for (uint32_t id = 1; id < names->count && id <= MOST_NAMES_LISTED; id++) {
+    for (uint32_t id = 1; id < names->count && id <= MAX_NAMES_LISTED; id++) {
         tl_text_add(text, id > 1 ? ", '" : "'");
         tl_text_add_safe(text, tl_name_table_get(names, id));
         tl_text_add(text, "'");
     }
-    if (names->count > MOST_NAMES_LISTED + 1) {
+    if (names->count > MAX_NAMES_LISTED + 1) {
         tl_text_add(text, ", and ");
-        tl_text_add_count(text, names->count - MOST_NAMES_LISTED - 1);
+        tl_text_add_count(text, names->count - MAX_NAMES_LISTED - 1);
         tl_text_add(text, " more");
     }
 }

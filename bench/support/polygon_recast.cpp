@@ -2,20 +2,13 @@
 //
 // rcBuildPolyMesh on a tl_contour_set.
 
-#include "bench_polygon_recast.h"
+#include "polygon_recast.h"
+#include "measure.h"
 
 #ifdef TALUS_BENCH_RECAST
 
-#include <ctime>
 #include <recastnavigation/Recast.h>
 #include <vector>
-
-static double cpu_seconds()
-{
-    timespec time;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
-}
 
 double bench_recast_polygons(const tl_contour_set *set, uint32_t max_verts_per_poly, uint32_t *polygons_out)
 {
@@ -49,9 +42,9 @@ double bench_recast_polygons(const tl_contour_set *set, uint32_t max_verts_per_p
     given->maxError = set->max_error;
     rcPolyMesh *mesh = rcAllocPolyMesh();
     rcContext context(false);
-    double began = cpu_seconds();
+    double began = bench_process_seconds();
     bool ok = rcBuildPolyMesh(&context, *given, static_cast<int>(max_verts_per_poly), *mesh);
-    double seconds = cpu_seconds() - began;
+    double seconds = bench_process_seconds() - began;
     *polygons_out = ok ? static_cast<uint32_t>(mesh->npolys) : 0;
     rcFreePolyMesh(mesh);
     // The contours are not the set's to free.

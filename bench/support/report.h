@@ -32,10 +32,6 @@ bool bench_report_at_least(bench_report *report, const char *claim, double value
 /// Prints the claims as a table: value, limit, "ok" or "short".
 void bench_report_print_claims(const bench_report *report);
 
-/// Reads `--json FILE` out of the program's arguments and removes it; NULL when it isn't there. A missing FILE ends the
-/// program with a message.
-const char *bench_report_path(int *argc, char **argv);
-
 /// Writes the report to `path` (NULL: nowhere), frees it, and returns the program's exit code: 1 when the file could
 /// not be written, else 0. A claim that falls short is a finding, not a failure.
 int bench_report_close(bench_report *report, const char *path);

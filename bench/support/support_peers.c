@@ -158,15 +158,15 @@ peer_support_fn *peer_scan_avx512(void)
 
 #endif
 
-// What a reader would take for the text's EPSILON.
-static const float TEXT_EPSILON = 1e-6f;
+// What a reader would take for the article's EPSILON.
+static const float CHOU_EPSILON = 1e-6f;
 
-static int text_climb_from(const peer_hull *peer, tl_vec3 d, int first)
+static int chou_climb_from(const peer_hull *peer, tl_vec3 d, int first)
 {
-    const text_vert *verts = peer->text_verts;
-    const text_edge *edges = peer->text_edges;
+    const chou_vert *verts = peer->chou_verts;
+    const chou_edge *edges = peer->chou_edges;
     int best_index = first;
-    const text_vert *best = &verts[first];
+    const chou_vert *best = &verts[first];
     float best_dot = tl_dot(d, best->position);
     bool end = false;
     while (!end) {
@@ -174,10 +174,10 @@ static int text_climb_from(const peer_hull *peer, tl_vec3 d, int first)
         const int start = e;
         const float old_dot = best_dot;
         do {
-            const text_edge *edge = &edges[e];
-            const text_vert *vert = &verts[edge->vert];
+            const chou_edge *edge = &edges[e];
+            const chou_vert *vert = &verts[edge->vert];
             const float dot = tl_dot(d, vert->position);
-            if (dot >= best_dot + TEXT_EPSILON) {
+            if (dot >= best_dot + CHOU_EPSILON) {
                 best_index = edge->vert;
                 best = vert;
                 best_dot = dot;
@@ -189,18 +189,18 @@ static int text_climb_from(const peer_hull *peer, tl_vec3 d, int first)
     return best_index;
 }
 
-uint32_t peer_text_climb(peer_hull *peer, tl_vec3 d)
+uint32_t peer_chou_climb(peer_hull *peer, tl_vec3 d)
 {
-    return (uint32_t)text_climb_from(peer, d, 0);
+    return (uint32_t)chou_climb_from(peer, d, 0);
 }
 
-uint32_t peer_text_climb_warm(peer_hull *peer, tl_vec3 d)
+uint32_t peer_chou_climb_warm(peer_hull *peer, tl_vec3 d)
 {
-    return peer->last = (uint32_t)text_climb_from(peer, d, (int)peer->last);
+    return peer->last = (uint32_t)chou_climb_from(peer, d, (int)peer->last);
 }
 
-// The text knows triangles only: a fan for each polygon. Half-edges are numbered as its AddFace would.
-static bool make_text_mesh(peer_hull *peer, const tl_hull *hull)
+// Chou's mesh has triangles only: a fan for each polygon. Half-edges are numbered as its AddFace would.
+static bool make_chou_mesh(peer_hull *peer, const tl_hull *hull)
 {
     tl_halfedge_mesh mesh;
     tl_halfedge_mesh_init(&mesh, NULL);
@@ -217,20 +217,20 @@ static bool make_text_mesh(peer_hull *peer, const tl_hull *hull)
                                                          h[face.first + k + 1].origin, NULL) == TL_OK;
         }
     }
-    peer->text_verts = malloc(mesh.vertex_end * sizeof *peer->text_verts);
-    peer->text_edges = malloc(mesh.edge_end * sizeof *peer->text_edges);
-    made = made && peer->text_verts != NULL && peer->text_edges != NULL;
+    peer->chou_verts = malloc(mesh.vertex_end * sizeof *peer->chou_verts);
+    peer->chou_edges = malloc(mesh.edge_end * sizeof *peer->chou_edges);
+    made = made && peer->chou_verts != NULL && peer->chou_edges != NULL;
     for (uint32_t v = 0; made && v < mesh.vertex_end; v++) {
-        text_vert vert = { mesh.vertices[v].position, -1, -1, true };
-        peer->text_verts[v] = vert;
+        chou_vert vert = { mesh.vertices[v].position, -1, -1, true };
+        peer->chou_verts[v] = vert;
     }
     for (uint32_t e = 0; made && e < mesh.edge_end; e++) {
         const tl_halfedge_edge *from = &mesh.edges[e];
-        text_edge edge = {
+        chou_edge edge = {
             (int)from->vertex, (int)from->face, (int)from->next, (int)from->prev, (int)(e ^ 1u), -1, true
         };
-        peer->text_edges[e] = edge;
-        text_vert *origin = &peer->text_verts[mesh.edges[e ^ 1u].vertex];
+        peer->chou_edges[e] = edge;
+        chou_vert *origin = &peer->chou_verts[mesh.edges[e ^ 1u].vertex];
         origin->edge = origin->edge < 0 ? (int)e : origin->edge;
     }
     tl_halfedge_mesh_destroy(&mesh);
@@ -245,7 +245,7 @@ bool peer_hull_make(peer_hull *peer, const tl_hull *hull)
     peer->count = hull->vertex_count;
     peer->padded = (hull->vertex_count + 2 * (ROW_LANES - 1)) / ROW_LANES * ROW_LANES;
     peer->rows = aligned_alloc(64, 3 * (size_t)peer->padded * sizeof(float));
-    if (peer->rows == NULL || !make_text_mesh(peer, hull)) {
+    if (peer->rows == NULL || !make_chou_mesh(peer, hull)) {
         peer_hull_free(peer);
         return false;
     }
@@ -263,7 +263,7 @@ bool peer_hull_make(peer_hull *peer, const tl_hull *hull)
 void peer_hull_free(peer_hull *peer)
 {
     free(peer->rows);
-    free(peer->text_verts);
-    free(peer->text_edges);
+    free(peer->chou_verts);
+    free(peer->chou_edges);
     memset(peer, 0, sizeof *peer);
 }

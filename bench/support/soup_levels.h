@@ -25,13 +25,8 @@ void bench_free_levels(bench_level *levels, uint32_t count);
 bool bench_load_file(const char *path, bench_level *level);
 bool bench_make_sample(const char *name, uint32_t triangles, bench_level *level);
 
-/// [0, 1), from a state of the caller's.
-float bench_unit(uint64_t *random);
+/// A point of a box, and a direction, from a state of the caller's (see cli/shared/splitmix64.h).
 tl_vec3 bench_point_in(uint64_t *random, tl_aabb box);
 tl_vec3 bench_direction(uint64_t *random);
-
-/// Seconds: of the wall, or of this thread alone.
-double bench_now(void);
-double bench_thread_now(void);
 
 #endif

@@ -5,12 +5,12 @@
 #include "soup_levels.h"
 
 #include "cli/sample/sample_level.h"
+#include "cli/shared/splitmix64.h"
 #include "io/mesh/mesh_import.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 static void *copy_of(const void *data, size_t size)
 {
@@ -95,46 +95,21 @@ void bench_free_levels(bench_level *levels, uint32_t count)
     }
 }
 
-float bench_unit(uint64_t *random)
-{
-    uint64_t z = (*random += 0x9e3779b97f4a7c15u);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return (float)((z ^ (z >> 31)) >> 40) * (1.0f / 16777216.0f);
-}
-
 tl_vec3 bench_point_in(uint64_t *random, tl_aabb box)
 {
     tl_vec3 size = tl_aabb_size(box);
-    float x = bench_unit(random), y = bench_unit(random), z = bench_unit(random);
+    float x = tl_splitmix64_float(random), y = tl_splitmix64_float(random), z = tl_splitmix64_float(random);
     return tl_vec3_make(box.min.x + x * size.x, box.min.y + y * size.y, box.min.z + z * size.z);
 }
 
 tl_vec3 bench_direction(uint64_t *random)
 {
     for (;;) {
-        float x = bench_unit(random), y = bench_unit(random), z = bench_unit(random);
+        float x = tl_splitmix64_float(random), y = tl_splitmix64_float(random), z = tl_splitmix64_float(random);
         tl_vec3 d = tl_vec3_make(2 * x - 1, 2 * y - 1, 2 * z - 1);
         float l = tl_length_sq(d);
         if (l > 0.01f && l <= 1) {
             return tl_normalize(d);
         }
     }
-}
-
-static double seconds_of(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-double bench_now(void)
-{
-    return seconds_of(CLOCK_MONOTONIC);
-}
-
-double bench_thread_now(void)
-{
-    return seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }

@@ -94,25 +94,6 @@ void bench_report_print_claims(const bench_report *report)
     }
 }
 
-const char *bench_report_path(int *argc, char **argv)
-{
-    for (int i = 1; i < *argc; i++) {
-        if (strcmp(argv[i], "--json") != 0) {
-            continue;
-        }
-        if (i + 1 == *argc) {
-            fprintf(stderr, "--json: name the file to write\n");
-            exit(2);
-        }
-        const char *path = argv[i + 1];
-        memmove(&argv[i], &argv[i + 2], (size_t)(*argc - i - 2) * sizeof *argv);
-        *argc -= 2;
-        argv[*argc] = NULL;
-        return path;
-    }
-    return NULL;
-}
-
 int bench_report_close(bench_report *report, const char *path)
 {
     bool written = path == NULL || json_dump_file(report->root, path, JSON_INDENT(1) | JSON_REAL_PRECISION(6)) == 0;
