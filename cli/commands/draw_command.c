@@ -391,7 +391,8 @@ static tl_exit draw_stages(tl_cli *cli, const char *path, const draw_settings *s
         }
     }
     if (list != NULL && going) {
-        const tl_exit printed = tl_cli_print_json(cli, list);
+        const tl_exit printed =
+            tl_cli_print_json(cli, json_pack("{so so}", "file", tl_json_text(path), "pictures", list));
         code = printed == TL_EXIT_OK ? code : printed;
     } else {
         json_decref(list);

@@ -41,7 +41,7 @@ static int unknown_command(const char *word)
     if (closest.meant != NULL) {
         fprintf(stderr, "talus: '%s' is no command; did you mean '%s'?\n", word, closest.meant);
     } else {
-        fprintf(stderr, "talus: '%s' is no command; 'talus --help' lists them\n", word);
+        fprintf(stderr, "talus: '%s' is no command; 'talus --help' lists all\n", word);
     }
     return TL_EXIT_USAGE;
 }

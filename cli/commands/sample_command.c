@@ -21,7 +21,7 @@ static tl_exit list_levels(tl_cli *cli)
                                   json_pack("{ss ss si}", "name", levels[i].name, "description", levels[i].description,
                                             "triangles", (int)levels[i].default_triangles));
         }
-        return tl_cli_print_json(cli, array);
+        return tl_cli_print_json(cli, json_pack("{so}", "levels", array));
     }
     for (uint32_t i = 0; i < count; ++i) {
         printf("%-11s %6u triangles  %s\n", levels[i].name, levels[i].default_triangles, levels[i].description);

@@ -14,9 +14,10 @@ void tl_link_options(tl_nav_links_def *def, tl_option table[TL_LINK_OPTIONS])
     const tl_option options[TL_LINK_OPTIONS] = {
         { "drop", 0, TL_OPTION_FLOAT, &def->max_drop, "M", "metres: how far an agent may fall; 0: no drops", NULL, 0,
           huge, 0, 0 },
-        { "climb", 0, TL_OPTION_FLOAT, &def->max_climb, "M", "metres: up a wall; 0: no climbs", NULL, 0, huge, 0, 0 },
-        { "jump", 0, TL_OPTION_FLOAT, &def->max_jump, "M", "metres: from take-off to landing; 0: no jumps", NULL, 0,
-          huge, 0, 0 },
+        { "climb", 0, TL_OPTION_FLOAT, &def->max_climb, "M", "metres: how far an agent climbs up a wall; 0: no climbs",
+          NULL, 0, huge, 0, 0 },
+        { "jump", 0, TL_OPTION_FLOAT, &def->max_jump, "M",
+          "metres: longest jump, from take-off to landing; 0: no jumps", NULL, 0, huge, 0, 0 },
         { "jump-height", 0, TL_OPTION_FLOAT, &def->jump_height, "M", "metres: how high a jump rises", NULL, 0, huge, 0,
           0 },
         { "jump-speed", 0, TL_OPTION_FLOAT, &def->max_speed, "M/S", "metres a second: horizontal speed of a jump", NULL,

@@ -42,13 +42,6 @@ static void print_help(const tl_command *command, const tl_option_group *groups)
            "out of memory; 130 cancelled.\n");
 }
 
-static tl_exit usage_error(tl_cli *cli, const char *message)
-{
-    tl_cli_fail(cli, TL_EXIT_USAGE, "%s", message);
-    fprintf(stderr, "Try 'talus %s --help'.\n", cli->command->name);
-    return TL_EXIT_USAGE;
-}
-
 static bool set_up_host(tl_cli *cli, int progress_style, tl_exit *exit_out)
 {
     cli->pool = tl_thread_pool_create(cli->threads);
@@ -98,7 +91,7 @@ bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words
         }
     }
     if (tl_options_parse(all, cli->argc, cli->argv, &cli->arguments) != TL_PARSE_OK) {
-        *exit_out = usage_error(cli, cli->arguments.message);
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s", cli->arguments.message);
         return false;
     }
     if (cli->arguments.count < min_words || cli->arguments.count > max_words) {
@@ -109,7 +102,7 @@ bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words
             snprintf(message, sizeof(message), "something is missing: talus %s %.*s", cli->command->name,
                      (int)strcspn(cli->command->usage, "\n"), cli->command->usage);
         }
-        *exit_out = usage_error(cli, message);
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s", message);
         return false;
     }
     return set_up_host(cli, style, exit_out);
@@ -130,6 +123,9 @@ tl_exit tl_cli_fail(tl_cli *cli, tl_exit code, const char *format, ...)
     va_start(list, format);
     print_message(cli, format, list);
     va_end(list);
+    if (code == TL_EXIT_USAGE) {
+        fprintf(stderr, "Try 'talus %s --help'.\n", cli->command->name);
+    }
     return code;
 }
 

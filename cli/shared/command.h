@@ -68,7 +68,8 @@ tl_exit tl_command_run(const tl_command *command, int argc, const char *const *a
 bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words, uint32_t max_words,
                   tl_exit *exit_out);
 
-/// Ends the progress line, prints "talus NAME: message" to standard error, and returns `code`.
+/// Ends the progress line, prints "talus NAME: message" to standard error, after a usage error where the help is, and
+/// returns `code`.
 tl_exit tl_cli_fail(tl_cli *cli, tl_exit code, const char *format, ...) TL_IO_PRINTF(3, 4);
 /// The same for a message that is not the end.
 void tl_cli_warn(tl_cli *cli, const char *format, ...) TL_IO_PRINTF(2, 3);

@@ -64,7 +64,7 @@ static tl_exit take_question(tl_cli *cli, line_block *b, const tl_line_input *in
     question *q = &b->questions[b->count];
     const char *bad = NULL;
     const char *reason = tl_parse_float_words(text, q->numbers, TL_MAX_LINE_NUMBERS, &q->count, &bad);
-    if (reason == NULL && q->count >= b->batch->min_numbers && q->count <= b->batch->max_numbers) {
+    if (reason == NULL && (q->count == b->batch->min_numbers || q->count == b->batch->max_numbers)) {
         b->count++;
         return TL_EXIT_OK;
     }

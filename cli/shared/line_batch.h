@@ -17,7 +17,7 @@ typedef bool tl_answer_fn(const float *numbers, uint32_t count, tl_text *text, u
 typedef struct tl_batch {
     const char *path;   ///< of the lines; "-" is standard input. NULL: there is one question, the caller's numbers
     const char *wanted; ///< what a line holds, such as "ox oy oz dx dy dz [tmax]"
-    uint32_t min_numbers, max_numbers; ///< of a line; at most TL_MAX_LINE_NUMBERS
+    uint32_t min_numbers, max_numbers; ///< a line holds the one or the other; at most TL_MAX_LINE_NUMBERS
     tl_answer_fn *answer;
     void *user;
 } tl_batch;

@@ -38,9 +38,9 @@ static void test_out_and_in_again(void **state)
         json_decref(same);
     }
     // A file without triangles: its navmesh and paths can be drawn.
-    json_t *list = cli_json(0, "draw back.talus -o back.png --stage all --size 240 --json");
-    assert_int_equal(json_array_size(list), 3);
-    json_decref(list);
+    json_t *drawn = cli_json(0, "draw back.talus -o back.png --stage all --size 240 --json");
+    assert_int_equal(json_array_size(json_object_get(drawn, "pictures")), 3);
+    json_decref(drawn);
     TEST_CHECK(cli_exists("back-polygons.png") && cli_exists("back-navmesh.png") && cli_exists("back-path.png"));
 }
 

@@ -28,6 +28,16 @@ static void make_files(void)
     cli_do(0, "bake yard.obj -o yard.talus --cell-size 0.4");
 }
 
+// The list of pictures.
+static json_t *draw_json(int code, const char *line)
+{
+    json_t *object = cli_json(code, line);
+    TEST_CHECK(json_is_string(json_object_get(object, "file")));
+    json_t *pictures = json_incref(json_object_get(object, "pictures"));
+    json_decref(object);
+    return pictures;
+}
+
 static void test_every_stage(void **state)
 {
     (void)state;
@@ -40,7 +50,7 @@ static void test_every_stage(void **state)
     for (size_t input = 0; input < 2; ++input) {
         char line[128];
         snprintf(line, sizeof(line), "draw %s -o p%zu.png --stage all --size 240 --json", inputs[input], input);
-        json_t *list = cli_json(0, line);
+        json_t *list = draw_json(0, line);
         assert_int_equal(json_array_size(list), STAGES);
         for (size_t i = 0; i < STAGES; ++i) {
             const json_t *entry = json_array_get(list, i);
@@ -70,7 +80,7 @@ static void test_overview(void **state)
                                          "draw yard.talus -o all.png --overview --size 1000 --view oblique --json",
                                          "draw yard.obj -o some.png --overview --size 1000 --stage soup,path --json" };
     for (int i = 0; i < 3; i++) {
-        json_t *list = cli_json(0, lines[i]);
+        json_t *list = draw_json(0, lines[i]);
         assert_int_equal(json_array_size(list), 1);
         TEST_CHECK(cli_number(json_array_get(list, 0), "stages") == (i < 2 ? 11.0 : 2.0));
         json_decref(list);
@@ -147,7 +157,7 @@ static void test_steps_of_a_contour(void **state)
 {
     (void)state;
     cli_write_text("notched.txt", notched);
-    json_t *list = cli_json(0, "draw notched.txt -o s.svg --stage triangulation,merging --json");
+    json_t *list = draw_json(0, "draw notched.txt -o s.svg --stage triangulation,merging --json");
     assert_int_equal(json_array_size(list), 2);
     const char *summary = json_string_value(json_object_get(json_array_get(list, 0), "summary"));
     cli_check_part(summary, "7 vertices: 5 cuts, then ");
@@ -160,7 +170,7 @@ static void test_steps_of_a_contour(void **state)
         free(svg);
     }
     // All that contours can show, and nothing else.
-    list = cli_json(0, "draw notched.txt -o n.png --stage all --size 240 --json");
+    list = draw_json(0, "draw notched.txt -o n.png --stage all --size 240 --json");
     assert_int_equal(json_array_size(list), 5);
     json_decref(list);
     // The second set is one triangle: one cut, no merge.

@@ -78,6 +78,7 @@ static void test_usage_errors(void **state)
     cli_check_error(2, "bake a -o b --threads 0", "--threads: '0' is too small", "talus bake");
     cli_check_error(2, "bake a -o b --bounds 1,2,3", "--bounds", "too few");
     cli_check_error(2, "bake a -o b --no-soup --no-nav", "nothing to bake", "--hull");
+    cli_check_error(2, "bake a -o b --no-soup --no-nav", "Try 'talus bake --help'.", "--hull");
     cli_check_error(2, "ray a 1,2,3", "--rays", "talus ray");
     cli_check_error(2, "ray a 1,2,3 4,5", "direction '4,5'", "X,Y,Z");
     cli_check_error(2, "ray a 1,2,nan 4,5,6", "origin '1,2,nan' is not finite", "X,Y,Z");
@@ -85,7 +86,6 @@ static void test_usage_errors(void **state)
     cli_check_error(2, "path a 1,2,3 4,5,6,7", "goal '4,5,6,7' has too many numbers", "X,Y,Z");
     cli_check_error(2, "path a 1,2,3 4,5,6 --extents -1,2,3", "--extents: '-1,2,3' is negative", "X,Y,Z");
     cli_check_error(2, "distance a b --pose 1,2,3,4", "--pose: '1,2,3,4'", "quaternion");
-    cli_check_error(2, "distance a b --pose 0,0,0,0,0,0,0", "no rotation", "--pose");
 }
 
 static void test_missing_files(void **state)
@@ -168,7 +168,7 @@ static void test_samples(void **state)
     free(file);
     cli_free(&piped);
     json_t *list = cli_json(0, "sample --list --json");
-    assert_int_equal(json_array_size(list), 4);
+    assert_int_equal(json_array_size(json_object_get(list, "levels")), 4);
     json_decref(list);
     cli_check_error(2, "sample castle", "no level 'castle'", "--list");
     cli_check_error(2, "sample city --triangles 9999999999", "--triangles", "too large");

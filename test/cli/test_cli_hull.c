@@ -161,6 +161,9 @@ static void test_distance(void **state)
     cli_check_part(result.out, "{\"overlap\":true,");
     cli_check_part(result.out, "\"distance\":8,");
     cli_free(&result);
+    check_answer("distance a.txt b.txt --pose 1,0,0,0,0,0,0", "overlap\n"); // the zero quaternion is the identity
+    cli_write_text("poses.txt", "4 0 0\n4 0 0 1\n");
+    cli_check_error(3, "distance a.txt b.txt --poses poses.txt", "poses.txt:2: 4 numbers", "[qx qy qz qw]");
 }
 
 static void test_bad_points(void **state)
