@@ -426,7 +426,7 @@ void claim(bench_report *report, const scene &s, int count, const std::vector<co
         for (const contender &other : all) {
             double limit = limit_of(s, count, c.name, other.name);
             if (limit > 0) {
-                bench_report_at_most(report, (place + c.name + " / " + other.name).c_str(), c.ns / other.ns, limit);
+                bench_report_speed(report, (place + c.name).c_str(), other.name, other.ns / c.ns, 1.0 / limit);
             }
         }
         if (std::strncmp(c.name, "talus", 5) == 0) {
@@ -446,7 +446,7 @@ void run(bench_report *report, const scene &s, int count, std::vector<shape> &sh
         for (const contender &other : all) {
             double limit = limit_of(s, count, c.name, other.name);
             if (limit > 0) {
-                std::printf("  %.2f of %s (at most %g)", c.ns / other.ns, other.name, limit);
+                std::printf("  %.2f times as fast as %s (bar %.2g)", other.ns / c.ns, other.name, 1.0 / limit);
             }
         }
         std::printf("\n");

@@ -2,7 +2,7 @@
 //
 // Queries around a place beside Detour's: on the very same polygons, in one process, runs taking turns.
 //
-//   bench_nav_around [--city TRIANGLES (200000)] [--places COUNT (2000)] [--runs RUNS (5)] [--only NAME]
+//   bench_nav_around [--city TRIANGLES (200000)] [--places COUNT (2000)] [--runs RUNS (5)] [--only NAME] [--json FILE]
 //
 // The polygons are Recast's, so that both sides ask the same mesh. CPU time of one thread, the best run of each side.
 
@@ -124,11 +124,11 @@ void compare(const arena &a, const char *what, const std::function<void(const pl
         theirs = std::min(theirs, time_once(a, detour));
         ours = std::min(ours, time_once(a, talus));
     }
-    std::printf("  %-22s Detour %9.3f us   talus %9.3f us   rate %6.2fx   bar 1.0x %s\n", what, theirs, ours,
+    std::printf("  %-22s Detour %9.3f us   talus %9.3f us   %6.2f times as fast, bar 1.0: %s\n", what, theirs, ours,
                 theirs / ours, theirs >= ours ? "met" : "MISSED");
     bench_report_value(report, a.name.c_str(), "talus", what, ours);
     bench_report_value(report, a.name.c_str(), "Detour", what, theirs);
-    bench_report_at_least(report, (a.name + ": " + what + ", rate to Detour's").c_str(), theirs / ours, 1.0);
+    bench_report_speed(report, (a.name + ": " + what).c_str(), "Detour", theirs / ours, 1.0);
 }
 
 void bench_random(arena &a)

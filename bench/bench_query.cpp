@@ -210,7 +210,7 @@ double time_once(const std::vector<size_t> &indices, const std::function<void(si
     return seconds * 1e6 / ((double)repeats * (double)indices.size());
 }
 
-// Both sides in turns; prints a row with the ratio of their rates and whether it reaches the bar.
+// Both sides in turns; prints a row with the ratio of their speeds and whether it reaches the bar.
 void compare(const char *what, double bar, const std::vector<size_t> &indices,
              const std::function<void(size_t)> &detour, const std::function<void(size_t)> &talus)
 {
@@ -222,11 +222,11 @@ void compare(const char *what, double bar, const std::vector<size_t> &indices,
         theirs = std::min(theirs, time_once(indices, detour));
         ours = std::min(ours, time_once(indices, talus));
     }
-    std::printf("  %-29s Detour %9.3f us   talus %9.3f us   rate %6.2fx   bar %.1fx %s\n", what, theirs, ours,
+    std::printf("  %-29s Detour %9.3f us   talus %9.3f us   %6.2f times as fast, bar %.1f: %s\n", what, theirs, ours,
                 theirs / ours, bar, theirs >= bar * ours ? "met" : "MISSED");
     bench_report_value(report, current.c_str(), "talus", what, ours);
     bench_report_value(report, current.c_str(), "Detour", what, theirs);
-    bench_report_at_least(report, (current + ": " + what + ", rate to Detour's").c_str(), theirs / ours, bar);
+    bench_report_speed(report, (current + ": " + what).c_str(), "Detour", theirs / ours, bar);
 }
 
 // How the lengths of complete paths compare. Rounding: both sides hold corners in floats.

@@ -299,9 +299,8 @@ void arena::bench_radius(const detour_level &baked, float radius)
     bench_report_value(report, chart, "talus", "path, not prepared", gathered);
     bench_report_value(report, chart, "talus", "reachable or not", asked);
     bench_report_value(report, chart, "talus", "path without radius", plain);
-    std::snprintf(claim, sizeof claim, "%s: rate to Detour's", chart);
-    bench_report_at_least(report, claim, theirs / ours, 1.0);
-    std::snprintf(claim, sizeof claim, "%s: share of pairs as in the bake", chart);
+    bench_report_speed(report, chart, "Detour", theirs / ours, 1.0);
+    std::snprintf(claim, sizeof claim, "%s: fraction of pairs answered as by a bake for the radius", chart);
     bench_report_at_least(report, claim, (double)(found.both + found.neither) / (double)pairs_asked, 0.99);
     std::snprintf(claim, sizeof claim, "%s: metres nearer to a wall than the radius", chart);
     bench_report_at_most(report, claim, -found.min_room, (double)CELL);

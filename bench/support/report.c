@@ -81,6 +81,13 @@ bool bench_report_at_least(bench_report *report, const char *claim, double value
     return add_claim(report, claim, value, "at least", limit, value >= limit);
 }
 
+bool bench_report_speed(bench_report *report, const char *what, const char *peer, double ratio, double limit)
+{
+    char claim[256];
+    snprintf(claim, sizeof claim, "%s, times as fast as %s", what, peer);
+    return bench_report_at_least(report, claim, ratio, limit);
+}
+
 void bench_report_print_claims(const bench_report *report)
 {
     size_t i;

@@ -29,6 +29,9 @@ void bench_report_value(bench_report *report, const char *chart, const char *ser
 bool bench_report_at_most(bench_report *report, const char *claim, double value, double limit);
 bool bench_report_at_least(bench_report *report, const char *claim, double value, double limit);
 
+/// The claim that `what` is at least `limit` times as fast as `peer`: every speed is such a ratio.
+bool bench_report_speed(bench_report *report, const char *what, const char *peer, double ratio, double limit);
+
 /// Prints the claims as a table: value, limit, "ok" or "short".
 void bench_report_print_claims(const bench_report *report);
 
