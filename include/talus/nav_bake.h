@@ -1,17 +1,35 @@
 // SPDX-License-Identifier: MIT
 //
-// Building a navigation mesh: every stage of the classic voxel pipeline, callable alone, its data readable.
+// Baking a navigation mesh: the stages of Recast's voxel pipeline, each callable alone, all data in between readable.
 //
-//   tl_nav_def --tl_nav_config_from_def--> tl_nav_config            metres become voxels, here and nowhere else
-//   triangles --rasterize, filters--> tl_nav_heightfield        solid spans of each column
-//             --compact--> tl_nav_compact                       open floors and their neighbours
-//             --erode, mark areas, distance field, regions-->   the same, with areas and regions
-//             --contours--> tl_contour_set (polygon.h) --polygons--> tl_polygon_mesh --detail--> tl_nav_detail
-//             --bake--> tl_nav_tile (nav_tile.h)
+//     tl_nav_def def = tl_default_nav_def();
+//     tl_nav_input input = { .mesh = view };
+//     tl_nav_tiles tiles;
+//     tl_result result = tl_nav_bake(&def, &input, &tiles, NULL);
 //
-// Source of the pipeline: Mikko Mononen, Recast; Stephen Pratt, Critterai. Parameters carry Recast's names.
-// Lattice: x is a column's index along x, z its index along z (row), y a height in cell_height units above
-// bounds.min.y.
+// runs all of them, for all tiles of a level. They are, in order, with Recast's functions beside them:
+//
+//   config       tl_nav_config_from_def    metres become voxels, here and nowhere else     rcConfig
+//   rasterize    tl_nav_rasterize          triangles -> heightfield: solid spans           rcRasterizeTriangles
+//   filter       tl_nav_filter_...         spans that an agent cannot stand on             rcFilter...
+//   compact      tl_nav_bake_compact       -> compact heightfield: floors, linked          rcBuildCompactHeightfield
+//   erode        tl_nav_erode              by the agent's radius                           rcErodeWalkableArea
+//   areas        tl_nav_mark_..._area      volumes give floors an area                     rcMark...Area
+//   distance     tl_nav_distance_field     of each floor to the nearest border             rcBuildDistanceField
+//   regions      tl_nav_bake_regions       watershed, monotone or layers                   rcBuildRegions...
+//   contours     tl_nav_bake_contours      traced, then simplified (Douglas-Peucker)       rcBuildContours
+//   polygons     tl_polygon_mesh_bake      convex polygons (polygon.h)                     rcBuildPolyMesh
+//   detail mesh  tl_nav_bake_detail        heights inside the polygons                     rcBuildPolyMeshDetail
+//   tile         tl_nav_tile_encode        the blob that queries read (nav_tile.h)         dtCreateNavMeshData
+//
+// Sources: Mikko Mononen, Recast; Stephen Pratt, Critterai. Settings have Recast's names and defaults.
+//
+// Where talus differs: results do not depend on the order of triangles or on the number of workers; all tiles of a
+// level share one lattice; simplified contours neither cross nor collapse; linked polygons have the same detail
+// vertices on their common edge.
+//
+// Lattice: x is a column's index along x, z its index along z (row), y a height in units of cell_height above
+// bounds.min.y. A floor is the top of a walkable span: a span of the compact heightfield.
 
 #ifndef TALUS_NAV_BAKE_H
 #define TALUS_NAV_BAKE_H
@@ -31,7 +49,7 @@ typedef enum tl_nav_partition {
     TL_NAV_LAYERS     ///< fast, no overlaps; good for tiles of middle size
 } tl_nav_partition;
 
-/// What to build, in metres. Fields have the names and defaults that users of Recast know.
+/// What to bake, in metres. Fields have the names and defaults that users of Recast know.
 typedef struct tl_nav_def {
     float cell_size;       ///< metres, > 0: edge of a voxel on x and z. Default 0.3
     float cell_height;     ///< metres, > 0: height of a voxel. Default 0.2
@@ -39,8 +57,8 @@ typedef struct tl_nav_def {
     float agent_radius;    ///< metres, >= 0: the walkable area is eroded by it, rounded up to whole cells. Default 0.6
     float agent_max_climb; ///< metres, >= 0: highest step, rounded down to whole voxels. Default 0.9
     float agent_max_slope; ///< degrees, [0, 90): floors less steep than this, and flat ones, are walkable. Default 45
-    float region_min_size; ///< cells: islands of less than its square are dropped. Default 8
-    float region_merge_size;       ///< cells: regions of less than its square are merged into a neighbour. Default 20
+    float region_min_size; ///< cells: islands of fewer columns than its square are removed. Default 8
+    float region_merge_size;       ///< cells: regions of fewer columns than its square are merged. Default 20
     float edge_max_len;            ///< metres, >= 0: longest contour edge along a wall, 0: any. Default 12
     float edge_max_error;          ///< cells, >= 0: how far a simplified contour may leave the traced one. Default 1.3
     uint32_t max_verts_per_poly;   ///< [3, 64]. Default 6
@@ -52,20 +70,20 @@ typedef struct tl_nav_def {
     bool filter_ledge_spans;               ///< Default true
     bool filter_walkable_low_height_spans; ///< Default true
     uint32_t tile_size;                    ///< cells, 0: the whole level is one tile. Default 0
-    float tile_height; ///< metres, rounded down to voxels: floors of one place are divided into layers of that height,
-                       ///< which are tiles of their own. 0: they are one tile. Default 0
-    tl_aabb bounds;    ///< metres; what to build. Empty (the default): the bounds of the mesh
+    float tile_height; ///< metres, rounded down to voxels: the floors of one place are divided into layers of this
+                       ///< height, each a tile of its own. 0: they are one tile. Default 0
+    tl_aabb bounds;    ///< metres; what to bake. Empty (the default): the bounds of the mesh
     tl_host host;
     uint32_t cookie; ///< TL_DEF_COOKIE, by tl_default_nav_def
 } tl_nav_def;
 
 TL_API tl_nav_def tl_default_nav_def(void);
 
-/// Where a field lies in the level's lattice. All tiles of a level share one lattice: a tile's first column is an
-/// integer, so the same triangle falls into the same voxels, bit for bit, whichever tile looks at it.
+/// Where a heightfield lies in the level's lattice. All tiles of a level share one lattice, and a tile's first column
+/// is an integer: a triangle fills the same voxels, bit for bit, in every tile that it reaches.
 typedef struct tl_nav_lattice {
     tl_vec3 origin;           ///< metres; the corner of column (0, 0) of the level, height 0
-    int32_t first_x, first_z; ///< the field's first column in the level's lattice, border included; may be negative
+    int32_t first_x, first_z; ///< the first column in the level's lattice, border included; may be negative
 } tl_nav_lattice;
 
 /// World coordinate of a lattice line: the one formula, so that two tiles that share a line agree on it bit for bit.
@@ -104,8 +122,8 @@ typedef struct tl_nav_config {
     float agent_height, agent_radius, agent_max_climb; ///< metres, as given; kept in the tile for queries
 } tl_nav_config;
 
-/// Area 0 is not walkable. Areas 1 to 255 are free for the user; TL_NAV_WALKABLE_AREA, which is Recast's, is what
-/// triangles have that are given none.
+/// Area 0 is not walkable. Areas 1 to 255 are the user's. Triangles without an area get TL_NAV_WALKABLE_AREA, the value
+/// of Recast's RC_WALKABLE_AREA.
 #define TL_NAV_NULL_AREA     0
 #define TL_NAV_WALKABLE_AREA 63
 
@@ -116,23 +134,24 @@ typedef struct tl_nav_config {
 #define TL_NAV_MAX_LATTICE (1u << 29) ///< columns along one side of the whole level
 #define TL_NAV_MAX_VOXELS  0x7fffu    ///< walkable_height, walkable_climb, walkable_radius
 
-/// The number of tiles along x and z that a def makes of a level. Both 1 when def->tile_size is 0.
+/// The number of tiles along x and z of a level. Both 1 when def->tile_size is 0. Errors as tl_nav_config_from_def.
 TL_API tl_result tl_nav_tile_grid(const tl_nav_def *def, tl_aabb level_bounds, uint32_t *tiles_x_out,
                                   uint32_t *tiles_z_out, tl_report *report_out);
 
-/// Metres to voxels, for the tile (tile_x, tile_z). TL_ERR_ARGUMENT names the field in report_out->element and says
-/// in ->advice what to use instead; TL_ERR_LIMIT when the lattice would be too large.
+/// Metres to voxels, for the tile (tile_x, tile_z). TL_ERR_ARGUMENT names the def's field in
+/// report_out->field and says in ->advice what to use instead; TL_ERR_EMPTY: both bounds are empty; TL_ERR_LIMIT
+/// when the lattice would be too large.
 TL_API tl_result tl_nav_config_from_def(const tl_nav_def *def, tl_aabb level_bounds, uint32_t tile_x, uint32_t tile_z,
                                         tl_nav_config *config_out, tl_report *report_out);
 
 // ---------------------------------------------------------------------------------------------------------
-// Heightfield: the solid space of each column.
+// Heightfield: the solid space of each column (rcHeightfield).
 
-/// A solid stretch of one column. min < max, in voxels above the lattice's origin: it fills [min, max).
+/// A solid part of one column (rcSpan): it fills [min, max), voxels above the lattice's origin, min < max.
 typedef struct tl_nav_span {
     uint16_t min;
     uint16_t max;
-    uint16_t area; ///< of its top; TL_NAV_NULL_AREA: not walkable
+    uint16_t area; ///< of its top surface; TL_NAV_NULL_AREA: not walkable
     uint16_t reserved;
 } tl_nav_span;
 
@@ -149,9 +168,9 @@ typedef struct tl_nav_heightfield {
     tl_allocator allocator; ///< private: what gives the memory back
 } tl_nav_heightfield;
 
-/// Voxelizes triangles conservatively and merges their spans. Triangles less steep than the agent's limit are given
-/// `areas[i]` (NULL: TL_NAV_WALKABLE_AREA), the others TL_NAV_NULL_AREA. Triangles outside the bounds are clipped.
-/// The result does not depend on the order of the triangles. Errors: TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
+/// Voxelizes triangles conservatively and merges their spans. Triangle i gets areas[i] (NULL: TL_NAV_WALKABLE_AREA)
+/// where it is less steep than the agent's limit, else TL_NAV_NULL_AREA. Triangles outside the bounds are clipped. The
+/// result does not depend on the order of the triangles. Errors: TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
 TL_API tl_result tl_nav_rasterize(const tl_nav_config *config, const tl_mesh_view *mesh, const uint8_t *areas,
                                   const tl_host *host, tl_nav_heightfield *heightfield_out, tl_report *report_out);
 TL_API void tl_nav_heightfield_free(tl_nav_heightfield *heightfield);
@@ -165,17 +184,17 @@ TL_API void tl_nav_filter_ledge_spans(const tl_nav_config *config, tl_nav_height
 TL_API void tl_nav_filter_walkable_low_height_spans(const tl_nav_config *config, tl_nav_heightfield *heightfield);
 
 // ---------------------------------------------------------------------------------------------------------
-// Compact heightfield: the open space above walkable spans, and which floor lies beside which.
+// Compact heightfield: the floors above walkable spans, and which lies beside which (rcCompactHeightfield).
 
 #define TL_NAV_NO_SPAN       UINT32_MAX
-#define TL_NAV_BORDER_REGION 0x80000000u ///< flag of a region that paints a tile's border
+#define TL_NAV_BORDER_REGION 0x80000000u ///< flag of the regions that fill a tile's border
 
-/// What the last region build did besides dividing. A walkable floor without a region belongs to a filtered island.
+/// What tl_nav_bake_regions did besides dividing. A walkable floor without a region was on an island that it removed.
 typedef struct tl_nav_region_stats {
-    uint32_t split;            ///< regions that lay over themselves and were divided
+    uint32_t split;            ///< regions that overlapped themselves in the plane and were divided
     uint32_t merged;           ///< regions that became part of a neighbour
-    uint32_t filtered_regions; ///< regions dropped with their island: fewer than min_region_area columns
-    uint32_t filtered_spans;   ///< floors that these held
+    uint32_t filtered_regions; ///< regions removed with their island of fewer than min_region_area columns
+    uint32_t filtered_spans;   ///< floors of these
 } tl_nav_region_stats;
 
 /// Neighbours are mutual: the span beside in direction d has this one in direction d ^ 2.
@@ -183,7 +202,7 @@ typedef struct tl_nav_region_stats {
 typedef struct tl_nav_compact {
     uint32_t width, height;
     uint32_t border_size;
-    uint32_t walkable_height, walkable_climb; ///< voxels, as the neighbours were made
+    uint32_t walkable_height, walkable_climb; ///< voxels, as the neighbours were found with
     tl_nav_lattice lattice;
     tl_aabb bounds;
     float cell_size, cell_height;
@@ -192,19 +211,19 @@ typedef struct tl_nav_compact {
     uint16_t *floor;      ///< [span_count] voxels: where an agent stands
     uint16_t *clearance;  ///< [span_count] voxels of free height above the floor, clamped to 0xffff
     uint8_t *area;        ///< [span_count]
-    int16_t
-        *step; ///< [4 * span_count]: to the span beside, by direction, 0: none; mutual. See tl_nav_compact_neighbour
-    uint32_t *neighbour; ///< instead of `step`, in fields too wide for it: the span beside or TL_NAV_NO_SPAN. Else NULL
+    int16_t *step;        ///< [4 * span_count]: from a span to its neighbour in each direction, 0: none. Read it
+                          ///< by tl_nav_compact_neighbour
+    uint32_t *neighbour;  ///< instead of `step`, where 16 bits do not reach: the neighbour or TL_NAV_NO_SPAN. Else NULL
     uint16_t
         *distance; ///< [span_count] twice the distance to the border in columns; after tl_nav_distance_field, else NULL
     uint16_t max_distance; ///< no distance is larger
-    uint32_t *region;      ///< [span_count] 0: none; after a region build, else NULL
+    uint32_t *region;      ///< [span_count] 0: none; after tl_nav_bake_regions, else NULL
     uint32_t region_count; ///< largest region id + 1
     tl_nav_region_stats region_stats;
     tl_allocator allocator; ///< private: what gives the memory back
 } tl_nav_compact;
 
-/// The span that lies beside another in a direction, or TL_NAV_NO_SPAN.
+/// The neighbour of a span in a direction, or TL_NAV_NO_SPAN.
 static inline uint32_t tl_nav_compact_neighbour(const tl_nav_compact *compact, uint32_t span, uint32_t direction)
 {
     const size_t link = 4 * (size_t)span + direction;
@@ -217,31 +236,34 @@ static inline uint32_t tl_nav_compact_neighbour(const tl_nav_compact *compact, u
 
 TL_API tl_result tl_nav_bake_compact(const tl_nav_config *config, const tl_nav_heightfield *heightfield,
                                      const tl_host *host, tl_nav_compact *compact_out, tl_report *report_out);
-/// The filters that config names and tl_nav_bake_compact in one sweep over a heightfield that stays as it is: the same
-/// result in half the time.
+/// The filters that `config` asks for and tl_nav_bake_compact in one pass, without a change of the heightfield: the
+/// same result as one after the other, faster.
 TL_API tl_result tl_nav_filter_and_compact(const tl_nav_config *config, const tl_nav_heightfield *heightfield,
                                            const tl_host *host, tl_nav_compact *compact_out, tl_report *report_out);
 TL_API void tl_nav_compact_free(tl_nav_compact *compact);
 
-/// Takes the walkable area back from walls and ledges by walkable_radius columns.
+/// Makes floors nearer than walkable_radius columns to a wall or ledge not walkable. Errors: TL_ERR_MEMORY,
+/// TL_ERR_CANCELLED.
 TL_API tl_result tl_nav_erode(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact,
                               tl_report *report_out);
 
-/// A volume whose floors get an area: TL_NAV_NULL_AREA cuts a hole. Only walkable floors are marked.
-/// Floors are tested at the centre of their column, and by floor height within [min_y, max_y].
+/// Gives the walkable floors inside a box an area; TL_NAV_NULL_AREA makes a hole. A floor is inside when the centre of
+/// its column is, and its height lies in [min.y, max.y].
 TL_API void tl_nav_mark_box_area(tl_nav_compact *compact, tl_aabb box, uint8_t area);
-/// `points`: a simple polygon on xz (y ignored), either winding, convex or not; count >= 3.
+/// The same for a prism over `points`: a simple polygon on xz (y is ignored), either winding, convex or not; count
+/// >= 3.
 TL_API void tl_nav_mark_polygon_area(tl_nav_compact *compact, const tl_vec3 *points, uint32_t count, float min_y,
                                      float max_y, uint8_t area);
-/// An upright cylinder that stands on `base`.
+/// The same for an upright cylinder that stands on `base`.
 TL_API void tl_nav_mark_cylinder_area(tl_nav_compact *compact, tl_vec3 base, float radius, float height, uint8_t area);
 
-/// Distance of each floor to the nearest border of its area, blurred as the watershed wants it. Fills
-/// compact->distance.
+/// The distance field: of each floor to the nearest border of its area, box-blurred for the watershed. Fills
+/// compact->distance. Errors: TL_ERR_MEMORY, TL_ERR_CANCELLED.
 TL_API tl_result tl_nav_distance_field(const tl_host *host, tl_nav_compact *compact, tl_report *report_out);
 
-/// Divides the floors into regions as config->partition says (watershed needs the distance field). Fills
-/// compact->region.
+/// Divides the floors into regions by config->partition, removes small islands and merges small regions. Fills
+/// compact->region. Errors: TL_ERR_ARGUMENT (watershed without a distance field), TL_ERR_CORRUPT (neighbours are not
+/// mutual), TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
 TL_API tl_result tl_nav_bake_regions(const tl_nav_config *config, const tl_host *host, tl_nav_compact *compact,
                                      tl_report *report_out);
 
@@ -255,10 +277,10 @@ typedef struct tl_nav_contours {
     /// The traced outlines, for drawing and checks. Its first set.contour_count contours are those of set, in the same
     /// order, before simplification and without their holes. Holes follow, then what has no area.
     tl_contour_set raw;
-    uint32_t hole_count;      ///< traced outlines that run round a hole
+    uint32_t hole_count;      ///< traced outlines of holes
     uint32_t unbridged_count; ///< holes left out of set, because no bridge to their outline was found
     uint32_t slit_count; ///< traced outlines without area, between floors of one region that are not linked; left out
-    uint32_t repaired_count; ///< traced outlines that got vertices back, lest their simplified forms collapse or cross
+    uint32_t repaired_count; ///< outlines that got vertices back, since their simplified form collapsed or crossed
     tl_allocator allocator;  ///< private, as all below: one block holds all arrays
     void *block;
     size_t block_size;
@@ -269,7 +291,7 @@ typedef struct tl_nav_contours {
 /// The origin of the set is the tile without its border. An edge between two regions has the same vertices on xz in
 /// both. Simplified outlines of a region neither cross themselves nor one another, and none with area is lost. The low
 /// 16 bits of a vertex's flags hold 0 for a wall, and for other edges a number in 1 .. 0x7fff made from the region
-/// across (for regions up to 0x7fff its id), | 0x8000 on the tile's border: information only, nothing rests on it.
+/// across (for regions up to 0x7fff its id), | 0x8000 on the tile's border; for information only.
 /// Needs regions (TL_ERR_ARGUMENT). Errors: TL_ERR_CORRUPT (neighbours are not mutual), TL_ERR_LIMIT, TL_ERR_MEMORY,
 /// TL_ERR_CANCELLED. On failure contours_out is zeroed.
 TL_API tl_result tl_nav_bake_contours(const tl_nav_config *config, const tl_nav_compact *compact, const tl_host *host,
@@ -308,7 +330,7 @@ typedef struct tl_nav_volume {
 /// tl_nav_mark_box_area, tl_nav_mark_polygon_area or tl_nav_mark_cylinder_area, by kind.
 TL_API void tl_nav_mark_volume_area(tl_nav_compact *compact, const tl_nav_volume *volume);
 
-/// What the pipeline works on.
+/// What is baked. Nothing is kept or owned.
 typedef struct tl_nav_input {
     tl_mesh_view mesh;
     const uint8_t *areas; ///< one a triangle, or NULL: all TL_NAV_WALKABLE_AREA
@@ -339,48 +361,49 @@ typedef struct tl_nav_bake_report {
     uint64_t span_count;         ///< solid spans after rasterization
     uint64_t compact_span_count; ///< open floors
     uint32_t region_count;
-    uint32_t filtered_regions; ///< islands of fewer than region_min_size squared columns, which were dropped
-    uint64_t filtered_spans;   ///< floors that these held
-    double filtered_area;      ///< square metres of these
+    uint32_t filtered_regions; ///< removed islands' regions (region_min_size)
+    uint64_t filtered_spans;   ///< floors of these
+    double filtered_area;      ///< square metres of these floors
     uint32_t contour_count;
-    uint32_t unbridged_holes;   ///< holes that became floor (tl_nav_contours.unbridged_count)
-    uint32_t slit_outlines;     ///< outlines without area, left out (tl_nav_contours.slit_count)
-    uint32_t repaired_contours; ///< outlines that could not be simplified or triangulated as they were, and were mended
+    uint32_t unbridged_holes; ///< holes that became floor (tl_nav_contours.unbridged_count)
+    uint32_t slit_outlines;   ///< outlines without area, left out (tl_nav_contours.slit_count)
+    uint32_t
+        repaired_contours; ///< outlines that could not be simplified or triangulated as they were, and were repaired
     uint32_t polygon_count;
     uint32_t vertex_count;
     uint32_t detail_triangle_count;
-    uint32_t limited_patches; ///< of the detail mesh, with larger errors than asked (tl_nav_detail.limited_patches)
+    uint32_t limited_patches; ///< of the detail mesh, with errors above the limit (tl_nav_detail.limited_patches)
     uint32_t tile_count;      ///< tiles with at least one polygon
 } tl_nav_bake_report;
 
-/// The layer of each polygon of a place: that in which most of its region's area is there. So a storey stays whole,
-/// with the stairs that its region takes along. A polygon of several regions goes by itself; its height is the mean of
-/// its corners. Layer k holds heights from k * layer_height on, in voxels above the origin. layers_out has room for
-/// polygons->polygon_count; all 0 when layer_height is. TL_ERR_MEMORY.
+/// The layer of each polygon of a place: the one that holds most of its region's area. So a storey stays whole,
+/// together with the stairs of its region. A polygon of several regions is assigned by itself. Layer k begins at k *
+/// layer_height voxels above the origin; a polygon's height is the mean of its corners. `layers_out` has
+/// polygons->polygon_count entries, all 0 when layer_height is 0. Errors: TL_ERR_MEMORY.
 TL_API tl_result tl_nav_assign_layers(const tl_nav_config *config, const tl_polygon_mesh *polygons,
                                       const tl_allocator *allocator, uint32_t *layers_out, tl_report *report_out);
 
-/// All stages for one place, as one tile: layer_height is not looked at (tl_nav_tile_divide divides it). `*tile_out` is
+/// All stages for one place, as one tile: layer_height is ignored (tl_nav_tile_divide divides the tile). `*tile_out` is
 /// NULL with TL_OK when nothing in it is walkable.
 /// `stages_out` NULL: intermediate data is freed as soon as its last reader is done.
 TL_API tl_result tl_nav_tile_bake(const tl_nav_config *config, const tl_nav_input *input, const tl_host *host,
                                   tl_nav_stages *stages_out, tl_nav_tile **tile_out, tl_nav_bake_report *report_out);
 
-/// The stages from regions to the tile, on floors that are there: walkable areas final, eroded and marked. The field's
-/// `distance` and `region` are made anew and left freed; nothing else of it is changed. For obstacles that come and go
-/// without a look at the triangles. `*stack_out`: the tile, or its layers; empty where nothing is walkable.
+/// The stages from the distance field to the tile, on a compact heightfield whose areas are final: eroded and marked.
+/// Its `distance` and `region` are used as scratch and are NULL afterwards; nothing else of it changes. For temporary
+/// obstacles, which need no look at the triangles. `*stack_out`: the tile, or its layers; empty where nothing is
+/// walkable.
 TL_API tl_result tl_nav_tile_bake_from_compact(const tl_nav_config *config, tl_nav_compact *compact,
                                                const tl_host *host, tl_nav_tile_stack *stack_out,
                                                tl_nav_bake_report *report_out);
 
-/// What a tile that is made again and again keeps of itself from one time to the next: what does not depend on the
-/// floors that are marked. With watershed regions 6 bytes a floor, else next to nothing.
+/// What a tile that is rebaked often keeps between two rebakes: the distance field of the floors without obstacles.
+/// With watershed regions 6 bytes a floor, else next to nothing.
 typedef struct tl_nav_tile_memo tl_nav_tile_memo;
 
-/// tl_nav_tile_bake_from_compact, the same bytes, for floors of which few have another area than in `base_area`
-/// [span_count].
-/// `*memo` is NULL at first: it is made when a floor is marked, and serves as long as the floors and `base_area` stay
-/// as they are. It takes its memory from the host's allocator. On failure it is as it was.
+/// tl_nav_tile_bake_from_compact, the same bytes, but faster where few floors have another area than in `base_area`
+/// [span_count]. `*memo` is NULL at first; it is created when a floor differs, from the host's allocator, and stays
+/// valid as long as the floors and `base_area` do not change. On failure it is as it was.
 TL_API tl_result tl_nav_tile_rebake(const tl_nav_config *config, tl_nav_compact *compact, const uint8_t *base_area,
                                     tl_nav_tile_memo **memo, const tl_host *host, tl_nav_tile_stack *stack_out,
                                     tl_nav_bake_report *report_out);
@@ -407,14 +430,14 @@ typedef struct tl_nav_tile_range {
     uint32_t x, z, count_x, count_z;
 } tl_nav_tile_range;
 
-/// The tiles that can differ when something inside `box` changes: those whose columns, border included, meet it. Empty
-/// (counts 0) beside the level. `level_bounds`: def->bounds where they are given, else those of the mesh. `box` must
-/// have min <= max (TL_ERR_ARGUMENT). Errors else as tl_nav_tile_grid.
+/// The tiles that a change inside `box` can touch: those whose columns, border included, meet it. Empty (counts 0)
+/// where the box lies outside the level. `level_bounds`: def->bounds where they are given, else those of the mesh.
+/// `box` must have min <= max (TL_ERR_ARGUMENT). Errors else as tl_nav_tile_grid.
 TL_API tl_result tl_nav_tiles_in_box(const tl_nav_def *def, tl_aabb level_bounds, tl_aabb box,
                                      tl_nav_tile_range *range_out, tl_report *report_out);
 
-/// Is handed each tile's intermediate data as it is done, on the thread that built it; tiles without triangles are
-/// left out. What it takes out of `stages` (and zeroes there) is its own, in def->host.allocator.
+/// Receives each tile's intermediate data, on the thread that baked it; tiles without triangles are left out. It owns
+/// what it takes out of `stages` and zeroes there; that comes from def->host.allocator.
 typedef struct tl_nav_stage_sink {
     void (*take)(const tl_nav_config *config, tl_nav_stages *stages, void *user);
     void *user;
@@ -433,9 +456,9 @@ TL_API tl_result tl_nav_bake_range(const tl_nav_def *def, const tl_nav_input *in
                                    const tl_nav_stage_sink *sink, tl_nav_tile_block *block_out,
                                    tl_nav_bake_report *report_out);
 
-/// Bakes again what a change inside `changed` can have touched (cover both what was there and what is there now): the
-/// same bytes as a bake of the whole level. def->bounds must be given, and the same as when the others were baked
-/// (TL_ERR_ARGUMENT). Hand each stack of the block to tl_navmesh_replace_tiles.
+/// Rebakes the tiles that a change inside `changed` can have touched (a box around both the old and the new geometry):
+/// the same bytes as a bake of the whole level. def->bounds must be given (TL_ERR_ARGUMENT), and the same as when the
+/// other tiles were baked. Hand each stack of the block to tl_navmesh_replace_tiles.
 TL_API tl_result tl_nav_rebake(const tl_nav_def *def, const tl_nav_input *input, tl_aabb changed,
                                tl_nav_tile_block *block_out, tl_nav_bake_report *report_out);
 TL_API void tl_nav_tile_block_free(tl_nav_tile_block *block);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Navmesh tiles in the form of Recast Navigation's Detour, and back: a game can move step by step, in either direction.
+// Navmesh tiles to and from the format of Detour (Recast Navigation), so that a game can move in either direction, step
+// by step.
 //
 // A tile is the data of dtNavMesh::addTile (version 7); a set is the file that RecastDemo saves ("MSET", version 1):
 // the parameters of dtNavMesh::init and all tiles. Both with references of 32 bits or of 64 (DT_POLYREF64), which is
@@ -38,16 +39,15 @@ typedef struct tl_detour_report {
     uint32_t area_zeros;       ///< reading: polygons of area 0, which became Recast's walkable area
 } tl_detour_report;
 
-/// Bytes of a tile, or of a set of tiles, in Detour's form; 0 when it cannot be written (writing says why).
+/// Bytes of a tile, or of a set of tiles, in Detour's format; 0 when it cannot be written (writing says why).
 TL_API uint64_t tl_detour_tile_size(const tl_nav_tile *tile, tl_detour_refs refs);
 TL_API uint64_t tl_detour_set_size(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_refs refs);
 
 /// Writes one tile into `bytes` of at least tl_detour_tile_size: what dtNavMesh::addTile takes, and init when the tile
 /// is the whole navmesh. Polygon i of the tile is polygon i there. Nothing is allocated.
 ///
-/// Errors, with the polygon named: TL_ERR_LIMIT (more corners than 6, flags above the lowest 16, an area
-/// above 63, or a tile with more
-/// polygons, vertices or cells than 16 bits count), TL_INCOMPLETE. `report_out` may be NULL.
+/// TL_INCOMPLETE: `capacity` is less than tl_detour_tile_size. TL_ERR_LIMIT names the polygon: more than 6 corners,
+/// flags above the lowest 16, an area above 63; or the tile: more polygons, vertices or cells than 16 bits count.
 TL_API tl_result tl_detour_tile_write(const tl_nav_tile *tile, tl_detour_refs refs, void *bytes, uint64_t capacity,
                                       tl_detour_report *report_out);
 
@@ -75,11 +75,11 @@ TL_API tl_detour_read_def tl_default_detour_read_def(void);
 
 /// Reads a set, or a single tile, which is then the whole navmesh. Safe on any bytes. `def` NULL: defaults.
 ///
-/// The corners must lie on a lattice of the cell size that the tile's bounding volume factor tells, as those that
-/// Recast makes do (TL_ERR_RANGE names the vertex of another). Errors: TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED,
-/// TL_ERR_CORRUPT (a count or an index is wrong), TL_ERR_EMPTY (no polygon left), TL_ERR_NOT_FINITE, TL_ERR_RANGE,
-/// TL_ERR_LIMIT (a layer above 65,535), TL_ERR_MEMORY. Tiles of several layers at one place are read; edges inside the
-/// tile over which Detour links them are walls here. `tiles_out` is cleared unless TL_OK.
+/// The corners must lie on a lattice, whose cell size follows from the tile's quantization factor, as in all tiles that
+/// Recast makes (else TL_ERR_RANGE names the vertex). Layers at one place are read; the links between them across edges
+/// inside a tile become walls. Errors: TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED, TL_ERR_CORRUPT (a
+/// count or an index is wrong), TL_ERR_EMPTY (no polygon left), TL_ERR_NOT_FINITE, TL_ERR_RANGE, TL_ERR_LIMIT (a layer
+/// above 65,535), TL_ERR_MEMORY. `tiles_out` is zeroed unless TL_OK.
 TL_API tl_result tl_detour_read(const void *bytes, uint64_t size, const tl_detour_read_def *def,
                                 tl_detour_tiles *tiles_out, tl_detour_report *report_out);
 TL_API void tl_detour_tiles_free(tl_detour_tiles *tiles);

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Temporary obstacles: crates, cars, doors, fires that come, move and go while the game runs.
+// Temporary obstacles: crates, cars, doors and fires that come, move and go while the game runs.
 //
-// The floors of each tile are kept as they were before regions are made from them. An obstacle marks floors, and the
-// tiles that it touches are made again from there: the triangles are never looked at. What a tile becomes depends on
-// the obstacles that are there, not on the order in which they came; without any it has the bytes of the first bake.
+// Each tile's compact heightfield is kept as it was before its regions were made. An obstacle marks floors of it, and
+// the tiles that it touches are rebaked from there, without a look at the triangles. A tile's bytes depend on the
+// obstacles that are there, not on the order in which they came; without any they are those of the first bake.
 //
 //   tl_nav_obstacles_bake(&def, &input, &obstacles, NULL, NULL);
-//   tl_nav_obstacles_add(obstacles, &crate, &id);
+//   tl_nav_obstacles_add(obstacles, &crate, &id, NULL);
 //   tl_nav_obstacles_update(obstacles, navmesh, 4, &waiting, NULL);   each frame, until nothing is waiting
 //
-// One thread at a time uses an obstacles object. Queries on the navmesh may go on while tl_nav_obstacles_bake_next
-// works, which does not know it; a navmesh is changed only by tl_nav_obstacles_update and by tl_navmesh_replace_tiles,
-// tl_navmesh_remove_tile and tl_navmesh_add_tile, during which nobody else may use it.
+// An obstacles object is used by one thread at a time. tl_nav_obstacles_bake_next never touches a navmesh, so queries
+// may run meanwhile. tl_nav_obstacles_update changes the navmesh, as tl_navmesh_replace_tiles does: no query may run
+// then.
 
 #ifndef TALUS_NAV_OBSTACLES_H
 #define TALUS_NAV_OBSTACLES_H
@@ -32,14 +32,14 @@ typedef enum tl_nav_obstacle_shape {
     TL_NAV_OBSTACLE_PRISM, ///< upright, over a convex outline
 } tl_nav_obstacle_shape;
 
-/// What stands in the way. Lengths in metres.
+/// An obstacle. Lengths in metres.
 typedef struct tl_nav_obstacle {
     tl_nav_obstacle_shape shape;
-    /// TL_NAV_NULL_AREA: a body. No agent stands where it would overlap it: floors are cut away under and around it,
-    /// out to the agent's radius, and from agent_height below its base to its top. Another area: floors inside it, from
-    /// base to top, get that area (a cost, a danger), and nothing is cut away.
+    /// TL_NAV_NULL_AREA: a solid body. Floors where an agent would overlap it are removed: under and around it, out to
+    /// the agent's radius, from agent_height below its base to its top. Another area: floors inside it, from base to
+    /// top, get that area (a cost, a danger), and none is removed.
     uint8_t area;
-    tl_vec3 base;         ///< the middle of its foot
+    tl_vec3 base;         ///< the centre of its base
     float height;         ///< >= 0
     float radius;         ///< CYLINDER: > 0
     float half_x, half_z; ///< BOX: >= 0, before it is turned
@@ -51,59 +51,58 @@ typedef struct tl_nav_obstacle {
 
 typedef struct tl_nav_obstacles tl_nav_obstacles;
 
-/// Names an obstacle until it is removed; names are not used again.
+/// An obstacle's id, until it is removed. Ids are not used again, and are not 0.
 typedef uint64_t tl_nav_obstacle_id;
 
-/// Bakes a level in tiles and keeps their floors. `def` needs a tile_size and bounds. Its host is used now; later only
-/// a copy of its allocator.
+/// Bakes a level in tiles and keeps their compact heightfields. `def` needs a tile_size and bounds. Its tasks and
+/// progress hook are used now only, a copy of its allocator later too.
 ///
-/// `block_out`: the tiles without obstacles, as tl_nav_bake_range gives them. NULL: they are dropped, and all tiles
-/// wait to be made; the first updates fill the navmesh. Errors: TL_ERR_ARGUMENT (no tile_size, no bounds), and those of
+/// `block_out`: the tiles without obstacles, as by tl_nav_bake_range. NULL: all tiles wait to be baked, and the first
+/// updates fill the navmesh. Errors: TL_ERR_ARGUMENT (no tile_size, no bounds), and those of
 /// tl_nav_bake; then `*obstacles_out` is NULL.
 TL_API tl_result tl_nav_obstacles_bake(const tl_nav_def *def, const tl_nav_input *input,
                                        tl_nav_obstacles **obstacles_out, tl_nav_tile_block *block_out,
                                        tl_nav_bake_report *report_out);
 TL_API void tl_nav_obstacles_destroy(tl_nav_obstacles *obstacles);
 
-/// Adds an obstacle; the tiles that it touches wait to be made again. Takes a microsecond or less, and memory only
+/// Adds an obstacle; the tiles that it touches wait to be rebaked. Takes a microsecond or less, and memory only
 /// where the list of obstacles grows. TL_ERR_ARGUMENT (a size, the area, an outline that is not convex),
 /// TL_ERR_NOT_FINITE, TL_ERR_MEMORY.
 TL_API tl_result tl_nav_obstacles_add(tl_nav_obstacles *obstacles, const tl_nav_obstacle *obstacle,
                                       tl_nav_obstacle_id *id_out, tl_report *report_out);
-/// Moves it, or makes it another: the tiles of its old and its new place wait. TL_ERR_STALE for a name that is not
-/// in use; else as adding.
+/// Moves an obstacle, or changes its shape: the tiles of its old and its new place wait. TL_ERR_STALE: the id is not in
+/// use; else as tl_nav_obstacles_add.
 TL_API tl_result tl_nav_obstacles_move(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id,
                                        const tl_nav_obstacle *obstacle, tl_report *report_out);
-/// TL_ERR_STALE for a name that is not in use.
+/// TL_ERR_STALE: the id is not in use.
 TL_API tl_result tl_nav_obstacles_remove(tl_nav_obstacles *obstacles, tl_nav_obstacle_id id);
 
 TL_API uint32_t tl_nav_obstacles_count(const tl_nav_obstacles *obstacles);
-/// Tiles that wait to be made again.
+/// Tiles that wait to be rebaked.
 TL_API uint32_t tl_nav_obstacles_waiting(const tl_nav_obstacles *obstacles);
-/// Bytes that the kept floors, what tiles that were made again keep of themselves, and the list of obstacles take.
+/// Bytes of the kept heightfields, of the memos of rebaked tiles and of the list of obstacles.
 TL_API uint64_t tl_nav_obstacles_bytes(const tl_nav_obstacles *obstacles);
 
-/// Bakes again, from triangles, what a change of the level inside `changed` can have touched, and lets those tiles
+/// Rebakes, from triangles, the heightfields that a change of the level inside `changed` can have touched; those tiles
 /// wait. `input` is the level as it is now; the obstacles stay. Errors as tl_nav_rebake; then nothing is changed.
 TL_API tl_result tl_nav_obstacles_rebake(tl_nav_obstacles *obstacles, const tl_nav_input *input, tl_aabb changed,
                                          tl_nav_bake_report *report_out);
 
-/// A tile made again: all layers of its place, where it is divided.
+/// A rebaked tile: all layers of its place, where it is divided.
 typedef struct tl_nav_rebaked_tile {
     int32_t tile_x, tile_z;
     tl_nav_tile_stack stack; ///< the caller's, from the def's allocator; empty: nothing is walkable there now
 } tl_nav_rebaked_tile;
 
-/// Makes the tile that has waited longest. Hand its stack to tl_navmesh_replace_tiles, or free it. TL_NOT_FOUND:
-/// none waits. On another failure it goes on waiting.
+/// Rebakes the tile that has waited longest. Hand its stack to tl_navmesh_replace_tiles, or free it. TL_NOT_FOUND: none
+/// waits. On failure it keeps waiting.
 TL_API tl_result tl_nav_obstacles_bake_next(tl_nav_obstacles *obstacles, tl_nav_rebaked_tile *rebaked_out,
                                             tl_nav_bake_report *report_out);
 
-/// Makes up to `max_tiles` waiting tiles and puts them into the navmesh in the place of the old ones, as
-/// tl_navmesh_replace_tiles does: a tile or layer whose bytes are the same stays. The navmesh takes them over, so it
-/// must have been created with the def's allocator.
-/// `*waiting_out` (may be NULL): how many wait still. On failure the tile at hand goes on waiting, and the navmesh has
-/// the old one or, out of memory in between, none or some of its layers there.
+/// Rebakes up to `max_tiles` waiting tiles and replaces the old ones in the navmesh, as tl_navmesh_replace_tiles does:
+/// a tile or layer whose bytes are the same stays. The navmesh owns the new ones.
+/// `*waiting_out` (may be NULL): how many wait still. On failure the tile in work keeps waiting, and the navmesh has
+/// the old one or, when it ran out of memory, none or some of its layers.
 TL_API tl_result tl_nav_obstacles_update(tl_nav_obstacles *obstacles, tl_navmesh *navmesh, uint32_t max_tiles,
                                          uint32_t *waiting_out, tl_nav_bake_report *report_out);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The baked tile of a navmesh: what nav_bake writes and nav_query reads. An immutable blob.
-// It has a header of its own because building and querying never include each other.
+// The tile of a navmesh: the immutable blob that nav_bake writes and nav_query reads. It has a header of its own
+// because baking and querying never include each other.
 //
-// A tile keeps two forms of every polygon corner: exact integers on the lattice, on which seams and convexity are
-// decided, and floats in metres, laid out polygon by polygon, on which queries run. The floats follow from the
-// integers by one formula (tl_nav_tile_position), so that two tiles give a point of their common seam the same bits.
+// A tile has every polygon corner twice: as integers on the lattice, for exact decisions on seams and convexity, and as
+// floats in metres, polygon by polygon, for queries. The floats are computed from the integers by one formula
+// (tl_nav_tile_position), so that two tiles give a point of their common seam the same bits.
 
 #ifndef TALUS_NAV_TILE_H
 #define TALUS_NAV_TILE_H
@@ -19,9 +19,9 @@ extern "C" {
 #endif
 
 // ---------------------------------------------------------------------------------------------------------
-// Detail mesh, as it is built.
+// Detail mesh, as tl_nav_bake_detail makes it.
 
-/// One polygon's share of the detail mesh.
+/// The part of the detail mesh in one polygon.
 typedef struct tl_nav_detail_patch {
     uint32_t first_vertex;
     uint32_t vertex_count; ///< the polygon's own corners first, then added ones
@@ -43,9 +43,9 @@ typedef struct tl_nav_detail {
     tl_nav_detail_patch *patches;
     tl_vec3 *vertices; ///< metres, in the world
     tl_nav_detail_triangle *triangles;
-    float max_error; ///< metres: how far the farthest inner height sample lies from the finished surface, vertically
-    uint32_t limited_patches; ///< that reached 65,535 vertices with larger errors left, or have an edge too long to be
-                              ///< sampled as densely as asked (more than 512 steps)
+    float max_error;          ///< metres: largest vertical distance of an inner height sample from the surface
+    uint32_t limited_patches; ///< patches with errors above the limit: they reached 65,535 vertices, or have an edge of
+                              ///< more than 512 samples
     tl_allocator allocator;   ///< private, as all below: one block holds all arrays
     void *block;
     size_t block_size;
@@ -64,17 +64,17 @@ TL_API void tl_nav_detail_free(tl_nav_detail *detail);
 #define TL_NAV_MAX_TILES         (1u << 20) ///< of one navmesh, so that a slot fits a reference (nav_query.h)
 #define TL_NAV_MAX_TILE_INDEX    (1 << 24)  ///< |tile_x| and |tile_z|
 #define TL_NAV_MAX_LAYER         0xffffu    ///< of the tiles at one place
-#define TL_NAV_MAX_TILE_DEPTH    40         ///< of the box tree: log2 of the polygons, and room
+#define TL_NAV_MAX_TILE_DEPTH    40         ///< of the BVH: log2 of the polygons, with reserve
 
 // ---------------------------------------------------------------------------------------------------------
 // The layout. Offsets are bytes from the start of the blob, multiples of 64, in the order of the fields; all padding
-// is zero. Read it through the functions below; the fields are public because a format has no secrets.
+// is zero. Read it through the functions below.
 
 #define TL_NAV_LINK_WALL   UINT32_MAX  ///< nothing lies across this edge
 #define TL_NAV_LINK_PORTAL 0x80000000u ///< | index of a tl_nav_portal: other tiles' polygons may lie across this edge
 
-/// The fifth side of a tile, beside those towards x-, z+, x+ and z-: edges that were cut when the floors of a place
-/// were divided into layers. What lies across is in another layer of the same place, and has the same two vertices.
+/// The fifth side of a tile, after those towards x-, z+, x+ and z-: edges that were cut when a place was divided into
+/// layers. Across them lies a polygon of another layer of the same place, with the same two vertices.
 #define TL_NAV_SIDE_CUT   4u
 #define TL_NAV_SIDE_COUNT 5u
 
@@ -94,8 +94,8 @@ typedef struct tl_nav_profile_point {
     float height; ///< metres
 } tl_nav_profile_point;
 
-/// Depth-first tree of boxes over polygons and their detail. An inner node's first child is the next node, its second
-/// child is the first child's `skip`.
+/// A node of the BVH over polygons and their detail, depth first. An inner node's first child is the next node, its
+/// second child is the first child's `skip`.
 typedef struct tl_nav_tile_node {
     tl_aabb box;      ///< metres
     uint32_t skip;    ///< the node behind this subtree; > own index
@@ -140,7 +140,7 @@ typedef struct tl_nav_tile {
 } tl_nav_tile;
 
 // ---------------------------------------------------------------------------------------------------------
-// Baking and checking.
+// Encoding and checking.
 
 /// An edge of a polygon that was cut: across it lies a polygon of another layer.
 typedef struct tl_nav_cut {
@@ -149,7 +149,7 @@ typedef struct tl_nav_cut {
     uint32_t ordinal; ///< among cuts with the same two ends, which only floors that lie upon each other have: 0, 1, ...
 } tl_nav_cut;
 
-/// What a tile is baked from. Nothing is kept or owned.
+/// What a tile is encoded from. Nothing is kept or owned.
 typedef struct tl_nav_tile_source {
     /// Convex polygons with area, in the contours' winding, 3 to 64 corners each, areas 1 to 255. Its bounds, cell_size
     /// and cell_height place the lattice. A portal edge that does not lie on its side of the tile (x or z = 0 or
@@ -171,7 +171,7 @@ typedef struct tl_nav_tile_source {
     uint32_t cut_count;
 } tl_nav_tile_source;
 
-/// Bakes one tile. The same source gives the same bytes everywhere.
+/// Lays out one tile. The same source gives the same bytes on every machine.
 ///
 /// `*tile_out` is freed with tl_blob_free(tile). On failure it is NULL, and the report (which may be NULL)
 /// names the element. Errors: TL_ERR_EMPTY (no polygon), TL_ERR_ARGUMENT (a setting, an area, a cut), TL_ERR_INDEX,
@@ -181,9 +181,9 @@ typedef struct tl_nav_tile_source {
 TL_API tl_result tl_nav_tile_encode(const tl_nav_tile_source *source, const tl_allocator *allocator,
                                     tl_nav_tile **tile_out, tl_report *report_out);
 
-/// Bakes a tile of some polygons of another: those with keep[p] != 0, in the same order. Links to the others become
+/// Encodes a tile of some polygons of another: those with keep[p] != 0, in the same order. Links to the others become
 /// walls; cuts stay. All of them give the same bytes again. TL_ERR_EMPTY: none is kept; else as tl_nav_tile_encode.
-/// `tile` is trusted.
+/// `tile` must be valid (tl_nav_tile_check).
 TL_API tl_result tl_nav_tile_subset(const tl_nav_tile *tile, const uint8_t *keep, const tl_allocator *allocator,
                                     tl_nav_tile **tile_out, tl_report *report_out);
 
@@ -196,17 +196,17 @@ typedef struct tl_nav_tile_stack {
 
 TL_API void tl_nav_tile_stack_free(tl_nav_tile_stack *stack);
 
-/// Divides a tile into layers: polygon p goes into that of the number layers[p]. Together they have the tile's
-/// polygons, each layer its own in the same order, and in a navmesh the same links: an edge between two layers becomes
-/// a cut in both. A layer of the tile's own number that takes all polygons has the tile's bytes.
+/// Divides a tile into layers, which are tiles: polygon p goes into layer layers[p], and the order of polygons stays.
+/// An edge between two layers becomes a cut in both, so that in a navmesh the links are the same. When all polygons go
+/// into layer 0, its tile has the bytes of the whole.
 ///
 /// Errors: TL_ERR_ARGUMENT (the tile is a layer already: it has cuts, or a number of its own; a number above
-/// TL_NAV_MAX_LAYER), TL_ERR_LIMIT, TL_ERR_MEMORY; then `*stack_out` is zeroed. `tile` is trusted, and stays.
-/// O(polygons * layers).
+/// TL_NAV_MAX_LAYER), TL_ERR_LIMIT, TL_ERR_MEMORY; then `*stack_out` is zeroed. `tile` must be valid, and does not
+/// change. O(polygons * layers).
 TL_API tl_result tl_nav_tile_divide(const tl_nav_tile *tile, const uint32_t *layers, const tl_allocator *allocator,
                                     tl_nav_tile_stack *stack_out, tl_report *report_out);
 
-/// Whether bytes from anywhere are a whole tile that every query can be trusted with. Safe on any bytes.
+/// Whether bytes are a valid tile, on which every query is safe. Safe on any bytes.
 ///
 /// `bytes` must be 8-byte aligned (TL_ERR_ARGUMENT). TL_ERR_TRUNCATED, TL_ERR_MAGIC, TL_ERR_VERSION; TL_ERR_CORRUPT for
 /// all else, with the element in the report (which may be NULL). O(n).
@@ -347,7 +347,7 @@ static inline int tl_nav_cut_compare(const tl_nav_tile *tile_a, const tl_nav_por
     return (a->high > b->high) - (a->high < b->high);
 }
 
-/// What lies across an edge, in the words of tl_polygon_mesh: a polygon of this tile, TL_NO_POLYGON or
+/// What lies across an edge, as in tl_polygon_mesh: a polygon of this tile, TL_NO_POLYGON or
 /// TL_PORTAL | side, TL_NAV_SIDE_CUT among them.
 TL_API uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon, uint32_t edge);
 

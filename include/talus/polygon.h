@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Convex polygon generation: contours on an integer lattice in, one mesh of convex polygons with neighbours out.
+// Convex polygon generation: from contours on an integer lattice to one mesh of convex polygons with neighbours.
 //
-// Usable alone, on any contours. x and z span the plane, y is height. All decisions are exact in integers.
+// Works alone, on any contours. x and z span the plane, y is height. All decisions are exact, in integers.
 // Source: "Convex Polygon Generation", Critterai Navigation Mesh Generation documentation, stage four.
 
 #ifndef TALUS_POLYGON_H
@@ -26,7 +26,7 @@ extern "C" {
 
 /// Flags of a contour vertex, beside the neighbour region in the low 16 bits.
 #define TL_CONTOUR_REGION_MASK   0xffffu
-#define TL_CONTOUR_BORDER_VERTEX 0x10000u ///< lies on a tile's border between regions; removed after merging
+#define TL_CONTOUR_BORDER_VERTEX 0x10000u ///< on a tile's border, where two regions meet; removed after merging
 #define TL_CONTOUR_AREA_BORDER   0x20000u ///< the edge that starts here separates two areas
 
 typedef struct tl_contour_vertex {
@@ -43,7 +43,7 @@ typedef struct tl_contour {
     uint32_t area;
 } tl_contour;
 
-/// A set of contours on one lattice. A plain view; builds that make one say who owns the arrays.
+/// A set of contours on one lattice. A view: it owns nothing.
 typedef struct tl_contour_set {
     const tl_contour_vertex *vertices;
     uint32_t vertex_count;
@@ -56,20 +56,22 @@ typedef struct tl_contour_set {
     int32_t height;    ///< lattice cells along z, without the border
     int32_t
         border_size; ///< cells of border that were cut off on each side of a tile; > 0 makes portals on the outer edges
-    float max_error; ///< the simplification's bound, lattice units; information only
+    float max_error; ///< bound of the simplification, lattice units; for information only
 } tl_contour_set;
 
-/// What was found in a contour that could not be divided as it came. Bits; several may be set.
+/// Why a contour was not divided as given. Bits; several may be set.
 #define TL_CONTOUR_FAULT_EMPTY     0x01u ///< no area: nothing to divide
 #define TL_CONTOUR_FAULT_DUPLICATE 0x02u ///< consecutive vertices of equal x and z; one was dropped
-#define TL_CONTOUR_FAULT_SPIKE     0x04u ///< runs there and back to enclose nothing; that run was dropped
+#define TL_CONTOUR_FAULT_SPIKE     0x04u ///< runs there and back and encloses nothing; that run was dropped
 #define TL_CONTOUR_FAULT_TOUCH     0x08u ///< a vertex lies inside another edge; the edge was split there
 #define TL_CONTOUR_FAULT_CROSSING  0x10u ///< two edges cross; both were split at the nearest lattice point
-#define TL_CONTOUR_FAULT_WINDING   0x20u ///< winds around some floor more than once, or backwards; covered once, or not
-#define TL_CONTOUR_FAULT_PINCH     0x40u ///< meets itself in a vertex so that its floor falls apart; divided part by part
-#define TL_CONTOUR_FAULT_REFUSED   0x80u ///< too many crossings to repair; nothing of it is in the mesh
+#define TL_CONTOUR_FAULT_WINDING                                                                                       \
+    0x20u ///< winds around floor more than once (which is covered once) or backwards (which is not)
+#define TL_CONTOUR_FAULT_PINCH                                                                                         \
+    0x40u ///< meets itself in a vertex, so that its interior is not connected; divided part by part
+#define TL_CONTOUR_FAULT_REFUSED 0x80u ///< too many crossings to repair; nothing of it is in the mesh
 
-/// A contour that was not taken as it came. Bridges to holes are no fault.
+/// A contour that was not divided as given. Bridges to holes are no fault.
 typedef struct tl_contour_note {
     uint32_t contour;      ///< index in the set
     uint32_t faults;       ///< TL_CONTOUR_FAULT_ bits
@@ -98,23 +100,23 @@ typedef struct tl_polygon_mesh {
     float cell_size, cell_height;
     uint32_t max_verts_per_poly;
     uint32_t note_count;
-    tl_contour_note *notes; ///< [note_count] contours that were not taken as they came, by rising contour index
+    tl_contour_note *notes; ///< [note_count] contours that were not divided as given, by rising index
     tl_allocator allocator; ///< private, as all below: one block holds all arrays
     void *block;
     size_t block_size;
 } tl_polygon_mesh;
 
-/// regions[p] and contours[p] of a polygon that holds floor of several contours. It arises only where a border vertex
-/// between two contours was removed, and with merge_contours, where the region stays.
+/// regions[p] and contours[p] of a polygon that covers parts of several contours. It exists only where a border vertex
+/// between two contours was removed, and with merge_contours, where regions[p] is kept.
 #define TL_SEVERAL_REGIONS  0u
 #define TL_SEVERAL_CONTOURS UINT32_MAX
 
 /// How a contour is divided.
 typedef enum tl_partition_method {
     TL_PARTITION_CLASSIC,  ///< shortest partition edge first, then merging across the longest shared edge first
-    TL_PARTITION_OPTIMAL,  ///< as few polygons as there can be. Exact for every contour of up to 128 vertices that has
-                           ///< no holes, and for most larger ones; else the best of several ways
-    TL_PARTITION_DELAUNAY, ///< constrained Delaunay triangulation, then merged as in the classic way: well-shaped
+    TL_PARTITION_OPTIMAL,  ///< the fewest polygons (Keil, Snoeyink). Exact for every contour of up to 128 vertices
+                           ///< without holes, and for most larger ones; else the best of several methods
+    TL_PARTITION_DELAUNAY, ///< constrained Delaunay triangulation, then merged as by the classic method: well-shaped
                            ///< polygons
 } tl_partition_method;
 
@@ -124,7 +126,7 @@ typedef enum tl_polygon_step_kind {
     TL_POLYGON_STEP_MERGE, ///< two polygons become one across the longest shared edge
 } tl_polygon_step_kind;
 
-/// One step, as the text's figures show it. All points are pairs of x and z, in lattice units.
+/// One step, as the figures of Critterai's documentation show it. Points are pairs of x and z, in lattice units.
 typedef struct tl_polygon_step {
     tl_polygon_step_kind kind;
     uint32_t contour; ///< in the set
@@ -138,15 +140,15 @@ typedef struct tl_polygon_step {
     const int32_t *corners; ///< [2 * corner_count] the triangle that was cut off, or the merged polygon
 } tl_polygon_step;
 
-/// Is called with every step, on the thread that called the build. The step's arrays are gone after the call.
+/// Is called with every step, on the caller's thread. The step's arrays are valid during the call only.
 typedef struct tl_polygon_trace {
     void (*step)(const tl_polygon_step *step, void *user);
     void *user;
 } tl_polygon_trace;
 
-/// What to build. Start from tl_default_polygon_def().
+/// How to divide contours. Begin with tl_default_polygon_def().
 typedef struct tl_polygon_def {
-    uint32_t max_verts_per_poly; ///< [3, 64], or 0: as many as it takes. Default 6
+    uint32_t max_verts_per_poly; ///< [3, 64], or 0: unlimited. Default 6
     tl_partition_method method;  ///< Default TL_PARTITION_CLASSIC
     uint32_t merge_height;     ///< lattice units: vertices of equal x and z at most this far apart on y become one, the
                                ///< nearest one. 0: equal vertices only, which is enough where both regions take a
@@ -164,7 +166,7 @@ typedef struct tl_polygon_def {
     uint32_t cookie; ///< TL_DEF_COOKIE, by tl_default_polygon_def
 } tl_polygon_def;
 
-/// The counts of one build.
+/// The counts of one bake.
 typedef struct tl_polygon_report {
     tl_report base;
     uint32_t contour_count;             ///< contours given
@@ -211,7 +213,7 @@ TL_API tl_polygon_def tl_default_polygon_def(void);
 TL_API tl_result tl_polygon_mesh_bake(const tl_contour_set *contours, const tl_polygon_def *def,
                                       tl_polygon_mesh *mesh_out, tl_polygon_report *report_out);
 
-/// Gives the mesh back to the allocator it was built with (NULL: free) and clears it. A cleared mesh is allowed.
+/// Frees the mesh and zeroes it. NULL or zeroed: nothing happens.
 TL_API void tl_polygon_mesh_free(tl_polygon_mesh *mesh);
 
 /// A vertex in the world, metres.
@@ -235,7 +237,7 @@ typedef struct tl_polygon_quality {
     double worst_aspect;          ///< the largest
 } tl_polygon_quality;
 
-/// Measures the polygons of a mesh that is right (tl_polygon_mesh_check). O(corners).
+/// Measures the polygons of a valid mesh (tl_polygon_mesh_check). O(corners).
 TL_API tl_polygon_quality tl_polygon_mesh_measure(const tl_polygon_mesh *mesh);
 
 /// What can be wrong with a polygon mesh.
@@ -245,9 +247,9 @@ typedef enum tl_polygon_fault {
     TL_POLYGON_FAULT_REPEATED,   ///< a corner twice in one polygon
     TL_POLYGON_FAULT_INVERTED,   ///< wound against the contours, or without area
     TL_POLYGON_FAULT_NOT_CONVEX, ///< a corner of 180 degrees or more, or winding around more than once
-    TL_POLYGON_FAULT_OVERLAP,    ///< two polygons of one contour share floor; of several contours: and heights
+    TL_POLYGON_FAULT_OVERLAP,    ///< two polygons overlap, of one contour; of several contours: also in height
     TL_POLYGON_FAULT_T_JUNCTION, ///< a vertex of the contour inside an edge of one of its polygons
-    TL_POLYGON_FAULT_LINK,       ///< a neighbour that does not hold the edge or does not link back, or a link left out
+    TL_POLYGON_FAULT_LINK,       ///< a neighbour without the edge or without a link back, or a missing link
     TL_POLYGON_FAULT_PORTAL,     ///< a portal whose edge is not on that side of the tile (needs the contours)
     TL_POLYGON_FAULT_AREA,       ///< area differs from the contour's and from what its note says (needs the contours)
     TL_POLYGON_FAULT_OUTLINE,    ///< the polygons' common outline is not the contour's (needs the contours)
@@ -263,7 +265,7 @@ typedef struct tl_polygon_check_report {
     uint64_t counts[TL_POLYGON_FAULT_COUNT]; ///< how many of each kind
 } tl_polygon_check_report;
 
-/// Proves a mesh right, or names what is wrong: TL_OK, TL_ERR_CORRUPT for any fault, or TL_ERR_MEMORY.
+/// Proves a mesh valid, or names what is wrong: TL_OK, TL_ERR_CORRUPT for any fault, or TL_ERR_MEMORY.
 /// With the contours it was built from (may be NULL) it also proves that they are covered exactly. Safe on any content
 /// of the arrays; the arrays must be as long as the counts say. All in exact integers, by other ways than the build's.
 TL_API tl_result tl_polygon_mesh_check(const tl_polygon_mesh *mesh, const tl_contour_set *contours,
