@@ -92,7 +92,7 @@ typedef struct tl_separation {
     /// Metres between the witness points, so never less than the true distance but for rounding; 0 on overlap.
     float distance;
     float lower_bound;       ///< metres; the true distance is not less
-    bool overlap;            ///< the rounded shapes share a point, or are closer than can be told in double
+    bool overlap;            ///< the rounded shapes share a point, or their distance is below double rounding
     tl_vec3 point_a;         ///< witness on A's surface, world
     tl_vec3 point_b;         ///< witness on B's surface, world
     tl_vec3 normal;          ///< unit, from A to B, world; zero on overlap

@@ -8,11 +8,12 @@
 #include "base/arena.h"
 
 #include "base/assert.h"
+#include "base/min_max.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAST_BLOCK_BYTES = 16 * 1024, LIVE_SHARE = 8, ARENA_ALIGNMENT = 64 };
+enum { MIN_BLOCK_BYTES = 16 * 1024, LIVE_SHARE = 8, ARENA_ALIGNMENT = 64 };
 
 struct tl_arena_block {
     tl_arena_block *older;
@@ -100,7 +101,7 @@ void *tl_grow_array(const tl_allocator *allocator, void *items, uint64_t *capaci
     return grown;
 }
 
-// What stands before a blob in memory, and never in a file: whose it is. It keeps the blob on its alignment.
+// The header before a blob in memory, never in a file: the allocator. Its size keeps the blob aligned.
 typedef struct tl_blob_owner {
     uint64_t magic;
     size_t size; // of the whole block, this included
@@ -189,7 +190,7 @@ static bool add_block(tl_arena *arena, size_t bytes)
         return false;
     }
     size_t size = round_up_to((size_t)(arena->live_bytes / LIVE_SHARE), ARENA_ALIGNMENT);
-    size = size > LEAST_BLOCK_BYTES ? size : LEAST_BLOCK_BYTES;
+    size = (size_t)tl_max_u64(size, MIN_BLOCK_BYTES);
     if (size < head + bytes) {
         size = round_up_to(head + bytes, ARENA_ALIGNMENT);
     }

@@ -34,7 +34,7 @@ void *tl_allocate_array(const tl_allocator *allocator, uint64_t count, size_t si
 /// Gives back what tl_allocate_array(allocator, count, size) returned; NULL is allowed.
 void tl_release_array(const tl_allocator *allocator, void *array, uint64_t count, size_t size);
 
-/// Twice the room for an array that is full, with its items; `*capacity` is then the new one. NULL when memory is out:
+/// Doubles the capacity of a full array and keeps its items; `*capacity` is then the new one. NULL when memory is out:
 /// the array is as it was.
 void *tl_grow_array(const tl_allocator *allocator, void *items, uint64_t *capacity, size_t size);
 

@@ -12,7 +12,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/// Every item is a set of its own. `parents` has room for `count` items.
+/// Every item is a set of its own. `parents` holds `count` items.
 static inline void tl_disjoint_sets_init(uint32_t *parents, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++) {

@@ -9,15 +9,14 @@
 //   TL_HEAP_BEFORE(context, a, b)  whether item a comes before item b. Break all ties: then the order in which items
 //                                  leave depends on the items alone, not on the heap's shape.
 //   TL_HEAP_MOVED(context, a, at)  optional: item a stands at `at` now, for heaps whose items are improved or removed
-//   TL_HEAP_ARITY                  optional: children of a node; 2 unless told. 4 is faster where items are small: a
-//   heap
-//                                  half as high, and the four children lie in one cache line.
+//   TL_HEAP_ARITY                  optional: children of a node, 2 by default. 4 is faster where items are small:
+//                                  a heap half as high, whose four children lie in one cache line.
 //
-// and the inclusion gives, for `TL_HEAP_CONTEXT context` (const void * unless told), static functions
+// and the inclusion gives, for `TL_HEAP_CONTEXT context` (const void * by default), static functions
 //
 //   sift_up(heap, at, item, context)            puts item at `at` or as far above as it belongs
 //   sift_down(heap, count, at, item, context)   puts item at `at` or as far below as it belongs
-//   push(heap, &count, item, context)           the array has room for one more
+//   push(heap, &count, item, context)           the array holds one more
 //   pop(heap, &count, context)                  takes the top; count > 0
 //
 // and forgets the macros again. Source: Williams, Algorithm 232: Heapsort, 1964; Johnson 1975 for d children.

@@ -14,7 +14,7 @@ typedef struct tl_sort_item {
     uint32_t extra; ///< carried along
 } tl_sort_item;
 
-/// Sorts `items` ascending by key, stably. `scratch` has room for `count` items too. O(count) for a fixed key width.
+/// Sorts `items` ascending by key, stably. `scratch` holds `count` items too. O(count) for a fixed key width.
 void tl_radix_sort(tl_sort_item *items, tl_sort_item *scratch, uint32_t count);
 
 /// A float's bits as an unsigned integer of the same order (-0 before +0, NaN at the ends).

@@ -94,7 +94,7 @@ static cast_step advance_cast(linear_cast *c)
     grow_size(c, &point);
     double slack = c->pair->direction_error + cast_noise(c);
     double free = tl_vec3d_dot(u, tl_vec3d_mul_add(point.w, c->motion, -c->t)) - c->radii;
-    // Nothing comes nearer along this plane, and it parts the shapes; where they touch, as well as can be told.
+    // Nothing comes nearer along this plane, and it separates the shapes; where they touch, to within rounding.
     if (closing <= 0.0 && free > (touches ? -slack : slack)) {
         return STEP_MISS;
     }

@@ -8,7 +8,7 @@
 #include "convex/gjk.h"
 
 typedef struct tl_core_depth {
-    tl_vec3d normal; // unit, of A - B: B moves along it to part
+    tl_vec3d normal; // unit, of A - B: moving B along it separates the shapes
     double upper, lower;
     tl_vec3d on_a, on_b; // witnesses, A's frame
     tl_convex_status status;

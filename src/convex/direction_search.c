@@ -20,6 +20,7 @@
 
 #include "convex/direction_search.h"
 
+#include "base/min_max.h"
 #include "math/tolerance.h"
 
 // Bounds closer than sixteen float roundings of the size, a millionth, are equal. EPA asks for four; here, where many
@@ -218,7 +219,7 @@ void tl_direction_search(tl_minkowski *pair, tl_core_depth *depth)
     for (;;) {
         double finest = SEARCH_DEPTH_GAP * s.reach;
         uint32_t before = s.steps;
-        gap = gap > finest ? gap : finest;
+        gap = tl_max_f64(finest, gap);
         if (!prove(&s, gap)) {
             break;
         }

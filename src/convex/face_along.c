@@ -20,7 +20,7 @@ typedef struct candidate {
     double dot;
 } candidate;
 
-// Takes the face's place where it looks more along the direction; the lower one of equals.
+// Makes a face the best one when its normal is closer to the direction; of equals the lower.
 static void consider_face(candidate *best, uint32_t face)
 {
     const tl_hull_plane_block *block = &tl_hull_plane_blocks(best->hull)[face / 8];

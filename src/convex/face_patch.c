@@ -2,8 +2,8 @@
 //
 // The corners of what two convex faces have in common: each edge of one is clipped to what lies within the other
 // (Cyrus and Beck, Generalized Two- and Three-Dimensional Clipping, 1978), and the ends of all pieces are the corners.
-// Against clipping the whole polygon edge by edge (Sutherland and Hodgman) this needs no room for the polygon, so faces
-// of any number of corners do, without allocation: some edges of one at a time are taken around the other.
+// Against clipping the whole polygon edge by edge (Sutherland and Hodgman) this needs no buffer for the polygon, so
+// faces of any number of corners do, without allocation: some edges of one at a time are taken around the other.
 
 #include "convex/face_patch.h"
 

@@ -39,7 +39,7 @@ void tl_halfedge_mesh_clear(tl_halfedge_mesh *mesh)
     mesh->free_vertex = mesh->free_edge = mesh->free_face = TL_HALFEDGE_NONE;
 }
 
-// Makes room for `more` entries behind `used`.
+// Grows a pool to hold `more` entries behind `used`.
 static tl_result grow_pool(tl_halfedge_mesh *mesh, void **array, uint32_t *capacity, uint32_t used, uint32_t more,
                            size_t size)
 {

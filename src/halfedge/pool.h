@@ -5,7 +5,7 @@
 
 #include <talus/halfedge.h>
 
-// Room for so many more faces and edges, so that taking them cannot fail.
+// Reserves capacity for so many more faces and edges, so that taking them cannot fail.
 tl_result tl_halfedge_reserve(tl_halfedge_mesh *mesh, uint32_t faces, uint32_t edges);
 uint32_t tl_halfedge_take_face(tl_halfedge_mesh *mesh);
 // A pair of half-edges; the first of the two. Neither has a face: both count as boundary until they get one.

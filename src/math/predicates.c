@@ -7,10 +7,10 @@
 // Discrete & Computational Geometry 18, 1997: theorems 7 (two-sum), 10 (grow-expansion), 17 and 18 (split and
 // two-product), and the error analysis of section 4.
 //
-// Why no overflow or underflow can spoil it: a finite float is a multiple of 2^-149 below 2^128. A difference of two is
-// a multiple of 2^-149 and at most 2^129, and is held exactly as head + tail (the error of one addition is a double).
-// Every product of three such numbers, every partial sum and every rounding error of these is a multiple of 2^-447 and
-// below 2^390 * 2; the splitter adds 28 bits. Doubles reach from 2^-1074 to 2^1024.
+// Why no overflow or underflow can invalidate it: a finite float is a multiple of 2^-149 below 2^128. A difference of
+// two is a multiple of 2^-149 and at most 2^129, and is held exactly as head + tail (the error of one addition is a
+// double). Every product of three such numbers, every partial sum and every rounding error of these is a multiple of
+// 2^-447 and below 2^390 * 2; the splitter adds 28 bits. Doubles reach from 2^-1074 to 2^1024.
 //
 // Why one accumulator and not Shewchuk's ladder of four adaptive stages: with float input the tails of the differences
 // are nearly always zero, so most terms vanish and the exact sum has two to four components; the middle stages decide
@@ -22,6 +22,7 @@
 
 #include "math/predicates.h"
 
+#include "base/compiler.h"
 #include "math/vec3d.h"
 
 #include <assert.h>
@@ -240,7 +241,8 @@ static void determinant_sum(exact_sum *sum, const exact_row *u, const exact_row 
     add_pair_product3(sum, negated(u->y), v->x, w->z);
 }
 
-static int determinant_exact(const exact_row *u, const exact_row *v, const exact_row *w)
+// Not inlined: the filter nearly always decides, and needs none of the stack.
+static TL_NOINLINE int determinant_exact(const exact_row *u, const exact_row *v, const exact_row *w)
 {
     exact_sum sum;
     determinant_sum(&sum, u, v, w);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Exact geometric predicates on float coordinates: the sign is right for every finite input, denormal and huge ones
-// included. Each is a float filter with a proven bound first, then exact expansion arithmetic (predicates.c).
+// included. Each is a floating-point filter with a proven bound first, then exact expansion arithmetic (predicates.c).
 
 #ifndef TALUS_SRC_MATH_PREDICATES_H
 #define TALUS_SRC_MATH_PREDICATES_H

@@ -110,7 +110,7 @@ static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)
 
 #endif
 
-/// Writes high[i] << 32 | low[i] for each lane i of the mask, in their order. Has room for sixteen.
+/// Writes high[i] << 32 | low[i] for each lane i of the mask, in their order. The array holds sixteen.
 static inline void tl_u32x16_compress_pairs(uint64_t *to, uint32_t mask, const uint32_t *high, const uint32_t *low)
 {
 #if TL_SIMD_LEVEL == 3

@@ -19,7 +19,7 @@
 #define TL_DOUBLE_GAMMA(n) ((double)(n)*TL_DOUBLE_ROUNDING * 1.0001)
 
 /// Share by which a bound in double is moved before it is rounded to float, so that the float does not end up on the
-/// wrong side: one rounding, and room.
+/// wrong side: one rounding, and some more.
 #define TL_FLOAT_OUTWARD (2.0 * (double)TL_FLOAT_ROUNDING)
 
 /// Error of each component of a cross product of two differences of floats in double, as a share of the sum of its two

@@ -9,6 +9,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/min_max.h"
 #include "base/radix_sort.h"
 #include "mesh/clean.h"
 
@@ -57,9 +58,7 @@ static tl_result link_triangle_edges(const tl_mesh_view *view, tl_arena *arena, 
         uint32_t from;
         uint32_t to;
         edge_corners(view, edge, &from, &to);
-        uint32_t low = from < to ? from : to;
-        uint32_t high = from < to ? to : from;
-        tl_sort_item item = { ((uint64_t)low << 32) | high, edge, 0 };
+        tl_sort_item item = { (uint64_t)tl_min_u32(from, to) << 32 | tl_max_u32(from, to), edge, 0 };
         edges[edge] = item;
     }
     tl_radix_sort(edges, scratch, edge_count);

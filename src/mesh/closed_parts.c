@@ -13,6 +13,7 @@
 #include "base/assert.h"
 #include "base/disjoint_sets.h"
 #include "base/host.h"
+#include "base/min_max.h"
 #include "base/radix_sort.h"
 #include "mesh/clean.h"
 
@@ -37,8 +38,7 @@ static tl_result sort_part_edges(parts_search *s, tl_arena *arena)
     }
     for (uint32_t i = 0; i < 3 * view->triangle_count; i++) {
         const uint32_t from = view->indices[i], to = view->indices[i - i % 3 + (i + 1) % 3];
-        const uint32_t low = from < to ? from : to, high = from < to ? to : from;
-        const tl_sort_item item = { (uint64_t)low << 32 | high, i / 3, from < to };
+        const tl_sort_item item = { (uint64_t)tl_min_u32(from, to) << 32 | tl_max_u32(from, to), i / 3, from < to };
         s->edges[s->edge_count] = item;
         s->edge_count += from != to; // an edge without length runs both ways
     }

@@ -6,6 +6,7 @@
 #include "scene/scene_walk.h"
 
 #include "base/assert.h"
+#include "base/cpu.h"
 #include "base/min_max.h"
 #include "math/tolerance.h"
 
@@ -32,11 +33,9 @@ tl_scene_walk_fn *tl_scene_walk_for(int level)
     case 0:
         return tl_scene_walk_scalar;
     case 1:
-        return __builtin_cpu_supports("sse4.2") ? tl_scene_walk_sse42 : NULL;
+        return tl_cpu_has_sse42() ? tl_scene_walk_sse42 : NULL;
     case 2:
-        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi")
-                   ? tl_scene_walk_avx2
-                   : NULL;
+        return tl_cpu_has_avx2() ? tl_scene_walk_avx2 : NULL;
     default:
         return NULL;
     }

@@ -20,7 +20,7 @@
 // Steps between two calls of the progress hook.
 #define PROGRESS_STEPS 4096u
 
-// Room for faces: a first block, then each as large as all that may come, within this factor.
+// Capacity for faces: a first block, then each as large as all that may come, within this factor.
 #define FACES_A_STEP 64u
 #define FACE_GROWTH  8u
 

@@ -118,10 +118,10 @@ static inline int tl_quickhull_side(const tl_quickhull *hull, const tl_quickhull
 }
 
 // quickhull.c
-// A live face without neighbours; the caller has made room by tl_quickhull_reserve.
+// A live face without neighbours; the caller has reserved it by tl_quickhull_reserve.
 uint32_t tl_quickhull_new_face(tl_quickhull *hull, uint32_t a, uint32_t b, uint32_t c);
 void tl_quickhull_free_face(tl_quickhull *hull, uint32_t face);
-// Room for `more` new faces, here and in the scratch.
+// Reserves capacity for `more` new faces, here and in the scratch.
 tl_result tl_quickhull_reserve(tl_quickhull *hull, uint32_t more);
 
 // seed.c: the first tetrahedron, and the named result of input without volume.

@@ -21,7 +21,7 @@ uint32_t tl_hull_table_side(uint32_t vertex_count, bool has_rings)
 {
     float cells = has_rings && vertex_count <= SMALL_RINGED ? RINGED_CELLS_PER_VERTEX : CELLS_PER_VERTEX;
     uint32_t side = (uint32_t)sqrtf(0.5f * cells * (float)vertex_count) + 1;
-    return side < MAX_SIDE ? side : MAX_SIDE;
+    return tl_min_u32(side, MAX_SIDE);
 }
 
 // Extents over the largest one, so that no product with a direction in range under- or overflows.
@@ -58,11 +58,11 @@ tl_vec3 tl_hull_table_scale(const tl_hull *hull)
     }
     // In full for a needle, not at all for a long capsule, whose ends are round, and halfway between.
     tl_vec3 scales[3] = { extents, tl_vec3_make(sqrtf(extents.x), sqrtf(extents.y), sqrtf(extents.z)), one };
-    uint32_t best = 0, most = 0;
+    uint32_t best = 0, best_count = 0;
     for (uint32_t i = 0; i < 3; i++) {
         uint32_t count = count_cells(hull, scales[i]);
-        best = count > most ? i : best;
-        most = count > most ? count : most;
+        best = count > best_count ? i : best;
+        best_count = tl_max_u32(best_count, count);
     }
     return scales[best];
 }

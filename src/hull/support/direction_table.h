@@ -16,6 +16,7 @@
 #ifndef TALUS_SRC_HULL_DIRECTION_TABLE_H
 #define TALUS_SRC_HULL_DIRECTION_TABLE_H
 
+#include "base/min_max.h"
 #include "hull/support/hull_support.h"
 
 #include <float.h>
@@ -27,13 +28,13 @@
 
 // A body or face thinner than this share of its largest extent gains nothing from more stretching: tables only say
 // where a climb starts.
-#define TL_LEAST_RELATIVE_EXTENT 1e-6
+#define TL_MIN_RELATIVE_EXTENT 1e-6
 
 // An extent over the largest one, so that no product with a direction in range under- or overflows.
 static inline double tl_relative_extent(double extent, double largest)
 {
     double share = extent / largest;
-    return share > TL_LEAST_RELATIVE_EXTENT ? share : TL_LEAST_RELATIVE_EXTENT;
+    return tl_max_f64(TL_MIN_RELATIVE_EXTENT, share);
 }
 
 static inline uint32_t tl_table_cell(tl_vec3 scaled, uint32_t side)

@@ -2,29 +2,18 @@
 //
 // The public ray queries: choose the walk and run it.
 //
-// The choice reads the processor's features as the C runtime found them at program start (__builtin_cpu_supports): one
-// load and a branch, no state of our own. A cached choice would be mutable global state; a choice stored in the soup
-// would make its bytes depend on the machine.
+// The choice reads the processor's features each time (base/cpu.h): a load and a branch. A cached choice would be
+// mutable global state; a choice stored in the soup would make its bytes depend on the machine.
 
 #include "soup/ray/ray_job.h"
 
 #include "base/assert.h"
+#include "base/cpu.h"
 
 #include <float.h>
 #include <string.h>
 
 #if defined(__x86_64__) && defined(__GNUC__)
-
-static inline bool ray_has_avx2(void)
-{
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi");
-}
-
-static inline bool ray_has_avx512(void)
-{
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") && ray_has_avx2();
-}
 
 tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
 {
@@ -32,11 +21,11 @@ tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
     case TL_RAY_SCALAR:
         return tl_ray_walk_scalar;
     case TL_RAY_SSE42:
-        return __builtin_cpu_supports("sse4.2") ? tl_ray_walk_sse42 : NULL;
+        return tl_cpu_has_sse42() ? tl_ray_walk_sse42 : NULL;
     case TL_RAY_AVX2:
-        return ray_has_avx2() ? tl_ray_walk_avx2 : NULL;
+        return tl_cpu_has_avx2() ? tl_ray_walk_avx2 : NULL;
     case TL_RAY_AVX512:
-        return ray_has_avx512() ? tl_ray_walk_avx512 : NULL;
+        return tl_cpu_has_avx512() ? tl_ray_walk_avx512 : NULL;
     default:
         return NULL;
     }
@@ -54,10 +43,10 @@ tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa)
 // processors (bench_rays has a row for each). A machine with AVX-512 always has AVX2.
 static inline tl_ray_walk_fn *best_ray_walk(void)
 {
-    if (ray_has_avx2()) {
-        return __builtin_cpu_is("amd") && ray_has_avx512() ? tl_ray_walk_avx512 : tl_ray_walk_avx2;
+    if (tl_cpu_has_avx2()) {
+        return __builtin_cpu_is("amd") && tl_cpu_has_avx512() ? tl_ray_walk_avx512 : tl_ray_walk_avx2;
     }
-    return __builtin_cpu_supports("sse4.2") ? tl_ray_walk_sse42 : tl_ray_walk_scalar;
+    return tl_cpu_has_sse42() ? tl_ray_walk_sse42 : tl_ray_walk_scalar;
 }
 
 #else
