@@ -28,13 +28,14 @@ typedef struct tl_nav_zone {
     uint32_t point_count;  ///< 3 to TL_NAV_MAX_ZONE_POINTS
 } tl_nav_zone;
 
+/// A circle of `radius` metres around `center`.
 TL_API tl_nav_zone tl_nav_zone_circle(tl_vec3 center, float radius);
-/// The points must outlive the zone.
+/// A convex outline of 3 to TL_NAV_MAX_ZONE_POINTS points, which must outlive the zone.
 TL_API tl_nav_zone tl_nav_zone_polygon(const tl_vec3 *points, uint32_t point_count);
 
 /// Heights from `min` to `max`, metres; they may be infinite.
 typedef struct tl_nav_height_range {
-    float min, max;
+    float min, max; ///< min <= max
 } tl_nav_height_range;
 
 /// Finds all polygons that pass the filter and come into a zone, whether a path leads there or not, in the order of the
@@ -49,11 +50,11 @@ TL_API tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_na
 
 /// A polygon that a path leads to.
 typedef struct tl_nav_field_entry {
-    tl_nav_ref polygon;
-    tl_nav_ref link; ///< the off-mesh link by which the path enters it; TL_NAV_NO_REF: over an edge
-    uint32_t parent; ///< the entry that the path comes from; UINT32_MAX at the start
-    float cost;      ///< of the path to `point`: metres times area costs, or what the filter's function says
-    tl_vec3 point;   ///< where the path enters the polygon; the start in its own
+    tl_nav_ref polygon; ///< that the path enters last
+    tl_nav_ref link;    ///< the off-mesh link by which the path enters it; TL_NAV_NO_REF: over an edge
+    uint32_t parent;    ///< the entry that the path comes from; UINT32_MAX at the start
+    float cost;         ///< of the path to `point`: metres times area costs, or what the filter's function says
+    tl_vec3 point;      ///< where the path enters the polygon; the start in its own
 } tl_nav_field_entry;
 
 /// How far a field reaches, and what its paths cost. Begin with tl_default_nav_field_def.
@@ -95,7 +96,7 @@ TL_API tl_result tl_nav_field_path(const tl_nav_field_entry *entries, uint32_t c
 
 /// A piece of wall. The polygon lies on its left.
 typedef struct tl_nav_wall_segment {
-    tl_vec3 start, end;
+    tl_vec3 start, end; ///< metres
     tl_nav_ref polygon; ///< that it belongs to
     tl_nav_ref across;  ///< the polygon behind it, which the filter refuses; TL_NAV_NO_REF: there is none
     float distance;     ///< metres in the plane from the request's center; 0 for one polygon's walls

@@ -102,8 +102,8 @@ TL_API uint32_t tl_nav_corridor_check(const tl_nav_corridor *corridor, const tl_
 /// Repairs the corridor after tiles have changed. A valid one stays as it is (TL_NAV_PATH_COMPLETE, node_count 0).
 /// Otherwise agent and goal are moved to the polygons nearest to them within `half_extents`, and the path is searched
 /// anew. Without a polygon near the goal the agent stays, and the status is TL_NAV_PATH_UNREACHABLE; the goal is kept
-/// for tiles that come back. TL_NOT_FOUND: no polygon near the agent; the corridor is unchanged. Else as
-/// tl_nav_corridor_find.
+/// for tiles that come back. TL_NOT_FOUND: no polygon near the agent; the corridor is unchanged. Other errors as those
+/// of tl_nav_corridor_find; the corridor is then the agent's polygon alone.
 TL_API tl_result tl_nav_corridor_repair(tl_nav_corridor *corridor, tl_nav_query *query, const tl_navmesh *navmesh,
                                         const tl_nav_filter *filter, tl_vec3 half_extents, tl_nav_path *path_out);
 

@@ -282,14 +282,10 @@ TL_API tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query *
 /// Frees a query. NULL: nothing happens.
 TL_API void tl_nav_query_destroy(tl_nav_query *query);
 
-// The contract of all searches. What names nothing (any more) is TL_ERR_STALE, a coordinate or radius that is no number
-// TL_ERR_NOT_FINITE, a NULL where something is needed, or a filter without its cookie, TL_ERR_ARGUMENT. A NULL filter
-// is the default one. A buffer is NULL where its capacity is 0; TL_INCOMPLETE: it holds the first part, counts are
-// true.
-//
-// How a search for a path went is a status of the path, not a result: TL_OK for an unreachable goal too, and where the
-// query ran out of nodes. Other searches that run out of nodes return TL_ERR_NODES, with the best that was seen. After
-// any other error the outputs are zeroed.
+// Results of searches, besides the errors that all functions share (above). How a search for a path went is a status of
+// the path, not a result: TL_OK for an unreachable goal too, and where the query ran out of nodes. Other searches that
+// run out of nodes return TL_ERR_NODES, with the best that was seen. A buffer may be NULL where its capacity is 0;
+// TL_INCOMPLETE: it holds the first part, and counts are true.
 
 /// How a path search ended.
 typedef enum tl_nav_path_status {
@@ -312,7 +308,7 @@ TL_API const char *tl_nav_path_status_name(tl_nav_path_status status);
 
 /// A corner of a straight path.
 typedef struct tl_nav_corner {
-    tl_vec3 point;
+    tl_vec3 point;      ///< on the surface, metres
     tl_nav_ref polygon; ///< that the path enters here and continues in
     uint32_t flags;     ///< TL_NAV_CORNER_...
     tl_nav_ref link;    ///< TL_NAV_CORNER_LINK: which; else TL_NAV_NO_REF
@@ -327,18 +323,19 @@ typedef struct tl_nav_path_request {
 
 /// Where a path is written: the caller's memory.
 typedef struct tl_nav_path_buffers {
-    tl_nav_ref *polygons;
+    tl_nav_ref *polygons; ///< as tl_nav_query_find_path writes them; NULL with capacity 0
     uint32_t polygon_capacity;
-    tl_nav_corner *corners;
+    tl_nav_corner *corners; ///< as tl_navmesh_straight_path writes them; NULL with capacity 0
     uint32_t corner_capacity;
 } tl_nav_path_buffers;
 
+/// A path as its search has found it.
 typedef struct tl_nav_path {
-    tl_nav_path_status status;
-    uint32_t polygon_count; ///< of the whole path, though the buffer may hold fewer
-    tl_nav_location end;    ///< the goal, or for a partial path the point of its last polygon nearest to the goal
-    float cost;             ///< as searched: metres times area costs
-    uint32_t node_count;    ///< nodes that the search used
+    tl_nav_path_status status; ///< how the search ended
+    uint32_t polygon_count;    ///< of the whole path, though the buffer may hold fewer
+    tl_nav_location end;       ///< the goal, or for a partial path the point of its last polygon nearest to the goal
+    float cost;                ///< as searched: metres times area costs
+    uint32_t node_count;       ///< nodes that the search used
 } tl_nav_path;
 
 /// Finds the polygons of a path, the start's first; each shares an edge with the one before, or an off-mesh link stands
@@ -371,9 +368,9 @@ TL_API tl_result tl_nav_query_begin_path(tl_nav_query *query, const tl_navmesh *
 
 /// How far a sliced search has come.
 typedef struct tl_nav_path_progress {
-    tl_nav_path_status status;
-    uint32_t node_count;    ///< nodes used so far
-    int32_t tile_x, tile_z; ///< TL_NAV_PATH_STALE: the tile that was added or removed; else 0
+    tl_nav_path_status status; ///< TL_NAV_PATH_UNFINISHED: step again
+    uint32_t node_count;       ///< nodes used so far
+    int32_t tile_x, tile_z;    ///< TL_NAV_PATH_STALE: the tile that was added or removed; else 0
 } tl_nav_path_progress;
 
 /// Continues for at most `max_steps` nodes; 0 only checks whether tiles have changed. TL_ERR_STALE: no search is under
@@ -410,7 +407,7 @@ TL_API tl_result tl_navmesh_straight_path(const tl_navmesh *navmesh, const tl_na
 
 /// A point of a path: a corner, or where it crosses from a polygon into the next.
 typedef struct tl_nav_trace_point {
-    tl_vec3 point;
+    tl_vec3 point;      ///< metres; y is that of the corner or of the polygon's edge
     tl_nav_ref polygon; ///< the path continues in it
     uint32_t flags;     ///< TL_NAV_CORNER_...
     float cost;   ///< of the path up to here: metres in space times area costs, or what the filter's function says
@@ -442,13 +439,13 @@ TL_API tl_result tl_navmesh_trace_path(const tl_navmesh *navmesh, const tl_nav_t
 
 /// The shortest path and its certificate.
 typedef struct tl_nav_shortest_path {
-    tl_nav_path_status status;
-    uint32_t corner_count; ///< of the whole path, though the buffers may hold fewer
-    uint32_t polygon_count;
-    double length;         ///< metres in the plane, of the corners; off-mesh links count what they cost
-    double lower_bound;    ///< metres in the plane: no path is shorter; below length by rounding only
-    double surface_length; ///< metres in space, straight from corner to corner
-    uint32_t node_count;   ///< nodes that the search used
+    tl_nav_path_status status; ///< how the search ended
+    uint32_t corner_count;     ///< of the whole path, though the buffers may hold fewer
+    uint32_t polygon_count;    ///< of the whole path, off-mesh links included
+    double length;             ///< metres in the plane, of the corners; off-mesh links count what they cost
+    double lower_bound;        ///< metres in the plane: no path is shorter; below length by rounding only
+    double surface_length;     ///< metres in space, straight from corner to corner
+    uint32_t node_count;       ///< nodes that the search used
 } tl_nav_shortest_path;
 
 /// Finds the shortest path in the plane from point to point, over tiles, seams and floors that lie over one another,
@@ -543,11 +540,12 @@ typedef struct tl_nav_route_request {
     tl_vec3 half_extents;        ///< metres, >= 0: the box around both in which polygons are sought
 } tl_nav_route_request;
 
+/// A path with its corners between two places.
 typedef struct tl_nav_route {
     tl_nav_location start, goal; ///< the nearest points on the navmesh
-    tl_nav_path path;
-    uint32_t corner_count; ///< of the whole route, though the buffer may hold fewer
-    float length;          ///< metres along the corners
+    tl_nav_path path;            ///< as tl_nav_query_find_path finds it
+    uint32_t corner_count;       ///< of the whole route, though the buffer may hold fewer
+    float length;                ///< metres along the corners
 } tl_nav_route;
 
 /// Finds the points of the navmesh nearest to start and goal, a path between them and its straight path. Where no path

@@ -22,13 +22,14 @@ typedef enum tl_nav_wide_status {
     TL_NAV_WIDE_GOAL_BLOCKED   ///< the goal is
 } tl_nav_wide_status;
 
-/// "none", "complete", "unreachable", "out of nodes", "no room at start", "no room at goal"; "unknown" for other
+/// "none", "complete", "unreachable", "out of nodes", "start blocked", "goal blocked"; "unknown" for other
 /// numbers.
 TL_API const char *tl_nav_wide_status_name(tl_nav_wide_status status);
 
+/// A path with clearance.
 typedef struct tl_nav_wide_path {
-    tl_nav_wide_status status;
-    uint32_t corner_count; ///< of the whole path, though the buffer may hold fewer; 0 without a path
+    tl_nav_wide_status status; ///< how the search ended
+    uint32_t corner_count;     ///< of the whole path, though the buffer may hold fewer; 0 without a path
     double wall_distance;  ///< metres in the plane: the path's clearance from the walls of the mesh is at least that
     double length;         ///< metres in the plane, of the corners
     double surface_length; ///< metres in space, straight from corner to corner
@@ -67,8 +68,9 @@ typedef struct tl_nav_wide_def {
 /// 1.5 m.
 TL_API tl_nav_wide_def tl_default_nav_wide_def(void);
 
+/// What tl_navmesh_prepare_wide did.
 typedef struct tl_nav_wide_report {
-    tl_report base;
+    tl_report base;           ///< the def's field that was refused
     uint64_t bytes;           ///< that the navmesh keeps for this
     uint64_t wall_count;      ///< walls kept, over all polygons
     uint32_t tile_count;      ///< tiles that are prepared

@@ -3,7 +3,7 @@
 // The connected component of a polygon's free pieces that a spot inside it can reach: the polygon is cut in two by a
 // line through the spot, which then lies on an outline, and the components of the two halves are joined over the cut.
 
-#include "nav_query/wide/clearance.h"
+#include "nav_query/wide/free_pieces.h"
 
 #include "base/disjoint_sets.h"
 
@@ -121,7 +121,7 @@ bool tl_nav_component_at(tl_nav_clearance *clearance, const tl_nav_wall_cell *ce
     }
     halves[1].first_component = halves[0].pieces.component_count;
     uint32_t component_count = halves[0].pieces.component_count + halves[1].pieces.component_count;
-    uint32_t *components = tl_nav_take(clearance, component_count, sizeof *components);
+    uint32_t *components = tl_nav_take_scratch(clearance, component_count, sizeof *components);
     if (components == NULL) {
         return false;
     }

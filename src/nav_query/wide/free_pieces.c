@@ -18,7 +18,7 @@
 // a navmesh have corners on nothing, and walls of other polygons reach in through several portals. Source: Kreweras,
 // Sur les partitions non croisees d'un cycle, 1972.
 
-#include "nav_query/wide/clearance.h"
+#include "nav_query/wide/free_pieces.h"
 
 #include "base/assert.h"
 #include "base/disjoint_sets.h"
@@ -313,12 +313,12 @@ static bool cut_outline(tl_nav_clearance *clearance, const tl_nav_spot *corners,
     uint64_t stretches =
         kept != NULL ? kept->side_first[count] - kept->side_first[0] : (uint64_t)near->wall_count * count;
     // Each stretch is followed by at most one free piece, and each corner cuts one more.
-    pieces_out->pieces = tl_nav_take(clearance, stretches + count, sizeof *pieces_out->pieces);
+    pieces_out->pieces = tl_nav_take_scratch(clearance, stretches + count, sizeof *pieces_out->pieces);
     tl_nav_scratch scratch = clearance->scratch;
-    cut.parts = tl_nav_take(clearance, near->wall_count, sizeof *cut.parts);
-    uint32_t *last = tl_nav_take(clearance, near->wall_count, sizeof *last);
-    cut.arcs = tl_nav_take(clearance, stretches, sizeof *cut.arcs);
-    cut.components = tl_nav_take(clearance, stretches, sizeof *cut.components);
+    cut.parts = tl_nav_take_scratch(clearance, near->wall_count, sizeof *cut.parts);
+    uint32_t *last = tl_nav_take_scratch(clearance, near->wall_count, sizeof *last);
+    cut.arcs = tl_nav_take_scratch(clearance, stretches, sizeof *cut.arcs);
+    cut.components = tl_nav_take_scratch(clearance, stretches, sizeof *cut.components);
     if (clearance->is_full) {
         return false;
     }

@@ -14,6 +14,7 @@
 // change, by the places of tiles; the next call makes that anew.
 
 #include "nav_query/wide/prepared_walls.h"
+#include "nav_query/wide/wall_cell.h"
 
 #include "base/arena.h"
 #include "base/assert.h"
@@ -393,8 +394,8 @@ bool tl_nav_gather_cell(tl_nav_clearance *clearance, uint32_t slot, uint32_t pol
     cell_out->distance = distance;
     cell_out->is_kept = false;
     cell_out->count = tl_nav_corner_spots(clearance->navmesh, slot, polygon, cell_out->corners);
-    return tl_nav_find_walls_of(clearance, slot, polygon, cell_out->corners, cell_out->count, distance,
-                                &cell_out->near);
+    return tl_nav_find_visible_walls(clearance, slot, polygon, cell_out->corners, cell_out->count, distance,
+                                     &cell_out->near);
 }
 
 bool tl_nav_wall_cell_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, double distance,

@@ -5,7 +5,7 @@
 #ifndef TALUS_SRC_NAV_QUERY_PREPARED_WALLS_H
 #define TALUS_SRC_NAV_QUERY_PREPARED_WALLS_H
 
-#include "nav_query/wide/clearance.h"
+#include "nav_query/wide/wall_cell.h"
 
 #include <talus/nav_wide.h>
 

@@ -50,7 +50,7 @@ void tl_nav_clearance_begin(tl_nav_query *query, const tl_navmesh *navmesh, cons
     clearance_out->scratch.high = clearance_out->scratch.low + query->item_bytes;
 }
 
-void *tl_nav_take(tl_nav_clearance *clearance, uint64_t count, uint64_t size)
+void *tl_nav_take_scratch(tl_nav_clearance *clearance, uint64_t count, uint64_t size)
 {
     uint64_t left = (uint64_t)(clearance->scratch.high - clearance->scratch.low);
     uint64_t bytes = (count * size + 7) / 8 * 8;
@@ -323,8 +323,8 @@ static bool cast_beams(wall_walk *walk, tl_nav_met at, const beam *seen)
     return true;
 }
 
-bool tl_nav_look_from(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
-                      double distance, tl_nav_near_walls *near)
+bool tl_nav_add_visible_walls(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
+                              double distance, tl_nav_near_walls *near)
 {
     tl_nav_shape reach = tl_nav_shape_make(shape, count, distance, clearance->slack);
     beam *bottom = (beam *)(void *)clearance->scratch.high;
@@ -376,15 +376,15 @@ void tl_nav_end_walls(tl_nav_clearance *clearance, const tl_nav_near_walls *near
             walls[at] = wall;
         }
     }
-    tl_nav_take(clearance, near->wall_count, sizeof *walls);
+    tl_nav_take_scratch(clearance, near->wall_count, sizeof *walls);
 }
 
-bool tl_nav_find_walls_of(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *corners,
-                          uint32_t count, double distance, tl_nav_near_walls *near_out)
+bool tl_nav_find_visible_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *corners,
+                               uint32_t count, double distance, tl_nav_near_walls *near_out)
 {
     tl_nav_met at = { slot, polygon };
     tl_nav_begin_walls(clearance, near_out);
-    bool fits = tl_nav_look_from(clearance, at, corners, count, distance, near_out);
+    bool fits = tl_nav_add_visible_walls(clearance, at, corners, count, distance, near_out);
     tl_nav_end_walls(clearance, near_out);
     return fits;
 }

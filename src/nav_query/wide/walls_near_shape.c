@@ -3,6 +3,7 @@
 // The walls near a convex shape that may lie over several polygons: those near its part in each of them.
 
 #include "nav_query/wide/walls_near_shape.h"
+#include "nav_query/wide/wall_cell.h"
 
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/surface.h"
@@ -160,8 +161,9 @@ static uint32_t cut_shape(const tl_navmesh *navmesh, tl_nav_met at, const tl_nav
     return count;
 }
 
-bool tl_nav_find_near_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *shape,
-                            uint32_t count, double distance, tl_nav_near_walls *near_out)
+bool tl_nav_find_walls_near_shape(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon,
+                                  const tl_nav_spot *shape, uint32_t count, double distance,
+                                  tl_nav_near_walls *near_out)
 {
     tl_nav_shape touch = tl_nav_shape_make(shape, count, clearance->slack, clearance->slack);
     tl_nav_begin_walls(clearance, near_out);
@@ -172,7 +174,7 @@ bool tl_nav_find_near_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
         tl_nav_met at = *(near_out->met - i);
         tl_nav_spot part[2 * TL_NAV_MAX_CORNERS];
         uint32_t part_count = cut_shape(clearance->navmesh, at, shape, count, clearance->slack, part);
-        fits = part_count == 0 || tl_nav_look_from(clearance, at, part, part_count, distance, near_out);
+        fits = part_count == 0 || tl_nav_add_visible_walls(clearance, at, part, part_count, distance, near_out);
     }
     tl_nav_end_walls(clearance, near_out);
     return fits;
@@ -204,8 +206,8 @@ static bool is_near_shape(const tl_nav_shape *reach, const side_lines *lines, do
     return reach->count > 2 && outline_holds(reach->corners, reach->count, segment.a);
 }
 
-bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon, const tl_nav_spot *shape,
-                            uint32_t count, tl_nav_near_walls *near_out)
+bool tl_nav_find_kept_walls_near_shape(tl_nav_clearance *clearance, uint32_t slot, uint32_t polygon,
+                                       const tl_nav_spot *shape, uint32_t count, tl_nav_near_walls *near_out)
 {
     tl_nav_shape touch = tl_nav_shape_make(shape, count, clearance->slack, clearance->slack);
     tl_nav_shape reach = tl_nav_shape_make(shape, count, clearance->reach, clearance->slack);
@@ -218,7 +220,7 @@ bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
         tl_nav_met at = *(near_out->met - i);
         tl_nav_scratch scratch = clearance->scratch;
         tl_nav_wall_cell cell;
-        fits = tl_nav_take(clearance, near_out->wall_count, sizeof *walls) != NULL &&
+        fits = tl_nav_take_scratch(clearance, near_out->wall_count, sizeof *walls) != NULL &&
                tl_nav_wall_cell_of(clearance, at.slot, at.polygon, clearance->reach, &cell);
         clearance->scratch = scratch;
         for (uint32_t k = 0; fits && k < cell.near.wall_count; k++) {
@@ -235,10 +237,10 @@ bool tl_nav_find_cell_walls(tl_nav_clearance *clearance, uint32_t slot, uint32_t
         }
     }
     clearance->is_full = clearance->is_full || !fits;
-    return fits && tl_nav_take(clearance, near_out->wall_count, sizeof *walls) != NULL;
+    return fits && tl_nav_take_scratch(clearance, near_out->wall_count, sizeof *walls) != NULL;
 }
 
-tl_nav_location tl_nav_settle(tl_nav_clearance *clearance, tl_nav_met home, tl_nav_spot spot)
+tl_nav_location tl_nav_spot_on_surface(tl_nav_clearance *clearance, tl_nav_met home, tl_nav_spot spot)
 {
     const tl_navmesh *navmesh = clearance->navmesh;
     tl_nav_location at = { TL_NAV_NO_REF, { (float)spot.x, 0.0f, (float)spot.z } };

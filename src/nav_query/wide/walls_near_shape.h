@@ -60,8 +60,8 @@ static inline double tl_nav_shape_distance_sq(const tl_nav_shape *reach, tl_nav_
 /// Begins a list of walls in the scratch memory.
 void tl_nav_begin_walls(tl_nav_clearance *clearance, tl_nav_near_walls *near);
 /// Adds the walls around a shape that lies in a polygon. False: out of scratch memory.
-bool tl_nav_look_from(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
-                      double distance, tl_nav_near_walls *near);
+bool tl_nav_add_visible_walls(tl_nav_clearance *clearance, tl_nav_met at, const tl_nav_spot *shape, uint32_t count,
+                              double distance, tl_nav_near_walls *near);
 /// Sorts the list and takes its memory.
 void tl_nav_end_walls(tl_nav_clearance *clearance, const tl_nav_near_walls *near);
 

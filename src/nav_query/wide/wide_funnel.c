@@ -5,6 +5,7 @@
 // none, and the points on their portals are no vertices; so little is left for pulling taut (wide_pull_taut.c). Source:
 // Lee, Preparata, Euclidean Shortest Paths in the Presence of Rectilinear Barriers, 1984.
 
+#include "nav_query/wide/wall_cell.h"
 #include "nav_query/wide/wide_search.h"
 
 #include "nav_query/plane/crossing.h"
@@ -35,7 +36,7 @@ static bool list_passes(const tl_nav_wide_search *search, passes *all)
     for (uint32_t i = search->last; i != TL_NAV_NO_NODE; i = nodes[i].parent) {
         all->count++;
     }
-    all->at = tl_nav_take(search->clearance, all->count, sizeof *all->at);
+    all->at = tl_nav_take_scratch(search->clearance, all->count, sizeof *all->at);
     if (all->at == NULL) {
         return false;
     }

@@ -11,6 +11,7 @@
 // over the corners of caps in the polygon, then around those ends and walls that it has met, until it meets no other.
 // Around fewer obstacles no way is longer: the one that is free of all is the shortest around all of them.
 
+#include "nav_query/wide/wall_cell.h"
 #include "nav_query/wide/wide_search.h"
 
 #include "nav_query/plane/circle_corners.h"
@@ -46,7 +47,7 @@ typedef struct detour {
     uint32_t count;
 } detour;
 
-static void draw_sides(detour *d)
+static void set_side_lines(detour *d)
 {
     for (uint32_t i = 0; i < d->cell->count; i++) {
         tl_nav_spot p = d->cell->corners[i];
@@ -82,7 +83,7 @@ static bool is_met_end(const detour *d, tl_nav_spot end)
 static bool add_stop(detour *d, tl_nav_spot spot, tl_nav_spot center)
 {
     // Stops are contiguous in the scratch memory, as nothing else is taken meanwhile.
-    detour_stop *fresh = tl_nav_take(d->clearance, 1, sizeof *fresh);
+    detour_stop *fresh = tl_nav_take_scratch(d->clearance, 1, sizeof *fresh);
     if (fresh == NULL) {
         return false;
     }
@@ -108,7 +109,7 @@ static bool is_free_of_met(const detour *d, tl_nav_spot a, tl_nav_spot b)
 }
 
 // Adds an obstacle with the corners of its caps that are free and in the polygon. False: out of scratch memory.
-static bool meet_obstacle(detour *d, const obstacle *met)
+static bool add_obstacle(detour *d, const obstacle *met)
 {
     const tl_nav_spot ends[2] = { met->wall.a, met->wall.b };
     const bool is_known[2] = { is_met_end(d, ends[0]), met->is_end || is_met_end(d, ends[1]) };
@@ -127,7 +128,7 @@ static bool meet_obstacle(detour *d, const obstacle *met)
     return true;
 }
 
-static uint32_t cheapest(const detour *d)
+static uint32_t cheapest_stop(const detour *d)
 {
     uint32_t best = UINT32_MAX;
     double total = (double)INFINITY;
@@ -141,13 +142,13 @@ static uint32_t cheapest(const detour *d)
 }
 
 // A* from stop 0 to stop 1 around the walls that were met. False: there is no way, which rounding alone can do.
-static bool connect(detour *d)
+static bool connect_stops(detour *d)
 {
     for (uint32_t i = 0; i < d->count; i++) {
         d->stops[i].is_closed = d->stops[i].is_dead;
         d->stops[i].cost = d->stops[i].total = i == 0 ? 0.0 : (double)INFINITY;
     }
-    for (uint32_t i = cheapest(d); i != UINT32_MAX; i = cheapest(d)) {
+    for (uint32_t i = cheapest_stop(d); i != UINT32_MAX; i = cheapest_stop(d)) {
         detour_stop *from = &d->stops[i];
         from->is_closed = true;
         if (i == 1) {
@@ -216,7 +217,7 @@ static bool is_met(const detour *d, const obstacle *o)
 static bool find_way(detour *d, bool *found_out)
 {
     for (;;) {
-        *found_out = connect(d);
+        *found_out = connect_stops(d);
         obstacle next;
         bool is_blocked = *found_out && find_obstacle(d, &next);
         // There is no way around what is too near to an end by a rounding.
@@ -224,7 +225,7 @@ static bool find_way(detour *d, bool *found_out)
         if (!is_blocked || !*found_out) {
             return true;
         }
-        if (!meet_obstacle(d, &next)) {
+        if (!add_obstacle(d, &next)) {
             return false;
         }
     }
@@ -247,8 +248,8 @@ bool tl_nav_wide_local_path(tl_nav_clearance *clearance, tl_nav_polyline *path, 
     memset(&d, 0, sizeof d);
     d.clearance = clearance;
     d.cell = &cell;
-    draw_sides(&d);
-    d.met = tl_nav_take(clearance, 3 * (uint64_t)cell.near.wall_count, sizeof *d.met);
+    set_side_lines(&d);
+    d.met = tl_nav_take_scratch(clearance, 3 * (uint64_t)cell.near.wall_count, sizeof *d.met);
     d.stops = (detour_stop *)(void *)clearance->scratch.low;
     bool is_found = false;
     bool fits = d.met != NULL && add_stop(&d, from.spot, from.spot) && add_stop(&d, to.spot, to.spot) &&

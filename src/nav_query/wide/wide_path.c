@@ -2,6 +2,7 @@
 //
 // Paths for agents wider than the one that the mesh was baked for: the public calls.
 
+#include "nav_query/wide/free_pieces.h"
 #include "nav_query/wide/wide_search.h"
 
 #include "base/assert.h"
@@ -14,7 +15,7 @@
 static tl_nav_corner wide_corner(tl_nav_clearance *clearance, const tl_nav_polyline_vertex *vertex)
 {
     tl_nav_met home = { vertex->slot, vertex->polygon };
-    tl_nav_location at = tl_nav_settle(clearance, home, vertex->spot);
+    tl_nav_location at = tl_nav_spot_on_surface(clearance, home, vertex->spot);
     tl_nav_corner corner = { at.point, at.polygon, 0, TL_NAV_NO_REF };
     return corner;
 }
@@ -67,14 +68,14 @@ static tl_result find_narrow(tl_nav_query *query, const tl_navmesh *navmesh, con
 static tl_nav_wide_status search_pieces(tl_nav_wide_search *search)
 {
     tl_nav_clearance *clearance = search->clearance;
-    search->portals = tl_nav_take(clearance, clearance->query->max_nodes, sizeof *search->portals);
+    search->portals = tl_nav_take_scratch(clearance, clearance->query->max_nodes, sizeof *search->portals);
     if (search->portals == NULL) {
         return TL_NAV_WIDE_OUT_OF_NODES;
     }
-    if (!tl_nav_wide_stand(search, &search->start)) {
+    if (!tl_nav_wide_place_end(search, &search->start)) {
         return clearance->is_full ? TL_NAV_WIDE_OUT_OF_NODES : TL_NAV_WIDE_START_BLOCKED;
     }
-    if (!tl_nav_wide_stand(search, &search->goal)) {
+    if (!tl_nav_wide_place_end(search, &search->goal)) {
         return clearance->is_full ? TL_NAV_WIDE_OUT_OF_NODES : TL_NAV_WIDE_GOAL_BLOCKED;
     }
     bool is_found = tl_nav_wide_run(search);
@@ -89,7 +90,7 @@ static tl_result write_path(tl_nav_wide_search *search, tl_nav_corner *corners_o
     tl_nav_polyline path = { NULL, 0, 0, TL_NAV_NO_NODE };
     path.capacity =
         (uint32_t)((uint64_t)(clearance->scratch.high - clearance->scratch.low) / 4 / sizeof *path.vertices);
-    path.vertices = tl_nav_take(clearance, path.capacity, sizeof *path.vertices);
+    path.vertices = tl_nav_take_scratch(clearance, path.capacity, sizeof *path.vertices);
     if (!tl_nav_wide_funnel(search, &path) || !tl_nav_wide_pull_taut(clearance, &path)) {
         path_out->status = TL_NAV_WIDE_OUT_OF_NODES;
         return TL_OK;
@@ -166,8 +167,8 @@ tl_result tl_nav_query_is_wide_reachable(tl_nav_query *query, const tl_navmesh *
 
 const char *tl_nav_wide_status_name(tl_nav_wide_status status)
 {
-    static const char *const NAMES[] = { "none",         "complete",         "unreachable",
-                                         "out of nodes", "no room at start", "no room at goal" };
+    static const char *const NAMES[] = { "none",         "complete",      "unreachable",
+                                         "out of nodes", "start blocked", "goal blocked" };
     return (unsigned)status < TL_COUNT_OF(NAMES) ? NAMES[status] : "unknown";
 }
 
@@ -178,7 +179,7 @@ static bool segment_clearance(tl_nav_clearance *clearance, const tl_nav_corner *
     tl_nav_segment segment = { tl_nav_spot_of(corners[0].point), tl_nav_spot_of(corners[1].point) };
     tl_nav_near_walls near;
     tl_nav_scratch scratch = clearance->scratch;
-    bool fits = tl_nav_find_near_walls(clearance, slot, polygon, &segment.a, 2, sqrt(*least_sq), &near);
+    bool fits = tl_nav_find_walls_near_shape(clearance, slot, polygon, &segment.a, 2, sqrt(*least_sq), &near);
     clearance->scratch = scratch;
     for (uint32_t i = 0; fits && i < near.wall_count; i++) {
         *least_sq = fmin(*least_sq, tl_nav_segments_distance_sq(segment, tl_nav_segment_of_wall(&near.walls[i])));

@@ -11,7 +11,7 @@
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"
-#include "nav_query/wide/clearance.h"
+#include "nav_query/wide/free_pieces.h"
 
 #include "math/tolerance.h"
 
@@ -156,7 +156,7 @@ static void offer_borders(place_search *search)
 }
 
 // All places of the polygon that may be the nearest. False: out of scratch memory.
-static bool look_into(place_search *search)
+static bool visit_polygon(place_search *search)
 {
     tl_nav_clearance *clearance = search->clearance;
     tl_nav_scratch scratch = clearance->scratch;
@@ -197,7 +197,7 @@ static void relax_polygon(place_search *search, uint32_t slot, uint32_t polygon,
     }
 }
 
-static void step_on(place_search *search)
+static void visit_neighbours(place_search *search)
 {
     const tl_nav_clearance *clearance = search->clearance;
     uint32_t count = 0;
@@ -233,10 +233,10 @@ static void search_outward(place_search *search)
         }
         search->slot = query->nodes[index].slot;
         search->polygon = query->nodes[index].polygon;
-        if (!look_into(search)) {
+        if (!visit_polygon(search)) {
             return;
         }
-        step_on(search);
+        visit_neighbours(search);
     }
 }
 
@@ -281,6 +281,6 @@ tl_result tl_nav_query_find_wide_place(tl_nav_query *query, const tl_navmesh *na
         return TL_NOT_FOUND;
     }
     tl_nav_met home = { search.best_slot, search.best_polygon };
-    *place_out = tl_nav_settle(&clearance, home, search.best);
+    *place_out = tl_nav_spot_on_surface(&clearance, home, search.best);
     return TL_OK;
 }

@@ -72,7 +72,8 @@ static bool may_hold(const triangle *t, tl_nav_spot center, double radius)
 
 static bool gather_caps(tl_nav_clearance *clearance, triangle *t)
 {
-    t->corners = tl_nav_take(clearance, 2 * (uint64_t)t->near.wall_count * TL_NAV_CIRCLE_CORNERS, sizeof *t->corners);
+    t->corners =
+        tl_nav_take_scratch(clearance, 2 * (uint64_t)t->near.wall_count * TL_NAV_CIRCLE_CORNERS, sizeof *t->corners);
     if (t->corners == NULL) {
         return false;
     }
@@ -206,7 +207,8 @@ static bool pull_vertex(tl_nav_clearance *clearance, tl_nav_polyline *path, uint
     path->vertices[vertex].is_taut = true;
     tl_nav_scratch scratch = clearance->scratch;
     tl_nav_spot shape[3] = { t.a, t.b, t.c };
-    bool fits = tl_nav_find_cell_walls(clearance, b->slot, b->polygon, shape, 3, &t.near) && gather_caps(clearance, &t);
+    bool fits = tl_nav_find_kept_walls_near_shape(clearance, b->slot, b->polygon, shape, 3, &t.near) &&
+                gather_caps(clearance, &t);
     if (fits && hull_is_better(&t, clearance->least)) {
         *moved_out = true;
         fits = put_hull(clearance, &t, path, vertex);

@@ -10,6 +10,7 @@
 // Nilsson, Raphael, A Formal Basis for the Heuristic Determination of Minimum Cost Paths, 1968.
 
 #include "nav_query/wide/wide_search.h"
+#include "nav_query/wide/free_pieces.h"
 
 #include "base/min_max.h"
 #include "nav_query/navmesh/nav_filter.h"
@@ -52,7 +53,7 @@ static uint32_t straight_component(const tl_nav_clearance *clearance, const cut_
     return TL_NAV_NO_COMPONENT;
 }
 
-bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end)
+bool tl_nav_wide_place_end(tl_nav_wide_search *search, tl_nav_wide_end *end)
 {
     tl_nav_clearance *clearance = search->clearance;
     tl_nav_scratch scratch = clearance->scratch;
@@ -260,25 +261,4 @@ bool tl_nav_wide_run(tl_nav_wide_search *search)
         expand_portal(search, search->last);
     }
     return false;
-}
-
-uint32_t tl_nav_polyline_insert(tl_nav_polyline *path, uint32_t behind, tl_nav_spot spot, uint32_t slot,
-                                uint32_t polygon)
-{
-    if (path->count == path->capacity) {
-        return TL_NAV_NO_NODE;
-    }
-    uint32_t next = behind == TL_NAV_NO_NODE ? TL_NAV_NO_NODE : path->vertices[behind].next;
-    tl_nav_polyline_vertex vertex = { spot, { 0.0, 0.0 }, false, false, slot, polygon, 0, behind, next };
-    uint32_t index = path->count++;
-    path->vertices[index] = vertex;
-    if (behind != TL_NAV_NO_NODE) {
-        path->vertices[behind].next = index;
-    }
-    if (next != TL_NAV_NO_NODE) {
-        path->vertices[next].before = index;
-    } else {
-        path->last = index;
-    }
-    return index;
 }

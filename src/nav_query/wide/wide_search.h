@@ -7,32 +7,12 @@
 #ifndef TALUS_SRC_NAV_QUERY_WIDE_SEARCH_H
 #define TALUS_SRC_NAV_QUERY_WIDE_SEARCH_H
 
-#include "nav_query/wide/clearance.h"
+#include "nav_query/wide/free_pieces.h"
+#include "nav_query/wide/polyline.h"
 
 #include <talus/nav_wide.h>
 
-/// A place of a path. Paths are lists, so that they may be changed in the middle.
-typedef struct tl_nav_polyline_vertex {
-    tl_nav_spot spot;
-    tl_nav_spot center; ///< the spot is a corner of the cap around it, if is_cap
-    bool is_cap;
-    bool is_taut;           ///< pulled in vain, and since then it has the same neighbours
-    uint32_t slot, polygon; ///< the path continues in it
-    uint32_t pass;          ///< the caller's: how many portals it is behind (wide_funnel.c)
-    uint32_t before, next;  ///< TL_NAV_NO_NODE at the ends
-} tl_nav_polyline_vertex;
-
-typedef struct tl_nav_polyline {
-    tl_nav_polyline_vertex *vertices; ///< [0]: the path's start
-    uint32_t count, capacity;
-    uint32_t last; ///< the path's end
-} tl_nav_polyline;
-
-/// A new vertex behind another (TL_NAV_NO_NODE: the first of all), no corner of a cap; its number, or TL_NAV_NO_NODE:
-/// out of memory.
-uint32_t tl_nav_polyline_insert(tl_nav_polyline *path, uint32_t behind, tl_nav_spot spot, uint32_t slot,
-                                uint32_t polygon);
-
+/// Where a path starts or ends.
 typedef struct tl_nav_wide_end {
     tl_nav_spot spot;
     uint32_t slot, polygon;
@@ -52,14 +32,15 @@ typedef struct tl_nav_wide_search {
     uint32_t last;               ///< node of the goal, when found
 } tl_nav_wide_search;
 
-/// Looks where an end stands. False: nearer to a wall than the reach, or out of scratch memory (is_full).
-bool tl_nav_wide_stand(tl_nav_wide_search *search, tl_nav_wide_end *end);
+/// Finds the component of free pieces that an end stands in. False: nearer to a wall than the reach, or out of scratch
+/// memory (is_full).
+bool tl_nav_wide_place_end(tl_nav_wide_search *search, tl_nav_wide_end *end);
 
 /// Finds the pieces of portals that lead to the goal: nodes of the query, from `last` over their parents to the
 /// start's. False: there are none, or the query is out of nodes or scratch memory (is_full).
 bool tl_nav_wide_run(tl_nav_wide_search *search);
 
-/// Writes the path that was found: pulled straight through its portals, with detours where a wall is too near to that.
+/// Writes the path that was found: pulled straight through its portals, with local paths where a wall is too near.
 /// False: out of scratch memory (is_full).
 bool tl_nav_wide_funnel(const tl_nav_wide_search *search, tl_nav_polyline *path);
 
