@@ -368,6 +368,30 @@ static void test_salts_run_out(void **state)
     tl_blob_free(tile);
 }
 
+// All tiles come in, or none does; then they stay the caller's, and the report names the tile.
+static void test_add_tiles(void **state)
+{
+    (void)state;
+    const char *const rows[] = { "000000" };
+    fixture_level level = fixture_make(rows, 1);
+    level.tile_cells = 2;
+    tl_nav_tile *tiles[4] = { NULL };
+    for (int32_t x = 0; x < 3; x++) {
+        tiles[x] = fixture_build_tile(&level, x, 0, NULL);
+    }
+    tiles[3] = tiles[1];
+    tl_navmesh *navmesh = NULL;
+    tl_report report;
+    TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
+    TEST_RESULT(tl_navmesh_add_tiles(navmesh, tiles, 4, TL_NAV_TILE_OWNED, &report), TL_ERR_ARGUMENT);
+    TEST_CHECK(strcmp(report.element, "tile") == 0 && report.element_index == 3 && report.advice != NULL);
+    TEST_CHECK(tl_navmesh_tile_count(navmesh) == 0 && tl_navmesh_link_count(navmesh) == 0);
+    TEST_RESULT(tl_navmesh_add_tiles(navmesh, tiles, 3, TL_NAV_TILE_OWNED, NULL), TL_OK);
+    TEST_CHECK(tl_navmesh_tile_count(navmesh) == 3 && tl_navmesh_link_count(navmesh) > 0);
+    TEST_RESULT(tl_navmesh_add_tiles(navmesh, NULL, 0, TL_NAV_TILE_OWNED, NULL), TL_OK);
+    tl_navmesh_destroy(navmesh);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -378,6 +402,7 @@ int main(void)
         cmocka_unit_test(test_heights_along_the_seam),
         cmocka_unit_test(test_memory),
         cmocka_unit_test(test_salts_run_out),
+        cmocka_unit_test(test_add_tiles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
