@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// A small vocabulary of vectors. A kernel is written once over it and compiled once per instruction set; the file's
-// compiler flags choose the branch below. Names say element and lanes: tl_f32x8 is eight floats.
+// A small vocabulary of vectors. A kernel is written once over it and compiled once per instruction set; simd_target.h
+// chooses the branch below. Names say element and lanes: tl_f32x8 is eight floats.
 //
-// A file that defines TL_SIMD_SCALAR before it includes this gets plain C whatever its flags are: the twin that every
-// other branch is compared with. `tl_*_mul_add` is fused where the instruction set has it and rounded twice where it
-// has not, so it is only for values whose error bound covers both.
+// A file that chooses none gets plain C whatever its compiler flags are: the twin that every other branch is compared
+// with. `tl_*_mul_add` is fused where the instruction set has it and rounded twice where it has not, so it is only for
+// values whose error bound covers both.
 
 #ifndef TALUS_SRC_MATH_SIMD_H
 #define TALUS_SRC_MATH_SIMD_H
@@ -15,16 +15,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#if defined(TL_SIMD_SCALAR)
-#define TL_SIMD_LEVEL 0
-#elif defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512BW__) && defined(__AVX512DQ__) &&               \
-    defined(__FMA__)
-#define TL_SIMD_LEVEL 3
-#elif defined(__AVX2__) && defined(__FMA__)
-#define TL_SIMD_LEVEL 2
-#elif defined(__SSE4_2__)
-#define TL_SIMD_LEVEL 1
-#else
+#ifndef TL_SIMD_LEVEL
 #define TL_SIMD_LEVEL 0
 #endif
 

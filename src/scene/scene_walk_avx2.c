@@ -3,6 +3,11 @@
 // The walk for AVX2 with FMA: eight boxes in one register.
 
 #if defined(__x86_64__)
+#define TL_SIMD_LEVEL 2
+#include "math/simd_target.h"
+
 #define TL_SCENE_WALK tl_scene_walk_avx2
 #include "scene/scene_walk.inl"
+
+#include "math/simd_target_end.h"
 #endif

@@ -2,6 +2,5 @@
 //
 // The walk in plain C: the twin that the others are compared with, and the one for machines without them.
 
-#define TL_SIMD_SCALAR
 #define TL_SCENE_WALK tl_scene_walk_scalar
 #include "scene/scene_walk.inl"

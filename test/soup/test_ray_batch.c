@@ -6,7 +6,6 @@
 #include "soup_models.h"
 
 // A walk of many rays whose stacks overflow all the time.
-#define TL_SIMD_SCALAR
 #define TL_LANE_STACK_SIZE 24
 #define TL_RAY_WALK        test_walk
 #define TL_RAY_WALK_MANY   test_walk_many

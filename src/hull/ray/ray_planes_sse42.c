@@ -3,6 +3,11 @@
 // A ray against a hull's planes, for SSE4.2.
 
 #if defined(__x86_64__) && defined(__GNUC__)
+#define TL_SIMD_LEVEL 1
+#include "math/simd_target.h"
+
 #define TL_RAY_PLANES tl_ray_planes_sse42
 #include "hull/ray/ray_planes.inl"
+
+#include "math/simd_target_end.h"
 #endif

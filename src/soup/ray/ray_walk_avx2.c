@@ -3,8 +3,13 @@
 // The walk for AVX2 with FMA: a leaf's eight lanes in one register.
 
 #if defined(__x86_64__)
+#define TL_SIMD_LEVEL 2
+#include "math/simd_target.h"
+
 #define TL_RAY_WALK      tl_ray_walk_avx2
 #define TL_RAY_WALK_MANY tl_ray_walk_many_avx2
 #include "soup/ray/ray_walk.inl"
 #include "soup/ray/ray_walk_interleaved.inl"
+
+#include "math/simd_target_end.h"
 #endif

@@ -3,8 +3,13 @@
 // The walk for AVX-512 (F, VL, BW, DQ): a node's sixteen boxes in one register.
 
 #if defined(__x86_64__)
+#define TL_SIMD_LEVEL 3
+#include "math/simd_target.h"
+
 #define TL_RAY_WALK      tl_ray_walk_avx512
 #define TL_RAY_WALK_MANY tl_ray_walk_many_avx512
 #include "soup/ray/ray_walk.inl"
 #include "soup/ray/ray_walk_interleaved.inl"
+
+#include "math/simd_target_end.h"
 #endif
