@@ -12,6 +12,9 @@
 
 #include <stdlib.h>
 #include <string.h>
+#if defined(_WIN32)
+#include <malloc.h>
+#endif
 
 enum { MIN_BLOCK_BYTES = 16 * 1024, LIVE_SHARE = 8, ARENA_ALIGNMENT = 64 };
 
@@ -32,15 +35,23 @@ static void *aligned_malloc(size_t size, size_t alignment, void *user)
     if (size > SIZE_MAX - alignment) {
         return NULL;
     }
+#if defined(_WIN32)
+    return _aligned_malloc(size, alignment);
+#else
     // aligned_alloc wants a size that is a multiple of the alignment.
     return aligned_alloc(alignment, round_up_to(size, alignment));
+#endif
 }
 
 static void aligned_release(void *block, size_t size, void *user)
 {
     (void)size;
     (void)user;
+#if defined(_WIN32)
+    _aligned_free(block);
+#else
     free(block);
+#endif
 }
 
 tl_allocator tl_allocator_or_default(const tl_allocator *allocator)
