@@ -6,9 +6,9 @@
 //   bench_convex [--json FILE] [N...]      hulls of N points on a sphere; by default 8 .. 1024
 //
 // A figure is the best of several repetitions in CPU time over the same pairs; the libraries take turns, so that what
-// slows the machine slows all. Beside it stands the share of wrong answers: a wrong decision, or a length that misses
-// talus's proven bounds by more than 1e-4 of the size. Casts are wrong when they miss what the bounds of the distance
-// prove to be hit, or are later or earlier than 1e-4 of the size.
+// slows the machine slows all. Beside it stands the fraction of wrong answers: a wrong decision, or a length that
+// misses talus's proven bounds by more than 1e-4 of the size. Casts are wrong when they miss what the bounds of the
+// distance prove to be hit, or are later or earlier than 1e-4 of the size.
 
 #include "cli/shared/splitmix64.h"
 #include "measure.h"
@@ -310,7 +310,7 @@ bool is_wrong(const truth &t, float answer, kind k)
     }
 }
 
-// One library's way to answer, and what came of it.
+// One library's answer to a query, and how it did.
 struct contender {
     const char *name;
     ask answer;
@@ -397,7 +397,7 @@ std::vector<query> queries_of(const scene &s, std::vector<shape> &shapes, std::v
     return queries;
 }
 
-// What a scene's times may be at most, as a share of another contender's; 0: nothing is claimed.
+// The largest ratio of a scene's time to another contender's; 0: nothing is claimed.
 double limit_of(const scene &s, int count, const std::string &name, const std::string &other)
 {
     if (name == "talus cached") {

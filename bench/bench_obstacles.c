@@ -125,24 +125,25 @@ static void measure_obstacles(tl_nav_def def, const tl_nav_input *input, tl_nav_
     double again_median = bench_quantile(times.again, times.again_count, 0.5);
     double swap_median = bench_quantile(times.swap, times.swap_count, 0.5);
     const double memo_bytes = (double)tl_nav_obstacles_bytes(obstacles) - bare_bytes;
-    printf("%s: baked in %.2f s, floors of %u tiles kept in %.1f MB, and %.1f MB more of %zu touched ones; a cylinder "
-           "added: median %.2f us, 99%% %.2f; a tile made with one for the first time: median %.0f us, 90%% %.0f, 99%% "
-           "%.0f; made again: median %.0f us, 90%% %.0f, 99%% %.0f; swapped in the navmesh: median %.0f us\n",
-           name, bake, tiles, bare_bytes * 1e-6, memo_bytes * 1e-6, times.first_count, add_median,
-           bench_quantile(add, EDITS, 0.99), first_median, bench_quantile(times.first, times.first_count, 0.9),
-           bench_quantile(times.first, times.first_count, 0.99), again_median,
-           bench_quantile(times.again, times.again_count, 0.9), bench_quantile(times.again, times.again_count, 0.99),
-           swap_median);
+    printf(
+        "%s: baked in %.2f s, floors of %u tiles kept in %.1f MB, and %.1f MB more of %zu touched ones; a cylinder "
+        "added: median %.2f us, 99%% %.2f; a tile baked with one for the first time: median %.0f us, 90%% %.0f, 99%% "
+        "%.0f; baked again: median %.0f us, 90%% %.0f, 99%% %.0f; swapped in the navmesh: median %.0f us\n",
+        name, bake, tiles, bare_bytes * 1e-6, memo_bytes * 1e-6, times.first_count, add_median,
+        bench_quantile(add, EDITS, 0.99), first_median, bench_quantile(times.first, times.first_count, 0.9),
+        bench_quantile(times.first, times.first_count, 0.99), again_median,
+        bench_quantile(times.again, times.again_count, 0.9), bench_quantile(times.again, times.again_count, 0.99),
+        swap_median);
     char claim[128];
     snprintf(claim, sizeof claim, "a cylinder added (%s), us", name);
     bench_report_at_most(report, claim, add_median, 100.0);
-    snprintf(claim, sizeof claim, "its tile made, the first time (%s), us", name);
+    snprintf(claim, sizeof claim, "its tile baked, the first time (%s), us", name);
     bench_report_at_most(report, claim, first_median, 400.0);
-    snprintf(claim, sizeof claim, "its tile made again (%s), us", name);
+    snprintf(claim, sizeof claim, "its tile baked again (%s), us", name);
     bench_report_at_most(report, claim, again_median, 200.0);
     bench_report_value(report, "one obstacle in the city", "add", name, add_median);
-    bench_report_value(report, "one obstacle in the city", "tile made, first time", name, first_median);
-    bench_report_value(report, "one obstacle in the city", "tile made again", name, again_median);
+    bench_report_value(report, "one obstacle in the city", "tile baked, first time", name, first_median);
+    bench_report_value(report, "one obstacle in the city", "tile baked again", name, again_median);
     bench_report_value(report, "one obstacle in the city", "tile swapped", name, swap_median);
     tl_navmesh_destroy(navmesh);
     tl_nav_obstacles_destroy(obstacles);

@@ -24,14 +24,14 @@
 enum { MAX_RUNS = 101, MAX_FILES = 512 };
 
 // Recast, and talus by each of its methods.
-enum { CLASSIC, OPTIMAL, DELAUNAY, RECAST, WAY_COUNT };
-static const char *const way_names[WAY_COUNT] = { "classic", "optimal", "Delaunay", "Recast" };
+enum { CLASSIC, OPTIMAL, DELAUNAY, RECAST, METHOD_COUNT };
+static const char *const method_names[METHOD_COUNT] = { "classic", "optimal", "Delaunay", "Recast" };
 
 typedef struct totals {
     char kind;
-    double seconds[WAY_COUNT]; // 0: not run
-    double fastest[WAY_COUNT];
-    uint64_t polygons[WAY_COUNT];
+    double seconds[METHOD_COUNT]; // 0: not run
+    double fastest[METHOD_COUNT];
+    uint64_t polygons[METHOD_COUNT];
     uint64_t contours, vertices;
 } totals;
 
@@ -40,15 +40,15 @@ static int by_name(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-static double run(int way, const tl_contour_set *set, uint32_t cap, uint32_t *polygons)
+static double run(int method, const tl_contour_set *set, uint32_t cap, uint32_t *polygons)
 {
     static const tl_partition_method methods[] = { TL_PARTITION_CLASSIC, TL_PARTITION_OPTIMAL, TL_PARTITION_DELAUNAY };
-    if (way == RECAST) {
+    if (method == RECAST) {
         return bench_recast_polygons(set, cap, polygons);
     }
     tl_polygon_def def = tl_default_polygon_def();
     def.max_verts_per_poly = cap;
-    def.method = methods[way];
+    def.method = methods[method];
     tl_polygon_mesh mesh;
     double began = bench_process_seconds();
     tl_result result = tl_polygon_mesh_bake(set, &def, &mesh, NULL);
@@ -63,36 +63,36 @@ static double run(int way, const tl_contour_set *set, uint32_t cap, uint32_t *po
 }
 
 // Runs until 0.1 s have passed, at least 5 and at most MAX_RUNS times, and adds the median to the sums.
-static void measure(int way, const tl_contour_set *set, uint32_t cap, totals *sums)
+static void measure(int method, const tl_contour_set *set, uint32_t cap, totals *sums)
 {
     double times[MAX_RUNS];
     int runs = 0;
     uint32_t polygons = 0;
     for (double sum = 0; runs < MAX_RUNS && (runs < 5 || sum < 0.1); runs++) {
-        times[runs] = run(way, set, cap, &polygons);
+        times[runs] = run(method, set, cap, &polygons);
         sum += times[runs];
         if (times[runs] > 2.0) {
             runs++;
             break;
         }
     }
-    sums->seconds[way] += bench_quantile(times, (size_t)runs, 0.5);
-    sums->fastest[way] += times[0];
-    sums->polygons[way] += polygons;
+    sums->seconds[method] += bench_quantile(times, (size_t)runs, 0.5);
+    sums->fastest[method] += times[0];
+    sums->polygons[method] += polygons;
 }
 
 static void print_row(const char *name, const totals *sums)
 {
     printf("%-34s %8llu", name, (unsigned long long)sums->vertices);
-    for (int way = 0; way < WAY_COUNT; way++) {
-        if (sums->seconds[way] > 0.0) {
-            printf(" %10.1f %8llu", sums->seconds[way] * 1e6, (unsigned long long)sums->polygons[way]);
+    for (int method = 0; method < METHOD_COUNT; method++) {
+        if (sums->seconds[method] > 0.0) {
+            printf(" %10.1f %8llu", sums->seconds[method] * 1e6, (unsigned long long)sums->polygons[method]);
         } else {
             printf(" %10s %8s", "-", "-");
         }
     }
-    for (int way = 0; way < RECAST && sums->seconds[RECAST] > 0.0; way++) {
-        printf(" %8.1f", sums->seconds[RECAST] / sums->seconds[way]);
+    for (int method = 0; method < RECAST && sums->seconds[RECAST] > 0.0; method++) {
+        printf(" %8.1f", sums->seconds[RECAST] / sums->seconds[method]);
     }
     printf("\n");
 }
@@ -120,8 +120,8 @@ static void bench_file(const char *path, totals *sums)
             fprintf(stderr, "bench_polygon: %s:%llu: %s\n", path, (unsigned long long)error.line, error.message);
             exit(1);
         }
-        for (int way = 0; way < WAY_COUNT; way++) {
-            measure(way, &text.set, text.max_verts_per_poly, &file);
+        for (int method = 0; method < METHOD_COUNT; method++) {
+            measure(method, &text.set, text.max_verts_per_poly, &file);
         }
         file.contours += text.set.contour_count;
         file.vertices += text.set.vertex_count;
@@ -131,9 +131,9 @@ static void bench_file(const char *path, totals *sums)
     print_row(name, &file);
     for (uint32_t i = 0; i < 4; i++) {
         if (sums[i].kind == kind || i == 3) {
-            for (int way = 0; way < WAY_COUNT; way++) {
-                sums[i].seconds[way] += file.seconds[way];
-                sums[i].polygons[way] += file.polygons[way];
+            for (int method = 0; method < METHOD_COUNT; method++) {
+                sums[i].seconds[method] += file.seconds[method];
+                sums[i].polygons[method] += file.polygons[method];
             }
             sums[i].contours += file.contours;
             sums[i].vertices += file.vertices;
@@ -160,8 +160,8 @@ static totals bench_family(const char *name, oracle_point *points, uint32_t n)
     memset(&sums, 0, sizeof sums);
     sums.vertices = n;
     // The plain method takes hours beyond this.
-    for (int way = 0; way < (n <= 500 ? WAY_COUNT : RECAST); way++) {
-        measure(way, &set, 6, &sums);
+    for (int method = 0; method < (n <= 500 ? METHOD_COUNT : RECAST); method++) {
+        measure(method, &set, 6, &sums);
     }
     print_row(name, &sums);
     free(vertices);
@@ -189,8 +189,8 @@ static void bench_families(bench_report *report)
     printf("\ntime of 100,000 vertices over that of 10,000   classic   optimal  Delaunay\n");
     for (uint32_t f = 0; f < FAMILIES; f++) {
         printf("%-43s", names[f]);
-        for (int way = 0; way < RECAST; way++) {
-            printf(" %9.1f", sums[3][f].fastest[way] / sums[1][f].fastest[way]);
+        for (int method = 0; method < RECAST; method++) {
+            printf(" %9.1f", sums[3][f].fastest[method] / sums[1][f].fastest[method]);
         }
         char claim[96];
         snprintf(claim, sizeof claim, "%s of 20,000 vertices, classic, ms", names[f]);
@@ -236,9 +236,10 @@ static void claim_sets(const totals *sums, const char *const *names, bench_repor
         if (sums[i].contours == 0) {
             continue;
         }
-        for (int way = 0; way < WAY_COUNT; way++) {
-            if (sums[i].seconds[way] > 0.0) {
-                bench_report_value(report, "sets of contours", way_names[way], names[i], sums[i].seconds[way] * 1e3);
+        for (int method = 0; method < METHOD_COUNT; method++) {
+            if (sums[i].seconds[method] > 0.0) {
+                bench_report_value(report, "sets of contours", method_names[method], names[i],
+                                   sums[i].seconds[method] * 1e3);
             }
         }
         if (sums[i].seconds[RECAST] > 0.0) {

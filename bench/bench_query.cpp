@@ -431,7 +431,7 @@ void compare_places(arena &a)
 void bench_arena(arena &a, const std::vector<question> &questions, double path_bar)
 {
     if (!a.level.twin_is_whole) {
-        std::printf("\n%s: left out, Recast made a polygon that is none\n", a.name.c_str());
+        std::printf("\n%s: left out, Recast made an invalid polygon\n", a.name.c_str());
         return;
     }
     if (!a.prepare(questions)) {

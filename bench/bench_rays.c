@@ -426,8 +426,8 @@ static void claim_others(bench_report *report, const result *results, uint32_t c
     }
     bench_report_speed(report, "worst level and kind", "Embree fast", worst, 0.95);
     bench_report_at_most(report, "a call that misses the root, ns", exp(miss / count), 14);
-    bench_report_at_most(report, "most bytes a triangle", bytes, 40);
-    bench_report_at_most(report, "most bytes a triangle, compact", compact, 20);
+    bench_report_at_most(report, "max bytes a triangle", bytes, 40);
+    bench_report_at_most(report, "max bytes a triangle, compact", compact, 20);
 }
 
 int main(int argc, char **argv)

@@ -288,7 +288,7 @@ void arena::bench_radius(const detour_level &baked, float radius)
     std::printf("      not prepared         %8.2f   %.1f times the prepared one\n", gathered, gathered / ours);
     std::printf("      reachable or not     %8.2f   %.1f nodes\n", asked, found.nodes / (double)pairs_asked);
     std::printf(
-        "    a way in both %zu, in neither %zu, talus's alone %zu, Detour's alone %zu, no room on talus's %zu\n",
+        "    path by both %zu, by neither %zu, by talus alone %zu, by Detour alone %zu, no room for talus %zu\n",
         found.both, found.neither, found.only_talus, found.only_detour, found.no_room);
     std::printf("    nearest to a wall %+.4f m of the radius; paths are %.4f times as long as Detour's\n",
                 found.min_room, found.talus_length / found.detour_length);

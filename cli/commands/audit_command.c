@@ -259,7 +259,7 @@ static tl_exit audit_source(draw_source *source, audit_settings *settings)
     return code;
 }
 
-static tl_exit run_audit(tl_cli *cli)
+static tl_exit run_audit_command(tl_cli *cli)
 {
     audit_settings settings;
     memset(&settings, 0, sizeof settings);
@@ -307,12 +307,12 @@ const tl_command tl_audit_command = {
     "Walks a capsule through the triangles wherever the navmesh says that an agent may go: around every\n"
     "polygon, through every portal, along random shortest paths. Then looks for floor that has room for the\n"
     "agent and no navmesh. Prints every place where the two disagree, and exits with 1 when there is one.\n"
-    "FILE is a baked file, or a level, which is then baked in memory. docs/guide/audit.md says what is promised and\n"
-    "what is tolerated.",
+    "FILE is a baked file, or a level, which is then baked in memory. docs/guide/audit.md says what is\n"
+    "promised and what is tolerated.",
     "talus sample courtyard -o courtyard.obj\n"
     "talus bake courtyard.obj -o courtyard.talus\n"
     "talus audit courtyard.talus --paths 100\n"
     "talus audit courtyard.obj --paths 100 --draw audit.png --size 400\n"
     "talus audit courtyard.talus --paths 100 --json > audit.json",
-    run_audit,
+    run_audit_command,
 };

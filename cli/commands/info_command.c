@@ -155,7 +155,7 @@ static void print_soup(const tl_soup *soup)
     printf("           %u nodes, %u leaves, %u deep\n", s.node_count, s.leaf_count, s.depth);
 }
 
-static void chunk_name(uint32_t type, char name[5])
+static void chunk_type_text(uint32_t type, char name[5])
 {
     for (unsigned i = 0; i < 4; ++i) {
         char c = (char)(type >> (8 * i) & 0xff);
@@ -176,7 +176,7 @@ static void print_chunks(const tl_input *input, const nav_sums *nav)
     for (uint32_t i = 0; i < input->pack.chunk_count && table.row_count < TL_TABLE_ROWS - 2; ++i) {
         tl_pack_chunk chunk = tl_pack_chunk_at(&input->pack, i);
         char name[5];
-        chunk_name(chunk.type, name);
+        chunk_type_text(chunk.type, name);
         if (chunk.type != TL_PACK_NAVT) {
             tl_table_row(&table);
             tl_table_text(&table, name);
@@ -260,7 +260,7 @@ static json_t *baked_json(const tl_input *input, const baked_info *info)
     for (uint32_t i = 0; i < input->pack.chunk_count; ++i) {
         tl_pack_chunk chunk = tl_pack_chunk_at(&input->pack, i);
         char name[5];
-        chunk_name(chunk.type, name);
+        chunk_type_text(chunk.type, name);
         json_array_append_new(
             chunks, json_pack("{ss sI sI}", "type", name, "id", (json_int_t)chunk.id, "bytes", (json_int_t)chunk.size));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// talus path: the way from one point to another, one pair or many.
+// talus path: the path from one point to another, for one pair or many.
 
 #include "cli/level/agent_route.h"
 #include "cli/level/navmesh_query.h"
@@ -25,21 +25,21 @@ typedef struct path_settings {
 } path_settings;
 
 // What one worker searches with. Buffers grow when a route needs more.
-typedef struct path_searcher {
+typedef struct route_searcher {
     tl_nav_query *query;
     tl_nav_path_buffers buffers;
-} path_searcher;
+} route_searcher;
 
 typedef struct path_queries {
     const tl_navmesh *navmesh;
     const path_settings *settings;
-    path_searcher *searchers; // one a worker
+    route_searcher *searchers; // one a worker
     uint32_t searcher_count;
 } path_queries;
 
 enum { FIRST_ROUTE_CAPACITY = 1024 };
 
-static bool grow_route_buffers(path_searcher *s, uint32_t polygons, uint32_t corners)
+static bool grow_route_buffers(route_searcher *s, uint32_t polygons, uint32_t corners)
 {
     if (polygons > s->buffers.polygon_capacity) {
         tl_nav_ref *moved = realloc(s->buffers.polygons, polygons * sizeof(*moved));
@@ -62,7 +62,7 @@ static bool grow_route_buffers(path_searcher *s, uint32_t polygons, uint32_t cor
 
 // A route's corners may outnumber its polygons by the two ends; a second growth happens when only the first count was
 // known.
-static tl_result find_pair_route(const path_queries *queries, path_searcher *s, const float *n, tl_nav_route *route)
+static tl_result find_pair_route(const path_queries *queries, route_searcher *s, const float *n, tl_nav_route *route)
 {
     const tl_nav_route_request request = { .start = tl_vec3_make(n[0], n[1], n[2]),
                                            .goal = tl_vec3_make(n[3], n[4], n[5]),
@@ -79,7 +79,7 @@ static tl_result find_pair_route(const path_queries *queries, path_searcher *s, 
     return result;
 }
 
-static void write_route_corners(tl_text *text, const path_searcher *s, const tl_nav_route *route, bool json)
+static void write_route_corners(tl_text *text, const route_searcher *s, const tl_nav_route *route, bool json)
 {
     for (uint32_t i = 0; i < route->corner_count; ++i) {
         if (json) {
@@ -93,7 +93,7 @@ static void write_route_corners(tl_text *text, const path_searcher *s, const tl_
 }
 
 // The corners at which an off-mesh link is taken, where there are any.
-static void write_json_links(tl_text *text, const path_searcher *s, const tl_nav_route *route)
+static void write_json_links(tl_text *text, const route_searcher *s, const tl_nav_route *route)
 {
     bool any = false;
     for (uint32_t i = 0; i < route->corner_count; ++i) {
@@ -106,7 +106,7 @@ static void write_json_links(tl_text *text, const path_searcher *s, const tl_nav
     tl_text_add(text, any ? "]" : "");
 }
 
-static void write_json_route(tl_text *text, const path_searcher *s, const tl_nav_route *route, tl_result result)
+static void write_json_route(tl_text *text, const route_searcher *s, const tl_nav_route *route, tl_result result)
 {
     if (result == TL_NOT_FOUND) {
         bool start = route->start.polygon == TL_NAV_NO_REF;
@@ -126,7 +126,7 @@ static void write_json_route(tl_text *text, const path_searcher *s, const tl_nav
     tl_text_add(text, "}\n");
 }
 
-static void write_route(tl_text *text, const path_searcher *s, const tl_nav_route *route, tl_result result,
+static void write_route(tl_text *text, const route_searcher *s, const tl_nav_route *route, tl_result result,
                         bool partial)
 {
     if (result == TL_NOT_FOUND) {
@@ -152,7 +152,7 @@ static void write_route(tl_text *text, const path_searcher *s, const tl_nav_rout
 }
 
 // Returns whether the goal is reached.
-static bool answer_pair(const path_queries *queries, path_searcher *s, const float *numbers, tl_text *text)
+static bool answer_pair(const path_queries *queries, route_searcher *s, const float *numbers, tl_text *text)
 {
     tl_nav_route route;
     tl_result result = find_pair_route(queries, s, numbers, &route);
@@ -201,7 +201,7 @@ static bool make_searchers(path_queries *queries, uint32_t count)
     }
     for (uint32_t i = 0; i < count; ++i) {
         queries->searcher_count = i + 1;
-        path_searcher *s = &queries->searchers[i];
+        route_searcher *s = &queries->searchers[i];
         if (tl_nav_query_create(&def, &s->query) != TL_OK ||
             !grow_route_buffers(s, FIRST_ROUTE_CAPACITY, FIRST_ROUTE_CAPACITY)) {
             return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Getting what a stage is drawn from. A baked file keeps its geometry once, in the soup; the triangles are read back
-// from there, and the navmesh's intermediate data is made again with the parameters that the file remembers.
+// from there, and the navmesh's intermediate data is baked again with the parameters that the file remembers.
 
 #include "cli/draw/draw_source.h"
 
@@ -198,7 +198,7 @@ static void warn_of_areas(const draw_source *source)
     }
     if (source->areas.marks.volume_count == 0 && tl_area_sums_has_others(&sums)) {
         tl_cli_warn(source->cli,
-                    "%s was baked with areas; the stages before navmesh are made again without them: draw "
+                    "%s was baked with areas; the stages before navmesh are baked again without them; draw "
                     "the level with the same --area and --areas to see them",
                     source->input.path);
     }

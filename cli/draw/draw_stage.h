@@ -41,7 +41,7 @@ void draw_stage_detail(draw_scene *scene, const tl_nav_detail *detail);
 /// The baked tiles, their polygons coloured by area.
 void draw_stage_navmesh(draw_scene *scene, const tl_navmesh *navmesh);
 
-/// The baked tiles, and the ways of links over them.
+/// The baked tiles, and the trajectories of links over them.
 void draw_stage_links(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav_links *links);
 
 /// A route over the navmesh: the polygons of the corridor, the straight path, start and goal.

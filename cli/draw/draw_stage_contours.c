@@ -42,7 +42,7 @@ void draw_stage_contour_set(draw_scene *scene, const tl_contour_set *set)
     add_outlines(scene, set, simplified);
     snprintf(scene->subtitle, sizeof scene->subtitle, "%u contours, %u vertices", set->contour_count,
              set->vertex_count);
-    draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(1), 0x101018, 0.35f), "contour, a colour each region");
+    draw_add_legend(scene, draw_colour_mix(draw_colour_of_id(1), 0x101018, 0.35f), "contour, a colour for each region");
 }
 
 void draw_stage_contours(draw_scene *scene, const tl_nav_contours *contours)

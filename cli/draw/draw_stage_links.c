@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The links of a navmesh: the way of each, coloured by its kind.
+// The links of a navmesh: the trajectory of each, coloured by its kind.
 
 #include "cli/draw/draw_stage.h"
 

@@ -40,7 +40,7 @@ static bool is_shown(const steps_of_kind *kind, uint64_t index)
     return false;
 }
 
-static void record_step(const tl_polygon_step *step, void *user)
+static void record_polygon_step(const tl_polygon_step *step, void *user)
 {
     steps_record *record = user;
     steps_of_kind *kind = &record->kinds[step->kind];
@@ -81,7 +81,7 @@ tl_result steps_record_make(const tl_contour_set *set, uint32_t contour, uint32_
     tl_contour_set one = *set;
     one.contours = &set->contours[contour];
     one.contour_count = 1;
-    const tl_polygon_trace trace = { record_step, record_out };
+    const tl_polygon_trace trace = { record_polygon_step, record_out };
     tl_polygon_def def = tl_default_polygon_def();
     def.max_verts_per_poly = max_verts_per_poly;
     def.keep_border_vertices = true;

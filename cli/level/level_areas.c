@@ -90,7 +90,7 @@ static void fail_unknown(tl_cli *cli, const tl_level *level, const char *path, c
     tl_text_free(&text);
 }
 
-// Gives the materials that a rule fits its area. False: there is none.
+// Gives the materials that a rule matches the rule's area. False: it matches none.
 static bool apply_rule(const tl_area_marks *marks, const tl_area_rule *rule, const tl_name_table *names, uint8_t *areas)
 {
     bool found = false;

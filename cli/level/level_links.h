@@ -25,7 +25,7 @@ typedef struct tl_level_links {
 bool tl_level_links_find(tl_cli *cli, const tl_nav_links_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
                          tl_level_links *links_out, tl_exit *exit_out);
 
-/// A table of kinds and what became of the ways that were tried.
+/// A table of kinds, and what became of the trajectories that were tried.
 void tl_level_links_print(const tl_nav_links_report *report);
 json_t *tl_level_links_json(const tl_nav_links_report *report);
 /// Start, end, apex, kind and whether it leads both ways, of each link.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// One way in for hull, support and distance.
+// How hull, support and distance open their input.
 
 #include "cli/level/open_hull.h"
 

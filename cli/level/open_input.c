@@ -76,7 +76,7 @@ bool tl_input_open_baked(tl_cli *cli, const char *path, tl_input *input_out, tl_
     tl_result result = tl_pack_open(input_out->map.bytes, input_out->map.size, &input_out->pack, &report);
     if (result != TL_OK) {
         report.advice =
-            result == TL_ERR_MAGIC ? "this is no file of 'talus bake'" : "copy it again, or bake the level again";
+            result == TL_ERR_MAGIC ? "this is not a file of talus bake" : "copy it again, or bake the level again";
         *exit_out = tl_cli_fail_result(cli, path, result, &report);
     }
     return result == TL_OK;
@@ -104,7 +104,7 @@ bool tl_input_open_soup(tl_cli *cli, const char *path, const tl_bake_settings *s
         input_out->soup = tl_input_checked_chunk(input_out, TL_PACK_SOUP, tl_soup_check, &result);
         if (result == TL_NOT_FOUND) {
             *exit_out =
-                tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no soup to cast rays at; bake it without --no-soup", path);
+                tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no triangles to query; bake it without --no-soup", path);
         } else if (result != TL_OK) {
             *exit_out = tl_cli_fail_result(cli, path, result, NULL);
         }

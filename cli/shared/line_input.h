@@ -27,7 +27,7 @@ void tl_line_input_close(tl_line_input *input);
 /// TL_ERR_IO, TL_ERR_FORMAT (a line too long, or with a zero byte), TL_ERR_CANCELLED (Ctrl-C while it waited).
 tl_result tl_line_input_next(tl_line_input *input, char **line_out, tl_io_error *error_out);
 
-/// Whether the next line may have to be waited for: then answers to what came so far should be on their way.
+/// Whether reading the next line may block: answers to the lines so far should be flushed before that.
 bool tl_line_input_would_wait(const tl_line_input *input);
 
 #endif

@@ -14,12 +14,12 @@ const char *tl_parse_float_value(const char *text, float *value_out);
 const char *tl_parse_count_value(const char *text, uint64_t max, uint64_t *value_out);
 /// "x,y,z".
 const char *tl_parse_point_value(const char *text, tl_vec3 *point_out);
-/// `count` numbers parted by commas; exactly `count`, or `min_count` <= written `*count_out` <= `count` when that is
+/// `count` numbers separated by commas; exactly `count`, or `min_count` <= written `*count_out` <= `count` when that is
 /// given.
 const char *tl_parse_float_list(const char *text, float *values_out, uint32_t min_count, uint32_t count,
                                 uint32_t *count_out);
 
-/// The numbers of a line, parted by blanks, tabs or commas: fills at most `capacity`, counts all. `*bad_out` is the
+/// The numbers of a line, separated by blanks, tabs or commas: fills at most `capacity`, counts all. `*bad_out` is the
 /// first word that is not a number, and the reason is returned; NULL when all are.
 const char *tl_parse_float_words(const char *line, float *values_out, uint32_t capacity, uint32_t *count_out,
                                  const char **bad_out);

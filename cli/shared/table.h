@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Aligned text tables: numbers to the right, words to the left, thousands parted.
+// Aligned text tables: numbers to the right, words to the left, thousands separated.
 
 #ifndef TALUS_CLI_TABLE_H
 #define TALUS_CLI_TABLE_H

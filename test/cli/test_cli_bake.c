@@ -108,7 +108,7 @@ static void test_parts(void **state)
     bake = cli_json(0, "bake floor.obj -o part.talus --no-soup --json");
     assert_null(json_object_get(bake, "soup"));
     json_decref(bake);
-    cli_check_error(3, "ray part.talus 0,1,0 0,-1,0", "holds no soup", "--no-soup");
+    cli_check_error(3, "ray part.talus 0,1,0 0,-1,0", "holds no triangles", "--no-soup");
     cli_result flat = cli_expect(0, "bake floor.obj -o part.talus --hull");
     cli_check_part(flat.err, "no hull");
     cli_free(&flat);
