@@ -12,7 +12,7 @@ static const tl_vec3 vertices[8] = { { -10, 0, -10 }, { 10, 0, -10 }, { 10, 0, 1
                                      { 4, 0, -10 },   { 4, 3, -10 },  { 4, 3, 10 },  { 4, 0, 10 } };
 static const uint32_t indices[12] = { 0, 2, 1, 0, 3, 2, 4, 7, 6, 4, 6, 5 };
 
-// Moves as far as the way is free; what is left of the motion is returned without its part into what was met.
+// Moves until something is hit, and returns the rest of the motion without its component into the surface.
 static tl_vec3 move(const tl_soup *soup, const tl_convex *body, tl_transform *at, tl_vec3 motion)
 {
     tl_shape_hit hit;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A guard, a thief, and a door between them: the level, the door and the thief are instances of one scene. The door
-// swings open, the scene is refitted, and the guard sees, shoots and walks through.
+// swings open, the scene is refitted, and the guard sees, shoots and walks through the doorway.
 
 #include <talus/scene.h>
 

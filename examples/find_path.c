@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// From triangles to a path: bake a navmesh in memory, ask it for the way around a wall.
+// From triangles to a path: bake a navmesh in memory, and find a path around a wall.
 
 #include <talus/nav_bake.h>
 #include <talus/nav_query.h>
@@ -10,7 +10,7 @@
 
 enum { MOST_POLYGONS = 64, MOST_CORNERS = 64 };
 
-// A floor 20 m square, and a wall 3 m high that leaves a way around its end at z = 6.
+// A floor 20 m square, and a wall 3 m high with a passage around its end at z = 6.
 static const tl_vec3 VERTICES[] = { { -10, 0, -10 },  { -10, 0, 10 }, { 10, 0, 10 },  { 10, 0, -10 },
                                     { 0, 0, -10 },    { 0, 0, 6 },    { 0, 3, 6 },    { 0, 3, -10 },
                                     { 0.5f, 0, -10 }, { 0.5f, 0, 6 }, { 0.5f, 3, 6 }, { 0.5f, 3, -10 } };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// An agent on its way to a door, which a crate blocks before it is there: its corridor is repaired, and it takes the
+// An agent walks to a door, which a crate blocks before it arrives: its path corridor is repaired, and it takes the
 // other door. With a file's name as argument it draws what happened, as SVG.
 
 #include <talus/nav_corridor.h>
@@ -143,6 +143,6 @@ int main(int argc, char **argv)
     tl_nav_obstacles_destroy(obstacles);
     tl_nav_query_destroy(query);
     tl_navmesh_destroy(navmesh);
-    // Straight through the first door it would be 96 steps; the way back and through the other one is longer.
+    // Straight through the first door it would be 96 steps; the path back and through the other one is longer.
     return steps > 110 && steps < 200 ? 0 : 1;
 }

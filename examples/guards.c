@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A guard that sees and chases: sight is the soup's, the way is the navmesh's. An intruder walks from the gate to the
-// vault; the guard notices him when nothing stands between their eyes, runs to where he is going, and catches him.
+// A guard that sees and chases: lines of sight through the soup, paths over the navmesh. An intruder walks from the
+// gate to the vault; the guard notices him when nothing stands between their eyes, runs to where he is going, and
+// catches him.
 //
 //   example_guards              runs the chase and checks it
 //   example_guards chase.svg    and draws it: intruder blue, guard red, lines of sight grey
@@ -95,7 +96,7 @@ typedef struct actor {
     tl_vec3 track[MOST_TICKS];
 } actor;
 
-// One tick along the shortest way to the goal.
+// One tick along the shortest path to the goal.
 static tl_result walk(const world *w, actor *a)
 {
     tl_nav_ref polygons[MOST_POLYGONS];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Convex shapes: the hull of a cloud of points, its farthest point in a direction, the distance of two hulls.
+// Convex shapes: the hull of a cloud of points, its farthest point in a direction, the distance between two hulls.
 
 #include <talus/convex.h>
 #include <talus/hull.h>

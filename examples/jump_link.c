@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A jump in use: two roofs with a gap between them. Links are found and proven, a path takes one, and an agent goes
-// along it: on foot from corner to corner, through the air where a link says so.
+// Jump links in use: two roofs with a gap between them. Links are found and proven, a path uses one, and an agent
+// follows it: on foot from corner to corner, through the air along a link.
 
 #include <talus/nav_bake.h>
 #include <talus/nav_links.h>
@@ -75,7 +75,7 @@ static void walk(const roofs *r, const tl_nav_corner *corners, uint32_t count)
     }
 }
 
-// Links on the way from one roof to the other, or -1 when there is no way.
+// Links on the path from one roof to the other, or -1 when there is no path.
 static int go(const roofs *r)
 {
     tl_nav_ref polygons[MOST];

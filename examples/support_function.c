@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The support function on a mesh of one's own: a prism built face by face, asked along a direction that turns, changed,
-// asked again, and used as a shape in a distance query.
+// The support function of your own mesh: a prism is built face by face, queried along a turning direction, edited,
+// queried again, and used as a shape in a distance query.
 
 #include <talus/convex.h>
 #include <talus/halfedge.h>
@@ -58,7 +58,7 @@ int main(void)
         return 1;
     }
 
-    // A direction that turns: each answer is the hint of the next, so a climb is a step or none.
+    // A turning direction: each answer is the hint of the next query, so hill climbing takes a step or none.
     uint32_t vertex = TL_HALFEDGE_NONE;
     float worst = 0.0f;
     for (int degree = 0; degree < 360; degree++) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Pairs of convex shapes on a small lattice, where everything touches, coincides, is flat or parallel. The properties:
-// every query ends; the queries agree with one another and with themselves when the shapes change places; the depth's
-// normal parts the shapes; a cast stops where the distance says they touch.
+// every query ends; the queries agree with one another and with themselves when the shapes are swapped; the depth's
+// normal separates the shapes; a cast stops where the distance says they touch.
 
 #include <talus/convex.h>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Hulls of arbitrary floats. The property: a build either names what is wrong, or gives a hull that passes its own
-// check and is proven convex, with all points inside and exact support; and so is its image under any map that leaves
-// something solid. The same bytes are also read as a baked hull: what the check accepts must be safe to use.
+// Hulls of arbitrary floats. The property: a bake either names what is wrong, or gives a hull that passes its own
+// check and is proven convex, with all points inside and exact support; and so is its image under any map that keeps
+// it solid. The same bytes are also read as a baked hull: what the check accepts must be safe to use.
 
 #include "math/predicates.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Untrusted bytes as Detour tiles: what tl_detour_read takes is a tile that passes its own check, and can be written
-// and read again.
+// Untrusted bytes as Detour tiles: what tl_detour_read accepts becomes a tile that passes its own check, and can be
+// written and read again.
 
 #include <stdint.h>
 #include <stdlib.h>

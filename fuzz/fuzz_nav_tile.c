@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Untrusted bytes as a navmesh tile: what tl_nav_tile_check accepts can be added, linked and asked anything.
+// Untrusted bytes as a navmesh tile: what tl_nav_tile_check accepts can be added to a navmesh, linked and queried.
 //
 // Raw mutations of a valid file rarely get past the counts, so an input is a list of edits (offset, byte) to a tile
 // that is baked here; an input that begins with 0xff is taken as the tile's bytes themselves.

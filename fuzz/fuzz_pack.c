@@ -2,8 +2,8 @@
 //
 // Untrusted bytes as a container: what opens is whole, and every chunk of it can be read.
 //
-// The hashes would stop all mutations. So an input whose first byte is odd is repaired first: the hashes of chunks,
-// table and header are set right, which lets the fuzzer reach what lies behind them.
+// The hashes would reject all mutations. So an input whose first byte is odd is repaired first: the hashes of chunks,
+// table and header are recomputed, which lets the fuzzer reach the code behind them.
 
 #include "base/hash.h"
 #include "pack/pack_format.h"

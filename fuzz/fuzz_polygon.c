@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Any contours, as many and as tangled as the bytes make them: the build ends well or with a named error, and what it
-// builds passes the validator. The second half of the inputs is read as text.
+// Any contours, as many and as tangled as the bytes say: the bake succeeds or names an error, and what it bakes passes
+// the validator. The second half of the inputs is read as text.
 
 #include "io/text/contour_text.h"
 

@@ -3,8 +3,8 @@
 // Untrusted bytes as a soup: what tl_soup_check accepts can be queried, ends, and agrees with itself.
 //
 // Raw mutations of a valid file rarely get past the counts, so an input is a list of edits (offset, byte) to a soup
-// that is built here, in the layout that the first byte's lowest bit names; an input that begins with 0xff is taken as
-// the soup's bytes themselves.
+// that is baked here, in the layout that the first byte's lowest bit selects; an input that begins with 0xff is the
+// soup's bytes themselves.
 
 #define _POSIX_C_SOURCE 200112L
 
@@ -97,7 +97,7 @@ static void use_soup(const tl_soup *soup)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static tl_soup *samples[2]; // built once; a fuzz target is no library
+    static tl_soup *samples[2]; // baked once; never freed
     tl_soup_layout layout = size > 0 && (data[0] & 1) != 0 ? TL_SOUP_COMPACT : TL_SOUP_FAST;
     if (samples[layout] == NULL) {
         samples[layout] = build_sample(layout);

@@ -164,11 +164,10 @@ tl_exit tl_cli_fail_io(tl_cli *cli, const tl_io_error *error)
     if (error->result == TL_ERR_CANCELLED) {
         return tl_cli_fail(cli, TL_EXIT_CANCELLED, "cancelled");
     }
-    tl_exit code = error->result == TL_NOT_FOUND ? TL_EXIT_IO : tl_exit_of(error->result);
     bool message = error->message[0] != '\0';
-    return tl_cli_fail(cli, code, "%s%s%s%s%s%s", error->path, line, error->path[0] != '\0' ? ": " : "",
-                       message ? error->message : tl_result_text(error->result), error->advice != NULL ? "; " : "",
-                       error->advice != NULL ? error->advice : "");
+    return tl_cli_fail(cli, tl_exit_of(error->result), "%s%s%s%s%s%s", error->path, line,
+                       error->path[0] != '\0' ? ": " : "", message ? error->message : tl_result_text(error->result),
+                       error->advice != NULL ? "; " : "", error->advice != NULL ? error->advice : "");
 }
 
 // A def's field is set by the option of the same name: cell_size by --cell-size.

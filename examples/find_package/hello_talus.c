@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The smallest use of talus: clean a square of two triangles, and ask what lies across their shared edge.
+// The smallest use of talus: clean a square of two triangles, and find what lies across their shared edge.
 
 #include <talus/talus.h>
 

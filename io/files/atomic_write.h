@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Files that are there whole or not at all: written beside their target, flushed to disk, then put in its place.
+// Atomic files: written beside their target, flushed to disk, then renamed over it, so that a file is whole or absent.
 //
 //   tl_atomic_file *file;
 //   tl_atomic_file_open(path, &file, &error);
@@ -20,12 +20,12 @@
 extern "C" {
 #endif
 
-/// One file in the making. Not thread safe; different files are independent.
+/// A file being written. Not thread safe; different files are independent.
 typedef struct tl_atomic_file tl_atomic_file;
 
 /// Starts to write `path`; its folder must exist. An existing file keeps its permissions, a symbolic link keeps
 /// pointing at the file that is replaced. "-" (standard output), devices and pipes cannot be replaced: what is written
-/// goes to them directly. Errors: TL_NOT_FOUND (the folder), TL_ERR_IO, TL_ERR_MEMORY; then `*file_out` is NULL.
+/// goes to them directly. Errors: TL_ERR_IO, TL_ERR_MEMORY; then `*file_out` is NULL.
 tl_result tl_atomic_file_open(const char *path, tl_atomic_file **file_out, tl_io_error *error_out);
 
 /// Appends. After a failure (disk full) every later write and the commit fail in the same way.
@@ -35,7 +35,7 @@ tl_result tl_atomic_file_write(tl_atomic_file *file, const void *bytes, size_t s
 /// target is untouched and no temporary file is left.
 tl_result tl_atomic_file_commit(tl_atomic_file *file, tl_io_error *error_out);
 
-/// Throws away what was written and frees `file`. NULL is allowed.
+/// Discards what was written and frees `file`. NULL: nothing happens.
 void tl_atomic_file_abort(tl_atomic_file *file);
 
 /// Bytes written so far.

@@ -22,7 +22,7 @@ typedef struct tl_file_map {
 ///
 /// `max_bytes` is the largest size that is accepted, 0: no limit; a stream is not read beyond it. A mapped file that
 /// another process cuts short while it is read raises SIGBUS, as with every mapping: files under change are to be
-/// piped in instead. Errors: TL_NOT_FOUND, TL_ERR_IO (with the system's reason; a folder is one), TL_ERR_LIMIT,
+/// piped in instead. Errors: TL_ERR_IO (with the system's reason; a folder is one), TL_ERR_LIMIT,
 /// TL_ERR_MEMORY. On failure `*map_out` is zeroed. `error_out` may be NULL. Thread safe.
 tl_result tl_file_map_open(const char *path, uint64_t max_bytes, tl_file_map *map_out, tl_io_error *error_out);
 

@@ -2,8 +2,8 @@
 //
 // Arrays that grow over a tl_allocator.
 //
-// io uses the library's public interface only, so that it links with the shared library too; this is the little of
-// memory handling that it needs besides.
+// io uses the library's public interface only, so that it links with the shared library too; these are the few
+// functions for memory that it needs besides.
 
 #ifndef TALUS_IO_GROWABLE_H
 #define TALUS_IO_GROWABLE_H
@@ -19,7 +19,7 @@ void *tl_io_allocate(const tl_allocator *allocator, size_t size);
 /// Gives back what tl_io_allocate returned; a NULL block is allowed.
 void tl_io_release(const tl_allocator *allocator, void *block, size_t size);
 
-/// Makes room for `needed` items in `*array`, of which `used` hold something. Capacities at least double, so n pushes
+/// Grows `*array` to a capacity of `needed` items or more; its first `used` are kept. Capacities double, so n pushes
 /// cost O(n). False when memory is out; array and capacity are then as before.
 bool tl_io_grow(const tl_allocator *allocator, void **array, uint64_t *capacity, uint64_t used, uint64_t needed,
                 size_t item_size);

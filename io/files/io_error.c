@@ -106,9 +106,7 @@ static const char *system_advice(int error_number)
 
 tl_result tl_io_fail_system(tl_io_error *error, const char *path, const char *action, int error_number)
 {
-    tl_result result = error_number == ENOENT || error_number == ENOTDIR ? TL_NOT_FOUND
-                       : error_number == ENOMEM                          ? TL_ERR_MEMORY
-                                                                         : TL_ERR_IO;
+    tl_result result = error_number == ENOMEM ? TL_ERR_MEMORY : TL_ERR_IO;
     // strerror's text may be shared between threads; strerror_r has two signatures, of which this is the XSI one.
     char reason[128];
     if (strerror_r(error_number, reason, sizeof reason) != 0) {

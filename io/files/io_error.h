@@ -41,8 +41,8 @@ typedef struct tl_io_error {
 tl_result tl_io_fail(tl_io_error *error, tl_result result, const char *path, uint64_t line, const char *advice,
                      const char *format, ...) TL_IO_PRINTF(6, 7);
 
-/// The same for a refusal of the operating system: TL_ERR_IO (TL_NOT_FOUND for ENOENT and ENOTDIR, TL_ERR_MEMORY
-/// for ENOMEM). The message is "cannot <action>: <reason>", the advice fits the reason.
+/// The same for a refusal of the operating system: TL_ERR_IO (TL_ERR_MEMORY for ENOMEM). The message is "cannot
+/// <action>: <reason>", the advice fits the reason.
 tl_result tl_io_fail_system(tl_io_error *error, const char *path, const char *action, int error_number);
 
 /// Names the offending element in an error that tl_io_fail has filled. Returns error->result, or `result` when NULL.

@@ -3,8 +3,8 @@
 // Assimp in a process of its own.
 //
 // Assimp 5 answers some damaged files with a failed assertion (a PLY whose face list is cut), an endless loop (a PLY
-// whose header is cut) or a wild pointer. A level that cannot be read must not take the program down that asked for it,
-// so the file is read by a child process with a limit on its time, and what it found comes back through a pipe. The
+// whose header is cut) or a wild pointer. A level that cannot be read must not take the calling program down, so the
+// file is read by a child process with a limit on its time, and what it found comes back through a pipe. The
 // copy costs a few milliseconds for a million triangles; Assimp needs seconds.
 
 #ifndef TALUS_IO_ASSIMP_PROCESS_H

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What every reader of meshes fills: triangles as they stand in the file, material names, and what was left out.
+// What every reader of meshes fills: triangles as they stand in the file, material names, and what was ignored.
 
 #ifndef TALUS_IO_IMPORTED_MESH_H
 #define TALUS_IO_IMPORTED_MESH_H
@@ -50,8 +50,8 @@ void tl_imported_mesh_free(tl_imported_mesh *mesh);
 /// For readers: an empty mesh over `allocator` (NULL: malloc).
 void tl_imported_mesh_init(tl_imported_mesh *mesh, const tl_allocator *allocator);
 
-/// For readers: room for `count` vertices or triangles more. TL_ERR_LIMIT beyond TL_MAX_MESH_VERTICES or
-/// TL_MAX_MESH_TRIANGLES, TL_ERR_MEMORY. Capacities double, so memory is at most twice what was filled in.
+/// For readers: reserves capacity for `count` more vertices or triangles. TL_ERR_LIMIT beyond TL_MAX_MESH_VERTICES or
+/// TL_MAX_MESH_TRIANGLES, TL_ERR_MEMORY. Capacities double, so memory is at most twice what is used.
 tl_result tl_imported_mesh_reserve_vertices(tl_imported_mesh *mesh, uint64_t count);
 tl_result tl_imported_mesh_reserve_triangles(tl_imported_mesh *mesh, uint64_t count);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Any mesh file to triangles, by one call.
+// Reading any mesh file by one call.
 //
-// OBJ goes to our own reader (obj_reader.h); glTF, GLB, FBX, STL, PLY, DAE and whatever else it knows goes through
-// Assimp. The file's name decides, then its first bytes: a file without a known extension, or standard input ("-"),
-// is recognised by its content.
+// OBJ is read by our own reader (obj_reader.h); glTF, GLB, FBX, STL, PLY, Collada (DAE) and every other format that
+// Assimp knows, by Assimp. The file's name decides, then its first bytes: a file without a known extension, or standard
+// input ("-"), is recognised by its content.
 
 #ifndef TALUS_IO_MESH_IMPORT_H
 #define TALUS_IO_MESH_IMPORT_H
@@ -36,14 +36,14 @@ tl_import_options tl_default_import_options(void);
 /// Reads the mesh file `path`.
 ///
 /// Node transforms are applied (a mesh that several nodes show is there several times); triangles of a mirrored node
-/// are re-wound, so they face the way their author saw; polygons are split; points and lines are counted and left out.
+/// are re-wound, so they face the way their author saw; polygons are split; points and lines are counted and ignored.
 /// Triangles keep the file's order, so the same file gives the same mesh. `options` NULL: the defaults.
 ///
-/// Errors, each with file, place and advice in `error_out` (may be NULL): TL_NOT_FOUND, TL_ERR_IO, TL_ERR_FORMAT,
+/// Errors, each with file, place and advice in `error_out` (may be NULL): TL_ERR_IO, TL_ERR_FORMAT,
 /// TL_ERR_UNSUPPORTED (a kind of file that is not known), TL_ERR_EMPTY (no triangles), TL_ERR_NOT_FINITE,
 /// TL_ERR_RANGE (a coordinate does not fit a float), TL_ERR_INDEX, TL_ERR_LIMIT, TL_ERR_ARGUMENT, TL_ERR_MEMORY,
 /// TL_ERR_CANCELLED. On failure `*mesh_out` is zeroed. Assimp runs in a child process, so that a file that makes it
-/// crash or run for ever is an error too (assimp_process.h); its own memory is not the host's allocator's.
+/// crash or loop for ever is an error too (assimp_process.h); its own memory is not the host's allocator's.
 tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_imported_mesh *mesh_out,
                          tl_io_error *error_out);
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Wavefront OBJ, the field's interchange format: text to triangles in one pass.
+// Wavefront OBJ, read in one pass.
 //
-// Read: v, f, usemtl. Counted and left out: vn and vt (unread), g, o, s, mtllib, p, l, and unknown keywords.
-//  - `v x y z`, with w or r g b or both behind it; those must be numbers and are left out (w weighs curves only).
+// Read: v, f, usemtl. Counted and ignored: vn and vt (unread), g, o, s, mtllib, p, l, and unknown keywords.
+//  - `v x y z`, with w or r g b or both behind it; those must be numbers and are ignored (w is for curves only).
 //  - `f` corners `v`, `v/vt`, `v//vn`, `v/vt/vn`; v counts from 1, or from -1 backwards; it may point ahead. vt and vn
-//    must be integers and are left out.
+//    must be integers and are ignored.
 //  - A polygon is split from its first corner as a fan when it is convex, else along its ears in its own plane. Beyond
 //    TL_MAX_SPLIT_CORNERS corners, or where no ears are found (it crosses itself), it is a fan and is counted.
 //  - Lines end with LF, CRLF or CR; `\` before the line's end continues it; `#` begins a comment; a UTF-8 byte order
@@ -31,7 +31,7 @@ extern "C" {
 /// Reads an OBJ text of `size` bytes. `path` is for messages only and may be NULL.
 ///
 /// Memory is at most proportional to the text (under 30 bytes a byte of it, in the worst case): no count in it is
-/// believed. Errors, with line and element in `error_out` (may be NULL): TL_ERR_FORMAT (no number where one must be,
+/// trusted. Errors, with line and element in `error_out` (may be NULL): TL_ERR_FORMAT (no number where one must be,
 /// fewer than 3 corners, binary content, UTF-16), TL_ERR_NOT_FINITE (nan or inf), TL_ERR_RANGE (a number beyond
 /// FLT_MAX), TL_ERR_INDEX, TL_ERR_LIMIT (line, keyword, count of vertices, triangles or materials), TL_ERR_EMPTY (no
 /// vertices; or no faces, unless `allow_no_faces`), TL_ERR_MEMORY, TL_ERR_CANCELLED. On failure `*mesh_out` is zeroed.

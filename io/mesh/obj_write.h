@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Vertices, triangles and polygons out as Wavefront OBJ, atomically.
+// Writing Wavefront OBJ, atomically: vertices, triangles and polygons.
 //
 // Coordinates are written with the fewest digits that read back as the same float (format_float.h), with a point
 // whatever the locale is. The same calls give the same bytes.
@@ -16,7 +16,7 @@
 extern "C" {
 #endif
 
-/// An OBJ file in the making. A failure sticks: later calls do nothing, and the commit reports the first one, so only
+/// An OBJ file being written. A failure sticks: later calls do nothing, and the commit reports the first one, so only
 /// the commit's result need be looked at. Not thread safe.
 typedef struct tl_obj_writer tl_obj_writer;
 
@@ -43,7 +43,7 @@ void tl_obj_writer_triangles(tl_obj_writer *writer, const uint32_t *indices, uin
 /// Ends the file and frees the writer, whatever the outcome. The path then holds all of it, or what it held before.
 tl_result tl_obj_writer_commit(tl_obj_writer *writer, tl_io_error *error_out);
 
-/// Throws the file away. NULL is allowed.
+/// Discards the file. NULL: nothing happens.
 void tl_obj_writer_abort(tl_obj_writer *writer);
 
 /// A whole mesh in one call: vertices, then triangles in order, with a `usemtl` wherever the material changes.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Sets of points out of a file: the input of hulls.
+// Reading point clouds: the input of hulls.
 //
 // Three kinds, recognised by their content:
 //  - points: a line `x y z` each; one cloud
 //  - clouds: a line `N`, then N lines `x y z`; any number of times
 //  - a mesh file of any kind: its vertices, one cloud
-// In the first two, numbers are parted by blanks, tabs or commas; `#` begins a comment; empty lines are skipped.
+// In the first two, numbers are separated by blanks, tabs or commas; `#` begins a comment; empty lines are skipped.
 
 #ifndef TALUS_IO_POINT_CLOUD_H
 #define TALUS_IO_POINT_CLOUD_H
@@ -39,7 +39,7 @@ typedef struct tl_point_cloud {
 
 /// Reads `path` ("-": standard input). `options` NULL: the defaults; `allow_no_triangles` is taken as set.
 ///
-/// An announced count is not believed: memory grows with the points that are there. Errors as tl_import_mesh, with the
+/// An announced count is not trusted: memory grows with the points that are there. Errors as tl_import_mesh, with the
 /// line; TL_ERR_TRUNCATED when a cloud ends early; TL_ERR_EMPTY when there is not one point or cloud. On failure
 /// `*clouds_out` is zeroed.
 tl_result tl_point_clouds_read(const char *path, const tl_import_options *options, tl_point_clouds *clouds_out,

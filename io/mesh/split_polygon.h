@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A polygon in space to triangles: a fan where that is right, ears where it is not.
+// Triangulating a polygon in space: a fan where it is convex, else by ear clipping.
 
 #ifndef TALUS_IO_SPLIT_POLYGON_H
 #define TALUS_IO_SPLIT_POLYGON_H
@@ -25,9 +25,9 @@ typedef struct tl_split_corner {
 
 /// Splits the polygon vertices[corners[0]], ..., `count` >= 4 of them, into count - 2 triangles of the same winding,
 /// three vertex indices each, in `triangles`. That array must hold the fan from the first corner at the call, and still
-/// does when the result is not TL_SPLIT_EARS. `scratch` has room for `count`; it is not used beyond
-/// TL_MAX_SPLIT_CORNERS. The result depends on the positions alone. A polygon need not be quite flat: it is seen along
-/// its mean normal's largest axis.
+/// does when the result is not TL_SPLIT_EARS. `scratch` holds `count`; it is not used beyond
+/// TL_MAX_SPLIT_CORNERS. The result depends on the positions alone. A polygon need not be quite flat: it is projected
+/// along its mean normal's largest axis.
 tl_split tl_split_polygon(const tl_vec3 *vertices, const uint32_t *corners, uint32_t count, tl_split_corner *scratch,
                           uint32_t *triangles);
 

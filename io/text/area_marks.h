@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which floors get which area: a text, one mark a line.
+// Area marks: a text that says which floors get which area, one mark a line.
 //
 //   material AREA NAME             triangles of the material; NAME may hold * and ?
 //   box AREA x y z x y z           floors between two corners, the lowest first
@@ -8,8 +8,8 @@
 //   prism AREA low high x z x z x z ...     an outline of three corners or more, and its heights
 //
 // AREA is 0 (not walkable) to 255, lengths are metres in the level's final axes. Empty lines and lines that begin with
-// # are skipped. Of several marks for one floor the last counts, but what is not
-// walkable stays so; volumes come after materials.
+// # are skipped. Of several marks for one floor the last counts, but what is not walkable stays so; volumes come after
+// materials.
 
 #ifndef TALUS_IO_AREA_MARKS_H
 #define TALUS_IO_AREA_MARKS_H
@@ -30,7 +30,7 @@ typedef struct tl_area_rule {
     uint8_t area;
 } tl_area_rule;
 
-/// All marks, in order. Zero is none; free with tl_area_marks_free.
+/// All marks, in order. Zeroed: no mark; free with tl_area_marks_free.
 typedef struct tl_area_marks {
     tl_nav_volume *volumes;
     uint32_t volume_count;

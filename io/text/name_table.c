@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-enum { FIRST_SLOTS = 64 };
+enum { FIRST_NAME_SLOTS = 64 };
 
 // Fowler, Noll, Vo: FNV-1a, 32 bits.
 static uint32_t hash_name(const char *name, size_t size)
@@ -45,7 +45,7 @@ static bool reserve_slots(tl_name_table *table, const tl_allocator *allocator)
     if (table->slot_count / 2 > table->count) {
         return true;
     }
-    uint32_t slot_count = table->slot_count > 0 ? table->slot_count * 2 : FIRST_SLOTS;
+    uint32_t slot_count = table->slot_count > 0 ? table->slot_count * 2 : FIRST_NAME_SLOTS;
     uint32_t *slots = tl_io_allocate(allocator, (size_t)slot_count * sizeof *slots);
     if (slots == NULL) {
         return false;

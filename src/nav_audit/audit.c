@@ -219,7 +219,7 @@ static tl_result prepare_audit(tl_audit_job *job, const tl_navmesh *navmesh, con
     return TL_OK;
 }
 
-static tl_result run_audit(tl_audit_job *job)
+static tl_result audit_all(tl_audit_job *job)
 {
     const uint32_t agent = 2 * (job->scene.config.walkable_radius + 1);
     TL_TRY(tl_audit_list_polygons(job->scene.navmesh, job->host->allocator, &job->polygons));
@@ -261,7 +261,7 @@ tl_result tl_nav_audit_run(const tl_nav_audit_def *def, const tl_navmesh *navmes
     job.audit = audit_out;
     tl_result result = prepare_audit(&job, navmesh, soup, report_out);
     if (result == TL_OK) {
-        result = run_audit(&job);
+        result = audit_all(&job);
     }
     tl_audit_records_free(&job.records);
     tl_audit_polygons_free(&job.polygons);

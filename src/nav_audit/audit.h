@@ -17,7 +17,7 @@ typedef struct tl_audit_job {
     tl_nav_audit *audit;
 } tl_audit_job;
 
-/// What a task hands over.
+/// What a task returns.
 typedef struct tl_audit_share {
     tl_audit_records records;
     tl_result result;
@@ -25,10 +25,11 @@ typedef struct tl_audit_share {
     double metres;
 } tl_audit_share;
 
-/// Does share number `index`; several run at once.
+/// Does share number `index`; several run in parallel.
 typedef void tl_audit_task(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user);
 
-/// Runs `count` shares on the host's tasks, some at a time, and adds them up in order. Their records are thinned.
+/// Runs `count` shares on the host's tasks, a batch at a time, and adds up their results in order. Their records are
+/// thinned.
 tl_result tl_audit_run_shares(tl_audit_job *job, const char *stage, uint32_t count, tl_audit_task *task, void *user);
 
 /// Each polygon's outline, and the lines across portals.

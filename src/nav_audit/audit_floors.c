@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Floor that the navmesh lacks, found without the navmesh's voxels: rays straight down through the soup meet every
-// floor; one that faces up, is no steeper than the agent walks, and has room for more than the agent all around must
-// carry navmesh.
+// Missing floor, found without the navmesh's voxels: rays straight down through the soup hit every floor; one that
+// faces up, is walkable by its slope, and has more free space all around than the agent needs must have navmesh.
 //
-// "More than the agent" is what erosion and the outline may take at most: the radius in columns; one for the column
-// that an obstacle only touches; half a diagonal, from a column's middle to the point that is asked; and what the
-// outline may be moved by beyond the one cell within which navmesh counts as there. Steps are held to half a climb a
-// column, less a voxel, because a column looks at both of its neighbours when it is judged to be too steep a stair.
+// "More than the agent needs" is the most that erosion and the outline may remove: the radius in columns; one for the
+// column that an obstacle only touches; half a diagonal, from a column's middle to the point in question; and what the
+// outline may move beyond the one cell within which navmesh counts as present. Steps may rise by half a climb a column,
+// less a voxel, because the ledge filter compares a column with both of its neighbours when it judges a stair.
 
 #include "nav_audit/audit.h"
 
@@ -48,7 +47,7 @@ static bool has_navmesh(const tl_audit_job *job, const floor_job *floors, tl_vec
            tl_navmesh_find_nearest(job->scene.navmesh, NULL, point, extents, &location) == TL_OK;
 }
 
-// Whether floor of a triangle, or at a place, was said to be not walkable.
+// Whether the floor of a triangle was given area 0.
 static bool is_null_area(const tl_audit_job *job, uint32_t triangle)
 {
     return job->def->areas != NULL && job->def->areas[triangle] == TL_NAV_NULL_AREA;
@@ -73,7 +72,7 @@ static tl_aabb volume_box(const tl_nav_volume *volume)
     return box;
 }
 
-// Whether a volume of area 0 comes near: then it is to blame.
+// Whether a volume of area 0 is near: then it may be the reason.
 static bool is_near_volume(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
 {
     const tl_vec3 reach = { floors->room, floors->slack, floors->room };
@@ -87,7 +86,7 @@ static bool is_near_volume(const tl_audit_job *job, const floor_job *floors, tl_
     return false;
 }
 
-// The capsule of the room around a point, from a step above it to above the agent's head.
+// Whether the space around a point is free: a capsule from a step above it to above the agent's head.
 static bool has_room(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
 {
     const tl_nav_config *config = &job->scene.config;
@@ -102,7 +101,7 @@ static bool has_room(const tl_audit_job *job, const floor_job *floors, tl_vec3 p
     return !blocked;
 }
 
-// Whether walkable floor goes on in a direction for the length of the room, with height for the agent above it.
+// Whether walkable floor continues in a direction for that distance, with free height for the agent above it.
 static bool floor_goes_on(const tl_audit_job *job, const floor_job *floors, tl_vec3 point, int direction)
 {
     const tl_nav_config *config = &job->scene.config;
@@ -130,7 +129,7 @@ static bool floor_goes_on(const tl_audit_job *job, const floor_job *floors, tl_v
     return true;
 }
 
-// The rim of what was built counts as a ledge.
+// The rim of what was baked counts as a ledge.
 static bool is_within_bounds(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
 {
     const tl_aabb box = job->scene.config.bounds;

@@ -20,15 +20,15 @@ enum { PATHS_PER_SHARE = 32 };
 // floats, and points between them once more.
 #define ON_POLYGON_CELLS 0.001f
 
-typedef struct path_searcher {
+typedef struct audit_searcher {
     tl_nav_query *query;
     tl_nav_corner *corners;
     tl_nav_ref *polygons;
     uint32_t corner_capacity, polygon_capacity;
-} path_searcher;
+} audit_searcher;
 
 typedef struct path_job {
-    path_searcher *path_searchers; ///< one a worker
+    audit_searcher *path_searchers; ///< one a worker
     const tl_allocator *allocator;
 } path_job;
 
@@ -129,7 +129,7 @@ static uint32_t behind_link(const tl_nav_ref *polygons, uint32_t count, uint32_t
     return at + 1 < count ? at + 1 : at;
 }
 
-static bool walk_to_corner(tl_audit_walker *walker, const path_searcher *s, uint32_t polygon_count, tl_vec3 from,
+static bool walk_to_corner(tl_audit_walker *walker, const audit_searcher *s, uint32_t polygon_count, tl_vec3 from,
                            tl_vec3 to, uint32_t *at)
 {
     const tl_audit_scene *scene = walker->scene;
@@ -147,7 +147,7 @@ static bool walk_to_corner(tl_audit_walker *walker, const path_searcher *s, uint
 }
 
 // Off-mesh links leave the surface, so they are not walked: the walk begins anew behind each.
-static bool walk_path(tl_audit_walker *walker, const path_searcher *s, const tl_nav_shortest_path *path)
+static bool walk_path(tl_audit_walker *walker, const audit_searcher *s, const tl_nav_shortest_path *path)
 {
     uint32_t at = 0;
     tl_audit_walk_begin(walker);
@@ -162,7 +162,7 @@ static bool walk_path(tl_audit_walker *walker, const path_searcher *s, const tl_
     return true;
 }
 
-static tl_result find_path(const tl_audit_job *job, const path_job *paths, path_searcher *s,
+static tl_result find_path(const tl_audit_job *job, const path_job *paths, audit_searcher *s,
                            const tl_nav_location *start, const tl_nav_location *goal, tl_nav_shortest_path *path)
 {
     tl_result result = TL_INCOMPLETE;
@@ -189,7 +189,7 @@ static tl_result find_path(const tl_audit_job *job, const path_job *paths, path_
 static void walk_paths(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user)
 {
     const path_job *paths = user;
-    path_searcher *s = &paths->path_searchers[worker];
+    audit_searcher *s = &paths->path_searchers[worker];
     tl_audit_walker walker = { &job->scene, &share->records, 0, false, { 0.0f, 0.0f, 0.0f } };
     const uint32_t begin = index * PATHS_PER_SHARE, left = job->def->path_count - begin;
     const uint32_t end = begin + (left < PATHS_PER_SHARE ? left : PATHS_PER_SHARE);
@@ -207,7 +207,7 @@ static void walk_paths(tl_audit_job *job, uint32_t index, uint32_t worker, tl_au
     share->sweeps = walker.sweeps;
 }
 
-static tl_result create_path_searcher(const tl_audit_job *job, const path_job *paths, path_searcher *s)
+static tl_result create_path_searcher(const tl_audit_job *job, const path_job *paths, audit_searcher *s)
 {
     enum { FIRST_CORNERS = 256 };
     tl_nav_query_def def = tl_default_nav_query_def();
@@ -221,7 +221,7 @@ static tl_result create_path_searcher(const tl_audit_job *job, const path_job *p
     return s->corners != NULL && s->polygons != NULL ? TL_OK : TL_ERR_MEMORY;
 }
 
-static void free_path_searcher(const path_job *paths, path_searcher *s)
+static void free_path_searcher(const path_job *paths, audit_searcher *s)
 {
     tl_nav_query_destroy(s->query);
     tl_release_array(paths->allocator, s->corners, s->corner_capacity, sizeof *s->corners);

@@ -219,7 +219,7 @@ static bool record_no_floor(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3
     return tl_audit_records_add(walker->records, &record) == TL_OK;
 }
 
-static bool record_step(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 nearest, uint32_t triangle)
+static bool record_high_step(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 nearest, uint32_t triangle)
 {
     tl_audit_record record = record_at(walker, TL_NAV_FINDING_STEP, polygon, nearest);
     record.triangle = triangle;
@@ -264,7 +264,7 @@ static bool choose_floor(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 su
         stopped = true;
     }
     bool done = stopped ? record_blocked(walker, polygon, nearest, &first)
-                        : record_step(walker, polygon, nearest, floors[0].triangle);
+                        : record_high_step(walker, polygon, nearest, floors[0].triangle);
     walker->feet = nearest;
     walker->standing = true;
     return done;

@@ -25,13 +25,13 @@ typedef struct tl_audit_walker {
     tl_vec3 feet; ///< where the probe stands, when it does
 } tl_audit_walker;
 
-/// Begins a walk anew: the next point is gone to without a sweep.
+/// Begins a new walk: the first point is taken without a sweep.
 void tl_audit_walk_begin(tl_audit_walker *walker);
 
-/// To a point of a polygon, at most a stride away. False: out of memory.
+/// Walks to a point of a polygon, at most a stride away. False: out of memory.
 bool tl_audit_walk_to(tl_audit_walker *walker, tl_nav_ref polygon, float x, float z);
 
-/// Along a straight line within one polygon, both ends included.
+/// Walks a straight line within one polygon, both ends included. False: out of memory.
 bool tl_audit_walk_line(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 from, tl_vec3 to);
 
 #endif

@@ -103,7 +103,7 @@ static int compare_keys(cube_key a, cube_key b)
 
 static const int32_t NOT_MOVED[3] = { 0, 0, 0 };
 
-// The order of the records by their coarse cubes; stable. items: room for 2 * count.
+// The order of the records by their coarse cubes; stable. `items` holds 2 * count.
 static void sort_by_cube(const tl_audit_records *list, uint32_t reach, tl_sort_item *items)
 {
     for (int word = 0; word < 2; word++) {

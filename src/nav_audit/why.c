@@ -17,7 +17,7 @@
 #include <math.h>
 #include <string.h>
 
-// A normal from differences, products and a root in float; the build rounds it otherwise.
+// A normal from differences, products and a root in float; the bake rounds it differently.
 #define NORMAL_ERROR TL_FLOAT_GAMMA(8)
 
 enum { SLOPE_STEPS = 40, ERROR_STEPS = 5 };
@@ -84,7 +84,7 @@ static tl_nav_def with_wider_bounds(const why_search *s, const tl_nav_def *def, 
     return wider;
 }
 
-// What the rim of the bounds takes away is not the radius' fault, nor a ledge's: with wider bounds it would stay.
+// What the rim of the bounds removes is not due to the radius or a ledge: with wider bounds it would stay.
 static tl_result blame_bounds(why_search *s, const tl_nav_def *def, tl_why_finding *finding)
 {
     const bool by_rim = finding->cause == TL_NAV_CAUSE_RADIUS || finding->cause == TL_NAV_CAUSE_LEDGE;
@@ -100,7 +100,7 @@ static tl_result blame_bounds(why_search *s, const tl_nav_def *def, tl_why_findi
 
 // ---- The setting to blame, cause by cause ------------------------------------------------------------------
 
-// The least slope, in degrees, of which a triangle with this normal is less steep; 90 when there is none.
+// The smallest slope limit, in degrees, with which a triangle of this normal is walkable; 90 when there is none.
 static float slope_for(float normal_y, float from, float *measured_out)
 {
     normal_y -= normal_y * NORMAL_ERROR;
@@ -187,8 +187,7 @@ static void blame_island(const tl_why_finding *finding, tl_nav_def *def, tl_nav_
     }
 }
 
-// Halves the error until the point is on the navmesh, then goes back as far as it stays there. A smaller radius is what
-// is left when no error helps.
+// Bisects for the largest error with which the point is on the navmesh. When no error helps, a smaller radius is tried.
 static tl_result blame_outline(why_search *s, tl_nav_def *def, tl_nav_reason *reason)
 {
     tl_nav_def tried = *def;
@@ -290,7 +289,7 @@ static tl_result compare_islands(const why_search *s, const tl_navmesh *navmesh,
     return TL_OK;
 }
 
-// One cause after the other, each removed before the next is looked for.
+// One cause after another: each is removed before the next is searched.
 static tl_result collect_reasons(why_search *s)
 {
     tl_nav_why_answer *answer = s->answer;

@@ -31,7 +31,7 @@ typedef struct tl_why_finding {
     uint32_t island;       ///< ISLAND: its columns
 } tl_why_finding;
 
-/// Runs the stages on the columns around the point, then builds its tile. Errors: those of tl_nav_tile_bake.
+/// Runs the stages on the columns around the point, then bakes its tile. Errors: those of tl_nav_tile_bake.
 tl_result tl_why_find(const tl_why_question *question, const tl_nav_def *def, tl_why_finding *finding_out,
                       tl_report *report);
 

@@ -35,7 +35,7 @@ static bool is_open_at(const ledge_walk *walk, uint32_t edge, tl_vec3 a, tl_vec3
     return false;
 }
 
-static void sample_edge(ledge_walk *walk, tl_nav_ref polygon, uint32_t edge, tl_vec3 a, tl_vec3 b)
+static void sample_ledge(ledge_walk *walk, tl_nav_ref polygon, uint32_t edge, tl_vec3 a, tl_vec3 b)
 {
     float x = b.x - a.x;
     float z = b.z - a.z;
@@ -77,7 +77,7 @@ static void sample_polygon_edges(ledge_walk *walk, const tl_nav_tile *tile, uint
     for (uint32_t k = 0; k < count; k++) {
         bool may_be_border = links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) != 0;
         if (may_be_border) {
-            sample_edge(walk, ref, k, corners[k], corners[k + 1 < count ? k + 1 : 0]);
+            sample_ledge(walk, ref, k, corners[k], corners[k + 1 < count ? k + 1 : 0]);
         }
     }
 }

@@ -166,8 +166,8 @@ static tl_result prove_and_select(link_search *s, const tl_nav_tile *tile, tl_na
     return write_links(s, tile, kept, links_out);
 }
 
-static tl_result find_links(link_search *s, const tl_nav_tile *tile, tl_nav_links **links_out,
-                            tl_nav_links_report *report)
+static tl_result find_jump_links(link_search *s, const tl_nav_tile *tile, tl_nav_links **links_out,
+                                 tl_nav_links_report *report)
 {
     const tl_nav_links_def *def = s->landing.def;
     uint64_t edges = 0;
@@ -225,5 +225,5 @@ tl_result tl_nav_links_find(const tl_nav_links_def *def, const tl_navmesh *navme
     link_search s;
     memset(&s, 0, sizeof s);
     prepare_landing(&s, def, navmesh, soup, tile);
-    return find_links(&s, tile, links_out, report);
+    return find_jump_links(&s, tile, links_out, report);
 }

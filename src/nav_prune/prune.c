@@ -7,6 +7,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/min_max.h"
 #include "nav_prune/solids.h"
 
 #include <talus/nav_prune.h>
@@ -89,7 +90,7 @@ static tl_result measure_islands(prune_job *job)
     for (uint32_t t = 0; t < job->tiles->tile_count; t++) {
         for (uint32_t p = 0; p < job->tiles->tiles[t]->polygon_count; p++) {
             const uint32_t number = island_number(job, t, p);
-            greatest = number > greatest ? number : greatest;
+            greatest = tl_max_u32(greatest, number);
         }
     }
     job->islands = tl_allocate_array(job->def->host.allocator, (uint64_t)greatest + 1, sizeof *job->islands);
@@ -216,13 +217,13 @@ static tl_result rebake_tiles(prune_job *job, tl_report *report)
 {
     const tl_allocator *allocator = job->def->host.allocator;
     const uint32_t count = job->tiles->tile_count;
-    uint32_t most = 0;
+    uint32_t max_polygons = 0;
     for (uint32_t t = 0; t < count; t++) {
-        most = job->tiles->tiles[t]->polygon_count > most ? job->tiles->tiles[t]->polygon_count : most;
+        max_polygons = tl_max_u32(max_polygons, job->tiles->tiles[t]->polygon_count);
     }
     job->rebaked = tl_allocate_array(allocator, count, sizeof(*job->rebaked));
     job->gone = tl_allocate_array(allocator, count, sizeof *job->gone);
-    uint8_t *keep = tl_allocate_array(allocator, most, sizeof *keep);
+    uint8_t *keep = tl_allocate_array(allocator, max_polygons, sizeof *keep);
     tl_result result = job->rebaked != NULL && job->gone != NULL && keep != NULL ? TL_OK : TL_ERR_MEMORY;
     if (job->rebaked != NULL) {
         memset(job->rebaked, 0, count * sizeof(*job->rebaked));
@@ -230,7 +231,7 @@ static tl_result rebake_tiles(prune_job *job, tl_report *report)
     for (uint32_t t = 0; result == TL_OK && t < count; t++) {
         result = rebake_tile(job, t, keep, report);
     }
-    tl_release_array(allocator, keep, most, sizeof *keep);
+    tl_release_array(allocator, keep, max_polygons, sizeof *keep);
     return result;
 }
 

@@ -13,7 +13,7 @@ typedef struct tl_solids {
     tl_closed_parts parts;
     tl_soup *soup;     ///< of the closed parts' triangles; NULL: there is none
     uint32_t *part_of; ///< [triangles of the soup]
-    uint32_t *indices; ///< what the soup was built from
+    uint32_t *indices; ///< what the soup was baked from
     uint32_t index_count;
     uint32_t outward_count; ///< parts that face outwards
     int32_t *winding;       ///< [parts.part_count] zero between calls

@@ -55,7 +55,7 @@ static tl_vec3 on_ground_plane(tl_vec3 point)
     return tl_vec3_make(point.x, 0.0f, point.z);
 }
 
-static tl_result check_volume(const tl_nav_volume *volume)
+static tl_result check_packed_volume(const tl_nav_volume *volume)
 {
     const tl_pack_volume packed = encode_volume(volume, 0);
     if ((unsigned)volume->kind > TL_NAV_VOLUME_CYLINDER || (packed.point_count > 0 && volume->points == NULL)) {
@@ -73,7 +73,7 @@ static tl_result count_points(const tl_nav_volume *volumes, uint32_t count, uint
 {
     *point_count_out = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const tl_result result = check_volume(&volumes[i]);
+        const tl_result result = check_packed_volume(&volumes[i]);
         if (result != TL_OK) {
             return tl_report_fail(report, result, "volume", i, "give a kind, an area and finite coordinates");
         }

@@ -27,7 +27,7 @@ uint64_t tl_pack_size(const tl_pack_item *items, uint32_t count)
     return size;
 }
 
-static uint64_t chunk_name(const tl_pack_item *item)
+static uint64_t chunk_key(const tl_pack_item *item)
 {
     return (uint64_t)item->type << 32 | item->id;
 }
@@ -43,7 +43,7 @@ static tl_result check_chunk_names(const tl_pack_item *items, uint32_t count, tl
         if (items[i].type == 0 || items[i].size > SIZE_MAX) {
             return tl_report_fail(report, TL_ERR_ARGUMENT, "chunk", i, "a type has four characters");
         }
-        tl_sort_item name = { chunk_name(&items[i]), i, 0 };
+        tl_sort_item name = { chunk_key(&items[i]), i, 0 };
         names[i] = name;
     }
     tl_radix_sort(names, scratch, count);

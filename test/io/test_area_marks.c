@@ -80,7 +80,7 @@ static void names_the_line_that_is_wrong(void **state)
     }
     tl_area_marks none = { 0 };
     tl_io_error error;
-    TEST_RESULT(tl_area_marks_read(&none, "no/such/file", &error), TL_NOT_FOUND);
+    TEST_RESULT(tl_area_marks_read(&none, "no/such/file", &error), TL_ERR_IO);
 }
 
 static void patterns_match_as_they_say(void **state)

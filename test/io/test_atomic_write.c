@@ -200,15 +200,15 @@ static void test_refusals(void **state)
     char path[128];
     check_refused(folder, TL_ERR_IO, EISDIR);
     in_folder("missing/file", path);
-    check_refused(path, TL_NOT_FOUND, ENOENT);
+    check_refused(path, TL_ERR_IO, ENOENT);
     in_folder("new/", path);
     check_refused(path, TL_ERR_IO, EISDIR);
-    check_refused("", TL_NOT_FOUND, ENOENT);
+    check_refused("", TL_ERR_IO, ENOENT);
     in_folder("file", path);
     TEST_RESULT(tl_atomic_write(path, "x", 1, NULL), TL_OK);
     char below[160];
     snprintf(below, sizeof below, "%s/below", path);
-    check_refused(below, TL_NOT_FOUND, ENOTDIR);
+    check_refused(below, TL_ERR_IO, ENOTDIR);
     // Root may write everywhere, so it becomes somebody else for a moment.
     uid_t user = geteuid();
     chmod(path, 0444);

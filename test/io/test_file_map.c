@@ -151,16 +151,16 @@ static void test_refusals(void **state)
     tl_io_error error;
     char path[128];
     in_folder("missing.obj", path);
-    TEST_RESULT(tl_file_map_open(path, 0, &map, &error), TL_NOT_FOUND);
-    TEST_CHECK(error.result == TL_NOT_FOUND && strcmp(error.path, path) == 0 && map.bytes == NULL);
+    TEST_RESULT(tl_file_map_open(path, 0, &map, &error), TL_ERR_IO);
+    TEST_CHECK(error.result == TL_ERR_IO && strcmp(error.path, path) == 0 && map.bytes == NULL);
     TEST_CHECK(strstr(error.message, strerror(ENOENT)) != NULL && error.advice != NULL);
     TEST_RESULT(tl_file_map_open(folder, 0, &map, &error), TL_ERR_IO);
     TEST_CHECK(strstr(error.message, strerror(EISDIR)) != NULL);
-    TEST_RESULT(tl_file_map_open("", 0, &map, NULL), TL_NOT_FOUND);
+    TEST_RESULT(tl_file_map_open("", 0, &map, NULL), TL_ERR_IO);
     in_folder("file", path);
     write_file(path, "x", 1);
     strcat(path, "/below");
-    TEST_RESULT(tl_file_map_open(path, 0, &map, &error), TL_NOT_FOUND);
+    TEST_RESULT(tl_file_map_open(path, 0, &map, &error), TL_ERR_IO);
     in_folder("file", path);
     // Root may read everything, so it becomes somebody else for a moment.
     uid_t user = geteuid();

@@ -301,8 +301,8 @@ static void test_bad_files(void **state)
     }
     tl_imported_mesh mesh;
     tl_io_error error;
-    TEST_RESULT(tl_import_mesh("/missing/level.obj", NULL, &mesh, &error), TL_NOT_FOUND);
-    TEST_RESULT(tl_import_mesh("/missing/level.gltf", NULL, &mesh, &error), TL_NOT_FOUND);
+    TEST_RESULT(tl_import_mesh("/missing/level.obj", NULL, &mesh, &error), TL_ERR_IO);
+    TEST_RESULT(tl_import_mesh("/missing/level.gltf", NULL, &mesh, &error), TL_ERR_IO);
     TEST_RESULT(tl_import_mesh(folder, NULL, &mesh, &error), TL_ERR_IO);
     TEST_CHECK(strcmp(error.path, folder) == 0);
 }

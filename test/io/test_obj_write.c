@@ -143,7 +143,7 @@ static void test_failures(void **state)
     tl_obj_writer_abort(NULL);
     TEST_CHECK(access(path, F_OK) != 0);
 
-    TEST_RESULT(tl_obj_writer_open("/missing/a.obj", &writer, &error), TL_NOT_FOUND);
+    TEST_RESULT(tl_obj_writer_open("/missing/a.obj", &writer, &error), TL_ERR_IO);
     TEST_CHECK(writer == NULL);
     if (access("/dev/full", W_OK) == 0) {
         TEST_RESULT(tl_obj_writer_open("/dev/full", &writer, &error), TL_OK);

@@ -192,7 +192,7 @@ static void test_files(void **state)
                NULL, 1, 3, last);
     tl_point_clouds clouds;
     tl_io_error error;
-    TEST_RESULT(tl_point_clouds_read("/missing/points.txt", NULL, &clouds, &error), TL_NOT_FOUND);
+    TEST_RESULT(tl_point_clouds_read("/missing/points.txt", NULL, &clouds, &error), TL_ERR_IO);
     options.unit_scale = -1.0f;
     TEST_RESULT(tl_point_clouds_parse("1 2 3", 5, "x", &options, &clouds, &error), TL_ERR_ARGUMENT);
 }
