@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The tree of boxes over a tile's polygons: median split on the axis where the centres spread most.
+// The BVH over a tile's polygons: median split on the axis along which the centres extend most.
 //
 // Nodes stand depth-first with the index behind each subtree, so a range query is one loop without a stack, and an
 // ordered query still finds both children. The median bounds the depth by log2 of the polygons, so that queries can
-// hold their stack in an array; a cost-driven split was left out, because floors are flat and alike in size.
+// hold their stack in an array; the surface-area heuristic was rejected, because floors are flat and alike in size.
 
 #include "nav_format/box_tree.h"
 

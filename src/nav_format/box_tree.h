@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The tree of boxes over a tile's polygons.
+// The BVH over a tile's polygons.
 
 #ifndef TALUS_SRC_NAV_FORMAT_BOX_TREE_H
 #define TALUS_SRC_NAV_FORMAT_BOX_TREE_H

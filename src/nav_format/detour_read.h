@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Between reading a set and reading a tile.
+// What reading a set and reading a tile share.
 
 #ifndef TALUS_SRC_NAV_FORMAT_DETOUR_READ_H
 #define TALUS_SRC_NAV_FORMAT_DETOUR_READ_H

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A tile of Detour's to a tile of talus. Corners go back to the lattice that Recast had them on, where convexity and
-// seams are decided exactly; so what Detour's floats only seemed to be right in is found here: polygons without area or
-// not convex, and links that lead one way.
+// From Detour's tile to ours. Corners are rounded to the lattice that Recast had them on, where convexity and seams are
+// exact. So faults that Detour's floats hide are found: polygons without area or not convex, and one-way links.
 //
 // The bytes may come from anywhere: counts are checked against the size before anything is read, and every index
 // before it is used.

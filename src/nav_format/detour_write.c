@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A tile in Detour's form. The two are near relatives, so nothing is computed anew: shared vertices, polygons and
-// links are copied, and the box tree, which is depth first with skips in both, goes node by node.
+// From our tile to Detour's. The formats are alike, so nothing is computed: shared vertices, polygons and links are
+// copied, and the BVH, which is depth first with skips in both, is copied node by node.
 //
 // Source: the public description of the data in DetourNavMesh.h.
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Exact questions about polygons on the lattice.
+// Exact predicates of polygons on the lattice.
 
 #include "nav_format/lattice_polygon.h"
 

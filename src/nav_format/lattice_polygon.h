@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Exact questions about polygons on the lattice. Coordinates are within +-TL_MAX_CONTOUR_COORDINATE (2^29), so a
+// Exact predicates of polygons on the lattice. Coordinates are within +-TL_MAX_CONTOUR_COORDINATE (2^29), so a
 // difference is within 2^30, a product within 2^60, and all sums here fit 64 bits.
 
 #ifndef TALUS_SRC_NAV_FORMAT_LATTICE_POLYGON_H

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a tile may be baked from: every property that queries rest on is checked here, in integers, before a byte is
-// written, so that a fault of a caller's own polygons is named where it lies and never becomes a wrong path.
+// The check of a tile's source: every property that queries rely on, in integers, before a byte is written. So a fault
+// in a caller's polygons is named, and never becomes a wrong path.
 
 #include "nav_format/source_check.h"
 

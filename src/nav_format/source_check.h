@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a tile may be baked from.
+// The check of a tile's source.
 
 #ifndef TALUS_SRC_NAV_FORMAT_SOURCE_CHECK_H
 #define TALUS_SRC_NAV_FORMAT_SOURCE_CHECK_H

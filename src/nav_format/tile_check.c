@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Whether bytes from anywhere are a whole tile. Offsets are not followed but computed anew from the counts and
-// compared; then every index that a query will use is bounded, and every derived value is derived again. Nothing is
+// Whether bytes are a valid tile. Offsets are not followed: they are computed from the counts and compared. Then every
+// index that a query will use is checked, and every derived value is computed again. Nothing is
 // allocated, so that a mapped file can be checked in place.
 
 #include "base/assert.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Baking a tile: polygons and detail become one immutable block that queries read in place.
+// Encoding a tile: polygons and detail are laid out as one immutable block that queries read in place.
 
 #include "base/assert.h"
 #include "base/host.h"

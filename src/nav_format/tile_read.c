@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Readings of a tile that are not one array access.
+// Reads of a tile that are more than one array access.
 
 #include "nav_format/lattice_polygon.h"
 

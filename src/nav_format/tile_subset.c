@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A tile of some of a tile's polygons: its arrays, read back as what it was baked from, with the others left out.
+// A tile of some of another tile's polygons: its arrays are read back as a source, without the others, and encoded.
 
 #include "nav_format/tile_subset.h"
 

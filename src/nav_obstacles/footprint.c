@@ -2,9 +2,9 @@
 //
 // Marking floors under an obstacle.
 //
-// A body's footprint is the sum of its outline and a disc of the agent's radius: the places where the agent's own disc
-// would touch it. The distance from a column's centre to the outline decides, so corners are round as the agent is, and
-// nothing is grown twice. An area marks what lies inside its outline, as volumes of a bake do.
+// A body's footprint is the Minkowski sum of its outline and a disc of the agent's radius: the places where the agent's
+// own disc would touch it. The distance from a column's centre to the outline decides, so corners are round as the
+// agent is, and nothing is grown twice. An area marks what lies inside its outline, as volumes of a bake do.
 
 #include "nav_obstacles/footprint.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// An obstacle as the floors see it: a shape in the plane, grown by the agent's radius, and a stretch of heights.
+// The floors that an obstacle marks: a shape in the plane, grown by the agent's radius, and a range of heights.
 
 #ifndef TALUS_SRC_NAV_OBSTACLES_FOOTPRINT_H
 #define TALUS_SRC_NAV_OBSTACLES_FOOTPRINT_H

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The floors of every tile, the obstacles that stand on them, and the tiles that wait to be made again.
+// The compact heightfield of every tile, the obstacles on them, and the tiles that wait to be rebaked.
 //
 // Source of the idea: DetourTileCache (Mikko Mononen), which keeps compressed layers of heights and cuts obstacles out
 // of those. Here the whole compact field is kept: floors over one another need no layers, a tile is the same as a bake

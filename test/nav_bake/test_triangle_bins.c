@@ -55,7 +55,7 @@ static void every_overlap_is_listed(void **state)
                              test_random_below(&random, 12) };
         tl_triangle_list all = { NULL, TRIANGLES };
         tl_triangle_bins bins;
-        TEST_RESULT(tl_triangle_bins_build(&mesh, all, &map, &grid, NULL, &bins), TL_OK);
+        TEST_RESULT(tl_triangle_bins_init(&mesh, all, &map, &grid, NULL, &bins), TL_OK);
         for (uint32_t z = 0; z < grid.count_z; z++) {
             for (uint32_t x = 0; x < grid.count_x; x++) {
                 tl_triangle_list list = tl_triangle_bins_get(&bins, (uint64_t)z * grid.count_x + x);
@@ -96,7 +96,7 @@ static void failing_memory_is_reported(void **state)
         test_allocator memory;
         test_allocator_init(&memory, k);
         tl_triangle_bins bins;
-        TEST_RESULT(tl_triangle_bins_build(&mesh, all, &map, &grid, &memory.allocator, &bins),
+        TEST_RESULT(tl_triangle_bins_init(&mesh, all, &map, &grid, &memory.allocator, &bins),
                     k <= 2 ? TL_ERR_MEMORY : TL_OK);
         tl_triangle_bins_free(&bins);
         TEST_CHECK(memory.live_blocks == 0);

@@ -39,7 +39,7 @@ static void answers_as_the_plain_loop_while_points_go(void **state)
         tl_arena arena;
         tl_arena_init(&arena, NULL);
         tl_reflex_tree tree;
-        TEST_CHECK(tl_reflex_tree_build(&tree, &arena, points, alive, POINTS));
+        TEST_CHECK(tl_reflex_tree_init(&tree, &arena, points, alive, POINTS));
         uint32_t hits = 0, misses = 0, left = 0;
         for (uint32_t q = 0; q < QUERIES; q++) {
             tl_lattice_point a = random_point(&random, sides[s]);
@@ -85,7 +85,7 @@ static void an_empty_tree_has_no_points(void **state)
     tl_arena arena;
     tl_arena_init(&arena, NULL);
     tl_reflex_tree tree;
-    TEST_CHECK(tl_reflex_tree_build(&tree, &arena, points, none, 3));
+    TEST_CHECK(tl_reflex_tree_init(&tree, &arena, points, none, 3));
     tl_lattice_point a = { -9, -9 }, b = { -9, 90 }, c = { 90, -9 };
     TEST_CHECK(tl_turn(a, b, c) > 0);
     TEST_CHECK(!tl_reflex_tree_any_in_triangle(&tree, a, b, c));

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// Contour repair: simplified outlines that collapsed, turned over or cross get traced vertices back.
+// Contour repair: simplified outlines that collapse, change their winding or cross get traced vertices back.
 //
 // An edge between two regions is made straight however far it bends, and walls may move by max_error on both of their
 // sides; so simplified outlines can cross themselves or one another, and thin floors and thin walls can vanish. Of two
-// edges that conflict the one that strayed farther gets its farthest traced vertex back, on both of its sides; then all
-// regions concerned are looked at again. Traced outlines have no conflict, so this ends at them at the latest.
+// edges that conflict the one with the larger error gets its farthest traced vertex back, on both of its sides; then
+// all regions concerned are checked again. Traced outlines have no conflict, so this ends with them at the latest.
 //
 // A hole that an edge has left behind on its wrong side is a conflict too.
 // Conflicts are found exactly, by a sweep along x over the edges of one region. Allowed are edges that share an end,

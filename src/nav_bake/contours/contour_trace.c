@@ -18,7 +18,7 @@
 #include <string.h>
 
 enum {
-    LEAST_RUN = 8, // of floors that are worth a loop of their own
+    MIN_RUN = 8, // of floors that are worth a loop of their own
     LONGEST_RUN = 64
 };
 
@@ -120,7 +120,7 @@ static void mark_outlines(tracer *t)
     for (uint32_t i = 0, alike; i < count; i += alike) {
         const uint32_t most = count - i < LONGEST_RUN ? count - i : LONGEST_RUN;
         alike = compact->step != NULL ? tl_nav_steps_alike(compact, i, most) : 1;
-        if (alike >= LEAST_RUN) {
+        if (alike >= MIN_RUN) {
             outlines_of_run(compact, i, alike, outline + i);
         } else {
             for (uint32_t k = i; k < i + alike; k++) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the compact heightfield is made by.
+// Making the compact heightfield.
 
 #ifndef TALUS_SRC_NAV_BAKE_COMPACT_H
 #define TALUS_SRC_NAV_BAKE_COMPACT_H

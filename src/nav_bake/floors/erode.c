@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The walkable area is taken back from walls and ledges by the agent's radius.
+// Erosion: floors nearer to a wall or ledge than the agent's radius are not walkable. A chamfer distance transform.
 // Source: Mikko Mononen, Recast (rcErodeWalkableArea); Gunilla Borgefors, Distance transformations in digital images,
 // 1986: two sweeps, a straight step counts 2, a diagonal 3.
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which floor lies beside which: columns are linked in pairs, each with the next one on x and on z.
+// Links between the floors of neighbouring columns: each column with the next one on x and on z.
 
 #include "nav_bake/floors/compact.h"
 

@@ -47,7 +47,7 @@ typedef struct tl_gap_layer {
     biased_floor highest[BLOCK];
     uint8_t area[STRIDE]; ///< of the floor, after the filters so far
     bool has_floors;      ///< any area is not 0
-    biased_floor least_floor, greatest_top;
+    biased_floor min_floor, greatest_top;
 } layer;
 
 typedef struct tl_gap_block {
@@ -215,15 +215,15 @@ static void copy_column(const tl_open_row *row, const block *from, uint32_t from
 static void finish_layer(const floor_sweep *s, layer *l)
 {
     const biased_floor room = (biased_floor)s->room, climb = (biased_floor)s->climb; // both are below 2^15
-    const biased_floor least_ceiling = (biased_floor)(LOWEST + room), least_step = (biased_floor)(LOWEST + climb);
+    const biased_floor min_ceiling = (biased_floor)(LOWEST + room), min_step = (biased_floor)(LOWEST + climb);
     const biased_floor *restrict floors = l->floor, *restrict ceilings = l->ceiling;
     biased_floor *restrict tops = l->top, *restrict downs = l->down;
     for (uint32_t i = 0; i < STRIDE; i++) {
-        const biased_floor ceiling = ceilings[i] > least_ceiling ? ceilings[i] : least_ceiling;
+        const biased_floor ceiling = ceilings[i] > min_ceiling ? ceilings[i] : min_ceiling;
         tops[i] = ceilings[i] == HIGHEST ? HIGHEST : (biased_floor)(ceiling - room);
     }
     for (uint32_t i = 0; i < STRIDE; i++) {
-        const biased_floor floor = floors[i] > least_step ? floors[i] : least_step;
+        const biased_floor floor = floors[i] > min_step ? floors[i] : min_step;
         downs[i] = (biased_floor)(floor - climb);
     }
     biased_floor least = HIGHEST, greatest = LOWEST;
@@ -235,7 +235,7 @@ static void finish_layer(const floor_sweep *s, layer *l)
     for (uint32_t i = 0; i < STRIDE; i++) {
         any |= l->area[i];
     }
-    l->least_floor = least;
+    l->min_floor = least;
     l->greatest_top = greatest;
     l->has_floors = any != TL_NAV_NULL_AREA;
 }
@@ -325,7 +325,7 @@ static void look_at_block(layer *own, const tl_open_row *row, const block *besid
 {
     for (uint32_t k = 0; k < beside->layer_count; k++) {
         const layer *l = &row->layers[beside->first_layer + k];
-        if (l->greatest_top >= own->least_floor && own->greatest_top >= l->least_floor) {
+        if (l->greatest_top >= own->min_floor && own->greatest_top >= l->min_floor) {
             look_at_layer(own, l, shift);
         }
     }

@@ -28,7 +28,7 @@ static bool volume_is_finite(const tl_nav_volume *volume)
     return false;
 }
 
-static tl_result check_volume(const tl_nav_volume *volume, uint32_t index, tl_report *report)
+static tl_result check_area_volume(const tl_nav_volume *volume, uint32_t index, tl_report *report)
 {
     if ((unsigned)volume->kind > (unsigned)TL_NAV_VOLUME_CYLINDER) {
         return tl_report_fail(report, TL_ERR_ARGUMENT, "volume", index, "use a tl_nav_volume_kind");
@@ -47,7 +47,7 @@ tl_result tl_nav_input_check(const tl_nav_input *input, tl_aabb *bounds_out, tl_
     tl_report_begin(report, "check");
     TL_TRY(tl_level_mesh_check(&input->mesh, bounds_out, report));
     for (uint32_t i = 0; i < input->volume_count; i++) {
-        TL_TRY(check_volume(&input->volumes[i], i, report));
+        TL_TRY(check_area_volume(&input->volumes[i], i, report));
     }
     return TL_OK;
 }

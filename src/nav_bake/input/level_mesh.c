@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The caller's triangles: trusted after one check, and walkable by slope.
+// The caller's triangles: one check before all stages, and which of them are walkable by their slope.
 
 #include "nav_bake/input/level_mesh.h"
 

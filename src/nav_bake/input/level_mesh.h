@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What the pipeline needs to know of the caller's triangles before it works on them.
+// The check of the caller's triangles, and the walkable slope.
 
 #ifndef TALUS_SRC_NAV_BAKE_LEVEL_MESH_H
 #define TALUS_SRC_NAV_BAKE_LEVEL_MESH_H

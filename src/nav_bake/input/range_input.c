@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a few tiles of a large level have to look at. The stages that follow check, sort and voxelize; done for all
-// triangles of a city that takes longer than the tiles themselves, so the window sorts out most of them first.
+// The triangles that a few tiles of a large level need. To check and sort all triangles of a city takes longer than to
+// bake the tiles, so most of them are rejected first, by their bounds.
 
 #include "nav_bake/input/range_input.h"
 

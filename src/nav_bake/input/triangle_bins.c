@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Triangles by bin: counted, then filled. The one place where a tile or band learns what it has to look at, so that a
-// level of many tiles is read twice and not once a tile.
+// Triangles sorted into bins (tiles, or bands of rows) by counting, so that the level is read twice in all and not once
+// for each bin.
 
 #include "nav_bake/input/triangle_bins.h"
 
@@ -98,8 +98,8 @@ static void fill_bins(const tl_mesh_view *mesh, tl_triangle_list list, const tl_
     bins->first[0] = 0;
 }
 
-tl_result tl_triangle_bins_build(const tl_mesh_view *mesh, tl_triangle_list list, const tl_lattice_map *map,
-                                 const tl_bin_grid *grid, const tl_allocator *allocator, tl_triangle_bins *bins_out)
+tl_result tl_triangle_bins_init(const tl_mesh_view *mesh, tl_triangle_list list, const tl_lattice_map *map,
+                                const tl_bin_grid *grid, const tl_allocator *allocator, tl_triangle_bins *bins_out)
 {
     tl_triangle_bins *bins = bins_out;
     memset(bins, 0, sizeof *bins);

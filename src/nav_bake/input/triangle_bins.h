@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Which triangles lie in which part of a lattice: the bands of a field, the tiles of a level.
+// The triangles of each part of a lattice: of the bands of rows of a heightfield, of the tiles of a level.
 
 #ifndef TALUS_SRC_NAV_BAKE_TRIANGLE_BINS_H
 #define TALUS_SRC_NAV_BAKE_TRIANGLE_BINS_H
@@ -34,8 +34,8 @@ typedef struct tl_triangle_bins {
 } tl_triangle_bins;
 
 /// Puts each triangle into every bin that its box overlaps. TL_ERR_LIMIT when that makes 2^32 entries or more.
-tl_result tl_triangle_bins_build(const tl_mesh_view *mesh, tl_triangle_list list, const tl_lattice_map *map,
-                                 const tl_bin_grid *grid, const tl_allocator *allocator, tl_triangle_bins *bins_out);
+tl_result tl_triangle_bins_init(const tl_mesh_view *mesh, tl_triangle_list list, const tl_lattice_map *map,
+                                const tl_bin_grid *grid, const tl_allocator *allocator, tl_triangle_bins *bins_out);
 void tl_triangle_bins_free(tl_triangle_bins *bins);
 
 static inline tl_triangle_list tl_triangle_bins_get(const tl_triangle_bins *bins, uint64_t bin)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The distance field of floors of which few have changed their area.
+// Incremental distance field: few floors have changed their area, and only what that reaches is computed again.
 //
-// Each step of the field makes a floor's value from its own and its neighbours', in an order that is fixed. So what a
-// change reaches is found step by step: the floors whose input has changed wait in a set of bits, which is gone through
-// in the step's own order, and a floor whose value comes out otherwise puts those that read it into the set. Those come
-// later in the order. The values are the same as those of a whole field, on floors of any shape, since each is made by
-// the same function from the same values.
+// Each pass of the field computes a floor's value from its own and its neighbours', in a fixed order. The floors whose
+// input has changed wait in a bit set, which is visited in the pass's own order; a floor whose value changes adds those
+// that read it, which come later in the order. Each value is computed by the same function from the same values as in a
+// whole field, so the result is the same, bit for bit.
 //
 // Rejected: raising and lowering distances from the changed borders outward (dynamic Euclidean distance fields: Lau,
 // Sprunk, Burgard, 2013). It needs distances that are the nearest over all paths; two sweeps give them where floors lie

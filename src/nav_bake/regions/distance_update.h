@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The distance field of floors of which few have changed their area.
+// Incremental distance field, where few floors have changed their area.
 
 #ifndef TALUS_SRC_NAV_BAKE_DISTANCE_UPDATE_H
 #define TALUS_SRC_NAV_BAKE_DISTANCE_UPDATE_H

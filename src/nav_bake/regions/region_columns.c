@@ -2,9 +2,8 @@
 //
 // Columns with several floors, by region: a counting sort.
 //
-// Which regions lie over one another changes seldom from column to column: under a roof all columns hold the same two
-// regions. So a column that repeats the regions of the one before it is left out, and what is left are the columns at
-// the regions' rims.
+// Neighbouring columns mostly hold the same regions: under a roof all hold the same two. A column with the regions of
+// the one before it tells nothing new and is left out, so that those at the regions' borders are left.
 //
 // Rejected: a set of overlapping regions for each region, as Recast keeps. It has a pair for each two floors of a
 // column, and has to be merged and renamed with the regions; a list of columns stays true under any renaming.

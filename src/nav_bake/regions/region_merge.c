@@ -2,16 +2,16 @@
 //
 // Small-region filter and merge.
 //
-// Filter: regions that touch are one island; an island of too few columns goes, unless it reaches the tile's border,
-// behind which it may be large. Merge: a region that is small, or touches no wall, joins its smallest neighbour of the
-// same area, if the two share one unbroken stretch of outline and nowhere lie over one another.
-// Source: Mononen, Recast (rules and order).
+// Filter: regions that touch are one island (connected component, by disjoint sets); an island of too few columns is
+// removed, unless it reaches the tile's border, beyond which it may be large. Merge: a region that is small, or touches
+// no wall, joins its smallest neighbour of the same area, if the two share one unbroken part of their outlines and do
+// not overlap in the plane. Source: Mononen, Recast (rules and order).
 //
 // Differences from Recast: touching is mutual here (there a patch inside another region is not seen from outside, and
 // is dropped as an island or kept, depending on its number); a region that lies in a hole of another and meets it in
 // one stretch is merged into it, so that fewer holes are left; islands are the unit of the layers' filter too.
 //
-// Why it is fast here: rings are linked lists and are spliced, names are resolved by union-find, so a merge does not
+// Why it is fast here: rings are linked lists and are spliced, ids are resolved by disjoint sets, so a merge does not
 // visit all regions; and overlap is looked up in the columns that have several floors, none in a level of one storey.
 
 #include "nav_bake/regions/region_columns.h"

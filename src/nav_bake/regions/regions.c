@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Regions: the floors divided into connected patches of one area that do not lie over themselves.
+// Regions: the floors divided into connected patches of one area that do not overlap themselves in the plane.
 //
-// The driver: paints the tile's border, calls the partition, filters and merges. The result is put into the compact
-// heightfield only when all of it has succeeded.
+// The driver: gives the tile's border regions of its own, calls the partition, filters and merges. The compact
+// heightfield gets the result only when all of it has succeeded.
 
 #include "nav_bake/regions/regions.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Layers partition: monotone regions are grown together, breadth first, as long as none lies over another.
+// Layers partition: monotone regions are joined, breadth first, as long as they do not overlap in the plane.
 //
-// The result has few, large regions, possibly with holes; each is a sheet that one can see whole from above.
+// The result has few, large regions, possibly with holes.
 // Source: Mononen, Recast (heightfield layers).
 //
 // Why it is fast here: what a layer lies over is stamped on the regions, and asked in one load; neighbours are

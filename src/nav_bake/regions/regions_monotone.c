@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Monotone partition: each row's floors are cut into runs, and a run continues the region of the row before when it
-// touches no other there, and that one no other run first. One pass over the floors, two labels a run.
+// Monotone partition: each row's floors are cut into runs. A run continues a region of the row before where the two
+// touch each other alone; else it begins a new one. One pass over the floors, two labels a run.
 //
 // A region then has at most one run a row, so it has no hole and does not lie over itself.
 // Source: Mononen, Recast, after the monotone partition of polygons.

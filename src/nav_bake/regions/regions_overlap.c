@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// No region lies over itself: one that does is cut apart.
+// Regions that overlap themselves in the plane are divided.
 //
 // On a spiral stair or a ramp that winds under a bridge a watershed region can meet its own column again, one storey
 // up. Its outline then crosses itself and cannot be triangulated. Recast reports this and goes on; here such a region

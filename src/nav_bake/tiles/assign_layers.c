@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Which layer of its place a polygon belongs to.
+// The layer of each polygon of a place.
 //
-// The unit is a region: a connected piece of floor that does not lie over itself, so most often a storey or less. It
-// goes where most of its area is, so that a storey stays whole with the flight of stairs, or the hill, that its region
-// takes along. Rejected: each polygon by its own height, which cuts every slope along every border between layers; the
-// region's lowest corner, which puts a storey that takes the stairs from below along into the layer below; columns of
-// voxels, which cut polygons.
+// Regions are assigned as wholes: each is connected and does not overlap itself, so most often a storey or less. Its
+// layer is the one that holds most of its area, so that a storey stays whole, together with the stairs of its region.
+// Rejected: each polygon by its own height, which cuts every slope along every border between layers; the region's
+// lowest corner, which puts a storey that takes the stairs from below along into the layer below; columns of voxels,
+// which cut polygons.
 
 #include "base/arena.h"
 #include "base/assert.h"

@@ -85,7 +85,7 @@ static tl_result run_tile(const level_job *job, uint64_t tile, tl_triangle_list 
     return result;
 }
 
-static tl_result build_one_tile(uint32_t tile, uint32_t worker_index, void *user)
+static tl_result bake_one_tile(uint32_t tile, uint32_t worker_index, void *user)
 {
     level_job *job = user;
     level_worker *worker = &job->workers[worker_index];
@@ -110,7 +110,7 @@ static tl_result run_tiles(level_job *job, tl_report *report)
 {
     tl_report_begin(report, "tiles");
     tl_result result =
-        tl_run_batches(&job->host, "tiles", build_one_tile, (uint32_t)tile_count_of(job), TILES_PER_WORKER, job);
+        tl_run_batches(&job->host, "tiles", bake_one_tile, (uint32_t)tile_count_of(job), TILES_PER_WORKER, job);
     const level_worker *first = &job->workers[0];
     for (uint32_t w = 1; w < job->worker_count; w++) {
         first = job->workers[w].failed_tile < first->failed_tile ? &job->workers[w] : first;
@@ -132,13 +132,13 @@ static tl_result sort_triangles(level_job *job, tl_report *report)
     tl_lattice_map map = tl_lattice_map_make(&lattice, config.cell_size, config.cell_height);
     tl_bin_grid grid = { job->range.count_x, job->range.count_z, size, size, config.border_size };
     tl_triangle_list all = { NULL, job->input->mesh.triangle_count };
-    tl_result result = tl_triangle_bins_build(&job->input->mesh, all, &map, &grid, job->host.allocator, &job->bins);
+    tl_result result = tl_triangle_bins_init(&job->input->mesh, all, &map, &grid, job->host.allocator, &job->bins);
     return result == TL_ERR_LIMIT
                ? tl_report_field(report, result, "tile_size", "raise tile_size: too many tiles a triangle")
                : result;
 }
 
-static tl_result build_tiles(level_job *job, tl_nav_bake_report *report)
+static tl_result bake_level_tiles(level_job *job, tl_nav_bake_report *report)
 {
     if (job->def->tile_size == 0) {
         tl_triangle_list all = { NULL, job->input->mesh.triangle_count };
@@ -191,7 +191,7 @@ static tl_result bake_tile_range(level_job *job, const tl_nav_tile_range *range,
     TL_TRY(tl_nav_input_check(job->input, &job->bounds, &report->base));
     TL_TRY(take_range(job, range, &report->base));
     TL_TRY(allocate_stacks(job));
-    return tile_count_of(job) > 0 ? build_tiles(job, report) : TL_OK;
+    return tile_count_of(job) > 0 ? bake_level_tiles(job, report) : TL_OK;
 }
 
 static void begin_job(level_job *job, const tl_nav_def *def, const tl_nav_input *input, tl_memory_meter *meter)
@@ -278,7 +278,7 @@ static tl_result range_window(const tl_nav_def *def, const tl_nav_tile_range *ra
 }
 
 // A few tiles of a level whose bounds are given: only the triangles that can reach them are looked at.
-static tl_result build_part(level_job *job, const tl_nav_tile_range *range, tl_nav_bake_report *report)
+static tl_result bake_part(level_job *job, const tl_nav_tile_range *range, tl_nav_bake_report *report)
 {
     const tl_nav_input *whole = job->input;
     tl_aabb window;
@@ -333,7 +333,7 @@ tl_result tl_nav_bake_range(const tl_nav_def *def, const tl_nav_input *input, tl
     begin_job(&job, def, input, &meter);
     job.sink = sink;
     const bool part = !tl_aabb_is_empty(def->bounds) && def->tile_size > 0 && range.count_x > 0 && range.count_z > 0;
-    tl_result result = part ? build_part(&job, &range, &report) : bake_tile_range(&job, &range, &report);
+    tl_result result = part ? bake_part(&job, &range, &report) : bake_tile_range(&job, &range, &report);
     if (result == TL_OK) {
         hand_over_stacks(&job, block_out);
     }

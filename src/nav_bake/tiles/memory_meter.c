@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Counts bytes on their way to the host's allocator. The only atomics of the build: tiles are built in parallel, and
+// Counts bytes on their way to the host's allocator. The only atomics of a bake: tiles are baked in parallel, and
 // their memory is one sum.
 
 #include "nav_bake/tiles/memory_meter.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Which tiles a change can touch, and baking those again.
+// Which tiles a change can touch, and rebaking them.
 //
-// A tile looks at its own columns and at a border of its neighbours'; nothing else reaches it. So the tiles that a box
-// can change are those whose columns with border meet it, and all others keep their bytes.
+// A tile depends on its own columns and on a border of its neighbours' only. So a change inside a box can touch the
+// tiles whose columns, border included, meet it; all others keep their bytes.
 
 #include "base/assert.h"
 #include "base/host.h"

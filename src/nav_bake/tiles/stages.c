@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The end of a tile's intermediate data.
+// Freeing a tile's intermediate data.
 
 #include <talus/nav_bake.h>
 

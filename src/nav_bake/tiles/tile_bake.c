@@ -53,7 +53,7 @@ static tl_result keep_heightfield(tile_job *job)
 }
 
 // Straight from the triangles, a band at a time, unless the heightfield is kept.
-static tl_result build_floors(tile_job *job)
+static tl_result bake_floors(tile_job *job)
 {
     const tl_nav_config *config = job->config;
     const tl_nav_input *input = job->input;
@@ -88,7 +88,7 @@ static tl_result mark_areas(tile_job *job)
     return tl_progress_update(&job->host, "areas", input->volume_count, input->volume_count);
 }
 
-static tl_result build_regions(tile_job *job)
+static tl_result bake_regions(tile_job *job)
 {
     tl_nav_compact *compact = &job->stages->compact;
     if (job->config->partition == TL_NAV_WATERSHED && !job->has_distance) {
@@ -103,7 +103,7 @@ static tl_result build_regions(tile_job *job)
     return TL_OK;
 }
 
-static tl_result build_contours(tile_job *job)
+static tl_result bake_contours(tile_job *job)
 {
     tl_nav_contours *contours = &job->stages->contours;
     TL_TRY(tl_nav_bake_contours(job->config, &job->stages->compact, &job->host, contours, &job->report->base));
@@ -113,7 +113,7 @@ static tl_result build_contours(tile_job *job)
     return TL_OK;
 }
 
-static tl_result build_polygons(tile_job *job)
+static tl_result bake_polygon_mesh(tile_job *job)
 {
     tl_polygon_def def = tl_default_polygon_def();
     def.max_verts_per_poly = job->config->max_verts_per_poly;
@@ -132,7 +132,7 @@ static tl_result build_polygons(tile_job *job)
     return TL_OK;
 }
 
-static tl_result build_detail(tile_job *job)
+static tl_result bake_detail(tile_job *job)
 {
     tl_nav_detail *detail = &job->stages->detail;
     TL_TRY(tl_nav_bake_detail(job->config, &job->stages->compact, &job->stages->polygons, &job->host, detail,
@@ -224,16 +224,16 @@ static tl_result bake_tile(tile_job *job)
 
 static tl_result finish_tile(tile_job *job)
 {
-    TL_TRY(build_regions(job));
-    TL_TRY(build_contours(job));
-    TL_TRY(build_polygons(job));
-    TL_TRY(build_detail(job));
+    TL_TRY(bake_regions(job));
+    TL_TRY(bake_contours(job));
+    TL_TRY(bake_polygon_mesh(job));
+    TL_TRY(bake_detail(job));
     return job->stages->polygons.polygon_count > 0 ? bake_tile(job) : TL_OK;
 }
 
-static tl_result build_tile(tile_job *job)
+static tl_result bake_from_triangles(tile_job *job)
 {
-    TL_TRY(build_floors(job));
+    TL_TRY(bake_floors(job));
     TL_TRY(erode_floors(job));
     TL_TRY(mark_areas(job));
     return finish_tile(job);
@@ -264,7 +264,7 @@ tl_result tl_nav_tile_run(const tl_nav_config *config, const tl_nav_input *input
     job.keep = job.keep_distance = stages != NULL;
     job.stages = stages != NULL ? stages : &scratch;
     job.report = report;
-    const tl_result result = build_tile(&job);
+    const tl_result result = bake_from_triangles(&job);
     tl_nav_stages_free(&scratch);
     return hand_over(&job, result, stack_out);
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// A tile that is made again and again, with few of its floors marked otherwise each time.
+// Rebaking a tile often, each time with few floors of another area.
 //
-// What is kept is made once, for the floors without marks; what a marked floor changes in it is found and done anew. So
-// nothing depends on what was there before, and the tile has the bytes of one that is made at once.
+// The memo keeps the distance field of the floors' base areas, and a rebake updates a copy of it where areas differ. So
+// nothing depends on earlier rebakes, and the tile has the bytes of one that is baked at once.
 
 #include "nav_bake/tiles/tile_bake.h"
 
@@ -42,9 +42,9 @@ static tl_result make_memo(const tl_nav_config *config, const tl_nav_compact *co
     return TL_OK;
 }
 
-static tl_result remake(const tl_nav_config *config, tl_nav_compact *compact, const uint8_t *base_area,
-                        const tl_nav_tile_memo *memo, const tl_host *host, tl_nav_tile_stack *stack_out,
-                        tl_nav_bake_report *report_out)
+static tl_result rebake_with_memo(const tl_nav_config *config, tl_nav_compact *compact, const uint8_t *base_area,
+                                  const tl_nav_tile_memo *memo, const tl_host *host, tl_nav_tile_stack *stack_out,
+                                  tl_nav_bake_report *report_out)
 {
     const bool watershed = config->partition == TL_NAV_WATERSHED;
     if (watershed) {
@@ -75,7 +75,7 @@ tl_result tl_nav_tile_rebake(const tl_nav_config *config, tl_nav_compact *compac
     if (first_time) {
         TL_TRY(make_memo(config, compact, base_area, &allocator, memo));
     }
-    const tl_result result = remake(config, compact, base_area, *memo, host, stack_out, report_out);
+    const tl_result result = rebake_with_memo(config, compact, base_area, *memo, host, stack_out, report_out);
     if (result != TL_OK && first_time) {
         tl_nav_tile_memo_free(*memo);
         *memo = NULL;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Floors beside a drop, or where the neighbours' floors make too steep a stair, are not walkable.
+// Floors beside a drop, or among neighbours that differ in height by more than a step, are not walkable.
 // Source: Mikko Mononen, Recast (rcFilterLedgeSpans).
 //
 // The rule reads only heights, never areas, so the spans may be judged in any order.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The end of a heightfield.
+// Freeing a heightfield.
 
 #include "base/arena.h"
 

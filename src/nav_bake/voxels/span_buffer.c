@@ -27,7 +27,7 @@ _Static_assert(sizeof(tl_nav_span) == sizeof(tl_span_item), "spans are written o
 enum {
     MIN_CHUNK = 64, // items; else one a column of the band, so that little is taken and not used
     // Items are held without being reduced up to here: in real levels so many triangles a column are seldom redundant.
-    MOST_ITEMS_PER_COLUMN = 16,
+    MAX_ITEMS_PER_COLUMN = 16,
     INSERTION_SORT_MAX = 24,
     SORTED_MAX = 10, // items of a column that are sorted rather than drawn
     DRAWN_VOXELS = 4096,
@@ -99,7 +99,7 @@ tl_result tl_span_buffer_begin(tl_span_buffer *buffer, uint32_t column_count)
     TL_ASSERT(column_count > 0 && column_count <= TL_SPAN_ITEM_MAX_COLUMNS);
     empty(buffer);
     buffer->column_count = column_count;
-    buffer->most_items = (uint64_t)column_count * MOST_ITEMS_PER_COLUMN;
+    buffer->max_items = (uint64_t)column_count * MAX_ITEMS_PER_COLUMN;
     if (buffer->end_capacity < column_count) {
         tl_release_array(buffer->allocator, buffer->column_ends, buffer->end_capacity, sizeof *buffer->column_ends);
         buffer->end_capacity = 0;
@@ -285,13 +285,13 @@ static tl_result reduce_column(tl_span_buffer *buffer)
 
 tl_result tl_span_buffer_make_room(tl_span_buffer *buffer, uint32_t count)
 {
-    if (buffer->full_count + buffer->count + count > buffer->most_items) {
+    if (buffer->full_count + buffer->count + count > buffer->max_items) {
         TL_TRY(reduce_column(buffer));
-        while (2 * (buffer->full_count + buffer->count) + count > buffer->most_items) {
-            buffer->most_items *= 2;
+        while (2 * (buffer->full_count + buffer->count) + count > buffer->max_items) {
+            buffer->max_items *= 2;
         }
         // Positions inside a band are 32 bits wide.
-        if (buffer->most_items > UINT32_MAX) {
+        if (buffer->max_items > UINT32_MAX) {
             return TL_ERR_LIMIT;
         }
     }

@@ -47,7 +47,7 @@ typedef struct tl_span_buffer {
     tl_span_chunk *used;      ///< the chunk at hand, and the full ones
     tl_span_chunk *spare;
     uint64_t full_count;  ///< items in the full chunks
-    uint64_t most_items;  ///< that are held without being reduced
+    uint64_t max_items;   ///< that are held without being reduced
     tl_span_item *sorted; ///< [sorted_capacity] made when it is first needed
     uint64_t sorted_capacity;
     uint32_t *column_ends; ///< [end_capacity] items of each column; where they end, once sorted

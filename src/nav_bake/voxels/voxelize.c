@@ -2,11 +2,11 @@
 //
 // Conservative voxelization of a triangle by walking its edges.
 //
-// The classic way clips a polygon to each row and then to each cell. Here each row is entered with the two points where
-// the triangle's outline crosses the row's line; the slice of the triangle between two lines has at most five edges,
-// and the heights that it takes over a cell are those of its outline over that cell. So each edge is walked once along
-// its row, widening the low and high of the cells it passes: no clipping, no copies of polygons, and a loop without
-// branches.
+// Recast clips a polygon to each row and then to each cell (Sutherland, Hodgman). Here each row is entered with the two
+// points where the triangle's outline crosses the row's line; the slice of the triangle between two lines has at most
+// five edges, and the heights that it takes over a cell are those of its outline over that cell. So each edge is walked
+// once along its row, widening the low and high of the cells it passes: no clipping, no copies of polygons, and a loop
+// without branches.
 //
 // A column is covered when the triangle's projection overlaps the open cell; a triangle that projects to a line, when
 // the line runs through the cell, where a line along a border belongs to the higher cell. The heights are those of the

@@ -334,7 +334,7 @@ static bool is_in_mesh(edge_sums *e, const tl_contour_vertex *vertex)
     return *tl_key_table_at(&e->places, tl_pair_key((uint32_t)p.x, (uint32_t)p.z)) != TL_NO_VALUE;
 }
 
-static bool may_be_gone(const tl_contour_vertex *vertex)
+static bool may_be_removed(const tl_contour_vertex *vertex)
 {
     return (vertex->flags & TL_CONTOUR_BORDER_VERTEX) != 0;
 }
@@ -347,7 +347,7 @@ static uint32_t surely_kept(edge_sums *e, uint32_t polygon_edges, const tl_conto
     for (uint32_t k = 0; k < count; k++) {
         if (is_in_mesh(e, &vertices[k])) {
             last = k;
-            if (!may_be_gone(&vertices[k])) {
+            if (!may_be_removed(&vertices[k])) {
                 return k;
             }
         }
@@ -378,7 +378,7 @@ static void add_contour_backward(edge_sums *e, const tl_contour_vertex *vertices
     for (uint32_t i = 1; i < count; i++) {
         const tl_contour_vertex *vertex = &vertices[(start + i) % count];
         tl_lattice_point p = point_of(vertex);
-        if (is_in_mesh(e, vertex) && (!may_be_gone(vertex) || has_edge(e, polygon_edges, last, p))) {
+        if (is_in_mesh(e, vertex) && (!may_be_removed(vertex) || has_edge(e, polygon_edges, last, p))) {
             add_cover_edge(e, last, p, -1);
             last = p;
         }

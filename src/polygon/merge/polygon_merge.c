@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Merging into convex polygons: always the two with the longest shared edge, while the result stays convex.
+// Merging into convex polygons: always the two with the longest shared edge, while the result stays convex (Hertel,
+// Mehlhorn 1983, with an order).
 // Source: "Convex Polygon Generation", Critterai Navigation Mesh Generation documentation, section Merge into Convex
 // Polygons.
 //

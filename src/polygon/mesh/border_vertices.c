@@ -250,10 +250,10 @@ tl_result tl_remove_border_vertices(tl_polygon_store *store, tl_arena *scratch, 
     }
     for (uint32_t v = 0; v < store->vertex_count; v++) {
         if (store->is_border[v]) {
-            bool is_gone;
-            TL_TRY(remove_vertex(&r, v, &is_gone));
-            *gone += is_gone;
-            *kept += !is_gone;
+            bool is_removed;
+            TL_TRY(remove_vertex(&r, v, &is_removed));
+            *gone += is_removed;
+            *kept += !is_removed;
         }
     }
     return tl_polygon_store_compact(store, scratch);

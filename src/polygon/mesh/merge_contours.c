@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A region whose outline came in several contours is divided contour by contour, and polygons that meet at the seam are
-// left apart. Here all polygons of one region and area go through the merging once more: as fans, whose inner edges go
-// first, so that each is what it was when the seams' turn comes.
+// left apart. Here all polygons of one region and area are merged once more: as fans, whose inner edges are removed
+// first, so that each is whole again before the seams are tried.
 
 #include "polygon/mesh/merge_contours.h"
 

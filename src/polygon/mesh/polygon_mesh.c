@@ -268,7 +268,7 @@ static tl_result write_mesh(polygon_mesh_builder *b, tl_polygon_mesh *mesh)
     return TL_OK;
 }
 
-static uint32_t most_vertices(const tl_contour_set *contours)
+static uint32_t largest_contour(const tl_contour_set *contours)
 {
     uint32_t most = 0;
     for (uint32_t i = 0; i < contours->contour_count; i++) {
@@ -282,7 +282,7 @@ static tl_result build_mesh(polygon_mesh_builder *b, tl_polygon_mesh *mesh_out)
     uint32_t vertex_count = 0;
     TL_TRY(check_polygon_arguments(b->contours, b->def, &vertex_count, &b->report.base));
     // A first block that stays, large enough for most contours: none of them should cost an allocation.
-    if (!tl_arena_reserve(&b->scratch, SCRATCH_BYTES_A_VERTEX * (uint64_t)most_vertices(b->contours))) {
+    if (!tl_arena_reserve(&b->scratch, SCRATCH_BYTES_A_VERTEX * (uint64_t)largest_contour(b->contours))) {
         return TL_ERR_MEMORY;
     }
     TL_TRY(tl_polygon_store_init(&b->store, &b->arena, b->def, vertex_count));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Is a contour plain, that is, does it touch itself nowhere? Then it can be triangulated as it is.
-// All others (bridges to holes among them) go the general way: vertices at one place become one node, edges are split
-// where they meet, and the faces that the contour winds around are traced.
+// A plain contour, which touches itself nowhere, is triangulated as it is. All others (those with bridges to holes too)
+// are prepared: vertices at one place become one node, edges are split where they meet, and the faces that the contour
+// winds around are traced.
 
 #include "polygon/outline/outline.h"
 
@@ -13,7 +13,7 @@
 #include <string.h>
 
 // Beyond this a sweep is faster than testing all pairs of edges.
-enum { MOST_PAIRED_VERTICES = 128 };
+enum { MAX_PAIRED_VERTICES = 128 };
 
 static int64_t signed_area2(const tl_lattice_point *points, uint32_t count)
 {
@@ -93,7 +93,7 @@ static tl_result is_plain_by_sweep(tl_arena *scratch, const tl_lattice_point *po
 
 static tl_result is_plain_outline(tl_arena *scratch, const tl_lattice_point *points, uint32_t count, bool *plain_out)
 {
-    if (count > MOST_PAIRED_VERTICES) {
+    if (count > MAX_PAIRED_VERTICES) {
         return is_plain_by_sweep(scratch, points, count, plain_out);
     }
     *plain_out = is_plain_by_pairs(points, count);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Which faces does a closed walk wind around? The edges meet only in nodes, so they form a plane graph, and a connected
-// one, since one walk runs along all of them: each face has one outline.
+// The faces that a closed walk winds around. Its edges meet only in nodes, so they form a plane graph, which is
+// connected since one walk runs along all of them: each face has one outline.
 //
 // Around each node the edges are sorted by direction; from each edge the next one of the face on its left is the one
 // that turns most sharply left. The winding number is 0 outside and changes across an edge by how many times more often

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Steps are given by indices of points, which mean something in one outline only; those who watch get coordinates.
+// Steps come as indices of points, which are local to one outline; the callback gets coordinates.
 
 #include "polygon/outline/trace_steps.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Hands the steps of dividing a contour to whoever wants to see them.
+// Reports the steps of dividing a contour to the caller's callback.
 
 #ifndef TALUS_SRC_POLYGON_TRACE_STEPS_H
 #define TALUS_SRC_POLYGON_TRACE_STEPS_H

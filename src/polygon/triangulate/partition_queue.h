@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Partitions by rising length: those of the outline as it came, sorted once, and a heap of those that cuts made. Half
-// of all are there at first, and to walk along a sorted list misses no cache, as sinking through a large heap does.
+// A priority queue of partitions by length: a sorted list of the outline's own and a heap of those that cuts add. Half
+// of all are known at first, and a sorted list is read in order, while sifting through a large heap misses the cache.
 
 #ifndef TALUS_SRC_POLYGON_PARTITION_QUEUE_H
 #define TALUS_SRC_POLYGON_PARTITION_QUEUE_H

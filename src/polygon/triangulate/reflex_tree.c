@@ -16,7 +16,7 @@
 // Small outlines, nearly all there are, become one leaf: a plain loop.
 enum { LEAF_POINTS = 12, MAX_DEPTH = 64 };
 
-static int32_t point_coordinate(const tl_reflex_point *point, bool along_x)
+static int32_t reflex_coordinate(const tl_reflex_point *point, bool along_x)
 {
     return along_x ? point->position.x : point->position.z;
 }
@@ -24,8 +24,8 @@ static int32_t point_coordinate(const tl_reflex_point *point, bool along_x)
 // A total order, so that equal coordinates split evenly too.
 static bool before(const tl_reflex_point *a, const tl_reflex_point *b, bool along_x)
 {
-    int32_t ka = point_coordinate(a, along_x);
-    int32_t kb = point_coordinate(b, along_x);
+    int32_t ka = reflex_coordinate(a, along_x);
+    int32_t kb = reflex_coordinate(b, along_x);
     return ka != kb ? ka < kb : a->number < b->number;
 }
 
@@ -101,8 +101,8 @@ static uint32_t build_node(tl_reflex_tree *tree, uint32_t parent, uint32_t first
     return index;
 }
 
-bool tl_reflex_tree_build(tl_reflex_tree *tree, tl_arena *arena, const tl_lattice_point *positions,
-                          const uint8_t *is_reflex, uint32_t count)
+bool tl_reflex_tree_init(tl_reflex_tree *tree, tl_arena *arena, const tl_lattice_point *positions,
+                         const uint8_t *is_reflex, uint32_t count)
 {
     uint32_t reflex_count = 0;
     for (uint32_t i = 0; i < count; i++) {

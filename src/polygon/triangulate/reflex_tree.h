@@ -30,8 +30,8 @@ typedef struct tl_reflex_tree {
 } tl_reflex_tree;
 
 /// Builds the tree over the positions with is_reflex[i] set. O(n log n). False: out of memory.
-bool tl_reflex_tree_build(tl_reflex_tree *tree, tl_arena *arena, const tl_lattice_point *positions,
-                          const uint8_t *is_reflex, uint32_t count);
+bool tl_reflex_tree_init(tl_reflex_tree *tree, tl_arena *arena, const tl_lattice_point *positions,
+                         const uint8_t *is_reflex, uint32_t count);
 
 /// Takes a point out. It must be in.
 void tl_reflex_tree_remove(tl_reflex_tree *tree, uint32_t point);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Triangulation: of all corners whose two neighbours can be joined inside the outline, cut off the one with the
-// shortest new edge (the partition edge), and go on with the rest.
-// Source: "Convex Polygon Generation", Critterai Navigation Mesh Generation documentation, section Triangulation.
-// The valid-partition test: O'Rourke, Computational Geometry in C, section 1.5.
+// Triangulation by ear clipping: of all ears, corners whose two neighbours can be joined inside the outline, cut off
+// the one with the shortest new edge (the partition edge), until none is left. Source: "Convex Polygon Generation",
+// Critterai Navigation Mesh Generation documentation, section Triangulation. The valid-partition test: O'Rourke,
+// Computational Geometry in C, section 1.5.
 //
 // The plain form tests every corner against every edge before each cut, O(n^3). Here each corner is tested once and
 // again only when a cut moves one of its neighbours, because validity does not change in between: what remains of the
@@ -127,7 +127,7 @@ static bool start_triangulation(triangulation *t, tl_arena *scratch, const tl_la
         t->vertices[i] = v;
         t->is_reflex[i] = tl_turn(points[v.previous], points[i], points[v.next]) <= 0;
     }
-    if (!tl_reflex_tree_build(&t->reflex, scratch, points, t->is_reflex, count)) {
+    if (!tl_reflex_tree_init(&t->reflex, scratch, points, t->is_reflex, count)) {
         return false;
     }
     tl_partition_queue *queue = &t->queue;
