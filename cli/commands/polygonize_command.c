@@ -331,8 +331,8 @@ const tl_command tl_polygonize_command = {
     "divide contours into convex polygons",
     "CONTOURS [-o MESH.txt] [--method NAME] [--max-verts N] [--check] [--compare]",
     "Reads contour sets (text, 'navcontours 1'), divides each contour into convex polygons, links neighbours,\n"
-    "and writes one mesh ('navpolys 1') for each set, in order. docs/guide/polygons.md describes both formats and\n"
-    "the method. Contours that touch or cross themselves are repaired and named.",
+    "and writes one mesh ('navpolys 1') for each set, in order. docs/guide/polygons.md describes both formats\n"
+    "and the method. Contours that touch or cross themselves are repaired and named.",
     "printf '%s\\n' 'navcontours 1' 'cs 0.3' 'ch 0.2' 'contours 1' 'c 0 1 63 6' '0 0 0 0' '0 0 8 0' '4 0 8 0' '4 0 4 "
     "0' '8 0 4 0' '8 0 0 0' end > contours.txt\n"
     "talus polygonize contours.txt -o mesh.txt --check\n"
