@@ -47,16 +47,21 @@ static inline void TL_HEAP(sift_up)(TL_HEAP_ITEM *heap, uint32_t at, TL_HEAP_ITE
     TL_HEAP_MOVED(context, item, at);
 }
 
-// Which of the children from `first` to before `end` comes first.
-static inline uint32_t TL_HEAP(first_child)(const TL_HEAP_ITEM *heap, uint32_t first, uint32_t end,
+// Which of the children from `first` on comes first; first < count.
+static inline uint32_t TL_HEAP(first_child)(const TL_HEAP_ITEM *heap, uint32_t first, uint32_t count,
                                             TL_HEAP_CONTEXT context)
 {
     (void)context;
-    if (TL_HEAP_ARITY == 4 && end - first == 4) { // two pairs, then their winners: no branch depends on the one before
+    if (TL_HEAP_ARITY == 2) {
+        return first + (first + 1 < count && TL_HEAP_BEFORE(context, heap[first + 1], heap[first]) ? 1u : 0u);
+    }
+    if (TL_HEAP_ARITY == 4 &&
+        count - first >= 4) { // two pairs, then their winners: no branch depends on the one before
         uint32_t low = first + (TL_HEAP_BEFORE(context, heap[first + 1], heap[first]) ? 1u : 0u);
         uint32_t high = first + 2 + (TL_HEAP_BEFORE(context, heap[first + 3], heap[first + 2]) ? 1u : 0u);
         return TL_HEAP_BEFORE(context, heap[high], heap[low]) ? high : low;
     }
+    uint32_t end = count - first < TL_HEAP_ARITY ? count : first + TL_HEAP_ARITY;
     uint32_t best = first;
     for (uint32_t child = first + 1; child < end; child++) {
         best = TL_HEAP_BEFORE(context, heap[child], heap[best]) ? child : best;
@@ -72,8 +77,7 @@ static inline void TL_HEAP(sift_down)(TL_HEAP_ITEM *heap, uint32_t count, uint32
         if (first >= count) {
             break;
         }
-        uint32_t end = count - first < TL_HEAP_ARITY ? count : first + TL_HEAP_ARITY;
-        uint32_t best = TL_HEAP(first_child)(heap, first, end, context);
+        uint32_t best = TL_HEAP(first_child)(heap, first, count, context);
         if (!TL_HEAP_BEFORE(context, heap[best], item)) {
             break;
         }

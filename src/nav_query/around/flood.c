@@ -5,6 +5,7 @@
 // Dijkstra, A Note on Two Problems in Connexion with Graphs, 1959.
 
 #include "nav_query/around/flood.h"
+#include "nav_query/navmesh/offmesh_anchor.h"
 
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/plan.h"

@@ -15,6 +15,7 @@
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 #include "nav_query/navmesh/surface.h"
+#include "nav_query/navmesh/ways.h"
 #include "nav_query/plane/side.h"
 
 #include <string.h>

@@ -6,6 +6,7 @@
 #define TALUS_SRC_NAV_QUERY_WEDGE_LINKS_INL
 
 #include "nav_query/exact/wedge_search.h"
+#include "nav_query/navmesh/offmesh_anchor.h"
 
 // How a wedge comes to a point of its polygon.
 typedef struct wedge_way {

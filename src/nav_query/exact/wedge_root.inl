@@ -55,6 +55,7 @@ static inline void add_holder(wedge_search *s, root_holders *holders, uint32_t s
 static inline void look_out(wedge_search *s, uint32_t index, root_holders *gathered)
 {
     const tl_nav_wedge wedge = s->query->wedges[index];
+    const wedge_origin root = { wedge.root_x, wedge.root_z, wedge.cost };
     step_from from = { index, wedge.slot, wedge.polygon, NULL, 0 };
     from.ring = tl_nav_ring_at(s->navmesh, from.slot, from.polygon, &from.count);
     for (uint32_t i = 0; i < from.count; i++) {
@@ -70,9 +71,9 @@ static inline void look_out(wedge_search *s, uint32_t index, root_holders *gathe
                 add_holder(s, gathered, to.slot, to.polygon, index);
             }
         } else if (gathered == NULL && !on_edge && v.edge_on) {
-            add_edge_on(s, &from, i, wedge.root_x, wedge.root_z, wedge.cost, &edge);
+            add_edge_on(s, &from, i, root, &edge);
         } else if (gathered == NULL && !on_edge && v.facing) {
-            add_wedge(s, &from, i, wedge.root_x, wedge.root_z, wedge.cost, &edge, edge.left, edge.right);
+            add_wedge(s, &from, i, root, &edge, edge.left, edge.right);
         }
     }
 }

@@ -24,10 +24,16 @@ static inline float total_of(const wedge_search *s, const tl_nav_wedge *wedge, c
     return (float)(wedge->cost + (rest < s->detour ? rest : s->detour));
 }
 
-// A wedge through edge i of the polygon. `root_*`, `cost`: its root. The first one of a step is kept as it is: where it
-// stays the only one the search goes on with it at once, and its total is not asked for.
-static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i, float root_x, float root_z,
-                             double cost, const seen_edge *edge, tl_nav_direction left, tl_nav_direction right)
+// Where a wedge's root lies, and metres from the start to it.
+typedef struct wedge_origin {
+    float x, z;
+    double cost;
+} wedge_origin;
+
+// Adds a wedge through edge i of the polygon. The first one of a step is kept as it is: where it stays the only one the
+// search goes on with it at once, and its total is not asked for.
+static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i, wedge_origin root,
+                             const seen_edge *edge, tl_nav_direction left, tl_nav_direction right)
 {
     tl_nav_ring_place twin = tl_nav_ring_twin(s->navmesh, from->slot, from->polygon, from->ring, from->count, i);
     if (!may_enter(s, twin.slot, twin.polygon)) {
@@ -40,9 +46,9 @@ static inline void add_wedge(wedge_search *s, const step_from *from, uint32_t i,
     tl_nav_wedge *wedge = &s->query->wedges[index];
     wedge->left = left;
     wedge->right = right;
-    wedge->cost = cost;
-    wedge->root_x = root_x;
-    wedge->root_z = root_z;
+    wedge->cost = root.cost;
+    wedge->root_x = root.x;
+    wedge->root_z = root.z;
     wedge->slot = twin.slot;
     wedge->polygon = twin.polygon;
     wedge->edge = twin.edge;
@@ -171,29 +177,28 @@ static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i,
     }
     cost += length_of(to_vertex);
     if (turn != 0 && tl_nav_root_rank_of(s->query, turn, cost) != TL_NAV_ROOT_WORSE) {
-        float x = from->ring[vertex].x;
-        float z = from->ring[vertex].z;
-        seen_edge edge = see_edge(from, i, x, z);
-        add_wedge(s, from, i, x, z, cost, &edge, open, open);
+        const wedge_origin root = { from->ring[vertex].x, from->ring[vertex].z, cost };
+        seen_edge edge = see_edge(from, i, root.x, root.z);
+        add_wedge(s, from, i, root, &edge, open, open);
     }
 }
 
 // Goes along edge i, which is seen edge-on from the root, to its vertices, and turns there into the polygon behind. A
 // root that is a vertex of the edge sees all of that polygon.
-static inline void add_edge_on(wedge_search *s, const step_from *from, uint32_t i, float root_x, float root_z,
-                               double cost, const seen_edge *edge)
+static inline void add_edge_on(wedge_search *s, const step_from *from, uint32_t i, wedge_origin root,
+                               const seen_edge *edge)
 {
     uint32_t next = i + 1 < from->count ? i + 1 : 0;
     if (is_open_direction(edge->left) || is_open_direction(edge->right)) {
         const tl_nav_direction open = { 0.0, 0.0 };
-        if (!may_turn_on(s, from, is_open_direction(edge->left) ? next : i, cost)) {
+        if (!may_turn_on(s, from, is_open_direction(edge->left) ? next : i, root.cost)) {
             return;
         }
-        add_wedge(s, from, i, root_x, root_z, cost, edge, open, open);
+        add_wedge(s, from, i, root, edge, open, open);
         return;
     }
-    turn_into(s, from, i, i, cost, edge->right);
-    turn_into(s, from, i, next, cost, edge->left);
+    turn_into(s, from, i, i, root.cost, edge->right);
+    turn_into(s, from, i, next, root.cost, edge->left);
 }
 
 // Whether a path that comes along `limit` to a vertex may turn there to one hand.
@@ -223,6 +228,7 @@ static inline void turn_at_limit(wedge_search *s, const step_from *from, const t
     float x = from->ring[vertex].x;
     float z = from->ring[vertex].z;
     double cost = wedge->cost + length_of(limit); // the limit leads to the vertex
+    const wedge_origin root = { x, z, cost };
     bool is_new = true;
     for (uint32_t k = begin; k < end; k++) {
         uint32_t i = wedge->edge + k < from->count ? wedge->edge + k : wedge->edge + k - from->count;
@@ -254,11 +260,11 @@ static inline void turn_at_limit(wedge_search *s, const step_from *from, const t
             // It may turn a second time at once, at the end of the edge: the first turn needs a wedge of its own.
             step_from turned = *from;
             turned.wedge = add_turn(s, from->wedge, x, z, cost);
-            add_edge_on(s, &turned, i, x, z, cost, &edge);
+            add_edge_on(s, &turned, i, root, &edge);
         } else if (hand > 0) {
-            add_wedge(s, from, i, x, z, cost, &edge, edge.left, right > 0.0 ? limit : edge.right);
+            add_wedge(s, from, i, root, &edge, edge.left, right > 0.0 ? limit : edge.right);
         } else {
-            add_wedge(s, from, i, x, z, cost, &edge, left < 0.0 ? limit : edge.left, edge.right);
+            add_wedge(s, from, i, root, &edge, left < 0.0 ? limit : edge.left, edge.right);
         }
     }
 }
@@ -268,6 +274,7 @@ static inline void turn_at_limit(wedge_search *s, const step_from *from, const t
 static inline void expand_wedge(wedge_search *s, uint32_t index)
 {
     const tl_nav_wedge wedge = s->query->wedges[index];
+    const wedge_origin root = { wedge.root_x, wedge.root_z, wedge.cost };
     const wedge_view view = make_view(&wedge);
     if (s->navmesh->slots[wedge.slot].anchor_count > 0) {
         cross_wedge_links(s, index);
@@ -299,11 +306,11 @@ static inline void expand_wedge(wedge_search *s, uint32_t index)
         seen_edge edge = { right.at, left.at };
         edge_view v = view_of(s, &edge);
         if (v.facing && right.right_of_left && left.left_of_right) {
-            add_wedge(s, &from, i, wedge.root_x, wedge.root_z, wedge.cost, &edge,
-                      left.left_of_left ? wedge.left : left.at, right.right_of_right ? wedge.right : right.at);
+            add_wedge(s, &from, i, root, &edge, left.left_of_left ? wedge.left : left.at,
+                      right.right_of_right ? wedge.right : right.at);
         }
         if (v.edge_on) {
-            add_edge_on(s, &from, i, wedge.root_x, wedge.root_z, wedge.cost, &edge);
+            add_edge_on(s, &from, i, root, &edge);
         }
     }
     // Looking in, the edge of entry starts at its left end.

@@ -9,6 +9,7 @@
 // Where a polygon is linked to two floors over the same stretch of a seam, the ways around its ends fork. All vertices
 // there count as places to turn at, walls or not.
 
+#include "nav_query/navmesh/fans.h"
 #include "nav_query/navmesh/nav_filter.h"
 #include "nav_query/navmesh/ring_step.h"
 

@@ -19,6 +19,7 @@
 
 #include "base/assert.h"
 #include "nav_query/navmesh/navmesh.h"
+#include "nav_query/navmesh/offmesh_anchor.h"
 
 typedef struct island_splitter {
     const tl_navmesh *navmesh;

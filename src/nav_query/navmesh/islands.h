@@ -73,6 +73,12 @@ void tl_nav_split_islands(tl_navmesh *navmesh);
 
 uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);
 
+struct tl_nav_offmesh_entry;
+/// Joins the islands of a link's two anchors.
+void tl_nav_join_anchors(tl_navmesh *navmesh, const struct tl_nav_offmesh_entry *entry);
+/// Whether a link's anchors are connected without any off-mesh link.
+bool tl_nav_is_same_component(const tl_navmesh *navmesh, const struct tl_nav_offmesh_entry *entry);
+
 /// Makes room for `count` new labels, by naming all roots anew where there is none.
 void tl_nav_reserve_labels(tl_nav_islands *islands, tl_nav_island_kind kind, uint32_t count);
 /// A label of its own; there is room.

@@ -6,6 +6,7 @@
 // Overlaps are exact: both tiles count lattice steps from one origin. Heights are compared along the baked profiles of
 // the surface, at every kink of either one, so that a hill on the seam neither hides a link nor fakes one.
 
+#include "nav_query/navmesh/tile_links.h"
 #include "base/arena.h"
 #include "nav_query/navmesh/navmesh.h"
 
@@ -88,10 +89,14 @@ static double height_tolerance(const tl_nav_tile *a, const tl_nav_tile *b)
     return (double)climb + (double)a->cell_height;
 }
 
-static seam make_seam(const tl_nav_tile *a, uint32_t slot_a, uint32_t side, const tl_nav_tile *b, uint32_t slot_b)
+static seam make_seam(const tl_nav_tile_side *a, const tl_nav_tile_side *b)
 {
-    seam s = { { a, b },       { slot_a, slot_b }, { side, tl_nav_facing_side(side) },
-               { NULL, NULL }, { 0, 0 },           height_tolerance(a, b) };
+    seam s = { { a->tile, b->tile },
+               { a->slot, b->slot },
+               { a->side, b->side },
+               { NULL, NULL },
+               { 0, 0 },
+               height_tolerance(a->tile, b->tile) };
     for (int i = 0; i < 2; i++) {
         const uint32_t first = tl_nav_tile_side_first(s.tiles[i], s.sides[i]);
         s.portals[i] = tl_nav_tile_portals(s.tiles[i]) + first;
@@ -255,10 +260,10 @@ static void restore_first(tl_nav_side_links *side)
     side->first[0] = 0;
 }
 
-tl_result tl_nav_link_sides(const tl_allocator *allocator, const tl_nav_tile *a, uint32_t slot_a, uint32_t side,
-                            const tl_nav_tile *b, uint32_t slot_b, tl_nav_side_links *a_out, tl_nav_side_links *b_out)
+tl_result tl_nav_link_sides(const tl_allocator *allocator, const tl_nav_tile_side *a, const tl_nav_tile_side *b,
+                            tl_nav_side_links *a_out, tl_nav_side_links *b_out)
 {
-    seam s = make_seam(a, slot_a, side, b, slot_b);
+    seam s = make_seam(a, b);
     tl_nav_side_links out[2];
     memset(out, 0, sizeof out);
     bool fits = true;

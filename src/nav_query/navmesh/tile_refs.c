@@ -3,6 +3,7 @@
 // What a reader asks of the table of tiles: slots, references into them, and where a polygon leads.
 
 #include "nav_query/navmesh/navmesh.h"
+#include "nav_query/navmesh/ways.h"
 
 uint32_t tl_navmesh_tile_count(const tl_navmesh *navmesh)
 {

@@ -11,7 +11,10 @@
 #include "base/hash.h"
 #include "base/host.h"
 #include "nav_query/navmesh/area_table.h"
+#include "nav_query/navmesh/fans.h"
 #include "nav_query/navmesh/navmesh.h"
+#include "nav_query/navmesh/offmesh_anchor.h"
+#include "nav_query/navmesh/tile_links.h"
 
 #include <string.h>
 
@@ -262,8 +265,9 @@ static tl_result make_link(const tl_navmesh *navmesh, const tl_nav_tile *tile, u
 {
     const tl_allocator *allocator = &navmesh->allocator;
     tl_nav_side_links own, facing, joined;
-    TL_TRY(
-        tl_nav_link_sides(allocator, tile, slot, side, navmesh->slots[facing_slot].tile, facing_slot, &own, &facing));
+    const tl_nav_tile_side near = { tile, slot, side };
+    const tl_nav_tile_side far = { navmesh->slots[facing_slot].tile, facing_slot, tl_nav_facing_side(side) };
+    TL_TRY(tl_nav_link_sides(allocator, &near, &far, &own, &facing));
     if (own.link_count == 0) {
         return TL_OK;
     }

@@ -114,14 +114,11 @@ static uint32_t join_cones(tl_nav_corner_cone *cones, uint32_t count)
     return kept;
 }
 
-// The half plane left of a direction from a corner vertex, for points no farther from it than `size`.
-static void write_plane(const tl_nav_corner_vertex *vertex, double x, double z, double size, double rounding,
-                        float *x_out, float *z_out, float *min_out)
+// Where the half plane left of a direction from a corner vertex begins, for points no farther from it than `size`.
+static float plane_min(const tl_nav_corner_vertex *vertex, double x, double z, double size, double rounding)
 {
     double at_vertex = x * (double)vertex->z - z * (double)vertex->x;
-    *x_out = (float)x;
-    *z_out = (float)z;
-    *min_out = (float)(at_vertex - 4.0 * rounding * (fabs(x) + fabs(z) + size));
+    return (float)(at_vertex - 4.0 * rounding * (fabs(x) + fabs(z) + size));
 }
 
 static void write_cone(const tl_navmesh *navmesh, const tl_nav_visibility_graph *graph, const tl_nav_corner_cone *cone,
@@ -140,10 +137,12 @@ static void write_cone(const tl_navmesh *navmesh, const tl_nav_visibility_graph 
         largest = fmax(largest, fmax(fabs(x), fabs(z)));
     }
     double rounding = fmax(graph->rounding, TL_NAV_ON_LINE * largest);
-    write_plane(vertex, (double)cone->left_x, (double)cone->left_z, size, rounding, &cones->left_x[at],
-                &cones->left_z[at], &cones->left_min[at]);
-    write_plane(vertex, -(double)cone->right_x, -(double)cone->right_z, size, rounding, &cones->right_x[at],
-                &cones->right_z[at], &cones->right_min[at]);
+    cones->left_x[at] = cone->left_x;
+    cones->left_z[at] = cone->left_z;
+    cones->left_min[at] = plane_min(vertex, (double)cone->left_x, (double)cone->left_z, size, rounding);
+    cones->right_x[at] = -cone->right_x;
+    cones->right_z[at] = -cone->right_z;
+    cones->right_min[at] = plane_min(vertex, -(double)cone->right_x, -(double)cone->right_z, size, rounding);
     cones->vertex[at] = cone->vertex;
 }
 

@@ -19,7 +19,7 @@ typedef struct tl_nav_wedge tl_nav_wedge;           // wedge.h
 typedef struct tl_nav_local_node tl_nav_local_node; // local_search.h
 typedef struct tl_nav_root tl_nav_root;             // root_table.h
 typedef struct tl_nav_stop tl_nav_stop;             // prepared/graph_search.h
-typedef struct tl_nav_corner_leg tl_nav_corner_leg; // prepared/corner_cones.h
+typedef struct tl_nav_corner_leg tl_nav_corner_leg; // prepared/path_ends.h
 typedef struct tl_nav_path_run tl_nav_path_run;     // path/path_run.h
 
 struct tl_nav_query {
@@ -31,7 +31,7 @@ struct tl_nav_query {
     uint32_t *buckets; ///< bucket_count is a power of two
     /// [max_nodes] numbers of 32 bits.
     union {
-        uint32_t *heap; ///< open nodes of the pool (open_heap.c)
+        uint32_t *heap; ///< open nodes of the pool (node_heap.c)
         float *to_hub;  ///< metres from the start to each hub (prepared/hub_labels.c)
     };
     uint32_t node_count;

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+//
+// Numbers of the vertices at which shortest paths may turn (fans.c).
+
+#ifndef TALUS_SRC_NAV_QUERY_FANS_H
+#define TALUS_SRC_NAV_QUERY_FANS_H
+
+#include "nav_query/navmesh/navmesh.h"
+
+/// Numbers the turning vertices of all fans that touch a slot's polygons (fans.c).
+void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot);
+/// The same for the fans that touch one side of a slot's tile: those that change when a tile comes or goes there.
+void tl_nav_number_fans_on_side(tl_navmesh *navmesh, uint32_t slot, uint32_t side);
+
+#endif
