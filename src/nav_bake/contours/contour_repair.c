@@ -28,7 +28,7 @@ typedef struct repair {
     uint32_t region_count;
     uint32_t *first_loop; // [region_count + 1] into `loops`
     uint32_t *loops;      // by region
-    uint8_t *dirty;       // [region_count] to be looked at
+    uint8_t *dirty;       // [region_count] to be checked
     uint8_t *mended;      // [loop_count]
     simple_edge *edges;
     tl_sort_item *items, *scratch;
@@ -79,7 +79,7 @@ static bool corners_conflict(const tl_contour_vertex *v, const simple_edge *e, c
     return is_in_wedge(a, at, b, c) || is_in_wedge(a, at, b, d) || is_in_wedge(c, at, d, a) || is_in_wedge(c, at, d, b);
 }
 
-// Keeps a vertex, and has all regions that got it looked at again.
+// Keeps a vertex, and marks all regions that got it for another check.
 static void keep_vertex(repair *r, uint32_t vertex)
 {
     tl_contour_work *work = r->work;

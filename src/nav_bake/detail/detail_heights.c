@@ -12,7 +12,7 @@
 // polygon's middle, straight, inside the polygon; what is reached is of its storey. The same where the walk from the
 // nearest floor of the region ended before the column: that floor may be of another storey too.
 // Idea: Mononen, Recast (heights flooded from the region). Why it is faster: Recast copies and floods the whole
-// bounding box of each polygon; here only columns that are sampled are looked at, one of some tens.
+// bounding box of each polygon; here only the sampled columns are read, one of some tens.
 
 #include "nav_bake/detail/detail.h"
 
@@ -62,7 +62,7 @@ static void consider_floor(const tl_detail_floors *floors, int64_t x, int64_t z,
 }
 
 // The columns of row z + dz from x - r to x + r. Their floors are one stretch of memory: mostly none is of the region,
-// and then no column is looked at.
+// and then no column is read.
 static void consider_row(const tl_detail_floors *floors, int64_t x, int64_t z, int64_t r, int64_t dz, found_floor *best)
 {
     const tl_nav_compact *compact = floors->compact;

@@ -6,6 +6,8 @@
 //
 // A column is tested at its centre, computed in the level's lattice, so that two tiles agree on the columns they share.
 
+#include "base/assert.h"
+
 #include <talus/nav_bake.h>
 
 #include <math.h>
@@ -75,6 +77,7 @@ static void mark_column_area(tl_nav_compact *compact, uint32_t x, uint32_t z, co
 
 void tl_nav_mark_box_area(tl_nav_compact *compact, tl_aabb box, uint8_t area)
 {
+    TL_ASSERT(compact != NULL);
     const mark_window window = window_of(compact, box);
     for (uint32_t z = window.first_z; z < window.end_z; z++) {
         for (uint32_t x = window.first_x; x < window.end_x; x++) {
@@ -101,6 +104,7 @@ static bool polygon_holds(const tl_vec3 *points, uint32_t count, double x, doubl
 void tl_nav_mark_polygon_area(tl_nav_compact *compact, const tl_vec3 *points, uint32_t count, float min_y, float max_y,
                               uint8_t area)
 {
+    TL_ASSERT(compact != NULL && (points != NULL || count == 0));
     if (count < 3) {
         return;
     }
@@ -122,6 +126,7 @@ void tl_nav_mark_polygon_area(tl_nav_compact *compact, const tl_vec3 *points, ui
 
 void tl_nav_mark_cylinder_area(tl_nav_compact *compact, tl_vec3 base, float radius, float height, uint8_t area)
 {
+    TL_ASSERT(compact != NULL);
     if (!(radius > 0.0f && height >= 0.0f)) {
         return;
     }
@@ -142,6 +147,7 @@ void tl_nav_mark_cylinder_area(tl_nav_compact *compact, tl_vec3 base, float radi
 
 void tl_nav_mark_volume_area(tl_nav_compact *compact, const tl_nav_volume *volume)
 {
+    TL_ASSERT(compact != NULL && volume != NULL);
     switch (volume->kind) {
     case TL_NAV_VOLUME_BOX:
         tl_nav_mark_box_area(compact, volume->box, volume->area);

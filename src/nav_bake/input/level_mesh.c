@@ -21,7 +21,7 @@ static tl_result check_vertex(const tl_mesh_view *mesh, uint32_t vertex, tl_repo
     return TL_OK;
 }
 
-// Whether all vertices, of triangles or not, are sound: most often they are, and no corner has to be looked at.
+// Whether all vertices, of triangles or not, are finite and in range: mostly they are, and no corner needs a check.
 static bool are_vertices_sound(const tl_mesh_view *mesh)
 {
     uint32_t sound = 1;

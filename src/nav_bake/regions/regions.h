@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What the partitions share. Each writes provisional regions 1 .. region_count - 1; 0 is none; border floors carry
-// TL_NAV_BORDER_REGION and are never touched.
+// What the partitions share. Each writes provisional regions 1 .. region_count - 1, 0 is none; border floors have
+// TL_NAV_BORDER_REGION and do not change.
 
 #ifndef TALUS_SRC_NAV_BAKE_REGIONS_H
 #define TALUS_SRC_NAV_BAKE_REGIONS_H
@@ -10,8 +10,8 @@
 
 #include "base/arena.h"
 
-/// The columns of several floors that a question about overlaps has to look at: one whose floors have the same regions
-/// as those of the column of several floors before it, one by one, tells nothing new and is left out.
+/// The columns of several floors that tests of overlaps read. One whose floors have, one by one, the same regions as
+/// those of the column of several floors before it tells nothing new and is left out.
 typedef struct tl_stacked_columns {
     uint32_t *columns; ///< ascending
     uint32_t count;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A whole level: its triangles sorted into tiles once, then every tile built alone, as tasks where the host has some.
+// A whole level: its triangles sorted into tiles once, then every tile baked alone, as tasks where the host has some.
 //
-// Tiles share nothing but the lattice, so their bytes do not depend on who builds them or when. A failure is that of
+// Tiles share nothing but the lattice, so their bytes do not depend on workers or order. A failure is that of
 // the first tile that fails, in row-major order, whatever the number of workers.
 
 #include "base/arena.h"
@@ -277,7 +277,7 @@ static tl_result range_window(const tl_nav_def *def, const tl_nav_tile_range *ra
     return TL_OK;
 }
 
-// A few tiles of a level whose bounds are given: only the triangles that can reach them are looked at.
+// A few tiles of a level whose bounds are given: only the triangles that can reach them are read.
 static tl_result bake_part(level_job *job, const tl_nav_tile_range *range, tl_nav_bake_report *report)
 {
     const tl_nav_input *whole = job->input;

@@ -32,7 +32,7 @@ typedef struct tile_job {
     tl_nav_bake_report *report;
 } tile_job;
 
-// The heightfield as the filters leave it, to be looked at.
+// The filtered heightfield, for the caller.
 static tl_result keep_heightfield(tile_job *job)
 {
     const tl_nav_config *config = job->config;

@@ -5,6 +5,7 @@
 //
 // The rule reads only heights, never areas, so the spans may be judged in any order.
 
+#include "base/assert.h"
 #include "nav_bake/voxels/column.h"
 
 typedef struct floor_range {
@@ -66,6 +67,7 @@ static bool is_ledge(const tl_nav_config *config, const tl_nav_heightfield *fiel
 
 void tl_nav_filter_ledge_spans(const tl_nav_config *config, tl_nav_heightfield *heightfield)
 {
+    TL_ASSERT(config != NULL && heightfield != NULL);
     tl_nav_heightfield *field = heightfield;
     for (uint32_t z = 0; z < field->height; z++) {
         for (uint32_t x = 0; x < field->width; x++) {

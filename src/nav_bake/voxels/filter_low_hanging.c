@@ -9,6 +9,7 @@
 
 void tl_nav_filter_low_hanging_obstacles(const tl_nav_config *config, tl_nav_heightfield *heightfield)
 {
+    TL_ASSERT(config != NULL && heightfield != NULL);
     const uint32_t columns = heightfield->width * heightfield->height;
     tl_nav_span *spans = heightfield->spans;
     for (uint32_t c = 0; c < columns; c++) {

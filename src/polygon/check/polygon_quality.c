@@ -5,6 +5,7 @@
 // Angles are given as cosines: they need no trigonometric function, which differs between C libraries, and order as
 // angles do.
 
+#include "base/assert.h"
 #include <talus/polygon.h>
 
 #include "polygon/check/polygon_check.h"
@@ -45,6 +46,7 @@ static double aspect_of(const tl_polygon_mesh *mesh, uint32_t p)
 
 tl_polygon_quality tl_polygon_mesh_measure(const tl_polygon_mesh *mesh)
 {
+    TL_ASSERT(mesh != NULL);
     tl_polygon_quality q;
     memset(&q, 0, sizeof q);
     q.polygon_count = mesh->polygon_count;

@@ -98,7 +98,7 @@ static uint32_t pop_edge(polygon_merger *m)
 }
 
 // A polygon's place has become lower: its waiting edges move up, one after another, each by its pair of places as
-// known so far, so that the heap is in order before each step. Where there are many, the heap is made anew.
+// known so far, so that the heap is in order before each step. Where there are many, the whole heap is ordered again.
 static void place_changed(polygon_merger *m, uint32_t root)
 {
     if (m->heap_count == 0) {

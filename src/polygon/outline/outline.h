@@ -11,7 +11,7 @@
 #include <talus/polygon.h>
 
 /// A place of the contour. Points at the same x and z are one node, except in a plain outline, which has none, and
-/// except where the contour comes by on two floors: those stay two nodes.
+/// except where the contour passes on two floors: those stay two nodes.
 typedef struct tl_outline_nodes {
     tl_lattice_point *points;
     int32_t *heights;

@@ -22,7 +22,7 @@ typedef struct sweep_item {
     uint32_t parent;
     uint32_t neighbour[2];       // next below, next above
     uint32_t from, to;           // points, `from` first on the sweep's way
-    tl_lattice_point begin, end; // where they are: on the way down the tree each item is looked at once
+    tl_lattice_point begin, end; // their points, so that a descent of the tree reads each item only
 } sweep_item;
 
 typedef struct sweep_line {
