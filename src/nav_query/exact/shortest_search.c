@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Exact shortest paths in the plane, over polygons, tiles and floors: Polyanya.
+// Polyanya: exact shortest paths in the plane, over polygons, tiles and floors.
 //
 // A node is a wedge: a root (the start, or a vertex where the path has turned) and what is seen from it through the
 // edge by which a polygon is entered. To go on from a polygon, each of its edges takes its part of the wedge; where the
 // wedge ends in a vertex of a wall, the parts beyond become wedges of that vertex, for a path that turns there. The
 // estimate to the goal is the shortest way through the wedge's opening, with the goal mirrored where it lies on the
-// near side: a lower bound, so the first wedge that is taken up in the goal's polygon has the shortest path of all.
+// near side: a lower bound, so the first wedge that is expanded in the goal's polygon has the shortest path of all.
 //
 // What is our own: an end of a wedge is not the point where a ray crosses an edge, which would be rounded from edge to
 // edge, but the direction from the root to a vertex, the same doubles all the way. Two wedges side by side share their
@@ -18,7 +18,7 @@
 // The end of an off-mesh link is gone to as if it were the goal, and its other end is a root from which all is open
 // (wedge_links.inl). A link costs no less than the straight way, so estimates hold. Where one does, a short cut, an
 // estimate is at most the way to the goal from the nearest end of a short cut. A wedge in the goal's polygon is then
-// taken up twice: for what lies behind it, and for its own true length.
+// expanded twice: for what lies behind it, and for its own true length.
 // Source: Cui, Harabor, Grastien, Compromise-free Pathfinding on a Navigation Mesh, IJCAI 2017.
 
 #include "nav_query/exact/shortest_search.h"
@@ -80,7 +80,7 @@ static uint32_t end_in(wedge_search *s, uint32_t entered)
     return way.reaches ? turn_on(s, entered, &way) : TL_NAV_NO_NODE;
 }
 
-// Where there are short cuts: takes up what lies behind a wedge in the goal's polygon, unless its total is its true
+// Where there are short cuts: expands what lies behind a wedge in the goal's polygon, unless its total is its true
 // one.
 static bool goes_on_past_goal(wedge_search *s, uint32_t index, float total)
 {
@@ -101,7 +101,7 @@ static bool goes_on_past_goal(wedge_search *s, uint32_t index, float total)
     return true;
 }
 
-// Takes up wedges, the least total first, until one has entered the goal's polygon or the steps are used up.
+// Expands wedges, the lowest total first, until one has entered the goal's polygon or the steps are used up.
 static tl_nav_search_end run_wedges(wedge_search *s, uint64_t *steps)
 {
     float total = 0.0f;

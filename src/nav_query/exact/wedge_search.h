@@ -67,7 +67,7 @@ static inline void offer_wedge(wedge_search *s, uint32_t wedge, float total)
     }
 }
 
-// A wedge that is never taken up: a turn on the way to another one, for whoever reads the path.
+// A wedge that is never expanded: a turn on the way to another one, for whoever reads the path.
 static inline uint32_t add_turn(wedge_search *s, uint32_t parent, float root_x, float root_z, double cost)
 {
     uint32_t index = new_wedge(s);

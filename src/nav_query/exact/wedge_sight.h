@@ -56,8 +56,8 @@ static inline tl_nav_direction meet_edge_line(tl_nav_direction d, tl_nav_directi
 }
 
 // Metres from the root through the part of the edge between two directions to the goal, at least.
-static inline double least_through(const seen_edge *edge, tl_nav_direction left, tl_nav_direction right,
-                                   tl_nav_direction goal)
+static inline double min_length_through(const seen_edge *edge, tl_nav_direction left, tl_nav_direction right,
+                                        tl_nav_direction goal)
 {
     tl_nav_direction along = { edge->left.x - edge->right.x, edge->left.z - edge->right.z };
     tl_nav_direction from_edge = { goal.x - edge->right.x, goal.z - edge->right.z };

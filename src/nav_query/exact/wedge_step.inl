@@ -10,7 +10,7 @@
 
 // What a step goes on from.
 typedef struct step_from {
-    uint32_t wedge; // that is taken up
+    uint32_t wedge; // that is expanded
     uint32_t slot, polygon;
     const tl_nav_ring_edge *ring;
     uint32_t count;
@@ -20,7 +20,7 @@ typedef struct step_from {
 static inline float total_of(const wedge_search *s, const tl_nav_wedge *wedge, const seen_edge *edge)
 {
     tl_nav_direction goal = { s->goal_x - (double)wedge->root_x, s->goal_z - (double)wedge->root_z };
-    double rest = least_through(edge, wedge->left, wedge->right, goal);
+    double rest = min_length_through(edge, wedge->left, wedge->right, goal);
     return (float)(wedge->cost + (rest < s->detour ? rest : s->detour));
 }
 

@@ -2,7 +2,7 @@
 //
 // Vertices at which a shortest path may turn: those of walls, where the free way around is wider than a half plane.
 //
-// From a wall the polygons around a vertex are gone through one by one, over seams too, up to the next wall: a fan. Its
+// From a wall the polygons around a vertex are visited one by one, over seams too, up to the next wall: a fan. Its
 // vertices in all those rings get one number, so that a search knows them for one place; two fans that touch in a point
 // (on two floors, or on two sides of a wall) have two. All other vertices have none. A fan is wider than a half plane
 // when one of its edges lies beyond the first one's line, which takes signs only.

@@ -126,13 +126,13 @@ static float height_beside(const tl_nav_surface *surface, double x, double z)
     return mix_heights(corners, &weights);
 }
 
-enum { MOST_CODES = 256, FEW_TRIANGLES = 8 };
+enum { MAX_CODES = 256, FEW_TRIANGLES = 8 };
 
 // On which sides of a point vertices lie, a bit a side: none of a triangle whose corners have one in common holds it.
 // In a patch of many triangles that leaves one or two to look at.
-static bool code_vertices(const tl_nav_surface *surface, float x, float z, uint8_t codes[MOST_CODES])
+static bool code_vertices(const tl_nav_surface *surface, float x, float z, uint8_t codes[MAX_CODES])
 {
-    if (surface->triangle_count < FEW_TRIANGLES || surface->vertex_count > MOST_CODES) {
+    if (surface->triangle_count < FEW_TRIANGLES || surface->vertex_count > MAX_CODES) {
         return false;
     }
     for (uint32_t i = 0; i < surface->vertex_count; i++) {
@@ -145,7 +145,7 @@ static bool code_vertices(const tl_nav_surface *surface, float x, float z, uint8
 float tl_nav_surface_height(const tl_nav_tile *tile, uint32_t polygon, float x, float z)
 {
     tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
-    uint8_t codes[MOST_CODES];
+    uint8_t codes[MAX_CODES];
     bool has_codes = code_vertices(&surface, x, z, codes);
     for (uint32_t i = 0; i < surface.triangle_count; i++) {
         const uint16_t *at = surface.triangles[i].corner;

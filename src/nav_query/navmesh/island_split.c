@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// What a tile or a link that leaves cuts off: searches from all that hung on it, which take turns until they have met.
+// Splitting islands when a tile or a link is removed: searches from all nodes that lost a link take turns until they
+// meet.
 //
-// Each part that comes off holds a node that has lost a way: a seed. From the seeds the components around are gone
-// through in turns, one each. Two searches that meet are a group, and go on as one. As soon as one group is left, as
-// almost always after a few steps around the place, nothing has come off. A group that ends before it has met the
-// others is cut off, and what it has found gets a new label; the last one, however large, is not gone through and
-// keeps the old label. So the time goes with what lies between the seeds, or with the smaller parts, not with the
+// Each component that is cut off holds a node that has lost a link: a seed. From the seeds breadth-first searches visit
+// the nodes around in turns, one each. Two searches that meet form a group and go on as one. As soon as one group is
+// left, as almost always after a few steps around the place, nothing was cut off. A group that ends before it has met
+// the others is a component of its own and gets a new label; the last one, however large, is not visited to its end and
+// keeps the old label. So the time depends on what lies between the seeds, or on the smaller components, not on the
 // world. Seeds that had different labels before never meet and do not wait for one another.
 //
 // Components over seams alone are split first. Islands then need one seed of each of those components, and none where

@@ -30,14 +30,14 @@ typedef struct tl_nav_island_label {
     uint32_t parent; ///< itself: the root
     uint32_t size;   ///< labels, of a root
     uint32_t groups; ///< of the search under way, else 0: groups of pieces under this root
-    uint32_t open;   ///< those of them that are not gone through
+    uint32_t open;   ///< those of them with nodes to visit
 } tl_nav_island_label;
 
 /// What a search has found from one seed. Pieces that have met are a group, named by the first of them.
 typedef struct tl_nav_island_piece {
     uint32_t parent;      ///< in the group's tree; itself: the root
     uint32_t first, last; ///< nodes found
-    uint32_t head;        ///< the first of them that is not gone through, or TL_NAV_NO_ISLAND
+    uint32_t head;        ///< the first of them that was not visited, or TL_NAV_NO_ISLAND
     uint32_t open;        ///< of a root: pieces with such nodes
     uint32_t label;       ///< root of the nodes' labels
     uint32_t new_label;   ///< of a root: for a group that is cut off, or TL_NAV_NO_ISLAND
@@ -63,12 +63,12 @@ void tl_nav_free_islands(tl_navmesh *navmesh);
 
 /// Names a new slot's components, for which there is room, and joins them to its neighbours'.
 void tl_nav_join_islands(tl_navmesh *navmesh, uint32_t slot);
-/// Frees the nodes of a slot whose tile leaves, and seeds what it hangs together with over seams. Its links are still
-/// there; tl_nav_split_islands is called when they are gone.
+/// Frees the nodes of a slot whose tile leaves, and seeds those that it is linked with over seams. Its links are still
+/// there; tl_nav_split_islands is called when they are removed.
 void tl_nav_leave_islands(tl_navmesh *navmesh, uint32_t slot);
 /// Notes that a polygon has lost an off-mesh link. The other end is noted too, unless it has left.
 void tl_nav_seed_island(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);
-/// Gives new names to what no longer hangs together, after ways have gone: each of their ends has been seeded.
+/// Gives new labels to components that were split, after links were removed: each of their ends has been seeded.
 void tl_nav_split_islands(tl_navmesh *navmesh);
 
 uint32_t tl_nav_island_of(const tl_navmesh *navmesh, uint32_t slot, uint32_t polygon);

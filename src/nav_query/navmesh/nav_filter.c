@@ -27,20 +27,20 @@ bool tl_nav_filter_passes(const tl_nav_filter *filter, const tl_nav_tile *tile, 
 }
 
 // Floats above 0 are ordered as their bits are. What is not above 0 has bits that are none or negative, infinity and
-// NaN have those from INFINITY_BITS on. So the least and the most of the bits say all, without a branch: a search asks
-// this of 256 costs before it begins.
-bool tl_nav_filter_costs(const tl_nav_filter *filter, float *least_out, bool *uniform_out)
+// NaN have those from INFINITY_BITS on. So the lowest and the highest of the bits tell all, without a branch: a search
+// asks this of 256 costs before it begins.
+bool tl_nav_filter_costs(const tl_nav_filter *filter, float *min_out, bool *uniform_out)
 {
     enum { INFINITY_BITS = 0x7f800000 };
-    int32_t least = INT32_MAX;
-    int32_t most = INT32_MIN;
+    int32_t min = INT32_MAX;
+    int32_t max = INT32_MIN;
     for (int area = 0; area <= TL_NAV_MAX_AREA; area++) {
         int32_t bits;
         memcpy(&bits, &filter->area_cost[area], sizeof bits);
-        least = bits < least ? bits : least;
-        most = bits > most ? bits : most;
+        min = bits < min ? bits : min;
+        max = bits > max ? bits : max;
     }
-    memcpy(least_out, &least, sizeof least);
-    *uniform_out = least == most && filter->cost == NULL;
-    return least > 0 && most < INFINITY_BITS;
+    memcpy(min_out, &min, sizeof min);
+    *uniform_out = min == max && filter->cost == NULL;
+    return min > 0 && max < INFINITY_BITS;
 }

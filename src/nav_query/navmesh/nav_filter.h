@@ -41,7 +41,7 @@ static inline float tl_nav_cost_between(const tl_nav_filter *filter, const tl_na
     return cost;
 }
 
-/// Whether all costs are finite and above 0; the least of them, and whether every metre costs the same.
-bool tl_nav_filter_costs(const tl_nav_filter *filter, float *least_out, bool *uniform_out);
+/// Whether all area costs are finite and above 0; the lowest of them, and whether every metre costs the same.
+bool tl_nav_filter_costs(const tl_nav_filter *filter, float *min_out, bool *uniform_out);
 
 #endif

@@ -2,7 +2,7 @@
 //
 // Anchors: each end of an off-mesh link stands on the polygon nearest to it, among the tiles that are there now.
 //
-// When a tile comes or goes, ends whose box touches it are looked up anew. All links are gone through for that, a box
+// When a tile comes or goes, ends whose box touches it are looked up anew. All links are visited for that, a box
 // each: some nanoseconds beside the making of the tile's rings. An index by place would make that less for thousands of
 // links, and every link pay for it.
 
@@ -142,7 +142,7 @@ static bool is_end_near(const tl_nav_offmesh_entry *entry, uint32_t end, const t
     return tl_aabb_overlaps(box, tile->bounds);
 }
 
-// After an end has left its polygon: what the link joined may hang together no more.
+// After an end has left its polygon: the link may have been all that connected two components.
 static void seed_ends(tl_navmesh *navmesh, const tl_nav_anchor *before, const tl_nav_anchor *other)
 {
     const tl_nav_anchor *ends[2] = { before, other };

@@ -137,7 +137,7 @@ static void find_twins(tl_nav_rings *rings, uint32_t polygon)
     }
 }
 
-// Labels what hangs together within the tile. `stack` holds polygon_count numbers.
+// Labels the connected components of the tile. `stack` holds polygon_count numbers.
 static void label_components(tl_nav_rings *rings, uint32_t *stack)
 {
     memset(rings->component, 0xff, rings->polygon_count * sizeof *rings->component);

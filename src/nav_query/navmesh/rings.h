@@ -46,7 +46,7 @@ typedef struct tl_nav_rings {
     tl_nav_ring_edge *edges;
     tl_nav_ring_walls *walls; ///< by edge: of the vertex where it starts, when its turn is not 0
     tl_nav_ring_seam *seams;
-    uint32_t *component;   ///< by polygon: what hangs together within the tile, counted from 0
+    uint32_t *component;   ///< by polygon: its connected component within the tile, from 0
     uint32_t *island;      ///< by component: a node of the navmesh's islands (islands.c)
     uint32_t *next_member; ///< by polygon: the next one of its component, around
     uint32_t polygon_count, component_count;

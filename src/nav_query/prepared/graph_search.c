@@ -215,7 +215,7 @@ static bool departs(graph_search *s, const tl_nav_stop *stop)
     return sees_end(s, &line, s->in->start_slot, s->in->start_polygon);
 }
 
-// Landmarks are looked at for stops that come to the top only. Whether they say more than the straight line does.
+// Raises a stop's estimate by landmarks, which are asked when it comes to the top. Whether it was raised.
 static bool raise_estimate(graph_search *s, uint32_t index)
 {
     tl_nav_stop *stop = &s->query->stops[index];
@@ -232,7 +232,7 @@ static bool raise_estimate(graph_search *s, uint32_t index)
     return true;
 }
 
-// Takes up stops, the least total first, until the goal is one. TL_NAV_NO_NODE: it gave up.
+// Expands stops, the lowest total first, until the goal is one. TL_NAV_NO_NODE: it gave up.
 static uint32_t run_stops(graph_search *s)
 {
     tl_nav_query *query = s->query;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Polygons around a place, in a query's own pool: which were met, and from which. No allocation, nothing to clear.
+// A search around a place: the polygons that it met, and from which, in the query's memory. Nothing to clear.
 
 #ifndef TALUS_SRC_NAV_QUERY_LOCAL_SEARCH_H
 #define TALUS_SRC_NAV_QUERY_LOCAL_SEARCH_H

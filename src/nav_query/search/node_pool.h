@@ -30,8 +30,7 @@ uint32_t tl_nav_pool_get(tl_nav_query *query, uint64_t key);
 
 /// Puts a node into the heap, or moves it up after its total has fallen.
 void tl_nav_heap_improve(tl_nav_query *query, uint32_t node);
-/// Takes out the node of least total, ties to the lower index, and marks it closed. TL_NAV_NO_NODE when
-/// empty.
+/// Takes out the node of the lowest total, ties to the lower index, and marks it closed. TL_NAV_NO_NODE: it is empty.
 uint32_t tl_nav_heap_pop(tl_nav_query *query);
 
 #endif
