@@ -5,7 +5,8 @@
 // each slice of rays, so that a slice during which the machine did something else is made up for by another repetition.
 // Each repetition begins with the next system, and every other one goes through them backwards, so that none always has
 // the same place or the same neighbour. Embree asks the system to back its data with huge pages, so a large soup is
-// put into such pages too, as a host may do; they are asked for, not promised.
+// put into such pages too, as a host may do; they are asked for, not promised. Every ray is written float by float just
+// before its call, as callers do: a library that then loads it by wider pieces waits for the stores.
 // Rows are million rays a second; claims are times as fast, as geometric means over levels, as Embree robust and as
 // "Embree fast", the better of its fast triangles and quads, all built at quality HIGH.
 //
@@ -97,6 +98,34 @@ typedef struct answer {
     double t_sum;
 } answer;
 
+// `volatile`, or the compiler writes two or three floats at once.
+static void write_ray(volatile tl_ray *ray, const query *q)
+{
+    ray->origin.x = q->origin.x;
+    ray->origin.y = q->origin.y;
+    ray->origin.z = q->origin.z;
+    ray->direction.x = q->target.x;
+    ray->direction.y = q->target.y;
+    ray->direction.z = q->target.z;
+    ray->tmax = q->tmax;
+}
+
+static void write_embree_ray(volatile struct RTCRay *ray, tl_vec3 origin, tl_vec3 direction, float tmax)
+{
+    ray->org_x = origin.x;
+    ray->org_y = origin.y;
+    ray->org_z = origin.z;
+    ray->dir_x = direction.x;
+    ray->dir_y = direction.y;
+    ray->dir_z = direction.z;
+    ray->tnear = 0;
+    ray->tfar = tmax;
+    ray->time = 0;
+    ray->mask = UINT32_MAX;
+    ray->id = 0;
+    ray->flags = 0;
+}
+
 static answer run_talus(tl_ray_walk_fn *walk, const tl_soup *soup, const query *queries, uint32_t count, uint32_t kind)
 {
     answer a = { 0, 0 };
@@ -112,7 +141,8 @@ static answer run_talus(tl_ray_walk_fn *walk, const tl_soup *soup, const query *
             found = walk != NULL ? tl_soup_cast_segment_with(walk, soup, q->origin, q->target, NULL, &hit)
                                  : tl_soup_cast_segment(soup, q->origin, q->target, NULL, &hit);
         } else {
-            tl_ray ray = { q->origin, q->target, q->tmax };
+            tl_ray ray;
+            write_ray(&ray, q);
             found = walk != NULL ? tl_soup_cast_ray_with(walk, soup, &ray, NULL, &hit)
                                  : tl_soup_cast_ray(soup, &ray, NULL, &hit);
         }
@@ -134,18 +164,7 @@ static answer run_embree(RTCScene scene, const query *queries, uint32_t count, u
         bool segment = kind == 2 || kind == 3;
         tl_vec3 d = segment ? tl_sub(q->target, q->origin) : q->target;
         struct RTCRayHit ray;
-        ray.ray.org_x = q->origin.x;
-        ray.ray.org_y = q->origin.y;
-        ray.ray.org_z = q->origin.z;
-        ray.ray.dir_x = d.x;
-        ray.ray.dir_y = d.y;
-        ray.ray.dir_z = d.z;
-        ray.ray.tnear = 0;
-        ray.ray.tfar = segment ? 1 : q->tmax;
-        ray.ray.time = 0;
-        ray.ray.mask = UINT32_MAX;
-        ray.ray.id = 0;
-        ray.ray.flags = 0;
+        write_embree_ray(&ray.ray, q->origin, d, segment ? 1 : q->tmax);
         if (kind == 2) {
             rtcOccluded1(scene, &context, &ray.ray);
             a.hits += ray.ray.tfar < 0;

@@ -44,11 +44,14 @@ static inline tl_f32x4 tl_f32x4_load(const float *four)
     return _mm_loadu_ps(four);
 }
 
-/// The fourth lane is 0. Two loads: one of 16 bytes would wait for what a caller has stored in smaller pieces just now.
+/// The fourth lane is 0. A load for each float: callers store them one by one just before, and a wider load would wait
+/// until those stores have reached the cache.
 static inline tl_f32x4 tl_f32x4_load_three(const float *three)
 {
-    __m128 xy = _mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(const void *)three));
-    return _mm_movelh_ps(xy, _mm_load_ss(three + 2));
+    __m128 y = _mm_load_ss(three + 1);
+    TL_KEEP_VECTOR(y); // or clang joins it with its neighbour
+    __m128 xy = _mm_insert_ps(_mm_load_ss(three), y, 0x10);
+    return _mm_insert_ps(xy, _mm_load_ss(three + 2), 0x20);
 }
 
 static inline float tl_f32x4_get_x(tl_f32x4 a)
