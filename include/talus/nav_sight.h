@@ -78,6 +78,9 @@ TL_API tl_result tl_nav_pvs_seen_from(const tl_nav_pvs *pvs, const tl_navmesh *n
 
 enum { TL_NAV_MAX_COVER_HEIGHTS = 8 };
 
+/// Most places that one search for cover tries: points of the grid times floors that may lie above one another.
+#define TL_NAV_MAX_COVER_PLACES (1u << 20)
+
 /// Who takes cover from what.
 typedef struct tl_nav_cover_request {
     const tl_navmesh *navmesh;
@@ -109,10 +112,12 @@ typedef struct tl_nav_cover {
 ///
 /// Candidates are the agent's own place and the points of a grid (whole multiples of `spacing` in x and z), on every
 /// floor within max_length up or down. The best `capacity` are written to `covers_out`, `*count_out` of them; of
-/// equally long paths the one that was tried first. The grid is searched in growing squares until no farther point can
-/// be better. TL_OK with `*count_out` 0: there is no cover. `def` NULL: the default one. TL_ERR_NODES: the query ran
-/// out of nodes for some candidate, which was left out; the others are written. Otherwise
-/// `*count_out` is 0: TL_ERR_ARGUMENT, TL_ERR_STALE (the agent's polygon), TL_ERR_NOT_FINITE.
+/// equally long paths the one that was tried first. The grid is searched in growing squares, as far as the navmesh
+/// reaches, until no farther point can be better. TL_OK with `*count_out` 0: there is no cover. `def` NULL: the default
+/// one. TL_ERR_NODES: the query ran out of nodes for some candidate, which was left out; the others are written.
+/// TL_ERR_LIMIT: `spacing` is too fine for `max_length` and the navmesh, TL_NAV_MAX_COVER_PLACES were tried; the best
+/// of them are written. Otherwise `*count_out` is 0: TL_ERR_ARGUMENT, TL_ERR_STALE (the agent's polygon),
+/// TL_ERR_NOT_FINITE.
 TL_API tl_result tl_nav_query_find_cover(tl_nav_query *query, const tl_nav_cover_request *request,
                                          const tl_nav_cover_def *def, tl_nav_cover *covers_out, uint32_t capacity,
                                          uint32_t *count_out);

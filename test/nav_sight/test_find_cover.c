@@ -150,6 +150,100 @@ static void the_nearest_places_are_found(void **state)
     TEST_CHECK(found > 200 && none > 0 && at_once > 5 && upstairs > 50);
 }
 
+// A request around the middle of a yard.
+static tl_nav_cover_request request_in(const yard *y)
+{
+    tl_nav_cover_request request = { y->navmesh, y->soup, NULL, { 0, { 0, 0, 0 } }, tl_vec3_make(15, 2, 15) };
+    TEST_RESULT(tl_navmesh_find_nearest(y->navmesh, NULL, tl_vec3_make(3, 0, 3), tl_vec3_make(2, 1, 2), &request.agent),
+                TL_OK);
+    return request;
+}
+
+static void an_agent_far_from_the_navmesh_finds_no_cover(void **state)
+{
+    (void)state;
+    test_random random = { 6 };
+    yard y;
+    set_up(&y, &random, 0);
+    tl_nav_cover_request request = request_in(&y);
+    tl_nav_cover covers[MAX_COVERS];
+    const tl_nav_location on_floor = request.agent;
+    const float lifts[] = { 1000.0f, -1000.0f, 1e7f, -1e7f, 3e38f, -3e38f };
+    for (int i = 0; i < 6; i++) {
+        for (int axis = 0; axis < 3; axis++) {
+            uint32_t count = 77;
+            request.agent = on_floor;
+            (axis == 0   ? &request.agent.point.x
+             : axis == 1 ? &request.agent.point.y
+                         : &request.agent.point.z)[0] += lifts[i];
+            // Its own place is one, where the threat does not see it.
+            TEST_RESULT(tl_nav_query_find_cover(y.query, &request, NULL, covers, MAX_COVERS, &count), TL_OK);
+            assert_true(count <= 1 && (count == 0 || covers[0].length == 0.0f));
+        }
+    }
+    tear_down(&y);
+}
+
+// What is looked at is bounded by the yard of 30 m, whatever the reach is.
+static void a_long_reach_costs_no_more_than_the_level(void **state)
+{
+    (void)state;
+    test_random random = { 7 };
+    yard y;
+    set_up(&y, &random, 0);
+    tl_nav_cover_request request = request_in(&y);
+    tl_nav_cover_def def = tl_default_nav_cover_def();
+    tl_nav_cover expected[MAX_COVERS], covers[MAX_COVERS];
+    uint32_t expected_count, count;
+    def.max_length = 100.0f;
+    TEST_RESULT(tl_nav_query_find_cover(y.query, &request, &def, expected, MAX_COVERS, &expected_count), TL_OK);
+    assert_true(expected_count > 0);
+    for (float reach = 1000.0f; reach < 1e38f; reach *= 10.0f) {
+        def.max_length = reach;
+        TEST_RESULT(tl_nav_query_find_cover(y.query, &request, &def, covers, MAX_COVERS, &count), TL_OK);
+        assert_int_equal(count, expected_count);
+        for (uint32_t i = 0; i < count; i++) {
+            assert_true(covers[i].length == expected[i].length);
+            assert_true(covers[i].location.polygon == expected[i].location.polygon);
+        }
+        // Hardly any place is hidden from the sky: all are tried.
+        tl_nav_cover_request in_view = request;
+        in_view.threat = tl_vec3_make(15, 1e4f, 15);
+        TEST_RESULT(tl_nav_query_find_cover(y.query, &in_view, &def, covers, MAX_COVERS, &count), TL_OK);
+    }
+    tear_down(&y);
+}
+
+static void more_places_than_the_budget_are_refused(void **state)
+{
+    (void)state;
+    test_random random = { 8 };
+    yard y;
+    set_up(&y, &random, 0);
+    const tl_nav_cover_request request = request_in(&y);
+    tl_nav_cover_request in_view = request;
+    in_view.threat = tl_vec3_make(15, 1e4f, 15);
+    tl_nav_cover_def def = tl_default_nav_cover_def();
+    tl_nav_cover covers[MAX_COVERS];
+    uint32_t count = 77;
+    const float spacings[] = { 0.01f, 1e-6f, 1e-12f, 1e-30f, 1e-45f };
+    def.max_length = 1e7f;
+    def.height_count = 1;
+    def.heights[0] = 50.0f; // in view of the sky, everywhere
+    for (int i = 0; i < 5; i++) {
+        def.spacing = spacings[i];
+        TEST_RESULT(tl_nav_query_find_cover(y.query, &in_view, &def, covers, MAX_COVERS, &count), TL_ERR_LIMIT);
+        assert_int_equal(count, 0);
+    }
+    // A search that ends before is not refused.
+    def = tl_default_nav_cover_def();
+    def.spacing = 0.03f;
+    def.max_length = 1e7f;
+    TEST_RESULT(tl_nav_query_find_cover(y.query, &request, &def, covers, 1, &count), TL_OK);
+    assert_int_equal(count, 1);
+    tear_down(&y);
+}
+
 static void bad_arguments(void **state)
 {
     (void)state;
@@ -181,6 +275,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_nearest_places_are_found),
+        cmocka_unit_test(an_agent_far_from_the_navmesh_finds_no_cover),
+        cmocka_unit_test(a_long_reach_costs_no_more_than_the_level),
+        cmocka_unit_test(more_places_than_the_budget_are_refused),
         cmocka_unit_test(bad_arguments),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
