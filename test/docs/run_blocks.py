@@ -40,7 +40,8 @@ import tempfile
 LANGUAGES = ("console", "sh", "c", "cmake", "text", "json")
 INCLUDES = "#include <talus/talus.h>\n" + "".join(
     f"#include <{name}.h>\n" for name in ("math", "stdbool", "stdint", "stdio", "stdlib", "string"))
-WARNINGS = ["-std=c17", "-Wall", "-Wextra", "-Werror", "-Wno-unused-variable", "-Wno-unused-but-set-variable",
+WARNINGS = ["-std=c17", "-Wall", "-Wextra", "-Werror", "-Wno-unknown-warning-option", "-Wno-unused-variable",
+            "-Wno-unused-but-set-variable",
             "-Wno-unused-parameter", "-Wno-unused-function", "-Wno-unused-value", "-Wno-maybe-uninitialized", "-Wno-uninitialized"]
 SHELL = """set -euo pipefail
 make() { command make -n -C "$TALUS_SOURCE" "$@" >/dev/null; }
