@@ -207,7 +207,7 @@ static tl_exit run_around(tl_cli *cli)
     settings.radius = 10.0f;
     settings.seed = 1;
     const tl_option options[] = {
-        { "places", 'p', TL_OPTION_TEXT, &settings.places, "FILE",
+        { "places", 'p', TL_OPTION_INPUT, &settings.places, "FILE",
           "answer for the places of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "radius", 0, TL_OPTION_FLOAT, &settings.radius, "M",
           "metres: radius for walls and random points; length of paths for polygons", NULL, 0.0f, 1e9f, 0, 0 },

@@ -6,6 +6,7 @@
 #include "cli/draw/draw_source.h"
 #include "cli/draw/draw_stage.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/output_check.h"
 
 #include <talus/nav_audit.h>
 
@@ -280,8 +281,8 @@ static tl_exit run_audit_command(tl_cli *cli)
           "square metres: ignore missing floors smaller than this (-1: than the smallest island kept)", NULL, -1, 1e12f,
           0, 0 },
         { "list", 0, TL_OPTION_COUNT, &settings.list, "N", "findings to print; --json has all", NULL, 0, 0, 0, 0 },
-        { "draw", 0, TL_OPTION_TEXT, &settings.picture, "FILE", "draw a picture with the findings marked: .png or .svg",
-          NULL, 0, 0, 0, 0 },
+        { "draw", 0, TL_OPTION_OUTPUT, &settings.picture, "FILE",
+          "draw a picture with the findings marked: .png or .svg", tl_picture_endings, 0, 0, 0, 0 },
         { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "of the picture: longer side of each view", NULL, 0, 0,
           200, 8000 },
         TL_OPTION_TABLE_END,

@@ -327,7 +327,7 @@ static tl_exit run_bake(tl_cli *cli)
     const char *output = NULL;
     tl_bake_settings settings = tl_default_bake_settings();
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; required", NULL, 0, 0, 0, 0 },
+        { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE", "where to write; required", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     tl_option part_options[TL_PART_OPTIONS];

@@ -145,7 +145,7 @@ static tl_exit run_distance(tl_cli *cli)
         { "pose", 0, TL_OPTION_TEXT, &s.pose_b, "POSE", "where B is: px,py,pz[,qx,qy,qz,qw]", NULL, 0, 0, 0, 0 },
         { "pose-a", 0, TL_OPTION_TEXT, &s.pose_a, "POSE", "where A is", NULL, 0, 0, 0, 0 },
         { "pose-b", 0, TL_OPTION_TEXT, &s.pose_b, "POSE", "the same as --pose", NULL, 0, 0, 0, 0 },
-        { "poses", 0, TL_OPTION_TEXT, &s.poses, "FILE",
+        { "poses", 0, TL_OPTION_INPUT, &s.poses, "FILE",
           "answer for the poses of B in FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "radius-a", 0, TL_OPTION_FLOAT, &s.radius_a, "M", "metres: A is rounded by a ball of this radius", NULL, 0,
           1e6f, 0, 0 },

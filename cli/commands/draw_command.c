@@ -9,6 +9,7 @@
 #include "cli/draw/draw_stage.h"
 #include "cli/draw/draw_steps.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/output_check.h"
 #include "cli/shared/parse_value.h"
 
 #include <stdio.h>
@@ -311,7 +312,7 @@ static bool draw_one(draw_source *source, const draw_settings *settings, int sta
     if (list != NULL) {
         json_array_append_new(list,
                               json_pack("{ssssss}", "stage", STAGE_NAMES[stage], "output", path, "summary", summary));
-    } else {
+    } else if (strcmp(path, "-") != 0) { // else the picture itself went there
         tl_progress_end(&source->cli->progress);
         printf("%s: %s\n", path, summary);
     }
@@ -360,7 +361,7 @@ static bool draw_all_in_one(draw_source *source, const draw_settings *settings, 
     if (going && list != NULL) {
         json_array_append_new(list, json_pack("{sssssi}", "stage", "overview", "output", settings->output, "stages",
                                               (int)overview.count));
-    } else if (going) {
+    } else if (going && strcmp(settings->output, "-") != 0) {
         tl_progress_end(&source->cli->progress);
         printf("%s: %u stages\n", settings->output, overview.count);
     }
@@ -411,8 +412,8 @@ static tl_exit run_draw(tl_cli *cli)
     settings.contour = UINT32_MAX;
     static const char *const views[] = { "both", "top", "oblique", NULL };
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &settings.output, "FILE", "where to write: .png or .svg; required", NULL, 0, 0,
-          0, 0 },
+        { "output", 'o', TL_OPTION_OUTPUT, &settings.output, "FILE", "where to write: .png or .svg; required",
+          tl_picture_endings, 0, 0, 0, 0 },
         { "stage", 's', TL_OPTION_TEXT, &settings.stages_text, "NAME,...",
           "what to draw: stages, separated by commas (polygons)", NULL, 0, 0, 0, 0 },
         { "overview", 0, TL_OPTION_FLAG, &settings.overview, NULL,

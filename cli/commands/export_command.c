@@ -70,7 +70,7 @@ static tl_exit run_export(tl_cli *cli)
     static const char *const widths[] = { "32", "64", NULL };
     tl_bake_settings settings = tl_default_bake_settings();
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; required", NULL, 0, 0, 0, 0 },
+        { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE", "where to write; required", NULL, 0, 0, 0, 0 },
         { "refs", 0, TL_OPTION_CHOICE, &refs, "BITS",
           "bits of a polygon reference: 64 for a Detour compiled with DT_POLYREF64", widths, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,

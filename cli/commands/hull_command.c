@@ -4,6 +4,7 @@
 
 #include "cli/level/open_hull.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/output_check.h"
 #include "io/files/atomic_write.h"
 #include "io/mesh/obj_write.h"
 
@@ -96,12 +97,6 @@ static tl_result write_baked_hull(const tl_hull *hull, const char *output, tl_io
     return tl_atomic_file_commit(file, error); // a failed write makes it fail, and says why
 }
 
-static bool is_baked_name(const char *name)
-{
-    size_t length = strlen(name);
-    return length >= 6 && strcmp(name + length - 6, ".talus") == 0;
-}
-
 static tl_exit hull_of_one(tl_cli *cli, const tl_hull_settings *settings, const char *output)
 {
     tl_hull_input input;
@@ -110,8 +105,8 @@ static tl_exit hull_of_one(tl_cli *cli, const tl_hull_settings *settings, const 
         tl_io_error error;
         memset(&error, 0, sizeof(error));
         code = TL_EXIT_OK;
-        if (output != NULL && (is_baked_name(output) ? write_baked_hull(input.hull, output, &error)
-                                                     : write_hull_obj(input.hull, output, &error)) != TL_OK) {
+        if (output != NULL && (tl_has_ending(output, ".talus") ? write_baked_hull(input.hull, output, &error)
+                                                               : write_hull_obj(input.hull, output, &error)) != TL_OK) {
             code = tl_cli_fail_io(cli, &error);
         } else if (output != NULL && strcmp(output, "-") == 0) {
             code = TL_EXIT_OK; // the hull itself went to standard output
@@ -174,9 +169,10 @@ static tl_exit run_hull(tl_cli *cli)
     const char *output = NULL;
     bool all = false;
     tl_hull_settings settings = tl_default_hull_settings();
+    static const char *const hull_endings[] = { ".obj", ".talus", NULL };
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write the hull: .obj with polygon faces, or .talus",
-          NULL, 0, 0, 0, 0 },
+        { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE",
+          "where to write the hull: .obj with polygon faces, or .talus", hull_endings, 0, 0, 0, 0 },
         { "all", 'a', TL_OPTION_FLAG, &all, NULL, "measure every cloud of the file, one a line", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };

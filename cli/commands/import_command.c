@@ -114,7 +114,7 @@ static tl_exit run_import(tl_cli *cli)
     const char *output = NULL;
     tl_detour_read_def def = tl_default_detour_read_def();
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; required", NULL, 0, 0, 0, 0 },
+        { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE", "where to write; required", NULL, 0, 0, 0, 0 },
         { "cell-height", 0, TL_OPTION_FLOAT, &def.cell_height, "M",
           "metres: corners' heights are rounded to multiples of it", NULL, 1e-6f, 100.0f, 0, 0 },
         TL_OPTION_TABLE_END,

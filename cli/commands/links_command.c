@@ -7,6 +7,7 @@
 #include "cli/draw/draw_stage.h"
 #include "cli/level/write_pack.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/output_check.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -116,8 +117,8 @@ static tl_exit run_links(tl_cli *cli)
     const tl_option options[] = {
         { "output", 'o', TL_OPTION_TEXT, &settings.output, "FILE",
           "where to write the baked file with its links; may be FILE itself", NULL, 0, 0, 0, 0 },
-        { "draw", 0, TL_OPTION_TEXT, &settings.picture, "FILE", "draw a picture of them: .png or .svg", NULL, 0, 0, 0,
-          0 },
+        { "draw", 0, TL_OPTION_OUTPUT, &settings.picture, "FILE", "draw a picture of them: .png or .svg",
+          tl_picture_endings, 0, 0, 0, 0 },
         { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "of the picture: longer side of each view", NULL, 0, 0,
           200, 8000 },
         TL_OPTION_TABLE_END,

@@ -118,7 +118,7 @@ static tl_exit run_nearest(tl_cli *cli)
     settings.bake = tl_default_bake_settings();
     settings.max_distance = INFINITY;
     const tl_option options[] = {
-        { "points", 'p', TL_OPTION_TEXT, &settings.points, "FILE",
+        { "points", 'p', TL_OPTION_INPUT, &settings.points, "FILE",
           "answer for the points of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "max-distance", 0, TL_OPTION_FLOAT, &settings.max_distance, "M", "metres: ignore what is farther away", NULL,
           0.0f, 3e38f, 0, 0 },

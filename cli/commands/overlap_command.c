@@ -78,7 +78,7 @@ static tl_exit run_overlap(tl_cli *cli)
     settings.bake = tl_default_bake_settings();
     settings.shape = tl_default_shape_option();
     const tl_option options[] = {
-        { "points", 'p', TL_OPTION_TEXT, &settings.points, "FILE",
+        { "points", 'p', TL_OPTION_INPUT, &settings.points, "FILE",
           "answer for the points of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "any", 0, TL_OPTION_FLAG, &settings.any, NULL, "say only touches or free, which is faster", NULL, 0, 0, 0,
           0 },

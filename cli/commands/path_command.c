@@ -248,7 +248,7 @@ static tl_exit run_path(tl_cli *cli)
     settings.bake = tl_default_bake_settings();
     settings.extents = tl_vec3_make(2.0f, 4.0f, 2.0f);
     const tl_option options[] = {
-        { "pairs", 'p', TL_OPTION_TEXT, &settings.pairs, "FILE",
+        { "pairs", 'p', TL_OPTION_INPUT, &settings.pairs, "FILE",
           "find the paths of FILE, one pair a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "extents", 0, TL_OPTION_TEXT, &settings.extents_text, "X,Y,Z",
           "metres: how far from a point its navmesh polygon may lie (2,4,2)", NULL, 0, 0, 0, 0 },

@@ -264,7 +264,7 @@ static tl_exit run_polygonize(tl_cli *cli)
          merge_contours = false;
     tl_polygon_def def = tl_default_polygon_def();
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &output, "FILE",
+        { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE",
           "where to write the meshes; - is standard output (the default without --json)", NULL, 0, 0, 0, 0 },
         { "method", 'm', TL_OPTION_CHOICE, &method, "NAME", "how contours are divided", tl_partition_method_names, 0, 0,
           0, 0 },

@@ -175,8 +175,8 @@ static tl_exit run_ray(tl_cli *cli)
     settings.bake = tl_default_bake_settings();
     settings.tmax = INFINITY;
     const tl_option options[] = {
-        { "rays", 'r', TL_OPTION_TEXT, &settings.rays, "FILE", "cast the rays of FILE, one a line; - is standard input",
-          NULL, 0, 0, 0, 0 },
+        { "rays", 'r', TL_OPTION_INPUT, &settings.rays, "FILE",
+          "cast the rays of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "any", 0, TL_OPTION_FLAG, &settings.any, NULL, "say only hit or miss, which is faster", NULL, 0, 0, 0, 0 },
         { "all", 'a', TL_OPTION_FLAG, &settings.all, NULL, "print every triangle that the ray touches, nearest first",
           NULL, 0, 0, 0, 0 },

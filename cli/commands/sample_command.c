@@ -84,9 +84,10 @@ static tl_exit run_sample(tl_cli *cli)
     uint32_t triangles = 0;
     uint64_t seed = 1;
     bool list = false;
+    static const char *const level_endings[] = { ".obj", NULL };
     const tl_option options[] = {
-        { "output", 'o', TL_OPTION_TEXT, &output, "FILE", "where to write; - is standard output (NAME.obj)", NULL, 0, 0,
-          0, 0 },
+        { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE", "where to write; - is standard output (NAME.obj)",
+          level_endings, 0, 0, 0, 0 },
         { "triangles", 'n', TL_OPTION_COUNT, &triangles, "N",
           "triangles of the level, from 500; up to 7 fewer are made (0: as --list says)", NULL, 0, 0, 0,
           TL_MAX_MESH_TRIANGLES / 4 },

@@ -46,7 +46,7 @@ static tl_exit run_support(tl_cli *cli)
     const char *directions = NULL;
     tl_hull_settings settings = tl_default_hull_settings();
     const tl_option options[] = {
-        { "directions", 'd', TL_OPTION_TEXT, &directions, "FILE",
+        { "directions", 'd', TL_OPTION_INPUT, &directions, "FILE",
           "answer for the directions of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };

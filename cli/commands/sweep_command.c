@@ -100,7 +100,7 @@ static tl_exit run_sweep(tl_cli *cli)
     settings.bake = tl_default_bake_settings();
     settings.shape = tl_default_shape_option();
     const tl_option options[] = {
-        { "sweeps", 's', TL_OPTION_TEXT, &settings.sweeps, "FILE",
+        { "sweeps", 's', TL_OPTION_INPUT, &settings.sweeps, "FILE",
           "answer for the sweeps of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         { "cull", 0, TL_OPTION_CHOICE, &settings.cull, NULL, "sides of triangles to ignore", culls, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,

@@ -2,6 +2,7 @@
 
 #include "cli/draw/draw_paper.h"
 
+#include "cli/shared/output_check.h"
 #include "io/files/atomic_write.h"
 
 #include <cairo-svg.h>
@@ -74,12 +75,6 @@ static cairo_status_t write_paper_bytes(void *closure, const unsigned char *byte
     return out->result == TL_OK ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
 }
 
-static bool ends_in_svg(const char *path)
-{
-    size_t length = strlen(path);
-    return length >= 4 && strcmp(path + length - 4, ".svg") == 0;
-}
-
 tl_result draw_paper_write(const char *path, uint32_t width, uint32_t height, draw_paint_fn *paint, const void *user,
                            tl_io_error *error_out)
 {
@@ -88,7 +83,7 @@ tl_result draw_paper_write(const char *path, uint32_t width, uint32_t height, dr
     if (result != TL_OK) {
         return result;
     }
-    bool svg = ends_in_svg(path);
+    bool svg = tl_has_ending(path, ".svg");
     cairo_surface_t *surface = svg ? cairo_svg_surface_create_for_stream(write_paper_bytes, &out, width, height)
                                    : cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)width, (int)height);
     cairo_t *cairo = cairo_create(surface);

@@ -79,7 +79,7 @@ void tl_nav_options(tl_bake_settings *settings, tl_option table[TL_NAV_OPTIONS])
           "triangles of the material NAME (* and ? are wildcards) get area ID, 0 to 255; 0 is not walkable, 63 is the "
           "default; may be given again",
           NULL, 0, 0, 0, 0 },
-        { "areas", 0, TL_OPTION_TEXT, &settings->areas.path, "FILE",
+        { "areas", 0, TL_OPTION_INPUT, &settings->areas.path, "FILE",
           "lines 'material ID NAME', 'box ID x y z x y z', 'cylinder ID x y z radius height', 'prism ID low high x z x "
           "z x z ...'",
           NULL, 0, 0, 0, 0 },

@@ -5,6 +5,7 @@
 #include "cli/shared/command.h"
 
 #include "cli/shared/interrupt.h"
+#include "cli/shared/output_check.h"
 #include "cli/shared/parse_value.h"
 
 #include <errno.h>
@@ -91,6 +92,10 @@ bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words
         }
     }
     if (tl_options_parse(all, cli->argc, cli->argv, &cli->arguments) != TL_PARSE_OK) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s", cli->arguments.message);
+        return false;
+    }
+    if (!tl_outputs_check(all, &cli->arguments)) {
         *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s", cli->arguments.message);
         return false;
     }

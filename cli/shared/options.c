@@ -351,6 +351,7 @@ static void default_text(const tl_option *option, char *text, size_t capacity)
         word = option->words[*(const int *)option->target];
         break;
     case TL_OPTION_TEXT:
+    case TL_OPTION_INPUT:
         word = *(const char *const *)option->target;
         break;
     default:

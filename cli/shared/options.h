@@ -16,6 +16,8 @@ typedef enum tl_option_kind {
     TL_OPTION_NEEDED_COUNT, ///< uint32_t without a default: UINT32_MAX when it is not given
     TL_OPTION_NUMBER,       ///< uint64_t
     TL_OPTION_TEXT,         ///< const char *; points into the command line
+    TL_OPTION_INPUT,        ///< TEXT: a file that is read
+    TL_OPTION_OUTPUT,       ///< TEXT: a file that is written, so none that is read; `words`: the endings it may have
     TL_OPTION_TEXTS,        ///< tl_option_texts; the option may be given again and again
     TL_OPTION_CHOICE        ///< int; the index of the word in `words`
 } tl_option_kind;
@@ -36,7 +38,7 @@ typedef struct tl_option {
     void *target;
     const char *metavar;           ///< what stands for the value in the help
     const char *help;              ///< without full stop
-    const char *const *words;      ///< CHOICE: NULL-terminated
+    const char *const *words;      ///< CHOICE, OUTPUT: NULL-terminated
     float min, max;                ///< FLOAT: closed range
     uint32_t min_count, max_count; ///< COUNT: closed range; max_count 0: any
 } tl_option;

@@ -78,7 +78,7 @@ static void test_refusals(void **state)
         cli_free(&refused);
     }
     cli_do(0, "import yard.bin -o back.talus");
-    cli_result refused = cli_run_with(NULL, "draw back.talus -o x.bin --stage spans");
+    cli_result refused = cli_run_with(NULL, "draw back.talus -o x.png --stage spans");
     assert_int_equal(refused.code, 2);
     cli_check_part(refused.err, "a navmesh and no triangles");
     cli_free(&refused);
