@@ -128,8 +128,8 @@ TL_API uint32_t tl_halfedge_mesh_face_vertices(const tl_halfedge_mesh *mesh, uin
                                                uint32_t capacity);
 
 /// The next boundary loop (hole): the lowest boundary half-edge that is >= `from` and the lowest one of its loop. Start
-/// with 0, continue with the result + 1. TL_HALFEDGE_NONE when there is no more. All calls together are O(size of the
-/// mesh and its loops).
+/// with 0, continue with the result + 1. TL_HALFEDGE_NONE when there is no more. All calls together take O(size of the
+/// mesh), and O(L log L) for a loop of L half-edges.
 TL_API uint32_t tl_halfedge_mesh_next_boundary_loop(const tl_halfedge_mesh *mesh, uint32_t from);
 
 /// Whether every invariant holds: links, loops, rings, pools, free lists, counts. TL_ERR_CORRUPT if not, with the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Looking around: edges by their ends, rings, loops.
+// Looking around: edges by their ends, rings, faces.
 
 #include <talus/halfedge.h>
 
@@ -90,21 +90,4 @@ uint32_t tl_halfedge_mesh_face_vertices(const tl_halfedge_mesh *mesh, uint32_t f
         edge = mesh->edges[edge].next;
     } while (edge != start);
     return count;
-}
-
-uint32_t tl_halfedge_mesh_next_boundary_loop(const tl_halfedge_mesh *mesh, uint32_t from)
-{
-    for (uint32_t start = from; start < mesh->edge_end; start++) {
-        if (!tl_halfedge_is_edge(mesh, start) || mesh->edges[start].face != TL_HALFEDGE_NONE) {
-            continue;
-        }
-        uint32_t edge = mesh->edges[start].next;
-        while (edge > start) {
-            edge = mesh->edges[edge].next;
-        }
-        if (edge == start) {
-            return start;
-        }
-    }
-    return TL_HALFEDGE_NONE;
 }
