@@ -51,7 +51,7 @@ typedef struct tl_hull_report {
     uint32_t triangle_count;  ///< of the hull before coplanar ones were merged
     bool thickened;           ///< the input had no volume, and was given the def's thickness
     uint32_t points_left_out; ///< points outside, because max_vertices was reached
-    double max_outside;       ///< metres; the farthest of these lies at least so far outside, 0 when there is none
+    double max_outside;       ///< metres, to double rounding; how far the farthest of these is from the hull, else 0
 } tl_hull_report;
 
 /// One directed edge of a face. The face lies to its left, seen from outside; the half-edges of a face are consecutive.
@@ -126,7 +126,8 @@ TL_API tl_hull_def tl_default_hull_def(void);
 /// Bakes the convex hull of `count` points. Duplicates and inner points are allowed and cost little.
 ///
 /// The result depends on the points and the def only. O(n log n) for points in general position.
-/// Errors: TL_ERR_EMPTY (no point), TL_ERR_NOT_FINITE and TL_ERR_RANGE (with the point's index), TL_ERR_COINCIDENT,
+/// Errors: TL_ERR_EMPTY (no point), TL_ERR_NOT_FINITE and TL_ERR_RANGE (with the point's index, or field "thickness"),
+/// TL_ERR_COINCIDENT,
 /// TL_ERR_COLLINEAR, TL_ERR_COPLANAR (input without volume, see tl_hull_def; also when `thickness` is lost in
 /// rounding), TL_ERR_ARGUMENT, TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED. On failure `*hull_out` is NULL.
 /// `def` NULL: defaults. `report_out` may be NULL, and so may `points` when count is 0. Free with tl_blob_free.
@@ -151,7 +152,8 @@ TL_API tl_result tl_hull_to_halfedge(const tl_hull *hull, tl_halfedge_mesh *mesh
 
 /// Whether bytes of unknown origin are a hull that every query can be trusted with: head, offsets, indices, loops,
 /// twins, Euler's formula, finite values, and, exactly decided, that every face is flat and every edge convex. Safe on
-/// any bytes; `bytes` must be 16-byte aligned. O(size). That the points of the input lie inside, and that the surface
+/// any bytes; `bytes` must be 16-byte aligned. Planes, mass and inertia are computed again, and must be the same bits.
+/// O(size). That the points of the input lie inside, and that the surface
 /// does not wind around twice, which no bake does, takes tl_hull_validate.
 /// A failure names the head's field, or the half-edge, face, vertex or cell, in `report_out`, which may be NULL.
 TL_API tl_result tl_hull_check(const void *bytes, uint64_t size, tl_report *report_out);

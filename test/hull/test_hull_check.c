@@ -79,9 +79,34 @@ static void test_altered_hulls_are_refused_or_harmless(void **state)
         free(copy);
         tl_blob_free(hull);
     }
-    // What passes differs in what nothing depends on for safety: sources, planes, mass, the table's choice of a start.
+    // What passes differs in what no answer depends on: sources, the table's choice of a start.
     TEST_CHECK(refused > 60000 && passed > 1000);
     TEST_CHECK(named[0] > 100 && named[1] > 100 && named[2] > 50000);
+}
+
+// Whatever bit of it is flipped.
+static void test_altered_planes_and_mass_are_refused(void **state)
+{
+    (void)state;
+    tl_vec3 points[40];
+    test_random random = { 7 };
+    shape_make(SHAPE_SPHERE, &random, points, 40);
+    tl_hull *hull;
+    TEST_RESULT(tl_hull_bake(points, 40, NULL, &hull, NULL), TL_OK);
+    uint64_t planes = hull->planes,
+             plane_bytes = tl_hull_plane_block_count(hull->face_count) * sizeof(tl_hull_plane_block);
+    uint8_t *bytes = (uint8_t *)hull;
+    for (uint64_t bit = 0; bit < 8 * (sizeof hull->mass + plane_bytes); bit++) {
+        bool in_mass = bit / 8 < sizeof hull->mass;
+        uint64_t at = in_mass ? offsetof(tl_hull, mass) + bit / 8 : planes + bit / 8 - sizeof hull->mass;
+        bytes[at] ^= (uint8_t)(1u << bit % 8);
+        tl_report report;
+        TEST_RESULT(tl_hull_check(hull, hull->blob.size, &report), TL_ERR_CORRUPT);
+        TEST_CHECK(!in_mass || strcmp(report.field, "mass") == 0);
+        bytes[at] ^= (uint8_t)(1u << bit % 8);
+    }
+    TEST_RESULT(tl_hull_check(hull, hull->blob.size, NULL), TL_OK);
+    tl_blob_free(hull);
 }
 
 // The faces of a cube with a pyramid on top, baked with the tip at some height: below the top, consistent bytes of a
@@ -138,6 +163,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_prefixes_are_refused),
         cmocka_unit_test(test_altered_hulls_are_refused_or_harmless),
+        cmocka_unit_test(test_altered_planes_and_mass_are_refused),
         cmocka_unit_test(test_dented_hulls_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -240,11 +240,43 @@ static void test_a_thickness_lost_in_rounding_is_none(void **state)
     TEST_RESULT(tl_hull_bake(points, 30, &def, &hull, NULL), TL_ERR_COPLANAR);
 }
 
+// What is baked passes its own check; the rest is refused by the field's name.
+static void test_a_thickness_out_of_range_is_refused(void **state)
+{
+    (void)state;
+    tl_vec3 points[30];
+    uint32_t baked = 0, refused = 0;
+    for (uint32_t rank = 0; rank < 3; rank++) {
+        make_plane(points, 30);
+        for (uint32_t i = 0; i < 30 && rank < 2; i++) {
+            points[i] = rank == 0 ? points[0] : tl_scale(points[0], (float)i);
+        }
+        for (float thickness = 1.0f; thickness < 1e38f; thickness *= 10.0f) {
+            tl_hull_def def = tl_default_hull_def();
+            def.thickness = thickness;
+            tl_hull *hull;
+            tl_hull_report report;
+            tl_result result = tl_hull_bake(points, 30, &def, &hull, &report);
+            if (result == TL_OK) {
+                TEST_RESULT(tl_hull_check(hull, hull->blob.size, NULL), TL_OK);
+                tl_blob_free(hull);
+                baked++;
+            } else if (thickness > 1e30f) {
+                TEST_RESULT(result, TL_ERR_RANGE);
+                TEST_CHECK(strcmp(report.base.field, "thickness") == 0);
+                refused++;
+            }
+        }
+    }
+    TEST_CHECK(baked > 20 && refused > 15);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_degenerate_input_has_a_name),
         cmocka_unit_test(test_a_thickness_lost_in_rounding_is_none),
+        cmocka_unit_test(test_a_thickness_out_of_range_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,7 +9,7 @@
 
 #include "base/assert.h"
 
-static void flood_visible(tl_quickhull *hull, uint32_t first, tl_vec3 eye)
+void tl_quickhull_flood_visible(tl_quickhull *hull, uint32_t first, tl_vec3 eye)
 {
     const uint32_t hidden = 2 * ++hull->step, shown = hidden + 1;
     hull->visible_count = 0;
@@ -37,7 +37,7 @@ static void flood_visible(tl_quickhull *hull, uint32_t first, tl_vec3 eye)
 tl_result tl_quickhull_add_point(tl_quickhull *hull, uint32_t face)
 {
     uint32_t point = hull->conflicts[face].farthest;
-    flood_visible(hull, face, hull->local[point].position);
+    tl_quickhull_flood_visible(hull, face, hull->local[point].position);
     TL_TRY(tl_quickhull_reserve(hull, hull->horizon_count));
     hull->created_count = 0;
     for (uint32_t i = 0; i < hull->horizon_count; i++) {

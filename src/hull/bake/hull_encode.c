@@ -70,7 +70,7 @@ static tl_vec3d normal_of(tl_vec3 a, tl_vec3 b, tl_vec3 c)
 }
 
 // The fan triangle with the largest area spans the plane best.
-static tl_hull_plane fit_plane(const tl_hull *hull, tl_hull_face face)
+tl_hull_plane tl_hull_fit_plane(const tl_hull *hull, tl_hull_face face)
 {
     tl_vec3 a = tl_hull_corner(hull, face.first);
     uint32_t best = 1;
@@ -101,7 +101,7 @@ static void write_planes(tl_hull *hull)
 {
     tl_hull_plane_block *blocks = (tl_hull_plane_block *)(void *)((char *)hull + hull->planes);
     for (uint32_t f = 0; f < hull->face_count; f++) {
-        tl_hull_plane plane = fit_plane(hull, tl_hull_faces(hull)[f]);
+        tl_hull_plane plane = tl_hull_fit_plane(hull, tl_hull_faces(hull)[f]);
         tl_hull_plane_block *block = &blocks[f / 8];
         block->x[f % 8] = plane.normal[0];
         block->y[f % 8] = plane.normal[1];
@@ -165,7 +165,7 @@ tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points
     memcpy(hull, &head, sizeof head);
     write_topology(hull, polygons, points, copies);
     write_planes(hull);
-    tl_hull_measure_mass(hull);
+    hull->mass = tl_hull_measure_mass(hull);
     hull->table_scale = tl_hull_table_scale(hull);
     write_blocks(hull, degrees);
     tl_result result = TL_OK;

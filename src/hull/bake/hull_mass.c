@@ -7,6 +7,8 @@
 #include "hull/bake/quickhull.h"
 #include "hull/support/hull_support.h"
 
+#include <string.h>
+
 typedef struct moments {
     double volume6;   // six times the volume
     double first[3];  // 24 times the first moment
@@ -46,8 +48,10 @@ static void add_tetrahedron(moments *m, const double a[3], const double b[3], co
     }
 }
 
-void tl_hull_measure_mass(tl_hull *hull)
+tl_hull_mass tl_hull_measure_mass(const tl_hull *hull)
 {
+    tl_hull_mass mass;
+    memset(&mass, 0, sizeof mass);
     double middle[3] = { 0.0, 0.0, 0.0 };
     for (uint32_t v = 0; v < hull->vertex_count; v++) {
         tl_vec3 p = tl_hull_vertices(hull)[v];
@@ -57,7 +61,7 @@ void tl_hull_measure_mass(tl_hull *hull)
     }
     for (int i = 0; i < 3; i++) {
         middle[i] /= (double)hull->vertex_count;
-        hull->mass.center[i] = middle[i];
+        mass.center[i] = middle[i];
     }
     moments m = { 0.0, { 0.0 }, { 0.0 }, 0.0 };
     for (uint32_t f = 0; f < hull->face_count; f++) {
@@ -70,24 +74,24 @@ void tl_hull_measure_mass(tl_hull *hull)
             add_tetrahedron(&m, a, b, c);
         }
     }
-    tl_hull_mass *mass = &hull->mass;
-    mass->area = 0.5 * m.area2;
+    mass.area = 0.5 * m.area2;
     if (!(m.volume6 > 0.0)) {
-        return; // thinner than double rounding of its length: no volume, the mean as centre
+        return mass; // thinner than double rounding of its length: no volume, the mean as centre
     }
-    mass->volume = m.volume6 / 6.0;
+    mass.volume = m.volume6 / 6.0;
     double center[3];
     for (int i = 0; i < 3; i++) {
         center[i] = m.first[i] / (4.0 * m.volume6);
-        mass->center[i] = middle[i] + center[i];
+        mass.center[i] = middle[i] + center[i];
     }
-    double xx = m.second[0] / 120.0 - mass->volume * center[0] * center[0];
-    double yy = m.second[1] / 120.0 - mass->volume * center[1] * center[1];
-    double zz = m.second[2] / 120.0 - mass->volume * center[2] * center[2];
-    mass->inertia[0] = yy + zz;
-    mass->inertia[1] = xx + zz;
-    mass->inertia[2] = xx + yy;
-    mass->inertia[3] = mass->volume * center[0] * center[1] - m.second[3] / 120.0;
-    mass->inertia[4] = mass->volume * center[0] * center[2] - m.second[4] / 120.0;
-    mass->inertia[5] = mass->volume * center[1] * center[2] - m.second[5] / 120.0;
+    double xx = m.second[0] / 120.0 - mass.volume * center[0] * center[0];
+    double yy = m.second[1] / 120.0 - mass.volume * center[1] * center[1];
+    double zz = m.second[2] / 120.0 - mass.volume * center[2] * center[2];
+    mass.inertia[0] = yy + zz;
+    mass.inertia[1] = xx + zz;
+    mass.inertia[2] = xx + yy;
+    mass.inertia[3] = mass.volume * center[0] * center[1] - m.second[3] / 120.0;
+    mass.inertia[4] = mass.volume * center[0] * center[2] - m.second[4] / 120.0;
+    mass.inertia[5] = mass.volume * center[1] * center[2] - m.second[5] / 120.0;
+    return mass;
 }

@@ -105,6 +105,12 @@ tl_result tl_quickhull_reserve(tl_quickhull *hull, uint32_t more)
     return TL_OK;
 }
 
+static bool is_in_range(tl_vec3 point)
+{
+    tl_vec3 size = tl_abs(point);
+    return tl_maxf(size.x, tl_maxf(size.y, size.z)) <= TL_MAX_HULL_COORDINATE;
+}
+
 static tl_result check_points(const tl_vec3 *points, uint32_t count, tl_report *report)
 {
     if (count == 0) {
@@ -120,8 +126,7 @@ static tl_result check_points(const tl_vec3 *points, uint32_t count, tl_report *
         if (!tl_is_finite(points[i])) {
             return tl_report_fail(report, TL_ERR_NOT_FINITE, "point", i, "remove or repair this point");
         }
-        tl_vec3 size = tl_abs(points[i]);
-        if (tl_maxf(size.x, tl_maxf(size.y, size.z)) > TL_MAX_HULL_COORDINATE) {
+        if (!is_in_range(points[i])) {
             return tl_report_fail(report, TL_ERR_RANGE, "point", i, "use a larger unit");
         }
     }
@@ -206,23 +211,6 @@ static tl_result add_farthest_points(tl_quickhull *hull, const tl_hull_def *def)
     }
 }
 
-static void report_left_out(const tl_quickhull *hull, tl_hull_report *report)
-{
-    if (report == NULL) {
-        return;
-    }
-    report->triangle_count = hull->live_faces;
-    report->points_left_out = hull->waiting;
-    for (uint32_t i = 0; i < hull->face_count; i++) {
-        const tl_quickhull_conflicts *conflicts = &hull->conflicts[i];
-        if (!conflicts->live || conflicts->first == TL_NONE) {
-            continue;
-        }
-        double distance = conflicts->farthest_value / tl_side_plane_length(&hull->faces[i].plane);
-        report->max_outside = distance > report->max_outside ? distance : report->max_outside;
-    }
-}
-
 static tl_result fail_without_volume(tl_report *report, tl_result result)
 {
     return tl_report_fail(report, result, NULL, TL_NO_ELEMENT,
@@ -238,6 +226,9 @@ static tl_result bake_polytope(tl_quickhull *hull, const tl_hull_def *def, tl_hu
     if (result != TL_OK && def->thickness > 0.0f) {
         TL_TRY(tl_quickhull_thicken(hull, seed, rank, def->thickness, &copies));
         measure_box(hull);
+        if (!is_in_range(hull->box.min) || !is_in_range(hull->box.max)) {
+            return tl_report_field(base, TL_ERR_RANGE, "thickness", "make it smaller, or use a larger unit");
+        }
         result = tl_quickhull_seed(hull, 0.0, seed, &rank);
     }
     if (result != TL_OK) {
@@ -254,7 +245,10 @@ static tl_result bake_polytope(tl_quickhull *hull, const tl_hull_def *def, tl_hu
         TL_TRY(tl_quickhull_enqueue(hull, i));
     }
     TL_TRY(add_farthest_points(hull, def));
-    report_left_out(hull, report);
+    if (report != NULL) {
+        report->triangle_count = hull->live_faces;
+        tl_quickhull_report_left_out(hull, report);
+    }
     tl_hull_polygons polygons;
     TL_TRY(tl_quickhull_merge_faces(hull, &polygons));
     TL_TRY(tl_hull_encode(&polygons, hull->points, copies, hull->arena, hull_out));

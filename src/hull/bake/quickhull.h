@@ -138,8 +138,14 @@ void tl_quickhull_unqueue(tl_quickhull *hull, uint32_t face);
 // The next face with a point outside, or TL_NONE.
 uint32_t tl_quickhull_dequeue(tl_quickhull *hull);
 
-// horizon.c: replaces all that is visible from the face's farthest point by a cone. Leaves `visible` for the refiling.
+// horizon.c
+// Fills `visible` with the faces that a point, which is strictly in front of `first`, sees; and `horizon`.
+void tl_quickhull_flood_visible(tl_quickhull *hull, uint32_t first, tl_vec3 eye);
+// Replaces all that is visible from the face's farthest point by a cone. Leaves `visible` for the refiling.
 tl_result tl_quickhull_add_point(tl_quickhull *hull, uint32_t face);
+
+// left_out.c: the points that are still outside.
+void tl_quickhull_report_left_out(tl_quickhull *hull, tl_hull_report *report);
 
 // face_merge.c
 tl_result tl_quickhull_merge_faces(tl_quickhull *hull, tl_hull_polygons *polygons_out);
@@ -148,10 +154,12 @@ tl_result tl_quickhull_merge_faces(tl_quickhull *hull, tl_hull_polygons *polygon
 tl_result tl_quickhull_thicken(tl_quickhull *hull, const uint32_t seed[4], uint32_t rank, float thickness,
                                uint32_t *copies_out);
 
-// hull_mass.c
-void tl_hull_measure_mass(tl_hull *hull);
+// hull_mass.c: for density 1, from the vertices and loops.
+tl_hull_mass tl_hull_measure_mass(const tl_hull *hull);
 
 // hull_encode.c
+// A face's plane, from its corners.
+tl_hull_plane tl_hull_fit_plane(const tl_hull *hull, tl_hull_face face);
 tl_result tl_hull_encode(const tl_hull_polygons *polygons, const tl_vec3 *points, uint32_t copies, tl_arena *arena,
                          tl_hull **hull_out);
 

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+//
+// How far outside a hull of limited vertices the points lie that it leaves out: the largest of their distances.
+//
+// The nearest point of a convex body lies on a face that the point is in front of. So the faces that it sees, flooded
+// as for a step of quickhull, are all that must be looked at. Nearly always the distance from the one face that the
+// point is filed under, which the true distance does not exceed, says that another point is farther.
+
+#include "hull/bake/quickhull.h"
+
+#include "base/min_max.h"
+#include "math/vec3d.h"
+
+static double distance_sq_to_segment(tl_vec3d a, tl_vec3d b, tl_vec3d p)
+{
+    tl_vec3d along = tl_vec3d_sub(b, a), to_p = tl_vec3d_sub(p, a);
+    double t = tl_clamp_f64(tl_vec3d_dot(along, to_p) / tl_vec3d_dot(along, along), 0.0, 1.0);
+    tl_vec3d off = tl_vec3d_mul_add(to_p, along, -t);
+    return tl_vec3d_dot(off, off);
+}
+
+static double distance_sq_to_face(const tl_quickhull *hull, uint32_t face, tl_vec3d p)
+{
+    const tl_quickhull_face *f = &hull->faces[face];
+    tl_vec3d normal = tl_vec3d_make(f->plane.normal[0], f->plane.normal[1], f->plane.normal[2]);
+    double nearest = (double)INFINITY;
+    bool above = true;
+    for (uint32_t k = 0; k < 3; k++) {
+        tl_vec3d a = tl_vec3d_from(hull->local[f->vertex[k]].position),
+                 b = tl_vec3d_from(hull->local[f->vertex[k == 2 ? 0 : k + 1]].position);
+        nearest = tl_min_f64(nearest, distance_sq_to_segment(a, b, p));
+        above = above && tl_vec3d_dot(normal, tl_vec3d_cross(tl_vec3d_sub(b, a), tl_vec3d_sub(p, a))) >= 0.0;
+    }
+    double height = tl_vec3d_dot(normal, p) - f->plane.offset;
+    return above ? tl_min_f64(nearest, height * height / tl_vec3d_dot(normal, normal)) : nearest;
+}
+
+static double distance_sq_to_hull(tl_quickhull *hull, uint32_t face, uint32_t point)
+{
+    double nearest = (double)INFINITY;
+    tl_quickhull_flood_visible(hull, face, hull->local[point].position);
+    for (uint32_t i = 0; i < hull->visible_count; i++) {
+        double distance_sq = distance_sq_to_face(hull, hull->visible[i], tl_vec3d_from(hull->local[point].position));
+        nearest = tl_min_f64(nearest, distance_sq);
+    }
+    return nearest;
+}
+
+void tl_quickhull_report_left_out(tl_quickhull *hull, tl_hull_report *report)
+{
+    double farthest_sq = 0.0;
+    for (uint32_t face = 0; face < hull->face_count; face++) {
+        uint32_t point = hull->conflicts[face].live ? hull->conflicts[face].first : TL_NONE;
+        for (; point != TL_NONE; point = hull->local[point].next) {
+            double bound_sq = distance_sq_to_face(hull, face, tl_vec3d_from(hull->local[point].position));
+            if (bound_sq > farthest_sq) {
+                farthest_sq = tl_max_f64(farthest_sq, distance_sq_to_hull(hull, face, point));
+            }
+        }
+    }
+    report->points_left_out = hull->waiting;
+    report->max_outside = sqrt(farthest_sq);
+}
