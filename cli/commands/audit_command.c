@@ -5,8 +5,8 @@
 #include "cli/draw/draw_picture.h"
 #include "cli/draw/draw_source.h"
 #include "cli/draw/draw_stage.h"
+#include "cli/options/output_check.h"
 #include "cli/shared/json_out.h"
-#include "cli/shared/output_check.h"
 
 #include <talus/nav_audit.h>
 

@@ -3,9 +3,9 @@
 // talus distance: how far two hulls are apart, and where they are nearest.
 
 #include "cli/level/open_hull.h"
+#include "cli/options/parse_value.h"
 #include "cli/shared/json_out.h"
 #include "cli/shared/line_batch.h"
-#include "cli/shared/parse_value.h"
 
 #include <talus/convex.h>
 
@@ -151,18 +151,26 @@ static tl_exit run_distance(tl_cli *cli)
           1e6f, 0, 0 },
         { "radius-b", 0, TL_OPTION_FLOAT, &s.radius_b, "M", "metres: B is rounded by a ball of this radius", NULL, 0,
           1e6f, 0, 0 },
-        { "index-a", 0, TL_OPTION_NEEDED_COUNT, &s.hull_a.index, "I", "which cloud of A's file, from 0", NULL, 0, 0, 0,
-          0 },
-        { "index-b", 0, TL_OPTION_NEEDED_COUNT, &s.hull_b.index, "I", "which cloud of B's file, from 0", NULL, 0, 0, 0,
-          0 },
         TL_OPTION_TABLE_END,
     };
-    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
+    const tl_option of_a[] = { { "index-a", 0, TL_OPTION_NEEDED_COUNT, &s.hull_a.index, "I",
+                                 "which cloud of A's file, from 0", NULL, 0, 0, 0, 0 },
+                               TL_OPTION_TABLE_END };
+    const tl_option of_b[] = { { "index-b", 0, TL_OPTION_NEEDED_COUNT, &s.hull_b.index, "I",
+                                 "which cloud of B's file, from 0", NULL, 0, 0, 0, 0 },
+                               TL_OPTION_TABLE_END };
+    const tl_option_group groups[] = {
+        { "Options:", options }, { "When A is not baked:", of_a }, { "When B is not baked:", of_b }, { NULL, NULL }
+    };
     tl_exit code;
     distance_query query;
     memset(&query, 0, sizeof(query));
     if (!tl_cli_parse(cli, groups, 2, 2, &code) || !parse_pose(cli, "pose-a", s.pose_a, &query.pose_a, &code) ||
         !parse_pose(cli, "pose", s.pose_b, &query.pose_b, &code)) {
+        return code;
+    }
+    if (!tl_input_refuse_options(cli, cli->arguments.words[0], of_a, &code) ||
+        !tl_input_refuse_options(cli, cli->arguments.words[1], of_b, &code)) {
         return code;
     }
     tl_hull_input a, b;

@@ -8,9 +8,9 @@
 #include "cli/draw/draw_source.h"
 #include "cli/draw/draw_stage.h"
 #include "cli/draw/draw_steps.h"
+#include "cli/options/output_check.h"
+#include "cli/options/parse_value.h"
 #include "cli/shared/json_out.h"
-#include "cli/shared/output_check.h"
-#include "cli/shared/parse_value.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,8 +3,8 @@
 // talus hull: the convex hull of points or of a mesh, measured and written.
 
 #include "cli/level/open_hull.h"
+#include "cli/options/output_check.h"
 #include "cli/shared/json_out.h"
-#include "cli/shared/output_check.h"
 #include "io/files/atomic_write.h"
 #include "io/mesh/obj_write.h"
 
@@ -178,9 +178,12 @@ static tl_exit run_hull(tl_cli *cli)
     };
     tl_option hull_options[TL_HULL_OPTIONS];
     tl_hull_options(&settings, hull_options);
-    const tl_option_group groups[] = { { "Options:", options }, { "Hull:", hull_options }, { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", options },
+                                       { "When the hull is not baked:", hull_options },
+                                       { NULL, NULL } };
     tl_exit code;
-    if (!tl_cli_parse(cli, groups, 1, 1, &code)) {
+    if (!tl_cli_parse(cli, groups, 1, 1, &code) ||
+        !tl_input_refuse_options(cli, cli->arguments.words[0], hull_options, &code)) {
         return code;
     }
     if (!all) {

@@ -6,8 +6,8 @@
 #include "cli/draw/draw_source.h"
 #include "cli/draw/draw_stage.h"
 #include "cli/level/write_pack.h"
+#include "cli/options/output_check.h"
 #include "cli/shared/json_out.h"
-#include "cli/shared/output_check.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 //
 // talus COMMAND ...: finds the command and hands over.
 
-#include "cli/shared/closest_word.h"
+#include "cli/options/closest_word.h"
 #include "cli/shared/command.h"
 
 #include <stdio.h>

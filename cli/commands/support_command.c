@@ -52,9 +52,12 @@ static tl_exit run_support(tl_cli *cli)
     };
     tl_option hull_options[TL_HULL_OPTIONS];
     tl_hull_options(&settings, hull_options);
-    const tl_option_group groups[] = { { "Options:", options }, { "Hull:", hull_options }, { NULL, NULL } };
+    const tl_option_group groups[] = { { "Options:", options },
+                                       { "When the hull is not baked:", hull_options },
+                                       { NULL, NULL } };
     tl_exit code;
-    if (!tl_cli_parse(cli, groups, 1, 2, &code)) {
+    if (!tl_cli_parse(cli, groups, 1, 2, &code) ||
+        !tl_input_refuse_options(cli, cli->arguments.words[0], hull_options, &code)) {
         return code;
     }
     static const tl_question_words words = { "direction", NULL, "directions" };

@@ -2,7 +2,7 @@
 
 #include "cli/draw/draw_paper.h"
 
-#include "cli/shared/output_check.h"
+#include "cli/options/output_check.h"
 #include "io/files/atomic_write.h"
 
 #include <cairo-svg.h>

@@ -6,7 +6,7 @@
 #include "cli/level/bake_level.h"
 
 #include "cli/level/polygonize_compare.h"
-#include "cli/shared/parse_value.h"
+#include "cli/options/parse_value.h"
 
 #include <string.h>
 

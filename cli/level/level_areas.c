@@ -5,8 +5,8 @@
 
 #include "cli/level/level_areas.h"
 
-#include "cli/shared/closest_word.h"
-#include "cli/shared/parse_value.h"
+#include "cli/options/closest_word.h"
+#include "cli/options/parse_value.h"
 #include "cli/shared/text_buffer.h"
 #include "io/files/growable.h"
 

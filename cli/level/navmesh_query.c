@@ -2,7 +2,7 @@
 
 #include "cli/level/navmesh_query.h"
 
-#include "cli/shared/parse_value.h"
+#include "cli/options/parse_value.h"
 
 bool tl_extents_read(tl_cli *cli, const char *text, tl_vec3 *extents, tl_exit *exit_out)
 {

@@ -16,6 +16,38 @@ static bool ends_with(const char *text, const char *end)
     return text_length >= end_length && strcmp(text + text_length - end_length, end) == 0;
 }
 
+bool tl_input_is_baked(const char *path)
+{
+    if (strcmp(path, "-") == 0) {
+        return false; // a stream can be read only once
+    }
+    if (ends_with(path, ".talus")) {
+        return true;
+    }
+    tl_file_map map;
+    tl_pack pack;
+    if (tl_file_map_open(path, 0, &map, NULL) != TL_OK) {
+        return false;
+    }
+    // An empty file has no magic either, but it is no baked file until its name says so.
+    bool baked = map.size >= sizeof(tl_blob) && tl_pack_open(map.bytes, map.size, &pack, NULL) != TL_ERR_MAGIC;
+    tl_file_map_close(&map);
+    return baked;
+}
+
+bool tl_input_refuse_options(tl_cli *cli, const char *path, const tl_option *options, tl_exit *exit_out)
+{
+    const char *given = tl_arguments_find_given(&cli->arguments, options);
+    if (given == NULL || !tl_input_is_baked(path)) {
+        return true;
+    }
+    *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE,
+                            "--%s: %s is baked already, and keeps the options it was baked with; leave out --%s, or "
+                            "give the level",
+                            given, path, given);
+    return false;
+}
+
 bool tl_input_parse(tl_cli *cli, const tl_option_group *own, tl_input_options options, tl_bake_settings *settings,
                     uint32_t min_words, uint32_t max_words, tl_exit *exit_out)
 {
@@ -36,27 +68,13 @@ bool tl_input_parse(tl_cli *cli, const tl_option_group *own, tl_input_options op
     }
     const tl_option_group end = { NULL, NULL };
     groups[count] = end;
-    return tl_cli_parse(cli, groups, min_words, max_words, exit_out) &&
-           (options == TL_INPUT_LEVEL || tl_bake_take_bounds(cli, settings, exit_out));
-}
-
-bool tl_input_is_baked(const char *path)
-{
-    if (strcmp(path, "-") == 0) {
-        return false; // a stream can be read only once
-    }
-    if (ends_with(path, ".talus")) {
-        return true;
-    }
-    tl_file_map map;
-    tl_pack pack;
-    if (tl_file_map_open(path, 0, &map, NULL) != TL_OK) {
+    if (!tl_cli_parse(cli, groups, min_words, max_words, exit_out)) {
         return false;
     }
-    // An empty file has no magic either, but it is no baked file until its name says so.
-    bool baked = map.size >= sizeof(tl_blob) && tl_pack_open(map.bytes, map.size, &pack, NULL) != TL_ERR_MAGIC;
-    tl_file_map_close(&map);
-    return baked;
+    const char *path = cli->arguments.words[0];
+    return tl_input_refuse_options(cli, path, level_options, exit_out) &&
+           (options == TL_INPUT_LEVEL || (tl_input_refuse_options(cli, path, nav_options, exit_out) &&
+                                          tl_bake_take_bounds(cli, settings, exit_out)));
 }
 
 bool tl_input_open_baked(tl_cli *cli, const char *path, tl_input *input_out, tl_exit *exit_out)

@@ -27,7 +27,12 @@ typedef enum tl_input_options {
     TL_INPUT_NAVMESH ///< and how its navmesh is baked
 } tl_input_options;
 
-/// tl_cli_parse for a command that takes FILE: its own option groups, then those for a level, which fill `settings`.
+/// True when `path` is a level, or when none of `options` was given: they say how a level is read or baked, and a baked
+/// file would ignore them. False: the first that was given is refused by name.
+bool tl_input_refuse_options(tl_cli *cli, const char *path, const tl_option *options, tl_exit *exit_out);
+
+/// tl_cli_parse for a command that takes FILE: its own option groups, then those for a level, which fill `settings` and
+/// are refused when FILE is baked already.
 bool tl_input_parse(tl_cli *cli, const tl_option_group *own, tl_input_options options, tl_bake_settings *settings,
                     uint32_t min_words, uint32_t max_words, tl_exit *exit_out);
 

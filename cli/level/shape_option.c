@@ -2,7 +2,7 @@
 
 #include "cli/level/shape_option.h"
 
-#include "cli/shared/parse_value.h"
+#include "cli/options/parse_value.h"
 
 #include <string.h>
 

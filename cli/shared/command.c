@@ -4,9 +4,9 @@
 
 #include "cli/shared/command.h"
 
+#include "cli/options/output_check.h"
+#include "cli/options/parse_value.h"
 #include "cli/shared/interrupt.h"
-#include "cli/shared/output_check.h"
-#include "cli/shared/parse_value.h"
 
 #include <errno.h>
 #include <stdarg.h>

@@ -8,7 +8,7 @@
 #ifndef TALUS_CLI_COMMAND_H
 #define TALUS_CLI_COMMAND_H
 
-#include "cli/shared/options.h"
+#include "cli/options/options.h"
 #include "cli/shared/progress.h"
 #include "cli/shared/thread_pool.h"
 #include "io/files/io_error.h"

@@ -4,9 +4,9 @@
 
 #include "cli/shared/line_batch.h"
 
+#include "cli/options/parse_value.h"
 #include "cli/shared/interrupt.h"
 #include "cli/shared/line_input.h"
-#include "cli/shared/parse_value.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 // Optimal string alignment: Levenshtein's table with one more move for two letters in the wrong order, the most common
 // slip of all. Source: Damerau, A Technique for Computer Detection and Correction of Spelling Errors, CACM 1964.
 
-#include "cli/shared/closest_word.h"
+#include "cli/options/closest_word.h"
 
 #include <string.h>
 

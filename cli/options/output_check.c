@@ -3,7 +3,7 @@
 // Files are compared by what they are, not by their names: ./level.obj, a symbolic or hard link to it, and standard
 // input that comes from it are all the level itself.
 
-#include "cli/shared/output_check.h"
+#include "cli/options/output_check.h"
 
 #include <ctype.h>
 #include <stdio.h>

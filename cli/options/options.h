@@ -60,12 +60,14 @@ typedef enum tl_parse_outcome {
     TL_PARSE_ERROR ///< `message` says what and what to do
 } tl_parse_outcome;
 
-enum { TL_MAX_ARGUMENTS = 64, TL_OPTION_MESSAGE_BYTES = 512 };
+enum { TL_MAX_ARGUMENTS = 64, TL_MAX_OPTIONS = 96, TL_OPTION_MESSAGE_BYTES = 512 };
 
 /// The words that are not options, in order.
 typedef struct tl_arguments {
     const char *words[TL_MAX_ARGUMENTS];
     uint32_t count;
+    const char *given[TL_MAX_OPTIONS]; ///< names of the options that were given, each once
+    uint32_t given_count;
     char message[TL_OPTION_MESSAGE_BYTES];
     void *storage; ///< what the words and TEXT targets point into; freed by tl_arguments_free
 } tl_arguments;
@@ -73,6 +75,8 @@ typedef struct tl_arguments {
 /// Parses argv[1..]. Words like -1,2,3 are values, not options.
 tl_parse_outcome tl_options_parse(const tl_option_group *groups, int argc, const char *const *argv,
                                   tl_arguments *arguments_out);
+/// The name of the first option of `options` that was given; NULL: none was.
+const char *tl_arguments_find_given(const tl_arguments *arguments, const tl_option *options);
 void tl_arguments_free(tl_arguments *arguments);
 
 /// Prints the options with their defaults, one or two lines each.

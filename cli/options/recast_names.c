@@ -6,7 +6,7 @@
 // is not. Sources: Recast.h (rcConfig), DetourNavMesh.h, DetourNavMeshBuilder.h and DetourNavMeshQuery.h, version 1.6;
 // the labels and fields of RecastDemo's Sample; recast-navigation-js 0.3x, RecastConfig.
 
-#include "cli/shared/recast_names.h"
+#include "cli/options/recast_names.h"
 
 #include <stddef.h>
 

@@ -5,7 +5,7 @@
 #ifndef TALUS_CLI_OUTPUT_CHECK_H
 #define TALUS_CLI_OUTPUT_CHECK_H
 
-#include "cli/shared/options.h"
+#include "cli/options/options.h"
 
 /// The endings of pictures; NULL-terminated, for TL_OPTION_OUTPUT.
 extern const char *const tl_picture_endings[];

@@ -4,28 +4,28 @@
 // option, the value and the range. The help is printed from the same tables, because popt's own shows no defaults of
 // values that it does not parse.
 
-#include "cli/shared/options.h"
+#include "cli/options/options.h"
 
-#include "cli/shared/option_spelling.h"
-#include "cli/shared/parse_value.h"
+#include "cli/options/option_spelling.h"
+#include "cli/options/parse_value.h"
 
 #include <popt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_OPTIONS = 96, HELP_COLUMN = 34, HELP_WIDTH = 104 };
+enum { HELP_COLUMN = 34, HELP_WIDTH = 104 };
 
 // What popt returns for a word: an option's index from 1, one of these, or FIRST_REFUSED and a spelling's index.
-enum { HELP_VALUE = MAX_OPTIONS + 1, FIRST_REFUSED };
+enum { HELP_VALUE = TL_MAX_OPTIONS + 1, FIRST_REFUSED };
 
 // All that popt may meet.
 typedef struct option_list {
-    const tl_option *options[MAX_OPTIONS];
+    const tl_option *options[TL_MAX_OPTIONS];
     uint32_t count;
     tl_option_spelling spellings[TL_MAX_OPTION_SPELLINGS];
     uint32_t spelling_count;
-    struct poptOption table[MAX_OPTIONS + TL_MAX_OPTION_SPELLINGS + 2];
+    struct poptOption table[TL_MAX_OPTIONS + TL_MAX_OPTION_SPELLINGS + 2];
 } option_list;
 
 // What parsed words and texts point into.
@@ -103,7 +103,8 @@ static void fill_list(const tl_option_group *groups, option_list *list)
     list->count = 0;
     struct poptOption *entry = list->table;
     for (; groups->title != NULL; ++groups) {
-        for (const tl_option *option = groups->options; option->name != NULL && list->count < MAX_OPTIONS; ++option) {
+        for (const tl_option *option = groups->options; option->name != NULL && list->count < TL_MAX_OPTIONS;
+             ++option) {
             list->options[list->count++] = option;
             const struct poptOption own = {
                 option->name, option->letter,   is_flag(option) ? POPT_ARG_NONE : POPT_ARG_STRING,
@@ -255,6 +256,28 @@ static void explain_bad_option(tl_arguments *arguments, const storage *s, int co
     }
 }
 
+static void note_given(tl_arguments *arguments, const char *name)
+{
+    for (uint32_t i = 0; i < arguments->given_count; ++i) {
+        if (arguments->given[i] == name) {
+            return;
+        }
+    }
+    arguments->given[arguments->given_count++] = name;
+}
+
+const char *tl_arguments_find_given(const tl_arguments *arguments, const tl_option *options)
+{
+    for (; options->name != NULL; ++options) {
+        for (uint32_t i = 0; i < arguments->given_count; ++i) {
+            if (strcmp(arguments->given[i], options->name) == 0) {
+                return options->name;
+            }
+        }
+    }
+    return NULL;
+}
+
 // Takes the option that popt met. False: it is refused.
 static bool take_option(tl_arguments *arguments, storage *s, const option_list *list, int code)
 {
@@ -267,6 +290,7 @@ static bool take_option(tl_arguments *arguments, storage *s, const option_list *
         snprintf(arguments->message, sizeof(arguments->message), "--%s %s", spelling->word, spelling->advice);
         return false;
     }
+    note_given(arguments, list->options[code - 1]->name);
     return set_value(arguments, list->options[code - 1], value != NULL ? value : "");
 }
 

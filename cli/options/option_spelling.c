@@ -2,10 +2,10 @@
 //
 // All spellings are written out, and the parser gets them as options of their own: it needs no rules for letters.
 
-#include "cli/shared/option_spelling.h"
+#include "cli/options/option_spelling.h"
 
-#include "cli/shared/closest_word.h"
-#include "cli/shared/recast_names.h"
+#include "cli/options/closest_word.h"
+#include "cli/options/recast_names.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 // The io library reads the digits, correctly rounded and without a locale; what people write instead of numbers - nan,
 // inf, 0x1p3 - is refused here, by name.
 
-#include "cli/shared/parse_value.h"
+#include "cli/options/parse_value.h"
 
 #include "io/text/parse_float.h"
 

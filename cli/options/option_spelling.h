@@ -5,7 +5,7 @@
 #ifndef TALUS_CLI_OPTION_SPELLING_H
 #define TALUS_CLI_OPTION_SPELLING_H
 
-#include "cli/shared/options.h"
+#include "cli/options/options.h"
 
 enum { TL_MAX_OPTION_SPELLINGS = 256, TL_OPTION_SPELLING_BYTES = 48 };
 
