@@ -18,6 +18,7 @@
 #include "nav_query/exact/wedge_sight.h"
 #include "nav_query/prepared/corner_distances.h"
 #include "nav_query/prepared/landmarks.h"
+#include "nav_query/search/query_memory.h"
 
 #include <string.h>
 
@@ -129,9 +130,9 @@ static void note_sight(void *user, uint32_t turn)
 
 static tl_result make_look_query(graph_baker *b, uint32_t max_nodes)
 {
-    tl_nav_query_destroy(b->query);
-    tl_nav_query_def def = { max_nodes, &b->allocator, TL_DEF_COOKIE };
-    return tl_nav_query_create(&def, &b->query);
+    tl_nav_query_release(b->query);
+    const tl_nav_query_sizes none = { 0, 0 };
+    return tl_nav_query_allocate(max_nodes, none, &b->allocator, &b->query);
 }
 
 static tl_result look_from(graph_baker *b, uint32_t vertex)
@@ -147,7 +148,7 @@ static tl_result look_from(graph_baker *b, uint32_t vertex)
     b->vertex = vertex;
     start.query = b->query;
     while (!tl_nav_see(&start, &sight)) {
-        if (b->query->max_nodes > UINT32_MAX / 4) {
+        if (b->query->max_nodes > TL_NAV_MAX_QUERY_NODES / 2) {
             return TL_ERR_LIMIT;
         }
         TL_TRY(make_look_query(b, 2 * b->query->max_nodes));
@@ -301,7 +302,7 @@ tl_result tl_nav_bake_visibility_graph(tl_navmesh *navmesh, tl_nav_visibility_gr
     }
     memset(b.graph, 0, sizeof *b.graph);
     tl_result result = bake_graph(&b);
-    tl_nav_query_destroy(b.query);
+    tl_nav_query_release(b.query);
     tl_release_array(&b.allocator, b.sights.pairs, b.sights.capacity, sizeof *b.sights.pairs);
     tl_release_array(&b.allocator, b.cones.cones, b.cones.capacity, sizeof *b.cones.cones);
     tl_release_array(&b.allocator, b.vertex_of, b.fan_count, sizeof *b.vertex_of);

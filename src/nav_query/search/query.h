@@ -22,8 +22,15 @@ typedef struct tl_nav_stop tl_nav_stop;             // prepared/graph_search.h
 typedef struct tl_nav_corner_leg tl_nav_corner_leg; // prepared/path_ends.h
 typedef struct tl_nav_path_run tl_nav_path_run;     // path/path_run.h
 
+/// Bytes of items that only searches of later rooms know. 0: the query has none.
+typedef struct tl_nav_query_sizes {
+    size_t stop; ///< tl_nav_stop
+    size_t run;  ///< tl_nav_path_run
+} tl_nav_query_sizes;
+
 struct tl_nav_query {
     tl_allocator allocator;
+    tl_nav_query_sizes sizes;
     uint32_t max_nodes;
 
     // The node pool (node_pool.h): A* over ways into polygons, floods, the wide search.
