@@ -199,9 +199,10 @@ typedef struct tl_contact_manifold {
 /// Where two shapes rest on each other: their contact manifold. Returns the number of contacts; 0 when the shapes are
 /// farther apart than the limits' margin.
 ///
-/// Where faces of hulls, boxes or triangles meet, these are the corners of their common patch within the limits'
-/// tolerance; of more than four, the deepest and those that span the largest area. Everything else, and edges that
-/// cross, give one contact. Costs a distance, a support query and a search for each shape's face. `limits` may be NULL.
+/// Where faces of hulls, boxes or triangles meet, or an edge of one rests on a face, these are the corners of their
+/// common patch within the limits' tolerance; of more than four, the deepest and those that span the largest area. The
+/// deepest point is always among them, also where it lies between the corners. Everything else gives one contact. Costs
+/// a distance, a support query and a search for each shape's face. `limits` may be NULL.
 /// Poses, cache, threads as in tl_convex_distance.
 TL_API uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b,
                                    const tl_contact_limits *limits, tl_simplex_cache *cache,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The face of a shape whose normal is closest to a direction: the one that rests on another shape.
+// The face of a shape whose normal is closest to a direction: the one that rests on another shape. Where it is too
+// steep to rest on, the edge at the support vertex that is most level, as a face of two corners.
 //
 // A hull of few faces is scanned. On one of many the search begins at the faces around the support vertex, whose
 // normals are the corners of the region of directions that this one lies in, and climbs: from a face to the best of
@@ -9,6 +10,11 @@
 // nothing to rest on.
 
 #include "convex/face_patch.h"
+
+#include "convex/farthest.h"
+
+// A face that is steeper than 60 degrees to the direction is no face to rest on.
+#define MIN_COSINE 0.5
 
 // Measured: a scan of so many faces takes as long as a support query and the look at what is around its vertex.
 #define SCANNED_FACES 48u
@@ -105,17 +111,73 @@ static bool triangle_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
     return length > 0.0;
 }
 
+static bool find_face(const tl_convex *shape, tl_vec3d d, tl_face *face)
+{
+    if (shape->kind == TL_CONVEX_HULL) {
+        hull_face(shape, d, face);
+        return true;
+    }
+    if (shape->kind == TL_CONVEX_BOX) {
+        box_face(shape, d, face);
+        return true;
+    }
+    return shape->kind == TL_CONVEX_INLINE && shape->point_count == 3 && triangle_face(shape, d, face);
+}
+
+// Makes the edge from p to q the face when it is the most level one yet. Its normal is the one across it that is
+// closest to the direction.
+static void consider_edge(tl_vec3d p, tl_vec3d q, tl_vec3d d, double *best, tl_face *face)
+{
+    tl_vec3d along = tl_vec3d_sub(q, p);
+    double length = tl_vec3d_length(along), rise = tl_vec3d_dot(along, d);
+    if (!(length > 0.0) || !(fabs(rise) < *best * length)) {
+        return;
+    }
+    *best = fabs(rise) / length;
+    tl_vec3d across = tl_vec3d_mul_add(d, along, -rise / (length * length));
+    face->corners[0] = p;
+    face->corners[1] = q;
+    face->count = 2;
+    face->normal = tl_vec3d_scale(across, 1.0 / tl_vec3d_length(across));
+}
+
+static void find_hull_edge(const tl_hull *hull, tl_vec3d d, double *best, tl_face *face)
+{
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    uint32_t vertex = tl_hull_support(hull, tl_vec3d_to_float(d), TL_NO_VERTEX);
+    uint32_t first = tl_hull_vertex_edges(hull)[vertex], edge = first;
+    do {
+        uint32_t twin = half_edges[edge].twin;
+        consider_edge(tl_vec3d_from(vertices[vertex]), tl_vec3d_from(vertices[half_edges[twin].origin]), d, best, face);
+        edge = half_edges[twin].next;
+    } while (edge != first);
+}
+
+// Of a box some face is never so steep.
+static bool find_edge(const tl_convex *shape, tl_vec3d d, tl_face *face)
+{
+    double best = sqrt(1.0 - MIN_COSINE * MIN_COSINE); // an edge is as steep as a face may be
+    face->first = face->count = 0;
+    if (shape->kind == TL_CONVEX_HULL) {
+        find_hull_edge(shape->hull, d, &best, face);
+    } else {
+        uint32_t top = tl_farthest(shape->corners, 3, &d);
+        for (uint32_t i = 1; i < 3; i++) {
+            consider_edge(tl_vec3d_from(shape->corners[top]), tl_vec3d_from(shape->corners[(top + i) % 3]), d, &best,
+                          face);
+        }
+    }
+    return face->count == 2;
+}
+
 bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direction, tl_face *face)
 {
     tl_vec3d d = frame != NULL ? tl_frame_rotate_back(frame, direction) : direction;
     face->shape = shape;
     face->frame = frame;
     face->first = face->count = 0;
-    if (shape->kind == TL_CONVEX_HULL) {
-        hull_face(shape, d, face);
-    } else if (shape->kind == TL_CONVEX_BOX) {
-        box_face(shape, d, face);
-    } else if (shape->kind != TL_CONVEX_INLINE || shape->point_count != 3 || !triangle_face(shape, d, face)) {
+    if (!find_face(shape, d, face) || (tl_vec3d_dot(face->normal, d) < MIN_COSINE && !find_edge(shape, d, face))) {
         return false;
     }
     if (frame != NULL) {
@@ -130,7 +192,7 @@ bool tl_face_along(const tl_convex *shape, const tl_frame *frame, tl_vec3d direc
 
 tl_vec3d tl_face_corner(const tl_face *face, uint32_t at)
 {
-    if (face->shape->kind != TL_CONVEX_HULL) {
+    if (face->count > 0) {
         return face->corners[at];
     }
     const tl_hull *hull = face->shape->hull;
@@ -140,5 +202,5 @@ tl_vec3d tl_face_corner(const tl_face *face, uint32_t at)
 
 uint32_t tl_face_next(const tl_face *face, uint32_t at)
 {
-    return face->shape->kind == TL_CONVEX_HULL ? tl_facet_next(&face->facet, at) : (at + 1) % face->count;
+    return face->count > 0 ? (at + 1) % face->count : tl_facet_next(&face->facet, at);
 }

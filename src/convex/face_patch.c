@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The corners of what two convex faces have in common: each edge of one is clipped to what lies within the other
-// (Cyrus and Beck, Generalized Two- and Three-Dimensional Clipping, 1978), and the ends of all pieces are the corners.
-// Against clipping the whole polygon edge by edge (Sutherland and Hodgman) this needs no buffer for the polygon, so
-// faces of any number of corners do, without allocation: some edges of one at a time are taken around the other.
+// The corners of what two convex faces, or a face and an edge, have in common: each edge of one is clipped to what lies
+// within the other (Cyrus and Beck, Generalized Two- and Three-Dimensional Clipping, 1978), and the ends of all pieces
+// are the corners. Against clipping the whole polygon edge by edge (Sutherland and Hodgman) this needs no buffer for
+// the polygon, so faces of any number of corners do, without allocation: some edges of one at a time are taken around
+// the other.
 
 #include "convex/face_patch.h"
 
@@ -11,9 +12,6 @@
 
 // Faces whose edges coincide are clipped at the same place: to four float roundings of their size.
 #define EDGE_GAP (4.0 * (double)TL_FLOAT_ROUNDING)
-
-// A face that is steeper than 60 degrees to the normal is no face to rest on.
-#define MIN_COSINE 0.5
 
 enum { PATCH_BUFFER = 32, PIECES = 32 };
 
@@ -24,7 +22,7 @@ typedef struct point2 {
 typedef struct clipper {
     const tl_face *a, *b;
     tl_patch *patch;
-    double limit, gap;
+    double limit;
     tl_patch_point buffer[PATCH_BUFFER];
     uint32_t count;
 } clipper;
@@ -53,18 +51,17 @@ static double area(tl_patch_point p, tl_patch_point q, tl_patch_point r)
     return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
 }
 
-// Keeps the deepest point, the one farthest from it, and the farthest from their line to either side.
-static void reduce_to_four(clipper *c)
+// Keeps the deepest point, the one farthest from it, and the farthest from their line to either side. Returns how many.
+static uint32_t reduce_to_four(tl_patch_point *b, uint32_t count, double gap)
 {
     uint32_t deepest = 0, far = 0, left = 0, right = 0;
-    const tl_patch_point *b = c->buffer;
-    for (uint32_t i = 1; i < c->count; i++) {
+    for (uint32_t i = 1; i < count; i++) {
         deepest = b[i].on_b - b[i].on_a < b[deepest].on_b - b[deepest].on_a ? i : deepest;
     }
-    for (uint32_t i = 0; i < c->count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         far = patch_distance_sq(b[i], b[deepest]) > patch_distance_sq(b[far], b[deepest]) ? i : far;
     }
-    for (uint32_t i = 0; i < c->count; i++) {
+    for (uint32_t i = 0; i < count; i++) {
         left = area(b[deepest], b[far], b[i]) > area(b[deepest], b[far], b[left]) ? i : left;
         right = area(b[deepest], b[far], b[i]) < area(b[deepest], b[far], b[right]) ? i : right;
     }
@@ -72,16 +69,16 @@ static void reduce_to_four(clipper *c)
     uint32_t kept_count = 0, chosen[TL_PATCH_POINTS] = { deepest, far, left, right };
     double length = sqrt(patch_distance_sq(b[deepest], b[far]));
     for (int i = 0; i < TL_PATCH_POINTS; i++) {
-        bool wide = i < 2 || fabs(area(b[deepest], b[far], b[chosen[i]])) > c->gap * length;
-        bool apart = i == 0 || patch_distance_sq(b[chosen[i]], b[deepest]) > c->gap * c->gap;
+        bool wide = i < 2 || fabs(area(b[deepest], b[far], b[chosen[i]])) > gap * length;
+        bool apart = i == 0 || patch_distance_sq(b[chosen[i]], b[deepest]) > gap * gap;
         if (wide && apart) {
             kept[kept_count++] = b[chosen[i]];
         }
     }
     for (uint32_t i = 0; i < kept_count; i++) {
-        c->buffer[i] = kept[i];
+        b[i] = kept[i];
     }
-    c->count = kept_count;
+    return kept_count;
 }
 
 static void add_patch_point(clipper *c, point2 p)
@@ -92,7 +89,7 @@ static void add_patch_point(clipper *c, point2 p)
     }
     c->buffer[c->count++] = point;
     if (c->count == PATCH_BUFFER) {
-        reduce_to_four(c);
+        c->count = reduce_to_four(c->buffer, c->count, c->patch->gap);
     }
 }
 
@@ -109,7 +106,7 @@ static void clip_piece(const clipper *c, piece *e, point2 from, point2 to, doubl
     // How far inside the ends are.
     double at_p = ex * (e->p.y - from.y) - ey * (e->p.x - from.x),
            at_q = ex * (e->q.y - from.y) - ey * (e->q.x - from.x);
-    double gap = c->gap * length;
+    double gap = c->patch->gap * length;
     if (at_p < -gap && at_q < -gap) {
         e->high = -1.0;
     } else if (at_p < -gap) {
@@ -180,20 +177,37 @@ void tl_patch_find(const tl_face *a, const tl_face *b, tl_vec3d normal, double l
     c.patch = patch;
     c.limit = limit;
     c.count = patch->count = 0;
-    if (tl_vec3d_dot(a->normal, normal) < MIN_COSINE || tl_vec3d_dot(b->normal, normal) > -MIN_COSINE) {
-        return;
-    }
     patch->normal = normal;
     patch->u = tl_vec3d_perpendicular(normal);
     patch->v = tl_vec3d_cross(normal, patch->u);
-    c.gap = EDGE_GAP * fmax(extent(&c, a), extent(&c, b));
-    clip_face(&c, a, b, -1.0);
-    clip_face(&c, b, a, 1.0);
+    patch->gap = EDGE_GAP * fmax(extent(&c, a), extent(&c, b));
+    // Nothing lies within an edge.
+    if (b->count != 2) {
+        clip_face(&c, a, b, -1.0);
+    }
+    if (a->count != 2) {
+        clip_face(&c, b, a, 1.0);
+    }
     if (c.count > 0) {
-        reduce_to_four(&c);
+        c.count = reduce_to_four(c.buffer, c.count, patch->gap);
     }
     for (uint32_t i = 0; i < c.count; i++) {
         patch->points[i] = c.buffer[i];
     }
     patch->count = c.count;
+}
+
+void tl_patch_add_deepest(tl_patch *patch, tl_vec3d on_a, tl_vec3d on_b)
+{
+    tl_patch_point points[TL_PATCH_POINTS + 1];
+    tl_patch_point deepest = { tl_vec3d_dot(patch->u, on_a), tl_vec3d_dot(patch->v, on_a),
+                               tl_vec3d_dot(patch->normal, on_a), tl_vec3d_dot(patch->normal, on_b) };
+    points[0] = deepest;
+    for (uint32_t i = 0; i < patch->count; i++) {
+        points[i + 1] = patch->points[i];
+    }
+    patch->count = reduce_to_four(points, patch->count + 1, patch->gap);
+    for (uint32_t i = 0; i < patch->count; i++) {
+        patch->points[i] = points[i];
+    }
 }

@@ -122,6 +122,11 @@ static uint32_t check_manifold(const test_body *a, tl_transform pose_a, const te
     // Coordinates far from a body's own origin are rounded, and sides are plane to eight of these roundings.
     float slack = 2e-6f * size + 5e-7f * tl_maxf(coordinate_of(a), coordinate_of(b));
     TEST_CHECK((m.count > 0) == (deepest <= tolerance));
+    float least = m.count > 0 ? m.contacts[0].separation : 0.0f;
+    for (uint32_t c = 1; c < m.count; c++) {
+        least = tl_minf(least, m.contacts[c].separation);
+    }
+    TEST_CHECK(m.count == 0 || least <= deepest + slack);
     for (uint32_t c = 0; c < m.count; c++) {
         const tl_contact *contact = &m.contacts[c];
         TEST_CHECK(contact->separation >= deepest - slack &&
@@ -276,6 +281,65 @@ static void test_turned_boxes(void **state)
     TEST_CHECK(split > 200);
 }
 
+// Two edges cross 5.26 mm deep, in front of faces whose common corners are 2 mm apart.
+static void test_crossing_edges_before_faces(void **state)
+{
+    (void)state;
+    static const tl_vec3 points_a[] = { { .27f, .9f, .35f },    { .07f, -.35f, .93f },  { .69f, .56f, -.46f },
+                                        { -.32f, .95f, -.04f }, { .68f, -.72f, -.15f }, { -.8f, -.29f, .53f },
+                                        { .05f, -.1f, .99f },   { .71f, -.69f, -.14f } };
+    static const tl_vec3 points_b[] = { { -.4f, -.71f, -.58f }, { .2f, -.79f, .57f }, { -.73f, .68f, .08f },
+                                        { -.8f, -.49f, -.34f }, { .37f, .83f, .41f }, { -.11f, -.67f, -.74f },
+                                        { .39f, .56f, -.73f },  { -.4f, .81f, -.42f } };
+    tl_hull *hull_a, *hull_b;
+    TEST_RESULT(tl_hull_bake(points_a, 8, NULL, &hull_a, NULL), TL_OK);
+    TEST_RESULT(tl_hull_bake(points_b, 8, NULL, &hull_b, NULL), TL_OK);
+    tl_convex a = tl_convex_from_hull(hull_a, 0.0f), b = tl_convex_from_hull(hull_b, 0.0f);
+    tl_transform there = at(.21f, -.958f, 1.472f);
+    tl_penetration p;
+    TEST_CHECK(tl_convex_penetration(&a, at(0, 0, 0), &b, there, NULL, &p) && p.depth > 0.005f);
+    tl_contact_manifold m;
+    TEST_CHECK(tl_convex_contacts(&a, at(0, 0, 0), &b, there, &(tl_contact_limits){ 0.01f, 0.01f }, NULL, &m) == 2);
+    float least = tl_minf(m.contacts[0].separation, m.contacts[1].separation);
+    TEST_CHECK(fabsf(least + p.depth) < 1e-6f);
+    tl_blob_free(hull_a);
+    tl_blob_free(hull_b);
+}
+
+// Both ends of a prism's edge rest, however steep the sides are that meet in it; either shape may be the prism.
+static void test_an_edge_on_a_face(void **state)
+{
+    (void)state;
+    tl_convex ground = tl_convex_box(tl_vec3_make(0, -1, 0), tl_vec3_make(50, 1, 50), 0.0f);
+    for (int degrees = 5; degrees <= 85; degrees += 5) {
+        float w = tanf((float)degrees * 0.017453293f);
+        const tl_vec3 corners[] = { { 0, 0, -1 }, { w, 1, -1 }, { -w, 1, -1 }, { 0, 0, 1 }, { w, 1, 1 }, { -w, 1, 1 } };
+        tl_hull *hull;
+        TEST_RESULT(tl_hull_bake(corners, 6, NULL, &hull, NULL), TL_OK);
+        const tl_convex shapes[] = { tl_convex_from_hull(hull, 0.0f),
+                                     tl_convex_triangle(corners[0], corners[3], corners[5], 0.0f) };
+        for (int k = 0; k < 4; k++) {
+            const tl_convex *prism = &shapes[k / 2], *a = k % 2 == 0 ? &ground : prism,
+                            *b = k % 2 == 0 ? prism : &ground;
+            tl_transform pose_a = at(0, k % 2 == 0 ? 0.0f : -0.005f, 0), pose_b = at(0, k % 2 == 0 ? -0.005f : 0.0f, 0);
+            tl_contact_manifold m;
+            TEST_CHECK(tl_convex_contacts(a, pose_a, b, pose_b, &(tl_contact_limits){ 0.01f, 0.01f }, NULL, &m) == 2);
+            TEST_CHECK(fabsf(m.contacts[0].point_a.z + m.contacts[1].point_a.z) < 1e-6f &&
+                       fabsf(fabsf(m.contacts[0].point_a.z) - 1.0f) < 1e-6f);
+            TEST_CHECK(fabsf(m.contacts[0].separation + 0.005f) < 1e-6f &&
+                       fabsf(m.contacts[1].separation + 0.005f) < 1e-6f);
+        }
+        // Tilted along the edge by more than the tolerance: the lower end alone.
+        tl_transform tilted = at(0, 0.015f, 0);
+        tilted.rotation.x = 0.01f;
+        tilted.rotation.w = 0.99995f;
+        tl_contact_manifold m;
+        TEST_CHECK(tl_convex_contacts(&ground, at(0, 0, 0), &shapes[0], tilted, &(tl_contact_limits){ 0.01f, 0.01f },
+                                      NULL, &m) == 1);
+        tl_blob_free(hull);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -284,6 +348,8 @@ int main(void)
         cmocka_unit_test(test_contacts_of_all_families),
         cmocka_unit_test(test_contacts_of_clouds),
         cmocka_unit_test(test_turned_boxes),
+        cmocka_unit_test(test_crossing_edges_before_faces),
+        cmocka_unit_test(test_an_edge_on_a_face),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
