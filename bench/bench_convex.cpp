@@ -10,9 +10,9 @@
 // misses talus's proven bounds by more than 1e-4 of the size. Casts are wrong when they miss what the bounds of the
 // distance prove to be hit, or are later or earlier than 1e-4 of the size.
 
+#include "bench_options.h"
 #include "cli/shared/splitmix64.h"
 #include "measure.h"
-#include "options.h"
 #include "report.h"
 
 #include <talus/convex.h>

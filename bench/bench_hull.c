@@ -7,9 +7,9 @@
 
 #define _GNU_SOURCE
 
+#include "bench_options.h"
 #include "cli/shared/splitmix64.h"
 #include "measure.h"
-#include "options.h"
 #include "report.h"
 
 #include "hull/ray/hull_ray.h"

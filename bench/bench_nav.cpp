@@ -9,9 +9,9 @@
 // Recast the sum of its stages. Memory is the most that was held at one time, counted by the allocator hooks of both;
 // each piece is freed when its last reader is done. A tiled level's memory is that of its largest tile.
 
+#include "bench_options.h"
 #include "measure.h"
 #include "nav_levels.hpp"
-#include "options.h"
 #include "report.h"
 
 #ifdef TALUS_HAVE_RECAST

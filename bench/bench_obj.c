@@ -11,12 +11,12 @@
 
 #define _GNU_SOURCE
 
+#include "bench_options.h"
 #include "io/files/atomic_write.h"
 #include "io/files/file_map.h"
 #include "io/mesh/mesh_import.h"
 #include "io/mesh/obj_reader.h"
 #include "measure.h"
-#include "options.h"
 #include "report.h"
 
 #include <assimp/cimport.h>

@@ -5,10 +5,10 @@
 //
 //   bench_obstacles [--triangles N (1000000)] [--json FILE]
 
+#include "bench_options.h"
 #include "cli/sample/sample_level.h"
 #include "cli/shared/splitmix64.h"
 #include "measure.h"
-#include "options.h"
 #include "report.h"
 
 #include <talus/nav_obstacles.h>

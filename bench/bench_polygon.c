@@ -7,10 +7,10 @@
 //   bench_polygon [CONTOURS.txt... | families] [--json FILE]
 //
 
+#include "bench_options.h"
 #include "io/files/file_map.h"
 #include "io/text/contour_text.h"
 #include "measure.h"
-#include "options.h"
 #include "polygon_recast.h"
 #include "polygon_shapes.h"
 #include "report.h"

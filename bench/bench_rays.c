@@ -16,10 +16,10 @@
 
 #define _DEFAULT_SOURCE // madvise
 
+#include "bench_options.h"
 #include "cli/shared/splitmix64.h"
 #include "embree_scene.h"
 #include "measure.h"
-#include "options.h"
 #include "report.h"
 #include "soup/ray/ray_job.h"
 #include "soup_levels.h"

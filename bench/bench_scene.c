@@ -11,10 +11,10 @@
 //
 // Pin it to a core (taskset -c 1) and keep the machine quiet.
 
+#include "bench_options.h"
 #include "cli/shared/splitmix64.h"
 #include "embree_scene.h"
 #include "measure.h"
-#include "options.h"
 #include "report.h"
 #include "soup_levels.h"
 

@@ -8,10 +8,10 @@
 
 #define _POSIX_C_SOURCE 200809L
 
+#include "bench_options.h"
 #include "cli/shared/thread_pool.h"
 #include "embree_scene.h"
 #include "measure.h"
-#include "options.h"
 #include "report.h"
 #include "soup_levels.h"
 

@@ -6,9 +6,9 @@
 //
 //   bench_soup_queries [--repetitions N (5)] [--queries N (10000)] [--json FILE]
 
+#include "bench_options.h"
 #include "cli/shared/splitmix64.h"
 #include "measure.h"
-#include "options.h"
 #include "report.h"
 #include "soup_levels.h"
 

@@ -7,8 +7,8 @@
 //
 //   bench_soup_trees [--repetitions N (5)] [--rays N (40000)] [--only NAME] [--json FILE]
 
+#include "bench_options.h"
 #include "measure.h"
-#include "options.h"
 #include "report.h"
 #include "soup_levels.h"
 

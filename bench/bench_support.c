@@ -13,9 +13,9 @@
 
 #define _GNU_SOURCE
 
+#include "bench_options.h"
 #include "cli/shared/splitmix64.h"
 #include "measure.h"
-#include "options.h"
 #include "report.h"
 #include "support_peers.h"
 

@@ -5,7 +5,7 @@
 #ifndef TALUS_BENCH_QUERY_OPTIONS_HPP
 #define TALUS_BENCH_QUERY_OPTIONS_HPP
 
-#include "options.h"
+#include "bench_options.h"
 
 #include <cstdint>
 #include <string>

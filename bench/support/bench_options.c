@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-#include "options.h"
+#include "bench_options.h"
 
 #include <stdint.h>
 #include <stdio.h>
