@@ -34,7 +34,8 @@ static void offer_polygon(wall_search *search, tl_nav_ring_seam to, double dista
 {
     tl_nav_query *query = search->query;
     bool found = false;
-    tl_nav_root *root = tl_nav_find_root(query, (uint64_t)1 << 63 | (uint64_t)to.slot << 32 | to.polygon, &found);
+    const uint64_t number = tl_nav_polygon_number(to.slot, to.polygon);
+    tl_nav_root *root = tl_nav_probe_roots(query, number, &found);
     if (found && (float)distance_sq >= root->cost) {
         return;
     }
@@ -42,6 +43,8 @@ static void offer_polygon(wall_search *search, tl_nav_ring_seam to, double dista
         search->full = true;
         return;
     }
+    // There are no more polygons in the table than nodes: it is never full.
+    root = tl_nav_find_root(query, number, &found);
     root->cost = (float)distance_sq;
     tl_nav_local_node *node = &query->local_nodes[query->wedge_count];
     node->slot = to.slot;

@@ -150,8 +150,11 @@ tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_navmesh 
         tl_vec3 point = search.start == NULL ? target : tl_nav_point_on_edge(search.start, search.end, search.best_t);
         move_out->end.polygon = tl_nav_make_ref(navmesh, last->slot, last->polygon);
         move_out->end.point = point;
-        move_out->polygon_count = write_way(&search, polygons_out, capacity);
+    } else { // no wall was seen with so few nodes
+        search.best = 0;
+        move_out->end = *start;
     }
+    move_out->polygon_count = write_way(&search, polygons_out, capacity);
     if (search.full) {
         return TL_ERR_NODES;
     }

@@ -63,7 +63,7 @@ static inline void cross_wedge_link(wedge_search *s, uint32_t index, uint32_t en
     const tl_nav_anchor *to = &link->ends[1 - end % 2];
     wedge_way way = way_to(s, &s->query->wedges[index], (double)from->point.x, (double)from->point.z);
     double cost = s->query->wedges[index].cost + way.length + link->cost;
-    if (!way.reaches || !tl_nav_root_is_first(s->query, LANDING_NUMBER | end, cost)) {
+    if (!way.reaches || !is_first_root(s, LANDING_NUMBER | end, cost)) {
         return;
     }
     uint32_t parent = turn_on(s, index, &way);

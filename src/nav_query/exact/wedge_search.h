@@ -52,6 +52,25 @@ static inline uint32_t new_wedge(wedge_search *s)
     return query->wedge_count++;
 }
 
+// How a way to a vertex compares with those that are known. Where no more can be known, the search is in trouble.
+static inline tl_nav_root_rank rank_root(wedge_search *s, uint64_t number, double cost)
+{
+    tl_nav_root_rank rank = tl_nav_root_rank_of(s->query, number, cost);
+    if (rank == TL_NAV_ROOT_NO_ENTRY) {
+        s->trouble = TL_NAV_SEARCH_OUT_OF_NODES;
+        return TL_NAV_ROOT_WORSE;
+    }
+    return rank;
+}
+
+static inline bool is_first_root(wedge_search *s, uint64_t number, double cost)
+{
+    bool is_full = false;
+    bool is_first = tl_nav_root_is_first(s->query, number, cost, &is_full);
+    s->trouble = is_full ? TL_NAV_SEARCH_OUT_OF_NODES : s->trouble;
+    return is_first;
+}
+
 // Gives a wedge to the heap, or keeps it at hand when it is the best of its step; then the one before goes there.
 static inline void offer_wedge(wedge_search *s, uint32_t wedge, float total)
 {

@@ -124,7 +124,7 @@ static inline bool may_turn_on(wedge_search *s, const step_from *from, uint32_t 
     const tl_nav_ring_walls *walls = &rings->walls[rings->cells[from->polygon].first + vertex];
     bool is_walled = walls->first_x != 0.0f || walls->first_z != 0.0f;
     return (is_walled && s->in->filter == NULL) ||
-           tl_nav_root_is_first(s->query, TURNING_NUMBER | corner_number(s, from->slot, from->polygon, vertex), cost);
+           is_first_root(s, TURNING_NUMBER | corner_number(s, from->slot, from->polygon, vertex), cost);
 }
 
 static inline void note_corner(const wedge_search *s, uint64_t turn)
@@ -149,6 +149,9 @@ static inline bool is_repeated(wedge_search *s, const step_from *from, uint32_t 
     uint64_t number = TURNING_NUMBER >> (hand > 0 ? 1 : 2) | corner_number(s, from->slot, from->polygon, vertex);
     bool found = false;
     tl_nav_root *root = tl_nav_find_root(s->query, number, &found);
+    if (root == NULL) {
+        return false;
+    }
     double x = (double)from->ring[vertex].x, z = (double)from->ring[vertex].z;
     tl_nav_direction known = { x - (double)root->from_x, z - (double)root->from_z };
     tl_nav_direction limit = { x - (double)from_x, z - (double)from_z };
@@ -176,7 +179,7 @@ static inline void turn_into(wedge_search *s, const step_from *from, uint32_t i,
         return;
     }
     cost += length_of(to_vertex);
-    if (turn != 0 && tl_nav_root_rank_of(s->query, turn, cost) != TL_NAV_ROOT_WORSE) {
+    if (turn != 0 && rank_root(s, turn, cost) != TL_NAV_ROOT_WORSE) {
         const wedge_origin root = { from->ring[vertex].x, from->ring[vertex].z, cost };
         seen_edge edge = see_edge(from, i, root.x, root.z);
         add_wedge(s, from, i, root, &edge, open, open);
@@ -249,7 +252,7 @@ static inline void turn_at_limit(wedge_search *s, const step_from *from, const t
             continue;
         }
         if (is_new) {
-            tl_nav_root_rank rank = tl_nav_root_rank_of(s->query, turn, cost);
+            tl_nav_root_rank rank = rank_root(s, turn, cost);
             if (rank == TL_NAV_ROOT_WORSE || (rank == TL_NAV_ROOT_AS_CHEAP &&
                                               is_repeated(s, from, vertex, hand, cost, wedge->root_x, wedge->root_z))) {
                 return;

@@ -66,6 +66,10 @@ static uint32_t stop_at(graph_search *s, uint32_t vertex)
 {
     bool found = false;
     tl_nav_root *root = tl_nav_find_root(s->query, vertex, &found);
+    if (root == NULL) {
+        s->is_unclear = true;
+        return TL_NAV_NO_NODE;
+    }
     if (!found) {
         root->stop = new_stop(s, vertex);
     }

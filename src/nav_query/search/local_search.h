@@ -24,18 +24,27 @@ static inline void tl_nav_local_begin(tl_nav_query *query)
     tl_nav_next_generation(query);
 }
 
+/// A polygon's number in the table of roots.
+static inline uint64_t tl_nav_polygon_number(uint32_t slot, uint32_t polygon)
+{
+    return (uint64_t)1 << 63 | (uint64_t)slot << 32 | polygon;
+}
+
 /// A node for a polygon that was not met before; TL_NAV_NO_NODE when it was, or when the pool is used up: then
 /// `*full_out` is set.
 static inline uint32_t tl_nav_local_add(tl_nav_query *query, uint32_t slot, uint32_t polygon, uint32_t parent,
                                         bool *full_out)
 {
     bool found = false;
-    tl_nav_find_root(query, (uint64_t)1 << 63 | (uint64_t)slot << 32 | polygon, &found);
-    if (found) {
+    const uint64_t number = tl_nav_polygon_number(slot, polygon);
+    if (query->wedge_count == query->max_nodes) {
+        tl_nav_probe_roots(query, number, &found);
+        *full_out = *full_out || !found;
         return TL_NAV_NO_NODE;
     }
-    if (query->wedge_count == query->max_nodes) {
-        *full_out = true;
+    // There are no more polygons in the table than nodes: it is never full.
+    tl_nav_find_root(query, number, &found);
+    if (found) {
         return TL_NAV_NO_NODE;
     }
     uint32_t index = query->wedge_count++;

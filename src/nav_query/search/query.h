@@ -71,6 +71,7 @@ struct tl_nav_query {
     // The table of roots (root_table.h).
     tl_nav_root *roots;    ///< [root_mask + 1], more than wedges
     uint32_t root_mask;    ///< a power of two - 1
+    uint32_t root_count;   ///< entries of this generation
     uint32_t repeat_count; ///< entries of this generation that are corners turned at, at most half as many as nodes
     uint32_t generation;   ///< of the search that wrote an entry
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The cheapest way known to each vertex where an exact search has turned: a hash table with linear probing. Entries of
-// earlier searches are told by their generation, so nothing is ever cleared.
+// earlier searches are told by their generation, so nothing is ever cleared. An eighth of the table stays empty: there
+// every probe ends.
 
 #ifndef TALUS_SRC_NAV_QUERY_ROOT_TABLE_H
 #define TALUS_SRC_NAV_QUERY_ROOT_TABLE_H
@@ -25,6 +26,7 @@ struct tl_nav_root {
 static inline void tl_nav_next_generation(tl_nav_query *query)
 {
     query->repeat_count = 0;
+    query->root_count = 0;
     if (++query->generation == 0) {
         for (uint32_t i = 0; i <= query->root_mask; i++) {
             query->roots[i].generation = 0;
@@ -33,8 +35,8 @@ static inline void tl_nav_next_generation(tl_nav_query *query)
     }
 }
 
-/// The entry of a number; `*found_out` says whether it is there already.
-static inline tl_nav_root *tl_nav_find_root(tl_nav_query *query, uint64_t number, bool *found_out)
+/// The entry of a number, or the empty one where it belongs; `*found_out` says which.
+static inline tl_nav_root *tl_nav_probe_roots(const tl_nav_query *query, uint64_t number, bool *found_out)
 {
     // Numbers of one tile follow one another, and so do their places. Those of corners have high bits.
     uint64_t place = number < (uint64_t)1 << 32 ? number : tl_hash_mix(number);
@@ -42,14 +44,28 @@ static inline tl_nav_root *tl_nav_find_root(tl_nav_query *query, uint64_t number
         tl_nav_root *root = &query->roots[place & query->root_mask];
         *found_out = root->generation == query->generation;
         if (!*found_out || root->number == number) {
-            root->number = number;
-            root->generation = query->generation;
             return root;
         }
     }
 }
 
+/// The entry of a number; `*found_out` says whether it is there already. NULL: it is not, and the table is full.
+static inline tl_nav_root *tl_nav_find_root(tl_nav_query *query, uint64_t number, bool *found_out)
+{
+    tl_nav_root *root = tl_nav_probe_roots(query, number, found_out);
+    if (!*found_out) {
+        if (query->root_count >= query->root_mask - query->root_mask / 8) {
+            return NULL;
+        }
+        query->root_count++;
+        root->number = number;
+        root->generation = query->generation;
+    }
+    return root;
+}
+
 typedef enum tl_nav_root_rank {
+    TL_NAV_ROOT_NO_ENTRY, ///< the table is full
     TL_NAV_ROOT_WORSE,
     TL_NAV_ROOT_AS_CHEAP, ///< as another way, within the rounding of the float in which costs are kept
     TL_NAV_ROOT_CHEAPEST
@@ -61,6 +77,9 @@ static inline tl_nav_root_rank tl_nav_root_rank_of(tl_nav_query *query, uint64_t
     bool found = false;
     tl_nav_root *root = tl_nav_find_root(query, number, &found);
     const double slack = 2.0 * (double)TL_FLOAT_ROUNDING;
+    if (root == NULL) {
+        return TL_NAV_ROOT_NO_ENTRY;
+    }
     if (found && cost > (double)root->cost * (1.0 + slack)) {
         return TL_NAV_ROOT_WORSE;
     }
@@ -69,12 +88,14 @@ static inline tl_nav_root_rank tl_nav_root_rank_of(tl_nav_query *query, uint64_t
     return is_as_cheap ? TL_NAV_ROOT_AS_CHEAP : TL_NAV_ROOT_CHEAPEST;
 }
 
-/// Whether no way as cheap, within that rounding, has come to this number yet.
-static inline bool tl_nav_root_is_first(tl_nav_query *query, uint64_t number, double cost)
+/// Whether no way as cheap, within that rounding, has come to this number yet. False, and `*full_out` is set, when the
+/// table is full.
+static inline bool tl_nav_root_is_first(tl_nav_query *query, uint64_t number, double cost, bool *full_out)
 {
     bool found = false;
     tl_nav_root *root = tl_nav_find_root(query, number, &found);
-    if (found && cost >= (double)root->cost * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING)) {
+    *full_out = root == NULL;
+    if (root == NULL || (found && cost >= (double)root->cost * (1.0 - 2.0 * (double)TL_FLOAT_ROUNDING))) {
         return false;
     }
     root->cost = (float)cost;

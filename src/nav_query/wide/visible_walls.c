@@ -214,6 +214,9 @@ static bool add_wall(wall_walk *walk, uint32_t slot, const tl_nav_ring_edge *edg
     }
     tl_nav_root *known =
         tl_nav_find_root(walk->clearance->query, (uint64_t)is_end << 62 | (uint64_t)slot << 32 | place, &found);
+    if (known == NULL) {
+        return false;
+    }
     if (!found) {
         tl_nav_near_wall fresh = { distance_sq, (float)wall.a.x, (float)wall.a.z, (float)wall.b.x, (float)wall.b.z };
         known->stop = walk->count;

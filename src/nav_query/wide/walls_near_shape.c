@@ -19,12 +19,12 @@ static bool meet_polygon(tl_nav_clearance *clearance, tl_nav_near_walls *near, u
         (char *)(near->met - near->met_count) < clearance->scratch.low) {
         return false;
     }
-    tl_nav_find_root(clearance->query, (uint64_t)1 << 63 | (uint64_t)slot << 32 | polygon, &found);
-    if (!found) {
+    const bool fits = tl_nav_find_root(clearance->query, tl_nav_polygon_number(slot, polygon), &found) != NULL;
+    if (fits && !found) {
         tl_nav_met met = { slot, polygon };
         *(near->met - near->met_count++) = met;
     }
-    return true;
+    return fits;
 }
 
 static bool outline_holds(const tl_nav_spot *corners, uint32_t count, tl_nav_spot spot)
