@@ -59,7 +59,8 @@ static bool parse_pose(tl_cli *cli, const char *option, const char *text, tl_tra
 
 static const char *status_word(tl_convex_status status)
 {
-    return status == TL_CONVEX_CONVERGED ? "converged" : status == TL_CONVEX_ITERATIONS ? "iterations" : "degenerate";
+    static const char *const words[] = { "converged", "iterations", "degenerate", "not finite" };
+    return words[status];
 }
 
 static void write_json(tl_text *text, const tl_separation *s)

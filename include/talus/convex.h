@@ -7,7 +7,9 @@
 // rounded. All queries compute in double in shape A's frame, so the answer does not depend on where in the world the
 // pair is.
 //
-// NULL shapes and outputs are the caller's bug (TL_ASSERT); a cache may be NULL.
+// NULL shapes and outputs are the caller's bug (TL_ASSERT); a cache may be NULL. Where a pose, the fields of a shape or
+// a motion are not finite there is no answer: TL_CONVEX_NOT_FINITE, no overlap, no hit, no contact, an empty box. The
+// points of a shape in the caller's memory are not looked through; their coordinates must be finite.
 
 #ifndef TALUS_CONVEX_H
 #define TALUS_CONVEX_H
@@ -73,7 +75,8 @@ TL_API tl_aabb tl_convex_bounds(const tl_convex *shape, tl_transform pose);
 typedef enum tl_convex_status {
     TL_CONVEX_CONVERGED,  ///< the bounds met, or overlap was proven
     TL_CONVEX_ITERATIONS, ///< the iteration limit was reached; the bounds still hold
-    TL_CONVEX_DEGENERATE  ///< rounding stopped the progress; the bounds still hold
+    TL_CONVEX_DEGENERATE, ///< rounding stopped the progress; the bounds still hold
+    TL_CONVEX_NOT_FINITE  ///< a pose, shape, motion or limit is NaN or infinite; all else of the answer is zero
 } tl_convex_status;
 
 /// GJK takes as many iterations as the simplex must change; more than this means that rounding prevents convergence.

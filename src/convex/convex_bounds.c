@@ -35,7 +35,9 @@ tl_aabb tl_convex_bounds(const tl_convex *shape, tl_transform pose)
     // The origin as shape A: then B's support points are in the world.
     tl_convex origin = tl_convex_sphere(tl_vec3_make(0.0f, 0.0f, 0.0f), 0.0f);
     tl_minkowski pair;
-    tl_minkowski_init(&pair, &origin, tl_transform_identity(), shape, pose);
+    if (!tl_minkowski_init(&pair, &origin, tl_transform_identity(), shape, pose)) {
+        return tl_aabb_empty();
+    }
     tl_aabb box;
     box.min = tl_vec3_make(farthest_coordinate(&pair, 0, -1.0), farthest_coordinate(&pair, 1, -1.0),
                            farthest_coordinate(&pair, 2, -1.0));

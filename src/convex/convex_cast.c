@@ -174,12 +174,21 @@ static bool cast_pair(tl_minkowski *pair, tl_vec3 motion, double t_max, tl_conve
     return hit_out->hit;
 }
 
+static bool refuse_not_finite(tl_convex_hit *hit_out)
+{
+    memset(hit_out, 0, sizeof *hit_out);
+    hit_out->status = TL_CONVEX_NOT_FINITE;
+    return false;
+}
+
 bool tl_convex_cast(const tl_convex *a, tl_transform pose_a, const tl_convex *b, tl_transform pose_b, tl_vec3 motion,
                     tl_convex_hit *hit_out)
 {
     TL_ASSERT(a != NULL && b != NULL && hit_out != NULL);
     tl_minkowski pair;
-    tl_minkowski_init(&pair, a, pose_a, b, pose_b);
+    if (!tl_minkowski_init(&pair, a, pose_a, b, pose_b) || !tl_is_finite(motion)) {
+        return refuse_not_finite(hit_out);
+    }
     return cast_pair(&pair, motion, 1.0, hit_out);
 }
 
@@ -215,7 +224,9 @@ bool tl_convex_cast_ray(const tl_convex *shape, tl_transform pose, tl_vec3 origi
     tl_transform at_origin = tl_transform_identity();
     at_origin.position = origin;
     tl_minkowski pair;
-    tl_minkowski_init(&pair, shape, pose, &point, at_origin);
+    if (!tl_minkowski_init(&pair, shape, pose, &point, at_origin) || !tl_is_finite(direction) || isnan(t_max)) {
+        return refuse_not_finite(hit_out);
+    }
     if (shape->kind == TL_CONVEX_HULL && shape->radius == 0.0f &&
         clip_by_hull(&pair, direction, (double)t_max, hit_out)) {
         return hit_out->hit;

@@ -81,10 +81,13 @@ uint32_t tl_convex_contacts(const tl_convex *a, tl_transform pose_a, const tl_co
     const double margin = limits != NULL ? (double)limits->margin : 0.0;
     const double tolerance = limits != NULL ? (double)limits->tolerance : 0.0;
     tl_minkowski pair;
-    tl_minkowski_init(&pair, a, pose_a, b, pose_b);
+    memset(manifold_out, 0, sizeof *manifold_out);
+    if (!tl_minkowski_init(&pair, a, pose_a, b, pose_b) || isnan(margin) || isnan(tolerance)) {
+        manifold_out->status = TL_CONVEX_NOT_FINITE;
+        return 0;
+    }
     double radii = (double)a->radius + (double)b->radius;
     tl_gjk gjk;
-    memset(manifold_out, 0, sizeof *manifold_out);
     tl_gjk_run(&pair, cache, -1.0, &gjk);
     manifold_out->status = gjk.status;
     deepest_points deepest;

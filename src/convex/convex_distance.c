@@ -14,10 +14,13 @@ void tl_convex_distance(const tl_convex *a, tl_transform pose_a, const tl_convex
 {
     TL_ASSERT(a != NULL && b != NULL && separation_out != NULL);
     tl_minkowski pair;
-    tl_minkowski_init(&pair, a, pose_a, b, pose_b);
+    memset(separation_out, 0, sizeof *separation_out);
+    if (!tl_minkowski_init(&pair, a, pose_a, b, pose_b)) {
+        separation_out->status = TL_CONVEX_NOT_FINITE;
+        return;
+    }
     tl_gjk gjk;
     tl_gjk_run(&pair, cache, -1.0, &gjk);
-    memset(separation_out, 0, sizeof *separation_out);
     separation_out->status = gjk.status;
     separation_out->iterations = gjk.iterations;
     tl_vec3d on_a, on_b;
@@ -42,7 +45,9 @@ bool tl_convex_overlap(const tl_convex *a, tl_transform pose_a, const tl_convex 
 {
     TL_ASSERT(a != NULL && b != NULL);
     tl_minkowski pair;
-    tl_minkowski_init(&pair, a, pose_a, b, pose_b);
+    if (!tl_minkowski_init(&pair, a, pose_a, b, pose_b)) {
+        return false;
+    }
     double radii = (double)a->radius + (double)b->radius;
     tl_gjk gjk;
     tl_gjk_run(&pair, cache, radii, &gjk);

@@ -38,10 +38,13 @@ bool tl_convex_penetration(const tl_convex *a, tl_transform pose_a, const tl_con
 {
     TL_ASSERT(a != NULL && b != NULL && penetration_out != NULL);
     tl_minkowski pair;
-    tl_minkowski_init(&pair, a, pose_a, b, pose_b);
+    memset(penetration_out, 0, sizeof *penetration_out);
+    if (!tl_minkowski_init(&pair, a, pose_a, b, pose_b)) {
+        penetration_out->status = TL_CONVEX_NOT_FINITE;
+        return false;
+    }
     double radii = (double)a->radius + (double)b->radius;
     tl_gjk gjk;
-    memset(penetration_out, 0, sizeof *penetration_out);
     tl_gjk_run(&pair, cache, -1.0, &gjk);
     penetration_out->status = gjk.status;
     penetration_out->iterations = gjk.iterations;

@@ -43,6 +43,7 @@ static void store_cache(const tl_simplex *simplex, tl_simplex_cache *cache)
 static void start_walk(tl_minkowski *pair, const tl_simplex_cache *cache, tl_gjk *gjk)
 {
     gjk->lower = -(double)INFINITY;
+    gjk->normal = tl_vec3d_make(0.0, 0.0, 0.0);
     gjk->overlap = false;
     gjk->iterations = 0;
     if (cache == NULL || !start_from_cache(pair, cache, &gjk->simplex)) {

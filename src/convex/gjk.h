@@ -9,7 +9,7 @@ typedef struct tl_gjk {
     tl_simplex simplex;
     tl_vec3d nearest;    // of the simplex; zero when the cores overlap
     double upper, lower; // bounds of the distance of the cores
-    tl_vec3d normal;     // from A to B, unit: the cores are `lower` apart along it; unset when they overlap
+    tl_vec3d normal;     // from A to B, unit: the cores are `lower` apart along it; no use when they overlap
     bool overlap;        // of the cores
     tl_convex_status status;
     uint32_t iterations;

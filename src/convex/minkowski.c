@@ -166,9 +166,30 @@ void tl_minkowski_set_hints(tl_minkowski *pair, uint32_t vertex_a, uint32_t vert
     pair->direction_error = DIRECTION_ROUNDING * (rounded_size(pair, pair->a) + rounded_size(pair, pair->b));
 }
 
-void tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b,
+// What is not finite survives a sum, so one test will do for all.
+static double sum_point(tl_vec3 p)
+{
+    return (double)p.x + (double)p.y + (double)p.z;
+}
+
+static double sum_pose(tl_transform pose)
+{
+    tl_quat r = pose.rotation;
+    return sum_point(pose.position) + (((double)r.x + (double)r.y) + ((double)r.z + (double)r.w));
+}
+
+static double sum_shape(const tl_convex *shape)
+{
+    return (sum_point(shape->corners[0]) + sum_point(shape->corners[1])) +
+           (sum_point(shape->corners[2]) + (double)shape->radius);
+}
+
+bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b,
                        tl_transform pose_b)
 {
+    if (!isfinite((sum_pose(pose_a) + sum_pose(pose_b)) + (sum_shape(a) + sum_shape(b)))) {
+        return false;
+    }
     tl_quatd rotation_a = tl_quatd_from(pose_a.rotation), rotation_b = tl_quatd_from(pose_b.rotation);
     tl_vec3d position_a = tl_vec3d_from(pose_a.position), position_b = tl_vec3d_from(pose_b.position);
     pair->a = a;
@@ -178,6 +199,7 @@ void tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, tl_transform pose
                  tl_frame_rotate_back(&pair->a_to_world, tl_vec3d_sub(position_b, position_a)));
     pair->scale = 0.0;
     tl_minkowski_set_hints(pair, TL_NO_VERTEX, TL_NO_VERTEX);
+    return true;
 }
 
 tl_vec3d tl_minkowski_offset(const tl_minkowski *pair)

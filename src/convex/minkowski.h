@@ -30,7 +30,8 @@ typedef struct tl_minkowski {
     uint32_t scan_limit;     // hulls of so many vertices are scanned, whatever the hint
 } tl_minkowski;
 
-void tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b,
+// False, and the pair is not set, when a pose or what a shape holds itself is not finite.
+bool tl_minkowski_init(tl_minkowski *pair, const tl_convex *a, tl_transform pose_a, const tl_convex *b,
                        tl_transform pose_b);
 
 // Vertices that are likely to be the next support points, or TL_NO_VERTEX for both. Where a hint is right it is faster
