@@ -47,7 +47,7 @@ static void check_planes(const tl_ray_job *job, tl_aabb bounds, test_random *ran
         long double distance = (long double)plane - from;
         // The pad grows with coordinates, not only with distances.
         long double farthest = fabsl(from) + fabsl((long double)low) + fabsl((long double)high);
-        if (fabsl(direction[i]) > largest * 0x1p-59L) {
+        if (fabsl(direction[i]) > largest * 0x1p-49L) {
             long double t = distance / direction[i] * (long double)job->box_scale;
             TEST_CHECK((long double)enter <= t && t <= (long double)leave);
             long double slack = 40 * 6e-8L * (farthest + reach) / fabsl(direction[i]) * (long double)job->box_scale;
@@ -142,11 +142,35 @@ static void test_refused(void **state)
     model_free(&m);
 }
 
+// Hits of a ray of any usual length are told apart in float: deciding each in double would take twice the time.
+static void test_intervals_at_all_lengths(void **state)
+{
+    (void)state;
+    model m = model_random(50, 10, 2, 1);
+    tl_soup *soup = model_soup(&m, NULL);
+    test_random random = { 5 };
+    for (int length = -60; length <= 60; length++) {
+        tl_ray_job job;
+        tl_vec3 direction = tl_scale(test_random_direction(&random), ldexpf(1, length));
+        TEST_CHECK(prepare(&job, soup, tl_vec3_make(1, 2, 3), direction, false) && job.has_intervals);
+        // box t is t times a power of two, which keeps every bit.
+        int exponent;
+        TEST_CHECK(frexpf(job.box_scale, &exponent) == 0.5f);
+        TEST_CHECK(fabsf(job.per_depth) >= 0x1p-21f && fabsf(job.per_depth) <= 0x1p21f);
+    }
+    tl_ray_job job;
+    TEST_CHECK(prepare(&job, soup, tl_vec3_make(0, 0, 0), tl_vec3_make(0, 1e-38f, 0), false) && !job.has_intervals);
+    TEST_CHECK(prepare(&job, soup, tl_vec3_make(0, 0, 0), tl_vec3_make(0, 1e38f, 0), false) && !job.has_intervals);
+    tl_blob_free(soup);
+    model_free(&m);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_brackets),
         cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_intervals_at_all_lengths),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

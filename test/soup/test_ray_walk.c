@@ -8,6 +8,8 @@
 #include "soup/ray/ray_job.h"
 #include "soup_models.h"
 
+#include <float.h>
+
 static uint32_t rays_asked = 0;
 
 static tl_vec3 vec(float x, float y, float z)
@@ -16,13 +18,14 @@ static tl_vec3 vec(float x, float y, float z)
 }
 
 // The closest hit by the same decision for every lane of every leaf, without the tree and the float filters.
-static bool cast_without_tree(const tl_soup *soup, const tl_ray *ray, tl_ray_job *job)
+static bool search_without_tree(const tl_soup *soup, tl_vec3 origin, tl_vec3 target, bool is_segment, float tmax,
+                                tl_ray_job *job)
 {
     job->soup = soup;
     job->filter = NULL;
-    job->is_segment = false;
-    job->t = ray->tmax;
-    if (!tl_ray_prepare(job, ray->origin, ray->direction)) {
+    job->is_segment = is_segment;
+    job->t = tmax;
+    if (!tl_ray_prepare(job, origin, target)) {
         return false;
     }
     bool hit = false;
@@ -35,6 +38,11 @@ static bool cast_without_tree(const tl_soup *soup, const tl_ray *ray, tl_ray_job
         offset += tl_leaf_size(leaf.pair_count);
     }
     return hit;
+}
+
+static bool cast_without_tree(const tl_soup *soup, const tl_ray *ray, tl_ray_job *job)
+{
+    return search_without_tree(soup, ray->origin, ray->direction, false, ray->tmax, job);
 }
 
 typedef struct double_answer {
@@ -91,7 +99,7 @@ static double_answer cast_in_double(const model *m, const tl_ray *ray)
 }
 
 typedef struct regimes {
-    uint32_t rays, hit, miss, unsure, axis_parallel, brute, cut;
+    uint32_t rays, hit, miss, unsure, axis_parallel, brute, cut, denormal, saturated, cut_segments;
 } regimes;
 
 // Bits equal over all walks, and what they say.
@@ -226,6 +234,76 @@ static void test_generated_models(void **state)
     TEST_CHECK(seen.unsure > 500 && seen.unsure < seen.rays / 2);
 }
 
+// Layers of triangles on a lattice, in random order, so that a ray meets many of them at the same t: at every size down
+// to denormals, with directions of every length, the tree and its filters must leave the lowest index.
+static void check_scaled(int size, uint32_t ray_count, uint64_t seed, regimes *seen)
+{
+    test_random random = { seed };
+    model m = { 0 };
+    for (uint32_t i = 0; i < 360; i++) {
+        uint32_t first = m.vertex_count;
+        for (uint32_t k = 0; k < 3; k++) {
+            float x = (float)test_random_below(&random, 17), z = (float)test_random_below(&random, 17);
+            float y = i % 8 == 0 ? (float)test_random_below(&random, 9) : (float)(i % 4);
+            model_vertex(&m, ldexpf(x, size), ldexpf(y, size), ldexpf(z, size));
+        }
+        model_triangle(&m, first, first + 1, first + 2);
+    }
+    tl_soup *soup = model_soup(&m, NULL);
+    tl_soup_def def = model_soup_def(MODEL_COMPACT);
+    tl_soup *compact = model_soup(&m, &def);
+    for (uint32_t i = 0; i < ray_count; i++) {
+        static const float limits[4] = { INFINITY, INFINITY, FLT_MAX, 12.0f };
+        int length = (int)test_random_below(&random, i % 4 == 0 ? 260 : 121) - (i % 4 == 0 ? 140 : 60);
+        float x = (float)test_random_below(&random, 33) * 0.5f, z = (float)test_random_below(&random, 33) * 0.5f;
+        tl_ray ray = { vec(ldexpf(x, size), ldexpf(-3, size), ldexpf(z, size)), vec(0, ldexpf(1, length), 0),
+                       i % 4 == 3 ? ldexpf(limits[3], size - length) : limits[i % 4] };
+        if (i % 3 != 0) {
+            ray.direction.x = ldexpf((float)test_random_below(&random, 9) - 4, length - (i % 3 == 1 ? 2 : 9));
+            ray.direction.z = ldexpf((float)test_random_below(&random, 9) - 4, length - 3);
+        }
+        tl_ray_hit hit, small;
+        tl_ray_job job;
+        bool found = cast_with_all(soup, &ray, &hit);
+        TEST_CHECK(cast_without_tree(soup, &ray, &job) == found);
+        if (found && (job.t != hit.t || job.triangle != hit.triangle)) {
+            fail_msg("size 2^%d, direction 2^%d: t %a of %u, without the tree %a of %u", size, length, (double)hit.t,
+                     hit.triangle, (double)job.t, job.triangle);
+        }
+        TEST_CHECK(cast_with_all(compact, &ray, &small) == found && memcmp(&small, &hit, sizeof hit) == 0);
+        tl_vec3 end = tl_add(ray.origin, vec(ldexpf(x - z, size - 4), ldexpf((float)(i % 8), size), 0));
+        bool cut = search_without_tree(soup, ray.origin, end, true, 1.0f, &job);
+        for (tl_ray_isa isa = TL_RAY_SCALAR; isa < TL_RAY_ISA_COUNT; isa++) {
+            tl_ray_walk_fn *walk = tl_ray_walk_for(isa);
+            tl_ray_hit at;
+            TEST_CHECK(walk == NULL || tl_soup_cast_segment_with(walk, soup, ray.origin, end, NULL, &at) == cut);
+            TEST_CHECK(walk == NULL || !cut || (at.t == job.t && at.triangle == job.triangle));
+        }
+        seen->cut_segments += cut;
+        seen->rays++;
+        seen->hit += found;
+        seen->miss += !found;
+        seen->denormal += found && hit.t > 0 && hit.t < FLT_MIN;
+        seen->saturated += found && hit.t == FLT_MAX;
+    }
+    tl_blob_free(soup);
+    tl_blob_free(compact);
+    model_free(&m);
+}
+
+static void test_scales(void **state)
+{
+    (void)state;
+    regimes seen = { 0 };
+    for (int size = -149; size <= 34; size += size < -100 || size > 0 ? 5 : 2) {
+        check_scaled(size, rays_asked != 0 ? rays_asked / 10 : 400, (uint64_t)(size + 200), &seen);
+    }
+    print_message("rays %u, hits %u, misses %u, t denormal %u, beyond FLT_MAX %u, segments that hit %u\n", seen.rays,
+                  seen.hit, seen.miss, seen.denormal, seen.saturated, seen.cut_segments);
+    TEST_CHECK(seen.hit > 10000 && seen.miss > 500 && seen.denormal > 100 && seen.saturated > 50);
+    TEST_CHECK(seen.cut_segments > 5000 && seen.cut_segments < seen.rays / 10 * 9);
+}
+
 static void test_levels(void **state)
 {
     (void)state;
@@ -248,6 +326,7 @@ int main(int argc, char **argv)
     rays_asked = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 0;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_generated_models),
+        cmocka_unit_test(test_scales),
         cmocka_unit_test(test_levels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -210,8 +210,7 @@ bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane)
         return false;
     }
     job->t = t;
-    // A saturated t says nothing about where the hit is.
-    job->box_limit = t < FLT_MAX ? t * job->box_scale + FLT_MIN : INFINITY;
+    job->box_limit = tl_ray_box_limit(job, t);
     job->triangle = triangle;
     job->leaf = leaf;
     job->lane = lane;

@@ -11,6 +11,7 @@
 
 #include "soup/layout/compact_layout.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -28,7 +29,7 @@ typedef struct tl_ray_job {
     bool is_segment;     ///< direction is target - origin, not rounded; t is within [0, 1]
     bool is_exact;       ///< direction, exact_shear and inverse_z are filled
 
-    bool is_usual; ///< box t is t, and no filter is out of its range
+    bool has_intervals; ///< t cannot saturate, nor a denormal t lose more than ray_walk.inl allows for
 
     // Boxes. Plane p of axis i is met at t = (p * plane_scale[i] + near_base[i]) / box_scale, rounded down, or with
     // far_base up. Lane 3 is not used. Vectors are aligned, so that a store is forwarded to the load of a lane.
@@ -39,6 +40,7 @@ typedef struct tl_ray_job {
     uint32_t outside;  ///< bit i: along axis i the ray begins outside the soup's box
     float box_scale;   ///< power of two: box t = t * box_scale
     float box_limit;   ///< boxes that begin beyond it are skipped
+    float box_margin;  ///< box t that the rounding of a denormal t, and underflow, may take from a box
 
     // Leaves: origin moved to zero, then sheared so that the ray runs along the last of the axes.
     float per_depth;                   ///< box t a metre along that axis
@@ -63,6 +65,12 @@ typedef struct tl_ray_job {
     float u, v;
     bool back;
 } tl_ray_job;
+
+/// The box t beyond which no hit is reported at `t` or before. A saturated t says nothing about where the hit is.
+static inline float tl_ray_box_limit(const tl_ray_job *job, float t)
+{
+    return t < FLT_MAX ? t * job->box_scale + job->box_margin : INFINITY;
+}
 
 /// Fills what the filters need; the caller has set soup, filter, is_segment and t. False: nothing can be hit.
 /// The walks have it inline (ray_prepare.h).

@@ -5,12 +5,24 @@
 
 #include "soup/ray/ray_prepare.h"
 
+#include "soup/ray/ray_measure.h"
+
+#include <string.h>
+
+// Of a longer ray a denormal t is too coarse for the intervals of ray_walk.inl.
+#define BOX_SCALE_MAX 0x1p70f
+
 // A power of two that brings `largest` to [1, 2), or to [512, 1024) when it is large: its inverse is then a float.
+// By the bits of doubles: no float is a denormal one.
 static double power_scale(double largest)
 {
-    int exponent;
-    (void)frexp(largest, &exponent);
-    return ldexp(1.0, exponent > 1 ? 10 - exponent : 1 - exponent);
+    uint64_t bits;
+    memcpy(&bits, &largest, sizeof bits);
+    uint64_t exponent = bits >> 52, wanted = exponent > 1023 ? 1023 + 9 : 1023;
+    bits = (1023 + wanted - exponent) << 52;
+    double scale;
+    memcpy(&scale, &bits, sizeof scale);
+    return scale;
 }
 
 // The origin is too far away for float filters: everything passes to the exact part.
@@ -24,6 +36,7 @@ static void pass_everything(tl_ray_job *job)
         job->leaf_origin[i] = 0.0f;
         job->shear[i] = 0.0f;
     }
+    job->has_intervals = false;
     job->backward = 0;
     job->outside = 0;
     job->corner_error = INFINITY;
@@ -48,11 +61,14 @@ bool tl_ray_prepare_unusual(tl_ray_job *job)
     }
     double scale = power_scale(largest);
     job->box_scale = (float)(1.0 / scale);
-    job->box_limit = job->t < FLT_MAX ? job->t * job->box_scale + FLT_MIN : INFINITY;
+    // Half the spacing of denormals is 2^-150. In two factors, so that no operand is one of them.
+    job->box_margin = job->box_scale * 0x1p-75f * 0x1p-74f + FLT_MIN;
+    job->box_limit = tl_ray_box_limit(job, job->t);
     tl_f32x4 scaled = tl_f32x4_make((float)(direction[0] * scale), (float)(direction[1] * scale),
                                     (float)(direction[2] * scale), 0.0f);
     tl_f32x4 size = tl_f32x4_abs(scaled);
     tl_ray_prepare_filters(job, tl_f32x4_load(job->origin.lane), scaled, size, tl_f32x4_max_of_three(size));
+    job->has_intervals = job->box_scale < BOX_SCALE_MAX && job->reach < TL_RAY_T_MAX * job->box_scale;
     if (!(job->reach < TL_RAY_FILTER_MAX)) {
         pass_everything(job);
     }

@@ -16,7 +16,10 @@
 // 6 u |O| + 10 u M, covers the rounding of the reported t (u t) with which boxes are compared, and the error before it.
 //
 // A direction component that is tiny or zero is replaced by 2^-70, which keeps all numbers finite. The largest
-// component is 2^-10 at least, so over the whole length of the soup's box that moves the ray by at most 2^-59 M.
+// component is 2^-20 at least, so over the whole length of the soup's box that moves the ray by at most 2^-49 M. It is
+// 2^20 at most, so the pad of a box is FLT_MIN 2^-20 = 2^-146 at least, and three products that underflow err by 2^-150
+// each. Other directions are scaled by a power of two to these bounds, which is exact; a box t is then as much larger
+// as the direction is smaller, and t itself is computed from the ray as it was given.
 //
 // Source of the shear: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2013. That paper decides in
 // float and repairs zeros; here float only rejects. The slab test is Kay's and Kajiya's, Ray Tracing Complex Scenes,
@@ -36,8 +39,8 @@
 #define TL_RAY_SMALLEST_INCLINE 8.4703295e-22f // 2^-70
 
 // Directions whose largest component is within these bounds are used as they are; others are scaled by a power of two.
-#define TL_RAY_DIRECTION_MIN 9.765625e-4f // 2^-10
-#define TL_RAY_DIRECTION_MAX 1024.0f
+#define TL_RAY_DIRECTION_MIN 9.5367431640625e-7f // 2^-20
+#define TL_RAY_DIRECTION_MAX 1048576.0f          // 2^20
 
 // Beyond this distance the products of the filters could overflow; every box and leaf then passes.
 #define TL_RAY_FILTER_MAX 1e15f
@@ -110,11 +113,12 @@ static TL_ALWAYS_INLINE bool tl_ray_prepare_inline(tl_ray_job *job, const tl_vec
     tl_f32x4 magnitude = tl_f32x4_add(tl_f32x4_abs(origin), size);
     bool usual = (tl_f32x4_ascending(tl_f32x4_all(TL_RAY_DIRECTION_MIN), largest, tl_f32x4_all(TL_RAY_DIRECTION_MAX)) &
                   tl_f32x4_less_equal(magnitude, tl_f32x4_all(TL_RAY_FILTER_MAX))) == 15u;
-    job->is_usual = usual;
     if (!usual) {
         return tl_ray_prepare_unusual(job);
     }
+    job->has_intervals = true;
     job->box_scale = 1.0f;
+    job->box_margin = FLT_MIN;
     job->box_limit = job->t + FLT_MIN;
     tl_ray_prepare_filters(job, origin, direction, size, largest);
     return job->t >= 0.0f;

@@ -33,6 +33,13 @@
 // True weights have one sign, so errors of the weights move the quotient by at most
 // sum(e |z_i - z|) / |D| <= 3 e L / |D|. With |D| >= 64 e, roundings of depths, products, sums and the quotient add
 // 18 u Z, per_depth (two of its own) and its product 3 u Z. Taken as 4 e L / |D| + 26 u Z.
+//
+// Underflow. Products of the depths' sum, and that sum times per_depth, err by 2^-150 each, which 1 / |D| makes large:
+// with e taken as 2^-77 at least, so that |D| >= 2^-71, and |per_depth| >= 2^-20, by less than 2^-58.9 |per_depth|,
+// about 28 u 2^-39.7 |per_depth|. So 2^-38 is added to Z. It also covers the rounding of a reported t below FLT_MIN,
+// 2^-150 in t, as long as box t is not more than 2^70 of t. Triangles much smaller than 10^-10 m are decided in double.
+//
+// All of this is in box t: a power of two times t.
 
 #include "base/compiler.h"
 #include "base/lowest_bit.h"
@@ -52,6 +59,8 @@
 #define LANE_MIN_RATIO   64.0f // |D| / e
 #define T_RATIO_TERM     8.0f
 #define T_ROUNDING       (28.0f * TL_FLOAT_ROUNDING)
+#define LANE_UNDERFLOW   0x1p-77f
+#define DEPTH_UNDERFLOW  0x1p-38f // metres
 
 // Margin around a decided t: another's interval must end before or begin after it to be told apart.
 #define T_MARGIN (4.0f * TL_FLOAT_ROUNDING)
@@ -333,7 +342,7 @@ static TL_NOINLINE walk_best settle_each(tl_ray_job *job, const walk_lanes *lane
         }
         decide(job, leaf, lane);
         best.limit = job->box_limit;
-        best.ahead = job->t * (1.0f - T_MARGIN);
+        best.ahead = job->t * job->box_scale * (1.0f - T_MARGIN);
     }
     return best;
 }
@@ -378,13 +387,14 @@ static TL_ALWAYS_INLINE bool settle_lanes(tl_ray_job *job, const leaf_lanes *v, 
                                              tl_f32x8_all(2.0f * TL_RAY_CORNER_ERROR * extent + FLT_MIN));
     tl_f32x8 error = tl_f32x8_mul_add(corner_error, tl_f32x8_all(LANE_ERROR_TERM),
                                       tl_f32x8_mul(farthest_across(v), tl_f32x8_all(LANE_SIZE_TERM)));
-    error = tl_f32x8_mul_add(error, corner_error, tl_f32x8_all(FLT_MIN));
+    error = tl_f32x8_mul_add(error, corner_error, tl_f32x8_all(LANE_UNDERFLOW));
     tl_f32x8 ratio = tl_f32x8_abs(tl_f32x8_mul(error, inverse));
     float rounding = T_ROUNDING * size;
-    tl_f32x8 spread = tl_f32x8_mul_add(depth, tl_f32x8_all(rounding), tl_f32x8_all(rounding * extent));
+    tl_f32x8 spread =
+        tl_f32x8_mul_add(depth, tl_f32x8_all(rounding), tl_f32x8_all(rounding * (extent + DEPTH_UNDERFLOW)));
     spread = tl_f32x8_mul_add(ratio, tl_f32x8_all(T_RATIO_TERM * extent * size), spread);
     tl_f32x8 low = tl_f32x8_sub(t, spread), high = tl_f32x8_add(t, spread);
-    uint32_t clear = tl_f32x8_less(ratio, tl_f32x8_all(1.0f / LANE_MIN_RATIO)) & (job->is_usual ? 0xffu : 0u);
+    uint32_t clear = tl_f32x8_less(ratio, tl_f32x8_all(1.0f / LANE_MIN_RATIO)) & (job->has_intervals ? 0xffu : 0u);
     uint32_t gone = tl_f32x8_less(high, tl_f32x8_all(0.0f)) | tl_f32x8_less(tl_f32x8_all(best->limit), low);
     uint32_t maybe = v->maybe & ~(gone & clear);
     if (maybe == 0) {
@@ -458,7 +468,7 @@ static TL_ALWAYS_INLINE void begin_walk(const tl_ray_job *job, uint32_t node_siz
     ray->node_size = node_size;
     ray->nodes = (const char *)job->soup + job->soup->node_offset;
     ray->leaves = (const char *)job->soup + job->soup->leaf_offset;
-    walk_best none = { job->box_limit, job->t * (1.0f - T_MARGIN), 0, 0 };
+    walk_best none = { job->box_limit, job->t * job->box_scale * (1.0f - T_MARGIN), 0, 0 };
     *best = none;
 }
 
