@@ -19,6 +19,11 @@ extern "C" {
 #define TL_NAV_LINKS_MAGIC   0x4b4e494cu ///< "LINK"
 #define TL_NAV_LINKS_VERSION 1u
 
+/// Most places along ledges that links are sought from: at the default spacing 4,000 km of ledges.
+#define TL_NAV_LINKS_MAX_PLACES (1u << 23)
+/// Most landings that are tried: each place times the steps of two cells, up to `max_jump` or across the navmesh.
+#define TL_NAV_LINKS_MAX_LANDINGS (1u << 27)
+
 typedef enum tl_nav_link_kind {
     TL_NAV_LINK_DROP,  ///< a step over a ledge and a fall straight down: one way
     TL_NAV_LINK_JUMP,  ///< a parabola over a gap or an obstacle; both ways where the agent jumps high enough for it
@@ -100,8 +105,9 @@ typedef struct tl_nav_links_report {
 /// of the jump. Where the floor is, is taken from the navmesh, not proven. Off-mesh connections that the navmesh has
 /// count as paths. The same input gives the same bytes for any number of workers. `def` NULL: the default one.
 /// `*links_out` is freed with tl_blob_free; NULL on failure. `report_out` may be NULL. TL_ERR_ARGUMENT,
-/// TL_ERR_NOT_FINITE (fields of the def), TL_ERR_EMPTY (the navmesh has no tile), TL_ERR_LIMIT (2^30 places),
-/// TL_ERR_MEMORY, TL_ERR_CANCELLED. Sources: Mononen, Automatic Annotations in Killzone 3 and Beyond (Paris Game AI
+/// TL_ERR_NOT_FINITE (fields of the def), TL_ERR_EMPTY (the navmesh has no tile), TL_ERR_LIMIT (`spacing` is too fine
+/// for the navmesh: more than TL_NAV_LINKS_MAX_PLACES or TL_NAV_LINKS_MAX_LANDINGS), TL_ERR_MEMORY, TL_ERR_CANCELLED.
+/// Sources: Mononen, Automatic Annotations in Killzone 3 and Beyond (Paris Game AI
 /// Conference 2011), for sampling ledges; the proof by sweeps is our own.
 TL_API tl_result tl_nav_links_find(const tl_nav_links_def *def, const tl_navmesh *navmesh, const tl_soup *soup,
                                    tl_nav_links **links_out, tl_nav_links_report *report_out);

@@ -102,7 +102,7 @@ static void try_jump(const tl_nav_landing_search *search, const tl_nav_ledge_poi
     tl_vec3 half = tl_vec3_make(search->cell, (def->jump_height + def->max_drop) / 2.0f, search->cell);
     candidate->fate = TL_NAV_CANDIDATE_NO_LANDING;
     candidate->link.kind = TL_NAV_LINK_JUMP;
-    for (float out = 2.0f * search->cell; out <= def->max_jump; out += 2.0f * search->cell) {
+    for (float out = 2.0f * search->cell; out <= search->reach; out += 2.0f * search->cell) {
         tl_vec3 center = tl_add(place->point, tl_scale(direction, out));
         center.y += middle;
         tl_nav_location target;

@@ -14,6 +14,8 @@ typedef struct ledge_walk {
     float spacing;
     tl_nav_ledge_point *points;
     uint64_t capacity, count, edges;
+    uint64_t budget;                      // points that may still be looked at
+    bool is_over;                         // it was not enough
     tl_nav_link links[MAX_POLYGON_LINKS]; // of the polygon at hand
     uint32_t link_count;
 } ledge_walk;
@@ -46,8 +48,13 @@ static void sample_ledge(ledge_walk *walk, tl_nav_ref polygon, uint32_t edge, tl
     // Outward is to the right of a to b: polygons run counter-clockwise as seen from above.
     tl_vec3 out = tl_vec3_make(-z / length, 0.0f, x / length);
     double steps = ceil((double)length / (double)walk->spacing);
-    uint32_t count = steps < (double)(UINT32_MAX / 2) ? (uint32_t)steps : UINT32_MAX / 2;
+    if (steps > (double)walk->budget) {
+        walk->is_over = true;
+        return;
+    }
+    uint32_t count = (uint32_t)steps;
     bool is_border = false;
+    walk->budget -= count;
     for (uint32_t i = 0; i < count; i++) {
         float t = ((float)i + 0.5f) / (float)count;
         tl_vec3 point = tl_lerp(a, b, t);
@@ -74,7 +81,7 @@ static void sample_polygon_edges(ledge_walk *walk, const tl_nav_tile *tile, uint
     tl_result result = tl_navmesh_links(walk->navmesh, ref, walk->links, MAX_POLYGON_LINKS, &walk->link_count);
     // Links beyond the buffer count as borders: candidates there turn out to be walkable without a link.
     walk->link_count = result == TL_OK ? walk->link_count : MAX_POLYGON_LINKS;
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < count && !walk->is_over; k++) {
         bool may_be_border = links[k] == TL_NAV_LINK_WALL || (links[k] & TL_NAV_LINK_PORTAL) != 0;
         if (may_be_border) {
             sample_ledge(walk, ref, k, corners[k], corners[k + 1 < count ? k + 1 : 0]);
@@ -92,6 +99,8 @@ uint64_t tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_nav_l
     walk.capacity = capacity;
     walk.count = 0;
     walk.edges = 0;
+    walk.budget = 4 * (uint64_t)TL_NAV_LINKS_MAX_PLACES;
+    walk.is_over = false;
     for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
         const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
         for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++) {
@@ -99,5 +108,5 @@ uint64_t tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_nav_l
         }
     }
     *edge_count_out = walk.edges;
-    return walk.count;
+    return walk.is_over || walk.count > TL_NAV_LINKS_MAX_PLACES ? UINT64_MAX : walk.count;
 }

@@ -15,8 +15,9 @@ typedef struct tl_nav_ledge_point {
     float off_middle; ///< metres from the middle of its edge
 } tl_nav_ledge_point;
 
-/// Places evenly along all border edges, at most `spacing` apart. Writes the first `capacity`; returns the true count.
-/// `*edge_count_out`: border edges.
+/// Places evenly along all border edges, at most `spacing` apart. Writes the first `capacity`; returns the true count,
+/// or UINT64_MAX where that is more than TL_NAV_LINKS_MAX_PLACES, or four times as many lie along the edges that may be
+/// borders in part. `*edge_count_out`: border edges.
 uint64_t tl_nav_sample_ledges(const tl_navmesh *navmesh, float spacing, tl_nav_ledge_point *points, uint64_t capacity,
                               uint64_t *edge_count_out);
 
@@ -44,6 +45,7 @@ typedef struct tl_nav_landing_search {
     tl_nav_walker walker;
     float radius, lift; ///< of the agent
     float cell;
+    float reach; ///< metres: a jump is no longer, by the def and by the size of the navmesh
 } tl_nav_landing_search;
 
 /// Finds where links from a place may land, and proves them.

@@ -113,6 +113,17 @@ static uint32_t gather_proven(link_search *s, tl_nav_links_report *report)
     return count;
 }
 
+// Metres across the navmesh, in the plane, and some cells more.
+static float widest_jump(const tl_navmesh *navmesh, float cell)
+{
+    tl_aabb box = tl_aabb_empty();
+    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
+        box = tile != NULL ? tl_aabb_union(box, tile->bounds) : box;
+    }
+    return hypotf(box.max.x - box.min.x, box.max.z - box.min.z) + 8.0f * cell;
+}
+
 static const tl_nav_tile *first_tile(const tl_navmesh *navmesh)
 {
     for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
@@ -133,6 +144,7 @@ static void prepare_landing(link_search *s, const tl_nav_links_def *def, const t
     s->landing.radius = tile->agent_radius;
     s->landing.lift = tile->agent_max_climb;
     s->landing.cell = tile->cell_size;
+    s->landing.reach = fminf(def->max_jump, widest_jump(navmesh, tile->cell_size));
 }
 
 static tl_result write_links(const link_search *s, const tl_nav_tile *tile, uint32_t count, tl_nav_links **links_out)
@@ -173,8 +185,9 @@ static tl_result find_jump_links(link_search *s, const tl_nav_tile *tile, tl_nav
     uint64_t edges = 0;
     TL_TRY(tl_progress_update(&def->host, "ledges", 0, 1));
     s->place_count = tl_nav_sample_ledges(s->landing.navmesh, def->spacing, NULL, 0, &edges);
-    if (s->place_count > UINT32_MAX / TL_NAV_CANDIDATES_PER_PLACE) {
-        return tl_report_fail(&report->base, TL_ERR_LIMIT, "place", s->place_count, "take a larger spacing");
+    const double steps = (double)s->landing.reach / (2.0 * (double)s->landing.cell);
+    if (s->place_count == UINT64_MAX || (double)s->place_count * steps > (double)TL_NAV_LINKS_MAX_LANDINGS) {
+        return tl_report_field(&report->base, TL_ERR_LIMIT, "spacing", "make it larger, or max_jump shorter");
     }
     report->ledge_count = (uint32_t)edges;
     report->sample_count = (uint32_t)s->place_count;

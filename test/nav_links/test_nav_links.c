@@ -44,7 +44,8 @@ typedef struct linked_level {
     tl_soup *soup;
 } linked_level;
 
-static void make_level(linked_level *out)
+// `scale` times as large, and the agent with it.
+static void make_scaled_level(linked_level *out, float scale)
 {
     static box_level boxes;
     memset(&boxes, 0, sizeof boxes);
@@ -53,18 +54,29 @@ static void make_level(linked_level *out)
     add_box(&boxes, tl_vec3_make(12, 0, 0), tl_vec3_make(20, 3, 8));      // a ledge to drop from
     add_box(&boxes, tl_vec3_make(12, 0, 12), tl_vec3_make(20, 1, 20));    // a ledge to climb
     add_box(&boxes, tl_vec3_make(21.5f, -1, 0), tl_vec3_make(30, 0, 20)); // an island
+    for (uint32_t i = 0; i < 8 * boxes.count; i++) {
+        boxes.vertices[i] = tl_scale(boxes.vertices[i], scale);
+    }
     tl_mesh_view view = { boxes.vertices, 8 * boxes.count, boxes.indices, 12 * boxes.count, NULL };
     tl_nav_input input = { view, NULL, NULL, 0 };
     tl_nav_def def = tl_default_nav_def();
-    def.cell_size = 0.2f;
-    def.agent_radius = 0.4f;
-    def.agent_max_climb = 0.4f;
+    def.cell_size = 0.2f * scale;
+    def.cell_height *= scale;
+    def.agent_height *= scale;
+    def.agent_radius = 0.4f * scale;
+    def.agent_max_climb = 0.4f * scale;
+    def.edge_max_len *= scale;
     TEST_RESULT(tl_nav_bake(&def, &input, &out->tiles, NULL), TL_OK);
     TEST_RESULT(tl_navmesh_create(NULL, &out->navmesh), TL_OK);
     for (uint32_t i = 0; i < out->tiles.tile_count; i++) {
         TEST_RESULT(tl_navmesh_add_tile(out->navmesh, out->tiles.tiles[i], TL_NAV_TILE_BORROWED), TL_OK);
     }
     TEST_RESULT(tl_soup_bake(&view, NULL, &out->soup, NULL), TL_OK);
+}
+
+static void make_level(linked_level *out)
+{
+    make_scaled_level(out, 1.0f);
 }
 
 static void free_level(linked_level *level)
@@ -279,10 +291,47 @@ static void test_points(void **state)
     TEST_CHECK(tl_distance(tl_nav_jump_link_point(&drop, 0.5f), tl_vec3_make(1, 2, 0)) < 1e-6f);
 }
 
+// A jump goes no farther than the navmesh does, and no place is tried that cannot be afforded.
+static void test_scales(void **state)
+{
+    (void)state;
+    linked_level level;
+    tl_nav_links *links = NULL;
+    tl_nav_links *same = NULL;
+    tl_nav_links_report report;
+    tl_nav_links_def def = tl_default_nav_links_def();
+    make_level(&level);
+    def.max_speed = 100.0f;
+    def.max_jump = 50.0f; // from corner to corner it is 36 m
+    TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, &report), TL_OK);
+    for (def.max_jump = 1e3f; def.max_jump < 1e38f; def.max_jump *= 1e5f) {
+        TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &same, &report), TL_OK);
+        TEST_CHECK(same->blob.size == links->blob.size && memcmp(same, links, links->blob.size) == 0);
+        tl_blob_free(same);
+    }
+    tl_blob_free(links);
+    def = tl_default_nav_links_def();
+    for (def.spacing = 1e-5f; def.spacing > 1e-37f; def.spacing *= 1e-8f) {
+        TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, &report), TL_ERR_LIMIT);
+        TEST_CHECK(links == NULL && strcmp(report.base.field, "spacing") == 0);
+    }
+    free_level(&level);
+    def = tl_default_nav_links_def();
+    make_scaled_level(&level, 1e-12f);
+    TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, &report), TL_OK);
+    tl_blob_free(links);
+    free_level(&level);
+    make_scaled_level(&level, 1e6f);
+    TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, &report), TL_ERR_LIMIT);
+    TEST_CHECK(strcmp(report.base.field, "spacing") == 0);
+    free_level(&level);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_known_level), cmocka_unit_test(test_limits),
                                         cmocka_unit_test(test_hosts),       cmocka_unit_test(test_failing_memory),
-                                        cmocka_unit_test(test_damage),      cmocka_unit_test(test_points) };
+                                        cmocka_unit_test(test_damage),      cmocka_unit_test(test_points),
+                                        cmocka_unit_test(test_scales) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
