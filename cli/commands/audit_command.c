@@ -228,7 +228,7 @@ static tl_exit audit_source(draw_source *source, audit_settings *settings)
         return tl_cli_fail(source->cli, TL_EXIT_DATA, "%s: holds no triangles; bake it without --no-soup",
                            source->input.path);
     }
-    if (!draw_need_soup(source, &code) || !draw_need_navmesh(source, &code)) {
+    if (!draw_need_soup(source, &code) || !draw_need_walkable(source, &code)) {
         return code;
     }
     const tl_nav_input input = tl_level_areas_input(&source->areas, &source->mesh);

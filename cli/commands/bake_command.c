@@ -3,6 +3,7 @@
 // talus bake: a level to a baked file, and a table of what it took.
 
 #include "cli/level/bake_level.h"
+#include "cli/level/level_doubt.h"
 #include "cli/level/write_pack.h"
 #include "cli/shared/json_out.h"
 #include "cli/shared/table.h"
@@ -50,6 +51,7 @@ typedef struct bake_result {
     const char *output; // NULL: nothing was written
     uint64_t file_bytes;
     double seconds;
+    tl_level_doubt empty; // why nothing is walkable; without a cause when something is
 } bake_result;
 
 static uint64_t blob_bytes(const void *blob)
@@ -197,7 +199,8 @@ static void print_bake_summary(const bake_result *r)
         tl_area_sums_print(&bake->areas);
         print_left_out(bake);
     } else if (r->settings->nav) {
-        printf("navmesh  empty: nothing is walkable for this agent; check --scale and --up, or the agent's size\n");
+        printf("navmesh  empty: nothing is walkable (%s)\n", r->empty.cause);
+        print_left_out(bake);
     }
     if (bake->links.links != NULL) {
         printf("links    %u drops, %u jumps, %u climbs\n", bake->links.links->kind_counts[TL_NAV_LINK_DROP],
@@ -280,6 +283,9 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
                                       (json_int_t)tile_bytes(bake)));
         json_object_set_new(json_object_get(object, "navmesh"), "areas", tl_area_sums_json(&bake->areas));
         json_object_set_new(json_object_get(object, "navmesh"), "left_out", left_out_json(bake));
+        if (r->empty.cause != NULL) {
+            json_object_set_new(json_object_get(object, "navmesh"), "cause", json_string(r->empty.cause));
+        }
     }
     if (bake->links.links != NULL) {
         json_object_set_new(object, "links", tl_level_links_json(&bake->links.report));
@@ -307,7 +313,11 @@ static tl_exit bake_and_write(tl_cli *cli, const tl_level *level, const tl_bake_
     memset(&content, 0, sizeof(content));
     tl_exit code;
     if (tl_bake_level(cli, level, settings, &bake, &code)) {
-        bake_result result = { level, &bake, settings, output, 0, 0.0 };
+        bake_result result = { level, &bake, settings, output, 0, 0.0, { NULL, "" } };
+        const bool empty = settings->nav && !bake.walkable;
+        if (empty) {
+            result.empty = tl_level_explain_empty(cli, level, settings, &bake);
+        }
         tl_result made = make_baked_content(level, &bake, settings->nav, &content);
         code = made == TL_OK ? tl_pack_content_write(cli, output, &content, &result.file_bytes)
                              : tl_cli_fail_result(cli, output, made, NULL);
@@ -315,6 +325,10 @@ static tl_exit bake_and_write(tl_cli *cli, const tl_level *level, const tl_bake_
         result.seconds = tl_clock_seconds() - began;
         if (code == TL_EXIT_OK && strcmp(output, "-") != 0) {
             code = print_bake_report(cli, &result);
+        }
+        if (code == TL_EXIT_OK && empty) {
+            code = tl_cli_fail(cli, TL_EXIT_EMPTY, "%s: nothing is walkable (%s): %s", level->path, result.empty.cause,
+                               result.empty.text);
         }
     }
     tl_pack_content_free(&content);
@@ -373,7 +387,7 @@ const tl_command tl_bake_command = {
     "Reads a level (OBJ, glTF, GLB, FBX, STL, PLY, DAE; - is standard input), bakes a BVH over its triangles\n"
     "for rays and shapes, and a navmesh for paths, and writes both to one file. Prints what each stage made\n"
     "and how long it took. The same level and options give the same bytes on every machine. When no place of\n"
-    "the level is walkable, the file holds no navmesh, and the command says so.\n"
+    "the level is walkable, the file holds no navmesh, and the command says why and exits with 6.\n"
     "\n"
     "Options may be written as users of Recast know them: --cs, --cellSize, --walkableSlopeAngle. Where\n"
     "Recast counts cells and talus takes metres, a message names the option and its unit.",

@@ -2,6 +2,7 @@
 //
 // talus check: proves a baked file right, or names each fault; tells what is odd about a mesh file.
 
+#include "cli/level/level_doubt.h"
 #include "cli/level/open_input.h"
 #include "cli/shared/json_out.h"
 
@@ -16,6 +17,7 @@ typedef struct findings {
     tl_cli *cli;
     json_t *list; // NULL without --json
     uint32_t faults;
+    bool empty; // there is a navmesh, and nothing in it
 } findings;
 
 static void add_finding(findings *f, const char *part, const char *element, uint64_t index, const char *fault)
@@ -210,7 +212,10 @@ static tl_result check_navmesh(findings *f, const tl_pack *pack)
         add_failed(f, "navmesh", result, &report);
         return result == TL_ERR_MEMORY ? result : TL_OK;
     }
-    if (f->list == NULL) {
+    f->empty = tl_navmesh_tile_count(navmesh) == 0;
+    if (f->list == NULL && f->empty) {
+        printf("note   navmesh: empty, nothing is walkable\n");
+    } else if (f->list == NULL) {
         printf("ok     navmesh: %u tiles fit, %llu links\n", tl_navmesh_tile_count(navmesh),
                (unsigned long long)tl_navmesh_link_count(navmesh));
     }
@@ -262,11 +267,11 @@ static void add_note(findings *f, uint64_t count, const char *what)
     }
 }
 
-static tl_exit check_mesh_file(findings *f, const char *path, const tl_level_settings *settings)
+static tl_exit check_mesh_file(findings *f, const char *path, const tl_bake_settings *settings)
 {
     tl_level level;
     tl_exit code;
-    if (tl_level_load(f->cli, path, settings, &level, &code)) {
+    if (tl_level_load(f->cli, path, &settings->level, &level, &code)) {
         tl_adjacency adjacency;
         tl_mesh_view view = tl_mesh_as_view(&level.mesh);
         tl_result result = tl_adjacency_bake(&view, &f->cli->host, &adjacency, NULL);
@@ -280,6 +285,8 @@ static tl_exit check_mesh_file(findings *f, const char *path, const tl_level_set
             add_note(f, adjacency.border_edges, "open edges: the surface is not closed there");
             add_note(f, adjacency.non_manifold_edges,
                      "edges of more than two triangles, or of two that face differently");
+            const tl_level_doubt doubt = tl_level_doubt_find(&view, level.mesh.bounds, settings);
+            add_note(f, doubt.cause != NULL, doubt.text);
             if (f->list == NULL) {
                 printf("ok     %u triangles\n", level.mesh.triangle_count);
             }
@@ -298,11 +305,11 @@ static tl_exit run_check(tl_cli *cli)
         return code;
     }
     const char *path = cli->arguments.words[0];
-    findings f = { cli, cli->json ? json_array() : NULL, 0 };
+    findings f = { cli, cli->json ? json_array() : NULL, 0, false };
     bool baked = tl_input_is_baked(path);
-    code = baked ? check_baked(&f, path) : check_mesh_file(&f, path, &settings.level);
+    code = baked ? check_baked(&f, path) : check_mesh_file(&f, path, &settings);
     if (code == TL_EXIT_OK) {
-        code = f.faults > 0 ? TL_EXIT_NEGATIVE : TL_EXIT_OK;
+        code = f.faults > 0 ? TL_EXIT_NEGATIVE : f.empty ? TL_EXIT_EMPTY : TL_EXIT_OK;
         if (cli->json) {
             json_t *object = json_pack("{so ss sb sO}", "file", tl_json_text(path), "kind", baked ? "baked" : "mesh",
                                        "ok", (int)(f.faults == 0), baked ? "faults" : "notes", f.list);

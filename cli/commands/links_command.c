@@ -90,7 +90,7 @@ static tl_exit find_level_links(tl_cli *cli, const links_settings *settings)
         code = tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no triangles to sweep along links", path);
         open = false;
     }
-    open = open && draw_need_soup(&source, &code) && draw_need_navmesh(&source, &code);
+    open = open && draw_need_soup(&source, &code) && draw_need_walkable(&source, &code);
     if (open && settings->output != NULL && !source.input.baked) {
         code = tl_cli_fail(cli, TL_EXIT_USAGE, "%s is a level; write its links with talus bake --links", path);
         open = false;

@@ -103,6 +103,10 @@ bool draw_route_add(draw_source *source, const draw_route_ends *ends, draw_scene
         return false;
     }
     const tl_navmesh *navmesh = source->input.navmesh;
+    if (tl_navmesh_tile_count(navmesh) == 0) {
+        tl_cli_warn(source->cli, "%s: nothing is walkable; the picture shows no path", source->input.path);
+        return true;
+    }
     draw_route route;
     tl_result result = make_route_room(navmesh, &route);
     if (result == TL_OK) {

@@ -268,3 +268,15 @@ bool draw_need_navmesh(draw_source *source, tl_exit *exit_out)
     }
     return source->has_navmesh;
 }
+
+bool draw_need_walkable(draw_source *source, tl_exit *exit_out)
+{
+    if (!draw_need_navmesh(source, exit_out)) {
+        return false;
+    }
+    const bool walkable = tl_navmesh_tile_count(source->input.navmesh) > 0;
+    if (!walkable) {
+        *exit_out = tl_input_fail_empty(source->cli, &source->input, source->settings);
+    }
+    return walkable;
+}

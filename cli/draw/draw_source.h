@@ -47,5 +47,7 @@ bool draw_need_stages(draw_source *source, tl_exit *exit_out);
 /// The contours, of the pipeline or of the contour file.
 bool draw_need_contours(draw_source *source, tl_exit *exit_out);
 bool draw_need_navmesh(draw_source *source, tl_exit *exit_out);
+/// A navmesh of at least one polygon: an empty one is reported with its likely cause.
+bool draw_need_walkable(draw_source *source, tl_exit *exit_out);
 
 #endif

@@ -117,11 +117,14 @@ static void name_floors(draw_scene *scene, const tl_nav_compact *compact, draw_f
     char *text = scene->subtitle;
     size_t size = sizeof scene->subtitle;
     if (kind == DRAW_FLOOR_AREA) {
-        snprintf(text, size, "%u open floors after erosion by the agent's radius", compact->span_count);
         bool used[TL_NAV_MAX_AREA + 1] = { false };
+        uint32_t walkable = 0;
         for (uint32_t i = 0; i < compact->span_count; i++) {
             used[compact->area[i]] = true;
+            walkable += compact->area[i] != TL_NAV_NULL_AREA;
         }
+        snprintf(text, size, "%u open floors, %u of them walkable after erosion by the agent's radius",
+                 compact->span_count, walkable);
         draw_add_legend(scene, CLOSED, "not walkable: steep, too low, at a ledge, or too near a wall");
         draw_add_area_legends(scene, used);
     } else if (kind == DRAW_FLOOR_DISTANCE) {

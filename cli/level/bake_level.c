@@ -5,6 +5,7 @@
 
 #include "cli/level/bake_level.h"
 
+#include "cli/level/level_doubt.h"
 #include "cli/level/polygonize_compare.h"
 #include "cli/options/parse_value.h"
 
@@ -222,6 +223,11 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
         return false;
     }
     const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
+    // Told before the bake: a level that is too large takes long.
+    const tl_level_doubt doubt = tl_level_doubt_find(&mesh, level->mesh.bounds, settings);
+    if (doubt.cause != NULL) {
+        tl_cli_warn(cli, "%s: %s", level->path, doubt.text);
+    }
     const tl_nav_input input = tl_level_areas_input(&areas, &mesh);
     bake->nav_def = tl_bake_nav_def(settings);
     bake->nav_def.host = cli->host;

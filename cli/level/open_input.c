@@ -5,6 +5,8 @@
 
 #include "cli/level/open_input.h"
 
+#include "cli/level/level_doubt.h"
+
 #include <string.h>
 
 enum { PROBE_BYTES = 4096 };
@@ -141,11 +143,14 @@ bool tl_input_open_soup(tl_cli *cli, const char *path, const tl_bake_settings *s
     return ok;
 }
 
-static bool nothing_walkable(tl_cli *cli, const char *path, tl_exit *exit_out)
+tl_exit tl_input_fail_empty(tl_cli *cli, const tl_input *input, const tl_bake_settings *settings)
 {
-    *exit_out = tl_cli_fail(
-        cli, TL_EXIT_DATA, "%s: nothing is walkable for this agent; check --scale and --up, or the agent's size", path);
-    return false;
+    if (input->baked) {
+        return tl_cli_fail(cli, TL_EXIT_EMPTY,
+                           "%s: nothing is walkable; bake the level again, which tells the likely cause", input->path);
+    }
+    const tl_level_doubt doubt = tl_level_explain_empty(cli, &input->level, settings, &input->bake);
+    return tl_cli_fail(cli, TL_EXIT_EMPTY, "%s: nothing is walkable (%s): %s", input->path, doubt.cause, doubt.text);
 }
 
 bool tl_input_assemble_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out)
@@ -160,7 +165,7 @@ bool tl_input_assemble_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out)
     return result == TL_OK;
 }
 
-static bool load_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out)
+static bool load_navmesh(tl_cli *cli, tl_input *input, const tl_bake_settings *settings, tl_exit *exit_out)
 {
     tl_report report;
     memset(&report, 0, sizeof(report));
@@ -171,7 +176,8 @@ static bool load_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out)
     } else if (result != TL_OK) {
         *exit_out = tl_cli_fail_result(cli, input->path, result, &report);
     } else if (tl_navmesh_tile_count(input->navmesh) == 0) {
-        return nothing_walkable(cli, input->path, exit_out);
+        *exit_out = tl_input_fail_empty(cli, input, settings);
+        return false;
     }
     return result == TL_OK;
 }
@@ -180,7 +186,7 @@ bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings
                            tl_exit *exit_out)
 {
     if (tl_input_is_baked(path)) {
-        return tl_input_open_baked(cli, path, input_out, exit_out) && load_navmesh(cli, input_out, exit_out);
+        return tl_input_open_baked(cli, path, input_out, exit_out) && load_navmesh(cli, input_out, settings, exit_out);
     }
     memset(input_out, 0, sizeof(*input_out));
     input_out->path = path;
@@ -192,7 +198,8 @@ bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings
               tl_bake_level(cli, &input_out->level, &only_nav, &input_out->bake, exit_out);
     tl_progress_end(&cli->progress);
     if (ok && !input_out->bake.walkable) {
-        return nothing_walkable(cli, path, exit_out);
+        *exit_out = tl_input_fail_empty(cli, input_out, settings);
+        return false;
     }
     return ok && tl_input_assemble_navmesh(cli, input_out, exit_out);
 }

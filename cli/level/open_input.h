@@ -49,6 +49,8 @@ bool tl_input_open_soup(tl_cli *cli, const char *path, const tl_bake_settings *s
                         tl_exit *exit_out);
 bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings *settings, tl_input *input_out,
                            tl_exit *exit_out);
+/// Says that nothing of a level, or of a baked file, is walkable, and of a level why. Gives the exit code.
+tl_exit tl_input_fail_empty(tl_cli *cli, const tl_input *input, const tl_bake_settings *settings);
 /// Puts the tiles of `bake` into a navmesh. False: reported.
 bool tl_input_assemble_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out);
 void tl_input_close(tl_input *input);

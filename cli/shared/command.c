@@ -40,7 +40,7 @@ static void print_help(const tl_command *command, const tl_option_group *groups)
         line = end != NULL ? end + 1 : NULL;
     }
     printf("\nExit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 4 file cannot be read or written;\n5 "
-           "out of memory; 130 cancelled.\n");
+           "out of memory; 6 nothing is walkable; 130 cancelled.\n");
 }
 
 static bool set_up_host(tl_cli *cli, int progress_style, tl_exit *exit_out)

@@ -23,6 +23,7 @@ typedef enum tl_exit {
     TL_EXIT_DATA = 3,       ///< the input's content is wrong
     TL_EXIT_IO = 4,         ///< a file cannot be found, read or written
     TL_EXIT_MEMORY = 5,     ///< out of memory
+    TL_EXIT_EMPTY = 6,      ///< nothing is walkable; the likely cause is told
     TL_EXIT_CANCELLED = 130 ///< Ctrl-C; nothing was written
 } tl_exit;
 

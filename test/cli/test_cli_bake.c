@@ -193,8 +193,13 @@ static void test_real_levels(void **state)
         if (length > 4 && strcmp(entry->d_name + length - 4, ".obj") == 0) {
             char line[512];
             snprintf(line, sizeof(line), "bake %s/levels/%s -o real.talus", TALUS_DATA_DIR, entry->d_name);
-            cli_do(0, line);
-            cli_do(0, "check real.talus");
+            // Six metres wide: one cell is left of its floors.
+            const bool empty = strcmp(entry->d_name, "tower-big.obj") == 0;
+            cli_result bake = cli_expect(empty ? 6 : 0, line);
+            cli_check_part(bake.err, empty ? "(agent): the agent is too large: with --agent-radius 0 " : "");
+            TEST_CHECK(empty || bake.err[0] == '\0'); // nothing is odd about them
+            cli_free(&bake);
+            cli_do(empty ? 6 : 0, "check real.talus");
             count++;
         }
     }

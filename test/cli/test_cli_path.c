@@ -163,7 +163,7 @@ static void test_bad_pairs(void **state)
     cli_check_part(result.out, "\"status\":\"complete\"");
     cli_free(&result);
     cli_write_text("tiny.obj", "v 0 0 0\nv 0 0 1\nv 1 0 0\nf 1 2 3\n");
-    cli_check_error(3, "path tiny.obj 0,0,0 1,0,0", "nothing is walkable", "--scale");
+    cli_check_error(6, "path tiny.obj 0,0,0 1,0,0", "nothing is walkable", "--scale");
 }
 
 int main(void)

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+//
+// Area by direction tells up axis and winding. Of 22 levels of games and robotics, indoors and out, floors and ceilings
+// (|n.y| > cos 45) have at least 0.85 times the area of the walls along either axis, and floors at least 0.99 times
+// that of ceilings; the limits below leave room beyond both. A level of closed solids has as many floors as ceilings,
+// so that its winding cannot be told from areas: nothing is said of it.
+
+#include "cli/level/level_doubt.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// Square metres of triangles by direction; flat means no steeper than the agent's slope.
+typedef struct face_areas {
+    double all;
+    double up, down;    // flat
+    double z_up;        // would be floors and ceilings with z as the up axis
+    double x_wall;      // the same with x
+    double mean_edge;   // metres: side of the mean triangle's square
+    double least_slope; // degrees, of the triangles that face up; 90 when none does
+} face_areas;
+
+static face_areas measure_faces(const tl_mesh_view *mesh, double max_slope)
+{
+    face_areas f = { 0, 0, 0, 0, 0, 0, 90 };
+    const double degree = 3.14159265358979 / 180.0, flat = cos(max_slope * degree);
+    const double upright = cos(30.0 * degree); // stricter: a steep slope is no wall
+    double most_up = 0.0;
+    for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
+        const uint32_t *t = &mesh->indices[3 * (size_t)i];
+        const tl_vec3 a = mesh->vertices[t[0]], b = mesh->vertices[t[1]], c = mesh->vertices[t[2]];
+        const double ux = (double)b.x - (double)a.x, uy = (double)b.y - (double)a.y, uz = (double)b.z - (double)a.z;
+        const double vx = (double)c.x - (double)a.x, vy = (double)c.y - (double)a.y, vz = (double)c.z - (double)a.z;
+        const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+        const double length = sqrt(nx * nx + ny * ny + nz * nz), area = 0.5 * length;
+        if (!(length > 0.0)) {
+            continue;
+        }
+        f.all += area;
+        f.up += ny >= flat * length ? area : 0.0;
+        f.down += -ny >= flat * length ? area : 0.0;
+        f.z_up += fabs(nz) >= upright * length ? area : 0.0;
+        f.x_wall += fabs(nx) >= upright * length ? area : 0.0;
+        most_up = ny / length > most_up ? ny / length : most_up;
+    }
+    f.mean_edge = mesh->triangle_count > 0 ? sqrt(2.0 * f.all / mesh->triangle_count) : 0.0;
+    f.least_slope = acos(most_up < 1.0 ? most_up : 1.0) / degree;
+    return f;
+}
+
+static double longest_side(tl_aabb bounds)
+{
+    const tl_vec3 size = tl_aabb_size(bounds);
+    return (double)fmaxf(size.x, fmaxf(size.y, size.z));
+}
+
+static bool lies_on_its_side(const face_areas *f, tl_aabb bounds)
+{
+    const tl_vec3 size = tl_aabb_size(bounds);
+    const double floors = f->up + f->down;
+    const bool flat_along_z = size.z < 0.6f * fminf(size.x, size.y);
+    return (f->z_up > 1.3 * floors && flat_along_z) || (f->z_up > 2.5 * floors && f->z_up > 2.0 * f->x_wall);
+}
+
+static tl_level_doubt doubt_up_axis(const face_areas *f, const tl_bake_settings *settings)
+{
+    const bool turned = settings->level.up == TL_UP_Z;
+    tl_level_doubt doubt = { "up axis", "" };
+    snprintf(doubt.text, sizeof(doubt.text),
+             "most of the level stands upright: %.4g m2 of its %.4g m2 would lie flat with %s up, %.4g m2 do now; %s",
+             f->z_up, f->all, turned ? "y" : "z", f->up + f->down,
+             turned ? "is it y-up? leave out --up z" : "is it z-up? give --up z");
+    return doubt;
+}
+
+static tl_level_doubt doubt_winding(const face_areas *f)
+{
+    tl_level_doubt doubt = { "winding", "" };
+    snprintf(doubt.text, sizeof(doubt.text),
+             "its floors face down: %.4g m2 of triangles face down and %.4g m2 up; triangles are to be wound "
+             "counter-clockwise as seen from above, so turn them round in the export",
+             f->down, f->up);
+    return doubt;
+}
+
+static tl_level_doubt doubt_units(double longest, double scale, const tl_bake_settings *settings)
+{
+    tl_level_doubt doubt = { "units", "" };
+    snprintf(doubt.text, sizeof(doubt.text),
+             "the level is %.4g m long and the agent %.4g m high, as if its unit was no metre; if one unit is %.4g m, "
+             "give --scale %.4g",
+             longest, (double)settings->nav_def.agent_height, scale * (double)settings->level.scale,
+             scale * (double)settings->level.scale);
+    return doubt;
+}
+
+tl_level_doubt tl_level_doubt_find(const tl_mesh_view *mesh, tl_aabb bounds, const tl_bake_settings *settings)
+{
+    enum { LARGE_METRES = 1000, LARGE_TRIANGLES = 20 }; // of agents' heights, a triangle
+    const face_areas f = measure_faces(mesh, (double)settings->nav_def.agent_max_slope);
+    const double longest = longest_side(bounds);
+    if (lies_on_its_side(&f, bounds)) {
+        return doubt_up_axis(&f, settings);
+    }
+    if (f.down > 2.0 * f.up) {
+        return doubt_winding(&f);
+    }
+    if (longest > LARGE_METRES && mesh->triangle_count >= 100 &&
+        f.mean_edge > LARGE_TRIANGLES * (double)settings->nav_def.agent_height) {
+        return doubt_units(longest, 0.01, settings);
+    }
+    const tl_level_doubt none = { NULL, "" };
+    return none;
+}
+
+// ---------------------------------------------------------------------------------------------------------
+// Nothing is walkable.
+
+static bool doubt_pruned(const tl_bake *bake, tl_level_doubt *doubt)
+{
+    const tl_nav_prune_report *pruned = &bake->pruned;
+    const uint32_t islands = pruned->inside.islands + pruned->unreachable.islands + pruned->small.islands;
+    if (islands > 0) {
+        doubt->cause = "pruning";
+        snprintf(doubt->text, sizeof(doubt->text),
+                 "all %u islands were left out: %u inside solids, %u not reachable, %u smaller than --island-min-area",
+                 islands, pruned->inside.islands, pruned->unreachable.islands, pruned->small.islands);
+    }
+    return islands > 0;
+}
+
+// Islands of fewer square metres together than `area` are leavings of another cause.
+static bool doubt_filtered(const tl_bake *bake, double area, tl_level_doubt *doubt)
+{
+    const tl_nav_bake_report *nav = &bake->nav_report;
+    if (nav->filtered_regions > 0 && nav->filtered_area > area) {
+        doubt->cause = "region_min_size";
+        snprintf(doubt->text, sizeof(doubt->text),
+                 "all of its islands, %u with %.4g m2 together, have fewer cells than --region-min-size squared; give "
+                 "a smaller one, or a smaller --cell-size",
+                 nav->filtered_regions, nav->filtered_area);
+    }
+    return doubt->cause != NULL;
+}
+
+// Square metres of a bake without the areas; 0 when it fails too.
+static double walkable_with(const tl_cli *cli, const tl_level *level, const tl_nav_def *def)
+{
+    const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
+    tl_nav_input input;
+    memset(&input, 0, sizeof(input));
+    input.mesh = mesh;
+    tl_nav_def own = *def;
+    own.host = cli->host;
+    own.host.progress = NULL;
+    tl_nav_tiles tiles;
+    double area = 0.0;
+    if (tl_nav_bake(&own, &input, &tiles, NULL) == TL_OK) {
+        for (uint32_t i = 0; i < tiles.tile_count; ++i) {
+            area += tiles.tiles[i]->area;
+        }
+        tl_nav_tiles_free(&tiles);
+    }
+    return area;
+}
+
+static bool doubt_smaller(const tl_cli *cli, const tl_level *level, const tl_nav_def *def, float radius, float height,
+                          tl_level_doubt *doubt)
+{
+    tl_nav_def smaller = *def;
+    smaller.agent_radius = radius;
+    smaller.agent_height = height;
+    const double area = walkable_with(cli, level, &smaller);
+    if (area > 0.0) {
+        doubt->cause = "agent";
+        snprintf(doubt->text, sizeof(doubt->text),
+                 "the agent is too large: with --agent-radius %.3g and --agent-height %.3g, %.4g m2 are walkable",
+                 (double)smaller.agent_radius, (double)smaller.agent_height, area);
+    }
+    return area > 0.0;
+}
+
+static bool doubt_agent(const tl_cli *cli, const tl_level *level, const tl_bake_settings *settings,
+                        tl_level_doubt *doubt)
+{
+    const tl_nav_def def = tl_bake_nav_def(settings);
+    if (walkable_with(cli, level, &def) > 0.0) {
+        doubt->cause = "areas";
+        snprintf(doubt->text, sizeof(doubt->text), "--area and --areas make all of its floors not walkable");
+        return true;
+    }
+    for (int halves = 1; halves <= 3; ++halves) {
+        const float part = halves < 3 ? ldexpf(1.0f, -halves) : 0.0f;
+        const float radius = part * def.agent_radius;
+        const float height = fmaxf(part * def.agent_height, 2.0f * def.cell_height);
+        if (doubt_smaller(cli, level, &def, radius, def.agent_height, doubt) ||
+            doubt_smaller(cli, level, &def, def.agent_radius, height, doubt) ||
+            doubt_smaller(cli, level, &def, radius, height, doubt)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+tl_level_doubt tl_level_explain_empty(const tl_cli *cli, const tl_level *level, const tl_bake_settings *settings,
+                                      const tl_bake *bake)
+{
+    tl_level_doubt doubt = { NULL, "" };
+    const tl_mesh_view mesh = tl_mesh_as_view(&level->mesh);
+    const tl_nav_def def = tl_bake_nav_def(settings);
+    const tl_aabb bounds = level->mesh.bounds;
+    const double longest = longest_side(bounds);
+    const face_areas f = measure_faces(&mesh, (double)def.agent_max_slope);
+    const double agent_area = 4.0 * (double)def.agent_radius * (double)def.agent_radius;
+    if (doubt_pruned(bake, &doubt) || doubt_filtered(bake, agent_area, &doubt)) {
+        return doubt;
+    }
+    if (!tl_aabb_is_empty(def.bounds) && !tl_aabb_overlaps(def.bounds, bounds)) {
+        doubt.cause = "bounds";
+        snprintf(doubt.text, sizeof(doubt.text),
+                 "--bounds lies beside the level, which reaches from %.6g,%.6g,%.6g to %.6g,%.6g,%.6g",
+                 (double)bounds.min.x, (double)bounds.min.y, (double)bounds.min.z, (double)bounds.max.x,
+                 (double)bounds.max.y, (double)bounds.max.z);
+        return doubt;
+    }
+    if (longest < 2.0 * (double)def.agent_height) {
+        // The power of ten that makes it 10 m and more.
+        return doubt_units(longest, pow(10.0, ceil(1.0 - log10(longest))), settings);
+    }
+    if (f.up < 0.25 * f.down) {
+        return doubt_winding(&f);
+    }
+    if (lies_on_its_side(&f, bounds) || (f.up <= 0.0 && f.z_up > 0.25 * f.all)) {
+        return doubt_up_axis(&f, settings);
+    }
+    if (f.up <= 0.0 && f.least_slope < 89.0) {
+        doubt.cause = "slope";
+        snprintf(doubt.text, sizeof(doubt.text),
+                 "all of it is too steep: its flattest triangle slopes %.3g degrees, --agent-max-slope is %.3g",
+                 f.least_slope, (double)def.agent_max_slope);
+        return doubt;
+    }
+    if (!doubt_agent(cli, level, settings, &doubt) && !doubt_filtered(bake, 0.0, &doubt)) {
+        doubt.cause = "unknown";
+        snprintf(doubt.text, sizeof(doubt.text),
+                 "%.4g m2 of its triangles are floor by their slope, but none has room for the agent; talus why FILE "
+                 "X,Y,Z explains a point",
+                 f.up);
+    }
+    return doubt;
+}
