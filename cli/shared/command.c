@@ -172,7 +172,7 @@ tl_exit tl_cli_fail_io(tl_cli *cli, const tl_io_error *error)
     bool message = error->message[0] != '\0';
     return tl_cli_fail(cli, tl_exit_of(error->result), "%s%s%s%s%s%s", error->path, line,
                        error->path[0] != '\0' ? ": " : "", message ? error->message : tl_result_text(error->result),
-                       error->advice != NULL ? "; " : "", error->advice != NULL ? error->advice : "");
+                       error->advice[0] != '\0' ? "; " : "", error->advice);
 }
 
 // A def's field is set by the option of the same name: cell_size by --cell-size.

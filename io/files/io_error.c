@@ -70,7 +70,8 @@ tl_result tl_io_fail(tl_io_error *error, tl_result result, const char *path, uin
     error->result = result;
     error->line = line;
     error->element_index = TL_NO_ELEMENT;
-    error->advice = advice;
+    snprintf(error->advice, sizeof error->advice, "%s", advice != NULL ? advice : "");
+    make_printable(error->advice);
     if (path != NULL) {
         set_path(error, path);
     }
@@ -120,7 +121,7 @@ tl_result tl_io_blame(tl_io_error *error, tl_result result, const char *element,
     if (error == NULL) {
         return result;
     }
-    error->element = element;
+    snprintf(error->element, sizeof error->element, "%s", element);
     error->element_index = element_index;
     return result;
 }
@@ -135,9 +136,9 @@ size_t tl_io_error_format(const tl_io_error *error, char *text, size_t capacity)
     memcpy(path, error->path, sizeof path);
     make_printable(path);
     const char *message = error->message[0] != '\0' ? error->message : tl_result_text(error->result);
-    bool advice = error->advice != NULL;
+    bool advice = error->advice[0] != '\0';
     int length = snprintf(text, capacity, "%s%s%s%s%s%s%s%s", path, path[0] != '\0' ? ":" : "", line,
-                          path[0] != '\0' || line[0] != '\0' ? " " : "", message, advice ? " (" : "",
-                          advice ? error->advice : "", advice ? ")" : "");
+                          path[0] != '\0' || line[0] != '\0' ? " " : "", message, advice ? " (" : "", error->advice,
+                          advice ? ")" : "");
     return length > 0 ? (size_t)length : 0;
 }

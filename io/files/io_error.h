@@ -16,15 +16,17 @@ extern "C" {
 
 #define TL_IO_PATH_BYTES    512
 #define TL_IO_MESSAGE_BYTES 256
+#define TL_IO_ADVICE_BYTES  128
+#define TL_IO_ELEMENT_BYTES 16
 
-/// Holds no pointer that must be freed: it may be copied, kept and dropped. All zero is "no error". A function that
+/// Holds no pointer: it may be copied, kept and dropped. All zero is "no error". A function that
 /// takes an `error_out` fills it when it fails, and leaves it alone when it succeeds.
 typedef struct tl_io_error {
     tl_result result;
     uint64_t line;                     ///< in a text file, from 1; 0 when no line is to blame
-    const char *element;               ///< static; kind of the offending element ("face", "vertex", "node"), or NULL
-    uint64_t element_index;            ///< its index in the file, from 0, or TL_NO_ELEMENT
-    const char *advice;                ///< static; what to do, or NULL
+    uint64_t element_index;            ///< of the offending element in the file, from 0, or TL_NO_ELEMENT
+    char element[TL_IO_ELEMENT_BYTES]; ///< its kind ("face", "vertex", "node"), or ""
+    char advice[TL_IO_ADVICE_BYTES];   ///< what to do, or ""
     char path[TL_IO_PATH_BYTES];       ///< as the caller gave it; a longer one keeps its end, behind "..."
     char message[TL_IO_MESSAGE_BYTES]; ///< what is wrong, without path, line and full stop
 } tl_io_error;

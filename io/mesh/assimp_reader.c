@@ -4,29 +4,26 @@
 //
 // The node tree is walked here, not by aiProcess_PreTransformVertices: that one leaves mirrored nodes wound inside out,
 // joins what has no need to be joined, and reorders triangles. Nor are polygons split by aiProcess_Triangulate, which
-// asserts on faces without corners; they are treated as those of OBJ files are (split_polygon.h). Matrices are
-// multiplied in double, so that a level deep in a tree of nodes is placed as exactly as its vertices are stored. The
-// walk keeps its own stack: a hostile file's depth of nesting must not become ours.
+// asserts on faces without corners; they are treated as those of OBJ files are (split_polygon.h). The walk keeps its
+// own stack: a hostile file's depth of nesting must not become ours.
 
 #include "io/mesh/assimp_reader.h"
 
 #include "io/files/growable.h"
+#include "io/mesh/affine.h"
+#include "io/mesh/assimp_files.h"
 #include "io/mesh/split_polygon.h"
 
 #include <assimp/cimport.h>
+#include <assimp/commonMetaData.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <string.h>
 
-// Rows of an affine map.
-typedef struct affine {
-    double row[3][4];
-} affine;
-
 // A node still to be visited, and its parent's map to the world.
 typedef struct pending_scene_node {
     const struct aiNode *node;
-    affine parent;
+    tl_affine parent;
 } pending_scene_node;
 
 typedef struct scene_reader {
@@ -41,43 +38,11 @@ typedef struct scene_reader {
     uint32_t *corners;
 } scene_reader;
 
-static affine affine_of(const struct aiMatrix4x4 *m)
+static tl_affine affine_of_matrix(const struct aiMatrix4x4 *m)
 {
-    affine result = { { { (double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4 },
-                        { (double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4 },
-                        { (double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4 } } };
-    return result;
-}
-
-// First b, then a.
-static affine affine_multiply(const affine *a, const affine *b)
-{
-    affine result;
-    for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 4; k++) {
-            result.row[i][k] = a->row[i][0] * b->row[0][k] + a->row[i][1] * b->row[1][k] + a->row[i][2] * b->row[2][k] +
-                               (k == 3 ? a->row[i][3] : 0.0);
-        }
-    }
-    return result;
-}
-
-static tl_vec3 affine_apply(const affine *a, struct aiVector3D p)
-{
-    double x = (double)p.x;
-    double y = (double)p.y;
-    double z = (double)p.z;
-    return tl_vec3_make((float)(a->row[0][0] * x + a->row[0][1] * y + a->row[0][2] * z + a->row[0][3]),
-                        (float)(a->row[1][0] * x + a->row[1][1] * y + a->row[1][2] * z + a->row[1][3]),
-                        (float)(a->row[2][0] * x + a->row[2][1] * y + a->row[2][2] * z + a->row[2][3]));
-}
-
-static bool affine_mirrors(const affine *a)
-{
-    double x = a->row[1][1] * a->row[2][2] - a->row[1][2] * a->row[2][1];
-    double y = a->row[1][2] * a->row[2][0] - a->row[1][0] * a->row[2][2];
-    double z = a->row[1][0] * a->row[2][1] - a->row[1][1] * a->row[2][0];
-    return a->row[0][0] * x + a->row[0][1] * y + a->row[0][2] * z < 0.0;
+    return (tl_affine){ { { (double)m->a1, (double)m->a2, (double)m->a3, (double)m->a4 },
+                          { (double)m->b1, (double)m->b2, (double)m->b3, (double)m->b4 },
+                          { (double)m->c1, (double)m->c2, (double)m->c3, (double)m->c4 } } };
 }
 
 static tl_result fail_scene_memory(scene_reader *reader)
@@ -113,7 +78,7 @@ static tl_result find_material(scene_reader *reader, unsigned index, uint32_t *i
     return result == TL_OK ? TL_OK : fail_scene_memory(reader);
 }
 
-static tl_result add_scene_vertices(scene_reader *reader, const struct aiMesh *part, const affine *to_world)
+static tl_result add_scene_vertices(scene_reader *reader, const struct aiMesh *part, const tl_affine *to_world)
 {
     tl_imported_mesh *mesh = reader->mesh;
     tl_result result = tl_imported_mesh_reserve_vertices(mesh, part->mNumVertices);
@@ -122,7 +87,7 @@ static tl_result add_scene_vertices(scene_reader *reader, const struct aiMesh *p
     }
     for (unsigned i = 0; i < part->mNumVertices; i++) {
         struct aiVector3D source = part->mVertices[i];
-        tl_vec3 vertex = affine_apply(to_world, source);
+        tl_vec3 vertex = tl_affine_apply(to_world, (double)source.x, (double)source.y, (double)source.z);
         if (!tl_is_finite(vertex)) {
             bool was_finite = tl_is_finite(tl_vec3_make(source.x, source.y, source.z));
             result = was_finite ? TL_ERR_RANGE : TL_ERR_NOT_FINITE;
@@ -225,9 +190,9 @@ static tl_result add_scene_faces(scene_reader *reader, const struct aiMesh *part
     return result;
 }
 
-static tl_result add_scene_node(scene_reader *reader, const struct aiNode *node, const affine *to_world)
+static tl_result add_scene_node(scene_reader *reader, const struct aiNode *node, const tl_affine *to_world)
 {
-    bool mirrored = affine_mirrors(to_world);
+    bool mirrored = tl_affine_mirrors(to_world);
     reader->mesh->mirrored_nodes += mirrored && node->mNumMeshes > 0;
     for (unsigned i = 0; i < node->mNumMeshes; i++) {
         if (node->mMeshes[i] >= reader->scene->mNumMeshes) {
@@ -248,7 +213,7 @@ static tl_result add_scene_node(scene_reader *reader, const struct aiNode *node,
     return TL_OK;
 }
 
-static bool push_scene_node(scene_reader *reader, const struct aiNode *node, const affine *parent)
+static bool push_scene_node(scene_reader *reader, const struct aiNode *node, const tl_affine *parent)
 {
     if (!tl_io_grow(&reader->mesh->allocator, (void **)&reader->stack, &reader->stack_capacity, reader->stack_count,
                     reader->stack_count + 1, sizeof *reader->stack)) {
@@ -263,14 +228,14 @@ static bool push_scene_node(scene_reader *reader, const struct aiNode *node, con
 // Depth first, children in their order.
 static tl_result walk_nodes(scene_reader *reader)
 {
-    static const affine identity = { { { 1.0, 0.0, 0.0, 0.0 }, { 0.0, 1.0, 0.0, 0.0 }, { 0.0, 0.0, 1.0, 0.0 } } };
+    tl_affine identity = tl_affine_identity();
     if (!push_scene_node(reader, reader->scene->mRootNode, &identity)) {
         return fail_scene_memory(reader);
     }
     while (reader->stack_count > 0) {
         pending_scene_node pending = reader->stack[--reader->stack_count];
-        affine local = affine_of(&pending.node->mTransformation);
-        affine to_world = affine_multiply(&pending.parent, &local);
+        tl_affine local = affine_of_matrix(&pending.node->mTransformation);
+        tl_affine to_world = tl_affine_multiply(&pending.parent, &local);
         tl_result result = add_scene_node(reader, pending.node, &to_world);
         if (result != TL_OK) {
             return result;
@@ -310,31 +275,61 @@ bool tl_assimp_knows(const char *extension)
     return aiIsExtensionSupported(extension) == AI_TRUE;
 }
 
-tl_result tl_assimp_read(const tl_assimp_source *source, const tl_allocator *allocator, tl_imported_mesh *mesh_out,
-                         tl_io_error *error_out)
+// A glTF file that passes for another kind comes here, past what gltf_reader.c refuses.
+static bool is_gltf_scene(const struct aiScene *scene)
 {
-    const char *path = source->path, *hint = source->hint;
-    memset(mesh_out, 0, sizeof *mesh_out);
-    if (hint != NULL && source->size > UINT32_MAX) {
-        return tl_io_fail(error_out, TL_ERR_LIMIT, path, 0, "give it a name with an extension, and read it from there",
-                          "more than 4 GiB in memory");
+    struct aiString format;
+    memset(&format, 0, sizeof format);
+    for (unsigned i = 0; scene->mMetaData != NULL && i < scene->mMetaData->mNumProperties; i++) {
+        const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
+        if (strcmp(scene->mMetaData->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) == 0 && entry->mType == AI_AISTRING) {
+            format = *(const struct aiString *)entry->mData;
+        }
     }
-    const struct aiScene *scene =
-        hint != NULL ? aiImportFileFromMemory(source->bytes, (unsigned)source->size, 0, hint) : aiImportFile(path, 0);
+    return strncmp(format.data, "glTF", 4) == 0;
+}
+
+// What Assimp made of it, or why nothing.
+static tl_result check_scene(const tl_assimp_files *files, const struct aiScene *scene, tl_io_error *error)
+{
+    const char *name = files->source->name;
+    if (files->refused.result != TL_OK) {
+        if (error != NULL) {
+            *error = files->refused;
+        }
+        return files->refused.result;
+    }
     if (scene == NULL || scene->mRootNode == NULL) {
         const char *reason = aiGetErrorString();
-        tl_io_fail(error_out, TL_ERR_FORMAT, path, 0, "open it in a modelling tool and export it again", "%s",
-                   reason != NULL && reason[0] != '\0' ? reason : "not readable");
-        aiReleaseImport(scene);
-        return TL_ERR_FORMAT;
+        if (reason != NULL && strstr(reason, "bad_alloc") != NULL) {
+            return tl_io_fail(error, TL_ERR_MEMORY, name, 0, NULL, "out of memory");
+        }
+        return tl_io_fail(error, TL_ERR_FORMAT, name, 0, "open it in a modelling tool and export it again", "%s",
+                          reason != NULL && reason[0] != '\0' ? reason : "not readable");
     }
-    tl_imported_mesh_init(mesh_out, allocator);
-    mesh_out->format = "Assimp";
-    mesh_out->source_bytes = source->size;
-    scene_reader reader = { scene, mesh_out, path, error_out, NULL, 0, 0, NULL, NULL };
-    tl_result result = read_scene(&reader, source->allow_no_triangles);
-    if (result != TL_OK) {
-        tl_imported_mesh_free(mesh_out);
+    if (is_gltf_scene(scene)) {
+        return tl_io_fail(error, TL_ERR_UNSUPPORTED, name, 0, "name it .gltf or .glb", "a glTF file of another name");
+    }
+    return TL_OK;
+}
+
+tl_result tl_assimp_read(const tl_mesh_source *source, const tl_allocator *allocator, tl_imported_mesh *mesh_out,
+                         tl_io_error *error_out)
+{
+    memset(mesh_out, 0, sizeof *mesh_out);
+    tl_assimp_files files;
+    tl_assimp_files_init(&files, source);
+    const struct aiScene *scene = aiImportFileEx(files.name, 0, &files.io);
+    tl_result result = check_scene(&files, scene, error_out);
+    if (result == TL_OK) {
+        tl_imported_mesh_init(mesh_out, allocator);
+        mesh_out->format = "Assimp";
+        mesh_out->source_bytes = source->size;
+        scene_reader reader = { scene, mesh_out, source->name, error_out, NULL, 0, 0, NULL, NULL };
+        result = read_scene(&reader, source->allow_no_triangles);
+        if (result != TL_OK) {
+            tl_imported_mesh_free(mesh_out);
+        }
     }
     aiReleaseImport(scene);
     return result;

@@ -26,7 +26,7 @@ typedef struct tl_imported_mesh {
     uint16_t *materials;      ///< one a triangle
     uint32_t *source_lines;   ///< one a triangle, from 1: the line its face begins on; 0 for formats without lines
     tl_name_table names;      ///< material names by id; id 0 is "" and stands for triangles without material
-    const char *format;       ///< static: "OBJ", or "Assimp"
+    const char *format;       ///< static: "OBJ", "glTF", or "Assimp"
     uint64_t source_bytes;    ///< size of the file
     uint32_t face_count;      ///< in the file, triangles and polygons
     uint32_t polygon_count;   ///< faces of more than three corners

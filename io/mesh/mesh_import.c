@@ -5,8 +5,9 @@
 #include "io/mesh/mesh_import.h"
 
 #include "io/files/file_map.h"
-#include "io/mesh/assimp_process.h"
 #include "io/mesh/assimp_reader.h"
+#include "io/mesh/gltf_reader.h"
+#include "io/mesh/import_process.h"
 #include "io/mesh/obj_reader.h"
 
 #include <string.h>
@@ -163,6 +164,11 @@ bool tl_import_is_mesh_name(const char *path)
     return strcmp(extension, ".obj") == 0 || (extension[0] != '\0' && tl_assimp_knows(extension));
 }
 
+static bool is_gltf_kind(const char *kind)
+{
+    return strcmp(kind, "gltf") == 0 || strcmp(kind, "glb") == 0;
+}
+
 static tl_result read_mesh_bytes(const void *bytes, size_t size, const char *path, const tl_import_options *options,
                                  tl_imported_mesh *mesh, tl_io_error *error)
 {
@@ -184,13 +190,13 @@ static tl_result read_mesh_bytes(const void *bytes, size_t size, const char *pat
     if (named_obj && other == NULL) {
         return tl_obj_read(bytes, size, name, allow, host, mesh, error);
     }
-    if (!named_obj && !stream && tl_import_is_mesh_name(path)) {
-        const tl_assimp_source file = { path, NULL, size, NULL, allow };
-        return tl_assimp_read_isolated(&file, host, mesh, error);
-    }
-    if (other != NULL) {
-        const tl_assimp_source memory = { name, bytes, size, other, allow };
-        return tl_assimp_read_isolated(&memory, host, mesh, error);
+    const char *kind = !named_obj && !stream && tl_import_is_mesh_name(path) ? extension + 1 : other;
+    if (kind != NULL) {
+        const tl_mesh_source source = { name, stream ? NULL : path, bytes, size, kind, allow };
+        bool gltf = is_gltf_kind(kind) || (other != NULL && is_gltf_kind(other));
+        result = tl_read_isolated(gltf ? tl_gltf_read : tl_assimp_read, &source, &options->limits, host, mesh, error);
+        mesh->format = gltf ? "glTF" : "Assimp";
+        return result;
     }
     if (sniff_obj(bytes, size)) {
         return tl_obj_read(bytes, size, name, allow, host, mesh, error);

@@ -2,9 +2,9 @@
 //
 // Reading any mesh file by one call.
 //
-// OBJ is read by our own reader (obj_reader.h); glTF, GLB, FBX, STL, PLY, Collada (DAE) and every other format that
-// Assimp knows, by Assimp. The file's name decides, then its first bytes: a file without a known extension, or standard
-// input ("-"), is recognised by its content.
+// OBJ is read by our own reader (obj_reader.h), glTF and GLB over cgltf (gltf_reader.h); FBX, STL, PLY, Collada (DAE)
+// and every other format that Assimp knows, by Assimp. The file's name decides, then its first bytes: a file without a
+// known extension, or standard input ("-"), is recognised by its content.
 
 #ifndef TALUS_IO_MESH_IMPORT_H
 #define TALUS_IO_MESH_IMPORT_H
@@ -22,11 +22,20 @@ typedef enum tl_up_axis {
     TL_UP_Z, ///< turned by -90 degrees about x: (x, y, z) becomes (x, z, -y), as exporters of z-up tools do
 } tl_up_axis;
 
+/// What the process that reads anything but OBJ may use, where the system can limit it. A file of S bytes has 10 s and
+/// one more for each MB of processor time, four times that by the wall clock, and 4 GiB and 64 S of memory; a value
+/// that is not 0 is used instead.
+typedef struct tl_import_limits {
+    uint32_t seconds;      ///< of processor time, and by the wall clock
+    uint64_t memory_bytes; ///< not counted with -fsanitize=address
+} tl_import_limits;
+
 typedef struct tl_import_options {
     tl_up_axis up_axis;
     float unit_scale;        ///< metres a file unit, finite and > 0; 0.01 for a file in centimetres
     bool allow_no_triangles; ///< a file with vertices only is no error (point clouds)
     uint64_t max_file_bytes; ///< 0: no limit
+    tl_import_limits limits; ///< zeroed: the defaults
     tl_host host;            ///< allocator, and progress (stage "read mesh", done and total in bytes)
 } tl_import_options;
 
@@ -40,10 +49,12 @@ tl_import_options tl_default_import_options(void);
 /// Triangles keep the file's order, so the same file gives the same mesh. `options` NULL: the defaults.
 ///
 /// Errors, each with file, place and advice in `error_out` (may be NULL): TL_ERR_IO, TL_ERR_FORMAT,
-/// TL_ERR_UNSUPPORTED (a kind of file that is not known), TL_ERR_EMPTY (no triangles), TL_ERR_NOT_FINITE,
-/// TL_ERR_RANGE (a coordinate does not fit a float), TL_ERR_INDEX, TL_ERR_LIMIT, TL_ERR_ARGUMENT, TL_ERR_MEMORY,
-/// TL_ERR_CANCELLED. On failure `*mesh_out` is zeroed. Assimp runs in a child process, so that a file that makes it
-/// crash or loop for ever is an error too (assimp_process.h); its own memory is not the host's allocator's.
+/// TL_ERR_UNSUPPORTED (a kind of file, or an extension that it requires, that is not known), TL_ERR_EMPTY (no
+/// triangles), TL_ERR_NOT_FINITE, TL_ERR_RANGE (a coordinate does not fit a float), TL_ERR_INDEX, TL_ERR_LIMIT,
+/// TL_ERR_ARGUMENT, TL_ERR_MEMORY, TL_ERR_CANCELLED. On failure `*mesh_out` is zeroed. All but OBJ is read in a child
+/// process with limits, so that a file that makes a reader crash or loop for ever is an error too (import_process.h);
+/// the child's memory is not the host's allocator's. A file that the level names (a glTF's buffer) is opened only when
+/// it is a regular file of the level's folder or below.
 tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_imported_mesh *mesh_out,
                          tl_io_error *error_out);
 

@@ -379,7 +379,11 @@ static void check_against_assimp(const char *path, uint64_t *corners, uint64_t *
     tl_imported_mesh ours;
     tl_imported_mesh theirs;
     TEST_RESULT(tl_import_mesh(path, NULL, &ours, NULL), TL_OK);
-    TEST_RESULT(tl_assimp_read(&(tl_assimp_source){ path, NULL, 0, NULL, false }, NULL, &theirs, NULL), TL_OK);
+    tl_file_map map;
+    TEST_RESULT(tl_file_map_open(path, 0, &map, NULL), TL_OK);
+    tl_mesh_source source = { path, path, map.bytes, map.size, "obj", false };
+    TEST_RESULT(tl_assimp_read(&source, NULL, &theirs, NULL), TL_OK);
+    tl_file_map_close(&map);
     TEST_CHECK(ours.triangle_count == theirs.triangle_count);
     for (uint32_t i = 0; i < ours.triangle_count * 3; i++) {
         tl_vec3 a = ours.vertices[ours.indices[i]];
