@@ -319,6 +319,70 @@ static void test_starts_are_good(void **state)
     }
 }
 
+// Steps of a climb on the half-edges from where the table lets it start.
+static uint32_t steps_from_start(const tl_hull *hull, tl_vec3 d)
+{
+    const tl_vec3 *vertices = tl_hull_vertices(hull);
+    const tl_hull_half_edge *half_edges = tl_hull_half_edges(hull);
+    uint32_t vertex = tl_hull_table_start(hull, d), steps = 0;
+    for (;;) {
+        uint32_t first = tl_hull_vertex_edges(hull)[vertex], edge = first, best = vertex;
+        do {
+            uint32_t other = half_edges[half_edges[edge].twin].origin;
+            best = tl_compare_along(d, vertices[other], vertices[best]) > 0 ? other : best;
+            edge = half_edges[half_edges[edge].twin].next;
+        } while (edge != first);
+        if (best == vertex) {
+            return steps;
+        }
+        vertex = best;
+        steps++;
+    }
+}
+
+static tl_vec3 along_axis(int axis, float along, float u, float v)
+{
+    return axis == 0 ? tl_vec3_make(along, u, v) : axis == 1 ? tl_vec3_make(v, along, u) : tl_vec3_make(u, v, along);
+}
+
+// A prism, or a cone when the second cap is a point: a flat cap across each axis, its directions by how far they are
+// off the axis. Along x and y the cap's normal lies in a corner of the table's squares.
+static void test_starts_at_caps(void **state)
+{
+    (void)state;
+    enum { MAX_SIDES = 512, QUERIES = 200 };
+    static tl_vec3 points[2 * MAX_SIDES];
+    test_random random = { 8 };
+    double most = 0.0;
+    for (int shape = 0; shape < 2 * 3 * 4; shape++) {
+        int axis = shape % 3, cone = shape / 3 % 2;
+        uint32_t sides = MAX_SIDES >> shape / 6;
+        for (uint32_t i = 0; i < 2 * sides; i++) {
+            double turn = 6.283185307179586 * (double)(i / 2) / (double)sides;
+            double size = cone && i % 2 != 0 ? 0.0 : 1.0;
+            points[i] =
+                along_axis(axis, i % 2 != 0 ? 0.5f : -0.5f, (float)(size * cos(turn)), (float)(size * sin(turn)));
+        }
+        tl_hull *hull;
+        TEST_RESULT(tl_hull_bake(points, 2 * sides, NULL, &hull, NULL), TL_OK);
+        TEST_CHECK(hull->table_side > 0 && hull->ring_count == (cone ? 1 : 2));
+        for (float away = 1e-9f; away < 0.2f; away *= 10.0f) {
+            for (int end = 0; end < 2 - cone; end++) {
+                double steps = 0.0;
+                for (int i = 0; i < QUERIES; i++) {
+                    double turn = (double)test_random_range(&random, 0.0f, 6.2831853f);
+                    steps += steps_from_start(hull, along_axis(axis, end != 0 ? 1.0f : -1.0f, away * (float)cos(turn),
+                                                               away * (float)sin(turn)));
+                }
+                most = fmax(most, steps / QUERIES);
+            }
+        }
+        tl_blob_free(hull);
+    }
+    print_message("at caps: %.2f steps at most\n", most);
+    TEST_CHECK(most <= 2.0);
+}
+
 // The table's bytes do not depend on the machine: the march gives the same cells in every instruction set.
 static void test_marches_agree(void **state)
 {
@@ -355,6 +419,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_support_is_exact_on_all_shapes),
         cmocka_unit_test(test_directions_without_a_size),
         cmocka_unit_test(test_starts_are_good),
+        cmocka_unit_test(test_starts_at_caps),
         cmocka_unit_test(test_marches_agree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

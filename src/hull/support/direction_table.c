@@ -122,36 +122,41 @@ static void fill_squares(const tl_hull *hull, uint32_t *table, const uint32_t *r
     }
 }
 
+// The cell beside another one. Both squares have the same rim, where the octahedron's halves meet: beyond it lies the
+// cell of the other square that is in the same place.
+static uint32_t cell_beside(const tl_hull *hull, uint32_t cell, int32_t row_step, int32_t column_step)
+{
+    uint32_t side = hull->table_side, half = cell / (side * side);
+    uint32_t row = cell / side % side + (uint32_t)row_step, column = cell % side + (uint32_t)column_step;
+    return row < side && column < side ? (half * side + row) * side + column
+           : half == 0                 ? cell + side * side
+                                       : cell - side * side;
+}
+
 // Whether a cell lies among wedges: at least three of the four cells beside it belong to other vertices of the same
 // ring.
-static bool is_among_wedges(const uint32_t *square, uint32_t side, uint32_t row, uint32_t column, const uint32_t *rings)
+static bool is_among_wedges(const tl_hull *hull, const uint32_t *table, uint32_t cell, const uint32_t *rings)
 {
-    uint32_t vertex = square[row * side + column] & ~TL_TABLE_RING, others = 0;
+    uint32_t vertex = table[cell] & ~TL_TABLE_RING, others = 0;
     const int32_t steps[4][2] = { { -1, 0 }, { 1, 0 }, { 0, -1 }, { 0, 1 } };
     for (int k = 0; k < 4 && rings[vertex] != TL_NO_FACE_RING; k++) {
-        uint32_t r = row + (uint32_t)steps[k][0], c = column + (uint32_t)steps[k][1];
-        if (r < side && c < side) {
-            uint32_t other = square[r * side + c] & ~TL_TABLE_RING;
-            others += other != vertex && rings[other] == rings[vertex];
-        }
+        uint32_t other = table[cell_beside(hull, cell, steps[k][0], steps[k][1])] & ~TL_TABLE_RING;
+        others += other != vertex && rings[other] == rings[vertex];
     }
     return others >= 3;
 }
 
 static void name_rings(const tl_hull *hull, uint32_t *table, const uint32_t *rings)
 {
-    uint32_t side = hull->table_side, cells = 2 * side * side;
-    for (uint32_t row = 0; row < 2 * side; row++) {
-        uint32_t *square = table + row / side * side * side;
-        for (uint32_t column = 0; column < side; column++) {
-            if (is_among_wedges(square, side, row % side, column, rings)) {
-                table[row * side + column] |= TL_TABLE_RING; // beside its vertex, which the next cells need
-            }
+    uint32_t cells = 2 * hull->table_side * hull->table_side;
+    for (uint32_t cell = 0; cell < cells; cell++) {
+        if (is_among_wedges(hull, table, cell, rings)) {
+            table[cell] |= TL_TABLE_RING; // beside its vertex, which the next cells need
         }
     }
-    for (uint32_t i = 0; i < cells; i++) {
-        if ((table[i] & TL_TABLE_RING) != 0) {
-            table[i] = TL_TABLE_RING | rings[table[i] & ~TL_TABLE_RING];
+    for (uint32_t cell = 0; cell < cells; cell++) {
+        if ((table[cell] & TL_TABLE_RING) != 0) {
+            table[cell] = TL_TABLE_RING | rings[table[cell] & ~TL_TABLE_RING];
         }
     }
 }
