@@ -57,10 +57,11 @@ static inline uint32_t tl_farthest_of_block(const tl_vec3 *points, uint32_t coun
         best = _mm_max_pd(best, tl_farthest_four(d, points + i, dots + i));
     }
     if (i < count) {
-        // Some of the last four are computed again. What lies beyond in the row must not win.
+        // Some of the last four are computed again. What lies beyond in the row must not win: NaN equals nothing, not
+        // even where the direction or all points are infinite.
         best = _mm_max_pd(best, tl_farthest_four(d, points + (count - 4), dots + (count - 4)));
         for (uint32_t k = count; k < i + 4; k++) {
-            dots[k] = -(double)INFINITY;
+            dots[k] = (double)NAN;
         }
     }
     best = _mm_max_pd(best, _mm_shuffle_pd(best, best, 1));

@@ -152,10 +152,38 @@ static void test_not_finite_has_a_name(void **state)
     tl_blob_free(hull);
 }
 
+// Points in the caller's memory are not looked through. Whatever they are, none but these is read.
+static void test_points_stay_in_range(void **state)
+{
+    (void)state;
+    static const float odd[] = { NAN, INFINITY, -INFINITY, 0.0f, 1.0f, -1.0f, 3e38f, -3e38f };
+    test_random random = { 11 };
+    for (int i = 0; i < 200000; i++) {
+        tl_vec3 points[2][40];
+        uint32_t counts[2];
+        for (int k = 0; k < 2; k++) {
+            counts[k] = 1 + test_random_below(&random, i % 8 == 0 ? 40 : 12);
+            for (uint32_t p = 0; p < counts[k]; p++) {
+                points[k][p] = tl_vec3_make(odd[test_random_below(&random, 8)], odd[test_random_below(&random, 8)],
+                                            odd[test_random_below(&random, 8)]);
+            }
+        }
+        tl_convex a = tl_convex_from_points(points[0], counts[0], 0.0f),
+                  b = tl_convex_from_points(points[1], counts[1], 0.0f);
+        tl_simplex_cache cache = { 0 };
+        tl_separation s;
+        tl_convex_distance(&a, tl_transform_identity(), &b, tl_transform_identity(), &cache, &s);
+        for (uint32_t k = 0; k < cache.count; k++) {
+            TEST_CHECK(cache.vertex_a[k] < counts[0] && cache.vertex_b[k] < counts[1]);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_not_finite_has_a_name),
+        cmocka_unit_test(test_points_stay_in_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
