@@ -178,10 +178,22 @@ static void print_left_out(const tl_bake *bake)
     }
 }
 
+// Triangles that the navmesh is baked without.
+static void print_cleaned(const tl_level *level)
+{
+    const tl_mesh_report *report = &level->report;
+    const uint32_t dropped = report->degenerate_triangles + report->duplicate_triangles;
+    if (dropped > 0) {
+        printf("dropped  %u of %u triangles: %u without area in floats, %u that repeat another\n", dropped,
+               level->imported.triangle_count, report->degenerate_triangles, report->duplicate_triangles);
+    }
+}
+
 static void print_bake_summary(const bake_result *r)
 {
     const tl_bake *bake = r->bake;
     printf("\n");
+    print_cleaned(r->level);
     if (bake->soup != NULL) {
         tl_soup_stats stats = tl_soup_get_stats(bake->soup);
         printf("soup     %u triangles, %.1f%% paired, %.1f bytes a triangle\n", stats.triangle_count,
@@ -261,6 +273,8 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
                                   "unused_vertices", (json_int_t)report->unused_vertices, "degenerate_triangles",
                                   (json_int_t)report->degenerate_triangles, "duplicate_triangles",
                                   (json_int_t)report->duplicate_triangles));
+    const double *origin = r->level->imported.origin;
+    json_object_set_new(object, "origin", json_pack("[fff]", origin[0], origin[1], origin[2]));
     if (bake->soup != NULL) {
         tl_soup_stats stats = tl_soup_get_stats(bake->soup);
         json_object_set_new(object, "soup",

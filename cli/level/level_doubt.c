@@ -95,11 +95,37 @@ static tl_level_doubt doubt_units(double longest, double scale, const tl_bake_se
     return doubt;
 }
 
+// Metres from one float to the next at the level's farthest coordinate.
+static double float_step(tl_aabb bounds)
+{
+    const tl_vec3 a = bounds.min, b = bounds.max;
+    const float farthest = fmaxf(fmaxf(fmaxf(-a.x, b.x), fmaxf(-a.y, b.y)), fmaxf(-a.z, b.z));
+    return (double)nextafterf(farthest, INFINITY) - (double)farthest;
+}
+
+static bool doubt_precision(tl_aabb bounds, const tl_bake_settings *settings, tl_level_doubt *doubt)
+{
+    const tl_nav_def *def = &settings->nav_def;
+    const double step = float_step(bounds), cell = (double)fminf(def->cell_size, def->cell_height);
+    if (step > 0.1 * cell) {
+        doubt->cause = "precision";
+        snprintf(doubt->text, sizeof(doubt->text),
+                 "coordinates reach so far from the origin that floats step by %.3g m there, more than a tenth of a "
+                 "cell (%.3g m): triangles collapse and the navmesh is inexact; give --origin auto",
+                 step, cell);
+    }
+    return step > 0.1 * cell;
+}
+
 tl_level_doubt tl_level_doubt_find(const tl_mesh_view *mesh, tl_aabb bounds, const tl_bake_settings *settings)
 {
     enum { LARGE_METRES = 1000, LARGE_TRIANGLES = 20 }; // of agents' heights, a triangle
     const face_areas f = measure_faces(mesh, (double)settings->nav_def.agent_max_slope);
     const double longest = longest_side(bounds);
+    tl_level_doubt precision = { NULL, "" };
+    if (doubt_precision(bounds, settings, &precision)) {
+        return precision;
+    }
     if (lies_on_its_side(&f, bounds)) {
         return doubt_up_axis(&f, settings);
     }

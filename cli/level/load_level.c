@@ -6,13 +6,15 @@
 
 #include "cli/level/load_level.h"
 
+#include "cli/options/parse_value.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 tl_level_settings tl_default_level_settings(void)
 {
-    tl_level_settings settings = { TL_UP_Y, 1.0f, 0.0f };
+    tl_level_settings settings = { TL_UP_Y, 1.0f, 0.0f, NULL };
     return settings;
 }
 
@@ -26,18 +28,31 @@ void tl_level_options(tl_level_settings *settings, tl_option table[TL_LEVEL_OPTI
           1e-9f, 1e9f, 0, 0 },
         { "weld", 0, TL_OPTION_FLOAT, &settings->weld, "M", "metres: vertices no farther apart become one", NULL, 0.0f,
           1e6f, 0, 0 },
+        { "origin", 0, TL_OPTION_TEXT, &settings->origin, "X,Y,Z|auto",
+          "the point of the file that becomes 0,0,0, in its own units and axes; auto: the level's middle when it lies "
+          "far out. Coordinates of questions and answers are relative to it",
+          NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
     memcpy(table, options, sizeof(options));
 }
 
-tl_import_options tl_level_import_options(const tl_cli *cli, const tl_level_settings *settings)
+bool tl_level_import_options(tl_cli *cli, const tl_level_settings *settings, tl_import_options *options_out,
+                             tl_exit *exit_out)
 {
-    tl_import_options options = tl_default_import_options();
-    options.up_axis = (tl_up_axis)settings->up;
-    options.unit_scale = settings->scale;
-    options.host = cli->host;
-    return options;
+    *options_out = tl_default_import_options();
+    options_out->up_axis = (tl_up_axis)settings->up;
+    options_out->unit_scale = settings->scale;
+    options_out->host = cli->host;
+    options_out->auto_origin = settings->origin != NULL && strcmp(settings->origin, "auto") == 0;
+    if (settings->origin == NULL || options_out->auto_origin) {
+        return true;
+    }
+    const char *reason = tl_parse_double_triple(settings->origin, options_out->origin);
+    if (reason != NULL) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--origin: '%s' %s; give x,y,z, or auto", settings->origin, reason);
+    }
+    return reason == NULL;
 }
 
 // The mesh report names elements of the import; a vertex or triangle is easier found by its line.
@@ -84,10 +99,17 @@ bool tl_level_load(tl_cli *cli, const char *path, const tl_level_settings *setti
     level_out->path = path;
     tl_io_error error;
     memset(&error, 0, sizeof(error));
-    tl_import_options options = tl_level_import_options(cli, settings);
+    tl_import_options options;
+    if (!tl_level_import_options(cli, settings, &options, exit_out)) {
+        return false;
+    }
     if (tl_import_mesh(path, &options, &level_out->imported, &error) != TL_OK) {
         *exit_out = tl_cli_fail_io(cli, &error);
         return false;
+    }
+    const double *o = level_out->imported.origin;
+    if (o[0] != 0.0 || o[1] != 0.0 || o[2] != 0.0) {
+        tl_cli_warn(cli, "%s: coordinates are relative to %.15g,%.15g,%.15g of the file", path, o[0], o[1], o[2]);
     }
     tl_mesh_view view = tl_imported_mesh_as_view(&level_out->imported);
     tl_mesh_def def = tl_default_mesh_def();

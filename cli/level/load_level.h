@@ -15,9 +15,10 @@ typedef struct tl_level_settings {
     int up; ///< a tl_up_axis
     float scale;
     float weld;
+    const char *origin; ///< "X,Y,Z" or "auto"; NULL: 0,0,0
 } tl_level_settings;
 
-enum { TL_LEVEL_OPTIONS = 4 };
+enum { TL_LEVEL_OPTIONS = 5 };
 
 tl_level_settings tl_default_level_settings(void);
 /// Fills a table with the options that set `settings`.
@@ -40,6 +41,8 @@ void tl_level_free(tl_level *level);
 /// the settings asked for it.
 tl_mesh_view tl_level_source_view(const tl_level *level);
 
-tl_import_options tl_level_import_options(const tl_cli *cli, const tl_level_settings *settings);
+/// How the level is to be imported. False: --origin was refused.
+bool tl_level_import_options(tl_cli *cli, const tl_level_settings *settings, tl_import_options *options_out,
+                             tl_exit *exit_out);
 
 #endif

@@ -61,7 +61,10 @@ bool tl_read_clouds(tl_cli *cli, const char *path, const tl_hull_settings *setti
 {
     tl_io_error error;
     memset(&error, 0, sizeof(error));
-    tl_import_options options = tl_level_import_options(cli, &settings->level);
+    tl_import_options options;
+    if (!tl_level_import_options(cli, &settings->level, &options, exit_out)) {
+        return false;
+    }
     options.allow_no_triangles = true;
     if (tl_point_clouds_read(path, &options, clouds_out, &error) != TL_OK) {
         *exit_out = tl_cli_fail_io(cli, &error);

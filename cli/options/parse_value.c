@@ -150,3 +150,16 @@ const char *tl_parse_float_words(const char *line, float *values_out, uint32_t c
         count++;
     }
 }
+
+const char *tl_parse_double_triple(const char *text, double values_out[3])
+{
+    tl_vec3 checked;
+    const char *reason = tl_parse_point_value(text, &checked);
+    const char *end = text + strlen(text);
+    for (int i = 0; i < 3 && reason == NULL; ++i) {
+        text = skip_blank_letters(text);
+        text = skip_blank_letters(tl_parse_double(text, end, &values_out[i]));
+        text += *text == ',';
+    }
+    return reason;
+}

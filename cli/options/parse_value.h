@@ -24,4 +24,7 @@ const char *tl_parse_float_list(const char *text, float *values_out, uint32_t mi
 const char *tl_parse_float_words(const char *line, float *values_out, uint32_t capacity, uint32_t *count_out,
                                  const char **bad_out);
 
+/// Three numbers with commas between, as doubles: for coordinates too large for floats.
+const char *tl_parse_double_triple(const char *text, double values_out[3]);
+
 #endif

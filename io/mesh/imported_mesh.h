@@ -28,6 +28,7 @@ typedef struct tl_imported_mesh {
     tl_name_table names;      ///< material names by id; id 0 is "" and stands for triangles without material
     const char *format;       ///< static: "OBJ", "glTF", or "Assimp"
     uint64_t source_bytes;    ///< size of the file
+    double origin[3];         ///< subtracted from the file's coordinates, in its units and axes
     uint32_t face_count;      ///< in the file, triangles and polygons
     uint32_t polygon_count;   ///< faces of more than three corners
     uint32_t clipped_count;   ///< polygons split along ears: concave, or with corners in line (split_polygon.h)

@@ -187,8 +187,10 @@ static tl_result read_mesh_bytes(const void *bytes, size_t size, const char *pat
     if (result != TL_OK) {
         return result;
     }
+    const double *o = options->origin;
+    const tl_obj_source obj = { bytes, size, name, allow, { o[0], o[1], o[2] } };
     if (named_obj && other == NULL) {
-        return tl_obj_read(bytes, size, name, allow, host, mesh, error);
+        return tl_obj_read_source(&obj, host, mesh, error);
     }
     const char *kind = !named_obj && !stream && tl_import_is_mesh_name(path) ? extension + 1 : other;
     if (kind != NULL) {
@@ -199,7 +201,7 @@ static tl_result read_mesh_bytes(const void *bytes, size_t size, const char *pat
         return result;
     }
     if (sniff_obj(bytes, size)) {
-        return tl_obj_read(bytes, size, name, allow, host, mesh, error);
+        return tl_obj_read_source(&obj, host, mesh, error);
     }
     return tl_io_fail(error, TL_ERR_UNSUPPORTED, name, 0, known_kinds, "neither its name nor its content is a mesh's");
 }
@@ -239,6 +241,59 @@ tl_result tl_import_options_check(const tl_import_options *options, const char *
     return TL_OK;
 }
 
+// What the reader has not subtracted itself.
+static void subtract_file_origin(const double origin[3], tl_imported_mesh *mesh)
+{
+    if (memcmp(mesh->origin, origin, sizeof mesh->origin) == 0) {
+        return;
+    }
+    memcpy(mesh->origin, origin, sizeof mesh->origin);
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        tl_vec3 *v = &mesh->vertices[i];
+        *v = tl_vec3_make((float)((double)v->x - origin[0]), (float)((double)v->y - origin[1]),
+                          (float)((double)v->z - origin[2]));
+    }
+}
+
+// The middle of each axis on which some coordinate lies beyond 2^14 units, where a float steps by a millimetre of a
+// metre, in whole units, so that it can be written down. False: the level is near enough as it is.
+static bool choose_origin(const tl_imported_mesh *mesh, double origin[3])
+{
+    const float far_out = 16384.0f;
+    tl_aabb bounds = tl_aabb_empty();
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        bounds = tl_aabb_add_point(bounds, mesh->vertices[i]);
+    }
+    const float low[3] = { bounds.min.x, bounds.min.y, bounds.min.z };
+    const float high[3] = { bounds.max.x, bounds.max.y, bounds.max.z };
+    bool any = false;
+    for (int axis = 0; axis < 3; axis++) {
+        const bool is_far = mesh->vertex_count > 0 && fmaxf(-low[axis], high[axis]) > far_out;
+        origin[axis] = is_far ? round(0.5 * ((double)low[axis] + (double)high[axis])) : 0.0;
+        any = any || origin[axis] != 0.0;
+    }
+    return any;
+}
+
+// Reads the file, and with auto_origin a second time when it lies far out.
+static tl_result read_mesh_at_origin(const void *bytes, size_t size, const char *path, const tl_import_options *options,
+                                     tl_imported_mesh *mesh, tl_io_error *error)
+{
+    tl_import_options used = *options;
+    if (used.auto_origin) {
+        memset(used.origin, 0, sizeof used.origin);
+    }
+    tl_result result = read_mesh_bytes(bytes, size, path, &used, mesh, error);
+    if (result == TL_OK && used.auto_origin && choose_origin(mesh, used.origin)) {
+        tl_imported_mesh_free(mesh);
+        result = read_mesh_bytes(bytes, size, path, &used, mesh, error);
+    }
+    if (result == TL_OK) {
+        subtract_file_origin(used.origin, mesh);
+    }
+    return result;
+}
+
 tl_result tl_import_mesh_bytes(const void *bytes, size_t size, const char *path, const tl_import_options *options,
                                tl_imported_mesh *mesh_out, tl_io_error *error_out)
 {
@@ -246,7 +301,7 @@ tl_result tl_import_mesh_bytes(const void *bytes, size_t size, const char *path,
     memset(mesh_out, 0, sizeof *mesh_out);
     tl_result result = tl_import_options_check(&used, path, error_out);
     if (result == TL_OK) {
-        result = read_mesh_bytes(bytes, size, path, &used, mesh_out, error_out);
+        result = read_mesh_at_origin(bytes, size, path, &used, mesh_out, error_out);
     }
     if (result == TL_OK) {
         result = tl_import_place_vertices(&used, path, mesh_out->vertices, mesh_out->vertex_count, error_out);

@@ -37,6 +37,7 @@ typedef struct obj_reader {
     const char *end;  // of the section that is read; see text_scan.h
     uint64_t line;    // of the reading position, from 1
     uint32_t material;
+    const double *origin; // NULL: 0,0,0
     // The furthest vertex that a face pointed ahead to, and the face's line; 0 when none did.
     uint32_t ahead_index;
     uint64_t ahead_line;
@@ -194,13 +195,29 @@ static const char *read_vertex_rest(obj_reader *reader, const char *at)
     return tl_find_line_end(at);
 }
 
+// The three numbers from `at` on again, which read_number has found sound, as doubles.
+static void subtract_origin(obj_reader *reader, const char *at, tl_vec3 *vertex)
+{
+    double values[3] = { 0.0, 0.0, 0.0 };
+    for (int axis = 0; axis < 3; ++axis) {
+        at = skip_text_blanks(reader, at);
+        at = tl_parse_double(at, reader->end, &values[axis]);
+        values[axis] -= reader->origin[axis];
+    }
+    *vertex = tl_vec3_make((float)values[0], (float)values[1], (float)values[2]);
+}
+
 static inline const char *read_obj_vertex(obj_reader *reader, const char *at)
 {
     tl_imported_mesh *mesh = reader->mesh;
+    const char *first = at;
     tl_vec3 vertex;
     if ((at = read_number(reader, at, &vertex.x)) == NULL || (at = read_number(reader, at, &vertex.y)) == NULL ||
         (at = read_number(reader, at, &vertex.z)) == NULL) {
         return NULL;
+    }
+    if (reader->origin != NULL) {
+        subtract_origin(reader, first, &vertex);
     }
     if (!tl_is_line_end(*at)) {
         at = read_vertex_rest(reader, at);
@@ -574,26 +591,36 @@ static tl_result read_obj_text(obj_reader *reader, const char *text, size_t size
                : result;
 }
 
-tl_result tl_obj_read(const void *text, size_t size, const char *path, bool allow_no_faces, const tl_host *host,
-                      tl_imported_mesh *mesh_out, tl_io_error *error_out)
+tl_result tl_obj_read_source(const tl_obj_source *source, const tl_host *host, tl_imported_mesh *mesh_out,
+                             tl_io_error *error_out)
 {
+    const double *origin = source->origin;
     tl_imported_mesh_init(mesh_out, host != NULL ? host->allocator : NULL);
     mesh_out->format = "OBJ";
-    mesh_out->source_bytes = size;
+    mesh_out->source_bytes = source->size;
     obj_reader reader;
     memset(&reader, 0, sizeof reader);
     reader.mesh = mesh_out;
-    reader.path = path;
+    reader.path = source->path;
     reader.host = host;
     reader.error = error_out;
     reader.line = 1;
-    reader.size = size;
+    reader.size = source->size;
+    reader.origin = origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0 ? origin : NULL;
+    memcpy(mesh_out->origin, origin, sizeof mesh_out->origin);
     reader.next_progress = 1;
-    tl_result result = read_obj_text(&reader, text, size, allow_no_faces);
+    tl_result result = read_obj_text(&reader, source->text, source->size, source->allow_no_faces);
     mesh_out->polygon_count = (uint32_t)reader.polygon_count;
     tl_io_release(&mesh_out->allocator, reader.polygons, reader.polygon_capacity * sizeof *reader.polygons);
     if (result != TL_OK) {
         tl_imported_mesh_free(mesh_out);
     }
     return result;
+}
+
+tl_result tl_obj_read(const void *text, size_t size, const char *path, bool allow_no_faces, const tl_host *host,
+                      tl_imported_mesh *mesh_out, tl_io_error *error_out)
+{
+    const tl_obj_source source = { text, size, path, allow_no_faces, { 0.0, 0.0, 0.0 } };
+    return tl_obj_read_source(&source, host, mesh_out, error_out);
 }

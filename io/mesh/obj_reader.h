@@ -39,6 +39,20 @@ extern "C" {
 tl_result tl_obj_read(const void *text, size_t size, const char *path, bool allow_no_faces, const tl_host *host,
                       tl_imported_mesh *mesh_out, tl_io_error *error_out);
 
+/// A text, and the point that becomes 0,0,0: it is subtracted in double before coordinates are rounded to floats, so
+/// that a level far from its origin keeps its shape.
+typedef struct tl_obj_source {
+    const void *text;
+    size_t size;
+    const char *path; ///< as for tl_obj_read
+    bool allow_no_faces;
+    double origin[3];
+} tl_obj_source;
+
+/// tl_obj_read with an origin.
+tl_result tl_obj_read_source(const tl_obj_source *source, const tl_host *host, tl_imported_mesh *mesh_out,
+                             tl_io_error *error_out);
+
 #ifdef __cplusplus
 }
 #endif

@@ -260,26 +260,60 @@ static const char *take_exponent(const char *at, const char *end, int64_t *expon
     return digit;
 }
 
-const char *tl_parse_float(const char *text, const char *end, float *value_out)
+// NULL: there is no number.
+static const char *read_decimal(const char *text, const char *end, decimal *source)
 {
-    decimal source = { false, 0, 0, 0, NULL, NULL };
     const char *at = text;
-    source.negative = at < end && *at == '-';
+    source->negative = at < end && *at == '-';
     at += at < end && (*at == '-' || *at == '+');
     const char *first = at;
-    at = take_digits(at, end, 0, &source);
+    at = take_digits(at, end, 0, source);
     bool any = at > first;
     if (at < end && *at == '.') {
         const char *fraction = at + 1;
-        const char *last = is_digit(fraction, end) ? take_digits(fraction, end, -1, &source) : fraction;
+        const char *last = is_digit(fraction, end) ? take_digits(fraction, end, -1, source) : fraction;
         any = any || last > fraction;
         at = last;
     }
     if (!any) {
         return NULL;
     }
-    at = take_exponent(at, end, &source.exponent10);
-    float value = nearest(&source);
+    return take_exponent(at, end, &source->exponent10);
+}
+
+const char *tl_parse_float(const char *text, const char *end, float *value_out)
+{
+    decimal source = { false, 0, 0, 0, NULL, NULL };
+    const char *at = read_decimal(text, end, &source);
+    if (at != NULL) {
+        const float value = nearest(&source);
+        *value_out = source.negative ? -value : value;
+    }
+    return at;
+}
+
+const char *tl_parse_double(const char *text, const char *end, double *value_out)
+{
+    decimal source = { false, 0, 0, 0, NULL, NULL };
+    const char *at = read_decimal(text, end, &source);
+    if (at == NULL) {
+        return NULL;
+    }
+    // Far beyond the floats both ways: what is left is an infinity or 0.
+    int64_t exponent = source.exponent10;
+    double value = (double)source.significand;
+    for (int step = 0; step < 8 && exponent > TL_DECIMAL_MAX_EXPONENT; ++step) {
+        value *= tl_decimal_powers[TL_DECIMAL_MAX_EXPONENT - TL_DECIMAL_MIN_EXPONENT];
+        exponent -= TL_DECIMAL_MAX_EXPONENT;
+    }
+    if (exponent < TL_DECIMAL_MIN_EXPONENT) {
+        value = 0.0;
+    } else {
+        // A table's power below 1 is rounded, one from 1 to 1e22 is exact: dividing by that is better.
+        const int power = exponent > TL_DECIMAL_MAX_EXPONENT ? TL_DECIMAL_MAX_EXPONENT : (int)exponent;
+        value = power < 0 && power >= -22 ? value / tl_decimal_powers[-power - TL_DECIMAL_MIN_EXPONENT]
+                                          : value * tl_decimal_powers[power - TL_DECIMAL_MIN_EXPONENT];
+    }
     *value_out = source.negative ? -value : value;
     return at;
 }

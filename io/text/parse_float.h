@@ -27,6 +27,10 @@
 /// length is too long. Words (inf, nan) and hexadecimal are no numbers.
 const char *tl_parse_float(const char *text, const char *end, float *value_out);
 
+/// The same as a double, at most 2 units in the last place off: for coordinates that an origin is subtracted from.
+/// Below 1e-46 it may be 0.
+const char *tl_parse_double(const char *text, const char *end, double *value_out);
+
 /// significand * 10^exponent10 as the nearest float.
 float tl_decimal_to_float(uint64_t significand, int exponent10);
 

@@ -4,6 +4,11 @@
 
 #include "talus_test.h"
 
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
 #include "io/text/parse_float.h"
 
 #include <float.h>
@@ -299,12 +304,43 @@ static void test_digit_words(void **state)
     }
 }
 
+// As doubles: strtod's value, or at most 2 units in the last place beside it.
+static void test_doubles(void **state)
+{
+    (void)state;
+    static const char *const texts[] = { "0",          "-0.5",  "4649000.123456", "500000.1", "123456789012345678901.5",
+                                         "1e22",       "1e-22", "-3.25e40",       "7e-30",    "0.000001",
+                                         "5000020000", "1e300", "-1e999",         "1e-400",   "+17.25x" };
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {
+        double value = -1.0;
+        const char *end = tl_parse_double(texts[i], texts[i] + strlen(texts[i]), &value);
+        char *expected_end;
+        const double expected = strtod(texts[i], &expected_end);
+        TEST_CHECK(end == expected_end);
+        TEST_CHECK(value == expected || fabs(value - expected) <= 4.5e-16 * fabs(expected) ||
+                   (fabs(expected) < 1e-46 && value == 0.0));
+    }
+    uint64_t seed = 7;
+    for (int i = 0; i < 100000; i++) {
+        char text[64];
+        seed = seed * UINT64_C(6364136223846793005) + 1442695040888963407u;
+        const double written = (double)(int64_t)(seed >> 20) / 8192.0 * (i % 2 == 0 ? 1.0 : -1.0);
+        snprintf(text, sizeof text, "%.*f", i % 10, written);
+        double value = 0.0;
+        TEST_CHECK(tl_parse_double(text, text + strlen(text), &value) != NULL);
+        TEST_CHECK(fabs(value - strtod(text, NULL)) <= 4.5e-16 * fabs(value));
+    }
+    double untouched = 3.0;
+    const char none[] = "x";
+    TEST_CHECK(tl_parse_double(none, none + 1, &untouched) == NULL && untouched == 3.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_forms),          cmocka_unit_test(test_every_prefix), cmocka_unit_test(test_random_texts),
-        cmocka_unit_test(test_printed_floats), cmocka_unit_test(test_middles),      cmocka_unit_test(test_long),
-        cmocka_unit_test(test_digit_words),
+        cmocka_unit_test(test_doubles),      cmocka_unit_test(test_forms),          cmocka_unit_test(test_every_prefix),
+        cmocka_unit_test(test_random_texts), cmocka_unit_test(test_printed_floats), cmocka_unit_test(test_middles),
+        cmocka_unit_test(test_long),         cmocka_unit_test(test_digit_words),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
