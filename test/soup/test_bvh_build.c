@@ -170,12 +170,41 @@ static void test_cells_part_space(void **state)
     model_free(&m);
 }
 
+// Pairs around one corner, which no plane separates: twice as many take twice the memory, not four times.
+static void test_fans_grow_linearly(void **state)
+{
+    (void)state;
+    uint64_t before = 0;
+    for (uint32_t count = 1000; count <= 16000; count *= 2) {
+        model m = { 0 };
+        const uint32_t hub = model_vertex(&m, 0, 0, 0);
+        for (uint32_t i = 0; i <= count; i++) {
+            const float turn = 6.2831853f * (float)i / (float)count;
+            model_vertex(&m, 10 * cosf(turn), 0.3f * (float)(i % 7), 10 * sinf(turn));
+        }
+        for (uint32_t i = 1; i <= count; i++) {
+            model_triangle(&m, hub, i, i + 1);
+        }
+        const walk cells = check_tree(&m, TL_SOUP_KD_TREE, 0);
+        test_allocator memory;
+        test_allocator_init(&memory, 0);
+        tl_soup_def def = model_soup_def(MODEL_KD);
+        def.host.allocator = &memory.allocator;
+        tl_soup *soup = model_soup(&m, &def);
+        TEST_CHECK(cells.references <= 16 * tl_soup_get_stats(soup).pair_count);
+        TEST_CHECK(before == 0 || memory.peak_bytes < before * 5 / 2);
+        before = memory.peak_bytes;
+        tl_blob_free(soup);
+        model_free(&m);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_shapes),           cmocka_unit_test(test_coinciding_triangles),
         cmocka_unit_test(test_depth_is_bounded), cmocka_unit_test(test_tree_pays),
-        cmocka_unit_test(test_cells_part_space),
+        cmocka_unit_test(test_cells_part_space), cmocka_unit_test(test_fans_grow_linearly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

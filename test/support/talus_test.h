@@ -90,6 +90,7 @@ typedef struct test_allocator {
     uint64_t fail_at;
     uint64_t live_blocks;
     uint64_t live_bytes;
+    uint64_t peak_bytes;
 } test_allocator;
 
 static inline void *test_allocate(size_t size, size_t alignment, void *user)
@@ -103,6 +104,7 @@ static inline void *test_allocate(size_t size, size_t alignment, void *user)
     if (block != NULL) {
         test->live_blocks++;
         test->live_bytes += size;
+        test->peak_bytes = test->live_bytes > test->peak_bytes ? test->live_bytes : test->peak_bytes;
     }
     return block;
 }
@@ -117,7 +119,7 @@ static inline void test_release(void *block, size_t size, void *user)
 
 static inline void test_allocator_init(test_allocator *test, uint64_t fail_at)
 {
-    test_allocator zero = { { test_allocate, test_release, NULL }, 0, 0, 0, 0 };
+    test_allocator zero = { { test_allocate, test_release, NULL }, 0, 0, 0, 0, 0 };
     *test = zero;
     test->allocator.user = test;
     test->fail_at = fail_at;

@@ -8,7 +8,8 @@
 // Planes are chosen by the surface area heuristic, from the top down. Its minimum lies where a clipped reference begins
 // or ends: in small cells all those planes are tried in one sweep over sorted events, in large ones the borders of
 // bins, which cost a count instead of a sort and lose little. A cell whose best plane gains nothing (a fan around a
-// corner, which no plane separates) is distributed over leaves by count.
+// corner, which no plane separates) is distributed over leaves by count; and so is one whose plane would copy more than
+// its share of the copies that are left, which are KD_MAX_COPIES of each pair: 18 levels take 1 to 8, large fans all.
 //
 // A ray need not remember the triangles that it has tested (mailboxes): finding one twice gives the same t twice, and
 // what lies behind the best hit is dropped before it is decided.
@@ -27,6 +28,7 @@
 enum {
     SWEEP_MAX = 64, // the most references of a cell that is swept
     KD_BINS = 64,
+    KD_MAX_COPIES = 16,
     DEPTH_MAX = 60 // distributing by count ends within 29 levels more
 };
 static_assert(DEPTH_MAX + 32 <= TL_SOUP_MAX_DEPTH, "a cell of 2^32 references ends within the depth limit");
@@ -47,6 +49,7 @@ typedef struct kd_builder {
     ref_list out;  // references of leaves
     tl_bvh_node *nodes;
     uint64_t node_count, node_capacity;
+    uint64_t copies_max; // references of all leaves together
     uint32_t depth_max;
     bool out_of_memory;
 } kd_builder;
@@ -288,6 +291,18 @@ static bool find_kd_plane(const kd_builder *b, const kd_cell *cell, kd_plane *be
 // ---------------------------------------------------------------------------------------------------------
 // The tree.
 
+// References that a plane cuts.
+static uint32_t count_cut(const kd_builder *b, const kd_cell *cell, const kd_plane *plane)
+{
+    uint32_t cut = 0;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        const tl_bvh_ref *ref = &b->work.refs[cell->first + i];
+        cut += tl_component(ref->min, plane->axis) < plane->position &&
+               tl_component(ref->max, plane->axis) > plane->position;
+    }
+    return cut;
+}
+
 // Sorts a cell's references to both sides: right ones stay where the cell's were, left ones go behind all others.
 static bool part_references(kd_builder *b, const kd_cell *cell, const kd_plane *plane, kd_cell *left, kd_cell *right)
 {
@@ -322,10 +337,18 @@ static bool part_references(kd_builder *b, const kd_cell *cell, const kd_plane *
     return true;
 }
 
+// Whether a cell may have as many references more: copies that are left are shared out by count.
+static bool may_copy(const kd_builder *b, const kd_cell *cell, uint32_t copies)
+{
+    const uint64_t used = b->out.count + b->work.count;
+    const uint64_t left = used < b->copies_max ? b->copies_max - used : 0;
+    return (double)copies * (double)b->work.count <= (double)left * (double)cell->count;
+}
+
 static uint32_t build_cell(kd_builder *b, kd_cell cell)
 {
     kd_plane plane = { 0 };
-    if (!find_kd_plane(b, &cell, &plane)) {
+    if (!find_kd_plane(b, &cell, &plane) || !may_copy(b, &cell, count_cut(b, &cell, &plane))) {
         return make_leaves(b, cell.first, cell.count);
     }
     kd_cell left = { .depth = cell.depth + 1 }, right = { .depth = cell.depth + 1 };
@@ -393,6 +416,7 @@ tl_result tl_kd_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32
     b.clipper.pairs = pairs;
     b.host = &def->host;
     b.depth_max = depth_limit(pair_count);
+    b.copies_max = KD_MAX_COPIES * (uint64_t)pair_count;
     kd_cell whole = { mesh->bounds, 0, pair_count, 0 };
     for (uint32_t i = 0; i < pair_count; i++) {
         tl_bvh_ref ref = tl_bvh_reference(mesh, pairs, i);
