@@ -163,8 +163,9 @@ static void expand_polytope(epa_search *s, tl_polytope *p)
     depth->upper = (double)INFINITY; // what the start found is found again where it matters, with its triangle
     for (;;) {
         uint32_t f = tl_polytope_nearest_face(p);
-        const tl_vec3d normal = p->faces[f].normal;
-        double scale = 1.0 / sqrt(p->faces[f].normal_sq), distance = p->faces[f].offset * scale;
+        tl_polytope_plane plane = tl_polytope_plane_of(p, f);
+        const tl_vec3d normal = plane.normal;
+        double scale = 1.0 / sqrt(plane.normal_sq), distance = plane.offset * scale;
         tl_minkowski_point point;
         if (probe(s, normal, scale, &point)) {
             for (int i = 0; i < 3; i++) {

@@ -14,17 +14,10 @@
 
 #include "base/assert.h"
 
-// From the vectors that lead from its last corner to its first two.
-static void set_plane(tl_polytope *p, uint32_t f, tl_vec3d last, tl_vec3d to_first, tl_vec3d to_second)
+static void set_key(tl_polytope *p, uint32_t f, tl_polytope_plane plane)
 {
-    tl_polytope_face *face = &p->faces[f];
-    tl_vec3d n = tl_vec3d_cross(to_first, to_second);
-    double offset = tl_vec3d_dot(n, last), normal_sq = tl_vec3d_dot(n, n);
-    face->normal = n;
-    face->offset = offset;
-    face->normal_sq = normal_sq;
-    face->seen = false;
-    p->keys[f] = normal_sq > 0.0 ? offset * fabs(offset) / normal_sq : (double)INFINITY;
+    p->seen[f] = false;
+    p->keys[f] = plane.normal_sq > 0.0 ? plane.offset * fabs(plane.offset) / plane.normal_sq : (double)INFINITY;
 }
 
 static uint8_t add_polytope_vertex(tl_polytope *p, const tl_minkowski_point *point)
@@ -53,9 +46,7 @@ void tl_polytope_init(tl_polytope *p, const tl_minkowski_point points[4])
             p->origins[4 * f + i] = corners[f][i];
             p->twins[4 * f + i] = twins[f][i];
         }
-        tl_vec3d last = tl_polytope_corner(p, f, 2)->w;
-        set_plane(p, f, last, tl_vec3d_sub(tl_polytope_corner(p, f, 0)->w, last),
-                  tl_vec3d_sub(tl_polytope_corner(p, f, 1)->w, last));
+        set_key(p, f, tl_polytope_plane_of(p, f));
     }
 }
 
@@ -70,10 +61,11 @@ uint32_t tl_polytope_nearest_face(const tl_polytope *p)
     return best;
 }
 
-static bool point_sees(const tl_polytope_face *face, tl_vec3d point, double coplanar_sq)
+static bool point_sees(const tl_polytope *p, uint32_t face, tl_vec3d point, double coplanar_sq)
 {
-    double above = tl_vec3d_dot(face->normal, point) - face->offset;
-    return above > 0.0 || above * above < coplanar_sq * face->normal_sq;
+    tl_polytope_plane plane = tl_polytope_plane_of(p, face);
+    double above = tl_vec3d_dot(plane.normal, point) - plane.offset;
+    return above > 0.0 || above * above < coplanar_sq * plane.normal_sq;
 }
 
 static uint32_t next_of(uint32_t half_edge)
@@ -98,18 +90,17 @@ static void find_visible(tl_polytope *p, uint32_t first, tl_vec3d point, double 
     uint16_t stack[TL_POLYTOPE_FACES + 2]; // each face seen takes one half-edge off and puts two on
     uint32_t depth = 3, seen_count = 1, rim_count = 0;
     v->seen[0] = (uint8_t)first;
-    p->faces[first].seen = true;
+    p->seen[first] = true;
     stack[0] = p->twins[4 * first + 2];
     stack[1] = p->twins[4 * first + 1];
     stack[2] = p->twins[4 * first];
     while (depth > 0) {
         uint32_t across = stack[--depth];
-        tl_polytope_face *face = &p->faces[across >> 2];
-        if (face->seen) {
+        if (p->seen[across >> 2]) {
             continue;
         }
-        if (point_sees(face, point, coplanar_sq)) {
-            face->seen = true;
+        if (point_sees(p, across >> 2, point, coplanar_sq)) {
+            p->seen[across >> 2] = true;
             v->seen[seen_count++] = (uint8_t)(across >> 2);
             stack[depth++] = p->twins[previous_of(across)];
             stack[depth++] = p->twins[next_of(across)];
@@ -161,7 +152,7 @@ static void fan_to_apex(tl_polytope *p, const view *v, uint8_t apex)
         p->twins[beyond] = (uint16_t)(4 * f);
         p->twins[4 * f + 1] = (uint16_t)(4 * next + 2);
         p->twins[4 * next + 2] = (uint16_t)(4 * f + 1);
-        set_plane(p, f, top, to_start, to_end);
+        set_key(p, f, tl_polytope_plane_make(top, to_start, to_end));
         f = next;
         start = end;
         to_start = to_end;
@@ -177,14 +168,14 @@ bool tl_polytope_add(tl_polytope *p, uint32_t face, const tl_minkowski_point *po
     find_visible(p, face, point->w, coplanar * coplanar, &v);
     if (!is_loop(p, &v)) {
         for (uint32_t i = 0; i < v.seen_count; i++) {
-            p->faces[v.seen[i]].seen = false;
+            p->seen[v.seen[i]] = false;
         }
         return false;
     }
     fan_to_apex(p, &v, add_polytope_vertex(p, point));
     for (uint32_t i = v.rim_count; i < v.seen_count; i++) {
         p->keys[v.seen[i]] = (double)INFINITY;
-        p->faces[v.seen[i]].seen = false;
+        p->seen[v.seen[i]] = false;
         p->free_faces[p->free_count++] = v.seen[i];
     }
     TL_ASSERT(p->face_count <= TL_POLYTOPE_FACES);

@@ -17,29 +17,30 @@ typedef struct tl_polytope_vertex {
     tl_vec3d w, a;
 } tl_polytope_vertex;
 
-typedef struct tl_polytope_face {
+// Computed from a face's corners when it is wanted: to keep the planes of all faces would take as much stack as all
+// else.
+typedef struct tl_polytope_plane {
     tl_vec3d normal;  // outward, of any length
     double offset;    // of the plane along the normal
     double normal_sq; // square of the normal's length
-    bool seen;
-} tl_polytope_face;
+} tl_polytope_plane;
 
 // Half-edge 4 f + i leads from corner i of face f to the next, counter-clockwise from outside; i is 0, 1 or 2.
 typedef struct tl_polytope {
     tl_polytope_vertex vertices[TL_POLYTOPE_VERTICES];
-    tl_polytope_face faces[TL_POLYTOPE_FACES];
     // Squared distance of the face's plane from the origin, negative where the origin is outside; infinite for a free
     // slot and for a face without an area, whose points belong to its neighbours too.
     double keys[TL_POLYTOPE_FACES];
     uint16_t twins[4 * TL_POLYTOPE_FACES];  // the same edge in the other direction
     uint8_t origins[4 * TL_POLYTOPE_FACES]; // the vertex that a half-edge starts at
     uint8_t free_faces[TL_POLYTOPE_FACES];
+    bool seen[TL_POLYTOPE_FACES];                  // by the point that is being added
     uint32_t vertex_count, face_count, free_count; // slots in use; a dead face's slot is taken again
 } tl_polytope;
 
 static_assert(TL_POLYTOPE_FACES <= UINT8_MAX, "indices have eight bits");
-// A query may use 32 KB of stack. What it has on it beside this is less than 6 KB.
-static_assert(sizeof(tl_polytope) <= 26 * 1024, "a query's stack is bounded");
+// A query may use 32 KB of stack. A shape cast against a scene's soup has 19 KB on it beside this.
+static_assert(sizeof(tl_polytope) <= 12 * 1024, "a query's stack is bounded");
 
 // From four points that are not in one plane. The points need not contain the origin.
 void tl_polytope_init(tl_polytope *polytope, const tl_minkowski_point points[4]);
@@ -49,6 +50,23 @@ uint32_t tl_polytope_nearest_face(const tl_polytope *polytope);
 static inline const tl_polytope_vertex *tl_polytope_corner(const tl_polytope *polytope, uint32_t face, uint32_t i)
 {
     return &polytope->vertices[polytope->origins[4 * face + i]];
+}
+
+// From the vectors that lead from the last corner to the first two.
+static inline tl_polytope_plane tl_polytope_plane_make(tl_vec3d last, tl_vec3d to_first, tl_vec3d to_second)
+{
+    tl_polytope_plane plane;
+    plane.normal = tl_vec3d_cross(to_first, to_second);
+    plane.offset = tl_vec3d_dot(plane.normal, last);
+    plane.normal_sq = tl_vec3d_dot(plane.normal, plane.normal);
+    return plane;
+}
+
+static inline tl_polytope_plane tl_polytope_plane_of(const tl_polytope *polytope, uint32_t face)
+{
+    tl_vec3d last = tl_polytope_corner(polytope, face, 2)->w;
+    return tl_polytope_plane_make(last, tl_vec3d_sub(tl_polytope_corner(polytope, face, 0)->w, last),
+                                  tl_vec3d_sub(tl_polytope_corner(polytope, face, 1)->w, last));
 }
 
 // Grows to the hull with the point, which lies more than `coplanar` metres in front of the face. A face that the point

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+//
+// The stack of the deepest calls of convex queries, soups and scenes: 32 KB are promised. Measured on the painted
+// stack of a thread, in an optimised build without sanitizers.
+
+#define _DEFAULT_SOURCE // pthread_attr_setstack
+
+#include "scene_models.h"
+
+#include <pthread.h>
+#include <string.h>
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer)
+#define FRAMES_ARE_WIDER 1
+#endif
+#endif
+#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define FRAMES_ARE_WIDER 1
+#endif
+
+enum { STACK_BYTES = 1 << 18, PAINT = 0xa5, PROMISED = 32 * 1024, CALLS = 300 };
+
+typedef struct stack_run {
+    const tl_scene *scene;
+    const tl_scene_instance *instances;
+    const tl_soup *soup;
+    const tl_hull *hull;
+    uint32_t query, found;
+} stack_run;
+
+static tl_convex any_shape(const stack_run *run, uint32_t i)
+{
+    const tl_vec3 low = { 0, -1, 0 }, high = { 0, 1, 0 };
+    return i % 4 == 0   ? tl_convex_from_hull(run->hull, 0.0f)
+           : i % 4 == 1 ? tl_convex_box(low, tl_vec3_make(1, 2, 1), 0.0f)
+           : i % 4 == 2 ? tl_convex_cylinder(low, high, 2.0f, 0.0f)
+                        : tl_convex_cone(low, high, 2.0f, 0.1f);
+}
+
+static bool run_query(const stack_run *run, test_random *random, uint32_t i)
+{
+    tl_convex shape = any_shape(run, i), other = any_shape(run, i / 4);
+    tl_transform here = { scene_rotation(random),
+                          test_random_point(random, tl_vec3_make(-5, -5, -5), tl_vec3_make(5, 5, 5)) };
+    tl_transform near = { scene_rotation(random),
+                          tl_mul_add(here.position, test_random_direction(random), i % 3 == 0 ? 0.0f : 1.0f) };
+    tl_vec3 motion = tl_scale(test_random_direction(random), 5.0f);
+    tl_scene_shape_hit scene_hit;
+    tl_shape_hit soup_hit;
+    tl_penetration penetration;
+    tl_contact_manifold manifold;
+    tl_convex_hit hit;
+    switch (run->query) {
+    case 0:
+        return false; // what the thread itself takes
+    case 1:
+        return tl_scene_cast_shape(run->scene, run->instances, &shape, here, motion, NULL, &scene_hit) == TL_OK;
+    case 2:
+        return tl_soup_cast_shape(run->soup, &shape, here, motion, NULL, &soup_hit) == TL_OK;
+    case 3:
+        return tl_convex_penetration(&shape, here, &other, near, NULL, &penetration);
+    case 4:
+        return tl_convex_contacts(&shape, here, &other, near, NULL, NULL, &manifold) > 0;
+    default:
+        return tl_convex_cast(&shape, here, &other, near, motion, &hit);
+    }
+}
+
+static void *run_calls(void *user)
+{
+    stack_run *run = user;
+    test_random random = { 21 };
+    for (uint32_t i = 0; i < CALLS; i++) {
+        run->found += run_query(run, &random, i);
+    }
+    return NULL;
+}
+
+// Bytes of the stack that were written.
+static size_t bytes_used(stack_run *run, uint8_t *stack)
+{
+    memset(stack, PAINT, STACK_BYTES);
+    pthread_attr_t attributes;
+    pthread_t thread;
+    TEST_CHECK(pthread_attr_init(&attributes) == 0 && pthread_attr_setstack(&attributes, stack, STACK_BYTES) == 0);
+    TEST_CHECK(pthread_create(&thread, &attributes, run_calls, run) == 0 && pthread_join(thread, NULL) == 0);
+    pthread_attr_destroy(&attributes);
+    size_t untouched = 0;
+    while (untouched < STACK_BYTES && stack[untouched] == PAINT) {
+        untouched++;
+    }
+    return STACK_BYTES - untouched;
+}
+
+static void test_queries_fit_small_stacks(void **state)
+{
+    (void)state;
+#ifdef FRAMES_ARE_WIDER
+    skip();
+#endif
+    static const char *const names[] = {
+        "none", "scene_cast_shape", "soup_cast_shape", "convex_penetration", "convex_contacts", "convex_cast"
+    };
+    scene_parts parts;
+    scene_parts_make(&parts, 3.0f);
+    tl_scene_instance instances[40];
+    test_random random = { 20 };
+    scene_fill(&parts, &random, tl_vec3_make(0, 0, 0), 5.0f, instances, 40);
+    tl_scene *scene = scene_build(instances, 40);
+    tl_hull *hull = scene_hull(60, 2.0f, 5);
+    uint8_t *stack = aligned_alloc(4096, STACK_BYTES);
+    stack_run run = { scene, instances, NULL, hull, 0, 0 };
+    for (uint32_t i = 0; i < 40 && run.soup == NULL; i++) {
+        run.soup = instances[i].soup;
+    }
+    size_t base = bytes_used(&run, stack);
+    for (run.query = 1; run.query < 6; run.query++) {
+        run.found = 0;
+        size_t used = bytes_used(&run, stack) - base;
+        print_message("%-20s %6zu bytes, %u of %d found something\n", names[run.query], used, run.found, CALLS);
+        TEST_CHECK(run.found > 20 && used <= PROMISED);
+    }
+    free(stack);
+    tl_blob_free(scene);
+    tl_blob_free(hull);
+    scene_parts_free(&parts);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_queries_fit_small_stacks),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
