@@ -3,6 +3,7 @@
 // talus path: the path from one point to another, for one pair or many.
 
 #include "cli/level/agent_route.h"
+#include "cli/level/area_filter.h"
 #include "cli/level/navmesh_query.h"
 #include "cli/level/open_input.h"
 #include "cli/shared/json_out.h"
@@ -18,6 +19,7 @@ typedef struct path_settings {
     const char *pairs;
     const char *extents_text;
     tl_vec3 extents;
+    tl_area_filter areas;
     float radius; // metres; 0: the mesh's own agent
     bool partial;
     bool prepared;
@@ -64,7 +66,8 @@ static bool grow_route_buffers(route_searcher *s, uint32_t polygons, uint32_t co
 // known.
 static tl_result find_pair_route(const path_queries *queries, route_searcher *s, const float *n, tl_nav_route *route)
 {
-    const tl_nav_route_request request = { .start = tl_vec3_make(n[0], n[1], n[2]),
+    const tl_nav_route_request request = { .filter = &queries->settings->areas.filter,
+                                           .start = tl_vec3_make(n[0], n[1], n[2]),
                                            .goal = tl_vec3_make(n[3], n[4], n[5]),
                                            .half_extents = queries->settings->extents };
     tl_result result = TL_INCOMPLETE;
@@ -228,6 +231,7 @@ static tl_exit find_paths(tl_cli *cli, const path_settings *settings, const floa
     tl_exit code;
     if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
         path_queries queries = { input.navmesh, settings, NULL, 0 };
+        tl_area_filter_warn(cli, &settings->areas, input.navmesh, input.path);
         if (!prepare_navmesh(input.navmesh, settings) ||
             !make_searchers(&queries, settings->pairs != NULL ? cli->host.tasks->worker_count : 1)) {
             code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
@@ -260,11 +264,19 @@ static tl_exit run_path(tl_cli *cli)
           "prepare the navmesh first (visibility graph); pays off from some hundred pairs on", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
-    const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
+    tl_option area_options[TL_AREA_FILTER_OPTIONS];
+    tl_area_filter_options(&settings.areas, area_options);
+    const tl_option_group groups[] = { { "Options:", options }, { "Areas:", area_options }, { NULL, NULL } };
     tl_exit code;
     float numbers[6] = { 0 };
-    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 3, &code)) {
+    if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 3, &code) ||
+        !tl_area_filter_read(cli, &settings.areas, &code)) {
         return code;
+    }
+    if (settings.radius > 0.0f && settings.areas.costs.count > 0) {
+        return tl_cli_fail(cli, TL_EXIT_USAGE,
+                           "--area-cost: paths of a given --radius are the shortest ones whatever areas cost; leave "
+                           "out one of both, or use --exclude-area");
     }
     settings.json = cli->json;
     static const tl_question_words words = { "start", "goal", "pairs" };
@@ -290,6 +302,9 @@ const tl_command tl_path_command = {
     "talus path courtyard.talus 2,0,20 38,0,20\n"
     "talus path courtyard.obj 2,0,20 38,0,20 --agent-radius 0.4 --json\n"
     "talus path courtyard.talus 2,0,20 38,0,20 --radius 1.2\n"
+    "echo 'box 5 10 -1 10 30 3 30' > mud.txt\n"
+    "talus path courtyard.obj 2,0,20 38,0,20 --areas mud.txt --area-cost 5=3\n"
+    "talus path courtyard.obj 2,0,20 38,0,20 --areas mud.txt --exclude-area 5\n"
     "echo '2 0 20 38 0 20' > pairs.txt\n"
     "talus path courtyard.talus --pairs pairs.txt --prepared",
     run_path,
