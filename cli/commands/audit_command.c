@@ -7,6 +7,7 @@
 #include "cli/draw/draw_stage.h"
 #include "cli/options/output_check.h"
 #include "cli/shared/json_out.h"
+#include "cli/shared/text_buffer.h"
 
 #include <talus/nav_audit.h>
 
@@ -43,8 +44,10 @@ static void print_first_reason(const tl_nav_why_answer *why)
 
 static void print_finding(const tl_nav_finding *f, const tl_nav_why_answer *why)
 {
-    printf("%-8s  at %.9g,%.9g,%.9g", tl_nav_finding_name(f->kind), (double)f->point.x, (double)f->point.y,
-           (double)f->point.z);
+    tl_text point = { NULL, 0, 0, false };
+    tl_text_add_point(&point, f->point, ',');
+    printf("%-8s  at %.*s", tl_nav_finding_name(f->kind), (int)point.size, point.size > 0 ? point.bytes : "");
+    tl_text_free(&point);
     switch (f->kind) {
     case TL_NAV_FINDING_BLOCKED:
         printf("  %.2f m deep in triangle %u", (double)f->depth, f->triangle);

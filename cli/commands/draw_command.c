@@ -424,7 +424,7 @@ static tl_exit run_draw(tl_cli *cli)
         { "size", 0, TL_OPTION_COUNT, &settings.size, "PIXELS", "longer side of each view", NULL, 0, 0, 200, 8000 },
         { "depth", 0, TL_OPTION_COUNT, &settings.depth, "N", "soup: show the boxes of the BVH down to this depth", NULL,
           0, 0, 0, 64 },
-        { "contour", 0, TL_OPTION_COUNT, &settings.contour, "N",
+        { "contour", 0, TL_OPTION_NEEDED_COUNT, &settings.contour, "N",
           "triangulation, merging: which contour (one that shows much)", NULL, 0, 0, 0, UINT32_MAX - 1 },
         { "set", 0, TL_OPTION_COUNT, &settings.set, "N", "a contour file: which of its sets", NULL, 0, 0, 0,
           UINT32_MAX - 1 },

@@ -4,6 +4,7 @@
 
 #include "cli/sample/sample_level.h"
 #include "cli/shared/command.h"
+#include "cli/shared/interrupt.h"
 #include "cli/shared/json_out.h"
 #include "io/mesh/obj_write.h"
 
@@ -109,6 +110,7 @@ static tl_exit run_sample(tl_cli *cli)
         return tl_cli_fail(cli, TL_EXIT_USAGE, "there is no level '%s'; 'talus sample --list' names them",
                            cli->arguments.words[0]);
     }
+    tl_interrupt_ends(); // the file comes into being with its last byte
     char name[32];
     snprintf(name, sizeof(name), "%s.obj", level->name);
     return write_level(cli, level, output != NULL ? output : name,

@@ -6,6 +6,7 @@
 #include "cli/level/open_input.h"
 
 #include "cli/level/level_doubt.h"
+#include "cli/shared/standard_input.h"
 
 #include <string.h>
 
@@ -18,21 +19,27 @@ static bool ends_with(const char *text, const char *end)
     return text_length >= end_length && strcmp(text + text_length - end_length, end) == 0;
 }
 
+// What the first bytes say. A file of fewer has no magic either, but it is no baked file until its name says so.
+static bool has_baked_head(const void *bytes, size_t size)
+{
+    tl_pack pack;
+    return size >= sizeof(tl_blob) && tl_pack_open(bytes, size, &pack, NULL) != TL_ERR_MAGIC;
+}
+
 bool tl_input_is_baked(const char *path)
 {
     if (strcmp(path, "-") == 0) {
-        return false; // a stream can be read only once
+        _Alignas(TL_BLOB_ALIGNMENT) unsigned char head[PROBE_BYTES];
+        return has_baked_head(head, tl_standard_input_peek(head, sizeof(head)));
     }
     if (ends_with(path, ".talus")) {
         return true;
     }
     tl_file_map map;
-    tl_pack pack;
     if (tl_file_map_open(path, 0, &map, NULL) != TL_OK) {
         return false;
     }
-    // An empty file has no magic either, but it is no baked file until its name says so.
-    bool baked = map.size >= sizeof(tl_blob) && tl_pack_open(map.bytes, map.size, &pack, NULL) != TL_ERR_MAGIC;
+    const bool baked = has_baked_head(map.bytes, map.size);
     tl_file_map_close(&map);
     return baked;
 }

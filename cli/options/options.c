@@ -8,13 +8,14 @@
 
 #include "cli/options/option_spelling.h"
 #include "cli/options/parse_value.h"
+#include "io/text/format_float.h"
 
 #include <popt.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { HELP_COLUMN = 34, HELP_WIDTH = 104 };
+enum { HELP_COLUMN = 32, HELP_WIDTH = 80, MAX_PARAGRAPH = 2048 };
 
 // What popt returns for a word: an option's index from 1, one of these, or FIRST_REFUSED and a spelling's index.
 enum { HELP_VALUE = TL_MAX_OPTIONS + 1, FIRST_REFUSED };
@@ -158,7 +159,10 @@ static bool set_float(tl_arguments *arguments, const tl_option *option, const ch
     }
     if (number < option->min || number > option->max) {
         char range[96];
-        snprintf(range, sizeof(range), "is out of range; use %.9g to %.9g", (double)option->min, (double)option->max);
+        char min[TL_FLOAT_TEXT_BYTES], max[TL_FLOAT_TEXT_BYTES];
+        tl_format_float(option->min, min);
+        tl_format_float(option->max, max);
+        snprintf(range, sizeof(range), "is out of range; use %s to %s", min, max);
         return refuse(arguments, option, value, range);
     }
     *(float *)option->target = number;
@@ -337,33 +341,51 @@ tl_parse_outcome tl_options_parse(const tl_option_group *groups, int argc, const
     return take_words(arguments_out, s) ? TL_PARSE_OK : TL_PARSE_ERROR;
 }
 
-// The help's words behind the name column, broken at blanks.
-static void print_wrapped(const char *text)
+void tl_options_print_wrapped(const char *text, int column, int indent)
 {
-    int column = HELP_COLUMN;
+    bool first = true;
     while (*text != '\0') {
-        size_t length = strcspn(text, " ");
-        if (column > HELP_COLUMN && column + (int)length + 1 > HELP_WIDTH) {
-            printf("\n%*s", HELP_COLUMN, "");
-            column = HELP_COLUMN;
-        } else if (column > HELP_COLUMN) {
+        const size_t length = strcspn(text, " \n");
+        if (!first && column + (int)length + 1 > HELP_WIDTH) {
+            printf("\n%*s", indent, "");
+            column = indent;
+        } else if (!first) {
             putchar(' ');
             column++;
         }
         printf("%.*s", (int)length, text);
         column += (int)length;
-        text += length + (text[length] == ' ');
+        first = false;
+        text += length + (text[length] != '\0');
     }
     putchar('\n');
+}
+
+void tl_options_print_text(const char *text)
+{
+    while (*text != '\0') {
+        const char *end = strstr(text, "\n\n");
+        const size_t length = end != NULL ? (size_t)(end - text) : strlen(text);
+        char paragraph[MAX_PARAGRAPH];
+        snprintf(paragraph, sizeof(paragraph), "%.*s", (int)length, text);
+        tl_options_print_wrapped(paragraph, 0, 0);
+        text += length;
+        if (*text != '\0') {
+            putchar('\n');
+            text += 2;
+        }
+    }
 }
 
 static void default_text(const tl_option *option, char *text, size_t capacity)
 {
     const char *word = NULL;
+    char number[TL_FLOAT_TEXT_BYTES];
     text[0] = '\0';
     switch (option->kind) {
     case TL_OPTION_FLOAT:
-        snprintf(text, capacity, " [%.6g]", (double)*(const float *)option->target);
+        tl_format_float(*(const float *)option->target, number);
+        snprintf(text, capacity, " [%s]", number);
         break;
     case TL_OPTION_COUNT:
         snprintf(text, capacity, " [%u]", *(const uint32_t *)option->target);
@@ -412,7 +434,7 @@ static void print_option(const tl_option *option)
     } else {
         printf("%-*s", HELP_COLUMN, name);
     }
-    print_wrapped(text);
+    tl_options_print_wrapped(text, HELP_COLUMN, HELP_COLUMN);
 }
 
 void tl_options_print(const tl_option_group *groups)

@@ -79,6 +79,12 @@ tl_parse_outcome tl_options_parse(const tl_option_group *groups, int argc, const
 const char *tl_arguments_find_given(const tl_arguments *arguments, const tl_option *options);
 void tl_arguments_free(tl_arguments *arguments);
 
+/// Prints words from `column` on, broken at blanks and line ends so that lines keep to the help's width; later lines
+/// begin at `indent`. Ends with a line end.
+void tl_options_print_wrapped(const char *text, int column, int indent);
+/// Prints paragraphs, parted by empty lines, wrapped to the help's width.
+void tl_options_print_text(const char *text);
+
 /// Prints the options with their defaults, one or two lines each.
 void tl_options_print(const tl_option_group *groups);
 

@@ -103,8 +103,30 @@ static bool check_output_path(const tl_option_group *groups, const tl_option *ou
     return input == NULL;
 }
 
+// Whoever reads second would find nothing.
+static bool check_standard_inputs(const tl_option_group *groups, tl_arguments *arguments)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < arguments->count; ++i) {
+        count += strcmp(arguments->words[i], "-") == 0;
+    }
+    for (; groups->title != NULL; ++groups) {
+        for (const tl_option *option = groups->options; option->name != NULL; ++option) {
+            count += option->kind == TL_OPTION_INPUT && text_of(option) != NULL && strcmp(text_of(option), "-") == 0;
+        }
+    }
+    if (count > 1) {
+        snprintf(arguments->message, sizeof(arguments->message),
+                 "%u inputs are '-', and standard input can be read once; name files for the others", count);
+    }
+    return count <= 1;
+}
+
 bool tl_outputs_check(const tl_option_group *groups, tl_arguments *arguments)
 {
+    if (!check_standard_inputs(groups, arguments)) {
+        return false;
+    }
     for (const tl_option_group *group = groups; group->title != NULL; ++group) {
         for (const tl_option *option = group->options; option->name != NULL; ++option) {
             if (option->kind == TL_OPTION_OUTPUT && text_of(option) != NULL &&

@@ -13,9 +13,10 @@ extern const char *const tl_picture_endings[];
 /// Whether `path` ends in `ending` (".png"), whatever the case of its letters.
 bool tl_has_ending(const char *path, const char *ending);
 
-/// Holds each TL_OPTION_OUTPUT that was given against all words and each TL_OPTION_INPUT: files are compared by device
-/// and inode, so that links and other spellings are seen through; and its ending against those it lists. False:
-/// `arguments->message` names the option, the file and what to do.
+/// Refuses a second input that is standard input ("-"). Holds each TL_OPTION_OUTPUT that was given against all words
+/// and each TL_OPTION_INPUT: files are compared by device and inode, so that links and other spellings are seen
+/// through; and its ending against those it lists. False: `arguments->message` names the option, the file and what to
+/// do.
 bool tl_outputs_check(const tl_option_group *groups, tl_arguments *arguments);
 
 #endif

@@ -7,6 +7,7 @@
 #include "cli/options/output_check.h"
 #include "cli/options/parse_value.h"
 #include "cli/shared/interrupt.h"
+#include "cli/shared/standard_input.h"
 
 #include <errno.h>
 #include <stdarg.h>
@@ -22,7 +23,10 @@ static void print_usage_lines(const tl_command *command)
     for (const char *head = "Usage:"; line != NULL; head = "      ") {
         const char *end = strchr(line, '\n');
         int length = end != NULL ? (int)(end - line) : (int)strlen(line);
-        printf("%s talus %s %.*s\n", head, command->name, length, line);
+        char text[512];
+        const int indent = printf("%s talus %s ", head, command->name);
+        snprintf(text, sizeof(text), "%.*s", length, line);
+        tl_options_print_wrapped(text, indent, indent);
         line = end != NULL ? end + 1 : NULL;
     }
 }
@@ -30,7 +34,8 @@ static void print_usage_lines(const tl_command *command)
 static void print_help(const tl_command *command, const tl_option_group *groups)
 {
     print_usage_lines(command);
-    printf("\n%s\n", command->text);
+    putchar('\n');
+    tl_options_print_text(command->text);
     tl_options_print(groups);
     printf("\nExamples:\n");
     for (const char *line = command->examples; line != NULL && *line != '\0';) {
@@ -39,8 +44,10 @@ static void print_help(const tl_command *command, const tl_option_group *groups)
         printf("  %.*s\n", length, line);
         line = end != NULL ? end + 1 : NULL;
     }
-    printf("\nExit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 4 file cannot be read or written;\n5 "
-           "out of memory; 6 nothing is walkable; 130 cancelled.\n");
+    putchar('\n');
+    tl_options_print_text(
+        "Exit codes: 0 done; 1 the answer is no; 2 wrong usage; 3 bad input; 4 file cannot be read or "
+        "written; 5 out of memory; 6 nothing is walkable; 130 cancelled.");
 }
 
 static bool set_up_host(tl_cli *cli, int progress_style, tl_exit *exit_out)
@@ -55,6 +62,24 @@ static bool set_up_host(tl_cli *cli, int progress_style, tl_exit *exit_out)
     cli->host.progress = &cli->progress.hook;
     tl_interrupt_catch();
     return true;
+}
+
+// Where a word says that FILE is standard input.
+static bool hold_standard_input(tl_cli *cli, tl_exit *exit_out)
+{
+    tl_io_error error;
+    memset(&error, 0, sizeof(error));
+    tl_result result = TL_OK;
+    for (uint32_t i = 0; i < cli->arguments.count && result == TL_OK; ++i) {
+        const char *word = cli->arguments.words[i];
+        if (strcmp(word, "-") == 0 || strcmp(word, "/dev/stdin") == 0) {
+            result = tl_standard_input_hold(&error);
+        }
+    }
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_io(cli, &error);
+    }
+    return result == TL_OK;
 }
 
 bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words, uint32_t max_words, tl_exit *exit_out)
@@ -110,7 +135,7 @@ bool tl_cli_parse(tl_cli *cli, const tl_option_group *groups, uint32_t min_words
         *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "%s", message);
         return false;
     }
-    return set_up_host(cli, style, exit_out);
+    return set_up_host(cli, style, exit_out) && hold_standard_input(cli, exit_out);
 }
 
 static void print_message(tl_cli *cli, const char *format, va_list list)

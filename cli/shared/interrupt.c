@@ -7,12 +7,24 @@
 
 #include <signal.h>
 #include <string.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+enum { CANCELLED = 130 }; // TL_EXIT_CANCELLED
 
 static volatile sig_atomic_t interrupted; // the one global: signal handlers have no user pointer
+
+static volatile sig_atomic_t ends;
 
 static void on_signal(int number)
 {
     (void)number;
+    if (ends) {
+        static const char text[] = "talus: cancelled\n";
+        const ssize_t written = write(STDERR_FILENO, text, sizeof(text) - 1);
+        (void)written;
+        _exit(CANCELLED);
+    }
     interrupted = 1;
 }
 
@@ -37,4 +49,12 @@ void tl_interrupt_catch(void)
 bool tl_interrupted(void)
 {
     return interrupted != 0;
+}
+
+void tl_interrupt_ends(void)
+{
+    ends = 1;
+    if (interrupted) {
+        _exit(CANCELLED);
+    }
 }

@@ -11,4 +11,8 @@
 void tl_interrupt_catch(void);
 bool tl_interrupted(void);
 
+/// For work that never looks at tl_interrupted and has nothing to clean up: a signal ends the program from now on, with
+/// the exit code of a cancelled run.
+void tl_interrupt_ends(void);
+
 #endif
