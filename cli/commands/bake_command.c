@@ -20,6 +20,9 @@ static tl_result make_baked_content(const tl_level *level, const tl_bake *bake, 
     }
     result = tl_pack_meta_encode(tl_pack_source_name(level->path), level->imported.vertex_count,
                                  level->imported.triangle_count, level->mesh.bounds, NULL, &content->meta, NULL);
+    if (result == TL_OK) {
+        content->meta->source_up = level->is_z_up ? TL_PACK_UP_Z : TL_PACK_UP_Y;
+    }
     if (result == TL_OK && nav) {
         tl_nav_def def = bake->nav_def;
         def.bounds = bake->nav_bounds;

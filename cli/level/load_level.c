@@ -92,6 +92,11 @@ static bool restore_source(tl_level *level)
     return true;
 }
 
+void tl_level_warn_turned(tl_cli *cli, const char *path)
+{
+    tl_cli_warn(cli, "%s: the level is z-up, questions and answers are y-up: write (x, y, z) of it as x,z,-y", path);
+}
+
 bool tl_level_load(tl_cli *cli, const char *path, const tl_level_settings *settings, tl_level *level_out,
                    tl_exit *exit_out)
 {
@@ -106,6 +111,10 @@ bool tl_level_load(tl_cli *cli, const char *path, const tl_level_settings *setti
     if (tl_import_mesh(path, &options, &level_out->imported, &error) != TL_OK) {
         *exit_out = tl_cli_fail_io(cli, &error);
         return false;
+    }
+    level_out->is_z_up = settings->up == TL_UP_Z;
+    if (level_out->is_z_up) {
+        tl_level_warn_turned(cli, path);
     }
     const double *o = level_out->imported.origin;
     if (o[0] != 0.0 || o[1] != 0.0 || o[2] != 0.0) {

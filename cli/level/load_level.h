@@ -24,8 +24,12 @@ tl_level_settings tl_default_level_settings(void);
 /// Fills a table with the options that set `settings`.
 void tl_level_options(tl_level_settings *settings, tl_option table[TL_LEVEL_OPTIONS]);
 
+/// Says that questions and answers are y-up though the source is z-up.
+void tl_level_warn_turned(tl_cli *cli, const char *path);
+
 typedef struct tl_level {
     const char *path;
+    bool is_z_up;              ///< in the file; `imported` and `mesh` are turned already
     tl_imported_mesh imported; ///< as it stands in the file
     tl_mesh mesh;              ///< welded and cleaned
     tl_mesh_report report;

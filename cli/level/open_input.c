@@ -105,8 +105,13 @@ bool tl_input_open_baked(tl_cli *cli, const char *path, tl_input *input_out, tl_
         report.advice =
             result == TL_ERR_MAGIC ? "this is not a file of talus bake" : "copy it again, or bake the level again";
         *exit_out = tl_cli_fail_result(cli, path, result, &report);
+        return false;
     }
-    return result == TL_OK;
+    const tl_pack_meta *meta = tl_input_checked_chunk(input_out, TL_PACK_META, tl_pack_meta_check, &result);
+    if (meta != NULL && meta->source_up == TL_PACK_UP_Z) {
+        tl_level_warn_turned(cli, path);
+    }
+    return true;
 }
 
 const void *tl_input_checked_chunk(const tl_input *input, uint32_t type,

@@ -100,8 +100,11 @@ typedef struct tl_pack_meta {
     uint64_t source_triangles; ///< as read
     tl_aabb bounds;            ///< metres, of the cleaned mesh
     uint32_t name_size;        ///< bytes, without the closing zero
-    uint32_t reserved;
+    uint32_t source_up;        ///< TL_PACK_UP_Y, set by the encoder, or TL_PACK_UP_Z: set it before the file is written
 } tl_pack_meta;
+
+/// The source's up axis. What is baked is y-up: of a z-up source a point (x, y, z) was turned to (x, z, -y).
+enum { TL_PACK_UP_Y, TL_PACK_UP_Z };
 
 /// Encodes a META blob, freed with tl_blob_free. `source_name` is a zero-terminated string of at most 2^16 bytes
 /// (TL_ERR_LIMIT), or NULL. `allocator` NULL: malloc. TL_ERR_ARGUMENT, TL_ERR_MEMORY; `*meta_out` is NULL then.

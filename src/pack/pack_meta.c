@@ -57,7 +57,7 @@ tl_result tl_pack_meta_check(const void *bytes, uint64_t size, tl_report *report
     TL_TRY(tl_pack_check_head(bytes, size, expected, report_out));
     const tl_pack_meta *meta = bytes;
     uint64_t name_capacity = size - sizeof *meta;
-    if (meta->name_size > MAX_NAME_BYTES || meta->name_size >= name_capacity || meta->reserved != 0) {
+    if (meta->name_size > MAX_NAME_BYTES || meta->name_size >= name_capacity || meta->source_up > TL_PACK_UP_Z) {
         return tl_report_fail(report_out, TL_ERR_CORRUPT, "name", TL_NO_ELEMENT, "bake the file again");
     }
     // One string without a zero inside, then zeros only.

@@ -143,7 +143,7 @@ static tl_result meta_check(contract_run *run)
 {
     tl_pack_meta *meta;
     TEST_RESULT(tl_pack_meta_encode("level.obj", 1, 1, tl_aabb_empty(), NULL, &meta, NULL), TL_OK);
-    meta->reserved = run->what == CONTRACT_BAD_BYTES ? 1 : 0;
+    meta->source_up = run->what == CONTRACT_BAD_BYTES ? 2 : TL_PACK_UP_Z;
     run->is_clear = true;
     const tl_result result =
         tl_pack_meta_check(run->what == CONTRACT_NULL_INPUT ? NULL : meta, meta->blob.size, run->report);
