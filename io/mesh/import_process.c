@@ -90,6 +90,7 @@ static bool send_bytes(int pipe, const void *bytes, size_t size)
     return true;
 }
 
+#ifndef HAS_SHADOW_MEMORY
 // Bytes of data that the process has now, which a child inherits; 0 where the system does not say.
 static uint64_t current_data(void)
 {
@@ -103,6 +104,7 @@ static uint64_t current_data(void)
     }
     return (uint64_t)pages * (uint64_t)sysconf(_SC_PAGESIZE);
 }
+#endif
 
 static void limit_memory(uint64_t bytes)
 {
