@@ -368,6 +368,13 @@ static void print_mesh(const tl_level *level, const tl_adjacency *adjacency)
         printf("left out   %u triangles without area, %u that repeat another\n", level->report.degenerate_triangles,
                level->report.duplicate_triangles);
     }
+    bool scaled = m->file_unit > 0.0f && m->file_unit != 1.0f;
+    bool turned = m->file_up != 0 && m->file_up != 2;
+    if (scaled || turned) {
+        static const char *const axes[] = { "-z", "-y", "-x", "?", "x", "y", "z" };
+        printf("units      %g m and %s up, as the file says; given in metres, y up\n", (double)m->file_unit,
+               axes[m->file_up + 3]);
+    }
     if (m->crooked_count > 0) {
         printf("polygons   %u that could not be split properly\n", m->crooked_count);
     }

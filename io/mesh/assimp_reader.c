@@ -18,6 +18,7 @@
 #include <assimp/commonMetaData.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
+#include <math.h>
 #include <string.h>
 
 // A node still to be visited, and its parent's map to the world.
@@ -34,6 +35,7 @@ typedef struct scene_reader {
     pending_scene_node *stack;
     uint64_t stack_count;
     uint64_t stack_capacity;
+    tl_affine to_metres;      // from the file's unit and axes
     tl_split_corner *scratch; // TL_MAX_SPLIT_CORNERS of each, once there is a polygon
     uint32_t *corners;
 } scene_reader;
@@ -78,16 +80,17 @@ static tl_result find_material(scene_reader *reader, unsigned index, uint32_t *i
     return result == TL_OK ? TL_OK : fail_scene_memory(reader);
 }
 
-static tl_result add_scene_vertices(scene_reader *reader, const struct aiMesh *part, const tl_affine *to_world)
+static tl_result add_scene_vertices(scene_reader *reader, const struct aiMesh *part, const tl_affine *to_root)
 {
     tl_imported_mesh *mesh = reader->mesh;
+    tl_affine to_world = tl_affine_multiply(&reader->to_metres, to_root);
     tl_result result = tl_imported_mesh_reserve_vertices(mesh, part->mNumVertices);
     if (result != TL_OK) {
         return fail_scene_reserve(reader, result, "vertices");
     }
     for (unsigned i = 0; i < part->mNumVertices; i++) {
         struct aiVector3D source = part->mVertices[i];
-        tl_vec3 vertex = tl_affine_apply(to_world, (double)source.x, (double)source.y, (double)source.z);
+        tl_vec3 vertex = tl_affine_apply(&to_world, (double)source.x, (double)source.y, (double)source.z);
         if (!tl_is_finite(vertex)) {
             bool was_finite = tl_is_finite(tl_vec3_make(source.x, source.y, source.z));
             result = was_finite ? TL_ERR_RANGE : TL_ERR_NOT_FINITE;
@@ -275,18 +278,68 @@ bool tl_assimp_knows(const char *extension)
     return aiIsExtensionSupported(extension) == AI_TRUE;
 }
 
+// --- what the file says of itself -----------------------------------------------------------------------------------
+
+static const struct aiMetadataEntry *find_statement(const struct aiScene *scene, const char *key)
+{
+    for (unsigned i = 0; scene->mMetaData != NULL && i < scene->mMetaData->mNumProperties; i++) {
+        if (strcmp(scene->mMetaData->mKeys[i].data, key) == 0) {
+            return &scene->mMetaData->mValues[i];
+        }
+    }
+    return NULL;
+}
+
+// An axis and its sign as 1, 2, 3 or negative; 0 when it is not there.
+static int find_axis(const struct aiScene *scene, const char *key, const char *sign_key)
+{
+    const struct aiMetadataEntry *axis = find_statement(scene, key);
+    const struct aiMetadataEntry *sign = find_statement(scene, sign_key);
+    if (axis == NULL || axis->mType != AI_INT32 || sign == NULL || sign->mType != AI_INT32) {
+        return 0;
+    }
+    int32_t number = *(const int32_t *)axis->mData;
+    return number < 0 || number > 2 ? 0 : *(const int32_t *)sign->mData < 0 ? -(number + 1) : number + 1;
+}
+
+// The unit and axes of FBX, which Assimp hands on and does not apply. (It applies those of Collada, and no other kind
+// has any.) Axes that make a left-handed system mirror the numbers, not what their author saw: the winding stays.
+static void read_statements(const struct aiScene *scene, tl_imported_mesh *mesh, tl_affine *to_metres)
+{
+    int axes[3] = { find_axis(scene, "CoordAxis", "CoordAxisSign"), find_axis(scene, "UpAxis", "UpAxisSign"),
+                    find_axis(scene, "FrontAxis", "FrontAxisSign") };
+    unsigned named = 0;
+    for (int i = 0; i < 3; i++) {
+        named |= 1u << (axes[i] < 0 ? -axes[i] : axes[i]);
+    }
+    if (named == (1u << 1 | 1u << 2 | 1u << 3)) {
+        for (int i = 0; i < 3; i++) {
+            memset(to_metres->row[i], 0, sizeof to_metres->row[i]);
+            to_metres->row[i][(axes[i] < 0 ? -axes[i] : axes[i]) - 1] = axes[i] < 0 ? -1.0 : 1.0;
+        }
+        mesh->file_up = axes[1];
+    }
+    const struct aiMetadataEntry *unit = find_statement(scene, "UnitScaleFactor");
+    double centimetres = unit == NULL               ? 0.0
+                         : unit->mType == AI_FLOAT  ? (double)*(const float *)unit->mData
+                         : unit->mType == AI_DOUBLE ? *(const double *)unit->mData
+                                                    : 0.0;
+    if (centimetres > 0.0 && isfinite(centimetres)) {
+        for (int i = 0; i < 3; i++) {
+            for (int k = 0; k < 4; k++) {
+                to_metres->row[i][k] *= centimetres / 100.0;
+            }
+        }
+        mesh->file_unit = (float)(centimetres / 100.0);
+    }
+}
+
 // A glTF file that passes for another kind comes here, past what gltf_reader.c refuses.
 static bool is_gltf_scene(const struct aiScene *scene)
 {
-    struct aiString format;
-    memset(&format, 0, sizeof format);
-    for (unsigned i = 0; scene->mMetaData != NULL && i < scene->mMetaData->mNumProperties; i++) {
-        const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
-        if (strcmp(scene->mMetaData->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) == 0 && entry->mType == AI_AISTRING) {
-            format = *(const struct aiString *)entry->mData;
-        }
-    }
-    return strncmp(format.data, "glTF", 4) == 0;
+    const struct aiMetadataEntry *format = find_statement(scene, AI_METADATA_SOURCE_FORMAT);
+    return format != NULL && format->mType == AI_AISTRING &&
+           strncmp(((const struct aiString *)format->mData)->data, "glTF", 4) == 0;
 }
 
 // What Assimp made of it, or why nothing.
@@ -325,7 +378,10 @@ tl_result tl_assimp_read(const tl_mesh_source *source, const tl_allocator *alloc
         tl_imported_mesh_init(mesh_out, allocator);
         mesh_out->format = "Assimp";
         mesh_out->source_bytes = source->size;
-        scene_reader reader = { scene, mesh_out, source->name, error_out, NULL, 0, 0, NULL, NULL };
+        scene_reader reader = {
+            scene, mesh_out, source->name, error_out, NULL, 0, 0, tl_affine_identity(), NULL, NULL
+        };
+        read_statements(scene, mesh_out, &reader.to_metres);
         result = read_scene(&reader, source->allow_no_triangles);
         if (result != TL_OK) {
             tl_imported_mesh_free(mesh_out);

@@ -483,6 +483,8 @@ tl_result tl_gltf_read(const tl_mesh_source *source, const tl_allocator *allocat
     }
     tl_imported_mesh_init(mesh_out, allocator);
     mesh_out->format = "glTF";
+    mesh_out->file_unit = 1.0f; // glTF is in metres, y up
+    mesh_out->file_up = 2;
     mesh_out->source_bytes = source->size;
     gltf_reader reader;
     memset(&reader, 0, sizeof reader);

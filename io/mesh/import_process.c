@@ -13,6 +13,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -267,6 +268,8 @@ static tl_result receive_mesh(receiver *from, const tl_imported_mesh *sent, tl_i
     mesh->ignored_points = sent->ignored_points;
     mesh->ignored_lines = sent->ignored_lines;
     mesh->mirrored_nodes = sent->mirrored_nodes;
+    mesh->file_unit = isfinite(sent->file_unit) && sent->file_unit > 0.0f ? sent->file_unit : 0.0f;
+    mesh->file_up = sent->file_up >= -3 && sent->file_up <= 3 ? sent->file_up : 0;
     return is_sound_mesh(mesh) ? TL_OK : TL_ERR_CORRUPT;
 }
 

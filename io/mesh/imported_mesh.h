@@ -23,21 +23,23 @@ typedef struct tl_imported_mesh {
     uint32_t vertex_count;
     uint32_t *indices; ///< 3 a triangle
     uint32_t triangle_count;
-    uint16_t *materials;      ///< one a triangle
-    uint32_t *source_lines;   ///< one a triangle, from 1: the line its face begins on; 0 for formats without lines
-    tl_name_table names;      ///< material names by id; id 0 is "" and stands for triangles without material
-    const char *format;       ///< static: "OBJ", "glTF", or "Assimp"
-    uint64_t source_bytes;    ///< size of the file
-    double origin[3];         ///< subtracted from the file's coordinates, in its units and axes
-    uint32_t face_count;      ///< in the file, triangles and polygons
-    uint32_t polygon_count;   ///< faces of more than three corners
-    uint32_t clipped_count;   ///< polygons split along ears: concave, or with corners in line (split_polygon.h)
-    uint32_t crooked_count;   ///< polygons for which no proper split was found: left as a fan from their first corner
-    uint64_t ignored_points;  ///< point and
-    uint64_t ignored_lines;   ///< line elements: they bound nothing
-    uint64_t skipped_lines;   ///< lines of an unknown keyword
-    uint32_t mirrored_nodes;  ///< nodes whose transform turns inside out: their triangles were re-wound
-    tl_allocator allocator;   ///< all of the above lives in its memory
+    uint16_t *materials;     ///< one a triangle
+    uint32_t *source_lines;  ///< one a triangle, from 1: the line its face begins on; 0 for formats without lines
+    tl_name_table names;     ///< material names by id; id 0 is "" and stands for triangles without material
+    const char *format;      ///< static: "OBJ", "glTF", or "Assimp"
+    uint64_t source_bytes;   ///< size of the file
+    double origin[3];        ///< subtracted from the file's coordinates, in its units and axes
+    uint32_t face_count;     ///< in the file, triangles and polygons
+    uint32_t polygon_count;  ///< faces of more than three corners
+    uint32_t clipped_count;  ///< polygons split along ears: concave, or with corners in line (split_polygon.h)
+    uint32_t crooked_count;  ///< polygons for which no proper split was found: left as a fan from their first corner
+    uint64_t ignored_points; ///< point and
+    uint64_t ignored_lines;  ///< line elements: they bound nothing
+    uint64_t skipped_lines;  ///< lines of an unknown keyword
+    float file_unit;         ///< metres a unit, as the file says and as was applied; 0: it does not say (OBJ, STL, PLY)
+    int32_t file_up;         ///< 1, 2, 3: x, y or z is up, as the file says, negative: down; turned to y. 0: not said
+    uint32_t mirrored_nodes; ///< nodes whose transform turns inside out: their triangles were re-wound
+    tl_allocator allocator;  ///< all of the above lives in its memory
     uint32_t vertex_capacity; ///< what the arrays could hold; the readers' own
     uint32_t triangle_capacity;
 } tl_imported_mesh;

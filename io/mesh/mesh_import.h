@@ -30,6 +30,8 @@ typedef struct tl_import_limits {
     uint64_t memory_bytes; ///< not counted with -fsanitize=address
 } tl_import_limits;
 
+/// Files that state their unit and axes (FBX, Collada; glTF is in metres, y up) come in metres, y up, by themselves:
+/// up_axis and unit_scale are applied to what they give, and are for other files and for wrong statements.
 typedef struct tl_import_options {
     tl_up_axis up_axis;
     double origin[3]; ///< in the file's units and axes: this point becomes 0,0,0. OBJ subtracts it before it rounds to
