@@ -6,6 +6,15 @@ install(TARGETS talus EXPORT talus-targets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/talus DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+if(TARGET talus_io)
+    # The readers and writers of files, where they were built: talus::io. Their headers have a folder of their own.
+    install(TARGETS talus_io EXPORT talus-targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    foreach(header files/atomic_write files/file_map files/io_error mesh/imported_mesh mesh/mesh_import mesh/obj_reader
+            mesh/obj_write mesh/point_cloud text/name_table)
+        get_filename_component(room ${header} DIRECTORY)
+        install(FILES io/${header}.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/talus-io/io/${room})
+    endforeach()
+endif()
 if(TARGET talus_command)
     # The command finds the shared library beside it, wherever both were installed.
     file(RELATIVE_PATH talus_library_dir /${CMAKE_INSTALL_BINDIR} /${CMAKE_INSTALL_LIBDIR})
@@ -32,3 +41,10 @@ else()
 endif()
 configure_file(cmake/talus.pc.in ${CMAKE_CURRENT_BINARY_DIR}/talus.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/talus.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+if(TARGET talus_io)
+    if(MESHOPTIMIZER_LIBRARY AND MESHOPTIMIZER_INCLUDE_DIR)
+        set(talus_io_pc_libs " -lmeshoptimizer")
+    endif()
+    configure_file(cmake/talus-io.pc.in ${CMAKE_CURRENT_BINARY_DIR}/talus-io.pc @ONLY)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/talus-io.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endif()
