@@ -29,7 +29,8 @@ typedef struct tl_ray_job {
     bool is_segment;     ///< direction is target - origin, not rounded; t is within [0, 1]
     bool is_exact;       ///< direction, exact_shear and inverse_z are filled
 
-    bool has_intervals; ///< t cannot saturate, nor a denormal t lose more than ray_walk.inl allows for
+    bool has_intervals; ///< t can be told apart in float: nothing overflows, t cannot saturate, nor a denormal t lose
+                        ///< more than ray_walk.inl allows for
 
     // Boxes. Plane p of axis i is met at t = (p * plane_scale[i] + near_base[i]) / box_scale, rounded down, or with
     // far_base up. Lane 3 is not used. Vectors are aligned, so that a store is forwarded to the load of a lane.
@@ -39,6 +40,7 @@ typedef struct tl_ray_job {
     uint32_t backward; ///< bit i: the ray runs down along axis i, so it enters a box by its max plane
     uint32_t outside;  ///< bit i: along axis i the ray begins outside the soup's box
     float box_scale;   ///< power of two: box t = t * box_scale
+    double start;      ///< t of where the filters' origin lies, and box t begins: not 0 for rays from far away
     float box_limit;   ///< boxes that begin beyond it are skipped
     float box_margin;  ///< box t that the rounding of a denormal t, and underflow, may take from a box
 
@@ -69,7 +71,15 @@ typedef struct tl_ray_job {
 /// The box t beyond which no hit is reported at `t` or before. A saturated t says nothing about where the hit is.
 static inline float tl_ray_box_limit(const tl_ray_job *job, float t)
 {
-    return t < FLT_MAX ? t * job->box_scale + job->box_margin : INFINITY;
+    if (!(t < FLT_MAX)) {
+        return INFINITY;
+    }
+    if (job->start != 0.0) {
+        // Roundings of the reported t and of the start.
+        double from_start = (double)t * (1.0 + 0x1p-22) - job->start;
+        return (float)(from_start * (double)job->box_scale * (1.0 + 0x1p-23)) + job->box_margin;
+    }
+    return t * job->box_scale + job->box_margin;
 }
 
 /// Fills what the filters need; the caller has set soup, filter, is_segment and t. False: nothing can be hit.
@@ -79,6 +89,9 @@ bool tl_ray_prepare(tl_ray_job *job, tl_vec3 origin, tl_vec3 target);
 /// The rare cases of it, with origin and target set: directions that need scaling, and origins too far away for the
 /// float filters.
 bool tl_ray_prepare_unusual(tl_ray_job *job);
+
+/// Moves the filters' origin of a ray from far away close to the soup's box. False: the ray surely misses the box.
+bool tl_ray_approach(tl_ray_job *job);
 
 /// Decides one lane of a leaf. If it is hit, and better than the best so far, it becomes the best.
 bool tl_ray_decide(tl_ray_job *job, const tl_soup_leaf *leaf, uint32_t lane);

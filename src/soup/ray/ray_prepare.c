@@ -12,9 +12,8 @@
 // Of a longer ray a denormal t is too coarse for the intervals of ray_walk.inl.
 #define BOX_SCALE_MAX 0x1p70f
 
-// A power of two that brings `largest` to [1, 2), or to [512, 1024) when it is large: its inverse is then a float.
 // By the bits of doubles: no float is a denormal one.
-static double power_scale(double largest)
+double tl_ray_power_scale(double largest)
 {
     uint64_t bits;
     memcpy(&bits, &largest, sizeof bits);
@@ -25,7 +24,8 @@ static double power_scale(double largest)
     return scale;
 }
 
-// The origin is too far away for float filters: everything passes to the exact part.
+// The origin is too far away for float filters: everything passes to the exact part, unless the origin can be moved
+// (ray_approach.c).
 static void pass_everything(tl_ray_job *job)
 {
     for (uint32_t i = 0; i < 3; i++) {
@@ -38,7 +38,7 @@ static void pass_everything(tl_ray_job *job)
     }
     job->has_intervals = false;
     job->backward = 0;
-    job->outside = 0;
+    job->outside = 7;
     job->corner_error = INFINITY;
 }
 
@@ -59,7 +59,7 @@ bool tl_ray_prepare_unusual(tl_ray_job *job)
     if (largest == 0.0) {
         return false;
     }
-    double scale = power_scale(largest);
+    double scale = tl_ray_power_scale(largest);
     job->box_scale = (float)(1.0 / scale);
     // Half the spacing of denormals is 2^-150. In two factors, so that no operand is one of them.
     job->box_margin = job->box_scale * 0x1p-75f * 0x1p-74f + FLT_MIN;
@@ -68,7 +68,8 @@ bool tl_ray_prepare_unusual(tl_ray_job *job)
                                     (float)(direction[2] * scale), 0.0f);
     tl_f32x4 size = tl_f32x4_abs(scaled);
     tl_ray_prepare_filters(job, tl_f32x4_load(job->origin.lane), scaled, size, tl_f32x4_max_of_three(size));
-    job->has_intervals = job->box_scale < BOX_SCALE_MAX && job->reach < TL_RAY_T_MAX * job->box_scale;
+    job->has_intervals = job->reach < TL_RAY_INTERVALS_MAX && job->box_scale < BOX_SCALE_MAX &&
+                         job->reach < TL_RAY_T_MAX * job->box_scale;
     if (!(job->reach < TL_RAY_FILTER_MAX)) {
         pass_everything(job);
     }

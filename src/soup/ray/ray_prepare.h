@@ -42,6 +42,13 @@
 #define TL_RAY_DIRECTION_MIN 9.5367431640625e-7f // 2^-20
 #define TL_RAY_DIRECTION_MAX 1048576.0f          // 2^20
 
+// Within this reach R a lane's sum of weights times depths, 24 R^3, does not overflow times |per_depth| <= 2^20.
+#define TL_RAY_INTERVALS_MAX 0x1p33f
+
+// From farther away than this times the soup's size a ray's walk begins close to it (ray_approach.c): a slab's pad
+// would be a ten-thousandth of that size.
+#define TL_RAY_FAR 64.0f
+
 // Beyond this distance the products of the filters could overflow; every box and leaf then passes.
 #define TL_RAY_FILTER_MAX 1e15f
 
@@ -85,15 +92,22 @@ static TL_ALWAYS_INLINE void tl_ray_prepare_filters(tl_ray_job *job, tl_f32x4 or
     job->corner_error = job->reach * TL_RAY_CORNER_ERROR + FLT_MIN;
 }
 
-/// Whether a ray that begins outside the soup's box misses it, by the test of a node's boxes.
-static TL_ALWAYS_INLINE bool tl_ray_misses_bounds(const tl_ray_job *job)
+/// The power of two that brings `largest` to [1, 2), or to [512, 1024) when it is large: its inverse is then a float.
+double tl_ray_power_scale(double largest);
+
+/// Whether a ray that begins outside the soup's box may meet it, by the test of a node's boxes.
+static TL_ALWAYS_INLINE bool tl_ray_meets_bounds(tl_ray_job *job)
 {
     tl_f32x4 low = tl_f32x4_load(&job->soup->bounds_min.x), high = tl_f32x4_load(&job->soup->bounds_max.x);
     tl_f32x4 scale = tl_f32x4_load(job->plane_scale);
     tl_f32x4 enter = tl_f32x4_mul_add(tl_f32x4_choose(scale, low, high), scale, tl_f32x4_load(job->near_base));
     tl_f32x4 leave = tl_f32x4_mul_add(tl_f32x4_choose(scale, high, low), scale, tl_f32x4_load(job->far_base));
     float first = tl_f32x4_get_x(tl_f32x4_max_of_three(enter)), last = tl_f32x4_least_of_three(leave);
-    return (first > last) | (last < 0.0f) | (first > job->box_limit);
+    if ((first > last) | (last < 0.0f) | (first > job->box_limit)) {
+        return false;
+    }
+    float size = tl_f32x4_get_x(tl_f32x4_max_of_three(tl_f32x4_sub(high, low)));
+    return !(job->reach > TL_RAY_FAR * size) || tl_ray_approach(job);
 }
 
 /// tl_ray_prepare.
@@ -107,6 +121,7 @@ static TL_ALWAYS_INLINE bool tl_ray_prepare_inline(tl_ray_job *job, const tl_vec
     tl_f32x4_store(job->target.lane, target);
     job->is_exact = false;
     job->triangle = UINT32_MAX;
+    job->start = 0.0;
     tl_f32x4 size = tl_f32x4_abs(direction);
     tl_f32x4 largest = tl_f32x4_max_of_three(size);
     // A NaN or infinity anywhere fails.
@@ -116,11 +131,11 @@ static TL_ALWAYS_INLINE bool tl_ray_prepare_inline(tl_ray_job *job, const tl_vec
     if (!usual) {
         return tl_ray_prepare_unusual(job);
     }
-    job->has_intervals = true;
     job->box_scale = 1.0f;
     job->box_margin = FLT_MIN;
     job->box_limit = job->t + FLT_MIN;
     tl_ray_prepare_filters(job, origin, direction, size, largest);
+    job->has_intervals = job->reach < TL_RAY_INTERVALS_MAX;
     return job->t >= 0.0f;
 }
 

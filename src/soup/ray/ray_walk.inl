@@ -525,7 +525,7 @@ bool TL_RAY_WALK(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *targ
     job.is_segment = is_segment;
     job.t = tmax;
     job.buffers = NULL;
-    if (!tl_ray_prepare_inline(&job, origin, target) || (job.outside != 0 && tl_ray_misses_bounds(&job))) {
+    if (!tl_ray_prepare_inline(&job, origin, target) || (job.outside != 0 && !tl_ray_meets_bounds(&job))) {
         return false;
     }
     if (soup->layout == TL_SOUP_COMPACT) {

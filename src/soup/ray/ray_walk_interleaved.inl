@@ -61,7 +61,7 @@ static TL_ALWAYS_INLINE bool begin_lane(lane_walk *w, walk_lane *lane)
         job->t = ray->tmax;
         job->buffers = NULL;
         if (tl_ray_prepare_inline(job, &ray->origin, &ray->direction) &&
-            (job->outside == 0 || !tl_ray_misses_bounds(job))) {
+            (job->outside == 0 || tl_ray_meets_bounds(job))) {
             begin_walk(job, sizeof(tl_soup_node), &lane->ray, &lane->best);
             lane->child = 0;
             lane->stack_count = 0;
