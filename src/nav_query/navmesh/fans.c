@@ -157,8 +157,41 @@ static void number_fans_of(tl_navmesh *navmesh, uint32_t slot, uint32_t polygon)
     }
 }
 
+// Over the portals of a side: notes for each edge where its twin stands, and for the twin where the edge does. Portals
+// and the edges of a polygon across run along the side in opposite orders, a gap of wall between two at most.
+static void find_seam_twins(tl_navmesh *navmesh, uint32_t slot, uint32_t side)
+{
+    const tl_nav_tile *tile = navmesh->slots[slot].tile;
+    const tl_nav_portal *portals = tl_nav_tile_portals(tile);
+    tl_nav_ring_place last = { TL_NAV_NO_SLOT, 0, 0 };
+    for (uint32_t i = tl_nav_tile_side_first(tile, side); i < tl_nav_tile_side_first(tile, side + 1); i++) {
+        tl_nav_ring_place place = { slot, portals[i].polygon, 0 };
+        uint32_t count = 0;
+        tl_nav_ring_edge *ring = ring_at(navmesh, place, &count);
+        for (uint32_t k = 0; k < count; k++) {
+            if (!tl_nav_ring_is_open(&ring[k]) || (ring[k].to & TL_NAV_RING_SEAM) == 0) {
+                continue;
+            }
+            const tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring[k].to);
+            if (to.slot == last.slot && to.polygon == last.polygon) {
+                ring[k].twin = last.edge > 4 ? last.edge - 4 : 0;
+            }
+            last = tl_nav_ring_twin(navmesh, slot, place.polygon, ring, count, k);
+            ring[k].twin = last.edge;
+            uint32_t across_count = 0;
+            tl_nav_ring_edge *across = ring_at(navmesh, last, &across_count);
+            if (last.edge < across_count && (across[last.edge].to & TL_NAV_RING_SEAM) != 0) {
+                across[last.edge].twin = k;
+            }
+        }
+    }
+}
+
 void tl_nav_number_fans(tl_navmesh *navmesh, uint32_t slot)
 {
+    for (uint32_t side = 0; side < TL_NAV_SIDE_COUNT; side++) {
+        find_seam_twins(navmesh, slot, side);
+    }
     for (uint32_t p = 0; p < navmesh->slots[slot].rings.polygon_count; p++) {
         number_fans_of(navmesh, slot, p);
     }
@@ -196,6 +229,7 @@ void tl_nav_number_fans_on_side(tl_navmesh *navmesh, uint32_t slot, uint32_t sid
 {
     const tl_nav_tile *tile = navmesh->slots[slot].tile;
     const tl_nav_portal *portals = tl_nav_tile_portals(tile);
+    find_seam_twins(navmesh, slot, side);
     for (uint32_t i = tl_nav_tile_side_first(tile, side); i < tl_nav_tile_side_first(tile, side + 1); i++) {
         number_fans_of_portal(navmesh, slot, &portals[i]);
     }

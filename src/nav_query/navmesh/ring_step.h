@@ -36,11 +36,13 @@ static inline tl_nav_ring_place tl_nav_ring_twin(const tl_navmesh *navmesh, uint
     tl_nav_ring_seam to = tl_nav_ring_across(navmesh, slot, ring[edge].to);
     tl_nav_ring_place twin = { to.slot, to.polygon, ring[edge].twin };
     if ((ring[edge].to & TL_NAV_RING_SEAM) != 0) {
-        // Rings of other tiles change as tiles come and go. A seam's ends have the same bits in both.
+        // Rings of other tiles change as tiles come and go. A seam's ends have the same bits in both. Where nothing
+        // runs back no two edges of a ring start in one place: the search may begin anywhere.
         const tl_nav_ring_edge *end = &ring[edge + 1 < count ? edge + 1 : 0];
         uint32_t across_count = 0;
         const tl_nav_ring_edge *across = tl_nav_ring_at(navmesh, to.slot, to.polygon, &across_count);
-        for (uint32_t k = 0; k < across_count; k++) {
+        uint32_t k = !navmesh->slots[to.slot].rings.has_back && twin.edge < across_count ? twin.edge : 0;
+        for (uint32_t i = 0; i < across_count; i++, k = k + 1 < across_count ? k + 1 : 0) {
             if (across[k].x != end->x || across[k].z != end->z || !tl_nav_ring_is_open(&across[k])) {
                 continue;
             }

@@ -22,7 +22,7 @@ typedef struct tl_nav_ring_edge {
     float x, y, z;
     uint32_t to;   ///< across: a polygon of the tile, or TL_NAV_RING_...
     uint32_t turn; ///< names the free way around this vertex when a shortest path may turn here, else 0
-    uint32_t twin; ///< within a tile: the same edge's place in the ring across
+    uint32_t twin; ///< the same edge's place in the ring across; over a seam: near which it stands there, if anywhere
 } tl_nav_ring_edge;
 
 typedef struct tl_nav_ring_seam {
