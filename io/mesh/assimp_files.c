@@ -128,5 +128,9 @@ void tl_assimp_files_init(tl_assimp_files *files, const tl_mesh_source *source)
         char c = name[length - kind + i];
         says_kind = (c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c) == source->kind[i];
     }
-    snprintf(files->name, sizeof files->name, "%s%s%s", name, says_kind ? "" : ".", says_kind ? "" : source->kind);
+    memcpy(files->name, name, length);
+    if (!says_kind) {
+        files->name[length] = '.';
+        memcpy(files->name + length + 1, source->kind, kind);
+    }
 }
