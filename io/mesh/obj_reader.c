@@ -598,17 +598,15 @@ tl_result tl_obj_read_source(const tl_obj_source *source, const tl_host *host, t
     tl_imported_mesh_init(mesh_out, host != NULL ? host->allocator : NULL);
     mesh_out->format = "OBJ";
     mesh_out->source_bytes = source->size;
-    obj_reader reader;
-    memset(&reader, 0, sizeof reader);
-    reader.mesh = mesh_out;
-    reader.path = source->path;
-    reader.host = host;
-    reader.error = error_out;
-    reader.line = 1;
-    reader.size = source->size;
+    obj_reader reader = { .mesh = mesh_out,
+                          .path = source->path,
+                          .host = host,
+                          .error = error_out,
+                          .line = 1,
+                          .size = source->size,
+                          .next_progress = 1 };
     reader.origin = origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0 ? origin : NULL;
     memcpy(mesh_out->origin, origin, sizeof mesh_out->origin);
-    reader.next_progress = 1;
     tl_result result = read_obj_text(&reader, source->text, source->size, source->allow_no_faces);
     mesh_out->polygon_count = (uint32_t)reader.polygon_count;
     tl_io_release(&mesh_out->allocator, reader.polygons, reader.polygon_capacity * sizeof *reader.polygons);

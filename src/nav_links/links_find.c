@@ -121,7 +121,9 @@ static float widest_jump(const tl_navmesh *navmesh, float cell)
         const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
         box = tile != NULL ? tl_aabb_union(box, tile->bounds) : box;
     }
-    return hypotf(box.max.x - box.min.x, box.max.z - box.min.z) + 8.0f * cell;
+    const double x = (double)box.max.x - (double)box.min.x;
+    const double z = (double)box.max.z - (double)box.min.z;
+    return (float)sqrt(x * x + z * z) + 8.0f * cell;
 }
 
 static const tl_nav_tile *first_tile(const tl_navmesh *navmesh)
