@@ -559,8 +559,7 @@ static tl_result check_whole(obj_reader *reader, bool allow_no_faces)
 static tl_result reserve_guess(tl_imported_mesh *mesh, size_t size)
 {
     enum { TEXT_BYTES_PER_VERTEX = 72, BYTES_A_TRIANGLE = 40 };
-    uint64_t vertices = size / TEXT_BYTES_PER_VERTEX;
-    uint64_t triangles = size / BYTES_A_TRIANGLE;
+    uint64_t vertices = size / TEXT_BYTES_PER_VERTEX, triangles = size / BYTES_A_TRIANGLE;
     vertices = vertices < TL_MAX_MESH_VERTICES ? vertices : TL_MAX_MESH_VERTICES;
     triangles = triangles < TL_MAX_MESH_TRIANGLES ? triangles : TL_MAX_MESH_TRIANGLES;
     tl_result result = tl_imported_mesh_reserve_vertices(mesh, vertices);
@@ -580,12 +579,8 @@ static tl_result read_obj_text(obj_reader *reader, const char *text, size_t size
     }
     size_t mark = size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0; // UTF-8 byte order mark
     tl_result result = read_sections(reader, text + mark, size - mark);
-    if (result == TL_OK) {
-        result = check_whole(reader, allow_no_faces);
-    }
-    if (result == TL_OK && reader->polygon_count > 0) {
-        result = split_polygons(reader);
-    }
+    result = result == TL_OK ? check_whole(reader, allow_no_faces) : result;
+    result = result == TL_OK && reader->polygon_count > 0 ? split_polygons(reader) : result;
     return result == TL_OK && tl_io_progress(reader->host, stage, size, size) != TL_OK
                ? tl_io_fail(reader->error, TL_ERR_CANCELLED, reader->path, 0, NULL, "cancelled")
                : result;
