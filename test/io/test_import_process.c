@@ -89,7 +89,7 @@ static tl_result take_memory(const tl_mesh_source *source, const tl_allocator *a
 {
     (void)allocator;
     (void)mesh_out;
-    void *block = malloc((size_t)1 << 30);
+    void *volatile block = malloc((size_t)1 << 30); // volatile: a compiler may leave out a pair that nothing looks at
     if (block == NULL) {
         return tl_io_fail(error_out, TL_ERR_MEMORY, source->name, 0, NULL, "out of memory");
     }
