@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+
+import type { Aabb, BakeHooks, Freeable, Pose, Vec3, Vec3Like } from './base.js';
+
+/** How far an answer can be trusted. */
+export type ConvexStatus = 'converged' | 'iterations' | 'degenerate' | 'not finite';
+
+/** A convex shape in its own frame. `radius` rounds it: metres, >= 0, by default 0. */
+export type Shape =
+  | { type: 'sphere'; center?: Vec3Like; radius: number }
+  | { type: 'capsule'; a: Vec3Like; b: Vec3Like; radius: number }
+  | { type: 'box'; center?: Vec3Like; halfExtents: Vec3Like; radius?: number }
+  | { type: 'triangle'; a: Vec3Like; b: Vec3Like; c: Vec3Like; radius?: number }
+  | { type: 'cylinder'; a: Vec3Like; b: Vec3Like; discRadius: number; radius?: number }
+  | { type: 'cone'; base: Vec3Like; apex: Vec3Like; discRadius: number; radius?: number }
+  | { type: 'points'; points: ArrayLike<number>; radius?: number }
+  | { type: 'hull'; hull: Hull; radius?: number }
+  | Hull;
+
+export interface HullOptions extends BakeHooks {
+  /** 0: no limit, else >= 4. Default 0. */
+  maxVertices?: number;
+  /** Metres, >= 0: how thick input without volume is made. Default 0: it is refused. */
+  thickness?: number;
+  /** Half ulps of the largest coordinate: input this thin counts as flat. Default 8. */
+  flatness?: number;
+}
+
+export interface HullReport {
+  /** Before coplanar ones were merged. */
+  triangleCount: number;
+  thickened: boolean;
+  /** Points outside, because maxVertices was reached. */
+  pointsLeftOut: number;
+  /** Metres: how far the farthest of these is from the hull. */
+  maxOutside: number;
+}
+
+/** For density 1. */
+export interface HullMass {
+  /** Cubic metres. */
+  volume: number;
+  /** Square metres. */
+  area: number;
+  center: Vec3;
+  /** About the centre: xx, yy, zz, xy, xz, yz of the tensor. */
+  inertia: Float64Array;
+}
+
+/** Where a ray enters a hull. */
+export interface HullHit {
+  /** In units of the direction's length; 0 when the origin is inside. */
+  t: number;
+  /** Null when the origin is inside. */
+  face: number | null;
+  normal: Vec3;
+}
+
+/** The convex hull of points: exact, at any scale. */
+export class Hull implements Freeable {
+  /**
+   * @param points x, y, z of each, metres
+   * @throws TalusError TL_ERR_EMPTY, TL_ERR_NOT_FINITE, TL_ERR_RANGE (point), TL_ERR_COINCIDENT, TL_ERR_COLLINEAR,
+   * TL_ERR_COPLANAR (no volume), TL_ERR_ARGUMENT, TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED
+   */
+  static bake(points: ArrayLike<number>, options?: HullOptions): Hull;
+  /** Copies and checks a hull's bytes. */
+  static fromBytes(bytes: Uint8Array): Hull;
+  private constructor();
+  readonly freed: boolean;
+  free(): void;
+  [Symbol.dispose](): void;
+
+  /** Null for a hull that came from bytes. */
+  readonly report: HullReport | null;
+  /** A copy of the hull's bytes: the same as natively. */
+  toBytes(): Uint8Array;
+  /** A copy of this hull: scaled along its own axes, then turned and moved. A negative scale mirrors. */
+  transform(scale: Vec3Like, pose?: Pose | null): Hull;
+
+  readonly vertexCount: number;
+  readonly faceCount: number;
+  bounds(): Aabb;
+  mass(): HullMass;
+  /** x, y, z of each vertex. */
+  vertices(): Float32Array;
+  /** The input point of each vertex. */
+  sources(): Uint32Array;
+  /** Faces are polygons: face f has the corners `indices[first[f]]` to `indices[first[f + 1] - 1]`. */
+  faces(): { first: Uint32Array; indices: Uint32Array };
+  /** Faces as triangles, three vertices each: for drawing. */
+  triangles(): Uint32Array;
+  /** Edges, two vertices each, each edge once: for drawing. */
+  edges(): Uint32Array;
+
+  /** The vertex farthest along a direction, exactly; `hint` is a vertex to begin at, and changes the time only. */
+  support(x: number, y: number, z: number, hint?: number): number;
+  /**
+   * The climb of the article: from `start` (by default 0) always to the neighbour farthest along the direction, until
+   * none is farther. The vertices visited, the last of which is a farthest one.
+   */
+  supportClimb(direction: Vec3Like, start?: number): Uint32Array;
+  castRay(origin: Vec3Like, direction: Vec3Like, maxT?: number): HullHit | null;
+  /** Whether a point lies in the closed hull, exactly. */
+  contains(point: Vec3Like): boolean;
+}
+
+export interface Separation {
+  /** Metres between the witness points; 0 on overlap. */
+  distance: number;
+  /** Metres; the true distance is not less. */
+  lowerBound: number;
+  overlap: boolean;
+  /** On A's surface, in the world. */
+  pointA: Vec3;
+  pointB: Vec3;
+  /** Unit, from A to B; zero on overlap. */
+  normal: Vec3;
+  status: ConvexStatus;
+  iterations: number;
+}
+
+export interface Penetration {
+  /** Metres: moving B this far along the normal separates the shapes. */
+  depth: number;
+  lowerBound: number;
+  upperBound: number;
+  normal: Vec3;
+  pointA: Vec3;
+  pointB: Vec3;
+  status: ConvexStatus;
+  iterations: number;
+}
+
+export interface ConvexHit {
+  initialOverlap: boolean;
+  /** Fraction of the motion; never later than the true one but for rounding. */
+  t: number;
+  /** Metres still between the shapes at t. */
+  gap: number;
+  /** On A's surface. */
+  point: Vec3;
+  /** From A to B. */
+  normal: Vec3;
+  status: ConvexStatus;
+  iterations: number;
+}
+
+export interface ContactManifold {
+  /** From A to B. */
+  normal: Vec3;
+  /** At most four. A negative separation is a depth. */
+  contacts: { pointA: Vec3; pointB: Vec3; separation: number }[];
+  status: ConvexStatus;
+}
+
+/** Distance and nearest points of two shapes. A pose that is null is the identity. */
+export function distance(a: Shape, poseA: Pose | null, b: Shape, poseB: Pose | null): Separation;
+/** Whether two shapes share a point. Cheaper than the distance. */
+export function overlap(a: Shape, poseA: Pose | null, b: Shape, poseB: Pose | null): boolean;
+/** The shortest motion that separates two shapes. Null: they are apart. */
+export function penetration(a: Shape, poseA: Pose | null, b: Shape, poseB: Pose | null): Penetration | null;
+/** Moves B by `motion`, metres, and finds when it first touches A. Null: it does not. */
+export function cast(a: Shape, poseA: Pose | null, b: Shape, poseB: Pose | null, motion: Vec3Like): ConvexHit | null;
+/** Where two shapes rest on each other. Lengths in metres, by default 0. */
+export function contacts(a: Shape, poseA: Pose | null, b: Shape, poseB: Pose | null,
+                         limits?: { margin?: number; tolerance?: number }): ContactManifold;
+/** Casts a ray at a shape. */
+export function castRayAtShape(shape: Shape, pose: Pose | null, origin: Vec3Like, direction: Vec3Like,
+                               maxT?: number): ConvexHit | null;
+/** The box of a shape in the world. */
+export function shapeBounds(shape: Shape, pose?: Pose | null): Aabb;
