@@ -22,7 +22,7 @@ typedef struct tl_gltf_bytes {
 /// A parsed file, and what its buffers hold so far: each is loaded when it is first read.
 typedef struct tl_gltf_file {
     const tl_mesh_source *source;
-    cgltf_data *data;
+    const tl_gltf_data *data;
     tl_gltf_bytes *buffers; ///< one a buffer
     tl_gltf_bytes *views;   ///< one a buffer view; filled for compressed views only
     tl_allocator allocator;
@@ -35,12 +35,12 @@ void tl_gltf_file_free(tl_gltf_file *file);
 
 /// Reads `accessor` as floats, `width` an element (3: VEC3), `out` holding count * width; normalised integers become
 /// fractions. TL_ERR_FORMAT: of another type, or beyond its buffer; errors of tl_sibling_open.
-tl_result tl_gltf_read_floats(tl_gltf_file *file, const cgltf_accessor *accessor, size_t width, float *out);
+tl_result tl_gltf_read_floats(tl_gltf_file *file, uint32_t accessor, size_t width, float *out);
 
-/// Reads `accessor` as indices.
-tl_result tl_gltf_read_indices(tl_gltf_file *file, const cgltf_accessor *accessor, uint32_t *out);
+/// Reads `accessor` as indices, `out` holding count.
+tl_result tl_gltf_read_indices(tl_gltf_file *file, uint32_t accessor, uint32_t *out);
 
 /// Whether so many elements can be there: a count that only says so allocates nothing.
-tl_result tl_gltf_check_accessor(tl_gltf_file *file, const cgltf_accessor *accessor);
+tl_result tl_gltf_check_accessor(tl_gltf_file *file, uint32_t accessor);
 
 #endif

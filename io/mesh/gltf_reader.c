@@ -12,7 +12,7 @@
 
 // A node still to be visited, and its parent's map to the world.
 typedef struct pending_gltf_node {
-    const cgltf_node *node;
+    uint32_t node;
     tl_affine parent;
 } pending_gltf_node;
 
@@ -24,7 +24,6 @@ typedef struct gltf_reader {
     pending_gltf_node *stack;
     uint64_t stack_count;
     uint64_t stack_capacity;
-    uint64_t visited_count;
     float *positions; // of the primitive
     uint64_t position_capacity;
     uint32_t *indices;
@@ -69,9 +68,9 @@ static bool is_known_extension(const char *name)
 
 static tl_result check_extensions(const gltf_reader *reader)
 {
-    const cgltf_data *data = reader->file.data;
-    for (size_t i = 0; i < data->extensions_required_count; i++) {
-        const char *name = data->extensions_required[i];
+    const tl_gltf_data *data = reader->file.data;
+    for (uint32_t i = 0; i < data->extension_count; i++) {
+        const char *name = data->extensions[i];
         if (!is_known_extension(name)) {
             bool draco = strcmp(name, "KHR_draco_mesh_compression") == 0;
             return tl_io_fail(reader->error, TL_ERR_UNSUPPORTED, reader->name, 0,
@@ -84,14 +83,15 @@ static tl_result check_extensions(const gltf_reader *reader)
 
 // --- primitives -----------------------------------------------------------------------------------------------------
 
-static tl_result find_gltf_material(gltf_reader *reader, const cgltf_material *material, uint32_t *id_out)
+static tl_result find_gltf_material(gltf_reader *reader, uint32_t material, uint32_t *id_out)
 {
+    const char *name = material != TL_GLTF_NONE ? reader->file.data->materials[material] : NULL;
     *id_out = 0;
-    if (material == NULL || material->name == NULL || material->name[0] == '\0') {
+    if (name == NULL || name[0] == '\0') {
         return TL_OK;
     }
-    tl_result result = tl_name_table_add(&reader->mesh->names, &reader->mesh->allocator, material->name,
-                                         strlen(material->name), TL_MAX_IMPORTED_MATERIALS, id_out);
+    tl_result result = tl_name_table_add(&reader->mesh->names, &reader->mesh->allocator, name, strlen(name),
+                                         TL_MAX_IMPORTED_MATERIALS, id_out);
     if (result == TL_ERR_LIMIT) {
         return tl_io_fail(reader->error, result, reader->name, 0, "join materials",
                           "more than 65535 different materials");
@@ -100,14 +100,15 @@ static tl_result find_gltf_material(gltf_reader *reader, const cgltf_material *m
 }
 
 // The positions and indices of a primitive into the reader's arrays. Without indices each vertex is one in turn.
-static tl_result load_primitive(gltf_reader *reader, const cgltf_primitive *primitive, const cgltf_accessor *positions,
-                                size_t *index_count_out)
+static tl_result load_primitive(gltf_reader *reader, const tl_gltf_primitive *primitive, size_t *index_count_out)
 {
     const tl_allocator *allocator = &reader->mesh->allocator;
-    const cgltf_accessor *indices = primitive->indices;
-    tl_result result = tl_gltf_check_accessor(&reader->file, positions);
+    const tl_gltf_accessor *positions = &reader->file.data->accessors[primitive->positions];
+    const tl_gltf_accessor *indices =
+        primitive->indices != TL_GLTF_NONE ? &reader->file.data->accessors[primitive->indices] : NULL;
+    tl_result result = tl_gltf_check_accessor(&reader->file, primitive->positions);
     if (result == TL_OK && indices != NULL) {
-        result = tl_gltf_check_accessor(&reader->file, indices);
+        result = tl_gltf_check_accessor(&reader->file, primitive->indices);
     }
     if (result != TL_OK) {
         return result;
@@ -118,17 +119,17 @@ static tl_result load_primitive(gltf_reader *reader, const cgltf_primitive *prim
         !tl_io_grow(allocator, (void **)&reader->indices, &reader->index_capacity, 0, count, sizeof *reader->indices)) {
         return fail_gltf_memory(reader);
     }
-    result = tl_gltf_read_floats(&reader->file, positions, 3, reader->positions);
+    result = tl_gltf_read_floats(&reader->file, primitive->positions, 3, reader->positions);
     if (result == TL_OK && indices != NULL) {
-        result = tl_gltf_read_indices(&reader->file, indices, reader->indices);
+        result = tl_gltf_read_indices(&reader->file, primitive->indices, reader->indices);
     }
     for (size_t i = 0; i < count && result == TL_OK; i++) {
         if (indices == NULL) {
             reader->indices[i] = (uint32_t)i;
         } else if (reader->indices[i] >= positions->count) {
             tl_io_fail(reader->error, TL_ERR_INDEX, reader->name, 0, "export the file again",
-                       "index %zu of accessor %zu names vertex %u of %zu", i,
-                       (size_t)(indices - reader->file.data->accessors), reader->indices[i], positions->count);
+                       "index %zu of accessor %u names vertex %u of %zu", i, primitive->indices, reader->indices[i],
+                       positions->count);
             return tl_io_blame(reader->error, TL_ERR_INDEX, "face", reader->mesh->face_count);
         }
     }
@@ -160,12 +161,12 @@ static tl_result add_gltf_vertices(gltf_reader *reader, size_t count, const tl_a
     return TL_OK;
 }
 
-static tl_result add_gltf_triangles(gltf_reader *reader, cgltf_primitive_type type, size_t count, uint32_t first_vertex,
+static tl_result add_gltf_triangles(gltf_reader *reader, tl_gltf_mode mode, size_t count, uint32_t first_vertex,
                                     bool mirrored, uint32_t material)
 {
     tl_imported_mesh *mesh = reader->mesh;
-    bool strip = type == cgltf_primitive_type_triangle_strip;
-    bool fan = type == cgltf_primitive_type_triangle_fan;
+    bool strip = mode == TL_GLTF_TRIANGLE_STRIP;
+    bool fan = mode == TL_GLTF_TRIANGLE_FAN;
     size_t triangles = strip || fan ? (count >= 3 ? count - 2 : 0) : count / 3;
     if (!strip && !fan && count % 3 != 0) {
         return tl_io_fail(reader->error, TL_ERR_FORMAT, reader->name, 0, "export the file again",
@@ -199,61 +200,51 @@ static tl_result add_gltf_triangles(gltf_reader *reader, cgltf_primitive_type ty
     return TL_OK;
 }
 
-static tl_result add_gltf_faces(gltf_reader *reader, const cgltf_primitive *primitive, size_t count,
+static tl_result add_gltf_faces(gltf_reader *reader, const tl_gltf_primitive *primitive, size_t count,
                                 uint32_t first_vertex, bool mirrored)
 {
     tl_imported_mesh *mesh = reader->mesh;
     uint32_t material;
     tl_result result;
-    switch (primitive->type) {
-    case cgltf_primitive_type_points:
+    switch (primitive->mode) {
+    case TL_GLTF_POINTS:
         mesh->ignored_points += count;
         return TL_OK;
-    case cgltf_primitive_type_lines:
+    case TL_GLTF_LINES:
         mesh->ignored_lines += count / 2;
         return TL_OK;
-    case cgltf_primitive_type_line_strip:
+    case TL_GLTF_LINE_STRIP:
         mesh->ignored_lines += count - 1;
         return TL_OK;
-    case cgltf_primitive_type_line_loop:
+    case TL_GLTF_LINE_LOOP:
         mesh->ignored_lines += count;
         return TL_OK;
-    case cgltf_primitive_type_triangles:
-    case cgltf_primitive_type_triangle_strip:
-    case cgltf_primitive_type_triangle_fan:
+    case TL_GLTF_TRIANGLES:
+    case TL_GLTF_TRIANGLE_STRIP:
+    case TL_GLTF_TRIANGLE_FAN:
         result = find_gltf_material(reader, primitive->material, &material);
         return result != TL_OK ? result
-                               : add_gltf_triangles(reader, primitive->type, count, first_vertex, mirrored, material);
+                               : add_gltf_triangles(reader, primitive->mode, count, first_vertex, mirrored, material);
     default:
         return tl_io_fail(reader->error, TL_ERR_FORMAT, reader->name, 0, "export the file again",
                           "a mesh of an unknown mode");
     }
 }
 
-static const cgltf_accessor *find_positions(const cgltf_primitive *primitive)
-{
-    for (size_t i = 0; i < primitive->attributes_count; i++) {
-        if (primitive->attributes[i].type == cgltf_attribute_type_position) {
-            return primitive->attributes[i].data;
-        }
-    }
-    return NULL;
-}
-
 // A primitive, once for each of the maps.
-static tl_result add_primitive(gltf_reader *reader, const cgltf_primitive *primitive, const tl_affine *maps,
+static tl_result add_primitive(gltf_reader *reader, const tl_gltf_primitive *primitive, const tl_affine *maps,
                                size_t map_count)
 {
-    const cgltf_accessor *positions = find_positions(primitive);
-    if (positions == NULL) {
+    if (primitive->positions == TL_GLTF_NONE) {
         return TL_OK; // nothing to see, says glTF
     }
-    if (primitive->has_draco_mesh_compression && positions->buffer_view == NULL) {
+    const tl_gltf_accessor *positions = &reader->file.data->accessors[primitive->positions];
+    if (primitive->is_draco && positions->view == TL_GLTF_NONE) {
         return tl_io_fail(reader->error, TL_ERR_UNSUPPORTED, reader->name, 0, "export it without Draco compression",
                           "its meshes are packed by the glTF extension KHR_draco_mesh_compression, which is not read");
     }
     size_t count = 0;
-    tl_result result = load_primitive(reader, primitive, positions, &count);
+    tl_result result = load_primitive(reader, primitive, &count);
     for (size_t i = 0; i < map_count && result == TL_OK; i++) {
         uint32_t first_vertex = reader->mesh->vertex_count;
         result = add_gltf_vertices(reader, positions->count, &maps[i]);
@@ -267,18 +258,18 @@ static tl_result add_primitive(gltf_reader *reader, const cgltf_primitive *primi
 // --- nodes ----------------------------------------------------------------------------------------------------------
 
 // A translation, a turn (a unit quaternion) and a scale.
-static tl_affine affine_of_parts(const float t[3], const float q[4], const float s[3])
+static tl_affine affine_of_parts(const double t[3], const double q[4], const double s[3])
 {
-    double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
-    double sx = (double)s[0], sy = (double)s[1], sz = (double)s[2];
+    double x = q[0], y = q[1], z = q[2], w = q[3];
+    double sx = s[0], sy = s[1], sz = s[2];
     return (tl_affine){ {
-        { (1 - 2 * (y * y + z * z)) * sx, 2 * (x * y - z * w) * sy, 2 * (x * z + y * w) * sz, (double)t[0] },
-        { 2 * (x * y + z * w) * sx, (1 - 2 * (x * x + z * z)) * sy, 2 * (y * z - x * w) * sz, (double)t[1] },
-        { 2 * (x * z - y * w) * sx, 2 * (y * z + x * w) * sy, (1 - 2 * (x * x + y * y)) * sz, (double)t[2] },
+        { (1 - 2 * (y * y + z * z)) * sx, 2 * (x * y - z * w) * sy, 2 * (x * z + y * w) * sz, t[0] },
+        { 2 * (x * y + z * w) * sx, (1 - 2 * (x * x + z * z)) * sy, 2 * (y * z - x * w) * sz, t[1] },
+        { 2 * (x * z - y * w) * sx, 2 * (y * z + x * w) * sy, (1 - 2 * (x * x + y * y)) * sz, t[2] },
     } };
 }
 
-static tl_affine affine_of_node(const cgltf_node *node)
+static tl_affine affine_of_node(const tl_gltf_node *node)
 {
     if (!node->has_matrix) {
         return affine_of_parts(node->translation, node->rotation, node->scale);
@@ -286,93 +277,97 @@ static tl_affine affine_of_node(const cgltf_node *node)
     tl_affine result;
     for (int i = 0; i < 3; i++) {
         for (int k = 0; k < 4; k++) {
-            result.row[i][k] = (double)node->matrix[k * 4 + i];
+            result.row[i][k] = node->matrix[k * 4 + i];
         }
     }
     return result;
 }
 
-// One attribute of the instances, `width` floats each, into `values`; untouched when it is not there.
-static tl_result read_instance_attribute(gltf_reader *reader, const cgltf_node *node, const char *name, size_t width,
-                                         size_t count, float *values)
+// One attribute of the instances, `width` numbers each, into `values`; untouched when it is not there. `floats` is
+// room.
+static tl_result read_instance_attribute(gltf_reader *reader, uint32_t accessor, size_t width, size_t count,
+                                         float *floats, double *values)
 {
-    const cgltf_mesh_gpu_instancing *instancing = &node->mesh_gpu_instancing;
-    for (size_t i = 0; i < instancing->attributes_count; i++) {
-        const cgltf_accessor *accessor = instancing->attributes[i].data;
-        if (instancing->attributes[i].name == NULL || strcmp(instancing->attributes[i].name, name) != 0) {
-            continue;
-        }
-        if (accessor->count != count) {
-            return tl_io_fail(reader->error, TL_ERR_FORMAT, reader->name, 0, "export the file again",
-                              "the attributes of instances differ in their counts");
-        }
-        tl_result result = tl_gltf_check_accessor(&reader->file, accessor);
-        return result == TL_OK ? tl_gltf_read_floats(&reader->file, accessor, width, values) : result;
+    if (accessor == TL_GLTF_NONE) {
+        return TL_OK;
     }
-    return TL_OK;
+    if (reader->file.data->accessors[accessor].count != count) {
+        return tl_io_fail(reader->error, TL_ERR_FORMAT, reader->name, 0, "export the file again",
+                          "the attributes of instances differ in their counts");
+    }
+    tl_result result = tl_gltf_check_accessor(&reader->file, accessor);
+    result = result == TL_OK ? tl_gltf_read_floats(&reader->file, accessor, width, floats) : result;
+    for (size_t i = 0; i < count * width && result == TL_OK; i++) {
+        values[i] = (double)floats[i];
+    }
+    return result;
 }
 
 // The maps of EXT_mesh_gpu_instancing into the reader's array.
-static tl_result load_instances(gltf_reader *reader, const cgltf_node *node, const tl_affine *to_world,
+static tl_result load_instances(gltf_reader *reader, const tl_gltf_node *node, const tl_affine *to_world,
                                 size_t *count_out)
 {
     const tl_allocator *allocator = &reader->mesh->allocator;
-    const cgltf_mesh_gpu_instancing *instancing = &node->mesh_gpu_instancing;
     *count_out = 0;
-    if (instancing->attributes_count == 0) {
+    if (node->instanced_by == TL_GLTF_NONE) {
         return TL_OK;
     }
-    tl_result result = tl_gltf_check_accessor(&reader->file, instancing->attributes[0].data);
+    tl_result result = tl_gltf_check_accessor(&reader->file, node->instanced_by);
     if (result != TL_OK) {
         return result;
     }
-    size_t count = instancing->attributes[0].data->count;
-    float *values = tl_io_allocate(allocator, count * 10 * sizeof *values);
+    size_t count = reader->file.data->accessors[node->instanced_by].count;
+    size_t room = count * (10 * sizeof(double) + 4 * sizeof(float));
+    double *values = tl_io_allocate(allocator, room);
     if (values == NULL || !tl_io_grow(allocator, (void **)&reader->instances, &reader->instance_capacity, 0, count,
                                       sizeof *reader->instances)) {
-        tl_io_release(allocator, values, count * 10 * sizeof *values);
+        tl_io_release(allocator, values, room);
         return fail_gltf_memory(reader);
     }
-    float *moves = values, *turns = values + count * 3, *scales = values + count * 7;
+    double *moves = values, *turns = values + count * 3, *scales = values + count * 7;
+    float *floats = (float *)(values + count * 10);
     for (size_t i = 0; i < count; i++) {
         memset(moves + i * 3, 0, 3 * sizeof *moves);
-        memcpy(turns + i * 4, (const float[4]){ 0.0f, 0.0f, 0.0f, 1.0f }, 4 * sizeof *turns);
-        memcpy(scales + i * 3, (const float[3]){ 1.0f, 1.0f, 1.0f }, 3 * sizeof *scales);
+        memcpy(turns + i * 4, (const double[4]){ 0.0, 0.0, 0.0, 1.0 }, 4 * sizeof *turns);
+        memcpy(scales + i * 3, (const double[3]){ 1.0, 1.0, 1.0 }, 3 * sizeof *scales);
     }
-    result = read_instance_attribute(reader, node, "TRANSLATION", 3, count, moves);
-    result = result != TL_OK ? result : read_instance_attribute(reader, node, "ROTATION", 4, count, turns);
-    result = result != TL_OK ? result : read_instance_attribute(reader, node, "SCALE", 3, count, scales);
+    const uint32_t *by = node->instances;
+    result = read_instance_attribute(reader, by[TL_GLTF_TRANSLATION], 3, count, floats, moves);
+    result = result == TL_OK ? read_instance_attribute(reader, by[TL_GLTF_ROTATION], 4, count, floats, turns) : result;
+    result = result == TL_OK ? read_instance_attribute(reader, by[TL_GLTF_SCALE], 3, count, floats, scales) : result;
     for (size_t i = 0; i < count && result == TL_OK; i++) {
         tl_affine local = affine_of_parts(moves + i * 3, turns + i * 4, scales + i * 3);
         reader->instances[i] = tl_affine_multiply(to_world, &local);
     }
-    tl_io_release(allocator, values, count * 10 * sizeof *values);
+    tl_io_release(allocator, values, room);
     *count_out = count;
     return result;
 }
 
-static tl_result add_gltf_node(gltf_reader *reader, const cgltf_node *node, const tl_affine *to_world)
+static tl_result add_gltf_node(gltf_reader *reader, const tl_gltf_node *node, const tl_affine *to_world)
 {
-    if (node->mesh == NULL) {
+    if (node->mesh == TL_GLTF_NONE) {
         return TL_OK;
     }
+    const tl_gltf_data *data = reader->file.data;
+    const tl_gltf_mesh *mesh = &data->meshes[node->mesh];
     const tl_affine *maps = to_world;
     size_t map_count = 1;
     tl_result result = TL_OK;
-    if (node->has_mesh_gpu_instancing) {
+    if (node->has_instances) {
         result = load_instances(reader, node, to_world, &map_count);
         maps = reader->instances;
     }
     for (size_t i = 0; i < map_count && result == TL_OK; i++) {
         reader->mesh->mirrored_nodes += tl_affine_mirrors(&maps[i]);
     }
-    for (size_t i = 0; i < node->mesh->primitives_count && result == TL_OK; i++) {
-        result = add_primitive(reader, &node->mesh->primitives[i], maps, map_count);
+    for (uint32_t i = 0; i < mesh->primitive_count && result == TL_OK; i++) {
+        result = add_primitive(reader, &data->primitives[mesh->first_primitive + i], maps, map_count);
     }
     return result;
 }
 
-static tl_result push_gltf_nodes(gltf_reader *reader, cgltf_node *const *nodes, size_t count, const tl_affine *parent)
+static tl_result push_gltf_nodes(gltf_reader *reader, const uint32_t *nodes, size_t count, const tl_affine *parent)
 {
     if (!tl_io_grow(&reader->mesh->allocator, (void **)&reader->stack, &reader->stack_capacity, reader->stack_count,
                     reader->stack_count + count, sizeof *reader->stack)) {
@@ -386,37 +381,20 @@ static tl_result push_gltf_nodes(gltf_reader *reader, cgltf_node *const *nodes, 
     return TL_OK;
 }
 
-static tl_result push_roots(gltf_reader *reader)
-{
-    const cgltf_data *data = reader->file.data;
-    const cgltf_scene *scene = data->scene != NULL ? data->scene : data->scenes_count > 0 ? &data->scenes[0] : NULL;
-    tl_affine identity = tl_affine_identity();
-    if (scene != NULL) {
-        return push_gltf_nodes(reader, scene->nodes, scene->nodes_count, &identity);
-    }
-    tl_result result = TL_OK;
-    for (size_t i = data->nodes_count; i-- > 0 && result == TL_OK;) {
-        cgltf_node *node = &data->nodes[i];
-        result = node->parent == NULL ? push_gltf_nodes(reader, &node, 1, &identity) : TL_OK;
-    }
-    return result;
-}
-
-// Depth first, children in their order. Each node has one parent, so more visits than nodes mean a ring.
+// Depth first, children in their order. The parser has seen that each node comes once.
 static tl_result walk_gltf_nodes(gltf_reader *reader)
 {
-    tl_result result = push_roots(reader);
+    const tl_gltf_data *data = reader->file.data;
+    tl_affine identity = tl_affine_identity();
+    tl_result result = push_gltf_nodes(reader, data->roots, data->root_count, &identity);
     while (reader->stack_count > 0 && result == TL_OK) {
-        if (reader->stack_count + reader->visited_count++ > reader->file.data->nodes_count) {
-            return tl_io_fail(reader->error, TL_ERR_FORMAT, reader->name, 0, "export the file again",
-                              "a node stands below itself, or twice in a scene");
-        }
         pending_gltf_node pending = reader->stack[--reader->stack_count];
-        tl_affine local = affine_of_node(pending.node);
+        const tl_gltf_node *node = &data->nodes[pending.node];
+        tl_affine local = affine_of_node(node);
         tl_affine to_world = tl_affine_multiply(&pending.parent, &local);
-        result = add_gltf_node(reader, pending.node, &to_world);
+        result = add_gltf_node(reader, node, &to_world);
         if (result == TL_OK) {
-            result = push_gltf_nodes(reader, pending.node->children, pending.node->children_count, &to_world);
+            result = push_gltf_nodes(reader, data->links + node->first_link, node->child_count, &to_world);
         }
     }
     return result;
@@ -424,38 +402,10 @@ static tl_result walk_gltf_nodes(gltf_reader *reader)
 
 // --- the file -------------------------------------------------------------------------------------------------------
 
-static tl_result parse_gltf(const tl_mesh_source *source, cgltf_data **data_out, tl_io_error *error)
-{
-    const char *bytes = source->bytes;
-    size_t mark = source->size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    cgltf_options options;
-    memset(&options, 0, sizeof options);
-    switch (cgltf_parse(&options, bytes + mark, source->size - mark, data_out)) {
-    case cgltf_result_success:
-        return TL_OK;
-    case cgltf_result_legacy_gltf:
-        return tl_io_fail(error, TL_ERR_UNSUPPORTED, source->name, 0, "export it as glTF 2.0", "glTF 1.0 is not read");
-    case cgltf_result_out_of_memory:
-        return tl_io_fail(error, TL_ERR_MEMORY, source->name, 0, NULL, "out of memory");
-    case cgltf_result_data_too_short:
-        return tl_io_fail(error, TL_ERR_FORMAT, source->name, 0, "export it again", "the file is cut short");
-    case cgltf_result_invalid_json:
-        return tl_io_fail(error, TL_ERR_FORMAT, source->name, 0, "export it again", "the JSON of the glTF is damaged");
-    default:
-        return tl_io_fail(error, TL_ERR_FORMAT, source->name, 0, "export it again", "no well-formed glTF 2.0");
-    }
-}
-
 static tl_result read_gltf_scene(gltf_reader *reader, bool allow_no_triangles)
 {
     tl_imported_mesh *mesh = reader->mesh;
-    const cgltf_data *data = reader->file.data;
     uint32_t nameless;
-    for (size_t i = 0; i < data->materials_count; i++) {
-        if (data->materials[i].name != NULL) {
-            cgltf_decode_string(data->materials[i].name);
-        }
-    }
     if (tl_name_table_add(&mesh->names, &mesh->allocator, "", 0, 1, &nameless) != TL_OK) {
         return fail_gltf_memory(reader);
     }
@@ -476,8 +426,8 @@ tl_result tl_gltf_read(const tl_mesh_source *source, const tl_allocator *allocat
                        tl_io_error *error_out)
 {
     memset(mesh_out, 0, sizeof *mesh_out);
-    cgltf_data *data = NULL;
-    tl_result result = parse_gltf(source, &data, error_out);
+    tl_gltf_data data;
+    tl_result result = tl_gltf_parse(source, allocator, &data, error_out);
     if (result != TL_OK) {
         return result;
     }
@@ -488,7 +438,7 @@ tl_result tl_gltf_read(const tl_mesh_source *source, const tl_allocator *allocat
     mesh_out->source_bytes = source->size;
     gltf_reader reader;
     memset(&reader, 0, sizeof reader);
-    reader.file = (tl_gltf_file){ source, data, NULL, NULL, mesh_out->allocator, error_out };
+    reader.file = (tl_gltf_file){ source, &data, NULL, NULL, mesh_out->allocator, error_out };
     reader.mesh = mesh_out;
     reader.name = source->name;
     reader.error = error_out;
@@ -497,7 +447,7 @@ tl_result tl_gltf_read(const tl_mesh_source *source, const tl_allocator *allocat
     tl_io_release(&mesh_out->allocator, reader.positions, reader.position_capacity * sizeof *reader.positions);
     tl_io_release(&mesh_out->allocator, reader.indices, reader.index_capacity * sizeof *reader.indices);
     tl_io_release(&mesh_out->allocator, reader.instances, reader.instance_capacity * sizeof *reader.instances);
-    cgltf_free(data);
+    tl_gltf_data_free(&data);
     if (result != TL_OK) {
         tl_imported_mesh_free(mesh_out);
     }

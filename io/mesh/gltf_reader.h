@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// glTF 2.0, text (.gltf) and binary (.glb), parsed by cgltf.
+// glTF 2.0, text (.gltf) and binary (.glb), its JSON parsed by Jansson.
 //
 // Read: the nodes of the file's scene (of its first one, or all nodes without a parent, when it names none), meshes of
 // triangles, strips and fans; positions of any component type (KHR_mesh_quantization), packed by

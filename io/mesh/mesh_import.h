@@ -2,7 +2,7 @@
 //
 // Reading any mesh file by one call.
 //
-// OBJ is read by our own reader (obj_reader.h), glTF and GLB over cgltf (gltf_reader.h); FBX, STL, PLY, Collada (DAE)
+// OBJ, glTF and GLB are read by our own readers (obj_reader.h, gltf_reader.h); FBX, STL, PLY, Collada (DAE)
 // and every other format that Assimp knows, by Assimp. The file's name decides, then its first bytes: a file without a
 // known extension, or standard input ("-"), is recognised by its content.
 

@@ -53,7 +53,13 @@
     "{'bufferView':3,'byteOffset':8,'componentType':5123,'count':3,'type':'SCALAR'},"                                  \
     "{'bufferView':12,'componentType':5123,'count':4,'type':'VEC3'},"                                                  \
     "{'bufferView':0,'byteOffset':18446744073709551600,'componentType':5126,'count':4,'type':'VEC3'},"                 \
-    "{'bufferView':0,'componentType':5126,'count':6,'type':'VEC2'}],"
+    "{'bufferView':0,'componentType':5126,'count':6,'type':'VEC2'},"                                                   \
+    "{'componentType':5126,'count':3,'type':'VEC3','sparse':{'count':3,'indices':{'bufferView':1,"                     \
+    "'componentType':5123},'values':{'bufferView':0}}},"                                                               \
+    "{'componentType':5123,'count':3,'type':'SCALAR','sparse':{'count':3,'indices':{'bufferView':1,"                   \
+    "'componentType':5123},'values':{'bufferView':1}}},"                                                               \
+    "{'componentType':5126,'count':800000000,'type':'VEC3','sparse':{'count':1,'indices':{'bufferView':1,"             \
+    "'componentType':5123},'values':{'bufferView':0}}}],"
 #define SCENE               "'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0}],"
 #define MESH(more)          "'meshes':[{'primitives':[{'material':0," more "}]}]}"
 #define SHAPE(vertex, more) MESH("'attributes':{'POSITION':" #vertex "}" more)
@@ -102,6 +108,9 @@ static const gltf_case cases[] = {
     { "packed sequence", SCENE SHAPE(5, ",'indices':7"), NULL, 2, { 0, 0, 0 }, { 100, 200, 0 }, true },
     { "packed with exponents", SCENE SHAPE(8, ",'indices':1"), NULL, QUAD, true },
     { "sparse", SCENE SHAPE(10, ",'indices':1"), NULL, 2, { 0, 0, 0 }, { 3, 4, 0 }, false },
+    { "sparse, without the rest", SCENE SHAPE(17, ""), NULL, 1, { 0, 0, 0 }, { 1, 2, 0 }, false },
+    { "sparse indices", SCENE SHAPE(0, ",'indices':18"), NULL, 1, { 0, 0, 0 }, { 1, 2, 0 }, false },
+    { "sparse, nearly all zeros", SCENE SHAPE(19, ""), "of which the file holds 1", NONE, false },
     { "instances",
       "'extensionsRequired':['EXT_mesh_gpu_instancing'],'scenes':[{'nodes':[0]}],'nodes':[{'mesh':0,'extensions':{"
       "'EXT_mesh_gpu_instancing':{'attributes':{'TRANSLATION':9}}},'scale':[-2,1,1]}]," SHAPE(0, ",'indices':1"),
@@ -133,7 +142,7 @@ static const gltf_case cases[] = {
     { "flat positions", SCENE SHAPE(16, ""), "type that does not fit", NONE, false },
     { "a ring",
       "'scenes':[{'nodes':[0]}],'nodes':[{'children':[1]},{'children':[0],'mesh':0}]," SHAPE(0, ",'indices':1"),
-      "no well-formed", NONE, false },
+      "nodes[0] stands below itself", NONE, false },
     { "a node twice", "'scenes':[{'nodes':[0,0]}],'nodes':[{'mesh':0}]," SHAPE(0, ",'indices':1"), "twice", NONE,
       false },
     { "points", SCENE SHAPE(0, ",'mode':0"), "no triangles", NONE, false },
