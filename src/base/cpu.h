@@ -1,18 +1,35 @@
 // SPDX-License-Identifier: MIT
 //
-// What the processor can do, by the levels that kernels are compiled for (src/CMakeLists.txt).
+// Which levels of kernels this build has, and which of them the processor can run.
 //
-// The C runtime finds the features at program start (__builtin_cpu_supports): a question is one load and a branch, and
-// there is no state of our own. Elsewhere the answer is no, and the plain C kernels serve.
+// Levels, ascending: 0 is plain C, the twin that every other level is compared with. 1 has registers of 128 bits: NEON
+// on AArch64, simd128 in WebAssembly, SSE4.2 on x86-64. 2 is AVX2 with FMA and BMI1, 3 AVX-512 (F, VL, DQ, BW) besides.
+//
+// On x86-64 kernels of all levels are compiled, and the C runtime finds the features at program start
+// (__builtin_cpu_supports): a question is one load and a branch, and there is no state of our own. Elsewhere the
+// compiler's target decides. 32-bit ARM stays at 0, for its NEON takes denormals as zero; so does AArch64 with the
+// bytes of a word the other way round.
 
 #ifndef TALUS_SRC_BASE_CPU_H
 #define TALUS_SRC_BASE_CPU_H
 
 #include <stdbool.h>
 
+// TL_CPU_LEVELS: the highest level of kernels in this build. TL_CPU_BASE_LEVEL: what every processor of it can run.
 #if defined(__x86_64__) && defined(__GNUC__)
+#define TL_CPU_LEVELS     3
+#define TL_CPU_BASE_LEVEL 0
+#elif (defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)) || defined(__wasm_simd128__)
+#define TL_CPU_LEVELS     1
+#define TL_CPU_BASE_LEVEL 1
+#else
+#define TL_CPU_LEVELS     0
+#define TL_CPU_BASE_LEVEL 0
+#endif
 
-static inline bool tl_cpu_has_sse42(void)
+#if TL_CPU_LEVELS == 3
+
+static inline bool tl_cpu_has_vec128(void)
 {
     return __builtin_cpu_supports("sse4.2");
 }
@@ -28,23 +45,51 @@ static inline bool tl_cpu_has_avx512(void)
            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") && tl_cpu_has_avx2();
 }
 
+/// Whether kernels of this level are in this build, and run on this machine.
+static inline bool tl_cpu_has_level(int level)
+{
+    switch (level) {
+    case 0:
+        return true;
+    case 1:
+        return tl_cpu_has_vec128();
+    case 2:
+        return tl_cpu_has_avx2();
+    case 3:
+        return tl_cpu_has_avx512();
+    default:
+        return false;
+    }
+}
+
 #else
 
-static inline bool tl_cpu_has_sse42(void)
+static inline bool tl_cpu_has_level(int level)
 {
-    return false;
-}
-
-static inline bool tl_cpu_has_avx2(void)
-{
-    return false;
-}
-
-static inline bool tl_cpu_has_avx512(void)
-{
-    return false;
+    return level >= 0 && level <= TL_CPU_LEVELS;
 }
 
 #endif
+
+/// What a level is called on this target, for reports.
+static inline const char *tl_cpu_level_name(int level)
+{
+    switch (level) {
+    case 0:
+        return "plain C";
+    case 1:
+#if defined(__aarch64__)
+        return "NEON";
+#elif defined(__wasm__)
+        return "simd128";
+#else
+        return "SSE4.2";
+#endif
+    case 2:
+        return "AVX2";
+    default:
+        return "AVX-512";
+    }
+}
 
 #endif

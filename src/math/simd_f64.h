@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The vocabulary of simd.h for eight doubles: one register with AVX-512, two with AVX2, four with SSE4.2. Nothing here
+// The vocabulary of simd.h for eight doubles: one register with AVX-512, two with AVX2, four of simd2d.h. Nothing here
 // is fused, so all give the same bits. There is no plain C branch: eight doubles in an array are slower than a plain
 // loop.
 
@@ -8,6 +8,7 @@
 #define TALUS_SRC_MATH_SIMD_F64_H
 
 #include "math/simd.h"
+#include "math/simd2d.h"
 
 #include <stdbool.h>
 
@@ -118,24 +119,24 @@ typedef __m256d tl_f64_part;
 #define TL_F64_MIN(a, b)       _mm256_min_pd(a, b)
 #elif TL_SIMD_LEVEL == 1
 enum { TL_F64_WIDE = 2, TL_F64_PARTS = 4 };
-typedef __m128d tl_f64_part;
-#define TL_F64_ALL(value)      _mm_set1_pd(value)
-#define TL_F64_LOAD(at)        _mm_loadu_pd(at)
-#define TL_F64_STORE(at, a)    _mm_storeu_pd(at, a)
-#define TL_F64_ADD(a, b)       _mm_add_pd(a, b)
-#define TL_F64_SUB(a, b)       _mm_sub_pd(a, b)
-#define TL_F64_MUL(a, b)       _mm_mul_pd(a, b)
-#define TL_F64_DIV(a, b)       _mm_div_pd(a, b)
-#define TL_F64_LESS(a, b)      _mm_cmplt_pd(a, b)
-#define TL_F64_AND(a, b)       _mm_and_pd(a, b)
-#define TL_F64_WITHOUT(a, b)   _mm_andnot_pd(b, a)
-#define TL_F64_SELECT(m, a, b) _mm_blendv_pd(b, a, m)
-#define TL_F64_SIGNS(a)        _mm_movemask_pd(a)
-#define TL_F64_EQUAL(a, b)     _mm_cmpeq_pd(a, b)
-#define TL_F64_MAX(a, b)       _mm_max_pd(a, b)
-#define TL_F64_MIN(a, b)       _mm_min_pd(a, b)
+typedef tl_f64x2 tl_f64_part;
+#define TL_F64_ALL(value)      tl_f64x2_all(value)
+#define TL_F64_LOAD(at)        tl_f64x2_load(at)
+#define TL_F64_STORE(at, a)    tl_f64x2_store(at, a)
+#define TL_F64_ADD(a, b)       tl_f64x2_add(a, b)
+#define TL_F64_SUB(a, b)       tl_f64x2_sub(a, b)
+#define TL_F64_MUL(a, b)       tl_f64x2_mul(a, b)
+#define TL_F64_DIV(a, b)       tl_f64x2_div(a, b)
+#define TL_F64_LESS(a, b)      tl_f64x2_where_less(a, b)
+#define TL_F64_AND(a, b)       tl_f64x2_and(a, b)
+#define TL_F64_WITHOUT(a, b)   tl_f64x2_without(a, b)
+#define TL_F64_SELECT(m, a, b) tl_f64x2_select(m, a, b)
+#define TL_F64_SIGNS(a)        tl_f64x2_masks(a)
+#define TL_F64_EQUAL(a, b)     tl_f64x2_where_equal(a, b)
+#define TL_F64_MAX(a, b)       tl_f64x2_max(a, b)
+#define TL_F64_MIN(a, b)       tl_f64x2_min(a, b)
 #else
-#error "eight doubles need at least SSE4.2"
+#error "eight doubles need level 1 at least"
 #endif
 
 typedef struct tl_f64x8 {
@@ -204,11 +205,11 @@ static inline tl_mask64x8 tl_mask64x8_without(tl_mask64x8 a, tl_mask64x8 b)
 
 static inline bool tl_mask64x8_any(tl_mask64x8 a)
 {
-    int any = 0;
-    for (int i = 0; i < TL_F64_PARTS; i++) {
-        any |= TL_F64_SIGNS(a.part[i]);
-    }
-    return any != 0;
+#if TL_SIMD_LEVEL == 1
+    return tl_f64x2_any(a.part[0], a.part[1], a.part[2], a.part[3]);
+#else
+    return (TL_F64_SIGNS(a.part[0]) | TL_F64_SIGNS(a.part[1])) != 0;
+#endif
 }
 
 static inline tl_f64x8 tl_f64x8_select(tl_mask64x8 mask, tl_f64x8 a, tl_f64x8 b)

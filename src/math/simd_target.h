@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Begins the part of a kernel's file that is compiled for an instruction set: the file's own first lines say for which,
-// so that it compiles by hand and in any build system without flags of its own. simd_target_end.h ends it.
+// Begins the part of a kernel's file that is compiled for a level (base/cpu.h): the file's own first lines say for
+// which, so that it compiles by hand and in any build system without flags of its own. simd_target_end.h ends it.
 //
+//   #include "base/cpu.h"
+//
+//   #if TL_CPU_LEVELS >= 2
 //   #define TL_SIMD_LEVEL 2
 //   #include "math/simd_target.h"
 //   #include "soup/ray/ray_walk.inl"
 //   #include "math/simd_target_end.h"
+//   #endif
 //
-// Levels, x86-64: 1 is SSE4.2, 2 AVX2 with FMA and BMI1, 3 AVX-512 (F, VL, DQ, BW) besides. 0, what a file gets that
-// says nothing, is plain C: the twin that every other level is compared with.
-
-// The compilers want the words in pragmas of their own, and GCC its one before the intrinsics' header.
+// Only x86-64 has levels beyond what its compilers assume. They want the words in pragmas of their own, and GCC its one
+// before the intrinsics' header.
+#if TL_CPU_LEVELS > TL_CPU_BASE_LEVEL
 #if defined(__clang__)
 #if TL_SIMD_LEVEL == 1
 #pragma clang attribute push(__attribute__((target("sse4.2"))), apply_to = function)
@@ -21,7 +24,7 @@
 #pragma clang attribute push(__attribute__((target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi"))),               \
                              apply_to = function)
 #endif
-#elif defined(__GNUC__)
+#else
 #pragma GCC push_options
 #if TL_SIMD_LEVEL == 1
 #pragma GCC target("sse4.2")
@@ -29,5 +32,6 @@
 #pragma GCC target("avx2,fma,bmi")
 #elif TL_SIMD_LEVEL == 3
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw,avx2,fma,bmi,prefer-vector-width=512")
+#endif
 #endif
 #endif

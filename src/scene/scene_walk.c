@@ -25,36 +25,30 @@
 // A limit in double, times a scale, to float: a rounding each.
 #define LIMIT_ERROR (1.0 + 4.0 * (double)TL_FLOAT_ROUNDING)
 
-#if defined(__x86_64__) && defined(__GNUC__)
-
 tl_scene_walk_fn *tl_scene_walk_for(int level)
 {
-    switch (level) {
-    case 0:
-        return tl_scene_walk_scalar;
-    case 1:
-        return tl_cpu_has_sse42() ? tl_scene_walk_sse42 : NULL;
-    case 2:
-        return tl_cpu_has_avx2() ? tl_scene_walk_avx2 : NULL;
-    default:
-        return NULL;
-    }
-}
-
-#else
-
-tl_scene_walk_fn *tl_scene_walk_for(int level)
-{
-    return level == 0 ? tl_scene_walk_scalar : NULL;
-}
-
+    static tl_scene_walk_fn *const walks[] = {
+        tl_scene_walk_scalar,
+#if TL_CPU_LEVELS >= 1
+        tl_scene_walk_vec128,
 #endif
+#if TL_CPU_LEVELS >= 2
+        tl_scene_walk_avx2,
+#endif
+    };
+    int count = (int)(sizeof walks / sizeof *walks);
+    return level < count && tl_cpu_has_level(level) ? walks[level] : NULL;
+}
 
 static inline tl_scene_walk_fn *best_scene_walk(void)
 {
-    tl_scene_walk_fn *best = tl_scene_walk_for(2);
-    best = best != NULL ? best : tl_scene_walk_for(1);
-    return best != NULL ? best : tl_scene_walk_scalar;
+#if TL_CPU_LEVELS >= 2
+    return tl_cpu_has_avx2() ? tl_scene_walk_avx2 : tl_cpu_has_vec128() ? tl_scene_walk_vec128 : tl_scene_walk_scalar;
+#elif TL_CPU_LEVELS == 1
+    return tl_scene_walk_vec128;
+#else
+    return tl_scene_walk_scalar;
+#endif
 }
 
 // From a point to the farther of two planes.

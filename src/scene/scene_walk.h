@@ -18,6 +18,7 @@
 #ifndef TALUS_SRC_SCENE_SCENE_WALK_H
 #define TALUS_SRC_SCENE_SCENE_WALK_H
 
+#include "base/cpu.h"
 #include "scene/scene_layout.h"
 
 typedef struct tl_scene_line tl_scene_line;
@@ -60,11 +61,14 @@ void tl_scene_line_shorten(tl_scene_line *line, double t);
 bool tl_scene_line_walk(tl_scene_line *line);
 
 tl_scene_walk_fn tl_scene_walk_scalar;
-#if defined(__x86_64__)
-tl_scene_walk_fn tl_scene_walk_sse42, tl_scene_walk_avx2;
+#if TL_CPU_LEVELS >= 1
+tl_scene_walk_fn tl_scene_walk_vec128;
+#endif
+#if TL_CPU_LEVELS >= 2
+tl_scene_walk_fn tl_scene_walk_avx2;
 #endif
 
-/// The walk for an instruction set: 0 none, 1 SSE4.2, 2 AVX2. NULL where this machine or build lacks it.
+/// The walk of a level (base/cpu.h), up to 2. NULL where this machine or build lacks it.
 tl_scene_walk_fn *tl_scene_walk_for(int level);
 
 /// tl_scene_cast_ray and tl_scene_occluded (without `hit_out`) with a walk of the caller's choice.

@@ -7,45 +7,32 @@
 #include "hull/ray/hull_ray.h"
 
 #include "base/assert.h"
-#include "base/cpu.h"
 #include "math/predicates.h"
 
-#if defined(__x86_64__) && defined(__GNUC__)
-
 tl_ray_planes_fn *tl_ray_planes_for(int level)
 {
-    switch (level) {
-    case 0:
-        return tl_ray_planes_scalar;
-    case 1:
-        return tl_cpu_has_sse42() ? tl_ray_planes_sse42 : NULL;
-    case 2:
-        return tl_cpu_has_avx2() ? tl_ray_planes_avx2 : NULL;
-    case 3:
-        return tl_cpu_has_avx512() ? tl_ray_planes_avx512 : NULL;
-    default:
-        return NULL;
-    }
-}
-
-#else
-
-tl_ray_planes_fn *tl_ray_planes_for(int level)
-{
-    return level == 0 ? tl_ray_planes_scalar : NULL;
-}
-
+    static tl_ray_planes_fn *const kernels[] = {
+        tl_ray_planes_scalar,
+#if TL_CPU_LEVELS >= 1
+        tl_ray_planes_vec128,
 #endif
+#if TL_CPU_LEVELS >= 2
+        tl_ray_planes_avx2,
+        tl_ray_planes_avx512,
+#endif
+    };
+    return tl_cpu_has_level(level) ? kernels[level] : NULL;
+}
 
 bool tl_hull_clip_ray(const tl_hull *hull, const double origin[3], const double direction[3], double max_t,
                       double *t_out, uint32_t *face_out)
 {
     TL_ASSERT(hull != NULL && t_out != NULL && face_out != NULL);
-    tl_ray_planes_fn *best = NULL;
-    for (int level = 3; best == NULL; level--) {
-        best = tl_ray_planes_for(level);
+    int level = TL_CPU_LEVELS;
+    while (!tl_cpu_has_level(level)) {
+        level--;
     }
-    return best(hull, origin, direction, max_t, t_out, face_out);
+    return tl_ray_planes_for(level)(hull, origin, direction, max_t, t_out, face_out);
 }
 
 bool tl_hull_cast_ray(const tl_hull *hull, tl_vec3 origin, tl_vec3 direction, float max_t, tl_hull_hit *hit_out)

@@ -5,6 +5,8 @@
 #ifndef TALUS_SRC_HULL_RAY_H
 #define TALUS_SRC_HULL_RAY_H
 
+#include "base/cpu.h"
+
 #include <talus/hull.h>
 
 // As tl_hull_clip_ray.
@@ -12,11 +14,14 @@ typedef bool tl_ray_planes_fn(const tl_hull *hull, const double origin[3], const
                               double *t_out, uint32_t *face_out);
 
 tl_ray_planes_fn tl_ray_planes_scalar;
-#if defined(__x86_64__) && defined(__GNUC__)
-tl_ray_planes_fn tl_ray_planes_sse42, tl_ray_planes_avx2, tl_ray_planes_avx512;
+#if TL_CPU_LEVELS >= 1
+tl_ray_planes_fn tl_ray_planes_vec128;
+#endif
+#if TL_CPU_LEVELS >= 2
+tl_ray_planes_fn tl_ray_planes_avx2, tl_ray_planes_avx512;
 #endif
 
-// Of 0 scalar, 1 SSE4.2, 2 AVX2, 3 AVX-512: NULL where the machine has it not.
+// Of a level (base/cpu.h); NULL where this machine or build lacks it.
 tl_ray_planes_fn *tl_ray_planes_for(int level);
 
 #endif

@@ -2,7 +2,9 @@
 //
 // A ray against a hull's planes, for AVX2.
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#include "base/cpu.h"
+
+#if TL_CPU_LEVELS >= 2
 #define TL_SIMD_LEVEL 2
 #include "math/simd_target.h"
 

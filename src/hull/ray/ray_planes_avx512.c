@@ -2,7 +2,9 @@
 //
 // A ray against a hull's planes, for AVX-512.
 
-#if defined(__x86_64__) && defined(__GNUC__)
+#include "base/cpu.h"
+
+#if TL_CPU_LEVELS >= 3
 #define TL_SIMD_LEVEL 3
 #include "math/simd_target.h"
 

@@ -7,50 +7,50 @@
 #include "hull/support/hull_support.h"
 
 #include "base/assert.h"
-#include "base/cpu.h"
+#include "base/min_max.h"
 
 #include <string.h>
 
-#if !defined(__x86_64__)
-// Never called.
-#define tl_hull_support_avx2  tl_hull_support_scalar
-#define tl_hull_climb_avx2    tl_hull_climb_scalar
-#define tl_hull_march_avx2    tl_hull_march_scalar
-#define tl_hull_support_sse42 tl_hull_support_scalar
-#define tl_hull_climb_sse42   tl_hull_climb_scalar
-#define tl_hull_march_sse42   tl_hull_march_scalar
-#endif
-
 bool tl_support_kernel_for(tl_support_isa isa, tl_support_kernel *kernel_out)
 {
-    const tl_support_kernel kernels[TL_SUPPORT_ISA_COUNT] = {
+    static const tl_support_kernel kernels[TL_SUPPORT_ISA_COUNT] = {
         { tl_hull_support_scalar, tl_hull_climb_scalar, tl_hull_march_scalar },
-        { tl_hull_support_sse42, tl_hull_climb_sse42, tl_hull_march_sse42 },
+#if TL_CPU_LEVELS >= 1
+        { tl_hull_support_vec128, tl_hull_climb_vec128, tl_hull_march_vec128 },
+#endif
+#if TL_CPU_LEVELS >= 2
         { tl_hull_support_avx2, tl_hull_climb_avx2, tl_hull_march_avx2 },
+#endif
     };
     *kernel_out = kernels[isa];
-    return isa == TL_SUPPORT_SCALAR || (isa == TL_SUPPORT_SSE42 && tl_cpu_has_sse42()) ||
-           (isa == TL_SUPPORT_AVX2 && tl_cpu_has_avx2());
+    return tl_cpu_has_level((int)isa);
 }
 
 tl_support_kernel tl_support_kernel_best(void)
 {
+    int isa = tl_min_i32(TL_SUPPORT_ISA_COUNT - 1, TL_CPU_LEVELS);
+    while (!tl_cpu_has_level(isa)) {
+        isa--;
+    }
     tl_support_kernel kernel;
-    tl_support_kernel_for(tl_cpu_has_avx2()    ? TL_SUPPORT_AVX2
-                          : tl_cpu_has_sse42() ? TL_SUPPORT_SSE42
-                                               : TL_SUPPORT_SCALAR,
-                          &kernel);
+    tl_support_kernel_for((tl_support_isa)isa, &kernel);
     return kernel;
 }
 
 uint32_t tl_hull_support(const tl_hull *hull, tl_vec3 direction, uint32_t hint)
 {
     TL_ASSERT(hull != NULL);
+#if TL_CPU_LEVELS >= 2
     if (tl_cpu_has_avx2()) {
         return tl_hull_support_avx2(hull, direction, hint);
     }
-    return tl_cpu_has_sse42() ? tl_hull_support_sse42(hull, direction, hint)
-                              : tl_hull_support_scalar(hull, direction, hint);
+    return tl_cpu_has_vec128() ? tl_hull_support_vec128(hull, direction, hint)
+                               : tl_hull_support_scalar(hull, direction, hint);
+#elif TL_CPU_LEVELS == 1
+    return tl_hull_support_vec128(hull, direction, hint);
+#else
+    return tl_hull_support_scalar(hull, direction, hint);
+#endif
 }
 
 // 2^-exponent(size) as a double, for a float size > 0: exact, and never a denormal.

@@ -9,6 +9,7 @@
 #define TALUS_SRC_HULL_SUPPORT_H
 
 #include "base/arena.h"
+#include "base/cpu.h"
 
 #include <talus/hull.h>
 
@@ -74,10 +75,10 @@ static inline const tl_face_ring *tl_hull_rings(const tl_hull *hull)
     return tl_hull_part(hull, hull->rings);
 }
 
-// Instruction sets, ascending.
+// Instruction sets, ascending: the levels of base/cpu.h.
 typedef enum tl_support_isa {
     TL_SUPPORT_SCALAR,
-    TL_SUPPORT_SSE42,
+    TL_SUPPORT_VEC128,
     TL_SUPPORT_AVX2,
     TL_SUPPORT_ISA_COUNT
 } tl_support_isa;
@@ -90,9 +91,11 @@ typedef uint32_t tl_hull_march_fn(const tl_hull *hull, tl_vec3 from, tl_vec3 ste
 
 tl_hull_support_fn tl_hull_support_scalar, tl_hull_climb_scalar;
 tl_hull_march_fn tl_hull_march_scalar;
-#if defined(__x86_64__)
-tl_hull_support_fn tl_hull_support_sse42, tl_hull_climb_sse42;
-tl_hull_march_fn tl_hull_march_sse42;
+#if TL_CPU_LEVELS >= 1
+tl_hull_support_fn tl_hull_support_vec128, tl_hull_climb_vec128;
+tl_hull_march_fn tl_hull_march_vec128;
+#endif
+#if TL_CPU_LEVELS >= 2
 tl_hull_support_fn tl_hull_support_avx2, tl_hull_climb_avx2;
 tl_hull_march_fn tl_hull_march_avx2;
 #endif

@@ -2,7 +2,9 @@
 //
 // The support query for AVX2: a block of neighbours in one register a coordinate.
 
-#if defined(__x86_64__)
+#include "base/cpu.h"
+
+#if TL_CPU_LEVELS >= 2
 #define TL_SIMD_LEVEL 2
 #include "math/simd_target.h"
 

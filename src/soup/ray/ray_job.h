@@ -9,6 +9,7 @@
 #ifndef TALUS_SRC_SOUP_RAY_JOB_H
 #define TALUS_SRC_SOUP_RAY_JOB_H
 
+#include "base/cpu.h"
 #include "soup/layout/compact_layout.h"
 
 #include <float.h>
@@ -105,8 +106,11 @@ typedef bool tl_ray_walk_fn(const tl_soup *soup, const tl_vec3 *origin, const tl
                             bool is_segment, const tl_ray_filter *filter, tl_ray_hit *hit_out);
 
 tl_ray_walk_fn tl_ray_walk_scalar;
-#if defined(__x86_64__)
-tl_ray_walk_fn tl_ray_walk_sse42, tl_ray_walk_avx2, tl_ray_walk_avx512;
+#if TL_CPU_LEVELS >= 1
+tl_ray_walk_fn tl_ray_walk_vec128;
+#endif
+#if TL_CPU_LEVELS >= 2
+tl_ray_walk_fn tl_ray_walk_avx2, tl_ray_walk_avx512;
 #endif
 
 /// Rays of one call for closest hits.
@@ -122,8 +126,11 @@ typedef struct tl_ray_batch {
 typedef void tl_ray_walk_many_fn(const tl_ray_batch *batch);
 
 tl_ray_walk_many_fn tl_ray_walk_many_scalar;
-#if defined(__x86_64__)
-tl_ray_walk_many_fn tl_ray_walk_many_sse42, tl_ray_walk_many_avx2, tl_ray_walk_many_avx512;
+#if TL_CPU_LEVELS >= 1
+tl_ray_walk_many_fn tl_ray_walk_many_vec128;
+#endif
+#if TL_CPU_LEVELS >= 2
+tl_ray_walk_many_fn tl_ray_walk_many_avx2, tl_ray_walk_many_avx512;
 #endif
 
 /// What a batch reports for a ray that hits nothing.
@@ -134,8 +141,8 @@ static inline void tl_ray_miss(tl_ray_hit *hit)
     hit->triangle = TL_NO_TRIANGLE;
 }
 
-/// Instruction sets, ascending.
-typedef enum tl_ray_isa { TL_RAY_SCALAR, TL_RAY_SSE42, TL_RAY_AVX2, TL_RAY_AVX512, TL_RAY_ISA_COUNT } tl_ray_isa;
+/// Instruction sets, ascending: the levels of base/cpu.h.
+typedef enum tl_ray_isa { TL_RAY_SCALAR, TL_RAY_VEC128, TL_RAY_AVX2, TL_RAY_AVX512, TL_RAY_ISA_COUNT } tl_ray_isa;
 
 /// The walk for an instruction set, or NULL where this machine or build lacks it.
 tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa);

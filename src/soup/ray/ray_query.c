@@ -8,34 +8,38 @@
 #include "soup/ray/ray_job.h"
 
 #include "base/assert.h"
-#include "base/cpu.h"
 
 #include <float.h>
 #include <string.h>
 
-#if defined(__x86_64__) && defined(__GNUC__)
-
 tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
 {
-    switch (isa) {
-    case TL_RAY_SCALAR:
-        return tl_ray_walk_scalar;
-    case TL_RAY_SSE42:
-        return tl_cpu_has_sse42() ? tl_ray_walk_sse42 : NULL;
-    case TL_RAY_AVX2:
-        return tl_cpu_has_avx2() ? tl_ray_walk_avx2 : NULL;
-    case TL_RAY_AVX512:
-        return tl_cpu_has_avx512() ? tl_ray_walk_avx512 : NULL;
-    default:
-        return NULL;
-    }
+    static tl_ray_walk_fn *const walks[] = {
+        tl_ray_walk_scalar,
+#if TL_CPU_LEVELS >= 1
+        tl_ray_walk_vec128,
+#endif
+#if TL_CPU_LEVELS >= 2
+        tl_ray_walk_avx2,
+        tl_ray_walk_avx512,
+#endif
+    };
+    return tl_cpu_has_level((int)isa) ? walks[isa] : NULL;
 }
 
 tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa)
 {
-    static tl_ray_walk_many_fn *const walks[TL_RAY_ISA_COUNT] = { tl_ray_walk_many_scalar, tl_ray_walk_many_sse42,
-                                                                  tl_ray_walk_many_avx2, tl_ray_walk_many_avx512 };
-    return tl_ray_walk_for(isa) != NULL ? walks[isa] : NULL;
+    static tl_ray_walk_many_fn *const walks[] = {
+        tl_ray_walk_many_scalar,
+#if TL_CPU_LEVELS >= 1
+        tl_ray_walk_many_vec128,
+#endif
+#if TL_CPU_LEVELS >= 2
+        tl_ray_walk_many_avx2,
+        tl_ray_walk_many_avx512,
+#endif
+    };
+    return tl_cpu_has_level((int)isa) ? walks[isa] : NULL;
 }
 
 // AVX-512 on AMD's processors only: Zen 4 and later trace a ray 5 to 15 per cent faster with it. On Intel's Sapphire
@@ -43,30 +47,17 @@ tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa)
 // processors (bench_rays has a row for each). A machine with AVX-512 always has AVX2.
 static inline tl_ray_walk_fn *best_ray_walk(void)
 {
+#if TL_CPU_LEVELS == 3
     if (tl_cpu_has_avx2()) {
         return __builtin_cpu_is("amd") && tl_cpu_has_avx512() ? tl_ray_walk_avx512 : tl_ray_walk_avx2;
     }
-    return tl_cpu_has_sse42() ? tl_ray_walk_sse42 : tl_ray_walk_scalar;
-}
-
+    return tl_cpu_has_vec128() ? tl_ray_walk_vec128 : tl_ray_walk_scalar;
+#elif TL_CPU_LEVELS == 1
+    return tl_ray_walk_vec128;
 #else
-
-tl_ray_walk_fn *tl_ray_walk_for(tl_ray_isa isa)
-{
-    return isa == TL_RAY_SCALAR ? tl_ray_walk_scalar : NULL;
-}
-
-tl_ray_walk_many_fn *tl_ray_walk_many_for(tl_ray_isa isa)
-{
-    return isa == TL_RAY_SCALAR ? tl_ray_walk_many_scalar : NULL;
-}
-
-static inline tl_ray_walk_fn *best_ray_walk(void)
-{
     return tl_ray_walk_scalar;
-}
-
 #endif
+}
 
 tl_ray_isa tl_ray_best_isa(void)
 {

@@ -2,7 +2,9 @@
 //
 // The walk for AVX2 with FMA: a leaf's eight lanes in one register.
 
-#if defined(__x86_64__)
+#include "base/cpu.h"
+
+#if TL_CPU_LEVELS >= 2
 #define TL_SIMD_LEVEL 2
 #include "math/simd_target.h"
 

@@ -2,7 +2,9 @@
 //
 // The walk for AVX-512 (F, VL, BW, DQ): a node's sixteen boxes in one register.
 
-#if defined(__x86_64__)
+#include "base/cpu.h"
+
+#if TL_CPU_LEVELS >= 3
 #define TL_SIMD_LEVEL 3
 #include "math/simd_target.h"
 
