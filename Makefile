@@ -15,6 +15,8 @@ CMAKE_FLAGS ?=
 WERROR ?= OFF
 PREFIX ?= /usr/local
 TEST_FLAGS ?=
+# Targets of make cross: CROSS="aarch64 wasm32" builds and runs these.
+CROSS ?= all
 
 CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX_COMPILER=$(CXX_OF_CC) -DTALUS_WERROR=$(WERROR) \
     -DCMAKE_BUILD_TYPE=Release $(CMAKE_FLAGS)
@@ -22,7 +24,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench sanitize tsan fuzz format lint install clean
+.PHONY: all demo test benchmarks bench sanitize tsan fuzz cross format lint install clean
 
 all:
 	tools/setup tools
@@ -65,6 +67,10 @@ fuzz:
 	cmake -S . -B build/fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DTALUS_FUZZ=ON -DTALUS_TESTS=OFF -DCMAKE_BUILD_TYPE=RelWithDebInfo
 	cmake --build build/fuzz --parallel $(JOBS)
 	tools/fuzz build/fuzz/fuzz
+
+cross:
+	tools/setup tools cross
+	JOBS=$(JOBS) tools/cross $(CROSS)
 
 format:
 	git ls-files '*.c' '*.h' '*.inl' '*.cpp' '*.hpp' | xargs clang-format -i
