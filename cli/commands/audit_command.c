@@ -189,8 +189,8 @@ static tl_exit explain_missing(draw_source *source, const tl_nav_audit *audit, u
     for (uint32_t i = first; i < audit->finding_count && *count < MAX_EXPLAINED; i++) {
         tl_report report;
         memset(&report, 0, sizeof report);
-        tl_result result =
-            tl_nav_why(&def, &input, source->input.navmesh, audit->findings[i].point, &whys[*count], &report);
+        tl_result result = tl_nav_why(&def, &input, source->input.navmesh, &source->pruning, audit->findings[i].point,
+                                      &whys[*count], &report);
         if (result != TL_OK) {
             return tl_cli_fail_result(source->cli, source->input.path, result, &report);
         }
@@ -238,6 +238,7 @@ static tl_exit audit_source(draw_source *source, audit_settings *settings)
     settings->def.areas = input.areas;
     settings->def.volumes = input.volumes;
     settings->def.volume_count = input.volume_count;
+    settings->def.pruned = source->pruned;
     settings->def.nav = source->nav_def;
     settings->def.path_count = settings->paths;
     settings->def.seed = settings->seed;

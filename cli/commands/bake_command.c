@@ -14,7 +14,7 @@
 
 static tl_result make_baked_content(const tl_level *level, const tl_bake *bake, bool nav, tl_pack_content *content)
 {
-    tl_result result = tl_pack_content_make(bake->tiles.tile_count + 6, content);
+    tl_result result = tl_pack_content_make(bake->tiles.tile_count + bake->removed.tile_count + 7, content);
     if (result != TL_OK) {
         return result;
     }
@@ -41,6 +41,10 @@ static tl_result make_baked_content(const tl_level *level, const tl_bake *bake, 
     }
     tl_pack_content_add(content, TL_PACK_LINK, 0, bake->links.links);
     tl_pack_content_add(content, TL_PACK_MARK, 0, bake->marks);
+    tl_pack_content_add(content, TL_PACK_PRUN, 0, bake->pruning);
+    for (uint32_t i = 0; i < bake->removed.tile_count; ++i) {
+        tl_pack_content_add(content, TL_PACK_PRUT, i, bake->removed.tiles[i]);
+    }
     return TL_OK;
 }
 

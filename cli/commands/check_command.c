@@ -180,6 +180,7 @@ static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
         add_failed(f, part, tl_pack_navmesh_check(chunk.bytes, chunk.size, &report), &report);
         break;
     case TL_PACK_NAVT:
+    case TL_PACK_PRUT:
         memory = check_tile(f, part, chunk);
         break;
     case TL_PACK_LINK:
@@ -187,6 +188,9 @@ static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
         break;
     case TL_PACK_MARK:
         add_failed(f, part, tl_pack_volumes_check(chunk.bytes, chunk.size, &report), &report);
+        break;
+    case TL_PACK_PRUN:
+        add_failed(f, part, tl_pack_pruning_check(chunk.bytes, chunk.size, &report), &report);
         break;
     default: // a later version may have more kinds; their bytes are covered by the file's hashes
         break;

@@ -64,6 +64,19 @@ static void print_reason(const tl_nav_reason *reason, bool first)
     }
 }
 
+// The island that was left out, and what keeps it.
+static void print_pruned_island(const tl_nav_reason *reason)
+{
+    printf("pruned: island of %.4g m2, ", (double)reason->measured);
+    if (strcmp(reason->parameter, "min_area") == 0) {
+        printf("kept from --island-min-area %.6g (now %.6g)\n", (double)reason->needed, (double)reason->value);
+    } else if (strcmp(reason->parameter, "solids") == 0) {
+        printf("inside a closed part of the level; kept without --drop-inside-solids\n");
+    } else {
+        printf("without a point of --reachable-from; kept with one on it\n");
+    }
+}
+
 static void print_answer(const tl_nav_why_answer *answer)
 {
     if (answer->walkable) {
@@ -73,6 +86,10 @@ static void print_answer(const tl_nav_why_answer *answer)
                    "m2\n",
                    (double)answer->island_area, (double)answer->largest_island_area);
         }
+        return;
+    }
+    if (answer->reason_count > 0 && answer->reasons[0].cause == TL_NAV_CAUSE_PRUNED) {
+        print_pruned_island(&answer->reasons[0]);
         return;
     }
     for (uint32_t i = 0; i < answer->reason_count; i++) {
@@ -132,7 +149,7 @@ static tl_exit explain_point(draw_source *source, tl_vec3 point)
     tl_nav_why_answer answer;
     tl_report report;
     memset(&report, 0, sizeof report);
-    tl_result result = tl_nav_why(&def, &input, source->input.navmesh, point, &answer, &report);
+    tl_result result = tl_nav_why(&def, &input, source->input.navmesh, &source->pruning, point, &answer, &report);
     tl_progress_end(&cli->progress);
     if (result != TL_OK) {
         return tl_cli_fail_result(cli, source->input.path, result, &report);

@@ -152,6 +152,7 @@ void draw_source_close(draw_source *source)
     free(source->corners);
     free(source->indices);
     free(source->numbers);
+    tl_navmesh_destroy(source->pruned);
     tl_input_close(&source->input);
     memset(source, 0, sizeof *source);
 }
@@ -261,10 +262,45 @@ static bool load_tiles(draw_source *source, tl_exit *exit_out)
     return result == TL_OK;
 }
 
+static tl_result assemble_pruned(draw_source *source)
+{
+    const tl_nav_tiles *removed = &source->input.bake.removed;
+    tl_result result = removed->tile_count > 0 ? tl_navmesh_create(NULL, &source->pruned) : TL_NOT_FOUND;
+    for (uint32_t i = 0; i < removed->tile_count && result == TL_OK; i++) {
+        result = tl_navmesh_add_tile(source->pruned, removed->tiles[i], TL_NAV_TILE_BORROWED);
+    }
+    return result;
+}
+
+// What was left out, and by which rules.
+static bool need_pruned(draw_source *source, tl_exit *exit_out)
+{
+    tl_report report;
+    memset(&report, 0, sizeof report);
+    report.element_index = TL_NO_ELEMENT;
+    const tl_pack_pruning *rules = source->input.bake.pruning;
+    tl_result result = TL_NOT_FOUND;
+    if (source->input.baked) {
+        rules = tl_input_checked_chunk(&source->input, TL_PACK_PRUN, tl_pack_pruning_check, &result);
+    }
+    if (rules != NULL) {
+        source->pruning.min_area = rules->min_area;
+        result = source->input.baked ? tl_pack_load_pruned(&source->input.pack, NULL, &source->pruned, &report)
+                                     : assemble_pruned(source);
+        source->pruning.removed = source->pruned;
+    }
+    if (result != TL_OK && result != TL_NOT_FOUND) {
+        *exit_out = tl_cli_fail_result(source->cli, source->input.path, result, &report);
+        return false;
+    }
+    return true;
+}
+
 bool draw_need_navmesh(draw_source *source, tl_exit *exit_out)
 {
     if (!source->has_navmesh) {
-        source->has_navmesh = source->input.baked ? load_tiles(source, exit_out) : bake_tiles(source, exit_out);
+        source->has_navmesh = (source->input.baked ? load_tiles(source, exit_out) : bake_tiles(source, exit_out)) &&
+                              need_pruned(source, exit_out);
     }
     return source->has_navmesh;
 }

@@ -9,6 +9,8 @@
 #include "cli/level/open_input.h"
 #include "io/text/contour_text.h"
 
+#include <talus/nav_audit.h>
+
 typedef struct draw_source {
     tl_cli *cli;
     tl_input input;
@@ -28,7 +30,9 @@ typedef struct draw_source {
     tl_contour_text text;
     const tl_contour_set *contours; ///< after draw_need_contours
     bool has_stages;                ///< after draw_need_stages
-    bool has_navmesh;               ///< after draw_need_navmesh: input.navmesh
+    bool has_navmesh;               ///< after draw_need_navmesh: input.navmesh, and pruning
+    tl_nav_pruning pruning;         ///< what was left out; without a navmesh when nothing was
+    tl_navmesh *pruned;             ///< the same navmesh
 } draw_source;
 
 /// Opens FILE; of a contour file, set number `set`. `settings` must outlive the source. False: reported, and

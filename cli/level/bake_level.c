@@ -210,7 +210,10 @@ static bool prune_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings
     def.solids = settings->drop_inside ? &mesh : NULL;
     def.min_area = (double)settings->min_island_area;
     def.host = cli->host;
-    const tl_result result = tl_nav_prune(&def, &bake->tiles, &bake->pruned);
+    tl_result result = tl_pack_pruning_encode(&def, NULL, &bake->pruning, &bake->pruned.base);
+    if (result == TL_OK) {
+        result = tl_nav_prune(&def, &bake->tiles, &bake->removed, &bake->pruned);
+    }
     return result == TL_OK || fail_prune(cli, level, settings, &def, result, &bake->pruned.base, exit_out);
 }
 
@@ -287,6 +290,8 @@ void tl_bake_free(tl_bake *bake)
     tl_blob_free(bake->hull);
     tl_blob_free(bake->links.links);
     tl_blob_free(bake->marks);
+    tl_blob_free(bake->pruning);
+    tl_nav_tiles_free(&bake->removed);
     tl_nav_tiles_free(&bake->tiles);
     memset(bake, 0, sizeof(*bake));
 }

@@ -57,6 +57,8 @@ typedef struct tl_bake {
     tl_nav_def nav_def; ///< as it was used
     tl_nav_bake_report nav_report;
     tl_nav_prune_report pruned; ///< zero when nothing was asked for
+    tl_nav_tiles removed;       ///< what was pruned
+    tl_pack_pruning *pruning;   ///< the rules; NULL: nothing was asked for
     bool walkable;              ///< there is at least one navmesh polygon
     tl_aabb nav_bounds;         ///< what the navmesh was built over
     double nav_area;            ///< square metres in the plane

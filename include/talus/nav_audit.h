@@ -13,6 +13,7 @@
 #define TALUS_NAV_AUDIT_H
 
 #include <talus/nav_bake.h>
+#include <talus/nav_prune.h>
 #include <talus/nav_query.h>
 #include <talus/soup.h>
 
@@ -47,6 +48,7 @@ typedef struct tl_nav_audit_def {
     const uint8_t *areas; ///< as in tl_nav_input, by the soup's triangles, or NULL: floor of area 0 is not missing
     const tl_nav_volume *volumes; ///< the same for volumes of area 0
     uint32_t volume_count;
+    const tl_navmesh *pruned; ///< what tl_nav_prune removed: floor there is not missing. NULL: nothing was
     float min_missing_area; ///< square metres: smaller missing floors are ignored. Negative (the default): the area of
                             ///< the smallest island that a bake keeps (region_min_size)
     tl_host host;           ///< tasks, progress ("audit polygons", "audit paths", "audit floors") and memory
@@ -130,7 +132,8 @@ typedef enum tl_nav_cause {
     TL_NAV_CAUSE_VOLUME,     ///< a volume marked it as not walkable
     TL_NAV_CAUSE_ISLAND,     ///< of an island (connected component) of fewer columns than region_min_size squared
     TL_NAV_CAUSE_OUTLINE,    ///< the simplified outline cut it off
-    TL_NAV_CAUSE_CHANGED     ///< these triangles and settings give navmesh here, but the navmesh has none
+    TL_NAV_CAUSE_CHANGED,    ///< these triangles and settings give navmesh here, but the navmesh has none
+    TL_NAV_CAUSE_PRUNED      ///< of an island that tl_nav_prune removed
 } tl_nav_cause;
 
 /// One to four words, such as "small island"; of another number "unknown".
@@ -141,12 +144,15 @@ TL_API const char *tl_nav_cause_text(tl_nav_cause cause);
 /// One cause, and the setting that removes it.
 typedef struct tl_nav_reason {
     tl_nav_cause cause;
-    const char *stage;     ///< static; as bakes name it
-    const char *parameter; ///< static; the field of tl_nav_def to blame, or NULL when none helps
-    float value;           ///< of that field now
-    float needed;          ///< the nearest value with which this cause is gone
+    const char *stage; ///< static; as bakes name it
+    /// static; the field of tl_nav_def to blame, or NULL when none helps. Pruned: the field of tl_nav_prune_def:
+    /// "solids", "seeds" (a seed on the island keeps it; `value` and `needed` are 0) or "min_area".
+    const char *parameter;
+    float value;  ///< of that field now
+    float needed; ///< the nearest value with which this cause is gone
     /// What was found at the point. Slope: degrees; ledge: metres of the drop or stair; ceiling: metres of free height;
-    /// radius: metres kept; island: columns; no floor: metres to the nearest floor below, INFINITY when there is none.
+    /// radius: metres kept; island: columns; pruned: the island's square metres; no floor: metres to the nearest floor
+    /// below, INFINITY when there is none.
     float measured;
     uint32_t triangle; ///< of the view that is the floor, or TL_NO_TRIANGLE
 } tl_nav_reason;
@@ -169,14 +175,22 @@ typedef struct tl_nav_why_answer {
     float island_area, largest_island_area; ///< square metres; 0 without a navmesh
 } tl_nav_why_answer;
 
+/// What tl_nav_prune removed from a navmesh.
+typedef struct tl_nav_pruning {
+    const tl_navmesh *removed; ///< its removed_out, as a navmesh
+    double min_area;           ///< square metres, of its def
+} tl_nav_pruning;
+
 /// Bakes the tile around a point, stage by stage, until one removes the point; finds the nearest value of that stage's
 /// setting with which it stays, and repeats until the point is walkable or nothing helps. Bakes some 30 tiles at most.
 ///
 /// `def`, `input`: what the navmesh was baked with; `def` NULL: the default one. `navmesh` may be NULL: then the answer
-/// is about a fresh bake. `def->host`: memory, and tasks and progress of the bakes. `report_out` may be NULL. Errors:
-/// those of tl_nav_tile_bake; TL_ERR_NOT_FINITE (the point), TL_ERR_INDEX (a triangle); `*answer_out` is zeroed then.
-TL_API tl_result tl_nav_why(const tl_nav_def *def, const tl_nav_input *input, const tl_navmesh *navmesh, tl_vec3 point,
-                            tl_nav_why_answer *answer_out, tl_report *report_out);
+/// is about a fresh bake. `pruning` NULL: nothing was pruned. `def->host`: memory, and tasks and progress of the bakes.
+/// `report_out` may be NULL. Errors: those of tl_nav_tile_bake; TL_ERR_NOT_FINITE (the point), TL_ERR_INDEX (a
+/// triangle); `*answer_out` is zeroed then.
+TL_API tl_result tl_nav_why(const tl_nav_def *def, const tl_nav_input *input, const tl_navmesh *navmesh,
+                            const tl_nav_pruning *pruning, tl_vec3 point, tl_nav_why_answer *answer_out,
+                            tl_report *report_out);
 
 #ifdef __cplusplus
 }

@@ -52,13 +52,20 @@ typedef struct tl_nav_prune_report {
     uint32_t changed_tiles; ///< tiles that lost some of their polygons
 } tl_nav_prune_report;
 
+/// Why a polygon was removed: its flags in the tiles of what was removed.
+enum { TL_NAV_PRUNED_INSIDE = 1, TL_NAV_PRUNED_UNREACHABLE = 2, TL_NAV_PRUNED_SMALL = 4 };
+
 /// Prunes all tiles of a navmesh. Tiles of which nothing is left are removed, those that lose polygons are baked again
 /// (tl_nav_tile_subset), the others stay as they are. The same bytes for any number of workers.
 ///
-/// `def` NULL: the default one. `report_out` may be NULL. On failure the tiles are as before. TL_ERR_ARGUMENT (a field;
-/// element "seed": no polygon is near it; element "tile": the tiles are no navmesh), TL_ERR_NOT_FINITE (a seed),
-/// TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
-TL_API tl_result tl_nav_prune(const tl_nav_prune_def *def, tl_nav_tiles *tiles, tl_nav_prune_report *report_out);
+/// `removed_out` (may be NULL): what was removed, as tiles of its own, freed with tl_nav_tiles_free; the flags of their
+/// polygons say why. tl_nav_audit_run and tl_nav_why take it, as a navmesh, so that they know what is meant to be gone.
+///
+/// `def` NULL: the default one. `report_out` may be NULL. On failure the tiles are as before, `*removed_out` is zeroed.
+/// TL_ERR_ARGUMENT (a field; element "seed": no polygon is near it; element "tile": the tiles are no navmesh),
+/// TL_ERR_NOT_FINITE (a seed), TL_ERR_LIMIT, TL_ERR_MEMORY, TL_ERR_CANCELLED.
+TL_API tl_result tl_nav_prune(const tl_nav_prune_def *def, tl_nav_tiles *tiles, tl_nav_tiles *removed_out,
+                              tl_nav_prune_report *report_out);
 
 #ifdef __cplusplus
 }

@@ -11,6 +11,7 @@
 #include <talus/base.h>
 #include <talus/nav_bake.h>
 #include <talus/nav_links.h>
+#include <talus/nav_prune.h>
 #include <talus/nav_query.h>
 
 #ifdef __cplusplus
@@ -29,6 +30,8 @@ extern "C" {
 #define TL_PACK_NAVT             TL_PACK_TYPE('N', 'A', 'V', 'T') ///< tl_nav_tile; the id numbers the tiles
 #define TL_PACK_LINK             TL_PACK_TYPE('L', 'I', 'N', 'K') ///< tl_nav_links: drops, jumps and climbs
 #define TL_PACK_MARK             TL_PACK_TYPE('M', 'A', 'R', 'K') ///< tl_pack_volumes: volumes the tiles were baked with
+#define TL_PACK_PRUN             TL_PACK_TYPE('P', 'R', 'U', 'N') ///< tl_pack_pruning: rules that islands were left out by
+#define TL_PACK_PRUT             TL_PACK_TYPE('P', 'R', 'U', 'T') ///< tl_nav_tile: what was left out; the id numbers them
 
 /// One chunk to be written. The pair (type, id) is its name and must be unique in the file.
 typedef struct tl_pack_item {
@@ -92,6 +95,8 @@ TL_API uint32_t tl_pack_count(const tl_pack *pack, uint32_t type);
 #define TL_PACK_NAVMESH_VERSION 1u
 #define TL_PACK_VOLUMES_MAGIC   TL_PACK_MARK
 #define TL_PACK_VOLUMES_VERSION 1u
+#define TL_PACK_PRUNING_MAGIC   TL_PACK_PRUN
+#define TL_PACK_PRUNING_VERSION 1u
 
 /// Where the geometry came from. A blob; the name follows it.
 typedef struct tl_pack_meta {
@@ -179,6 +184,25 @@ TL_API tl_result tl_pack_volumes_check(const void *bytes, uint64_t size, tl_repo
 /// Volume number `index` < volumes->count (the caller's duty) of checked volumes; its points lie in the blob.
 TL_API tl_nav_volume tl_pack_volumes_at(const tl_pack_volumes *volumes, uint32_t index);
 
+/// The rules by which a navmesh was pruned (tl_nav_prune_def). A blob; `seed_count` points of three floats follow it.
+typedef struct tl_pack_pruning {
+    tl_blob blob;
+    double min_area;             ///< square metres
+    tl_vec3 seed_extents;        ///< metres
+    uint32_t seed_count;         ///< 0: islands need no seed
+    uint32_t drop_inside_solids; ///< 1: islands inside closed parts of the level were left out
+    uint32_t reserved[5];
+} tl_pack_pruning;
+
+/// Encodes a PRUN blob, freed with tl_blob_free. `def` NULL: the default one. `allocator` NULL: malloc. TL_ERR_ARGUMENT
+/// (a field), TL_ERR_NOT_FINITE (a seed), TL_ERR_MEMORY; `*pruning_out` is NULL then. `report_out` may be NULL.
+TL_API tl_result tl_pack_pruning_encode(const tl_nav_prune_def *def, const tl_allocator *allocator,
+                                        tl_pack_pruning **pruning_out, tl_report *report_out);
+/// As tl_pack_meta_check. O(size).
+TL_API tl_result tl_pack_pruning_check(const void *bytes, uint64_t size, tl_report *report_out);
+/// The seeds of checked rules, in the blob.
+TL_API const tl_vec3 *tl_pack_pruning_seeds(const tl_pack_pruning *pruning);
+
 /// Checks every NAVT chunk and adds the tiles, borrowed, to a new navmesh: the pack's bytes must outlive it. The links
 /// of LINK chunks are added to it (tl_nav_links_add). Ended with tl_navmesh_destroy. TL_NOT_FOUND: the file holds no
 /// navmesh. TL_ERR_ARGUMENT, and what tl_nav_tile_check, tl_navmesh_add_tile, tl_nav_links_check and tl_nav_links_add
@@ -186,6 +210,11 @@ TL_API tl_nav_volume tl_pack_volumes_at(const tl_pack_volumes *volumes, uint32_t
 /// `*navmesh_out` is NULL then.
 TL_API tl_result tl_pack_load_navmesh(const tl_pack *pack, const tl_allocator *allocator, tl_navmesh **navmesh_out,
                                       tl_report *report_out);
+
+/// The same for the PRUT chunks: a navmesh of what was left out. TL_NOT_FOUND: nothing was. Else as
+/// tl_pack_load_navmesh.
+TL_API tl_result tl_pack_load_pruned(const tl_pack *pack, const tl_allocator *allocator, tl_navmesh **navmesh_out,
+                                     tl_report *report_out);
 
 #ifdef __cplusplus
 }

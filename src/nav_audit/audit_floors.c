@@ -38,13 +38,18 @@ static const float DIRECTION_X[DIRECTIONS] = { 1.0f,  0.70710678f,  0.0f, -0.707
 static const float DIRECTION_Z[DIRECTIONS] = { 0.0f, 0.70710678f,  1.0f,  0.70710678f,
                                                0.0f, -0.70710678f, -1.0f, -0.70710678f };
 
+// Whether polygons lie near a point: of the navmesh, or of what was pruned from it.
 static bool has_navmesh(const tl_audit_job *job, const floor_job *floors, tl_vec3 point)
 {
+    const tl_navmesh *meshes[] = { job->scene.navmesh, job->def->pruned };
     const float cell = job->scene.config.cell_size;
     const tl_vec3 extents = { cell, floors->slack, cell };
-    tl_nav_location location;
-    return job->scene.navmesh != NULL &&
-           tl_navmesh_find_nearest(job->scene.navmesh, NULL, point, extents, &location) == TL_OK;
+    bool found = false;
+    for (int i = 0; i < 2 && !found; i++) {
+        tl_nav_location location;
+        found = meshes[i] != NULL && tl_navmesh_find_nearest(meshes[i], NULL, point, extents, &location) == TL_OK;
+    }
+    return found;
 }
 
 // Whether the floor of a triangle was given area 0.

@@ -32,7 +32,7 @@ const char *tl_nav_cause_name(tl_nav_cause cause)
 {
     static const char *const names[] = { "walkable", "outside", "no floor", "slope",  "area of the triangle",
                                          "ledge",    "ceiling", "radius",   "volume", "small island",
-                                         "outline",  "changed" };
+                                         "outline",  "changed", "pruned" };
     return (unsigned)cause < TL_COUNT_OF(names) ? names[cause] : "unknown";
 }
 
@@ -51,6 +51,7 @@ const char *tl_nav_cause_text(tl_nav_cause cause)
         "The floor belongs to an island that is too small to be kept.",
         "The simplified outline cuts the floor off.",
         "These triangles and settings give navmesh here, but the navmesh has none: it was made from others.",
+        "The floor belongs to an island that was pruned.",
     };
     return (unsigned)cause < TL_COUNT_OF(texts) ? texts[cause] : "Unknown.";
 }
@@ -262,6 +263,7 @@ static tl_result blame(why_search *s, const tl_why_finding *finding, tl_nav_def 
         return blame_outline(s, def, reason);
     case TL_NAV_CAUSE_NONE:
     case TL_NAV_CAUSE_CHANGED:
+    case TL_NAV_CAUSE_PRUNED:
         break;
     }
     return TL_OK;
@@ -269,10 +271,10 @@ static tl_result blame(why_search *s, const tl_why_finding *finding, tl_nav_def 
 
 // ---- The answer --------------------------------------------------------------------------------------------
 
-// Whether another island is larger than the point's.
-static tl_result compare_islands(const why_search *s, const tl_navmesh *navmesh, tl_nav_ref polygon)
+// Square metres of a polygon's island, and of the navmesh's largest.
+static tl_result measure_own_island(const why_search *s, const tl_navmesh *navmesh, tl_nav_ref polygon, float *own_out,
+                                    float *largest_out)
 {
-    tl_nav_why_answer *answer = s->answer;
     tl_audit_polygon_list list;
     uint32_t own = 0;
     TL_TRY(tl_navmesh_island(navmesh, polygon, &own));
@@ -280,12 +282,45 @@ static tl_result compare_islands(const why_search *s, const tl_navmesh *navmesh,
     for (uint32_t i = 0, begin; i < list.count;) {
         const uint32_t end = tl_audit_island_around(&list, i, &begin);
         const float area = (float)(tl_audit_area_before(&list, end) - tl_audit_area_before(&list, begin));
-        answer->largest_island_area = tl_maxf(answer->largest_island_area, area);
-        answer->island_area = list.polygons[i].island == own ? area : answer->island_area;
+        *largest_out = tl_maxf(*largest_out, area);
+        *own_out = list.polygons[i].island == own ? area : *own_out;
         i = end;
     }
-    answer->apart = answer->island_area < answer->largest_island_area;
     tl_audit_polygons_free(&list);
+    return TL_OK;
+}
+
+// Whether another island is larger than the point's.
+static tl_result compare_islands(const why_search *s, const tl_navmesh *navmesh, tl_nav_ref polygon)
+{
+    tl_nav_why_answer *answer = s->answer;
+    TL_TRY(measure_own_island(s, navmesh, polygon, &answer->island_area, &answer->largest_island_area));
+    answer->apart = answer->island_area < answer->largest_island_area;
+    return TL_OK;
+}
+
+// A fresh bake has the floor, and so has what was pruned. Its polygon's flags name the rule.
+static tl_result blame_pruning(const why_search *s, const tl_nav_pruning *pruning, tl_nav_ref polygon)
+{
+    tl_nav_reason *reason = &s->answer->reasons[0];
+    const tl_nav_tile *tile;
+    uint32_t number;
+    float largest = 0.0f;
+    TL_TRY(tl_navmesh_resolve(pruning->removed, polygon, &tile, &number));
+    TL_TRY(measure_own_island(s, pruning->removed, polygon, &reason->measured, &largest));
+    const uint64_t flags = tl_nav_tile_flags(tile, number);
+    reason->cause = TL_NAV_CAUSE_PRUNED;
+    reason->stage = "prune";
+    reason->parameter = (flags & TL_NAV_PRUNED_INSIDE) != 0  ? "solids"
+                        : (flags & TL_NAV_PRUNED_SMALL) != 0 ? "min_area"
+                                                             : "seeds";
+    if ((flags & TL_NAV_PRUNED_INSIDE) != 0) {
+        reason->value = 1.0f;
+    } else if ((flags & TL_NAV_PRUNED_SMALL) != 0) {
+        // In hundredths, below the island's own area, whose sum in double this float may exceed.
+        reason->value = (float)pruning->min_area;
+        reason->needed = floorf(100.0f * reason->measured * (1.0f - NORMAL_ERROR)) / 100.0f;
+    }
     return TL_OK;
 }
 
@@ -329,7 +364,8 @@ static tl_result measure_mesh(why_search *s)
     return TL_OK;
 }
 
-static tl_result answer_why(why_search *s, const tl_nav_def *def, const tl_navmesh *navmesh)
+static tl_result answer_why(why_search *s, const tl_nav_def *def, const tl_navmesh *navmesh,
+                            const tl_nav_pruning *pruning)
 {
     tl_nav_why_answer *answer = s->answer;
     tl_nav_location location;
@@ -349,12 +385,16 @@ static tl_result answer_why(why_search *s, const tl_nav_def *def, const tl_navme
         answer->reasons[0].stage = "tile";
         answer->reasons[0].triangle = TL_NO_TRIANGLE;
         answer->reason_count = 1;
+        const tl_navmesh *removed = pruning != NULL ? pruning->removed : NULL;
+        if (tl_why_on_navmesh(removed, &config, answer->floor, &location)) {
+            return blame_pruning(s, pruning, location.polygon);
+        }
     }
     return TL_OK;
 }
 
-tl_result tl_nav_why(const tl_nav_def *def, const tl_nav_input *input, const tl_navmesh *navmesh, tl_vec3 point,
-                     tl_nav_why_answer *answer_out, tl_report *report_out)
+tl_result tl_nav_why(const tl_nav_def *def, const tl_nav_input *input, const tl_navmesh *navmesh,
+                     const tl_nav_pruning *pruning, tl_vec3 point, tl_nav_why_answer *answer_out, tl_report *report_out)
 {
     const tl_nav_def default_def = tl_default_nav_def();
     tl_report unused;
@@ -380,7 +420,7 @@ tl_result tl_nav_why(const tl_nav_def *def, const tl_nav_input *input, const tl_
     s.question.host = &def->host;
     s.answer = answer_out;
     s.report = report;
-    const tl_result result = answer_why(&s, def, navmesh);
+    const tl_result result = answer_why(&s, def, navmesh, pruning);
     if (result != TL_OK) {
         memset(answer_out, 0, sizeof *answer_out);
     }

@@ -32,8 +32,10 @@ typedef struct prune_job {
     tl_navmesh *navmesh;
     prune_island *islands; ///< by the navmesh's numbers, not all of which are in use
     uint64_t island_capacity;
-    tl_nav_tile **rebaked; ///< [tiles->tile_count] in place of those that change; NULL: as it is, or `gone`
-    uint8_t *gone;         ///< [tiles->tile_count]
+    tl_nav_tile **rebaked;     ///< [tiles->tile_count] in place of those that change; NULL: as it is, or `gone`
+    tl_nav_tile **removed;     ///< [tiles->tile_count] what they lose, when it is wanted; NULL: nothing
+    uint8_t *gone;             ///< [tiles->tile_count]
+    tl_nav_tiles *removed_out; ///< or NULL
     tl_nav_prune_report *report;
 } prune_job;
 
@@ -198,6 +200,24 @@ static void judge(prune_job *job)
     }
 }
 
+// The polygons that a tile loses, as a tile; their flags say why.
+static tl_result encode_removed(prune_job *job, uint32_t t, uint8_t *keep, tl_report *report)
+{
+    static const uint64_t flags_of[] = { 0, TL_NAV_PRUNED_INSIDE, TL_NAV_PRUNED_UNREACHABLE, TL_NAV_PRUNED_SMALL };
+    const tl_nav_tile *tile = job->tiles->tiles[t];
+    for (uint32_t p = 0; p < tile->polygon_count; p++) {
+        keep[p] = !keep[p];
+    }
+    TL_TRY(tl_nav_tile_subset(tile, keep, job->def->host.allocator, &job->removed[t], report));
+    uint64_t *flags = (uint64_t *)((char *)job->removed[t] + job->removed[t]->flags);
+    for (uint32_t p = 0, k = 0; p < tile->polygon_count; p++) {
+        if (keep[p]) {
+            flags[k++] = flags_of[job->islands[island_number(job, t, p)].verdict];
+        }
+    }
+    return TL_OK;
+}
+
 static tl_result rebake_tile(prune_job *job, uint32_t t, uint8_t *keep, tl_report *report)
 {
     const tl_nav_tile *tile = job->tiles->tiles[t];
@@ -207,10 +227,13 @@ static tl_result rebake_tile(prune_job *job, uint32_t t, uint8_t *keep, tl_repor
         kept += keep[p];
     }
     job->gone[t] = kept == 0;
-    if (kept == 0 || kept == tile->polygon_count) {
+    if (kept == tile->polygon_count) {
         return TL_OK;
     }
-    return tl_nav_tile_subset(tile, keep, job->def->host.allocator, &job->rebaked[t], report);
+    if (kept > 0) {
+        TL_TRY(tl_nav_tile_subset(tile, keep, job->def->host.allocator, &job->rebaked[t], report));
+    }
+    return job->removed_out != NULL ? encode_removed(job, t, keep, report) : TL_OK;
 }
 
 static tl_result rebake_tiles(prune_job *job, tl_report *report)
@@ -222,17 +245,49 @@ static tl_result rebake_tiles(prune_job *job, tl_report *report)
         max_polygons = tl_max_u32(max_polygons, job->tiles->tiles[t]->polygon_count);
     }
     job->rebaked = tl_allocate_array(allocator, count, sizeof(*job->rebaked));
+    job->removed = tl_allocate_array(allocator, count, sizeof(*job->removed));
     job->gone = tl_allocate_array(allocator, count, sizeof *job->gone);
     uint8_t *keep = tl_allocate_array(allocator, max_polygons, sizeof *keep);
-    tl_result result = job->rebaked != NULL && job->gone != NULL && keep != NULL ? TL_OK : TL_ERR_MEMORY;
+    const bool has_room = job->rebaked != NULL && job->removed != NULL && job->gone != NULL && keep != NULL;
+    tl_result result = has_room ? TL_OK : TL_ERR_MEMORY;
     if (job->rebaked != NULL) {
         memset(job->rebaked, 0, count * sizeof(*job->rebaked));
+    }
+    if (job->removed != NULL) {
+        memset(job->removed, 0, count * sizeof(*job->removed));
     }
     for (uint32_t t = 0; result == TL_OK && t < count; t++) {
         result = rebake_tile(job, t, keep, report);
     }
     tl_release_array(allocator, keep, max_polygons, sizeof *keep);
     return result;
+}
+
+// Hands the removed polygons' tiles over, in an array as long as their number.
+static tl_result hand_over_removed(prune_job *job)
+{
+    const tl_allocator *allocator = job->def->host.allocator;
+    tl_nav_tiles *out = job->removed_out;
+    uint32_t count = 0;
+    for (uint32_t t = 0; t < job->tiles->tile_count; t++) {
+        count += job->removed[t] != NULL;
+    }
+    tl_nav_tile **tiles = tl_allocate_array(allocator, count, sizeof(*tiles));
+    if (tiles == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    for (uint32_t t = 0, k = 0; t < job->tiles->tile_count; t++) {
+        if (job->removed[t] != NULL) {
+            tiles[k++] = job->removed[t];
+            job->removed[t] = NULL;
+        }
+    }
+    out->tiles = tiles;
+    out->tile_count = count;
+    out->tiles_x = job->tiles->tiles_x;
+    out->tiles_z = job->tiles->tiles_z;
+    out->allocator = tl_allocator_or_default(allocator);
+    return TL_OK;
 }
 
 // The array of tiles is made as long as their new number, which tl_nav_tiles_free rests on.
@@ -282,32 +337,52 @@ static tl_result prune(prune_job *job, tl_report *report)
     TL_TRY(tl_progress_update(&job->def->host, "prune", job->tiles->tile_count, job->tiles->tile_count));
     tl_navmesh_destroy(job->navmesh); // it looks at its tiles to the last
     job->navmesh = NULL;
+    if (job->removed_out != NULL) {
+        TL_TRY(hand_over_removed(job));
+    }
     return replace_tiles(job);
 }
 
-tl_result tl_nav_prune(const tl_nav_prune_def *def, tl_nav_tiles *tiles, tl_nav_prune_report *report_out)
+static void free_prune_job(prune_job *job, uint32_t tile_count)
+{
+    const tl_allocator *allocator = job->def->host.allocator;
+    for (uint32_t t = 0; job->rebaked != NULL && t < tile_count; t++) {
+        tl_blob_free(job->rebaked[t]);
+    }
+    for (uint32_t t = 0; job->removed != NULL && t < tile_count; t++) {
+        tl_blob_free(job->removed[t]);
+    }
+    tl_release_array(allocator, job->rebaked, tile_count, sizeof(*job->rebaked));
+    tl_release_array(allocator, job->removed, tile_count, sizeof(*job->removed));
+    tl_release_array(allocator, job->gone, tile_count, sizeof *job->gone);
+    tl_release_array(allocator, job->islands, job->island_capacity, sizeof *job->islands);
+    tl_navmesh_destroy(job->navmesh);
+}
+
+tl_result tl_nav_prune(const tl_nav_prune_def *def, tl_nav_tiles *tiles, tl_nav_tiles *removed_out,
+                       tl_nav_prune_report *report_out)
 {
     const tl_nav_prune_def default_def = tl_default_nav_prune_def();
     tl_nav_prune_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "prune");
+    if (removed_out != NULL) {
+        memset(removed_out, 0, sizeof *removed_out);
+    }
     prune_job job;
     memset(&job, 0, sizeof job);
     job.def = def != NULL ? def : &default_def;
     job.tiles = tiles;
+    job.removed_out = removed_out;
     job.report = &report;
     const uint32_t count = tiles != NULL ? tiles->tile_count : 0;
     const tl_result result = tiles != NULL
                                  ? prune(&job, &report.base)
                                  : tl_report_field(&report.base, TL_ERR_ARGUMENT, "tiles", "it may not be NULL");
-    for (uint32_t t = 0; job.rebaked != NULL && t < count; t++) {
-        tl_blob_free(job.rebaked[t]);
+    free_prune_job(&job, count);
+    if (result != TL_OK) {
+        tl_nav_tiles_free(removed_out);
     }
-    const tl_allocator *allocator = job.def->host.allocator;
-    tl_release_array(allocator, job.rebaked, count, sizeof(*job.rebaked));
-    tl_release_array(allocator, job.gone, count, sizeof *job.gone);
-    tl_release_array(allocator, job.islands, job.island_capacity, sizeof *job.islands);
-    tl_navmesh_destroy(job.navmesh);
     if (report_out != NULL) {
         *report_out = report;
     }

@@ -25,14 +25,14 @@ static void test_a_sound_level(void **state)
     json_decref(json);
 }
 
-// A volume takes a square out of the navmesh. The level's file tells the audit so; a baked file does not.
+// A material takes one of two floors out of the navmesh. The level's file tells the audit so; a baked file does not.
 static void test_missing_navmesh(void **state)
 {
     (void)state;
-    // Of two floors one was left out when baking.
     cli_write_text("floors.obj", "v -10 0 -10\nv -10 0 10\nv 10 0 10\nv 10 0 -10\nf 1 2 3 4\n"
-                                 "v 12 0 0\nv 12 0 9\nv 21 0 9\nv 21 0 0\nf 5 6 7 8\n");
-    cli_do(0, "bake floors.obj --reachable-from 0,0,0 -o hole.talus");
+                                 "v 12 0 0\nv 12 0 9\nv 21 0 9\nv 21 0 0\nusemtl lava\nf 5 6 7 8\n");
+    cli_do(0, "bake floors.obj --area lava=0 -o hole.talus");
+    cli_do(0, "audit floors.obj --area lava=0 --paths 50");
     cli_result result = cli_expect(1, "audit hole.talus --paths 50 --draw hole.png --size 200");
     cli_check_part(result.out, "missing   at ");
     cli_check_part(result.out, "m2");
@@ -94,6 +94,38 @@ static void test_why(void **state)
     json_decref(json);
 }
 
+// What was pruned is meant to be gone: no finding, and "why" names the rule with the value that keeps the island.
+static void test_pruned_files(void **state)
+{
+    (void)state;
+    cli_do(0, "sample courtyard -o yard.obj");
+    cli_do(0, "bake yard.obj -o whole.talus");
+    const char *const rules[][3] = {
+        { "--island-min-area 60", "island of 37.26 m2, kept from --island-min-area 37.25 (now 60)", "29.55,5.5,10.35" },
+        { "--drop-inside-solids", "kept without --drop-inside-solids", "3.75,0,29.55" },
+        { "--reachable-from 20,0,30", "kept with one on it", "29.55,5.5,10.35" },
+    };
+    for (size_t i = 0; i < 3; i++) {
+        char line[256];
+        snprintf(line, sizeof line, "bake yard.obj -o pruned.talus %s", rules[i][0]);
+        cli_do(0, line);
+        cli_do(0, "check pruned.talus");
+        cli_do(0, "audit pruned.talus --paths 50");
+        snprintf(line, sizeof line, "audit yard.obj --paths 50 %s", rules[i][0]);
+        cli_do(0, line);
+        for (int baked = 0; baked < 2; baked++) {
+            snprintf(line, sizeof line, "why %s %s %s", baked ? "pruned.talus" : "yard.obj", rules[i][2],
+                     baked ? "" : rules[i][0]);
+            cli_result why = cli_expect(1, line);
+            cli_check_part(why.out, rules[i][1]);
+            cli_free(&why);
+        }
+    }
+    // The value that is named does what it promises.
+    cli_do(0, "why yard.obj 29.55,5.5,10.35 --island-min-area 37.25");
+    cli_do(1, "why yard.obj 29.55,5.5,10.35 --island-min-area 37.3");
+}
+
 static void test_bad_input(void **state)
 {
     (void)state;
@@ -112,7 +144,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_sound_level),    cmocka_unit_test(test_missing_navmesh),
         cmocka_unit_test(test_volumes_are_kept), cmocka_unit_test(test_why),
-        cmocka_unit_test(test_bad_input),
+        cmocka_unit_test(test_pruned_files),     cmocka_unit_test(test_bad_input),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }

@@ -55,9 +55,10 @@ static tl_result why(contract_run *run)
     def.host = *run->host;
     tl_nav_why_answer answer;
     memset(&answer, 0, sizeof answer);
-    const tl_result result = tl_nav_why(
-        run->what == CONTRACT_NULL_DEF ? NULL : &def, run->what == CONTRACT_NULL_INPUT ? NULL : &level->nav_input,
-        level->navmesh, tl_vec3_make(7.8f, 0, 10), run->what == CONTRACT_NULL_OUTPUT ? NULL : &answer, run->report);
+    const tl_result result =
+        tl_nav_why(run->what == CONTRACT_NULL_DEF ? NULL : &def,
+                   run->what == CONTRACT_NULL_INPUT ? NULL : &level->nav_input, level->navmesh, NULL,
+                   tl_vec3_make(7.8f, 0, 10), run->what == CONTRACT_NULL_OUTPUT ? NULL : &answer, run->report);
     run->is_clear = contract_is_zero(&answer, sizeof answer);
     run->answer = (uint64_t)answer.reasons[0].cause << 32 | answer.bake_count;
     return result;

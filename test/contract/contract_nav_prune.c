@@ -33,11 +33,17 @@ static tl_result prune(contract_run *run)
     TEST_RESULT(tl_nav_bake(&level->nav_def, &level->nav_input, &tiles, NULL), TL_OK);
     const uint32_t count = tiles.tile_count;
     tl_nav_prune_report report = { 0 };
+    tl_nav_tiles removed;
+    memset(&removed, 0xff, sizeof removed);
     const tl_result result =
         tl_nav_prune(run->what == CONTRACT_NULL_DEF ? NULL : &def, run->what == CONTRACT_NULL_INPUT ? NULL : &tiles,
-                     run->wants_report ? &report : NULL);
+                     &removed, run->wants_report ? &report : NULL);
     run->own_report = report.base;
-    run->is_clear = tiles.tile_count == count;
+    run->is_clear = tiles.tile_count == count && removed.tile_count == 0 && removed.tiles == NULL;
+    for (uint32_t i = 0; i < removed.tile_count; i++) {
+        run->answer = contract_hash(removed.tiles[i], (size_t)removed.tiles[i]->blob.size, run->answer);
+    }
+    tl_nav_tiles_free(&removed);
     for (uint32_t i = 0; i < tiles.tile_count; i++) {
         run->answer = contract_hash(tiles.tiles[i], (size_t)tiles.tiles[i]->blob.size, run->answer);
     }

@@ -35,6 +35,9 @@ static uint32_t level_items(tl_pack_item *items)
         const tl_pack_item item = { TL_PACK_NAVT, i, tile, tile->blob.size };
         items[count++] = item;
     }
+    // As if the first tile had been pruned from elsewhere.
+    const tl_pack_item pruned = { TL_PACK_PRUT, 0, level->tiles.tiles[0], level->tiles.tiles[0]->blob.size };
+    items[count++] = pruned;
     TEST_CHECK(count <= MAX_ITEMS);
     return count;
 }
@@ -200,6 +203,58 @@ static tl_result volumes_check(contract_run *run)
     return result;
 }
 
+static const char *const PRUNING_FIELDS[] = { "seeds", "min_area", NULL };
+
+static tl_result pruning_encode(contract_run *run)
+{
+    tl_nav_prune_def def = tl_default_nav_prune_def();
+    tl_pack_pruning *pruning = NULL;
+    if (run->what == CONTRACT_NO_MEMORY) {
+        def.seeds = CORNERS;
+        def.seed_count = 3;
+    }
+    if (run->what == CONTRACT_BAD_FIELD) {
+        def.seed_count = run->variant == 0 ? 1 : 0;
+        def.min_area = run->variant == 1 ? -1.0 : 0.0;
+    }
+    def.cookie = run->what == CONTRACT_ZEROED_DEF ? 0 : def.cookie;
+    const tl_result result = tl_pack_pruning_encode(run->what == CONTRACT_NULL_DEF ? NULL : &def, run->host->allocator,
+                                                    run->what == CONTRACT_NULL_OUTPUT ? NULL : &pruning, run->report);
+    return blob_answer(run, result, pruning);
+}
+
+static tl_result pruning_check(contract_run *run)
+{
+    tl_pack_pruning *pruning;
+    TEST_RESULT(tl_pack_pruning_encode(NULL, NULL, &pruning, NULL), TL_OK);
+    pruning->drop_inside_solids = run->what == CONTRACT_BAD_BYTES ? 2 : 1;
+    run->is_clear = true;
+    const tl_result result =
+        tl_pack_pruning_check(run->what == CONTRACT_NULL_INPUT ? NULL : pruning, pruning->blob.size, run->report);
+    tl_blob_free(pruning);
+    return result;
+}
+
+static tl_result pack_load_pruned(contract_run *run)
+{
+    file_bytes file = make_file();
+    tl_pack pack;
+    tl_navmesh *pruned = NULL;
+    TEST_RESULT(tl_pack_open(file.bytes, file.size, &pack, NULL), TL_OK);
+    pack.chunk_count = run->what == CONTRACT_NOT_FOUND ? 1 : pack.chunk_count; // the soup alone
+    if (run->what == CONTRACT_BAD_BYTES) {
+        file.bytes[(const unsigned char *)tl_pack_chunk_at(&pack, pack.chunk_count - 1).bytes - file.bytes] ^= 1;
+    }
+    const tl_result result = tl_pack_load_pruned(run->what == CONTRACT_NULL_INPUT ? NULL : &pack, run->host->allocator,
+                                                 run->what == CONTRACT_NULL_OUTPUT ? NULL : &pruned, run->report);
+    run->is_clear = pruned == NULL;
+    run->answer = pruned != NULL ? tl_navmesh_tile_count(pruned) : 0;
+    TEST_CHECK(result == TL_OK || run->is_clear);
+    tl_navmesh_destroy(pruned);
+    free(file.bytes);
+    return result;
+}
+
 enum {
     ENCODE = CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(NO_MEMORY),
     CHECK = CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(BAD_BYTES)
@@ -228,5 +283,11 @@ const contract_entry CONTRACT_TABLE_pack[] = {
     { "tl_pack_volumes_at", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },
     { "tl_pack_load_navmesh", CHECK | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(NOT_FOUND) | CONTRACT_BIT(NO_MEMORY), 1,
       1, NULL, pack_load_navmesh, NULL },
+    { "tl_pack_load_pruned", CHECK | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(NOT_FOUND) | CONTRACT_BIT(NO_MEMORY), 1,
+      1, NULL, pack_load_pruned, NULL },
+    { "tl_pack_pruning_encode", ENCODE | CONTRACT_BIT(NULL_DEF) | CONTRACT_BIT(ZEROED_DEF) | CONTRACT_BIT(BAD_FIELD), 0,
+      1, PRUNING_FIELDS, pruning_encode, NULL },
+    { "tl_pack_pruning_check", CHECK, 1, 0, NULL, pruning_check, NULL },
+    { "tl_pack_pruning_seeds", 0, 0, 0, NULL, NULL, "returns a place in the blob" },
     { 0 },
 };

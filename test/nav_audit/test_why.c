@@ -45,7 +45,7 @@ static void prepare(question *q)
 static const tl_nav_reason *ask(question *q, tl_vec3 point, tl_nav_cause cause, const char *stage)
 {
     prepare(q);
-    TEST_RESULT(tl_nav_why(&q->def, &q->input, NULL, point, &q->answer, NULL), TL_OK);
+    TEST_RESULT(tl_nav_why(&q->def, &q->input, NULL, NULL, point, &q->answer, NULL), TL_OK);
     assert_false(q->answer.walkable);
     assert_true(q->answer.reason_count > 0);
     const tl_nav_reason *reason = &q->answer.reasons[0];
@@ -78,11 +78,11 @@ static void a_walkable_point_has_no_cause(void **state)
     prepare(&q);
     for (uint32_t tile_size = 0; tile_size <= 32; tile_size += 32) {
         q.def.tile_size = tile_size;
-        TEST_RESULT(tl_nav_why(&q.def, &q.input, NULL, tl_vec3_make(15, 0, 10), &q.answer, NULL), TL_OK);
+        TEST_RESULT(tl_nav_why(&q.def, &q.input, NULL, NULL, tl_vec3_make(15, 0, 10), &q.answer, NULL), TL_OK);
         TEST_CHECK(q.answer.walkable && q.answer.reason_count == 0 && q.answer.proven);
         TEST_CHECK(tile_size == 0 || (q.answer.tile_x == 1 && q.answer.tile_z == 1));
         tl_navmesh *navmesh = test_nav_bake(&q.def, &q.input);
-        TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, tl_vec3_make(15, 0, 10), &q.answer, NULL), TL_OK);
+        TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, NULL, tl_vec3_make(15, 0, 10), &q.answer, NULL), TL_OK);
         TEST_CHECK(q.answer.walkable && !q.answer.apart && q.answer.island_area > 400.0f);
         tl_navmesh_destroy(navmesh);
     }
@@ -153,7 +153,7 @@ static void ledge(void **state)
     expect_needed(&q, "agent_max_climb", 0.9f, 1.2f, 0.01f);
     q.def.filter_ledge_spans = false;
     prepare(&q);
-    TEST_RESULT(tl_nav_why(&q.def, &q.input, NULL, tl_vec3_make(10.1f, 1.2f, 10), &q.answer, NULL), TL_OK);
+    TEST_RESULT(tl_nav_why(&q.def, &q.input, NULL, NULL, tl_vec3_make(10.1f, 1.2f, 10), &q.answer, NULL), TL_OK);
     assert_true(q.answer.walkable);
 }
 
@@ -221,7 +221,7 @@ static void outline(void **state)
     bool seen = false;
     for (int i = 0; i < 12 && !seen; i++) {
         const tl_vec3 point = { 12.3f + 0.2f * (float)i, 0, 0.6f };
-        TEST_RESULT(tl_nav_why(&q.def, &q.input, NULL, point, &q.answer, NULL), TL_OK);
+        TEST_RESULT(tl_nav_why(&q.def, &q.input, NULL, NULL, point, &q.answer, NULL), TL_OK);
         seen = q.answer.reason_count > 0 && q.answer.reasons[0].cause == TL_NAV_CAUSE_OUTLINE;
         if (seen) {
             ask(&q, point, TL_NAV_CAUSE_OUTLINE, "contours");
@@ -243,7 +243,7 @@ static void changed(void **state)
     prepare(&before);
     prepare(&now);
     tl_navmesh *navmesh = test_nav_bake(&before.def, &before.input);
-    TEST_RESULT(tl_nav_why(&now.def, &now.input, navmesh, tl_vec3_make(13, 0, 9), &now.answer, NULL), TL_OK);
+    TEST_RESULT(tl_nav_why(&now.def, &now.input, navmesh, NULL, tl_vec3_make(13, 0, 9), &now.answer, NULL), TL_OK);
     TEST_CHECK(!now.answer.walkable && now.answer.reason_count == 1);
     assert_int_equal(now.answer.reasons[0].cause, TL_NAV_CAUSE_CHANGED);
     tl_navmesh_destroy(navmesh);
@@ -257,7 +257,7 @@ static void another_island(void **state)
     audit_block(&q.level, 10, 0, 5, 18, 4, 15);
     prepare(&q);
     tl_navmesh *navmesh = test_nav_bake(&q.def, &q.input);
-    TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, tl_vec3_make(14, 4, 10), &q.answer, NULL), TL_OK);
+    TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, NULL, tl_vec3_make(14, 4, 10), &q.answer, NULL), TL_OK);
     TEST_CHECK(q.answer.walkable && q.answer.apart && q.answer.island_area < q.answer.largest_island_area);
     TEST_CHECK(q.answer.island_area > 30.0f && q.answer.island_area < 80.0f);
     tl_navmesh_destroy(navmesh);
@@ -289,7 +289,7 @@ static void random_points(void **state)
         q.def.tile_size = i % 2 != 0 ? 32 : 0;
         prepare(&q);
         const tl_vec3 point = test_random_point(&random, tl_vec3_make(-0.5f, 0, -0.5f), tl_vec3_make(25, 3.4f, 18.5f));
-        TEST_RESULT(tl_nav_why(&q.def, &q.input, NULL, point, &q.answer, NULL), TL_OK);
+        TEST_RESULT(tl_nav_why(&q.def, &q.input, NULL, NULL, point, &q.answer, NULL), TL_OK);
         if (q.answer.walkable) {
             walkable++;
             assert_true(is_walkable(&q.def, &q.input, q.answer.floor, 1.0f));
@@ -316,15 +316,16 @@ static void failures_leave_nothing(void **state)
         test_allocator failing;
         test_allocator_init(&failing, k);
         q.def.host.allocator = &failing.allocator;
-        result = tl_nav_why(&q.def, &q.input, navmesh, tl_vec3_make(14.5f, 0, 10), &q.answer, NULL);
+        result = tl_nav_why(&q.def, &q.input, navmesh, NULL, tl_vec3_make(14.5f, 0, 10), &q.answer, NULL);
         assert_int_equal(failing.live_blocks, 0);
         TEST_CHECK(result == TL_OK || result == TL_ERR_MEMORY);
     }
     q.def.host.allocator = NULL;
-    TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, tl_vec3_make(NAN, 0, 10), &q.answer, NULL), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, NULL, tl_vec3_make(NAN, 0, 10), &q.answer, NULL),
+                TL_ERR_NOT_FINITE);
     q.level.indices[4] = 9999;
     tl_report report;
-    TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, tl_vec3_make(1, 0, 10), &q.answer, &report), TL_ERR_INDEX);
+    TEST_RESULT(tl_nav_why(&q.def, &q.input, navmesh, NULL, tl_vec3_make(1, 0, 10), &q.answer, &report), TL_ERR_INDEX);
     assert_int_equal(report.element_index, 1);
     tl_navmesh_destroy(navmesh);
 }

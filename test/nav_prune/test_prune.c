@@ -87,13 +87,32 @@ static bool has_floor(const tl_nav_tiles *tiles, float x, float y, float z)
     return result == TL_OK;
 }
 
+static uint64_t count_flags(const tl_nav_tiles *tiles, uint64_t flags)
+{
+    uint64_t count = 0;
+    for (uint32_t t = 0; t < tiles->tile_count; t++) {
+        for (uint32_t p = 0; p < tiles->tiles[t]->polygon_count; p++) {
+            count += tl_nav_tile_flags(tiles->tiles[t], p) == flags;
+        }
+    }
+    return count;
+}
+
 static tl_nav_prune_report prune(tl_nav_tiles *tiles, const tl_nav_prune_def *def)
 {
     tl_nav_prune_report report;
     const double before = area_of(tiles);
     const uint32_t tile_count = tiles->tile_count;
-    TEST_RESULT(tl_nav_prune(def, tiles, &report), TL_OK);
+    tl_nav_tiles removed;
+    TEST_RESULT(tl_nav_prune(def, tiles, &removed, &report), TL_OK);
     const double left_out = report.inside.area + report.unreachable.area + report.small.area;
+    // What is removed is handed over, each polygon with its reason.
+    TEST_CHECK(fabs(left_out - area_of(&removed)) < 1e-6 * before);
+    TEST_CHECK(removed.tile_count == report.removed_tiles + report.changed_tiles);
+    TEST_CHECK(count_flags(&removed, TL_NAV_PRUNED_INSIDE) == report.inside.polygons);
+    TEST_CHECK(count_flags(&removed, TL_NAV_PRUNED_UNREACHABLE) == report.unreachable.polygons);
+    TEST_CHECK(count_flags(&removed, TL_NAV_PRUNED_SMALL) == report.small.polygons);
+    tl_nav_tiles_free(&removed);
     TEST_CHECK(fabs(before - left_out - area_of(tiles)) < 1e-6 * before);
     TEST_CHECK(tiles->tile_count + report.removed_tiles == tile_count);
     return report;
@@ -200,22 +219,22 @@ static void what_is_wrong_is_named(void **state)
     tl_nav_prune_report report;
     def.seeds = seeds;
     def.seed_count = 2;
-    TEST_RESULT(tl_nav_prune(&def, &tiles, &report), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_prune(&def, &tiles, NULL, &report), TL_ERR_ARGUMENT);
     TEST_CHECK(report.base.element_index == 1);
     assert_string_equal(report.base.element, "seed");
     def.seed_count = 0;
     def.min_area = -1.0;
-    TEST_RESULT(tl_nav_prune(&def, &tiles, &report), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_prune(&def, &tiles, NULL, &report), TL_ERR_ARGUMENT);
     def.min_area = (double)NAN;
-    TEST_RESULT(tl_nav_prune(&def, &tiles, NULL), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_prune(&def, &tiles, NULL, NULL), TL_ERR_ARGUMENT);
     def.min_area = 0.0;
     def.seed_extents.y = -1.0f;
-    TEST_RESULT(tl_nav_prune(&def, &tiles, &report), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_prune(&def, &tiles, NULL, &report), TL_ERR_ARGUMENT);
     assert_string_equal(report.base.field, "seed_extents");
     def = tl_default_nav_prune_def();
     tl_nav_tile *twice[2] = { tiles.tiles[0], tiles.tiles[0] };
     tl_nav_tiles same = { .tiles = twice, .tile_count = 2, .tiles_x = 1, .tiles_z = 1 };
-    TEST_RESULT(tl_nav_prune(&def, &same, &report), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_prune(&def, &same, NULL, &report), TL_ERR_ARGUMENT);
     TEST_CHECK(report.base.element_index == 1);
     TEST_CHECK(area_of(&tiles) == before);
     tl_nav_tiles_free(&tiles);
@@ -227,7 +246,7 @@ static void no_tiles_are_no_trouble(void **state)
     (void)state;
     tl_nav_tiles none = { 0 };
     const tl_nav_prune_def def = tl_default_nav_prune_def();
-    TEST_RESULT(tl_nav_prune(&def, &none, NULL), TL_OK);
+    TEST_RESULT(tl_nav_prune(&def, &none, NULL, NULL), TL_OK);
     tl_nav_tiles_free(&none);
 }
 
@@ -246,8 +265,11 @@ static tl_result prune_until(test_allocator *memory, const tl_progress *progress
     def.min_area = 30.0;
     def.host = host;
     def.host.progress = progress;
-    const tl_result result = tl_nav_prune(&def, &tiles, NULL);
+    tl_nav_tiles removed;
+    const tl_result result = tl_nav_prune(&def, &tiles, &removed, NULL);
     TEST_CHECK((area_of(&tiles) < before) == (result == TL_OK));
+    TEST_CHECK((removed.tile_count > 0) == (result == TL_OK));
+    tl_nav_tiles_free(&removed);
     tl_nav_tiles_free(&tiles);
     TEST_CHECK(memory->live_blocks == 0 && memory->live_bytes == 0);
     return result;

@@ -307,6 +307,45 @@ static void test_marks(void **state)
     tl_blob_free(marks);
 }
 
+static void test_pruning(void **state)
+{
+    (void)state;
+    const tl_vec3 seeds[] = { { 1, 2, 3 }, { -4, 5, 6 } };
+    const tl_mesh_view solids = { 0 };
+    tl_nav_prune_def def = tl_default_nav_prune_def();
+    tl_pack_pruning *rules = NULL;
+    def.seeds = seeds;
+    def.seed_count = 2;
+    def.min_area = 2.5;
+    def.solids = &solids;
+    TEST_RESULT(tl_pack_pruning_encode(&def, NULL, &rules, NULL), TL_OK);
+    const uint64_t size = rules->blob.size;
+    TEST_RESULT(tl_pack_pruning_check(rules, size, NULL), TL_OK);
+    TEST_CHECK(rules->min_area == 2.5 && rules->drop_inside_solids == 1 && rules->seed_count == 2);
+    TEST_CHECK(rules->seed_extents.y == def.seed_extents.y);
+    assert_memory_equal(tl_pack_pruning_seeds(rules), seeds, sizeof seeds);
+    for (uint64_t cut = 0; cut < size; cut++) {
+        TEST_CHECK(tl_pack_pruning_check(rules, cut, NULL) != TL_OK);
+    }
+    // Any bit altered: refused, or rules that can be read whole.
+    uint8_t *bytes = (uint8_t *)rules;
+    uint32_t refused = 0;
+    for (uint64_t i = 0; i < 8 * size; i++) {
+        bytes[i / 8] ^= (uint8_t)(1 << i % 8);
+        const bool ok = tl_pack_pruning_check(rules, size, NULL) == TL_OK;
+        TEST_CHECK(!ok || (isfinite(rules->min_area) && rules->min_area >= 0.0));
+        for (uint32_t k = 0; ok && k < rules->seed_count; k++) {
+            TEST_CHECK(tl_is_finite(tl_pack_pruning_seeds(rules)[k]));
+        }
+        refused += !ok;
+        bytes[i / 8] ^= (uint8_t)(1 << i % 8);
+    }
+    TEST_CHECK(refused > 300 && refused < size * 8);
+    tl_blob_free(rules);
+    def.min_area = (double)INFINITY;
+    TEST_RESULT(tl_pack_pruning_encode(&def, NULL, &rules, NULL), TL_ERR_ARGUMENT);
+}
+
 static void test_load_navmesh(void **state)
 {
     (void)state;
@@ -345,10 +384,10 @@ static void test_load_navmesh(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),   cmocka_unit_test(test_layout),           cmocka_unit_test(test_empty),
-        cmocka_unit_test(test_prefixes),     cmocka_unit_test(test_altered),          cmocka_unit_test(test_bad_items),
-        cmocka_unit_test(test_meta),         cmocka_unit_test(test_navmesh_settings), cmocka_unit_test(test_marks),
-        cmocka_unit_test(test_load_navmesh),
+        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_layout),           cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_prefixes),   cmocka_unit_test(test_altered),          cmocka_unit_test(test_bad_items),
+        cmocka_unit_test(test_meta),       cmocka_unit_test(test_navmesh_settings), cmocka_unit_test(test_marks),
+        cmocka_unit_test(test_pruning),    cmocka_unit_test(test_load_navmesh),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
