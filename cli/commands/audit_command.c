@@ -82,6 +82,11 @@ static void print_audit_summary(const tl_nav_audit *audit, uint32_t listed)
            (unsigned long long)audit->step_count, (double)p->radius, (double)p->step, (double)p->height);
     printf("%llu samples of the floor, %.3g m apart: %.1f m2 missing\n", (unsigned long long)audit->floor_samples,
            (double)audit->sample_spacing, audit->missing_area);
+    if (audit->tolerated_count > 0) {
+        printf("%llu sweeps touched a triangle beside the outline, no deeper than its simplification may reach "
+               "(--edge-max-error)\n",
+               (unsigned long long)audit->tolerated_count);
+    }
     if (audit->finding_count == 0) {
         printf("the navmesh and the triangles agree\n");
     } else {
@@ -136,13 +141,14 @@ static json_t *audit_json(tl_cli *cli, const tl_nav_audit *audit, const tl_nav_w
     json_t *probe =
         json_pack("{so so so so so}", "radius", tl_json_float(p->radius), "step", tl_json_float(p->step), "height",
                   tl_json_float(p->height), "surface", tl_json_float(p->surface), "gap", tl_json_float(p->gap));
-    return json_pack("{so sb sI so sI sf sI sI sI sI sI so sf so so}", "file", tl_json_text(cli->arguments.words[0]),
+    return json_pack("{so sb sI so sI sf sI sI sI sI sI sI so sf so so}", "file", tl_json_text(cli->arguments.words[0]),
                      "clean", (int)(audit->finding_count == 0), "finding_count", (json_int_t)audit->finding_count,
                      "probe", probe, "paths", (json_int_t)audit->path_count, "path_metres", audit->path_metres,
                      "polygons", (json_int_t)audit->polygon_count, "portals", (json_int_t)audit->portal_count, "sweeps",
-                     (json_int_t)audit->step_count, "places", (json_int_t)audit->contradictions, "floor_samples",
-                     (json_int_t)audit->floor_samples, "sample_spacing", tl_json_float(audit->sample_spacing),
-                     "missing_area", audit->missing_area, "seconds", times, "findings", list);
+                     (json_int_t)audit->step_count, "tolerated", (json_int_t)audit->tolerated_count, "places",
+                     (json_int_t)audit->contradictions, "floor_samples", (json_int_t)audit->floor_samples,
+                     "sample_spacing", tl_json_float(audit->sample_spacing), "missing_area", audit->missing_area,
+                     "seconds", times, "findings", list);
 }
 
 // ---- As a picture ------------------------------------------------------------------------------------------

@@ -35,7 +35,8 @@ typedef struct tl_nav_probe {
 
 /// The probe of a navmesh that was baked with `config`.
 ///
-/// radius: what erosion leaves at least less max_simplification_error, and no less than half of the agent's; step:
+/// radius: what erosion leaves at least less max_simplification_error, and no less than half of the agent's (where that
+/// does not fit, an audit sweeps a thinner one, by what is promised at that distance from the outline); step:
 /// walkable_climb and one voxel more; height: walkable_height in metres, less one voxel. An audit limits the radius to
 /// half the distance between step and height.
 TL_API tl_nav_probe tl_nav_probe_from_config(const tl_nav_config *config);
@@ -44,7 +45,7 @@ typedef struct tl_nav_audit_def {
     tl_nav_def nav;       ///< what the navmesh was baked with; `bounds` empty: those of the soup. Its host is ignored
     uint32_t path_count;  ///< random shortest paths. Default 2000
     uint64_t seed;        ///< of their random ends. Default 1
-    float probe_radius;   ///< metres; negative (the default): that of tl_nav_probe_from_config
+    float probe_radius;   ///< metres, to be free everywhere; negative (the default): as tl_nav_probe_from_config says
     const uint8_t *areas; ///< as in tl_nav_input, by the soup's triangles, or NULL: floor of area 0 is not missing
     const tl_nav_volume *volumes; ///< the same for volumes of area 0
     uint32_t volume_count;
@@ -86,13 +87,16 @@ typedef struct tl_nav_finding {
 typedef struct tl_nav_audit {
     tl_nav_finding *findings; ///< by kind, then the worst first, by depth or area
     uint32_t finding_count;
-    tl_nav_probe probe;      ///< as it was used
-    uint64_t path_count;     ///< random paths walked
-    double path_metres;      ///< their length in all
-    uint64_t polygon_count;  ///< polygons whose outline and middle were walked
-    uint64_t portal_count;   ///< links between polygons that were crossed
-    uint64_t step_count;     ///< sweeps of the probe
-    uint64_t contradictions; ///< places a cell wide, before they were merged into findings
+    tl_nav_probe probe;     ///< as it was used
+    uint64_t path_count;    ///< random paths walked
+    double path_metres;     ///< their length in all
+    uint64_t polygon_count; ///< polygons whose outline and middle were walked
+    uint64_t portal_count;  ///< links between polygons that were crossed
+    uint64_t step_count;    ///< sweeps of the probe
+    /// Places where the probe touched a triangle beside the outline, but no deeper than erosion and the simplified
+    /// outline may bring it there.
+    uint64_t tolerated_count;
+    uint64_t contradictions; ///< places of the findings, a cell wide each
     uint64_t floor_samples;  ///< points of the soup that were compared with the navmesh
     float sample_spacing;    ///< metres between these
     double missing_area;     ///< square metres, of the findings

@@ -10,6 +10,7 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/min_max.h"
 
 #include <math.h>
 #include <string.h>
@@ -68,6 +69,7 @@ static tl_result add_share(tl_audit_job *job, const tl_audit_share *share)
 {
     TL_TRY(share->result);
     job->audit->step_count += share->sweeps;
+    job->audit->tolerated_count += share->tolerated;
     job->audit->path_count += share->paths;
     job->audit->path_metres += share->metres;
     job->audit->portal_count += share->portals;
@@ -159,9 +161,11 @@ static tl_result add_findings(tl_audit_job *job, uint32_t reach)
     tl_nav_finding *findings;
     uint32_t found;
     TL_TRY(tl_audit_records_thin(&job->records));
-    audit->contradictions += job->records.count;
     TL_TRY(tl_audit_records_cluster(&job->records, reach, &findings, &found));
     const uint32_t kept = measure_missing(job, findings, found);
+    for (uint32_t i = 0; i < kept; i++) {
+        audit->contradictions += findings[i].count;
+    }
     const uint32_t count = audit->finding_count + kept;
     tl_nav_finding *all = tl_allocate_array(allocator, count, sizeof *all);
     if (all != NULL) {
@@ -209,8 +213,10 @@ static tl_result prepare_audit(tl_audit_job *job, const tl_navmesh *navmesh, con
     TL_TRY(make_level_config(&job->def->nav, tl_soup_bounds(soup), &scene->config, report));
     scene->stride = scene->config.cell_size;
     scene->probe = tl_nav_probe_from_config(&scene->config);
+    scene->promise = tl_audit_outline_promise(&scene->config);
     if (job->def->probe_radius >= 0.0f) {
         scene->probe.radius = job->def->probe_radius;
+        scene->promise = INFINITY;
     }
     // A capsule is no thicker than it is high.
     scene->probe.radius = tl_minf(scene->probe.radius, 0.5f * (scene->probe.height - scene->probe.step));
@@ -219,9 +225,39 @@ static tl_result prepare_audit(tl_audit_job *job, const tl_navmesh *navmesh, con
     return TL_OK;
 }
 
+// One a worker. A search visits each link once at most, so it never runs out of nodes.
+static tl_result create_queries(tl_audit_job *job)
+{
+    const tl_allocator *allocator = job->host->allocator;
+    const uint32_t workers = tl_worker_count(job->host);
+    tl_nav_query_def def = tl_default_nav_query_def();
+    const uint64_t nodes = job->scene.navmesh != NULL ? tl_navmesh_link_count(job->scene.navmesh) + 2 : 2;
+    def.max_nodes = (uint32_t)tl_clamp_u64(nodes, def.max_nodes, UINT32_MAX / 2);
+    def.allocator = allocator;
+    job->queries = tl_allocate_array(allocator, workers, sizeof(*job->queries));
+    if (job->queries == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    memset(job->queries, 0, workers * sizeof(*job->queries));
+    for (uint32_t i = 0; i < workers; i++) {
+        TL_TRY(tl_nav_query_create(&def, &job->queries[i]));
+    }
+    return TL_OK;
+}
+
+static void destroy_queries(tl_audit_job *job)
+{
+    const uint32_t workers = tl_worker_count(job->host);
+    for (uint32_t i = 0; job->queries != NULL && i < workers; i++) {
+        tl_nav_query_destroy(job->queries[i]);
+    }
+    tl_release_array(job->host->allocator, job->queries, workers, sizeof(*job->queries));
+}
+
 static tl_result audit_all(tl_audit_job *job)
 {
     const uint32_t agent = 2 * (job->scene.config.walkable_radius + 1);
+    TL_TRY(create_queries(job));
     TL_TRY(tl_audit_list_polygons(job->scene.navmesh, job->host->allocator, &job->polygons));
     TL_TRY(tl_audit_polygons(job));
     TL_TRY(tl_audit_paths(job));
@@ -265,6 +301,7 @@ tl_result tl_nav_audit_run(const tl_nav_audit_def *def, const tl_navmesh *navmes
     }
     tl_audit_records_free(&job.records);
     tl_audit_polygons_free(&job.polygons);
+    destroy_queries(&job);
     if (result != TL_OK) {
         tl_nav_audit_free(audit_out);
     }

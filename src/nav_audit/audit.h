@@ -13,6 +13,7 @@ typedef struct tl_audit_job {
     const tl_host *host;
     tl_audit_scene scene;
     tl_audit_polygon_list polygons;
+    tl_nav_query **queries; ///< one a worker
     tl_audit_records records;
     tl_nav_audit *audit;
 } tl_audit_job;
@@ -21,7 +22,7 @@ typedef struct tl_audit_job {
 typedef struct tl_audit_share {
     tl_audit_records records;
     tl_result result;
-    uint64_t sweeps, paths, portals, samples;
+    uint64_t sweeps, tolerated, paths, portals, samples;
     double metres;
 } tl_audit_share;
 

@@ -190,7 +190,7 @@ static void walk_paths(tl_audit_job *job, uint32_t index, uint32_t worker, tl_au
 {
     const path_job *paths = user;
     audit_searcher *s = &paths->path_searchers[worker];
-    tl_audit_walker walker = { &job->scene, &share->records, 0, false, { 0.0f, 0.0f, 0.0f } };
+    tl_audit_walker walker = tl_audit_walker_make(&job->scene, job->queries[worker], &share->records);
     const uint32_t begin = index * PATHS_PER_SHARE, left = job->def->path_count - begin;
     const uint32_t end = begin + (left < PATHS_PER_SHARE ? left : PATHS_PER_SHARE);
     for (uint32_t i = begin; i < end && share->result == TL_OK; i++) {
@@ -205,25 +205,20 @@ static void walk_paths(tl_audit_job *job, uint32_t index, uint32_t worker, tl_au
         }
     }
     share->sweeps = walker.sweeps;
+    share->tolerated = walker.tolerated;
 }
 
-static tl_result create_path_searcher(const tl_audit_job *job, const path_job *paths, audit_searcher *s)
+static tl_result create_path_searcher(const path_job *paths, audit_searcher *s)
 {
     enum { FIRST_CORNERS = 256 };
-    tl_nav_query_def def = tl_default_nav_query_def();
-    const uint64_t nodes = tl_navmesh_link_count(job->scene.navmesh) + 2;
-    def.max_nodes = nodes > def.max_nodes ? (nodes < UINT32_MAX / 2 ? (uint32_t)nodes : UINT32_MAX / 2) : def.max_nodes;
-    def.allocator = paths->allocator;
     s->corner_capacity = s->polygon_capacity = FIRST_CORNERS;
     s->corners = tl_allocate_array(paths->allocator, FIRST_CORNERS, sizeof *s->corners);
     s->polygons = tl_allocate_array(paths->allocator, FIRST_CORNERS, sizeof *s->polygons);
-    TL_TRY(tl_nav_query_create(&def, &s->query));
     return s->corners != NULL && s->polygons != NULL ? TL_OK : TL_ERR_MEMORY;
 }
 
 static void free_path_searcher(const path_job *paths, audit_searcher *s)
 {
-    tl_nav_query_destroy(s->query);
     tl_release_array(paths->allocator, s->corners, s->corner_capacity, sizeof *s->corners);
     tl_release_array(paths->allocator, s->polygons, s->polygon_capacity, sizeof *s->polygons);
 }
@@ -242,7 +237,8 @@ tl_result tl_audit_paths(tl_audit_job *job)
     memset(paths.path_searchers, 0, workers * sizeof *paths.path_searchers);
     tl_result result = TL_OK;
     for (uint32_t i = 0; i < workers && result == TL_OK; i++) {
-        result = create_path_searcher(job, &paths, &paths.path_searchers[i]);
+        paths.path_searchers[i].query = job->queries[i];
+        result = create_path_searcher(&paths, &paths.path_searchers[i]);
     }
     if (result == TL_OK) {
         const uint32_t shares = (job->def->path_count - 1) / PATHS_PER_SHARE + 1;

@@ -83,9 +83,8 @@ static bool cross_portals(tl_audit_walker *walker, const tl_audit_polygon *at, t
 
 static void walk_polygons(tl_audit_job *job, uint32_t index, uint32_t worker, tl_audit_share *share, void *user)
 {
-    (void)worker;
     (void)user;
-    tl_audit_walker walker = { &job->scene, &share->records, 0, false, { 0.0f, 0.0f, 0.0f } };
+    tl_audit_walker walker = tl_audit_walker_make(&job->scene, job->queries[worker], &share->records);
     const uint32_t begin = index * POLYGONS_PER_SHARE, left = job->polygons.count - begin;
     const uint32_t end = begin + (left < POLYGONS_PER_SHARE ? left : POLYGONS_PER_SHARE);
     for (uint32_t i = begin; i < end && share->result == TL_OK; i++) {
@@ -94,6 +93,7 @@ static void walk_polygons(tl_audit_job *job, uint32_t index, uint32_t worker, tl
         share->result = done ? TL_OK : TL_ERR_MEMORY;
     }
     share->sweeps = walker.sweeps;
+    share->tolerated = walker.tolerated;
 }
 
 tl_result tl_audit_polygons(tl_audit_job *job)

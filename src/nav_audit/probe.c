@@ -11,8 +11,11 @@
 //
 // - Radius. Erosion leaves at least (2 R - 1) / sqrt 5 columns between a wall and the traced outline, R being the
 //   radius in columns: it counts a diagonal step as 1.5 columns, and starts at columns that have no neighbour, not at
-//   the wall. The outline is then simplified, which may move it by max_simplification_error. Both together are rare; in
-//   coarse voxels nothing would be left to sweep, so at least half of the agent's radius must be free.
+//   the wall. The outline is then simplified, which may move it by max_simplification_error. In coarse voxels both
+//   together leave nothing to sweep, but they seldom meet, so the probe has half of the agent's radius at least; and
+//   where it does not fit, the promise for that very place decides: a point d metres from the outline has d more
+//   metres free than the outline. A probe as thin as that is swept again. A fixed radius that is small enough to be
+//   safe everywhere was rejected: it would pass a pillar at arm's length.
 // - Step. Two floors a climb apart in voxels are up to a voxel farther apart in truth, since both are rounded.
 // - Height. A floor is rounded up and a ceiling down, so a column keeps its promise; but the floor under the path is
 //   one point of the column.
@@ -23,6 +26,8 @@
 #include "nav_audit/probe.h"
 
 #include "base/assert.h"
+
+#include <talus/nav_around.h>
 
 #include <math.h>
 #include <string.h>
@@ -40,13 +45,20 @@ static float steepest_rise(const tl_nav_config *config)
     return cosine > 0.0f ? sqrtf(1.0f - cosine * cosine) / cosine : 0.0f;
 }
 
+// What erosion and the simplified outline leave between the outline and a wall, metres; negative: they may cut into it.
+float tl_audit_outline_promise(const tl_nav_config *config)
+{
+    const float eroded = tl_maxf((2.0f * (float)config->walkable_radius - 1.0f) / SQRT_5, 0.0f);
+    return (eroded - config->max_simplification_error) * config->cell_size;
+}
+
 tl_nav_probe tl_nav_probe_from_config(const tl_nav_config *config)
 {
     const float cell = config->cell_size, voxel = config->cell_height;
     const float across = cell * SQRT_2 + 0.5f * config->detail_sample_dist;
-    const float kept = (2.0f * (float)config->walkable_radius - 1.0f) / SQRT_5 - config->max_simplification_error;
     tl_nav_probe probe;
-    probe.radius = tl_maxf(tl_minf(kept * cell, config->agent_radius), 0.5f * config->agent_radius);
+    probe.radius =
+        tl_maxf(tl_minf(tl_audit_outline_promise(config), config->agent_radius), 0.5f * config->agent_radius);
     probe.step = voxel * (float)(config->walkable_climb + 1);
     probe.height = voxel * (float)(config->walkable_height > 1 ? config->walkable_height - 1 : 1);
     probe.surface = voxel + config->detail_sample_max_error + steepest_rise(config) * across;
@@ -141,30 +153,58 @@ static bool is_carried(const tl_audit_scene *scene, tl_vec3 at, float reach)
 // ---- The sweep ---------------------------------------------------------------------------------------------
 
 // The probe over a floor.
-static tl_convex probe_over(const tl_nav_probe *probe, tl_vec3 feet)
+static tl_convex probe_over(const tl_nav_probe *probe, float radius, tl_vec3 feet)
 {
-    const float high = probe->height - probe->radius, low = tl_minf(probe->step + probe->radius, high);
+    const float high = probe->height - radius, low = tl_minf(probe->step + radius, high);
     return tl_convex_capsule(tl_vec3_make(feet.x, feet.y + low, feet.z), tl_vec3_make(feet.x, feet.y + high, feet.z),
-                             probe->radius);
+                             radius);
 }
 
-static bool sweep_is_free(tl_audit_walker *walker, tl_vec3 feet, tl_vec3 motion, tl_shape_hit *hit)
+static bool sweep_is_free(tl_audit_walker *walker, float radius, tl_vec3 feet, tl_vec3 motion, tl_shape_hit *hit)
 {
     const tl_audit_scene *scene = walker->scene;
-    const tl_convex probe = probe_over(&scene->probe, feet);
+    const tl_convex probe = probe_over(&scene->probe, radius, feet);
     walker->sweeps++;
     return tl_soup_cast_shape(scene->soup, &probe, tl_transform_identity(), motion, NULL, hit) != TL_OK;
 }
 
 // From where the walker stands to a floor: level, at the height of the higher one. Or there at once.
-static bool can_walk_to(tl_audit_walker *walker, tl_vec3 to, tl_shape_hit *hit)
+static bool can_walk_to(tl_audit_walker *walker, float radius, tl_vec3 to, tl_shape_hit *hit)
 {
     if (!walker->standing) {
-        return sweep_is_free(walker, to, tl_vec3_make(0.0f, 0.0f, 0.0f), hit);
+        return sweep_is_free(walker, radius, to, tl_vec3_make(0.0f, 0.0f, 0.0f), hit);
     }
     const float base = tl_maxf(walker->feet.y, to.y);
     const tl_vec3 from = { walker->feet.x, base, walker->feet.z };
-    return sweep_is_free(walker, from, tl_vec3_make(to.x - from.x, 0.0f, to.z - from.z), hit);
+    return sweep_is_free(walker, radius, from, tl_vec3_make(to.x - from.x, 0.0f, to.z - from.z), hit);
+}
+
+// ---- The promise for a place -------------------------------------------------------------------------------
+
+// Metres in the plane from a place to the outline, up to `reach`.
+static float distance_to_outline(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 at, float reach)
+{
+    const tl_nav_around_request request = { NULL, { polygon, at }, reach };
+    tl_nav_wall_segment wall;
+    uint32_t count = 0;
+    (void)tl_nav_query_find_walls(walker->query, walker->scene->navmesh, &request, &wall, 1, &count);
+    return count > 0 ? wall.distance : reach;
+}
+
+// The radius that must be free on the way from where the walker stands to a place: at most the probe's. 0 or less:
+// the outline may run through a wall there, or beyond a ledge.
+static float promised_radius(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 to)
+{
+    const tl_audit_scene *scene = walker->scene;
+    const float reach = scene->probe.radius - scene->promise;
+    if (!(reach > 0.0f)) {
+        return scene->probe.radius;
+    }
+    float distance = distance_to_outline(walker, polygon, to, reach);
+    if (walker->standing) {
+        distance = tl_minf(distance, distance_to_outline(walker, walker->polygon, walker->feet, reach));
+    }
+    return tl_minf(scene->promise + distance, scene->probe.radius);
 }
 
 // ---- Records -----------------------------------------------------------------------------------------------
@@ -229,6 +269,16 @@ static bool record_high_step(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec
 
 // ---- Walks -------------------------------------------------------------------------------------------------
 
+tl_audit_walker tl_audit_walker_make(const tl_audit_scene *scene, tl_nav_query *query, tl_audit_records *records)
+{
+    tl_audit_walker walker;
+    memset(&walker, 0, sizeof walker);
+    walker.scene = scene;
+    walker.query = query;
+    walker.records = records;
+    return walker;
+}
+
 void tl_audit_walk_begin(tl_audit_walker *walker)
 {
     walker->standing = false;
@@ -240,32 +290,57 @@ static bool is_step(const tl_audit_walker *walker, const floor_hit *floor)
     return !walker->standing || fabsf(floor->y - walker->feet.y) <= scene->probe.step + floor->rise * scene->stride;
 }
 
+// What was tried when no floor could be reached.
+typedef struct floor_trial {
+    tl_vec3 nearest;    ///< the first floor within a step, else the nearest one
+    tl_shape_hit first; ///< what stopped the probe there
+    bool stopped;       ///< something did
+} floor_trial;
+
+// Walks to the first floor that a probe of this radius can reach.
+static bool reach_floor(tl_audit_walker *walker, float radius, tl_vec3 surface, const floor_hit *floors, uint32_t count,
+                        floor_trial *trial)
+{
+    memset(trial, 0, sizeof *trial);
+    trial->nearest = tl_vec3_make(surface.x, floors[0].y, surface.z);
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_vec3 to = { surface.x, floors[i].y, surface.z };
+        tl_shape_hit hit;
+        if (!is_step(walker, &floors[i])) {
+            continue;
+        }
+        if (can_walk_to(walker, radius, to, &hit)) {
+            walker->feet = to;
+            return true;
+        }
+        if (!trial->stopped) {
+            trial->first = hit;
+            trial->nearest = to;
+            trial->stopped = true;
+        }
+    }
+    return false;
+}
+
 // The first floor that can be reached; else the nearest one, with what is wrong about it.
 static bool choose_floor(tl_audit_walker *walker, tl_nav_ref polygon, tl_vec3 surface, const floor_hit *floors,
                          uint32_t count)
 {
-    tl_vec3 nearest = surface;
-    nearest.y = floors[0].y;
-    tl_shape_hit first, hit;
-    memset(&first, 0, sizeof first);
-    bool stopped = false;
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_vec3 to = { surface.x, floors[i].y, surface.z };
-        if (!is_step(walker, &floors[i])) {
-            continue;
+    floor_trial trial, thinner;
+    bool done = true;
+    if (!reach_floor(walker, walker->scene->probe.radius, surface, floors, count, &trial)) {
+        const float radius = promised_radius(walker, polygon, surface);
+        const bool promised = radius > 0.0f;
+        if (!promised || (trial.stopped && radius < walker->scene->probe.radius &&
+                          reach_floor(walker, radius, surface, floors, count, &thinner))) {
+            walker->tolerated++;
+        } else {
+            done = trial.stopped ? record_blocked(walker, polygon, trial.nearest, &trial.first)
+                                 : record_high_step(walker, polygon, trial.nearest, floors[0].triangle);
         }
-        if (can_walk_to(walker, to, &hit)) {
-            walker->feet = to;
-            walker->standing = true;
-            return true;
-        }
-        first = stopped ? first : hit;
-        nearest = stopped ? nearest : to;
-        stopped = true;
+        walker->feet = trial.nearest;
     }
-    bool done = stopped ? record_blocked(walker, polygon, nearest, &first)
-                        : record_high_step(walker, polygon, nearest, floors[0].triangle);
-    walker->feet = nearest;
+    walker->polygon = polygon;
     walker->standing = true;
     return done;
 }
@@ -292,8 +367,10 @@ bool tl_audit_walk_to(tl_audit_walker *walker, tl_nav_ref polygon, float x, floa
         count = 1;
     }
     if (count == 0) {
+        const bool promised = promised_radius(walker, polygon, surface) > 0.0f;
+        walker->tolerated += promised ? 0 : 1;
         walker->standing = false;
-        return record_no_floor(walker, polygon, surface);
+        return !promised || record_no_floor(walker, polygon, surface);
     }
     return choose_floor(walker, polygon, surface, floors, count);
 }

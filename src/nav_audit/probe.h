@@ -13,6 +13,9 @@ typedef struct tl_audit_scene {
     const tl_soup *soup;
     tl_nav_config config; ///< of the level in one piece
     tl_nav_probe probe;
+    /// Metres: what erosion and the simplified outline leave free between the outline and the nearest wall, at least;
+    /// negative where the outline may cut into a wall. INFINITY: the probe's radius was given, and is free everywhere.
+    float promise;
     float stride; ///< metres between two points of a walk
 } tl_audit_scene;
 
@@ -20,10 +23,19 @@ typedef struct tl_audit_scene {
 typedef struct tl_audit_walker {
     const tl_audit_scene *scene;
     tl_audit_records *records;
+    tl_nav_query *query; ///< to look for the outline
     uint64_t sweeps;
+    uint64_t tolerated; ///< places where a thinner probe was enough
     bool standing;
-    tl_vec3 feet; ///< where the probe stands, when it does
+    tl_vec3 feet;       ///< where the probe stands, when it does
+    tl_nav_ref polygon; ///< that it stands on
 } tl_audit_walker;
+
+/// What a navmesh of this config promises at its outline: the scene's `promise`.
+float tl_audit_outline_promise(const tl_nav_config *config);
+
+/// A walker that stands nowhere.
+tl_audit_walker tl_audit_walker_make(const tl_audit_scene *scene, tl_nav_query *query, tl_audit_records *records);
 
 /// Begins a new walk: the first point is taken without a sweep.
 void tl_audit_walk_begin(tl_audit_walker *walker);
