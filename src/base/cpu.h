@@ -8,7 +8,7 @@
 // On x86-64 kernels of all levels are compiled, and the C runtime finds the features at program start
 // (__builtin_cpu_supports): a question is one load and a branch, and there is no state of our own. Elsewhere the
 // compiler's target decides. 32-bit ARM stays at 0, for its NEON takes denormals as zero; so does AArch64 with the
-// bytes of a word the other way round.
+// bytes of a word the other way round. A build with TALUS_NO_SIMD has level 0 alone, to compare with.
 
 #ifndef TALUS_SRC_BASE_CPU_H
 #define TALUS_SRC_BASE_CPU_H
@@ -16,7 +16,10 @@
 #include <stdbool.h>
 
 // TL_CPU_LEVELS: the highest level of kernels in this build. TL_CPU_BASE_LEVEL: what every processor of it can run.
-#if defined(__x86_64__) && defined(__GNUC__)
+#if defined(TALUS_NO_SIMD)
+#define TL_CPU_LEVELS     0
+#define TL_CPU_BASE_LEVEL 0
+#elif defined(__x86_64__) && defined(__GNUC__)
 #define TL_CPU_LEVELS     3
 #define TL_CPU_BASE_LEVEL 0
 #elif (defined(__aarch64__) && defined(__ARM_NEON) && !defined(__AARCH64EB__)) || defined(__wasm_simd128__)

@@ -10,39 +10,34 @@
 #define TALUS_SRC_CONVEX_FARTHEST_H
 
 #include "base/lowest_bit.h"
+#include "math/simd2d.h"
 #include "math/vec3d.h"
 
-#if defined(__SSE2__) || defined(_M_X64)
-#include <emmintrin.h>
+#if TL_HAS_F64X2
 
 enum { TL_FARTHEST_BLOCK = 32 }; // products that are kept at a time; their mask is one word
 
-static inline __m128d tl_farthest_two(const __m128d d[3], __m128 x, __m128 y, __m128 z)
+static inline tl_f64x2 tl_farthest_two(const tl_f64x2 d[3], tl_f64x2 x, tl_f64x2 y, tl_f64x2 z)
 {
-    return _mm_add_pd(_mm_add_pd(_mm_mul_pd(d[0], _mm_cvtps_pd(x)), _mm_mul_pd(d[1], _mm_cvtps_pd(y))),
-                      _mm_mul_pd(d[2], _mm_cvtps_pd(z)));
+    return tl_f64x2_add(tl_f64x2_add(tl_f64x2_mul(d[0], x), tl_f64x2_mul(d[1], y)), tl_f64x2_mul(d[2], z));
 }
 
 // The products of four points; returns the larger ones.
-static inline __m128d tl_farthest_four(const __m128d d[3], const tl_vec3 *points, double *dots)
+static inline tl_f64x2 tl_farthest_four(const tl_f64x2 d[3], const tl_vec3 *points, double *dots)
 {
-    const float *p = &points->x;
-    __m128 a = _mm_loadu_ps(p), b = _mm_loadu_ps(p + 4), c = _mm_loadu_ps(p + 8); // xyzx yzxy zxyz
-    __m128 yz = _mm_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 2, 1)), xy = _mm_shuffle_ps(b, c, _MM_SHUFFLE(2, 1, 3, 2));
-    __m128 x = _mm_shuffle_ps(a, xy, _MM_SHUFFLE(2, 0, 3, 0)), y = _mm_shuffle_ps(yz, xy, _MM_SHUFFLE(3, 1, 2, 0)),
-           z = _mm_shuffle_ps(yz, c, _MM_SHUFFLE(3, 0, 3, 1));
-    __m128d low = tl_farthest_two(d, x, y, z),
-            high = tl_farthest_two(d, _mm_movehl_ps(x, x), _mm_movehl_ps(y, y), _mm_movehl_ps(z, z));
-    _mm_storeu_pd(dots, low);
-    _mm_storeu_pd(dots + 2, high);
-    return _mm_max_pd(low, high);
+    tl_f64x2 x[2], y[2], z[2];
+    tl_f64x2_load_points(&points->x, x, y, z);
+    tl_f64x2 low = tl_farthest_two(d, x[0], y[0], z[0]), high = tl_farthest_two(d, x[1], y[1], z[1]);
+    tl_f64x2_store(dots, low);
+    tl_f64x2_store(dots + 2, high);
+    return tl_f64x2_max(low, high);
 }
 
 // Bit k of the result: product k is the largest. Of four.
-static inline uint32_t tl_farthest_mask(const double *dots, __m128d largest)
+static inline uint32_t tl_farthest_mask(const double *dots, tl_f64x2 largest)
 {
-    return (uint32_t)_mm_movemask_pd(_mm_cmpeq_pd(_mm_load_pd(dots), largest)) |
-           (uint32_t)_mm_movemask_pd(_mm_cmpeq_pd(_mm_load_pd(dots + 2), largest)) << 2;
+    return tl_f64x2_two_masks(tl_f64x2_where_equal(tl_f64x2_load(dots), largest),
+                              tl_f64x2_where_equal(tl_f64x2_load(dots + 2), largest));
 }
 
 // Of 4 .. TL_FARTHEST_BLOCK points.
@@ -50,25 +45,25 @@ static inline uint32_t tl_farthest_of_block(const tl_vec3 *points, uint32_t coun
                                             double *dot_out)
 {
     _Alignas(16) double dots[TL_FARTHEST_BLOCK];
-    const __m128d d[3] = { _mm_set1_pd(direction->x), _mm_set1_pd(direction->y), _mm_set1_pd(direction->z) };
-    __m128d best = tl_farthest_four(d, points, dots);
+    const tl_f64x2 d[3] = { tl_f64x2_all(direction->x), tl_f64x2_all(direction->y), tl_f64x2_all(direction->z) };
+    tl_f64x2 best = tl_farthest_four(d, points, dots);
     uint32_t i = 4, mask = 0;
     for (; i + 4 <= count; i += 4) {
-        best = _mm_max_pd(best, tl_farthest_four(d, points + i, dots + i));
+        best = tl_f64x2_max(best, tl_farthest_four(d, points + i, dots + i));
     }
     if (i < count) {
         // Some of the last four are computed again. What lies beyond in the row must not win: NaN equals nothing, not
         // even where the direction or all points are infinite.
-        best = _mm_max_pd(best, tl_farthest_four(d, points + (count - 4), dots + (count - 4)));
+        best = tl_f64x2_max(best, tl_farthest_four(d, points + (count - 4), dots + (count - 4)));
         for (uint32_t k = count; k < i + 4; k++) {
             dots[k] = (double)NAN;
         }
     }
-    best = _mm_max_pd(best, _mm_shuffle_pd(best, best, 1));
+    best = tl_f64x2_max(best, tl_f64x2_swap(best));
     for (i = 0; i < count; i += 4) {
         mask |= tl_farthest_mask(dots + i, best) << i;
     }
-    *dot_out = _mm_cvtsd_f64(best);
+    *dot_out = tl_f64x2_get_x(best);
     return mask != 0 ? tl_lowest_bit(mask) : 0; // 0: the direction is not finite
 }
 
@@ -86,7 +81,7 @@ static inline uint32_t tl_farthest_plain(const tl_vec3 *points, uint32_t count, 
     return best;
 }
 
-#if defined(__SSE2__) || defined(_M_X64)
+#if TL_HAS_F64X2
 static inline uint32_t tl_farthest_of_many(const tl_vec3 *points, uint32_t count, const tl_vec3d *direction)
 {
     uint32_t best = 0;
@@ -109,7 +104,7 @@ static inline uint32_t tl_farthest_of_many(const tl_vec3 *points, uint32_t count
 // Of count >= 1 points; the lowest index of several that are equally far.
 static inline uint32_t tl_farthest(const tl_vec3 *points, uint32_t count, const tl_vec3d *direction)
 {
-#if defined(__SSE2__) || defined(_M_X64)
+#if TL_HAS_F64X2
     if (count >= 4) {
         double dot;
         return count <= TL_FARTHEST_BLOCK ? tl_farthest_of_block(points, count, direction, &dot)

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Boxes in two registers, for loops that do little but grow boxes. SSE2 where the compiler may use it everywhere, plain
-// C elsewhere: minima and maxima do not round, so both give the same bits. The fourth lanes hold nothing of use.
+// Boxes in two registers, for loops that do little but grow boxes. What every processor of the target has: SSE2,
+// NEON, simd128, or plain C. Minima and maxima do not round, so all give the same bits. The fourth lanes hold nothing
+// of use.
 
 #ifndef TALUS_SRC_MATH_BOX4_H
 #define TALUS_SRC_MATH_BOX4_H
+
+#include "base/cpu.h"
 
 #include <talus/vec.h>
 
 #include <stdint.h>
 
-#if defined(__SSE2__)
+#if defined(__SSE2__) && !defined(TALUS_NO_SIMD)
 
 #include <emmintrin.h>
 
@@ -79,6 +82,64 @@ static inline void tl_box4_cells(tl_box4 a, const float base[4], const float sca
     // A NaN, of infinity times zero, ends up in the first cell.
     place = _mm_min_ps(_mm_max_ps(place, _mm_setzero_ps()), _mm_set1_ps(last));
     _mm_storeu_si128((__m128i *)(void *)cells, _mm_cvttps_epi32(place));
+}
+
+#elif TL_CPU_BASE_LEVEL == 1
+
+#include "math/simd.h"
+
+typedef struct tl_box4 {
+    tl_f32x4 min, max;
+} tl_box4;
+
+static inline tl_box4 tl_box4_load(const float *min, const float *max)
+{
+    tl_box4 r = { tl_f32x4_load(min), tl_f32x4_load(max) };
+    return r;
+}
+
+static inline tl_box4 tl_box4_of(tl_aabb box)
+{
+    tl_box4 r = { tl_f32x4_load_three(&box.min.x), tl_f32x4_load_three(&box.max.x) };
+    return r;
+}
+
+static inline tl_box4 tl_box4_empty(void)
+{
+    tl_box4 r = { tl_f32x4_all(INFINITY), tl_f32x4_all(-INFINITY) };
+    return r;
+}
+
+static inline tl_box4 tl_box4_union(tl_box4 a, tl_box4 b)
+{
+    tl_box4 r = { tl_f32x4_min(a.min, b.min), tl_f32x4_max(a.max, b.max) };
+    return r;
+}
+
+static inline tl_box4 tl_box4_middle(tl_box4 a)
+{
+    tl_f32x4 middle = tl_f32x4_add(a.min, a.max);
+    tl_box4 r = { middle, middle };
+    return r;
+}
+
+static inline tl_aabb tl_box4_to_aabb(tl_box4 a)
+{
+    tl_aabb r = { tl_vec3_make(tl_f32x4_get_x(a.min), tl_f32x4_get_y(a.min), tl_f32x4_get_z(a.min)),
+                  tl_vec3_make(tl_f32x4_get_x(a.max), tl_f32x4_get_y(a.max), tl_f32x4_get_z(a.max)) };
+    return r;
+}
+
+static inline float tl_box4_half_area(tl_box4 a)
+{
+    tl_f32x4 size = tl_f32x4_sub(a.max, a.min), sides = tl_f32x4_mul(size, tl_f32x4_rotate_three(size));
+    return tl_f32x4_get_x(sides) + tl_f32x4_get_y(sides) + tl_f32x4_get_z(sides);
+}
+
+static inline void tl_box4_cells(tl_box4 a, const float base[4], const float scale[4], float last, int32_t cells[4])
+{
+    tl_f32x4 place = tl_f32x4_mul(tl_f32x4_sub(a.min, tl_f32x4_load(base)), tl_f32x4_load(scale));
+    tl_f32x4_store_whole(cells, tl_f32x4_min(tl_f32x4_max(place, tl_f32x4_all(0.0f)), tl_f32x4_all(last)));
 }
 
 #else

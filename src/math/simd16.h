@@ -99,7 +99,15 @@ static inline tl_f32x16 tl_f32x16_max_bits(tl_f32x16 a, tl_f32x16 b)
 
 static inline uint32_t tl_f32x16_less_equal_bits(tl_f32x16 a, tl_f32x16 b)
 {
+#if TL_SIMD_LEVEL == 1
+    tl_f32x4 less[4] = { tl_f32x4_where_less_bits(b.low.low, a.low.low),
+                         tl_f32x4_where_less_bits(b.low.high, a.low.high),
+                         tl_f32x4_where_less_bits(b.high.low, a.high.low),
+                         tl_f32x4_where_less_bits(b.high.high, a.high.high) };
+    return tl_f32x4_four_masks(less[0], less[1], less[2], less[3]) ^ 0xffffu;
+#else
     return (tl_f32x8_less_bits(b.low, a.low) | tl_f32x8_less_bits(b.high, a.high) << 8) ^ 0xffffu;
+#endif
 }
 
 static inline void tl_f32x16_store_bits(uint32_t *sixteen, tl_f32x16 a)

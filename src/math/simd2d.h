@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Two doubles in a register that every processor of the target has: SSE2, NEON, simd128. TL_HAS_F64X2 is 0 where there
-// is none. Nothing here is fused, so all give the same bits.
+// is none, and where the file asks for plain C on a target whose base level is not. Nothing here is fused, so all give
+// the same bits.
 //
 // A mask is a vector whose lanes are all ones or zero.
 
@@ -12,7 +13,7 @@
 
 #include <stdbool.h>
 
-#if defined(__SSE2__)
+#if (defined(__SSE2__) || defined(_M_X64)) && !defined(TALUS_NO_SIMD)
 
 #include <immintrin.h>
 
@@ -114,7 +115,34 @@ static inline bool tl_f64x2_any(tl_f64x2 a, tl_f64x2 b, tl_f64x2 c, tl_f64x2 d)
     return (_mm_movemask_pd(a) | _mm_movemask_pd(b) | _mm_movemask_pd(c) | _mm_movemask_pd(d)) != 0;
 }
 
-#elif TL_CPU_BASE_LEVEL >= 1 && defined(__aarch64__)
+/// Four points, x y z x y z ..., as doubles, two and two.
+static inline void tl_f64x2_load_points(const float *points, tl_f64x2 x[2], tl_f64x2 y[2], tl_f64x2 z[2])
+{
+    __m128 a = _mm_loadu_ps(points), b = _mm_loadu_ps(points + 4), c = _mm_loadu_ps(points + 8); // xyzx yzxy zxyz
+    __m128 yz = _mm_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 2, 1)), xy = _mm_shuffle_ps(b, c, _MM_SHUFFLE(2, 1, 3, 2));
+    __m128 x4 = _mm_shuffle_ps(a, xy, _MM_SHUFFLE(2, 0, 3, 0)), y4 = _mm_shuffle_ps(yz, xy, _MM_SHUFFLE(3, 1, 2, 0)),
+           z4 = _mm_shuffle_ps(yz, c, _MM_SHUFFLE(3, 0, 3, 1));
+    x[0] = _mm_cvtps_pd(x4);
+    y[0] = _mm_cvtps_pd(y4);
+    z[0] = _mm_cvtps_pd(z4);
+    x[1] = _mm_cvtps_pd(_mm_movehl_ps(x4, x4));
+    y[1] = _mm_cvtps_pd(_mm_movehl_ps(y4, y4));
+    z[1] = _mm_cvtps_pd(_mm_movehl_ps(z4, z4));
+}
+
+/// { a[1], a[0] }.
+static inline tl_f64x2 tl_f64x2_swap(tl_f64x2 a)
+{
+    return _mm_shuffle_pd(a, a, 1);
+}
+
+/// Bits 0 and 1: those of a; 2 and 3: those of b.
+static inline uint32_t tl_f64x2_two_masks(tl_f64x2 a, tl_f64x2 b)
+{
+    return tl_f64x2_masks(a) | tl_f64x2_masks(b) << 2;
+}
+
+#elif TL_SIMD_LEVEL >= 1 && defined(__aarch64__)
 
 #include <arm_neon.h>
 
@@ -216,7 +244,62 @@ static inline bool tl_f64x2_any(tl_f64x2 a, tl_f64x2 b, tl_f64x2 c, tl_f64x2 d)
     return vmaxvq_u32(vreinterpretq_u32_u64(vorrq_u64(ab, cd))) != 0;
 }
 
-#elif TL_CPU_BASE_LEVEL >= 1 && defined(__wasm_simd128__)
+// Lanes 0 and 1 as doubles, and 2 and 3.
+static inline tl_f64x2 tl_f64x2_of_low(tl_f32x4 a)
+{
+    return vcvt_f64_f32(vget_low_f32(a));
+}
+
+static inline tl_f64x2 tl_f64x2_of_high(tl_f32x4 a)
+{
+    return vcvt_high_f64_f32(a);
+}
+
+static inline tl_f32x4 tl_f64x2_to_floats(tl_f64x2 low, tl_f64x2 high)
+{
+    return vcvt_high_f32_f64(vcvt_f32_f64(low), high);
+}
+
+/// { a[1], b[0] }.
+static inline tl_f64x2 tl_f64x2_yx(tl_f64x2 a, tl_f64x2 b)
+{
+    return vextq_f64(a, b, 1);
+}
+
+/// { a[0], b[1] }.
+static inline tl_f64x2 tl_f64x2_xy(tl_f64x2 a, tl_f64x2 b)
+{
+    return vcopyq_laneq_f64(b, 0, a, 0);
+}
+
+/// { a[0] + a[1], b[0] + b[1] }.
+static inline tl_f64x2 tl_f64x2_pair_sums(tl_f64x2 a, tl_f64x2 b)
+{
+    return vpaddq_f64(a, b);
+}
+
+static inline void tl_f64x2_load_points(const float *points, tl_f64x2 x[2], tl_f64x2 y[2], tl_f64x2 z[2])
+{
+    float32x4x3_t p = vld3q_f32(points);
+    x[0] = tl_f64x2_of_low(p.val[0]);
+    y[0] = tl_f64x2_of_low(p.val[1]);
+    z[0] = tl_f64x2_of_low(p.val[2]);
+    x[1] = tl_f64x2_of_high(p.val[0]);
+    y[1] = tl_f64x2_of_high(p.val[1]);
+    z[1] = tl_f64x2_of_high(p.val[2]);
+}
+
+static inline tl_f64x2 tl_f64x2_swap(tl_f64x2 a)
+{
+    return vextq_f64(a, a, 1);
+}
+
+static inline uint32_t tl_f64x2_two_masks(tl_f64x2 a, tl_f64x2 b)
+{
+    return tl_f32x4_mask(vuzp1q_u32(vreinterpretq_u32_f64(a), vreinterpretq_u32_f64(b)));
+}
+
+#elif TL_SIMD_LEVEL >= 1 && defined(__wasm_simd128__)
 
 #include <wasm_simd128.h>
 
@@ -313,6 +396,57 @@ static inline uint32_t tl_f64x2_masks(tl_f64x2 a)
 static inline bool tl_f64x2_any(tl_f64x2 a, tl_f64x2 b, tl_f64x2 c, tl_f64x2 d)
 {
     return wasm_v128_any_true(wasm_v128_or(wasm_v128_or(a, b), wasm_v128_or(c, d)));
+}
+
+static inline tl_f64x2 tl_f64x2_of_low(tl_f32x4 a)
+{
+    return wasm_f64x2_promote_low_f32x4(a);
+}
+
+static inline tl_f64x2 tl_f64x2_of_high(tl_f32x4 a)
+{
+    return wasm_f64x2_promote_low_f32x4(wasm_i64x2_shuffle(a, a, 1, 1));
+}
+
+static inline tl_f32x4 tl_f64x2_to_floats(tl_f64x2 low, tl_f64x2 high)
+{
+    return wasm_i64x2_shuffle(wasm_f32x4_demote_f64x2_zero(low), wasm_f32x4_demote_f64x2_zero(high), 0, 2);
+}
+
+static inline tl_f64x2 tl_f64x2_yx(tl_f64x2 a, tl_f64x2 b)
+{
+    return wasm_i64x2_shuffle(a, b, 1, 2);
+}
+
+static inline tl_f64x2 tl_f64x2_xy(tl_f64x2 a, tl_f64x2 b)
+{
+    return wasm_i64x2_shuffle(a, b, 0, 3);
+}
+
+static inline tl_f64x2 tl_f64x2_pair_sums(tl_f64x2 a, tl_f64x2 b)
+{
+    return wasm_f64x2_add(wasm_i64x2_shuffle(a, b, 0, 2), wasm_i64x2_shuffle(a, b, 1, 3));
+}
+
+static inline void tl_f64x2_load_points(const float *points, tl_f64x2 x[2], tl_f64x2 y[2], tl_f64x2 z[2])
+{
+    v128_t a = wasm_v128_load(points), b = wasm_v128_load(points + 4), c = wasm_v128_load(points + 8); // xyzx yzxy zxyz
+    x[0] = wasm_f64x2_promote_low_f32x4(wasm_i32x4_shuffle(a, a, 0, 3, 0, 0));
+    y[0] = wasm_f64x2_promote_low_f32x4(wasm_i32x4_shuffle(a, b, 1, 4, 0, 0));
+    z[0] = wasm_f64x2_promote_low_f32x4(wasm_i32x4_shuffle(a, b, 2, 5, 0, 0));
+    x[1] = wasm_f64x2_promote_low_f32x4(wasm_i32x4_shuffle(b, c, 2, 5, 0, 0));
+    y[1] = wasm_f64x2_promote_low_f32x4(wasm_i32x4_shuffle(b, c, 3, 6, 0, 0));
+    z[1] = wasm_f64x2_promote_low_f32x4(wasm_i32x4_shuffle(c, c, 0, 3, 0, 0));
+}
+
+static inline tl_f64x2 tl_f64x2_swap(tl_f64x2 a)
+{
+    return wasm_i64x2_shuffle(a, a, 1, 0);
+}
+
+static inline uint32_t tl_f64x2_two_masks(tl_f64x2 a, tl_f64x2 b)
+{
+    return (uint32_t)wasm_i32x4_bitmask(wasm_i32x4_shuffle(a, b, 0, 2, 4, 6));
 }
 
 #else

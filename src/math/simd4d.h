@@ -6,6 +6,7 @@
 #define TALUS_SRC_MATH_SIMD4D_H
 
 #include "math/simd.h"
+#include "math/simd2d.h"
 
 #if TL_SIMD_LEVEL >= 2
 
@@ -81,6 +82,88 @@ static inline double tl_f64x4_get_y(tl_f64x4 a)
 static inline void tl_f64x4_store(double *four, tl_f64x4 a)
 {
     _mm256_storeu_pd(four, a);
+}
+
+#elif TL_SIMD_LEVEL == 1 && TL_CPU_BASE_LEVEL == 1
+
+// Two registers. (With SSE4.2 compilers make the same of plain C.)
+typedef struct tl_f64x4 {
+    tl_f64x2 low, high;
+} tl_f64x4;
+
+static inline tl_f64x4 tl_f64x4_make(tl_f64x2 low, tl_f64x2 high)
+{
+    tl_f64x4 r = { low, high };
+    return r;
+}
+
+static inline tl_f64x4 tl_f64x4_all(double value)
+{
+    return tl_f64x4_make(tl_f64x2_all(value), tl_f64x2_all(value));
+}
+
+static inline tl_f64x4 tl_f64x4_of_floats(tl_f32x4 a)
+{
+    return tl_f64x4_make(tl_f64x2_of_low(a), tl_f64x2_of_high(a));
+}
+
+static inline tl_f64x4 tl_f64x4_gather_three(const float *first, uint32_t stride)
+{
+    return tl_f64x4_of_floats(tl_f32x4_gather_three(first, first + stride, first + 2 * (size_t)stride));
+}
+
+static inline tl_f64x4 tl_f64x4_from_floats(const float *four)
+{
+    return tl_f64x4_of_floats(tl_f32x4_load(four));
+}
+
+static inline void tl_f64x4_store_floats(float *four, tl_f64x4 a)
+{
+    tl_f32x4_store(four, tl_f64x2_to_floats(a.low, a.high));
+}
+
+static inline tl_f64x4 tl_f64x4_sub(tl_f64x4 a, tl_f64x4 b)
+{
+    return tl_f64x4_make(tl_f64x2_sub(a.low, b.low), tl_f64x2_sub(a.high, b.high));
+}
+
+static inline tl_f64x4 tl_f64x4_mul(tl_f64x4 a, tl_f64x4 b)
+{
+    return tl_f64x4_make(tl_f64x2_mul(a.low, b.low), tl_f64x2_mul(a.high, b.high));
+}
+
+static inline tl_f64x4 tl_f64x4_rotate_three(tl_f64x4 a)
+{
+    return tl_f64x4_make(tl_f64x2_yx(a.low, a.high), tl_f64x2_xy(a.low, a.high));
+}
+
+static inline tl_f64x4 tl_f64x4_sums(tl_f64x4 a, tl_f64x4 b, tl_f64x4 c, tl_f64x4 d)
+{
+    tl_f64x2 ab_low = tl_f64x2_pair_sums(a.low, b.low), ab_high = tl_f64x2_pair_sums(a.high, b.high);
+    tl_f64x2 cd_low = tl_f64x2_pair_sums(c.low, d.low), cd_high = tl_f64x2_pair_sums(c.high, d.high);
+    return tl_f64x4_make(tl_f64x2_add(ab_low, ab_high), tl_f64x2_add(cd_low, cd_high));
+}
+
+static inline double tl_f64x4_sum(tl_f64x4 a)
+{
+    tl_f64x2 pairs = tl_f64x2_pair_sums(a.low, a.high);
+    return tl_f64x2_get_x(pairs) + tl_f64x2_get_y(pairs);
+}
+
+static inline double tl_f64x4_get_x(tl_f64x4 a)
+{
+    return tl_f64x2_get_x(a.low);
+}
+
+static inline double tl_f64x4_get_y(tl_f64x4 a)
+{
+    return tl_f64x2_get_y(a.low);
+}
+
+static inline void tl_f64x4_store(double *four, tl_f64x4 a)
+{
+    tl_f64x2_store(four, a.low);
+    tl_f64x2_store(four + 2, a.high);
 }
 
 #else

@@ -30,11 +30,17 @@ static inline tl_f32x4 tl_f32x4_load(const float *four)
     return vld1q_f32(four);
 }
 
+/// Of three places; the fourth lane is 0.
+static inline tl_f32x4 tl_f32x4_gather_three(const float *x, const float *y, const float *z)
+{
+    float32x4_t xy = vld1q_lane_f32(y, vld1q_lane_f32(x, vdupq_n_f32(0.0f), 0), 1);
+    return vld1q_lane_f32(z, xy, 2);
+}
+
 // A load for each float, as with SSE.
 static inline tl_f32x4 tl_f32x4_load_three(const float *three)
 {
-    float32x4_t xy = vld1q_lane_f32(three + 1, vld1q_lane_f32(three, vdupq_n_f32(0.0f), 0), 1);
-    return vld1q_lane_f32(three + 2, xy, 2);
+    return tl_f32x4_gather_three(three, three + 1, three + 2);
 }
 
 static inline float tl_f32x4_get_x(tl_f32x4 a)
@@ -57,6 +63,12 @@ static inline tl_f32x4 tl_f32x4_permute(tl_f32x4 a, const uint32_t *order)
     // Four bytes a lane.
     uint32x4_t bytes = vmlaq_n_u32(vdupq_n_u32(0x03020100), vld1q_u32(order), 0x04040404);
     return vreinterpretq_f32_u8(vqtbl1q_u8(vreinterpretq_u8_f32(a), vreinterpretq_u8_u32(bytes)));
+}
+
+static inline tl_f32x4 tl_f32x4_rotate_three(tl_f32x4 a)
+{
+    float32x4_t yzwx = vextq_f32(a, a, 1), yzxw = vrev64q_f32(yzwx);
+    return vcombine_f32(vget_low_f32(yzwx), vget_high_f32(yzxw));
 }
 
 static inline tl_f32x4 tl_f32x4_add(tl_f32x4 a, tl_f32x4 b)
@@ -156,6 +168,11 @@ static inline void tl_f32x4_store(float *four, tl_f32x4 a)
     vst1q_f32(four, a);
 }
 
+static inline void tl_f32x4_store_whole(int32_t *four, tl_f32x4 a)
+{
+    vst1q_s32(four, vcvtq_s32_f32(a));
+}
+
 static inline tl_f32x4 tl_f32x4_max_of_three(tl_f32x4 a)
 {
     float32x4_t m = tl_f32x4_max(tl_f32x4_max(a, vdupq_laneq_f32(a, 1)), vdupq_laneq_f32(a, 2));
@@ -233,6 +250,14 @@ static inline uint32_t tl_f32x4_two_signs(tl_f32x4 low, tl_f32x4 high)
 {
     static const int16_t places[8] = { 0, 1, 2, 3, 4, 5, 6, 7 };
     return vaddvq_u16(vshlq_u16(vshrq_n_u16(tl_f32x4_upper_halves(low, high), 15), vld1q_s16(places)));
+}
+
+static inline uint32_t tl_f32x4_four_masks(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f32x4 d)
+{
+    // The bits of the first two in the low bytes, those of the others in the high ones.
+    static const uint16_t bits[8] = { 0x0101, 0x0202, 0x0404, 0x0808, 0x1010, 0x2020, 0x4040, 0x8080 };
+    uint16x8_t bytes = vsliq_n_u16(tl_f32x4_upper_halves(a, b), tl_f32x4_upper_halves(c, d), 8);
+    return vaddvq_u16(vandq_u16(bytes, vld1q_u16(bits)));
 }
 
 #endif

@@ -70,6 +70,12 @@ static inline tl_f32x4 tl_f32x4_permute(tl_f32x4 a, const uint32_t *order)
     return tl_f32x4_make(a.v[order[0]], a.v[order[1]], a.v[order[2]], a.v[order[3]]);
 }
 
+/// Lanes 1, 2, 0, 3.
+static inline tl_f32x4 tl_f32x4_rotate_three(tl_f32x4 a)
+{
+    return tl_f32x4_make(a.v[1], a.v[2], a.v[0], a.v[3]);
+}
+
 static inline tl_f32x4 tl_f32x4_add(tl_f32x4 a, tl_f32x4 b)
 {
     return tl_f32x4_make(a.v[0] + b.v[0], a.v[1] + b.v[1], a.v[2] + b.v[2], a.v[3] + b.v[3]);
@@ -95,6 +101,15 @@ static inline tl_f32x4 tl_f32x4_max(tl_f32x4 a, tl_f32x4 b)
     tl_f32x4 r;
     for (int i = 0; i < 4; i++) {
         r.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
+    }
+    return r;
+}
+
+static inline tl_f32x4 tl_f32x4_min(tl_f32x4 a, tl_f32x4 b)
+{
+    tl_f32x4 r;
+    for (int i = 0; i < 4; i++) {
+        r.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
     }
     return r;
 }
@@ -182,6 +197,14 @@ static inline uint32_t tl_f32x4_signs(tl_f32x4 a)
 static inline void tl_f32x4_store(float *four, tl_f32x4 a)
 {
     memcpy(four, a.v, sizeof a.v);
+}
+
+/// Without their fractions; each within the range of an int32_t.
+static inline void tl_f32x4_store_whole(int32_t *four, tl_f32x4 a)
+{
+    for (int i = 0; i < 4; i++) {
+        four[i] = (int32_t)a.v[i];
+    }
 }
 
 /// The largest of the first three lanes, in all lanes.

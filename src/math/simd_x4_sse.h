@@ -66,6 +66,11 @@ static inline tl_f32x4 tl_f32x4_permute(tl_f32x4 a, const uint32_t *order)
 #endif
 }
 
+static inline tl_f32x4 tl_f32x4_rotate_three(tl_f32x4 a)
+{
+    return _mm_shuffle_ps(a, a, _MM_SHUFFLE(3, 0, 2, 1));
+}
+
 static inline tl_f32x4 tl_f32x4_add(tl_f32x4 a, tl_f32x4 b)
 {
     return _mm_add_ps(a, b);
@@ -84,6 +89,11 @@ static inline tl_f32x4 tl_f32x4_mul(tl_f32x4 a, tl_f32x4 b)
 static inline tl_f32x4 tl_f32x4_div(tl_f32x4 a, tl_f32x4 b)
 {
     return _mm_div_ps(a, b);
+}
+
+static inline tl_f32x4 tl_f32x4_min(tl_f32x4 a, tl_f32x4 b)
+{
+    return _mm_min_ps(a, b);
 }
 
 static inline tl_f32x4 tl_f32x4_max(tl_f32x4 a, tl_f32x4 b)
@@ -154,6 +164,11 @@ static inline void tl_f32x4_store(float *four, tl_f32x4 a)
     _mm_storeu_ps(four, a);
 }
 
+static inline void tl_f32x4_store_whole(int32_t *four, tl_f32x4 a)
+{
+    _mm_storeu_si128((__m128i *)(void *)four, _mm_cvttps_epi32(a));
+}
+
 static inline tl_f32x4 tl_f32x4_max_of_three(tl_f32x4 a)
 {
     __m128 y = _mm_shuffle_ps(a, a, _MM_SHUFFLE(1, 1, 1, 1));
@@ -188,11 +203,6 @@ static inline tl_f32x4 tl_f32x4_largest(tl_f32x4 a)
 {
     __m128 m = _mm_max_ps(a, _mm_shuffle_ps(a, a, _MM_SHUFFLE(1, 0, 3, 2)));
     return _mm_max_ps(m, _mm_shuffle_ps(m, m, _MM_SHUFFLE(2, 3, 0, 1)));
-}
-
-static inline tl_f32x4 tl_f32x4_min(tl_f32x4 a, tl_f32x4 b)
-{
-    return _mm_min_ps(a, b);
 }
 
 static inline tl_f32x4 tl_f32x4_and(tl_f32x4 a, tl_f32x4 b)
@@ -234,6 +244,11 @@ static inline uint32_t tl_f32x4_two_signs(tl_f32x4 low, tl_f32x4 high)
 static inline uint32_t tl_f32x4_two_masks(tl_f32x4 low, tl_f32x4 high)
 {
     return tl_f32x4_two_signs(low, high);
+}
+
+static inline uint32_t tl_f32x4_four_masks(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f32x4 d)
+{
+    return tl_f32x4_two_masks(a, b) | tl_f32x4_two_masks(c, d) << 8;
 }
 
 #endif

@@ -30,11 +30,17 @@ static inline tl_f32x4 tl_f32x4_load(const float *four)
     return wasm_v128_load(four);
 }
 
+/// Of three places; the fourth lane is 0.
+static inline tl_f32x4 tl_f32x4_gather_three(const float *x, const float *y, const float *z)
+{
+    v128_t xy = wasm_v128_load32_lane(y, wasm_v128_load32_zero(x), 1);
+    return wasm_v128_load32_lane(z, xy, 2);
+}
+
 // A load for each float, as with SSE.
 static inline tl_f32x4 tl_f32x4_load_three(const float *three)
 {
-    v128_t xy = wasm_v128_load32_lane(three + 1, wasm_v128_load32_zero(three), 1);
-    return wasm_v128_load32_lane(three + 2, xy, 2);
+    return tl_f32x4_gather_three(three, three + 1, three + 2);
 }
 
 static inline float tl_f32x4_get_x(tl_f32x4 a)
@@ -57,6 +63,11 @@ static inline tl_f32x4 tl_f32x4_permute(tl_f32x4 a, const uint32_t *order)
     // Four bytes a lane.
     v128_t first = wasm_i32x4_mul(wasm_v128_load(order), wasm_i32x4_splat(0x04040404));
     return wasm_i8x16_swizzle(a, wasm_i32x4_add(first, wasm_i32x4_splat(0x03020100)));
+}
+
+static inline tl_f32x4 tl_f32x4_rotate_three(tl_f32x4 a)
+{
+    return wasm_i32x4_shuffle(a, a, 1, 2, 0, 3);
 }
 
 static inline tl_f32x4 tl_f32x4_add(tl_f32x4 a, tl_f32x4 b)
@@ -149,6 +160,11 @@ static inline void tl_f32x4_store(float *four, tl_f32x4 a)
     wasm_v128_store(four, a);
 }
 
+static inline void tl_f32x4_store_whole(int32_t *four, tl_f32x4 a)
+{
+    wasm_v128_store(four, wasm_i32x4_trunc_sat_f32x4(a));
+}
+
 static inline tl_f32x4 tl_f32x4_max_of_three(tl_f32x4 a)
 {
     v128_t y = wasm_i32x4_shuffle(a, a, 1, 1, 1, 1), z = wasm_i32x4_shuffle(a, a, 2, 2, 2, 2);
@@ -222,6 +238,12 @@ static inline uint32_t tl_f32x4_two_signs(tl_f32x4 low, tl_f32x4 high)
 static inline uint32_t tl_f32x4_two_masks(tl_f32x4 low, tl_f32x4 high)
 {
     return tl_f32x4_two_signs(low, high);
+}
+
+static inline uint32_t tl_f32x4_four_masks(tl_f32x4 a, tl_f32x4 b, tl_f32x4 c, tl_f32x4 d)
+{
+    return (uint32_t)wasm_i8x16_bitmask(
+        wasm_i8x16_narrow_i16x8(wasm_i16x8_narrow_i32x4(a, b), wasm_i16x8_narrow_i32x4(c, d)));
 }
 
 #endif

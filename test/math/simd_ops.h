@@ -36,6 +36,7 @@ typedef struct simd_output {
     union {
         float f32[SIMD_LANES];
         double f64[8];
+        int32_t i32[SIMD_LANES];
         uint32_t u32[SIMD_LANES];
         uint64_t u64[SIMD_LANES];
         uint8_t bytes[128];

@@ -73,6 +73,8 @@ static void run_x4(const simd_input *in, simd_output **out)
     put_x4(out, "f32x4_sub", SIMD_NUMBER_32, tl_f32x4_sub(a, b));
     put_x4(out, "f32x4_mul", SIMD_NUMBER_32, tl_f32x4_mul(a, b));
     put_x4(out, "f32x4_div", SIMD_NUMBER_32, tl_f32x4_div(a, b));
+    put_x4(out, "f32x4_rotate_three", SIMD_EXACT, tl_f32x4_rotate_three(a));
+    put_x4(out, "f32x4_min", SIMD_EXACT, tl_f32x4_min(a, b));
     put_x4(out, "f32x4_max", SIMD_EXACT, tl_f32x4_max(a, b));
     put_x4(out, "f32x4_or", SIMD_EXACT, tl_f32x4_or(a, b));
     put_x4(out, "f32x4_neg", SIMD_EXACT, tl_f32x4_neg(a));
@@ -84,6 +86,8 @@ static void run_x4(const simd_input *in, simd_output **out)
     put_bits(out, "f32x4_less_equal", tl_f32x4_less_equal(a, b));
     put_bits(out, "f32x4_ascending", tl_f32x4_ascending(a, b, c));
     put_bits(out, "f32x4_signs", tl_f32x4_signs(a));
+    tl_f32x4 small = tl_f32x4_min(tl_f32x4_max(a, tl_f32x4_all(-9.0f)), tl_f32x4_all(1e9f));
+    tl_f32x4_store_whole(next_output(out, "f32x4_store_whole", SIMD_EXACT, 16)->value.i32, small);
     put_x4(out, "f32x4_max_of_three", SIMD_EXACT, tl_f32x4_max_of_three(a));
     put_f32(out, "f32x4_least_of_three", SIMD_EXACT, tl_f32x4_least_of_three(a));
 }

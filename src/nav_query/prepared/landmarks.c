@@ -13,6 +13,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/min_max.h"
 #include "math/tolerance.h"
 #include "nav_query/prepared/dijkstra.h"
 
@@ -73,9 +74,9 @@ static void measure_landmarks(landmark_spread *s, tl_nav_visibility_graph *graph
         tl_nav_dijkstra_run(&s->lengths, s->source, s->component_count);
         for (uint32_t i = 0; i < graph->vertex_count; i++) {
             graph->landmarks[i][k] = (float)s->lengths.length[i];
-            longest = fmax(longest, s->lengths.length[i]);
+            longest = tl_max_f64(longest, s->lengths.length[i]);
             // The first set was chosen for its distance from some corner vertex, which is no place of a set.
-            s->nearest[i] = k == 0 ? s->lengths.length[i] : fmin(s->nearest[i], s->lengths.length[i]);
+            s->nearest[i] = k == 0 ? s->lengths.length[i] : tl_min_f64(s->nearest[i], s->lengths.length[i]);
         }
     }
     // Two landmark lengths are rounded, and their difference.
