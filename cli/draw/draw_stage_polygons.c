@@ -4,6 +4,7 @@
 
 #include "cli/draw/draw_stage.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static const draw_colour WALL_COLOUR = 0x23303f;
@@ -12,13 +13,6 @@ static const draw_colour INNER_COLOUR = 0xffffff;
 static tl_vec3 lifted_detail(tl_vec3 p, float height)
 {
     return tl_vec3_make(p.x, p.y + height, p.z);
-}
-
-static void add_filled_fan(draw_scene *scene, const tl_vec3 *corners, uint32_t count, draw_colour colour)
-{
-    for (uint32_t k = 2; k < count; k++) {
-        draw_add_triangle(scene, corners[0], corners[k - 1], corners[k], colour);
-    }
 }
 
 void draw_stage_polygons(draw_scene *scene, const tl_polygon_mesh *mesh, const char *what)
@@ -75,16 +69,56 @@ void draw_stage_detail(draw_scene *scene, const tl_nav_detail *detail)
     draw_add_legend(scene, WALL_COLOUR, "its outline");
 }
 
+// A polygon's surface as agents walk on it: on hills the flat polygon lies deep in the ground.
+static void add_surface(draw_scene *scene, const tl_nav_tile *tile, uint32_t polygon, float lift, draw_colour colour)
+{
+    const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
+    for (uint32_t i = 0; i < surface.triangle_count; i++) {
+        const uint16_t *corner = surface.triangles[i].corner;
+        draw_add_triangle(scene, lifted_detail(surface.vertices[corner[0]], lift),
+                          lifted_detail(surface.vertices[corner[1]], lift),
+                          lifted_detail(surface.vertices[corner[2]], lift), colour);
+    }
+}
+
+static float distance_to_edge_sq(tl_vec3 p, tl_vec3 a, tl_vec3 b)
+{
+    const float ux = b.x - a.x, uz = b.z - a.z, length_sq = ux * ux + uz * uz;
+    const float along = length_sq > 0.0f ? ((p.x - a.x) * ux + (p.z - a.z) * uz) / length_sq : 0.0f;
+    const float t = along < 0.0f ? 0.0f : along > 1.0f ? 1.0f : along;
+    const float dx = p.x - a.x - t * ux, dz = p.z - a.z - t * uz;
+    return dx * dx + dz * dz;
+}
+
+// The polygon's edge on which a point of its outline lies.
+static uint32_t edge_under(const tl_vec3 *corners, uint32_t count, tl_vec3 point)
+{
+    uint32_t nearest = 0;
+    float least = INFINITY;
+    for (uint32_t k = 0; k < count; k++) {
+        const float distance = distance_to_edge_sq(point, corners[k], corners[(k + 1) % count]);
+        nearest = distance < least ? k : nearest;
+        least = distance < least ? distance : least;
+    }
+    return nearest;
+}
+
 static void add_tile_polygon(draw_scene *scene, const tl_nav_tile *tile, uint32_t polygon, draw_colour colour)
 {
     uint32_t count = 0;
     const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
-    add_filled_fan(scene, corners, count, colour);
     const uint32_t *links = tl_nav_tile_links(tile, polygon);
-    for (uint32_t k = 0; k < count; k++) {
-        bool wall = links[k] == TL_NAV_LINK_WALL;
-        draw_add_line(scene, corners[k], corners[(k + 1) % count], wall ? WALL_COLOUR : INNER_COLOUR,
-                      wall ? 1.6f : 0.9f, 0.85f);
+    const tl_nav_surface surface = tl_nav_tile_surface(tile, polygon);
+    add_surface(scene, tile, polygon, 0.0f, colour);
+    for (uint32_t i = 0; i < 3 * surface.triangle_count; i++) {
+        const tl_nav_detail_triangle *triangle = &surface.triangles[i / 3];
+        if ((triangle->edge_flags >> i % 3 & 1u) == 0) {
+            continue;
+        }
+        const tl_vec3 a = surface.vertices[triangle->corner[i % 3]];
+        const tl_vec3 b = surface.vertices[triangle->corner[(i + 1) % 3]];
+        const bool wall = links[edge_under(corners, count, tl_lerp(a, b, 0.5f))] == TL_NAV_LINK_WALL;
+        draw_add_line(scene, a, b, wall ? WALL_COLOUR : INNER_COLOUR, wall ? 1.6f : 0.9f, 0.85f);
     }
 }
 
@@ -126,13 +160,7 @@ void draw_stage_route(draw_scene *scene, const tl_navmesh *navmesh, const tl_nav
         const tl_nav_tile *tile;
         uint32_t polygon;
         if (tl_navmesh_resolve(navmesh, buffers->polygons[i], &tile, &polygon) == TL_OK) {
-            uint32_t count = 0;
-            const tl_vec3 *corners = tl_nav_tile_corners(tile, polygon, &count);
-            tl_vec3 raised[TL_NAV_MAX_CORNERS];
-            for (uint32_t k = 0; k < count; k++) {
-                raised[k] = lifted_detail(corners[k], 0.02f);
-            }
-            add_filled_fan(scene, raised, count, corridor);
+            add_surface(scene, tile, polygon, 0.02f, corridor);
         }
     }
     uint32_t corners = route->corner_count < buffers->corner_capacity ? route->corner_count : buffers->corner_capacity;

@@ -117,6 +117,36 @@ static void test_same_bytes(void **state)
     free(c);
 }
 
+// On a hill a flat polygon lies deep in the ground; what is drawn is the surface, of which nothing is hidden from
+// above.
+static void test_navmesh_on_a_hill(void **state)
+{
+    (void)state;
+    enum { SIDE = 21 };
+    FILE *file = fopen("hill.obj", "w");
+    TEST_CHECK(file != NULL);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double x = i % SIDE - 10, z = i / SIDE - 10, r = hypot(x, z) / 10;
+        fprintf(file, "v %g %g %g\n", 2 * x, r < 1 ? 8 * (1 - r * r) : 0, 2 * z);
+    }
+    for (int i = 0; i < SIDE * (SIDE - 1); i++) {
+        if (i % SIDE < SIDE - 1) {
+            fprintf(file, "f %d %d %d %d\n", i + 1, i + SIDE + 1, i + SIDE + 2, i + 2);
+        }
+    }
+    TEST_CHECK(fclose(file) == 0);
+    // The seam of two tiles crosses the hill.
+    cli_do(0, "draw hill.obj -o hill.svg --stage navmesh --view top --tile-size 68 --size 300");
+    char *svg = cli_read_file("hill.svg", NULL);
+    uint32_t lines = 0, faint = 0;
+    for (const char *at = strstr(svg, "stroke-opacity:0."); at != NULL; at = strstr(at + 1, "stroke-opacity:0.")) {
+        lines++;
+        faint += at[strlen("stroke-opacity:0.")] < '8';
+    }
+    TEST_CHECK(lines > 20 && faint == 0);
+    free(svg);
+}
+
 static void test_path_svg_and_views(void **state)
 {
     (void)state;
@@ -223,8 +253,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_stage),        cmocka_unit_test(test_overview),
-        cmocka_unit_test(test_same_bytes),         cmocka_unit_test(test_path_svg_and_views),
-        cmocka_unit_test(test_steps_of_a_contour), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_same_bytes),         cmocka_unit_test(test_navmesh_on_a_hill),
+        cmocka_unit_test(test_path_svg_and_views), cmocka_unit_test(test_steps_of_a_contour),
+        cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }
