@@ -65,14 +65,34 @@ static void try_down(const tl_nav_landing_search *search, const tl_nav_ledge_poi
     }
 }
 
+static double plane_distance(tl_vec3 a, tl_vec3 b)
+{
+    const double x = (double)b.x - (double)a.x, z = (double)b.z - (double)a.z;
+    return sqrt(x * x + z * z);
+}
+
+static bool is_jump_in_range(const tl_nav_links_def *def, tl_vec3 start, tl_vec3 end)
+{
+    return plane_distance(start, end) <= (double)def->max_jump && end.y - start.y <= def->jump_height &&
+           start.y - end.y <= def->max_drop;
+}
+
+// The navmesh is looked for in boxes as wide as two cells, so what is found may lie a diagonal too far, where its
+// polygon may still begin near enough.
+static bool shorten_jump(const tl_nav_landing_search *search, tl_vec3 start, tl_nav_location *target)
+{
+    return is_jump_in_range(search->def, start, target->point) ||
+           (tl_navmesh_closest_point(search->navmesh, target->polygon, start, &target->point, NULL) == TL_OK &&
+            is_jump_in_range(search->def, start, target->point));
+}
+
 // The lowest jump that is slow enough and free.
 static tl_nav_candidate_fate prove_jump(const tl_nav_landing_search *search, tl_nav_jump_link *link)
 {
     const tl_nav_links_def *def = search->def;
     static const float HEIGHTS[] = { 0.25f, 0.5f, 1.0f };
     float up = link->end.y - link->start.y;
-    tl_vec3 across = tl_sub(link->end, link->start);
-    double length = sqrt((double)across.x * (double)across.x + (double)across.z * (double)across.z);
+    double length = plane_distance(link->start, link->end);
     tl_nav_candidate_fate fate = TL_NAV_CANDIDATE_TOO_FAST;
     for (int i = 0; i < 3; i++) {
         link->apex = HEIGHTS[i] * def->jump_height;
@@ -106,7 +126,8 @@ static void try_jump(const tl_nav_landing_search *search, const tl_nav_ledge_poi
         tl_vec3 center = tl_add(place->point, tl_scale(direction, out));
         center.y += middle;
         tl_nav_location target;
-        if (tl_navmesh_find_nearest(search->navmesh, NULL, center, half, &target) != TL_OK) {
+        if (tl_navmesh_find_nearest(search->navmesh, NULL, center, half, &target) != TL_OK ||
+            !shorten_jump(search, place->point, &target)) {
             continue;
         }
         set_ends(candidate, place->point, target.point, place->off_middle);

@@ -44,20 +44,9 @@ typedef struct linked_level {
     tl_soup *soup;
 } linked_level;
 
-// `scale` times as large, and the agent with it.
-static void make_scaled_level(linked_level *out, float scale)
+static void bake_boxes(const box_level *boxes, float scale, linked_level *out)
 {
-    static box_level boxes;
-    memset(&boxes, 0, sizeof boxes);
-    add_box(&boxes, tl_vec3_make(0, -1, 0), tl_vec3_make(20, 0, 20));     // the floor
-    add_box(&boxes, tl_vec3_make(6, 0, 0), tl_vec3_make(6.4f, 0.8f, 20)); // a low wall from side to side
-    add_box(&boxes, tl_vec3_make(12, 0, 0), tl_vec3_make(20, 3, 8));      // a ledge to drop from
-    add_box(&boxes, tl_vec3_make(12, 0, 12), tl_vec3_make(20, 1, 20));    // a ledge to climb
-    add_box(&boxes, tl_vec3_make(21.5f, -1, 0), tl_vec3_make(30, 0, 20)); // an island
-    for (uint32_t i = 0; i < 8 * boxes.count; i++) {
-        boxes.vertices[i] = tl_scale(boxes.vertices[i], scale);
-    }
-    tl_mesh_view view = { boxes.vertices, 8 * boxes.count, boxes.indices, 12 * boxes.count, NULL };
+    tl_mesh_view view = { boxes->vertices, 8 * boxes->count, boxes->indices, 12 * boxes->count, NULL };
     tl_nav_input input = { view, NULL, NULL, 0 };
     tl_nav_def def = tl_default_nav_def();
     def.cell_size = 0.2f * scale;
@@ -72,6 +61,22 @@ static void make_scaled_level(linked_level *out, float scale)
         TEST_RESULT(tl_navmesh_add_tile(out->navmesh, out->tiles.tiles[i], TL_NAV_TILE_BORROWED), TL_OK);
     }
     TEST_RESULT(tl_soup_bake(&view, NULL, &out->soup, NULL), TL_OK);
+}
+
+// `scale` times as large, and the agent with it.
+static void make_scaled_level(linked_level *out, float scale)
+{
+    static box_level boxes;
+    memset(&boxes, 0, sizeof boxes);
+    add_box(&boxes, tl_vec3_make(0, -1, 0), tl_vec3_make(20, 0, 20));     // the floor
+    add_box(&boxes, tl_vec3_make(6, 0, 0), tl_vec3_make(6.4f, 0.8f, 20)); // a low wall from side to side
+    add_box(&boxes, tl_vec3_make(12, 0, 0), tl_vec3_make(20, 3, 8));      // a ledge to drop from
+    add_box(&boxes, tl_vec3_make(12, 0, 12), tl_vec3_make(20, 1, 20));    // a ledge to climb
+    add_box(&boxes, tl_vec3_make(21.5f, -1, 0), tl_vec3_make(30, 0, 20)); // an island
+    for (uint32_t i = 0; i < 8 * boxes.count; i++) {
+        boxes.vertices[i] = tl_scale(boxes.vertices[i], scale);
+    }
+    bake_boxes(&boxes, scale, out);
 }
 
 static void make_level(linked_level *out)
@@ -327,11 +332,56 @@ static void test_scales(void **state)
     free_level(&level);
 }
 
+// No link is longer, deeper or higher than its def allows, on gaps of many widths and depths at any angle.
+static void test_ranges(void **state)
+{
+    (void)state;
+    test_random random = { 3 };
+    uint32_t jumps = 0, near_limit = 0;
+    for (uint32_t round = 0; round < 40; round++) {
+        static box_level boxes;
+        memset(&boxes, 0, sizeof boxes);
+        add_box(&boxes, tl_vec3_make(0, -1, 0), tl_vec3_make(8, 0, 12));
+        const float gap = 0.4f + 2.4f * test_random_unit(&random), low = -4.4f + 5.6f * test_random_unit(&random);
+        add_box(&boxes, tl_vec3_make(8 + gap, -6, 0), tl_vec3_make(16 + gap, low, 12));
+        // Turned, so that ledges run across the cells.
+        const float angle = 0.78f * test_random_unit(&random), c = cosf(angle), s = sinf(angle);
+        for (uint32_t i = 0; i < 8 * boxes.count; i++) {
+            const tl_vec3 v = boxes.vertices[i];
+            boxes.vertices[i] = tl_vec3_make(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
+        }
+        linked_level level;
+        bake_boxes(&boxes, 1.0f, &level);
+        tl_nav_links_def def = tl_default_nav_links_def();
+        def.max_jump = 2.0f + 2.0f * test_random_unit(&random);
+        tl_nav_links *links = NULL;
+        TEST_RESULT(tl_nav_links_find(&def, level.navmesh, level.soup, &links, NULL), TL_OK);
+        for (uint32_t i = 0; i < links->link_count; i++) {
+            const tl_nav_jump_link *link = &tl_nav_links_array(links)[i];
+            const double across =
+                hypot((double)link->end.x - (double)link->start.x, (double)link->end.z - (double)link->start.z);
+            const float down = link->start.y - link->end.y;
+            TEST_CHECK(down <= def.max_drop);
+            if (link->kind == TL_NAV_LINK_JUMP) {
+                TEST_CHECK(across <= (double)def.max_jump && -down <= link->apex && link->apex <= def.jump_height);
+                TEST_CHECK(link->both_ways == 0 || (link->apex + down <= def.jump_height && -down <= def.max_drop));
+                jumps++;
+                near_limit += across > 0.9 * (double)def.max_jump;
+            } else {
+                TEST_CHECK(link->kind != TL_NAV_LINK_CLIMB || down <= def.max_climb);
+            }
+        }
+        tl_blob_free(links);
+        free_level(&level);
+    }
+    TEST_CHECK(jumps > 40 && near_limit > 3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_known_level), cmocka_unit_test(test_limits),
                                         cmocka_unit_test(test_hosts),       cmocka_unit_test(test_failing_memory),
                                         cmocka_unit_test(test_damage),      cmocka_unit_test(test_points),
-                                        cmocka_unit_test(test_scales) };
+                                        cmocka_unit_test(test_scales),      cmocka_unit_test(test_ranges) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
