@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+//
+// Errors, buffers and blobs between C and Python.
+
+#include "binding.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static PyObject *error_class; // of the package; lives as long as the module
+
+PyObject *binding_set_error_class(PyObject *module, PyObject *new_class)
+{
+    (void)module;
+    Py_INCREF(new_class);
+    Py_XDECREF(error_class);
+    error_class = new_class;
+    Py_RETURN_NONE;
+}
+
+PyObject *binding_raise(tl_result result, const tl_report *report)
+{
+    if (PyErr_Occurred() != NULL) {
+        return NULL;
+    }
+    if (result == TL_ERR_MEMORY) {
+        return PyErr_NoMemory();
+    }
+    tl_report none = { NULL, NULL, NULL, TL_NO_ELEMENT, NULL, 0 };
+    report = report != NULL ? report : &none;
+    PyObject *index = report->element != NULL && report->element_index != TL_NO_ELEMENT
+                          ? PyLong_FromUnsignedLongLong(report->element_index)
+                          : Py_NewRef(Py_None);
+    if (index == NULL) {
+        return NULL;
+    }
+    PyObject *error = PyObject_CallFunction(error_class, "ssszzOz", tl_result_name(result), tl_result_text(result),
+                                            report->stage != NULL ? report->stage : "", report->field, report->element,
+                                            index, report->advice);
+    Py_DECREF(index);
+    if (error != NULL) {
+        PyErr_SetObject(error_class, error);
+        Py_DECREF(error);
+    }
+    return NULL;
+}
+
+Py_ssize_t binding_count(const Py_buffer *buffer, size_t size, const char *name)
+{
+    if ((size_t)buffer->len % size != 0) {
+        PyErr_Format(PyExc_ValueError, "%s: %zd bytes are no whole number of items of %zu", name, buffer->len, size);
+        return -1;
+    }
+    return buffer->len / (Py_ssize_t)size;
+}
+
+bool binding_has(const Py_buffer *buffer, size_t size, Py_ssize_t count, bool optional, const char *name)
+{
+    if (buffer->buf == NULL && optional) {
+        return true;
+    }
+    if (buffer->len != count * (Py_ssize_t)size) {
+        PyErr_Format(PyExc_ValueError, "%s has %zd bytes, and should have %zd", name, buffer->len,
+                     count * (Py_ssize_t)size);
+        return false;
+    }
+    return true;
+}
+
+void binding_release(Py_buffer *buffers, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        if (buffers[i].obj != NULL) {
+            PyBuffer_Release(&buffers[i]);
+        }
+    }
+}
+
+static void free_blob_capsule(PyObject *capsule)
+{
+    binding_blob *held = PyCapsule_GetPointer(capsule, PyCapsule_GetName(capsule));
+    if (held->owner != NULL) {
+        Py_DECREF(held->owner);
+    } else {
+        tl_blob_free(held->blob);
+    }
+    free(held);
+}
+
+PyObject *binding_blob_capsule(void *blob, PyObject *owner, const char *name)
+{
+    binding_blob *held = malloc(sizeof(*held));
+    PyObject *capsule = held != NULL ? PyCapsule_New(held, name, free_blob_capsule) : PyErr_NoMemory();
+    if (capsule == NULL) {
+        free(held);
+        if (owner == NULL) {
+            tl_blob_free(blob);
+        }
+        return NULL;
+    }
+    held->blob = blob;
+    held->owner = Py_XNewRef(owner);
+    return capsule;
+}
+
+void *binding_blob_of(PyObject *capsule, const char *name)
+{
+    binding_blob *held = PyCapsule_GetPointer(capsule, name);
+    return held != NULL ? held->blob : NULL;
+}

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+//
+// Changes of a navmesh: off-mesh links, obstacles, and what is prepared for faster paths.
+
+#include "binding.h"
+
+#include <math.h>
+#include <string.h>
+
+// --- off-mesh links
+// -------------------------------------------------------------------------------------------------------
+
+// navmesh_add_link(navmesh, (start), (end), both ways, radius, cost factor, fixed cost, flags, area) -> ref
+static PyObject *navmesh_add_link(PyObject *self, PyObject *args)
+{
+    (void)self;
+    PyObject *capsule;
+    tl_nav_offmesh link = tl_default_nav_offmesh();
+    int both_ways = 0;
+    int area = 0;
+    unsigned long long flags = 0;
+    if (!PyArg_ParseTuple(args, "O(fff)(fff)pfffKi", &capsule, &link.start.x, &link.start.y, &link.start.z, &link.end.x,
+                          &link.end.y, &link.end.z, &both_ways, &link.radius, &link.cost_factor, &link.fixed_cost,
+                          &flags, &area)) {
+        return NULL;
+    }
+    binding_navmesh *held = binding_navmesh_of(capsule);
+    if (held == NULL) {
+        return NULL;
+    }
+    link.both_ways = both_ways != 0;
+    link.flags = flags;
+    link.area = (uint8_t)area;
+    tl_nav_ref ref;
+    tl_result result = tl_navmesh_add_offmesh(held->navmesh, &link, &ref);
+    return result == TL_OK ? PyLong_FromUnsignedLongLong(ref) : binding_raise(result, NULL);
+}
+
+// navmesh_remove_link(navmesh, ref)
+static PyObject *navmesh_remove_link(PyObject *self, PyObject *args)
+{
+    (void)self;
+    PyObject *capsule;
+    unsigned long long ref = 0;
+    if (!PyArg_ParseTuple(args, "OK", &capsule, &ref)) {
+        return NULL;
+    }
+    binding_navmesh *held = binding_navmesh_of(capsule);
+    if (held == NULL) {
+        return NULL;
+    }
+    tl_result result = tl_navmesh_remove_offmesh(held->navmesh, ref);
+    return result == TL_OK ? Py_NewRef(Py_None) : binding_raise(result, NULL);
+}
+
+// navmesh_links(navmesh) -> list of (ref, start, end, both ways, anchored, cost)
+static PyObject *navmesh_links(PyObject *self, PyObject *capsule)
+{
+    (void)self;
+    const binding_navmesh *held = binding_navmesh_of(capsule);
+    PyObject *list = held != NULL ? PyList_New(0) : NULL;
+    uint32_t cursor = 0;
+    tl_nav_ref ref;
+    while (list != NULL && tl_navmesh_next_offmesh(held->navmesh, &cursor, &ref)) {
+        tl_nav_offmesh_state state;
+        tl_navmesh_offmesh_state(held->navmesh, ref, &state);
+        const tl_nav_offmesh *link = &state.offmesh;
+        PyObject *item = Py_BuildValue("K(fff)(fff)NNf", (unsigned long long)ref, link->start.x, link->start.y,
+                                       link->start.z, link->end.x, link->end.y, link->end.z,
+                                       PyBool_FromLong(link->both_ways), PyBool_FromLong(state.anchored), state.cost);
+        if (item == NULL || PyList_Append(list, item) != 0) {
+            Py_CLEAR(list);
+        }
+        Py_XDECREF(item);
+    }
+    return list;
+}
+
+// navmesh_find_links(navmesh, soup, dict of limits, add, threads, progress) -> bytes of tl_nav_jump_link
+static PyObject *navmesh_find_links(PyObject *self, PyObject *args)
+{
+    (void)self;
+    PyObject *capsule;
+    PyObject *soup_capsule;
+    PyObject *progress;
+    tl_nav_links_def def = tl_default_nav_links_def();
+    int add = 0;
+    unsigned threads = 1;
+    if (!PyArg_ParseTuple(args, "OO(ffffffff)pIO", &capsule, &soup_capsule, &def.spacing, &def.max_drop, &def.max_jump,
+                          &def.jump_height, &def.max_speed, &def.gravity, &def.max_climb, &def.min_gain, &add, &threads,
+                          &progress)) {
+        return NULL;
+    }
+    binding_navmesh *held = binding_navmesh_of(capsule);
+    const tl_soup *soup = held != NULL ? binding_blob_of(soup_capsule, BINDING_SOUP) : NULL;
+    if (soup == NULL) {
+        return NULL;
+    }
+    tl_nav_links *links = NULL;
+    tl_nav_links_report report;
+    binding_host host;
+    binding_begin(&host, progress, threads);
+    def.host = host.host;
+    tl_result result = tl_nav_links_find(&def, held->navmesh, soup, &links, &report);
+    if (result == TL_OK && add) {
+        result = tl_nav_links_add(links, NULL, held->navmesh);
+    }
+    binding_end(&host);
+    if (result != TL_OK) {
+        tl_blob_free(links);
+        return binding_raise(result, &report.base);
+    }
+    PyObject *bytes = PyBytes_FromStringAndSize((const char *)tl_nav_links_array(links),
+                                                (Py_ssize_t)(links->link_count * sizeof(tl_nav_jump_link)));
+    if (add) {
+        tl_blob_free(held->links);
+        held->links = links; // saved with the navmesh
+    } else {
+        tl_blob_free(links);
+    }
+    return bytes;
+}
+
+// --- obstacles
+// ------------------------------------------------------------------------------------------------------------
+
+static binding_navmesh *with_obstacles(PyObject *capsule)
+{
+    binding_navmesh *held = binding_navmesh_of(capsule);
+    if (held != NULL && held->obstacles == NULL) {
+        PyErr_SetString(PyExc_ValueError, "the navmesh was baked without obstacles; bake it with obstacles=True");
+        return NULL;
+    }
+    return held;
+}
+
+// obstacle_set(navmesh, id or 0, kind, area, (base), height, numbers (radius, half x, half z, cosine, sine), points)
+//   -> id: adds one, or moves the one of that id
+static PyObject *obstacle_set(PyObject *self, PyObject *args)
+{
+    (void)self;
+    PyObject *capsule;
+    unsigned long long id = 0;
+    int kind = 0;
+    int area = 0;
+    tl_nav_obstacle o;
+    memset(&o, 0, sizeof(o));
+    Py_buffer points;
+    if (!PyArg_ParseTuple(args, "OKii(fff)f(fffff)y*", &capsule, &id, &kind, &area, &o.base.x, &o.base.y, &o.base.z,
+                          &o.height, &o.radius, &o.half_x, &o.half_z, &o.cosine, &o.sine, &points)) {
+        return NULL;
+    }
+    o.shape = (tl_nav_obstacle_shape)kind;
+    o.area = (uint8_t)area;
+    const binding_navmesh *held = with_obstacles(capsule);
+    Py_ssize_t count = held != NULL ? binding_count(&points, sizeof(tl_vec3), "points") : -1;
+    tl_result result = TL_ERR_ARGUMENT;
+    tl_nav_obstacle_id made = id;
+    if (count > TL_NAV_MAX_OBSTACLE_POINTS) {
+        PyErr_Format(PyExc_ValueError, "an outline has at most %d points", TL_NAV_MAX_OBSTACLE_POINTS);
+    } else if (count >= 0) {
+        memcpy(o.points, points.buf, (size_t)points.len);
+        o.point_count = (uint32_t)count;
+        tl_report report;
+        result = id == 0 ? tl_nav_obstacles_add(held->obstacles, &o, &made, &report)
+                         : tl_nav_obstacles_move(held->obstacles, id, &o, &report);
+        if (result != TL_OK) {
+            binding_raise(result, &report);
+        }
+    }
+    PyBuffer_Release(&points);
+    return result == TL_OK ? PyLong_FromUnsignedLongLong(made) : NULL;
+}
+
+// obstacle_remove(navmesh, id)
+static PyObject *obstacle_remove(PyObject *self, PyObject *args)
+{
+    (void)self;
+    PyObject *capsule;
+    unsigned long long id = 0;
+    if (!PyArg_ParseTuple(args, "OK", &capsule, &id)) {
+        return NULL;
+    }
+    const binding_navmesh *held = with_obstacles(capsule);
+    if (held == NULL) {
+        return NULL;
+    }
+    tl_result result = tl_nav_obstacles_remove(held->obstacles, id);
+    return result == TL_OK ? Py_NewRef(Py_None) : binding_raise(result, NULL);
+}
+
+// obstacles_update(navmesh, max tiles) -> tiles still waiting
+static PyObject *obstacles_update(PyObject *self, PyObject *args)
+{
+    (void)self;
+    PyObject *capsule;
+    unsigned max_tiles = 0;
+    if (!PyArg_ParseTuple(args, "OI", &capsule, &max_tiles)) {
+        return NULL;
+    }
+    const binding_navmesh *held = with_obstacles(capsule);
+    if (held == NULL) {
+        return NULL;
+    }
+    tl_nav_bake_report report;
+    uint32_t waiting = 0;
+    tl_result result;
+    Py_BEGIN_ALLOW_THREADS result =
+        tl_nav_obstacles_update(held->obstacles, held->navmesh, max_tiles, &waiting, &report);
+    Py_END_ALLOW_THREADS return result == TL_OK ? PyLong_FromUnsignedLong(waiting)
+                                                : binding_raise(result, &report.base);
+}
+
+// --- preparing
+// --------------------------------------------------------------------------------------------------------------
+
+// navmesh_prepare(navmesh, table bytes, label bytes) -> (kind, corner vertices, bytes)
+static PyObject *navmesh_prepare(PyObject *self, PyObject *args)
+{
+    (void)self;
+    PyObject *capsule;
+    tl_nav_prepare_def def = tl_default_nav_prepare_def();
+    unsigned long long table = 0;
+    unsigned long long labels = 0;
+    if (!PyArg_ParseTuple(args, "OKK", &capsule, &table, &labels)) {
+        return NULL;
+    }
+    const binding_navmesh *held = binding_navmesh_of(capsule);
+    if (held == NULL) {
+        return NULL;
+    }
+    def.table_bytes = table;
+    def.label_bytes = labels;
+    tl_nav_prepared prepared;
+    tl_result result;
+    Py_BEGIN_ALLOW_THREADS result = tl_navmesh_prepare(held->navmesh, &def, &prepared);
+    Py_END_ALLOW_THREADS return result == TL_OK
+        ? Py_BuildValue("sIK", tl_nav_prepared_kind_name(prepared.kind), prepared.corner_vertex_count,
+                        (unsigned long long)prepared.bytes)
+        : binding_raise(result, &prepared.base);
+}
+
+PyMethodDef binding_edit_methods[] = {
+    { "navmesh_add_link", navmesh_add_link, METH_VARARGS, NULL },
+    { "navmesh_remove_link", navmesh_remove_link, METH_VARARGS, NULL },
+    { "navmesh_links", navmesh_links, METH_O, NULL },
+    { "navmesh_find_links", navmesh_find_links, METH_VARARGS, NULL },
+    { "obstacle_set", obstacle_set, METH_VARARGS, NULL },
+    { "obstacle_remove", obstacle_remove, METH_VARARGS, NULL },
+    { "obstacles_update", obstacles_update, METH_VARARGS, NULL },
+    { "navmesh_prepare", navmesh_prepare, METH_VARARGS, NULL },
+    { NULL, NULL, 0, NULL },
+};
