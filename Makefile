@@ -3,6 +3,7 @@
 #   make demo       set up, build, and run the whole job on built-in levels; pictures go to build/demo
 #   make test       set up, build, and pass the tests
 #   make install    install command, library and headers under PREFIX (/usr/local unless told)
+#   make python-test   set up, build and test the Python package, in a virtual environment of its own
 #   make bench      set up, build, and run every benchmark; make bench-rays runs one
 
 # make's own default for CC is cc; CXX is needed by the tests that compare with C++ peers.
@@ -24,7 +25,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench sanitize tsan fuzz cross format lint install clean
+.PHONY: all demo test benchmarks bench sanitize tsan fuzz cross python-test format lint install clean
 
 all:
 	tools/setup tools
@@ -71,6 +72,10 @@ fuzz:
 cross:
 	tools/setup tools cross
 	JOBS=$(JOBS) tools/cross $(CROSS)
+
+python-test:
+	tools/setup tools python
+	tools/python-test build/python
 
 format:
 	git ls-files '*.c' '*.h' '*.inl' '*.cpp' '*.hpp' | xargs clang-format -i
