@@ -39,6 +39,7 @@ static PyObject *navmesh_audit(PyObject *self, PyObject *args)
     }
     tl_nav_audit_def def = tl_default_nav_audit_def();
     def.nav = held->def;
+    def.pruned = held->removed;
     def.path_count = paths;
     def.seed = seed;
     def.areas = level.buffers[2].buf;
@@ -101,12 +102,14 @@ static PyObject *navmesh_why(PyObject *self, PyObject *args)
         return NULL;
     }
     tl_nav_def def = held->def;
+    const tl_nav_pruning pruning = { held->removed, held->pruning != NULL ? held->pruning->min_area : 0.0 };
     tl_nav_why_answer why;
     tl_report report;
     binding_host host;
     binding_begin(&host, progress, 1);
     def.host = host.host;
-    tl_result result = tl_nav_why(&def, &level.input, held->navmesh, point, &why, &report);
+    tl_result result =
+        tl_nav_why(&def, &level.input, held->navmesh, held->removed != NULL ? &pruning : NULL, point, &why, &report);
     binding_end(&host);
     binding_level_free(&level);
     if (result != TL_OK) {

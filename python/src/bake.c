@@ -290,21 +290,35 @@ typedef struct prune_choice {
     double min_area;
 } prune_choice;
 
-static tl_result prune_tiles(const prune_choice *choice, const binding_level *level, const tl_host *host,
-                             tl_nav_tiles *tiles, tl_report *report)
+// Prunes, and keeps what was removed and the rules, for audit, why and files.
+static tl_result prune_tiles(const prune_choice *choice, const binding_level *level, tl_nav_tiles *tiles,
+                             binding_navmesh *made, tl_report *report)
 {
     tl_nav_prune_def def = tl_default_nav_prune_def();
     def.seeds = choice->seeds.buf;
     def.seed_count = (uint32_t)((size_t)choice->seeds.len / sizeof(tl_vec3));
     def.solids = choice->inside ? &level->input.mesh : NULL;
     def.min_area = choice->min_area;
-    def.host = *host;
+    def.host = made->def.host;
     if (tiles->tile_count == 0 || (def.seed_count == 0 && !choice->inside && choice->min_area <= 0)) {
         return TL_OK;
     }
     tl_nav_prune_report pruned;
-    tl_result result = tl_nav_prune(&def, tiles, &pruned);
+    tl_nav_tiles removed;
+    tl_result result = tl_nav_prune(&def, tiles, &removed, &pruned);
     *report = pruned.base;
+    if (result == TL_OK) {
+        result = tl_pack_pruning_encode(&def, NULL, &made->own_pruning, report);
+        made->pruning = made->own_pruning;
+    }
+    if (result == TL_OK && removed.tile_count > 0) {
+        result = tl_navmesh_create(NULL, &made->removed);
+    }
+    if (result == TL_OK && removed.tile_count > 0) {
+        result = tl_navmesh_add_tiles(made->removed, removed.tiles, removed.tile_count, TL_NAV_TILE_OWNED, report);
+        removed.tile_count = result == TL_OK ? 0 : removed.tile_count; // the navmesh has them now
+    }
+    tl_nav_tiles_free(&removed);
     return result;
 }
 
@@ -316,7 +330,7 @@ static tl_result bake_plain(binding_navmesh *made, const binding_level *level, c
     if (result != TL_OK) {
         return result;
     }
-    result = prune_tiles(choice, level, &made->def.host, &tiles, &report->base);
+    result = prune_tiles(choice, level, &tiles, made, &report->base);
     if (result == TL_OK) {
         result = tl_navmesh_add_tiles(made->navmesh, tiles.tiles, tiles.tile_count, TL_NAV_TILE_OWNED, &report->base);
     }
@@ -402,8 +416,7 @@ static PyObject *nav_bake(PyObject *self, PyObject *args)
             answer = counts != NULL ? Py_BuildValue("NN", capsule, counts) : NULL;
         } else {
             binding_raise(result, &report.base);
-            tl_nav_obstacles_destroy(made.obstacles);
-            tl_navmesh_destroy(made.navmesh);
+            binding_navmesh_free_parts(&made);
         }
     }
     binding_level_free(&level);

@@ -89,9 +89,15 @@ typedef struct binding_navmesh {
     tl_nav_def def;
     uint32_t tiles_x, tiles_z;
     tl_nav_obstacles *obstacles;
-    tl_nav_links *links;
-    PyObject *owner; ///< the pack whose bytes the tiles lie in
+    tl_navmesh *removed;            ///< what was pruned, as a navmesh; NULL: nothing
+    const tl_pack_pruning *pruning; ///< the rules; NULL: nothing was asked for
+    const tl_nav_links *links;      ///< found and added; NULL: none
+    tl_pack_pruning *own_pruning;   ///< freed with it; NULL where it lies in the pack
+    tl_nav_links *own_links;        ///< the same
+    PyObject *owner;                ///< the pack whose bytes the tiles lie in
 } binding_navmesh;
+
+void binding_navmesh_free_parts(binding_navmesh *navmesh);
 
 /// A capsule around a navmesh, whose parts are freed with it, and on failure.
 PyObject *binding_navmesh_capsule(binding_navmesh *navmesh);

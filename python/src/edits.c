@@ -113,8 +113,8 @@ static PyObject *navmesh_find_links(PyObject *self, PyObject *args)
     PyObject *bytes = PyBytes_FromStringAndSize((const char *)tl_nav_links_array(links),
                                                 (Py_ssize_t)(links->link_count * sizeof(tl_nav_jump_link)));
     if (add) {
-        tl_blob_free(held->links);
-        held->links = links; // saved with the navmesh
+        tl_blob_free(held->own_links);
+        held->links = held->own_links = links; // saved with the navmesh
     } else {
         tl_blob_free(links);
     }

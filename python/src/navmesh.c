@@ -11,19 +11,21 @@
 // --- the object
 // ---------------------------------------------------------------------------------------------------------
 
-static void free_parts(binding_navmesh *navmesh)
+void binding_navmesh_free_parts(binding_navmesh *navmesh)
 {
     tl_nav_query_destroy(navmesh->query);
     tl_nav_obstacles_destroy(navmesh->obstacles);
     tl_navmesh_destroy(navmesh->navmesh);
-    tl_blob_free(navmesh->links);
+    tl_navmesh_destroy(navmesh->removed);
+    tl_blob_free(navmesh->own_pruning);
+    tl_blob_free(navmesh->own_links);
     Py_XDECREF(navmesh->owner);
 }
 
 static void free_navmesh(PyObject *capsule)
 {
     binding_navmesh *navmesh = PyCapsule_GetPointer(capsule, BINDING_NAVMESH);
-    free_parts(navmesh);
+    binding_navmesh_free_parts(navmesh);
     free(navmesh);
 }
 
@@ -33,7 +35,7 @@ PyObject *binding_navmesh_capsule(binding_navmesh *navmesh)
     PyObject *capsule = held != NULL ? PyCapsule_New(held, BINDING_NAVMESH, free_navmesh) : PyErr_NoMemory();
     if (capsule == NULL) {
         free(held);
-        free_parts(navmesh);
+        binding_navmesh_free_parts(navmesh);
         return NULL;
     }
     *held = *navmesh;

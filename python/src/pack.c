@@ -45,29 +45,51 @@ static int compare_places(const void *a, const void *b)
 }
 
 // The tiles as a bake orders them: by row, column, layer. Slots hold them in the order in which they came.
-static tl_result add_tiles(pack_writer *writer, const binding_navmesh *held)
+static tl_result add_tiles(pack_writer *writer, uint32_t type, const tl_navmesh *navmesh)
 {
-    uint32_t tile_count = tl_navmesh_tile_count(held->navmesh);
-    const tl_nav_tile **tiles = malloc(((size_t)tile_count + 1) * sizeof(*tiles));
+    const tl_nav_tile **tiles = malloc(((size_t)tl_navmesh_tile_count(navmesh) + 1) * sizeof(*tiles));
     if (tiles == NULL) {
         return TL_ERR_MEMORY;
     }
     uint32_t count = 0;
-    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(held->navmesh); slot++) {
-        const tl_nav_tile *tile = tl_navmesh_slot_tile(held->navmesh, slot);
+    for (uint32_t slot = 0; slot < tl_navmesh_slot_count(navmesh); slot++) {
+        const tl_nav_tile *tile = tl_navmesh_slot_tile(navmesh, slot);
         if (tile != NULL) {
             tiles[count++] = tile;
         }
     }
     qsort((void *)tiles, count, sizeof(*tiles), compare_places);
-    tl_result result =
-        tl_pack_navmesh_encode(&held->def, held->tiles_x, held->tiles_z, count, NULL, &writer->navmesh, NULL);
-    add_item(writer, TL_PACK_NAVM, 0, writer->navmesh);
-    for (uint32_t i = 0; i < count && result == TL_OK; i++) {
-        add_item(writer, TL_PACK_NAVT, i, tiles[i]);
+    for (uint32_t i = 0; i < count; i++) {
+        add_item(writer, type, i, tiles[i]);
     }
     free((void *)tiles);
+    return TL_OK;
+}
+
+static tl_result add_navmesh(pack_writer *writer, const binding_navmesh *held)
+{
+    tl_result result = tl_pack_navmesh_encode(&held->def, held->tiles_x, held->tiles_z,
+                                              tl_navmesh_tile_count(held->navmesh), NULL, &writer->navmesh, NULL);
+    if (result == TL_OK) {
+        add_item(writer, TL_PACK_NAVM, 0, writer->navmesh);
+        result = add_tiles(writer, TL_PACK_NAVT, held->navmesh);
+    }
     return result;
+}
+
+static uint32_t item_limit(const binding_navmesh *held)
+{
+    uint32_t tiles = held == NULL ? 0 : tl_navmesh_tile_count(held->navmesh);
+    return 7 + tiles + (held != NULL && held->removed != NULL ? tl_navmesh_tile_count(held->removed) : 0);
+}
+
+// What follows the tiles: links, volumes, and what was pruned.
+static tl_result add_rest(pack_writer *writer, const binding_navmesh *held)
+{
+    add_item(writer, TL_PACK_LINK, 0, held != NULL ? held->links : NULL);
+    add_item(writer, TL_PACK_MARK, 0, writer->volumes);
+    add_item(writer, TL_PACK_PRUN, 0, held != NULL ? held->pruning : NULL);
+    return held != NULL && held->removed != NULL ? add_tiles(writer, TL_PACK_PRUT, held->removed) : TL_OK;
 }
 
 // pack_write(name, vertices, triangles, ((bounds)), soup or None, hull or None, navmesh or None, level or None) ->
@@ -99,7 +121,7 @@ static PyObject *pack_write(PyObject *self, PyObject *args)
     }
     pack_writer writer;
     memset(&writer, 0, sizeof(writer));
-    writer.items = calloc((held != NULL ? tl_navmesh_tile_count(held->navmesh) : 0) + 6, sizeof(*writer.items));
+    writer.items = calloc(item_limit(held), sizeof(*writer.items));
     tl_result result = writer.items != NULL ? TL_OK : TL_ERR_MEMORY;
     tl_report report = { NULL, NULL, NULL, TL_NO_ELEMENT, NULL, 0 };
     if (result == TL_OK) {
@@ -109,15 +131,14 @@ static PyObject *pack_write(PyObject *self, PyObject *args)
         add_item(&writer, TL_PACK_META, 0, writer.meta);
         add_item(&writer, TL_PACK_SOUP, 0, soup);
         add_item(&writer, TL_PACK_HULL, 0, hull);
-        result = held != NULL ? add_tiles(&writer, held) : TL_OK;
+        result = held != NULL ? add_navmesh(&writer, held) : TL_OK;
     }
     if (result == TL_OK && level.input.volume_count > 0) {
         result = tl_pack_volumes_encode(level.volumes, level.input.volume_count, NULL, &writer.volumes, &report);
     }
     PyObject *bytes = NULL;
+    result = result == TL_OK ? add_rest(&writer, held) : result;
     if (result == TL_OK) {
-        add_item(&writer, TL_PACK_LINK, 0, held != NULL ? held->links : NULL);
-        add_item(&writer, TL_PACK_MARK, 0, writer.volumes);
         bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)tl_pack_size(writer.items, writer.count));
         if (bytes != NULL) {
             writer.at = PyBytes_AsString(bytes);
@@ -209,35 +230,55 @@ static PyObject *pack_blob(PyObject *self, PyObject *args)
     return binding_blob_capsule((void *)(uintptr_t)chunk.bytes, capsule, soup ? BINDING_SOUP : BINDING_HULL);
 }
 
+// The chunk of a type after its check; NULL where there is none, or with an error.
+static const void *checked_chunk(const open_pack *held, uint32_t type,
+                                 tl_result (*check)(const void *, uint64_t, tl_report *), tl_result *result,
+                                 tl_report *report)
+{
+    tl_pack_chunk chunk;
+    if (*result != TL_OK || tl_pack_find(&held->pack, type, 0, &chunk) != TL_OK) {
+        return NULL;
+    }
+    *result = check(chunk.bytes, chunk.size, report);
+    return *result == TL_OK ? chunk.bytes : NULL;
+}
+
 // pack_navmesh(pack) -> (capsule, settings dict), or None where the file has none
 static PyObject *pack_navmesh(PyObject *self, PyObject *capsule)
 {
     (void)self;
     const open_pack *held = PyCapsule_GetPointer(capsule, BINDING_PACK);
-    tl_pack_chunk chunk;
     if (held == NULL) {
         return NULL;
     }
-    if (tl_pack_find(&held->pack, TL_PACK_NAVM, 0, &chunk) != TL_OK) {
-        Py_RETURN_NONE;
-    }
     tl_report report;
-    tl_result result = tl_pack_navmesh_check(chunk.bytes, chunk.size, &report);
+    tl_result result = TL_OK;
     binding_navmesh made;
     memset(&made, 0, sizeof(made));
+    const tl_pack_navmesh *blob = checked_chunk(held, TL_PACK_NAVM, tl_pack_navmesh_check, &result, &report);
+    if (blob == NULL && result == TL_OK) {
+        Py_RETURN_NONE;
+    }
+    made.pruning = checked_chunk(held, TL_PACK_PRUN, tl_pack_pruning_check, &result, &report);
+    made.links = checked_chunk(held, TL_PACK_LINK, tl_nav_links_check, &result, &report);
     if (result == TL_OK) {
-        const tl_pack_navmesh *blob = chunk.bytes;
         made.def = tl_pack_navmesh_def(blob);
         made.tiles_x = blob->tiles_x;
         made.tiles_z = blob->tiles_z;
         result = tl_pack_load_navmesh(&held->pack, NULL, &made.navmesh, &report);
     }
+    if (result == TL_OK) {
+        result = tl_pack_load_pruned(&held->pack, NULL, &made.removed, &report);
+        result = result == TL_NOT_FOUND ? TL_OK : result;
+    }
     if (result != TL_OK) {
+        binding_navmesh_free_parts(&made);
         return binding_raise(result, &report);
     }
     made.owner = Py_NewRef(capsule);
+    const tl_nav_def def = made.def;
     PyObject *navmesh = binding_navmesh_capsule(&made);
-    PyObject *settings = navmesh != NULL ? binding_nav_def_dict(&made.def) : NULL;
+    PyObject *settings = navmesh != NULL ? binding_nav_def_dict(&def) : NULL;
     if (settings == NULL) {
         Py_XDECREF(navmesh);
         return NULL;

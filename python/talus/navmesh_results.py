@@ -61,7 +61,8 @@ class Paths:
     @property
     def complete(self) -> npt.NDArray[np.bool_]:
         """(N,) whether each path leads to its goal."""
-        return np.asarray(np.isfinite(self.length), dtype=np.bool_)
+        complete: npt.NDArray[np.bool_] = np.isfinite(self.length)
+        return complete
 
     def __len__(self) -> int:
         return len(self.length)
@@ -122,7 +123,8 @@ class Places:
     @property
     def found(self) -> npt.NDArray[np.bool_]:
         """(N,) whether a polygon is near."""
-        return self.refs != 0
+        found: npt.NDArray[np.bool_] = self.refs != 0
+        return found
 
     def __len__(self) -> int:
         return len(self.refs)

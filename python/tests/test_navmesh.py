@@ -137,6 +137,9 @@ def test_areas_and_filters(hall: Mesh) -> None:
 def test_pruning(hall: Mesh) -> None:
     whole = talus.Navmesh.bake(*hall)
     kept = talus.Navmesh.bake(*hall, reachable_from=[[5, 0, 20]])
+    assert kept.audit(path_count=20)
+    why = kept.why([12, 6.5, 34])
+    assert why.reasons[0].cause.startswith("pruned")
     assert kept.area < whole.area
     assert len(np.unique(kept.polygons().islands)) == 1
 
