@@ -11,7 +11,6 @@
 
 #include "base/assert.h"
 #include "base/hash.h"
-#include "base/host.h"
 #include "math/predicates.h"
 #include "mesh/weld.h"
 
@@ -58,10 +57,11 @@ static tl_result check_mesh_vertex(const tl_mesh_view *view, uint32_t vertex, tl
     return TL_OK;
 }
 
-tl_result tl_check_triangles(const tl_mesh_view *view, uint32_t *used, tl_report *report)
+tl_result tl_check_triangles(const tl_mesh_view *view, tl_stage *stage, uint32_t *used, tl_report *report)
 {
     memset(used, 0xff, (size_t)view->vertex_count * sizeof *used);
     for (uint32_t triangle = 0; triangle < view->triangle_count; triangle++) {
+        TL_TRY(tl_stage_tick(stage, triangle));
         for (uint32_t corner = 0; corner < 3; corner++) {
             uint32_t vertex = view->indices[3 * (size_t)triangle + corner];
             if (vertex >= view->vertex_count) {
@@ -142,7 +142,7 @@ static bool is_degenerate(const tl_mesh_view *view, const uint32_t corners[3])
 }
 
 // Tasks drop degenerate triangles from blocks; what is left of these moves together afterwards.
-enum { BLOCK_TRIANGLES = 1 << 14 };
+enum { BLOCK_TRIANGLES = 1 << 14, CLEAN_BATCH = 8 };
 
 typedef struct cleaner {
     const tl_mesh_view *view;
@@ -167,17 +167,19 @@ static void clean_block(uint32_t block, uint32_t worker, void *user)
     c->counts[block] = count;
 }
 
-tl_result tl_clean_triangles(const tl_mesh_view *view, const tl_mesh_def *def, const uint32_t *representative,
-                             tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out, tl_mesh_report *report)
+tl_result tl_clean_triangles(const tl_cleaning *cleaning, tl_arena *arena, uint32_t *kept, uint32_t *kept_count_out,
+                             tl_mesh_report *report)
 {
-    const bool keep_duplicates = def->keep_duplicates;
+    const tl_mesh_view *view = cleaning->view;
+    const uint32_t *representative = cleaning->representative;
+    const bool keep_duplicates = cleaning->keep_duplicates;
     uint32_t blocks = tl_block_count(view->triangle_count, BLOCK_TRIANGLES);
     cleaner c = { view, representative, kept, TL_PUSH(arena, uint32_t, blocks) };
     triangle_set set = { NULL, 0 };
     if (c.counts == NULL || (!keep_duplicates && !triangle_set_make(&set, view->triangle_count, arena))) {
         return TL_ERR_MEMORY;
     }
-    tl_run_tasks(&def->host, clean_block, blocks, &c);
+    TL_TRY(tl_stage_run(cleaning->stage, clean_block, blocks, &c, CLEAN_BATCH, view->triangle_count / 2));
     uint32_t sound = 0;
     for (uint32_t block = 0; block < blocks; block++) {
         memmove(kept + sound, kept + (size_t)block * BLOCK_TRIANGLES, c.counts[block] * sizeof *kept);
@@ -187,6 +189,7 @@ tl_result tl_clean_triangles(const tl_mesh_view *view, const tl_mesh_def *def, c
     uint32_t count = keep_duplicates ? sound : 0;
     for (uint32_t i = 0; i < sound && !keep_duplicates; i++) {
         uint32_t corners[3];
+        TL_TRY(tl_stage_tick(cleaning->stage, i));
         canonical_corners(view, representative, kept[i], corners);
         if (repeats_earlier(&set, view, representative, kept[i], corners)) {
             report->duplicate_triangles++;

@@ -4,7 +4,6 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
-#include "base/host.h"
 #include "mesh/clean.h"
 #include "mesh/weld.h"
 
@@ -59,12 +58,15 @@ static tl_result allocate_mesh(uint32_t vertex_count, uint32_t triangle_count, c
 }
 
 // Gives each kept vertex its new number, in order of first use.
-static uint32_t number_mesh_vertices(const tl_mesh_view *view, const uint32_t *representative, const uint32_t *kept,
-                                     uint32_t kept_count, uint32_t *number)
+static tl_result number_mesh_vertices(const tl_cleaning *cleaning, const uint32_t *kept, uint32_t kept_count,
+                                      uint32_t *number, uint32_t *count_out)
 {
+    const tl_mesh_view *view = cleaning->view;
+    const uint32_t *representative = cleaning->representative;
     memset(number, 0xff, (size_t)view->vertex_count * sizeof *number);
     uint32_t count = 0;
     for (uint32_t i = 0; i < kept_count; i++) {
+        TL_TRY(tl_stage_tick(cleaning->stage, i));
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t vertex = representative[view->indices[3 * (size_t)kept[i] + k]];
             if (number[vertex] == UINT32_MAX) {
@@ -72,11 +74,12 @@ static uint32_t number_mesh_vertices(const tl_mesh_view *view, const uint32_t *r
             }
         }
     }
-    return count;
+    *count_out = count;
+    return TL_OK;
 }
 
 // What tasks fill the mesh from, block by block.
-enum { BLOCK_ITEMS = 1 << 14 };
+enum { BLOCK_ITEMS = 1 << 14, FILL_BATCH = 32 };
 
 typedef struct filler {
     const tl_mesh_view *view;
@@ -133,14 +136,15 @@ static void fill_block(uint32_t block, uint32_t worker, void *user)
     }
 }
 
-static tl_result fill_mesh(filler *f, const tl_host *host, tl_arena *arena, tl_mesh_report *report)
+static tl_result fill_mesh(filler *f, tl_stage *stage, tl_arena *arena, tl_mesh_report *report)
 {
     f->vertex_blocks = tl_block_count(f->view->vertex_count, BLOCK_ITEMS);
     f->sums = TL_PUSH(arena, struct block_sum, f->vertex_blocks);
     if (f->sums == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_run_tasks(host, fill_block, f->vertex_blocks + tl_block_count(f->mesh->triangle_count, BLOCK_ITEMS), f);
+    TL_TRY(tl_stage_run(stage, fill_block, f->vertex_blocks + tl_block_count(f->mesh->triangle_count, BLOCK_ITEMS), f,
+                        FILL_BATCH, f->view->triangle_count));
     f->mesh->bounds = tl_aabb_empty();
     for (uint32_t block = 0; block < f->vertex_blocks; block++) {
         f->mesh->bounds = tl_aabb_union(f->mesh->bounds, f->sums[block].bounds);
@@ -160,27 +164,28 @@ static tl_result weld_and_clean(const tl_mesh_view *view, const tl_mesh_def *def
     if (representative == NULL || number == NULL || kept == NULL) {
         return TL_ERR_MEMORY;
     }
-    TL_TRY(tl_check_triangles(view, representative, &report->base));
-
+    tl_stage stage;
+    TL_TRY(tl_stage_begin(&stage, host, "weld", view->vertex_count));
+    TL_TRY(tl_check_triangles(view, &stage, representative, &report->base));
     report->base.stage = "weld";
-    TL_TRY(tl_progress_update(host, "weld", 0, view->vertex_count));
-    TL_TRY(def->weld_tolerance > 0.0f ? tl_weld(view, def->weld_tolerance, arena, representative)
-                                      : tl_weld_points(view, host, arena, representative));
-    TL_TRY(tl_progress_update(host, "weld", view->vertex_count, view->vertex_count));
+    TL_TRY(def->weld_tolerance > 0.0f ? tl_weld(view, def->weld_tolerance, &stage, arena, representative)
+                                      : tl_weld_points(view, &stage, arena, representative));
+    TL_TRY(tl_stage_end(&stage));
 
     report->base.stage = "clean";
-    TL_TRY(tl_progress_update(host, "clean", 0, view->triangle_count));
-    uint32_t kept_count = 0;
-    TL_TRY(tl_clean_triangles(view, def, representative, arena, kept, &kept_count, report));
+    TL_TRY(tl_stage_begin(&stage, host, "clean", view->triangle_count));
+    uint32_t kept_count = 0, vertex_count = 0;
+    const tl_cleaning cleaning = { view, representative, def->keep_duplicates, &stage };
+    TL_TRY(tl_clean_triangles(&cleaning, arena, kept, &kept_count, report));
     if (kept_count == 0) {
         return tl_report_fail(&report->base, TL_ERR_EMPTY, NULL, TL_NO_ELEMENT,
                               "all triangles are degenerate: check the unit and the weld tolerance");
     }
-    uint32_t vertex_count = number_mesh_vertices(view, representative, kept, kept_count, number);
+    TL_TRY(number_mesh_vertices(&cleaning, kept, kept_count, number, &vertex_count));
     TL_TRY(allocate_mesh(vertex_count, kept_count, def->host.allocator, mesh));
     filler f = { view, representative, kept, number, mesh, 0, NULL };
-    TL_TRY(fill_mesh(&f, host, arena, report));
-    return tl_progress_update(host, "clean", view->triangle_count, view->triangle_count);
+    TL_TRY(fill_mesh(&f, &stage, arena, report));
+    return tl_stage_end(&stage);
 }
 
 tl_result tl_mesh_bake(const tl_mesh_view *view, const tl_mesh_def *def, tl_mesh *mesh_out, tl_mesh_report *report_out)

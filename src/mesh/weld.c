@@ -10,6 +10,7 @@
 
 #include "mesh/weld.h"
 
+#include "base/assert.h"
 #include "base/hash.h"
 
 #include <math.h>
@@ -90,7 +91,7 @@ static uint32_t table_size(uint32_t count)
     return size;
 }
 
-tl_result tl_weld(const tl_mesh_view *view, float tolerance, tl_arena *arena, uint32_t *representative)
+tl_result tl_weld(const tl_mesh_view *view, float tolerance, tl_stage *stage, tl_arena *arena, uint32_t *representative)
 {
     uint32_t size = table_size(view->vertex_count);
     weld_grid grid = { view->vertices, (double)tolerance, TL_PUSH(arena, uint32_t, size),
@@ -100,6 +101,10 @@ tl_result tl_weld(const tl_mesh_view *view, float tolerance, tl_arena *arena, ui
     }
     memset(grid.slots, 0xff, (size_t)size * sizeof *grid.slots);
     for (uint32_t v = 0; v < view->vertex_count; v++) {
+        // 27 cells a vertex: a step is an eighth of the usual one.
+        if (v % (TL_STAGE_STEP / 8) == 0) {
+            TL_TRY(tl_stage_add(stage, v > 0 ? TL_STAGE_STEP / 8 : 0));
+        }
         if (representative[v] == TL_WELD_UNUSED) {
             continue;
         }

@@ -8,13 +8,16 @@
 
 #include "mesh/weld.h"
 
+#include "base/assert.h"
 #include "base/hash.h"
-#include "base/host.h"
 
 #include <string.h>
 
 // A block of vertices is dealt by one task. Parts have some PART_VERTICES.
 enum { WELD_BLOCK_VERTICES = 1 << 14, PART_VERTICES = 1 << 13, MAX_PARTS = 1 << 12 };
+
+// Blocks, and vertices of parts, a worker between two progress calls: some 10 ms.
+enum { BLOCK_BATCH = 16, PART_BATCH = 1 << 17 };
 
 typedef struct point_welder {
     const tl_mesh_view *view;
@@ -110,8 +113,9 @@ static void place_shares(point_welder *w)
     w->begins[w->part_count] = place;
 }
 
-tl_result tl_weld_points(const tl_mesh_view *view, const tl_host *host, tl_arena *arena, uint32_t *representative)
+tl_result tl_weld_points(const tl_mesh_view *view, tl_stage *stage, tl_arena *arena, uint32_t *representative)
 {
+    const tl_arena_mark mark = tl_arena_get_mark(arena);
     uint32_t count = view->vertex_count;
     point_welder w = { .view = view, .representative = representative, .part_count = 1 };
     while (w.part_count < MAX_PARTS && count / w.part_count > PART_VERTICES) {
@@ -126,9 +130,11 @@ tl_result tl_weld_points(const tl_mesh_view *view, const tl_host *host, tl_arena
     if (w.hashes == NULL || w.places == NULL || w.dealt == NULL || w.begins == NULL || w.slots == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_run_tasks(host, count_block, w.block_count, &w);
+    TL_TRY(tl_stage_run(stage, count_block, w.block_count, &w, BLOCK_BATCH, count / 4));
     place_shares(&w);
-    tl_run_tasks(host, deal_block, w.block_count, &w);
-    tl_run_tasks(host, weld_part, w.part_count, &w);
+    TL_TRY(tl_stage_run(stage, deal_block, w.block_count, &w, BLOCK_BATCH, count / 4));
+    TL_TRY(tl_stage_run(stage, weld_part, w.part_count, &w, tl_block_count(PART_BATCH, count / w.part_count + 1),
+                        count - 2 * (count / 4)));
+    tl_arena_rollback(arena, mark);
     return TL_OK;
 }

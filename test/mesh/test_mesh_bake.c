@@ -221,7 +221,7 @@ static void failing_memory_and_cancellation_leak_nothing(void **state)
     def.host.progress = &progress;
     tl_mesh mesh;
     TEST_RESULT(tl_mesh_bake(&view, &def, &mesh, NULL), TL_ERR_CANCELLED);
-    TEST_CHECK(updates == 4 && test.live_blocks == 0);
+    TEST_CHECK(updates >= 4 && test.live_blocks == 0);
 }
 
 int main(void)

@@ -2,7 +2,7 @@
 //
 // The meter against a count of its own.
 
-#include "nav_bake/tiles/memory_meter.h"
+#include "base/memory_meter.h"
 
 #include "base/arena.h"
 #include "talus_test.h"

@@ -5,21 +5,10 @@
 
 #define _DEFAULT_SOURCE // pthread_attr_setstack
 
+#include "painted_stack.h"
 #include "scene_models.h"
 
-#include <pthread.h>
-#include <string.h>
-
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer)
-#define FRAMES_ARE_WIDER 1
-#endif
-#endif
-#if !defined(__OPTIMIZE__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define FRAMES_ARE_WIDER 1
-#endif
-
-enum { STACK_BYTES = 1 << 18, PAINT = 0xa5, PROMISED = 32 * 1024, CALLS = 300 };
+enum { CALLS = 300 };
 
 typedef struct stack_run {
     const tl_scene *scene;
@@ -77,22 +66,6 @@ static void *run_calls(void *user)
     return NULL;
 }
 
-// Bytes of the stack that were written.
-static size_t bytes_used(stack_run *run, uint8_t *stack)
-{
-    memset(stack, PAINT, STACK_BYTES);
-    pthread_attr_t attributes;
-    pthread_t thread;
-    TEST_CHECK(pthread_attr_init(&attributes) == 0 && pthread_attr_setstack(&attributes, stack, STACK_BYTES) == 0);
-    TEST_CHECK(pthread_create(&thread, &attributes, run_calls, run) == 0 && pthread_join(thread, NULL) == 0);
-    pthread_attr_destroy(&attributes);
-    size_t untouched = 0;
-    while (untouched < STACK_BYTES && stack[untouched] == PAINT) {
-        untouched++;
-    }
-    return STACK_BYTES - untouched;
-}
-
 static void test_queries_fit_small_stacks(void **state)
 {
     (void)state;
@@ -109,19 +82,17 @@ static void test_queries_fit_small_stacks(void **state)
     scene_fill(&parts, &random, tl_vec3_make(0, 0, 0), 5.0f, instances, 40);
     tl_scene *scene = scene_build(instances, 40);
     tl_hull *hull = scene_hull(60, 2.0f, 5);
-    uint8_t *stack = aligned_alloc(4096, STACK_BYTES);
     stack_run run = { scene, instances, NULL, hull, 0, 0 };
     for (uint32_t i = 0; i < 40 && run.soup == NULL; i++) {
         run.soup = instances[i].soup;
     }
-    size_t base = bytes_used(&run, stack);
+    size_t base = painted_stack_used(run_calls, &run);
     for (run.query = 1; run.query < 6; run.query++) {
         run.found = 0;
-        size_t used = bytes_used(&run, stack) - base;
+        size_t used = painted_stack_used(run_calls, &run) - base;
         print_message("%-20s %6zu bytes, %u of %d found something\n", names[run.query], used, run.found, CALLS);
-        TEST_CHECK(run.found > 20 && used <= PROMISED);
+        TEST_CHECK(run.found > 20 && used <= PROMISED_STACK);
     }
-    free(stack);
     tl_blob_free(scene);
     tl_blob_free(hull);
     scene_parts_free(&parts);

@@ -13,6 +13,7 @@ typedef struct walk {
     const tl_bvh *tree;
     uint32_t *seen; // references to each pair
     uint32_t references, leaves, depth;
+    uint32_t nodes;              // met so far, in preorder
     uint32_t inner, overlapping; // nodes, and those whose children share more than a plane
     double cost;                 // surface of all nodes' boxes over the root's, leaves only
 } walk;
@@ -37,23 +38,27 @@ static void check_node(walk *w, uint32_t index, uint32_t depth)
 {
     const tl_bvh_node *node = &w->tree->nodes[index];
     w->depth = depth > w->depth ? depth : w->depth;
-    if (node->count == 0) {
-        TEST_CHECK(holds(node->box, w->tree->nodes[node->left].box));
-        TEST_CHECK(holds(node->box, w->tree->nodes[node->right].box));
+    const uint32_t count = tl_bvh_leaf_count(node);
+    TEST_CHECK(index == w->nodes++);
+    if (count == 0) {
+        const tl_bvh_node *left = &w->tree->nodes[index + 1], *right = &w->tree->nodes[node->link];
+        TEST_CHECK(node->link > index + 1 && node->link < w->tree->node_count);
+        TEST_CHECK(holds(node->box, left->box));
+        TEST_CHECK(holds(node->box, right->box));
         w->inner++;
-        w->overlapping += share_space(w->tree->nodes[node->left].box, w->tree->nodes[node->right].box);
-        check_node(w, node->left, depth + 1);
-        check_node(w, node->right, depth + 1);
+        w->overlapping += share_space(left->box, right->box);
+        check_node(w, index + 1, depth + 1);
+        check_node(w, node->link, depth + 1);
         return;
     }
-    TEST_CHECK(node->count <= TL_SOUP_LEAF_PAIRS);
-    for (uint32_t i = 0; i < node->count; i++) {
-        const tl_bvh_ref *ref = &w->tree->refs[node->first + i];
+    TEST_CHECK(count <= TL_SOUP_LEAF_PAIRS);
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_bvh_ref *ref = &w->tree->refs[node->link + i];
         tl_aabb box = { ref->min, ref->max };
         TEST_CHECK(holds(node->box, box));
         w->seen[ref->pair]++;
     }
-    w->references += node->count;
+    w->references += count;
     w->leaves++;
     w->cost += (double)tl_aabb_half_area(node->box);
 }
@@ -70,24 +75,27 @@ static walk check_tree(const model *m, tl_soup_partition partition, float split_
     tl_triangle_pair *pairs = NULL;
     uint32_t count;
     TEST_RESULT(tl_pair_triangles(&mesh, true, NULL, &arena, &pairs, &count), TL_OK);
-    tl_soup_def def = tl_default_soup_def();
-    def.split_budget = split_budget;
+    const tl_bvh_input input = { &mesh, pairs, count, split_budget };
     bool kd = partition == TL_SOUP_KD_TREE;
     tl_bvh tree;
-    TEST_RESULT((kd ? tl_kd_build : tl_bvh_build)(&mesh, pairs, count, &def, &arena, &tree), TL_OK);
-    walk w = { &mesh, pairs, &tree, TL_PUSH_ZERO(&arena, uint32_t, count), 0, 0, 0, 0, 0, 0 };
-    check_node(&w, tree.root, 1);
+    TEST_RESULT((kd ? tl_kd_build : tl_bvh_build)(&input, NULL, &arena, &tree), TL_OK);
+    walk w = { &mesh, pairs, &tree, TL_PUSH_ZERO(&arena, uint32_t, count), 0, 0, 0, 0, 0, 0, 0 };
+    check_node(&w, 0, 1);
+    TEST_CHECK(w.nodes == tree.node_count && w.leaves == tree.node_count / 2 + 1);
     for (uint32_t i = 0; i < count; i++) {
         TEST_CHECK(w.seen[i] >= 1 && (kd || split_budget > 0 || w.seen[i] == 1));
     }
+    // Only the nodes between parts are in none.
     uint32_t in_parts = 0;
     for (uint32_t i = 0; i < tree.part_count; i++) {
-        in_parts += tree.parts[i].ref_count;
+        TEST_CHECK(i == 0 || tree.parts[i].first >= tree.parts[i - 1].first + tree.parts[i - 1].count);
+        in_parts += tree.parts[i].count;
     }
-    TEST_CHECK(in_parts == (kd ? 0 : tree.ref_count));
+    TEST_CHECK(kd ? tree.part_count == 0 : in_parts + tree.part_count - 1 == tree.node_count);
+    TEST_CHECK(fabs(tree.leaf_surface - w.cost) <= 1e-9 * w.cost);
     TEST_CHECK(w.references == tree.ref_count && w.depth <= TL_SOUP_MAX_DEPTH);
     TEST_CHECK(kd || w.references <= (uint32_t)((float)count * (1 + split_budget)) + 1);
-    w.cost /= (double)tl_aabb_half_area(tree.nodes[tree.root].box);
+    w.cost /= (double)tl_aabb_half_area(tree.nodes[0].box);
     tl_arena_free(&arena);
     tl_mesh_free(&mesh);
     return w;

@@ -14,7 +14,7 @@ static tl_aabb box_of(float x, float y, float z, float size_x, float size_y, flo
 
 static tl_bvh_node leaf_of(tl_aabb box, uint32_t first, uint32_t count)
 {
-    tl_bvh_node node = { .box = box, .first = first, .count = count };
+    tl_bvh_node node = { box, first, TL_BVH_LEAF + count };
     return node;
 }
 
@@ -24,8 +24,8 @@ static void test_chances_by_hand(void **state)
     (void)state;
     const tl_aabb wall = box_of(0, 0, 0, 4, 2, 0), room = box_of(0, 0, 0, 4, 4, 4), square = box_of(1, 1, 1, 2, 2, 0);
     tl_bvh_ref refs[2] = { { wall.min, 0, wall.max, 0 }, { square.min, 1, square.max, 0 } };
-    tl_bvh_node nodes[3] = { { .box = room, .left = 1, .right = 2 }, leaf_of(wall, 0, 1), leaf_of(room, 1, 1) };
-    tl_bvh tree = { .refs = refs, .nodes = nodes, .node_capacity = 3, .root = 0, .ref_count = 2 };
+    tl_bvh_node nodes[3] = { { .box = room, .link = 2 }, leaf_of(wall, 0, 1), leaf_of(room, 1, 1) };
+    tl_bvh tree = { .refs = refs, .nodes = nodes, .node_count = 3, .ref_count = 2 };
     float chance[3];
     for (uint32_t i = 3; i-- > 0;) {
         tl_bvh_order_node(&tree, i, chance);
@@ -40,13 +40,13 @@ static void test_chances_by_hand(void **state)
 static uint32_t check_node(const tl_bvh *tree, float *chance, uint32_t index)
 {
     const tl_bvh_node *node = &tree->nodes[index];
-    if (node->count > 0) {
+    if (tl_bvh_leaf_count(node) > 0) {
         tl_bvh_order_node(tree, index, chance);
         TEST_CHECK(chance[index] >= 0.0f && chance[index] <= 1.0f);
         return 1;
     }
-    const uint32_t halves[2] = { node->left, node->right };
-    uint32_t checked = 1 + check_node(tree, chance, node->left) + check_node(tree, chance, node->right);
+    const uint32_t halves[2] = { index + 1, node->link };
+    uint32_t checked = 1 + check_node(tree, chance, halves[0]) + check_node(tree, chance, halves[1]);
     tl_bvh_order_node(tree, index, chance);
     TEST_CHECK(chance[index] >= 0.0f && chance[index] <= 1.0f);
     for (uint32_t k = 0; k < 2; k++) {
@@ -70,12 +70,12 @@ static void test_random_trees(void **state)
         tl_triangle_pair *pairs = NULL;
         uint32_t count;
         TEST_RESULT(tl_pair_triangles(&mesh, true, NULL, &arena, &pairs, &count), TL_OK);
-        tl_soup_def def = tl_default_soup_def();
+        const tl_bvh_input input = { &mesh, pairs, count, 0.0f };
         tl_bvh tree;
-        TEST_RESULT(tl_bvh_build(&mesh, pairs, count, &def, &arena, &tree), TL_OK);
-        float *chance = TL_PUSH(&arena, float, tree.node_capacity);
+        TEST_RESULT(tl_bvh_build(&input, NULL, &arena, &tree), TL_OK);
+        float *chance = TL_PUSH(&arena, float, tree.node_count);
         TEST_CHECK(chance != NULL);
-        checked += check_node(&tree, chance, tree.root);
+        checked += check_node(&tree, chance, 0);
         tl_arena_free(&arena);
         tl_mesh_free(&mesh);
         model_free(&m);

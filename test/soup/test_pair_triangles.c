@@ -10,12 +10,12 @@ typedef struct paired {
     uint32_t triangles, in_pairs;
 } paired;
 
-static void check_corners(const tl_mesh *mesh, const tl_triangle_pair *pair, uint32_t side)
+static void check_corners(const tl_mesh *mesh, const tl_triangle_pair *pair, uint32_t side, uint32_t triangle)
 {
     uint32_t slot[3] = { pair->corner[0], pair->corner[side == 0 ? 1 : 3], pair->corner[2] };
-    const uint32_t *indices = mesh->indices + 3 * (size_t)pair->triangle[side];
+    const uint32_t *indices = mesh->indices + 3 * (size_t)triangle;
     for (uint32_t k = 0; k < 3; k++) {
-        TEST_CHECK(slot[tl_soup_corner_slots[pair->order[side]][k]] == indices[k]);
+        TEST_CHECK(slot[tl_soup_corner_slots[tl_id_order(pair->id[side])][k]] == indices[k]);
     }
 }
 
@@ -30,16 +30,23 @@ static paired check_pairing(const model *m, bool allow_pairs)
     tl_arena_init(&arena, NULL);
     tl_triangle_pair *pairs = NULL;
     uint8_t *seen = calloc(mesh.triangle_count, 1);
-    TEST_CHECK(seen != NULL);
+    uint32_t *triangle_of = malloc((m->triangle_count + 1) * sizeof *triangle_of);
+    TEST_CHECK(seen != NULL && triangle_of != NULL);
+    memset(triangle_of, 0xff, (m->triangle_count + 1) * sizeof *triangle_of);
+    for (uint32_t i = 0; i < mesh.triangle_count; i++) {
+        triangle_of[mesh.source_triangles[i]] = i;
+    }
     uint32_t count = 0;
     TEST_RESULT(tl_pair_triangles(&mesh, allow_pairs, NULL, &arena, &pairs, &count), TL_OK);
     paired result = { mesh.triangle_count, 0 };
     for (uint32_t i = 0; i < count; i++) {
-        bool single = pairs[i].triangle[1] == TL_NO_TRIANGLE;
+        bool single = pairs[i].id[1] == TL_ID_NONE;
         for (uint32_t side = 0; side < (single ? 1u : 2u); side++) {
-            TEST_CHECK(pairs[i].triangle[side] < mesh.triangle_count && !seen[pairs[i].triangle[side]]);
-            seen[pairs[i].triangle[side]] = 1;
-            check_corners(&mesh, &pairs[i], side);
+            const uint32_t source = pairs[i].id[side] & TL_ID_INDEX;
+            TEST_CHECK(source < m->triangle_count && triangle_of[source] < mesh.triangle_count);
+            TEST_CHECK(!seen[triangle_of[source]]);
+            seen[triangle_of[source]] = 1;
+            check_corners(&mesh, &pairs[i], side, triangle_of[source]);
         }
         TEST_CHECK(!single || pairs[i].corner[3] == pairs[i].corner[0]);
         result.in_pairs += single ? 0 : 2;
@@ -48,6 +55,7 @@ static paired check_pairing(const model *m, bool allow_pairs)
         TEST_CHECK(seen[i]);
     }
     free(seen);
+    free(triangle_of);
     tl_arena_free(&arena);
     tl_mesh_free(&mesh);
     return result;

@@ -153,6 +153,129 @@ static void test_cancel_at_every_call(void **state)
     model_free(&m);
 }
 
+// What a bake holds at its peak, the soup included: the level's own arrays are not counted.
+static double bytes_a_triangle(const model *m, tl_soup_def def)
+{
+    tl_mesh_view view = model_view(m);
+    test_allocator memory;
+    test_allocator_init(&memory, 0);
+    def.host.allocator = &memory.allocator;
+    tl_soup_report report;
+    TEST_RESULT(build(&view, &def, &report), TL_OK);
+    TEST_CHECK(report.base.peak_bytes == memory.peak_bytes && memory.live_blocks == 0);
+    return (double)memory.peak_bytes / (double)m->triangle_count;
+}
+
+static void shuffle_triangles(model *m)
+{
+    test_random random = { 5 };
+    for (uint32_t i = m->triangle_count - 1; i > 0; i--) {
+        uint32_t other = test_random_below(&random, i + 1);
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t swap = m->indices[3 * i + k];
+            m->indices[3 * i + k] = m->indices[3 * other + k];
+            m->indices[3 * other + k] = swap;
+        }
+    }
+}
+
+static void test_memory_of_a_bake(void **state)
+{
+    (void)state;
+    model m = model_terrain(250, 3, tl_vec3_make(0, 0, 0), 9);
+    tl_soup_def compact = tl_default_soup_def();
+    compact.layout = TL_SOUP_COMPACT;
+    const double ordered = bytes_a_triangle(&m, tl_default_soup_def()), small = bytes_a_triangle(&m, compact);
+    shuffle_triangles(&m);
+    const double shuffled = bytes_a_triangle(&m, tl_default_soup_def());
+    print_message("%.1f bytes a triangle, compact %.1f, in no order %.1f\n", ordered, small, shuffled);
+    TEST_CHECK(ordered <= 90 && small <= 90 && shuffled <= 110);
+    model_free(&m);
+}
+
+// Between two progress calls lies a bounded amount of work: so many tasks of a bounded size, or a step of a loop. Twice
+// the triangles bring twice the calls.
+typedef struct pace {
+    uint32_t calls, tasks_since, most_tasks;
+    uint64_t done;
+    const char *stage;
+} pace;
+
+static bool note_pace(const char *stage, uint64_t done, uint64_t total, void *user)
+{
+    pace *p = user;
+    TEST_CHECK(done <= total && (stage != p->stage || done >= p->done));
+    p->most_tasks = p->tasks_since > p->most_tasks ? p->tasks_since : p->most_tasks;
+    p->tasks_since = 0;
+    p->calls++;
+    p->stage = stage;
+    p->done = done;
+    return true;
+}
+
+static void run_counted(tl_task_fn *task, uint32_t count, void *task_user, void *user)
+{
+    pace *p = user;
+    p->tasks_since += count;
+    for (uint32_t i = 0; i < count; i++) {
+        task(i, 0, task_user);
+    }
+}
+
+static void test_progress_is_called_often(void **state)
+{
+    (void)state;
+    for (model_storage storage = MODEL_BOXES; storage < MODEL_STORAGES; storage++) {
+        for (uint32_t shuffled = 0; shuffled < 2; shuffled++) {
+            uint32_t calls[2];
+            for (uint32_t size = 0; size < 2; size++) {
+                model m = model_terrain(size == 0 ? 128 : 512, 3, tl_vec3_make(0, 0, 0), 9);
+                if (shuffled) {
+                    shuffle_triangles(&m);
+                }
+                tl_mesh_view view = model_view(&m);
+                pace p = { .calls = 0 };
+                const tl_progress progress = { note_pace, &p };
+                const tl_tasks tasks = { run_counted, 1, &p };
+                tl_soup_def def = model_soup_def(storage);
+                def.host.progress = &progress;
+                def.host.tasks = &tasks;
+                TEST_RESULT(build(&view, &def, NULL), TL_OK);
+                TEST_CHECK(p.most_tasks <= 64);
+                calls[size] = p.calls;
+                TEST_CHECK(p.calls >= m.triangle_count / 32768 * 5);
+                model_free(&m);
+            }
+            TEST_CHECK(calls[1] > calls[0]);
+        }
+    }
+}
+
+// The second part of the top of the tree, and all of its tasks.
+static void test_large_soups_do_not_depend_on_tasks(void **state)
+{
+    (void)state;
+    model m = model_terrain(760, 3, tl_vec3_make(0, 0, 0), 9);
+    tl_mesh_view view = model_view(&m);
+    pace p = { .calls = 0 };
+    const tl_progress progress = { note_pace, &p };
+    const tl_tasks tasks = { run_counted, 3, &p };
+    tl_soup_def def = tl_default_soup_def();
+    tl_soup *alone = NULL, *together = NULL;
+    TEST_RESULT(tl_soup_bake(&view, &def, &alone, NULL), TL_OK);
+    def.host.progress = &progress;
+    def.host.tasks = &tasks;
+    TEST_RESULT(tl_soup_bake(&view, &def, &together, NULL), TL_OK);
+    print_message("%u calls, %u tasks between two of them at most\n", p.calls, p.most_tasks);
+    TEST_CHECK(p.most_tasks <= 3 * 64 && p.calls > 60);
+    TEST_CHECK(tl_soup_size(alone) == tl_soup_size(together));
+    TEST_CHECK(memcmp(alone, together, tl_soup_size(alone)) == 0);
+    TEST_RESULT(tl_soup_check(alone, tl_soup_size(alone), NULL), TL_OK);
+    tl_blob_free(alone);
+    tl_blob_free(together);
+    model_free(&m);
+}
+
 // A job system of a few threads that take items in an order of its own: from the far end, or as a seed has it.
 typedef struct pool {
     tl_task_fn *task;
@@ -245,15 +368,7 @@ static void test_threads_give_the_same_bytes(void **state)
         }
     }
     // In no order: most pairs lie over the borders of chunks.
-    test_random random = { 5 };
-    for (uint32_t i = terrain.triangle_count - 1; i > 0; i--) {
-        uint32_t other = test_random_below(&random, i + 1);
-        for (uint32_t k = 0; k < 3; k++) {
-            uint32_t swap = terrain.indices[3 * i + k];
-            terrain.indices[3 * i + k] = terrain.indices[3 * other + k];
-            terrain.indices[3 * other + k] = swap;
-        }
-    }
+    shuffle_triangles(&terrain);
     tl_soup_def planes = tl_default_soup_def();
     planes.partition = TL_SOUP_KD_TREE;
     check_threads(&terrain, planes);
@@ -282,9 +397,15 @@ static void test_unused_vertices_may_hold_anything(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bad_input_is_named),          cmocka_unit_test(test_degenerate_input),
-        cmocka_unit_test(test_memory_fails_anywhere),       cmocka_unit_test(test_cancel_at_every_call),
-        cmocka_unit_test(test_threads_give_the_same_bytes), cmocka_unit_test(test_unused_vertices_may_hold_anything),
+        cmocka_unit_test(test_bad_input_is_named),
+        cmocka_unit_test(test_degenerate_input),
+        cmocka_unit_test(test_memory_fails_anywhere),
+        cmocka_unit_test(test_cancel_at_every_call),
+        cmocka_unit_test(test_memory_of_a_bake),
+        cmocka_unit_test(test_progress_is_called_often),
+        cmocka_unit_test(test_large_soups_do_not_depend_on_tasks),
+        cmocka_unit_test(test_threads_give_the_same_bytes),
+        cmocka_unit_test(test_unused_vertices_may_hold_anything),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -8,9 +8,9 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/memory_meter.h"
 #include "nav_bake/input/input_check.h"
 #include "nav_bake/input/range_input.h"
-#include "nav_bake/tiles/memory_meter.h"
 #include "nav_bake/tiles/tile_bake.h"
 #include "nav_bake/voxels/batches.h"
 

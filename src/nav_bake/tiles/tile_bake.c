@@ -11,10 +11,10 @@
 #include "base/arena.h"
 #include "base/assert.h"
 #include "base/host.h"
+#include "base/memory_meter.h"
 #include "nav_bake/floors/compact.h"
 #include "nav_bake/input/input_check.h"
 #include "nav_bake/regions/regions.h"
-#include "nav_bake/tiles/memory_meter.h"
 
 #include <string.h>
 

@@ -15,7 +15,7 @@
 
 #include "soup/bake/bvh_collapse.h"
 
-#include "base/host.h"
+#include "base/assert.h"
 #include "base/min_max.h"
 #include "soup/bake/bvh_order.h"
 
@@ -34,15 +34,14 @@ typedef struct tl_collapse_plan {
     uint8_t right[TL_SOUP_WIDTH];
 } tl_collapse_plan;
 
-// Tasks plan the parts of a tree; the nodes above them follow, since a node's plan needs its children's.
+// Tasks plan the parts of a tree; the nodes between them follow, since a node's plan needs its children's. Children lie
+// behind their parents, so nodes are planned from the last to the first.
 typedef struct planner {
-    const tl_bvh *tree;
+    tl_bvh *tree;
     tl_collapse_plan *plans;
-    float *chance; // by node (bvh_order.h)
-    uint32_t plan_count;
-    uint32_t next_part, part_count; // parts that the walk over the nodes above has not reached yet
-    float node_price;
+    float *chance;         // by node (bvh_order.h)
     uint32_t *first_plans; // of each part
+    float node_price;
 } planner;
 
 // What a subtree offers its parent: C(n, i), i from 1 to width.
@@ -56,8 +55,8 @@ static collapse_offer offer_of(const planner *p, uint32_t node)
     // A leaf costs nothing here.
     static const float leaf[2] = { 0.0f, 0.0f };
     collapse_offer o = { leaf, 1 };
-    if (p->tree->nodes[node].count == 0) {
-        const tl_collapse_plan *plan = &p->plans[p->tree->nodes[node].first];
+    if (tl_bvh_leaf_count(&p->tree->nodes[node]) == 0) {
+        const tl_collapse_plan *plan = &p->plans[p->tree->nodes[node].kind];
         o.cost = plan->cost;
         o.width = plan->width;
     }
@@ -80,29 +79,17 @@ static float share_out(collapse_offer left, collapse_offer right, uint32_t count
     return best;
 }
 
-static bool is_next_part(planner *p, uint32_t index)
-{
-    bool is_part = p->next_part < p->part_count && p->tree->parts[p->next_part].root == index;
-    p->next_part += is_part;
-    return is_part;
-}
-
-static void plan_node(planner *p, uint32_t index)
+// Plans a node whose children are planned; an inner node takes the plan `next`.
+static void plan_node(const planner *p, uint32_t index, uint32_t next)
 {
     tl_bvh_node *node = &p->tree->nodes[index];
-    if (is_next_part(p, index)) {
-        return;
-    }
-    if (node->count > 0) {
-        tl_bvh_order_node(p->tree, index, p->chance);
-        return;
-    }
-    plan_node(p, node->left);
-    plan_node(p, node->right);
     tl_bvh_order_node(p->tree, index, p->chance);
-    node->first = p->plan_count;
-    tl_collapse_plan *plan = &p->plans[p->plan_count++];
-    collapse_offer left = offer_of(p, node->left), right = offer_of(p, node->right);
+    if (tl_bvh_leaf_count(node) > 0) {
+        return;
+    }
+    node->kind = next;
+    tl_collapse_plan *plan = &p->plans[next];
+    collapse_offer left = offer_of(p, index + 1), right = offer_of(p, node->link);
     uint32_t leaves = left.width + right.width;
     plan->width = tl_min_u32(leaves, TL_SOUP_WIDTH - 1);
     float below = share_out(left, right, tl_min_u32(leaves, TL_SOUP_WIDTH), &plan->left[0], &plan->right[0]);
@@ -120,89 +107,58 @@ static void plan_node(planner *p, uint32_t index)
     }
 }
 
-static void add_part(tl_bvh_part *sum, const tl_bvh_part *part)
-{
-    sum->inner_count += part->inner_count;
-    sum->leaf_count += part->leaf_count;
-    sum->ref_count += part->ref_count;
-    sum->leaf_surface += part->leaf_surface;
-}
-
-static void add_leaf(tl_bvh_part *sum, const tl_bvh_node *leaf)
-{
-    sum->leaf_count++;
-    sum->ref_count += leaf->count;
-    sum->leaf_surface += (double)tl_aabb_half_area(leaf->box);
-}
-
-static void sum_nodes(const tl_bvh_node *nodes, uint32_t index, tl_bvh_part *sum)
-{
-    const tl_bvh_node *node = &nodes[index];
-    if (node->count > 0) {
-        add_leaf(sum, node);
-        return;
-    }
-    sum->inner_count++;
-    sum_nodes(nodes, node->left, sum);
-    sum_nodes(nodes, node->right, sum);
-}
-
-tl_bvh_part tl_bvh_sum_part(const tl_bvh_node *nodes, uint32_t root)
-{
-    tl_bvh_part sum = { root, 0, 0, 0, 0.0 };
-    sum_nodes(nodes, root, &sum);
-    return sum;
-}
-
-// The sum of the whole tree from the sums of its parts, whose plans lie one behind the other.
-static void sum_tree(planner *p, uint32_t index, tl_bvh_part *sum)
-{
-    const tl_bvh_node *node = &p->tree->nodes[index];
-    if (is_next_part(p, index)) {
-        const tl_bvh_part *part = &p->tree->parts[p->next_part - 1];
-        p->first_plans[p->next_part - 1] = p->plan_count;
-        p->plan_count += part->inner_count;
-        add_part(sum, part);
-    } else if (node->count > 0) {
-        add_leaf(sum, node);
-    } else {
-        sum->inner_count++;
-        sum_tree(p, node->left, sum);
-        sum_tree(p, node->right, sum);
-    }
-}
-
-static void plan_part(uint32_t part, uint32_t worker, void *user)
+static void plan_part(uint32_t index, uint32_t worker, void *user)
 {
     (void)worker;
-    const planner *whole = user;
-    planner p = { .tree = whole->tree, .plans = whole->plans, .chance = whole->chance };
-    p.node_price = whole->node_price;
-    p.plan_count = whole->first_plans[part];
-    plan_node(&p, whole->tree->parts[part].root);
+    const planner *p = user;
+    const tl_bvh_part *part = &p->tree->parts[index];
+    uint32_t next = p->first_plans[index];
+    for (uint32_t i = part->first + part->count; i-- > part->first;) {
+        plan_node(p, i, next);
+        next += tl_bvh_leaf_count(&p->tree->nodes[i]) == 0;
+    }
 }
 
-tl_result tl_bvh_plan_collapse(const tl_bvh *tree, const tl_host *host, tl_arena *arena, tl_bvh_collapse *cut_out)
+// The nodes that are in no part.
+static tl_result plan_between(const planner *p, tl_stage *stage, uint32_t next)
 {
-    planner p = { .tree = tree, .part_count = tree->part_count };
+    const tl_bvh *tree = p->tree;
+    uint32_t part = tree->part_count;
+    for (uint32_t i = tree->node_count; i > 0;) {
+        const tl_bvh_part *before = part > 0 ? &tree->parts[part - 1] : NULL;
+        if (before != NULL && before->first + before->count == i) {
+            i = before->first;
+            part--;
+            continue;
+        }
+        plan_node(p, --i, next);
+        next += tl_bvh_leaf_count(&tree->nodes[i]) == 0;
+        TL_TRY(tl_stage_tick(stage, i));
+    }
+    return TL_OK;
+}
+
+tl_result tl_bvh_plan_collapse(tl_bvh *tree, tl_stage *stage, tl_arena *arena, tl_bvh_collapse *cut_out)
+{
+    planner p = { .tree = tree };
+    // One leaf more than inner nodes.
+    const uint32_t inner_count = tree->node_count / 2, leaf_count = tree->node_count - inner_count;
+    p.plans = TL_PUSH(arena, tl_collapse_plan, inner_count);
+    p.chance = TL_PUSH(arena, float, tree->node_count);
     p.first_plans = TL_PUSH(arena, uint32_t, tree->part_count);
-    if (p.first_plans == NULL) {
+    if (p.plans == NULL || p.chance == NULL || p.first_plans == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_bvh_part sum = { tree->root, 0, 0, 0, 0.0 };
-    sum_tree(&p, tree->root, &sum);
-    p.plans = TL_PUSH(arena, tl_collapse_plan, sum.inner_count);
-    p.chance = TL_PUSH(arena, float, tree->node_capacity);
-    if (p.plans == NULL || p.chance == NULL) {
-        return TL_ERR_MEMORY;
+    p.node_price = (float)(tree->leaf_surface / leaf_count) * NODE_PRICE;
+    uint32_t plan_count = 0;
+    for (uint32_t i = 0; i < tree->part_count; i++) {
+        p.first_plans[i] = plan_count;
+        plan_count += tree->parts[i].count / 2;
     }
-    p.node_price = (float)(sum.leaf_surface / sum.leaf_count) * NODE_PRICE;
-    tl_run_tasks(host, plan_part, tree->part_count, &p);
-    p.next_part = 0;
-    plan_node(&p, tree->root);
+    TL_TRY(tl_stage_run(stage, plan_part, tree->part_count, &p, 4, 0));
+    TL_TRY(plan_between(&p, stage, plan_count));
     cut_out->tree = tree;
     cut_out->plans = p.plans;
-    cut_out->inner_count = sum.inner_count;
     cut_out->chance = p.chance;
     return TL_OK;
 }
@@ -212,12 +168,12 @@ static void collect_children(const tl_bvh_collapse *cut, uint32_t index, uint32_
                              uint32_t *count)
 {
     const tl_bvh_node *node = &cut->tree->nodes[index];
-    if (node->count == 0) {
-        const tl_collapse_plan *plan = &cut->plans[node->first];
+    if (tl_bvh_leaf_count(node) == 0) {
+        const tl_collapse_plan *plan = &cut->plans[node->kind];
         limit = tl_min_u32(limit, plan->width);
         if (plan->left[limit] > 0) {
-            collect_children(cut, node->left, plan->left[limit], children, count);
-            collect_children(cut, node->right, plan->right[limit], children, count);
+            collect_children(cut, index + 1, plan->left[limit], children, count);
+            collect_children(cut, node->link, plan->right[limit], children, count);
             return;
         }
     }
@@ -228,13 +184,13 @@ uint32_t tl_bvh_collapsed_children(const tl_bvh_collapse *cut, uint32_t root, ui
 {
     const tl_bvh_node *node = &cut->tree->nodes[root];
     uint32_t count = 0;
-    if (node->count > 0) {
+    if (tl_bvh_leaf_count(node) > 0) {
         children[count++] = root;
         return count;
     }
-    const tl_collapse_plan *plan = &cut->plans[node->first];
-    collect_children(cut, node->left, plan->left[0], children, &count);
-    collect_children(cut, node->right, plan->right[0], children, &count);
+    const tl_collapse_plan *plan = &cut->plans[node->kind];
+    collect_children(cut, root + 1, plan->left[0], children, &count);
+    collect_children(cut, node->link, plan->right[0], children, &count);
     tl_bvh_order_children(cut->chance, children, count);
     return count;
 }

@@ -11,16 +11,12 @@
 typedef struct tl_bvh_collapse {
     const tl_bvh *tree;
     const struct tl_collapse_plan *plans;
-    uint32_t inner_count; ///< binary inner nodes: at least the number of wide nodes, unless the tree is one leaf
-    const float *chance;  ///< by binary node (bvh_order.h)
+    const float *chance; ///< by binary node (bvh_order.h)
 } tl_bvh_collapse;
 
-/// Sums up a whole subtree.
-tl_bvh_part tl_bvh_sum_part(const tl_bvh_node *nodes, uint32_t root);
-
-/// Plans the collapse of a tree on the host's tasks, and writes into each inner node the index of its plan. Memory is
-/// the arena's.
-tl_result tl_bvh_plan_collapse(const tl_bvh *tree, const tl_host *host, tl_arena *arena, tl_bvh_collapse *cut_out);
+/// Plans the collapse of a tree on the tasks of the stage's host, and writes into each inner node the index of its
+/// plan. Memory is the arena's.
+tl_result tl_bvh_plan_collapse(tl_bvh *tree, tl_stage *stage, tl_arena *arena, tl_bvh_collapse *cut_out);
 
 /// The children of the wide node that stands for the binary node `root`, in their order; returns how many.
 uint32_t tl_bvh_collapsed_children(const tl_bvh_collapse *cut, uint32_t root, uint32_t children[TL_SOUP_WIDTH]);

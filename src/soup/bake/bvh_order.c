@@ -24,8 +24,8 @@ static float share(float inner_half_area, float outer_half_area)
 static float leaf_chance(const tl_bvh *tree, const tl_bvh_node *node)
 {
     float sum = 0.0f;
-    for (uint32_t i = 0; i < node->count; i++) {
-        const tl_bvh_ref *ref = &tree->refs[node->first + i];
+    for (uint32_t i = 0; i < tl_bvh_leaf_count(node); i++) {
+        const tl_bvh_ref *ref = &tree->refs[node->link + i];
         tl_aabb box = { ref->min, ref->max };
         sum += tl_aabb_half_area(box);
     }
@@ -35,12 +35,12 @@ static float leaf_chance(const tl_bvh *tree, const tl_bvh_node *node)
 void tl_bvh_order_node(const tl_bvh *tree, uint32_t index, float *chance)
 {
     const tl_bvh_node *node = &tree->nodes[index];
-    if (node->count > 0) {
+    if (tl_bvh_leaf_count(node) > 0) {
         chance[index] = leaf_chance(tree, node);
         return;
     }
     float pass = 1.0f, half_area = tl_aabb_half_area(node->box);
-    const uint32_t halves[2] = { node->left, node->right };
+    const uint32_t halves[2] = { index + 1, node->link };
     for (uint32_t k = 0; k < 2; k++) {
         pass *= 1.0f - chance[halves[k]] * share(tl_aabb_half_area(tree->nodes[halves[k]].box), half_area);
     }

@@ -10,40 +10,37 @@
 /// Below this depth ranges are halved by count, which ends within 29 levels more: at most TL_SOUP_MAX_DEPTH in all.
 enum { TL_BVH_HEURISTIC_DEPTH = 60 };
 
+/// A subtree of so many references is built in some 5 ms.
+enum { TL_BVH_SUBTREE_REFS = 1 << 13 };
+
+/// An inner node of the top. A child is another one, or TL_BVH_SUBTREE + the index of a subtree.
+typedef struct tl_bvh_top_node {
+    tl_aabb box;
+    uint32_t child[2];
+} tl_bvh_top_node;
+
+#define TL_BVH_SUBTREE 0x80000000u
+
 /// A subtree that is not built yet.
 typedef struct tl_bvh_subtree {
     tl_bvh_range range;
-    uint32_t *link;  ///< where its root's index goes
+    uint32_t *link;  ///< of its parent, or the top's root
+    uint32_t sum;    ///< leaf surfaces of subtrees of one number are summed up first, then those sums
     bool in_scratch; ///< its references are in the splitter's scratch, at the same indices
 } tl_bvh_subtree;
 
 typedef struct tl_bvh_top {
     tl_bvh_splitter splitter;
-    tl_bvh_node *nodes;
-    uint32_t root;
+    tl_bvh_top_node *nodes;
+    uint32_t node_count;
+    uint32_t root;            ///< as a child
     tl_bvh_subtree *subtrees; ///< from left to right
     uint32_t subtree_count;
 } tl_bvh_top;
 
-/// The largest number of subtrees.
-uint32_t tl_bvh_max_subtrees(uint32_t pair_count);
-
-/// Makes the references of all pairs, and splits them on the host's tasks until no range is much more than a 64th of
-/// the whole. The caller has set splitter (but root_half_area) and nodes; `capacity` is that of both arrays of
-/// references.
-tl_result tl_bvh_build_top(tl_bvh_top *top, uint32_t pair_count, uint32_t capacity, const tl_host *host,
-                           tl_arena *arena);
-
-// A leaf is known by where its references begin, an inner node by where its right part begins. Both are unique among
-// nodes of their kind, and the latter is never 0.
-static inline uint32_t tl_bvh_leaf_index(uint32_t first)
-{
-    return 2 * first;
-}
-
-static inline uint32_t tl_bvh_split_index(uint32_t right_first)
-{
-    return 2 * right_first - 1;
-}
+/// Makes the references of all pairs, and splits them on the host's tasks until no range is much more than
+/// TL_BVH_SUBTREE_REFS. The caller has set splitter (but root_half_area); `capacity` is that of both arrays of
+/// references. Nodes and subtrees are the arena's. Adds `pair_count` to the stage.
+tl_result tl_bvh_build_top(tl_bvh_top *top, uint32_t pair_count, uint32_t capacity, tl_stage *stage, tl_arena *arena);
 
 #endif

@@ -5,7 +5,6 @@
 #include "soup/bake/soup_encode.h"
 
 #include "base/assert.h"
-#include "base/host.h"
 
 #include <float.h>
 #include <string.h>
@@ -65,8 +64,9 @@ tl_result tl_compact_plan_vertices(const tl_soup_encoder *baker, tl_arena *arena
         const tl_wide_node *wide = &baker->wide[i];
         for (uint32_t k = 0; k < wide->child_count; k++) {
             const tl_bvh_node *child = &baker->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
-            for (uint32_t r = 0; r < child->count; r++) {
-                number_pair(&n, &baker->pairs[baker->tree->refs[child->first + r].pair]);
+            for (uint32_t r = 0; r < tl_bvh_leaf_count(child); r++) {
+                number_pair(&n, &baker->pairs[baker->tree->refs[child->link + r].pair]);
+                TL_TRY(tl_stage_tick(baker->stage, n.pair_count));
             }
         }
     }
@@ -138,9 +138,9 @@ static void write_boxes(const tl_soup_encoder *b, const tl_wide_node *wide, tl_c
 
 static void write_compact_pairs(const tl_soup_encoder *b, const tl_bvh_node *leaf, uint32_t first, tl_compact_pair *out)
 {
-    for (uint32_t i = 0; i < leaf->count; i++) {
+    for (uint32_t i = 0; i < tl_bvh_leaf_count(leaf); i++) {
         for (uint32_t k = 0; k < 2; k++) {
-            out[first + i].ids[k] = tl_encode_id(b, &b->tree->refs[leaf->first + i], k);
+            out[first + i].ids[k] = tl_encode_id(b, &b->tree->refs[leaf->link + i], k);
         }
         memcpy(out[first + i].corner, b->plan->corners[first + i], sizeof out->corner);
     }
@@ -157,9 +157,9 @@ void tl_compact_write_node(const tl_soup_encoder *b, uint32_t index)
     for (uint32_t k = 0; k < wide->child_count; k++) {
         if ((wide->child[k] & TL_WIDE_LEAF) != 0) {
             const tl_bvh_node *leaf = &b->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
-            node->child[k] = tl_child_of_leaf(next_pair * sizeof *pairs, leaf->count);
+            node->child[k] = tl_child_of_leaf(next_pair * sizeof *pairs, tl_bvh_leaf_count(leaf));
             write_compact_pairs(b, leaf, next_pair, pairs);
-            next_pair += leaf->count;
+            next_pair += tl_bvh_leaf_count(leaf);
         } else {
             node->child[k] = next_node++;
         }
@@ -179,10 +179,10 @@ static void write_block_of_vertices(uint32_t block, uint32_t worker, void *user)
     }
 }
 
-void tl_compact_write_vertices(const tl_soup_encoder *b, const tl_host *host)
+tl_result tl_compact_write_vertices(const tl_soup_encoder *b)
 {
     uint32_t groups = tl_compact_group_count(b->tree->ref_count);
     memcpy((char *)b->soup + b->soup->group_offset, b->plan->groups, groups * sizeof(uint32_t));
-    tl_run_tasks(host, write_block_of_vertices, tl_block_count(b->plan->vertex_count, COMPACT_BLOCK_VERTICES),
-                 (void *)(uintptr_t)b);
+    return tl_stage_run(b->stage, write_block_of_vertices,
+                        tl_block_count(b->plan->vertex_count, COMPACT_BLOCK_VERTICES), (void *)(uintptr_t)b, 64, 0);
 }

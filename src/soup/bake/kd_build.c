@@ -17,7 +17,8 @@
 // Sources: Wald, Havran, On building fast kd-Trees for Ray Tracing, and on doing that in O(N log N), 2006 (costs,
 // sweep, planar references, depth); Havran, Bittner, On Improving KD-Trees for Ray Shooting, 2002 (clipping).
 
-#include "base/host.h"
+#include "base/assert.h"
+#include "base/compiler.h"
 #include "soup/bake/bvh_split.h"
 #include "soup/bake/soup_bake.h"
 #include "soup/layout/soup_layout.h"
@@ -44,14 +45,16 @@ typedef struct ref_list {
 
 typedef struct kd_builder {
     tl_bvh_splitter clipper;
-    const tl_host *host;
+    const tl_allocator *allocator;
+    tl_stage *stage;
     ref_list work; // references of the cells on the path
     ref_list out;  // references of leaves
     tl_bvh_node *nodes;
     uint64_t node_count, node_capacity;
     uint64_t copies_max; // references of all leaves together
     uint32_t depth_max;
-    bool out_of_memory;
+    uint32_t steps;   // of work since the last progress call
+    tl_result result; // the first failure: all calls end
 } kd_builder;
 
 typedef struct kd_cell {
@@ -68,6 +71,18 @@ typedef struct kd_plane {
     bool planar_left; // references that lie in the plane go left
 } kd_plane;
 
+// Passes look at so many references more, a step of the stage at most. False: the bake was cancelled, or has failed.
+static bool kd_steps(kd_builder *b, uint32_t count)
+{
+    b->steps += count;
+    if (b->steps >= TL_STAGE_STEP) {
+        b->steps = 0;
+        const tl_result result = tl_stage_add(b->stage, 0);
+        b->result = b->result == TL_OK ? result : b->result;
+    }
+    return b->result == TL_OK;
+}
+
 // ---------------------------------------------------------------------------------------------------------
 // Memory.
 
@@ -78,15 +93,15 @@ static bool grow_kd_array(kd_builder *b, void **array, uint64_t *capacity, uint6
         return true;
     }
     uint64_t wanted = 2 * *capacity > needed ? 2 * *capacity : needed;
-    void *larger = b->out_of_memory ? NULL : tl_allocate_array(b->host->allocator, wanted, size);
+    void *larger = b->result != TL_OK ? NULL : tl_allocate_array(b->allocator, wanted, size);
     if (larger == NULL) {
-        b->out_of_memory = true;
+        b->result = b->result == TL_OK ? TL_ERR_MEMORY : b->result;
         return false;
     }
     if (*capacity > 0) {
         memcpy(larger, *array, *capacity * size);
     }
-    tl_release_array(b->host->allocator, *array, *capacity, size);
+    tl_release_array(b->allocator, *array, *capacity, size);
     *array = larger;
     *capacity = wanted;
     return true;
@@ -131,27 +146,27 @@ static tl_aabb box_of_refs(const tl_bvh_ref *refs, uint32_t count)
 static uint32_t make_leaves(kd_builder *b, uint64_t first, uint32_t count)
 {
     uint32_t index = push_kd_node(b);
-    if (b->out_of_memory) {
+    if (b->result != TL_OK) {
         return 0;
     }
     b->nodes[index].box = box_of_refs(b->work.refs + first, count);
     if (count <= TL_SOUP_LEAF_PAIRS) {
-        b->nodes[index].first = (uint32_t)b->out.count;
-        b->nodes[index].count = count;
+        b->nodes[index].link = (uint32_t)b->out.count;
+        b->nodes[index].kind = TL_BVH_LEAF + count;
         for (uint32_t i = 0; i < count; i++) {
             tl_bvh_ref ref = b->work.refs[first + i];
             (void)push_ref(b, &b->out, &ref);
         }
+        (void)kd_steps(b, count);
         return index;
     }
     // Full leaves on the left, so that only the last leaf may hold fewer.
     uint32_t blocks = (count + TL_SOUP_LEAF_PAIRS - 1) / TL_SOUP_LEAF_PAIRS;
     uint32_t left_count = blocks / 2 * TL_SOUP_LEAF_PAIRS;
-    uint32_t left = make_leaves(b, first, left_count);
+    (void)make_leaves(b, first, left_count);
     uint32_t right = make_leaves(b, first + left_count, count - left_count);
-    if (!b->out_of_memory) {
-        b->nodes[index].left = left;
-        b->nodes[index].right = right;
+    if (b->result == TL_OK) {
+        b->nodes[index].link = right;
     }
     return index;
 }
@@ -167,8 +182,8 @@ static void part_box(tl_aabb box, uint32_t axis, float position, tl_aabb *left, 
     tl_set_component(&right->min, axis, position);
 }
 
-static void try_plane(const kd_cell *cell, uint32_t axis, float position, uint32_t left, uint32_t planar,
-                      uint32_t right, kd_plane *best)
+static inline void try_plane(const kd_cell *cell, uint32_t axis, float position, uint32_t left, uint32_t planar,
+                             uint32_t right, kd_plane *best)
 {
     tl_aabb left_box, right_box;
     part_box(cell->box, axis, position, &left_box, &right_box);
@@ -206,7 +221,7 @@ static void insert_event(kd_event *events, uint32_t *count, kd_event event)
     events[place] = event;
 }
 
-static uint32_t list_events(const tl_bvh_ref *refs, uint32_t count, uint32_t axis, kd_event *events)
+static TL_ALWAYS_INLINE uint32_t list_events(const tl_bvh_ref *refs, uint32_t count, uint32_t axis, kd_event *events)
 {
     uint32_t event_count = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -220,7 +235,7 @@ static uint32_t list_events(const tl_bvh_ref *refs, uint32_t count, uint32_t axi
     return event_count;
 }
 
-static void sweep_events(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
+static TL_ALWAYS_INLINE void sweep_events(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
 {
     kd_event events[2 * SWEEP_MAX];
     uint32_t event_count = list_events(b->work.refs + cell->first, cell->count, axis, events);
@@ -247,7 +262,7 @@ static uint32_t bin_of(float place, float base, float per_metre)
 }
 
 // Counts are approximate for references that end on a border of bins; they only choose the plane.
-static void try_bins(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
+static TL_ALWAYS_INLINE void try_bins(kd_builder *b, const kd_cell *cell, uint32_t axis, kd_plane *best)
 {
     float base = tl_component(cell->box.min, axis);
     float width = (tl_component(cell->box.max, axis) - base) / KD_BINS;
@@ -257,9 +272,12 @@ static void try_bins(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd
     }
     uint32_t begin[KD_BINS] = { 0 }, end[KD_BINS] = { 0 };
     const tl_bvh_ref *refs = b->work.refs + cell->first;
-    for (uint32_t i = 0; i < cell->count; i++) {
-        begin[bin_of(tl_component(refs[i].min, axis), base, 1.0f / width)]++;
-        end[bin_of(tl_component(refs[i].max, axis), base, 1.0f / width)]++;
+    for (uint32_t i = 0, until; i < cell->count && kd_steps(b, tl_stage_step_end(i, cell->count) - i); i = until) {
+        until = tl_stage_step_end(i, cell->count);
+        for (uint32_t k = i; k < until; k++) {
+            begin[bin_of(tl_component(refs[k].min, axis), base, 1.0f / width)]++;
+            end[bin_of(tl_component(refs[k].max, axis), base, 1.0f / width)]++;
+        }
     }
     uint32_t left = 0, right = cell->count;
     for (uint32_t bin = 1; bin < KD_BINS; bin++) {
@@ -270,7 +288,7 @@ static void try_bins(const kd_builder *b, const kd_cell *cell, uint32_t axis, kd
 }
 
 // False: splitting the cell is no cheaper than testing all of it.
-static bool find_kd_plane(const kd_builder *b, const kd_cell *cell, kd_plane *best)
+static TL_NOINLINE bool find_kd_plane(kd_builder *b, const kd_cell *cell, kd_plane *best)
 {
     float area = tl_aabb_half_area(cell->box);
     best->cost = area * (tl_bvh_blocks(cell->count) - TL_BVH_TRAVERSAL_COST);
@@ -278,12 +296,15 @@ static bool find_kd_plane(const kd_builder *b, const kd_cell *cell, kd_plane *be
     if (cell->count <= 1 || cell->depth >= b->depth_max) {
         return false;
     }
-    for (uint32_t axis = 0; axis < 3; axis++) {
-        if (cell->count <= SWEEP_MAX) {
-            sweep_events(b, cell, axis, best);
-        } else {
-            try_bins(b, cell, axis, best);
-        }
+    // Each axis has code of its own.
+    if (cell->count <= SWEEP_MAX) {
+        sweep_events(b, cell, 0, best);
+        sweep_events(b, cell, 1, best);
+        sweep_events(b, cell, 2, best);
+    } else {
+        try_bins(b, cell, 0, best);
+        try_bins(b, cell, 1, best);
+        try_bins(b, cell, 2, best);
     }
     return best->cost < limit;
 }
@@ -292,13 +313,16 @@ static bool find_kd_plane(const kd_builder *b, const kd_cell *cell, kd_plane *be
 // The tree.
 
 // References that a plane cuts.
-static uint32_t count_cut(const kd_builder *b, const kd_cell *cell, const kd_plane *plane)
+static uint32_t count_cut(kd_builder *b, const kd_cell *cell, const kd_plane *plane)
 {
     uint32_t cut = 0;
-    for (uint32_t i = 0; i < cell->count; i++) {
-        const tl_bvh_ref *ref = &b->work.refs[cell->first + i];
-        cut += tl_component(ref->min, plane->axis) < plane->position &&
-               tl_component(ref->max, plane->axis) > plane->position;
+    const tl_bvh_ref *refs = b->work.refs + cell->first;
+    for (uint32_t i = 0, until; i < cell->count && kd_steps(b, tl_stage_step_end(i, cell->count) - i); i = until) {
+        until = tl_stage_step_end(i, cell->count);
+        for (uint32_t k = i; k < until; k++) {
+            cut += tl_component(refs[k].min, plane->axis) < plane->position &&
+                   tl_component(refs[k].max, plane->axis) > plane->position;
+        }
     }
     return cut;
 }
@@ -311,6 +335,9 @@ static bool part_references(kd_builder *b, const kd_cell *cell, const kd_plane *
     right->first = cell->first;
     right->count = 0;
     for (uint32_t i = 0; i < cell->count; i++) {
+        if ((i & (TL_STAGE_STEP - 1)) == 0 && !kd_steps(b, tl_stage_step_end(i, cell->count) - i)) {
+            return false;
+        }
         tl_bvh_ref ref = b->work.refs[cell->first + i];
         float low = tl_component(ref.min, plane->axis), high = tl_component(ref.max, plane->axis);
         bool planar = low == plane->position && high == plane->position;
@@ -334,7 +361,7 @@ static bool part_references(kd_builder *b, const kd_cell *cell, const kd_plane *
             b->work.refs[right->first + right->count++] = part;
         }
     }
-    return true;
+    return b->result == TL_OK;
 }
 
 // Whether a cell may have as many references more: copies that are left are shared out by count.
@@ -359,18 +386,20 @@ static uint32_t build_cell(kd_builder *b, kd_cell cell)
     if (left.count == 0) {
         return build_cell(b, right);
     }
-    tl_aabb box = tl_aabb_union(box_of_refs(b->work.refs + left.first, left.count),
-                                box_of_refs(b->work.refs + right.first, right.count));
-    uint32_t left_node = build_cell(b, left);
-    b->work.count = left.first;
-    if (right.count == 0 || b->out_of_memory) {
-        return left_node;
+    if (right.count == 0) {
+        return build_cell(b, left);
     }
-    uint32_t right_node = build_cell(b, right);
     uint32_t index = push_kd_node(b);
-    if (!b->out_of_memory) {
-        tl_bvh_node node = { box, left_node, right_node, 0, 0 };
-        b->nodes[index] = node;
+    if (b->result != TL_OK) {
+        return 0;
+    }
+    b->nodes[index].box = tl_aabb_union(box_of_refs(b->work.refs + left.first, left.count),
+                                        box_of_refs(b->work.refs + right.first, right.count));
+    (void)build_cell(b, left);
+    b->work.count = left.first;
+    uint32_t right_node = b->result == TL_OK ? build_cell(b, right) : 0;
+    if (b->result == TL_OK) {
+        b->nodes[index].link = right_node;
     }
     return index;
 }
@@ -386,48 +415,61 @@ static uint32_t depth_limit(uint32_t count)
     return depth < DEPTH_MAX ? depth : DEPTH_MAX;
 }
 
-// Copies the tree to the arena, so that baking a soup has one exit.
-static tl_result copy_to_arena(const kd_builder *b, uint32_t root, tl_arena *arena, tl_bvh *tree)
+// Hands the tree to the arena, so that baking a soup has one exit; each array is freed as soon as it is copied.
+static tl_result copy_to_arena(kd_builder *b, tl_arena *arena, tl_bvh *tree)
 {
     if (b->out.count > UINT32_MAX || b->node_count > TL_BVH_MAX_NODES) {
         return TL_ERR_LIMIT;
     }
+    tl_release_array(b->allocator, b->work.refs, b->work.capacity, sizeof *b->work.refs);
+    b->work.refs = NULL;
     tree->refs = TL_PUSH(arena, tl_bvh_ref, b->out.count);
-    tree->nodes = TL_PUSH(arena, tl_bvh_node, b->node_count);
-    if (tree->refs == NULL || tree->nodes == NULL) {
+    if (tree->refs == NULL) {
         return TL_ERR_MEMORY;
     }
-    memcpy(tree->refs, b->out.refs, b->out.count * sizeof *tree->refs);
-    memcpy(tree->nodes, b->nodes, b->node_count * sizeof *tree->nodes);
-    tree->node_capacity = b->node_count;
+    TL_TRY(tl_stage_copy(b->stage, tree->refs, b->out.refs, b->out.count * sizeof *tree->refs));
+    tl_release_array(b->allocator, b->out.refs, b->out.capacity, sizeof *b->out.refs);
+    b->out.refs = NULL;
+    tree->nodes = TL_PUSH(arena, tl_bvh_node, b->node_count);
+    if (tree->nodes == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    TL_TRY(tl_stage_copy(b->stage, tree->nodes, b->nodes, b->node_count * sizeof *tree->nodes));
+    tree->node_count = (uint32_t)b->node_count;
     tree->parts = NULL;
     tree->part_count = 0;
-    tree->root = root;
     tree->ref_count = (uint32_t)b->out.count;
+    tree->leaf_surface = 0.0;
+    for (uint32_t i = 0; i < tree->node_count; i++) {
+        if (tl_bvh_leaf_count(&tree->nodes[i]) > 0) {
+            tree->leaf_surface += (double)tl_aabb_half_area(tree->nodes[i].box);
+        }
+        TL_TRY(tl_stage_tick(b->stage, i));
+    }
     return TL_OK;
 }
 
-tl_result tl_kd_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
-                      tl_arena *arena, tl_bvh *tree_out)
+tl_result tl_kd_build(const tl_bvh_input *input, tl_stage *stage, tl_arena *arena, tl_bvh *tree_out)
 {
     kd_builder b;
     memset(&b, 0, sizeof b);
-    b.clipper.mesh = mesh;
-    b.clipper.pairs = pairs;
-    b.host = &def->host;
-    b.depth_max = depth_limit(pair_count);
-    b.copies_max = KD_MAX_COPIES * (uint64_t)pair_count;
-    kd_cell whole = { mesh->bounds, 0, pair_count, 0 };
-    for (uint32_t i = 0; i < pair_count; i++) {
-        tl_bvh_ref ref = tl_bvh_reference(mesh, pairs, i);
-        if (!push_ref(&b, &b.work, &ref)) {
-            break;
-        }
+    b.clipper.mesh = input->mesh;
+    b.clipper.pairs = input->pairs;
+    b.allocator = &arena->allocator;
+    b.stage = stage;
+    b.depth_max = depth_limit(input->pair_count);
+    b.copies_max = KD_MAX_COPIES * (uint64_t)input->pair_count;
+    kd_cell whole = { input->mesh->bounds, 0, input->pair_count, 0 };
+    for (uint32_t i = 0; i < input->pair_count && kd_steps(&b, 1); i++) {
+        tl_bvh_ref ref = tl_bvh_reference(input->mesh, input->pairs, i);
+        (void)push_ref(&b, &b.work, &ref);
     }
-    uint32_t root = b.out_of_memory ? 0 : build_cell(&b, whole);
-    tl_result result = b.out_of_memory ? TL_ERR_MEMORY : copy_to_arena(&b, root, arena, tree_out);
-    tl_release_array(def->host.allocator, b.work.refs, b.work.capacity, sizeof *b.work.refs);
-    tl_release_array(def->host.allocator, b.out.refs, b.out.capacity, sizeof *b.out.refs);
-    tl_release_array(def->host.allocator, b.nodes, b.node_capacity, sizeof *b.nodes);
+    if (b.result == TL_OK) {
+        (void)build_cell(&b, whole);
+    }
+    tl_result result = b.result == TL_OK ? copy_to_arena(&b, arena, tree_out) : b.result;
+    tl_release_array(b.allocator, b.work.refs, b.work.capacity, sizeof *b.work.refs);
+    tl_release_array(b.allocator, b.out.refs, b.out.capacity, sizeof *b.out.refs);
+    tl_release_array(b.allocator, b.nodes, b.node_capacity, sizeof *b.nodes);
     return result;
 }

@@ -30,6 +30,8 @@ enum { BORDER_SHARE = 32 };
 
 typedef struct pairing {
     const tl_mesh *mesh;
+    tl_stage *stage;
+    tl_arena *scratch;
     uint32_t chunk_count, chunk_size;
     tl_triangle_pair *pairs;
     uint32_t *mates;            // of triangles, as tl_pair_match has them
@@ -54,25 +56,25 @@ static void match_chunk(uint32_t chunk, uint32_t worker, void *user)
 {
     const pairing *p = user;
     uint32_t first = chunk * p->chunk_size;
-    tl_pair_match(p->matchers[worker], NULL, first, chunk_end(p, chunk) - first, p->mates);
+    (void)tl_pair_match(p->matchers[worker], NULL, NULL, first, chunk_end(p, chunk) - first, p->mates);
 }
 
-static tl_result match_chunks(pairing *p, const tl_host *host, tl_arena *arena)
+static tl_result match_chunks(pairing *p)
 {
-    uint32_t workers = tl_worker_count(host);
-    tl_arena_mark mark = tl_arena_get_mark(arena);
-    p->matchers = TL_PUSH(arena, tl_pair_matcher *, workers);
+    uint32_t workers = tl_worker_count(p->stage != NULL ? p->stage->host : NULL);
+    tl_arena_mark mark = tl_arena_get_mark(p->scratch);
+    p->matchers = TL_PUSH(p->scratch, tl_pair_matcher *, workers);
     if (p->matchers == NULL) {
         return TL_ERR_MEMORY;
     }
     for (uint32_t i = 0; i < workers; i++) {
-        p->matchers[i] = tl_pair_matcher_make(p->mesh, p->chunk_size, arena);
+        p->matchers[i] = tl_pair_matcher_make(p->mesh, p->chunk_size, p->scratch);
         if (p->matchers[i] == NULL) {
             return TL_ERR_MEMORY;
         }
     }
-    tl_run_tasks(host, match_chunk, p->chunk_count, p);
-    tl_arena_rollback(arena, mark);
+    TL_TRY(tl_stage_run(p->stage, match_chunk, p->chunk_count, p, 2, p->mesh->triangle_count / 2));
+    tl_arena_rollback(p->scratch, mark);
     return TL_OK;
 }
 
@@ -86,11 +88,11 @@ static uint32_t count_free(const pairing *p)
 }
 
 // Matches the triangles that the chunks left free.
-static tl_result match_rest(pairing *p, uint32_t count, tl_arena *arena)
+static tl_result match_rest(pairing *p, uint32_t count)
 {
-    tl_arena_mark mark = tl_arena_get_mark(arena);
-    uint32_t *list = TL_PUSH(arena, uint32_t, count);
-    tl_pair_matcher *matcher = tl_pair_matcher_make(p->mesh, count, arena);
+    tl_arena_mark mark = tl_arena_get_mark(p->scratch);
+    uint32_t *list = TL_PUSH(p->scratch, uint32_t, count);
+    tl_pair_matcher *matcher = tl_pair_matcher_make(p->mesh, count, p->scratch);
     if (list == NULL || matcher == NULL) {
         return TL_ERR_MEMORY;
     }
@@ -100,53 +102,53 @@ static tl_result match_rest(pairing *p, uint32_t count, tl_arena *arena)
             list[rest++] = i;
         }
     }
-    tl_pair_match(matcher, list, 0, count, p->mates);
-    tl_arena_rollback(arena, mark);
+    TL_TRY(tl_pair_match(matcher, p->stage, list, 0, count, p->mates));
+    tl_arena_rollback(p->scratch, mark);
     return TL_OK;
 }
 
-static tl_result match_at_once(pairing *p, tl_arena *arena)
+static tl_result match_at_once(pairing *p)
 {
-    tl_arena_mark mark = tl_arena_get_mark(arena);
-    tl_pair_matcher *matcher = tl_pair_matcher_make(p->mesh, p->mesh->triangle_count, arena);
+    tl_arena_mark mark = tl_arena_get_mark(p->scratch);
+    tl_pair_matcher *matcher = tl_pair_matcher_make(p->mesh, p->mesh->triangle_count, p->scratch);
     if (matcher == NULL) {
         return TL_ERR_MEMORY;
     }
-    tl_pair_match(matcher, NULL, 0, p->mesh->triangle_count, p->mates);
-    tl_arena_rollback(arena, mark);
+    TL_TRY(tl_pair_match(matcher, p->stage, NULL, 0, p->mesh->triangle_count, p->mates));
+    tl_arena_rollback(p->scratch, mark);
     return TL_OK;
 }
 
-static tl_result match_mesh(pairing *p, const tl_host *host, tl_arena *arena)
+static tl_result match_mesh(pairing *p)
 {
     if (p->chunk_count == 1) {
-        return match_at_once(p, arena);
+        return match_at_once(p);
     }
-    TL_TRY(match_chunks(p, host, arena));
+    TL_TRY(match_chunks(p));
     uint32_t count = count_free(p);
-    TL_TRY(match_rest(p, count, arena));
+    TL_TRY(tl_stage_add(p->stage, 0));
+    TL_TRY(match_rest(p, count));
     uint32_t over_borders = count - count_free(p);
-    return over_borders > p->mesh->triangle_count / BORDER_SHARE ? match_at_once(p, arena) : TL_OK;
+    return over_borders > p->mesh->triangle_count / BORDER_SHARE ? match_at_once(p) : TL_OK;
 }
 
 // The row of tl_soup_corner_slots by which a triangle's corners lie in slots a, e, c.
-static uint8_t corner_order(const uint32_t *indices, uint32_t a, uint32_t e, uint32_t c)
+static uint32_t corner_order(const uint32_t *indices, uint32_t a, uint32_t e, uint32_t c)
 {
-    uint32_t slot[3] = { a, e, c };
-    for (uint8_t order = 1; order <= 6; order++) {
-        const uint8_t *row = tl_soup_corner_slots[order];
-        if (slot[row[0]] == indices[0] && slot[row[1]] == indices[1] && slot[row[2]] == indices[2]) {
-            return order;
-        }
-    }
-    TL_ASSERT(false);
-    return 1;
+    // By the slot of the first corner, and whether the second lies in the slot behind it.
+    static const uint8_t rows[3][2] = { { 4, 1 }, { 6, 2 }, { 5, 3 } };
+    const uint32_t slot[4] = { a, e, c, a };
+    const uint32_t first = indices[0] == a ? 0 : indices[0] == e ? 1 : 2;
+    const uint32_t row = rows[first][indices[1] == slot[first + 1]];
+    TL_ASSERT(slot[tl_soup_corner_slots[row][0]] == indices[0] && slot[tl_soup_corner_slots[row][1]] == indices[1] &&
+              slot[tl_soup_corner_slots[row][2]] == indices[2]);
+    return row;
 }
 
 static tl_triangle_pair make_single(const tl_mesh *mesh, uint32_t triangle)
 {
     const uint32_t *v = mesh->indices + 3 * (size_t)triangle;
-    tl_triangle_pair pair = { { v[0], v[1], v[2], v[0] }, { triangle, TL_NO_TRIANGLE }, { 1, 1 } };
+    tl_triangle_pair pair = { { v[0], v[1], v[2], v[0] }, { mesh->source_triangles[triangle] | 1u << 29, TL_ID_NONE } };
     return pair;
 }
 
@@ -162,8 +164,8 @@ static tl_triangle_pair make_pair(const tl_mesh *mesh, uint32_t edge, uint32_t o
     uint32_t b = v[(k + 2) % 3];
     uint32_t d = w[(other_edge + 2) % 3];
     tl_triangle_pair pair = { { a, b, c, d },
-                              { triangles[0], triangles[1] },
-                              { corner_order(v, a, b, c), corner_order(w, a, d, c) } };
+                              { mesh->source_triangles[triangles[0]] | corner_order(v, a, b, c) << 29,
+                                mesh->source_triangles[triangles[1]] | corner_order(w, a, d, c) << 29 } };
     return pair;
 }
 
@@ -198,31 +200,37 @@ static void write_pairs(uint32_t chunk, uint32_t worker, void *user)
     }
 }
 
-tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena,
-                            tl_triangle_pair **pairs_out, uint32_t *pair_count_out)
+static tl_result pair_mesh(pairing *p, bool allow_pairs, tl_arena *arena, uint32_t *pair_count_out)
 {
-    pairing p = { .mesh = mesh };
-    lay_chunks(&p);
-    p.mates = TL_PUSH(arena, uint32_t, mesh->triangle_count);
-    p.ends = TL_PUSH(arena, uint32_t, p.chunk_count);
-    if (p.mates == NULL || p.ends == NULL) {
+    const uint32_t triangles = p->mesh->triangle_count;
+    p->mates = TL_PUSH(p->scratch, uint32_t, triangles);
+    p->ends = TL_PUSH(p->scratch, uint32_t, p->chunk_count);
+    if (p->mates == NULL || p->ends == NULL) {
         return TL_ERR_MEMORY;
     }
     if (allow_pairs) {
-        TL_TRY(match_mesh(&p, host, arena));
+        TL_TRY(match_mesh(p));
     } else {
-        memset(p.mates, 0xff, (size_t)mesh->triangle_count * sizeof *p.mates);
+        memset(p->mates, 0xff, (size_t)triangles * sizeof *p->mates);
     }
-    tl_run_tasks(host, count_pairs, p.chunk_count, &p);
-    for (uint32_t i = 1; i < p.chunk_count; i++) {
-        p.ends[i] += p.ends[i - 1];
+    TL_TRY(tl_stage_run(p->stage, count_pairs, p->chunk_count, p, 32, 0));
+    for (uint32_t i = 1; i < p->chunk_count; i++) {
+        p->ends[i] += p->ends[i - 1];
     }
-    *pair_count_out = p.ends[p.chunk_count - 1];
-    p.pairs = TL_PUSH(arena, tl_triangle_pair, *pair_count_out);
-    if (p.pairs == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    tl_run_tasks(host, write_pairs, p.chunk_count, &p);
+    *pair_count_out = p->ends[p->chunk_count - 1];
+    p->pairs = TL_PUSH(arena, tl_triangle_pair, *pair_count_out);
+    return p->pairs != NULL ? tl_stage_run(p->stage, write_pairs, p->chunk_count, p, 32, triangles / 4) : TL_ERR_MEMORY;
+}
+
+tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, tl_stage *stage, tl_arena *arena,
+                            tl_triangle_pair **pairs_out, uint32_t *pair_count_out)
+{
+    tl_arena scratch;
+    tl_arena_init(&scratch, &arena->allocator);
+    pairing p = { .mesh = mesh, .stage = stage, .scratch = &scratch };
+    lay_chunks(&p);
+    tl_result result = pair_mesh(&p, allow_pairs, arena, pair_count_out);
     *pairs_out = p.pairs;
-    return TL_OK;
+    tl_arena_free(&scratch);
+    return result;
 }

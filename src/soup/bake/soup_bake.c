@@ -5,13 +5,11 @@
 #include "soup/bake/soup_bake.h"
 
 #include "base/assert.h"
-#include "base/host.h"
+#include "base/memory_meter.h"
+#include "base/stage.h"
 #include "soup/layout/soup_layout.h"
 
 #include <string.h>
-
-// Bytes a triangle of the largest stage, measured: a matching of all triangles, or the tree.
-enum { STAGE_BYTES = 136 };
 
 tl_soup_def tl_default_soup_def(void)
 {
@@ -58,36 +56,79 @@ static tl_result weld(const tl_mesh_view *view, const tl_host *host, tl_mesh *me
     return result;
 }
 
-static tl_result bake_welded(const tl_mesh_view *view, const tl_mesh *mesh, const tl_soup_def *def, tl_arena *arena,
-                             tl_soup **soup_out, tl_soup_report *report)
+// From here on the mesh is its vertices: pairs know which triangles of the view they hold.
+static tl_result keep_vertices(tl_mesh *mesh, tl_stage *stage)
 {
-    const tl_host *host = &def->host;
-    report->base.stage = "pair triangles";
-    TL_TRY(tl_progress_update(host, "pair triangles", 0, 1));
-    // One block for all stages, so that each reuses the pages of the one before.
-    if (!tl_arena_reserve(arena, (uint64_t)mesh->triangle_count * STAGE_BYTES)) {
+    const uint64_t bytes = (uint64_t)mesh->vertex_count * sizeof *mesh->vertices;
+    tl_mesh kept = *mesh;
+    kept.indices = NULL;
+    kept.materials = NULL;
+    kept.source_triangles = NULL;
+    kept.block_size = (size_t)bytes;
+    kept.block = tl_allocate(&mesh->allocator, kept.block_size, TL_BLOB_ALIGNMENT);
+    if (kept.block == NULL) {
         return TL_ERR_MEMORY;
     }
+    kept.vertices = kept.block;
+    tl_result result = tl_stage_copy(stage, kept.vertices, mesh->vertices, bytes);
+    tl_mesh_free(mesh);
+    *mesh = kept;
+    return result;
+}
+
+// The mesh is left as its vertices.
+static tl_result bake_welded(const tl_mesh_view *view, tl_mesh *mesh, const tl_soup_def *def, const tl_host *host,
+                             tl_arena *arena, tl_soup **soup_out, tl_soup_report *report)
+{
+    const uint64_t triangles = mesh->triangle_count;
+    tl_stage stage;
+    report->base.stage = "pair triangles";
+    TL_TRY(tl_stage_begin(&stage, host, "pair triangles", triangles));
+    tl_bvh_input input = { mesh, NULL, 0, def->split_budget };
     tl_triangle_pair *pairs = NULL;
-    uint32_t pair_count = 0;
-    TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, host, arena, &pairs, &pair_count));
-    TL_TRY(tl_progress_update(host, "pair triangles", 1, 1));
+    TL_TRY(tl_pair_triangles(mesh, def->pair_triangles, &stage, arena, &pairs, &input.pair_count));
+    TL_TRY(keep_vertices(mesh, &stage));
+    TL_TRY(tl_stage_end(&stage));
+    input.pairs = pairs;
 
     report->base.stage = "build BVH";
-    TL_TRY(tl_progress_update(host, "build BVH", 0, 1));
+    TL_TRY(tl_stage_begin(&stage, host, "build BVH", 2 * (uint64_t)input.pair_count));
     tl_bvh tree;
-    TL_TRY(def->partition == TL_SOUP_KD_TREE ? tl_kd_build(mesh, pairs, pair_count, def, arena, &tree)
-                                             : tl_bvh_build(mesh, pairs, pair_count, def, arena, &tree));
-    TL_TRY(tl_progress_update(host, "build BVH", 1, 1));
+    TL_TRY(def->partition == TL_SOUP_KD_TREE ? tl_kd_build(&input, &stage, arena, &tree)
+                                             : tl_bvh_build(&input, &stage, arena, &tree));
+    TL_TRY(tl_stage_end(&stage));
 
     report->base.stage = "bake soup";
-    TL_TRY(tl_progress_update(host, "bake soup", 0, 1));
-    const tl_soup_parts parts = { view, mesh, pairs, pair_count, &tree };
-    TL_TRY(tl_soup_encode(&parts, def, arena, soup_out));
+    TL_TRY(tl_stage_begin(&stage, host, "bake soup", triangles));
+    const tl_soup_parts parts = { view, mesh, pairs, input.pair_count, &tree };
+    TL_TRY(tl_soup_encode(&parts, def->layout, &stage, arena, soup_out));
     report->triangle_count = (*soup_out)->triangle_count;
     report->pair_count = (*soup_out)->pair_count;
     report->single_count = (*soup_out)->single_count;
-    return TL_OK;
+    // The last progress call may still cancel.
+    return tl_stage_end(&stage);
+}
+
+static tl_result bake_checked(const tl_mesh_view *view, const tl_soup_def *def, tl_soup **soup_out,
+                              tl_soup_report *report)
+{
+    tl_memory_meter meter;
+    tl_memory_meter_init(&meter, def->host.allocator);
+    tl_host host = def->host;
+    host.allocator = &meter.allocator;
+    tl_mesh mesh;
+    memset(&mesh, 0, sizeof mesh);
+    tl_result result = weld(view, &host, &mesh, report);
+    if (result == TL_OK) {
+        tl_arena arena;
+        tl_arena_init(&arena, host.allocator);
+        result = bake_welded(view, &mesh, def, &host, &arena, soup_out, report);
+        tl_arena_free(&arena);
+    }
+    tl_mesh_free(&mesh);
+    report->base.peak_bytes = tl_memory_meter_peak(&meter);
+    tl_blob_hand_over(*soup_out, def->host.allocator);
+    return result;
 }
 
 tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup **soup_out, tl_soup_report *report_out)
@@ -97,26 +138,10 @@ tl_result tl_soup_bake(const tl_mesh_view *view, const tl_soup_def *def, tl_soup
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "weld");
     tl_soup *soup = NULL;
-    tl_mesh mesh;
-    memset(&mesh, 0, sizeof mesh);
     tl_result result = soup_out != NULL ? check_input(view, &used, &report.base)
                                         : tl_report_field(&report.base, TL_ERR_ARGUMENT, "soup_out", "give a pointer");
     if (result == TL_OK) {
-        result = weld(view, &used.host, &mesh, &report);
-    }
-    if (result == TL_OK) {
-        tl_arena arena;
-        tl_arena_init(&arena, used.host.allocator);
-        result = bake_welded(view, &mesh, &used, &arena, &soup, &report);
-        uint64_t soup_bytes = soup != NULL ? soup->blob.size : 0;
-        uint64_t held = mesh.block_size + arena.peak_bytes + soup_bytes;
-        report.base.peak_bytes = held > report.base.peak_bytes ? held : report.base.peak_bytes;
-        tl_arena_free(&arena);
-    }
-    tl_mesh_free(&mesh);
-    if (result == TL_OK) {
-        // The last progress update may still cancel.
-        result = tl_progress_update(&used.host, "bake soup", 1, 1);
+        result = bake_checked(view, &used, &soup, &report);
     }
     if (result != TL_OK) {
         tl_blob_free(soup);

@@ -6,20 +6,21 @@
 #define TALUS_SRC_SOUP_SOUP_BAKE_H
 
 #include "base/arena.h"
+#include "base/stage.h"
 
 #include <talus/mesh.h>
 #include <talus/soup.h>
 
 /// Two triangles that share an edge, or one. Corners are vertices of the welded mesh: triangles a, b, c and a, c, d
-/// (as sets: the second may run against the first). Orders are rows of tl_soup_corner_slots.
+/// (as sets: the second may run against the first).
 typedef struct tl_triangle_pair {
-    uint32_t corner[4];   ///< a, b, c, d; a single has d == a
-    uint32_t triangle[2]; ///< in the welded mesh; the second is TL_NO_TRIANGLE for a single
-    uint8_t order[2];
+    uint32_t corner[4]; ///< a, b, c, d; a single has d == a
+    uint32_t id[2];     ///< id words (soup_layout.h): triangles of the view; the second is TL_ID_NONE for a single
 } tl_triangle_pair;
 
-/// Matches triangles over shared edges, on the host's tasks. Pairs and scratch are the arena's.
-tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, const tl_host *host, tl_arena *arena,
+/// Matches triangles over shared edges, on the tasks of the stage's host; NULL stage: silent, one thread. Pairs are the
+/// arena's. Adds as much as the mesh has triangles to the stage.
+tl_result tl_pair_triangles(const tl_mesh *mesh, bool allow_pairs, tl_stage *stage, tl_arena *arena,
                             tl_triangle_pair **pairs_out, uint32_t *pair_count_out);
 
 /// A reference: a pair's box, or the part of it that spatial splits left. 32 bytes, so that two fill a cache line.
@@ -41,54 +42,66 @@ static inline tl_bvh_ref tl_bvh_reference(const tl_mesh *mesh, const tl_triangle
     return ref;
 }
 
-/// A binary tree node. Inner: children; leaf: references [first, first + count).
+/// A binary tree node. Nodes lie in preorder: an inner node's left child is the next node. 32 bytes, as references.
 typedef struct tl_bvh_node {
     tl_aabb box;
-    uint32_t left, right; ///< inner: indices of nodes
-    uint32_t first;       ///< inner: its plan (bvh_collapse.c)
-    uint32_t count;       ///< 0: inner
+    uint32_t link; ///< inner: its right child; leaf: its first reference
+    uint32_t kind; ///< leaf: TL_BVH_LEAF + references, 1 to TL_SOUP_LEAF_PAIRS; inner: its plan (bvh_collapse.c)
 } tl_bvh_node;
 
-/// A subtree that tasks may work on in parallel with the others, and its sums.
-typedef struct tl_bvh_part {
-    uint32_t root;
-    uint32_t inner_count, leaf_count; ///< nodes
-    uint32_t ref_count;               ///< in leaves
-    double leaf_surface;              ///< sum of half areas of leaves
-} tl_bvh_part;
+#define TL_BVH_LEAF 0x80000000u
+
+/// References of a leaf; 0: an inner node.
+static inline uint32_t tl_bvh_leaf_count(const tl_bvh_node *node)
+{
+    return node->kind >= TL_BVH_LEAF ? node->kind - TL_BVH_LEAF : 0;
+}
 
 /// Indices of nodes are below it, so that they have a bit to spare.
 #define TL_BVH_MAX_NODES 0x80000000u
 
+/// A subtree, nodes [first, first + count), that tasks may work on in parallel with the others.
+typedef struct tl_bvh_part {
+    uint32_t first, count;
+} tl_bvh_part;
+
 typedef struct tl_bvh {
     tl_bvh_ref *refs;
-    tl_bvh_node *nodes;
-    uint64_t node_capacity; ///< indices of nodes are below it
-    uint32_t root;
+    tl_bvh_node *nodes; ///< the root is the first
+    uint32_t node_count;
+    uint32_t ref_count;       ///< in leaves
+    double leaf_surface;      ///< sum of half areas of leaves
     const tl_bvh_part *parts; ///< from left to right; no part holds another
     uint32_t part_count;
-    uint32_t ref_count; ///< in leaves
 } tl_bvh;
 
-/// Builds the binary BVH that the wide one is collapsed from. Leaves hold 1 .. TL_SOUP_LEAF_PAIRS references.
-tl_result tl_bvh_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
-                       tl_arena *arena, tl_bvh *tree_out);
+/// What a tree is built from.
+typedef struct tl_bvh_input {
+    const tl_mesh *mesh; ///< its vertices and bounds are used
+    const tl_triangle_pair *pairs;
+    uint32_t pair_count;
+    float split_budget;
+} tl_bvh_input;
+
+/// Builds the binary BVH that the wide one is collapsed from. Leaves hold 1 .. TL_SOUP_LEAF_PAIRS references. NULL
+/// stage: silent, one thread.
+tl_result tl_bvh_build(const tl_bvh_input *input, tl_stage *stage, tl_arena *arena, tl_bvh *tree_out);
 
 /// The same tree by planes that part space (TL_SOUP_KD_TREE): leaves may share pairs, and no two nodes' boxes overlap
 /// but where pairs lie in too many planes to be parted.
-tl_result tl_kd_build(const tl_mesh *mesh, const tl_triangle_pair *pairs, uint32_t pair_count, const tl_soup_def *def,
-                      tl_arena *arena, tl_bvh *tree_out);
+tl_result tl_kd_build(const tl_bvh_input *input, tl_stage *stage, tl_arena *arena, tl_bvh *tree_out);
 
 /// What a soup is encoded from.
 typedef struct tl_soup_parts {
     const tl_mesh_view *view;
-    const tl_mesh *mesh; ///< the view, welded
+    const tl_mesh *mesh; ///< the view, welded: its vertices, bounds and triangle count are used
     const tl_triangle_pair *pairs;
     uint32_t pair_count;
-    const tl_bvh *bvh;
+    tl_bvh *bvh;
 } tl_soup_parts;
 
 /// Collapses the binary BVH into wide nodes and lays out the blob.
-tl_result tl_soup_encode(const tl_soup_parts *parts, const tl_soup_def *def, tl_arena *arena, tl_soup **soup_out);
+tl_result tl_soup_encode(const tl_soup_parts *parts, tl_soup_layout layout, tl_stage *stage, tl_arena *arena,
+                         tl_soup **soup_out);
 
 #endif

@@ -7,13 +7,12 @@
 #include "soup/bake/soup_encode.h"
 
 #include "base/assert.h"
-#include "base/host.h"
 
 #include <float.h>
 #include <string.h>
 
-// Wide nodes a task.
-enum { BLOCK_NODES = 64 };
+// Wide nodes a task; so many tasks are run for each worker between two progress calls, some 10 ms.
+enum { BLOCK_NODES = 64, NODE_BATCH = 32 };
 
 // The nodes of tasks: from `first` to below `end`.
 typedef struct node_range {
@@ -34,7 +33,7 @@ static void find_children(const tl_soup_encoder *b, tl_wide_node *wide)
     wide->leaf_count = 0;
     wide->leaf_bytes = 0;
     for (uint32_t k = 0; k < wide->child_count; k++) {
-        uint32_t pairs = b->tree->nodes[wide->child[k]].count;
+        uint32_t pairs = tl_bvh_leaf_count(&b->tree->nodes[wide->child[k]]);
         if (pairs > 0) {
             wide->child[k] |= TL_WIDE_LEAF;
             wide->leaf_count++;
@@ -68,18 +67,58 @@ static void place_children(tl_soup_encoder *b, tl_wide_node *wide)
     }
 }
 
-// Finds the wide nodes breadth first, and with them all sizes.
-static void cut_tree(tl_soup_encoder *b, const tl_host *host)
+// Room for the wide nodes of the next level.
+static bool make_room(tl_soup_encoder *b, const node_range *level, const tl_allocator *allocator)
 {
-    b->wide[0].root = b->tree->root;
+    uint64_t needed = b->node_count;
+    for (uint32_t i = level->first; i < level->end; i++) {
+        needed += b->wide[i].inner_count;
+    }
+    while (b->wide_capacity < needed) {
+        tl_wide_node *grown = tl_grow_array(allocator, b->wide, &b->wide_capacity, sizeof *grown);
+        if (grown == NULL) {
+            return false;
+        }
+        b->wide = grown;
+    }
+    return true;
+}
+
+// Finds the wide nodes breadth first, and with them all sizes.
+static tl_result cut_tree(tl_soup_encoder *b, const tl_allocator *allocator)
+{
+    b->wide = tl_grow_array(allocator, NULL, &b->wide_capacity, sizeof *b->wide);
+    if (b->wide == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    b->wide[0].root = 0;
     b->node_count = 1;
     for (node_range level = { b, 0, 1 }; level.first < level.end; level.first = level.end, level.end = b->node_count) {
         b->depth++;
-        tl_run_tasks(host, find_children_of_block, tl_block_count(level.end - level.first, BLOCK_NODES), &level);
+        TL_TRY(tl_stage_run(b->stage, find_children_of_block, tl_block_count(level.end - level.first, BLOCK_NODES),
+                            &level, NODE_BATCH, 0));
+        if (!make_room(b, &level, allocator)) {
+            return TL_ERR_MEMORY;
+        }
         for (uint32_t i = level.first; i < level.end; i++) {
             place_children(b, &b->wide[i]);
+            TL_TRY(tl_stage_tick(b->stage, i));
         }
     }
+    return TL_OK;
+}
+
+// Plans and chances are freed before the blob takes its memory.
+static tl_result collapse_tree(tl_soup_encoder *b, tl_bvh *tree, const tl_allocator *allocator)
+{
+    tl_arena arena;
+    tl_arena_init(&arena, allocator);
+    tl_result result = tl_bvh_plan_collapse(tree, b->stage, &arena, &b->cut);
+    if (result == TL_OK) {
+        result = cut_tree(b, allocator);
+    }
+    tl_arena_free(&arena);
+    return result;
 }
 
 // Marks all but the first reference to a pair, in the order of the leaves.
@@ -91,10 +130,11 @@ static tl_result mark_copies(const tl_soup_encoder *b, tl_arena *arena)
     }
     for (uint32_t i = 0; i < b->node_count; i++) {
         const tl_wide_node *wide = &b->wide[i];
+        TL_TRY(tl_stage_tick(b->stage, 8 * (uint64_t)i + 7));
         for (uint32_t k = 0; k < wide->child_count; k++) {
             const tl_bvh_node *leaf = &b->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
-            for (uint32_t r = 0; r < leaf->count; r++) {
-                tl_bvh_ref *ref = &b->tree->refs[leaf->first + r];
+            for (uint32_t r = 0; r < tl_bvh_leaf_count(leaf); r++) {
+                tl_bvh_ref *ref = &b->tree->refs[leaf->link + r];
                 ref->is_copy = met[ref->pair];
                 met[ref->pair] = 1;
             }
@@ -126,17 +166,13 @@ static void write_leaf_corner(float *const *arrays, uint32_t i, tl_vec3 corner)
 
 uint32_t tl_encode_id(const tl_soup_encoder *b, const tl_bvh_ref *ref, uint32_t k)
 {
-    const tl_triangle_pair *pair = &b->pairs[ref->pair];
-    if (pair->triangle[k] == TL_NO_TRIANGLE) {
-        return TL_ID_NONE;
-    }
-    return b->mesh->source_triangles[pair->triangle[k]] | (ref->is_copy ? TL_ID_COPY : 0) |
-           (uint32_t)pair->order[k] << 29;
+    const uint32_t id = b->pairs[ref->pair].id[k];
+    return id != TL_ID_NONE && ref->is_copy ? id | TL_ID_COPY : id;
 }
 
 static void write_leaf(const tl_soup_encoder *b, const tl_bvh_node *node, tl_soup_leaf *leaf)
 {
-    uint32_t n = node->count;
+    uint32_t n = tl_bvh_leaf_count(node);
     memset(leaf, 0, tl_leaf_size(n));
     leaf->tagged_count = TL_LEAF_TAG | n;
     uint32_t *ids = (uint32_t *)(void *)(leaf + 1);
@@ -148,7 +184,7 @@ static void write_leaf(const tl_soup_encoder *b, const tl_bvh_node *node, tl_sou
         e[axis] = c[axis] + n;
     }
     for (uint32_t i = 0; i < n; i++) {
-        const tl_bvh_ref *ref = &b->tree->refs[node->first + i];
+        const tl_bvh_ref *ref = &b->tree->refs[node->link + i];
         const tl_triangle_pair *pair = &b->pairs[ref->pair];
         tl_vec3 corner[4];
         for (uint32_t k = 0; k < 4; k++) {
@@ -177,9 +213,9 @@ static void write_node(const tl_soup_encoder *b, uint32_t index)
         const tl_bvh_node *child = &b->tree->nodes[wide->child[k] & ~TL_WIDE_LEAF];
         write_box(child->box, k, node);
         if ((wide->child[k] & TL_WIDE_LEAF) != 0) {
-            node->child[k] = tl_child_of_leaf(leaf_offset, child->count);
+            node->child[k] = tl_child_of_leaf(leaf_offset, tl_bvh_leaf_count(child));
             write_leaf(b, child, (tl_soup_leaf *)(void *)((char *)b->soup + b->soup->leaf_offset + leaf_offset));
-            leaf_offset += tl_leaf_size(child->count);
+            leaf_offset += tl_leaf_size(tl_bvh_leaf_count(child));
         } else {
             node->child[k] = next_node++;
         }
@@ -205,12 +241,13 @@ static void write_block(uint32_t block, uint32_t worker, void *user)
 // Whether triangles differ in material; if not, `*uniform_out` is the material of all.
 static bool needs_material_table(const tl_mesh_view *view, uint32_t *uniform_out)
 {
-    *uniform_out = view->materials != NULL ? view->materials[0] : 0;
-    for (uint32_t i = 1; view->materials != NULL && i < view->triangle_count; i++) {
-        if (view->materials[i] != view->materials[0]) {
-            *uniform_out = 0;
-            return true;
-        }
+    const uint16_t *materials = view->materials;
+    *uniform_out = materials != NULL ? materials[0] : 0;
+    // All are equal where each equals the next one.
+    if (materials != NULL &&
+        memcmp(materials, materials + 1, ((size_t)view->triangle_count - 1) * sizeof *materials) != 0) {
+        *uniform_out = 0;
+        return true;
     }
     return false;
 }
@@ -247,45 +284,55 @@ static tl_soup *allocate_soup(tl_soup *head, const tl_allocator *allocator)
     return soup;
 }
 
-tl_result tl_soup_encode(const tl_soup_parts *parts, const tl_soup_def *def, tl_arena *arena, tl_soup **soup_out)
+static tl_result write_soup(tl_soup_encoder *b, tl_arena *arena, tl_soup **soup_out)
 {
-    const tl_mesh_view *view = parts->view;
-    const tl_bvh *tree = parts->bvh;
-    tl_soup_encoder b = { .view = view, .mesh = parts->mesh, .pairs = parts->pairs, .tree = tree };
-    b.pair_count = parts->pair_count;
-    b.layout = def->layout;
-    TL_TRY(tl_bvh_plan_collapse(tree, &def->host, arena, &b.cut));
-    b.wide = TL_PUSH(arena, tl_wide_node, (uint64_t)b.cut.inner_count + 1);
-    if (b.wide == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    cut_tree(&b, &def->host);
-    if (b.leaf_bytes / TL_SOUP_LEAF_ALIGN > TL_MAX_LEAF_UNITS) {
+    if (b->leaf_bytes / TL_SOUP_LEAF_ALIGN > TL_MAX_LEAF_UNITS) {
         return TL_ERR_LIMIT;
     }
-    if (tree->ref_count != b.pair_count) {
-        TL_TRY(mark_copies(&b, arena));
+    if (b->tree->ref_count != b->pair_count) {
+        TL_TRY(mark_copies(b, arena));
     }
     tl_compact_plan plan = { 0 };
-    if (def->layout == TL_SOUP_COMPACT) {
-        TL_TRY(tl_compact_plan_vertices(&b, arena, &plan));
+    if (b->layout == TL_SOUP_COMPACT) {
+        TL_TRY(tl_compact_plan_vertices(b, arena, &plan));
     }
-    b.plan = &plan;
+    b->plan = &plan;
     tl_soup head;
-    fill_head(&b, &head);
-    tl_soup *soup = allocate_soup(&head, def->host.allocator);
+    fill_head(b, &head);
+    tl_soup *soup = allocate_soup(&head, &arena->allocator);
     if (soup == NULL) {
         return TL_ERR_MEMORY;
     }
-    b.soup = soup;
-    node_range all = { &b, 0, b.node_count };
-    tl_run_tasks(&def->host, write_block, tl_block_count(b.node_count, BLOCK_NODES), &all);
-    if (def->layout == TL_SOUP_COMPACT) {
-        tl_compact_write_vertices(&b, &def->host);
+    *soup_out = soup;
+    b->soup = soup;
+    node_range all = { b, 0, b->node_count };
+    TL_TRY(tl_stage_run(b->stage, write_block, tl_block_count(b->node_count, BLOCK_NODES), &all, NODE_BATCH,
+                        b->view->triangle_count));
+    if (b->layout == TL_SOUP_COMPACT) {
+        TL_TRY(tl_compact_write_vertices(b));
     }
-    if (soup->has_materials) {
-        memcpy((char *)soup + soup->material_offset, view->materials, (size_t)view->triangle_count * sizeof(uint16_t));
+    return soup->has_materials ? tl_stage_copy(b->stage, (char *)soup + soup->material_offset, b->view->materials,
+                                               (uint64_t)b->view->triangle_count * sizeof(uint16_t))
+                               : TL_OK;
+}
+
+tl_result tl_soup_encode(const tl_soup_parts *parts, tl_soup_layout layout, tl_stage *stage, tl_arena *arena,
+                         tl_soup **soup_out)
+{
+    tl_soup_encoder b = { .view = parts->view, .mesh = parts->mesh, .pairs = parts->pairs, .tree = parts->bvh };
+    b.pair_count = parts->pair_count;
+    b.stage = stage;
+    b.layout = layout;
+    tl_soup *soup = NULL;
+    tl_result result = collapse_tree(&b, parts->bvh, &arena->allocator);
+    if (result == TL_OK) {
+        result = write_soup(&b, arena, &soup);
+    }
+    tl_release_array(&arena->allocator, b.wide, b.wide_capacity, sizeof *b.wide);
+    if (result != TL_OK) {
+        tl_blob_free(soup);
+        soup = NULL;
     }
     *soup_out = soup;
-    return TL_OK;
+    return result;
 }

@@ -30,9 +30,11 @@ typedef struct tl_soup_encoder {
     const tl_triangle_pair *pairs;
     uint32_t pair_count;
     const tl_bvh *tree;
+    tl_stage *stage;
     tl_soup_layout layout;
     tl_bvh_collapse cut;
     tl_wide_node *wide; // in breadth-first order
+    uint64_t wide_capacity;
     uint32_t node_count;
     uint32_t leaf_count;
     uint32_t depth;
@@ -49,13 +51,14 @@ typedef struct tl_compact_plan {
     uint32_t vertex_count;
 } tl_compact_plan;
 
+/// Numbers them, in the arena's memory.
 tl_result tl_compact_plan_vertices(const tl_soup_encoder *baker, tl_arena *arena, tl_compact_plan *plan);
 
 /// Writes a node and its pairs.
 void tl_compact_write_node(const tl_soup_encoder *baker, uint32_t node);
 
 /// Writes groups and vertices.
-void tl_compact_write_vertices(const tl_soup_encoder *baker, const tl_host *host);
+tl_result tl_compact_write_vertices(const tl_soup_encoder *baker);
 
 /// The id word of a reference's first (k 0) or second (k 1) triangle; TL_ID_NONE where it has no second one.
 uint32_t tl_encode_id(const tl_soup_encoder *baker, const tl_bvh_ref *ref, uint32_t k);

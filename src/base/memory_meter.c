@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Counts bytes on their way to the host's allocator. The only atomics of a bake: tiles are baked in parallel, and
+// Counts bytes on their way to the host's allocator. The only atomics of a bake: tasks allocate in parallel, and
 // their memory is one sum.
 
-#include "nav_bake/tiles/memory_meter.h"
+#include "base/memory_meter.h"
 
 #include "base/arena.h"
 

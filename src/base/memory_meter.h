@@ -2,8 +2,8 @@
 //
 // How much memory a build holds: an allocator in front of the host's that counts.
 
-#ifndef TALUS_SRC_NAV_BAKE_MEMORY_METER_H
-#define TALUS_SRC_NAV_BAKE_MEMORY_METER_H
+#ifndef TALUS_SRC_BASE_MEMORY_METER_H
+#define TALUS_SRC_BASE_MEMORY_METER_H
 
 #include <stdatomic.h>
 #include <talus/base.h>
