@@ -5,7 +5,7 @@
 //
 // A tile is the data of dtNavMesh::addTile (version 7); a set is the file that RecastDemo saves ("MSET", version 1):
 // the parameters of dtNavMesh::init and all tiles. Both with references of 32 bits or of 64 (DT_POLYREF64), which is
-// how Detour was compiled. Bytes are little-endian, as Detour has them on the machines where talus runs.
+// how Detour was compiled. Bytes are written little-endian on every machine; both byte orders are read.
 
 #ifndef TALUS_NAV_DETOUR_H
 #define TALUS_NAV_DETOUR_H
@@ -94,7 +94,8 @@ typedef struct tl_detour_off_mesh {
     bool both_ways;
 } tl_detour_off_mesh;
 
-/// Reads the off-mesh connections of a set or a single tile, in order. Safe on any bytes; nothing is allocated.
+/// Reads the off-mesh connections of a set or a single tile, in order. Safe on any bytes; nothing is
+/// allocated, but for bytes of the other byte order a copy (TL_ERR_MEMORY).
 ///
 /// Writes the first `capacity`; `*count_out` is the true count, TL_INCOMPLETE when that is more. TL_ERR_CORRUPT,
 /// TL_ERR_NOT_FINITE name the connection; TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED and others as tl_detour_read.

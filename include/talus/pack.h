@@ -70,12 +70,30 @@ typedef struct tl_pack {
 
 /// Opens a container after checking it whole: every truncated prefix and every altered byte is refused.
 ///
-/// `bytes` must be 64-byte aligned, as a mapped file is (TL_ERR_ARGUMENT). TL_ERR_MAGIC (not a talus file),
-/// TL_ERR_VERSION, TL_ERR_TRUNCATED (shorter than it says), TL_ERR_HASH (altered; the report names "header", "table" or
-/// "chunk" and its index), TL_ERR_CORRUPT (bytes behind the end, padding that is not zero, or a table that contradicts
-/// itself); `*pack_out` is zeroed then. What chunks contain is checked by their own check functions. `report_out` may
-/// be NULL. O(size).
+/// `bytes` must be 64-byte aligned, as a mapped file is (TL_ERR_ARGUMENT), and in the machine's byte order
+/// (tl_pack_to_host_order). TL_ERR_MAGIC (not a talus file), TL_ERR_VERSION, TL_ERR_TRUNCATED (shorter than it says),
+/// TL_ERR_HASH (altered; the report names "header", "table" or "chunk" and its index), TL_ERR_CORRUPT (bytes behind the
+/// end, padding that is not zero, or a table that contradicts itself); `*pack_out` is zeroed then. What chunks contain
+/// is checked by their own check functions. `report_out` may be NULL. O(size).
 TL_API tl_result tl_pack_open(const void *bytes, uint64_t size, tl_pack *pack_out, tl_report *report_out);
+
+// ---------------------------------------------------------------------------------------------------------
+// Byte order. Files are little-endian, and so are blobs in the memory of nearly every machine: there these functions
+// change nothing, and a portable program calls them all the same. On big-endian machines (s390x) a blob in memory has
+// the machine's own order. tl_pack_write turns the blobs of its chunks by itself; chunks of the user's own types are
+// bytes.
+
+/// Turns the bytes of a file round in place, before tl_pack_open. Bytes that were turned before stay as they are.
+/// TL_ERR_ARGUMENT (NULL); on big-endian machines also the errors of tl_pack_open, after which the bytes are of no use.
+/// `report_out` may be NULL. O(size).
+TL_API tl_result tl_pack_to_host_order(void *bytes, uint64_t size, tl_report *report_out);
+
+/// Turns a single blob of any kind round in place, for those who store blobs in files of their own: to_file before it
+/// is written (its copy: a blob in the file's order answers no queries), to_host before its check. `size`: the blob's,
+/// bytes. TL_ERR_ARGUMENT (NULL), TL_ERR_TRUNCATED, TL_ERR_MAGIC (no blob of this library), TL_ERR_CORRUPT (big-endian
+/// machines: counts that do not fit the size; the bytes are of no use then). `report_out` may be NULL. O(size).
+TL_API tl_result tl_blob_to_file_order(void *bytes, uint64_t size, tl_report *report_out);
+TL_API tl_result tl_blob_to_host_order(void *bytes, uint64_t size, tl_report *report_out);
 
 /// Chunk number `index` < chunk_count (the caller's duty), in file order.
 TL_API tl_pack_chunk tl_pack_chunk_at(const tl_pack *pack, uint32_t index);

@@ -35,6 +35,23 @@ static inline bool tl_detour_is_finite(const float v[3])
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
+/// Detour's data in this machine's byte order: the caller's own bytes, or a copy that was turned round.
+typedef struct tl_detour_bytes {
+    const uint8_t *bytes;
+    uint8_t *copy; // NULL: none was needed
+    uint64_t copy_size;
+    tl_allocator allocator;
+} tl_detour_bytes;
+
+/// Closed with tl_detour_close_bytes, after a failure too. TL_ERR_MEMORY.
+tl_result tl_detour_open_bytes(const void *bytes, uint64_t size, const tl_allocator *allocator,
+                               tl_detour_bytes *open_out);
+void tl_detour_close_bytes(tl_detour_bytes *open);
+
+/// Turns a set or a tile round in place. `to_host`: the bytes have the order that this machine has not; false: the
+/// other way. False: a count does not fit the size.
+bool tl_detour_swap(uint8_t *bytes, uint64_t size, bool to_host);
+
 /// Takes a tile's header apart and checks every count of it against the size. The place in the grid is left alone.
 tl_result tl_detour_open_tile(const uint8_t *bytes, uint64_t size, tl_detour_tile_bytes *tile,
                               tl_detour_report *report);

@@ -135,12 +135,18 @@ static tl_result read_any(const void *bytes, uint64_t size, const tl_detour_read
     if (!(def->cell_height > 0.0f) || !isfinite(def->cell_height)) {
         return tl_report_field(&report->base, TL_ERR_ARGUMENT, "cell_height", "make it > 0");
     }
-    set_reader set;
-    memset(&set, 0, sizeof set);
-    set.bytes = bytes;
-    set.size = size;
-    return word_at(&set, 0) == TL_DETOUR_SET_MAGIC ? read_tile_set(&set, def, report, tiles)
-                                                   : read_single(bytes, size, def, report, tiles);
+    tl_detour_bytes open;
+    tl_result result = tl_detour_open_bytes(bytes, size, def->allocator, &open);
+    if (result == TL_OK) {
+        set_reader set;
+        memset(&set, 0, sizeof set);
+        set.bytes = open.bytes;
+        set.size = size;
+        result = word_at(&set, 0) == TL_DETOUR_SET_MAGIC ? read_tile_set(&set, def, report, tiles)
+                                                         : read_single(open.bytes, size, def, report, tiles);
+    }
+    tl_detour_close_bytes(&open);
+    return result;
 }
 
 tl_result tl_detour_read(const void *bytes, uint64_t size, const tl_detour_read_def *def, tl_detour_tiles *tiles_out,
@@ -245,17 +251,20 @@ tl_result tl_detour_read_off_mesh(const void *bytes, uint64_t size, tl_detour_of
     tl_detour_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "read detour");
-    set_reader set;
-    memset(&set, 0, sizeof set);
-    set.bytes = bytes;
-    set.size = size;
     connection_list list = { links_out, capacity, 0 };
     tl_result result = tl_refuse_null(bytes, "bytes", &report.base);
     if (result == TL_OK) {
         result = tl_refuse_null(count_out, "count_out", &report.base);
     }
     if (result == TL_OK) {
-        result = read_all_connections(&set, &list, &report);
+        tl_detour_bytes open;
+        set_reader set;
+        memset(&set, 0, sizeof set);
+        result = tl_detour_open_bytes(bytes, size, NULL, &open);
+        set.bytes = open.bytes;
+        set.size = size;
+        result = result == TL_OK ? read_all_connections(&set, &list, &report) : result;
+        tl_detour_close_bytes(&open);
     }
     if (count_out != NULL) {
         *count_out = result == TL_OK ? list.count : 0;

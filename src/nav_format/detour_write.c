@@ -5,9 +5,10 @@
 //
 // Source: the public description of the data in DetourNavMesh.h.
 
-#include "nav_format/detour_layout.h"
+#include "nav_format/detour_read.h"
 
 #include "base/assert.h"
+#include "base/byte_order.h"
 #include "base/host.h"
 #include "nav_format/triangle_fan.h"
 
@@ -239,6 +240,9 @@ tl_result tl_detour_tile_write(const tl_nav_tile *tile, tl_detour_refs refs, voi
     if (result == TL_OK) {
         result = write_tile(tile, refs, bytes, capacity, &size, &report);
     }
+    if (TL_BIG_ENDIAN && result == TL_OK) {
+        tl_detour_swap(bytes, size, false);
+    }
     if (report_out != NULL) {
         *report_out = report;
     }
@@ -360,7 +364,8 @@ static tl_result write_set(const tl_nav_tile *const *tiles, uint32_t tile_count,
         uint64_t reference = tile_reference(i, tile_bits, polygon_bits, refs);
         uint32_t size32 = (uint32_t)size;
         memset(bytes + at, 0, (size_t)entry);
-        memcpy(bytes + at, &reference, refs == TL_DETOUR_REFS_64 ? 8 : 4);
+        const uint32_t reference32 = (uint32_t)reference; // its low half, whichever comes first here
+        memcpy(bytes + at, refs == TL_DETOUR_REFS_64 ? (const void *)&reference : &reference32, entry / 2);
         memcpy(bytes + at + (refs == TL_DETOUR_REFS_64 ? 8 : 4), &size32, 4);
         at += entry + size;
     }
@@ -376,6 +381,9 @@ tl_result tl_detour_set_write(const tl_nav_tile *const *tiles, uint32_t tile_cou
     tl_result result = tile_count == 0 ? TL_OK : tl_refuse_null(tiles, "tiles", &report.base);
     if (result == TL_OK) {
         result = write_set(tiles, tile_count, refs, bytes, capacity, &report);
+    }
+    if (TL_BIG_ENDIAN && result == TL_OK) {
+        tl_detour_swap(bytes, tl_detour_set_size(tiles, tile_count, refs), false);
     }
     if (report_out != NULL) {
         *report_out = report;

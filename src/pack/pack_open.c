@@ -6,6 +6,7 @@
 // an altered size is not mistaken for a truncated file; the table's hash comes before any offset is followed.
 
 #include "base/assert.h"
+#include "base/byte_order.h"
 #include "base/hash.h"
 #include "base/host.h"
 #include "base/range_fits.h"
@@ -34,6 +35,14 @@ static tl_result check_pack_header(const void *bytes, uint64_t size, tl_report *
         return tl_report_fail(report, TL_ERR_TRUNCATED, "header", TL_NO_ELEMENT, "copy or bake the file again");
     }
     const tl_pack_header *header = bytes;
+    tl_pack_header turned = *header;
+    tl_pack_swap_header(&turned);
+    if (header->version != TL_PACK_VERSION && turned.version == TL_PACK_VERSION) {
+        return tl_report_fail(report, TL_ERR_VERSION, "header", TL_NO_ELEMENT,
+                              TL_BIG_ENDIAN ? "give a copy of the bytes to tl_pack_to_host_order first"
+                                            : "it is no file but the memory of a machine of the other byte order; "
+                                              "write it there with tl_pack_write");
+    }
     if (header->version != TL_PACK_VERSION) {
         return tl_report_fail(report, TL_ERR_VERSION, "header", TL_NO_ELEMENT,
                               "bake the level again with this version");

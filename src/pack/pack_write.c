@@ -6,6 +6,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/byte_order.h"
 #include "base/hash.h"
 #include "base/host.h"
 #include "base/radix_sort.h"
@@ -62,6 +63,47 @@ static tl_result write_padding(uint64_t written, tl_write_fn *write, void *user)
     return padding > 0 ? write(ZEROS, (size_t)padding, user) : TL_OK;
 }
 
+// The chunk's bytes as the file has them: the caller's own, but on machines of the other byte order a copy in `room`.
+static const void *file_bytes(const tl_pack_item *item, void *room)
+{
+    if (!TL_BIG_ENDIAN || item->size == 0) {
+        return item->bytes;
+    }
+    memcpy(room, item->bytes, (size_t)item->size);
+    return tl_pack_swap_chunk(room, item->size, item->type, false) ? room : NULL;
+}
+
+static tl_result make_room(const tl_pack_item *items, uint32_t count, tl_arena *arena, void **room_out)
+{
+    uint64_t largest = 0;
+    for (uint32_t i = 0; TL_BIG_ENDIAN && i < count; i++) {
+        largest = items[i].size > largest ? items[i].size : largest;
+    }
+    *room_out = largest > 0 ? TL_PUSH(arena, uint8_t, (size_t)largest) : NULL;
+    return largest > 0 && *room_out == NULL ? TL_ERR_MEMORY : TL_OK;
+}
+
+// The file, front to back.
+static tl_result write_parts(const tl_pack_item *items, uint32_t count, const tl_pack_header *header,
+                             const tl_pack_entry *table, void *room, tl_write_fn *write, void *user)
+{
+    const uint64_t table_size = (uint64_t)count * sizeof *table;
+    uint64_t written = sizeof *header + table_size;
+    TL_TRY(write(header, sizeof *header, user));
+    if (count > 0) {
+        TL_TRY(write(table, (size_t)table_size, user));
+    }
+    TL_TRY(write_padding(written, write, user));
+    for (uint32_t i = 0; i < count; i++) {
+        written = tl_pack_align(written) + items[i].size;
+        if (items[i].size > 0) {
+            TL_TRY(write(file_bytes(&items[i], room), (size_t)items[i].size, user));
+        }
+        TL_TRY(write_padding(written, write, user));
+    }
+    return TL_OK;
+}
+
 static tl_result write_pack(const tl_pack_item *items, uint32_t count, tl_arena *arena, tl_write_fn *write, void *user,
                             tl_report *report)
 {
@@ -71,12 +113,21 @@ static tl_result write_pack(const tl_pack_item *items, uint32_t count, tl_arena 
     if (table == NULL) {
         return TL_ERR_MEMORY;
     }
+    void *room;
+    TL_TRY(make_room(items, count, arena, &room));
     uint64_t offset = table_end(count);
     for (uint32_t i = 0; i < count; i++) {
+        const void *bytes = file_bytes(&items[i], room);
+        if (bytes == NULL && items[i].size > 0) {
+            return tl_report_fail(report, TL_ERR_CORRUPT, "chunk", i, "its counts do not fit its size");
+        }
         tl_pack_entry entry = { items[i].type, items[i].id, offset, items[i].size,
-                                tl_hash_bytes(items[i].bytes, (size_t)items[i].size, 0) };
+                                tl_hash_bytes(bytes, (size_t)items[i].size, 0) };
         table[i] = entry;
         offset = tl_pack_align(offset + items[i].size);
+    }
+    if (TL_BIG_ENDIAN) {
+        tl_pack_swap_table(table, count);
     }
     tl_pack_header header;
     memset(&header, 0, sizeof header);
@@ -85,20 +136,8 @@ static tl_result write_pack(const tl_pack_item *items, uint32_t count, tl_arena 
     header.chunk_count = count;
     header.size = offset;
     header.table_hash = tl_hash_bytes(table, (size_t)table_size, 0);
-    header.header_hash = tl_hash_bytes(&header, offsetof(tl_pack_header, header_hash), 0);
-
-    TL_TRY(write(&header, sizeof header, user));
-    if (count > 0) {
-        TL_TRY(write(table, (size_t)table_size, user));
-    }
-    TL_TRY(write_padding(sizeof header + table_size, write, user));
-    for (uint32_t i = 0; i < count; i++) {
-        if (items[i].size > 0) {
-            TL_TRY(write(items[i].bytes, (size_t)items[i].size, user));
-        }
-        TL_TRY(write_padding(table[i].offset + items[i].size, write, user));
-    }
-    return TL_OK;
+    tl_pack_seal_header(&header, TL_BIG_ENDIAN);
+    return write_parts(items, count, &header, table, room, write, user);
 }
 
 tl_result tl_pack_write(const tl_pack_item *items, uint32_t count, const tl_allocator *allocator, tl_write_fn *write,

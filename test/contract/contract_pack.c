@@ -123,6 +123,47 @@ static tl_result pack_load_navmesh(contract_run *run)
     return result;
 }
 
+// ---- Byte order --------------------------------------------------------------------------------------------
+
+static tl_result pack_to_host_order(contract_run *run)
+{
+    file_bytes file = make_file();
+    const tl_result result =
+        tl_pack_to_host_order(run->what == CONTRACT_NULL_INPUT ? NULL : file.bytes, file.size, run->report);
+    run->answer = contract_hash(file.bytes, file.size, 0);
+    run->is_clear = true;
+    free(file.bytes);
+    return result;
+}
+
+typedef tl_result order_fn(void *bytes, uint64_t size, tl_report *report);
+
+static tl_result order_hull(contract_run *run, order_fn *order, order_fn *before)
+{
+    const tl_hull *hull = contract_level_get()->hull;
+    uint8_t *copy = malloc((size_t)hull->blob.size);
+    memcpy(copy, hull, (size_t)hull->blob.size);
+    if (before != NULL) {
+        TEST_RESULT(before(copy, hull->blob.size, NULL), TL_OK);
+    }
+    copy[0] ^= run->what == CONTRACT_BAD_BYTES ? 0x80 : 0;
+    const tl_result result = order(run->what == CONTRACT_NULL_INPUT ? NULL : copy, hull->blob.size, run->report);
+    run->answer = contract_hash(copy, (size_t)hull->blob.size, 0);
+    run->is_clear = true;
+    free(copy);
+    return result;
+}
+
+static tl_result blob_to_file_order(contract_run *run)
+{
+    return order_hull(run, tl_blob_to_file_order, NULL);
+}
+
+static tl_result blob_to_host_order(contract_run *run)
+{
+    return order_hull(run, tl_blob_to_host_order, tl_blob_to_file_order);
+}
+
 // ---- Chunks of the file itself -----------------------------------------------------------------------------
 
 static tl_result blob_answer(contract_run *run, tl_result result, void *blob)
@@ -266,6 +307,10 @@ const contract_entry CONTRACT_TABLE_pack[] = {
       pack_write, NULL },
     { "tl_pack_size", 0, 0, 0, NULL, NULL, "a sum: test_pack.c" },
     { "tl_pack_open", CHECK | CONTRACT_BIT(NULL_OUTPUT), 1, 1, NULL, pack_open, NULL },
+    { "tl_pack_to_host_order", CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_INPUT), 1, 0, NULL,
+      pack_to_host_order, NULL },
+    { "tl_blob_to_file_order", CHECK, 1, 0, NULL, blob_to_file_order, NULL },
+    { "tl_blob_to_host_order", CHECK, 1, 0, NULL, blob_to_host_order, NULL },
     { "tl_pack_chunk_at", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },
     { "tl_pack_find",
       CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(NULL_OUTPUT) | CONTRACT_BIT(NOT_FOUND), 1, 1, NULL,

@@ -57,7 +57,15 @@ void digest_vec3(digest *d, tl_vec3 value)
 
 void digest_blob(digest *d, const void *blob)
 {
-    digest_bytes(d, blob, ((const tl_blob *)blob)->size);
+    const uint64_t size = ((const tl_blob *)blob)->size;
+    void *copy = malloc((size_t)size);
+    must(copy != NULL ? TL_OK : TL_ERR_MEMORY, "malloc");
+    memcpy(copy, blob, (size_t)size);
+    MUST(tl_blob_to_file_order(copy, size, NULL));
+    digest_bytes(d, copy, size);
+    MUST(tl_blob_to_host_order(copy, size, NULL));
+    must(memcmp(copy, blob, (size_t)size) == 0 ? TL_OK : TL_ERR_CORRUPT, "a blob's way to the file and back");
+    free(copy);
     d->found++;
 }
 

@@ -63,6 +63,7 @@ tl_mesh_view level_view(const level *made);
 /// The parts of the program; each prints its kinds. `soup` and `navmesh` are those of `view`.
 void golden_meshes(const tl_mesh_view *view);
 void golden_soups(const tl_mesh_view *view);
+void golden_rays(const tl_soup *soup, const char *kind);
 void golden_scene(const tl_soup *soup);
 void golden_hulls(void);
 void golden_pairs(void);

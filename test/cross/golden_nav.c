@@ -157,14 +157,31 @@ void golden_pack(const tl_soup *soup, const tl_hull *hull, const tl_nav_tiles *t
         const tl_pack_item item = { TL_PACK_NAVT, i, tiles->tiles[i], tiles->tiles[i]->blob.size };
         items[count++] = item;
     }
-    memory_file file = { malloc((size_t)tl_pack_size(items, count)), 0 };
-    must(file.bytes != NULL ? TL_OK : TL_ERR_MEMORY, "malloc");
+    // A block of its own, aligned to 64 as a mapped file is.
+    uint8_t *block = malloc((size_t)tl_pack_size(items, count) + 63);
+    memory_file file = { block + (64 - (uintptr_t)block % 64) % 64, 0 };
+    must(block != NULL ? TL_OK : TL_ERR_MEMORY, "malloc");
     MUST(tl_pack_write(items, count, NULL, append, &file, NULL));
     digest d = digest_begin();
     digest_bytes(&d, file.bytes, file.size);
     d.found = count;
     digest_print(&d, "pack", "file");
-    free(file.bytes);
+
+    // As whoever gets the file from another machine: opened, checked, and asked.
+    tl_pack pack;
+    MUST(tl_pack_to_host_order(file.bytes, file.size, NULL));
+    MUST(tl_pack_open(file.bytes, file.size, &pack, NULL));
+    tl_pack_chunk chunk;
+    MUST(tl_pack_find(&pack, TL_PACK_SOUP, 0, &chunk));
+    MUST(tl_soup_check(chunk.bytes, chunk.size, NULL));
+    golden_rays(chunk.bytes, "pack");
+    MUST(tl_pack_find(&pack, TL_PACK_HULL, 0, &chunk));
+    MUST(tl_hull_check(chunk.bytes, chunk.size, NULL));
+    tl_navmesh *loaded;
+    MUST(tl_pack_load_navmesh(&pack, NULL, &loaded, NULL));
+    golden_nav_answers(loaded, "pack");
+    tl_navmesh_destroy(loaded);
+    free(block);
     tl_blob_free(meta);
     tl_blob_free(navmesh);
     tl_blob_free(volumes);

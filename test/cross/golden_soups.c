@@ -58,7 +58,7 @@ static void digest_hit(digest *d, const tl_ray_hit *hit)
     digest_u32(d, hit->back);
 }
 
-static void answer_rays(const tl_soup *soup, const char *kind)
+void golden_rays(const tl_soup *soup, const char *kind)
 {
     const tl_aabb box = tl_soup_bounds(soup);
     dice random = { 7 };
@@ -160,7 +160,7 @@ static void soup_of(const tl_mesh_view *view, const tl_soup_def *def, const char
     digest d = digest_begin();
     digest_blob(&d, soup);
     digest_print(&d, kind, "blob");
-    answer_rays(soup, kind);
+    golden_rays(soup, kind);
     answer_shapes(soup, kind);
     tl_blob_free(soup);
 }
@@ -182,7 +182,7 @@ static void refitted_soup(const tl_mesh_view *view)
     digest d = digest_begin();
     digest_blob(&d, soup);
     digest_print(&d, "soup-refit", "blob");
-    answer_rays(soup, "soup-refit");
+    golden_rays(soup, "soup-refit");
     free(moved);
     tl_blob_free(soup);
 }
