@@ -160,7 +160,8 @@ typedef struct tl_report {
 } tl_report;
 
 /// The head of every blob: one immutable, position-independent block, 64-byte aligned, that can be stored
-/// and mapped as it is. Little-endian. Blobs are freed with `tl_blob_free` or by unmapping their file.
+/// and mapped as it is. Little-endian in files (pack.h). Blobs are freed with `tl_blob_free` or by unmapping their
+/// file.
 typedef struct tl_blob {
     uint32_t magic;   ///< kind of the blob, four characters
     uint32_t version; ///< version of that kind's layout
