@@ -24,6 +24,8 @@ if(TARGET talus_command)
         set_target_properties(talus_command PROPERTIES INSTALL_RPATH "$ORIGIN/${talus_library_dir}")
     endif()
     install(TARGETS talus_command RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    # The page that `talus view` fills, where `make viewer-page` built it. The command finds it at ../share/talus.
+    install(FILES ${CMAKE_CURRENT_SOURCE_DIR}/build/viewer/viewer.html DESTINATION share/talus OPTIONAL)
 endif()
 
 set(talus_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/talus)

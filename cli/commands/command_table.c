@@ -11,6 +11,7 @@
     COMMAND(info) \
     COMMAND(check) \
     COMMAND(draw) \
+    COMMAND(view) \
     COMMAND(ray) \
     COMMAND(nearest) \
     COMMAND(overlap) \

@@ -36,6 +36,42 @@ const char *tl_pack_source_name(const char *path)
     return slash != NULL ? slash + 1 : path;
 }
 
+tl_result tl_pack_content_of_bake(const tl_level *level, const tl_bake *bake, bool nav, tl_pack_content *content)
+{
+    tl_result result = tl_pack_content_make(bake->tiles.tile_count + bake->removed.tile_count + 7, content);
+    if (result != TL_OK) {
+        return result;
+    }
+    result = tl_pack_meta_encode(tl_pack_source_name(level->path), level->imported.vertex_count,
+                                 level->imported.triangle_count, level->mesh.bounds, NULL, &content->meta, NULL);
+    if (result == TL_OK) {
+        content->meta->source_up = level->is_z_up ? TL_PACK_UP_Z : TL_PACK_UP_Y;
+    }
+    if (result == TL_OK && nav) {
+        tl_nav_def def = bake->nav_def;
+        def.bounds = bake->nav_bounds;
+        result = tl_pack_navmesh_encode(&def, bake->tiles.tiles_x, bake->tiles.tiles_z, bake->tiles.tile_count, NULL,
+                                        &content->navmesh, NULL);
+    }
+    if (result != TL_OK) {
+        return result;
+    }
+    tl_pack_content_add(content, TL_PACK_META, 0, content->meta);
+    tl_pack_content_add(content, TL_PACK_SOUP, 0, bake->soup);
+    tl_pack_content_add(content, TL_PACK_HULL, 0, bake->hull);
+    tl_pack_content_add(content, TL_PACK_NAVM, 0, content->navmesh);
+    for (uint32_t i = 0; i < bake->tiles.tile_count; ++i) {
+        tl_pack_content_add(content, TL_PACK_NAVT, i, bake->tiles.tiles[i]);
+    }
+    tl_pack_content_add(content, TL_PACK_LINK, 0, bake->links.links);
+    tl_pack_content_add(content, TL_PACK_MARK, 0, bake->marks);
+    tl_pack_content_add(content, TL_PACK_PRUN, 0, bake->pruning);
+    for (uint32_t i = 0; i < bake->removed.tile_count; ++i) {
+        tl_pack_content_add(content, TL_PACK_PRUT, i, bake->removed.tiles[i]);
+    }
+    return TL_OK;
+}
+
 typedef struct file_sink {
     tl_cli *cli;
     tl_atomic_file *file;

@@ -5,6 +5,7 @@
 #ifndef TALUS_CLI_WRITE_PACK_H
 #define TALUS_CLI_WRITE_PACK_H
 
+#include "cli/level/bake_level.h"
 #include "cli/shared/command.h"
 
 #include <talus/pack.h>
@@ -26,6 +27,10 @@ void tl_pack_content_add(tl_pack_content *content, uint32_t type, uint32_t id, c
 
 /// The file's own name of its source: without folders, so that the same level gives the same bytes anywhere.
 const char *tl_pack_source_name(const char *path);
+
+/// All chunks of a bake; `nav`: the navmesh's too, also where nothing is walkable. The bake stays the caller's. Free
+/// with tl_pack_content_free, also after a failure.
+tl_result tl_pack_content_of_bake(const tl_level *level, const tl_bake *bake, bool nav, tl_pack_content *content);
 
 /// Writes the file, whole or not at all, with progress. Failures are reported.
 tl_exit tl_pack_content_write(tl_cli *cli, const char *output, const tl_pack_content *content, uint64_t *size_out);
