@@ -113,7 +113,7 @@ static void digest_pruned(const tl_nav_def *def, const tl_nav_input *input)
     const tl_vec3 seed = { 2, 0.25f, 30 };
     prune.seeds = &seed;
     prune.seed_count = 1;
-    MUST(tl_nav_prune(&prune, &tiles, NULL));
+    MUST(tl_nav_prune(&prune, &tiles, NULL, NULL));
     digest d = digest_begin();
     for (uint32_t i = 0; i < tiles.tile_count; i++) {
         digest_blob(&d, tiles.tiles[i]);

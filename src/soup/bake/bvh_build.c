@@ -75,7 +75,7 @@ typedef struct subtree_tasks {
 } subtree_tasks;
 
 // Leaf or split? Splits the range where that is better.
-static bool split_range(const tl_bvh_top *top, const tl_bvh_range *range, tl_bvh_range *left, tl_bvh_range *right)
+static bool split_bvh_range(const tl_bvh_top *top, const tl_bvh_range *range, tl_bvh_range *left, tl_bvh_range *right)
 {
     tl_bvh_split split;
     split.found = false;
@@ -111,7 +111,7 @@ static bool build_bvh_range(const subtree_tasks *tasks, node_list *list, tl_bvh_
         tl_bvh_node *node = &list->nodes[index];
         tl_bvh_range left, right;
         node->box = range.box;
-        if (split_range(tasks->top, &range, &left, &right)) {
+        if (split_bvh_range(tasks->top, &range, &left, &right)) {
             TL_ASSERT(depth < TL_SOUP_MAX_DEPTH);
             node->kind = 0;
             waiting[depth].range = right;
@@ -268,8 +268,8 @@ static tl_result build_subtrees(subtree_tasks *tasks, const tl_bvh_input *input,
 }
 
 // The tree's references are in `arena` already; `scratch` is for what only the build needs.
-static tl_result build_tree(const tl_bvh_input *input, tl_bvh_top *top, tl_stage *stage, tl_arena *arena,
-                            tl_arena *scratch, tl_bvh *tree)
+static tl_result build_bvh_tree(const tl_bvh_input *input, tl_bvh_top *top, tl_stage *stage, tl_arena *arena,
+                                tl_arena *scratch, tl_bvh *tree)
 {
     const uint32_t capacity = input->pair_count + (uint32_t)((double)input->pair_count * (double)input->split_budget);
     tl_arena moved; // freed before the nodes of all subtrees lie side by side
@@ -303,7 +303,7 @@ tl_result tl_bvh_build(const tl_bvh_input *input, tl_stage *stage, tl_arena *are
     top.splitter.pairs = input->pairs;
     tl_arena scratch;
     tl_arena_init(&scratch, &arena->allocator);
-    tl_result result = build_tree(input, &top, stage, arena, &scratch, tree_out);
+    tl_result result = build_bvh_tree(input, &top, stage, arena, &scratch, tree_out);
     tl_arena_free(&scratch);
     return result;
 }

@@ -25,7 +25,7 @@ static_assert(TL_BVH_HEURISTIC_DEPTH + 32 <= TL_SOUP_MAX_DEPTH,
 enum { TASK_SHARE = 64, MIN_TASK_REFS = 1024 };
 
 // A block takes a third of a millisecond; so many are run for each worker between two progress calls.
-enum { BLOCK_REFS = 4096, BLOCK_BATCH = 64 };
+enum { BLOCK_REFS = 4096, REF_BLOCK_BATCH = 64 };
 
 // A range of the level that is being split.
 typedef struct top_range {
@@ -188,14 +188,14 @@ static tl_result split_level(top_builder *b)
         b->ranges[i].grid = tl_bvh_make_grid(&b->ranges[i].subtree.range);
     }
     lay_blocks(b);
-    TL_TRY(tl_stage_run(b->stage, fill_block_bins, b->block_count, b, BLOCK_BATCH, b->level_share / 2));
+    TL_TRY(tl_stage_run(b->stage, fill_block_bins, b->block_count, b, REF_BLOCK_BATCH, b->level_share / 2));
     // Without spatial splits this is too little work for tasks.
     if (b->ranges[0].subtree.range.capacity > b->ranges[0].subtree.range.count) {
         TL_TRY(tl_stage_run(b->stage, choose_range_split, b->range_count, b, 1, 0));
     } else {
         tl_run_tasks(NULL, choose_range_split, b->range_count, b);
     }
-    TL_TRY(tl_stage_run(b->stage, part_block, b->block_count, b, BLOCK_BATCH, b->level_share / 2));
+    TL_TRY(tl_stage_run(b->stage, part_block, b->block_count, b, REF_BLOCK_BATCH, b->level_share / 2));
     uint32_t next_count = 0;
     for (uint32_t i = 0; i < b->range_count; i++) {
         tl_bvh_subtree sides[2];
@@ -221,7 +221,7 @@ static tl_result measure_all(top_builder *b, uint32_t pair_count, uint32_t capac
     b->ranges[0].subtree.range = whole;
     b->range_count = 1;
     lay_blocks(b);
-    TL_TRY(tl_stage_run(b->stage, make_references, b->block_count, b, BLOCK_BATCH, b->level_share));
+    TL_TRY(tl_stage_run(b->stage, make_references, b->block_count, b, REF_BLOCK_BATCH, b->level_share));
     tl_box4 box = tl_box4_empty(), centroids = tl_box4_empty();
     for (uint32_t i = 0; i < b->block_count; i++) {
         box = tl_box4_union(box, b->blocks[i].centroids[0]);

@@ -68,7 +68,7 @@ static void place_children(tl_soup_encoder *b, tl_wide_node *wide)
 }
 
 // Room for the wide nodes of the next level.
-static bool make_room(tl_soup_encoder *b, const node_range *level, const tl_allocator *allocator)
+static bool make_level_room(tl_soup_encoder *b, const node_range *level, const tl_allocator *allocator)
 {
     uint64_t needed = b->node_count;
     for (uint32_t i = level->first; i < level->end; i++) {
@@ -97,7 +97,7 @@ static tl_result cut_tree(tl_soup_encoder *b, const tl_allocator *allocator)
         b->depth++;
         TL_TRY(tl_stage_run(b->stage, find_children_of_block, tl_block_count(level.end - level.first, BLOCK_NODES),
                             &level, NODE_BATCH, 0));
-        if (!make_room(b, &level, allocator)) {
+        if (!make_level_room(b, &level, allocator)) {
             return TL_ERR_MEMORY;
         }
         for (uint32_t i = level.first; i < level.end; i++) {
