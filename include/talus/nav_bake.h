@@ -133,6 +133,9 @@ typedef struct tl_nav_config {
 #define TL_NAV_MAX_SIDE    (1u << 24) ///< columns along one side of a tile, border included
 #define TL_NAV_MAX_LATTICE (1u << 29) ///< columns along one side of the whole level
 #define TL_NAV_MAX_VOXELS  0x7fffu    ///< walkable_height, walkable_climb, walkable_radius
+/// Places of a grid of tiles: tiles_x * tiles_z. Up to TL_NAV_MAX_TILES of them may hold triangles; memory and time
+/// follow those, not the ground between them.
+#define TL_NAV_MAX_PLACES (1u << 31)
 
 /// The number of tiles along x and z of a level. Both 1 when def->tile_size is 0. Errors as tl_nav_config_from_def.
 TL_API tl_result tl_nav_tile_grid(const tl_nav_def *def, tl_aabb level_bounds, uint32_t *tiles_x_out,
@@ -451,7 +454,8 @@ typedef struct tl_nav_tile_block {
 } tl_nav_tile_block;
 
 /// Bakes a range of tiles: the same bytes as in tl_nav_bake of the whole. `sink` may be NULL. A caller whose mesh
-/// changes gives def->bounds, so that the lattice stays where it is. TL_ERR_ARGUMENT: a range beyond the grid.
+/// changes gives def->bounds, so that the lattice stays where it is. TL_ERR_ARGUMENT: a range beyond the grid;
+/// TL_ERR_LIMIT: one of more than TL_NAV_MAX_TILES places.
 TL_API tl_result tl_nav_bake_range(const tl_nav_def *def, const tl_nav_input *input, tl_nav_tile_range range,
                                    const tl_nav_stage_sink *sink, tl_nav_tile_block *block_out,
                                    tl_nav_bake_report *report_out);

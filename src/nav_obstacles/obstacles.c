@@ -224,6 +224,9 @@ static tl_result create(const tl_nav_def *def, tl_nav_obstacles **out, tl_report
     TL_TRY(check_obstacles_def(def, report));
     uint32_t tiles_x, tiles_z;
     TL_TRY(tl_nav_tile_grid(def, def->bounds, &tiles_x, &tiles_z, report));
+    if ((uint64_t)tiles_x * tiles_z > TL_NAV_MAX_TILES) {
+        return tl_report_field(report, TL_ERR_LIMIT, "tile_size", "raise tile_size: obstacles keep every place");
+    }
     const tl_allocator allocator = tl_allocator_or_default(def->host.allocator);
     tl_nav_obstacles *o = tl_allocate_array(&allocator, 1, sizeof *o);
     if (o == NULL) {

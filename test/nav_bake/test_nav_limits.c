@@ -139,14 +139,53 @@ static void twenty_kilometres(void **state)
     TEST_CHECK(tiled.report.polygon_count >= 79);
     slabs_free(&s);
 
-    // As deep as wide, in small tiles: refused by name.
+    // More than 2^31 places of tiles: refused by name.
     def.tile_size = 64;
     uint32_t tiles_x, tiles_z;
     tl_report report;
-    const tl_aabb square = { tl_vec3_make(0, 0, 0), tl_vec3_make(20000, 10, 20000) };
+    const tl_aabb square = { tl_vec3_make(0, 0, 0), tl_vec3_make(800000, 10, 800000) };
     TEST_RESULT(tl_nav_tile_grid(&def, square, &tiles_x, &tiles_z, &report), TL_ERR_LIMIT);
     assert_string_equal(report.field, "tile_size");
     TEST_CHECK(report.advice != NULL);
+}
+
+// Small islands in the corners of a square of 20 km: 1.5 million places, a few tiles. What is baked, and what that
+// takes, is what two islands side by side take.
+static void twenty_kilometres_square(void **state)
+{
+    (void)state;
+    static const float far[] = { 40, 20000, 400000 };
+    uint64_t peak[3];
+    for (uint32_t i = 0; i < 3; i++) {
+        tl_nav_def def = tl_default_nav_def();
+        def.cell_size = 0.25f;
+        def.tile_size = 64;
+        slabs s = slabs_make(4);
+        for (uint32_t k = 0; k < 4; k++) {
+            add_slab(&s, k % 2 == 0 ? 0 : far[i] - 16, 0, k / 2 == 0 ? 0 : far[i] - 16, 16, 16);
+        }
+        const tl_nav_input input = input_of(&s);
+        tl_nav_tiles tiles;
+        tl_nav_bake_report report;
+        TEST_RESULT(tl_nav_bake(&def, &input, &tiles, &report), TL_OK);
+        TEST_CHECK(tiles.tile_count >= 4 && tiles.tile_count <= 16);
+        TEST_CHECK(i < 1 || (uint64_t)tiles.tiles_x * tiles.tiles_z > 1u << 20);
+        for (uint32_t t = 0; t < tiles.tile_count; t++) {
+            TEST_CHECK(tiles.tiles[t]->polygon_count > 0);
+        }
+        peak[i] = report.base.peak_bytes;
+        print_message("%u x %u places, %u tiles, %.2f MB\n", tiles.tiles_x, tiles.tiles_z, tiles.tile_count,
+                      (double)peak[i] / 1e6);
+        // A block of all of them would need a stack for each place.
+        const tl_nav_tile_range all = { 0, 0, tiles.tiles_x, tiles.tiles_z };
+        tl_nav_tile_block block;
+        TEST_RESULT(tl_nav_bake_range(&def, &input, all, NULL, &block, &report), i == 0 ? TL_OK : TL_ERR_LIMIT);
+        TEST_CHECK(i == 0 || strcmp(report.base.field, "range") == 0);
+        tl_nav_tile_block_free(&block);
+        tl_nav_tiles_free(&tiles);
+        slabs_free(&s);
+    }
+    TEST_CHECK(peak[1] < 2 * peak[0] && peak[2] < 2 * peak[0]);
 }
 
 static void two_thousand_metres_high(void **state)
@@ -226,7 +265,8 @@ static void seventeen_million_spans(void **state)
 
 int main(int argc, char **argv)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(twenty_kilometres), cmocka_unit_test(two_thousand_metres_high),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(twenty_kilometres), cmocka_unit_test(twenty_kilometres_square),
+                                        cmocka_unit_test(two_thousand_metres_high),
                                         cmocka_unit_test(three_hundred_floors) };
     const struct CMUnitTest heavy[] = { cmocka_unit_test(seventy_thousand_vertices),
                                         cmocka_unit_test(seventeen_million_spans) };

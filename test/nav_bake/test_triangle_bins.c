@@ -7,6 +7,7 @@
 #include "nav_fields.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { TRIANGLES = 300 };
 
@@ -50,9 +51,9 @@ static void every_overlap_is_listed(void **state)
         tl_mesh_view mesh = random_mesh(&random, vertices, indices);
         tl_nav_lattice lattice = { { 0, 0, 0 }, 0, 0 };
         tl_lattice_map map = tl_lattice_map_make(&lattice, 0.5f, 0.2f);
-        tl_bin_grid grid = { 1 + test_random_below(&random, 6), 1 + test_random_below(&random, 6),
+        tl_bin_grid grid = { 1 + test_random_below(&random, 6),  1 + test_random_below(&random, 6),
                              1 + test_random_below(&random, 60), 1 + test_random_below(&random, 60),
-                             test_random_below(&random, 12) };
+                             test_random_below(&random, 12),     false };
         tl_triangle_list all = { NULL, TRIANGLES };
         tl_triangle_bins bins;
         TEST_RESULT(tl_triangle_bins_init(&mesh, all, &map, &grid, NULL, &bins), TL_OK);
@@ -90,22 +91,98 @@ static void failing_memory_is_reported(void **state)
     tl_mesh_view mesh = random_mesh(&random, vertices, indices);
     tl_nav_lattice lattice = { { 0, 0, 0 }, 0, 0 };
     tl_lattice_map map = tl_lattice_map_make(&lattice, 0.5f, 0.2f);
-    tl_bin_grid grid = { 4, 4, 50, 50, 3 };
+    tl_bin_grid grid = { 4, 4, 50, 50, 3, false };
     tl_triangle_list all = { NULL, TRIANGLES };
-    for (uint64_t k = 1; k <= 3; k++) {
-        test_allocator memory;
-        test_allocator_init(&memory, k);
-        tl_triangle_bins bins;
-        TEST_RESULT(tl_triangle_bins_init(&mesh, all, &map, &grid, &memory.allocator, &bins),
-                    k <= 2 ? TL_ERR_MEMORY : TL_OK);
-        tl_triangle_bins_free(&bins);
-        TEST_CHECK(memory.live_blocks == 0);
+    for (uint32_t sparse = 0; sparse < 2; sparse++) {
+        const uint64_t allocations = sparse ? 5 : 2;
+        grid.sparse = sparse != 0;
+        for (uint64_t k = 1; k <= allocations + 1; k++) {
+            test_allocator memory;
+            test_allocator_init(&memory, k);
+            tl_triangle_bins bins;
+            TEST_RESULT(tl_triangle_bins_init(&mesh, all, &map, &grid, &memory.allocator, &bins),
+                        k <= allocations ? TL_ERR_MEMORY : TL_OK);
+            tl_triangle_bins_free(&bins);
+            TEST_CHECK(memory.live_blocks == 0);
+        }
     }
+}
+
+// A sparse grid lists what the whole grid does, for the bins that hold anything.
+static void sparse_grids_list_the_same(void **state)
+{
+    (void)state;
+    test_random random = { 9 };
+    static tl_vec3 vertices[3 * TRIANGLES];
+    static uint32_t indices[3 * TRIANGLES];
+    uint64_t kept = 0, empty = 0;
+    for (uint32_t round = 0; round < 40; round++) {
+        tl_mesh_view mesh = random_mesh(&random, vertices, indices);
+        for (uint32_t i = 0; i < TRIANGLES; i++) {
+            // No triangle covers all, and they lie far apart.
+            for (uint32_t k = 0; k < 3; k++) {
+                vertices[3 * i + k].x = fminf(fmaxf(vertices[3 * i + k].x, -9), 9) + 40.0f * (float)(i % 60);
+                vertices[3 * i + k].z = fminf(fmaxf(vertices[3 * i + k].z, -9), 9) + 40.0f * (float)(i / 60);
+            }
+        }
+        tl_nav_lattice lattice = { { 0, 0, 0 }, 0, 0 };
+        tl_lattice_map map = tl_lattice_map_make(&lattice, 0.5f, 0.2f);
+        tl_bin_grid grid = { 100 + round,
+                             30,
+                             1 + test_random_below(&random, 60),
+                             1 + test_random_below(&random, 60),
+                             test_random_below(&random, 12),
+                             false };
+        tl_triangle_list all = { NULL, TRIANGLES };
+        tl_triangle_bins dense, sparse;
+        TEST_RESULT(tl_triangle_bins_init(&mesh, all, &map, &grid, NULL, &dense), TL_OK);
+        grid.sparse = true;
+        TEST_RESULT(tl_triangle_bins_init(&mesh, all, &map, &grid, NULL, &sparse), TL_OK);
+        uint64_t next = 0;
+        for (uint64_t place = 0; place < dense.bin_count; place++) {
+            const tl_triangle_list expected = tl_triangle_bins_get(&dense, place);
+            TEST_CHECK(tl_triangle_bins_place(&dense, place) == place);
+            if (expected.count == 0) {
+                empty++;
+                continue;
+            }
+            const tl_triangle_list list = tl_triangle_bins_get(&sparse, next);
+            TEST_CHECK(next < sparse.bin_count && tl_triangle_bins_place(&sparse, next) == place);
+            TEST_CHECK(list.count == expected.count &&
+                       memcmp(list.indices, expected.indices, list.count * sizeof *list.indices) == 0);
+            next++;
+        }
+        TEST_CHECK(next == sparse.bin_count);
+        kept += next;
+        tl_triangle_bins_free(&dense);
+        tl_triangle_bins_free(&sparse);
+    }
+    TEST_CHECK(kept > 1000 && empty > 1000);
+}
+
+// One triangle over 2^31 places is refused before it takes their memory.
+static void too_many_places_are_refused(void **state)
+{
+    (void)state;
+    const tl_vec3 vertices[3] = { { 0, 0, 0 }, { 2e7f, 0, 0 }, { 0, 0, 2e7f } };
+    const uint32_t indices[3] = { 0, 1, 2 };
+    tl_mesh_view mesh = { vertices, 3, indices, 1, NULL };
+    tl_nav_lattice lattice = { { 0, 0, 0 }, 0, 0 };
+    tl_lattice_map map = tl_lattice_map_make(&lattice, 1.0f, 1.0f);
+    const tl_bin_grid grid = { 1u << 16, 1u << 15, 100, 100, 3, true };
+    tl_triangle_list all = { NULL, 1 };
+    test_allocator memory;
+    test_allocator_init(&memory, 0);
+    tl_triangle_bins bins;
+    TEST_RESULT(tl_triangle_bins_init(&mesh, all, &map, &grid, &memory.allocator, &bins), TL_ERR_LIMIT);
+    TEST_CHECK(memory.live_blocks == 0 && memory.peak_bytes < 40u << 20);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(every_overlap_is_listed),
-                                        cmocka_unit_test(failing_memory_is_reported) };
+                                        cmocka_unit_test(failing_memory_is_reported),
+                                        cmocka_unit_test(sparse_grids_list_the_same),
+                                        cmocka_unit_test(too_many_places_are_refused) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

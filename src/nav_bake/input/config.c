@@ -213,7 +213,7 @@ static tl_result level_tiles(const tl_nav_def *def, level_lattice *level, tl_rep
         level->tiles_z = (level->columns_z - 1) / def->tile_size + 1;
         width = height = (uint64_t)def->tile_size + 2 * (uint64_t)level->border_size;
     }
-    if ((uint64_t)level->tiles_x * level->tiles_z > TL_NAV_MAX_TILES) {
+    if ((uint64_t)level->tiles_x * level->tiles_z > TL_NAV_MAX_PLACES) {
         return tl_report_field(report, TL_ERR_LIMIT, "tile_size", "raise tile_size: the level has too many tiles");
     }
     if (width > TL_NAV_MAX_SIDE || height > TL_NAV_MAX_SIDE || width * height > TL_NAV_MAX_COLUMNS) {

@@ -24,19 +24,30 @@ typedef struct tl_bin_grid {
     uint32_t count_x, count_z;
     uint32_t size_x, size_z; ///< columns, > 0
     uint32_t margin;         ///< columns
+    bool sparse;             ///< keep only the bins that hold triangles
 } tl_bin_grid;
 
+/// The bins that are kept: all, or of a sparse grid those with triangles, so that memory and time follow what is there
+/// and not the ground that the grid covers. In rows, x fastest.
 typedef struct tl_triangle_bins {
     uint32_t *first;     ///< [bin_count + 1]
     uint32_t *triangles; ///< ascending within each bin
-    uint64_t bin_count;
+    uint64_t bin_count;  ///< bins that are kept
+    uint32_t *places;    ///< [bin_count] z * count_x + x of each, ascending; NULL: a bin's place is its index
     const tl_allocator *allocator;
 } tl_triangle_bins;
 
-/// Puts each triangle into every bin that its box overlaps. TL_ERR_LIMIT when that makes 2^32 entries or more.
+/// Puts each triangle into every bin that its box overlaps. At most 2^31 bins. TL_ERR_LIMIT when that makes 2^32
+/// entries or more, or more than TL_NAV_MAX_TILES bins of a sparse grid.
 tl_result tl_triangle_bins_init(const tl_mesh_view *mesh, tl_triangle_list list, const tl_lattice_map *map,
-                                const tl_bin_grid *grid, const tl_allocator *allocator, tl_triangle_bins *bins_out);
+                                const tl_bin_grid *grid, const tl_allocator *allocator, tl_triangle_bins *bins);
 void tl_triangle_bins_free(tl_triangle_bins *bins);
+
+/// Where the bin lies in the grid.
+static inline uint64_t tl_triangle_bins_place(const tl_triangle_bins *bins, uint64_t bin)
+{
+    return bins->places != NULL ? bins->places[bin] : bin;
+}
 
 static inline tl_triangle_list tl_triangle_bins_get(const tl_triangle_bins *bins, uint64_t bin)
 {

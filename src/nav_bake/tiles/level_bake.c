@@ -16,7 +16,10 @@
 
 #include <string.h>
 
-enum { TILES_PER_WORKER = 8 }; // between two calls of the progress hook
+// Grids of more tiles are kept by the tiles that hold triangles.
+enum { DENSE_TILES = 1 << 12 };
+
+enum { TILES_PER_WORKER = 8, COLUMNS_PER_WORKER = 1 << 15 }; // between two calls of the progress hook, at most
 
 #define NO_TILE UINT64_MAX
 
@@ -34,9 +37,11 @@ typedef struct level_job {
     const tl_nav_stage_sink *sink;
     uint32_t tiles_x, tiles_z; ///< of the level
     tl_nav_tile_range range;   ///< what is built
+    bool is_block;             ///< a stack for each place of the range; else for each bin with triangles
     tl_triangle_bins bins;
-    tl_nav_tile_stack *stacks; ///< [range.count_x * range.count_z]
-    level_worker *workers;     ///< [worker_count]
+    tl_nav_tile_stack *stacks; ///< [stack_count]
+    uint64_t stack_count;
+    level_worker *workers; ///< [worker_count]
     uint32_t worker_count;
 } level_job;
 
@@ -64,8 +69,9 @@ static void add_counts(tl_nav_bake_report *sum, const tl_nav_bake_report *part)
     sum->tile_count += part->tile_count;
 }
 
-static tl_result run_tile(const level_job *job, uint64_t tile, tl_triangle_list list, const tl_host *host,
-                          tl_nav_bake_report *counts)
+// A tile of the range, into its stack.
+static tl_result run_tile(const level_job *job, uint64_t tile, tl_nav_tile_stack *stack, tl_triangle_list list,
+                          const tl_host *host, tl_nav_bake_report *counts)
 {
     tl_nav_config config;
     tl_nav_stages stages;
@@ -73,8 +79,7 @@ static tl_result run_tile(const level_job *job, uint64_t tile, tl_triangle_list 
     TL_TRY(tl_nav_config_from_def(job->def, job->bounds, job->range.x + (uint32_t)(tile % job->range.count_x),
                                   job->range.z + (uint32_t)(tile / job->range.count_x), &config, &counts->base));
     const bool keep = job->sink != NULL;
-    tl_result result =
-        tl_nav_tile_run(&config, job->input, list, host, keep ? &stages : NULL, &job->stacks[tile], counts);
+    tl_result result = tl_nav_tile_run(&config, job->input, list, host, keep ? &stages : NULL, stack, counts);
     if (keep) {
         tl_nav_stages_hand_over(&stages, job->def->host.allocator);
         if (result == TL_OK) {
@@ -85,16 +90,17 @@ static tl_result run_tile(const level_job *job, uint64_t tile, tl_triangle_list 
     return result;
 }
 
-static tl_result bake_one_tile(uint32_t tile, uint32_t worker_index, void *user)
+static tl_result bake_one_tile(uint32_t bin, uint32_t worker_index, void *user)
 {
     level_job *job = user;
     level_worker *worker = &job->workers[worker_index];
-    tl_triangle_list list = tl_triangle_bins_get(&job->bins, tile);
+    tl_triangle_list list = tl_triangle_bins_get(&job->bins, bin);
     if (list.count == 0) {
         return TL_OK;
     }
     tl_host host = { job->host.allocator, NULL, NULL };
-    tl_result result = run_tile(job, tile, list, &host, &worker->counts);
+    const uint64_t tile = tl_triangle_bins_place(&job->bins, bin);
+    tl_result result = run_tile(job, tile, &job->stacks[job->is_block ? tile : bin], list, &host, &worker->counts);
     if (result != TL_OK && tile < worker->failed_tile) {
         worker->failed_tile = tile;
         worker->failure = worker->counts.base;
@@ -106,11 +112,18 @@ static tl_result bake_one_tile(uint32_t tile, uint32_t worker_index, void *user)
     return result;
 }
 
+// Tiles for each worker between two calls of the progress hook: a column takes up to a microsecond and a half.
+static uint32_t tiles_a_batch(const level_job *job)
+{
+    const uint64_t side = job->def->tile_size + 16u, tiles = COLUMNS_PER_WORKER / (side * side);
+    return tiles < 1 ? 1 : tiles > TILES_PER_WORKER ? TILES_PER_WORKER : (uint32_t)tiles;
+}
+
 static tl_result run_tiles(level_job *job, tl_report *report)
 {
     tl_report_begin(report, "tiles");
     tl_result result =
-        tl_run_batches(&job->host, "tiles", bake_one_tile, (uint32_t)tile_count_of(job), TILES_PER_WORKER, job);
+        tl_run_batches(&job->host, "tiles", bake_one_tile, (uint32_t)job->bins.bin_count, tiles_a_batch(job), job);
     const level_worker *first = &job->workers[0];
     for (uint32_t w = 1; w < job->worker_count; w++) {
         first = job->workers[w].failed_tile < first->failed_tile ? &job->workers[w] : first;
@@ -130,21 +143,36 @@ static tl_result sort_triangles(level_job *job, tl_report *report)
     const uint32_t size = job->def->tile_size;
     tl_nav_lattice lattice = { config.lattice.origin, (int32_t)(job->range.x * size), (int32_t)(job->range.z * size) };
     tl_lattice_map map = tl_lattice_map_make(&lattice, config.cell_size, config.cell_height);
-    tl_bin_grid grid = { job->range.count_x, job->range.count_z, size, size, config.border_size };
+    tl_bin_grid grid = {
+        job->range.count_x, job->range.count_z, size, size, config.border_size, tile_count_of(job) > DENSE_TILES
+    };
     tl_triangle_list all = { NULL, job->input->mesh.triangle_count };
     tl_result result = tl_triangle_bins_init(&job->input->mesh, all, &map, &grid, job->host.allocator, &job->bins);
     return result == TL_ERR_LIMIT
-               ? tl_report_field(report, result, "tile_size", "raise tile_size: too many tiles a triangle")
+               ? tl_report_field(report, result, "tile_size", "raise tile_size: triangles lie in too many tiles")
                : result;
+}
+
+static tl_result allocate_stacks(level_job *job, uint64_t count)
+{
+    job->stacks = tl_allocate_array(job->host.allocator, count, sizeof *job->stacks);
+    if (job->stacks == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    job->stack_count = count;
+    memset(job->stacks, 0, count * sizeof *job->stacks);
+    return TL_OK;
 }
 
 static tl_result bake_level_tiles(level_job *job, tl_nav_bake_report *report)
 {
     if (job->def->tile_size == 0) {
         tl_triangle_list all = { NULL, job->input->mesh.triangle_count };
-        return run_tile(job, 0, all, &job->host, report);
+        TL_TRY(allocate_stacks(job, 1));
+        return run_tile(job, 0, &job->stacks[0], all, &job->host, report);
     }
     TL_TRY(sort_triangles(job, &report->base));
+    TL_TRY(allocate_stacks(job, job->is_block ? tile_count_of(job) : job->bins.bin_count));
     job->worker_count = tl_worker_count(&job->host);
     job->workers = tl_allocate_array(job->host.allocator, job->worker_count, sizeof *job->workers);
     if (job->workers == NULL) {
@@ -172,17 +200,10 @@ static tl_result take_range(level_job *job, const tl_nav_tile_range *range, tl_r
         return tl_report_field(report, TL_ERR_ARGUMENT, "range", "ask tl_nav_tile_grid how many tiles there are");
     }
     job->range = wanted;
-    return TL_OK;
-}
-
-static tl_result allocate_stacks(level_job *job)
-{
-    const uint64_t count = tile_count_of(job);
-    job->stacks = tl_allocate_array(job->host.allocator, count, sizeof *job->stacks);
-    if (job->stacks == NULL) {
-        return TL_ERR_MEMORY;
+    job->is_block = range != NULL;
+    if (job->is_block && tile_count_of(job) > TL_NAV_MAX_TILES) {
+        return tl_report_field(report, TL_ERR_LIMIT, "range", "bake fewer tiles at once, up to TL_NAV_MAX_TILES");
     }
-    memset(job->stacks, 0, count * sizeof *job->stacks);
     return TL_OK;
 }
 
@@ -190,8 +211,7 @@ static tl_result bake_tile_range(level_job *job, const tl_nav_tile_range *range,
 {
     TL_TRY(tl_nav_input_check(job->input, &job->bounds, &report->base));
     TL_TRY(take_range(job, range, &report->base));
-    TL_TRY(allocate_stacks(job));
-    return tile_count_of(job) > 0 ? bake_level_tiles(job, report) : TL_OK;
+    return tile_count_of(job) > 0 ? bake_level_tiles(job, report) : allocate_stacks(job, 0);
 }
 
 static void begin_job(level_job *job, const tl_nav_def *def, const tl_nav_input *input, tl_memory_meter *meter)
@@ -207,11 +227,10 @@ static void begin_job(level_job *job, const tl_nav_def *def, const tl_nav_input 
 static void end_job(level_job *job, tl_memory_meter *meter, const tl_nav_bake_report *report,
                     tl_nav_bake_report *report_out)
 {
-    const uint64_t count = tile_count_of(job);
-    for (uint64_t t = 0; job->stacks != NULL && t < count; t++) {
+    for (uint64_t t = 0; job->stacks != NULL && t < job->stack_count; t++) {
         tl_nav_tile_stack_free(&job->stacks[t]);
     }
-    tl_release_array(job->host.allocator, job->stacks, count, sizeof *job->stacks);
+    tl_release_array(job->host.allocator, job->stacks, job->stack_count, sizeof *job->stacks);
     tl_release_array(job->host.allocator, job->workers, job->worker_count, sizeof *job->workers);
     tl_triangle_bins_free(&job->bins);
     if (report_out != NULL) {
@@ -223,12 +242,11 @@ static void end_job(level_job *job, tl_memory_meter *meter, const tl_nav_bake_re
 // Those that hold polygons, in an array of their number.
 static tl_result keep_tiles(level_job *job, uint32_t tile_count, tl_nav_tiles *tiles_out)
 {
-    const uint64_t count = tile_count_of(job);
     tiles_out->tiles = tl_allocate_array(job->host.allocator, tile_count, sizeof *tiles_out->tiles);
     if (tiles_out->tiles == NULL) {
         return TL_ERR_MEMORY;
     }
-    for (uint64_t t = 0; t < count; t++) {
+    for (uint64_t t = 0; t < job->stack_count; t++) {
         for (uint32_t i = 0; i < job->stacks[t].count; i++) {
             tl_blob_hand_over(job->stacks[t].tiles[i], job->def->host.allocator);
             tiles_out->tiles[tiles_out->tile_count++] = job->stacks[t].tiles[i];
@@ -287,7 +305,7 @@ static tl_result bake_part(level_job *job, const tl_nav_tile_range *range, tl_na
     TL_TRY(range_window(job->def, range, &window, &report->base));
     tl_result result = tl_range_input_make(whole, window, job->host.allocator, &part);
     if (result == TL_OK && part.input.mesh.triangle_count == 0) {
-        result = allocate_stacks(job); // tiles without triangles are no tiles
+        result = allocate_stacks(job, tile_count_of(job)); // tiles without triangles are no tiles
     } else if (result == TL_OK) {
         job->input = &part.input;
         result = bake_tile_range(job, range, report);
@@ -305,7 +323,7 @@ static tl_result bake_part(level_job *job, const tl_nav_tile_range *range, tl_na
 static void hand_over_stacks(level_job *job, tl_nav_tile_block *block_out)
 {
     block_out->allocator = tl_allocator_or_default(job->def->host.allocator);
-    for (uint64_t t = 0; t < tile_count_of(job); t++) {
+    for (uint64_t t = 0; t < job->stack_count; t++) {
         tl_nav_tile_stack *stack = &job->stacks[t];
         for (uint32_t i = 0; i < stack->count; i++) {
             tl_blob_hand_over(stack->tiles[i], &block_out->allocator);

@@ -114,7 +114,7 @@ static tl_result init(tl_rasterizer *r, const tl_host *host)
     }
     memset(r->workers, 0, r->worker_count * sizeof *r->workers);
     if (r->band_count > 1) {
-        tl_bin_grid grid = { 1, r->band_count, config->width, r->rows_per_band, r->margin };
+        tl_bin_grid grid = { 1, r->band_count, config->width, r->rows_per_band, r->margin, false };
         return tl_triangle_bins_init(r->mesh, r->list, &r->map, &grid, r->allocator, &r->bins);
     }
     return TL_OK;
