@@ -10,8 +10,8 @@
 // misses talus's proven bounds by more than 1e-4 of the size. Casts are wrong when they miss what the bounds of the
 // distance prove to be hit, or are later or earlier than 1e-4 of the size.
 
+#include "base/random.h"
 #include "bench_options.h"
-#include "cli/shared/splitmix64.h"
 #include "measure.h"
 #include "report.h"
 
@@ -53,7 +53,7 @@ uint64_t random_state = 1;
 
 float random_unit()
 {
-    return tl_splitmix64_float(&random_state);
+    return tl_random_unit_float(&random_state);
 }
 
 tl_vec3 random_direction()

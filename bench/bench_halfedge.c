@@ -6,8 +6,8 @@
 
 #define _GNU_SOURCE
 
+#include "base/random.h"
 #include "bench_options.h"
-#include "cli/shared/splitmix64.h"
 #include "measure.h"
 #include "report.h"
 
@@ -30,7 +30,7 @@ static uint64_t random_state = 1;
 
 static uint32_t random_below(uint32_t limit)
 {
-    return tl_splitmix64_below(&random_state, limit);
+    return tl_random_below(&random_state, limit);
 }
 
 static double now(void)

@@ -7,8 +7,8 @@
 
 #define _GNU_SOURCE
 
+#include "base/random.h"
 #include "bench_options.h"
-#include "cli/shared/splitmix64.h"
 #include "measure.h"
 #include "report.h"
 
@@ -35,7 +35,7 @@ static uint64_t random_state = 1;
 
 static float random_signed(void)
 {
-    return 2.0f * tl_splitmix64_float(&random_state) - 1.0f;
+    return 2.0f * tl_random_unit_float(&random_state) - 1.0f;
 }
 
 typedef enum cloud_kind { CLOUD_SPHERE, CLOUD_CUBE, CLOUD_CUBE_FACES, CLOUD_GRID } cloud_kind;

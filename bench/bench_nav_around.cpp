@@ -6,7 +6,7 @@
 //
 // The polygons are Recast's, so that both sides ask the same mesh. CPU time of one thread, the best run of each side.
 
-#include "cli/shared/splitmix64.h"
+#include "base/random.h"
 #include "detour_mesh.hpp"
 #include "io/mesh/mesh_import.h"
 #include "measure.h"
@@ -36,12 +36,12 @@ uint64_t random_state = 11;
 
 uint64_t random_bits()
 {
-    return tl_splitmix64(&random_state);
+    return tl_random_bits(&random_state);
 }
 
 float random_unit()
 {
-    return tl_splitmix64_float(&random_state);
+    return tl_random_unit_float(&random_state);
 }
 
 // A place and a goal as both sides know them.

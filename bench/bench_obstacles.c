@@ -5,9 +5,9 @@
 //
 //   bench_obstacles [--triangles N (1000000)] [--json FILE]
 
+#include "base/random.h"
 #include "bench_options.h"
 #include "cli/sample/sample_level.h"
-#include "cli/shared/splitmix64.h"
 #include "measure.h"
 #include "report.h"
 
@@ -31,7 +31,7 @@ static uint64_t random_state = 1;
 
 static float random_between(float low, float high)
 {
-    return low + (high - low) * tl_splitmix64_float(&random_state);
+    return low + (high - low) * tl_random_unit_float(&random_state);
 }
 
 static void measure_rebuilds(const tl_nav_def *def, const tl_nav_input *input, bench_report *report)

@@ -9,7 +9,7 @@
 // Recast's, so that both sides search the same mesh. CPU time of one thread, the best run of each side. Lengths are
 // compared in the plan (x and z), in which both sides pull their paths straight.
 
-#include "cli/shared/splitmix64.h"
+#include "base/random.h"
 #include "detour_mesh.hpp"
 #include "io/mesh/mesh_import.h"
 #include "measure.h"
@@ -59,7 +59,7 @@ uint64_t random_state = 1;
 
 float random_unit()
 {
-    return tl_splitmix64_float(&random_state);
+    return tl_random_unit_float(&random_state);
 }
 
 double plan_length(const float *points, size_t count, size_t stride)

@@ -17,8 +17,8 @@
 
 #define _DEFAULT_SOURCE // madvise
 
+#include "base/random.h"
 #include "bench_options.h"
-#include "cli/shared/splitmix64.h"
 #include "embree_scene.h"
 #include "measure.h"
 #include "report.h"
@@ -84,7 +84,7 @@ static void make_queries(query *queries, uint32_t count, uint32_t kind, tl_aabb 
         if (kind == 2) {
             q.target = bench_point_in(&random_state, inner);
         } else if (kind == 3) {
-            q.target = tl_mul_add(q.origin, q.target, diagonal * (0.02f + 0.1f * tl_splitmix64_float(&random_state)));
+            q.target = tl_mul_add(q.origin, q.target, diagonal * (0.02f + 0.1f * tl_random_unit_float(&random_state)));
         } else if (kind == 4) {
             q.target = tl_vec3_make(0, -1, 0);
         }
@@ -403,8 +403,8 @@ static void run_level(RTCDevice device, const bench_level *l, uint32_t repetitio
     tl_aabb bounds = tl_soup_bounds(s.soup);
     for (uint32_t i = 0; i < ray_count; i++) {
         query q = { bench_point_in(&random_state, bounds),
-                    tl_vec3_make(0.1f * tl_splitmix64_float(&random_state), 1,
-                                 0.1f * tl_splitmix64_float(&random_state)),
+                    tl_vec3_make(0.1f * tl_random_unit_float(&random_state), 1,
+                                 0.1f * tl_random_unit_float(&random_state)),
                     INFINITY };
         q.origin.y = bounds.max.y + 1;
         queries[i] = q;

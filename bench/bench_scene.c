@@ -11,8 +11,8 @@
 //
 // Pin it to a core (taskset -c 1) and keep the machine quiet.
 
+#include "base/random.h"
 #include "bench_options.h"
-#include "cli/shared/splitmix64.h"
 #include "embree_scene.h"
 #include "measure.h"
 #include "report.h"
@@ -260,7 +260,7 @@ static void time_rays(const world *w, const query *queries, uint32_t count, uint
 static tl_quat random_rotation(void)
 {
     tl_vec3 axis = bench_direction(&random_state);
-    float w = 2 * tl_splitmix64_float(&random_state) - 1, s = sqrtf(1 - w * w);
+    float w = 2 * tl_random_unit_float(&random_state) - 1, s = sqrtf(1 - w * w);
     tl_quat q = { axis.x * s, axis.y * s, axis.z * s, w };
     return q;
 }
@@ -273,7 +273,7 @@ static void place(world *w, const model *models, uint32_t count)
     float side = 3.0f * sqrtf((float)count);
     tl_aabb area = { tl_vec3_make(0, 0, 0), tl_vec3_make(side, 0.1f * side, side) };
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t m = (uint32_t)(tl_splitmix64_float(&random_state) * MODELS);
+        uint32_t m = (uint32_t)(tl_random_unit_float(&random_state) * MODELS);
         tl_scene_instance instance = {
             models[m].soup, NULL, { random_rotation(), bench_point_in(&random_state, area) }, 1
         };

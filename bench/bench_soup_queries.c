@@ -6,8 +6,8 @@
 //
 //   bench_soup_queries [--repetitions N (5)] [--queries N (10000)] [--json FILE]
 
+#include "base/random.h"
 #include "bench_options.h"
-#include "cli/shared/splitmix64.h"
 #include "measure.h"
 #include "report.h"
 #include "soup_levels.h"
@@ -71,7 +71,7 @@ static void make_workload(workload *w, const tl_soup *soup, uint32_t count)
         tl_ray down = { above, { 0, -1, 0 }, INFINITY };
         tl_ray_hit hit;
         float y = tl_soup_cast_ray(soup, &down, NULL, &hit) ? above.y - hit.t : bounds.min.y;
-        w->places[i] = tl_vec3_make(above.x, y + 0.3f + 2 * tl_splitmix64_float(&random), above.z);
+        w->places[i] = tl_vec3_make(above.x, y + 0.3f + 2 * tl_random_unit_float(&random), above.z);
         w->motions[i] = tl_scale(bench_direction(&random), 4);
     }
 }

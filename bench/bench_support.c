@@ -13,8 +13,8 @@
 
 #define _GNU_SOURCE
 
+#include "base/random.h"
 #include "bench_options.h"
-#include "cli/shared/splitmix64.h"
 #include "measure.h"
 #include "report.h"
 #include "support_peers.h"
@@ -40,7 +40,7 @@ static uint64_t random_state = 1;
 
 static float random_unit(void)
 {
-    return tl_splitmix64_float(&random_state);
+    return tl_random_unit_float(&random_state);
 }
 
 static tl_vec3 random_direction(void)

@@ -8,7 +8,7 @@
 // and findStraightPath on the mesh that was baked for the radius. Places are Detour's own random ones there; talus is
 // asked from the nearest places with room on its mesh. CPU time of one thread, the best run of each side.
 
-#include "cli/shared/splitmix64.h"
+#include "base/random.h"
 #include "detour_mesh.hpp"
 #include "io/mesh/mesh_import.h"
 #include "measure.h"
@@ -36,7 +36,7 @@ uint64_t random_state = 5;
 
 float random_unit()
 {
-    return tl_splitmix64_float(&random_state);
+    return tl_random_unit_float(&random_state);
 }
 
 query_options options;

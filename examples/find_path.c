@@ -17,26 +17,19 @@ static const tl_vec3 VERTICES[] = { { -10, 0, -10 },  { -10, 0, 10 }, { 10, 0, 1
 static const uint32_t INDICES[] = { 0, 1,  2, 0, 2, 3,  4, 5,  6, 4, 6, 7,  8, 11, 10,
                                     8, 10, 9, 5, 9, 10, 5, 10, 6, 7, 6, 10, 7, 10, 11 };
 
-static tl_result bake(tl_navmesh *navmesh)
+// The navmesh borrows the tiles: they stay while it is used.
+static tl_result bake(tl_navmesh *navmesh, tl_nav_tiles *tiles)
 {
     tl_nav_input input = { { VERTICES, 12, INDICES, 10, NULL }, NULL, NULL, 0 };
     tl_nav_def def = tl_default_nav_def();
     def.agent_radius = 0.4f;
-    tl_nav_tiles tiles;
     tl_nav_bake_report report;
-    tl_result result = tl_nav_bake(&def, &input, &tiles, &report);
+    tl_result result = tl_nav_bake(&def, &input, tiles, &report);
     if (result != TL_OK) {
         return result;
     }
     printf("%u regions, %u polygons, %u tile\n", report.region_count, report.polygon_count, report.tile_count);
-    for (uint32_t i = 0; i < tiles.tile_count && result == TL_OK; i++) {
-        result = tl_navmesh_add_tile(navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED);
-        if (result == TL_OK) {
-            tiles.tiles[i] = NULL; // the navmesh frees it
-        }
-    }
-    tl_nav_tiles_free(&tiles);
-    return result;
+    return tl_navmesh_add_tiles(navmesh, tiles->tiles, tiles->tile_count, TL_NAV_TILE_BORROWED, NULL);
 }
 
 static tl_result walk(const tl_navmesh *navmesh, float *length_out)
@@ -67,15 +60,17 @@ static tl_result walk(const tl_navmesh *navmesh, float *length_out)
 int main(void)
 {
     tl_navmesh *navmesh;
+    tl_nav_tiles tiles = { 0 };
     float length = 0.0f;
     tl_result result = tl_navmesh_create(NULL, &navmesh);
     if (result == TL_OK) {
-        result = bake(navmesh);
+        result = bake(navmesh, &tiles);
     }
     if (result == TL_OK) {
         result = walk(navmesh, &length);
     }
     tl_navmesh_destroy(navmesh);
+    tl_nav_tiles_free(&tiles);
     if (result != TL_OK) {
         fprintf(stderr, "talus: %s\n", tl_result_text(result));
         return 1;

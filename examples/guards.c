@@ -63,7 +63,8 @@ static void make_level(level *l)
 }
 
 typedef struct world {
-    tl_navmesh *navmesh;
+    tl_nav_tiles tiles;
+    tl_navmesh *navmesh; // borrows the tiles
     tl_nav_query *query;
     tl_soup *soup;
 } world;
@@ -72,20 +73,15 @@ static tl_result make_world(const level *l, world *w)
 {
     tl_nav_def def = tl_default_nav_def();
     const tl_nav_input input = { l->mesh, NULL, NULL, 0 };
-    tl_nav_tiles tiles;
     tl_nav_query_def query_def = tl_default_nav_query_def();
     tl_result result = tl_soup_bake(&l->mesh, NULL, &w->soup, NULL);
     result = result == TL_OK ? tl_nav_query_create(&query_def, &w->query) : result;
     result = result == TL_OK ? tl_navmesh_create(NULL, &w->navmesh) : result;
-    if (result != TL_OK || (result = tl_nav_bake(&def, &input, &tiles, NULL)) != TL_OK) {
+    result = result == TL_OK ? tl_nav_bake(&def, &input, &w->tiles, NULL) : result;
+    if (result != TL_OK) {
         return result;
     }
-    for (uint32_t i = 0; i < tiles.tile_count && result == TL_OK; i++) {
-        result = tl_navmesh_add_tile(w->navmesh, tiles.tiles[i], TL_NAV_TILE_OWNED);
-        tiles.tiles[i] = result == TL_OK ? NULL : tiles.tiles[i];
-    }
-    tl_nav_tiles_free(&tiles);
-    return result;
+    return tl_navmesh_add_tiles(w->navmesh, w->tiles.tiles, w->tiles.tile_count, TL_NAV_TILE_BORROWED, NULL);
 }
 
 typedef struct actor {
@@ -201,13 +197,14 @@ int main(int count, char **words)
     static actor guard = { { 28, 0, 2 }, { -0.8f, 0, 0.6f }, { 28, 0, 2 }, 2.6f, { { 0, 0, 0 } } };
     static actor intruder = { { 3, 0, 3 }, { 1, 0, 0 }, { 27, 0, 17 }, 2.0f, { { 0, 0, 0 } } };
     static chase c;
-    world w = { NULL, NULL, NULL };
+    world w = { 0 };
     make_level(&yard);
     tl_result result = make_world(&yard, &w);
     if (result == TL_OK) {
         result = run(&w, &guard, &intruder, &c);
     }
     tl_navmesh_destroy(w.navmesh);
+    tl_nav_tiles_free(&w.tiles);
     tl_nav_query_destroy(w.query);
     tl_blob_free(w.soup);
     if (result != TL_OK) {

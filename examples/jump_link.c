@@ -33,8 +33,8 @@ static tl_result bake(roofs *r)
     tl_result result = tl_nav_bake(&def, &input, &r->tiles, NULL);
     result = result == TL_OK ? tl_soup_bake(&mesh, NULL, &r->soup, NULL) : result;
     result = result == TL_OK ? tl_navmesh_create(NULL, &r->navmesh) : result;
-    for (uint32_t i = 0; i < r->tiles.tile_count && result == TL_OK; i++) {
-        result = tl_navmesh_add_tile(r->navmesh, r->tiles.tiles[i], TL_NAV_TILE_BORROWED);
+    if (result == TL_OK) {
+        result = tl_navmesh_add_tiles(r->navmesh, r->tiles.tiles, r->tiles.tile_count, TL_NAV_TILE_BORROWED, NULL);
     }
     tl_nav_query_def query_def = tl_default_nav_query_def();
     return result == TL_OK ? tl_nav_query_create(&query_def, &r->query) : result;

@@ -4,8 +4,8 @@
 
 #include "soup_levels.h"
 
+#include "base/random.h"
 #include "cli/sample/sample_level.h"
-#include "cli/shared/splitmix64.h"
 #include "io/mesh/mesh_import.h"
 
 #include <stdio.h>
@@ -98,14 +98,14 @@ void bench_free_levels(bench_level *levels, uint32_t count)
 tl_vec3 bench_point_in(uint64_t *random, tl_aabb box)
 {
     tl_vec3 size = tl_aabb_size(box);
-    float x = tl_splitmix64_float(random), y = tl_splitmix64_float(random), z = tl_splitmix64_float(random);
+    float x = tl_random_unit_float(random), y = tl_random_unit_float(random), z = tl_random_unit_float(random);
     return tl_vec3_make(box.min.x + x * size.x, box.min.y + y * size.y, box.min.z + z * size.z);
 }
 
 tl_vec3 bench_direction(uint64_t *random)
 {
     for (;;) {
-        float x = tl_splitmix64_float(random), y = tl_splitmix64_float(random), z = tl_splitmix64_float(random);
+        float x = tl_random_unit_float(random), y = tl_random_unit_float(random), z = tl_random_unit_float(random);
         tl_vec3 d = tl_vec3_make(2 * x - 1, 2 * y - 1, 2 * z - 1);
         float l = tl_length_sq(d);
         if (l > 0.01f && l <= 1) {

@@ -25,7 +25,7 @@ void bench_free_levels(bench_level *levels, uint32_t count);
 bool bench_load_file(const char *path, bench_level *level);
 bool bench_make_sample(const char *name, uint32_t triangles, bench_level *level);
 
-/// A point of a box, and a direction, from a state of the caller's (see cli/shared/splitmix64.h).
+/// A point of a box, and a direction, from a state of the caller's (base/random.h).
 tl_vec3 bench_point_in(uint64_t *random, tl_aabb box);
 tl_vec3 bench_direction(uint64_t *random);
 

@@ -2,10 +2,10 @@
 //
 // talus around: what lies around a place on the navmesh: walls, what can be reached, random points.
 
+#include "base/random.h"
 #include "cli/level/navmesh_query.h"
 #include "cli/level/open_input.h"
 #include "cli/shared/line_batch.h"
-#include "cli/shared/splitmix64.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -118,7 +118,7 @@ static void list_random(const around_queries *all, tl_nav_query *query, const tl
     uint64_t state = settings->seed;
     begin_list(text, settings, "points", settings->random);
     for (uint32_t i = 0; i < settings->random; ++i) {
-        const uint64_t bits[2] = { tl_splitmix64(&state), tl_splitmix64(&state) };
+        const uint64_t bits[2] = { tl_random_bits(&state), tl_random_bits(&state) };
         tl_nav_location at;
         if (center == NULL) {
             tl_navmesh_random_point(all->navmesh, NULL, bits, &at);

@@ -176,14 +176,8 @@ static tl_exit run_hull(tl_cli *cli)
         { "all", 'a', TL_OPTION_FLAG, &all, NULL, "measure every cloud of the file, one a line", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option hull_options[TL_HULL_OPTIONS];
-    tl_hull_options(&settings, hull_options);
-    const tl_option_group groups[] = { { "Options:", options },
-                                       { "When the hull is not baked:", hull_options },
-                                       { NULL, NULL } };
     tl_exit code;
-    if (!tl_cli_parse(cli, groups, 1, 1, &code) ||
-        !tl_input_refuse_options(cli, cli->arguments.words[0], hull_options, &code)) {
+    if (!tl_hull_parse(cli, options, 1, &settings, &code)) {
         return code;
     }
     if (!all) {

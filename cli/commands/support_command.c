@@ -50,14 +50,8 @@ static tl_exit run_support(tl_cli *cli)
           "answer for the directions of FILE, one a line; - is standard input", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
-    tl_option hull_options[TL_HULL_OPTIONS];
-    tl_hull_options(&settings, hull_options);
-    const tl_option_group groups[] = { { "Options:", options },
-                                       { "When the hull is not baked:", hull_options },
-                                       { NULL, NULL } };
     tl_exit code;
-    if (!tl_cli_parse(cli, groups, 1, 2, &code) ||
-        !tl_input_refuse_options(cli, cli->arguments.words[0], hull_options, &code)) {
+    if (!tl_hull_parse(cli, options, 2, &settings, &code)) {
         return code;
     }
     static const tl_question_words words = { "direction", NULL, "directions" };

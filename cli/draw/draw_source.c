@@ -247,7 +247,8 @@ static bool bake_tiles(draw_source *source, tl_exit *exit_out)
     only_nav.nav = true;
     only_nav.hull = false;
     return tl_bake_level(source->cli, &source->input.level, &only_nav, &source->input.bake, exit_out) &&
-           tl_input_assemble_navmesh(source->cli, &source->input, exit_out);
+           tl_bake_assemble_navmesh(source->cli, source->input.path, &source->input.bake, &source->input.navmesh,
+                                    exit_out);
 }
 
 static bool load_tiles(draw_source *source, tl_exit *exit_out)

@@ -256,19 +256,28 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
     return true;
 }
 
+bool tl_bake_assemble_navmesh(tl_cli *cli, const char *path, const tl_bake *bake, tl_navmesh **navmesh_out,
+                              tl_exit *exit_out)
+{
+    tl_report report;
+    memset(&report, 0, sizeof(report));
+    tl_result result = tl_navmesh_create(NULL, navmesh_out);
+    if (result == TL_OK) {
+        result = tl_navmesh_add_tiles(*navmesh_out, bake->tiles.tiles, bake->tiles.tile_count, TL_NAV_TILE_BORROWED,
+                                      &report);
+    }
+    if (result != TL_OK) {
+        *exit_out = tl_cli_fail_result(cli, path, result, &report);
+    }
+    return result == TL_OK;
+}
+
 static bool bake_links(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake,
                        tl_exit *exit_out)
 {
     tl_navmesh *navmesh;
-    tl_result result = tl_navmesh_create(NULL, &navmesh);
-    for (uint32_t i = 0; i < bake->tiles.tile_count && result == TL_OK; ++i) {
-        result = tl_navmesh_add_tile(navmesh, bake->tiles.tiles[i], TL_NAV_TILE_BORROWED);
-    }
-    bool ok = result == TL_OK;
-    if (!ok) {
-        *exit_out = tl_cli_fail_result(cli, level->path, result, NULL);
-    }
-    ok = ok && tl_level_links_find(cli, &settings->links_def, navmesh, bake->soup, &bake->links, exit_out);
+    const bool ok = tl_bake_assemble_navmesh(cli, level->path, bake, &navmesh, exit_out) &&
+                    tl_level_links_find(cli, &settings->links_def, navmesh, bake->soup, &bake->links, exit_out);
     tl_navmesh_destroy(navmesh);
     return ok;
 }

@@ -72,6 +72,9 @@ typedef struct tl_bake {
 /// A level of which nothing is walkable is no failure: `walkable` is false.
 bool tl_bake_level(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings, tl_bake *bake_out,
                    tl_exit *exit_out);
+/// A navmesh that borrows the tiles. False: reported. Destroy it, also then.
+bool tl_bake_assemble_navmesh(tl_cli *cli, const char *path, const tl_bake *bake, tl_navmesh **navmesh_out,
+                              tl_exit *exit_out);
 void tl_bake_free(tl_bake *bake);
 
 #endif

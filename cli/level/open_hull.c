@@ -33,6 +33,18 @@ void tl_hull_options(tl_hull_settings *settings, tl_option table[TL_HULL_OPTIONS
     memcpy(table, options, sizeof(options));
 }
 
+bool tl_hull_parse(tl_cli *cli, const tl_option *options, uint32_t max_words, tl_hull_settings *settings,
+                   tl_exit *exit_out)
+{
+    tl_option hull_options[TL_HULL_OPTIONS];
+    tl_hull_options(settings, hull_options);
+    const tl_option_group groups[] = { { "Options:", options },
+                                       { "When the hull is not baked:", hull_options },
+                                       { NULL, NULL } };
+    return tl_cli_parse(cli, groups, 1, max_words, exit_out) &&
+           tl_input_refuse_options(cli, cli->arguments.words[0], hull_options, exit_out);
+}
+
 tl_result tl_hull_bake_cloud(tl_cli *cli, const tl_hull_settings *settings, tl_point_cloud cloud, tl_hull **hull_out,
                              tl_hull_report *report_out)
 {

@@ -21,6 +21,10 @@ enum { TL_HULL_OPTIONS = 6 };
 
 tl_hull_settings tl_default_hull_settings(void);
 void tl_hull_options(tl_hull_settings *settings, tl_option table[TL_HULL_OPTIONS]);
+/// Reads the command line of a command that takes one HULL: its own options, and those for a hull that is not baked.
+/// False: reported.
+bool tl_hull_parse(tl_cli *cli, const tl_option *options, uint32_t max_words, tl_hull_settings *settings,
+                   tl_exit *exit_out);
 
 typedef struct tl_hull_input {
     const tl_hull *hull;

@@ -165,18 +165,6 @@ tl_exit tl_input_fail_empty(tl_cli *cli, const tl_input *input, const tl_bake_se
     return tl_cli_fail(cli, TL_EXIT_EMPTY, "%s: nothing is walkable (%s): %s", input->path, doubt.cause, doubt.text);
 }
 
-bool tl_input_assemble_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out)
-{
-    tl_result result = tl_navmesh_create(NULL, &input->navmesh);
-    for (uint32_t i = 0; result == TL_OK && i < input->bake.tiles.tile_count; ++i) {
-        result = tl_navmesh_add_tile(input->navmesh, input->bake.tiles.tiles[i], TL_NAV_TILE_BORROWED);
-    }
-    if (result != TL_OK) {
-        *exit_out = tl_cli_fail_result(cli, input->path, result, NULL);
-    }
-    return result == TL_OK;
-}
-
 static bool load_navmesh(tl_cli *cli, tl_input *input, const tl_bake_settings *settings, tl_exit *exit_out)
 {
     tl_report report;
@@ -213,7 +201,7 @@ bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings
         *exit_out = tl_input_fail_empty(cli, input_out, settings);
         return false;
     }
-    return ok && tl_input_assemble_navmesh(cli, input_out, exit_out);
+    return ok && tl_bake_assemble_navmesh(cli, path, &input_out->bake, &input_out->navmesh, exit_out);
 }
 
 void tl_input_close(tl_input *input)

@@ -51,8 +51,6 @@ bool tl_input_open_navmesh(tl_cli *cli, const char *path, const tl_bake_settings
                            tl_exit *exit_out);
 /// Says that nothing of a level, or of a baked file, is walkable, and of a level why. Gives the exit code.
 tl_exit tl_input_fail_empty(tl_cli *cli, const tl_input *input, const tl_bake_settings *settings);
-/// Puts the tiles of `bake` into a navmesh. False: reported.
-bool tl_input_assemble_navmesh(tl_cli *cli, tl_input *input, tl_exit *exit_out);
 void tl_input_close(tl_input *input);
 
 /// The blob of the only chunk of a type, after `check` found it sound; NULL when there is none (`*result_out` is

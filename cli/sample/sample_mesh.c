@@ -5,7 +5,7 @@
 
 #include "cli/sample/sample_mesh.h"
 
-#include "cli/shared/splitmix64.h"
+#include "base/random.h"
 
 #include <stdlib.h>
 
@@ -327,12 +327,12 @@ tl_sample_random tl_sample_random_make(uint64_t seed, uint64_t x, uint64_t z)
 
 uint64_t tl_sample_random_u64(tl_sample_random *random)
 {
-    return tl_splitmix64(&random->state);
+    return tl_random_bits(&random->state);
 }
 
 uint32_t tl_sample_random_below(tl_sample_random *random, uint32_t bound)
 {
-    return tl_splitmix64_below(&random->state, bound);
+    return tl_random_below(&random->state, bound);
 }
 
 float tl_sample_random_range(tl_sample_random *random, float low, float high)

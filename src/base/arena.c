@@ -164,6 +164,16 @@ void tl_blob_free(void *blob)
     }
 }
 
+void tl_blob_array_free(const tl_allocator *allocator, void *blobs, uint64_t count)
+{
+    for (uint64_t i = 0; blobs != NULL && i < count; i++) {
+        void *blob;
+        memcpy(&blob, (const char *)blobs + i * sizeof blob, sizeof blob);
+        tl_blob_free(blob);
+    }
+    tl_release_array(allocator, blobs, count, sizeof(void *));
+}
+
 void tl_blob_hand_over(void *blob, const tl_allocator *allocator)
 {
     if (blob != NULL) {
@@ -247,6 +257,19 @@ void *tl_arena_push_zero(tl_arena *arena, uint64_t count, size_t size)
         memset(memory, 0, array_bytes(count, size));
     }
     return memory;
+}
+
+void *tl_arena_grow(tl_arena *arena, const void *items, uint32_t *capacity, uint32_t first, size_t size)
+{
+    uint32_t more = *capacity > 0 ? 2 * *capacity : first;
+    void *grown = more > *capacity ? tl_arena_push(arena, more, size) : NULL;
+    if (grown != NULL) {
+        if (*capacity > 0) {
+            memcpy(grown, items, *capacity * size);
+        }
+        *capacity = more;
+    }
+    return grown;
 }
 
 bool tl_arena_reserve(tl_arena *arena, uint64_t bytes)

@@ -46,6 +46,9 @@ void *tl_blob_allocate(const tl_allocator *allocator, uint32_t magic, uint32_t v
 void *tl_blob_allocate_part(const tl_allocator *allocator, uint32_t magic, uint32_t version, uint64_t size,
                             uint64_t unset_begin, uint64_t unset_end);
 
+/// Frees `count` blobs and the array of pointers to them, which tl_allocate_array gave; NULL is allowed.
+void tl_blob_array_free(const tl_allocator *allocator, void *blobs, uint64_t count);
+
 /// From now on the blob is freed by another allocator, for the same memory: one that metered it hands it over to the
 /// host's own. NULL blob: nothing happens.
 void tl_blob_hand_over(void *blob, const tl_allocator *allocator);
@@ -59,6 +62,11 @@ void tl_arena_free(tl_arena *arena);
 void *tl_arena_push(tl_arena *arena, uint64_t count, size_t size);
 /// The same, zeroed.
 void *tl_arena_push_zero(tl_arena *arena, uint64_t count, size_t size);
+
+/// An array of the arena with more room, its items kept: twice `*capacity`, or `first` > 0 when that is 0. The old one
+/// stays until the arena is rolled back. NULL, and `*capacity` as it was: memory is out, or the count would not fit
+/// 32 bits.
+void *tl_arena_grow(tl_arena *arena, const void *items, uint32_t *capacity, uint32_t first, size_t size);
 
 /// Makes sure that pushes of so many bytes together take one block at most, so that rolling back and pushing again
 /// costs the allocator nothing. False: out of memory.

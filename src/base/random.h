@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // SplitMix64: a generator of 64 random bits from 64 bits of state, every seed a good one, the same on every machine.
+// Inline, so that the sample levels of cli/ and the benchmarks (C and C++) draw the same numbers.
 // Source: Steele, Lea, Flood, Fast Splittable Pseudorandom Number Generators, OOPSLA 2014.
 
 #ifndef TALUS_SRC_BASE_RANDOM_H
@@ -20,6 +21,12 @@ static inline uint64_t tl_random_bits(uint64_t *state)
 static inline double tl_random_unit(uint64_t *state)
 {
     return (double)(tl_random_bits(state) >> 11) * 0x1p-53;
+}
+
+/// A number of [0, 1): 24 bits.
+static inline float tl_random_unit_float(uint64_t *state)
+{
+    return (float)(tl_random_bits(state) >> 40) * 0x1p-24f;
 }
 
 /// A number below `bound` > 0, every one as likely but for one part in 2^32.

@@ -127,12 +127,8 @@ tl_result tl_nav_tile_divide(const tl_nav_tile *tile, const uint32_t *layers, co
 
 void tl_nav_tile_stack_free(tl_nav_tile_stack *stack)
 {
-    if (stack == NULL) {
-        return;
+    if (stack != NULL) {
+        tl_blob_array_free(&stack->allocator, stack->tiles, stack->count);
+        memset(stack, 0, sizeof *stack);
     }
-    for (uint32_t i = 0; i < stack->count; i++) {
-        tl_blob_free(stack->tiles[i]);
-    }
-    tl_release_array(&stack->allocator, stack->tiles, stack->count, sizeof(*stack->tiles));
-    memset(stack, 0, sizeof *stack);
 }

@@ -9,6 +9,7 @@
 #include "nav_obstacles/footprint.h"
 
 #include "base/host.h"
+#include "math/column_range.h"
 #include "math/tolerance.h"
 
 #include <math.h>
@@ -244,25 +245,11 @@ tl_aabb tl_obstacle_box(const tl_nav_obstacle *obstacle, float agent_radius, flo
     return footprint_box(&foot);
 }
 
-// A field's columns along one axis.
-typedef struct field_axis {
-    float origin;         ///< metres
-    float cell_size;      ///< metres
-    int32_t first_column; ///< in the level's lattice
-    uint32_t count;
-} field_axis;
-
 // Columns [*first, *end) whose centres can lie in [min, max], metres.
-static void columns_near(const field_axis *axis, float min, float max, uint32_t *first, uint32_t *end)
+static void columns_near(const tl_column_axis *axis, float min, float max, uint32_t *first, uint32_t *end)
 {
-    const double shift = (double)axis->first_column + 0.5, size = (double)axis->cell_size;
-    double low = floor(((double)min - (double)axis->origin) / size - shift);
-    double high = ceil(((double)max - (double)axis->origin) / size - shift) + 1.0;
-    *first = *end = 0;
-    if (low < high && high > 0.0 && low < (double)axis->count) {
-        *first = low > 0.0 ? (uint32_t)low : 0;
-        *end = high < (double)axis->count ? (uint32_t)high : axis->count;
-    }
+    const double low = floor(tl_column_of_center(axis, min)), high = ceil(tl_column_of_center(axis, max)) + 1.0;
+    tl_clamp_columns(axis, low, high, first, end);
 }
 
 static void mark_footprint_column(const footprint *foot, uint8_t area, uint32_t column, tl_nav_compact *compact)
@@ -281,8 +268,8 @@ void tl_obstacle_mark(const tl_nav_obstacle *obstacle, float agent_radius, float
     const footprint foot = make_footprint(obstacle, agent_radius, agent_height);
     const tl_aabb box = footprint_box(&foot);
     uint32_t first_x, end_x, first_z, end_z;
-    const field_axis x_axis = { lattice->origin.x, compact->cell_size, lattice->first_x, compact->width };
-    const field_axis z_axis = { lattice->origin.z, compact->cell_size, lattice->first_z, compact->height };
+    const tl_column_axis x_axis = { lattice->origin.x, compact->cell_size, lattice->first_x, compact->width };
+    const tl_column_axis z_axis = { lattice->origin.z, compact->cell_size, lattice->first_z, compact->height };
     columns_near(&x_axis, box.min.x, box.max.x, &first_x, &end_x);
     columns_near(&z_axis, box.min.z, box.max.z, &first_z, &end_z);
     const double size = (double)compact->cell_size;

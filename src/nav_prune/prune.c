@@ -76,11 +76,9 @@ static uint32_t island_number(const prune_job *job, uint32_t tile, uint32_t poly
 static tl_result assemble_tiles(prune_job *job, tl_report *report)
 {
     TL_TRY(tl_navmesh_create(job->def->host.allocator, &job->navmesh));
-    for (uint32_t i = 0; i < job->tiles->tile_count; i++) {
-        const tl_result result = tl_navmesh_add_tile(job->navmesh, job->tiles->tiles[i], TL_NAV_TILE_BORROWED);
-        if (result != TL_OK) {
-            return tl_report_fail(report, result, "tile", i, "give all tiles of one navmesh, each once");
-        }
+    const uint32_t count = job->tiles->tile_count;
+    TL_TRY(tl_navmesh_add_tiles(job->navmesh, job->tiles->tiles, count, TL_NAV_TILE_BORROWED, report));
+    for (uint32_t i = 0; i < count; i++) {
         TL_ASSERT(tl_navmesh_slot_tile(job->navmesh, i) == job->tiles->tiles[i]);
     }
     return TL_OK;

@@ -99,6 +99,18 @@ typedef struct contract_entry {
 //       { 0 },
 //   };
 
+/// Defines the call of CONTRACT_NULL_FREE for a function that frees what a struct of `type` holds: `name(run)`.
+#define CONTRACT_DEFINE_FREE(name, type, free_it)                                                                      \
+    static tl_result name(contract_run *run)                                                                           \
+    {                                                                                                                  \
+        (void)run;                                                                                                     \
+        type zeroed;                                                                                                   \
+        memset(&zeroed, 0, sizeof zeroed);                                                                             \
+        free_it(NULL);                                                                                                 \
+        free_it(&zeroed);                                                                                              \
+        return TL_OK;                                                                                                  \
+    }
+
 /// A hash of bytes, for `answer`.
 uint64_t contract_hash(const void *bytes, size_t size, uint64_t seed);
 

@@ -31,15 +31,7 @@ static tl_result done(contract_run *run, tl_halfedge_mesh *mesh, tl_result resul
     return result;
 }
 
-static tl_result mesh_destroy(contract_run *run)
-{
-    (void)run;
-    tl_halfedge_mesh mesh;
-    memset(&mesh, 0, sizeof mesh);
-    tl_halfedge_mesh_destroy(NULL);
-    tl_halfedge_mesh_destroy(&mesh);
-    return TL_OK;
-}
+CONTRACT_DEFINE_FREE(mesh_destroy, tl_halfedge_mesh, tl_halfedge_mesh_destroy)
 
 static tl_result add_vertex(contract_run *run)
 {

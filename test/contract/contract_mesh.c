@@ -6,29 +6,35 @@
 
 #include <string.h>
 
+// The level's mesh, or what is missing of it in the cases of CONTRACT_NULL_INPUT: all, an array, the other one.
+static const tl_mesh_view *view_of(const contract_run *run, tl_mesh_view *view)
+{
+    *view = contract_level_get()->view;
+    if (run->what == CONTRACT_NULL_INPUT && run->variant == 1) {
+        view->indices = NULL;
+    } else if (run->what == CONTRACT_NULL_INPUT && run->variant == 2) {
+        view->vertices = NULL;
+    }
+    return run->what == CONTRACT_NULL_INPUT && run->variant == 0 ? NULL : view;
+}
+
 static tl_result mesh_bake(contract_run *run)
 {
-    const contract_level *level = contract_level_get();
     tl_mesh_def def = tl_default_mesh_def();
     if (run->what == CONTRACT_ZEROED_DEF) {
         memset(&def, 0, sizeof def);
     }
     def.host = *run->host;
-    tl_mesh_view view = level->view;
     if (run->what == CONTRACT_BAD_FIELD) {
         def.weld_tolerance = -1.0f;
-    } else if (run->what == CONTRACT_NULL_INPUT && run->variant == 1) {
-        view.vertices = NULL;
-    } else if (run->what == CONTRACT_NULL_INPUT && run->variant == 2) {
-        view.indices = NULL;
     }
-    const bool no_view = run->what == CONTRACT_NULL_INPUT && run->variant == 0;
+    tl_mesh_view view;
     tl_mesh mesh;
     memset(&mesh, 0, sizeof mesh);
     tl_mesh_report report;
     memset(&report, 0, sizeof report);
     const tl_result result =
-        tl_mesh_bake(no_view ? NULL : &view, run->what == CONTRACT_NULL_DEF ? NULL : &def,
+        tl_mesh_bake(view_of(run, &view), run->what == CONTRACT_NULL_DEF ? NULL : &def,
                      run->what == CONTRACT_NULL_OUTPUT ? NULL : &mesh, run->wants_report ? &report : NULL);
     run->own_report = report.base;
     run->is_clear = contract_is_zero(&mesh, sizeof mesh);
@@ -39,28 +45,15 @@ static tl_result mesh_bake(contract_run *run)
     return result;
 }
 
-static tl_result mesh_free(contract_run *run)
-{
-    (void)run;
-    tl_mesh mesh;
-    memset(&mesh, 0, sizeof mesh);
-    tl_mesh_free(NULL);
-    tl_mesh_free(&mesh);
-    return TL_OK;
-}
+CONTRACT_DEFINE_FREE(mesh_free, tl_mesh, tl_mesh_free)
 
 static tl_result adjacency_bake(contract_run *run)
 {
-    tl_mesh_view view = contract_level_get()->view;
-    if (run->what == CONTRACT_NULL_INPUT && run->variant == 1) {
-        view.indices = NULL;
-    }
-    const bool no_view = run->what == CONTRACT_NULL_INPUT && run->variant == 0;
+    tl_mesh_view view;
     tl_adjacency adjacency;
     memset(&adjacency, 0, sizeof adjacency);
-    const tl_result result =
-        tl_adjacency_bake(no_view ? NULL : &view, run->what == CONTRACT_NULL_DEF ? NULL : run->host,
-                          run->what == CONTRACT_NULL_OUTPUT ? NULL : &adjacency, run->report);
+    const tl_result result = tl_adjacency_bake(view_of(run, &view), run->what == CONTRACT_NULL_DEF ? NULL : run->host,
+                                               run->what == CONTRACT_NULL_OUTPUT ? NULL : &adjacency, run->report);
     run->is_clear = contract_is_zero(&adjacency, sizeof adjacency);
     if (result == TL_OK) {
         run->answer = contract_hash(adjacency.across, 3 * adjacency.triangle_count * sizeof *adjacency.across, 0);
@@ -69,29 +62,15 @@ static tl_result adjacency_bake(contract_run *run)
     return result;
 }
 
-static tl_result adjacency_free(contract_run *run)
-{
-    (void)run;
-    tl_adjacency adjacency;
-    memset(&adjacency, 0, sizeof adjacency);
-    tl_adjacency_free(NULL);
-    tl_adjacency_free(&adjacency);
-    return TL_OK;
-}
+CONTRACT_DEFINE_FREE(adjacency_free, tl_adjacency, tl_adjacency_free)
 
 static tl_result closed_parts_find(contract_run *run)
 {
-    tl_mesh_view view = contract_level_get()->view;
-    if (run->what == CONTRACT_NULL_INPUT && run->variant == 1) {
-        view.indices = NULL;
-    } else if (run->what == CONTRACT_NULL_INPUT && run->variant == 2) {
-        view.vertices = NULL;
-    }
-    const bool no_view = run->what == CONTRACT_NULL_INPUT && run->variant == 0;
+    tl_mesh_view view;
     tl_closed_parts parts;
     memset(&parts, 0, sizeof parts);
     const tl_result result =
-        tl_closed_parts_find(no_view ? NULL : &view, run->what == CONTRACT_NULL_DEF ? NULL : run->host,
+        tl_closed_parts_find(view_of(run, &view), run->what == CONTRACT_NULL_DEF ? NULL : run->host,
                              run->what == CONTRACT_NULL_OUTPUT ? NULL : &parts, run->report);
     run->is_clear = contract_is_zero(&parts, sizeof parts);
     if (result == TL_OK) {
@@ -101,15 +80,7 @@ static tl_result closed_parts_find(contract_run *run)
     return result;
 }
 
-static tl_result closed_parts_free(contract_run *run)
-{
-    (void)run;
-    tl_closed_parts parts;
-    memset(&parts, 0, sizeof parts);
-    tl_closed_parts_free(NULL);
-    tl_closed_parts_free(&parts);
-    return TL_OK;
-}
+CONTRACT_DEFINE_FREE(closed_parts_free, tl_closed_parts, tl_closed_parts_free)
 
 static const char *const MESH_FIELDS[] = { "weld_tolerance", NULL };
 

@@ -77,7 +77,8 @@ static tl_result add_tiles(contract_run *run)
     return result;
 }
 
-static tl_result remove_tile(contract_run *run)
+// Takes a tile out, all its layers or one.
+static tl_result remove_part(contract_run *run, bool only_layer)
 {
     const contract_level *level = contract_level_get();
     const tl_nav_tile *tile = level->tiles.tiles[0];
@@ -85,28 +86,25 @@ static tl_result remove_tile(contract_run *run)
     tl_result result = make_navmesh(run, &navmesh);
     run->is_clear = true;
     if (result == TL_OK) {
-        const int32_t tile_x = run->what == CONTRACT_NOT_FOUND ? 1000 : tile->tile_x;
-        result = tl_navmesh_remove_tile(CONTRACT_INPUT(run, 0, navmesh), tile_x, tile->tile_z);
+        const int32_t x = run->what == CONTRACT_NOT_FOUND && !only_layer ? 1000 : tile->tile_x;
+        const uint32_t layer = run->what == CONTRACT_NOT_FOUND ? 1000 : tile->layer;
+        tl_navmesh *given = CONTRACT_INPUT(run, 0, navmesh);
+        result = only_layer ? tl_navmesh_remove_layer(given, x, layer, tile->tile_z)
+                            : tl_navmesh_remove_tile(given, x, tile->tile_z);
         run->answer = tl_navmesh_tile_count(navmesh);
     }
     tl_navmesh_destroy(navmesh);
     return result;
 }
 
+static tl_result remove_tile(contract_run *run)
+{
+    return remove_part(run, false);
+}
+
 static tl_result remove_layer(contract_run *run)
 {
-    const contract_level *level = contract_level_get();
-    const tl_nav_tile *tile = level->tiles.tiles[0];
-    tl_navmesh *navmesh = NULL;
-    tl_result result = make_navmesh(run, &navmesh);
-    run->is_clear = true;
-    if (result == TL_OK) {
-        const uint32_t layer = run->what == CONTRACT_NOT_FOUND ? 1000 : tile->layer;
-        result = tl_navmesh_remove_layer(CONTRACT_INPUT(run, 0, navmesh), tile->tile_x, layer, tile->tile_z);
-        run->answer = tl_navmesh_tile_count(navmesh);
-    }
-    tl_navmesh_destroy(navmesh);
-    return result;
+    return remove_part(run, true);
 }
 
 static tl_result replace_tiles(contract_run *run)

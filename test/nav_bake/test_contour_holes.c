@@ -36,17 +36,9 @@ static void areas_add_up(void **state)
             fixture_random(&random, 60, 60, 1 + round % 2, test_random_below(&random, 9), round % 4 == 3 ? 3 : 0);
         tl_nav_config config = region_config(round % 2 == 0 ? TL_NAV_LAYERS : TL_NAV_WATERSHED, 5, 400);
         config.max_simplification_error = test_random_range(&random, 0.0f, 3.0f);
-        TEST_RESULT(tl_nav_distance_field(NULL, &compact, NULL), TL_OK);
-        TEST_RESULT(tl_nav_bake_regions(&config, NULL, &compact, NULL), TL_OK);
         tl_arena arena;
-        tl_arena_init(&arena, NULL);
         tl_contour_work work;
-        memset(&work, 0, sizeof work);
-        work.config = &config;
-        work.compact = &compact;
-        work.arena = &arena;
-        TEST_RESULT(tl_contours_trace(&work), TL_OK);
-        TEST_RESULT(tl_contours_simplify(&work), TL_OK);
+        trace_contours(&compact, &config, &arena, &work);
         TEST_RESULT(tl_contours_repair(&work), TL_OK);
         tl_nav_contours contours;
         TEST_RESULT(tl_nav_bake_contours(&config, &compact, NULL, &contours, NULL), TL_OK);

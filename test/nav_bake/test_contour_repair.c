@@ -82,17 +82,9 @@ static void no_conflict_is_left(void **state)
                            : fixture_random(&random, 40, 40, 1 + round % 2, test_random_below(&random, 14), 0);
         tl_nav_config config = region_config((tl_nav_partition)(round % 3), 5, test_random_below(&random, 400));
         config.max_simplification_error = test_random_range(&random, 0.5f, 8.0f);
-        TEST_RESULT(tl_nav_distance_field(NULL, &compact, NULL), TL_OK);
-        TEST_RESULT(tl_nav_bake_regions(&config, NULL, &compact, NULL), TL_OK);
         tl_arena arena;
-        tl_arena_init(&arena, NULL);
         tl_contour_work work;
-        memset(&work, 0, sizeof work);
-        work.config = &config;
-        work.compact = &compact;
-        work.arena = &arena;
-        TEST_RESULT(tl_contours_trace(&work), TL_OK);
-        TEST_RESULT(tl_contours_simplify(&work), TL_OK);
+        trace_contours(&compact, &config, &arena, &work);
         uint64_t before = count_conflicts(&work);
         uint8_t *kept = malloc(work.vertex_count + 1u);
         memcpy(kept, work.keep, work.vertex_count);

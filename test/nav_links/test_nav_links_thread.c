@@ -6,21 +6,9 @@
 
 #define _POSIX_C_SOURCE 200809L // read-write locks
 
-#include "nav_level.h"
+#include "nav_readers.h"
 
-#include <pthread.h>
-#include <sched.h>
-#include <stdatomic.h>
-#include <talus/nav_obstacles.h>
-
-enum { EDITS = 1000, READERS = 2, MOST_OBSTACLES = 10, MOST_LINKS = 20, MOST = 256, MOST_POLYGONS = 4096 };
-
-typedef struct shared_world {
-    tl_navmesh *navmesh;
-    pthread_rwlock_t lock;
-    atomic_bool done, writer_waits; // the lock itself prefers readers, and would starve the writer
-    atomic_uint paths, complete, over_links, faults;
-} shared_world;
+enum { EDITS = 1000, MOST_OBSTACLES = 10, MOST_LINKS = 20, MOST_POLYGONS = 4096 };
 
 // What only the writer knows.
 typedef struct editor {
@@ -43,102 +31,8 @@ static tl_nav_def make_def(void)
     return def;
 }
 
-static bool are_neighbours(const tl_navmesh *navmesh, tl_nav_ref a, tl_nav_ref b)
-{
-    tl_nav_link links[64];
-    uint32_t count = 0;
-    bool found = false;
-    if (tl_navmesh_links(navmesh, a, links, 64, &count) == TL_OK) {
-        for (uint32_t i = 0; i < count; i++) {
-            found = found || links[i].to == b;
-        }
-    }
-    return found;
-}
-
-static bool leads(const tl_navmesh *navmesh, tl_nav_ref from, tl_nav_ref link, tl_nav_ref to)
-{
-    tl_nav_offmesh_state state;
-    int end = (link & TL_NAV_OFFMESH_BACKWARD) != 0 ? 1 : 0;
-    return tl_navmesh_offmesh_state(navmesh, link, &state) == TL_OK && state.anchored &&
-           (end == 0 || state.offmesh.both_ways) && state.ends[end].polygon == from &&
-           state.ends[1 - end].polygon == to;
-}
-
-// What a reader is given must fit the navmesh as it is under the lock: each polygon beside the last, or behind a link.
-static bool path_is_whole(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t count, uint32_t *links)
-{
-    *links = 0;
-    for (uint32_t i = 0; i + 1 < count;) {
-        bool crosses = tl_nav_is_offmesh(polygons[i + 1]);
-        bool fits = crosses ? i + 2 < count && leads(navmesh, polygons[i], polygons[i + 1], polygons[i + 2])
-                            : are_neighbours(navmesh, polygons[i], polygons[i + 1]);
-        if (!fits) {
-            return false;
-        }
-        *links += crosses;
-        i += crosses ? 2 : 1;
-    }
-    return count > 0 && tl_navmesh_resolve(navmesh, polygons[count - 1], NULL, NULL) == TL_OK;
-}
-
-static void *read_paths(void *user)
-{
-    shared_world *world = user;
-    tl_nav_query *query = NULL;
-    const tl_nav_query_def query_def = tl_default_nav_query_def();
-    test_random random = { 77 };
-    if (tl_nav_query_create(&query_def, &query) != TL_OK) {
-        atomic_fetch_add(&world->faults, 1);
-        return NULL;
-    }
-    while (!atomic_load(&world->done)) {
-        tl_vec3 from = test_random_point(&random, tl_vec3_make(1, 0, 1), tl_vec3_make(24, 1, 15));
-        tl_vec3 to = test_random_point(&random, tl_vec3_make(1, 0, 1), tl_vec3_make(24, 4, 15));
-        tl_nav_ref polygons[MOST];
-        tl_nav_corner corners[MOST];
-        tl_nav_path_buffers buffers = { polygons, MOST, corners, MOST };
-        tl_nav_route route;
-        uint32_t links = 0;
-        while (atomic_load(&world->writer_waits)) {
-            sched_yield();
-        }
-        pthread_rwlock_rdlock(&world->lock);
-        tl_result result = tl_nav_query_find_route(
-            query, world->navmesh, &(tl_nav_route_request){ NULL, from, to, tl_vec3_make(3, 5, 3) }, &buffers, &route);
-        bool whole = result == TL_NOT_FOUND ||
-                     (result == TL_OK && path_is_whole(world->navmesh, polygons, route.path.polygon_count, &links));
-        pthread_rwlock_unlock(&world->lock);
-        atomic_fetch_add(&world->faults, !whole);
-        atomic_fetch_add(&world->paths, result == TL_OK);
-        atomic_fetch_add(&world->complete, result == TL_OK && route.path.status == TL_NAV_PATH_COMPLETE);
-        atomic_fetch_add(&world->over_links, links > 0);
-    }
-    tl_nav_query_destroy(query);
-    return NULL;
-}
-
-static void begin_write(shared_world *world)
-{
-    atomic_store(&world->writer_waits, true);
-    pthread_rwlock_wrlock(&world->lock);
-    atomic_store(&world->writer_waits, false);
-}
-
 // ---------------------------------------------------------------------------------------------------------
-// Edits. Tiles are made without the lock; only the swap has it.
-
-static void settle(editor *e)
-{
-    shared_world *world = e->world;
-    while (tl_nav_obstacles_waiting(e->obstacles) > 0) {
-        tl_nav_rebaked_tile remade;
-        TEST_RESULT(tl_nav_obstacles_bake_next(e->obstacles, &remade, NULL), TL_OK);
-        begin_write(world);
-        TEST_RESULT(tl_navmesh_replace_tiles(world->navmesh, remade.tile_x, remade.tile_z, &remade.stack), TL_OK);
-        pthread_rwlock_unlock(&world->lock);
-    }
-}
+// Edits.
 
 static void edit_crates(editor *e)
 {
@@ -157,13 +51,13 @@ static void edit_crates(editor *e)
         TEST_RESULT(tl_nav_obstacles_remove(e->obstacles, e->crates[which]), TL_OK);
         e->crates[which] = e->crates[--e->crate_count];
     }
-    settle(e);
+    world_settle(e->world, e->obstacles);
 }
 
 // A tile is taken out; the next change of an obstacle on it, or the end, brings it back.
 static void drop_tile(editor *e)
 {
-    begin_write(e->world);
+    world_begin_write(e->world);
     (void)tl_navmesh_remove_tile(e->world->navmesh, (int32_t)test_random_below(&e->random, 5),
                                  (int32_t)test_random_below(&e->random, 4));
     pthread_rwlock_unlock(&e->world->lock);
@@ -171,7 +65,7 @@ static void drop_tile(editor *e)
 
 static void edit_links(editor *e)
 {
-    begin_write(e->world);
+    world_begin_write(e->world);
     if (e->link_count < MOST_LINKS && (e->link_count < 8 || test_random_below(&e->random, 2) == 0)) {
         tl_nav_offmesh *link = &e->offmesh[e->link_count];
         *link = tl_default_nav_offmesh();
@@ -281,13 +175,9 @@ static void test_edits_under_readers(void **state)
     e.world = &world;
     e.random.state = 5;
     TEST_RESULT(tl_nav_obstacles_bake(&def, &input, &e.obstacles, NULL, NULL), TL_OK);
-    TEST_CHECK(pthread_rwlock_init(&world.lock, NULL) == 0);
-    TEST_RESULT(tl_navmesh_create(NULL, &world.navmesh), TL_OK);
-    settle(&e);
-    pthread_t readers[READERS];
-    for (int i = 0; i < READERS; i++) {
-        TEST_CHECK(pthread_create(&readers[i], NULL, read_paths, &world) == 0);
-    }
+    world_init(&world);
+    world_settle(&world, e.obstacles);
+    world_start_readers(&world);
     uint64_t kinds[3] = { 0, 0, 0 };
     for (int edit = 0; edit < EDITS || atomic_load(&world.paths) < EDITS; edit++) {
         uint32_t roll = test_random_below(&e.random, 10);
@@ -298,10 +188,7 @@ static void test_edits_under_readers(void **state)
             check_afresh(&e);
         }
     }
-    atomic_store(&world.done, true);
-    for (int i = 0; i < READERS; i++) {
-        pthread_join(readers[i], NULL);
-    }
+    world_end_readers(&world);
     print_message("%llu edits of obstacles, %llu of tiles, %llu of links; %llu links anchored, %llu waiting; "
                   "%u paths, %u over links\n",
                   (unsigned long long)kinds[0], (unsigned long long)kinds[1], (unsigned long long)kinds[2],
@@ -310,9 +197,8 @@ static void test_edits_under_readers(void **state)
     TEST_CHECK(atomic_load(&world.faults) == 0 && atomic_load(&world.complete) > EDITS / 10);
     TEST_CHECK(kinds[0] > 100 && kinds[1] > 50 && kinds[2] > 100 && e.anchored > EDITS && e.waiting > EDITS);
     TEST_CHECK(e.islands > EDITS && atomic_load(&world.over_links) > 0);
-    tl_navmesh_destroy(world.navmesh);
     tl_nav_obstacles_destroy(e.obstacles);
-    pthread_rwlock_destroy(&world.lock);
+    world_free(&world);
 }
 
 int main(void)

@@ -5,21 +5,9 @@
 
 #define _POSIX_C_SOURCE 200809L // read-write locks
 
-#include "nav_level.h"
+#include "nav_readers.h"
 
-#include <pthread.h>
-#include <sched.h>
-#include <stdatomic.h>
-#include <talus/nav_obstacles.h>
-
-enum { EDITS = 1000, READERS = 2, MOST_OBSTACLES = 12, MOST = 256 };
-
-typedef struct shared_world {
-    tl_navmesh *navmesh;
-    pthread_rwlock_t lock;
-    atomic_bool done, writer_waits; // the lock itself prefers readers, and would starve the writer
-    atomic_uint paths, complete, faults;
-} shared_world;
+enum { EDITS = 1000, MOST_OBSTACLES = 12 };
 
 static float tile_height; // 0 at first
 
@@ -31,80 +19,6 @@ static tl_nav_def make_def(void)
     def.bounds.min = tl_vec3_make(-1, -3, -1);
     def.bounds.max = tl_vec3_make(26, 9, 20);
     return def;
-}
-
-// What a reader is given must fit the navmesh as it is under the lock: polygons that are there, each beside the last.
-static bool path_is_whole(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t count)
-{
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_nav_tile *tile;
-        uint32_t polygon, link_count = 0;
-        tl_nav_link links[64];
-        if (tl_navmesh_resolve(navmesh, polygons[i], &tile, &polygon) != TL_OK ||
-            tl_navmesh_links(navmesh, polygons[i], links, 64, &link_count) != TL_OK) {
-            return false;
-        }
-        bool found = i + 1 == count;
-        for (uint32_t k = 0; k < link_count; k++) {
-            found = found || links[k].to == polygons[i + 1];
-        }
-        if (!found) {
-            return false;
-        }
-    }
-    return count > 0;
-}
-
-static void *read_paths(void *user)
-{
-    shared_world *world = user;
-    tl_nav_query *query = NULL;
-    const tl_nav_query_def query_def = tl_default_nav_query_def();
-    test_random random = { 77 };
-    if (tl_nav_query_create(&query_def, &query) != TL_OK) {
-        atomic_fetch_add(&world->faults, 1);
-        return NULL;
-    }
-    while (!atomic_load(&world->done)) {
-        tl_vec3 from = test_random_point(&random, tl_vec3_make(1, 0, 1), tl_vec3_make(24, 1, 15));
-        tl_vec3 to = test_random_point(&random, tl_vec3_make(1, 0, 1), tl_vec3_make(24, 4, 15));
-        tl_nav_ref polygons[MOST];
-        tl_nav_corner corners[MOST];
-        tl_nav_path_buffers buffers = { polygons, MOST, corners, MOST };
-        tl_nav_route route;
-        while (atomic_load(&world->writer_waits)) {
-            sched_yield();
-        }
-        pthread_rwlock_rdlock(&world->lock);
-        tl_result result = tl_nav_query_find_route(
-            query, world->navmesh, &(tl_nav_route_request){ NULL, from, to, tl_vec3_make(3, 5, 3) }, &buffers, &route);
-        if (result == TL_OK) {
-            atomic_fetch_add(&world->paths, 1);
-            atomic_fetch_add(&world->complete, route.path.status == TL_NAV_PATH_COMPLETE);
-            if (!path_is_whole(world->navmesh, polygons, route.path.polygon_count)) {
-                atomic_fetch_add(&world->faults, 1);
-            }
-        } else if (result != TL_NOT_FOUND) {
-            atomic_fetch_add(&world->faults, 1);
-        }
-        pthread_rwlock_unlock(&world->lock);
-    }
-    tl_nav_query_destroy(query);
-    return NULL;
-}
-
-// Tiles are made without the lock; only the swap has it.
-static void settle(tl_nav_obstacles *obstacles, shared_world *world)
-{
-    while (tl_nav_obstacles_waiting(obstacles) > 0) {
-        tl_nav_rebaked_tile remade;
-        TEST_RESULT(tl_nav_obstacles_bake_next(obstacles, &remade, NULL), TL_OK);
-        atomic_store(&world->writer_waits, true);
-        pthread_rwlock_wrlock(&world->lock);
-        atomic_store(&world->writer_waits, false);
-        TEST_RESULT(tl_navmesh_replace_tiles(world->navmesh, remade.tile_x, remade.tile_z, &remade.stack), TL_OK);
-        pthread_rwlock_unlock(&world->lock);
-    }
 }
 
 static tl_nav_obstacle random_crate(test_random *random)
@@ -130,14 +44,9 @@ static void test_edits_under_readers(void **state)
     tl_nav_obstacles *obstacles;
     TEST_RESULT(tl_nav_obstacles_bake(&def, &input, &obstacles, NULL, NULL), TL_OK);
     shared_world world;
-    memset(&world, 0, sizeof world);
-    TEST_CHECK(pthread_rwlock_init(&world.lock, NULL) == 0);
-    TEST_RESULT(tl_navmesh_create(NULL, &world.navmesh), TL_OK);
-    settle(obstacles, &world);
-    pthread_t readers[READERS];
-    for (int i = 0; i < READERS; i++) {
-        TEST_CHECK(pthread_create(&readers[i], NULL, read_paths, &world) == 0);
-    }
+    world_init(&world);
+    world_settle(&world, obstacles);
+    world_start_readers(&world);
     tl_nav_obstacle_id ids[MOST_OBSTACLES];
     uint32_t count = 0;
     test_random random = { 5 };
@@ -152,18 +61,15 @@ static void test_edits_under_readers(void **state)
         } else if (count > 0) {
             TEST_RESULT(tl_nav_obstacles_move(obstacles, ids[which], &crate, NULL), TL_OK);
         }
-        settle(obstacles, &world);
+        world_settle(&world, obstacles);
     }
-    atomic_store(&world.done, true);
-    for (int i = 0; i < READERS; i++) {
-        pthread_join(readers[i], NULL);
-    }
+    world_end_readers(&world);
     TEST_CHECK(atomic_load(&world.faults) == 0 && atomic_load(&world.complete) > EDITS / 10);
     // Without obstacles it is the first bake again.
     while (count > 0) {
         TEST_RESULT(tl_nav_obstacles_remove(obstacles, ids[--count]), TL_OK);
     }
-    settle(obstacles, &world);
+    world_settle(&world, obstacles);
     tl_nav_tiles tiles;
     TEST_RESULT(tl_nav_bake(&def, &input, &tiles, NULL), TL_OK);
     TEST_CHECK(tiles.tile_count == tl_navmesh_tile_count(world.navmesh));
@@ -174,9 +80,8 @@ static void test_edits_under_readers(void **state)
         TEST_CHECK(tile != NULL && memcmp(tile, expected, tile->blob.size) == 0);
     }
     tl_nav_tiles_free(&tiles);
-    tl_navmesh_destroy(world.navmesh);
     tl_nav_obstacles_destroy(obstacles);
-    pthread_rwlock_destroy(&world.lock);
+    world_free(&world);
 }
 
 // The same with floors in layers of two metres.

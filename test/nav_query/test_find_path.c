@@ -4,6 +4,7 @@
 // against connected components.
 
 #include "nav_fixture.h"
+#include "nav_path_checks.h"
 
 #include <float.h>
 #include <math.h>
@@ -163,14 +164,7 @@ static void check_chain(const tl_navmesh *navmesh, const tl_nav_filter *filter, 
                         uint32_t count)
 {
     for (uint32_t i = 0; i + 1 < count; i++) {
-        tl_nav_link links[64];
-        uint32_t link_count = 0;
-        bool linked = false;
-        TEST_RESULT(tl_navmesh_links(navmesh, polygons[i], links, 64, &link_count), TL_OK);
-        for (uint32_t k = 0; k < link_count; k++) {
-            linked = linked || links[k].to == polygons[i + 1];
-        }
-        TEST_CHECK(linked && passes(navmesh, filter, polygons[i + 1]));
+        TEST_CHECK(test_are_linked(navmesh, polygons[i], polygons[i + 1]) && passes(navmesh, filter, polygons[i + 1]));
     }
 }
 

@@ -3,6 +3,7 @@
 // Rays along the surface against the union of the stretches that polygons cover on them.
 
 #include "nav_fixture.h"
+#include "nav_path_checks.h"
 
 #include <math.h>
 
@@ -67,14 +68,7 @@ static double reach(const tl_navmesh *navmesh, const fixture_refs *all, tl_vec3 
 static void check_crossed(const tl_navmesh *navmesh, const tl_nav_ref *polygons, uint32_t count)
 {
     for (uint32_t i = 0; i + 1 < count; i++) {
-        tl_nav_link links[64];
-        uint32_t link_count = 0;
-        bool linked = false;
-        TEST_RESULT(tl_navmesh_links(navmesh, polygons[i], links, 64, &link_count), TL_OK);
-        for (uint32_t k = 0; k < link_count; k++) {
-            linked = linked || links[k].to == polygons[i + 1];
-        }
-        TEST_CHECK(linked);
+        TEST_CHECK(test_are_linked(navmesh, polygons[i], polygons[i + 1]));
     }
 }
 

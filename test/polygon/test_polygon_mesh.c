@@ -198,26 +198,7 @@ static void every_allocation_may_fail(void **state)
     tl_contour contour;
     tl_contour_set set = shape_as_set(points, n, vertices, &contour);
     vertices[20].flags = TL_CONTOUR_BORDER_VERTEX;
-    tl_polygon_def def = tl_default_polygon_def();
-    tl_result result = TL_ERR_MEMORY;
-    uint64_t fail_at = 1;
-    for (; result == TL_ERR_MEMORY; fail_at++) {
-        test_allocator allocator;
-        test_allocator_init(&allocator, fail_at);
-        def.host.allocator = &allocator.allocator;
-        tl_polygon_mesh mesh;
-        memset(&mesh, 0, sizeof mesh);
-        result = tl_polygon_mesh_bake(&set, &def, &mesh, NULL);
-        TEST_CHECK(allocator.live_blocks == (result == TL_OK ? 1 : 0));
-        TEST_CHECK(result == TL_OK || mesh.block == NULL);
-        if (result == TL_OK) {
-            shape_check_mesh(&mesh, &set);
-            tl_polygon_mesh_free(&mesh);
-            TEST_CHECK(allocator.live_blocks == 0 && allocator.live_bytes == 0);
-        }
-    }
-    TEST_RESULT(result, TL_OK);
-    TEST_CHECK(fail_at > 6);
+    TEST_CHECK(shape_check_failing_memory(&set, tl_default_polygon_def()) > 6);
 }
 
 // A stair that comes up beside its own landing: the outline runs from (0, 1) to (2, 1) on the lower floor and back on

@@ -3,6 +3,7 @@
 // ray_approach.c: rays and segments from any distance against a loop over all triangles that uses no filter, with every
 // walk; and the boxes that a far ray enters, which must be few.
 
+#include "ray_without_tree.h"
 #include "soup/ray/ray_prepare.h"
 #include "soup_models.h"
 
@@ -25,16 +26,7 @@ static bool cast_by_all(const tl_soup *soup, tl_vec3 origin, tl_vec3 target, boo
     job->is_segment = is_segment;
     job->origin.point = origin;
     job->target.point = target;
-    bool hit = false;
-    for (uint64_t offset = 0; offset < soup->leaf_bytes;) {
-        const tl_soup_leaf *packed = tl_soup_leaf_at(soup, offset);
-        tl_leaf_view leaf = tl_view_leaf(packed);
-        for (uint32_t lane = 0; lane < 2 * leaf.pair_count; lane++) {
-            hit |= leaf.ids[lane] != TL_ID_NONE && tl_ray_decide(job, packed, lane);
-        }
-        offset += tl_leaf_size(leaf.pair_count);
-    }
-    return hit;
+    return test_decide_all_lanes(soup, job);
 }
 
 static void check(const tl_soup *const soups[2], tl_vec3 origin, tl_vec3 target, bool is_segment, float tmax,

@@ -5,6 +5,7 @@
 //
 // An argument raises the number of rays a model: test_ray_walk 100000.
 
+#include "ray_without_tree.h"
 #include "soup/ray/ray_job.h"
 #include "soup_models.h"
 
@@ -28,16 +29,7 @@ static bool search_without_tree(const tl_soup *soup, tl_vec3 origin, tl_vec3 tar
     if (!tl_ray_prepare(job, origin, target)) {
         return false;
     }
-    bool hit = false;
-    for (uint64_t offset = 0; offset < soup->leaf_bytes;) {
-        const tl_soup_leaf *packed = tl_soup_leaf_at(soup, offset);
-        tl_leaf_view leaf = tl_view_leaf(packed);
-        for (uint32_t lane = 0; lane < 2 * leaf.pair_count; lane++) {
-            hit |= leaf.ids[lane] != TL_ID_NONE && tl_ray_decide(job, packed, lane);
-        }
-        offset += tl_leaf_size(leaf.pair_count);
-    }
-    return hit;
+    return test_decide_all_lanes(soup, job);
 }
 
 static bool cast_without_tree(const tl_soup *soup, const tl_ray *ray, tl_ray_job *job)

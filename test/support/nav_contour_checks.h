@@ -5,6 +5,7 @@
 #ifndef TALUS_NAV_CONTOUR_CHECKS_H
 #define TALUS_NAV_CONTOUR_CHECKS_H
 
+#include "nav_bake/contours/contours.h"
 #include "nav_region_checks.h"
 
 /// Doubled area, > 0 for an outer outline.
@@ -25,6 +26,21 @@ static inline void make_contours(tl_nav_compact *compact, const tl_nav_config *c
     TEST_RESULT(tl_nav_distance_field(NULL, compact, NULL), TL_OK);
     TEST_RESULT(tl_nav_bake_regions(config, NULL, compact, NULL), TL_OK);
     TEST_RESULT(tl_nav_bake_contours(config, compact, NULL, contours, NULL), TL_OK);
+}
+
+/// Traces and simplifies the contours of a compact heightfield, all in `arena`, which is fresh.
+static inline void trace_contours(tl_nav_compact *compact, const tl_nav_config *config, tl_arena *arena,
+                                  tl_contour_work *work)
+{
+    TEST_RESULT(tl_nav_distance_field(NULL, compact, NULL), TL_OK);
+    TEST_RESULT(tl_nav_bake_regions(config, NULL, compact, NULL), TL_OK);
+    tl_arena_init(arena, NULL);
+    memset(work, 0, sizeof *work);
+    work->config = config;
+    work->compact = compact;
+    work->arena = arena;
+    TEST_RESULT(tl_contours_trace(work), TL_OK);
+    TEST_RESULT(tl_contours_simplify(work), TL_OK);
 }
 
 static inline int64_t contour_orient(const tl_contour_vertex *a, const tl_contour_vertex *b, const tl_contour_vertex *c)

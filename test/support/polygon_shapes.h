@@ -260,6 +260,9 @@ static inline uint64_t shape_check_failing_memory(const tl_contour_set *set, tl_
         result = tl_polygon_mesh_bake(set, &def, &mesh, NULL);
         TEST_CHECK(allocator.live_blocks == (result == TL_OK ? 1 : 0));
         TEST_CHECK(result == TL_OK || mesh.block == NULL);
+        if (result == TL_OK) {
+            shape_check_mesh(&mesh, set);
+        }
         tl_polygon_mesh_free(&mesh);
         TEST_CHECK(allocator.live_blocks == 0 && allocator.live_bytes == 0);
     }

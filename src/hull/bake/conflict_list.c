@@ -88,16 +88,11 @@ static bool waits_before(const tl_quickhull_entry *a, const tl_quickhull_entry *
 static tl_result push_waiting_face(tl_quickhull *hull, uint32_t face)
 {
     if (hull->heap_count == hull->heap_capacity) {
-        uint32_t capacity = hull->heap_capacity < 64 ? 64 : hull->heap_capacity * 2;
-        tl_quickhull_entry *heap = TL_PUSH(hull->arena, tl_quickhull_entry, capacity);
-        if (heap == NULL) {
+        tl_quickhull_entry *grown = tl_arena_grow(hull->arena, hull->heap, &hull->heap_capacity, 64, sizeof *grown);
+        if (grown == NULL) {
             return TL_ERR_MEMORY;
         }
-        if (hull->heap_count > 0) {
-            memcpy(heap, hull->heap, hull->heap_count * sizeof *heap);
-        }
-        hull->heap = heap;
-        hull->heap_capacity = capacity;
+        hull->heap = grown;
     }
     const tl_quickhull_conflicts *conflicts = &hull->conflicts[face];
     tl_quickhull_entry entry = { conflicts->farthest_value / tl_side_plane_length(&hull->faces[face].plane), face,

@@ -26,10 +26,8 @@ typedef struct simple_edge {
 typedef struct repair {
     tl_contour_work *work;
     uint32_t region_count;
-    uint32_t *first_loop; // [region_count + 1] into `loops`
-    uint32_t *loops;      // by region
-    uint8_t *dirty;       // [region_count] to be checked
-    uint8_t *mended;      // [loop_count]
+    uint8_t *dirty;  // [region_count] to be checked
+    uint8_t *mended; // [loop_count]
     simple_edge *edges;
     tl_sort_item *items, *scratch;
     uint32_t *path_vertices; // of one loop
@@ -191,13 +189,13 @@ static uint32_t collect_edges(repair *r, uint32_t region)
     tl_contour_work *work = r->work;
     uint32_t count = 0;
     bool mended = false;
-    for (uint32_t k = r->first_loop[region]; k < r->first_loop[region + 1]; k++) {
+    for (uint32_t k = r->work->region_first[region]; k < r->work->region_first[region + 1]; k++) {
         tl_contour_path path = { r->path_vertices, 0 };
-        if (work->loops[r->loops[k]].area2 == 0) {
+        if (work->loops[r->work->by_region[k]].area2 == 0) {
             continue; // a slit: it will not be part of any contour
         }
-        tl_contours_simplified(work, r->loops[k], &path);
-        mended |= mend_collapse(r, &work->loops[r->loops[k]], &path);
+        tl_contours_simplified(work, r->work->by_region[k], &path);
+        mended |= mend_collapse(r, &work->loops[r->work->by_region[k]], &path);
         for (uint32_t j = 0; j < path.count && path.count > 2; j++) {
             simple_edge e = { path.vertices[j > 0 ? j - 1 : path.count - 1],
                               path.vertices[j],
@@ -274,8 +272,8 @@ static bool is_cut_off(const tl_contour_work *work, const simple_edge *e, const 
 static void mend_stray_holes(repair *r, uint32_t region, uint32_t count)
 {
     const tl_contour_work *work = r->work;
-    for (uint32_t k = r->first_loop[region]; k < r->first_loop[region + 1]; k++) {
-        uint32_t hole = r->loops[k];
+    for (uint32_t k = r->work->region_first[region]; k < r->work->region_first[region + 1]; k++) {
+        uint32_t hole = r->work->by_region[k];
         int winding = 0;
         if (work->loops[hole].area2 >= 0) {
             continue;
@@ -303,36 +301,14 @@ static void mend_stray_holes(repair *r, uint32_t region, uint32_t count)
     }
 }
 
-static tl_result group_loops_by_region(repair *r)
-{
-    tl_contour_work *work = r->work;
-    r->first_loop = TL_PUSH_ZERO(work->arena, uint32_t, (uint64_t)r->region_count + 2);
-    r->loops = TL_PUSH(work->arena, uint32_t, work->loop_count);
-    if (r->first_loop == NULL || r->loops == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    uint32_t *next = r->first_loop + 1;
-    for (uint32_t l = 0; l < work->loop_count; l++) {
-        next[work->loops[l].region + 1]++;
-    }
-    for (uint32_t k = 1; k <= r->region_count; k++) {
-        next[k] += next[k - 1];
-    }
-    for (uint32_t l = 0; l < work->loop_count; l++) {
-        r->loops[next[work->loops[l].region]++] = l;
-    }
-    return TL_OK;
-}
-
 static tl_result prepare_repair(repair *r)
 {
     tl_contour_work *work = r->work;
-    TL_TRY(group_loops_by_region(r));
     uint32_t count = 0; // of the region with the most traced vertices
     for (uint32_t region = 1; region < r->region_count; region++) {
         uint32_t sum = 0;
-        for (uint32_t k = r->first_loop[region]; k < r->first_loop[region + 1]; k++) {
-            sum += work->loops[r->loops[k]].count;
+        for (uint32_t k = r->work->region_first[region]; k < r->work->region_first[region + 1]; k++) {
+            sum += work->loops[r->work->by_region[k]].count;
         }
         count = sum > count ? sum : count;
     }
@@ -360,8 +336,8 @@ tl_result tl_contours_repair(tl_contour_work *work)
                 continue;
             }
             r.dirty[region] = 0;
-            for (uint32_t k = r.first_loop[region]; k < r.first_loop[region + 1]; k++) {
-                tl_contours_refine(work, r.loops[k], r.stack);
+            for (uint32_t k = r.work->region_first[region]; k < r.work->region_first[region + 1]; k++) {
+                tl_contours_refine(work, r.work->by_region[k], r.stack);
             }
             uint32_t count = collect_edges(&r, region);
             mend_crossings(&r, count);

@@ -261,16 +261,11 @@ static tl_result close_loop(tracer *t, uint32_t first, uint32_t floor)
 {
     tl_contour_work *work = t->work;
     if (work->loop_count == t->loop_capacity) {
-        uint32_t capacity = t->loop_capacity > 0 ? 2 * t->loop_capacity : 64;
-        tl_contour_loop *grown = TL_PUSH(work->arena, tl_contour_loop, capacity);
+        tl_contour_loop *grown = tl_arena_grow(work->arena, work->loops, &t->loop_capacity, 64, sizeof *grown);
         if (grown == NULL) {
             return TL_ERR_MEMORY;
         }
-        if (work->loop_count > 0) {
-            memcpy(grown, work->loops, work->loop_count * sizeof *grown);
-        }
         work->loops = grown;
-        t->loop_capacity = capacity;
     }
     // The last edge's end is the first vertex, whose flags hold the first edge's share already.
     tl_contour_vertex last = work->vertices[work->vertex_count];
@@ -376,6 +371,28 @@ static tl_result prepare_trace(tracer *t, tl_arena *scratch)
     return t->vertex_of && work->vertices && work->across && work->twin && work->loop_of ? TL_OK : TL_ERR_MEMORY;
 }
 
+// A counting sort.
+static tl_result group_by_region(tl_contour_work *work)
+{
+    const uint32_t region_count = work->compact->region_count;
+    work->region_first = TL_PUSH_ZERO(work->arena, uint32_t, (uint64_t)region_count + 2);
+    work->by_region = TL_PUSH(work->arena, uint32_t, work->loop_count);
+    if (work->region_first == NULL || work->by_region == NULL) {
+        return TL_ERR_MEMORY;
+    }
+    uint32_t *next = work->region_first + 1;
+    for (uint32_t l = 0; l < work->loop_count; l++) {
+        next[work->loops[l].region + 1]++;
+    }
+    for (uint32_t r = 1; r <= region_count; r++) {
+        next[r] += next[r - 1];
+    }
+    for (uint32_t l = 0; l < work->loop_count; l++) {
+        work->by_region[next[work->loops[l].region]++] = l;
+    }
+    return TL_OK;
+}
+
 tl_result tl_contours_trace(tl_contour_work *work)
 {
     tracer t = { .work = work, .steps_left = 4 * (uint64_t)work->compact->span_count };
@@ -384,5 +401,5 @@ tl_result tl_contours_trace(tl_contour_work *work)
     tl_result result = prepare_trace(&t, &scratch);
     result = result == TL_OK ? walk_all(&t) : result;
     tl_arena_free(&scratch);
-    return result;
+    return result == TL_OK ? group_by_region(work) : result;
 }

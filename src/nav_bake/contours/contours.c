@@ -13,8 +13,6 @@
 // The loops of each region, and the contour that each outline becomes.
 typedef struct assembly {
     tl_contour_work *work;
-    uint32_t *first_loop; // [region_count + 2]
-    uint32_t *by_region;  // [loop_count] loops by region, in the order they were traced
     uint32_t *path_space; // all contours' vertices, one after the other
     uint32_t *hole_space;
     tl_contour_path *contours; // [outline_count]
@@ -23,29 +21,14 @@ typedef struct assembly {
     uint32_t outline_count, hole_count, slit_count, unbridged_count;
 } assembly;
 
-static tl_result group_outlines(assembly *a)
+static void count_outlines(assembly *a)
 {
-    tl_contour_work *work = a->work;
-    uint32_t region_count = work->compact->region_count;
-    a->first_loop = TL_PUSH_ZERO(work->arena, uint32_t, (uint64_t)region_count + 2);
-    a->by_region = TL_PUSH(work->arena, uint32_t, work->loop_count);
-    if (a->first_loop == NULL || a->by_region == NULL) {
-        return TL_ERR_MEMORY;
-    }
-    uint32_t *next = a->first_loop + 1;
+    const tl_contour_work *work = a->work;
     for (uint32_t l = 0; l < work->loop_count; l++) {
-        next[work->loops[l].region + 1]++;
         a->outline_count += work->loops[l].area2 > 0;
         a->hole_count += work->loops[l].area2 < 0;
         a->slit_count += work->loops[l].area2 == 0;
     }
-    for (uint32_t r = 1; r <= region_count; r++) {
-        next[r] += next[r - 1];
-    }
-    for (uint32_t l = 0; l < work->loop_count; l++) {
-        a->by_region[next[work->loops[l].region]++] = l;
-    }
-    return TL_OK;
 }
 
 // Whether a traced outline runs round a point, by the crossings of a ray to the left, half a cell above the point.
@@ -69,8 +52,8 @@ static bool is_hole_of(const assembly *a, uint32_t hole, uint32_t outline, uint3
         return true;
     }
     uint32_t region = work->loops[hole].region, found = UINT32_MAX;
-    for (uint32_t k = a->first_loop[region]; k < a->first_loop[region + 1]; k++) {
-        uint32_t loop = a->by_region[k];
+    for (uint32_t k = a->work->region_first[region]; k < a->work->region_first[region + 1]; k++) {
+        uint32_t loop = a->work->by_region[k];
         if (work->loops[loop].area2 > 0 &&
             (found == UINT32_MAX ||
              loop_contains(work, &work->loops[loop], &work->vertices[work->loops[hole].first]))) {
@@ -86,11 +69,11 @@ static void assemble_contour(assembly *a, uint32_t outline, tl_contour_path *con
     const tl_contour_work *work = a->work;
     uint32_t region = work->loops[outline].region, outlines = 0, hole_count = 0, used = 0;
     tl_contours_simplified(work, outline, contour);
-    for (uint32_t k = a->first_loop[region]; k < a->first_loop[region + 1]; k++) {
-        outlines += work->loops[a->by_region[k]].area2 > 0;
+    for (uint32_t k = a->work->region_first[region]; k < a->work->region_first[region + 1]; k++) {
+        outlines += work->loops[a->work->by_region[k]].area2 > 0;
     }
-    for (uint32_t k = a->first_loop[region]; k < a->first_loop[region + 1]; k++) {
-        uint32_t loop = a->by_region[k];
+    for (uint32_t k = a->work->region_first[region]; k < a->work->region_first[region + 1]; k++) {
+        uint32_t loop = a->work->by_region[k];
         if (work->loops[loop].area2 < 0 && is_hole_of(a, loop, outline, outlines)) {
             tl_contour_path *hole = &a->holes[hole_count++];
             hole->vertices = a->hole_space + used;
@@ -104,7 +87,7 @@ static void assemble_contour(assembly *a, uint32_t outline, tl_contour_path *con
 static tl_result assemble_contours(assembly *a)
 {
     tl_contour_work *work = a->work;
-    TL_TRY(group_outlines(a));
+    count_outlines(a);
     // A contour takes its own vertices, its holes' and two more a hole.
     uint64_t room = (uint64_t)work->vertex_count + 2 * (uint64_t)a->hole_count;
     a->path_space = TL_PUSH(work->arena, uint32_t, room);

@@ -33,6 +33,8 @@ typedef struct tl_contour_work {
     uint8_t *keep; ///< 1: the simplified outline has this vertex
     tl_contour_loop *loops;
     uint32_t loop_count;
+    uint32_t *region_first; ///< [region_count + 1] into by_region
+    uint32_t *by_region;    ///< [loop_count] loops by region, in the order they were traced
 
     uint32_t repaired_count; ///< loops that tl_contours_repair mended
 } tl_contour_work;

@@ -97,17 +97,15 @@ static tl_result append_sample(tl_detail_work *work, uint32_t step, int32_t y)
 {
     tl_detail_edges *edges = &work->edges;
     if (edges->sample_count == edges->sample_capacity) {
-        uint32_t capacity = edges->sample_capacity > 0 ? 2 * edges->sample_capacity : 1024;
-        tl_detail_edge_sample *grown =
-            capacity > edges->sample_capacity ? TL_PUSH(work->arena, tl_detail_edge_sample, capacity) : NULL;
-        if (grown == NULL) {
-            return capacity > edges->sample_capacity ? TL_ERR_MEMORY : TL_ERR_LIMIT;
+        if (edges->sample_capacity > UINT32_MAX / 2) {
+            return TL_ERR_LIMIT;
         }
-        if (edges->sample_count > 0) {
-            memcpy(grown, edges->samples, edges->sample_count * sizeof *grown);
+        tl_detail_edge_sample *grown =
+            tl_arena_grow(work->arena, edges->samples, &edges->sample_capacity, 1024, sizeof *grown);
+        if (grown == NULL) {
+            return TL_ERR_MEMORY;
         }
         edges->samples = grown;
-        edges->sample_capacity = capacity;
     }
     edges->samples[edges->sample_count++] = (tl_detail_edge_sample){ (uint16_t)step, 0, y };
     return TL_OK;

@@ -7,6 +7,7 @@
 // A column is tested at its centre, computed in the level's lattice, so that two tiles agree on the columns they share.
 
 #include "base/assert.h"
+#include "math/column_range.h"
 
 #include <talus/nav_bake.h>
 
@@ -18,33 +19,19 @@ typedef struct mark_window {
     double low, high;                        ///< floor heights, voxels, both included
 } mark_window;
 
-// A field's columns along one axis.
-typedef struct column_axis {
-    float origin;         ///< metres
-    float cell_size;      ///< metres
-    int32_t first_column; ///< in the level's lattice
-    uint32_t count;
-} column_axis;
-
 // Columns [*first, *end) whose centres lie in [min, max], metres.
-static void centers_within(const column_axis *axis, float min, float max, uint32_t *first, uint32_t *end)
+static void centers_within(const tl_column_axis *axis, float min, float max, uint32_t *first, uint32_t *end)
 {
-    const double shift = (double)axis->first_column + 0.5, size = (double)axis->cell_size;
-    double low = ceil(((double)min - (double)axis->origin) / size - shift);
-    double high = floor(((double)max - (double)axis->origin) / size - shift) + 1.0;
-    *first = *end = 0;
-    if (low < high && high > 0.0 && low < (double)axis->count) { // false when NaN
-        *first = low > 0.0 ? (uint32_t)low : 0;
-        *end = high < (double)axis->count ? (uint32_t)high : axis->count;
-    }
+    const double low = ceil(tl_column_of_center(axis, min)), high = floor(tl_column_of_center(axis, max)) + 1.0;
+    tl_clamp_columns(axis, low, high, first, end);
 }
 
 static mark_window window_of(const tl_nav_compact *compact, tl_aabb box)
 {
     const tl_nav_lattice *lattice = &compact->lattice;
     mark_window window;
-    const column_axis x = { lattice->origin.x, compact->cell_size, lattice->first_x, compact->width };
-    const column_axis z = { lattice->origin.z, compact->cell_size, lattice->first_z, compact->height };
+    const tl_column_axis x = { lattice->origin.x, compact->cell_size, lattice->first_x, compact->width };
+    const tl_column_axis z = { lattice->origin.z, compact->cell_size, lattice->first_z, compact->height };
     centers_within(&x, box.min.x, box.max.x, &window.first_x, &window.end_x);
     centers_within(&z, box.min.z, box.max.z, &window.first_z, &window.end_z);
     window.low = ((double)box.min.y - (double)lattice->origin.y) / (double)compact->cell_height;

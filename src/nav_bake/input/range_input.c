@@ -25,17 +25,11 @@ static bool may_lie_in(const tl_mesh_view *mesh, const uint32_t *corners, const 
 
 static tl_result grow_range_input(tl_range_input *range, const tl_allocator *allocator)
 {
-    uint64_t capacity = range->capacity > 0 ? 2 * range->capacity : 1024;
-    uint32_t *triangles = tl_allocate_array(allocator, capacity, sizeof *triangles);
-    if (triangles == NULL) {
+    uint32_t *grown = tl_grow_array(allocator, range->triangles, &range->capacity, sizeof *grown);
+    if (grown == NULL) {
         return TL_ERR_MEMORY;
     }
-    if (range->capacity > 0) {
-        memcpy(triangles, range->triangles, (size_t)range->capacity * sizeof *triangles);
-    }
-    tl_release_array(allocator, range->triangles, range->capacity, sizeof *triangles);
-    range->triangles = triangles;
-    range->capacity = capacity;
+    range->triangles = grown;
     return TL_OK;
 }
 

@@ -28,16 +28,11 @@ static tl_result append_column(tl_region_work *work, uint32_t *capacity, uint32_
 {
     tl_stacked_columns *stacked = &work->stacked;
     if (stacked->count == *capacity) {
-        const uint32_t grown = *capacity > 0 ? 2 * *capacity : 256; // no more than columns, so below 2^31
-        uint32_t *columns = TL_PUSH(work->arena, uint32_t, grown);
-        if (columns == NULL) {
+        uint32_t *grown = tl_arena_grow(work->arena, stacked->columns, capacity, 256, sizeof *grown);
+        if (grown == NULL) {
             return TL_ERR_MEMORY;
         }
-        if (stacked->count > 0) {
-            memcpy(columns, stacked->columns, stacked->count * sizeof *columns);
-        }
-        stacked->columns = columns;
-        *capacity = grown;
+        stacked->columns = grown;
     }
     stacked->columns[stacked->count++] = column;
     return TL_OK;

@@ -32,19 +32,14 @@ static tl_result append_ring_entry(ring_walk *walk, uint32_t region)
 {
     tl_region_rings *rings = walk->rings;
     if (rings->entry_count == walk->capacity) {
-        uint32_t capacity = walk->capacity > 0 ? 2 * walk->capacity : 256;
-        if (capacity <= walk->capacity) {
+        if (walk->capacity > UINT32_MAX / 2) {
             return TL_ERR_LIMIT;
         }
-        tl_ring_entry *grown = TL_PUSH(walk->work->arena, tl_ring_entry, capacity);
+        tl_ring_entry *grown = tl_arena_grow(walk->work->arena, rings->entries, &walk->capacity, 256, sizeof *grown);
         if (grown == NULL) {
             return TL_ERR_MEMORY;
         }
-        if (walk->capacity > 0) {
-            memcpy(grown, rings->entries, walk->capacity * sizeof *grown);
-        }
         rings->entries = grown;
-        walk->capacity = capacity;
     }
     rings->entries[rings->entry_count].region = region;
     rings->entries[rings->entry_count].next = rings->entry_count + 1;

@@ -374,12 +374,8 @@ void tl_nav_tile_block_free(tl_nav_tile_block *block)
 
 void tl_nav_tiles_free(tl_nav_tiles *tiles)
 {
-    if (tiles == NULL) {
-        return;
+    if (tiles != NULL) {
+        tl_blob_array_free(&tiles->allocator, tiles->tiles, tiles->tile_count);
+        memset(tiles, 0, sizeof *tiles);
     }
-    for (uint32_t i = 0; i < tiles->tile_count; i++) {
-        tl_blob_free(tiles->tiles[i]);
-    }
-    tl_release_array(&tiles->allocator, tiles->tiles, tiles->tile_count, sizeof *tiles->tiles);
-    memset(tiles, 0, sizeof *tiles);
 }

@@ -19,23 +19,15 @@ static void enter_polygon(tl_nav_flood *flood, uint32_t slot, uint32_t polygon, 
     if (!(cost <= flood->max_cost) || !(cost < INFINITY)) {
         return;
     }
-    uint32_t index = tl_nav_pool_get(flood->query, tl_nav_make_ref(flood->navmesh, slot, polygon));
-    if (index == TL_NAV_NO_NODE) {
-        flood->out_of_nodes = true;
-        return;
+    const uint64_t key = tl_nav_make_ref(flood->navmesh, slot, polygon);
+    const tl_nav_way_in way = { key, slot, polygon, point, cost, from };
+    tl_nav_node *node = tl_nav_pool_relax(flood->query, way, &flood->out_of_nodes);
+    if (node != NULL) {
+        const uint32_t index = (uint32_t)(node - flood->query->nodes);
+        node->total = cost;
+        *tl_nav_flood_end(flood->query, index) = end;
+        tl_nav_heap_improve(flood->query, index);
     }
-    tl_nav_node *node = &flood->query->nodes[index];
-    if (node->heap_at == TL_NAV_NODE_CLOSED || (node->heap_at != TL_NAV_NODE_NEW && cost >= node->cost)) {
-        return;
-    }
-    node->slot = slot;
-    node->polygon = polygon;
-    node->point = point;
-    node->cost = cost;
-    node->total = cost;
-    node->parent = from;
-    *tl_nav_flood_end(flood->query, index) = end;
-    tl_nav_heap_improve(flood->query, index);
 }
 
 static float cost_between(const tl_nav_flood *flood, const tl_nav_node *node, tl_vec3 to)

@@ -38,22 +38,12 @@ static void relax_way(tl_nav_way_search *search, uint64_t key, uint32_t slot, ui
     if (cost == INFINITY) {
         return; // it cannot be crossed
     }
-    uint32_t index = tl_nav_pool_get(search->query, key);
-    if (index == TL_NAV_NO_NODE) {
-        search->out_of_nodes = true;
-        return;
+    const tl_nav_way_in way = { key, slot, polygon, point, cost, from };
+    tl_nav_node *node = tl_nav_pool_relax(search->query, way, &search->out_of_nodes);
+    if (node != NULL) {
+        node->total = cost + search->least_cost * fminf(tl_distance(point, search->goal), search->detour);
+        tl_nav_heap_improve(search->query, (uint32_t)(node - search->query->nodes));
     }
-    tl_nav_node *node = &search->query->nodes[index];
-    if (node->heap_at == TL_NAV_NODE_CLOSED || (node->heap_at != TL_NAV_NODE_NEW && cost >= node->cost)) {
-        return;
-    }
-    node->slot = slot;
-    node->polygon = polygon;
-    node->point = point;
-    node->cost = cost;
-    node->total = cost + search->least_cost * fminf(tl_distance(point, search->goal), search->detour);
-    node->parent = from;
-    tl_nav_heap_improve(search->query, index);
 }
 
 static tl_vec3 crossing_point(tl_vec3 from, tl_vec3 goal, const tl_nav_way *way)

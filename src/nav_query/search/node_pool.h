@@ -28,6 +28,37 @@ void tl_nav_pool_reset(tl_nav_query *query);
 /// The node of a key, a fresh one if need be, or TL_NAV_NO_NODE when the pool is used up.
 uint32_t tl_nav_pool_get(tl_nav_query *query, uint64_t key);
 
+/// A way into a polygon that a search has found.
+typedef struct tl_nav_way_in {
+    uint64_t key;
+    uint32_t slot, polygon;
+    tl_vec3 point; ///< where the polygon is entered
+    float cost;    ///< from the start to point
+    uint32_t parent;
+} tl_nav_way_in;
+
+/// Dijkstra's and A*'s relaxation: the node of the way's key when the way is cheaper than all before it, and then with
+/// all of it filled in; the caller sets `total` and improves the heap. NULL: it is not, or the pool is used up, which
+/// sets *is_full.
+static inline tl_nav_node *tl_nav_pool_relax(tl_nav_query *query, tl_nav_way_in way, bool *is_full)
+{
+    const uint32_t index = tl_nav_pool_get(query, way.key);
+    if (index == TL_NAV_NO_NODE) {
+        *is_full = true;
+        return NULL;
+    }
+    tl_nav_node *node = &query->nodes[index];
+    if (node->heap_at == TL_NAV_NODE_CLOSED || (node->heap_at != TL_NAV_NODE_NEW && way.cost >= node->cost)) {
+        return NULL;
+    }
+    node->slot = way.slot;
+    node->polygon = way.polygon;
+    node->point = way.point;
+    node->cost = way.cost;
+    node->parent = way.parent;
+    return node;
+}
+
 /// Puts a node into the heap, or moves it up after its total has fallen.
 void tl_nav_heap_improve(tl_nav_query *query, uint32_t node);
 /// Takes out the node of the lowest total, ties to the lower index, and marks it closed. TL_NAV_NO_NODE: it is empty.

@@ -76,24 +76,16 @@ static void relax_portal(tl_nav_wide_search *search, uint64_t key, tl_nav_met to
                          tl_nav_spot spot, float cost, uint32_t from)
 {
     tl_nav_query *query = search->clearance->query;
-    uint32_t index = tl_nav_pool_get(query, key);
-    if (index == TL_NAV_NO_NODE) {
-        search->clearance->is_full = true;
-        return;
+    const tl_vec3 point = tl_vec3_make((float)spot.x, 0.0f, (float)spot.z);
+    const tl_nav_way_in way = { key, to.slot, to.polygon, point, cost, from };
+    tl_nav_node *node = tl_nav_pool_relax(query, way, &search->clearance->is_full);
+    if (node != NULL) {
+        const uint32_t index = (uint32_t)(node - query->nodes);
+        node->total = cost + (float)sqrt(tl_nav_spot_distance_sq(spot, search->goal.spot));
+        tl_nav_wide_portal piece = { (float)portal.a.x, (float)portal.a.z, (float)portal.b.x, (float)portal.b.z };
+        search->portals[index] = piece;
+        tl_nav_heap_improve(query, index);
     }
-    tl_nav_node *node = &query->nodes[index];
-    if (node->heap_at == TL_NAV_NODE_CLOSED || (node->heap_at != TL_NAV_NODE_NEW && cost >= node->cost)) {
-        return;
-    }
-    node->slot = to.slot;
-    node->polygon = to.polygon;
-    node->point = tl_vec3_make((float)spot.x, 0.0f, (float)spot.z);
-    node->cost = cost;
-    node->total = cost + (float)sqrt(tl_nav_spot_distance_sq(spot, search->goal.spot));
-    node->parent = from;
-    tl_nav_wide_portal piece = { (float)portal.a.x, (float)portal.a.z, (float)portal.b.x, (float)portal.b.z };
-    search->portals[index] = piece;
-    tl_nav_heap_improve(query, index);
 }
 
 static tl_nav_spot node_spot(const tl_nav_node *node)

@@ -47,16 +47,11 @@ static tl_result add_incidences(remover *r, uint32_t p)
             continue;
         }
         if (r->incidence_count == r->incidence_capacity) {
-            uint32_t capacity = 2 * r->incidence_capacity + 64;
-            incidence *larger = TL_PUSH(r->scratch, incidence, capacity);
-            if (larger == NULL) {
+            incidence *grown = tl_arena_grow(r->scratch, r->incidences, &r->incidence_capacity, 64, sizeof *grown);
+            if (grown == NULL) {
                 return TL_ERR_MEMORY;
             }
-            if (r->incidence_count > 0) {
-                memcpy(larger, r->incidences, r->incidence_count * sizeof *larger);
-            }
-            r->incidences = larger;
-            r->incidence_capacity = capacity;
+            r->incidences = grown;
         }
         r->incidences[r->incidence_count].polygon = p;
         r->incidences[r->incidence_count].next = r->first[v];

@@ -102,15 +102,11 @@ static bool grow_bases(partition_solver *p)
     if (p->chain_count < p->chain_capacity) {
         return true;
     }
-    uint32_t capacity = 2 * p->chain_capacity;
-    chain *larger = TL_PUSH(p->arena, chain, capacity);
-    if (larger == NULL) {
-        return false;
+    chain *grown = tl_arena_grow(p->arena, p->chains, &p->chain_capacity, 64, sizeof *grown);
+    if (grown != NULL) {
+        p->chains = grown;
     }
-    memcpy(larger, p->chains, p->chain_count * sizeof *larger);
-    p->chains = larger;
-    p->chain_capacity = capacity;
-    return true;
+    return grown != NULL;
 }
 
 // Whether whatever can follow b at corner v, or close it, can do so with a as well.

@@ -207,29 +207,6 @@ static tl_result test_all_pairs(edge_splitter *s)
     return TL_OK;
 }
 
-// Nodes of crossings may fall on others: their numbers are replaced by the first one's. Returns by replacing `count`.
-static tl_result unite_new_nodes(edge_splitter *s)
-{
-    tl_outline_nodes *nodes = s->nodes;
-    tl_key_table table;
-    if (!tl_key_table_init(&table, s->arena, nodes->count)) {
-        return TL_ERR_MEMORY;
-    }
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < nodes->count; i++) {
-        tl_lattice_point p = nodes->points[i];
-        uint32_t *place = tl_key_table_at(&table, tl_pair_key((uint32_t)p.x, (uint32_t)p.z));
-        if (*place == TL_NO_VALUE) {
-            *place = kept;
-            nodes->points[kept] = p;
-            nodes->heights[kept] = nodes->heights[i];
-            nodes->is_border[kept++] = nodes->is_border[i];
-        }
-    }
-    nodes->count = kept;
-    return TL_OK;
-}
-
 // Whether a segment meets the unit square around a node, without its sides of larger x and z. The node lies in
 // the segment's box; then the line must not leave all corners on one side. With d = b - a and the turn t of the node,
 // corner (u, v) / 2 from the node has the turn (2t + u dz - v dx) / 2, u and v being -1 or a shade less than 1.
@@ -409,7 +386,7 @@ tl_result tl_outline_split_contacts(tl_arena *arena, tl_outline_nodes *nodes, tl
         if (s.crossings == 0) {
             return s.split_count > 0 ? split_edges(&s, edges, count) : TL_OK;
         }
-        TL_TRY(unite_new_nodes(&s));
+        TL_TRY(tl_outline_unite_nodes(s.arena, s.nodes, NULL)); // crossings may fall on other nodes
         TL_TRY(snap_segments(&s));
         TL_TRY(split_edges(&s, edges, count));
     }

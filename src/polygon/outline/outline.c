@@ -128,8 +128,7 @@ static tl_result keep_as_it_is(tl_arena *arena, tl_outline *outline)
     return TL_OK;
 }
 
-// Makes one node of vertices at one place. places[i] becomes the node of vertex i.
-static tl_result unite_nodes(tl_arena *arena, tl_outline_nodes *nodes, uint32_t *places)
+tl_result tl_outline_unite_nodes(tl_arena *arena, tl_outline_nodes *nodes, uint32_t *places)
 {
     tl_key_table table;
     if (!tl_key_table_init(&table, arena, nodes->count)) {
@@ -148,7 +147,9 @@ static tl_result unite_nodes(tl_arena *arena, tl_outline_nodes *nodes, uint32_t 
         } else {
             nodes->is_border[*place] |= nodes->is_border[i];
         }
-        places[i] = *place;
+        if (places != NULL) {
+            places[i] = *place;
+        }
     }
     nodes->count = united;
     return TL_OK;
@@ -213,7 +214,7 @@ static tl_result take_apart(tl_arena *arena, const tl_contour_vertex *vertices, 
     if (places == NULL || starts == NULL || edges == NULL) {
         return TL_ERR_MEMORY;
     }
-    TL_TRY(unite_nodes(arena, &outline->nodes, places));
+    TL_TRY(tl_outline_unite_nodes(arena, &outline->nodes, places));
     uint32_t edge_count = 0;
     for (uint32_t i = 0; i < count; i++) {
         tl_outline_edge edge = { places[i], places[i + 1 < count ? i + 1 : 0] };

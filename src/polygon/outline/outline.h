@@ -41,6 +41,10 @@ typedef struct tl_outline {
 tl_result tl_outline_prepare(tl_arena *arena, const tl_contour_vertex *vertices, uint32_t count, uint32_t merge_height,
                              tl_outline *outline_out);
 
+/// Makes one node of the nodes at one place, the first of them. places[i], unless `places` is NULL, becomes the new
+/// number of node i. Its memory is taken from `arena`.
+tl_result tl_outline_unite_nodes(tl_arena *arena, tl_outline_nodes *nodes, uint32_t *places);
+
 /// A directed edge between two nodes.
 typedef struct tl_outline_edge {
     uint32_t from, to;
