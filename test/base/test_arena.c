@@ -112,12 +112,51 @@ static void blobs_are_zeroed_and_counted(void **state)
     TEST_CHECK(test.live_blocks == 0 && test.live_bytes == 0);
 }
 
+static void growing_arrays_keep_their_items(void **state)
+{
+    (void)state;
+    tl_arena arena;
+    tl_arena_init(&arena, NULL);
+    uint32_t *items = NULL, capacity = 0;
+    for (uint32_t i = 0; i < 1000; i++) {
+        if (i == capacity) {
+            items = tl_arena_grow(&arena, items, &capacity, 3, sizeof *items);
+            TEST_CHECK(items != NULL && capacity == (i > 0 ? 2 * i : 3));
+        }
+        items[i] = 7 * i;
+    }
+    for (uint32_t i = 0; i < 1000; i++) {
+        TEST_CHECK(items[i] == 7 * i);
+    }
+    // Twice this does not fit 32 bits.
+    uint32_t most = 0x80000000u;
+    TEST_CHECK(tl_arena_grow(&arena, items, &most, 3, sizeof *items) == NULL && most == 0x80000000u);
+    tl_arena_free(&arena);
+}
+
+static void arrays_of_blobs_are_freed_whole(void **state)
+{
+    (void)state;
+    test_allocator test;
+    test_allocator_init(&test, 0);
+    void **blobs = tl_allocate_array(&test.allocator, 3, sizeof *blobs);
+    TEST_CHECK(blobs != NULL);
+    blobs[0] = tl_blob_allocate(&test.allocator, 1, 1, 100);
+    blobs[1] = NULL;
+    blobs[2] = tl_blob_allocate(&test.allocator, 1, 1, 1000);
+    TEST_CHECK(test.live_blocks == 3);
+    tl_blob_array_free(&test.allocator, blobs, 3);
+    tl_blob_array_free(&test.allocator, NULL, 3);
+    TEST_CHECK(test.live_blocks == 0 && test.live_bytes == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pushes_are_aligned_and_apart),     cmocka_unit_test(rollback_gives_back_blocks),
         cmocka_unit_test(what_is_reserved_costs_one_block), cmocka_unit_test(impossible_sizes_are_refused),
-        cmocka_unit_test(blobs_are_zeroed_and_counted),
+        cmocka_unit_test(blobs_are_zeroed_and_counted),     cmocka_unit_test(growing_arrays_keep_their_items),
+        cmocka_unit_test(arrays_of_blobs_are_freed_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
