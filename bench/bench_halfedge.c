@@ -17,7 +17,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { REPETITIONS = 5, LEAST_FACES_A_SIZE = 200000 };
+enum { REPETITIONS = 5, MIN_FACES_A_SIZE = 200000 };
 
 typedef enum figure { ADD_VERTEX, ADD_FACE, FIND_EDGE, RING_STEP, LOOP_STEP, REMOVE_FACE, FIGURE_COUNT } figure;
 
@@ -159,7 +159,7 @@ static void measure(uint32_t side, bool shuffled, double best[FIGURE_COUNT])
     for (int i = 0; i < FIGURE_COUNT; i++) {
         best[i] = 1e30;
     }
-    for (uint32_t k = 0; k < REPETITIONS || k * t.face_count < LEAST_FACES_A_SIZE; k++) {
+    for (uint32_t k = 0; k < REPETITIONS || k * t.face_count < MIN_FACES_A_SIZE; k++) {
         live(&mesh, &t, vertices, best);
     }
     tl_halfedge_mesh_destroy(&mesh);

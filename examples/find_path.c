@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MOST_POLYGONS = 64, MOST_CORNERS = 64 };
+enum { MAX_POLYGONS = 64, MAX_CORNERS = 64 };
 
 // A floor 20 m square, and a wall 3 m high with a passage around its end at z = 6.
 static const tl_vec3 VERTICES[] = { { -10, 0, -10 },  { -10, 0, 10 }, { 10, 0, 10 },  { 10, 0, -10 },
@@ -40,9 +40,9 @@ static tl_result walk(const tl_navmesh *navmesh, float *length_out)
     if (result != TL_OK) {
         return result;
     }
-    tl_nav_ref polygons[MOST_POLYGONS];
-    tl_nav_corner corners[MOST_CORNERS];
-    tl_nav_path_buffers buffers = { polygons, MOST_POLYGONS, corners, MOST_CORNERS };
+    tl_nav_ref polygons[MAX_POLYGONS];
+    tl_nav_corner corners[MAX_CORNERS];
+    tl_nav_path_buffers buffers = { polygons, MAX_POLYGONS, corners, MAX_CORNERS };
     tl_nav_route route;
     const tl_nav_route_request request = { .start = { -5, 0, -5 }, .goal = { 5, 0, -5 }, .half_extents = { 1, 2, 1 } };
     result = tl_nav_query_find_route(query, navmesh, &request, &buffers, &route);

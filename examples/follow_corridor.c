@@ -8,11 +8,11 @@
 
 #include <stdio.h>
 
-enum { MOST_BOXES = 4, MOST_STEPS = 400, ROOM = 64 };
+enum { MAX_BOXES = 4, MAX_STEPS = 400, ROOM = 64 };
 
 typedef struct level {
-    tl_vec3 vertices[8 * MOST_BOXES];
-    uint32_t indices[36 * MOST_BOXES];
+    tl_vec3 vertices[8 * MAX_BOXES];
+    uint32_t indices[36 * MAX_BOXES];
     uint32_t boxes;
 } level;
 
@@ -72,7 +72,7 @@ static uint32_t follow(tl_nav_corridor *corridor, tl_nav_query *query, tl_navmes
     tl_nav_path path;
     tl_nav_corner corners[2];
     uint32_t count = 0, waiting = 0, step = 0;
-    for (; step < MOST_STEPS; step++) {
+    for (; step < MAX_STEPS; step++) {
         trail[step] = corridor->position;
         if (step == 20 && (tl_nav_obstacles_add(obstacles, crate, &id, NULL) != TL_OK ||
                            tl_nav_obstacles_update(obstacles, navmesh, UINT32_MAX, &waiting, NULL) != TL_OK)) {
@@ -93,7 +93,7 @@ static uint32_t follow(tl_nav_corridor *corridor, tl_nav_query *query, tl_navmes
         tl_vec3 to = metres < stride ? corners[1].point : tl_mul_add(corridor->position, way, stride / metres);
         tl_nav_corridor_move(corridor, query, navmesh, NULL, to);
     }
-    return MOST_STEPS;
+    return MAX_STEPS;
 }
 
 int main(int argc, char **argv)
@@ -118,8 +118,8 @@ int main(int argc, char **argv)
     tl_nav_corridor corridor = tl_nav_corridor_init(room, ROOM);
     tl_nav_location start, goal;
     tl_nav_path path;
-    uint32_t waiting = 0, steps = MOST_STEPS;
-    tl_vec3 trail[MOST_STEPS], extents = { 1.0f, 2.0f, 1.0f };
+    uint32_t waiting = 0, steps = MAX_STEPS;
+    tl_vec3 trail[MAX_STEPS], extents = { 1.0f, 2.0f, 1.0f };
     tl_nav_obstacle crate = { 0 };
     crate.shape = TL_NAV_OBSTACLE_CYLINDER;
     crate.base = tl_vec3_make(14.5f, 0, 5.5f);
@@ -135,11 +135,11 @@ int main(int argc, char **argv)
             printf("%u polygons to the goal\n", corridor.count);
             steps = follow(&corridor, query, navmesh, obstacles, &crate, trail);
         }
-        if (argc > 1 && steps < MOST_STEPS) {
+        if (argc > 1 && steps < MAX_STEPS) {
             draw(argv[1], navmesh, &crate, trail, steps + 1);
         }
     }
-    printf(steps < MOST_STEPS ? "there after %u steps\n" : "not there after %u steps\n", steps);
+    printf(steps < MAX_STEPS ? "there after %u steps\n" : "not there after %u steps\n", steps);
     tl_nav_obstacles_destroy(obstacles);
     tl_nav_query_destroy(query);
     tl_navmesh_destroy(navmesh);

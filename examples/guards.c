@@ -14,7 +14,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MOST_CORNERS = 64, MOST_POLYGONS = 256, MOST_TICKS = 600, WALLS = 6 };
+enum { MAX_CORNERS = 64, MAX_POLYGONS = 256, MAX_TICKS = 600, WALLS = 6 };
 
 static const float TICK = 0.1f;  // seconds
 static const float EYE = 1.6f;   // metres above the soles
@@ -89,15 +89,15 @@ typedef struct actor {
     tl_vec3 facing; // unit, in the plane
     tl_vec3 goal;
     float speed; // metres a second
-    tl_vec3 track[MOST_TICKS];
+    tl_vec3 track[MAX_TICKS];
 } actor;
 
 // One tick along the shortest path to the goal.
 static tl_result walk(const world *w, actor *a)
 {
-    tl_nav_ref polygons[MOST_POLYGONS];
-    tl_nav_corner corners[MOST_CORNERS];
-    const tl_nav_path_buffers buffers = { polygons, MOST_POLYGONS, corners, MOST_CORNERS };
+    tl_nav_ref polygons[MAX_POLYGONS];
+    tl_nav_corner corners[MAX_CORNERS];
+    const tl_nav_path_buffers buffers = { polygons, MAX_POLYGONS, corners, MAX_CORNERS };
     tl_nav_route route;
     const tl_nav_route_request request = { .start = a->place, .goal = a->goal, .half_extents = { AHEAD, 2, AHEAD } };
     tl_result result = tl_nav_query_find_route(w->query, w->navmesh, &request, &buffers, &route);
@@ -125,14 +125,14 @@ static bool sees(const world *w, const actor *guard, const actor *intruder)
 typedef struct chase {
     uint32_t ticks, first_seen, times_lost;
     bool caught;
-    bool seen[MOST_TICKS];
+    bool seen[MAX_TICKS];
 } chase;
 
 static tl_result run(const world *w, actor *guard, actor *intruder, chase *c)
 {
     bool chasing = false, before = false;
     tl_result result = TL_OK;
-    for (; c->ticks < MOST_TICKS && !c->caught && result == TL_OK; c->ticks++) {
+    for (; c->ticks < MAX_TICKS && !c->caught && result == TL_OK; c->ticks++) {
         const bool now = sees(w, guard, intruder);
         if (now) {
             c->first_seen = chasing ? c->first_seen : c->ticks;

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST = 64, AIR_STEPS = 4 };
+enum { CAPACITY = 64, AIR_STEPS = 4 };
 
 // Two roofs, 2 m apart, the second one half a metre lower.
 static const tl_vec3 VERTICES[] = { { 0, 0, 0 },      { 0, 0, 10 },      { 8, 0, 10 },      { 8, 0, 0 },
@@ -78,9 +78,9 @@ static void walk(const roofs *r, const tl_nav_corner *corners, uint32_t count)
 // Links on the path from one roof to the other, or -1 when there is no path.
 static int go(const roofs *r)
 {
-    tl_nav_ref polygons[MOST];
-    tl_nav_corner corners[MOST];
-    tl_nav_path_buffers buffers = { polygons, MOST, corners, MOST };
+    tl_nav_ref polygons[CAPACITY];
+    tl_nav_corner corners[CAPACITY];
+    tl_nav_path_buffers buffers = { polygons, CAPACITY, corners, CAPACITY };
     tl_nav_route route;
     const tl_nav_route_request request = { .start = { 2, 0, 2 },
                                            .goal = { 16, -0.5f, 8 },

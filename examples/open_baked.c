@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MOST_POLYGONS = 64, MOST_CORNERS = 64 };
+enum { MAX_POLYGONS = 64, MAX_CORNERS = 64 };
 
 // The bytes of a file at an address that is a multiple of 64; NULL when it cannot be read. Free `*block_out`.
 static void *read_file(const char *path, uint64_t *size_out, void **block_out)
@@ -70,9 +70,9 @@ static tl_result find_path(const tl_navmesh *navmesh, tl_vec3 start, tl_vec3 goa
     if (result != TL_OK) {
         return result;
     }
-    tl_nav_ref polygons[MOST_POLYGONS];
-    tl_nav_corner corners[MOST_CORNERS];
-    tl_nav_path_buffers buffers = { polygons, MOST_POLYGONS, corners, MOST_CORNERS };
+    tl_nav_ref polygons[MAX_POLYGONS];
+    tl_nav_corner corners[MAX_CORNERS];
+    tl_nav_path_buffers buffers = { polygons, MAX_POLYGONS, corners, MAX_CORNERS };
     const tl_nav_route_request request = { .start = start, .goal = goal, .half_extents = { 1, 2, 1 } };
     tl_nav_route route;
     result = tl_nav_query_find_route(query, navmesh, &request, &buffers, &route);

@@ -20,7 +20,7 @@ enum {
     SHEET_MARGIN_PIXELS = 20,
     LEGEND_PIXELS = 22,
     LEGEND_SIZE = 13,
-    LEAST_WIDTH = 420, // pixels: a sheet's words need room beside a narrow level too
+    MIN_WIDTH = 420, // pixels: a sheet's words need room beside a narrow level too
     MAX_SHEET_PANELS = 2
 };
 
@@ -197,7 +197,7 @@ static tl_result render_panels(draw_sheet *sheet, const draw_options *options, c
         uint32_t height = camera->height + HEAD_PIXELS + FOOT_PIXELS;
         sheet->height = sheet->height < height ? height : sheet->height;
     }
-    sheet->width = sheet->width < LEAST_WIDTH ? LEAST_WIDTH : sheet->width;
+    sheet->width = sheet->width < MIN_WIDTH ? MIN_WIDTH : sheet->width;
     sheet->legend_y = sheet->height - 18;
     sheet->height += (legend_rows(sheet) - 1) * LEGEND_PIXELS;
     return TL_OK;

@@ -14,11 +14,11 @@
 // Square metres of triangles by direction; flat means no steeper than the agent's slope.
 typedef struct face_areas {
     double all;
-    double up, down;    // flat
-    double z_up;        // would be floors and ceilings with z as the up axis
-    double x_wall;      // the same with x
-    double mean_edge;   // metres: side of the mean triangle's square
-    double least_slope; // degrees, of the triangles that face up; 90 when none does
+    double up, down;  // flat
+    double z_up;      // would be floors and ceilings with z as the up axis
+    double x_wall;    // the same with x
+    double mean_edge; // metres: side of the mean triangle's square
+    double min_slope; // degrees, of the triangles that face up; 90 when none does
 } face_areas;
 
 static face_areas measure_faces(const tl_mesh_view *mesh, double max_slope)
@@ -26,7 +26,7 @@ static face_areas measure_faces(const tl_mesh_view *mesh, double max_slope)
     face_areas f = { 0, 0, 0, 0, 0, 0, 90 };
     const double degree = 3.14159265358979 / 180.0, flat = cos(max_slope * degree);
     const double upright = cos(30.0 * degree); // stricter: a steep slope is no wall
-    double most_up = 0.0;
+    double max_up = 0.0;
     for (uint32_t i = 0; i < mesh->triangle_count; ++i) {
         const uint32_t *t = &mesh->indices[3 * (size_t)i];
         const tl_vec3 a = mesh->vertices[t[0]], b = mesh->vertices[t[1]], c = mesh->vertices[t[2]];
@@ -42,10 +42,10 @@ static face_areas measure_faces(const tl_mesh_view *mesh, double max_slope)
         f.down += -ny >= flat * length ? area : 0.0;
         f.z_up += fabs(nz) >= upright * length ? area : 0.0;
         f.x_wall += fabs(nx) >= upright * length ? area : 0.0;
-        most_up = ny / length > most_up ? ny / length : most_up;
+        max_up = ny / length > max_up ? ny / length : max_up;
     }
     f.mean_edge = mesh->triangle_count > 0 ? sqrt(2.0 * f.all / mesh->triangle_count) : 0.0;
-    f.least_slope = acos(most_up < 1.0 ? most_up : 1.0) / degree;
+    f.min_slope = acos(max_up < 1.0 ? max_up : 1.0) / degree;
     return f;
 }
 
@@ -260,11 +260,11 @@ tl_level_doubt tl_level_explain_empty(const tl_cli *cli, const tl_level *level, 
     if (lies_on_its_side(&f, bounds) || (f.up <= 0.0 && f.z_up > 0.25 * f.all)) {
         return doubt_up_axis(&f, settings);
     }
-    if (f.up <= 0.0 && f.least_slope < 89.0) {
+    if (f.up <= 0.0 && f.min_slope < 89.0) {
         doubt.cause = "slope";
         snprintf(doubt.text, sizeof(doubt.text),
                  "all of it is too steep: its flattest triangle slopes %.3g degrees, --agent-max-slope is %.3g",
-                 f.least_slope, (double)def.agent_max_slope);
+                 f.min_slope, (double)def.agent_max_slope);
         return doubt;
     }
     if (!doubt_agent(cli, level, settings, &doubt) && !doubt_filtered(bake, 0.0, &doubt)) {

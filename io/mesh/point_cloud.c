@@ -12,7 +12,7 @@
 
 #include <string.h>
 
-enum { MOST_NUMBERS = 3, MAX_QUOTED_WORD_BYTES = 32 };
+enum { MAX_NUMBERS = 3, MAX_QUOTED_WORD_BYTES = 32 };
 
 typedef enum text_kind { TEXT_UNKNOWN, TEXT_POINTS, TEXT_CLOUDS } text_kind;
 
@@ -28,7 +28,7 @@ typedef struct cloud_reader {
 
 // A line taken apart.
 typedef struct number_line {
-    float numbers[MOST_NUMBERS];
+    float numbers[MAX_NUMBERS];
     uint32_t count;
     const char *first; // the first number's text
     const char *first_end;
@@ -118,7 +118,7 @@ static tl_result read_numbers(cloud_reader *reader, const char *at, const char *
         if (!isfinite(value)) {
             return fail_word(reader, TL_ERR_RANGE, at, "is beyond the largest float", "check the file's unit");
         }
-        if (line->count == MOST_NUMBERS) {
+        if (line->count == MAX_NUMBERS) {
             return fail_word(reader, TL_ERR_FORMAT, at, "is a number too many",
                              "a point is x y z, a cloud begins with N");
         }

@@ -122,7 +122,7 @@ static void unlink_corner(tl_split_corner *ring, uint32_t i)
 static bool clip_ears(tl_split_corner *ring, const uint32_t *corners, uint32_t count, uint32_t *triangles)
 {
     uint64_t tests = 0;
-    uint64_t most_tests = (uint64_t)TESTS_PER_CORNER_PAIR * count * count;
+    uint64_t max_tests = (uint64_t)TESTS_PER_CORNER_PAIR * count * count;
     uint32_t at = 0;
     uint32_t failed = 0;
     for (uint32_t left = count; left > 2;) {
@@ -131,7 +131,7 @@ static bool clip_ears(tl_split_corner *ring, const uint32_t *corners, uint32_t c
         if (left > 3 && !straight && !is_ear(ring, at, &tests)) {
             at = ring[at].next;
             failed++;
-            if (failed >= 2 * left || tests > most_tests) {
+            if (failed >= 2 * left || tests > max_tests) {
                 return false;
             }
             continue;

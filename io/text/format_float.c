@@ -10,7 +10,7 @@
 #include <math.h>
 
 enum {
-    MOST_DIGITS = 9,
+    MAX_DIGITS = 9,
     PLAIN_MIN = -5, // exponents of the leading digit that are written without "e"
     PLAIN_MAX = 15,
 };
@@ -46,7 +46,7 @@ static uint32_t shortest(float value, int *exponent10)
             *exponent10 = -scale;
             return significand;
         }
-        assert(digits < MOST_DIGITS);
+        assert(digits < MAX_DIGITS);
     }
 }
 

@@ -72,7 +72,7 @@ static void sample_direction(direction_search *s, tl_vec3d direction, cone_corne
     s->steps++;
 }
 
-static double least_of_three(double a, double b, double c)
+static double min_of_three(double a, double b, double c)
 {
     return fmin(a, fmin(b, c));
 }
@@ -86,7 +86,7 @@ static double mix_two(const double a[3], const double b[3])
         double da = a[j] - a[k], db = b[k] - b[j], sum = da + db;
         if (da * db > 0.0) {
             double t = db / sum, u = da / sum;
-            best = fmax(best, least_of_three(t * a[0] + u * b[0], t * a[1] + u * b[1], t * a[2] + u * b[2]));
+            best = fmax(best, min_of_three(t * a[0] + u * b[0], t * a[1] + u * b[1], t * a[2] + u * b[2]));
         }
     }
     return best;
@@ -122,12 +122,12 @@ static bool is_proven(const direction_cone *c, double limit, game *g)
         for (int j = 0; j < 3; j++) {
             g->m[i][j] = tl_vec3d_dot(c->corners[i].point, c->corners[j].direction);
         }
-        if (least_of_three(g->m[i][0], g->m[i][1], g->m[i][2]) >= limit) {
+        if (min_of_three(g->m[i][0], g->m[i][1], g->m[i][2]) >= limit) {
             return true;
         }
     }
     find_facet(c, g);
-    return (g->has_facet && least_of_three(g->facet[0], g->facet[1], g->facet[2]) >= limit) ||
+    return (g->has_facet && min_of_three(g->facet[0], g->facet[1], g->facet[2]) >= limit) ||
            mix_two(g->m[0], g->m[1]) >= limit || mix_two(g->m[1], g->m[2]) >= limit ||
            mix_two(g->m[2], g->m[0]) >= limit;
 }

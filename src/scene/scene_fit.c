@@ -36,7 +36,7 @@ void tl_scene_set_lane(tl_scene *scene, uint32_t lane, tl_aabb box, uint32_t mas
     node->mask[i] = mask;
 }
 
-static float least_of_eight(const float *eight)
+static float min_of_eight(const float *eight)
 {
     float a = tl_minf(tl_minf(eight[0], eight[1]), tl_minf(eight[2], eight[3]));
     return tl_minf(a, tl_minf(tl_minf(eight[4], eight[5]), tl_minf(eight[6], eight[7])));
@@ -51,7 +51,7 @@ static float largest_of_eight(const float *eight)
 // Around all children.
 static tl_aabb box_of_children(const tl_scene_node *node, uint32_t *mask_out)
 {
-    tl_aabb box = { { least_of_eight(node->plane[0]), least_of_eight(node->plane[2]), least_of_eight(node->plane[4]) },
+    tl_aabb box = { { min_of_eight(node->plane[0]), min_of_eight(node->plane[2]), min_of_eight(node->plane[4]) },
                     { largest_of_eight(node->plane[1]), largest_of_eight(node->plane[3]),
                       largest_of_eight(node->plane[5]) } };
     *mask_out = 0;

@@ -12,7 +12,7 @@
 #include <float.h>
 #include <string.h>
 
-enum { MOST = 64 };
+enum { CAPACITY = 64 };
 
 typedef struct input {
     const char *name;
@@ -180,7 +180,7 @@ static tl_result ask(const input *in, const tl_vec3 *points, int way)
 {
     tl_hull_def def = tl_default_hull_def();
     def.flatness = way == 1 ? 0.0f : def.flatness;
-    def.thickness = way == 2 ? 0.25f * largest_size(points, in->count < MOST ? in->count : MOST) : 0.0f;
+    def.thickness = way == 2 ? 0.25f * largest_size(points, in->count < CAPACITY ? in->count : CAPACITY) : 0.0f;
     tl_hull *hull;
     tl_hull_report report;
     tl_result result = tl_hull_bake(points, in->count, &def, &hull, &report);
@@ -209,11 +209,11 @@ static char *read_doc(void)
 static void test_degenerate_input_has_a_name(void **state)
 {
     (void)state;
-    tl_vec3 points[MOST];
+    tl_vec3 points[CAPACITY];
     char *doc = read_doc();
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++) {
         const input *in = &inputs[i];
-        in->make(points, in->count < MOST ? in->count : MOST);
+        in->make(points, in->count < CAPACITY ? in->count : CAPACITY);
         char line[256];
         int length = snprintf(line, sizeof line, "| %s |", in->name);
         for (int way = 0; way < 3; way++) {

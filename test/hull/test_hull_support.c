@@ -38,7 +38,7 @@ typedef struct coverage {
     uint64_t queries, wrong, ties, good_hints, scanned;
     uint64_t shape[SHAPE_COUNT + 1], size[SIZE_COUNT], offset[OFFSET_COUNT], direction[DIRECTION_KINDS],
         hint[HINT_KINDS], isa[TL_SUPPORT_ISA_COUNT + 1];
-    uint32_t hulls, least_vertices, most_vertices;
+    uint32_t hulls, min_vertices, max_vertices;
 } coverage;
 
 // The scan in double: products of floats are exact, so only two sums are rounded. What they leave open is compared
@@ -136,8 +136,8 @@ static void query(const tl_hull *hull, test_random *random, uint64_t count, cove
         last = kind == DIRECTION_EXTREME ? last : d;
     }
     seen->hulls++;
-    seen->least_vertices = hull->vertex_count < seen->least_vertices ? hull->vertex_count : seen->least_vertices;
-    seen->most_vertices = hull->vertex_count > seen->most_vertices ? hull->vertex_count : seen->most_vertices;
+    seen->min_vertices = hull->vertex_count < seen->min_vertices ? hull->vertex_count : seen->min_vertices;
+    seen->max_vertices = hull->vertex_count > seen->max_vertices ? hull->vertex_count : seen->max_vertices;
 }
 
 static void query_points(tl_vec3 *points, uint32_t count, uint32_t shape, uint32_t size, uint32_t offset,
@@ -214,7 +214,7 @@ static void print_coverage(const coverage *seen)
     static const char *const hints[HINT_KINDS] = { "none", "the last answer", "any number" };
     static const char *const isas[TL_SUPPORT_ISA_COUNT + 1] = { "scalar", "SSE4.2", "AVX2", "the machine's best" };
     print_message("%llu queries, %llu wrong; %u hulls of %u to %u vertices\n", (unsigned long long)seen->queries,
-                  (unsigned long long)seen->wrong, seen->hulls, seen->least_vertices, seen->most_vertices);
+                  (unsigned long long)seen->wrong, seen->hulls, seen->min_vertices, seen->max_vertices);
     print_message("  %llu scanned, the others climbed; %llu with several farthest vertices; %llu right hints\n",
                   (unsigned long long)seen->scanned, (unsigned long long)seen->ties,
                   (unsigned long long)seen->good_hints);
@@ -243,7 +243,7 @@ static void test_support_is_exact_on_all_shapes(void **state)
     (void)state;
     coverage seen;
     memset(&seen, 0, sizeof seen);
-    seen.least_vertices = UINT32_MAX;
+    seen.min_vertices = UINT32_MAX;
     query_data(&seen);
     query_shapes(&seen);
     print_coverage(&seen);

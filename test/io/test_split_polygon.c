@@ -114,13 +114,13 @@ static void test_random_polygons(void **state)
     uint32_t clipped = 0;
     uint32_t fans = 0;
     for (int i = 0; i < 3000; i++) {
-        enum { MOST = 40 };
+        enum { CAPACITY = 40 };
         static const float circle[8][2] = { { 1, 0 },  { 0.7f, 0.7f },   { 0, 1 },  { -0.7f, 0.7f },
                                             { -1, 0 }, { -0.7f, -0.7f }, { 0, -1 }, { 0.7f, -0.7f } };
-        tl_vec3 vertices[MOST];
-        uint32_t corners[MOST];
-        uint32_t triangles[(MOST - 2) * 3];
-        tl_split_corner scratch[MOST];
+        tl_vec3 vertices[CAPACITY];
+        uint32_t corners[CAPACITY];
+        uint32_t triangles[(CAPACITY - 2) * 3];
+        tl_split_corner scratch[CAPACITY];
         uint32_t count = 0;
         // Points around the origin in order of angle, at random distances.
         for (uint32_t k = 0; k < 8; k++) {

@@ -8,11 +8,11 @@
 #include <string.h>
 #include <talus/mesh.h>
 
-enum { MOST_VERTICES = 512, MOST_TRIANGLES = 512 };
+enum { MAX_VERTICES = 512, MAX_TRIANGLES = 512 };
 
 typedef struct scene {
-    tl_vec3 vertices[MOST_VERTICES];
-    uint32_t indices[3 * MOST_TRIANGLES];
+    tl_vec3 vertices[MAX_VERTICES];
+    uint32_t indices[3 * MAX_TRIANGLES];
     uint32_t vertex_count, triangle_count;
 } scene;
 
@@ -24,14 +24,14 @@ static uint32_t vertex(scene *s, float x, float y, float z)
             return i;
         }
     }
-    TEST_CHECK(s->vertex_count < MOST_VERTICES);
+    TEST_CHECK(s->vertex_count < MAX_VERTICES);
     s->vertices[s->vertex_count] = tl_vec3_make(x, y, z);
     return s->vertex_count++;
 }
 
 static void triangle(scene *s, uint32_t a, uint32_t b, uint32_t c)
 {
-    TEST_CHECK(s->triangle_count < MOST_TRIANGLES);
+    TEST_CHECK(s->triangle_count < MAX_TRIANGLES);
     uint32_t *corner = s->indices + 3 * s->triangle_count++;
     corner[0] = a;
     corner[1] = b;
@@ -161,7 +161,7 @@ static void random_soups_follow_the_rule(void **state)
                 }
             }
         }
-        uint32_t part[MOST_TRIANGLES];
+        uint32_t part[MAX_TRIANGLES];
         for (uint32_t t = 0; t < s.triangle_count; t++) {
             part[t] = t;
         }

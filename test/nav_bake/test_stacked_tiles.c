@@ -12,7 +12,7 @@
 #include <talus/nav_prepare.h>
 #include <talus/nav_wide.h>
 
-enum { MOST_LINKS = 256, PAIRS = 60 };
+enum { MAX_LINKS = 256, PAIRS = 60 };
 
 // ---------------------------------------------------------------------------------------------------------
 // Two navmeshes and which polygon of the one is which of the other.
@@ -175,11 +175,11 @@ static uint32_t check_links(const pair_of_meshes *p)
     TEST_CHECK(tl_navmesh_link_count(p->mesh[0]) == tl_navmesh_link_count(p->mesh[1]));
     for (uint32_t s = 0; s < p->tiles[0].tile_count; s++) {
         for (uint32_t q = 0; q < p->tiles[0].tiles[s]->polygon_count; q++) {
-            tl_nav_link links[2][MOST_LINKS];
+            tl_nav_link links[2][MAX_LINKS];
             uint32_t count[2];
             const tl_nav_ref ref = tl_navmesh_polygon_ref(p->mesh[0], s, q), twin = twin_ref(p, 0, ref);
-            TEST_RESULT(tl_navmesh_links(p->mesh[0], ref, links[0], MOST_LINKS, &count[0]), TL_OK);
-            TEST_RESULT(tl_navmesh_links(p->mesh[1], twin, links[1], MOST_LINKS, &count[1]), TL_OK);
+            TEST_RESULT(tl_navmesh_links(p->mesh[0], ref, links[0], MAX_LINKS, &count[0]), TL_OK);
+            TEST_RESULT(tl_navmesh_links(p->mesh[1], twin, links[1], MAX_LINKS, &count[1]), TL_OK);
             TEST_CHECK(count[0] == count[1]);
             for (uint32_t i = 0; i < count[0]; i++) {
                 const tl_nav_link *a = &links[0][i];
@@ -429,11 +429,11 @@ static uint32_t check_against_fresh(const tl_navmesh *edited, const pair_of_mesh
             other++;
         }
         for (uint32_t q = 0; q < tile->polygon_count; q++) {
-            tl_nav_link links[2][MOST_LINKS];
+            tl_nav_link links[2][MAX_LINKS];
             uint32_t count[2], islands[2][2];
             for (int m = 0; m < 2; m++) {
                 const tl_nav_ref ref = tl_navmesh_polygon_ref(meshes[m], m == 0 ? s : other, q);
-                TEST_RESULT(tl_navmesh_links(meshes[m], ref, links[m], MOST_LINKS, &count[m]), TL_OK);
+                TEST_RESULT(tl_navmesh_links(meshes[m], ref, links[m], MAX_LINKS, &count[m]), TL_OK);
                 TEST_RESULT(tl_navmesh_island(meshes[m], ref, &islands[m][0]), TL_OK);
             }
             TEST_CHECK(count[0] == count[1]);

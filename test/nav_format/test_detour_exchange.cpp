@@ -17,7 +17,7 @@ namespace
 {
 
 const tl_vec3 EXTENTS = { 2.0f, 4.0f, 2.0f };
-enum { PAIRS = 1000, MOST_POLYGONS = 2048 };
+enum { PAIRS = 1000, MAX_POLYGONS = 2048 };
 
 struct detour_side {
     std::unique_ptr<dtNavMesh, detour_deleter> mesh{ dtAllocNavMesh() };
@@ -114,7 +114,7 @@ answer ask(const detour_side &side, tl_vec3 start, tl_vec3 goal)
 {
     dtQueryFilter filter;
     dtPolyRef from = 0, to = 0;
-    std::vector<dtPolyRef> polygons(MOST_POLYGONS);
+    std::vector<dtPolyRef> polygons(MAX_POLYGONS);
     float near_start[3], near_goal[3];
     side.query->findNearestPoly(&start.x, &EXTENTS.x, &filter, &from, near_start);
     side.query->findNearestPoly(&goal.x, &EXTENTS.x, &filter, &to, near_goal);
@@ -122,11 +122,11 @@ answer ask(const detour_side &side, tl_vec3 start, tl_vec3 goal)
     if (found.on_mesh) {
         int corners = 0;
         side.query->findPath(from, to, near_start, near_goal, &filter, polygons.data(), &found.polygon_count,
-                             MOST_POLYGONS);
+                             MAX_POLYGONS);
         found.complete = found.polygon_count > 0 && polygons[(size_t)found.polygon_count - 1] == to;
-        found.corners.resize(MOST_POLYGONS);
+        found.corners.resize(MAX_POLYGONS);
         side.query->findStraightPath(near_start, near_goal, polygons.data(), found.polygon_count, &found.corners[0].x,
-                                     nullptr, nullptr, &corners, MOST_POLYGONS);
+                                     nullptr, nullptr, &corners, MAX_POLYGONS);
         found.corners.resize((size_t)corners);
     }
     return found;
@@ -233,9 +233,9 @@ void talus_answers_in_detour(void **)
                 side.query->findRandomPoint(&filter, unit, &ref, &start.x);
                 side.query->findRandomPoint(&filter, unit, &ref, &goal.x);
                 answer theirs = ask(side, start, goal);
-                std::vector<tl_nav_ref> polygons(MOST_POLYGONS);
-                std::vector<tl_nav_corner> corners(MOST_POLYGONS);
-                tl_nav_path_buffers buffers = { polygons.data(), MOST_POLYGONS, corners.data(), MOST_POLYGONS };
+                std::vector<tl_nav_ref> polygons(MAX_POLYGONS);
+                std::vector<tl_nav_corner> corners(MAX_POLYGONS);
+                tl_nav_path_buffers buffers = { polygons.data(), MAX_POLYGONS, corners.data(), MAX_POLYGONS };
                 tl_nav_route route;
                 const tl_nav_route_request request = { nullptr, start, goal, EXTENTS };
                 TEST_RESULT(tl_nav_query_find_route(query.get(), made, &request, &buffers, &route), TL_OK);

@@ -11,11 +11,11 @@
 #include <talus/nav_bake.h>
 #include <talus/nav_links.h>
 
-enum { MOST_BOXES = 8 };
+enum { MAX_BOXES = 8 };
 
 typedef struct box_level {
-    tl_vec3 vertices[8 * MOST_BOXES];
-    uint32_t indices[36 * MOST_BOXES];
+    tl_vec3 vertices[8 * MAX_BOXES];
+    uint32_t indices[36 * MAX_BOXES];
     uint32_t count;
 } box_level;
 

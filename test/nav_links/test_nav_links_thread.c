@@ -8,15 +8,15 @@
 
 #include "nav_readers.h"
 
-enum { EDITS = 1000, MOST_OBSTACLES = 10, MOST_LINKS = 20, MOST_POLYGONS = 4096 };
+enum { EDITS = 1000, MAX_OBSTACLES = 10, MAX_LINKS = 20, MAX_POLYGONS = 4096 };
 
 // What only the writer knows.
 typedef struct editor {
     shared_world *world;
     tl_nav_obstacles *obstacles;
-    tl_nav_obstacle_id crates[MOST_OBSTACLES];
-    tl_nav_offmesh offmesh[MOST_LINKS];
-    tl_nav_ref links[MOST_LINKS];
+    tl_nav_obstacle_id crates[MAX_OBSTACLES];
+    tl_nav_offmesh offmesh[MAX_LINKS];
+    tl_nav_ref links[MAX_LINKS];
     uint32_t crate_count, link_count;
     test_random random;
     uint64_t anchored, waiting, islands;
@@ -45,7 +45,7 @@ static void edit_crates(editor *e)
     crate.half_z = test_random_range(&e->random, 0.2f, 2.5f);
     crate.height = 1.5f;
     uint32_t which = e->crate_count > 0 ? test_random_below(&e->random, e->crate_count) : 0;
-    if (e->crate_count < MOST_OBSTACLES && test_random_below(&e->random, 2) == 0) {
+    if (e->crate_count < MAX_OBSTACLES && test_random_below(&e->random, 2) == 0) {
         TEST_RESULT(tl_nav_obstacles_add(e->obstacles, &crate, &e->crates[e->crate_count++], NULL), TL_OK);
     } else if (e->crate_count > 0) {
         TEST_RESULT(tl_nav_obstacles_remove(e->obstacles, e->crates[which]), TL_OK);
@@ -66,7 +66,7 @@ static void drop_tile(editor *e)
 static void edit_links(editor *e)
 {
     world_begin_write(e->world);
-    if (e->link_count < MOST_LINKS && (e->link_count < 8 || test_random_below(&e->random, 2) == 0)) {
+    if (e->link_count < MAX_LINKS && (e->link_count < 8 || test_random_below(&e->random, 2) == 0)) {
         tl_nav_offmesh *link = &e->offmesh[e->link_count];
         *link = tl_default_nav_offmesh();
         link->start = test_random_point(&e->random, tl_vec3_make(0, -0.1f, 0), tl_vec3_make(25, 4, 16));
@@ -87,7 +87,7 @@ static void edit_links(editor *e)
 // ---------------------------------------------------------------------------------------------------------
 // After each edit: the same as afresh. Only the writer changes anything, so it looks without the lock.
 
-static tl_navmesh *build_afresh(const editor *e, tl_nav_ref links_out[MOST_LINKS])
+static tl_navmesh *build_afresh(const editor *e, tl_nav_ref links_out[MAX_LINKS])
 {
     const tl_navmesh *navmesh = e->world->navmesh;
     tl_navmesh *fresh;
@@ -108,7 +108,7 @@ static tl_navmesh *build_afresh(const editor *e, tl_nav_ref links_out[MOST_LINKS
 }
 
 // Islands by tile place and polygon.
-static uint32_t list_islands(const tl_navmesh *navmesh, uint32_t islands[MOST_POLYGONS])
+static uint32_t list_islands(const tl_navmesh *navmesh, uint32_t islands[MAX_POLYGONS])
 {
     uint32_t count = 0;
     for (int32_t z = 0; z < 8; z++) {
@@ -119,7 +119,7 @@ static uint32_t list_islands(const tl_navmesh *navmesh, uint32_t islands[MOST_PO
                 slot++;
             }
             for (uint32_t p = 0; tile != NULL && p < tile->polygon_count; p++) {
-                TEST_CHECK(count < MOST_POLYGONS);
+                TEST_CHECK(count < MAX_POLYGONS);
                 TEST_RESULT(tl_navmesh_island(navmesh, tl_navmesh_polygon_ref(navmesh, slot, p), &islands[count++]),
                             TL_OK);
             }
@@ -130,8 +130,8 @@ static uint32_t list_islands(const tl_navmesh *navmesh, uint32_t islands[MOST_PO
 
 static void check_afresh(editor *e)
 {
-    static uint32_t own[MOST_POLYGONS], expected[MOST_POLYGONS];
-    tl_nav_ref links[MOST_LINKS];
+    static uint32_t own[MAX_POLYGONS], expected[MAX_POLYGONS];
+    tl_nav_ref links[MAX_LINKS];
     tl_navmesh *fresh = build_afresh(e, links);
     uint32_t count = list_islands(e->world->navmesh, own);
     TEST_CHECK(list_islands(fresh, expected) == count);

@@ -294,17 +294,17 @@ static void test_marks(void **state)
 static void test_random_edits(void **state)
 {
     (void)state;
-    enum { EDITS = 1000, MOST = 24 };
+    enum { EDITS = 1000, CAPACITY = 24 };
     world w, other;
     make_world(&w, NULL);
     make_world(&other, NULL);
-    tl_nav_obstacle there[MOST];
-    tl_nav_obstacle_id ids[MOST], other_ids[MOST];
+    tl_nav_obstacle there[CAPACITY];
+    tl_nav_obstacle_id ids[CAPACITY], other_ids[CAPACITY];
     uint32_t count = 0, added = 0, moved = 0, removed = 0, compared = 0;
     test_random random = { 3 };
     for (int edit = 0; edit < EDITS; edit++) {
         uint32_t what = test_random_below(&random, 3);
-        if (count == 0 || (what == 0 && count < MOST)) {
+        if (count == 0 || (what == 0 && count < CAPACITY)) {
             there[count] = random_obstacle(&random);
             TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &there[count], &ids[count], NULL), TL_OK);
             count++;

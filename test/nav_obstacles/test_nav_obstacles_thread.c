@@ -7,7 +7,7 @@
 
 #include "nav_readers.h"
 
-enum { EDITS = 1000, MOST_OBSTACLES = 12 };
+enum { EDITS = 1000, MAX_OBSTACLES = 12 };
 
 static float tile_height; // 0 at first
 
@@ -47,13 +47,13 @@ static void test_edits_under_readers(void **state)
     world_init(&world);
     world_settle(&world, obstacles);
     world_start_readers(&world);
-    tl_nav_obstacle_id ids[MOST_OBSTACLES];
+    tl_nav_obstacle_id ids[MAX_OBSTACLES];
     uint32_t count = 0;
     test_random random = { 5 };
     for (int edit = 0; edit < EDITS || atomic_load(&world.paths) < EDITS; edit++) {
         tl_nav_obstacle crate = random_crate(&random);
         uint32_t which = count > 0 ? test_random_below(&random, count) : 0;
-        if (count < MOST_OBSTACLES && test_random_below(&random, 2) == 0) {
+        if (count < MAX_OBSTACLES && test_random_below(&random, 2) == 0) {
             TEST_RESULT(tl_nav_obstacles_add(obstacles, &crate, &ids[count++], NULL), TL_OK);
         } else if (count > 0 && test_random_below(&random, 2) == 0) {
             TEST_RESULT(tl_nav_obstacles_remove(obstacles, ids[which]), TL_OK);

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <talus/nav_around.h>
 
-enum { MOST = 2048 };
+enum { CAPACITY = 2048 };
 
 typedef struct twin_entry {
     tl_vec3 point;
@@ -98,15 +98,15 @@ static twin_entry *twin_flood(const tl_navmesh *navmesh, const fixture_refs *all
 static void check_path(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_field_entry *entries,
                        uint32_t count, uint32_t entry, const tl_nav_location *start, double *ratio_sum)
 {
-    tl_nav_ref polygons[MOST];
-    tl_nav_corner corners[MOST];
+    tl_nav_ref polygons[CAPACITY];
+    tl_nav_corner corners[CAPACITY];
     uint32_t length = 0, corner_count = 0;
     float metres = 0.0f;
-    TEST_RESULT(tl_nav_field_path(entries, count, entry, polygons, MOST, &length), TL_OK);
+    TEST_RESULT(tl_nav_field_path(entries, count, entry, polygons, CAPACITY, &length), TL_OK);
     TEST_CHECK(polygons[0] == start->polygon && polygons[length - 1] == entries[entry].polygon);
     TEST_RESULT(tl_navmesh_straight_path(navmesh,
                                          &(tl_nav_polygon_path){ polygons, length, start->point, entries[entry].point },
-                                         corners, MOST, &corner_count, &metres),
+                                         corners, CAPACITY, &corner_count, &metres),
                 TL_OK);
     tl_nav_location goal = { entries[entry].polygon, entries[entry].point };
     tl_nav_shortest_path shortest;
@@ -150,9 +150,9 @@ static void test_fields(void **state)
                 field_of(used, i >= 4 ? &zone : NULL, i < 2 ? INFINITY : test_random_range(&random, 2.0f, 40.0f));
             bool close_call = false;
             twin_entry *twin = twin_flood(navmesh, &all, used, &start, field.max_cost, field.zone, &close_call);
-            tl_nav_field_entry entries[MOST];
+            tl_nav_field_entry entries[CAPACITY];
             uint32_t count = 0, expected = 0;
-            TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, entries, MOST, &count), TL_OK);
+            TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, entries, CAPACITY, &count), TL_OK);
             for (uint32_t k = 1; k < count; k++) {
                 TEST_CHECK(entries[k - 1].polygon < entries[k].polygon);
             }
@@ -170,10 +170,10 @@ static void test_fields(void **state)
             }
             TEST_CHECK(close_call || expected == count);
             // As they were found: the same ones, the start's first.
-            tl_nav_field_entry found[MOST];
+            tl_nav_field_entry found[CAPACITY];
             uint32_t found_count = 0;
             field.by_reference = false;
-            TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, found, MOST, &found_count), TL_OK);
+            TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, found, CAPACITY, &found_count), TL_OK);
             TEST_CHECK(found_count == count && found[0].polygon == start.polygon && found[0].parent == UINT32_MAX);
             for (uint32_t k = 0; k < count; k++) {
                 uint32_t at = tl_nav_field_find(entries, count, found[k].polygon);
@@ -243,7 +243,7 @@ static void test_reachable_areas(void **state)
     TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
     static uint64_t bits[2 * POINTS];
     static tl_nav_location points[POINTS];
-    static tl_nav_field_entry entries[MOST];
+    static tl_nav_field_entry entries[CAPACITY];
     uint32_t partial = 0, whole = 0;
     for (uint32_t round = 0; round < 60; round++) {
         fixture_level level = fixture_random(&random, round % 6, 7);
@@ -255,7 +255,7 @@ static void test_reachable_areas(void **state)
         tl_nav_zone zone = tl_nav_zone_circle(center.point, radius);
         tl_nav_field_def field = field_of(NULL, &zone, radius);
         uint32_t count = 0;
-        TEST_RESULT(tl_nav_query_flood(query, navmesh, &center, &field, entries, MOST, &count), TL_OK);
+        TEST_RESULT(tl_nav_query_flood(query, navmesh, &center, &field, entries, CAPACITY, &count), TL_OK);
         for (uint32_t i = 0; i < POINTS; i++) {
             bits[2 * i] = (uint64_t)i * (UINT64_MAX / POINTS);
             bits[2 * i + 1] = test_random_u64(&random);
@@ -310,9 +310,9 @@ static void test_reachable(void **state)
         float radius = test_random_range(&random, 1.5f, 9.0f);
         tl_nav_zone zone = tl_nav_zone_circle(center.point, radius);
         tl_nav_field_def field = field_of(NULL, &zone, radius);
-        tl_nav_field_entry entries[MOST];
+        tl_nav_field_entry entries[CAPACITY];
         uint32_t count = 0, kept = 0, expected[SECTORS] = { 0 }, met[SECTORS] = { 0 };
-        TEST_RESULT(tl_nav_query_flood(query, navmesh, &center, &field, entries, MOST, &count), TL_OK);
+        TEST_RESULT(tl_nav_query_flood(query, navmesh, &center, &field, entries, CAPACITY, &count), TL_OK);
         for (uint32_t i = 0; i < 40 * DRAWS && kept < DRAWS; i++) {
             const uint64_t bits[2] = { test_random_u64(&random), test_random_u64(&random) };
             tl_nav_location at;

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { TILES = 5, MOST_LINKS = 12 };
+enum { TILES = 5, MAX_LINKS = 12 };
 
 static uint32_t times = 1;
 
@@ -17,7 +17,7 @@ typedef struct edited {
     fixture_level level;
     tl_navmesh *navmesh;
     bool present[TILES][TILES];
-    tl_nav_ref links[MOST_LINKS];
+    tl_nav_ref links[MAX_LINKS];
     uint32_t link_count;
 } edited;
 
@@ -128,7 +128,7 @@ static void check_paths(const edited *e, tl_nav_query *query, test_random *rando
 // A link between two random places, or away with one. Some ends stand on nothing until a tile comes.
 static void toggle_link(edited *e, test_random *random)
 {
-    if (e->link_count == MOST_LINKS || (e->link_count > 0 && test_random_below(random, 2) == 0)) {
+    if (e->link_count == MAX_LINKS || (e->link_count > 0 && test_random_below(random, 2) == 0)) {
         uint32_t i = test_random_below(random, e->link_count);
         TEST_RESULT(tl_navmesh_remove_offmesh(e->navmesh, e->links[i]), TL_OK);
         e->links[i] = e->links[--e->link_count];

@@ -6,14 +6,14 @@
 
 #include "nav_query/navmesh/nav_filter.h"
 
-enum { MOST_POLYGONS = 512 };
+enum { MAX_POLYGONS = 512 };
 
 // Refuses polygons by their number, as flags cannot; counts its calls.
 typedef struct rule {
     uint32_t calls;
 } rule;
 
-static bool pass_most(const tl_nav_tile *tile, uint32_t polygon, void *user)
+static bool pass_max(const tl_nav_tile *tile, uint32_t polygon, void *user)
 {
     ((rule *)user)->calls++;
     return fixture_hash((uint64_t)(uint32_t)(tile->tile_x * 64 + tile->tile_z), polygon) % 5 != 0;
@@ -37,10 +37,10 @@ static float cost_or_refuse(const tl_nav_tile *tile, uint32_t polygon, tl_vec3 f
     static const float no[] = { -1.0f, INFINITY, NAN };
     (void)from;
     (void)to;
-    return pass_most(tile, polygon, user) ? cost : no[polygon % 3];
+    return pass_max(tile, polygon, user) ? cost : no[polygon % 3];
 }
 
-// What hangs together over links, through polygons that pass_most lets through.
+// What hangs together over links, through polygons that pass_max lets through.
 static bool is_reachable(const tl_navmesh *navmesh, const fixture_refs *all, uint32_t from, uint32_t to, rule *r)
 {
     bool *reached = calloc(all->count, sizeof *reached);
@@ -55,7 +55,7 @@ static bool is_reachable(const tl_navmesh *navmesh, const fixture_refs *all, uin
             const tl_nav_tile *tile = NULL;
             uint32_t polygon = 0, index = fixture_index_of(all, links[k].to);
             TEST_RESULT(tl_navmesh_resolve(navmesh, links[k].to, &tile, &polygon), TL_OK);
-            if (!reached[index] && pass_most(tile, polygon, r)) {
+            if (!reached[index] && pass_max(tile, polygon, r)) {
                 reached[index] = true;
                 queue[count++] = index;
             }
@@ -84,7 +84,7 @@ static void test_functions(void **state)
         for (uint32_t i = 0; i < 10; i++) {
             tl_nav_location start = fixture_random_location(navmesh, &all, &random);
             tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
-            tl_nav_ref polygons[2][MOST_POLYGONS];
+            tl_nav_ref polygons[2][MAX_POLYGONS];
             tl_nav_path path, twin;
             rule r = { 0 };
             tl_nav_filter filter = tl_default_nav_filter();
@@ -92,16 +92,16 @@ static void test_functions(void **state)
             // A function that refuses: over the flags' head, exact and by A*.
             bool reachable = is_reachable(navmesh, &all, fixture_index_of(&all, start.polygon),
                                           fixture_index_of(&all, goal.polygon), &r);
-            filter.pass = pass_most;
+            filter.pass = pass_max;
             TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal },
-                                               polygons[0], MOST_POLYGONS, &path),
+                                               polygons[0], MAX_POLYGONS, &path),
                         TL_OK);
             TEST_CHECK((path.status == TL_NAV_PATH_COMPLETE) == reachable);
             for (uint32_t k = 1; k < path.polygon_count; k++) {
                 const tl_nav_tile *tile = NULL;
                 uint32_t polygon = 0;
                 TEST_RESULT(tl_navmesh_resolve(navmesh, polygons[0][k], &tile, &polygon), TL_OK);
-                TEST_CHECK(pass_most(tile, polygon, &r));
+                TEST_CHECK(pass_max(tile, polygon, &r));
             }
             complete += reachable;
             refused += !reachable;
@@ -111,7 +111,7 @@ static void test_functions(void **state)
             filter.cost = cost_by_area;
             r.calls = 0;
             TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal },
-                                               polygons[0], MOST_POLYGONS, &path),
+                                               polygons[0], MAX_POLYGONS, &path),
                         TL_OK);
             TEST_CHECK(r.calls > 0 || path.node_count == 0);
             filter.cost = NULL;
@@ -119,7 +119,7 @@ static void test_functions(void **state)
                 filter.area_cost[area] = cost_of_area(area);
             }
             TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal },
-                                               polygons[1], MOST_POLYGONS, &twin),
+                                               polygons[1], MAX_POLYGONS, &twin),
                         TL_OK);
             TEST_CHECK(path.status == twin.status && path.cost == twin.cost && path.node_count == twin.node_count);
             TEST_CHECK(path.polygon_count == twin.polygon_count &&
@@ -132,9 +132,9 @@ static void test_functions(void **state)
             const tl_nav_tile *tile = NULL;
             uint32_t polygon = 0;
             TEST_RESULT(tl_navmesh_resolve(navmesh, start.polygon, &tile, &polygon), TL_OK);
-            start_passes = pass_most(tile, polygon, &r);
+            start_passes = pass_max(tile, polygon, &r);
             TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal },
-                                               polygons[1], MOST_POLYGONS, &twin),
+                                               polygons[1], MAX_POLYGONS, &twin),
                         TL_OK);
             TEST_CHECK((twin.status == TL_NAV_PATH_COMPLETE) == (reachable && start_passes));
         }

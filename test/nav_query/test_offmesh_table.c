@@ -7,14 +7,14 @@
 
 #include <math.h>
 
-enum { TILES = 4, MOST_LINKS = 24, EDITS = 1000 };
+enum { TILES = 4, MAX_LINKS = 24, EDITS = 1000 };
 
 typedef struct edited {
     fixture_level level;
     tl_navmesh *navmesh;
     bool present[TILES][TILES];
-    tl_nav_ref links[MOST_LINKS];
-    tl_nav_offmesh offmesh[MOST_LINKS];
+    tl_nav_ref links[MAX_LINKS];
+    tl_nav_offmesh offmesh[MAX_LINKS];
     uint32_t link_count;
 } edited;
 
@@ -38,7 +38,7 @@ static tl_nav_offmesh random_link(const edited *e, test_random *random)
 
 static void edit_links(edited *e, test_random *random)
 {
-    if (e->link_count < MOST_LINKS && (e->link_count < 6 || test_random_below(random, 2) == 0)) {
+    if (e->link_count < MAX_LINKS && (e->link_count < 6 || test_random_below(random, 2) == 0)) {
         e->offmesh[e->link_count] = random_link(e, random);
         TEST_RESULT(tl_navmesh_add_offmesh(e->navmesh, &e->offmesh[e->link_count], &e->links[e->link_count]), TL_OK);
         e->link_count++;
@@ -53,7 +53,7 @@ static void edit_links(edited *e, test_random *random)
 }
 
 // Tiles in row order, links afterwards.
-static tl_navmesh *build_afresh(const edited *e, tl_nav_ref links_out[MOST_LINKS])
+static tl_navmesh *build_afresh(const edited *e, tl_nav_ref links_out[MAX_LINKS])
 {
     tl_navmesh *navmesh = NULL;
     TEST_RESULT(tl_navmesh_create(NULL, &navmesh), TL_OK);
@@ -73,7 +73,7 @@ static tl_navmesh *build_afresh(const edited *e, tl_nav_ref links_out[MOST_LINKS
 
 static void check_links(const edited *e, coverage *seen)
 {
-    tl_nav_ref links[MOST_LINKS];
+    tl_nav_ref links[MAX_LINKS];
     tl_navmesh *fresh = build_afresh(e, links);
     TEST_CHECK(tl_navmesh_offmesh_count(e->navmesh) == e->link_count);
     TEST_CHECK(tl_navmesh_link_count(e->navmesh) == tl_navmesh_link_count(fresh));

@@ -5,11 +5,11 @@
 
 #include "nav_fixture.h"
 
-enum { MOST_POLYGONS = 512 };
+enum { MAX_POLYGONS = 512 };
 
 typedef struct answer {
     tl_nav_path path;
-    tl_nav_ref polygons[MOST_POLYGONS];
+    tl_nav_ref polygons[MAX_POLYGONS];
 } answer;
 
 static answer find_at_once(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
@@ -18,7 +18,7 @@ static answer find_at_once(tl_nav_query *query, const tl_navmesh *navmesh, const
     answer a;
     memset(&a, 0, sizeof a);
     TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ filter, *start, *goal }, a.polygons,
-                                       MOST_POLYGONS, &a.path),
+                                       MAX_POLYGONS, &a.path),
                 TL_OK);
     return a;
 }
@@ -96,7 +96,7 @@ static void test_all_slices(void **state)
                             TL_OK);
                 do {
                     answer part;
-                    TEST_RESULT(tl_nav_query_write_path(query, part.polygons, MOST_POLYGONS, &part.path), TL_OK);
+                    TEST_RESULT(tl_nav_query_write_path(query, part.polygons, MAX_POLYGONS, &part.path), TL_OK);
                     if (slice == 1) {
                         check_chain(navmesh, &part, &start);
                         if (part.path.status == TL_NAV_PATH_UNFINISHED) {
@@ -109,7 +109,7 @@ static void test_all_slices(void **state)
                     steps++;
                 } while (progress.status == TL_NAV_PATH_UNFINISHED);
                 answer cut;
-                TEST_RESULT(tl_nav_query_write_path(query, cut.polygons, MOST_POLYGONS, &cut.path), TL_OK);
+                TEST_RESULT(tl_nav_query_write_path(query, cut.polygons, MAX_POLYGONS, &cut.path), TL_OK);
                 TEST_CHECK(progress.status == cut.path.status && same_answer(&whole, &cut));
                 pieces += steps;
                 needed = slice == 1 ? steps : needed;
@@ -171,7 +171,7 @@ static void test_edits(void **state)
             }
         } while (progress.status == TL_NAV_PATH_UNFINISHED);
         answer cut;
-        TEST_RESULT(tl_nav_query_write_path(query, cut.polygons, MOST_POLYGONS, &cut.path), TL_OK);
+        TEST_RESULT(tl_nav_query_write_path(query, cut.polygons, MAX_POLYGONS, &cut.path), TL_OK);
         if (progress.status == TL_NAV_PATH_STALE) {
             TEST_CHECK(edits > 0 && cut.path.status == TL_NAV_PATH_STALE && cut.path.polygon_count == 0);
             stale_near += abs(progress.tile_x - x) + abs(progress.tile_z - z) <= 1;

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { MOST = 512 };
+enum { CAPACITY = 512 };
 
 static float area_cost(uint32_t area)
 {
@@ -91,15 +91,15 @@ static void test_paths(void **state)
         for (uint32_t i = 0; i < 12; i++) {
             tl_nav_location start = fixture_random_location(navmesh, &all, &random);
             tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
-            tl_nav_ref polygons[MOST];
-            tl_nav_corner corners[MOST];
-            tl_nav_trace_point points[MOST], few[MOST];
+            tl_nav_ref polygons[CAPACITY];
+            tl_nav_corner corners[CAPACITY];
+            tl_nav_trace_point points[CAPACITY], few[CAPACITY];
             uint32_t polygon_count = 0, corner_count = 0, count = 0, few_count = 0;
             float cost = 0.0f, length = 0.0f;
             if (i % 3 == 0) {
                 tl_nav_path path;
                 TEST_RESULT(tl_nav_query_find_path(query, navmesh, &(tl_nav_path_request){ &filter, start, goal },
-                                                   polygons, MOST, &path),
+                                                   polygons, CAPACITY, &path),
                             TL_OK);
                 if (path.status != TL_NAV_PATH_COMPLETE) {
                     continue;
@@ -107,14 +107,14 @@ static void test_paths(void **state)
                 polygon_count = path.polygon_count;
                 TEST_RESULT(tl_navmesh_straight_path(
                                 navmesh, &(tl_nav_polygon_path){ polygons, polygon_count, start.point, goal.point },
-                                corners, MOST, &corner_count, &length),
+                                corners, CAPACITY, &corner_count, &length),
                             TL_OK);
                 paths++;
             } else if (i % 3 == 1) {
                 tl_nav_shortest_path path;
-                TEST_RESULT(tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal },
-                                                            &(tl_nav_path_buffers){ polygons, MOST, corners, MOST },
-                                                            &path),
+                TEST_RESULT(tl_nav_query_find_shortest_path(
+                                query, navmesh, &(tl_nav_path_request){ NULL, start, goal },
+                                &(tl_nav_path_buffers){ polygons, CAPACITY, corners, CAPACITY }, &path),
                             TL_OK);
                 if (path.status != TL_NAV_PATH_COMPLETE) {
                     continue;
@@ -124,7 +124,7 @@ static void test_paths(void **state)
                 exact++;
             } else {
                 tl_nav_ray_hit hit;
-                TEST_RESULT(tl_navmesh_cast_ray(navmesh, NULL, &start, goal.point, polygons, MOST, &hit), TL_OK);
+                TEST_RESULT(tl_navmesh_cast_ray(navmesh, NULL, &start, goal.point, polygons, CAPACITY, &hit), TL_OK);
                 polygon_count = hit.polygon_count;
                 tl_nav_corner ends[2] = { { start.point, start.polygon, TL_NAV_CORNER_START, TL_NAV_NO_REF },
                                           { hit.point, hit.polygon, TL_NAV_CORNER_END, TL_NAV_NO_REF } };
@@ -135,14 +135,14 @@ static void test_paths(void **state)
             TEST_RESULT(tl_navmesh_trace_path(navmesh,
                                               &(tl_nav_trace_request){ &filter, polygons, polygon_count, corners,
                                                                        corner_count, TL_NAV_CORNER_CROSSING },
-                                              points, MOST, &count, &cost),
+                                              points, CAPACITY, &count, &cost),
                         TL_OK);
             check_points(navmesh, polygons, polygon_count, corners, corner_count, points, count, cost);
             // Area crossings alone are those among all; corners alone are the corners.
             TEST_RESULT(tl_navmesh_trace_path(navmesh,
                                               &(tl_nav_trace_request){ &filter, polygons, polygon_count, corners,
                                                                        corner_count, TL_NAV_CORNER_AREA },
-                                              few, MOST, &few_count, NULL),
+                                              few, CAPACITY, &few_count, NULL),
                         TL_OK);
             uint32_t area_points = 0;
             for (uint32_t k = 0; k < count; k++) {
@@ -155,7 +155,7 @@ static void test_paths(void **state)
             TEST_RESULT(tl_navmesh_trace_path(
                             navmesh,
                             &(tl_nav_trace_request){ &filter, polygons, polygon_count, corners, corner_count, 0 }, few,
-                            MOST, &few_count, NULL),
+                            CAPACITY, &few_count, NULL),
                         TL_OK);
             TEST_CHECK(few_count <= corner_count);
             tl_result expected = few_count > 1 ? TL_INCOMPLETE : TL_OK;

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <talus/nav_around.h>
 
-enum { MOST = 1024 };
+enum { CAPACITY = 1024 };
 
 static bool pass_some(const tl_nav_tile *tile, uint32_t polygon, void *user)
 {
@@ -138,10 +138,10 @@ static void test_walls(void **state)
         for (uint32_t i = 0; i < 20; i++) {
             tl_nav_location center = fixture_random_location(navmesh, &all, &random);
             float radius = test_random_range(&random, 0.2f, 9.0f);
-            tl_nav_wall_segment segments[MOST], few[3];
+            tl_nav_wall_segment segments[CAPACITY], few[3];
             uint32_t count = 0, same = 0;
             TEST_RESULT(tl_nav_query_find_walls(query, navmesh, &(tl_nav_around_request){ &filter, center, radius },
-                                                segments, MOST, &count),
+                                                segments, CAPACITY, &count),
                         TL_OK);
             int32_t expected = count_walls(navmesh, &filter, &all, &center, (double)radius);
             TEST_CHECK(expected < 0 || (uint32_t)expected == count);

@@ -8,11 +8,11 @@
 
 #include <math.h>
 
-enum { MOST_LINKS = 7, MOST_NODES = 2 + 2 * MOST_LINKS, MOST_POLYGONS = 1024, MOST_CORNERS = 512 };
+enum { MAX_LINKS = 7, MAX_NODES = 2 + 2 * MAX_LINKS, MAX_POLYGONS = 1024, MAX_CORNERS = 512 };
 
 typedef struct linked_pair {
     tl_navmesh *plain, *linked;
-    tl_nav_offmesh_state links[MOST_LINKS];
+    tl_nav_offmesh_state links[MAX_LINKS];
     uint32_t link_count;
     fixture_refs all;
     tl_nav_query *query;
@@ -41,7 +41,7 @@ static void make_pair(linked_pair *p, const fixture_level *level, test_random *r
     p->linked = fixture_build(level, NULL);
     p->all = fixture_all_refs(p->plain);
     p->link_count = 0;
-    uint32_t wanted = test_random_below(random, MOST_LINKS + 1);
+    uint32_t wanted = test_random_below(random, MAX_LINKS + 1);
     for (uint32_t i = 0; i < wanted && p->all.count > 0; i++) {
         tl_nav_location ends[2];
         ends[0] = fixture_random_location(p->plain, &p->all, random);
@@ -85,13 +85,13 @@ static double plain_length(linked_pair *p, const tl_nav_location *a, const tl_na
 // Floyd and Warshall over start, goal and all ends.
 static double oracle(linked_pair *p, const tl_nav_location *start, const tl_nav_location *goal)
 {
-    tl_nav_location nodes[MOST_NODES] = { *start, *goal };
+    tl_nav_location nodes[MAX_NODES] = { *start, *goal };
     uint32_t count = 2;
     for (uint32_t i = 0; i < p->link_count; i++) {
         nodes[count++] = p->links[i].ends[0];
         nodes[count++] = p->links[i].ends[1];
     }
-    double d[MOST_NODES][MOST_NODES];
+    double d[MAX_NODES][MAX_NODES];
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t j = 0; j < count; j++) {
             d[i][j] = i == j ? 0.0 : plain_length(p, &nodes[i], &nodes[j]);
@@ -130,7 +130,7 @@ static uint32_t check_polygons(const tl_navmesh *navmesh, const tl_nav_ref *poly
                                const tl_nav_location *start, tl_nav_ref last)
 {
     uint32_t links = 0;
-    TEST_CHECK(count > 0 && count <= MOST_POLYGONS);
+    TEST_CHECK(count > 0 && count <= MAX_POLYGONS);
     TEST_CHECK(polygons[0] == start->polygon && polygons[count - 1] == last);
     for (uint32_t i = 0; i + 1 < count; i++) {
         if (!tl_nav_is_offmesh(polygons[i + 1])) {
@@ -143,10 +143,10 @@ static uint32_t check_polygons(const tl_navmesh *navmesh, const tl_nav_ref *poly
         TEST_CHECK(from == 0 || state.offmesh.both_ways);
         TEST_CHECK(i + 2 < count && state.ends[from].polygon == polygons[i] &&
                    state.ends[1 - from].polygon == polygons[i + 2]);
-        tl_nav_ref listed[2 * MOST_LINKS];
+        tl_nav_ref listed[2 * MAX_LINKS];
         uint32_t listed_count = 0;
         bool found = false;
-        TEST_RESULT(tl_navmesh_offmesh_from(navmesh, polygons[i], listed, 2 * MOST_LINKS, &listed_count), TL_OK);
+        TEST_RESULT(tl_navmesh_offmesh_from(navmesh, polygons[i], listed, 2 * MAX_LINKS, &listed_count), TL_OK);
         for (uint32_t k = 0; k < listed_count; k++) {
             found = found || listed[k] == polygons[i + 1];
         }
@@ -169,7 +169,7 @@ static void check_corners(const tl_navmesh *navmesh, const tl_nav_corner *corner
 {
     double sum = 0.0;
     uint32_t at = 0;
-    TEST_CHECK(count >= 2 && count <= MOST_CORNERS && corners[0].flags == TL_NAV_CORNER_START);
+    TEST_CHECK(count >= 2 && count <= MAX_CORNERS && corners[0].flags == TL_NAV_CORNER_START);
     TEST_CHECK((corners[count - 1].flags & TL_NAV_CORNER_END) != 0);
     for (uint32_t i = 0; i + 1 < count; i++) {
         bool is_link = (corners[i].flags & TL_NAV_CORNER_LINK) != 0;
@@ -198,13 +198,13 @@ static void check_corners(const tl_navmesh *navmesh, const tl_nav_corner *corner
 static void check_ways(linked_pair *p, const tl_nav_location *start, const tl_nav_location *goal, double shortest,
                        coverage *seen)
 {
-    static tl_nav_ref polygons[MOST_POLYGONS];
-    static tl_nav_corner corners[MOST_CORNERS];
+    static tl_nav_ref polygons[MAX_POLYGONS];
+    static tl_nav_corner corners[MAX_CORNERS];
     tl_nav_filter filter = tl_default_nav_filter();
     filter.area_cost[1] = 2.0f;
     tl_nav_path path;
     TEST_RESULT(tl_nav_query_find_path(p->query, p->linked, &(tl_nav_path_request){ &filter, *start, *goal }, polygons,
-                                       MOST_POLYGONS, &path),
+                                       MAX_POLYGONS, &path),
                 TL_OK);
     TEST_CHECK((path.status == TL_NAV_PATH_COMPLETE) == isfinite(shortest));
     check_polygons(p->linked, polygons, path.polygon_count, start, path.end.polygon);
@@ -214,7 +214,7 @@ static void check_ways(linked_pair *p, const tl_nav_location *start, const tl_na
         float length = 0.0f;
         TEST_RESULT(tl_navmesh_straight_path(
                         p->linked, &(tl_nav_polygon_path){ polygons, path.polygon_count, start->point, goal->point },
-                        corners, MOST_CORNERS, &count, &length),
+                        corners, MAX_CORNERS, &count, &length),
                     TL_OK);
         coverage unused;
         memset(&unused, 0, sizeof unused);
@@ -225,8 +225,8 @@ static void check_ways(linked_pair *p, const tl_nav_location *start, const tl_na
 
 static void check_pair(linked_pair *p, test_random *random, coverage *seen)
 {
-    static tl_nav_ref polygons[MOST_POLYGONS];
-    static tl_nav_corner corners[MOST_CORNERS];
+    static tl_nav_ref polygons[MAX_POLYGONS];
+    static tl_nav_corner corners[MAX_CORNERS];
     tl_nav_location start = fixture_random_location(p->linked, &p->all, random);
     tl_nav_location goal = fixture_random_location(p->linked, &p->all, random);
     if (p->link_count > 0 && test_random_below(random, 8) == 0) {
@@ -234,9 +234,9 @@ static void check_pair(linked_pair *p, test_random *random, coverage *seen)
     }
     double expected = oracle(p, &start, &goal);
     tl_nav_shortest_path path;
-    TEST_RESULT(tl_nav_query_find_shortest_path(
-                    p->query, p->linked, &(tl_nav_path_request){ NULL, start, goal },
-                    &(tl_nav_path_buffers){ polygons, MOST_POLYGONS, corners, MOST_CORNERS }, &path),
+    TEST_RESULT(tl_nav_query_find_shortest_path(p->query, p->linked, &(tl_nav_path_request){ NULL, start, goal },
+                                                &(tl_nav_path_buffers){ polygons, MAX_POLYGONS, corners, MAX_CORNERS },
+                                                &path),
                 TL_OK);
     TEST_CHECK((path.status == TL_NAV_PATH_COMPLETE) == isfinite(expected));
     check_ways(p, &start, &goal, expected, seen);

@@ -126,7 +126,7 @@ typedef struct tally {
     uint32_t pairs, ways, same;
     uint32_t within[3]; // differences by one, two, three cells of the radius
     uint32_t others;
-    double least_room; // metres between a path and the walls that are missing to the radius
+    double min_room; // metres between a path and the walls that are missing to the radius
 } tally;
 
 // `t` NULL: only whether there is a way.
@@ -155,7 +155,7 @@ static bool wide_way(tl_nav_query *query, const tl_navmesh *navmesh, float radiu
         TEST_RESULT(
             tl_nav_query_path_clearance(query, navmesh, NULL, corners, path.corner_count, 2.0f * reach, &clearance),
             TL_OK);
-        t->least_room = fmin(t->least_room, (double)clearance - (double)reach);
+        t->min_room = fmin(t->min_room, (double)clearance - (double)reach);
         TEST_CHECK((double)clearance >= path.wall_distance * (1.0 - 1e-6));
         TEST_CHECK(clearance >= reach - CELL);
     }
@@ -198,7 +198,7 @@ static void compare_level(const char *name, const tl_mesh_view *mesh, uint32_t t
         printf("%s, tiles of %u, radius %.1f: %.2f%% of %u pairs as in the bake (%u ways); differ: %u by a bottleneck "
                "within 1 cell of the radius, %u within 2, %u within 3, %u others; room %+.4f m\n",
                name, tile_size, (double)RADII[i], 100.0 * t.same / t.pairs, t.pairs, t.ways, t.within[0], t.within[1],
-               t.within[2], t.others, i > 0 ? t.least_room : 0.0);
+               t.within[2], t.others, i > 0 ? t.min_room : 0.0);
         fflush(stdout);
         TEST_CHECK(100 * t.same >= 97 * t.pairs && 200 * t.others <= t.pairs);
         tl_navmesh_destroy(baked);

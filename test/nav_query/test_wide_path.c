@@ -42,18 +42,18 @@ static bool is_over(const tl_navmesh *navmesh, tl_nav_ref ref, tl_vec3 point, tl
 }
 
 // Metres to the nearest wall. Where a stair winds around the end of a wall, tl_nav_query_find_wall may go on to the
-// floor above, as that end is as near as the wall: then it is not known, and `*most_out` is infinite.
+// floor above, as that end is as near as the wall: then it is not known, and `*max_out` is infinite.
 static float room_at(tl_nav_query *query, const tl_navmesh *navmesh, const tl_nav_filter *filter,
-                     const tl_nav_location *at, float limit, float *most_out)
+                     const tl_nav_location *at, float limit, float *max_out)
 {
     tl_nav_wall wall;
     tl_nav_ray_hit hit;
     TEST_RESULT(tl_nav_query_find_wall(query, navmesh, &(tl_nav_around_request){ filter, *at, limit }, &wall), TL_OK);
-    *most_out = wall.distance;
+    *max_out = wall.distance;
     if (wall.hit) {
         tl_vec3 to = tl_lerp(at->point, wall.point, 0.999f);
         TEST_RESULT(tl_navmesh_cast_ray(navmesh, filter, at, to, NULL, 0, &hit), TL_OK);
-        *most_out = fabsf(hit.point.y - wall.point.y) > 1.0f ? INFINITY : wall.distance;
+        *max_out = fabsf(hit.point.y - wall.point.y) > 1.0f ? INFINITY : wall.distance;
     }
     return wall.distance;
 }

@@ -17,7 +17,7 @@
 
 enum { MAX_FILES = 512 };
 
-static uint32_t most_plain_vertices = 1000;
+static uint32_t max_plain_vertices = 1000;
 
 typedef struct row {
     uint32_t contours, vertices, polygons, repaired;
@@ -141,7 +141,7 @@ static void compare_with_plain(const tl_contour_set *set, tl_polygon_def def, ro
             note++;
         }
         bool is_noted = note < mesh.note_count && mesh.notes[note].contour == i;
-        bool is_small = most_plain_vertices == 0 || set->contours[i].vertex_count <= most_plain_vertices;
+        bool is_small = max_plain_vertices == 0 || set->contours[i].vertex_count <= max_plain_vertices;
         if (!is_noted && is_small) {
             r->plain++;
             r->plain_equal += equals_plain(set, i, &mesh, p);
@@ -263,7 +263,7 @@ static void real_contours_are_divided_as_the_plain_method_does(void **state)
 int main(int argc, char **argv)
 {
     if (argc > 1) {
-        most_plain_vertices = (uint32_t)strtoul(argv[1], NULL, 10);
+        max_plain_vertices = (uint32_t)strtoul(argv[1], NULL, 10);
     }
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(real_contours_are_divided_as_the_plain_method_does),

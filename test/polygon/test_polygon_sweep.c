@@ -30,9 +30,9 @@ static oracle_point points[MAX_POINTS];
 static tl_contour_vertex vertices[MAX_POINTS];
 static tally sums;
 
-static uint32_t random_side(test_random *random, uint32_t least, uint32_t most_bits)
+static uint32_t random_side(test_random *random, uint32_t least, uint32_t max_bits)
 {
-    uint32_t bits = test_random_below(random, most_bits);
+    uint32_t bits = test_random_below(random, max_bits);
     return least << bits;
 }
 

@@ -57,7 +57,7 @@ static double first_time(const moving *m, double least, double depth)
     return gap_at(m, 0.0) > depth ? high : 0.0;
 }
 
-static double least_time(const moving *m)
+static double min_time(const moving *m)
 {
     int best = 0;
     double best_gap = gap_at(m, 0.0);
@@ -94,7 +94,7 @@ static oracle_times oracle_cast(const model *m, moving *moving_shape, tl_aabb sw
         static oracle_body triangle;
         oracle_from_points(&triangle, c, 3, tl_transform_identity());
         moving_shape->triangle = &triangle;
-        double least = least_time(moving_shape);
+        double least = min_time(moving_shape);
         double early = first_time(moving_shape, least, doubt);
         double late = early <= 1.0 ? first_time(moving_shape, least, -doubt) : 2.0;
         times.early = early < times.early ? early : times.early;

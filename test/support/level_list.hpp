@@ -106,8 +106,8 @@ inline std::vector<level> load_wanted_files()
     return levels;
 }
 
-// The built-in levels of at most `most_triangles`, then those of `files` that the data folder has; or those wanted.
-inline std::vector<level> all_levels(uint32_t most_triangles, const std::vector<std::string> &files)
+// The built-in levels of at most `max_triangles`, then those of `files` that the data folder has; or those wanted.
+inline std::vector<level> all_levels(uint32_t max_triangles, const std::vector<std::string> &files)
 {
     std::vector<level> levels = load_wanted_files();
     if (!levels.empty()) {
@@ -118,7 +118,7 @@ inline std::vector<level> all_levels(uint32_t most_triangles, const std::vector<
     for (uint32_t i = 0; i < count; i++) {
         tl_sample_mesh mesh;
         uint32_t triangles =
-            samples[i].default_triangles < most_triangles ? samples[i].default_triangles : most_triangles;
+            samples[i].default_triangles < max_triangles ? samples[i].default_triangles : max_triangles;
         TEST_RESULT(tl_sample_build_level(&samples[i], triangles, 1, &mesh), TL_OK);
         levels.push_back(copy_level(samples[i].name, 0.25f, tl_sample_mesh_as_view(&mesh)));
         // They are modelled in decimetres. Half of one aside no wall lies on a line between cells, where the noise of

@@ -58,14 +58,13 @@ static void look_for_wall(wall_search *search, uint32_t node)
     uint32_t slot = search->query->local_nodes[node].slot;
     uint32_t polygon = search->query->local_nodes[node].polygon;
     double entry = sqrt(search->query->local_nodes[node].cost) - search->rounding;
-    double least_sq = entry > 0.0 ? entry * entry : 0.0;
+    double min_sq = entry > 0.0 ? entry * entry : 0.0;
     uint32_t count = 0;
     const tl_nav_ring_edge *ring = tl_nav_ring_at(search->navmesh, slot, polygon, &count);
     for (uint32_t i = 0; i < count; i++) {
         const tl_nav_ring_edge *end = &ring[i + 1 < count ? i + 1 : 0];
         tl_nav_plan_point nearest = tl_nav_nearest_on_edge(&ring[i], end, search->x, search->z);
-        if (nearest.distance_sq >= search->best_sq || nearest.distance_sq < least_sq ||
-            ring[i].to == TL_NAV_RING_BACK) {
+        if (nearest.distance_sq >= search->best_sq || nearest.distance_sq < min_sq || ring[i].to == TL_NAV_RING_BACK) {
             continue;
         }
         if (ring[i].to != TL_NAV_RING_WALL) {

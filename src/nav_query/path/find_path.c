@@ -41,7 +41,7 @@ static void relax_way(tl_nav_way_search *search, uint64_t key, uint32_t slot, ui
     const tl_nav_way_in way = { key, slot, polygon, point, cost, from };
     tl_nav_node *node = tl_nav_pool_relax(search->query, way, &search->out_of_nodes);
     if (node != NULL) {
-        node->total = cost + search->least_cost * fminf(tl_distance(point, search->goal), search->detour);
+        node->total = cost + search->min_cost * fminf(tl_distance(point, search->goal), search->detour);
         tl_nav_heap_improve(search->query, (uint32_t)(node - search->query->nodes));
     }
 }
@@ -82,7 +82,7 @@ static bool is_crossing(const tl_nav_node *node)
 
 // A path that takes a short cut (a link that costs less than its length) still has the way from its end to the goal
 // ahead.
-static float least_shortcut_distance(const tl_nav_way_search *search)
+static float min_shortcut_distance(const tl_nav_way_search *search)
 {
     const tl_nav_offmesh_table *table = &search->navmesh->offmesh;
     float least = INFINITY;
@@ -145,7 +145,7 @@ static tl_nav_path_status step_by_ways(tl_nav_way_search *search, uint64_t *step
 static void begin_by_ways(tl_nav_path_run *run)
 {
     tl_nav_way_search *search = &run->ways;
-    search->detour = least_shortcut_distance(search);
+    search->detour = min_shortcut_distance(search);
     tl_nav_pool_reset(search->query);
     relax_way(search, PATH_START_KEY, run->exact.start_slot, run->exact.start_polygon, run->start.point, 0.0f,
               TL_NAV_NO_NODE);
@@ -260,7 +260,7 @@ static void write_exact(const tl_nav_path_run *run, uint32_t last, tl_nav_ref *p
         search.goal = path_out->end.point;
         path_out->end.polygon = tl_nav_make_ref(search.navmesh, wedge->slot, wedge->polygon);
     }
-    path_out->cost = run->ways.least_cost * (float)tl_nav_shortest_length(&search);
+    path_out->cost = run->ways.min_cost * (float)tl_nav_shortest_length(&search);
     path_out->node_count = search.query->wedge_count;
     path_out->polygon_count = tl_nav_write_wedge_polygons(&search, polygons_out, capacity);
 }
@@ -368,7 +368,7 @@ static bool find_over_graph(tl_nav_path_run *run, tl_nav_ref *polygons_out, uint
     }
     path_out->status = TL_NAV_PATH_COMPLETE;
     path_out->end = run->goal;
-    path_out->cost = run->ways.least_cost * (float)path.length;
+    path_out->cost = run->ways.min_cost * (float)path.length;
     path_out->node_count = path.node_count;
     path_out->polygon_count = path.polygon_count;
     return true;

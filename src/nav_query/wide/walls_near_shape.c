@@ -83,12 +83,12 @@ static bool is_beyond_lines(const side_lines *lines, tl_nav_segment segment, dou
 // all of it does.
 static bool leads_on(const tl_nav_shape *touch, tl_nav_segment edge, bool *all_out)
 {
-    double least_sq = touch->distance_sq * tl_nav_spot_distance_sq(edge.a, edge.b);
+    double min_sq = touch->distance_sq * tl_nav_spot_distance_sq(edge.a, edge.b);
     bool some = false;
     *all_out = true;
     for (uint32_t i = 0; i < touch->count; i++) {
         double turn = tl_nav_spot_turn(edge.a, edge.b, touch->corners[i]);
-        bool is_over = turn > 0.0 && turn * turn > least_sq;
+        bool is_over = turn > 0.0 && turn * turn > min_sq;
         some = some || is_over;
         *all_out = *all_out && is_over;
     }

@@ -174,15 +174,15 @@ const char *tl_nav_wide_status_name(tl_nav_wide_status status)
 
 // The nearest wall to the segment from a corner to the next, or `most`.
 static bool segment_clearance(tl_nav_clearance *clearance, const tl_nav_corner *corners, uint32_t slot,
-                              uint32_t polygon, double *least_sq)
+                              uint32_t polygon, double *min_sq)
 {
     tl_nav_segment segment = { tl_nav_spot_of(corners[0].point), tl_nav_spot_of(corners[1].point) };
     tl_nav_near_walls near;
     tl_nav_scratch scratch = clearance->scratch;
-    bool fits = tl_nav_find_walls_near_shape(clearance, slot, polygon, &segment.a, 2, sqrt(*least_sq), &near);
+    bool fits = tl_nav_find_walls_near_shape(clearance, slot, polygon, &segment.a, 2, sqrt(*min_sq), &near);
     clearance->scratch = scratch;
     for (uint32_t i = 0; fits && i < near.wall_count; i++) {
-        *least_sq = fmin(*least_sq, tl_nav_segments_distance_sq(segment, tl_nav_segment_of_wall(&near.walls[i])));
+        *min_sq = fmin(*min_sq, tl_nav_segments_distance_sq(segment, tl_nav_segment_of_wall(&near.walls[i])));
     }
     return fits;
 }
@@ -204,7 +204,7 @@ tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *nav
     }
     tl_nav_clearance clearance;
     tl_nav_clearance_begin(query, navmesh, filter, (double)max_distance, &clearance);
-    double least_sq = (double)max_distance * (double)max_distance;
+    double min_sq = (double)max_distance * (double)max_distance;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t slot = 0;
         uint32_t polygon = 0;
@@ -215,10 +215,10 @@ tl_result tl_nav_query_path_clearance(tl_nav_query *query, const tl_navmesh *nav
         if (!tl_nav_split_ref(navmesh, corners[i].polygon, &slot, &polygon)) {
             return TL_ERR_STALE;
         }
-        if (!segment_clearance(&clearance, pair, slot, polygon, &least_sq)) {
+        if (!segment_clearance(&clearance, pair, slot, polygon, &min_sq)) {
             return TL_ERR_NODES;
         }
     }
-    *clearance_out = (float)sqrt(least_sq);
+    *clearance_out = (float)sqrt(min_sq);
     return TL_OK;
 }

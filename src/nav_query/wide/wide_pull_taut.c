@@ -20,7 +20,7 @@
 enum { MAX_SWEEPS = 64 };
 
 // Share of its length that a step must gain: many roundings, so that steps cannot go around in a circle.
-static const double LEAST_GAIN = 1024.0 * TL_DOUBLE_ROUNDING;
+static const double MIN_GAIN = 1024.0 * TL_DOUBLE_ROUNDING;
 
 // A corner of the cap around a wall's end.
 typedef struct cap_corner {
@@ -141,7 +141,7 @@ static bool hull_is_better(const triangle *t, double least)
     }
     bool is_straight = tl_nav_is_same_spot(next_of_hull(t, t->a).spot, t->c);
     return tl_nav_is_same_spot(at, t->c) &&
-           (is_straight || sum < (length(t->a, t->b) + length(t->b, t->c)) * (1.0 - LEAST_GAIN));
+           (is_straight || sum < (length(t->a, t->b) + length(t->b, t->c)) * (1.0 - MIN_GAIN));
 }
 
 // Takes a vertex out of the list; its memory stays unused.
