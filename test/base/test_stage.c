@@ -11,7 +11,7 @@
 
 typedef struct record {
     uint32_t runs[1000];
-    uint32_t since_update, most_between; // tasks
+    uint32_t since_update, max_between; // tasks
     uint32_t updates, cancel_at;
     uint64_t done, total;
 } record;
@@ -30,7 +30,7 @@ static bool note(const char *stage, uint64_t done, uint64_t total, void *user)
     TEST_CHECK(strcmp(stage, "dig") == 0 && done >= r->done && done <= total);
     r->done = done;
     r->total = total;
-    r->most_between = r->since_update > r->most_between ? r->since_update : r->most_between;
+    r->max_between = r->since_update > r->max_between ? r->since_update : r->max_between;
     r->since_update = 0;
     return ++r->updates != r->cancel_at;
 }
@@ -50,7 +50,7 @@ static void test_batches_are_bounded(void **state)
             for (uint32_t i = 0; i < 1000; i++) {
                 TEST_CHECK(r.runs[i] == (i < count));
             }
-            TEST_CHECK(r.most_between <= batch && r.since_update == 0);
+            TEST_CHECK(r.max_between <= batch && r.since_update == 0);
             TEST_RESULT(tl_stage_add(&stage, 1000), TL_OK);
             TEST_CHECK(r.done == 500);
             TEST_RESULT(tl_stage_end(&stage), TL_OK);

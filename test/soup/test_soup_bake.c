@@ -196,7 +196,7 @@ static void test_memory_of_a_bake(void **state)
 // Between two progress calls lies a bounded amount of work: so many tasks of a bounded size, or a step of a loop. Twice
 // the triangles bring twice the calls.
 typedef struct pace {
-    uint32_t calls, tasks_since, most_tasks;
+    uint32_t calls, tasks_since, max_tasks;
     uint64_t done;
     const char *stage;
 } pace;
@@ -205,7 +205,7 @@ static bool note_pace(const char *stage, uint64_t done, uint64_t total, void *us
 {
     pace *p = user;
     TEST_CHECK(done <= total && (stage != p->stage || done >= p->done));
-    p->most_tasks = p->tasks_since > p->most_tasks ? p->tasks_since : p->most_tasks;
+    p->max_tasks = p->tasks_since > p->max_tasks ? p->tasks_since : p->max_tasks;
     p->tasks_since = 0;
     p->calls++;
     p->stage = stage;
@@ -241,7 +241,7 @@ static void test_progress_is_called_often(void **state)
                 def.host.progress = &progress;
                 def.host.tasks = &tasks;
                 TEST_RESULT(build(&view, &def, NULL), TL_OK);
-                TEST_CHECK(p.most_tasks <= 64);
+                TEST_CHECK(p.max_tasks <= 64);
                 calls[size] = p.calls;
                 TEST_CHECK(p.calls >= m.triangle_count / 32768 * 5);
                 model_free(&m);
@@ -266,8 +266,8 @@ static void test_large_soups_do_not_depend_on_tasks(void **state)
     def.host.progress = &progress;
     def.host.tasks = &tasks;
     TEST_RESULT(tl_soup_bake(&view, &def, &together, NULL), TL_OK);
-    print_message("%u calls, %u tasks between two of them at most\n", p.calls, p.most_tasks);
-    TEST_CHECK(p.most_tasks <= 3 * 64 && p.calls > 60);
+    print_message("%u calls, %u tasks between two of them at most\n", p.calls, p.max_tasks);
+    TEST_CHECK(p.max_tasks <= 3 * 64 && p.calls > 60);
     TEST_CHECK(tl_soup_size(alone) == tl_soup_size(together));
     TEST_CHECK(memcmp(alone, together, tl_soup_size(alone)) == 0);
     TEST_RESULT(tl_soup_check(alone, tl_soup_size(alone), NULL), TL_OK);
