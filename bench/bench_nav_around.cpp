@@ -81,7 +81,7 @@ struct arena {
         tl_nav_query_def def = tl_default_nav_query_def();
         def.max_nodes = std::max(def.max_nodes, 16 * polygon_count);
         tl_nav_query *made = nullptr;
-        if (tl_nav_query_create(&def, &made) != TL_OK ||
+        if (tl_nav_query_create(&def, &made, NULL) != TL_OK ||
             dtStatusFailed(detour->init(level.mesh.get(), polygon_count < 2048 ? 2048 : 65535))) {
             return false;
         }

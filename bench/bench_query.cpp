@@ -163,7 +163,7 @@ struct arena {
         // Exact searches over a whole city use many nodes. Those that are not used cost nothing.
         def.max_nodes = std::max(def.max_nodes, 16 * polygon_count);
         // Detour's pool has the usual 2048 nodes where they suffice: it is cleared by every search.
-        if (tl_nav_query_create(&def, &query) != TL_OK ||
+        if (tl_nav_query_create(&def, &query, NULL) != TL_OK ||
             dtStatusFailed(detour->init(level.mesh.get(), polygon_count < 2048 ? 2048 : 65535))) {
             return false;
         }

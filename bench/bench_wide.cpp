@@ -111,7 +111,7 @@ class arena
         tl_nav_query_def def = tl_default_nav_query_def();
         def.max_nodes = 1 << 16;
         tl_nav_query *made = nullptr;
-        if (tl_nav_query_create(&def, &made) != TL_OK) {
+        if (tl_nav_query_create(&def, &made, NULL) != TL_OK) {
             return false;
         }
         query.reset(made);

@@ -36,7 +36,7 @@ static tl_result walk(const tl_navmesh *navmesh, float *length_out)
 {
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query;
-    tl_result result = tl_nav_query_create(&def, &query);
+    tl_result result = tl_nav_query_create(&def, &query, NULL);
     if (result != TL_OK) {
         return result;
     }

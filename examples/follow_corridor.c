@@ -125,7 +125,7 @@ int main(int argc, char **argv)
     crate.base = tl_vec3_make(14.5f, 0, 5.5f);
     crate.radius = 1.2f;
     crate.height = 2.0f;
-    if (tl_navmesh_create(NULL, &navmesh) == TL_OK && tl_nav_query_create(&query_def, &query) == TL_OK &&
+    if (tl_navmesh_create(NULL, &navmesh) == TL_OK && tl_nav_query_create(&query_def, &query, NULL) == TL_OK &&
         tl_nav_obstacles_bake(&def, &input, &obstacles, NULL, NULL) == TL_OK &&
         tl_nav_obstacles_update(obstacles, navmesh, UINT32_MAX, &waiting, NULL) == TL_OK &&
         tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(3, 0, 6), extents, &start) == TL_OK &&

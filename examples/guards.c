@@ -75,7 +75,7 @@ static tl_result make_world(const level *l, world *w)
     const tl_nav_input input = { l->mesh, NULL, NULL, 0 };
     tl_nav_query_def query_def = tl_default_nav_query_def();
     tl_result result = tl_soup_bake(&l->mesh, NULL, &w->soup, NULL);
-    result = result == TL_OK ? tl_nav_query_create(&query_def, &w->query) : result;
+    result = result == TL_OK ? tl_nav_query_create(&query_def, &w->query, NULL) : result;
     result = result == TL_OK ? tl_navmesh_create(NULL, &w->navmesh) : result;
     result = result == TL_OK ? tl_nav_bake(&def, &input, &w->tiles, NULL) : result;
     if (result != TL_OK) {

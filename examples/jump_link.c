@@ -37,7 +37,7 @@ static tl_result bake(roofs *r)
         result = tl_navmesh_add_tiles(r->navmesh, r->tiles.tiles, r->tiles.tile_count, TL_NAV_TILE_BORROWED, NULL);
     }
     tl_nav_query_def query_def = tl_default_nav_query_def();
-    return result == TL_OK ? tl_nav_query_create(&query_def, &r->query) : result;
+    return result == TL_OK ? tl_nav_query_create(&query_def, &r->query, NULL) : result;
 }
 
 static tl_result find_links(roofs *r)

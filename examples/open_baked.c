@@ -66,7 +66,7 @@ static tl_result open_navmesh(const tl_pack *pack, tl_navmesh *navmesh)
 static tl_result find_path(const tl_navmesh *navmesh, tl_vec3 start, tl_vec3 goal, float *length_out)
 {
     tl_nav_query *query;
-    tl_result result = tl_nav_query_create(NULL, &query);
+    tl_result result = tl_nav_query_create(NULL, &query, NULL);
     if (result != TL_OK) {
         return result;
     }

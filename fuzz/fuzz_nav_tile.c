@@ -121,7 +121,7 @@ static void use_tile(const tl_nav_tile *tile, const tl_nav_tile *neighbour)
     tl_navmesh *navmesh = NULL;
     tl_nav_query *query = NULL;
     tl_nav_query_def def = { 256, NULL, TL_DEF_COOKIE };
-    require(tl_navmesh_create(NULL, &navmesh) == TL_OK && tl_nav_query_create(&def, &query) == TL_OK);
+    require(tl_navmesh_create(NULL, &navmesh) == TL_OK && tl_nav_query_create(&def, &query, NULL) == TL_OK);
     require(tl_navmesh_add_tile(navmesh, tile, TL_NAV_TILE_BORROWED) == TL_OK);
     tl_result result = tl_navmesh_add_tile(navmesh, neighbour, TL_NAV_TILE_BORROWED);
     require(result == TL_OK || result == TL_ERR_ARGUMENT);

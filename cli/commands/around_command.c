@@ -161,7 +161,7 @@ static bool make_queries(around_queries *all, uint32_t count)
     all->queries = calloc(count, sizeof(*all->queries));
     for (uint32_t i = 0; all->queries != NULL && i < count; ++i) {
         all->count = i + 1;
-        if (tl_nav_query_create(&def, &all->queries[i]) != TL_OK) {
+        if (tl_nav_query_create(&def, &all->queries[i], NULL) != TL_OK) {
             return false;
         }
     }

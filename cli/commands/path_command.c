@@ -205,7 +205,7 @@ static bool make_searchers(path_queries *queries, uint32_t count)
     for (uint32_t i = 0; i < count; ++i) {
         queries->searcher_count = i + 1;
         route_searcher *s = &queries->searchers[i];
-        if (tl_nav_query_create(&def, &s->query) != TL_OK ||
+        if (tl_nav_query_create(&def, &s->query, NULL) != TL_OK ||
             !grow_route_buffers(s, FIRST_ROUTE_CAPACITY, FIRST_ROUTE_CAPACITY)) {
             return false;
         }

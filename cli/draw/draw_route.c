@@ -46,7 +46,7 @@ static tl_result make_route_room(const tl_navmesh *navmesh, draw_route *route)
     if (route->buffers.polygons == NULL || route->buffers.corners == NULL) {
         return TL_ERR_MEMORY;
     }
-    return tl_nav_query_create(&def, &route->query);
+    return tl_nav_query_create(&def, &route->query, NULL);
 }
 
 static tl_result find_drawn_route(const tl_navmesh *navmesh, draw_route *route, const tl_nav_route_request *request,

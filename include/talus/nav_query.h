@@ -153,9 +153,10 @@ TL_API tl_nav_offmesh tl_default_nav_offmesh(void);
 /// polygon is kept, and no path uses it until there is one. `*link_out` is its reference, which is not used again.
 /// No query may run meanwhile. O(1), but for the two nearest-polygon searches and the growth of the table. From then on
 /// each change of a tile looks at each link's box once.
-/// TL_ERR_NOT_FINITE, TL_ERR_ARGUMENT (radius, costs, no flags), TL_ERR_LIMIT (TL_NAV_MAX_OFFMESH),
-/// TL_ERR_MEMORY.
-TL_API tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh, tl_nav_ref *link_out);
+/// TL_ERR_NOT_FINITE or TL_ERR_ARGUMENT (`report`, which may be NULL, names the field), TL_ERR_LIMIT
+/// (TL_NAV_MAX_OFFMESH), TL_ERR_MEMORY.
+TL_API tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh, tl_nav_ref *link_out,
+                                        tl_report *report);
 
 /// Reserves memory for `count` more links, so that adding them takes none. TL_ERR_LIMIT, TL_ERR_MEMORY.
 TL_API tl_result tl_navmesh_reserve_offmesh(tl_navmesh *navmesh, uint32_t count);
@@ -276,9 +277,9 @@ typedef struct tl_nav_query_def {
 
 TL_API tl_nav_query_def tl_default_nav_query_def(void);
 
-/// Creates a query, for one thread at a time and any navmesh. NULL def: the default one. TL_ERR_ARGUMENT,
-/// TL_ERR_MEMORY.
-TL_API tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_out);
+/// Creates a query, for one thread at a time and any navmesh. NULL def: the default one. TL_ERR_ARGUMENT (`report`,
+/// which may be NULL, names the field), TL_ERR_MEMORY.
+TL_API tl_result tl_nav_query_create(const tl_nav_query_def *def, tl_nav_query **query_out, tl_report *report);
 /// Frees a query. NULL: nothing happens.
 TL_API void tl_nav_query_destroy(tl_nav_query *query);
 

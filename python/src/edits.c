@@ -32,7 +32,7 @@ static PyObject *navmesh_add_link(PyObject *self, PyObject *args)
     link.flags = flags;
     link.area = (uint8_t)area;
     tl_nav_ref ref;
-    tl_result result = tl_navmesh_add_offmesh(held->navmesh, &link, &ref);
+    tl_result result = tl_navmesh_add_offmesh(held->navmesh, &link, &ref, NULL);
     return result == TL_OK ? PyLong_FromUnsignedLongLong(ref) : binding_raise(result, NULL);
 }
 

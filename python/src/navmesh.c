@@ -61,7 +61,7 @@ tl_result binding_query_create(const binding_navmesh *navmesh, tl_nav_query **qu
 {
     tl_nav_query_def def = tl_default_nav_query_def();
     def.max_nodes = (uint32_t)needed_nodes(navmesh->navmesh);
-    return tl_nav_query_create(&def, query_out);
+    return tl_nav_query_create(&def, query_out, NULL);
 }
 
 tl_nav_query *binding_query_of(binding_navmesh *navmesh)

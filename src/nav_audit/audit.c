@@ -240,7 +240,7 @@ static tl_result create_queries(tl_audit_job *job)
     }
     memset(job->queries, 0, workers * sizeof(*job->queries));
     for (uint32_t i = 0; i < workers; i++) {
-        TL_TRY(tl_nav_query_create(&def, &job->queries[i]));
+        TL_TRY(tl_nav_query_create(&def, &job->queries[i], NULL));
     }
     return TL_OK;
 }

@@ -110,7 +110,7 @@ tl_result tl_nav_links_add(const tl_nav_links *links, const tl_nav_offmesh *prot
         offmesh.end = at[i].end;
         offmesh.both_ways = at[i].both_ways != 0;
         offmesh.user = i;
-        TL_TRY(tl_navmesh_add_offmesh(navmesh, &offmesh, &added));
+        TL_TRY(tl_navmesh_add_offmesh(navmesh, &offmesh, &added, NULL));
     }
     return TL_OK;
 }

@@ -30,7 +30,7 @@ static tl_result copy_navmesh(const tl_navmesh *navmesh, const tl_allocator *all
     while (tl_navmesh_next_offmesh(navmesh, &cursor, &link)) {
         tl_nav_offmesh_state state;
         TL_TRY(tl_navmesh_offmesh_state(navmesh, link, &state));
-        TL_TRY(tl_navmesh_add_offmesh(*copy_out, &state.offmesh, &link));
+        TL_TRY(tl_navmesh_add_offmesh(*copy_out, &state.offmesh, &link, NULL));
     }
     return TL_OK;
 }
@@ -105,7 +105,7 @@ static tl_result select_in_order(const link_selection *s, tl_nav_link_candidate 
         offmesh.end = candidates[i].link.end;
         offmesh.both_ways = candidates[i].link.both_ways != 0;
         tl_nav_ref unused;
-        TL_TRY(tl_navmesh_add_offmesh(s->navmesh, &offmesh, &unused));
+        TL_TRY(tl_navmesh_add_offmesh(s->navmesh, &offmesh, &unused, NULL));
         counts->kept++;
         candidates[(*kept)++] = candidates[i];
     }
@@ -124,7 +124,7 @@ tl_result tl_nav_select_links(const tl_nav_links_def *def, const tl_navmesh *nav
     tl_nav_link_candidate *scratch = tl_allocate_array(allocator, count, sizeof *scratch);
     tl_result result = scratch != NULL ? copy_navmesh(navmesh, allocator, &s.navmesh) : TL_ERR_MEMORY;
     if (result == TL_OK) {
-        result = tl_nav_query_create(&query_def, &s.query);
+        result = tl_nav_query_create(&query_def, &s.query, NULL);
     }
     if (result == TL_OK) {
         sort_by_rank(candidates, count, scratch);

@@ -48,9 +48,9 @@ static void make_navmesh(contract_level *level)
         TEST_RESULT(tl_navmesh_add_tile(level->navmesh, level->tiles.tiles[i], TL_NAV_TILE_BORROWED), TL_OK);
     }
     tl_nav_query_def def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &level->query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &level->query, NULL), TL_OK);
     def.max_nodes = 2;
-    TEST_RESULT(tl_nav_query_create(&def, &level->tiny_query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &level->tiny_query, NULL), TL_OK);
     level->stale = (tl_nav_ref)0xfffeu << 48 | 1u;
 }
 

@@ -187,11 +187,19 @@ static tl_result add_offmesh(contract_run *run)
     tl_nav_offmesh offmesh = offmesh_of_level();
     if (run->what == CONTRACT_ZEROED_DEF) {
         memset(&offmesh, 0, sizeof offmesh);
+    } else if (run->what == CONTRACT_BAD_FIELD) {
+        float *const fields[5] = { &offmesh.start.y, &offmesh.end.z, &offmesh.radius, &offmesh.cost_factor,
+                                   &offmesh.fixed_cost };
+        if (run->variant < 5) {
+            *fields[run->variant] = run->variant < 3 ? NAN : -1.0f;
+        } else {
+            offmesh.flags = 0;
+        }
     }
     tl_result result = make_navmesh(run, &navmesh);
     if (result == TL_OK) {
         result = tl_navmesh_add_offmesh(CONTRACT_INPUT(run, 0, navmesh), CONTRACT_INPUT(run, 1, &offmesh),
-                                        CONTRACT_OUTPUT(run, 0, &link));
+                                        CONTRACT_OUTPUT(run, 0, &link), run->report);
     }
     run->is_clear = link == TL_NAV_NO_REF;
     run->answer = link;
@@ -217,7 +225,7 @@ static tl_result make_linked(const contract_run *run, tl_navmesh **navmesh_out, 
     const tl_nav_offmesh offmesh = offmesh_of_level();
     tl_result result = make_navmesh(run, navmesh_out);
     if (result == TL_OK) {
-        result = tl_navmesh_add_offmesh(*navmesh_out, &offmesh, link_out);
+        result = tl_navmesh_add_offmesh(*navmesh_out, &offmesh, link_out, NULL);
     }
     if (run->what == CONTRACT_STALE) {
         *link_out = 77;
@@ -363,9 +371,11 @@ static tl_result query_create(contract_run *run)
     def.allocator = run->host->allocator;
     if (run->what == CONTRACT_ZEROED_DEF) {
         memset(&def, 0, sizeof def);
+    } else if (run->what == CONTRACT_BAD_FIELD) {
+        def.max_nodes = 1;
     }
     const tl_result result =
-        tl_nav_query_create(run->what == CONTRACT_NULL_DEF ? NULL : &def, CONTRACT_OUTPUT(run, 0, &query));
+        tl_nav_query_create(run->what == CONTRACT_NULL_DEF ? NULL : &def, CONTRACT_OUTPUT(run, 0, &query), run->report);
     run->is_clear = query == NULL;
     tl_nav_query_destroy(query);
     return result;
@@ -388,6 +398,9 @@ static tl_result query_destroy(contract_run *run)
 #define BUFFERED  (CONTRACT_BIT(NO_BUFFER) | CONTRACT_BIT(SHORT_BUFFER))
 #define RETURNS   "returns a value of a navmesh that must be given"
 
+static const char *const OFFMESH_FIELDS[] = { "start", "end", "radius", "cost_factor", "fixed_cost", "flags", NULL };
+static const char *const QUERY_FIELDS[] = { "max_nodes", NULL };
+
 const contract_entry CONTRACT_TABLE_nav_query[] = {
     { "tl_navmesh_create", GOOD | CONTRACT_BIT(NULL_DEF) | OUTPUT | NO_MEMORY, 0, 1, NULL, create, NULL },
     { "tl_navmesh_destroy", CONTRACT_BIT(NULL_FREE), 0, 0, NULL, destroy, NULL },
@@ -408,8 +421,10 @@ const contract_entry CONTRACT_TABLE_nav_query[] = {
     { "tl_navmesh_links", GOOD | INPUT | OUTPUT | STALE | BUFFERED, 1, 1, NULL, links, NULL },
     { "tl_navmesh_island", GOOD | INPUT | OUTPUT | STALE, 1, 1, NULL, island, NULL },
     { "tl_default_nav_offmesh", GOOD, 0, 0, NULL, default_offmesh, NULL },
-    { "tl_navmesh_add_offmesh", GOOD | CONTRACT_BIT(ZEROED_DEF) | INPUT | OUTPUT | NO_MEMORY, 2, 1, NULL, add_offmesh,
-      NULL },
+    { "tl_navmesh_add_offmesh",
+      GOOD | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(ZEROED_DEF) | CONTRACT_BIT(BAD_FIELD) | INPUT | OUTPUT |
+          NO_MEMORY,
+      2, 1, OFFMESH_FIELDS, add_offmesh, NULL },
     { "tl_navmesh_reserve_offmesh", GOOD | INPUT | NO_MEMORY, 1, 0, NULL, reserve_offmesh, NULL },
     { "tl_navmesh_remove_offmesh", GOOD | INPUT | STALE, 1, 0, NULL, remove_offmesh, NULL },
     { "tl_navmesh_offmesh_state", GOOD | INPUT | OUTPUT | STALE, 1, 1, NULL, offmesh_state, NULL },
@@ -424,7 +439,8 @@ const contract_entry CONTRACT_TABLE_nav_query[] = {
     { "tl_navmesh_closest_point", GOOD | STALE | INPUT | OUTPUT, 1, 1, NULL, closest_point, NULL },
     { "tl_navmesh_height", GOOD | STALE | INPUT | OUTPUT, 1, 1, NULL, height, NULL },
     { "tl_default_nav_query_def", GOOD, 0, 0, NULL, default_query_def, NULL },
-    { "tl_nav_query_create", GOOD | DEF | OUTPUT | NO_MEMORY, 0, 1, NULL, query_create, NULL },
+    { "tl_nav_query_create", GOOD | CONTRACT_BIT(NULL_REPORT) | DEF | CONTRACT_BIT(BAD_FIELD) | OUTPUT | NO_MEMORY, 0,
+      1, QUERY_FIELDS, query_create, NULL },
     { "tl_nav_query_destroy", CONTRACT_BIT(NULL_FREE), 0, 0, NULL, query_destroy, NULL },
     { 0 },
 };

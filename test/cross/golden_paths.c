@@ -172,7 +172,7 @@ void golden_nav_answers(const tl_navmesh *navmesh, const char *kind)
     task.navmesh = navmesh;
     task.buffers = malloc(sizeof *task.buffers);
     must(task.buffers != NULL ? TL_OK : TL_ERR_MEMORY, "malloc");
-    MUST(tl_nav_query_create(NULL, &task.query));
+    MUST(tl_nav_query_create(NULL, &task.query, NULL));
     dice random = { 15 };
     for (uint32_t i = 0; i < PATHS; i++) {
         const uint64_t at[4] = { roll_long(&random), roll_long(&random), roll_long(&random), roll_long(&random) };
@@ -234,7 +234,7 @@ void golden_nav_sight(const tl_navmesh *navmesh, const tl_soup *soup)
     tl_blob_free(pvs);
 
     tl_nav_query *query;
-    MUST(tl_nav_query_create(NULL, &query));
+    MUST(tl_nav_query_create(NULL, &query, NULL));
     dice random = { 16 };
     d = digest_begin();
     for (int i = 0; i < 40; i++) {

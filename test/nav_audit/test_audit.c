@@ -317,7 +317,7 @@ static void links_are_not_walked(void **state)
     link.end = tl_vec3_make(12, 0, 6);
     link.both_ways = true;
     tl_nav_ref ref;
-    TEST_RESULT(tl_navmesh_add_offmesh(h.navmesh, &link, &ref), TL_OK);
+    TEST_RESULT(tl_navmesh_add_offmesh(h.navmesh, &link, &ref, NULL), TL_OK);
     run(&h, NOWHERE);
     assert_int_equal(h.audit.finding_count, 0);
     assert_int_equal(h.audit.path_count, 100);

@@ -355,7 +355,7 @@ static void test_same_as_undivided(void **state)
     static const uint32_t sizes[] = { 0, 24, 48 };
     tl_nav_query *query;
     const tl_nav_query_def def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tally all = { 0, 0, 0, 0, 0, 0, 0, 0, 0.0 };
     for (size_t i = 0; i < sizeof STACKED_LEVELS / sizeof *STACKED_LEVELS; i++) {
         tally sum = { 0, 0, 0, 0, 0, 0, 0, 0, 0.0 };
@@ -463,7 +463,7 @@ static void test_edits(void **state)
     test_random random = { 8 };
     tl_nav_query *query;
     const tl_nav_query_def query_def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&query_def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&query_def, &query, NULL), TL_OK);
     uint32_t paths = 0;
     for (uint32_t k = 0; k < 8; k++) {
         tl_sample_mesh mesh;

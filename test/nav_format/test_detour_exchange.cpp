@@ -221,7 +221,7 @@ void talus_answers_in_detour(void **)
             tl_nav_query_def query_def = tl_default_nav_query_def();
             query_def.max_nodes = (uint32_t)tl_navmesh_link_count(made) + 2;
             tl_nav_query *query_made = nullptr;
-            TEST_RESULT(tl_nav_query_create(&query_def, &query_made), TL_OK);
+            TEST_RESULT(tl_nav_query_create(&query_def, &query_made, NULL), TL_OK);
             std::unique_ptr<tl_nav_query, detour_deleter> query(query_made);
             uint32_t same_reach = 0, complete = 0, unreachable = 0;
             double ratio = 0.0;

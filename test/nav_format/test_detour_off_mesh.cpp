@@ -109,11 +109,11 @@ void test_path(void **)
         offmesh.area = links[i].area;
         offmesh.user = links[i].user_id;
         tl_nav_ref ref;
-        TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &ref), TL_OK);
+        TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &ref, NULL), TL_OK);
     }
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_ref polygons[16];
     tl_nav_corner corners[16];
     tl_nav_path_buffers buffers = { polygons, 16, corners, 16 };

@@ -95,7 +95,7 @@ static tl_nav_path_status ask(const linked_level *level, tl_vec3 from, tl_vec3 t
 {
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_ref polygons[256];
     tl_nav_corner corners[256];
     tl_nav_path_buffers buffers = { polygons, 256, corners, 256 };

@@ -127,7 +127,7 @@ void prove_level(const level &l, uint64_t kinds_out[TL_NAV_LINK_KINDS])
     check_links(navmesh, soup, links, &steps);
     tl_nav_query_def query_def = tl_default_nav_query_def();
     tl_nav_query *query;
-    TEST_RESULT(tl_nav_query_create(&query_def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&query_def, &query, NULL), TL_OK);
     for (uint32_t i = 0; i < links->link_count; i++) {
         used += is_used(navmesh, query, tl_nav_links_array(links)[i]);
     }

@@ -74,7 +74,7 @@ static void edit_links(editor *e)
         link->radius = 2.0f;
         link->both_ways = test_random_below(&e->random, 2) == 0;
         link->cost_factor = test_random_below(&e->random, 4) == 0 ? 0.25f : 1.0f;
-        TEST_RESULT(tl_navmesh_add_offmesh(e->world->navmesh, link, &e->links[e->link_count++]), TL_OK);
+        TEST_RESULT(tl_navmesh_add_offmesh(e->world->navmesh, link, &e->links[e->link_count++], NULL), TL_OK);
     } else {
         uint32_t which = test_random_below(&e->random, e->link_count);
         TEST_RESULT(tl_navmesh_remove_offmesh(e->world->navmesh, e->links[which]), TL_OK);
@@ -102,7 +102,7 @@ static tl_navmesh *build_afresh(const editor *e, tl_nav_ref links_out[MAX_LINKS]
     }
     TEST_CHECK(tl_navmesh_tile_count(fresh) == tl_navmesh_tile_count(navmesh));
     for (uint32_t i = 0; i < e->link_count; i++) {
-        TEST_RESULT(tl_navmesh_add_offmesh(fresh, &e->offmesh[i], &links_out[i]), TL_OK);
+        TEST_RESULT(tl_navmesh_add_offmesh(fresh, &e->offmesh[i], &links_out[i], NULL), TL_OK);
     }
     return fresh;
 }

@@ -14,7 +14,7 @@ static tl_nav_query *make_query(void)
 {
     tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     return query;
 }
 
@@ -318,7 +318,7 @@ static void test_link(void **state)
     jump.start = tl_vec3_make(11.5f, 0, 2);
     jump.end = tl_vec3_make(20.5f, 0, 2);
     tl_nav_ref link = TL_NAV_NO_REF, passed = TL_NAV_NO_REF, room[16];
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, &link), TL_OK);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, &link, NULL), TL_OK);
     const tl_vec3 extents = { 1, 1, 1 };
     tl_nav_location start, goal, ends[2];
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2, 0, 6), extents, &start), TL_OK);

@@ -129,7 +129,7 @@ static void test_fields(void **state)
     test_random random = { 81 };
     tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     uint32_t inside = 0, outside = 0, paths = 0, in_zones = 0;
     double ratios = 0.0;
     for (uint32_t round = 0; round < 36; round++) {
@@ -240,7 +240,7 @@ static void test_reachable_areas(void **state)
     test_random random = { 83 };
     tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     static uint64_t bits[2 * POINTS];
     static tl_nav_location points[POINTS];
     static tl_nav_field_entry entries[CAPACITY];
@@ -298,7 +298,7 @@ static void test_reachable(void **state)
     test_random random = { 82 };
     tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     enum { DRAWS = 4000, SECTORS = 8 };
     uint32_t cut = 0, compared = 0;
     for (uint32_t round = 0; round < 12; round++) {
@@ -356,7 +356,7 @@ static void test_links(void **state)
     tl_navmesh *navmesh = fixture_gap(&link);
     tl_nav_query_def def = { 64, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_vec3 extents = { 1, 1, 1 };
     tl_nav_location start, goal;
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2, 0, 2), extents, &start), TL_OK);
@@ -395,7 +395,7 @@ static void test_arguments(void **state)
     tl_navmesh *navmesh = fixture_build(&level, NULL);
     tl_nav_query_def def = { 3, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } }, at;
     tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
     tl_nav_field_def field = field_of(NULL, NULL, INFINITY), below = field_of(NULL, NULL, -1.0f);
@@ -422,7 +422,7 @@ static void test_arguments(void **state)
                 TL_ERR_NOT_FINITE);
     tl_nav_query_destroy(query);
     def.max_nodes = 64;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     TEST_RESULT(tl_nav_query_flood(query, navmesh, &start, &field, entries, 2, &count), TL_INCOMPLETE);
     TEST_CHECK(count == 8 && entries[0].polygon == start.polygon);
     uint32_t length = 0;

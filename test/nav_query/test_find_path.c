@@ -186,7 +186,7 @@ static void test_against_twin(void **state)
     test_random random = { 41 };
     tl_nav_query *query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     uint32_t complete = 0, unreachable = 0, alone = 0, longest = 0;
     for (uint32_t round = 0; round < 30; round++) {
         fixture_level level = fixture_random(&random, round % 6, 9);
@@ -284,7 +284,7 @@ static void test_length(void **state)
     test_random random = { 45 };
     tl_nav_query *query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     uint32_t paths = 0, exact = 0;
     double sum = 0.0, worst = 0.0;
     for (uint32_t round = 0; round < 15; round++) {
@@ -336,7 +336,7 @@ static void test_partial(void **state)
     test_random random = { 42 };
     tl_nav_query *query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     uint32_t partial = 0, routes = 0;
     for (uint32_t round = 0; round < 20; round++) {
         fixture_level level = fixture_random(&random, round % 2 == 0 ? 1 : 5, 9);
@@ -406,7 +406,7 @@ static void test_out_of_nodes(void **state)
         tl_nav_query_def def = tl_default_nav_query_def();
         def.max_nodes = max_nodes;
         tl_nav_query *query = NULL;
-        TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+        TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
         tl_nav_ref polygons[512];
         tl_nav_path path;
         TEST_RESULT(
@@ -435,12 +435,12 @@ static void test_query_is_reusable(void **state)
     fixture_refs all = fixture_all_refs(navmesh);
     tl_nav_query *used = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &used), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &used, NULL), TL_OK);
     for (uint32_t i = 0; i < 300; i++) {
         tl_nav_location start = fixture_random_location(navmesh, &all, &random);
         tl_nav_location goal = fixture_random_location(navmesh, &all, &random);
         tl_nav_query *fresh = NULL;
-        TEST_RESULT(tl_nav_query_create(&def, &fresh), TL_OK);
+        TEST_RESULT(tl_nav_query_create(&def, &fresh, NULL), TL_OK);
         tl_nav_ref a[256], b[256];
         tl_nav_path path_a, path_b;
         TEST_RESULT(tl_nav_query_find_path(used, navmesh, &(tl_nav_path_request){ NULL, start, goal }, a, 256, &path_a),
@@ -466,9 +466,9 @@ static void test_arguments(void **state)
     tl_nav_query *query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
     def.max_nodes = 1;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_ERR_ARGUMENT);
     def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 1, 0, 1 } };
     tl_nav_location goal = { tl_navmesh_polygon_ref(navmesh, 0, 7), { 11, 0, 11 } };
     tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
@@ -534,7 +534,7 @@ static void test_memory(void **state)
         test_allocator_init(&failing, k);
         tl_nav_query_def def = { 1000, &failing.allocator, TL_DEF_COOKIE };
         tl_nav_query *query = NULL;
-        tl_result result = tl_nav_query_create(&def, &query);
+        tl_result result = tl_nav_query_create(&def, &query, NULL);
         if (result == TL_OK) {
             tl_nav_query_destroy(query);
             TEST_CHECK(failing.live_blocks == 0);

@@ -252,7 +252,7 @@ static void test_example(void **state)
     tl_navmesh *navmesh = fixture_build(&level, NULL);
     tl_nav_query *query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_ref polygons[16];
     tl_nav_corner corners[16];
     tl_nav_path_buffers buffers = { polygons, 16, corners, 16 };

@@ -142,7 +142,7 @@ static void toggle_link(edited *e, test_random *random)
     link.end = test_random_point(random, low, high);
     link.radius = test_random_range(random, 0.5f, 4.0f);
     link.both_ways = test_random_below(random, 2) == 0;
-    TEST_RESULT(tl_navmesh_add_offmesh(e->navmesh, &link, &e->links[e->link_count++]), TL_OK);
+    TEST_RESULT(tl_navmesh_add_offmesh(e->navmesh, &link, &e->links[e->link_count++], NULL), TL_OK);
 }
 
 static void test_edits_with_links(void **state)
@@ -182,7 +182,7 @@ static void test_edits(void **state)
     test_random random = { 81 };
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     uint64_t same = 0, apart = 0, complete = 0;
     for (uint32_t round = 0; round < 6; round++) {
         edited e;
@@ -216,7 +216,7 @@ static void test_cut_off(void **state)
     tl_navmesh *navmesh = fixture_build(&level, NULL);
     tl_nav_query_def def = { 2, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     fixture_refs all = fixture_all_refs(navmesh);
     tl_nav_location start = { all.refs[0], { 1, 0, 1 } }, goal = { all.refs[all.count - 1], { 19, 0, 7 } };
     tl_nav_ref polygons[2];

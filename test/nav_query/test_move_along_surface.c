@@ -130,7 +130,7 @@ static void test_floors_over_one_another(void **state)
     tl_navmesh *navmesh = fixture_build(&level, NULL);
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     fixture_refs all = fixture_all_refs(navmesh);
     const float step = FIXTURE_STEP * level.cell_size / 4.0f;
     for (uint32_t k = 0; k < 24 * 16; k++) {
@@ -161,7 +161,7 @@ static void test_around(void **state)
     test_random random = { 91 };
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     uint32_t hits = 0, misses = 0, arrived = 0, stopped = 0, far_ways = 0;
     for (uint32_t round = 0; round < 18; round++) {
         fixture_level level = fixture_random(&random, round % 6, 7);

@@ -73,7 +73,7 @@ static void test_functions(void **state)
     test_random random = { 611 };
     tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     uint32_t complete = 0, refused = 0, twins = 0;
     for (uint32_t round = 0; round < 18; round++) {
         fixture_level level = fixture_random(&random, round % 6, 8);

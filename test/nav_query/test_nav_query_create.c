@@ -15,7 +15,7 @@ static uint64_t bytes_of(uint32_t max_nodes)
     def.max_nodes = max_nodes;
     def.allocator = &memory.allocator;
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     const uint64_t bytes = memory.live_bytes;
     tl_nav_query_destroy(query);
     TEST_CHECK(memory.live_blocks == 0);
@@ -37,9 +37,9 @@ static void test_limits(void **state)
     tl_nav_query *query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
     def.max_nodes = 1;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_ERR_ARGUMENT);
     def.max_nodes = (1u << 30) + 1;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_ERR_ARGUMENT);
     TEST_CHECK(query == NULL);
 }
 

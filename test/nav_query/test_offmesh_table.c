@@ -40,7 +40,8 @@ static void edit_links(edited *e, test_random *random)
 {
     if (e->link_count < MAX_LINKS && (e->link_count < 6 || test_random_below(random, 2) == 0)) {
         e->offmesh[e->link_count] = random_link(e, random);
-        TEST_RESULT(tl_navmesh_add_offmesh(e->navmesh, &e->offmesh[e->link_count], &e->links[e->link_count]), TL_OK);
+        TEST_RESULT(tl_navmesh_add_offmesh(e->navmesh, &e->offmesh[e->link_count], &e->links[e->link_count], NULL),
+                    TL_OK);
         e->link_count++;
         return;
     }
@@ -66,7 +67,7 @@ static tl_navmesh *build_afresh(const edited *e, tl_nav_ref links_out[MAX_LINKS]
         }
     }
     for (uint32_t i = 0; i < e->link_count; i++) {
-        TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &e->offmesh[i], &links_out[i]), TL_OK);
+        TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &e->offmesh[i], &links_out[i], NULL), TL_OK);
     }
     return navmesh;
 }
@@ -184,24 +185,24 @@ static void test_arguments(void **state)
     tl_nav_ref link;
     tl_nav_offmesh offmesh = tl_default_nav_offmesh();
     offmesh.end.z = NAN;
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link), TL_ERR_NOT_FINITE);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link, NULL), TL_ERR_NOT_FINITE);
     offmesh = tl_default_nav_offmesh();
     offmesh.cost_factor = -1.0f;
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link, NULL), TL_ERR_ARGUMENT);
     offmesh = tl_default_nav_offmesh();
     offmesh.flags = 0;
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link), TL_ERR_ARGUMENT);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link, NULL), TL_ERR_ARGUMENT);
     TEST_CHECK(link == TL_NAV_NO_REF && tl_navmesh_offmesh_count(navmesh) == 0);
     tl_nav_offmesh_state asked;
     TEST_RESULT(tl_navmesh_offmesh_state(navmesh, 77, &asked), TL_ERR_STALE);
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, TL_NAV_NO_REF), TL_ERR_STALE);
     // A reference is no polygon's, and names nothing any more once its link is gone, though the place is used again.
     offmesh = tl_default_nav_offmesh();
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link), TL_OK);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &link, NULL), TL_OK);
     TEST_RESULT(tl_navmesh_resolve(navmesh, link, NULL, NULL), TL_ERR_STALE);
     TEST_RESULT(tl_navmesh_remove_offmesh(navmesh, link | TL_NAV_OFFMESH_BACKWARD), TL_OK);
     tl_nav_ref second;
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &second), TL_OK);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &offmesh, &second, NULL), TL_OK);
     TEST_CHECK(second != link);
     TEST_RESULT(tl_navmesh_offmesh_state(navmesh, link, &asked), TL_ERR_STALE);
     TEST_RESULT(tl_navmesh_offmesh_state(navmesh, second, &asked), TL_OK);
@@ -232,7 +233,7 @@ static void test_failing_memory(void **state)
         offmesh.end = tl_vec3_make(14, 0, 6);
         for (uint32_t i = 0; i < 40 && !failed; i++) {
             tl_nav_ref link;
-            tl_result result = tl_navmesh_add_offmesh(navmesh, &offmesh, &link);
+            tl_result result = tl_navmesh_add_offmesh(navmesh, &offmesh, &link, NULL);
             failed = result != TL_OK;
             TEST_CHECK(result == TL_OK || result == TL_ERR_MEMORY);
             TEST_CHECK(tl_navmesh_offmesh_count(navmesh) == i + (failed ? 0 : 1));

@@ -103,7 +103,7 @@ std::unique_ptr<tl_nav_query, detour_deleter> make_query(const tl_navmesh *navme
     tl_nav_query_def def = tl_default_nav_query_def();
     def.max_nodes = (uint32_t)tl_navmesh_link_count(navmesh) + 2;
     tl_nav_query *query = nullptr;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     return std::unique_ptr<tl_nav_query, detour_deleter>(query);
 }
 

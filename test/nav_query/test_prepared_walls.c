@@ -24,7 +24,7 @@ static tl_nav_query *make_query(void)
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
     def.max_nodes = 1 << 15;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     return query;
 }
 

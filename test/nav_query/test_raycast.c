@@ -179,7 +179,7 @@ static void test_legs_of_paths(void **state)
     test_random random = { 63 };
     tl_nav_query *query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     uint32_t legs = 0;
     for (uint32_t round = 0; round < 20; round++) {
         fixture_level level = fixture_random(&random, round % 5, 12);

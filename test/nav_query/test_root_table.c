@@ -236,7 +236,7 @@ static tl_nav_query *make_query(uint32_t max_nodes)
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
     def.max_nodes = max_nodes;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     return query;
 }
 

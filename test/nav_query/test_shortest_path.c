@@ -125,7 +125,7 @@ static void check_level(tl_navmesh *navmesh, uint32_t pairs, uint64_t seed, tall
 {
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     graph g = make_graph(navmesh);
     for (uint32_t kind = TL_NAV_PREPARED_NONE; kind <= TL_NAV_PREPARED_LABELS; kind++) {
         test_random random = { seed };
@@ -263,7 +263,7 @@ static void test_filter(void **state)
     uint32_t complete = 0, longer = 0;
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     for (uint32_t round = 0; round < 12; round++) {
         fixture_level level = fixture_random(&random, 0, 7), holes = level;
         level.triangles = holes.triangles = false;
@@ -313,7 +313,7 @@ static void test_straight_back(void **state)
     tl_navmesh *navmesh = fixture_build(&level, NULL);
     tl_nav_query *query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_location start, goal;
     tl_vec3 near_by = tl_vec3_make(0.01f, 0.5f, 0.01f);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(11.0f, 2.5f, 4.0f), near_by, &start), TL_OK);
@@ -357,7 +357,7 @@ static void test_equal_blocks(void **state)
     tl_nav_query *query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
     def.max_nodes = 16 * all.count;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     test_random random = { 5 };
     uint32_t most = 0;
     for (uint32_t i = 0; i < 200; i++) {
@@ -384,7 +384,7 @@ static void test_buffers(void **state)
     tl_navmesh *navmesh = fixture_build(&level, NULL);
     tl_nav_query *query = NULL;
     tl_nav_query_def def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_location start = { tl_navmesh_polygon_ref(navmesh, 0, 0), { 2, 0, 2 } };
     tl_nav_location goal = { tl_navmesh_polygon_ref(navmesh, 0, 7), { 10, 0, 10 } };
     tl_nav_location stale = { 77, { 0, 0, 0 } }, nan = { start.polygon, { NAN, 0, 0 } };
@@ -420,7 +420,7 @@ static void test_buffers(void **state)
     for (uint32_t max_nodes = 2; max_nodes < 24; max_nodes++) {
         tl_nav_query *small = NULL;
         def.max_nodes = max_nodes;
-        TEST_RESULT(tl_nav_query_create(&def, &small), TL_OK);
+        TEST_RESULT(tl_nav_query_create(&def, &small, NULL), TL_OK);
         TEST_RESULT(
             tl_nav_query_find_shortest_path(small, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &path),
             TL_OK);

@@ -77,7 +77,7 @@ static void test_all_slices(void **state)
         level.area_count = 5;
         // Some searches run out of nodes.
         def.max_nodes = round % 3 == 2 ? 10 : 4096;
-        TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+        TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
         tl_navmesh *navmesh = fixture_build(&level, NULL);
         fixture_refs all = fixture_all_refs(navmesh);
         for (uint32_t i = 0; i < 9; i++) {
@@ -147,8 +147,8 @@ static void test_edits(void **state)
     test_random random = { 502 };
     tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL, *other = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
-    TEST_RESULT(tl_nav_query_create(&def, &other), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &other, NULL), TL_OK);
     uint32_t stale = 0, lived = 0, lived_through = 0, stale_near = 0;
     for (uint32_t round = 0; round < 300; round++) {
         fixture_level level = fixture_random(&random, round % 6, 16);
@@ -202,7 +202,7 @@ static void test_ended(void **state)
     tl_navmesh *navmesh = fixture_build(&level, NULL);
     tl_nav_query_def def = { 64, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_location start, goal, nan, stale = { 77, { 0, 0, 0 } };
     tl_vec3 extents = { 1, 1, 1 };
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2, 0, 2), extents, &start), TL_OK);

@@ -74,7 +74,7 @@ static void test_paths(void **state)
     test_random random = { 401 };
     tl_nav_query_def def = { 8192, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_filter filter = tl_default_nav_filter();
     for (uint32_t area = 0; area <= TL_NAV_MAX_AREA; area++) {
         filter.area_cost[area] = area_cost(area);
@@ -181,7 +181,7 @@ static void test_link_and_arguments(void **state)
     tl_navmesh *navmesh = fixture_gap(&link);
     tl_nav_query_def def = { 64, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_ref polygons[8];
     tl_vec3 extents = { 1, 1, 1 };
     tl_nav_location start, goal;

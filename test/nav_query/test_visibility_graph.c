@@ -13,7 +13,7 @@ static tl_nav_query *make_query(uint32_t max_nodes)
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
     def.max_nodes = max_nodes;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     return query;
 }
 
@@ -222,7 +222,7 @@ static void test_links(void **state)
         tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &path),
         TL_OK);
     TEST_CHECK(path.length > 12.0);
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &link, &added), TL_OK);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &link, &added, NULL), TL_OK);
     TEST_RESULT(
         tl_nav_query_find_shortest_path(query, navmesh, &(tl_nav_path_request){ NULL, start, goal }, NULL, &path),
         TL_OK);

@@ -123,7 +123,7 @@ static void test_walls(void **state)
     test_random random = { 31 };
     tl_nav_query_def def = { 4096, NULL, TL_DEF_COOKIE };
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     uint32_t walls = 0, refused = 0, around = 0, cut = 0, equal = 0;
     for (uint32_t round = 0; round < 30; round++) {
         fixture_level level = fixture_random(&random, round % 6, 8);

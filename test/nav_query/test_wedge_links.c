@@ -56,7 +56,7 @@ static void make_pair(linked_pair *p, const fixture_level *level, test_random *r
             link.cost_factor = 1.0f;
         }
         tl_nav_ref ref;
-        TEST_RESULT(tl_navmesh_add_offmesh(p->linked, &link, &ref), TL_OK);
+        TEST_RESULT(tl_navmesh_add_offmesh(p->linked, &link, &ref, NULL), TL_OK);
         TEST_CHECK(tl_nav_is_offmesh(ref));
         tl_nav_offmesh_state *state = &p->links[p->link_count];
         TEST_RESULT(tl_navmesh_offmesh_state(p->linked, ref, state), TL_OK);
@@ -267,7 +267,7 @@ static void test_oracle(void **state)
     tl_nav_query_def def = tl_default_nav_query_def();
     linked_pair p;
     memset(&p, 0, sizeof p);
-    TEST_RESULT(tl_nav_query_create(&def, &p.query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &p.query, NULL), TL_OK);
     coverage seen;
     memset(&seen, 0, sizeof seen);
     for (uint32_t round = 0; round < 400; round++) {
@@ -301,14 +301,14 @@ static void test_filter(void **state)
     tl_navmesh *navmesh = fixture_build(&level, NULL);
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_offmesh link = tl_default_nav_offmesh();
     link.start = tl_vec3_make(10, 0, 3.5f);
     link.end = tl_vec3_make(10, 0, 12.5f);
     link.flags = 4;
     link.area = 9;
     tl_nav_ref ref;
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &link, &ref), TL_OK);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &link, &ref, NULL), TL_OK);
     tl_nav_location start, goal;
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(10, 0, 2), tl_vec3_make(1, 1, 1), &start), TL_OK);
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(10, 0, 14), tl_vec3_make(1, 1, 1), &goal), TL_OK);

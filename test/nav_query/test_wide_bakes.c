@@ -185,7 +185,7 @@ static void compare_level(const char *name, const tl_mesh_view *mesh, uint32_t t
 {
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_navmesh *own = bake(mesh, RADII[0], tile_size);
     floor_area area = measure(own);
     for (uint32_t i = 0; i < 3; i++) {

@@ -229,7 +229,7 @@ static void test_against_grid(void **state)
     test_random random = { 7 };
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     coverage seen = { 0 };
     const char *asked = getenv("TALUS_ROUNDS");
     uint32_t rounds = asked != NULL ? (uint32_t)atoi(asked) : 24;
@@ -272,7 +272,7 @@ static void test_places(void **state)
     test_random random = { 23 };
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     uint32_t moved = 0, none = 0;
     for (uint32_t round = 0; round < 5; round++) {
         fixture_level level = fixture_random(&random, round, 6);
@@ -331,7 +331,7 @@ static void test_filter(void **state)
     fixture_refs all = fixture_all_refs(navmesh);
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     tl_nav_location start, goal;
     const tl_vec3 extents = { 0.1f, 1.0f, 0.1f };
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(18.0f, 0.0f, 2.0f), extents, &start), TL_OK);
@@ -386,9 +386,9 @@ static void test_arguments(void **state)
     tl_navmesh *navmesh = fixture_build(&level, NULL);
     tl_nav_query_def def = tl_default_nav_query_def();
     tl_nav_query *query = NULL, *small = NULL;
-    TEST_RESULT(tl_nav_query_create(&def, &query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &query, NULL), TL_OK);
     def.max_nodes = 4;
-    TEST_RESULT(tl_nav_query_create(&def, &small), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &small, NULL), TL_OK);
     tl_nav_location start, goal, place, bad;
     const tl_vec3 extents = { 0.1f, 1.0f, 0.1f };
     TEST_RESULT(tl_navmesh_find_nearest(navmesh, NULL, tl_vec3_make(2.0f, 0.0f, 2.0f), extents, &start), TL_OK);

@@ -32,7 +32,7 @@ static void set_up(yard *y, test_random *random, uint32_t tile_size)
     y->navmesh = test_nav_bake(&def, &input);
     y->soup = audit_soup(&y->level);
     const tl_nav_query_def query_def = tl_default_nav_query_def();
-    TEST_RESULT(tl_nav_query_create(&query_def, &y->query), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&query_def, &y->query, NULL), TL_OK);
 }
 
 static void tear_down(yard *y)

@@ -472,9 +472,9 @@ static inline fixture_ring fixture_make_ring(void)
     fixture_ring ring;
     memset(&ring, 0, sizeof ring);
     ring.navmesh = fixture_build(&level, NULL);
-    TEST_RESULT(tl_nav_query_create(&def, &ring.few_nodes), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &ring.few_nodes, NULL), TL_OK);
     def.max_nodes = 64;
-    TEST_RESULT(tl_nav_query_create(&def, &ring.many_nodes), TL_OK);
+    TEST_RESULT(tl_nav_query_create(&def, &ring.many_nodes, NULL), TL_OK);
     ring.start.polygon = tl_navmesh_polygon_ref(ring.navmesh, 0, 0);
     ring.start.point = tl_vec3_make(2, 0, 2);
     ring.stale.polygon = 77;
@@ -501,7 +501,7 @@ static inline tl_navmesh *fixture_gap(tl_nav_ref *link_out)
     jump.start = tl_vec3_make(7.5f, 0, 2);
     jump.end = tl_vec3_make(16.5f, 0, 2);
     jump.fixed_cost = 3.0f;
-    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, link_out), TL_OK);
+    TEST_RESULT(tl_navmesh_add_offmesh(navmesh, &jump, link_out, NULL), TL_OK);
     return navmesh;
 }
 

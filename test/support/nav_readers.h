@@ -30,7 +30,7 @@ static inline void *read_paths(void *user)
     shared_world *world = user;
     tl_nav_query *query = NULL;
     test_random random = { 77 };
-    if (tl_nav_query_create(NULL, &query) != TL_OK) {
+    if (tl_nav_query_create(NULL, &query, NULL) != TL_OK) {
         atomic_fetch_add(&world->faults, 1);
         return NULL;
     }

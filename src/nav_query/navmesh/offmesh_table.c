@@ -8,6 +8,7 @@
 
 #include "base/arena.h"
 #include "base/assert.h"
+#include "base/host.h"
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/offmesh_anchor.h"
 #include "nav_query/navmesh/surface.h"
@@ -79,15 +80,28 @@ tl_result tl_navmesh_reserve_offmesh(tl_navmesh *navmesh, uint32_t count)
     return TL_OK;
 }
 
-static tl_result check_offmesh(const tl_nav_offmesh *offmesh)
+static tl_result check_length(float value, const char *field, tl_report *report)
 {
-    if (!tl_nav_is_finite(offmesh->start) || !tl_nav_is_finite(offmesh->end) || !isfinite(offmesh->radius) ||
-        !isfinite(offmesh->cost_factor) || !isfinite(offmesh->fixed_cost)) {
-        return TL_ERR_NOT_FINITE;
+    if (!isfinite(value)) {
+        return tl_report_field(report, TL_ERR_NOT_FINITE, field, "use finite numbers");
     }
-    bool sane =
-        offmesh->radius >= 0.0f && offmesh->cost_factor >= 0.0f && offmesh->fixed_cost >= 0.0f && offmesh->flags != 0;
-    return sane ? TL_OK : TL_ERR_ARGUMENT;
+    return value >= 0.0f ? TL_OK : tl_report_field(report, TL_ERR_ARGUMENT, field, "make it >= 0");
+}
+
+static tl_result check_offmesh(const tl_nav_offmesh *offmesh, tl_report *report)
+{
+    TL_TRY(tl_def_check(offmesh->cookie, "begin with tl_default_nav_offmesh()", report));
+    const bool has_start = tl_nav_is_finite(offmesh->start);
+    if (!has_start || !tl_nav_is_finite(offmesh->end)) {
+        return tl_report_field(report, TL_ERR_NOT_FINITE, has_start ? "end" : "start", "use finite numbers");
+    }
+    TL_TRY(check_length(offmesh->radius, "radius", report));
+    TL_TRY(check_length(offmesh->cost_factor, "cost_factor", report));
+    TL_TRY(check_length(offmesh->fixed_cost, "fixed_cost", report));
+    if (offmesh->flags == 0) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, "flags", "set a flag: no filter passes 0");
+    }
+    return TL_OK;
 }
 
 static void note_flags(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh)
@@ -105,16 +119,15 @@ void tl_nav_note_offmesh_flags(tl_navmesh *navmesh)
     }
 }
 
-tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh, tl_nav_ref *link_out)
+tl_result tl_navmesh_add_offmesh(tl_navmesh *navmesh, const tl_nav_offmesh *offmesh, tl_nav_ref *link_out,
+                                 tl_report *report)
 {
-    if (link_out == NULL) {
-        return TL_ERR_ARGUMENT;
-    }
+    tl_report_begin(report, "off-mesh link");
+    TL_REFUSE_NULL(link_out, report);
     *link_out = TL_NAV_NO_REF;
-    if (navmesh == NULL || offmesh == NULL || offmesh->cookie != TL_DEF_COOKIE) {
-        return TL_ERR_ARGUMENT;
-    }
-    TL_TRY(check_offmesh(offmesh));
+    TL_REFUSE_NULL(navmesh, report);
+    TL_REFUSE_NULL(offmesh, report);
+    TL_TRY(check_offmesh(offmesh, report));
     tl_nav_offmesh_table *table = &navmesh->offmesh;
     bool is_full = table->used == table->capacity && (table->capacity == 0 || table->free == UINT32_MAX);
     if (is_full) {

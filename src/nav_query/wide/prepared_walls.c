@@ -151,7 +151,7 @@ static tl_result make_wall_query(wall_baker *b, uint32_t nodes)
     tl_nav_query_def def = tl_default_nav_query_def();
     def.max_nodes = nodes;
     def.allocator = &b->navmesh->allocator;
-    return tl_nav_query_create(&def, &b->query);
+    return tl_nav_query_create(&def, &b->query, NULL);
 }
 
 // Gathers the walls around a polygon, with more nodes if need be. The list lies in the query's memory.
