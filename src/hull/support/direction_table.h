@@ -26,8 +26,12 @@
 // than a cell's width would notice.
 #define TL_TABLE_INWARD (1.0f - 9.5367432e-7f) // 1 - 2^-20
 
-// A body or face thinner than this share of its largest extent gains nothing from more stretching: tables only say
-// where a climb starts.
+// The smallest extent that a direction is scaled by, as a share of the largest: about 2^-20.
+// From above: a share s crowds the cells into the angle s around the thin axis. A unit vector's components are rounded
+// by 2^-24, so 2^-20 leaves 16 steps in that angle; cells of a smaller share would be told apart by rounding alone.
+// From below: the largest component of a direction in range is at least 2^-20 (TL_SUPPORT_DIRECTION_MIN), so a scaled
+// one sums to at least 2^-40, and half a table's side over it is at most 256 * 2^40 = 2^48: no product of
+// tl_table_cell under- or overflows. A body thinner than this only costs its climbs more steps, never the answer.
 #define TL_MIN_RELATIVE_EXTENT 1e-6
 
 // An extent over the largest one, so that no product with a direction in range under- or overflows.
