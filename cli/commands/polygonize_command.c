@@ -260,9 +260,11 @@ static tl_exit run_polygonize(tl_cli *cli)
     const char *output = NULL;
     int method = 0;
     uint32_t max_verts = 0;
-    bool unlimited = false, check = false, compare = false, keep_border = false, drop_straight = false,
-         merge_contours = false;
-    tl_polygon_def def = tl_default_polygon_def();
+    bool unlimited = false;
+    job j;
+    memset(&j, 0, sizeof j);
+    j.cli = cli;
+    j.def = tl_default_polygon_def();
     const tl_option options[] = {
         { "output", 'o', TL_OPTION_OUTPUT, &output, "FILE",
           "where to write the meshes; - is standard output (the default without --json)", NULL, 0, 0, 0, 0 },
@@ -272,18 +274,18 @@ static tl_exit run_polygonize(tl_cli *cli)
           "most corners of a polygon, 3 to 64 (0: what the set says, else 6)", NULL, 0, 0, 0, 64 },
         { "unlimited", 0, TL_OPTION_FLAG, &unlimited, NULL, "allow polygons of any number of corners", NULL, 0, 0, 0,
           0 },
-        { "merge-height", 0, TL_OPTION_COUNT, &def.merge_height, "N",
+        { "merge-height", 0, TL_OPTION_COUNT, &j.def.merge_height, "N",
           "lattice units: vertices at one place, no farther apart in height than this, become one", NULL, 0, 0, 0,
           UINT16_MAX },
-        { "keep-border-vertices", 0, TL_OPTION_FLAG, &keep_border, NULL,
+        { "keep-border-vertices", 0, TL_OPTION_FLAG, &j.def.keep_border_vertices, NULL,
           "keep vertices that a tile's border does not need", NULL, 0, 0, 0, 0 },
-        { "drop-straight", 0, TL_OPTION_FLAG, &drop_straight, NULL,
+        { "drop-straight", 0, TL_OPTION_FLAG, &j.def.drop_straight_vertices, NULL,
           "remove vertices of straight runs where no other contour has them", NULL, 0, 0, 0, 0 },
-        { "merge-contours", 0, TL_OPTION_FLAG, &merge_contours, NULL,
+        { "merge-contours", 0, TL_OPTION_FLAG, &j.def.merge_contours, NULL,
           "merge polygons across contours of one region and area", NULL, 0, 0, 0, 0 },
-        { "check", 'c', TL_OPTION_FLAG, &check, NULL, "verify the result; exits with 1 when it is wrong", NULL, 0, 0, 0,
-          0 },
-        { "compare", 0, TL_OPTION_FLAG, &compare, NULL,
+        { "check", 'c', TL_OPTION_FLAG, &j.check, NULL, "verify the result; exits with 1 when it is wrong", NULL, 0, 0,
+          0, 0 },
+        { "compare", 0, TL_OPTION_FLAG, &j.compare, NULL,
           "divide by every method and print them side by side; writes no meshes", NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
@@ -295,24 +297,15 @@ static tl_exit run_polygonize(tl_cli *cli)
     if (max_verts == 1 || max_verts == 2) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "--max-verts: a polygon has at least 3 corners; use 3 to 64");
     }
-    if (compare && output != NULL) {
+    if (j.compare && output != NULL) {
         return tl_cli_fail(cli, TL_EXIT_USAGE, "--compare writes no meshes; leave out -o");
     }
-    job j;
-    memset(&j, 0, sizeof j);
-    j.cli = cli;
     j.input = cli->arguments.words[0];
-    j.output = output != NULL || cli->json || compare ? output : "-";
-    j.def = def;
+    j.output = output != NULL || cli->json || j.compare ? output : "-";
     j.def.method = (tl_partition_method)method;
-    j.def.max_verts_per_poly = unlimited ? 0 : max_verts != 0 ? max_verts : def.max_verts_per_poly;
-    j.def.keep_border_vertices = keep_border;
-    j.def.drop_straight_vertices = drop_straight;
-    j.def.merge_contours = merge_contours;
+    j.def.max_verts_per_poly = unlimited ? 0 : max_verts != 0 ? max_verts : j.def.max_verts_per_poly;
     j.def.host = cli->host;
     j.has_cap = unlimited || max_verts != 0;
-    j.check = check;
-    j.compare = compare;
     if (cli->json && output != NULL && strcmp(output, "-") == 0) {
         return tl_cli_fail(cli, TL_EXIT_USAGE,
                            "--json and the meshes cannot both go to standard output; name a file with -o");

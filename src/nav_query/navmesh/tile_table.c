@@ -521,46 +521,6 @@ static void remove_slot(tl_navmesh *navmesh, uint32_t index)
     }
 }
 
-// Takes the first tiles of a list out again; they stay the caller's.
-static void take_back(tl_navmesh *navmesh, tl_nav_tile *const *tiles, uint32_t count)
-{
-    for (uint32_t i = count; i > 0; i--) {
-        const tl_nav_tile *tile = tiles[i - 1];
-        const uint32_t slot = find_layer(navmesh, tile->tile_x, tile->layer, tile->tile_z);
-        navmesh->slots[slot].ownership = TL_NAV_TILE_BORROWED;
-        remove_slot(navmesh, slot);
-    }
-}
-
-static const char *advice_on(tl_result result)
-{
-    switch (result) {
-    case TL_ERR_ARGUMENT:
-        return "add one tile a place and layer, all with the same origin, cell sizes and tile_size";
-    case TL_ERR_LIMIT:
-        return "add fewer tiles";
-    default:
-        return "give it more memory";
-    }
-}
-
-tl_result tl_navmesh_add_tiles(tl_navmesh *navmesh, tl_nav_tile *const *tiles, uint32_t count,
-                               tl_nav_tile_ownership ownership, tl_report *report)
-{
-    tl_report_begin(report, "tiles");
-    if (navmesh == NULL || (tiles == NULL && count > 0)) {
-        return tl_report_field(report, TL_ERR_ARGUMENT, navmesh == NULL ? "navmesh" : "tiles", "pass a pointer");
-    }
-    for (uint32_t i = 0; i < count; i++) {
-        const tl_result result = tl_navmesh_add_tile(navmesh, tiles[i], ownership);
-        if (result != TL_OK) {
-            take_back(navmesh, tiles, i);
-            return tl_report_fail(report, result, "tile", i, advice_on(result));
-        }
-    }
-    return TL_OK;
-}
-
 tl_result tl_navmesh_remove_layer(tl_navmesh *navmesh, int32_t tile_x, uint32_t layer, int32_t tile_z)
 {
     if (navmesh == NULL) {

@@ -1,11 +1,56 @@
 // SPDX-License-Identifier: MIT
 //
-// The swap of a place's tiles for those that were made anew: what is the same byte for byte stays. So a change in one
-// storey takes out that storey only, and paths and agents on the others keep their references.
+// Several tiles in one call. Adding: all of a list, or none. Replacing the tiles of a place by rebaked ones: a tile
+// with the same bytes stays, so a change in one storey takes out that storey only, and paths and agents on the others
+// keep their references.
 
+#include "base/host.h"
 #include "nav_query/navmesh/navmesh.h"
 
 #include <string.h>
+
+// Takes the first tiles of a list out again; they stay the caller's.
+static void take_back(tl_navmesh *navmesh, tl_nav_tile *const *tiles, uint32_t count)
+{
+    for (uint32_t i = count; i > 0; i--) {
+        const tl_nav_tile *tile = tiles[i - 1];
+        uint32_t slot = tl_nav_find_slot(navmesh, tile->tile_x, tile->tile_z);
+        while (navmesh->slots[slot].tile != tile) {
+            slot = tl_nav_next_slot(navmesh, slot);
+        }
+        navmesh->slots[slot].ownership = TL_NAV_TILE_BORROWED;
+        (void)tl_navmesh_remove_layer(navmesh, tile->tile_x, tile->layer, tile->tile_z);
+    }
+}
+
+static const char *advice_on(tl_result result)
+{
+    switch (result) {
+    case TL_ERR_ARGUMENT:
+        return "add one tile a place and layer, all with the same origin, cell sizes and tile_size";
+    case TL_ERR_LIMIT:
+        return "add fewer tiles";
+    default:
+        return "give it more memory";
+    }
+}
+
+tl_result tl_navmesh_add_tiles(tl_navmesh *navmesh, tl_nav_tile *const *tiles, uint32_t count,
+                               tl_nav_tile_ownership ownership, tl_report *report)
+{
+    tl_report_begin(report, "tiles");
+    if (navmesh == NULL || (tiles == NULL && count > 0)) {
+        return tl_report_field(report, TL_ERR_ARGUMENT, navmesh == NULL ? "navmesh" : "tiles", "pass a pointer");
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        const tl_result result = tl_navmesh_add_tile(navmesh, tiles[i], ownership);
+        if (result != TL_OK) {
+            take_back(navmesh, tiles, i);
+            return tl_report_fail(report, result, "tile", i, advice_on(result));
+        }
+    }
+    return TL_OK;
+}
 
 static bool are_of_place(const tl_nav_tile_stack *stack, int32_t tile_x, int32_t tile_z)
 {
