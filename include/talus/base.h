@@ -134,7 +134,7 @@ typedef struct tl_progress {
     void *user; ///< handed to update
 } tl_progress;
 
-/// What the host lends to a bake. All zero is a valid host: malloc, one thread, silent.
+/// The hooks that a bake calls: memory, tasks, progress. All zero is a valid host: malloc, one thread, silent.
 /// The pointed-to structs must outlive the call; blobs remember none of them.
 typedef struct tl_host {
     const tl_allocator *allocator; ///< NULL: malloc and free

@@ -38,7 +38,7 @@ typedef struct tl_nav_height_range {
     float min, max; ///< min <= max
 } tl_nav_height_range;
 
-/// Finds all polygons that pass the filter and come into a zone, whether a path leads there or not, in the order of the
+/// Finds all polygons that pass the filter and overlap a zone, whether a path leads there or not, in the order of the
 /// tiles' BVHs. With `heights` (NULL: all) only those whose bounding box comes into that range.
 /// TL_ERR_ARGUMENT: the zone is invalid.
 TL_API tl_result tl_navmesh_find_polygons(const tl_navmesh *navmesh, const tl_nav_filter *filter,
@@ -60,7 +60,7 @@ typedef struct tl_nav_field_entry {
 /// How far a field reaches, and what its paths cost. Begin with tl_default_nav_field_def.
 typedef struct tl_nav_field_def {
     const tl_nav_filter *filter; ///< NULL: the default filter
-    const tl_nav_zone *zone;     ///< NULL: everywhere; else paths cross only edges that come into it, and take only
+    const tl_nav_zone *zone;     ///< NULL: everywhere; else paths cross only edges that overlap it, and take only
                                  ///< off-mesh links that land in it
     float max_cost;              ///< >= 0: polygons that are entered at a higher cost do not belong to the field
     bool by_reference;           ///< entries are ordered by reference, for tl_nav_field_find; false: in the order in
@@ -122,7 +122,7 @@ TL_API tl_result tl_navmesh_random_point(const tl_navmesh *navmesh, const tl_nav
                                          const uint64_t random[2], tl_nav_location *location_out);
 
 /// A random point that can be reached from the request's center: uniform by area over the part of the circle that lies
-/// on polygons which a path of at most the radius enters over polygons that come into the circle. Paths and their
+/// on polygons which a path of at most the radius enters over polygons that overlap the circle. Paths and their
 /// lengths are those of tl_nav_query_flood with all area costs 1.
 ///
 /// The circle is a regular polygon with 32 sides inscribed in it, which leaves out the outer 0.5% of the radius between

@@ -68,7 +68,7 @@ typedef enum tl_nav_finding_kind {
 /// "blocked", "step", "no floor", "missing".
 TL_API const char *tl_nav_finding_name(tl_nav_finding_kind kind);
 
-/// One fault, however many paths met it.
+/// One fault, reported once even when many paths pass it.
 typedef struct tl_nav_finding {
     tl_nav_finding_kind kind;
     uint32_t triangle;  ///< that blocks the probe, or on which the missing floor lies; else TL_NO_TRIANGLE
@@ -153,7 +153,7 @@ typedef struct tl_nav_reason {
     /// "solids", "seeds" (a seed on the island keeps it; `value` and `needed` are 0) or "min_area".
     const char *parameter;
     float value;  ///< of that field now
-    float needed; ///< the nearest value with which this cause is gone
+    float needed; ///< the nearest value with which this cause no longer applies
     /// What was found at the point. Slope: degrees; ledge: metres of the drop or stair; ceiling: metres of free height;
     /// radius: metres kept; island: columns; pruned: the island's square metres; no floor: metres to the nearest floor
     /// below, INFINITY when there is none.

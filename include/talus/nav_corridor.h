@@ -37,7 +37,7 @@ typedef struct tl_nav_corridor {
     uint32_t count;    ///< 0: the corridor was not reset yet
     tl_vec3 position;  ///< of the agent, on the first polygon
     tl_vec3 target;    ///< on the last one: the goal, or as near to it as the path leads
-    tl_vec3 goal;      ///< what was asked for
+    tl_vec3 goal;      ///< the goal that was requested
     bool reaches;      ///< the target is the goal
 } tl_nav_corridor;
 

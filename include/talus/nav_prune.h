@@ -59,7 +59,8 @@ enum { TL_NAV_PRUNED_INSIDE = 1, TL_NAV_PRUNED_UNREACHABLE = 2, TL_NAV_PRUNED_SM
 /// (tl_nav_tile_subset), the others stay as they are. The same bytes for any number of workers.
 ///
 /// `removed_out` (may be NULL): what was removed, as tiles of its own, freed with tl_nav_tiles_free; the flags of their
-/// polygons say why. tl_nav_audit_run and tl_nav_why take it, as a navmesh, so that they know what is meant to be gone.
+/// polygons say why. tl_nav_audit_run and tl_nav_why take it, as a navmesh, so that they know what was removed on
+/// purpose.
 ///
 /// `def` NULL: the default one. `report_out` may be NULL. On failure the tiles are as before, `*removed_out` is zeroed.
 /// TL_ERR_ARGUMENT (a field; element "seed": no polygon is near it; element "tile": the tiles are no navmesh),

@@ -168,7 +168,7 @@ TL_API tl_result tl_navmesh_remove_offmesh(tl_navmesh *navmesh, tl_nav_ref link)
 /// Paths and corners set this bit in a link's reference where they take it from its end to its start.
 #define TL_NAV_OFFMESH_BACKWARD ((tl_nav_ref)1 << 47)
 
-/// Whether a reference is one to an off-mesh link, which may be gone, and not to a polygon.
+/// Whether a reference names an off-mesh link, which may have been removed, and not a polygon.
 static inline bool tl_nav_is_offmesh(tl_nav_ref ref)
 {
     return ref != TL_NAV_NO_REF && ref >> 48 == 0;
@@ -236,7 +236,7 @@ TL_API bool tl_nav_filter_passes(const tl_nav_filter *filter, const tl_nav_tile 
 // ---------------------------------------------------------------------------------------------------------
 // Points and polygons.
 
-/// The polygon nearest to `center` among those that come into the box center +- half_extents, and its point.
+/// The polygon nearest to `center` among those that overlap the box center +- half_extents, and its point.
 ///
 /// A polygon's point is its closest one in the plane, lifted to the surface; it must lie in the box. Points are
 /// compared by their distance in space, but a point more than agent_max_climb above `center` counts as agent_height
@@ -315,7 +315,7 @@ typedef struct tl_nav_corner {
     tl_nav_ref link;    ///< TL_NAV_CORNER_LINK: which; else TL_NAV_NO_REF
 } tl_nav_corner;
 
-/// What a path search is asked for.
+/// The input of a path search.
 typedef struct tl_nav_path_request {
     const tl_nav_filter *filter; ///< NULL: the default filter
     tl_nav_location start;       ///< on its polygon (tl_navmesh_find_nearest), which need not pass the filter
@@ -487,7 +487,7 @@ TL_API tl_result tl_navmesh_cast_ray(const tl_navmesh *navmesh, const tl_nav_fil
 // ---------------------------------------------------------------------------------------------------------
 // Around a place.
 
-/// What a move along the surface is asked for.
+/// The input of a move along the surface.
 typedef struct tl_nav_move_request {
     const tl_nav_filter *filter; ///< NULL: the default filter. What it refuses is wall
     tl_nav_location start;       ///< on its polygon
@@ -510,7 +510,7 @@ TL_API tl_result tl_nav_query_move_along_surface(tl_nav_query *query, const tl_n
                                                  const tl_nav_move_request *request, tl_nav_ref *polygons_out,
                                                  uint32_t capacity, tl_nav_move *move_out);
 
-/// A place and how far around it: what queries around a place are asked for.
+/// The input of queries around a place: the place and a radius.
 typedef struct tl_nav_around_request {
     const tl_nav_filter *filter; ///< NULL: the default filter
     tl_nav_location center;      ///< on its polygon
@@ -534,7 +534,7 @@ TL_API tl_result tl_nav_query_find_wall(tl_nav_query *query, const tl_navmesh *n
 // ---------------------------------------------------------------------------------------------------------
 // All in one.
 
-/// What a route is asked for.
+/// The input of a route.
 typedef struct tl_nav_route_request {
     const tl_nav_filter *filter; ///< NULL: the default filter
     tl_vec3 start, goal;         ///< anywhere near the navmesh

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The order of the tests gives each fault its own name: foreign bytes are foreign however few they are.
+// Magic and version are tested before the length, so bytes of another kind are named as such even when they are cut
+// off.
 
 #include "base/blob_check.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Calls to the host, and what happens when it lends nothing.
+// Calls of the host's hooks, and the defaults where it has none.
 
 #include "base/host.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The corners of what two convex faces, or a face and an edge, have in common: each edge of one is clipped to what lies
-// within the other (Cyrus and Beck, Generalized Two- and Three-Dimensional Clipping, 1978), and the ends of all pieces
-// are the corners. Against clipping the whole polygon edge by edge (Sutherland and Hodgman) this needs no buffer for
-// the polygon, so faces of any number of corners do, without allocation: some edges of one at a time are taken around
-// the other.
+// The corners of the intersection of two convex faces, or of a face and an edge: each edge of one is clipped against
+// the other (Cyrus and Beck, Generalized Two- and Three-Dimensional Clipping, 1978), and the ends of all pieces
+// are the corners. Unlike clipping the whole polygon edge by edge (Sutherland and Hodgman) this needs no buffer for the
+// polygon, so faces may have any number of corners, without allocation: a few edges of one face at a time are clipped
+// against all of the other.
 
 #include "convex/face_patch.h"
 

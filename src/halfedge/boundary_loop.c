@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Boundary loops, found without marks: a half-edge asks both ways round whether one of its loop is lower.
+// Boundary loops, found without marking half-edges: the lowest half-edge of a loop stands for it, and each half-edge
+// walks both ways round the loop until it meets a lower one.
 //
 // One way alone is quadratic on a loop whose numbers run along it. Both ways at once, a half-edge walks no farther than
 // its nearer lower one, which is at most the smaller of the two parts that it divides the stretch between its lower

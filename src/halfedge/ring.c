@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Looking around: edges by their ends, rings, faces.
+// Adjacency queries: the edge between two vertices, the edges, neighbours and faces around a vertex, the vertices of a
+// face.
 
 #include <talus/halfedge.h>
 

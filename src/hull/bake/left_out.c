@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// How far outside a hull of limited vertices the points lie that it leaves out: the largest of their distances.
+// A hull with limited vertices leaves points out: the largest distance of one from the hull.
 //
 // The nearest point of a convex body lies on a face that the point is in front of. So the faces that it sees, flooded
-// as for a step of quickhull, are all that must be looked at. Nearly always the distance from the one face that the
-// point is filed under, which the true distance does not exceed, says that another point is farther.
+// as for a step of quickhull, are all that must be tested. For nearly every point that is not needed: its distance from
+// the one face that it is filed under bounds the true distance from above, and is less than the largest distance so
+// far.
 
 #include "hull/bake/quickhull.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The support query's front: which instruction set, and directions of unusual length.
+// The public support query: chooses the instruction set, and scales directions of unusual length.
 //
 // The baked hull has the same bytes on every machine.
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Exact comparisons, for what float arithmetic leaves open.
+// Exact comparisons, where float arithmetic cannot tell which vertex is farther.
 //
 // Hill climbing on the half-edges: Chou's function with its defects corrected.
 // Source: Allen Chou, Game Physics: Implementing Support Function for Polyhedrons using Half Edges, 2013.

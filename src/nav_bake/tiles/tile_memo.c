@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Rebaking a tile often, each time with few floors of another area.
+// What is kept of a tile between rebakes, so that one in which few floors have changed their area is cheap.
 //
 // The memo keeps the distance field of the floors' base areas, and a rebake updates a copy of it where areas differ. So
 // nothing depends on earlier rebakes, and the tile has the bytes of one that is baked at once.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// All polygons that come into a zone: down the box trees of the tiles around it, then exactly.
+// All polygons that overlap a zone: found by the BVHs of the tiles around it, then tested exactly.
 
 #include "base/assert.h"
 #include "nav_query/navmesh/nav_filter.h"

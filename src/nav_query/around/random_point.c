@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// A random point of the surface, uniform by area: a random square of all, its tile, its polygon, its triangle, and a
-// point of that.
+// A random point of the surface, uniform by area: a random unit of the total area selects a tile, a polygon of it, a
+// triangle of that, and a point of that.
 //
-// Detour picks tiles alike, however much floor is in them, and sums up a tile's areas anew for every point; here sums
-// are kept (area_table.c), whole numbers, so that nothing is more likely than anything else.
+// Detour picks each tile with the same probability, however much floor is in it, and sums up its areas for every point.
+// Here integer sums are kept (area_table.c), so the distribution is exactly uniform.
 
 #include "nav_query/navmesh/area_table.h"
 #include "nav_query/navmesh/nav_filter.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Sums of areas that change as tiles come and go: a tree of partial sums over the slots, and within each tile plain
-// running sums.
+// Sums of areas that change as tiles come and go: a Fenwick tree over the slots, and running sums within each
+// tile.
 //
 // Polygons lie on a lattice, so that twice their area is a whole number. Sums of those are exact: they do not depend on
-// the order in which tiles came, nor on how many came and went, and a random number meets each square with the very
+// the order in which tiles came, nor on how many came and went, and a random number picks each square with exactly the
 // same probability. They fit 64 bits up to 2^63 squares, which is more than the earth's surface in cells of a
 // centimetre.
 // Source: Fenwick, A New Data Structure for Cumulative Frequency Tables, 1994.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The table of off-mesh links: adding, removing, asking.
+// The table of off-mesh links: adding, removing, looking up.
 //
 // Other navmeshes keep a link in the tile under its start and connect it to neighbours of that tile as it comes in.
 // Such a link is lost when the tile under its end comes later or goes, is limited to one tile's reach, and changes with

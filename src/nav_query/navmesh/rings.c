@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Making rings: a tile's corners and links, with border edges parted at the ends of their seam links.
+// Building rings: a tile's corners and links, with border edges split at the ends of their seam links.
 
 #include "nav_query/navmesh/rings.h"
 

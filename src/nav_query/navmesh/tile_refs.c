@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// What a reader asks of the table of tiles: slots, references into them, and where a polygon leads.
+// Lookups in the table of tiles: slots, references to polygons, and the links of a polygon.
 
 #include "nav_query/navmesh/navmesh.h"
 #include "nav_query/navmesh/ways.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// What comes into a zone. Circles: by the distance of their centre, in double. Outlines: two convex sets are apart
-// exactly when an edge of one of them parts them; sides are decided exactly, so that what only touches is never lost to
-// rounding.
-// Source: Gottschalk, Lin, Manocha, OBBTree, 1996, for the separating axis; in the plane it is older than names.
+// Whether something overlaps a zone. Circles: by the distance of their centre, in double. Outlines: two convex sets are
+// disjoint exactly when an edge of one of them separates them; sides are decided exactly, so that touching counts in
+// spite of rounding.
+// Source: Gottschalk, Lin, Manocha, OBBTree, 1996, for the separating axis.
 
 #include "nav_query/plane/zone.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// Baking the visibility graph: from each corner vertex all that is seen is looked at once, by wedges of the exact
-// search.
+// Baking the visibility graph: from each corner vertex all that is visible is found once, by the wedges of the
+// exact search.
 //
 // An edge needs two corner vertices that see one another, and at both ends walls on the side to which a path would
-// turn: few lines of sight are left. A city of 25,000 polygons has 25,000 corner vertices with 14 edges each, found in
+// turn: few lines of sight qualify. A city of 25,000 polygons has 25,000 corner vertices with 14 edges each, found in
 // 0.4 s. Where a polygon is linked to two floors over the same stretch of a seam, a vertex has several free ways around
 // it (fans.c) and no single number; such a navmesh gets no graph.
 // Source: Lozano-Perez and Wesley, An Algorithm for Planning Collision-Free Paths Among Polyhedral Obstacles, 1979 (the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The shortest free way between two places of one polygon: straight, or over corners of caps.
+// The shortest free path between two places of one polygon: straight, or over corners of caps.
 //
 // A cap is the polygon of 32 corners inscribed in the circle around a wall's end; the convex hull of a wall's two caps
 // approximates what the wall forbids (its Minkowski sum with the disc). The hull contains all that is nearer to the

@@ -2,9 +2,9 @@
 //
 // Pulling a free path taut, to the shortest one of its homotopy class: at each vertex the triangle over it is emptied.
 // The two sides that meet in the vertex are replaced by the hull, on their side, of all corners of caps in the
-// triangle: the shortest way there that passes each obstacle on the same side. Nothing lies between the old way and the
-// new one, so a path stays free, and one that cannot be shortened so is the shortest of its class, over tiles and
-// floors. Every other vertex is taken first, so that a long straight stretch is joined in a few sweeps of small
+// triangle: the shortest way there that passes each obstacle on the same side. No obstacle lies between the old path
+// and the new one, so the path stays free, and one that cannot be shortened so is the shortest of its class, over tiles
+// and floors. Every other vertex is taken first, so that a long straight stretch is joined in a few sweeps of small
 // triangles. Source: Hershberger and Snoeyink, Computing Minimum Length Paths of a Given Homotopy Class, 1994, for the
 // proof that such a path is unique; the steps are those of a rubber band.
 
