@@ -352,7 +352,7 @@ static bool draw_all_in_one(draw_source *source, const draw_settings *settings, 
     tl_io_error error;
     memset(&error, 0, sizeof error);
     if (going && overview.count == 0) {
-        *exit_out = tl_cli_fail(source->cli, TL_EXIT_USAGE, "--overview: none of these stages has a place in it");
+        *exit_out = tl_cli_fail(source->cli, TL_EXIT_USAGE, "--overview: none of these stages can be drawn in it");
         going = false;
     } else if (going && draw_overview_write(&overview, OVERVIEW_COLUMNS, settings->output, &error) != TL_OK) {
         *exit_out = tl_cli_fail_io(source->cli, &error);

@@ -87,7 +87,7 @@ static tl_exit find_level_links(tl_cli *cli, const links_settings *settings)
     memset(&found, 0, sizeof found);
     bool open = draw_source_open(cli, path, &settings->bake, 0, &source, &code);
     if (open && (source.is_bare || source.is_contours)) {
-        code = tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no triangles to sweep along links", path);
+        code = tl_cli_fail(cli, TL_EXIT_DATA, "%s: holds no triangles, which links are proven against", path);
         open = false;
     }
     open = open && draw_need_soup(&source, &code) && draw_need_walkable(&source, &code);

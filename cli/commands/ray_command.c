@@ -205,7 +205,7 @@ static tl_exit run_ray(tl_cli *cli)
         return code;
     }
     if (settings.rays == NULL && !settings.segment && numbers[3] == 0.0f && numbers[4] == 0.0f && numbers[5] == 0.0f) {
-        return tl_cli_fail(cli, TL_EXIT_USAGE, "the direction 0,0,0 leads nowhere");
+        return tl_cli_fail(cli, TL_EXIT_USAGE, "the direction 0,0,0 has no length");
     }
     return cast_rays(cli, &settings, numbers);
 }
