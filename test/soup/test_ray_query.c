@@ -256,6 +256,34 @@ static tl_vec3 lattice_point(test_random *random, int range)
 }
 
 // Coordinates are small integers, so edges, corners, planes and ties are met all the time, and int64 knows the truth.
+// A filter counts on soups of one material too, which keep no array of it: 5, and all from 63 up under one bit.
+static void test_one_material(void **state)
+{
+    (void)state;
+    static const uint16_t kinds[] = { 0, 5, 63, 700 };
+    const tl_vec3 corners[] = { { 0, 0, 0 }, { 0, 0, 4 }, { 4, 0, 0 } };
+    const uint32_t indices[] = { 0, 1, 2 };
+    for (uint32_t i = 0; i < 4; i++) {
+        tl_mesh_view view = { corners, 3, indices, 1, &kinds[i] };
+        tl_soup *soup;
+        TEST_RESULT(tl_soup_bake(&view, NULL, &soup, NULL), TL_OK);
+        tl_ray ray = make_ray(vec(1, 1, 1), vec(0, -1, 0), INFINITY);
+        tl_ray_hit hits[4];
+        tl_ray_filter filter = { .ignored_materials = ~(1ull << (kinds[i] < 63 ? kinds[i] : 63)) };
+        TEST_CHECK(tl_soup_cast_ray(soup, &ray, &filter, &hits[0]) && hits[0].material == kinds[i]);
+        tl_soup_cast_rays(soup, &ray, 1, &filter, NULL, hits);
+        TEST_CHECK(hits[0].triangle == 0);
+        filter.ignored_materials = ~filter.ignored_materials;
+        TEST_CHECK(!tl_soup_cast_ray(soup, &ray, &filter, &hits[0]) && !tl_soup_occluded(soup, &ray, &filter));
+        tl_soup_cast_rays(soup, &ray, 1, &filter, NULL, hits);
+        TEST_CHECK(hits[0].triangle == TL_NO_TRIANGLE);
+        filter.ignored_materials = 0;
+        filter.cull = TL_RAY_CULL_FRONT;
+        TEST_CHECK(!tl_soup_cast_ray(soup, &ray, &filter, &hits[0]));
+        tl_blob_free(soup);
+    }
+}
+
 static void test_lattice_against_integers(void **state)
 {
     (void)state;
@@ -479,6 +507,7 @@ int main(void)
         cmocka_unit_test(test_what_hits_nothing),
         cmocka_unit_test(test_culling_and_folded_pair),
         cmocka_unit_test(test_masks_filters_and_ties),
+        cmocka_unit_test(test_one_material),
         cmocka_unit_test(test_lattice_against_integers),
         cmocka_unit_test(test_closed_surface_has_no_leak),
         cmocka_unit_test(test_full_lines_cross_an_even_number_of_times),

@@ -45,6 +45,7 @@
 #include "base/lowest_bit.h"
 #include "math/simd16.h"
 #include "soup/layout/compact_layout.h"
+#include "soup/ray/ray_filter.h"
 #include "soup/ray/ray_measure.h"
 #include "soup/ray/ray_prepare.h"
 
@@ -521,7 +522,7 @@ bool TL_RAY_WALK(const tl_soup *soup, const tl_vec3 *origin, const tl_vec3 *targ
 {
     tl_ray_job job;
     job.soup = soup;
-    job.filter = filter;
+    job.filter = tl_ray_filter_in_use(soup, filter);
     job.is_segment = is_segment;
     job.t = tmax;
     job.buffers = NULL;
