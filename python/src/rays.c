@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { GATHERED = 512, RAYS_A_TASK = 16384 };
+enum { GATHERED = 128, RAYS_A_TASK = 16384 };
 
 typedef enum ray_kind { CAST_RAYS, TEST_RAYS, CAST_SEGMENTS, TEST_SEGMENTS } ray_kind;
 
