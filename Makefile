@@ -25,7 +25,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench sanitize tsan fuzz cross python-test format lint install clean
+.PHONY: all demo test benchmarks bench sanitize tsan fuzz cross bench-python python-test format lint install clean
 
 all:
 	tools/setup tools
@@ -72,6 +72,10 @@ fuzz:
 cross:
 	tools/setup tools cross
 	JOBS=$(JOBS) tools/cross $(CROSS)
+
+bench-python:
+	tools/setup tools python
+	tools/python-bench build/python
 
 python-test:
 	tools/setup tools python
