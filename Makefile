@@ -4,6 +4,7 @@
 #   make test       set up, build, and pass the tests
 #   make install    install command, library and headers under PREFIX (/usr/local unless told)
 #   make python-test   set up, build and test the Python package, in a virtual environment of its own
+#   make docs       the documentation site, in build/docs/html
 #   make bench      set up, build, and run every benchmark; make bench-rays runs one
 
 # make's own default for CC is cc; CXX is needed by the tests that compare with C++ peers.
@@ -25,7 +26,7 @@ CONFIGURE = cmake -S . -B $(BUILD) -G Ninja -DCMAKE_C_COMPILER=$(CC) -DCMAKE_CXX
 # Optimised a little, asserts on.
 CHECKED_FLAGS = -DCMAKE_C_FLAGS_RELEASE='-O1 -g' -DCMAKE_CXX_FLAGS_RELEASE='-O1 -g'
 
-.PHONY: all demo test benchmarks bench sanitize tsan fuzz cross bench-python python-test format lint install clean
+.PHONY: all demo test benchmarks bench sanitize tsan fuzz cross bench-python python-test docs format lint install clean
 
 all:
 	tools/setup tools
@@ -80,6 +81,10 @@ bench-python:
 python-test:
 	tools/setup tools python
 	tools/python-test build/python
+
+docs:
+	tools/setup docs
+	tools/docs build/docs
 
 format:
 	git ls-files '*.c' '*.h' '*.inl' '*.cpp' '*.hpp' | xargs clang-format -i
