@@ -57,6 +57,10 @@ static void read_all(const tl_pack *pack)
         if (tl_pack_meta_check(chunk.bytes, chunk.size, NULL) == TL_OK) {
             require(strlen(tl_pack_meta_name(chunk.bytes)) == ((const tl_pack_meta *)chunk.bytes)->name_size);
         }
+        if (tl_pack_frame_check(chunk.bytes, chunk.size, NULL) == TL_OK) {
+            double back[3];
+            tl_pack_place_out(chunk.bytes, tl_pack_place_in(chunk.bytes, (const double[]){ 1, 2, 3 }), back);
+        }
         (void)tl_pack_navmesh_check(chunk.bytes, chunk.size, NULL);
         if (tl_pack_volumes_check(chunk.bytes, chunk.size, NULL) == TL_OK) {
             const tl_pack_volumes *marks = chunk.bytes;

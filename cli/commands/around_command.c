@@ -168,16 +168,17 @@ static bool make_queries(around_queries *all, uint32_t count)
     return all->queries != NULL;
 }
 
-static tl_exit answer_places(tl_cli *cli, const around_settings *settings, const float *numbers)
+static tl_exit answer_places(tl_cli *cli, around_settings *settings, const float *numbers)
 {
     tl_input input;
     tl_exit code;
-    if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
+    if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings->bake, &input, &code) &&
+        tl_extents_read(cli, settings->extents_text, &settings->extents, &code)) {
         around_queries all = { input.navmesh, settings, NULL, 0 };
         if (!make_queries(&all, settings->places != NULL ? cli->host.tasks->worker_count : 1)) {
             code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
         } else {
-            const tl_batch batch = { settings->places, "x y z", 3, 3, answer_place, &all };
+            const tl_batch batch = { settings->places, "x y z", 3, 3, answer_place, &all, 0 };
             code = tl_batch_run(cli, &batch, numbers);
         }
         for (uint32_t i = 0; i < all.count; ++i) {
@@ -222,6 +223,7 @@ static tl_exit run_around(tl_cli *cli)
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
+    cli->speaks_frame = true;
     tl_exit code;
     float numbers[3] = { 0 };
     if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 2, &code)) {

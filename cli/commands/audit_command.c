@@ -42,9 +42,9 @@ static void print_first_reason(const tl_nav_why_answer *why)
     }
 }
 
-static void print_finding(const tl_nav_finding *f, const tl_nav_why_answer *why)
+static void print_finding(const tl_pack_frame *frame, const tl_nav_finding *f, const tl_nav_why_answer *why)
 {
-    tl_text point = { NULL, 0, 0, false };
+    tl_text point = { NULL, 0, 0, false, frame };
     tl_text_add_point(&point, f->point, ',');
     printf("%-8s  at %.*s", tl_nav_finding_name(f->kind), (int)point.size, point.size > 0 ? point.bytes : "");
     tl_text_free(&point);
@@ -96,10 +96,11 @@ static void print_audit_summary(const tl_nav_audit *audit, uint32_t listed)
 
 // ---- As JSON -----------------------------------------------------------------------------------------------
 
-static json_t *finding_json(const tl_nav_finding *f, const tl_nav_why_answer *why)
+static json_t *finding_json(const tl_pack_frame *frame, const tl_nav_finding *f, const tl_nav_why_answer *why)
 {
-    json_t *object = json_pack("{ss so sI so}", "kind", tl_nav_finding_name(f->kind), "point", tl_json_point(f->point),
-                               "places", (json_int_t)f->count, "bounds", tl_json_bounds(f->bounds));
+    json_t *object =
+        json_pack("{ss so sI so}", "kind", tl_nav_finding_name(f->kind), "point", tl_json_placed(frame, f->point),
+                  "places", (json_int_t)f->count, "bounds", tl_json_placed_bounds(frame, f->bounds));
     if (object == NULL) {
         return NULL;
     }
@@ -113,7 +114,7 @@ static json_t *finding_json(const tl_nav_finding *f, const tl_nav_why_answer *wh
         json_object_set_new(object, "area", tl_json_float(f->area));
     } else {
         json_object_set_new(object, "depth", tl_json_float(f->depth));
-        json_object_set_new(object, "contact", tl_json_point(f->contact));
+        json_object_set_new(object, "contact", tl_json_placed(frame, f->contact));
     }
     if (why != NULL && why->reason_count > 0) {
         const tl_nav_reason *reason = &why->reasons[0];
@@ -132,7 +133,8 @@ static json_t *audit_json(tl_cli *cli, const tl_nav_audit *audit, const tl_nav_w
     json_t *list = json_array(), *times = json_object();
     for (uint32_t i = 0; i < audit->finding_count; i++) {
         const bool explained = i >= first_missing && i - first_missing < why_count;
-        json_array_append_new(list, finding_json(&audit->findings[i], explained ? &whys[i - first_missing] : NULL));
+        json_array_append_new(
+            list, finding_json(cli->frame, &audit->findings[i], explained ? &whys[i - first_missing] : NULL));
     }
     for (uint32_t i = 0; i < cli->progress.time_count; i++) {
         json_object_set_new(times, cli->progress.times[i].stage, json_real(cli->progress.times[i].seconds));
@@ -222,7 +224,8 @@ static tl_exit report_audit(draw_source *source, const audit_settings *settings,
     } else if (code == TL_EXIT_OK) {
         const uint32_t listed = audit->finding_count < settings->list ? audit->finding_count : settings->list;
         for (uint32_t i = 0; i < listed; i++) {
-            print_finding(&audit->findings[i], i >= first && i - first < count ? &whys[i - first] : NULL);
+            print_finding(source->cli->frame, &audit->findings[i],
+                          i >= first && i - first < count ? &whys[i - first] : NULL);
         }
         print_audit_summary(audit, listed);
     }
@@ -298,6 +301,7 @@ static tl_exit run_audit_command(tl_cli *cli)
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
+    cli->speaks_frame = true;
     tl_exit code;
     if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 1, &code)) {
         return code;

@@ -160,10 +160,14 @@ static void print_cleaned(const tl_level *level)
     }
 }
 
-static void print_bake_summary(const bake_result *r)
+static void print_bake_summary(const tl_pack_frame *frame, const bake_result *r)
 {
     const tl_bake *bake = r->bake;
     printf("\n");
+    if (frame != NULL) {
+        printf("points   are given and answered as in the level: %s up, 0,0,0 inside is %.15g,%.15g,%.15g\n",
+               tl_level_axes_name((tl_pack_axes)frame->axes), frame->origin[0], frame->origin[1], frame->origin[2]);
+    }
     print_cleaned(r->level);
     if (bake->soup != NULL) {
         tl_soup_stats stats = tl_soup_get_stats(bake->soup);
@@ -238,7 +242,7 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
                                "stages", stages_json(cli, r));
     json_object_set_new(object, "seconds", tl_json_double(r->seconds));
     json_object_set_new(object, "bytes", json_integer((json_int_t)r->file_bytes));
-    json_object_set_new(object, "bounds", tl_json_bounds(r->level->mesh.bounds));
+    json_object_set_new(object, "bounds", tl_json_placed_bounds(cli->frame, r->level->mesh.bounds));
     json_object_set_new(object, "cleaned",
                         json_pack("{sI sI sI sI}", "welded_vertices", (json_int_t)report->welded_vertices,
                                   "unused_vertices", (json_int_t)report->unused_vertices, "degenerate_triangles",
@@ -246,6 +250,7 @@ static json_t *result_json(const tl_cli *cli, const bake_result *r)
                                   (json_int_t)report->duplicate_triangles));
     const double *origin = r->level->imported.origin;
     json_object_set_new(object, "origin", json_pack("[fff]", origin[0], origin[1], origin[2]));
+    json_object_set_new(object, "up", json_string(tl_level_axes_name(r->level->axes)));
     if (bake->soup != NULL) {
         tl_soup_stats stats = tl_soup_get_stats(bake->soup);
         json_object_set_new(object, "soup",
@@ -284,7 +289,7 @@ static tl_exit print_bake_report(tl_cli *cli, const bake_result *r)
         return tl_cli_print_json(cli, result_json(cli, r));
     }
     print_table(cli, r);
-    print_bake_summary(r);
+    print_bake_summary(cli->frame, r);
     return TL_EXIT_OK;
 }
 
@@ -341,6 +346,7 @@ static tl_exit run_bake(tl_cli *cli)
         { "Options:", options },     { "What is baked:", part_options }, { "How the level is read:", level_options },
         { "Navmesh:", nav_options }, { "With --links:", link_options },  { NULL, NULL }
     };
+    cli->speaks_frame = true;
     tl_exit code;
     if (!tl_cli_parse(cli, groups, 1, 1, &code) || !tl_bake_take_bounds(cli, &settings, &code)) {
         return code;

@@ -189,6 +189,9 @@ static tl_result check_chunk(findings *f, tl_pack_chunk chunk)
     case TL_PACK_MARK:
         add_failed(f, part, tl_pack_volumes_check(chunk.bytes, chunk.size, &report), &report);
         break;
+    case TL_PACK_FRAM:
+        add_failed(f, part, tl_pack_frame_check(chunk.bytes, chunk.size, &report), &report);
+        break;
     case TL_PACK_PRUN:
         add_failed(f, part, tl_pack_pruning_check(chunk.bytes, chunk.size, &report), &report);
         break;

@@ -131,8 +131,9 @@ static bool answer_given(const float *numbers, uint32_t count, tl_text *text, ui
 
 static tl_exit answer_poses(tl_cli *cli, distance_query *query, const char *poses)
 {
-    const tl_batch batch = { poses, "px py pz [qx qy qz qw]", 3, 7, poses != NULL ? answer_pose_line : answer_given,
-                             query };
+    const tl_batch batch = {
+        poses, "px py pz [qx qy qz qw]", 3, 7, poses != NULL ? answer_pose_line : answer_given, query, 0
+    };
     return tl_batch_run(cli, &batch, NULL);
 }
 

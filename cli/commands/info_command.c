@@ -11,14 +11,18 @@
 #include <stdio.h>
 #include <string.h>
 
-static void print_bounds(tl_aabb b)
+// In the level's own coordinates.
+static void print_bounds(const tl_pack_frame *frame, tl_aabb b)
 {
-    tl_vec3 size = tl_aabb_size(b);
+    const tl_pack_axes axes = frame != NULL ? (tl_pack_axes)frame->axes : TL_PACK_AXES_Y_UP;
+    const tl_vec3 low = tl_pack_turn_out(axes, b.min), high = tl_pack_turn_out(axes, b.max);
+    const tl_vec3 size = tl_sub(tl_max(low, high), tl_min(low, high));
     tl_text text;
     memset(&text, 0, sizeof(text));
-    tl_text_add_point(&text, b.min, ',');
+    text.frame = frame;
+    tl_text_add_point(&text, tl_pack_turn_in(axes, tl_min(low, high)), ',');
     tl_text_add(&text, " to ");
-    tl_text_add_point(&text, b.max, ',');
+    tl_text_add_point(&text, tl_pack_turn_in(axes, tl_max(low, high)), ',');
     printf("bounds     %.*s (%.4g x %.4g x %.4g m)\n", (int)text.size, text.bytes, (double)size.x, (double)size.y,
            (double)size.z);
     tl_text_free(&text);
@@ -63,6 +67,7 @@ static tl_result sum_tiles(const tl_pack *pack, nav_sums *sums_out, tl_report *r
 
 typedef struct baked_info {
     const tl_pack_meta *meta;
+    const tl_pack_frame *frame; // NULL: the level's coordinates are those that were baked
     const tl_soup *soup;
     const tl_hull *hull;
     const tl_pack_navmesh *navmesh;
@@ -96,6 +101,7 @@ static bool collect_baked_info(tl_cli *cli, const tl_input *input, baked_info *i
         return false;
     }
     info_out->meta = chunk[0];
+    info_out->frame = cli->frame;
     info_out->soup = chunk[1];
     info_out->hull = chunk[2];
     info_out->navmesh = chunk[3];
@@ -201,7 +207,12 @@ static void print_baked(const tl_input *input, const baked_info *info)
     if (info->meta != NULL) {
         printf("source     %s, %llu triangles, %llu vertices\n", tl_pack_meta_name(info->meta),
                (unsigned long long)info->meta->source_triangles, (unsigned long long)info->meta->source_vertices);
-        print_bounds(info->meta->bounds);
+        print_bounds(info->frame, info->meta->bounds);
+        if (info->frame != NULL) {
+            const double *o = info->frame->origin;
+            printf("points     as in the level: %s up, 0,0,0 inside is %.15g,%.15g,%.15g\n",
+                   tl_level_axes_name((tl_pack_axes)info->frame->axes), o[0], o[1], o[2]);
+        }
     }
     if (info->soup != NULL) {
         print_soup(info->soup);
@@ -220,7 +231,7 @@ static void print_baked(const tl_input *input, const baked_info *info)
     print_chunks(input, &info->nav);
 }
 
-static json_t *soup_json(const tl_soup *soup)
+static json_t *soup_json(const tl_pack_frame *frame, const tl_soup *soup)
 {
     tl_soup_stats s = tl_soup_get_stats(soup);
     return json_pack("{ss sI sI sI so so sI sI sI sI so}", "layout", s.layout == TL_SOUP_COMPACT ? "compact" : "fast",
@@ -229,7 +240,7 @@ static json_t *soup_json(const tl_soup *soup)
                      tl_json_double(2.0 * s.pair_count / (double)s.triangle_count), "bytes_a_triangle",
                      tl_json_double((double)s.size / (double)s.triangle_count), "bytes", (json_int_t)s.size, "nodes",
                      (json_int_t)s.node_count, "leaves", (json_int_t)s.leaf_count, "depth", (json_int_t)s.depth,
-                     "bounds", tl_json_bounds(tl_soup_bounds(soup)));
+                     "bounds", tl_json_placed_bounds(frame, tl_soup_bounds(soup)));
 }
 
 static json_t *navmesh_json(const baked_info *info)
@@ -270,17 +281,22 @@ static json_t *baked_json(const tl_input *input, const baked_info *info)
                             json_pack("{so sI sI}", "name", tl_json_text(tl_pack_meta_name(info->meta)), "triangles",
                                       (json_int_t)info->meta->source_triangles, "vertices",
                                       (json_int_t)info->meta->source_vertices));
-        json_object_set_new(object, "bounds", tl_json_bounds(info->meta->bounds));
+        json_object_set_new(object, "bounds", tl_json_placed_bounds(info->frame, info->meta->bounds));
+    }
+    if (info->frame != NULL) {
+        const double *o = info->frame->origin;
+        json_object_set_new(object, "origin", json_pack("[fff]", o[0], o[1], o[2]));
+        json_object_set_new(object, "up", json_string(tl_level_axes_name((tl_pack_axes)info->frame->axes)));
     }
     if (info->soup != NULL) {
-        json_object_set_new(object, "soup", soup_json(info->soup));
+        json_object_set_new(object, "soup", soup_json(info->frame, info->soup));
     }
     if (info->hull != NULL) {
         json_object_set_new(object, "hull",
                             json_pack("{sI sI so so}", "vertices", (json_int_t)info->hull->vertex_count, "faces",
                                       (json_int_t)info->hull->face_count, "volume",
                                       tl_json_double(info->hull->mass.volume), "bounds",
-                                      tl_json_bounds(info->hull->bounds)));
+                                      tl_json_placed_bounds(info->frame, info->hull->bounds)));
     }
     if (info->navmesh != NULL) {
         json_object_set_new(object, "navmesh", navmesh_json(info));
@@ -335,7 +351,7 @@ static void print_materials(const tl_name_table *names)
 {
     printf("materials  %u", names->count - 1);
     for (uint32_t id = 1; id < names->count; id++) {
-        tl_text text = { NULL, 0, 0, false };
+        tl_text text = { NULL, 0, 0, false, NULL };
         tl_text_add_safe(&text, tl_name_table_get(names, id));
         printf("%s '%.*s'", id == 1 ? ":" : ",", (int)text.size, text.size > 0 ? text.bytes : "");
         tl_text_free(&text);
@@ -352,7 +368,7 @@ static json_t *materials_json(const tl_name_table *names)
     return array;
 }
 
-static void print_mesh(const tl_level *level, const tl_adjacency *adjacency)
+static void print_mesh(const tl_cli *cli, const tl_level *level, const tl_adjacency *adjacency)
 {
     const tl_imported_mesh *m = &level->imported;
     printf("%s: mesh, read as %s, %llu bytes\n", level->path, m->format, (unsigned long long)m->source_bytes);
@@ -360,7 +376,7 @@ static void print_mesh(const tl_level *level, const tl_adjacency *adjacency)
            m->triangle_count);
     printf("vertices   %u, %u distinct\n", m->vertex_count, level->mesh.vertex_count);
     print_materials(&m->names);
-    print_bounds(level->mesh.bounds);
+    print_bounds(cli->frame, level->mesh.bounds);
     printf("area       %.9g m2\n", surface_area(&level->mesh));
     printf("edges      %u between two triangles, %u open, %u non-manifold\n", adjacency->paired_edges,
            adjacency->border_edges, adjacency->non_manifold_edges);
@@ -380,7 +396,7 @@ static void print_mesh(const tl_level *level, const tl_adjacency *adjacency)
     }
 }
 
-static json_t *mesh_json(const tl_level *level, const tl_adjacency *adjacency)
+static json_t *mesh_json(const tl_cli *cli, const tl_level *level, const tl_adjacency *adjacency)
 {
     const tl_imported_mesh *m = &level->imported;
     return json_pack("{so ss ss sI sI sI sI sI sI sI sI sI sI sI so so so}", "file", tl_json_text(level->path), "kind",
@@ -391,7 +407,8 @@ static json_t *mesh_json(const tl_level *level, const tl_adjacency *adjacency)
                      "degenerate_triangles", (json_int_t)level->report.degenerate_triangles, "duplicate_triangles",
                      (json_int_t)level->report.duplicate_triangles, "paired_edges", (json_int_t)adjacency->paired_edges,
                      "open_edges", (json_int_t)adjacency->border_edges, "material_names", materials_json(&m->names),
-                     "area", tl_json_double(surface_area(&level->mesh)), "bounds", tl_json_bounds(level->mesh.bounds));
+                     "area", tl_json_double(surface_area(&level->mesh)), "bounds",
+                     tl_json_placed_bounds(cli->frame, level->mesh.bounds));
 }
 
 static tl_exit info_of_mesh(tl_cli *cli, const char *path, const tl_level_settings *settings)
@@ -406,9 +423,9 @@ static tl_exit info_of_mesh(tl_cli *cli, const char *path, const tl_level_settin
         if (result != TL_OK) {
             code = tl_cli_fail_result(cli, path, result, NULL);
         } else if (cli->json) {
-            code = tl_cli_print_json(cli, mesh_json(&level, &adjacency));
+            code = tl_cli_print_json(cli, mesh_json(cli, &level, &adjacency));
         } else {
-            print_mesh(&level, &adjacency);
+            print_mesh(cli, &level, &adjacency);
             code = TL_EXIT_OK;
         }
         tl_adjacency_free(&adjacency);
@@ -420,6 +437,7 @@ static tl_exit info_of_mesh(tl_cli *cli, const char *path, const tl_level_settin
 static tl_exit run_info(tl_cli *cli)
 {
     tl_bake_settings settings = tl_default_bake_settings();
+    cli->speaks_frame = true;
     tl_exit code;
     if (!tl_input_parse(cli, NULL, TL_INPUT_LEVEL, &settings, 1, 1, &code)) {
         return code;

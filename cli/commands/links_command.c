@@ -61,7 +61,7 @@ static tl_exit report_links(tl_cli *cli, const tl_level_links *found, const link
     }
     json_t *object = tl_level_links_json(&found->report);
     json_object_set_new(object, "file", tl_json_text(cli->arguments.words[0]));
-    json_object_set_new(object, "links", tl_level_links_list_json(found->links));
+    json_object_set_new(object, "links", tl_level_links_list_json(cli->frame, found->links));
     if (settings->output != NULL) {
         json_object_set_new(object, "output", tl_json_text(settings->output));
     }
@@ -128,6 +128,7 @@ static tl_exit run_links(tl_cli *cli)
     const tl_option_group groups[] = { { "Options:", options },
                                        { "What an agent can do:", link_options },
                                        { NULL, NULL } };
+    cli->speaks_frame = true;
     tl_exit code;
     if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 1, &code)) {
         return code;

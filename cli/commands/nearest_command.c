@@ -37,20 +37,17 @@ static void write_json_found_point(tl_text *text, const tl_soup_point *found)
     tl_text_add(text, ",\"feature\":\"");
     tl_text_add(text, feature_name(found->feature));
     tl_text_add(text, "\",\"normal\":");
-    tl_text_add_json_point(text, found->normal);
+    tl_text_add_json_direction(text, found->normal);
     tl_text_add(text, found->back ? ",\"back\":true}\n" : ",\"back\":false}\n");
 }
 
 static void write_found_point(tl_text *text, const tl_soup_point *found)
 {
-    const float floats[3] = { found->point.x, found->point.y, found->point.z };
     tl_text_add_float(text, found->distance);
     tl_text_add(text, " ");
     tl_text_add_count(text, found->triangle);
-    for (uint32_t i = 0; i < 3; ++i) {
-        tl_text_add(text, " ");
-        tl_text_add_float(text, floats[i]);
-    }
+    tl_text_add(text, " ");
+    tl_text_add_point(text, found->point, ' ');
     tl_text_add(text, " ");
     tl_text_add(text, feature_name(found->feature));
     tl_text_add(text, "\n");
@@ -127,6 +124,7 @@ static tl_exit run_nearest(tl_cli *cli)
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
+    cli->speaks_frame = true;
     tl_exit code;
     float numbers[3] = { 0 };
     if (!tl_input_parse(cli, groups, TL_INPUT_LEVEL, &settings.bake, 1, 2, &code)) {
@@ -140,7 +138,7 @@ static tl_exit run_nearest(tl_cli *cli)
     tl_input input;
     if (tl_input_open_soup(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
         nearest_query query = { input.soup, &settings };
-        tl_batch batch = { settings.points, "x y z", 3, 3, answer_nearest, &query };
+        tl_batch batch = { settings.points, "x y z", 3, 3, answer_nearest, &query, 0 };
         if (settings.inside) {
             warn_when_open(cli, &query);
         }

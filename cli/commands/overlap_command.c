@@ -87,6 +87,7 @@ static tl_exit run_overlap(tl_cli *cli)
     tl_option shape_options[TL_SHAPE_OPTIONS];
     tl_shape_options(&settings.shape, shape_options);
     const tl_option_group groups[] = { { "Options:", options }, { "Shape:", shape_options }, { NULL, NULL } };
+    cli->speaks_frame = true;
     tl_exit code;
     float numbers[3] = { 0 };
     if (!tl_input_parse(cli, groups, TL_INPUT_LEVEL, &settings.bake, 1, 2, &code) ||
@@ -99,9 +100,10 @@ static tl_exit run_overlap(tl_cli *cli)
         return code;
     }
     tl_input input;
-    if (tl_input_open_soup(cli, cli->arguments.words[0], &settings.bake, &input, &code)) {
+    if (tl_input_open_soup(cli, cli->arguments.words[0], &settings.bake, &input, &code) &&
+        tl_shape_option_read(cli, &settings.shape, &code)) {
         overlap_query query = { input.soup, &settings };
-        tl_batch batch = { settings.points, "x y z", 3, 3, answer_overlap, &query };
+        tl_batch batch = { settings.points, "x y z", 3, 3, answer_overlap, &query, 0 };
         code = tl_batch_run(cli, &batch, numbers);
     }
     tl_input_close(&input);

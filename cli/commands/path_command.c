@@ -225,18 +225,19 @@ static bool prepare_navmesh(tl_navmesh *navmesh, const path_settings *settings)
            tl_navmesh_prepare_wide(navmesh, &def, NULL) != TL_ERR_MEMORY;
 }
 
-static tl_exit find_paths(tl_cli *cli, const path_settings *settings, const float *numbers)
+static tl_exit find_paths(tl_cli *cli, path_settings *settings, const float *numbers)
 {
     tl_input input;
     tl_exit code;
-    if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
+    if (tl_input_open_navmesh(cli, cli->arguments.words[0], &settings->bake, &input, &code) &&
+        tl_extents_read(cli, settings->extents_text, &settings->extents, &code)) {
         path_queries queries = { input.navmesh, settings, NULL, 0 };
         tl_area_filter_warn(cli, &settings->areas, input.navmesh, input.path);
         if (!prepare_navmesh(input.navmesh, settings) ||
             !make_searchers(&queries, settings->pairs != NULL ? cli->host.tasks->worker_count : 1)) {
             code = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
         } else {
-            const tl_batch batch = { settings->pairs, "ax ay az bx by bz", 6, 6, answer_pair_line, &queries };
+            const tl_batch batch = { settings->pairs, "ax ay az bx by bz", 6, 6, answer_pair_line, &queries, 0 };
             code = tl_batch_run(cli, &batch, numbers);
         }
         free_searchers(&queries);
@@ -267,6 +268,7 @@ static tl_exit run_path(tl_cli *cli)
     tl_option area_options[TL_AREA_FILTER_OPTIONS];
     tl_area_filter_options(&settings.areas, area_options);
     const tl_option_group groups[] = { { "Options:", options }, { "Areas:", area_options }, { NULL, NULL } };
+    cli->speaks_frame = true;
     tl_exit code;
     float numbers[6] = { 0 };
     if (!tl_input_parse(cli, groups, TL_INPUT_NAVMESH, &settings.bake, 1, 3, &code) ||

@@ -75,7 +75,7 @@ static void add_json_hit(tl_text *text, const tl_ray_hit *hit, const float *n, b
     tl_text_add(text, ",\"point\":");
     tl_text_add_json_point(text, point);
     tl_text_add(text, ",\"normal\":");
-    tl_text_add_json_point(text, hit->normal);
+    tl_text_add_json_direction(text, hit->normal);
     tl_text_add(text, hit->back ? ",\"back\":true}" : ",\"back\":false}");
 }
 
@@ -159,8 +159,8 @@ static tl_exit cast_rays(tl_cli *cli, const ray_settings *settings, const float 
     if (tl_input_open_soup(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
         ray_query query = { .soup = input.soup, .settings = settings };
         query.filter.cull = (tl_ray_cull)settings->cull;
-        const tl_batch rays = { settings->rays, "ox oy oz dx dy dz [tmax]", 6, 7, answer_ray, &query };
-        const tl_batch segments = { settings->rays, "ax ay az bx by bz", 6, 6, answer_ray, &query };
+        const tl_batch rays = { settings->rays, "ox oy oz dx dy dz [tmax]", 6, 7, answer_ray, &query, 2u };
+        const tl_batch segments = { settings->rays, "ax ay az bx by bz", 6, 6, answer_ray, &query, 0 };
         code = tl_batch_run(cli, settings->segment ? &segments : &rays, numbers);
     }
     tl_input_close(&input);
@@ -190,6 +190,7 @@ static tl_exit run_ray(tl_cli *cli)
         TL_OPTION_TABLE_END,
     };
     const tl_option_group groups[] = { { "Options:", options }, { NULL, NULL } };
+    cli->speaks_frame = true;
     tl_exit code;
     float numbers[6] = { 0 };
     if (!tl_input_parse(cli, groups, TL_INPUT_LEVEL, &settings.bake, 1, 3, &code)) {

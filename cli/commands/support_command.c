@@ -62,7 +62,7 @@ static tl_exit run_support(tl_cli *cli)
     tl_hull_input input;
     if (tl_hull_open(cli, cli->arguments.words[0], &settings, &input, &code)) {
         support_query query = { input.hull, cli->json };
-        const tl_batch batch = { directions, "dx dy dz", 3, 3, answer_direction, &query };
+        const tl_batch batch = { directions, "dx dy dz", 3, 3, answer_direction, &query, 1u };
         code = tl_batch_run(cli, &batch, numbers);
     }
     tl_hull_input_close(&input);

@@ -25,14 +25,16 @@ typedef struct sweep_query {
 
 static void write_sweep_hit(tl_text *text, const tl_shape_hit *hit)
 {
-    const float floats[7] = { hit->point.x,  hit->point.y,  hit->point.z, hit->normal.x,
-                              hit->normal.y, hit->normal.z, hit->depth };
     tl_text_add_float(text, hit->t);
     tl_text_add(text, " ");
     tl_text_add_count(text, hit->triangle);
-    for (uint32_t i = 0; i < (hit->initial_overlap ? 7u : 6u); ++i) {
+    tl_text_add(text, " ");
+    tl_text_add_point(text, hit->point, ' ');
+    tl_text_add(text, " ");
+    tl_text_add_direction(text, hit->normal, ' ');
+    if (hit->initial_overlap) {
         tl_text_add(text, " ");
-        tl_text_add_float(text, floats[i]);
+        tl_text_add_float(text, hit->depth);
     }
     tl_text_add(text, "\n");
 }
@@ -46,9 +48,9 @@ static void write_json_sweep_hit(tl_text *text, const tl_shape_hit *hit)
     tl_text_add(text, ",\"point\":");
     tl_text_add_json_point(text, hit->point);
     tl_text_add(text, ",\"normal\":");
-    tl_text_add_json_point(text, hit->normal);
+    tl_text_add_json_direction(text, hit->normal);
     tl_text_add(text, ",\"face_normal\":");
-    tl_text_add_json_point(text, hit->face_normal);
+    tl_text_add_json_direction(text, hit->face_normal);
     tl_text_add(text, hit->back ? ",\"back\":true" : ",\"back\":false");
     tl_text_add(text, hit->initial_overlap ? ",\"overlap\":true,\"depth\":" : ",\"overlap\":false,\"depth\":");
     tl_text_add_json_float(text, hit->depth);
@@ -78,14 +80,15 @@ static bool answer_sweep(const float *n, uint32_t count, tl_text *text, uint32_t
     return true;
 }
 
-static tl_exit sweep_shape(tl_cli *cli, const sweep_settings *settings, const float *numbers)
+static tl_exit sweep_shape(tl_cli *cli, sweep_settings *settings, const float *numbers)
 {
     tl_input input;
     tl_exit code;
-    if (tl_input_open_soup(cli, cli->arguments.words[0], &settings->bake, &input, &code)) {
+    if (tl_input_open_soup(cli, cli->arguments.words[0], &settings->bake, &input, &code) &&
+        tl_shape_option_read(cli, &settings->shape, &code)) {
         sweep_query query = { .soup = input.soup, .settings = settings };
         query.filter.cull = (tl_ray_cull)settings->cull;
-        tl_batch batch = { settings->sweeps, "x y z dx dy dz", 6, 6, answer_sweep, &query };
+        tl_batch batch = { settings->sweeps, "x y z dx dy dz", 6, 6, answer_sweep, &query, 2u };
         code = tl_batch_run(cli, &batch, numbers);
     }
     tl_input_close(&input);
@@ -108,6 +111,7 @@ static tl_exit run_sweep(tl_cli *cli)
     tl_option shape_options[TL_SHAPE_OPTIONS];
     tl_shape_options(&settings.shape, shape_options);
     const tl_option_group groups[] = { { "Options:", options }, { "Shape:", shape_options }, { NULL, NULL } };
+    cli->speaks_frame = true;
     tl_exit code;
     float numbers[6] = { 0 };
     if (!tl_input_parse(cli, groups, TL_INPUT_LEVEL, &settings.bake, 1, 3, &code) ||

@@ -3,6 +3,7 @@
 // talus why: which stage and which setting made a point not walkable, and the value that would make it so.
 
 #include "cli/draw/draw_source.h"
+#include "cli/options/parse_value.h"
 #include "cli/shared/json_out.h"
 
 #include <talus/nav_audit.h>
@@ -127,10 +128,10 @@ static json_t *answer_json(const tl_cli *cli, const tl_nav_why_answer *answer)
     }
     return json_pack(
         "{so sb so so sb so sI sb so so}", "file", tl_json_text(cli->arguments.words[0]), "walkable",
-        (int)answer->walkable, "floor", tl_json_point(answer->floor), "reasons", reasons, "proven", (int)answer->proven,
-        "tile", json_pack("[II]", (json_int_t)answer->tile_x, (json_int_t)answer->tile_z), "builds",
-        (json_int_t)answer->bake_count, "apart", (int)answer->apart, "island_area", tl_json_float(answer->island_area),
-        "largest_island_area", tl_json_float(answer->largest_island_area));
+        (int)answer->walkable, "floor", tl_json_placed(cli->frame, answer->floor), "reasons", reasons, "proven",
+        (int)answer->proven, "tile", json_pack("[II]", (json_int_t)answer->tile_x, (json_int_t)answer->tile_z),
+        "builds", (json_int_t)answer->bake_count, "apart", (int)answer->apart, "island_area",
+        tl_json_float(answer->island_area), "largest_island_area", tl_json_float(answer->largest_island_area));
 }
 
 static tl_exit explain_point(draw_source *source, tl_vec3 point)
@@ -168,6 +169,7 @@ static tl_exit explain_point(draw_source *source, tl_vec3 point)
 static tl_exit run_why(tl_cli *cli)
 {
     tl_bake_settings settings = tl_default_bake_settings();
+    cli->speaks_frame = true;
     tl_exit code;
     float n[3] = { 0 };
     if (!tl_input_parse(cli, NULL, TL_INPUT_NAVMESH, &settings, 2, 2, &code) ||
@@ -176,7 +178,12 @@ static tl_exit run_why(tl_cli *cli)
     }
     draw_source source;
     if (draw_source_open(cli, cli->arguments.words[0], &settings, 0, &source, &code)) {
-        code = explain_point(&source, tl_vec3_make(n[0], n[1], n[2]));
+        double exact[3];
+        tl_vec3 point = tl_vec3_make(n[0], n[1], n[2]);
+        if (cli->frame != NULL && tl_parse_double_triple(cli->arguments.words[1], exact) == NULL) {
+            point = tl_pack_place_in(cli->frame, exact);
+        }
+        code = explain_point(&source, point);
     }
     draw_source_close(&source);
     return code;

@@ -173,6 +173,18 @@ static bool bake_hull(tl_cli *cli, const tl_level *level, tl_bake *bake, tl_exit
     }
 }
 
+// --bounds in the level's own coordinates.
+static void enter_bounds(const tl_cli *cli, const tl_bake_settings *settings, tl_nav_def *def)
+{
+    double v[6];
+    if (cli->frame != NULL && settings->bounds != NULL) {
+        tl_parse_double_words(settings->bounds, v, 6);
+        const tl_vec3 a = tl_pack_place_in(cli->frame, v), b = tl_pack_place_in(cli->frame, v + 3);
+        def->bounds.min = tl_min(a, b); // turned, the lowest corner is another one
+        def->bounds.max = tl_max(a, b);
+    }
+}
+
 static bool fail_prune(tl_cli *cli, const tl_level *level, const tl_bake_settings *settings,
                        const tl_nav_prune_def *def, tl_result result, const tl_report *report, tl_exit *exit_out)
 {
@@ -197,6 +209,10 @@ static bool prune_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings
         if (reason != NULL) {
             *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--reachable-from: '%s' %s; give x,y,z", word, reason);
             return false;
+        }
+        double exact[3];
+        if (cli->frame != NULL && tl_parse_double_triple(word, exact) == NULL) {
+            seeds[i] = tl_pack_place_in(cli->frame, exact);
         }
     }
     const bool asked = settings->seeds.count > 0 || settings->drop_inside || settings->min_island_area > 0.0f;
@@ -233,6 +249,7 @@ static bool bake_nav(tl_cli *cli, const tl_level *level, const tl_bake_settings 
     }
     const tl_nav_input input = tl_level_areas_input(&areas, &mesh);
     bake->nav_def = tl_bake_nav_def(settings);
+    enter_bounds(cli, settings, &bake->nav_def);
     bake->nav_def.host = cli->host;
     bake->nav_bounds = tl_aabb_is_empty(bake->nav_def.bounds) ? level->mesh.bounds : bake->nav_def.bounds;
     tl_result result = tl_nav_bake(&bake->nav_def, &input, &bake->tiles, &bake->nav_report);

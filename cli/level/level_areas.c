@@ -68,7 +68,7 @@ static void fail_unknown(tl_cli *cli, const tl_level *level, const char *path, c
 {
     const tl_name_table *names = &level->imported.names;
     const char *wanted = marks->text + rule->name, *nearest = nearest_name(names, wanted);
-    tl_text text = { NULL, 0, 0, false };
+    tl_text text = { NULL, 0, 0, false, NULL };
     if (rule->line > 0) {
         tl_text_add(&text, path);
         tl_text_add(&text, ":");

@@ -65,7 +65,7 @@ static bool lies_on_its_side(const face_areas *f, tl_aabb bounds)
 
 static tl_level_doubt doubt_up_axis(const face_areas *f, const tl_bake_settings *settings)
 {
-    const bool turned = settings->level.up == TL_UP_Z;
+    const bool turned = settings->level.up == TL_UP_Z || settings->level.up == TL_UP_Z_LEFT;
     tl_level_doubt doubt = { "up axis", "" };
     snprintf(doubt.text, sizeof(doubt.text),
              "most of the level stands upright: %.4g m2 of its %.4g m2 would lie flat with %s up, %.4g m2 do now; %s",

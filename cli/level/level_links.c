@@ -83,15 +83,15 @@ json_t *tl_level_links_json(const tl_nav_links_report *report)
     return object;
 }
 
-json_t *tl_level_links_list_json(const tl_nav_links *links)
+json_t *tl_level_links_list_json(const tl_pack_frame *frame, const tl_nav_links *links)
 {
     json_t *list = json_array();
     const tl_nav_jump_link *at = tl_nav_links_array(links);
     for (uint32_t i = 0; i < links->link_count; ++i) {
-        json_array_append_new(list,
-                              json_pack("{ss so so so sb}", "kind", tl_nav_link_kind_name((tl_nav_link_kind)at[i].kind),
-                                        "start", tl_json_point(at[i].start), "end", tl_json_point(at[i].end), "apex",
-                                        tl_json_float(at[i].apex), "both_ways", (int)at[i].both_ways));
+        json_array_append_new(
+            list, json_pack("{ss so so so sb}", "kind", tl_nav_link_kind_name((tl_nav_link_kind)at[i].kind), "start",
+                            tl_json_placed(frame, at[i].start), "end", tl_json_placed(frame, at[i].end), "apex",
+                            tl_json_float(at[i].apex), "both_ways", (int)at[i].both_ways));
     }
     return list;
 }

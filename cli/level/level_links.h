@@ -29,6 +29,6 @@ bool tl_level_links_find(tl_cli *cli, const tl_nav_links_def *def, const tl_navm
 void tl_level_links_print(const tl_nav_links_report *report);
 json_t *tl_level_links_json(const tl_nav_links_report *report);
 /// Start, end, apex, kind and whether it leads both ways, of each link.
-json_t *tl_level_links_list_json(const tl_nav_links *links);
+json_t *tl_level_links_list_json(const tl_pack_frame *frame, const tl_nav_links *links);
 
 #endif

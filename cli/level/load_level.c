@@ -7,10 +7,18 @@
 #include "cli/level/load_level.h"
 
 #include "cli/options/parse_value.h"
+#include "io/text/format_float.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const char *const axes_names[] = { "y", "z", "y-left", "z-left", NULL }; // as tl_up_axis and tl_pack_axes
+
+const char *tl_level_axes_name(tl_pack_axes axes)
+{
+    return axes_names[axes];
+}
 
 tl_level_settings tl_default_level_settings(void)
 {
@@ -20,17 +28,17 @@ tl_level_settings tl_default_level_settings(void)
 
 void tl_level_options(tl_level_settings *settings, tl_option table[TL_LEVEL_OPTIONS])
 {
-    static const char *const axes[] = { "y", "z", NULL };
     const tl_option options[TL_LEVEL_OPTIONS] = {
-        { "up", 0, TL_OPTION_CHOICE, &settings->up, NULL, "the file's axis that points up; z is turned to y", axes, 0,
-          0, 0, 0 },
+        { "up", 0, TL_OPTION_CHOICE, &settings->up, NULL,
+          "the level's axis that points up, left where its axes are left-handed; points are given and answered in them",
+          axes_names, 0, 0, 0, 0 },
         { "scale", 0, TL_OPTION_FLOAT, &settings->scale, "S", "metres per unit of the file: 0.01 for centimetres", NULL,
           1e-9f, 1e9f, 0, 0 },
         { "weld", 0, TL_OPTION_FLOAT, &settings->weld, "M", "metres: vertices no farther apart become one", NULL, 0.0f,
           1e6f, 0, 0 },
         { "origin", 0, TL_OPTION_TEXT, &settings->origin, "X,Y,Z|auto",
-          "the point of the file that becomes 0,0,0, in its own units and axes; auto: the level's middle when it lies "
-          "far out. Coordinates of questions and answers are relative to it",
+          "the point of the file that becomes 0,0,0 inside, in its own units and axes, so that floats are fine enough; "
+          "auto: the level's middle when it lies far out. Points are given and answered in the file's coordinates",
           NULL, 0, 0, 0, 0 },
         TL_OPTION_TABLE_END,
     };
@@ -92,9 +100,30 @@ static bool restore_source(tl_level *level)
     return true;
 }
 
-void tl_level_warn_turned(tl_cli *cli, const char *path)
+tl_vec3 tl_level_enter_half(const tl_cli *cli, tl_vec3 half)
 {
-    tl_cli_warn(cli, "%s: the level is z-up, questions and answers are y-up: write (x, y, z) of it as x,z,-y", path);
+    return cli->frame != NULL ? tl_abs(tl_pack_turn_in((tl_pack_axes)cli->frame->axes, half)) : half;
+}
+
+void tl_level_take_frame(tl_cli *cli, const char *path, tl_pack_axes axes, const double origin[3])
+{
+    static const char *const turned[] = { "x,y,z", "x,z,-y", "x,y,-z", "x,z,y" };
+    const bool moved = origin[0] != 0.0 || origin[1] != 0.0 || origin[2] != 0.0;
+    cli->frame = NULL;
+    if (axes == TL_PACK_AXES_Y_UP && !moved) {
+        return;
+    }
+    memset(&cli->frame_room, 0, sizeof(cli->frame_room));
+    cli->frame_room.axes = (uint32_t)axes;
+    memcpy(cli->frame_room.origin, origin, sizeof(cli->frame_room.origin));
+    if (cli->speaks_frame) {
+        cli->frame = &cli->frame_room;
+    } else {
+        tl_cli_warn(cli,
+                    "%s: coordinates here are y-up and right-handed, from the level's origin on: a point (x, y, z) of "
+                    "it, less %.15g,%.15g,%.15g, is %s",
+                    path, origin[0], origin[1], origin[2], turned[axes]);
+    }
 }
 
 bool tl_level_load(tl_cli *cli, const char *path, const tl_level_settings *settings, tl_level *level_out,
@@ -112,14 +141,14 @@ bool tl_level_load(tl_cli *cli, const char *path, const tl_level_settings *setti
         *exit_out = tl_cli_fail_io(cli, &error);
         return false;
     }
-    level_out->is_z_up = settings->up == TL_UP_Z;
-    if (level_out->is_z_up) {
-        tl_level_warn_turned(cli, path);
+    level_out->axes = (tl_pack_axes)settings->up;
+    char digits[TL_FLOAT_TEXT_BYTES]; // the scale as it was given: 0.001, not the float next to it
+    tl_format_float(settings->scale, digits);
+    const double scale = strtod(digits, NULL);
+    for (int i = 0; i < 3; i++) {
+        level_out->origin[i] = level_out->imported.origin[i] * scale;
     }
-    const double *o = level_out->imported.origin;
-    if (o[0] != 0.0 || o[1] != 0.0 || o[2] != 0.0) {
-        tl_cli_warn(cli, "%s: coordinates are relative to %.15g,%.15g,%.15g of the file", path, o[0], o[1], o[2]);
-    }
+    tl_level_take_frame(cli, path, level_out->axes, level_out->origin);
     tl_mesh_view view = tl_imported_mesh_as_view(&level_out->imported);
     tl_mesh_def def = tl_default_mesh_def();
     def.weld_tolerance = settings->weld;

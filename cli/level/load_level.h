@@ -24,12 +24,20 @@ tl_level_settings tl_default_level_settings(void);
 /// Fills a table with the options that set `settings`.
 void tl_level_options(tl_level_settings *settings, tl_option table[TL_LEVEL_OPTIONS]);
 
-/// Says that questions and answers are y-up though the source is z-up.
-void tl_level_warn_turned(tl_cli *cli, const char *path);
+/// From now on the command speaks the coordinates of a level whose axes and origin (metres) these are; one that does
+/// not says what its own coordinates are.
+void tl_level_take_frame(tl_cli *cli, const char *path, tl_pack_axes axes, const double origin[3]);
+
+/// Half the sizes of a box along the level's axes, as talus has them.
+tl_vec3 tl_level_enter_half(const tl_cli *cli, tl_vec3 half);
+
+/// "y", "z", "y-left" or "z-left".
+const char *tl_level_axes_name(tl_pack_axes axes);
 
 typedef struct tl_level {
     const char *path;
-    bool is_z_up;              ///< in the file; `imported` and `mesh` are turned already
+    tl_pack_axes axes;         ///< of the file; `imported` and `mesh` are turned already
+    double origin[3];          ///< metres: the level's point, in its axes, that became 0,0,0
     tl_imported_mesh imported; ///< as it stands in the file
     tl_mesh mesh;              ///< welded and cleaned
     tl_mesh_report report;

@@ -2,6 +2,7 @@
 
 #include "cli/level/navmesh_query.h"
 
+#include "cli/level/load_level.h"
 #include "cli/options/parse_value.h"
 
 bool tl_extents_read(tl_cli *cli, const char *text, tl_vec3 *extents, tl_exit *exit_out)
@@ -16,6 +17,7 @@ bool tl_extents_read(tl_cli *cli, const char *text, tl_vec3 *extents, tl_exit *e
     if (reason != NULL) {
         *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "--extents: '%s' %s; write it as X,Y,Z", text, reason);
     }
+    *extents = reason == NULL ? tl_level_enter_half(cli, *extents) : *extents;
     return reason == NULL;
 }
 

@@ -9,7 +9,8 @@
 
 #include <talus/nav_query.h>
 
-/// Reads the text of --extents, where it was given, into `extents`. False: it was refused.
+/// Reads the text of --extents, where it was given, into `extents`; once more when FILE is open, whose axes it is in.
+/// False: it was refused.
 bool tl_extents_read(tl_cli *cli, const char *text, tl_vec3 *extents, tl_exit *exit_out);
 
 /// Nodes for every link there is, so that no search gives up.

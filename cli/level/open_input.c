@@ -86,6 +86,26 @@ bool tl_input_parse(tl_cli *cli, const tl_option_group *own, tl_input_options op
                                           tl_bake_take_bounds(cli, settings, exit_out)));
 }
 
+// Files from before there were frames say only which axis was up.
+static bool take_stored_frame(tl_cli *cli, const tl_input *input, tl_exit *exit_out)
+{
+    static const double nowhere[3] = { 0.0, 0.0, 0.0 };
+    tl_result result;
+    const tl_pack_frame *frame = tl_input_checked_chunk(input, TL_PACK_FRAM, tl_pack_frame_check, &result);
+    if (result != TL_OK && result != TL_NOT_FOUND) {
+        *exit_out = tl_cli_fail_result(cli, input->path, result, NULL);
+        return false;
+    }
+    const tl_pack_meta *meta = tl_input_checked_chunk(input, TL_PACK_META, tl_pack_meta_check, &result);
+    const bool z_up = meta != NULL && meta->source_up == TL_PACK_UP_Z;
+    tl_level_take_frame(cli, input->path,
+                        frame != NULL ? (tl_pack_axes)frame->axes
+                        : z_up        ? TL_PACK_AXES_Z_UP
+                                      : TL_PACK_AXES_Y_UP,
+                        frame != NULL ? frame->origin : nowhere);
+    return true;
+}
+
 bool tl_input_open_baked(tl_cli *cli, const char *path, tl_input *input_out, tl_exit *exit_out)
 {
     tl_io_error error;
@@ -107,11 +127,7 @@ bool tl_input_open_baked(tl_cli *cli, const char *path, tl_input *input_out, tl_
         *exit_out = tl_cli_fail_result(cli, path, result, &report);
         return false;
     }
-    const tl_pack_meta *meta = tl_input_checked_chunk(input_out, TL_PACK_META, tl_pack_meta_check, &result);
-    if (meta != NULL && meta->source_up == TL_PACK_UP_Z) {
-        tl_level_warn_turned(cli, path);
-    }
-    return true;
+    return take_stored_frame(cli, input_out, exit_out);
 }
 
 const void *tl_input_checked_chunk(const tl_input *input, uint32_t type,

@@ -2,6 +2,7 @@
 
 #include "cli/level/shape_option.h"
 
+#include "cli/level/load_level.h"
 #include "cli/options/parse_value.h"
 
 #include <string.h>
@@ -46,7 +47,7 @@ bool tl_shape_option_read(tl_cli *cli, tl_shape_option *shape, tl_exit *exit_out
             *exit_out = tl_cli_fail(cli, TL_EXIT_USAGE, "give --half for a box or --height for a capsule, not both");
             return false;
         }
-        shape->shape = tl_convex_box(zero, tl_vec3_make(half[0], half[1], half[2]), 0.0f);
+        shape->shape = tl_convex_box(zero, tl_level_enter_half(cli, tl_vec3_make(half[0], half[1], half[2])), 0.0f);
         return true;
     }
     if (shape->height != 0.0f && shape->height < 2.0f * shape->radius) {

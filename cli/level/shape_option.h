@@ -23,7 +23,7 @@ tl_shape_option tl_default_shape_option(void);
 /// The options that fill it, with the end of the table: TL_SHAPE_OPTIONS entries.
 void tl_shape_options(tl_shape_option *shape, tl_option *options_out);
 
-/// Makes the shape out of what was parsed. False: reported.
+/// Makes the shape out of what was parsed; once more when FILE is open, whose axes --half is in. False: reported.
 bool tl_shape_option_read(tl_cli *cli, tl_shape_option *shape, tl_exit *exit_out);
 
 #endif

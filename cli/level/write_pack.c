@@ -18,6 +18,7 @@ void tl_pack_content_free(tl_pack_content *content)
 {
     tl_blob_free(content->meta);
     tl_blob_free(content->navmesh);
+    tl_blob_free(content->frame);
     free(content->items);
     memset(content, 0, sizeof(*content));
 }
@@ -38,14 +39,18 @@ const char *tl_pack_source_name(const char *path)
 
 tl_result tl_pack_content_of_bake(const tl_level *level, const tl_bake *bake, bool nav, tl_pack_content *content)
 {
-    tl_result result = tl_pack_content_make(bake->tiles.tile_count + bake->removed.tile_count + 7, content);
+    tl_result result = tl_pack_content_make(bake->tiles.tile_count + bake->removed.tile_count + 8, content);
     if (result != TL_OK) {
         return result;
     }
     result = tl_pack_meta_encode(tl_pack_source_name(level->path), level->imported.vertex_count,
                                  level->imported.triangle_count, level->mesh.bounds, NULL, &content->meta, NULL);
     if (result == TL_OK) {
-        content->meta->source_up = level->is_z_up ? TL_PACK_UP_Z : TL_PACK_UP_Y;
+        content->meta->source_up = level->axes == TL_PACK_AXES_Z_UP ? TL_PACK_UP_Z : TL_PACK_UP_Y;
+    }
+    const double *o = level->origin;
+    if (result == TL_OK && (level->axes != TL_PACK_AXES_Y_UP || o[0] != 0.0 || o[1] != 0.0 || o[2] != 0.0)) {
+        result = tl_pack_frame_encode(level->axes, o, NULL, &content->frame, NULL);
     }
     if (result == TL_OK && nav) {
         tl_nav_def def = bake->nav_def;
@@ -57,6 +62,7 @@ tl_result tl_pack_content_of_bake(const tl_level *level, const tl_bake *bake, bo
         return result;
     }
     tl_pack_content_add(content, TL_PACK_META, 0, content->meta);
+    tl_pack_content_add(content, TL_PACK_FRAM, 0, content->frame);
     tl_pack_content_add(content, TL_PACK_SOUP, 0, bake->soup);
     tl_pack_content_add(content, TL_PACK_HULL, 0, bake->hull);
     tl_pack_content_add(content, TL_PACK_NAVM, 0, content->navmesh);

@@ -16,6 +16,7 @@ typedef struct tl_pack_content {
     uint32_t count;
     tl_pack_meta *meta;
     tl_pack_navmesh *navmesh;
+    tl_pack_frame *frame;
 } tl_pack_content;
 
 /// Takes up to `max_count` chunks. Free with tl_pack_content_free, also after a failure.

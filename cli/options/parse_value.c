@@ -163,3 +163,13 @@ const char *tl_parse_double_triple(const char *text, double values_out[3])
     }
     return reason;
 }
+
+void tl_parse_double_words(const char *line, double *values_out, uint32_t count)
+{
+    const char *end = line + strlen(line);
+    for (uint32_t i = 0; i < count; ++i) {
+        line += strspn(line, " \t,\r");
+        const char *behind = tl_parse_double(line, end, &values_out[i]);
+        line = behind != NULL ? behind : end;
+    }
+}

@@ -25,6 +25,8 @@ const char *tl_parse_float_words(const char *line, float *values_out, uint32_t c
                                  const char **bad_out);
 
 /// Three numbers with commas between, as doubles: for coordinates too large for floats.
+/// The first `count` numbers of a line that tl_parse_float_words took, as doubles.
+void tl_parse_double_words(const char *line, double *values_out, uint32_t count);
 const char *tl_parse_double_triple(const char *text, double values_out[3]);
 
 #endif

@@ -14,6 +14,7 @@
 #include "io/files/io_error.h"
 
 #include <talus/base.h>
+#include <talus/pack.h>
 
 /// How the program ends. Documented in docs/guide/command.md.
 typedef enum tl_exit {
@@ -56,7 +57,10 @@ struct tl_cli {
     tl_progress_display progress;
     uint32_t threads; ///< --threads
     tl_thread_pool *pool;
-    tl_host host; ///< for builds: tasks and progress
+    tl_host host;               ///< for builds: tasks and progress
+    const tl_pack_frame *frame; ///< the level's own coordinates, in which points are read and printed; NULL: as baked
+    tl_pack_frame frame_room;   ///< what `frame` points to
+    bool speaks_frame;          ///< the command does so; else opening a level with a frame is told of
 };
 
 /// Runs a command from its name on: argv[0] is the name. Sets up, runs, cleans up, and makes sure that standard output

@@ -5,6 +5,8 @@
 
 #include "cli/shared/json_out.h"
 
+#include "cli/shared/text_buffer.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -40,6 +42,35 @@ json_t *tl_json_point(tl_vec3 point)
 json_t *tl_json_bounds(tl_aabb bounds)
 {
     return json_pack("{so so}", "min", tl_json_point(bounds.min), "max", tl_json_point(bounds.max));
+}
+
+json_t *tl_json_placed(const tl_pack_frame *frame, tl_vec3 point)
+{
+    if (frame == NULL || !tl_is_finite(point)) {
+        return tl_json_point(point);
+    }
+    const tl_vec3 turned = tl_pack_turn_out((tl_pack_axes)frame->axes, point);
+    const float near[3] = { turned.x, turned.y, turned.z };
+    json_t *array = json_array();
+    for (int i = 0; i < 3; ++i) {
+        char text[TL_PLACE_TEXT_BYTES];
+        tl_format_place(frame, i, near[i], text);
+        json_array_append_new(array,
+                              frame->origin[i] != 0.0 ? json_real(strtod(text, NULL)) : tl_json_float(near[i] + 0.0f));
+    }
+    return array;
+}
+
+json_t *tl_json_placed_bounds(const tl_pack_frame *frame, tl_aabb bounds)
+{
+    if (frame == NULL || tl_aabb_is_empty(bounds)) {
+        return tl_json_bounds(bounds);
+    }
+    // Turned, the lowest corner is another one.
+    const tl_pack_axes axes = (tl_pack_axes)frame->axes;
+    const tl_vec3 a = tl_pack_turn_out(axes, bounds.min), b = tl_pack_turn_out(axes, bounds.max);
+    return json_pack("{so so}", "min", tl_json_placed(frame, tl_pack_turn_in(axes, tl_min(a, b))), "max",
+                     tl_json_placed(frame, tl_pack_turn_in(axes, tl_max(a, b))));
 }
 
 json_t *tl_json_text(const char *text)

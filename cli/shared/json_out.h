@@ -8,7 +8,7 @@
 #include "cli/shared/command.h"
 
 #include <jansson.h>
-#include <talus/vec.h>
+#include <talus/pack.h>
 
 /// A float as a JSON number that prints as short as it can; null when it is not finite.
 json_t *tl_json_float(float value);
@@ -16,6 +16,10 @@ json_t *tl_json_float(float value);
 json_t *tl_json_double(double value);
 /// [x, y, z]
 json_t *tl_json_point(tl_vec3 point);
+/// A place in the level's own coordinates; NULL: as it is.
+json_t *tl_json_placed(const tl_pack_frame *frame, tl_vec3 point);
+/// A box in the level's own coordinates: {"min": [...], "max": [...]}
+json_t *tl_json_placed_bounds(const tl_pack_frame *frame, tl_aabb bounds);
 /// {"min": [...], "max": [...]}
 json_t *tl_json_bounds(tl_aabb bounds);
 

@@ -22,6 +22,7 @@ typedef struct question {
 
 typedef struct line_block {
     const tl_batch *batch;
+    const tl_pack_frame *frame;
     uint32_t count;
     question questions[BLOCK_LINES];
     tl_text answers[BLOCK_CHUNKS];
@@ -54,6 +55,20 @@ static tl_exit answer_block(tl_cli *cli, line_block *b)
     return TL_EXIT_OK;
 }
 
+// Numbers of the level's own coordinates to those that were baked, three by three.
+static void enter_frame(const tl_pack_frame *frame, const tl_batch *batch, const double *in, uint32_t count, float *out)
+{
+    for (uint32_t i = 0; i + 3 <= count; i += 3) {
+        const tl_vec3 v = batch->directions >> (i / 3) & 1u
+                              ? tl_pack_turn_in((tl_pack_axes)frame->axes,
+                                                tl_vec3_make((float)in[i], (float)in[i + 1], (float)in[i + 2]))
+                              : tl_pack_place_in(frame, in + i);
+        out[i] = v.x;
+        out[i + 1] = v.y;
+        out[i + 2] = v.z;
+    }
+}
+
 // Takes one line into the block. Comments and empty lines are none.
 static tl_exit take_question(tl_cli *cli, line_block *b, const tl_line_input *input, const char *line)
 {
@@ -65,6 +80,11 @@ static tl_exit take_question(tl_cli *cli, line_block *b, const tl_line_input *in
     const char *bad = NULL;
     const char *reason = tl_parse_float_words(text, q->numbers, TL_MAX_LINE_NUMBERS, &q->count, &bad);
     if (reason == NULL && (q->count == b->batch->min_numbers || q->count == b->batch->max_numbers)) {
+        if (b->frame != NULL) {
+            double exact[TL_MAX_LINE_NUMBERS];
+            tl_parse_double_words(text, exact, q->count);
+            enter_frame(b->frame, b->batch, exact, q->count, q->numbers);
+        }
         b->count++;
         return TL_EXIT_OK;
     }
@@ -118,6 +138,16 @@ static tl_exit answer_one(tl_cli *cli, const tl_batch *batch, const float *numbe
 {
     tl_text text;
     memset(&text, 0, sizeof(text));
+    float turned[6];
+    if (cli->frame != NULL && numbers != NULL) {
+        double exact[6];
+        for (uint32_t i = 0; i < batch->min_numbers / 3; ++i) {
+            tl_parse_double_triple(cli->arguments.words[1 + i], exact + i * 3);
+        }
+        enter_frame(cli->frame, batch, exact, batch->min_numbers / 3 * 3, turned);
+        numbers = turned;
+        text.frame = cli->frame;
+    }
     const bool yes = batch->answer(numbers, batch->min_numbers, &text, 0, batch->user);
     const tl_exit code = text.failed ? tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory")
                          : yes       ? TL_EXIT_OK
@@ -139,6 +169,10 @@ static tl_exit answer_lines(tl_cli *cli, const tl_batch *batch)
     line_block *b = calloc(1, sizeof(*b));
     if (b != NULL) {
         b->batch = batch;
+        b->frame = cli->frame;
+        for (uint32_t i = 0; i < BLOCK_CHUNKS; ++i) {
+            b->answers[i].frame = cli->frame;
+        }
         tl_progress_end(&cli->progress);
         code = run_lines(cli, b, &input);
         for (uint32_t i = 0; i < BLOCK_CHUNKS; ++i) {

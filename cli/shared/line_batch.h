@@ -20,10 +20,14 @@ typedef struct tl_batch {
     uint32_t min_numbers, max_numbers; ///< a line holds the one or the other; at most TL_MAX_LINE_NUMBERS
     tl_answer_fn *answer;
     void *user;
+    uint32_t directions; ///< bit i: the i-th three numbers are no place but a direction
 } tl_batch;
 
 /// Without a path: answers `numbers`, `min_numbers` of them; no ends with TL_EXIT_NEGATIVE. With a path `numbers` is
 /// ignored.
+///
+/// Places and directions are in the level's own coordinates where it has some (tl_cli.frame), of questions and of
+/// answers; `numbers` is then what tl_question_read read, and is read once more from the command line, in double.
 ///
 /// Numbers are separated by blanks, tabs or commas; empty lines and lines that begin with # are skipped. A line that is
 /// not right ends the run with its number, after the answers to all lines before it. Answers are flushed whenever the

@@ -6,6 +6,7 @@
 
 #include "io/text/format_float.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,13 +65,51 @@ void tl_text_add_count(tl_text *text, uint64_t value)
     append_bytes(text, digits + at, sizeof(digits) - at);
 }
 
+void tl_format_place(const tl_pack_frame *frame, int axis, float near, char text_out[TL_PLACE_TEXT_BYTES])
+{
+    const double origin = frame->origin[axis];
+    for (int digits = 6; digits <= 17; ++digits) {
+        snprintf(text_out, TL_PLACE_TEXT_BYTES, "%.*g", digits, origin + (double)near + 0.0);
+        if ((float)(strtod(text_out, NULL) - origin) == near) {
+            return;
+        }
+    }
+}
+
+static void add_place_number(tl_text *text, int axis, float near)
+{
+    char number[TL_PLACE_TEXT_BYTES];
+    if (text->frame == NULL || text->frame->origin[axis] == 0.0) {
+        tl_text_add_float(text, near);
+    } else {
+        tl_format_place(text->frame, axis, near, number);
+        tl_text_add(text, number);
+    }
+}
+
+static tl_vec3 turn_out(const tl_text *text, tl_vec3 v)
+{
+    return text->frame != NULL ? tl_pack_turn_out((tl_pack_axes)text->frame->axes, v) : v;
+}
+
 void tl_text_add_point(tl_text *text, tl_vec3 point, char separator)
 {
-    tl_text_add_float(text, point.x);
+    const tl_vec3 near = turn_out(text, point);
+    add_place_number(text, 0, near.x);
     append_bytes(text, &separator, 1);
-    tl_text_add_float(text, point.y);
+    add_place_number(text, 1, near.y);
     append_bytes(text, &separator, 1);
-    tl_text_add_float(text, point.z);
+    add_place_number(text, 2, near.z);
+}
+
+void tl_text_add_direction(tl_text *text, tl_vec3 v, char separator)
+{
+    const tl_vec3 turned = turn_out(text, v);
+    tl_text_add_float(text, turned.x);
+    append_bytes(text, &separator, 1);
+    tl_text_add_float(text, turned.y);
+    append_bytes(text, &separator, 1);
+    tl_text_add_float(text, turned.z);
 }
 
 void tl_text_add_json_float(tl_text *text, float value)
@@ -84,11 +123,23 @@ void tl_text_add_json_float(tl_text *text, float value)
 
 void tl_text_add_json_point(tl_text *text, tl_vec3 point)
 {
+    if (!tl_is_finite(point)) {
+        tl_text_add_json_direction(text, point);
+        return;
+    }
     tl_text_add(text, "[");
-    tl_text_add_json_float(text, point.x);
+    tl_text_add_point(text, point, ',');
+    tl_text_add(text, "]");
+}
+
+void tl_text_add_json_direction(tl_text *text, tl_vec3 v)
+{
+    const tl_vec3 turned = turn_out(text, v);
+    tl_text_add(text, "[");
+    tl_text_add_json_float(text, turned.x);
     tl_text_add(text, ",");
-    tl_text_add_json_float(text, point.y);
+    tl_text_add_json_float(text, turned.y);
     tl_text_add(text, ",");
-    tl_text_add_json_float(text, point.z);
+    tl_text_add_json_float(text, turned.z);
     tl_text_add(text, "]");
 }

@@ -29,6 +29,7 @@ extern "C" {
 #define TL_PACK_NAVM             TL_PACK_TYPE('N', 'A', 'V', 'M') ///< tl_pack_navmesh: what the tiles were baked with
 #define TL_PACK_NAVT             TL_PACK_TYPE('N', 'A', 'V', 'T') ///< tl_nav_tile; the id numbers the tiles
 #define TL_PACK_LINK             TL_PACK_TYPE('L', 'I', 'N', 'K') ///< tl_nav_links: drops, jumps and climbs
+#define TL_PACK_FRAM             TL_PACK_TYPE('F', 'R', 'A', 'M') ///< tl_pack_frame: the level's own coordinates
 #define TL_PACK_MARK             TL_PACK_TYPE('M', 'A', 'R', 'K') ///< tl_pack_volumes: volumes the tiles were baked with
 #define TL_PACK_PRUN             TL_PACK_TYPE('P', 'R', 'U', 'N') ///< tl_pack_pruning: rules that islands were left out by
 #define TL_PACK_PRUT             TL_PACK_TYPE('P', 'R', 'U', 'T') ///< tl_nav_tile: what was left out; the id numbers them
@@ -111,6 +112,8 @@ TL_API uint32_t tl_pack_count(const tl_pack *pack, uint32_t type);
 #define TL_PACK_META_VERSION    1u
 #define TL_PACK_NAVMESH_MAGIC   TL_PACK_NAVM
 #define TL_PACK_NAVMESH_VERSION 1u
+#define TL_PACK_FRAME_MAGIC     TL_PACK_FRAM
+#define TL_PACK_FRAME_VERSION   1u
 #define TL_PACK_VOLUMES_MAGIC   TL_PACK_MARK
 #define TL_PACK_VOLUMES_VERSION 1u
 #define TL_PACK_PRUNING_MAGIC   TL_PACK_PRUN
@@ -126,7 +129,8 @@ typedef struct tl_pack_meta {
     uint32_t source_up;        ///< TL_PACK_UP_Y, set by the encoder, or TL_PACK_UP_Z: set it before the file is written
 } tl_pack_meta;
 
-/// The source's up axis. What is baked is y-up: of a z-up source a point (x, y, z) was turned to (x, z, -y).
+/// The source's up axis. What is baked is y-up: of a z-up source a point (x, y, z) was turned to (x, z, -y). A FRAM
+/// chunk says the same of other axes; a file without one has no origin, and the axes that stand here.
 enum { TL_PACK_UP_Y, TL_PACK_UP_Z };
 
 /// Encodes a META blob, freed with tl_blob_free. `source_name` is a zero-terminated string of at most 2^16 bytes
@@ -140,6 +144,40 @@ TL_API tl_result tl_pack_meta_encode(const char *source_name, uint64_t source_ve
 TL_API tl_result tl_pack_meta_check(const void *bytes, uint64_t size, tl_report *report_out);
 /// The source's name, zero-terminated, in the blob.
 TL_API const char *tl_pack_meta_name(const tl_pack_meta *meta);
+
+/// The axes of a level. What is baked is TL_PACK_AXES_Y_UP; the others are turned to it, and mirrored where they are
+/// left-handed, where triangles are also wound the other way, so that (b - a) x (c - a), computed in either
+/// coordinates, points to the same side.
+typedef enum tl_pack_axes {
+    TL_PACK_AXES_Y_UP,      ///< right-handed, y up: glTF, OpenGL, talus
+    TL_PACK_AXES_Z_UP,      ///< right-handed, z up, (x, y, z) becomes (x, z, -y): Blender, robots, surveys
+    TL_PACK_AXES_Y_UP_LEFT, ///< left-handed, y up, (x, y, z) becomes (x, y, -z): Unity, Direct3D
+    TL_PACK_AXES_Z_UP_LEFT, ///< left-handed, z up, (x, y, z) becomes (x, z, y): Unreal
+} tl_pack_axes;
+
+/// The level's own coordinates: a point of the level less `origin`, turned from `axes`, is a point of what was baked. A
+/// blob. Files have none where the two are the same.
+typedef struct tl_pack_frame {
+    tl_blob blob;
+    double origin[3]; ///< metres, in the level's axes
+    uint32_t axes;    ///< a tl_pack_axes
+    uint32_t reserved[5];
+} tl_pack_frame;
+
+/// Encodes a FRAM blob, freed with tl_blob_free. `allocator` NULL: malloc. TL_ERR_ARGUMENT ("axes" is none of them,
+/// "origin" is NULL or not finite), TL_ERR_MEMORY; `*frame_out` is NULL then. `report_out` may be NULL.
+TL_API tl_result tl_pack_frame_encode(tl_pack_axes axes, const double origin[3], const tl_allocator *allocator,
+                                      tl_pack_frame **frame_out, tl_report *report_out);
+/// As tl_pack_meta_check.
+TL_API tl_result tl_pack_frame_check(const void *bytes, uint64_t size, tl_report *report_out);
+
+/// A point of the level to a point of what was baked, and back. `frame`, checked, may be NULL: then both are the same.
+/// The difference is taken in double, so that a float's rounding is that of the small numbers.
+TL_API tl_vec3 tl_pack_place_in(const tl_pack_frame *frame, const double point[3]);
+TL_API void tl_pack_place_out(const tl_pack_frame *frame, tl_vec3 point, double out[3]);
+/// The same of a direction, exactly.
+TL_API tl_vec3 tl_pack_turn_in(tl_pack_axes axes, tl_vec3 v);
+TL_API tl_vec3 tl_pack_turn_out(tl_pack_axes axes, tl_vec3 v);
 
 /// What a navmesh was baked with: tl_nav_def in metres, and the grid of its tiles. A blob.
 typedef struct tl_pack_navmesh {

@@ -217,6 +217,10 @@ tl_result tl_import_place_vertices(const tl_import_options *options, const char 
         tl_vec3 vertex = vertices[i];
         if (options->up_axis == TL_UP_Z) {
             vertex = tl_vec3_make(vertex.x, vertex.z, 0.0f - vertex.y); // no -0 from a 0
+        } else if (options->up_axis == TL_UP_Y_LEFT) {
+            vertex.z = 0.0f - vertex.z;
+        } else if (options->up_axis == TL_UP_Z_LEFT) {
+            vertex = tl_vec3_make(vertex.x, vertex.z, vertex.y);
         }
         vertex = tl_scale(vertex, scale);
         if (!tl_is_finite(vertex)) {
@@ -235,8 +239,8 @@ tl_result tl_import_options_check(const tl_import_options *options, const char *
         return tl_io_fail(error_out, TL_ERR_ARGUMENT, path, 0, "give metres a file unit, such as 0.01 for centimetres",
                           "the unit scale is not a positive number");
     }
-    if (options->up_axis != TL_UP_Y && options->up_axis != TL_UP_Z) {
-        return tl_io_fail(error_out, TL_ERR_ARGUMENT, path, 0, "y or z", "the up axis is not known");
+    if ((unsigned)options->up_axis > TL_UP_Z_LEFT) {
+        return tl_io_fail(error_out, TL_ERR_ARGUMENT, path, 0, "y, z, y-left or z-left", "the up axis is not known");
     }
     return TL_OK;
 }
@@ -305,6 +309,14 @@ tl_result tl_import_mesh_bytes(const void *bytes, size_t size, const char *path,
     }
     if (result == TL_OK) {
         result = tl_import_place_vertices(&used, path, mesh_out->vertices, mesh_out->vertex_count, error_out);
+    }
+    if (result == TL_OK && used.up_axis >= TL_UP_Y_LEFT) {
+        for (uint32_t i = 0; i < mesh_out->triangle_count; i++) {
+            uint32_t *corner = mesh_out->indices + (size_t)i * 3;
+            const uint32_t second = corner[1];
+            corner[1] = corner[2];
+            corner[2] = second;
+        }
     }
     if (result != TL_OK) {
         tl_imported_mesh_free(mesh_out);

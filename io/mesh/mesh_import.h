@@ -18,8 +18,10 @@ extern "C" {
 
 /// Which axis of the file points up. talus has y up and is right-handed.
 typedef enum tl_up_axis {
-    TL_UP_Y, ///< taken as it is
-    TL_UP_Z, ///< turned by -90 degrees about x: (x, y, z) becomes (x, z, -y), as exporters of z-up tools do
+    TL_UP_Y,      ///< taken as it is
+    TL_UP_Z,      ///< turned by -90 degrees about x: (x, y, z) becomes (x, z, -y), as exporters of z-up tools do
+    TL_UP_Y_LEFT, ///< left-handed, as in Unity: (x, y, z) becomes (x, y, -z), and triangles are wound the other way
+    TL_UP_Z_LEFT, ///< left-handed, as in Unreal: (x, y, z) becomes (x, z, y), and triangles are wound the other way
 } tl_up_axis;
 
 /// What the process that reads anything but OBJ may use, where the system can limit it. A file of S bytes has 10 s and

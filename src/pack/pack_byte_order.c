@@ -34,6 +34,13 @@ static void swap_settings(tl_byte_swap *swap)
     tl_swap_words(swap, sizeof head, (swap->size - sizeof head) / 4, 4);
 }
 
+static void swap_frame(tl_byte_swap *swap)
+{
+    static const tl_word_run HEAD[] = { { 4, 2 }, { 8, 4 }, { 4, 6 } };
+    tl_pack_frame head;
+    tl_swap_head(swap, HEAD, TL_COUNT_OF(HEAD), &head, sizeof head);
+}
+
 typedef struct blob_kind {
     uint32_t magic;
     uint32_t chunk_type; // 0: none of the file's own
@@ -48,6 +55,7 @@ static const blob_kind KINDS[] = {
     { TL_NAV_PVS_MAGIC, 0, tl_nav_pvs_swap_words },
     { TL_PACK_META_MAGIC, TL_PACK_META, swap_meta },
     { TL_PACK_NAVMESH_MAGIC, TL_PACK_NAVM, swap_settings },
+    { TL_PACK_FRAME_MAGIC, TL_PACK_FRAM, swap_frame },
     { TL_PACK_VOLUMES_MAGIC, TL_PACK_MARK, swap_settings },
 };
 

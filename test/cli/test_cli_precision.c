@@ -52,13 +52,17 @@ static void test_origin_keeps_the_level(void **state)
     TEST_CHECK(json_number_value(json_array_get(json_object_get(far, "origin"), 2)) == 4649000.0);
     json_decref(near);
     json_decref(far);
-    cli_do(0, "path far.talus 2,0,20 38,0,20");
+    cli_do(0, "path far.talus 500002,200,4649020 500038,200,4649020"); // in the level's coordinates
     // Chosen: 40 m square, so its middle; 200 m up is near enough.
     cli_result chosen = cli_expect(0, "bake far.obj -o far.talus --origin auto");
-    cli_check_part(chosen.err, "relative to 500020,0,4649020 of the file");
+    cli_check_part(chosen.out, "y up, 0,0,0 inside is 500020,0,4649020");
     TEST_CHECK(strstr(chosen.err, "floats step") == NULL && strstr(chosen.out, "dropped") == NULL);
     cli_free(&chosen);
-    cli_do(0, "path far.talus -18,200,0 18,200,0");
+    cli_do(0, "path far.talus 500002,200,4649020 500038,200,4649020");
+    cli_result far_path = cli_expect(0, "path far.talus 500002.5,200,4649020.25 500038,200,4649020");
+    cli_check_part(far_path.out, " 500002.5,"); // in double: floats step by half a metre there
+    cli_check_part(far_path.out, ",4649020.25 ");
+    cli_free(&far_path);
     // In the file's units and axes: (x, y, z) of a z-up file in millimetres.
     cli_write_text("mm.obj",
                    "v 5000000000 -3000000000 1000\nv 5000020000 -3000000000 1000\nv 5000000000 -2999980000 1000\n"
@@ -67,7 +71,7 @@ static void test_origin_keeps_the_level(void **state)
         cli_json(0, "bake mm.obj -o mm.talus --up z --scale 0.001 --origin 5000000000,-3000000000,0 --no-nav --json");
     const json_t *bounds = json_object_get(turned, "bounds");
     char *text = json_dumps(bounds, JSON_COMPACT);
-    TEST_CHECK(strstr(text, "20.0") != NULL && strstr(text, "e") == NULL);
+    TEST_CHECK(strstr(text, "5000020.0") != NULL && strstr(text, "-3000000.0") != NULL && strstr(text, "e") == NULL);
     free(text);
     json_decref(turned);
 }

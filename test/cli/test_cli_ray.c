@@ -149,7 +149,7 @@ static void test_forms(void **state)
     check_answer(1, "ray one.obj 1,5,1 0,-1,0 --cull back", "miss\n");
     check_answer(0, "ray one.obj 1,0,1 0,1,0 --cull back", "2 0 0.25 0.25\n");
     check_answer(0, "ray one.obj 100,500,100 0,-100,0 --scale 100", "3 0 0.25 0.25\n");
-    check_answer(0, "ray one.obj 1,1,-5 0,0,1 --up z", "3 0 0.25 0.25\n"); // y = 2 lies at z = -2
+    check_answer(0, "ray one.obj 1,5,1 0,-1,0 --up z", "3 0 0.25 0.25\n"); // in the level's axes
     json_t *hit = cli_json(0, "ray one.obj 1,5,1 0,-1,0 --json");
     assert_true(json_is_true(json_object_get(hit, "hit")));
     TEST_CHECK(cli_number(hit, "t") == 3.0 && cli_number(hit, "triangle") == 0.0);

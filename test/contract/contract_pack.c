@@ -232,6 +232,33 @@ static tl_result volumes_encode(contract_run *run)
     return blob_answer(run, result, volumes);
 }
 
+static const char *const FRAME_FIELDS[] = { "axes", "origin", NULL };
+
+static tl_result frame_encode(contract_run *run)
+{
+    const double origin[3] = { 448262.0, run->what == CONTRACT_BAD_FIELD && run->variant == 1 ? (double)NAN : 0.0,
+                               5e6 };
+    const bool no_axes = run->what == CONTRACT_BAD_FIELD && run->variant == 0;
+    tl_pack_frame *frame = NULL;
+    const tl_result result = tl_pack_frame_encode(
+        no_axes ? (tl_pack_axes)4 : TL_PACK_AXES_Z_UP, run->what == CONTRACT_NULL_INPUT ? NULL : origin,
+        run->host->allocator, run->what == CONTRACT_NULL_OUTPUT ? NULL : &frame, run->report);
+    return blob_answer(run, result, frame);
+}
+
+static tl_result frame_check(contract_run *run)
+{
+    const double origin[3] = { 0.0, 0.0, 1.0 };
+    tl_pack_frame *frame;
+    TEST_RESULT(tl_pack_frame_encode(TL_PACK_AXES_Y_UP_LEFT, origin, NULL, &frame, NULL), TL_OK);
+    frame->axes = run->what == CONTRACT_BAD_BYTES ? 4 : 1;
+    run->is_clear = true;
+    const tl_result result =
+        tl_pack_frame_check(run->what == CONTRACT_NULL_INPUT ? NULL : frame, frame->blob.size, run->report);
+    tl_blob_free(frame);
+    return result;
+}
+
 static tl_result volumes_check(contract_run *run)
 {
     tl_pack_volumes *volumes;
@@ -323,6 +350,13 @@ const contract_entry CONTRACT_TABLE_pack[] = {
       NULL },
     { "tl_pack_navmesh_check", CHECK, 1, 0, NULL, navmesh_check, NULL },
     { "tl_pack_navmesh_def", 0, 0, 0, NULL, NULL, "copies a checked blob's fields" },
+    { "tl_pack_frame_encode", ENCODE | CONTRACT_BIT(NULL_INPUT) | CONTRACT_BIT(BAD_FIELD), 1, 1, FRAME_FIELDS,
+      frame_encode, NULL },
+    { "tl_pack_frame_check", CHECK, 1, 0, NULL, frame_check, NULL },
+    { "tl_pack_place_in", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },
+    { "tl_pack_place_out", 0, 0, 0, NULL, NULL, "fills a value; what it is given is the caller's duty" },
+    { "tl_pack_turn_in", 0, 0, 0, NULL, NULL, "returns a value" },
+    { "tl_pack_turn_out", 0, 0, 0, NULL, NULL, "returns a value" },
     { "tl_pack_volumes_encode", ENCODE | CONTRACT_BIT(NULL_INPUT), 1, 1, NULL, volumes_encode, NULL },
     { "tl_pack_volumes_check", CHECK, 1, 0, NULL, volumes_check, NULL },
     { "tl_pack_volumes_at", 0, 0, 0, NULL, NULL, "returns a value; what it is given is the caller's duty" },

@@ -200,12 +200,15 @@ static void test_chunks_of_the_file(void **state)
     tl_pack_meta *meta;
     tl_pack_navmesh *navmesh;
     tl_pack_volumes *marks;
+    tl_pack_frame *frame;
     TEST_RESULT(tl_pack_meta_encode("a name", 3, 4, box, NULL, &meta, NULL), TL_OK);
     TEST_RESULT(tl_pack_navmesh_encode(NULL, 2, 3, 6, NULL, &navmesh, NULL), TL_OK);
     TEST_RESULT(tl_pack_volumes_encode(volumes, 2, NULL, &marks, NULL), TL_OK);
     go(meta, tl_pack_meta_check);
     go(navmesh, tl_pack_navmesh_check);
     go(marks, tl_pack_volumes_check);
+    TEST_RESULT(tl_pack_frame_encode(TL_PACK_AXES_Z_UP, (const double[]){ 1e6, 2.5, -3 }, NULL, &frame, NULL), TL_OK);
+    go(frame, tl_pack_frame_check);
 }
 
 typedef struct memory_bytes {
