@@ -12,22 +12,67 @@
 #include <stdlib.h>
 #include <string.h>
 
+static void warn_of_links(tl_cli *cli, const tl_detour_report *report)
+{
+    if (report->off_mesh_outside > 0) {
+        tl_cli_warn(cli, "%u off-mesh links start in no tile: left out", report->off_mesh_outside);
+    }
+    if (report->off_mesh_far > 0) {
+        tl_cli_warn(cli, "%u off-mesh links lead beyond the next tile, where Detour does not connect them",
+                    report->off_mesh_far);
+    }
+}
+
 static tl_exit print_export_report(tl_cli *cli, const char *output, uint64_t size, const tl_detour_report *report)
 {
     if (report->plain_patches > 0) {
         tl_cli_warn(cli, "%u polygons have more height detail than Detour's 255 vertices or triangles: written flat",
                     report->plain_patches);
     }
+    warn_of_links(cli, report);
     if (cli->json) {
-        return tl_cli_print_json(cli, json_pack("{so so sI sI sI sI}", "file", tl_json_text(cli->arguments.words[0]),
-                                                "output", tl_json_text(output), "bytes", (json_int_t)size, "tiles",
-                                                (json_int_t)report->tile_count, "polygons",
-                                                (json_int_t)report->polygon_count, "plain_patches",
-                                                (json_int_t)report->plain_patches));
+        return tl_cli_print_json(
+            cli,
+            json_pack("{so so sI sI sI sI sI sI sI}", "file", tl_json_text(cli->arguments.words[0]), "output",
+                      tl_json_text(output), "bytes", (json_int_t)size, "tiles", (json_int_t)report->tile_count,
+                      "polygons", (json_int_t)report->polygon_count, "plain_patches", (json_int_t)report->plain_patches,
+                      "off_mesh_links", (json_int_t)report->off_mesh_links, "off_mesh_outside",
+                      (json_int_t)report->off_mesh_outside, "off_mesh_far", (json_int_t)report->off_mesh_far));
     }
-    printf("%s: %u tiles, %u polygons, %llu bytes\n", output, report->tile_count, report->polygon_count,
-           (unsigned long long)size);
+    printf("%s: %u tiles, %u polygons, ", output, report->tile_count, report->polygon_count);
+    if (report->off_mesh_links > 0) {
+        printf("%u off-mesh links, ", report->off_mesh_links);
+    }
+    printf("%llu bytes\n", (unsigned long long)size);
     return TL_EXIT_OK;
+}
+
+// The navmesh's off-mesh links. False: out of memory, or one that Detour cannot hold.
+static bool collect_off_mesh(tl_cli *cli, const tl_input *input, tl_detour_set *set, tl_exit *exit_out)
+{
+    tl_detour_off_mesh *links = calloc((size_t)tl_navmesh_offmesh_count(input->navmesh) + 1, sizeof *links);
+    set->off_mesh = links;
+    uint32_t cursor = 0;
+    tl_nav_ref link;
+    while (links != NULL && tl_navmesh_next_offmesh(input->navmesh, &cursor, &link)) {
+        tl_nav_offmesh_state state;
+        if (tl_navmesh_offmesh_state(input->navmesh, link, &state) != TL_OK) {
+            continue;
+        }
+        const tl_nav_offmesh *from = &state.offmesh;
+        if (from->flags > UINT16_MAX) {
+            *exit_out = tl_cli_fail(cli, TL_EXIT_DATA, "%s: off-mesh link %u: Detour keeps the lowest 16 flags only",
+                                    input->path, set->off_mesh_count);
+            return false;
+        }
+        links[set->off_mesh_count++] =
+            (tl_detour_off_mesh){ from->start,           from->end,  from->radius,   (uint32_t)from->user,
+                                  (uint16_t)from->flags, from->area, from->both_ways };
+    }
+    if (links == NULL) {
+        *exit_out = tl_cli_fail(cli, TL_EXIT_MEMORY, "out of memory");
+    }
+    return links != NULL;
 }
 
 static tl_exit export_navmesh(tl_cli *cli, const tl_input *input, tl_detour_refs refs, const char *output)
@@ -43,13 +88,19 @@ static tl_exit export_navmesh(tl_cli *cli, const tl_input *input, tl_detour_refs
             tiles[count++] = tile;
         }
     }
+    tl_exit code;
+    tl_detour_set set = { tiles, count, NULL, 0, refs };
+    if (!collect_off_mesh(cli, input, &set, &code)) {
+        free(tiles);
+        free((void *)set.off_mesh);
+        return code;
+    }
     // Without room the first run only says what is wrong; else it says CAPACITY.
-    uint64_t size = tl_detour_set_size(tiles, count, refs);
+    uint64_t size = tl_detour_linked_set_size(&set);
     void *bytes = size > 0 ? malloc(size) : NULL;
     tl_detour_report report;
     tl_result result =
-        size > 0 && bytes == NULL ? TL_ERR_MEMORY : tl_detour_set_write(tiles, count, refs, bytes, size, &report);
-    tl_exit code;
+        size > 0 && bytes == NULL ? TL_ERR_MEMORY : tl_detour_linked_set_write(&set, bytes, size, &report);
     tl_io_error error;
     if (result != TL_OK) {
         code = tl_cli_fail_result(cli, input->path, result, result == TL_ERR_MEMORY ? NULL : &report.base);
@@ -60,6 +111,7 @@ static tl_exit export_navmesh(tl_cli *cli, const tl_input *input, tl_detour_refs
     }
     free(bytes);
     free(tiles);
+    free((void *)set.off_mesh);
     return code;
 }
 
@@ -99,7 +151,7 @@ const tl_command tl_export_command = {
     "FILE -o OUT.bin [--refs 32|64]",
     "FILE is a baked file, or a level, which is then baked in memory. OUT is a set of Detour tiles (\"MSET\",\n"
     "tiles of version 7), the file that RecastDemo loads. Detour's polygons have at most 6 corners and 16\n"
-    "flags.",
+    "flags. Off-mesh links (drops, jumps, climbs) become Detour's; those that it cannot connect are told.",
     "talus sample courtyard -o courtyard.obj\n"
     "talus bake courtyard.obj -o courtyard.talus\n"
     "talus export courtyard.talus -o courtyard.bin\n"

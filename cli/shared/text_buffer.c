@@ -6,6 +6,7 @@
 
 #include "io/text/format_float.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -67,13 +68,16 @@ void tl_text_add_count(tl_text *text, uint64_t value)
 
 void tl_format_place(const tl_pack_frame *frame, int axis, float near, char text_out[TL_PLACE_TEXT_BYTES])
 {
+    enum { MOST_DECIMALS = 17 };
     const double origin = frame->origin[axis];
-    for (int digits = 6; digits <= 17; ++digits) {
-        snprintf(text_out, TL_PLACE_TEXT_BYTES, "%.*g", digits, origin + (double)near + 0.0);
+    const double value = origin + (double)near;
+    for (int decimals = 0; decimals <= MOST_DECIMALS && fabs(value) < 1e15; ++decimals) {
+        snprintf(text_out, TL_PLACE_TEXT_BYTES, "%.*f", decimals, value);
         if ((float)(strtod(text_out, NULL) - origin) == near) {
             return;
         }
     }
+    snprintf(text_out, TL_PLACE_TEXT_BYTES, "%.17g", value);
 }
 
 static void add_place_number(tl_text *text, int axis, float near)

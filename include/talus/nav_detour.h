@@ -35,7 +35,11 @@ typedef struct tl_detour_report {
                                ///< polygon; written with the surface of their corners. Reading: with unusable detail
     uint32_t dropped_polygons; ///< reading: without area or not convex once on the lattice; left out, their links walls
     uint32_t one_way_links;    ///< reading: links to a polygon that does not link back; made walls
-    uint32_t off_mesh_links;   ///< reading: off-mesh connections, which tiles do not keep: tl_detour_read_off_mesh
+    uint32_t off_mesh_links;   ///< reading: off-mesh connections, which tiles do not keep: tl_detour_read_off_mesh.
+                               ///< Writing: those that were written
+    uint32_t off_mesh_outside; ///< writing: links left out, since they start in no tile
+    uint32_t off_mesh_far;     ///< writing: links that lead farther than into the next tile, or out of all tiles; they
+                               ///< are written, but Detour does not connect them
     uint32_t area_zeros;       ///< reading: polygons of area 0, which became Recast's walkable area
 } tl_detour_report;
 
@@ -101,6 +105,24 @@ typedef struct tl_detour_off_mesh {
 /// TL_ERR_NOT_FINITE name the connection; TL_ERR_MAGIC, TL_ERR_VERSION, TL_ERR_TRUNCATED and others as tl_detour_read.
 TL_API tl_result tl_detour_read_off_mesh(const void *bytes, uint64_t size, tl_detour_off_mesh *links_out,
                                          uint32_t capacity, uint32_t *count_out, tl_detour_report *report_out);
+
+/// A navmesh to be written with its off-mesh links.
+typedef struct tl_detour_set {
+    const tl_nav_tile *const *tiles;
+    uint32_t tile_count;
+    /// `flags` and `area` (0 to 63) become those of the connection's polygon. `radius` > 0 is how far from an end
+    /// Detour looks for a polygon.
+    const tl_detour_off_mesh *off_mesh; ///< may be NULL when off_mesh_count is 0
+    uint32_t off_mesh_count;
+    tl_detour_refs refs;
+} tl_detour_set;
+
+/// As tl_detour_set_size and tl_detour_set_write, with off-mesh links: each stands in the tile that its start lies in
+/// (of layers over one another the one nearest in height), with a polygon behind the tile's own. TL_ERR_ARGUMENT,
+/// TL_ERR_NOT_FINITE and TL_ERR_LIMIT name the "off_mesh"; what Detour cannot connect is counted. O(tiles * links).
+TL_API uint64_t tl_detour_linked_set_size(const tl_detour_set *set);
+TL_API tl_result tl_detour_linked_set_write(const tl_detour_set *set, void *bytes, uint64_t capacity,
+                                            tl_detour_report *report_out);
 
 #ifdef __cplusplus
 }

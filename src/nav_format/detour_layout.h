@@ -15,7 +15,8 @@
 #define TL_DETOUR_EXTERNAL     0x8000u // in neighbours: across the tile's border; the low bits name the side
 #define TL_DETOUR_EDGE_OUTLINE 1u      // in the flags of a detail triangle, two bits an edge
 #define TL_DETOUR_BOTH_WAYS    1u      // in the flags of a connection
-#define TL_DETOUR_GROUND       0u      // type of a polygon; the other is an off-mesh connection
+#define TL_DETOUR_GROUND       0u      // type of a polygon,
+#define TL_DETOUR_OFF_MESH     1u      // and that of an off-mesh connection
 
 typedef struct tl_detour_header {
     int32_t magic, version, x, y, layer;

@@ -13,6 +13,7 @@
 #include "nav_format/triangle_fan.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 // Side 0 x-, 1 z+, 2 x+, 3 z- in Detour's eighths of a turn from x+.
@@ -65,8 +66,150 @@ static void place_array(const tl_nav_tile *tile, tl_detour_header *header)
     header->quantization = 1.0f / tile->cell_size;
 }
 
-static tl_result make_header(const tl_nav_tile *tile, tl_detour_header *header, tl_detour_report *report)
+// --- off-mesh links -------------------------------------------------------------------------------------------------
+
+// Tile number `index` of a set; a tile by itself is a set of one, without links.
+typedef struct set_tile {
+    const tl_detour_set *set;
+    uint32_t index;
+} set_tile;
+
+static bool box_holds(const tl_nav_tile *tile, const tl_detour_header *box, tl_vec3 p)
 {
+    const bool alone = tile->tile_size == 0; // nobody adjoins its far sides
+    return p.x >= box->min[0] && p.z >= box->min[2] && (p.x < box->max[0] || (alone && p.x == box->max[0])) &&
+           (p.z < box->max[2] || (alone && p.z == box->max[2]));
+}
+
+static bool tile_holds(const tl_nav_tile *tile, tl_vec3 p)
+{
+    tl_detour_header box;
+    place_array(tile, &box);
+    return box_holds(tile, &box, p);
+}
+
+static float height_gap(const tl_nav_tile *tile, float y)
+{
+    return fmaxf(fmaxf(tile->bounds.min.y - y, y - tile->bounds.max.y), 0.0f);
+}
+
+// Whether the link stands in this tile: its start does, and in no layer that is nearer in height or comes first.
+static bool owns_link(set_tile at, const tl_detour_off_mesh *link)
+{
+    const tl_nav_tile *tile = at.set->tiles[at.index];
+    if (!tile_holds(tile, link->start)) {
+        return false;
+    }
+    const float own = height_gap(tile, link->start.y);
+    for (uint32_t i = 0; i < at.set->tile_count; i++) {
+        const tl_nav_tile *other = at.set->tiles[i];
+        if (i != at.index && other->tile_x == tile->tile_x && other->tile_z == tile->tile_z &&
+            tile_holds(other, link->start)) {
+            const float gap = height_gap(other, link->start.y);
+            if (gap < own || (gap == own && i < at.index)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+static void count_links(set_tile at, tl_detour_header *header)
+{
+    const tl_nav_tile *tile = at.set->tiles[at.index];
+    for (uint32_t i = 0; i < at.set->off_mesh_count; i++) {
+        const tl_detour_off_mesh *link = &at.set->off_mesh[i];
+        const int32_t owned = owns_link(at, link);
+        header->off_mesh_count += owned;
+        // Two links of Detour's for each end that is connected to a polygon of this tile.
+        header->max_link_count += 2 * owned + 2 * (int32_t)box_holds(tile, header, link->end);
+    }
+    header->polygon_count += header->off_mesh_count;
+    header->vertex_count += 2 * header->off_mesh_count;
+}
+
+// The side of the tile beyond which a point lies, in Detour's eighths of a turn from x+; 0xff: none.
+static uint8_t side_of(const tl_detour_header *box, tl_vec3 p)
+{
+    static const uint8_t SIDES[3][3] = { { 5, 6, 7 }, { 4, 0xff, 0 }, { 3, 2, 1 } };
+    const int x = p.x < box->min[0] ? 0 : p.x >= box->max[0] ? 2 : 1;
+    const int z = p.z < box->min[2] ? 0 : p.z >= box->max[2] ? 2 : 1;
+    return SIDES[z][x];
+}
+
+static void write_off_mesh(set_tile at, const tl_detour_header *header, const tl_detour_offsets *to, uint8_t *bytes)
+{
+    const tl_nav_tile *tile = at.set->tiles[at.index];
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < at.set->off_mesh_count && n < (uint32_t)header->off_mesh_count; i++) {
+        const tl_detour_off_mesh *link = &at.set->off_mesh[i];
+        if (!owns_link(at, link)) {
+            continue;
+        }
+        tl_detour_polygon polygon;
+        memset(&polygon, 0, sizeof polygon);
+        polygon.first_link = UINT32_MAX;
+        polygon.vertices[0] = (uint16_t)(tile->vertex_count + 2 * n);
+        polygon.vertices[1] = (uint16_t)(tile->vertex_count + 2 * n + 1);
+        polygon.vertex_count = 2;
+        polygon.flags = link->flags;
+        polygon.area_and_type = (uint8_t)(link->area | TL_DETOUR_OFF_MESH << 6);
+        tl_detour_connection connection = { { { link->start.x, link->start.y, link->start.z },
+                                              { link->end.x, link->end.y, link->end.z } },
+                                            link->radius,
+                                            (uint16_t)(tile->polygon_count + n),
+                                            link->both_ways ? TL_DETOUR_BOTH_WAYS : 0,
+                                            side_of(header, link->end),
+                                            link->user_id };
+        memcpy(bytes + to->vertices + 12 * (uint64_t)(tile->vertex_count + 2 * n), connection.ends,
+               sizeof connection.ends);
+        memcpy(bytes + to->polygons + sizeof polygon * (uint64_t)(tile->polygon_count + n), &polygon, sizeof polygon);
+        memcpy(bytes + to->off_mesh + sizeof connection * (uint64_t)n, &connection, sizeof connection);
+        n++;
+    }
+}
+
+static tl_result check_off_mesh(const tl_detour_set *set, tl_report *report)
+{
+    for (uint32_t i = 0; i < set->off_mesh_count; i++) {
+        const tl_detour_off_mesh *link = &set->off_mesh[i];
+        if (!tl_is_finite(link->start) || !tl_is_finite(link->end) || !isfinite(link->radius)) {
+            return tl_report_fail(report, TL_ERR_NOT_FINITE, "off_mesh", i, "use finite numbers");
+        }
+        if (!(link->radius > 0.0f)) {
+            return tl_report_fail(report, TL_ERR_ARGUMENT, "off_mesh", i, "make its radius > 0");
+        }
+        if (link->area > TL_DETOUR_MAX_AREA) {
+            return tl_report_fail(report, TL_ERR_LIMIT, "off_mesh", i,
+                                  "Detour's areas are 0 to 63; give the areas above lower numbers");
+        }
+    }
+    return TL_OK;
+}
+
+// Those that Detour will not connect.
+static void count_unconnected(const tl_detour_set *set, tl_detour_report *report)
+{
+    report->off_mesh_outside = set->off_mesh_count - report->off_mesh_links;
+    for (uint32_t i = 0; i < set->off_mesh_count; i++) {
+        const tl_detour_off_mesh *link = &set->off_mesh[i];
+        const tl_nav_tile *from = NULL, *to = NULL;
+        for (uint32_t k = 0; k < set->tile_count; k++) {
+            from = tile_holds(set->tiles[k], link->start) ? set->tiles[k] : from;
+            to = tile_holds(set->tiles[k], link->end) ? set->tiles[k] : to;
+        }
+        if (from != NULL) {
+            const bool near = to != NULL && abs(to->tile_x - from->tile_x) <= 1 && abs(to->tile_z - from->tile_z) <= 1;
+            report->off_mesh_far += !near;
+        }
+    }
+}
+
+// --- tiles ----------------------------------------------------------------------------------------------------------
+
+static tl_result make_header(set_tile at, tl_detour_header *header, tl_detour_report *report)
+{
+    const tl_nav_tile *tile = at.set->tiles[at.index];
     if (tile->polygon_count > TL_DETOUR_MAX_POLYGONS || tile->vertex_count > TL_DETOUR_MAX_VERTICES) {
         return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", TL_NO_ELEMENT,
                               "it has more polygons or vertices than Detour counts in 16 bits; bake smaller tiles");
@@ -90,6 +233,11 @@ static tl_result make_header(const tl_nav_tile *tile, tl_detour_header *header, 
     header->walkable_radius = tile->agent_radius;
     header->walkable_climb = tile->agent_max_climb;
     place_array(tile, header);
+    count_links(at, header);
+    if (header->polygon_count > TL_DETOUR_MAX_POLYGONS || header->vertex_count > TL_DETOUR_MAX_VERTICES) {
+        return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", TL_NO_ELEMENT,
+                              "with its off-mesh links it has more polygons or vertices than Detour counts in 16 bits");
+    }
     float cells = fmaxf(header->max[0] - header->min[0], header->max[2] - header->min[2]) * header->quantization;
     if (!(fmaxf(cells, (header->max[1] - header->min[1]) * header->quantization) < (float)UINT16_MAX)) {
         return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", TL_NO_ELEMENT,
@@ -106,6 +254,7 @@ static tl_result make_header(const tl_nav_tile *tile, tl_detour_header *header, 
         header->detail_triangle_count += (int32_t)(plain ? corner_count - 2 : surface.triangle_count);
     }
     report->polygon_count += tile->polygon_count;
+    report->off_mesh_links += (uint32_t)header->off_mesh_count;
     report->tile_count++;
     return TL_OK;
 }
@@ -204,16 +353,19 @@ uint64_t tl_detour_tile_size(const tl_nav_tile *tile, tl_detour_refs refs)
 {
     tl_detour_header header;
     tl_detour_report report;
+    const tl_detour_set alone = { &tile, 1, NULL, 0, refs };
     memset(&report, 0, sizeof report);
-    return make_header(tile, &header, &report) == TL_OK ? tl_detour_offsets_of(&header, refs).end : 0;
+    return make_header((set_tile){ &alone, 0 }, &header, &report) == TL_OK ? tl_detour_offsets_of(&header, refs).end
+                                                                           : 0;
 }
 
-static tl_result write_tile(const tl_nav_tile *tile, tl_detour_refs refs, uint8_t *bytes, uint64_t capacity,
-                            uint64_t *size_out, tl_detour_report *report)
+static tl_result write_tile(set_tile place, uint8_t *bytes, uint64_t capacity, uint64_t *size_out,
+                            tl_detour_report *report)
 {
+    const tl_nav_tile *tile = place.set->tiles[place.index];
     tl_detour_header header;
-    TL_TRY(make_header(tile, &header, report));
-    tl_detour_offsets at = tl_detour_offsets_of(&header, refs);
+    TL_TRY(make_header(place, &header, report));
+    tl_detour_offsets at = tl_detour_offsets_of(&header, place.set->refs);
     if (at.end > capacity) {
         return TL_INCOMPLETE;
     }
@@ -225,6 +377,7 @@ static tl_result write_tile(const tl_nav_tile *tile, tl_detour_refs refs, uint8_
     memset(bytes + at.links, 0, at.patches - at.links); // Detour links a tile when it is added
     write_detail(tile, &at, bytes);
     write_nodes(tile, &header, bytes + at.nodes);
+    write_off_mesh(place, &header, &at, bytes);
     *size_out = at.end;
     return TL_OK;
 }
@@ -238,7 +391,8 @@ tl_result tl_detour_tile_write(const tl_nav_tile *tile, tl_detour_refs refs, voi
     uint64_t size;
     tl_result result = tl_refuse_null(tile, "tile", &report.base);
     if (result == TL_OK) {
-        result = write_tile(tile, refs, bytes, capacity, &size, &report);
+        const tl_detour_set alone = { &tile, 1, NULL, 0, refs };
+        result = write_tile((set_tile){ &alone, 0 }, bytes, capacity, &size, &report);
     }
     if (TL_BIG_ENDIAN && result == TL_OK) {
         tl_detour_swap(bytes, size, false);
@@ -268,11 +422,11 @@ static uint64_t tile_reference(uint32_t index, uint32_t tile_bits, uint32_t poly
                                      : (uint64_t)1 << (tile_bits + polygon_bits) | (uint64_t)index << polygon_bits;
 }
 
-static tl_result check_grid(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_report *report)
+static tl_result check_grid(const tl_detour_set *set, tl_report *report)
 {
-    const tl_nav_tile *model = tiles[0];
-    for (uint32_t i = 0; i < tile_count; i++) {
-        const tl_nav_tile *tile = tiles[i];
+    const tl_nav_tile *model = set->tiles[0];
+    for (uint32_t i = 0; i < set->tile_count; i++) {
+        const tl_nav_tile *tile = set->tiles[i];
         if (memcmp(&tile->origin, &model->origin, sizeof tile->origin) != 0 || tile->cell_size != model->cell_size ||
             tile->cell_height != model->cell_height || tile->tile_size != model->tile_size) {
             return tl_report_fail(report, TL_ERR_ARGUMENT, "tile", i, "it is of another grid than the first one");
@@ -282,111 +436,135 @@ static tl_result check_grid(const tl_nav_tile *const *tiles, uint32_t tile_count
 }
 
 // What cannot be written is said before there is any room, which its size is not known without.
-static tl_result check_tiles(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_report *report)
+static tl_result check_tiles(const tl_detour_set *set, uint32_t *most_polygons_out, tl_report *report)
 {
-    for (uint32_t i = 0; i < tile_count; i++) {
+    *most_polygons_out = 0;
+    for (uint32_t i = 0; i < set->tile_count; i++) {
         tl_detour_header header;
         tl_detour_report probe;
         memset(&probe, 0, sizeof probe);
-        const tl_result result = make_header(tiles[i], &header, &probe);
+        const tl_result result = make_header((set_tile){ set, i }, &header, &probe);
         if (result != TL_OK) {
             *report = probe.base;
             return result;
         }
+        const uint32_t count = (uint32_t)header.polygon_count;
+        *most_polygons_out = count > *most_polygons_out ? count : *most_polygons_out;
     }
     return TL_OK;
 }
 
-static void make_set_header(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_set_header *header)
+static void make_set_header(const tl_detour_set *set, uint32_t most_polygons, tl_detour_set_header *header)
 {
-    const tl_nav_tile *model = tiles[0];
+    const tl_nav_tile *model = set->tiles[0];
     memset(header, 0, sizeof *header);
     header->magic = (int32_t)TL_DETOUR_SET_MAGIC;
     header->version = TL_DETOUR_SET_VERSION;
-    header->tile_count = (int32_t)tile_count;
+    header->tile_count = (int32_t)set->tile_count;
     tl_detour_params *params = &header->params;
     params->origin[0] = model->origin.x;
     params->origin[1] = model->origin.y;
     params->origin[2] = model->origin.z;
     params->tile_width = params->tile_height = (float)model->tile_size * model->cell_size;
-    params->max_tiles = (int32_t)tile_count;
-    for (uint32_t i = 0; i < tile_count; i++) {
-        if (model->tile_size == 0) { // the only place, wide enough for all its layers
-            params->tile_width = fmaxf(params->tile_width, tiles[i]->bounds.max.x - model->origin.x);
-            params->tile_height = fmaxf(params->tile_height, tiles[i]->bounds.max.z - model->origin.z);
-        }
-        int32_t count = (int32_t)tiles[i]->polygon_count;
-        params->max_polygons = count > params->max_polygons ? count : params->max_polygons;
+    params->max_tiles = (int32_t)set->tile_count;
+    params->max_polygons = (int32_t)most_polygons;
+    for (uint32_t i = 0; i < set->tile_count && model->tile_size == 0; i++) {
+        // The only place, wide enough for all its layers.
+        params->tile_width = fmaxf(params->tile_width, set->tiles[i]->bounds.max.x - model->origin.x);
+        params->tile_height = fmaxf(params->tile_height, set->tiles[i]->bounds.max.z - model->origin.z);
     }
+}
+
+uint64_t tl_detour_linked_set_size(const tl_detour_set *set)
+{
+    uint64_t size = sizeof(tl_detour_set_header);
+    for (uint32_t i = 0; i < set->tile_count; i++) {
+        tl_detour_header header;
+        tl_detour_report report;
+        memset(&report, 0, sizeof report);
+        if (make_header((set_tile){ set, i }, &header, &report) != TL_OK) {
+            return 0;
+        }
+        size += tl_detour_entry_bytes(set->refs) + tl_detour_offsets_of(&header, set->refs).end;
+    }
+    return set->tile_count > 0 ? size : 0;
 }
 
 uint64_t tl_detour_set_size(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_refs refs)
 {
-    uint64_t size = sizeof(tl_detour_set_header);
-    for (uint32_t i = 0; i < tile_count; i++) {
-        uint64_t tile = tl_detour_tile_size(tiles[i], refs);
-        if (tile == 0) {
-            return 0;
-        }
-        size += tl_detour_entry_bytes(refs) + tile;
-    }
-    return tile_count > 0 ? size : 0;
+    const tl_detour_set set = { tiles, tile_count, NULL, 0, refs };
+    return tl_detour_linked_set_size(&set);
 }
 
-static tl_result write_set(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_refs refs, uint8_t *bytes,
-                           uint64_t capacity, tl_detour_report *report)
+static tl_result write_set(const tl_detour_set *set, uint8_t *bytes, uint64_t capacity, tl_detour_report *report)
 {
-    if (tile_count == 0) {
+    uint32_t most_polygons;
+    if (set->tile_count == 0) {
         return tl_report_fail(&report->base, TL_ERR_EMPTY, "tile", TL_NO_ELEMENT, "give at least one");
     }
-    TL_TRY(check_grid(tiles, tile_count, &report->base));
-    TL_TRY(check_tiles(tiles, tile_count, &report->base));
+    TL_TRY(check_grid(set, &report->base));
+    TL_TRY(check_off_mesh(set, &report->base));
+    TL_TRY(check_tiles(set, &most_polygons, &report->base));
     tl_detour_set_header header;
-    make_set_header(tiles, tile_count, &header);
-    uint32_t tile_bits = bits_for(tile_count), polygon_bits = bits_for((uint32_t)header.params.max_polygons);
-    if (refs == TL_DETOUR_REFS_32 && tile_bits + polygon_bits > 22) {
+    make_set_header(set, most_polygons, &header);
+    uint32_t tile_bits = bits_for(set->tile_count), polygon_bits = bits_for(most_polygons);
+    if (set->refs == TL_DETOUR_REFS_32 && tile_bits + polygon_bits > 22) {
         return tl_report_fail(&report->base, TL_ERR_LIMIT, "tile", TL_NO_ELEMENT,
                               "tiles and polygons a tile need more than 22 bits; write 64-bit references");
     }
-    uint64_t entry = tl_detour_entry_bytes(refs), at = sizeof header;
+    uint64_t entry = tl_detour_entry_bytes(set->refs), at = sizeof header;
     if (at > capacity) {
         return TL_INCOMPLETE;
     }
     memcpy(bytes, &header, sizeof header);
-    for (uint32_t i = 0; i < tile_count; i++) {
+    for (uint32_t i = 0; i < set->tile_count; i++) {
         uint64_t size = 0;
-        tl_result result = at + entry > capacity
-                               ? TL_INCOMPLETE
-                               : write_tile(tiles[i], refs, bytes + at + entry, capacity - at - entry, &size, report);
+        tl_result result = at + entry > capacity ? TL_INCOMPLETE
+                                                 : write_tile((set_tile){ set, i }, bytes + at + entry,
+                                                              capacity - at - entry, &size, report);
         if (result != TL_OK) {
             return result;
         }
-        uint64_t reference = tile_reference(i, tile_bits, polygon_bits, refs);
+        uint64_t reference = tile_reference(i, tile_bits, polygon_bits, set->refs);
         uint32_t size32 = (uint32_t)size;
         memset(bytes + at, 0, (size_t)entry);
         const uint32_t reference32 = (uint32_t)reference; // its low half, whichever comes first here
-        memcpy(bytes + at, refs == TL_DETOUR_REFS_64 ? (const void *)&reference : &reference32, entry / 2);
-        memcpy(bytes + at + (refs == TL_DETOUR_REFS_64 ? 8 : 4), &size32, 4);
+        memcpy(bytes + at, set->refs == TL_DETOUR_REFS_64 ? (const void *)&reference : &reference32, entry / 2);
+        memcpy(bytes + at + (set->refs == TL_DETOUR_REFS_64 ? 8 : 4), &size32, 4);
         at += entry + size;
     }
+    count_unconnected(set, report);
     return TL_OK;
 }
 
-tl_result tl_detour_set_write(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_refs refs, void *bytes,
-                              uint64_t capacity, tl_detour_report *report_out)
+tl_result tl_detour_linked_set_write(const tl_detour_set *set, void *bytes, uint64_t capacity,
+                                     tl_detour_report *report_out)
 {
     tl_detour_report report;
     memset(&report, 0, sizeof report);
     tl_report_begin(&report.base, "write detour set");
-    tl_result result = tile_count == 0 ? TL_OK : tl_refuse_null(tiles, "tiles", &report.base);
+    tl_result result = tl_refuse_null(set, "set", &report.base);
+    if (result == TL_OK && set->tile_count > 0) {
+        result = tl_refuse_null(set->tiles, "tiles", &report.base);
+    }
+    if (result == TL_OK && set->off_mesh_count > 0) {
+        result = tl_refuse_null(set->off_mesh, "off_mesh", &report.base);
+    }
     if (result == TL_OK) {
-        result = write_set(tiles, tile_count, refs, bytes, capacity, &report);
+        result = write_set(set, bytes, capacity, &report);
     }
     if (TL_BIG_ENDIAN && result == TL_OK) {
-        tl_detour_swap(bytes, tl_detour_set_size(tiles, tile_count, refs), false);
+        tl_detour_swap(bytes, tl_detour_linked_set_size(set), false);
     }
     if (report_out != NULL) {
         *report_out = report;
     }
     return result;
+}
+
+tl_result tl_detour_set_write(const tl_nav_tile *const *tiles, uint32_t tile_count, tl_detour_refs refs, void *bytes,
+                              uint64_t capacity, tl_detour_report *report_out)
+{
+    const tl_detour_set set = { tiles, tile_count, NULL, 0, refs };
+    return tl_detour_linked_set_write(&set, bytes, capacity, report_out);
 }

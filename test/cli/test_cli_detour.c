@@ -44,6 +44,24 @@ static void test_out_and_in_again(void **state)
     TEST_CHECK(cli_exists("back-polygons.png") && cli_exists("back-navmesh.png") && cli_exists("back-path.png"));
 }
 
+// Links that the bake found are Detour's off-mesh connections, and come back as such.
+static void test_off_mesh_links(void **state)
+{
+    (void)state;
+    cli_do(0, "sample courtyard -o whole.obj");
+    json_t *baked = cli_json(0, "bake whole.obj -o links.talus --links --json");
+    json_t *found = json_object_get(json_object_get(baked, "links"), "links");
+    json_t *out = cli_json(0, "export links.talus -o links.bin --json");
+    TEST_CHECK(number(out, "off_mesh_links") > 3 && number(out, "off_mesh_outside") == 0);
+    TEST_CHECK(found == NULL || json_number_value(found) == number(out, "off_mesh_links"));
+    json_t *in = cli_json(0, "import links.bin -o back.talus --json");
+    TEST_CHECK(number(in, "off_mesh_links") == number(out, "off_mesh_links"));
+    TEST_CHECK(number(in, "polygons") == number(out, "polygons"));
+    json_decref(baked);
+    json_decref(out);
+    json_decref(in);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -86,6 +104,7 @@ static void test_refusals(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_out_and_in_again), cmocka_unit_test(test_refusals) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_out_and_in_again), cmocka_unit_test(test_off_mesh_links),
+                                        cmocka_unit_test(test_refusals) };
     return cmocka_run_group_tests(tests, cli_enter_folder, cli_leave_folder);
 }

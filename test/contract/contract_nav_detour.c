@@ -46,6 +46,31 @@ static tl_result detour_tile_write(contract_run *run)
     return write(run, false);
 }
 
+static tl_result detour_linked_set_write(contract_run *run)
+{
+    const tl_detour_off_mesh link = { .start = { 1, 0, 1 }, .end = { 2, 0, 2 }, .radius = 0.5f, .flags = 1, .area = 3 };
+    const bool no_links = run->what == CONTRACT_NULL_INPUT && run->variant == 1;
+    const tl_detour_set set = { level_tiles(), contract_level_get()->tiles.tile_count, no_links ? NULL : &link, 1,
+                                TL_DETOUR_REFS_32 };
+    const tl_detour_set sized = { set.tiles, set.tile_count, &link, 1, TL_DETOUR_REFS_32 };
+    const uint64_t size = tl_detour_linked_set_size(&sized);
+    TEST_CHECK(size > tl_detour_set_size(set.tiles, set.tile_count, TL_DETOUR_REFS_32));
+    unsigned char *bytes = calloc(1, (size_t)size);
+    const uint64_t capacity = run->what == CONTRACT_NO_BUFFER      ? 0
+                              : run->what == CONTRACT_SHORT_BUFFER ? size - 1
+                                                                   : size;
+    tl_detour_report report = { 0 };
+    const tl_result result = tl_detour_linked_set_write(
+        run->what == CONTRACT_NULL_INPUT && run->variant == 0 ? NULL : &set,
+        run->what == CONTRACT_NO_BUFFER ? NULL : bytes, capacity, run->wants_report ? &report : NULL);
+    run->own_report = report.base;
+    run->is_clear = true;
+    run->count = (uint32_t)size;
+    run->answer = contract_hash(bytes, (size_t)size, 0);
+    free(bytes);
+    return result;
+}
+
 static tl_result detour_set_write(contract_run *run)
 {
     return write(run, true);
@@ -131,6 +156,8 @@ const contract_entry CONTRACT_TABLE_nav_detour[] = {
     { "tl_detour_set_size", CONTRACT_BIT(GOOD), 0, 0, NULL, detour_set_write, NULL },
     { "tl_detour_tile_write", WRITES, 1, 0, NULL, detour_tile_write, NULL },
     { "tl_detour_set_write", WRITES, 1, 0, NULL, detour_set_write, NULL },
+    { "tl_detour_linked_set_size", CONTRACT_BIT(GOOD), 0, 0, NULL, detour_linked_set_write, NULL },
+    { "tl_detour_linked_set_write", WRITES, 2, 0, NULL, detour_linked_set_write, NULL },
     { "tl_default_detour_read_def", 0, 0, 0, NULL, NULL, "returns the defaults" },
     { "tl_detour_read",
       CONTRACT_BIT(GOOD) | CONTRACT_BIT(NULL_REPORT) | CONTRACT_BIT(NULL_DEF) | CONTRACT_BIT(ZEROED_DEF) |

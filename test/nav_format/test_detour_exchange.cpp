@@ -155,6 +155,61 @@ struct likeness {
     }
 };
 
+// Two floors, and links over the gap between them: Detour walks one way, both ways, or not at all, as each link says.
+void detour_takes_off_mesh_links(void **)
+{
+    const tl_vec3 vertices[] = { { 0, 0, 0 },  { 0, 0, 10 },  { 9, 0, 10 },  { 9, 0, 0 },
+                                 { 14, 0, 0 }, { 14, 0, 10 }, { 24, 0, 10 }, { 24, 0, 0 } };
+    const uint32_t indices[] = { 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7 };
+    const tl_mesh_view view = { vertices, 8, indices, 4, nullptr };
+    tl_detour_off_mesh links[3] = {};
+    links[0].start = { 8, 0, 5 };
+    links[0].end = { 15, 0, 5 };
+    links[0].radius = 0.6f;
+    links[0].flags = 1;
+    links[0].area = 5;
+    links[0].user_id = 77;
+    links[1] = links[0];
+    links[1].start = { 500, 0, 5 }; // in no tile
+    links[2] = links[0];
+    links[2].end = { 100, 0, 5 }; // out of all tiles
+    for (uint32_t tile_size : { 0u, 32u }) {
+        for (bool both_ways : { false, true }) {
+            tl_nav_def def = tl_default_nav_def();
+            def.tile_size = tile_size;
+            const tl_nav_input input = { view, nullptr, nullptr, 0 };
+            tl_nav_tiles tiles;
+            TEST_RESULT(tl_nav_bake(&def, &input, &tiles, nullptr), TL_OK);
+            links[0].both_ways = both_ways;
+            const tl_detour_set set = { const_cast<const tl_nav_tile *const *>(tiles.tiles), tiles.tile_count, links, 3,
+                                        TL_DETOUR_REFS_32 };
+            std::vector<unsigned char> bytes(tl_detour_linked_set_size(&set));
+            tl_detour_report report;
+            TEST_RESULT(tl_detour_linked_set_write(&set, bytes.data(), bytes.size(), &report), TL_OK);
+            TEST_CHECK(report.off_mesh_links == 2 && report.off_mesh_outside == 1 && report.off_mesh_far == 1);
+            detour_side linked, bare;
+            open_set(bytes, &linked);
+            open_set(write_set(tiles.tiles, tiles.tile_count), &bare);
+            TEST_CHECK(ask(linked, { 2, 0, 2 }, { 22, 0, 8 }).complete);
+            TEST_CHECK(ask(linked, { 22, 0, 8 }, { 2, 0, 2 }).complete == both_ways);
+            TEST_CHECK(!ask(bare, { 2, 0, 2 }, { 22, 0, 8 }).complete);
+            tl_detour_off_mesh back[3];
+            uint32_t count = 0;
+            TEST_RESULT(tl_detour_read_off_mesh(bytes.data(), bytes.size(), back, 3, &count, nullptr), TL_OK);
+            TEST_CHECK(count == 2 && back[0].user_id == 77 && back[0].area == 5 && back[0].both_ways == both_ways &&
+                       back[0].start.x == 8.0f && back[0].end.x == 15.0f && back[0].radius == 0.6f);
+            links[0].area = 64;
+            TEST_RESULT(tl_detour_linked_set_write(&set, bytes.data(), bytes.size(), &report), TL_ERR_LIMIT);
+            links[0].area = 5;
+            links[2].radius = 0.0f;
+            TEST_RESULT(tl_detour_linked_set_write(&set, bytes.data(), bytes.size(), &report), TL_ERR_ARGUMENT);
+            TEST_CHECK(report.base.element_index == 2);
+            links[2].radius = 0.6f;
+            tl_nav_tiles_free(&tiles);
+        }
+    }
+}
+
 // Detour's own navmesh; read by talus; written again; opened by Detour: the same answers.
 void detour_comes_back_the_same(void **)
 {
@@ -261,7 +316,8 @@ void talus_answers_in_detour(void **)
 
 int main()
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(detour_comes_back_the_same),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(detour_takes_off_mesh_links),
+                                        cmocka_unit_test(detour_comes_back_the_same),
                                         cmocka_unit_test(talus_answers_in_detour) };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
