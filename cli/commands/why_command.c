@@ -31,6 +31,9 @@ static void print_measured(const tl_nav_reason *reason)
     case TL_NAV_CAUSE_RADIUS:
         printf(" The floor keeps %.4g m from them.", m);
         break;
+    case TL_NAV_CAUSE_WALL:
+        printf(" It is %.4g m away.", m);
+        break;
     case TL_NAV_CAUSE_ISLAND:
         printf(" It has %.9g columns.", m);
         break;

@@ -137,7 +137,8 @@ typedef enum tl_nav_cause {
     TL_NAV_CAUSE_ISLAND,     ///< of an island (connected component) of fewer columns than region_min_size squared
     TL_NAV_CAUSE_OUTLINE,    ///< the simplified outline cut it off
     TL_NAV_CAUSE_CHANGED,    ///< these triangles and settings give navmesh here, but the navmesh has none
-    TL_NAV_CAUSE_PRUNED      ///< of an island that tl_nav_prune removed
+    TL_NAV_CAUSE_PRUNED,     ///< of an island that tl_nav_prune removed
+    TL_NAV_CAUSE_WALL        ///< a wall or a high step stands in the same column of voxels
 } tl_nav_cause;
 
 /// One to four words, such as "small island"; of another number "unknown".
@@ -155,8 +156,8 @@ typedef struct tl_nav_reason {
     float value;  ///< of that field now
     float needed; ///< the nearest value with which this cause no longer applies
     /// What was found at the point. Slope: degrees; ledge: metres of the drop or stair; ceiling: metres of free height;
-    /// radius: metres kept; island: columns; pruned: the island's square metres; no floor: metres to the nearest floor
-    /// below, INFINITY when there is none.
+    /// radius: metres kept; island: columns; pruned: the island's square metres; wall: metres to it; no floor: metres
+    /// to the nearest floor below, INFINITY when there is none.
     float measured;
     uint32_t triangle; ///< of the view that is the floor, or TL_NO_TRIANGLE
 } tl_nav_reason;

@@ -22,6 +22,9 @@
 
 enum { SLOPE_STEPS = 40, ERROR_STEPS = 5 };
 
+// Cells are made no smaller than a quarter of what they are: a bake of smaller ones takes sixteen times as long.
+enum { CELL_SHARES = 16, LEAST_CELL_SHARES = 4 };
+
 typedef struct why_search {
     tl_why_question question;
     tl_nav_why_answer *answer;
@@ -32,7 +35,7 @@ const char *tl_nav_cause_name(tl_nav_cause cause)
 {
     static const char *const names[] = { "walkable", "outside", "no floor", "slope",  "area of the triangle",
                                          "ledge",    "ceiling", "radius",   "volume", "small island",
-                                         "outline",  "changed", "pruned" };
+                                         "outline",  "changed", "pruned",   "wall" };
     return (unsigned)cause < TL_COUNT_OF(names) ? names[cause] : "unknown";
 }
 
@@ -52,6 +55,7 @@ const char *tl_nav_cause_text(tl_nav_cause cause)
         "The simplified outline cuts the floor off.",
         "These triangles and settings give navmesh here, but the navmesh has none: it was made from others.",
         "The floor belongs to an island that was pruned.",
+        "A wall stands so near that it shares a column of voxels with the floor, and buries it.",
     };
     return (unsigned)cause < TL_COUNT_OF(texts) ? texts[cause] : "Unknown.";
 }
@@ -129,6 +133,33 @@ static void blame_slope(const tl_why_finding *finding, tl_nav_def *def, tl_nav_r
     }
 }
 
+// The largest cell size, in sixteenths of the one that is, with which the floor is no longer in one column with the
+// wall. Each try looks at the columns around the point alone.
+static tl_result blame_cells(why_search *s, const tl_why_finding *finding, tl_nav_def *def, tl_nav_reason *reason)
+{
+    reason->stage = "rasterize";
+    reason->measured = finding->wall;
+    tl_nav_def tried = *def;
+    tl_result result = TL_OK;
+    s->question.window_only = true;
+    for (int share = CELL_SHARES - 1; share >= LEAST_CELL_SHARES && result == TL_OK && reason->parameter == NULL;
+         share--) {
+        tl_why_finding found;
+        tried.cell_size = def->cell_size * (float)share / (float)CELL_SHARES;
+        result = tl_why_find(&s->question, &tried, &found, s->report);
+        if (result == TL_OK && found.cause != TL_NAV_CAUSE_WALL && found.cause != TL_NAV_CAUSE_NO_FLOOR) {
+            reason->parameter = "cell_size";
+            reason->value = def->cell_size;
+            reason->needed = tried.cell_size;
+        }
+    }
+    s->question.window_only = false;
+    if (reason->parameter != NULL) {
+        *def = tried;
+    }
+    return result;
+}
+
 static void blame_climb(const tl_why_finding *finding, tl_nav_def *def, tl_nav_reason *reason)
 {
     reason->stage = "filter";
@@ -154,15 +185,18 @@ static void blame_height(const tl_why_finding *finding, tl_nav_def *def, tl_nav_
     reason->needed = def->agent_height = reason->measured = (float)finding->clearance * def->cell_height;
 }
 
-// The largest radius with which the floor stays and, where the outline or an island's size would take it still, the
-// largest below that with which nothing does.
+// The largest radius with which the point is on the navmesh. Erosion lets its column stay up to the kept radius; the
+// simplified outline may reach over columns that are gone, and then the radius may be larger by as much; or the outline
+// or an island's size may take the point still, and then it is less.
 static tl_result blame_radius(why_search *s, const tl_why_finding *finding, tl_nav_def *def, tl_nav_reason *reason)
 {
+    const double beyond = ceil((double)def->edge_max_error) + 1.0 + (double)finding->kept_radius;
+    const uint32_t most = finding->config.walkable_radius - 1; // with its own the point was removed
     reason->stage = "erode";
     reason->parameter = "agent_radius";
     reason->value = def->agent_radius;
     reason->needed = reason->measured = (float)finding->kept_radius * def->cell_size;
-    for (uint32_t radius = finding->kept_radius + 1; radius-- > 0;) {
+    for (uint32_t radius = beyond < (double)most ? (uint32_t)beyond + 1 : most + 1; radius-- > 0;) {
         bool walkable;
         def->agent_radius = (float)radius * def->cell_size;
         TL_TRY(try_def(s, def, &walkable));
@@ -253,6 +287,8 @@ static tl_result blame(why_search *s, const tl_why_finding *finding, tl_nav_def 
         break;
     case TL_NAV_CAUSE_RADIUS:
         return blame_radius(s, finding, def, reason);
+    case TL_NAV_CAUSE_WALL:
+        return blame_cells(s, finding, def, reason);
     case TL_NAV_CAUSE_VOLUME:
         reason->stage = "areas";
         break;

@@ -134,6 +134,66 @@ static bool choose_span(why_window *w)
     return w->finding->has_floor;
 }
 
+// Whether a triangle lies within a step above or below the point: then there is a floor.
+static bool is_on_triangle(const why_window *w)
+{
+    const tl_mesh_view *mesh = &w->question->input->mesh;
+    const tl_vec3 p = w->question->point;
+    const float step = tl_nav_probe_from_config(&w->config).step;
+    const tl_vec3 half = { 0.0f, step, 0.0f };
+    const tl_convex line = tl_convex_box(p, half, 0.0f);
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t *corner = mesh->indices + 3 * (size_t)i;
+        const tl_vec3 a = mesh->vertices[corner[0]], b = mesh->vertices[corner[1]], c = mesh->vertices[corner[2]];
+        const tl_aabb own = { tl_min(a, tl_min(b, c)), tl_max(a, tl_max(b, c)) };
+        const tl_aabb around = { tl_sub(p, half), tl_add(p, half) };
+        const tl_convex triangle = tl_convex_triangle(a, b, c, 0.0f);
+        if (tl_aabb_overlaps(own, around) &&
+            tl_convex_overlap(&triangle, tl_transform_identity(), &line, tl_transform_identity(), NULL)) {
+            w->finding->triangle = i;
+            return true;
+        }
+    }
+    return false;
+}
+
+// Metres in the plane from the point to the nearest triangle that no step leads onto, up to the agent's height.
+static float distance_to_wall(const why_window *w)
+{
+    const tl_mesh_view *mesh = &w->question->input->mesh;
+    const tl_nav_probe probe = tl_nav_probe_from_config(&w->config);
+    const tl_vec3 p = w->question->point;
+    const float middle = 0.5f * (probe.step + w->config.agent_height), half = fabsf(w->config.agent_height - middle);
+    const tl_convex line = tl_convex_box(tl_vec3_make(p.x, p.y + middle, p.z), tl_vec3_make(0.0f, half, 0.0f), 0.0f);
+    float nearest = INFINITY;
+    for (uint32_t i = 0; i < mesh->triangle_count; i++) {
+        const uint32_t *corner = mesh->indices + 3 * (size_t)i;
+        const tl_convex triangle =
+            tl_convex_triangle(mesh->vertices[corner[0]], mesh->vertices[corner[1]], mesh->vertices[corner[2]], 0.0f);
+        tl_separation apart;
+        tl_convex_distance(&triangle, tl_transform_identity(), &line, tl_transform_identity(), NULL, &apart);
+        nearest = tl_minf(nearest, apart.distance);
+    }
+    return nearest;
+}
+
+// No floor's top is near the point: is one buried in the voxels of a wall that stands in the same column?
+static tl_nav_cause cause_without_floor(why_window *w)
+{
+    const uint32_t column = w->z * w->field.width + w->x;
+    const float y = w->question->point.y, voxel = w->config.cell_height;
+    bool buried = false;
+    for (uint32_t i = w->field.first_span[column]; i < w->field.first_span[column + 1]; i++) {
+        buried = buried || (height_of(&w->config, w->field.spans[i].min) <= y + voxel &&
+                            y <= height_of(&w->config, w->field.spans[i].max) + voxel);
+    }
+    if (!buried || !is_on_triangle(w)) {
+        return TL_NAV_CAUSE_NO_FLOOR;
+    }
+    w->finding->wall = distance_to_wall(w);
+    return TL_NAV_CAUSE_WALL;
+}
+
 // Of the triangles over the column whose highest point there may be the floor's: the one that is least steep.
 static void choose_triangle(why_window *w)
 {
@@ -296,7 +356,7 @@ static tl_result look_through_window(why_window *w)
     const tl_nav_input *input = w->question->input;
     TL_TRY(tl_nav_rasterize(&w->config, &input->mesh, input->areas, w->question->host, &w->field, w->report));
     if (!choose_span(w)) {
-        w->finding->cause = TL_NAV_CAUSE_NO_FLOOR;
+        w->finding->cause = cause_without_floor(w);
         return TL_OK;
     }
     choose_triangle(w);
@@ -357,6 +417,8 @@ static tl_result is_on_tile(const tl_nav_tile *tile, const tl_nav_config *config
     return result;
 }
 
+// What the tile makes of the floor. A simplified outline may reach over columns that were removed: the point is
+// walkable then, whatever the stages before said. Where they let it stay and it is not, regions or outlines took it.
 static tl_result look_at_tile(const why_window *w, const int64_t column[2], tl_why_finding *finding)
 {
     const tl_host *host = w->question->host;
@@ -372,11 +434,13 @@ static tl_result look_at_tile(const why_window *w, const int64_t column[2], tl_w
         return result;
     }
     bool on_tile = false;
-    const uint32_t x = (uint32_t)(column[0] - config->lattice.first_x);
-    const uint32_t z = (uint32_t)(column[1] - config->lattice.first_z);
-    const uint32_t at = find_open_floor(&stages.compact, x, z, w->top);
     result = is_on_tile(tile, config, finding->floor, host->allocator, &on_tile);
-    if (result == TL_OK && !on_tile) {
+    if (on_tile) {
+        finding->cause = TL_NAV_CAUSE_NONE;
+    } else if (result == TL_OK && finding->cause == TL_NAV_CAUSE_NONE) {
+        const uint32_t x = (uint32_t)(column[0] - config->lattice.first_x);
+        const uint32_t z = (uint32_t)(column[1] - config->lattice.first_z);
+        const uint32_t at = find_open_floor(&stages.compact, x, z, w->top);
         const bool dropped = at != TL_NAV_NO_SPAN && stages.compact.region[at] == 0;
         finding->cause = dropped ? TL_NAV_CAUSE_ISLAND : TL_NAV_CAUSE_OUTLINE;
         result = dropped ? measure_island(&stages.compact, at, host, &finding->island) : TL_OK;
@@ -408,7 +472,7 @@ tl_result tl_why_find(const tl_why_question *question, const tl_nav_def *def, tl
     tl_result result = look_through_window(&w);
     tl_nav_heightfield_free(&w.field);
     tl_nav_compact_free(&w.compact);
-    if (result == TL_OK && finding_out->cause == TL_NAV_CAUSE_NONE) {
+    if (result == TL_OK && finding_out->cause != TL_NAV_CAUSE_NO_FLOOR && !question->window_only) {
         result = look_at_tile(&w, column, finding_out);
     }
     return result;

@@ -13,6 +13,7 @@ typedef struct tl_why_question {
     tl_aabb mesh_bounds;
     tl_vec3 point;
     const tl_host *host;
+    bool window_only; ///< look no farther than erosion: NONE says nothing about regions and outlines then
 } tl_why_question;
 
 /// What the stages left at the point.
@@ -23,6 +24,7 @@ typedef struct tl_why_finding {
     bool has_floor;
     uint32_t triangle;     ///< the least steep one that makes this floor, or TL_NO_TRIANGLE
     float normal_y;        ///< its
+    float wall;            ///< WALL: metres to it in the plane
     float drop;            ///< NO_FLOOR: metres down to the next floor, or INFINITY
     float outside;         ///< metres by which the bounds end too early for the point to be walkable; 0: they do not
     uint32_t clearance;    ///< CEILING: voxels of free height
