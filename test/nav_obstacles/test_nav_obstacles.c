@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <talus/nav_around.h>
 #include <talus/nav_obstacles.h>
 
 enum { CELLS = 20 };
@@ -548,9 +549,63 @@ static int divide(void **state)
     return 0;
 }
 
+// How near the navmesh comes to bodies: what the header says, which is less than the radius.
+static void test_clearance(void **state)
+{
+    (void)state;
+    test_random random = { 77 };
+    double nearest = 1e9;
+    uint32_t beside = 0;
+    for (uint32_t round = 0; round < 12; round++) {
+        world w;
+        test_level_make(&w.level, tl_vec3_make(0, 0, 0));
+        w.def = make_def();
+        w.def.cell_size = 0.2f;
+        w.def.edge_max_error = round % 2 == 0 ? 0.5f : 1.3f;
+        const double kept = (double)w.def.agent_radius - (0.7072 + (double)w.def.edge_max_error) * 0.2;
+        memset(&w.input, 0, sizeof w.input);
+        w.input.mesh = w.level.mesh;
+        TEST_RESULT(tl_nav_obstacles_bake(&w.def, &w.input, &w.obstacles, NULL, NULL), TL_OK);
+        TEST_RESULT(tl_navmesh_create(NULL, &w.navmesh), TL_OK);
+        tl_nav_obstacle bodies[4];
+        for (int i = 0; i < 4; i++) {
+            tl_nav_obstacle_id id;
+            bodies[i] = random_obstacle(&random);
+            bodies[i].area = TL_NAV_NULL_AREA;
+            bodies[i].base.y = -4.0f; // through all storeys
+            bodies[i].height = 14.0f;
+            TEST_RESULT(tl_nav_obstacles_add(w.obstacles, &bodies[i], &id, NULL), TL_OK);
+        }
+        settle(&w);
+        for (int i = 0; i < 2000; i++) {
+            const uint64_t bits[2] = { test_random_u64(&random), test_random_u64(&random) };
+            tl_nav_location at;
+            TEST_RESULT(tl_navmesh_random_point(w.navmesh, NULL, bits, &at), TL_OK);
+            // Of each polygon the outline comes nearest.
+            tl_nav_wall_segment walls[TL_NAV_MAX_CORNERS];
+            uint32_t count = 0;
+            (void)tl_navmesh_polygon_walls(w.navmesh, NULL, at.polygon, walls, TL_NAV_MAX_CORNERS, &count);
+            const uint32_t shown = count < TL_NAV_MAX_CORNERS ? count : TL_NAV_MAX_CORNERS;
+            for (uint32_t k = 0; k < shown; k++) {
+                const tl_vec3 p = tl_lerp(walls[k].start, walls[k].end, test_random_unit(&random));
+                for (int b = 0; b < 4; b++) {
+                    const double distance = outline_distance(&bodies[b], (double)p.x, (double)p.z);
+                    TEST_CHECK(distance > kept - 0.01); // outline_distance walks in steps
+                    nearest = fmin(nearest, distance);
+                    beside += distance < 1.0;
+                }
+            }
+        }
+        free_world(&w);
+    }
+    // It does come nearer than the radius, 0.6.
+    TEST_CHECK(beside > 1000 && nearest < 0.55);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_clearance),
         cmocka_unit_test(test_volumes),
         cmocka_unit_test(test_marks),
         cmocka_unit_test(test_random_edits),
