@@ -291,8 +291,10 @@ static tl_exit run_audit_command(tl_cli *cli)
           "metres: radius of the capsule (-1: the agent's, less what voxels and contours may cost)", NULL, -1, 1e6f, 0,
           0 },
         { "min-area", 0, TL_OPTION_FLOAT, &settings.area, "M2",
-          "square metres: ignore missing floors smaller than this (-1: than the smallest island kept)", NULL, -1, 1e12f,
-          0, 0 },
+          "square metres: ignore missing floors smaller than this (-1: than 8 columns beside navmesh, and the smallest "
+          "island "
+          "kept apart from it)",
+          NULL, -1, 1e12f, 0, 0 },
         { "list", 0, TL_OPTION_COUNT, &settings.list, "N", "findings to print; --json has all", NULL, 0, 0, 0, 0 },
         { "draw", 0, TL_OPTION_OUTPUT, &settings.picture, "FILE",
           "draw a picture with the findings marked: .png or .svg", tl_picture_endings, 0, 0, 0, 0 },

@@ -50,10 +50,12 @@ typedef struct tl_nav_audit_def {
     const tl_nav_volume *volumes; ///< the same for volumes of area 0
     uint32_t volume_count;
     const tl_navmesh *pruned; ///< what tl_nav_prune removed: floor there is not missing. NULL: nothing was
-    float min_missing_area; ///< square metres: smaller missing floors are ignored. Negative (the default): the area of
-                            ///< the smallest island that a bake keeps (region_min_size)
-    tl_host host;           ///< tasks, progress ("audit polygons", "audit paths", "audit floors") and memory
-    uint32_t cookie;        ///< set by tl_default_nav_audit_def
+    /// Square metres: smaller missing floors are ignored. Negative (the default): 8 columns of voxels beside navmesh,
+    /// and apart from it the smallest island that a bake keeps (region_min_size). What counts is floor that must
+    /// outlive erosion and the simplified outline, whole columns of it.
+    float min_missing_area;
+    tl_host host;    ///< tasks, progress ("audit polygons", "audit paths", "audit floors") and memory
+    uint32_t cookie; ///< set by tl_default_nav_audit_def
 } tl_nav_audit_def;
 
 TL_API tl_nav_audit_def tl_default_nav_audit_def(void);
@@ -72,7 +74,7 @@ TL_API const char *tl_nav_finding_name(tl_nav_finding_kind kind);
 typedef struct tl_nav_finding {
     tl_nav_finding_kind kind;
     uint32_t triangle;  ///< that blocks the probe, or on which the missing floor lies; else TL_NO_TRIANGLE
-    tl_nav_ref polygon; ///< of the navmesh; TL_NAV_NO_REF for missing floor
+    tl_nav_ref polygon; ///< of the navmesh; of missing floor: one beside it, TL_NAV_NO_REF when none is
     tl_vec3 point;      ///< on the floor, or on the navmesh where there is none: the worst of those places
     tl_vec3 contact;    ///< on the triangle
     /// Metres. Blocked: how deep the probe overlaps the triangle; step: its height; no floor: how deep one falls,
@@ -108,8 +110,9 @@ typedef struct tl_nav_audit {
 /// Each polygon's outline, its lines from the middle to its neighbours' middles, and random shortest paths are walked
 /// in steps of a cell: the floor under the path is looked up in the soup, and the probe is swept from floor to floor.
 /// Then the floors of the soup themselves are sampled, every two cells (on levels wider than 4096 samples: sparser, and
-/// `sample_spacing` says so): a walkable triangle with nothing within the agent's reach and the voxels' rounding, and
-/// no navmesh within a cell, is missing. The same result for any number of workers. Links that leave the surface are
+/// `sample_spacing` says so): floor that must outlive the filters and erosion, farther from any navmesh than the
+/// outline may have been simplified, is missing; so is nearer floor that a larger erosion would leave. The same result
+/// for any number of workers. Links that leave the surface are
 /// not walked.
 ///
 /// `def` NULL: the default one. `navmesh` may be empty or NULL: then all floor is missing. `report_out` may be NULL.

@@ -18,6 +18,10 @@
 // Shares that run between two reports of progress.
 enum { SHARES_PER_WORKER = 8 };
 
+// Of floor that is missing beside navmesh: fewer columns may be due to dents and ridges between the middles of columns,
+// which samples do not see and voxels do.
+#define LEAST_MISSING_COLUMNS 8.0f
+
 tl_nav_audit_def tl_default_nav_audit_def(void)
 {
     tl_nav_audit_def def;
@@ -130,19 +134,20 @@ static void sort_findings(tl_nav_finding *findings, uint32_t count)
     }
 }
 
-// Fills in the areas of missing floors, and drops those that are too small.
+// Fills in the areas of missing floors, and drops those that are too small, or may be an island that is.
 static uint32_t measure_missing(const tl_audit_job *job, tl_nav_finding *findings, uint32_t count)
 {
-    const float spacing = job->audit->sample_spacing, cell = job->scene.config.cell_size;
-    const float min_area = job->def->min_missing_area >= 0.0f
-                               ? job->def->min_missing_area
-                               : tl_maxf((float)job->scene.config.min_region_area, 1.0f) * cell * cell;
+    const float cell = job->scene.config.cell_size;
+    const float beside = LEAST_MISSING_COLUMNS * cell * cell;
+    const float island = tl_maxf((float)job->scene.config.min_region_area * cell * cell, beside);
+    const float wanted = job->def->min_missing_area;
     uint32_t kept = 0;
     for (uint32_t i = 0; i < count; i++) {
         tl_nav_finding finding = findings[i];
         if (finding.kind == TL_NAV_FINDING_MISSING) {
-            finding.area = (float)finding.count * spacing * spacing;
-            if (finding.area < min_area) {
+            finding.area = (float)finding.count * cell * cell;
+            const float least = wanted >= 0.0f ? wanted : finding.polygon != TL_NAV_NO_REF ? beside : island;
+            if (finding.area < least) {
                 continue;
             }
             job->audit->missing_area += (double)finding.area;

@@ -201,7 +201,7 @@ static void unite_cubes(const grouping *g)
 static void take_record(tl_nav_finding *finding, const tl_audit_record *record)
 {
     finding->triangle = record->triangle;
-    finding->polygon = record->polygon;
+    finding->polygon = record->depth > 0.0f || finding->polygon == TL_NAV_NO_REF ? record->polygon : finding->polygon;
     finding->point = record->point;
     finding->contact = record->contact;
     finding->depth = record->depth;
@@ -217,6 +217,7 @@ static void add_record(tl_nav_finding *finding, const tl_audit_record *record)
     } else if (record->depth > finding->depth) {
         take_record(finding, record);
     }
+    finding->polygon = finding->polygon != TL_NAV_NO_REF ? finding->polygon : record->polygon;
     finding->count++;
     finding->bounds = tl_aabb_add_point(finding->bounds, record->point);
 }

@@ -33,8 +33,8 @@ tl_result tl_audit_records_append(tl_audit_records *list, const tl_audit_records
 tl_result tl_audit_records_thin(tl_audit_records *list);
 
 /// Merges records of one kind into findings: those whose cubes, `reach` cubes of the list a side, are the same or
-/// touch. The deepest record represents a group; where none has a depth, the one nearest to the group's middle. Areas
-/// are left 0. Free the array with tl_release_array(allocator, array, count, size).
+/// touch. The deepest record represents a group; where none has a depth, the one nearest to the group's middle, with
+/// the polygon of any. Areas are left 0. Free the array with tl_release_array(allocator, array, count, size).
 tl_result tl_audit_records_cluster(const tl_audit_records *list, uint32_t reach, tl_nav_finding **findings_out,
                                    uint32_t *count_out);
 

@@ -258,9 +258,9 @@ static void missing_navmesh_is_measured(void **state)
     const tl_nav_finding *f = &h.audit.findings[0];
     assert_int_equal(f->kind, TL_NAV_FINDING_MISSING);
     TEST_CHECK(near(f->point.x, 12.0f, 0.6f) && near(f->point.z, 6.0f, 0.6f) && f->point.y == 0.0f);
-    // Less a cell on each side, within which navmesh counts as there, and what an outline may cut.
-    TEST_CHECK(f->area > 36.0f && f->area <= 64.0f && near((float)h.audit.missing_area, f->area, 1e-3f));
-    TEST_CHECK(f->polygon == TL_NAV_NO_REF && f->triangle < 8 && f->depth == 0.0f);
+    // Nothing is near but navmesh: all of the hole is certain, up to a sample on each side.
+    TEST_CHECK(f->area > 50.0f && f->area <= 68.0f && near((float)h.audit.missing_area, f->area, 1e-3f));
+    TEST_CHECK(f->polygon != TL_NAV_NO_REF && f->triangle < 8 && f->depth == 0.0f);
     tl_nav_audit_free(&h.audit);
     h.def.volumes = &hole; // it is meant to be so
     h.def.volume_count = 1;
