@@ -133,7 +133,7 @@ static void measure(const char *path, const obj_form *form, uint32_t repetitions
     uint32_t triangles = 0;
     uint32_t assimp_triangles = 0;
     tl_file_map map;
-    if (tl_file_map_open(path, 0, &map, NULL) != TL_OK) {
+    if (tl_file_read(path, 0, &map, NULL) != TL_OK) {
         return;
     }
     double megabytes = (double)map.size * 1e-6;

@@ -102,7 +102,7 @@ static void bench_file(const char *path, totals *sums)
     tl_file_map map;
     tl_io_error error;
     memset(&error, 0, sizeof error);
-    if (tl_file_map_open(path, 0, &map, &error) != TL_OK) {
+    if (tl_file_read(path, 0, &map, &error) != TL_OK) {
         fprintf(stderr, "bench_polygon: %s: %s\n", path, error.message);
         exit(1);
     }

@@ -235,7 +235,7 @@ static tl_exit check_baked(findings *f, const char *path)
     tl_file_map map;
     tl_io_error error;
     memset(&error, 0, sizeof(error));
-    if (tl_file_map_open(path, 0, &map, &error) != TL_OK) {
+    if (tl_file_read(path, 0, &map, &error) != TL_OK) {
         return tl_cli_fail_io(f->cli, &error);
     }
     tl_exit code = TL_EXIT_OK;

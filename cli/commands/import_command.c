@@ -130,7 +130,7 @@ static tl_exit run_import(tl_cli *cli)
     const char *path = cli->arguments.words[0];
     tl_file_map map;
     tl_io_error error;
-    if (tl_file_map_open(path, 0, &map, &error) != TL_OK) {
+    if (tl_file_read(path, 0, &map, &error) != TL_OK) {
         return tl_cli_fail_io(cli, &error);
     }
     code = import_bytes(cli, path, &map, &def, output);

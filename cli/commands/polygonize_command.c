@@ -235,7 +235,7 @@ static tl_exit print_polygonize_report(job *j)
 static tl_exit run_job(job *j)
 {
     tl_file_map map;
-    if (tl_file_map_open(j->input, 0, &map, &j->error) != TL_OK) {
+    if (tl_file_read(j->input, 0, &map, &j->error) != TL_OK) {
         return tl_cli_fail_io(j->cli, &j->error);
     }
     tl_exit code = TL_EXIT_OK;

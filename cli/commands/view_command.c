@@ -68,7 +68,7 @@ static bool open_page(tl_cli *cli, tl_file_map *map_out, tl_exit *exit_out)
     tl_io_error error;
     const char *told = getenv("TALUS_VIEWER");
     if (told != NULL && told[0] != '\0') {
-        if (tl_file_map_open(told, 0, map_out, &error) != TL_OK) {
+        if (tl_file_read(told, 0, map_out, &error) != TL_OK) {
             *exit_out = tl_cli_fail_io(cli, &error);
         }
         return map_out->bytes != NULL;
@@ -77,7 +77,7 @@ static bool open_page(tl_cli *cli, tl_file_map *map_out, tl_exit *exit_out)
     char path[MAX_PAGE_PATH + 64];
     for (size_t i = 0; find_own_folder(folder) && i < sizeof(places) / sizeof(places[0]); ++i) {
         snprintf(path, sizeof(path), "%s/%s", folder, places[i]);
-        if (tl_file_map_open(path, 0, map_out, NULL) == TL_OK) {
+        if (tl_file_read(path, 0, map_out, NULL) == TL_OK) {
             return true;
         }
     }

@@ -75,7 +75,7 @@ static bool is_contour_file(const char *path)
 {
     static const char magic[] = "navcontours ";
     tl_file_map map;
-    if (strcmp(path, "-") == 0 || tl_file_map_open(path, 0, &map, NULL) != TL_OK) {
+    if (strcmp(path, "-") == 0 || tl_file_read(path, 0, &map, NULL) != TL_OK) {
         return false;
     }
     bool is = map.size >= sizeof magic && memcmp(map.bytes, magic, sizeof magic - 1) == 0;
@@ -89,7 +89,7 @@ static bool open_contours(draw_source *source, const char *path, uint32_t set, t
     tl_file_map map;
     source->input.path = path;
     source->is_contours = true;
-    if (tl_file_map_open(path, 0, &map, &error) != TL_OK) {
+    if (tl_file_read(path, 0, &map, &error) != TL_OK) {
         *exit_out = tl_cli_fail_io(source->cli, &error);
         return false;
     }

@@ -36,7 +36,7 @@ bool tl_input_is_baked(const char *path)
         return true;
     }
     tl_file_map map;
-    if (tl_file_map_open(path, 0, &map, NULL) != TL_OK) {
+    if (tl_file_read(path, 0, &map, NULL) != TL_OK) {
         return false;
     }
     const bool baked = has_baked_head(map.bytes, map.size);
@@ -113,7 +113,7 @@ bool tl_input_open_baked(tl_cli *cli, const char *path, tl_input *input_out, tl_
     memset(input_out, 0, sizeof(*input_out));
     input_out->path = path;
     input_out->baked = true;
-    if (tl_file_map_open(path, 0, &input_out->map, &error) != TL_OK) {
+    if (tl_file_read(path, 0, &input_out->map, &error) != TL_OK) {
         *exit_out = tl_cli_fail_io(cli, &error);
         return false;
     }

@@ -76,5 +76,5 @@ tl_result tl_sibling_open(const char *path, const char *name, const char *shown,
     if (!S_ISREG(status.st_mode)) {
         return refuse_sibling(error_out, shown, name, "it is no regular file");
     }
-    return tl_file_map_open(file, 0, map_out, error_out);
+    return tl_file_read(file, 0, map_out, error_out);
 }

@@ -12,7 +12,7 @@
 ///
 /// TL_ERR_UNSUPPORTED, before anything is opened: an absolute path, an address of the net ("http://..."), a path that
 /// leaves the folder ("../x", also by a symbolic link), a folder, a device, a named pipe. TL_ERR_IO, TL_ERR_MEMORY as
-/// tl_file_map_open.
+/// tl_file_read.
 tl_result tl_sibling_open(const char *path, const char *name, const char *shown, tl_file_map *map_out,
                           tl_io_error *error_out);
 

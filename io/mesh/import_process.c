@@ -10,6 +10,7 @@
 #include "io/mesh/import_process.h"
 
 #include "io/files/growable.h"
+#include "io/mesh/import_sandbox.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -38,6 +39,7 @@ static const uint64_t base_memory = (uint64_t)4 << 30;
 // What the child says first. The mesh's pointers are the child's own.
 typedef struct message {
     tl_result result;
+    bool in_sandbox;
     tl_io_error error;
     tl_imported_mesh mesh;
 } message;
@@ -144,6 +146,9 @@ static void run_child(int pipe, tl_mesh_reader *read_mesh, const tl_mesh_source 
     limit_child(limits);
     message sent;
     memset(&sent, 0, sizeof sent);
+#ifndef HAS_SHADOW_MEMORY // sanitizers ask for more when they report
+    sent.in_sandbox = tl_enter_import_sandbox(pipe);
+#endif
     sent.result = read_mesh(source, NULL, &sent.mesh, &sent.error);
     const tl_imported_mesh *mesh = &sent.mesh;
     size_t triangles = mesh->triangle_count;
@@ -298,6 +303,7 @@ static tl_result receive_all(receiver *from, tl_imported_mesh *mesh)
     }
     if (result == TL_OK) {
         result = receive_mesh(from, &received.mesh, mesh);
+        mesh->isolation = received.in_sandbox ? TL_ISOLATION_SANDBOX : TL_ISOLATION_PROCESS;
     }
     if (result == TL_ERR_MEMORY) {
         return tl_io_fail(from->error, result, from->source->name, 0, NULL, "out of memory");

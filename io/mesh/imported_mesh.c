@@ -8,6 +8,12 @@
 
 #include <string.h>
 
+const char *tl_isolation_name(tl_isolation isolation)
+{
+    static const char *const names[] = { "none", "process", "sandbox" };
+    return (unsigned)isolation < 3 ? names[isolation] : "unknown";
+}
+
 tl_mesh_view tl_imported_mesh_as_view(const tl_imported_mesh *mesh)
 {
     tl_mesh_view view = { mesh->vertices, mesh->vertex_count, mesh->indices, mesh->triangle_count, mesh->materials };

@@ -16,6 +16,16 @@ extern "C" {
 /// Largest number of material ids: they are stored in 16 bits.
 #define TL_MAX_IMPORTED_MATERIALS 65536u
 
+/// Who read a file.
+typedef enum tl_isolation {
+    TL_ISOLATION_NONE,    ///< a reader of our own, in this process
+    TL_ISOLATION_PROCESS, ///< a child process with limits on its time and memory
+    TL_ISOLATION_SANDBOX  ///< which moreover may ask the system for little (import_sandbox.h)
+} tl_isolation;
+
+/// "none", "process", "sandbox".
+const char *tl_isolation_name(tl_isolation isolation);
+
 /// A mesh read from a file. Nothing is welded or cleaned: that is tl_mesh_bake's part. Every coordinate is finite,
 /// every index below vertex_count. Free it with tl_imported_mesh_free. To be read only.
 typedef struct tl_imported_mesh {
@@ -38,6 +48,7 @@ typedef struct tl_imported_mesh {
     uint64_t skipped_lines;  ///< lines of an unknown keyword
     float file_unit;         ///< metres a unit, as the file says and as was applied; 0: it does not say (OBJ, STL, PLY)
     int32_t file_up;         ///< 1, 2, 3: x, y or z is up, as the file says, negative: down; turned to y. 0: not said
+    tl_isolation isolation;  ///< who read the file
     uint32_t mirrored_nodes; ///< nodes whose transform turns inside out: their triangles were re-wound
     tl_allocator allocator;  ///< all of the above lives in its memory
     uint32_t vertex_capacity; ///< what the arrays could hold; the readers' own

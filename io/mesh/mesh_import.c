@@ -329,7 +329,7 @@ tl_result tl_import_mesh(const char *path, const tl_import_options *options, tl_
 {
     memset(mesh_out, 0, sizeof *mesh_out);
     tl_file_map map;
-    tl_result result = tl_file_map_open(path, options != NULL ? options->max_file_bytes : 0, &map, error_out);
+    tl_result result = tl_file_read(path, options != NULL ? options->max_file_bytes : 0, &map, error_out);
     if (result == TL_OK) {
         result = tl_import_mesh_bytes(map.bytes, map.size, path, options, mesh_out, error_out);
         tl_file_map_close(&map);

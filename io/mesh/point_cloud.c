@@ -299,7 +299,7 @@ tl_result tl_point_clouds_read(const char *path, const tl_import_options *option
     used.allow_no_triangles = true;
     memset(clouds_out, 0, sizeof *clouds_out);
     tl_file_map map;
-    tl_result result = tl_file_map_open(path, used.max_file_bytes, &map, error_out);
+    tl_result result = tl_file_read(path, used.max_file_bytes, &map, error_out);
     if (result != TL_OK) {
         return result;
     }

@@ -214,7 +214,7 @@ tl_result tl_area_marks_parse(tl_area_marks *marks, const char *text, size_t siz
 tl_result tl_area_marks_read(tl_area_marks *marks, const char *path, tl_io_error *error_out)
 {
     tl_file_map map;
-    tl_result result = tl_file_map_open(path, 0, &map, error_out);
+    tl_result result = tl_file_read(path, 0, &map, error_out);
     if (result == TL_OK) {
         result = tl_area_marks_parse(marks, map.bytes, map.size, path, error_out);
         tl_file_map_close(&map);

@@ -42,7 +42,7 @@ typedef struct tl_area_marks {
     uint64_t volume_capacity, rule_capacity, text_capacity, point_capacity; ///< the reader's own
 } tl_area_marks;
 
-/// Reads a file's marks ("-": standard input) and adds them. Errors as tl_file_map_open, and with the line:
+/// Reads a file's marks ("-": standard input) and adds them. Errors as tl_file_read, and with the line:
 /// TL_ERR_FORMAT, TL_ERR_RANGE (an empty box, a radius that is not above 0), TL_ERR_MEMORY, TL_ERR_LIMIT.
 tl_result tl_area_marks_read(tl_area_marks *marks, const char *path, tl_io_error *error_out);
 

@@ -85,6 +85,35 @@ static void test_sizes(void **state)
     unlink(path);
 }
 
+// Bytes that were read stay what they were, whoever rewrites the file or cuts it short.
+static void test_files_that_change(void **state)
+{
+    (void)state;
+    enum { SIZE = 300000 };
+    char path[128];
+    in_folder("file", path);
+    unsigned char *bytes = malloc(SIZE);
+    for (size_t k = 0; k < SIZE; k++) {
+        bytes[k] = (unsigned char)(k + 3);
+    }
+    write_file(path, bytes, SIZE);
+    tl_file_map map;
+    TEST_RESULT(tl_file_read(path, SIZE, &map, NULL), TL_OK);
+    TEST_CHECK(!map.mapped);
+    TEST_RESULT(tl_file_read(path, SIZE - 1, &(tl_file_map){ 0 }, NULL), TL_ERR_LIMIT);
+    memset(bytes, 0xee, SIZE);
+    write_file(path, bytes, SIZE);
+    check_bytes(&map, 3, SIZE);
+    TEST_CHECK(truncate(path, 10) == 0);
+    check_bytes(&map, 3, SIZE);
+    tl_file_map_close(&map);
+    TEST_RESULT(tl_file_read(path, 0, &map, NULL), TL_OK);
+    TEST_CHECK(map.size == 10);
+    tl_file_map_close(&map);
+    free(bytes);
+    unlink(path);
+}
+
 // A writer at the other end, in a process of its own: a pipe holds 64 KiB at once.
 static void test_pipe(void **state)
 {
@@ -224,8 +253,9 @@ static void test_error_words(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sizes),    cmocka_unit_test(test_pipe),    cmocka_unit_test(test_standard_input),
-        cmocka_unit_test(test_refusals), cmocka_unit_test(test_unsized), cmocka_unit_test(test_error_words),
+        cmocka_unit_test(test_sizes),          cmocka_unit_test(test_files_that_change), cmocka_unit_test(test_pipe),
+        cmocka_unit_test(test_standard_input), cmocka_unit_test(test_refusals),          cmocka_unit_test(test_unsized),
+        cmocka_unit_test(test_error_words),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -9,10 +9,15 @@
 #include "io/mesh/assimp_reader.h"
 #include "io/mesh/import_process.h"
 
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -169,6 +174,58 @@ static tl_result tell_lies(const tl_mesh_source *source, const tl_allocator *all
     return TL_OK;
 }
 
+// What a reader that was taken over might try, and what it needs.
+static tl_result try_to_break_out(const tl_mesh_source *source, const tl_allocator *allocator,
+                                  tl_imported_mesh *mesh_out, tl_io_error *error_out)
+{
+    (void)allocator;
+    (void)mesh_out;
+    char outcome[16];
+    memset(outcome, 0, sizeof outcome);
+    char *program[] = { (char *)(uintptr_t) "/bin/true", NULL };
+    const bool refused[] = {
+        open("/tmp/talus_break_out", O_WRONLY | O_CREAT, 0600) < 0 && errno == EPERM,
+        open("/dev/null", O_RDWR) < 0 && errno == EPERM,
+        socket(AF_INET, SOCK_STREAM, 0) < 0 && errno == EPERM,
+        fork() < 0 && errno == EPERM,
+        execv(program[0], program) < 0 && errno == EPERM,
+        kill(getppid(), 0) < 0, // getppid is refused too
+        write(STDERR_FILENO, "x", 1) < 0 && errno == EPERM,
+        unlink("/tmp/talus_break_out") < 0 && errno == EPERM,
+        mkdir("/tmp/talus_break_out", 0700) < 0 && errno == EPERM,
+        chmod("/tmp", 0777) < 0 && errno == EPERM,
+    };
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
+        outcome[i] = refused[i] ? '-' : (char)('0' + i);
+    }
+    int file = open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+    char bytes[64];
+    const bool reads = file >= 0 && read(file, bytes, sizeof bytes) > 0 && close(file) == 0;
+    void *volatile block = malloc((size_t)64 << 20);
+    const bool allocates = block != NULL;
+    free(block);
+    return tl_io_fail(error_out, TL_ERR_EMPTY, source->name, 0, NULL, "%s%s%s", outcome, reads ? "r" : "",
+                      allocates ? "a" : "");
+}
+
+static void test_sandbox(void **state)
+{
+    (void)state;
+    tl_imported_mesh mesh;
+    tl_io_error error;
+    TEST_RESULT(tl_read_isolated(tell_lies, &any_source, NULL, NULL, &mesh, &error), TL_OK);
+    const tl_isolation isolation = mesh.isolation;
+    print_message("isolation: %s\n", tl_isolation_name(isolation));
+    tl_imported_mesh_free(&mesh);
+    if (isolation != TL_ISOLATION_SANDBOX) {
+        TEST_CHECK(isolation == TL_ISOLATION_PROCESS);
+        skip(); // sanitizers, another system, or a kernel that refuses
+    }
+    TEST_RESULT(tl_read_isolated(try_to_break_out, &any_source, NULL, NULL, &mesh, &error), TL_ERR_EMPTY);
+    assert_string_equal(error.message, "----------ra");
+    TEST_CHECK(access("/tmp/talus_break_out", F_OK) != 0);
+}
+
 // Nothing that comes back is believed unseen.
 static void test_lies(void **state)
 {
@@ -232,7 +289,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_crash), cmocka_unit_test(test_waiting), cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_lies),  cmocka_unit_test(test_large),
+        cmocka_unit_test(test_lies),  cmocka_unit_test(test_sandbox), cmocka_unit_test(test_large),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
