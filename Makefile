@@ -58,7 +58,7 @@ bench-%:
 
 sanitize:
 	$(MAKE) test CC=clang BUILD=build/sanitize \
-	    CMAKE_FLAGS="-DTALUS_SANITIZE=address,undefined -DTALUS_VALIDATE=ON $(CHECKED_FLAGS)"
+	    CMAKE_FLAGS="-DTALUS_SANITIZE=address,undefined,float-cast-overflow -DTALUS_VALIDATE=ON $(CHECKED_FLAGS)"
 
 tsan:
 	$(MAKE) test CC=clang BUILD=build/tsan TEST_FLAGS="-L threads" \

@@ -5,6 +5,8 @@
 #ifndef TALUS_SRC_BASE_ARENA_H
 #define TALUS_SRC_BASE_ARENA_H
 
+#include "base/exact_floats.h"
+
 #include <talus/base.h>
 
 typedef struct tl_arena_block tl_arena_block;

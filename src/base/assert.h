@@ -6,6 +6,8 @@
 #ifndef TALUS_SRC_BASE_ASSERT_H
 #define TALUS_SRC_BASE_ASSERT_H
 
+#include "base/exact_floats.h"
+
 #include <assert.h>
 #include <talus/base.h>
 

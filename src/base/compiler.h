@@ -5,6 +5,8 @@
 #ifndef TALUS_SRC_BASE_COMPILER_H
 #define TALUS_SRC_BASE_COMPILER_H
 
+#include "base/exact_floats.h"
+
 /// TL_ALWAYS_INLINE: a kernel's values must stay in registers over its parts. TL_NOINLINE: its stack is its own.
 /// TL_KEEP_BRANCH behind an assignment to `value`: the branch that leads there stays one. Compilers like to make a
 /// conditional move of it, which waits for the condition where a branch is predicted.

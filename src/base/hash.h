@@ -6,6 +6,8 @@
 #ifndef TALUS_SRC_BASE_HASH_H
 #define TALUS_SRC_BASE_HASH_H
 
+#include "base/exact_floats.h"
+
 #include <stddef.h>
 #include <stdint.h>
 

@@ -5,6 +5,8 @@
 #ifndef TALUS_SRC_BASE_HOST_H
 #define TALUS_SRC_BASE_HOST_H
 
+#include "base/exact_floats.h"
+
 #include <talus/base.h>
 
 /// Runs task(i, worker, task_user) for each i below count, on the host's tasks or here in order.

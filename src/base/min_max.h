@@ -8,6 +8,8 @@
 #ifndef TALUS_SRC_BASE_MIN_MAX_H
 #define TALUS_SRC_BASE_MIN_MAX_H
 
+#include "base/exact_floats.h"
+
 #include <stddef.h>
 #include <stdint.h>
 

@@ -6,6 +6,8 @@
 #ifndef TALUS_SRC_BASE_RADIX_SORT_H
 #define TALUS_SRC_BASE_RADIX_SORT_H
 
+#include "base/exact_floats.h"
+
 #include <stdint.h>
 
 typedef struct tl_sort_item {

@@ -2,6 +2,8 @@
 //
 // A name and a sentence for each result.
 
+#include "base/exact_floats.h"
+
 #include <talus/base.h>
 
 #define TEXT_OF_(x) #x

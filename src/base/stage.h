@@ -8,6 +8,7 @@
 #ifndef TALUS_SRC_BASE_STAGE_H
 #define TALUS_SRC_BASE_STAGE_H
 
+#include "base/exact_floats.h"
 #include "base/host.h"
 
 /// Items of a plain loop between two progress calls: 64 Ki items at some 100 ns are 7 ms.

@@ -9,6 +9,8 @@
 
 #include "halfedge/boundary_loop.h"
 
+#include "base/exact_floats.h"
+
 bool tl_halfedge_is_lowest_of_loop(const tl_halfedge_mesh *mesh, uint32_t half_edge, uint64_t *steps)
 {
     uint32_t after = half_edge, before = half_edge;

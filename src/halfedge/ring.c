@@ -3,6 +3,8 @@
 // Adjacency queries: the edge between two vertices, the edges, neighbours and faces around a vertex, the vertices of a
 // face.
 
+#include "base/exact_floats.h"
+
 #include <talus/halfedge.h>
 
 uint32_t tl_halfedge_mesh_find_edge(const tl_halfedge_mesh *mesh, uint32_t from, uint32_t to)

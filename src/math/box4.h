@@ -8,6 +8,7 @@
 #define TALUS_SRC_MATH_BOX4_H
 
 #include "base/cpu.h"
+#include "base/exact_floats.h"
 
 #include <talus/vec.h>
 

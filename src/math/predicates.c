@@ -17,8 +17,8 @@
 // few cases and are most of his code. Grow-expansion needs no more of its input than that it does not overlap, so the
 // proof is one theorem.
 //
-// The compiler must neither fuse multiply-adds nor keep excess precision: the build sets -ffp-contract=off, and the
-// assertion below refuses x87 arithmetic.
+// The compiler must neither fuse multiply-adds nor keep excess precision: the build sets -ffp-contract=off, and
+// base/exact_floats.h refuses x87 arithmetic.
 
 #include "math/predicates.h"
 
@@ -28,7 +28,7 @@
 #include <assert.h>
 #include <float.h>
 
-static_assert(FLT_EVAL_METHOD == 0 && DBL_MANT_DIG == 53, "predicates need plain IEEE doubles");
+static_assert(DBL_MANT_DIG == 53, "predicates need plain IEEE doubles");
 
 // Half an ulp of 1: the relative rounding error of one double operation.
 #define ROUNDING 1.1102230246251565e-16

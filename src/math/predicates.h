@@ -6,6 +6,8 @@
 #ifndef TALUS_SRC_MATH_PREDICATES_H
 #define TALUS_SRC_MATH_PREDICATES_H
 
+#include "base/exact_floats.h"
+
 #include <talus/vec.h>
 
 /// Sign of (b - a) x (c - a): 1 when a, b, c run counter-clockwise, -1 clockwise, 0 on one line.

@@ -16,6 +16,7 @@
 
 #include "base/compiler.h"
 #include "base/cpu.h"
+#include "base/exact_floats.h"
 
 #include <stdint.h>
 #include <string.h>

@@ -10,6 +10,8 @@
 #ifndef TALUS_SRC_MATH_TOLERANCE_H
 #define TALUS_SRC_MATH_TOLERANCE_H
 
+#include "base/exact_floats.h"
+
 #define TL_FLOAT_ROUNDING  5.9604645e-8f          ///< u of float: 2^-24
 #define TL_DOUBLE_ROUNDING 1.1102230246251565e-16 ///< u of double: 2^-53
 

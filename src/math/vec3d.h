@@ -5,6 +5,8 @@
 #ifndef TALUS_SRC_MATH_VEC3D_H
 #define TALUS_SRC_MATH_VEC3D_H
 
+#include "base/exact_floats.h"
+
 #include <talus/vec.h>
 
 typedef struct tl_vec3d {

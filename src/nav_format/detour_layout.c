@@ -2,6 +2,8 @@
 
 #include "nav_format/detour_layout.h"
 
+#include "base/exact_floats.h"
+
 #include <assert.h>
 
 static_assert(sizeof(tl_detour_header) == 100, "dtMeshHeader");

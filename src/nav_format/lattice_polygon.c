@@ -4,6 +4,8 @@
 
 #include "nav_format/lattice_polygon.h"
 
+#include "base/exact_floats.h"
+
 bool tl_nav_is_convex(const int32_t *vertices, const uint32_t *corners, uint32_t count)
 {
     // Every corner against every edge: right turns alone would let a pentagram pass.

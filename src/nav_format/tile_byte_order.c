@@ -3,6 +3,7 @@
 // The words of a navmesh tile.
 
 #include "base/byte_order.h"
+#include "base/exact_floats.h"
 #include "nav_format/tile_layout.h"
 
 static const tl_word_run TILE_HEAD[] = {

@@ -4,6 +4,8 @@
 
 #include "nav_format/tile_layout.h"
 
+#include "base/exact_floats.h"
+
 #include <string.h>
 
 _Static_assert(sizeof(tl_nav_tile) == 256, "the header has no hidden padding");

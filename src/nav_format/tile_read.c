@@ -4,6 +4,8 @@
 
 #include "nav_format/lattice_polygon.h"
 
+#include "base/exact_floats.h"
+
 uint32_t tl_nav_tile_neighbour(const tl_nav_tile *tile, uint32_t polygon, uint32_t edge)
 {
     uint32_t link = tl_nav_tile_links(tile, polygon)[edge];

@@ -5,6 +5,8 @@
 
 #include "nav_links/ledges.h"
 
+#include "base/exact_floats.h"
+
 #include <math.h>
 
 // The navmesh ends one radius before the ledge, and below it begins one radius from the wall: two radii at least lie

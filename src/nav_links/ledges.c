@@ -5,6 +5,8 @@
 
 #include "nav_links/ledges.h"
 
+#include "base/exact_floats.h"
+
 #include <math.h>
 
 enum { MAX_POLYGON_LINKS = 256 };

@@ -9,6 +9,8 @@
 
 #include "nav_links/trajectory.h"
 
+#include "base/exact_floats.h"
+
 #include <math.h>
 
 // More chords than a jump of a kilometre needs with a margin of a centimetre.

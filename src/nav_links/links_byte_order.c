@@ -3,6 +3,7 @@
 // The words of a set of links.
 
 #include "base/byte_order.h"
+#include "base/exact_floats.h"
 #include "nav_links/links_layout.h"
 
 static const tl_word_run LINKS_HEAD[] = { { 4, 2 }, { 8, 1 }, { 4, 8 }, { 8, 1 } };

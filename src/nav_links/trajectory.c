@@ -6,6 +6,8 @@
 
 #include "nav_links/trajectory.h"
 
+#include "base/exact_floats.h"
+
 #include <math.h>
 
 tl_nav_parabola tl_nav_parabola_of(float up, float apex)

@@ -3,6 +3,7 @@
 // The words of a visibility table.
 
 #include "base/byte_order.h"
+#include "base/exact_floats.h"
 
 #include <talus/nav_sight.h>
 

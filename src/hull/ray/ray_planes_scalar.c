@@ -5,6 +5,8 @@
 
 #include "hull/ray/hull_ray.h"
 
+#include "base/exact_floats.h"
+
 bool tl_ray_planes_scalar(const tl_hull *hull, const double origin[3], const double direction[3], double max_t,
                           double *t_out, uint32_t *face_out)
 {

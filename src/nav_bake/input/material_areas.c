@@ -2,6 +2,8 @@
 //
 // Materials give triangles their areas: one lookup each, before anything is voxelized.
 
+#include "base/exact_floats.h"
+
 #include <talus/nav_bake.h>
 
 void tl_nav_areas_from_materials(const tl_mesh_view *mesh, const uint8_t *material_areas, uint32_t material_count,

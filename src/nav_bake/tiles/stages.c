@@ -2,6 +2,8 @@
 //
 // Freeing a tile's intermediate data.
 
+#include "base/exact_floats.h"
+
 #include <talus/nav_bake.h>
 
 #include <string.h>

@@ -8,6 +8,8 @@
 
 #include "nav_query/navmesh/rings.h"
 
+#include "base/exact_floats.h"
+
 // The neighbour that a peeled polygon hangs on: its only one that was not peeled before it; itself when there is none.
 static uint32_t hangs_on(const tl_nav_rings *rings, uint32_t polygon, const uint32_t *degree)
 {

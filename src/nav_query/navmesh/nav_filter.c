@@ -4,6 +4,8 @@
 
 #include "nav_query/navmesh/nav_filter.h"
 
+#include "base/exact_floats.h"
+
 #include <string.h>
 
 tl_nav_filter tl_default_nav_filter(void)

@@ -3,6 +3,7 @@
 // The words of a soup, in both layouts.
 
 #include "base/byte_order.h"
+#include "base/exact_floats.h"
 #include "soup/layout/compact_layout.h"
 
 static const tl_word_run SOUP_HEAD[] = {
